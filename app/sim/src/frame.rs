@@ -1,0 +1,64 @@
+//! What is shown and exported: a snapshot of a state, detached from the solver.
+
+use endline_sdk::Posture;
+use glam::{DQuat, DVec3};
+
+use crate::contact::ContactPoint;
+use crate::model::Model;
+use crate::state::State;
+
+/// A snapshot of a run at one time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Frame {
+    /// Simulated time [s].
+    pub time_s: f64,
+    /// Steps taken.
+    pub step: u64,
+    /// Place of each node, in the model's layout [m].
+    pub nodes: Vec<DVec3>,
+    /// Tension of each segment, never below zero [N].
+    pub tension_n: Vec<f64>,
+    /// Whether each segment is cut.
+    pub cut: Vec<bool>,
+    /// Place and orientation of each body.
+    pub bodies: Vec<(DVec3, DQuat)>,
+    /// Place, orientation, speed through the water and posture of the whale.
+    pub whale: Option<WhaleFrame>,
+    /// Places where rope presses on skin.
+    pub contacts: Vec<ContactPoint>,
+}
+
+/// The whale in a [`Frame`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct WhaleFrame {
+    /// Place of the whale frame's origin [m].
+    pub position: DVec3,
+    /// Orientation, whale to world.
+    pub orientation: DQuat,
+    /// Speed through the water [m/s].
+    pub speed_m_s: f64,
+    /// Joint angles.
+    pub posture: Posture,
+}
+
+impl Frame {
+    /// The snapshot of a state with the contacts of its last step.
+    #[must_use]
+    pub fn of(_model: &Model, state: &State, contacts: &[ContactPoint]) -> Self {
+        Self {
+            time_s: state.time_s,
+            step: state.step,
+            nodes: state.rope.position.clone(),
+            tension_n: state.rope.tension.iter().map(|tension| tension.max(0.0)).collect(),
+            cut: state.rope.cut.clone(),
+            bodies: state.bodies.iter().map(|body| (body.position, body.orientation)).collect(),
+            whale: state.whale.as_ref().map(|whale| WhaleFrame {
+                position: whale.position,
+                orientation: whale.orientation,
+                speed_m_s: whale.speed_m_s,
+                posture: whale.posture,
+            }),
+            contacts: contacts.to_vec(),
+        }
+    }
+}

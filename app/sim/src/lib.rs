@@ -1,0 +1,22 @@
+//! The physics of Endline: rope, bodies, water, whale, contact.
+//!
+//! A [`Model`] never changes once made; a [`State`] walks through time under it by [`step`].
+//! Nothing here reads a file, a clock or a thread, logs, or keeps a global.
+//! SI units, f64, radians; z up, z = 0 the mean sea surface, x east, y north.
+
+pub mod contact;
+pub mod frame;
+pub mod model;
+pub mod state;
+pub mod statics;
+pub mod step;
+pub mod water;
+pub mod whale;
+
+pub use contact::ContactPoint;
+pub use frame::Frame;
+pub use glam::{DAffine3, DMat3, DQuat, DVec3};
+pub use model::{Model, ModelSpec};
+pub use state::State;
+pub use statics::{Settled, settle};
+pub use step::{Audit, Input, Stop, Workspace, step};

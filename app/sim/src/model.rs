@@ -1,0 +1,340 @@
+//! The immutable half of a simulation: what the gear, the sea and the whale are.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use endline_sdk::{AttributeValue, FrictionModel, GearType, LineEnd};
+use glam::{DQuat, DVec3};
+
+use crate::water::Water;
+use crate::whale::Whale;
+
+/// A rope material, per metre of unstretched length.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rope {
+    /// Id in the gear library.
+    pub id: String,
+    /// Nominal diameter, for drag and contact [m].
+    pub diameter_m: f64,
+    /// Mass in air [kg/m].
+    pub mass_kg_m: f64,
+    /// Volume of fibre, for buoyancy [m³/m].
+    pub displaced_m3_m: f64,
+    /// Axial stiffness EA [N].
+    pub axial_stiffness_n: f64,
+    /// Internal damping BA: tension = EA·strain + BA·strain rate [N s].
+    pub axial_damping_n_s: f64,
+    /// Drag coefficient across, on `d·l`.
+    pub drag_normal: f64,
+    /// Drag coefficient along, on `π·d·l`.
+    pub drag_tangential: f64,
+    /// Added-mass coefficient across.
+    pub added_mass_normal: f64,
+    /// Breaking strength, knots and wear included; infinite for a rope that cannot break [N].
+    pub strength_n: f64,
+}
+
+/// A point where line ends meet.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Joint {
+    /// Id, for reports.
+    pub id: String,
+    /// What holds it.
+    pub kind: JointKind,
+    /// First guess of its place, or its place where fixed or driven [m].
+    pub position_m: DVec3,
+}
+
+/// What holds a joint.
+#[derive(Clone, Debug, PartialEq)]
+pub enum JointKind {
+    /// Nothing: it moves with the lines (a splice).
+    Free,
+    /// A fixture.
+    Fixed,
+    /// A fixture that moves at a steady velocity between two times.
+    Driven {
+        /// Velocity [m/s].
+        velocity_m_s: DVec3,
+        /// From this time [s].
+        from_s: f64,
+        /// Until this time [s].
+        until_s: f64,
+    },
+    /// A body: the joint rides at `offset_m` in the body's frame.
+    Body {
+        /// Index of the body.
+        body: usize,
+        /// Place in the body's frame [m].
+        offset_m: DVec3,
+    },
+}
+
+/// A length of one rope between two joints.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Line {
+    /// Id, such as `endline-top`.
+    pub id: String,
+    /// Index of its rope.
+    pub rope: usize,
+    /// Joint at end A.
+    pub from: usize,
+    /// Joint at end B.
+    pub to: usize,
+    /// Unstretched length of each segment from A to B [m].
+    pub segments_m: Vec<f64>,
+    /// First guess of its nodes, both ends included; empty for a straight line [m].
+    pub start_m: Vec<DVec3>,
+}
+
+/// Shape of a body, for the picture and for contact.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// Box by half extents [m].
+    Box(DVec3),
+    /// Sphere by radius [m].
+    Sphere(f64),
+    /// Cylinder along the body's z axis with rounded ends [m].
+    Capsule {
+        /// Radius [m].
+        radius_m: f64,
+        /// Half of the whole length, ends included [m].
+        half_length_m: f64,
+    },
+}
+
+/// What a body is, for pictures and reports.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BodyRole {
+    /// Trap.
+    Trap,
+    /// Buoy.
+    Buoy,
+    /// Anchor.
+    Anchor,
+    /// Any other weight.
+    Weight,
+}
+
+/// A share of a body's displaced volume.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Float {
+    /// Centre in the body's frame [m].
+    pub offset_m: DVec3,
+    /// Volume when wholly under water [m³].
+    pub volume_m3: f64,
+    /// Height over which it goes under: its wet share is `clamp(1/2 - z/height, 0, 1)` [m].
+    pub height_m: f64,
+}
+
+/// A rigid body with six degrees of freedom.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Body {
+    /// Id, such as `trap`.
+    pub id: String,
+    /// What it is.
+    pub role: BodyRole,
+    /// Shape.
+    pub shape: Shape,
+    /// Mass in air [kg].
+    pub mass_kg: f64,
+    /// Principal moments of inertia in the body's frame [kg m²].
+    pub inertia_kg_m2: DVec3,
+    /// Added mass when wet, by body axis [kg].
+    pub added_mass_kg: DVec3,
+    /// Added moment of inertia when wet, by body axis [kg m²].
+    pub added_inertia_kg_m2: DVec3,
+    /// Drag coefficient times area when wet, by body axis [m²].
+    pub drag_area_m2: DVec3,
+    /// Turning drag: torque = ½ρ·this·ω|ω| when wet, by body axis [m⁵].
+    pub turn_drag_m5: DVec3,
+    /// Displaced volume, split so that it goes under and rights itself part by part.
+    pub floats: Vec<Float>,
+    /// Whether drag and added mass scale with the wet share (else always full).
+    pub wetted_drag: bool,
+    /// Points that touch the seabed, in the body's frame [m].
+    pub feet_m: Vec<DVec3>,
+    /// Friction on the seabed before it starts to move.
+    pub start_friction: f64,
+    /// Friction on the seabed once it slides.
+    pub slide_friction: f64,
+    /// First guess of its place [m].
+    pub position_m: DVec3,
+    /// Start orientation, body to world.
+    pub orientation: DQuat,
+    /// Held in place until this time (through statics, if not below zero); `None` is free.
+    pub held_until_s: Option<f64>,
+}
+
+/// The seabed: a plane with stiffness and friction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Seabed {
+    /// A point of the plane is `(0, 0, -depth)` [m].
+    pub depth_m: f64,
+    /// Upward unit normal.
+    pub normal: DVec3,
+    /// Stiffness under rope, per metre of rope [N/m²].
+    pub rope_stiffness_n_m2: f64,
+    /// Stiffness under one foot of a body [N/m].
+    pub foot_stiffness_n_m: f64,
+    /// Friction of rope.
+    pub rope_friction: f64,
+}
+
+/// A weak link at one end of a line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Link {
+    /// Id.
+    pub id: String,
+    /// Index of its line.
+    pub line: usize,
+    /// At which end.
+    pub end: LineEnd,
+    /// Tension above which it parts [N].
+    pub rating_n: f64,
+    /// Whether it can part at all (weak links on).
+    pub enabled: bool,
+}
+
+/// A quantity to follow through the run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Probe {
+    /// Id.
+    pub id: String,
+    /// What it reads.
+    pub target: ProbeTarget,
+}
+
+/// What a probe reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ProbeTarget {
+    /// Tension at an end of a line [N].
+    EndTension(usize, LineEnd),
+    /// A coordinate of the node nearest to the middle of a line: 0 x, 1 y, 2 z [m].
+    LineMiddle(usize, usize),
+    /// A coordinate of a joint: 0 x, 1 y, 2 z [m].
+    Joint(usize, usize),
+    /// A coordinate of a body: 0 x, 1 y, 2 z [m].
+    Body(usize, usize),
+}
+
+/// A friction model with its attribute values and the table of coefficients.
+#[derive(Clone)]
+pub struct Friction {
+    /// The model.
+    pub model: Arc<dyn FrictionModel>,
+    /// Its attributes, SI, in the declared order.
+    pub attributes: Vec<f64>,
+    /// Coefficient by rope index and region number.
+    pub coefficients: Vec<[f64; endline_sdk::Region::ALL.len()]>,
+}
+
+/// A gear type at work: what it built, and its attributes for the calls of the run.
+#[derive(Clone)]
+pub struct GearHook {
+    /// The plugin.
+    pub gear: Arc<dyn GearType>,
+    /// Its attribute values.
+    pub attributes: Vec<AttributeValue>,
+    /// Its lines in the order built, as indices of the model's lines.
+    pub lines: Vec<usize>,
+    /// Its links in the order built, as indices of the model's links.
+    pub links: Vec<usize>,
+}
+
+/// Steps and tolerances.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// Step between inputs [s]; the solver divides it where it must.
+    pub step_s: f64,
+    /// Longest step while rope is near the whale [s].
+    pub contact_step_s: f64,
+    /// Shortest step before a run gives up [s].
+    pub least_step_s: f64,
+    /// Length of the run [s].
+    pub duration_s: f64,
+    /// Seed of everything drawn at random.
+    pub seed: u64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { step_s: 0.01, contact_step_s: 0.002, least_step_s: 1e-6, duration_s: 60.0, seed: 1 }
+    }
+}
+
+/// All that a model is made from; [`Model::new`] checks it.
+#[derive(Clone)]
+pub struct ModelSpec {
+    /// The sea.
+    pub water: Water,
+    /// The seabed, if any.
+    pub seabed: Option<Seabed>,
+    /// Rope materials.
+    pub ropes: Vec<Rope>,
+    /// Joints.
+    pub joints: Vec<Joint>,
+    /// Lines.
+    pub lines: Vec<Line>,
+    /// Bodies.
+    pub bodies: Vec<Body>,
+    /// Weak links.
+    pub links: Vec<Link>,
+    /// Gear types at work.
+    pub gear: Vec<GearHook>,
+    /// The whale, if any.
+    pub whale: Option<Whale>,
+    /// Friction of rope on whale; needed where there is a whale.
+    pub friction: Option<Friction>,
+    /// Probes.
+    pub probes: Vec<Probe>,
+    /// Steps and tolerances.
+    pub settings: Settings,
+}
+
+/// A checked, immutable model with the indices the solver walks by.
+///
+/// Node layout: every line owns `segments + 1` nodes in a row, both ends included; the nodes of
+/// lines that meet at a joint are copies of the joint's place. Segment `k` of a line lies between
+/// its nodes `k` and `k + 1`.
+#[derive(Clone)]
+pub struct Model {
+    /// What it was made from.
+    pub spec: ModelSpec,
+    /// Nodes of each line.
+    pub line_nodes: Vec<Range<usize>>,
+    /// Segments of each line.
+    pub line_segments: Vec<Range<usize>>,
+    /// Nodes in all.
+    pub node_count: usize,
+    /// Segments in all.
+    pub segment_count: usize,
+}
+
+/// What is wrong with a [`ModelSpec`].
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ModelError {
+    /// Which part, such as `line endline-top`.
+    pub part: String,
+    /// What is wrong and what was expected.
+    pub message: String,
+}
+
+impl Model {
+    /// Checks a spec and lays out nodes and segments.
+    ///
+    /// # Errors
+    /// Everything wrong with it, all at once.
+    pub fn new(spec: ModelSpec) -> Result<Self, Vec<ModelError>> {
+        let (mut line_nodes, mut line_segments) = (Vec::new(), Vec::new());
+        let (mut node_count, mut segment_count) = (0, 0);
+        for line in &spec.lines {
+            let segments = line.segments_m.len();
+            line_nodes.push(node_count..node_count + segments + 1);
+            line_segments.push(segment_count..segment_count + segments);
+            node_count += segments + 1;
+            segment_count += segments;
+        }
+        Ok(Self { spec, line_nodes, line_segments, node_count, segment_count })
+    }
+}

@@ -1,0 +1,174 @@
+//! The defined set of all that advances in time, and nothing else.
+
+use endline_sdk::Posture;
+use glam::{DQuat, DVec3};
+
+use crate::model::{Body, JointKind, Model};
+use crate::whale::Whale;
+
+/// Everything the next step depends on, besides the model and the input.
+#[derive(Clone, Debug, PartialEq)]
+pub struct State {
+    /// Simulated time [s].
+    pub time_s: f64,
+    /// Steps taken (calls of `step`).
+    pub step: u64,
+    /// Rope nodes and segments.
+    pub rope: RopeState,
+    /// Bodies, in the model's order.
+    pub bodies: Vec<BodyState>,
+    /// The whale, where the model has one.
+    pub whale: Option<WhaleState>,
+    /// When each weak link parted [s].
+    pub link_parted_s: Vec<Option<f64>>,
+    /// When and at which segment each line parted (rope broken or cut) [s].
+    pub line_parted: Vec<Option<(f64, usize)>>,
+    /// Floats of each gear type.
+    pub gear: Vec<Vec<f64>>,
+}
+
+/// Nodes and segments of all lines, in the model's layout.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct RopeState {
+    /// Place of each node [m].
+    pub position: Vec<DVec3>,
+    /// Velocity of each node [m/s].
+    pub velocity: Vec<DVec3>,
+    /// Tension of each segment; below zero it is slack and pulls nothing [N].
+    pub tension: Vec<f64>,
+    /// Whether each segment is cut (a parted link or rope): it pulls and touches nothing.
+    pub cut: Vec<bool>,
+    /// Place of each node one solver step earlier [m].
+    pub earlier_position: Vec<DVec3>,
+    /// Velocity of each node one solver step earlier [m/s].
+    pub earlier_velocity: Vec<DVec3>,
+    /// Length of that earlier solver step [s]; zero where there is none.
+    pub earlier_dt_s: f64,
+    /// Where each node grips the seabed: tangential stretch of the grip [m].
+    pub seabed_grip: Vec<DVec3>,
+    /// Floats of the friction model, for each contact site of each segment.
+    pub friction: Vec<f64>,
+}
+
+/// A rigid body in motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BodyState {
+    /// Place of its origin (centre of mass) [m].
+    pub position: DVec3,
+    /// Orientation, body to world.
+    pub orientation: DQuat,
+    /// Velocity [m/s].
+    pub velocity: DVec3,
+    /// Angular velocity in the world frame [rad/s].
+    pub spin: DVec3,
+    /// Place one solver step earlier [m].
+    pub earlier_position: DVec3,
+    /// Velocity one solver step earlier [m/s].
+    pub earlier_velocity: DVec3,
+    /// Tangential stretch of each foot's grip on the seabed [m].
+    pub grip: Vec<DVec3>,
+}
+
+/// The whale in motion (kinematic: it goes where its motion plugin and pilot send it).
+#[derive(Clone, Debug, PartialEq)]
+pub struct WhaleState {
+    /// Place of the whale frame's origin, mid-body [m].
+    pub position: DVec3,
+    /// Orientation, whale to world (x to the snout, y to port, z dorsal).
+    pub orientation: DQuat,
+    /// Speed through the water along its x axis [m/s].
+    pub speed_m_s: f64,
+    /// Turn rates about its own axes [rad/s].
+    pub turn_rate: DVec3,
+    /// Joint angles.
+    pub posture: Posture,
+    /// Floats of the motion plugin.
+    pub motion: Vec<f64>,
+    /// Sum of normal contact forces of the last step, by body part [N].
+    pub contact_force_n: [f64; endline_sdk::BodyPart::ALL.len()],
+}
+
+impl State {
+    /// The state a model starts from before statics: first guesses, at rest.
+    #[must_use]
+    pub fn start(model: &Model) -> Self {
+        let position = start_nodes(model);
+        let nodes = position.len();
+        let rope = RopeState {
+            velocity: vec![DVec3::ZERO; nodes],
+            tension: vec![0.0; model.segment_count],
+            cut: vec![false; model.segment_count],
+            earlier_position: position.clone(),
+            earlier_velocity: vec![DVec3::ZERO; nodes],
+            earlier_dt_s: 0.0,
+            seabed_grip: vec![DVec3::ZERO; nodes],
+            friction: Vec::new(),
+            position,
+        };
+        Self {
+            time_s: 0.0,
+            step: 0,
+            rope,
+            bodies: model.spec.bodies.iter().map(BodyState::start).collect(),
+            whale: model.spec.whale.as_ref().map(WhaleState::start),
+            link_parted_s: vec![None; model.spec.links.len()],
+            line_parted: vec![None; model.spec.lines.len()],
+            gear: model.spec.gear.iter().map(|hook| vec![0.0; hook.gear.descriptor().state_len]).collect(),
+        }
+    }
+}
+
+/// First guess of every node: the line's own, or a straight line between its joints.
+fn start_nodes(model: &Model) -> Vec<DVec3> {
+    let joint_place = |joint: usize| match &model.spec.joints[joint].kind {
+        JointKind::Body { body, offset_m } => {
+            let body = &model.spec.bodies[*body];
+            body.position_m + body.orientation * *offset_m
+        }
+        _ => model.spec.joints[joint].position_m,
+    };
+    let mut nodes = Vec::with_capacity(model.node_count);
+    for line in &model.spec.lines {
+        if line.start_m.len() == line.segments_m.len() + 1 {
+            nodes.extend_from_slice(&line.start_m);
+            continue;
+        }
+        let (from, to) = (joint_place(line.from), joint_place(line.to));
+        let whole: f64 = line.segments_m.iter().sum();
+        let mut along = 0.0;
+        nodes.push(from);
+        for segment in &line.segments_m {
+            along += segment;
+            nodes.push(from.lerp(to, along / whole));
+        }
+    }
+    nodes
+}
+
+impl BodyState {
+    fn start(body: &Body) -> Self {
+        Self {
+            position: body.position_m,
+            orientation: body.orientation,
+            velocity: DVec3::ZERO,
+            spin: DVec3::ZERO,
+            earlier_position: body.position_m,
+            earlier_velocity: DVec3::ZERO,
+            grip: vec![DVec3::ZERO; body.feet_m.len()],
+        }
+    }
+}
+
+impl WhaleState {
+    fn start(whale: &Whale) -> Self {
+        Self {
+            position: whale.position_m,
+            orientation: whale.orientation,
+            speed_m_s: whale.speed_m_s,
+            turn_rate: DVec3::ZERO,
+            posture: Posture::default(),
+            motion: vec![0.0; whale.motion.descriptor().state_len],
+            contact_force_n: [0.0; endline_sdk::BodyPart::ALL.len()],
+        }
+    }
+}

@@ -1,0 +1,104 @@
+//! The whale: a skinned mesh on bones, moved by a motion plugin.
+
+use std::sync::Arc;
+
+use endline_sdk::{Controls, Region, WhaleMotion};
+use glam::{DQuat, DVec3};
+
+/// A whale in a model.
+#[derive(Clone)]
+pub struct Whale {
+    /// Its body.
+    pub skin: Arc<Skin>,
+    /// Body length, snout to fluke notch [m].
+    pub length_m: f64,
+    /// Greatest speed it can swim [m/s].
+    pub burst_speed_m_s: f64,
+    /// Start place of the whale frame's origin [m].
+    pub position_m: DVec3,
+    /// Start orientation, whale to world.
+    pub orientation: DQuat,
+    /// Start speed through the water [m/s].
+    pub speed_m_s: f64,
+    /// Its way of moving.
+    pub motion: Arc<dyn WhaleMotion>,
+    /// Attributes of the motion, SI, in the declared order.
+    pub motion_attributes: Vec<f64>,
+    /// Timed controls where no pilot flies.
+    pub pilot: PilotProgram,
+    /// Stiffness of skin and blubber under rope, per metre of rope [N/m²].
+    pub contact_stiffness_n_m2: f64,
+}
+
+/// Timed controls: from each time on, those controls hold until the next.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PilotProgram {
+    /// Times in rising order [s] and the controls from then on.
+    pub commands: Vec<(f64, Controls)>,
+}
+
+impl PilotProgram {
+    /// The controls at a time.
+    #[must_use]
+    pub fn at(&self, time_s: f64) -> Controls {
+        self.commands.iter().rev().find(|(from, _)| *from <= time_s).map_or_else(Controls::default, |(_, controls)| *controls)
+    }
+}
+
+/// A closed triangle skin on bones: at most four bones move a vertex.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Skin {
+    /// Rest place of each vertex in the whale's frame [m].
+    pub vertices: Vec<DVec3>,
+    /// Vertices of each triangle, anticlockwise seen from outside.
+    pub triangles: Vec<[u32; 3]>,
+    /// Region of each triangle.
+    pub regions: Vec<Region>,
+    /// Bones that move each vertex, with weights that sum to 1; unused places have weight 0.
+    pub weights: Vec<[(u16, f64); 4]>,
+    /// Bones, parents before children; bone 0 is the control bone (the whale's frame).
+    pub bones: Vec<Bone>,
+}
+
+/// A bone: turns about its origin by the posture's channels that drive it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bone {
+    /// Name, such as `spine_3` or `left_flipper_blade`.
+    pub name: String,
+    /// Index of its parent; `None` for the control bone.
+    pub parent: Option<usize>,
+    /// Rest place of its origin in the whale's frame [m].
+    pub origin: DVec3,
+    /// Channels that turn it and about which axis (whale's rest frame), applied in this order.
+    pub turns: Vec<(Channel, DVec3)>,
+}
+
+/// One angle of a [`Posture`](endline_sdk::Posture); `share` of it goes to the bone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Channel {
+    /// Which angle.
+    pub angle: Angle,
+    /// Share of the angle this bone takes.
+    pub share: f64,
+}
+
+/// Names of the angles of a posture; sides are 0 left, 1 right.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Angle {
+    /// Spine pitch at a joint.
+    SpinePitch(usize),
+    /// Spine yaw at a joint.
+    SpineYaw(usize),
+    /// Fluke pitch.
+    FlukePitch,
+    /// Fluke flex by side.
+    FlukeFlex(usize),
+    /// Flipper sweep by side.
+    FlipperSweep(usize),
+    /// Flipper raise by side.
+    FlipperRaise(usize),
+    /// Flipper twist by side.
+    FlipperTwist(usize),
+    /// Jaw.
+    Jaw,
+}

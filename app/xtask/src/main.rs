@@ -1,0 +1,2 @@
+//! Endline.
+fn main() {}

@@ -1,0 +1,163 @@
+//! The gear-type hook: attributes in, parts and connections out; then cuts and releases.
+
+use crate::hook::{AttributeValue, Descriptor, HookError};
+
+/// What kind of body a rig part is; it names the library folder its item comes from.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum BodyKind {
+    /// Trap, from `traps/`.
+    Trap = 0,
+    /// Buoy, from `buoys/`.
+    Buoy = 1,
+    /// Anchor, from `anchors/`.
+    Anchor = 2,
+}
+
+/// A trap, buoy or anchor of a rig.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RigBody {
+    /// Id within the rig, such as `trap` or `trap-3`.
+    pub id: String,
+    /// Kind.
+    pub kind: BodyKind,
+    /// Id of the library item.
+    pub item: String,
+    /// First guess of its place [m]; statics finds the real one.
+    pub position_m: [f64; 3],
+}
+
+/// A point where lines meet without a body (a splice).
+#[derive(Clone, Debug, PartialEq)]
+pub struct RigJoint {
+    /// Id within the rig.
+    pub id: String,
+    /// First guess of its place [m].
+    pub position_m: [f64; 3],
+}
+
+/// Where a line ends: the id of a body or joint of the same rig.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum RigEnd {
+    /// At a body.
+    Body(String),
+    /// At a joint.
+    Joint(String),
+}
+
+/// Which end of a line.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum LineEnd {
+    /// The `from` end.
+    A = 0,
+    /// The `to` end.
+    B = 1,
+}
+
+/// A length of one rope between two ends: endline part, groundline, gangion, bridle leg.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RigLine {
+    /// Id within the rig, such as `endline-top`.
+    pub id: String,
+    /// Id of the rope in the library.
+    pub rope: String,
+    /// End A.
+    pub from: RigEnd,
+    /// End B.
+    pub to: RigEnd,
+    /// Unstretched length [m].
+    pub length_m: f64,
+}
+
+/// A weak link at one end of a line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RigLink {
+    /// Id within the rig.
+    pub id: String,
+    /// Id of the weak link in the library.
+    pub item: String,
+    /// Id of the line it sits in.
+    pub line: String,
+    /// At which end.
+    pub end: LineEnd,
+}
+
+/// Parts and connections: what a gear type builds and an assembly file spells out.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Rig {
+    /// Traps, buoys, anchors.
+    pub bodies: Vec<RigBody>,
+    /// Splices.
+    pub joints: Vec<RigJoint>,
+    /// Lines.
+    pub lines: Vec<RigLine>,
+    /// Weak links.
+    pub links: Vec<RigLink>,
+}
+
+/// The place a rig is built for.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Site {
+    /// Water depth [m].
+    pub depth_m: f64,
+    /// Surface current, east and north [m/s].
+    pub current_m_s: [f64; 2],
+}
+
+/// What a gear type may look at once a step.
+#[derive(Clone, Copy, Debug)]
+pub struct GearStep<'a> {
+    /// Simulated time [s].
+    pub time_s: f64,
+    /// Length of the step [s].
+    pub dt_s: f64,
+    /// Tension of each line of its rig, in the order built, at end A then end B [N].
+    pub end_tension_n: &'a [[f64; 2]],
+}
+
+/// What a gear type may do once a step; indices are in the order built.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum GearAction {
+    /// Cuts a line at one end.
+    CutLine {
+        /// Index of the line.
+        line: u32,
+        /// At which end.
+        end: LineEnd,
+    },
+    /// Opens a weak link or release.
+    ReleaseLink {
+        /// Index of the link.
+        link: u32,
+    },
+}
+
+/// A kind of gear: builds a rig from attributes, then may act once a step.
+pub trait GearType: Send + Sync {
+    /// Who it is and what it takes.
+    fn descriptor(&self) -> &Descriptor;
+
+    /// Parts and connections from attributes in the declared order.
+    ///
+    /// # Errors
+    /// With a message for the user, naming the attribute to mend.
+    fn build(&self, attributes: &[AttributeValue], site: &Site) -> Result<Rig, HookError>;
+
+    /// Once a step: actions appended to `actions`; floats may advance.
+    ///
+    /// # Errors
+    /// With a message for the user; the run ends with it.
+    fn step(
+        &self,
+        attributes: &[AttributeValue],
+        input: &GearStep<'_>,
+        state: &mut [f64],
+        actions: &mut Vec<GearAction>,
+    ) -> Result<(), HookError> {
+        let _ = (attributes, input, state, actions);
+        Ok(())
+    }
+}

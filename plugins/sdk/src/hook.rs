@@ -1,0 +1,132 @@
+//! What every plugin says of itself: id, version, attributes, floats of state.
+
+use std::borrow::Cow;
+use std::fmt;
+
+/// Who a plugin is and what it takes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Descriptor {
+    /// Reverse-domain id, such as `org.endline.friction.coulomb`.
+    pub id: Cow<'static, str>,
+    /// Version of the plugin, such as `0.1.0`.
+    pub version: Cow<'static, str>,
+    /// Name shown in menus.
+    pub name: Cow<'static, str>,
+    /// One sentence of help.
+    pub help: Cow<'static, str>,
+    /// Declared attributes, in the order in which values are handed over.
+    pub attributes: Vec<Attribute>,
+    /// Floats of state the engine keeps for it: in all for a motion and a gear
+    /// type, for each contact for a friction model.
+    pub state_len: usize,
+}
+
+/// One setting of a plugin.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Attribute {
+    /// Key in files, such as `beat_frequency`.
+    pub key: Cow<'static, str>,
+    /// SI unit such as `m/s`, `rad`, `N`, or `1` for a pure number; empty for a library item.
+    pub unit: Cow<'static, str>,
+    /// Help shown beside the field.
+    pub help: Cow<'static, str>,
+    /// What values it takes.
+    pub kind: AttributeKind,
+}
+
+/// The values an attribute takes.
+#[derive(Clone, Debug, PartialEq)]
+pub enum AttributeKind {
+    /// A number in the attribute's SI unit.
+    Number {
+        /// Least allowed value.
+        min: f64,
+        /// Greatest allowed value.
+        max: f64,
+        /// Value taken where the file names none.
+        default: f64,
+    },
+    /// The id of an item of the gear library.
+    Item {
+        /// Folder of the library: `ropes`, `traps`, `buoys`, `weak-links`, `anchors`.
+        library: Cow<'static, str>,
+        /// Item taken where the file names none; empty for no item.
+        default: Cow<'static, str>,
+    },
+}
+
+/// A value handed to a plugin, matching its [`AttributeKind`].
+#[derive(Clone, Debug, PartialEq)]
+pub enum AttributeValue {
+    /// Number in the attribute's SI unit.
+    Number(f64),
+    /// Id of a library item.
+    Item(String),
+}
+
+impl Attribute {
+    /// A numeric attribute.
+    #[must_use]
+    pub fn number(key: &'static str, unit: &'static str, range: [f64; 2], default: f64, help: &'static str) -> Self {
+        let [min, max] = range;
+        Self { key: key.into(), unit: unit.into(), help: help.into(), kind: AttributeKind::Number { min, max, default } }
+    }
+
+    /// An attribute that names an item of the gear library.
+    #[must_use]
+    pub fn item(key: &'static str, library: &'static str, default: &'static str, help: &'static str) -> Self {
+        let kind = AttributeKind::Item { library: library.into(), default: default.into() };
+        Self { key: key.into(), unit: "".into(), help: help.into(), kind }
+    }
+
+    /// The value taken where a file names none.
+    #[must_use]
+    pub fn default_value(&self) -> AttributeValue {
+        match &self.kind {
+            AttributeKind::Number { default, .. } => AttributeValue::Number(*default),
+            AttributeKind::Item { default, .. } => AttributeValue::Item(default.to_string()),
+        }
+    }
+}
+
+impl AttributeValue {
+    /// The number, where it is one.
+    #[must_use]
+    pub fn number(&self) -> Option<f64> {
+        match self {
+            Self::Number(value) => Some(*value),
+            Self::Item(_) => None,
+        }
+    }
+
+    /// The item id, where it is one.
+    #[must_use]
+    pub fn item(&self) -> Option<&str> {
+        match self {
+            Self::Item(id) => Some(id),
+            Self::Number(_) => None,
+        }
+    }
+}
+
+/// Why a hook could not do its work; the run ends with it and the plugin's id.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HookError {
+    /// What went wrong, for the user.
+    pub message: String,
+}
+
+impl HookError {
+    /// An error with a message for the user.
+    pub fn new(message: impl Into<String>) -> Self {
+        Self { message: message.into() }
+    }
+}
+
+impl fmt::Display for HookError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for HookError {}

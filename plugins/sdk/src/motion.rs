@@ -1,0 +1,72 @@
+//! The whale-motion hook: pilot controls in, target speed, turn rates and posture out.
+
+use crate::hook::{Descriptor, HookError};
+use crate::whale::{BodyPart, Posture};
+
+/// The pilot's controls: one vocabulary for pad, keyboard, recording and pilot program.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Controls {
+    /// Swim speed wanted, 0 (glide) to 1 (cruise).
+    pub speed: f64,
+    /// Pitch, -1 (nose down) to 1 (nose up).
+    pub pitch: f64,
+    /// Roll, -1 (to port) to 1 (to starboard).
+    pub roll: f64,
+    /// Yaw, -1 (to starboard) to 1 (to port).
+    pub yaw: f64,
+    /// Burst, 0 or 1: the greatest speed it can swim.
+    pub burst: f64,
+    /// Mouth, 0 (closed) to 1 (open).
+    pub mouth: f64,
+    /// Flippers abducted (1) or adducted (-1).
+    pub flipper_raise: f64,
+    /// Flippers pronated (1) or supinated (-1).
+    pub flipper_twist: f64,
+}
+
+/// What a motion may look at.
+#[derive(Clone, Copy, Debug)]
+pub struct MotionInput<'a> {
+    /// Simulated time [s].
+    pub time_s: f64,
+    /// Length of the step [s].
+    pub dt_s: f64,
+    /// Body length, snout to fluke notch [m].
+    pub length_m: f64,
+    /// Speed through the water along the whale's x axis [m/s].
+    pub speed_m_s: f64,
+    /// Position of the whale frame's origin (mid-body) [m].
+    pub position_m: [f64; 3],
+    /// Orientation as a quaternion (x, y, z, w), whale frame to world.
+    pub orientation: [f64; 4],
+    /// The pilot's controls in this step.
+    pub controls: Controls,
+    /// Sum of the normal contact forces of the last step on each [`BodyPart`] [N].
+    pub contact_force_n: &'a [f64; BodyPart::ALL.len()],
+}
+
+/// What a motion decides.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MotionOutput {
+    /// Speed through the water at the end of the step [m/s].
+    pub speed_m_s: f64,
+    /// Turn rates about the whale's own x (roll), y (pitch down) and z (yaw to port) axes [rad/s].
+    pub turn_rate_rad_s: [f64; 3],
+    /// Joint angles at the end of the step.
+    pub posture: Posture,
+}
+
+/// A way of moving. Pure but for the floats it is handed.
+pub trait WhaleMotion: Send + Sync {
+    /// Who it is and what it takes.
+    fn descriptor(&self) -> &Descriptor;
+
+    /// Decides the whale's motion over one step from `input`, its attributes
+    /// (SI, in the declared order) and its floats, which it may advance.
+    ///
+    /// # Errors
+    /// With a message for the user; the run ends with it.
+    fn step(&self, attributes: &[f64], input: &MotionInput<'_>, state: &mut [f64]) -> Result<MotionOutput, HookError>;
+}

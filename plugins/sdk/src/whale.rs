@@ -1,0 +1,154 @@
+//! The whale as a plugin sees it: posture (joint angles) and surface regions.
+
+/// Spine joints from the skull (0) to the peduncle's end (`SPINE_JOINTS - 1`).
+pub const SPINE_JOINTS: usize = 8;
+
+/// Joint angles of a whale [rad]; all zero is the rest posture.
+///
+/// Index 0 of a pair is the left (port) side, 1 the right.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Posture {
+    /// Each spine joint about the whale's y axis; positive bends the part aft of it down.
+    pub spine_pitch: [f64; SPINE_JOINTS],
+    /// Each spine joint about the whale's z axis; positive swings the part aft of it to starboard.
+    pub spine_yaw: [f64; SPINE_JOINTS],
+    /// Flukes against the peduncle about y; positive turns the trailing edge down.
+    pub fluke_pitch: f64,
+    /// Bend of each fluke blade; positive lifts the tip.
+    pub fluke_flex: [f64; 2],
+    /// Flipper swept aft about the dorsal axis; 0 at rest, positive aft, negative forward.
+    pub flipper_sweep: [f64; 2],
+    /// Flipper raised (abducted) away from the body; positive lifts the tip.
+    pub flipper_raise: [f64; 2],
+    /// Flipper twisted about its long axis; positive pronates (leading edge down).
+    pub flipper_twist: [f64; 2],
+    /// Jaw drop; 0 closed, positive open.
+    pub jaw: f64,
+}
+
+/// A labelled patch of skin: where a contact is, as fine as friction needs.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Region {
+    /// Upper jaw's narrow top.
+    Rostrum = 0,
+    /// Baleen racks inside the mouth.
+    Baleen = 1,
+    /// Arched lower lips.
+    Lips = 2,
+    /// Rest of the head, chin included.
+    Head = 3,
+    /// Body between head and peduncle.
+    Body = 4,
+    /// Tail stock.
+    Peduncle = 5,
+    /// Blade of the left flipper away from its edges.
+    LeftFlipper = 6,
+    /// Leading edge of the left flipper.
+    LeftFlipperLeading = 7,
+    /// Trailing edge of the left flipper.
+    LeftFlipperTrailing = 8,
+    /// Tip of the left flipper.
+    LeftFlipperTip = 9,
+    /// Blade of the right flipper away from its edges.
+    RightFlipper = 10,
+    /// Leading edge of the right flipper.
+    RightFlipperLeading = 11,
+    /// Trailing edge of the right flipper.
+    RightFlipperTrailing = 12,
+    /// Tip of the right flipper.
+    RightFlipperTip = 13,
+    /// Left fluke away from its edges.
+    LeftFluke = 14,
+    /// Leading edge of the left fluke.
+    LeftFlukeLeading = 15,
+    /// Trailing edge of the left fluke.
+    LeftFlukeTrailing = 16,
+    /// Right fluke away from its edges.
+    RightFluke = 17,
+    /// Leading edge of the right fluke.
+    RightFlukeLeading = 18,
+    /// Trailing edge of the right fluke.
+    RightFlukeTrailing = 19,
+}
+
+impl Region {
+    /// Every region, in the order of its number.
+    pub const ALL: [Self; 20] = [
+        Self::Rostrum,
+        Self::Baleen,
+        Self::Lips,
+        Self::Head,
+        Self::Body,
+        Self::Peduncle,
+        Self::LeftFlipper,
+        Self::LeftFlipperLeading,
+        Self::LeftFlipperTrailing,
+        Self::LeftFlipperTip,
+        Self::RightFlipper,
+        Self::RightFlipperLeading,
+        Self::RightFlipperTrailing,
+        Self::RightFlipperTip,
+        Self::LeftFluke,
+        Self::LeftFlukeLeading,
+        Self::LeftFlukeTrailing,
+        Self::RightFluke,
+        Self::RightFlukeLeading,
+        Self::RightFlukeTrailing,
+    ];
+
+    /// The body part it belongs to.
+    #[must_use]
+    pub fn part(self) -> BodyPart {
+        match self {
+            Self::Rostrum | Self::Baleen | Self::Lips | Self::Head => BodyPart::Head,
+            Self::Body => BodyPart::Body,
+            Self::Peduncle => BodyPart::Peduncle,
+            Self::LeftFlipper | Self::LeftFlipperLeading | Self::LeftFlipperTrailing | Self::LeftFlipperTip => BodyPart::LeftFlipper,
+            Self::RightFlipper | Self::RightFlipperLeading | Self::RightFlipperTrailing | Self::RightFlipperTip => BodyPart::RightFlipper,
+            Self::LeftFluke | Self::LeftFlukeLeading | Self::LeftFlukeTrailing => BodyPart::LeftFluke,
+            Self::RightFluke | Self::RightFlukeLeading | Self::RightFlukeTrailing => BodyPart::RightFluke,
+        }
+    }
+}
+
+/// A part of the whale in reports: wraps and loads are counted for each.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum BodyPart {
+    /// Head with the mouth.
+    Head = 0,
+    /// Body between head and peduncle.
+    Body = 1,
+    /// Left flipper.
+    LeftFlipper = 2,
+    /// Right flipper.
+    RightFlipper = 3,
+    /// Tail stock.
+    Peduncle = 4,
+    /// Left fluke.
+    LeftFluke = 5,
+    /// Right fluke.
+    RightFluke = 6,
+}
+
+impl BodyPart {
+    /// Every part, in the order of its number.
+    pub const ALL: [Self; 7] =
+        [Self::Head, Self::Body, Self::LeftFlipper, Self::RightFlipper, Self::Peduncle, Self::LeftFluke, Self::RightFluke];
+
+    /// Its name in files and results, such as `left_flipper`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Head => "head",
+            Self::Body => "body",
+            Self::LeftFlipper => "left_flipper",
+            Self::RightFlipper => "right_flipper",
+            Self::Peduncle => "peduncle",
+            Self::LeftFluke => "left_fluke",
+            Self::RightFluke => "right_fluke",
+        }
+    }
+}
