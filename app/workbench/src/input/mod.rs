@@ -1,0 +1,1 @@
+//! Gamepad and keyboard as the pilot's controls.
