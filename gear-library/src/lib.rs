@@ -1,1 +1,3 @@
+//! Gear as files: ropes, traps, buoys, whales and scenarios become a model.
 
+pub mod whale;
