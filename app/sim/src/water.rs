@@ -14,6 +14,8 @@ pub struct Water {
     pub gravity_m_s2: f64,
     /// Water depth [m].
     pub depth_m: f64,
+    /// Whether rope above z = 0 is dry; off, water drags and lifts it at any height.
+    pub rope_dries: bool,
     /// Current.
     pub current: Current,
 }
