@@ -1,0 +1,103 @@
+//! System packages: what is needed, what is missing, and how to get it.
+
+use std::process::{Command, Stdio};
+
+use crate::Outcome;
+use crate::workspace::announce;
+
+/// To compile: the C linker, and libudev for the gamepad.
+const BUILD: [&str; 4] = ["gcc", "libc6-dev", "pkg-config", "libudev-dev"];
+
+/// To draw, on a screen or without one.
+const DRAW: [&str; 2] = ["libegl1", "libgl1-mesa-dri"];
+
+/// To open a window on X11: looked up only when the window opens, so the build does not miss them.
+const WINDOW: [&str; 5] = ["libx11-6", "libxcursor1", "libxi6", "libxkbcommon-x11-0", "libudev1"];
+
+/// Makes sure of all that building, drawing and opening a window need.
+///
+/// # Errors
+/// When something needed to compile is missing and may not be installed from here.
+pub fn ensure_for_run() -> Outcome {
+    ensure(&[DRAW.as_slice(), &WINDOW].concat())
+}
+
+/// Makes sure of all that building and testing need; tests draw but open no window.
+///
+/// # Errors
+/// When something needed to compile is missing and may not be installed from here.
+pub fn ensure_for_test() -> Outcome {
+    ensure(&DRAW)
+}
+
+/// Installs what is missing, or prints the line that does. Goes on without what is only needed later.
+fn ensure(later: &[&'static str]) -> Outcome {
+    if !on_path("dpkg-query") {
+        eprintln!("this is not Debian, so I do not look for system packages; Debian calls them {} {}", BUILD.join(" "), later.join(" "));
+        return Ok(());
+    }
+    let (build, later) = (missing(&BUILD), missing(later));
+    let all = [build.as_slice(), &later].concat();
+    if all.is_empty() {
+        return Ok(());
+    }
+    eprintln!("missing system packages: {}", all.join(" "));
+    if let Some(prefix) = administrator() {
+        return install(prefix, &all);
+    }
+    eprintln!(
+        "I may not install them here. This line does, then run the same command again:\n\n    sudo apt-get {INSTALL} {}\n",
+        all.join(" ")
+    );
+    if build.is_empty() { Ok(()) } else { Err(format!("cannot build without {}", build.join(" "))) }
+}
+
+fn missing(packages: &[&'static str]) -> Vec<&'static str> {
+    packages.iter().filter(|name| !is_present(name)).copied().collect()
+}
+
+fn is_present(name: &str) -> bool {
+    // Any compiler driver and any pkg-config will do; libraries are asked of dpkg.
+    match name {
+        "gcc" if on_path("cc") => return true,
+        "pkg-config" if on_path("pkg-config") => return true,
+        _ => {}
+    }
+    let answer = Command::new("dpkg-query").args(["--show", "--showformat=${db:Status-Status}\\n", name]).stderr(Stdio::null()).output();
+    // One line for each architecture that knows the package.
+    answer.is_ok_and(|answer| String::from_utf8_lossy(&answer.stdout).lines().any(|status| status == "installed"))
+}
+
+fn on_path(command: &str) -> bool {
+    let folders = std::env::var_os("PATH").unwrap_or_default();
+    std::env::split_paths(&folders).any(|folder| folder.join(command).is_file())
+}
+
+/// How to become administrator without asking anyone: nothing for root, `sudo -n` where it needs no password.
+fn administrator() -> Option<&'static [&'static str]> {
+    let is_root = Command::new("id").arg("-u").output().is_ok_and(|answer| answer.stdout == b"0\n");
+    if is_root {
+        return Some(&[]);
+    }
+    let sudo = Command::new("sudo").args(["-n", "true"]).stdout(Stdio::null()).stderr(Stdio::null()).status();
+    sudo.is_ok_and(|status| status.success()).then_some(&["sudo", "-n"])
+}
+
+const INSTALL: &str = "install --yes --no-install-recommends";
+
+fn install(prefix: &[&str], packages: &[&str]) -> Outcome {
+    // A machine fresh from its image has no package lists; stale ones name files that are gone.
+    if let Err(message) = apt_get(prefix, &["update", "--quiet"]) {
+        eprintln!("{message}; going on with the lists there are");
+    }
+    let install: Vec<&str> = INSTALL.split(' ').chain(packages.iter().copied()).collect();
+    apt_get(prefix, &install)
+}
+
+fn apt_get(prefix: &[&str], arguments: &[&str]) -> Outcome {
+    // `env` inside sudo, which would drop our own environment.
+    let words = [prefix, &["env", "DEBIAN_FRONTEND=noninteractive", "apt-get"], arguments].concat();
+    announce(words[0], &words[1..]);
+    let status = Command::new(words[0]).args(&words[1..]).status().map_err(|error| format!("cannot start {}: {error}", words[0]))?;
+    if status.success() { Ok(()) } else { Err(format!("`apt-get {}` failed, see above", arguments.join(" "))) }
+}

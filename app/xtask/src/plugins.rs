@@ -1,0 +1,45 @@
+//! The plugins that ship with Endline, built as libraries and put where the program looks for anyone's.
+
+use std::fs;
+use std::path::Path;
+
+use crate::Outcome;
+use crate::workspace::{Profile, Workspace};
+
+/// The crates; each makes one library.
+const CRATES: [&str; 3] = ["endline-whale-motions", "endline-friction-models", "endline-gear-types"];
+
+/// What every plugin library exports; a library built without its `entry` feature lacks it.
+const ENTRY: &str = "endline_plugin_entry";
+
+/// Builds the plugins and copies them to `<target>/<profile>/plugins`.
+///
+/// A cargo call of their own: with `entry` on, each exports the same symbol, so they must not be linked
+/// together into a test, as they would be if the whole workspace were built with it.
+///
+/// # Errors
+/// When cargo fails, or a library cannot be copied.
+pub fn build(workspace: &Workspace, profile: Profile) -> Outcome {
+    let mut arguments = vec!["build", profile.flag(), "--lib", "--features", "entry"];
+    arguments.extend(CRATES.iter().flat_map(|name| ["--package", name]));
+    workspace.cargo(&arguments)?;
+    let products = workspace.products(profile);
+    let folder = products.join("plugins");
+    fs::create_dir_all(&folder).map_err(|error| format!("cannot make {}: {error}", folder.display()))?;
+    for name in CRATES {
+        let library = format!("{}{}{}", std::env::consts::DLL_PREFIX, name.replace('-', "_"), std::env::consts::DLL_SUFFIX);
+        place(&products.join(&library), &folder.join(&library))?;
+    }
+    eprintln!("{} plugins in {}", CRATES.len(), folder.display());
+    Ok(())
+}
+
+/// Copies a library beside its place and renames it there: a program that has the old one open keeps it whole.
+fn place(from: &Path, to: &Path) -> Outcome {
+    let bytes = fs::read(from).map_err(|error| format!("cannot read {}: {error}", from.display()))?;
+    if !bytes.windows(ENTRY.len()).any(|window| window == ENTRY.as_bytes()) {
+        return Err(format!("{} does not export {ENTRY}: its crate must do so with its feature `entry`", from.display()));
+    }
+    let beside = to.with_extension("new");
+    fs::write(&beside, bytes).and_then(|()| fs::rename(&beside, to)).map_err(|error| format!("cannot write {}: {error}", to.display()))
+}

@@ -1,0 +1,56 @@
+//! `cargo xtask run`: from a bare machine to the workbench.
+
+use std::process::ExitStatus;
+
+use crate::workspace::{Profile, Workspace};
+use crate::{Outcome, packages, plugins};
+
+/// The encounter that a machine without a display shows.
+pub const ENCOUNTER: &str = "gear-library/scenarios/hello-endline.toml";
+
+/// Builds everything in release, then opens the workbench, or without a display shows the bundled encounter.
+///
+/// # Errors
+/// When a package, the build or the program fails.
+pub fn run(workspace: &Workspace) -> Outcome {
+    make_ready(workspace)?;
+    if has_display() {
+        return succeeded(workspace.call_program(Profile::Release, &[])?);
+    }
+    eprintln!("no display here (neither DISPLAY nor WAYLAND_DISPLAY is set): running the bundled encounter instead of the workbench");
+    show_encounter(workspace, Profile::Release)
+}
+
+/// Builds everything in release, then calls the program with the user's own arguments.
+///
+/// # Errors
+/// When a package, the build or the program fails.
+pub fn run_with(workspace: &Workspace, arguments: &[&str]) -> Outcome {
+    make_ready(workspace)?;
+    succeeded(workspace.call_program(Profile::Release, arguments)?)
+}
+
+fn make_ready(workspace: &Workspace) -> Outcome {
+    packages::ensure_for_run()?;
+    workspace.cargo(&["build", Profile::Release.flag(), "--package", "endline"])?;
+    plugins::build(workspace, Profile::Release)
+}
+
+/// Runs the bundled encounter, which prints its summary, and draws it.
+///
+/// # Errors
+/// When the program fails.
+pub fn show_encounter(workspace: &Workspace, profile: Profile) -> Outcome {
+    let folder = workspace.target.join("hello");
+    let folder = folder.to_str().ok_or("the target folder's name is not plain text")?;
+    succeeded(workspace.call_program(profile, &["run", ENCOUNTER, "--out", folder])?)
+}
+
+fn succeeded(status: ExitStatus) -> Outcome {
+    if status.success() { Ok(()) } else { Err(format!("endline ended with {status}")) }
+}
+
+fn has_display() -> bool {
+    let is_set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    !cfg!(target_os = "linux") || is_set("DISPLAY") || is_set("WAYLAND_DISPLAY")
+}
