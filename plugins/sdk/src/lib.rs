@@ -23,4 +23,4 @@ pub use friction::{Contacts, FrictionModel, FrictionResponse};
 pub use gear::{BodyKind, GearAction, GearStep, GearType, LineEnd, Rig, RigBody, RigEnd, RigJoint, RigLine, RigLink, Site};
 pub use hook::{Attribute, AttributeKind, AttributeValue, Descriptor, HookError};
 pub use motion::{Controls, MotionInput, MotionOutput, WhaleMotion};
-pub use whale::{BodyPart, Posture, Region, SPINE_JOINTS};
+pub use whale::{BodyPart, FLUKE_STATION, Posture, Region, SPINE_JOINTS, SPINE_STATIONS};

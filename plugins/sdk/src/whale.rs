@@ -3,7 +3,16 @@
 /// Spine joints from the skull (0) to the peduncle's end (`SPINE_JOINTS - 1`).
 pub const SPINE_JOINTS: usize = 8;
 
+/// Where each spine joint sits, as a share of body length aft of the snout [1].
+pub const SPINE_STATIONS: [f64; SPINE_JOINTS] = [0.26, 0.37, 0.47, 0.56, 0.64, 0.72, 0.80, 0.87];
+
+/// Where the flukes hinge on the peduncle, as a share of body length aft of the snout [1].
+pub const FLUKE_STATION: f64 = 0.93;
+
 /// Joint angles of a whale [rad]; all zero is the rest posture.
+///
+/// Signs are as each field's words say: spine and fluke pitch turn by the right hand about the
+/// whale's -y (starboard) axis, spine yaw about +z.
 ///
 /// Index 0 of a pair is the left (port) side, 1 the right.
 #[repr(C)]

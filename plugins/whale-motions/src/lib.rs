@@ -1,1 +1,9 @@
+//! Endline's own whale motions: how a pilot's controls become speed, turns and posture.
+//!
+//! | id | motion |
+//! |---|---|
+//! | `org.endline.motion.swim` | [`Swim`]: steady swimming with fluke beat and steering |
 
+pub mod swim;
+
+pub use swim::Swim;

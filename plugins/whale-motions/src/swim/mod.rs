@@ -1,0 +1,120 @@
+//! Steady swimming: fluke beat, steering, flippers and mouth.
+//!
+//! Symbols: `U` speed through the water, `L` body length, `A` peak-to-peak excursion of the flukes,
+//! `f` beat frequency, `phi` phase of the beat, `x` distance aft of the snout over `L`,
+//! `tau` smoothing time, `c` a control, `c~` the same smoothed.
+//!
+//! ```text
+//! controls   d c~/dt = (c - c~)/tau   speed, pitch, roll, yaw, burst
+//!            |d c~/dt| <= 1/time      mouth, flippers
+//! speed      target = cruise c~speed + (burst - cruise c~speed) c~burst,  -braking <= dU/dt <= acceleration
+//! turning    roll, pitch, yaw rate = greatest rate times its smoothed control
+//! beat       f = St U / A   held within its limits;  d phi/dt = 2 pi f
+//! body wave  y(x) = A/2 e(x) sin(phi - 2 pi x L/lambda)                     see `wave`
+//! flukes     pitch with the heave velocity, a quarter period from the heave: atan(pi St) less the
+//!            angle of attack                                                see `wave`
+//! ```
+//!
+//! Where `f` would fall below its least value, `A` shrinks instead, so that the Strouhal number
+//! `St = f A / U` stays at its target down to rest; above the greatest `f` it falls.
+//! A whale that glides (no speed asked for) fades to the rest posture within a few `tau`.
+//!
+//! The whale's frame swims straight: the small heave of the head is left out.
+//!
+//! References: Strouhal target 0.2-0.4 and `A = 0.2 L`: van der Hoop et al., "Swimming kinematics
+//! and efficiency of entangled North Atlantic right whales", Endangered Species Research 32 (2017)
+//! 1-17; speeds 1.1-1.5 m/s: van der Hoop et al. 2019; fluke pitch amplitude 20-35 degrees and
+//! phase near 90 degrees: Hover, Haugsdal and Triantafyllou, Journal of Fluids and Structures 19
+//! (2004) 37-47; flippers swept aft in cruise, forward in turns: observers of right whales.
+//! Burst speed, turn rates, rates of mouth and flippers are estimates.
+
+mod floats;
+mod posture;
+mod settings;
+mod wave;
+
+use endline_sdk::{Descriptor, HookError, MotionInput, MotionOutput, WhaleMotion};
+
+use floats::Floats;
+use settings::Settings;
+use wave::Beat;
+
+/// The steady-swim motion.
+#[derive(Clone, Debug)]
+pub struct Swim {
+    descriptor: Descriptor,
+}
+
+impl Swim {
+    /// The motion with its descriptor.
+    #[must_use]
+    pub fn new() -> Self {
+        Self { descriptor: descriptor() }
+    }
+}
+
+impl Default for Swim {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl WhaleMotion for Swim {
+    fn descriptor(&self) -> &Descriptor {
+        &self.descriptor
+    }
+
+    fn step(&self, attributes: &[f64], input: &MotionInput<'_>, state: &mut [f64]) -> Result<MotionOutput, HookError> {
+        let settings = Settings::read(attributes)?;
+        check(input)?;
+        let mut floats = Floats::read(state)?;
+        floats.follow(&settings, &input.controls, input.dt_s);
+        let target = target_speed(&settings, &floats);
+        let speed_m_s = next_speed(&settings, target, input);
+        let beat = Beat::of(&settings, &floats, target.max(speed_m_s), input.length_m);
+        floats.advance_phase(beat.frequency_hz, input.dt_s);
+        let posture = posture::of(&settings, &floats, &beat);
+        floats.write(state);
+        Ok(MotionOutput { speed_m_s, turn_rate_rad_s: turn_rates(&settings, &floats), posture })
+    }
+}
+
+fn descriptor() -> Descriptor {
+    Descriptor {
+        id: "org.endline.motion.swim".into(),
+        version: env!("CARGO_PKG_VERSION").into(),
+        name: "Swim".into(),
+        help: "Steady swimming with fluke beat; steered by speed, pitch, roll and yaw.".into(),
+        attributes: settings::attributes(),
+        state_len: floats::LEN,
+    }
+}
+
+fn check(input: &MotionInput<'_>) -> Result<(), HookError> {
+    if !(input.dt_s > 0.0 && input.length_m > 0.0 && input.speed_m_s.is_finite()) {
+        return Err(HookError::new(format!(
+            "cannot swim with a step of {} s, a body length of {} m and a speed of {} m/s",
+            input.dt_s, input.length_m, input.speed_m_s
+        )));
+    }
+    Ok(())
+}
+
+/// Speed the smoothed controls ask for [m/s].
+fn target_speed(settings: &Settings, floats: &Floats) -> f64 {
+    let cruise = settings.cruise_speed_m_s * floats.speed.clamp(0.0, 1.0);
+    let burst = settings.burst_speed_m_s.max(settings.cruise_speed_m_s);
+    cruise + (burst - cruise) * floats.burst.clamp(0.0, 1.0)
+}
+
+/// Speed at the end of the step: towards the target, within acceleration and braking [m/s].
+fn next_speed(settings: &Settings, target: f64, input: &MotionInput<'_>) -> f64 {
+    let change = target - input.speed_m_s;
+    input.speed_m_s + change.clamp(-settings.braking_m_s2 * input.dt_s, settings.acceleration_m_s2 * input.dt_s)
+}
+
+/// Turn rates about the whale's x, y and z [rad/s]: roll to starboard is positive about x and yaw to
+/// port about z, as the controls count them; nose up is negative about y.
+fn turn_rates(settings: &Settings, floats: &Floats) -> [f64; 3] {
+    [settings.roll_rate_rad_s * floats.roll, -settings.pitch_rate_rad_s * floats.pitch, settings.yaw_rate_rad_s * floats.yaw]
+}
