@@ -1,5 +1,9 @@
 //! Rope against the skinned whale: detection that cannot miss, response inside the rope solve.
 
+pub mod crossing;
+pub mod distance;
+pub mod sweep;
+
 use endline_sdk::Region;
 use glam::DVec3;
 

@@ -1,0 +1,147 @@
+//! Distance of a rope segment's centre line from a skin triangle: unsigned, 0 where they cross.
+//!
+//! Nothing here asks for inside or outside, so thin edges need no special case.
+//! A segment or triangle that has shrunk to a line or a point is measured as such.
+
+use glam::DVec3;
+
+/// Where a segment and a triangle are nearest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Nearest {
+    /// Distance, 0 where they cross [m].
+    pub distance: f64,
+    /// Place on the segment, 0 at its first end, 1 at its second.
+    pub fraction: f64,
+    /// Place on the triangle; each in 0 to 1, summing to 1.
+    pub barycentric: [f64; 3],
+}
+
+/// Squared area over squared edge lengths below which a triangle counts as a line.
+const FLAT: f64 = 1e-24;
+
+/// Nearest places of a segment and a triangle.
+#[must_use]
+pub fn segment_triangle(segment: [DVec3; 2], triangle: [DVec3; 3]) -> Nearest {
+    let mut best = nearest_of_edges(segment, triangle);
+    if let Some(plane) = Plane::of(triangle) {
+        if let Some(crossing) = crossing(segment, &plane) {
+            return crossing;
+        }
+        for (point, fraction) in [(segment[0], 0.0), (segment[1], 1.0)] {
+            let (height, barycentric) = plane.place(point);
+            if height.abs() < best.distance && inside(barycentric) {
+                best = Nearest { distance: height.abs(), fraction, barycentric };
+            }
+        }
+    }
+    best
+}
+
+/// Nearest place on a triangle to a point: distance and barycentric place.
+#[must_use]
+pub fn point_triangle(point: DVec3, triangle: [DVec3; 3]) -> (f64, [f64; 3]) {
+    if let Some(plane) = Plane::of(triangle) {
+        let (height, barycentric) = plane.place(point);
+        if inside(barycentric) {
+            return (height.abs(), barycentric);
+        }
+    }
+    let nearest = nearest_of_edges([point, point], triangle);
+    (nearest.distance, nearest.barycentric)
+}
+
+/// Nearest places on two segments, as fractions along each.
+#[must_use]
+pub fn segment_segment(first: [DVec3; 2], second: [DVec3; 2]) -> (f64, f64) {
+    let (u, v, w) = (first[1] - first[0], second[1] - second[0], first[0] - second[0]);
+    let (uu, vv) = (u.length_squared(), v.length_squared());
+    let (uv, uw, vw) = (u.dot(v), u.dot(w), v.dot(w));
+    if uu <= f64::MIN_POSITIVE {
+        return (0.0, share(vw, vv));
+    }
+    if vv <= f64::MIN_POSITIVE {
+        return (share(-uw, uu), 0.0);
+    }
+    let skew = uu * vv - uv * uv;
+    let s = if skew > 0.0 { share(uv * vw - uw * vv, skew) } else { 0.0 };
+    let t = (uv * s + vw) / vv;
+    if t < 0.0 {
+        (share(-uw, uu), 0.0)
+    } else if t > 1.0 {
+        (share(uv - uw, uu), 1.0)
+    } else {
+        (s, t)
+    }
+}
+
+/// A ratio held to 0..1, 0 where the whole is nothing.
+fn share(part: f64, whole: f64) -> f64 {
+    if whole <= f64::MIN_POSITIVE { 0.0 } else { (part / whole).clamp(0.0, 1.0) }
+}
+
+/// The nearest of the three edges.
+fn nearest_of_edges(segment: [DVec3; 2], triangle: [DVec3; 3]) -> Nearest {
+    let mut best = Nearest { distance: f64::INFINITY, fraction: 0.0, barycentric: [1.0, 0.0, 0.0] };
+    let mut least = f64::INFINITY;
+    for from in 0..3 {
+        let to = (from + 1) % 3;
+        let (s, t) = segment_segment(segment, [triangle[from], triangle[to]]);
+        let gap = segment[0].lerp(segment[1], s) - triangle[from].lerp(triangle[to], t);
+        if gap.length_squared() < least {
+            least = gap.length_squared();
+            best.fraction = s;
+            best.barycentric = [0.0; 3];
+            best.barycentric[from] = 1.0 - t;
+            best.barycentric[to] = t;
+        }
+    }
+    best.distance = least.sqrt();
+    best
+}
+
+/// A triangle's plane, ready to place points against the triangle.
+struct Plane {
+    corner: DVec3,
+    normal: DVec3,
+    across: [DVec3; 2],
+}
+
+impl Plane {
+    /// `None` where the triangle has shrunk to a line or a point.
+    fn of([a, b, c]: [DVec3; 3]) -> Option<Self> {
+        let (ab, ac) = (b - a, c - a);
+        let normal = ab.cross(ac);
+        let square = normal.length_squared();
+        if square <= FLAT * ab.length_squared() * ac.length_squared() {
+            return None;
+        }
+        let across = [ac.cross(normal) / square, normal.cross(ab) / square];
+        Some(Self { corner: a, normal: normal / square.sqrt(), across })
+    }
+
+    /// Height over the plane and barycentric place of the foot.
+    fn place(&self, point: DVec3) -> (f64, [f64; 3]) {
+        let from = point - self.corner;
+        let (v, w) = (from.dot(self.across[0]), from.dot(self.across[1]));
+        (from.dot(self.normal), [1.0 - v - w, v, w])
+    }
+}
+
+fn inside(barycentric: [f64; 3]) -> bool {
+    barycentric.iter().all(|&share| share >= 0.0)
+}
+
+/// Where the segment passes through the triangle.
+fn crossing([a, b]: [DVec3; 2], plane: &Plane) -> Option<Nearest> {
+    let (from, to) = (plane.normal.dot(a - plane.corner), plane.normal.dot(b - plane.corner));
+    if from * to > 0.0 || (from - to).abs() <= f64::MIN_POSITIVE {
+        return None;
+    }
+    let fraction = from / (from - to);
+    let (_, barycentric) = plane.place(a.lerp(b, fraction));
+    inside(barycentric).then_some(Nearest { distance: 0.0, fraction, barycentric })
+}
+
+#[cfg(test)]
+#[path = "distance_tests.rs"]
+mod tests;
