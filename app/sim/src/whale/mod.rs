@@ -1,9 +1,19 @@
 //! The whale: a skinned mesh on bones, moved by a motion plugin.
 
+pub mod bounds;
+pub mod pose;
+pub mod surface;
+pub mod tree;
+
 use std::sync::Arc;
 
 use endline_sdk::{Controls, Region, WhaleMotion};
 use glam::{DQuat, DVec3};
+
+pub use bounds::Bounds;
+pub use pose::{pose, skin_all, skin_vertex};
+pub use surface::{Candidate, Surface};
+pub use tree::SkinTree;
 
 /// A whale in a model.
 #[derive(Clone)]
