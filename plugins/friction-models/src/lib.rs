@@ -7,3 +7,5 @@
 pub mod coulomb;
 
 pub use coulomb::Coulomb;
+
+endline_sdk::export_plugin! { friction: Coulomb::new() }

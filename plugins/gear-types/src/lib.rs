@@ -7,3 +7,5 @@
 pub mod single;
 
 pub use single::Single;
+
+endline_sdk::export_plugin! { gear: Single::new() }

@@ -13,6 +13,7 @@
 //! A plugin keeps nothing between calls but the floats the engine hands it, so
 //! that a run can be recorded, replayed and run many times at once.
 
+pub mod abi;
 pub mod friction;
 pub mod gear;
 pub mod hook;

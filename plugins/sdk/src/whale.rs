@@ -3,8 +3,9 @@
 /// Spine joints from the skull (0) to the peduncle's end (`SPINE_JOINTS - 1`).
 pub const SPINE_JOINTS: usize = 8;
 
-/// Where each spine joint sits, as a share of body length aft of the snout [1].
-pub const SPINE_STATIONS: [f64; SPINE_JOINTS] = [0.26, 0.37, 0.47, 0.56, 0.64, 0.72, 0.80, 0.87];
+/// Where each spine joint of a right whale sits, as a share of body length aft of the snout [1];
+/// other bodies may differ a little.
+pub const SPINE_STATIONS: [f64; SPINE_JOINTS] = [0.27, 0.36, 0.45, 0.55, 0.64, 0.73, 0.81, 0.885];
 
 /// Where the flukes hinge on the peduncle, as a share of body length aft of the snout [1].
 pub const FLUKE_STATION: f64 = 0.93;

@@ -7,3 +7,5 @@
 pub mod swim;
 
 pub use swim::Swim;
+
+endline_sdk::export_plugin! { motion: Swim::new() }

@@ -1,0 +1,15 @@
+//! The C side of the hooks: what crosses between the program and a plugin library.
+//!
+//! A plugin library exports one static, [`endline_plugin_entry`](table::AbiEntry). It leads to a
+//! factory, the factory to descriptors, each descriptor to a table of functions of its kind:
+//!
+//! ```text
+//! endline_plugin_entry -> get_factory("endline.plugins/1") -> AbiFactory -> AbiPlugin -> AbiMotion | AbiFriction | AbiGear
+//! ```
+//!
+//! In Rust nobody needs this module: implement a trait and name it in
+//! [`export_plugin!`](crate::export_plugin). In C, include `endline_plugin.h`, which is generated
+//! from [`table`]. `docs/plugin-abi.md` tells the rules in one page.
+
+pub mod export;
+pub mod table;
