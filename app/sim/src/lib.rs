@@ -7,6 +7,8 @@
 pub mod contact;
 pub mod frame;
 pub mod model;
+pub mod parting;
+pub mod solver;
 pub mod state;
 pub mod statics;
 pub mod step;

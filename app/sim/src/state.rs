@@ -67,6 +67,8 @@ pub struct BodyState {
     pub earlier_velocity: DVec3,
     /// Tangential stretch of each foot's grip on the seabed [m].
     pub grip: Vec<DVec3>,
+    /// Whether each foot slides.
+    pub sliding: Vec<bool>,
 }
 
 /// The whale in motion (kinematic: it goes where its motion plugin and pilot send it).
@@ -155,6 +157,7 @@ impl BodyState {
             earlier_position: body.position_m,
             earlier_velocity: DVec3::ZERO,
             grip: vec![DVec3::ZERO; body.feet_m.len()],
+            sliding: vec![false; body.feet_m.len()],
         }
     }
 }
@@ -169,6 +172,23 @@ impl WhaleState {
             posture: Posture::default(),
             motion: vec![0.0; whale.motion.descriptor().state_len],
             contact_force_n: [0.0; endline_sdk::BodyPart::ALL.len()],
+        }
+    }
+}
+
+impl State {
+    /// Forgets all motion: the history of a rig at rest.
+    pub(crate) fn rest(&mut self) {
+        let rope = &mut self.rope;
+        rope.velocity.fill(DVec3::ZERO);
+        rope.earlier_velocity.fill(DVec3::ZERO);
+        rope.earlier_position.clone_from(&rope.position);
+        rope.earlier_dt_s = 0.0;
+        for body in &mut self.bodies {
+            body.velocity = DVec3::ZERO;
+            body.earlier_velocity = DVec3::ZERO;
+            body.earlier_position = body.position;
+            body.spin = DVec3::ZERO;
         }
     }
 }

@@ -1,0 +1,76 @@
+//! Weak links and ropes part: a link when the tension at its end of the line passes its rating, a rope
+//! when the tension of any segment passes its strength. The segment is then cut: it pulls and touches nothing.
+
+use endline_sdk::LineEnd;
+
+use crate::model::{Link, Model};
+use crate::state::State;
+
+/// How far above its rating something may part before the step is redone shorter.
+const LATE: f64 = 1.005;
+
+/// Whether anything parted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Parting {
+    /// Nothing did.
+    None,
+    /// Something did.
+    Some,
+}
+
+/// The segment a link sits on.
+#[must_use]
+pub fn link_segment(model: &Model, link: &Link) -> usize {
+    let segments = &model.line_segments[link.line];
+    match link.end {
+        LineEnd::A => segments.start,
+        LineEnd::B => segments.end - 1,
+    }
+}
+
+/// Whether these tensions pass a rating or strength by so much that it should have parted sooner.
+pub(crate) fn too_late(model: &Model, state: &State, tension: &[f64]) -> bool {
+    let link_late = |link: &Link| {
+        let segment = link_segment(model, link);
+        link.enabled && !state.rope.cut[segment] && tension[segment] > LATE * link.rating_n
+    };
+    let line_late = |line: usize| {
+        let strength = model.spec.ropes[model.spec.lines[line].rope].strength_n;
+        model.line_segments[line].clone().any(|segment| !state.rope.cut[segment] && tension[segment] > LATE * strength)
+    };
+    model.spec.links.iter().any(link_late) || (0..model.spec.lines.len()).any(line_late)
+}
+
+/// Parts what is above its rating or strength.
+pub(crate) fn part(model: &Model, state: &mut State) -> Parting {
+    let mut parted = Parting::None;
+    for (index, link) in model.spec.links.iter().enumerate() {
+        let segment = link_segment(model, link);
+        if link.enabled && !state.rope.cut[segment] && state.rope.tension[segment] > link.rating_n {
+            state.link_parted_s[index] = Some(state.time_s);
+            cut(state, segment);
+            parted = Parting::Some;
+        }
+    }
+    for (index, line) in model.spec.lines.iter().enumerate() {
+        let strength = model.spec.ropes[line.rope].strength_n;
+        let over = |segment: &usize| !state.rope.cut[*segment] && state.rope.tension[*segment] > strength;
+        let Some(worst) = model.line_segments[index]
+            .clone()
+            .filter(over)
+            .max_by(|one, other| state.rope.tension[*one].total_cmp(&state.rope.tension[*other]))
+        else {
+            continue;
+        };
+        state.line_parted[index].get_or_insert((state.time_s, worst - model.line_segments[index].start));
+        cut(state, worst);
+        parted = Parting::Some;
+    }
+    parted
+}
+
+/// Cuts one segment.
+pub(crate) fn cut(state: &mut State, segment: usize) {
+    state.rope.cut[segment] = true;
+    state.rope.tension[segment] = 0.0;
+}

@@ -1,0 +1,126 @@
+//! Rigid bodies with six degrees of freedom: traps, buoys, anchors.
+//!
+//! Newton and Euler about the centre of mass, in the world frame:
+//! `(m + A) dv/dt = Σ F`, `I dω/dt + ω × Iω = Σ r × F + τ_drag`, with `A` and `I` turned with the body.
+//! Floats: `F = ρ g V clamp(1/2 - z/height, 0, 1) ẑ`. Drag by body axis `k`, `u` the water's velocity
+//! relative to the body: `F_k = ½ρ (C_d A)_k |u| u_k`; turning drag `τ_k = -½ρ D_k |ω_k| ω_k`.
+//! The place follows the step's scheme; the rotation follows backward Euler:
+//! `ω = log(q qₙ⁻¹)/dt`. Rope ends pull on the body inside the same linear solve (`hubs.rs`).
+
+use glam::{DMat3, DVec3};
+
+use super::Solver;
+use super::hubs::Seat;
+use super::rope::outer;
+use super::scheme::Scheme;
+use crate::model::{Body, Model, ModelSpec};
+use crate::state::State;
+
+/// Stiffness that keeps a held body where it is.
+const HELD: f64 = 1e30;
+
+impl Solver {
+    /// Adds inertia, weight, floats, drag and seabed of every body.
+    pub(super) fn add_bodies(&mut self, model: &Model, state: &State, scheme: &Scheme) {
+        for (index, body) in model.spec.bodies.iter().enumerate() {
+            let wet = self.add_floats(model, index, body);
+            self.add_body_inertia(state, (index, body, wet), scheme);
+            self.add_body_drag(model, state, (index, body, wet), scheme);
+            self.add_feet(model, state, index, scheme);
+        }
+    }
+
+    /// Buoyancy and weight; gives the wet share of the body for drag and added mass.
+    fn add_floats(&mut self, model: &Model, index: usize, body: &Body) -> f64 {
+        let water = &model.spec.water;
+        let trial = self.trial.bodies[index];
+        let block = self.plan.body_block[index];
+        self.hubs.force[block].z -= body.mass_kg * water.gravity_m_s2;
+        let (mut wet, mut whole) = (0.0, 0.0);
+        for float in &body.floats {
+            let arm = trial.orientation * float.offset_m;
+            let share = 0.5 - (trial.place.z + arm.z) / float.height_m;
+            let lift = water.density_kg_m3 * water.gravity_m_s2 * float.volume_m3;
+            let seat = Seat::Body { block, body: index, offset: float.offset_m };
+            let force = DVec3::Z * (lift * share.clamp(0.0, 1.0));
+            self.hubs.push(seat, arm, force);
+            if (0.0..1.0).contains(&share) {
+                self.hubs.add(seat, arm, seat, arm, outer(DVec3::Z, DVec3::Z) * (lift / float.height_m));
+            }
+            *self.hubs.at(block + 1, block + 1) += turn_stiffness(arm, force);
+            wet += share.clamp(0.0, 1.0) * float.volume_m3;
+            whole += float.volume_m3;
+        }
+        if body.wetted_drag && whole > 0.0 { wet / whole } else { 1.0 }
+    }
+
+    fn add_body_inertia(&mut self, state: &State, (index, body, wet): (usize, &Body, f64), scheme: &Scheme) {
+        let (trial, now) = (self.trial.bodies[index], &state.bodies[index]);
+        let block = self.plan.body_block[index];
+        let axes = DMat3::from_quat(trial.orientation);
+        let turned = |diagonal: DVec3| axes * DMat3::from_diagonal(diagonal) * axes.transpose();
+        let mass = DMat3::from_diagonal(DVec3::splat(body.mass_kg)) + turned(body.added_mass_kg * wet);
+        let inertia = turned(body.inertia_kg_m2 + body.added_inertia_kg_m2 * wet);
+        *self.hubs.at(block, block) += mass * scheme.inertia;
+        if scheme.is_static() {
+            *self.hubs.at(block + 1, block + 1) += inertia * scheme.inertia;
+        } else {
+            let velocity = (trial.place - trial.place_history) * scheme.rate;
+            let turn_rate = 1.0 / scheme.dt;
+            let spin = spin(trial.orientation, now.orientation, scheme.dt);
+            self.hubs.force[block] -= mass * ((velocity - trial.velocity_history) * scheme.rate);
+            self.hubs.force[block + 1] -= inertia * ((spin - now.spin) * turn_rate) + spin.cross(inertia * spin);
+            *self.hubs.at(block + 1, block + 1) += inertia * (turn_rate * turn_rate);
+        }
+        if trial.held {
+            *self.hubs.at(block, block) += DMat3::IDENTITY * HELD;
+            *self.hubs.at(block + 1, block + 1) += DMat3::IDENTITY * HELD;
+        }
+    }
+
+    fn add_body_drag(&mut self, model: &Model, state: &State, (index, body, wet): (usize, &Body, f64), scheme: &Scheme) {
+        let (trial, now) = (self.trial.bodies[index], &state.bodies[index]);
+        let block = self.plan.body_block[index];
+        let axes = DMat3::from_quat(trial.orientation);
+        let half_density = 0.5 * model.spec.water.density_kg_m3 * wet;
+        let velocity = (trial.place - trial.place_history) * scheme.rate;
+        let relative = axes.transpose() * (model.spec.water.velocity(trial.place) - velocity);
+        let speed = relative.length();
+        self.hubs.force[block] += axes * (body.drag_area_m2 * relative * (half_density * speed));
+        if scheme.is_static() {
+            return;
+        }
+        let slope = body.drag_area_m2 * (DVec3::splat(speed) + relative * relative / speed.max(1e-9)) * half_density;
+        *self.hubs.at(block, block) += axes * DMat3::from_diagonal(slope * scheme.rate) * axes.transpose();
+        let spin = axes.transpose() * spin(trial.orientation, now.orientation, scheme.dt);
+        self.hubs.force[block + 1] -= axes * (body.turn_drag_m5 * spin * spin.abs() * half_density);
+        let slope = body.turn_drag_m5 * spin.abs() * (2.0 * half_density / scheme.dt);
+        *self.hubs.at(block + 1, block + 1) += axes * DMat3::from_diagonal(slope) * axes.transpose();
+    }
+
+    /// Kinetic energy of a body, for tests and audits [J].
+    #[must_use]
+    pub fn kinetic_energy(spec: &ModelSpec, state: &State, index: usize) -> f64 {
+        let (body, now) = (&spec.bodies[index], &state.bodies[index]);
+        let spin = now.orientation.inverse() * now.spin;
+        0.5 * body.mass_kg * now.velocity.length_squared() + 0.5 * spin.dot(body.inertia_kg_m2 * spin)
+    }
+}
+
+/// Angular velocity that turns one orientation into another over a step.
+pub(crate) fn spin(after: glam::DQuat, before: glam::DQuat, dt: f64) -> DVec3 {
+    let turn = after * before.inverse();
+    // The shorter way round.
+    let turn = if turn.w < 0.0 { -turn } else { turn };
+    turn.to_scaled_axis() / dt
+}
+
+/// How stiffly a force at the end of an arm keeps the arm turned: the part of its derivative that
+/// is never negative, so that the matrix stays definite while a body capsizes.
+pub(crate) fn turn_stiffness(arm: DVec3, force: DVec3) -> DMat3 {
+    let square = arm.length_squared();
+    if square < 1e-18 {
+        return DMat3::ZERO;
+    }
+    (DMat3::IDENTITY - outer(arm, arm) * (1.0 / square)) * arm.dot(force).max(0.0)
+}

@@ -1,0 +1,99 @@
+//! Direct solve of one line: elimination of its inner nodes down to its two ends.
+//!
+//! The matrix of a line of nodes 0..=n is block-tridiagonal (3×3 blocks). Eliminating nodes
+//! 1..n-1 in turn leaves a 2×2 block system on the ends, which joins the hubs (`hubs.rs`);
+//! back-substitution then gives the inner nodes. Cost is linear in n, with no limit from stiffness.
+//! While node k is eliminated its row couples to k+1 and, by fill, to end A.
+
+use std::ops::Range;
+
+use glam::{DMat3, DVec3};
+
+/// Matrix and right-hand side of all lines, in the model's node and segment layout.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Band {
+    /// Diagonal block of each node.
+    pub diagonal: Vec<DMat3>,
+    /// Block of each segment: row of its first node, column of its second.
+    pub up: Vec<DMat3>,
+    /// Block of each segment: row of its second node, column of its first.
+    pub low: Vec<DMat3>,
+    /// Force out of balance at each node; after [`eliminate`](Self::eliminate) changed in place.
+    pub force: Vec<DVec3>,
+    /// Solution: move of each node.
+    pub step: Vec<DVec3>,
+    inverse: Vec<DMat3>,
+    fill: Vec<DMat3>,
+}
+
+/// What a line leaves on its ends A and B.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ends {
+    pub aa: DMat3,
+    pub ab: DMat3,
+    pub ba: DMat3,
+    pub bb: DMat3,
+    pub force_a: DVec3,
+    pub force_b: DVec3,
+}
+
+impl Band {
+    /// Storage for so many nodes and segments.
+    pub fn new(nodes: usize, segments: usize) -> Self {
+        Self {
+            diagonal: vec![DMat3::ZERO; nodes],
+            up: vec![DMat3::ZERO; segments],
+            low: vec![DMat3::ZERO; segments],
+            force: vec![DVec3::ZERO; nodes],
+            step: vec![DVec3::ZERO; nodes],
+            inverse: vec![DMat3::ZERO; nodes],
+            fill: vec![DMat3::ZERO; nodes],
+        }
+    }
+
+    /// Empties matrix and forces for a new pass.
+    pub fn clear(&mut self) {
+        self.diagonal.fill(DMat3::ZERO);
+        self.up.fill(DMat3::ZERO);
+        self.low.fill(DMat3::ZERO);
+        self.force.fill(DVec3::ZERO);
+    }
+
+    /// Eliminates the inner nodes of a line; `a_moves` says whether end A has freedom at all.
+    pub fn eliminate(&mut self, nodes: &Range<usize>, segments: &Range<usize>, a_moves: bool) -> Ends {
+        let (a, b) = (nodes.start, nodes.end - 1);
+        let (mut fill, mut gill) = (self.low[segments.start], self.up[segments.start]);
+        let (mut aa, mut force_a) = (self.diagonal[a], self.force[a]);
+        for (node, segment) in (a + 1..b).zip(segments.start + 1..segments.end) {
+            let inverse = self.diagonal[node].inverse();
+            let (up, force) = (self.up[segment], self.force[node]);
+            let across = self.low[segment] * inverse;
+            self.diagonal[node + 1] -= across * up;
+            self.force[node + 1] -= across * force;
+            self.inverse[node] = inverse;
+            if a_moves {
+                let back = gill * inverse;
+                aa -= back * fill;
+                force_a -= back * force;
+                gill = -(back * up);
+                self.fill[node] = fill;
+                fill = -(across * fill);
+            }
+        }
+        Ends { aa, ab: gill, ba: fill, bb: self.diagonal[b], force_a, force_b: self.force[b] }
+    }
+
+    /// Moves of the inner nodes from the moves of the ends.
+    pub fn substitute(&mut self, nodes: &Range<usize>, segments: &Range<usize>, a_moves: bool, step_a: DVec3, step_b: DVec3) {
+        let (a, b) = (nodes.start, nodes.end - 1);
+        self.step[a] = step_a;
+        self.step[b] = step_b;
+        for (node, segment) in (a + 1..b).zip(segments.start + 1..segments.end).rev() {
+            let mut right = self.force[node] - self.up[segment] * self.step[node + 1];
+            if a_moves {
+                right -= self.fill[node] * step_a;
+            }
+            self.step[node] = self.inverse[node] * right;
+        }
+    }
+}

@@ -1,0 +1,181 @@
+//! The seabed under rope nodes and the feet of bodies.
+//!
+//! Depth `p` below the plane, stiffness `k`: `N = k p²/2e` for `0 < p < e`, `N = k (p - e/2)` beyond
+//! (smooth onset over `e`). Friction is an elastic grip that slips at its limit: with `z*` the grip
+//! stretched by this step's move along the plane, `f = -k z*` while `k|z*| ≤ μN`, else `f = -μN z*/|z*|`;
+//! the grip keeps `f/k`. It holds without creep. A body's foot starts at `μ_start` and slides at `μ_slide`
+//! until it stands still again.
+
+use glam::{DMat3, DVec3};
+
+use super::Solver;
+use super::hubs::Seat;
+use super::rope::outer;
+use super::scheme::Scheme;
+use crate::model::{Body, Model, Seabed};
+use crate::state::State;
+
+/// Depth over which the seabed's push sets in [m].
+const ONSET_M: f64 = 0.01;
+/// Speed below which a sliding foot takes hold again [m/s].
+const HOLD_SPEED_M_S: f64 = 1e-3;
+/// Share of critical damping of a foot on the seabed.
+const FOOT_DAMPING: f64 = 0.5;
+
+/// Push of the seabed at a depth: force and its derivative.
+fn press(depth: f64, stiffness: f64) -> (f64, f64) {
+    if depth <= 0.0 {
+        (0.0, 0.0)
+    } else if depth < ONSET_M {
+        (0.5 * stiffness * depth * depth / ONSET_M, stiffness * depth / ONSET_M)
+    } else {
+        (stiffness * (depth - 0.5 * ONSET_M), stiffness)
+    }
+}
+
+/// Friction of an elastic grip.
+pub(crate) struct Grip {
+    /// Force on the moving part [N].
+    pub force: DVec3,
+    /// `-d force / d place` [N/m].
+    pub block: DMat3,
+    /// The grip's stretch kept for the next step [m].
+    pub kept: DVec3,
+    /// Whether it slips.
+    pub slips: bool,
+}
+
+impl Grip {
+    /// Grip of stiffness `stiffness` stretched to `stretch` across `normal`, under normal force `push`
+    /// with derivative `push_rate` by depth.
+    pub fn new(stretch: DVec3, normal: DVec3, stiffness: f64, friction: f64, (push, push_rate): (f64, f64)) -> Self {
+        let plane = DMat3::IDENTITY - outer(normal, normal);
+        let stretch = plane * stretch;
+        let (length, limit) = (stretch.length(), friction * push);
+        if stiffness * length <= limit || length <= 0.0 {
+            return Self { force: stretch * -stiffness, block: plane * stiffness, kept: stretch, slips: false };
+        }
+        let direction = stretch / length;
+        let block = (plane - outer(direction, direction)) * (limit / length) - outer(direction, normal) * (friction * push_rate);
+        Self { force: direction * -limit, block, kept: direction * (limit / stiffness), slips: true }
+    }
+}
+
+impl Seabed {
+    /// Depth of a place below the plane [m].
+    fn depth_of(&self, place: DVec3) -> f64 {
+        -self.normal.dot(place + DVec3::Z * self.depth_m)
+    }
+}
+
+impl Solver {
+    /// Adds the seabed under every rope node.
+    pub(super) fn add_seabed(&mut self, model: &Model, state: &State, scheme: &Scheme) {
+        let Some(seabed) = &model.spec.seabed else { return };
+        for node in 0..model.node_count {
+            let depth = seabed.depth_of(self.trial.place[node]);
+            if depth <= 0.0 {
+                continue;
+            }
+            let stiffness = seabed.rope_stiffness_n_m2 * self.plan.node_length[node];
+            let (push, push_rate) = press(depth, stiffness);
+            self.band.force[node] += seabed.normal * push;
+            self.band.diagonal[node] += outer(seabed.normal, seabed.normal) * push_rate;
+            if !scheme.is_static() {
+                let grip = self.rope_grip(seabed, state, node, stiffness);
+                self.band.force[node] += grip.force;
+                self.band.diagonal[node] += grip.block;
+            }
+        }
+    }
+
+    fn rope_grip(&self, seabed: &Seabed, state: &State, node: usize, stiffness: f64) -> Grip {
+        let stretch = state.rope.seabed_grip[node] + self.trial.place[node] - state.rope.position[node];
+        let depth = seabed.depth_of(self.trial.place[node]);
+        Grip::new(stretch, seabed.normal, stiffness, seabed.rope_friction, press(depth, stiffness))
+    }
+
+    /// Adds the seabed under a body's feet.
+    pub(super) fn add_feet(&mut self, model: &Model, state: &State, index: usize, scheme: &Scheme) {
+        let Some(seabed) = &model.spec.seabed else { return };
+        let body = &model.spec.bodies[index];
+        for foot in 0..body.feet_m.len() {
+            let arm = self.trial.bodies[index].orientation * body.feet_m[foot];
+            let place = self.trial.bodies[index].place + arm;
+            let depth = seabed.depth_of(place);
+            if depth <= 0.0 {
+                continue;
+            }
+            let seat = Seat::Body { block: self.plan.body_block[index], body: index, offset: body.feet_m[foot] };
+            let before = foot_before(state, index, body, foot);
+            let damping =
+                if scheme.is_static() { 0.0 } else { FOOT_DAMPING * (seabed.foot_stiffness_n_m * body.mass_kg).sqrt() / scheme.dt };
+            let (push, push_rate) = press(depth, seabed.foot_stiffness_n_m);
+            let push = (push + damping * seabed.normal.dot(before - place)).max(0.0);
+            let push_rate = push_rate + damping;
+            let grip = foot_grip(seabed, state, (index, body, foot), place, (push, push_rate));
+            self.hubs.push(seat, arm, seabed.normal * push + grip.force);
+            self.hubs.add(seat, arm, seat, arm, outer(seabed.normal, seabed.normal) * push_rate + grip.block);
+        }
+    }
+
+    /// Moves the grips of rope and feet on; called while `state` still holds the places of the step's begin.
+    pub(super) fn keep_grips(&self, model: &Model, scheme: &Scheme, state: &mut State) {
+        let Some(seabed) = &model.spec.seabed else { return };
+        for node in 0..model.node_count {
+            let on_ground = seabed.depth_of(self.trial.place[node]) > 0.0 && !scheme.is_static();
+            let stiffness = seabed.rope_stiffness_n_m2 * self.plan.node_length[node];
+            state.rope.seabed_grip[node] = if on_ground { self.rope_grip(seabed, state, node, stiffness).kept } else { DVec3::ZERO };
+        }
+        for (index, body) in model.spec.bodies.iter().enumerate() {
+            for foot in 0..body.feet_m.len() {
+                self.keep_foot(seabed, scheme, (index, body, foot), state);
+            }
+        }
+    }
+
+    fn keep_foot(&self, seabed: &Seabed, scheme: &Scheme, (index, body, foot): (usize, &Body, usize), state: &mut State) {
+        let place = self.trial.bodies[index].place + self.trial.bodies[index].orientation * body.feet_m[foot];
+        let push = press(seabed.depth_of(place), seabed.foot_stiffness_n_m);
+        let (kept, slides) = if push.0 > 0.0 {
+            let grip = foot_grip(seabed, state, (index, body, foot), place, push);
+            let speed = (place - foot_before(state, index, body, foot)).length() * scheme.rate;
+            (grip.kept, grip.slips && (speed > HOLD_SPEED_M_S || !state.bodies[index].sliding[foot]))
+        } else {
+            (DVec3::ZERO, false)
+        };
+        state.bodies[index].grip[foot] = kept;
+        state.bodies[index].sliding[foot] = slides;
+    }
+}
+
+/// Place of a foot when the step begins.
+fn foot_before(state: &State, index: usize, body: &Body, foot: usize) -> DVec3 {
+    state.bodies[index].position + state.bodies[index].orientation * body.feet_m[foot]
+}
+
+fn foot_grip(seabed: &Seabed, state: &State, (index, body, foot): (usize, &Body, usize), place: DVec3, push: (f64, f64)) -> Grip {
+    let stretch = state.bodies[index].grip[foot] + place - foot_before(state, index, body, foot);
+    let friction = if state.bodies[index].sliding[foot] { body.slide_friction } else { body.start_friction };
+    let mut grip = Grip::new(stretch, seabed.normal, seabed.foot_stiffness_n_m, friction, push);
+    if grip.slips && !state.bodies[index].sliding[foot] {
+        // It broke loose in this very step: from here on it slides.
+        grip = Grip::new(stretch, seabed.normal, seabed.foot_stiffness_n_m, body.slide_friction, push);
+    }
+    grip
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_grip_holds_below_its_limit_and_slips_at_it() {
+        let push = (100.0, 0.0);
+        let holds = Grip::new(DVec3::new(0.004, 0.0, 0.3), DVec3::Z, 1e4, 0.5, push);
+        assert!(!holds.slips && (holds.force - DVec3::new(-40.0, 0.0, 0.0)).length() < 1e-12);
+        let slips = Grip::new(DVec3::new(0.006, 0.0, 0.0), DVec3::Z, 1e4, 0.5, push);
+        assert!(slips.slips && (slips.force - DVec3::new(-50.0, 0.0, 0.0)).length() < 1e-12);
+        assert!((slips.kept.x - 0.005).abs() < 1e-15);
+    }
+}

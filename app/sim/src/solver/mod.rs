@@ -1,0 +1,230 @@
+//! The implicit solve: one linear system for ropes, joints and bodies, solved directly.
+//!
+//! Newton on `M (v - v̂)/h = F(x, v)` with `v = (x - x̂)/h` (`scheme.rs`): each [`pass`](Solver::pass)
+//! assembles forces and their derivatives at the trial places, eliminates every line down to its ends
+//! (`chain.rs`), solves the hubs (`hubs.rs`) and moves the trial. Cost is linear in the number of nodes;
+//! no stiffness or mass ratio limits the step.
+
+mod body;
+mod chain;
+mod ground;
+mod hubs;
+mod plan;
+mod rope;
+mod scheme;
+mod trial;
+
+use glam::{DMat3, DQuat, DVec3};
+
+use crate::model::Model;
+use crate::state::State;
+use chain::{Band, Ends};
+use hubs::{Hubs, Seat};
+use plan::Plan;
+use rope::Pull;
+pub(crate) use scheme::Scheme;
+use trial::Trial;
+
+/// Scratch of the solver for one model; it keeps nothing that a step depends on.
+#[derive(Clone, Debug)]
+pub struct Solver {
+    pub(crate) plan: Plan,
+    pub(crate) trial: Trial,
+    band: Band,
+    hubs: Hubs,
+    ends: Vec<Option<Ends>>,
+    mass: Vec<DMat3>,
+    pull: Vec<Pull>,
+    cut: Vec<bool>,
+}
+
+/// What a pass did.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Passed {
+    /// Longest move of any node or body [m].
+    pub longest_m: f64,
+    /// Whether all moves are finite.
+    pub finite: bool,
+}
+
+impl Solver {
+    /// Scratch for a model.
+    #[must_use]
+    pub fn new(model: &Model) -> Self {
+        let plan = Plan::new(model);
+        Self {
+            hubs: plan.hubs(model),
+            plan,
+            trial: Trial::default(),
+            band: Band::new(model.node_count, model.segment_count),
+            ends: vec![None; model.spec.lines.len()],
+            mass: vec![DMat3::ZERO; model.node_count],
+            pull: vec![Pull::default(); model.segment_count],
+            cut: vec![false; model.segment_count],
+        }
+    }
+
+    /// Begins a step from a state.
+    pub(crate) fn begin(&mut self, model: &Model, state: &State, scheme: &Scheme) {
+        self.trial.begin(model, &self.plan, state, scheme);
+        self.cut.clone_from(&state.rope.cut);
+        self.weigh(model, state);
+    }
+
+    /// Assembles forces and matrix at the trial places.
+    pub(crate) fn assemble(&mut self, model: &Model, state: &State, scheme: &Scheme) {
+        self.band.clear();
+        self.hubs.clear();
+        self.add_nodes(model, scheme);
+        self.add_seabed(model, state, scheme);
+        self.add_tension(model, scheme);
+        self.add_bodies(model, state, scheme);
+        self.add_end_turns(model);
+    }
+
+    /// Solves the assembled system; the moves lie in `band.step` and `hubs.step`.
+    pub(crate) fn solve(&mut self, model: &Model) {
+        for (index, line) in model.spec.lines.iter().enumerate() {
+            let (seat_a, seat_b) = (self.plan.seats[line.from], self.plan.seats[line.to]);
+            let (nodes, segments) = (&model.line_nodes[index], &model.line_segments[index]);
+            let ends = self.band.eliminate(nodes, segments, seat_a != Seat::Fixed);
+            self.join(seat_a, seat_b, &ends);
+            self.ends[index] = Some(ends);
+        }
+        self.hubs.solve();
+        for (index, line) in model.spec.lines.iter().enumerate() {
+            let (seat_a, seat_b) = (self.plan.seats[line.from], self.plan.seats[line.to]);
+            let step_a = self.hubs.step_of(seat_a, self.arm(seat_a));
+            let step_b = self.hubs.step_of(seat_b, self.arm(seat_b));
+            self.band.substitute(&model.line_nodes[index], &model.line_segments[index], seat_a != Seat::Fixed, step_a, step_b);
+        }
+    }
+
+    /// Longest solved move of any node or body [m].
+    pub(crate) fn longest(&self) -> f64 {
+        let nodes = self.band.step.iter().map(|step| step.length_squared()).fold(0.0, f64::max);
+        let bodies = self.plan.body_block.iter().map(|block| self.hubs.step[*block].length_squared()).fold(nodes, f64::max);
+        bodies.sqrt()
+    }
+
+    /// Moves the trial by a share of the solved step.
+    pub(crate) fn advance(&mut self, model: &Model, share: f64) -> Passed {
+        let mut finite = true;
+        self.foretell_tension(model, share);
+        for (place, step) in self.trial.place.iter_mut().zip(&self.band.step) {
+            *place += *step * share;
+            finite &= step.is_finite();
+        }
+        for (index, body) in self.trial.bodies.iter_mut().enumerate().filter(|(_, body)| !body.held) {
+            let block = self.plan.body_block[index];
+            let (step, turn) = (self.hubs.step[block], self.hubs.step[block + 1]);
+            body.place += step * share;
+            body.orientation = (DQuat::from_scaled_axis(turn * share) * body.orientation).normalize();
+            finite &= step.is_finite() && turn.is_finite();
+        }
+        self.trial.seat_ends(model, &self.plan);
+        Passed { longest_m: self.longest() * share, finite }
+    }
+
+    /// One Newton pass.
+    pub(crate) fn pass(&mut self, model: &Model, state: &State, scheme: &Scheme) -> Passed {
+        self.assemble(model, state, scheme);
+        self.solve(model);
+        self.advance(model, 1.0)
+    }
+
+    /// Greatest force out of balance at any node or hub, as last assembled (before [`solve`](Self::solve)) [N].
+    pub(crate) fn residual(&self, model: &Model) -> f64 {
+        let mut hubs = self.hubs.force.clone();
+        let mut greatest = 0.0_f64;
+        for (index, line) in model.spec.lines.iter().enumerate() {
+            let nodes = &model.line_nodes[index];
+            for node in nodes.start + 1..nodes.end - 1 {
+                greatest = greatest.max(self.band.force[node].length());
+            }
+            for (joint, node) in [(line.from, nodes.start), (line.to, nodes.end - 1)] {
+                match self.plan.seats[joint] {
+                    Seat::Fixed => {}
+                    Seat::Free(block) => hubs[block] += self.band.force[node],
+                    Seat::Body { block, .. } => {
+                        hubs[block] += self.band.force[node];
+                        hubs[block + 1] += self.arm(self.plan.seats[joint]).cross(self.band.force[node]);
+                    }
+                }
+            }
+        }
+        for (index, block) in self.plan.body_block.iter().enumerate() {
+            if self.trial.bodies[index].held {
+                hubs[*block] = DVec3::ZERO;
+                hubs[block + 1] = DVec3::ZERO;
+            }
+        }
+        hubs.iter().map(|force| force.length()).fold(greatest, f64::max)
+    }
+
+    /// Tension of each segment at the end of the step being solved; below zero it is slack [N].
+    pub(crate) fn tension(&self) -> &[f64] {
+        &self.trial.tension
+    }
+
+    /// The line with the longest or a not finite move in the last solve.
+    pub(crate) fn worst_line(&self, model: &Model) -> Option<usize> {
+        let size = |line: &usize| {
+            let steps = &self.band.step[model.line_nodes[*line].clone()];
+            steps.iter().map(|step| if step.is_finite() { step.length() } else { f64::INFINITY }).fold(0.0, f64::max)
+        };
+        (0..model.spec.lines.len()).max_by(|one, other| size(one).total_cmp(&size(other)))
+    }
+
+    fn arm(&self, seat: Seat) -> DVec3 {
+        Plan::arm(seat, |body| self.trial.bodies[body].orientation)
+    }
+
+    /// Adds what a line leaves on its ends to the hubs.
+    fn join(&mut self, seat_a: Seat, seat_b: Seat, ends: &Ends) {
+        let (arm_a, arm_b) = (self.arm(seat_a), self.arm(seat_b));
+        self.hubs.push(seat_a, arm_a, ends.force_a);
+        self.hubs.push(seat_b, arm_b, ends.force_b);
+        self.hubs.add(seat_a, arm_a, seat_a, arm_a, ends.aa);
+        self.hubs.add(seat_a, arm_a, seat_b, arm_b, ends.ab);
+        self.hubs.add(seat_b, arm_b, seat_a, arm_a, ends.ba);
+        self.hubs.add(seat_b, arm_b, seat_b, arm_b, ends.bb);
+    }
+
+    /// Keeps the turning stiffness of rope pulling on bodies (see [`body::turn_stiffness`]).
+    pub(super) fn add_end_turns(&mut self, model: &Model) {
+        for (index, line) in model.spec.lines.iter().enumerate() {
+            let segments = &model.line_segments[index];
+            for (joint, segment, sign) in [(line.from, segments.start, 1.0), (line.to, segments.end - 1, -1.0)] {
+                let seat = self.plan.seats[joint];
+                let Seat::Body { block, .. } = seat else { continue };
+                let force = self.pull[segment].direction * (sign * self.trial.tension[segment].max(0.0));
+                let stiffness = body::turn_stiffness(self.arm(seat), force);
+                *self.hubs.at(block + 1, block + 1) += stiffness;
+            }
+        }
+    }
+
+    /// Writes the solved step into the state.
+    pub(crate) fn keep(&self, model: &Model, scheme: &Scheme, state: &mut State) {
+        self.keep_grips(model, scheme, state);
+        let rope = &mut state.rope;
+        rope.earlier_position.clone_from(&rope.position);
+        rope.earlier_velocity.clone_from(&rope.velocity);
+        rope.earlier_dt_s = scheme.dt;
+        rope.tension.clone_from(&self.trial.tension);
+        for node in 0..model.node_count {
+            rope.position[node] = self.trial.place[node];
+            rope.velocity[node] = (self.trial.place[node] - self.trial.place_history[node]) * scheme.rate;
+        }
+        for (trial, body) in self.trial.bodies.iter().zip(&mut state.bodies) {
+            body.earlier_position = body.position;
+            body.earlier_velocity = body.velocity;
+            body.position = trial.place;
+            body.velocity = (trial.place - trial.place_history) * scheme.rate;
+            body.spin = if scheme.is_static() { DVec3::ZERO } else { body::spin(trial.orientation, body.orientation, scheme.dt) };
+            body.orientation = trial.orientation;
+        }
+        state.time_s = self.trial.time;
+    }
+}

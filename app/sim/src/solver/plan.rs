@@ -1,0 +1,101 @@
+//! What the solver derives once from a model: where line ends sit, lengths that hang on each node.
+
+use glam::DVec3;
+
+use super::hubs::{Hubs, Seat};
+use crate::model::{JointKind, Model};
+
+/// Fixed look-ups of the solver.
+#[derive(Clone, Debug)]
+pub(crate) struct Plan {
+    /// Seat of each joint.
+    pub seats: Vec<Seat>,
+    /// First hub block of each body.
+    pub body_block: Vec<usize>,
+    /// Line of each segment.
+    pub segment_line: Vec<usize>,
+    /// Unstretched length of each segment [m].
+    pub segment_length: Vec<f64>,
+    /// Unstretched length that hangs on each node: half of its neighbours in the same line [m].
+    pub node_length: Vec<f64>,
+    /// A node that stands for each joint, where a line ends there.
+    pub joint_node: Vec<Option<usize>>,
+}
+
+impl Plan {
+    /// Derives the look-ups of a model.
+    pub fn new(model: &Model) -> Self {
+        let mut blocks = 0;
+        let seats = seats(model, &mut blocks);
+        let body_block = (0..model.spec.bodies.len()).map(|body| blocks + 2 * body).collect::<Vec<_>>();
+        let seats = seats.into_iter().map(|seat| shift_body(seat, &body_block)).collect();
+        let mut plan = Self {
+            seats,
+            body_block,
+            segment_line: Vec::with_capacity(model.segment_count),
+            segment_length: Vec::with_capacity(model.segment_count),
+            node_length: vec![0.0; model.node_count],
+            joint_node: vec![None; model.spec.joints.len()],
+        };
+        for (index, line) in model.spec.lines.iter().enumerate() {
+            let first = model.line_nodes[index].start;
+            for (k, length) in line.segments_m.iter().enumerate() {
+                plan.segment_line.push(index);
+                plan.segment_length.push(*length);
+                plan.node_length[first + k] += 0.5 * length;
+                plan.node_length[first + k + 1] += 0.5 * length;
+            }
+            plan.joint_node[line.from].get_or_insert(first);
+            plan.joint_node[line.to].get_or_insert(model.line_nodes[index].end - 1);
+        }
+        plan
+    }
+
+    /// The empty hub matrix of a model.
+    pub fn hubs(&self, model: &Model) -> Hubs {
+        let blocks_of = |joint: usize| match self.seats[joint] {
+            Seat::Fixed => [None, None],
+            Seat::Free(block) => [Some(block), None],
+            Seat::Body { block, .. } => [Some(block), Some(block + 1)],
+        };
+        let mut pairs: Vec<(usize, usize)> = self.body_block.iter().map(|block| (*block, block + 1)).collect();
+        for line in &model.spec.lines {
+            for one in blocks_of(line.from).into_iter().flatten() {
+                for other in blocks_of(line.to).into_iter().flatten() {
+                    pairs.push((one, other));
+                }
+            }
+        }
+        let free = self.seats.iter().filter(|seat| matches!(seat, Seat::Free(_))).count();
+        Hubs::new(free + 2 * self.body_block.len(), &pairs)
+    }
+
+    /// Lever arm of a seat in the world frame, from the orientations of the bodies.
+    pub fn arm(seat: Seat, orientation: impl Fn(usize) -> glam::DQuat) -> DVec3 {
+        match seat {
+            Seat::Body { body, offset, .. } => orientation(body) * offset,
+            _ => DVec3::ZERO,
+        }
+    }
+}
+
+/// Seats of all joints; blocks of free joints are counted first, bodies follow.
+fn seats(model: &Model, blocks: &mut usize) -> Vec<Seat> {
+    let mut next = || {
+        *blocks += 1;
+        *blocks - 1
+    };
+    let seat = |joint: &crate::model::Joint| match joint.kind {
+        JointKind::Free => Seat::Free(next()),
+        JointKind::Fixed | JointKind::Driven { .. } => Seat::Fixed,
+        JointKind::Body { body, offset_m } => Seat::Body { block: 0, body, offset: offset_m },
+    };
+    model.spec.joints.iter().map(seat).collect()
+}
+
+fn shift_body(seat: Seat, body_block: &[usize]) -> Seat {
+    match seat {
+        Seat::Body { body, offset, .. } => Seat::Body { block: body_block[body], body, offset },
+        other => other,
+    }
+}

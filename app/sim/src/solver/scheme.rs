@@ -1,0 +1,88 @@
+//! Time schemes: how velocity and acceleration follow from places.
+//!
+//! With `x` the unknown place at the end of a step of length `dt`:
+//! `v = (x - x̂)/h`, `a = (v - v̂)/h`, where
+//!
+//! | scheme | h | x̂ |
+//! |---|---|---|
+//! | backward Euler | dt | xₙ |
+//! | BDF2, step ratio ω = dt/dt₋₁ | dt(1+ω)/(1+2ω) | ((1+ω)²xₙ - ω²xₙ₋₁)/(1+2ω) |
+//! | statics | ∞ | any (v = 0) |
+//!
+//! and `v̂` is formed from velocities as `x̂` from places. In statics `inertia` is not `1/h²` but the
+//! weight of a pseudo-mass that keeps each pass short.
+//! Reference: Hairer and Wanner, Solving Ordinary Differential Equations II, section V.1.
+
+use glam::DVec3;
+
+/// Greatest growth of the step for which BDF2 is used (its bound of stability is 1 + √2).
+const GREATEST_RATIO: f64 = 2.0;
+
+/// Coefficients of one step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Scheme {
+    /// Length of the step [s]; zero in statics.
+    pub dt: f64,
+    /// `1/h` [1/s]; zero in statics.
+    pub rate: f64,
+    /// Weight of the mass in the matrix: `1/h²`, or the pseudo-mass of statics [1/s²].
+    pub inertia: f64,
+    /// Share of the present value in the history.
+    now: f64,
+    /// Share of the earlier value in the history.
+    earlier: f64,
+}
+
+impl Scheme {
+    /// First order, strongly damped: for contact and for retries.
+    pub fn backward_euler(dt: f64) -> Self {
+        Self { dt, rate: 1.0 / dt, inertia: 1.0 / (dt * dt), now: 1.0, earlier: 0.0 }
+    }
+
+    /// Second order where the last step allows it, else backward Euler.
+    pub fn bdf2(dt: f64, earlier_dt: f64) -> Self {
+        let ratio = if earlier_dt > 0.0 { dt / earlier_dt } else { f64::INFINITY };
+        if ratio > GREATEST_RATIO {
+            return Self::backward_euler(dt);
+        }
+        let below = 1.0 + 2.0 * ratio;
+        let rate = below / (dt * (1.0 + ratio));
+        Self { dt, rate, inertia: rate * rate, now: (1.0 + ratio) * (1.0 + ratio) / below, earlier: ratio * ratio / below }
+    }
+
+    /// At rest, with a pseudo-mass.
+    pub fn statics(pseudo_mass: f64) -> Self {
+        Self { dt: 0.0, rate: 0.0, inertia: pseudo_mass, now: 1.0, earlier: 0.0 }
+    }
+
+    /// Whether nothing moves.
+    pub fn is_static(&self) -> bool {
+        self.rate <= 0.0
+    }
+
+    /// What the unknown is measured from: `x̂` of places, `v̂` of velocities.
+    pub fn history(&self, now: DVec3, earlier: DVec3) -> DVec3 {
+        now * self.now - earlier * self.earlier
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bdf2_is_exact_for_a_parabola_at_any_step_ratio() {
+        for ratio in [0.3, 1.0, 1.9] {
+            let (dt, earlier_dt) = (0.01 * ratio, 0.01);
+            let place = |t: f64| DVec3::new(3.0 * t * t - 2.0 * t + 1.0, 0.0, 0.0);
+            let scheme = Scheme::bdf2(dt, earlier_dt);
+            let speed = (place(dt) - scheme.history(place(0.0), place(-earlier_dt))) * scheme.rate;
+            assert!((speed.x - (6.0 * dt - 2.0)).abs() < 1e-12, "{ratio}: {}", speed.x);
+        }
+    }
+
+    #[test]
+    fn a_step_that_grows_too_fast_falls_back_to_backward_euler() {
+        assert_eq!(Scheme::bdf2(0.01, 0.001).inertia.to_bits(), Scheme::backward_euler(0.01).inertia.to_bits());
+    }
+}

@@ -1,0 +1,96 @@
+//! The state being solved for: places at the end of the step, and the history they are measured from.
+
+use glam::{DQuat, DVec3};
+
+use super::hubs::Seat;
+use super::plan::Plan;
+use super::scheme::Scheme;
+use crate::model::{JointKind, Model};
+use crate::state::State;
+
+/// Unknowns of a step with what they are measured from.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Trial {
+    /// Time at the end of the step [s].
+    pub time: f64,
+    /// Place of each node.
+    pub place: Vec<DVec3>,
+    /// `x̂` of each node.
+    pub place_history: Vec<DVec3>,
+    /// `v̂` of each node.
+    pub velocity_history: Vec<DVec3>,
+    /// Tension of each segment as the last solve foretold it; below zero it is slack.
+    pub tension: Vec<f64>,
+    /// Bodies.
+    pub bodies: Vec<BodyTrial>,
+}
+
+/// Unknowns of a body.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BodyTrial {
+    pub place: DVec3,
+    pub orientation: DQuat,
+    pub place_history: DVec3,
+    pub velocity_history: DVec3,
+    /// Whether it is held in place.
+    pub held: bool,
+}
+
+impl Trial {
+    /// Starts a step: history from the state, a first guess by its velocities, fixtures at their new place.
+    pub fn begin(&mut self, model: &Model, plan: &Plan, state: &State, scheme: &Scheme) {
+        self.time = state.time_s + scheme.dt;
+        let rope = &state.rope;
+        let count = model.node_count;
+        self.place.resize(count, DVec3::ZERO);
+        self.place_history.resize(count, DVec3::ZERO);
+        self.velocity_history.resize(count, DVec3::ZERO);
+        for node in 0..count {
+            self.place_history[node] = scheme.history(rope.position[node], rope.earlier_position[node]);
+            self.velocity_history[node] = scheme.history(rope.velocity[node], rope.earlier_velocity[node]);
+            self.place[node] = rope.position[node] + rope.velocity[node] * scheme.dt;
+        }
+        self.tension.clone_from(&rope.tension);
+        self.begin_bodies(model, state, scheme);
+        self.seat_ends(model, plan);
+    }
+
+    fn begin_bodies(&mut self, model: &Model, state: &State, scheme: &Scheme) {
+        self.bodies.clear();
+        for (body, now) in model.spec.bodies.iter().zip(&state.bodies) {
+            let held = body.held_until_s.is_some_and(|until| scheme.is_static() || self.time <= until);
+            let move_of = if held { DVec3::ZERO } else { now.velocity * scheme.dt };
+            let turn = if held { DVec3::ZERO } else { now.spin * scheme.dt };
+            self.bodies.push(BodyTrial {
+                place: now.position + move_of,
+                orientation: (DQuat::from_scaled_axis(turn) * now.orientation).normalize(),
+                place_history: scheme.history(now.position, now.earlier_position),
+                velocity_history: scheme.history(now.velocity, now.earlier_velocity),
+                held,
+            });
+        }
+    }
+
+    /// Puts line ends where their fixture or body is; free joints keep the place of their first line end.
+    pub fn seat_ends(&mut self, model: &Model, plan: &Plan) {
+        for (index, line) in model.spec.lines.iter().enumerate() {
+            let nodes = &model.line_nodes[index];
+            for (joint, node) in [(line.from, nodes.start), (line.to, nodes.end - 1)] {
+                self.place[node] = self.joint_place(model, plan, joint, node);
+            }
+        }
+    }
+
+    fn joint_place(&self, model: &Model, plan: &Plan, joint: usize, node: usize) -> DVec3 {
+        if let Seat::Body { body, offset, .. } = plan.seats[joint] {
+            let body = &self.bodies[body];
+            return body.place + body.orientation * offset;
+        }
+        let place = model.spec.joints[joint].position_m;
+        match model.spec.joints[joint].kind {
+            JointKind::Driven { velocity_m_s, from_s, until_s } => place + velocity_m_s * (self.time.min(until_s) - from_s).max(0.0),
+            JointKind::Fixed => place,
+            _ => self.place[plan.joint_node[joint].unwrap_or(node)],
+        }
+    }
+}
