@@ -1,0 +1,157 @@
+//! Which crate may know which:
+//! `plugins/* -> sdk <- sim <- gear-library <- session <- workbench`, `tests -> all`, read from the manifests.
+
+use std::collections::BTreeSet;
+
+use crate::{none, toml_file};
+
+/// What one crate may depend on.
+struct Wall {
+    folder: &'static str,
+    /// Our own crates it may use.
+    ours: &'static [&'static str],
+    /// Outside crates it may use; `None` where only `FORBIDDEN` counts.
+    outside: Option<&'static [&'static str]>,
+}
+
+const PLUGINS: [&str; 3] = ["endline-friction-models", "endline-gear-types", "endline-whale-motions"];
+
+const WALLS: [Wall; 8] = [
+    Wall { folder: "plugins/sdk", ours: &[], outside: Some(&[]) },
+    Wall { folder: "plugins/friction-models", ours: &["endline-sdk"], outside: Some(&[]) },
+    Wall { folder: "plugins/gear-types", ours: &["endline-sdk"], outside: Some(&[]) },
+    Wall { folder: "plugins/whale-motions", ours: &["endline-sdk"], outside: Some(&[]) },
+    Wall { folder: "app/sim", ours: &["endline-sdk"], outside: Some(&["glam", "libm", "parry3d", "rapier3d"]) },
+    Wall { folder: "gear-library", ours: &["endline-sdk", "endline-sim"], outside: Some(&["glam", "libm", "serde", "toml", "toml_edit"]) },
+    Wall { folder: "app/session", ours: &["endline-sdk", "endline-sim", "endline-gear"], outside: None },
+    Wall { folder: "app/workbench", ours: &["endline-sdk", "endline-sim", "endline-gear", "endline-session"], outside: None },
+];
+
+/// Outside crates that only one of ours may use, and why.
+const KEPT_TO: [(&str, &str, &str); 11] = [
+    ("toml", "gear-library", "only the gear library knows TOML"),
+    ("toml_edit", "gear-library", "only the gear library knows TOML"),
+    ("libloading", "app/session", "only the session opens libraries"),
+    ("rayon", "app/session", "only the session runs many at once"),
+    ("clap", "app/workbench", "the session has no command line"),
+    ("indicatif", "app/workbench", "the session has no terminal"),
+    ("eframe", "app/workbench", "the session has no screen"),
+    ("egui", "app/workbench", "the session has no screen"),
+    ("three-d", "app/workbench", "the session has no screen"),
+    ("gilrs", "app/workbench", "the session has no gamepad"),
+    ("rfd", "app/workbench", "the session has no dialogs"),
+];
+
+/// Keys of every table of this kind in a manifest, target-specific ones too.
+fn dependencies(manifest: &toml::Table, kind: &str) -> BTreeSet<String> {
+    let targets = manifest.get("target").and_then(toml::Value::as_table).into_iter().flat_map(|targets| targets.values());
+    let tables = targets.filter_map(toml::Value::as_table).chain([manifest]);
+    tables.filter_map(|table| table.get(kind)?.as_table()).flat_map(|table| table.keys().cloned()).collect()
+}
+
+/// Manifests of all members, by folder.
+fn members() -> Vec<(String, toml::Table)> {
+    let workspace = toml_file("Cargo.toml");
+    let members = workspace["workspace"]["members"].as_array().expect("members");
+    let folders = members.iter().map(|member| member.as_str().expect("a folder").to_owned());
+    folders.map(|folder| (folder.clone(), toml_file(&format!("{folder}/Cargo.toml")))).collect()
+}
+
+#[test]
+fn each_crate_knows_only_what_it_may() {
+    let mut complaints = Vec::new();
+    for wall in &WALLS {
+        let manifest = toml_file(&format!("{}/Cargo.toml", wall.folder));
+        for kind in ["dependencies", "build-dependencies"] {
+            for name in dependencies(&manifest, kind) {
+                let is_ours = name.starts_with("endline");
+                let may = if is_ours {
+                    wall.ours.contains(&name.as_str())
+                } else {
+                    wall.outside.is_none_or(|list| list.contains(&name.as_str()))
+                };
+                if !may {
+                    complaints.push(format!("{} must not depend on {name}", wall.folder));
+                }
+            }
+        }
+        // Tests of a crate may also link plugins, which know the sdk alone; nothing above the crate.
+        for name in dependencies(&manifest, "dev-dependencies").iter().filter(|name| name.starts_with("endline")) {
+            if !wall.ours.contains(&name.as_str()) && !PLUGINS.contains(&name.as_str()) {
+                complaints.push(format!("{} must not depend on {name}, not even in its tests", wall.folder));
+            }
+        }
+    }
+    none(&complaints, "plugins -> sdk <- sim <- gear-library <- session <- workbench");
+}
+
+#[test]
+fn every_member_is_walled() {
+    let walled: BTreeSet<&str> = WALLS.iter().map(|wall| wall.folder).chain(["app/xtask", "tests"]).collect();
+    let members = members();
+    let members: BTreeSet<&str> = members.iter().map(|(folder, _)| folder.as_str()).collect();
+    assert_eq!(members, walled, "a new crate needs its line in WALLS");
+}
+
+#[test]
+fn outside_crates_stay_where_they_belong() {
+    let mut complaints = Vec::new();
+    for (folder, manifest) in members() {
+        let used = dependencies(&manifest, "dependencies");
+        for (name, home, reason) in KEPT_TO.iter().filter(|(name, home, _)| used.contains(*name) && folder != *home) {
+            complaints.push(format!("{folder} depends on {name}: {reason} ({home})"));
+        }
+    }
+    none(&complaints, "each outside crate that brings the world in has one home");
+}
+
+#[test]
+fn xtask_compiles_from_the_standard_library_alone() {
+    let manifest = toml_file("app/xtask/Cargo.toml");
+    assert_eq!(dependencies(&manifest, "dependencies"), BTreeSet::new(), "xtask is the first thing a newcomer compiles");
+}
+
+#[test]
+fn members_share_lints_and_licence() {
+    let mut complaints = Vec::new();
+    for (folder, manifest) in members() {
+        let shares = |table: &str, key: &str| manifest.get(table).and_then(|table| table.get(key)).is_some();
+        if !shares("lints", "workspace") {
+            complaints.push(format!("{folder} lacks `[lints] workspace = true`"));
+        }
+        if manifest["package"]["license"].as_table().is_none_or(|license| !license.contains_key("workspace")) {
+            complaints.push(format!("{folder} lacks `license.workspace = true`"));
+        }
+        for (name, value) in manifest.get("dependencies").and_then(toml::Value::as_table).into_iter().flatten() {
+            if value.as_table().is_none_or(|value| !value.contains_key("workspace")) {
+                complaints.push(format!("{folder}: the version of {name} belongs in [workspace.dependencies]"));
+            }
+        }
+    }
+    none(&complaints, "what all members share is said once, in the workspace's Cargo.toml");
+}
+
+#[test]
+fn plugins_are_libraries_whose_entry_is_off_by_default() {
+    let chore = std::fs::read_to_string(endline_tests::root().join("app/xtask/src/plugins.rs")).expect("xtask builds the plugins");
+    for (folder, manifest) in members().iter().filter(|(folder, _)| folder.starts_with("plugins/") && folder != "plugins/sdk") {
+        let kinds = manifest["lib"]["crate-type"].as_array().expect("crate-type");
+        let kinds: Vec<&str> = kinds.iter().filter_map(toml::Value::as_str).collect();
+        assert_eq!(kinds, ["cdylib", "rlib"], "{folder}: loaded like anyone's plugin, and linked in tests");
+        let features = manifest["features"].as_table().expect("features");
+        assert!(features.contains_key("entry"), "{folder}: the exported symbol stands behind the feature `entry`");
+        let default = features.get("default").and_then(toml::Value::as_array);
+        assert!(default.is_none_or(Vec::is_empty), "{folder}: off by default, so that plugins link side by side");
+        let name = manifest["package"]["name"].as_str().expect("a name");
+        assert!(chore.contains(&format!("\"{name}\"")), "{folder}: app/xtask/src/plugins.rs does not build {name}");
+    }
+}
+
+#[test]
+fn sim_repeats_the_lint_settings_of_the_house() {
+    // Clippy reads the nearest clippy.toml only.
+    let sim = toml_file("app/sim/clippy.toml");
+    for (key, value) in &toml_file("clippy.toml") {
+        assert_eq!(sim.get(key), Some(value), "app/sim/clippy.toml must repeat {key}");
+    }
+}

@@ -1,0 +1,140 @@
+//! What may stand in our files, and how long they may be.
+
+use crate::{none, sources};
+
+/// Most lines a source file may have.
+const LONGEST: usize = 600;
+
+/// From here on a file is worth a second look.
+const LONG: usize = 400;
+
+/// What the top of the workspace holds, besides what a developer's own tools put into dot-files.
+const TOP: [&str; 16] = [
+    "CHANGELOG.md",
+    "CONTRIBUTING.md",
+    "Cargo.lock",
+    "Cargo.toml",
+    "LICENSE-APACHE",
+    "LICENSE-MIT",
+    "README.md",
+    "app",
+    "assets",
+    "clippy.toml",
+    "docs",
+    "gear-library",
+    "plugins",
+    "rustfmt.toml",
+    "target",
+    "tests",
+];
+
+/// The only files that may hold unsafe code.
+const UNSAFE: [&str; 2] = ["app/session/src/plugins/library.rs", "plugins/sdk/src/export.rs"];
+
+#[test]
+fn source_files_are_short() {
+    let lengths: Vec<(usize, String)> = sources(&[".rs"]).into_iter().map(|source| (source.text.lines().count(), source.path)).collect();
+    for (lines, path) in lengths.iter().filter(|(lines, _)| *lines > LONG) {
+        println!("{lines} lines: {path}");
+    }
+    let too_long = lengths.iter().filter(|(lines, _)| *lines > LONGEST);
+    none(&too_long.map(|(lines, path)| format!("{path}: {lines}")).collect::<Vec<_>>(), "source files over 600 lines");
+}
+
+#[test]
+fn the_top_of_the_workspace_holds_only_what_it_should() {
+    let entries = std::fs::read_dir(endline_tests::root()).expect("the workspace can be read");
+    let names = entries.map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned());
+    let strays: Vec<String> = names.filter(|name| !name.starts_with('.') && !TOP.contains(&name.as_str())).collect();
+    none(&strays, "these do not belong at the top of the workspace");
+}
+
+#[test]
+fn unsafe_code_stands_at_the_plugin_boundary_only() {
+    let forms = [" {", " fn", " impl", " trait", " extern", "("].map(|form| format!("{}{form}", "unsafe"));
+    let mut complaints = Vec::new();
+    for source in sources(&[".rs"]).iter().filter(|source| !UNSAFE.contains(&source.path.as_str())) {
+        for (number, line) in code_lines(&source.text).filter(|(_, line)| forms.iter().any(|form| line.contains(form.as_str()))) {
+            complaints.push(format!("{}:{number}: {}", source.path, line.trim()));
+        }
+    }
+    none(&complaints, "unsafe code outside the plugin boundary");
+    for path in UNSAFE {
+        assert!(endline_tests::root().join(path).is_file(), "{path} is gone: take it off the list");
+    }
+}
+
+#[test]
+fn no_file_names_a_place_on_someones_machine() {
+    let folders = ["home", "root", "Users", "work", "mnt"].map(|folder| format!("/{folder}/"));
+    let mut complaints = Vec::new();
+    for source in sources(&[".rs", ".toml", ".md", ".c", ".h", ".wgsl", ".glsl", ".ci/run"]) {
+        for (number, line) in source.text.lines().enumerate() {
+            let starts_path = |at: usize| !line[..at].ends_with(|before: char| before.is_alphanumeric() || "._-/}>".contains(before));
+            if folders.iter().any(|folder| line.match_indices(folder.as_str()).any(|(at, _)| starts_path(at))) {
+                complaints.push(format!("{}:{}: {}", source.path, number + 1, line.trim()));
+            }
+        }
+    }
+    none(&complaints, "paths of one machine");
+}
+
+#[test]
+fn nothing_is_left_for_later() {
+    let marks = [concat!("TO", "DO"), concat!("FIX", "ME"), concat!("X", "XX")];
+    let switches = [concat!("#[", "ignore"), concat!("to", "do!("), concat!("unimpl", "emented!(")];
+    let mut complaints = Vec::new();
+    for source in sources(&[".rs", ".toml", ".md"]) {
+        for (number, line) in source.text.lines().enumerate() {
+            if marks.iter().any(|mark| has_word(line, mark)) || switches.iter().any(|switch| line.contains(switch)) {
+                complaints.push(format!("{}:{}: {}", source.path, number + 1, line.trim()));
+            }
+        }
+    }
+    none(&complaints, "unfinished places and switched-off tests");
+}
+
+#[test]
+fn every_exception_to_a_lint_says_why() {
+    let mut complaints = Vec::new();
+    for source in sources(&[".rs"]) {
+        let openings = ["#[allow(", "#![allow(", "#[expect(", "#![expect("];
+        for (at, _) in openings.iter().flat_map(|opening| source.text.match_indices(opening)) {
+            let attribute = source.text[at..].split_once(")]").map_or(&source.text[at..], |(attribute, _)| attribute);
+            let is_code = !source.text[..at].rsplit('\n').next().is_some_and(|before| before.contains("//") || before.contains('"'));
+            if is_code && !attribute.contains("reason =") {
+                complaints.push(format!("{}:{}: {attribute}", source.path, source.text[..at].lines().count() + 1));
+            }
+        }
+    }
+    none(&complaints, "lint exceptions without a reason");
+}
+
+#[test]
+fn gear_files_are_whole_text_files() {
+    let files: Vec<_> = sources(&[".toml"]).into_iter().filter(|file| file.path.starts_with("gear-library/")).collect();
+    let mut complaints = Vec::new();
+    for file in &files {
+        if let Err(error) = file.text.parse::<toml::Table>() {
+            complaints.push(format!("{}: {error}", file.path));
+        }
+        if !file.text.ends_with('\n') || file.text.ends_with("\n\n") {
+            complaints.push(format!("{}: ends with other than one newline", file.path));
+        }
+        if file.text.contains(['\r', '\t']) {
+            complaints.push(format!("{}: holds tabs or carriage returns", file.path));
+        }
+    }
+    none(&complaints, "gear files");
+}
+
+/// Lines of a Rust file that are not whole-line comments, with their numbers.
+fn code_lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    text.lines().enumerate().map(|(at, line)| (at + 1, line)).filter(|(_, line)| !line.trim_start().starts_with("//"))
+}
+
+/// Whether a line holds this word by itself, not inside a longer one.
+fn has_word(line: &str, word: &str) -> bool {
+    let is_inside = |letter: char| letter.is_alphanumeric() || letter == '_';
+    line.match_indices(word).any(|(at, _)| !line[..at].ends_with(is_inside) && !line[at + word.len()..].starts_with(is_inside))
+}
