@@ -18,9 +18,9 @@ const PLUGINS: [&str; 3] = ["endline-friction-models", "endline-gear-types", "en
 
 const WALLS: [Wall; 8] = [
     Wall { folder: "plugins/sdk", ours: &[], outside: Some(&[]) },
-    Wall { folder: "plugins/friction-models", ours: &["endline-sdk"], outside: Some(&[]) },
-    Wall { folder: "plugins/gear-types", ours: &["endline-sdk"], outside: Some(&[]) },
-    Wall { folder: "plugins/whale-motions", ours: &["endline-sdk"], outside: Some(&[]) },
+    Wall { folder: "plugins/friction-models", ours: &["endline-sdk"], outside: Some(&["libm"]) },
+    Wall { folder: "plugins/gear-types", ours: &["endline-sdk"], outside: Some(&["libm"]) },
+    Wall { folder: "plugins/whale-motions", ours: &["endline-sdk"], outside: Some(&["libm"]) },
     Wall { folder: "app/sim", ours: &["endline-sdk"], outside: Some(&["glam", "libm", "parry3d", "rapier3d"]) },
     Wall { folder: "gear-library", ours: &["endline-sdk", "endline-sim"], outside: Some(&["glam", "libm", "serde", "toml", "toml_edit"]) },
     Wall { folder: "app/session", ours: &["endline-sdk", "endline-sim", "endline-gear"], outside: None },
@@ -148,10 +148,16 @@ fn plugins_are_libraries_whose_entry_is_off_by_default() {
 }
 
 #[test]
-fn sim_repeats_the_lint_settings_of_the_house() {
+fn sim_and_plugins_repeat_the_lint_settings_of_the_house() {
     // Clippy reads the nearest clippy.toml only.
-    let sim = toml_file("app/sim/clippy.toml");
-    for (key, value) in &toml_file("clippy.toml") {
+    let (house, sim, plugins) = (toml_file("clippy.toml"), toml_file("app/sim/clippy.toml"), toml_file("plugins/clippy.toml"));
+    for (key, value) in &house {
         assert_eq!(sim.get(key), Some(value), "app/sim/clippy.toml must repeat {key}");
+        assert_eq!(plugins.get(key), Some(value), "plugins/clippy.toml must repeat {key}");
     }
+    let banned = |file: &toml::Table| {
+        let methods = file["disallowed-methods"].as_array().expect("a list").iter();
+        methods.map(|method| method["path"].as_str().expect("a path").to_owned()).collect::<BTreeSet<_>>()
+    };
+    assert_eq!(banned(&sim), banned(&plugins), "a plugin is part of the physics: it may call no more than sim does");
 }
