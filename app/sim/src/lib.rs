@@ -6,6 +6,7 @@
 
 pub mod contact;
 pub mod frame;
+pub mod metrics;
 pub mod model;
 pub mod parting;
 pub mod solver;

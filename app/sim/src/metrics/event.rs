@@ -1,0 +1,91 @@
+//! What happened in a run, in the order in which it was noticed.
+
+/// Something that happened.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Event {
+    /// When it was noticed: the end of the step [s].
+    pub time_s: f64,
+    /// What.
+    pub kind: EventKind,
+    /// Of what: a body part's name or the id of a line, link or body; `whale` for the animal.
+    pub subject: String,
+    /// A number that goes with it; its meaning and unit stand at the kind.
+    pub value: f64,
+}
+
+/// Kinds of events.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EventKind {
+    /// Rope touched a body part; value: sum of normal forces [N].
+    Contact,
+    /// No rope touched a body part for a second; value: when it last did [s].
+    ContactLost,
+    /// Wraps on a body part passed a level for the first time; value: the level [turns].
+    Wrap,
+    /// A weak link parted; value: its peak tension [N].
+    LinkParted,
+    /// A line parted; value: its peak tension [N].
+    LineParted,
+    /// A trap, anchor or weight was moved a metre from its place; value: how far [m].
+    Dragged,
+    /// A buoy went under; value: its height [m].
+    PulledUnder,
+    /// The whale touched the seabed; value: its lowest point's height above it [m].
+    AtSeabed,
+    /// The whale broke the surface; value: height of its highest point [m].
+    AtSurface,
+}
+
+impl EventKind {
+    /// Every kind.
+    pub const ALL: [Self; 9] = [
+        Self::Contact,
+        Self::ContactLost,
+        Self::Wrap,
+        Self::LinkParted,
+        Self::LineParted,
+        Self::Dragged,
+        Self::PulledUnder,
+        Self::AtSeabed,
+        Self::AtSurface,
+    ];
+
+    /// Its name in results, such as `link_parted`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Contact => "contact",
+            Self::ContactLost => "contact_lost",
+            Self::Wrap => "wrap",
+            Self::LinkParted => "link_parted",
+            Self::LineParted => "line_parted",
+            Self::Dragged => "dragged",
+            Self::PulledUnder => "pulled_under",
+            Self::AtSeabed => "at_seabed",
+            Self::AtSurface => "at_surface",
+        }
+    }
+
+    /// Unit of its value: `N`, `s`, `m` or `turns`.
+    #[must_use]
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Contact | Self::LinkParted | Self::LineParted => "N",
+            Self::ContactLost => "s",
+            Self::Wrap => "turns",
+            Self::Dragged | Self::PulledUnder | Self::AtSeabed | Self::AtSurface => "m",
+        }
+    }
+}
+
+/// The list of events of a run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Log {
+    pub(super) events: Vec<Event>,
+}
+
+impl Log {
+    pub(super) fn note(&mut self, time_s: f64, kind: EventKind, subject: &str, value: f64) {
+        self.events.push(Event { time_s, kind, subject: subject.to_owned(), value });
+    }
+}

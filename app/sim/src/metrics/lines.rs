@@ -1,0 +1,120 @@
+//! Tension of lines and weak links.
+
+use endline_sdk::LineEnd;
+use glam::DVec3;
+
+use super::event::{EventKind, Log};
+use super::summary::{LineSummary, LinkSummary};
+use crate::model::Model;
+use crate::state::State;
+
+/// Peaks of every line and weak link.
+#[derive(Clone, Debug)]
+pub(super) struct LineMeter {
+    lines: Vec<Peak>,
+    links: Vec<Peak>,
+}
+
+/// A peak, its time, and whether parting has been told.
+#[derive(Clone, Copy, Debug, Default)]
+struct Peak {
+    tension_n: f64,
+    at_s: f64,
+    told: bool,
+}
+
+impl Peak {
+    fn take(&mut self, tension_n: f64, time_s: f64) {
+        if tension_n > self.tension_n {
+            (self.tension_n, self.at_s) = (tension_n, time_s);
+        }
+    }
+}
+
+impl LineMeter {
+    pub(super) fn new(model: &Model) -> Self {
+        Self { lines: vec![Peak::default(); model.spec.lines.len()], links: vec![Peak::default(); model.spec.links.len()] }
+    }
+
+    pub(super) fn fold(&mut self, model: &Model, state: &State, log: &mut Log) {
+        for (line, peak) in self.lines.iter_mut().enumerate() {
+            let most = state.rope.tension[model.line_segments[line].clone()].iter().fold(0.0_f64, |most, tension| most.max(*tension));
+            peak.take(most, state.time_s);
+            if state.line_parted[line].is_some() && !peak.told {
+                peak.told = true;
+                log.note(state.time_s, EventKind::LineParted, &model.spec.lines[line].id, peak.tension_n);
+            }
+        }
+        for (index, (link, peak)) in model.spec.links.iter().zip(&mut self.links).enumerate() {
+            let borne = end_segment(model, link.line, link.end).map_or(0.0, |(segment, ..)| state.rope.tension[segment]);
+            peak.take(borne, state.time_s);
+            if state.link_parted_s[index].is_some() && !peak.told {
+                peak.told = true;
+                log.note(state.time_s, EventKind::LinkParted, &link.id, peak.tension_n);
+            }
+        }
+    }
+
+    pub(super) fn lines(&self, model: &Model, state: &State) -> Vec<LineSummary> {
+        let summary = |(index, peak): (usize, &Peak)| LineSummary {
+            id: model.spec.lines[index].id.clone(),
+            peak_tension_n: peak.tension_n,
+            peak_at_s: peak.at_s,
+            end_a_tension_n: end_tension(model, state, index, LineEnd::A),
+            end_b_tension_n: end_tension(model, state, index, LineEnd::B),
+            parted_at_s: state.line_parted[index].map(|(time, _)| time),
+        };
+        self.lines.iter().enumerate().map(summary).collect()
+    }
+
+    pub(super) fn links(&self, model: &Model, state: &State) -> Vec<LinkSummary> {
+        let summary = |(index, peak): (usize, &Peak)| LinkSummary {
+            id: model.spec.links[index].id.clone(),
+            rating_n: model.spec.links[index].rating_n,
+            peak_tension_n: peak.tension_n,
+            parted_at_s: state.link_parted_s[index],
+        };
+        self.links.iter().enumerate().map(summary).collect()
+    }
+}
+
+/// Tension that a line's end bears at its joint [N]; zero where it is slack, cut or empty.
+///
+/// The tension of a lumped segment is that at its middle. Along a hanging rope tension changes by
+/// wet weight times height, so the end bears `T + w (l/2) e`, with `w` the weight in water [N/m],
+/// `l` the end segment's length and `e` the upward part of the unit vector from the segment to the end.
+#[must_use]
+pub fn end_tension(model: &Model, state: &State, line: usize, end: LineEnd) -> f64 {
+    let middle = end_segment_tension(model, state, line, end);
+    let Some((segment, tip, inner)) = end_segment(model, line, end) else { return 0.0 };
+    if middle <= 0.0 {
+        return 0.0;
+    }
+    let (tip, inner) = (state.rope.position[tip], state.rope.position[inner]);
+    let Some(outward) = (tip - inner).try_normalize() else { return middle };
+    let length = model.spec.lines[line].segments_m[segment - model.line_segments[line].start];
+    (middle + wet_weight(model, line, tip.midpoint(inner)) * 0.5 * length * outward.z).max(0.0)
+}
+
+/// Weight less buoyancy of a line's rope at a place [N/m].
+fn wet_weight(model: &Model, line: usize, place: DVec3) -> f64 {
+    let (rope, water) = (&model.spec.ropes[model.spec.lines[line].rope], &model.spec.water);
+    let displaced_kg_m = if place.z < 0.0 { rope.displaced_m3_m * water.density_kg_m3 } else { 0.0 };
+    (rope.mass_kg_m - displaced_kg_m) * water.gravity_m_s2
+}
+
+/// Tension of the segment at an end, never below zero [N].
+fn end_segment_tension(model: &Model, state: &State, line: usize, end: LineEnd) -> f64 {
+    end_segment(model, line, end)
+        .map_or(0.0, |(segment, ..)| if state.rope.cut[segment] { 0.0 } else { state.rope.tension[segment].max(0.0) })
+}
+
+/// The segment at an end, its node at the joint and its other node.
+fn end_segment(model: &Model, line: usize, end: LineEnd) -> Option<(usize, usize, usize)> {
+    let (segments, nodes) = (&model.line_segments[line], &model.line_nodes[line]);
+    match end {
+        _ if segments.is_empty() => None,
+        LineEnd::A => Some((segments.start, nodes.start, nodes.start + 1)),
+        LineEnd::B => Some((segments.end - 1, nodes.end - 1, nodes.end - 2)),
+    }
+}

@@ -1,0 +1,95 @@
+//! Measures of a run: tensions, bodies, probes, and what the rope did to the whale.
+//!
+//! A [`Metrics`] is folded over a run, once after every step, and reads nothing but the model, the
+//! state and the contacts: live and in replay it gives the same numbers. Fold the start state
+//! first to have it in means and peaks. Definitions and thresholds: `docs/entanglement.md`.
+
+mod axes;
+mod bodies;
+mod drag;
+mod event;
+mod extent;
+mod lines;
+mod outcome;
+mod probes;
+mod regions;
+mod strands;
+mod summary;
+mod trailing;
+mod whale;
+mod winding;
+
+#[cfg(test)]
+mod tests;
+
+pub use bodies::DRAGGED_M;
+pub use drag::DRAG_WINDOW_S;
+pub use event::{Event, EventKind};
+pub use lines::end_tension;
+pub use outcome::{LONG_CONTACT_S, LOST_S, RELEASE_S};
+pub use probes::reading;
+pub use summary::{BodySummary, LineSummary, LinkSummary, Outcome, ProbeSummary, RegionSummary, Summary, WhaleSummary};
+pub use winding::{BRIDGED_GAP_M, WINDING_JUMP};
+
+use crate::contact::ContactPoint;
+use crate::model::Model;
+use crate::state::State;
+
+/// The measures of a run, folded step by step.
+#[derive(Clone, Debug)]
+pub struct Metrics {
+    time_s: f64,
+    lines: lines::LineMeter,
+    bodies: bodies::BodyMeter,
+    probes: probes::ProbeMeter,
+    whale: Option<whale::WhaleMeter>,
+    log: event::Log,
+}
+
+impl Metrics {
+    /// Measures of a run that has not begun.
+    #[must_use]
+    pub fn new(model: &Model) -> Self {
+        Self {
+            time_s: 0.0,
+            lines: lines::LineMeter::new(model),
+            bodies: bodies::BodyMeter::new(model),
+            probes: probes::ProbeMeter::new(model),
+            whale: whale::WhaleMeter::new(model),
+            log: event::Log::default(),
+        }
+    }
+
+    /// Takes in the state at the end of a step with the contacts of that step.
+    ///
+    /// `state` has the model's layout; the time since the fold before (since 0 at the first) is
+    /// what the step weighs in means and works.
+    pub fn fold(&mut self, model: &Model, state: &State, contacts: &[ContactPoint]) {
+        let dt_s = (state.time_s - self.time_s).max(0.0);
+        self.time_s = state.time_s;
+        self.lines.fold(model, state, &mut self.log);
+        self.bodies.fold(model, state, &mut self.log);
+        self.probes.fold(model, state, dt_s);
+        if let (Some(meter), Some(whale)) = (&mut self.whale, &state.whale) {
+            meter.fold(model, state, whale, contacts, dt_s, &mut self.log);
+        }
+    }
+
+    /// The measures so far; `state` is that of the last fold.
+    #[must_use]
+    pub fn summary(&self, model: &Model, state: &State) -> Summary {
+        Summary {
+            lines: self.lines.lines(model, state),
+            links: self.lines.links(model, state),
+            bodies: self.bodies.summary(model, state),
+            probes: self.probes.summary(model),
+            whale: self.whale.as_ref().map(|whale| whale.summary(model, state)),
+        }
+    }
+
+    /// What happened so far, in the order of time.
+    #[must_use]
+    pub fn events(&self) -> &[Event] {
+        &self.log.events
+    }
+}

@@ -1,0 +1,108 @@
+//! Probes: last, least, greatest and mean reading.
+
+use super::lines::end_tension;
+use super::summary::ProbeSummary;
+use crate::model::{JointKind, Model, ProbeTarget};
+use crate::state::State;
+
+/// What every probe has read.
+#[derive(Clone, Debug)]
+pub(super) struct ProbeMeter {
+    tracks: Vec<Track>,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Track {
+    last: Option<f64>,
+    min: f64,
+    max: f64,
+    /// Reading times time, by the trapezium rule.
+    sum: f64,
+    time_s: f64,
+}
+
+impl ProbeMeter {
+    pub(super) fn new(model: &Model) -> Self {
+        Self { tracks: vec![Track::default(); model.spec.probes.len()] }
+    }
+
+    /// Takes one reading of each; `dt_s` is the time since the reading before.
+    pub(super) fn fold(&mut self, model: &Model, state: &State, dt_s: f64) {
+        for (track, probe) in self.tracks.iter_mut().zip(&model.spec.probes) {
+            track.take(reading(model, state, probe.target), dt_s);
+        }
+    }
+
+    pub(super) fn summary(&self, model: &Model) -> Vec<ProbeSummary> {
+        let summary = |(track, probe): (&Track, &crate::model::Probe)| ProbeSummary {
+            id: probe.id.clone(),
+            unit: unit(probe.target),
+            last: track.last.unwrap_or(0.0),
+            min: track.min,
+            max: track.max,
+            mean: if track.time_s > 0.0 { track.sum / track.time_s } else { track.last.unwrap_or(0.0) },
+        };
+        self.tracks.iter().zip(&model.spec.probes).map(summary).collect()
+    }
+}
+
+impl Track {
+    fn take(&mut self, reading: f64, dt_s: f64) {
+        (self.min, self.max) = match self.last {
+            None => (reading, reading),
+            Some(_) => (self.min.min(reading), self.max.max(reading)),
+        };
+        self.sum += 0.5 * (self.last.unwrap_or(reading) + reading) * dt_s;
+        self.time_s += dt_s;
+        self.last = Some(reading);
+    }
+}
+
+/// Unit of a probe's readings: `N` or `m`.
+fn unit(target: ProbeTarget) -> &'static str {
+    match target {
+        ProbeTarget::EndTension(..) => "N",
+        ProbeTarget::LineMiddle(..) | ProbeTarget::Joint(..) | ProbeTarget::Body(..) => "m",
+    }
+}
+
+/// What a probe reads in a state; zero where its target does not exist.
+#[must_use]
+pub fn reading(model: &Model, state: &State, target: ProbeTarget) -> f64 {
+    let coordinate = |place: Option<glam::DVec3>, axis: usize| place.and_then(|place| place.to_array().get(axis).copied()).unwrap_or(0.0);
+    match target {
+        ProbeTarget::EndTension(line, end) => end_tension(model, state, line, end),
+        ProbeTarget::LineMiddle(line, axis) => coordinate(middle_node(model, line).map(|node| state.rope.position[node]), axis),
+        ProbeTarget::Joint(joint, axis) => coordinate(joint_place(model, state, joint), axis),
+        ProbeTarget::Body(body, axis) => coordinate(state.bodies.get(body).map(|body| body.position), axis),
+    }
+}
+
+/// The node nearest to the middle of a line by unstretched length; the one nearer to end A where two are.
+fn middle_node(model: &Model, line: usize) -> Option<usize> {
+    let segments = &model.spec.lines.get(line)?.segments_m;
+    let half = 0.5 * segments.iter().sum::<f64>();
+    let (mut along, mut nearest, mut off) = (0.0, 0, half);
+    for (index, segment) in segments.iter().enumerate() {
+        along += segment;
+        if libm::fabs(along - half) < off {
+            (nearest, off) = (index + 1, libm::fabs(along - half));
+        }
+    }
+    Some(model.line_nodes[line].start + nearest)
+}
+
+/// Place of a joint [m]: of the line end that meets there, or on its body.
+fn joint_place(model: &Model, state: &State, joint: usize) -> Option<glam::DVec3> {
+    let kind = &model.spec.joints.get(joint)?.kind;
+    if let JointKind::Body { body, offset_m } = kind {
+        let body = state.bodies.get(*body)?;
+        return Some(body.position + body.orientation * *offset_m);
+    }
+    let node = model.spec.lines.iter().zip(&model.line_nodes).find_map(|(line, nodes)| match joint {
+        _ if line.from == joint => Some(nodes.start),
+        _ if line.to == joint => Some(nodes.end - 1),
+        _ => None,
+    });
+    node.map(|node| state.rope.position[node])
+}

@@ -1,0 +1,128 @@
+//! Strands: lines joined end to end at plain splices, so that a wrap across a splice counts whole.
+
+use endline_sdk::LineEnd;
+
+use crate::model::{JointKind, Model};
+
+/// Where every segment lies in its strand.
+#[derive(Clone, Debug)]
+pub(super) struct Strands {
+    /// By segment of the model's layout.
+    pub(super) places: Vec<Place>,
+    /// Segments of each strand, from its start.
+    segments: Vec<Vec<usize>>,
+}
+
+/// A segment's place in its strand.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Place {
+    /// Index of the strand.
+    pub(super) strand: usize,
+    /// How many segments of the strand come before.
+    pub(super) order: usize,
+    /// Unstretched rope before the segment [m].
+    pub(super) arc_m: f64,
+    /// Its unstretched length [m].
+    pub(super) length_m: f64,
+    /// Whether its line runs against the strand.
+    pub(super) reversed: bool,
+}
+
+impl Place {
+    /// Unstretched rope from the strand's start to a fraction of the segment [m].
+    pub(super) fn arc_at(&self, fraction: f64) -> f64 {
+        self.arc_m + self.length_m * if self.reversed { 1.0 - fraction } else { fraction }
+    }
+}
+
+impl Strands {
+    pub(super) fn new(model: &Model) -> Self {
+        let mut strands = Self { places: vec![Place::default(); model.segment_count], segments: Vec::new() };
+        let mut laid = vec![false; model.spec.lines.len()];
+        for line in 0..model.spec.lines.len() {
+            if !laid[line] {
+                let (first, end) = strand_start(model, line);
+                strands.lay(model, first, end, &mut laid);
+            }
+        }
+        strands
+    }
+
+    /// Whether the rope between two segments of a strand is whole, both included.
+    pub(super) fn whole(&self, from: &Place, to: &Place, cut: &[bool]) -> bool {
+        let (low, high) = (from.order.min(to.order), from.order.max(to.order));
+        self.segments[from.strand][low..=high].iter().all(|segment| !cut[*segment])
+    }
+
+    /// Lays lines from end `entered` of `line` on, splice by splice.
+    fn lay(&mut self, model: &Model, mut line: usize, mut entered: LineEnd, laid: &mut [bool]) {
+        let (strand, mut arc_m, mut order) = (self.segments.len(), 0.0, Vec::new());
+        loop {
+            laid[line] = true;
+            let reversed = entered == LineEnd::B;
+            let segments = model.line_segments[line].clone();
+            let start = segments.start;
+            let mut lay_one = |segment: usize| {
+                let length_m = model.spec.lines[line].segments_m[segment - start];
+                self.places[segment] = Place { strand, order: order.len(), arc_m, length_m, reversed };
+                order.push(segment);
+                arc_m += length_m;
+            };
+            if reversed {
+                segments.rev().for_each(&mut lay_one)
+            } else {
+                segments.for_each(&mut lay_one)
+            }
+            match spliced_to(model, line, other(entered)) {
+                Some((next, end)) if !laid[next] => (line, entered) = (next, end),
+                _ => break,
+            }
+        }
+        self.segments.push(order);
+    }
+}
+
+/// The line and its end at which the strand through `line` starts; `line` itself in a ring.
+fn strand_start(model: &Model, line: usize) -> (usize, LineEnd) {
+    let (mut at, mut end) = (line, LineEnd::A);
+    while let Some((before, joined)) = spliced_to(model, at, end) {
+        if before == line {
+            return (line, LineEnd::A);
+        }
+        (at, end) = (before, other(joined));
+    }
+    (at, end)
+}
+
+/// The one other line end at the free joint where `end` of `line` is, if there is just one.
+fn spliced_to(model: &Model, line: usize, end: LineEnd) -> Option<(usize, LineEnd)> {
+    let joint = joint_at(model, line, end);
+    if model.spec.joints.get(joint).is_none_or(|joint| joint.kind != JointKind::Free) {
+        return None;
+    }
+    let mut others = ends_at(model, joint).filter(|found| *found != (line, end));
+    let found = others.next();
+    if others.next().is_some() { None } else { found }
+}
+
+/// Every line end at a joint.
+pub(super) fn ends_at(model: &Model, joint: usize) -> impl Iterator<Item = (usize, LineEnd)> {
+    let ends = (0..model.spec.lines.len()).flat_map(|line| [(line, LineEnd::A), (line, LineEnd::B)]);
+    ends.filter(move |(line, end)| joint_at(model, *line, *end) == joint)
+}
+
+/// The joint at an end of a line.
+pub(super) fn joint_at(model: &Model, line: usize, end: LineEnd) -> usize {
+    match end {
+        LineEnd::A => model.spec.lines[line].from,
+        LineEnd::B => model.spec.lines[line].to,
+    }
+}
+
+/// The other end.
+pub(super) fn other(end: LineEnd) -> LineEnd {
+    match end {
+        LineEnd::A => LineEnd::B,
+        LineEnd::B => LineEnd::A,
+    }
+}

@@ -1,0 +1,160 @@
+//! What a run came to: plain numbers, in the order of the model.
+//!
+//! Fields whose key in the run summary carries a unit carry it here in lower case:
+//! `peak_tension_n` is the key `peak_tension_N`. Definitions: `docs/entanglement.md`.
+
+use endline_sdk::BodyPart;
+use glam::DVec3;
+
+/// The measures of a run so far.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Summary {
+    /// One for each line.
+    pub lines: Vec<LineSummary>,
+    /// One for each weak link.
+    pub links: Vec<LinkSummary>,
+    /// One for each body.
+    pub bodies: Vec<BodySummary>,
+    /// One for each probe.
+    pub probes: Vec<ProbeSummary>,
+    /// The whale, where the model has one.
+    pub whale: Option<WhaleSummary>,
+}
+
+/// Tension of a line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LineSummary {
+    /// Id of the line.
+    pub id: String,
+    /// Greatest tension of any segment at any time [N].
+    pub peak_tension_n: f64,
+    /// When that was [s].
+    pub peak_at_s: f64,
+    /// Tension at end A now [N].
+    pub end_a_tension_n: f64,
+    /// Tension at end B now [N].
+    pub end_b_tension_n: f64,
+    /// When it parted [s].
+    pub parted_at_s: Option<f64>,
+}
+
+/// What a weak link bore.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinkSummary {
+    /// Id of the link.
+    pub id: String,
+    /// Tension above which it parts [N].
+    pub rating_n: f64,
+    /// Greatest tension of the segment it sits in [N].
+    pub peak_tension_n: f64,
+    /// When it parted [s].
+    pub parted_at_s: Option<f64>,
+}
+
+/// Where a body is and how fast it went.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BodySummary {
+    /// Id of the body.
+    pub id: String,
+    /// Place of its origin now [m].
+    pub position_m: DVec3,
+    /// Greatest speed over ground [m/s].
+    pub peak_speed_m_s: f64,
+}
+
+/// What a probe read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ProbeSummary {
+    /// Id of the probe.
+    pub id: String,
+    /// Unit of the numbers: `N` or `m`.
+    pub unit: &'static str,
+    /// Reading now.
+    pub last: f64,
+    /// Least reading.
+    pub min: f64,
+    /// Greatest reading.
+    pub max: f64,
+    /// Mean over time.
+    pub mean: f64,
+}
+
+/// How the whale came out of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WhaleSummary {
+    /// How it ended.
+    pub outcome: Outcome,
+    /// Whether the run was long enough for that outcome to stand.
+    pub decided: bool,
+    /// When rope first touched [s].
+    pub first_contact_s: Option<f64>,
+    /// When rope last touched [s].
+    pub last_contact_s: Option<f64>,
+    /// Time with any rope touching, in all [s].
+    pub contact_time_s: f64,
+    /// One for each [`BodyPart`], in the order of its number.
+    pub regions: Vec<RegionSummary>,
+    /// Drag of rope and gear that the whale carries, mean of the last 5 s [N].
+    pub drag_added_n: f64,
+    /// The same now [N].
+    pub drag_added_now_n: f64,
+    /// Rope from the whale to loose ends [m].
+    pub trailing_m: f64,
+    /// Rope from the whale to traps, anchors and fixtures [m].
+    pub tethered_m: f64,
+    /// Alarm: steps in which a winding jumped by more than 0.3 turns along unbroken contact.
+    pub winding_jumps: u64,
+}
+
+/// Rope on one part of the whale.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RegionSummary {
+    /// The part.
+    pub part: BodyPart,
+    /// Wraps now [turns].
+    pub wraps: f64,
+    /// Most wraps at any time [turns].
+    pub peak_wraps: f64,
+    /// Rope in contact now [m].
+    pub contact_length_m: f64,
+    /// Most rope in contact at any time [m].
+    pub peak_contact_length_m: f64,
+    /// Greatest sum of normal forces at any time [N].
+    pub peak_normal_n: f64,
+    /// Greatest pressure under the rope at any time [Pa].
+    pub peak_pressure_pa: f64,
+    /// Work of friction [J].
+    pub friction_work_j: f64,
+}
+
+/// How an encounter ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// Rope never touched the whale.
+    NoContact,
+    /// Rope touched and let go.
+    Shed,
+    /// Rope still holds.
+    Entangled,
+    /// A link or line parted and the whale came free.
+    PartedFree,
+    /// A link or line parted and rope still holds.
+    PartedEntangled,
+}
+
+impl Outcome {
+    /// Every outcome.
+    pub const ALL: [Self; 5] = [Self::NoContact, Self::Shed, Self::Entangled, Self::PartedFree, Self::PartedEntangled];
+
+    /// Its name in results, such as `parted_free`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::NoContact => "no_contact",
+            Self::Shed => "shed",
+            Self::Entangled => "entangled",
+            Self::PartedFree => "parted_free",
+            Self::PartedEntangled => "parted_entangled",
+        }
+    }
+}

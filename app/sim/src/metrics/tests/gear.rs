@@ -1,0 +1,96 @@
+//! Lines, links, bodies and probes against what can be worked out by hand.
+
+use super::*;
+use crate::metrics::{EventKind, end_tension};
+
+/// A vertical line hanging from its top: tension rises by the weight in water of what hangs below.
+#[test]
+fn end_tension_of_a_hanging_line_is_its_whole_weight() {
+    for segments in [1, 2, 7] {
+        let model = model(spec(vec![20.0 / f64::from(segments); segments as usize]));
+        let mut state = State::start(&model);
+        let wet = (0.1 - 5e-5 * 1025.0) * 9.81;
+        for k in 0..segments {
+            state.rope.tension[k as usize] = 5.0 + wet * 20.0 * (f64::from(k) + 0.5) / f64::from(segments);
+        }
+        assert!((end_tension(&model, &state, 0, LineEnd::A) - 5.0).abs() < 1e-9);
+        assert!((end_tension(&model, &state, 0, LineEnd::B) - (5.0 + wet * 20.0)).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn a_slack_or_cut_end_bears_nothing() {
+    let model = model(spec(vec![1.0; 4]));
+    let mut state = State::start(&model);
+    state.rope.tension = vec![-3.0, 5.0, 5.0, 5.0];
+    state.rope.cut[3] = true;
+    for end in [LineEnd::A, LineEnd::B] {
+        assert!(end_tension(&model, &state, 0, end).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn peaks_keep_their_time_and_parting_is_told_once() {
+    let mut spec = spec(vec![1.0; 4]);
+    spec.links = vec![Link { id: "weak".into(), line: 0, end: LineEnd::B, rating_n: 90.0, enabled: true }];
+    let model = model(spec);
+    let (mut metrics, mut state) = (Metrics::new(&model), State::start(&model));
+    for step in 1..=100_u32 {
+        let wave = libm::sin(f64::from(step) * 0.05) * 100.0;
+        state.rope.tension = vec![0.5 * wave, wave, 0.2 * wave, 0.9 * wave];
+        if step >= 60 {
+            (state.link_parted_s[0], state.rope.cut[3]) = (Some(0.595), true);
+        }
+        advance(&mut metrics, &model, &mut state, &[]);
+    }
+    let summary = metrics.summary(&model, &state);
+    assert!((summary.lines[0].peak_tension_n - libm::sin(1.55) * 100.0).abs() < 1e-9);
+    assert!((summary.lines[0].peak_at_s - 0.31).abs() < 1e-12);
+    assert!((summary.links[0].peak_tension_n - libm::sin(1.55) * 90.0).abs() < 1e-9);
+    assert_eq!(summary.links[0].parted_at_s, Some(0.595));
+    let told: Vec<_> = metrics.events().iter().map(|event| (event.kind, event.subject.as_str(), event.time_s)).collect();
+    assert_eq!(told, [(EventKind::LinkParted, "weak", 0.6)]);
+}
+
+/// A reading of 3 + 2 t has mean 3 + T over T seconds, also with uneven steps.
+#[test]
+fn probe_means_weigh_by_time() {
+    let mut spec = spec(vec![1.0; 4]);
+    spec.probes =
+        vec![Probe { id: "z".into(), target: ProbeTarget::LineMiddle(0, 2) }, Probe { id: "end".into(), target: ProbeTarget::Joint(1, 0) }];
+    let model = model(spec);
+    let (mut metrics, mut state) = (Metrics::new(&model), State::start(&model));
+    for time in [0.0, 0.1, 0.15, 0.9, 1.0, 4.0] {
+        state.time_s = time;
+        state.rope.position[2].z = 3.0 + 2.0 * time;
+        state.rope.position[4].x = -time;
+        metrics.fold(&model, &state, &[]);
+    }
+    let probes = metrics.summary(&model, &state).probes;
+    assert!((probes[0].mean - 7.0).abs() < 1e-12, "{:?}", probes[0]);
+    assert_eq!((probes[0].last, probes[0].min, probes[0].max, probes[0].unit), (11.0, 3.0, 11.0, "m"));
+    assert!((probes[1].mean + 2.0).abs() < 1e-12 && probes[1].max.abs() < 1e-12, "{:?}", probes[1]);
+}
+
+#[test]
+fn a_dragged_trap_and_a_sunk_buoy_are_told() {
+    let mut spec = spec(vec![1.0; 4]);
+    spec.bodies = vec![body("trap", BodyRole::Trap, DVec3::new(0.0, 0.0, -50.0)), body("buoy", BodyRole::Buoy, DVec3::ZERO)];
+    let model = model(spec);
+    let (mut metrics, mut state) = (Metrics::new(&model), State::start(&model));
+    for step in 1..=300_u32 {
+        let time = f64::from(step) * STEP_S;
+        state.bodies[0].position.x = 0.5 * time;
+        state.bodies[0].velocity.x = 0.5;
+        state.bodies[1].position.z = -0.4 * libm::sin(std::f64::consts::PI * time);
+        advance(&mut metrics, &model, &mut state, &[]);
+    }
+    let told: Vec<_> = metrics.events().iter().map(|event| (event.kind, event.subject.as_str())).collect();
+    let under = (EventKind::PulledUnder, "buoy");
+    assert_eq!(told, [under, (EventKind::Dragged, "trap"), under]);
+    let (sunk, dragged) = (&metrics.events()[0], &metrics.events()[1]);
+    assert!((sunk.time_s - 0.17).abs() < 1e-9, "half its height is under at asin(1/2)/pi = 0.1667 s: {sunk:?}");
+    assert!((dragged.time_s - 2.015).abs() < 0.006 && dragged.value > 1.0, "{dragged:?}");
+    let bodies = metrics.summary(&model, &state).bodies;
+    assert!((bodies[0].peak_speed_m_s - 0.5).abs() < 1e-12 && (bodies[0].position_m.x - 1.5).abs() < 1e-12);
+}
