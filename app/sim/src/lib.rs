@@ -4,6 +4,8 @@
 //! Nothing here reads a file, a clock or a thread, logs, or keeps a global.
 //! SI units, f64, radians; z up, z = 0 the mean sea surface, x east, y north.
 
+#![warn(clippy::print_stdout, clippy::print_stderr)] // results leave as values
+
 pub mod contact;
 pub mod frame;
 pub mod metrics;

@@ -1,5 +1,6 @@
 //! Models shared by the tests of the solver: the common rope of the reference problems.
 #![allow(dead_code, reason = "each test file uses a part of it")]
+#![allow(clippy::expect_used, reason = "a test fails by panicking, in its helpers too")]
 
 use endline_sim::model::{Body, BodyRole, Joint, JointKind, Line, Rope, Settings, Shape};
 use endline_sim::water::{Current, Water};

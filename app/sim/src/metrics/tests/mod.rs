@@ -123,6 +123,7 @@ fn spec(lengths: Vec<f64>) -> ModelSpec {
             density_kg_m3: 1025.0,
             gravity_m_s2: 9.81,
             depth_m: 50.0,
+            rope_dries: true,
             current: Current { surface_m_s: DVec3::ZERO, exponent: 0.0 },
         },
         seabed: Some(Seabed { depth_m: 50.0, normal: DVec3::Z, rope_stiffness_n_m2: 1e4, foot_stiffness_n_m: 1e5, rope_friction: 0.5 }),

@@ -59,7 +59,7 @@ fn wraps_agree_with_the_gauss_integral() {
     for pair in rope.windows(2) {
         for step in -25_000..25_000 {
             let apart = pair[0].midpoint(pair[1]) - DVec3::X * (f64::from(step) + 0.5) * 0.002;
-            gauss += apart.dot((pair[1] - pair[0]).cross(DVec3::X * 0.002)) / apart.length().powi(3) / (2.0 * TAU);
+            gauss += apart.dot((pair[1] - pair[0]).cross(DVec3::X * 0.002)) / (apart.length() * apart.length_squared()) / (2.0 * TAU);
         }
     }
     let whole = gauss.abs() * count as f64 / (count as f64 - 1.0);
