@@ -6,7 +6,7 @@ use crate::workspace::{Profile, Workspace};
 use crate::{Outcome, packages, plugins};
 
 /// The encounter that a machine without a display shows.
-pub const ENCOUNTER: &str = "gear-library/scenarios/hello-endline.toml";
+const ENCOUNTER: &str = "gear-library/scenarios/hello-endline.toml";
 
 /// Builds everything in release, then opens the workbench, or without a display shows the bundled encounter.
 ///
@@ -36,14 +36,24 @@ fn make_ready(workspace: &Workspace) -> Outcome {
     plugins::build(workspace, Profile::Release)
 }
 
-/// Runs the bundled encounter, which prints its summary, and draws it.
+/// Runs the bundled encounter, which prints its summary and draws it at its peak.
 ///
 /// # Errors
-/// When the program fails.
+/// When the program fails, or draws nothing.
 pub fn show_encounter(workspace: &Workspace, profile: Profile) -> Outcome {
     let folder = workspace.target.join("hello");
+    let picture = folder.join("picture.png");
+    if picture.exists() {
+        // So that an old one is not taken for a new one.
+        std::fs::remove_file(&picture).map_err(|error| format!("cannot remove {}: {error}", picture.display()))?;
+    }
     let folder = folder.to_str().ok_or("the target folder's name is not plain text")?;
-    succeeded(workspace.call_program(profile, &["run", ENCOUNTER, "--out", folder])?)
+    succeeded(workspace.call_program(profile, &["run", ENCOUNTER, "--out", folder])?)?;
+    if !picture.is_file() {
+        return Err(format!("the encounter ran, but {} was not drawn; see above", picture.display()));
+    }
+    eprintln!("summary, recording and picture are in {folder}");
+    Ok(())
 }
 
 fn succeeded(status: ExitStatus) -> Outcome {

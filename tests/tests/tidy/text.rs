@@ -95,22 +95,6 @@ fn nothing_is_left_for_later() {
 }
 
 #[test]
-fn every_exception_to_a_lint_says_why() {
-    let mut complaints = Vec::new();
-    for source in sources(&[".rs"]) {
-        let openings = ["#[allow(", "#![allow(", "#[expect(", "#![expect("];
-        for (at, _) in openings.iter().flat_map(|opening| source.text.match_indices(opening)) {
-            let attribute = source.text[at..].split_once(")]").map_or(&source.text[at..], |(attribute, _)| attribute);
-            let is_code = !source.text[..at].rsplit('\n').next().is_some_and(|before| before.contains("//") || before.contains('"'));
-            if is_code && !attribute.contains("reason =") {
-                complaints.push(format!("{}:{}: {attribute}", source.path, source.text[..at].lines().count() + 1));
-            }
-        }
-    }
-    none(&complaints, "lint exceptions without a reason");
-}
-
-#[test]
 fn gear_files_are_whole_text_files() {
     let files: Vec<_> = sources(&[".toml"]).into_iter().filter(|file| file.path.starts_with("gear-library/")).collect();
     let mut complaints = Vec::new();
