@@ -43,3 +43,26 @@ fn place(from: &Path, to: &Path) -> Outcome {
     let beside = to.with_extension("new");
     fs::write(&beside, bytes).and_then(|()| fs::rename(&beside, to)).map_err(|error| format!("cannot write {}: {error}", to.display()))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_library_is_placed_whole_and_only_with_its_entry() {
+        let folder = std::env::temp_dir().join(format!("endline-xtask-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let (built, placed) = (folder.join("built.so"), folder.join("placed.so"));
+        fs::write(&placed, "the old one").unwrap();
+
+        fs::write(&built, "a library without").unwrap();
+        assert!(place(&built, &placed).unwrap_err().contains("does not export endline_plugin_entry"));
+        assert_eq!(fs::read(&placed).unwrap(), b"the old one");
+
+        fs::write(&built, "a library with endline_plugin_entry in it").unwrap();
+        place(&built, &placed).unwrap();
+        assert_eq!(fs::read(&placed).unwrap(), fs::read(&built).unwrap());
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 2, "nothing is left beside it");
+        fs::remove_dir_all(&folder).unwrap();
+    }
+}
