@@ -1,37 +1,34 @@
 //! What a frame looks like, as plain data, and drawing it with or without a display.
+//!
+//! One path: [`Scene::of`] makes plain triangles from a model and a frame; [`Drawer`] draws them by
+//! OpenGL, in the workbench's window, in [`render_png`] and in tests alike.
 
-use std::path::Path;
+pub mod bodies;
+pub mod bounds;
+pub mod build;
+pub mod camera;
+pub mod colour;
+pub mod draw;
+pub mod mesh;
+pub mod offscreen;
+pub mod overlay;
+pub mod picture;
+pub mod rope;
+pub mod sea;
+pub mod ticks;
+pub mod whale;
 
-use endline_sim::{Frame, Model};
-
-/// A picture wanted from a frame.
-pub struct RenderRequest<'a> {
-    /// The gear, sea and whale.
-    pub model: &'a Model,
-    /// The moment shown.
-    pub frame: &'a Frame,
-    /// Width and height [px].
-    pub size: [u32; 2],
-    /// One of [`VIEW_NAMES`].
-    pub view: &'a str,
-    /// Tension at the top of the colour scale [N]; the frame's own peak where `None`.
-    pub scale_n: Option<f64>,
-    /// Line of text at the top left, such as the scenario's name.
-    pub caption: &'a str,
-    /// PNG file to write.
-    pub out: &'a Path,
-}
+pub use bounds::Bounds;
+pub use build::{Look, Part, Scene, Show};
+pub use camera::{Camera, View};
+pub use draw::{Drawer, Water};
+pub use overlay::{N_PER_LBF, Overlay};
+pub use picture::{RenderRequest, render, render_png};
 
 /// Names a picture's view may have.
 pub const VIEW_NAMES: [&str; 5] = ["orbit", "side", "top", "front", "whale"];
 
-/// Writes a PNG of a frame; needs no display.
-///
-/// # Errors
-/// With the reason: an unknown view, no OpenGL to draw with, a file that cannot be written.
-pub fn render_png(request: &RenderRequest<'_>) -> Result<(), String> {
-    if !VIEW_NAMES.contains(&request.view) {
-        return Err(format!("there is no view `{}`; expected one of {}", request.view, VIEW_NAMES.join(", ")));
-    }
-    Err("pictures are not part of this build yet".into())
-}
+#[cfg(test)]
+pub(crate) mod sample;
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,54 @@
+//! Traps, buoys, anchors and weights.
+
+use endline_sim::model::{Body, BodyRole, Shape};
+use endline_sim::{DAffine3, Frame, Model};
+use glam::{DVec3, Vec3};
+
+use super::colour::{BUOY, BUOY_BAND, STEEL, TRAP, TRAP_WIRE};
+use super::mesh::{Colour, Mesh};
+
+/// Size of a trap's wire mesh as drawn [m].
+const WIRE_M: f32 = 0.15;
+
+/// Every body at its place in the frame.
+pub fn bodies(model: &Model, frame: &Frame) -> Mesh {
+    let mut mesh = Mesh::default();
+    for (body, (place, turn)) in model.spec.bodies.iter().zip(&frame.bodies) {
+        draw(&mut mesh, body, &DAffine3::from_rotation_translation(*turn, *place));
+    }
+    mesh
+}
+
+fn draw(mesh: &mut Mesh, body: &Body, pose: &DAffine3) {
+    match (&body.shape, body.role) {
+        (Shape::Box(half), BodyRole::Trap) => trap(mesh, pose, half.as_vec3()),
+        (Shape::Box(half), role) => mesh.block(pose, half.as_vec3(), colour(role)),
+        (Shape::Sphere(radius), role) => mesh.capsule(pose, *radius as f32, *radius as f32, banded(role), 16),
+        (Shape::Capsule { radius_m, half_length_m }, role) => {
+            mesh.capsule(pose, *radius_m as f32, *half_length_m as f32, banded(role), 16);
+        }
+    }
+}
+
+/// A wire cage with the solid runners it stands on.
+fn trap(mesh: &mut Mesh, pose: &DAffine3, half: Vec3) {
+    mesh.cage(pose, half, WIRE_M, [TRAP, TRAP_WIRE]);
+    for side in [-1.0, 1.0] {
+        let runner = DVec3::new(0.0, f64::from(side * half.y * 0.85), -f64::from(half.z) + 0.02);
+        let at = *pose * DAffine3::from_translation(runner);
+        mesh.block(&at, Vec3::new(half.x, 0.03, 0.02), TRAP_WIRE);
+    }
+}
+
+fn colour(role: BodyRole) -> Colour {
+    match role {
+        BodyRole::Trap => TRAP,
+        BodyRole::Buoy => BUOY,
+        BodyRole::Anchor | BodyRole::Weight => STEEL,
+    }
+}
+
+/// A buoy carries a pale band round its middle; other round bodies have one colour.
+fn banded(role: BodyRole) -> impl Fn(f32) -> Colour {
+    move |height| if role == BodyRole::Buoy && height.abs() < 0.2 { BUOY_BAND } else { colour(role) }
+}

@@ -1,0 +1,132 @@
+//! From a model and a frame to the parts of a scene.
+
+use endline_sim::whale::Whale;
+use endline_sim::{DAffine3, Frame, Model};
+use glam::{DVec3, Vec3};
+
+use super::bounds::Bounds;
+use super::mesh::Mesh;
+use super::{bodies, rope, sea, whale};
+
+/// How a part is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Look {
+    /// Lit from above, solid.
+    Solid,
+    /// Its own colour, hardly shaded: what is read against a scale.
+    Own,
+    /// Seabed: grid lines every so many metres, both ways.
+    Seabed {
+        /// Distance between lines [m].
+        grid_m: f32,
+    },
+    /// Sea surface: see-through, brighter at a flat angle, seen from both sides.
+    Surface,
+}
+
+/// Triangles drawn one way.
+#[derive(Clone, Debug)]
+pub struct Part {
+    /// What it is: `seabed`, `whale`, `ropes`, `bodies`, `marks`, `surface`.
+    pub name: &'static str,
+    /// How it is drawn.
+    pub look: Look,
+    /// Least half width on screen of what stands out from a centre line [px].
+    pub least_px: f32,
+    /// The triangles.
+    pub mesh: Mesh,
+}
+
+/// All that is to be seen at one moment, as plain data.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// Parts in the order of drawing: solid first, see-through last.
+    pub parts: Vec<Part>,
+    /// Box round gear and whale [m].
+    pub bounds: Bounds,
+    /// Tension at the top of the colour scale [N].
+    pub scale_n: f64,
+    /// Simulated time [s].
+    pub time_s: f64,
+    /// Height of the sea surface above the seabed under the gear [m].
+    pub depth_m: f64,
+}
+
+/// Choices of what is shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Show {
+    /// Tension at the top of the colour scale [N]; the frame's own peak where `None`.
+    pub scale_n: Option<f64>,
+    /// Sea surface.
+    pub surface: bool,
+    /// Seabed.
+    pub seabed: bool,
+    /// Arrows of the current.
+    pub current: bool,
+    /// Marks where rope presses on skin.
+    pub contacts: bool,
+    /// The whale.
+    pub whale: bool,
+}
+
+impl Default for Show {
+    fn default() -> Self {
+        Self { scale_n: None, surface: true, seabed: true, current: true, contacts: true, whale: true }
+    }
+}
+
+impl Scene {
+    /// The scene of a frame of a model.
+    #[must_use]
+    pub fn of(model: &Model, frame: &Frame, show: &Show) -> Self {
+        let bounds = bounds(model, frame);
+        let scale_n = show.scale_n.unwrap_or_else(|| frame.tension_n.iter().copied().fold(0.0, f64::max)).max(1.0);
+        let mut parts = Vec::new();
+        let mut add = |wanted: bool, name, look, least_px, mesh: Mesh| {
+            if wanted && !mesh.triangles.is_empty() {
+                parts.push(Part { name, look, least_px, mesh });
+            }
+        };
+        add(show.seabed, "seabed", Look::Seabed { grid_m: 10.0 }, 0.0, sea::seabed(model, &bounds));
+        add(show.whale, "whale", Look::Solid, 0.0, whale::skin(model, frame));
+        add(true, "ropes", Look::Own, 1.1, rope::lines(model, frame, scale_n));
+        add(true, "bodies", Look::Solid, 0.35, bodies::bodies(model, frame));
+        add(show.current, "current", Look::Own, 0.8, sea::current(model, &bounds));
+        add(show.contacts, "marks", Look::Own, 4.0, rope::contacts(frame));
+        add(show.surface, "surface", Look::Surface, 0.0, sea::surface(model, &bounds));
+        Self { parts, bounds, scale_n, time_s: frame.time_s, depth_m: model.spec.water.depth_m }
+    }
+
+    /// A part by its name.
+    #[must_use]
+    pub fn part(&self, name: &str) -> Option<&Part> {
+        self.parts.iter().find(|part| part.name == name)
+    }
+}
+
+/// Box round gear and whale.
+fn bounds(model: &Model, frame: &Frame) -> Bounds {
+    let ropes = frame.nodes.iter().copied();
+    let bodies = frame.bodies.iter().map(|(place, _)| *place);
+    let pair = model.spec.whale.as_ref().zip(frame.whale.as_ref());
+    let whale = pair.into_iter().flat_map(|(whale, at)| whale_corners(whale, at.position, at.orientation));
+    let mut bounds = Bounds::of(ropes.chain(bodies).chain(whale));
+    // A little air round small gear, so that a lone trap does not fill the picture.
+    let least = DVec3::splat(1.0);
+    let (centre, half) = (bounds.centre(), bounds.half_size().max(least));
+    bounds.low = centre - half;
+    bounds.high = centre + half;
+    bounds
+}
+
+/// Corners of a box round a whale: half its length fore and aft, a quarter to each side.
+fn whale_corners(whale: &Whale, position: DVec3, orientation: endline_sim::DQuat) -> [DVec3; 8] {
+    let half = DVec3::new(0.52, 0.25, 0.15) * whale.length_m;
+    let pose = DAffine3::from_rotation_translation(orientation, position);
+    Bounds { low: -half, high: half }.corners().map(|corner| pose.transform_point3(corner))
+}
+
+/// A world place in single precision.
+pub(super) fn single(place: DVec3) -> Vec3 {
+    place.as_vec3()
+}

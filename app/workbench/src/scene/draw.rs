@@ -1,0 +1,223 @@
+//! Drawing a scene with three-d: into a smoothed texture, then onto a window or into a picture.
+
+use std::sync::Arc;
+
+use three_d::{
+    Blend, Camera as ViewOfPlane, ClearState, ColorTexture, Context, CopyEffect, CoreError, Cull, DepthTest, ElementBuffer, Mat4, Program,
+    RenderStates, RenderTarget, RenderTargetMultisample, ScissorBox, Texture2D, Vec3 as GlVec3, VertexBuffer, Viewport, WriteMask,
+};
+
+use super::build::{Look, Part, Scene};
+use super::camera::Camera;
+use super::mesh::Colour;
+
+/// Samples a pixel for smooth edges.
+const SAMPLES: u32 = 4;
+
+/// The two ends of the water's gradient, low and high in the picture (sRGB).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Water {
+    /// At the bottom.
+    pub low: Colour,
+    /// At the top.
+    pub high: Colour,
+}
+
+impl Water {
+    /// For the dark theme and for pictures.
+    pub const DARK: Self = Self { low: super::colour::rgb(0x0d, 0x1f, 0x29), high: super::colour::rgb(0x1d, 0x42, 0x53) };
+    /// For the light theme.
+    pub const LIGHT: Self = Self { low: super::colour::rgb(0x24, 0x48, 0x57), high: super::colour::rgb(0x4b, 0x7f, 0x93) };
+}
+
+/// Draws scenes; owns its programs, buffers and textures on the graphics card.
+pub struct Drawer {
+    context: Context,
+    part: Program,
+    backdrop: Program,
+    corners: VertexBuffer<[f32; 2]>,
+    loaded: Vec<Loaded>,
+    target: Option<RenderTargetMultisample<[u8; 4], f32>>,
+    picture: Option<Texture2D>,
+}
+
+/// A part on the graphics card.
+struct Loaded {
+    name: &'static str,
+    look: Look,
+    least_px: f32,
+    place: VertexBuffer<[f32; 3]>,
+    normal: VertexBuffer<[f32; 3]>,
+    radius: VertexBuffer<f32>,
+    colour: VertexBuffer<[f32; 4]>,
+    triangles: ElementBuffer<u32>,
+}
+
+/// What a draw call needs to know of the eye.
+struct Eye {
+    to_clip: Mat4,
+    place: GlVec3,
+    pixel_angle: f32,
+    clear_m: f32,
+    hide_m: f32,
+    water: [GlVec3; 2],
+    viewport: Viewport,
+}
+
+impl Drawer {
+    /// A drawer on an OpenGL context that is current.
+    ///
+    /// # Errors
+    /// With the reason, where the context is too old or a shader does not compile.
+    pub fn new(gl: Arc<three_d::context::Context>) -> Result<Self, String> {
+        let build = || -> Result<Self, CoreError> {
+            let context = Context::from_gl_context(gl)?;
+            let part = Program::from_source(&context, include_str!("shaders/part.vert"), include_str!("shaders/part.frag"))?;
+            let backdrop = Program::from_source(&context, include_str!("shaders/water.vert"), include_str!("shaders/water.frag"))?;
+            let corners = VertexBuffer::new_with_data(&context, &[[-1.0, -1.0], [3.0, -1.0], [-1.0, 3.0]]);
+            Ok(Self { context, part, backdrop, corners, loaded: Vec::new(), target: None, picture: None })
+        };
+        build().map_err(|error| format!("the 3-D view cannot use this OpenGL: {error}"))
+    }
+
+    /// Hands a scene's triangles to the graphics card.
+    pub fn load(&mut self, scene: &Scene) {
+        self.loaded.retain(|loaded| scene.part(loaded.name).is_some());
+        for (index, part) in scene.parts.iter().enumerate() {
+            if self.loaded.get(index).is_none_or(|loaded| loaded.name != part.name) {
+                self.loaded.insert(index, Loaded::new(&self.context, part));
+            }
+            self.loaded[index].fill(part);
+        }
+    }
+
+    /// Draws the loaded scene into the drawer's own texture of `size` pixels.
+    pub fn draw(&mut self, camera: &Camera, size: [u32; 2], water: Water) {
+        let [width, height] = size.map(|side| side.max(1));
+        if self.target.as_ref().is_none_or(|target| [target.width(), target.height()] != [width, height]) {
+            self.target = Some(RenderTargetMultisample::new(&self.context, width, height, SAMPLES));
+        }
+        let Some(target) = &self.target else { return };
+        let eye = Eye::new(camera, width, height, water);
+        target.clear(ClearState::color_and_depth(0.0, 0.0, 0.0, 1.0, 1.0));
+        let drawn = target.write::<CoreError>(|| {
+            self.draw_backdrop(&eye);
+            for loaded in &self.loaded {
+                loaded.draw(&self.part, &eye);
+            }
+            Ok(())
+        });
+        self.picture = drawn.is_ok().then(|| target.resolve_color());
+    }
+
+    fn draw_backdrop(&self, eye: &Eye) {
+        self.backdrop.use_uniform("water_low", eye.water[0]);
+        self.backdrop.use_uniform("water_high", eye.water[1]);
+        self.backdrop.use_uniform("height_px", eye.viewport.height as f32);
+        self.backdrop.use_vertex_attribute("corner", &self.corners);
+        let states = RenderStates { depth_test: DepthTest::Always, write_mask: WriteMask::COLOR, ..RenderStates::default() };
+        self.backdrop.draw_arrays(states, eye.viewport, 3);
+    }
+
+    /// Copies the drawn picture onto a window of `window` pixels, at `viewport`, inside `clip` (both from the bottom left).
+    pub fn show(&self, window: [u32; 2], viewport: Viewport, clip: ScissorBox) {
+        if let Some(picture) = &self.picture {
+            let copy = CopyEffect { write_mask: WriteMask::COLOR, blend: Blend::Disabled };
+            let screen = RenderTarget::screen(&self.context, window[0], window[1]);
+            screen.apply_screen_effect_partially(
+                clip,
+                &copy,
+                ViewOfPlane::new_2d(viewport),
+                &[],
+                Some(ColorTexture::Single(picture)),
+                None,
+            );
+        }
+    }
+
+    /// Size of the drawn picture [px]; `None` before the first [`draw`](Self::draw).
+    #[must_use]
+    pub fn drawn_size(&self) -> Option<[u32; 2]> {
+        self.picture.as_ref().map(|picture| [picture.width(), picture.height()])
+    }
+
+    /// The drawn picture's pixels, row by row from the top: red, green, blue, opacity.
+    #[must_use]
+    pub fn pixels(&self) -> Vec<[u8; 4]> {
+        self.picture.as_ref().map(|picture| picture.as_color_target(None).read()).unwrap_or_default()
+    }
+}
+
+impl Loaded {
+    fn new(context: &Context, part: &Part) -> Self {
+        Self {
+            name: part.name,
+            look: part.look,
+            least_px: part.least_px,
+            place: VertexBuffer::new(context),
+            normal: VertexBuffer::new(context),
+            radius: VertexBuffer::new(context),
+            colour: VertexBuffer::new(context),
+            triangles: ElementBuffer::new(context),
+        }
+    }
+
+    fn fill(&mut self, part: &Part) {
+        let mesh = &part.mesh;
+        (self.look, self.least_px) = (part.look, part.least_px);
+        self.place.fill(&mesh.place.iter().map(|place| place.to_array()).collect::<Vec<_>>());
+        self.normal.fill(&mesh.normal.iter().map(|normal| normal.to_array()).collect::<Vec<_>>());
+        self.radius.fill(&mesh.radius_m);
+        self.colour.fill(&mesh.colour);
+        self.triangles.fill(mesh.triangles.as_flattened());
+    }
+
+    fn draw(&self, program: &Program, eye: &Eye) {
+        let (look, grid_m, see_through) = match self.look {
+            Look::Solid => (0, 10.0, false),
+            Look::Own => (1, 10.0, false),
+            Look::Seabed { grid_m } => (2, grid_m, false),
+            Look::Surface => (3, 10.0, true),
+        };
+        program.use_uniform("to_clip", eye.to_clip);
+        program.use_uniform("eye", eye.place);
+        program.use_uniform("pixel_angle", eye.pixel_angle);
+        program.use_uniform("least_px", self.least_px);
+        program.use_uniform("look", look);
+        program.use_uniform("grid_m", grid_m);
+        program.use_uniform("clear_m", eye.clear_m);
+        program.use_uniform("hide_m", eye.hide_m);
+        program.use_uniform("water_low", eye.water[0]);
+        program.use_uniform("water_high", eye.water[1]);
+        program.use_uniform("height_px", eye.viewport.height as f32);
+        program.use_vertex_attribute("place", &self.place);
+        program.use_vertex_attribute("normal", &self.normal);
+        program.use_vertex_attribute("radius", &self.radius);
+        program.use_vertex_attribute("colour", &self.colour);
+        program.draw_elements(render_states(see_through), eye.viewport, &self.triangles);
+    }
+}
+
+fn render_states(see_through: bool) -> RenderStates {
+    let (blend, write_mask) =
+        if see_through { (Blend::TRANSPARENCY, WriteMask::COLOR) } else { (Blend::Disabled, WriteMask::COLOR_AND_DEPTH) };
+    RenderStates { depth_test: DepthTest::LessOrEqual, cull: Cull::None, blend, write_mask }
+}
+
+impl Eye {
+    fn new(camera: &Camera, width: u32, height: u32, water: Water) -> Self {
+        let columns = camera.matrix(f64::from(width) / f64::from(height)).as_mat4().to_cols_array_2d();
+        let place = camera.eye().as_vec3();
+        let seen_m = camera.metres_a_point(1.0) as f32;
+        let gl = |colour: Colour| GlVec3::new(colour[0], colour[1], colour[2]);
+        Self {
+            to_clip: Mat4::from(columns),
+            place: GlVec3::new(place.x, place.y, place.z),
+            pixel_angle: (camera.metres_a_point(f64::from(height)) / camera.distance_m) as f32,
+            clear_m: camera.distance_m as f32,
+            hide_m: 2.5 * seen_m + 30.0,
+            water: [gl(water.low), gl(water.high)],
+            viewport: Viewport::new_at_origo(width, height),
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! What is written over a scene: caption and time, the tension scale in lbf and N, a scale bar.
+
+use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Stroke, Vec2, pos2, vec2};
+
+use super::colour::tension_colour;
+use super::ticks::{nice_below, ticks};
+
+/// Newtons in a pound-force, exact by definition.
+pub const N_PER_LBF: f64 = 4.448_221_615_260_5;
+
+/// What the overlay says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Overlay<'a> {
+    /// Line at the top left, such as the scenario's name; may be empty.
+    pub caption: &'a str,
+    /// Simulated time [s].
+    pub time_s: f64,
+    /// Tension at the top of the colour scale [N].
+    pub scale_n: f64,
+    /// Length that one point spans at the camera's target [m].
+    pub metres_a_point: f64,
+}
+
+const INK: Color32 = Color32::from_rgb(0xe6, 0xee, 0xf0);
+const FAINT: Color32 = Color32::from_rgb(0xa9, 0xbd, 0xc4);
+const PLATE: Color32 = Color32::from_black_alpha(110);
+const MARGIN: f32 = 12.0;
+
+/// Writes the overlay into `rect`.
+pub fn paint(painter: &Painter, rect: Rect, overlay: &Overlay<'_>) {
+    caption(painter, rect, overlay);
+    if rect.height() > 260.0 && rect.width() > 320.0 {
+        legend(painter, rect, overlay.scale_n);
+    }
+    scale_bar(painter, rect, overlay.metres_a_point);
+}
+
+fn caption(painter: &Painter, rect: Rect, overlay: &Overlay<'_>) {
+    let time = format!("{:.2} s", overlay.time_s);
+    let text = if overlay.caption.is_empty() { time } else { format!("{}   {time}", overlay.caption) };
+    let at = rect.left_top() + Vec2::splat(MARGIN);
+    let galley = painter.layout_no_wrap(text, FontId::proportional(14.0), INK);
+    painter.rect_filled(Rect::from_min_size(at, galley.size()).expand2(vec2(7.0, 4.0)), 4.0, PLATE);
+    painter.galley(at, galley, INK);
+}
+
+/// The colour bar: pounds-force to its left, newtons to its right.
+fn legend(painter: &Painter, rect: Rect, scale_n: f64) {
+    let height = (rect.height() * 0.35).clamp(120.0, 220.0);
+    let bar = Rect::from_min_size(pos2(rect.right() - 78.0, rect.bottom() - MARGIN - 12.0 - height), vec2(10.0, height));
+    let plate = Rect::from_min_max(bar.min - vec2(60.0, 44.0), pos2(rect.right() - MARGIN + 4.0, bar.max.y + 12.0));
+    painter.rect_filled(plate, 5.0, PLATE);
+    let small = FontId::proportional(11.5);
+    painter.text(pos2(plate.center().x, plate.top() + 13.0), Align2::CENTER_CENTER, "Tension", small.clone(), INK);
+    painter.text(bar.left_top() - vec2(7.0, 14.0), Align2::RIGHT_CENTER, "lbf", small.clone(), FAINT);
+    painter.text(bar.right_top() + vec2(7.0, -14.0), Align2::LEFT_CENTER, "N", small.clone(), FAINT);
+    gradient(painter, bar);
+    for (per_n, side, align) in [(1.0 / N_PER_LBF, -1.0, Align2::RIGHT_CENTER), (1.0, 1.0, Align2::LEFT_CENTER)] {
+        for tick in ticks(scale_n * per_n, 5) {
+            let y = bar.bottom() - bar.height() * (tick / (scale_n * per_n)) as f32;
+            let edge = if side < 0.0 { bar.left() } else { bar.right() };
+            painter.line_segment([pos2(edge, y), pos2(edge + side * 4.0, y)], Stroke::new(1.0, FAINT));
+            painter.text(pos2(edge + side * 7.0, y), align, thousands(tick), small.clone(), INK);
+        }
+    }
+}
+
+fn gradient(painter: &Painter, bar: Rect) {
+    const STEPS: u32 = 24;
+    let mut mesh = Mesh::default();
+    for step in 0..=STEPS {
+        let share = f64::from(step) / f64::from(STEPS);
+        let y = bar.bottom() - bar.height() * share as f32;
+        for x in [bar.left(), bar.right()] {
+            mesh.colored_vertex(pos2(x, y), ink(tension_colour(share)));
+        }
+        if step > 0 {
+            let first = 2 * (step - 1);
+            mesh.add_triangle(first, first + 1, first + 3);
+            mesh.add_triangle(first, first + 3, first + 2);
+        }
+    }
+    painter.add(mesh);
+}
+
+fn scale_bar(painter: &Painter, rect: Rect, metres_a_point: f64) {
+    let length_m = nice_below(metres_a_point * 150.0);
+    let width = (length_m / metres_a_point) as f32;
+    if !width.is_finite() || width < 4.0 {
+        return;
+    }
+    let left = rect.left_bottom() + vec2(MARGIN + 2.0, -MARGIN - 4.0);
+    let right = left + vec2(width, 0.0);
+    let plate = Rect::from_min_max(left - vec2(8.0, 26.0), right + vec2(8.0, 8.0));
+    painter.rect_filled(plate, 4.0, PLATE);
+    let line = Stroke::new(1.5, INK);
+    painter.line_segment([left, right], line);
+    for end in [left, right] {
+        painter.line_segment([end - vec2(0.0, 4.0), end + vec2(0.0, 4.0)], line);
+    }
+    let middle: Pos2 = left + (right - left) * 0.5;
+    let text = if length_m < 1.0 { format!("{:.0} cm", length_m * 100.0) } else { format!("{} m", thousands(length_m)) };
+    painter.text(middle - vec2(0.0, 13.0), Align2::CENTER_CENTER, text, FontId::proportional(12.0), INK);
+}
+
+/// A number of ticks: no needless digits, a thin space between thousands.
+fn thousands(value: f64) -> String {
+    let text = if value.abs() >= 100.0 || value.fract().abs() < 1e-9 { format!("{value:.0}") } else { format!("{value:.1}") };
+    let mut out = String::new();
+    let whole = text.find('.').unwrap_or(text.len());
+    for (index, digit) in text.char_indices() {
+        if index > 0 && index < whole && (whole - index).is_multiple_of(3) && !out.ends_with('-') {
+            out.push('\u{2009}');
+        }
+        out.push(digit);
+    }
+    out
+}
+
+/// A scene colour for egui.
+fn ink(colour: super::mesh::Colour) -> Color32 {
+    let [red, green, blue, _] = colour.map(|part| (part * 255.0).round() as u8);
+    Color32::from_rgb(red, green, blue)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thousands_are_grouped_and_needless_digits_dropped() {
+        assert_eq!(thousands(7560.0), "7\u{2009}560");
+        assert_eq!(thousands(1_700_000.0), "1\u{2009}700\u{2009}000");
+        assert_eq!(thousands(0.5), "0.5");
+        assert_eq!(thousands(200.0), "200");
+    }
+}

@@ -1,0 +1,160 @@
+//! A small trap rig and a block of a whale, made by hand for tests.
+
+use std::sync::Arc;
+
+use endline_sdk::{Descriptor, HookError, MotionInput, MotionOutput, Region, WhaleMotion};
+use endline_sim::contact::ContactPoint;
+use endline_sim::model::{Body, BodyRole, Float, Joint, JointKind, Line, ModelSpec, Rope, Seabed, Settings, Shape};
+use endline_sim::water::{Current, Water};
+use endline_sim::whale::{Bone, PilotProgram, Skin, Whale};
+use endline_sim::{DQuat, DVec3, Frame, Model, State};
+
+/// Depth of the sample's water [m].
+pub const DEPTH_M: f64 = 30.0;
+
+/// A trap on the seabed, one endline in a gentle bow, a buoy at the surface, a whale beside it.
+pub fn model() -> Model {
+    let bodies = vec![body("trap", BodyRole::Trap), body("buoy", BodyRole::Buoy)];
+    let joint = |id: &str, body| Joint { id: id.into(), kind: JointKind::Body { body, offset_m: DVec3::ZERO }, position_m: DVec3::ZERO };
+    let segments = 60;
+    let spec = ModelSpec {
+        water: water(),
+        seabed: Some(Seabed { depth_m: DEPTH_M, normal: DVec3::Z, rope_stiffness_n_m2: 1e4, foot_stiffness_n_m: 1e5, rope_friction: 0.3 }),
+        ropes: vec![rope()],
+        joints: vec![joint("trap-eye", 0), joint("buoy-eye", 1)],
+        lines: vec![Line {
+            id: "endline".into(),
+            rope: 0,
+            from: 0,
+            to: 1,
+            segments_m: vec![36.0 / f64::from(segments); segments as usize],
+            start_m: (0..=segments).map(|node| place_on_rope(f64::from(node) / f64::from(segments))).collect(),
+        }],
+        bodies,
+        links: Vec::new(),
+        gear: Vec::new(),
+        whale: Some(whale()),
+        friction: None,
+        probes: Vec::new(),
+        settings: Settings::default(),
+    };
+    Model::new(spec).unwrap()
+}
+
+/// The sample at rest, its rope's tension rising evenly from 0 at the trap to 600 N at the buoy, one contact.
+pub fn frame(model: &Model) -> Frame {
+    let mut state = State::start(model);
+    state.rope.tension = (0..60).map(|segment| 600.0 * f64::from(segment) / 59.0).collect();
+    let touch = ContactPoint {
+        line: 0,
+        segment: 30,
+        fraction: 0.5,
+        triangle: 0,
+        barycentric: [1.0, 0.0, 0.0],
+        region: Region::Head,
+        position: place_on_rope(0.5),
+        normal: DVec3::X,
+        distance_m: 0.0,
+        length_m: 0.6,
+        normal_force_n: 80.0,
+        friction_n: DVec3::ZERO,
+        slip_m: DVec3::ZERO,
+        dt_s: 0.01,
+    };
+    Frame::of(model, &state, &[touch])
+}
+
+/// The bow of the sample's endline, from trap (0) to buoy (1) [m].
+fn place_on_rope(share: f64) -> DVec3 {
+    DVec3::new(12.0 * share, 3.0 * (share * std::f64::consts::PI).sin(), -DEPTH_M + 0.2 + (DEPTH_M - 0.2) * share)
+}
+
+fn water() -> Water {
+    let current = Current { surface_m_s: DVec3::new(0.6, 0.0, 0.0), exponent: 1.0 / 7.0 };
+    Water { density_kg_m3: 1025.0, gravity_m_s2: 9.806_65, depth_m: DEPTH_M, rope_dries: true, current }
+}
+
+fn rope() -> Rope {
+    Rope {
+        id: "sample".into(),
+        diameter_m: 0.0095,
+        mass_kg_m: 0.045,
+        displaced_m3_m: 5e-5,
+        axial_stiffness_n: 6e4,
+        axial_damping_n_s: 0.0,
+        drag_normal: 1.2,
+        drag_tangential: 0.02,
+        added_mass_normal: 1.0,
+        strength_n: 7560.0,
+    }
+}
+
+fn body(id: &str, role: BodyRole) -> Body {
+    let trap = role == BodyRole::Trap;
+    Body {
+        id: id.into(),
+        role,
+        shape: if trap { Shape::Box(DVec3::new(0.6, 0.27, 0.2)) } else { Shape::Capsule { radius_m: 0.18, half_length_m: 0.4 } },
+        mass_kg: 20.0,
+        inertia_kg_m2: DVec3::ONE,
+        added_mass_kg: DVec3::ZERO,
+        added_inertia_kg_m2: DVec3::ZERO,
+        drag_area_m2: DVec3::ONE,
+        turn_drag_m5: DVec3::ZERO,
+        floats: vec![Float { offset_m: DVec3::ZERO, volume_m3: 0.01, height_m: 0.4 }],
+        wetted_drag: false,
+        feet_m: Vec::new(),
+        start_friction: 0.5,
+        slide_friction: 0.5,
+        position_m: if trap { place_on_rope(0.0) } else { place_on_rope(1.0) },
+        orientation: DQuat::IDENTITY,
+        held_until_s: None,
+    }
+}
+
+/// A whale whose skin is a long octahedron on one bone.
+fn whale() -> Whale {
+    let tip = |x: f64, y: f64, z: f64| DVec3::new(x, y, z);
+    let vertices =
+        vec![tip(6.5, 0.0, 0.0), tip(-6.5, 0.0, 0.0), tip(0.0, 1.3, 0.0), tip(0.0, -1.3, 0.0), tip(0.0, 0.0, 1.3), tip(0.0, 0.0, -1.3)];
+    let triangles = vec![[0, 2, 4], [0, 4, 3], [0, 3, 5], [0, 5, 2], [1, 4, 2], [1, 3, 4], [1, 5, 3], [1, 2, 5]];
+    let skin = Skin {
+        regions: vec![Region::Body; triangles.len()],
+        weights: vec![[(0, 1.0), (0, 0.0), (0, 0.0), (0, 0.0)]; vertices.len()],
+        bones: vec![Bone { name: "control".into(), parent: None, origin: DVec3::ZERO, turns: Vec::new() }],
+        vertices,
+        triangles,
+    };
+    Whale {
+        skin: Arc::new(skin),
+        length_m: 13.0,
+        burst_speed_m_s: 4.0,
+        position_m: DVec3::new(-6.0, 2.0, -14.0),
+        orientation: DQuat::IDENTITY,
+        speed_m_s: 1.0,
+        motion: Arc::new(Still(Descriptor {
+            id: "still".into(),
+            version: "1".into(),
+            name: "Still".into(),
+            help: "".into(),
+            attributes: Vec::new(),
+            state_len: 0,
+        })),
+        motion_attributes: Vec::new(),
+        pilot: PilotProgram::default(),
+        contact_stiffness_n_m2: 1e5,
+    }
+}
+
+/// A motion that does nothing.
+struct Still(Descriptor);
+
+impl WhaleMotion for Still {
+    fn descriptor(&self) -> &Descriptor {
+        &self.0
+    }
+
+    fn step(&self, _attributes: &[f64], _input: &MotionInput<'_>, _state: &mut [f64]) -> Result<MotionOutput, HookError> {
+        Ok(MotionOutput::default())
+    }
+}

@@ -1,0 +1,150 @@
+//! The scene against its model, and the drawn picture against the scene.
+
+use endline_sim::DVec3;
+use glam::DVec2;
+
+use super::colour::tension_colour;
+use super::mesh::Colour;
+use super::{Camera, RenderRequest, Scene, Show, View, render, render_png, sample};
+
+fn scene() -> Scene {
+    let model = sample::model();
+    Scene::of(&model, &sample::frame(&model), &Show::default())
+}
+
+#[test]
+fn every_part_of_the_rig_is_in_the_scene_and_can_be_hidden() {
+    let names: Vec<&str> = scene().parts.iter().map(|part| part.name).collect();
+    assert_eq!(names, ["seabed", "whale", "ropes", "bodies", "current", "marks", "surface"]);
+    let model = sample::model();
+    let bare = Show { scale_n: None, surface: false, seabed: false, current: false, contacts: false, whale: false };
+    let names: Vec<&str> = Scene::of(&model, &sample::frame(&model), &bare).parts.iter().map(|part| part.name).collect();
+    assert_eq!(names, ["ropes", "bodies"]);
+}
+
+#[test]
+fn meshes_are_whole_every_index_has_a_vertex_and_every_number_is_finite() {
+    for part in scene().parts {
+        let mesh = &part.mesh;
+        let vertices = mesh.vertices();
+        assert!(mesh.normal.len() == vertices && mesh.radius_m.len() == vertices && mesh.colour.len() == vertices, "{}", part.name);
+        assert!(mesh.triangles.iter().flatten().all(|corner| (*corner as usize) < vertices), "{}", part.name);
+        assert!(mesh.place.iter().chain(&mesh.normal).all(|vector| vector.is_finite()), "{}", part.name);
+        assert!(mesh.normal.iter().all(|normal| (normal.length() - 1.0).abs() < 1e-4), "{}", part.name);
+    }
+}
+
+#[test]
+fn rope_is_coloured_by_its_tension_against_the_scale() {
+    let scene = scene();
+    assert!((scene.scale_n - 600.0).abs() < 1e-9, "the frame's own peak");
+    let ropes = &scene.part("ropes").unwrap().mesh;
+    assert!(close(ropes.colour[ropes.vertices() - 1], tension_colour(1.0)), "peak at the buoy");
+    let model = sample::model();
+    let strength = Show { scale_n: Some(6000.0), ..Show::default() };
+    let ropes = Scene::of(&model, &sample::frame(&model), &strength).part("ropes").unwrap().mesh.clone();
+    assert!(close(ropes.colour[ropes.vertices() - 1], tension_colour(0.1)));
+}
+
+/// Whether two colours differ by less than one step of a screen.
+fn close(a: Colour, b: Colour) -> bool {
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1.0 / 255.0)
+}
+
+#[test]
+fn a_cut_segment_is_a_gap() {
+    let model = sample::model();
+    let mut frame = sample::frame(&model);
+    let middle = ((frame.nodes[20] + frame.nodes[21]) * 0.5).z as f32;
+    let spanning = |frame: &endline_sim::Frame| {
+        let mesh = Scene::of(&model, frame, &Show::default()).part("ropes").unwrap().mesh.clone();
+        let above = |corner: &u32| mesh.place[*corner as usize].z > middle;
+        mesh.triangles.iter().filter(|corners| corners.iter().any(above) && !corners.iter().all(above)).count()
+    };
+    assert_eq!(spanning(&frame), 12, "two triangles a side join the two ends of a whole segment");
+    frame.cut[20] = true;
+    assert_eq!(spanning(&frame), 0);
+}
+
+#[test]
+fn arrows_are_as_long_as_the_current_is_fast_at_their_height() {
+    let scene = scene();
+    let arrows = &scene.part("current").unwrap().mesh;
+    let reach = |low: f64, high: f64| {
+        let within = arrows.place.iter().filter(|place| (low..high).contains(&f64::from(place.z)));
+        let (least, most) = within.fold((f32::INFINITY, f32::NEG_INFINITY), |(least, most), place| (least.min(place.x), most.max(place.x)));
+        f64::from(most - least)
+    };
+    let height = (0.5 / 7.0_f64).powf(1.0 / 7.0);
+    let lowest = reach(-sample::DEPTH_M * (1.0 - 0.2 / 7.0), -sample::DEPTH_M * (1.0 - 0.8 / 7.0));
+    assert!((lowest / (0.6 * height * 6.0) - 1.0).abs() < 0.05, "lowest arrow spans {lowest} m");
+}
+
+/// Picture of the sample, its size and the camera that took it.
+fn picture(view: View) -> (Vec<[u8; 4]>, DVec2, Camera) {
+    let model = sample::model();
+    let frame = sample::frame(&model);
+    let size = [640, 480];
+    let out = std::path::PathBuf::new();
+    let request = RenderRequest { model: &model, frame: &frame, size, view: view.name(), scale_n: None, caption: "sample", out: &out };
+    let pixels = render(&request).unwrap();
+    let bounds = Scene::of(&model, &frame, &Show::default()).bounds;
+    (pixels, DVec2::new(640.0, 480.0), Camera::of_view(view, &bounds, frame.whale.as_ref(), 13.0, 640.0 / 480.0))
+}
+
+/// The pixel of a world place.
+fn pixel(pixels: &[[u8; 4]], size: DVec2, camera: &Camera, place: DVec3) -> [u8; 4] {
+    let at = camera.project(place, size).unwrap();
+    pixels[at.y as usize * size.x as usize + at.x as usize]
+}
+
+/// How yellow a colour is: red and green against blue.
+fn yellow(colour: Colour) -> f32 {
+    (colour[0] + colour[1]) / 2.0 - colour[2]
+}
+
+#[test]
+fn the_picture_shows_whale_and_rope_where_the_camera_projects_them() {
+    let (pixels, size, camera) = picture(View::Side);
+    assert_eq!(pixels.len(), 640 * 480);
+    let open_water = pixel(&pixels, size, &camera, DVec3::new(9.0, 0.0, -25.0));
+    let whale = pixel(&pixels, size, &camera, DVec3::new(-7.0, 2.0, -14.0));
+    let difference = |a: [u8; 4], b: [u8; 4]| (0..3).map(|part| i32::from(a[part].abs_diff(b[part]))).sum::<i32>();
+    assert!(difference(whale, open_water) > 40, "whale {whale:?} against water {open_water:?}");
+    let model = sample::model();
+    let near_top = sample::frame(&model).nodes[56];
+    let around: Vec<[u8; 4]> = (-2..=2).map(|step| pixel(&pixels, size, &camera, near_top + DVec3::X * 0.05 * f64::from(step))).collect();
+    let yellowest = around.iter().map(|colour| yellow(colour.map(|part| f32::from(part) / 255.0))).fold(f32::MIN, f32::max);
+    assert!(yellowest > 0.5 * yellow(tension_colour(0.95)), "the taut end of the rope is yellow: {around:?}");
+}
+
+#[test]
+fn a_picture_is_the_same_twice() {
+    assert!(picture(View::Orbit).0 == picture(View::Orbit).0);
+}
+
+#[test]
+fn a_wrong_view_or_size_says_what_is_allowed() {
+    let model = sample::model();
+    let frame = sample::frame(&model);
+    let out = std::path::PathBuf::new();
+    let request = |view, size| RenderRequest { model: &model, frame: &frame, size, view, scale_n: None, caption: "", out: &out };
+    assert!(render(&request("behind", [64, 64])).unwrap_err().contains("orbit, side, top, front, whale"));
+    assert!(render(&request("side", [64, 0])).unwrap_err().contains("16 to 8192"));
+}
+
+#[test]
+fn a_png_has_the_size_asked_for_and_an_unwritable_path_is_named() {
+    let model = sample::model();
+    let frame = sample::frame(&model);
+    let out = std::env::temp_dir().join(format!("endline-picture-{}.png", std::process::id()));
+    let request =
+        |out| RenderRequest { model: &model, frame: &frame, size: [900, 600], view: "orbit", scale_n: None, caption: "sample", out };
+    render_png(&request(&out)).unwrap();
+    let decoder = png::Decoder::new(std::io::BufReader::new(std::fs::File::open(&out).unwrap()));
+    let info = decoder.read_info().unwrap().info().clone();
+    std::fs::remove_file(&out).unwrap();
+    assert_eq!((info.width, info.height), (900, 600));
+    let nowhere = std::path::Path::new("/nowhere/at/all.png");
+    assert!(render_png(&request(nowhere)).unwrap_err().contains("/nowhere/at/all.png"));
+}
