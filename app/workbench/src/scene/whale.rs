@@ -1,7 +1,7 @@
 //! The whale's skin in a frame: the same vertices that collide.
 
 use endline_sdk::Region;
-use endline_sim::whale::Skin;
+use endline_sim::whale::{Skin, pose, skin_all};
 use endline_sim::{Frame, Model};
 use glam::Vec3;
 
@@ -12,7 +12,9 @@ use super::mesh::{Colour, Mesh};
 /// The skin in its pose, smooth-shaded and tinted by region.
 pub fn skin(model: &Model, frame: &Frame) -> Mesh {
     let (Some(whale), Some(at)) = (&model.spec.whale, &frame.whale) else { return Mesh::default() };
-    let places = whale.skin.vertices.iter().map(|v| at.position + at.orientation * *v);
+    let (mut bones, mut places) = (Vec::new(), Vec::new());
+    pose(&whale.skin, at.position, at.orientation, &at.posture, &mut bones);
+    skin_all(&whale.skin, &bones, &mut places);
     let place: Vec<Vec3> = places.into_iter().map(single).collect();
     let normal = smooth_normals(&place, &whale.skin.triangles);
     Mesh { radius_m: vec![0.0; place.len()], colour: tints(&whale.skin), triangles: whale.skin.triangles.clone(), place, normal }
