@@ -18,7 +18,7 @@ pub fn test(workspace: &Workspace) -> Outcome {
     // the tests of the command line call the program that this makes.
     workspace.cargo(&["build", "--workspace", "--all-targets"])?;
     plugins::build(workspace, Profile::Dev)?;
-    workspace.cargo(&["test", "--workspace"])?;
+    workspace.cargo(&["test", "--workspace", "--no-fail-fast"])?;
     run::show_encounter(workspace, Profile::Dev)
 }
 
