@@ -20,6 +20,8 @@ pub enum EventKind {
     Contact,
     /// No rope touched a body part for a second; value: when it last did [s].
     ContactLost,
+    /// Rope that had stuck to a body part for a second began to slip; value: its speed [m/s].
+    Slip,
     /// Wraps on a body part passed a level for the first time; value: the level [turns].
     Wrap,
     /// A weak link parted; value: its peak tension [N].
@@ -38,9 +40,10 @@ pub enum EventKind {
 
 impl EventKind {
     /// Every kind.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Contact,
         Self::ContactLost,
+        Self::Slip,
         Self::Wrap,
         Self::LinkParted,
         Self::LineParted,
@@ -56,6 +59,7 @@ impl EventKind {
         match self {
             Self::Contact => "contact",
             Self::ContactLost => "contact_lost",
+            Self::Slip => "slip",
             Self::Wrap => "wrap",
             Self::LinkParted => "link_parted",
             Self::LineParted => "line_parted",
@@ -66,12 +70,13 @@ impl EventKind {
         }
     }
 
-    /// Unit of its value: `N`, `s`, `m` or `turns`.
+    /// Unit of its value: `N`, `s`, `m`, `m/s` or `turns`.
     #[must_use]
     pub fn unit(self) -> &'static str {
         match self {
             Self::Contact | Self::LinkParted | Self::LineParted => "N",
             Self::ContactLost => "s",
+            Self::Slip => "m/s",
             Self::Wrap => "turns",
             Self::Dragged | Self::PulledUnder | Self::AtSeabed | Self::AtSurface => "m",
         }

@@ -36,9 +36,10 @@ impl LineMeter {
         Self { lines: vec![Peak::default(); model.spec.lines.len()], links: vec![Peak::default(); model.spec.links.len()] }
     }
 
-    pub(super) fn fold(&mut self, model: &Model, state: &State, log: &mut Log) {
+    /// Takes in a step; `peak_tension_n` is the greatest tension of each segment during it.
+    pub(super) fn fold(&mut self, model: &Model, state: &State, peak_tension_n: &[f64], log: &mut Log) {
         for (line, peak) in self.lines.iter_mut().enumerate() {
-            let most = state.rope.tension[model.line_segments[line].clone()].iter().fold(0.0_f64, |most, tension| most.max(*tension));
+            let most = peak_tension_n[model.line_segments[line].clone()].iter().fold(0.0_f64, |most, tension| most.max(*tension));
             peak.take(most, state.time_s);
             if state.line_parted[line].is_some() && !peak.told {
                 peak.told = true;
@@ -46,7 +47,7 @@ impl LineMeter {
             }
         }
         for (index, (link, peak)) in model.spec.links.iter().zip(&mut self.links).enumerate() {
-            let borne = end_segment(model, link.line, link.end).map_or(0.0, |(segment, ..)| state.rope.tension[segment]);
+            let borne = end_segment(model, link.line, link.end).map_or(0.0, |(segment, ..)| peak_tension_n[segment]);
             peak.take(borne, state.time_s);
             if state.link_parted_s[index].is_some() && !peak.told {
                 peak.told = true;
@@ -99,7 +100,8 @@ pub fn end_tension(model: &Model, state: &State, line: usize, end: LineEnd) -> f
 /// Weight less buoyancy of a line's rope at a place [N/m].
 fn wet_weight(model: &Model, line: usize, place: DVec3) -> f64 {
     let (rope, water) = (&model.spec.ropes[model.spec.lines[line].rope], &model.spec.water);
-    let displaced_kg_m = if place.z < 0.0 { rope.displaced_m3_m * water.density_kg_m3 } else { 0.0 };
+    let wet = !water.rope_dries || place.z < 0.0;
+    let displaced_kg_m = if wet { rope.displaced_m3_m * water.density_kg_m3 } else { 0.0 };
     (rope.mass_kg_m - displaced_kg_m) * water.gravity_m_s2
 }
 

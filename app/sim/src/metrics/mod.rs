@@ -1,8 +1,8 @@
 //! Measures of a run: tensions, bodies, probes, and what the rope did to the whale.
 //!
 //! A [`Metrics`] is folded over a run, once after every step, and reads nothing but the model, the
-//! state and the contacts: live and in replay it gives the same numbers. Fold the start state
-//! first to have it in means and peaks. Definitions and thresholds: `docs/entanglement.md`.
+//! state and what the step left for readers: live and in replay it gives the same numbers. Fold the
+//! start state first to have it in means and peaks. Definitions and thresholds: `docs/entanglement.md`.
 
 mod axes;
 mod bodies;
@@ -15,6 +15,7 @@ mod probes;
 mod regions;
 mod strands;
 mod summary;
+mod touches;
 mod trailing;
 mod whale;
 mod winding;
@@ -34,6 +35,7 @@ pub use winding::{BRIDGED_GAP_M, WINDING_JUMP};
 use crate::contact::ContactPoint;
 use crate::model::Model;
 use crate::state::State;
+use crate::step::Workspace;
 
 /// The measures of a run, folded step by step.
 #[derive(Clone, Debug)]
@@ -60,14 +62,24 @@ impl Metrics {
         }
     }
 
-    /// Takes in the state at the end of a step with the contacts of that step.
+    /// Takes in the step that `workspace` has just taken to `state`: its contacts, and the greatest
+    /// tensions of its solver steps, so that a peak between two states or at a parting is not lost.
+    pub fn fold_step(&mut self, model: &Model, state: &State, workspace: &Workspace) {
+        self.take(model, state, &workspace.contacts, &workspace.peak_tension_n);
+    }
+
+    /// Takes in a state and its contacts, where there is no step: tensions are those of the state.
     ///
     /// `state` has the model's layout; the time since the fold before (since 0 at the first) is
     /// what the step weighs in means and works.
     pub fn fold(&mut self, model: &Model, state: &State, contacts: &[ContactPoint]) {
+        self.take(model, state, contacts, &state.rope.tension);
+    }
+
+    fn take(&mut self, model: &Model, state: &State, contacts: &[ContactPoint], peak_tension_n: &[f64]) {
         let dt_s = (state.time_s - self.time_s).max(0.0);
         self.time_s = state.time_s;
-        self.lines.fold(model, state, &mut self.log);
+        self.lines.fold(model, state, peak_tension_n, &mut self.log);
         self.bodies.fold(model, state, &mut self.log);
         self.probes.fold(model, state, dt_s);
         if let (Some(meter), Some(whale)) = (&mut self.whale, &state.whale) {

@@ -20,20 +20,29 @@ pub(super) struct Beyond {
 #[derive(Clone, Debug)]
 pub(super) struct Reach {
     touched: Vec<Option<(f64, f64)>>,
+    /// Rope of its line before each segment, and the segment's own [m].
+    places: Vec<(f64, f64)>,
 }
 
 impl Reach {
     pub(super) fn new(model: &Model) -> Self {
-        Self { touched: vec![None; model.spec.lines.len()] }
+        let mut places = Vec::with_capacity(model.segment_count);
+        for line in &model.spec.lines {
+            let mut arc = 0.0;
+            for length in &line.segments_m {
+                places.push((arc, *length));
+                arc += length;
+            }
+        }
+        Self { touched: vec![None; model.spec.lines.len()], places }
     }
 
     /// Takes in the contacts of a step.
-    pub(super) fn fold(&mut self, model: &Model, contacts: &[ContactPoint]) {
+    pub(super) fn fold(&mut self, contacts: &[ContactPoint]) {
         self.touched.fill(None);
         for contact in contacts.iter().filter(|contact| contact.normal_force_n > 0.0) {
-            let segment = contact.segment - model.line_segments[contact.line].start;
-            let lengths = &model.spec.lines[contact.line].segments_m;
-            let arc = lengths[..segment].iter().sum::<f64>() + contact.fraction * lengths[segment];
+            let (before, length) = self.places[contact.segment];
+            let arc = before + contact.fraction * length;
             let span = self.touched[contact.line].get_or_insert((arc, arc));
             *span = (span.0.min(arc), span.1.max(arc));
         }

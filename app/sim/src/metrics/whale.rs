@@ -7,18 +7,17 @@ use endline_sdk::BodyPart;
 use super::drag::DragMeter;
 use super::event::{EventKind, Log};
 use super::extent::Extent;
-use super::outcome::{Encounter, LOST_S};
+use super::outcome::Encounter;
 use super::regions::Loads;
 use super::strands::Strands;
 use super::summary::{RegionSummary, WhaleSummary};
+use super::touches::Touches;
 use super::trailing::Reach;
 use super::winding::Winding;
 use crate::contact::ContactPoint;
 use crate::model::Model;
 use crate::state::{State, WhaleState};
 use crate::whale::Skin;
-
-const PARTS: usize = BodyPart::ALL.len();
 
 /// All measures of the whale.
 #[derive(Clone, Debug)]
@@ -30,8 +29,7 @@ pub(super) struct WhaleMeter {
     encounter: Encounter,
     reach: Reach,
     extent: Extent,
-    /// When rope last touched each part, while that contact lasts [s].
-    touched_s: [Option<f64>; PARTS],
+    touches: Touches,
 }
 
 impl WhaleMeter {
@@ -44,7 +42,7 @@ impl WhaleMeter {
             encounter: Encounter::default(),
             reach: Reach::new(model),
             extent: Extent::new(&skin),
-            touched_s: [None; PARTS],
+            touches: Touches::default(),
             skin,
         })
     }
@@ -54,10 +52,10 @@ impl WhaleMeter {
         self.loads.fold(model, contacts, dt_s);
         self.winding.fold(&self.skin, contacts, &state.rope.cut);
         self.drag.fold(whale, contacts, dt_s);
-        self.reach.fold(model, contacts);
+        self.reach.fold(contacts);
         self.encounter.fold(state.time_s, dt_s, touching, self.winding.most());
         self.extent.fold(model, whale, state.time_s, log);
-        self.tell_contacts(state.time_s, log);
+        self.touches.fold(&self.loads, state.time_s, log);
         self.tell_wraps(state.time_s, log);
     }
 
@@ -90,20 +88,6 @@ impl WhaleMeter {
             peak_normal_n: load.peak_normal_n,
             peak_pressure_pa: load.peak_pressure_pa,
             friction_work_j: load.work_j,
-        }
-    }
-
-    /// Tells of contact begun, and lost for [`LOST_S`].
-    fn tell_contacts(&mut self, time_s: f64, log: &mut Log) {
-        for ((part, load), touched) in BodyPart::ALL.iter().zip(&self.loads.parts).zip(&mut self.touched_s) {
-            if load.normal_n > 0.0 {
-                if touched.replace(time_s).is_none() {
-                    log.note(time_s, EventKind::Contact, part.name(), load.normal_n);
-                }
-            } else if let Some(last) = touched.filter(|last| time_s - last >= LOST_S) {
-                *touched = None;
-                log.note(time_s, EventKind::ContactLost, part.name(), last);
-            }
         }
     }
 

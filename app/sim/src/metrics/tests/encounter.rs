@@ -84,6 +84,30 @@ fn contact_events_bridge_flicker_and_times_add_up() {
     assert!((whale.contact_time_s - 2.51).abs() < 1e-9, "{}", whale.contact_time_s);
 }
 
+/// Slip is told once after a second of sticking, not at a creep, and not where rope never stuck.
+#[test]
+fn slip_after_sticking_is_told() {
+    let model = model(spec(vec![0.5; 4]));
+    let (mut metrics, mut state) = (Metrics::new(&model), State::start(&model));
+    let mut contacts = touch(&model);
+    for step in 1..=1000 {
+        let speed = match step {
+            1..100 => 0.2,
+            100..400 => 0.005,
+            400..500 => 0.03,
+            500..600 => 0.2,
+            600..650 => 0.0,
+            _ => 0.3,
+        };
+        contacts[0].slip_m = DVec3::Y * speed * STEP_S;
+        advance(&mut metrics, &model, &mut state, &contacts);
+    }
+    let slips: Vec<_> =
+        metrics.events().iter().filter(|event| event.kind == EventKind::Slip).map(|event| (event.time_s, event.value)).collect();
+    assert_eq!(slips.len(), 1, "{slips:?}");
+    assert!((slips[0].0 - 5.0).abs() < 1e-9 && (slips[0].1 - 0.2).abs() < 1e-9, "{slips:?}");
+}
+
 /// The trunk's lowest point in the fixture's rest posture is 1.2 m below the origin amidships.
 #[test]
 fn seabed_and_surface_are_told_with_their_way_back() {

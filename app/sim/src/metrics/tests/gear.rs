@@ -52,6 +52,21 @@ fn peaks_keep_their_time_and_parting_is_told_once() {
     assert_eq!(told, [(EventKind::LinkParted, "weak", 0.6)]);
 }
 
+/// A step that parts a link leaves no tension behind; what the link bore is in the step's peaks.
+#[test]
+fn a_step_peak_outlives_the_parting() {
+    let mut spec = spec(vec![1.0; 4]);
+    spec.links = vec![Link { id: "weak".into(), line: 0, end: LineEnd::B, rating_n: 90.0, enabled: true }];
+    let model = model(spec);
+    let (mut metrics, mut state, mut workspace) = (Metrics::new(&model), State::start(&model), crate::Workspace::new(&model));
+    (state.time_s, state.link_parted_s[0], state.rope.cut[3]) = (0.01, Some(0.007), true);
+    workspace.peak_tension_n = vec![60.0, 70.0, 95.0, 91.0];
+    metrics.fold_step(&model, &state, &workspace);
+    let summary = metrics.summary(&model, &state);
+    let peaks = [summary.links[0].peak_tension_n, summary.lines[0].peak_tension_n, metrics.events()[0].value];
+    assert!(peaks.iter().zip([91.0, 95.0, 91.0]).all(|(got, wanted)| (got - wanted).abs() < 1e-12), "{peaks:?}");
+}
+
 /// A reading of 3 + 2 t has mean 3 + T over T seconds, also with uneven steps.
 #[test]
 fn probe_means_weigh_by_time() {
