@@ -1,1 +1,3 @@
+//! All a user can do with Endline, without a screen.
 
+pub mod plugins;

@@ -1,0 +1,48 @@
+//! Whether what a plugin declares of itself makes sense.
+
+use std::collections::BTreeSet;
+
+use endline_sdk::{AttributeKind, Descriptor};
+
+use super::info::Refusal;
+
+/// Most attributes, and floats of state, that a plugin may declare; more is taken for a lie.
+pub(super) const MOST_ATTRIBUTES: usize = 1000;
+pub(super) const MOST_STATE: usize = 1_000_000;
+
+const TELL_AUTHOR: &str = "tell the plugin's author";
+
+/// Checks id, attributes, defaults and state length.
+pub(super) fn check(descriptor: &Descriptor) -> Result<(), Refusal> {
+    let id = descriptor.id.as_ref();
+    if !id_is_sound(id) {
+        let reason = format!("its id `{id}` is not a reverse-domain name such as org.example.friction.wet");
+        return Err(Refusal::new(reason, TELL_AUTHOR));
+    }
+    let wrong = |reason: String| Err(Refusal::of(id, reason, TELL_AUTHOR));
+    if descriptor.state_len > MOST_STATE {
+        return wrong(format!("it asks for {} floats of state, more than {MOST_STATE}", descriptor.state_len));
+    }
+    let mut keys = BTreeSet::new();
+    for attribute in &descriptor.attributes {
+        let key = attribute.key.as_ref();
+        if key.is_empty() || !keys.insert(key) {
+            return wrong(format!("its attribute key `{key}` is empty or used twice"));
+        }
+        if let Some(reason) = number_fault(&attribute.kind) {
+            return wrong(format!("its attribute `{key}`: {reason}"));
+        }
+    }
+    Ok(())
+}
+
+fn id_is_sound(id: &str) -> bool {
+    let part = |part: &str| !part.is_empty() && part.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_');
+    id.contains('.') && id.split('.').all(part)
+}
+
+fn number_fault(kind: &AttributeKind) -> Option<String> {
+    let AttributeKind::Number { min, max, default } = kind else { return None };
+    let sound = [min, max, default].iter().all(|number| number.is_finite()) && min <= default && default <= max;
+    (!sound).then(|| format!("its default {default} and range {min} to {max} must be finite, the default within the range"))
+}

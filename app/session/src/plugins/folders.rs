@@ -1,0 +1,27 @@
+//! Where plugins are looked for, and where it is noted which files passed the check.
+
+use std::env;
+use std::path::{Path, PathBuf};
+
+/// Folders searched, in order: beside the program, the user's own, and those `ENDLINE_PLUGINS` names
+/// (separated as `PATH` is).
+#[must_use]
+pub fn default_folders() -> Vec<PathBuf> {
+    let beside = env::current_exe().ok().and_then(|program| program.parent().map(|folder| folder.join("plugins")));
+    let own = user_folder("XDG_DATA_HOME", ".local/share").map(|folder| folder.join("plugins"));
+    let named = env::var_os("ENDLINE_PLUGINS");
+    let named = named.iter().flat_map(env::split_paths).filter(|folder| !folder.as_os_str().is_empty());
+    beside.into_iter().chain(own).chain(named).collect()
+}
+
+/// File in the user's cache folder that lists the hashes of files that passed the check.
+#[must_use]
+pub fn known_file() -> Option<PathBuf> {
+    user_folder("XDG_CACHE_HOME", ".cache").map(|folder| folder.join("plugins-checked"))
+}
+
+fn user_folder(variable: &str, under_home: &str) -> Option<PathBuf> {
+    let named = env::var_os(variable).map(PathBuf::from).filter(|folder| folder.is_absolute());
+    let home = || env::var_os("HOME").or_else(|| env::var_os("USERPROFILE")).map(|home| Path::new(&home).join(under_home));
+    named.or_else(home).map(|folder| folder.join("endline"))
+}

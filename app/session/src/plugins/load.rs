@@ -1,0 +1,440 @@
+//! The program's side of the C table: from a library file to the traits.
+//!
+//! What can be checked of a library is checked here: ABI version, sizes, null pointers, UTF-8,
+//! counts. What cannot is whether its pointers lead where they say; that is why a new file is first
+//! opened in a child process.
+#![expect(unsafe_code, reason = "one of the two sides of the plugin boundary: a library's pointers become safe values here")]
+
+use std::borrow::Cow;
+use std::ffi::c_void;
+use std::path::Path;
+use std::sync::Arc;
+
+use endline_sdk::abi::table::*;
+use endline_sdk::{
+    Attribute, AttributeKind, AttributeValue, BodyKind, Contacts, Descriptor, FrictionModel, FrictionResponse, GearAction, GearStep,
+    GearType, HookError, LineEnd, MotionInput, MotionOutput, Rig, RigBody, RigEnd, RigJoint, RigLine, RigLink, Site, WhaleMotion,
+};
+use libloading::Library;
+
+use super::declared::MOST_ATTRIBUTES;
+use super::info::{Hook, Refusal};
+
+/// Most plugins that one library may hold; more is taken for a lie.
+const MOST_PLUGINS: u32 = 1000;
+
+/// Longest text of a plugin [bytes]; longer is taken for a lie.
+const LONGEST_TEXT: usize = 65_536;
+
+/// Room for a plugin's message [bytes].
+const MESSAGE_ROOM: usize = 1024;
+
+const REBUILD: &str = "rebuild the plugin against this version of endline-sdk or endline_plugin.h";
+const NOT_A_PLUGIN: &str = "only plugin libraries belong in this folder";
+
+/// Opens a library, which stays mapped from then on, and gives its plugins.
+pub(super) fn open(file: &Path) -> Result<Vec<Result<Hook, Refusal>>, Refusal> {
+    let entry = find_entry(file)?;
+    check_entry(entry)?;
+    initialise(entry, file)?;
+    plugins_of(entry)?.iter().map(|plugin| Ok(read_plugin(*plugin))).collect()
+}
+
+fn find_entry(file: &Path) -> Result<*const AbiEntry, Refusal> {
+    // SAFETY: opening runs the library's initialisers; a file that cannot stand that was refused by the child process.
+    let library = unsafe { Library::new(file) }
+        .map_err(|error| Refusal::new(format!("is not a library that can be opened: {error}"), NOT_A_PLUGIN))?;
+    // SAFETY: the symbol is only taken for an address here.
+    let entry = unsafe { library.get::<*const AbiEntry>(ENTRY_NAME) }.map(|symbol| *symbol);
+    std::mem::forget(library);
+    entry.map_err(|_| Refusal::new(format!("does not export `{ENTRY_NAME}`"), "build it with `export_plugin!` and the feature `entry`"))
+}
+
+/// Major version and size, which stand at the same place in every version of the ABI.
+fn check_entry(entry: *const AbiEntry) -> Result<(), Refusal> {
+    // SAFETY: every version of the entry begins with these three numbers.
+    let [major, minor, size] = unsafe { entry.cast::<[u32; 3]>().read_unaligned() };
+    if major != ABI_MAJOR {
+        let reason = format!("was built for plugin ABI {major}.{minor}, but this program speaks {ABI_MAJOR}.{ABI_MINOR}");
+        return Err(Refusal::new(reason, REBUILD));
+    }
+    whole::<AbiEntry>(size, "entry")
+}
+
+fn whole<T>(size: u32, what: &str) -> Result<(), Refusal> {
+    if size as usize >= size_of::<T>() {
+        return Ok(());
+    }
+    Err(Refusal::new(format!("its {what} is truncated: {size} bytes where {} are needed", size_of::<T>()), REBUILD))
+}
+
+fn missing(what: &str) -> Refusal {
+    Refusal::new(format!("its {what} is missing"), REBUILD)
+}
+
+fn initialise(entry: *const AbiEntry, file: &Path) -> Result<(), Refusal> {
+    // SAFETY: the entry has its whole size and lives as long as the library, which is never unmapped.
+    let init = unsafe { (*entry).init }.ok_or_else(|| missing("function `init`"))?;
+    let path = file.to_string_lossy();
+    // SAFETY: called as the table says.
+    call(|message| unsafe { init(AbiText::of(&path), message) })
+        .map_err(|error| Refusal::new(format!("does not start: {error}"), "tell the plugin's author"))
+}
+
+fn plugins_of(entry: *const AbiEntry) -> Result<&'static [*const AbiPlugin], Refusal> {
+    // SAFETY: as in `initialise`; the factory and its list live as long as the library.
+    unsafe {
+        let get_factory = (*entry).get_factory.ok_or_else(|| missing("function `get_factory`"))?;
+        let factory = get_factory(AbiText::of(FACTORY_ID)).cast::<AbiFactory>();
+        let size = factory.cast::<u32>().as_ref().ok_or_else(|| missing(&format!("factory `{FACTORY_ID}`")))?;
+        whole::<AbiFactory>(*size, "factory")?;
+        let (count, plugins) = ((*factory).plugin_count, (*factory).plugins);
+        if count == 0 || count > MOST_PLUGINS || plugins.is_null() {
+            return Err(Refusal::new(format!("its factory lists {count} plugins"), "tell the plugin's author"));
+        }
+        Ok(std::slice::from_raw_parts(plugins, count as usize))
+    }
+}
+
+fn read_plugin(plugin: *const AbiPlugin) -> Result<Hook, Refusal> {
+    // SAFETY: a descriptor begins with its size and lives as long as the library.
+    let plugin: &'static AbiPlugin = unsafe {
+        let size = plugin.cast::<u32>().as_ref().ok_or_else(|| missing("descriptor of a plugin"))?;
+        whole::<AbiPlugin>(*size, "descriptor of a plugin")?;
+        &*plugin
+    };
+    let descriptor = read_descriptor(plugin)?;
+    let id = descriptor.id.to_string();
+    read_hook(plugin, descriptor).map_err(|refusal| Refusal { id: Some(id), ..refusal })
+}
+
+fn read_hook(plugin: &AbiPlugin, descriptor: Descriptor) -> Result<Hook, Refusal> {
+    Ok(match plugin.kind {
+        KIND_MOTION => {
+            let table: &AbiMotion = read_table(plugin)?;
+            Hook::Motion(Arc::new(Loaded { descriptor, context: plugin.context, calls: Motion { step: needed(table.step)? } }))
+        }
+        KIND_FRICTION => {
+            let table: &AbiFriction = read_table(plugin)?;
+            let calls = Friction { respond: needed(table.respond)?, advance: needed(table.advance)? };
+            Hook::Friction(Arc::new(Loaded { descriptor, context: plugin.context, calls }))
+        }
+        KIND_GEAR => {
+            let table: &AbiGear = read_table(plugin)?;
+            let calls = Gear { build: needed(table.build)?, step: table.step };
+            Hook::Gear(Arc::new(Loaded { descriptor, context: plugin.context, calls }))
+        }
+        other => return Err(Refusal::new(format!("its kind {other} is not known to this program"), REBUILD)),
+    })
+}
+
+fn read_table<T>(plugin: &AbiPlugin) -> Result<&'static T, Refusal> {
+    // SAFETY: a table begins with its size, is of the kind the descriptor says, and lives as long as the library.
+    unsafe {
+        let size = plugin.table.cast::<u32>().as_ref().ok_or_else(|| missing("table of functions"))?;
+        whole::<T>(*size, "table of functions")?;
+        Ok(&*plugin.table.cast::<T>())
+    }
+}
+
+fn needed<F>(function: Option<F>) -> Result<F, Refusal> {
+    function.ok_or_else(|| missing("function in its table"))
+}
+
+fn read_descriptor(plugin: &AbiPlugin) -> Result<Descriptor, Refusal> {
+    if plugin.attribute_count > MOST_ATTRIBUTES {
+        return Err(Refusal::new(format!("it declares {} attributes", plugin.attribute_count), "tell the plugin's author"));
+    }
+    // SAFETY: the attributes live as long as the library.
+    let attributes = unsafe { array(plugin.attributes, plugin.attribute_count) };
+    Ok(Descriptor {
+        id: text(plugin.id)?,
+        version: text(plugin.version)?,
+        name: text(plugin.name)?,
+        help: text(plugin.help)?,
+        attributes: attributes.iter().map(read_attribute).collect::<Result<_, _>>()?,
+        state_len: plugin.state_len,
+    })
+}
+
+fn read_attribute(raw: &AbiAttribute) -> Result<Attribute, Refusal> {
+    let kind = match raw.kind {
+        ATTRIBUTE_NUMBER => AttributeKind::Number { min: raw.least, max: raw.greatest, default: raw.default_number },
+        ATTRIBUTE_ITEM => AttributeKind::Item { library: text(raw.library)?, default: text(raw.default_item)? },
+        other => return Err(Refusal::new(format!("it declares an attribute of unknown kind {other}"), REBUILD)),
+    };
+    Ok(Attribute { key: text(raw.key)?, unit: text(raw.unit)?, help: text(raw.help)?, kind })
+}
+
+fn text(raw: AbiText) -> Result<Cow<'static, str>, Refusal> {
+    if raw.length > LONGEST_TEXT {
+        return Err(Refusal::new(format!("one of its texts claims {} bytes", raw.length), "tell the plugin's author"));
+    }
+    // SAFETY: text of a descriptor lives as long as the library; it is copied all the same.
+    let bytes = unsafe { array(raw.text.cast::<u8>(), raw.length) };
+    let text = std::str::from_utf8(bytes).map_err(|_| Refusal::new("one of its texts is not UTF-8", "tell the plugin's author"))?;
+    Ok(Cow::Owned(text.to_owned()))
+}
+
+/// A plugin of a library: its own context and its functions.
+struct Loaded<F> {
+    descriptor: Descriptor,
+    context: *const c_void,
+    calls: F,
+}
+
+// SAFETY: the table's contract has every function of a plugin callable from any thread, several at once.
+unsafe impl<F> Send for Loaded<F> {}
+// SAFETY: as above.
+unsafe impl<F> Sync for Loaded<F> {}
+
+type Step<A, I, O> = unsafe extern "C" fn(*const c_void, *const A, usize, *const I, *mut f64, usize, O, *mut AbiMessage) -> i32;
+type Pass<A, I, O> = unsafe extern "C" fn(*const c_void, *const A, usize, *const I, O, *mut AbiMessage) -> i32;
+
+struct Motion {
+    step: Step<f64, AbiMotionInput, *mut MotionOutput>,
+}
+
+struct Friction {
+    respond: Pass<f64, AbiContacts, *mut FrictionResponse>,
+    advance: Pass<f64, AbiContacts, *mut f64>,
+}
+
+struct Gear {
+    build: Pass<AbiValue, Site, *const AbiRigHost>,
+    step: Option<Step<AbiValue, AbiGearStep, *const AbiActionHost>>,
+}
+
+impl WhaleMotion for Loaded<Motion> {
+    fn descriptor(&self) -> &Descriptor {
+        &self.descriptor
+    }
+
+    fn step(&self, attributes: &[f64], input: &MotionInput<'_>, state: &mut [f64]) -> Result<MotionOutput, HookError> {
+        let raw = AbiMotionInput {
+            time_s: input.time_s,
+            dt_s: input.dt_s,
+            length_m: input.length_m,
+            speed_m_s: input.speed_m_s,
+            position_m: input.position_m,
+            orientation: input.orientation,
+            controls: input.controls,
+            contact_force_n: input.contact_force_n.as_ptr(),
+            body_part_count: input.contact_force_n.len(),
+        };
+        let (count, floats) = (attributes.len(), state.len());
+        let mut out = MotionOutput::default();
+        // SAFETY: pointers and lengths of live slices.
+        call(|message| unsafe {
+            (self.calls.step)(self.context, attributes.as_ptr(), count, &raw, state.as_mut_ptr(), floats, &mut out, message)
+        })?;
+        Ok(out)
+    }
+}
+
+impl FrictionModel for Loaded<Friction> {
+    fn descriptor(&self) -> &Descriptor {
+        &self.descriptor
+    }
+
+    fn respond(&self, attributes: &[f64], contacts: &Contacts<'_>, out: &mut [FrictionResponse]) -> Result<(), HookError> {
+        let raw = raw_contacts(contacts, self.descriptor.state_len, out.len(), contacts.len())?;
+        let (respond, count) = (self.calls.respond, attributes.len());
+        // SAFETY: pointers and lengths of live slices; `raw_contacts` saw that they agree.
+        call(|message| unsafe { respond(self.context, attributes.as_ptr(), count, &raw, out.as_mut_ptr(), message) })
+    }
+
+    fn advance(&self, attributes: &[f64], contacts: &Contacts<'_>, out: &mut [f64]) -> Result<(), HookError> {
+        let floats = self.descriptor.state_len;
+        let raw = raw_contacts(contacts, floats, out.len(), contacts.len() * floats)?;
+        let (advance, count) = (self.calls.advance, attributes.len());
+        // SAFETY: as in `respond`.
+        call(|message| unsafe { advance(self.context, attributes.as_ptr(), count, &raw, out.as_mut_ptr(), message) })
+    }
+}
+
+/// The contacts as C sees them; an error where array lengths do not agree, for C would read past them.
+fn raw_contacts(contacts: &Contacts<'_>, state_len: usize, room: usize, needed: usize) -> Result<AbiContacts, HookError> {
+    let count = contacts.len();
+    let arrays = [contacts.normal.len(), contacts.slip_m.len(), contacts.length_m.len(), contacts.coefficient.len()];
+    let numbers = [contacts.region.len(), contacts.rope.len()];
+    if arrays.iter().chain(&numbers).any(|length| *length != count) || contacts.state.len() != count * state_len || room != needed {
+        return Err(HookError::new("the arrays of contacts differ in length"));
+    }
+    Ok(AbiContacts {
+        count,
+        dt_s: contacts.dt_s,
+        normal_force_n: contacts.normal_force_n.as_ptr(),
+        normal: contacts.normal.as_ptr(),
+        slip_m: contacts.slip_m.as_ptr(),
+        length_m: contacts.length_m.as_ptr(),
+        coefficient: contacts.coefficient.as_ptr(),
+        region: contacts.region.as_ptr(),
+        rope: contacts.rope.as_ptr(),
+        state: contacts.state.as_ptr(),
+        state_len,
+    })
+}
+
+impl GearType for Loaded<Gear> {
+    fn descriptor(&self) -> &Descriptor {
+        &self.descriptor
+    }
+
+    fn build(&self, attributes: &[AttributeValue], site: &Site) -> Result<Rig, HookError> {
+        let values = raw_values(attributes);
+        let mut rig = Rig::default();
+        let host = AbiRigHost {
+            struct_size: size_of::<AbiRigHost>() as u32,
+            host: (&raw mut rig).cast(),
+            add_body: Some(add_body),
+            add_joint: Some(add_joint),
+            add_line: Some(add_line),
+            add_link: Some(add_link),
+        };
+        let build = self.calls.build;
+        // SAFETY: pointers and lengths of live values; `host` lives through the call.
+        call(|message| unsafe { build(self.context, values.as_ptr(), values.len(), site, &host, message) })?;
+        Ok(rig)
+    }
+
+    fn step(
+        &self,
+        attributes: &[AttributeValue],
+        input: &GearStep<'_>,
+        state: &mut [f64],
+        actions: &mut Vec<GearAction>,
+    ) -> Result<(), HookError> {
+        let Some(step) = self.calls.step else { return Ok(()) };
+        let (values, floats, tensions) = (raw_values(attributes), state.len(), input.end_tension_n);
+        let raw = AbiGearStep { time_s: input.time_s, dt_s: input.dt_s, line_count: tensions.len(), end_tension_n: tensions.as_ptr() };
+        let host = AbiActionHost {
+            struct_size: size_of::<AbiActionHost>() as u32,
+            host: (&raw mut *actions).cast(),
+            cut_line: Some(cut_line),
+            release_link: Some(release_link),
+        };
+        // SAFETY: as in `build`.
+        call(|message| unsafe { step(self.context, values.as_ptr(), values.len(), &raw, state.as_mut_ptr(), floats, &host, message) })
+    }
+}
+
+fn raw_values(values: &[AttributeValue]) -> Vec<AbiValue> {
+    let raw = |value: &AttributeValue| match value {
+        AttributeValue::Number(number) => AbiValue { kind: ATTRIBUTE_NUMBER, number: *number, item: AbiText::of("") },
+        AttributeValue::Item(id) => AbiValue { kind: ATTRIBUTE_ITEM, number: 0.0, item: AbiText::of(id) },
+    };
+    values.iter().map(raw).collect()
+}
+
+/// Adds a part that a plugin hands over to the rig behind `host`.
+///
+/// # Safety
+/// `host` is the `Rig` of [`Loaded::build`], `part` null or a live struct.
+unsafe fn add<T>(host: *mut c_void, part: *const T, put: impl FnOnce(&mut Rig, &T) -> Option<()>) -> i32 {
+    // SAFETY: the caller's promise.
+    let taken = unsafe { host.cast::<Rig>().as_mut().zip(part.as_ref()) }.and_then(|(rig, part)| put(rig, part));
+    if taken.is_some() { STATUS_OK } else { STATUS_ERROR }
+}
+
+unsafe extern "C" fn add_body(host: *mut c_void, body: *const AbiBody) -> i32 {
+    let put = |rig: &mut Rig, body: &AbiBody| {
+        let kind = [BodyKind::Trap, BodyKind::Buoy, BodyKind::Anchor].into_iter().find(|kind| *kind as u32 == body.kind)?;
+        rig.bodies.push(RigBody { id: owned(body.id)?, kind, item: owned(body.item)?, position_m: body.position_m });
+        Some(())
+    };
+    // SAFETY: `host` is what the table's user was handed.
+    unsafe { add(host, body, put) }
+}
+
+unsafe extern "C" fn add_joint(host: *mut c_void, joint: *const AbiJoint) -> i32 {
+    let put = |rig: &mut Rig, joint: &AbiJoint| {
+        rig.joints.push(RigJoint { id: owned(joint.id)?, position_m: joint.position_m });
+        Some(())
+    };
+    // SAFETY: as in `add_body`.
+    unsafe { add(host, joint, put) }
+}
+
+unsafe extern "C" fn add_line(host: *mut c_void, line: *const AbiLine) -> i32 {
+    let put = |rig: &mut Rig, line: &AbiLine| {
+        let (from, to) = (rig_end(line.from)?, rig_end(line.to)?);
+        rig.lines.push(RigLine { id: owned(line.id)?, rope: owned(line.rope)?, from, to, length_m: line.length_m });
+        Some(())
+    };
+    // SAFETY: as in `add_body`.
+    unsafe { add(host, line, put) }
+}
+
+unsafe extern "C" fn add_link(host: *mut c_void, link: *const AbiLink) -> i32 {
+    let put = |rig: &mut Rig, link: &AbiLink| {
+        rig.links.push(RigLink { id: owned(link.id)?, item: owned(link.item)?, line: owned(link.line)?, end: line_end(link.end)? });
+        Some(())
+    };
+    // SAFETY: as in `add_body`.
+    unsafe { add(host, link, put) }
+}
+
+/// # Safety
+/// `host` is the list of actions of [`Loaded::step`].
+unsafe extern "C" fn cut_line(host: *mut c_void, line: u32, end: u32) -> i32 {
+    let action = line_end(end).map(|end| GearAction::CutLine { line, end });
+    // SAFETY: the caller's promise.
+    unsafe { push_action(host, action) }
+}
+
+/// # Safety
+/// As [`cut_line`].
+unsafe extern "C" fn release_link(host: *mut c_void, link: u32) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { push_action(host, Some(GearAction::ReleaseLink { link })) }
+}
+
+/// # Safety
+/// As [`cut_line`].
+unsafe fn push_action(host: *mut c_void, action: Option<GearAction>) -> i32 {
+    // SAFETY: the caller's promise.
+    let Some((actions, action)) = unsafe { host.cast::<Vec<GearAction>>().as_mut() }.zip(action) else { return STATUS_ERROR };
+    actions.push(action);
+    STATUS_OK
+}
+
+fn owned(raw: AbiText) -> Option<String> {
+    text(raw).ok().map(Cow::into_owned)
+}
+
+fn rig_end(end: AbiRigEnd) -> Option<RigEnd> {
+    match end.at {
+        AT_BODY => owned(end.id).map(RigEnd::Body),
+        AT_JOINT => owned(end.id).map(RigEnd::Joint),
+        _ => None,
+    }
+}
+
+fn line_end(end: u32) -> Option<LineEnd> {
+    [LineEnd::A, LineEnd::B].into_iter().find(|known| *known as u32 == end)
+}
+
+/// Calls a plugin with room for a message; a status other than [`STATUS_OK`] becomes an error with it.
+fn call(function: impl FnOnce(*mut AbiMessage) -> i32) -> Result<(), HookError> {
+    let mut room = [0_u8; MESSAGE_ROOM];
+    let mut message = AbiMessage::over(&mut room);
+    let status = function(&mut message);
+    if status == STATUS_OK {
+        return Ok(());
+    }
+    let length = message.length.min(MESSAGE_ROOM);
+    let said = String::from_utf8_lossy(&room[..length]).into_owned();
+    Err(HookError::new(match status {
+        STATUS_ERROR => said,
+        STATUS_CRASH => format!("it failed inside (panicked): {said}"),
+        other => format!("it gave the unknown status {other}: {said}"),
+    }))
+}
+
+/// # Safety
+/// `count` values lie at `first`, or it is null; they live as long as the caller uses them.
+unsafe fn array<'a, T>(first: *const T, count: usize) -> &'a [T] {
+    // SAFETY: the caller's promise.
+    if first.is_null() { &[] } else { unsafe { std::slice::from_raw_parts(first, count) } }
+}
