@@ -144,7 +144,7 @@ impl WhaleForm {
     pub fn table_volume_m3(&self) -> f64 {
         let area = |s: &Station| PI / 4.0 * s.width * (s.dorsal - s.ventral);
         let share: f64 = self.stations.windows(2).map(|w| (w[1].at - w[0].at) * (area(&w[0]) + area(&w[1])) / 2.0).sum();
-        share * self.length_m.powi(3)
+        share * self.length_m * self.length_m * self.length_m
     }
 }
 
@@ -172,7 +172,7 @@ fn right_whale_flukes() -> FlukesForm {
         span: 0.39,                   // from memory: 0.36 to 0.42 L
         root_chord: 0.10,             // from memory: 0.09 to 0.11 L
         tip_chord: 0.016,             // estimate
-        sweep: 38.0_f64.to_radians(), // estimate, from the shape of the flukes in photographs
+        sweep: 30.0_f64.to_radians(), // estimate, from the shape of the flukes in photographs
         thickness: 0.17,              // estimate
         tip_thickness: 0.12,          // estimate
         notch: 0.022,                 // estimate: deep notch
@@ -228,6 +228,6 @@ mod tests {
         let displaced_t = 1.025 * form.table_volume_m3() * form.breadth_scale * form.breadth_scale;
         assert!((displaced_t / 36.4 - 1.0).abs() < 0.02, "{displaced_t}");
         let scaled = form.with_volume(30.0);
-        assert!((scaled.table_volume_m3() * scaled.breadth_scale.powi(2) - 30.0).abs() < 1e-9);
+        assert!((scaled.table_volume_m3() * scaled.breadth_scale * scaled.breadth_scale - 30.0).abs() < 1e-9);
     }
 }

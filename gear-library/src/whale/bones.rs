@@ -1,0 +1,195 @@
+//! The skeleton: which bones there are, where they turn, and how they share the skin.
+
+use endline_sdk::SPINE_JOINTS;
+use endline_sim::whale::{Angle, Bone, Channel};
+use glam::DVec3;
+
+use super::curve::smooth_step;
+use super::form::WhaleForm;
+use super::part::Weights;
+use super::section::Sections;
+
+/// Bones and where to find them. The middle of the body, where the whale's frame has its origin, is
+/// the control bone; the spine bends from there both ways.
+pub struct Skeleton {
+    /// All bones, parents before children.
+    pub bones: Vec<Bone>,
+    /// Upper jaw and brain case.
+    pub skull: u16,
+    /// Lower jaw with the lips.
+    pub jaw: u16,
+    /// Bone of each stretch of the body from the head to the flukes.
+    stretches: Vec<u16>,
+    /// Joints between those stretches [share of length from the snout].
+    joints: Vec<f64>,
+    /// Left fluke and its tip; the right ones follow.
+    pub fluke: [u16; 2],
+    /// Left flipper's shoulder, blade and tip; the right ones follow.
+    pub flipper: [u16; 3],
+}
+
+/// Where the fluke blades bend [share of half span].
+pub const FLUKE_BENDS: [f64; 2] = [0.22, 0.60];
+/// Where the flipper bends [share of span].
+pub const FLIPPER_BENDS: [f64; 3] = [0.0, 0.40, 0.72];
+
+impl Skeleton {
+    /// The skeleton of a form.
+    #[must_use]
+    pub fn of(form: &WhaleForm, sections: &Sections) -> Self {
+        let mut skeleton = Self {
+            bones: vec![control()],
+            skull: 0,
+            jaw: 0,
+            stretches: vec![0],
+            joints: form.spine_joints.to_vec(),
+            fluke: [0; 2],
+            flipper: [0; 3],
+        };
+        let middle = form.spine_joints.iter().filter(|&&joint| joint < 0.5).count();
+        skeleton.add_fore_spine(form, sections, middle);
+        skeleton.add_jaw(form, sections);
+        skeleton.add_aft_spine(form, sections, middle);
+        skeleton.add_flukes(form, sections);
+        skeleton.add_flippers(form, sections);
+        skeleton
+    }
+
+    /// Weights of a point of the body: the two stretches that meet at the nearest joint.
+    #[must_use]
+    pub fn along_body(&self, at: f64) -> Weights {
+        let mut weights = [(self.stretches[0], 1.0), (0, 0.0), (0, 0.0), (0, 0.0)];
+        for (index, &joint) in self.joints.iter().enumerate() {
+            let reach = self.reach(index);
+            let aft = smooth_step(joint - reach, joint + reach, at);
+            if aft > 0.0 {
+                weights = [(self.stretches[index], 1.0 - aft), (self.stretches[index + 1], aft), (0, 0.0), (0, 0.0)];
+            }
+        }
+        weights
+    }
+
+    /// How far a joint's bend spreads, so that it ends before its neighbours' begin.
+    fn reach(&self, joint: usize) -> f64 {
+        let here = self.joints[joint];
+        let gap = |other: Option<&f64>| other.map_or(f64::INFINITY, |place| (place - here).abs());
+        0.48 * gap(self.joints.get(joint + 1)).min(gap(joint.checked_sub(1).and_then(|before| self.joints.get(before))))
+    }
+
+    /// Hands part of a vertex's weights over to another bone; the least of five bones gives way.
+    #[must_use]
+    pub fn hand_over(weights: Weights, bone: u16, share: f64) -> Weights {
+        if share <= 0.0 {
+            return weights;
+        }
+        let mut kept = weights.map(|(mover, weight)| (mover, weight * (1.0 - share)));
+        kept.sort_by(|left, right| right.1.total_cmp(&left.1));
+        kept[3] = (bone, share);
+        let sum: f64 = kept.iter().map(|(_, weight)| weight).sum();
+        kept.map(|(mover, weight)| (mover, weight / sum))
+    }
+
+    fn push(&mut self, name: &str, parent: u16, origin: DVec3, turns: &[(Angle, f64, DVec3)]) -> u16 {
+        let turns = turns.iter().map(|&(angle, share, axis)| (Channel { angle, share }, axis)).collect();
+        self.bones.push(Bone { name: name.into(), parent: Some(usize::from(parent)), origin, turns });
+        u16::try_from(self.bones.len() - 1).unwrap_or(u16::MAX)
+    }
+
+    /// From the middle forward: each joint carries what lies ahead of it, so it turns the other way.
+    fn add_fore_spine(&mut self, form: &WhaleForm, sections: &Sections, middle: usize) {
+        let mut parent = 0;
+        for joint in (0..middle).rev() {
+            parent = self.push(&spine_name(joint), parent, sections.axis(form.spine_joints[joint]), &spine_turns(joint, 1.0));
+            self.stretches.insert(0, parent);
+        }
+        self.skull = parent;
+    }
+
+    fn add_aft_spine(&mut self, form: &WhaleForm, sections: &Sections, middle: usize) {
+        let mut parent = 0;
+        for joint in middle..SPINE_JOINTS {
+            parent = self.push(&spine_name(joint), parent, sections.axis(form.spine_joints[joint]), &spine_turns(joint, -1.0));
+            self.stretches.push(parent);
+        }
+    }
+
+    fn add_jaw(&mut self, form: &WhaleForm, sections: &Sections) {
+        let hinge = sections.axis(form.head.mouth);
+        self.jaw = self.push("jaw", self.skull, hinge, &[(Angle::Jaw, 1.0, DVec3::Y)]);
+    }
+
+    fn add_flukes(&mut self, form: &WhaleForm, sections: &Sections) {
+        let joint = 1.0 - 0.8 * form.flukes.root_chord;
+        let joint = joint.max(form.spine_joints[SPINE_JOINTS - 1] + 0.01);
+        let peduncle = self.stretches[self.stretches.len() - 1];
+        let flukes = self.push("flukes", peduncle, sections.axis(joint), &[(Angle::FlukePitch, 1.0, DVec3::NEG_Y)]);
+        self.joints.push(joint);
+        self.stretches.push(flukes);
+        let height = form.flukes.height * form.breadth_scale;
+        for (side, name, out) in sides() {
+            let hinge = |bend: f64| sections.place(1.0, DVec3::new(0.0, out * bend * form.flukes.span / 2.0, height));
+            let flex = [(Angle::FlukeFlex(side), 0.5, DVec3::X * out)];
+            let blade = self.push(&format!("{name}_fluke"), flukes, hinge(FLUKE_BENDS[0]), &flex);
+            let tip = self.push(&format!("{name}_fluke_tip"), blade, hinge(FLUKE_BENDS[1]), &flex);
+            if side == 0 {
+                self.fluke = [blade, tip];
+            }
+        }
+    }
+
+    fn add_flippers(&mut self, form: &WhaleForm, sections: &Sections) {
+        let chest = self.chest(form.flippers.insertion);
+        for (side, name, out) in sides() {
+            let mirror = DVec3::new(1.0, out, 1.0);
+            let span = sections.flipper_axis() * mirror;
+            let root = sections.flipper_root() * mirror;
+            let hinge = |bend: f64| root + span * bend * form.flippers.span * form.length_m;
+            let twist = |share: f64| (Angle::FlipperTwist(side), share, span * out);
+            let raise = |share: f64| (Angle::FlipperRaise(side), share, DVec3::X * out);
+            let sweep = (Angle::FlipperSweep(side), 1.0, DVec3::Z * out);
+            let shoulder = self.push(&format!("{name}_flipper_shoulder"), chest, hinge(FLIPPER_BENDS[0]), &[twist(0.4), raise(0.8), sweep]);
+            let blade = self.push(&format!("{name}_flipper_blade"), shoulder, hinge(FLIPPER_BENDS[1]), &[twist(0.4), raise(0.2)]);
+            let tip = self.push(&format!("{name}_flipper_tip"), blade, hinge(FLIPPER_BENDS[2]), &[twist(0.2)]);
+            if side == 0 {
+                self.flipper = [shoulder, blade, tip];
+            }
+        }
+    }
+
+    /// The bone that carries most of the body at a place.
+    fn chest(&self, at: f64) -> u16 {
+        let weights = self.along_body(at);
+        if weights[1].1 > weights[0].1 { weights[1].0 } else { weights[0].0 }
+    }
+
+    /// The same bone on the other side.
+    #[must_use]
+    pub fn other_side(&self, bone: u16) -> u16 {
+        if self.fluke.contains(&bone) {
+            bone + 2
+        } else if self.flipper.contains(&bone) {
+            bone + 3
+        } else {
+            bone
+        }
+    }
+}
+
+fn control() -> Bone {
+    Bone { name: "control".into(), parent: None, origin: DVec3::ZERO, turns: Vec::new() }
+}
+
+/// Side number, name, and which way along y it lies.
+fn sides() -> [(usize, &'static str, f64); 2] {
+    [(0, "left", 1.0), (1, "right", -1.0)]
+}
+
+fn spine_name(joint: usize) -> String {
+    if joint == 0 { "skull".into() } else { format!("spine_{joint}") }
+}
+
+/// A positive pitch bends what lies aft down, a positive yaw swings it to starboard; `way` is 1 for
+/// a bone that carries what lies ahead, -1 for one that carries what lies aft.
+fn spine_turns(joint: usize, way: f64) -> [(Angle, f64, DVec3); 2] {
+    [(Angle::SpinePitch(joint), 1.0, DVec3::Y * way), (Angle::SpineYaw(joint), 1.0, DVec3::NEG_Z * way)]
+}

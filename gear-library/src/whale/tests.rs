@@ -1,0 +1,234 @@
+use std::collections::BTreeMap;
+
+use endline_sdk::{Posture, Region};
+use endline_sim::whale::{Angle, pose, skin_all};
+use glam::{DQuat, DVec3};
+
+use super::part::Part;
+use super::*;
+
+fn parts(form: &WhaleForm) -> [Part; 3] {
+    let sections = section::Sections::of(form);
+    let skeleton = bones::Skeleton::of(form, &sections);
+    [body::body(form, &sections, &skeleton), fins::left_flipper(form, &sections, &skeleton), fins::flukes(form, &sections, &skeleton)]
+}
+
+fn whale() -> Skin {
+    build_skin(&WhaleForm::right_whale(13.7))
+}
+
+/// Every edge belongs to exactly two triangles that run along it in opposite directions.
+#[test]
+fn the_skin_is_closed() {
+    let skin = whale();
+    let mut edges = BTreeMap::new();
+    for [a, b, c] in &skin.triangles {
+        for edge in [(a, b), (b, c), (c, a)] {
+            assert!(edges.insert(edge, ()).is_none(), "edge {edge:?} runs twice the same way");
+        }
+    }
+    for &(from, to) in edges.keys() {
+        assert!(edges.contains_key(&(to, from)), "edge {from} to {to} has one triangle");
+    }
+    assert!((13_000..15_000).contains(&skin.triangles.len()), "{} triangles", skin.triangles.len());
+    assert_eq!(skin.regions.len(), skin.triangles.len());
+}
+
+#[test]
+fn weights_are_shares_of_known_bones() {
+    let skin = whale();
+    assert_eq!(skin.weights.len(), skin.vertices.len());
+    for weights in &skin.weights {
+        assert!((weights.iter().map(|(_, weight)| weight).sum::<f64>() - 1.0).abs() < 1e-12);
+        assert!(weights.iter().all(|&(bone, weight)| (0.0..=1.0).contains(&weight) && usize::from(bone) < skin.bones.len()));
+    }
+    for (index, bone) in skin.bones.iter().enumerate() {
+        assert!(bone.parent.is_none_or(|parent| parent < index), "{} stands before its parent", bone.name);
+        assert!(bone.turns.iter().all(|(_, axis)| (axis.length() - 1.0).abs() < 1e-12));
+    }
+    assert!(skin.bones.len() >= 20 && skin.bones[0].parent.is_none());
+}
+
+#[test]
+fn every_region_has_skin() {
+    let skin = whale();
+    for region in Region::ALL {
+        assert!(skin.regions.contains(&region), "{region:?} has no triangle");
+    }
+}
+
+/// Published digest of the section table: stacked ellipses hold 0.01877 L³ and have 0.445 L² of skin.
+#[test]
+fn the_body_holds_and_wets_what_its_table_does() {
+    let form = WhaleForm { breadth_scale: 1.0, ..WhaleForm::right_whale(1.0) };
+    let [body, _, flukes] = parts(&form);
+    assert!((body.volume() / 0.018_77 - 1.0).abs() < 0.02, "volume {}", body.volume());
+    assert!((body.area() / 0.445 - 1.0).abs() < 0.03, "area {}", body.area());
+    assert!(flukes.volume() > 0.0);
+    // Both breadth and height scale, so volume goes with the square.
+    let slim = WhaleForm { breadth_scale: 0.9, ..form };
+    assert!((parts(&slim)[0].volume() / body.volume() - 0.81).abs() < 1e-9);
+}
+
+/// Widest places of the mesh against the table, at the stations between the rounded ends.
+#[test]
+fn widths_are_those_of_the_table() {
+    let form = WhaleForm { breadth_scale: 1.0, ..WhaleForm::right_whale(1.0) };
+    let [body, ..] = parts(&form);
+    for station in form.stations.iter().filter(|station| (0.04..0.97).contains(&station.at)) {
+        let width = width_at(&body, 0.5 - station.at);
+        assert!(
+            (width / station.width - 1.0).abs() < 0.01,
+            "{} at {}: {width} against {}",
+            width / station.width,
+            station.at,
+            station.width
+        );
+    }
+}
+
+/// Greatest width of the cut through a piece at `x`.
+fn width_at(part: &Part, x: f64) -> f64 {
+    let mut half: f64 = 0.0;
+    for triangle in &part.triangles {
+        for edge in 0..3 {
+            let [a, b] = [triangle[edge], triangle[(edge + 1) % 3]].map(|corner| part.corners[corner as usize].place);
+            if (a.x - x) * (b.x - x) <= 0.0 && (a.x - b.x).abs() > 1e-12 {
+                half = half.max(a.lerp(b, (x - a.x) / (b.x - a.x)).y);
+            }
+        }
+    }
+    2.0 * half
+}
+
+#[test]
+fn left_and_right_mirror_one_another() {
+    let skin = whale();
+    let key = |place: DVec3| (place * 1e6).round().as_i64vec3().to_array();
+    let places: BTreeMap<_, usize> = skin.vertices.iter().enumerate().map(|(index, &place)| (key(place), index)).collect();
+    for place in &skin.vertices {
+        assert!(places.contains_key(&key(*place * DVec3::new(1.0, -1.0, 1.0))), "no mirror image of {place}");
+    }
+}
+
+/// A mirrored posture gives the mirrored whale: sides turn the way the posture says.
+#[test]
+fn sides_move_as_mirror_images() {
+    let skin = whale();
+    let left = Posture {
+        flipper_raise: [0.5, 0.0],
+        flipper_sweep: [0.4, 0.0],
+        flipper_twist: [0.3, 0.0],
+        fluke_flex: [0.2, 0.0],
+        ..Posture::default()
+    };
+    let right = Posture {
+        flipper_raise: [0.0, 0.5],
+        flipper_sweep: [0.0, 0.4],
+        flipper_twist: [0.0, 0.3],
+        fluke_flex: [0.0, 0.2],
+        ..Posture::default()
+    };
+    let key = |place: DVec3| (place * 1e6).round().as_i64vec3().to_array();
+    let mirrored: BTreeMap<_, ()> = posed(&skin, &right).iter().map(|place| (key(*place * DVec3::new(1.0, -1.0, 1.0)), ())).collect();
+    let missing = posed(&skin, &left).iter().filter(|place| !mirrored.contains_key(&key(**place))).count();
+    assert_eq!(missing, 0);
+}
+
+fn posed(skin: &Skin, posture: &Posture) -> Vec<DVec3> {
+    let (mut bones, mut places) = (Vec::new(), Vec::new());
+    pose(skin, DVec3::ZERO, DQuat::IDENTITY, posture, &mut bones);
+    skin_all(skin, &bones, &mut places);
+    places
+}
+
+/// The signs the posture promises, seen on the skin.
+#[test]
+fn angles_turn_the_way_the_posture_says() {
+    let skin = whale();
+    let rest = posed(&skin, &Posture::default());
+    let most = |value: fn(DVec3) -> f64| (0..rest.len()).max_by(|&a, &b| value(rest[a]).total_cmp(&value(rest[b]))).unwrap();
+    let (snout, left_fluke) = (most(|p| p.x), most(|p| p.y - p.x));
+    let flipper = (0..rest.len()).filter(|&v| rest[v].x > 0.0).max_by(|&a, &b| rest[a].y.total_cmp(&rest[b].y)).unwrap();
+    let tail = most(|p| -p.x - p.y.abs());
+    let moved = |posture: &Posture, vertex: usize| posed(&skin, posture)[vertex] - rest[vertex];
+    let all = |angle: f64| [angle; endline_sdk::SPINE_JOINTS];
+    let bent = Posture { spine_pitch: all(0.1), ..Posture::default() };
+    assert!(moved(&bent, tail).z < -0.5 && moved(&bent, snout).z < -0.2, "pitch bends the tail, and the head against it, down");
+    let swung = Posture { spine_yaw: all(0.1), ..Posture::default() };
+    assert!(moved(&swung, tail).y < -0.5 && moved(&swung, snout).y < -0.2, "yaw swings the tail, and the head against it, to starboard");
+    assert!(moved(&Posture { fluke_pitch: 0.3, ..Posture::default() }, left_fluke).z < -0.1);
+    assert!(moved(&Posture { fluke_flex: [0.3, 0.0], ..Posture::default() }, left_fluke).z > 0.1);
+    assert!(moved(&Posture { flipper_raise: [0.3, 0.0], ..Posture::default() }, flipper).z > 0.3);
+    assert!(moved(&Posture { flipper_sweep: [0.3, 0.0], ..Posture::default() }, flipper).x < -0.3);
+    let open = posed(&skin, &Posture { jaw: 0.3, ..Posture::default() });
+    let lowest = |places: &[DVec3]| places.iter().filter(|p| p.x > 5.0).map(|p| p.z).fold(f64::INFINITY, f64::min);
+    assert!(lowest(&open) < lowest(&rest) - 0.3, "the jaw drops");
+}
+
+/// A full posture with the mouth closed tears nothing: neighbours on the skin stay neighbours.
+/// (An opening mouth draws out the strip between rostrum and lip on purpose: it stands for the baleen.)
+#[test]
+fn skinning_is_continuous() {
+    let skin = whale();
+    let posture = Posture {
+        spine_pitch: [0.12; endline_sdk::SPINE_JOINTS],
+        spine_yaw: [-0.1; endline_sdk::SPINE_JOINTS],
+        fluke_pitch: 0.5,
+        fluke_flex: [0.3, -0.2],
+        flipper_sweep: [0.8, -0.15],
+        flipper_raise: [0.4, -0.6],
+        flipper_twist: [0.5, -0.5],
+        jaw: 0.0,
+    };
+    let (rest, places) = (posed(&skin, &Posture::default()), posed(&skin, &posture));
+    for triangle in &skin.triangles {
+        for edge in 0..3 {
+            let [a, b] = [triangle[edge] as usize, triangle[(edge + 1) % 3] as usize];
+            let (before, after) = (rest[a].distance(rest[b]), places[a].distance(places[b]));
+            assert!(after < 2.0 * before + 0.35, "an edge of {before} m is drawn out to {after} m near {}", rest[a]);
+        }
+    }
+    // A millionth of a turn moves nothing by more than a millionth of the body.
+    let mut nudged = posture;
+    nudged.spine_yaw[4] += 1e-6;
+    nudged.flipper_raise[0] += 1e-6;
+    for (before, after) in places.iter().zip(posed(&skin, &nudged)) {
+        assert!(before.distance(after) < 1.5e-5);
+    }
+}
+
+/// Volume of the whole skin against parry's mass properties of the same triangles.
+#[test]
+fn volume_agrees_with_parry() {
+    use parry3d::math::Vector;
+    use parry3d::shape::{Shape, TriMesh};
+    let skin = whale();
+    let own: f64 = skin.triangles.iter().map(|t| t.map(|i| skin.vertices[i as usize])).map(|[a, b, c]| a.dot(b.cross(c)) / 6.0).sum();
+    let mesh = TriMesh::new(skin.vertices.iter().map(|v| Vector::new(v.x, v.y, v.z)).collect(), skin.triangles.clone()).unwrap();
+    let parry = mesh.mass_properties(1.0).mass();
+    assert!((own / parry - 1.0).abs() < 1e-9, "{own} against {parry}");
+    assert!(own > 30.0 && own < 45.0, "a 13.7 m right whale of 36 t, fins counted twice where they join: {own} m³");
+}
+
+/// The spine, flukes, flippers and jaw answer to every angle of a posture.
+#[test]
+fn every_angle_has_a_bone() {
+    let skin = whale();
+    let has = |angle: Angle| {
+        skin.bones
+            .iter()
+            .flat_map(|bone| &bone.turns)
+            .filter(|(channel, _)| channel.angle == angle)
+            .map(|(channel, _)| channel.share)
+            .sum::<f64>()
+    };
+    let mut angles = vec![Angle::FlukePitch, Angle::Jaw];
+    angles.extend((0..endline_sdk::SPINE_JOINTS).flat_map(|joint| [Angle::SpinePitch(joint), Angle::SpineYaw(joint)]));
+    angles.extend(
+        (0..2).flat_map(|side| [Angle::FlukeFlex(side), Angle::FlipperSweep(side), Angle::FlipperRaise(side), Angle::FlipperTwist(side)]),
+    );
+    for angle in angles {
+        assert!((has(angle) - 1.0).abs() < 1e-12, "{angle:?} is shared out as {}", has(angle));
+    }
+}
