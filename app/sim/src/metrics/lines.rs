@@ -81,9 +81,9 @@ impl LineMeter {
 
 /// Tension that a line's end bears at its joint [N]; zero where it is slack, cut or empty.
 ///
-/// The tension of a lumped segment is that at its middle. Along a hanging rope tension changes by
-/// wet weight times height, so the end bears `T + w (l/2) e`, with `w` the weight in water [N/m],
-/// `l` the end segment's length and `e` the upward part of the unit vector from the segment to the end.
+/// The tension of a lumped segment is that at its middle. Between there and the end hangs half a
+/// segment's load, so the end bears `T + (l/2) (w e_z - f)`: `e` the unit vector along the segment to
+/// the end, `w` the weight in water and `f` the drag along `e`, both per metre, and `l` its length.
 #[must_use]
 pub fn end_tension(model: &Model, state: &State, line: usize, end: LineEnd) -> f64 {
     let middle = end_segment_tension(model, state, line, end);
@@ -91,18 +91,19 @@ pub fn end_tension(model: &Model, state: &State, line: usize, end: LineEnd) -> f
     if middle <= 0.0 {
         return 0.0;
     }
-    let (tip, inner) = (state.rope.position[tip], state.rope.position[inner]);
-    let Some(outward) = (tip - inner).try_normalize() else { return middle };
+    let Some(outward) = (state.rope.position[tip] - state.rope.position[inner]).try_normalize() else { return middle };
     let length = model.spec.lines[line].segments_m[segment - model.line_segments[line].start];
-    (middle + wet_weight(model, line, tip.midpoint(inner)) * 0.5 * length * outward.z).max(0.0)
+    (middle - 0.5 * length * load_along(model, state, line, tip, outward)).max(0.0)
 }
 
-/// Weight less buoyancy of a line's rope at a place [N/m].
-fn wet_weight(model: &Model, line: usize, place: DVec3) -> f64 {
+/// Weight, buoyancy and drag of a line's rope at a node, along a direction [N/m].
+fn load_along(model: &Model, state: &State, line: usize, node: usize, along: DVec3) -> f64 {
     let (rope, water) = (&model.spec.ropes[model.spec.lines[line].rope], &model.spec.water);
-    let wet = !water.rope_dries || place.z < 0.0;
-    let displaced_kg_m = if wet { rope.displaced_m3_m * water.density_kg_m3 } else { 0.0 };
-    (rope.mass_kg_m - displaced_kg_m) * water.gravity_m_s2
+    let place = state.rope.position[node];
+    let density = if water.rope_dries && place.z > 0.0 { 0.0 } else { water.density_kg_m3 };
+    let speed = (water.velocity(place) - state.rope.velocity[node]).dot(along);
+    let drag = 0.5 * density * rope.drag_tangential * std::f64::consts::PI * rope.diameter_m * libm::fabs(speed) * speed;
+    drag - (rope.mass_kg_m - density * rope.displaced_m3_m) * water.gravity_m_s2 * along.z
 }
 
 /// Tension of the segment at an end, never below zero [N].

@@ -18,6 +18,24 @@ fn end_tension_of_a_hanging_line_is_its_whole_weight() {
     }
 }
 
+/// A line trailed up-current loses drag along it from the held end to the free one, and its own motion counts.
+#[test]
+fn end_tension_of_a_trailed_line_is_its_whole_drag() {
+    let mut spec = spec(vec![0.5; 8]);
+    spec.joints[1].position_m = DVec3::new(4.0, 0.0, -40.0);
+    spec.water.gravity_m_s2 = 0.0;
+    spec.water.current.surface_m_s = DVec3::X * 2.5;
+    let model = model(spec);
+    let mut state = State::start(&model);
+    state.rope.velocity.fill(DVec3::X * 1.0);
+    let drag = 0.5 * 1025.0 * 0.01 * std::f64::consts::PI * 0.01 * 1.5 * 1.5;
+    for k in 0..8_u32 {
+        state.rope.tension[k as usize] = drag * 0.5 * (7.5 - f64::from(k));
+    }
+    assert!((end_tension(&model, &state, 0, LineEnd::A) - 4.0 * drag).abs() < 1e-9);
+    assert!(end_tension(&model, &state, 0, LineEnd::B).abs() < 1e-9);
+}
+
 #[test]
 fn a_slack_or_cut_end_bears_nothing() {
     let model = model(spec(vec![1.0; 4]));

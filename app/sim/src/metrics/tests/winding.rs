@@ -136,25 +136,48 @@ fn short_gaps_are_bridged_and_long_ones_are_not() {
     }
 }
 
+/// Two lines of ten segments, the second laid against the first, with two contacts on each segment.
+fn two_lines(spec: ModelSpec, turns: f64) -> (Model, Vec<ContactPoint>) {
+    let model = model(spec);
+    let places = helix(&model.spec.whale.as_ref().unwrap().skin, turns, 40);
+    let place_of = |k: usize| match k {
+        0..20 => (0, k / 2, [0.25, 0.75][k % 2]),
+        _ => (1, 10 + (39 - k) / 2, [0.75, 0.25][k % 2]),
+    };
+    let contact_at = |k: usize| {
+        let (line, segment, fraction) = place_of(k);
+        ContactPoint { line, segment, fraction, length_m: 0.05, ..contact(&model, 0, places[k]) }
+    };
+    let contacts = (0..40).rev().map(contact_at).collect();
+    (model, contacts)
+}
+
 #[test]
 fn a_cut_ends_a_wrap_and_a_splice_does_not() {
-    let mut spec = spec(vec![0.05; 20]);
+    let mut spec = spec(vec![0.1; 10]);
     spec.joints.push(joint("end", JointKind::Free, DVec3::new(0.0, 0.0, -38.0)));
-    spec.lines.push(line("upper", 2, 1, vec![0.05; 20]));
-    let model = model(spec);
-    let places = helix(&model.spec.whale.as_ref().unwrap().skin, 1.0, 40);
-    let mut contacts: Vec<_> = (0..20).map(|k| contact(&model, k, places[k])).collect();
-    for (k, place) in places.iter().enumerate().skip(20) {
-        // The upper line runs against the strand: its last segment is next to the splice.
-        contacts.push(ContactPoint { line: 1, segment: 59 - k, ..contact(&model, 0, *place) });
-    }
-    contacts.reverse();
+    spec.lines.push(line("upper", 2, 1, vec![0.1; 10]));
+    let (model, mut contacts) = two_lines(spec, 1.0);
     let (mut metrics, mut state) = (Metrics::new(&model), State::start(&model));
     advance(&mut metrics, &model, &mut state, &contacts);
     let wraps = region(&metrics.summary(&model, &state), BodyPart::Peduncle).wraps;
     assert!((wraps - 1.0).abs() < 0.02, "{wraps}");
-    state.rope.cut[39] = true;
-    contacts.retain(|contact| contact.segment != 39);
+    state.rope.cut[19] = true;
+    contacts.retain(|contact| contact.segment != 19);
+    advance(&mut metrics, &model, &mut state, &contacts);
+    let wraps = region(&metrics.summary(&model, &state), BodyPart::Peduncle).wraps;
+    assert!((wraps - 0.5).abs() < 0.02, "{wraps}");
+}
+
+/// Two ropes that lie end to end on the skin but are not joined wrap each for itself.
+#[test]
+fn ropes_that_are_not_joined_do_not_add_up() {
+    let mut spec = spec(vec![0.1; 10]);
+    spec.joints.push(joint("start", JointKind::Free, DVec3::new(0.0, 0.0, -39.0)));
+    spec.joints.push(joint("end", JointKind::Free, DVec3::new(0.0, 0.0, -38.0)));
+    spec.lines.push(line("other", 2, 3, vec![0.1; 10]));
+    let (model, contacts) = two_lines(spec, 1.0);
+    let (mut metrics, mut state) = (Metrics::new(&model), State::start(&model));
     advance(&mut metrics, &model, &mut state, &contacts);
     let wraps = region(&metrics.summary(&model, &state), BodyPart::Peduncle).wraps;
     assert!((wraps - 0.5).abs() < 0.02, "{wraps}");
