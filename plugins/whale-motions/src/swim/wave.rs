@@ -1,14 +1,14 @@
 //! The travelling wave of the body and the pitch of the flukes.
 //!
 //! ```text
-//! heave    y(x) = A/2 e(x) sin(phi - k x),   e(x) = ((x - x0)/(1 - x0))²  aft of the skull's joint x0, 0 ahead
+//! heave    y(x) = A/2 e(x) sin(phi - k x),   e(x) = ((x - x0)/(x1 - x0))²  from the skull's joint x0 to the flukes' hinge x1
 //! joint    angle = atan(slope ahead) - atan(slope aft)     of the chords between joints; positive bends down
-//! flukes   against the water: theta cos(phi - k),  theta = max(atan(pi St) - attack, 0)
+//! flukes   against the water: theta cos(phi - k x1),  theta = max(atan(pi St) - attack, 0)
 //! ```
 //!
-//! `e` rises from the stiff head to 1 at the flukes, within a few hundredths of published envelopes
-//! (about 0.05 at x = 0.35). Wavelength 1.25 L is an estimate. The heave is upwards where
-//! `cos(phi - k) > 0`, and there the trailing edge turns down: the flukes push water back both ways.
+//! `e` is 0 at the stiff head and 1 at the hinge, within a few hundredths of published envelopes
+//! (about 0.05 at x = 0.35). Wavelength 1.25 L is an estimate. The hinge rises where
+//! `cos(phi - k x1) > 0`, and there the trailing edge turns down: the flukes push water back both ways.
 
 use std::f64::consts::{PI, TAU};
 
@@ -67,12 +67,12 @@ impl Beat {
 
     /// Pitch of the flukes against a peduncle whose own pitch, trailing end down, is given [rad].
     pub(super) fn fluke_pitch(&self, phase: f64, peduncle_rad: f64) -> f64 {
-        self.fluke_pitch_rad * libm::cos(phase - WAVE_NUMBER) - peduncle_rad
+        self.fluke_pitch_rad * libm::cos(phase - WAVE_NUMBER * FLUKE_STATION) - peduncle_rad
     }
 
     /// Bend of the blades [rad]: tips lag behind the heave.
     pub(super) fn fluke_flex(&self, phase: f64) -> f64 {
-        -BLADE_FLEX_RAD * self.effort * libm::cos(phase - WAVE_NUMBER)
+        -BLADE_FLEX_RAD * self.effort * libm::cos(phase - WAVE_NUMBER * FLUKE_STATION)
     }
 
     /// Heave of the body's line at a station, dorsal, over body length [1].
@@ -82,6 +82,6 @@ impl Beat {
 }
 
 fn envelope(station: f64) -> f64 {
-    let rise = ((station - SPINE_STATIONS[0]) / (1.0 - SPINE_STATIONS[0])).max(0.0);
+    let rise = ((station - SPINE_STATIONS[0]) / (FLUKE_STATION - SPINE_STATIONS[0])).max(0.0);
     rise * rise
 }
