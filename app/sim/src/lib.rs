@@ -9,12 +9,14 @@
 pub mod contact;
 pub mod frame;
 pub mod metrics;
+mod gear_hook;
 pub mod model;
 pub mod parting;
 pub mod solver;
 pub mod state;
 pub mod statics;
 pub mod step;
+mod substep;
 pub mod water;
 pub mod whale;
 

@@ -7,7 +7,7 @@ use endline_sdk::{AttributeValue, FrictionModel, GearType, LineEnd};
 use glam::{DQuat, DVec3};
 
 use crate::water::Water;
-use crate::whale::Whale;
+use crate::whale::{SkinTree, Whale};
 
 /// A rope material, per metre of unstretched length.
 #[derive(Clone, Debug, PartialEq)]
@@ -309,6 +309,10 @@ pub struct Model {
     pub node_count: usize,
     /// Segments in all.
     pub segment_count: usize,
+    /// Line of each segment.
+    pub segment_line: Vec<usize>,
+    /// Tree over the whale's skin.
+    pub skin_tree: Option<Arc<SkinTree>>,
 }
 
 /// What is wrong with a [`ModelSpec`].
@@ -335,6 +339,22 @@ impl Model {
             node_count += segments + 1;
             segment_count += segments;
         }
-        Ok(Self { spec, line_nodes, line_segments, node_count, segment_count })
+        let segment_line =
+            spec.lines.iter().enumerate().flat_map(|(index, line)| std::iter::repeat_n(index, line.segments_m.len())).collect();
+        let skin_tree = spec.whale.as_ref().map(|whale| Arc::new(SkinTree::new(whale.skin.clone())));
+        Ok(Self { spec, line_nodes, line_segments, node_count, segment_count, segment_line, skin_tree })
+    }
+
+    /// Rope of a segment.
+    #[must_use]
+    pub fn rope_of_segment(&self, segment: usize) -> &Rope {
+        &self.spec.ropes[self.spec.lines[self.segment_line[segment]].rope]
+    }
+
+    /// Unstretched length of a segment [m].
+    #[must_use]
+    pub fn segment_length(&self, segment: usize) -> f64 {
+        let line = self.segment_line[segment];
+        self.spec.lines[line].segments_m[segment - self.line_segments[line].start]
     }
 }

@@ -3,6 +3,7 @@
 use endline_sdk::Posture;
 use glam::{DQuat, DVec3};
 
+use crate::contact::Grips;
 use crate::model::{Body, JointKind, Model};
 use crate::whale::Whale;
 
@@ -46,8 +47,8 @@ pub struct RopeState {
     pub earlier_dt_s: f64,
     /// Where each node grips the seabed: tangential stretch of the grip [m].
     pub seabed_grip: Vec<DVec3>,
-    /// Floats of the friction model, for each contact site of each segment.
-    pub friction: Vec<f64>,
+    /// Floats of the friction model where rope touches skin.
+    pub grips: Grips,
 }
 
 /// A rigid body in motion.
@@ -104,7 +105,7 @@ impl State {
             earlier_velocity: vec![DVec3::ZERO; nodes],
             earlier_dt_s: 0.0,
             seabed_grip: vec![DVec3::ZERO; nodes],
-            friction: Vec::new(),
+            grips: Grips::default(),
             position,
         };
         Self {

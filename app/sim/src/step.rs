@@ -7,17 +7,17 @@
 use endline_sdk::Controls;
 
 use crate::contact::ContactPoint;
+use crate::contact::near::MARGIN_M;
+use crate::contact::work::{ContactWork, force_by_part};
+use crate::gear_hook;
 use crate::model::Model;
-use crate::parting::{self, Parting};
-use crate::solver::{Scheme, Solver};
-use crate::state::State;
+use crate::solver::Solver;
+use crate::state::{State, WhaleState};
+use crate::substep::{self, Refused};
+use crate::whale::drive::{drive, pose_between};
 
-/// Passes every solver step takes at least.
-const LEAST_PASSES: usize = 2;
-/// Passes after which a solver step counts as not converged.
-const MOST_PASSES: usize = 12;
-/// Move of a pass at which a solver step has converged [m].
-const CONVERGED_M: f64 = 1e-3;
+/// Rope this near to the whale's path over a whole step makes the solver steps short [m].
+const NEAR_M: f64 = MARGIN_M + 0.12;
 
 /// All that enters a step from outside; recorded, so that a run replays.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -35,7 +35,8 @@ pub struct Workspace {
     pub peak_tension_n: Vec<f64>,
     /// Counters of the run so far.
     pub audit: Audit,
-    solver: Solver,
+    pub(crate) solver: Solver,
+    pub(crate) contact: Option<ContactWork>,
     before: Option<State>,
 }
 
@@ -71,14 +72,6 @@ pub struct Stop {
     pub reason: String,
 }
 
-/// Why a solver step must be redone shorter.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Refused {
-    NotFinite,
-    NotConverged,
-    PartsTooLate,
-}
-
 impl Workspace {
     /// Scratch for a model.
     #[must_use]
@@ -88,6 +81,7 @@ impl Workspace {
             peak_tension_n: vec![0.0; model.segment_count],
             audit: Audit::default(),
             solver: Solver::new(model),
+            contact: ContactWork::new(model),
             before: None,
         }
     }
@@ -97,81 +91,98 @@ impl Workspace {
 ///
 /// # Errors
 /// With the part and the reason, where the run cannot go on; `state` is then as it was before the step.
-pub fn step(model: &Model, _input: &Input, state: &mut State, workspace: &mut Workspace) -> Result<(), Stop> {
+pub fn step(model: &Model, input: &Input, state: &mut State, workspace: &mut Workspace) -> Result<(), Stop> {
     match &mut workspace.before {
         Some(before) => before.clone_from(state),
         none => *none = Some(state.clone()),
     }
+    let done = try_step(model, input, state, workspace);
+    if let (Err(_), Some(before)) = (&done, &workspace.before) {
+        state.clone_from(before);
+    }
+    done
+}
+
+fn try_step(model: &Model, input: &Input, state: &mut State, workspace: &mut Workspace) -> Result<(), Stop> {
     workspace.peak_tension_n.fill(0.0);
+    workspace.contacts.clear();
     let settings = &model.spec.settings;
+    let whale = match &state.whale {
+        Some(whale) => Some((whale.clone(), drive(model, input, whale, state.time_s)?)),
+        None => None,
+    };
+    let longest =
+        if near_whale(model, state, workspace, whale.as_ref()) { settings.contact_step_s.min(settings.step_s) } else { settings.step_s };
+    solver_steps(model, state, workspace, whale.as_ref(), longest)?;
+    state.time_s = settings.step_s * (state.step + 1) as f64;
+    state.step += 1;
+    if let Some((_, mut after)) = whale {
+        after.contact_force_n = force_by_part(&workspace.contacts);
+        state.whale = Some(after);
+    }
+    gear_hook::act(model, state)
+}
+
+/// Whether rope may come near the whale in this step.
+fn near_whale(model: &Model, state: &State, workspace: &mut Workspace, whale: Option<&(WhaleState, WhaleState)>) -> bool {
+    let (Some(work), Some((from, to))) = (&mut workspace.contact, whale) else { return false };
+    pose_between(model, from, to, 0.0, &mut work.bones[0]);
+    pose_between(model, from, to, 1.0, &mut work.bones[1]);
+    let step_s = model.spec.settings.step_s;
+    let [start, end] = &work.bones;
+    work.near.any([start, end], &state.rope.position, |node| state.rope.velocity[node] * step_s, NEAR_M)
+}
+
+/// Solver steps to the end of the model's step, halved where one is refused.
+fn solver_steps(
+    model: &Model,
+    state: &mut State,
+    workspace: &mut Workspace,
+    whale: Option<&(WhaleState, WhaleState)>,
+    longest: f64,
+) -> Result<(), Stop> {
+    let settings = &model.spec.settings;
+    let start = settings.step_s * state.step as f64;
     let end = settings.step_s * (state.step + 1) as f64;
     let mut halvings = 0_u32;
     while end - state.time_s > 1e-9 * settings.step_s {
         let left = end - state.time_s;
-        let longest = settings.step_s / f64::from(1_u32 << halvings.min(30));
-        let dt = left / (left / longest - 1e-9).ceil().max(1.0);
-        match solver_step(model, state, workspace, dt, halvings > 0) {
+        let wanted = longest / f64::from(1_u32 << halvings.min(30));
+        let dt = left / (left / wanted - 1e-9).ceil().max(1.0);
+        if let (Some(work), Some((from, to))) = (&mut workspace.contact, whale) {
+            let share = |time: f64| ((time - start) / settings.step_s).clamp(0.0, 1.0);
+            pose_between(model, from, to, share(state.time_s), &mut work.bones[0]);
+            pose_between(model, from, to, share(state.time_s + dt), &mut work.bones[1]);
+        }
+        match substep::solver_step(model, state, workspace, dt, halvings > 0) {
             Ok(()) => halvings = halvings.saturating_sub(1),
-            Err(_) if 0.5 * dt >= settings.least_step_s => {
+            Err(why) if why.may_halve() && 0.5 * dt >= settings.least_step_s => {
                 halvings += 1;
                 workspace.audit.halved += 1;
             }
-            Err(why) => {
-                let stop = give_up(model, state, workspace, why);
-                if let Some(before) = &workspace.before {
-                    state.clone_from(before);
-                }
-                return Err(stop);
-            }
+            Err(why) => return Err(stop(model, state, workspace, why)),
         }
-    }
-    state.time_s = end;
-    state.step += 1;
-    Ok(())
-}
-
-/// One solver step of length `dt`: kept in `state` where it converges and parts nothing late.
-fn solver_step(model: &Model, state: &mut State, workspace: &mut Workspace, dt: f64, careful: bool) -> Result<(), Refused> {
-    let scheme = if careful { Scheme::backward_euler(dt) } else { Scheme::bdf2(dt, state.rope.earlier_dt_s) };
-    let solver = &mut workspace.solver;
-    solver.begin(model, state, &scheme);
-    let mut passes = 0;
-    loop {
-        let passed = solver.pass(model, state, &scheme);
-        passes += 1;
-        workspace.audit.passes += 1;
-        if !passed.finite {
-            workspace.audit.non_finite += 1;
-            return Err(Refused::NotFinite);
-        }
-        if passes >= LEAST_PASSES && passed.longest_m < CONVERGED_M {
-            break;
-        }
-        if passes >= MOST_PASSES {
-            return Err(Refused::NotConverged);
-        }
-    }
-    if dt * 0.5 >= model.spec.settings.least_step_s && parting::too_late(model, state, solver.tension()) {
-        return Err(Refused::PartsTooLate);
-    }
-    solver.keep(model, &scheme, state);
-    workspace.audit.solver_steps += 1;
-    for (peak, tension) in workspace.peak_tension_n.iter_mut().zip(&state.rope.tension) {
-        *peak = peak.max(*tension);
-    }
-    if parting::part(model, state) == Parting::Some {
-        state.rope.earlier_dt_s = 0.0;
     }
     Ok(())
 }
 
 /// The reason a run ends where even the shortest step is refused.
-fn give_up(model: &Model, state: &State, workspace: &Workspace, why: Refused) -> Stop {
-    let part = workspace.solver.worst_line(model).map_or_else(|| "model".into(), |line| format!("line {}", model.spec.lines[line].id));
-    let reason = match why {
-        Refused::NotFinite => "its numbers are no longer finite at the shortest step; check stiffness, mass and current of this part",
-        Refused::NotConverged => "no balance of forces was found at the shortest step; check strength and stiffness of this part",
-        Refused::PartsTooLate => "it parts faster than the shortest step can follow",
+fn stop(model: &Model, state: &State, workspace: &Workspace, why: Refused) -> Stop {
+    let line = || workspace.solver.worst_line(model).map_or_else(|| "model".into(), |line| format!("line {}", model.spec.lines[line].id));
+    let friction = || model.spec.friction.as_ref().map_or_else(|| "friction".into(), |friction| friction.model.descriptor().id.to_string());
+    let (part, reason) = match why {
+        Refused::NotFinite => {
+            (line(), "its numbers are no longer finite at the shortest step; check stiffness, mass and current of this part".into())
+        }
+        Refused::NotConverged => {
+            (line(), "no balance of forces was found at the shortest step; check strength and stiffness of this part".into())
+        }
+        Refused::PartsTooLate => (line(), "it parts faster than the shortest step can follow".into()),
+        Refused::Crossed(segment) => {
+            let line = &model.spec.lines[model.segment_line[segment]].id;
+            (format!("line {line}"), "rope crosses the whale's skin where the run starts; move the whale or the gear apart".into())
+        }
+        Refused::Plugin(message) => (friction(), message),
     };
-    Stop { time_s: state.time_s, part, reason: reason.into() }
+    Stop { time_s: state.time_s, part, reason }
 }

@@ -2,7 +2,14 @@
 
 pub mod crossing;
 pub mod distance;
+pub(crate) mod grip;
+pub(crate) mod law;
+pub(crate) mod near;
+pub(crate) mod slots;
 pub mod sweep;
+pub(crate) mod work;
+
+pub use grip::Grips;
 
 use endline_sdk::Region;
 use glam::DVec3;

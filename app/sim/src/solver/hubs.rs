@@ -99,6 +99,21 @@ impl Hubs {
         parts(seat, arm).map(|(block, part)| part * self.step[block]).sum()
     }
 
+    /// Change of `½ xᵀAx - f·x` over a share of a step, for two-block hubs (bodies) as assembled.
+    pub fn energy_change(&self, step: &[DVec3], body_block: &[usize], share: f64) -> f64 {
+        let mut change = 0.0;
+        for block in body_block {
+            for row in [*block, block + 1] {
+                let bent: DVec3 = [*block, block + 1]
+                    .map(|column| self.value[self.slot[row * self.blocks + column] as usize] * step[column])
+                    .into_iter()
+                    .sum();
+                change += 0.5 * share * share * step[row].dot(bent) - share * self.force[row].dot(step[row]);
+            }
+        }
+        change
+    }
+
     /// Factors and solves in place.
     pub fn solve(&mut self) {
         for place in 0..self.order.len() {

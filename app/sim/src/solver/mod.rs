@@ -12,6 +12,7 @@ mod hubs;
 mod plan;
 mod rope;
 mod scheme;
+mod touch;
 mod trial;
 
 use glam::{DMat3, DQuat, DVec3};
@@ -23,6 +24,7 @@ use hubs::{Hubs, Seat};
 use plan::Plan;
 use rope::Pull;
 pub(crate) use scheme::Scheme;
+pub(crate) use touch::Touched;
 use trial::Trial;
 
 /// Scratch of the solver for one model; it keeps nothing that a step depends on.
@@ -36,6 +38,17 @@ pub struct Solver {
     mass: Vec<DMat3>,
     pull: Vec<Pull>,
     cut: Vec<bool>,
+    rest: Rest,
+    /// Where rope would go on its own from where a step with contact begins.
+    pub(crate) drift: Vec<DVec3>,
+}
+
+/// Forces and blocks that the search along a step holds linear.
+#[derive(Clone, Debug, Default)]
+struct Rest {
+    diagonal: Vec<DMat3>,
+    force: Vec<DVec3>,
+    hubs: Hubs,
 }
 
 /// What a pass did.
@@ -61,6 +74,8 @@ impl Solver {
             mass: vec![DMat3::ZERO; model.node_count],
             pull: vec![Pull::default(); model.segment_count],
             cut: vec![false; model.segment_count],
+            rest: Rest::default(),
+            drift: Vec::new(),
         }
     }
 

@@ -12,8 +12,8 @@ pub(crate) struct Plan {
     pub seats: Vec<Seat>,
     /// First hub block of each body.
     pub body_block: Vec<usize>,
-    /// Line of each segment.
-    pub segment_line: Vec<usize>,
+    /// First node of each segment.
+    pub segment_node: Vec<usize>,
     /// Unstretched length of each segment [m].
     pub segment_length: Vec<f64>,
     /// Unstretched length that hangs on each node: half of its neighbours in the same line [m].
@@ -32,7 +32,7 @@ impl Plan {
         let mut plan = Self {
             seats,
             body_block,
-            segment_line: Vec::with_capacity(model.segment_count),
+            segment_node: Vec::with_capacity(model.segment_count),
             segment_length: Vec::with_capacity(model.segment_count),
             node_length: vec![0.0; model.node_count],
             joint_node: vec![None; model.spec.joints.len()],
@@ -40,7 +40,7 @@ impl Plan {
         for (index, line) in model.spec.lines.iter().enumerate() {
             let first = model.line_nodes[index].start;
             for (k, length) in line.segments_m.iter().enumerate() {
-                plan.segment_line.push(index);
+                plan.segment_node.push(first + k);
                 plan.segment_length.push(*length);
                 plan.node_length[first + k] += 0.5 * length;
                 plan.node_length[first + k + 1] += 0.5 * length;

@@ -146,8 +146,18 @@ impl Solver {
 
     /// Tension of a segment at the trial places, before it is judged taut or slack.
     pub(super) fn pull_of(&self, rope: &Rope, segment: usize, node: usize, scheme: &Scheme) -> Pull {
-        let length = self.plan.segment_length[segment];
         let between = self.trial.place[node + 1] - self.trial.place[node];
+        self.pull_between(rope, segment, node, scheme, between)
+    }
+
+    /// The same with the trial moved by a share of the solved step.
+    pub(super) fn pull_moved(&self, rope: &Rope, segment: usize, node: usize, scheme: &Scheme, share: f64) -> Pull {
+        let between = self.trial.place[node + 1] - self.trial.place[node];
+        self.pull_between(rope, segment, node, scheme, between + (self.band.step[node + 1] - self.band.step[node]) * share)
+    }
+
+    fn pull_between(&self, rope: &Rope, segment: usize, node: usize, scheme: &Scheme, between: DVec3) -> Pull {
+        let length = self.plan.segment_length[segment];
         let chord = between.length().max(1e-9 * length);
         let direction = between / chord;
         let history = self.trial.place_history[node + 1] - self.trial.place_history[node];
@@ -163,8 +173,7 @@ impl Solver {
             let first_node = model.line_nodes[index].start;
             for (k, segment) in model.line_segments[index].clone().enumerate() {
                 let pull = &self.pull[segment];
-                let stretch = pull.direction.dot(self.band.step[first_node + k + 1] - self.band.step[first_node + k]) * share;
-                self.trial.tension[segment] = pull.tension + pull.stiffness * stretch;
+                self.trial.tension[segment] = pull.tension + pull.stiffness * pull.stretch(&self.band.step, first_node + k) * share;
             }
         }
     }
@@ -177,6 +186,13 @@ pub(crate) struct Pull {
     pub chord: f64,
     pub tension: f64,
     pub stiffness: f64,
+}
+
+impl Pull {
+    /// How much the solved step stretches the segment [m].
+    pub fn stretch(&self, step: &[DVec3], node: usize) -> f64 {
+        self.direction.dot(step[node + 1] - step[node])
+    }
 }
 
 /// Drag of a short length of rope and its derivatives.

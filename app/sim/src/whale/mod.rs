@@ -1,6 +1,7 @@
 //! The whale: a skinned mesh on bones, moved by a motion plugin.
 
 pub mod bounds;
+pub mod drive;
 pub mod pose;
 pub mod surface;
 pub mod tree;

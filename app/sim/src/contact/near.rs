@@ -1,0 +1,202 @@
+//! Rope near skin: pairs of segment and triangle that may touch within a solver step, and how far
+//! rope may move without crossing.
+//!
+//! The invariant is that the rope's centre line never crosses the skin: every sub-move, of rope alone or
+//! of rope and skin together, is cut short by additive continuous collision detection (`sweep.rs`), and
+//! checked again by an independent exact test (`crossing.rs`).
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use glam::{DAffine3, DVec3};
+
+use super::crossing::first_meeting;
+use super::distance::{Nearest, segment_triangle};
+use super::sweep::{SweptSegment, SweptTriangle, greatest_approach, safe_fraction_from, triangle_at};
+use crate::model::Model;
+use crate::whale::{Candidate, SkinTree, Surface};
+
+/// Rope within this distance of the path of skin is looked at [m].
+pub(crate) const MARGIN_M: f64 = 0.08;
+/// Rope is carried along with skin nearer than this wholly, beyond the next not at all [m].
+const CARRIED_M: (f64, f64) = (0.02, 0.06);
+/// Least separation kept, as a share of the rope's radius.
+const GUARD_SHARE: f64 = 0.08;
+
+/// A segment and a triangle that may touch.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pair {
+    pub segment: usize,
+    /// First node of the segment.
+    pub node: usize,
+    pub triangle: u32,
+    /// Corners at the start and the end of the solver step.
+    pub sweep: SweptTriangle,
+    /// Corners now.
+    pub now: [DVec3; 3],
+    /// Lower bound of their distance now [m].
+    pub clear: f64,
+    /// Separation kept [m].
+    guard: f64,
+}
+
+/// All pairs of a solver step, in rising order of segment, with the surface they come from.
+#[derive(Clone, Debug)]
+pub(crate) struct Near {
+    surface: Surface,
+    sweeps: Vec<SweptSegment>,
+    candidates: Vec<Candidate>,
+    pub pairs: Vec<Pair>,
+    /// Pairs of each segment that has any.
+    pub groups: Vec<(usize, Range<usize>)>,
+    /// First node of each segment.
+    segment_node: Vec<usize>,
+    /// Share of the solver step at which the skin stands now.
+    pub fraction: f64,
+}
+
+impl Near {
+    pub fn new(model: &Model, tree: Arc<SkinTree>) -> Self {
+        let nodes = model.line_nodes.iter().flat_map(|nodes| nodes.start..nodes.end - 1);
+        Self {
+            surface: Surface::new(tree),
+            sweeps: vec![SweptSegment::default(); model.segment_count],
+            candidates: Vec::new(),
+            pairs: Vec::new(),
+            groups: Vec::new(),
+            segment_node: nodes.collect(),
+            fraction: 0.0,
+        }
+    }
+
+    /// Whether rope that moves from `places` by `moves` may come near skin between two poses.
+    pub fn any(&mut self, bones: [&[DAffine3]; 2], places: &[DVec3], moves: impl Fn(usize) -> DVec3, margin: f64) -> bool {
+        self.sweep(bones, places, moves, margin);
+        !self.candidates.is_empty()
+    }
+
+    fn sweep(&mut self, bones: [&[DAffine3]; 2], places: &[DVec3], moves: impl Fn(usize) -> DVec3, margin: f64) {
+        self.surface.begin(bones[0], bones[1]);
+        for (sweep, &node) in self.sweeps.iter_mut().zip(&self.segment_node) {
+            let (a0, b0) = (places[node], places[node + 1]);
+            *sweep = SweptSegment { a0, b0, a1: a0 + moves(node), b1: b0 + moves(node + 1) };
+        }
+        self.surface.gather(&self.sweeps, margin, &mut self.candidates);
+    }
+
+    /// Begins a solver step: gathers the pairs of uncut rope near skin; whether there are any.
+    pub fn begin(
+        &mut self,
+        model: &Model,
+        bones: [&[DAffine3]; 2],
+        places: &[DVec3],
+        moves: impl Fn(usize) -> DVec3,
+        cut: &[bool],
+    ) -> bool {
+        self.sweep(bones, places, moves, MARGIN_M);
+        self.fraction = 0.0;
+        self.pairs.clear();
+        self.groups.clear();
+        for place in 0..self.candidates.len() {
+            let Candidate { segment, triangle } = self.candidates[place];
+            let segment = segment as usize;
+            if cut[segment] {
+                continue;
+            }
+            let sweep = self.surface.triangle_sweep(triangle);
+            let guard = GUARD_SHARE * 0.5 * model.rope_of_segment(segment).diameter_m;
+            let node = self.segment_node[segment];
+            let index = self.pairs.len();
+            self.pairs.push(Pair { segment, node, triangle, sweep, now: sweep[0], clear: 0.0, guard });
+            match self.groups.last_mut() {
+                Some((last, range)) if *last == segment => range.end = index + 1,
+                _ => self.groups.push((segment, index..index + 1)),
+            }
+        }
+        !self.pairs.is_empty()
+    }
+
+    /// Measures every pair at the places given.
+    pub fn measure(&mut self, places: &[DVec3]) {
+        for pair in &mut self.pairs {
+            pair.clear = segment_triangle([places[pair.node], places[pair.node + 1]], pair.now).distance;
+        }
+    }
+
+    /// Where rope goes when it is carried along as the skin makes the rest of its move: written into `target`.
+    pub fn carry(&self, places: &[DVec3], target: &mut [DVec3]) {
+        for (_, range) in &self.groups {
+            let Some((pair, nearest)) = self.nearest(places, range.clone()) else { continue };
+            let share = ((CARRIED_M.1 - nearest.distance) / (CARRIED_M.1 - CARRIED_M.0)).clamp(0.0, 1.0);
+            let end = on_triangle(pair.sweep[1], nearest.barycentric);
+            let skin_move = end - on_triangle(pair.now, nearest.barycentric);
+            for node in [pair.node, pair.node + 1] {
+                let carried = places[node] + skin_move;
+                target[node] = target[node].lerp(carried, share);
+            }
+        }
+    }
+
+    fn nearest(&self, places: &[DVec3], range: Range<usize>) -> Option<(&Pair, Nearest)> {
+        let mut best: Option<(&Pair, Nearest)> = None;
+        for pair in &self.pairs[range] {
+            if best.is_some_and(|(_, nearest)| pair.clear >= nearest.distance) {
+                continue;
+            }
+            let nearest = segment_triangle([places[pair.node], places[pair.node + 1]], pair.now);
+            if best.is_none_or(|(_, found)| nearest.distance < found.distance) {
+                best = Some((pair, nearest));
+            }
+        }
+        best
+    }
+
+    /// Largest share of the move `places` → `target`, while the skin makes the rest of its step
+    /// (`with_skin`) or stands still, along which nothing crosses.
+    pub fn safe_share(&self, places: &[DVec3], target: impl Fn(usize) -> DVec3, with_skin: bool) -> f64 {
+        let mut share = 1.0_f64;
+        for pair in &self.pairs {
+            let segment = pair.sweep_of(places, &target);
+            let triangle = [pair.now, if with_skin { pair.sweep[1] } else { pair.now }];
+            if pair.clear - pair.guard > greatest_approach(&segment, &triangle) {
+                continue;
+            }
+            let first = segment_triangle(segment.at(0.0), triangle[0]).distance;
+            share = share.min(safe_fraction_from(&segment, &triangle, pair.guard, first));
+        }
+        share
+    }
+
+    /// Makes the move: skin goes on by the share of what is left, bounds of distance shrink by what moved.
+    /// Gives the number of crossings an exact test finds on the way.
+    pub fn make_move(&mut self, places: &[DVec3], target: impl Fn(usize) -> DVec3, share: f64, with_skin: bool) -> u64 {
+        let fraction = if with_skin { self.fraction + (1.0 - self.fraction) * share } else { self.fraction };
+        let mut crossings = 0;
+        for pair in &mut self.pairs {
+            let segment = pair.sweep_of(places, |node| places[node].lerp(target(node), share));
+            let after = triangle_at(&pair.sweep, fraction);
+            let triangle = [pair.now, after];
+            let approach = greatest_approach(&segment, &triangle);
+            if pair.clear <= approach {
+                crossings += u64::from(first_meeting(&segment, &triangle).is_some());
+                pair.clear = segment_triangle(segment.at(1.0), after).distance;
+            } else {
+                pair.clear -= approach;
+            }
+            pair.now = after;
+        }
+        self.fraction = fraction;
+        crossings
+    }
+}
+
+impl Pair {
+    fn sweep_of(&self, places: &[DVec3], target: impl Fn(usize) -> DVec3) -> SweptSegment {
+        SweptSegment { a0: places[self.node], b0: places[self.node + 1], a1: target(self.node), b1: target(self.node + 1) }
+    }
+}
+
+/// A barycentric place on a triangle.
+pub(crate) fn on_triangle(corners: [DVec3; 3], barycentric: [f64; 3]) -> DVec3 {
+    corners[0] * barycentric[0] + corners[1] * barycentric[1] + corners[2] * barycentric[2]
+}

@@ -1,0 +1,198 @@
+//! Contact slots: places on the rope where push and friction act.
+//!
+//! A segment near skin is cut into sub-segments of at most [`PIECE_M`], so that stiffness does not depend on
+//! the length of segments. Each piece has a slot at its middle, and one more where another of its points
+//! comes clearly nearer (a thin edge). Slots keep their place on the rope within a solver step: letting
+//! them hop to the closest point in every pass is what keeps Newton from converging (docs/physics.md).
+
+use std::ops::Range;
+
+use glam::DVec3;
+
+use super::distance::{point_triangle, segment_triangle};
+use super::law::Press;
+use super::near::{Near, on_triangle};
+use crate::model::Model;
+
+/// Longest piece of rope one slot stands for [m].
+const PIECE_M: f64 = 0.025;
+/// A second slot is opened where its distance is below this share of the first's.
+const NEARER: f64 = 0.8;
+/// Second slots are looked for only within this many contact distances.
+const LOOK_WITHIN: f64 = 3.0;
+
+/// One place on the rope.
+#[derive(Clone, Debug)]
+pub(crate) struct Slot {
+    /// Number that names it from step to step: segment, piece, first or second.
+    pub site: u64,
+    pub segment: usize,
+    pub node: usize,
+    pub fraction: f64,
+    pub length: f64,
+    segment_length: f64,
+    /// Its pairs in `Near::pairs`.
+    pairs: Range<usize>,
+    /// Contact distance: the rope's radius [m].
+    reach: f64,
+    stiffness: f64,
+    /// Where it was last measured, and the distance found there.
+    seen: Option<(DVec3, f64)>,
+    /// What it touches now.
+    pub touch: Option<Touch>,
+}
+
+/// A slot in touch with skin.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Touch {
+    pub pair: usize,
+    pub barycentric: [f64; 3],
+    pub place: DVec3,
+    pub normal: DVec3,
+    pub distance: f64,
+    pub press: Press,
+}
+
+/// All slots of a solver step.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Slots {
+    pub list: Vec<Slot>,
+}
+
+impl Slots {
+    /// Opens the middle slots of every segment that has pairs.
+    pub fn open(&mut self, model: &Model, near: &Near, stiffness_n_m2: f64) {
+        self.list.clear();
+        for (segment, range) in &near.groups {
+            let length = model.segment_length(*segment);
+            let pieces = (length / PIECE_M).ceil().max(1.0);
+            let reach = 0.5 * model.rope_of_segment(*segment).diameter_m;
+            for piece in 0..pieces as u64 {
+                self.list.push(Slot {
+                    site: ((*segment as u64) << 16) | (piece << 1),
+                    segment: *segment,
+                    node: near.pairs[range.start].node,
+                    fraction: (piece as f64 + 0.5) / pieces,
+                    length: length / pieces,
+                    segment_length: length,
+                    pairs: range.clone(),
+                    reach,
+                    stiffness: stiffness_n_m2 * length / pieces,
+                    seen: None,
+                    touch: None,
+                });
+            }
+        }
+    }
+
+    /// Opens second slots where a piece of rope is clearly nearer to skin than at its middle.
+    pub fn open_second(&mut self, near: &Near, places: &[DVec3]) {
+        for index in 0..self.list.len() {
+            let slot = &self.list[index];
+            let is_second = slot.site & 1 == 1;
+            let has_second = self.list.get(index + 1).is_some_and(|next| next.site == slot.site + 1);
+            if is_second || has_second {
+                continue;
+            }
+            if let Some(second) = slot.second(near, places) {
+                self.list.push(second);
+            }
+        }
+        self.list.sort_by_key(|slot| slot.site);
+    }
+
+    /// Measures every slot at the places given.
+    pub fn measure(&mut self, near: &Near, places: &[DVec3]) {
+        for slot in &mut self.list {
+            slot.measure(near, places);
+        }
+    }
+
+    /// Forgets what was seen, for skin that has moved.
+    pub fn forget(&mut self) {
+        for slot in &mut self.list {
+            slot.seen = None;
+        }
+    }
+
+    /// Energy of all slots at the places given.
+    pub fn energy(&self, near: &Near, place: impl Fn(usize) -> DVec3) -> f64 {
+        self.list.iter().map(|slot| slot.energy(near, slot.on_rope(&place))).sum()
+    }
+}
+
+impl Slot {
+    /// Its place on the rope.
+    pub fn on_rope(&self, place: impl Fn(usize) -> DVec3) -> DVec3 {
+        place(self.node).lerp(place(self.node + 1), self.fraction)
+    }
+
+    fn measure(&mut self, near: &Near, places: &[DVec3]) {
+        let place = self.on_rope(|node| places[node]);
+        if self.out_of_reach(place) {
+            self.touch = None;
+            return;
+        }
+        let Some((distance, pair, barycentric)) = self.nearest(near, place) else {
+            self.touch = None;
+            return;
+        };
+        self.seen = Some((place, distance));
+        let press = Press::new(distance, self.reach, self.stiffness);
+        self.touch = (press.force > 0.0).then(|| {
+            let foot = on_triangle(near.pairs[pair].now, barycentric);
+            let normal = (place - foot) / distance.max(1e-12);
+            Touch { pair, barycentric, place, normal, distance, press }
+        });
+    }
+
+    /// Whether it cannot touch, from where it was last measured.
+    fn out_of_reach(&self, place: DVec3) -> bool {
+        self.seen.is_some_and(|(seen, distance)| distance - seen.distance(place) > self.reach)
+    }
+
+    fn nearest(&self, near: &Near, place: DVec3) -> Option<(f64, usize, [f64; 3])> {
+        let mut best: Option<(f64, usize, [f64; 3])> = None;
+        for index in self.pairs.clone() {
+            let pair = &near.pairs[index];
+            if best.is_some_and(|(distance, ..)| pair.clear >= distance) {
+                continue;
+            }
+            let (distance, barycentric) = point_triangle(place, pair.now);
+            if best.is_none_or(|(found, ..)| distance < found) {
+                best = Some((distance, index, barycentric));
+            }
+        }
+        best
+    }
+
+    fn energy(&self, near: &Near, place: DVec3) -> f64 {
+        if self.out_of_reach(place) {
+            return 0.0;
+        }
+        // Bounds of pairs hold for the present places only, so all pairs are measured here.
+        let pairs = &near.pairs[self.pairs.clone()];
+        let distance = pairs.iter().map(|pair| point_triangle(place, pair.now).0).fold(f64::INFINITY, f64::min);
+        Press::new(distance, self.reach, self.stiffness).energy
+    }
+
+    /// A slot at the piece's closest point, where that is clearly nearer than this one.
+    fn second(&self, near: &Near, places: &[DVec3]) -> Option<Self> {
+        let (_, middle) = self.seen?;
+        let share = 0.5 * self.length / self.segment_length;
+        let (from, to) = (self.fraction - share, self.fraction + share);
+        let ends = [from, to].map(|fraction| places[self.node].lerp(places[self.node + 1], fraction));
+        if middle - 0.5 * ends[0].distance(ends[1]) > LOOK_WITHIN * self.reach {
+            return None;
+        }
+        let nearest = near.pairs[self.pairs.clone()]
+            .iter()
+            .map(|pair| segment_triangle(ends, pair.now))
+            .min_by(|one, other| one.distance.total_cmp(&other.distance))?;
+        if nearest.distance >= NEARER * middle || nearest.distance > LOOK_WITHIN * self.reach {
+            return None;
+        }
+        let fraction = from + (to - from) * nearest.fraction;
+        Some(Self { site: self.site | 1, fraction, seen: None, touch: None, ..self.clone() })
+    }
+}

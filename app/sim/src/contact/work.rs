@@ -1,0 +1,98 @@
+//! Scratch of a solver step with contact, and what such a step leaves behind.
+
+use endline_sdk::BodyPart;
+use glam::{DAffine3, DVec3};
+
+use super::ContactPoint;
+use super::grip::Touching;
+use super::near::Near;
+use super::slots::Slots;
+use crate::model::{Friction, Model};
+use crate::state::State;
+
+/// Scratch of contact for one model with a whale; it keeps nothing that a step depends on.
+#[derive(Clone, Debug)]
+pub(crate) struct ContactWork {
+    pub near: Near,
+    pub slots: Slots,
+    pub touching: Touching,
+    /// Bones at the start and the end of the solver step.
+    pub bones: [Vec<DAffine3>; 2],
+    /// Places before a sub-move.
+    pub before: Vec<DVec3>,
+    /// Places a sub-move aims at.
+    pub target: Vec<DVec3>,
+    /// Greatest contact distance of any rope [m].
+    pub greatest_reach: f64,
+}
+
+impl ContactWork {
+    /// Scratch for a model, where it has a whale.
+    pub fn new(model: &Model) -> Option<Self> {
+        let tree = model.skin_tree.clone()?;
+        Some(Self {
+            near: Near::new(model, tree),
+            slots: Slots::default(),
+            touching: Touching::default(),
+            bones: [Vec::new(), Vec::new()],
+            before: Vec::new(),
+            target: Vec::new(),
+            greatest_reach: model.spec.ropes.iter().map(|rope| 0.5 * rope.diameter_m).fold(0.0, f64::max),
+        })
+    }
+
+    /// Opens the slots of a stage, or keeps those there are for skin that has moved on.
+    pub fn open_slots(&mut self, model: &Model, places: &[DVec3]) {
+        let Some(whale) = &model.spec.whale else { return };
+        if self.slots.list.is_empty() {
+            self.slots.open(model, &self.near, whale.contact_stiffness_n_m2);
+        }
+        self.slots.forget();
+        self.slots.measure(&self.near, places);
+        self.slots.open_second(&self.near, places);
+    }
+
+    /// Contacts at the end of an accepted step; the friction model's floats move on.
+    pub fn keep(
+        &mut self,
+        model: &Model,
+        friction: &Friction,
+        dt_s: f64,
+        state: &mut State,
+        contacts: &mut Vec<ContactPoint>,
+    ) -> Result<(), String> {
+        contacts.clear();
+        let Some(whale) = &model.spec.whale else { return Ok(()) };
+        for (place, index) in self.touching.slot.iter().enumerate() {
+            let slot = &self.slots.list[*index];
+            let Some(touch) = &slot.touch else { continue };
+            let triangle = self.near.pairs[touch.pair].triangle as usize;
+            contacts.push(ContactPoint {
+                line: model.segment_line[slot.segment],
+                segment: slot.segment,
+                fraction: slot.fraction,
+                triangle,
+                barycentric: touch.barycentric,
+                region: whale.skin.regions[triangle],
+                position: touch.place,
+                normal: touch.normal,
+                distance_m: touch.distance,
+                length_m: slot.length,
+                normal_force_n: touch.press.force,
+                friction_n: DVec3::from_array(self.touching.response[place].force_n),
+                slip_m: self.touching.slip_of(place),
+                dt_s,
+            });
+        }
+        self.touching.advance(friction, dt_s, &self.slots, &mut state.rope.grips)
+    }
+}
+
+/// Sum of normal forces on each body part.
+pub(crate) fn force_by_part(contacts: &[ContactPoint]) -> [f64; BodyPart::ALL.len()] {
+    let mut forces = [0.0; BodyPart::ALL.len()];
+    for contact in contacts {
+        forces[contact.region.part() as usize] += contact.normal_force_n;
+    }
+    forces
+}

@@ -1,0 +1,63 @@
+//! Gear types at work: once a step each sees the tensions of its lines and may cut or release.
+
+use endline_sdk::{GearAction, GearStep, LineEnd};
+
+use crate::model::Model;
+use crate::parting::{cut, link_segment};
+use crate::state::State;
+use crate::step::Stop;
+
+/// Calls every gear type and does what it asks.
+///
+/// # Errors
+/// With the plugin's id, where it fails or names a line or link it did not build.
+pub(crate) fn act(model: &Model, state: &mut State) -> Result<(), Stop> {
+    for (index, hook) in model.spec.gear.iter().enumerate() {
+        let tensions: Vec<[f64; 2]> = hook.lines.iter().map(|line| end_tensions(model, state, *line)).collect();
+        let input = GearStep { time_s: state.time_s, dt_s: model.spec.settings.step_s, end_tension_n: &tensions };
+        let stop = |time_s: f64, reason: String| Stop { time_s, part: hook.gear.descriptor().id.to_string(), reason };
+        let mut actions = Vec::new();
+        let mut floats = std::mem::take(&mut state.gear[index]);
+        let answer = hook.gear.step(&hook.attributes, &input, &mut floats, &mut actions);
+        state.gear[index] = floats;
+        answer.map_err(|error| stop(state.time_s, error.message))?;
+        for action in actions {
+            obey(model, state, index, action).map_err(|reason| stop(state.time_s, reason))?;
+        }
+    }
+    Ok(())
+}
+
+fn end_tensions(model: &Model, state: &State, line: usize) -> [f64; 2] {
+    let segments = &model.line_segments[line];
+    [segments.start, segments.end - 1].map(|segment| state.rope.tension[segment].max(0.0))
+}
+
+fn obey(model: &Model, state: &mut State, hook: usize, action: GearAction) -> Result<(), String> {
+    let hook = &model.spec.gear[hook];
+    match action {
+        GearAction::CutLine { line, end } => {
+            let Some(&line) = hook.lines.get(line as usize) else {
+                return Err(format!("asked to cut line {line}, which it did not build"));
+            };
+            let segments = &model.line_segments[line];
+            let segment = if end == LineEnd::A { segments.start } else { segments.end - 1 };
+            if !state.rope.cut[segment] {
+                state.line_parted[line].get_or_insert((state.time_s, segment - segments.start));
+                cut(state, segment);
+            }
+        }
+        GearAction::ReleaseLink { link } => {
+            let Some(&link) = hook.links.get(link as usize) else {
+                return Err(format!("asked to release link {link}, which it did not build"));
+            };
+            let segment = link_segment(model, &model.spec.links[link]);
+            if !state.rope.cut[segment] {
+                state.link_parted_s[link] = Some(state.time_s);
+                cut(state, segment);
+            }
+        }
+    }
+    state.rope.earlier_dt_s = 0.0;
+    Ok(())
+}

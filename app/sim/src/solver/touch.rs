@@ -1,0 +1,224 @@
+//! Newton with contact: push and friction inside the rope solve, every move filtered and searched.
+//!
+//! A contact slot at fraction `α` of a segment acts on its two nodes with weights `1 - α` and `α`, so the
+//! matrix stays block-tridiagonal. Push: `N n`, block `N' n nᵀ`. Friction `f(s, N)` from the plugin:
+//! block `-∂f/∂s + (∂f/∂N)(N' n)ᵀ`, not symmetric, with the normal force coupled in.
+//! Each move is cut by the sweep filter (`contact/near.rs`), then halved until the incremental
+//! potential `½(x-x̃)ᵀ(M/h²)(x-x̃) + Σ T²/2k + Σ E_contact` falls, with all other forces held
+//! linear at the present iterate (inertia, drag and seabed by their assembled blocks).
+
+use glam::{DMat3, DVec3};
+
+use super::Solver;
+use super::rope::outer;
+use super::scheme::Scheme;
+use crate::contact::work::ContactWork;
+use crate::contact::{grip, near};
+use crate::model::{Model, Rope};
+use crate::state::State;
+
+/// Most Newton passes of a solver step with contact.
+const MOST_PASSES: usize = 40;
+/// Move at which Newton has converged [m].
+const CONVERGED_M: f64 = 1e-6;
+/// Move below which the search along the step is left out: rounding would decide it [m].
+const UNSEARCHED_M: f64 = 1e-5;
+/// Share of the foretold fall of the potential that a move must reach.
+const ENOUGH: f64 = 1e-4;
+/// Most halvings of a move.
+const MOST_HALVINGS: usize = 10;
+
+/// How Newton with contact ended.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Touched {
+    /// The last move was this long after so many passes [m].
+    Ended { last_m: f64, passes: usize, crossings: u64 },
+    /// A number was not finite.
+    NotFinite,
+    /// Rope left the margin in which pairs were gathered.
+    TooFar,
+    /// The friction plugin failed.
+    Plugin(String),
+}
+
+impl Solver {
+    /// Newton passes at the skin's present place until the moves are small.
+    pub(crate) fn solve_touching(&mut self, model: &Model, state: &State, scheme: &Scheme, work: &mut ContactWork) -> Touched {
+        let (mut last_m, mut crossings) = (f64::INFINITY, 0);
+        work.near.measure(&self.trial.place);
+        work.open_slots(model, &self.trial.place);
+        let mut passes = 0;
+        while passes < MOST_PASSES && last_m > CONVERGED_M {
+            passes += 1;
+            if let Err(message) = self.assemble_touching(model, state, scheme, work) {
+                return Touched::Plugin(message);
+            }
+            self.solve(model);
+            let longest = self.longest();
+            if !longest.is_finite() {
+                return Touched::NotFinite;
+            }
+            let safe = work.near.safe_share(&self.trial.place, |node| self.trial.place[node] + self.band.step[node], false);
+            let share = if longest * safe > UNSEARCHED_M { self.search(model, scheme, work, safe) } else { safe };
+            crossings += self.move_by(model, work, share);
+            if self.strayed(state, scheme) > near::MARGIN_M - work.greatest_reach {
+                return Touched::TooFar;
+            }
+            if safe < 1.0 {
+                work.slots.open_second(&work.near, &self.trial.place);
+            }
+            last_m = longest * share + if safe < 1.0 { longest * (1.0 - safe).min(0.5) } else { 0.0 };
+        }
+        Touched::Ended { last_m, passes, crossings }
+    }
+
+    /// Forces and matrix with contact at the trial places; what is linear in the search is kept apart.
+    fn assemble_touching(&mut self, model: &Model, state: &State, scheme: &Scheme, work: &mut ContactWork) -> Result<(), String> {
+        self.band.clear();
+        self.hubs.clear();
+        self.add_nodes(model, scheme);
+        self.add_seabed(model, state, scheme);
+        self.add_bodies(model, state, scheme);
+        self.rest.diagonal.clone_from(&self.band.diagonal);
+        self.rest.force.clone_from(&self.band.force);
+        self.rest.hubs.clone_from(&self.hubs);
+        self.measure_tension(model, scheme);
+        self.add_tension(model, scheme);
+        self.add_end_turns(model);
+        work.slots.measure(&work.near, &self.trial.place);
+        self.add_contacts(model, state, scheme, work)
+    }
+
+    fn add_contacts(&mut self, model: &Model, state: &State, scheme: &Scheme, work: &mut ContactWork) -> Result<(), String> {
+        let Some(friction) = &model.spec.friction else { return Ok(()) };
+        work.touching.collect(model, friction, &work.near, &work.slots, state);
+        work.touching.respond(friction, scheme.dt)?;
+        for (place, index) in work.touching.slot.iter().enumerate() {
+            let slot = &work.slots.list[*index];
+            let Some(touch) = &slot.touch else { continue };
+            let response = &work.touching.response[place];
+            let push = touch.normal * touch.press.stiffness;
+            let block =
+                outer(push, touch.normal) - grip::matrix(&response.by_slip) + outer(DVec3::from_array(response.by_normal_force), push);
+            let force = touch.normal * touch.press.force + DVec3::from_array(response.force_n);
+            self.add_at(slot.segment, slot.node, slot.fraction, force, &block);
+        }
+        Ok(())
+    }
+
+    /// Adds a force and its block at a fraction of a segment.
+    fn add_at(&mut self, segment: usize, node: usize, fraction: f64, force: DVec3, block: &DMat3) {
+        let (first, second) = (1.0 - fraction, fraction);
+        self.band.force[node] += force * first;
+        self.band.force[node + 1] += force * second;
+        self.band.diagonal[node] += *block * (first * first);
+        self.band.diagonal[node + 1] += *block * (second * second);
+        self.band.up[segment] += *block * (first * second);
+        self.band.low[segment] += *block * (first * second);
+    }
+
+    /// Takes the tension of every segment at the trial places as it is.
+    pub(super) fn measure_tension(&mut self, model: &Model, scheme: &Scheme) {
+        self.each_segment(model, |solver, rope, segment, node| {
+            solver.trial.tension[segment] = if solver.cut[segment] { 0.0 } else { solver.pull_of(rope, segment, node, scheme).tension };
+        });
+    }
+
+    fn each_segment(&mut self, model: &Model, mut act: impl FnMut(&mut Self, &Rope, usize, usize)) {
+        for (index, line) in model.spec.lines.iter().enumerate() {
+            let first_node = model.line_nodes[index].start;
+            for (k, segment) in model.line_segments[index].clone().enumerate() {
+                act(self, &model.spec.ropes[line.rope], segment, first_node + k);
+            }
+        }
+    }
+
+    /// The largest of `safe`, `safe/2`, … along which the potential falls enough.
+    fn search(&mut self, model: &Model, scheme: &Scheme, work: &ContactWork, safe: f64) -> f64 {
+        let slope = self.slope(work);
+        if slope >= 0.0 {
+            return safe;
+        }
+        let energy = work.slots.energy(&work.near, |node| self.trial.place[node]);
+        let mut share = safe;
+        for _ in 0..MOST_HALVINGS {
+            let moved = work.slots.energy(&work.near, |node| self.trial.place[node] + self.band.step[node] * share);
+            let change =
+                self.rest_change(share) + self.rope_change(model, scheme, share) + self.friction_change(work, share) + moved - energy;
+            if change <= ENOUGH * share * slope {
+                return share;
+            }
+            share *= 0.5;
+        }
+        share
+    }
+
+    /// Derivative of the potential along the solved step.
+    fn slope(&self, work: &ContactWork) -> f64 {
+        let nodes: f64 = self.rest.force.iter().zip(&self.band.step).map(|(force, step)| force.dot(*step)).sum();
+        let hubs: f64 = self.rest.hubs.force.iter().zip(&self.hubs.step).map(|(force, step)| force.dot(*step)).sum();
+        let rope: f64 = (0..self.pull.len())
+            .map(|segment| {
+                self.trial.tension[segment].max(0.0) * self.pull[segment].stretch(&self.band.step, self.plan.segment_node[segment])
+            })
+            .sum();
+        let mut contact = 0.0;
+        for (place, index) in work.touching.slot.iter().enumerate() {
+            let slot = &work.slots.list[*index];
+            let Some(touch) = &slot.touch else { continue };
+            let force = touch.normal * touch.press.force + DVec3::from_array(work.touching.response[place].force_n);
+            contact += force.dot(slot.on_rope(|node| self.band.step[node]));
+        }
+        rope - nodes - hubs - contact
+    }
+
+    /// Change of what is held linear: inertia, weight, drag, seabed, bodies.
+    fn rest_change(&self, share: f64) -> f64 {
+        let nodes: f64 = (self.rest.force.iter().zip(&self.rest.diagonal).zip(&self.band.step))
+            .map(|((force, diagonal), step)| step.dot(*diagonal * *step) * 0.5 * share * share - force.dot(*step) * share)
+            .sum();
+        nodes + self.rest.hubs.energy_change(&self.hubs.step, &self.plan.body_block, share)
+    }
+
+    /// Change of the energy of stretched rope.
+    fn rope_change(&self, model: &Model, scheme: &Scheme, share: f64) -> f64 {
+        let mut change = 0.0;
+        for (index, line) in model.spec.lines.iter().enumerate() {
+            let (rope, first_node) = (&model.spec.ropes[line.rope], model.line_nodes[index].start);
+            for (k, segment) in model.line_segments[index].clone().enumerate().filter(|(_, segment)| !self.cut[*segment]) {
+                let moved = self.pull_moved(rope, segment, first_node + k, scheme, share).tension.max(0.0);
+                let now = self.trial.tension[segment].max(0.0);
+                change += (moved * moved - now * now) / (2.0 * self.pull[segment].stiffness);
+            }
+        }
+        change
+    }
+
+    fn friction_change(&self, work: &ContactWork, share: f64) -> f64 {
+        let mut change = 0.0;
+        for (place, index) in work.touching.slot.iter().enumerate() {
+            let step = work.slots.list[*index].on_rope(|node| self.band.step[node]);
+            let response = &work.touching.response[place];
+            let block = grip::matrix(&response.by_slip);
+            change -= DVec3::from_array(response.force_n).dot(step) * share + step.dot(block * step) * 0.5 * share * share;
+        }
+        change
+    }
+
+    /// Moves the trial by a share of the step; the number of crossings an exact test finds.
+    fn move_by(&mut self, model: &Model, work: &mut ContactWork, share: f64) -> u64 {
+        work.before.clone_from(&self.trial.place);
+        self.advance(model, share);
+        work.near.make_move(&work.before, |node| self.trial.place[node], 1.0, false)
+    }
+
+    /// How far any node lies from the straight path by which its pairs were gathered [m].
+    fn strayed(&self, state: &State, scheme: &Scheme) -> f64 {
+        let away = |node: usize| {
+            let (from, path) = (state.rope.position[node], state.rope.velocity[node] * scheme.dt);
+            let along = ((self.trial.place[node] - from).dot(path) / path.length_squared().max(1e-30)).clamp(0.0, 1.0);
+            (self.trial.place[node] - from - path * along).length_squared()
+        };
+        (0..self.trial.place.len()).map(away).fold(0.0, f64::max).sqrt()
+    }
+}

@@ -1,0 +1,174 @@
+//! One solver step: free rope in two linear solves, rope near the whale by Newton with contact.
+//!
+//! With contact (docs/physics.md): skin and the rope near it are first moved along together as far as
+//! nothing crosses, then Newton finds the balance at that pose of the skin; where the skin could not
+//! make its whole move at once, both are repeated.
+
+use glam::DVec3;
+
+use crate::contact::work::ContactWork;
+use crate::model::Model;
+use crate::parting::{self, Parting};
+use crate::solver::{Scheme, Solver, Touched};
+use crate::state::State;
+use crate::step::{Audit, Workspace};
+
+/// Passes every free solver step takes at least.
+const LEAST_PASSES: usize = 2;
+/// Passes after which a free solver step counts as not converged.
+const MOST_PASSES: usize = 12;
+/// Move of a pass at which a free solver step has converged [m].
+const CONVERGED_M: f64 = 1e-3;
+/// Times the skin may be stopped within a solver step.
+const MOST_STAGES: usize = 8;
+/// Move of the last pass with contact above which the step is redone shorter [m].
+const CONTACT_CONVERGED_M: f64 = 1e-3;
+/// Move of the last pass with contact above which the step is counted as not converged [m].
+const CONTACT_WANTED_M: f64 = 1e-5;
+
+/// Why a solver step must be redone shorter, or ends the run.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Refused {
+    NotFinite,
+    NotConverged,
+    PartsTooLate,
+    /// This segment crosses skin before the step begins.
+    Crossed(usize),
+    /// The friction plugin failed, with its message.
+    Plugin(String),
+}
+
+impl Refused {
+    /// Whether a shorter step may help.
+    pub fn may_halve(&self) -> bool {
+        !matches!(self, Self::Crossed(_) | Self::Plugin(_))
+    }
+}
+
+/// One solver step of length `dt`: kept in `state` where it converges and parts nothing late.
+pub(crate) fn solver_step(model: &Model, state: &mut State, workspace: &mut Workspace, dt: f64, careful: bool) -> Result<(), Refused> {
+    let Workspace { solver, contact, audit, contacts, peak_tension_n, .. } = workspace;
+    let mut touching = contact.as_mut();
+    if touching.as_mut().is_none_or(|work| !gather(model, state, work, dt)) {
+        touching = None;
+    }
+    contacts.clear();
+    let scheme = if careful || touching.is_some() { Scheme::backward_euler(dt) } else { Scheme::bdf2(dt, state.rope.earlier_dt_s) };
+    solver.begin(model, state, &scheme);
+    match &mut touching {
+        None => free_step(model, state, solver, &scheme, audit)?,
+        Some(work) => contact_step(model, state, solver, &scheme, work, audit)?,
+    }
+    if dt * 0.5 >= model.spec.settings.least_step_s && parting::too_late(model, state, solver.tension()) {
+        return Err(Refused::PartsTooLate);
+    }
+    match (touching, &model.spec.friction) {
+        (Some(work), Some(friction)) => {
+            work.keep(model, friction, dt, state, contacts).map_err(Refused::Plugin)?;
+            audit.contact_steps += 1;
+            let deepest = contacts.iter().map(|contact| 0.5 * model.rope_of_segment(contact.segment).diameter_m - contact.distance_m);
+            audit.max_penetration_m = deepest.fold(audit.max_penetration_m, f64::max);
+        }
+        _ => state.rope.grips.clear(),
+    }
+    solver.keep(model, &scheme, state);
+    audit.solver_steps += 1;
+    for (peak, tension) in peak_tension_n.iter_mut().zip(&state.rope.tension) {
+        *peak = peak.max(*tension);
+    }
+    if parting::part(model, state) == Parting::Some {
+        state.rope.earlier_dt_s = 0.0;
+    }
+    Ok(())
+}
+
+/// Gathers rope near the whale for a solver step; whether there is any.
+fn gather(model: &Model, state: &State, work: &mut ContactWork, dt: f64) -> bool {
+    let [start, end] = &work.bones;
+    work.near.begin(model, [start, end], &state.rope.position, |node| state.rope.velocity[node] * dt, &state.rope.cut)
+}
+
+fn free_step(model: &Model, state: &State, solver: &mut Solver, scheme: &Scheme, audit: &mut Audit) -> Result<(), Refused> {
+    for pass in 1..=MOST_PASSES {
+        let passed = solver.pass(model, state, scheme);
+        audit.passes += 1;
+        if !passed.finite {
+            audit.non_finite += 1;
+            return Err(Refused::NotFinite);
+        }
+        if pass >= LEAST_PASSES && passed.longest_m < CONVERGED_M {
+            return Ok(());
+        }
+    }
+    Err(Refused::NotConverged)
+}
+
+fn contact_step(
+    model: &Model,
+    state: &State,
+    solver: &mut Solver,
+    scheme: &Scheme,
+    work: &mut ContactWork,
+    audit: &mut Audit,
+) -> Result<(), Refused> {
+    work.slots.list.clear();
+    solver.set_out(state);
+    for _ in 0..MOST_STAGES {
+        work.near.measure(solver.places());
+        if let Some(pair) = work.near.pairs.iter().find(|pair| pair.clear <= 0.0) {
+            return Err(Refused::Crossed(pair.segment));
+        }
+        audit.tunnelled += solver.carry(model, state, work);
+        match solver.solve_touching(model, state, scheme, work) {
+            Touched::Ended { last_m, passes, crossings } => {
+                audit.passes += passes as u64;
+                audit.tunnelled += crossings;
+                if last_m > CONTACT_CONVERGED_M {
+                    return Err(Refused::NotConverged);
+                }
+                audit.unconverged += u64::from(last_m > CONTACT_WANTED_M);
+            }
+            Touched::NotFinite => {
+                audit.non_finite += 1;
+                return Err(Refused::NotFinite);
+            }
+            Touched::TooFar => return Err(Refused::NotConverged),
+            Touched::Plugin(message) => return Err(Refused::Plugin(message)),
+        }
+        if work.near.fraction >= 1.0 - 1e-12 {
+            return Ok(());
+        }
+    }
+    Err(Refused::NotConverged)
+}
+
+impl Solver {
+    /// Puts rope and bodies back where the step begins; where they would drift to is kept as the first target.
+    fn set_out(&mut self, state: &State) {
+        self.drift.clone_from(&self.trial.place);
+        self.trial.place.clone_from(&state.rope.position);
+    }
+
+    /// Places of the nodes now.
+    pub(crate) fn places(&self) -> &[DVec3] {
+        &self.trial.place
+    }
+
+    /// Moves skin to the end of its step and rope along with it, as far as nothing crosses; the number
+    /// of crossings an exact test finds.
+    fn carry(&mut self, model: &Model, _state: &State, work: &mut ContactWork) -> u64 {
+        work.before.clone_from(&self.trial.place);
+        let first = work.near.fraction <= 0.0;
+        work.target.clone_from(if first { &self.drift } else { &work.before });
+        work.near.carry(&work.before, &mut work.target);
+        std::mem::swap(&mut self.trial.place, &mut work.target);
+        self.trial.seat_ends(model, &self.plan);
+        std::mem::swap(&mut self.trial.place, &mut work.target);
+        let share = work.near.safe_share(&work.before, |node| work.target[node], true);
+        let crossings = work.near.make_move(&work.before, |node| work.target[node], share, true);
+        for (place, target) in self.trial.place.iter_mut().zip(&work.target) {
+            *place = place.lerp(*target, share);
+        }
+        crossings
+    }
+}
