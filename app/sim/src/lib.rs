@@ -8,8 +8,8 @@
 
 pub mod contact;
 pub mod frame;
-pub mod metrics;
 mod gear_hook;
+pub mod metrics;
 pub mod model;
 pub mod parting;
 pub mod solver;
