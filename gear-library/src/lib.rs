@@ -1,3 +1,37 @@
 //! Gear as files: ropes, traps, buoys, whales and scenarios become a model.
+//!
+//! ```text
+//! text -> tree (values that know their place) -> fields -> items, assemblies, scenario -> assemble -> ModelSpec
+//!                                                    \-> every problem, with file, line, column and how to mend it
+//! ```
+//! The format is described in `docs/gear-format.md`. Nothing else in Endline reads TOML.
 
+mod assemble;
+mod assembly;
+mod attributes;
+mod diagnostic;
+mod document;
+mod entry;
+mod fields;
+mod items;
+mod library;
+mod nearest;
+mod scenario;
+mod schema;
+mod sources;
+mod tree;
+pub mod units;
 pub mod whale;
+
+pub use assemble::{Assembled, Hooks, Options, assemble, assemble_traced, buoy_floats, shell_inertia};
+pub use assembly::{Assembly, Make, PartBody, PartJoint, PartLine, PartLink, Parts, Start};
+pub use attributes::Attributes;
+pub use diagnostic::{At, Diagnostic, Place, Severity, SourceText};
+pub use document::{Document, EditError, save_text};
+pub use entry::{Entry, FORMAT};
+pub use fields::{Figure, Range, Sureness};
+pub use items::{BoxGear, Buoy, BuoyShape, Rope, RopeFriction, SeaSite, WeakLink, WhaleItem};
+pub use library::Library;
+pub use scenario::{Fixture, FreeBody, FrictionChoice, LineStart, PlacedGear, ProbeOf, ProbePart, Scenario, Sea, Swimmer};
+pub use schema::{Field, Kind, Word};
+pub use sources::Sources;

@@ -1,0 +1,103 @@
+//! Assembly: scenario, library and plugins become a model's spec.
+//!
+//! Order: sea, gear of the library, parts written in place, lines cut into segments, weak links,
+//! whale and friction, probes. Every problem is collected and told with its place.
+
+mod body;
+mod builder;
+mod catenary;
+mod gear;
+mod probes;
+mod rig;
+mod sea;
+mod segments;
+mod swimmer;
+
+use std::sync::Arc;
+
+use endline_sdk::{FrictionModel, GearType, WhaleMotion};
+use endline_sim::ModelSpec;
+use endline_sim::model::Settings;
+
+use crate::diagnostic::Diagnostic;
+use crate::library::Library;
+use crate::scenario::Scenario;
+use builder::Builder;
+
+pub use body::{buoy_floats, shell_inertia};
+
+/// The plugins at hand, by id.
+pub trait Hooks {
+    /// A whale motion.
+    fn motion(&self, id: &str) -> Option<Arc<dyn WhaleMotion>>;
+    /// A friction model.
+    fn friction(&self, id: &str) -> Option<Arc<dyn FrictionModel>>;
+    /// A gear type.
+    fn gear(&self, id: &str) -> Option<Arc<dyn GearType>>;
+    /// Every id, for messages.
+    fn ids(&self) -> Vec<String>;
+}
+
+/// Choices of the caller over the scenario's own; `None` keeps the scenario's.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Options {
+    /// Seed.
+    pub seed: Option<u64>,
+    /// Step between inputs [s].
+    pub step_s: Option<f64>,
+    /// Longest step while rope is near the whale [s].
+    pub contact_step_s: Option<f64>,
+    /// Length of the run [s].
+    pub duration_s: Option<f64>,
+    /// Whether weak links can part.
+    pub weak_links: Option<bool>,
+    /// How many rope nodes there are in all.
+    pub rope_nodes: Option<u64>,
+}
+
+/// A spec with the library files it was made from.
+#[derive(Clone)]
+pub struct Assembled {
+    /// The spec.
+    pub spec: ModelSpec,
+    /// Paths of the library files used, in order, each once.
+    pub files: Vec<String>,
+}
+
+/// Builds the spec of a scenario.
+///
+/// # Errors
+/// Every problem, with its place in the scenario or in an assembly's file.
+pub fn assemble(scenario: &Scenario, library: &Library, hooks: &dyn Hooks, options: &Options) -> Result<ModelSpec, Vec<Diagnostic>> {
+    assemble_traced(scenario, library, hooks, options).map(|assembled| assembled.spec)
+}
+
+/// Builds the spec of a scenario and names the library files it used.
+///
+/// # Errors
+/// Every problem, with its place in the scenario or in an assembly's file.
+pub fn assemble_traced(scenario: &Scenario, library: &Library, hooks: &dyn Hooks, options: &Options) -> Result<Assembled, Vec<Diagnostic>> {
+    let mut builder = Builder::new(scenario, library, hooks, settings(scenario, options));
+    builder.add_sea();
+    builder.add_gear();
+    builder.add_fixtures();
+    builder.add_free_bodies();
+    builder.add_free_lines();
+    builder.cut_lines(options.rope_nodes);
+    builder.add_free_links();
+    builder.enable_links(options.weak_links.unwrap_or(scenario.weak_links));
+    builder.add_whale();
+    builder.add_probes();
+    builder.finish()
+}
+
+fn settings(scenario: &Scenario, options: &Options) -> Settings {
+    let usual = Settings::default();
+    Settings {
+        step_s: options.step_s.or(scenario.step_s).unwrap_or(usual.step_s),
+        contact_step_s: options.contact_step_s.or(scenario.contact_step_s).unwrap_or(usual.contact_step_s),
+        duration_s: options.duration_s.unwrap_or(scenario.duration_s),
+        seed: options.seed.unwrap_or(scenario.seed),
+        ..usual
+    }
+}

@@ -1,0 +1,175 @@
+//! What assembly works on: the spec so far, the names in it, the problems found.
+
+use endline_sim::DVec3;
+use endline_sim::model::{Joint, JointKind, ModelSpec, Settings};
+use endline_sim::water::{Current, Water};
+
+use crate::diagnostic::{At, Diagnostic, Place};
+use crate::fields::Problems;
+use crate::items::Rope;
+use crate::library::Library;
+use crate::nearest::hint;
+use crate::scenario::{LineStart, Scenario};
+use crate::schema::Kind;
+
+use super::{Assembled, Hooks};
+
+/// A part of the spec by what it is and its index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Part {
+    Body(usize),
+    Joint(usize),
+    Line(usize),
+    Link(usize),
+}
+
+/// A line before it is cut into segments.
+pub(super) struct Uncut {
+    pub length_m: f64,
+    pub start: LineStart,
+    pub place: Place,
+}
+
+/// Assembly in progress.
+pub(super) struct Builder<'a> {
+    pub scenario: &'a Scenario,
+    pub library: &'a Library,
+    pub hooks: &'a dyn Hooks,
+    pub problems: Problems,
+    pub used: Vec<String>,
+    pub spec: ModelSpec,
+    /// Materials of the spec's ropes, for friction.
+    pub materials: Vec<At<String>>,
+    /// Where a line leaves each body, in the body's frame [m].
+    pub attachments: Vec<DVec3>,
+    /// The spec's lines before they are cut.
+    pub uncut: Vec<Uncut>,
+    /// Parts by id.
+    names: Vec<(String, Part)>,
+}
+
+impl<'a> Builder<'a> {
+    pub fn new(scenario: &'a Scenario, library: &'a Library, hooks: &'a dyn Hooks, settings: Settings) -> Self {
+        let water = Water {
+            density_kg_m3: 0.0,
+            gravity_m_s2: 9.81,
+            depth_m: 1.0,
+            rope_dries: true,
+            current: Current { surface_m_s: DVec3::ZERO, exponent: 0.0 },
+        };
+        let spec = ModelSpec {
+            water,
+            seabed: None,
+            ropes: Vec::new(),
+            joints: Vec::new(),
+            lines: Vec::new(),
+            bodies: Vec::new(),
+            links: Vec::new(),
+            gear: Vec::new(),
+            whale: None,
+            friction: None,
+            probes: Vec::new(),
+            settings,
+        };
+        Self {
+            scenario,
+            library,
+            hooks,
+            problems: Problems::default(),
+            used: Vec::new(),
+            spec,
+            materials: Vec::new(),
+            attachments: Vec::new(),
+            uncut: Vec::new(),
+            names: Vec::new(),
+        }
+    }
+
+    /// Gives a part its id; a second part of the same id is a problem.
+    pub fn name(&mut self, id: String, part: Part, place: &Place) {
+        if self.names.iter().any(|(known, _)| *known == id) {
+            self.problems.push(place.error(format!("there are two parts with the id `{id}`"), "give one of them another id"));
+        }
+        self.names.push((id, part));
+    }
+
+    /// A part by id.
+    pub fn part(&self, id: &str) -> Option<Part> {
+        self.names.iter().find(|(known, _)| known == id).map(|(_, part)| *part)
+    }
+
+    /// Reports an id that names nothing of the wanted kind.
+    pub fn unknown(&self, what: &str, id: &At<String>, wanted: fn(Part) -> bool) {
+        let known = self.names.iter().filter(|(_, part)| wanted(*part)).map(|(name, _)| name.as_str());
+        self.problems.push(id.place.error(format!("there is no {what} `{}`", id.value), hint(&id.value, known)));
+    }
+
+    /// Reports an item the library does not have.
+    pub fn no_item(&self, kind: Kind, id: &str, place: &Place) {
+        self.problems.push(place.error(format!("no `{id}` in {}/", kind.folder()), hint(id, self.library.ids(kind))));
+    }
+
+    /// Notes a library file as used.
+    pub fn uses(&mut self, path: &str) {
+        self.used.push(path.to_owned());
+    }
+
+    /// Index of a rope in the spec: one written in place, or one of the library.
+    pub fn rope(&mut self, id: &At<String>) -> Option<usize> {
+        if let Some(index) = self.spec.ropes.iter().position(|rope| rope.id == id.value) {
+            return Some(index);
+        }
+        let in_place = self.scenario.ropes.iter().find(|entry| entry.id == id.value);
+        let rope = match in_place {
+            Some(entry) => Rope::from_entry(entry.clone(), &self.problems),
+            None => self.library.ropes.iter().find(|rope| rope.entry.id == id.value).cloned(),
+        };
+        let Some(rope) = rope else {
+            let mut known = self.library.ids(Kind::Rope);
+            known.extend(self.scenario.ropes.iter().map(|entry| entry.id.as_str()));
+            self.problems.push(id.place.error(format!("no rope `{}`", id.value), hint(&id.value, known)));
+            return None;
+        };
+        if in_place.is_none() {
+            self.uses(&rope.entry.path);
+        }
+        self.materials.push(At { value: rope.material.clone(), place: id.place.clone() });
+        self.spec.ropes.push(rope.to_model());
+        Some(self.spec.ropes.len() - 1)
+    }
+
+    /// The joint where lines leave a body; one for all of them.
+    pub fn body_joint(&mut self, body: usize) -> usize {
+        let at_body = |joint: &Joint| matches!(joint.kind, JointKind::Body { body: of, .. } if of == body);
+        if let Some(joint) = self.spec.joints.iter().position(at_body) {
+            return joint;
+        }
+        let offset_m = self.attachments[body];
+        let holder = &self.spec.bodies[body];
+        let position_m = holder.position_m + holder.orientation * offset_m;
+        self.spec.joints.push(Joint { id: holder.id.clone(), kind: JointKind::Body { body, offset_m }, position_m });
+        self.spec.joints.len() - 1
+    }
+
+    /// The joint a line's end names: a joint's own, or a body's.
+    pub fn end(&mut self, id: &At<String>) -> Option<usize> {
+        match self.part(&id.value) {
+            Some(Part::Joint(joint)) => Some(joint),
+            Some(Part::Body(body)) => Some(self.body_joint(body)),
+            _ => {
+                self.unknown("body or joint", id, |part| matches!(part, Part::Body(_) | Part::Joint(_)));
+                None
+            }
+        }
+    }
+
+    /// The spec, or all problems.
+    pub fn finish(mut self) -> Result<Assembled, Vec<Diagnostic>> {
+        if self.problems.any_error() {
+            return Err(self.problems.into_sorted());
+        }
+        self.used.sort();
+        self.used.dedup();
+        Ok(Assembled { spec: self.spec, files: self.used })
+    }
+}

@@ -1,0 +1,208 @@
+//! A rig's parts, put into the spec; fixtures, bodies and lines written in place.
+
+use endline_sdk::{BodyKind, Rig, RigBody, RigEnd, RigLine, RigLink};
+use endline_sim::model::{BodyRole, Joint, JointKind, Line, Link};
+use endline_sim::{DQuat, DVec3};
+
+use crate::diagnostic::{At, Place};
+use crate::items::BoxGear;
+use crate::library::Library;
+use crate::scenario::LineStart;
+use crate::schema::Kind;
+
+use super::body;
+use super::builder::{Builder, Part, Uncut};
+
+/// How a rig is set into the scenario.
+pub(super) struct Setting<'a> {
+    /// Put before its ids.
+    pub prefix: String,
+    /// Where its origin lies [m].
+    pub origin_m: DVec3,
+    /// Its frame, to world.
+    pub orientation: DQuat,
+    /// Ropes over its own, by line.
+    pub ropes: &'a [(At<String>, At<String>)],
+    /// Where problems of it are told.
+    pub usual_place: Place,
+    /// Better places, by id of a part or item.
+    pub places: Vec<(String, Place)>,
+}
+
+impl Setting<'_> {
+    fn at(&self, id: &str) -> At<String> {
+        let place = self.places.iter().find(|(known, _)| known == id).map_or(&self.usual_place, |(_, place)| place);
+        At { value: id.to_owned(), place: place.clone() }
+    }
+
+    fn named(&self, id: &str) -> At<String> {
+        let At { value, place } = self.at(id);
+        At { value: format!("{}{value}", self.prefix), place }
+    }
+
+    fn place(&self, position_m: [f64; 3]) -> DVec3 {
+        self.origin_m + self.orientation * DVec3::from_array(position_m)
+    }
+}
+
+impl Builder<'_> {
+    /// Puts a rig into the spec; answers the indices of its lines and links in the order built.
+    pub fn add_rig(&mut self, rig: &Rig, setting: &Setting<'_>) -> (Vec<usize>, Vec<usize>) {
+        for body in &rig.bodies {
+            self.add_rig_body(body, setting);
+        }
+        for joint in &rig.joints {
+            let id = setting.named(&joint.id);
+            self.name(id.value.clone(), Part::Joint(self.spec.joints.len()), &id.place);
+            self.spec.joints.push(Joint { id: id.value, kind: JointKind::Free, position_m: setting.place(joint.position_m) });
+        }
+        let first_line = self.spec.lines.len();
+        for line in &rig.lines {
+            self.add_rig_line(line, setting);
+        }
+        let first_link = self.spec.links.len();
+        for link in &rig.links {
+            self.add_rig_link(link, setting);
+        }
+        for (line, _) in setting.ropes.iter().filter(|(line, _)| !rig.lines.iter().any(|known| known.id == line.value)) {
+            let known = rig.lines.iter().map(|line| line.id.as_str());
+            let help = crate::nearest::hint(&line.value, known);
+            self.problems.push(line.place.error(format!("this gear has no line `{}`", line.value), help));
+        }
+        ((first_line..self.spec.lines.len()).collect(), (first_link..self.spec.links.len()).collect())
+    }
+
+    fn add_rig_body(&mut self, body: &RigBody, setting: &Setting<'_>) {
+        let (id, item) = (setting.named(&body.id), setting.at(&body.item));
+        let mut place = setting.place(body.position_m);
+        let (library, density) = (self.library, self.spec.water.density_kg_m3);
+        let made = match body.kind {
+            BodyKind::Buoy => library.buoys.iter().find(|buoy| buoy.entry.id == item.value).map(|buoy| {
+                let made = body::of_buoy(id.value.clone(), buoy, density, place, setting.orientation);
+                (made, body::buoy_attachment(buoy), &buoy.entry.path)
+            }),
+            BodyKind::Trap | BodyKind::Anchor => box_item(library, body.kind, &item.value).map(|item| {
+                place.z += self.seabed_height(place) + self.spec.water.depth_m;
+                let role = if body.kind == BodyKind::Trap { BodyRole::Trap } else { BodyRole::Anchor };
+                let made = body::of_box(id.value.clone(), role, item, density, place, setting.orientation);
+                (made, body::box_attachment(item), &item.entry.path)
+            }),
+        };
+        let Some((made, attachment, path)) = made else {
+            self.no_item(library_kind(body.kind), &item.value, &item.place);
+            return;
+        };
+        self.uses(path);
+        self.name(id.value, Part::Body(self.spec.bodies.len()), &id.place);
+        self.spec.bodies.push(made);
+        self.attachments.push(attachment);
+    }
+
+    fn add_rig_line(&mut self, line: &RigLine, setting: &Setting<'_>) {
+        let id = setting.named(&line.id);
+        let chosen = setting.ropes.iter().find(|(known, _)| known.value == line.id).map(|(_, rope)| rope.clone());
+        let rope = chosen.unwrap_or_else(|| setting.at(&line.rope));
+        let mut end = |end: &RigEnd| {
+            let (RigEnd::Body(part) | RigEnd::Joint(part)) = end;
+            self.end(&setting.named(part))
+        };
+        let ends = (end(&line.from), end(&line.to));
+        self.add_line(&id, &rope, ends, line.length_m, LineStart::Straight);
+    }
+
+    /// Puts a line into the spec, to be cut into segments later.
+    fn add_line(&mut self, id: &At<String>, rope: &At<String>, ends: (Option<usize>, Option<usize>), length_m: f64, start: LineStart) {
+        let rope = self.rope(rope);
+        if !(length_m.is_finite() && length_m > 0.0) {
+            let message = format!("line `{}` is {length_m} m long", id.value);
+            self.problems.push(id.place.error(message, "a line has a length above zero"));
+        }
+        self.name(id.value.clone(), Part::Line(self.spec.lines.len()), &id.place);
+        // Where something is missing the run never starts; index 0 keeps the later parts in step.
+        let (from, to) = (ends.0.unwrap_or(0), ends.1.unwrap_or(0));
+        let line = Line { id: id.value.clone(), rope: rope.unwrap_or(0), from, to, segments_m: Vec::new(), start_m: Vec::new() };
+        self.spec.lines.push(line);
+        self.uncut.push(Uncut { length_m, start, place: id.place.clone() });
+    }
+
+    fn add_rig_link(&mut self, link: &RigLink, setting: &Setting<'_>) {
+        let (id, item, line) = (setting.named(&link.id), setting.at(&link.item), setting.named(&link.line));
+        let rating = self.rating(&item);
+        self.add_link(&id, rating, &line, link.end);
+    }
+
+    fn rating(&mut self, item: &At<String>) -> Option<f64> {
+        let Some(found) = self.library.weak_links.iter().find(|known| known.entry.id == item.value) else {
+            self.no_item(Kind::WeakLink, &item.value, &item.place);
+            return None;
+        };
+        self.uses(&found.entry.path);
+        Some(found.rating_n)
+    }
+
+    fn add_link(&mut self, id: &At<String>, rating_n: Option<f64>, line: &At<String>, end: endline_sdk::LineEnd) {
+        let Some(Part::Line(index)) = self.part(&line.value) else {
+            self.unknown("line", line, |part| matches!(part, Part::Line(_)));
+            return;
+        };
+        self.name(id.value.clone(), Part::Link(self.spec.links.len()), &id.place);
+        self.spec.links.push(Link { id: id.value.clone(), line: index, end, rating_n: rating_n.unwrap_or(0.0), enabled: true });
+    }
+
+    /// Fixed and driven points of the scenario.
+    pub fn add_fixtures(&mut self) {
+        for fixture in &self.scenario.fixtures {
+            let kind = match fixture.drive {
+                Some((velocity_m_s, from_s, until_s)) => JointKind::Driven { velocity_m_s, from_s, until_s },
+                None => JointKind::Fixed,
+            };
+            self.name(fixture.id.value.clone(), Part::Joint(self.spec.joints.len()), &fixture.id.place);
+            self.spec.joints.push(Joint { id: fixture.id.value.clone(), kind, position_m: fixture.position_m });
+        }
+    }
+
+    /// Bodies written into the scenario.
+    pub fn add_free_bodies(&mut self) {
+        for free in &self.scenario.bodies {
+            self.name(free.id.value.clone(), Part::Body(self.spec.bodies.len()), &free.id.place);
+            self.spec.bodies.push(body::of_free(free, self.spec.water.density_kg_m3));
+            self.attachments.push(DVec3::ZERO);
+        }
+    }
+
+    /// Lines written into the scenario.
+    pub fn add_free_lines(&mut self) {
+        for (line, start) in &self.scenario.lines {
+            let ends = (self.end(&line.from), self.end(&line.to));
+            self.add_line(&line.id, &line.rope, ends, line.length_m, *start);
+        }
+    }
+
+    /// Weak links written into the scenario.
+    pub fn add_free_links(&mut self) {
+        for link in &self.scenario.links {
+            let rating = link.rating_n.or_else(|| link.item.as_ref().and_then(|item| self.rating(item)));
+            self.add_link(&link.id, rating, &link.line, link.end);
+        }
+    }
+
+    /// Weak links on or off.
+    pub fn enable_links(&mut self, enabled: bool) {
+        for link in &mut self.spec.links {
+            link.enabled = enabled;
+        }
+    }
+}
+
+fn library_kind(kind: BodyKind) -> Kind {
+    match kind {
+        BodyKind::Trap => Kind::Trap,
+        BodyKind::Buoy => Kind::Buoy,
+        BodyKind::Anchor => Kind::Anchor,
+    }
+}
+
+fn box_item<'a>(library: &'a Library, kind: BodyKind, id: &str) -> Option<&'a BoxGear> {
+    let items = if kind == BodyKind::Trap { &library.traps } else { &library.anchors };
+    items.iter().find(|item| item.entry.id == id)
+}

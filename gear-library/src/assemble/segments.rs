@@ -1,0 +1,100 @@
+//! Lines cut into segments, so that there are as many rope nodes as asked for.
+
+use endline_sim::DVec3;
+use endline_sim::model::JointKind;
+
+use crate::diagnostic::Place;
+use crate::scenario::LineStart;
+
+use super::builder::Builder;
+use super::catenary::Catenary;
+
+/// Rope nodes in all where a scenario asks for none.
+const USUAL_NODES: u64 = 500;
+
+impl Builder<'_> {
+    /// Cuts every line: `chosen` nodes in all, or the scenario's count, or its longest segment.
+    pub fn cut_lines(&mut self, chosen: Option<u64>) {
+        if self.uncut.is_empty() || self.problems.any_error() {
+            return;
+        }
+        let lengths: Vec<f64> = self.uncut.iter().map(|line| line.length_m).collect();
+        let (asked, place) = match (&self.scenario.rope_nodes, chosen) {
+            (_, Some(nodes)) => (Some(nodes), &self.scenario.place),
+            (Some(nodes), None) => (Some(nodes.value), &nodes.place),
+            (None, None) => (None, &self.scenario.place),
+        };
+        let counts = match (asked, self.scenario.segment_m) {
+            (None, Some(longest)) => lengths.iter().map(|length| at_least_one(length / longest)).collect(),
+            (nodes, _) => match share_out(nodes.unwrap_or(USUAL_NODES), &lengths) {
+                Some(counts) => counts,
+                None => return self.too_few(&place.clone(), lengths.len()),
+            },
+        };
+        for (index, count) in counts.into_iter().enumerate() {
+            self.spec.lines[index].segments_m = vec![lengths[index] / count as f64; count];
+            self.shape_start(index);
+        }
+    }
+
+    fn too_few(&self, place: &Place, lines: usize) {
+        let help = format!("with {lines} lines there are at least {} nodes: two for each line", 2 * lines);
+        self.problems.push(place.error("`rope_nodes` is too small for this gear", help));
+    }
+
+    /// Lays a line along the elastic catenary between its ends, where the scenario asks for it.
+    fn shape_start(&mut self, index: usize) {
+        if self.uncut[index].start == LineStart::Straight {
+            return;
+        }
+        let line = &self.spec.lines[index];
+        let rope = &self.spec.ropes[line.rope];
+        let water = &self.spec.water;
+        let weight = (rope.mass_kg_m - water.density_kg_m3 * rope.displaced_m3_m) * water.gravity_m_s2;
+        let (from, to) = (self.joint_place(line.from), self.joint_place(line.to));
+        let length = self.uncut[index].length_m;
+        let Some(catenary) = Catenary::between(to - from, length, weight, rope.axial_stiffness_n) else {
+            let message = format!("there is no catenary for line `{}` between its ends", line.id);
+            self.problems
+                .push(self.uncut[index].place.error(message, "mend its length or the places of its ends, or write start = \"straight\""));
+            return;
+        };
+        let count = line.segments_m.len();
+        let node = |k: usize| from + catenary.at(length * k as f64 / count as f64);
+        self.spec.lines[index].start_m = (0..=count).map(|k| if k == count { to } else { node(k) }).collect();
+    }
+
+    fn joint_place(&self, joint: usize) -> DVec3 {
+        let joint = &self.spec.joints[joint];
+        match joint.kind {
+            JointKind::Body { body, offset_m } => {
+                let body = &self.spec.bodies[body];
+                body.position_m + body.orientation * offset_m
+            }
+            _ => joint.position_m,
+        }
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "lengths are positive and bounded by the reader")]
+fn at_least_one(count: f64) -> usize {
+    (count - 1e-9).ceil().max(1.0) as usize
+}
+
+/// Segments for each line so that the nodes sum to `nodes`, by length, at least one each.
+///
+/// Largest remainder: every line gets the whole part of its share, the rest go to those that lost most.
+fn share_out(nodes: u64, lengths: &[f64]) -> Option<Vec<usize>> {
+    let spare = usize::try_from(nodes).ok()?.checked_sub(2 * lengths.len())?;
+    let total: f64 = lengths.iter().sum();
+    let shares: Vec<f64> = lengths.iter().map(|length| spare as f64 * length / total).collect();
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "shares are positive and below `spare`")]
+    let mut counts: Vec<usize> = shares.iter().map(|share| 1 + share.floor() as usize).collect();
+    let mut order: Vec<usize> = (0..lengths.len()).collect();
+    order.sort_by(|a, b| shares[*b].fract().total_cmp(&shares[*a].fract()).then(a.cmp(b)));
+    let left = (nodes as usize).checked_sub(counts.iter().map(|count| count + 1).sum())?;
+    for index in order.iter().cycle().take(left) {
+        counts[*index] += 1;
+    }
+    Some(counts)
+}

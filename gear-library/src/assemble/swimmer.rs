@@ -1,0 +1,85 @@
+//! The whale and what rubs on it.
+
+use std::sync::Arc;
+
+use endline_sim::DQuat;
+use endline_sim::model::Friction;
+use endline_sim::whale::Whale;
+
+use crate::attributes::numbers;
+use crate::nearest::hint;
+use crate::scenario::Swimmer;
+use crate::schema::Kind;
+use crate::whale::build_skin;
+
+use super::builder::Builder;
+
+impl Builder<'_> {
+    /// The scenario's whale with its motion, and the friction of every rope on it.
+    pub fn add_whale(&mut self) {
+        let Some(swimmer) = &self.scenario.whale else {
+            return;
+        };
+        self.add_friction();
+        let Some(item) = self.library.whales.iter().find(|whale| whale.entry.id == swimmer.item.value) else {
+            self.no_item(Kind::Whale, &swimmer.item.value, &swimmer.item.place);
+            return;
+        };
+        self.uses(&item.entry.path);
+        let Some(motion) = self.hooks.motion(&swimmer.motion.value) else {
+            let ids = self.hooks.ids();
+            let message = format!("no whale motion `{}` among the plugins", swimmer.motion.value);
+            self.problems.push(swimmer.motion.place.error(message, hint(&swimmer.motion.value, ids.iter().map(String::as_str))));
+            return;
+        };
+        let attributes = swimmer.attributes.resolve(motion.descriptor(), self.library, &mut self.used, &self.problems);
+        let length_m = swimmer.length_m.unwrap_or(item.form.length_m);
+        self.spec.whale = Some(Whale {
+            skin: Arc::new(build_skin(&item.form_at(length_m))),
+            length_m,
+            burst_speed_m_s: item.burst_speed_m_s,
+            position_m: swimmer.position_m,
+            orientation: orientation(swimmer),
+            speed_m_s: swimmer.speed_m_s,
+            motion,
+            motion_attributes: numbers(&attributes),
+            pilot: swimmer.pilot.clone(),
+            contact_stiffness_n_m2: swimmer.contact_stiffness_n_m2.unwrap_or(item.contact_stiffness_n_m2),
+        });
+    }
+
+    /// The friction model with the table of coefficients: rope by region.
+    fn add_friction(&mut self) {
+        let Some(choice) = &self.scenario.friction else {
+            let message = "there is a whale, but no `friction`";
+            let help = "write [friction] with model = \"org.endline.friction.coulomb\"";
+            self.problems.push(self.scenario.place.error(message, help));
+            return;
+        };
+        let Some(model) = self.hooks.friction(&choice.model.value) else {
+            let ids = self.hooks.ids();
+            let message = format!("no friction model `{}` among the plugins", choice.model.value);
+            self.problems.push(choice.model.place.error(message, hint(&choice.model.value, ids.iter().map(String::as_str))));
+            return;
+        };
+        let attributes = choice.attributes.resolve(model.descriptor(), self.library, &mut self.used, &self.problems);
+        let mut coefficients = Vec::new();
+        for material in self.materials.clone() {
+            match self.library.frictions.iter().find(|friction| friction.entry.id == material.value) {
+                Some(friction) => {
+                    self.uses(&friction.entry.path);
+                    coefficients.push(friction.coefficients);
+                }
+                None => self.no_item(Kind::Friction, &material.value, &material.place),
+            }
+        }
+        self.spec.friction = Some(Friction { model, attributes: numbers(&attributes), coefficients });
+    }
+}
+
+/// Heading by compass, then nose up, then roll to starboard.
+fn orientation(swimmer: &Swimmer) -> DQuat {
+    DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2 - swimmer.heading_rad)
+        * DQuat::from_rotation_y(-swimmer.pitch_rad)
+        * DQuat::from_rotation_x(swimmer.roll_rad)
+}

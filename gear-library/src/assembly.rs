@@ -1,0 +1,209 @@
+//! Assemblies: gear built by a gear type from attributes, or spelled out part by part.
+
+use endline_sdk::LineEnd;
+
+use crate::attributes::Attributes;
+use crate::diagnostic::At;
+use crate::entry::{self, Entry};
+use crate::fields::{Fields, Problems, Range};
+use crate::schema::Kind;
+use crate::tree::Node;
+use crate::units::Quantity;
+
+/// An assembly of the library.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Assembly {
+    /// Its file.
+    pub entry: Entry,
+    /// What it is made of.
+    pub make: Make,
+}
+
+/// What an assembly is made of.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Make {
+    /// A gear type builds it from attributes.
+    GearType {
+        /// Id of the plugin.
+        id: At<String>,
+        /// Its attributes.
+        attributes: Attributes,
+    },
+    /// Its parts, one by one.
+    Parts(Parts),
+}
+
+/// Parts of an assembly.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Parts {
+    /// Traps, buoys, anchors.
+    pub bodies: Vec<PartBody>,
+    /// Splices.
+    pub joints: Vec<PartJoint>,
+    /// Lines.
+    pub lines: Vec<PartLine>,
+    /// Weak links.
+    pub links: Vec<PartLink>,
+}
+
+/// Where a part starts: on the seabed, at the surface, or a share of the depth between.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Start {
+    /// Along and across the assembly [m].
+    pub xy_m: [f64; 2],
+    /// Height as a share of depth: 0 on the seabed, 1 at the surface.
+    pub height: f64,
+}
+
+/// A trap, buoy or anchor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PartBody {
+    /// Id.
+    pub id: At<String>,
+    /// Kind: trap, buoy or anchor.
+    pub kind: Kind,
+    /// Id of the library item.
+    pub item: At<String>,
+    /// First guess of its place.
+    pub start: Start,
+}
+
+/// A splice.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PartJoint {
+    /// Id.
+    pub id: At<String>,
+    /// First guess of its place.
+    pub start: Start,
+}
+
+/// A line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PartLine {
+    /// Id.
+    pub id: At<String>,
+    /// Id of the rope.
+    pub rope: At<String>,
+    /// Id of the part at end A.
+    pub from: At<String>,
+    /// Id of the part at end B.
+    pub to: At<String>,
+    /// Unstretched length [m].
+    pub length_m: f64,
+}
+
+/// A weak link.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PartLink {
+    /// Id.
+    pub id: At<String>,
+    /// Id of the library item; a scenario may rate one in place instead.
+    pub item: Option<At<String>>,
+    /// Rating where written in place [N].
+    pub rating_n: Option<f64>,
+    /// Id of its line.
+    pub line: At<String>,
+    /// At which end.
+    pub end: LineEnd,
+}
+
+impl Assembly {
+    /// Reads an assembly's file; `None` where something needed is missing, which is a problem already told.
+    pub(crate) fn read(node: &Node, id: &str, problems: &Problems) -> Option<Self> {
+        let fields = Fields::of(node, problems);
+        let head = entry::header(&fields, Kind::Assembly.word(), problems);
+        let entry = entry::body(&fields, Kind::Assembly, head, id);
+        let make = match fields.text("gear_type") {
+            Some(id) => Make::GearType { id, attributes: Attributes::read(&fields, "attributes") },
+            None => Make::Parts(Parts::read(&fields)),
+        };
+        if matches!(&make, Make::Parts(parts) if parts.lines.is_empty() && parts.bodies.is_empty()) {
+            fields.missing("gear_type", "name a gear type, or write parts under [[body]], [[joint]], [[line]] and [[link]]");
+        }
+        fields.finish();
+        Some(Self { entry, make })
+    }
+}
+
+impl Parts {
+    fn read(fields: &Fields<'_>) -> Self {
+        Self {
+            bodies: fields.tables("body").iter().filter_map(|node| body(node, fields.problems())).collect(),
+            joints: fields.tables("joint").iter().filter_map(|node| joint(node, fields.problems())).collect(),
+            lines: fields.tables("line").iter().filter_map(|node| line(node, fields.problems())).collect(),
+            links: fields.tables("link").iter().filter_map(|node| link(node, fields.problems(), false)).collect(),
+        }
+    }
+}
+
+fn body(node: &Node, problems: &Problems) -> Option<PartBody> {
+    let fields = Fields::of(node, problems);
+    let id = fields.need_text("id", "write an id such as \"trap-1\"");
+    let kind = fields.need_text("kind", "write trap, buoy or anchor");
+    let known = kind.and_then(|_| fields.word("kind", &["trap", "buoy", "anchor"]));
+    let item = fields.need_text("item", "write the id of a library item, such as \"wire-lobster-3ft\"");
+    let start = start(&fields);
+    fields.finish();
+    let kind = match known?.value.as_str() {
+        "trap" => Kind::Trap,
+        "buoy" => Kind::Buoy,
+        _ => Kind::Anchor,
+    };
+    Some(PartBody { id: id?, kind, item: item?, start })
+}
+
+fn joint(node: &Node, problems: &Problems) -> Option<PartJoint> {
+    let fields = Fields::of(node, problems);
+    let id = fields.need_text("id", "write an id such as \"splice\"");
+    let start = start(&fields);
+    fields.finish();
+    Some(PartJoint { id: id?, start })
+}
+
+/// `position` along and across the assembly, `height` as a share of depth.
+fn start(fields: &Fields<'_>) -> Start {
+    let xy = fields.values("position", Quantity::Length, &[2]).map_or([0.0; 2], |xy| [xy.value[0], xy.value[1]]);
+    let height = fields.value("height", Quantity::Ratio, Range::Between(0.0, 1.0)).map_or(0.0, |height| height.value);
+    Start { xy_m: xy, height }
+}
+
+/// Reads a `[[line]]`.
+pub(crate) fn line(node: &Node, problems: &Problems) -> Option<PartLine> {
+    let fields = Fields::of(node, problems);
+    let line = line_fields(&fields);
+    fields.finish();
+    line
+}
+
+/// Reads a line's fields without refusing others.
+pub(crate) fn line_fields(fields: &Fields<'_>) -> Option<PartLine> {
+    let id = fields.need_text("id", "write an id such as \"groundline-1\"");
+    let rope = fields.need_text("rope", "write the id of a rope, such as \"pp-3-8\"");
+    let from = fields.need_text("from", "write the id of the body or joint at this end");
+    let to = fields.need_text("to", "write the id of the body or joint at that end");
+    let length = fields.need_value("length", Quantity::Length, Range::Between(0.01, 20_000.0));
+    if let (Some(from), Some(to)) = (&from, &to)
+        && from.value == to.value
+    {
+        fields.problems().push(to.place.error(format!("both ends are at `{}`", to.value), "a line runs between two parts"));
+    }
+    Some(PartLine { id: id?, rope: rope?, from: from?, to: to?, length_m: length?.value })
+}
+
+/// Reads a `[[link]]`; with `in_place` it may carry a rating instead of an item.
+pub(crate) fn link(node: &Node, problems: &Problems, in_place: bool) -> Option<PartLink> {
+    let fields = Fields::of(node, problems);
+    let id = fields.need_text("id", "write an id such as \"buoy-link\"");
+    let rating = if in_place { fields.value("rating", Quantity::Force, Range::Positive) } else { None };
+    let item =
+        if rating.is_some() { fields.text("item") } else { fields.need_text("item", "write the id of a weak link, such as \"wl-600\"") };
+    let line = fields.need_text("line", "write the id of its line");
+    let end = fields.need_text("end", "write from or to");
+    let end = end.and_then(|_| fields.word("end", &["from", "to"]));
+    fields.finish();
+    let end = if end?.value == "from" { LineEnd::A } else { LineEnd::B };
+    if item.is_none() && rating.is_none() {
+        return None;
+    }
+    Some(PartLink { id: id?, item, rating_n: rating.map(|rating| rating.value), line: line?, end })
+}

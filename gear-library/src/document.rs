@@ -1,0 +1,157 @@
+//! A file being edited: fields change, comments and order stay.
+
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::Path;
+use std::str::FromStr;
+
+use toml_edit::{DocumentMut, Item, TableLike, Value};
+
+/// A TOML file open for editing.
+#[derive(Clone, Debug)]
+pub struct Document {
+    document: DocumentMut,
+}
+
+/// Why a field could not be set.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct EditError {
+    /// What is wrong and what was expected.
+    pub message: String,
+}
+
+impl std::fmt::Display for EditError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for EditError {}
+
+impl Document {
+    /// Opens a text for editing.
+    ///
+    /// # Errors
+    /// Where it is not TOML; [`Library::check_file`](crate::Library::check_file) says where.
+    pub fn parse(text: &str) -> Result<Self, EditError> {
+        let document = DocumentMut::from_str(text).map_err(|error| EditError { message: error.message().trim().to_owned() })?;
+        Ok(Self { document })
+    }
+
+    /// The text as it stands.
+    #[must_use]
+    pub fn text(&self) -> String {
+        self.document.to_string()
+    }
+
+    /// The text of a field, such as `3/8 in` for `diameter` or for `diameter.value`.
+    #[must_use]
+    pub fn get(&self, field: &str) -> Option<String> {
+        let mut item = self.document.as_item();
+        for part in field.split('.') {
+            item = match part.parse::<usize>() {
+                Ok(index) => item.get(index)?,
+                Err(_) => item.get(part)?,
+            };
+        }
+        let item = item.get("value").unwrap_or(item);
+        item.as_str().map(str::to_owned).or_else(|| item.as_value().map(|value| value.to_string().trim().to_owned()))
+    }
+
+    /// Sets a field by its dotted path, such as `diameter` or `line.0.length`.
+    ///
+    /// A figure written as a table keeps its source and sureness: its `value` changes. Text that
+    /// reads as a plain number, `true` or `false` is written as such where the field held one.
+    ///
+    /// # Errors
+    /// Where the path leads through something that is no table or list.
+    pub fn set(&mut self, field: &str, text: &str) -> Result<(), EditError> {
+        let (parents, last) = field.rsplit_once('.').unwrap_or(("", field));
+        let no_way = |part: &str| EditError { message: format!("`{part}` of `{field}` is not there") };
+        let mut item = self.document.as_item_mut();
+        for part in parents.split('.').filter(|part| !part.is_empty()) {
+            item = child(item, part).ok_or_else(|| no_way(part))?;
+        }
+        if let Ok(index) = last.parse::<usize>() {
+            let slot = item.get_mut(index).and_then(Item::as_value_mut).ok_or_else(|| no_way(last))?;
+            replace(slot, text);
+            return Ok(());
+        }
+        set_in(item.as_table_like_mut().ok_or_else(|| no_way(last))?, last, text);
+        Ok(())
+    }
+
+    /// Removes a field of the top level or of a table, with its comment.
+    ///
+    /// # Errors
+    /// Where it is not there.
+    pub fn remove(&mut self, field: &str) -> Result<(), EditError> {
+        let (parents, last) = field.rsplit_once('.').unwrap_or(("", field));
+        let missing = || EditError { message: format!("`{field}` is not there") };
+        let mut item = self.document.as_item_mut();
+        for part in parents.split('.').filter(|part| !part.is_empty()) {
+            item = child(item, part).ok_or_else(missing)?;
+        }
+        item.as_table_like_mut().and_then(|table| table.remove(last)).map(|_| ()).ok_or_else(missing)
+    }
+
+    /// Saves: writes beside, syncs, renames, so that a crash leaves the old file or the new one.
+    ///
+    /// # Errors
+    /// Where the folder or the file cannot be written.
+    pub fn save(&self, path: &Path) -> io::Result<()> {
+        save_text(path, &self.text())
+    }
+}
+
+/// Saves a text in one move: writes beside, syncs, renames.
+///
+/// # Errors
+/// Where the folder or the file cannot be written.
+pub fn save_text(path: &Path, text: &str) -> io::Result<()> {
+    let name = path.file_name().ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "not the name of a file"))?;
+    let beside = path.with_file_name(format!(".{}.saving", name.to_string_lossy()));
+    let written = write_synced(&beside, text).and_then(|()| fs::rename(&beside, path));
+    if written.is_err() {
+        let _ = fs::remove_file(&beside);
+    }
+    written
+}
+
+fn write_synced(path: &Path, text: &str) -> io::Result<()> {
+    let mut file = File::create(path)?;
+    file.write_all(text.as_bytes())?;
+    file.sync_all()
+}
+
+fn child<'a>(item: &'a mut Item, part: &str) -> Option<&'a mut Item> {
+    match part.parse::<usize>() {
+        Ok(index) => item.get_mut(index),
+        Err(_) => item.get_mut(part),
+    }
+}
+
+/// Sets a key of a table; a figure's table keeps its source and sureness.
+fn set_in(table: &mut dyn TableLike, key: &str, text: &str) {
+    match table.get_mut(key) {
+        Some(Item::Value(Value::InlineTable(figure))) if figure.contains_key("value") => {
+            figure.get_mut("value").into_iter().for_each(|slot| replace(slot, text));
+        }
+        Some(Item::Table(figure)) if figure.contains_key("value") => {
+            figure.get_mut("value").and_then(Item::as_value_mut).into_iter().for_each(|slot| replace(slot, text));
+        }
+        Some(Item::Value(slot)) => replace(slot, text),
+        _ => {
+            table.insert(key, Item::Value(Value::from(text)));
+        }
+    }
+}
+
+/// Puts a new value in the place of an old one, with the spaces and comments around it.
+fn replace(slot: &mut Value, text: &str) {
+    let decor = slot.decor().clone();
+    let plain = !matches!(slot, Value::String(_));
+    let fresh = if plain { text.parse::<Value>().unwrap_or_else(|_| Value::from(text)) } else { Value::from(text) };
+    *slot = fresh;
+    *slot.decor_mut() = decor;
+}

@@ -1,0 +1,17 @@
+//! Library items with their figures by name, ready for assembly.
+
+mod box_gear;
+mod buoy;
+mod friction;
+mod rope;
+mod site;
+mod weak_link;
+mod whale;
+
+pub use box_gear::BoxGear;
+pub use buoy::{Buoy, BuoyShape};
+pub use friction::RopeFriction;
+pub use rope::Rope;
+pub use site::SeaSite;
+pub use weak_link::WeakLink;
+pub use whale::WhaleItem;

@@ -1,0 +1,19 @@
+//! A weak link of the library.
+
+use crate::entry::Entry;
+
+/// A weak link.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WeakLink {
+    /// Its file.
+    pub entry: Entry,
+    /// Tension above which it parts [N].
+    pub rating_n: f64,
+}
+
+impl WeakLink {
+    /// From a file's figures; `None` where one is missing, which is a problem already told.
+    pub(crate) fn from_entry(entry: Entry) -> Option<Self> {
+        Some(Self { rating_n: entry.value("rating")?, entry })
+    }
+}

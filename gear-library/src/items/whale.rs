@@ -1,0 +1,193 @@
+//! A whale of the library.
+
+use endline_sdk::SPINE_JOINTS;
+
+use crate::entry::{self, Entry};
+use crate::fields::{Fields, Figure, Problems, Provenance, Range, provenance_over, read_figure};
+use crate::schema::Kind;
+use crate::tree::{Content, Node};
+use crate::units::Quantity;
+use crate::whale::{FlipperForm, FlukesForm, HeadForm, Station, WhaleForm};
+
+/// A whale: its measures, with source and sureness, and its form.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WhaleItem {
+    /// Its file.
+    pub entry: Entry,
+    /// Its measures; edges and stations as shares, so that a scenario may choose another length.
+    pub form: WhaleForm,
+    /// Figures of the body sections: at, width, dorsal, ventral of each.
+    pub sections: Vec<[Figure; 4]>,
+    /// Greatest speed it can swim [m/s].
+    pub burst_speed_m_s: f64,
+    /// Stiffness of skin and blubber under rope, by length of rope [N/m²].
+    pub contact_stiffness_n_m2: f64,
+}
+
+impl WhaleItem {
+    /// Reads a whale's file; `None` where a figure is missing, which is a problem already told.
+    pub(crate) fn read(node: &Node, id: &str, problems: &Problems) -> Option<Self> {
+        let fields = Fields::of(node, problems);
+        let head = entry::header(&fields, Kind::Whale.word(), problems);
+        let file = head.2.clone();
+        let entry = entry::body(&fields, Kind::Whale, head, id);
+        let sections = sections(&fields, &file);
+        let spine = spine(&fields, &file);
+        fields.finish();
+        let sections = sections?;
+        Some(Self {
+            form: form(&entry, &sections, spine?)?,
+            burst_speed_m_s: entry.value("burst_speed")?,
+            contact_stiffness_n_m2: entry.value("contact_stiffness")?,
+            sections,
+            entry,
+        })
+    }
+
+    /// Its form at another length, edges growing with it.
+    #[must_use]
+    pub fn form_at(&self, length_m: f64) -> WhaleForm {
+        let scale = length_m / self.form.length_m;
+        let mut form = self.form.clone();
+        form.length_m = length_m;
+        form.flippers.edge_radius_m *= scale;
+        form.flukes.edge_radius_m *= scale;
+        form
+    }
+}
+
+/// The rows of `[sections]`, from snout to notch.
+fn sections(fields: &Fields<'_>, file: &Provenance) -> Option<Vec<[Figure; 4]>> {
+    let help =
+        "write at least four body sections as rows of [sections], such as { at = 0.1, width = 0.149, dorsal = 0.063, ventral = -0.060 }";
+    let Some(table) = fields.table("sections") else {
+        fields.missing("sections", help);
+        return None;
+    };
+    let of_all = provenance_over(&table, file);
+    let nodes = table.tables("rows");
+    table.finish();
+    if nodes.len() < 4 {
+        table.missing("rows", help);
+        return None;
+    }
+    let read: Vec<_> = nodes.iter().map(|node| section(node, &of_all, fields.problems())).collect();
+    let sections = read.into_iter().collect::<Option<Vec<_>>>()?;
+    for pair in sections.windows(2).filter(|pair| pair[1][0].value <= pair[0][0].value) {
+        let place = &pair[1][0].place;
+        fields.problems().push(place.error("body sections are not in rising order of `at`", "put them in order from snout to fluke notch"));
+    }
+    Some(sections)
+}
+
+fn section(node: &Node, file: &Provenance, problems: &Problems) -> Option<[Figure; 4]> {
+    let fields = Fields::of(node, problems);
+    let row = provenance_over(&fields, file);
+    let ratio = |key: &'static str, range| {
+        if fields.get(key).is_none() {
+            fields.missing(key, "expected a share of body length, such as 0.149");
+        }
+        fields.figure(key, Quantity::Ratio, range, &row)
+    };
+    let at = ratio("at", Range::Between(0.0, 1.0));
+    let width = ratio("width", Range::Between(0.0, 1.0));
+    let dorsal = ratio("dorsal", Range::Between(-0.5, 0.5));
+    let ventral = ratio("ventral", Range::Between(-0.5, 0.5));
+    fields.finish();
+    if let (Some(dorsal), Some(ventral)) = (&dorsal, &ventral)
+        && ventral.value > dorsal.value
+    {
+        problems
+            .push(ventral.place.error("`ventral` is above `dorsal`", "heights are above the snout's level: the belly is the lower one"));
+    }
+    Some([at?, width?, dorsal?, ventral?])
+}
+
+/// The places of the spine joints: a list as `value`, with source and sureness.
+fn spine(fields: &Fields<'_>, file: &Provenance) -> Option<[f64; SPINE_JOINTS]> {
+    let help = format!("write [spine] with `joints`, {SPINE_JOINTS} shares of length from the neck aft, and their source and sureness");
+    let Some(spine) = fields.table("spine") else {
+        fields.missing("spine", help);
+        return None;
+    };
+    let row = provenance_over(&spine, file);
+    let joints = spine_joints(spine.get("joints"), &row, &spine, help);
+    spine.finish();
+    joints
+}
+
+fn spine_joints(joints: Option<&Node>, row: &Provenance, spine: &Fields<'_>, help: String) -> Option<[f64; SPINE_JOINTS]> {
+    let Some(Node { content: Content::List(items), place }) = joints else {
+        spine.missing("joints", help);
+        return None;
+    };
+    let read: Vec<_> =
+        items.iter().map(|item| read_figure(item, Quantity::Ratio, Range::Between(0.0, 1.0), row, spine.problems())).collect();
+    let values: Vec<f64> = read.into_iter().map(|figure| figure.map(|figure| figure.value)).collect::<Option<_>>()?;
+    let rising = values.windows(2).all(|pair| pair[1] > pair[0]);
+    match values.try_into() {
+        Ok(joints) if rising => Some(joints),
+        _ => {
+            spine.problems().push(place.error("`joints` is not a rising list of the right length", help));
+            None
+        }
+    }
+}
+
+fn form(entry: &Entry, sections: &[[Figure; 4]], spine_joints: [f64; SPINE_JOINTS]) -> Option<WhaleForm> {
+    let value = |key| entry.value(key);
+    let station = |[at, width, dorsal, ventral]: &[Figure; 4]| Station {
+        at: at.value,
+        width: width.value,
+        dorsal: dorsal.value,
+        ventral: ventral.value,
+    };
+    Some(WhaleForm {
+        length_m: value("length")?,
+        stations: sections.iter().map(station).collect(),
+        breadth_scale: value("breadth_scale")?,
+        head: HeadForm {
+            share: value("head.share")?,
+            mouth: value("head.mouth")?,
+            rostrum_width: value("head.rostrum_width")?,
+            lip_arch: value("head.lip_arch")?,
+        },
+        peduncle_start: value("peduncle_start")?,
+        spine_joints,
+        flippers: flippers(entry)?,
+        flukes: flukes(entry)?,
+    })
+}
+
+fn flippers(entry: &Entry) -> Option<FlipperForm> {
+    let value = |key| entry.value(key);
+    Some(FlipperForm {
+        insertion: value("flippers.insertion")?,
+        insertion_height: value("flippers.insertion_height")?,
+        span: value("flippers.span")?,
+        root_chord: value("flippers.root_chord")?,
+        max_chord: value("flippers.max_chord")?,
+        max_chord_at: value("flippers.max_chord_at")?,
+        tip_chord: value("flippers.tip_chord")?,
+        thickness: value("flippers.thickness")?,
+        tip_thickness: value("flippers.tip_thickness")?,
+        sweep: value("flippers.sweep")?,
+        droop: value("flippers.droop")?,
+        edge_radius_m: value("flippers.edge_radius")?,
+    })
+}
+
+fn flukes(entry: &Entry) -> Option<FlukesForm> {
+    let value = |key| entry.value(key);
+    Some(FlukesForm {
+        span: value("flukes.span")?,
+        root_chord: value("flukes.root_chord")?,
+        tip_chord: value("flukes.tip_chord")?,
+        sweep: value("flukes.sweep")?,
+        thickness: value("flukes.thickness")?,
+        tip_thickness: value("flukes.tip_thickness")?,
+        notch: value("flukes.notch")?,
+        height: value("flukes.height")?,
+        edge_radius_m: value("flukes.edge_radius")?,
+    })
+}

@@ -1,0 +1,144 @@
+//! The library: every item of every kind, read and checked.
+
+use crate::assembly::Assembly;
+use crate::diagnostic::Diagnostic;
+use crate::entry::{self, Entry};
+use crate::fields::Problems;
+use crate::items::{BoxGear, Buoy, Rope, RopeFriction, SeaSite, WeakLink, WhaleItem};
+use crate::nearest::hint;
+use crate::schema::Kind;
+use crate::sources::Sources;
+use crate::tree;
+
+/// Items by kind, each kind by id.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Library {
+    /// Ropes.
+    pub ropes: Vec<Rope>,
+    /// Traps.
+    pub traps: Vec<BoxGear>,
+    /// Buoys.
+    pub buoys: Vec<Buoy>,
+    /// Weak links.
+    pub weak_links: Vec<WeakLink>,
+    /// Anchors.
+    pub anchors: Vec<BoxGear>,
+    /// Sites.
+    pub sites: Vec<SeaSite>,
+    /// Friction by rope material.
+    pub frictions: Vec<RopeFriction>,
+    /// Whales.
+    pub whales: Vec<WhaleItem>,
+    /// Assemblies.
+    pub assemblies: Vec<Assembly>,
+}
+
+impl Library {
+    /// Reads every file; a file with errors is left out, and all its problems are told.
+    #[must_use]
+    pub fn read(sources: &Sources) -> (Self, Vec<Diagnostic>) {
+        let mut library = Self::default();
+        let all = Problems::default();
+        for (path, text) in sources.iter() {
+            let problems = Problems::default();
+            library.read_file(path, text, &problems);
+            all.extend(problems.into_sorted());
+        }
+        library.check_materials(&all);
+        (library, all.into_sorted())
+    }
+
+    /// All problems of one file, as the library would find them.
+    #[must_use]
+    pub fn check_file(path: &str, text: &str) -> Vec<Diagnostic> {
+        let problems = Problems::default();
+        Self::default().read_file(path, text, &problems);
+        problems.into_sorted()
+    }
+
+    fn read_file(&mut self, path: &str, text: &str, problems: &Problems) {
+        let (folder, file) = path.rsplit_once('/').unwrap_or(("", path));
+        let folder = folder.rsplit('/').next().unwrap_or_default();
+        let id = file.trim_end_matches(".toml");
+        let Some(kind) = Kind::in_folder(folder) else {
+            let folders = Kind::ALL.map(Kind::folder);
+            problems.push(Diagnostic::of_file(path, format!("`{folder}` is no folder of a library"), hint(folder, folders)));
+            return;
+        };
+        let node = match tree::read(path, text) {
+            Ok(node) => node,
+            Err(problem) => return problems.push(*problem),
+        };
+        let mut fresh = Self::default();
+        fresh.read_item(&node, kind, id, problems);
+        if !problems.any_error() {
+            self.take(fresh);
+        }
+    }
+
+    fn read_item(&mut self, node: &tree::Node, kind: Kind, id: &str, problems: &Problems) {
+        let entry = || entry::read(node, kind, id, problems);
+        match kind {
+            Kind::Rope => self.ropes.extend(Rope::from_entry(entry(), problems)),
+            Kind::Trap => self.traps.extend(BoxGear::from_entry(entry(), problems)),
+            Kind::Anchor => self.anchors.extend(BoxGear::from_entry(entry(), problems)),
+            Kind::Buoy => self.buoys.extend(Buoy::from_entry(entry(), problems)),
+            Kind::WeakLink => self.weak_links.extend(WeakLink::from_entry(entry())),
+            Kind::Site => self.sites.extend(SeaSite::from_entry(entry())),
+            Kind::Friction => self.frictions.extend(RopeFriction::from_entry(entry())),
+            Kind::Whale => self.whales.extend(WhaleItem::read(node, id, problems)),
+            Kind::Assembly => self.assemblies.extend(Assembly::read(node, id, problems)),
+        }
+    }
+
+    fn take(&mut self, mut fresh: Self) {
+        self.ropes.append(&mut fresh.ropes);
+        self.traps.append(&mut fresh.traps);
+        self.buoys.append(&mut fresh.buoys);
+        self.weak_links.append(&mut fresh.weak_links);
+        self.anchors.append(&mut fresh.anchors);
+        self.sites.append(&mut fresh.sites);
+        self.frictions.append(&mut fresh.frictions);
+        self.whales.append(&mut fresh.whales);
+        self.assemblies.append(&mut fresh.assemblies);
+    }
+
+    /// Every rope's material is an item of `friction/`.
+    fn check_materials(&self, problems: &Problems) {
+        let known = self.ids(Kind::Friction);
+        for rope in self.ropes.iter().filter(|rope| !known.contains(&rope.material.as_str())) {
+            if let Some(word) = rope.entry.word("material") {
+                problems
+                    .push(word.place.error(format!("no `{}` in friction/", rope.material), hint(&rope.material, known.iter().copied())));
+            }
+        }
+    }
+
+    /// The files of a kind, by id.
+    #[must_use]
+    pub fn entries(&self, kind: Kind) -> Vec<&Entry> {
+        match kind {
+            Kind::Rope => self.ropes.iter().map(|item| &item.entry).collect(),
+            Kind::Trap => self.traps.iter().map(|item| &item.entry).collect(),
+            Kind::Buoy => self.buoys.iter().map(|item| &item.entry).collect(),
+            Kind::WeakLink => self.weak_links.iter().map(|item| &item.entry).collect(),
+            Kind::Anchor => self.anchors.iter().map(|item| &item.entry).collect(),
+            Kind::Site => self.sites.iter().map(|item| &item.entry).collect(),
+            Kind::Friction => self.frictions.iter().map(|item| &item.entry).collect(),
+            Kind::Whale => self.whales.iter().map(|item| &item.entry).collect(),
+            Kind::Assembly => self.assemblies.iter().map(|item| &item.entry).collect(),
+        }
+    }
+
+    /// The ids of a kind.
+    #[must_use]
+    pub fn ids(&self, kind: Kind) -> Vec<&str> {
+        self.entries(kind).into_iter().map(|entry| entry.id.as_str()).collect()
+    }
+
+    /// A file by kind and id.
+    #[must_use]
+    pub fn entry(&self, kind: Kind, id: &str) -> Option<&Entry> {
+        self.entries(kind).into_iter().find(|entry| entry.id == id)
+    }
+}

@@ -1,0 +1,285 @@
+//! The scenario document: sea, gear, whale, fixtures and probes of one run.
+
+mod motion;
+mod parts;
+
+use endline_sim::DVec3;
+
+use crate::assembly::{PartLine, PartLink, line_fields, link};
+use crate::attributes::Attributes;
+use crate::diagnostic::{At, Diagnostic, Place};
+use crate::entry::{self, Entry};
+use crate::fields::{Fields, Problems, Range};
+use crate::tree::{self, Node};
+use crate::units::Quantity;
+
+pub use motion::Swimmer;
+pub use parts::{Fixture, FreeBody, LineStart, ProbeOf, ProbePart};
+
+/// A scenario as read; ids are looked up by [`assemble`](crate::assemble).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scenario {
+    /// Name shown to the user.
+    pub name: String,
+    /// Remarks shown to the user; may be empty.
+    pub notes: String,
+    /// The file itself.
+    pub place: Place,
+    /// Length of the run [s].
+    pub duration_s: f64,
+    /// Seed of everything drawn at random.
+    pub seed: u64,
+    /// Step between inputs [s], where the scenario chooses one.
+    pub step_s: Option<f64>,
+    /// Longest step while rope is near the whale [s], where the scenario chooses one.
+    pub contact_step_s: Option<f64>,
+    /// How many rope nodes there are in all.
+    pub rope_nodes: Option<At<u64>>,
+    /// Longest segment [m], where no node count is given.
+    pub segment_m: Option<f64>,
+    /// Whether weak links can part.
+    pub weak_links: bool,
+    /// The sea.
+    pub sea: Sea,
+    /// Gear from the library.
+    pub gear: Vec<PlacedGear>,
+    /// The whale, if any.
+    pub whale: Option<Swimmer>,
+    /// Friction of rope on whale.
+    pub friction: Option<FrictionChoice>,
+    /// Ropes written in place.
+    pub ropes: Vec<Entry>,
+    /// Fixed and driven points.
+    pub fixtures: Vec<Fixture>,
+    /// Bodies written in place.
+    pub bodies: Vec<FreeBody>,
+    /// Lines written in place, with their start shape.
+    pub lines: Vec<(PartLine, LineStart)>,
+    /// Weak links written in place.
+    pub links: Vec<PartLink>,
+    /// Probes.
+    pub probes: Vec<ProbeOf>,
+}
+
+/// Site and current.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sea {
+    /// Library site, if one is named.
+    pub item: Option<At<String>>,
+    /// Depth, over the site's [m].
+    pub depth_m: Option<f64>,
+    /// Density, over the site's [kg/m³].
+    pub density_kg_m3: Option<f64>,
+    /// Gravity, over the site's [m/s²].
+    pub gravity_m_s2: Option<f64>,
+    /// Whether there is a seabed.
+    pub seabed: bool,
+    /// Whether rope above the surface is dry.
+    pub rope_dries: bool,
+    /// Surface speed of the current, over the site's running tide [m/s].
+    pub current_m_s: Option<f64>,
+    /// Compass bearing towards which it runs [rad].
+    pub toward_rad: f64,
+    /// Exponent of its profile, over the site's.
+    pub exponent: Option<f64>,
+    /// Where `[site]` stands.
+    pub place: Place,
+}
+
+/// An assembly of the library, placed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlacedGear {
+    /// Prefix of its parts' ids; needed where several are placed.
+    pub id: Option<At<String>>,
+    /// Id of the assembly.
+    pub assembly: At<String>,
+    /// Where its origin lies, east and north [m].
+    pub position_m: [f64; 2],
+    /// Compass bearing of its x axis [rad].
+    pub heading_rad: f64,
+    /// Attributes over the assembly's.
+    pub attributes: Attributes,
+    /// Ropes over the assembly's: id of the line, id of the rope.
+    pub ropes: Vec<(At<String>, At<String>)>,
+}
+
+/// A friction model with its attributes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrictionChoice {
+    /// Id of the plugin.
+    pub model: At<String>,
+    /// Its attributes.
+    pub attributes: Attributes,
+}
+
+impl Scenario {
+    /// Reads a scenario's text; `name` is its path as shown in messages.
+    ///
+    /// # Errors
+    /// Everything wrong with it that can be seen without the library.
+    pub fn read(name: &str, text: &str) -> Result<Self, Vec<Diagnostic>> {
+        let problems = Problems::default();
+        let node = tree::read(name, text).map_err(|problem| vec![*problem])?;
+        let scenario = Self::from_node(&node, &problems);
+        match scenario {
+            Some(scenario) if !problems.any_error() => Ok(scenario),
+            _ => Err(problems.into_sorted()),
+        }
+    }
+
+    fn from_node(node: &Node, problems: &Problems) -> Option<Self> {
+        let fields = Fields::of(node, problems);
+        let (name, notes, file) = entry::header(&fields, "scenario", problems);
+        let duration = fields.need_value("duration", Quantity::Time, Range::Between(1e-6, 1e6));
+        let seed = fields.count("seed", 0);
+        let step = fields.value("step", Quantity::Time, Range::Between(1e-6, 1.0));
+        let contact_step = fields.value("contact_step", Quantity::Time, Range::Between(1e-6, 1.0));
+        let rope_nodes = fields.count("rope_nodes", 2);
+        let segment = fields.value("segment", Quantity::Length, Range::Between(1e-3, 1000.0));
+        let weak_links = fields.flag("weak_links");
+        let each = |key: &'static str| fields.tables(key).iter();
+        let scenario = Self {
+            name,
+            notes,
+            place: node.place.clone(),
+            duration_s: duration.as_ref().map_or(60.0, |duration| duration.value),
+            seed: seed.map_or(1, |seed| seed.value),
+            step_s: step.map(|step| step.value),
+            contact_step_s: contact_step.map(|step| step.value),
+            rope_nodes,
+            segment_m: segment.map(|segment| segment.value),
+            weak_links: weak_links.unwrap_or(true),
+            sea: sea(&fields),
+            gear: each("gear").filter_map(|node| placed_gear(node, problems)).collect(),
+            whale: fields.table("whale").as_ref().and_then(Swimmer::read),
+            friction: fields.table("friction").as_ref().and_then(friction),
+            ropes: parts::ropes(&fields, &file),
+            fixtures: each("fixture").filter_map(|node| parts::fixture(node, problems)).collect(),
+            bodies: each("body").filter_map(|node| parts::body(node, &file, problems)).collect(),
+            lines: each("line").filter_map(|node| free_line(node, problems)).collect(),
+            links: each("link").filter_map(|node| link(node, problems, true)).collect(),
+            probes: each("probe").filter_map(|node| parts::probe(node, problems)).collect(),
+        };
+        scenario.check_whole(&fields);
+        fields.finish();
+        Some(scenario)
+    }
+
+    fn check_whole(&self, fields: &Fields<'_>) {
+        if let (Some(nodes), Some(_)) = (&self.rope_nodes, self.segment_m) {
+            let message = "both `rope_nodes` and `segment` are given";
+            fields.problems().push(nodes.place.error(message, "keep the one that is meant"));
+        }
+        if self.gear.len() > 1 {
+            for gear in self.gear.iter().filter(|gear| gear.id.is_none()) {
+                let message = "this gear has no `id`, and there is more than one";
+                fields
+                    .problems()
+                    .push(gear.assembly.place.error(message, "write an id such as id = \"north\"; its parts are then north/trap …"));
+            }
+        }
+    }
+}
+
+fn sea(fields: &Fields<'_>) -> Sea {
+    let site = fields.table("site");
+    let current = fields.table("current");
+    let place = site.as_ref().map_or_else(|| fields.place.clone(), |site| site.place.clone());
+    let mut sea = Sea {
+        item: None,
+        depth_m: None,
+        density_kg_m3: None,
+        gravity_m_s2: None,
+        seabed: true,
+        rope_dries: true,
+        current_m_s: None,
+        toward_rad: std::f64::consts::FRAC_PI_2,
+        exponent: None,
+        place,
+    };
+    match site {
+        Some(site) => read_site(&site, &mut sea),
+        None => fields.missing("site", "write [site] with item = \"cape-cod-bay\", or with depth and density"),
+    }
+    if let Some(current) = current {
+        sea.current_m_s = current.value("speed", Quantity::Speed, Range::Between(0.0, 10.0)).map(|speed| speed.value);
+        sea.toward_rad = current.value("toward", Quantity::Angle, Range::Any).map_or(sea.toward_rad, |toward| toward.value);
+        sea.exponent = current.value("exponent", Quantity::Ratio, Range::Between(0.0, 1.0)).map(|exponent| exponent.value);
+        current.finish();
+    }
+    sea
+}
+
+fn read_site(site: &Fields<'_>, sea: &mut Sea) {
+    sea.item = site.text("item");
+    sea.depth_m = site.value("depth", Quantity::Length, Range::Between(0.5, 6000.0)).map(|depth| depth.value);
+    sea.density_kg_m3 = site.value("density", Quantity::Density, Range::Between(0.0, 2000.0)).map(|density| density.value);
+    sea.gravity_m_s2 = site.value("gravity", Quantity::Acceleration, Range::Between(0.0, 20.0)).map(|gravity| gravity.value);
+    sea.seabed = site.flag("seabed").unwrap_or(true);
+    sea.rope_dries = site.flag("rope_dries").unwrap_or(true);
+    if sea.item.is_none() && sea.depth_m.is_none() {
+        site.missing("depth", "name a site of the library as `item`, or give a depth such as 25 m");
+    }
+    if sea.item.is_none() && sea.density_kg_m3.is_none() {
+        site.missing("density", "name a site of the library as `item`, or give a density such as 1025 kg/m3; 0 kg/m3 is a vacuum");
+    }
+    site.finish();
+}
+
+fn placed_gear(node: &Node, problems: &Problems) -> Option<PlacedGear> {
+    let fields = Fields::of(node, problems);
+    let id = fields.text("id");
+    let assembly = fields.need_text("assembly", "write the id of an assembly, such as \"single\"");
+    let position = fields.values("position", Quantity::Length, &[2]);
+    let heading = fields.value("heading", Quantity::Angle, Range::Any);
+    let attributes = Attributes::read(&fields, "attributes");
+    let ropes = rope_choices(&fields);
+    fields.finish();
+    Some(PlacedGear {
+        id,
+        assembly: assembly?,
+        position_m: position.map_or([0.0; 2], |xy| [xy.value[0], xy.value[1]]),
+        heading_rad: heading.map_or(std::f64::consts::FRAC_PI_2, |heading| heading.value),
+        attributes,
+        ropes,
+    })
+}
+
+/// `[gear.ropes]`: a rope for a line, by id.
+fn rope_choices(fields: &Fields<'_>) -> Vec<(At<String>, At<String>)> {
+    let Some(table) = fields.table("ropes") else { return Vec::new() };
+    let mut choices = Vec::new();
+    for (line, key, node) in table.rest() {
+        match &node.content {
+            tree::Content::Text(rope) => {
+                choices.push((At { value: line.clone(), place: key.clone() }, At { value: rope.clone(), place: node.place.clone() }))
+            }
+            other => {
+                let message = format!("`{line}` is {}, not the id of a rope", other.noun());
+                fields.problems().push(node.place.error(message, "write the rope's id in quotes"));
+            }
+        }
+    }
+    choices
+}
+
+fn friction(fields: &Fields<'_>) -> Option<FrictionChoice> {
+    let model = fields.need_text("model", "write the id of a friction model, such as \"org.endline.friction.coulomb\"");
+    let attributes = Attributes::read(fields, "attributes");
+    fields.finish();
+    Some(FrictionChoice { model: model?, attributes })
+}
+
+fn free_line(node: &Node, problems: &Problems) -> Option<(PartLine, LineStart)> {
+    let fields = Fields::of(node, problems);
+    let line = line_fields(&fields);
+    let start = fields.word("start", &["straight", "catenary"]);
+    fields.finish();
+    let start = if start.is_some_and(|start| start.value == "catenary") { LineStart::Catenary } else { LineStart::Straight };
+    Some((line?, start))
+}
+
+/// A place as east, north, up [m].
+pub(crate) fn place3(values: &[f64]) -> DVec3 {
+    DVec3::new(values[0], values[1], values[2])
+}

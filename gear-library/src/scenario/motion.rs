@@ -1,0 +1,104 @@
+//! The whale of a scenario: which, where, how it swims, what its pilot does.
+
+use endline_sdk::Controls;
+use endline_sim::DVec3;
+use endline_sim::whale::PilotProgram;
+
+use crate::attributes::Attributes;
+use crate::diagnostic::At;
+use crate::fields::{Fields, Problems, Range};
+use crate::tree::Node;
+use crate::units::Quantity;
+
+/// A whale in a scenario.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Swimmer {
+    /// Id of the library's whale.
+    pub item: At<String>,
+    /// Body length, over the library's [m].
+    pub length_m: Option<f64>,
+    /// Start of mid-body: east, north, up [m].
+    pub position_m: DVec3,
+    /// Compass bearing of its snout [rad].
+    pub heading_rad: f64,
+    /// Nose up [rad].
+    pub pitch_rad: f64,
+    /// Roll to starboard [rad].
+    pub roll_rad: f64,
+    /// Speed through the water [m/s].
+    pub speed_m_s: f64,
+    /// Stiffness of skin and blubber, over the library's [N/m²].
+    pub contact_stiffness_n_m2: Option<f64>,
+    /// Id of the motion plugin.
+    pub motion: At<String>,
+    /// Its attributes.
+    pub attributes: Attributes,
+    /// Timed controls.
+    pub pilot: PilotProgram,
+}
+
+impl Swimmer {
+    /// Reads `[whale]`; `None` where something needed is missing, which is a problem already told.
+    pub(super) fn read(fields: &Fields<'_>) -> Option<Self> {
+        let item = fields.need_text("item", "write the id of a whale of the library, such as \"right-whale\"");
+        let length = fields.value("length", Quantity::Length, Range::Between(1.0, 35.0));
+        let position = fields.values("position", Quantity::Length, &[2]);
+        if position.is_none() && fields.get("position").is_none() {
+            fields.missing("position", "write where mid-body starts, east and north, as [\"-20 m\", \"0 m\"]");
+        }
+        let depth = fields.need_value("depth", Quantity::Length, Range::Between(-10.0, 6000.0));
+        let angle = |key, default| fields.value(key, Quantity::Angle, Range::Any).map_or(default, |angle| angle.value);
+        let (heading_rad, pitch_rad, roll_rad) = (angle("heading", std::f64::consts::FRAC_PI_2), angle("pitch", 0.0), angle("roll", 0.0));
+        let speed = fields.need_value("speed", Quantity::Speed, Range::Between(0.0, 15.0));
+        let stiffness = fields.value("contact_stiffness", Quantity::Pressure, Range::Positive);
+        let motion = fields.need_text("motion", "write the id of a motion plugin, such as \"org.endline.motion.swim\"");
+        let attributes = Attributes::read(fields, "attributes");
+        let pilot = pilot(fields);
+        fields.finish();
+        let (position, depth) = (position?, depth?);
+        Some(Self {
+            item: item?,
+            length_m: length.map(|length| length.value),
+            position_m: DVec3::new(position.value[0], position.value[1], -depth.value),
+            heading_rad,
+            pitch_rad,
+            roll_rad,
+            speed_m_s: speed?.value,
+            contact_stiffness_n_m2: stiffness.map(|stiffness| stiffness.value),
+            motion: motion?,
+            attributes,
+            pilot,
+        })
+    }
+}
+
+/// `[[whale.pilot]]`: from each time on, controls that hold until the next.
+fn pilot(fields: &Fields<'_>) -> PilotProgram {
+    let mut commands: Vec<(f64, Controls)> = Vec::new();
+    for node in fields.tables("pilot") {
+        let Some((from, controls)) = command(node, fields.problems()) else { continue };
+        if commands.last().is_some_and(|(earlier, _)| *earlier >= from.value) {
+            fields.problems().push(from.place.error("commands are not in rising order of `at`", "put them in the order of time"));
+        }
+        commands.push((from.value, controls));
+    }
+    PilotProgram { commands }
+}
+
+fn command(node: &Node, problems: &Problems) -> Option<(At<f64>, Controls)> {
+    let fields = Fields::of(node, problems);
+    let at = fields.need_value("at", Quantity::Time, Range::NotNegative);
+    let control = |key, least| fields.value(key, Quantity::Ratio, Range::Between(least, 1.0)).map_or(0.0, |value| value.value);
+    let controls = Controls {
+        speed: control("speed", 0.0),
+        pitch: control("pitch", -1.0),
+        roll: control("roll", -1.0),
+        yaw: control("yaw", -1.0),
+        burst: control("burst", 0.0),
+        mouth: control("mouth", 0.0),
+        flipper_raise: control("flipper_raise", -1.0),
+        flipper_twist: control("flipper_twist", -1.0),
+    };
+    fields.finish();
+    Some((at?, controls))
+}

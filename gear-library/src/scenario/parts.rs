@@ -1,0 +1,185 @@
+//! Parts written into a scenario: fixtures, bodies and ropes of validation problems; probes.
+
+use endline_sdk::LineEnd;
+use endline_sim::DVec3;
+
+use crate::diagnostic::At;
+use crate::entry::{self, Entry};
+use crate::fields::{Fields, Figure, Problems, Provenance, Range, provenance_over};
+use crate::schema::Kind;
+use crate::tree::Node;
+use crate::units::Quantity;
+
+use super::place3;
+
+/// A point that is held, or driven at a steady velocity between two times.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fixture {
+    /// Id.
+    pub id: At<String>,
+    /// Place [m].
+    pub position_m: DVec3,
+    /// Velocity [m/s] and from when until when [s], where driven.
+    pub drive: Option<(DVec3, f64, f64)>,
+}
+
+/// A body written in place: a sphere with given figures, the line at its middle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FreeBody {
+    /// Id.
+    pub id: At<String>,
+    /// Whether it is drawn and reported as a buoy; else as a weight.
+    pub buoy: bool,
+    /// Start place [m].
+    pub position_m: DVec3,
+    /// Radius [m].
+    pub radius_m: f64,
+    /// Mass [kg].
+    pub mass_kg: f64,
+    /// Displaced volume [m³].
+    pub volume_m3: f64,
+    /// Height over which it goes under [m].
+    pub float_height_m: f64,
+    /// Drag coefficient times area [m²].
+    pub drag_area_m2: f64,
+    /// Added mass as a share of the displaced water.
+    pub added_mass: f64,
+    /// Whether drag and added mass scale with the wet share.
+    pub wetted_drag: bool,
+    /// Held in place until this time [s].
+    pub held_until_s: Option<f64>,
+}
+
+/// The shape a line starts in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LineStart {
+    /// Straight between its ends.
+    Straight,
+    /// The elastic catenary between its ends under its weight in air, for a run that starts held.
+    Catenary,
+}
+
+/// A probe as written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ProbeOf {
+    /// Id.
+    pub id: At<String>,
+    /// What it reads.
+    pub part: ProbePart,
+}
+
+/// What a probe reads, by id.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ProbePart {
+    /// Tension at an end of a line.
+    Tension(At<String>, LineEnd),
+    /// A coordinate of the middle of a line.
+    Middle(At<String>, usize),
+    /// A coordinate of a body, joint or fixture.
+    Place(At<String>, usize),
+}
+
+/// `[[rope]]` with an id and the figures of a library rope.
+pub(super) fn ropes(fields: &Fields<'_>, file: &Provenance) -> Vec<Entry> {
+    let read = |node: &Node| {
+        let inner = Fields::of(node, fields.problems());
+        let id = inner.need_text("id", "write an id such as \"test-rope\"")?;
+        let row = provenance_over(&inner, file);
+        let entry = entry::body(&inner, Kind::Rope, (id.value.clone(), String::new(), row), &id.value);
+        inner.finish();
+        Some(entry)
+    };
+    fields.tables("rope").iter().filter_map(read).collect()
+}
+
+pub(super) fn fixture(node: &Node, problems: &Problems) -> Option<Fixture> {
+    let fields = Fields::of(node, problems);
+    let id = fields.need_text("id", "write an id such as \"anchor\"");
+    let position = position(&fields);
+    let velocity = fields.values("velocity", Quantity::Speed, &[3]);
+    let from = fields.value("from", Quantity::Time, Range::NotNegative);
+    let until = fields.value("until", Quantity::Time, Range::NotNegative);
+    if let (None, Some(lone)) = (&velocity, from.as_ref().or(until.as_ref())) {
+        problems.push(
+            lone.place.error("a time without a `velocity`", "write velocity = [\"2 m/s\", \"0 m/s\", \"0 m/s\"], or take the time out"),
+        );
+    }
+    fields.finish();
+    let drive = velocity.map(|velocity| {
+        let (from, until) = (from.map_or(0.0, |from| from.value), until.map_or(f64::INFINITY, |until| until.value));
+        (place3(&velocity.value), from, until)
+    });
+    Some(Fixture { id: id?, position_m: position?, drive })
+}
+
+pub(super) fn body(node: &Node, file: &Provenance, problems: &Problems) -> Option<FreeBody> {
+    let fields = Fields::of(node, problems);
+    let id = fields.need_text("id", "write an id such as \"bob\"");
+    let role = fields.word("role", &["buoy", "weight"]);
+    let position = position(&fields);
+    let held = fields.value("held_until", Quantity::Time, Range::NotNegative);
+    let wetted = fields.flag("wetted_drag");
+    let row = provenance_over(&fields, file);
+    let figure = |key, quantity, range| fields.figure(key, quantity, range, &row);
+    if fields.get("mass").is_none() {
+        fields.missing("mass", "expected a mass such as 20 kg");
+    }
+    let mass = figure("mass", Quantity::Mass, Range::Positive);
+    let radius = figure("radius", Quantity::Length, Range::Positive);
+    let volume = figure("volume", Quantity::Volume, Range::NotNegative);
+    let height = figure("float_height", Quantity::Length, Range::Positive);
+    let drag = figure("drag_area", Quantity::Area, Range::NotNegative);
+    let added = figure("added_mass", Quantity::Ratio, Range::NotNegative);
+    fields.finish();
+    let or = |figure: Option<Figure>, default: f64| figure.map_or(default, |figure| figure.value);
+    let radius_m = or(radius, 0.1);
+    Some(FreeBody {
+        id: id?,
+        buoy: role.is_some_and(|role| role.value == "buoy"),
+        position_m: position?,
+        radius_m,
+        mass_kg: mass?.value,
+        volume_m3: or(volume, 0.0),
+        float_height_m: or(height, 2.0 * radius_m),
+        drag_area_m2: or(drag, 0.0),
+        added_mass: or(added, 0.0),
+        wetted_drag: wetted.unwrap_or(true),
+        held_until_s: held.map(|held| held.value),
+    })
+}
+
+pub(super) fn probe(node: &Node, problems: &Problems) -> Option<ProbeOf> {
+    let fields = Fields::of(node, problems);
+    let id = fields.need_text("id", "write an id such as \"anchor tension\"");
+    let of = fields.need_text("of", "write tension, middle or place");
+    let of = of.and_then(|_| fields.word("of", &["tension", "middle", "place"]));
+    let part = of.and_then(|of| match of.value.as_str() {
+        "tension" => tension(&fields),
+        "middle" => coordinate(&fields, "line").map(|(line, axis)| ProbePart::Middle(line, axis)),
+        _ => coordinate(&fields, "part").map(|(part, axis)| ProbePart::Place(part, axis)),
+    });
+    fields.finish();
+    Some(ProbeOf { id: id?, part: part? })
+}
+
+fn tension(fields: &Fields<'_>) -> Option<ProbePart> {
+    let line = fields.need_text("line", "write the id of a line");
+    let end = fields.need_text("end", "write from or to");
+    let end = end.and_then(|_| fields.word("end", &["from", "to"]))?;
+    Some(ProbePart::Tension(line?, if end.value == "from" { LineEnd::A } else { LineEnd::B }))
+}
+
+fn coordinate<'a>(fields: &Fields<'a>, key: &'a str) -> Option<(At<String>, usize)> {
+    let part = fields.need_text(key, "write an id");
+    let axis = fields.need_text("axis", "write x (east), y (north) or z (up)");
+    let axis = axis.and_then(|_| fields.word("axis", &["x", "y", "z"]))?;
+    Some((part?, ["x", "y", "z"].iter().position(|name| *name == axis.value)?))
+}
+
+fn position(fields: &Fields<'_>) -> Option<DVec3> {
+    let position = fields.values("position", Quantity::Length, &[3]);
+    if fields.get("position").is_none() {
+        fields.missing("position", "write east, north and up as [\"0 m\", \"0 m\", \"-30 m\"]");
+    }
+    position.map(|position| place3(&position.value))
+}

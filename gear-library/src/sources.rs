@@ -1,0 +1,86 @@
+//! The texts of a library, in memory, so that a recording can carry them.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use crate::diagnostic::Diagnostic;
+use crate::schema::Kind;
+
+/// Library files by path relative to the library's folder, such as `ropes/pp-3-8.toml`.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Sources {
+    files: BTreeMap<String, String>,
+}
+
+impl Sources {
+    /// Reads every library file under a folder: `ropes/*.toml`, `traps/*.toml` and so on.
+    ///
+    /// # Errors
+    /// For a folder that is not there or holds no library, and for each file that cannot be read.
+    pub fn from_folder(root: &Path) -> Result<Self, Vec<Diagnostic>> {
+        let mut files = BTreeMap::new();
+        let mut problems = Vec::new();
+        for kind in Kind::ALL {
+            read_folder(root, kind.folder(), &mut files, &mut problems);
+        }
+        if files.is_empty() && problems.is_empty() {
+            let help = "a gear library has folders ropes, traps, buoys, weak-links, anchors, sites, friction, whales, assemblies";
+            problems.push(Diagnostic::of_file(root.display().to_string(), "no gear library in this folder", help));
+        }
+        if problems.is_empty() { Ok(Self { files }) } else { Err(problems) }
+    }
+
+    /// From texts by path.
+    #[must_use]
+    pub fn from_map(files: BTreeMap<String, String>) -> Self {
+        Self { files }
+    }
+
+    /// These with another set laid over them: its files take the place of those of the same path.
+    #[must_use]
+    pub fn overlay(mut self, over: Self) -> Self {
+        self.files.extend(over.files);
+        self
+    }
+
+    /// Only the files of these paths, such as a model was made from.
+    #[must_use]
+    pub fn only(&self, paths: &[String]) -> Self {
+        Self { files: self.files.iter().filter(|(path, _)| paths.contains(path)).map(|(p, t)| (p.clone(), t.clone())).collect() }
+    }
+
+    /// Paths and texts, by path.
+    pub fn iter(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.files.iter().map(|(path, text)| (path.as_str(), text.as_str()))
+    }
+
+    /// The text of a file.
+    #[must_use]
+    pub fn get(&self, path: &str) -> Option<&str> {
+        self.files.get(path).map(String::as_str)
+    }
+
+    /// Puts a text in the place of a file's, or adds it.
+    pub fn set(&mut self, path: impl Into<String>, text: impl Into<String>) {
+        self.files.insert(path.into(), text.into());
+    }
+}
+
+fn read_folder(root: &Path, folder: &str, files: &mut BTreeMap<String, String>, problems: &mut Vec<Diagnostic>) {
+    let Ok(entries) = fs::read_dir(root.join(folder)) else { return };
+    for path in entries.flatten().map(|entry| entry.path()).filter(|path| path.extension().is_some_and(|end| end == "toml")) {
+        let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        match fs::read_to_string(&path) {
+            Ok(text) => {
+                files.insert(format!("{folder}/{name}"), text);
+            }
+            Err(error) => {
+                let help = "a library file is text in UTF-8 that you may read";
+                problems.push(Diagnostic::of_file(format!("{folder}/{name}"), format!("cannot be read: {error}"), help));
+            }
+        }
+    }
+}
