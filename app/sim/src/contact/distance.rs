@@ -19,19 +19,27 @@ pub struct Nearest {
 /// Squared area over squared edge lengths below which a triangle counts as a line.
 const FLAT: f64 = 1e-24;
 
+/// Barycentric share above which a place is inside an edge for certain.
+const SURELY_INSIDE: f64 = 1e-9;
+
 /// Nearest places of a segment and a triangle.
+///
+/// An edge, or either of its corners, can be nearest to the segment only where the segment reaches beyond that edge;
+/// the other edges are left out.
 #[must_use]
 pub fn segment_triangle(segment: [DVec3; 2], triangle: [DVec3; 3]) -> Nearest {
-    let mut best = nearest_of_edges(segment, triangle);
-    if let Some(plane) = Plane::of(triangle) {
-        if let Some(crossing) = crossing(segment, &plane) {
-            return crossing;
-        }
-        for (point, fraction) in [(segment[0], 0.0), (segment[1], 1.0)] {
-            let (height, barycentric) = plane.place(point);
-            if height.abs() < best.distance && inside(barycentric) {
-                best = Nearest { distance: height.abs(), fraction, barycentric };
-            }
+    let Some(plane) = Plane::of(triangle) else {
+        return nearest_of_edges(segment, triangle, [true; 3]);
+    };
+    let ends = segment.map(|end| plane.place(end));
+    if let Some(crossing) = crossing(ends) {
+        return crossing;
+    }
+    let beyond = [0, 1, 2].map(|corner| ends.iter().any(|(_, place)| place[corner] < SURELY_INSIDE));
+    let mut best = nearest_of_edges(segment, triangle, beyond);
+    for ((height, barycentric), fraction) in ends.into_iter().zip([0.0, 1.0]) {
+        if height.abs() < best.distance && inside(barycentric) {
+            best = Nearest { distance: height.abs(), fraction, barycentric };
         }
     }
     best
@@ -46,7 +54,7 @@ pub fn point_triangle(point: DVec3, triangle: [DVec3; 3]) -> (f64, [f64; 3]) {
             return (height.abs(), barycentric);
         }
     }
-    let nearest = nearest_of_edges([point, point], triangle);
+    let nearest = nearest_of_edges([point, point], triangle, [true; 3]);
     (nearest.distance, nearest.barycentric)
 }
 
@@ -79,12 +87,14 @@ fn share(part: f64, whole: f64) -> f64 {
     if whole <= f64::MIN_POSITIVE { 0.0 } else { (part / whole).clamp(0.0, 1.0) }
 }
 
-/// The nearest of the three edges.
-fn nearest_of_edges(segment: [DVec3; 2], triangle: [DVec3; 3]) -> Nearest {
+/// The nearest of the edges wanted, each named by the corner opposite; infinitely far where none is.
+fn nearest_of_edges(segment: [DVec3; 2], triangle: [DVec3; 3], wanted: [bool; 3]) -> Nearest {
     let mut best = Nearest { distance: f64::INFINITY, fraction: 0.0, barycentric: [1.0, 0.0, 0.0] };
     let mut least = f64::INFINITY;
-    for from in 0..3 {
-        let to = (from + 1) % 3;
+    for (opposite, [from, to]) in [[1, 2], [2, 0], [0, 1]].into_iter().enumerate() {
+        if !wanted[opposite] {
+            continue;
+        }
         let (s, t) = segment_segment(segment, [triangle[from], triangle[to]]);
         let gap = segment[0].lerp(segment[1], s) - triangle[from].lerp(triangle[to], t);
         if gap.length_squared() < least {
@@ -131,14 +141,13 @@ fn inside(barycentric: [f64; 3]) -> bool {
     barycentric.iter().all(|&share| share >= 0.0)
 }
 
-/// Where the segment passes through the triangle.
-fn crossing([a, b]: [DVec3; 2], plane: &Plane) -> Option<Nearest> {
-    let (from, to) = (plane.normal.dot(a - plane.corner), plane.normal.dot(b - plane.corner));
+/// Where a segment passes through the triangle, from the places of its ends over the plane.
+fn crossing([(from, start), (to, end)]: [(f64, [f64; 3]); 2]) -> Option<Nearest> {
     if from * to > 0.0 || (from - to).abs() <= f64::MIN_POSITIVE {
         return None;
     }
     let fraction = from / (from - to);
-    let (_, barycentric) = plane.place(a.lerp(b, fraction));
+    let barycentric = [0, 1, 2].map(|corner| start[corner] + fraction * (end[corner] - start[corner]));
     inside(barycentric).then_some(Nearest { distance: 0.0, fraction, barycentric })
 }
 

@@ -36,19 +36,40 @@ const STOP_AT_SHARE: f64 = 0.1;
 /// Steps of time before the search gives back what it has proved.
 const MOST_STEPS: usize = 100;
 
+/// Squared area over squared edge lengths below which a triangle's normal is not trusted.
+const NEEDLE: f64 = 1e-16;
+
 /// The largest proved fraction of the move, 1 for all of it, along which the centre line stays
 /// farther than `separation` from the triangle; a pair that starts nearer than twice that is asked
 /// for half its first distance, and a pair that starts crossed gets 0.
 #[must_use]
 pub fn safe_fraction(segment: &SweptSegment, triangle: &SweptTriangle, separation: f64) -> f64 {
+    let approach = greatest_approach(segment, triangle);
+    if height(segment.at(0.0), triangle[0]) > separation + approach {
+        return 1.0;
+    }
     let first = segment_triangle(segment.at(0.0), triangle[0]).distance;
-    safe_fraction_from(segment, triangle, separation, first)
+    advance(segment, triangle, separation, first, approach)
+}
+
+/// Height of a segment over a triangle's plane, 0 where it reaches through: no more than their distance.
+fn height(segment: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> f64 {
+    let (ab, ac) = (b - a, c - a);
+    let normal = ab.cross(ac);
+    let square = normal.length_squared();
+    let [from, to] = segment.map(|end| (end - a).dot(normal));
+    let plain = from * to > 0.0 && square > NEEDLE * ab.length_squared() * ac.length_squared();
+    if plain { from.abs().min(to.abs()) / square.sqrt() } else { 0.0 }
 }
 
 /// As [`safe_fraction`] where the first distance, or a lower bound of it, is known.
 #[must_use]
 pub fn safe_fraction_from(segment: &SweptSegment, triangle: &SweptTriangle, separation: f64, first: f64) -> f64 {
-    let approach = greatest_approach(segment, triangle);
+    advance(segment, triangle, separation, first, greatest_approach(segment, triangle))
+}
+
+/// Steps of time that the distance left and the greatest possible approach prove safe.
+fn advance(segment: &SweptSegment, triangle: &SweptTriangle, separation: f64, first: f64, approach: f64) -> f64 {
     let keep = separation.min(first / 2.0);
     if first - keep > approach {
         return 1.0;
