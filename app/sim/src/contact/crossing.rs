@@ -7,9 +7,15 @@
 use glam::DVec3;
 
 use super::sweep::{SweptSegment, SweptTriangle};
+use crate::whale::Bounds;
 
 /// Slack on fractions and barycentric shares, so that a hit on a shared edge is not lost between neighbours.
 const SLACK: f64 = 1e-9;
+
+/// Halvings that take 0..1 to the rounding of 1.
+const HALVINGS: usize = 53;
+/// Growth of boxes, as a share of their size and over it [m], well above [`SLACK`].
+const REACH: f64 = 1e-6;
 
 /// A point that moves straight: start and displacement.
 #[derive(Clone, Copy)]
@@ -37,6 +43,9 @@ impl Mover {
 /// Both move straight from start to end. 0 where they already cross at the start.
 #[must_use]
 pub fn first_meeting(segment: &SweptSegment, triangle: &SweptTriangle) -> Option<f64> {
+    if !reach_each_other(segment, triangle) {
+        return None;
+    }
     if pierces(segment.at(0.0), triangle[0]) {
         return Some(0.0);
     }
@@ -50,6 +59,13 @@ pub fn first_meeting(segment: &SweptSegment, triangle: &SweptTriangle) -> Option
         first = first.min(segment_meets_edge(rope, [skin[from], skin[(from + 1) % 3]]));
     }
     (first <= 1.0).then_some(first)
+}
+
+/// Whether the boxes around the two moves have a point in common.
+fn reach_each_other(segment: &SweptSegment, triangle: &SweptTriangle) -> bool {
+    let rope = Bounds::around(&[segment.a0, segment.b0, segment.a1, segment.b1]);
+    let skin = Bounds::around(&triangle[0]).join(Bounds::around(&triangle[1]));
+    rope.grown(REACH * (1.0 + skin.longest())).meets(&skin)
 }
 
 /// Whether a standing segment passes through a standing triangle (sign test of five volumes).
@@ -155,16 +171,14 @@ impl Cubic {
         f64::INFINITY
     }
 
-    /// The root between two times of opposite sign, to the last bit.
+    /// The root between two times of opposite sign, to the rounding of times in 0..1.
     fn bisect(&self, mut low: f64, mut high: f64) -> f64 {
         let rising = self.at(low) < 0.0;
-        loop {
+        for _ in 0..HALVINGS {
             let middle = low + (high - low) / 2.0;
-            if middle <= low || middle >= high {
-                return high;
-            }
             if (self.at(middle) < 0.0) == rising { low = middle } else { high = middle }
         }
+        high
     }
 }
 
