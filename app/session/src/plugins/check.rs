@@ -20,6 +20,9 @@ mod trial;
 /// Lets a file pass, or says why not.
 pub type Checker<'a> = dyn Fn(&Path) -> Result<(), String> + 'a;
 
+/// How much of what a child says is read [bytes]; the verdict is its last line.
+const MOST_SAID: u64 = 65_536;
+
 /// How often a child is looked at.
 const LOOK: Duration = Duration::from_millis(4);
 
@@ -50,7 +53,13 @@ pub fn by_child(program: impl Into<PathBuf>, limit: Duration) -> impl Fn(&Path) 
     let program = program.into();
     move |file| {
         let mut command = Command::new(&program);
-        command.args(["plugins", "check"]).arg(file).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
+        command
+            .args(["plugins", "check"])
+            .arg(file)
+            .stdin(Stdio::null())
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .env("RUST_BACKTRACE", "0");
         let mut child = command.spawn().map_err(|error| format!("cannot start {}: {error}", program.display()))?;
         let Some(status) = wait(&mut child, limit).map_err(|error| error.to_string())? else {
             return Err(format!("it hangs when opened (no answer in {:.0} s)", limit.as_secs_f64()));
@@ -81,13 +90,14 @@ fn verdict(status: ExitStatus, child: &mut Child) -> Result<(), String> {
     }
     let mut said = Vec::new();
     if let Some(stderr) = child.stderr.take() {
-        stderr.take(4096).read_to_end(&mut said).map_err(|error| error.to_string())?;
+        stderr.take(MOST_SAID).read_to_end(&mut said).map_err(|error| error.to_string())?;
     }
-    let said = String::from_utf8_lossy(&said).trim().to_owned();
-    match status.code() {
-        Some(_) if !said.is_empty() => Err(said),
-        Some(code) => Err(format!("the check ended with exit code {code}")),
-        None => Err(format!("it crashes when opened ({status})")),
+    let said = String::from_utf8_lossy(&said);
+    let last = said.lines().map(str::trim).rfind(|line| !line.is_empty());
+    match (status.code(), last) {
+        (Some(_), Some(last)) => Err(last.to_owned()),
+        (Some(code), None) => Err(format!("the check ended with exit code {code}")),
+        (None, _) => Err(format!("it crashes when opened ({status})")),
     }
 }
 

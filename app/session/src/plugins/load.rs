@@ -138,7 +138,7 @@ fn read_table<T>(plugin: &AbiPlugin) -> Result<&'static T, Refusal> {
 }
 
 fn needed<F>(function: Option<F>) -> Result<F, Refusal> {
-    function.ok_or_else(|| missing("function in its table"))
+    function.ok_or_else(|| missing("table's function"))
 }
 
 fn read_descriptor(plugin: &AbiPlugin) -> Result<Descriptor, Refusal> {

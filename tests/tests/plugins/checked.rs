@@ -1,0 +1,100 @@
+//! A file that crashes or hangs as it is opened takes a child process with it, not the program.
+//!
+//! The child here is this test again, started through a script that stands for the program's
+//! `plugins check FILE`.
+#![cfg(unix)]
+
+use std::cell::RefCell;
+use std::env;
+use std::fs;
+use std::os::unix::fs::PermissionsExt;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use endline_session::plugins::{PluginHost, by_child, check_here, remembering};
+
+use crate::built::{compile_c, first_party_file, folder, panicking};
+
+const FILE_VARIABLE: &str = "ENDLINE_TEST_CHECK_FILE";
+
+fn stand_in(folder: &Path) -> PathBuf {
+    let program = folder.join("endline");
+    let test = env::current_exe().unwrap();
+    let call = format!("exec '{}' --exact checked::bad_files_are_set_aside --nocapture --quiet", test.display());
+    fs::write(&program, format!("#!/bin/sh\n[ \"$1 $2\" = \"plugins check\" ] || exit 2\n{FILE_VARIABLE}=\"$3\" {call}\n")).unwrap();
+    fs::set_permissions(&program, fs::Permissions::from_mode(0o755)).unwrap();
+    program
+}
+
+/// What the program does for `plugins check FILE`.
+fn be_the_child(file: &Path) -> ! {
+    let code = match check_here(file) {
+        Ok(_) => 0,
+        Err(message) => {
+            eprintln!("{message}");
+            1
+        }
+    };
+    std::process::exit(code)
+}
+
+#[test]
+fn bad_files_are_set_aside() {
+    if let Some(file) = env::var_os(FILE_VARIABLE) {
+        be_the_child(Path::new(&file));
+    }
+    let folder = folder("checked");
+    let program = stand_in(&folder);
+    compile_c("tests/plugins/crash.c", &folder);
+    compile_c("tests/plugins/hang.c", &folder);
+    compile_c("tests/plugins/faulty.c", &folder);
+    let suffix = env::consts::DLL_SUFFIX;
+    fs::copy(panicking(), folder.join(format!("panicking{suffix}"))).unwrap();
+    fs::copy(first_party_file("endline_gear_types"), folder.join(format!("good{suffix}"))).unwrap();
+
+    let start = Instant::now();
+    let (host, problems) = PluginHost::discover_checked(&[folder], &by_child(program, Duration::from_secs(5)));
+    assert!(start.elapsed() < Duration::from_secs(60));
+    assert_eq!(host.ids(), ["org.endline.gear.single"]);
+    for (file, reason) in [
+        ("crash", "it crashes when opened (signal: 6"),
+        ("hang", "it hangs when opened (no answer in 5 s)"),
+        ("faulty", "its table of functions is truncated"),
+        (
+            "panicking",
+            "tried out with its own defaults, plugin `org.example.motion.panicking`: it failed inside (panicked): the whale bit me",
+        ),
+    ] {
+        let problem = problems.iter().find(|problem| problem.file.to_string_lossy().contains(file)).unwrap();
+        assert!(problem.reason.contains("set aside") && problem.reason.contains(reason), "{problem}");
+    }
+    assert_eq!(problems.len(), 4, "{problems:?}");
+}
+
+#[test]
+fn a_checker_that_cannot_start_is_named() {
+    let checker = by_child("/nowhere/endline", Duration::from_secs(1));
+    assert!(checker(&first_party_file("endline_gear_types")).unwrap_err().contains("cannot start /nowhere/endline"));
+}
+
+#[test]
+fn a_file_that_passed_is_not_checked_again_until_it_changes() {
+    let folder = folder("remembered");
+    let (file, list) = (folder.join("plugin"), folder.join("cache/plugins-checked"));
+    let asked = RefCell::new(0);
+    let checker = |_: &Path| {
+        *asked.borrow_mut() += 1;
+        if fs::read(&file).unwrap() == b"bad" { Err("bad".to_owned()) } else { Ok(()) }
+    };
+    let ask_twice = || {
+        let remembering = remembering(Some(list.clone()), &checker);
+        let _ = remembering(&file);
+        let answer = remembering(&file);
+        (answer.is_ok(), *asked.borrow())
+    };
+    fs::write(&file, "good").unwrap();
+    assert_eq!(ask_twice(), (true, 1), "asked once in one run");
+    assert_eq!(ask_twice(), (true, 1), "and not at all in the next");
+    fs::write(&file, "bad").unwrap();
+    assert_eq!(ask_twice(), (false, 3), "a changed file is asked about, and a bad one each time");
+}

@@ -1,0 +1,12 @@
+//! The plugin boundary: what is linked and what is loaded give the same bits, a plugin in C works,
+//! and nothing that is wrong with a plugin takes the program with it.
+#![expect(clippy::unwrap_used, clippy::panic, reason = "helpers of tests: where one cannot go on, the test fails there")]
+
+mod built;
+mod c_plugin;
+mod checked;
+mod guarded;
+mod header;
+mod random;
+mod refused;
+mod same_bits;

@@ -1,0 +1,222 @@
+//! A plugin linked into a program and the same plugin loaded from its library give the same bits.
+
+use std::fs;
+use std::sync::Arc;
+
+use endline_friction_models::Coulomb;
+use endline_gear_types::Single;
+use endline_sdk::{
+    Attribute, AttributeKind, AttributeValue, BodyPart, Contacts, Controls, FrictionModel, FrictionResponse, GearStep, GearType,
+    MotionInput, MotionOutput, Site, WhaleMotion,
+};
+use endline_session::plugins::{PluginHost, PluginKind};
+use endline_whale_motions::Swim;
+
+use crate::built::{first_party, first_party_file};
+use crate::random::Random;
+
+const SWIM: &str = "org.endline.motion.swim";
+const COULOMB: &str = "org.endline.friction.coulomb";
+const SINGLE: &str = "org.endline.gear.single";
+
+fn loaded() -> PluginHost {
+    let (host, problems) = PluginHost::discover(&[first_party().to_path_buf()]);
+    assert!(problems.is_empty(), "{problems:?}");
+    host
+}
+
+/// A value within an attribute's range.
+fn value(attribute: &Attribute, random: &mut Random) -> AttributeValue {
+    match &attribute.kind {
+        AttributeKind::Number { min, max, .. } => AttributeValue::Number(random.between(*min, *max)),
+        AttributeKind::Item { default, .. } if random.between(0.0, 1.0) < 0.5 => AttributeValue::Item(default.to_string()),
+        AttributeKind::Item { library, .. } => AttributeValue::Item(format!("{library}-{}", random.next() % 100)),
+    }
+}
+
+fn numbers(attributes: &[Attribute], random: &mut Random) -> Vec<f64> {
+    attributes.iter().map(|attribute| value(attribute, random).number().unwrap()).collect()
+}
+
+fn bits(values: impl IntoIterator<Item = f64>) -> Vec<u64> {
+    values.into_iter().map(f64::to_bits).collect()
+}
+
+#[test]
+fn the_library_declares_what_the_linked_plugin_declares() {
+    let host = loaded();
+    assert_eq!(host.ids(), [COULOMB, SINGLE, SWIM]);
+    assert_eq!(host.motion(SWIM).unwrap().descriptor(), Swim::new().descriptor());
+    assert_eq!(host.friction(COULOMB).unwrap().descriptor(), Coulomb::new().descriptor());
+    assert_eq!(host.gear(SINGLE).unwrap().descriptor(), Single::new().descriptor());
+    assert!(host.motion(COULOMB).is_none() && host.friction(SWIM).is_none() && host.gear("org.example.none").is_none());
+    let swim = host.list().iter().find(|info| info.id == SWIM).unwrap();
+    let file = first_party_file("endline_whale_motions");
+    assert_eq!(swim.kind, PluginKind::Motion);
+    assert_eq!(swim.file.as_deref(), Some(file.canonicalize().unwrap().as_path()));
+    assert_eq!(swim.hash, Some(blake3::hash(&fs::read(file).unwrap()).to_hex().to_string()));
+}
+
+fn output_bits(out: &MotionOutput) -> Vec<u64> {
+    let p = &out.posture;
+    let angles = p.spine_pitch.into_iter().chain(p.spine_yaw).chain(p.fluke_flex).chain(p.flipper_sweep).chain(p.flipper_raise);
+    let rest = p.flipper_twist.into_iter().chain([p.fluke_pitch, p.jaw, out.speed_m_s]).chain(out.turn_rate_rad_s);
+    bits(angles.chain(rest))
+}
+
+#[test]
+fn swim_gives_the_same_bits_linked_and_loaded() {
+    let (linked, loaded) = (Swim::new(), loaded().motion(SWIM).unwrap());
+    let mut random = Random(1);
+    for _ in 0..40 {
+        let attributes = numbers(&linked.descriptor().attributes, &mut random);
+        let mut states = [vec![0.0; linked.descriptor().state_len], vec![0.0; linked.descriptor().state_len]];
+        let mut speed_m_s = random.between(0.0, 5.0);
+        for step in 0..100 {
+            let forces = std::array::from_fn::<_, { BodyPart::ALL.len() }, _>(|_| random.between(0.0, 1e4));
+            let input = MotionInput {
+                time_s: f64::from(step) * 0.1,
+                dt_s: random.between(1e-4, 0.05),
+                length_m: 13.7,
+                speed_m_s,
+                position_m: random.vector(10.0),
+                orientation: [0.0, 0.0, 0.0, 1.0],
+                controls: controls(&mut random),
+                contact_force_n: &forces,
+            };
+            let [one, other] = &mut states;
+            let out = linked.step(&attributes, &input, one).unwrap();
+            assert_eq!(output_bits(&out), output_bits(&loaded.step(&attributes, &input, other).unwrap()));
+            assert_eq!(bits(one.iter().copied()), bits(other.iter().copied()));
+            speed_m_s = out.speed_m_s;
+        }
+    }
+}
+
+fn controls(random: &mut Random) -> Controls {
+    let mut axis = || random.between(-1.0, 1.0);
+    Controls {
+        speed: axis().max(0.0),
+        pitch: axis(),
+        roll: axis(),
+        yaw: axis(),
+        burst: f64::from(u8::from(axis() > 0.7)),
+        mouth: axis().max(0.0),
+        flipper_raise: axis(),
+        flipper_twist: axis(),
+    }
+}
+
+/// Arrays of contacts drawn at random.
+struct Draw {
+    normal_force_n: Vec<f64>,
+    normal: Vec<[f64; 3]>,
+    slip_m: Vec<[f64; 3]>,
+    length_m: Vec<f64>,
+    coefficient: Vec<f64>,
+    region: Vec<u32>,
+    rope: Vec<u32>,
+    state: Vec<f64>,
+}
+
+impl Draw {
+    fn new(random: &mut Random) -> Self {
+        let count = 0..random.next() % 40;
+        let mut each = |draw: &mut dyn FnMut(&mut Random) -> f64| count.clone().map(|_| draw(random)).collect::<Vec<_>>();
+        let normal_force_n = each(&mut |r| r.between(-50.0, 500.0).max(0.0));
+        let length_m = each(&mut |r| r.between(1e-3, 0.03));
+        let coefficient = each(&mut |r| r.between(0.0, 1.0));
+        let region: Vec<u32> = count.clone().map(|_| (random.next() % 20) as u32).collect();
+        let rope = region.iter().map(|region| region % 3).collect();
+        let normal = count.clone().map(|_| random.direction()).collect();
+        let slip_m = count.clone().map(|_| random.vector(1e-4)).collect();
+        let state = count.flat_map(|_| random.vector(2e-5)).collect();
+        Self { normal_force_n, normal, slip_m, length_m, coefficient, region, rope, state }
+    }
+
+    fn contacts(&self) -> Contacts<'_> {
+        Contacts {
+            dt_s: 0.002,
+            normal_force_n: &self.normal_force_n,
+            normal: &self.normal,
+            slip_m: &self.slip_m,
+            length_m: &self.length_m,
+            coefficient: &self.coefficient,
+            region: &self.region,
+            rope: &self.rope,
+            state: &self.state,
+        }
+    }
+}
+
+fn response_bits(answers: &[FrictionResponse]) -> Vec<u64> {
+    let flat = |a: &FrictionResponse| a.force_n.into_iter().chain(a.by_slip.into_iter().flatten()).chain(a.by_normal_force);
+    bits(answers.iter().flat_map(flat))
+}
+
+#[test]
+fn coulomb_gives_the_same_bits_linked_and_loaded() {
+    let (linked, loaded) = (Coulomb::new(), loaded().friction(COULOMB).unwrap());
+    let mut random = Random(2);
+    for _ in 0..300 {
+        let attributes = numbers(&linked.descriptor().attributes, &mut random);
+        let draw = Draw::new(&mut random);
+        let contacts = draw.contacts();
+        let respond = |model: &dyn FrictionModel| {
+            let mut out = vec![FrictionResponse::default(); contacts.len()];
+            model.respond(&attributes, &contacts, &mut out).unwrap();
+            response_bits(&out)
+        };
+        let advance = |model: &dyn FrictionModel| {
+            let mut out = vec![0.0; draw.state.len()];
+            model.advance(&attributes, &contacts, &mut out).unwrap();
+            bits(out)
+        };
+        assert_eq!(respond(&linked), respond(loaded.as_ref()));
+        assert_eq!(advance(&linked), advance(loaded.as_ref()));
+    }
+}
+
+#[test]
+fn single_gives_the_same_rig_linked_and_loaded() {
+    let (linked, loaded) = (Single::new(), loaded().gear(SINGLE).unwrap());
+    let mut random = Random(3);
+    let (mut built, mut refused) = (0, 0);
+    for _ in 0..3000 {
+        let values: Vec<_> = linked.descriptor().attributes.iter().map(|attribute| value(attribute, &mut random)).collect();
+        let [x, y, depth] = random.vector(60.0);
+        let site = Site { depth_m: depth.max(-1.0), current_m_s: [x / 60.0, y / 60.0] };
+        match (linked.build(&values, &site), loaded.build(&values, &site)) {
+            (Ok(one), Ok(other)) => {
+                built += 1;
+                assert_eq!(one, other);
+            }
+            (Err(one), Err(other)) => {
+                refused += 1;
+                assert_eq!(other.message, format!("plugin `{SINGLE}`: {}", one.message));
+            }
+            (one, other) => panic!("{one:?} but {other:?}"),
+        }
+    }
+    assert!(built > 500 && refused > 500, "{built} built, {refused} refused");
+}
+
+/// Several runs may call one loaded plugin at once.
+#[test]
+fn a_loaded_plugin_serves_several_threads() {
+    let gear: Arc<dyn GearType> = loaded().gear(SINGLE).unwrap();
+    let values: Vec<_> = gear.descriptor().attributes.iter().map(Attribute::default_value).collect();
+    let site = Site { depth_m: 30.0, current_m_s: [0.3, 0.1] };
+    let alone = Single::new().build(&values, &site).unwrap();
+    std::thread::scope(|scope| {
+        for _ in 0..4 {
+            scope.spawn(|| {
+                for _ in 0..200 {
+                    assert_eq!(gear.build(&values, &site).unwrap(), alone);
+                    let step = GearStep { time_s: 0.0, dt_s: 0.01, end_tension_n: &[[1.0, 2.0]; 2] };
+                    gear.step(&values, &step, &mut [], &mut Vec::new()).unwrap();
+                }
+            });
+        }
+    });
+}
