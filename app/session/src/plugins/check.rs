@@ -12,6 +12,8 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use endline_sdk::abi::table::{ABI_MAJOR, ABI_MINOR};
+
 use super::host::{PluginHost, open_checked};
 use super::info::{Hook, PluginInfo};
 
@@ -101,19 +103,19 @@ fn verdict(status: ExitStatus, child: &mut Child) -> Result<(), String> {
     }
 }
 
-/// A checker that asks another only about files it has not seen pass: in this run, or, where a list
+/// A checker that asks another only about files it has not seen pass under this ABI: in this run, or, where a list
 /// file is given, in any run. What cannot be read from or written to the list is checked again.
 pub fn remembering<'a>(list: Option<PathBuf>, checker: &'a Checker<'a>) -> impl Fn(&Path) -> Result<(), String> + 'a {
     let known = list.as_ref().and_then(|list| fs::read_to_string(list).ok()).unwrap_or_default();
     let known = RefCell::new(known.lines().map(str::to_owned).collect::<BTreeSet<_>>());
     move |file| {
         let bytes = fs::read(file).map_err(|error| format!("cannot be read: {error}"))?;
-        let hash = blake3::hash(&bytes).to_hex().to_string();
-        if known.borrow().contains(&hash) {
+        let passed = format!("{ABI_MAJOR}.{ABI_MINOR} {}", blake3::hash(&bytes).to_hex());
+        if known.borrow().contains(&passed) {
             return Ok(());
         }
         checker(file)?;
-        known.borrow_mut().insert(hash);
+        known.borrow_mut().insert(passed);
         if let Some(list) = &list {
             note(list, &known.borrow());
         }
@@ -123,7 +125,7 @@ pub fn remembering<'a>(list: Option<PathBuf>, checker: &'a Checker<'a>) -> impl 
 
 /// Writes the list beside its place and renames it there.
 fn note(list: &Path, known: &BTreeSet<String>) {
-    let text = known.iter().fold(String::new(), |text, hash| text + hash + "\n");
+    let text = known.iter().fold(String::new(), |text, passed| text + passed + "\n");
     let beside = list.with_extension(format!("{}.new", std::process::id()));
     let written = list.parent().map_or(Ok(()), fs::create_dir_all).and_then(|()| fs::write(&beside, text));
     // A list that cannot be kept costs only a check at the next start.

@@ -75,13 +75,14 @@ fn check_answer(answer: &FrictionResponse, contacts: &Contacts<'_>, index: usize
     expect_finite("the derivative by normal force", &answer.by_normal_force)?;
     let (force, slip) = (answer.force_n, contacts.slip_m[index]);
     let (size, way) = (dot(force, force).sqrt(), dot(slip, slip).sqrt());
-    if dot(force, contacts.normal[index]).abs() > 1e-6 * size {
+    let limit = contacts.coefficient[index] * contacts.normal_force_n[index];
+    if dot(force, contacts.normal[index]).abs() > 1e-6 * (size + limit) {
         return fault(format!("its force {force:?} N does not lie across the normal {:?}", contacts.normal[index]));
     }
     if fresh && dot(force, slip) > ROUNDING * size * way {
         return fault(format!("its force {force:?} N pushes the way the rope slips, {slip:?} m: friction may not create energy"));
     }
-    let most = GREATEST_RATIO * contacts.coefficient[index] * contacts.normal_force_n[index];
+    let most = GREATEST_RATIO * limit;
     if size > most * (1.0 + ROUNDING) + f64::MIN_POSITIVE {
         return fault(format!("its force of {size} N is beyond {GREATEST_RATIO} times coefficient times normal force, {most} N"));
     }
