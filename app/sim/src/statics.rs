@@ -54,6 +54,7 @@ pub fn settle(model: &Model) -> Settled {
         solver.solve(model);
         let share = LONGEST_MOVE_M / solver.longest().max(LONGEST_MOVE_M);
         solver.advance(model, share);
+        solver.measure_flow(model);
         solver.assemble(model, &state, &scheme);
         let next = solver.residual(model);
         pseudo_mass = (pseudo_mass * (next / residual).clamp(0.3, 2.0)).clamp(PSEUDO_MASS.0, PSEUDO_MASS.1);

@@ -14,12 +14,14 @@ use super::crossing::first_meeting;
 use super::distance::{Nearest, segment_triangle};
 use super::sweep::{SweptSegment, SweptTriangle, greatest_approach, safe_fraction_from, triangle_at};
 use crate::model::Model;
-use crate::whale::{Candidate, SkinTree, Surface};
+use crate::whale::{Bounds, Candidate, SkinTree, Surface};
 
 /// Rope within this distance of the path of skin is looked at [m].
 pub(crate) const MARGIN_M: f64 = 0.08;
 /// Rope is carried along with skin nearer than this wholly, beyond the next not at all [m].
 const CARRIED_M: (f64, f64) = (0.02, 0.06);
+/// Pairs farther apart than this are known by the gap of their boxes [m].
+const EXACT_M: f64 = 0.02;
 /// Least separation kept, as a share of the rope's radius.
 const GUARD_SHARE: f64 = 0.08;
 
@@ -36,6 +38,8 @@ pub(crate) struct Pair {
     pub now: [DVec3; 3],
     /// Lower bound of their distance now [m].
     pub clear: f64,
+    /// Longest move of a corner over the solver step [m].
+    skin_move: f64,
     /// Separation kept [m].
     guard: f64,
 }
@@ -107,7 +111,8 @@ impl Near {
             let guard = GUARD_SHARE * 0.5 * model.rope_of_segment(segment).diameter_m;
             let node = self.segment_node[segment];
             let index = self.pairs.len();
-            self.pairs.push(Pair { segment, node, triangle, sweep, now: sweep[0], clear: 0.0, guard });
+            let skin_move = (0..3).map(|corner| sweep[0][corner].distance_squared(sweep[1][corner])).fold(0.0, f64::max).sqrt();
+            self.pairs.push(Pair { segment, node, triangle, sweep, now: sweep[0], clear: 0.0, skin_move, guard });
             match self.groups.last_mut() {
                 Some((last, range)) if *last == segment => range.end = index + 1,
                 _ => self.groups.push((segment, index..index + 1)),
@@ -116,10 +121,16 @@ impl Near {
         !self.pairs.is_empty()
     }
 
-    /// Measures every pair at the places given.
+    /// Measures every pair at the places given: near ones exactly, others by the gap of their boxes.
     pub fn measure(&mut self, places: &[DVec3]) {
-        for pair in &mut self.pairs {
-            pair.clear = segment_triangle([places[pair.node], places[pair.node + 1]], pair.now).distance;
+        for (_, range) in &self.groups {
+            let node = self.pairs[range.start].node;
+            let segment = [places[node], places[node + 1]];
+            let rope_box = Bounds::around(&segment);
+            for pair in &mut self.pairs[range.clone()] {
+                let gap = rope_box.gap(&Bounds::around(&pair.now));
+                pair.clear = if gap > EXACT_M { gap } else { segment_triangle(segment, pair.now).distance };
+            }
         }
     }
 
@@ -155,14 +166,21 @@ impl Near {
     /// (`with_skin`) or stands still, along which nothing crosses.
     pub fn safe_share(&self, places: &[DVec3], target: impl Fn(usize) -> DVec3, with_skin: bool) -> f64 {
         let mut share = 1.0_f64;
-        for pair in &self.pairs {
-            let segment = pair.sweep_of(places, &target);
-            let triangle = [pair.now, if with_skin { pair.sweep[1] } else { pair.now }];
-            if pair.clear - pair.guard > greatest_approach(&segment, &triangle) {
-                continue;
+        let skin_share = if with_skin { 1.0 - self.fraction } else { 0.0 };
+        for (_, range) in &self.groups {
+            let segment = self.pairs[range.start].sweep_of(places, &target);
+            let moved = greatest_move(&segment);
+            for pair in &self.pairs[range.clone()] {
+                if pair.clear - pair.guard > moved + pair.skin_move * skin_share {
+                    continue;
+                }
+                let triangle = [pair.now, if with_skin { pair.sweep[1] } else { pair.now }];
+                if pair.clear - pair.guard > greatest_approach(&segment, &triangle) {
+                    continue;
+                }
+                let first = segment_triangle(segment.at(0.0), triangle[0]).distance;
+                share = share.min(safe_fraction_from(&segment, &triangle, pair.guard, first));
             }
-            let first = segment_triangle(segment.at(0.0), triangle[0]).distance;
-            share = share.min(safe_fraction_from(&segment, &triangle, pair.guard, first));
         }
         share
     }
@@ -170,20 +188,16 @@ impl Near {
     /// Makes the move: skin goes on by the share of what is left, bounds of distance shrink by what moved.
     /// Gives the number of crossings an exact test finds on the way.
     pub fn make_move(&mut self, places: &[DVec3], target: impl Fn(usize) -> DVec3, share: f64, with_skin: bool) -> u64 {
-        let fraction = if with_skin { self.fraction + (1.0 - self.fraction) * share } else { self.fraction };
+        let skin_share = if with_skin { (1.0 - self.fraction) * share } else { 0.0 };
+        let fraction = self.fraction + skin_share;
         let mut crossings = 0;
-        for pair in &mut self.pairs {
-            let segment = pair.sweep_of(places, |node| places[node].lerp(target(node), share));
-            let after = triangle_at(&pair.sweep, fraction);
-            let triangle = [pair.now, after];
-            let approach = greatest_approach(&segment, &triangle);
-            if pair.clear <= approach {
-                crossings += u64::from(first_meeting(&segment, &triangle).is_some());
-                pair.clear = segment_triangle(segment.at(1.0), after).distance;
-            } else {
-                pair.clear -= approach;
+        for (_, range) in &self.groups {
+            let segment = self.pairs[range.start].sweep_of(places, |node| places[node].lerp(target(node), share));
+            let moved = greatest_move(&segment);
+            for pair in &mut self.pairs[range.clone()] {
+                let after = if with_skin { triangle_at(&pair.sweep, fraction) } else { pair.now };
+                crossings += u64::from(pair.follow(&segment, after, moved + pair.skin_move * skin_share));
             }
-            pair.now = after;
         }
         self.fraction = fraction;
         crossings
@@ -191,9 +205,31 @@ impl Near {
 }
 
 impl Pair {
+    /// Takes a move of both: keeps a lower bound of the distance; whether an exact test finds a crossing.
+    fn follow(&mut self, segment: &SweptSegment, after: [DVec3; 3], most: f64) -> bool {
+        let triangle = [self.now, after];
+        self.now = after;
+        if self.clear > most + EXACT_M {
+            self.clear -= most;
+            return false;
+        }
+        let approach = greatest_approach(segment, &triangle);
+        if self.clear > approach {
+            self.clear -= approach;
+            return false;
+        }
+        self.clear = segment_triangle(segment.at(1.0), after).distance;
+        first_meeting(segment, &triangle).is_some()
+    }
+
     fn sweep_of(&self, places: &[DVec3], target: impl Fn(usize) -> DVec3) -> SweptSegment {
         SweptSegment { a0: places[self.node], b0: places[self.node + 1], a1: target(self.node), b1: target(self.node + 1) }
     }
+}
+
+/// The longer move of a segment's two ends [m].
+fn greatest_move(segment: &SweptSegment) -> f64 {
+    (segment.a1 - segment.a0).length_squared().max((segment.b1 - segment.b0).length_squared()).sqrt()
 }
 
 /// A barycentric place on a triangle.

@@ -115,9 +115,10 @@ impl Slots {
         }
     }
 
-    /// Energy of all slots at the places given.
-    pub fn energy(&self, near: &Near, place: impl Fn(usize) -> DVec3) -> f64 {
-        self.list.iter().map(|slot| slot.energy(near, slot.on_rope(&place))).sum()
+    /// Energy of all slots with the rope moved by a share of a step from the places measured last.
+    pub fn energy(&self, near: &Near, places: &[DVec3], step: &[DVec3], share: f64) -> f64 {
+        let moved = |slot: &Slot| (slot.on_rope(|node| places[node]), slot.on_rope(|node| step[node]) * share);
+        self.list.iter().map(|slot| slot.energy(near, moved(slot))).sum()
     }
 }
 
@@ -166,13 +167,17 @@ impl Slot {
         best
     }
 
-    fn energy(&self, near: &Near, place: DVec3) -> f64 {
+    fn energy(&self, near: &Near, (place, step): (DVec3, DVec3)) -> f64 {
+        let (place, moved) = (place + step, step.length());
         if self.out_of_reach(place) {
             return 0.0;
         }
-        // Bounds of pairs hold for the present places only, so all pairs are measured here.
-        let pairs = &near.pairs[self.pairs.clone()];
-        let distance = pairs.iter().map(|pair| point_triangle(place, pair.now).0).fold(f64::INFINITY, f64::min);
+        let mut distance = self.reach;
+        for pair in &near.pairs[self.pairs.clone()] {
+            if pair.clear - moved < distance {
+                distance = distance.min(point_triangle(place, pair.now).0);
+            }
+        }
         Press::new(distance, self.reach, self.stiffness).energy
     }
 

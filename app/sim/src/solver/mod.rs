@@ -39,6 +39,8 @@ pub struct Solver {
     pull: Vec<Pull>,
     cut: Vec<bool>,
     rest: Rest,
+    /// Velocity of the water at each node.
+    flow: Vec<DVec3>,
     /// Where rope would go on its own from where a step with contact begins.
     pub(crate) drift: Vec<DVec3>,
 }
@@ -75,6 +77,7 @@ impl Solver {
             pull: vec![Pull::default(); model.segment_count],
             cut: vec![false; model.segment_count],
             rest: Rest::default(),
+            flow: vec![DVec3::ZERO; model.node_count],
             drift: Vec::new(),
         }
     }
@@ -83,6 +86,7 @@ impl Solver {
     pub(crate) fn begin(&mut self, model: &Model, state: &State, scheme: &Scheme) {
         self.trial.begin(model, &self.plan, state, scheme);
         self.cut.clone_from(&state.rope.cut);
+        self.measure_flow(model);
         self.weigh(model, state);
     }
 

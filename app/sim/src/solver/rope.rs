@@ -28,6 +28,13 @@ pub(crate) fn outer(one: DVec3, other: DVec3) -> DMat3 {
 }
 
 impl Solver {
+    /// Velocity of the water at each node, taken where the trial stands.
+    pub(crate) fn measure_flow(&mut self, model: &Model) {
+        for (flow, place) in self.flow.iter_mut().zip(&self.trial.place) {
+            *flow = model.spec.water.velocity(*place);
+        }
+    }
+
     /// Mass of each node, with the added mass of its direction when the step begins.
     pub(super) fn weigh(&mut self, model: &Model, state: &State) {
         for (index, line) in model.spec.lines.iter().enumerate() {
@@ -85,7 +92,7 @@ impl Solver {
         }
         let (first, end) = (model.line_nodes[line].start, model.line_nodes[line].end);
         let velocity = (place - self.trial.place_history[node]) * scheme.rate;
-        let relative = model.spec.water.velocity(place) - velocity;
+        let relative = self.flow[node] - velocity;
         let (tangent, inverse_chord) = tangent(&self.trial.place, node, first, end);
         let half_density = 0.5 * model.spec.water.density_kg_m3 * rope.diameter_m * wet;
         let (across, along) = (half_density * rope.drag_normal, half_density * rope.drag_tangential * PI);

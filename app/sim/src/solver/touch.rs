@@ -45,7 +45,6 @@ impl Solver {
     /// Newton passes at the skin's present place until the moves are small.
     pub(crate) fn solve_touching(&mut self, model: &Model, state: &State, scheme: &Scheme, work: &mut ContactWork) -> Touched {
         let (mut last_m, mut crossings) = (f64::INFINITY, 0);
-        work.near.measure(&self.trial.place);
         work.open_slots(model, &self.trial.place);
         let mut passes = 0;
         while passes < MOST_PASSES && last_m > CONVERGED_M {
@@ -139,10 +138,10 @@ impl Solver {
         if slope >= 0.0 {
             return safe;
         }
-        let energy = work.slots.energy(&work.near, |node| self.trial.place[node]);
+        let energy = work.slots.energy(&work.near, &self.trial.place, &self.band.step, 0.0);
         let mut share = safe;
         for _ in 0..MOST_HALVINGS {
-            let moved = work.slots.energy(&work.near, |node| self.trial.place[node] + self.band.step[node] * share);
+            let moved = work.slots.energy(&work.near, &self.trial.place, &self.band.step, share);
             let change =
                 self.rest_change(share) + self.rope_change(model, scheme, share) + self.friction_change(work, share) + moved - energy;
             if change <= ENOUGH * share * slope {

@@ -51,6 +51,12 @@ impl Bounds {
             & (other.low.z <= self.high.z)
     }
 
+    /// Distance between the two, zero where they meet [m].
+    #[must_use]
+    pub fn gap(&self, other: &Self) -> f64 {
+        (self.low - other.high).max(other.low - self.high).max(DVec3::ZERO).length()
+    }
+
     /// Length of the longest side [m].
     #[must_use]
     pub fn longest(&self) -> f64 {
