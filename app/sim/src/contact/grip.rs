@@ -4,7 +4,7 @@ use endline_sdk::{Contacts, FrictionResponse};
 use glam::{DMat3, DVec3};
 
 use super::near::{Near, on_triangle};
-use super::slots::Slots;
+use super::slots::{Slot, Slots, Touch};
 use crate::model::{Friction, Model};
 use crate::state::State;
 
@@ -43,12 +43,12 @@ pub(crate) struct Touching {
 }
 
 impl Touching {
-    /// Collects the slots in touch.
-    pub fn collect(&mut self, model: &Model, friction: &Friction, near: &Near, slots: &Slots, state: &State) {
+    /// Collects the slots in touch, as `touch_of` tells it.
+    pub fn collect(&mut self, model: &Model, near: &Near, slots: &Slots, state: &State, touch_of: impl Fn(&Slot) -> Option<Touch>) {
         self.clear();
-        let Some(whale) = &model.spec.whale else { return };
+        let (Some(whale), Some(friction)) = (&model.spec.whale, &model.spec.friction) else { return };
         for (index, slot) in slots.list.iter().enumerate() {
-            let Some(touch) = &slot.touch else { continue };
+            let Some(touch) = touch_of(slot) else { continue };
             let pair = &near.pairs[touch.pair];
             let region = whale.skin.regions[pair.triangle as usize];
             let rope = model.spec.lines[model.segment_line[slot.segment]].rope;
@@ -114,6 +114,11 @@ impl Touching {
         }
         friction.model.advance(&friction.attributes, &self.contacts(dt_s), &mut grips.floats).map_err(|error| error.message)?;
         if grips.floats.iter().all(|x| x.is_finite()) { Ok(()) } else { Err("gave a state that is not a finite number".into()) }
+    }
+
+    /// Push and friction of a contact together [N].
+    pub fn force_of(&self, place: usize) -> DVec3 {
+        DVec3::from_array(self.normal[place]) * self.normal_force[place] + DVec3::from_array(self.response[place].force_n)
     }
 
     /// Slip of a contact in this step.

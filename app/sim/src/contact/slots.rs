@@ -114,12 +114,6 @@ impl Slots {
             slot.seen = None;
         }
     }
-
-    /// Energy of all slots with the rope moved by a share of a step from the places measured last.
-    pub fn energy(&self, near: &Near, places: &[DVec3], step: &[DVec3], share: f64) -> f64 {
-        let moved = |slot: &Slot| (slot.on_rope(|node| places[node]), slot.on_rope(|node| step[node]) * share);
-        self.list.iter().map(|slot| slot.energy(near, moved(slot))).sum()
-    }
 }
 
 impl Slot {
@@ -130,21 +124,33 @@ impl Slot {
 
     fn measure(&mut self, near: &Near, places: &[DVec3]) {
         let place = self.on_rope(|node| places[node]);
+        self.touch = None;
         if self.out_of_reach(place) {
-            self.touch = None;
             return;
         }
-        let Some((distance, pair, barycentric)) = self.nearest(near, place) else {
-            self.touch = None;
-            return;
-        };
-        self.seen = Some((place, distance));
+        if let Some((distance, pair, barycentric)) = self.nearest(near, place, 0.0, f64::INFINITY) {
+            self.seen = Some((place, distance));
+            self.touch = self.touch_of(near, place, (distance, pair, barycentric));
+        }
+    }
+
+    /// What it touches with the rope moved by `step` from the places measured last.
+    pub fn touch_moved(&self, near: &Near, place: DVec3, step: DVec3) -> Option<Touch> {
+        let (place, moved) = (place + step, step.length());
+        if self.out_of_reach(place) {
+            return None;
+        }
+        let nearest = self.nearest(near, place, moved, self.reach)?;
+        self.touch_of(near, place, nearest)
+    }
+
+    fn touch_of(&self, near: &Near, place: DVec3, (distance, pair, barycentric): (f64, usize, [f64; 3])) -> Option<Touch> {
         let press = Press::new(distance, self.reach, self.stiffness);
-        self.touch = (press.force > 0.0).then(|| {
+        (press.force > 0.0).then(|| {
             let foot = on_triangle(near.pairs[pair].now, barycentric);
             let normal = (place - foot) / distance.max(1e-12);
             Touch { pair, barycentric, place, normal, distance, press }
-        });
+        })
     }
 
     /// Whether it cannot touch, from where it was last measured.
@@ -152,33 +158,22 @@ impl Slot {
         self.seen.is_some_and(|(seen, distance)| distance - seen.distance(place) > self.reach)
     }
 
-    fn nearest(&self, near: &Near, place: DVec3) -> Option<(f64, usize, [f64; 3])> {
+    /// The nearest triangle within `most`, with the rope moved by at most `moved` since pairs were bounded.
+    fn nearest(&self, near: &Near, place: DVec3, moved: f64, most: f64) -> Option<(f64, usize, [f64; 3])> {
         let mut best: Option<(f64, usize, [f64; 3])> = None;
+        let mut least = most;
         for index in self.pairs.clone() {
             let pair = &near.pairs[index];
-            if best.is_some_and(|(distance, ..)| pair.clear >= distance) {
+            if pair.clear - moved >= least {
                 continue;
             }
             let (distance, barycentric) = point_triangle(place, pair.now);
-            if best.is_none_or(|(found, ..)| distance < found) {
+            if distance < least {
+                least = distance;
                 best = Some((distance, index, barycentric));
             }
         }
         best
-    }
-
-    fn energy(&self, near: &Near, (place, step): (DVec3, DVec3)) -> f64 {
-        let (place, moved) = (place + step, step.length());
-        if self.out_of_reach(place) {
-            return 0.0;
-        }
-        let mut distance = self.reach;
-        for pair in &near.pairs[self.pairs.clone()] {
-            if pair.clear - moved < distance {
-                distance = distance.min(point_triangle(place, pair.now).0);
-            }
-        }
-        Press::new(distance, self.reach, self.stiffness).energy
     }
 
     /// A slot at the piece's closest point, where that is clearly nearer than this one.

@@ -16,6 +16,8 @@ pub(crate) struct ContactWork {
     pub near: Near,
     pub slots: Slots,
     pub touching: Touching,
+    /// The same at a trial along a step.
+    pub probe: Touching,
     /// Bones at the start and the end of the solver step.
     pub bones: [Vec<DAffine3>; 2],
     /// Places before a sub-move.
@@ -34,6 +36,7 @@ impl ContactWork {
             near: Near::new(model, tree),
             slots: Slots::default(),
             touching: Touching::default(),
+            probe: Touching::default(),
             bones: [Vec::new(), Vec::new()],
             before: Vec::new(),
             target: Vec::new(),

@@ -99,19 +99,18 @@ impl Hubs {
         parts(seat, arm).map(|(block, part)| part * self.step[block]).sum()
     }
 
-    /// Change of `½ xᵀAx - f·x` over a share of a step, for two-block hubs (bodies) as assembled.
-    pub fn energy_change(&self, step: &[DVec3], body_block: &[usize], share: f64) -> f64 {
-        let mut change = 0.0;
+    /// Slope of `½ xᵀAx - f·x` at a share of a step, for two-block hubs (bodies) as assembled.
+    pub fn slope(&self, step: &[DVec3], body_block: &[usize], share: f64) -> f64 {
+        let mut slope = 0.0;
         for block in body_block {
             for row in [*block, block + 1] {
-                let bent: DVec3 = [*block, block + 1]
-                    .map(|column| self.value[self.slot[row * self.blocks + column] as usize] * step[column])
-                    .into_iter()
-                    .sum();
-                change += 0.5 * share * share * step[row].dot(bent) - share * self.force[row].dot(step[row]);
+                let columns = [*block, block + 1];
+                let bent: DVec3 =
+                    columns.map(|column| self.value[self.slot[row * self.blocks + column] as usize] * step[column]).into_iter().sum();
+                slope += share * step[row].dot(bent) - self.force[row].dot(step[row]);
             }
         }
-        change
+        slope
     }
 
     /// Factors and solves in place.

@@ -12,6 +12,7 @@ mod hubs;
 mod plan;
 mod rope;
 mod scheme;
+mod search;
 mod touch;
 mod trial;
 

@@ -3,9 +3,7 @@
 //! A contact slot at fraction `α` of a segment acts on its two nodes with weights `1 - α` and `α`, so the
 //! matrix stays block-tridiagonal. Push: `N n`, block `N' n nᵀ`. Friction `f(s, N)` from the plugin:
 //! block `-∂f/∂s + (∂f/∂N)(N' n)ᵀ`, not symmetric, with the normal force coupled in.
-//! Each move is cut by the sweep filter (`contact/near.rs`), then halved until the incremental
-//! potential `½(x-x̃)ᵀ(M/h²)(x-x̃) + Σ T²/2k + Σ E_contact` falls, with all other forces held
-//! linear at the present iterate (inertia, drag and seabed by their assembled blocks).
+//! Each move is cut by the sweep filter (`contact/near.rs`), then searched along for balance (`search.rs`).
 
 use glam::{DMat3, DVec3};
 
@@ -23,11 +21,6 @@ const MOST_PASSES: usize = 40;
 const CONVERGED_M: f64 = 1e-6;
 /// Move below which the search along the step is left out: rounding would decide it [m].
 const UNSEARCHED_M: f64 = 1e-5;
-/// Share of the foretold fall of the potential that a move must reach.
-const ENOUGH: f64 = 1e-4;
-/// Most halvings of a move.
-const MOST_HALVINGS: usize = 10;
-
 /// How Newton with contact ended.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Touched {
@@ -58,7 +51,7 @@ impl Solver {
                 return Touched::NotFinite;
             }
             let safe = work.near.safe_share(&self.trial.place, |node| self.trial.place[node] + self.band.step[node], false);
-            let share = if longest * safe > UNSEARCHED_M { self.search(model, scheme, work, safe) } else { safe };
+            let share = if longest * safe > UNSEARCHED_M { self.search(model, state, scheme, work, safe) } else { safe };
             crossings += self.move_by(model, work, share);
             if self.strayed(state, scheme) > near::MARGIN_M - work.greatest_reach {
                 return Touched::TooFar;
@@ -90,7 +83,7 @@ impl Solver {
 
     fn add_contacts(&mut self, model: &Model, state: &State, scheme: &Scheme, work: &mut ContactWork) -> Result<(), String> {
         let Some(friction) = &model.spec.friction else { return Ok(()) };
-        work.touching.collect(model, friction, &work.near, &work.slots, state);
+        work.touching.collect(model, &work.near, &work.slots, state, |slot| slot.touch);
         work.touching.respond(friction, scheme.dt)?;
         for (place, index) in work.touching.slot.iter().enumerate() {
             let slot = &work.slots.list[*index];
@@ -99,8 +92,7 @@ impl Solver {
             let push = touch.normal * touch.press.stiffness;
             let block =
                 outer(push, touch.normal) - grip::matrix(&response.by_slip) + outer(DVec3::from_array(response.by_normal_force), push);
-            let force = touch.normal * touch.press.force + DVec3::from_array(response.force_n);
-            self.add_at(slot.segment, slot.node, slot.fraction, force, &block);
+            self.add_at(slot.segment, slot.node, slot.fraction, work.touching.force_of(place), &block);
         }
         Ok(())
     }
@@ -130,78 +122,6 @@ impl Solver {
                 act(self, &model.spec.ropes[line.rope], segment, first_node + k);
             }
         }
-    }
-
-    /// The largest of `safe`, `safe/2`, … along which the potential falls enough.
-    fn search(&mut self, model: &Model, scheme: &Scheme, work: &ContactWork, safe: f64) -> f64 {
-        let slope = self.slope(work);
-        if slope >= 0.0 {
-            return safe;
-        }
-        let energy = work.slots.energy(&work.near, &self.trial.place, &self.band.step, 0.0);
-        let mut share = safe;
-        for _ in 0..MOST_HALVINGS {
-            let moved = work.slots.energy(&work.near, &self.trial.place, &self.band.step, share);
-            let change =
-                self.rest_change(share) + self.rope_change(model, scheme, share) + self.friction_change(work, share) + moved - energy;
-            if change <= ENOUGH * share * slope {
-                return share;
-            }
-            share *= 0.5;
-        }
-        share
-    }
-
-    /// Derivative of the potential along the solved step.
-    fn slope(&self, work: &ContactWork) -> f64 {
-        let nodes: f64 = self.rest.force.iter().zip(&self.band.step).map(|(force, step)| force.dot(*step)).sum();
-        let hubs: f64 = self.rest.hubs.force.iter().zip(&self.hubs.step).map(|(force, step)| force.dot(*step)).sum();
-        let rope: f64 = (0..self.pull.len())
-            .map(|segment| {
-                self.trial.tension[segment].max(0.0) * self.pull[segment].stretch(&self.band.step, self.plan.segment_node[segment])
-            })
-            .sum();
-        let mut contact = 0.0;
-        for (place, index) in work.touching.slot.iter().enumerate() {
-            let slot = &work.slots.list[*index];
-            let Some(touch) = &slot.touch else { continue };
-            let force = touch.normal * touch.press.force + DVec3::from_array(work.touching.response[place].force_n);
-            contact += force.dot(slot.on_rope(|node| self.band.step[node]));
-        }
-        rope - nodes - hubs - contact
-    }
-
-    /// Change of what is held linear: inertia, weight, drag, seabed, bodies.
-    fn rest_change(&self, share: f64) -> f64 {
-        let nodes: f64 = (self.rest.force.iter().zip(&self.rest.diagonal).zip(&self.band.step))
-            .map(|((force, diagonal), step)| step.dot(*diagonal * *step) * 0.5 * share * share - force.dot(*step) * share)
-            .sum();
-        nodes + self.rest.hubs.energy_change(&self.hubs.step, &self.plan.body_block, share)
-    }
-
-    /// Change of the energy of stretched rope.
-    fn rope_change(&self, model: &Model, scheme: &Scheme, share: f64) -> f64 {
-        let mut change = 0.0;
-        for (index, line) in model.spec.lines.iter().enumerate() {
-            let (rope, first_node) = (&model.spec.ropes[line.rope], model.line_nodes[index].start);
-            for (k, segment) in model.line_segments[index].clone().enumerate().filter(|(_, segment)| !self.cut[*segment]) {
-                let moved = self.pull_moved(rope, segment, first_node + k, scheme, share).tension.max(0.0);
-                let now = self.trial.tension[segment].max(0.0);
-                change += (moved * moved - now * now) / (2.0 * self.pull[segment].stiffness);
-            }
-        }
-        change
-    }
-
-    fn friction_change(&self, work: &ContactWork, share: f64) -> f64 {
-        let mut change = 0.0;
-        for (place, index) in work.touching.slot.iter().enumerate() {
-            let step = work.slots.list[*index].on_rope(|node| self.band.step[node]);
-            let response = &work.touching.response[place];
-            let block = grip::matrix(&response.by_slip);
-            change -= DVec3::from_array(response.force_n).dot(step) * share + step.dot(block * step) * 0.5 * share * share;
-        }
-        change
     }
 
     /// Moves the trial by a share of the step; the number of crossings an exact test finds.

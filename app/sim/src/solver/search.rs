@@ -1,0 +1,87 @@
+//! How far along a Newton step to go: to where the forces along it balance.
+//!
+//! `g(s) = -F(x + s δ)·δ` is the slope of the incremental potential along the step `δ`; it begins below zero.
+//! The whole step is taken where `g` has not grown beyond half of what it began with, else the zero of `g` is
+//! closed in on by regula falsi (Illinois). Tension, push and friction are taken anew at each trial, friction by
+//! its plugin, so that neither the barrier's wall nor the kink where rope stops sliding is overshot; inertia, weight,
+//! drag, seabed and bodies are linear along the step by their assembled blocks.
+//! Reference: Nocedal and Wright 2006, Numerical Optimization, section 3.5 (doi:10.1007/978-0-387-40065-5).
+
+use super::Solver;
+use super::scheme::Scheme;
+use crate::contact::work::ContactWork;
+use crate::model::Model;
+use crate::state::State;
+
+/// Share of the first slope at which a trial is good enough.
+const ENOUGH: f64 = 0.5;
+/// Most trials along a step.
+const MOST_TRIALS: usize = 14;
+
+impl Solver {
+    /// Share of the solved step to take, at most `safe`.
+    pub(super) fn search(&mut self, model: &Model, state: &State, scheme: &Scheme, work: &mut ContactWork, safe: f64) -> f64 {
+        let first = self.slope(model, state, scheme, work, 0.0);
+        let last = self.slope(model, state, scheme, work, safe);
+        if first.is_nan() || first >= 0.0 || last <= -ENOUGH * first {
+            return safe;
+        }
+        let (mut low, mut high) = ((0.0, first), (safe, last));
+        for _ in 0..MOST_TRIALS {
+            let width = high.0 - low.0;
+            let share = (low.0 - low.1 * width / (high.1 - low.1)).clamp(low.0 + 0.1 * width, high.0 - 0.1 * width);
+            let slope = self.slope(model, state, scheme, work, share);
+            if slope.abs() <= -ENOUGH * first {
+                return share;
+            }
+            if slope < 0.0 {
+                low = (share, slope);
+                high.1 *= 0.5;
+            } else {
+                high = (share, slope);
+                low.1 *= 0.5;
+            }
+        }
+        if low.0 > 0.0 { low.0 } else { high.0 }
+    }
+
+    /// Slope of the potential at a share of the solved step.
+    fn slope(&self, model: &Model, state: &State, scheme: &Scheme, work: &mut ContactWork, share: f64) -> f64 {
+        self.rest_slope(share) + self.rope_slope(model, scheme, share) + self.contact_slope(model, state, scheme, work, share)
+    }
+
+    /// Slope of what is linear along the step: inertia, weight, drag, seabed, bodies.
+    fn rest_slope(&self, share: f64) -> f64 {
+        let nodes: f64 = (self.rest.force.iter().zip(&self.rest.diagonal).zip(&self.band.step))
+            .map(|((force, diagonal), step)| step.dot(*diagonal * *step) * share - force.dot(*step))
+            .sum();
+        nodes + self.rest.hubs.slope(&self.hubs.step, &self.plan.body_block, share)
+    }
+
+    /// Slope of the energy of stretched rope.
+    fn rope_slope(&self, model: &Model, scheme: &Scheme, share: f64) -> f64 {
+        let mut slope = 0.0;
+        for (index, line) in model.spec.lines.iter().enumerate() {
+            let (rope, first_node) = (&model.spec.ropes[line.rope], model.line_nodes[index].start);
+            for (k, segment) in model.line_segments[index].clone().enumerate().filter(|(_, segment)| !self.cut[*segment]) {
+                let pull = self.pull_moved(rope, segment, first_node + k, scheme, share);
+                slope += pull.tension.max(0.0) * pull.stretch(&self.band.step, first_node + k);
+            }
+        }
+        slope
+    }
+
+    /// Slope of push and friction.
+    fn contact_slope(&self, model: &Model, state: &State, scheme: &Scheme, work: &mut ContactWork, share: f64) -> f64 {
+        let Some(friction) = &model.spec.friction else { return 0.0 };
+        let ContactWork { near, slots, probe, .. } = work;
+        let step_of = |slot: &crate::contact::slots::Slot| slot.on_rope(|node| self.band.step[node]);
+        probe.collect(model, near, slots, state, |slot| {
+            slot.touch_moved(near, slot.on_rope(|node| self.trial.place[node]), step_of(slot) * share)
+        });
+        if probe.respond(friction, scheme.dt).is_err() {
+            return f64::INFINITY;
+        }
+        -(0..probe.slot.len()).map(|place| probe.force_of(place).dot(step_of(&slots.list[probe.slot[place]]))).sum::<f64>()
+    }
+}
