@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 
 use crate::diagnostic::{At, Diagnostic, Place};
-use crate::nearest::hint;
+use crate::nearest::{hint, nearest};
 use crate::tree::{Content, Node};
 use crate::units::{self, Quantity, format_si};
 
@@ -196,7 +196,8 @@ impl<'a> Fields<'a> {
             return Some(text);
         }
         let message = format!("`{}` is no value of `{key}`", text.value);
-        let choices = format!("expected one of {}; {}", allowed.join(", "), hint(&text.value, allowed.iter().copied()));
+        let meant = nearest(&text.value, allowed.iter().copied()).map(|word| format!("; did you mean `{word}`?"));
+        let choices = format!("expected one of {}{}", allowed.join(", "), meant.unwrap_or_default());
         self.problems.push(text.place.error(message, choices));
         None
     }

@@ -6,9 +6,10 @@ use std::path::{Path, PathBuf};
 
 use std::sync::Arc;
 
-use endline_gear::{Diagnostic, Hooks, Library, Options, Scenario, Sources, assemble};
+use endline_gear::{Diagnostic, Hooks, Kind, Library, Options, Scenario, Sources, assemble, assemble_traced, buoy_floats, shell_inertia};
 use endline_sdk::{FrictionModel, GearType, WhaleMotion};
-use endline_sim::{Model, ModelSpec};
+use endline_sim::model::{JointKind, ProbeTarget};
+use endline_sim::{DQuat, DVec3, Model, ModelSpec};
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../gear-library")
@@ -60,12 +61,8 @@ impl Hooks for Linked {
 }
 
 fn assembled(name: &str, text: &str) -> ModelSpec {
-    let told =
-        |problems: Vec<endline_gear::Diagnostic>| panic!("{}", problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n\n"));
-    let scenario = Scenario::read(name, text).unwrap_or_else(told);
-    let told =
-        |problems: Vec<endline_gear::Diagnostic>| panic!("{}", problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n\n"));
-    assemble(&scenario, &library(), &Linked, &Options::default()).unwrap_or_else(told)
+    let scenario = Scenario::read(name, text).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    assemble(&scenario, &library(), &Linked, &Options::default()).unwrap_or_else(|problems| panic!("{}", told(&problems)))
 }
 
 fn shipped(name: &str) -> ModelSpec {
@@ -83,5 +80,320 @@ fn every_shipped_scenario_makes_a_model_with_the_nodes_it_asks_for() {
     ] {
         let model = Model::new(shipped(name)).unwrap();
         assert_eq!(model.node_count, nodes, "{name}");
+    }
+}
+
+fn refused(text: &str) -> Vec<Diagnostic> {
+    match Scenario::read("test.toml", text) {
+        Err(problems) => problems,
+        Ok(scenario) => match assemble(&scenario, &library(), &Linked, &Options::default()) {
+            Err(problems) => problems,
+            Ok(_) => panic!("this assembles: {text}"),
+        },
+    }
+}
+
+fn scenario_text(name: &str) -> String {
+    std::fs::read_to_string(root().join("scenarios").join(name)).unwrap()
+}
+
+/// Figures stand as `key = "3/8 in"` under a file's source and sureness, or as a table with their own.
+#[test]
+fn every_shipped_figure_has_source_and_sureness() {
+    let sources = Sources::from_folder(&root()).unwrap();
+    let mut figures = 0;
+    for (path, text) in sources.iter().filter(|(path, _)| !path.starts_with("assemblies/")) {
+        let file: toml::Table = text.parse().unwrap();
+        figures += walk(path, &file, false, false);
+    }
+    assert!(figures > 600, "{figures}");
+}
+
+/// Counts the figures of a table; fails where one has no source or sureness of its own or above it.
+fn walk(path: &str, table: &toml::Table, above_source: bool, above_sureness: bool) -> usize {
+    let text = |key: &str| table.get(key).and_then(toml::Value::as_str).is_some_and(|text| !text.trim().is_empty());
+    let (source, sureness) = (above_source || text("source"), above_sureness || text("sureness"));
+    if table.contains_key("value") {
+        assert!(source && sureness, "{path}: {table:?}");
+        return 1;
+    }
+    let words = ["format", "kind", "name", "notes", "source", "sureness", "material", "shape"];
+    let values = table.iter().filter(|(key, _)| !words.contains(&key.as_str()));
+    values.map(|(key, value)| count(path, key, value, source, sureness)).sum()
+}
+
+fn count(path: &str, key: &str, value: &toml::Value, source: bool, sureness: bool) -> usize {
+    match value {
+        toml::Value::Table(inner) => walk(path, inner, source, sureness),
+        toml::Value::Array(items) => items.iter().map(|item| count(path, key, item, source, sureness)).sum(),
+        _ => {
+            assert!(source && sureness, "{path}: {key}");
+            1
+        }
+    }
+}
+
+/// Wet weight in sea water [N/m] and strength [kN] of the size tables the ropes were taken from.
+#[test]
+fn ropes_weigh_and_hold_what_the_tables_say() {
+    let library = library();
+    for (id, wet, strength) in [
+        ("pp-5-16", -0.033, 7.61),
+        ("pp-3-8", -0.052, 10.85),
+        ("pp-7-16", -0.070, 14.06),
+        ("pp-1-2", -0.087, 16.81),
+        ("pp-9-16", -0.113, 20.46),
+        ("pp-5-8", -0.138, 24.91),
+        ("polysteel-3-8", -0.044, 14.1),
+        ("sink-5-16", 0.069, 8.32),
+        ("sink-3-8", 0.065, 12.01),
+        ("sink-7-16", 0.076, 15.57),
+        ("sink-1-2", 0.132, 19.57),
+        ("sink-9-16", 0.150, 23.13),
+        ("sink-5-8", 0.154, 27.13),
+        ("nylon-3-8", 0.052, 14.86),
+        ("sink-103-3-8", 0.002, 12.01),
+    ] {
+        let rope = library.ropes.iter().find(|rope| rope.entry.id == id).unwrap();
+        assert!((rope.wet_weight_n_m() - wet).abs() < 1e-3, "{id}: {}", rope.wet_weight_n_m());
+        assert!((rope.strength_n / 1e3 - strength).abs() < 0.02, "{id}: {}", rope.strength_n);
+    }
+}
+
+/// Against the sum over a fine grid of points on the six faces, each of the same mass by area.
+#[test]
+fn a_hollow_box_turns_as_its_faces_do() {
+    let (mass, size) = (18.0, DVec3::new(0.91, 0.53, 0.36));
+    let area = 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
+    let mut inertia = DVec3::ZERO;
+    for axis in 0..3 {
+        let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+        let (cells, point_area) = (200, size[u] * size[v] / 40_000.0);
+        for cell in 0..cells * cells {
+            let mut place = DVec3::ZERO;
+            place[axis] = size[axis] / 2.0;
+            place[u] = ((f64::from(cell % cells) + 0.5) / f64::from(cells) - 0.5) * size[u];
+            place[v] = ((f64::from(cell / cells) + 0.5) / f64::from(cells) - 0.5) * size[v];
+            let square = place * place;
+            inertia += (DVec3::splat(square.element_sum()) - square) * (2.0 * mass * point_area / area);
+        }
+    }
+    let formula = shell_inertia(mass, size);
+    assert!(((formula - inertia) / inertia).abs().max_element() < 1e-4, "{formula} against {inertia}");
+    let cube = shell_inertia(6.0, DVec3::splat(2.0));
+    assert!((cube - DVec3::splat(6.0 * 4.0 * 5.0 / 18.0)).abs().max_element() < 1e-12, "hollow cube: 5/18 m a²");
+}
+
+#[test]
+fn a_buoys_slices_hold_its_volume_about_its_middle() {
+    for buoy in &library().buoys {
+        let floats = buoy_floats(buoy);
+        let sum: f64 = floats.iter().map(|float| float.volume_m3).sum();
+        assert!((sum / buoy.volume_m3 - 1.0).abs() < 1e-12, "{}: {sum}", buoy.entry.id);
+        let moment: f64 = floats.iter().map(|float| float.volume_m3 * (float.offset_m.z + buoy.centre_of_mass_m)).sum();
+        assert!(moment.abs() < 1e-12 * buoy.volume_m3, "{}: {moment}", buoy.entry.id);
+        assert!(floats.iter().all(|float| float.volume_m3 > 0.0 && float.height_m > 0.0), "{}", buoy.entry.id);
+    }
+}
+
+/// A towed lobster trap's drag was measured: 158 N at 1 m/s. Broadside, within the 30 % of that test.
+#[test]
+fn a_trap_drags_as_the_towed_one_did() {
+    let spec = shipped("hello-endline.toml");
+    let trap = spec.bodies.iter().find(|body| body.id == "trap").unwrap();
+    let drag = 0.5 * 1025.0 * trap.drag_area_m2.y;
+    assert!((drag / 158.0 - 1.0).abs() < 0.3, "{drag}");
+}
+
+#[test]
+fn a_trap_in_sea_water_weighs_its_wet_weight_and_stands_on_the_seabed() {
+    let spec = shipped("hello-endline.toml");
+    let trap = spec.bodies.iter().find(|body| body.id == "trap").unwrap();
+    let displaced: f64 = trap.floats.iter().map(|float| float.volume_m3).sum();
+    assert!(((trap.mass_kg - 1025.0 * displaced) * 9.81 - 130.0).abs() < 1e-9);
+    let lowest = trap.feet_m.iter().map(|foot| (trap.position_m + trap.orientation * *foot).z).fold(f64::INFINITY, f64::min);
+    assert!((lowest + 25.0).abs() < 1e-12, "{lowest}");
+    assert_eq!(trap.feet_m.len(), 8);
+}
+
+/// Nodes go to lines by length, to one segment.
+#[test]
+fn nodes_are_shared_out_by_length() {
+    for name in ["single", "pair", "trawl-5"] {
+        let spec = assembled("test.toml", &scenario_text("hello-endline.toml").replace("\"single\"", &format!("\"{name}\"")));
+        let lengths: Vec<f64> = spec.lines.iter().map(|line| line.segments_m.iter().sum()).collect();
+        let total: f64 = lengths.iter().sum();
+        let spare = (500 - 2 * lengths.len()) as f64;
+        for (line, length) in spec.lines.iter().zip(&lengths) {
+            let share = 1.0 + spare * length / total;
+            assert!((line.segments_m.len() as f64 - share).abs() < 1.0, "{name} {}: {share}", line.id);
+        }
+        assert_eq!(Model::new(spec).unwrap().node_count, 500, "{name}");
+    }
+}
+
+#[test]
+fn lines_that_leave_one_body_share_a_joint() {
+    let spec = assembled("test.toml", &scenario_text("hello-endline.toml").replace("\"single\"", "\"pair\""));
+    let line = |id: &str| spec.lines.iter().find(|line| line.id == id).unwrap();
+    assert_eq!(line("endline-bottom").from, line("groundline").from);
+    let joint = &spec.joints[line("groundline").from];
+    assert!(matches!(joint.kind, JointKind::Body { offset_m, .. } if (offset_m - DVec3::new(0.4572, 0.0, 0.1778)).length() < 1e-12));
+}
+
+/// The start shape of reference problem (a) against its exact data.
+#[test]
+fn the_pendulum_starts_on_its_elastic_catenary() {
+    let spec = shipped("reference-a-pendulum.toml");
+    let middle = spec.lines[0].start_m[50];
+    assert!((middle - DVec3::new(14.4026908, 0.0, -26.3797929)).length() < 1e-6, "{middle}");
+    assert_eq!(spec.bodies[0].held_until_s, Some(0.0));
+    assert!(spec.water.density_kg_m3 == 0.0 && spec.seabed.is_none());
+}
+
+#[test]
+fn problem_b_has_its_rope_buoy_and_probes() {
+    let spec = shipped("reference-b-static.toml");
+    let (rope, buoy) = (&spec.ropes[0], &spec.bodies[0]);
+    assert!((rope.displaced_m3_m - std::f64::consts::PI / 4.0 * 1e-4).abs() < 1e-16);
+    assert!((buoy.added_mass_kg.z - 5.125).abs() < 1e-12 && !buoy.wetted_drag && !spec.water.rope_dries);
+    assert_eq!(spec.water.current.surface_m_s, DVec3::new(0.5, 0.0, 0.0));
+    assert!(matches!(spec.probes[2].target, ProbeTarget::Body(0, 0)));
+}
+
+#[test]
+fn a_whale_starts_where_and_as_the_scenario_says() {
+    let whale = shipped("hello-endline.toml").whale.unwrap();
+    assert!((whale.orientation * DVec3::X - DVec3::Y).length() < 1e-12, "heading 0 deg is north");
+    let text =
+        scenario_text("hello-endline.toml").replace("heading = \"0 deg\"", "heading = \"90 deg\"\npitch = \"30 deg\"\nroll = \"90 deg\"");
+    let whale = assembled("test.toml", &text).whale.unwrap();
+    let nose = whale.orientation * DVec3::X;
+    assert!((nose - DVec3::new(3.0_f64.sqrt() / 2.0, 0.0, 0.5)).length() < 1e-12, "{nose}");
+    assert!((whale.orientation * DVec3::Y).z > 0.8, "rolled to starboard, the port side is up");
+    assert!((whale.motion_attributes[0] - 1.3).abs() < 1e-15);
+    assert!(whale.skin.triangles.len() > 5000);
+}
+
+#[test]
+fn gear_turns_with_its_heading_and_answers_the_current() {
+    let north = scenario_text("hello-endline.toml").replace("[[gear]]", "[[gear]]\nposition = [\"3 m\", \"4 m\"]\nheading = \"0 deg\"");
+    let spec = assembled("test.toml", &north);
+    let buoy = spec.bodies.iter().find(|body| body.id == "buoy").unwrap();
+    assert!(buoy.position_m.x > 5.0 && (buoy.position_m.y - 4.0).abs() < 1e-9, "{}: still down-current, to the east", buoy.position_m);
+    assert!((buoy.orientation * DVec3::X - DVec3::Y).length() < 1e-12);
+    assert!(spec.bodies[0].orientation.angle_between(DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2)) < 1e-7);
+}
+
+#[test]
+fn friction_is_by_rope_and_region() {
+    let spec = shipped("hello-endline.toml");
+    let friction = spec.friction.unwrap();
+    assert_eq!(friction.coefficients.len(), spec.ropes.len());
+    let of = |rope: &str, region: endline_sdk::Region| {
+        friction.coefficients[spec.ropes.iter().position(|known| known.id == rope).unwrap()][region as usize]
+    };
+    assert!(of("pp-3-8", endline_sdk::Region::Baleen) < of("sink-3-8", endline_sdk::Region::Baleen));
+    assert!((of("pp-3-8", endline_sdk::Region::LeftFlukeLeading) - 0.15).abs() < 1e-15);
+}
+
+#[test]
+fn files_used_are_named_and_are_enough_to_build_again() {
+    let text = scenario_text("hello-endline.toml");
+    let scenario = Scenario::read("test.toml", &text).unwrap();
+    let sources = Sources::from_folder(&root()).unwrap();
+    let first =
+        assemble_traced(&scenario, &library(), &Linked, &Options::default()).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    let (again, problems) = Library::read(&sources.only(&first.files));
+    assert!(problems.is_empty(), "{}", told(&problems));
+    assert!(first.files.iter().any(|path| path == "traps/wire-lobster-3ft.toml") && first.files.len() < 14, "{:?}", first.files);
+    let second = assemble(&scenario, &again, &Linked, &Options::default()).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    assert_eq!(first.spec.bodies, second.bodies);
+    assert_eq!(first.spec.lines, second.lines);
+}
+
+#[test]
+fn options_come_before_the_scenario() {
+    let scenario = Scenario::read("test.toml", &scenario_text("hello-endline.toml")).unwrap();
+    let options = Options { seed: Some(7), step_s: Some(0.02), weak_links: Some(false), rope_nodes: Some(60), ..Options::default() };
+    let spec = assemble(&scenario, &library(), &Linked, &options).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    assert_eq!((spec.settings.seed, spec.settings.step_s, spec.links[0].enabled), (7, 0.02, false));
+    assert_eq!(Model::new(spec).unwrap().node_count, 60);
+}
+
+/// A change to the scenario, where its problem is told, and what is said.
+#[test]
+fn mistakes_in_a_scenario_are_told_with_their_place() {
+    let text = scenario_text("hello-endline.toml");
+    for (from, to, parts) in [
+        ("rope_nodes = 500", "rope_node = 500", vec!["unknown field `rope_node`", "did you mean `rope_nodes`?"]),
+        ("rope_nodes = 500", "rope_nodes = 3", vec!["`rope_nodes` is too small", "at least 4 nodes"]),
+        ("\"13.7 m\"", "\"13.7 furlong\"", vec!["unknown unit `furlong` in `length`"]),
+        ("\"single\"", "\"singel\"", vec!["no `singel` in assemblies/", "did you mean `single`?"]),
+        ("\"right-whale\"", "\"rihgt-whale\"", vec!["no `rihgt-whale` in whales/", "did you mean `right-whale`?"]),
+        ("\"cape-cod-bay\"", "\"cape-cod\"", vec!["no `cape-cod` in sites/"]),
+        (
+            "org.endline.motion.swim",
+            "org.endline.motion.swin",
+            vec!["no whale motion `org.endline.motion.swin`", "did you mean `org.endline.motion.swim`?"],
+        ),
+        ("org.endline.friction.coulomb", "org.endline.friction.colomb", vec!["no friction model", "did you mean"]),
+        ("cruise_speed = \"1.3 m/s\"", "cruise_speed = \"1.3 m\"", vec!["`m` is a unit of a length, not of a speed"]),
+        ("cruise_speed = \"1.3 m/s\"", "cruise_sped = \"1.3 m/s\"", vec!["`org.endline.motion.swim` has no attribute `cruise_sped`"]),
+        ("cruise_speed = \"1.3 m/s\"", "cruise_speed = \"99 m/s\"", vec!["`cruise_speed` is 99 m/s", "between 0.1 m/s and 5 m/s"]),
+        ("part = \"buoy\"", "part = \"bouy\"", vec!["there is no body or joint `bouy`", "did you mean `buoy`?"]),
+        ("speed = 1.0", "speed = 1.5", vec!["`speed` is 1.5", "between 0 and 1"]),
+        ("duration = \"60 s\"", "duration = 60", vec!["`duration` is 60 without a unit"]),
+    ] {
+        let changed = text.replacen(from, to, 1);
+        assert_ne!(changed, text, "{from}");
+        let problems = refused(&changed);
+        assert_eq!(problems.len(), 1, "{to}: {}", told(&problems));
+        let line = 1 + changed.lines().position(|line| line.contains(to)).unwrap();
+        assert_eq!((problems[0].file.as_str(), problems[0].line), ("test.toml", line), "{}", problems[0]);
+        for part in parts {
+            assert!(problems[0].to_string().contains(part), "`{}` lacks `{part}`", problems[0]);
+        }
+    }
+}
+
+#[test]
+fn ropes_and_attributes_of_placed_gear_may_be_chosen() {
+    let text = scenario_text("hello-endline.toml");
+    let with = |extra: &str| text.replacen("assembly = \"single\"", &format!("assembly = \"single\"\n{extra}"), 1);
+    let spec = assembled("test.toml", &with("[gear.ropes]\nendline-top = \"polysteel-7-16\"\n[gear.attributes]\nscope = 2.0"));
+    let top = spec.lines.iter().find(|line| line.id == "endline-top").unwrap();
+    assert_eq!(spec.ropes[top.rope].id, "polysteel-7-16");
+    let length: f64 = spec.lines.iter().flat_map(|line| &line.segments_m).sum();
+    assert!((length - 50.0).abs() < 1e-9, "{length}");
+    for (extra, part) in [
+        ("[gear.ropes]\nendline-topp = \"pp-3-8\"", "did you mean `endline-top`?"),
+        ("[gear.ropes]\nendline-top = \"pp-3-9\"", "did you mean `pp-3-8`?"),
+        ("[gear.attributes]\nbuoy = \"bullet-6x15\"", "did you mean `bullet-6x14`?"),
+    ] {
+        let problems = refused(&with(extra));
+        assert!(problems.len() == 1 && problems[0].to_string().contains(part), "{}", told(&problems));
+    }
+}
+
+#[test]
+fn a_mistake_in_an_assembly_is_told_in_its_own_file() {
+    let mut sources = Sources::from_folder(&root()).unwrap();
+    let pair = sources.get("assemblies/pair.toml").unwrap().replace("rope = \"pp-3-8\"", "rope = \"pp-3-9\"");
+    sources.set("assemblies/pair.toml", pair.replace("to = \"trap-2\"", "to = \"trap-22\""));
+    let (library, problems) = Library::read(&sources);
+    assert!(problems.is_empty(), "{}", told(&problems));
+    let text = scenario_text("hello-endline.toml").replace("\"single\"", "\"pair\"");
+    let scenario = Scenario::read("test.toml", &text).unwrap();
+    let problems = assemble(&scenario, &library, &Linked, &Options::default()).err().unwrap();
+    assert_eq!(problems.len(), 2, "{}", told(&problems));
+    assert!(problems.iter().all(|problem| problem.file == "assemblies/pair.toml" && problem.line > 10), "{}", told(&problems));
+}
+
+#[test]
+fn every_kind_of_item_is_shipped() {
+    let library = library();
+    for kind in Kind::ALL {
+        assert!(!library.ids(kind).is_empty(), "{kind:?}");
     }
 }

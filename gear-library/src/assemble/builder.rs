@@ -44,6 +44,8 @@ pub(super) struct Builder<'a> {
     pub attachments: Vec<DVec3>,
     /// The spec's lines before they are cut.
     pub uncut: Vec<Uncut>,
+    /// Whether gear could not be built, so that ids may be missing through no fault of those who name them.
+    pub incomplete: bool,
     /// Parts by id.
     names: Vec<(String, Part)>,
 }
@@ -81,6 +83,7 @@ impl<'a> Builder<'a> {
             materials: Vec::new(),
             attachments: Vec::new(),
             uncut: Vec::new(),
+            incomplete: false,
             names: Vec::new(),
         }
     }
@@ -100,6 +103,9 @@ impl<'a> Builder<'a> {
 
     /// Reports an id that names nothing of the wanted kind.
     pub fn unknown(&self, what: &str, id: &At<String>, wanted: fn(Part) -> bool) {
+        if self.incomplete {
+            return;
+        }
         let known = self.names.iter().filter(|(_, part)| wanted(*part)).map(|(name, _)| name.as_str());
         self.problems.push(id.place.error(format!("there is no {what} `{}`", id.value), hint(&id.value, known)));
     }

@@ -20,6 +20,7 @@ impl Builder<'_> {
         for gear in &self.scenario.gear {
             let Some(assembly) = self.library.assemblies.iter().find(|assembly| assembly.entry.id == gear.assembly.value) else {
                 self.no_item(Kind::Assembly, &gear.assembly.value, &gear.assembly.place);
+                self.incomplete = true;
                 continue;
             };
             self.uses(&assembly.entry.path);
@@ -56,6 +57,7 @@ impl Builder<'_> {
             let ids = self.hooks.ids();
             let message = format!("no gear type `{}` among the plugins", id.value);
             self.problems.push(id.place.error(message, hint(&id.value, ids.iter().map(String::as_str))));
+            self.incomplete = true;
             return;
         };
         let attributes = gear.attributes.over(usual).resolve(hook.descriptor(), self.library, &mut self.used, &self.problems);
@@ -66,6 +68,7 @@ impl Builder<'_> {
             Err(error) => {
                 let message = format!("`{}` cannot build this gear: {error}", id.value);
                 self.problems.push(gear.assembly.place.error(message, "mend the attribute it names"));
+                self.incomplete = true;
                 return;
             }
         };

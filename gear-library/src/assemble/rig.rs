@@ -90,6 +90,7 @@ impl Builder<'_> {
         };
         let Some((made, attachment, path)) = made else {
             self.no_item(library_kind(body.kind), &item.value, &item.place);
+            self.incomplete = true;
             return;
         };
         self.uses(path);

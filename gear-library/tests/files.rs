@@ -1,0 +1,208 @@
+//! Files with mistakes, and files being edited.
+
+use std::collections::BTreeMap;
+
+use endline_gear::{Diagnostic, Document, Library, Scenario, Severity, Sources, save_text};
+
+const ROPE: &str = r#"# A mill sheet.
+format = 1
+kind = "rope"
+name = "Test rope"
+source = "mill sheet 7"
+sureness = "measured"
+material = "pp"
+
+diameter = "3/8 in"   # nominal
+mass = "0.0417 kg/m"
+density = { value = "910 kg/m3", source = "supplier", sureness = "estimate" }
+wet_weight = "-0.052 N/m"
+strength = "2,440 lbf"
+stretch_at_break = 0.22
+stiffness = "49 kN"
+damping = "2.45 N s"
+drag_normal = 1.2
+drag_tangential = 0.015
+added_mass = 1.0
+"#;
+
+fn problems_of(text: &str) -> Vec<Diagnostic> {
+    Library::check_file("ropes/test.toml", text)
+}
+
+/// Line, column, field, and parts of the message and help of the only problem.
+fn only(text: &str, line: usize, column: usize, field: &str, parts: &[&str]) {
+    let problems = problems_of(text);
+    assert_eq!(problems.len(), 1, "{problems:#?}");
+    let problem = &problems[0];
+    assert_eq!((problem.line, problem.column, problem.field.as_str()), (line, column, field), "{problem}");
+    for part in parts {
+        assert!(problem.to_string().contains(part), "`{problem}` lacks `{part}`");
+    }
+}
+
+#[test]
+fn a_good_file_has_no_problems() {
+    assert_eq!(problems_of(ROPE), []);
+}
+
+#[test]
+fn a_furlong_is_no_unit() {
+    let text = ROPE.replace("3/8 in", "3/8 furlong");
+    only(
+        &text,
+        9,
+        12,
+        "diameter",
+        &["ropes/test.toml:9:12: error: unknown unit `furlong` in `diameter`", "expected a length such as 3/8 in"],
+    );
+}
+
+#[test]
+fn a_negative_diameter_is_out_of_range() {
+    only(&ROPE.replace("3/8 in", "-3/8 in"), 9, 12, "diameter", &["`diameter` is -0.009525 m", "between 0.001 m and 0.2 m"]);
+}
+
+#[test]
+fn a_misspelt_key_is_named_with_the_one_meant() {
+    only(
+        &ROPE.replace("drag_normal = 1.2", "drag_normal = 1.2\nknot_facter = 0.9"),
+        18,
+        1,
+        "knot_facter",
+        &["unknown field `knot_facter`", "did you mean `knot_factor`?"],
+    );
+}
+
+#[test]
+fn a_missing_figure_says_what_belongs_there() {
+    let text = ROPE.replace("strength = \"2,440 lbf\"\n", "");
+    only(&text, 1, 1, "strength", &["`strength` is missing", "1700 lbf"]);
+}
+
+#[test]
+fn a_number_without_unit_is_refused() {
+    only(&ROPE.replace("\"49 kN\"", "49000"), 15, 13, "stiffness", &["`stiffness` is 49000 without a unit", "expected a force"]);
+}
+
+#[test]
+fn a_figure_needs_source_and_sureness() {
+    let text = ROPE.replace("source = \"mill sheet 7\"\n", "").replace("3/8 in\"   # nominal", "3/8 in\"");
+    let told: Vec<String> = problems_of(&text).iter().map(ToString::to_string).collect();
+    assert!(told.iter().any(|told| told.contains("`diameter` has no source")), "{told:?}");
+    assert!(!told.iter().any(|told| told.contains("`density` has no source")), "{told:?}");
+    only(&ROPE.replace("\"estimate\"", "\"hearsay\""), 11, 66, "density.sureness", &["expected one of measured, derived, estimate"]);
+}
+
+#[test]
+fn a_key_given_twice_is_refused() {
+    only(&ROPE.replace("added_mass = 1.0", "added_mass = 1.0\nadded_mass = 1.1"), 20, 1, "", &["duplicate key"]);
+}
+
+#[test]
+fn wet_weight_must_agree_with_mass_and_density() {
+    only(&ROPE.replace("-0.052 N/m", "0.052 N/m"), 12, 14, "wet_weight", &["mass and density give -0.0517 N/m"]);
+}
+
+#[test]
+fn strength_should_agree_with_stiffness_and_stretch() {
+    let problems = problems_of(&ROPE.replace("49 kN", "490 kN"));
+    assert_eq!(problems.len(), 1);
+    assert_eq!((problems[0].severity, problems[0].line), (Severity::Warning, 15));
+    assert!(problems[0].message.contains("stiffness × stretch_at_break is 107800 N, but the strength is 10854 N"), "{}", problems[0]);
+}
+
+#[test]
+fn all_problems_of_a_file_are_told_at_once() {
+    let text =
+        ROPE.replace("3/8 in", "3/8 furlong").replace("2,440 lbf", "2,440 lb").replace("drag_tangential = 0.015", "drag_tangental = 0.015");
+    let lines: Vec<usize> = problems_of(&text).iter().map(|problem| problem.line).collect();
+    assert_eq!(lines, [1, 9, 13, 18], "{:#?}", problems_of(&text));
+}
+
+#[test]
+fn broken_toml_is_told_with_its_place() {
+    let problems = problems_of(&ROPE.replace("\"2,440 lbf\"", "2,440 lbf"));
+    assert_eq!((problems.len(), problems[0].line), (1, 13), "{problems:#?}");
+}
+
+#[test]
+fn a_rope_of_an_unknown_material_is_refused() {
+    let sources = Sources::from_map(BTreeMap::from([("ropes/test.toml".to_owned(), ROPE.to_owned())]));
+    let (_, problems) = Library::read(&sources);
+    assert_eq!(problems.len(), 1);
+    assert_eq!((problems[0].line, problems[0].column), (7, 12));
+    assert!(problems[0].message.contains("no `pp` in friction/"), "{}", problems[0]);
+}
+
+#[test]
+fn a_newer_format_is_refused() {
+    only(&ROPE.replace("format = 1", "format = 2"), 2, 10, "format", &["format 2 is newer than this program"]);
+}
+
+#[test]
+fn a_missing_folder_is_told() {
+    let problems = Sources::from_folder(std::path::Path::new("/nowhere/at/all")).expect_err("nothing is there");
+    assert!(problems[0].to_string().contains("no gear library in this folder"), "{}", problems[0]);
+}
+
+#[test]
+fn no_text_makes_the_reader_panic() {
+    for cut in 0..ROPE.len() {
+        problems_of(&ROPE[..cut]);
+        let _ = Scenario::read("test.toml", &ROPE[..cut]);
+    }
+    for text in ["\u{feff}", "é = \"ü", "[[a]]\n[a]", "sections = 3\nkind = [1]\nformat = \"x\"\nname = 2020-01-01"] {
+        for kind in ["ropes", "whales", "assemblies", "buoys", "traps"] {
+            assert!(!Library::check_file(&format!("{kind}/x.toml"), text).is_empty());
+        }
+        assert!(Scenario::read("x.toml", text).is_err());
+    }
+}
+
+#[test]
+fn an_edit_keeps_comments_order_and_source() {
+    let mut document = Document::parse(ROPE).unwrap();
+    document.set("diameter", "7/16 in").unwrap();
+    document.set("density", "920 kg/m3").unwrap();
+    document.set("drag_normal", "1.3").unwrap();
+    let expected = ROPE.replace("3/8 in", "7/16 in").replace("910 kg/m3", "920 kg/m3").replace("drag_normal = 1.2", "drag_normal = 1.3");
+    assert_eq!(document.text(), expected);
+    assert_eq!(document.get("density").as_deref(), Some("920 kg/m3"));
+    assert!(document.set("diameter.inner.value", "1 in").is_err());
+}
+
+#[test]
+fn an_edit_reaches_into_tables_and_lists() {
+    let text =
+        "[whale]\nspeed = \"1 m/s\" # slow\n\n[[line]]\nid = \"a\"\n\n[[line]]\nid = \"b\"\nlength = \"3 m\"\nat = [\"1 m\", \"2 m\"]\n";
+    let mut document = Document::parse(text).unwrap();
+    document.set("whale.speed", "1.4 m/s").unwrap();
+    document.set("line.1.length", "4 m").unwrap();
+    document.set("line.1.at.0", "9 m").unwrap();
+    document.set("line.0.rope", "pp-3-8").unwrap();
+    let expected = text.replace("1 m/s", "1.4 m/s").replace("3 m", "4 m").replace("[\"1 m\"", "[\"9 m\"");
+    assert_eq!(document.text(), expected.replace("id = \"a\"\n", "id = \"a\"\nrope = \"pp-3-8\"\n"));
+    document.remove("line.0.rope").unwrap();
+    assert_eq!(document.text(), expected);
+}
+
+#[test]
+fn a_save_leaves_the_whole_text_and_nothing_beside_it() {
+    let folder = std::env::temp_dir().join(format!("endline-gear-save-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let path = folder.join("test.toml");
+    save_text(&path, "old").unwrap();
+    Document::parse(ROPE).unwrap().save(&path).unwrap();
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), ROPE);
+    assert_eq!(std::fs::read_dir(&folder).unwrap().count(), 1);
+    assert!(save_text(&folder.join("no/such/folder.toml"), "x").is_err());
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn an_overlay_takes_the_place_of_the_shipped_file() {
+    let of = |text: &str| Sources::from_map(BTreeMap::from([("ropes/test.toml".to_owned(), text.to_owned())]));
+    let over = of("new").overlay(of("newer"));
+    assert_eq!(over.get("ropes/test.toml"), Some("newer"));
+    assert_eq!(over.only(&["ropes/other.toml".to_owned()]).iter().count(), 0);
+}
