@@ -284,8 +284,8 @@ typedef struct {
 
 // Joint angles of a whale [rad]; all zero is the rest posture.
 //
-// Signs are as each field's words say: spine and fluke pitch turn by the right hand about the
-// whale's -y (starboard) axis, spine yaw about +z.
+// The stretch of body at mid-length keeps to the whale's frame: joints ahead of it move the head,
+// joints aft of it the tail. Signs are as each field's words say.
 //
 // Index 0 of a pair is the left (port) side, 1 the right.
 typedef struct {

@@ -44,11 +44,14 @@ fn forward() -> Controls {
     Controls { speed: 1.0, ..Controls::default() }
 }
 
-/// Heights of the spine joints, of the flukes' hinge and of the notch [m], and the flukes' own pitch
-/// (trailing edge down) [rad], by walking the chain of joints aft from a head that keeps still.
+/// First spine joint aft of mid-body, where the whale's frame is.
+const AFT: usize = 3;
+
+/// Heights of the spine joints aft of mid-body, of the flukes' hinge and of the notch [m], and the
+/// flukes' own pitch (trailing edge down) [rad], by walking the chain of joints aft.
 fn heights(posture: &Posture) -> (Vec<f64>, f64) {
     let (mut z, mut pitch, mut heights) = (0.0, 0.0, vec![0.0]);
-    for (joint, angle) in posture.spine_pitch.iter().enumerate() {
+    for (joint, angle) in posture.spine_pitch.iter().enumerate().skip(AFT) {
         pitch += angle;
         let next = SPINE_STATIONS.get(joint + 1).copied().unwrap_or(FLUKE_STATION);
         z -= LENGTH_M * (next - SPINE_STATIONS[joint]) * libm::sin(pitch);
@@ -58,6 +61,21 @@ fn heights(posture: &Posture) -> (Vec<f64>, f64) {
     heights.push(z - LENGTH_M * (1.0 - FLUKE_STATION) * libm::sin(pitch));
     (heights, pitch)
 }
+
+/// Height of the snout [m], walking ahead.
+fn snout_height(posture: &Posture) -> f64 {
+    let (mut z, mut rise) = (0.0, 0.0);
+    for joint in (0..AFT).rev() {
+        rise += posture.spine_pitch[joint];
+        let next = if joint == 0 { 0.0 } else { SPINE_STATIONS[joint - 1] };
+        z -= LENGTH_M * (SPINE_STATIONS[joint] - next) * libm::sin(rise);
+    }
+    z
+}
+
+/// Places in [`heights`].
+const HINGE: usize = SPINE_STATIONS.len() - AFT;
+const NOTCH: usize = HINGE + 1;
 
 fn span(values: impl Iterator<Item = f64> + Clone) -> f64 {
     values.clone().fold(f64::MIN, f64::max) - values.fold(f64::MAX, f64::min)
@@ -77,7 +95,7 @@ fn strouhal_number_lies_where_swimmers_keep_it() {
         let steady = &out[4000..];
         let u = steady[0].speed_m_s;
         assert!((u - wanted_m_s).abs() < 1e-6, "{u}");
-        let tail: Vec<f64> = steady.iter().map(|out| heights(&out.posture).0[8]).collect();
+        let tail: Vec<f64> = steady.iter().map(|out| heights(&out.posture).0[HINGE]).collect();
         let (f, a) = (frequency(&tail, 0.01), span(tail.iter().copied()));
         let strouhal = f * a / u;
         assert!((0.2..=0.4).contains(&strouhal), "St {strouhal} with f {f} Hz, A {a} m, U {u} m/s");
@@ -87,11 +105,13 @@ fn strouhal_number_lies_where_swimmers_keep_it() {
 #[test]
 fn cruise_beat_is_that_of_a_foraging_right_whale() {
     let out = swim(120.0, 0.01, 1.23, |_| forward());
-    let notch: Vec<f64> = out[3000..].iter().map(|out| heights(&out.posture).0[9]).collect();
+    let notch: Vec<f64> = out[3000..].iter().map(|out| heights(&out.posture).0[NOTCH]).collect();
     let f = frequency(&notch, 0.01);
     assert!((0.12..0.15).contains(&f), "0.13 to 0.14 Hz were tagged, here {f}");
     let excursion = span(notch.iter().copied()) / LENGTH_M;
     assert!((0.15..0.25).contains(&excursion), "peak to peak about 0.2 L, here {excursion}");
+    let head = span(out[3000..].iter().map(|out| snout_height(&out.posture))) / LENGTH_M;
+    assert!((0.03..0.05).contains(&head), "the head heaves about a fifth as far, here {head}");
 }
 
 #[test]
@@ -100,7 +120,7 @@ fn wave_runs_from_head_to_tail_and_grows() {
     let period = (1.0 / 0.1347 / 0.01) as usize;
     let late: Vec<Vec<f64>> = out[4000..4000 + 2 * period].iter().map(|out| heights(&out.posture).0).collect();
     let mut last_crest = 0;
-    for station in 1..9 {
+    for station in 1..=HINGE {
         let mean = late[..period].iter().map(|h| h[station]).sum::<f64>() / period as f64;
         assert!(mean.abs() < 0.02 * LENGTH_M);
         let from = last_crest;
@@ -118,8 +138,8 @@ fn flukes_push_water_back_on_both_strokes() {
     let out = swim(60.0, 0.01, 1.23, |_| forward());
     let (mut product, mut heave_square, mut pitch_square) = (0.0, 0.0, 0.0);
     for pair in out[3000..].windows(2) {
-        let (before, (after, pitch)) = (heights(&pair[0].posture).0[8], heights(&pair[1].posture));
-        let heave = after[8] - before;
+        let (before, (after, pitch)) = (heights(&pair[0].posture).0[HINGE], heights(&pair[1].posture));
+        let heave = after[HINGE] - before;
         product += heave * pitch;
         heave_square += heave * heave;
         pitch_square += pitch * pitch;

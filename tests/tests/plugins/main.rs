@@ -10,3 +10,4 @@ mod header;
 mod random;
 mod refused;
 mod same_bits;
+mod skinned;

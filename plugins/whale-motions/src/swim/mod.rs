@@ -19,7 +19,7 @@
 //! `St = f A / U` stays at its target down to rest; above the greatest `f` it falls.
 //! A whale that glides (no speed asked for) fades to the rest posture within a few `tau`.
 //!
-//! The whale's frame swims straight: the small heave of the head is left out.
+//! The whale's frame, at mid-body, swims straight: its own small heave is left out.
 //!
 //! References: Strouhal target 0.2-0.4 and `A = 0.2 L`: van der Hoop et al., "Swimming kinematics
 //! and efficiency of entangled North Atlantic right whales", Endangered Species Research 32 (2017)

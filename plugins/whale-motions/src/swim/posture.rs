@@ -25,13 +25,13 @@ const RAISE_RAD: [f64; 2] = [0.52, 1.05];
 const TWIST_RAD: f64 = 0.52;
 
 pub(super) fn of(settings: &Settings, floats: &Floats, beat: &Beat) -> Posture {
-    let wave = beat.spine_pitch(floats.phase);
+    let (wave, peduncle) = beat.spine_pitch(floats.phase);
     let arch = -PITCH_BEND_RAD * floats.pitch / SPINE_JOINTS as f64;
     let bend = -YAW_BEND_RAD * floats.yaw / SPINE_JOINTS as f64;
     Posture {
         spine_pitch: wave.map(|angle| angle + arch),
         spine_yaw: [bend; SPINE_JOINTS],
-        fluke_pitch: beat.fluke_pitch(floats.phase, wave.iter().sum()),
+        fluke_pitch: beat.fluke_pitch(floats.phase, peduncle),
         fluke_flex: [beat.fluke_flex(floats.phase); 2],
         flipper_sweep: flipper_sweep(settings, floats),
         flipper_raise: [flipper_raise(floats.flipper_raise); 2],

@@ -1,14 +1,17 @@
-//! The travelling wave of the body and the pitch of the flukes.
+//! The travelling wave of the body and the pitch of the flukes, seen from mid-body.
 //!
 //! ```text
-//! heave    y(x) = A/2 e(x) sin(phi - k x),   e(x) = ((x - x0)/(x1 - x0))²  from the skull's joint x0 to the flukes' hinge x1
-//! joint    angle = atan(slope ahead) - atan(slope aft)     of the chords between joints; positive bends down
-//! flukes   against the water: theta cos(phi - k x1),  theta = max(atan(pi St) - attack, 0)
+//! heave    y(x) = A/2 e(x) sin(phi - k x)
+//!          e(x) = ((x - xm)/(xf - xm))^1.5   from the joint xm behind mid-body to the flukes' hinge xf
+//!                 0.2 ((xn - x)/xn)²         from the snout to the joint xn ahead of mid-body; 0 between
+//! joint    angle = slope ahead - slope aft   slopes of the chords between joints; positive bends down
+//! flukes   against the water: theta cos(phi - k xf),  theta = max(atan(pi St) - attack, 0)
 //! ```
 //!
-//! `e` is 0 at the stiff head and 1 at the hinge, within a few hundredths of published envelopes
-//! (about 0.05 at x = 0.35). Wavelength 1.25 L is an estimate. The hinge rises where
-//! `cos(phi - k x1) > 0`, and there the trailing edge turns down: the flukes push water back both ways.
+//! The envelope `e` follows published ones (0.2 at the head, least before mid-body, 1 at the flukes)
+//! but that the least is 0, at mid-body: the whale's frame swims straight. Wavelength 1.25 L is an
+//! estimate. The hinge rises where `cos(phi - k xf) > 0`, and there the trailing edge turns down: the
+//! flukes push water back on both strokes.
 
 use std::f64::consts::{PI, TAU};
 
@@ -19,6 +22,12 @@ use super::settings::Settings;
 
 /// Wave number over body length: 2 pi over a wavelength of 1.25 body lengths.
 const WAVE_NUMBER: f64 = TAU / 1.25;
+
+/// The stretch of body at mid-length that keeps to the whale's frame, between two joints.
+const STILL: [f64; 2] = [SPINE_STATIONS[2], SPINE_STATIONS[3]];
+
+/// Heave of the snout over that of the flukes [1].
+const HEAD_HEAVE: f64 = 0.2;
 
 /// Greatest bend of a fluke blade under its load [rad]; an estimate.
 const BLADE_FLEX_RAD: f64 = 0.15;
@@ -51,18 +60,17 @@ impl Beat {
         }
     }
 
-    /// Spine pitch at each joint [rad].
-    pub(super) fn spine_pitch(&self, phase: f64) -> [f64; SPINE_JOINTS] {
+    /// Spine pitch at each joint, and pitch of the peduncle's end, trailing end down [rad].
+    pub(super) fn spine_pitch(&self, phase: f64) -> ([f64; SPINE_JOINTS], f64) {
         let mut angles = [0.0; SPINE_JOINTS];
-        let mut slope_ahead = 0.0;
+        let mut ahead = self.slope(phase, 0.0, SPINE_STATIONS[0]);
         for (joint, angle) in angles.iter_mut().enumerate() {
-            let here = SPINE_STATIONS[joint];
             let next = SPINE_STATIONS.get(joint + 1).copied().unwrap_or(FLUKE_STATION);
-            let slope = libm::atan((self.heave(phase, next) - self.heave(phase, here)) / (next - here));
-            *angle = slope_ahead - slope;
-            slope_ahead = slope;
+            let aft = self.slope(phase, SPINE_STATIONS[joint], next);
+            *angle = ahead - aft;
+            ahead = aft;
         }
-        angles
+        (angles, -ahead)
     }
 
     /// Pitch of the flukes against a peduncle whose own pitch, trailing end down, is given [rad].
@@ -75,6 +83,11 @@ impl Beat {
         -BLADE_FLEX_RAD * self.effort * libm::cos(phase - WAVE_NUMBER * FLUKE_STATION)
     }
 
+    /// Slope of the chord between two stations, rising aft [rad].
+    fn slope(&self, phase: f64, from: f64, to: f64) -> f64 {
+        libm::atan((self.heave(phase, to) - self.heave(phase, from)) / (to - from))
+    }
+
     /// Heave of the body's line at a station, dorsal, over body length [1].
     fn heave(&self, phase: f64, station: f64) -> f64 {
         0.5 * self.excursion * envelope(station) * libm::sin(phase - WAVE_NUMBER * station)
@@ -82,6 +95,12 @@ impl Beat {
 }
 
 fn envelope(station: f64) -> f64 {
-    let rise = ((station - SPINE_STATIONS[0]) / (FLUKE_STATION - SPINE_STATIONS[0])).max(0.0);
-    rise * rise
+    let [ahead, aft] = STILL;
+    if station < ahead {
+        let rise = (ahead - station) / ahead;
+        HEAD_HEAVE * rise * rise
+    } else {
+        let rise = ((station - aft) / (FLUKE_STATION - aft)).max(0.0);
+        rise * rise.sqrt()
+    }
 }
