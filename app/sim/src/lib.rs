@@ -6,6 +6,7 @@
 
 #![warn(clippy::print_stdout, clippy::print_stderr)] // results leave as values
 
+mod check;
 pub mod contact;
 pub mod frame;
 mod gear_hook;

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use endline_sdk::{AttributeValue, FrictionModel, GearType, LineEnd};
 use glam::{DQuat, DVec3};
 
+use crate::check::check;
 use crate::water::Water;
 use crate::whale::{SkinTree, Whale};
 
@@ -330,6 +331,10 @@ impl Model {
     /// # Errors
     /// Everything wrong with it, all at once.
     pub fn new(spec: ModelSpec) -> Result<Self, Vec<ModelError>> {
+        let errors = check(&spec);
+        if !errors.is_empty() {
+            return Err(errors);
+        }
         let (mut line_nodes, mut line_segments) = (Vec::new(), Vec::new());
         let (mut node_count, mut segment_count) = (0, 0);
         for line in &spec.lines {

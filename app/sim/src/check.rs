@@ -1,0 +1,143 @@
+//! What a model must hold before anything moves: every problem is told at once, with its part.
+
+use crate::model::{Body, Joint, JointKind, Line, Link, ModelError, ModelSpec, Rope};
+
+/// Everything wrong with a spec.
+pub(crate) fn check(spec: &ModelSpec) -> Vec<ModelError> {
+    let mut found = Found { part: String::new(), errors: Vec::new() };
+    check_water(spec, &mut found);
+    for rope in &spec.ropes {
+        check_rope(rope, found.of("rope", &rope.id));
+    }
+    for body in &spec.bodies {
+        check_body(body, found.of("body", &body.id));
+    }
+    for joint in &spec.joints {
+        check_joint(spec, joint, found.of("joint", &joint.id));
+    }
+    for line in &spec.lines {
+        check_line(spec, line, found.of("line", &line.id));
+    }
+    for link in &spec.links {
+        check_link(spec, link, found.of("link", &link.id));
+    }
+    check_whale(spec, found.of("whale", ""));
+    found.errors
+}
+
+/// Problems found so far, and the part being looked at.
+struct Found {
+    part: String,
+    errors: Vec<ModelError>,
+}
+
+impl Found {
+    fn of(&mut self, kind: &str, id: &str) -> &mut Self {
+        self.part = format!("{kind} {id}").trim_end().into();
+        self
+    }
+
+    fn need(&mut self, holds: bool, message: &str) {
+        if !holds {
+            self.errors.push(ModelError { part: self.part.clone(), message: message.into() });
+        }
+    }
+
+    fn above_zero(&mut self, name: &str, value: f64) {
+        self.need(value.is_finite() && value > 0.0, &format!("{name} is {value}, expected a number above zero"));
+    }
+
+    fn not_below_zero(&mut self, name: &str, value: f64) {
+        self.need(value.is_finite() && value >= 0.0, &format!("{name} is {value}, expected zero or more"));
+    }
+}
+
+fn check_water(spec: &ModelSpec, found: &mut Found) {
+    let found = found.of("water", "");
+    found.not_below_zero("density", spec.water.density_kg_m3);
+    found.not_below_zero("gravity", spec.water.gravity_m_s2);
+    found.above_zero("depth", spec.water.depth_m);
+    found.need(spec.water.current.surface_m_s.is_finite(), "current is not a finite number");
+    found.not_below_zero("exponent of the current", spec.water.current.exponent);
+    if let Some(seabed) = &spec.seabed {
+        let found = found.of("seabed", "");
+        found.above_zero("stiffness under rope", seabed.rope_stiffness_n_m2);
+        found.above_zero("stiffness under a foot", seabed.foot_stiffness_n_m);
+        found.not_below_zero("friction", seabed.rope_friction);
+        found.need((seabed.normal.length() - 1.0).abs() < 1e-9 && seabed.normal.z > 0.0, "its normal is not a unit vector that points up");
+    }
+    let found = found.of("settings", "");
+    found.above_zero("step", spec.settings.step_s);
+    found.above_zero("contact step", spec.settings.contact_step_s);
+    found.above_zero("least step", spec.settings.least_step_s);
+    found.above_zero("duration", spec.settings.duration_s);
+}
+
+fn check_rope(rope: &Rope, found: &mut Found) {
+    found.above_zero("diameter", rope.diameter_m);
+    found.above_zero("mass per metre", rope.mass_kg_m);
+    found.not_below_zero("displaced volume per metre", rope.displaced_m3_m);
+    found.above_zero("axial stiffness", rope.axial_stiffness_n);
+    found.not_below_zero("axial damping", rope.axial_damping_n_s);
+    found.not_below_zero("normal drag coefficient", rope.drag_normal);
+    found.not_below_zero("tangential drag coefficient", rope.drag_tangential);
+    found.not_below_zero("added mass coefficient", rope.added_mass_normal);
+    found.need(rope.strength_n > 0.0, "strength is not above zero");
+}
+
+fn check_body(body: &Body, found: &mut Found) {
+    found.above_zero("mass", body.mass_kg);
+    found.need(body.inertia_kg_m2.is_finite() && body.inertia_kg_m2.min_element() > 0.0, "moments of inertia are not all above zero");
+    let zero_or_more = [body.added_mass_kg, body.added_inertia_kg_m2, body.drag_area_m2, body.turn_drag_m5];
+    found.need(zero_or_more.iter().all(|v| v.is_finite() && v.min_element() >= 0.0), "an added mass, added inertia or drag is below zero");
+    found.need(body.position_m.is_finite() && body.orientation.is_normalized(), "its start place or orientation is not sound");
+    for float in &body.floats {
+        found.not_below_zero("volume of a float", float.volume_m3);
+        found.above_zero("height of a float", float.height_m);
+    }
+    found.not_below_zero("start friction", body.start_friction);
+    found.not_below_zero("slide friction", body.slide_friction);
+}
+
+fn check_joint(spec: &ModelSpec, joint: &Joint, found: &mut Found) {
+    found.need(joint.position_m.is_finite(), "its place is not a finite number");
+    if let JointKind::Body { body, .. } = joint.kind {
+        found.need(body < spec.bodies.len(), "it sits on a body that is not there");
+    }
+}
+
+fn check_line(spec: &ModelSpec, line: &Line, found: &mut Found) {
+    found.need(line.rope < spec.ropes.len(), "its rope is not there");
+    found.need(line.from < spec.joints.len() && line.to < spec.joints.len(), "an end sits on a joint that is not there");
+    found.need(line.from != line.to, "both ends sit on the same joint");
+    found.need(!line.segments_m.is_empty(), "it has no segments");
+    found.need(line.segments_m.iter().all(|length| length.is_finite() && *length > 0.0), "a segment's length is not above zero");
+    found.need(line.start_m.is_empty() || line.start_m.len() == line.segments_m.len() + 1, "its first guess has a wrong number of nodes");
+}
+
+fn check_link(spec: &ModelSpec, link: &Link, found: &mut Found) {
+    found.need(link.line < spec.lines.len(), "its line is not there");
+    found.above_zero("rating", link.rating_n);
+}
+
+fn check_whale(spec: &ModelSpec, found: &mut Found) {
+    let Some(whale) = &spec.whale else { return };
+    let skin = &whale.skin;
+    found.above_zero("length", whale.length_m);
+    found.above_zero("contact stiffness", whale.contact_stiffness_n_m2);
+    found.need(whale.position_m.is_finite() && whale.orientation.is_normalized(), "its start place or orientation is not sound");
+    found.need(!skin.triangles.is_empty() && !skin.bones.is_empty(), "its skin has no triangles or no bones");
+    found.need(skin.regions.len() == skin.triangles.len(), "its skin needs one region for each triangle");
+    found.need(skin.weights.len() == skin.vertices.len(), "its skin needs weights for each vertex");
+    let corners = skin.triangles.iter().flatten();
+    found.need(corners.into_iter().all(|corner| (*corner as usize) < skin.vertices.len()), "a triangle names a vertex that is not there");
+    let named = skin.weights.iter().flatten().all(|(bone, _)| usize::from(*bone) < skin.bones.len());
+    found.need(named, "a vertex names a bone that is not there");
+    let Some(friction) = &spec.friction else {
+        found.need(false, "a whale needs a friction model");
+        return;
+    };
+    found.need(friction.coefficients.len() == spec.ropes.len(), "friction needs a row of coefficients for each rope");
+    let sound = friction.coefficients.iter().flatten().all(|value| value.is_finite() && *value >= 0.0);
+    found.need(sound, "a coefficient of friction is below zero or not finite");
+}

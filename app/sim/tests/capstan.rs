@@ -1,0 +1,146 @@
+//! The capstan law on a skinned mesh by dynamic contact, and grips that do not creep.
+//!
+//! A rope lies half a turn over a horizontal drum of skin; a weight hangs on one side, the other side is
+//! drawn away. Sliding steadily, the tensions stand as `T₂/T₁ = e^{μπ}`.
+
+mod common;
+
+use std::sync::Arc;
+
+use common::{line, on_body, water, weight};
+use endline_friction_models::Coulomb;
+use endline_sdk::{Descriptor, FrictionModel, HookError, MotionInput, MotionOutput, Region, WhaleMotion};
+use endline_sim::model::{Friction, Joint, JointKind, Model, ModelSpec, Settings};
+use endline_sim::whale::{Bone, PilotProgram, Skin, Whale};
+use endline_sim::{DQuat, DVec3, Input, State, Workspace, step};
+
+const RADIUS: f64 = 0.3;
+const FRICTION: f64 = 0.3;
+const HANGING_KG: f64 = 20.0;
+
+/// A motion that stays where it is.
+struct Still(Descriptor);
+
+impl WhaleMotion for Still {
+    fn descriptor(&self) -> &Descriptor {
+        &self.0
+    }
+
+    fn step(&self, _: &[f64], _: &MotionInput<'_>, _: &mut [f64]) -> Result<MotionOutput, HookError> {
+        Ok(MotionOutput::default())
+    }
+}
+
+/// A closed drum along y with so many facets.
+fn drum(facets: u32) -> Skin {
+    let angle = |k: u32| f64::from(k) / f64::from(facets) * std::f64::consts::TAU;
+    let rim = |k: u32, y: f64| DVec3::new(RADIUS * angle(k).cos(), y, RADIUS * angle(k).sin());
+    let mut vertices: Vec<DVec3> = (0..facets).flat_map(|k| [rim(k, -0.5), rim(k, 0.5)]).collect();
+    vertices.extend([DVec3::Y * -0.5, DVec3::Y * 0.5]);
+    let (left, right) = (2 * facets, 2 * facets + 1);
+    let triangles: Vec<[u32; 3]> = (0..facets)
+        .flat_map(|k| {
+            let (a, b, c, d) = (2 * k, 2 * k + 1, 2 * ((k + 1) % facets), 2 * ((k + 1) % facets) + 1);
+            [[a, c, b], [b, c, d], [a, left, c], [b, d, right]]
+        })
+        .collect();
+    Skin {
+        weights: vec![[(0, 1.0), (0, 0.0), (0, 0.0), (0, 0.0)]; vertices.len()],
+        regions: vec![Region::Body; triangles.len()],
+        bones: vec![Bone { name: "control".into(), parent: None, origin: DVec3::ZERO, turns: Vec::new() }],
+        vertices,
+        triangles,
+    }
+}
+
+/// The rope over the drum; the free side is drawn down at `speed` from 0.5 s on.
+fn capstan(speed: f64, segments: usize) -> Model {
+    let over = RADIUS + 0.004;
+    let tail = 1.0;
+    let whole = 2.0 * tail + std::f64::consts::PI * over;
+    let path = |s: f64| {
+        if s < tail {
+            DVec3::new(-over, 0.0, s - tail)
+        } else if s > whole - tail {
+            DVec3::new(over, 0.0, whole - tail - s)
+        } else {
+            let angle = std::f64::consts::PI - (s - tail) / over;
+            DVec3::new(over * angle.cos(), 0.0, over * angle.sin())
+        }
+    };
+    let mut rope = common::rope();
+    rope.axial_damping_n_s = 200.0;
+    let mut hanging = weight("hanging", HANGING_KG, path(0.0), None);
+    hanging.drag_area_m2 = DVec3::ZERO;
+    let driven = JointKind::Driven { velocity_m_s: DVec3::Z * -speed, from_s: 0.5, until_s: f64::INFINITY };
+    let mut line = line("rope", whole, segments);
+    line.start_m = (0..=segments).map(|k| path(whole * k as f64 / segments as f64)).collect();
+    let joints = vec![on_body("hanging", 0), Joint { id: "hand".into(), kind: driven, position_m: path(whole) }];
+    let descriptor =
+        Descriptor { id: "still".into(), version: "1".into(), name: "still".into(), help: "".into(), attributes: Vec::new(), state_len: 0 };
+    let coulomb = Coulomb::new();
+    let attributes = coulomb.descriptor().attributes.iter().filter_map(|attribute| attribute.default_value().number()).collect();
+    let spec = ModelSpec {
+        water: water(0.0, 0.0),
+        seabed: None,
+        ropes: vec![rope],
+        joints,
+        lines: vec![line],
+        bodies: vec![hanging],
+        links: Vec::new(),
+        gear: Vec::new(),
+        whale: Some(Whale {
+            skin: Arc::new(drum(96)),
+            length_m: 1.0,
+            burst_speed_m_s: 0.0,
+            position_m: DVec3::ZERO,
+            orientation: DQuat::IDENTITY,
+            speed_m_s: 0.0,
+            motion: Arc::new(Still(descriptor)),
+            motion_attributes: Vec::new(),
+            pilot: PilotProgram::default(),
+            contact_stiffness_n_m2: 2e6,
+        }),
+        friction: Some(Friction { model: Arc::new(coulomb), attributes, coefficients: vec![[FRICTION; Region::ALL.len()]] }),
+        probes: Vec::new(),
+        settings: Settings { step_s: 0.002, ..Settings::default() },
+    };
+    Model::new(spec).expect("a sound model")
+}
+
+/// Mean of the tensions at both ends and of the weight's height over the last part of a run.
+fn run(model: &Model, until_s: f64, from_s: f64) -> ([f64; 2], f64, Workspace) {
+    let mut state = State::start(model);
+    let mut workspace = Workspace::new(model);
+    let (mut sum, mut count) = ([0.0; 2], 0.0);
+    let last = model.segment_count - 1;
+    while state.time_s < until_s - 1e-9 {
+        step(model, &Input::default(), &mut state, &mut workspace).unwrap_or_else(|stop| panic!("{stop:?}"));
+        if state.time_s > from_s {
+            sum[0] += state.rope.tension[0];
+            sum[1] += state.rope.tension[last];
+            count += 1.0;
+        }
+    }
+    (sum.map(|total| total / count), state.bodies[0].position.z, workspace)
+}
+
+#[test]
+fn rope_sliding_over_skin_obeys_the_capstan_law() {
+    let model = capstan(0.2, 96);
+    let ([slack, taut], _, workspace) = run(&model, 3.5, 1.5);
+    let effective = (taut / slack).ln() / std::f64::consts::PI;
+    println!("capstan: {slack:.1} N against {taut:.1} N, effective friction {effective:.4} for {FRICTION}, {:?}", workspace.audit);
+    assert!((effective / FRICTION - 1.0).abs() < 0.02, "effective friction {effective}");
+    assert_eq!(workspace.audit.tunnelled, 0);
+}
+
+#[test]
+fn rope_that_sticks_does_not_creep() {
+    // Held still: the weight hangs on friction and the hand, and must not sink.
+    let model = capstan(0.0, 96);
+    let (_, early, _) = run(&model, 1.0, 0.5);
+    let (_, late, _) = run(&model, 4.0, 1.0);
+    println!("creep over 3 s: {:.4} mm", 1e3 * (early - late));
+    assert!((early - late).abs() < 1e-4, "crept {} m", early - late);
+}
