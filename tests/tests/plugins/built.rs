@@ -9,9 +9,9 @@ use std::sync::OnceLock;
 
 use endline_tests::root;
 
-/// A fresh, empty folder for one test.
+/// A fresh, empty folder for one test; the next run clears it.
 pub fn folder(test: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("plugin-tests").join(format!("{test}-{}", std::process::id()));
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("plugin-tests").join(test);
     let _ = fs::remove_dir_all(&folder);
     fs::create_dir_all(&folder).unwrap();
     folder
