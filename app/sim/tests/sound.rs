@@ -1,6 +1,8 @@
 //! What must hold for any gear: no stiffness, mass ratio or segment length makes the solver blow up, links
 //! part at their rating, bodies fall and slide as rigid bodies do, bad models are refused by name.
 
+#![allow(clippy::expect_used, clippy::panic, reason = "a test says what it needs")]
+
 mod common;
 
 use common::{fixed, line, model, on_body, water, weight};
