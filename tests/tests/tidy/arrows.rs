@@ -22,7 +22,11 @@ const WALLS: [Wall; 8] = [
     Wall { folder: "plugins/gear-types", ours: &["endline-sdk"], outside: Some(&["libm"]) },
     Wall { folder: "plugins/whale-motions", ours: &["endline-sdk"], outside: Some(&["libm"]) },
     Wall { folder: "app/sim", ours: &["endline-sdk"], outside: Some(&["glam", "libm", "parry3d", "rapier3d"]) },
-    Wall { folder: "gear-library", ours: &["endline-sdk", "endline-sim"], outside: Some(&["glam", "libm", "serde", "toml", "toml_edit"]) },
+    Wall {
+        folder: "gear-library",
+        ours: &["endline-sdk", "endline-sim"],
+        outside: Some(&["glam", "libm", "serde", "strsim", "toml", "toml_edit"]),
+    },
     Wall { folder: "app/session", ours: &["endline-sdk", "endline-sim", "endline-gear"], outside: None },
     Wall { folder: "app/workbench", ours: &["endline-sdk", "endline-sim", "endline-gear", "endline-session"], outside: None },
 ];
