@@ -36,7 +36,12 @@ pub fn body(form: &WhaleForm, sections: &Sections, skeleton: &Skeleton) -> Part 
         let before = if ring == 0 { 0.0 } else { places[ring - 1] };
         let after = places.get(ring).copied().unwrap_or(1.0);
         let column = column.min(AROUND - 1 - column);
-        region(form, sections, (before + after) / 2.0, TAU * (count(column) + 0.5) / count(AROUND))
+        let from_back = TAU * (count(column) + 0.5) / count(AROUND);
+        match region(form, sections, (before + after) / 2.0, from_back) {
+            // The front of the mouth: it opens between the snout's tip and the jaw.
+            Region::Lips | Region::Head if ring == 0 => Region::Baleen,
+            own => own,
+        }
     })
 }
 

@@ -19,6 +19,12 @@ const FLIPPER_RINGS: usize = 21;
 const FLUKE_AROUND: usize = 32;
 /// Rings along each fluke.
 const FLUKE_RINGS: usize = 22;
+/// How strongly a fluke's rings crowd at the notch and at the tip, 0 to 1.
+const FLUKE_CROWD: f64 = 0.8;
+/// Rounding of the notch's bottom [share of half span].
+const NOTCH_ROUNDING: f64 = 0.012;
+/// How far the leading edge runs on forward along the peduncle [share of root chord].
+const FILLET: f64 = 0.3;
 /// How far a flipper's root reaches into the body [share of span].
 const ROOT: f64 = 0.2;
 /// Share of the half chord, from its middle, where an edge begins.
@@ -170,7 +176,8 @@ pub fn flukes(form: &WhaleForm, sections: &Sections, skeleton: &Skeleton) -> Par
 /// Where a ring of the flukes stands, 1 at the left tip, -1 at the right; none for the poles.
 fn fluke_span(ring: usize) -> Option<f64> {
     let from_middle = (ring as f64 - FLUKE_RINGS as f64) / FLUKE_RINGS as f64;
-    let s = 1.0 - libm::pow(1.0 - from_middle.abs(), 1.6);
+    let out = from_middle.abs();
+    let s = out - FLUKE_CROWD * libm::sin(TAU * out) / TAU;
     (s < 1.0).then_some(-s.copysign(from_middle))
 }
 
@@ -179,9 +186,11 @@ fn fluke_section(form: &WhaleForm, s: f64) -> Section {
     let flukes = &form.flukes;
     let out = s.abs();
     let reach = libm::tan(flukes.sweep) * flukes.span / 2.0;
-    let lead = 1.0 - flukes.root_chord + reach * libm::pow(out, 1.15);
+    let fillet = FILLET * flukes.root_chord * libm::exp(-out / 0.1);
+    let lead = 1.0 - flukes.root_chord - fillet + reach * libm::pow(out, 1.3);
     let tip_trail = 1.0 - flukes.root_chord + reach + flukes.tip_chord;
-    let lobe = 1.0 + flukes.notch * (1.0 - libm::exp(-out / 0.06));
+    let off = libm::sqrt(out * out + NOTCH_ROUNDING * NOTCH_ROUNDING) - NOTCH_ROUNDING;
+    let lobe = 1.0 + flukes.notch * (1.0 - libm::exp(-off / 0.05));
     let trail = lobe + (tip_trail - 1.0 - flukes.notch) * out * out - 0.006 * libm::sin(PI * out);
     let chord = (trail - lead).max(0.2 * flukes.tip_chord) * form.length_m;
     let middle = -(lead + trail) / 2.0 * form.length_m;

@@ -118,7 +118,7 @@ impl WhaleForm {
                 share: 0.27,         // SeaLifeBase: 1/4 to nearly 1/3 of length
                 mouth: 0.219,        // Moore et al. 2005, 35 carcasses: 0.219 L in adults
                 rostrum_width: 0.32, // estimate: 0.25 to 0.35 of the head's width
-                lip_arch: 0.06,      // estimate
+                lip_arch: 0.11,      // estimate
             },
             peduncle_start: 0.70,                                            // estimate: behind the anus, 0.68 to 0.70 L
             spine_joints: [0.27, 0.36, 0.45, 0.55, 0.64, 0.73, 0.81, 0.885], // estimate: lateral bending spread over 0.35 to 0.9 L
