@@ -54,9 +54,12 @@ fn slopes(points: &[[f64; 2]]) -> Vec<f64> {
         .collect()
 }
 
-/// 0 below `low`, 1 above `high`, smooth between.
+/// 0 below `low`, 1 above `high`, smooth between; a plain step where the two are one.
 #[must_use]
 pub fn smooth_step(low: f64, high: f64, x: f64) -> f64 {
+    if high <= low {
+        return if x < low { 0.0 } else { 1.0 };
+    }
     let t = ((x - low) / (high - low)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
 }

@@ -19,6 +19,8 @@ const FLIPPER_RINGS: usize = 21;
 const FLUKE_AROUND: usize = 32;
 /// Rings along each fluke.
 const FLUKE_RINGS: usize = 22;
+/// Least half chord and half thickness, so that any form has a section [m].
+const LEAST_M: f64 = 1e-6;
 /// How strongly a fluke's rings crowd at the notch and at the tip, 0 to 1.
 const FLUKE_CROWD: f64 = 0.8;
 /// Rounding of the notch's bottom [share of half span].
@@ -47,10 +49,11 @@ impl Section {
     /// A flat lens rolled round by a disc of the edge's radius: the edges are as blunt as asked for,
     /// and equal steps crowd where the outline turns.
     fn corner(&self, share: f64) -> (f64, f64, f64) {
-        let half_chord = (self.lead - self.trail) / 2.0;
-        let radius = self.edge_radius.min(0.9 * self.half_thickness).min(0.45 * half_chord);
+        let half_chord = ((self.lead - self.trail) / 2.0).max(LEAST_M);
+        let half_thickness = self.half_thickness.max(LEAST_M);
+        let radius = self.edge_radius.min(0.9 * half_thickness).min(0.45 * half_chord);
         let long = half_chord - radius;
-        let short = (self.half_thickness - radius).max(0.03 * long);
+        let short = (half_thickness - radius).max(0.03 * long);
         let turn = TAU * share;
         let crowd = libm::pow(short / long, 0.6);
         let around = libm::atan2(crowd * libm::sin(turn), libm::cos(turn));
@@ -69,7 +72,7 @@ fn tip_rounding(s: f64, blunt: f64) -> f64 {
 
 /// Exponent that rounds a tip of some half thickness to a radius over a span.
 fn tip_bluntness(radius: f64, span: f64, half_thickness: f64) -> f64 {
-    (2.0 * radius * span / (half_thickness * half_thickness)).clamp(8.0, 80.0)
+    (2.0 * radius * span / (half_thickness * half_thickness).max(LEAST_M * LEAST_M)).clamp(8.0, 80.0)
 }
 
 /// The left flipper.

@@ -232,3 +232,36 @@ fn every_angle_has_a_bone() {
         assert!((has(angle) - 1.0).abs() < 1e-12, "{angle:?} is shared out as {}", has(angle));
     }
 }
+
+/// Files may hold any share from 0 to 1: odd whales come of it, but never a number that is none.
+#[test]
+fn odd_forms_stay_finite() {
+    let changes: [fn(&mut WhaleForm, f64); 16] = [
+        |form, value| form.head.share = value,
+        |form, value| form.head.mouth = value,
+        |form, value| form.head.rostrum_width = value,
+        |form, value| form.head.lip_arch = value,
+        |form, value| form.flippers.span = value,
+        |form, value| form.flippers.root_chord = value,
+        |form, value| form.flippers.max_chord_at = value,
+        |form, value| form.flippers.tip_chord = value,
+        |form, value| form.flippers.thickness = value,
+        |form, value| form.flippers.edge_radius_m = value,
+        |form, value| form.flippers.insertion = value,
+        |form, value| form.flukes.span = value,
+        |form, value| form.flukes.root_chord = value,
+        |form, value| form.flukes.thickness = value,
+        |form, value| form.flukes.edge_radius_m = value,
+        |form, value| form.spine_joints = std::array::from_fn(|joint| value + joint as f64 * 1e-9),
+    ];
+    for (index, change) in changes.iter().enumerate() {
+        for value in [0.0, 1e-300, 1.0] {
+            let mut form = WhaleForm::right_whale(13.7);
+            change(&mut form, value);
+            let skin = build_skin(&form);
+            assert!(skin.vertices.iter().all(|place| place.is_finite()), "change {index} to {value}");
+            let sum = |weights: &part::Weights| weights.iter().map(|(_, weight)| weight).sum::<f64>();
+            assert!(skin.weights.iter().all(|weights| (sum(weights) - 1.0).abs() < 1e-9), "weights of change {index} to {value}");
+        }
+    }
+}
