@@ -2,29 +2,15 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
 
-use std::path::{Path, PathBuf};
+mod linked;
 
 use std::sync::Arc;
 
 use endline_gear::{Diagnostic, Hooks, Kind, Library, Options, Scenario, Sources, assemble, assemble_traced, buoy_floats, shell_inertia};
-use endline_sdk::{FrictionModel, GearType, WhaleMotion};
+use linked::{Linked, library, root, told};
+
 use endline_sim::model::{JointKind, ProbeTarget};
 use endline_sim::{DQuat, DVec3, Model, ModelSpec};
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../gear-library")
-}
-
-fn told(problems: &[Diagnostic]) -> String {
-    problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n\n")
-}
-
-fn library() -> Library {
-    let sources = Sources::from_folder(&root()).unwrap();
-    let (library, problems) = Library::read(&sources);
-    assert!(problems.is_empty(), "{}", told(&problems));
-    library
-}
 
 #[test]
 fn every_shipped_file_reads_without_a_word() {
@@ -36,27 +22,6 @@ fn every_shipped_file_reads_without_a_word() {
         if let Err(problems) = Scenario::read(&path.display().to_string(), &text) {
             panic!("{}", told(&problems));
         }
-    }
-}
-
-/// The first-party plugins, linked.
-struct Linked;
-
-impl Hooks for Linked {
-    fn motion(&self, id: &str) -> Option<Arc<dyn WhaleMotion>> {
-        let motion = endline_whale_motions::Swim::new();
-        (motion.descriptor().id == id).then(|| Arc::new(motion) as Arc<dyn WhaleMotion>)
-    }
-    fn friction(&self, id: &str) -> Option<Arc<dyn FrictionModel>> {
-        let model = endline_friction_models::Coulomb::new();
-        (model.descriptor().id == id).then(|| Arc::new(model) as Arc<dyn FrictionModel>)
-    }
-    fn gear(&self, id: &str) -> Option<Arc<dyn GearType>> {
-        let gear = endline_gear_types::Single::new();
-        (gear.descriptor().id == id).then(|| Arc::new(gear) as Arc<dyn GearType>)
-    }
-    fn ids(&self) -> Vec<String> {
-        ["org.endline.motion.swim", "org.endline.friction.coulomb", "org.endline.gear.single"].map(str::to_owned).to_vec()
     }
 }
 

@@ -1,0 +1,78 @@
+//! The shipped encounters: what a newcomer runs first must be true.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
+
+mod linked;
+
+use endline_gear::{Options, Scenario, assemble};
+use endline_sim::metrics::{Metrics, Summary};
+use endline_sim::{Audit, Input, Model, ModelSpec, State, Workspace, settle, step};
+use linked::{Linked, library, root, told};
+
+fn shipped(name: &str) -> ModelSpec {
+    let text = std::fs::read_to_string(root().join("scenarios").join(name)).unwrap();
+    let scenario = Scenario::read(name, &text).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    assemble(&scenario, &library(), &Linked, &Options::default()).unwrap_or_else(|problems| panic!("{}", told(&problems)))
+}
+
+/// An encounter run to its end.
+struct Ran {
+    settled_peak_n: f64,
+    summary: Summary,
+    audit: Audit,
+    state: State,
+}
+
+fn run(spec: ModelSpec) -> Ran {
+    let model = Model::new(spec).unwrap_or_else(|errors| panic!("{errors:?}"));
+    let settled = settle(&model);
+    assert!(settled.converged, "residual {} N after {} passes", settled.residual_n, settled.trace_n.len());
+    let (mut state, mut workspace, mut metrics) = (settled.state, Workspace::new(&model), Metrics::new(&model));
+    let settled_peak_n = state.rope.tension.iter().copied().fold(0.0, f64::max);
+    metrics.fold(&model, &state, &[]);
+    let pilot = model.spec.whale.as_ref().map(|whale| whale.pilot.clone()).unwrap_or_default();
+    while state.time_s < model.spec.settings.duration_s - 1e-9 {
+        let input = Input { controls: pilot.at(state.time_s) };
+        step(&model, &input, &mut state, &mut workspace).unwrap_or_else(|stop| panic!("{stop:?} {:?}", workspace.audit));
+        metrics.fold_step(&model, &state, &workspace);
+    }
+    let summary = metrics.summary(&model, &state);
+    for event in metrics.events() {
+        println!("{:7.2} s {:?} {} {:.2}", event.time_s, event.kind, event.subject, event.value);
+    }
+    println!("{:?}\n{:?}\nsettled peak {settled_peak_n:.1} N\n{:?}", workspace.audit, summary.lines, summary.links);
+    println!("{:?}", summary.whale);
+    Ran { settled_peak_n, summary, audit: workspace.audit, state }
+}
+
+#[test]
+fn hello_endline_meets_the_whale() {
+    let ran = run(shipped("hello-endline.toml"));
+    let whale = ran.summary.whale.unwrap();
+    let peak = ran.summary.lines.iter().map(|line| line.peak_tension_n).fold(0.0, f64::max);
+    assert!(whale.regions.iter().any(|region| region.peak_normal_n > 0.0), "the whale touches the rope");
+    assert!(peak.is_finite() && peak > ran.settled_peak_n, "{peak} N above {} N", ran.settled_peak_n);
+    assert_eq!(ran.audit.tunnelled, 0);
+    assert!(ran.state.rope.position.iter().all(|place| place.is_finite()));
+}
+
+#[test]
+fn hello_at_slack_tide_meets_the_whale() {
+    let ran = run(shipped("hello-slack-tide.toml"));
+    assert_eq!(ran.audit.tunnelled, 0);
+    assert!(ran.summary.whale.unwrap().regions.iter().any(|region| region.peak_normal_n > 0.0));
+}
+
+#[test]
+fn the_weak_link_parts_at_its_rating_and_holds_when_off_or_five_times_stronger() {
+    let (mut off, mut strong) = (shipped("hello-weak-link.toml"), shipped("hello-weak-link.toml"));
+    off.links[0].enabled = false;
+    strong.links[0].rating_n *= 5.0;
+    let link = run(shipped("hello-weak-link.toml")).summary.links.remove(0);
+    assert!(link.parted_s.is_some(), "it parts: {link:?}");
+    assert!((link.peak_tension_n / link.rating_n - 1.0).abs() < 0.02, "{link:?}");
+    for spec in [off, strong] {
+        let link = run(spec).summary.links.remove(0);
+        assert!(link.parted_s.is_none(), "it holds: {link:?}");
+    }
+}
