@@ -4,13 +4,11 @@
 
 mod linked;
 
-use std::sync::Arc;
-
-use endline_gear::{Diagnostic, Hooks, Kind, Library, Options, Scenario, Sources, assemble, assemble_traced, buoy_floats, shell_inertia};
+use endline_gear::{Diagnostic, Kind, Library, Options, Scenario, Sources, assemble, assemble_traced, buoy_floats, shell_inertia};
 use linked::{Linked, library, root, told};
 
-use endline_sim::model::{JointKind, ProbeTarget};
-use endline_sim::{DQuat, DVec3, Model, ModelSpec};
+use endline_sim::model::{BodyRole, JointKind, ProbeTarget};
+use endline_sim::{DQuat, DVec3, Input, Model, ModelSpec, Workspace, settle, step};
 
 #[test]
 fn every_shipped_file_reads_without_a_word() {
@@ -361,4 +359,60 @@ fn every_kind_of_item_is_shipped() {
     for kind in Kind::ALL {
         assert!(!library.ids(kind).is_empty(), "{kind:?}");
     }
+}
+
+/// Every shipped scenario, and each assembly in the first one's place, comes to rest.
+#[test]
+fn all_shipped_gear_settles() {
+    let hello = scenario_text("hello-endline.toml");
+    let pair = hello.replace("\"single\"", "\"pair\"");
+    let trawl = hello.replace("\"single\"", "\"trawl-5\"");
+    let slack = scenario_text("hello-slack-tide.toml");
+    for text in [hello, pair, trawl, slack, scenario_text("hello-weak-link.toml")] {
+        let model = Model::new(assembled("test.toml", &text)).unwrap();
+        let settled = settle(&model);
+        assert!(settled.converged, "{:?}: {} N", model.spec.lines[0].id, settled.residual_n);
+        let bodies = model.spec.bodies.iter().zip(&settled.state.bodies);
+        for (body, state) in bodies.filter(|(body, _)| body.role == BodyRole::Trap) {
+            assert!((state.position - body.position_m).length() < 0.05, "{} stays where it was set: {}", body.id, state.position);
+        }
+    }
+}
+
+/// The scenario file of reference problem (b) against its shooting solution: 0.5 % in tension, 5 cm in place.
+#[test]
+fn problem_b_as_a_file_settles_to_its_reference() {
+    let model = Model::new(shipped("reference-b-static.toml")).unwrap();
+    let settled = settle(&model);
+    assert!(settled.converged);
+    let rope = &settled.state.rope;
+    for (tension, expected) in [(rope.tension[0], 23.93630), (rope.tension[499], 14.39362)] {
+        assert!((tension / expected - 1.0).abs() < 0.005, "{tension} N for {expected} N");
+    }
+    let buoy = settled.state.bodies[0].position;
+    assert!((buoy - DVec3::new(50.34061059, 0.0, 0.06596101)).length() < 0.05, "{buoy}");
+    assert!((rope.position[250] - DVec3::new(27.63402, 0.0, -18.31986)).length() < 0.05, "{}", rope.position[250]);
+}
+
+/// When the weak link of its scenario parts within 25 s, with a rating and with links on or off.
+fn parting(text: &str, weak_links: bool) -> Option<f64> {
+    let scenario = Scenario::read("test.toml", text).unwrap();
+    let options = Options { weak_links: Some(weak_links), ..Options::default() };
+    let spec = assemble(&scenario, &library(), &Linked, &options).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    let model = Model::new(spec).unwrap();
+    let (mut state, mut workspace) = (settle(&model).state, Workspace::new(&model));
+    while state.time_s < 25.0 && state.link_parted_s[0].is_none() {
+        let controls = model.spec.whale.as_ref().unwrap().pilot.at(state.time_s);
+        step(&model, &Input { controls }, &mut state, &mut workspace).unwrap();
+    }
+    assert_eq!(workspace.audit.tunnelled, 0);
+    state.link_parted_s[0]
+}
+
+#[test]
+fn the_weak_link_of_its_scenario_parts_and_not_when_off_or_five_times_stronger() {
+    let text = scenario_text("hello-weak-link.toml");
+    assert!(parting(&text, true).is_some_and(|at| at > 14.0));
+    assert_eq!(parting(&text, false), None);
+    assert_eq!(parting(&text.replace("item = \"wl-200\"", "rating = \"1000 lbf\""), true), None);
 }
