@@ -1,3 +1,39 @@
-//! All a user can do with Endline, without a screen.
+//! All a user can do with Endline, without a screen: prepare a scenario, run it, record it, replay it.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`source`] | scenario, gear library and options become a model |
+//! | [`run`] | a model stepped through time, measured and recorded |
+//! | [`hash`] | 64 bits for each part of a state |
+//! | [`recording`] | the file of a run; running it again and comparing every step |
+//! | [`report`] | the summary of a run as JSON |
+//! | [`settled`] | the gear at rest as JSON |
+//! | [`check`] | every problem of what a user names |
+//! | [`live`] | a run on a thread of its own, for the workbench |
+//! | [`plugins`] | plugins found, checked and loaded |
+//! | [`locate`] | where the gear library of a scenario is |
+//!
+//! A run gives the same bits for the same source, inputs and program, whoever watches it.
 
+pub mod check;
+pub mod error;
+pub mod hash;
+mod hooks;
+pub mod input;
+pub mod live;
+pub mod locate;
 pub mod plugins;
+pub mod recording;
+pub mod report;
+pub mod run;
+pub mod save;
+pub mod settled;
+pub mod source;
+pub mod timing;
+
+pub use error::Error;
+pub use plugins::PluginHost;
+pub use recording::Recording;
+pub use report::Report;
+pub use run::{Run, RunOptions};
+pub use source::{Overrides, Prepared, Source, prepare};

@@ -1,0 +1,117 @@
+//! Checking what a user names: a library file, a scenario, a folder of either.
+
+use std::path::{Path, PathBuf};
+
+use endline_gear::{Diagnostic, Library, Sources};
+
+use crate::error::Error;
+use crate::locate;
+use crate::plugins::PluginHost;
+use crate::source::{Overrides, prepare};
+
+/// What a check found.
+#[derive(Clone, Debug, Default)]
+pub struct Checked {
+    /// Files looked at.
+    pub files: usize,
+    /// All problems, file by file.
+    pub problems: Vec<Diagnostic>,
+}
+
+/// Checks a path: a folder that is a library with its scenarios, any other folder with the
+/// scenarios and library files under it, a scenario, or one library file.
+#[must_use]
+pub fn check_path(path: &Path, library: Option<&Path>, host: &PluginHost) -> Checked {
+    let mut checked = Checked::default();
+    if path.is_dir() {
+        checked.folder(path, library, host);
+    } else {
+        checked.file(path, library, host);
+    }
+    checked
+}
+
+impl Checked {
+    fn folder(&mut self, folder: &Path, library: Option<&Path>, host: &PluginHost) {
+        if locate::is_library(folder) {
+            self.library(folder);
+            self.scenarios(&folder.join("scenarios"), Some(folder), host);
+            return;
+        }
+        let before = self.files;
+        for entry in entries(folder) {
+            if entry.is_dir() {
+                self.folder(&entry, library, host);
+            } else if entry.extension().is_some_and(|end| end == "toml") {
+                self.file(&entry, library, host);
+            }
+        }
+        if self.files == before && self.problems.is_empty() {
+            self.tell(folder, "nothing to check here", "expected a gear library, a scenario or a library file (.toml)");
+        }
+    }
+
+    /// Every item of a library; references between items too.
+    fn library(&mut self, root: &Path) {
+        match Sources::from_folder(root) {
+            Ok(sources) => {
+                self.files += sources.iter().count();
+                self.problems.extend(Library::read(&sources).1.into_iter().map(|problem| under(root, problem)));
+            }
+            Err(problems) => self.problems.extend(problems),
+        }
+    }
+
+    fn scenarios(&mut self, folder: &Path, library: Option<&Path>, host: &PluginHost) {
+        for entry in entries(folder) {
+            if entry.is_dir() {
+                self.scenarios(&entry, library, host);
+            } else if entry.extension().is_some_and(|end| end == "toml") {
+                self.scenario(&entry, library, host);
+            }
+        }
+    }
+
+    fn file(&mut self, path: &Path, library: Option<&Path>, host: &PluginHost) {
+        let parent = path.parent().and_then(Path::file_name).map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        if endline_gear::Kind::in_folder(&parent).is_none() {
+            return self.scenario(path, library, host);
+        }
+        self.files += 1;
+        match std::fs::read_to_string(path) {
+            Ok(text) => self.problems.extend(Library::check_file(&path.display().to_string(), &text)),
+            Err(error) => self.tell(path, &format!("cannot be read: {error}"), ""),
+        }
+    }
+
+    /// A scenario is checked by assembling it: references, plugins and the model itself are then checked too.
+    fn scenario(&mut self, path: &Path, library: Option<&Path>, host: &PluginHost) {
+        self.files += 1;
+        match prepare(path, library, host, Overrides::default()) {
+            Ok(_) => {}
+            Err(Error::Diagnostics(problems)) => {
+                let fresh: Vec<Diagnostic> = problems.into_iter().filter(|problem| !self.problems.contains(problem)).collect();
+                self.problems.extend(fresh);
+            }
+            Err(Error::File { file, message }) => self.problems.push(Diagnostic::of_file(file, message, "")),
+            Err(error) => self.tell(path, &error.to_string(), ""),
+        }
+    }
+
+    fn tell(&mut self, path: &Path, message: &str, help: &str) {
+        self.problems.push(Diagnostic::of_file(path.display().to_string(), message, help));
+    }
+}
+
+/// A library's problems name files within it; a user needs the way there.
+fn under(root: &Path, mut problem: Diagnostic) -> Diagnostic {
+    problem.file = root.join(&problem.file).display().to_string();
+    problem
+}
+
+/// What is in a folder, by name.
+fn entries(folder: &Path) -> Vec<PathBuf> {
+    let mut entries: Vec<PathBuf> = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()).collect();
+    entries.sort();
+    entries
+}

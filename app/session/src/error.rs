@@ -1,0 +1,60 @@
+//! What can go wrong in a session, said to the user once.
+
+use std::fmt;
+use std::path::Path;
+
+use endline_gear::Diagnostic;
+use endline_sim::Stop;
+
+/// Why a session could not do what was asked.
+#[derive(Clone, Debug)]
+pub enum Error {
+    /// A file, and what is the matter with it.
+    File {
+        /// The file as the user named it.
+        file: String,
+        /// What is the matter, reading on from the file's name.
+        message: String,
+    },
+    /// Files of the gear library, a scenario or a project with located errors.
+    Diagnostics(Vec<Diagnostic>),
+    /// The statics did not come to rest, and the run was not told to start regardless.
+    Unsettled {
+        /// Greatest force out of balance [N].
+        residual_n: f64,
+        /// Passes made.
+        passes: usize,
+    },
+    /// The run cannot go on.
+    Stopped(Stop),
+    /// A recording that cannot be run again here.
+    Replay(String),
+}
+
+impl Error {
+    /// An error about a file.
+    pub fn at(file: &Path, message: impl Into<String>) -> Self {
+        Self::File { file: file.display().to_string(), message: message.into() }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::File { file, message } => write!(f, "{file} {message}"),
+            Self::Diagnostics(diagnostics) => {
+                let all: Vec<String> = diagnostics.iter().map(ToString::to_string).collect();
+                f.write_str(&all.join("\n"))
+            }
+            Self::Unsettled { residual_n, passes } => write!(
+                f,
+                "the gear did not come to rest: after {passes} passes a force of {residual_n:.3e} N is out of balance\n\
+                 see `endline settle` for the trace; --unsettled starts the run regardless"
+            ),
+            Self::Stopped(stop) => write!(f, "stopped at {:.3} s: {}: {}", stop.time_s, stop.part, stop.reason),
+            Self::Replay(message) => f.write_str(message),
+        }
+    }
+}
+
+impl std::error::Error for Error {}

@@ -1,0 +1,86 @@
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use super::*;
+use crate::source::sample::hanging_rope;
+
+/// Waits until the view is as wanted; a live run that never gets there fails.
+fn until(live: &Live, what: &str, wanted: impl Fn(&LiveView) -> bool) -> Arc<LiveView> {
+    let start = Instant::now();
+    while start.elapsed() < Duration::from_secs(20) {
+        let view = live.latest();
+        if wanted(&view) {
+            return view;
+        }
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    panic!("never came: {what}; last {:?} at {} s", live.latest().status, live.latest().newest_s);
+}
+
+fn open(duration_s: f64) -> Live {
+    let options = RunOptions { unsettled: true, ..RunOptions::default() };
+    Live::open(hanging_rope(duration_s), Arc::new(PluginHost::empty()), options, || {}).unwrap()
+}
+
+#[test]
+fn a_run_is_started_stepped_sought_and_reset() {
+    let live = open(5.0);
+    until(&live, "settled", |view| view.status == Status::Paused);
+    assert!(live.send(Command::Step));
+    let view = until(&live, "one step", |view| view.frame.step == 1);
+    assert_eq!(view.status, Status::Paused);
+
+    assert!(live.send(Command::Speed(f64::INFINITY)) && live.send(Command::Start));
+    let view = until(&live, "the end", |view| view.status == Status::Finished);
+    assert!((view.newest_s - 5.0).abs() < 1e-6, "{}", view.newest_s);
+    assert!(view.tension.len() > 100 && view.summary.is_some());
+
+    assert!(live.send(Command::Seek(2.5)));
+    let view = until(&live, "the middle", |view| view.sought);
+    assert!((view.frame.time_s - 2.5).abs() < 0.02, "{}", view.frame.time_s);
+
+    assert!(live.send(Command::Reset));
+    let view = until(&live, "the start", |view| view.frame.step == 0 && !view.sought);
+    assert_eq!(view.status, Status::Paused);
+}
+
+#[test]
+fn real_time_is_kept() {
+    let live = open(60.0);
+    until(&live, "settled", |view| view.status == Status::Paused);
+    let start = Instant::now();
+    assert!(live.send(Command::Speed(2.0)) && live.send(Command::Start));
+    let view = until(&live, "one simulated second", |view| view.newest_s >= 1.0);
+    let wall_s = start.elapsed().as_secs_f64();
+    // Never early; how late depends on the machine.
+    assert!(wall_s > 0.45 * view.newest_s, "{} s in {wall_s} s", view.newest_s);
+    assert!(live.send(Command::Pause));
+    let paused = until(&live, "a pause", |view| view.status == Status::Paused);
+    std::thread::sleep(Duration::from_millis(50));
+    assert_eq!(live.latest().frame.step, paused.frame.step);
+}
+
+#[test]
+fn a_recording_is_saved_with_the_pilots_controls() {
+    let path = std::env::temp_dir().join(format!("endline-live-{}.endline", std::process::id()));
+    let live = open(60.0);
+    until(&live, "settled", |view| view.status == Status::Paused);
+    let controls = Controls { speed: 0.5, yaw: -1.0, ..Controls::default() };
+    assert!(live.send(Command::Controls(controls)) && live.send(Command::Step));
+    assert!(live.send(Command::Autopilot) && live.send(Command::Step));
+    assert!(live.send(Command::SaveRecording(path.clone())));
+    until(&live, "a message", |view| view.message.as_ref().is_some_and(|message| message.starts_with("saved")));
+    let recording = crate::Recording::load(&path).unwrap();
+    assert_eq!(recording.inputs, [controls, Controls::default()]);
+    std::fs::remove_file(&path).unwrap();
+}
+
+#[test]
+fn dropping_a_run_ends_its_thread() {
+    let live = open(1e6);
+    assert!(live.send(Command::Speed(f64::INFINITY)) && live.send(Command::Start));
+    until(&live, "running", |view| view.status == Status::Running);
+    let start = Instant::now();
+    drop(live);
+    assert!(start.elapsed() < Duration::from_secs(5));
+}

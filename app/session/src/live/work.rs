@@ -1,0 +1,299 @@
+//! The thread of a live run: takes commands, steps when due, publishes what there is to see.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+use std::sync::mpsc::{Receiver, RecvTimeoutError};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use endline_sdk::Controls;
+use endline_sim::{Frame, State};
+
+use super::film::Film;
+use super::pace::Pace;
+use super::series::Series;
+use super::{Command, LiveView, Status};
+use crate::error::Error;
+use crate::plugins::PluginHost;
+use crate::run::{Run, RunOptions, frame_stride};
+use crate::source::Prepared;
+
+/// Views published for each real second, at most.
+const VIEWS_HZ: f64 = 60.0;
+/// Frames and tensions kept for each simulated second.
+const KEPT_HZ: f64 = 30.0;
+/// Speeds a user may ask for; above it, as fast as the solver goes.
+const SPEEDS: [f64; 2] = [0.01, 1000.0];
+
+/// Where views are put.
+pub(super) struct Screen {
+    pub(super) view: Arc<Mutex<Arc<LiveView>>>,
+    pub(super) on_view: Box<dyn Fn() + Send>,
+}
+
+impl Screen {
+    fn show(&self, view: LiveView) {
+        *self.view.lock().unwrap_or_else(PoisonError::into_inner) = Arc::new(view);
+        (self.on_view)();
+    }
+
+    fn fail(&self, why: String) {
+        let last = Arc::clone(&self.view.lock().unwrap_or_else(PoisonError::into_inner));
+        self.show(LiveView { status: Status::Failed(why), ..(*last).clone() });
+    }
+}
+
+/// What is to see before anything is settled: the gear as first guessed.
+pub(super) fn first_view(prepared: &Prepared) -> LiveView {
+    let model = Arc::clone(&prepared.model);
+    LiveView {
+        frame: Arc::new(Frame::of(&model, &State::start(&model), &[])),
+        model,
+        newest_s: 0.0,
+        sought: false,
+        summary: None,
+        tension: Series::default(),
+        events: Arc::new([]),
+        status: Status::Settling,
+        speed: 1.0,
+        times_real_time: 0.0,
+        piloted: false,
+        controls: Controls::default(),
+        message: None,
+    }
+}
+
+/// Runs until the sender of commands is gone.
+pub(super) fn work(prepared: Prepared, host: &PluginHost, options: RunOptions, commands: &Receiver<Command>, screen: &Screen) {
+    // A panic here is a fault of ours or of a plugin's; the workbench stays up and says so.
+    let worked = catch_unwind(AssertUnwindSafe(|| {
+        let mut worker = Worker::new(prepared, host, options, screen);
+        while worker.turn(commands) {}
+    }));
+    if worked.is_err() {
+        screen.fail("the run ended by a fault inside the program; open the scenario again, and report what led to it".into());
+    }
+}
+
+struct Worker<'a> {
+    host: &'a PluginHost,
+    options: RunOptions,
+    screen: &'a Screen,
+    prepared: Prepared,
+    run: Option<Run>,
+    status: Status,
+    pace: Pace,
+    pilot: Option<Controls>,
+    controls: Controls,
+    film: Film,
+    tension: Series,
+    /// Greatest tension of each line since the last sample [N].
+    peak_n: Vec<f64>,
+    sought: Option<Arc<Frame>>,
+    message: Option<String>,
+    shown: Instant,
+}
+
+impl<'a> Worker<'a> {
+    fn new(prepared: Prepared, host: &'a PluginHost, options: RunOptions, screen: &'a Screen) -> Self {
+        let now = Instant::now();
+        let mut worker = Self {
+            host,
+            // The film is kept here; the run's own frames would double it.
+            options: RunOptions { frames_hz: 0.0, ..options },
+            screen,
+            prepared,
+            run: None,
+            status: Status::Settling,
+            pace: Pace::new(1.0, now, 0.0),
+            pilot: None,
+            controls: Controls::default(),
+            film: Film::new(1),
+            tension: Series::default(),
+            peak_n: Vec::new(),
+            sought: None,
+            message: None,
+            shown: now,
+        };
+        worker.settle();
+        worker
+    }
+
+    /// Waits for commands or for the next step to be due; false when the sender is gone.
+    fn turn(&mut self, commands: &Receiver<Command>) -> bool {
+        let received = match self.wait() {
+            Some(wait) => commands.recv_timeout(wait),
+            None => commands.recv().map_err(|_| RecvTimeoutError::Disconnected),
+        };
+        match received {
+            Ok(command) => {
+                self.obey(command);
+                commands.try_iter().for_each(|command| self.obey(command));
+                self.show();
+            }
+            Err(RecvTimeoutError::Timeout) => self.step_due(),
+            Err(RecvTimeoutError::Disconnected) => return false,
+        }
+        true
+    }
+
+    /// Time until the next step is due; `None` while standing still.
+    fn wait(&mut self) -> Option<Duration> {
+        let run = self.run.as_ref().filter(|_| self.status == Status::Running)?;
+        Some(self.pace.wait(Instant::now(), run.state().time_s + run.step_s()))
+    }
+
+    fn obey(&mut self, command: Command) {
+        match command {
+            Command::Start => self.start(),
+            Command::Pause => self.pause(),
+            Command::Step => {
+                self.pause();
+                self.sought = None;
+                self.step();
+            }
+            Command::Reset => self.reset(),
+            Command::Speed(speed) => self.set_speed(speed),
+            Command::Controls(controls) => self.pilot = Some(controls),
+            Command::Autopilot => self.pilot = None,
+            Command::WeakLinks(on) => self.set_weak_links(on),
+            Command::Load(prepared) => self.load(*prepared),
+            Command::Seek(time_s) => {
+                self.pause();
+                self.sought = self.film.nearest(time_s);
+            }
+            Command::SaveRecording(path) => self.save(&path),
+        }
+    }
+
+    fn start(&mut self) {
+        self.sought = None;
+        if matches!(self.status, Status::Paused) {
+            self.status = Status::Running;
+            self.set_speed(self.pace.speed());
+        }
+    }
+
+    fn pause(&mut self) {
+        if self.status == Status::Running {
+            self.status = Status::Paused;
+        }
+    }
+
+    fn set_speed(&mut self, speed: f64) {
+        let [least, most] = SPEEDS;
+        let speed = if speed > most { f64::INFINITY } else { speed.max(least) };
+        self.pace = Pace::new(speed, Instant::now(), self.run.as_ref().map_or(0.0, |run| run.state().time_s));
+    }
+
+    fn set_weak_links(&mut self, on: bool) {
+        let mut source = (*self.prepared.source).clone();
+        source.overrides.weak_links = Some(on);
+        match source.prepare(self.host) {
+            Ok(prepared) => self.load(prepared),
+            Err(error) => self.message = Some(error.to_string()),
+        }
+    }
+
+    fn load(&mut self, prepared: Prepared) {
+        self.prepared = prepared;
+        self.run = None;
+        self.status = Status::Settling;
+        self.screen.show(LiveView { speed: self.pace.speed(), ..first_view(&self.prepared) });
+        self.settle();
+    }
+
+    fn settle(&mut self) {
+        match Run::new(self.prepared.clone(), self.options) {
+            Ok(run) => self.begin(run),
+            Err(error) => {
+                self.status = Status::Failed(error.to_string());
+                self.show();
+            }
+        }
+    }
+
+    fn reset(&mut self) {
+        match self.run.as_ref().map(Run::restarted) {
+            Some(run) => self.begin(run),
+            None => self.settle(),
+        }
+    }
+
+    /// Stands ready at the start of a run.
+    fn begin(&mut self, run: Run) {
+        self.film = Film::new(frame_stride(KEPT_HZ, run.step_s()));
+        self.tension = Series::default();
+        self.peak_n.clear();
+        self.sought = None;
+        self.message = None;
+        self.run = Some(run);
+        self.status = Status::Paused;
+        self.keep();
+        self.set_speed(self.pace.speed());
+        self.show();
+    }
+
+    /// Takes the step that is due and shows it where a view is due too.
+    fn step_due(&mut self) {
+        self.step();
+        if self.status != Status::Running || self.shown.elapsed().as_secs_f64() >= 1.0 / VIEWS_HZ {
+            self.show();
+        }
+    }
+
+    fn step(&mut self) {
+        let Some(run) = &mut self.run else { return };
+        self.controls = self.pilot.unwrap_or_else(|| run.pilot());
+        if let Err(stop) = run.step(self.controls) {
+            self.status = Status::Stopped(Error::Stopped(stop).to_string());
+        } else if run.finished() && self.pilot.is_none() {
+            self.status = Status::Finished;
+        }
+        self.keep();
+    }
+
+    /// Keeps the newest moment for looking back.
+    fn keep(&mut self) {
+        let Some(run) = &self.run else { return };
+        let now_n = run.peak_tensions_n();
+        self.peak_n.resize(now_n.len(), 0.0);
+        self.peak_n.iter_mut().zip(now_n).for_each(|(peak, now)| *peak = peak.max(now));
+        if self.film.wants(run.state().step) {
+            self.film.keep(run.frame());
+            self.tension.push(run.state().time_s, std::mem::take(&mut self.peak_n));
+        }
+    }
+
+    fn save(&mut self, path: &Path) {
+        let Some(run) = &self.run else { return };
+        self.message = Some(match run.recording().save(path) {
+            Ok(()) => format!("saved {}", path.display()),
+            Err(error) => error.to_string(),
+        });
+    }
+
+    fn show(&mut self) {
+        self.shown = Instant::now();
+        let first = first_view(&self.prepared);
+        let Some(run) = &self.run else {
+            self.screen.show(LiveView { status: self.status.clone(), message: self.message.clone(), speed: self.pace.speed(), ..first });
+            return;
+        };
+        self.screen.show(LiveView {
+            frame: self.sought.clone().unwrap_or_else(|| run.frame()),
+            model: Arc::clone(run.model()),
+            newest_s: run.state().time_s,
+            sought: self.sought.is_some(),
+            summary: Some(run.summary()),
+            tension: self.tension.clone(),
+            events: run.metrics().events().into(),
+            status: self.status.clone(),
+            speed: self.pace.speed(),
+            times_real_time: run.timing().whole().times_real_time(),
+            piloted: self.pilot.is_some(),
+            controls: self.controls,
+            message: self.message.clone(),
+        });
+    }
+}

@@ -1,0 +1,69 @@
+//! Where the gear library of a scenario is.
+
+use std::env;
+use std::path::{Path, PathBuf};
+
+/// Name of the shipped library's folder.
+const LIBRARY: &str = "gear-library";
+
+/// Finds the gear library for a scenario: `given` (`--library`) if set, else the folder around
+/// the scenario that is a library, else `ENDLINE_LIBRARY`, else a `gear-library` beside the
+/// program, above it (a build in a source folder), or in the working folder.
+///
+/// # Errors
+/// With every place that was looked in, for the user.
+pub fn library(scenario: Option<&Path>, given: Option<&Path>) -> Result<PathBuf, String> {
+    if let Some(folder) = given {
+        return if is_library(folder) { Ok(folder.to_path_buf()) } else { Err(no_library(&[folder.to_path_buf()])) };
+    }
+    let mut looked = Vec::new();
+    around(scenario, &mut looked);
+    looked.extend(env::var_os("ENDLINE_LIBRARY").map(PathBuf::from));
+    let program = env::current_exe().ok();
+    looked.extend(program.iter().flat_map(|exe| exe.ancestors().skip(1).map(|folder| folder.join(LIBRARY))));
+    looked.push(PathBuf::from(LIBRARY));
+    looked.iter().find(|folder| is_library(folder)).cloned().ok_or_else(|| no_library(&looked))
+}
+
+/// The folders above a scenario, each also with a `gear-library` in it.
+fn around(scenario: Option<&Path>, looked: &mut Vec<PathBuf>) {
+    let Some(scenario) = scenario else { return };
+    let whole = std::path::absolute(scenario).unwrap_or_else(|_| scenario.to_path_buf());
+    looked.extend(whole.ancestors().skip(1).map(Path::to_path_buf));
+}
+
+/// A folder with ropes and scenarios in it.
+pub(crate) fn is_library(folder: &Path) -> bool {
+    folder.join("ropes").is_dir() && folder.join("scenarios").is_dir()
+}
+
+fn no_library(looked: &[PathBuf]) -> String {
+    let places: Vec<String> = looked.iter().map(|folder| format!("  {}", folder.display())).collect();
+    format!(
+        "no gear library found: expected a folder that holds `ropes` and `scenarios`\nlooked in:\n{}\nname one with --library FOLDER or ENDLINE_LIBRARY",
+        places.join("\n")
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    #[test]
+    fn a_scenario_inside_a_library_finds_it() {
+        let root = env::temp_dir().join(format!("endline-locate-{}", std::process::id()));
+        for folder in ["ropes", "scenarios/deep"] {
+            fs::create_dir_all(root.join(folder)).unwrap();
+        }
+        let found = library(Some(&root.join("scenarios/deep/case.toml")), None).unwrap();
+        assert_eq!(found, root);
+        fs::remove_dir_all(&root).unwrap();
+    }
+
+    #[test]
+    fn a_given_folder_that_is_no_library_is_refused_by_name() {
+        let message = library(None, Some(Path::new("/no/such/library"))).unwrap_err();
+        assert!(message.contains("/no/such/library") && message.contains("--library"), "{message}");
+    }
+}

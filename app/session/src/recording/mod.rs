@@ -1,0 +1,98 @@
+//! A recording: all that went into a run, and the hash of every state that came out.
+//!
+//! It holds no states but their hashes; a moment is seen again by running again, which gives the
+//! same bits ([`replay`]). The file format is told in `docs/recording.md`.
+
+mod file;
+pub mod replay;
+
+use std::path::Path;
+
+use endline_sdk::Controls;
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+use crate::hash::StateHash;
+use crate::source::Source;
+
+/// Ending of recording files.
+pub const EXTENSION: &str = "endline";
+
+/// A recorded run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Recording {
+    /// Who recorded what.
+    pub header: Header,
+    /// The files and options the model was made from.
+    pub source: Source,
+    /// Controls of each step; where the run was stopped, the last is that of the step refused.
+    pub inputs: Vec<Controls>,
+    /// Hash of the settled state, then of the state after each step.
+    pub hashes: Vec<StateHash>,
+    /// What was found changed since the file was saved; only the inputs may be, as the hash of
+    /// each step guards them.
+    pub damage: Option<String>,
+}
+
+/// Who recorded what, and with which plugins.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Header {
+    /// Version of Endline.
+    pub program: String,
+    /// BLAKE3 of the source, hexadecimal.
+    pub model_hash: String,
+    /// The plugins of the model.
+    pub plugins: Vec<PluginUsed>,
+    /// Seed.
+    pub seed: u64,
+    /// Step between inputs [s].
+    pub dt_s: f64,
+    /// Whether the run was allowed to start from statics that had not converged.
+    pub unsettled: bool,
+    /// Why the run stopped before its end, if it did.
+    pub stopped: Option<String>,
+}
+
+/// A plugin a model runs on.
+#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct PluginUsed {
+    /// Id, such as `org.endline.friction.coulomb`.
+    pub id: String,
+    /// Version.
+    pub version: String,
+    /// BLAKE3 of the file it was loaded from, hexadecimal; empty where it is linked in.
+    pub file_hash: String,
+}
+
+impl Recording {
+    /// Steps taken.
+    #[must_use]
+    pub fn steps(&self) -> usize {
+        self.hashes.len().saturating_sub(1)
+    }
+
+    /// Simulated time it covers [s].
+    #[must_use]
+    pub fn duration_s(&self) -> f64 {
+        self.steps() as f64 * self.header.dt_s
+    }
+
+    /// Saves it, so that a crash leaves the old file whole.
+    ///
+    /// # Errors
+    /// Where it cannot be written.
+    pub fn save(&self, path: &Path) -> Result<(), Error> {
+        let bytes = file::write(self).map_err(|message| Error::at(path, message))?;
+        crate::save::atomically(path, &bytes).map_err(|error| Error::at(path, format!("cannot be written: {error}")))
+    }
+
+    /// Loads a recording. Changed inputs do not hinder it: they are told in `damage`, and
+    /// [`replay::verify`] names the first step they change.
+    ///
+    /// # Errors
+    /// Where it cannot be read, is no recording, is of another format, is cut short or damaged.
+    pub fn load(path: &Path) -> Result<Self, Error> {
+        let bytes = std::fs::read(path).map_err(|error| Error::at(path, format!("cannot be read: {error}")))?;
+        file::read(&bytes).map_err(|message| Error::at(path, message))
+    }
+}

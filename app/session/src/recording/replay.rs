@@ -1,0 +1,246 @@
+//! Running a recording again: the same bits, or the first step and part that differ.
+
+use std::sync::Arc;
+
+use endline_sim::{Frame, Input};
+
+use super::{PluginUsed, Recording};
+use crate::error::Error;
+use crate::hash::{PART_NAMES, input_hash};
+use crate::plugins::PluginHost;
+use crate::run::{Run, RunOptions};
+
+/// How a recording is run again.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ReplayOptions {
+    /// Go on with plugins of another version or another file than recorded.
+    pub other_plugins: bool,
+    /// Frames kept for each simulated second; 0 keeps none.
+    pub frames_hz: f64,
+}
+
+/// What comparing a replay with its recording found.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Verdict {
+    /// Every step gave the recorded bits.
+    Same {
+        /// Steps compared.
+        steps: u64,
+    },
+    /// The first step that did not.
+    Differs {
+        /// The step; 0 is the settled state.
+        step: u64,
+        /// Time at its end [s].
+        time_s: f64,
+        /// The part of the state, or `end of the run` where one run stopped and the other went on.
+        part: &'static str,
+    },
+}
+
+/// Prepares the recorded model again and settles it.
+///
+/// # Errors
+/// A plugin that is missing or another than recorded; files this program no longer reads;
+/// statics that do not converge and did when recorded.
+pub fn start(recording: &Recording, host: &PluginHost, options: ReplayOptions) -> Result<Run, Error> {
+    let prepared = recording.source.clone().prepare(host)?;
+    if !options.other_plugins {
+        check_plugins(&recording.header.plugins, &prepared.plugins)?;
+    }
+    Run::new(prepared, RunOptions { unsettled: recording.header.unsettled, frames_hz: options.frames_hz })
+}
+
+/// Runs a recording again to its end, telling the steps taken and in all.
+///
+/// # Errors
+/// As [`start`]; and inputs changed since they were saved.
+pub fn replay(recording: &Recording, host: &PluginHost, options: ReplayOptions, mut progress: impl FnMut(u64, u64)) -> Result<Run, Error> {
+    refuse_damage(recording)?;
+    let mut run = start(recording, host, options)?;
+    for controls in &recording.inputs {
+        if run.step_raw(*controls).is_err() {
+            break;
+        }
+        progress(run.state().step, recording.steps() as u64);
+    }
+    Ok(run)
+}
+
+/// Runs a recording again and compares every step, up to the first that differs.
+///
+/// # Errors
+/// As [`start`].
+pub fn verify(
+    recording: &Recording,
+    host: &PluginHost,
+    options: ReplayOptions,
+    mut progress: impl FnMut(u64, u64),
+) -> Result<(Run, Verdict), Error> {
+    let mut run = start(recording, host, options)?;
+    let verdict = compare(recording, &mut run, &mut progress);
+    Ok((run, verdict))
+}
+
+/// Steps a run that stands at its start through a recording, up to the first step that differs.
+fn compare(recording: &Recording, run: &mut Run, progress: &mut dyn FnMut(u64, u64)) -> Verdict {
+    let differs = |step: usize, part| Verdict::Differs { step: step as u64, time_s: step as f64 * recording.header.dt_s, part };
+    if let Some(part) = recording.hashes.first().and_then(|recorded| recorded.first_difference(&run.state_hash())) {
+        return differs(0, part);
+    }
+    for (index, controls) in recording.inputs.iter().enumerate() {
+        let step = index + 1;
+        if let Some(part) = step_and_compare(recording, run, step, Input { controls: *controls }) {
+            return differs(step, part);
+        }
+        progress(step as u64, recording.steps() as u64);
+    }
+    Verdict::Same { steps: run.state().step }
+}
+
+/// The moment nearest before a time, by running again up to it.
+///
+/// # Errors
+/// As [`replay`]; and a time outside the recording.
+pub fn frame_at(recording: &Recording, host: &PluginHost, options: ReplayOptions, time_s: f64) -> Result<(Run, Arc<Frame>), Error> {
+    refuse_damage(recording)?;
+    let (steps, last_s) = (recording.steps(), recording.duration_s());
+    // Half a step of grace, so that the last moment may be named rounded.
+    if !(time_s >= 0.0 && time_s <= last_s + 0.5 * recording.header.dt_s) {
+        return Err(Error::Replay(format!("{time_s} s is outside the recording; expected 0 to {last_s} s")));
+    }
+    let mut run = start(recording, host, options)?;
+    let wanted = ((time_s / recording.header.dt_s + 1e-6).floor() as usize).min(steps);
+    for controls in &recording.inputs[..wanted] {
+        run.step_raw(*controls).map_err(Error::Stopped)?;
+    }
+    let frame = run.frame();
+    Ok((run, frame))
+}
+
+/// Steps once and names the part that differs. A changed input is found before it is stepped
+/// with; the last input of a stopped run has no state to compare, only that it stops again.
+fn step_and_compare(recording: &Recording, run: &mut Run, step: usize, input: Input) -> Option<&'static str> {
+    let recorded = recording.hashes.get(step);
+    if recorded.is_some_and(|recorded| recorded.parts[0] != input_hash(&input)) {
+        return Some(PART_NAMES[0]);
+    }
+    let stopped = run.step_raw(input.controls).is_err();
+    match recorded {
+        Some(recorded) if !stopped => recorded.first_difference(&run.state_hash()),
+        None if stopped => None,
+        _ => Some("end of the run"),
+    }
+}
+
+fn refuse_damage(recording: &Recording) -> Result<(), Error> {
+    match &recording.damage {
+        Some(damage) => Err(Error::Replay(format!("{damage}; `endline replay --verify` names the first step that differs"))),
+        None => Ok(()),
+    }
+}
+
+/// Every recorded plugin must be here, the same version from the same file.
+fn check_plugins(recorded: &[PluginUsed], here: &[PluginUsed]) -> Result<(), Error> {
+    let mut problems = Vec::new();
+    for plugin in recorded {
+        let id = &plugin.id;
+        match here.iter().find(|found| found.id == *id) {
+            None => problems.push(format!("plugin {id}: recorded, but the model does not use it here")),
+            Some(found) if found.version != plugin.version => {
+                problems.push(format!("plugin {id}: recorded with version {}, found version {}", plugin.version, found.version));
+            }
+            Some(found) if found.file_hash != plugin.file_hash => {
+                let (was, is) = (short(&plugin.file_hash), short(&found.file_hash));
+                problems.push(format!("plugin {id}: recorded with file {was}, found file {is}"));
+            }
+            Some(_) => {}
+        }
+    }
+    if problems.is_empty() {
+        return Ok(());
+    }
+    problems.push("put the recorded plugins back, or go on regardless with --other-plugins".into());
+    Err(Error::Replay(problems.join("\n")))
+}
+
+/// The start of a file's hash, enough to tell two apart; files linked in have none.
+fn short(hash: &str) -> &str {
+    hash.get(..12).unwrap_or("(linked in)")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::source::sample::hanging_rope;
+    use endline_sdk::Controls;
+
+    fn run() -> Run {
+        Run::new(hanging_rope(60.0), RunOptions { unsettled: true, frames_hz: 0.0 }).unwrap()
+    }
+
+    fn recorded(steps: u32) -> Recording {
+        let mut run = run();
+        for step in 0..steps {
+            run.step(Controls { yaw: f64::from(step) / f64::from(steps), ..Controls::default() }).unwrap();
+        }
+        run.recording()
+    }
+
+    fn verdict(recording: &Recording) -> Verdict {
+        compare(recording, &mut run(), &mut |_, _| {})
+    }
+
+    #[test]
+    fn the_same_steps_give_the_same_bits() {
+        assert_eq!(verdict(&recorded(40)), Verdict::Same { steps: 40 });
+    }
+
+    #[test]
+    fn a_changed_input_is_found_at_its_step_whatever_it_became() {
+        for wrong in [0.123, -0.0, f64::NAN, f64::INFINITY] {
+            let mut recording = recorded(40);
+            recording.inputs[16].pitch = wrong;
+            let Verdict::Differs { step, part, .. } = verdict(&recording) else { panic!("{wrong} was not found") };
+            assert_eq!((step, part), (17, "input"));
+        }
+    }
+
+    #[test]
+    fn every_part_is_compared_at_every_step() {
+        for (part, name) in PART_NAMES.iter().enumerate() {
+            for step in [0, 1, 23, 40] {
+                let mut recording = recorded(40);
+                recording.hashes[step].parts[part] ^= 1;
+                // Nothing is fed in to reach the settled state, but its hash is compared all the same.
+                assert!(matches!(verdict(&recording), Verdict::Differs { step: found, part, .. } if found == step as u64 && part == *name));
+            }
+        }
+    }
+
+    #[test]
+    fn a_run_that_goes_on_where_the_recorded_one_stopped_differs() {
+        let mut recording = recorded(40);
+        recording.header.stopped = Some("stopped at 0.400 s: line: reason".into());
+        recording.inputs.push(Controls::default());
+        assert!(matches!(verdict(&recording), Verdict::Differs { step: 41, part: "end of the run", .. }));
+    }
+
+    fn plugin(version: &str, file_hash: &str) -> PluginUsed {
+        PluginUsed { id: "org.example.motion".into(), version: version.into(), file_hash: file_hash.into() }
+    }
+
+    #[test]
+    fn another_plugin_is_refused_by_name() {
+        let recorded = [plugin("1.0.0", "0123456789abcdef")];
+        assert!(check_plugins(&recorded, &recorded).is_ok());
+        for (here, word) in [
+            (vec![], "does not use it"),
+            (vec![plugin("1.0.1", "0123456789abcdef")], "version 1.0.1"),
+            (vec![plugin("1.0.0", "fedcba9876543210")], "found file fedcba987654"),
+        ] {
+            let message = check_plugins(&recorded, &here).unwrap_err().to_string();
+            assert!(message.contains("org.example.motion") && message.contains(word), "{message}");
+        }
+    }
+}

@@ -1,0 +1,255 @@
+//! A run: a settled model stepped through time, measured and recorded on the way.
+
+use std::ops::Range;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use endline_sdk::Controls;
+use endline_sim::metrics::{Metrics, Summary};
+use endline_sim::{Audit, Frame, Input, Model, Settled, State, Stop, Workspace, settle, step};
+
+use crate::error::Error;
+use crate::hash::StateHash;
+use crate::input;
+use crate::recording::{Header, Recording};
+use crate::source::Prepared;
+use crate::timing::Timing;
+
+/// How a run is kept.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RunOptions {
+    /// Start even where statics did not converge.
+    pub unsettled: bool,
+    /// Frames kept for each simulated second; 0 keeps none.
+    pub frames_hz: f64,
+}
+
+/// A run in progress.
+pub struct Run {
+    prepared: Prepared,
+    options: RunOptions,
+    state: State,
+    workspace: Workspace,
+    metrics: Metrics,
+    inputs: Vec<Controls>,
+    hashes: Vec<StateHash>,
+    frames: Vec<Arc<Frame>>,
+    settled: Arc<Settled>,
+    stopped: Option<Stop>,
+    timing: Timing,
+}
+
+impl Run {
+    /// Settles the model and stands ready for the first step.
+    ///
+    /// # Errors
+    /// Where statics do not converge and `options` do not say to start regardless.
+    pub fn new(prepared: Prepared, options: RunOptions) -> Result<Self, Error> {
+        let start = Instant::now();
+        let settled = settle(&prepared.model);
+        if !settled.converged && !options.unsettled {
+            return Err(Error::Unsettled { residual_n: settled.residual_n, passes: settled.trace_n.len() });
+        }
+        Ok(Self::from_rest(prepared, options, Arc::new(settled), start.elapsed()))
+    }
+
+    /// The same run at its start again, without settling anew.
+    #[must_use]
+    pub fn restarted(&self) -> Self {
+        Self::from_rest(self.prepared.clone(), self.options, Arc::clone(&self.settled), Duration::ZERO)
+    }
+
+    fn from_rest(prepared: Prepared, options: RunOptions, settled: Arc<Settled>, settled_in: Duration) -> Self {
+        let mut run = Self {
+            workspace: Workspace::new(&prepared.model),
+            metrics: Metrics::new(&prepared.model),
+            inputs: Vec::new(),
+            hashes: vec![StateHash::of(&Input::default(), &settled.state)],
+            frames: Vec::new(),
+            stopped: None,
+            state: settled.state.clone(),
+            timing: Timing::settled_in(settled_in),
+            settled,
+            prepared,
+            options,
+        };
+        run.metrics.fold(&run.prepared.model, &run.state, &[]);
+        run.keep_frame();
+        run
+    }
+
+    /// Takes one step under these controls, kept within their ranges.
+    ///
+    /// # Errors
+    /// Where the run cannot go on; it then stays where it was, and says so in its summary.
+    pub fn step(&mut self, controls: Controls) -> Result<(), Stop> {
+        self.step_raw(input::within_range(&controls))
+    }
+
+    /// Takes one step under recorded controls, bit for bit.
+    pub(crate) fn step_raw(&mut self, controls: Controls) -> Result<(), Stop> {
+        if let Some(stop) = &self.stopped {
+            return Err(stop.clone());
+        }
+        let input = Input { controls };
+        self.inputs.push(controls);
+        let near = self.workspace.audit.contact_steps;
+        let start = Instant::now();
+        let stepped = step(&self.prepared.model, &input, &mut self.state, &mut self.workspace);
+        self.timing.add(start.elapsed(), self.step_s(), self.workspace.audit.contact_steps > near);
+        if let Err(stop) = stepped {
+            self.stopped = Some(stop.clone());
+            return Err(stop);
+        }
+        self.hashes.push(StateHash::of(&input, &self.state));
+        self.metrics.fold_step(&self.prepared.model, &self.state, &self.workspace);
+        self.keep_frame();
+        Ok(())
+    }
+
+    /// Runs by the pilot program to the end of the scenario or to a stop, telling the steps taken and in all.
+    pub fn to_end(&mut self, mut progress: impl FnMut(u64, u64)) {
+        while !self.finished() && self.step(self.pilot()).is_ok() {
+            progress(self.state.step, self.steps_in_all());
+        }
+    }
+
+    /// The pilot program's controls for the next step.
+    #[must_use]
+    pub fn pilot(&self) -> Controls {
+        self.model().spec.whale.as_ref().map_or_else(Controls::default, |whale| whale.pilot.at(self.state.time_s))
+    }
+
+    /// Whether the scenario's time is over or the run is stopped.
+    #[must_use]
+    pub fn finished(&self) -> bool {
+        self.stopped.is_some() || self.state.step >= self.steps_in_all()
+    }
+
+    /// Steps of the whole scenario.
+    #[must_use]
+    pub fn steps_in_all(&self) -> u64 {
+        let settings = &self.model().spec.settings;
+        // Rounded up, but not for the last bits of a quotient such as 60 / 0.01.
+        (settings.duration_s / settings.step_s - 1e-6).ceil().max(0.0) as u64
+    }
+
+    /// Length of a step [s].
+    #[must_use]
+    pub fn step_s(&self) -> f64 {
+        self.model().spec.settings.step_s
+    }
+
+    /// The model.
+    #[must_use]
+    pub fn model(&self) -> &Arc<Model> {
+        &self.prepared.model
+    }
+
+    /// What it was made from.
+    #[must_use]
+    pub fn prepared(&self) -> &Prepared {
+        &self.prepared
+    }
+
+    /// The state now.
+    #[must_use]
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// Why it stopped before its end, if it did.
+    #[must_use]
+    pub fn stopped(&self) -> Option<&Stop> {
+        self.stopped.as_ref()
+    }
+
+    /// The moment now.
+    #[must_use]
+    pub fn frame(&self) -> Arc<Frame> {
+        Arc::new(Frame::of(self.model(), &self.state, &self.workspace.contacts))
+    }
+
+    /// The frames kept so far, at the rate asked for.
+    #[must_use]
+    pub fn frames(&self) -> &[Arc<Frame>] {
+        &self.frames
+    }
+
+    /// Counters of the solver.
+    #[must_use]
+    pub fn audit(&self) -> Audit {
+        self.workspace.audit
+    }
+
+    /// How long it took, approach and contact apart.
+    #[must_use]
+    pub fn timing(&self) -> &Timing {
+        &self.timing
+    }
+
+    /// What was measured so far.
+    #[must_use]
+    pub fn summary(&self) -> Summary {
+        self.metrics.summary(self.model(), &self.state)
+    }
+
+    /// The metrics as they stand, with their events.
+    #[must_use]
+    pub fn metrics(&self) -> &Metrics {
+        &self.metrics
+    }
+
+    /// The gear at rest, from which it started.
+    #[must_use]
+    pub fn settled(&self) -> &Settled {
+        &self.settled
+    }
+
+    /// Greatest tension of each line within the last step, or at rest before the first [N].
+    #[must_use]
+    pub fn peak_tensions_n(&self) -> Vec<f64> {
+        let segments = if self.state.step == 0 { &self.state.rope.tension } else { &self.workspace.peak_tension_n };
+        by_line(self.model(), segments)
+    }
+
+    /// Hash of the state now.
+    #[must_use]
+    pub fn state_hash(&self) -> StateHash {
+        self.hashes.last().copied().unwrap_or_default()
+    }
+
+    /// The run so far as a recording.
+    #[must_use]
+    pub fn recording(&self) -> Recording {
+        let settings = &self.model().spec.settings;
+        let header = Header {
+            program: env!("CARGO_PKG_VERSION").into(),
+            model_hash: self.prepared.source.hash(),
+            plugins: self.prepared.plugins.clone(),
+            seed: settings.seed,
+            dt_s: settings.step_s,
+            unsettled: self.options.unsettled,
+            stopped: self.stopped.as_ref().map(|stop| Error::Stopped(stop.clone()).to_string()),
+        };
+        let source = (*self.prepared.source).clone();
+        Recording { header, source, inputs: self.inputs.clone(), hashes: self.hashes.clone(), damage: None }
+    }
+
+    fn keep_frame(&mut self) {
+        if self.options.frames_hz > 0.0 && self.state.step.is_multiple_of(frame_stride(self.options.frames_hz, self.step_s())) {
+            self.frames.push(self.frame());
+        }
+    }
+}
+
+/// Steps from one kept frame to the next: the whole number nearest to the rate asked for.
+pub(crate) fn frame_stride(frames_hz: f64, step_s: f64) -> u64 {
+    (1.0 / (frames_hz * step_s)).round().max(1.0) as u64
+}
+
+/// Greatest of each line's segments, never below zero.
+pub(crate) fn by_line(model: &Model, segments: &[f64]) -> Vec<f64> {
+    let greatest = |own: &Range<usize>| segments.get(own.clone()).unwrap_or_default().iter().copied().fold(0.0, f64::max);
+    model.line_segments.iter().map(greatest).collect()
+}

@@ -1,0 +1,54 @@
+//! Saving a file so that a crash or a full disk leaves the old one whole.
+
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// Writes beside the file, syncs, then renames over it.
+///
+/// # Errors
+/// Where the folder cannot be written; the old file is then untouched.
+pub fn atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let beside = beside(path);
+    let written = write_synced(&beside, bytes).and_then(|()| fs::rename(&beside, path));
+    if written.is_err() {
+        // The error that matters is the first one; a leftover we could not write is no worse.
+        let _ = fs::remove_file(&beside);
+    }
+    written
+}
+
+fn write_synced(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut file = File::create(path)?;
+    file.write_all(bytes)?;
+    file.sync_all()
+}
+
+/// A name in the same folder, so that the rename stays on one disk; the process id keeps two programs apart.
+fn beside(path: &Path) -> PathBuf {
+    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    path.with_file_name(format!(".{name}.{}.part", std::process::id()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_save_replaces_the_file_and_leaves_nothing_beside_it() {
+        let folder = std::env::temp_dir().join(format!("endline-save-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let path = folder.join("run.endline");
+        atomically(&path, b"first").unwrap();
+        atomically(&path, b"second").unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"second");
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
+        fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn a_failed_save_says_so() {
+        let path = std::env::temp_dir().join("endline-no-such-folder/deeper/run.endline");
+        assert!(atomically(&path, b"bytes").is_err());
+    }
+}

@@ -1,0 +1,124 @@
+//! The gear at rest as JSON: schema `endline.settle/1`, with the keys of the run summary where they are the same.
+
+use endline_sim::metrics::Metrics;
+use endline_sim::{Model, Settled, State};
+use serde::Serialize;
+
+use crate::report::ProbeReport;
+use crate::source::Prepared;
+
+/// Name of the schema.
+pub const SCHEMA: &str = "endline.settle/1";
+
+/// Shape, tensions and residual of the gear at rest.
+#[derive(Clone, Debug, Serialize)]
+#[allow(non_snake_case, reason = "keys of the JSON contract carry their units")]
+pub struct SettledShape {
+    /// Always [`SCHEMA`].
+    pub schema: &'static str,
+    /// The scenario's file as the user named it.
+    pub scenario: String,
+    /// Whether the residual came below the tolerance.
+    pub converged: bool,
+    /// Greatest force out of balance [N].
+    pub residual_N: f64,
+    /// Residual after each pass [N].
+    pub trace_N: Vec<f64>,
+    /// Real time [s].
+    pub wall_s: f64,
+    /// Rope nodes.
+    pub nodes: usize,
+    /// One for each line.
+    pub lines: Vec<LineShape>,
+    /// One for each body.
+    pub bodies: Vec<BodyShape>,
+    /// One for each probe.
+    pub probes: Vec<ProbeReport>,
+}
+
+/// A line at rest.
+#[derive(Clone, Debug, Serialize)]
+#[allow(non_snake_case, reason = "keys of the JSON contract carry their units")]
+pub struct LineShape {
+    /// Id.
+    pub id: String,
+    /// Unstretched length [m].
+    pub length_m: f64,
+    /// Tension at end A [N].
+    pub end_a_tension_N: f64,
+    /// Tension at end B [N].
+    pub end_b_tension_N: f64,
+    /// Tension of each segment from A to B [N].
+    pub tension_N: Vec<f64>,
+    /// Place of each node from A to B [m].
+    pub position_m: Vec<[f64; 3]>,
+}
+
+/// A body at rest.
+#[derive(Clone, Debug, Serialize)]
+pub struct BodyShape {
+    /// Id.
+    pub id: String,
+    /// Place [m].
+    pub position_m: [f64; 3],
+    /// Orientation, body to world, as (x, y, z, w).
+    pub orientation: [f64; 4],
+}
+
+impl SettledShape {
+    /// Of a settled model; `wall_s` is the real time it took [s].
+    #[must_use]
+    pub fn of(prepared: &Prepared, settled: &Settled, wall_s: f64) -> Self {
+        let (model, state) = (&*prepared.model, &settled.state);
+        Self {
+            schema: SCHEMA,
+            scenario: prepared.source.scenario_name.clone(),
+            converged: settled.converged,
+            residual_N: settled.residual_n,
+            trace_N: settled.trace_n.clone(),
+            wall_s,
+            nodes: model.node_count,
+            lines: lines(model, state),
+            bodies: bodies(model, state),
+            probes: probes(model, state),
+        }
+    }
+
+    /// One line of JSON.
+    #[must_use]
+    pub fn json(&self) -> String {
+        // Structs of numbers and strings always serialise.
+        serde_json::to_string(self).unwrap_or_default()
+    }
+}
+
+fn lines(model: &Model, state: &State) -> Vec<LineShape> {
+    let shape = |(index, line): (usize, &endline_sim::model::Line)| {
+        let tension_n: Vec<f64> = state.rope.tension[model.line_segments[index].clone()].iter().map(|tension| tension.max(0.0)).collect();
+        LineShape {
+            id: line.id.clone(),
+            length_m: line.segments_m.iter().sum(),
+            end_a_tension_N: tension_n.first().copied().unwrap_or_default(),
+            end_b_tension_N: tension_n.last().copied().unwrap_or_default(),
+            tension_N: tension_n,
+            position_m: state.rope.position[model.line_nodes[index].clone()].iter().map(|place| place.to_array()).collect(),
+        }
+    };
+    model.spec.lines.iter().enumerate().map(shape).collect()
+}
+
+fn bodies(model: &Model, state: &State) -> Vec<BodyShape> {
+    let shape = |(body, now): (&endline_sim::model::Body, &endline_sim::state::BodyState)| BodyShape {
+        id: body.id.clone(),
+        position_m: now.position.to_array(),
+        orientation: now.orientation.to_array(),
+    };
+    model.spec.bodies.iter().zip(&state.bodies).map(shape).collect()
+}
+
+/// Probes read by the metrics, so that a probe means the same at rest and in a run.
+fn probes(model: &Model, state: &State) -> Vec<ProbeReport> {
+    let mut metrics = Metrics::new(model);
+    metrics.fold(model, state, &[]);
+    metrics.summary(model, state).probes.into_iter().map(ProbeReport::from).collect()
+}

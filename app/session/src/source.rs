@@ -1,0 +1,149 @@
+//! From files to a model: the scenario, the gear library and the options of a run.
+
+#[cfg(test)]
+pub(crate) mod sample;
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use endline_gear::{Assembled, Diagnostic, Library, Options, Scenario, Sources, assemble_traced};
+use endline_sdk::Descriptor;
+use endline_sim::Model;
+use endline_sim::model::ModelError;
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+use crate::locate;
+use crate::plugins::PluginHost;
+use crate::recording::PluginUsed;
+
+/// What a user may set for a run over what the scenario says.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Overrides {
+    /// Seed.
+    pub seed: Option<u64>,
+    /// Step between inputs [s].
+    pub step_s: Option<f64>,
+    /// Weak links on or off.
+    pub weak_links: Option<bool>,
+    /// Rating of every weak link [N].
+    pub rating_n: Option<f64>,
+}
+
+/// Everything a model is made from, as text: what a recording keeps.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Source {
+    /// The scenario's file as the user named it.
+    pub scenario_name: String,
+    /// Text of the scenario.
+    pub scenario: String,
+    /// Text of the files of the gear library; once prepared, of those the model is made from.
+    pub library: Sources,
+    /// What was set over the scenario.
+    pub overrides: Overrides,
+}
+
+/// A model ready to run, with what it was made from.
+#[derive(Clone)]
+pub struct Prepared {
+    /// The files and options.
+    pub source: Arc<Source>,
+    /// The model.
+    pub model: Arc<Model>,
+    /// The plugins it runs on.
+    pub plugins: Vec<PluginUsed>,
+}
+
+/// Reads a scenario and its gear library (found as [`locate::library`] says where `library` is
+/// `None`) and assembles the model.
+///
+/// # Errors
+/// A file that cannot be read, no library, or every located error of the files.
+pub fn prepare(scenario: &Path, library: Option<&Path>, host: &PluginHost, overrides: Overrides) -> Result<Prepared, Error> {
+    Source::read(scenario, library, overrides)?.prepare(host)
+}
+
+impl Source {
+    /// Reads the files.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or no library.
+    pub fn read(scenario: &Path, library: Option<&Path>, overrides: Overrides) -> Result<Self, Error> {
+        let text = std::fs::read_to_string(scenario).map_err(|error| Error::at(scenario, format!("cannot be read: {error}")))?;
+        let root: PathBuf = locate::library(Some(scenario), library).map_err(Error::Replay)?;
+        let library = Sources::from_folder(&root).map_err(Error::Diagnostics)?;
+        Ok(Self { scenario_name: scenario.display().to_string(), scenario: text, library, overrides })
+    }
+
+    /// Reads the texts and assembles the model.
+    ///
+    /// # Errors
+    /// Every located error of the scenario and of the library items it uses.
+    pub fn prepare(mut self, host: &PluginHost) -> Result<Prepared, Error> {
+        let (model, used) = self.model(host)?;
+        self.library = self.library.only(&used);
+        let plugins = plugins_of(&model, host);
+        Ok(Prepared { source: Arc::new(self), model: Arc::new(model), plugins })
+    }
+
+    /// BLAKE3 of everything the model is made from, hexadecimal.
+    #[must_use]
+    pub fn hash(&self) -> String {
+        let mut hasher = blake3::Hasher::new();
+        let mut text = |text: &str| {
+            hasher.update(&(text.len() as u64).to_le_bytes());
+            hasher.update(text.as_bytes());
+        };
+        text(&self.scenario);
+        for (path, content) in self.library.iter() {
+            text(path);
+            text(content);
+        }
+        text(&format!("{:?}", self.overrides));
+        hasher.finalize().to_hex().to_string()
+    }
+}
+
+impl Source {
+    /// The model and the library files it was made from.
+    fn model(&self, host: &PluginHost) -> Result<(Model, Vec<String>), Error> {
+        let name = &self.scenario_name;
+        let scenario = Scenario::read(name, &self.scenario).map_err(Error::Diagnostics)?;
+        let (library, problems) = Library::read(&self.library);
+        let Overrides { seed, step_s, weak_links, rating_n } = self.overrides;
+        let options = Options { seed, step_s, weak_links, ..Options::default() };
+        // An item with errors is missing from the library; its own errors say why, so they come first.
+        let Assembled { mut spec, files } = assemble_traced(&scenario, &library, host, &options)
+            .map_err(|missing| Error::Diagnostics(problems.into_iter().filter(Diagnostic::is_error).chain(missing).collect()))?;
+        if let Some(rating_n) = rating_n {
+            spec.links.iter_mut().for_each(|link| link.rating_n = rating_n);
+        }
+        let model = Model::new(spec).map_err(|errors| {
+            let told = |error: ModelError| Diagnostic::of_file(name, format!("{}: {}", error.part, error.message), "");
+            Error::Diagnostics(errors.into_iter().map(told).collect())
+        })?;
+        Ok((model, files))
+    }
+}
+
+/// The plugins a model runs on, by id.
+fn plugins_of(model: &Model, host: &PluginHost) -> Vec<PluginUsed> {
+    let spec = &model.spec;
+    let motion = spec.whale.iter().map(|whale| whale.motion.descriptor());
+    let friction = spec.friction.iter().map(|friction| friction.model.descriptor());
+    let gear = spec.gear.iter().map(|hook| hook.gear.descriptor());
+    let used = |descriptor: &Descriptor| PluginUsed {
+        id: descriptor.id.to_string(),
+        version: descriptor.version.to_string(),
+        file_hash: file_hash(host, &descriptor.id),
+    };
+    let mut plugins: Vec<PluginUsed> = motion.chain(friction).chain(gear).map(used).collect();
+    plugins.sort();
+    plugins.dedup();
+    plugins
+}
+
+/// Hash of the file a plugin was loaded from; empty where it is linked in.
+fn file_hash(host: &PluginHost, id: &str) -> String {
+    host.list().iter().find(|plugin| plugin.id == id).and_then(|plugin| plugin.hash.clone()).unwrap_or_default()
+}
