@@ -1,0 +1,173 @@
+//! What the command line takes.
+
+use std::path::PathBuf;
+
+use clap::{Parser, Subcommand, ValueEnum};
+use endline_gear::units::{self, Quantity};
+use endline_session::Overrides;
+
+/// Design fishing gear that whales get out of alive.
+///
+/// Without a command the workbench opens.
+#[derive(Debug, Parser)]
+#[command(name = "endline", version, after_help = "Exit codes: 0 done, 1 the run or check failed, 2 wrong use.")]
+pub struct Args {
+    /// What to do.
+    #[command(subcommand)]
+    pub(super) command: Option<Command>,
+    /// Folder of the gear library; found beside the scenario or the program where not given.
+    #[arg(long, global = true, value_name = "DIR")]
+    pub(super) library: Option<PathBuf>,
+}
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// Run a scenario and print its summary.
+    Run(RunArgs),
+    /// Find the gear at rest: shape, tensions, residual.
+    Settle(SettleArgs),
+    /// Run a recording again; with --verify compare every step.
+    Replay(ReplayArgs),
+    /// Draw a moment of a recording; needs no display.
+    Render(RenderArgs),
+    /// Check files, a gear library or a project, and tell all that is wrong.
+    Check(CheckArgs),
+    /// List plugins, or check a plugin file.
+    Plugins {
+        #[command(subcommand)]
+        what: PluginsCommand,
+    },
+}
+
+#[derive(Debug, clap::Args)]
+pub(super) struct RunArgs {
+    /// Scenario file.
+    pub(super) scenario: PathBuf,
+    /// Folder for the summary, the recording and a picture; made where it is not there.
+    #[arg(long, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
+    /// Print one JSON object.
+    #[arg(long)]
+    pub(super) json: bool,
+    /// Start even where the gear did not come to rest.
+    #[arg(long)]
+    pub(super) unsettled: bool,
+    #[command(flatten)]
+    pub(super) over: OverArgs,
+    /// Threads to use; one run takes one thread, and the result is the same for any number.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(super) threads: u16,
+}
+
+#[derive(Debug, clap::Args)]
+pub(super) struct SettleArgs {
+    /// Scenario file.
+    pub(super) scenario: PathBuf,
+    /// Print one JSON object.
+    #[arg(long)]
+    pub(super) json: bool,
+    #[command(flatten)]
+    pub(super) over: OverArgs,
+}
+
+/// What may be set over a scenario.
+#[derive(Clone, Copy, Debug, clap::Args)]
+pub(super) struct OverArgs {
+    /// Seed, over the scenario's.
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// Step between inputs in seconds, over the scenario's.
+    #[arg(long, value_name = "S", value_parser = step)]
+    dt: Option<f64>,
+    /// Weak links on or off, over the scenario's.
+    #[arg(long, value_name = "on|off")]
+    weak_links: Option<Switch>,
+    /// Rating of every weak link: newtons, or with a unit such as 1700lbf.
+    #[arg(long, value_name = "FORCE", value_parser = force)]
+    rating: Option<f64>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Switch {
+    On,
+    Off,
+}
+
+#[derive(Debug, clap::Args)]
+pub(super) struct ReplayArgs {
+    /// Recording file.
+    pub(super) recording: PathBuf,
+    /// Compare every step with the recording and name the first that differs.
+    #[arg(long)]
+    pub(super) verify: bool,
+    /// Print one JSON object.
+    #[arg(long)]
+    pub(super) json: bool,
+    /// Go on with plugins of another version or file than recorded.
+    #[arg(long)]
+    pub(super) other_plugins: bool,
+}
+
+#[derive(Debug, clap::Args)]
+pub(super) struct RenderArgs {
+    /// Recording file.
+    pub(super) recording: PathBuf,
+    /// Simulated time of the moment, in seconds.
+    #[arg(long, value_name = "T")]
+    pub(super) at: f64,
+    /// View: orbit, side, top, front or whale.
+    #[arg(long, value_name = "NAME", default_value = "orbit")]
+    pub(super) view: String,
+    /// Picture to write.
+    #[arg(long, value_name = "FILE.png")]
+    pub(super) out: PathBuf,
+    /// Width and height in pixels.
+    #[arg(long, value_name = "WxH", default_value = "1280x800", value_parser = size)]
+    pub(super) size: [u32; 2],
+    /// Go on with plugins of another version or file than recorded.
+    #[arg(long)]
+    pub(super) other_plugins: bool,
+}
+
+#[derive(Debug, clap::Args)]
+pub(super) struct CheckArgs {
+    /// Files, library folders or project folders; the gear library where none is given.
+    pub(super) paths: Vec<PathBuf>,
+}
+
+#[derive(Debug, Subcommand)]
+pub(super) enum PluginsCommand {
+    /// List the plugins found, with what they take, and those that failed.
+    List,
+    /// Load a plugin file in this process and tell what it holds.
+    Check {
+        /// Plugin file.
+        file: PathBuf,
+    },
+}
+
+impl OverArgs {
+    pub(super) fn overrides(&self) -> Overrides {
+        let weak_links = self.weak_links.map(|switch| switch == Switch::On);
+        Overrides { seed: self.seed, step_s: self.dt, weak_links, rating_n: self.rating }
+    }
+}
+
+fn step(text: &str) -> Result<f64, String> {
+    let seconds: f64 = text.parse().map_err(|_| "expected seconds, such as 0.01".to_owned())?;
+    if seconds > 0.0 && seconds <= 1.0 { Ok(seconds) } else { Err("expected seconds above 0 and at most 1".into()) }
+}
+
+fn force(text: &str) -> Result<f64, String> {
+    let newtons = match text.parse() {
+        Ok(newtons) => newtons,
+        Err(_) => units::parse(text, Quantity::Force).map_err(|error| error.to_string())?,
+    };
+    if newtons > 0.0 && f64::is_finite(newtons) { Ok(newtons) } else { Err("expected a force above 0".into()) }
+}
+
+fn size(text: &str) -> Result<[u32; 2], String> {
+    let pixels = |text: &str| text.parse().ok().filter(|pixels| (16..=8192).contains(pixels));
+    let both = text.split_once('x').and_then(|(width, height)| Some([pixels(width)?, pixels(height)?]));
+    both.ok_or_else(|| "expected width and height from 16 to 8192, such as 1280x800".into())
+}

@@ -1,0 +1,48 @@
+//! The command line: what it takes, and which file does it.
+//!
+//! Exit codes: 0 done, 1 the run or check failed, 2 wrong use of the command line.
+
+mod args;
+mod check;
+mod failure;
+mod host;
+mod output;
+mod picture;
+mod plugins;
+mod progress;
+mod render;
+mod replay;
+mod run;
+mod settle;
+mod table;
+mod workbench;
+
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+use clap::Parser;
+
+pub use args::Args;
+use args::Command;
+pub use failure::Failure;
+
+/// Does what the command line says.
+///
+/// # Errors
+/// With what to tell the user and the exit code.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitCode, Failure> {
+    let args = match Args::try_parse_from(arguments) {
+        Ok(args) => args,
+        Err(message) => return Ok(output::usage(&message)),
+    };
+    let library = args.library.as_deref();
+    match &args.command {
+        None => workbench::open(library),
+        Some(Command::Run(args)) => run::run(args, library),
+        Some(Command::Settle(args)) => settle::settle(args, library),
+        Some(Command::Replay(args)) => replay::replay(args),
+        Some(Command::Render(args)) => render::render(args),
+        Some(Command::Check(args)) => check::check(args, library),
+        Some(Command::Plugins { what }) => plugins::plugins(what),
+    }
+}

@@ -1,0 +1,52 @@
+//! Pictures of frames; a build without the feature `scene` says that it draws none.
+
+use std::path::Path;
+
+use endline_session::{Report, Run};
+use endline_sim::{Frame, Model};
+
+#[cfg(feature = "scene")]
+use crate::scene;
+
+use super::output;
+
+/// Refuses a view that does not exist, before anything is run.
+#[cfg(feature = "scene")]
+pub(super) fn check_view(view: &str) -> Result<(), String> {
+    let views = scene::VIEW_NAMES;
+    if views.contains(&view) { Ok(()) } else { Err(format!("there is no view `{view}`; expected one of {}", views.join(", "))) }
+}
+
+/// A build that draws nothing refuses every view.
+#[cfg(not(feature = "scene"))]
+pub(super) fn check_view(_view: &str) -> Result<(), String> {
+    Err(NO_SCENE.into())
+}
+
+#[cfg(not(feature = "scene"))]
+const NO_SCENE: &str = "this program was built without the feature `scene` and draws no pictures; build it with default features";
+
+/// Draws a frame as a PNG of this width and height [px].
+#[cfg(feature = "scene")]
+pub(super) fn draw(model: &Model, frame: &Frame, view: &str, size: [u32; 2], caption: &str, out: &Path) -> Result<(), String> {
+    scene::render_png(&scene::RenderRequest { model, frame, size, view, scale_n: None, caption, out })
+}
+
+/// A build that draws nothing says so.
+#[cfg(not(feature = "scene"))]
+pub(super) fn draw(_model: &Model, _frame: &Frame, _view: &str, _size: [u32; 2], _caption: &str, _out: &Path) -> Result<(), String> {
+    Err(NO_SCENE.into())
+}
+
+/// Draws the moment of the greatest tension of any line. A run without its picture is still a
+/// run: where it cannot be drawn, a note says why.
+pub(super) fn of_peak(run: &Run, report: &Report, out: &Path) {
+    let peak = report.lines.iter().max_by(|a, b| a.peak_tension_N.total_cmp(&b.peak_tension_N));
+    let peak_s = peak.map_or(0.0, |line| line.peak_at_s);
+    let nearest = run.frames().iter().min_by(|a, b| (a.time_s - peak_s).abs().total_cmp(&(b.time_s - peak_s).abs()));
+    let Some(frame) = nearest else { return };
+    let caption = format!("{}  {:.2} s", report.scenario, frame.time_s);
+    if let Err(reason) = draw(run.model(), frame, "orbit", [1280, 800], &caption, out) {
+        output::note(&format!("no picture: {reason}"));
+    }
+}

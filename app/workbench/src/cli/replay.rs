@@ -1,0 +1,97 @@
+//! `endline replay`: run a recording again; with `--verify` compare every step.
+
+use std::process::ExitCode;
+
+use endline_session::recording::replay::{self, ReplayOptions, Verdict};
+use endline_session::{Recording, Report, Run};
+use serde::Serialize;
+
+use super::args::ReplayArgs;
+use super::progress::Progress;
+use super::{Failure, host, output, table};
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct ReplayReport {
+    schema: &'static str,
+    recording: String,
+    recorded_with: String,
+    steps: u64,
+    /// `null` where nothing was compared.
+    verified: Option<bool>,
+    differs: Option<Difference>,
+    damage: Option<String>,
+    run: Report,
+}
+
+#[derive(Clone, Copy, Serialize)]
+struct Difference {
+    step: u64,
+    time_s: f64,
+    part: &'static str,
+}
+
+pub(super) fn replay(args: &ReplayArgs) -> Result<ExitCode, Failure> {
+    let recording = Recording::load(&args.recording)?;
+    tell_version(&recording);
+    let (run, verdict) = again(args, &recording)?;
+    let difference = match verdict {
+        Some(Verdict::Differs { step, time_s, part }) => Some(Difference { step, time_s, part }),
+        _ => None,
+    };
+    output::print(&if args.json { json(args, &recording, &run, verdict.as_ref(), difference) } else { words(&run, verdict.as_ref()) })?;
+    match difference {
+        None => Ok(ExitCode::SUCCESS),
+        Some(difference) => Err(Failure::failed(told(args, &recording, difference))),
+    }
+}
+
+fn again(args: &ReplayArgs, recording: &Recording) -> Result<(Run, Option<Verdict>), Failure> {
+    let host = host::load();
+    let options = ReplayOptions { other_plugins: args.other_plugins, frames_hz: 0.0 };
+    let progress = Progress::new(if args.verify { "verifying" } else { "replaying" });
+    let tell = |step, steps| progress.at(step, steps);
+    if args.verify {
+        let (run, verdict) = replay::verify(recording, &host, options, tell)?;
+        return Ok((run, Some(verdict)));
+    }
+    Ok((replay::replay(recording, &host, options, tell)?, None))
+}
+
+/// Bits are promised for one program only; another version may differ, and says so beforehand.
+fn tell_version(recording: &Recording) {
+    let (recorded, here) = (&recording.header.program, env!("CARGO_PKG_VERSION"));
+    if recorded != here {
+        output::note(&format!("recorded with Endline {recorded}, this is {here}: the bits may differ"));
+    }
+}
+
+fn told(args: &ReplayArgs, recording: &Recording, difference: Difference) -> String {
+    let Difference { step, time_s, part } = difference;
+    let damage = recording.damage.as_ref().map(|damage| format!("\n  {damage}")).unwrap_or_default();
+    format!("{}: step {step} ({time_s:.3} s): {part} differs from the recording{damage}", args.recording.display())
+}
+
+fn words(run: &Run, verdict: Option<&Verdict>) -> String {
+    let compared = match verdict {
+        None => String::new(),
+        Some(Verdict::Same { steps }) => format!("verified: {steps} steps gave the recorded bits\n"),
+        Some(Verdict::Differs { .. }) => return String::new(),
+    };
+    table::summary(&Report::of(run)) + &compared
+}
+
+fn json(args: &ReplayArgs, recording: &Recording, run: &Run, verdict: Option<&Verdict>, differs: Option<Difference>) -> String {
+    let report = ReplayReport {
+        schema: "endline.replay/1",
+        recording: args.recording.display().to_string(),
+        recorded_with: recording.header.program.clone(),
+        steps: recording.steps() as u64,
+        verified: verdict.map(|verdict| matches!(verdict, Verdict::Same { .. })),
+        differs,
+        damage: recording.damage.clone(),
+        run: Report::of(run),
+    };
+    // Structs of numbers and strings always serialise.
+    serde_json::to_string(&report).unwrap_or_default() + "\n"
+}

@@ -1,0 +1,28 @@
+//! `endline settle`: the gear at rest.
+
+use std::path::Path;
+use std::process::ExitCode;
+use std::time::Instant;
+
+use endline_session::prepare;
+use endline_session::settled::SettledShape;
+use endline_sim::settle as find_rest;
+
+use super::args::SettleArgs;
+use super::{Failure, host, output, table};
+
+pub(super) fn settle(args: &SettleArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
+    let prepared = prepare(&args.scenario, library, &host::load(), args.over.overrides())?;
+    let start = Instant::now();
+    let settled = find_rest(&prepared.model);
+    let shape = SettledShape::of(&prepared, &settled, start.elapsed().as_secs_f64());
+    output::print(&if args.json { shape.json() + "\n" } else { table::settled(&shape) })?;
+    if settled.converged {
+        return Ok(ExitCode::SUCCESS);
+    }
+    Err(Failure::failed(format!(
+        "did not come to rest: after {} passes a force of {:.3e} N is out of balance",
+        settled.trace_n.len(),
+        settled.residual_n
+    )))
+}

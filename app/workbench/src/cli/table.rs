@@ -1,0 +1,189 @@
+//! Summaries for people: aligned columns, forces in newtons and pounds-force.
+
+use std::fmt::Write;
+
+use endline_session::Report;
+use endline_session::report::{LineReport, LinkReport, PhaseReport, ProbeReport, WhaleReport};
+use endline_session::settled::SettledShape;
+
+/// Newtons in a pound-force.
+const N_PER_LBF: f64 = 4.448_221_615_260_5;
+
+/// The summary of a run.
+pub(super) fn summary(report: &Report) -> String {
+    let mut text = format!("{}\n\n", report.scenario);
+    text += &head(report);
+    text += &lines(&report.lines);
+    text += &links(&report.links);
+    text += &bodies(report);
+    text += &probes(&report.probes);
+    text += &report.whale.as_ref().map(whale).unwrap_or_default();
+    text
+}
+
+/// The gear at rest.
+pub(super) fn settled(shape: &SettledShape) -> String {
+    let verdict = if shape.converged { "at rest" } else { "NOT at rest" };
+    let mut text = format!("{}\n\n", shape.scenario);
+    text += &columns(&[
+        vec![verdict.into(), format!("greatest force out of balance {:.2e} N", shape.residual_N)],
+        vec!["passes".into(), shape.trace_N.len().to_string()],
+        vec!["rope nodes".into(), shape.nodes.to_string()],
+    ]);
+    let mut rows = vec![row(&["line", "length", "tension at end A", "tension at end B"])];
+    for line in &shape.lines {
+        rows.push(vec![line.id.clone(), format!("{:.2} m", line.length_m), force(line.end_a_tension_N), force(line.end_b_tension_N)]);
+    }
+    text += &columns(&rows);
+    let mut rows = vec![row(&["body", "east", "north", "up"])];
+    rows.extend(shape.bodies.iter().map(|body| place(&body.id, body.position_m)));
+    text + &columns(&rows) + &probes(&shape.probes)
+}
+
+fn head(report: &Report) -> String {
+    let state = match &report.stopped {
+        Some(stopped) => stopped.clone(),
+        None if report.valid => "ran to its end".into(),
+        None => "ran to its end, but its numbers cannot be trusted: see the audit".into(),
+    };
+    let audit = &report.audit;
+    columns(&[
+        vec!["run".into(), state],
+        vec!["simulated".into(), format!("{:.2} s in {} steps of {} s", report.simulated_s, report.steps, report.dt_s)],
+        vec!["speed".into(), speed(report)],
+        vec!["model".into(), format!("{} rope nodes, {} triangles, seed {}", report.nodes, report.triangles, report.seed)],
+        vec![
+            "audit".into(),
+            format!("{} tunnelled, {} not finite, {:.2} mm deepest", audit.tunnelled, audit.non_finite, 1e3 * audit.max_penetration_m),
+        ],
+        vec!["state hash".into(), report.state_hash.clone()],
+    ])
+}
+
+fn speed(report: &Report) -> String {
+    let phase = |name: &str, phase: &PhaseReport| {
+        if phase.simulated_s > 0.0 { format!("{name} {:.1}", phase.times_real_time) } else { format!("{name} none") }
+    };
+    format!(
+        "{:.1} times real time ({}, {})",
+        report.times_real_time,
+        phase("approach", &report.approach),
+        phase("contact", &report.contact)
+    )
+}
+
+fn lines(lines: &[LineReport]) -> String {
+    let mut rows = vec![row(&["line", "peak tension", "at", "settled", "parted"])];
+    for line in lines {
+        let peak_at = format!("{:.2} s", line.peak_at_s);
+        rows.push(vec![line.id.clone(), force(line.peak_tension_N), peak_at, force(line.settled_tension_N), moment(line.parted_at_s)]);
+    }
+    columns(&rows)
+}
+
+fn links(links: &[LinkReport]) -> String {
+    let mut rows = vec![row(&["weak link", "rating", "peak tension", "parted"])];
+    for link in links {
+        rows.push(vec![link.id.clone(), force(link.rating_N), force(link.peak_tension_N), moment(link.parted_at_s)]);
+    }
+    columns(&rows)
+}
+
+fn bodies(report: &Report) -> String {
+    let mut rows = vec![row(&["body", "east", "north", "up", "peak speed"])];
+    for body in &report.bodies {
+        let mut row = place(&body.id, body.position_m);
+        row.push(format!("{:.2} m/s", body.peak_speed_m_s));
+        rows.push(row);
+    }
+    columns(&rows)
+}
+
+fn probes(probes: &[ProbeReport]) -> String {
+    let mut rows = vec![row(&["probe", "final", "least", "greatest", "mean"])];
+    for probe in probes {
+        let value = |number: f64| format!("{number:.4} {}", probe.unit);
+        rows.push(vec![probe.id.clone(), value(probe.last), value(probe.min), value(probe.max), value(probe.mean)]);
+    }
+    columns(&rows)
+}
+
+fn whale(whale: &WhaleReport) -> String {
+    let undecided = if whale.decided { "" } else { " (undecided: the run is too short to tell)" };
+    let mut text = columns(&[
+        vec!["whale".into(), whale.outcome.replace('_', " ") + undecided],
+        vec!["first touched".into(), moment(whale.first_contact_s)],
+        vec!["rope drag".into(), force(whale.drag_added_N)],
+        vec!["trailing rope".into(), format!("{:.1} m", whale.trailing_m)],
+    ]);
+    let mut rows = vec![row(&["region", "wraps", "rope in contact", "peak normal force", "friction work"])];
+    for region in whale.regions.iter().filter(|region| region.peak_normal_N > 0.0) {
+        rows.push(vec![
+            region.region.replace('_', " "),
+            format!("{:.2}", region.wraps),
+            format!("{:.2} m", region.contact_length_m),
+            force(region.peak_normal_N),
+            format!("{:.1} J", region.friction_work_J),
+        ]);
+    }
+    text += &columns(&rows);
+    text
+}
+
+/// A force in newtons and pounds-force.
+fn force(newtons: f64) -> String {
+    if newtons.is_finite() { format!("{newtons:.1} N ({:.1} lbf)", newtons / N_PER_LBF) } else { "none".into() }
+}
+
+fn moment(time_s: Option<f64>) -> String {
+    time_s.map_or_else(|| "no".into(), |time_s| format!("{time_s:.3} s"))
+}
+
+fn place(id: &str, position_m: [f64; 3]) -> Vec<String> {
+    let mut row = vec![id.to_owned()];
+    row.extend(position_m.iter().map(|metres| format!("{metres:.2} m")));
+    row
+}
+
+fn row(cells: &[&str]) -> Vec<String> {
+    cells.iter().map(ToString::to_string).collect()
+}
+
+/// Rows in aligned columns and an empty line; nothing where there is only a heading of several columns.
+fn columns(rows: &[Vec<String>]) -> String {
+    if rows.len() == 1 && rows[0].len() > 2 {
+        return String::new();
+    }
+    let count = rows.iter().map(Vec::len).max().unwrap_or_default();
+    let width = |column: usize| rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count()).max().unwrap_or_default();
+    let widths: Vec<usize> = (0..count).map(width).collect();
+    let mut text = String::new();
+    for row in rows {
+        let mut line = String::new();
+        for (cell, width) in row.iter().zip(&widths) {
+            // Writing into a String cannot fail.
+            let _ = write!(line, "{cell:<width$}  ");
+        }
+        text += line.trim_end();
+        text.push('\n');
+    }
+    text + "\n"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_line_up_and_headings_alone_are_left_out() {
+        let rows = [row(&["line", "peak", "at"]), row(&["endline-top", "2 N", "1 s"])];
+        assert_eq!(columns(&rows), "line         peak  at\nendline-top  2 N   1 s\n\n");
+        assert_eq!(columns(&rows[..1]), "");
+    }
+
+    #[test]
+    fn forces_come_in_both_units() {
+        assert_eq!(force(7561.976_745_942_85), "7562.0 N (1700.0 lbf)");
+        assert_eq!(force(f64::INFINITY), "none");
+    }
+}
