@@ -69,10 +69,10 @@ fn the_weak_link_parts_at_its_rating_and_holds_when_off_or_five_times_stronger()
     off.links[0].enabled = false;
     strong.links[0].rating_n *= 5.0;
     let link = run(shipped("hello-weak-link.toml")).summary.links.remove(0);
-    assert!(link.parted_s.is_some(), "it parts: {link:?}");
+    assert!(link.parted_at_s.is_some(), "it parts: {link:?}");
     assert!((link.peak_tension_n / link.rating_n - 1.0).abs() < 0.02, "{link:?}");
     for spec in [off, strong] {
         let link = run(spec).summary.links.remove(0);
-        assert!(link.parted_s.is_none(), "it holds: {link:?}");
+        assert!(link.parted_at_s.is_none(), "it holds: {link:?}");
     }
 }

@@ -134,9 +134,10 @@ impl Solver {
             self.pull[segment] = Pull::default();
             return;
         }
-        let pull = self.pull_of(rope, segment, node, scheme);
+        let mut pull = self.pull_of(rope, segment, node, scheme);
+        pull.taut = self.trial.tension[segment] > 0.0;
         self.pull[segment] = pull;
-        if self.trial.tension[segment] <= 0.0 {
+        if !pull.taut {
             return;
         }
         let along = outer(pull.direction, pull.direction);
@@ -171,7 +172,7 @@ impl Solver {
         let rate = direction.dot(between - history) * scheme.rate / length;
         let tension = rope.axial_stiffness_n * (chord / length - 1.0) + rope.axial_damping_n_s * rate;
         let stiffness = (rope.axial_stiffness_n + rope.axial_damping_n_s * scheme.rate) / length;
-        Pull { direction, chord, tension, stiffness }
+        Pull { direction, chord, tension, stiffness, taut: false }
     }
 
     /// After a solve: the tension each segment will have by the linear solution.
@@ -193,6 +194,8 @@ pub(crate) struct Pull {
     pub chord: f64,
     pub tension: f64,
     pub stiffness: f64,
+    /// Whether the last solve let it pull.
+    pub taut: bool,
 }
 
 impl Pull {

@@ -115,6 +115,21 @@ impl Solver {
         });
     }
 
+    /// Greatest difference between the pull of a segment in the last solve and the tension at its place, slack
+    /// as zero, and the greatest tension [N].
+    pub(crate) fn tension_gap(&mut self, model: &Model, scheme: &Scheme) -> (f64, f64) {
+        let (mut gap, mut greatest) = (0.0_f64, 0.0_f64);
+        self.each_segment(model, |solver, rope, segment, node| {
+            if !solver.cut[segment] {
+                let solved = if solver.pull[segment].taut { solver.trial.tension[segment] } else { 0.0 };
+                let there = solver.pull_of(rope, segment, node, scheme).tension.max(0.0);
+                gap = gap.max((solved - there).abs());
+                greatest = greatest.max(solved);
+            }
+        });
+        (gap, greatest)
+    }
+
     fn each_segment(&mut self, model: &Model, mut act: impl FnMut(&mut Self, &Rope, usize, usize)) {
         for (index, line) in model.spec.lines.iter().enumerate() {
             let first_node = model.line_nodes[index].start;
