@@ -8,7 +8,7 @@ use endline_gear::{Diagnostic, Kind, Library, Options, Scenario, Sources, assemb
 use linked::{Linked, library, root, told};
 
 use endline_sim::model::{BodyRole, JointKind, ProbeTarget};
-use endline_sim::{DQuat, DVec3, Input, Model, ModelSpec, Workspace, settle, step};
+use endline_sim::{DQuat, DVec3, Model, ModelSpec, settle};
 
 #[test]
 fn every_shipped_file_reads_without_a_word() {
@@ -392,27 +392,4 @@ fn problem_b_as_a_file_settles_to_its_reference() {
     let buoy = settled.state.bodies[0].position;
     assert!((buoy - DVec3::new(50.34061059, 0.0, 0.06596101)).length() < 0.05, "{buoy}");
     assert!((rope.position[250] - DVec3::new(27.63402, 0.0, -18.31986)).length() < 0.05, "{}", rope.position[250]);
-}
-
-/// When the weak link of its scenario parts within 25 s, with a rating and with links on or off.
-fn parting(text: &str, weak_links: bool) -> Option<f64> {
-    let scenario = Scenario::read("test.toml", text).unwrap();
-    let options = Options { weak_links: Some(weak_links), ..Options::default() };
-    let spec = assemble(&scenario, &library(), &Linked, &options).unwrap_or_else(|problems| panic!("{}", told(&problems)));
-    let model = Model::new(spec).unwrap();
-    let (mut state, mut workspace) = (settle(&model).state, Workspace::new(&model));
-    while state.time_s < 25.0 && state.link_parted_s[0].is_none() {
-        let controls = model.spec.whale.as_ref().unwrap().pilot.at(state.time_s);
-        step(&model, &Input { controls }, &mut state, &mut workspace).unwrap();
-    }
-    assert_eq!(workspace.audit.tunnelled, 0);
-    state.link_parted_s[0]
-}
-
-#[test]
-fn the_weak_link_of_its_scenario_parts_and_not_when_off_or_five_times_stronger() {
-    let text = scenario_text("hello-weak-link.toml");
-    assert!(parting(&text, true).is_some_and(|at| at > 14.0));
-    assert_eq!(parting(&text, false), None);
-    assert_eq!(parting(&text.replace("item = \"wl-200\"", "rating = \"1000 lbf\""), true), None);
 }
