@@ -79,7 +79,7 @@ impl Scene {
     /// The scene of a frame of a model.
     #[must_use]
     pub fn of(model: &Model, frame: &Frame, show: &Show) -> Self {
-        let bounds = bounds(model, frame);
+        let bounds = bounds(&Self::places_of(model, frame));
         let scale_n = show.scale_n.unwrap_or_else(|| frame.tension_n.iter().copied().fold(0.0, f64::max)).max(1.0);
         let mut parts = Vec::new();
         let mut add = |wanted: bool, name, look, least_px, mesh: Mesh| {
@@ -91,10 +91,19 @@ impl Scene {
         add(show.whale, "whale", Look::Solid, 0.0, whale::skin(model, frame));
         add(true, "ropes", Look::Own, 1.1, rope::lines(model, frame, scale_n));
         add(true, "bodies", Look::Solid, 0.35, bodies::bodies(model, frame));
-        add(show.current, "current", Look::Own, 0.8, sea::current(model, &bounds));
+        add(show.current, "current", Look::Own, 0.8, sea::current(model));
         add(show.contacts, "marks", Look::Own, 4.0, rope::contacts(frame));
         add(show.surface, "surface", Look::Surface, 0.0, sea::surface(model, &bounds));
         Self { parts, bounds, scale_n, time_s: frame.time_s, depth_m: model.spec.water.depth_m }
+    }
+
+    /// Places that together show gear and whale: rope nodes, bodies, a box round the whale [m].
+    #[must_use]
+    pub fn places_of(model: &Model, frame: &Frame) -> Vec<DVec3> {
+        let pair = model.spec.whale.as_ref().zip(frame.whale.as_ref());
+        let whale = pair.into_iter().flat_map(|(whale, at)| whale_corners(whale, at.position, at.orientation));
+        let bodies = frame.bodies.iter().map(|(place, _)| *place);
+        frame.nodes.iter().copied().chain(bodies).chain(whale).filter(|place| place.is_finite()).collect()
     }
 
     /// A part by its name.
@@ -105,12 +114,8 @@ impl Scene {
 }
 
 /// Box round gear and whale.
-fn bounds(model: &Model, frame: &Frame) -> Bounds {
-    let ropes = frame.nodes.iter().copied();
-    let bodies = frame.bodies.iter().map(|(place, _)| *place);
-    let pair = model.spec.whale.as_ref().zip(frame.whale.as_ref());
-    let whale = pair.into_iter().flat_map(|(whale, at)| whale_corners(whale, at.position, at.orientation));
-    let mut bounds = Bounds::of(ropes.chain(bodies).chain(whale));
+fn bounds(places: &[DVec3]) -> Bounds {
+    let mut bounds = Bounds::of(places.iter().copied());
     // A little air round small gear, so that a lone trap does not fill the picture.
     let least = DVec3::splat(1.0);
     let (centre, half) = (bounds.centre(), bounds.half_size().max(least));

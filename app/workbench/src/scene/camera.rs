@@ -65,6 +65,8 @@ const STEEPEST: f64 = 1.5705;
 const FREE_ANGLE: f64 = 0.6;
 /// Angle of view of side, top and front: so narrow that lengths compare all over the picture [rad].
 const FLAT_ANGLE: f64 = 0.12;
+/// Air round what is framed, as a factor on its size.
+const MARGIN: f64 = 1.08;
 /// Angle of view when flying [rad].
 const FLY_ANGLE: f64 = 1.0;
 
@@ -75,9 +77,9 @@ impl Default for Camera {
 }
 
 impl Camera {
-    /// A camera at a named view with everything in `bounds` in sight; `aspect` is width over height.
+    /// A camera at a named view with all of `places` in sight; `aspect` is width over height.
     #[must_use]
-    pub fn of_view(view: View, bounds: &Bounds, whale: Option<&WhaleFrame>, length_m: f64, aspect: f64) -> Self {
+    pub fn of_view(view: View, places: &[DVec3], whale: Option<&WhaleFrame>, length_m: f64, aspect: f64) -> Self {
         let quarter = std::f64::consts::FRAC_PI_2;
         let mut camera = Self::default();
         (camera.azimuth, camera.elevation, camera.field_of_view) = match view {
@@ -88,20 +90,46 @@ impl Camera {
         };
         match (view, whale) {
             (View::Whale, Some(whale)) => camera.follow(whale, length_m),
-            _ => camera.frame(bounds, aspect),
+            _ => camera.frame(places, aspect),
         }
         camera
     }
 
-    /// Moves so that `bounds` fills the picture.
-    pub fn frame(&mut self, bounds: &Bounds, aspect: f64) {
-        self.target = bounds.centre();
-        let (right, up, _) = self.axes();
-        let half = bounds.half_size();
-        let (across, along) = (half.dot(right.abs()), half.dot(up.abs()));
-        let needed = along.max(across / aspect.max(0.1)) * 1.12;
-        let depth = half.dot((self.eye() - self.target).normalize_or_zero().abs());
-        self.distance_m = (needed / (self.field_of_view / 2.0).tan() + depth).max(1.0);
+    /// Moves so that `places` fill the picture.
+    pub fn frame(&mut self, places: &[DVec3], aspect: f64) {
+        self.target = Bounds::of(places.iter().copied()).centre();
+        // What is near looks larger, so the middle of the picture is not that of the places: centre, then fit, until both hold.
+        for _ in 0..4 {
+            self.distance_m = self.fitting_distance(places, aspect);
+            let (right, up, _) = self.axes();
+            let (least, most) = self.extent(places);
+            let middle = (least + most) * 0.5 * self.distance_m;
+            self.target += right * middle.x + up * middle.y;
+        }
+        self.distance_m = self.fitting_distance(places, aspect);
+    }
+
+    /// Least distance at which every place is in sight [m]: one is where its offset across is at most
+    /// its distance ahead times the tangent of the half angle.
+    fn fitting_distance(&self, places: &[DVec3], aspect: f64) -> f64 {
+        let (right, up, ahead) = self.axes();
+        let height = (self.field_of_view / 2.0).tan() / MARGIN;
+        let needed = |place: &DVec3| {
+            let from = *place - self.target;
+            let across = (from.dot(up).abs() / height).max(from.dot(right).abs() / (height * aspect.max(0.1)));
+            across - from.dot(ahead)
+        };
+        places.iter().map(needed).fold(1.0, f64::max)
+    }
+
+    /// Least and greatest tangent of the places from the middle of the picture, across and up.
+    fn extent(&self, places: &[DVec3]) -> (DVec2, DVec2) {
+        let ((right, up, ahead), eye) = (self.axes(), self.eye());
+        let tangent = |place: &DVec3| {
+            let from = *place - eye;
+            DVec2::new(from.dot(right), from.dot(up)) / from.dot(ahead).max(1e-6)
+        };
+        places.iter().map(tangent).fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(least, most), at| (least.min(at), most.max(at)))
     }
 
     /// Third person: behind and above the whale, looking where it looks.
@@ -218,7 +246,7 @@ mod tests {
     #[test]
     fn every_view_shows_all_of_the_gear() {
         for view in [View::Orbit, View::Side, View::Top, View::Front] {
-            let camera = Camera::of_view(view, &gear(), None, 13.0, SIZE.x / SIZE.y);
+            let camera = Camera::of_view(view, &gear().corners(), None, 13.0, SIZE.x / SIZE.y);
             for corner in gear().corners() {
                 let at = camera.project(corner, SIZE).unwrap();
                 let inside = at.x > 0.0 && at.x < SIZE.x && at.y > 0.0 && at.y < SIZE.y;
@@ -228,11 +256,25 @@ mod tests {
     }
 
     #[test]
+    fn what_is_framed_fills_the_picture_and_stands_in_its_middle() {
+        let places =
+            [DVec3::new(0.0, 0.0, -25.0), DVec3::new(17.0, 2.0, 0.0), DVec3::new(8.0, -21.0, -12.0), DVec3::new(8.0, -35.0, -12.0)];
+        for view in [View::Orbit, View::Side, View::Top, View::Front] {
+            let camera = Camera::of_view(view, &places, None, 13.0, SIZE.x / SIZE.y);
+            let at = places.map(|place| camera.project(place, SIZE).unwrap());
+            let (least, most) = at.into_iter().fold((at[0], at[0]), |(least, most), at| (least.min(at), most.max(at)));
+            let share = (most - least) / SIZE;
+            assert!(share.max_element() > 0.85 && share.max_element() < 0.97, "{view:?}: {share}");
+            assert!(((least + most) / 2.0 - SIZE / 2.0).length() < 12.0, "{view:?}: {least} to {most}");
+        }
+    }
+
+    #[test]
     fn east_is_right_and_up_is_up_from_the_south_and_north_is_up_from_above() {
-        let side = Camera::of_view(View::Side, &gear(), None, 13.0, 1.0);
+        let side = Camera::of_view(View::Side, &gear().corners(), None, 13.0, 1.0);
         assert!(side.project(DVec3::new(50.0, 0.0, -20.0), SIZE).unwrap().x > side.project(DVec3::new(0.0, 0.0, -20.0), SIZE).unwrap().x);
         assert!(side.project(DVec3::ZERO, SIZE).unwrap().y < side.project(DVec3::new(0.0, 0.0, -30.0), SIZE).unwrap().y);
-        let top = Camera::of_view(View::Top, &gear(), None, 13.0, 1.0);
+        let top = Camera::of_view(View::Top, &gear().corners(), None, 13.0, 1.0);
         assert!(top.project(DVec3::new(0.0, 3.0, 0.0), SIZE).unwrap().y < top.project(DVec3::new(0.0, -3.0, 0.0), SIZE).unwrap().y);
     }
 

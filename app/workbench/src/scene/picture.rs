@@ -57,7 +57,7 @@ pub fn render(request: &RenderRequest<'_>) -> Result<Vec<[u8; 4]>, String> {
     let scene = Scene::of(request.model, request.frame, &Show { scale_n: request.scale_n, ..Show::default() });
     let aspect = f64::from(request.size[0]) / f64::from(request.size[1]);
     let length_m = request.model.spec.whale.as_ref().map_or(10.0, |whale| whale.length_m);
-    let camera = Camera::of_view(view, &scene.bounds, request.frame.whale.as_ref(), length_m, aspect);
+    let camera = Camera::of_view(view, &Scene::places_of(request.model, request.frame), request.frame.whale.as_ref(), length_m, aspect);
     draw(request, &scene, &camera)
 }
 

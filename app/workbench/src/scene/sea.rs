@@ -52,7 +52,7 @@ fn sheet(bounds: &Bounds, colour: Colour, place: impl Fn(f64, f64) -> DVec3) -> 
 }
 
 /// A column of arrows beside the gear; each is as long as the current is fast at its height.
-pub fn current(model: &Model, bounds: &Bounds) -> Mesh {
+pub fn current(model: &Model) -> Mesh {
     let water = &model.spec.water;
     let mut mesh = Mesh::default();
     let bottom = -model.spec.seabed.as_ref().map_or(water.depth_m, |seabed| seabed.depth_m);
@@ -61,10 +61,13 @@ pub fn current(model: &Model, bounds: &Bounds) -> Mesh {
         return mesh;
     }
     let across = DVec3::new(-along.y, along.x, 0.0);
-    let half = bounds.half_size();
-    let foot = bounds.centre() + across * (half.dot(across.abs()) + 4.0) - along * (half.dot(along.abs()) * 0.5);
+    // Beside the gear as it was placed, so that the column stands still while the gear moves.
+    let placed =
+        Bounds::of(model.spec.bodies.iter().map(|body| body.position_m).chain(model.spec.joints.iter().map(|joint| joint.position_m)));
+    let half = placed.half_size();
+    let foot = placed.centre() + across * (half.dot(across.abs()) + 4.0);
     let column = |height: f64| single(DVec3::new(foot.x, foot.y, bottom * (1.0 - height)));
-    let radius = (0.004 * half.max_element()).clamp(0.02, 0.5) as f32;
+    let radius = (-0.004 * bottom).clamp(0.02, 0.5) as f32;
     mesh.bar(column(0.0), column(1.0), 0.2 * radius, CURRENT);
     for arrow in 0..ARROWS {
         let from = column((arrow as f64 + 0.5) / ARROWS as f64);

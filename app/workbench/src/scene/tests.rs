@@ -88,8 +88,8 @@ fn picture(view: View) -> (Vec<[u8; 4]>, DVec2, Camera) {
     let out = std::path::PathBuf::new();
     let request = RenderRequest { model: &model, frame: &frame, size, view: view.name(), scale_n: None, caption: "sample", out: &out };
     let pixels = render(&request).unwrap();
-    let bounds = Scene::of(&model, &frame, &Show::default()).bounds;
-    (pixels, DVec2::new(640.0, 480.0), Camera::of_view(view, &bounds, frame.whale.as_ref(), 13.0, 640.0 / 480.0))
+    let places = Scene::places_of(&model, &frame);
+    (pixels, DVec2::new(640.0, 480.0), Camera::of_view(view, &places, frame.whale.as_ref(), 13.0, 640.0 / 480.0))
 }
 
 /// The pixel of a world place.
