@@ -17,7 +17,7 @@ use std::thread::JoinHandle;
 
 use endline_sdk::Controls;
 use endline_sim::metrics::{Event, Summary};
-use endline_sim::{Frame, Model};
+use endline_sim::{Audit, Frame, Model};
 
 pub use series::{Series, Span};
 
@@ -87,6 +87,10 @@ pub struct LiveView {
     pub summary: Option<Summary>,
     /// Greatest tension of each line over time [N].
     pub tension: Series,
+    /// Counters of the solver up to the newest moment.
+    pub audit: Audit,
+    /// Hash of the newest state, hexadecimal; empty before the start.
+    pub state_hash: String,
     /// Events up to the newest moment.
     pub events: Arc<[Event]>,
     /// How the run stands.
@@ -101,6 +105,14 @@ pub struct LiveView {
     pub controls: Controls,
     /// Answer to the last command that asked for one, such as the file saved.
     pub message: Option<String>,
+}
+
+impl LiveView {
+    /// What is to see before anything is settled: the gear as first guessed.
+    #[must_use]
+    pub fn before(prepared: &Prepared) -> Self {
+        work::first_view(prepared)
+    }
 }
 
 /// A run on a thread of its own.

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use endline_sdk::Controls;
-use endline_sim::{Frame, State};
+use endline_sim::{Audit, Frame, State};
 
 use super::film::Film;
 use super::pace::Pace;
@@ -53,6 +53,8 @@ pub(super) fn first_view(prepared: &Prepared) -> LiveView {
         sought: false,
         summary: None,
         tension: Series::default(),
+        audit: Audit::default(),
+        state_hash: String::new(),
         events: Arc::new([]),
         status: Status::Settling,
         speed: 1.0,
@@ -287,6 +289,8 @@ impl<'a> Worker<'a> {
             sought: self.sought.is_some(),
             summary: Some(run.summary()),
             tension: self.tension.clone(),
+            audit: run.audit(),
+            state_hash: run.state_hash().hex(),
             events: run.metrics().events().into(),
             status: self.status.clone(),
             speed: self.pace.speed(),
