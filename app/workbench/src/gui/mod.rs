@@ -1,6 +1,34 @@
 //! The workbench: an egui window over a session.
+//!
+//! The window holds no state of a simulation: it reads the newest [`LiveView`](endline_session::live::LiveView)
+//! and sends commands. Panels draw from the [`Desk`](desk::Desk) and leave [`Order`](desk::Order)s on it.
+
+pub mod app;
+pub mod book;
+pub mod canvas;
+pub mod desk;
+pub mod engine;
+pub mod fields;
+pub mod hud;
+pub mod keys;
+pub mod layout;
+pub mod menus;
+pub mod palette;
+pub mod panels;
+pub mod status;
+pub mod theme;
+pub mod units;
 
 use std::path::PathBuf;
+use std::sync::Arc;
+
+use endline_session::{PluginHost, locate};
+
+use crate::input::{GilrsPads, PadSource, Pilot};
+use app::App;
+use book::Book;
+use desk::Desk;
+use engine::Waker;
 
 /// How the workbench starts.
 #[derive(Clone, Debug, Default)]
@@ -18,7 +46,37 @@ pub struct Options {
 /// Opens the workbench and returns when its window is closed.
 ///
 /// # Errors
-/// With the reason, where no window can be opened (no display, no OpenGL).
-pub fn open(_options: Options) -> Result<(), String> {
-    Err("the window is not part of this build yet; use `endline run SCENARIO`".into())
+/// With the reason, where the library cannot be read or no window can be opened (no display, no OpenGL).
+pub fn open(options: Options) -> Result<(), String> {
+    let root = locate::library(options.scenario.as_deref(), options.library.as_deref())?;
+    let scenario = options.scenario.unwrap_or_else(|| root.join("scenarios/hello-endline.toml"));
+    let book = Book::open(&root, &scenario)?;
+    let (host, refused) = PluginHost::discover(&options.plugins);
+    let refused: Vec<String> = refused.iter().map(ToString::to_string).collect();
+    let native = eframe::NativeOptions {
+        viewport: egui::ViewportBuilder::default()
+            .with_title("Endline")
+            .with_inner_size([1500.0, 940.0])
+            .with_min_inner_size([900.0, 600.0]),
+        renderer: eframe::Renderer::Glow,
+        persistence_path: options.settings,
+        ..eframe::NativeOptions::default()
+    };
+    let create = move |creation: &eframe::CreationContext<'_>| {
+        let host = Arc::new(host);
+        let context = creation.egui_ctx.clone();
+        let waker: Waker = Arc::new(move || context.request_repaint());
+        let launch = engine::live(Arc::clone(&host));
+        let mut desk = Desk::new(book, host, launch, waker, Pilot::new(pads()));
+        desk.plugin_problems = refused;
+        let app: Box<dyn eframe::App> = Box::new(App::new(creation, desk));
+        Ok(app)
+    };
+    eframe::run_native("endline", native, Box::new(create)).map_err(|error| format!("no window can be opened: {error}"))
+}
+
+/// The machine's pads; without them the keyboard flies alone.
+fn pads() -> Option<Box<dyn PadSource>> {
+    let pads: Box<dyn PadSource> = Box::new(GilrsPads::new().ok()?);
+    Some(pads)
 }

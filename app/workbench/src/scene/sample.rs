@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use endline_sdk::{Descriptor, HookError, MotionInput, MotionOutput, Region, WhaleMotion};
+use endline_sdk::{Contacts, Descriptor, FrictionModel, FrictionResponse, HookError, MotionInput, MotionOutput, Region, WhaleMotion};
 use endline_sim::contact::ContactPoint;
-use endline_sim::model::{Body, BodyRole, Float, Joint, JointKind, Line, ModelSpec, Rope, Seabed, Settings, Shape};
+use endline_sim::model::{Body, BodyRole, Float, Friction, Joint, JointKind, Line, ModelSpec, Rope, Seabed, Settings, Shape};
 use endline_sim::water::{Current, Water};
 use endline_sim::whale::{Bone, PilotProgram, Skin, Whale};
 use endline_sim::{DQuat, DVec3, Frame, Model, State};
@@ -34,7 +34,7 @@ pub fn model() -> Model {
         links: Vec::new(),
         gear: Vec::new(),
         whale: Some(whale()),
-        friction: None,
+        friction: Some(friction()),
         probes: Vec::new(),
         settings: Settings::default(),
     };
@@ -132,17 +132,38 @@ fn whale() -> Whale {
         position_m: DVec3::new(-6.0, 2.0, -14.0),
         orientation: DQuat::IDENTITY,
         speed_m_s: 1.0,
-        motion: Arc::new(Still(Descriptor {
-            id: "still".into(),
-            version: "1".into(),
-            name: "Still".into(),
-            help: "".into(),
-            attributes: Vec::new(),
-            state_len: 0,
-        })),
+        motion: Arc::new(Still(nothing("still"))),
         motion_attributes: Vec::new(),
         pilot: PilotProgram::default(),
         contact_stiffness_n_m2: 1e5,
+    }
+}
+
+fn friction() -> Friction {
+    let model = Arc::new(Smooth(nothing("smooth")));
+    Friction { model, attributes: Vec::new(), coefficients: vec![[0.0; Region::ALL.len()]] }
+}
+
+/// A plugin without attributes or state.
+fn nothing(id: &'static str) -> Descriptor {
+    Descriptor { id: id.into(), version: "1".into(), name: id.into(), help: "".into(), attributes: Vec::new(), state_len: 0 }
+}
+
+/// Friction that never pulls.
+struct Smooth(Descriptor);
+
+impl FrictionModel for Smooth {
+    fn descriptor(&self) -> &Descriptor {
+        &self.0
+    }
+
+    fn respond(&self, _attributes: &[f64], _contacts: &Contacts<'_>, out: &mut [FrictionResponse]) -> Result<(), HookError> {
+        out.fill(FrictionResponse::default());
+        Ok(())
+    }
+
+    fn advance(&self, _attributes: &[f64], _contacts: &Contacts<'_>, _out: &mut [f64]) -> Result<(), HookError> {
+        Ok(())
     }
 }
 

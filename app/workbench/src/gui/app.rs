@@ -1,0 +1,183 @@
+//! The window: menus, dock, status bar, keys and pad.
+
+use std::sync::{Arc, Mutex, mpsc};
+
+use eframe::{CreationContext, Storage};
+use egui::{CentralPanel, Context, Frame as Margins, Id, Panel as Bar, Ui};
+use egui_dock::{DockArea, DockState, TabViewer};
+use endline_session::live::Command;
+
+use super::canvas::Canvas;
+use super::desk::{Desk, Order, Preferences};
+use super::layout::{self, Layout, Panel};
+use super::{keys, menus, panels, status};
+use crate::input::{HeldKeys, PilotAction};
+
+const LAYOUT_KEY: &str = "layout";
+const PREFERENCES_KEY: &str = "preferences";
+
+/// The workbench as eframe runs it.
+pub struct App {
+    /// What the panels share.
+    pub desk: Desk,
+    /// Panels in place.
+    pub dock: DockState<String>,
+    /// Answer of a file dialog still open.
+    pub dialog: Option<mpsc::Receiver<Option<Order>>>,
+    palette: super::palette::Palette,
+    dressed: Option<super::theme::Theme>,
+    controls_at_s: Option<f64>,
+}
+
+impl App {
+    /// A workbench on a desk; layout and preferences are taken from eframe's storage.
+    #[must_use]
+    pub fn new(creation: &CreationContext<'_>, mut desk: Desk) -> Self {
+        let stored = |key: &str| creation.storage.and_then(|storage| storage.get_string(key));
+        if let Some(text) = stored(PREFERENCES_KEY) {
+            desk.preferences = serde_json::from_str(&text).unwrap_or_default();
+        }
+        desk.pilot.invert_pitch = desk.preferences.invert_pitch;
+        let saved = stored(LAYOUT_KEY).and_then(|text| serde_json::from_str(&text).ok()).and_then(layout::known);
+        if let Some(gl) = &creation.gl {
+            match Canvas::new(Arc::clone(gl)) {
+                Ok(canvas) => desk.view3d.canvas = Some(Arc::new(Mutex::new(canvas))),
+                Err(error) => desk.notice = Some((error, true)),
+            }
+        }
+        let dock = saved.unwrap_or_else(|| Layout::Design.dock());
+        Self { desk, dock, dialog: None, palette: super::palette::Palette::default(), dressed: None, controls_at_s: None }
+    }
+
+    /// Obeys every order given since the last call.
+    fn obey(&mut self, orders: Vec<Order>) {
+        for order in orders {
+            match &order {
+                Order::Show(panel) => layout::open(&mut self.dock, *panel),
+                Order::Arrange(layout) => self.dock = layout.dock(),
+                Order::Commands => self.palette.toggle(),
+                _ => self.desk.obey(&order),
+            }
+        }
+    }
+
+    /// Steers the whale with pad and keys, while flying.
+    fn fly(&mut self, context: &Context) {
+        let actions = self.desk.pilot.poll_pad();
+        if !self.desk.flying {
+            self.controls_at_s = None;
+            return;
+        }
+        for action in actions {
+            match action {
+                PilotAction::Restart => self.obey(vec![Order::Reset, Order::Start]),
+                PilotAction::PlayPause => self.obey(vec![Order::PlayPause]),
+                PilotAction::Person => self.obey(vec![Order::Person]),
+                PilotAction::WeakLinks => self.obey(vec![Order::WeakLinks]),
+            }
+        }
+        let now_s = context.input(|input| input.time);
+        let elapsed_s = self.controls_at_s.replace(now_s).map_or(0.0, |before| (now_s - before).clamp(0.0, 0.25));
+        let typing = context.egui_wants_keyboard_input();
+        let held = if typing { HeldKeys::default() } else { context.input(HeldKeys::of) };
+        let controls = self.desk.pilot.controls(&held, elapsed_s);
+        self.desk.send(Command::Controls(controls));
+        context.request_repaint();
+    }
+
+    fn take_dialog(&mut self) {
+        let answer = self.dialog.as_ref().map(mpsc::Receiver::try_recv);
+        match answer {
+            Some(Ok(order)) => {
+                self.dialog = None;
+                self.desk.orders.extend(order);
+            }
+            Some(Err(mpsc::TryRecvError::Disconnected)) => self.dialog = None,
+            Some(Err(mpsc::TryRecvError::Empty)) | None => {}
+        }
+    }
+}
+
+impl eframe::App for App {
+    fn logic(&mut self, context: &Context, _frame: &mut eframe::Frame) {
+        self.desk.refresh();
+        self.take_dialog();
+        self.fly(context);
+        let orders = keys::orders(context, &mut self.desk);
+        self.obey(orders);
+    }
+
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        let theme = self.desk.preferences.theme;
+        if self.dressed.replace(theme) != Some(theme) {
+            theme.apply(ui.ctx());
+        }
+        let bar = Margins::new().fill(theme.palette().ground).inner_margin(egui::Margin::symmetric(8, 4));
+        Bar::top("menus").frame(bar).show_separator_line(false).show(ui, |ui| menus::show(ui, self));
+        Bar::bottom("status").frame(bar).show_separator_line(false).show(ui, |ui| status::show(ui, &mut self.desk));
+        CentralPanel::default().frame(Margins::new().fill(theme.palette().ground)).show(ui, |ui| {
+            let style = theme.dock(ui.style());
+            let mut tabs = Tabs { desk: &mut self.desk };
+            DockArea::new(&mut self.dock)
+                .style(style)
+                .show_leaf_collapse_buttons(false)
+                .show_leaf_close_all_buttons(false)
+                .show_inside(ui, &mut tabs);
+        });
+        self.palette.show(ui.ctx(), &mut self.desk);
+        let orders = std::mem::take(&mut self.desk.orders);
+        if !orders.is_empty() {
+            self.obey(orders);
+            ui.ctx().request_repaint();
+        }
+    }
+
+    fn save(&mut self, storage: &mut dyn Storage) {
+        self.desk.preferences.invert_pitch = self.desk.pilot.invert_pitch;
+        save_json(storage, LAYOUT_KEY, &self.dock);
+        save_json::<Preferences>(storage, PREFERENCES_KEY, &self.desk.preferences);
+    }
+}
+
+fn save_json<T: serde::Serialize>(storage: &mut dyn Storage, key: &str, value: &T) {
+    if let Ok(text) = serde_json::to_string(value) {
+        storage.set_string(key, text);
+    }
+}
+
+/// Panels as the dock's tabs.
+struct Tabs<'a> {
+    desk: &'a mut Desk,
+}
+
+impl TabViewer for Tabs<'_> {
+    type Tab = String;
+
+    fn id(&mut self, tab: &mut String) -> Id {
+        Id::new(("panel", tab.as_str()))
+    }
+
+    fn title(&mut self, tab: &mut String) -> egui::WidgetText {
+        Panel::of_id(tab).map_or_else(|| tab.clone(), |panel| panel.title().to_owned()).into()
+    }
+
+    fn ui(&mut self, ui: &mut Ui, tab: &mut String) {
+        if let Some(panel) = Panel::of_id(tab) {
+            panels::show(ui, panel, self.desk);
+        }
+    }
+
+    fn on_tab_button(&mut self, tab: &mut String, response: &egui::Response) {
+        // The dock's tabs say nothing to screen readers of themselves.
+        let title = self.title(tab).text().to_owned();
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Button, true, &title));
+    }
+
+    fn scroll_bars(&self, _tab: &String) -> [bool; 2] {
+        [false, false]
+    }
+
+    fn allowed_in_windows(&self, tab: &mut String) -> bool {
+        tab != Panel::View.id()
+    }
+}

@@ -1,0 +1,292 @@
+//! The texts being edited: library files and the scenario, with undo, save and located problems.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+use endline_gear::{Diagnostic, Document, Library, Scenario, Sources, save_text};
+
+/// Edits that can be taken back.
+const UNDO_DEPTH: usize = 500;
+
+/// One change of one text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Edit {
+    path: String,
+    /// The text before; `None` where the file is new.
+    before: Option<String>,
+    /// The text after; `None` where the file goes.
+    after: Option<String>,
+}
+
+/// All texts open in the workbench. A library file goes by its path in the library's folder, such
+/// as `ropes/x.toml`; the scenario by [`SCENARIO`](Self::SCENARIO).
+pub struct Book {
+    root: PathBuf,
+    scenario_path: PathBuf,
+    texts: BTreeMap<String, String>,
+    saved: BTreeMap<String, String>,
+    parsed: BTreeMap<String, Document>,
+    undo: Vec<Edit>,
+    redo: Vec<Edit>,
+    problems: Vec<Diagnostic>,
+    library: Library,
+}
+
+impl Book {
+    /// Key of the scenario's text.
+    pub const SCENARIO: &'static str = "scenario";
+
+    /// Opens the library in a folder and a scenario.
+    ///
+    /// # Errors
+    /// With every file that cannot be read.
+    pub fn open(root: &Path, scenario_path: &Path) -> Result<Self, String> {
+        let explain = |all: Vec<Diagnostic>| all.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n");
+        let sources = Sources::from_folder(root).map_err(explain)?;
+        let mut texts: BTreeMap<String, String> = sources.iter().map(|(path, text)| (path.to_owned(), text.to_owned())).collect();
+        texts.insert(Self::SCENARIO.to_owned(), read_text(scenario_path)?);
+        let mut book = Self {
+            root: root.to_owned(),
+            scenario_path: scenario_path.to_owned(),
+            saved: texts.clone(),
+            texts,
+            parsed: BTreeMap::new(),
+            undo: Vec::new(),
+            redo: Vec::new(),
+            problems: Vec::new(),
+            library: Library::default(),
+        };
+        book.read_all();
+        Ok(book)
+    }
+
+    /// Opens another scenario in place of the present one.
+    ///
+    /// # Errors
+    /// Where its file cannot be read; the present one then stays.
+    pub fn open_scenario(&mut self, path: &Path) -> Result<(), String> {
+        let text = read_text(path)?;
+        self.scenario_path = path.to_owned();
+        self.undo.retain(|edit| edit.path != Self::SCENARIO);
+        self.redo.retain(|edit| edit.path != Self::SCENARIO);
+        self.saved.insert(Self::SCENARIO.to_owned(), text.clone());
+        self.put(Self::SCENARIO, Some(text));
+        self.read_all();
+        Ok(())
+    }
+
+    /// The library's folder.
+    #[must_use]
+    pub fn root(&self) -> &Path {
+        &self.root
+    }
+
+    /// The scenario's file.
+    #[must_use]
+    pub fn scenario_path(&self) -> &Path {
+        &self.scenario_path
+    }
+
+    /// The library as read from the present texts; items with errors are missing.
+    #[must_use]
+    pub fn library(&self) -> &Library {
+        &self.library
+    }
+
+    /// Every problem of the present texts, by file and place; the scenario's under its file's name.
+    #[must_use]
+    pub fn problems(&self) -> &[Diagnostic] {
+        &self.problems
+    }
+
+    /// Whether any text has an error.
+    #[must_use]
+    pub fn any_error(&self) -> bool {
+        self.problems.iter().any(Diagnostic::is_error)
+    }
+
+    /// Files of a folder of the library, by path.
+    pub fn files<'a>(&'a self, folder: &'a str) -> impl Iterator<Item = &'a str> {
+        self.texts.keys().map(String::as_str).filter(move |path| path.split_once('/').is_some_and(|(before, _)| before == folder))
+    }
+
+    /// The present text of a file.
+    #[must_use]
+    pub fn text(&self, path: &str) -> Option<&str> {
+        self.texts.get(path).map(String::as_str)
+    }
+
+    /// Every present text, by path; the scenario by [`SCENARIO`](Self::SCENARIO).
+    #[must_use]
+    pub fn texts(&self) -> &BTreeMap<String, String> {
+        &self.texts
+    }
+
+    /// The library's present texts.
+    #[must_use]
+    pub fn sources(&self) -> Sources {
+        Sources::from_map(
+            self.texts.iter().filter(|(path, _)| *path != Self::SCENARIO).map(|(path, text)| (path.clone(), text.clone())).collect(),
+        )
+    }
+
+    /// A field as typed; `None` where it is not there.
+    #[must_use]
+    pub fn field(&self, path: &str, field: &str) -> Option<String> {
+        self.parsed.get(path)?.get(field)
+    }
+
+    /// The worst problem at a field of a file.
+    #[must_use]
+    pub fn problem_at(&self, path: &str, field: &str) -> Option<&Diagnostic> {
+        let file = self.shown_name(path);
+        let here = |problem: &&Diagnostic| problem.file == file && (problem.field == field || problem.field == format!("{field}.value"));
+        self.problems.iter().filter(here).max_by_key(|problem| problem.severity)
+    }
+
+    /// Whether a file has an error anywhere.
+    #[must_use]
+    pub fn file_has_error(&self, path: &str) -> bool {
+        let file = self.shown_name(path);
+        self.problems.iter().any(|problem| problem.file == file && problem.is_error())
+    }
+
+    /// The name under which problems of a text are told.
+    #[must_use]
+    pub fn shown_name(&self, path: &str) -> String {
+        if path == Self::SCENARIO { self.scenario_path.display().to_string() } else { path.to_owned() }
+    }
+
+    /// Sets a field; comments and order stay. Setting what is there already changes nothing.
+    ///
+    /// # Errors
+    /// Where the file is not TOML or has no such place.
+    pub fn set(&mut self, path: &str, field: &str, value: &str) -> Result<(), String> {
+        if self.field(path, field).as_deref() == Some(value) {
+            return Ok(());
+        }
+        let text = self.texts.get(path).ok_or_else(|| format!("{path} is not open"))?;
+        let mut document = Document::parse(text).map_err(|error| error.to_string())?;
+        document.set(field, value).map_err(|error| error.to_string())?;
+        self.change(path, Some(document.text()));
+        Ok(())
+    }
+
+    /// Adds a copy of a library file under a fresh id and answers its path.
+    ///
+    /// # Errors
+    /// Where there is no such file or it is not TOML.
+    pub fn duplicate(&mut self, path: &str) -> Result<String, String> {
+        let text = self.texts.get(path).ok_or_else(|| format!("{path} is not open"))?;
+        let mut document = Document::parse(text).map_err(|error| error.to_string())?;
+        let stem = path.trim_end_matches(".toml");
+        let fresh = (2..).map(|number| format!("{stem}-{number}.toml")).find(|candidate| !self.texts.contains_key(candidate));
+        let fresh = fresh.unwrap_or_else(|| format!("{stem}-copy.toml"));
+        let name = document.get("name").unwrap_or_default();
+        document.set("name", &format!("{name} (copy)")).map_err(|error| error.to_string())?;
+        self.change(&fresh, Some(document.text()));
+        Ok(fresh)
+    }
+
+    /// Takes the last edit back; false where there is none.
+    pub fn undo(&mut self) -> bool {
+        let Some(edit) = self.undo.pop() else { return false };
+        self.put(&edit.path, edit.before.clone());
+        self.redo.push(edit);
+        self.read_all();
+        true
+    }
+
+    /// Does the last edit taken back again; false where there is none.
+    pub fn redo(&mut self) -> bool {
+        let Some(edit) = self.redo.pop() else { return false };
+        self.put(&edit.path, edit.after.clone());
+        self.undo.push(edit);
+        self.read_all();
+        true
+    }
+
+    /// Whether there is an edit to take back, and one to do again.
+    #[must_use]
+    pub fn can_undo_redo(&self) -> (bool, bool) {
+        (!self.undo.is_empty(), !self.redo.is_empty())
+    }
+
+    /// Texts that differ from their files.
+    #[must_use]
+    pub fn unsaved(&self) -> Vec<String> {
+        let all: BTreeSet<&String> = self.texts.keys().chain(self.saved.keys()).collect();
+        all.into_iter().filter(|path| self.texts.get(*path) != self.saved.get(*path)).cloned().collect()
+    }
+
+    /// Whether a text differs from its file.
+    #[must_use]
+    pub fn is_unsaved(&self, path: &str) -> bool {
+        self.texts.get(path) != self.saved.get(path)
+    }
+
+    /// Writes every changed text to its file, each whole or not at all; answers how many.
+    ///
+    /// # Errors
+    /// With the files that could not be written; the others are saved.
+    pub fn save(&mut self) -> Result<usize, String> {
+        let (mut count, mut failed) = (0, Vec::new());
+        for path in self.unsaved() {
+            let file = if path == Self::SCENARIO { self.scenario_path.clone() } else { self.root.join(&path) };
+            let written = match self.texts.get(&path) {
+                Some(text) => save_text(&file, text),
+                None => std::fs::remove_file(&file),
+            };
+            match written {
+                Ok(()) => {
+                    count += 1;
+                    replace(&mut self.saved, &path, self.texts.get(&path).cloned());
+                }
+                Err(error) => failed.push(format!("{}: {error}", file.display())),
+            }
+        }
+        if failed.is_empty() { Ok(count) } else { Err(failed.join("\n")) }
+    }
+
+    fn change(&mut self, path: &str, after: Option<String>) {
+        let edit = Edit { path: path.to_owned(), before: self.texts.get(path).cloned(), after: after.clone() };
+        if self.undo.len() == UNDO_DEPTH {
+            self.undo.remove(0);
+        }
+        self.undo.push(edit);
+        self.redo.clear();
+        self.put(path, after);
+        self.read_all();
+    }
+
+    fn put(&mut self, path: &str, text: Option<String>) {
+        self.parsed.remove(path);
+        replace(&mut self.texts, path, text);
+    }
+
+    fn read_all(&mut self) {
+        for (path, text) in &self.texts {
+            if !self.parsed.contains_key(path)
+                && let Ok(document) = Document::parse(text)
+            {
+                self.parsed.insert(path.clone(), document);
+            }
+        }
+        (self.library, self.problems) = Library::read(&self.sources());
+        let name = self.shown_name(Self::SCENARIO);
+        if let Some(Err(problems)) = self.text(Self::SCENARIO).map(|text| Scenario::read(&name, text)) {
+            self.problems.extend(problems);
+        }
+    }
+}
+
+fn replace(map: &mut BTreeMap<String, String>, path: &str, text: Option<String>) {
+    match text {
+        Some(text) => map.insert(path.to_owned(), text),
+        None => map.remove(path),
+    };
+}
+
+fn read_text(path: &Path) -> Result<String, String> {
+    std::fs::read_to_string(path).map_err(|error| format!("{}: cannot be read: {error}", path.display()))
+}

@@ -1,0 +1,78 @@
+//! A field of a text as it is typed: committed on Enter or when left, red where it is wrong.
+
+use egui::{Id, Key, Response, Stroke, TextEdit, Ui};
+use endline_gear::Diagnostic;
+
+use super::book::Book;
+use super::theme::Theme;
+
+/// Shows a field for typing; answers the new text when it is committed. Escape leaves it as it was.
+pub fn edit(ui: &mut Ui, book: &Book, path: &str, field: &str, width: f32, help: &str) -> Option<String> {
+    let stored = book.field(path, field).unwrap_or_default();
+    let problem = book.problem_at(path, field);
+    let id = Id::new(("field", path, field));
+    let mut typed = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| stored.clone());
+    let palette = Theme::palette_of(ui);
+    let colour = if problem.is_some_and(Diagnostic::is_error) { palette.error } else { palette.text };
+    let editor = TextEdit::singleline(&mut typed).id(id.with("edit")).desired_width(width).text_color(colour).clip_text(true);
+    let response = ui.add(editor);
+    outline(ui, &response, problem);
+    if response.changed() {
+        ui.data_mut(|data| data.insert_temp(id, typed.clone()));
+    }
+    let left = response.lost_focus();
+    hover(response, problem, help);
+    if !left {
+        return None;
+    }
+    ui.data_mut(|data| data.remove_temp::<String>(id));
+    let escaped = ui.input(|input| input.key_pressed(Key::Escape));
+    (!escaped && typed != stored).then_some(typed)
+}
+
+fn outline(ui: &Ui, response: &Response, problem: Option<&Diagnostic>) {
+    if let Some(problem) = problem {
+        let palette = Theme::palette_of(ui);
+        let colour = if problem.is_error() { palette.error } else { palette.warning };
+        ui.painter().rect_stroke(response.rect, 4.0, Stroke::new(1.5, colour), egui::StrokeKind::Inside);
+    }
+}
+
+fn hover(response: Response, problem: Option<&Diagnostic>, help: &str) {
+    let text = match problem {
+        Some(problem) => told(problem),
+        None => help.to_owned(),
+    };
+    if !text.is_empty() {
+        response.on_hover_text(text);
+    }
+}
+
+/// A problem in one or two lines: what is wrong, then how to mend it.
+#[must_use]
+pub fn told(problem: &Diagnostic) -> String {
+    if problem.help.is_empty() { problem.message.clone() } else { format!("{}\n{}", problem.message, problem.help) }
+}
+
+/// Where a problem stands: file, and line and column where it has them.
+#[must_use]
+pub fn place(problem: &Diagnostic) -> String {
+    if problem.line == 0 { problem.file.clone() } else { format!("{}:{}:{}", problem.file, problem.line, problem.column) }
+}
+
+/// A choice among ids for a field; answers the one taken.
+pub fn choose(ui: &mut Ui, book: &Book, path: &str, field: &str, choices: &[(String, String)], width: f32) -> Option<String> {
+    let stored = book.field(path, field).unwrap_or_default();
+    let shown = choices.iter().find(|(id, _)| *id == stored).map_or(stored.clone(), |(_, name)| name.clone());
+    let mut taken = None;
+    let combo = egui::ComboBox::from_id_salt(("choice", path, field)).width(width).truncate().selected_text(shown);
+    let response = combo.show_ui(ui, |ui| {
+        for (id, name) in choices {
+            if ui.selectable_label(*id == stored, name).on_hover_text(id).clicked() {
+                taken = Some(id.clone());
+            }
+        }
+    });
+    outline(ui, &response.response, book.problem_at(path, field));
+    taken.filter(|id| *id != stored)
+}

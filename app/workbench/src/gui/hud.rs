@@ -1,0 +1,55 @@
+//! What a pilot sees over the 3-D view: speed, depth, heading, worst tension.
+
+use egui::{Align2, Color32, FontId, Painter, Rect, pos2, vec2};
+use endline_session::live::LiveView;
+use endline_sim::DVec3;
+
+use super::units::{ForceUnit, bearing_degrees};
+
+/// The readings of the display: name and value.
+#[must_use]
+pub fn readings(view: &LiveView, unit: ForceUnit) -> Vec<(&'static str, String)> {
+    let Some(whale) = &view.frame.whale else { return Vec::new() };
+    let ahead = whale.orientation * DVec3::X;
+    let tension_n = view.frame.tension_n.iter().copied().fold(0.0, f64::max);
+    vec![
+        ("SPEED", format!("{:.2} m/s", whale.speed_m_s)),
+        ("DEPTH", format!("{:.1} m", -whale.position.z)),
+        ("HEADING", format!("{:03.0}°", bearing_degrees(ahead.x, ahead.y).round().rem_euclid(360.0))),
+        ("TENSION", unit.text(tension_n)),
+    ]
+}
+
+/// Paints the display along the top of the view.
+pub fn paint(painter: &Painter, rect: Rect, view: &LiveView, unit: ForceUnit) {
+    const WIDTH: f32 = 112.0;
+    let readings = readings(view, unit);
+    let whole = WIDTH * readings.len() as f32;
+    let plate = Rect::from_min_size(pos2(rect.center().x - whole / 2.0, rect.top() + 12.0), vec2(whole, 50.0));
+    painter.rect_filled(plate, 6.0, Color32::from_black_alpha(140));
+    for (index, (name, value)) in readings.iter().enumerate() {
+        let x = plate.left() + WIDTH * (index as f32 + 0.5);
+        painter.text(
+            pos2(x, plate.top() + 13.0),
+            Align2::CENTER_CENTER,
+            name,
+            FontId::proportional(10.5),
+            Color32::from_rgb(0x9f, 0xb6, 0xbf),
+        );
+        painter.text(
+            pos2(x, plate.top() + 33.0),
+            Align2::CENTER_CENTER,
+            value,
+            FontId::proportional(18.0),
+            Color32::from_rgb(0xe8, 0xf2, 0xf4),
+        );
+    }
+    let note = "Esc lets go";
+    painter.text(
+        plate.center_bottom() + vec2(0.0, 10.0),
+        Align2::CENTER_CENTER,
+        note,
+        FontId::proportional(11.0),
+        Color32::from_rgb(0xa9, 0xbd, 0xc4),
+    );
+}

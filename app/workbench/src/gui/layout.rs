@@ -1,0 +1,188 @@
+//! Panels, their stable ids, and the named layouts.
+
+use egui_dock::{DockState, NodeIndex};
+
+/// A panel; its id is what a saved layout holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Panel {
+    /// Tables of the gear library.
+    Library,
+    /// What happens: scenario, current, whale, weak links.
+    Scenario,
+    /// The 3-D view.
+    View,
+    /// Start, pause, speed; how the run does.
+    Run,
+    /// Tension over time.
+    Tension,
+    /// What happened when.
+    Events,
+    /// Outcome and loads by part of the whale.
+    Summary,
+    /// Everything wrong with the files.
+    Problems,
+    /// Keys and pad.
+    Help,
+}
+
+impl Panel {
+    /// Every panel, in the order of the Window menu.
+    pub const ALL: [Self; 9] =
+        [Self::Library, Self::Scenario, Self::View, Self::Run, Self::Tension, Self::Events, Self::Summary, Self::Problems, Self::Help];
+
+    /// Its stable id in saved layouts.
+    #[must_use]
+    pub fn id(self) -> &'static str {
+        match self {
+            Self::Library => "library",
+            Self::Scenario => "scenario",
+            Self::View => "view",
+            Self::Run => "run",
+            Self::Tension => "tension",
+            Self::Events => "events",
+            Self::Summary => "summary",
+            Self::Problems => "problems",
+            Self::Help => "help",
+        }
+    }
+
+    /// Its title.
+    #[must_use]
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Library => "Library",
+            Self::Scenario => "Scenario",
+            Self::View => "3-D view",
+            Self::Run => "Run",
+            Self::Tension => "Tension",
+            Self::Events => "Events",
+            Self::Summary => "Summary",
+            Self::Problems => "Problems",
+            Self::Help => "Keys and help",
+        }
+    }
+
+    /// The panel of an id.
+    #[must_use]
+    pub fn of_id(id: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|panel| panel.id() == id)
+    }
+}
+
+/// A named arrangement of panels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Layout {
+    /// Edit gear, run, compare.
+    Design,
+    /// The view large, the pilot's controls at hand.
+    Fly,
+    /// Look at what happened.
+    Review,
+}
+
+impl Layout {
+    /// Every layout, in the order of the menu.
+    pub const ALL: [Self; 3] = [Self::Design, Self::Fly, Self::Review];
+
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Design => "Design",
+            Self::Fly => "Fly",
+            Self::Review => "Review",
+        }
+    }
+
+    /// Its panels in place.
+    #[must_use]
+    pub fn dock(self) -> DockState<String> {
+        use Panel::{Events, Library, Problems, Run, Scenario, Summary, Tension, View};
+        let mut dock = DockState::new(ids(&[View]));
+        let tree = dock.main_surface_mut();
+        match self {
+            Self::Design => {
+                let [upper, _] = tree.split_below(NodeIndex::root(), 0.66, ids(&[Library, Problems]));
+                let [middle, _] = tree.split_left(upper, 0.2, ids(&[Scenario]));
+                let [_, right] = tree.split_right(middle, 0.7, ids(&[Run]));
+                tree.split_below(right, 0.5, ids(&[Tension, Summary, Events]));
+            }
+            Self::Fly => {
+                let [_, right] = tree.split_right(NodeIndex::root(), 0.78, ids(&[Run, Scenario]));
+                let [_, below] = tree.split_below(right, 0.42, ids(&[Tension]));
+                tree.split_below(below, 0.5, ids(&[Events, Summary]));
+            }
+            Self::Review => {
+                let [upper, _] = tree.split_below(NodeIndex::root(), 0.58, ids(&[Tension]));
+                let [_, right] = tree.split_right(upper, 0.66, ids(&[Summary]));
+                let [run, _] = tree.split_below(right, 0.5, ids(&[Events]));
+                tree.split_above(run, 0.34, ids(&[Run]));
+            }
+        }
+        dock
+    }
+}
+
+fn ids(panels: &[Panel]) -> Vec<String> {
+    panels.iter().map(|panel| panel.id().to_owned()).collect()
+}
+
+/// Brings a panel to the front, adding it where it is closed.
+pub fn open(dock: &mut DockState<String>, panel: Panel) {
+    let id = panel.id().to_owned();
+    match dock.find_tab(&id) {
+        Some(path) => {
+            // The path was found just now, so it is there.
+            let _ = dock.set_active_tab(path);
+            dock.set_focused_node_and_surface(path.node_path());
+        }
+        None => dock.push_to_focused_leaf(id),
+    }
+}
+
+/// Whether a panel is open.
+#[must_use]
+pub fn is_open(dock: &DockState<String>, panel: Panel) -> bool {
+    dock.find_tab(&panel.id().to_owned()).is_some()
+}
+
+/// A saved layout without panels this program does not know; `None` where nothing is left.
+#[must_use]
+pub fn known(mut dock: DockState<String>) -> Option<DockState<String>> {
+    dock.retain_tabs(|id| Panel::of_id(id).is_some());
+    let empty = dock.iter_all_tabs().next().is_none();
+    (!empty).then_some(dock)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ids_are_unique_and_lead_back() {
+        for panel in Panel::ALL {
+            assert_eq!(Panel::of_id(panel.id()), Some(panel));
+        }
+    }
+
+    #[test]
+    fn a_panel_opens_once_in_every_layout() {
+        for layout in Layout::ALL {
+            let mut dock = layout.dock();
+            for panel in Panel::ALL.into_iter().chain(Panel::ALL) {
+                open(&mut dock, panel);
+                assert!(is_open(&dock, panel), "{layout:?} {panel:?}");
+            }
+            assert_eq!(dock.iter_all_tabs().count(), Panel::ALL.len(), "{layout:?}: no panel twice");
+        }
+    }
+
+    #[test]
+    fn a_saved_layout_loses_what_is_unknown_and_only_that() {
+        let mut dock = Layout::Design.dock();
+        let before = dock.iter_all_tabs().count();
+        dock.push_to_focused_leaf("crystal-ball".to_owned());
+        assert_eq!(known(dock).unwrap().iter_all_tabs().count(), before);
+        assert!(known(DockState::new(vec!["crystal-ball".to_owned()])).is_none());
+    }
+}

@@ -1,0 +1,130 @@
+//! The menu bar.
+
+use std::sync::mpsc;
+
+use egui::{Button, MenuBar, RichText, Ui};
+
+use super::app::App;
+use super::desk::Order;
+use super::layout::{self, Layout, Panel};
+use super::panels::scenario::scenarios;
+use super::theme::Theme;
+use super::units::ForceUnit;
+
+/// Draws the menu bar.
+pub fn show(ui: &mut Ui, app: &mut App) {
+    MenuBar::new().ui(ui, |ui| {
+        ui.label(RichText::new("Endline").strong().color(Theme::palette_of(ui).accent));
+        ui.add_space(6.0);
+        ui.menu_button("File", |ui| file(ui, app));
+        ui.menu_button("Edit", |ui| edit(ui, app));
+        ui.menu_button("Run", |ui| run(ui, app));
+        ui.menu_button("View", |ui| view(ui, app));
+        ui.menu_button("Window", |ui| window(ui, app));
+        ui.menu_button("Help", |ui| {
+            item(ui, app, true, "Keys and help", "F1", Order::Show(Panel::Help));
+            item(ui, app, true, "Commands …", "Ctrl+P", Order::Commands);
+        });
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            for unit in [ForceUnit::Newton, ForceUnit::Lbf] {
+                ui.selectable_value(&mut app.desk.preferences.force, unit, unit.symbol()).on_hover_text("Unit of forces");
+            }
+            ui.separator();
+            for layout in Layout::ALL.into_iter().rev() {
+                if ui.button(layout.name()).on_hover_text("Arrange the panels").clicked() {
+                    app.desk.orders.push(Order::Arrange(layout));
+                }
+            }
+        });
+    });
+}
+
+/// A menu item that gives an order.
+fn item(ui: &mut Ui, app: &mut App, enabled: bool, text: &str, keys: &str, order: Order) {
+    if ui.add_enabled(enabled, Button::new(text).shortcut_text(keys)).clicked() {
+        app.desk.orders.push(order);
+        ui.close();
+    }
+}
+
+fn file(ui: &mut Ui, app: &mut App) {
+    ui.menu_button("Open scenario", |ui| {
+        for path in scenarios(app.desk.book.root()) {
+            let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+            item(ui, app, true, &name, "", Order::Open(path));
+        }
+        ui.separator();
+        if ui.button("Other file …").clicked() {
+            let folder = app.desk.book.root().to_owned();
+            ask(app, move || rfd::FileDialog::new().add_filter("scenario", &["toml"]).set_directory(folder).pick_file().map(Order::Open));
+            ui.close();
+        }
+    });
+    let unsaved = !app.desk.book.unsaved().is_empty();
+    item(ui, app, unsaved, "Save all", "Ctrl+S", Order::Save);
+    if ui.add_enabled(app.desk.view.is_some(), Button::new("Save recording …")).clicked() {
+        let name = format!("{}.endline", scenario_name(app));
+        ask(app, move || rfd::FileDialog::new().set_file_name(name).save_file().map(Order::SaveRecording));
+        ui.close();
+    }
+    ui.separator();
+    if ui.button("Quit").clicked() {
+        ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
+    }
+}
+
+fn scenario_name(app: &App) -> String {
+    app.desk.book.scenario_path().file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
+}
+
+/// Asks by a file dialog on a thread of its own, so that the window stays alive.
+fn ask(app: &mut App, question: impl FnOnce() -> Option<Order> + Send + 'static) {
+    let (sender, receiver) = mpsc::channel();
+    let asked = std::thread::Builder::new().name("endline-dialog".into()).spawn(move || {
+        // Nobody waits any more where the window is gone.
+        let _ = sender.send(question());
+    });
+    match asked {
+        Ok(_) => app.dialog = Some(receiver),
+        Err(error) => app.desk.notice = Some((format!("the dialog cannot be opened: {error}"), true)),
+    }
+}
+
+fn edit(ui: &mut Ui, app: &mut App) {
+    let (undo, redo) = app.desk.book.can_undo_redo();
+    item(ui, app, undo, "Undo", "Ctrl+Z", Order::Undo);
+    item(ui, app, redo, "Redo", "Ctrl+Shift+Z", Order::Redo);
+}
+
+fn run(ui: &mut Ui, app: &mut App) {
+    let ready = app.desk.view.is_some();
+    let running = app.desk.running();
+    item(ui, app, ready, if running { "Pause" } else { "Run" }, "Space", Order::PlayPause);
+    item(ui, app, ready && !running, "Step", ".", Order::Step);
+    item(ui, app, ready, "Reset", "Backspace", Order::Reset);
+    ui.separator();
+    let changed = app.desk.stale() && !app.desk.book.any_error();
+    item(ui, app, changed, "Apply changes", "Ctrl+Enter", Order::Apply);
+    item(ui, app, true, "Weak links on or off", "K", Order::WeakLinks);
+    let flying = if app.desk.flying { "Stop flying" } else { "Fly the whale" };
+    item(ui, app, ready, flying, "Ctrl+F", Order::Fly);
+    ui.checkbox(&mut app.desk.pilot.invert_pitch, "Push to put the nose down");
+}
+
+fn view(ui: &mut Ui, app: &mut App) {
+    for (theme, name) in [(Theme::Dark, "Dark"), (Theme::Light, "Light")] {
+        ui.radio_value(&mut app.desk.preferences.theme, theme, name);
+    }
+    ui.separator();
+    for layout in Layout::ALL {
+        item(ui, app, true, &format!("Layout: {}", layout.name()), "", Order::Arrange(layout));
+    }
+    item(ui, app, true, "Reset layout", "", Order::Arrange(Layout::Design));
+}
+
+fn window(ui: &mut Ui, app: &mut App) {
+    for panel in Panel::ALL {
+        let mark = if layout::is_open(&app.dock, panel) { "✔" } else { "" };
+        item(ui, app, true, panel.title(), mark, Order::Show(panel));
+    }
+}

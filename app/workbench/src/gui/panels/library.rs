@@ -1,0 +1,287 @@
+//! The gear library as tables: edit in place with units, located errors, save.
+
+use egui::{Align, Button, Layout, Rect, RichText, ScrollArea, TextEdit, Ui, UiBuilder};
+use egui_extras::{Column, TableBuilder, TableRow};
+use endline_gear::Diagnostic;
+use endline_gear::units;
+use endline_gear::{Field, Kind};
+
+use super::super::desk::{Desk, Order};
+use super::super::fields;
+use super::super::theme::{Theme, primary};
+
+/// Kinds with a table, in the order of their tabs.
+pub const KINDS: [(Kind, &str); 7] = [
+    (Kind::Rope, "Ropes"),
+    (Kind::Trap, "Traps"),
+    (Kind::Buoy, "Buoys"),
+    (Kind::WeakLink, "Weak links"),
+    (Kind::Anchor, "Anchors"),
+    (Kind::Site, "Sites"),
+    (Kind::Friction, "Friction"),
+];
+
+const NAME_WIDTH: f32 = 230.0;
+const CELL_WIDTH: f32 = 112.0;
+const ROW: f32 = 25.0;
+const ROW_WITH_REASON: f32 = 41.0;
+
+/// What the library panel shows.
+#[derive(Clone, Debug)]
+pub struct LibraryState {
+    /// Which table.
+    pub kind: Kind,
+    /// Words that a row's id or name must hold.
+    pub search: String,
+    /// Key of the column it is sorted by, and whether downwards; by name where `None`.
+    pub sort: Option<(&'static str, bool)>,
+    /// The row chosen, by its file's path.
+    pub chosen: Option<String>,
+}
+
+impl Default for LibraryState {
+    fn default() -> Self {
+        Self { kind: Kind::Rope, search: String::new(), sort: None, chosen: None }
+    }
+}
+
+/// Draws the library panel.
+pub fn show(ui: &mut Ui, desk: &mut Desk) {
+    toolbar(ui, desk);
+    ui.add_space(2.0);
+    let problems = table_problems(desk);
+    let whole = ui.available_rect_before_wrap();
+    let strip = if problems.is_empty() { 0.0 } else { 12.0 + 44.0 * problems.len().min(3) as f32 };
+    let (above, below) = whole.split_top_bottom_at_y(whole.bottom() - strip);
+    within(ui, above, |ui| ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| table(ui, desk)));
+    if !problems.is_empty() {
+        within(ui, below, |ui| reasons(ui, &problems));
+    }
+}
+
+fn toolbar(ui: &mut Ui, desk: &mut Desk) {
+    ui.horizontal(|ui| {
+        for (kind, title) in KINDS {
+            if ui.selectable_label(desk.library.kind == kind, title).clicked() {
+                desk.library = LibraryState { kind, search: std::mem::take(&mut desk.library.search), ..LibraryState::default() };
+            }
+        }
+        ui.separator();
+        ui.add(TextEdit::singleline(&mut desk.library.search).hint_text("Search").desired_width(150.0));
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let unsaved = desk.book.unsaved().len();
+            if primary(ui, unsaved > 0, "Save").on_hover_text("Ctrl+S: write every changed file; comments stay").clicked() {
+                desk.orders.push(Order::Save);
+            }
+            let (undo, redo) = desk.book.can_undo_redo();
+            if ui.add_enabled(redo, Button::new("Redo")).on_hover_text("Ctrl+Shift+Z").clicked() {
+                desk.orders.push(Order::Redo);
+            }
+            if ui.add_enabled(undo, Button::new("Undo")).on_hover_text("Ctrl+Z").clicked() {
+                desk.orders.push(Order::Undo);
+            }
+            let chosen = desk.library.chosen.clone();
+            let copy = ui.add_enabled(chosen.is_some(), Button::new("Duplicate")).on_hover_text("Copy the chosen row to a file of its own");
+            if let (true, Some(path)) = (copy.clicked(), chosen) {
+                match desk.book.duplicate(&path) {
+                    Ok(fresh) => desk.library.chosen = Some(fresh),
+                    Err(error) => desk.notice = Some((error, true)),
+                }
+            }
+        });
+    });
+}
+
+/// Files of the shown table that the search lets through, in the order chosen.
+fn rows(desk: &Desk) -> Vec<String> {
+    let state = &desk.library;
+    let words: Vec<String> = state.search.to_lowercase().split_whitespace().map(str::to_owned).collect();
+    let name = |path: &str| desk.book.field(path, "name").unwrap_or_default();
+    let matches = |path: &&str| {
+        let text = format!("{path} {}", name(path)).to_lowercase();
+        words.iter().all(|word| text.contains(word))
+    };
+    let mut rows: Vec<String> = desk.book.files(state.kind.folder()).filter(matches).map(str::to_owned).collect();
+    rows.sort_by_cached_key(|path| name(path).to_lowercase());
+    if let Some((key, down)) = state.sort {
+        let field = state.kind.fields().iter().find(|field| field.key == key);
+        let value = |path: &String| field.and_then(|field| si_value(desk, path, field)).unwrap_or(f64::INFINITY);
+        rows.sort_by(|a, b| value(a).total_cmp(&value(b)));
+        if down {
+            rows.reverse();
+        }
+    }
+    rows
+}
+
+/// The SI value of a cell, where it can be read.
+fn si_value(desk: &Desk, path: &str, field: &Field) -> Option<f64> {
+    units::parse(&desk.book.field(path, field.key)?, field.quantity).ok()
+}
+
+fn table(ui: &mut Ui, desk: &mut Desk) {
+    let kind = desk.library.kind;
+    let (words, figures) = (kind.words(), kind.fields());
+    let paths = rows(desk);
+    let mut builder =
+        TableBuilder::new(ui).id_salt(kind.folder()).striped(true).resizable(true).cell_layout(Layout::left_to_right(Align::Center));
+    builder = builder.column(Column::initial(NAME_WIDTH).at_least(120.0).clip(true));
+    builder = builder.columns(Column::initial(CELL_WIDTH).at_least(60.0).clip(true), words.len() + figures.len());
+    let mut edits = Vec::new();
+    let table = builder.header(24.0, |mut row| header(&mut row, desk, kind));
+    let heights: Vec<f32> = paths.iter().map(|path| if cell_problem(desk, path).is_some() { ROW_WITH_REASON } else { ROW }).collect();
+    table.body(|body| {
+        body.heterogeneous_rows(heights.into_iter(), |mut row| {
+            let path = &paths[row.index()];
+            row.set_selected(desk.library.chosen.as_ref() == Some(path));
+            cells(&mut row, desk, path, &mut edits);
+        });
+    });
+    for (path, field, value) in edits {
+        desk.set(&path, field, &value);
+    }
+}
+
+fn header(row: &mut TableRow<'_, '_>, desk: &mut Desk, kind: Kind) {
+    row.col(|ui| {
+        if heading(ui, "Name", desk.library.sort.is_none().then_some(false), "name, and the file's id below") {
+            desk.library.sort = None;
+        }
+    });
+    for word in kind.words() {
+        row.col(|ui| {
+            heading(ui, &title(word.key), None, word.help);
+        });
+    }
+    for field in kind.fields() {
+        let sorted = desk.library.sort.filter(|(key, _)| *key == field.key).map(|(_, down)| down);
+        row.col(|ui| {
+            if heading(ui, &title(field.key), sorted, &field_help(field)) {
+                desk.library.sort = Some((field.key, sorted == Some(false)));
+            }
+        });
+    }
+}
+
+/// A column's head; answers whether it was clicked to sort by.
+fn heading(ui: &mut Ui, text: &str, sorted: Option<bool>, help: &str) -> bool {
+    let palette = Theme::palette_of(ui);
+    let arrow = sorted.map_or("", |down| if down { " ⏷" } else { " ⏶" });
+    let colour = if sorted.is_some() { palette.accent } else { palette.faint };
+    let label = Button::new(RichText::new(format!("{text}{arrow}")).color(colour).size(12.0)).frame(false).truncate();
+    ui.add(label).on_hover_text(help).clicked()
+}
+
+fn field_help(field: &Field) -> String {
+    let needed = if field.needed { "" } else { "\nmay be left out" };
+    format!(
+        "{}\n{}, {}; such as {}{needed}",
+        field.help,
+        field.quantity.noun(),
+        field.range.words(field.quantity),
+        field.quantity.examples()
+    )
+}
+
+/// A key as a title: `stretch_at_break` is `Stretch at break`.
+fn title(key: &str) -> String {
+    let words = key.replace(['_', '.'], " ");
+    let mut letters = words.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+fn cells(row: &mut TableRow<'_, '_>, desk: &mut Desk, path: &str, edits: &mut Vec<(String, &'static str, String)>) {
+    let kind = desk.library.kind;
+    row.col(|ui| name_cell(ui, desk, path));
+    for word in kind.words() {
+        row.col(|ui| edits.extend(cell(ui, desk, path, word.key, word.help)));
+    }
+    for field in kind.fields() {
+        let help = format!("{}{}", field_help(field), provenance(desk, path, field));
+        row.col(|ui| edits.extend(cell(ui, desk, path, field.key, &help)));
+    }
+}
+
+fn name_cell(ui: &mut Ui, desk: &mut Desk, path: &str) {
+    let palette = Theme::palette_of(ui);
+    let name = desk.book.field(path, "name").unwrap_or_else(|| path.to_owned());
+    let mark = if desk.book.is_unsaved(path) { "• " } else { "" };
+    let colour = if desk.book.file_has_error(path) { palette.error } else { palette.text };
+    let chosen = desk.library.chosen.as_deref() == Some(path);
+    let label = Button::selectable(chosen, RichText::new(format!("{mark}{name}")).color(colour)).truncate();
+    let notes = desk.book.field(path, "notes").map_or(String::new(), |notes| format!("\n\n{notes}"));
+    let unsaved = if mark.is_empty() { "" } else { "\nnot saved yet" };
+    if ui.add(label).on_hover_text(format!("{name}\n{path}{unsaved}{notes}")).clicked() {
+        desk.library.chosen = Some(path.to_owned());
+    }
+}
+
+fn cell(ui: &mut Ui, desk: &Desk, path: &str, key: &'static str, help: &str) -> Option<(String, &'static str, String)> {
+    let width = ui.available_width() - 8.0;
+    let committed = ui
+        .vertical(|ui| {
+            ui.spacing_mut().item_spacing.y = 1.0;
+            ui.add_space(1.0);
+            let committed = fields::edit(ui, &desk.book, path, key, width, help);
+            if let Some(problem) = desk.book.problem_at(path, key) {
+                let error = RichText::new(&problem.message).size(10.5).color(Theme::palette_of(ui).error);
+                ui.add(egui::Label::new(error).truncate());
+            }
+            committed
+        })
+        .inner;
+    committed.map(|value| (path.to_owned(), key, value))
+}
+
+/// Source and sureness of a figure, where its file can be read.
+fn provenance(desk: &Desk, path: &str, field: &Field) -> String {
+    let kind = desk.library.kind;
+    let id = path.rsplit('/').next().unwrap_or(path).trim_end_matches(".toml");
+    let figure = desk.book.library().entry(kind, id).and_then(|entry| entry.figure(field.key));
+    figure.map_or_else(String::new, |figure| {
+        let si = units::format_si(figure.value, field.quantity);
+        format!("\n\n= {si}\n{}: {}", figure.sureness.word(), figure.source)
+    })
+}
+
+/// Any problem at a cell of a row.
+fn cell_problem<'a>(desk: &'a Desk, path: &str) -> Option<&'a Diagnostic> {
+    let kind = desk.library.kind;
+    let keys = kind.words().iter().map(|word| word.key).chain(kind.fields().iter().map(|field| field.key));
+    keys.filter_map(|key| desk.book.problem_at(path, key)).next()
+}
+
+/// Problems of the files of the shown table.
+fn table_problems(desk: &Desk) -> Vec<Diagnostic> {
+    let folder = format!("{}/", desk.library.kind.folder());
+    desk.book.problems().iter().filter(|problem| problem.file.starts_with(&folder)).cloned().collect()
+}
+
+/// Draws in a part of the panel and nowhere else.
+fn within<R>(ui: &mut Ui, rect: Rect, draw: impl FnOnce(&mut Ui) -> R) {
+    ui.scope_builder(UiBuilder::new().max_rect(rect), |ui| {
+        ui.set_clip_rect(rect.intersect(ui.clip_rect()));
+        draw(ui);
+    });
+}
+
+/// What is wrong in the table, below it: place, reason, how to mend it.
+fn reasons(ui: &mut Ui, problems: &[Diagnostic]) {
+    ui.separator();
+    ScrollArea::vertical().id_salt("reasons").auto_shrink(false).show(ui, |ui| {
+        for problem in problems {
+            super::problems::entry(ui, problem);
+        }
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn titles_are_readable() {
+        assert_eq!(title("stretch_at_break"), "Stretch at break");
+        assert_eq!(title("head.mouth"), "Head mouth");
+    }
+}

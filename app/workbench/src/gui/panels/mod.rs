@@ -1,0 +1,46 @@
+//! The panels, one file each: each draws from the desk and leaves orders on it.
+
+pub mod events;
+pub mod help;
+pub mod library;
+pub mod problems;
+pub mod run;
+pub mod scenario;
+pub mod summary;
+pub mod tension;
+pub mod view;
+
+use egui::{RichText, Ui};
+
+use super::desk::Desk;
+use super::layout::Panel;
+use super::theme::Theme;
+
+/// Draws a panel.
+pub fn show(ui: &mut Ui, panel: Panel, desk: &mut Desk) {
+    match panel {
+        Panel::Library => library::show(ui, desk),
+        Panel::Scenario => scenario::show(ui, desk),
+        Panel::View => view::show(ui, desk),
+        Panel::Run => run::show(ui, desk),
+        Panel::Tension => tension::show(ui, desk),
+        Panel::Events => events::show(ui, desk),
+        Panel::Summary => summary::show(ui, desk),
+        Panel::Problems => problems::show(ui, desk),
+        Panel::Help => help::show(ui),
+    }
+}
+
+/// A line of small grey text above a group.
+fn caption(ui: &mut Ui, text: &str) {
+    let faint = Theme::palette_of(ui).faint;
+    ui.add_space(3.0);
+    ui.label(RichText::new(text.to_uppercase()).size(10.5).color(faint).strong());
+}
+
+/// A line that says why a panel is empty.
+fn nothing(ui: &mut Ui, text: &str) {
+    let faint = Theme::palette_of(ui).faint;
+    ui.add_space(8.0);
+    ui.vertical_centered(|ui| ui.label(RichText::new(text).color(faint)));
+}

@@ -1,0 +1,136 @@
+//! The run's controls and how it does.
+
+use egui::{Button, ProgressBar, RichText, ScrollArea, Ui};
+use endline_session::live::{LiveView, Status};
+
+use super::super::desk::{Desk, Order};
+use super::super::theme::{Theme, primary};
+use super::summary::numbers;
+
+/// Speeds offered, simulated over real time; the last is as fast as it goes.
+const SPEEDS: [(f64, &str); 6] = [(0.1, "0.1×"), (0.25, "¼×"), (1.0, "1×"), (2.0, "2×"), (5.0, "5×"), (f64::INFINITY, "max")];
+
+/// Draws the run panel.
+pub fn show(ui: &mut Ui, desk: &mut Desk) {
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        buttons(ui, desk);
+        if desk.stale() {
+            stale(ui, desk);
+        }
+        let Some(view) = desk.view.clone() else { return };
+        progress(ui, &view);
+        speeds(ui, desk, &view);
+        fly(ui, desk);
+        state(ui, &view);
+    });
+}
+
+fn buttons(ui: &mut Ui, desk: &mut Desk) {
+    let running = desk.running();
+    let ready = desk.view.is_some() && !desk.making();
+    ui.horizontal(|ui| {
+        let (text, order) = if running { ("⏸ Pause", Order::Pause) } else { ("▶ Run", Order::Start) };
+        if primary(ui, ready, text).on_hover_text("Space").clicked() {
+            desk.orders.push(order);
+        }
+        if ui.add_enabled(ready && !running, Button::new("Step")).on_hover_text("One step (period)").clicked() {
+            desk.orders.push(Order::Step);
+        }
+        if ui.add_enabled(ready, Button::new("⏮ Reset")).on_hover_text("Back to the settled gear (Backspace)").clicked() {
+            desk.orders.push(Order::Reset);
+        }
+    });
+}
+
+/// Says that the run shows gear from before the last edits.
+fn stale(ui: &mut Ui, desk: &mut Desk) {
+    let palette = Theme::palette_of(ui);
+    if desk.making() {
+        ui.horizontal(|ui| {
+            ui.spinner();
+            ui.label(RichText::new("making the model").color(palette.faint));
+        });
+    } else if desk.book.any_error() {
+        let text = "The gear has errors. The run shown is from before them.";
+        ui.add(egui::Label::new(RichText::new(text).color(palette.error)).wrap());
+    } else {
+        ui.horizontal(|ui| {
+            ui.label(RichText::new("Gear or scenario changed.").color(palette.warning));
+            if ui.button("Apply").on_hover_text("Make the model anew (Ctrl+Enter)").clicked() {
+                desk.orders.push(Order::Apply);
+            }
+        });
+    }
+}
+
+fn progress(ui: &mut Ui, view: &LiveView) {
+    let duration = view.model.spec.settings.duration_s.max(1e-9);
+    let text = format!("{:.2} of {duration:.0} s", view.frame.time_s);
+    let bar = ProgressBar::new((view.newest_s / duration) as f32).desired_height(18.0).corner_radius(3.0);
+    ui.add(
+        bar.text(RichText::new(text).size(12.0).color(Theme::palette_of(ui).text)).fill(Theme::palette_of(ui).accent.gamma_multiply(0.45)),
+    );
+}
+
+fn speeds(ui: &mut Ui, desk: &mut Desk, view: &LiveView) {
+    ui.horizontal(|ui| {
+        ui.label(RichText::new("Speed").color(Theme::palette_of(ui).faint));
+        ui.spacing_mut().item_spacing.x = 2.0;
+        for (speed, text) in SPEEDS {
+            let chosen = if speed.is_infinite() { view.speed >= 999.0 } else { (view.speed - speed).abs() < 1e-9 };
+            if ui.selectable_label(chosen, text).clicked() {
+                desk.orders.push(Order::Speed(speed));
+            }
+        }
+    });
+}
+
+fn fly(ui: &mut Ui, desk: &mut Desk) {
+    ui.horizontal(|ui| {
+        let mut flying = desk.flying;
+        if ui.toggle_value(&mut flying, "Fly the whale").on_hover_text("Ctrl+F; Esc lets go. Keys and pad: F1").clicked() {
+            desk.orders.push(Order::Fly);
+        }
+        let hands = desk.pilot.pad_name().unwrap_or("keyboard; no pad found").to_owned();
+        ui.add(egui::Label::new(RichText::new(hands).color(Theme::palette_of(ui).faint)).truncate());
+    });
+}
+
+fn state(ui: &mut Ui, view: &LiveView) {
+    let palette = Theme::palette_of(ui);
+    ui.add_space(4.0);
+    let (text, bad) = told(&view.status);
+    ui.add(egui::Label::new(RichText::new(text).color(if bad { palette.error } else { palette.text })).wrap());
+    let audit = &view.audit;
+    numbers(
+        ui,
+        "run",
+        &[
+            ("Solver speed", format!("{:.1} × real time", view.times_real_time)),
+            ("Solver steps", format!("{} ({} in contact)", audit.solver_steps, audit.contact_steps)),
+            ("Redone, unconverged", format!("{}, {}", audit.halved, audit.unconverged)),
+            ("Tunnelled", audit.tunnelled.to_string()),
+            ("Deepest in skin", format!("{:.1} mm", audit.max_penetration_m * 1000.0)),
+            ("Rope nodes, triangles", size(view)),
+            ("State hash", view.state_hash.clone()),
+        ],
+    );
+}
+
+fn size(view: &LiveView) -> String {
+    let triangles = view.model.spec.whale.as_ref().map_or(0, |whale| whale.skin.triangles.len());
+    format!("{}, {triangles}", view.model.node_count)
+}
+
+/// A status in words, and whether it is bad.
+#[must_use]
+pub fn told(status: &Status) -> (String, bool) {
+    match status {
+        Status::Settling => ("Settling".into(), false),
+        Status::Paused => ("Paused".into(), false),
+        Status::Running => ("Running".into(), false),
+        Status::Finished => ("Finished".into(), false),
+        Status::Stopped(why) => (format!("Stopped: {why}"), true),
+        Status::Failed(why) => (format!("Could not start: {why}"), true),
+    }
+}

@@ -1,0 +1,68 @@
+//! The bar at the foot of the window.
+
+use egui::{Align, Button, Layout, RichText, Sense, Ui, vec2};
+use endline_session::live::Status;
+
+use super::desk::{Desk, Order};
+use super::layout::Panel;
+use super::panels::run::told;
+use super::theme::Theme;
+
+/// Draws the status bar.
+pub fn show(ui: &mut Ui, desk: &mut Desk) {
+    let palette = Theme::palette_of(ui);
+    ui.horizontal(|ui| {
+        let (text, colour) = match desk.status() {
+            None if desk.making() => ("Making the model".to_owned(), palette.warning),
+            None => ("No model".to_owned(), palette.error),
+            Some(status) => {
+                let colour = match status {
+                    Status::Running => palette.good,
+                    Status::Settling => palette.warning,
+                    Status::Paused | Status::Finished => palette.faint,
+                    Status::Stopped(_) | Status::Failed(_) => palette.error,
+                };
+                (told(status).0, colour)
+            }
+        };
+        let (dot, _) = ui.allocate_exact_size(vec2(10.0, 10.0), Sense::hover());
+        ui.painter().circle_filled(dot.center(), 4.0, colour);
+        ui.label(text);
+        if let Some(view) = &desk.view {
+            let duration = view.model.spec.settings.duration_s;
+            ui.label(RichText::new(format!("{:.2} / {duration:.0} s", view.frame.time_s)).color(palette.faint));
+            if view.times_real_time > 0.0 {
+                ui.label(RichText::new(format!("solver {:.1}× real time", view.times_real_time)).color(palette.faint));
+            }
+            if view.piloted {
+                ui.label(RichText::new("piloted").color(palette.accent));
+            }
+        }
+        right(ui, desk);
+    });
+}
+
+fn right(ui: &mut Ui, desk: &mut Desk) {
+    let palette = Theme::palette_of(ui);
+    let problems = desk.problems().count() + desk.plugin_problems.len();
+    let unsaved = desk.book.unsaved().len();
+    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        let (text, colour) = match problems {
+            0 => ("no problems".to_owned(), palette.faint),
+            1 => ("1 problem".to_owned(), palette.error),
+            count => (format!("{count} problems"), palette.error),
+        };
+        if ui.add(Button::new(RichText::new(text).color(colour)).frame(false)).clicked() {
+            desk.orders.push(Order::Show(Panel::Problems));
+        }
+        if unsaved > 0 {
+            ui.label(RichText::new(format!("{unsaved} unsaved")).color(palette.warning));
+        }
+        let message = desk.view.as_ref().and_then(|view| view.message.clone()).map(|message| (message, false));
+        if let Some((notice, bad)) = desk.notice.clone().or(message) {
+            let colour = if bad { palette.error } else { palette.good };
+            let first = notice.lines().next().unwrap_or_default();
+            ui.add(egui::Label::new(RichText::new(first).color(colour)).truncate()).on_hover_text(&notice);
+        }
+    });
+}
