@@ -32,6 +32,7 @@ pub mod source;
 pub mod timing;
 
 pub use error::Error;
+pub use hooks::load_plugins;
 pub use plugins::PluginHost;
 pub use recording::Recording;
 pub use report::Report;

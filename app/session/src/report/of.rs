@@ -1,0 +1,129 @@
+//! From a run to its summary.
+
+use endline_sim::Audit;
+use endline_sim::metrics::{BodySummary, Event, LineSummary, LinkSummary, ProbeSummary, RegionSummary, Summary, WhaleSummary};
+
+use super::*;
+use crate::error::Error;
+use crate::run::{Run, by_line};
+use crate::timing::Phase;
+
+impl Report {
+    /// The summary of a run as it stands.
+    #[must_use]
+    pub fn of(run: &Run) -> Self {
+        let model = run.model();
+        let settings = &model.spec.settings;
+        let (audit, whole) = (run.audit(), run.timing().whole());
+        let Summary { lines: _, links, bodies, probes, whale } = run.summary();
+        Self {
+            schema: SCHEMA,
+            scenario: run.prepared().source.scenario_name.clone(),
+            seed: settings.seed,
+            simulated_s: run.state().time_s,
+            wall_s: whole.wall_s,
+            times_real_time: whole.times_real_time(),
+            dt_s: settings.step_s,
+            steps: run.state().step,
+            nodes: model.node_count,
+            triangles: model.spec.whale.as_ref().map_or(0, |whale| whale.skin.triangles.len()),
+            state_hash: run.state_hash().hex(),
+            valid: run.stopped().is_none() && audit.tunnelled == 0 && audit.non_finite == 0,
+            stopped: run.stopped().map(|stop| Error::Stopped(stop.clone()).to_string()),
+            audit: audit_report(&audit),
+            lines: line_reports(run),
+            links: links.into_iter().map(LinkReport::from).collect(),
+            bodies: bodies.into_iter().map(BodyReport::from).collect(),
+            probes: probes.into_iter().map(ProbeReport::from).collect(),
+            whale: whale.map(whale_report),
+            approach: phase_report(&run.timing().approach),
+            contact: phase_report(&run.timing().contact),
+            settled: SettledReport { residual_N: run.settled().residual_n, wall_s: run.timing().settle_wall_s },
+            events: event_reports(run),
+            version: env!("CARGO_PKG_VERSION"),
+            model_hash: run.prepared().source.hash(),
+            plugins: run.prepared().plugins.clone(),
+        }
+    }
+}
+
+fn audit_report(audit: &Audit) -> AuditReport {
+    let Audit { tunnelled, max_penetration_m, non_finite, solver_steps, contact_steps, halved, unconverged, passes } = *audit;
+    AuditReport { tunnelled, max_penetration_m, non_finite, solver_steps, contact_steps, halved, unconverged, passes }
+}
+
+fn line_reports(run: &Run) -> Vec<LineReport> {
+    let report = |(line, settled): (LineSummary, &f64)| LineReport {
+        id: line.id,
+        peak_tension_N: line.peak_tension_n,
+        peak_at_s: line.peak_at_s,
+        end_a_tension_N: line.end_a_tension_n,
+        end_b_tension_N: line.end_b_tension_n,
+        settled_tension_N: *settled,
+        parted_at_s: line.parted_at_s,
+    };
+    let settled = by_line(run.model(), &run.settled().state.rope.tension);
+    run.summary().lines.into_iter().zip(&settled).map(report).collect()
+}
+
+impl From<LinkSummary> for LinkReport {
+    fn from(link: LinkSummary) -> Self {
+        Self { id: link.id, rating_N: link.rating_n, peak_tension_N: link.peak_tension_n, parted_at_s: link.parted_at_s }
+    }
+}
+
+impl From<BodySummary> for BodyReport {
+    fn from(body: BodySummary) -> Self {
+        Self { id: body.id, position_m: body.position_m.to_array(), peak_speed_m_s: body.peak_speed_m_s }
+    }
+}
+
+impl From<ProbeSummary> for ProbeReport {
+    fn from(probe: ProbeSummary) -> Self {
+        Self { id: probe.id, unit: probe.unit, last: probe.last, min: probe.min, max: probe.max, mean: probe.mean }
+    }
+}
+
+fn whale_report(whale: WhaleSummary) -> WhaleReport {
+    WhaleReport {
+        outcome: whale.outcome.name(),
+        decided: whale.decided,
+        first_contact_s: whale.first_contact_s,
+        last_contact_s: whale.last_contact_s,
+        contact_time_s: whale.contact_time_s,
+        regions: whale.regions.into_iter().map(RegionReport::from).collect(),
+        drag_added_N: whale.drag_added_n,
+        trailing_m: whale.trailing_m,
+        tethered_m: whale.tethered_m,
+    }
+}
+
+impl From<RegionSummary> for RegionReport {
+    fn from(region: RegionSummary) -> Self {
+        Self {
+            region: region.part.name(),
+            wraps: region.wraps,
+            peak_wraps: region.peak_wraps,
+            contact_length_m: region.contact_length_m,
+            peak_contact_length_m: region.peak_contact_length_m,
+            peak_normal_N: region.peak_normal_n,
+            peak_pressure_Pa: region.peak_pressure_pa,
+            friction_work_J: region.friction_work_j,
+        }
+    }
+}
+
+fn phase_report(phase: &Phase) -> PhaseReport {
+    PhaseReport { simulated_s: phase.simulated_s, wall_s: phase.wall_s, times_real_time: phase.times_real_time() }
+}
+
+fn event_reports(run: &Run) -> Vec<EventReport> {
+    let report = |event: &Event| EventReport {
+        time_s: event.time_s,
+        kind: event.kind.name(),
+        subject: event.subject.clone(),
+        value: event.value,
+        unit: event.kind.unit(),
+    };
+    run.metrics().events().iter().map(report).collect()
+}
