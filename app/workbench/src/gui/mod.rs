@@ -22,7 +22,7 @@ pub mod units;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use endline_session::{PluginHost, locate};
+use endline_session::{load_plugins, locate};
 
 use crate::input::{GilrsPads, PadSource, Pilot};
 use app::App;
@@ -51,7 +51,7 @@ pub fn open(options: Options) -> Result<(), String> {
     let root = locate::library(options.scenario.as_deref(), options.library.as_deref())?;
     let scenario = options.scenario.unwrap_or_else(|| root.join("scenarios/hello-endline.toml"));
     let book = Book::open(&root, &scenario)?;
-    let (host, refused) = PluginHost::discover(&options.plugins);
+    let (host, refused) = load_plugins(&options.plugins);
     let refused: Vec<String> = refused.iter().map(ToString::to_string).collect();
     let native = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
