@@ -55,24 +55,3 @@ fn hello_endline_meets_the_whale() {
     assert_eq!(ran.audit.tunnelled, 0);
     assert!(ran.state.rope.position.iter().all(|place| place.is_finite()));
 }
-
-#[test]
-fn hello_at_slack_tide_meets_the_whale() {
-    let ran = run(shipped("hello-slack-tide.toml"));
-    assert_eq!(ran.audit.tunnelled, 0);
-    assert!(ran.summary.whale.unwrap().regions.iter().any(|region| region.peak_normal_n > 0.0));
-}
-
-#[test]
-fn the_weak_link_parts_at_its_rating_and_holds_when_off_or_five_times_stronger() {
-    let (mut off, mut strong) = (shipped("hello-weak-link.toml"), shipped("hello-weak-link.toml"));
-    off.links[0].enabled = false;
-    strong.links[0].rating_n *= 5.0;
-    let link = run(shipped("hello-weak-link.toml")).summary.links.remove(0);
-    assert!(link.parted_at_s.is_some(), "it parts: {link:?}");
-    assert!((link.peak_tension_n / link.rating_n - 1.0).abs() < 0.02, "{link:?}");
-    for spec in [off, strong] {
-        let link = run(spec).summary.links.remove(0);
-        assert!(link.parted_at_s.is_none(), "it holds: {link:?}");
-    }
-}
