@@ -144,3 +144,37 @@ fn problem_c2_snap_load() {
     println!("problem c2: peak of the samples {peak:.2} N for 1840.51 N");
     assert!((peak / 1840.513769 - 1.0).abs() < 0.005);
 }
+
+/// Two weights on the seabed with slack rope between them, and a buoy on an endline from one: the groundline
+/// lies down, the rest is as the lone endline would be.
+#[test]
+fn a_slack_groundline_settles_on_the_seabed() {
+    use endline_sim::model::Seabed;
+    let feet = [(0.3, 0.2), (0.3, -0.2), (-0.3, 0.2), (-0.3, -0.2)].map(|(x, y)| DVec3::new(x, y, -0.15)).to_vec();
+    let trap = |id: &str, x: f64| {
+        let mut body = weight(id, 15.0, DVec3::new(x, 0.0, -29.85), None);
+        body.feet_m.clone_from(&feet);
+        (body.start_friction, body.slide_friction) = (0.8, 0.6);
+        body
+    };
+    let mut float = weight("buoy", 1.0, DVec3::new(-10.0, 0.0, 0.0), None);
+    float.floats = vec![Float { offset_m: DVec3::ZERO, volume_m3: 0.010, height_m: 0.25 }];
+    float.drag_area_m2 = DVec3::splat(0.0281);
+    let joints = vec![on_body("a", 0), on_body("b", 1), on_body("c", 2)];
+    let mut endline = line("endline", 40.0, 80);
+    (endline.from, endline.to) = (0, 2);
+    for slack in [1.001, 1.02, 1.1, 1.5] {
+        let lines = vec![line("groundline", 20.0 * slack, 40), endline.clone()];
+        let bodies = vec![trap("one", 0.0), trap("two", 20.0), float.clone()];
+        let mut spec = model(water(1025.0, 0.3), joints.clone(), lines, bodies, Settings::default()).spec;
+        // Sinking rope: 65 N/km in water would float off, so give it more.
+        spec.ropes[0].mass_kg_m = 0.09;
+        spec.seabed =
+            Some(Seabed { depth_m: 30.0, normal: DVec3::Z, rope_stiffness_n_m2: 5e3, foot_stiffness_n_m: 2e4, rope_friction: 0.5 });
+        let settled = settle(&Model::new(spec).expect("a sound model"));
+        println!("slack {slack}: {} passes, residual {:.1e} N", settled.trace_n.len(), settled.residual_n);
+        assert!(settled.converged, "slack {slack}: {:?}", settled.trace_n.iter().rev().take(12).collect::<Vec<_>>());
+        let highest = settled.state.rope.position[..41].iter().map(|place| place.z).fold(f64::MIN, f64::max);
+        assert!(highest < -29.4, "the groundline rises to {highest} m");
+    }
+}

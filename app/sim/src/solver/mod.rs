@@ -102,6 +102,21 @@ impl Solver {
         self.add_end_turns(model);
     }
 
+    /// The same with every segment judged by its tension where it is, and what is linear in a search kept apart.
+    pub(crate) fn assemble_searchable(&mut self, model: &Model, state: &State, scheme: &Scheme) {
+        self.band.clear();
+        self.hubs.clear();
+        self.add_nodes(model, scheme);
+        self.add_seabed(model, state, scheme);
+        self.add_bodies(model, state, scheme);
+        self.rest.diagonal.clone_from(&self.band.diagonal);
+        self.rest.force.clone_from(&self.band.force);
+        self.rest.hubs.clone_from(&self.hubs);
+        self.measure_tension(model, scheme);
+        self.add_tension(model, scheme);
+        self.add_end_turns(model);
+    }
+
     /// Solves the assembled system; the moves lie in `band.step` and `hubs.step`.
     pub(crate) fn solve(&mut self, model: &Model) {
         for (index, line) in model.spec.lines.iter().enumerate() {
@@ -179,7 +194,9 @@ impl Solver {
                 hubs[block + 1] = DVec3::ZERO;
             }
         }
-        hubs.iter().map(|force| force.length()).fold(greatest, f64::max)
+        // A maximum would pass over what is not a number.
+        let all_finite = hubs.iter().chain(&self.band.force).all(|force| force.is_finite());
+        if all_finite { hubs.iter().map(|force| force.length()).fold(greatest, f64::max) } else { f64::INFINITY }
     }
 
     /// Tension of each segment at the end of the step being solved; below zero it is slack [N].

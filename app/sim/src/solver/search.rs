@@ -18,36 +18,43 @@ const ENOUGH: f64 = 0.5;
 /// Most trials along a step.
 const MOST_TRIALS: usize = 14;
 
+/// The share, at most `longest`, at which a slope that begins below zero is near enough to zero.
+fn balance(longest: f64, mut slope: impl FnMut(f64) -> f64) -> f64 {
+    let first = slope(0.0);
+    let last = slope(longest);
+    if first.is_nan() || first >= 0.0 || last <= -ENOUGH * first {
+        return longest;
+    }
+    let (mut low, mut high) = ((0.0, first), (longest, last));
+    for _ in 0..MOST_TRIALS {
+        let width = high.0 - low.0;
+        let share = (low.0 - low.1 * width / (high.1 - low.1)).clamp(low.0 + 0.1 * width, high.0 - 0.1 * width);
+        let here = slope(share);
+        if here.abs() <= -ENOUGH * first {
+            return share;
+        }
+        if here < 0.0 {
+            low = (share, here);
+            high.1 *= 0.5;
+        } else {
+            high = (share, here);
+            low.1 *= 0.5;
+        }
+    }
+    if low.0 > 0.0 { low.0 } else { high.0 }
+}
+
 impl Solver {
-    /// Share of the solved step to take, at most `safe`.
-    pub(super) fn search(&mut self, model: &Model, state: &State, scheme: &Scheme, work: &mut ContactWork, safe: f64) -> f64 {
-        let first = self.slope(model, state, scheme, work, 0.0);
-        let last = self.slope(model, state, scheme, work, safe);
-        if first.is_nan() || first >= 0.0 || last <= -ENOUGH * first {
-            return safe;
-        }
-        let (mut low, mut high) = ((0.0, first), (safe, last));
-        for _ in 0..MOST_TRIALS {
-            let width = high.0 - low.0;
-            let share = (low.0 - low.1 * width / (high.1 - low.1)).clamp(low.0 + 0.1 * width, high.0 - 0.1 * width);
-            let slope = self.slope(model, state, scheme, work, share);
-            if slope.abs() <= -ENOUGH * first {
-                return share;
-            }
-            if slope < 0.0 {
-                low = (share, slope);
-                high.1 *= 0.5;
-            } else {
-                high = (share, slope);
-                low.1 *= 0.5;
-            }
-        }
-        if low.0 > 0.0 { low.0 } else { high.0 }
+    /// Share of the solved step to take with contact, at most `safe`.
+    pub(super) fn search(&self, model: &Model, state: &State, scheme: &Scheme, work: &mut ContactWork, safe: f64) -> f64 {
+        balance(safe, |share| {
+            self.rest_slope(share) + self.rope_slope(model, scheme, share) + self.contact_slope(model, state, scheme, work, share)
+        })
     }
 
-    /// Slope of the potential at a share of the solved step.
-    fn slope(&self, model: &Model, state: &State, scheme: &Scheme, work: &mut ContactWork, share: f64) -> f64 {
-        self.rest_slope(share) + self.rope_slope(model, scheme, share) + self.contact_slope(model, state, scheme, work, share)
+    /// Share of the solved step to take without contact, at most `longest`.
+    pub(crate) fn search_free(&self, model: &Model, scheme: &Scheme, longest: f64) -> f64 {
+        balance(longest, |share| self.rest_slope(share) + self.rope_slope(model, scheme, share))
     }
 
     /// Slope of what is linear along the step: inertia, weight, drag, seabed, bodies.

@@ -66,17 +66,7 @@ impl Solver {
 
     /// Forces and matrix with contact at the trial places; what is linear in the search is kept apart.
     fn assemble_touching(&mut self, model: &Model, state: &State, scheme: &Scheme, work: &mut ContactWork) -> Result<(), String> {
-        self.band.clear();
-        self.hubs.clear();
-        self.add_nodes(model, scheme);
-        self.add_seabed(model, state, scheme);
-        self.add_bodies(model, state, scheme);
-        self.rest.diagonal.clone_from(&self.band.diagonal);
-        self.rest.force.clone_from(&self.band.force);
-        self.rest.hubs.clone_from(&self.hubs);
-        self.measure_tension(model, scheme);
-        self.add_tension(model, scheme);
-        self.add_end_turns(model);
+        self.assemble_searchable(model, state, scheme);
         work.slots.measure(&work.near, &self.trial.place);
         self.add_contacts(model, state, scheme, work)
     }
