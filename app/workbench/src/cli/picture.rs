@@ -38,6 +38,11 @@ pub(super) fn draw(_model: &Model, _frame: &Frame, _view: &str, _size: [u32; 2],
     Err(NO_SCENE.into())
 }
 
+/// What a picture says besides its time: the scenario's name without its folder.
+pub(super) fn caption(scenario: &str) -> String {
+    Path::new(scenario).file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned())
+}
+
 /// Draws the moment of the greatest tension of any line. A run without its picture is still a
 /// run: where it cannot be drawn, a note says why.
 pub(super) fn of_peak(run: &Run, report: &Report, out: &Path) {
@@ -45,7 +50,7 @@ pub(super) fn of_peak(run: &Run, report: &Report, out: &Path) {
     let peak_s = peak.map_or(0.0, |line| line.peak_at_s);
     let nearest = run.frames().iter().min_by(|a, b| (a.time_s - peak_s).abs().total_cmp(&(b.time_s - peak_s).abs()));
     let Some(frame) = nearest else { return };
-    let caption = format!("{}  {:.2} s", report.scenario, frame.time_s);
+    let caption = caption(&report.scenario);
     if let Err(reason) = draw(run.model(), frame, "orbit", [1280, 800], &caption, out) {
         output::note(&format!("no picture: {reason}"));
     }

@@ -13,7 +13,7 @@ pub(super) fn render(args: &RenderArgs) -> Result<ExitCode, Failure> {
     let recording = Recording::load(&args.recording)?;
     let options = ReplayOptions { other_plugins: args.other_plugins, frames_hz: 0.0 };
     let (run, frame) = replay::frame_at(&recording, &host::load(), options, args.at)?;
-    let caption = format!("{}  {:.2} s", recording.source.scenario_name, frame.time_s);
+    let caption = picture::caption(&recording.source.scenario_name);
     picture::draw(run.model(), &frame, &args.view, args.size, &caption, &args.out).map_err(Failure::failed)?;
     Ok(ExitCode::SUCCESS)
 }

@@ -183,7 +183,7 @@ mod tests {
 
     #[test]
     fn forces_come_in_both_units() {
-        assert_eq!(force(7561.976_745_942_85), "7562.0 N (1700.0 lbf)");
+        assert_eq!(force(7_561.976_745_942_85), "7562.0 N (1700.0 lbf)");
         assert_eq!(force(f64::INFINITY), "none");
     }
 }

@@ -30,7 +30,7 @@ void main() {
     float far = length(sight);
     vec3 view = sight / far;
     vec3 n = normalize(outward);
-    if (dot(n, view) > 0.0) { n = -n; }
+    if (!gl_FrontFacing) { n = -n; }
     vec3 colour = tint.rgb;
     float opacity = tint.a;
     float hide = 1.0 - exp(-max(far - clear_m, 0.0) / hide_m);
