@@ -1,6 +1,6 @@
 //! Traps, buoys, anchors and weights.
 
-use endline_sim::model::{Body, BodyRole, Shape};
+use endline_sim::model::{Body, BodyRole, JointKind, Shape};
 use endline_sim::{DAffine3, Frame, Model};
 use glam::{DVec3, Vec3};
 
@@ -9,6 +9,8 @@ use super::mesh::{Colour, Mesh};
 
 /// Size of a trap's wire mesh as drawn [m].
 const WIRE_M: f32 = 0.15;
+/// Half edge of a fixture as drawn [m].
+const FIXTURE_M: f32 = 0.15;
 
 /// Every body at its place in the frame.
 pub fn bodies(model: &Model, frame: &Frame) -> Mesh {
@@ -16,7 +18,20 @@ pub fn bodies(model: &Model, frame: &Frame) -> Mesh {
     for (body, (place, turn)) in model.spec.bodies.iter().zip(&frame.bodies) {
         draw(&mut mesh, body, &DAffine3::from_rotation_translation(*turn, *place));
     }
+    fixtures(&mut mesh, model, frame);
     mesh
+}
+
+/// A small block wherever a line ends at a fixture, where that end is now.
+fn fixtures(mesh: &mut Mesh, model: &Model, frame: &Frame) {
+    let held = |joint: usize| matches!(model.spec.joints[joint].kind, JointKind::Fixed | JointKind::Driven { .. });
+    for (line, nodes) in model.spec.lines.iter().zip(&model.line_nodes) {
+        for (joint, node) in [(line.from, nodes.start), (line.to, nodes.end - 1)] {
+            if let (true, Some(place)) = (held(joint), frame.nodes.get(node)) {
+                mesh.block(&DAffine3::from_translation(*place), Vec3::splat(FIXTURE_M), STEEL);
+            }
+        }
+    }
 }
 
 fn draw(mesh: &mut Mesh, body: &Body, pose: &DAffine3) {
