@@ -1,5 +1,7 @@
 //! Rigid bodies against an independent engine: a spinning box in free flight, by Endline and by Rapier.
 
+#![allow(clippy::panic, reason = "a test fails by panicking, in its helpers too")]
+
 mod common;
 
 use common::{model, water, weight};
