@@ -12,6 +12,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_session::PluginHost;
 use endline_session::live::{Command, LiveView, Status};
+use endline_session::plugins::Hook;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::book::Book;
 use endline_workbench::gui::desk::{Desk, Order};
@@ -82,7 +83,11 @@ impl Folder {
     }
 
     fn book(&self) -> Book {
-        Book::open(&self.0, &self.0.join("scenarios/reference-a-pendulum.toml")).unwrap()
+        self.book_with("reference-a-pendulum")
+    }
+
+    fn book_with(&self, scenario: &str) -> Book {
+        Book::open(&self.0, &self.0.join("scenarios").join(scenario).with_extension("toml")).unwrap()
     }
 }
 
@@ -108,10 +113,12 @@ fn workbench(folder: &Folder, pilot: Pilot) -> (Harness<'static, App>, Told) {
 }
 
 fn opened(book: Book, launch: Launch, pilot: Pilot) -> Harness<'static, App> {
+    opened_with(book, Arc::new(PluginHost::empty()), launch, pilot)
+}
+
+fn opened_with(book: Book, host: Arc<PluginHost>, launch: Launch, pilot: Pilot) -> Harness<'static, App> {
     let waker: Waker = Arc::new(|| {});
-    let create = move |creation: &mut eframe::CreationContext<'_>| {
-        App::new(creation, Desk::new(book, Arc::new(PluginHost::empty()), launch, waker, pilot))
-    };
+    let create = move |creation: &mut eframe::CreationContext<'_>| App::new(creation, Desk::new(book, host, launch, waker, pilot));
     let mut harness = Harness::builder().with_size(egui::vec2(1500.0, 940.0)).build_eframe(create);
     wait(&mut harness, |app| app.desk.view.is_some());
     harness
@@ -285,6 +292,44 @@ fn a_real_run_swings_the_pendulum_on_a_thread_of_its_own() {
     let view = harness.state().desk.view.clone().unwrap();
     assert!(view.audit.solver_steps > 0 && view.audit.non_finite == 0);
     assert_eq!(view.state_hash.len(), 16, "{}", view.state_hash);
+}
+
+/// The first-party plugins, linked.
+fn linked() -> Arc<PluginHost> {
+    let mut host = PluginHost::empty();
+    for hook in [
+        Hook::Motion(Arc::new(endline_whale_motions::Swim::default())),
+        Hook::Friction(Arc::new(endline_friction_models::Coulomb::default())),
+        Hook::Gear(Arc::new(endline_gear_types::Single::default())),
+    ] {
+        host.add(hook).unwrap();
+    }
+    Arc::new(host)
+}
+
+#[test]
+fn editing_the_endline_in_its_table_and_applying_changes_the_answer() {
+    let folder = Folder::new("answer");
+    let host = linked();
+    let mut harness = opened_with(folder.book_with("hello-endline"), Arc::clone(&host), engine::live(host), Pilot::default());
+    let settled_n = |harness: &Harness<'static, App>| {
+        let view = harness.state().desk.view.clone().unwrap();
+        view.frame.tension_n.iter().copied().fold(0.0, f64::max)
+    };
+    wait(&mut harness, |app| app.desk.status() == Some(&Status::Paused));
+    let (before_n, earlier) = (settled_n(&harness), harness.state().desk.view.clone().unwrap());
+    let rope = "ropes/sink-3-8.toml";
+    assert!(harness.state().desk.book.in_use(rope), "the single's endline is made of it");
+    let diameter = harness.state().desk.book.field(rope, "diameter").unwrap();
+    harness.state_mut().desk.set(rope, "diameter", "3/4 in");
+    harness.run_steps(2);
+    harness.get_all_by_label("Apply").next().unwrap().click();
+    harness.run_steps(2);
+    wait(&mut harness, |app| {
+        app.desk.view.as_ref().is_some_and(|view| !Arc::ptr_eq(&view.model, &earlier.model) && view.status == Status::Paused)
+    });
+    let after_n = settled_n(&harness);
+    assert!(before_n > 1.0 && (after_n / before_n - 1.0).abs() > 0.1, "{diameter}: {before_n} N; 3/4 in: {after_n} N");
 }
 
 #[test]

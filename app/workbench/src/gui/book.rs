@@ -157,6 +157,16 @@ impl Book {
         if path == Self::SCENARIO { self.scenario_path.display().to_string() } else { path.to_owned() }
     }
 
+    /// Whether the scenario or one of its assemblies names a library file by its id.
+    #[must_use]
+    pub fn in_use(&self, path: &str) -> bool {
+        let id = path.rsplit('/').next().unwrap_or(path).trim_end_matches(".toml");
+        let named = format!("\"{id}\"");
+        let assemblies = (0..).map_while(|index| self.field(Self::SCENARIO, &format!("gear.{index}.assembly")));
+        let files = assemblies.map(|assembly| format!("assemblies/{assembly}.toml")).chain([Self::SCENARIO.to_owned()]);
+        files.filter_map(|file| self.text(&file)).any(|text| text.contains(&named))
+    }
+
     /// Sets a field; comments and order stay. Setting what is there already changes nothing.
     ///
     /// # Errors

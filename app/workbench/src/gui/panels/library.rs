@@ -102,7 +102,8 @@ fn rows(desk: &Desk) -> Vec<String> {
         words.iter().all(|word| text.contains(word))
     };
     let mut rows: Vec<String> = desk.book.files(state.kind.folder()).filter(matches).map(str::to_owned).collect();
-    rows.sort_by_cached_key(|path| name(path).to_lowercase());
+    // What this scenario is made of comes first.
+    rows.sort_by_cached_key(|path| (!desk.book.in_use(path), name(path).to_lowercase()));
     if let Some((key, down)) = state.sort {
         let field = state.kind.fields().iter().find(|field| field.key == key);
         let value = |path: &String| field.and_then(|field| si_value(desk, path, field)).unwrap_or(f64::INFINITY);
@@ -206,12 +207,18 @@ fn name_cell(ui: &mut Ui, desk: &mut Desk, path: &str) {
     let palette = Theme::palette_of(ui);
     let name = desk.book.field(path, "name").unwrap_or_else(|| path.to_owned());
     let mark = if desk.book.is_unsaved(path) { "• " } else { "" };
-    let colour = if desk.book.file_has_error(path) { palette.error } else { palette.text };
+    let used = desk.book.in_use(path);
+    let colour = match (desk.book.file_has_error(path), used) {
+        (true, _) => palette.error,
+        (false, true) => palette.accent,
+        (false, false) => palette.text,
+    };
     let chosen = desk.library.chosen.as_deref() == Some(path);
     let label = Button::selectable(chosen, RichText::new(format!("{mark}{name}")).color(colour)).truncate();
     let notes = desk.book.field(path, "notes").map_or(String::new(), |notes| format!("\n\n{notes}"));
     let unsaved = if mark.is_empty() { "" } else { "\nnot saved yet" };
-    if ui.add(label).on_hover_text(format!("{name}\n{path}{unsaved}{notes}")).clicked() {
+    let used = if used { "\nin use by this scenario" } else { "" };
+    if ui.add(label).on_hover_text(format!("{name}\n{path}{used}{unsaved}{notes}")).clicked() {
         desk.library.chosen = Some(path.to_owned());
     }
 }
