@@ -7,21 +7,30 @@ use crate::parting::{cut, link_segment};
 use crate::state::State;
 use crate::step::Stop;
 
+/// Scratch of the gear types' calls.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct GearWork {
+    tensions: Vec<[f64; 2]>,
+    actions: Vec<GearAction>,
+}
+
 /// Calls every gear type and does what it asks.
 ///
 /// # Errors
 /// With the plugin's id, where it fails or names a line or link it did not build.
-pub(crate) fn act(model: &Model, state: &mut State) -> Result<(), Stop> {
+pub(crate) fn act(model: &Model, state: &mut State, work: &mut GearWork) -> Result<(), Stop> {
+    let GearWork { tensions, actions } = work;
     for (index, hook) in model.spec.gear.iter().enumerate() {
-        let tensions: Vec<[f64; 2]> = hook.lines.iter().map(|line| end_tensions(model, state, *line)).collect();
-        let input = GearStep { time_s: state.time_s, dt_s: model.spec.settings.step_s, end_tension_n: &tensions };
+        tensions.clear();
+        tensions.extend(hook.lines.iter().map(|line| end_tensions(model, state, *line)));
+        actions.clear();
+        let input = GearStep { time_s: state.time_s, dt_s: model.spec.settings.step_s, end_tension_n: tensions };
         let stop = |time_s: f64, reason: String| Stop { time_s, part: hook.gear.descriptor().id.to_string(), reason };
-        let mut actions = Vec::new();
         let mut floats = std::mem::take(&mut state.gear[index]);
-        let answer = hook.gear.step(&hook.attributes, &input, &mut floats, &mut actions);
+        let answer = hook.gear.step(&hook.attributes, &input, &mut floats, actions);
         state.gear[index] = floats;
         answer.map_err(|error| stop(state.time_s, error.message))?;
-        for action in actions {
+        for action in actions.drain(..) {
             obey(model, state, index, action).map_err(|reason| stop(state.time_s, reason))?;
         }
     }

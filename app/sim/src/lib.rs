@@ -10,6 +10,7 @@ mod check;
 pub mod contact;
 pub mod frame;
 mod gear_hook;
+mod in_place;
 pub mod metrics;
 pub mod model;
 pub mod parting;

@@ -4,11 +4,12 @@ use endline_sdk::Posture;
 use glam::{DQuat, DVec3};
 
 use crate::contact::Grips;
+use crate::in_place::clone_in_place;
 use crate::model::{Body, JointKind, Model};
 use crate::whale::Whale;
 
 /// Everything the next step depends on, besides the model and the input.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub struct State {
     /// Simulated time [s].
     pub time_s: f64,
@@ -29,7 +30,7 @@ pub struct State {
 }
 
 /// Nodes and segments of all lines, in the model's layout.
-#[derive(Clone, Debug, PartialEq, Default)]
+#[derive(Debug, PartialEq, Default)]
 pub struct RopeState {
     /// Place of each node [m].
     pub position: Vec<DVec3>,
@@ -52,7 +53,7 @@ pub struct RopeState {
 }
 
 /// A rigid body in motion.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub struct BodyState {
     /// Place of its origin (centre of mass) [m].
     pub position: DVec3,
@@ -73,7 +74,7 @@ pub struct BodyState {
 }
 
 /// The whale in motion (kinematic: it goes where its motion plugin and pilot send it).
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub struct WhaleState {
     /// Place of the whale frame's origin, mid-body [m].
     pub position: DVec3,
@@ -90,6 +91,11 @@ pub struct WhaleState {
     /// Sum of normal contact forces of the last step, by body part [N].
     pub contact_force_n: [f64; endline_sdk::BodyPart::ALL.len()],
 }
+
+clone_in_place!(State { time_s, step, rope, bodies, whale, link_parted_s, line_parted, gear });
+clone_in_place!(RopeState { position, velocity, tension, cut, earlier_position, earlier_velocity, earlier_dt_s, seabed_grip, grips });
+clone_in_place!(BodyState { position, orientation, velocity, spin, earlier_position, earlier_velocity, grip, sliding });
+clone_in_place!(WhaleState { position, orientation, speed_m_s, turn_rate, posture, motion, contact_force_n });
 
 impl State {
     /// The state a model starts from before statics: first guesses, at rest.

@@ -9,7 +9,7 @@ use endline_sdk::Controls;
 use crate::contact::ContactPoint;
 use crate::contact::near::MARGIN_M;
 use crate::contact::work::{ContactWork, force_by_part};
-use crate::gear_hook;
+use crate::gear_hook::{self, GearWork};
 use crate::model::Model;
 use crate::solver::Solver;
 use crate::state::{State, WhaleState};
@@ -38,6 +38,9 @@ pub struct Workspace {
     pub(crate) solver: Solver,
     pub(crate) contact: Option<ContactWork>,
     before: Option<State>,
+    gear: GearWork,
+    /// The whale at the start and at the end of the step.
+    whale: Option<Box<[WhaleState; 2]>>,
 }
 
 /// What a run did that its reader should know; see `docs/physics.md`.
@@ -83,6 +86,8 @@ impl Workspace {
             solver: Solver::new(model),
             contact: ContactWork::new(model),
             before: None,
+            gear: GearWork::default(),
+            whale: None,
         }
     }
 }
@@ -107,25 +112,39 @@ fn try_step(model: &Model, input: &Input, state: &mut State, workspace: &mut Wor
     workspace.peak_tension_n.fill(0.0);
     workspace.contacts.clear();
     let settings = &model.spec.settings;
-    let whale = match &state.whale {
-        Some(whale) => Some((whale.clone(), drive(model, input, whale, state.time_s)?)),
-        None => None,
-    };
-    let longest =
-        if near_whale(model, state, workspace, whale.as_ref()) { settings.contact_step_s.min(settings.step_s) } else { settings.step_s };
-    solver_steps(model, state, workspace, whale.as_ref(), longest)?;
+    let mut whale = workspace.whale.take();
+    let moved = move_whale(model, input, state, &mut whale);
+    let done = moved.and_then(|()| {
+        let whale = whale.as_deref();
+        let near = near_whale(model, state, workspace, whale);
+        let longest = if near { settings.contact_step_s.min(settings.step_s) } else { settings.step_s };
+        solver_steps(model, state, workspace, whale, longest)
+    });
+    if let (Some(now), Some([_, after])) = (&mut state.whale, whale.as_deref_mut()) {
+        after.contact_force_n = force_by_part(&workspace.contacts);
+        now.clone_from(after);
+    }
+    workspace.whale = whale;
+    done?;
     state.time_s = settings.step_s * (state.step + 1) as f64;
     state.step += 1;
-    if let Some((_, mut after)) = whale {
-        after.contact_force_n = force_by_part(&workspace.contacts);
-        state.whale = Some(after);
-    }
-    gear_hook::act(model, state)
+    gear_hook::act(model, state, &mut workspace.gear)
+}
+
+/// Lets the whale swim through the step: where it starts and where it ends.
+fn move_whale(model: &Model, input: &Input, state: &State, whale: &mut Option<Box<[WhaleState; 2]>>) -> Result<(), Stop> {
+    let Some(now) = &state.whale else {
+        *whale = None;
+        return Ok(());
+    };
+    let [from, to] = &mut **whale.get_or_insert_with(|| Box::new([now.clone(), now.clone()]));
+    from.clone_from(now);
+    drive(model, input, from, state.time_s, to)
 }
 
 /// Whether rope may come near the whale in this step.
-fn near_whale(model: &Model, state: &State, workspace: &mut Workspace, whale: Option<&(WhaleState, WhaleState)>) -> bool {
-    let (Some(work), Some((from, to))) = (&mut workspace.contact, whale) else { return false };
+fn near_whale(model: &Model, state: &State, workspace: &mut Workspace, whale: Option<&[WhaleState; 2]>) -> bool {
+    let (Some(work), Some([from, to])) = (&mut workspace.contact, whale) else { return false };
     pose_between(model, from, to, 0.0, &mut work.bones[0]);
     pose_between(model, from, to, 1.0, &mut work.bones[1]);
     let step_s = model.spec.settings.step_s;
@@ -138,7 +157,7 @@ fn solver_steps(
     model: &Model,
     state: &mut State,
     workspace: &mut Workspace,
-    whale: Option<&(WhaleState, WhaleState)>,
+    whale: Option<&[WhaleState; 2]>,
     longest: f64,
 ) -> Result<(), Stop> {
     let settings = &model.spec.settings;
@@ -149,7 +168,7 @@ fn solver_steps(
         let left = end - state.time_s;
         let wanted = longest / f64::from(1_u32 << halvings.min(30));
         let dt = left / (left / wanted - 1e-9).ceil().max(1.0);
-        if let (Some(work), Some((from, to))) = (&mut workspace.contact, whale) {
+        if let (Some(work), Some([from, to])) = (&mut workspace.contact, whale) {
             let share = |time: f64| ((time - start) / settings.step_s).clamp(0.0, 1.0);
             pose_between(model, from, to, share(state.time_s), &mut work.bones[0]);
             pose_between(model, from, to, share(state.time_s + dt), &mut work.bones[1]);

@@ -5,17 +5,20 @@ use glam::{DMat3, DVec3};
 
 use super::near::{Near, on_triangle};
 use super::slots::{Slot, Slots, Touch};
+use crate::in_place::clone_in_place;
 use crate::model::{Friction, Model};
 use crate::state::State;
 
 /// Floats of the friction model for the sites in touch, in rising order of site.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Debug, Default, PartialEq)]
 pub struct Grips {
     /// Sites in touch.
     pub sites: Vec<u64>,
     /// Floats of each, one after the other.
     pub floats: Vec<f64>,
 }
+
+clone_in_place!(Grips { sites, floats });
 
 impl Grips {
     /// Forgets all grips.

@@ -98,7 +98,7 @@ impl Slots {
                 self.list.push(second);
             }
         }
-        self.list.sort_by_key(|slot| slot.site);
+        self.list.sort_unstable_by_key(|slot| slot.site);
     }
 
     /// Measures every slot at the places given.

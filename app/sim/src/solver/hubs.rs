@@ -70,6 +70,12 @@ impl Hubs {
         self.force.fill(DVec3::ZERO);
     }
 
+    /// Takes over matrix and forces of hubs of the same layout.
+    pub fn copy_values(&mut self, from: &Self) {
+        self.value.clone_from(&from.value);
+        self.force.clone_from(&from.force);
+    }
+
     /// The block at (row, column), which the layout must hold.
     pub fn at(&mut self, row: usize, column: usize) -> &mut DMat3 {
         let slot = self.slot[row * self.blocks + column];

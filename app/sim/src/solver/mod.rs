@@ -68,8 +68,10 @@ impl Solver {
     #[must_use]
     pub fn new(model: &Model) -> Self {
         let plan = Plan::new(model);
+        let hubs = plan.hubs(model);
         Self {
-            hubs: plan.hubs(model),
+            rest: Rest { hubs: hubs.clone(), ..Rest::default() },
+            hubs,
             plan,
             trial: Trial::default(),
             band: Band::new(model.node_count, model.segment_count),
@@ -77,7 +79,6 @@ impl Solver {
             mass: vec![DMat3::ZERO; model.node_count],
             pull: vec![Pull::default(); model.segment_count],
             cut: vec![false; model.segment_count],
-            rest: Rest::default(),
             flow: vec![DVec3::ZERO; model.node_count],
             drift: Vec::new(),
         }
@@ -111,7 +112,7 @@ impl Solver {
         self.add_bodies(model, state, scheme);
         self.rest.diagonal.clone_from(&self.band.diagonal);
         self.rest.force.clone_from(&self.band.force);
-        self.rest.hubs.clone_from(&self.hubs);
+        self.rest.hubs.copy_values(&self.hubs);
         self.measure_tension(model, scheme);
         self.add_tension(model, scheme);
         self.add_end_turns(model);

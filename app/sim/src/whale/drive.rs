@@ -16,12 +16,13 @@ use glam::DAffine3;
 /// Half height of a right whale as a share of its length, kept above the seabed.
 const CLEARANCE: f64 = 0.11;
 
-/// The whale at the end of a step that begins with `whale`.
+/// The whale at the end of a step that begins with `whale`, written over `next`.
 ///
 /// # Errors
 /// With the motion plugin's id, where it fails or gives a number that is not finite.
-pub(crate) fn drive(model: &Model, input: &Input, whale: &WhaleState, time_s: f64) -> Result<WhaleState, Stop> {
-    let Some(spec) = &model.spec.whale else { return Ok(whale.clone()) };
+pub(crate) fn drive(model: &Model, input: &Input, whale: &WhaleState, time_s: f64, next: &mut WhaleState) -> Result<(), Stop> {
+    next.clone_from(whale);
+    let Some(spec) = &model.spec.whale else { return Ok(()) };
     let dt_s = model.spec.settings.step_s;
     let stop = |reason: String| Stop { time_s, part: spec.motion.descriptor().id.to_string(), reason };
     let seen = MotionInput {
@@ -34,11 +35,9 @@ pub(crate) fn drive(model: &Model, input: &Input, whale: &WhaleState, time_s: f6
         controls: input.controls,
         contact_force_n: &whale.contact_force_n,
     };
-    let mut next = whale.clone();
     let moved = spec.motion.step(&spec.motion_attributes, &seen, &mut next.motion).map_err(|error| stop(error.message))?;
     let turn_rate = DVec3::from_array(moved.turn_rate_rad_s);
-    let angles = posture_angles(&moved.posture);
-    if !(moved.speed_m_s.is_finite() && turn_rate.is_finite() && angles.iter().all(|angle| angle.is_finite())) {
+    if !(moved.speed_m_s.is_finite() && turn_rate.is_finite() && is_finite(&moved.posture)) {
         return Err(stop("gave a speed, turn rate or joint angle that is not a finite number".into()));
     }
     next.speed_m_s = moved.speed_m_s;
@@ -49,7 +48,7 @@ pub(crate) fn drive(model: &Model, input: &Input, whale: &WhaleState, time_s: f6
     next.position += (ahead * (0.5 * (whale.speed_m_s + next.speed_m_s)) + model.spec.water.velocity(whale.position)) * dt_s;
     let floor = model.spec.seabed.as_ref().map_or(f64::NEG_INFINITY, |seabed| -seabed.depth_m + CLEARANCE * spec.length_m);
     next.position.z = next.position.z.max(floor).min(0.0);
-    Ok(next)
+    Ok(())
 }
 
 /// Bone transforms at a share of the way between two states of the whale.
@@ -78,9 +77,8 @@ fn mix(from: &Posture, to: &Posture, share: f64) -> Posture {
     }
 }
 
-/// All angles of a posture in the order of its fields.
-#[must_use]
-pub fn posture_angles(posture: &Posture) -> Vec<f64> {
+/// Whether all angles of a posture are finite numbers.
+fn is_finite(posture: &Posture) -> bool {
     let Posture { spine_pitch, spine_yaw, fluke_pitch, fluke_flex, flipper_sweep, flipper_raise, flipper_twist, jaw } = posture;
     let groups: [&[f64]; 8] = [
         spine_pitch,
@@ -92,5 +90,5 @@ pub fn posture_angles(posture: &Posture) -> Vec<f64> {
         flipper_twist,
         std::slice::from_ref(jaw),
     ];
-    groups.concat()
+    groups.iter().copied().flatten().all(|angle| angle.is_finite())
 }

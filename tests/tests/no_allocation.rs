@@ -1,0 +1,72 @@
+//! Once its scratch memory has grown, a step allocates nothing.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
+
+mod linked;
+
+use allocation_counter::measure;
+use endline_gear::{Options, Scenario, assemble};
+use endline_sim::{DVec3, Input, Model, State, Workspace, settle, step};
+use linked::{Linked, library, root, told};
+
+/// Steps before counting begins.
+const WARM_STEPS: u64 = 10;
+/// Steps counted.
+const STEPS: u64 = 200;
+/// Allocations allowed while rope slides over skin: lists of pairs, slots and grips double as they meet
+/// more than they ever held, a few times each; a single list made anew in each step would come to 200.
+const GROWTH: u64 = 100;
+
+/// The shipped encounter, with the whale set down here.
+fn encounter(place: DVec3) -> Model {
+    let name = "hello-endline.toml";
+    let text = std::fs::read_to_string(root().join("scenarios").join(name)).unwrap();
+    let scenario = Scenario::read(name, &text).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    let mut spec = assemble(&scenario, &library(), &Linked, &Options::default()).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    spec.whale.as_mut().unwrap().position_m = place;
+    Model::new(spec).unwrap_or_else(|errors| panic!("{errors:?}"))
+}
+
+/// A run under way.
+struct Run {
+    model: Model,
+    state: State,
+    workspace: Workspace,
+}
+
+impl Run {
+    fn new(model: Model) -> Self {
+        Self { state: settle(&model).state, workspace: Workspace::new(&model), model }
+    }
+
+    fn steps(&mut self, count: u64) {
+        let pilot = &self.model.spec.whale.as_ref().unwrap().pilot;
+        for _ in 0..count {
+            let input = Input { controls: pilot.at(self.state.time_s) };
+            step(&self.model, &input, &mut self.state, &mut self.workspace).unwrap();
+        }
+    }
+}
+
+#[test]
+fn free_rope_allocates_nothing() {
+    let mut run = Run::new(encounter(DVec3::new(11.4, -60.0, -12.0)));
+    run.steps(WARM_STEPS);
+    let counted = measure(|| run.steps(STEPS));
+    assert_eq!(run.workspace.audit.contact_steps, 0, "the whale was to stay far away");
+    assert_eq!(counted.count_total, 0, "{} bytes", counted.bytes_total);
+}
+
+#[test]
+fn rope_on_skin_allocates_only_as_its_lists_grow() {
+    let mut run = Run::new(encounter(DVec3::new(13.9, -7.0, -12.0)));
+    while run.workspace.contacts.is_empty() {
+        run.steps(1);
+    }
+    run.steps(WARM_STEPS);
+    let before = run.workspace.audit.contact_steps;
+    let counted = measure(|| run.steps(STEPS));
+    assert!(run.workspace.audit.contact_steps - before > STEPS, "rope was to stay on the skin");
+    println!("{} allocations, {} bytes", counted.count_total, counted.bytes_total);
+    assert!(counted.count_total < GROWTH, "{} allocations, {} bytes", counted.count_total, counted.bytes_total);
+}
