@@ -9,7 +9,7 @@ use glam::DVec3;
 use crate::contact::work::ContactWork;
 use crate::model::Model;
 use crate::parting::{self, Parting};
-use crate::solver::{Scheme, Solver, Touched};
+use crate::solver::{BodyTrial, Scheme, Solver, Touched};
 use crate::state::State;
 use crate::step::{Audit, Workspace};
 
@@ -23,6 +23,8 @@ const CONVERGED_M: f64 = 1e-3;
 const TENSION_GAP_N: f64 = 2.0;
 /// The same as a share of the greatest tension.
 const TENSION_GAP_SHARE: f64 = 0.02;
+/// Most times the move of skin and rope together is cut.
+const MOST_CUTS: usize = 20;
 /// Times the skin may be stopped within a solver step.
 const MOST_STAGES: usize = 8;
 /// Move of the last pass with contact above which the step is redone shorter [m].
@@ -125,7 +127,7 @@ fn contact_step(
         if let Some(pair) = work.near.pairs.iter().find(|pair| pair.clear <= 0.0) {
             return Err(Refused::Crossed(pair.segment));
         }
-        audit.tunnelled += solver.carry(model, state, work);
+        audit.tunnelled += solver.carry(model, work);
         match solver.solve_touching(model, state, scheme, work) {
             Touched::Ended { last_m, passes, crossings } => {
                 audit.passes += passes as u64;
@@ -153,7 +155,11 @@ impl Solver {
     /// Puts rope and bodies back where the step begins; where they would drift to is kept as the first target.
     fn set_out(&mut self, state: &State) {
         self.drift.clone_from(&self.trial.place);
+        self.drift_bodies.clone_from(&self.trial.bodies);
         self.trial.place.clone_from(&state.rope.position);
+        for (trial, body) in self.trial.bodies.iter_mut().zip(&state.bodies) {
+            (trial.place, trial.orientation) = (body.position, body.orientation);
+        }
     }
 
     /// Places of the nodes now.
@@ -161,21 +167,41 @@ impl Solver {
         &self.trial.place
     }
 
-    /// Moves skin to the end of its step and rope along with it, as far as nothing crosses; the number
-    /// of crossings an exact test finds.
-    fn carry(&mut self, model: &Model, _state: &State, work: &mut ContactWork) -> u64 {
+    /// Moves skin to the end of its step, and rope and bodies along with it, as far as nothing crosses; the
+    /// number of crossings an exact test finds.
+    fn carry(&mut self, model: &Model, work: &mut ContactWork) -> u64 {
         work.before.clone_from(&self.trial.place);
+        work.bodies_before.clone_from(&self.trial.bodies);
         let first = work.near.fraction <= 0.0;
         work.target.clone_from(if first { &self.drift } else { &work.before });
         work.near.carry(&work.before, &mut work.target);
-        std::mem::swap(&mut self.trial.place, &mut work.target);
-        self.trial.seat_ends(model, &self.plan);
-        std::mem::swap(&mut self.trial.place, &mut work.target);
-        let share = work.near.safe_share(&work.before, |node| work.target[node], true);
-        let crossings = work.near.make_move(&work.before, |node| work.target[node], share, true);
-        for (place, target) in self.trial.place.iter_mut().zip(&work.target) {
-            *place = place.lerp(*target, share);
+        let begin = work.near.fraction;
+        let mut share = 1.0;
+        for _ in 0..MOST_CUTS {
+            for (node, place) in self.trial.place.iter_mut().enumerate() {
+                *place = work.before[node].lerp(work.target[node], share);
+            }
+            if first {
+                self.blend_bodies(&work.bodies_before, share);
+            }
+            self.trial.seat_ends(model, &self.plan);
+            let skin_to = begin + (1.0 - begin) * share;
+            let safe = work.near.safe_share(&work.before, |node| self.trial.place[node], skin_to);
+            if safe >= 1.0 {
+                return work.near.make_move(&work.before, |node| self.trial.place[node], skin_to);
+            }
+            share *= 0.95 * safe;
         }
-        crossings
+        self.trial.place.clone_from(&work.before);
+        self.trial.bodies.clone_from(&work.bodies_before);
+        0
+    }
+
+    /// Puts bodies a share of the way from where they were to where they would drift.
+    fn blend_bodies(&mut self, from: &[BodyTrial], share: f64) {
+        for ((trial, from), to) in self.trial.bodies.iter_mut().zip(from).zip(&self.drift_bodies) {
+            trial.place = from.place.lerp(to.place, share);
+            trial.orientation = from.orientation.slerp(to.orientation, share);
+        }
     }
 }

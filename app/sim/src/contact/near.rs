@@ -162,11 +162,11 @@ impl Near {
         best
     }
 
-    /// Largest share of the move `places` → `target`, while the skin makes the rest of its step
-    /// (`with_skin`) or stands still, along which nothing crosses.
-    pub fn safe_share(&self, places: &[DVec3], target: impl Fn(usize) -> DVec3, with_skin: bool) -> f64 {
+    /// Largest share of the move `places` → `target`, while the skin goes to `skin_to` of its step, along
+    /// which nothing crosses.
+    pub fn safe_share(&self, places: &[DVec3], target: impl Fn(usize) -> DVec3, skin_to: f64) -> f64 {
         let mut share = 1.0_f64;
-        let skin_share = if with_skin { 1.0 - self.fraction } else { 0.0 };
+        let skin_share = skin_to - self.fraction;
         for (_, range) in &self.groups {
             let segment = self.pairs[range.start].sweep_of(places, &target);
             let moved = greatest_move(&segment);
@@ -174,7 +174,7 @@ impl Near {
                 if pair.clear - pair.guard > moved + pair.skin_move * skin_share {
                     continue;
                 }
-                let triangle = [pair.now, if with_skin { pair.sweep[1] } else { pair.now }];
+                let triangle = [pair.now, if skin_share > 0.0 { triangle_at(&pair.sweep, skin_to) } else { pair.now }];
                 if pair.clear - pair.guard > greatest_approach(&segment, &triangle) {
                     continue;
                 }
@@ -185,21 +185,20 @@ impl Near {
         share
     }
 
-    /// Makes the move: skin goes on by the share of what is left, bounds of distance shrink by what moved.
-    /// Gives the number of crossings an exact test finds on the way.
-    pub fn make_move(&mut self, places: &[DVec3], target: impl Fn(usize) -> DVec3, share: f64, with_skin: bool) -> u64 {
-        let skin_share = if with_skin { (1.0 - self.fraction) * share } else { 0.0 };
-        let fraction = self.fraction + skin_share;
+    /// Makes the move `places` → `target`: skin goes to `skin_to` of its step, bounds of distance shrink by what
+    /// moved. Gives the number of crossings an exact test finds on the way.
+    pub fn make_move(&mut self, places: &[DVec3], target: impl Fn(usize) -> DVec3, skin_to: f64) -> u64 {
+        let skin_share = skin_to - self.fraction;
         let mut crossings = 0;
         for (_, range) in &self.groups {
-            let segment = self.pairs[range.start].sweep_of(places, |node| places[node].lerp(target(node), share));
+            let segment = self.pairs[range.start].sweep_of(places, &target);
             let moved = greatest_move(&segment);
             for pair in &mut self.pairs[range.clone()] {
-                let after = if with_skin { triangle_at(&pair.sweep, fraction) } else { pair.now };
+                let after = if skin_share > 0.0 { triangle_at(&pair.sweep, skin_to) } else { pair.now };
                 crossings += u64::from(pair.follow(&segment, after, moved + pair.skin_move * skin_share));
             }
         }
-        self.fraction = fraction;
+        self.fraction = skin_to;
         crossings
     }
 }

@@ -8,6 +8,7 @@ use super::grip::Touching;
 use super::near::Near;
 use super::slots::Slots;
 use crate::model::{Friction, Model};
+use crate::solver::BodyTrial;
 use crate::state::State;
 
 /// Scratch of contact for one model with a whale; it keeps nothing that a step depends on.
@@ -22,6 +23,8 @@ pub(crate) struct ContactWork {
     pub bones: [Vec<DAffine3>; 2],
     /// Places before a sub-move.
     pub before: Vec<DVec3>,
+    /// Bodies before a sub-move.
+    pub bodies_before: Vec<BodyTrial>,
     /// Places a sub-move aims at.
     pub target: Vec<DVec3>,
     /// Greatest contact distance of any rope [m].
@@ -39,6 +42,7 @@ impl ContactWork {
             probe: Touching::default(),
             bones: [Vec::new(), Vec::new()],
             before: Vec::new(),
+            bodies_before: Vec::new(),
             target: Vec::new(),
             greatest_reach: model.spec.ropes.iter().map(|rope| 0.5 * rope.diameter_m).fold(0.0, f64::max),
         })

@@ -26,6 +26,7 @@ use plan::Plan;
 use rope::Pull;
 pub(crate) use scheme::Scheme;
 pub(crate) use touch::Touched;
+pub(crate) use trial::BodyTrial;
 use trial::Trial;
 
 /// Scratch of the solver for one model; it keeps nothing that a step depends on.
@@ -42,8 +43,9 @@ pub struct Solver {
     rest: Rest,
     /// Velocity of the water at each node.
     flow: Vec<DVec3>,
-    /// Where rope would go on its own from where a step with contact begins.
+    /// Where rope and bodies would go on their own from where a step with contact begins.
     pub(crate) drift: Vec<DVec3>,
+    pub(crate) drift_bodies: Vec<BodyTrial>,
 }
 
 /// Forces and blocks that the search along a step holds linear.
@@ -81,6 +83,7 @@ impl Solver {
             cut: vec![false; model.segment_count],
             flow: vec![DVec3::ZERO; model.node_count],
             drift: Vec::new(),
+            drift_bodies: Vec::new(),
         }
     }
 

@@ -21,6 +21,11 @@ const MOST_PASSES: usize = 40;
 const CONVERGED_M: f64 = 1e-6;
 /// Move below which the search along the step is left out: rounding would decide it [m].
 const UNSEARCHED_M: f64 = 1e-5;
+/// Most times a move is cut because bodies turn.
+const MOST_CUTS: usize = 12;
+/// Least share a cut leaves.
+const LEAST_CUT: f64 = 0.1;
+
 /// How Newton with contact ended.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Touched {
@@ -50,9 +55,10 @@ impl Solver {
             if !longest.is_finite() {
                 return Touched::NotFinite;
             }
-            let safe = work.near.safe_share(&self.trial.place, |node| self.trial.place[node] + self.band.step[node], false);
+            let safe = work.near.safe_share(&self.trial.place, |node| self.trial.place[node] + self.band.step[node], work.near.fraction);
             let share = if longest * safe > UNSEARCHED_M { self.search(model, state, scheme, work, safe) } else { safe };
-            crossings += self.move_by(model, work, share);
+            let (share, crossed) = self.move_by(model, work, share);
+            crossings += crossed;
             if self.strayed(state, scheme) > near::MARGIN_M - work.greatest_reach {
                 return Touched::TooFar;
             }
@@ -129,11 +135,24 @@ impl Solver {
         }
     }
 
-    /// Moves the trial by a share of the step; the number of crossings an exact test finds.
-    fn move_by(&mut self, model: &Model, work: &mut ContactWork, share: f64) -> u64 {
+    /// Moves the trial by at most this share of the step; the share taken and the crossings an exact test finds.
+    ///
+    /// Line ends on a body follow its turn, which the linear step only approximates, so the move is
+    /// checked as it really comes out and made shorter until nothing crosses.
+    fn move_by(&mut self, model: &Model, work: &mut ContactWork, mut share: f64) -> (f64, u64) {
         work.before.clone_from(&self.trial.place);
-        self.advance(model, share);
-        work.near.make_move(&work.before, |node| self.trial.place[node], 1.0, false)
+        work.bodies_before.clone_from(&self.trial.bodies);
+        for _ in 0..MOST_CUTS {
+            self.advance(model, share);
+            let safe = work.near.safe_share(&work.before, |node| self.trial.place[node], work.near.fraction);
+            if safe >= 1.0 {
+                return (share, work.near.make_move(&work.before, |node| self.trial.place[node], work.near.fraction));
+            }
+            self.trial.place.clone_from(&work.before);
+            self.trial.bodies.clone_from(&work.bodies_before);
+            share *= (0.9 * safe).max(LEAST_CUT);
+        }
+        (0.0, 0)
     }
 
     /// How far any node lies from the straight path by which its pairs were gathered [m].
