@@ -19,10 +19,6 @@ const LEAST_PASSES: usize = 2;
 const MOST_PASSES: usize = 12;
 /// Move of a pass at which a free solver step has converged [m].
 const CONVERGED_M: f64 = 1e-3;
-/// Difference between foretold and true tension at which a free solver step has converged [N].
-const TENSION_GAP_N: f64 = 2.0;
-/// The same as a share of the greatest tension.
-const TENSION_GAP_SHARE: f64 = 0.02;
 /// Most times the move of skin and rope together is cut.
 const MOST_CUTS: usize = 20;
 /// Times the skin may be stopped within a solver step.
@@ -102,11 +98,8 @@ fn free_step(model: &Model, state: &State, solver: &mut Solver, scheme: &Scheme,
             audit.non_finite += 1;
             return Err(Refused::NotFinite);
         }
-        if pass >= LEAST_PASSES && passed.longest_m < CONVERGED_M {
-            let (gap, greatest) = solver.tension_gap(model, scheme);
-            if gap < TENSION_GAP_N.max(TENSION_GAP_SHARE * greatest) {
-                return Ok(());
-            }
+        if pass >= LEAST_PASSES && passed.longest_m < CONVERGED_M && solver.pull_is_settled(model, scheme) {
+            return Ok(());
         }
     }
     Err(Refused::NotConverged)

@@ -21,6 +21,10 @@ const MOST_PASSES: usize = 40;
 const CONVERGED_M: f64 = 1e-6;
 /// Move below which the search along the step is left out: rounding would decide it [m].
 const UNSEARCHED_M: f64 = 1e-5;
+/// Difference between solved and true tension at which a step has converged [N].
+const TENSION_GAP_N: f64 = 2.0;
+/// The same as a share of the greatest tension.
+const TENSION_GAP_SHARE: f64 = 0.02;
 /// Most times a move is cut because bodies turn.
 const MOST_CUTS: usize = 12;
 /// Least share a cut leaves.
@@ -111,9 +115,8 @@ impl Solver {
         });
     }
 
-    /// Greatest difference between the pull of a segment in the last solve and the tension at its place, slack
-    /// as zero, and the greatest tension [N].
-    pub(crate) fn tension_gap(&mut self, model: &Model, scheme: &Scheme) -> (f64, f64) {
+    /// Whether the pull of every segment in the last solve is the tension at its place, slack as zero.
+    pub(crate) fn pull_is_settled(&mut self, model: &Model, scheme: &Scheme) -> bool {
         let (mut gap, mut greatest) = (0.0_f64, 0.0_f64);
         self.each_segment(model, |solver, rope, segment, node| {
             if !solver.cut[segment] {
@@ -123,7 +126,7 @@ impl Solver {
                 greatest = greatest.max(solved);
             }
         });
-        (gap, greatest)
+        gap < TENSION_GAP_N.max(TENSION_GAP_SHARE * greatest)
     }
 
     fn each_segment(&mut self, model: &Model, mut act: impl FnMut(&mut Self, &Rope, usize, usize)) {
