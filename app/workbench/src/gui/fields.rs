@@ -6,8 +6,17 @@ use endline_gear::Diagnostic;
 use super::book::Book;
 use super::theme::Theme;
 
+/// What is said of a field: a hint shown while it is empty, and help on hover.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Said<'a> {
+    /// Shown faintly while the field is empty.
+    pub hint: &'a str,
+    /// Shown on hover.
+    pub help: &'a str,
+}
+
 /// Shows a field for typing; answers the new text when it is committed. Escape leaves it as it was.
-pub fn edit(ui: &mut Ui, book: &Book, path: &str, field: &str, width: f32, help: &str) -> Option<String> {
+pub fn edit(ui: &mut Ui, book: &Book, path: &str, field: &str, width: f32, said: Said<'_>) -> Option<String> {
     let stored = book.field(path, field).unwrap_or_default();
     let problem = book.problem_at(path, field);
     let id = Id::new(("field", path, field));
@@ -15,13 +24,14 @@ pub fn edit(ui: &mut Ui, book: &Book, path: &str, field: &str, width: f32, help:
     let palette = Theme::palette_of(ui);
     let colour = if problem.is_some_and(Diagnostic::is_error) { palette.error } else { palette.text };
     let editor = TextEdit::singleline(&mut typed).id(id.with("edit")).desired_width(width).text_color(colour).clip_text(true);
+    let editor = editor.hint_text(said.hint);
     let response = ui.add(editor);
     outline(ui, &response, problem);
     if response.changed() {
         ui.data_mut(|data| data.insert_temp(id, typed.clone()));
     }
     let left = response.lost_focus();
-    hover(response, problem, help);
+    hover(response, problem, said.help);
     if !left {
         return None;
     }

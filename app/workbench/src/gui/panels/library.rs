@@ -229,7 +229,7 @@ fn cell(ui: &mut Ui, desk: &Desk, path: &str, key: &'static str, help: &str) -> 
         .vertical(|ui| {
             ui.spacing_mut().item_spacing.y = 1.0;
             ui.add_space(1.0);
-            let committed = fields::edit(ui, &desk.book, path, key, width, help);
+            let committed = fields::edit(ui, &desk.book, path, key, width, fields::Said { hint: "", help });
             if let Some(problem) = desk.book.problem_at(path, key) {
                 let error = RichText::new(&problem.message).size(10.5).color(Theme::palette_of(ui).error);
                 ui.add(egui::Label::new(error).truncate());

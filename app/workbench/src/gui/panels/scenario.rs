@@ -131,7 +131,9 @@ fn rows(ui: &mut Ui, desk: &Desk, id: &str, rows: &[Row], edits: &mut Vec<(Strin
             name(ui, label);
             let width = ui.available_width() - 12.0;
             ui.vertical(|ui| {
-                edits.extend(fields::edit(ui, &desk.book, Book::SCENARIO, field, width, help).map(|value| ((*field).to_owned(), value)));
+                let hint = of_site(&desk.book, field);
+                let typed = fields::edit(ui, &desk.book, Book::SCENARIO, field, width, fields::Said { hint: &hint, help });
+                edits.extend(typed.map(|value| ((*field).to_owned(), value)));
                 if let Some(problem) = desk.book.problem_at(Book::SCENARIO, field) {
                     let error = RichText::new(fields::told(problem)).size(11.0).color(Theme::palette_of(ui).error);
                     ui.add(egui::Label::new(error).wrap());
@@ -140,6 +142,19 @@ fn rows(ui: &mut Ui, desk: &Desk, id: &str, rows: &[Row], edits: &mut Vec<(Strin
             ui.end_row();
         }
     });
+}
+
+/// What the site gives where the scenario itself names nothing.
+fn of_site(book: &Book, field: &str) -> String {
+    let key = match field {
+        "site.depth" => "depth",
+        "current.speed" => "current",
+        _ => return String::new(),
+    };
+    let file = |item: String| format!("sites/{item}.toml");
+    let site = book.field(Book::SCENARIO, "site.item").map(file);
+    let given = site.and_then(|path| book.field(&path, &format!("{key}.value")).or_else(|| book.field(&path, key)));
+    given.map_or_else(String::new, |value| format!("{value} (site)"))
 }
 
 fn weak_links(ui: &mut Ui, desk: &Desk, edits: &mut Vec<(String, String)>) {
