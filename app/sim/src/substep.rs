@@ -1,15 +1,15 @@
 //! One solver step: free rope in two linear solves, rope near the whale by Newton with contact.
 //!
-//! With contact (docs/physics.md): skin and the rope near it are first moved along together as far as
-//! nothing crosses, then Newton finds the balance at that pose of the skin; where the skin could not
-//! make its whole move at once, both are repeated.
+//! With contact (docs/physics.md): skin makes its move and rope drifts on, held off the skin; where that would
+//! cross, rope near skin is carried along with it instead, as far as nothing crosses. Then Newton finds the balance
+//! at that pose of the skin; where the skin could not make its whole move at once, both are repeated.
 
 use glam::DVec3;
 
 use crate::contact::work::ContactWork;
 use crate::model::Model;
 use crate::parting::{self, Parting};
-use crate::solver::{BodyTrial, Scheme, Solver, Touched};
+use crate::solver::{BodyTrial, CONTACT_WANTED_M, Scheme, Solver, Touched};
 use crate::state::State;
 use crate::step::{Audit, Workspace};
 
@@ -25,8 +25,6 @@ const MOST_CUTS: usize = 20;
 const MOST_STAGES: usize = 8;
 /// Move of the last pass with contact above which the step is redone shorter [m].
 const CONTACT_CONVERGED_M: f64 = 1e-3;
-/// Move of the last pass with contact above which the step is counted as not converged [m].
-const CONTACT_WANTED_M: f64 = 1e-5;
 
 /// Why a solver step must be redone shorter, or ends the run.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -166,28 +164,43 @@ impl Solver {
         work.before.clone_from(&self.trial.place);
         work.bodies_before.clone_from(&self.trial.bodies);
         let first = work.near.fraction <= 0.0;
+        if first {
+            work.target.clone_from(&self.drift);
+            work.near.hold_off(&work.before, &mut work.target);
+            if let Ok(crossings) = self.carry_by(model, work, 1.0, first) {
+                return crossings;
+            }
+        }
         work.target.clone_from(if first { &self.drift } else { &work.before });
         work.near.carry(&work.before, &mut work.target);
-        let begin = work.near.fraction;
         let mut share = 1.0;
         for _ in 0..MOST_CUTS {
-            for (node, place) in self.trial.place.iter_mut().enumerate() {
-                *place = work.before[node].lerp(work.target[node], share);
+            match self.carry_by(model, work, share, first) {
+                Ok(crossings) => return crossings,
+                Err(safe) => share *= 0.95 * safe,
             }
-            if first {
-                self.blend_bodies(&work.bodies_before, share);
-            }
-            self.trial.seat_ends(model, &self.plan);
-            let skin_to = begin + (1.0 - begin) * share;
-            let safe = work.near.safe_share(&work.before, |node| self.trial.place[node], skin_to);
-            if safe >= 1.0 {
-                return work.near.make_move(&work.before, |node| self.trial.place[node], skin_to);
-            }
-            share *= 0.95 * safe;
         }
         self.trial.place.clone_from(&work.before);
         self.trial.bodies.clone_from(&work.bodies_before);
         0
+    }
+
+    /// Makes a share of the move to the target: the number of crossings found, or the share of it that is safe where
+    /// all of it is not.
+    fn carry_by(&mut self, model: &Model, work: &mut ContactWork, share: f64, with_bodies: bool) -> Result<u64, f64> {
+        for (node, place) in self.trial.place.iter_mut().enumerate() {
+            *place = work.before[node].lerp(work.target[node], share);
+        }
+        if with_bodies {
+            self.blend_bodies(&work.bodies_before, share);
+        }
+        self.trial.seat_ends(model, &self.plan);
+        let skin_to = work.near.fraction + (1.0 - work.near.fraction) * share;
+        let safe = work.near.safe_share(&work.before, |node| self.trial.place[node], skin_to);
+        if safe < 1.0 {
+            return Err(safe);
+        }
+        Ok(work.near.make_move(&work.before, |node| self.trial.place[node], skin_to))
     }
 
     /// Puts bodies a share of the way from where they were to where they would drift.

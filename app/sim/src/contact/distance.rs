@@ -48,13 +48,15 @@ pub fn segment_triangle(segment: [DVec3; 2], triangle: [DVec3; 3]) -> Nearest {
 /// Nearest place on a triangle to a point: distance and barycentric place.
 #[must_use]
 pub fn point_triangle(point: DVec3, triangle: [DVec3; 3]) -> (f64, [f64; 3]) {
+    let mut beyond = [true; 3];
     if let Some(plane) = Plane::of(triangle) {
         let (height, barycentric) = plane.place(point);
         if inside(barycentric) {
             return (height.abs(), barycentric);
         }
+        beyond = barycentric.map(|share| share < SURELY_INSIDE);
     }
-    let nearest = nearest_of_edges([point, point], triangle, [true; 3]);
+    let nearest = nearest_of_edges([point, point], triangle, beyond);
     (nearest.distance, nearest.barycentric)
 }
 

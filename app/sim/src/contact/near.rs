@@ -134,6 +134,25 @@ impl Near {
         }
     }
 
+    /// Where rope goes as the skin makes the rest of its move: on to `target`, held back from coming nearer to skin
+    /// than it is, or than its radius; written over `target`.
+    pub fn hold_off(&self, places: &[DVec3], target: &mut [DVec3]) {
+        for (_, range) in &self.groups {
+            let Some((pair, nearest)) = self.nearest(places, range.clone()) else { continue };
+            let between = |at: &[DVec3]| at[pair.node].lerp(at[pair.node + 1], nearest.fraction);
+            let foot = on_triangle(pair.now, nearest.barycentric);
+            let skin_move = on_triangle(pair.sweep[1], nearest.barycentric) - foot;
+            let from = between(places);
+            let normal = (from - foot) / nearest.distance.max(1e-12);
+            let approach = normal.dot(skin_move - (between(target) - from));
+            let too_near = approach - (nearest.distance - pair.guard / GUARD_SHARE).max(0.0);
+            if too_near > 0.0 {
+                target[pair.node] += normal * too_near;
+                target[pair.node + 1] += normal * too_near;
+            }
+        }
+    }
+
     /// Where rope goes when it is carried along as the skin makes the rest of its move: written into `target`.
     pub fn carry(&self, places: &[DVec3], target: &mut [DVec3]) {
         for (_, range) in &self.groups {

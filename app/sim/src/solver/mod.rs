@@ -25,7 +25,7 @@ use hubs::{Hubs, Seat};
 use plan::Plan;
 use rope::Pull;
 pub(crate) use scheme::Scheme;
-pub(crate) use touch::Touched;
+pub(crate) use touch::{CONTACT_WANTED_M, Touched};
 pub(crate) use trial::BodyTrial;
 use trial::Trial;
 

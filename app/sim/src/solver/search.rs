@@ -20,8 +20,11 @@ const MOST_TRIALS: usize = 14;
 
 /// The share, at most `longest`, at which a slope that begins below zero is near enough to zero.
 fn balance(longest: f64, mut slope: impl FnMut(f64) -> f64) -> f64 {
-    let first = slope(0.0);
     let last = slope(longest);
+    if last <= 0.0 {
+        return longest;
+    }
+    let first = slope(0.0);
     if first.is_nan() || first >= 0.0 || last <= -ENOUGH * first {
         return longest;
     }

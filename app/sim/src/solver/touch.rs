@@ -19,6 +19,10 @@ use crate::state::State;
 const MOST_PASSES: usize = 40;
 /// Move at which Newton has converged [m].
 const CONVERGED_M: f64 = 1e-6;
+/// Passes after which a move of less than `CONTACT_WANTED_M` is enough: what still moves then only trembles.
+const FINE_PASSES: usize = 10;
+/// Move of the last pass above which a step counts as not converged [m].
+pub(crate) const CONTACT_WANTED_M: f64 = 1e-5;
 /// Move below which the search along the step is left out: rounding would decide it [m].
 const UNSEARCHED_M: f64 = 1e-5;
 /// Difference between solved and true tension at which a step has converged [N].
@@ -49,7 +53,7 @@ impl Solver {
         let (mut last_m, mut crossings) = (f64::INFINITY, 0);
         work.open_slots(model, &self.trial.place);
         let mut passes = 0;
-        while passes < MOST_PASSES && last_m > CONVERGED_M {
+        while passes < MOST_PASSES && last_m > enough(passes) {
             passes += 1;
             if let Err(message) = self.assemble_touching(model, state, scheme, work) {
                 return Touched::Plugin(message);
@@ -69,7 +73,11 @@ impl Solver {
             if safe < 1.0 {
                 work.slots.open_second(&work.near, &self.trial.place);
             }
+            let moved_before_m = last_m;
             last_m = longest * share + if safe < 1.0 { longest * (1.0 - safe).min(0.5) } else { 0.0 };
+            if share >= 1.0 {
+                last_m = left_to_go(last_m, moved_before_m);
+            }
         }
         Touched::Ended { last_m, passes, crossings }
     }
@@ -167,4 +175,18 @@ impl Solver {
         };
         (0..self.trial.place.len()).map(away).fold(0.0, f64::max).sqrt()
     }
+}
+
+/// Move that is small enough after so many passes [m].
+fn enough(passes: usize) -> f64 {
+    if passes < FINE_PASSES { CONVERGED_M } else { CONTACT_WANTED_M }
+}
+
+/// What is left to go after a whole Newton move, from how the moves shrink [m]: the move itself where that is not small,
+/// for forces are kept as they were before it.
+///
+/// With `θ = δ/δ'` the ratio of two moves, what is left is about `θ/(1-θ) δ` (Hairer and Wanner, section IV.8).
+fn left_to_go(last_m: f64, before_m: f64) -> f64 {
+    let shrinkage = last_m / before_m;
+    if last_m < CONTACT_WANTED_M && shrinkage < 0.5 { last_m * shrinkage / (1.0 - shrinkage) } else { last_m }
 }
