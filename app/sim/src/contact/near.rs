@@ -75,17 +75,16 @@ impl Near {
 
     /// Whether rope that moves from `places` by `moves` may come near skin between two poses.
     pub fn any(&mut self, bones: [&[DAffine3]; 2], places: &[DVec3], moves: impl Fn(usize) -> DVec3, margin: f64) -> bool {
-        self.sweep(bones, places, moves, margin);
-        !self.candidates.is_empty()
+        self.sweep(bones, places, moves);
+        self.surface.is_any_near(&self.sweeps, margin)
     }
 
-    fn sweep(&mut self, bones: [&[DAffine3]; 2], places: &[DVec3], moves: impl Fn(usize) -> DVec3, margin: f64) {
+    fn sweep(&mut self, bones: [&[DAffine3]; 2], places: &[DVec3], moves: impl Fn(usize) -> DVec3) {
         self.surface.begin(bones[0], bones[1]);
         for (sweep, &node) in self.sweeps.iter_mut().zip(&self.segment_node) {
             let (a0, b0) = (places[node], places[node + 1]);
             *sweep = SweptSegment { a0, b0, a1: a0 + moves(node), b1: b0 + moves(node + 1) };
         }
-        self.surface.gather(&self.sweeps, margin, &mut self.candidates);
     }
 
     /// Begins a solver step: gathers the pairs of uncut rope near skin; whether there are any.
@@ -97,7 +96,8 @@ impl Near {
         moves: impl Fn(usize) -> DVec3,
         cut: &[bool],
     ) -> bool {
-        self.sweep(bones, places, moves, MARGIN_M);
+        self.sweep(bones, places, moves);
+        self.surface.gather(&self.sweeps, MARGIN_M, &mut self.candidates);
         self.fraction = 0.0;
         self.pairs.clear();
         self.groups.clear();

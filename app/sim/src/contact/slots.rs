@@ -185,14 +185,19 @@ impl Slot {
         if middle - 0.5 * ends[0].distance(ends[1]) > LOOK_WITHIN * self.reach {
             return None;
         }
-        let nearest = near.pairs[self.pairs.clone()]
-            .iter()
-            .map(|pair| segment_triangle(ends, pair.now))
-            .min_by(|one, other| one.distance.total_cmp(&other.distance))?;
-        if nearest.distance >= NEARER * middle || nearest.distance > LOOK_WITHIN * self.reach {
-            return None;
+        let mut least = (NEARER * middle).min(LOOK_WITHIN * self.reach);
+        let mut along = None;
+        for pair in near.pairs[self.pairs.clone()].iter() {
+            if pair.clear >= least {
+                continue;
+            }
+            let nearest = segment_triangle(ends, pair.now);
+            if nearest.distance < least {
+                least = nearest.distance;
+                along = Some(nearest.fraction);
+            }
         }
-        let fraction = from + (to - from) * nearest.fraction;
+        let fraction = from + (to - from) * along?;
         Some(Self { site: self.site | 1, fraction, seen: None, touch: None, ..self.clone() })
     }
 }

@@ -113,8 +113,27 @@ impl Surface {
     /// All pairs of a segment and a triangle whose boxes over the step come within `margin`, written
     /// over `out` in rising order: every pair that may come nearer than `margin` is among them.
     pub fn gather(&mut self, segments: &[SweptSegment], margin: f64, out: &mut Vec<Candidate>) {
-        let Self { tree, step, rope, pairs, .. } = self;
         out.clear();
+        self.search(segments, margin, |step, tree, pair, rope_box| {
+            step.add_candidates(tree, pair.node, pair.group, rope_box, out);
+            true
+        });
+        out.sort_unstable();
+    }
+
+    /// Whether any pair of a segment and a triangle has boxes over the step that come within `margin`.
+    pub fn is_any_near(&mut self, segments: &[SweptSegment], margin: f64) -> bool {
+        let mut none = true;
+        self.search(segments, margin, |step, tree, pair, rope_box| {
+            none = !step.cluster(tree, pair.node).iter().any(|triangle| triangle.meets(rope_box));
+            none
+        });
+        !none
+    }
+
+    /// Hands over every segment and leaf of the tree that meet, until told to stop.
+    fn search(&mut self, segments: &[SweptSegment], margin: f64, mut go_on: impl FnMut(&mut Step, &SkinTree, Pair, &Bounds) -> bool) {
+        let Self { tree, step, rope, pairs, .. } = self;
         pairs.clear();
         if tree.nodes().is_empty() {
             return;
@@ -134,10 +153,10 @@ impl Surface {
                 _ if pair.level > 0 => {
                     pairs.extend(rope.finer(pair.level, pair.group).map(|group| Pair { level: pair.level - 1, group, ..pair }));
                 }
-                _ => step.add_candidates(tree, pair.node, pair.group, &rope_box, out),
+                _ if go_on(step, tree, pair, &rope_box) => {}
+                _ => return,
             }
         }
-        out.sort_unstable();
     }
 
     /// A triangle's corners at the start and at the end of the step.
