@@ -201,6 +201,12 @@ fn stop(model: &Model, state: &State, workspace: &Workspace, why: Refused) -> St
             let line = &model.spec.lines[model.segment_line[segment]].id;
             (format!("line {line}"), "rope crosses the whale's skin where the run starts; move the whale or the gear apart".into())
         }
+        Refused::Pinched(segment, triangle) => {
+            let line = &model.spec.lines[model.segment_line[segment]].id;
+            let region = model.spec.whale.as_ref().map_or("skin", |whale| whale.skin.regions[triangle].part().name());
+            let reason = format!("rope is pinched at the whale's {region} by parts of the skin that close on it harder than rope can bear");
+            (format!("line {line}"), reason)
+        }
         Refused::Plugin(message) => (friction(), message),
     };
     Stop { time_s: state.time_s, part, reason }

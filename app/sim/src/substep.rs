@@ -6,6 +6,7 @@
 
 use glam::DVec3;
 
+use crate::contact::law::PINCHED_SHARE;
 use crate::contact::work::ContactWork;
 use crate::model::Model;
 use crate::parting::{self, Parting};
@@ -34,6 +35,8 @@ pub(crate) enum Refused {
     PartsTooLate,
     /// This segment crosses skin before the step begins.
     Crossed(usize),
+    /// This segment is pinched at this triangle by skin that closes on it.
+    Pinched(usize, usize),
     /// The friction plugin failed, with its message.
     Plugin(String),
 }
@@ -133,7 +136,11 @@ fn contact_step(
                 return Err(Refused::NotFinite);
             }
             Touched::TooFar => return Err(Refused::NotConverged),
+            Touched::Crushed(segment, triangle) => return Err(Refused::Pinched(segment, triangle)),
             Touched::Plugin(message) => return Err(Refused::Plugin(message)),
+        }
+        if let Some((segment, triangle)) = work.nearer_than(PINCHED_SHARE) {
+            return Err(Refused::Pinched(segment, triangle));
         }
         if work.near.fraction >= 1.0 - 1e-12 {
             return Ok(());

@@ -13,6 +13,12 @@ const LEAST_SHARE: f64 = 0.25;
 /// Where the barrier goes over into a straight line.
 const U_LINEAR: f64 = 0.995;
 
+/// Share of the contact distance below which rope is pinched when a step ends: the barrier was overrun, the force
+/// means nothing.
+pub(crate) const PINCHED_SHARE: f64 = 0.8 * LEAST_SHARE;
+/// The same on the way to a balance, which a step does not come back from.
+pub(crate) const CRUSHED_SHARE: f64 = 0.02;
+
 /// Push of the skin at one distance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Press {

@@ -34,7 +34,7 @@ pub(crate) struct Slot {
     /// Its pairs in `Near::pairs`.
     pairs: Range<usize>,
     /// Contact distance: the rope's radius [m].
-    reach: f64,
+    pub reach: f64,
     stiffness: f64,
     /// Where it was last measured, and the distance found there.
     seen: Option<(DVec3, f64)>,

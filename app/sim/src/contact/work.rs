@@ -6,7 +6,7 @@ use glam::{DAffine3, DVec3};
 use super::ContactPoint;
 use super::grip::Touching;
 use super::near::Near;
-use super::slots::Slots;
+use super::slots::{Slots, Touch};
 use crate::model::{Friction, Model};
 use crate::solver::BodyTrial;
 use crate::state::State;
@@ -57,6 +57,14 @@ impl ContactWork {
         self.slots.forget();
         self.slots.measure(&self.near, places);
         self.slots.open_second(&self.near, places);
+    }
+
+    /// A segment and triangle nearer than this share of the contact distance, if any.
+    pub fn nearer_than(&self, share: f64) -> Option<(usize, usize)> {
+        let deep = |touch: &Touch, reach: f64| touch.distance < share * reach;
+        let slot = self.slots.list.iter().find(|slot| slot.touch.as_ref().is_some_and(|touch| deep(touch, slot.reach)))?;
+        let touch = slot.touch.as_ref()?;
+        Some((slot.segment, self.near.pairs[touch.pair].triangle as usize))
     }
 
     /// Contacts at the end of an accepted step; the friction model's floats move on.

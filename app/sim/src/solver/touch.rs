@@ -10,6 +10,7 @@ use glam::{DMat3, DVec3};
 use super::Solver;
 use super::rope::outer;
 use super::scheme::Scheme;
+use crate::contact::law::CRUSHED_SHARE;
 use crate::contact::work::ContactWork;
 use crate::contact::{grip, near};
 use crate::model::{Model, Rope};
@@ -43,6 +44,8 @@ pub(crate) enum Touched {
     NotFinite,
     /// Rope left the margin in which pairs were gathered.
     TooFar,
+    /// Rope is crushed at this segment by this triangle.
+    Crushed(usize, usize),
     /// The friction plugin failed.
     Plugin(String),
 }
@@ -55,8 +58,8 @@ impl Solver {
         let mut passes = 0;
         while passes < MOST_PASSES && last_m > enough(passes) {
             passes += 1;
-            if let Err(message) = self.assemble_touching(model, state, scheme, work) {
-                return Touched::Plugin(message);
+            if let Err(ended) = self.assemble_touching(model, state, scheme, work) {
+                return ended;
             }
             self.solve(model);
             let longest = self.longest();
@@ -83,10 +86,13 @@ impl Solver {
     }
 
     /// Forces and matrix with contact at the trial places; what is linear in the search is kept apart.
-    fn assemble_touching(&mut self, model: &Model, state: &State, scheme: &Scheme, work: &mut ContactWork) -> Result<(), String> {
+    fn assemble_touching(&mut self, model: &Model, state: &State, scheme: &Scheme, work: &mut ContactWork) -> Result<(), Touched> {
         self.assemble_searchable(model, state, scheme);
         work.slots.measure(&work.near, &self.trial.place);
-        self.add_contacts(model, state, scheme, work)
+        if let Some((segment, triangle)) = work.nearer_than(CRUSHED_SHARE) {
+            return Err(Touched::Crushed(segment, triangle));
+        }
+        self.add_contacts(model, state, scheme, work).map_err(Touched::Plugin)
     }
 
     fn add_contacts(&mut self, model: &Model, state: &State, scheme: &Scheme, work: &mut ContactWork) -> Result<(), String> {
