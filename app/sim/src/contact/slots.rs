@@ -1,7 +1,7 @@
 //! Contact slots: places on the rope where push and friction act.
 //!
 //! A segment near skin is cut into sub-segments of at most [`PIECE_M`], so that stiffness does not depend on
-//! the length of segments. Each piece has a slot at its middle, and one more where another of its points
+//! the length of segments. Each piece has a slot at its middle, and more where another of its points
 //! comes clearly nearer (a thin edge). Slots keep their place on the rope within a solver step: letting
 //! them hop to the closest point in every pass is what keeps Newton from converging (docs/physics.md).
 
@@ -16,15 +16,19 @@ use crate::model::Model;
 
 /// Longest piece of rope one slot stands for [m].
 const PIECE_M: f64 = 0.025;
-/// A second slot is opened where its distance is below this share of the first's.
+/// Bits of a site's number that name the slot within its piece.
+const PIECE_BITS: u32 = 3;
+/// Most slots of a piece.
+const MOST_SLOTS: usize = 1 << PIECE_BITS;
+/// A further slot is opened where its distance is below this share of those there are.
 const NEARER: f64 = 0.8;
-/// Second slots are looked for only within this many contact distances.
+/// Further slots are looked for only within this many contact distances.
 const LOOK_WITHIN: f64 = 3.0;
 
 /// One place on the rope.
 #[derive(Clone, Debug)]
 pub(crate) struct Slot {
-    /// Number that names it from step to step: segment, piece, first or second.
+    /// Number that names it from step to step: segment, piece, which of the piece's slots.
     pub site: u64,
     pub segment: usize,
     pub node: usize,
@@ -69,7 +73,7 @@ impl Slots {
             let reach = 0.5 * model.rope_of_segment(*segment).diameter_m;
             for piece in 0..pieces as u64 {
                 self.list.push(Slot {
-                    site: ((*segment as u64) << 16) | (piece << 1),
+                    site: ((*segment as u64) << 20) | (piece << PIECE_BITS),
                     segment: *segment,
                     node: near.pairs[range.start].node,
                     fraction: (piece as f64 + 0.5) / pieces,
@@ -85,20 +89,27 @@ impl Slots {
         }
     }
 
-    /// Opens second slots where a piece of rope is clearly nearer to skin than at its middle.
-    pub fn open_second(&mut self, near: &Near, places: &[DVec3]) {
-        for index in 0..self.list.len() {
-            let slot = &self.list[index];
-            let is_second = slot.site & 1 == 1;
-            let has_second = self.list.get(index + 1).is_some_and(|next| next.site == slot.site + 1);
-            if is_second || has_second {
-                continue;
+    /// Opens further slots where a piece of rope is clearly nearer to skin than at those it has; how many.
+    pub fn open_more(&mut self, near: &Near, places: &[DVec3]) -> usize {
+        let count = self.list.len();
+        let mut from = 0;
+        while from < count {
+            let piece = self.list[from].site >> PIECE_BITS;
+            let to = (from..count).find(|index| self.list[*index].site >> PIECE_BITS != piece).unwrap_or(count);
+            let least = self.list[from..to].iter().map(|slot| slot.at_least(places)).fold(f64::INFINITY, f64::min);
+            if to - from < MOST_SLOTS
+                && let Some(fraction) = self.list[from].nearer_fraction(near, places, least)
+            {
+                let site = self.list[to - 1].site + 1;
+                self.list.push(Slot { site, fraction, seen: None, touch: None, ..self.list[from].clone() });
             }
-            if let Some(second) = slot.second(near, places) {
-                self.list.push(second);
-            }
+            from = to;
         }
-        self.list.sort_unstable_by_key(|slot| slot.site);
+        let opened = self.list.len() - count;
+        if opened > 0 {
+            self.list.sort_unstable_by_key(|slot| slot.site);
+        }
+        opened
     }
 
     /// Measures every slot at the places given.
@@ -176,16 +187,22 @@ impl Slot {
         best
     }
 
-    /// A slot at the piece's closest point, where that is clearly nearer than this one.
-    fn second(&self, near: &Near, places: &[DVec3]) -> Option<Self> {
-        let (_, middle) = self.seen?;
+    /// Lower bound of its distance from skin at the places given.
+    fn at_least(&self, places: &[DVec3]) -> f64 {
+        let place = self.on_rope(|node| places[node]);
+        self.seen.map_or(0.0, |(seen, distance)| distance - seen.distance(place))
+    }
+
+    /// Where along the segment its piece is clearly nearer to skin than `least`, if anywhere. Asked of the
+    /// middle slot.
+    fn nearer_fraction(&self, near: &Near, places: &[DVec3], least: f64) -> Option<f64> {
         let share = 0.5 * self.length / self.segment_length;
         let (from, to) = (self.fraction - share, self.fraction + share);
         let ends = [from, to].map(|fraction| places[self.node].lerp(places[self.node + 1], fraction));
-        if middle - 0.5 * ends[0].distance(ends[1]) > LOOK_WITHIN * self.reach {
+        if least - ends[0].distance(ends[1]) > LOOK_WITHIN * self.reach {
             return None;
         }
-        let mut least = (NEARER * middle).min(LOOK_WITHIN * self.reach);
+        let mut least = (NEARER * least).min(LOOK_WITHIN * self.reach);
         let mut along = None;
         for pair in near.pairs[self.pairs.clone()].iter() {
             if pair.clear >= least {
@@ -197,7 +214,6 @@ impl Slot {
                 along = Some(nearest.fraction);
             }
         }
-        let fraction = from + (to - from) * along?;
-        Some(Self { site: self.site | 1, fraction, seen: None, touch: None, ..self.clone() })
+        Some(from + (to - from) * along?)
     }
 }

@@ -56,7 +56,7 @@ impl ContactWork {
         }
         self.slots.forget();
         self.slots.measure(&self.near, places);
-        self.slots.open_second(&self.near, places);
+        self.slots.open_more(&self.near, places);
     }
 
     /// A segment and triangle nearer than this share of the contact distance, if any.

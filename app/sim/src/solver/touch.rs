@@ -73,16 +73,22 @@ impl Solver {
             if self.strayed(state, scheme) > near::MARGIN_M - work.greatest_reach {
                 return Touched::TooFar;
             }
-            if safe < 1.0 {
-                work.slots.open_second(&work.near, &self.trial.place);
-            }
             let moved_before_m = last_m;
             last_m = longest * share + if safe < 1.0 { longest * (1.0 - safe).min(0.5) } else { 0.0 };
             if share >= 1.0 {
                 last_m = left_to_go(last_m, moved_before_m);
             }
+            if (safe < 1.0 || last_m <= enough(passes)) && self.open_more(work) {
+                last_m = f64::INFINITY;
+            }
         }
         Touched::Ended { last_m, passes, crossings }
+    }
+
+    /// Opens slots where rope has come nearer to skin than at those it has; whether there were any.
+    fn open_more(&self, work: &mut ContactWork) -> bool {
+        work.slots.measure(&work.near, &self.trial.place);
+        work.slots.open_more(&work.near, &self.trial.place) > 0
     }
 
     /// Forces and matrix with contact at the trial places; what is linear in the search is kept apart.
