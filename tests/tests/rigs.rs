@@ -14,12 +14,10 @@ use endline_sim::{Model, settle};
 
 /// Greatest vertical force out of balance on a body, by the figures of the model [N].
 const BALANCED_N: f64 = 0.1;
-/// Shipped assemblies, of 27 in all currents, that statics may leave short of rest, and by what force at most [N].
-const UNSETTLED_SHIPPED: (usize, f64) = (6, 0.3);
 /// Rigs drawn at random.
 const DRAWN: u64 = 300;
 /// Share of them that statics may leave short of rest, as measured; one in a hundred is the aim.
-const UNSETTLED_SHARE: f64 = 0.15;
+const UNSETTLED_SHARE: f64 = 0.02;
 /// First of their seeds.
 const FIRST_SEED: u64 = 1;
 
@@ -77,27 +75,21 @@ fn faults(model: &Model, settled: &Settled) -> Vec<String> {
     faults
 }
 
-/// At slack, half and full tide of Cape Cod Bay, along, across and against the current; see "Known differences" in
-/// docs/gear-format.md for those that statics leaves short of rest.
+/// At slack, half and full tide of Cape Cod Bay, along, across and against the current.
 #[test]
 fn every_shipped_assembly_settles_in_every_current() {
-    let (library, mut unsettled) = (library(), Vec::new());
+    let library = library();
     for assembly in library.assemblies.iter().map(|assembly| assembly.entry.id.as_str()) {
         for (speed, heading) in [0.0, 0.25, 0.5].into_iter().flat_map(|speed| [0.0, 90.0, 180.0].map(|heading| (speed, heading))) {
             let model = placed(&library, assembly, &Sea { site: "item = \"cape-cod-bay\"", speed, heading, nodes: 500 });
             let settled = settle(&model);
             let what = format!("{assembly} at {speed} m/s and {heading} deg: {:.1e} N", settled.residual_n);
             println!("{what}, {} passes", settled.trace_n.len());
-            if settled.converged {
-                let faults = faults(&model, &settled);
-                assert!(faults.is_empty(), "{what}: {}", faults.join("; "));
-            } else {
-                assert!(settled.residual_n < UNSETTLED_SHIPPED.1, "{what}");
-                unsettled.push(what);
-            }
+            assert!(settled.converged, "{what}");
+            let faults = faults(&model, &settled);
+            assert!(faults.is_empty(), "{what}: {}", faults.join("; "));
         }
     }
-    assert!(unsettled.len() <= UNSETTLED_SHIPPED.0, "{}", unsettled.join("\n"));
 }
 
 /// Numbers drawn from a seed (SplitMix64).

@@ -1,10 +1,12 @@
 //! Statics: the shape and tensions at rest, before any dynamics.
 //!
-//! Newton on the same forces as dynamics, with velocities zero, from the model's first guess. Two ways are
-//! tried in turn. *Newton* with pseudo-transient continuation: the matrix carries a pseudo-mass `σM` that keeps each
-//! pass short and follows the ratio of residuals; quick. *Relaxing*: backward Euler steps in water, each from
-//! standing still, as long as they converge and longer each time, until they are so long that inertia and drag are
-//! nothing; slower, and sure where much rope lies slack or the current is weak.
+//! Newton on the same forces as dynamics, with velocities zero, from the model's first guess by
+//! pseudo-transient continuation: the matrix carries a pseudo-mass `σM` that keeps each pass short and
+//! fades. There are two ways. *Foretold*: rope is judged taut or slack by the last linear solve, whole
+//! steps are taken, `σ` follows the ratio of residuals; quick, and free to swing a taut rope far. *Searched*: rope is
+//! judged where it lies and each step is searched for balance; slower, and sure where much rope lies slack.
+//! Where the quick way fails, rope is softened until the rig comes to rest and then stiffened stage by stage: a stiff
+//! rope far from its shape answers a move of millimetres with kilonewtons, a soft one lets its weight decide.
 //! Rope lies on the seabed without friction; bodies hold by their grip.
 //! Reference: Kelley and Keyes 1998, Convergence analysis of pseudo-transient continuation
 //! (doi:10.1137/S0036142996304796).
@@ -13,29 +15,40 @@ use crate::model::Model;
 use crate::solver::{Scheme, Solver};
 use crate::state::State;
 
-/// Passes before Newton gives up.
-const NEWTON_PASSES: usize = 250;
+/// The quick way with its passes before it gives up.
+const QUICK: (Way, usize) = (Way::Foretold, 150);
+/// The sure way with its passes.
+const SURE: (Way, usize) = (Way::Searched, 1000);
 /// Residual at which the rig is at rest [N].
 const TOLERANCE_N: f64 = 1e-4;
 /// First pseudo-mass: a free node then moves about `g/σ` in a pass [1/s²].
 const FIRST_PSEUDO_MASS: f64 = 10.0;
 /// Range of the pseudo-mass [1/s²].
 const PSEUDO_MASS: (f64, f64) = (1e-9, 1e6);
-/// Range of its change in a pass.
+/// Range of its change in a pass, foretold.
 const CHANGE: (f64, f64) = (0.3, 2.0);
+/// Share of a step below which it grows, searched, by the first factor; else it shrinks by the second.
+const SHORT: f64 = 0.3;
+const GROWTH: f64 = 3.0;
+const SHRINKAGE: f64 = 0.3;
 /// Longest move of a node in one pass [m].
 const LONGEST_MOVE_M: f64 = 2.0;
-/// Steps before relaxing gives up.
-const RELAXING_STEPS: usize = 400;
-/// Passes before a relaxing step is made shorter.
-const RELAXING_PASSES: usize = 12;
-/// First and longest relaxing step [s].
-const RELAXING_STEP_S: (f64, f64) = (0.05, 1e7);
-/// Growth of the step after one that converged, and its cut after one that did not.
-const GROWTH: f64 = 1.5;
-const CUT: f64 = 0.25;
-/// Move of a pass at which a relaxing step has converged [m].
-const CONVERGED_M: f64 = 1e-4;
+
+/// Stiffness of the softest rope, tried in turn [N].
+const SOFTEST_N: [f64; 4] = [100.0, 30.0, 300.0, 1000.0];
+/// Greatest growth of stiffness from stage to stage; its root is taken where a stage does not come to rest.
+const GREATEST_FACTOR: f64 = 6.0;
+/// Growth below which a stage is also tried the sure way.
+const NARROW: f64 = 1.3;
+/// Most stages.
+const MOST_STAGES: usize = 24;
+
+/// How a pass is made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Way {
+    Foretold,
+    Searched,
+}
 
 /// A rig at rest.
 #[derive(Clone, Debug)]
@@ -54,37 +67,95 @@ pub struct Settled {
 #[must_use]
 pub fn settle(model: &Model) -> Settled {
     let mut trace_n = Vec::new();
-    let mut best = newton(model, &mut trace_n);
-    if best.1 >= TOLERANCE_N {
-        let relaxed = relax(model, &mut trace_n);
-        if relaxed.1 < best.1 || !best.1.is_finite() {
-            best = relaxed;
+    let start = State::start(model);
+    let (mut state, mut residual_n) = attempt(model, &start, QUICK, &mut trace_n);
+    for softest_n in SOFTEST_N {
+        if residual_n < TOLERANCE_N {
+            break;
+        }
+        let stiffened = stiffen(model, &start, softest_n, &mut trace_n);
+        let tried = approach(model, &stiffened, &mut trace_n);
+        if tried.1 < residual_n {
+            (state, residual_n) = tried;
         }
     }
-    let (state, residual_n) = best;
     Settled { state, residual_n, converged: residual_n < TOLERANCE_N, trace_n }
 }
 
-/// Newton with a pseudo-mass from the first guess: the state reached and its residual.
-fn newton(model: &Model, trace_n: &mut Vec<f64>) -> (State, f64) {
-    let mut state = State::start(model);
+/// Softens the rope until it comes to rest, then stiffens it stage by stage, each from the last that came to rest.
+fn stiffen(model: &Model, start: &State, softest_n: f64, trace_n: &mut Vec<f64>) -> State {
+    let stiffest = model.spec.ropes.iter().map(|rope| rope.axial_stiffness_n).fold(0.0, f64::max);
+    let (mut state, residual_n) = approach(&softened(model, softest_n), start, trace_n);
+    if residual_n >= TOLERANCE_N {
+        return start.clone();
+    }
+    let mut stiffness_n = softest_n;
+    let mut factor = GREATEST_FACTOR;
+    for _ in 0..MOST_STAGES {
+        let next_n = stiffness_n * factor;
+        if next_n >= stiffest {
+            break;
+        }
+        let soft = softened(model, next_n);
+        let (reached, residual_n) = if factor < NARROW { approach(&soft, &state, trace_n) } else { attempt(&soft, &state, QUICK, trace_n) };
+        if residual_n < TOLERANCE_N {
+            (state, stiffness_n) = (reached, next_n);
+            factor = (factor * factor).min(GREATEST_FACTOR);
+        } else {
+            factor = factor.sqrt();
+        }
+    }
+    state
+}
+
+/// The model with no rope stiffer than `stiffness_n`.
+fn softened(model: &Model, stiffness_n: f64) -> Model {
+    let mut soft = model.clone();
+    for rope in &mut soft.spec.ropes {
+        rope.axial_stiffness_n = rope.axial_stiffness_n.min(stiffness_n);
+    }
+    soft
+}
+
+/// Tries the ways in turn from a state; the better end.
+fn approach(model: &Model, from: &State, trace_n: &mut Vec<f64>) -> (State, f64) {
+    let quick = attempt(model, from, QUICK, trace_n);
+    if quick.1 < TOLERANCE_N {
+        return quick;
+    }
+    let sure = attempt(model, from, SURE, trace_n);
+    if sure.1 < quick.1 { sure } else { quick }
+}
+
+/// Newton from a state in one way: the state reached and its residual.
+fn attempt(model: &Model, from: &State, (way, most_passes): (Way, usize), trace_n: &mut Vec<f64>) -> (State, f64) {
+    let mut state = from.clone();
     let mut solver = Solver::new(model);
     let mut pseudo_mass = FIRST_PSEUDO_MASS;
     let mut scheme = Scheme::statics(pseudo_mass);
     solver.begin(model, &state, &scheme);
-    solver.assemble(model, &state, &scheme);
-    let mut residual = solver.residual(model);
-    for _ in 0..NEWTON_PASSES {
+    let mut residual = balance(model, &state, &mut solver, &scheme, way);
+    for _ in 0..most_passes {
+        if residual < TOLERANCE_N {
+            // What was foretold may call a segment slack that is not.
+            residual = balance(model, &state, &mut solver, &scheme, Way::Searched);
+        }
         trace_n.push(residual);
         if residual < TOLERANCE_N || !residual.is_finite() {
             break;
         }
         solver.solve(model);
-        solver.advance(model, LONGEST_MOVE_M / solver.longest().max(LONGEST_MOVE_M));
+        let longest = LONGEST_MOVE_M / solver.longest().max(LONGEST_MOVE_M);
+        let share = if way == Way::Searched { solver.search_free(model, &scheme, longest) } else { longest };
+        solver.advance(model, share);
         solver.measure_flow(model);
-        solver.assemble(model, &state, &scheme);
-        let next = solver.residual(model);
-        pseudo_mass = (pseudo_mass * (next / residual).clamp(CHANGE.0, CHANGE.1)).clamp(PSEUDO_MASS.0, PSEUDO_MASS.1);
+        let next = balance(model, &state, &mut solver, &scheme, way);
+        let change = match way {
+            Way::Foretold => (next / residual).clamp(CHANGE.0, CHANGE.1),
+            Way::Searched if share < SHORT => GROWTH,
+            Way::Searched => SHRINKAGE,
+        };
+        pseudo_mass = (pseudo_mass * change).clamp(PSEUDO_MASS.0, PSEUDO_MASS.1);
         scheme = Scheme::statics(pseudo_mass);
         residual = next;
     }
@@ -95,49 +166,11 @@ fn newton(model: &Model, trace_n: &mut Vec<f64>) -> (State, f64) {
     (state, residual)
 }
 
-/// Ever longer steps from standing still: the state reached and its residual.
-fn relax(model: &Model, trace_n: &mut Vec<f64>) -> (State, f64) {
-    let mut state = State::start(model);
-    let mut solver = Solver::new(model);
-    let mut dt = RELAXING_STEP_S.0;
-    let mut residual = f64::INFINITY;
-    for _ in 0..RELAXING_STEPS {
-        let scheme = Scheme::relaxing(dt);
-        if relaxing_step(model, &state, &mut solver, &scheme) {
-            solver.keep(model, &scheme, &mut state);
-            state.rest();
-            residual = residual_at(model, &state, &mut solver);
-            trace_n.push(residual);
-            dt = (dt * GROWTH).min(RELAXING_STEP_S.1);
-        } else {
-            dt *= CUT;
-        }
-        if residual < TOLERANCE_N {
-            break;
-        }
+/// Assembles forces and matrix at the trial places; the residual.
+fn balance(model: &Model, state: &State, solver: &mut Solver, scheme: &Scheme, way: Way) -> f64 {
+    match way {
+        Way::Foretold => solver.assemble(model, state, scheme),
+        Way::Searched => solver.assemble_searchable(model, state, scheme),
     }
-    (state, residual)
-}
-
-/// One relaxing step; whether it converged.
-fn relaxing_step(model: &Model, state: &State, solver: &mut Solver, scheme: &Scheme) -> bool {
-    solver.begin(model, state, scheme);
-    for _ in 0..RELAXING_PASSES {
-        let passed = solver.pass(model, state, scheme);
-        if !passed.finite {
-            return false;
-        }
-        if passed.longest_m < CONVERGED_M && solver.pull_is_settled(model, scheme) {
-            return true;
-        }
-    }
-    false
-}
-
-/// Greatest force out of balance in a state at rest [N].
-fn residual_at(model: &Model, state: &State, solver: &mut Solver) -> f64 {
-    let scheme = Scheme::statics(FIRST_PSEUDO_MASS);
-    solver.begin(model, state, &scheme);
-    solver.assemble_searchable(model, state, &scheme);
     solver.residual(model)
 }

@@ -1,6 +1,6 @@
 //! Forces on a body from the model's figures, summed apart from the solver.
 
-use endline_sim::model::{Float, JointKind};
+use endline_sim::model::{Float, JointKind, Seabed};
 use endline_sim::state::BodyState;
 use endline_sim::{DVec3, Model, State};
 
@@ -26,11 +26,7 @@ pub fn vertical(model: &Model, state: &State, index: usize) -> f64 {
 /// Upward push of a level seabed on a body's feet [N].
 fn seabed(model: &Model, now: &BodyState, feet_m: &[DVec3]) -> f64 {
     let bed = model.spec.seabed.as_ref().unwrap();
-    let press = |foot: &DVec3| {
-        let depth = -bed.depth_m - (now.position + now.orientation * *foot).z;
-        let soft = depth.clamp(0.0, ONSET_M);
-        bed.foot_stiffness_n_m * (soft * soft / (2.0 * ONSET_M) + (depth - ONSET_M).max(0.0))
-    };
+    let press = |foot: &DVec3| bed.foot_stiffness_n_m * push(bed, now.position + now.orientation * *foot);
     feet_m.iter().map(press).sum()
 }
 
@@ -61,5 +57,14 @@ fn end_force(model: &Model, rope: usize, length_m: f64, [at, next]: [DVec3; 2]) 
     let across = flow - along;
     let sides = across * (across.length() * rope.drag_normal) + along * (along.length() * rope.drag_tangential * std::f64::consts::PI);
     let drag = sides * (0.5 * water.density_kg_m3 * rope.diameter_m * wet);
-    tension * tangent.z + (weight + drag.z) * (length_m / 2.0)
+    // An end that lies on the bed itself, as that of an overturned trap, is pushed up too.
+    let bed = model.spec.seabed.as_ref().map_or(0.0, |bed| push(bed, at) * bed.rope_stiffness_n_m2);
+    tension * tangent.z + (weight + drag.z + bed) * (length_m / 2.0)
+}
+
+/// Push of a level seabed on a point, over its stiffness [m].
+fn push(bed: &Seabed, at: DVec3) -> f64 {
+    let depth = -bed.depth_m - at.z;
+    let soft = depth.clamp(0.0, ONSET_M);
+    soft * soft / (2.0 * ONSET_M) + (depth - ONSET_M).max(0.0)
 }

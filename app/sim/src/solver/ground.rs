@@ -81,7 +81,7 @@ impl Solver {
             let (push, push_rate) = press(depth, stiffness);
             self.band.force[node] += seabed.normal * push;
             self.band.diagonal[node] += outer(seabed.normal, seabed.normal) * push_rate;
-            if !scheme.settling {
+            if !scheme.is_static() {
                 let grip = self.rope_grip(seabed, state, node, stiffness);
                 self.band.force[node] += grip.force;
                 self.band.diagonal[node] += grip.block;
@@ -123,7 +123,7 @@ impl Solver {
     pub(super) fn keep_grips(&self, model: &Model, scheme: &Scheme, state: &mut State) {
         let Some(seabed) = &model.spec.seabed else { return };
         for node in 0..model.node_count {
-            let on_ground = seabed.depth_of(self.trial.place[node]) > 0.0 && !scheme.settling;
+            let on_ground = seabed.depth_of(self.trial.place[node]) > 0.0 && !scheme.is_static();
             let stiffness = seabed.rope_stiffness_n_m2 * self.plan.node_length[node];
             state.rope.seabed_grip[node] = if on_ground { self.rope_grip(seabed, state, node, stiffness).kept } else { DVec3::ZERO };
         }

@@ -99,7 +99,7 @@ impl Solver {
         let drag = Drag::new(relative, tangent, across, along);
         self.band.force[node] += drag.force();
         self.band.diagonal[node] += drag.by_velocity() * scheme.rate;
-        if scheme.settling {
+        if scheme.is_static() {
             self.add_drag_turn(node, (first, end), node - line, drag.by_tangent() * inverse_chord);
         }
     }

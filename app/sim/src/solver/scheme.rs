@@ -27,9 +27,6 @@ pub(crate) struct Scheme {
     pub rate: f64,
     /// Weight of the mass in the matrix: `1/h²`, or the pseudo-mass of statics [1/s²].
     pub inertia: f64,
-    /// Whether a rig is being brought to rest: bodies to be held are held, time stands still, rope lies on the
-    /// seabed without friction.
-    pub settling: bool,
     /// Share of the present value in the history.
     now: f64,
     /// Share of the earlier value in the history.
@@ -39,7 +36,7 @@ pub(crate) struct Scheme {
 impl Scheme {
     /// First order, strongly damped: for contact and for retries.
     pub fn backward_euler(dt: f64) -> Self {
-        Self { dt, rate: 1.0 / dt, inertia: 1.0 / (dt * dt), settling: false, now: 1.0, earlier: 0.0 }
+        Self { dt, rate: 1.0 / dt, inertia: 1.0 / (dt * dt), now: 1.0, earlier: 0.0 }
     }
 
     /// Second order where the last step allows it, else backward Euler.
@@ -50,17 +47,12 @@ impl Scheme {
         }
         let below = 1.0 + 2.0 * ratio;
         let rate = below / (dt * (1.0 + ratio));
-        Self { dt, rate, inertia: rate * rate, settling: false, now: (1.0 + ratio) * (1.0 + ratio) / below, earlier: ratio * ratio / below }
+        Self { dt, rate, inertia: rate * rate, now: (1.0 + ratio) * (1.0 + ratio) / below, earlier: ratio * ratio / below }
     }
 
     /// At rest, with a pseudo-mass.
     pub fn statics(pseudo_mass: f64) -> Self {
-        Self { dt: 0.0, rate: 0.0, inertia: pseudo_mass, settling: true, now: 1.0, earlier: 0.0 }
-    }
-
-    /// Towards rest: a backward Euler step from standing still.
-    pub fn relaxing(dt: f64) -> Self {
-        Self { settling: true, ..Self::backward_euler(dt) }
+        Self { dt: 0.0, rate: 0.0, inertia: pseudo_mass, now: 1.0, earlier: 0.0 }
     }
 
     /// Whether nothing moves.

@@ -55,6 +55,11 @@ impl Solver {
         })
     }
 
+    /// Share of the solved step to take without contact, at most `longest`.
+    pub(crate) fn search_free(&self, model: &Model, scheme: &Scheme, longest: f64) -> f64 {
+        balance(longest, |share| self.rest_slope(share) + self.rope_slope(model, scheme, share))
+    }
+
     /// Slope of what is linear along the step: inertia, weight, drag, seabed, bodies.
     fn rest_slope(&self, share: f64) -> f64 {
         let nodes: f64 = (self.rest.force.iter().zip(&self.rest.diagonal).zip(&self.band.step))

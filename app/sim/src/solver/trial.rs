@@ -39,7 +39,7 @@ pub(crate) struct BodyTrial {
 impl Trial {
     /// Starts a step: history from the state, a first guess by its velocities, fixtures at their new place.
     pub fn begin(&mut self, model: &Model, plan: &Plan, state: &State, scheme: &Scheme) {
-        self.time = if scheme.settling { state.time_s } else { state.time_s + scheme.dt };
+        self.time = state.time_s + scheme.dt;
         let rope = &state.rope;
         let count = model.node_count;
         self.place.resize(count, DVec3::ZERO);
@@ -58,7 +58,7 @@ impl Trial {
     fn begin_bodies(&mut self, model: &Model, state: &State, scheme: &Scheme) {
         self.bodies.clear();
         for (body, now) in model.spec.bodies.iter().zip(&state.bodies) {
-            let held = body.held_until_s.is_some_and(|until| scheme.settling || self.time <= until);
+            let held = body.held_until_s.is_some_and(|until| scheme.is_static() || self.time <= until);
             let move_of = if held { DVec3::ZERO } else { now.velocity * scheme.dt };
             let turn = if held { DVec3::ZERO } else { now.spin * scheme.dt };
             self.bodies.push(BodyTrial {
