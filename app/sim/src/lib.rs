@@ -14,7 +14,7 @@ mod in_place;
 pub mod metrics;
 pub mod model;
 pub mod parting;
-pub mod solver;
+mod solver;
 pub mod state;
 pub mod statics;
 pub mod step;

@@ -13,7 +13,7 @@ use super::Solver;
 use super::hubs::Seat;
 use super::rope::outer;
 use super::scheme::Scheme;
-use crate::model::{Body, Model, ModelSpec};
+use crate::model::{Body, Model};
 use crate::state::State;
 
 /// Stiffness that keeps a held body where it is.
@@ -96,14 +96,6 @@ impl Solver {
         self.hubs.force[block + 1] -= axes * (body.turn_drag_m5 * spin * spin.abs() * half_density);
         let slope = body.turn_drag_m5 * spin.abs() * (2.0 * half_density / scheme.dt);
         *self.hubs.at(block + 1, block + 1) += axes * DMat3::from_diagonal(slope) * axes.transpose();
-    }
-
-    /// Kinetic energy of a body, for tests and audits [J].
-    #[must_use]
-    pub fn kinetic_energy(spec: &ModelSpec, state: &State, index: usize) -> f64 {
-        let (body, now) = (&spec.bodies[index], &state.bodies[index]);
-        let spin = now.orientation.inverse() * now.spin;
-        0.5 * body.mass_kg * now.velocity.length_squared() + 0.5 * spin.dot(body.inertia_kg_m2 * spin)
     }
 }
 

@@ -1,6 +1,6 @@
 //! The implicit solve: one linear system for ropes, joints and bodies, solved directly.
 //!
-//! Newton on `M (v - v̂)/h = F(x, v)` with `v = (x - x̂)/h` (`scheme.rs`): each [`pass`](Solver::pass)
+//! Newton on `M (v - v̂)/h = F(x, v)` with `v = (x - x̂)/h` (`scheme.rs`): each `pass`
 //! assembles forces and their derivatives at the trial places, eliminates every line down to its ends
 //! (`chain.rs`), solves the hubs (`hubs.rs`) and moves the trial. Cost is linear in the number of nodes;
 //! no stiffness or mass ratio limits the step.
@@ -31,7 +31,7 @@ use trial::Trial;
 
 /// Scratch of the solver for one model; it keeps nothing that a step depends on.
 #[derive(Clone, Debug)]
-pub struct Solver {
+pub(crate) struct Solver {
     pub(crate) plan: Plan,
     pub(crate) trial: Trial,
     band: Band,
