@@ -36,7 +36,6 @@ pub(crate) struct Solver {
     pub(crate) trial: Trial,
     band: Band,
     hubs: Hubs,
-    ends: Vec<Option<Ends>>,
     mass: Vec<DMat3>,
     pull: Vec<Pull>,
     cut: Vec<bool>,
@@ -77,7 +76,6 @@ impl Solver {
             plan,
             trial: Trial::default(),
             band: Band::new(model.node_count, model.segment_count),
-            ends: vec![None; model.spec.lines.len()],
             mass: vec![DMat3::ZERO; model.node_count],
             pull: vec![Pull::default(); model.segment_count],
             cut: vec![false; model.segment_count],
@@ -128,7 +126,6 @@ impl Solver {
             let (nodes, segments) = (&model.line_nodes[index], &model.line_segments[index]);
             let ends = self.band.eliminate(nodes, segments, seat_a != Seat::Fixed);
             self.join(seat_a, seat_b, &ends);
-            self.ends[index] = Some(ends);
         }
         self.hubs.solve();
         for (index, line) in model.spec.lines.iter().enumerate() {

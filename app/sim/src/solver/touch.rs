@@ -68,17 +68,19 @@ impl Solver {
             }
             let safe = work.near.safe_share(&self.trial.place, |node| self.trial.place[node] + self.band.step[node], work.near.fraction);
             let share = if longest * safe > UNSEARCHED_M { self.search(model, state, scheme, work, safe) } else { safe };
-            let (share, crossed) = self.move_by(model, work, share);
+            let (taken, crossed) = self.move_by(model, work, share);
             crossings += crossed;
             if self.strayed(state, scheme) > near::MARGIN_M - work.greatest_reach {
                 return Touched::TooFar;
             }
+            // What was cut off is still to go: a move cut to nothing has not converged.
+            let cut_off = (1.0 - safe).max(share - taken).min(0.5);
             let moved_before_m = last_m;
-            last_m = longest * share + if safe < 1.0 { longest * (1.0 - safe).min(0.5) } else { 0.0 };
-            if share >= 1.0 {
+            last_m = longest * (taken + cut_off);
+            if taken >= 1.0 {
                 last_m = left_to_go(last_m, moved_before_m);
             }
-            if (safe < 1.0 || last_m <= enough(passes)) && self.open_more(work) {
+            if (cut_off > 0.0 || last_m <= enough(passes)) && self.open_more(work) {
                 last_m = f64::INFINITY;
             }
         }
