@@ -44,7 +44,7 @@ impl StateHash {
         link_parted_s.iter().for_each(|parted| links.maybe(*parted));
         for parted in line_parted {
             links.maybe(parted.map(|(time_s, _)| time_s));
-            links.word(parted.map_or(0, |(_, segment)| segment as u64));
+            links.maybe(parted.map(|(_, along_m)| along_m));
         }
         gear.iter().for_each(|floats| links.reals(floats));
         parts[0] = Fold(input_hash(input));
@@ -76,10 +76,22 @@ pub fn input_hash(input: &Input) -> u64 {
 }
 
 fn fold_rope(rope: &RopeState, ropes: &mut Fold, contact: &mut Fold, links: &mut Fold) {
-    let RopeState { position, velocity, tension, cut, earlier_position, earlier_velocity, earlier_dt_s, seabed_grip, grips } = rope;
+    let RopeState {
+        position,
+        velocity,
+        segment_length,
+        tension,
+        cut,
+        earlier_position,
+        earlier_velocity,
+        earlier_dt_s,
+        seabed_grip,
+        grips,
+    } = rope;
     for vectors in [position, velocity, earlier_position, earlier_velocity] {
         ropes.vectors(vectors);
     }
+    ropes.reals(segment_length);
     ropes.reals(tension);
     ropes.real(*earlier_dt_s);
     contact.vectors(seabed_grip);

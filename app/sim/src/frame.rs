@@ -16,6 +16,8 @@ pub struct Frame {
     pub step: u64,
     /// Place of each node, in the model's layout [m].
     pub nodes: Vec<DVec3>,
+    /// Unstretched length of each segment [m].
+    pub segment_length_m: Vec<f64>,
     /// Tension of each segment, never below zero [N].
     pub tension_n: Vec<f64>,
     /// Whether each segment is cut.
@@ -49,6 +51,7 @@ impl Frame {
             time_s: state.time_s,
             step: state.step,
             nodes: state.rope.position.clone(),
+            segment_length_m: state.rope.segment_length.clone(),
             tension_n: state.rope.tension.iter().map(|tension| tension.max(0.0)).collect(),
             cut: state.rope.cut.clone(),
             bodies: state.bodies.iter().map(|body| (body.position, body.orientation)).collect(),

@@ -3,7 +3,7 @@
 use endline_sdk::{GearAction, GearStep, LineEnd};
 
 use crate::model::Model;
-use crate::parting::{cut, link_segment};
+use crate::parting::{cut, link_segment, note_line};
 use crate::state::State;
 use crate::step::Stop;
 
@@ -52,7 +52,7 @@ fn obey(model: &Model, state: &mut State, hook: usize, action: GearAction) -> Re
             let segments = &model.line_segments[line];
             let segment = if end == LineEnd::A { segments.start } else { segments.end - 1 };
             if !state.rope.cut[segment] {
-                state.line_parted[line].get_or_insert((state.time_s, segment - segments.start));
+                note_line(model, state, segment);
                 cut(state, segment);
             }
         }

@@ -82,7 +82,7 @@ pub struct Line {
     pub from: usize,
     /// Joint at end B.
     pub to: usize,
-    /// Unstretched length of each segment from A to B [m].
+    /// Unstretched length of each segment from A to B at the start of a run; the state knows them as they are [m].
     pub segments_m: Vec<f64>,
     /// First guess of its nodes, both ends included; empty for a straight line [m].
     pub start_m: Vec<DVec3>,
@@ -211,7 +211,7 @@ pub struct Probe {
 pub enum ProbeTarget {
     /// Tension at an end of a line [N].
     EndTension(usize, LineEnd),
-    /// A coordinate of the node nearest to the middle of a line: 0 x, 1 y, 2 z [m].
+    /// A coordinate of the middle of a line by unstretched length: 0 x, 1 y, 2 z [m].
     LineMiddle(usize, usize),
     /// A coordinate of a joint: 0 x, 1 y, 2 z [m].
     Joint(usize, usize),
@@ -354,12 +354,5 @@ impl Model {
     #[must_use]
     pub fn rope_of_segment(&self, segment: usize) -> &Rope {
         &self.spec.ropes[self.spec.lines[self.segment_line[segment]].rope]
-    }
-
-    /// Unstretched length of a segment [m].
-    #[must_use]
-    pub fn segment_length(&self, segment: usize) -> f64 {
-        let line = self.segment_line[segment];
-        self.spec.lines[line].segments_m[segment - self.line_segments[line].start]
     }
 }

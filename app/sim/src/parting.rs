@@ -62,11 +62,17 @@ pub(crate) fn part(model: &Model, state: &mut State) -> Parting {
         else {
             continue;
         };
-        state.line_parted[index].get_or_insert((state.time_s, worst - model.line_segments[index].start));
+        note_line(model, state, worst);
         cut(state, worst);
         parted = Parting::Some;
     }
     parted
+}
+
+/// Notes when and where a line parts for the first time: at the middle of a segment.
+pub(crate) fn note_line(model: &Model, state: &mut State, segment: usize) {
+    let place = (state.time_s, state.arc(model, segment, 0.5));
+    state.line_parted[model.segment_line[segment]].get_or_insert(place);
 }
 
 /// Cuts one segment.

@@ -23,8 +23,8 @@ pub struct State {
     pub whale: Option<WhaleState>,
     /// When each weak link parted [s].
     pub link_parted_s: Vec<Option<f64>>,
-    /// When and at which segment each line parted (rope broken or cut) [s].
-    pub line_parted: Vec<Option<(f64, usize)>>,
+    /// When each line parted (rope broken or cut) [s], and how far from its end A, by unstretched length [m].
+    pub line_parted: Vec<Option<(f64, f64)>>,
     /// Floats of each gear type.
     pub gear: Vec<Vec<f64>>,
 }
@@ -36,6 +36,8 @@ pub struct RopeState {
     pub position: Vec<DVec3>,
     /// Velocity of each node [m/s].
     pub velocity: Vec<DVec3>,
+    /// Unstretched length of each segment [m]; those of a line add up to the line.
+    pub segment_length: Vec<f64>,
     /// Tension of each segment; below zero it is slack and pulls nothing [N].
     pub tension: Vec<f64>,
     /// Whether each segment is cut (a parted link or rope): it pulls and touches nothing.
@@ -93,7 +95,18 @@ pub struct WhaleState {
 }
 
 clone_in_place!(State { time_s, step, rope, bodies, whale, link_parted_s, line_parted, gear });
-clone_in_place!(RopeState { position, velocity, tension, cut, earlier_position, earlier_velocity, earlier_dt_s, seabed_grip, grips });
+clone_in_place!(RopeState {
+    position,
+    velocity,
+    segment_length,
+    tension,
+    cut,
+    earlier_position,
+    earlier_velocity,
+    earlier_dt_s,
+    seabed_grip,
+    grips
+});
 clone_in_place!(BodyState { position, orientation, velocity, spin, earlier_position, earlier_velocity, grip, sliding });
 clone_in_place!(WhaleState { position, orientation, speed_m_s, turn_rate, posture, motion, contact_force_n });
 
@@ -105,6 +118,7 @@ impl State {
         let nodes = position.len();
         let rope = RopeState {
             velocity: vec![DVec3::ZERO; nodes],
+            segment_length: model.spec.lines.iter().flat_map(|line| line.segments_m.iter().copied()).collect(),
             tension: vec![0.0; model.segment_count],
             cut: vec![false; model.segment_count],
             earlier_position: position.clone(),
@@ -184,6 +198,13 @@ impl WhaleState {
 }
 
 impl State {
+    /// Unstretched rope of a segment's line from its end A to a fraction of the segment [m].
+    #[must_use]
+    pub fn arc(&self, model: &Model, segment: usize, fraction: f64) -> f64 {
+        let first = model.line_segments[model.segment_line[segment]].start;
+        self.rope.segment_length[first..segment].iter().sum::<f64>() + fraction * self.rope.segment_length[segment]
+    }
+
     /// Forgets all motion: the history of a rig at rest.
     pub(crate) fn rest(&mut self) {
         let rope = &mut self.rope;

@@ -34,12 +34,13 @@ fn seabed(model: &Model, now: &BodyState, feet_m: &[DVec3]) -> f64 {
 fn line_ends(model: &Model, state: &State, index: usize) -> f64 {
     let at_body = |joint: usize| matches!(model.spec.joints[joint].kind, JointKind::Body { body, .. } if body == index);
     let mut sum = 0.0;
-    for (line, nodes) in model.spec.lines.iter().zip(&model.line_nodes) {
+    for ((line, nodes), segments) in model.spec.lines.iter().zip(&model.line_nodes).zip(&model.line_segments) {
         if at_body(line.from) {
-            sum += end_force(model, line.rope, line.segments_m[0], [nodes.start, nodes.start + 1].map(|node| state.rope.position[node]));
+            let length = state.rope.segment_length[segments.start];
+            sum += end_force(model, line.rope, length, [nodes.start, nodes.start + 1].map(|node| state.rope.position[node]));
         }
         if at_body(line.to) {
-            let length = line.segments_m[line.segments_m.len() - 1];
+            let length = state.rope.segment_length[segments.end - 1];
             sum += end_force(model, line.rope, length, [nodes.end - 1, nodes.end - 2].map(|node| state.rope.position[node]));
         }
     }

@@ -65,10 +65,10 @@ pub(crate) struct Slots {
 
 impl Slots {
     /// Opens the middle slots of every segment that has pairs.
-    pub fn open(&mut self, model: &Model, near: &Near, stiffness_n_m2: f64) {
+    pub fn open(&mut self, model: &Model, near: &Near, segment_length: &[f64], stiffness_n_m2: f64) {
         self.list.clear();
         for (segment, range) in &near.groups {
-            let length = model.segment_length(*segment);
+            let length = segment_length[*segment];
             let pieces = (length / PIECE_M).ceil().max(1.0);
             let reach = 0.5 * model.rope_of_segment(*segment).diameter_m;
             for piece in 0..pieces as u64 {

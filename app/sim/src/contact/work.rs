@@ -49,10 +49,10 @@ impl ContactWork {
     }
 
     /// Opens the slots of a stage, or keeps those there are for skin that has moved on.
-    pub fn open_slots(&mut self, model: &Model, places: &[DVec3]) {
+    pub fn open_slots(&mut self, model: &Model, segment_length: &[f64], places: &[DVec3]) {
         let Some(whale) = &model.spec.whale else { return };
         if self.slots.list.is_empty() {
-            self.slots.open(model, &self.near, whale.contact_stiffness_n_m2);
+            self.slots.open(model, &self.near, segment_length, whale.contact_stiffness_n_m2);
         }
         self.slots.forget();
         self.slots.measure(&self.near, places);

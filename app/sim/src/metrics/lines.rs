@@ -92,7 +92,7 @@ pub fn end_tension(model: &Model, state: &State, line: usize, end: LineEnd) -> f
         return 0.0;
     }
     let Some(outward) = (state.rope.position[tip] - state.rope.position[inner]).try_normalize() else { return middle };
-    let length = model.spec.lines[line].segments_m[segment - model.line_segments[line].start];
+    let length = state.rope.segment_length[segment];
     (middle - 0.5 * length * load_along(model, state, line, tip, outward)).max(0.0)
 }
 

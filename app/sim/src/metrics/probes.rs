@@ -72,24 +72,24 @@ pub fn reading(model: &Model, state: &State, target: ProbeTarget) -> f64 {
     let coordinate = |place: Option<glam::DVec3>, axis: usize| place.and_then(|place| place.to_array().get(axis).copied()).unwrap_or(0.0);
     match target {
         ProbeTarget::EndTension(line, end) => end_tension(model, state, line, end),
-        ProbeTarget::LineMiddle(line, axis) => coordinate(middle_node(model, line).map(|node| state.rope.position[node]), axis),
+        ProbeTarget::LineMiddle(line, axis) => coordinate(middle(model, state, line), axis),
         ProbeTarget::Joint(joint, axis) => coordinate(joint_place(model, state, joint), axis),
         ProbeTarget::Body(body, axis) => coordinate(state.bodies.get(body).map(|body| body.position), axis),
     }
 }
 
-/// The node nearest to the middle of a line by unstretched length; the one nearer to end A where two are.
-fn middle_node(model: &Model, line: usize) -> Option<usize> {
-    let segments = &model.spec.lines.get(line)?.segments_m;
-    let half = 0.5 * segments.iter().sum::<f64>();
-    let (mut along, mut nearest, mut off) = (0.0, 0, half);
-    for (index, segment) in segments.iter().enumerate() {
-        along += segment;
-        if libm::fabs(along - half) < off {
-            (nearest, off) = (index + 1, libm::fabs(along - half));
+/// Place of the middle of a line by unstretched length [m].
+fn middle(model: &Model, state: &State, line: usize) -> Option<glam::DVec3> {
+    let lengths = &state.rope.segment_length[model.line_segments.get(line)?.clone()];
+    let nodes = &state.rope.position[model.line_nodes[line].clone()];
+    let mut left = 0.5 * lengths.iter().sum::<f64>();
+    for (ends, length) in nodes.windows(2).zip(lengths) {
+        if left <= *length {
+            return Some(ends[0].lerp(ends[1], left / length));
         }
+        left -= length;
     }
-    Some(model.line_nodes[line].start + nearest)
+    nodes.last().copied()
 }
 
 /// Place of a joint [m]: of the line end that meets there, or on its body.

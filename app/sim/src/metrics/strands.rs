@@ -4,7 +4,7 @@ use endline_sdk::LineEnd;
 
 use crate::model::{JointKind, Model};
 
-/// Where every segment lies in its strand.
+/// Where every segment lies in its strand; rope before it and its length by the last [`Strands::measure`].
 #[derive(Clone, Debug)]
 pub(super) struct Strands {
     /// By segment of the model's layout.
@@ -48,6 +48,18 @@ impl Strands {
         strands
     }
 
+    /// Takes over the lengths of a state.
+    pub(super) fn measure(&mut self, segment_length: &[f64]) {
+        for strand in &self.segments {
+            let mut arc_m = 0.0;
+            for &segment in strand {
+                let place = &mut self.places[segment];
+                (place.arc_m, place.length_m) = (arc_m, segment_length[segment]);
+                arc_m += place.length_m;
+            }
+        }
+    }
+
     /// Whether the rope between two segments of a strand is whole, both included.
     pub(super) fn whole(&self, from: &Place, to: &Place, cut: &[bool]) -> bool {
         let (low, high) = (from.order.min(to.order), from.order.max(to.order));
@@ -56,17 +68,14 @@ impl Strands {
 
     /// Lays lines from end `entered` of `line` on, splice by splice.
     fn lay(&mut self, model: &Model, mut line: usize, mut entered: LineEnd, laid: &mut [bool]) {
-        let (strand, mut arc_m, mut order) = (self.segments.len(), 0.0, Vec::new());
+        let (strand, mut order) = (self.segments.len(), Vec::new());
         loop {
             laid[line] = true;
             let reversed = entered == LineEnd::B;
             let segments = model.line_segments[line].clone();
-            let start = segments.start;
             let mut lay_one = |segment: usize| {
-                let length_m = model.spec.lines[line].segments_m[segment - start];
-                self.places[segment] = Place { strand, order: order.len(), arc_m, length_m, reversed };
+                self.places[segment] = Place { strand, order: order.len(), arc_m: 0.0, length_m: 0.0, reversed };
                 order.push(segment);
-                arc_m += length_m;
             };
             if reversed {
                 segments.rev().for_each(&mut lay_one)

@@ -20,29 +20,18 @@ pub(super) struct Beyond {
 #[derive(Clone, Debug)]
 pub(super) struct Reach {
     touched: Vec<Option<(f64, f64)>>,
-    /// Rope of its line before each segment, and the segment's own [m].
-    places: Vec<(f64, f64)>,
 }
 
 impl Reach {
     pub(super) fn new(model: &Model) -> Self {
-        let mut places = Vec::with_capacity(model.segment_count);
-        for line in &model.spec.lines {
-            let mut arc = 0.0;
-            for length in &line.segments_m {
-                places.push((arc, *length));
-                arc += length;
-            }
-        }
-        Self { touched: vec![None; model.spec.lines.len()], places }
+        Self { touched: vec![None; model.spec.lines.len()] }
     }
 
     /// Takes in the contacts of a step.
-    pub(super) fn fold(&mut self, contacts: &[ContactPoint]) {
+    pub(super) fn fold(&mut self, model: &Model, state: &State, contacts: &[ContactPoint]) {
         self.touched.fill(None);
         for contact in contacts.iter().filter(|contact| contact.normal_force_n > 0.0) {
-            let (before, length) = self.places[contact.segment];
-            let arc = before + contact.fraction * length;
+            let arc = state.arc(model, contact.segment, contact.fraction);
             let span = self.touched[contact.line].get_or_insert((arc, arc));
             *span = (span.0.min(arc), span.1.max(arc));
         }
@@ -98,7 +87,7 @@ impl Walk<'_> {
 
     /// Rope before the first cut in the last `length_m` of a line towards `end`; `None` where it is whole [m].
     fn to_cut(&self, line: usize, end: LineEnd, length_m: f64) -> Option<f64> {
-        let lengths = &self.model.spec.lines[line].segments_m;
+        let lengths = &self.state.rope.segment_length[self.model.line_segments[line].clone()];
         let cut = &self.state.rope.cut[self.model.line_segments[line].clone()];
         let (mut left, mut nearest) = (0.0, None);
         let mut look = |length: &f64, cut: &bool| {

@@ -50,9 +50,9 @@ impl WhaleMeter {
     pub(super) fn fold(&mut self, model: &Model, state: &State, whale: &WhaleState, contacts: &[ContactPoint], dt_s: f64, log: &mut Log) {
         let touching = contacts.iter().any(|contact| contact.normal_force_n > 0.0);
         self.loads.fold(model, contacts, dt_s);
-        self.winding.fold(&self.skin, contacts, &state.rope.cut);
+        self.winding.fold(&self.skin, contacts, &state.rope);
         self.drag.fold(whale, contacts, dt_s);
-        self.reach.fold(contacts);
+        self.reach.fold(model, state, contacts);
         self.encounter.fold(state.time_s, dt_s, touching, self.winding.most());
         self.extent.fold(model, whale, state.time_s, log);
         self.touches.fold(&self.loads, state.time_s, log);

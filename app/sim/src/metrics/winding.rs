@@ -7,6 +7,7 @@ use endline_sdk::BodyPart;
 use super::axes::{Axis, axes_of};
 use super::strands::{Place, Strands};
 use crate::contact::ContactPoint;
+use crate::state::RopeState;
 use crate::whale::Skin;
 
 /// Rope out of contact up to this length does not end a run of contacts [m]; estimate.
@@ -63,12 +64,13 @@ impl Winding {
     }
 
     /// Measures the winding of the contacts that press.
-    pub(super) fn fold(&mut self, skin: &Skin, contacts: &[ContactPoint], cut: &[bool]) {
+    pub(super) fn fold(&mut self, skin: &Skin, contacts: &[ContactPoint], rope: &RopeState) {
+        self.strands.measure(&rope.segment_length);
         self.gather(skin, contacts);
         let (before, runs_before) = (self.turns, self.runs);
         (self.turns, self.runs) = ([0.0; PARTS], [0; PARTS]);
         for index in 0..self.sites.len() {
-            self.walk(self.sites[index], cut);
+            self.walk(self.sites[index], &rope.cut);
         }
         for part in 0..PARTS {
             self.close(part);

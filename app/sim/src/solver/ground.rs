@@ -77,7 +77,7 @@ impl Solver {
             if depth <= 0.0 {
                 continue;
             }
-            let stiffness = seabed.rope_stiffness_n_m2 * self.plan.node_length[node];
+            let stiffness = seabed.rope_stiffness_n_m2 * self.lengths.node[node];
             let (push, push_rate) = press(depth, stiffness);
             self.band.force[node] += seabed.normal * push;
             self.band.diagonal[node] += outer(seabed.normal, seabed.normal) * push_rate;
@@ -124,7 +124,7 @@ impl Solver {
         let Some(seabed) = &model.spec.seabed else { return };
         for node in 0..model.node_count {
             let on_ground = seabed.depth_of(self.trial.place[node]) > 0.0 && !scheme.is_static();
-            let stiffness = seabed.rope_stiffness_n_m2 * self.plan.node_length[node];
+            let stiffness = seabed.rope_stiffness_n_m2 * self.lengths.node[node];
             state.rope.seabed_grip[node] = if on_ground { self.rope_grip(seabed, state, node, stiffness).kept } else { DVec3::ZERO };
         }
         for (index, body) in model.spec.bodies.iter().enumerate() {

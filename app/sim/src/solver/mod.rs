@@ -9,6 +9,7 @@ mod body;
 mod chain;
 mod ground;
 mod hubs;
+mod lengths;
 mod plan;
 mod rope;
 mod scheme;
@@ -22,6 +23,7 @@ use crate::model::Model;
 use crate::state::State;
 use chain::{Band, Ends};
 use hubs::{Hubs, Seat};
+use lengths::Lengths;
 use plan::Plan;
 use rope::Pull;
 pub(crate) use scheme::Scheme;
@@ -34,6 +36,7 @@ use trial::Trial;
 pub(crate) struct Solver {
     pub(crate) plan: Plan,
     pub(crate) trial: Trial,
+    lengths: Lengths,
     band: Band,
     hubs: Hubs,
     mass: Vec<DMat3>,
@@ -75,6 +78,7 @@ impl Solver {
             hubs,
             plan,
             trial: Trial::default(),
+            lengths: Lengths::default(),
             band: Band::new(model.node_count, model.segment_count),
             mass: vec![DMat3::ZERO; model.node_count],
             pull: vec![Pull::default(); model.segment_count],
@@ -87,6 +91,7 @@ impl Solver {
 
     /// Begins a step from a state.
     pub(crate) fn begin(&mut self, model: &Model, state: &State, scheme: &Scheme) {
+        self.lengths.take(model, &state.rope.segment_length);
         self.trial.begin(model, &self.plan, state, scheme);
         self.cut.clone_from(&state.rope.cut);
         self.measure_flow(model);

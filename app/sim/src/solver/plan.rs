@@ -1,4 +1,4 @@
-//! What the solver derives once from a model: where line ends sit, lengths that hang on each node.
+//! What the solver derives once from a model: where line ends and segments sit.
 
 use glam::DVec3;
 
@@ -14,10 +14,6 @@ pub(crate) struct Plan {
     pub body_block: Vec<usize>,
     /// First node of each segment.
     pub segment_node: Vec<usize>,
-    /// Unstretched length of each segment [m].
-    pub segment_length: Vec<f64>,
-    /// Unstretched length that hangs on each node: half of its neighbours in the same line [m].
-    pub node_length: Vec<f64>,
     /// A node that stands for each joint, where a line ends there.
     pub joint_node: Vec<Option<usize>>,
 }
@@ -33,18 +29,11 @@ impl Plan {
             seats,
             body_block,
             segment_node: Vec::with_capacity(model.segment_count),
-            segment_length: Vec::with_capacity(model.segment_count),
-            node_length: vec![0.0; model.node_count],
             joint_node: vec![None; model.spec.joints.len()],
         };
         for (index, line) in model.spec.lines.iter().enumerate() {
             let first = model.line_nodes[index].start;
-            for (k, length) in line.segments_m.iter().enumerate() {
-                plan.segment_node.push(first + k);
-                plan.segment_length.push(*length);
-                plan.node_length[first + k] += 0.5 * length;
-                plan.node_length[first + k + 1] += 0.5 * length;
-            }
+            plan.segment_node.extend(first..model.line_nodes[index].end - 1);
             plan.joint_node[line.from].get_or_insert(first);
             plan.joint_node[line.to].get_or_insert(model.line_nodes[index].end - 1);
         }

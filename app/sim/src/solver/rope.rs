@@ -45,8 +45,7 @@ impl Solver {
                 let (tangent, _) = tangent(&state.rope.position, node, nodes.start, nodes.end);
                 let across = DMat3::IDENTITY - outer(tangent, tangent);
                 let wet = wet_share(model, state.rope.position[node].z);
-                self.mass[node] =
-                    (DMat3::from_diagonal(DVec3::splat(rope.mass_kg_m)) + across * (added * wet)) * self.plan.node_length[node];
+                self.mass[node] = (DMat3::from_diagonal(DVec3::splat(rope.mass_kg_m)) + across * (added * wet)) * self.lengths.node[node];
             }
         }
     }
@@ -75,7 +74,7 @@ impl Solver {
 
     fn add_weight(&mut self, model: &Model, rope: &Rope, node: usize) {
         let water = &model.spec.water;
-        let length = self.plan.node_length[node];
+        let length = self.lengths.node[node];
         let height = self.trial.place[node].z;
         let lift = water.density_kg_m3 * rope.displaced_m3_m * water.gravity_m_s2 * length;
         self.band.force[node].z += lift * wet_share(model, height) - rope.mass_kg_m * water.gravity_m_s2 * length;
@@ -86,7 +85,7 @@ impl Solver {
 
     fn add_drag(&mut self, model: &Model, (line, rope): (usize, &Rope), node: usize, scheme: &Scheme) {
         let place = self.trial.place[node];
-        let wet = wet_share(model, place.z) * self.plan.node_length[node];
+        let wet = wet_share(model, place.z) * self.lengths.node[node];
         if wet <= 0.0 {
             return;
         }
@@ -165,7 +164,7 @@ impl Solver {
     }
 
     fn pull_between(&self, rope: &Rope, segment: usize, node: usize, scheme: &Scheme, between: DVec3) -> Pull {
-        let length = self.plan.segment_length[segment];
+        let length = self.lengths.segment[segment];
         let chord = between.length().max(1e-9 * length);
         let direction = between / chord;
         let history = self.trial.place_history[node + 1] - self.trial.place_history[node];

@@ -54,7 +54,7 @@ impl Solver {
     /// Newton passes at the skin's present place until the moves are small.
     pub(crate) fn solve_touching(&mut self, model: &Model, state: &State, scheme: &Scheme, work: &mut ContactWork) -> Touched {
         let (mut last_m, mut crossings) = (f64::INFINITY, 0);
-        work.open_slots(model, &self.trial.place);
+        work.open_slots(model, &self.lengths.segment, &self.trial.place);
         let mut passes = 0;
         while passes < MOST_PASSES && last_m > enough(passes) {
             passes += 1;

@@ -1,0 +1,31 @@
+//! Unstretched lengths of segments, and what of them hangs on each node.
+
+use crate::model::Model;
+
+/// Lengths of a step, taken from the state it begins from.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Lengths {
+    /// Unstretched length of each segment [m].
+    pub segment: Vec<f64>,
+    /// Unstretched length that hangs on each node: half of its neighbours in the same line [m].
+    pub node: Vec<f64>,
+}
+
+impl Lengths {
+    /// Takes over the lengths of a state, where they are not those there are.
+    pub fn take(&mut self, model: &Model, segment_length: &[f64]) {
+        if self.segment == segment_length {
+            return;
+        }
+        self.segment.clear();
+        self.segment.extend_from_slice(segment_length);
+        self.node.clear();
+        self.node.resize(model.node_count, 0.0);
+        for (nodes, segments) in model.line_nodes.iter().zip(&model.line_segments) {
+            for (node, length) in (nodes.start..).zip(&segment_length[segments.clone()]) {
+                self.node[node] += 0.5 * length;
+                self.node[node + 1] += 0.5 * length;
+            }
+        }
+    }
+}
