@@ -6,6 +6,7 @@
 mod body;
 mod builder;
 mod catenary;
+mod ends;
 mod gear;
 mod probes;
 mod rig;

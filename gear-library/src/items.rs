@@ -3,6 +3,7 @@
 mod box_gear;
 mod buoy;
 mod friction;
+mod point;
 mod rope;
 mod site;
 mod weak_link;
@@ -11,6 +12,8 @@ mod whale;
 pub use box_gear::BoxGear;
 pub use buoy::{Buoy, BuoyShape};
 pub use friction::RopeFriction;
+pub use point::Point;
+pub(crate) use point::points;
 pub use rope::Rope;
 pub use site::SeaSite;
 pub use weak_link::WeakLink;

@@ -30,7 +30,7 @@ pub use diagnostic::{At, Diagnostic, Place, Severity, SourceText};
 pub use document::{Document, EditError, save_text};
 pub use entry::{Entry, FORMAT};
 pub use fields::{Figure, Range, Sureness};
-pub use items::{BoxGear, Buoy, BuoyShape, Rope, RopeFriction, SeaSite, WeakLink, WhaleItem};
+pub use items::{BoxGear, Buoy, BuoyShape, Point, Rope, RopeFriction, SeaSite, WeakLink, WhaleItem};
 pub use library::Library;
 pub use scenario::{Fixture, FreeBody, FrictionChoice, LineStart, PlacedGear, ProbeOf, ProbePart, Scenario, Sea, Swimmer};
 pub use schema::{Field, Kind, Word};

@@ -204,6 +204,75 @@ fn lines_that_leave_one_body_share_a_joint() {
     assert!(matches!(joint.kind, JointKind::Body { offset_m, .. } if (offset_m - DVec3::new(0.4572, 0.0, 0.1778)).length() < 1e-12));
 }
 
+/// A bridle's legs leave the corners of the trap's top edge; lines at one point share a joint, and a bare id is the usual point.
+#[test]
+fn a_line_is_made_fast_at_the_point_it_names() {
+    let spec = assembled("test.toml", &scenario_text("hello-endline.toml").replace("\"single\"", "\"single-bridle\""));
+    let offset = |id: &str| {
+        let line = spec.lines.iter().find(|line| line.id == id).unwrap();
+        match spec.joints[line.from].kind {
+            JointKind::Body { offset_m, .. } => offset_m,
+            _ => panic!("{id} is not on a body"),
+        }
+    };
+    let apart = offset("bridle-port") - offset("bridle-starboard");
+    assert!((apart - DVec3::new(0.0, 21.0 * 0.0254, 0.0)).length() < 1e-12, "{apart}");
+    let legs: Vec<usize> = spec.lines.iter().filter(|line| line.id.starts_with("bridle")).map(|line| line.to).collect();
+    assert!(legs.len() == 2 && legs[0] == legs[1]);
+}
+
+#[test]
+fn a_point_that_is_not_there_is_told_with_those_that_are() {
+    let text = scenario_text("hello-endline.toml").replace("\"single\"", "\"single-bridle\"");
+    let scenario = Scenario::read("test.toml", &text).unwrap();
+    let told_of = |from: &str, to: &str| {
+        let mut sources = Sources::from_folder(&root()).unwrap();
+        let bridle = sources.get("assemblies/single-bridle.toml").unwrap().replace(from, to);
+        let line = 1 + bridle.lines().position(|line| line.contains(to)).unwrap();
+        sources.set("assemblies/single-bridle.toml", bridle);
+        let (library, problems) = Library::read(&sources);
+        assert!(problems.is_empty(), "{}", told(&problems));
+        let problems = assemble(&scenario, &library, &Linked, &Options::default()).err().unwrap();
+        assert_eq!((problems[0].file.as_str(), problems[0].line), ("assemblies/single-bridle.toml", line), "{}", told(&problems));
+        problems[0].to_string()
+    };
+    for (from, to, parts) in [
+        ("trap:bridle-port", "trap:bridle-prt", ["body `trap` has no point `bridle-prt`", "did you mean `bridle-port`?"]),
+        ("trap:bridle-port", "trap:xyz", ["has no point `xyz`", "known names are end, bridle-port, bridle-starboard"]),
+        ("trap:bridle-port", "trp:bridle-port", ["there is no body or joint `trp`", "did you mean `trap`?"]),
+        ("to = \"splice\"", "to = \"splice:end\"", ["joint `splice` has no point `end`", "only a body has points"]),
+    ] {
+        let message = told_of(from, to);
+        assert!(parts.iter().all(|part| message.contains(part)), "{message}");
+    }
+}
+
+/// An item's own points: one more, and a usual one moved.
+#[test]
+fn an_item_may_have_points_of_its_own() {
+    let read = |points: &str| {
+        let mut sources = Sources::from_folder(&root()).unwrap();
+        let trap = format!("{}\n{points}", sources.get("traps/wire-lobster-3ft.toml").unwrap());
+        sources.set("traps/wire-lobster-3ft.toml", trap);
+        Library::read(&sources)
+    };
+    let at = |name: &str, x: &str| format!("[[point]]\nname = \"{name}\"\nat = [\"{x}\", \"0 m\", \"0.1 m\"]\n");
+    let (library, problems) = read(&(at("becket", "0.3 m") + &at("end", "0.4 m")));
+    assert!(problems.is_empty(), "{}", told(&problems));
+    let points = library.traps.iter().find(|trap| trap.entry.id == "wire-lobster-3ft").unwrap().points();
+    assert!(points[0].name == "end" && DVec3::from_array(points[0].at_m).distance(DVec3::new(0.4, 0.0, 0.1)) < 1e-12);
+    assert!(points.iter().any(|point| point.name == "becket" && (point.at_m[0] - 0.3).abs() < 1e-12));
+    for (points, part) in [
+        (at("a:b", "0.3 m"), "`a:b` cannot be a point's name"),
+        (at("becket", "0.3 kg"), "`kg` is a unit of a mass, not of a length"),
+        (at("becket", "0 m") + &at("becket", "1 m"), "there are two points `becket`"),
+        ("[[point]]\nname = \"becket\"\n".to_owned(), "`at` is missing"),
+    ] {
+        let problems = read(&points).1;
+        assert!(problems.len() == 1 && problems[0].to_string().contains(part), "{points}: {}", told(&problems));
+    }
+}
+
 /// The start shape of reference problem (a) against its exact data.
 #[test]
 fn the_pendulum_starts_on_its_elastic_catenary() {

@@ -58,9 +58,9 @@ pub(super) fn of_box(id: String, role: BodyRole, item: &BoxGear, density: f64, f
     }
 }
 
-/// Where a line leaves a trap or anchor: the middle of the top edge at the end of its length.
-pub(super) fn box_attachment(item: &BoxGear) -> DVec3 {
-    DVec3::new(item.size_m[0] / 2.0, 0.0, item.size_m[2] / 2.0)
+/// Points of a trap or anchor where a line can be made fast, in the body's frame.
+pub(super) fn box_points(item: &BoxGear) -> Vec<(String, DVec3)> {
+    item.points().into_iter().map(|point| (point.name, DVec3::from_array(point.at_m))).collect()
 }
 
 /// A buoy with the middle of its float at `middle_m`.
@@ -99,9 +99,10 @@ pub(super) fn of_buoy(id: String, item: &Buoy, density: f64, middle_m: DVec3, or
     }
 }
 
-/// Where a line leaves a buoy, in the body's frame.
-pub(super) fn buoy_attachment(item: &Buoy) -> DVec3 {
-    DVec3::new(0.0, 0.0, -item.attachment_m - item.centre_of_mass_m)
+/// Points of a buoy where a line can be made fast, in the body's frame.
+pub(super) fn buoy_points(item: &Buoy) -> Vec<(String, DVec3)> {
+    let middle = DVec3::new(0.0, 0.0, -item.centre_of_mass_m);
+    item.points().into_iter().map(|point| (point.name, middle + DVec3::from_array(point.at_m))).collect()
 }
 
 /// A body written into a scenario: a sphere with the line at its middle.

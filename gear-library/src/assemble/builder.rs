@@ -1,7 +1,7 @@
 //! What assembly works on: the spec so far, the names in it, the problems found.
 
 use endline_sim::DVec3;
-use endline_sim::model::{Joint, JointKind, ModelSpec, Settings};
+use endline_sim::model::{ModelSpec, Settings};
 use endline_sim::water::{Current, Water};
 
 use crate::diagnostic::{At, Diagnostic, Place};
@@ -40,8 +40,8 @@ pub(super) struct Builder<'a> {
     pub spec: ModelSpec,
     /// Materials of the spec's ropes, for friction.
     pub materials: Vec<At<String>>,
-    /// Where a line leaves each body, in the body's frame [m].
-    pub attachments: Vec<DVec3>,
+    /// Points of each body where a line can be made fast, in the body's frame [m]; the usual one first.
+    pub points: Vec<Vec<(String, DVec3)>>,
     /// The spec's lines before they are cut.
     pub uncut: Vec<Uncut>,
     /// Whether gear could not be built, so that ids may be missing through no fault of those who name them.
@@ -81,7 +81,7 @@ impl<'a> Builder<'a> {
             used: Vec::new(),
             spec,
             materials: Vec::new(),
-            attachments: Vec::new(),
+            points: Vec::new(),
             uncut: Vec::new(),
             incomplete: false,
             names: Vec::new(),
@@ -92,6 +92,10 @@ impl<'a> Builder<'a> {
     pub fn name(&mut self, id: String, part: Part, place: &Place) {
         if self.names.iter().any(|(known, _)| *known == id) {
             self.problems.push(place.error(format!("there are two parts with the id `{id}`"), "give one of them another id"));
+        }
+        if id.contains(':') && matches!(part, Part::Body(_) | Part::Joint(_)) {
+            let message = format!("the id `{id}` has a colon");
+            self.problems.push(place.error(message, "a colon parts a body from the point where a line is made fast; choose another id"));
         }
         self.names.push((id, part));
     }
@@ -142,31 +146,6 @@ impl<'a> Builder<'a> {
         self.materials.push(At { value: rope.material.clone(), place: id.place.clone() });
         self.spec.ropes.push(rope.to_model());
         Some(self.spec.ropes.len() - 1)
-    }
-
-    /// The joint where lines leave a body; one for all of them.
-    pub fn body_joint(&mut self, body: usize) -> usize {
-        let at_body = |joint: &Joint| matches!(joint.kind, JointKind::Body { body: of, .. } if of == body);
-        if let Some(joint) = self.spec.joints.iter().position(at_body) {
-            return joint;
-        }
-        let offset_m = self.attachments[body];
-        let holder = &self.spec.bodies[body];
-        let position_m = holder.position_m + holder.orientation * offset_m;
-        self.spec.joints.push(Joint { id: holder.id.clone(), kind: JointKind::Body { body, offset_m }, position_m });
-        self.spec.joints.len() - 1
-    }
-
-    /// The joint a line's end names: a joint's own, or a body's.
-    pub fn end(&mut self, id: &At<String>) -> Option<usize> {
-        match self.part(&id.value) {
-            Some(Part::Joint(joint)) => Some(joint),
-            Some(Part::Body(body)) => Some(self.body_joint(body)),
-            _ => {
-                self.unknown("body or joint", id, |part| matches!(part, Part::Body(_) | Part::Joint(_)));
-                None
-            }
-        }
     }
 
     /// The spec, or all problems.

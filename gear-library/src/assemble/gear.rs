@@ -12,6 +12,7 @@ use crate::scenario::PlacedGear;
 use crate::schema::Kind;
 
 use super::builder::Builder;
+use super::ends::split;
 use super::rig::Setting;
 
 impl Builder<'_> {
@@ -80,7 +81,7 @@ impl Builder<'_> {
 /// Parts as a rig, heights turned into depths.
 fn rig(parts: &Parts, depth_m: f64) -> Rig {
     let at = |start: &Start| [start.xy_m[0], start.xy_m[1], depth_m * (start.height - 1.0)];
-    let is_body = |id: &str| parts.bodies.iter().any(|body| body.id.value == id);
+    let is_body = |end: &str| parts.bodies.iter().any(|body| body.id.value == split(end).0);
     let end = |id: &At<String>| if is_body(&id.value) { RigEnd::Body(id.value.clone()) } else { RigEnd::Joint(id.value.clone()) };
     let kind = |kind| match kind {
         Kind::Trap => BodyKind::Trap,

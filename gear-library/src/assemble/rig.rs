@@ -79,16 +79,16 @@ impl Builder<'_> {
         let made = match body.kind {
             BodyKind::Buoy => library.buoys.iter().find(|buoy| buoy.entry.id == item.value).map(|buoy| {
                 let made = body::of_buoy(id.value.clone(), buoy, density, place, setting.orientation);
-                (made, body::buoy_attachment(buoy), &buoy.entry.path)
+                (made, body::buoy_points(buoy), &buoy.entry.path)
             }),
             BodyKind::Trap | BodyKind::Anchor => box_item(library, body.kind, &item.value).map(|item| {
                 place.z += self.seabed_height(place) + self.spec.water.depth_m;
                 let role = if body.kind == BodyKind::Trap { BodyRole::Trap } else { BodyRole::Anchor };
                 let made = body::of_box(id.value.clone(), role, item, density, place, setting.orientation);
-                (made, body::box_attachment(item), &item.entry.path)
+                (made, body::box_points(item), &item.entry.path)
             }),
         };
-        let Some((made, attachment, path)) = made else {
+        let Some((made, points, path)) = made else {
             self.no_item(library_kind(body.kind), &item.value, &item.place);
             self.incomplete = true;
             return;
@@ -96,7 +96,7 @@ impl Builder<'_> {
         self.uses(path);
         self.name(id.value, Part::Body(self.spec.bodies.len()), &id.place);
         self.spec.bodies.push(made);
-        self.attachments.push(attachment);
+        self.points.push(points);
     }
 
     fn add_rig_line(&mut self, line: &RigLine, setting: &Setting<'_>) {
@@ -167,7 +167,7 @@ impl Builder<'_> {
         for free in &self.scenario.bodies {
             self.name(free.id.value.clone(), Part::Body(self.spec.bodies.len()), &free.id.place);
             self.spec.bodies.push(body::of_free(free, self.spec.water.density_kg_m3));
-            self.attachments.push(DVec3::ZERO);
+            self.points.push(vec![("middle".to_owned(), DVec3::ZERO)]);
         }
     }
 

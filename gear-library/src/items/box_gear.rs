@@ -3,6 +3,7 @@
 use crate::entry::Entry;
 use crate::fields::Problems;
 
+use super::point::{Point, with_own};
 use super::rope::{GRAVITY_M_S2, SEA_WATER_KG_M3};
 
 /// A trap, or an anchor reckoned as a box.
@@ -55,6 +56,24 @@ impl BoxGear {
             slide_friction: slide.value,
             entry,
         })
+    }
+
+    /// Where a line can be made fast, the usual point first: the middle of the top edge at the end of its length.
+    #[must_use]
+    pub fn points(&self) -> Vec<Point> {
+        let [x, y, z] = self.size_m.map(|size| size / 2.0);
+        let usual = [
+            ("end", [x, 0.0, z]),
+            ("bridle-port", [x, y, z]),
+            ("bridle-starboard", [x, -y, z]),
+            ("far-end", [-x, 0.0, z]),
+            ("far-port", [-x, y, z]),
+            ("far-starboard", [-x, -y, z]),
+            ("port", [0.0, y, z]),
+            ("starboard", [0.0, -y, z]),
+            ("top", [0.0, 0.0, z]),
+        ];
+        with_own(usual.map(|(name, at_m)| Point { name: name.to_owned(), at_m }).to_vec(), &self.entry.points)
     }
 
     /// Volume of wire, wood and ballast: `(m g - W) / (ρ g)` in sea water [m³].

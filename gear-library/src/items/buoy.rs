@@ -3,6 +3,7 @@
 use crate::entry::Entry;
 use crate::fields::Problems;
 
+use super::point::{Point, with_own};
 use super::rope::SEA_WATER_KG_M3;
 
 /// The shape of a buoy's float.
@@ -70,6 +71,17 @@ impl Buoy {
             added_mass_along: entry.value("added_mass_along")?,
             entry,
         })
+    }
+
+    /// Where a line can be made fast, the usual point first: below.
+    #[must_use]
+    pub fn points(&self) -> Vec<Point> {
+        let usual = [
+            ("below", [0.0, 0.0, -self.attachment_m]),
+            ("above", [0.0, 0.0, self.length_m / 2.0]),
+            ("side", [self.diameter_m / 2.0, 0.0, 0.0]),
+        ];
+        with_own(usual.map(|(name, at_m)| Point { name: name.to_owned(), at_m }).to_vec(), &self.entry.points)
     }
 }
 

@@ -39,7 +39,8 @@ pub struct RigJoint {
 /// Where a line ends: the id of a body or joint of the same rig.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum RigEnd {
-    /// At a body.
+    /// At a body, with a colon and a point's name where it is not the usual one: `trap-1:bridle-port`.
+    /// `docs/gear-format.md` names the points of each kind.
     Body(String),
     /// At a joint.
     Joint(String),

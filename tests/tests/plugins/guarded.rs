@@ -133,6 +133,8 @@ fn a_rig_that_does_not_fit_together_is_refused() {
         gear.build(&[], &Site { depth_m: 10.0, current_m_s: [0.0; 2] })
     };
     assert_eq!(build(|_| ()).unwrap(), rig());
+    build(|rig| rig.lines[0].from = RigEnd::Body("trap:bridle-port".into())).unwrap();
+    expect(&build(|rig| rig.lines[0].from = RigEnd::Body("buoy:side".into())).unwrap_err(), "ends at body `buoy`, which its rig lacks");
     expect(&build(|rig| rig.lines[0].to = RigEnd::Joint("buoy".into())).unwrap_err(), "ends at joint `buoy`, which its rig lacks");
     expect(&build(|rig| rig.lines[0].length_m = -1.0).unwrap_err(), "line `endline` is -1 m long");
     expect(&build(|rig| rig.lines[0].rope.clear()).unwrap_err(), "names no rope");

@@ -101,10 +101,11 @@ fn check_line(line: &RigLine, bodies: &BTreeSet<&str>, joints: &BTreeSet<&str>) 
     }
     for end in [&line.from, &line.to] {
         let (known, what, id) = match end {
-            RigEnd::Body(id) => (bodies, "body", id),
-            RigEnd::Joint(id) => (joints, "joint", id),
+            // Which points a body has is known at assembly.
+            RigEnd::Body(id) => (bodies, "body", id.split(':').next().unwrap_or_default()),
+            RigEnd::Joint(id) => (joints, "joint", id.as_str()),
         };
-        if !known.contains(id.as_str()) {
+        if !known.contains(id) {
             return fault(format!("line `{}` ends at {what} `{id}`, which its rig lacks", line.id));
         }
     }
