@@ -8,7 +8,7 @@ use endline_sdk::{
     BodyPart, Contacts, Descriptor, FrictionModel, FrictionResponse, HookError, MotionInput, MotionOutput, Region, WhaleMotion,
 };
 use endline_sim::metrics::Metrics;
-use endline_sim::model::{Friction, Joint, JointKind, Line, Rope, Settings};
+use endline_sim::model::{Friction, Joint, JointKind, Line, Rope, Settings, Strength};
 use endline_sim::water::{Current, Water};
 use endline_sim::whale::{PilotProgram, Skin, Whale};
 use endline_sim::{ContactPoint, DQuat, DVec3, Model, ModelSpec, State};
@@ -65,10 +65,14 @@ fn model(skin: &Skin, segments_m: Vec<f64>) -> Model {
         mass_kg_m: 0.06,
         displaced_m3_m: 5e-5,
         axial_stiffness_n: 1e5,
+        axial_stiffening_n: 0.0,
         axial_damping_n_s: 5.0,
+        axial_damping_ratio: 0.0,
+        bending_stiffness_n_m2: 0.0,
         drag_normal: 1.2,
         drag_tangential: 0.02,
         added_mass_normal: 1.0,
+        added_mass_tangential: 0.0,
         strength_n: f64::INFINITY,
     };
     let current = Current { surface_m_s: DVec3::ZERO, exponent: 0.0 };
@@ -77,7 +81,7 @@ fn model(skin: &Skin, segments_m: Vec<f64>) -> Model {
         seabed: None,
         ropes: vec![rope],
         joints: vec![joint("low", -30.0), joint("high", -10.0)],
-        lines: vec![Line { id: "rope".into(), rope: 0, from: 0, to: 1, segments_m, start_m: Vec::new() }],
+        lines: vec![Line { id: "rope".into(), rope: 0, from: 0, to: 1, segments_m, strength: Strength::default(), start_m: Vec::new() }],
         bodies: Vec::new(),
         links: Vec::new(),
         gear: Vec::new(),

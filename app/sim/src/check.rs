@@ -78,10 +78,14 @@ fn check_rope(rope: &Rope, found: &mut Found) {
     found.above_zero("mass per metre", rope.mass_kg_m);
     found.not_below_zero("displaced volume per metre", rope.displaced_m3_m);
     found.above_zero("axial stiffness", rope.axial_stiffness_n);
+    found.not_below_zero("axial stiffening", rope.axial_stiffening_n);
     found.not_below_zero("axial damping", rope.axial_damping_n_s);
+    found.not_below_zero("axial damping ratio", rope.axial_damping_ratio);
+    found.not_below_zero("bending stiffness", rope.bending_stiffness_n_m2);
     found.not_below_zero("normal drag coefficient", rope.drag_normal);
     found.not_below_zero("tangential drag coefficient", rope.drag_tangential);
     found.not_below_zero("added mass coefficient", rope.added_mass_normal);
+    found.not_below_zero("added mass coefficient along", rope.added_mass_tangential);
     found.need(rope.strength_n > 0.0, "strength is not above zero");
 }
 
@@ -112,6 +116,8 @@ fn check_line(spec: &ModelSpec, line: &Line, found: &mut Found) {
     found.need(line.from != line.to, "both ends sit on the same joint");
     found.need(!line.segments_m.is_empty(), "it has no segments");
     found.need(line.segments_m.iter().all(|length| length.is_finite() && *length > 0.0), "a segment's length is not above zero");
+    let shares = [line.strength.all, line.strength.end_a, line.strength.end_b];
+    found.need(shares.iter().all(|share| share.is_finite() && *share > 0.0), "a share of its strength is not above zero");
     found.need(line.start_m.is_empty() || line.start_m.len() == line.segments_m.len() + 1, "its first guess has a wrong number of nodes");
 }
 

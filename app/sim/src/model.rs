@@ -21,17 +21,25 @@ pub struct Rope {
     pub mass_kg_m: f64,
     /// Volume of fibre, for buoyancy [m³/m].
     pub displaced_m3_m: f64,
-    /// Axial stiffness EA [N].
+    /// Axial stiffness EA at zero strain [N].
     pub axial_stiffness_n: f64,
-    /// Internal damping BA: tension = EA·strain + BA·strain rate [N s].
+    /// Stiffening EA2: tension = EA·strain + EA2·strain² where stretched; zero for a linear law [N].
+    pub axial_stiffening_n: f64,
+    /// Internal damping BA: tension grows by BA·strain rate [N s].
     pub axial_damping_n_s: f64,
+    /// Internal damping besides, as a ratio of a segment's critical damping `2 √(EA/l · mass·l)`.
+    pub axial_damping_ratio: f64,
+    /// Bending stiffness EI; zero for a rope that bends freely [N m²].
+    pub bending_stiffness_n_m2: f64,
     /// Drag coefficient across, on `d·l`.
     pub drag_normal: f64,
     /// Drag coefficient along, on `π·d·l`.
     pub drag_tangential: f64,
     /// Added-mass coefficient across.
     pub added_mass_normal: f64,
-    /// Breaking strength, knots and wear included; infinite for a rope that cannot break [N].
+    /// Added-mass coefficient along.
+    pub added_mass_tangential: f64,
+    /// Breaking strength of the rope itself; infinite for a rope that cannot break [N].
     pub strength_n: f64,
 }
 
@@ -71,6 +79,23 @@ pub enum JointKind {
     },
 }
 
+/// What a line keeps of its rope's breaking strength, as shares of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Strength {
+    /// All along: wear and scatter.
+    pub all: f64,
+    /// At end A besides, in the first segment: a knot or splice.
+    pub end_a: f64,
+    /// At end B besides, in the last segment.
+    pub end_b: f64,
+}
+
+impl Default for Strength {
+    fn default() -> Self {
+        Self { all: 1.0, end_a: 1.0, end_b: 1.0 }
+    }
+}
+
 /// A length of one rope between two joints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
@@ -84,6 +109,8 @@ pub struct Line {
     pub to: usize,
     /// Unstretched length of each segment from A to B at the start of a run; the state knows them as they are [m].
     pub segments_m: Vec<f64>,
+    /// What it keeps of its rope's strength.
+    pub strength: Strength,
     /// First guess of its nodes, both ends included; empty for a straight line [m].
     pub start_m: Vec<DVec3>,
 }
@@ -354,5 +381,20 @@ impl Model {
     #[must_use]
     pub fn rope_of_segment(&self, segment: usize) -> &Rope {
         &self.spec.ropes[self.spec.lines[self.segment_line[segment]].rope]
+    }
+
+    /// Tension at which a segment breaks [N].
+    #[must_use]
+    pub fn segment_strength(&self, segment: usize) -> f64 {
+        let index = self.segment_line[segment];
+        let (line, segments) = (&self.spec.lines[index], &self.line_segments[index]);
+        let mut share = line.strength.all;
+        if segment == segments.start {
+            share *= line.strength.end_a;
+        }
+        if segment + 1 == segments.end {
+            share = share.min(line.strength.all * line.strength.end_b);
+        }
+        self.spec.ropes[line.rope].strength_n * share
     }
 }

@@ -1,5 +1,6 @@
 //! Weak links and ropes part: a link when the tension at its end of the line passes its rating, a rope
-//! when the tension of any segment passes its strength. The segment is then cut: it pulls and touches nothing.
+//! when the tension of a segment passes its strength there, which a knot or splice lowers in the segment at that end (of
+//! segments above it the one most above its own goes). The segment is then cut: it pulls and touches nothing.
 
 use endline_sdk::LineEnd;
 
@@ -34,11 +35,8 @@ pub(crate) fn too_late(model: &Model, state: &State, tension: &[f64]) -> bool {
         let segment = link_segment(model, link);
         link.enabled && !state.rope.cut[segment] && tension[segment] > LATE * link.rating_n
     };
-    let line_late = |line: usize| {
-        let strength = model.spec.ropes[model.spec.lines[line].rope].strength_n;
-        model.line_segments[line].clone().any(|segment| !state.rope.cut[segment] && tension[segment] > LATE * strength)
-    };
-    model.spec.links.iter().any(link_late) || (0..model.spec.lines.len()).any(line_late)
+    let rope_late = |segment: usize| !state.rope.cut[segment] && tension[segment] > LATE * model.segment_strength(segment);
+    model.spec.links.iter().any(link_late) || (0..model.segment_count).any(rope_late)
 }
 
 /// Parts what is above its rating or strength.
@@ -52,14 +50,11 @@ pub(crate) fn part(model: &Model, state: &mut State) -> Parting {
             parted = Parting::Some;
         }
     }
-    for (index, line) in model.spec.lines.iter().enumerate() {
-        let strength = model.spec.ropes[line.rope].strength_n;
-        let over = |segment: &usize| !state.rope.cut[*segment] && state.rope.tension[*segment] > strength;
-        let Some(worst) = model.line_segments[index]
-            .clone()
-            .filter(over)
-            .max_by(|one, other| state.rope.tension[*one].total_cmp(&state.rope.tension[*other]))
-        else {
+    for index in 0..model.spec.lines.len() {
+        let load = |segment: usize| state.rope.tension[segment] / model.segment_strength(segment);
+        let over = |segment: &usize| !state.rope.cut[*segment] && load(*segment) > 1.0;
+        let segments = model.line_segments[index].clone();
+        let Some(worst) = segments.filter(over).max_by(|one, other| load(*one).total_cmp(&load(*other))) else {
             continue;
         };
         note_line(model, state, worst);

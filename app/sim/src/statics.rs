@@ -112,7 +112,9 @@ fn stiffen(model: &Model, start: &State, softest_n: f64, trace_n: &mut Vec<f64>)
 fn softened(model: &Model, stiffness_n: f64) -> Model {
     let mut soft = model.clone();
     for rope in &mut soft.spec.ropes {
-        rope.axial_stiffness_n = rope.axial_stiffness_n.min(stiffness_n);
+        let share = (stiffness_n / rope.axial_stiffness_n).min(1.0);
+        rope.axial_stiffness_n *= share;
+        rope.axial_stiffening_n *= share;
     }
     soft
 }

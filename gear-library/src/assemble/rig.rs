@@ -121,7 +121,15 @@ impl Builder<'_> {
         self.name(id.value.clone(), Part::Line(self.spec.lines.len()), &id.place);
         // Where something is missing the run never starts; index 0 keeps the later parts in step.
         let (from, to) = (ends.0.unwrap_or(0), ends.1.unwrap_or(0));
-        let line = Line { id: id.value.clone(), rope: rope.unwrap_or(0), from, to, segments_m: Vec::new(), start_m: Vec::new() };
+        let line = Line {
+            id: id.value.clone(),
+            rope: rope.unwrap_or(0),
+            from,
+            to,
+            segments_m: Vec::new(),
+            strength: endline_sim::model::Strength::default(),
+            start_m: Vec::new(),
+        };
         self.spec.lines.push(line);
         self.uncut.push(Uncut { length_m, start, place: id.place.clone() });
     }

@@ -81,10 +81,14 @@ impl Rope {
             mass_kg_m: self.mass_kg_m,
             displaced_m3_m: self.displaced_m3_m(),
             axial_stiffness_n: self.stiffness_n,
+            axial_stiffening_n: 0.0,
             axial_damping_n_s: self.damping_n_s,
+            axial_damping_ratio: 0.0,
+            bending_stiffness_n_m2: 0.0,
             drag_normal: self.drag_normal,
             drag_tangential: self.drag_tangential,
             added_mass_normal: self.added_mass,
+            added_mass_tangential: 0.0,
             strength_n: self.strength_n * self.strength_left,
         }
     }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use endline_gear::Sources;
-use endline_sim::model::{Joint, JointKind, Line, Rope, Settings};
+use endline_sim::model::{Joint, JointKind, Line, Rope, Settings, Strength};
 use endline_sim::water::{Current, Water};
 use endline_sim::{DVec3, Model, ModelSpec};
 
@@ -30,7 +30,15 @@ pub(crate) fn hanging_rope(duration_s: f64) -> Prepared {
         seabed: None,
         ropes: vec![rope()],
         joints: vec![joint("top", JointKind::Fixed, -1.0), joint("tail", JointKind::Free, -11.0)],
-        lines: vec![Line { id: "line".into(), rope: 0, from: 0, to: 1, segments_m: vec![1.0; 10], start_m: vec![] }],
+        lines: vec![Line {
+            id: "line".into(),
+            rope: 0,
+            from: 0,
+            to: 1,
+            segments_m: vec![1.0; 10],
+            strength: Strength::default(),
+            start_m: vec![],
+        }],
         bodies: vec![],
         links: vec![],
         gear: vec![],
@@ -49,10 +57,14 @@ fn rope() -> Rope {
         mass_kg_m: 0.06,
         displaced_m3_m: 5e-5,
         axial_stiffness_n: 2e4,
+        axial_stiffening_n: 0.0,
         axial_damping_n_s: 10.0,
+        axial_damping_ratio: 0.0,
+        bending_stiffness_n_m2: 0.0,
         drag_normal: 1.2,
         drag_tangential: 0.01,
         added_mass_normal: 1.0,
+        added_mass_tangential: 0.0,
         strength_n: f64::INFINITY,
     }
 }

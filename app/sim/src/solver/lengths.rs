@@ -1,5 +1,6 @@
-//! Unstretched lengths of segments, and what of them hangs on each node.
+//! Unstretched lengths of segments, what of them hangs on each node, and the axial law that goes with each.
 
+use super::axial::Axial;
 use crate::model::Model;
 
 /// Lengths of a step, taken from the state it begins from.
@@ -9,6 +10,8 @@ pub(crate) struct Lengths {
     pub segment: Vec<f64>,
     /// Unstretched length that hangs on each node: half of its neighbours in the same line [m].
     pub node: Vec<f64>,
+    /// Axial law of each segment.
+    pub axial: Vec<Axial>,
 }
 
 impl Lengths {
@@ -19,6 +22,8 @@ impl Lengths {
         }
         self.segment.clear();
         self.segment.extend_from_slice(segment_length);
+        self.axial.clear();
+        self.axial.extend(segment_length.iter().enumerate().map(|(segment, length)| Axial::of(model.rope_of_segment(segment), *length)));
         self.node.clear();
         self.node.resize(model.node_count, 0.0);
         for (nodes, segments) in model.line_nodes.iter().zip(&model.line_segments) {

@@ -5,6 +5,7 @@
 //! (`chain.rs`), solves the hubs (`hubs.rs`) and moves the trial. Cost is linear in the number of nodes;
 //! no stiffness or mass ratio limits the step.
 
+mod axial;
 mod body;
 mod chain;
 mod ground;

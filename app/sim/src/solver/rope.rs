@@ -1,11 +1,12 @@
 //! Forces along and on a rope: inertia, weight, drag, axial tension.
 //!
 //! Segment of unstretched length `l`, ends `a`, `b`, direction `t`:
-//! `T = EA (|x_b - x_a| - l)/l + BA t·(v_b - v_a)/l`, and it pulls only while `T > 0`.
+//! strain `ε = |x_b - x_a|/l - 1`, strain rate `ε̇ = t·(v_b - v_a)/l`: `T = T(ε, ε̇)` (`axial.rs`), and it pulls only
+//! while `T > 0`.
 //! Node with hanging length `L`, tangent `t`, water velocity relative to it `u = U - v`,
 //! `u_t = u·t`, `u_n = u - u_t t` (Morison):
 //! `F = L [½ρ C_n d |u_n| u_n + ½ρ C_t π d |u_t| u_t t - (m - ρ A_m) g ẑ]`,
-//! mass `L [m + ρ C_a (π d²/4)(I - t tᵀ)]`, with `A_m` the volume of fibre per metre.
+//! mass `L [m + ρ (π d²/4)(C_a (I - t tᵀ) + C_at t tᵀ)]`, with `A_m` the volume of fibre per metre.
 //! A segment is judged taut, and stiffened across, by the tension that the last linear solve foretold
 //! rather than by the tension at the guess: one or two solves a step then suffice (see docs/physics.md).
 //! Reference: Morison et al. 1950 (doi:10.2118/950149-G); drag coefficients from the gear library.
@@ -40,12 +41,14 @@ impl Solver {
         for (index, line) in model.spec.lines.iter().enumerate() {
             let rope = &model.spec.ropes[line.rope];
             let nodes = model.line_nodes[index].clone();
-            let added = model.spec.water.density_kg_m3 * rope.added_mass_normal * PI * rope.diameter_m * rope.diameter_m / 4.0;
+            let water = model.spec.water.density_kg_m3 * PI * rope.diameter_m * rope.diameter_m / 4.0;
+            let (added, added_along) = (water * rope.added_mass_normal, water * rope.added_mass_tangential);
             for node in nodes.clone() {
                 let (tangent, _) = tangent(&state.rope.position, node, nodes.start, nodes.end);
-                let across = DMat3::IDENTITY - outer(tangent, tangent);
+                let along = outer(tangent, tangent);
+                let added = (DMat3::IDENTITY - along) * added + along * added_along;
                 let wet = wet_share(model, state.rope.position[node].z);
-                self.mass[node] = (DMat3::from_diagonal(DVec3::splat(rope.mass_kg_m)) + across * (added * wet)) * self.lengths.node[node];
+                self.mass[node] = (DMat3::from_diagonal(DVec3::splat(rope.mass_kg_m)) + added * wet) * self.lengths.node[node];
             }
         }
     }
@@ -119,21 +122,20 @@ impl Solver {
 
     /// Adds the pull of every segment that is taut.
     pub(super) fn add_tension(&mut self, model: &Model, scheme: &Scheme) {
-        for (index, line) in model.spec.lines.iter().enumerate() {
-            let rope = &model.spec.ropes[line.rope];
+        for index in 0..model.spec.lines.len() {
             let first_node = model.line_nodes[index].start;
             for (k, segment) in model.line_segments[index].clone().enumerate() {
-                self.add_segment(rope, segment, first_node + k, scheme);
+                self.add_segment(segment, first_node + k, scheme);
             }
         }
     }
 
-    fn add_segment(&mut self, rope: &Rope, segment: usize, node: usize, scheme: &Scheme) {
+    fn add_segment(&mut self, segment: usize, node: usize, scheme: &Scheme) {
         if self.cut[segment] {
             self.pull[segment] = Pull::default();
             return;
         }
-        let mut pull = self.pull_of(rope, segment, node, scheme);
+        let mut pull = self.pull_of(segment, node, scheme);
         pull.taut = self.trial.tension[segment] > 0.0;
         self.pull[segment] = pull;
         if !pull.taut {
@@ -152,25 +154,26 @@ impl Solver {
     }
 
     /// Tension of a segment at the trial places, before it is judged taut or slack.
-    pub(super) fn pull_of(&self, rope: &Rope, segment: usize, node: usize, scheme: &Scheme) -> Pull {
+    pub(super) fn pull_of(&self, segment: usize, node: usize, scheme: &Scheme) -> Pull {
         let between = self.trial.place[node + 1] - self.trial.place[node];
-        self.pull_between(rope, segment, node, scheme, between)
+        self.pull_between(segment, node, scheme, between)
     }
 
     /// The same with the trial moved by a share of the solved step.
-    pub(super) fn pull_moved(&self, rope: &Rope, segment: usize, node: usize, scheme: &Scheme, share: f64) -> Pull {
+    pub(super) fn pull_moved(&self, segment: usize, node: usize, scheme: &Scheme, share: f64) -> Pull {
         let between = self.trial.place[node + 1] - self.trial.place[node];
-        self.pull_between(rope, segment, node, scheme, between + (self.band.step[node + 1] - self.band.step[node]) * share)
+        self.pull_between(segment, node, scheme, between + (self.band.step[node + 1] - self.band.step[node]) * share)
     }
 
-    fn pull_between(&self, rope: &Rope, segment: usize, node: usize, scheme: &Scheme, between: DVec3) -> Pull {
+    fn pull_between(&self, segment: usize, node: usize, scheme: &Scheme, between: DVec3) -> Pull {
         let length = self.lengths.segment[segment];
         let chord = between.length().max(1e-9 * length);
         let direction = between / chord;
         let history = self.trial.place_history[node + 1] - self.trial.place_history[node];
         let rate = direction.dot(between - history) * scheme.rate / length;
-        let tension = rope.axial_stiffness_n * (chord / length - 1.0) + rope.axial_damping_n_s * rate;
-        let stiffness = (rope.axial_stiffness_n + rope.axial_damping_n_s * scheme.rate) / length;
+        let (law, strain) = (&self.lengths.axial[segment], chord / length - 1.0);
+        let tension = law.tension(strain, rate);
+        let stiffness = law.slope(strain, scheme.rate) / length;
         Pull { direction, chord, tension, stiffness, taut: false }
     }
 

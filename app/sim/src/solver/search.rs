@@ -71,10 +71,10 @@ impl Solver {
     /// Slope of the energy of stretched rope.
     fn rope_slope(&self, model: &Model, scheme: &Scheme, share: f64) -> f64 {
         let mut slope = 0.0;
-        for (index, line) in model.spec.lines.iter().enumerate() {
-            let (rope, first_node) = (&model.spec.ropes[line.rope], model.line_nodes[index].start);
+        for index in 0..model.spec.lines.len() {
+            let first_node = model.line_nodes[index].start;
             for (k, segment) in model.line_segments[index].clone().enumerate().filter(|(_, segment)| !self.cut[*segment]) {
-                let pull = self.pull_moved(rope, segment, first_node + k, scheme, share);
+                let pull = self.pull_moved(segment, first_node + k, scheme, share);
                 slope += pull.tension.max(0.0) * pull.stretch(&self.band.step, first_node + k);
             }
         }

@@ -13,7 +13,7 @@ use super::scheme::Scheme;
 use crate::contact::law::CRUSHED_SHARE;
 use crate::contact::work::ContactWork;
 use crate::contact::{grip, near};
-use crate::model::{Model, Rope};
+use crate::model::Model;
 use crate::state::State;
 
 /// Most Newton passes of a solver step with contact.
@@ -132,18 +132,18 @@ impl Solver {
 
     /// Takes the tension of every segment at the trial places as it is.
     pub(super) fn measure_tension(&mut self, model: &Model, scheme: &Scheme) {
-        self.each_segment(model, |solver, rope, segment, node| {
-            solver.trial.tension[segment] = if solver.cut[segment] { 0.0 } else { solver.pull_of(rope, segment, node, scheme).tension };
+        self.each_segment(model, |solver, segment, node| {
+            solver.trial.tension[segment] = if solver.cut[segment] { 0.0 } else { solver.pull_of(segment, node, scheme).tension };
         });
     }
 
     /// Whether the pull of every segment in the last solve is the tension at its place, slack as zero.
     pub(crate) fn pull_is_settled(&mut self, model: &Model, scheme: &Scheme) -> bool {
         let (mut gap, mut greatest) = (0.0_f64, 0.0_f64);
-        self.each_segment(model, |solver, rope, segment, node| {
+        self.each_segment(model, |solver, segment, node| {
             if !solver.cut[segment] {
                 let solved = if solver.pull[segment].taut { solver.trial.tension[segment] } else { 0.0 };
-                let there = solver.pull_of(rope, segment, node, scheme).tension.max(0.0);
+                let there = solver.pull_of(segment, node, scheme).tension.max(0.0);
                 gap = gap.max((solved - there).abs());
                 greatest = greatest.max(solved);
             }
@@ -151,11 +151,11 @@ impl Solver {
         gap < TENSION_GAP_N.max(TENSION_GAP_SHARE * greatest)
     }
 
-    fn each_segment(&mut self, model: &Model, mut act: impl FnMut(&mut Self, &Rope, usize, usize)) {
-        for (index, line) in model.spec.lines.iter().enumerate() {
+    fn each_segment(&mut self, model: &Model, mut act: impl FnMut(&mut Self, usize, usize)) {
+        for index in 0..model.spec.lines.len() {
             let first_node = model.line_nodes[index].start;
             for (k, segment) in model.line_segments[index].clone().enumerate() {
-                act(self, &model.spec.ropes[line.rope], segment, first_node + k);
+                act(self, segment, first_node + k);
             }
         }
     }

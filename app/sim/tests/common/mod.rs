@@ -2,7 +2,7 @@
 #![allow(dead_code, reason = "each test file uses a part of it")]
 #![allow(clippy::expect_used, reason = "a test fails by panicking, in its helpers too")]
 
-use endline_sim::model::{Body, BodyRole, Joint, JointKind, Line, Rope, Settings, Shape};
+use endline_sim::model::{Body, BodyRole, Joint, JointKind, Line, Rope, Settings, Shape, Strength};
 use endline_sim::water::{Current, Water};
 use endline_sim::{DQuat, DVec3, Model, ModelSpec};
 
@@ -14,10 +14,14 @@ pub fn rope() -> Rope {
         mass_kg_m: 0.06,
         displaced_m3_m: std::f64::consts::PI * 0.010 * 0.010 / 4.0,
         axial_stiffness_n: 1e5,
+        axial_stiffening_n: 0.0,
         axial_damping_n_s: 5.0,
+        axial_damping_ratio: 0.0,
+        bending_stiffness_n_m2: 0.0,
         drag_normal: 1.2,
         drag_tangential: 0.02,
         added_mass_normal: 1.0,
+        added_mass_tangential: 0.0,
         strength_n: f64::INFINITY,
     }
 }
@@ -61,7 +65,15 @@ pub fn on_body(id: &str, body: usize) -> Joint {
 
 /// A line of equal segments.
 pub fn line(id: &str, length_m: f64, segments: usize) -> Line {
-    Line { id: id.into(), rope: 0, from: 0, to: 1, segments_m: vec![length_m / segments as f64; segments], start_m: Vec::new() }
+    Line {
+        id: id.into(),
+        rope: 0,
+        from: 0,
+        to: 1,
+        segments_m: vec![length_m / segments as f64; segments],
+        strength: Strength::default(),
+        start_m: Vec::new(),
+    }
 }
 
 /// A model of one line between two joints.

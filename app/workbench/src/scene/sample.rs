@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use endline_sdk::{Contacts, Descriptor, FrictionModel, FrictionResponse, HookError, MotionInput, MotionOutput, Region, WhaleMotion};
 use endline_sim::contact::ContactPoint;
-use endline_sim::model::{Body, BodyRole, Float, Friction, Joint, JointKind, Line, ModelSpec, Rope, Seabed, Settings, Shape};
+use endline_sim::model::{Body, BodyRole, Float, Friction, Joint, JointKind, Line, ModelSpec, Rope, Seabed, Settings, Shape, Strength};
 use endline_sim::water::{Current, Water};
 use endline_sim::whale::{Bone, PilotProgram, Skin, Whale};
 use endline_sim::{DQuat, DVec3, Frame, Model, State};
@@ -28,6 +28,7 @@ pub fn model() -> Model {
             from: 0,
             to: 1,
             segments_m: vec![36.0 / f64::from(segments); segments as usize],
+            strength: Strength::default(),
             start_m: (0..=segments).map(|node| place_on_rope(f64::from(node) / f64::from(segments))).collect(),
         }],
         bodies,
@@ -81,10 +82,14 @@ fn rope() -> Rope {
         mass_kg_m: 0.045,
         displaced_m3_m: 5e-5,
         axial_stiffness_n: 6e4,
+        axial_stiffening_n: 0.0,
         axial_damping_n_s: 0.0,
+        axial_damping_ratio: 0.0,
+        bending_stiffness_n_m2: 0.0,
         drag_normal: 1.2,
         drag_tangential: 0.02,
         added_mass_normal: 1.0,
+        added_mass_tangential: 0.0,
         strength_n: 7560.0,
     }
 }

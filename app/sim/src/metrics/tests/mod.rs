@@ -77,10 +77,14 @@ fn rope() -> Rope {
         mass_kg_m: 0.1,
         displaced_m3_m: 5e-5,
         axial_stiffness_n: 1e5,
+        axial_stiffening_n: 0.0,
         axial_damping_n_s: 10.0,
+        axial_damping_ratio: 0.0,
+        bending_stiffness_n_m2: 0.0,
         drag_normal: 1.2,
         drag_tangential: 0.01,
         added_mass_normal: 1.0,
+        added_mass_tangential: 0.0,
         strength_n: f64::INFINITY,
     }
 }
@@ -90,7 +94,7 @@ fn joint(id: &str, kind: JointKind, position_m: DVec3) -> Joint {
 }
 
 fn line(id: &str, from: usize, to: usize, segments_m: Vec<f64>) -> Line {
-    Line { id: id.into(), rope: 0, from, to, segments_m, start_m: Vec::new() }
+    Line { id: id.into(), rope: 0, from, to, segments_m, strength: crate::model::Strength::default(), start_m: Vec::new() }
 }
 
 fn body(id: &str, role: BodyRole, position_m: DVec3) -> Body {
