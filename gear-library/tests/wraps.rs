@@ -75,9 +75,9 @@ fn model(skin: &Skin, segments_m: Vec<f64>) -> Model {
         added_mass_tangential: 0.0,
         strength_n: f64::INFINITY,
     };
-    let current = Current { surface_m_s: DVec3::ZERO, exponent: 0.0 };
+    let current = Current::uniform(DVec3::ZERO);
     let spec = ModelSpec {
-        water: Water { density_kg_m3: 1025.0, gravity_m_s2: 9.81, depth_m: 40.0, rope_dries: true, current },
+        water: Water { density_kg_m3: 1025.0, gravity_m_s2: 9.81, depth_m: 40.0, rope_dries: true, current, waves: None },
         seabed: None,
         ropes: vec![rope],
         joints: vec![joint("low", -30.0), joint("high", -10.0)],

@@ -57,8 +57,7 @@ fn check_water(spec: &ModelSpec, found: &mut Found) {
     found.not_below_zero("density", spec.water.density_kg_m3);
     found.not_below_zero("gravity", spec.water.gravity_m_s2);
     found.above_zero("depth", spec.water.depth_m);
-    found.need(spec.water.current.surface_m_s.is_finite(), "current is not a finite number");
-    found.not_below_zero("exponent of the current", spec.water.current.exponent);
+    spec.water.problems().into_iter().for_each(|problem| found.need(false, &problem));
     if let Some(seabed) = &spec.seabed {
         let found = found.of("seabed", "");
         found.above_zero("stiffness under rope", seabed.rope_stiffness_n_m2);

@@ -7,7 +7,7 @@ use endline_sdk::{AttributeValue, FrictionModel, GearType, LineEnd};
 use glam::{DQuat, DVec3};
 
 use crate::check::check;
-use crate::water::Water;
+use crate::water::{Sea, Water};
 use crate::whale::{SkinTree, Whale};
 
 /// A rope material, per metre of unstretched length.
@@ -341,6 +341,8 @@ pub struct Model {
     pub segment_line: Vec<usize>,
     /// Tree over the whale's skin.
     pub skin_tree: Option<Arc<SkinTree>>,
+    /// Current and waves made ready.
+    pub sea: Sea,
 }
 
 /// What is wrong with a [`ModelSpec`].
@@ -374,7 +376,8 @@ impl Model {
         let segment_line =
             spec.lines.iter().enumerate().flat_map(|(index, line)| std::iter::repeat_n(index, line.segments_m.len())).collect();
         let skin_tree = spec.whale.as_ref().map(|whale| Arc::new(SkinTree::new(whale.skin.clone())));
-        Ok(Self { spec, line_nodes, line_segments, node_count, segment_count, segment_line, skin_tree })
+        let sea = Sea::new(&spec.water, spec.seabed.as_ref(), spec.settings.seed);
+        Ok(Self { spec, line_nodes, line_segments, node_count, segment_count, segment_line, skin_tree, sea })
     }
 
     /// Rope of a segment.

@@ -57,7 +57,8 @@ impl<'a> Builder<'a> {
             gravity_m_s2: 9.81,
             depth_m: 1.0,
             rope_dries: true,
-            current: Current { surface_m_s: DVec3::ZERO, exponent: 0.0 },
+            current: Current::uniform(DVec3::ZERO),
+            waves: None,
         };
         let spec = ModelSpec {
             water,

@@ -43,7 +43,8 @@ impl Builder<'_> {
             gravity_m_s2: from_site(sea.gravity_m_s2, |site| site.gravity_m_s2, 9.81),
             depth_m,
             rope_dries: sea.rope_dries,
-            current: Current { surface_m_s: bearing(sea.toward_rad) * speed, exponent },
+            current: Current::power(bearing(sea.toward_rad) * speed, exponent),
+            waves: None,
         };
         self.spec.seabed = sea.seabed.then(|| seabed(depth_m, site));
     }

@@ -100,8 +100,9 @@ pub fn end_tension(model: &Model, state: &State, line: usize, end: LineEnd) -> f
 fn load_along(model: &Model, state: &State, line: usize, node: usize, along: DVec3) -> f64 {
     let (rope, water) = (&model.spec.ropes[model.spec.lines[line].rope], &model.spec.water);
     let place = state.rope.position[node];
-    let density = if water.rope_dries && place.z > 0.0 { 0.0 } else { water.density_kg_m3 };
-    let speed = (water.velocity(place) - state.rope.velocity[node]).dot(along);
+    let flow = model.sea.at(place, state.time_s);
+    let density = if water.rope_dries && place.z > flow.surface_m { 0.0 } else { water.density_kg_m3 };
+    let speed = (flow.velocity_m_s - state.rope.velocity[node]).dot(along);
     let drag = 0.5 * density * rope.drag_tangential * std::f64::consts::PI * rope.diameter_m * libm::fabs(speed) * speed;
     drag - (rope.mass_kg_m - density * rope.displaced_m3_m) * water.gravity_m_s2 * along.z
 }

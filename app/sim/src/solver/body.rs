@@ -4,6 +4,7 @@
 //! `(m + A) dv/dt = Σ F`, `I dω/dt + ω × Iω = Σ r × F + τ_drag`, with `A` and `I` turned with the body.
 //! Floats: `F = ρ g V clamp(1/2 - z/height, 0, 1) ẑ`. Drag by body axis `k`, `u` the water's velocity
 //! relative to the body: `F_k = ½ρ (C_d A)_k |u| u_k`; turning drag `τ_k = -½ρ D_k |ω_k| ω_k`.
+//! In waves heights are those above the surface over the body's middle, and the water's acceleration acts (`water.rs`).
 //! The place follows the step's scheme; the rotation follows backward Euler:
 //! `ω = log(q qₙ⁻¹)/dt`. Rope ends pull on the body inside the same linear solve (`hubs.rs`).
 
@@ -26,6 +27,7 @@ impl Solver {
             let wet = self.add_floats(model, index, body);
             self.add_body_inertia(state, (index, body, wet), scheme);
             self.add_body_drag(model, state, (index, body, wet), scheme);
+            self.add_body_push(model, (index, body, wet));
             self.add_feet(model, state, index, scheme);
         }
     }
@@ -36,10 +38,11 @@ impl Solver {
         let trial = self.trial.bodies[index];
         let block = self.plan.body_block[index];
         self.hubs.force[block].z -= body.mass_kg * water.gravity_m_s2;
+        let surface = self.flow_bodies[index].surface_m;
         let (mut wet, mut whole) = (0.0, 0.0);
         for float in &body.floats {
             let arm = trial.orientation * float.offset_m;
-            let share = 0.5 - (trial.place.z + arm.z) / float.height_m;
+            let share = 0.5 - (trial.place.z + arm.z - surface) / float.height_m;
             let lift = water.density_kg_m3 * water.gravity_m_s2 * float.volume_m3;
             let seat = Seat::Body { block, body: index, offset: float.offset_m };
             let force = DVec3::Z * (lift * share.clamp(0.0, 1.0));
@@ -84,7 +87,7 @@ impl Solver {
         let axes = DMat3::from_quat(trial.orientation);
         let half_density = 0.5 * model.spec.water.density_kg_m3 * wet;
         let velocity = (trial.place - trial.place_history) * scheme.rate;
-        let relative = axes.transpose() * (model.spec.water.velocity(trial.place) - velocity);
+        let relative = axes.transpose() * (self.flow_bodies[index].velocity_m_s - velocity);
         let speed = relative.length();
         self.hubs.force[block] += axes * (body.drag_area_m2 * relative * (half_density * speed));
         if scheme.is_static() {

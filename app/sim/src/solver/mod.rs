@@ -17,11 +17,14 @@ mod scheme;
 mod search;
 mod touch;
 mod trial;
+mod water;
 
 use glam::{DMat3, DQuat, DVec3};
 
 use crate::model::Model;
 use crate::state::State;
+use crate::water::WaterAt;
+use crate::water::field::Walk;
 use chain::{Band, Ends};
 use hubs::{Hubs, Seat};
 use lengths::Lengths;
@@ -44,8 +47,17 @@ pub(crate) struct Solver {
     pull: Vec<Pull>,
     cut: Vec<bool>,
     rest: Rest,
-    /// Velocity of the water at each node.
+    /// Velocity of the water at each node: current and waves [m/s].
     flow: Vec<DVec3>,
+    /// Acceleration of the water at each node; empty where there are no waves [m/s²].
+    flow_acceleration: Vec<DVec3>,
+    /// Height of the surface above each node's z = 0; empty where there are no waves [m].
+    surface: Vec<f64>,
+    /// What the water's acceleration does to each node through pressure and added mass; empty where there are no waves [N].
+    push: Vec<DVec3>,
+    /// The water at each body.
+    flow_bodies: Vec<WaterAt>,
+    wave_walk: Walk,
     /// Where rope and bodies would go on their own from where a step with contact begins.
     pub(crate) drift: Vec<DVec3>,
     pub(crate) drift_bodies: Vec<BodyTrial>,
@@ -85,6 +97,11 @@ impl Solver {
             pull: vec![Pull::default(); model.segment_count],
             cut: vec![false; model.segment_count],
             flow: vec![DVec3::ZERO; model.node_count],
+            flow_acceleration: Vec::new(),
+            surface: Vec::new(),
+            push: Vec::new(),
+            flow_bodies: Vec::new(),
+            wave_walk: Walk::default(),
             drift: Vec::new(),
             drift_bodies: Vec::new(),
         }
@@ -97,6 +114,7 @@ impl Solver {
         self.cut.clone_from(&state.rope.cut);
         self.measure_flow(model);
         self.weigh(model, state);
+        self.measure_push(model, state);
     }
 
     /// Assembles forces and matrix at the trial places.
@@ -104,6 +122,7 @@ impl Solver {
         self.band.clear();
         self.hubs.clear();
         self.add_nodes(model, scheme);
+        self.add_push();
         self.add_seabed(model, state, scheme);
         self.add_tension(model, scheme);
         self.add_bodies(model, state, scheme);
@@ -115,6 +134,7 @@ impl Solver {
         self.band.clear();
         self.hubs.clear();
         self.add_nodes(model, scheme);
+        self.add_push();
         self.add_seabed(model, state, scheme);
         self.add_bodies(model, state, scheme);
         self.rest.diagonal.clone_from(&self.band.diagonal);

@@ -29,13 +29,6 @@ pub(crate) fn outer(one: DVec3, other: DVec3) -> DMat3 {
 }
 
 impl Solver {
-    /// Velocity of the water at each node, taken where the trial stands.
-    pub(crate) fn measure_flow(&mut self, model: &Model) {
-        for (flow, place) in self.flow.iter_mut().zip(&self.trial.place) {
-            *flow = model.spec.water.velocity(*place);
-        }
-    }
-
     /// Mass of each node, with the added mass of its direction when the step begins.
     pub(super) fn weigh(&mut self, model: &Model, state: &State) {
         for (index, line) in model.spec.lines.iter().enumerate() {
@@ -47,7 +40,7 @@ impl Solver {
                 let (tangent, _) = tangent(&state.rope.position, node, nodes.start, nodes.end);
                 let along = outer(tangent, tangent);
                 let added = (DMat3::IDENTITY - along) * added + along * added_along;
-                let wet = wet_share(model, state.rope.position[node].z);
+                let wet = wet_share(model, state.rope.position[node].z - self.surface_at(node));
                 self.mass[node] = (DMat3::from_diagonal(DVec3::splat(rope.mass_kg_m)) + added * wet) * self.lengths.node[node];
             }
         }
@@ -78,7 +71,7 @@ impl Solver {
     fn add_weight(&mut self, model: &Model, rope: &Rope, node: usize) {
         let water = &model.spec.water;
         let length = self.lengths.node[node];
-        let height = self.trial.place[node].z;
+        let height = self.trial.place[node].z - self.surface_at(node);
         let lift = water.density_kg_m3 * rope.displaced_m3_m * water.gravity_m_s2 * length;
         self.band.force[node].z += lift * wet_share(model, height) - rope.mass_kg_m * water.gravity_m_s2 * length;
         if water.rope_dries && height.abs() < 0.5 * SURFACE_HEIGHT_M {
@@ -88,7 +81,7 @@ impl Solver {
 
     fn add_drag(&mut self, model: &Model, (line, rope): (usize, &Rope), node: usize, scheme: &Scheme) {
         let place = self.trial.place[node];
-        let wet = wet_share(model, place.z) * self.lengths.node[node];
+        let wet = wet_share(model, place.z - self.surface_at(node)) * self.lengths.node[node];
         if wet <= 0.0 {
             return;
         }
@@ -266,8 +259,8 @@ fn tangent(place: &[DVec3], node: usize, first: usize, end: usize) -> (DVec3, f6
     if length > 1e-12 { (chord / length, 1.0 / length) } else { (DVec3::Z, 0.0) }
 }
 
-/// Share of a node that is under water at a height.
-fn wet_share(model: &Model, height: f64) -> f64 {
+/// Share of a node that is under water at a height above the surface.
+pub(super) fn wet_share(model: &Model, height: f64) -> f64 {
     if model.spec.water.rope_dries { (0.5 - height / SURFACE_HEIGHT_M).clamp(0.0, 1.0) } else { 1.0 }
 }
 

@@ -28,8 +28,8 @@ pub fn rope() -> Rope {
 
 /// A vacuum or a sea with a uniform current along x.
 pub fn water(density_kg_m3: f64, current_m_s: f64) -> Water {
-    let current = Current { surface_m_s: DVec3::X * current_m_s, exponent: 0.0 };
-    Water { density_kg_m3, gravity_m_s2: 9.81, depth_m: 30.0, rope_dries: false, current }
+    let current = Current::uniform(DVec3::X * current_m_s);
+    Water { density_kg_m3, gravity_m_s2: 9.81, depth_m: 30.0, rope_dries: false, current, waves: None }
 }
 
 /// A body without extent.

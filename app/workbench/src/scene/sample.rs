@@ -71,8 +71,8 @@ fn place_on_rope(share: f64) -> DVec3 {
 }
 
 fn water() -> Water {
-    let current = Current { surface_m_s: DVec3::new(0.6, 0.0, 0.0), exponent: 1.0 / 7.0 };
-    Water { density_kg_m3: 1025.0, gravity_m_s2: 9.806_65, depth_m: DEPTH_M, rope_dries: true, current }
+    let current = Current::power(DVec3::new(0.6, 0.0, 0.0), 1.0 / 7.0);
+    Water { density_kg_m3: 1025.0, gravity_m_s2: 9.806_65, depth_m: DEPTH_M, rope_dries: true, current, waves: None }
 }
 
 fn rope() -> Rope {

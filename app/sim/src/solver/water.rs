@@ -1,0 +1,71 @@
+//! The water at nodes and bodies, and what its acceleration does to them.
+//!
+//! Measured once a step, where the step's first guess stands, for the step's end. With acceleration `a` of the water:
+//! rope node `F = L [ρ A_m a + ρ (π d²/4)(C_a (I - t tᵀ) + C_at t tᵀ) a]`, body `F = (ρ V_wet + A) a`: the pressure gradient that drives
+//! the water (Froude and Krylov) and the added mass against it (Morison); buoyancy reckoned from the wave's own surface
+//! is the rest of the pressure. Without waves, and before they begin, none of this costs anything.
+//! Reference: Morison et al. 1950 (doi:10.2118/950149-G); Sumer and Fredsøe 2006, section 4.1.
+
+use glam::{DMat3, DVec3};
+
+use super::Solver;
+use super::rope::wet_share;
+use crate::model::{Body, Model};
+use crate::state::State;
+use crate::water::WaterAt;
+
+impl Solver {
+    /// Takes the water's velocity, acceleration and surface at every node and body where the trial stands.
+    pub(crate) fn measure_flow(&mut self, model: &Model) {
+        let (sea, time_s) = (&model.sea, self.trial.time);
+        sea.current_at(&self.trial.place, time_s, &mut self.flow);
+        let out = (self.flow.as_mut_slice(), &mut self.flow_acceleration, &mut self.surface);
+        sea.add_waves(&self.trial.place, time_s, &mut self.wave_walk, out);
+        self.flow_bodies.clear();
+        self.flow_bodies.extend(self.trial.bodies.iter().map(|body| sea.at(body.place, time_s)));
+    }
+
+    /// Height of the surface over a node [m].
+    pub(super) fn surface_at(&self, node: usize) -> f64 {
+        self.surface.get(node).copied().unwrap_or(0.0)
+    }
+
+    /// Takes the push of accelerating water on every node, once masses are known.
+    pub(super) fn measure_push(&mut self, model: &Model, state: &State) {
+        self.push.clear();
+        if self.flow_acceleration.is_empty() {
+            return;
+        }
+        for (line, nodes) in model.spec.lines.iter().zip(&model.line_nodes) {
+            let rope = &model.spec.ropes[line.rope];
+            for node in nodes.clone() {
+                let (acceleration, length) = (self.flow_acceleration[node], self.lengths.node[node]);
+                let wet = wet_share(model, state.rope.position[node].z - self.surface[node]);
+                let pressure = model.spec.water.density_kg_m3 * rope.displaced_m3_m * wet * length;
+                let dry = DMat3::from_diagonal(DVec3::splat(rope.mass_kg_m * length));
+                self.push.push((self.mass[node] - dry) * acceleration + acceleration * pressure);
+            }
+        }
+    }
+
+    /// Adds the push of accelerating water on rope.
+    pub(super) fn add_push(&mut self) {
+        for (force, push) in self.band.force.iter_mut().zip(&self.push) {
+            *force += *push;
+        }
+    }
+
+    /// Adds the push of accelerating water on a body of a wet share.
+    pub(super) fn add_body_push(&mut self, model: &Model, (index, body, wet): (usize, &Body, f64)) {
+        let WaterAt { acceleration_m_s2: acceleration, surface_m, .. } = self.flow_bodies[index];
+        if acceleration == DVec3::ZERO {
+            return;
+        }
+        let trial = self.trial.bodies[index];
+        let height = |offset: DVec3| trial.place.z + (trial.orientation * offset).z - surface_m;
+        let volume: f64 =
+            body.floats.iter().map(|float| float.volume_m3 * (0.5 - height(float.offset_m) / float.height_m).clamp(0.0, 1.0)).sum();
+        let added = trial.orientation * (body.added_mass_kg * wet * (trial.orientation.inverse() * acceleration));
+        self.hubs.force[self.plan.body_block[index]] += acceleration * (model.spec.water.density_kg_m3 * volume) + added;
+    }
+}

@@ -1,0 +1,74 @@
+//! What water must hold before anything moves.
+
+use super::Water;
+use super::profile::Profile;
+use super::tide::Tide;
+use super::waves::{WaveKind, Waves, breaking_height};
+
+/// Most components of irregular waves.
+pub const MOST_COMPONENTS: usize = 1000;
+
+impl Water {
+    /// Everything wrong with current and waves, in words.
+    #[must_use]
+    pub fn problems(&self) -> Vec<String> {
+        let mut found = Vec::new();
+        let mut need = |holds: bool, message: String| {
+            if !holds {
+                found.push(message);
+            }
+        };
+        need(self.current.surface_m_s.is_finite(), "current is not a finite number".into());
+        match &self.current.profile {
+            Profile::Uniform => {}
+            Profile::Power(exponent) => {
+                let holds = exponent.is_finite() && *exponent > 0.0;
+                need(holds, format!("exponent of the current is {exponent}, expected a number above zero"));
+            }
+            Profile::Table(rows) => {
+                let sound = rows.iter().all(|row| row.height.is_finite() && row.along.is_finite() && row.left.is_finite());
+                need(sound && !rows.is_empty(), "profile of the current has no rows, or one that is not finite".into());
+                need(rows.windows(2).all(|pair| pair[0].height < pair[1].height), "rows of the current's profile do not rise".into());
+            }
+        }
+        match &self.current.tide {
+            Tide::Steady => {}
+            Tide::Constituent { period_s, peak_s, minor, residual_m_s } => {
+                need(period_s.is_finite() && *period_s > 0.0, format!("period of the tide is {period_s}, expected a number above zero"));
+                need(
+                    peak_s.is_finite() && minor.is_finite() && residual_m_s.is_finite(),
+                    "the tide has a figure that is not finite".into(),
+                );
+            }
+            Tide::Table(rows) => {
+                let sound = rows.iter().all(|(time, velocity)| time.is_finite() && velocity.is_finite());
+                need(sound && !rows.is_empty(), "table of the tide has no rows, or one that is not finite".into());
+                need(rows.windows(2).all(|pair| pair[0].0 < pair[1].0), "times of the tide's table do not rise".into());
+            }
+        }
+        if let Some(waves) = &self.waves {
+            found.extend(self.problems_of_waves(waves));
+        }
+        found
+    }
+
+    fn problems_of_waves(&self, waves: &Waves) -> Option<String> {
+        let (height, period) = waves.height_and_period();
+        let level = waves.toward.is_normalized() && waves.toward.z == 0.0;
+        let sound = match waves.kind {
+            WaveKind::Regular { phase_rad, .. } => phase_rad.is_finite(),
+            WaveKind::Jonswap { spectrum, components } => {
+                (1.0..=20.0).contains(&spectrum.gamma) && (1..=MOST_COMPONENTS).contains(&components)
+            }
+        };
+        if !(level && sound && waves.ramp_s >= 0.0 && waves.ramp_s.is_finite() && height.is_finite() && height >= 0.0) {
+            return Some("waves have a way that is not level, or a height, ramp, phase, gamma or number of components out of range".into());
+        }
+        if !(period.is_finite() && period > 0.0 && self.gravity_m_s2 > 0.0) {
+            return Some(format!("waves of a period of {period} s under a gravity of {} m/s2: both must be above zero", self.gravity_m_s2));
+        }
+        let greatest = breaking_height(period, self.depth_m, self.gravity_m_s2);
+        (height > greatest)
+            .then(|| format!("waves of {height} m and {period} s break: they are {greatest:.2} m high at most in this depth"))
+    }
+}

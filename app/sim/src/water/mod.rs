@@ -1,0 +1,179 @@
+//! Water: density, depth, current and waves.
+//!
+//! Velocity `u = S(t) p(h) + u_w(x, t)`: `S` the current's velocity at its fastest height as the tide turns
+//! ([`tide`]), `p` its profile by height ([`profile`]), `u_w` the orbital velocity of the waves ([`waves`], [`field`]).
+//! The height `h` is that above the seabed as a share of the local depth, so that on a slope the current follows the
+//! bed; above the mean surface it is 1. Current and waves are summed; neither changes the other.
+
+pub mod check;
+pub mod field;
+pub mod jonswap;
+pub mod profile;
+pub mod tide;
+pub mod waves;
+
+use glam::DVec3;
+
+use crate::model::Seabed;
+use field::{Field, Walk};
+use profile::{PowerTable, Profile};
+use tide::Tide;
+use waves::Waves;
+
+/// Least local depth on a slope: where the bed rises above it, the current is as over it [m].
+const LEAST_DEPTH_M: f64 = 0.01;
+
+/// The sea around the gear, as a scenario has it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Water {
+    /// Density [kg/m³]; zero for a vacuum.
+    pub density_kg_m3: f64,
+    /// Gravity, pointing down [m/s²].
+    pub gravity_m_s2: f64,
+    /// Water depth, at the origin [m].
+    pub depth_m: f64,
+    /// Whether rope above the surface is dry; off, water drags and lifts it at any height.
+    pub rope_dries: bool,
+    /// Current.
+    pub current: Current,
+    /// Waves, if any.
+    pub waves: Option<Waves>,
+}
+
+/// Current by height and time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Current {
+    /// Velocity at the surface, or at the fastest height of a tabled profile, before the tide turns it [m/s].
+    pub surface_m_s: DVec3,
+    /// How it changes with height.
+    pub profile: Profile,
+    /// How it changes with time.
+    pub tide: Tide,
+}
+
+impl Current {
+    /// Steady and the same at every height.
+    #[must_use]
+    pub fn uniform(velocity_m_s: DVec3) -> Self {
+        Self { surface_m_s: velocity_m_s, profile: Profile::Uniform, tide: Tide::Steady }
+    }
+
+    /// Steady, by a power law; an exponent of zero is uniform.
+    #[must_use]
+    pub fn power(surface_m_s: DVec3, exponent: f64) -> Self {
+        Self { profile: Profile::power(exponent), ..Self::uniform(surface_m_s) }
+    }
+
+    /// Velocity at a share of the depth above the seabed and a time, straight from the formulas [m/s].
+    #[must_use]
+    pub fn at(&self, height: f64, time_s: f64) -> DVec3 {
+        self.profile.turn(self.tide.velocity(self.surface_m_s, time_s), height.clamp(0.0, 1.0))
+    }
+}
+
+impl Water {
+    /// Velocity of the current over a level seabed at time zero, straight from the formulas [m/s].
+    #[must_use]
+    pub fn velocity(&self, place: DVec3) -> DVec3 {
+        self.current.at((place.z + self.depth_m) / self.depth_m, 0.0)
+    }
+}
+
+/// What the water does at a place and time.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct WaterAt {
+    /// Velocity: current and waves [m/s].
+    pub velocity_m_s: DVec3,
+    /// Acceleration by the waves [m/s²].
+    pub acceleration_m_s2: DVec3,
+    /// Height of the surface above z = 0 [m].
+    pub surface_m: f64,
+}
+
+/// The sea made ready for the solver: tables of the profile, components of the waves.
+#[derive(Clone, Debug)]
+pub struct Sea {
+    current: Current,
+    power: Option<PowerTable>,
+    depth_m: f64,
+    /// How much deeper it gets by a metre east and north.
+    slope: Option<(f64, f64)>,
+    field: Option<Field>,
+}
+
+impl Sea {
+    /// Of a model's water over its seabed; irregular waves are drawn from the seed.
+    #[must_use]
+    pub fn new(water: &Water, seabed: Option<&Seabed>, seed: u64) -> Self {
+        let normal = seabed.map_or(DVec3::Z, |seabed| seabed.normal);
+        let slope = (normal.x / normal.z, normal.y / normal.z);
+        let is_wet = water.density_kg_m3 > 0.0;
+        Self {
+            power: if let Profile::Power(exponent) = water.current.profile { Some(PowerTable::new(exponent)) } else { None },
+            current: water.current.clone(),
+            depth_m: water.depth_m,
+            slope: (slope != (0.0, 0.0)).then_some(slope),
+            field: water.waves.as_ref().filter(|_| is_wet).map(|waves| Field::new(waves, water.depth_m, water.gravity_m_s2, seed)),
+        }
+    }
+
+    /// The waves, if there are any.
+    #[must_use]
+    pub fn field(&self) -> Option<&Field> {
+        self.field.as_ref()
+    }
+
+    /// Height above the seabed as a share of the local depth, from 0 to 1.
+    fn height(&self, place: DVec3) -> f64 {
+        let depth = match self.slope {
+            None => self.depth_m,
+            Some((east, north)) => (self.depth_m + east * place.x + north * place.y).max(LEAST_DEPTH_M),
+        };
+        (1.0 + place.z / depth).clamp(0.0, 1.0)
+    }
+
+    /// Velocity of the current [m/s].
+    #[must_use]
+    pub fn current(&self, place: DVec3, time_s: f64) -> DVec3 {
+        let fastest = self.current.tide.velocity(self.current.surface_m_s, time_s);
+        match &self.power {
+            Some(table) => fastest * table.share(self.height(place)),
+            None => self.current.profile.turn(fastest, self.height(place)),
+        }
+    }
+
+    /// The same at many places, into `out` of the same length.
+    pub fn current_at(&self, places: &[DVec3], time_s: f64, out: &mut [DVec3]) {
+        let fastest = self.current.tide.velocity(self.current.surface_m_s, time_s);
+        let pairs = out.iter_mut().zip(places);
+        match (&self.power, &self.current.profile) {
+            (Some(table), _) => pairs.for_each(|(velocity, place)| *velocity = fastest * table.share(self.height(*place))),
+            (None, Profile::Uniform) => out.fill(fastest),
+            (None, profile) => pairs.for_each(|(velocity, place)| *velocity = profile.turn(fastest, self.height(*place))),
+        }
+    }
+
+    /// Current and waves at one place.
+    #[must_use]
+    pub fn at(&self, place: DVec3, time_s: f64) -> WaterAt {
+        let velocity_m_s = self.current(place, time_s);
+        let waves = self.field.as_ref().map_or_else(WaterAt::default, |field| field.at(place, time_s));
+        WaterAt { velocity_m_s: velocity_m_s + waves.velocity_m_s, ..waves }
+    }
+
+    /// Adds the waves' velocity at many places to `flow`, and writes their acceleration and surface. Both are left empty
+    /// where there are no waves: none at all, or not yet.
+    pub fn add_waves(&self, places: &[DVec3], time_s: f64, walk: &mut Walk, out: (&mut [DVec3], &mut Vec<DVec3>, &mut Vec<f64>)) {
+        let (flow, acceleration, surface) = out;
+        acceleration.clear();
+        surface.clear();
+        let Some(field) = self.field.as_ref().filter(|field| field.runs_at(time_s)) else { return };
+        field.begin(walk, time_s);
+        for (place, flow) in places.iter().zip(flow) {
+            let at = field.walk_to(walk, *place);
+            *flow += at.velocity_m_s;
+            acceleration.push(at.acceleration_m_s2);
+            surface.push(at.surface_m);
+        }
+    }
+}
