@@ -10,12 +10,18 @@ use crate::contact::law::PINCHED_SHARE;
 use crate::contact::work::ContactWork;
 use crate::model::Model;
 use crate::parting::{self, Parting};
-use crate::solver::{BodyTrial, CONTACT_WANTED_M, Scheme, Solver, Touched};
+use crate::solver::{BodyTrial, CONTACT_WANTED_M, FreePass, Scheme, Solver, TENSION_GAP_N, TENSION_GAP_SHARE, Touched};
 use crate::state::State;
 use crate::step::{Audit, Workspace};
 
-/// Passes every free solver step takes at least.
+/// Passes every free solver step takes, unless the first moved so little that a second would change nothing of note.
 const LEAST_PASSES: usize = 2;
+/// Move below which one pass is enough [m].
+const ONE_PASS_M: f64 = 1e-3;
+/// Difference between solved and true tension below which one pass is enough [N].
+const ONE_PASS_GAP_N: f64 = 0.02;
+/// The same as a share of the greatest tension.
+const ONE_PASS_GAP_SHARE: f64 = 1e-4;
 /// Passes after which a free solver step counts as not converged.
 const MOST_PASSES: usize = 12;
 /// Move of a pass at which a free solver step has converged [m].
@@ -91,7 +97,36 @@ fn gather(model: &Model, state: &State, work: &mut ContactWork, dt: f64) -> bool
     work.near.begin(model, [start, end], &state.rope.position, |node| state.rope.velocity[node] * dt, &state.rope.cut)
 }
 
+/// Newton in the lanes where only water touches the rope, else by the lines one after another.
 fn free_step(model: &Model, state: &State, solver: &mut Solver, scheme: &Scheme, audit: &mut Audit) -> Result<(), Refused> {
+    if !solver.is_free(model, state) {
+        return step_by_lines(model, state, solver, scheme, audit);
+    }
+    solver.begin_free(model);
+    for pass in 1..=MOST_PASSES {
+        let passed = solver.pass_free(model, state, scheme);
+        audit.passes += 1;
+        if !passed.finite {
+            audit.non_finite += 1;
+            return Err(Refused::NotFinite);
+        }
+        if is_settled(pass, &passed) {
+            solver.end_free();
+            return Ok(());
+        }
+    }
+    Err(Refused::NotConverged)
+}
+
+/// Whether a pass of free rope is the last one needed.
+fn is_settled(pass: usize, passed: &FreePass) -> bool {
+    if pass < LEAST_PASSES {
+        return passed.longest_m < ONE_PASS_M && passed.gap_n < ONE_PASS_GAP_N.max(ONE_PASS_GAP_SHARE * passed.greatest_n);
+    }
+    passed.longest_m < CONVERGED_M && passed.gap_n < TENSION_GAP_N.max(TENSION_GAP_SHARE * passed.greatest_n)
+}
+
+fn step_by_lines(model: &Model, state: &State, solver: &mut Solver, scheme: &Scheme, audit: &mut Audit) -> Result<(), Refused> {
     for pass in 1..=MOST_PASSES {
         let passed = solver.pass(model, state, scheme);
         audit.passes += 1;

@@ -63,7 +63,7 @@ impl Grip {
 
 impl Seabed {
     /// Depth of a place below the plane [m].
-    fn depth_of(&self, place: DVec3) -> f64 {
+    pub(super) fn depth_of(&self, place: DVec3) -> f64 {
         -self.normal.dot(place + DVec3::Z * self.depth_m)
     }
 }

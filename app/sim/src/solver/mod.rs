@@ -8,8 +8,11 @@
 mod axial;
 mod body;
 mod chain;
+mod forces;
+mod free;
 mod ground;
 mod hubs;
+mod lanes;
 mod lengths;
 mod plan;
 mod rope;
@@ -19,19 +22,21 @@ mod touch;
 mod trial;
 mod water;
 
-use glam::{DMat3, DQuat, DVec3};
+use glam::{DMat3, DVec3};
 
 use crate::model::Model;
 use crate::state::State;
 use crate::water::WaterAt;
 use crate::water::field::Walk;
 use chain::{Band, Ends};
+pub(crate) use free::FreePass;
 use hubs::{Hubs, Seat};
+use lanes::Lanes;
 use lengths::Lengths;
 use plan::Plan;
 use rope::Pull;
 pub(crate) use scheme::Scheme;
-pub(crate) use touch::{CONTACT_WANTED_M, Touched};
+pub(crate) use touch::{CONTACT_WANTED_M, TENSION_GAP_N, TENSION_GAP_SHARE, Touched};
 pub(crate) use trial::BodyTrial;
 use trial::Trial;
 
@@ -42,6 +47,7 @@ pub(crate) struct Solver {
     pub(crate) trial: Trial,
     lengths: Lengths,
     band: Band,
+    lanes: Lanes,
     hubs: Hubs,
     mass: Vec<DMat3>,
     pull: Vec<Pull>,
@@ -93,6 +99,7 @@ impl Solver {
             trial: Trial::default(),
             lengths: Lengths::default(),
             band: Band::new(model.node_count, model.segment_count),
+            lanes: Lanes::new(model),
             mass: vec![DMat3::ZERO; model.node_count],
             pull: vec![Pull::default(); model.segment_count],
             cut: vec![false; model.segment_count],
@@ -177,13 +184,7 @@ impl Solver {
             *place += *step * share;
             finite &= step.is_finite();
         }
-        for (index, body) in self.trial.bodies.iter_mut().enumerate().filter(|(_, body)| !body.held) {
-            let block = self.plan.body_block[index];
-            let (step, turn) = (self.hubs.step[block], self.hubs.step[block + 1]);
-            body.place += step * share;
-            body.orientation = (DQuat::from_scaled_axis(turn * share) * body.orientation).normalize();
-            finite &= step.is_finite() && turn.is_finite();
-        }
+        finite &= self.advance_bodies(share).1;
         self.trial.seat_ends(model, &self.plan);
         Passed { longest_m: self.longest() * share, finite }
     }

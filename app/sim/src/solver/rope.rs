@@ -21,7 +21,7 @@ use crate::model::{Model, Rope};
 use crate::state::State;
 
 /// Height over which a node goes from wet to dry at the surface [m].
-const SURFACE_HEIGHT_M: f64 = 0.1;
+pub(super) const SURFACE_HEIGHT_M: f64 = 0.1;
 
 /// The matrix `v vᵀ`.
 pub(crate) fn outer(one: DVec3, other: DVec3) -> DMat3 {

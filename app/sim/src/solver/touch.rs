@@ -27,9 +27,9 @@ pub(crate) const CONTACT_WANTED_M: f64 = 1e-5;
 /// Move below which the search along the step is left out: rounding would decide it [m].
 const UNSEARCHED_M: f64 = 1e-5;
 /// Difference between solved and true tension at which a step has converged [N].
-const TENSION_GAP_N: f64 = 2.0;
+pub(crate) const TENSION_GAP_N: f64 = 2.0;
 /// The same as a share of the greatest tension.
-const TENSION_GAP_SHARE: f64 = 0.02;
+pub(crate) const TENSION_GAP_SHARE: f64 = 0.02;
 /// Most times a move is cut because bodies turn.
 const MOST_CUTS: usize = 12;
 /// Least share a cut leaves.

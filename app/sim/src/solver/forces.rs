@@ -1,0 +1,151 @@
+//! The laws of a rope's nodes and segments, written once for one number and for a row of lanes.
+//!
+//! Node with hanging length `L`, tangent `t`, water velocity relative to it `u = U - v`, `u_t = u·t`, `u_n = u - u_t t`
+//! (Morison): `F = L [½ρ C_n d |u_n| u_n + ½ρ C_t π d |u_t| u_t t - (m - ρ A_m) g ẑ] - M (v - v̂)/h`, with
+//! `M = L [m 1 + ρ C_a (π d²/4)(1 - t tᵀ)]`, `v = (x - x̂)/h` and `A_m` the volume of fibre per metre.
+//! Segment of unstretched length `l` along `t`: `T = EA (|x_b - x_a| - l)/l + BA t·(v_b - v_a)/l`, pulling only while taut.
+//! Blocks are `-dF/dx`, symmetric, without the turning of the tangent.
+//! Reference: Morison et al. 1950 (doi:10.2118/950149-G).
+
+use super::lanes::real::Real;
+use super::lanes::space::{Sym3, Vec3};
+
+/// Least chord or speed that is divided by.
+const TINY: f64 = 1e-12;
+
+/// A rope in its water, per metre.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PerMetre<R> {
+    /// Mass [kg/m].
+    pub mass: R,
+    /// Added mass across, wet [kg/m].
+    pub added: R,
+    /// Weight in air [N/m].
+    pub weight: R,
+    /// Buoyancy, wet [N/m].
+    pub lift: R,
+    /// `½ρ C_n d` [kg/m²].
+    pub across: R,
+    /// `½ρ C_t π d` [kg/m²].
+    pub along: R,
+}
+
+/// What all nodes of a step share.
+#[derive(Clone, Copy)]
+pub(crate) struct Shared<R> {
+    /// `1/h` of the scheme [1/s].
+    pub rate: R,
+    /// Weight of the mass in the matrix [1/s²].
+    pub inertia: R,
+    /// Wet share is `clamp(wet - z · drying, 0, 1)`.
+    pub wet: R,
+    /// [1/m].
+    pub drying: R,
+}
+
+/// A node where the trial stands.
+#[derive(Clone, Copy)]
+pub(crate) struct NodeAt<R> {
+    pub place: Vec3<R>,
+    /// The nodes before and after it, or itself at an end.
+    pub before: Vec3<R>,
+    pub after: Vec3<R>,
+    pub place_history: Vec3<R>,
+    pub velocity_history: Vec3<R>,
+    /// Velocity of the water.
+    pub flow: Vec3<R>,
+    /// Hanging length.
+    pub length: R,
+}
+
+/// Force on a node and `-dF/dx`.
+#[inline(always)]
+pub(crate) fn node<R: Real>(rope: &PerMetre<R>, shared: &Shared<R>, at: &NodeAt<R>) -> (Vec3<R>, Sym3<R>) {
+    let one = shared.rate.splat(1.0);
+    let tiny = shared.rate.splat(TINY);
+    let chord = at.after.sub(at.before);
+    let tangent = chord.scale(one / chord.dot(chord).sqrt().max(tiny));
+    let dry = shared.wet - at.place.z * shared.drying;
+    let wet = dry.max(shared.rate.splat(0.0)).min(one);
+    let velocity = at.place.sub(at.place_history).scale(shared.rate);
+    // Drag.
+    let relative = at.flow.sub(velocity);
+    let along_speed = relative.dot(tangent);
+    let normal = relative.sub(tangent.scale(along_speed));
+    let normal_speed = normal.dot(normal).sqrt();
+    let wet_length = at.length * wet;
+    let across = rope.across * wet_length * normal_speed;
+    let along = rope.along * wet_length * along_speed.abs();
+    let drag = normal.scale(across).add(tangent.scale(along * along_speed));
+    // -dF/dv of the drag is `across (1 - ttᵀ) + 2 along ttᵀ + across nnᵀ/n²`; the added mass lies along `1 - ttᵀ` too.
+    let added = rope.added * wet_length;
+    let mass = rope.mass * at.length;
+    let acceleration = velocity.sub(at.velocity_history).scale(shared.rate);
+    let along_acceleration = acceleration.dot(tangent);
+    let inertia = acceleration.scale(mass + added).sub(tangent.scale(added * along_acceleration));
+    let sideways = across * shared.rate;
+    let round = (mass + added) * shared.inertia + sideways;
+    let lengthways = (along + along) * shared.rate - sideways - added * shared.inertia;
+    let block = Sym3::diagonal(round)
+        .add(Sym3::outer(tangent, lengthways))
+        .add(Sym3::outer(normal, rope.across * wet_length * shared.rate / normal_speed.max(tiny)));
+    // Weight and buoyancy, which fades towards the surface.
+    let lift = rope.lift * at.length;
+    let zero = shared.rate.splat(0.0);
+    let fading = dry.positive((one - dry).positive(lift * shared.drying, zero), zero);
+    let mut force = drag.sub(inertia);
+    force.z = force.z + lift * wet - rope.weight * at.length;
+    (force, Sym3 { zz: block.zz + fading, ..block })
+}
+
+/// A segment where the trial stands.
+#[derive(Clone, Copy)]
+pub(crate) struct SegmentAt<R> {
+    /// From its first node to its second, and the same of `x̂`.
+    pub between: Vec3<R>,
+    pub history: Vec3<R>,
+    /// Unstretched length.
+    pub length: R,
+    /// `EA` and `BA`, zero where it is cut.
+    pub stiffness: R,
+    pub damping: R,
+    /// Tension by the last solve: taut above zero.
+    pub foretold: R,
+}
+
+/// The pull of a segment.
+#[derive(Clone, Copy)]
+pub(crate) struct PullOf<R> {
+    pub direction: Vec3<R>,
+    pub inverse_chord: R,
+    pub tension: R,
+    /// Slope of the tension by length.
+    pub stiffness: R,
+    /// Pull on the first node; on the second its opposite.
+    pub force: Vec3<R>,
+    pub block: Sym3<R>,
+}
+
+/// Tension of a segment, its force and block; both zero where it is slack.
+#[inline(always)]
+pub(crate) fn pull<R: Real>(at: &SegmentAt<R>, rate: R) -> PullOf<R> {
+    let zero = rate.splat(0.0);
+    let inverse_length = rate.splat(1.0) / at.length;
+    let chord = at.between.dot(at.between).sqrt().max(at.length * rate.splat(1e-9));
+    let inverse_chord = rate.splat(1.0) / chord;
+    let direction = at.between.scale(inverse_chord);
+    let stretching = direction.dot(at.between.sub(at.history)) * rate;
+    let tension = (at.stiffness * (chord - at.length) + at.damping * stretching) * inverse_length;
+    let stiffness = (at.stiffness + at.damping * rate) * inverse_length;
+    let across = at.foretold.max(zero) * inverse_chord;
+    let block = Sym3::diagonal(across).add(Sym3::outer(direction, stiffness - across));
+    let none = Vec3 { x: zero, y: zero, z: zero };
+    PullOf {
+        direction,
+        inverse_chord,
+        tension,
+        stiffness,
+        force: Vec3::choose(at.foretold, direction.scale(tension), none),
+        block: Sym3::choose(at.foretold, block, Sym3::diagonal(zero)),
+    }
+}

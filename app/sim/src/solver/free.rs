@@ -1,0 +1,112 @@
+//! A solver step of free rope: Newton passes in the lanes of the processor where nothing but water touches the rope.
+
+use glam::DQuat;
+
+use super::Solver;
+use super::body;
+use super::forces::Shared;
+use super::hubs::Seat;
+use super::plan::Plan;
+use super::rope::SURFACE_HEIGHT_M;
+use super::scheme::Scheme;
+use crate::model::Model;
+use crate::state::State;
+
+/// Rope nearer to the seabed than this is not free [m].
+const SEABED_MARGIN_M: f64 = 0.05;
+
+/// What a pass of free rope did.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FreePass {
+    /// Longest move of any node or body [m].
+    pub longest_m: f64,
+    /// Greatest difference between the pull solved for and the tension at its place, to second order [N].
+    pub gap_n: f64,
+    /// Greatest tension [N].
+    pub greatest_n: f64,
+    /// Whether all moves are finite.
+    pub finite: bool,
+}
+
+impl Solver {
+    /// Whether all rope of the step about to be solved is free of the seabed.
+    pub(crate) fn is_free(&self, model: &Model, state: &State) -> bool {
+        let Some(seabed) = &model.spec.seabed else { return true };
+        let clear = |place: &glam::DVec3| seabed.depth_of(*place) < -SEABED_MARGIN_M;
+        self.trial.place.iter().all(clear) && state.rope.position.iter().all(clear)
+    }
+
+    /// Hands the rope to the lanes.
+    pub(crate) fn begin_free(&mut self, model: &Model) {
+        self.lanes.gather(model, &self.trial, &self.plan.segment_length, &self.flow, &self.cut);
+    }
+
+    /// One Newton pass.
+    pub(crate) fn pass_free(&mut self, model: &Model, state: &State, scheme: &Scheme) -> FreePass {
+        let shared = shared(model, scheme);
+        self.hubs.clear();
+        self.lanes.reduce(&shared);
+        for (index, line) in model.spec.lines.iter().enumerate() {
+            let (seat_a, seat_b) = (self.plan.seats[line.from], self.plan.seats[line.to]);
+            let ends = self.lanes.line_ends(index, seat_a != Seat::Fixed);
+            self.join(seat_a, seat_b, &ends);
+        }
+        self.add_bodies(model, state, scheme);
+        self.add_end_turns_free(model);
+        self.hubs.solve();
+        for (index, line) in model.spec.lines.iter().enumerate() {
+            let (seat_a, seat_b) = (self.plan.seats[line.from], self.plan.seats[line.to]);
+            let step_a = self.hubs.step_of(seat_a, self.arm(seat_a));
+            let step_b = self.hubs.step_of(seat_b, self.arm(seat_b));
+            self.lanes.move_ends(index, seat_a != Seat::Fixed, step_a, step_b);
+        }
+        let rope = self.lanes.advance(&shared);
+        let (bodies_m, finite) = self.advance_bodies(1.0);
+        self.lanes.give_ends(model, &mut self.trial);
+        self.trial.seat_ends(model, &self.plan);
+        self.lanes.take_ends(model, &self.trial);
+        FreePass {
+            longest_m: rope.longest_m.max(bodies_m),
+            gap_n: rope.gap_n,
+            greatest_n: rope.greatest_n,
+            finite: finite && rope.finite,
+        }
+    }
+
+    /// Takes the rope back from the lanes.
+    pub(crate) fn end_free(&mut self) {
+        self.lanes.scatter(&mut self.trial);
+    }
+
+    /// Moves the bodies by a share of the solved step; the longest solved move and whether all are finite.
+    pub(super) fn advance_bodies(&mut self, share: f64) -> (f64, bool) {
+        let (mut longest, mut finite) = (0.0_f64, true);
+        for (index, body) in self.trial.bodies.iter_mut().enumerate().filter(|(_, body)| !body.held) {
+            let block = self.plan.body_block[index];
+            let (step, turn) = (self.hubs.step[block], self.hubs.step[block + 1]);
+            body.place += step * share;
+            body.orientation = (DQuat::from_scaled_axis(turn * share) * body.orientation).normalize();
+            longest = longest.max(step.length());
+            finite &= step.is_finite() && turn.is_finite();
+        }
+        (longest, finite)
+    }
+
+    /// The turning stiffness of rope pulling on bodies.
+    fn add_end_turns_free(&mut self, model: &Model) {
+        for (index, line) in model.spec.lines.iter().enumerate() {
+            for (joint, at_b, sign) in [(line.from, false, 1.0), (line.to, true, -1.0)] {
+                let seat = self.plan.seats[joint];
+                let Seat::Body { block, .. } = seat else { continue };
+                let (direction, tension) = self.lanes.end_pull(index, at_b);
+                let arm = Plan::arm(seat, |body| self.trial.bodies[body].orientation);
+                *self.hubs.at(block + 1, block + 1) += body::turn_stiffness(arm, direction * (sign * tension.max(0.0)));
+            }
+        }
+    }
+}
+
+fn shared(model: &Model, scheme: &Scheme) -> Shared<f64> {
+    let (wet, drying) = if model.spec.water.rope_dries { (0.5, 1.0 / SURFACE_HEIGHT_M) } else { (1.0, 0.0) };
+    Shared { rate: scheme.rate, inertia: scheme.inertia, wet, drying }
+}

@@ -1,0 +1,316 @@
+//! Free rope eight pieces at a time: the quick way through a solver step, in the lanes of the processor.
+//!
+//! A rig's lines are cut into pieces (`layout.rs`) that are worked on side by side (`sweep.rs`), each reduced to its ends;
+//! the ends of a line's pieces are a short chain of their own (`chain.rs`), and the line's ends join the hubs as ever.
+//! The law is the one of `forces.rs`; eight lanes do what one would do eight times, to the bit.
+
+mod layout;
+pub(super) mod real;
+mod rows;
+pub(super) mod space;
+mod sweep;
+
+use core::f64::consts::PI;
+
+use glam::{DMat3, DVec3};
+use pulp::Arch;
+
+use super::chain::{Band, Ends};
+use super::forces::{PerMetre, Shared};
+use super::trial::Trial;
+use crate::model::{Model, Rope};
+use layout::{Group, Piece};
+use rows::{EndRows, LANES, MoveRows, NodeRow, Row, Row3, Row6, Row9, SegmentRow, Solved};
+use sweep::{Backward, Forward, GroupRows};
+
+/// Rows of all groups, and the chains of their ends.
+#[derive(Clone, Debug)]
+pub(crate) struct Lanes {
+    arch: Arch,
+    pieces: Vec<Piece>,
+    /// Pieces of each line, as a range.
+    line_pieces: Vec<core::ops::Range<usize>>,
+    groups: Vec<Group>,
+    nodes: Vec<NodeRow>,
+    segments: Vec<SegmentRow>,
+    solved: Vec<Solved>,
+    ropes: Vec<PerMetre<Row>>,
+    ends: Vec<EndRows>,
+    moves: Vec<MoveRows>,
+    /// Ends of pieces in a row: a line's pieces are the segments of a chain.
+    chain: Band,
+}
+
+/// What a pass did to the rope.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct RopeMoved {
+    /// Longest move of a node [m].
+    pub longest_m: f64,
+    /// Greatest difference between the pull solved for and the tension there, to second order [N].
+    pub gap_n: f64,
+    /// Greatest tension [N].
+    pub greatest_n: f64,
+    /// Whether all moves are finite.
+    pub finite: bool,
+}
+
+impl Lanes {
+    /// Rows for a model.
+    pub fn new(model: &Model) -> Self {
+        let mut pieces = layout::pieces(model);
+        let groups = layout::groups(&mut pieces);
+        let line_pieces = (0..model.spec.lines.len())
+            .map(|line| {
+                let first = pieces.partition_point(|piece| piece.line < line);
+                first..first + pieces[first..].iter().take_while(|piece| piece.line == line).count()
+            })
+            .collect();
+        let rows = |of: fn(&Group) -> usize| groups.iter().map(of).sum::<usize>();
+        let ropes = groups.iter().map(|group| rope_rows(model, &pieces, group)).collect();
+        Self {
+            arch: Arch::new(),
+            line_pieces,
+            nodes: vec![NodeRow::default(); rows(|group| group.longest + 3)],
+            segments: vec![SegmentRow::default(); rows(|group| group.longest)],
+            solved: vec![Solved::default(); rows(|group| group.longest)],
+            ropes,
+            ends: vec![EndRows::default(); groups.len()],
+            moves: vec![MoveRows::default(); groups.len()],
+            chain: Band::new(pieces.len() + model.spec.lines.len(), pieces.len()),
+            pieces,
+            groups,
+        }
+    }
+
+    /// Takes over the trial as a step begins.
+    pub fn gather(&mut self, model: &Model, trial: &Trial, lengths: &[f64], flow: &[DVec3], cut: &[bool]) {
+        for group in &self.groups {
+            for (lane, piece) in group.pieces.iter().enumerate() {
+                let piece = &self.pieces[*piece];
+                let rope = &model.spec.ropes[model.spec.lines[piece.line].rope];
+                let segments = &mut self.segments[group.segment_row..][..group.longest];
+                gather_segments(piece, lane, segments, rope, (lengths, cut, &trial.tension));
+                let nodes = &mut self.nodes[group.node_row..][..group.longest + 3];
+                gather_nodes(piece, lane, nodes, trial, flow, lengths);
+            }
+        }
+        self.refresh_ghosts();
+    }
+
+    /// Forces, matrix and elimination of every piece, and of the chains of their ends.
+    pub fn reduce(&mut self, shared: &Shared<f64>) {
+        for (index, group) in self.groups.iter().enumerate() {
+            let rows = group_rows(group, &mut self.nodes, &mut self.segments, &mut self.solved, &self.ropes[index], shared);
+            self.arch.dispatch(Forward(rows, &mut self.ends[index]));
+        }
+        self.chain.clear();
+        for (index, piece) in self.pieces.iter().enumerate() {
+            let (ends, lane, node) = (&self.ends[piece.group], piece.lane, index + piece.line);
+            self.chain.diagonal[node] += ends.aa.matrix(lane);
+            self.chain.diagonal[node + 1] += ends.bb.matrix(lane);
+            self.chain.force[node] += ends.force_a.vector(lane);
+            self.chain.force[node + 1] += ends.force_b.vector(lane);
+            let low = ends.ba.matrix(lane);
+            self.chain.low[index] = low;
+            self.chain.up[index] = low.transpose();
+        }
+    }
+
+    /// What a line leaves on its ends.
+    pub fn line_ends(&mut self, line: usize, a_moves: bool) -> Ends {
+        let pieces = self.line_pieces[line].clone();
+        self.chain.eliminate(&chain_nodes(line, &pieces), &pieces, a_moves)
+    }
+
+    /// Takes the moves of a line's ends.
+    pub fn move_ends(&mut self, line: usize, a_moves: bool, step_a: DVec3, step_b: DVec3) {
+        let pieces = self.line_pieces[line].clone();
+        self.chain.substitute(&chain_nodes(line, &pieces), &pieces, a_moves, step_a, step_b);
+    }
+
+    /// Moves every node by the solved step and foretells tensions.
+    pub fn advance(&mut self, shared: &Shared<f64>) -> RopeMoved {
+        let mut moved = RopeMoved { finite: true, ..RopeMoved::default() };
+        for (index, group) in self.groups.iter().enumerate() {
+            let mut ends = [Row3::default(); 2];
+            for (lane, piece) in group.pieces.iter().enumerate() {
+                let node = piece + self.pieces[*piece].line;
+                ends[0].set(lane, self.chain.step[node]);
+                ends[1].set(lane, self.chain.step[node + 1]);
+            }
+            let rows = group_rows(group, &mut self.nodes, &mut self.segments, &mut self.solved, &self.ropes[index], shared);
+            self.arch.dispatch(Backward(rows, &ends, &mut self.moves[index]));
+            for lane in 0..group.used {
+                let moves = &self.moves[index];
+                moved.longest_m = moved.longest_m.max(moves.longest.0[lane]);
+                moved.gap_n = moved.gap_n.max(moves.gap.0[lane]);
+                moved.greatest_n = moved.greatest_n.max(moves.greatest.0[lane]);
+                moved.finite &= moves.finite.0[lane].is_finite();
+            }
+        }
+        moved.longest_m = moved.longest_m.sqrt();
+        moved
+    }
+
+    /// Pull at an end of a line in the last solve: direction from its first node to its second, and tension foretold [N].
+    pub fn end_pull(&self, line: usize, at_b: bool) -> (DVec3, f64) {
+        let pieces = &self.line_pieces[line];
+        let piece = &self.pieces[if at_b { pieces.end - 1 } else { pieces.start }];
+        let row = self.groups[piece.group].segment_row + if at_b { piece.segments - 1 } else { 0 };
+        (self.solved[row].direction.vector(piece.lane), self.segments[row].tension.0[piece.lane])
+    }
+
+    /// Hands the places of all line ends to the trial.
+    pub fn give_ends(&self, model: &Model, trial: &mut Trial) {
+        for (line, pieces) in self.line_pieces.iter().enumerate() {
+            let nodes = &model.line_nodes[line];
+            trial.place[nodes.start] = self.node(pieces.start, 0).place.vector(self.pieces[pieces.start].lane);
+            let last = &self.pieces[pieces.end - 1];
+            trial.place[nodes.end - 1] = self.node(pieces.end - 1, last.segments).place.vector(last.lane);
+        }
+    }
+
+    /// Takes the places of all line ends from the trial, where joints and bodies have put them.
+    pub fn take_ends(&mut self, model: &Model, trial: &Trial) {
+        for line in 0..self.line_pieces.len() {
+            let (pieces, nodes) = (self.line_pieces[line].clone(), &model.line_nodes[line]);
+            self.put_place(pieces.start, 0, trial.place[nodes.start]);
+            self.put_place(pieces.end - 1, self.pieces[pieces.end - 1].segments, trial.place[nodes.end - 1]);
+        }
+        self.refresh_ghosts();
+    }
+
+    /// Hands places and tensions to the trial as a step ends.
+    pub fn scatter(&self, trial: &mut Trial) {
+        for piece in &self.pieces {
+            let group = &self.groups[piece.group];
+            let nodes = &self.nodes[group.node_row + 1..][..=piece.segments];
+            for (place, row) in trial.place[piece.first_node..].iter_mut().zip(nodes) {
+                *place = row.place.vector(piece.lane);
+            }
+            let segments = &self.segments[group.segment_row..][..piece.segments];
+            for (tension, row) in trial.tension[piece.first_segment..].iter_mut().zip(segments) {
+                *tension = row.tension.0[piece.lane];
+            }
+        }
+    }
+
+    /// Node `k` of a piece.
+    fn node(&self, piece: usize, k: usize) -> &NodeRow {
+        &self.nodes[self.groups[self.pieces[piece].group].node_row + 1 + k]
+    }
+
+    fn put_place(&mut self, piece: usize, k: usize, place: DVec3) {
+        let Piece { group, lane, .. } = self.pieces[piece];
+        let row = self.groups[group].node_row + 1 + k;
+        self.nodes[row].place.set(lane, place);
+    }
+
+    /// Puts before and behind each piece the node that the line has there, or at a line's end that end again.
+    fn refresh_ghosts(&mut self) {
+        for index in 0..self.pieces.len() {
+            let piece = self.pieces[index];
+            let before = if piece.follows { (index - 1, self.pieces[index - 1].segments - 1) } else { (index, 0) };
+            let behind = if piece.goes_on { (index + 1, 1) } else { (index, piece.segments) };
+            let place_of = |(piece, k): (usize, usize)| self.node(piece, k).place.vector(self.pieces[piece].lane);
+            let (before, behind) = (place_of(before), place_of(behind));
+            let first = self.groups[piece.group].node_row;
+            self.nodes[first].place.set(piece.lane, before);
+            self.nodes[first + piece.segments + 2].place.set(piece.lane, behind);
+        }
+    }
+}
+
+/// Nodes of a line's chain of pieces.
+fn chain_nodes(line: usize, pieces: &core::ops::Range<usize>) -> core::ops::Range<usize> {
+    pieces.start + line..pieces.end + line + 1
+}
+
+fn group_rows<'a>(
+    group: &'a Group,
+    nodes: &'a mut [NodeRow],
+    segments: &'a mut [SegmentRow],
+    solved: &'a mut [Solved],
+    rope: &'a PerMetre<Row>,
+    shared: &'a Shared<f64>,
+) -> GroupRows<'a> {
+    GroupRows {
+        nodes: &mut nodes[group.node_row..][..group.longest + 3],
+        segments: &mut segments[group.segment_row..][..group.longest],
+        solved: &mut solved[group.segment_row..][..group.longest],
+        shortest: group.shortest,
+        live: &group.live,
+        rope,
+        shared,
+    }
+}
+
+fn rope_rows(model: &Model, pieces: &[Piece], group: &Group) -> PerMetre<Row> {
+    let row = |of: &dyn Fn(&Rope) -> f64| Row(group.pieces.map(|piece| of(&model.spec.ropes[model.spec.lines[pieces[piece].line].rope])));
+    let (density, gravity) = (model.spec.water.density_kg_m3, model.spec.water.gravity_m_s2);
+    PerMetre {
+        mass: row(&|rope| rope.mass_kg_m),
+        added: row(&|rope| density * rope.added_mass_normal * PI * rope.diameter_m * rope.diameter_m / 4.0),
+        weight: row(&|rope| rope.mass_kg_m * gravity),
+        lift: row(&|rope| density * rope.displaced_m3_m * gravity),
+        across: row(&|rope| 0.5 * density * rope.diameter_m * rope.drag_normal),
+        along: row(&|rope| 0.5 * density * rope.diameter_m * rope.drag_tangential * PI),
+    }
+}
+
+fn gather_segments(
+    piece: &Piece,
+    lane: usize,
+    rows: &mut [SegmentRow],
+    rope: &Rope,
+    (lengths, cut, tension): (&[f64], &[bool], &[f64]),
+) {
+    for (k, row) in rows[..piece.segments].iter_mut().enumerate() {
+        let segment = piece.first_segment + k;
+        let whole = if cut[segment] { 0.0 } else { 1.0 };
+        row.length.0[lane] = lengths[segment];
+        row.stiffness.0[lane] = rope.axial_stiffness_n * whole;
+        row.damping.0[lane] = rope.axial_damping_n_s * whole;
+        row.tension.0[lane] = tension[segment];
+    }
+}
+
+fn gather_nodes(piece: &Piece, lane: usize, rows: &mut [NodeRow], trial: &Trial, flow: &[DVec3], lengths: &[f64]) {
+    let mut half_before = 0.0;
+    for (k, row) in rows[1..][..=piece.segments].iter_mut().enumerate() {
+        let node = piece.first_node + k;
+        let half_behind = if k < piece.segments { 0.5 * lengths[piece.first_segment + k] } else { 0.0 };
+        row.place.set(lane, trial.place[node]);
+        row.place_history.set(lane, trial.place_history[node]);
+        row.velocity_history.set(lane, trial.velocity_history[node]);
+        row.flow.set(lane, flow[node]);
+        row.length.0[lane] = half_before + half_behind;
+        half_before = half_behind;
+    }
+}
+
+impl Row3 {
+    fn set(&mut self, lane: usize, v: DVec3) {
+        for (row, value) in self.0.iter_mut().zip(v.to_array()) {
+            row.0[lane] = value;
+        }
+    }
+    fn vector(&self, lane: usize) -> DVec3 {
+        DVec3::from_array([self.0[0].0[lane], self.0[1].0[lane], self.0[2].0[lane]])
+    }
+}
+
+impl Row6 {
+    fn matrix(&self, lane: usize) -> DMat3 {
+        let [xx, xy, xz, yy, yz, zz] = [0, 1, 2, 3, 4, 5].map(|entry: usize| self.0[entry].0[lane]);
+        DMat3::from_cols(DVec3::new(xx, xy, xz), DVec3::new(xy, yy, yz), DVec3::new(xz, yz, zz))
+    }
+}
+
+impl Row9 {
+    fn matrix(&self, lane: usize) -> DMat3 {
+        DMat3::from_cols(self.0[0].vector(lane), self.0[1].vector(lane), self.0[2].vector(lane))
+    }
+}
+
+const _: () = assert!(LANES == 8, "rows are laid out for eight lanes");

@@ -1,0 +1,141 @@
+//! What the sweeps read and write, node by node, in rows of eight lanes.
+//!
+//! A lane holds a *piece* of rope: so many nodes in a row of one line. Row `k` holds node `k` of every piece, and segment
+//! `k` behind it. Pieces of unlike length share a group: rows beyond a piece's end hold copies of its last node.
+
+use pulp::Simd;
+
+use super::real::Lane;
+use super::space::{Mat3, Sym3, Vec3};
+
+/// Lanes of a group.
+pub(crate) const LANES: usize = 8;
+
+/// One number a lane.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(align(64))]
+pub(crate) struct Row(pub [f64; LANES]);
+
+/// One vector a lane.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Row3(pub [Row; 3]);
+
+/// One symmetric matrix a lane.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Row6(pub [Row; 6]);
+
+/// One matrix a lane, by columns.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Row9(pub [Row3; 3]);
+
+/// A part of a row's lanes, as many as the processor's registers hold.
+#[derive(Clone, Copy)]
+pub(crate) struct Part<S: Simd> {
+    pub simd: S,
+    pub part: usize,
+}
+
+impl<S: Simd> Part<S> {
+    /// Parts a row has.
+    pub const COUNT: usize = LANES / S::F64_LANES;
+
+    #[inline(always)]
+    pub fn get(self, row: &Row) -> Lane<S> {
+        Lane { simd: self.simd, value: S::as_simd_f64s(&row.0).0[self.part] }
+    }
+    #[inline(always)]
+    pub fn put(self, row: &mut Row, lane: Lane<S>) {
+        S::as_mut_simd_f64s(&mut row.0).0[self.part] = lane.value;
+    }
+    #[inline(always)]
+    pub fn get3(self, row: &Row3) -> Vec3<Lane<S>> {
+        Vec3 { x: self.get(&row.0[0]), y: self.get(&row.0[1]), z: self.get(&row.0[2]) }
+    }
+    #[inline(always)]
+    pub fn put3(self, row: &mut Row3, v: Vec3<Lane<S>>) {
+        self.put(&mut row.0[0], v.x);
+        self.put(&mut row.0[1], v.y);
+        self.put(&mut row.0[2], v.z);
+    }
+    #[inline(always)]
+    pub fn get6(self, row: &Row6) -> Sym3<Lane<S>> {
+        let [xx, xy, xz, yy, yz, zz] = &row.0;
+        Sym3 { xx: self.get(xx), xy: self.get(xy), xz: self.get(xz), yy: self.get(yy), yz: self.get(yz), zz: self.get(zz) }
+    }
+    #[inline(always)]
+    pub fn put6(self, row: &mut Row6, m: Sym3<Lane<S>>) {
+        for (row, value) in row.0.iter_mut().zip([m.xx, m.xy, m.xz, m.yy, m.yz, m.zz]) {
+            self.put(row, value);
+        }
+    }
+    #[inline(always)]
+    pub fn get9(self, row: &Row9) -> Mat3<Lane<S>> {
+        Mat3 { x: self.get3(&row.0[0]), y: self.get3(&row.0[1]), z: self.get3(&row.0[2]) }
+    }
+    #[inline(always)]
+    pub fn put9(self, row: &mut Row9, m: Mat3<Lane<S>>) {
+        self.put3(&mut row.0[0], m.x);
+        self.put3(&mut row.0[1], m.y);
+        self.put3(&mut row.0[2], m.z);
+    }
+}
+
+/// What a sweep reads at a node.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct NodeRow {
+    pub place: Row3,
+    pub place_history: Row3,
+    pub velocity_history: Row3,
+    pub flow: Row3,
+    pub length: Row,
+}
+
+/// What a sweep reads at a segment, and the tension it foretells.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SegmentRow {
+    pub length: Row,
+    pub stiffness: Row,
+    pub damping: Row,
+    pub tension: Row,
+}
+
+/// What the forward sweep leaves for the backward sweep: `step_k = g - W step_A + X step_(k+1)`, and segment `k`'s pull.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Solved {
+    pub x: Row9,
+    pub w: Row9,
+    pub g: Row3,
+    pub direction: Row3,
+    pub tension: Row,
+    pub stiffness: Row,
+    pub inverse_chord: Row,
+}
+
+/// What pieces leave on their ends A and B; the block at row A and column B is `ba` transposed.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct EndRows {
+    pub aa: Row6,
+    pub ba: Row9,
+    pub bb: Row6,
+    pub force_a: Row3,
+    pub force_b: Row3,
+}
+
+/// How far a backward sweep moved its pieces.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct MoveRows {
+    /// Square of the longest move.
+    pub longest: Row,
+    /// Greatest difference between the pull solved for and the tension there.
+    pub gap: Row,
+    /// Greatest tension.
+    pub greatest: Row,
+    /// Zero, or not a number where a move was not finite.
+    pub finite: Row,
+}
+
+impl Default for SegmentRow {
+    fn default() -> Self {
+        Self { length: Row([1.0; LANES]), stiffness: Row::default(), damping: Row::default(), tension: Row::default() }
+    }
+}

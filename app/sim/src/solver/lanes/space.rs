@@ -1,0 +1,181 @@
+//! Vectors and 3×3 matrices of [`Real`]s, as much of them as a rope needs.
+
+use super::real::Real;
+
+/// A vector.
+#[derive(Clone, Copy)]
+pub(crate) struct Vec3<R> {
+    pub x: R,
+    pub y: R,
+    pub z: R,
+}
+
+/// A symmetric matrix.
+#[derive(Clone, Copy)]
+pub(crate) struct Sym3<R> {
+    pub xx: R,
+    pub xy: R,
+    pub xz: R,
+    pub yy: R,
+    pub yz: R,
+    pub zz: R,
+}
+
+/// A matrix by its columns.
+#[derive(Clone, Copy)]
+pub(crate) struct Mat3<R> {
+    pub x: Vec3<R>,
+    pub y: Vec3<R>,
+    pub z: Vec3<R>,
+}
+
+#[allow(clippy::should_implement_trait, reason = "named methods keep the generic bounds short")]
+impl<R: Real> Vec3<R> {
+    #[inline(always)]
+    pub fn add(self, o: Self) -> Self {
+        Self { x: self.x + o.x, y: self.y + o.y, z: self.z + o.z }
+    }
+    #[inline(always)]
+    pub fn sub(self, o: Self) -> Self {
+        Self { x: self.x - o.x, y: self.y - o.y, z: self.z - o.z }
+    }
+    #[inline(always)]
+    pub fn scale(self, s: R) -> Self {
+        Self { x: self.x * s, y: self.y * s, z: self.z * s }
+    }
+    #[inline(always)]
+    pub fn dot(self, o: Self) -> R {
+        self.x * o.x + self.y * o.y + self.z * o.z
+    }
+    /// `yes` where `of` is above zero, else `no`.
+    #[inline(always)]
+    pub fn choose(of: R, yes: Self, no: Self) -> Self {
+        Self { x: of.positive(yes.x, no.x), y: of.positive(yes.y, no.y), z: of.positive(yes.z, no.z) }
+    }
+}
+
+#[allow(clippy::should_implement_trait, reason = "named methods keep the generic bounds short")]
+impl<R: Real> Sym3<R> {
+    /// `s · 1`.
+    #[inline(always)]
+    pub fn diagonal(s: R) -> Self {
+        let zero = s.splat(0.0);
+        Self { xx: s, xy: zero, xz: zero, yy: s, yz: zero, zz: s }
+    }
+    /// `s v vᵀ`.
+    #[inline(always)]
+    pub fn outer(v: Vec3<R>, s: R) -> Self {
+        let w = v.scale(s);
+        Self { xx: w.x * v.x, xy: w.x * v.y, xz: w.x * v.z, yy: w.y * v.y, yz: w.y * v.z, zz: w.z * v.z }
+    }
+    #[inline(always)]
+    pub fn add(self, o: Self) -> Self {
+        Self {
+            xx: self.xx + o.xx,
+            xy: self.xy + o.xy,
+            xz: self.xz + o.xz,
+            yy: self.yy + o.yy,
+            yz: self.yz + o.yz,
+            zz: self.zz + o.zz,
+        }
+    }
+    #[inline(always)]
+    pub fn sub(self, o: Self) -> Self {
+        Self {
+            xx: self.xx - o.xx,
+            xy: self.xy - o.xy,
+            xz: self.xz - o.xz,
+            yy: self.yy - o.yy,
+            yz: self.yz - o.yz,
+            zz: self.zz - o.zz,
+        }
+    }
+    #[inline(always)]
+    pub fn scale(self, s: R) -> Self {
+        Self { xx: self.xx * s, xy: self.xy * s, xz: self.xz * s, yy: self.yy * s, yz: self.yz * s, zz: self.zz * s }
+    }
+    #[inline(always)]
+    pub fn apply(self, v: Vec3<R>) -> Vec3<R> {
+        Vec3 {
+            x: self.xx * v.x + self.xy * v.y + self.xz * v.z,
+            y: self.xy * v.x + self.yy * v.y + self.yz * v.z,
+            z: self.xz * v.x + self.yz * v.y + self.zz * v.z,
+        }
+    }
+    /// The product with a matrix.
+    #[inline(always)]
+    pub fn times(self, m: Mat3<R>) -> Mat3<R> {
+        Mat3 { x: self.apply(m.x), y: self.apply(m.y), z: self.apply(m.z) }
+    }
+    /// The product with a symmetric matrix.
+    #[inline(always)]
+    pub fn times_sym(self, m: Self) -> Mat3<R> {
+        self.times(m.matrix())
+    }
+    #[inline(always)]
+    pub fn matrix(self) -> Mat3<R> {
+        Mat3 {
+            x: Vec3 { x: self.xx, y: self.xy, z: self.xz },
+            y: Vec3 { x: self.xy, y: self.yy, z: self.yz },
+            z: Vec3 { x: self.xz, y: self.yz, z: self.zz },
+        }
+    }
+    /// The inverse, by cofactors.
+    #[inline(always)]
+    pub fn inverse(self) -> Self {
+        let xx = self.yy * self.zz - self.yz * self.yz;
+        let xy = self.xz * self.yz - self.xy * self.zz;
+        let xz = self.xy * self.yz - self.xz * self.yy;
+        let over = self.xx.splat(1.0) / (self.xx * xx + self.xy * xy + self.xz * xz);
+        Self {
+            xx: xx * over,
+            xy: xy * over,
+            xz: xz * over,
+            yy: (self.xx * self.zz - self.xz * self.xz) * over,
+            yz: (self.xy * self.xz - self.xx * self.yz) * over,
+            zz: (self.xx * self.yy - self.xy * self.xy) * over,
+        }
+    }
+    /// `yes` where `of` is above zero, else `no`.
+    #[inline(always)]
+    pub fn choose(of: R, yes: Self, no: Self) -> Self {
+        Self {
+            xx: of.positive(yes.xx, no.xx),
+            xy: of.positive(yes.xy, no.xy),
+            xz: of.positive(yes.xz, no.xz),
+            yy: of.positive(yes.yy, no.yy),
+            yz: of.positive(yes.yz, no.yz),
+            zz: of.positive(yes.zz, no.zz),
+        }
+    }
+}
+
+#[allow(clippy::should_implement_trait, reason = "named methods keep the generic bounds short")]
+impl<R: Real> Mat3<R> {
+    #[inline(always)]
+    pub fn apply(self, v: Vec3<R>) -> Vec3<R> {
+        self.x.scale(v.x).add(self.y.scale(v.y)).add(self.z.scale(v.z))
+    }
+    /// `Mᵀ v`.
+    #[inline(always)]
+    pub fn apply_transposed(self, v: Vec3<R>) -> Vec3<R> {
+        Vec3 { x: self.x.dot(v), y: self.y.dot(v), z: self.z.dot(v) }
+    }
+    /// `Mᵀ N`, where that is symmetric.
+    #[inline(always)]
+    pub fn transposed_times_sym(self, n: Self) -> Sym3<R> {
+        Sym3 {
+            xx: self.x.dot(n.x),
+            xy: self.x.dot(n.y),
+            xz: self.x.dot(n.z),
+            yy: self.y.dot(n.y),
+            yz: self.y.dot(n.z),
+            zz: self.z.dot(n.z),
+        }
+    }
+    /// `yes` where `of` is above zero, else `no`.
+    #[inline(always)]
+    pub fn choose(of: R, yes: Self, no: Self) -> Self {
+        Self { x: Vec3::choose(of, yes.x, no.x), y: Vec3::choose(of, yes.y, no.y), z: Vec3::choose(of, yes.z, no.z) }
+    }
+}

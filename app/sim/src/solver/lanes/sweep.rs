@@ -1,0 +1,287 @@
+//! The two sweeps over a group of eight pieces: forces, matrix and elimination in one go forward, moves backward.
+//!
+//! Forward, node `k` is met with its block `D`, force `f` and its coupling `F` to the piece's end A:
+//! `step_k = g - W step_A + X step_(k+1)` with `X = D⁻¹B`, `g = D⁻¹f`, `W = D⁻¹F` and `B` the block of segment `k`;
+//! node `k + 1` then has `D' = D - B X`, `f' = f + B g`, `F' = B W`. What is left couples the piece's ends (`rows::EndRows`).
+//! All is symmetric: rope whose blocks are not goes through `chain.rs`.
+
+use pulp::{Simd, WithSimd};
+
+use super::real::{Lane, Real};
+use super::rows::{EndRows, MoveRows, NodeRow, Part, Row, Row3, SegmentRow, Solved};
+use super::space::{Mat3, Sym3, Vec3};
+use crate::solver::forces::{self, NodeAt, PerMetre, PullOf, SegmentAt, Shared};
+
+/// What a group is made of.
+pub(crate) struct GroupRows<'a> {
+    /// Node rows with one ghost row before and one behind.
+    pub nodes: &'a mut [NodeRow],
+    pub segments: &'a mut [SegmentRow],
+    pub solved: &'a mut [Solved],
+    /// Segments of the shortest piece.
+    pub shortest: usize,
+    /// For each segment from `shortest` on: 1 in lanes whose piece has it.
+    pub live: &'a [Row],
+    pub rope: &'a PerMetre<Row>,
+    pub shared: &'a Shared<f64>,
+}
+
+/// Forward sweep.
+pub(crate) struct Forward<'a>(pub GroupRows<'a>, pub &'a mut EndRows);
+
+impl WithSimd for Forward<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn with_simd<S: Simd>(mut self, simd: S) {
+        for part in 0..Part::<S>::COUNT {
+            forward(Part { simd, part }, &mut self.0, self.1);
+        }
+    }
+}
+
+/// What is carried from node to node.
+#[derive(Clone, Copy)]
+struct Carry<R> {
+    block: Sym3<R>,
+    force: Vec3<R>,
+    fill: Mat3<R>,
+    aa: Sym3<R>,
+    force_a: Vec3<R>,
+}
+
+/// Inputs of a part of the lanes, spread over its registers.
+struct Inputs<'a, S: Simd> {
+    part: Part<S>,
+    nodes: &'a [NodeRow],
+    segments: &'a [SegmentRow],
+    rope: PerMetre<Lane<S>>,
+    shared: Shared<Lane<S>>,
+}
+
+impl<S: Simd> Inputs<'_, S> {
+    #[inline(always)]
+    fn node(&self, k: usize) -> (Vec3<Lane<S>>, Sym3<Lane<S>>) {
+        let part = self.part;
+        let row = &self.nodes[k + 1];
+        let at = NodeAt {
+            place: part.get3(&row.place),
+            before: part.get3(&self.nodes[k].place),
+            after: part.get3(&self.nodes[k + 2].place),
+            place_history: part.get3(&row.place_history),
+            velocity_history: part.get3(&row.velocity_history),
+            flow: part.get3(&row.flow),
+            length: part.get(&row.length),
+        };
+        forces::node(&self.rope, &self.shared, &at)
+    }
+
+    #[inline(always)]
+    fn pull(&self, k: usize) -> PullOf<Lane<S>> {
+        let (part, from, to) = (self.part, &self.nodes[k + 1], &self.nodes[k + 2]);
+        let row = &self.segments[k];
+        let at = SegmentAt {
+            between: part.get3(&to.place).sub(part.get3(&from.place)),
+            history: part.get3(&to.place_history).sub(part.get3(&from.place_history)),
+            length: part.get(&row.length),
+            stiffness: part.get(&row.stiffness),
+            damping: part.get(&row.damping),
+            foretold: part.get(&row.tension),
+        };
+        forces::pull(&at, self.shared.rate)
+    }
+}
+
+#[inline(always)]
+fn forward<S: Simd>(part: Part<S>, group: &mut GroupRows<'_>, ends: &mut EndRows) {
+    let inputs = Inputs {
+        part,
+        nodes: group.nodes,
+        segments: group.segments,
+        rope: spread_rope(part, group.rope),
+        shared: spread_shared(part.simd, group.shared),
+    };
+    let mut carry = begin(&inputs, &mut group.solved[0]);
+    let count = group.segments.len();
+    for k in 1..group.shortest {
+        carry = onward(&inputs, k, carry, &mut group.solved[k]);
+    }
+    for k in group.shortest..count {
+        let live = part.get(&group.live[k - group.shortest]);
+        let next = onward(&inputs, k, carry, &mut group.solved[k]);
+        carry = Carry {
+            block: Sym3::choose(live, next.block, carry.block),
+            force: Vec3::choose(live, next.force, carry.force),
+            fill: Mat3::choose(live, next.fill, carry.fill),
+            aa: Sym3::choose(live, next.aa, carry.aa),
+            force_a: Vec3::choose(live, next.force_a, carry.force_a),
+        };
+    }
+    part.put6(&mut ends.aa, carry.aa);
+    part.put9(&mut ends.ba, carry.fill);
+    part.put6(&mut ends.bb, carry.block);
+    part.put3(&mut ends.force_a, carry.force_a);
+    part.put3(&mut ends.force_b, carry.force);
+}
+
+/// End A and segment 0; the carry for node 1.
+#[inline(always)]
+fn begin<S: Simd>(inputs: &Inputs<'_, S>, solved: &mut Solved) -> Carry<Lane<S>> {
+    let pull = inputs.pull(0);
+    keep_pull(inputs.part, &pull, solved);
+    let (force_a, aa) = inputs.node(0);
+    let (force, block) = inputs.node(1);
+    let zero = inputs.shared.rate.splat(0.0);
+    Carry {
+        block: block.add(pull.block),
+        force: force.sub(pull.force),
+        fill: Sym3::diagonal(zero).sub(pull.block).matrix(),
+        aa: aa.add(pull.block),
+        force_a: force_a.add(pull.force),
+    }
+}
+
+/// Eliminates node `k`; the carry for node `k + 1`.
+#[inline(always)]
+fn onward<S: Simd>(inputs: &Inputs<'_, S>, k: usize, carry: Carry<Lane<S>>, solved: &mut Solved) -> Carry<Lane<S>> {
+    let part = inputs.part;
+    let pull = inputs.pull(k);
+    keep_pull(part, &pull, solved);
+    let inverse = carry.block.add(pull.block).inverse();
+    let x = inverse.times_sym(pull.block);
+    let g = inverse.apply(carry.force.add(pull.force));
+    let w = inverse.times(carry.fill);
+    part.put9(&mut solved.x, x);
+    part.put9(&mut solved.w, w);
+    part.put3(&mut solved.g, g);
+    let (force, block) = inputs.node(k + 1);
+    Carry {
+        block: block.add(pull.block).sub(pull.block.matrix().transposed_times_sym(x)),
+        force: force.sub(pull.force).add(pull.block.apply(g)),
+        fill: pull.block.times(w),
+        aa: carry.aa.sub(carry.fill.transposed_times_sym(w)),
+        force_a: carry.force_a.sub(carry.fill.apply_transposed(g)),
+    }
+}
+
+#[inline(always)]
+fn keep_pull<S: Simd>(part: Part<S>, pull: &PullOf<Lane<S>>, solved: &mut Solved) {
+    part.put3(&mut solved.direction, pull.direction);
+    part.put(&mut solved.tension, pull.tension);
+    part.put(&mut solved.stiffness, pull.stiffness);
+    part.put(&mut solved.inverse_chord, pull.inverse_chord);
+}
+
+#[inline(always)]
+fn spread_rope<S: Simd>(part: Part<S>, rope: &PerMetre<Row>) -> PerMetre<Lane<S>> {
+    PerMetre {
+        mass: part.get(&rope.mass),
+        added: part.get(&rope.added),
+        weight: part.get(&rope.weight),
+        lift: part.get(&rope.lift),
+        across: part.get(&rope.across),
+        along: part.get(&rope.along),
+    }
+}
+
+#[inline(always)]
+fn spread_shared<S: Simd>(simd: S, shared: &Shared<f64>) -> Shared<Lane<S>> {
+    let spread = |value| Lane::new(simd, value);
+    Shared {
+        rate: spread(shared.rate),
+        inertia: spread(shared.inertia),
+        wet: spread(shared.wet),
+        drying: spread(shared.drying),
+    }
+}
+
+/// Backward sweep from the moves of the ends A and B.
+pub(crate) struct Backward<'a>(pub GroupRows<'a>, pub &'a [Row3; 2], pub &'a mut MoveRows);
+
+impl WithSimd for Backward<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn with_simd<S: Simd>(mut self, simd: S) {
+        for part in 0..Part::<S>::COUNT {
+            backward(Part { simd, part }, &mut self.0, self.1, self.2);
+        }
+    }
+}
+
+/// What is gathered on the way.
+#[derive(Clone, Copy)]
+struct Moved<R> {
+    longest: R,
+    gap: R,
+    greatest: R,
+    finite: R,
+}
+
+#[inline(always)]
+fn backward<S: Simd>(part: Part<S>, group: &mut GroupRows<'_>, ends: &[Row3; 2], moves: &mut MoveRows) {
+    let zero = Lane::new(part.simd, 0.0);
+    let (step_a, step_b) = (part.get3(&ends[0]), part.get3(&ends[1]));
+    let mut moved = Moved { longest: zero, gap: zero, greatest: zero, finite: zero };
+    let mut next = step_b;
+    let count = group.segments.len();
+    for k in (group.shortest..count).rev() {
+        let live = part.get(&group.live[k - group.shortest]);
+        let step = Vec3::choose(live, inner_step(part, &group.solved[k], step_a, next), next);
+        // A lane whose piece ends before: its last node is moved by its end's own row.
+        move_node(part, &mut group.nodes[k + 2], next);
+        moved = foretell(part, &group.solved[k], &mut group.segments[k], step, next, moved);
+        next = step;
+    }
+    for k in (1..group.shortest).rev() {
+        let step = inner_step(part, &group.solved[k], step_a, next);
+        move_node(part, &mut group.nodes[k + 2], next);
+        moved = foretell(part, &group.solved[k], &mut group.segments[k], step, next, moved);
+        next = step;
+    }
+    move_node(part, &mut group.nodes[2], next);
+    move_node(part, &mut group.nodes[1], step_a);
+    moved = foretell(part, &group.solved[0], &mut group.segments[0], step_a, next, moved);
+    part.put(&mut moves.longest, moved.longest);
+    part.put(&mut moves.gap, moved.gap);
+    part.put(&mut moves.greatest, moved.greatest);
+    part.put(&mut moves.finite, moved.finite);
+}
+
+#[inline(always)]
+fn inner_step<S: Simd>(part: Part<S>, solved: &Solved, step_a: Vec3<Lane<S>>, next: Vec3<Lane<S>>) -> Vec3<Lane<S>> {
+    part.get3(&solved.g).sub(part.get9(&solved.w).apply(step_a)).add(part.get9(&solved.x).apply(next))
+}
+
+#[inline(always)]
+fn move_node<S: Simd>(part: Part<S>, row: &mut NodeRow, step: Vec3<Lane<S>>) {
+    let place = part.get3(&row.place).add(step);
+    part.put3(&mut row.place, place);
+}
+
+/// Tension of a segment by the linear solution, and how far that is from the tension at its place.
+#[inline(always)]
+fn foretell<S: Simd>(
+    part: Part<S>,
+    solved: &Solved,
+    row: &mut SegmentRow,
+    step: Vec3<Lane<S>>,
+    next: Vec3<Lane<S>>,
+    moved: Moved<Lane<S>>,
+) -> Moved<Lane<S>> {
+    let zero = Lane::new(part.simd, 0.0);
+    let apart = next.sub(step);
+    let stretch = part.get3(&solved.direction).dot(apart);
+    let stiffness = part.get(&solved.stiffness);
+    let tension = part.get(&solved.tension) + stiffness * stretch;
+    let turned = apart.dot(apart) - stretch * stretch;
+    let missed = stiffness * part.get(&solved.inverse_chord) * turned * zero.splat(0.5);
+    // What was solved as taut and comes out slack, or the reverse, is off by its whole tension.
+    let was_taut = part.get(&row.tension);
+    let flipped = was_taut.positive((-tension).max(zero), tension.max(zero));
+    part.put(&mut row.tension, tension);
+    Moved {
+        longest: moved.longest.max(step.dot(step)).max(next.dot(next)),
+        gap: moved.gap.max(missed.max(flipped)),
+        greatest: moved.greatest.max(tension),
+        finite: moved.finite + (tension + step.x + step.y + step.z) * zero,
+    }
+}
