@@ -4,7 +4,7 @@
 
 use endline_sdk::LineEnd;
 
-use crate::model::{Link, Model};
+use crate::model::{Link, Model, Strength};
 use crate::state::State;
 
 /// How far above its rating something may part before the step is redone shorter.
@@ -29,8 +29,22 @@ pub fn link_segment(model: &Model, link: &Link) -> usize {
     }
 }
 
+/// Whether no tension comes up to the weakest link or line end of all.
+fn holds(model: &Model, tension: &[f64]) -> bool {
+    let links = model.spec.links.iter().filter(|link| link.enabled).map(|link| link.rating_n);
+    let lines = model.spec.lines.iter().map(|line| {
+        let Strength { all, end_a, end_b } = line.strength;
+        model.spec.ropes[line.rope].strength_n * all * end_a.min(end_b).min(1.0)
+    });
+    let weakest = links.chain(lines).fold(f64::INFINITY, f64::min);
+    tension.iter().all(|tension| *tension <= weakest)
+}
+
 /// Whether these tensions pass a rating or strength by so much that it should have parted sooner.
 pub(crate) fn too_late(model: &Model, state: &State, tension: &[f64]) -> bool {
+    if holds(model, tension) {
+        return false;
+    }
     let link_late = |link: &Link| {
         let segment = link_segment(model, link);
         link.enabled && !state.rope.cut[segment] && tension[segment] > LATE * link.rating_n
@@ -42,6 +56,9 @@ pub(crate) fn too_late(model: &Model, state: &State, tension: &[f64]) -> bool {
 /// Parts what is above its rating or strength.
 pub(crate) fn part(model: &Model, state: &mut State) -> Parting {
     let mut parted = Parting::None;
+    if holds(model, &state.rope.tension) {
+        return parted;
+    }
     for (index, link) in model.spec.links.iter().enumerate() {
         let segment = link_segment(model, link);
         if link.enabled && !state.rope.cut[segment] && state.rope.tension[segment] > link.rating_n {

@@ -6,6 +6,7 @@
 
 use glam::DVec3;
 
+use crate::contact::ContactPoint;
 use crate::contact::law::PINCHED_SHARE;
 use crate::contact::work::ContactWork;
 use crate::model::Model;
@@ -63,24 +64,17 @@ pub(crate) fn solver_step(model: &Model, state: &mut State, workspace: &mut Work
     }
     contacts.clear();
     let scheme = if careful || touching.is_some() { Scheme::backward_euler(dt) } else { Scheme::bdf2(dt, state.rope.earlier_dt_s) };
-    solver.begin(model, state, &scheme);
-    match &mut touching {
-        None => free_step(model, state, solver, &scheme, audit)?,
-        Some(work) => contact_step(model, state, solver, &scheme, work, audit)?,
-    }
-    if dt * 0.5 >= model.spec.settings.least_step_s && parting::too_late(model, state, solver.tension()) {
-        return Err(Refused::PartsTooLate);
-    }
-    match (touching, &model.spec.friction) {
-        (Some(work), Some(friction)) => {
-            work.keep(model, friction, dt, state, contacts).map_err(Refused::Plugin)?;
-            audit.contact_steps += 1;
-            let deepest = contacts.iter().map(|contact| 0.5 * model.rope_of_segment(contact.segment).diameter_m - contact.distance_m);
-            audit.max_penetration_m = deepest.fold(audit.max_penetration_m, f64::max);
+    let last = dt * 0.5 < model.spec.settings.least_step_s;
+    if touching.is_none() && solver.is_free(model, state, dt) {
+        free_step(model, state, solver, &scheme, audit)?;
+        if !last && parting::too_late(model, state, solver.tension_free()) {
+            return Err(Refused::PartsTooLate);
         }
-        _ => state.rope.grips.clear(),
+        state.rope.grips.clear();
+        solver.keep_free(model, &scheme, state);
+    } else {
+        step_by_lines(model, state, solver, &scheme, touching, (contacts, audit, last))?;
     }
-    solver.keep(model, &scheme, state);
     audit.solver_steps += 1;
     for (peak, tension) in peak_tension_n.iter_mut().zip(&state.rope.tension) {
         *peak = peak.max(*tension);
@@ -91,18 +85,45 @@ pub(crate) fn solver_step(model: &Model, state: &mut State, workspace: &mut Work
     Ok(())
 }
 
+/// A solver step with rope near the whale or the seabed, line after line.
+fn step_by_lines(
+    model: &Model,
+    state: &mut State,
+    solver: &mut Solver,
+    scheme: &Scheme,
+    mut touching: Option<&mut ContactWork>,
+    (contacts, audit, last): (&mut Vec<ContactPoint>, &mut Audit, bool),
+) -> Result<(), Refused> {
+    solver.begin(model, state, scheme);
+    match &mut touching {
+        None => lines_step(model, state, solver, scheme, audit)?,
+        Some(work) => contact_step(model, state, solver, scheme, work, audit)?,
+    }
+    if !last && parting::too_late(model, state, solver.tension()) {
+        return Err(Refused::PartsTooLate);
+    }
+    match (touching, &model.spec.friction) {
+        (Some(work), Some(friction)) => {
+            work.keep(model, friction, scheme.dt, state, contacts).map_err(Refused::Plugin)?;
+            audit.contact_steps += 1;
+            let deepest = contacts.iter().map(|contact| 0.5 * model.rope_of_segment(contact.segment).diameter_m - contact.distance_m);
+            audit.max_penetration_m = deepest.fold(audit.max_penetration_m, f64::max);
+        }
+        _ => state.rope.grips.clear(),
+    }
+    solver.keep(model, scheme, state);
+    Ok(())
+}
+
 /// Gathers rope near the whale for a solver step; whether there is any.
 fn gather(model: &Model, state: &State, work: &mut ContactWork, dt: f64) -> bool {
     let [start, end] = &work.bones;
     work.near.begin(model, [start, end], &state.rope.position, |node| state.rope.velocity[node] * dt, &state.rope.cut)
 }
 
-/// Newton in the lanes where only water touches the rope, else by the lines one after another.
+/// Newton where only water touches the rope.
 fn free_step(model: &Model, state: &State, solver: &mut Solver, scheme: &Scheme, audit: &mut Audit) -> Result<(), Refused> {
-    if !solver.is_free(model, state) {
-        return step_by_lines(model, state, solver, scheme, audit);
-    }
-    solver.begin_free(model);
+    solver.begin_free(model, state, scheme);
     for pass in 1..=MOST_PASSES {
         let passed = solver.pass_free(model, state, scheme);
         audit.passes += 1;
@@ -111,7 +132,6 @@ fn free_step(model: &Model, state: &State, solver: &mut Solver, scheme: &Scheme,
             return Err(Refused::NotFinite);
         }
         if is_settled(pass, &passed) {
-            solver.end_free();
             return Ok(());
         }
     }
@@ -126,7 +146,7 @@ fn is_settled(pass: usize, passed: &FreePass) -> bool {
     passed.longest_m < CONVERGED_M && passed.gap_n < TENSION_GAP_N.max(TENSION_GAP_SHARE * passed.greatest_n)
 }
 
-fn step_by_lines(model: &Model, state: &State, solver: &mut Solver, scheme: &Scheme, audit: &mut Audit) -> Result<(), Refused> {
+fn lines_step(model: &Model, state: &State, solver: &mut Solver, scheme: &Scheme, audit: &mut Audit) -> Result<(), Refused> {
     for pass in 1..=MOST_PASSES {
         let passed = solver.pass(model, state, scheme);
         audit.passes += 1;

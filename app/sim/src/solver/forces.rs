@@ -2,8 +2,9 @@
 //!
 //! Node with hanging length `L`, tangent `t`, water velocity relative to it `u = U - v`, `u_t = u·t`, `u_n = u - u_t t`
 //! (Morison): `F = L [½ρ C_n d |u_n| u_n + ½ρ C_t π d |u_t| u_t t - (m - ρ A_m) g ẑ] - M (v - v̂)/h`, with
-//! `M = L [m 1 + ρ C_a (π d²/4)(1 - t tᵀ)]`, `v = (x - x̂)/h` and `A_m` the volume of fibre per metre.
-//! Segment of unstretched length `l` along `t`: `T = EA (|x_b - x_a| - l)/l + BA t·(v_b - v_a)/l`, pulling only while taut.
+//! `M = L [m 1 + ρ (π d²/4)(C_a (1 - t tᵀ) + C_at t tᵀ)]`, `v = (x - x̂)/h` and `A_m` the volume of fibre per metre.
+//! Segment of unstretched length `l` along `t`, strain `ε`: `T = (EA + EA2 max(ε, 0)) ε + BA t·(v_b - v_a)/l` (`axial.rs`),
+//! pulling only while taut.
 //! Blocks are `-dF/dx`, symmetric, without the turning of the tangent.
 //! Reference: Morison et al. 1950 (doi:10.2118/950149-G).
 
@@ -20,6 +21,8 @@ pub(crate) struct PerMetre<R> {
     pub mass: R,
     /// Added mass across, wet [kg/m].
     pub added: R,
+    /// How much less it is along [kg/m].
+    pub spared: R,
     /// Weight in air [N/m].
     pub weight: R,
     /// Buoyancy, wet [N/m].
@@ -82,10 +85,11 @@ pub(crate) fn node<R: Real>(rope: &PerMetre<R>, shared: &Shared<R>, at: &NodeAt<
     let mass = rope.mass * at.length;
     let acceleration = velocity.sub(at.velocity_history).scale(shared.rate);
     let along_acceleration = acceleration.dot(tangent);
-    let inertia = acceleration.scale(mass + added).sub(tangent.scale(added * along_acceleration));
+    let spared = rope.spared * wet_length;
+    let inertia = acceleration.scale(mass + added).sub(tangent.scale(spared * along_acceleration));
     let sideways = across * shared.rate;
     let round = (mass + added) * shared.inertia + sideways;
-    let lengthways = (along + along) * shared.rate - sideways - added * shared.inertia;
+    let lengthways = (along + along) * shared.rate - sideways - spared * shared.inertia;
     let block = Sym3::diagonal(round)
         .add(Sym3::outer(tangent, lengthways))
         .add(Sym3::outer(normal, rope.across * wet_length * shared.rate / normal_speed.max(tiny)));
@@ -106,8 +110,9 @@ pub(crate) struct SegmentAt<R> {
     pub history: Vec3<R>,
     /// Unstretched length.
     pub length: R,
-    /// `EA` and `BA`, zero where it is cut.
-    pub stiffness: R,
+    /// `EA`, `EA2` and `BA`, zero where it is cut.
+    pub ea: R,
+    pub ea2: R,
     pub damping: R,
     /// Tension by the last solve: taut above zero.
     pub foretold: R,
@@ -135,8 +140,10 @@ pub(crate) fn pull<R: Real>(at: &SegmentAt<R>, rate: R) -> PullOf<R> {
     let inverse_chord = rate.splat(1.0) / chord;
     let direction = at.between.scale(inverse_chord);
     let stretching = direction.dot(at.between.sub(at.history)) * rate;
-    let tension = (at.stiffness * (chord - at.length) + at.damping * stretching) * inverse_length;
-    let stiffness = (at.stiffness + at.damping * rate) * inverse_length;
+    let strain = chord * inverse_length - rate.splat(1.0);
+    let bent = at.ea2 * strain.max(zero);
+    let tension = (at.ea + bent) * strain + at.damping * stretching * inverse_length;
+    let stiffness = (at.ea + bent + bent + at.damping * rate) * inverse_length;
     let across = at.foretold.max(zero) * inverse_chord;
     let block = Sym3::diagonal(across).add(Sym3::outer(direction, stiffness - across));
     let none = Vec3 { x: zero, y: zero, z: zero };

@@ -1,6 +1,6 @@
 //! A solver step of free rope: Newton passes in the lanes of the processor where nothing but water touches the rope.
 
-use glam::DQuat;
+use glam::{DQuat, DVec3};
 
 use super::Solver;
 use super::body;
@@ -29,16 +29,27 @@ pub(crate) struct FreePass {
 }
 
 impl Solver {
-    /// Whether all rope of the step about to be solved is free of the seabed.
-    pub(crate) fn is_free(&self, model: &Model, state: &State) -> bool {
+    /// Whether nothing but water touches the rope in a step of this length.
+    pub(crate) fn is_free(&self, model: &Model, state: &State, dt: f64) -> bool {
+        if !self.lanes.suit(model) {
+            return false;
+        }
         let Some(seabed) = &model.spec.seabed else { return true };
-        let clear = |place: &glam::DVec3| seabed.depth_of(*place) < -SEABED_MARGIN_M;
-        self.trial.place.iter().all(clear) && state.rope.position.iter().all(clear)
+        let rope = &state.rope;
+        let clear = |(place, velocity): (&DVec3, &DVec3)| {
+            let depth = seabed.depth_of(*place);
+            depth.max(depth - seabed.normal.dot(*velocity) * dt) < -SEABED_MARGIN_M
+        };
+        rope.position.iter().zip(&rope.velocity).all(clear)
     }
 
-    /// Hands the rope to the lanes.
-    pub(crate) fn begin_free(&mut self, model: &Model) {
-        self.lanes.gather(model, &self.trial, &self.plan.segment_length, &self.flow, &self.cut);
+    /// Begins a step of free rope.
+    pub(crate) fn begin_free(&mut self, model: &Model, state: &State, scheme: &Scheme) {
+        self.lengths.take(model, &state.rope.segment_length);
+        self.trial.begin_free(model, &self.plan, state, scheme);
+        self.measure_flow(model);
+        self.lanes.take_lengths(&self.lengths, &state.rope.cut);
+        self.lanes.gather(&state.rope, scheme, &self.trial.place, &self.flow);
     }
 
     /// One Newton pass.
@@ -65,17 +76,22 @@ impl Solver {
         self.lanes.give_ends(model, &mut self.trial);
         self.trial.seat_ends(model, &self.plan);
         self.lanes.take_ends(model, &self.trial);
-        FreePass {
-            longest_m: rope.longest_m.max(bodies_m),
-            gap_n: rope.gap_n,
-            greatest_n: rope.greatest_n,
-            finite: finite && rope.finite,
-        }
+        FreePass { longest_m: rope.longest_m.max(bodies_m), gap_n: rope.gap_n, greatest_n: rope.greatest_n, finite: finite && rope.finite }
     }
 
-    /// Takes the rope back from the lanes.
-    pub(crate) fn end_free(&mut self) {
-        self.lanes.scatter(&mut self.trial);
+    /// Writes the solved step into the state.
+    pub(crate) fn keep_free(&mut self, model: &Model, scheme: &Scheme, state: &mut State) {
+        self.keep_grips_free(model, scheme, state);
+        self.lanes.keep(scheme, &mut state.rope);
+        state.rope.earlier_dt_s = scheme.dt;
+        self.keep_bodies(scheme, state);
+    }
+
+    /// Tension of each segment at the end of the step being solved.
+    pub(crate) fn tension_free(&mut self) -> &[f64] {
+        self.trial.tension.resize(self.lengths.segment.len(), 0.0);
+        self.lanes.give_tension(&mut self.trial.tension);
+        &self.trial.tension
     }
 
     /// Moves the bodies by a share of the solved step; the longest solved move and whether all are finite.

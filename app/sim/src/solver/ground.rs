@@ -127,6 +127,19 @@ impl Solver {
             let stiffness = seabed.rope_stiffness_n_m2 * self.lengths.node[node];
             state.rope.seabed_grip[node] = if on_ground { self.rope_grip(seabed, state, node, stiffness).kept } else { DVec3::ZERO };
         }
+        self.keep_feet(model, scheme, state);
+    }
+
+    /// The same where no rope is near the seabed.
+    pub(super) fn keep_grips_free(&self, model: &Model, scheme: &Scheme, state: &mut State) {
+        if model.spec.seabed.is_some() {
+            state.rope.seabed_grip.fill(DVec3::ZERO);
+            self.keep_feet(model, scheme, state);
+        }
+    }
+
+    fn keep_feet(&self, model: &Model, scheme: &Scheme, state: &mut State) {
+        let Some(seabed) = &model.spec.seabed else { return };
         for (index, body) in model.spec.bodies.iter().enumerate() {
             for foot in 0..body.feet_m.len() {
                 self.keep_foot(seabed, scheme, (index, body, foot), state);

@@ -282,6 +282,11 @@ impl Solver {
             rope.position[node] = self.trial.place[node];
             rope.velocity[node] = (self.trial.place[node] - self.trial.place_history[node]) * scheme.rate;
         }
+        self.keep_bodies(scheme, state);
+    }
+
+    /// Writes bodies and time into the state.
+    fn keep_bodies(&self, scheme: &Scheme, state: &mut State) {
         for (trial, body) in self.trial.bodies.iter().zip(&mut state.bodies) {
             body.earlier_position = body.position;
             body.earlier_velocity = body.velocity;

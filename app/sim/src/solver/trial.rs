@@ -55,6 +55,16 @@ impl Trial {
         self.seat_ends(model, plan);
     }
 
+    /// Starts a step of free rope: the same, but for the rope's history, which the lanes take from the state.
+    pub fn begin_free(&mut self, model: &Model, plan: &Plan, state: &State, scheme: &Scheme) {
+        self.time = state.time_s + scheme.dt;
+        self.place.clear();
+        let rope = &state.rope;
+        self.place.extend(rope.position.iter().zip(&rope.velocity).map(|(place, velocity)| *place + *velocity * scheme.dt));
+        self.begin_bodies(model, state, scheme);
+        self.seat_ends(model, plan);
+    }
+
     fn begin_bodies(&mut self, model: &Model, state: &State, scheme: &Scheme) {
         self.bodies.clear();
         for (body, now) in model.spec.bodies.iter().zip(&state.bodies) {

@@ -17,8 +17,11 @@ use pulp::Arch;
 
 use super::chain::{Band, Ends};
 use super::forces::{PerMetre, Shared};
+use super::lengths::Lengths;
+use super::scheme::Scheme;
 use super::trial::Trial;
 use crate::model::{Model, Rope};
+use crate::state::RopeState;
 use layout::{Group, Piece};
 use rows::{EndRows, LANES, MoveRows, NodeRow, Row, Row3, Row6, Row9, SegmentRow, Solved};
 use sweep::{Backward, Forward, GroupRows};
@@ -37,6 +40,9 @@ pub(crate) struct Lanes {
     ropes: Vec<PerMetre<Row>>,
     ends: Vec<EndRows>,
     moves: Vec<MoveRows>,
+    /// Lengths and cuts the rows were made for.
+    lengths: Vec<f64>,
+    cut: Vec<bool>,
     /// Ends of pieces in a row: a line's pieces are the segments of a chain.
     chain: Band,
 }
@@ -76,22 +82,55 @@ impl Lanes {
             ropes,
             ends: vec![EndRows::default(); groups.len()],
             moves: vec![MoveRows::default(); groups.len()],
+            lengths: Vec::new(),
+            cut: Vec::new(),
             chain: Band::new(pieces.len() + model.spec.lines.len(), pieces.len()),
             pieces,
             groups,
         }
     }
 
-    /// Takes over the trial as a step begins.
-    pub fn gather(&mut self, model: &Model, trial: &Trial, lengths: &[f64], flow: &[DVec3], cut: &[bool]) {
+    /// Whether the lanes know all that this rope can do.
+    pub fn suit(&self, model: &Model) -> bool {
+        model.spec.ropes.iter().all(|rope| rope.bending_stiffness_n_m2 <= 0.0)
+    }
+
+    /// Takes over lengths, laws and what is cut, where they are not those there are.
+    pub fn take_lengths(&mut self, lengths: &Lengths, cut: &[bool]) {
+        if self.lengths == lengths.segment && self.cut == cut {
+            return;
+        }
+        self.lengths.clone_from(&lengths.segment);
+        cut.clone_into(&mut self.cut);
         for group in &self.groups {
             for (lane, piece) in group.pieces.iter().enumerate() {
-                let piece = &self.pieces[*piece];
-                let rope = &model.spec.ropes[model.spec.lines[piece.line].rope];
                 let segments = &mut self.segments[group.segment_row..][..group.longest];
-                gather_segments(piece, lane, segments, rope, (lengths, cut, &trial.tension));
                 let nodes = &mut self.nodes[group.node_row..][..group.longest + 3];
-                gather_nodes(piece, lane, nodes, trial, flow, lengths);
+                take_lengths(&self.pieces[*piece], lane, (nodes, segments), lengths, cut);
+            }
+        }
+    }
+
+    /// Takes over the rope as a step begins: `guess` of its places, and the water's velocity there.
+    pub fn gather(&mut self, state: &RopeState, scheme: &Scheme, guess: &[DVec3], flow: &[DVec3]) {
+        for group in &self.groups {
+            let first_nodes = group.pieces.map(|piece| self.pieces[piece].first_node);
+            let last_nodes = group.pieces.map(|piece| self.pieces[piece].first_node + self.pieces[piece].segments);
+            for (k, row) in self.nodes[group.node_row + 1..][..=group.longest].iter_mut().enumerate() {
+                for lane in 0..LANES {
+                    let node = (first_nodes[lane] + k).min(last_nodes[lane]);
+                    row.place.set(lane, guess[node]);
+                    row.place_history.set(lane, scheme.history(state.position[node], state.earlier_position[node]));
+                    row.velocity_history.set(lane, scheme.history(state.velocity[node], state.earlier_velocity[node]));
+                    row.flow.set(lane, flow[node]);
+                }
+            }
+            for lane in 0..group.used {
+                let piece = &self.pieces[group.pieces[lane]];
+                let segments = &mut self.segments[group.segment_row..][..piece.segments];
+                for (row, tension) in segments.iter_mut().zip(&state.tension[piece.first_segment..]) {
+                    row.tension.0[lane] = *tension;
+                }
             }
         }
         self.refresh_ghosts();
@@ -180,16 +219,27 @@ impl Lanes {
         self.refresh_ghosts();
     }
 
-    /// Hands places and tensions to the trial as a step ends.
-    pub fn scatter(&self, trial: &mut Trial) {
+    /// Hands the rope to the state as a step ends.
+    pub fn keep(&self, scheme: &Scheme, state: &mut RopeState) {
+        core::mem::swap(&mut state.earlier_position, &mut state.position);
+        core::mem::swap(&mut state.earlier_velocity, &mut state.velocity);
         for piece in &self.pieces {
             let group = &self.groups[piece.group];
-            let nodes = &self.nodes[group.node_row + 1..][..=piece.segments];
-            for (place, row) in trial.place[piece.first_node..].iter_mut().zip(nodes) {
-                *place = row.place.vector(piece.lane);
+            let rows = &self.nodes[group.node_row + 1..][..=piece.segments];
+            for (row, node) in rows.iter().zip(piece.first_node..) {
+                let place = row.place.vector(piece.lane);
+                state.position[node] = place;
+                state.velocity[node] = (place - row.place_history.vector(piece.lane)) * scheme.rate;
             }
-            let segments = &self.segments[group.segment_row..][..piece.segments];
-            for (tension, row) in trial.tension[piece.first_segment..].iter_mut().zip(segments) {
+        }
+        self.give_tension(&mut state.tension);
+    }
+
+    /// Hands tensions over as the last solve foretold them.
+    pub fn give_tension(&self, tension: &mut [f64]) {
+        for piece in &self.pieces {
+            let rows = &self.segments[self.groups[piece.group].segment_row..][..piece.segments];
+            for (tension, row) in tension[piece.first_segment..].iter_mut().zip(rows) {
                 *tension = row.tension.0[piece.lane];
             }
         }
@@ -247,10 +297,12 @@ fn group_rows<'a>(
 
 fn rope_rows(model: &Model, pieces: &[Piece], group: &Group) -> PerMetre<Row> {
     let row = |of: &dyn Fn(&Rope) -> f64| Row(group.pieces.map(|piece| of(&model.spec.ropes[model.spec.lines[pieces[piece].line].rope])));
+    let area = |rope: &Rope| PI * rope.diameter_m * rope.diameter_m / 4.0;
     let (density, gravity) = (model.spec.water.density_kg_m3, model.spec.water.gravity_m_s2);
     PerMetre {
         mass: row(&|rope| rope.mass_kg_m),
-        added: row(&|rope| density * rope.added_mass_normal * PI * rope.diameter_m * rope.diameter_m / 4.0),
+        added: row(&|rope| density * area(rope) * rope.added_mass_normal),
+        spared: row(&|rope| density * area(rope) * (rope.added_mass_normal - rope.added_mass_tangential)),
         weight: row(&|rope| rope.mass_kg_m * gravity),
         lift: row(&|rope| density * rope.displaced_m3_m * gravity),
         across: row(&|rope| 0.5 * density * rope.diameter_m * rope.drag_normal),
@@ -258,35 +310,20 @@ fn rope_rows(model: &Model, pieces: &[Piece], group: &Group) -> PerMetre<Row> {
     }
 }
 
-fn gather_segments(
-    piece: &Piece,
-    lane: usize,
-    rows: &mut [SegmentRow],
-    rope: &Rope,
-    (lengths, cut, tension): (&[f64], &[bool], &[f64]),
-) {
-    for (k, row) in rows[..piece.segments].iter_mut().enumerate() {
-        let segment = piece.first_segment + k;
-        let whole = if cut[segment] { 0.0 } else { 1.0 };
-        row.length.0[lane] = lengths[segment];
-        row.stiffness.0[lane] = rope.axial_stiffness_n * whole;
-        row.damping.0[lane] = rope.axial_damping_n_s * whole;
-        row.tension.0[lane] = tension[segment];
-    }
-}
-
-fn gather_nodes(piece: &Piece, lane: usize, rows: &mut [NodeRow], trial: &Trial, flow: &[DVec3], lengths: &[f64]) {
+fn take_lengths(piece: &Piece, lane: usize, (nodes, segments): (&mut [NodeRow], &mut [SegmentRow]), lengths: &Lengths, cut: &[bool]) {
     let mut half_before = 0.0;
-    for (k, row) in rows[1..][..=piece.segments].iter_mut().enumerate() {
-        let node = piece.first_node + k;
-        let half_behind = if k < piece.segments { 0.5 * lengths[piece.first_segment + k] } else { 0.0 };
-        row.place.set(lane, trial.place[node]);
-        row.place_history.set(lane, trial.place_history[node]);
-        row.velocity_history.set(lane, trial.velocity_history[node]);
-        row.flow.set(lane, flow[node]);
-        row.length.0[lane] = half_before + half_behind;
-        half_before = half_behind;
+    for k in 0..piece.segments {
+        let (row, segment) = (&mut segments[k], piece.first_segment + k);
+        let (length, law) = (lengths.segment[segment], &lengths.axial[segment]);
+        let whole = if cut[segment] { 0.0 } else { 1.0 };
+        row.length.0[lane] = length;
+        row.ea.0[lane] = law.ea * whole;
+        row.ea2.0[lane] = law.ea2 * whole;
+        row.damping.0[lane] = law.damping * whole;
+        nodes[k + 1].length.0[lane] = half_before + 0.5 * length;
+        half_before = 0.5 * length;
     }
+    nodes[piece.segments + 1].length.0[lane] = half_before;
 }
 
 impl Row3 {

@@ -58,11 +58,6 @@ impl<S: Simd> Part<S> {
         self.put(&mut row.0[2], v.z);
     }
     #[inline(always)]
-    pub fn get6(self, row: &Row6) -> Sym3<Lane<S>> {
-        let [xx, xy, xz, yy, yz, zz] = &row.0;
-        Sym3 { xx: self.get(xx), xy: self.get(xy), xz: self.get(xz), yy: self.get(yy), yz: self.get(yz), zz: self.get(zz) }
-    }
-    #[inline(always)]
     pub fn put6(self, row: &mut Row6, m: Sym3<Lane<S>>) {
         for (row, value) in row.0.iter_mut().zip([m.xx, m.xy, m.xz, m.yy, m.yz, m.zz]) {
             self.put(row, value);
@@ -94,7 +89,8 @@ pub(crate) struct NodeRow {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SegmentRow {
     pub length: Row,
-    pub stiffness: Row,
+    pub ea: Row,
+    pub ea2: Row,
     pub damping: Row,
     pub tension: Row,
 }
@@ -136,6 +132,7 @@ pub(crate) struct MoveRows {
 
 impl Default for SegmentRow {
     fn default() -> Self {
-        Self { length: Row([1.0; LANES]), stiffness: Row::default(), damping: Row::default(), tension: Row::default() }
+        let none = Row::default();
+        Self { length: Row([1.0; LANES]), ea: none, ea2: none, damping: none, tension: none }
     }
 }

@@ -70,29 +70,11 @@ impl<R: Real> Sym3<R> {
     }
     #[inline(always)]
     pub fn add(self, o: Self) -> Self {
-        Self {
-            xx: self.xx + o.xx,
-            xy: self.xy + o.xy,
-            xz: self.xz + o.xz,
-            yy: self.yy + o.yy,
-            yz: self.yz + o.yz,
-            zz: self.zz + o.zz,
-        }
+        Self { xx: self.xx + o.xx, xy: self.xy + o.xy, xz: self.xz + o.xz, yy: self.yy + o.yy, yz: self.yz + o.yz, zz: self.zz + o.zz }
     }
     #[inline(always)]
     pub fn sub(self, o: Self) -> Self {
-        Self {
-            xx: self.xx - o.xx,
-            xy: self.xy - o.xy,
-            xz: self.xz - o.xz,
-            yy: self.yy - o.yy,
-            yz: self.yz - o.yz,
-            zz: self.zz - o.zz,
-        }
-    }
-    #[inline(always)]
-    pub fn scale(self, s: R) -> Self {
-        Self { xx: self.xx * s, xy: self.xy * s, xz: self.xz * s, yy: self.yy * s, yz: self.yz * s, zz: self.zz * s }
+        Self { xx: self.xx - o.xx, xy: self.xy - o.xy, xz: self.xz - o.xz, yy: self.yy - o.yy, yz: self.yz - o.yz, zz: self.zz - o.zz }
     }
     #[inline(always)]
     pub fn apply(self, v: Vec3<R>) -> Vec3<R> {

@@ -83,7 +83,8 @@ impl<S: Simd> Inputs<'_, S> {
             between: part.get3(&to.place).sub(part.get3(&from.place)),
             history: part.get3(&to.place_history).sub(part.get3(&from.place_history)),
             length: part.get(&row.length),
-            stiffness: part.get(&row.stiffness),
+            ea: part.get(&row.ea),
+            ea2: part.get(&row.ea2),
             damping: part.get(&row.damping),
             foretold: part.get(&row.tension),
         };
@@ -176,6 +177,7 @@ fn spread_rope<S: Simd>(part: Part<S>, rope: &PerMetre<Row>) -> PerMetre<Lane<S>
     PerMetre {
         mass: part.get(&rope.mass),
         added: part.get(&rope.added),
+        spared: part.get(&rope.spared),
         weight: part.get(&rope.weight),
         lift: part.get(&rope.lift),
         across: part.get(&rope.across),
@@ -186,12 +188,7 @@ fn spread_rope<S: Simd>(part: Part<S>, rope: &PerMetre<Row>) -> PerMetre<Lane<S>
 #[inline(always)]
 fn spread_shared<S: Simd>(simd: S, shared: &Shared<f64>) -> Shared<Lane<S>> {
     let spread = |value| Lane::new(simd, value);
-    Shared {
-        rate: spread(shared.rate),
-        inertia: spread(shared.inertia),
-        wet: spread(shared.wet),
-        drying: spread(shared.drying),
-    }
+    Shared { rate: spread(shared.rate), inertia: spread(shared.inertia), wet: spread(shared.wet), drying: spread(shared.drying) }
 }
 
 /// Backward sweep from the moves of the ends A and B.
