@@ -15,7 +15,8 @@ use crate::solver::{BodyTrial, CONTACT_WANTED_M, FreePass, Scheme, Solver, TENSI
 use crate::state::State;
 use crate::step::{Audit, Workspace};
 
-/// Passes every free solver step takes, unless the first moved so little that a second would change nothing of note.
+/// Passes every free solver step takes, unless the first, clear of the seabed, moved so little that a second would change nothing
+/// of note.
 const LEAST_PASSES: usize = 2;
 /// Move below which one pass is enough [m].
 const ONE_PASS_M: f64 = 1e-3;
@@ -65,7 +66,7 @@ pub(crate) fn solver_step(model: &Model, state: &mut State, workspace: &mut Work
     contacts.clear();
     let scheme = if careful || touching.is_some() { Scheme::backward_euler(dt) } else { Scheme::bdf2(dt, state.rope.earlier_dt_s) };
     let last = dt * 0.5 < model.spec.settings.least_step_s;
-    if touching.is_none() && solver.is_free(model, state, dt) {
+    if touching.is_none() && solver.suits_lanes(model) {
         free_step(model, state, solver, &scheme, audit)?;
         if !last && parting::too_late(model, state, solver.tension_free()) {
             return Err(Refused::PartsTooLate);
@@ -141,7 +142,9 @@ fn free_step(model: &Model, state: &State, solver: &mut Solver, scheme: &Scheme,
 /// Whether a pass of free rope is the last one needed.
 fn is_settled(pass: usize, passed: &FreePass) -> bool {
     if pass < LEAST_PASSES {
-        return passed.longest_m < ONE_PASS_M && passed.gap_n < ONE_PASS_GAP_N.max(ONE_PASS_GAP_SHARE * passed.greatest_n);
+        return !passed.near_seabed
+            && passed.longest_m < ONE_PASS_M
+            && passed.gap_n < ONE_PASS_GAP_N.max(ONE_PASS_GAP_SHARE * passed.greatest_n);
     }
     passed.longest_m < CONVERGED_M && passed.gap_n < TENSION_GAP_N.max(TENSION_GAP_SHARE * passed.greatest_n)
 }

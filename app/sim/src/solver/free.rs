@@ -1,6 +1,6 @@
-//! A solver step of free rope: Newton passes in the lanes of the processor where nothing but water touches the rope.
+//! A solver step of free rope: Newton passes in the lanes of the processor where only water and seabed touch the rope.
 
-use glam::{DQuat, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 
 use super::Solver;
 use super::body;
@@ -26,21 +26,24 @@ pub(crate) struct FreePass {
     pub greatest_n: f64,
     /// Whether all moves are finite.
     pub finite: bool,
+    /// Whether rope may touch the seabed.
+    pub near_seabed: bool,
 }
 
 impl Solver {
-    /// Whether nothing but water touches the rope in a step of this length.
-    pub(crate) fn is_free(&self, model: &Model, state: &State, dt: f64) -> bool {
-        if !self.lanes.suit(model) {
-            return false;
-        }
-        let Some(seabed) = &model.spec.seabed else { return true };
-        let rope = &state.rope;
-        let clear = |(place, velocity): (&DVec3, &DVec3)| {
+    /// Whether the lanes can take a step of this model, where no rope is near the whale.
+    pub(crate) fn suits_lanes(&self, model: &Model) -> bool {
+        self.lanes.suit(model)
+    }
+
+    /// Whether rope may touch the seabed in a step of this length.
+    fn nears_seabed(&self, model: &Model, state: &State, dt: f64) -> bool {
+        let Some(seabed) = &model.spec.seabed else { return false };
+        let near = |(place, velocity): (&DVec3, &DVec3)| {
             let depth = seabed.depth_of(*place);
-            depth.max(depth - seabed.normal.dot(*velocity) * dt) < -SEABED_MARGIN_M
+            depth.max(depth - seabed.normal.dot(*velocity) * dt) > -SEABED_MARGIN_M
         };
-        rope.position.iter().zip(&rope.velocity).all(clear)
+        state.rope.position.iter().zip(&state.rope.velocity).any(near)
     }
 
     /// Begins a step of free rope.
@@ -50,12 +53,17 @@ impl Solver {
         self.measure_flow(model);
         self.lanes.take_lengths(&self.lengths, &state.rope.cut);
         self.lanes.gather(&state.rope, scheme, &self.trial.place, &self.flow);
+        self.near_seabed = self.nears_seabed(model, state, scheme.dt);
+        self.lanes.leave_ground();
     }
 
     /// One Newton pass.
     pub(crate) fn pass_free(&mut self, model: &Model, state: &State, scheme: &Scheme) -> FreePass {
         let shared = shared(model, scheme);
         self.hubs.clear();
+        if self.near_seabed {
+            self.measure_ground(model, state, scheme);
+        }
         self.lanes.reduce(&shared);
         for (index, line) in model.spec.lines.iter().enumerate() {
             let (seat_a, seat_b) = (self.plan.seats[line.from], self.plan.seats[line.to]);
@@ -76,12 +84,32 @@ impl Solver {
         self.lanes.give_ends(model, &mut self.trial);
         self.trial.seat_ends(model, &self.plan);
         self.lanes.take_ends(model, &self.trial);
-        FreePass { longest_m: rope.longest_m.max(bodies_m), gap_n: rope.gap_n, greatest_n: rope.greatest_n, finite: finite && rope.finite }
+        FreePass {
+            longest_m: rope.longest_m.max(bodies_m),
+            gap_n: rope.gap_n,
+            greatest_n: rope.greatest_n,
+            finite: finite && rope.finite,
+            near_seabed: self.near_seabed,
+        }
+    }
+
+    /// Hands the seabed's forces and blocks to the lanes.
+    fn measure_ground(&mut self, model: &Model, state: &State, scheme: &Scheme) {
+        self.lanes.give_places(&mut self.trial.place);
+        self.band.force.fill(DVec3::ZERO);
+        self.band.diagonal.fill(DMat3::ZERO);
+        self.add_seabed(model, state, scheme);
+        self.lanes.take_ground(&self.band.force, &self.band.diagonal);
     }
 
     /// Writes the solved step into the state.
     pub(crate) fn keep_free(&mut self, model: &Model, scheme: &Scheme, state: &mut State) {
-        self.keep_grips_free(model, scheme, state);
+        if self.near_seabed {
+            self.lanes.give_places(&mut self.trial.place);
+            self.keep_grips(model, scheme, state);
+        } else {
+            self.keep_grips_free(model, scheme, state);
+        }
         self.lanes.keep(scheme, &mut state.rope);
         state.rope.earlier_dt_s = scheme.dt;
         self.keep_bodies(scheme, state);
@@ -126,3 +154,7 @@ fn shared(model: &Model, scheme: &Scheme) -> Shared<f64> {
     let (wet, drying) = if model.spec.water.rope_dries { (0.5, 1.0 / SURFACE_HEIGHT_M) } else { (1.0, 0.0) };
     Shared { rate: scheme.rate, inertia: scheme.inertia, wet, drying }
 }
+
+#[cfg(test)]
+#[path = "free_tests.rs"]
+mod tests;

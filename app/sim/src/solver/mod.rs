@@ -48,6 +48,8 @@ pub(crate) struct Solver {
     lengths: Lengths,
     band: Band,
     lanes: Lanes,
+    /// Whether rope may touch the seabed in a step of free rope.
+    near_seabed: bool,
     hubs: Hubs,
     mass: Vec<DMat3>,
     pull: Vec<Pull>,
@@ -100,6 +102,7 @@ impl Solver {
             lengths: Lengths::default(),
             band: Band::new(model.node_count, model.segment_count),
             lanes: Lanes::new(model),
+            near_seabed: false,
             mass: vec![DMat3::ZERO; model.node_count],
             pull: vec![Pull::default(); model.segment_count],
             cut: vec![false; model.segment_count],

@@ -23,7 +23,7 @@ use super::trial::Trial;
 use crate::model::{Model, Rope};
 use crate::state::RopeState;
 use layout::{Group, Piece};
-use rows::{EndRows, LANES, MoveRows, NodeRow, Row, Row3, Row6, Row9, SegmentRow, Solved};
+use rows::{EndRows, GroundRow, LANES, MoveRows, NodeRow, Row, Row3, Row6, Row9, SegmentRow, Solved};
 use sweep::{Backward, Forward, GroupRows};
 
 /// Rows of all groups, and the chains of their ends.
@@ -37,6 +37,8 @@ pub(crate) struct Lanes {
     nodes: Vec<NodeRow>,
     segments: Vec<SegmentRow>,
     solved: Vec<Solved>,
+    /// What the seabed does to nodes, in the layout of `nodes`; empty where no rope is near it.
+    ground: Vec<GroundRow>,
     ropes: Vec<PerMetre<Row>>,
     ends: Vec<EndRows>,
     moves: Vec<MoveRows>,
@@ -79,6 +81,7 @@ impl Lanes {
             nodes: vec![NodeRow::default(); rows(|group| group.longest + 3)],
             segments: vec![SegmentRow::default(); rows(|group| group.longest)],
             solved: vec![Solved::default(); rows(|group| group.longest)],
+            ground: Vec::new(),
             ropes,
             ends: vec![EndRows::default(); groups.len()],
             moves: vec![MoveRows::default(); groups.len()],
@@ -90,9 +93,15 @@ impl Lanes {
         }
     }
 
+    /// Works with other lanes than the processor's widest.
+    #[cfg(test)]
+    pub fn set_arch(&mut self, arch: Arch) {
+        self.arch = arch;
+    }
+
     /// Whether the lanes know all that this rope can do.
     pub fn suit(&self, model: &Model) -> bool {
-        model.spec.ropes.iter().all(|rope| rope.bending_stiffness_n_m2 <= 0.0)
+        model.sea.field().is_none() && model.spec.ropes.iter().all(|rope| rope.bending_stiffness_n_m2 <= 0.0)
     }
 
     /// Takes over lengths, laws and what is cut, where they are not those there are.
@@ -136,10 +145,41 @@ impl Lanes {
         self.refresh_ghosts();
     }
 
+    /// Takes what the seabed does to nodes: forces and blocks, of which the symmetric part is kept (Newton then comes to the
+    /// same balance, a little slower where rope slides).
+    pub fn take_ground(&mut self, force: &[DVec3], block: &[DMat3]) {
+        self.ground.resize(self.nodes.len(), GroundRow::default());
+        for piece in &self.pieces {
+            let rows = &mut self.ground[self.groups[piece.group].node_row + 1..][..=piece.segments];
+            for (k, row) in rows.iter_mut().enumerate() {
+                let node = piece.first_node + k;
+                // Where two pieces meet, the first carries it.
+                let carried = k > 0 || !piece.follows;
+                row.set(piece.lane, if carried { (force[node], block[node]) } else { (DVec3::ZERO, DMat3::ZERO) });
+            }
+        }
+    }
+
+    /// Forgets the seabed.
+    pub fn leave_ground(&mut self) {
+        self.ground.clear();
+    }
+
+    /// Places of all nodes.
+    pub fn give_places(&self, place: &mut [DVec3]) {
+        for piece in &self.pieces {
+            let rows = &self.nodes[self.groups[piece.group].node_row + 1..][..=piece.segments];
+            for (place, row) in place[piece.first_node..].iter_mut().zip(rows) {
+                *place = row.place.vector(piece.lane);
+            }
+        }
+    }
+
     /// Forces, matrix and elimination of every piece, and of the chains of their ends.
     pub fn reduce(&mut self, shared: &Shared<f64>) {
         for (index, group) in self.groups.iter().enumerate() {
-            let rows = group_rows(group, &mut self.nodes, &mut self.segments, &mut self.solved, &self.ropes[index], shared);
+            let ground = self.ground.get(group.node_row..).unwrap_or_default();
+            let rows = group_rows(group, (&mut self.nodes, &mut self.segments, &mut self.solved), ground, &self.ropes[index], shared);
             self.arch.dispatch(Forward(rows, &mut self.ends[index]));
         }
         self.chain.clear();
@@ -177,7 +217,8 @@ impl Lanes {
                 ends[0].set(lane, self.chain.step[node]);
                 ends[1].set(lane, self.chain.step[node + 1]);
             }
-            let rows = group_rows(group, &mut self.nodes, &mut self.segments, &mut self.solved, &self.ropes[index], shared);
+            let ground = self.ground.get(group.node_row..).unwrap_or_default();
+            let rows = group_rows(group, (&mut self.nodes, &mut self.segments, &mut self.solved), ground, &self.ropes[index], shared);
             self.arch.dispatch(Backward(rows, &ends, &mut self.moves[index]));
             for lane in 0..group.used {
                 let moves = &self.moves[index];
@@ -278,9 +319,8 @@ fn chain_nodes(line: usize, pieces: &core::ops::Range<usize>) -> core::ops::Rang
 
 fn group_rows<'a>(
     group: &'a Group,
-    nodes: &'a mut [NodeRow],
-    segments: &'a mut [SegmentRow],
-    solved: &'a mut [Solved],
+    (nodes, segments, solved): (&'a mut [NodeRow], &'a mut [SegmentRow], &'a mut [Solved]),
+    ground: &'a [GroundRow],
     rope: &'a PerMetre<Row>,
     shared: &'a Shared<f64>,
 ) -> GroupRows<'a> {
@@ -288,6 +328,7 @@ fn group_rows<'a>(
         nodes: &mut nodes[group.node_row..][..group.longest + 3],
         segments: &mut segments[group.segment_row..][..group.longest],
         solved: &mut solved[group.segment_row..][..group.longest],
+        ground,
         shortest: group.shortest,
         live: &group.live,
         rope,
@@ -334,6 +375,17 @@ impl Row3 {
     }
     fn vector(&self, lane: usize) -> DVec3 {
         DVec3::from_array([self.0[0].0[lane], self.0[1].0[lane], self.0[2].0[lane]])
+    }
+}
+
+impl GroundRow {
+    fn set(&mut self, lane: usize, (force, block): (DVec3, DMat3)) {
+        self.force.set(lane, force);
+        let [x, y, z] = [block.x_axis, block.y_axis, block.z_axis];
+        let half = [x.x, 0.5 * (x.y + y.x), 0.5 * (x.z + z.x), y.y, 0.5 * (y.z + z.y), z.z];
+        for (row, value) in self.block.0.iter_mut().zip(half) {
+            row.0[lane] = value;
+        }
     }
 }
 

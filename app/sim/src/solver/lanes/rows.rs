@@ -58,6 +58,11 @@ impl<S: Simd> Part<S> {
         self.put(&mut row.0[2], v.z);
     }
     #[inline(always)]
+    pub fn get6(self, row: &Row6) -> Sym3<Lane<S>> {
+        let [xx, xy, xz, yy, yz, zz] = &row.0;
+        Sym3 { xx: self.get(xx), xy: self.get(xy), xz: self.get(xz), yy: self.get(yy), yz: self.get(yz), zz: self.get(zz) }
+    }
+    #[inline(always)]
     pub fn put6(self, row: &mut Row6, m: Sym3<Lane<S>>) {
         for (row, value) in row.0.iter_mut().zip([m.xx, m.xy, m.xz, m.yy, m.yz, m.zz]) {
             self.put(row, value);
@@ -83,6 +88,13 @@ pub(crate) struct NodeRow {
     pub velocity_history: Row3,
     pub flow: Row3,
     pub length: Row,
+}
+
+/// What the seabed does to a node.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct GroundRow {
+    pub force: Row3,
+    pub block: Row6,
 }
 
 /// What a sweep reads at a segment, and the tension it foretells.

@@ -8,7 +8,7 @@
 use pulp::{Simd, WithSimd};
 
 use super::real::{Lane, Real};
-use super::rows::{EndRows, MoveRows, NodeRow, Part, Row, Row3, SegmentRow, Solved};
+use super::rows::{EndRows, GroundRow, MoveRows, NodeRow, Part, Row, Row3, SegmentRow, Solved};
 use super::space::{Mat3, Sym3, Vec3};
 use crate::solver::forces::{self, NodeAt, PerMetre, PullOf, SegmentAt, Shared};
 
@@ -18,6 +18,8 @@ pub(crate) struct GroupRows<'a> {
     pub nodes: &'a mut [NodeRow],
     pub segments: &'a mut [SegmentRow],
     pub solved: &'a mut [Solved],
+    /// Seabed, in the layout of `nodes`, or empty.
+    pub ground: &'a [GroundRow],
     /// Segments of the shortest piece.
     pub shortest: usize,
     /// For each segment from `shortest` on: 1 in lanes whose piece has it.
@@ -54,6 +56,7 @@ struct Inputs<'a, S: Simd> {
     part: Part<S>,
     nodes: &'a [NodeRow],
     segments: &'a [SegmentRow],
+    ground: &'a [GroundRow],
     rope: PerMetre<Lane<S>>,
     shared: Shared<Lane<S>>,
 }
@@ -72,7 +75,11 @@ impl<S: Simd> Inputs<'_, S> {
             flow: part.get3(&row.flow),
             length: part.get(&row.length),
         };
-        forces::node(&self.rope, &self.shared, &at)
+        let (force, block) = forces::node(&self.rope, &self.shared, &at);
+        match self.ground.get(k + 1) {
+            None => (force, block),
+            Some(ground) => (force.add(part.get3(&ground.force)), block.add(part.get6(&ground.block))),
+        }
     }
 
     #[inline(always)]
@@ -98,6 +105,7 @@ fn forward<S: Simd>(part: Part<S>, group: &mut GroupRows<'_>, ends: &mut EndRows
         part,
         nodes: group.nodes,
         segments: group.segments,
+        ground: group.ground,
         rope: spread_rope(part, group.rope),
         shared: spread_shared(part.simd, group.shared),
     };

@@ -1,0 +1,140 @@
+//! The lanes against the solve line by line, and lanes of one width against another.
+
+use glam::{DQuat, DVec3};
+use pulp::Arch;
+
+use super::*;
+use crate::model::{Body, BodyRole, Joint, JointKind, Line, ModelSpec, Rope, Seabed, Settings, Shape, Strength};
+use crate::water::{Current, Water};
+
+fn rope(id: &str, mass_kg_m: f64) -> Rope {
+    Rope {
+        id: id.into(),
+        diameter_m: 0.01,
+        mass_kg_m,
+        displaced_m3_m: 6e-5,
+        axial_stiffness_n: 5e4,
+        axial_stiffening_n: 2e5,
+        axial_damping_n_s: 4.0,
+        axial_damping_ratio: 0.0,
+        bending_stiffness_n_m2: 0.0,
+        drag_normal: 1.2,
+        drag_tangential: 0.015,
+        added_mass_normal: 0.0,
+        added_mass_tangential: 0.0,
+        strength_n: f64::INFINITY,
+    }
+}
+
+fn buoy() -> Body {
+    Body {
+        id: "buoy".into(),
+        role: BodyRole::Buoy,
+        shape: Shape::Sphere(0.2),
+        mass_kg: 3.0,
+        inertia_kg_m2: DVec3::splat(0.05),
+        added_mass_kg: DVec3::splat(8.0),
+        added_inertia_kg_m2: DVec3::ZERO,
+        drag_area_m2: DVec3::splat(0.06),
+        turn_drag_m5: DVec3::splat(1e-3),
+        floats: vec![crate::model::Float { offset_m: DVec3::ZERO, volume_m3: 0.03, height_m: 0.4 }],
+        wetted_drag: true,
+        feet_m: Vec::new(),
+        start_friction: 0.0,
+        slide_friction: 0.0,
+        position_m: DVec3::new(12.0, 3.0, -8.0),
+        orientation: DQuat::IDENTITY,
+        held_until_s: None,
+    }
+}
+
+/// Three lines of unlike length and rope from an anchor over a splice to a buoy, with a tail that may lie on the seabed.
+fn model(depth_m: f64, current_m_s: f64) -> Model {
+    let joint = |id: &str, kind, position_m| Joint { id: id.into(), kind, position_m };
+    let line = |id: &str, rope, from, to, length_m: f64, segments: usize| Line {
+        id: id.into(),
+        rope,
+        from,
+        to,
+        segments_m: (0..segments).map(|k| length_m / segments as f64 * if k % 2 == 0 { 1.1 } else { 0.9 }).collect(),
+        strength: Strength::default(),
+        start_m: Vec::new(),
+    };
+    let spec = ModelSpec {
+        water: Water {
+            density_kg_m3: 1025.0,
+            gravity_m_s2: 9.81,
+            depth_m,
+            rope_dries: true,
+            current: Current::uniform(DVec3::new(current_m_s, 0.2 * current_m_s, 0.0)),
+            waves: None,
+        },
+        seabed: Some(Seabed { depth_m, normal: DVec3::Z, rope_stiffness_n_m2: 5e3, foot_stiffness_n_m: 1e5, rope_friction: 0.5 }),
+        ropes: vec![rope("float", 0.05), rope("sink", 0.08)],
+        joints: vec![
+            joint("anchor", JointKind::Fixed, DVec3::new(0.0, 0.0, -20.0)),
+            joint("splice", JointKind::Free, DVec3::new(6.0, 1.0, -14.0)),
+            joint("buoy", JointKind::Body { body: 0, offset_m: DVec3::new(0.0, 0.0, -0.2) }, DVec3::ZERO),
+            joint("tail", JointKind::Free, DVec3::new(9.0, -7.0, -19.0)),
+        ],
+        lines: vec![line("low", 0, 0, 1, 9.0, 60), line("high", 1, 1, 2, 11.0, 37), line("tail", 1, 1, 3, 12.0, 9)],
+        bodies: vec![buoy()],
+        links: Vec::new(),
+        gear: Vec::new(),
+        whale: None,
+        friction: None,
+        probes: Vec::new(),
+        settings: Settings::default(),
+    };
+    Model::new(spec).expect("a sound model")
+}
+
+/// Places after `passes` passes of one step from a rig that has begun to move.
+fn in_lanes(model: &Model, state: &State, scheme: &Scheme, passes: usize, arch: Option<Arch>) -> Vec<DVec3> {
+    let mut solver = Solver::new(model);
+    if let Some(arch) = arch {
+        solver.lanes.set_arch(arch);
+    }
+    solver.begin_free(model, state, scheme);
+    for _ in 0..passes {
+        assert!(solver.pass_free(model, state, scheme).finite);
+    }
+    let mut after = state.clone();
+    solver.keep_free(model, scheme, &mut after);
+    after.rope.position
+}
+
+fn moving(model: &Model) -> State {
+    let mut state = State::start(model);
+    let mut workspace = crate::Workspace::new(model);
+    for _ in 0..5 {
+        crate::step(model, &crate::Input::default(), &mut state, &mut workspace).expect("a rig that moves");
+    }
+    state
+}
+
+#[test]
+fn lanes_solve_what_the_lines_solve() {
+    for (depth_m, current_m_s) in [(60.0, 0.7), (19.05, 0.3)] {
+        let model = model(depth_m, current_m_s);
+        let (state, scheme) = (moving(&model), Scheme::bdf2(0.01, 0.01));
+        let mut solver = Solver::new(&model);
+        solver.begin(&model, &state, &scheme);
+        for _ in 0..12 {
+            solver.pass(&model, &state, &scheme);
+        }
+        let lanes = in_lanes(&model, &state, &scheme, 12, None);
+        let apart = solver.trial.place.iter().zip(&lanes).map(|(one, other)| one.distance(*other)).fold(0.0, f64::max);
+        let moved = state.rope.position.iter().zip(&lanes).map(|(one, other)| one.distance(*other)).fold(0.0, f64::max);
+        assert!(moved > 1e-3 && apart < 1e-9, "depth {depth_m}: {apart} m apart after a move of {moved} m");
+    }
+}
+
+#[test]
+fn the_width_of_the_lanes_changes_no_bit() {
+    let model = model(19.05, 0.7);
+    let (state, scheme) = (moving(&model), Scheme::bdf2(0.01, 0.01));
+    let wide = in_lanes(&model, &state, &scheme, 3, None);
+    let narrow = in_lanes(&model, &state, &scheme, 3, Some(Arch::Scalar));
+    assert!(wide.iter().zip(&narrow).all(|(one, other)| one.to_array().map(f64::to_bits) == other.to_array().map(f64::to_bits)));
+}
