@@ -69,6 +69,25 @@ fn read_attribute(attribute: &endline_sdk::Attribute, node: &Node, library: &Lib
             };
             read_value(node, quantity, Range::Between(*min, *max), problems).map(|value| AttributeValue::Number(value.value))
         }
+        AttributeKind::Count { min, max, .. } => {
+            let range = Range::Between(f64::from(*min), f64::from(*max));
+            let value = read_value(node, Quantity::Ratio, range, problems)?.value;
+            if value.fract() != 0.0 {
+                let message = format!("`{}` is {value}, not a whole number", attribute.key);
+                problems.push(node.place.error(message, format!("write a whole number from {min} to {max}, such as {}", value.round())));
+                return None;
+            }
+            Some(AttributeValue::Number(value))
+        }
+        AttributeKind::Choice { words, .. } => {
+            let word = if let Content::Text(word) = &node.content { word.as_str() } else { "" };
+            if !words.iter().any(|known| known == word) {
+                let message = format!("`{}` is not one of its words", attribute.key);
+                problems.push(node.place.error(message, format!("write \"{}\"", words.join("\" or \""))));
+                return None;
+            }
+            Some(AttributeValue::Choice(word.to_owned()))
+        }
         AttributeKind::Item { library: folder, .. } => {
             let Content::Text(id) = &node.content else {
                 let message = format!("`{}` is {}, not the id of an item in {folder}/", attribute.key, node.content.noun());

@@ -199,8 +199,8 @@ fn nodes_are_shared_out_by_length() {
 fn lines_that_leave_one_body_share_a_joint() {
     let spec = assembled("test.toml", &scenario_text("hello-endline.toml").replace("\"single\"", "\"pair\""));
     let line = |id: &str| spec.lines.iter().find(|line| line.id == id).unwrap();
-    assert_eq!(line("endline-bottom").from, line("groundline").from);
-    let joint = &spec.joints[line("groundline").from];
+    assert_eq!(line("endline-bottom").from, line("groundline-1").from);
+    let joint = &spec.joints[line("groundline-1").from];
     assert!(matches!(joint.kind, JointKind::Body { offset_m, .. } if (offset_m - DVec3::new(0.4572, 0.0, 0.1778)).length() < 1e-12));
 }
 
@@ -400,7 +400,7 @@ fn ropes_and_attributes_of_placed_gear_may_be_chosen() {
     assert!((length - 50.0).abs() < 1e-9, "{length}");
     for (extra, part) in [
         ("[gear.ropes]\nendline-topp = \"pp-3-8\"", "did you mean `endline-top`?"),
-        ("[gear.ropes]\nendline-top = \"pp-3-9\"", "did you mean `pp-3-8`?"),
+        ("[gear.ropes]\nendline-top = \"polysteel-3-9\"", "did you mean `polysteel-3-8`?"),
         ("[gear.attributes]\nbuoy = \"bullet-6x15\"", "did you mean `bullet-6x14`?"),
     ] {
         let problems = refused(&with(extra));
@@ -411,11 +411,17 @@ fn ropes_and_attributes_of_placed_gear_may_be_chosen() {
 #[test]
 fn a_mistake_in_an_assembly_is_told_in_its_own_file() {
     let mut sources = Sources::from_folder(&root()).unwrap();
-    let pair = sources.get("assemblies/pair.toml").unwrap().replace("rope = \"pp-3-8\"", "rope = \"pp-3-9\"");
-    sources.set("assemblies/pair.toml", pair.replace("to = \"trap-2\"", "to = \"trap-22\""));
+    let body = |id: &str| format!("[[body]]\nid = \"{id}\"\nkind = \"trap\"\nitem = \"wire-lobster-3ft\"\nheight = 0\n");
+    let pair = format!(
+        "format = 1\nkind = \"assembly\"\nname = \"Two traps\"\n{}{}\
+         [[line]]\nid = \"groundline-1\"\nrope = \"pp-3-9\"\nfrom = \"trap-1\"\nto = \"trap-22\"\nlength = \"20 m\"\n",
+        body("trap-1"),
+        body("trap-2")
+    );
+    sources.set("assemblies/pair.toml", pair);
     let (library, problems) = Library::read(&sources);
     assert!(problems.is_empty(), "{}", told(&problems));
-    let text = scenario_text("hello-endline.toml").replace("\"single\"", "\"pair\"");
+    let text = scenario_text("hello-endline.toml").replace("\"single\"", "\"pair\"").replace("part = \"buoy\"", "part = \"trap-1\"");
     let scenario = Scenario::read("test.toml", &text).unwrap();
     let problems = assemble(&scenario, &library, &Linked, &Options::default()).err().unwrap();
     assert_eq!(problems.len(), 2, "{}", told(&problems));

@@ -298,11 +298,9 @@ fn a_real_run_swings_the_pendulum_on_a_thread_of_its_own() {
 /// The first-party plugins, linked.
 fn linked() -> Arc<PluginHost> {
     let mut host = PluginHost::empty();
-    for hook in [
-        Hook::Motion(Arc::new(endline_whale_motions::Swim::default())),
-        Hook::Friction(Arc::new(endline_friction_models::Coulomb::default())),
-        Hook::Gear(Arc::new(endline_gear_types::Single::default())),
-    ] {
+    let motion = Hook::Motion(Arc::new(endline_whale_motions::Swim::default()));
+    let friction = Hook::Friction(Arc::new(endline_friction_models::Coulomb::default()));
+    for hook in [motion, friction].into_iter().chain(endline_gear_types::all().into_iter().map(Hook::Gear)) {
         host.add(hook).unwrap();
     }
     Arc::new(host)

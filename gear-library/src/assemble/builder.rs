@@ -27,6 +27,8 @@ pub(super) enum Part {
 pub(super) struct Uncut {
     pub length_m: f64,
     pub start: LineStart,
+    /// The way it lies at first, where its gear type says [m].
+    pub laid_m: Vec<DVec3>,
     pub place: Place,
 }
 

@@ -100,6 +100,7 @@ fn rig(parts: &Parts, depth_m: f64) -> Rig {
         from: end(&line.from),
         to: end(&line.to),
         length_m: line.length_m,
+        laid_m: Vec::new(),
     };
     let link = |link: &crate::assembly::PartLink| RigLink {
         id: link.id.value.clone(),

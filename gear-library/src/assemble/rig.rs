@@ -54,7 +54,8 @@ impl Builder<'_> {
         for joint in &rig.joints {
             let id = setting.named(&joint.id);
             self.name(id.value.clone(), Part::Joint(self.spec.joints.len()), &id.place);
-            self.spec.joints.push(Joint { id: id.value, kind: JointKind::Free, position_m: setting.place(joint.position_m) });
+            let position_m = self.above_bed(setting.place(joint.position_m));
+            self.spec.joints.push(Joint { id: id.value, kind: JointKind::Free, position_m });
         }
         let first_line = self.spec.lines.len();
         for line in &rig.lines {
@@ -78,6 +79,7 @@ impl Builder<'_> {
         let (library, density) = (self.library, self.spec.water.density_kg_m3);
         let made = match body.kind {
             BodyKind::Buoy => library.buoys.iter().find(|buoy| buoy.entry.id == item.value).map(|buoy| {
+                let place = self.above_bed(place);
                 let made = body::of_buoy(id.value.clone(), buoy, density, place, setting.orientation);
                 (made, body::buoy_points(buoy), &buoy.entry.path)
             }),
@@ -109,6 +111,17 @@ impl Builder<'_> {
         };
         let ends = (end(&line.from), end(&line.to));
         self.add_line(&id, &rope, ends, line.length_m, LineStart::Straight);
+        let laid_m = line.laid_m.iter().map(|place| self.above_bed(setting.place(*place))).collect();
+        if let Some(uncut) = self.uncut.last_mut() {
+            uncut.laid_m = laid_m;
+        }
+    }
+
+    /// A place of a rig, which is built for the depth at its origin, where the seabed is higher or lower: moved with the
+    /// seabed there, and the less the nearer it is to the surface.
+    fn above_bed(&self, place: DVec3) -> DVec3 {
+        let depth = self.spec.water.depth_m;
+        place - DVec3::Z * ((self.seabed_height(place) + depth) * (place.z / depth))
     }
 
     /// Puts a line into the spec, to be cut into segments later.
@@ -131,7 +144,7 @@ impl Builder<'_> {
             start_m: Vec::new(),
         };
         self.spec.lines.push(line);
-        self.uncut.push(Uncut { length_m, start, place: id.place.clone() });
+        self.uncut.push(Uncut { length_m, start, laid_m: Vec::new(), place: id.place.clone() });
     }
 
     fn add_rig_link(&mut self, link: &RigLink, setting: &Setting<'_>) {

@@ -44,6 +44,9 @@ impl Builder<'_> {
 
     /// Lays a line along the elastic catenary between its ends, where the scenario asks for it.
     fn shape_start(&mut self, index: usize) {
+        if !self.uncut[index].laid_m.is_empty() {
+            return self.lay(index);
+        }
         if self.uncut[index].start == LineStart::Straight {
             return;
         }
@@ -64,6 +67,18 @@ impl Builder<'_> {
         self.spec.lines[index].start_m = (0..=count).map(|k| if k == count { to } else { node(k) }).collect();
     }
 
+    /// Lays a line's nodes evenly along the way its gear type gave it, from joint to joint.
+    fn lay(&mut self, index: usize) {
+        let line = &self.spec.lines[index];
+        let (from, to) = (self.joint_place(line.from), self.joint_place(line.to));
+        let mut way = std::mem::take(&mut self.uncut[index].laid_m);
+        if let [first, .., last] = way.as_mut_slice() {
+            (*first, *last) = (from, to);
+        }
+        let count = line.segments_m.len();
+        self.spec.lines[index].start_m = (0..=count).map(|k| along(&way, k as f64 / count as f64)).collect();
+    }
+
     fn joint_place(&self, joint: usize) -> DVec3 {
         let joint = &self.spec.joints[joint];
         match joint.kind {
@@ -74,6 +89,20 @@ impl Builder<'_> {
             _ => joint.position_m,
         }
     }
+}
+
+/// The place at a share of the length of a way through two places or more.
+fn along(way: &[DVec3], share: f64) -> DVec3 {
+    let whole: f64 = way.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+    let mut left = share * whole;
+    for pair in way.windows(2) {
+        let length = pair[0].distance(pair[1]);
+        if left <= length && length > 0.0 {
+            return pair[0].lerp(pair[1], left / length);
+        }
+        left -= length;
+    }
+    way.last().copied().unwrap_or_default()
 }
 
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "lengths are positive and bounded by the reader")]

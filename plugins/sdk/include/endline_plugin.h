@@ -20,8 +20,9 @@
 // Major version: another number means another layout.
 #define ENDLINE_ABI_MAJOR 1
 
-// Minor version: a greater number means fields added at the ends of structs.
-#define ENDLINE_ABI_MINOR 0
+// Minor version: a greater number means fields added at the ends of structs, or kinds of attribute.
+// 1 added [`ATTRIBUTE_COUNT`], [`ATTRIBUTE_CHOICE`] and `lay_line` of `endline_rig_host_t`.
+#define ENDLINE_ABI_MINOR 1
 
 // Kind of plugin: whale motion, table `endline_motion_t`.
 #define ENDLINE_KIND_MOTION 1
@@ -46,6 +47,12 @@
 
 // Kind of attribute: the id of an item of the gear library.
 #define ENDLINE_ATTRIBUTE_ITEM 1
+
+// Kind of attribute: a whole number (since 1.1).
+#define ATTRIBUTE_COUNT 2
+
+// Kind of attribute: one of a few words (since 1.1).
+#define ATTRIBUTE_CHOICE 3
 
 // Kind of body: trap.
 #define ENDLINE_BODY_TRAP 0
@@ -186,21 +193,21 @@ typedef struct {
 typedef struct {
   // Key in files.
   endline_text_t key;
-  // SI unit, `1` for a pure number; empty for an item.
+  // SI unit, `1` for a pure number or a count; empty for an item or a word.
   endline_text_t unit;
   // Help shown beside the field.
   endline_text_t help;
-  // `ENDLINE_ATTRIBUTE_NUMBER` or `ENDLINE_ATTRIBUTE_ITEM`.
+  // `ENDLINE_ATTRIBUTE_NUMBER`, `ENDLINE_ATTRIBUTE_ITEM`, [`ATTRIBUTE_COUNT`] or [`ATTRIBUTE_CHOICE`].
   uint32_t kind;
-  // Number: least allowed value.
+  // Number, count: least allowed value.
   double least;
-  // Number: greatest allowed value.
+  // Number, count: greatest allowed value.
   double greatest;
-  // Number: value where a file names none.
+  // Number, count: value where a file names none.
   double default_number;
-  // Item: folder of the library, such as `ropes`.
+  // Item: folder of the library, such as `ropes`. Choice: the words, with `|` between.
   endline_text_t library;
-  // Item: id where a file names none; empty for no item.
+  // Item: id where a file names none; empty for no item. Choice: the word.
   endline_text_t default_item;
 } endline_attribute_t;
 
@@ -390,11 +397,11 @@ typedef struct {
 
 // The value of an attribute.
 typedef struct {
-  // `ENDLINE_ATTRIBUTE_NUMBER` or `ENDLINE_ATTRIBUTE_ITEM`, as declared.
+  // Kind of the attribute, as declared.
   uint32_t kind;
-  // The number, where it is one.
+  // The number or count, where it is one.
   double number;
-  // The item's id, where it is one.
+  // The item's id or the word, where it is one.
   endline_text_t item;
 } endline_value_t;
 
@@ -474,6 +481,9 @@ typedef struct {
   int32_t (*add_line)(void *host, const endline_line_t *line);
   // Adds a weak link.
   int32_t (*add_link)(void *host, const endline_link_t *link);
+  // Gives a line added before the way it lies at first, `count` places from end A to end B [m].
+  // Since 1.1: there only where `struct_size` reaches past it.
+  int32_t (*lay_line)(void *host, endline_text_t line, const double (*places_m)[3], size_t count);
 } endline_rig_host_t;
 
 // What a gear type may look at once a step.

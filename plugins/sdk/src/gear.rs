@@ -69,6 +69,8 @@ pub struct RigLine {
     pub to: RigEnd,
     /// Unstretched length [m].
     pub length_m: f64,
+    /// First guess of the way it lies, from end A to end B, such as the flakes of a stowed rope [m]; empty for straight.
+    pub laid_m: Vec<[f64; 3]>,
 }
 
 /// A weak link at one end of a line.

@@ -26,7 +26,7 @@ pub struct Descriptor {
 pub struct Attribute {
     /// Key in files, such as `beat_frequency`.
     pub key: Cow<'static, str>,
-    /// SI unit such as `m/s`, `rad`, `N`, or `1` for a pure number; empty for a library item.
+    /// SI unit such as `m/s`, `rad`, `N`, or `1` for a pure number or a count; empty for a word or a library item.
     pub unit: Cow<'static, str>,
     /// Help shown beside the field.
     pub help: Cow<'static, str>,
@@ -46,6 +46,22 @@ pub enum AttributeKind {
         /// Value taken where the file names none.
         default: f64,
     },
+    /// A whole number.
+    Count {
+        /// Least allowed value.
+        min: u32,
+        /// Greatest allowed value.
+        max: u32,
+        /// Value taken where the file names none.
+        default: u32,
+    },
+    /// One of a few words.
+    Choice {
+        /// The words; none is empty or holds a `|`.
+        words: Vec<Cow<'static, str>>,
+        /// The word taken where the file names none.
+        default: Cow<'static, str>,
+    },
     /// The id of an item of the gear library.
     Item {
         /// Folder of the library: `ropes`, `traps`, `buoys`, `weak-links`, `anchors`.
@@ -58,8 +74,10 @@ pub enum AttributeKind {
 /// A value handed to a plugin, matching its [`AttributeKind`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum AttributeValue {
-    /// Number in the attribute's SI unit.
+    /// Number in the attribute's SI unit; whole where it is a count.
     Number(f64),
+    /// The word chosen.
+    Choice(String),
     /// Id of a library item.
     Item(String),
 }
@@ -70,6 +88,20 @@ impl Attribute {
     pub fn number(key: &'static str, unit: &'static str, range: [f64; 2], default: f64, help: &'static str) -> Self {
         let [min, max] = range;
         Self { key: key.into(), unit: unit.into(), help: help.into(), kind: AttributeKind::Number { min, max, default } }
+    }
+
+    /// An attribute that counts.
+    #[must_use]
+    pub fn count(key: &'static str, [min, max]: [u32; 2], default: u32, help: &'static str) -> Self {
+        Self { key: key.into(), unit: "1".into(), help: help.into(), kind: AttributeKind::Count { min, max, default } }
+    }
+
+    /// An attribute that is one of a few words; the first is taken where a file names none.
+    #[must_use]
+    pub fn choice(key: &'static str, words: &[&'static str], help: &'static str) -> Self {
+        let default = words.first().copied().unwrap_or_default().into();
+        let words = words.iter().map(|word| Cow::Borrowed(*word)).collect();
+        Self { key: key.into(), unit: "".into(), help: help.into(), kind: AttributeKind::Choice { words, default } }
     }
 
     /// An attribute that names an item of the gear library.
@@ -84,6 +116,8 @@ impl Attribute {
     pub fn default_value(&self) -> AttributeValue {
         match &self.kind {
             AttributeKind::Number { default, .. } => AttributeValue::Number(*default),
+            AttributeKind::Count { default, .. } => AttributeValue::Number(f64::from(*default)),
+            AttributeKind::Choice { default, .. } => AttributeValue::Choice(default.to_string()),
             AttributeKind::Item { default, .. } => AttributeValue::Item(default.to_string()),
         }
     }
@@ -95,7 +129,16 @@ impl AttributeValue {
     pub fn number(&self) -> Option<f64> {
         match self {
             Self::Number(value) => Some(*value),
-            Self::Item(_) => None,
+            Self::Choice(_) | Self::Item(_) => None,
+        }
+    }
+
+    /// The word, where one was chosen.
+    #[must_use]
+    pub fn choice(&self) -> Option<&str> {
+        match self {
+            Self::Choice(word) => Some(word),
+            Self::Number(_) | Self::Item(_) => None,
         }
     }
 
@@ -104,7 +147,7 @@ impl AttributeValue {
     pub fn item(&self) -> Option<&str> {
         match self {
             Self::Item(id) => Some(id),
-            Self::Number(_) => None,
+            Self::Number(_) | Self::Choice(_) => None,
         }
     }
 }

@@ -37,10 +37,10 @@ impl Hooks for Linked {
         (model.descriptor().id == id).then(|| Arc::new(model) as Arc<dyn FrictionModel>)
     }
     fn gear(&self, id: &str) -> Option<Arc<dyn GearType>> {
-        let gear = endline_gear_types::Single::new();
-        (gear.descriptor().id == id).then(|| Arc::new(gear) as Arc<dyn GearType>)
+        endline_gear_types::all().into_iter().find(|gear| gear.descriptor().id == id)
     }
     fn ids(&self) -> Vec<String> {
-        ["org.endline.motion.swim", "org.endline.friction.coulomb", "org.endline.gear.single"].map(str::to_owned).to_vec()
+        let gear = endline_gear_types::all().into_iter().map(|gear| gear.descriptor().id.to_string());
+        ["org.endline.motion.swim", "org.endline.friction.coulomb"].map(str::to_owned).into_iter().chain(gear).collect()
     }
 }

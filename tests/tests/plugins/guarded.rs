@@ -119,6 +119,7 @@ fn rig() -> Rig {
             from: RigEnd::Body("trap".into()),
             to: RigEnd::Joint("top".into()),
             length_m: 12.0,
+            laid_m: Vec::new(),
         }],
         links: vec![RigLink { id: "link".into(), item: "wl".into(), line: "endline".into(), end: LineEnd::B }],
     }
@@ -137,6 +138,8 @@ fn a_rig_that_does_not_fit_together_is_refused() {
     expect(&build(|rig| rig.lines[0].from = RigEnd::Body("buoy:side".into())).unwrap_err(), "ends at body `buoy`, which its rig lacks");
     expect(&build(|rig| rig.lines[0].to = RigEnd::Joint("buoy".into())).unwrap_err(), "ends at joint `buoy`, which its rig lacks");
     expect(&build(|rig| rig.lines[0].length_m = -1.0).unwrap_err(), "line `endline` is -1 m long");
+    expect(&build(|rig| rig.lines[0].laid_m = vec![[0.0; 3]]).unwrap_err(), "line `endline` is laid through one place");
+    expect(&build(|rig| rig.lines[0].laid_m = vec![[f64::INFINITY; 3]; 2]).unwrap_err(), "inf for a place");
     expect(&build(|rig| rig.lines[0].rope.clear()).unwrap_err(), "names no rope");
     expect(&build(|rig| rig.links[0].line = "other".into()).unwrap_err(), "link `link`");
     expect(&build(|rig| rig.bodies[0].position_m[2] = f64::NAN).unwrap_err(), "NaN for a place");

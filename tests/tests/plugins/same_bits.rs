@@ -29,6 +29,8 @@ fn loaded() -> PluginHost {
 fn value(attribute: &Attribute, random: &mut Random) -> AttributeValue {
     match &attribute.kind {
         AttributeKind::Number { min, max, .. } => AttributeValue::Number(random.between(*min, *max)),
+        AttributeKind::Count { min, max, .. } => AttributeValue::Number(random.between(f64::from(*min), f64::from(*max) + 1.0).floor()),
+        AttributeKind::Choice { words, .. } => AttributeValue::Choice(words[random.next() as usize % words.len()].to_string()),
         AttributeKind::Item { default, .. } if random.between(0.0, 1.0) < 0.5 => AttributeValue::Item(default.to_string()),
         AttributeKind::Item { library, .. } => AttributeValue::Item(format!("{library}-{}", random.next() % 100)),
     }
@@ -45,10 +47,15 @@ fn bits(values: impl IntoIterator<Item = f64>) -> Vec<u64> {
 #[test]
 fn the_library_declares_what_the_linked_plugin_declares() {
     let host = loaded();
-    assert_eq!(host.ids(), [COULOMB, SINGLE, SWIM]);
+    let gear = endline_gear_types::all();
+    let mut ids: Vec<_> = gear.iter().map(|gear| gear.descriptor().id.to_string()).chain([COULOMB, SWIM].map(str::to_owned)).collect();
+    ids.sort();
+    assert_eq!(host.ids(), ids);
     assert_eq!(host.motion(SWIM).unwrap().descriptor(), Swim::new().descriptor());
     assert_eq!(host.friction(COULOMB).unwrap().descriptor(), Coulomb::new().descriptor());
-    assert_eq!(host.gear(SINGLE).unwrap().descriptor(), Single::new().descriptor());
+    for linked in &gear {
+        assert_eq!(host.gear(&linked.descriptor().id).unwrap().descriptor(), linked.descriptor());
+    }
     assert!(host.motion(COULOMB).is_none() && host.friction(SWIM).is_none() && host.gear("org.example.none").is_none());
     let swim = host.list().iter().find(|info| info.id == SWIM).unwrap();
     let file = first_party_file("endline_whale_motions");
@@ -177,28 +184,65 @@ fn coulomb_gives_the_same_bits_linked_and_loaded() {
     }
 }
 
+/// Values of a gear type drawn at random, half of the numbers at their defaults so that much of it can be built.
+fn drawn(gear: &dyn GearType, random: &mut Random) -> Vec<AttributeValue> {
+    let draw = |attribute: &Attribute| match &attribute.kind {
+        AttributeKind::Number { .. } if random.between(0.0, 1.0) < 0.7 => attribute.default_value(),
+        _ => value(attribute, random),
+    };
+    gear.descriptor().attributes.iter().map(draw).collect()
+}
+
 #[test]
-fn single_gives_the_same_rig_linked_and_loaded() {
-    let (linked, loaded) = (Single::new(), loaded().gear(SINGLE).unwrap());
-    let mut random = Random(3);
-    let (mut built, mut refused) = (0, 0);
-    for _ in 0..3000 {
-        let values: Vec<_> = linked.descriptor().attributes.iter().map(|attribute| value(attribute, &mut random)).collect();
-        let [x, y, depth] = random.vector(60.0);
-        let site = Site { depth_m: depth.max(-1.0), current_m_s: [x / 60.0, y / 60.0] };
-        match (linked.build(&values, &site), loaded.build(&values, &site)) {
-            (Ok(one), Ok(other)) => {
-                built += 1;
-                assert_eq!(one, other);
+fn every_gear_type_gives_the_same_rig_linked_and_loaded() {
+    let host = loaded();
+    for linked in endline_gear_types::all() {
+        let id = linked.descriptor().id.to_string();
+        let (loaded, mut random) = (host.gear(&id).unwrap(), Random(3));
+        let (mut built, mut refused) = (0, 0);
+        for _ in 0..400 {
+            let values = drawn(linked.as_ref(), &mut random);
+            let [x, y, depth] = random.vector(60.0);
+            let site = Site { depth_m: depth.max(-1.0), current_m_s: [x / 60.0, y / 60.0] };
+            match (linked.build(&values, &site), loaded.build(&values, &site)) {
+                (Ok(one), Ok(other)) => {
+                    built += 1;
+                    assert_eq!(one, other);
+                }
+                (Err(one), Err(other)) => {
+                    refused += 1;
+                    assert_eq!(other.message, format!("plugin `{id}`: {}", one.message));
+                }
+                (one, other) => panic!("{one:?} but {other:?}"),
             }
-            (Err(one), Err(other)) => {
-                refused += 1;
-                assert_eq!(other.message, format!("plugin `{SINGLE}`: {}", one.message));
-            }
-            (one, other) => panic!("{one:?} but {other:?}"),
+        }
+        assert!(built > 20 && refused > 20, "{id}: {built} built, {refused} refused");
+    }
+}
+
+/// Tensions come and go and time runs: the gear types that act ask for the same cuts and releases, with the same floats.
+#[test]
+fn every_gear_type_acts_the_same_linked_and_loaded() {
+    let (host, mut acted) = (loaded(), 0);
+    for linked in endline_gear_types::all() {
+        let (descriptor, mut random) = (linked.descriptor(), Random(4));
+        let loaded = host.gear(&descriptor.id).unwrap();
+        let values: Vec<_> = descriptor.attributes.iter().map(Attribute::default_value).collect();
+        let lines = linked.build(&values, &Site { depth_m: 30.0, current_m_s: [0.2, 0.0] }).unwrap().lines.len();
+        let mut states = [vec![0.0; descriptor.state_len], vec![0.0; descriptor.state_len]];
+        for step in 0..400 {
+            let least = if step % 100 < 20 { 0.0 } else { 3000.0 };
+            let tensions: Vec<_> = (0..lines).map(|_| [random.between(least, 5000.0), random.between(least, 5000.0)]).collect();
+            let input = GearStep { time_s: f64::from(step), dt_s: 1.0, end_tension_n: &tensions };
+            let (mut asked, mut other) = (Vec::new(), Vec::new());
+            linked.step(&values, &input, &mut states[0], &mut asked).unwrap();
+            loaded.step(&values, &input, &mut states[1], &mut other).unwrap();
+            assert_eq!(asked, other);
+            assert_eq!(bits(states[0].iter().copied()), bits(states[1].iter().copied()));
+            acted += asked.len();
         }
     }
-    assert!(built > 500 && refused > 500, "{built} built, {refused} refused");
+    assert_eq!(acted, 9, "one cut, and a release with seven ties");
 }
 
 /// Several runs may call one loaded plugin at once.

@@ -29,7 +29,7 @@ pub(super) fn check(descriptor: &Descriptor) -> Result<(), Refusal> {
         if key.is_empty() || !keys.insert(key) {
             return wrong(format!("its attribute key `{key}` is empty or used twice"));
         }
-        if let Some(reason) = number_fault(&attribute.kind) {
+        if let Some(reason) = fault(&attribute.kind) {
             return wrong(format!("its attribute `{key}`: {reason}"));
         }
     }
@@ -41,8 +41,19 @@ fn id_is_sound(id: &str) -> bool {
     id.contains('.') && id.split('.').all(part)
 }
 
-fn number_fault(kind: &AttributeKind) -> Option<String> {
-    let AttributeKind::Number { min, max, default } = kind else { return None };
-    let sound = [min, max, default].iter().all(|number| number.is_finite()) && min <= default && default <= max;
-    (!sound).then(|| format!("its default {default} and range {min} to {max} must be finite, the default within the range"))
+fn fault(kind: &AttributeKind) -> Option<String> {
+    match kind {
+        AttributeKind::Number { min, max, default } => {
+            let sound = [min, max, default].iter().all(|number| number.is_finite()) && min <= default && default <= max;
+            (!sound).then(|| format!("its default {default} and range {min} to {max} must be finite, the default within the range"))
+        }
+        AttributeKind::Count { min, max, default } => {
+            (!(min..=max).contains(&default)).then(|| format!("its default {default} is not within its range {min} to {max}"))
+        }
+        AttributeKind::Choice { words, default } => {
+            let sound = words.iter().all(|word| !word.is_empty() && !word.contains('|')) && words.contains(default);
+            (!sound).then(|| format!("its words must not be empty or hold a `|`, and its default `{default}` must be one of them"))
+        }
+        AttributeKind::Item { .. } => None,
+    }
 }

@@ -29,6 +29,9 @@ const LONGEST_TEXT: usize = 65_536;
 /// Room for a plugin's message [bytes].
 const MESSAGE_ROOM: usize = 1024;
 
+/// Most places along one line; more is taken for a lie.
+const MOST_PLACES: usize = 1_000_000;
+
 const REBUILD: &str = "rebuild the plugin against this version of endline-sdk or endline_plugin.h";
 const NOT_A_PLUGIN: &str = "only plugin libraries belong in this folder";
 
@@ -160,10 +163,26 @@ fn read_descriptor(plugin: &AbiPlugin) -> Result<Descriptor, Refusal> {
 fn read_attribute(raw: &AbiAttribute) -> Result<Attribute, Refusal> {
     let kind = match raw.kind {
         ATTRIBUTE_NUMBER => AttributeKind::Number { min: raw.least, max: raw.greatest, default: raw.default_number },
+        ATTRIBUTE_COUNT => read_count(raw)?,
+        ATTRIBUTE_CHOICE => {
+            let words = text(raw.library)?.split('|').map(|word| Cow::Owned(word.to_owned())).collect();
+            AttributeKind::Choice { words, default: text(raw.default_item)? }
+        }
         ATTRIBUTE_ITEM => AttributeKind::Item { library: text(raw.library)?, default: text(raw.default_item)? },
         other => return Err(Refusal::new(format!("it declares an attribute of unknown kind {other}"), REBUILD)),
     };
     Ok(Attribute { key: text(raw.key)?, unit: text(raw.unit)?, help: text(raw.help)?, kind })
+}
+
+fn read_count(raw: &AbiAttribute) -> Result<AttributeKind, Refusal> {
+    let whole = |number: f64| {
+        if number.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&number) {
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "looked at in the line before")]
+            return Ok(number as u32);
+        }
+        Err(Refusal::new(format!("it declares a count with the figure {number}, which is no whole number"), "tell the plugin's author"))
+    };
+    Ok(AttributeKind::Count { min: whole(raw.least)?, max: whole(raw.greatest)?, default: whole(raw.default_number)? })
 }
 
 fn text(raw: AbiText) -> Result<Cow<'static, str>, Refusal> {
@@ -282,7 +301,7 @@ impl GearType for Loaded<Gear> {
     }
 
     fn build(&self, attributes: &[AttributeValue], site: &Site) -> Result<Rig, HookError> {
-        let values = raw_values(attributes);
+        let values = raw_values(&self.descriptor, attributes);
         let mut rig = Rig::default();
         let host = AbiRigHost {
             struct_size: size_of::<AbiRigHost>() as u32,
@@ -291,6 +310,7 @@ impl GearType for Loaded<Gear> {
             add_joint: Some(add_joint),
             add_line: Some(add_line),
             add_link: Some(add_link),
+            lay_line: Some(lay_line),
         };
         let build = self.calls.build;
         // SAFETY: pointers and lengths of live values; `host` lives through the call.
@@ -306,7 +326,7 @@ impl GearType for Loaded<Gear> {
         actions: &mut Vec<GearAction>,
     ) -> Result<(), HookError> {
         let Some(step) = self.calls.step else { return Ok(()) };
-        let (values, floats, tensions) = (raw_values(attributes), state.len(), input.end_tension_n);
+        let (values, floats, tensions) = (raw_values(&self.descriptor, attributes), state.len(), input.end_tension_n);
         let raw = AbiGearStep { time_s: input.time_s, dt_s: input.dt_s, line_count: tensions.len(), end_tension_n: tensions.as_ptr() };
         let host = AbiActionHost {
             struct_size: size_of::<AbiActionHost>() as u32,
@@ -319,12 +339,17 @@ impl GearType for Loaded<Gear> {
     }
 }
 
-fn raw_values(values: &[AttributeValue]) -> Vec<AbiValue> {
-    let raw = |value: &AttributeValue| match value {
-        AttributeValue::Number(number) => AbiValue { kind: ATTRIBUTE_NUMBER, number: *number, item: AbiText::of("") },
+fn raw_values(descriptor: &Descriptor, values: &[AttributeValue]) -> Vec<AbiValue> {
+    let is_count = |index: usize| descriptor.attributes.get(index).is_some_and(|known| matches!(known.kind, AttributeKind::Count { .. }));
+    let raw = |(index, value): (usize, &AttributeValue)| match value {
+        AttributeValue::Number(number) => {
+            let kind = if is_count(index) { ATTRIBUTE_COUNT } else { ATTRIBUTE_NUMBER };
+            AbiValue { kind, number: *number, item: AbiText::of("") }
+        }
+        AttributeValue::Choice(word) => AbiValue { kind: ATTRIBUTE_CHOICE, number: 0.0, item: AbiText::of(word) },
         AttributeValue::Item(id) => AbiValue { kind: ATTRIBUTE_ITEM, number: 0.0, item: AbiText::of(id) },
     };
-    values.iter().map(raw).collect()
+    values.iter().enumerate().map(raw).collect()
 }
 
 /// Adds a part that a plugin hands over to the rig behind `host`.
@@ -359,11 +384,26 @@ unsafe extern "C" fn add_joint(host: *mut c_void, joint: *const AbiJoint) -> i32
 unsafe extern "C" fn add_line(host: *mut c_void, line: *const AbiLine) -> i32 {
     let put = |rig: &mut Rig, line: &AbiLine| {
         let (from, to) = (rig_end(line.from)?, rig_end(line.to)?);
-        rig.lines.push(RigLine { id: owned(line.id)?, rope: owned(line.rope)?, from, to, length_m: line.length_m });
+        rig.lines.push(RigLine { id: owned(line.id)?, rope: owned(line.rope)?, from, to, length_m: line.length_m, laid_m: Vec::new() });
         Some(())
     };
     // SAFETY: as in `add_body`.
     unsafe { add(host, line, put) }
+}
+
+/// # Safety
+/// As [`add`], for the rig's lines and `count` places.
+unsafe extern "C" fn lay_line(host: *mut c_void, line: AbiText, places_m: *const [f64; 3], count: usize) -> i32 {
+    // SAFETY: the caller's promise.
+    let (rig, places) = unsafe { (host.cast::<Rig>().as_mut(), array(places_m, count.min(MOST_PLACES))) };
+    let known = rig.zip(owned(line)).and_then(|(rig, id)| rig.lines.iter_mut().find(|known| known.id == id));
+    match known {
+        Some(line) if count <= MOST_PLACES => {
+            line.laid_m = places.to_vec();
+            STATUS_OK
+        }
+        _ => STATUS_ERROR,
+    }
 }
 
 unsafe extern "C" fn add_link(host: *mut c_void, link: *const AbiLink) -> i32 {

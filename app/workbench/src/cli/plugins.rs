@@ -51,6 +51,8 @@ fn values(attribute: &Attribute) -> String {
     match &attribute.kind {
         AttributeKind::Number { min, max, default } if attribute.unit == "1" => format!("{min} to {max}, else {default}"),
         AttributeKind::Number { min, max, default } => format!("{min} to {max} {}, else {default}", attribute.unit),
+        AttributeKind::Count { min, max, default } => format!("a whole number from {min} to {max}, else {default}"),
+        AttributeKind::Choice { words, default } => format!("{}, else {default}", words.join(" or ")),
         AttributeKind::Item { library, default } if default.is_empty() => format!("an item of {library}, else none"),
         AttributeKind::Item { library, default } => format!("an item of {library}, else {default}"),
     }

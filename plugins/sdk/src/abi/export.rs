@@ -170,6 +170,15 @@ fn describe_attribute(attribute: &'static Attribute) -> AbiAttribute {
         AttributeKind::Number { min, max, default } => {
             (described.least, described.greatest, described.default_number) = (*min, *max, *default);
         }
+        AttributeKind::Count { min, max, default } => {
+            described.kind = ATTRIBUTE_COUNT;
+            (described.least, described.greatest, described.default_number) = (f64::from(*min), f64::from(*max), f64::from(*default));
+        }
+        AttributeKind::Choice { words, default } => {
+            described.kind = ATTRIBUTE_CHOICE;
+            let words: &'static str = String::leak(words.join("|"));
+            (described.library, described.default_item) = (AbiText::of(words), AbiText::of(default));
+        }
         AttributeKind::Item { library, default } => {
             described.kind = ATTRIBUTE_ITEM;
             (described.library, described.default_item) = (AbiText::of(library), AbiText::of(default));
@@ -293,7 +302,7 @@ unsafe extern "C" fn gear_build(
         unsafe {
             let plugin = &*context.cast::<Box<dyn GearType>>();
             let built = plugin.build(&attribute_values(array(values, value_count)), &*site)?;
-            hand_over(&built, &*rig)
+            hand_over(&built, &known_part(rig))
         }
     })
 }
@@ -328,9 +337,25 @@ unsafe fn attribute_values(values: &[AbiValue]) -> Vec<AttributeValue> {
     let value = |value: &AbiValue| match value.kind {
         // SAFETY: the caller's promise.
         ATTRIBUTE_ITEM => AttributeValue::Item(unsafe { text(value.item) }.into_owned()),
+        // SAFETY: the caller's promise.
+        ATTRIBUTE_CHOICE => AttributeValue::Choice(unsafe { text(value.item) }.into_owned()),
         _ => AttributeValue::Number(value.number),
     };
     values.iter().map(value).collect()
+}
+
+/// The program's functions; those that a program of an older minor version lacks are none.
+///
+/// # Safety
+/// `host` leads to a struct of as many bytes as its first field says.
+unsafe fn known_part(host: *const AbiRigHost) -> AbiRigHost {
+    let mut known = std::mem::MaybeUninit::<AbiRigHost>::zeroed();
+    // SAFETY: the caller's promise; all zeros is a struct without functions.
+    unsafe {
+        let bytes = (host.cast::<u32>().read() as usize).min(size_of::<AbiRigHost>());
+        std::ptr::copy_nonoverlapping(host.cast::<u8>(), known.as_mut_ptr().cast(), bytes);
+        known.assume_init()
+    }
 }
 
 /// Gives a rig to the program, part by part.
@@ -348,6 +373,10 @@ unsafe fn hand_over(rig: &Rig, host: &AbiRigHost) -> Result<(), HookError> {
         }
         for line in &rig.lines {
             taken(host.add_line.map(|add| add(host.host, &raw_line(line))))?;
+            let laid = &line.laid_m;
+            if !laid.is_empty() {
+                taken(host.lay_line.map(|lay| lay(host.host, AbiText::of(&line.id), laid.as_ptr(), laid.len())))?;
+            }
         }
         for link in &rig.links {
             taken(host.add_link.map(|add| add(host.host, &raw_link(link))))?;

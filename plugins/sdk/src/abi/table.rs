@@ -18,8 +18,9 @@ use crate::motion::{Controls, MotionOutput};
 
 /// Major version: another number means another layout.
 pub const ABI_MAJOR: u32 = 1;
-/// Minor version: a greater number means fields added at the ends of structs.
-pub const ABI_MINOR: u32 = 0;
+/// Minor version: a greater number means fields added at the ends of structs, or kinds of attribute.
+/// 1 added [`ATTRIBUTE_COUNT`], [`ATTRIBUTE_CHOICE`] and `lay_line` of [`AbiRigHost`].
+pub const ABI_MINOR: u32 = 1;
 
 /// Kind of plugin: whale motion, table [`AbiMotion`].
 pub const KIND_MOTION: u32 = 1;
@@ -39,6 +40,10 @@ pub const STATUS_CRASH: i32 = 2;
 pub const ATTRIBUTE_NUMBER: u32 = 0;
 /// Kind of attribute: the id of an item of the gear library.
 pub const ATTRIBUTE_ITEM: u32 = 1;
+/// Kind of attribute: a whole number (since 1.1).
+pub const ATTRIBUTE_COUNT: u32 = 2;
+/// Kind of attribute: one of a few words (since 1.1).
+pub const ATTRIBUTE_CHOICE: u32 = 3;
 
 /// Kind of body: trap.
 pub const BODY_TRAP: u32 = 0;
@@ -143,21 +148,21 @@ pub struct AbiPlugin {
 pub struct AbiAttribute {
     /// Key in files.
     pub key: AbiText,
-    /// SI unit, `1` for a pure number; empty for an item.
+    /// SI unit, `1` for a pure number or a count; empty for an item or a word.
     pub unit: AbiText,
     /// Help shown beside the field.
     pub help: AbiText,
-    /// [`ATTRIBUTE_NUMBER`] or [`ATTRIBUTE_ITEM`].
+    /// [`ATTRIBUTE_NUMBER`], [`ATTRIBUTE_ITEM`], [`ATTRIBUTE_COUNT`] or [`ATTRIBUTE_CHOICE`].
     pub kind: u32,
-    /// Number: least allowed value.
+    /// Number, count: least allowed value.
     pub least: f64,
-    /// Number: greatest allowed value.
+    /// Number, count: greatest allowed value.
     pub greatest: f64,
-    /// Number: value where a file names none.
+    /// Number, count: value where a file names none.
     pub default_number: f64,
-    /// Item: folder of the library, such as `ropes`.
+    /// Item: folder of the library, such as `ropes`. Choice: the words, with `|` between.
     pub library: AbiText,
-    /// Item: id where a file names none; empty for no item.
+    /// Item: id where a file names none; empty for no item. Choice: the word.
     pub default_item: AbiText,
 }
 
@@ -300,11 +305,11 @@ pub struct AbiGear {
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct AbiValue {
-    /// [`ATTRIBUTE_NUMBER`] or [`ATTRIBUTE_ITEM`], as declared.
+    /// Kind of the attribute, as declared.
     pub kind: u32,
-    /// The number, where it is one.
+    /// The number or count, where it is one.
     pub number: f64,
-    /// The item's id, where it is one.
+    /// The item's id or the word, where it is one.
     pub item: AbiText,
 }
 
@@ -338,6 +343,9 @@ pub struct AbiRigHost {
     pub add_line: Option<unsafe extern "C" fn(host: *mut c_void, line: *const AbiLine) -> i32>,
     /// Adds a weak link.
     pub add_link: Option<unsafe extern "C" fn(host: *mut c_void, link: *const AbiLink) -> i32>,
+    /// Gives a line added before the way it lies at first, `count` places from end A to end B [m].
+    /// Since 1.1: there only where `struct_size` reaches past it.
+    pub lay_line: Option<unsafe extern "C" fn(host: *mut c_void, line: AbiText, places_m: *const [f64; 3], count: usize) -> i32>,
 }
 
 /// The program's functions by which a gear type acts; indices are in the order built.

@@ -67,8 +67,13 @@ fn check_values(attributes: &[Attribute], values: &[AttributeValue]) -> Result<(
     expect_len("attribute values", values.len(), attributes.len())?;
     for (attribute, value) in attributes.iter().zip(values) {
         match (&attribute.kind, value) {
-            (AttributeKind::Number { .. }, AttributeValue::Number(_)) | (AttributeKind::Item { .. }, AttributeValue::Item(_)) => {}
-            (AttributeKind::Number { .. }, _) => return fault(format!("attribute `{}`: expected a number", attribute.key)),
+            (AttributeKind::Number { .. } | AttributeKind::Count { .. }, AttributeValue::Number(_))
+            | (AttributeKind::Choice { .. }, AttributeValue::Choice(_))
+            | (AttributeKind::Item { .. }, AttributeValue::Item(_)) => {}
+            (AttributeKind::Choice { .. }, _) => return fault(format!("attribute `{}`: expected one of its words", attribute.key)),
+            (AttributeKind::Number { .. } | AttributeKind::Count { .. }, _) => {
+                return fault(format!("attribute `{}`: expected a number", attribute.key));
+            }
             (AttributeKind::Item { .. }, _) => return fault(format!("attribute `{}`: expected a library item", attribute.key)),
         }
     }
@@ -95,6 +100,10 @@ fn check_rig(rig: &Rig) -> Result<(), HookError> {
 fn check_line(line: &RigLine, bodies: &BTreeSet<&str>, joints: &BTreeSet<&str>) -> Result<(), HookError> {
     if !(line.length_m > 0.0 && line.length_m.is_finite()) {
         return fault(format!("line `{}` is {} m long", line.id, line.length_m));
+    }
+    line.laid_m.iter().try_for_each(|place| expect_finite("a place in its rig", place))?;
+    if line.laid_m.len() == 1 {
+        return fault(format!("line `{}` is laid through one place; it takes two or more, or none", line.id));
     }
     if line.rope.is_empty() {
         return fault(format!("line `{}` names no rope", line.id));

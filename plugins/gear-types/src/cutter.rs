@@ -1,0 +1,148 @@
+//! The time-tension cutter: a device in each endline that parts it when the tension there has stayed above `T0` for `t0`.
+//!
+//! ```text
+//! t(k+1) = t(k) + dt  where T >= T0, else 0        cut when t >= t0
+//! ```
+//!
+//! Hauling is quick and jerks are short; a whale pulls on. The device sits at the endline's foot (the whole line goes with
+//! the whale, but no trap), at the splice, or at the buoy. Floats: for each endline the time `t` [s] and whether it was cut.
+
+use endline_sdk::{Attribute, AttributeValue, Descriptor, GearAction, GearStep, GearType, HookError, LineEnd, Rig, Site};
+
+use crate::lay::Values;
+use crate::trawl::Set;
+
+/// Floats of each endline: time above the tension, and 1 once cut.
+const FLOATS: usize = 2;
+
+/// The gear type of one trap or more with a cutter in each endline.
+#[derive(Clone, Debug)]
+pub struct TimeTensionCutter {
+    descriptor: Descriptor,
+}
+
+impl TimeTensionCutter {
+    /// The gear type with its descriptor.
+    #[must_use]
+    pub fn new() -> Self {
+        Self { descriptor: descriptor() }
+    }
+}
+
+impl Default for TimeTensionCutter {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl GearType for TimeTensionCutter {
+    fn descriptor(&self) -> &Descriptor {
+        &self.descriptor
+    }
+
+    fn build(&self, attributes: &[AttributeValue], site: &Site) -> Result<Rig, HookError> {
+        Set::read(&Values::new(&self.descriptor.attributes, attributes))?.build(site)
+    }
+
+    fn step(
+        &self,
+        attributes: &[AttributeValue],
+        input: &GearStep<'_>,
+        state: &mut [f64],
+        actions: &mut Vec<GearAction>,
+    ) -> Result<(), HookError> {
+        let values = Values::new(&self.descriptor.attributes, attributes);
+        let (set, cutter) = (Set::read(&values)?, Cutter::read(&values)?);
+        for (endline, floats) in state.chunks_exact_mut(FLOATS).take(set.endlines).enumerate() {
+            let (line, end) = cutter.seat(&set, endline);
+            let tension = input.end_tension_n.get(line).map_or(0.0, |ends| ends[end as usize]);
+            if cutter.parts(tension, input.dt_s, floats) {
+                let line = u32::try_from(line).map_err(|_| HookError::new("the gear has too many lines"))?;
+                actions.push(GearAction::CutLine { line, end });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Where the device sits in its endline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Seat {
+    Foot,
+    Splice,
+    Buoy,
+}
+
+/// The device.
+struct Cutter {
+    tension_n: f64,
+    hold_s: f64,
+    at: Seat,
+}
+
+impl Cutter {
+    fn attributes() -> Vec<Attribute> {
+        vec![
+            Attribute::number(
+                "cutter_tension",
+                "N",
+                [1.0, 100_000.0],
+                2200.0,
+                "Tension above which the cutter's time runs; about 500 lbf.",
+            ),
+            Attribute::number(
+                "cutter_hold",
+                "s",
+                [0.0, 86_400.0],
+                60.0,
+                "How long the tension must stay above that before the cutter parts the line.",
+            ),
+            Attribute::choice("cutter_at", &["foot", "splice", "buoy"], "Where in the endline the cutter sits."),
+        ]
+    }
+
+    fn read(values: &Values<'_>) -> Result<Self, HookError> {
+        let at = match values.word("cutter_at")? {
+            "splice" => Seat::Splice,
+            "buoy" => Seat::Buoy,
+            _ => Seat::Foot,
+        };
+        Ok(Self { tension_n: values.number("cutter_tension")?, hold_s: values.number("cutter_hold")?, at })
+    }
+
+    /// Index of the line, and its end, at which the device of an endline cuts.
+    fn seat(&self, set: &Set<'_>, endline: usize) -> (usize, LineEnd) {
+        let foot = set.first_line(endline);
+        match self.at {
+            Seat::Foot => (foot, LineEnd::A),
+            Seat::Splice => (foot + 1, LineEnd::A),
+            Seat::Buoy => (foot + set.endline.topmost(), LineEnd::B),
+        }
+    }
+
+    /// Lets the time run over one step; whether the device cuts now.
+    fn parts(&self, tension_n: f64, dt_s: f64, floats: &mut [f64]) -> bool {
+        let [above_s, done] = floats else { return false };
+        if *done > 0.0 {
+            return false;
+        }
+        *above_s = if tension_n >= self.tension_n { *above_s + dt_s } else { 0.0 };
+        // Half a step is left for what sums of steps lose to rounding.
+        let parts = *above_s > 0.0 && *above_s >= self.hold_s - 0.5 * dt_s;
+        *done = f64::from(u8::from(parts));
+        parts
+    }
+}
+
+fn descriptor() -> Descriptor {
+    let mut attributes = Set::attributes(1, 0.0, "polyball-a1");
+    attributes.extend(Cutter::attributes());
+    Descriptor {
+        id: "org.endline.gear.time-tension-cutter".into(),
+        version: env!("CARGO_PKG_VERSION").into(),
+        name: "Time-tension cutter".into(),
+        help: "One trap or more with a cutter in each endline that parts it when the tension has stayed high for a time.".into(),
+        attributes,
+        state_len: 2 * FLOATS,
+    }
+}

@@ -1,0 +1,103 @@
+//! The trawl: traps on gangions along a groundline, an endline at one end or at both, anchors where wanted.
+
+use endline_sdk::{Attribute, AttributeValue, Descriptor, GearType, HookError, Rig, Site};
+
+use crate::lay::{Endline, FAR, Ground, Lay, Values};
+
+/// Most traps that fish with one endline (NOAA Decision Support Tool, `EndlinesPerTrawlModel`: two from 6 traps up).
+const MOST_ON_ONE_ENDLINE: u32 = 5;
+
+/// The gear type of traps along a groundline.
+#[derive(Clone, Debug)]
+pub struct Trawl {
+    descriptor: Descriptor,
+}
+
+impl Trawl {
+    /// The gear type with its descriptor.
+    #[must_use]
+    pub fn new() -> Self {
+        Self { descriptor: descriptor() }
+    }
+}
+
+impl Default for Trawl {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl GearType for Trawl {
+    fn descriptor(&self) -> &Descriptor {
+        &self.descriptor
+    }
+
+    fn build(&self, attributes: &[AttributeValue], site: &Site) -> Result<Rig, HookError> {
+        let values = Values::new(&self.descriptor.attributes, attributes);
+        Set::read(&values)?.build(site)
+    }
+}
+
+/// A set of traps with its endlines; what a trawl is, and what a cutter is put into.
+pub(crate) struct Set<'a> {
+    /// What lies on the seabed.
+    pub ground: Ground<'a>,
+    /// Each of the endlines.
+    pub endline: Endline<'a>,
+    /// How many endlines: one or two.
+    pub endlines: usize,
+}
+
+impl<'a> Set<'a> {
+    /// The attributes of a set of so many traps with gangions of a usual length [m].
+    pub fn attributes(traps: u32, gangion_m: f64, buoy: &'static str) -> Vec<Attribute> {
+        let mut attributes = Ground::attributes(traps, gangion_m);
+        attributes.push(endlines_attribute());
+        attributes.extend(Endline::attributes(buoy));
+        attributes
+    }
+
+    pub fn read(values: &Values<'a>) -> Result<Self, HookError> {
+        let ground = Ground::read(values)?;
+        Ok(Self { endlines: endlines(values, &ground)?, ground, endline: Endline::read(values)? })
+    }
+
+    pub fn build(&self, site: &Site) -> Result<Rig, HookError> {
+        let mut rig = Lay::default();
+        let feet = self.ground.lay(&mut rig, site)?;
+        for (foot, prefix) in feet.iter().zip(["", FAR]).take(self.endlines) {
+            self.endline.lay(&mut rig, foot, site, prefix)?;
+        }
+        Ok(rig.rig)
+    }
+
+    /// Index of the first line of an endline: what lies on the seabed is built before.
+    pub fn first_line(&self, endline: usize) -> usize {
+        self.ground.line_count() + endline * self.endline.line_count()
+    }
+}
+
+/// The attribute that says how many endlines there are.
+pub(crate) fn endlines_attribute() -> Attribute {
+    let help = "How many endlines; 0 for as many as are usual, one up to 5 traps and two from 6.";
+    Attribute::count("endlines", [0, 2], 0, help)
+}
+
+/// How many endlines the values ask for.
+pub(crate) fn endlines(values: &Values<'_>, ground: &Ground<'_>) -> Result<usize, HookError> {
+    Ok(match values.count("endlines")? {
+        0 => 1 + usize::from(ground.traps() > MOST_ON_ONE_ENDLINE),
+        asked => asked as usize,
+    })
+}
+
+fn descriptor() -> Descriptor {
+    Descriptor {
+        id: "org.endline.gear.trawl".into(),
+        version: env!("CARGO_PKG_VERSION").into(),
+        name: "Trawl".into(),
+        help: "Traps on gangions along a groundline, an endline at one end or at both, anchors where wanted.".into(),
+        attributes: Set::attributes(5, 1.83, "polyball-a1"),
+        state_len: 0,
+    }
+}
