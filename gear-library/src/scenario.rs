@@ -2,8 +2,10 @@
 
 mod motion;
 mod parts;
+mod resolution;
 
 use endline_sim::DVec3;
+use endline_sim::model::Resolution;
 
 use crate::assembly::{PartLine, PartLink, line_fields, link};
 use crate::attributes::Attributes;
@@ -37,6 +39,8 @@ pub struct Scenario {
     pub rope_nodes: Option<At<u64>>,
     /// Longest segment [m], where no node count is given.
     pub segment_m: Option<f64>,
+    /// How segment lengths follow the whale, where they do.
+    pub resolution: Option<Resolution>,
     /// Whether weak links can part.
     pub weak_links: bool,
     /// The sea.
@@ -137,6 +141,8 @@ impl Scenario {
         let rope_nodes = fields.count("rope_nodes", 2);
         let segment = fields.value("segment", Quantity::Length, Range::Between(1e-3, 1000.0));
         let weak_links = fields.flag("weak_links");
+        let whale = fields.table("whale");
+        let follow = fields.table("resolution");
         let each = |key: &'static str| fields.tables(key).iter();
         let scenario = Self {
             name,
@@ -151,7 +157,8 @@ impl Scenario {
             weak_links: weak_links.unwrap_or(true),
             sea: sea(&fields),
             gear: each("gear").filter_map(|node| placed_gear(node, problems)).collect(),
-            whale: fields.table("whale").as_ref().and_then(Swimmer::read),
+            resolution: follow.as_ref().map(|follow| resolution::read(follow, whale.is_some())),
+            whale: whale.as_ref().and_then(Swimmer::read),
             friction: fields.table("friction").as_ref().and_then(friction),
             ropes: parts::ropes(&fields, &file),
             fixtures: each("fixture").filter_map(|node| parts::fixture(node, problems)).collect(),

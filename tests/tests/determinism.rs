@@ -31,6 +31,9 @@ fn the_same_run_has_the_same_hash_on_any_number_of_threads() {
 fn dropping_the_workspace_between_steps_changes_no_bit() {
     let place = Place::new("workspace");
     let scenario = place.encounter();
+    // Resolution that follows the whale must come from the state alone, too.
+    let text = std::fs::read_to_string(&scenario).unwrap();
+    std::fs::write(&scenario, text.replace("[site]", "[resolution]\n\n[site]")).unwrap();
     let plugins = endline_tests::products().unwrap().join("plugins");
     let (host, problems) = PluginHost::discover(&[plugins]);
     assert!(problems.is_empty(), "{problems:?}");
@@ -51,6 +54,7 @@ fn dropping_the_workspace_between_steps_changes_no_bit() {
         assert_eq!(kept.first_difference(&dropped), None);
     }
     assert!(touched, "the rope was never touched");
+    assert!(workspace.audit.splits > 10, "{} splits", workspace.audit.splits);
 
     // The session's own run walks the same states.
     let mut run = Run::new(prepared.clone(), RunOptions::default()).unwrap_or_else(|error| panic!("{error}"));

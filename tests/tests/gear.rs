@@ -7,7 +7,7 @@ mod linked;
 use endline_gear::{Diagnostic, Kind, Library, Options, Scenario, Sources, assemble, assemble_traced, buoy_floats, shell_inertia};
 use linked::{Linked, library, root, told};
 
-use endline_sim::model::{BodyRole, JointKind, ProbeTarget};
+use endline_sim::model::{BodyRole, JointKind, ProbeTarget, Resolution};
 use endline_sim::{DQuat, DVec3, Model, ModelSpec, settle};
 
 #[test]
@@ -38,6 +38,7 @@ fn every_shipped_scenario_makes_a_model_with_the_nodes_it_asks_for() {
         ("hello-endline.toml", 500),
         ("hello-slack-tide.toml", 500),
         ("hello-weak-link.toml", 500),
+        ("hello-resolution.toml", 250),
         ("reference-b-static.toml", 501),
         ("reference-a-pendulum.toml", 101),
     ] {
@@ -387,6 +388,26 @@ fn mistakes_in_a_scenario_are_told_with_their_place() {
             assert!(problems[0].to_string().contains(part), "`{}` lacks `{part}`", problems[0]);
         }
     }
+}
+
+#[test]
+fn resolution_follows_the_whale_by_lengths_in_order() {
+    let text = scenario_text("hello-endline.toml");
+    let with = |lengths: &str| text.replacen("[site]", &format!("[resolution]\n{lengths}\n\n[site]"), 1);
+    let spec = assembled("test.toml", &with("near = \"8 cm\"\nfar = \"2 m\""));
+    assert_eq!(spec.settings.resolution, Some(Resolution { near_m: 0.08, edge_m: 0.02, far_m: 2.0 }));
+    assert_eq!(assembled("test.toml", &text).settings.resolution, None);
+    for (lengths, part) in [
+        ("edges = \"9 cm\"\nnear = \"8 cm\"", "`edges` is longer than `near`"),
+        ("far = \"4 cm\"\nnear = \"8 cm\"", "`far` is shorter than `near`"),
+        ("near = \"0.1 mm\"", "`near`"),
+        ("nearer = \"8 cm\"", "unknown field `nearer`"),
+    ] {
+        let problems = refused(&with(lengths));
+        assert!(problems.len() == 1 && problems[0].to_string().contains(part), "{}", told(&problems));
+    }
+    let whaleless = scenario_text("reference-a-pendulum.toml").replacen("[site]", "[resolution]\n\n[site]", 1);
+    assert!(refused(&whaleless)[0].to_string().contains("no whale for the resolution to follow"));
 }
 
 #[test]

@@ -6,6 +6,7 @@ mod linked;
 
 use allocation_counter::measure;
 use endline_gear::{Options, Scenario, assemble};
+use endline_sim::model::Resolution;
 use endline_sim::{DVec3, Input, Model, State, Workspace, settle, step};
 use linked::{Linked, library, root, told};
 
@@ -55,6 +56,21 @@ fn free_rope_allocates_nothing() {
     let counted = measure(|| run.steps(STEPS));
     assert_eq!(run.workspace.audit.contact_steps, 0, "the whale was to stay far away");
     assert_eq!(counted.count_total, 0, "{} bytes", counted.bytes_total);
+}
+
+#[test]
+fn resolution_that_follows_allocates_only_as_the_search_for_what_is_near_grows() {
+    let mut spec = encounter(DVec3::new(11.4, -9.0, -12.0)).spec;
+    spec.settings.resolution = Some(Resolution { near_m: 0.02, edge_m: 0.01, far_m: 2.0 });
+    let mut run = Run::new(Model::new(spec).unwrap_or_else(|errors| panic!("{errors:?}")));
+    while run.workspace.audit.splits == 0 {
+        run.steps(1);
+    }
+    let before = run.workspace.audit.splits;
+    let counted = measure(|| run.steps(15));
+    assert_eq!(run.workspace.audit.contact_steps, 0, "the whale was to stay away");
+    assert!(run.workspace.audit.splits > before, "rope was to be split");
+    assert!(counted.count_total <= 2, "{} allocations, {} bytes", counted.count_total, counted.bytes_total);
 }
 
 #[test]

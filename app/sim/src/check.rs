@@ -1,6 +1,6 @@
 //! What a model must hold before anything moves: every problem is told at once, with its part.
 
-use crate::model::{Body, Joint, JointKind, Line, Link, ModelError, ModelSpec, Rope};
+use crate::model::{Body, Joint, JointKind, Line, Link, ModelError, ModelSpec, Resolution, Rope};
 
 /// Everything wrong with a spec.
 pub(crate) fn check(spec: &ModelSpec) -> Vec<ModelError> {
@@ -70,6 +70,12 @@ fn check_water(spec: &ModelSpec, found: &mut Found) {
     found.above_zero("contact step", spec.settings.contact_step_s);
     found.above_zero("least step", spec.settings.least_step_s);
     found.above_zero("duration", spec.settings.duration_s);
+    if let Some(Resolution { near_m, edge_m, far_m }) = spec.settings.resolution {
+        found.above_zero("resolution near the whale", near_m);
+        found.above_zero("resolution near edges", edge_m);
+        found.above_zero("resolution far from the whale", far_m);
+        found.need(edge_m <= near_m && near_m <= far_m, "resolution is not finest near edges and coarsest far from the whale");
+    }
 }
 
 fn check_rope(rope: &Rope, found: &mut Found) {

@@ -14,6 +14,7 @@ mod in_place;
 pub mod metrics;
 pub mod model;
 pub mod parting;
+mod regrid;
 mod solver;
 pub mod state;
 pub mod statics;

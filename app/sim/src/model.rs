@@ -270,6 +270,23 @@ pub struct GearHook {
     pub links: Vec<usize>,
 }
 
+/// Lengths that segments are given as the whale comes and goes; the number of segments of each line stays.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Resolution {
+    /// Near skin [m].
+    pub near_m: f64,
+    /// Near the edges of flippers and flukes [m].
+    pub edge_m: f64,
+    /// Far from the whale [m].
+    pub far_m: f64,
+}
+
+impl Default for Resolution {
+    fn default() -> Self {
+        Self { near_m: 0.05, edge_m: 0.02, far_m: 1.0 }
+    }
+}
+
 /// Steps and tolerances.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
@@ -279,6 +296,8 @@ pub struct Settings {
     pub contact_step_s: f64,
     /// Shortest step before a run gives up [s].
     pub least_step_s: f64,
+    /// How segment lengths follow the whale; `None` where they stay as they are.
+    pub resolution: Option<Resolution>,
     /// Length of the run [s].
     pub duration_s: f64,
     /// Seed of everything drawn at random.
@@ -287,7 +306,7 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { step_s: 0.01, contact_step_s: 0.002, least_step_s: 1e-6, duration_s: 60.0, seed: 1 }
+        Self { step_s: 0.01, contact_step_s: 0.002, least_step_s: 1e-6, resolution: None, duration_s: 60.0, seed: 1 }
     }
 }
 

@@ -11,6 +11,7 @@ use crate::contact::near::MARGIN_M;
 use crate::contact::work::{ContactWork, force_by_part};
 use crate::gear_hook::{self, GearWork};
 use crate::model::Model;
+use crate::regrid::{RegridWork, regrid};
 use crate::solver::Solver;
 use crate::state::{State, WhaleState};
 use crate::substep::{self, Refused};
@@ -39,6 +40,7 @@ pub struct Workspace {
     pub(crate) contact: Option<ContactWork>,
     before: Option<State>,
     gear: GearWork,
+    regrid: Option<RegridWork>,
     /// The whale at the start and at the end of the step.
     whale: Option<Box<[WhaleState; 2]>>,
 }
@@ -62,6 +64,8 @@ pub struct Audit {
     pub unconverged: u64,
     /// Newton passes in all.
     pub passes: u64,
+    /// Segments split, each paid for by a merge, as resolution followed the whale.
+    pub splits: u64,
 }
 
 /// Why a run cannot go on.
@@ -87,6 +91,7 @@ impl Workspace {
             contact: ContactWork::new(model),
             before: None,
             gear: GearWork::default(),
+            regrid: RegridWork::new(model),
             whale: None,
         }
     }
@@ -111,6 +116,7 @@ pub fn step(model: &Model, input: &Input, state: &mut State, workspace: &mut Wor
 fn try_step(model: &Model, input: &Input, state: &mut State, workspace: &mut Workspace) -> Result<(), Stop> {
     workspace.peak_tension_n.fill(0.0);
     workspace.contacts.clear();
+    workspace.audit.splits += regrid(model, state, &mut workspace.regrid);
     let settings = &model.spec.settings;
     let mut whale = workspace.whale.take();
     let moved = move_whale(model, input, state, &mut whale);

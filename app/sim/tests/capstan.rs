@@ -1,7 +1,7 @@
 //! The capstan law on a skinned mesh by dynamic contact, and grips that do not creep.
 //!
 //! A rope lies half a turn over a horizontal drum of skin; a weight hangs on one side, the other side is
-//! drawn away. Sliding steadily, the tensions stand as `T₂/T₁ = e^{μπ}`.
+//! drawn away. Sliding steadily, the tensions stand as `T₂/T₁ = e^{μπ}`. A drum of 2 cm stands for the edge of a fin.
 
 #![allow(clippy::expect_used, clippy::panic, reason = "a test says what it needs")]
 
@@ -12,7 +12,7 @@ use std::sync::Arc;
 use common::{line, on_body, water, weight};
 use endline_friction_models::Coulomb;
 use endline_sdk::{Descriptor, FrictionModel, HookError, MotionInput, MotionOutput, Region, WhaleMotion};
-use endline_sim::model::{Friction, Joint, JointKind, Model, ModelSpec, Settings};
+use endline_sim::model::{Friction, Joint, JointKind, Model, ModelSpec, Resolution, Settings};
 use endline_sim::whale::{Bone, PilotProgram, Skin, Whale};
 use endline_sim::{DQuat, DVec3, Input, State, Workspace, step};
 
@@ -33,12 +33,22 @@ impl WhaleMotion for Still {
     }
 }
 
+/// Segments that begin at 1 cm within `inside` of the middle, so that chords clear an edge, and are equal beyond.
+fn finer_inside(whole: f64, segments: usize, inside: f64) -> Vec<f64> {
+    let outer = 0.5 * whole - inside;
+    let count = (0.5 * segments as f64 * outer / (0.5 * whole)).ceil();
+    let fine = (2.0 * inside / 0.01).ceil();
+    let beyond = vec![outer / count; count as usize];
+    [beyond.clone(), vec![2.0 * inside / fine; fine as usize], beyond].concat()
+}
+
 /// A closed drum along y with so many facets.
-fn drum(facets: u32) -> Skin {
+fn drum(radius: f64, region: Region, facets: u32) -> Skin {
+    let half = (5.0 * radius).min(0.5);
     let angle = |k: u32| f64::from(k) / f64::from(facets) * std::f64::consts::TAU;
-    let rim = |k: u32, y: f64| DVec3::new(RADIUS * libm::cos(angle(k)), y, RADIUS * libm::sin(angle(k)));
-    let mut vertices: Vec<DVec3> = (0..facets).flat_map(|k| [rim(k, -0.5), rim(k, 0.5)]).collect();
-    vertices.extend([DVec3::Y * -0.5, DVec3::Y * 0.5]);
+    let rim = |k: u32, y: f64| DVec3::new(radius * libm::cos(angle(k)), y, radius * libm::sin(angle(k)));
+    let mut vertices: Vec<DVec3> = (0..facets).flat_map(|k| [rim(k, -half), rim(k, half)]).collect();
+    vertices.extend([DVec3::Y * -half, DVec3::Y * half]);
     let (left, right) = (2 * facets, 2 * facets + 1);
     let triangles: Vec<[u32; 3]> = (0..facets)
         .flat_map(|k| {
@@ -48,7 +58,7 @@ fn drum(facets: u32) -> Skin {
         .collect();
     Skin {
         weights: vec![[(0, 1.0), (0, 0.0), (0, 0.0), (0, 0.0)]; vertices.len()],
-        regions: vec![Region::Body; triangles.len()],
+        regions: vec![region; triangles.len()],
         bones: vec![Bone { name: "control".into(), parent: None, origin: DVec3::ZERO, turns: Vec::new() }],
         vertices,
         triangles,
@@ -57,7 +67,11 @@ fn drum(facets: u32) -> Skin {
 
 /// The rope over the drum; the free side is drawn down at `speed` from 0.5 s on.
 fn capstan(speed: f64, segments: usize) -> Model {
-    let over = RADIUS + 0.004;
+    Model::new(over_drum(RADIUS, Region::Body, speed, segments)).expect("a sound model")
+}
+
+fn over_drum(radius: f64, region: Region, speed: f64, segments: usize) -> ModelSpec {
+    let over = radius + 0.004;
     let tail = 1.0;
     let whole = 2.0 * tail + std::f64::consts::PI * over;
     let path = |s: f64| {
@@ -76,13 +90,25 @@ fn capstan(speed: f64, segments: usize) -> Model {
     hanging.drag_area_m2 = DVec3::ZERO;
     let driven = JointKind::Driven { velocity_m_s: DVec3::Z * -speed, from_s: 0.5, until_s: f64::INFINITY };
     let mut line = line("rope", whole, segments);
-    line.start_m = (0..=segments).map(|k| path(whole * k as f64 / segments as f64)).collect();
+    if radius < RADIUS {
+        line.segments_m = finer_inside(whole, segments, 0.06 + 0.5 * std::f64::consts::PI * over);
+    }
+    let mut along = 0.0;
+    line.start_m = line
+        .segments_m
+        .iter()
+        .map(|length| {
+            along += length;
+            path(along)
+        })
+        .collect();
+    line.start_m.insert(0, path(0.0));
     let joints = vec![on_body("hanging", 0), Joint { id: "hand".into(), kind: driven, position_m: path(whole) }];
     let descriptor =
         Descriptor { id: "still".into(), version: "1".into(), name: "still".into(), help: "".into(), attributes: Vec::new(), state_len: 0 };
     let coulomb = Coulomb::new();
     let attributes = coulomb.descriptor().attributes.iter().filter_map(|attribute| attribute.default_value().number()).collect();
-    let spec = ModelSpec {
+    ModelSpec {
         water: water(0.0, 0.0),
         seabed: None,
         ropes: vec![rope],
@@ -92,7 +118,7 @@ fn capstan(speed: f64, segments: usize) -> Model {
         links: Vec::new(),
         gear: Vec::new(),
         whale: Some(Whale {
-            skin: Arc::new(drum(96)),
+            skin: Arc::new(drum(radius, region, 96)),
             length_m: 1.0,
             burst_speed_m_s: 0.0,
             position_m: DVec3::ZERO,
@@ -106,8 +132,7 @@ fn capstan(speed: f64, segments: usize) -> Model {
         friction: Some(Friction { model: Arc::new(coulomb), attributes, coefficients: vec![[FRICTION; Region::ALL.len()]] }),
         probes: Vec::new(),
         settings: Settings { step_s: 0.002, ..Settings::default() },
-    };
-    Model::new(spec).expect("a sound model")
+    }
 }
 
 /// Mean of the tensions at both ends and of the weight's height over the last part of a run.
@@ -145,4 +170,34 @@ fn rope_that_sticks_does_not_creep() {
     let (_, late, _) = run(&model, 4.0, 1.0);
     println!("creep over 3 s: {:.4} mm", 1e3 * (early - late));
     assert!((early - late).abs() < 1e-4, "crept {} m", early - late);
+}
+
+/// Mean friction and its ripple, as shares of the plugin's, of rope drawn over an edge of 2 cm radius.
+fn over_an_edge(segments: usize, resolution: Option<Resolution>) -> (f64, f64, u64) {
+    let mut spec = over_drum(0.02, Region::LeftFlukeTrailing, 0.2, segments);
+    spec.settings.resolution = resolution;
+    let model = Model::new(spec).expect("a sound model");
+    let (mut state, mut workspace) = (State::start(&model), Workspace::new(&model));
+    let (mut readings, last) = (Vec::new(), model.segment_count - 1);
+    while state.time_s < 3.0 {
+        step(&model, &Input::default(), &mut state, &mut workspace).unwrap_or_else(|stop| panic!("{stop:?}"));
+        if state.time_s > 1.0 {
+            readings.push(libm::log(state.rope.tension[last] / state.rope.tension[0]) / (std::f64::consts::PI * FRICTION));
+        }
+    }
+    let mean = readings.iter().sum::<f64>() / readings.len() as f64;
+    let spread = readings.iter().map(|reading| (reading - mean) * (reading - mean)).sum::<f64>() / readings.len() as f64;
+    println!("{segments} segments, {resolution:?}: friction {mean:.3} of it, ripple {:.3}, {:?}", spread.sqrt(), workspace.audit);
+    assert_eq!(workspace.audit.tunnelled, 0);
+    (mean, spread.sqrt(), workspace.audit.splits)
+}
+
+#[test]
+fn resolution_that_follows_mends_friction_over_a_thin_edge() {
+    let (uniform, uniform_ripple, _) = over_an_edge(60, None);
+    let (follows, ripple, splits) = over_an_edge(60, Some(Resolution { near_m: 0.05, edge_m: 0.0125, far_m: 0.2 }));
+    assert!(splits > 20, "{splits} splits");
+    assert!(uniform < 0.85, "the gap that is to be mended: {uniform}");
+    assert!((follows - 1.0).abs() < 0.06, "{follows}");
+    assert!(ripple < 0.5 * uniform_ripple, "{ripple} against {uniform_ripple}");
 }

@@ -86,6 +86,8 @@ pub struct AuditReport {
     pub unconverged: u64,
     /// Newton passes.
     pub passes: u64,
+    /// Segments split, each paid for by a merge, as resolution followed the whale.
+    pub splits: u64,
 }
 
 /// A line.

@@ -48,8 +48,8 @@ impl Report {
 }
 
 fn audit_report(audit: &Audit) -> AuditReport {
-    let Audit { tunnelled, max_penetration_m, non_finite, solver_steps, contact_steps, halved, unconverged, passes } = *audit;
-    AuditReport { tunnelled, max_penetration_m, non_finite, solver_steps, contact_steps, halved, unconverged, passes }
+    let Audit { tunnelled, max_penetration_m, non_finite, solver_steps, contact_steps, halved, unconverged, passes, splits } = *audit;
+    AuditReport { tunnelled, max_penetration_m, non_finite, solver_steps, contact_steps, halved, unconverged, passes, splits }
 }
 
 fn line_reports(run: &Run) -> Vec<LineReport> {

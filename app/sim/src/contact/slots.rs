@@ -16,6 +16,8 @@ use crate::model::Model;
 
 /// Longest piece of rope one slot stands for [m].
 const PIECE_M: f64 = 0.025;
+/// Bits of a site's number below its segment's.
+const SEGMENT_BITS: u32 = 20;
 /// Bits of a site's number that name the slot within its piece.
 const PIECE_BITS: u32 = 3;
 /// Most slots of a piece.
@@ -24,6 +26,16 @@ const MOST_SLOTS: usize = 1 << PIECE_BITS;
 const NEARER: f64 = 0.8;
 /// Further slots are looked for only within this many contact distances.
 const LOOK_WITHIN: f64 = 3.0;
+
+/// The segment a site lies on.
+pub(crate) fn segment_of(site: u64) -> usize {
+    (site >> SEGMENT_BITS) as usize
+}
+
+/// A site whose segment, where it is among these, has moved by one place up or down.
+pub(crate) fn shift_site(site: u64, segments: Range<usize>, by: i64) -> u64 {
+    if segments.contains(&segment_of(site)) { site.wrapping_add_signed(by << SEGMENT_BITS) } else { site }
+}
 
 /// One place on the rope.
 #[derive(Clone, Debug)]
@@ -73,7 +85,7 @@ impl Slots {
             let reach = 0.5 * model.rope_of_segment(*segment).diameter_m;
             for piece in 0..pieces as u64 {
                 self.list.push(Slot {
-                    site: ((*segment as u64) << 20) | (piece << PIECE_BITS),
+                    site: ((*segment as u64) << SEGMENT_BITS) | (piece << PIECE_BITS),
                     segment: *segment,
                     node: near.pairs[range.start].node,
                     fraction: (piece as f64 + 0.5) / pieces,

@@ -21,7 +21,7 @@ mod whale;
 mod winding;
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 pub use bodies::DRAGGED_M;
 pub use drag::DRAG_WINDOW_S;

@@ -28,6 +28,7 @@ use crate::model::Model;
 use crate::state::State;
 use crate::water::WaterAt;
 use crate::water::field::Walk;
+pub(crate) use axial::Axial;
 use chain::{Band, Ends};
 pub(crate) use free::FreePass;
 use hubs::{Hubs, Seat};

@@ -120,7 +120,7 @@ fn body(id: &str, role: BodyRole, position_m: DVec3) -> Body {
 }
 
 /// A vertical line of `lengths` from a fixture to a free end, in water 50 m deep, with the fixture whale.
-fn spec(lengths: Vec<f64>) -> ModelSpec {
+pub(crate) fn spec(lengths: Vec<f64>) -> ModelSpec {
     let whole: f64 = lengths.iter().sum();
     ModelSpec {
         water: Water {
@@ -148,7 +148,7 @@ fn spec(lengths: Vec<f64>) -> ModelSpec {
     }
 }
 
-fn model(spec: ModelSpec) -> Model {
+pub(crate) fn model(spec: ModelSpec) -> Model {
     Model::new(spec).unwrap_or_else(|errors| panic!("{errors:?}"))
 }
 

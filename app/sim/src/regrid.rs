@@ -1,0 +1,80 @@
+//! Resolution where it matters: segments short near the whale, long far from it, as many as before.
+//!
+//! Every segment has a length it should have, by its distance from skin and from the thin edges of fins (`wanted`).
+//! Where one is longer than that, it is split at its middle, and a pair of neighbours elsewhere in the same line that
+//! loses less by it is merged (`judge`), so that the number of nodes, and with it the model's layout, stays (`swap`).
+//! Kept to rounding: unstretched length, mass, momentum of the rope's own mass. A split changes no elastic tension (damping
+//! named as a ratio goes with the length), a merge no tension by more than 0.2 N or 0.5 %. Neighbours differ by a factor of
+//! two at most. End segments (which carry links and knots), cut ones and those that touch skin stay as they are, and nothing
+//! is merged near skin.
+//!
+//! It happens at the start of a step, from the state alone, at every [`EVERY_S`] of simulated time.
+//! Sizes wanted: docs/physics.md, Resolution.
+
+mod judge;
+mod swap;
+mod wanted;
+
+use crate::model::{Model, Resolution};
+use crate::state::State;
+use crate::whale::approach::Approach;
+use judge::{Line, best};
+use wanted::measure;
+
+#[cfg(test)]
+mod tests;
+
+/// Time between two looks at the lengths [s].
+const EVERY_S: f64 = 0.05;
+/// Most splits of one line at a time.
+const MOST_SPLITS: usize = 64;
+
+/// Scratch; it keeps nothing that a step depends on.
+#[derive(Clone, Debug)]
+pub(crate) struct RegridWork {
+    approach: Approach,
+    bones: Vec<glam::DAffine3>,
+    /// Length each segment should have [m].
+    wanted: Vec<f64>,
+    /// Whether each segment touches skin.
+    gripped: Vec<bool>,
+}
+
+impl RegridWork {
+    /// Scratch for a model whose resolution follows its whale.
+    pub fn new(model: &Model) -> Option<Self> {
+        model.spec.settings.resolution?;
+        let tree = model.skin_tree.clone()?;
+        Some(Self {
+            bones: Vec::with_capacity(tree.skin().bones.len()),
+            approach: Approach::new(tree),
+            wanted: vec![0.0; model.segment_count],
+            gripped: vec![false; model.segment_count],
+        })
+    }
+}
+
+/// Moves resolution to where it is wanted, where it is time to look; how many segments were split.
+pub(crate) fn regrid(model: &Model, state: &mut State, work: &mut Option<RegridWork>) -> u64 {
+    let (Some(work), Some(resolution)) = (work, &model.spec.settings.resolution) else { return 0 };
+    if !is_time(model, state) {
+        return 0;
+    }
+    measure(model, state, resolution, work);
+    (0..model.spec.lines.len()).map(|line| regrid_line(model, state, line, work, resolution)).sum()
+}
+
+/// Whether lengths are looked at before this step.
+fn is_time(model: &Model, state: &State) -> bool {
+    let steps = (EVERY_S / model.spec.settings.step_s).round().max(1.0) as u64;
+    state.step.is_multiple_of(steps)
+}
+
+fn regrid_line(model: &Model, state: &mut State, line: usize, work: &mut RegridWork, resolution: &Resolution) -> u64 {
+    for splits in 0..MOST_SPLITS {
+        let view = Line::of(model, state, line, &work.wanted, &work.gripped, resolution);
+        let Some((split, merge)) = best(&view) else { return splits as u64 };
+        swap::swap(model, state, line, split, merge, work);
+    }
+    MOST_SPLITS as u64
+}

@@ -1,0 +1,140 @@
+//! What a regrid keeps, and what it gives.
+
+use glam::DVec3;
+
+use super::*;
+use crate::contact::slots::segment_of;
+use crate::metrics::tests::{model, spec};
+
+/// Rope 0.4 m beside the fixture whale's trunk, 40 m of it in 200 segments, from the bed up.
+fn beside() -> Model {
+    let mut spec = spec(vec![0.2; 200]);
+    for joint in &mut spec.joints {
+        joint.position_m += DVec3::new(0.3, 1.6, 0.0);
+    }
+    spec.settings.resolution = Some(Resolution::default());
+    model(spec)
+}
+
+/// The rope drawn by 20 N, sagging by 2 cm and moving in a wave.
+fn drawn(model: &Model) -> State {
+    let mut state = State::start(model);
+    let strain = 20.0 / model.spec.ropes[0].axial_stiffness_n;
+    for node in 0..model.node_count {
+        let along = node as f64 / 200.0;
+        let wave = 12.0 * along;
+        state.rope.position[node].z = -40.0 + 40.0 * along * (1.0 + strain);
+        state.rope.position[node].x += 0.02 * libm::sin(std::f64::consts::PI * along);
+        state.rope.velocity[node] = DVec3::new(0.3 * libm::sin(wave), 0.2 * libm::cos(wave), 0.001 * libm::cos(0.2 * wave));
+        state.rope.earlier_position[node] = state.rope.position[node] - 0.01 * state.rope.velocity[node];
+        state.rope.earlier_velocity[node] = state.rope.velocity[node] * 0.9;
+    }
+    state.rope.tension.fill(20.0);
+    state.rope.earlier_dt_s = 0.01;
+    state
+}
+
+/// Runs until nothing moves; splits in all.
+fn rest(model: &Model, state: &mut State) -> u64 {
+    let mut work = RegridWork::new(model);
+    (0..20).map(|_| regrid(model, state, &mut work)).sum()
+}
+
+/// Sum over nodes of hanging length times a vector.
+fn sum(model: &Model, state: &State, of: impl Fn(&State, usize) -> DVec3) -> DVec3 {
+    let lengths = &state.rope.segment_length;
+    let hanging = |node: usize| 0.5 * (if node > 0 { lengths[node - 1] } else { 0.0 } + lengths.get(node).copied().unwrap_or(0.0));
+    (0..model.node_count).map(|node| of(state, node) * hanging(node)).sum()
+}
+
+/// Elastic and damping tension at a distance from end A.
+fn tension_at(model: &Model, state: &State, mut along_m: f64) -> f64 {
+    let rope = &model.spec.ropes[0];
+    for (segment, length) in state.rope.segment_length.iter().enumerate() {
+        if along_m <= *length {
+            let chord = state.rope.position[segment + 1] - state.rope.position[segment];
+            let rate = (state.rope.velocity[segment + 1] - state.rope.velocity[segment]).dot(chord.normalize()) / length;
+            return (rope.axial_stiffness_n * (chord.length() / length - 1.0) + rope.axial_damping_n_s * rate).max(0.0);
+        }
+        along_m -= length;
+    }
+    f64::NAN
+}
+
+#[test]
+fn length_and_momentum_are_kept_and_tension_does_not_jump() {
+    let model = beside();
+    let mut state = drawn(&model);
+    let before = state.clone();
+    let splits = rest(&model, &mut state);
+    assert!(splits > 50, "{splits} splits");
+    let whole: f64 = state.rope.segment_length.iter().sum();
+    assert!((whole - 40.0).abs() < 1e-12);
+    let momentum: [fn(&State, usize) -> DVec3; 3] = [
+        |state, node| state.rope.velocity[node],
+        |state, node| state.rope.earlier_velocity[node],
+        |state, node| state.rope.position[node] - state.rope.earlier_position[node],
+    ];
+    for of in momentum {
+        assert!((sum(&model, &before, of) - sum(&model, &state, of)).length() < 1e-12);
+    }
+    // Rope may be merged more than once; each time it may change by the share or the least jump.
+    let jump = (0..4000)
+        .map(|k| 0.01 * f64::from(k) + 0.005)
+        .map(|along| (tension_at(&model, &state, along) - tension_at(&model, &before, along)).abs());
+    let worst = jump.fold(0.0, f64::max);
+    println!("{splits} splits, tension changes by {worst:.4} N of 20 N at most");
+    assert!(worst < 0.4, "{worst} N");
+}
+
+#[test]
+fn rope_is_fine_near_skin_coarse_far_and_in_proportion() {
+    let model = beside();
+    let mut state = drawn(&model);
+    rest(&model, &mut state);
+    let lengths = &state.rope.segment_length;
+    for pair in lengths.windows(2) {
+        assert!(pair[0] <= 2.000_001 * pair[1] && pair[1] <= 2.000_001 * pair[0], "{pair:?}");
+    }
+    let near: Vec<f64> = (0..200).filter(|k| (state.rope.position[*k].z + 20.0).abs() < 0.5).map(|k| lengths[k]).collect();
+    assert!(near.iter().all(|length| *length <= 0.1001), "{near:?}");
+    assert!(lengths.iter().any(|length| *length >= 0.4), "{lengths:?}");
+    assert_eq!(rest(&model, &mut state), 0, "what is at rest stays");
+}
+
+#[test]
+fn segments_at_ends_cut_and_in_touch_stay_and_keep_what_is_theirs() {
+    let model = beside();
+    let mut state = drawn(&model);
+    state.rope.cut[150] = true;
+    // In touch: a segment beside the whale, and its neighbour.
+    state.rope.grips.sites = vec![(99 << 20) | 24, 100 << 20];
+    state.rope.grips.floats = vec![1.0, 2.0];
+    let place_of = |state: &State, segment: usize| (state.rope.position[segment], state.arc(&model, segment, 0.0));
+    let touching = [99, 100].map(|segment| place_of(&state, segment));
+    let cut = place_of(&state, 150);
+    assert!(rest(&model, &mut state) > 20);
+    let lengths = &state.rope.segment_length;
+    assert!([lengths[0], lengths[199]].iter().all(|length| (length - 0.2).abs() < 1e-15));
+    let now = state.rope.grips.sites.clone().into_iter().map(|site| (segment_of(site), site & 0xf_ffff)).collect::<Vec<_>>();
+    assert_eq!((now[0].1, now[1].1), (24, 0));
+    for ((segment, _), (place, arc_m)) in now.iter().zip(touching) {
+        assert!((lengths[*segment] - 0.2).abs() < 1e-15);
+        assert_eq!(place_of(&state, *segment).0, place);
+        assert!((place_of(&state, *segment).1 - arc_m).abs() < 1e-12);
+    }
+    let is_cut = (0..200).filter(|segment| state.rope.cut[*segment]).collect::<Vec<_>>();
+    assert_eq!(is_cut.len(), 1);
+    assert!(place_of(&state, is_cut[0]).0 == cut.0 && (place_of(&state, is_cut[0]).1 - cut.1).abs() < 1e-12);
+}
+
+/// Crooked rope under tension is not merged: one chord would pull less.
+#[test]
+fn crooked_taut_rope_stays_as_it_is() {
+    let model = beside();
+    let mut state = drawn(&model);
+    for node in (0..model.node_count).step_by(2) {
+        state.rope.position[node].y += 0.003;
+    }
+    assert_eq!(rest(&model, &mut state), 0);
+}

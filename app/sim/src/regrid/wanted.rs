@@ -1,0 +1,47 @@
+//! The length every segment should have.
+//!
+//! Within [`NEAR_M`] of skin it is the near length, within [`EDGE_M`] of a thin edge the edge length; beyond, it grows by
+//! [`GRADE`] for each metre of distance, up to the far length.
+//! With a grade of at most one, neighbours that have the wanted length differ by a factor of two at most.
+
+use super::RegridWork;
+use crate::model::{Model, Resolution};
+use crate::state::State;
+use crate::whale::{Bounds, pose};
+
+/// Distance from skin within which rope has the near length [m]: more than a whale in burst swims between two looks.
+pub(super) const NEAR_M: f64 = 0.3;
+/// Distance from a thin edge within which rope has the edge length [m].
+pub(super) const EDGE_M: f64 = 0.2;
+/// Growth of the wanted length with distance [m/m].
+const GRADE: f64 = 0.3;
+
+/// Length wanted at a distance from skin [m].
+fn size(resolution: &Resolution, gap_m: f64, thin: bool) -> f64 {
+    let at = |least: f64, within: f64| (least + GRADE * (gap_m - within).max(0.0)).min(resolution.far_m);
+    let near = at(resolution.near_m, NEAR_M);
+    if thin { near.min(at(resolution.edge_m, EDGE_M)) } else { near }
+}
+
+/// Distance from skin beyond which a wanted length tells that rope is [m].
+pub(super) fn is_far(resolution: &Resolution, wanted_m: f64) -> bool {
+    wanted_m > resolution.near_m
+}
+
+/// Measures the wanted length of every segment, and which ones touch skin.
+pub(super) fn measure(model: &Model, state: &State, resolution: &Resolution, work: &mut RegridWork) {
+    work.gripped.fill(false);
+    for site in &state.rope.grips.sites {
+        work.gripped[crate::contact::slots::segment_of(*site)] = true;
+    }
+    work.wanted.fill(resolution.far_m);
+    let (Some(whale), Some(now)) = (&model.spec.whale, &state.whale) else { return };
+    pose(&whale.skin, now.position, now.orientation, &now.posture, &mut work.bones);
+    work.approach.begin();
+    for (nodes, segments) in model.line_nodes.iter().zip(&model.line_segments) {
+        for (node, segment) in (nodes.start..).zip(segments.clone()) {
+            let place = Bounds::around(&[state.rope.position[node], state.rope.position[node + 1]]);
+            work.wanted[segment] = work.approach.least(&work.bones, &place, resolution.far_m, |gap_m, thin| size(resolution, gap_m, thin));
+        }
+    }
+}
