@@ -82,6 +82,7 @@ pub fn assemble_traced(scenario: &Scenario, library: &Library, hooks: &dyn Hooks
     builder.add_sea();
     builder.add_gear();
     builder.add_fixtures();
+    builder.add_free_joints();
     builder.add_free_bodies();
     builder.add_free_lines();
     builder.cut_lines(options.rope_nodes);
@@ -100,6 +101,7 @@ fn settings(scenario: &Scenario, options: &Options) -> Settings {
         duration_s: options.duration_s.unwrap_or(scenario.duration_s),
         resolution: scenario.resolution,
         seed: options.seed.unwrap_or(scenario.seed),
+        as_placed: scenario.as_placed,
         ..usual
     }
 }

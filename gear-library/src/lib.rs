@@ -9,6 +9,7 @@
 mod assemble;
 mod assembly;
 mod attributes;
+mod case;
 mod diagnostic;
 mod document;
 mod entry;
@@ -26,6 +27,7 @@ pub mod whale;
 pub use assemble::{Assembled, Hooks, Options, assemble, assemble_traced, buoy_floats, shell_inertia};
 pub use assembly::{Assembly, Make, PartBody, PartJoint, PartLine, PartLink, Parts, Start};
 pub use attributes::Attributes;
+pub use case::{Case, Check, Limit, Measure, Rows, Samples, Table};
 pub use diagnostic::{At, Diagnostic, Place, Severity, SourceText};
 pub use document::{Document, EditError, save_text};
 pub use entry::{Entry, FORMAT};

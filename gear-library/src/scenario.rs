@@ -43,6 +43,8 @@ pub struct Scenario {
     pub resolution: Option<Resolution>,
     /// Whether weak links can part.
     pub weak_links: bool,
+    /// Whether the run starts as its parts are placed, without statics.
+    pub as_placed: bool,
     /// The sea.
     pub sea: Sea,
     /// Gear from the library.
@@ -55,6 +57,8 @@ pub struct Scenario {
     pub ropes: Vec<Entry>,
     /// Fixed and driven points.
     pub fixtures: Vec<Fixture>,
+    /// Free joints written in place: id and first guess of the place [m].
+    pub joints: Vec<(At<String>, DVec3)>,
     /// Bodies written in place.
     pub bodies: Vec<FreeBody>,
     /// Lines written in place, with their start shape.
@@ -143,6 +147,7 @@ impl Scenario {
         let weak_links = fields.flag("weak_links");
         let whale = fields.table("whale");
         let follow = fields.table("resolution");
+        let start = fields.word("start", &["rest", "placed"]);
         let each = |key: &'static str| fields.tables(key).iter();
         let scenario = Self {
             name,
@@ -155,6 +160,7 @@ impl Scenario {
             rope_nodes,
             segment_m: segment.map(|segment| segment.value),
             weak_links: weak_links.unwrap_or(true),
+            as_placed: start.is_some_and(|start| start.value == "placed"),
             sea: sea(&fields),
             gear: each("gear").filter_map(|node| placed_gear(node, problems)).collect(),
             resolution: follow.as_ref().map(|follow| resolution::read(follow, whale.is_some())),
@@ -162,6 +168,7 @@ impl Scenario {
             friction: fields.table("friction").as_ref().and_then(friction),
             ropes: parts::ropes(&fields, &file),
             fixtures: each("fixture").filter_map(|node| parts::fixture(node, problems)).collect(),
+            joints: each("joint").filter_map(|node| parts::joint(node, problems)).collect(),
             bodies: each("body").filter_map(|node| parts::body(node, &file, problems)).collect(),
             lines: each("line").filter_map(|node| free_line(node, problems)).collect(),
             links: each("link").filter_map(|node| link(node, problems, true)).collect(),

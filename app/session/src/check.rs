@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use endline_gear::{Diagnostic, Library, Sources};
 
+use crate::cases::Cases;
 use crate::error::Error;
 use crate::locate;
 use crate::plugins::PluginHost;
@@ -36,6 +37,7 @@ impl Checked {
         if locate::is_library(folder) {
             self.library(folder);
             self.scenarios(&folder.join("scenarios"), Some(folder), host);
+            self.cases(folder, host);
             return;
         }
         let before = self.files;
@@ -74,6 +76,9 @@ impl Checked {
 
     fn file(&mut self, path: &Path, library: Option<&Path>, host: &PluginHost) {
         let parent = path.parent().and_then(Path::file_name).map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        if parent == "cases" {
+            return self.case(path, library, host);
+        }
         if endline_gear::Kind::in_folder(&parent).is_none() {
             return self.scenario(path, library, host);
         }
@@ -84,11 +89,32 @@ impl Checked {
         }
     }
 
+    /// Every validation case of a library.
+    fn cases(&mut self, root: &Path, host: &PluginHost) {
+        for entry in entries(&root.join("cases")).iter().filter(|entry| entry.extension().is_some_and(|end| end == "toml")) {
+            self.case(entry, Some(root), host);
+        }
+    }
+
+    /// A case is checked with its table and its scenario: a file in the folder `cases` of a library.
+    fn case(&mut self, path: &Path, library: Option<&Path>, host: &PluginHost) {
+        self.files += 1;
+        let around = path.ancestors().nth(2).filter(|folder| locate::is_library(folder));
+        let id = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        let checked = Cases::open(around.or(library)).and_then(|cases| cases.check(&id, host));
+        self.told(path, checked);
+    }
+
     /// A scenario is checked by assembling it: references, plugins and the model itself are then checked too.
     fn scenario(&mut self, path: &Path, library: Option<&Path>, host: &PluginHost) {
         self.files += 1;
-        match prepare(path, library, host, Overrides::default()) {
-            Ok(_) => {}
+        self.told(path, prepare(path, library, host, Overrides::default()).map(|_| ()));
+    }
+
+    /// Keeps what is wrong with a file, each problem once.
+    fn told(&mut self, path: &Path, checked: Result<(), Error>) {
+        match checked {
+            Ok(()) => {}
             Err(Error::Diagnostics(problems)) => {
                 let fresh: Vec<Diagnostic> = problems.into_iter().filter(|problem| !self.problems.contains(problem)).collect();
                 self.problems.extend(fresh);

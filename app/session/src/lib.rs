@@ -8,6 +8,7 @@
 //! | [`recording`] | the file of a run; running it again and comparing every step |
 //! | [`report`] | the summary of a run as JSON |
 //! | [`settled`] | the gear at rest as JSON |
+//! | [`cases`] | validation cases run and judged |
 //! | [`check`] | every problem of what a user names |
 //! | [`live`] | a run on a thread of its own, for the workbench |
 //! | [`plugins`] | plugins found, checked and loaded |
@@ -15,6 +16,7 @@
 //!
 //! A run gives the same bits for the same source, inputs and program, whoever watches it.
 
+pub mod cases;
 pub mod check;
 pub mod error;
 pub mod hash;

@@ -40,13 +40,14 @@ pub struct Run {
 }
 
 impl Run {
-    /// Settles the model and stands ready for the first step.
+    /// Settles the model, where its scenario does not start it as placed, and stands ready for the first step.
     ///
     /// # Errors
     /// Where statics do not converge and `options` do not say to start regardless.
     pub fn new(prepared: Prepared, options: RunOptions) -> Result<Self, Error> {
         let start = Instant::now();
-        let settled = settle(&prepared.model);
+        let model = &prepared.model;
+        let settled = if model.spec.settings.as_placed { as_placed(model) } else { settle(model) };
         if !settled.converged && !options.unsettled {
             return Err(Error::Unsettled { residual_n: settled.residual_n, passes: settled.trace_n.len() });
         }
@@ -241,6 +242,11 @@ impl Run {
             self.frames.push(self.frame());
         }
     }
+}
+
+/// The parts where they are placed, taken as they are.
+fn as_placed(model: &Model) -> Settled {
+    Settled { state: State::start(model), residual_n: 0.0, converged: true, trace_n: Vec::new() }
 }
 
 /// Steps from one kept frame to the next: the whole number nearest to the rate asked for.

@@ -234,16 +234,35 @@ pub struct Probe {
 }
 
 /// What a probe reads.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ProbeTarget {
     /// Tension at an end of a line [N].
     EndTension(usize, LineEnd),
+    /// Tension of a line at an unstretched length from its end A [N].
+    TensionAt(usize, f64),
+    /// A coordinate of a line at an unstretched length from its end A: 0 x, 1 y, 2 z [m].
+    LineAt(usize, f64, usize),
+    /// Mechanical energy of all rope and bodies [J].
+    Energy(EnergyForm),
     /// A coordinate of the middle of a line by unstretched length: 0 x, 1 y, 2 z [m].
     LineMiddle(usize, usize),
     /// A coordinate of a joint: 0 x, 1 y, 2 z [m].
     Joint(usize, usize),
     /// A coordinate of a body: 0 x, 1 y, 2 z [m].
     Body(usize, usize),
+}
+
+/// A form of mechanical energy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EnergyForm {
+    /// All three together.
+    Total,
+    /// Of motion and turning.
+    Kinetic,
+    /// Of height above z = 0; buoyancy is not counted.
+    Height,
+    /// Of stretch.
+    Stretch,
 }
 
 /// A friction model with its attribute values and the table of coefficients.
@@ -302,11 +321,13 @@ pub struct Settings {
     pub duration_s: f64,
     /// Seed of everything drawn at random.
     pub seed: u64,
+    /// Whether the run starts as its parts are placed, without statics before it.
+    pub as_placed: bool,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { step_s: 0.01, contact_step_s: 0.002, least_step_s: 1e-6, resolution: None, duration_s: 60.0, seed: 1 }
+        Self { step_s: 0.01, contact_step_s: 0.002, least_step_s: 1e-6, resolution: None, duration_s: 60.0, seed: 1, as_placed: false }
     }
 }
 

@@ -13,6 +13,9 @@ impl Builder<'_> {
         for probe in &self.scenario.probes {
             let target = match &probe.part {
                 ProbePart::Tension(line, end) => self.line(line).map(|line| ProbeTarget::EndTension(line, *end)),
+                ProbePart::TensionAt(line, length_m) => self.line(line).map(|line| ProbeTarget::TensionAt(line, *length_m)),
+                ProbePart::LineAt(line, length_m, axis) => self.line(line).map(|line| ProbeTarget::LineAt(line, *length_m, *axis)),
+                ProbePart::Energy(form) => Some(ProbeTarget::Energy(*form)),
                 ProbePart::Middle(line, axis) => self.line(line).map(|line| ProbeTarget::LineMiddle(line, *axis)),
                 ProbePart::Place(part, axis) => self.placed(part, *axis),
             };

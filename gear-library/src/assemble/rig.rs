@@ -183,6 +183,14 @@ impl Builder<'_> {
         }
     }
 
+    /// Free joints written into the scenario.
+    pub fn add_free_joints(&mut self) {
+        for (id, position_m) in &self.scenario.joints {
+            self.name(id.value.clone(), Part::Joint(self.spec.joints.len()), &id.place);
+            self.spec.joints.push(Joint { id: id.value.clone(), kind: JointKind::Free, position_m: *position_m });
+        }
+    }
+
     /// Bodies written into the scenario.
     pub fn add_free_bodies(&mut self) {
         for free in &self.scenario.bodies {

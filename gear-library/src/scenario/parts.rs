@@ -2,6 +2,7 @@
 
 use endline_sdk::LineEnd;
 use endline_sim::DVec3;
+use endline_sim::model::EnergyForm;
 
 use crate::diagnostic::At;
 use crate::entry::{self, Entry};
@@ -73,6 +74,12 @@ pub struct ProbeOf {
 pub enum ProbePart {
     /// Tension at an end of a line.
     Tension(At<String>, LineEnd),
+    /// Tension of a line at an unstretched length from its end A [m].
+    TensionAt(At<String>, f64),
+    /// A coordinate of a line at an unstretched length from its end A [m].
+    LineAt(At<String>, f64, usize),
+    /// Mechanical energy of all rope and bodies.
+    Energy(EnergyForm),
     /// A coordinate of the middle of a line.
     Middle(At<String>, usize),
     /// A coordinate of a body, joint or fixture.
@@ -110,6 +117,15 @@ pub(super) fn fixture(node: &Node, problems: &Problems) -> Option<Fixture> {
         (place3(&velocity.value), from, until)
     });
     Some(Fixture { id: id?, position_m: position?, drive })
+}
+
+/// `[[joint]]`: a free end, or a place where lines meet.
+pub(super) fn joint(node: &Node, problems: &Problems) -> Option<(At<String>, DVec3)> {
+    let fields = Fields::of(node, problems);
+    let id = fields.need_text("id", "write an id such as \"tail\"");
+    let position = position(&fields);
+    fields.finish();
+    Some((id?, position?))
 }
 
 pub(super) fn body(node: &Node, file: &Provenance, problems: &Problems) -> Option<FreeBody> {
@@ -151,22 +167,42 @@ pub(super) fn body(node: &Node, file: &Provenance, problems: &Problems) -> Optio
 pub(super) fn probe(node: &Node, problems: &Problems) -> Option<ProbeOf> {
     let fields = Fields::of(node, problems);
     let id = fields.need_text("id", "write an id such as \"anchor tension\"");
-    let of = fields.need_text("of", "write tension, middle or place");
-    let of = of.and_then(|_| fields.word("of", &["tension", "middle", "place"]));
+    let of = fields.need_text("of", "write tension, middle, line, place or energy");
+    let of = of.and_then(|_| fields.word("of", &["tension", "middle", "line", "place", "energy"]));
     let part = of.and_then(|of| match of.value.as_str() {
         "tension" => tension(&fields),
         "middle" => coordinate(&fields, "line").map(|(line, axis)| ProbePart::Middle(line, axis)),
+        "line" => coordinate(&fields, "line").and_then(|(line, axis)| Some(ProbePart::LineAt(line, length_at(&fields)?, axis))),
+        "energy" => Some(ProbePart::Energy(energy_form(&fields))),
         _ => coordinate(&fields, "part").map(|(part, axis)| ProbePart::Place(part, axis)),
     });
     fields.finish();
     Some(ProbeOf { id: id?, part: part? })
 }
 
+/// At an end, or with `at` at a length from end A.
 fn tension(fields: &Fields<'_>) -> Option<ProbePart> {
     let line = fields.need_text("line", "write the id of a line");
-    let end = fields.need_text("end", "write from or to");
+    if fields.get("at").is_some() {
+        return Some(ProbePart::TensionAt(line?, length_at(fields)?));
+    }
+    let end = fields.need_text("end", "write from or to; or `at`, a length of rope from its end `from`");
     let end = end.and_then(|_| fields.word("end", &["from", "to"]))?;
     Some(ProbePart::Tension(line?, if end.value == "from" { LineEnd::A } else { LineEnd::B }))
+}
+
+fn length_at(fields: &Fields<'_>) -> Option<f64> {
+    fields.need_value("at", Quantity::Length, Range::NotNegative).map(|at| at.value)
+}
+
+fn energy_form(fields: &Fields<'_>) -> EnergyForm {
+    let form = fields.word("form", &["total", "kinetic", "height", "stretch"]);
+    match form.as_ref().map(|form| form.value.as_str()) {
+        Some("kinetic") => EnergyForm::Kinetic,
+        Some("height") => EnergyForm::Height,
+        Some("stretch") => EnergyForm::Stretch,
+        _ => EnergyForm::Total,
+    }
 }
 
 fn coordinate<'a>(fields: &Fields<'a>, key: &'a str) -> Option<(At<String>, usize)> {

@@ -78,7 +78,11 @@ impl Place {
     /// A copy of the gear library here, without its code.
     pub fn library(&self) -> PathBuf {
         let (from, to) = (library(), self.path("gear-library"));
-        for file in endline_tests::files_below(&from).unwrap().iter().filter(|file| file.extension().is_some_and(|end| end == "toml")) {
+        for file in endline_tests::files_below(&from)
+            .unwrap()
+            .iter()
+            .filter(|file| file.extension().is_some_and(|end| end == "toml" || end == "csv"))
+        {
             let to = to.join(file.strip_prefix(&from).unwrap());
             fs::create_dir_all(to.parent().unwrap()).unwrap();
             fs::copy(file, to).unwrap();

@@ -4,9 +4,11 @@
 //! state and what the step left for readers: live and in replay it gives the same numbers. Fold the
 //! start state first to have it in means and peaks. Definitions and thresholds: `docs/entanglement.md`.
 
+mod along;
 mod axes;
 mod bodies;
 mod drag;
+mod energy;
 mod event;
 mod extent;
 mod lines;
@@ -25,10 +27,11 @@ pub(crate) mod tests;
 
 pub use bodies::DRAGGED_M;
 pub use drag::DRAG_WINDOW_S;
+pub use energy::energy;
 pub use event::{Event, EventKind};
 pub use lines::end_tension;
 pub use outcome::{LONG_CONTACT_S, LOST_S, RELEASE_S};
-pub use probes::reading;
+pub use probes::{reading, unit};
 pub use summary::{BodySummary, LineSummary, LinkSummary, Outcome, ProbeSummary, RegionSummary, Summary, WhaleSummary};
 pub use winding::{BRIDGED_GAP_M, WINDING_JUMP};
 

@@ -1,5 +1,7 @@
 //! Probes: last, least, greatest and mean reading.
 
+use super::along;
+use super::energy::energy;
 use super::lines::end_tension;
 use super::summary::ProbeSummary;
 use crate::model::{JointKind, Model, ProbeTarget};
@@ -58,11 +60,13 @@ impl Track {
     }
 }
 
-/// Unit of a probe's readings: `N` or `m`.
-fn unit(target: ProbeTarget) -> &'static str {
+/// Unit of a probe's readings: `N`, `m` or `J`.
+#[must_use]
+pub fn unit(target: ProbeTarget) -> &'static str {
     match target {
-        ProbeTarget::EndTension(..) => "N",
-        ProbeTarget::LineMiddle(..) | ProbeTarget::Joint(..) | ProbeTarget::Body(..) => "m",
+        ProbeTarget::EndTension(..) | ProbeTarget::TensionAt(..) => "N",
+        ProbeTarget::Energy(_) => "J",
+        ProbeTarget::LineAt(..) | ProbeTarget::LineMiddle(..) | ProbeTarget::Joint(..) | ProbeTarget::Body(..) => "m",
     }
 }
 
@@ -72,24 +76,13 @@ pub fn reading(model: &Model, state: &State, target: ProbeTarget) -> f64 {
     let coordinate = |place: Option<glam::DVec3>, axis: usize| place.and_then(|place| place.to_array().get(axis).copied()).unwrap_or(0.0);
     match target {
         ProbeTarget::EndTension(line, end) => end_tension(model, state, line, end),
-        ProbeTarget::LineMiddle(line, axis) => coordinate(middle(model, state, line), axis),
+        ProbeTarget::TensionAt(line, length_m) => along::tension(model, state, line, length_m),
+        ProbeTarget::LineAt(line, length_m, axis) => coordinate(along::place(model, state, line, length_m), axis),
+        ProbeTarget::Energy(form) => energy(model, state, form),
+        ProbeTarget::LineMiddle(line, axis) => coordinate(along::middle(model, state, line), axis),
         ProbeTarget::Joint(joint, axis) => coordinate(joint_place(model, state, joint), axis),
         ProbeTarget::Body(body, axis) => coordinate(state.bodies.get(body).map(|body| body.position), axis),
     }
-}
-
-/// Place of the middle of a line by unstretched length [m].
-fn middle(model: &Model, state: &State, line: usize) -> Option<glam::DVec3> {
-    let lengths = &state.rope.segment_length[model.line_segments.get(line)?.clone()];
-    let nodes = &state.rope.position[model.line_nodes[line].clone()];
-    let mut left = 0.5 * lengths.iter().sum::<f64>();
-    for (ends, length) in nodes.windows(2).zip(lengths) {
-        if left <= *length {
-            return Some(ends[0].lerp(ends[1], left / length));
-        }
-        left -= length;
-    }
-    nodes.last().copied()
 }
 
 /// Place of a joint [m]: of the line end that meets there, or on its body.

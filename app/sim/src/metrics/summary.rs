@@ -67,7 +67,7 @@ pub struct BodySummary {
 pub struct ProbeSummary {
     /// Id of the probe.
     pub id: String,
-    /// Unit of the numbers: `N` or `m`.
+    /// Unit of the numbers: `N`, `m` or `J`.
     pub unit: &'static str,
     /// Reading now.
     pub last: f64,

@@ -30,6 +30,8 @@ pub(super) enum Command {
     Replay(ReplayArgs),
     /// Draw a moment of a recording; needs no display.
     Render(RenderArgs),
+    /// Run validation cases and tell what was expected and what was got.
+    Validate(ValidateArgs),
     /// Check files, a gear library or a project, and tell all that is wrong.
     Check(CheckArgs),
     /// List plugins, or check a plugin file.
@@ -127,6 +129,21 @@ pub(super) struct RenderArgs {
     /// Go on with plugins of another version or file than recorded.
     #[arg(long)]
     pub(super) other_plugins: bool,
+}
+
+#[derive(Debug, clap::Args)]
+pub(super) struct ValidateArgs {
+    /// Cases by name, such as reference-a-100; all of the gear library where none is given.
+    pub(super) cases: Vec<String>,
+    /// Print one JSON object.
+    #[arg(long)]
+    pub(super) json: bool,
+    /// Only at each case's own step and segments, without halving them.
+    #[arg(long)]
+    pub(super) plain: bool,
+    /// Write the document of these cases, and their plots beside it.
+    #[arg(long, value_name = "FILE.md")]
+    pub(super) write: Option<PathBuf>,
 }
 
 #[derive(Debug, clap::Args)]

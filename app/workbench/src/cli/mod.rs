@@ -15,6 +15,7 @@ mod replay;
 mod run;
 mod settle;
 mod table;
+mod validate;
 mod workbench;
 
 use std::ffi::OsString;
@@ -42,6 +43,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitCode, Fa
         Some(Command::Settle(args)) => settle::settle(args, library),
         Some(Command::Replay(args)) => replay::replay(args),
         Some(Command::Render(args)) => render::render(args),
+        Some(Command::Validate(args)) => validate::validate(args, library),
         Some(Command::Check(args)) => check::check(args, library),
         Some(Command::Plugins { what }) => plugins::plugins(what),
     }

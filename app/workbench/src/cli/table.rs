@@ -150,7 +150,7 @@ fn row(cells: &[&str]) -> Vec<String> {
 }
 
 /// Rows in aligned columns and an empty line; nothing where there is only a heading of several columns.
-fn columns(rows: &[Vec<String>]) -> String {
+pub(super) fn columns(rows: &[Vec<String>]) -> String {
     if rows.len() == 1 && rows[0].len() > 2 {
         return String::new();
     }

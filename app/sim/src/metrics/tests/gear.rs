@@ -1,7 +1,8 @@
 //! Lines, links, bodies and probes against what can be worked out by hand.
 
 use super::*;
-use crate::metrics::{EventKind, end_tension};
+use crate::metrics::{EventKind, end_tension, energy, reading};
+use crate::model::EnergyForm;
 
 /// A vertical line hanging from its top: tension rises by the weight in water of what hangs below.
 #[test]
@@ -126,4 +127,49 @@ fn a_dragged_trap_and_a_sunk_buoy_are_told() {
     assert!((dragged.time_s - 2.015).abs() < 0.006 && dragged.value > 1.0, "{dragged:?}");
     let bodies = metrics.summary(&model, &state).bodies;
     assert!((bodies[0].peak_speed_m_s - 0.5).abs() < 1e-12 && (bodies[0].position_m.x - 1.5).abs() < 1e-12);
+}
+
+/// Four metres of line at 1 kg/m, stretched by a tenth and falling: each form by hand.
+#[test]
+fn energy_has_its_three_forms() {
+    let mut spec = spec(vec![1.0; 4]);
+    (spec.ropes[0].mass_kg_m, spec.ropes[0].axial_stiffness_n) = (1.0, 1000.0);
+    spec.bodies = vec![body("weight", BodyRole::Weight, DVec3::new(0.0, 0.0, 5.0))];
+    let model = model(spec);
+    let mut state = State::start(&model);
+    for (node, place) in state.rope.position.iter_mut().enumerate() {
+        *place = DVec3::new(1.1 * node as f64, 0.0, 2.0);
+    }
+    state.rope.velocity.fill(DVec3::Z * -3.0);
+    let mass_kg = model.spec.bodies[0].mass_kg;
+    (state.bodies[0].velocity, state.bodies[0].spin) = (DVec3::X * 2.0, DVec3::ZERO);
+    let gravity = model.spec.water.gravity_m_s2;
+    for (form, wanted) in [
+        (EnergyForm::Kinetic, 0.5 * 4.0 * 9.0 + 0.5 * mass_kg * 4.0),
+        (EnergyForm::Height, gravity * (4.0 * 2.0 + mass_kg * 5.0)),
+        (EnergyForm::Stretch, 4.0 * 0.5 * 1000.0 * 0.01),
+    ] {
+        let got = energy(&model, &state, form);
+        assert!((got - wanted).abs() < 1e-9 * wanted, "{form:?}: {got} J for {wanted} J");
+    }
+    state.rope.position[1].x = 0.9;
+    let slack = energy(&model, &state, EnergyForm::Stretch);
+    assert!((slack - 500.0 * (0.3 * 0.3 + 2.0 * 0.01)).abs() < 1e-9, "a slack segment holds nothing: {slack} J");
+}
+
+/// Places are linear between nodes, tensions between the middles of segments.
+#[test]
+fn a_line_is_read_at_any_length() {
+    let mut spec = spec(vec![1.0, 3.0, 2.0]);
+    let at = |target| Probe { id: String::new(), target };
+    spec.probes = vec![at(ProbeTarget::LineAt(0, 2.5, 2)), at(ProbeTarget::TensionAt(0, 1.0)), at(ProbeTarget::TensionAt(0, 5.9))];
+    let model = model(spec);
+    let mut state = State::start(&model);
+    for (node, height) in [0.0, 1.0, 5.0, 5.0].into_iter().enumerate() {
+        state.rope.position[node] = DVec3::Z * height;
+    }
+    state.rope.tension = vec![10.0, 20.0, 60.0];
+    let read: Vec<f64> = model.spec.probes.iter().map(|probe| reading(&model, &state, probe.target)).collect();
+    // Middles at 0.5 m, 2.5 m and 5 m: a length of 1 m lies a quarter of the way from the first to the second.
+    assert!(read.iter().zip([3.0, 12.5, 60.0]).all(|(got, wanted)| (got - wanted).abs() < 1e-12), "{read:?}");
 }

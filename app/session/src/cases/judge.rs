@@ -1,0 +1,213 @@
+//! From readings to verdicts.
+
+use endline_gear::{At, Case, Check, Diagnostic, Measure, Samples, Table};
+use endline_sim::Model;
+use endline_sim::metrics::unit;
+
+use crate::error::Error;
+
+use super::Finer;
+use super::observe::Observed;
+use super::outcome::{Convergence, Curve, Outcome, Verdict, error};
+use super::setup::Setup;
+
+/// Readings nearer than this share of their size are the same: no order can be told from them.
+const SAME: f64 = 1e-10;
+
+/// Refuses a case that names a probe its scenario does not have, or a column its table does not have.
+pub(super) fn check_names(case: &Case, model: &Model, table: Option<&Table>) -> Result<(), Error> {
+    let mut problems = Vec::new();
+    for check in &case.checks {
+        for name in probes(&check.measure) {
+            if !model.spec.probes.iter().any(|probe| probe.id == name.value) {
+                let known: Vec<&str> = model.spec.probes.iter().map(|probe| probe.id.as_str()).collect();
+                let help = format!("its probes are {}", known.join(", "));
+                problems.push(name.place.error(format!("the scenario has no probe `{}`", name.value), help));
+            }
+            if let (true, Some(table)) = (of_table(&check.measure), table) {
+                problems.extend(table.column(&name.value).err().map(|problem| *problem));
+            }
+        }
+        let fits = match (&check.measure, &case.samples) {
+            (Measure::Sums | Measure::Slope(..) | Measure::Fall { .. }, _) => false,
+            (measure, Samples::Table) => of_table(measure) || matches!(measure, Measure::Value(..) | Measure::Mean { .. }),
+            (measure, _) => !of_table(measure),
+        };
+        if !fits {
+            let message = format!("`{}` cannot be measured of what this case samples", check.name);
+            let help = "distance, series and peak need at = \"table\"; sums, slope and fall need [rows]";
+            problems.push(Diagnostic::of_file(case.place.source.path.clone(), message, help));
+        }
+    }
+    if problems.is_empty() { Ok(()) } else { Err(Error::Diagnostics(problems)) }
+}
+
+/// The probes a measure reads.
+fn probes(measure: &Measure) -> Vec<&At<String>> {
+    match measure {
+        Measure::Distance(points) => points.iter().flatten().collect(),
+        Measure::Series(probes) => probes.iter().collect(),
+        Measure::Peak(of) | Measure::Value(of, _) | Measure::Mean { of, .. } => vec![of],
+        Measure::Gain(of, over) | Measure::Loss(of, over) => vec![of, over],
+        Measure::Sums | Measure::Slope(..) | Measure::Fall { .. } => Vec::new(),
+    }
+}
+
+/// Whether a measure compares with the table's columns.
+fn of_table(measure: &Measure) -> bool {
+    matches!(measure, Measure::Distance(_) | Measure::Series(_) | Measure::Peak(_))
+}
+
+/// The verdicts of a case, with what halving came to.
+pub(super) fn outcome(case: &Case, setup: &Setup, table: Option<&Table>, base: &Observed, finer: &Finer) -> Result<Outcome, Error> {
+    let scale = Scale { model: &setup.model, table };
+    let mut verdicts = Vec::new();
+    for check in &case.checks {
+        let measured = scale.measure(check, base)?;
+        let mut verdict = Verdict::new(check.name.clone(), measured.unit, measured.expected, measured.got, check.limit);
+        verdict.step = scale.convergence(check, base, finer.step.as_ref())?;
+        verdict.segment = scale.convergence(check, base, finer.segment.as_ref())?;
+        verdicts.push(verdict);
+    }
+    let curves = scale.curves(case, base)?;
+    Ok(Outcome { curves, ..Outcome::begin(case, setup) }.judged(verdicts))
+}
+
+/// What readings are held against.
+struct Scale<'a> {
+    model: &'a Model,
+    table: Option<&'a Table>,
+}
+
+/// A measure taken.
+struct Measured {
+    unit: &'static str,
+    expected: f64,
+    got: f64,
+    /// The readings behind it, for the order of convergence.
+    readings: Vec<f64>,
+}
+
+impl Scale<'_> {
+    fn probe(&self, name: &str) -> usize {
+        // Names were checked before the run.
+        self.model.spec.probes.iter().position(|probe| probe.id == name).unwrap_or_default()
+    }
+
+    fn unit(&self, name: &str) -> &'static str {
+        self.model.spec.probes.get(self.probe(name)).map_or("", |probe| unit(probe.target))
+    }
+
+    fn column(&self, name: &str) -> Result<Vec<f64>, Error> {
+        self.table.map_or(Ok(Vec::new()), |table| table.column(name).map_err(Error::from))
+    }
+
+    fn measure(&self, check: &Check, observed: &Observed) -> Result<Measured, Error> {
+        let readings = |name: &At<String>| &observed.samples[self.probe(&name.value)];
+        let scalar = |unit, expected, got| Measured { unit, expected, got, readings: vec![got] };
+        Ok(match &check.measure {
+            Measure::Distance(points) => {
+                let flat: Vec<&At<String>> = points.iter().flatten().collect();
+                let (off, _, all) = self.squares(&flat, observed)?;
+                let count = (points.len() * observed.times_s.len()) as f64;
+                Measured { unit: "m", expected: 0.0, got: (off / count).sqrt(), readings: all }
+            }
+            Measure::Series(probes) => {
+                let (off, size, all) = self.squares(&probes.iter().collect::<Vec<_>>(), observed)?;
+                Measured { unit: "", expected: 0.0, got: (off / size).sqrt(), readings: all }
+            }
+            Measure::Peak(of) => scalar(self.unit(&of.value), greatest(&self.column(&of.value)?), greatest(readings(of))),
+            Measure::Value(of, expected) => scalar(self.unit(&of.value), *expected, last(readings(of))),
+            Measure::Mean { of, from_s, over, expected } => {
+                let late = observed.times_s.iter().zip(readings(of)).filter(|(time, _)| **time >= from_s - 1e-9);
+                let late: Vec<f64> = late.map(|(_, reading)| reading / over).collect();
+                let unit = if (over - 1.0).abs() > 0.0 { "" } else { self.unit(&of.value) };
+                scalar(unit, *expected, late.iter().sum::<f64>() / late.len() as f64)
+            }
+            Measure::Gain(of, over) => scalar("", 0.0, (greatest(readings(of)) - first(readings(of))) / greatest(readings(over))),
+            Measure::Loss(of, over) => {
+                let lost = (first(readings(of)) - last(readings(of))) / greatest(readings(over));
+                scalar("", 0.0, lost.max(0.0))
+            }
+            Measure::Sums | Measure::Slope(..) | Measure::Fall { .. } => scalar("", 0.0, f64::NAN),
+        })
+    }
+
+    /// Sum of the squared differences from the table, that of the table's squares, and all readings.
+    fn squares(&self, probes: &[&At<String>], observed: &Observed) -> Result<(f64, f64, Vec<f64>), Error> {
+        let (mut off, mut size, mut all) = (0.0, 0.0, Vec::new());
+        for name in probes {
+            let readings = &observed.samples[self.probe(&name.value)];
+            for (reading, expected) in readings.iter().zip(self.column(&name.value)?) {
+                off += (reading - expected) * (reading - expected);
+                size += expected * expected;
+            }
+            all.extend(readings);
+        }
+        Ok((off, size, all))
+    }
+
+    fn convergence(&self, check: &Check, base: &Observed, finer: Option<&[Observed; 2]>) -> Result<Option<Convergence>, Error> {
+        let Some([half, quarter]) = finer else { return Ok(None) };
+        let [whole, half, quarter] = [self.measure(check, base)?, self.measure(check, half)?, self.measure(check, quarter)?];
+        let order = order(&whole.readings, &half.readings, &quarter.readings);
+        Ok(Some(Convergence { error_at_half: error(half.expected, half.got, check.limit), order }))
+    }
+
+    /// The probes that the checks compare, over time.
+    fn curves(&self, case: &Case, base: &Observed) -> Result<Vec<Curve>, Error> {
+        let mut curves: Vec<Curve> = Vec::new();
+        if base.trace.0.is_empty() {
+            return Ok(curves);
+        }
+        for check in &case.checks {
+            for name in probes(&check.measure) {
+                if curves.iter().any(|curve| curve.probe == name.value) {
+                    continue;
+                }
+                let expected = if of_table(&check.measure) { self.column(&name.value)? } else { Vec::new() };
+                curves.push(Curve {
+                    probe: name.value.clone(),
+                    unit: self.unit(&name.value),
+                    times_s: base.trace.0.clone(),
+                    got: base.trace.1[self.probe(&name.value)].clone(),
+                    expected: base.times_s.iter().zip(expected).map(|(time, reading)| [*time, reading]).collect(),
+                });
+            }
+        }
+        Ok(curves)
+    }
+}
+
+/// Order of convergence from readings at whole, half and quarter; `None` where they do not differ.
+fn order(whole: &[f64], half: &[f64], quarter: &[f64]) -> Option<f64> {
+    let apart = |one: &[f64], other: &[f64]| one.iter().zip(other).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
+    let size = quarter.iter().map(|reading| reading * reading).sum::<f64>().sqrt();
+    let (coarse, fine) = (apart(whole, half), apart(half, quarter));
+    (coarse > SAME * size && fine > SAME * size).then(|| (coarse / fine).log2())
+}
+
+fn greatest(readings: &[f64]) -> f64 {
+    readings.iter().copied().fold(f64::MIN, f64::max)
+}
+
+fn first(readings: &[f64]) -> f64 {
+    readings.first().copied().unwrap_or(f64::NAN)
+}
+
+fn last(readings: &[f64]) -> f64 {
+    readings.last().copied().unwrap_or(f64::NAN)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_second_order_method_is_known_by_its_readings() {
+        let at = |step: f64| vec![1.0 + 0.3 * step * step, 2.0 - 0.1 * step * step];
+        let found = order(&at(0.1), &at(0.05), &at(0.025)).unwrap();
+        assert!((found - 2.0).abs() < 1e-6, "{found}");
+        assert_eq!(order(&at(0.1), &at(0.1), &at(0.1)), None);
+    }
+}

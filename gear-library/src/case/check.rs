@@ -1,0 +1,181 @@
+//! One comparison of a case: what is measured of the readings, and how far it may lie from what is expected.
+
+use crate::diagnostic::At;
+use crate::fields::{Fields, Problems, Range};
+use crate::tree::{Content, Node};
+use crate::units::Quantity;
+
+use super::{reading, words};
+
+/// A comparison.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Check {
+    /// Name shown to the user.
+    pub name: String,
+    /// What is measured.
+    pub measure: Measure,
+    /// How far it may be off.
+    pub limit: Limit,
+}
+
+/// What is measured of the readings.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Measure {
+    /// Distance from the table's points, RMS over points and times [m]; a point is the probes of its coordinates.
+    Distance(Vec<Vec<At<String>>>),
+    /// RMS of the difference of probes from the table, over the RMS of the table.
+    Series(Vec<At<String>>),
+    /// Greatest sample of a probe, against the table's greatest.
+    Peak(At<String>),
+    /// Last reading of a probe, against a number.
+    Value(At<String>, f64),
+    /// Mean of a probe from a time [s] on, over a unit of its own, against a number.
+    Mean {
+        /// The probe.
+        of: At<String>,
+        /// From this time on [s].
+        from_s: f64,
+        /// What the mean is divided by.
+        over: f64,
+        /// What should come out.
+        expected: f64,
+    },
+    /// Greatest reading of a probe above its first, over the greatest of another (none is expected).
+    Gain(At<String>, At<String>),
+    /// Last reading of a probe below its first, over the greatest of another (none is expected).
+    Loss(At<String>, At<String>),
+    /// Rows: sum of a group's readings against the sum of its measurements; one verdict for each group.
+    Sums,
+    /// Rows: slope of the groups' mean reading over a column, by least squares, against a number.
+    Slope(At<String>, f64),
+    /// Rows: share by which readings over the square of a column fall from one group to another, against the same share
+    /// of the measurements.
+    Fall {
+        /// Group at first.
+        from: String,
+        /// Group afterwards.
+        to: String,
+        /// Column whose square a reading is divided by.
+        square: At<String>,
+    },
+}
+
+/// How far off is still right.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Limit {
+    /// The difference is at most this share of what is expected.
+    Share(f64),
+    /// The difference is at most this [SI].
+    Absolute(f64),
+    /// What is got lies between the two.
+    Between(f64, f64),
+}
+
+/// Reads `[[check]]`; `None` where something needed is missing or wrong, which is a problem already told.
+pub(super) fn read(node: &Node, problems: &Problems) -> Option<Check> {
+    let fields = Fields::of(node, problems);
+    let name = fields.need_text("name", "write what is compared, such as \"anchor tension\"");
+    let measure = measure(&fields);
+    let limit = limit(&fields);
+    if measure.is_none() {
+        // Which fields it would have asked for is not known; its fault is told.
+        fields.rest();
+    }
+    fields.finish();
+    Some(Check { name: name?.value, measure: measure?, limit: limit? })
+}
+
+const MEASURES: [&str; 10] = ["distance", "series", "peak", "value", "mean", "gain", "loss", "sums", "slope", "fall"];
+
+fn measure(fields: &Fields<'_>) -> Option<Measure> {
+    let known = MEASURES.join(", ");
+    fields.need_text("measure", &format!("write one of {known}"))?;
+    let measure = fields.word("measure", &MEASURES)?;
+    match measure.value.as_str() {
+        "distance" => points(fields).map(Measure::Distance),
+        "series" => some(fields, words(fields, "of", &[])).map(Measure::Series),
+        "peak" => probe(fields, "of").map(Measure::Peak),
+        "value" => Some(Measure::Value(probe(fields, "of")?, expected(fields)?)),
+        "mean" => mean(fields),
+        "gain" => Some(Measure::Gain(probe(fields, "of")?, probe(fields, "over")?)),
+        "loss" => Some(Measure::Loss(probe(fields, "of")?, probe(fields, "over")?)),
+        "sums" => Some(Measure::Sums),
+        "slope" => Some(Measure::Slope(probe(fields, "over")?, expected(fields)?)),
+        _ => Some(Measure::Fall { from: probe(fields, "from")?.value, to: probe(fields, "to")?.value, square: probe(fields, "square")? }),
+    }
+}
+
+fn mean(fields: &Fields<'_>) -> Option<Measure> {
+    let from = fields.need_value("from", Quantity::Time, Range::NotNegative);
+    let over = fields.get("over").map_or(Some(1.0), |node| reading(node, fields.problems()));
+    Some(Measure::Mean { of: probe(fields, "of")?, from_s: from?.value, over: over?, expected: expected(fields)? })
+}
+
+fn probe(fields: &Fields<'_>, key: &'static str) -> Option<At<String>> {
+    fields.need_text(key, "write the id of a probe, or the name of a column or group")
+}
+
+fn expected(fields: &Fields<'_>) -> Option<f64> {
+    match fields.get("expected") {
+        Some(node) => reading(node, fields.problems()),
+        None => {
+            fields.missing("expected", "write what should come out, such as \"23.9 N\", \"1.5 m\" or 2.57");
+            None
+        }
+    }
+}
+
+/// Points as lists of probes: `[["end x", "end z"], ["middle x", "middle z"]]`.
+fn points(fields: &Fields<'_>) -> Option<Vec<Vec<At<String>>>> {
+    let help = "expected points as lists of probes: [[\"end x\", \"end z\"], [\"middle x\", \"middle z\"]]";
+    let Some(node) = fields.get("of") else {
+        fields.missing("of", help);
+        return None;
+    };
+    let text = |item: &Node| match &item.content {
+        Content::Text(text) => Some(At { value: text.clone(), place: item.place.clone() }),
+        _ => None,
+    };
+    let point = |item: &Node| match &item.content {
+        Content::List(items) => items.iter().map(text).collect::<Option<Vec<_>>>(),
+        _ => None,
+    };
+    let read = match &node.content {
+        Content::List(items) => items.iter().map(point).collect::<Option<Vec<_>>>(),
+        _ => None,
+    };
+    if read.is_none() {
+        fields.problems().push(node.place.error("these are no points", help));
+    }
+    read
+}
+
+fn some(fields: &Fields<'_>, probes: Vec<At<String>>) -> Option<Vec<At<String>>> {
+    if probes.is_empty() {
+        fields.missing("of", "write the ids of probes, such as [\"pin tension\"]");
+        return None;
+    }
+    Some(probes)
+}
+
+/// `tolerance`, a share or with a unit, or `between`.
+fn limit(fields: &Fields<'_>) -> Option<Limit> {
+    let problems = fields.problems();
+    match (fields.get("tolerance"), fields.get("between")) {
+        (Some(node), None) => {
+            let value = reading(node, problems)?;
+            Some(if matches!(node.content, Content::Number(_)) { Limit::Share(value) } else { Limit::Absolute(value) })
+        }
+        (None, Some(node)) => match &node.content {
+            Content::List(ends) if ends.len() == 2 => Some(Limit::Between(reading(&ends[0], problems)?, reading(&ends[1], problems)?)),
+            _ => {
+                problems.push(node.place.error("`between` has not two ends", "write [least, most], such as [0.35, 0.6]"));
+                None
+            }
+        },
+        _ => {
+            fields.missing("tolerance", "write tolerance = 0.002 (a share) or \"1 cm\", or between = [least, most]; one of them");
+            None
+        }
+    }
+}
