@@ -25,7 +25,7 @@ use crate::library::Library;
 use crate::scenario::Scenario;
 use builder::Builder;
 
-pub use body::{buoy_floats, shell_inertia};
+pub use body::{box_inertia, buoy_floats, buoy_inertia, shell_inertia};
 
 /// The plugins at hand, by id.
 pub trait Hooks {

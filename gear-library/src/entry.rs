@@ -2,7 +2,7 @@
 
 use crate::diagnostic::{At, Place};
 use crate::fields::{Fields, Figure, Problems, Provenance, provenance};
-use crate::items::{Point, points};
+use crate::items::{BuoyPiece, Point, pieces, points};
 use crate::schema::{Field, Kind};
 use crate::tree::Node;
 
@@ -26,6 +26,8 @@ pub struct Entry {
     pub words: Vec<(&'static str, At<String>)>,
     /// Figures, in the order of the kind's fields.
     pub figures: Vec<(&'static Field, Figure)>,
+    /// What is fixed to a buoy's float.
+    pub pieces: Vec<BuoyPiece>,
     /// Points of its own where a line can be made fast, on a trap, buoy or anchor.
     pub points: Vec<Point>,
     /// Where it stands.
@@ -82,7 +84,8 @@ pub fn body(fields: &Fields<'_>, kind: Kind, head: (String, String, Provenance),
     }
     let (path, place) = (fields.place.source.path.clone(), fields.place.clone());
     let points = if matches!(kind, Kind::Trap | Kind::Buoy | Kind::Anchor) { points(fields, &file) } else { Vec::new() };
-    Entry { kind, id: id.to_owned(), path, name, notes, words, figures: figures(fields, kind.fields(), &file), points, place }
+    let pieces = if kind == Kind::Buoy { pieces(fields, &file) } else { Vec::new() };
+    Entry { kind, id: id.to_owned(), path, name, notes, words, figures: figures(fields, kind.fields(), &file), pieces, points, place }
 }
 
 /// Reads figures in the order of the schema; `head.mouth` is read from the table `head`.

@@ -3,6 +3,7 @@
 mod box_gear;
 mod buoy;
 mod friction;
+mod piece;
 mod point;
 mod rope;
 mod site;
@@ -12,6 +13,8 @@ mod whale;
 pub use box_gear::BoxGear;
 pub use buoy::{Buoy, BuoyShape};
 pub use friction::RopeFriction;
+pub use piece::BuoyPiece;
+pub(crate) use piece::pieces;
 pub use point::Point;
 pub(crate) use point::points;
 pub use rope::Rope;

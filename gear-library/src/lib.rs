@@ -24,7 +24,7 @@ mod tree;
 pub mod units;
 pub mod whale;
 
-pub use assemble::{Assembled, Hooks, Options, assemble, assemble_traced, buoy_floats, shell_inertia};
+pub use assemble::{Assembled, Hooks, Options, assemble, assemble_traced, box_inertia, buoy_floats, buoy_inertia, shell_inertia};
 pub use assembly::{Assembly, Make, PartBody, PartJoint, PartLine, PartLink, Parts, Start};
 pub use attributes::Attributes;
 pub use case::{Case, Check, Limit, Measure, Rows, Samples, Table};
@@ -32,7 +32,7 @@ pub use diagnostic::{At, Diagnostic, Place, Severity, SourceText};
 pub use document::{Document, EditError, save_text};
 pub use entry::{Entry, FORMAT};
 pub use fields::{Figure, Range, Sureness};
-pub use items::{BoxGear, Buoy, BuoyShape, Point, Rope, RopeFriction, SeaSite, WeakLink, WhaleItem};
+pub use items::{BoxGear, Buoy, BuoyPiece, BuoyShape, Point, Rope, RopeFriction, SeaSite, WeakLink, WhaleItem};
 pub use library::Library;
 pub use scenario::{Fixture, FreeBody, FrictionChoice, LineStart, PlacedGear, ProbeOf, ProbePart, Scenario, Sea, Swimmer};
 pub use schema::{Field, Kind, Word};

@@ -97,9 +97,11 @@ impl Kind {
     pub fn words(self) -> &'static [Word] {
         match self {
             Self::Rope => &[Word { key: "material", allowed: &[], help: "rope material: an item of friction/, such as pp or sink" }],
-            Self::Buoy => {
-                &[Word { key: "shape", allowed: &["sphere", "bullet", "spar"], help: "sphere, bullet (float along its axis) or spar" }]
-            }
+            Self::Buoy => &[Word {
+                key: "shape",
+                allowed: &["sphere", "bullet", "low-drag", "cylinder"],
+                help: "sphere, bullet (rounded ends), low-drag (spheroid) or cylinder",
+            }],
             _ => &[],
         }
     }
@@ -164,6 +166,14 @@ const BOX: &[Field] = &[
     need("wet_weight", Q::Force, Positive, "weight in sea water; the displaced volume follows from it"),
     need("drag_coefficient", Q::Ratio, COEFFICIENT, "drag coefficient on the solid part of the faces"),
     need("solidity", Q::Ratio, SHARE, "solid share of a face; 1 less its porosity"),
+    may("solidity_ends", Q::Ratio, SHARE, "the same of the two ends; as `solidity` where not given"),
+    may("solidity_sides", Q::Ratio, SHARE, "the same of the two long sides; as `solidity` where not given"),
+    may("solidity_top", Q::Ratio, SHARE, "the same of top and floor; as `solidity` where not given"),
+    may("ballast", Q::Mass, Positive, "mass of bricks and runners flat over the floor, a part of the mass; none where not given"),
+    may("ballast_height", Q::Length, Between(0.0, 20.0), "height of the ballast above the underside; zero where not given"),
+    may("ballast_density", Q::Density, Between(500.0, 12_000.0), "density of the ballast; brick, 2000 kg/m3, where not given"),
+    may("foam", Q::Volume, Positive, "volume of foam or wood that floats inside; none where not given"),
+    may("foam_height", Q::Length, Between(0.0, 20.0), "height of the foam above the underside; at the top where not given"),
     need("added_mass_horizontal", Q::Ratio, COEFFICIENT, "added mass along and across, as a share of the water it encloses"),
     need("added_mass_vertical", Q::Ratio, COEFFICIENT, "added mass up and down, as a share of the water it encloses"),
     need(
@@ -179,13 +189,8 @@ const BUOY: &[Field] = &[
     need("diameter", Q::Length, Between(0.01, 5.0), "diameter of the float"),
     may("length", Q::Length, Between(0.01, 10.0), "length of the float along its axis; a sphere has none"),
     need("volume", Q::Volume, Positive, "volume of the float"),
-    need("mass", Q::Mass, Positive, "mass in air, counterweight included"),
-    may(
-        "centre_of_mass",
-        Q::Length,
-        Between(-10.0, 10.0),
-        "height of the centre of mass above the middle of the float; zero where not given",
-    ),
+    need("mass", Q::Mass, Positive, "mass in air of the float; each `[[piece]]` fixed to it has its own"),
+    may("centre_of_mass", Q::Length, Between(-10.0, 10.0), "height of the float's centre of mass above its middle; zero where not given"),
     may(
         "attachment",
         Q::Length,

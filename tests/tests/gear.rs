@@ -4,11 +4,15 @@
 
 mod linked;
 
-use endline_gear::{Diagnostic, Kind, Library, Options, Scenario, Sources, assemble, assemble_traced, buoy_floats, shell_inertia};
+use endline_gear::{
+    BuoyShape, Diagnostic, Kind, Library, Options, Scenario, Sources, assemble, assemble_traced, box_inertia, buoy_floats, shell_inertia,
+};
 use linked::{Linked, library, root, told};
 
 use endline_sim::model::{BodyRole, JointKind, ProbeTarget, Resolution};
 use endline_sim::{DQuat, DVec3, Model, ModelSpec, settle};
+
+use std::f64::consts::FRAC_PI_4;
 
 #[test]
 fn every_shipped_file_reads_without_a_word() {
@@ -152,11 +156,16 @@ fn a_hollow_box_turns_as_its_faces_do() {
 fn a_buoys_slices_hold_its_volume_about_its_middle() {
     for buoy in &library().buoys {
         let floats = buoy_floats(buoy);
-        let sum: f64 = floats.iter().map(|float| float.volume_m3).sum();
+        let own = &floats[..floats.len() - buoy.pieces.len()];
+        let sum: f64 = own.iter().map(|float| float.volume_m3).sum();
         assert!((sum / buoy.volume_m3 - 1.0).abs() < 1e-12, "{}: {sum}", buoy.entry.id);
-        let moment: f64 = floats.iter().map(|float| float.volume_m3 * (float.offset_m.z + buoy.centre_of_mass_m)).sum();
-        assert!(moment.abs() < 1e-12 * buoy.volume_m3, "{}: {moment}", buoy.entry.id);
-        assert!(floats.iter().all(|float| float.volume_m3 > 0.0 && float.height_m > 0.0), "{}", buoy.entry.id);
+        let middle = own.iter().map(|float| float.volume_m3 * float.offset_m.z).sum::<f64>() / sum;
+        let weights = buoy.pieces.iter().map(|piece| piece.mass_kg * (piece.at_m + middle));
+        let moment = weights.sum::<f64>() + buoy.mass_kg * (buoy.centre_of_mass_m + middle);
+        assert!(moment.abs() < 1e-12 * buoy.whole_mass_kg(), "{}: {moment}", buoy.entry.id);
+        let drag = own.iter().map(|float| float.drag_area_m2.x).sum::<f64>();
+        let side = if buoy.shape == BuoyShape::Sphere { FRAC_PI_4 * buoy.diameter_m } else { buoy.length_m };
+        assert!((drag / (buoy.drag_across * buoy.diameter_m * side) - 1.0).abs() < 1e-12, "{}: {drag}", buoy.entry.id);
     }
 }
 
@@ -165,7 +174,7 @@ fn a_buoys_slices_hold_its_volume_about_its_middle() {
 fn a_trap_drags_as_the_towed_one_did() {
     let spec = shipped("hello-endline.toml");
     let trap = spec.bodies.iter().find(|body| body.id == "trap").unwrap();
-    let drag = 0.5 * 1025.0 * trap.drag_area_m2.y;
+    let drag = 0.5 * 1025.0 * trap.whole_drag_area_m2().y;
     assert!((drag / 158.0 - 1.0).abs() < 0.3, "{drag}");
 }
 
@@ -178,6 +187,52 @@ fn a_trap_in_sea_water_weighs_its_wet_weight_and_stands_on_the_seabed() {
     let lowest = trap.feet_m.iter().map(|foot| (trap.position_m + trap.orientation * *foot).z).fold(f64::INFINITY, f64::min);
     assert!((lowest + 25.0).abs() < 1e-12, "{lowest}");
     assert_eq!(trap.feet_m.len(), 8);
+}
+
+/// Ballast lowers the centre of mass and turns with the shell as two bodies do (parallel axes); wire, ballast and foam
+/// displace what the whole does.
+#[test]
+fn a_trap_is_a_shell_with_ballast_on_its_floor() {
+    for trap in library().traps.iter() {
+        let size = DVec3::from_array(trap.size_m);
+        let (shell, low) = (trap.mass_kg - trap.ballast_kg, trap.ballast_height_m - size.z / 2.0);
+        let centre = trap.ballast_kg * low / trap.mass_kg;
+        assert!(centre < -0.02, "{}: centre of mass {centre} m above the middle", trap.entry.id);
+        let reduced = shell * trap.ballast_kg / trap.mass_kg * low * low;
+        let plate = DVec3::new(size.y * size.y, size.x * size.x, size.x * size.x + size.y * size.y) * (trap.ballast_kg / 12.0);
+        let expected = shell_inertia(shell, size) + plate + DVec3::new(reduced, reduced, 0.0);
+        assert!(((box_inertia(trap) - expected) / expected).abs().max_element() < 1e-12, "{}", trap.entry.id);
+        let parts = trap.wire_m3() + trap.ballast_m3() + trap.foam_m3;
+        assert!((parts / trap.displaced_m3() - 1.0).abs() < 1e-12 && trap.wire_m3() > 0.0, "{}", trap.entry.id);
+        // What is left to the wire is no lighter than wet wood and no heavier than steel.
+        let wire = shell / trap.wire_m3();
+        assert!((1000.0..8000.0).contains(&wire), "{}: {wire} kg/m3", trap.entry.id);
+    }
+}
+
+#[test]
+fn ballast_and_pieces_that_cannot_be_are_told() {
+    let told_of = |path: &str, from: &str, to: &str| {
+        let mut sources = Sources::from_folder(&root()).unwrap();
+        let text = sources.get(path).unwrap().to_owned();
+        assert!(text.contains(from), "{path}: {from}");
+        sources.set(path, text.replacen(from, to, 1));
+        let problems = Library::read(&sources).1;
+        assert!(problems.len() == 1 && problems[0].file == path && problems[0].line > 1, "{to}: {}", told(&problems));
+        problems[0].to_string()
+    };
+    let (trap, flyer) = ("traps/wire-lobster-3ft.toml", "buoys/high-flyer.toml");
+    for (path, from, to, part) in [
+        (trap, "\"6.6 kg\"", "\"30 kg\"", "`ballast` 30 kg is not below the `mass`"),
+        (trap, "\"6.6 kg\"", "\"11 kg\"", "ballast and foam displace 5.50 L, more than the 4.77 L of the whole"),
+        (trap, "\"0.03 m\"", "\"0.4 m\"", "`ballast_height` 0.4 m is above the box"),
+        (flyer, "\"0.1 m\"\nlength", "\"0.1 kg\"\nlength", "`kg` is a unit of a mass, not of a length"),
+        (flyer, "\"0.9 L\"", "\"9 L\"", "`volume` 9 L is more than the whole cylinder's 1.18 L"),
+        (flyer, "\"7 kg\"", "\"70 kg\"", "does not carry its own mass"),
+    ] {
+        let message = told_of(path, from, to);
+        assert!(message.contains(part), "{message}");
+    }
 }
 
 /// Nodes go to lines by length, to one segment.
@@ -202,7 +257,9 @@ fn lines_that_leave_one_body_share_a_joint() {
     let line = |id: &str| spec.lines.iter().find(|line| line.id == id).unwrap();
     assert_eq!(line("endline-bottom").from, line("groundline-1").from);
     let joint = &spec.joints[line("groundline-1").from];
-    assert!(matches!(joint.kind, JointKind::Body { offset_m, .. } if (offset_m - DVec3::new(0.4572, 0.0, 0.1778)).length() < 1e-12));
+    let JointKind::Body { body, offset_m } = joint.kind else { panic!("{} is not on a body", joint.id) };
+    let from_middle = offset_m - spec.bodies[body].shape_offset_m;
+    assert!((from_middle - DVec3::new(0.4572, 0.0, 0.1778)).length() < 1e-12);
 }
 
 /// A bridle's legs leave the corners of the trap's top edge; lines at one point share a joint, and a bare id is the usual point.

@@ -59,7 +59,8 @@ fn faults(model: &Model, settled: &Settled) -> Vec<String> {
         let foot = body.feet_m.iter().map(|foot| (state.position + state.orientation * *foot).z).fold(f64::INFINITY, f64::min);
         let ground = -model.spec.water.depth_m;
         let radius = match body.shape {
-            Shape::Sphere(radius_m) | Shape::Capsule { radius_m, .. } => radius_m,
+            Shape::Sphere(radius_m) => radius_m,
+            Shape::Capsule { half_length_m, .. } => half_length_m,
             Shape::Box(half) => half.z,
         };
         match body.role {
@@ -206,7 +207,7 @@ fn drag_share(model: &Model) -> f64 {
     let endline = spec.lines.iter().filter(|line| !line.id.starts_with("ground"));
     let areas = endline.map(|line| (&spec.ropes[line.rope], line.segments_m.iter().sum::<f64>()));
     let rope: f64 = areas.map(|(rope, length)| rope.drag_normal * rope.diameter_m * length).sum();
-    let area = rope + body("buoy").drag_area_m2.max_element();
+    let area = rope + body("buoy").whole_drag_area_m2().max_element();
     0.5 * water.density_kg_m3 * area * water.current.surface_m_s.length_squared() / weight
 }
 

@@ -102,7 +102,9 @@ fn check_body(body: &Body, found: &mut Found) {
     found.need(body.position_m.is_finite() && body.orientation.is_normalized(), "its start place or orientation is not sound");
     for float in &body.floats {
         found.not_below_zero("volume of a float", float.volume_m3);
-        found.above_zero("height of a float", float.height_m);
+        found.need(float.form.is_sound(), "a measure of a float is not above zero");
+        found.need(float.offset_m.is_finite(), "the place of a float is not a finite number");
+        found.need(float.drag_area_m2.is_finite() && float.drag_area_m2.min_element() >= 0.0, "the drag of a float is below zero");
     }
     found.not_below_zero("start friction", body.start_friction);
     found.not_below_zero("slide friction", body.slide_friction);

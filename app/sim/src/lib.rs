@@ -8,7 +8,8 @@
 
 mod check;
 pub mod contact;
-pub mod frame;
+pub mod float;
+mod frame;
 mod gear_hook;
 mod in_place;
 pub mod metrics;

@@ -7,6 +7,7 @@ use endline_sdk::{AttributeValue, FrictionModel, GearType, LineEnd};
 use glam::{DQuat, DVec3};
 
 use crate::check::check;
+pub use crate::float::{Float, Form, Wet};
 use crate::water::{Sea, Water};
 use crate::whale::{SkinTree, Whale};
 
@@ -144,17 +145,6 @@ pub enum BodyRole {
     Weight,
 }
 
-/// A share of a body's displaced volume.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Float {
-    /// Centre in the body's frame [m].
-    pub offset_m: DVec3,
-    /// Volume when wholly under water [m³].
-    pub volume_m3: f64,
-    /// Height over which it goes under: its wet share is `clamp(1/2 - z/height, 0, 1)` [m].
-    pub height_m: f64,
-}
-
 /// A rigid body with six degrees of freedom.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Body {
@@ -164,6 +154,8 @@ pub struct Body {
     pub role: BodyRole,
     /// Shape.
     pub shape: Shape,
+    /// Middle of the shape in the body's frame [m].
+    pub shape_offset_m: DVec3,
     /// Mass in air [kg].
     pub mass_kg: f64,
     /// Principal moments of inertia in the body's frame [kg m²].
@@ -172,7 +164,8 @@ pub struct Body {
     pub added_mass_kg: DVec3,
     /// Added moment of inertia when wet, by body axis [kg m²].
     pub added_inertia_kg_m2: DVec3,
-    /// Drag coefficient times area when wet, by body axis [m²].
+    /// Drag coefficient times area of the body as a whole, by body axis at its origin [m²]; a body of several
+    /// parts has that of its floats instead.
     pub drag_area_m2: DVec3,
     /// Turning drag: torque = ½ρ·this·ω|ω| when wet, by body axis [m⁵].
     pub turn_drag_m5: DVec3,
@@ -192,6 +185,14 @@ pub struct Body {
     pub orientation: DQuat,
     /// Held in place until this time (through statics, if not below zero); `None` is free.
     pub held_until_s: Option<f64>,
+}
+
+impl Body {
+    /// Drag coefficient times area when all of it is wet, by body axis [m²].
+    #[must_use]
+    pub fn whole_drag_area_m2(&self) -> DVec3 {
+        self.floats.iter().fold(self.drag_area_m2, |sum, float| sum + float.drag_area_m2)
+    }
 }
 
 /// The seabed: a plane with stiffness and friction.

@@ -12,7 +12,7 @@ use endline_sim::{DVec3, settle};
 #[test]
 fn a_coarse_line_bears_the_end_tensions_of_the_shooting_solution() {
     let mut buoy = weight("buoy", 1.0, DVec3::new(51.9615, 0.0, 0.0), None);
-    buoy.floats = vec![Float { offset_m: DVec3::ZERO, volume_m3: 0.010, height_m: 0.25 }];
+    buoy.floats = vec![Float::level(DVec3::ZERO, 0.010, 0.25)];
     buoy.drag_area_m2 = DVec3::splat(0.0281);
     buoy.added_mass_kg = DVec3::splat(0.5 * 1025.0 * 0.010);
     let joints = vec![fixed("anchor", DVec3::new(0.0, 0.0, -30.0)), on_body("buoy", 0)];

@@ -65,7 +65,7 @@ fn problem_a_pendulum_with_axial_waves() {
 /// A rope anchored at 30 m to a buoy at the surface, in a current of 0.5 m/s.
 fn buoy(segments: usize, step_s: f64) -> Model {
     let mut buoy = weight("buoy", 1.0, DVec3::new(51.9615, 0.0, 0.0), None);
-    buoy.floats = vec![Float { offset_m: DVec3::ZERO, volume_m3: 0.010, height_m: 0.25 }];
+    buoy.floats = vec![Float::level(DVec3::ZERO, 0.010, 0.25)];
     buoy.drag_area_m2 = DVec3::splat(0.0281);
     buoy.added_mass_kg = DVec3::splat(0.5 * 1025.0 * 0.010);
     let joints = vec![fixed("anchor", DVec3::new(0.0, 0.0, -30.0)), on_body("buoy", 0)];
@@ -158,7 +158,7 @@ fn a_slack_groundline_settles_on_the_seabed() {
         body
     };
     let mut float = weight("buoy", 1.0, DVec3::new(-10.0, 0.0, 0.0), None);
-    float.floats = vec![Float { offset_m: DVec3::ZERO, volume_m3: 0.010, height_m: 0.25 }];
+    float.floats = vec![Float::level(DVec3::ZERO, 0.010, 0.25)];
     float.drag_area_m2 = DVec3::splat(0.0281);
     let joints = vec![on_body("a", 0), on_body("b", 1), on_body("c", 2)];
     let mut endline = line("endline", 40.0, 80);

@@ -6,6 +6,9 @@ use crate::fields::Problems;
 use super::point::{Point, with_own};
 use super::rope::{GRAVITY_M_S2, SEA_WATER_KG_M3};
 
+/// Density of ballast where a file has none: brick [kg/m³].
+const BRICK_KG_M3: f64 = 2000.0;
+
 /// A trap, or an anchor reckoned as a box.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoxGear {
@@ -19,8 +22,18 @@ pub struct BoxGear {
     pub wet_weight_n: f64,
     /// Drag coefficient on the solid part of the faces.
     pub drag_coefficient: f64,
-    /// Solid share of a face.
-    pub solidity: f64,
+    /// Solid share of a face across x (the ends), y (the sides) and z (top and floor).
+    pub solidity: [f64; 3],
+    /// Mass of ballast and runners, flat over the floor [kg].
+    pub ballast_kg: f64,
+    /// Height of that above the underside [m].
+    pub ballast_height_m: f64,
+    /// Density of that [kg/m³].
+    pub ballast_density_kg_m3: f64,
+    /// Volume of foam or wood that floats [m³].
+    pub foam_m3: f64,
+    /// Height of that above the underside [m].
+    pub foam_height_m: f64,
     /// Added mass along and across, as a share of the water it encloses.
     pub added_mass_horizontal: f64,
     /// Added mass up and down, as a share of the water it encloses.
@@ -44,18 +57,61 @@ impl BoxGear {
             let message = format!("`slide_friction` {} is above `start_friction` {start}", slide.value);
             problems.push(slide.place.error(message, "a thing that slides grips no better than one at rest"));
         }
-        Some(Self {
-            size_m: [entry.value("length")?, entry.value("width")?, entry.value("height")?],
+        let (ballast_kg, solidity) = (entry.value("ballast").unwrap_or(0.0), entry.value("solidity")?);
+        let (size_m, or) =
+            ([entry.value("length")?, entry.value("width")?, entry.value("height")?], |key, usual| entry.value(key).unwrap_or(usual));
+        let item = Self {
+            size_m,
             mass_kg,
             wet_weight_n: wet_weight.value,
             drag_coefficient: entry.value("drag_coefficient")?,
-            solidity: entry.value("solidity")?,
+            solidity: ["solidity_ends", "solidity_sides", "solidity_top"].map(|key| or(key, solidity)),
+            ballast_kg,
+            ballast_height_m: or("ballast_height", 0.0),
+            ballast_density_kg_m3: or("ballast_density", BRICK_KG_M3),
+            foam_m3: or("foam", 0.0),
+            foam_height_m: or("foam_height", size_m[2]),
             added_mass_horizontal: entry.value("added_mass_horizontal")?,
             added_mass_vertical: entry.value("added_mass_vertical")?,
             start_friction: start,
             slide_friction: slide.value,
             entry,
-        })
+        };
+        item.check(problems);
+        Some(item)
+    }
+
+    /// What weighs and floats inside must fit into what the whole weighs in air and in water, and lie in the box.
+    fn check(&self, problems: &Problems) {
+        let told = |key: &str, message: String, help: &str| {
+            let place = self.entry.figure(key).map_or(&self.entry.place, |figure| &figure.place);
+            problems.push(place.error(message, help));
+        };
+        if self.ballast_kg >= self.mass_kg {
+            told("ballast", format!("`ballast` {} kg is not below the `mass`", self.ballast_kg), "the mass has the ballast in it");
+        } else if self.wire_m3() < 0.0 {
+            let litres = 1e3 * (self.ballast_m3() + self.foam_m3);
+            let message = format!("ballast and foam displace {litres:.2} L, more than the {:.2} L of the whole", 1e3 * self.displaced_m3());
+            let key = if self.foam_m3 > 0.0 { "foam" } else { "ballast" };
+            told(key, message, "the whole displaces what it weighs less in water; mend the ballast, its density, the foam or `wet_weight`");
+        }
+        for (key, height) in [("ballast_height", self.ballast_height_m), ("foam_height", self.foam_height_m)] {
+            if height > self.size_m[2] {
+                told(key, format!("`{key}` {height} m is above the box"), "it is measured from the underside up to the `height`");
+            }
+        }
+    }
+
+    /// Volume of the ballast [m³].
+    #[must_use]
+    pub fn ballast_m3(&self) -> f64 {
+        self.ballast_kg / self.ballast_density_kg_m3
+    }
+
+    /// Volume of what is left, spread over the faces: wire and wood [m³].
+    #[must_use]
+    pub fn wire_m3(&self) -> f64 {
+        self.displaced_m3() - self.ballast_m3() - self.foam_m3
     }
 
     /// Where a line can be made fast, the usual point first: the middle of the top edge at the end of its length.

@@ -3,6 +3,7 @@
 use crate::entry::Entry;
 use crate::fields::Problems;
 
+use super::piece::BuoyPiece;
 use super::point::{Point, with_own};
 use super::rope::SEA_WATER_KG_M3;
 
@@ -13,8 +14,10 @@ pub enum BuoyShape {
     Sphere,
     /// Cylinder along the axis with rounded ends.
     Bullet,
-    /// A float on a staff with a counterweight below (high-flyer).
-    Spar,
+    /// Spheroid along the axis.
+    LowDrag,
+    /// Cylinder along the axis with flat ends.
+    Cylinder,
 }
 
 /// A buoy; its axis is the body's z axis, the line leaves from below.
@@ -30,9 +33,9 @@ pub struct Buoy {
     pub length_m: f64,
     /// Volume of the float [m³].
     pub volume_m3: f64,
-    /// Mass in air [kg].
+    /// Mass in air, without its pieces [kg].
     pub mass_kg: f64,
-    /// Height of the centre of mass above the middle of the float [m].
+    /// Height of the centre of that mass above the middle of the float [m].
     pub centre_of_mass_m: f64,
     /// How far below the middle of the float the line leaves [m].
     pub attachment_m: f64,
@@ -44,6 +47,8 @@ pub struct Buoy {
     pub added_mass_across: f64,
     /// Added-mass coefficient along the axis.
     pub added_mass_along: f64,
+    /// What is fixed to the float, along its axis.
+    pub pieces: Vec<BuoyPiece>,
 }
 
 impl Buoy {
@@ -52,7 +57,8 @@ impl Buoy {
         let shape = match entry.word("shape")?.value.as_str() {
             "sphere" => BuoyShape::Sphere,
             "bullet" => BuoyShape::Bullet,
-            _ => BuoyShape::Spar,
+            "low-drag" => BuoyShape::LowDrag,
+            _ => BuoyShape::Cylinder,
         };
         let diameter_m = entry.value("diameter")?;
         let length_m = float_length(&entry, shape, diameter_m, problems)?;
@@ -65,12 +71,19 @@ impl Buoy {
             mass_kg: entry.value("mass")?,
             centre_of_mass_m: entry.value("centre_of_mass").unwrap_or(0.0),
             attachment_m: entry.value("attachment").unwrap_or(0.5 * length_m),
+            pieces: entry.pieces.clone(),
             drag_across: entry.value("drag_across")?,
             drag_along: entry.value("drag_along")?,
             added_mass_across: entry.value("added_mass_across")?,
             added_mass_along: entry.value("added_mass_along")?,
             entry,
         })
+    }
+
+    /// Mass in air with its pieces [kg].
+    #[must_use]
+    pub fn whole_mass_kg(&self) -> f64 {
+        self.mass_kg + self.pieces.iter().map(|piece| piece.mass_kg).sum::<f64>()
     }
 
     /// Where a line can be made fast, the usual point first: below.
@@ -100,7 +113,8 @@ fn float_length(entry: &Entry, shape: BuoyShape, diameter_m: f64, problems: &Pro
             None
         }
         (_, None) => {
-            problems.push(entry.place.error("`length` is missing", "a bullet or spar needs the length of its float, such as 14 in"));
+            problems
+                .push(entry.place.error("`length` is missing", "every shape but a sphere needs the length of its float, such as 14 in"));
             None
         }
     }
@@ -111,11 +125,13 @@ fn check_volume(entry: &Entry, length_m: f64, problems: &Problems) {
     let (Some(volume), Some(diameter), Some(mass)) = (entry.figure("volume"), entry.value("diameter"), entry.value("mass")) else {
         return;
     };
+    let mass = mass + entry.pieces.iter().map(|piece| piece.mass_kg).sum::<f64>();
+    let whole = volume.value + entry.pieces.iter().map(|piece| piece.volume_m3).sum::<f64>();
     if volume.value > 1.02 * diameter * diameter * length_m {
         let message = format!("`volume` {} does not fit into {:.0} × {:.0} mm", volume.text, diameter * 1e3, length_m * 1e3);
         problems.push(volume.place.error(message, "mend the volume, the diameter or the length"));
     }
-    if volume.value * SEA_WATER_KG_M3 <= mass {
+    if whole * SEA_WATER_KG_M3 <= mass {
         let message = format!("`volume` {} does not carry its own mass of {mass} kg", volume.text);
         problems.push(volume.place.error(message, "a buoy floats: mend the volume or the mass"));
     }

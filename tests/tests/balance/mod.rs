@@ -13,12 +13,16 @@ const ONSET_M: f64 = 0.01;
 pub fn vertical(model: &Model, state: &State, index: usize) -> f64 {
     let (body, now) = (&model.spec.bodies[index], &state.bodies[index]);
     let water = &model.spec.water;
-    let wet = |float: &Float| (0.5 - (now.position + now.orientation * float.offset_m).z / float.height_m).clamp(0.0, 1.0);
+    let wet = |float: &Float| float.form.wet((now.position + now.orientation * float.offset_m).z, now.orientation * DVec3::Z).share;
     let displaced: f64 = body.floats.iter().map(|float| wet(float) * float.volume_m3).sum();
     let whole: f64 = body.floats.iter().map(|float| float.volume_m3).sum();
-    let flow = now.orientation.inverse() * water.velocity(now.position);
-    let wet_share = if body.wetted_drag { displaced / whole } else { 1.0 };
-    let drag = now.orientation * (body.drag_area_m2 * flow * flow.length()) * (0.5 * water.density_kg_m3 * wet_share);
+    let drag_by = |area: DVec3| {
+        let flow = now.orientation.inverse() * water.velocity(now.position);
+        now.orientation * (area * flow * flow.length()) * (0.5 * water.density_kg_m3)
+    };
+    let wet_share = if body.wetted_drag && whole > 0.0 { displaced / whole } else { 1.0 };
+    let of_floats = body.floats.iter().map(|float| drag_by(float.drag_area_m2 * wet(float))).sum::<DVec3>();
+    let drag = drag_by(body.drag_area_m2 * wet_share) + of_floats;
     let weight = (water.density_kg_m3 * displaced - body.mass_kg) * water.gravity_m_s2;
     weight + drag.z + seabed(model, now, &body.feet_m) + line_ends(model, state, index)
 }

@@ -66,7 +66,7 @@ impl Track {
     fn float(&mut self, body: &Body, now: &BodyState, time_s: f64, log: &mut Log) {
         let driest = body.floats.iter().fold(1.0_f64, |least, float| {
             let height = now.position.z + (now.orientation * float.offset_m).z;
-            least.min((0.5 - height / float.height_m).clamp(0.0, 1.0))
+            least.min(float.form.wet(height, now.orientation * DVec3::Z).share)
         });
         if driest < SURFACED_SHARE {
             self.afloat = true;

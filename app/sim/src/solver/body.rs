@@ -2,8 +2,8 @@
 //!
 //! Newton and Euler about the centre of mass, in the world frame:
 //! `(m + A) dv/dt = Σ F`, `I dω/dt + ω × Iω = Σ r × F + τ_drag`, with `A` and `I` turned with the body.
-//! Floats: `F = ρ g V clamp(1/2 - z/height, 0, 1) ẑ`. Drag by body axis `k`, `u` the water's velocity
-//! relative to the body: `F_k = ½ρ (C_d A)_k |u| u_k`; turning drag `τ_k = -½ρ D_k |ω_k| ω_k`.
+//! Floats lift by what they displace (`float.rs`). Drag by body axis `k`, of a float at its own place or of the body as a
+//! whole, `u` the water's velocity relative to that place: `F_k = ½ρ (C_d A)_k |u| u_k`; turning drag `τ_k = -½ρ D_k |ω_k| ω_k`.
 //! In waves heights are those above the surface over the body's middle, and the water's acceleration acts (`water.rs`).
 //! The place follows the step's scheme; the rotation follows backward Euler:
 //! `ω = log(q qₙ⁻¹)/dt`. Rope ends pull on the body inside the same linear solve (`hubs.rs`).
@@ -14,7 +14,7 @@ use super::Solver;
 use super::hubs::Seat;
 use super::rope::outer;
 use super::scheme::Scheme;
-use crate::model::{Body, Model};
+use crate::model::{Body, Float, Model};
 use crate::state::State;
 
 /// Stiffness that keeps a held body where it is.
@@ -24,37 +24,43 @@ impl Solver {
     /// Adds inertia, weight, floats, drag and seabed of every body.
     pub(super) fn add_bodies(&mut self, model: &Model, state: &State, scheme: &Scheme) {
         for (index, body) in model.spec.bodies.iter().enumerate() {
-            let wet = self.add_floats(model, index, body);
+            self.hubs.force[self.plan.body_block[index]].z -= body.mass_kg * model.spec.water.gravity_m_s2;
+            let wet = self.add_floats(model, state, (index, body), scheme);
             self.add_body_inertia(state, (index, body, wet), scheme);
-            self.add_body_drag(model, state, (index, body, wet), scheme);
+            self.add_part_drag(model, state, (index, DVec3::ZERO, body.drag_area_m2 * wet), scheme);
+            self.add_turn_drag(model, state, (index, body, wet), scheme);
             self.add_body_push(model, (index, body, wet));
             self.add_feet(model, state, index, scheme);
         }
     }
 
-    /// Buoyancy and weight; gives the wet share of the body for drag and added mass.
-    fn add_floats(&mut self, model: &Model, index: usize, body: &Body) -> f64 {
-        let water = &model.spec.water;
-        let trial = self.trial.bodies[index];
-        let block = self.plan.body_block[index];
-        self.hubs.force[block].z -= body.mass_kg * water.gravity_m_s2;
-        let surface = self.flow_bodies[index].surface_m;
+    /// Buoyancy and drag of a body's floats; gives its wet share, for drag and added mass as a whole.
+    fn add_floats(&mut self, model: &Model, state: &State, (index, body): (usize, &Body), scheme: &Scheme) -> f64 {
         let (mut wet, mut whole) = (0.0, 0.0);
         for float in &body.floats {
-            let arm = trial.orientation * float.offset_m;
-            let share = 0.5 - (trial.place.z + arm.z - surface) / float.height_m;
-            let lift = water.density_kg_m3 * water.gravity_m_s2 * float.volume_m3;
-            let seat = Seat::Body { block, body: index, offset: float.offset_m };
-            let force = DVec3::Z * (lift * share.clamp(0.0, 1.0));
-            self.hubs.push(seat, arm, force);
-            if (0.0..1.0).contains(&share) {
-                self.hubs.add(seat, arm, seat, arm, outer(DVec3::Z, DVec3::Z) * (lift / float.height_m));
-            }
-            *self.hubs.at(block + 1, block + 1) += turn_stiffness(arm, force);
-            wet += share.clamp(0.0, 1.0) * float.volume_m3;
+            let share = self.add_float(model, index, float);
+            self.add_part_drag(model, state, (index, float.offset_m, float.drag_area_m2 * share), scheme);
+            wet += share * float.volume_m3;
             whole += float.volume_m3;
         }
         if body.wetted_drag && whole > 0.0 { wet / whole } else { 1.0 }
+    }
+
+    /// Buoyancy of a float; gives its wet share.
+    fn add_float(&mut self, model: &Model, index: usize, float: &Float) -> f64 {
+        let water = &model.spec.water;
+        let trial = self.trial.bodies[index];
+        let block = self.plan.body_block[index];
+        let arm = trial.orientation * float.offset_m;
+        let wet = float.form.wet(trial.place.z + arm.z - self.flow_bodies[index].surface_m, trial.orientation * DVec3::Z);
+        let lift = water.density_kg_m3 * water.gravity_m_s2 * float.volume_m3;
+        let seat = Seat::Body { block, body: index, offset: float.offset_m };
+        let (up, force) = (outer(DVec3::Z, DVec3::Z), DVec3::Z * (lift * wet.share));
+        self.hubs.push(seat, arm, force);
+        self.hubs.force[block + 1] += wet.moment.cross(DVec3::Z * lift);
+        self.hubs.add(seat, arm, seat, arm, up * (lift * wet.slope));
+        *self.hubs.at(block + 1, block + 1) += turn_stiffness(arm, force) + (DMat3::IDENTITY - up) * (lift * wet.turn);
+        wet.share
     }
 
     fn add_body_inertia(&mut self, state: &State, (index, body, wet): (usize, &Body, f64), scheme: &Scheme) {
@@ -81,20 +87,40 @@ impl Solver {
         }
     }
 
-    fn add_body_drag(&mut self, model: &Model, state: &State, (index, body, wet): (usize, &Body, f64), scheme: &Scheme) {
+    /// Drag of a part of a body, its coefficient times area given by body axis, at a place in the body's frame.
+    fn add_part_drag(&mut self, model: &Model, state: &State, (index, offset, area): (usize, DVec3, DVec3), scheme: &Scheme) {
+        if area == DVec3::ZERO {
+            return;
+        }
+        let (trial, now) = (self.trial.bodies[index], &state.bodies[index]);
+        let block = self.plan.body_block[index];
+        let (axes, arm) = (DMat3::from_quat(trial.orientation), trial.orientation * offset);
+        let half_density = 0.5 * model.spec.water.density_kg_m3;
+        let mut velocity = (trial.place - trial.place_history) * scheme.rate;
+        if !scheme.is_static() {
+            velocity += spin(trial.orientation, now.orientation, scheme.dt).cross(arm);
+        }
+        let relative = axes.transpose() * (self.flow_bodies[index].velocity_m_s - velocity);
+        let speed = relative.length();
+        let seat = Seat::Body { block, body: index, offset };
+        self.hubs.push(seat, arm, axes * (area * relative * (half_density * speed)));
+        if !scheme.is_static() {
+            let slope = area * (DVec3::splat(speed) + relative * relative / speed.max(1e-9)) * half_density;
+            let slope = axes * DMat3::from_diagonal(slope * scheme.rate) * axes.transpose();
+            // Place and rotation move by different schemes.
+            self.hubs.add(seat, arm, seat, arm / (scheme.dt * scheme.rate), slope);
+        }
+    }
+
+    /// Drag that a body's turning meets besides that of its parts.
+    fn add_turn_drag(&mut self, model: &Model, state: &State, (index, body, wet): (usize, &Body, f64), scheme: &Scheme) {
+        if scheme.is_static() {
+            return;
+        }
         let (trial, now) = (self.trial.bodies[index], &state.bodies[index]);
         let block = self.plan.body_block[index];
         let axes = DMat3::from_quat(trial.orientation);
         let half_density = 0.5 * model.spec.water.density_kg_m3 * wet;
-        let velocity = (trial.place - trial.place_history) * scheme.rate;
-        let relative = axes.transpose() * (self.flow_bodies[index].velocity_m_s - velocity);
-        let speed = relative.length();
-        self.hubs.force[block] += axes * (body.drag_area_m2 * relative * (half_density * speed));
-        if scheme.is_static() {
-            return;
-        }
-        let slope = body.drag_area_m2 * (DVec3::splat(speed) + relative * relative / speed.max(1e-9)) * half_density;
-        *self.hubs.at(block, block) += axes * DMat3::from_diagonal(slope * scheme.rate) * axes.transpose();
         let spin = axes.transpose() * spin(trial.orientation, now.orientation, scheme.dt);
         self.hubs.force[block + 1] -= axes * (body.turn_drag_m5 * spin * spin.abs() * half_density);
         let slope = body.turn_drag_m5 * spin.abs() * (2.0 * half_density / scheme.dt);

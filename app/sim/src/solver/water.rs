@@ -63,8 +63,8 @@ impl Solver {
         }
         let trial = self.trial.bodies[index];
         let height = |offset: DVec3| trial.place.z + (trial.orientation * offset).z - surface_m;
-        let volume: f64 =
-            body.floats.iter().map(|float| float.volume_m3 * (0.5 - height(float.offset_m) / float.height_m).clamp(0.0, 1.0)).sum();
+        let axis = trial.orientation * DVec3::Z;
+        let volume: f64 = body.floats.iter().map(|float| float.volume_m3 * float.form.wet(height(float.offset_m), axis).share).sum();
         let added = trial.orientation * (body.added_mass_kg * wet * (trial.orientation.inverse() * acceleration));
         self.hubs.force[self.plan.body_block[index]] += acceleration * (model.spec.water.density_kg_m3 * volume) + added;
     }

@@ -38,6 +38,7 @@ pub fn weight(id: &str, mass_kg: f64, position_m: DVec3, held_until_s: Option<f6
         id: id.into(),
         role: BodyRole::Weight,
         shape: Shape::Sphere(0.1),
+        shape_offset_m: DVec3::ZERO,
         mass_kg,
         inertia_kg_m2: DVec3::splat(0.1 * mass_kg),
         added_mass_kg: DVec3::ZERO,

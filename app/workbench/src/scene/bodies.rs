@@ -35,6 +35,7 @@ fn fixtures(mesh: &mut Mesh, model: &Model, frame: &Frame) {
 }
 
 fn draw(mesh: &mut Mesh, body: &Body, pose: &DAffine3) {
+    let pose = &(*pose * DAffine3::from_translation(body.shape_offset_m));
     match (&body.shape, body.role) {
         (Shape::Box(half), BodyRole::Trap) => trap(mesh, pose, half.as_vec3()),
         (Shape::Box(half), role) => mesh.block(pose, half.as_vec3(), colour(role)),
