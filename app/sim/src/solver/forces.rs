@@ -68,37 +68,35 @@ pub(crate) fn node<R: Real>(rope: &PerMetre<R>, shared: &Shared<R>, at: &NodeAt<
     let tiny = shared.rate.splat(TINY);
     let chord = at.after.sub(at.before);
     let tangent = chord.scale(one / chord.dot(chord).sqrt().max(tiny));
-    let dry = shared.wet - at.place.z * shared.drying;
+    let dry = shared.wet.less(at.place.z, shared.drying);
     let wet = dry.max(shared.rate.splat(0.0)).min(one);
     let velocity = at.place.sub(at.place_history).scale(shared.rate);
     // Drag.
     let relative = at.flow.sub(velocity);
     let along_speed = relative.dot(tangent);
-    let normal = relative.sub(tangent.scale(along_speed));
+    let normal = relative.less(tangent, along_speed);
     let normal_speed = normal.dot(normal).sqrt();
     let wet_length = at.length * wet;
     let across = rope.across * wet_length * normal_speed;
     let along = rope.along * wet_length * along_speed.abs();
-    let drag = normal.scale(across).add(tangent.scale(along * along_speed));
+    let drag = normal.scale(across).plus(tangent, along * along_speed);
     // -dF/dv of the drag is `across (1 - ttᵀ) + 2 along ttᵀ + across nnᵀ/n²`; the added mass lies along `1 - ttᵀ` too.
     let added = rope.added * wet_length;
     let mass = rope.mass * at.length;
     let acceleration = velocity.sub(at.velocity_history).scale(shared.rate);
     let along_acceleration = acceleration.dot(tangent);
     let spared = rope.spared * wet_length;
-    let inertia = acceleration.scale(mass + added).sub(tangent.scale(spared * along_acceleration));
     let sideways = across * shared.rate;
     let round = (mass + added) * shared.inertia + sideways;
     let lengthways = (along + along) * shared.rate - sideways - spared * shared.inertia;
-    let block = Sym3::diagonal(round)
-        .add(Sym3::outer(tangent, lengthways))
-        .add(Sym3::outer(normal, rope.across * wet_length * shared.rate / normal_speed.max(tiny)));
+    let turning = rope.across * wet_length * shared.rate / normal_speed.max(tiny);
+    let block = Sym3::round(round, tangent, lengthways).plus_outer(normal, turning);
     // Weight and buoyancy, which fades towards the surface.
     let lift = rope.lift * at.length;
     let zero = shared.rate.splat(0.0);
     let fading = dry.positive((one - dry).positive(lift * shared.drying, zero), zero);
-    let mut force = drag.sub(inertia);
-    force.z = force.z + lift * wet - rope.weight * at.length;
+    let mut force = drag.less(acceleration, mass + added).plus(tangent, spared * along_acceleration);
+    force.z = force.z.plus(lift, wet).less(rope.weight, at.length);
     (force, Sym3 { zz: block.zz + fading, ..block })
 }
 
@@ -108,8 +106,9 @@ pub(crate) struct SegmentAt<R> {
     /// From its first node to its second, and the same of `x̂`.
     pub between: Vec3<R>,
     pub history: Vec3<R>,
-    /// Unstretched length.
+    /// Unstretched length and its inverse.
     pub length: R,
+    pub inverse_length: R,
     /// `EA`, `EA2` and `BA`, zero where it is cut.
     pub ea: R,
     pub ea2: R,
@@ -135,17 +134,17 @@ pub(crate) struct PullOf<R> {
 #[inline(always)]
 pub(crate) fn pull<R: Real>(at: &SegmentAt<R>, rate: R) -> PullOf<R> {
     let zero = rate.splat(0.0);
-    let inverse_length = rate.splat(1.0) / at.length;
+    let inverse_length = at.inverse_length;
     let chord = at.between.dot(at.between).sqrt().max(at.length * rate.splat(1e-9));
     let inverse_chord = rate.splat(1.0) / chord;
     let direction = at.between.scale(inverse_chord);
     let stretching = direction.dot(at.between.sub(at.history)) * rate;
-    let strain = chord * inverse_length - rate.splat(1.0);
+    let strain = (chord - at.length) * inverse_length;
     let bent = at.ea2 * strain.max(zero);
-    let tension = (at.ea + bent) * strain + at.damping * stretching * inverse_length;
-    let stiffness = (at.ea + bent + bent + at.damping * rate) * inverse_length;
+    let tension = ((at.ea + bent) * strain).plus(at.damping * stretching, inverse_length);
+    let stiffness = (at.ea + bent + bent).plus(at.damping, rate) * inverse_length;
     let across = at.foretold.max(zero) * inverse_chord;
-    let block = Sym3::diagonal(across).add(Sym3::outer(direction, stiffness - across));
+    let block = Sym3::round(across, direction, stiffness - across);
     let none = Vec3 { x: zero, y: zero, z: zero };
     PullOf {
         direction,

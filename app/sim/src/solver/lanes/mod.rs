@@ -358,6 +358,7 @@ fn take_lengths(piece: &Piece, lane: usize, (nodes, segments): (&mut [NodeRow], 
         let (length, law) = (lengths.segment[segment], &lengths.axial[segment]);
         let whole = if cut[segment] { 0.0 } else { 1.0 };
         row.length.0[lane] = length;
+        row.inverse_length.0[lane] = 1.0 / length;
         row.ea.0[lane] = law.ea * whole;
         row.ea2.0[lane] = law.ea2 * whole;
         row.damping.0[lane] = law.damping * whole;

@@ -1,7 +1,7 @@
 //! Numbers the rope's laws are written in: one `f64`, or several in the lanes of the processor.
 //!
-//! Every operation acts on each lane as it acts on one `f64` (IEEE 754, rounded once, no fused multiply-add), so that
-//! a rope gives the same bits whatever the width of the processor's lanes.
+//! Every operation acts on each lane as it acts on one `f64` (IEEE 754, rounded once; a product is added fused, where the
+//! processor cannot by software), so that a rope gives the same bits whatever the width of the processor's lanes.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -13,6 +13,10 @@ pub(crate) trait Real:
 {
     /// This value in every lane.
     fn splat(self, value: f64) -> Self;
+    /// `self + one · other`, rounded once.
+    fn plus(self, one: Self, other: Self) -> Self;
+    /// `self - one · other`, rounded once.
+    fn less(self, one: Self, other: Self) -> Self;
     /// Square root.
     fn sqrt(self) -> Self;
     /// Absolute value.
@@ -23,33 +27,6 @@ pub(crate) trait Real:
     fn min(self, other: Self) -> Self;
     /// `yes` where this is above zero, else `no`.
     fn positive(self, yes: Self, no: Self) -> Self;
-}
-
-impl Real for f64 {
-    #[inline(always)]
-    fn splat(self, value: f64) -> Self {
-        value
-    }
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        Self::sqrt(self)
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        Self::abs(self)
-    }
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        if self > other { self } else { other }
-    }
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        if self < other { self } else { other }
-    }
-    #[inline(always)]
-    fn positive(self, yes: Self, no: Self) -> Self {
-        if self > 0.0 { yes } else { no }
-    }
 }
 
 /// As many numbers as the processor's registers hold.
@@ -93,6 +70,14 @@ impl<S: Simd> Real for Lane<S> {
     #[inline(always)]
     fn splat(self, value: f64) -> Self {
         Self::new(self.simd, value)
+    }
+    #[inline(always)]
+    fn plus(self, one: Self, other: Self) -> Self {
+        Self { simd: self.simd, value: self.simd.mul_add_f64s(one.value, other.value, self.value) }
+    }
+    #[inline(always)]
+    fn less(self, one: Self, other: Self) -> Self {
+        Self { simd: self.simd, value: self.simd.negate_mul_add_f64s(one.value, other.value, self.value) }
     }
     #[inline(always)]
     fn sqrt(self) -> Self {

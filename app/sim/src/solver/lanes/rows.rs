@@ -101,6 +101,7 @@ pub(crate) struct GroundRow {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SegmentRow {
     pub length: Row,
+    pub inverse_length: Row,
     pub ea: Row,
     pub ea2: Row,
     pub damping: Row,
@@ -145,6 +146,6 @@ pub(crate) struct MoveRows {
 impl Default for SegmentRow {
     fn default() -> Self {
         let none = Row::default();
-        Self { length: Row([1.0; LANES]), ea: none, ea2: none, damping: none, tension: none }
+        Self { length: Row([1.0; LANES]), inverse_length: Row([1.0; LANES]), ea: none, ea2: none, damping: none, tension: none }
     }
 }

@@ -45,7 +45,17 @@ impl<R: Real> Vec3<R> {
     }
     #[inline(always)]
     pub fn dot(self, o: Self) -> R {
-        self.x * o.x + self.y * o.y + self.z * o.z
+        (self.x * o.x).plus(self.y, o.y).plus(self.z, o.z)
+    }
+    /// `self + v s`.
+    #[inline(always)]
+    pub fn plus(self, v: Self, s: R) -> Self {
+        Self { x: self.x.plus(v.x, s), y: self.y.plus(v.y, s), z: self.z.plus(v.z, s) }
+    }
+    /// `self - v s`.
+    #[inline(always)]
+    pub fn less(self, v: Self, s: R) -> Self {
+        Self { x: self.x.less(v.x, s), y: self.y.less(v.y, s), z: self.z.less(v.z, s) }
     }
     /// `yes` where `of` is above zero, else `no`.
     #[inline(always)]
@@ -62,11 +72,24 @@ impl<R: Real> Sym3<R> {
         let zero = s.splat(0.0);
         Self { xx: s, xy: zero, xz: zero, yy: s, yz: zero, zz: s }
     }
-    /// `s v vᵀ`.
+    /// `self + s v vᵀ`.
     #[inline(always)]
-    pub fn outer(v: Vec3<R>, s: R) -> Self {
+    pub fn plus_outer(self, v: Vec3<R>, s: R) -> Self {
         let w = v.scale(s);
-        Self { xx: w.x * v.x, xy: w.x * v.y, xz: w.x * v.z, yy: w.y * v.y, yz: w.y * v.z, zz: w.z * v.z }
+        Self {
+            xx: self.xx.plus(w.x, v.x),
+            xy: self.xy.plus(w.x, v.y),
+            xz: self.xz.plus(w.x, v.z),
+            yy: self.yy.plus(w.y, v.y),
+            yz: self.yz.plus(w.y, v.z),
+            zz: self.zz.plus(w.z, v.z),
+        }
+    }
+    /// `s · 1 + q v vᵀ`.
+    #[inline(always)]
+    pub fn round(s: R, v: Vec3<R>, q: R) -> Self {
+        let w = v.scale(q);
+        Self { xx: s.plus(w.x, v.x), xy: w.x * v.y, xz: w.x * v.z, yy: s.plus(w.y, v.y), yz: w.y * v.z, zz: s.plus(w.z, v.z) }
     }
     #[inline(always)]
     pub fn add(self, o: Self) -> Self {
@@ -79,9 +102,9 @@ impl<R: Real> Sym3<R> {
     #[inline(always)]
     pub fn apply(self, v: Vec3<R>) -> Vec3<R> {
         Vec3 {
-            x: self.xx * v.x + self.xy * v.y + self.xz * v.z,
-            y: self.xy * v.x + self.yy * v.y + self.yz * v.z,
-            z: self.xz * v.x + self.yz * v.y + self.zz * v.z,
+            x: (self.xx * v.x).plus(self.xy, v.y).plus(self.xz, v.z),
+            y: (self.xy * v.x).plus(self.yy, v.y).plus(self.yz, v.z),
+            z: (self.xz * v.x).plus(self.yz, v.y).plus(self.zz, v.z),
         }
     }
     /// The product with a matrix.
@@ -105,17 +128,17 @@ impl<R: Real> Sym3<R> {
     /// The inverse, by cofactors.
     #[inline(always)]
     pub fn inverse(self) -> Self {
-        let xx = self.yy * self.zz - self.yz * self.yz;
-        let xy = self.xz * self.yz - self.xy * self.zz;
-        let xz = self.xy * self.yz - self.xz * self.yy;
-        let over = self.xx.splat(1.0) / (self.xx * xx + self.xy * xy + self.xz * xz);
+        let xx = (self.yy * self.zz).less(self.yz, self.yz);
+        let xy = (self.xz * self.yz).less(self.xy, self.zz);
+        let xz = (self.xy * self.yz).less(self.xz, self.yy);
+        let over = self.xx.splat(1.0) / (self.xx * xx).plus(self.xy, xy).plus(self.xz, xz);
         Self {
             xx: xx * over,
             xy: xy * over,
             xz: xz * over,
-            yy: (self.xx * self.zz - self.xz * self.xz) * over,
-            yz: (self.xy * self.xz - self.xx * self.yz) * over,
-            zz: (self.xx * self.yy - self.xy * self.xy) * over,
+            yy: (self.xx * self.zz).less(self.xz, self.xz) * over,
+            yz: (self.xy * self.xz).less(self.xx, self.yz) * over,
+            zz: (self.xx * self.yy).less(self.xy, self.xy) * over,
         }
     }
     /// `yes` where `of` is above zero, else `no`.
@@ -134,25 +157,22 @@ impl<R: Real> Sym3<R> {
 
 #[allow(clippy::should_implement_trait, reason = "named methods keep the generic bounds short")]
 impl<R: Real> Mat3<R> {
-    #[inline(always)]
-    pub fn apply(self, v: Vec3<R>) -> Vec3<R> {
-        self.x.scale(v.x).add(self.y.scale(v.y)).add(self.z.scale(v.z))
-    }
     /// `Mᵀ v`.
     #[inline(always)]
     pub fn apply_transposed(self, v: Vec3<R>) -> Vec3<R> {
         Vec3 { x: self.x.dot(v), y: self.y.dot(v), z: self.z.dot(v) }
     }
-    /// `Mᵀ N`, where that is symmetric.
+    /// `S - Mᵀ N`, where the product is symmetric.
     #[inline(always)]
-    pub fn transposed_times_sym(self, n: Self) -> Sym3<R> {
+    pub fn taken_from(self, n: Self, s: Sym3<R>) -> Sym3<R> {
+        let entry = |start: R, one: Vec3<R>, other: Vec3<R>| start.less(one.x, other.x).less(one.y, other.y).less(one.z, other.z);
         Sym3 {
-            xx: self.x.dot(n.x),
-            xy: self.x.dot(n.y),
-            xz: self.x.dot(n.z),
-            yy: self.y.dot(n.y),
-            yz: self.y.dot(n.z),
-            zz: self.z.dot(n.z),
+            xx: entry(s.xx, self.x, n.x),
+            xy: entry(s.xy, self.x, n.y),
+            xz: entry(s.xz, self.x, n.z),
+            yy: entry(s.yy, self.y, n.y),
+            yz: entry(s.yz, self.y, n.z),
+            zz: entry(s.zz, self.z, n.z),
         }
     }
     /// `yes` where `of` is above zero, else `no`.

@@ -90,6 +90,7 @@ impl<S: Simd> Inputs<'_, S> {
             between: part.get3(&to.place).sub(part.get3(&from.place)),
             history: part.get3(&to.place_history).sub(part.get3(&from.place_history)),
             length: part.get(&row.length),
+            inverse_length: part.get(&row.inverse_length),
             ea: part.get(&row.ea),
             ea2: part.get(&row.ea2),
             damping: part.get(&row.damping),
@@ -164,10 +165,10 @@ fn onward<S: Simd>(inputs: &Inputs<'_, S>, k: usize, carry: Carry<Lane<S>>, solv
     part.put3(&mut solved.g, g);
     let (force, block) = inputs.node(k + 1);
     Carry {
-        block: block.add(pull.block).sub(pull.block.matrix().transposed_times_sym(x)),
+        block: pull.block.matrix().taken_from(x, block.add(pull.block)),
         force: force.sub(pull.force).add(pull.block.apply(g)),
         fill: pull.block.times(w),
-        aa: carry.aa.sub(carry.fill.transposed_times_sym(w)),
+        aa: carry.fill.taken_from(w, carry.aa),
         force_a: carry.force_a.sub(carry.fill.apply_transposed(g)),
     }
 }
@@ -253,7 +254,9 @@ fn backward<S: Simd>(part: Part<S>, group: &mut GroupRows<'_>, ends: &[Row3; 2],
 
 #[inline(always)]
 fn inner_step<S: Simd>(part: Part<S>, solved: &Solved, step_a: Vec3<Lane<S>>, next: Vec3<Lane<S>>) -> Vec3<Lane<S>> {
-    part.get3(&solved.g).sub(part.get9(&solved.w).apply(step_a)).add(part.get9(&solved.x).apply(next))
+    let (w, x) = (part.get9(&solved.w), part.get9(&solved.x));
+    let own = part.get3(&solved.g).less(w.x, step_a.x).less(w.y, step_a.y).less(w.z, step_a.z);
+    own.plus(x.x, next.x).plus(x.y, next.y).plus(x.z, next.z)
 }
 
 #[inline(always)]
