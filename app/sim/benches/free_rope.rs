@@ -10,7 +10,7 @@ mod common;
 use common::{fixed, line, water};
 use divan::Bencher;
 use divan::counter::ItemsCount;
-use endline_sim::model::Settings;
+use endline_sim::model::{Joint, Line, Settings};
 use endline_sim::{DVec3, Input, Model, State, Workspace, step};
 
 /// Length of a segment, as in the shipped encounter [m].
@@ -33,9 +33,24 @@ fn slack_rope(nodes: usize) -> Model {
 
 #[divan::bench(args = [100, 500, 2_000, 20_000])]
 fn node_step(bencher: Bencher, nodes: usize) {
-    let model = slack_rope(nodes);
-    let (mut state, mut workspace) = (State::start(&model), Workspace::new(&model));
-    let mut advance = || step(&model, &Input::default(), &mut state, &mut workspace).expect("a rope that swings");
+    time(bencher, &slack_rope(nodes), nodes);
+}
+
+/// Eight rigs of so many nodes each, stepped together: a rig in each lane.
+#[divan::bench(args = [100, 500, 2_000])]
+fn node_step_of_eight_rigs(bencher: Bencher, nodes: usize) {
+    let mut spec = slack_rope(nodes).spec;
+    let (joints, rope) = (spec.joints.clone(), spec.lines[0].clone());
+    for rig in 1..8 {
+        spec.joints.extend(joints.iter().map(|joint| Joint { id: format!("{}-{rig}", joint.id), ..joint.clone() }));
+        spec.lines.push(Line { id: format!("rope-{rig}"), from: 2 * rig, to: 2 * rig + 1, ..rope.clone() });
+    }
+    time(bencher, &Model::new(spec).expect("eight ropes"), 8 * nodes);
+}
+
+fn time(bencher: Bencher, model: &Model, nodes: usize) {
+    let (mut state, mut workspace) = (State::start(model), Workspace::new(model));
+    let mut advance = || step(model, &Input::default(), &mut state, &mut workspace).expect("a rope that swings");
     (0..WARM_STEPS).for_each(|_| advance());
     bencher.counter(ItemsCount::new(nodes)).bench_local(advance);
 }

@@ -4,7 +4,7 @@
 //! length, so that few rows are idle.
 
 use super::rows::{LANES, Row};
-use crate::model::Model;
+use crate::model::{Joint, JointKind, Model};
 
 /// Least segments of a piece that is cut from a longer line.
 const LEAST_SEGMENTS: usize = 12;
@@ -19,6 +19,8 @@ pub(crate) struct Piece {
     /// Whether the line goes on before and behind it.
     pub follows: bool,
     pub goes_on: bool,
+    /// Whether its end A is on a fixture.
+    pub anchored: bool,
     /// Where it lies.
     pub group: usize,
     pub lane: usize,
@@ -39,6 +41,12 @@ pub(crate) struct Group {
     pub pieces: [usize; LANES],
     /// Lanes in use.
     pub used: usize,
+    /// Whether end A of every piece is on a fixture.
+    pub anchored: bool,
+}
+
+fn is_fixture(joint: &Joint) -> bool {
+    matches!(joint.kind, JointKind::Fixed | JointKind::Driven { .. })
 }
 
 /// All pieces, in the order of the lines and along each.
@@ -57,6 +65,7 @@ pub(crate) fn pieces(model: &Model) -> Vec<Piece> {
                 segments: to - from,
                 follows: part > 0,
                 goes_on: part + 1 < count,
+                anchored: part == 0 && is_fixture(&model.spec.joints[model.spec.lines[line].from]),
                 group: 0,
                 lane: 0,
             });
@@ -81,7 +90,8 @@ pub(crate) fn groups(pieces: &mut [Piece]) -> Vec<Group> {
         let longest = lengths[0];
         let shortest = lengths.into_iter().fold(longest, usize::min);
         let live = (shortest..longest).map(|k| Row(lengths.map(|length| if k < length { 1.0 } else { 0.0 }))).collect();
-        groups.push(Group { node_row, segment_row, longest, shortest, live, pieces: lanes, used: chunk.len() });
+        let anchored = lanes.iter().all(|piece| pieces[*piece].anchored);
+        groups.push(Group { node_row, segment_row, longest, shortest, live, pieces: lanes, used: chunk.len(), anchored });
         node_row += longest + 3;
         segment_row += longest;
     }

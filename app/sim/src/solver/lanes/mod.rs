@@ -331,6 +331,7 @@ fn group_rows<'a>(
         ground,
         shortest: group.shortest,
         live: &group.live,
+        anchored: group.anchored,
         rope,
         shared,
     }

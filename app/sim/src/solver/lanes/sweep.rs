@@ -24,6 +24,8 @@ pub(crate) struct GroupRows<'a> {
     pub shortest: usize,
     /// For each segment from `shortest` on: 1 in lanes whose piece has it.
     pub live: &'a [Row],
+    /// Whether end A of every piece stands still: nothing couples to it then.
+    pub anchored: bool,
     pub rope: &'a PerMetre<Row>,
     pub shared: &'a Shared<f64>,
 }
@@ -36,7 +38,11 @@ impl WithSimd for Forward<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(mut self, simd: S) {
         for part in 0..Part::<S>::COUNT {
-            forward(Part { simd, part }, &mut self.0, self.1);
+            if self.0.anchored {
+                forward::<S, false>(Part { simd, part }, &mut self.0, self.1);
+            } else {
+                forward::<S, true>(Part { simd, part }, &mut self.0, self.1);
+            }
         }
     }
 }
@@ -101,7 +107,7 @@ impl<S: Simd> Inputs<'_, S> {
 }
 
 #[inline(always)]
-fn forward<S: Simd>(part: Part<S>, group: &mut GroupRows<'_>, ends: &mut EndRows) {
+fn forward<S: Simd, const FILL: bool>(part: Part<S>, group: &mut GroupRows<'_>, ends: &mut EndRows) {
     let inputs = Inputs {
         part,
         nodes: group.nodes,
@@ -113,11 +119,11 @@ fn forward<S: Simd>(part: Part<S>, group: &mut GroupRows<'_>, ends: &mut EndRows
     let mut carry = begin(&inputs, &mut group.solved[0]);
     let count = group.segments.len();
     for k in 1..group.shortest {
-        carry = onward(&inputs, k, carry, &mut group.solved[k]);
+        carry = onward::<S, FILL>(&inputs, k, carry, &mut group.solved[k]);
     }
     for k in group.shortest..count {
         let live = part.get(&group.live[k - group.shortest]);
-        let next = onward(&inputs, k, carry, &mut group.solved[k]);
+        let next = onward::<S, FILL>(&inputs, k, carry, &mut group.solved[k]);
         carry = Carry {
             block: Sym3::choose(live, next.block, carry.block),
             force: Vec3::choose(live, next.force, carry.force),
@@ -152,24 +158,31 @@ fn begin<S: Simd>(inputs: &Inputs<'_, S>, solved: &mut Solved) -> Carry<Lane<S>>
 
 /// Eliminates node `k`; the carry for node `k + 1`.
 #[inline(always)]
-fn onward<S: Simd>(inputs: &Inputs<'_, S>, k: usize, carry: Carry<Lane<S>>, solved: &mut Solved) -> Carry<Lane<S>> {
+fn onward<S: Simd, const FILL: bool>(inputs: &Inputs<'_, S>, k: usize, carry: Carry<Lane<S>>, solved: &mut Solved) -> Carry<Lane<S>> {
     let part = inputs.part;
     let pull = inputs.pull(k);
     keep_pull(part, &pull, solved);
     let inverse = carry.block.add(pull.block).inverse();
     let x = inverse.times_sym(pull.block);
     let g = inverse.apply(carry.force.add(pull.force));
-    let w = inverse.times(carry.fill);
     part.put9(&mut solved.x, x);
-    part.put9(&mut solved.w, w);
     part.put3(&mut solved.g, g);
     let (force, block) = inputs.node(k + 1);
-    Carry {
+    let onward = Carry {
         block: pull.block.matrix().taken_from(x, block.add(pull.block)),
         force: force.sub(pull.force).add(pull.block.apply(g)),
+        ..carry
+    };
+    if !FILL {
+        return onward;
+    }
+    let w = inverse.times(carry.fill);
+    part.put9(&mut solved.w, w);
+    Carry {
         fill: pull.block.times(w),
         aa: carry.fill.taken_from(w, carry.aa),
         force_a: carry.force_a.sub(carry.fill.apply_transposed(g)),
+        ..onward
     }
 }
 
@@ -208,7 +221,11 @@ impl WithSimd for Backward<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(mut self, simd: S) {
         for part in 0..Part::<S>::COUNT {
-            backward(Part { simd, part }, &mut self.0, self.1, self.2);
+            if self.0.anchored {
+                backward::<S, false>(Part { simd, part }, &mut self.0, self.1, self.2);
+            } else {
+                backward::<S, true>(Part { simd, part }, &mut self.0, self.1, self.2);
+            }
         }
     }
 }
@@ -223,7 +240,7 @@ struct Moved<R> {
 }
 
 #[inline(always)]
-fn backward<S: Simd>(part: Part<S>, group: &mut GroupRows<'_>, ends: &[Row3; 2], moves: &mut MoveRows) {
+fn backward<S: Simd, const FILL: bool>(part: Part<S>, group: &mut GroupRows<'_>, ends: &[Row3; 2], moves: &mut MoveRows) {
     let zero = Lane::new(part.simd, 0.0);
     let (step_a, step_b) = (part.get3(&ends[0]), part.get3(&ends[1]));
     let mut moved = Moved { longest: zero, gap: zero, greatest: zero, finite: zero };
@@ -231,14 +248,14 @@ fn backward<S: Simd>(part: Part<S>, group: &mut GroupRows<'_>, ends: &[Row3; 2],
     let count = group.segments.len();
     for k in (group.shortest..count).rev() {
         let live = part.get(&group.live[k - group.shortest]);
-        let step = Vec3::choose(live, inner_step(part, &group.solved[k], step_a, next), next);
+        let step = Vec3::choose(live, inner_step::<S, FILL>(part, &group.solved[k], step_a, next), next);
         // A lane whose piece ends before: its last node is moved by its end's own row.
         move_node(part, &mut group.nodes[k + 2], next);
         moved = foretell(part, &group.solved[k], &mut group.segments[k], step, next, moved);
         next = step;
     }
     for k in (1..group.shortest).rev() {
-        let step = inner_step(part, &group.solved[k], step_a, next);
+        let step = inner_step::<S, FILL>(part, &group.solved[k], step_a, next);
         move_node(part, &mut group.nodes[k + 2], next);
         moved = foretell(part, &group.solved[k], &mut group.segments[k], step, next, moved);
         next = step;
@@ -253,9 +270,14 @@ fn backward<S: Simd>(part: Part<S>, group: &mut GroupRows<'_>, ends: &[Row3; 2],
 }
 
 #[inline(always)]
-fn inner_step<S: Simd>(part: Part<S>, solved: &Solved, step_a: Vec3<Lane<S>>, next: Vec3<Lane<S>>) -> Vec3<Lane<S>> {
-    let (w, x) = (part.get9(&solved.w), part.get9(&solved.x));
-    let own = part.get3(&solved.g).less(w.x, step_a.x).less(w.y, step_a.y).less(w.z, step_a.z);
+fn inner_step<S: Simd, const FILL: bool>(part: Part<S>, solved: &Solved, step_a: Vec3<Lane<S>>, next: Vec3<Lane<S>>) -> Vec3<Lane<S>> {
+    let (g, x) = (part.get3(&solved.g), part.get9(&solved.x));
+    let own = if FILL {
+        let w = part.get9(&solved.w);
+        g.less(w.x, step_a.x).less(w.y, step_a.y).less(w.z, step_a.z)
+    } else {
+        g
+    };
     own.plus(x.x, next.x).plus(x.y, next.y).plus(x.z, next.z)
 }
 
