@@ -6,6 +6,7 @@ use crate::attributes::Attributes;
 use crate::diagnostic::At;
 use crate::entry::{self, Entry};
 use crate::fields::{Fields, Problems, Range};
+use crate::line::LineMake;
 use crate::schema::Kind;
 use crate::tree::Node;
 use crate::units::Quantity;
@@ -90,6 +91,8 @@ pub struct PartLine {
     pub to: At<String>,
     /// Unstretched length [m].
     pub length_m: f64,
+    /// How it is made up.
+    pub make: LineMake,
 }
 
 /// A weak link.
@@ -182,12 +185,13 @@ pub(crate) fn line_fields(fields: &Fields<'_>) -> Option<PartLine> {
     let from = fields.need_text("from", "write the id of the body or joint at this end");
     let to = fields.need_text("to", "write the id of the body or joint at that end");
     let length = fields.need_value("length", Quantity::Length, Range::Between(0.01, 20_000.0));
+    let make = LineMake::read(fields);
     if let (Some(from), Some(to)) = (&from, &to)
         && from.value == to.value
     {
         fields.problems().push(to.place.error(format!("both ends are at `{}`", to.value), "a line runs between two parts"));
     }
-    Some(PartLine { id: id?, rope: rope?, from: from?, to: to?, length_m: length?.value })
+    Some(PartLine { id: id?, rope: rope?, from: from?, to: to?, length_m: length?.value, make })
 }
 
 /// Reads a `[[link]]`; with `in_place` it may carry a rating instead of an item.

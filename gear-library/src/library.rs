@@ -4,7 +4,7 @@ use crate::assembly::Assembly;
 use crate::diagnostic::Diagnostic;
 use crate::entry::{self, Entry};
 use crate::fields::Problems;
-use crate::items::{BoxGear, Buoy, Rope, RopeFriction, SeaSite, WeakLink, WhaleItem};
+use crate::items::{BoxGear, Buoy, Knot, Rope, RopeFriction, SeaSite, WeakLink, WhaleItem};
 use crate::nearest::hint;
 use crate::schema::Kind;
 use crate::sources::Sources;
@@ -21,6 +21,8 @@ pub struct Library {
     pub buoys: Vec<Buoy>,
     /// Weak links.
     pub weak_links: Vec<WeakLink>,
+    /// Knots and splices.
+    pub knots: Vec<Knot>,
     /// Anchors.
     pub anchors: Vec<BoxGear>,
     /// Sites.
@@ -84,6 +86,7 @@ impl Library {
             Kind::Anchor => self.anchors.extend(BoxGear::from_entry(entry(), problems)),
             Kind::Buoy => self.buoys.extend(Buoy::from_entry(entry(), problems)),
             Kind::WeakLink => self.weak_links.extend(WeakLink::from_entry(entry())),
+            Kind::Knot => self.knots.extend(Knot::from_entry(entry())),
             Kind::Site => self.sites.extend(SeaSite::from_entry(entry())),
             Kind::Friction => self.frictions.extend(RopeFriction::from_entry(entry())),
             Kind::Whale => self.whales.extend(WhaleItem::read(node, id, problems)),
@@ -96,6 +99,7 @@ impl Library {
         self.traps.append(&mut fresh.traps);
         self.buoys.append(&mut fresh.buoys);
         self.weak_links.append(&mut fresh.weak_links);
+        self.knots.append(&mut fresh.knots);
         self.anchors.append(&mut fresh.anchors);
         self.sites.append(&mut fresh.sites);
         self.frictions.append(&mut fresh.frictions);
@@ -122,6 +126,7 @@ impl Library {
             Kind::Trap => self.traps.iter().map(|item| &item.entry).collect(),
             Kind::Buoy => self.buoys.iter().map(|item| &item.entry).collect(),
             Kind::WeakLink => self.weak_links.iter().map(|item| &item.entry).collect(),
+            Kind::Knot => self.knots.iter().map(|item| &item.entry).collect(),
             Kind::Anchor => self.anchors.iter().map(|item| &item.entry).collect(),
             Kind::Site => self.sites.iter().map(|item| &item.entry).collect(),
             Kind::Friction => self.frictions.iter().map(|item| &item.entry).collect(),

@@ -12,6 +12,8 @@ use crate::attributes::Attributes;
 use crate::diagnostic::{At, Diagnostic, Place};
 use crate::entry::{self, Entry};
 use crate::fields::{Fields, Problems, Range};
+use crate::items::Condition;
+use crate::line::LineMake;
 use crate::tree::{self, Node};
 use crate::units::Quantity;
 
@@ -45,6 +47,12 @@ pub struct Scenario {
     pub weak_links: bool,
     /// Whether the run starts as its parts are placed, without statics.
     pub as_placed: bool,
+    /// Condition of every rope whose line names none.
+    pub rope_condition: Condition,
+    /// Whether rope resists bending.
+    pub rope_bending: bool,
+    /// Whether strengths of ropes and weak links scatter by the seed.
+    pub strength_scatter: bool,
     /// The sea.
     pub sea: Sea,
     /// Gear from the library.
@@ -109,6 +117,8 @@ pub struct PlacedGear {
     pub attributes: Attributes,
     /// Ropes over the assembly's: id of the line, id of the rope.
     pub ropes: Vec<(At<String>, At<String>)>,
+    /// How lines are made up, over the assembly's: id of the line.
+    pub lines: Vec<(At<String>, LineMake)>,
 }
 
 /// A friction model with its attributes.
@@ -148,6 +158,7 @@ impl Scenario {
         let whale = fields.table("whale");
         let follow = fields.table("resolution");
         let start = fields.word("start", &["rest", "placed"]);
+        let rope_condition = fields.word("rope_condition", &Condition::WORDS);
         let each = |key: &'static str| fields.tables(key).iter();
         let scenario = Self {
             name,
@@ -161,6 +172,9 @@ impl Scenario {
             segment_m: segment.map(|segment| segment.value),
             weak_links: weak_links.unwrap_or(true),
             as_placed: start.is_some_and(|start| start.value == "placed"),
+            rope_condition: rope_condition.and_then(|word| Condition::from_word(&word.value)).unwrap_or_default(),
+            rope_bending: fields.flag("rope_bending").unwrap_or(false),
+            strength_scatter: fields.flag("strength_scatter").unwrap_or(true),
             sea: sea(&fields),
             gear: each("gear").filter_map(|node| placed_gear(node, problems)).collect(),
             resolution: follow.as_ref().map(|follow| resolution::read(follow, whale.is_some())),
@@ -248,6 +262,7 @@ fn placed_gear(node: &Node, problems: &Problems) -> Option<PlacedGear> {
     let heading = fields.value("heading", Quantity::Angle, Range::Any);
     let attributes = Attributes::read(&fields, "attributes");
     let ropes = rope_choices(&fields);
+    let lines = line_choices(&fields);
     fields.finish();
     Some(PlacedGear {
         id,
@@ -256,6 +271,7 @@ fn placed_gear(node: &Node, problems: &Problems) -> Option<PlacedGear> {
         heading_rad: heading.map_or(std::f64::consts::FRAC_PI_2, |heading| heading.value),
         attributes,
         ropes,
+        lines,
     })
 }
 
@@ -275,6 +291,18 @@ fn rope_choices(fields: &Fields<'_>) -> Vec<(At<String>, At<String>)> {
         }
     }
     choices
+}
+
+/// `[gear.lines.<line>]`: how a line is made up, by id.
+fn line_choices(fields: &Fields<'_>) -> Vec<(At<String>, LineMake)> {
+    let Some(table) = fields.table("lines") else { return Vec::new() };
+    let choice = |(line, key, node): &(String, Place, Node)| {
+        let inner = Fields::of(node, fields.problems());
+        let make = LineMake::read(&inner);
+        inner.finish();
+        (At { value: line.clone(), place: key.clone() }, make)
+    };
+    table.rest().into_iter().map(choice).collect()
 }
 
 fn friction(fields: &Fields<'_>) -> Option<FrictionChoice> {

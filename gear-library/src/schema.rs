@@ -18,6 +18,8 @@ pub enum Kind {
     WeakLink,
     /// Anchor, in `anchors/`.
     Anchor,
+    /// Knot or splice, in `knots/`.
+    Knot,
     /// Place at sea, in `sites/`.
     Site,
     /// Friction of a rope material on a whale, in `friction/`.
@@ -56,8 +58,18 @@ pub struct Word {
 
 impl Kind {
     /// Every kind.
-    pub const ALL: [Self; 9] =
-        [Self::Rope, Self::Trap, Self::Buoy, Self::WeakLink, Self::Anchor, Self::Site, Self::Friction, Self::Whale, Self::Assembly];
+    pub const ALL: [Self; 10] = [
+        Self::Rope,
+        Self::Trap,
+        Self::Buoy,
+        Self::WeakLink,
+        Self::Knot,
+        Self::Anchor,
+        Self::Site,
+        Self::Friction,
+        Self::Whale,
+        Self::Assembly,
+    ];
 
     /// Its folder of the library.
     #[must_use]
@@ -85,6 +97,7 @@ impl Kind {
             Self::Trap | Self::Anchor => BOX,
             Self::Buoy => BUOY,
             Self::WeakLink => WEAK_LINK,
+            Self::Knot => KNOT,
             Self::Site => SITE,
             Self::Friction => FRICTION,
             Self::Whale => WHALE,
@@ -112,6 +125,7 @@ impl Kind {
             Self::Trap => ("traps", "trap"),
             Self::Buoy => ("buoys", "buoy"),
             Self::WeakLink => ("weak-links", "weak-link"),
+            Self::Knot => ("knots", "knot"),
             Self::Anchor => ("anchors", "anchor"),
             Self::Site => ("sites", "site"),
             Self::Friction => ("friction", "friction"),
@@ -149,13 +163,19 @@ const ROPE: &[Field] = &[
     ),
     need("strength", Q::Force, Positive, "breaking strength when new and unknotted"),
     may("stretch_at_break", Q::Ratio, Between(0.005, 1.0), "strain at which it breaks; checked against stiffness and strength"),
-    need("stiffness", Q::Force, Positive, "axial stiffness EA: force for a strain of 1"),
-    need("damping", Q::Damping, NotNegative, "axial damping BA: tension by strain rate"),
+    need("stiffness", Q::Force, Positive, "axial stiffness EA from slack to break: force for a strain of 1"),
+    may("worked_stiffness", Q::Force, Positive, "axial stiffness of the rope once worked in; for condition = \"worked\""),
+    may("toe", Q::Ratio, Between(0.01, 1.0), "share of its stiffness that a new rope begins with; for condition = \"new\""),
+    may("damping", Q::Damping, NotNegative, "axial damping BA: tension by strain rate; or give damping_ratio"),
+    may("damping_ratio", Q::Ratio, Between(0.0, 10.0), "axial damping as a share of a segment's critical damping; or give damping"),
+    may("bending_stiffness", Q::BendingStiffness, NotNegative, "bending stiffness EI; a scenario turns it on with rope_bending = true"),
     may("wear_factor", Q::Ratio, Between(0.05, 1.0), "strength left in used rope, as a share of new"),
-    may("knot_factor", Q::Ratio, Between(0.05, 1.0), "strength left at its knots and splices, as a share"),
+    may("knot_factor", Q::Ratio, Between(0.05, 1.0), "strength left at its ends where no knot or splice is named, as a share"),
+    may("strength_cv", Q::Ratio, Between(0.0, 0.5), "coefficient of variation of the strength between pieces; drawn for each line"),
     need("drag_normal", Q::Ratio, COEFFICIENT, "drag coefficient across the rope, on diameter times length"),
     need("drag_tangential", Q::Ratio, COEFFICIENT, "drag coefficient along the rope, on wetted surface"),
     need("added_mass", Q::Ratio, COEFFICIENT, "added-mass coefficient across the rope"),
+    may("added_mass_along", Q::Ratio, COEFFICIENT, "added-mass coefficient along the rope; zero where not given"),
 ];
 
 const BOX: &[Field] = &[
@@ -205,8 +225,10 @@ const BUOY: &[Field] = &[
 
 const WEAK_LINK: &[Field] = &[
     need("rating", Q::Force, Positive, "tension above which it parts"),
-    may("spread", Q::Ratio, SHARE, "coefficient of variation of that tension between links"),
+    may("spread", Q::Ratio, Between(0.0, 0.5), "coefficient of variation of that tension between links; drawn for each link"),
 ];
+
+const KNOT: &[Field] = &[need("strength_left", Q::Ratio, Between(0.05, 1.0), "strength of the rope at this knot or splice, as a share")];
 
 const SITE: &[Field] = &[
     need("depth", Q::Length, Between(0.5, 6000.0), "water depth"),

@@ -42,6 +42,8 @@ pub enum Quantity {
     Density,
     /// Axial damping of a rope [N s].
     Damping,
+    /// Bending stiffness EI of a rope [N m²].
+    BendingStiffness,
     /// Moment of inertia [kg m²].
     Inertia,
     /// Plane angle [rad].
@@ -71,7 +73,7 @@ impl std::error::Error for UnitError {}
 
 impl Quantity {
     /// Every quantity.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 19] = [
         Self::Ratio,
         Self::Length,
         Self::Area,
@@ -86,6 +88,7 @@ impl Quantity {
         Self::MassByLength,
         Self::Density,
         Self::Damping,
+        Self::BendingStiffness,
         Self::Inertia,
         Self::Angle,
         Self::TurnRate,
@@ -138,6 +141,7 @@ impl Quantity {
             Self::MassByLength => ("a mass by length", "4.5 lb/100ft or 0.0417 kg/m"),
             Self::Density => ("a density", "1025 kg/m3 or 0.94 g/cm3"),
             Self::Damping => ("a damping", "2.5 N s"),
+            Self::BendingStiffness => ("a bending stiffness", "0.004 N m2"),
             Self::Inertia => ("a moment of inertia", "1.2 kg m2"),
             Self::Angle => ("an angle", "58 deg or 1 rad"),
             Self::TurnRate => ("a rate of turn", "10 deg/s"),

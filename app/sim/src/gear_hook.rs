@@ -37,20 +37,19 @@ pub(crate) fn act(model: &Model, state: &mut State, work: &mut GearWork) -> Resu
     Ok(())
 }
 
-fn end_tensions(model: &Model, state: &State, line: usize) -> [f64; 2] {
-    let segments = &model.line_segments[line];
-    [segments.start, segments.end - 1].map(|segment| state.rope.tension[segment].max(0.0))
+/// Tension at the outer ends of a line's first and last piece [N].
+fn end_tensions(model: &Model, state: &State, [first, last]: [usize; 2]) -> [f64; 2] {
+    [model.line_segments[first].start, model.line_segments[last].end - 1].map(|segment| state.rope.tension[segment].max(0.0))
 }
 
 fn obey(model: &Model, state: &mut State, hook: usize, action: GearAction) -> Result<(), String> {
     let hook = &model.spec.gear[hook];
     match action {
         GearAction::CutLine { line, end } => {
-            let Some(&line) = hook.lines.get(line as usize) else {
+            let Some(&[first, last]) = hook.lines.get(line as usize) else {
                 return Err(format!("asked to cut line {line}, which it did not build"));
             };
-            let segments = &model.line_segments[line];
-            let segment = if end == LineEnd::A { segments.start } else { segments.end - 1 };
+            let segment = if end == LineEnd::A { model.line_segments[first].start } else { model.line_segments[last].end - 1 };
             if !state.rope.cut[segment] {
                 note_line(model, state, segment);
                 cut(state, segment);

@@ -284,8 +284,9 @@ pub struct GearHook {
     pub gear: Arc<dyn GearType>,
     /// Its attribute values.
     pub attributes: Vec<AttributeValue>,
-    /// Its lines in the order built, as indices of the model's lines.
-    pub lines: Vec<usize>,
+    /// Its lines in the order built, each by the indices of its first and last piece among the model's lines: a
+    /// line with inserts is several of them, end to end.
+    pub lines: Vec<[usize; 2]>,
     /// Its links in the order built, as indices of the model's links.
     pub links: Vec<usize>,
 }
@@ -380,6 +381,8 @@ pub struct Model {
     pub segment_count: usize,
     /// Line of each segment.
     pub segment_line: Vec<usize>,
+    /// Tension at which each segment breaks [N].
+    pub segment_strength_n: Vec<f64>,
     /// Tree over the whale's skin.
     pub skin_tree: Option<Arc<SkinTree>>,
     /// Current and waves made ready.
@@ -416,9 +419,16 @@ impl Model {
         }
         let segment_line =
             spec.lines.iter().enumerate().flat_map(|(index, line)| std::iter::repeat_n(index, line.segments_m.len())).collect();
+        let segment_strength_n = spec.lines.iter().flat_map(|line| strengths(line, spec.ropes[line.rope].strength_n)).collect();
         let skin_tree = spec.whale.as_ref().map(|whale| Arc::new(SkinTree::new(whale.skin.clone())));
         let sea = Sea::new(&spec.water, spec.seabed.as_ref(), spec.settings.seed);
-        Ok(Self { spec, line_nodes, line_segments, node_count, segment_count, segment_line, skin_tree, sea })
+        Ok(Self { spec, line_nodes, line_segments, node_count, segment_count, segment_line, segment_strength_n, skin_tree, sea })
+    }
+
+    /// Whether any rope resists bending.
+    #[must_use]
+    pub fn bends(&self) -> bool {
+        self.spec.ropes.iter().any(|rope| rope.bending_stiffness_n_m2 > 0.0)
     }
 
     /// Rope of a segment.
@@ -426,19 +436,14 @@ impl Model {
     pub fn rope_of_segment(&self, segment: usize) -> &Rope {
         &self.spec.ropes[self.spec.lines[self.segment_line[segment]].rope]
     }
+}
 
-    /// Tension at which a segment breaks [N].
-    #[must_use]
-    pub fn segment_strength(&self, segment: usize) -> f64 {
-        let index = self.segment_line[segment];
-        let (line, segments) = (&self.spec.lines[index], &self.line_segments[index]);
-        let mut share = line.strength.all;
-        if segment == segments.start {
-            share *= line.strength.end_a;
-        }
-        if segment + 1 == segments.end {
-            share = share.min(line.strength.all * line.strength.end_b);
-        }
-        self.spec.ropes[line.rope].strength_n * share
-    }
+/// Strength of each segment of a line: an end's factor weakens the segment at that end.
+fn strengths(line: &Line, rope_n: f64) -> Vec<f64> {
+    let Strength { all, end_a, end_b } = line.strength;
+    let mut strengths = vec![rope_n * all; line.segments_m.len()];
+    let last = strengths.len() - 1;
+    strengths[0] *= end_a;
+    strengths[last] = strengths[last].min(rope_n * all * end_b);
+    strengths
 }

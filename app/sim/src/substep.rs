@@ -28,6 +28,10 @@ const ONE_PASS_GAP_SHARE: f64 = 1e-4;
 const MOST_PASSES: usize = 12;
 /// Move of a pass at which a free solver step has converged [m].
 const CONVERGED_M: f64 = 1e-3;
+/// The same where rope resists bending: what is left to go, for its passes converge linearly [m].
+const BENT_CONVERGED_M: f64 = 1e-5;
+/// Passes after which such a step counts as not converged.
+const BENT_MOST_PASSES: usize = 40;
 /// Most times the move of skin and rope together is cut.
 const MOST_CUTS: usize = 20;
 /// Times the skin may be stopped within a solver step.
@@ -150,14 +154,21 @@ fn is_settled(pass: usize, passed: &FreePass) -> bool {
 }
 
 fn lines_step(model: &Model, state: &State, solver: &mut Solver, scheme: &Scheme, audit: &mut Audit) -> Result<(), Refused> {
-    for pass in 1..=MOST_PASSES {
+    let bends = model.bends();
+    let (most_passes, converged_m) = if bends { (BENT_MOST_PASSES, BENT_CONVERGED_M) } else { (MOST_PASSES, CONVERGED_M) };
+    let mut moved_before_m = f64::INFINITY;
+    for pass in 1..=most_passes {
         let passed = solver.pass(model, state, scheme);
         audit.passes += 1;
         if !passed.finite {
             audit.non_finite += 1;
             return Err(Refused::NotFinite);
         }
-        if pass >= LEAST_PASSES && passed.longest_m < CONVERGED_M && solver.pull_is_settled(model, scheme) {
+        // Of moves that shrink by θ each pass, θ/(1-θ) of the last is left.
+        let shrinkage = if bends { (passed.longest_m / moved_before_m).min(0.9999) } else { 0.5 };
+        moved_before_m = passed.longest_m;
+        let left_m = passed.longest_m * shrinkage / (1.0 - shrinkage);
+        if pass >= LEAST_PASSES && left_m < converged_m && solver.pull_is_settled(model, scheme) {
             return Ok(());
         }
     }

@@ -6,7 +6,7 @@ use endline_sim::water::{Current, Water};
 
 use crate::diagnostic::{At, Diagnostic, Place};
 use crate::fields::Problems;
-use crate::items::Rope;
+use crate::items::{Condition, Rope};
 use crate::library::Library;
 use crate::nearest::hint;
 use crate::scenario::{LineStart, Scenario};
@@ -14,12 +14,12 @@ use crate::schema::Kind;
 
 use super::{Assembled, Hooks};
 
-/// A part of the spec by what it is and its index.
+/// A part of the spec by what it is and its index; a line with inserts is several in a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Part {
     Body(usize),
     Joint(usize),
-    Line(usize),
+    Line { first: usize, last: usize },
     Link(usize),
 }
 
@@ -40,6 +40,8 @@ pub(super) struct Builder<'a> {
     pub problems: Problems,
     pub used: Vec<String>,
     pub spec: ModelSpec,
+    /// Library items of the spec's ropes.
+    pub stock: Vec<Rope>,
     /// Materials of the spec's ropes, for friction.
     pub materials: Vec<At<String>>,
     /// Points of each body where a line can be made fast, in the body's frame [m]; the usual one first.
@@ -83,6 +85,7 @@ impl<'a> Builder<'a> {
             problems: Problems::default(),
             used: Vec::new(),
             spec,
+            stock: Vec::new(),
             materials: Vec::new(),
             points: Vec::new(),
             uncut: Vec::new(),
@@ -127,11 +130,31 @@ impl<'a> Builder<'a> {
         self.used.push(path.to_owned());
     }
 
-    /// Index of a rope in the spec: one written in place, or one of the library.
-    pub fn rope(&mut self, id: &At<String>) -> Option<usize> {
-        if let Some(index) = self.spec.ropes.iter().position(|rope| rope.id == id.value) {
+    /// Index of a rope of a condition in the spec: one written in place, or one of the library.
+    pub fn rope(&mut self, id: &At<String>, condition: &At<Condition>) -> Option<usize> {
+        let rope = self.rope_item(id)?;
+        let mut made = match rope.in_condition(condition.value) {
+            Ok(made) => made,
+            Err(key) => {
+                let message = format!("rope `{}` has no `{key}`, so it cannot be \"{}\"", id.value, condition.value.word());
+                self.problems.push(condition.place.error(message, format!("give it a `{key}`, or choose another condition")));
+                return None;
+            }
+        };
+        if let Some(index) = self.spec.ropes.iter().position(|known| known.id == made.id) {
             return Some(index);
         }
+        if self.scenario.rope_bending {
+            made.bending_stiffness_n_m2 = rope.bending_stiffness_n_m2;
+        }
+        self.materials.push(At { value: rope.material.clone(), place: id.place.clone() });
+        self.stock.push(rope);
+        self.spec.ropes.push(made);
+        Some(self.spec.ropes.len() - 1)
+    }
+
+    /// A rope written in place, or of the library.
+    fn rope_item(&mut self, id: &At<String>) -> Option<Rope> {
         let in_place = self.scenario.ropes.iter().find(|entry| entry.id == id.value);
         let rope = match in_place {
             Some(entry) => Rope::from_entry(entry.clone(), &self.problems),
@@ -146,9 +169,7 @@ impl<'a> Builder<'a> {
         if in_place.is_none() {
             self.uses(&rope.entry.path);
         }
-        self.materials.push(At { value: rope.material.clone(), place: id.place.clone() });
-        self.spec.ropes.push(rope.to_model());
-        Some(self.spec.ropes.len() - 1)
+        Some(rope)
     }
 
     /// The spec, or all problems.

@@ -4,9 +4,10 @@ use endline_sdk::{BodyKind, Rig, RigBody, RigEnd, RigJoint, RigLine, RigLink, Si
 use endline_sim::model::GearHook;
 use endline_sim::{DQuat, DVec3};
 
-use crate::assembly::{Assembly, Make, Parts, Start};
+use crate::assembly::{Assembly, Make, PartLine, Parts, Start};
 use crate::attributes::Attributes;
 use crate::diagnostic::{At, Place};
+use crate::line::LineMake;
 use crate::nearest::hint;
 use crate::scenario::PlacedGear;
 use crate::schema::Kind;
@@ -36,6 +37,7 @@ impl Builder<'_> {
             origin_m: DVec3::new(gear.position_m[0], gear.position_m[1], 0.0),
             orientation,
             ropes: &gear.ropes,
+            makes: gear.lines.clone(),
             usual_place: gear.assembly.place.clone(),
             places: Vec::new(),
         };
@@ -47,6 +49,7 @@ impl Builder<'_> {
                     self.problems.push(key.error(message, "take the attributes out, or place an assembly with a gear type"));
                 }
                 setting.places = places(parts);
+                setting.makes = makes(parts, &gear.lines);
                 self.add_rig(&rig(parts, self.spec.water.depth_m), &setting);
             }
         }
@@ -94,7 +97,7 @@ fn rig(parts: &Parts, depth_m: f64) -> Rig {
         item: body.item.value.clone(),
         position_m: at(&body.start),
     };
-    let line = |line: &crate::assembly::PartLine| RigLine {
+    let line = |line: &PartLine| RigLine {
         id: line.id.value.clone(),
         rope: line.rope.value.clone(),
         from: end(&line.from),
@@ -114,6 +117,19 @@ fn rig(parts: &Parts, depth_m: f64) -> Rig {
         lines: parts.lines.iter().map(line).collect(),
         links: parts.links.iter().map(link).collect(),
     }
+}
+
+/// How each line of the parts is made up, the scenario's choices over the assembly's.
+fn makes(parts: &Parts, chosen: &[(At<String>, LineMake)]) -> Vec<(At<String>, LineMake)> {
+    let own = |line: &PartLine| (line.id.clone(), line.make.clone());
+    let mut makes: Vec<_> = parts.lines.iter().map(own).collect();
+    for (id, make) in chosen {
+        match makes.iter_mut().find(|(known, _)| known.value == id.value) {
+            Some((_, usual)) => *usual = make.over(usual),
+            None => makes.push((id.clone(), make.clone())),
+        }
+    }
+    makes
 }
 
 /// Where each id of the parts stands in the assembly's file.

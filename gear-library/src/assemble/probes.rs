@@ -1,5 +1,6 @@
 //! Probes, looked up.
 
+use endline_sdk::LineEnd;
 use endline_sim::model::{Probe, ProbeTarget};
 
 use crate::diagnostic::At;
@@ -12,11 +13,14 @@ impl Builder<'_> {
     pub fn add_probes(&mut self) {
         for probe in &self.scenario.probes {
             let target = match &probe.part {
-                ProbePart::Tension(line, end) => self.line(line).map(|line| ProbeTarget::EndTension(line, *end)),
-                ProbePart::TensionAt(line, length_m) => self.line(line).map(|line| ProbeTarget::TensionAt(line, *length_m)),
-                ProbePart::LineAt(line, length_m, axis) => self.line(line).map(|line| ProbeTarget::LineAt(line, *length_m, *axis)),
+                ProbePart::Tension(line, end) => {
+                    let at_end = |[first, last]: [usize; 2]| if *end == LineEnd::A { first } else { last };
+                    self.line(line).map(|pieces| ProbeTarget::EndTension(at_end(pieces), *end))
+                }
+                ProbePart::Middle(line, axis) => self.whole_line(line).map(|line| ProbeTarget::LineMiddle(line, *axis)),
+                ProbePart::TensionAt(line, length_m) => self.whole_line(line).map(|line| ProbeTarget::TensionAt(line, *length_m)),
+                ProbePart::LineAt(line, length_m, axis) => self.whole_line(line).map(|line| ProbeTarget::LineAt(line, *length_m, *axis)),
                 ProbePart::Energy(form) => Some(ProbeTarget::Energy(*form)),
-                ProbePart::Middle(line, axis) => self.line(line).map(|line| ProbeTarget::LineMiddle(line, *axis)),
                 ProbePart::Place(part, axis) => self.placed(part, *axis),
             };
             if self.spec.probes.iter().any(|known| known.id == probe.id.value) {
@@ -27,12 +31,25 @@ impl Builder<'_> {
         }
     }
 
-    fn line(&self, id: &At<String>) -> Option<usize> {
-        if let Some(Part::Line(line)) = self.part(&id.value) {
-            return Some(line);
+    /// First and last piece of a line.
+    fn line(&self, id: &At<String>) -> Option<[usize; 2]> {
+        if let Some(Part::Line { first, last }) = self.part(&id.value) {
+            return Some([first, last]);
         }
-        self.unknown("line", id, |part| matches!(part, Part::Line(_)));
+        self.unknown("line", id, |part| matches!(part, Part::Line { .. }));
         None
+    }
+
+    /// A line that is in one piece.
+    fn whole_line(&self, id: &At<String>) -> Option<usize> {
+        let [first, last] = self.line(id)?;
+        if first != last {
+            let message = format!("line `{}` is in {} pieces", id.value, last + 1 - first);
+            let help = format!("name the piece whose middle is meant, such as `{}`", self.spec.lines[first].id);
+            self.problems.push(id.place.error(message, help));
+            return None;
+        }
+        Some(first)
     }
 
     fn placed(&self, id: &At<String>, axis: usize) -> Option<ProbeTarget> {

@@ -1,17 +1,19 @@
 //! A rig's parts, put into the spec; fixtures, bodies and lines written in place.
 
-use endline_sdk::{BodyKind, Rig, RigBody, RigEnd, RigLine, RigLink};
-use endline_sim::model::{BodyRole, Joint, JointKind, Line, Link};
+use endline_sdk::{BodyKind, LineEnd, Rig, RigBody, RigEnd, RigLine, RigLink};
+use endline_sim::model::{BodyRole, Joint, JointKind, Link};
 use endline_sim::{DQuat, DVec3};
 
 use crate::diagnostic::{At, Place};
 use crate::items::BoxGear;
 use crate::library::Library;
+use crate::line::LineMake;
 use crate::scenario::LineStart;
 use crate::schema::Kind;
 
 use super::body;
-use super::builder::{Builder, Part, Uncut};
+use super::builder::{Builder, Part};
+use super::line::NewLine;
 
 /// How a rig is set into the scenario.
 pub(super) struct Setting<'a> {
@@ -23,6 +25,8 @@ pub(super) struct Setting<'a> {
     pub orientation: DQuat,
     /// Ropes over its own, by line.
     pub ropes: &'a [(At<String>, At<String>)],
+    /// How lines are made up, by line: the scenario's over the assembly's.
+    pub makes: Vec<(At<String>, LineMake)>,
     /// Where problems of it are told.
     pub usual_place: Place,
     /// Better places, by id of a part or item.
@@ -46,8 +50,8 @@ impl Setting<'_> {
 }
 
 impl Builder<'_> {
-    /// Puts a rig into the spec; answers the indices of its lines and links in the order built.
-    pub fn add_rig(&mut self, rig: &Rig, setting: &Setting<'_>) -> (Vec<usize>, Vec<usize>) {
+    /// Puts a rig into the spec; answers its lines by first and last piece, and its links, in the order built.
+    pub fn add_rig(&mut self, rig: &Rig, setting: &Setting<'_>) -> (Vec<[usize; 2]>, Vec<usize>) {
         for body in &rig.bodies {
             self.add_rig_body(body, setting);
         }
@@ -57,20 +61,18 @@ impl Builder<'_> {
             let position_m = self.above_bed(setting.place(joint.position_m));
             self.spec.joints.push(Joint { id: id.value, kind: JointKind::Free, position_m });
         }
-        let first_line = self.spec.lines.len();
-        for line in &rig.lines {
-            self.add_rig_line(line, setting);
-        }
+        let lines = rig.lines.iter().map(|line| self.add_rig_line(line, setting)).collect();
         let first_link = self.spec.links.len();
         for link in &rig.links {
             self.add_rig_link(link, setting);
         }
-        for (line, _) in setting.ropes.iter().filter(|(line, _)| !rig.lines.iter().any(|known| known.id == line.value)) {
+        let named = setting.ropes.iter().map(|(line, _)| line).chain(setting.makes.iter().map(|(line, _)| line));
+        for line in named.filter(|line| !rig.lines.iter().any(|known| known.id == line.value)) {
             let known = rig.lines.iter().map(|line| line.id.as_str());
             let help = crate::nearest::hint(&line.value, known);
             self.problems.push(line.place.error(format!("this gear has no line `{}`", line.value), help));
         }
-        ((first_line..self.spec.lines.len()).collect(), (first_link..self.spec.links.len()).collect())
+        (lines, (first_link..self.spec.links.len()).collect())
     }
 
     fn add_rig_body(&mut self, body: &RigBody, setting: &Setting<'_>) {
@@ -101,7 +103,7 @@ impl Builder<'_> {
         self.points.push(points);
     }
 
-    fn add_rig_line(&mut self, line: &RigLine, setting: &Setting<'_>) {
+    fn add_rig_line(&mut self, line: &RigLine, setting: &Setting<'_>) -> [usize; 2] {
         let id = setting.named(&line.id);
         let chosen = setting.ropes.iter().find(|(known, _)| known.value == line.id).map(|(_, rope)| rope.clone());
         let rope = chosen.unwrap_or_else(|| setting.at(&line.rope));
@@ -110,11 +112,10 @@ impl Builder<'_> {
             self.end(&setting.named(part))
         };
         let ends = (end(&line.from), end(&line.to));
-        self.add_line(&id, &rope, ends, line.length_m, LineStart::Straight);
+        let usual = LineMake::default();
+        let make = setting.makes.iter().find(|(known, _)| known.value == line.id).map_or(&usual, |(_, make)| make);
         let laid_m = line.laid_m.iter().map(|place| self.above_bed(setting.place(*place))).collect();
-        if let Some(uncut) = self.uncut.last_mut() {
-            uncut.laid_m = laid_m;
-        }
+        self.add_line(&NewLine { id, rope, ends, length_m: line.length_m, start: LineStart::Straight, laid_m, make })
     }
 
     /// A place of a rig, which is built for the depth at its origin, where the seabed is higher or lower: moved with the
@@ -124,51 +125,34 @@ impl Builder<'_> {
         place - DVec3::Z * ((self.seabed_height(place) + depth) * (place.z / depth))
     }
 
-    /// Puts a line into the spec, to be cut into segments later.
-    fn add_line(&mut self, id: &At<String>, rope: &At<String>, ends: (Option<usize>, Option<usize>), length_m: f64, start: LineStart) {
-        let rope = self.rope(rope);
-        if !(length_m.is_finite() && length_m > 0.0) {
-            let message = format!("line `{}` is {length_m} m long", id.value);
-            self.problems.push(id.place.error(message, "a line has a length above zero"));
-        }
-        self.name(id.value.clone(), Part::Line(self.spec.lines.len()), &id.place);
-        // Where something is missing the run never starts; index 0 keeps the later parts in step.
-        let (from, to) = (ends.0.unwrap_or(0), ends.1.unwrap_or(0));
-        let line = Line {
-            id: id.value.clone(),
-            rope: rope.unwrap_or(0),
-            from,
-            to,
-            segments_m: Vec::new(),
-            strength: endline_sim::model::Strength::default(),
-            start_m: Vec::new(),
-        };
-        self.spec.lines.push(line);
-        self.uncut.push(Uncut { length_m, start, laid_m: Vec::new(), place: id.place.clone() });
-    }
-
     fn add_rig_link(&mut self, link: &RigLink, setting: &Setting<'_>) {
         let (id, item, line) = (setting.named(&link.id), setting.at(&link.item), setting.named(&link.line));
-        let rating = self.rating(&item);
+        let rating = self.rating(&item, &id.value);
         self.add_link(&id, rating, &line, link.end);
     }
 
-    fn rating(&mut self, item: &At<String>) -> Option<f64> {
+    /// Rating of a weak link of the library, drawn for the link of this id.
+    pub fn rating(&mut self, item: &At<String>, id: &str) -> Option<f64> {
         let Some(found) = self.library.weak_links.iter().find(|known| known.entry.id == item.value) else {
             self.no_item(Kind::WeakLink, &item.value, &item.place);
             return None;
         };
         self.uses(&found.entry.path);
-        Some(found.rating_n)
+        Some(found.rating_n * self.scatter(found.spread, id))
     }
 
-    fn add_link(&mut self, id: &At<String>, rating_n: Option<f64>, line: &At<String>, end: endline_sdk::LineEnd) {
-        let Some(Part::Line(index)) = self.part(&line.value) else {
-            self.unknown("line", line, |part| matches!(part, Part::Line(_)));
+    fn add_link(&mut self, id: &At<String>, rating_n: Option<f64>, line: &At<String>, end: LineEnd) {
+        let Some(Part::Line { first, last }) = self.part(&line.value) else {
+            self.unknown("line", line, |part| matches!(part, Part::Line { .. }));
             return;
         };
+        self.add_link_to(id, rating_n, if end == LineEnd::A { first } else { last }, end);
+    }
+
+    /// Puts a weak link at an end of a line of the spec.
+    pub fn add_link_to(&mut self, id: &At<String>, rating_n: Option<f64>, line: usize, end: LineEnd) {
         self.name(id.value.clone(), Part::Link(self.spec.links.len()), &id.place);
-        self.spec.links.push(Link { id: id.value.clone(), line: index, end, rating_n: rating_n.unwrap_or(0.0), enabled: true });
+        self.spec.links.push(Link { id: id.value.clone(), line, end, rating_n: rating_n.unwrap_or(0.0), enabled: true });
     }
 
     /// Fixed and driven points of the scenario.
@@ -204,14 +188,15 @@ impl Builder<'_> {
     pub fn add_free_lines(&mut self) {
         for (line, start) in &self.scenario.lines {
             let ends = (self.end(&line.from), self.end(&line.to));
-            self.add_line(&line.id, &line.rope, ends, line.length_m, *start);
+            let (id, rope) = (line.id.clone(), line.rope.clone());
+            self.add_line(&NewLine { id, rope, ends, length_m: line.length_m, start: *start, laid_m: Vec::new(), make: &line.make });
         }
     }
 
     /// Weak links written into the scenario.
     pub fn add_free_links(&mut self) {
         for link in &self.scenario.links {
-            let rating = link.rating_n.or_else(|| link.item.as_ref().and_then(|item| self.rating(item)));
+            let rating = link.rating_n.or_else(|| link.item.as_ref().and_then(|item| self.rating(item, &link.id.value)));
             self.add_link(&link.id, rating, &link.line, link.end);
         }
     }

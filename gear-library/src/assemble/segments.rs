@@ -79,7 +79,8 @@ impl Builder<'_> {
         self.spec.lines[index].start_m = (0..=count).map(|k| along(&way, k as f64 / count as f64)).collect();
     }
 
-    fn joint_place(&self, joint: usize) -> DVec3 {
+    /// Where a joint lies to begin with [m].
+    pub fn joint_place(&self, joint: usize) -> DVec3 {
         let joint = &self.spec.joints[joint];
         match joint.kind {
             JointKind::Body { body, offset_m } => {
@@ -92,7 +93,7 @@ impl Builder<'_> {
 }
 
 /// The place at a share of the length of a way through two places or more.
-fn along(way: &[DVec3], share: f64) -> DVec3 {
+pub(super) fn along(way: &[DVec3], share: f64) -> DVec3 {
     let whole: f64 = way.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
     let mut left = share * whole;
     for pair in way.windows(2) {

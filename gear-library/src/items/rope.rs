@@ -9,6 +9,44 @@ pub(crate) const SEA_WATER_KG_M3: f64 = 1025.0;
 /// Gravity behind a wet weight of the library [m/s²].
 pub(crate) const GRAVITY_M_S2: f64 = 9.81;
 
+/// How much a rope has been worked, which sets the law of its stretch.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Condition {
+    /// A straight line from slack to break, worn strength: between the other two.
+    #[default]
+    Secant,
+    /// Loaded for the first time: a soft toe, and no wear.
+    New,
+    /// Worked in: stiff, worn strength.
+    Worked,
+}
+
+impl Condition {
+    /// The words a file names it by.
+    pub const WORDS: [&'static str; 3] = ["secant", "new", "worked"];
+
+    /// By its word.
+    #[must_use]
+    pub fn from_word(word: &str) -> Option<Self> {
+        match word {
+            "secant" => Some(Self::Secant),
+            "new" => Some(Self::New),
+            "worked" => Some(Self::Worked),
+            _ => None,
+        }
+    }
+
+    /// Its word.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Secant => "secant",
+            Self::New => "new",
+            Self::Worked => "worked",
+        }
+    }
+}
+
 /// A rope.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rope {
@@ -24,18 +62,34 @@ pub struct Rope {
     pub density_kg_m3: f64,
     /// Breaking strength when new and unknotted [N].
     pub strength_n: f64,
-    /// Share of that strength that wear and knots leave [1].
-    pub strength_left: f64,
-    /// Axial stiffness EA [N].
+    /// Share of that strength that wear leaves [1].
+    pub wear_factor: f64,
+    /// Share of its strength left at an end where no knot or splice is named [1].
+    pub knot_factor: f64,
+    /// Coefficient of variation of the strength between pieces [1].
+    pub strength_cv: f64,
+    /// Axial stiffness EA, from slack to break [N].
     pub stiffness_n: f64,
+    /// Stretch at break [1].
+    pub stretch_at_break: Option<f64>,
+    /// Share of the stiffness that it has at zero strain when new [1].
+    pub toe: Option<f64>,
+    /// Axial stiffness EA when worked in [N].
+    pub worked_stiffness_n: Option<f64>,
     /// Axial damping BA [N s].
     pub damping_n_s: f64,
+    /// Axial damping besides, as a share of a segment's critical damping [1].
+    pub damping_ratio: f64,
+    /// Bending stiffness EI [N m²].
+    pub bending_stiffness_n_m2: f64,
     /// Drag coefficient across, on `d·l`.
     pub drag_normal: f64,
     /// Drag coefficient along, on `π·d·l`.
     pub drag_tangential: f64,
     /// Added-mass coefficient across.
     pub added_mass: f64,
+    /// Added-mass coefficient along.
+    pub added_mass_along: f64,
 }
 
 impl Rope {
@@ -43,19 +97,28 @@ impl Rope {
     pub(crate) fn from_entry(entry: Entry, problems: &Problems) -> Option<Self> {
         check_wet_weight(&entry, problems);
         check_stretch(&entry, problems);
-        let share = |key| entry.value(key).unwrap_or(1.0);
+        check_damping(&entry, problems);
+        let or = |key, usual: f64| entry.value(key).unwrap_or(usual);
         Some(Self {
             material: entry.word("material")?.value.clone(),
             diameter_m: entry.value("diameter")?,
             mass_kg_m: entry.value("mass")?,
             density_kg_m3: entry.value("density")?,
             strength_n: entry.value("strength")?,
-            strength_left: share("wear_factor") * share("knot_factor"),
+            wear_factor: or("wear_factor", 1.0),
+            knot_factor: or("knot_factor", 1.0),
+            strength_cv: or("strength_cv", 0.0),
             stiffness_n: entry.value("stiffness")?,
-            damping_n_s: entry.value("damping")?,
+            stretch_at_break: entry.value("stretch_at_break"),
+            toe: entry.value("toe"),
+            worked_stiffness_n: entry.value("worked_stiffness"),
+            damping_n_s: or("damping", 0.0),
+            damping_ratio: or("damping_ratio", 0.0),
+            bending_stiffness_n_m2: or("bending_stiffness", 0.0),
             drag_normal: entry.value("drag_normal")?,
             drag_tangential: entry.value("drag_tangential")?,
             added_mass: entry.value("added_mass")?,
+            added_mass_along: or("added_mass_along", 0.0),
             entry,
         })
     }
@@ -72,7 +135,7 @@ impl Rope {
         wet_weight(self.mass_kg_m, self.density_kg_m3)
     }
 
-    /// The rope as the simulation takes it.
+    /// The rope as the simulation takes it, new strength included, without bending stiffness: a linear law.
     #[must_use]
     pub fn to_model(&self) -> endline_sim::model::Rope {
         endline_sim::model::Rope {
@@ -83,14 +146,49 @@ impl Rope {
             axial_stiffness_n: self.stiffness_n,
             axial_stiffening_n: 0.0,
             axial_damping_n_s: self.damping_n_s,
-            axial_damping_ratio: 0.0,
+            axial_damping_ratio: self.damping_ratio,
             bending_stiffness_n_m2: 0.0,
             drag_normal: self.drag_normal,
             drag_tangential: self.drag_tangential,
             added_mass_normal: self.added_mass,
-            added_mass_tangential: 0.0,
-            strength_n: self.strength_n * self.strength_left,
+            added_mass_tangential: self.added_mass_along,
+            strength_n: self.strength_n,
         }
+    }
+
+    /// The same in a condition: its id then carries the condition's word, as `pp-3-8 (worked)`.
+    ///
+    /// New: `T = E ε (toe + (1 - toe) ε/ε_b)`, with `E` the stiffness and `ε_b` the stretch at break.
+    ///
+    /// # Errors
+    /// The key of the figure that is missing for it.
+    pub fn in_condition(&self, condition: Condition) -> Result<endline_sim::model::Rope, &'static str> {
+        let mut rope = self.to_model();
+        match condition {
+            Condition::Secant => return Ok(rope),
+            Condition::Worked => rope.axial_stiffness_n = self.worked_stiffness_n.ok_or("worked_stiffness")?,
+            Condition::New => {
+                let (toe, stretch) = (self.toe.ok_or("toe")?, self.stretch_at_break.ok_or("stretch_at_break")?);
+                rope.axial_stiffness_n = toe * self.stiffness_n;
+                rope.axial_stiffening_n = (1.0 - toe) * self.stiffness_n / stretch;
+            }
+        }
+        rope.id = format!("{} ({})", rope.id, condition.word());
+        Ok(rope)
+    }
+}
+
+/// Damping is named one way or the other.
+fn check_damping(entry: &Entry, problems: &Problems) {
+    let help = "write damping = \"2 N s\" or damping_ratio = 0.03: a number of its own, or a share of a segment's critical damping";
+    match (entry.figure("damping"), entry.figure("damping_ratio")) {
+        (None, None) => {
+            let mut place = entry.place.clone();
+            place.field = if place.field.is_empty() { "damping".to_owned() } else { format!("{}.damping", place.field) };
+            problems.push(place.error("`damping` is missing", help));
+        }
+        (Some(_), Some(ratio)) => problems.push(ratio.place.error("both `damping` and `damping_ratio` are given", help)),
+        _ => {}
     }
 }
 

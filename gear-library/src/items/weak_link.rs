@@ -9,11 +9,13 @@ pub struct WeakLink {
     pub entry: Entry,
     /// Tension above which it parts [N].
     pub rating_n: f64,
+    /// Coefficient of variation of that tension between links [1].
+    pub spread: f64,
 }
 
 impl WeakLink {
     /// From a file's figures; `None` where one is missing, which is a problem already told.
     pub(crate) fn from_entry(entry: Entry) -> Option<Self> {
-        Some(Self { rating_n: entry.value("rating")?, entry })
+        Some(Self { rating_n: entry.value("rating")?, spread: entry.value("spread").unwrap_or(0.0), entry })
     }
 }

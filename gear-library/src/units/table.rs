@@ -118,6 +118,7 @@ static DENSITY: [Unit; 4] = [
     Unit::new(&["lb/ft3"], POUND / (FOOT * FOOT * FOOT)),
 ];
 static DAMPING: [Unit; 2] = [Unit::new(&["N s", "Ns"], 1.0), Unit::new(&["kN s", "kNs"], 1e3)];
+static BENDING_STIFFNESS: [Unit; 2] = [Unit::new(&["N m2", "Nm2"], 1.0), Unit::new(&["N mm2", "Nmm2"], 1e-6)];
 static INERTIA: [Unit; 1] = [Unit::new(&["kg m2", "kgm2"], 1.0)];
 static ANGLE: [Unit; 3] =
     [Unit::new(&["rad"], 1.0), Unit::new(&["deg", "degree", "degrees", "°"], DEGREE), Unit::new(&["turn", "turns"], 360.0 * DEGREE)];
@@ -142,6 +143,7 @@ pub(super) fn units(quantity: Quantity) -> &'static [Unit] {
         Quantity::MassByLength => &MASS_BY_LENGTH,
         Quantity::Density => &DENSITY,
         Quantity::Damping => &DAMPING,
+        Quantity::BendingStiffness => &BENDING_STIFFNESS,
         Quantity::Inertia => &INERTIA,
         Quantity::Angle => &ANGLE,
         Quantity::TurnRate => &TURN_RATE,

@@ -6,6 +6,7 @@
 //! no stiffness or mass ratio limits the step.
 
 mod axial;
+mod bending;
 mod body;
 mod chain;
 mod forces;
@@ -136,6 +137,7 @@ impl Solver {
         self.add_push();
         self.add_seabed(model, state, scheme);
         self.add_tension(model, scheme);
+        self.add_bending(model);
         self.add_bodies(model, state, scheme);
         self.add_end_turns(model);
     }
@@ -153,6 +155,7 @@ impl Solver {
         self.rest.hubs.copy_values(&self.hubs);
         self.measure_tension(model, scheme);
         self.add_tension(model, scheme);
+        self.add_bending(model);
         self.add_end_turns(model);
     }
 

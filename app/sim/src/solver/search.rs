@@ -51,13 +51,16 @@ impl Solver {
     /// Share of the solved step to take with contact, at most `safe`.
     pub(super) fn search(&self, model: &Model, state: &State, scheme: &Scheme, work: &mut ContactWork, safe: f64) -> f64 {
         balance(safe, |share| {
-            self.rest_slope(share) + self.rope_slope(model, scheme, share) + self.contact_slope(model, state, scheme, work, share)
+            self.rest_slope(share)
+                + self.rope_slope(model, scheme, share)
+                + self.bending_slope(model, share)
+                + self.contact_slope(model, state, scheme, work, share)
         })
     }
 
     /// Share of the solved step to take without contact, at most `longest`.
     pub(crate) fn search_free(&self, model: &Model, scheme: &Scheme, longest: f64) -> f64 {
-        balance(longest, |share| self.rest_slope(share) + self.rope_slope(model, scheme, share))
+        balance(longest, |share| self.rest_slope(share) + self.rope_slope(model, scheme, share) + self.bending_slope(model, share))
     }
 
     /// Slope of what is linear along the step: inertia, weight, drag, seabed, bodies.

@@ -11,11 +11,12 @@ use super::super::fields;
 use super::super::theme::{Theme, primary};
 
 /// Kinds with a table, in the order of their tabs.
-pub const KINDS: [(Kind, &str); 7] = [
+pub const KINDS: [(Kind, &str); 8] = [
     (Kind::Rope, "Ropes"),
     (Kind::Trap, "Traps"),
     (Kind::Buoy, "Buoys"),
     (Kind::WeakLink, "Weak links"),
+    (Kind::Knot, "Knots"),
     (Kind::Anchor, "Anchors"),
     (Kind::Site, "Sites"),
     (Kind::Friction, "Friction"),

@@ -196,8 +196,7 @@ fn load(view: &LiveView, desk: &mut Desk) {
 /// Tension at the top of the colour scale [N].
 fn scale_top(view: &LiveView, top: ScaleTop) -> f64 {
     let peak = || view.summary.iter().flat_map(|summary| &summary.lines).map(|line| line.peak_tension_n).fold(0.0, f64::max);
-    let strength =
-        || view.model.spec.ropes.iter().map(|rope| rope.strength_n).filter(|strength| strength.is_finite()).fold(f64::INFINITY, f64::min);
+    let strength = || view.model.segment_strength_n.iter().copied().filter(|strength| strength.is_finite()).fold(f64::INFINITY, f64::min);
     let value = match top {
         ScaleTop::Peak => peak(),
         ScaleTop::Strength => strength(),

@@ -1,0 +1,271 @@
+//! Lines put into the spec: pieces of rope between ends, inserts and sleeves, each with the strength it keeps.
+//!
+//! A line without inserts is one line of the spec under its own id. With inserts it becomes pieces, counted from its
+//! `from` end: `endline-top.1`, `endline-top.insert-1`, `endline-top.2` …, which meet at free joints `endline-top.join-1` …;
+//! a sleeve is the weak link `endline-top.sleeve-1` at the `to` end of the piece before it. The line's own id then
+//! means all of them: its `from` end is that of the first piece, its `to` end that of the last.
+
+use endline_sdk::LineEnd;
+use endline_sim::DVec3;
+use endline_sim::model::{Joint, JointKind, Line, Strength};
+
+use crate::diagnostic::At;
+use crate::items::Condition;
+use crate::line::{Insert, Inserts, LineMake};
+use crate::scenario::LineStart;
+
+use super::builder::{Builder, Part, Uncut};
+use super::scatter;
+use super::segments::along;
+
+/// Least length of a piece [m].
+const LEAST_PIECE_M: f64 = 0.01;
+
+/// A line to be put into the spec.
+pub(super) struct NewLine<'a> {
+    pub id: At<String>,
+    pub rope: At<String>,
+    /// Joints at its ends; `None` where one is missing, which is a problem already told.
+    pub ends: (Option<usize>, Option<usize>),
+    pub length_m: f64,
+    pub start: LineStart,
+    /// The way it starts along, ends included; empty for a straight line [m].
+    pub laid_m: Vec<DVec3>,
+    pub make: &'a LineMake,
+}
+
+/// A stretch of a line between ends, inserts and sleeves.
+struct Piece<'a> {
+    id: String,
+    rope: &'a At<String>,
+    length_m: f64,
+    /// Share of strength left at each end; `None` where the rope's usual one holds.
+    left: [Option<f64>; 2],
+    /// Whether it is of the line's own rope.
+    own: bool,
+    /// Weak link at its `to` end: id and item.
+    sleeve: Option<(String, &'a At<String>)>,
+}
+
+impl Builder<'_> {
+    /// Puts a line into the spec, to be cut into segments later; answers its first and last piece.
+    pub fn add_line(&mut self, line: &NewLine<'_>) -> [usize; 2] {
+        if !(line.length_m.is_finite() && line.length_m > 0.0) {
+            let message = format!("line `{}` is {} m long", line.id.value, line.length_m);
+            self.problems.push(line.id.place.error(message, "a line has a length above zero"));
+        }
+        // Where something is missing the run never starts; index 0 keeps the later parts in step.
+        let (mut from, to) = (line.ends.0.unwrap_or(0), line.ends.1.unwrap_or(0));
+        let (pieces, way) = (self.pieces(line), self.way(line));
+        let first = self.spec.lines.len();
+        let (count, mut along_m) = (pieces.len(), 0.0);
+        for (index, piece) in pieces.into_iter().enumerate() {
+            let begin_m = along_m;
+            along_m += piece.length_m;
+            let end = if index + 1 == count { to } else { self.add_join(line, index + 1, along(&way, along_m / line.length_m)) };
+            let laid_m = if line.laid_m.is_empty() { Vec::new() } else { part_of(&way, [begin_m, along_m].map(|m| m / line.length_m)) };
+            self.add_piece(line, piece, (from, end), laid_m);
+            from = end;
+        }
+        let last = self.spec.lines.len() - 1;
+        if last > first {
+            self.name(line.id.value.clone(), Part::Line { first, last }, &line.id.place);
+        }
+        [first, last]
+    }
+
+    /// The pieces of a line from its `from` end.
+    fn pieces<'l>(&mut self, line: &'l NewLine<'_>) -> Vec<Piece<'l>> {
+        let ends = [&line.make.from_knot, &line.make.to_knot].map(|knot| knot.as_ref().and_then(|knot| self.knot(knot)));
+        let Some(inserts) = &line.make.inserts else {
+            let (id, length_m) = (line.id.value.clone(), line.length_m);
+            return vec![Piece { id, rope: &line.rope, length_m, left: ends, own: true, sleeve: None }];
+        };
+        if line.start == LineStart::Catenary {
+            let message = "a line that starts in its catenary takes no inserts";
+            self.problems.push(inserts.place.error(message, "take the inserts out, or write start = \"straight\""));
+        }
+        let starts = starts_from_a(inserts, line.length_m);
+        if starts.is_empty() {
+            let message = format!("no insert fits into the {:.2} m of line `{}`", line.length_m, line.id.value);
+            self.problems.push(inserts.place.error(message, "write a shorter `first` or `every`, or a greater `within`"));
+        }
+        let at_insert = inserts.knot.as_ref().and_then(|knot| self.knot(knot));
+        cut_at(line, inserts, &starts, ends, at_insert)
+    }
+
+    /// The way a line starts along, from joint to joint.
+    fn way(&self, line: &NewLine<'_>) -> Vec<DVec3> {
+        let place = |end: Option<usize>| end.map_or(DVec3::ZERO, |joint| self.joint_place(joint));
+        let ends = [place(line.ends.0), place(line.ends.1)];
+        let mut way = line.laid_m.clone();
+        match way.as_mut_slice() {
+            [first, .., last] => (*first, *last) = (ends[0], ends[1]),
+            _ => way = ends.to_vec(),
+        }
+        way
+    }
+
+    /// A free joint between two pieces.
+    fn add_join(&mut self, line: &NewLine<'_>, number: usize, position_m: DVec3) -> usize {
+        let id = format!("{}.join-{number}", line.id.value);
+        self.name(id.clone(), Part::Joint(self.spec.joints.len()), &line.id.place);
+        self.spec.joints.push(Joint { id, kind: JointKind::Free, position_m });
+        self.spec.joints.len() - 1
+    }
+
+    fn add_piece(&mut self, line: &NewLine<'_>, piece: Piece<'_>, (from, to): (usize, usize), laid_m: Vec<DVec3>) {
+        let condition = self.condition(line.make);
+        let rope = self.rope(piece.rope, &condition);
+        let strength = rope.map_or_else(Strength::default, |rope| self.strength(rope, &piece, line.make, condition.value));
+        let index = self.spec.lines.len();
+        self.name(piece.id.clone(), Part::Line { first: index, last: index }, &line.id.place);
+        let (id, length_m) = (piece.id, piece.length_m);
+        let rope = rope.unwrap_or(0);
+        self.spec.lines.push(Line { id, rope, from, to, segments_m: Vec::new(), strength, start_m: Vec::new() });
+        self.uncut.push(Uncut { length_m, start: line.start, laid_m, place: line.id.place.clone() });
+        if let Some((id, item)) = piece.sleeve {
+            let rating = self.rating(item, &id);
+            self.add_link_to(&At { value: id, place: item.place.clone() }, rating, index, LineEnd::B);
+        }
+    }
+
+    /// The condition of a line's rope: its own, or the scenario's.
+    fn condition(&self, make: &LineMake) -> At<Condition> {
+        let usual = || At { value: self.scenario.rope_condition, place: self.scenario.place.clone() };
+        make.condition.clone().unwrap_or_else(usual)
+    }
+
+    /// What a piece keeps of its rope's strength: wear and scatter all along, a knot or splice at each end.
+    fn strength(&self, rope: usize, piece: &Piece<'_>, make: &LineMake, condition: Condition) -> Strength {
+        let item = &self.stock[rope];
+        let worn = if condition == Condition::New { 1.0 } else { item.wear_factor };
+        let wear = if piece.own { make.wear_factor.unwrap_or(worn) } else { worn };
+        let drawn = self.scatter(item.strength_cv, &piece.id);
+        let left = |end: usize| piece.left[end].unwrap_or(item.knot_factor);
+        Strength { all: wear * drawn, end_a: left(0), end_b: left(1) }
+    }
+
+    /// The drawn factor on the strength of a part; 1 where the scenario takes strengths as they are named.
+    pub fn scatter(&self, variation: f64, id: &str) -> f64 {
+        if self.scenario.strength_scatter { scatter::factor(self.spec.settings.seed, id, variation) } else { 1.0 }
+    }
+
+    /// Share of strength left at a knot or splice of the library.
+    fn knot(&mut self, id: &At<String>) -> Option<f64> {
+        let Some(knot) = self.library.knots.iter().find(|known| known.entry.id == id.value) else {
+            self.no_item(crate::schema::Kind::Knot, &id.value, &id.place);
+            return None;
+        };
+        self.uses(&knot.entry.path);
+        Some(knot.strength_left)
+    }
+}
+
+/// A part of a way between two shares of its length.
+fn part_of(way: &[DVec3], [from, to]: [f64; 2]) -> Vec<DVec3> {
+    let whole: f64 = way.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+    let mut part = vec![along(way, from)];
+    let mut passed = 0.0;
+    for pair in way.windows(2) {
+        passed += pair[0].distance(pair[1]) / whole.max(f64::MIN_POSITIVE);
+        if passed > from && passed < to {
+            part.push(pair[1]);
+        }
+    }
+    part.push(along(way, to));
+    part
+}
+
+/// Where inserts begin, from end A, in order [m].
+fn starts_from_a(inserts: &Inserts, line_m: f64) -> Vec<f64> {
+    let own_m = insert_length(inserts);
+    let last_m = (inserts.within * line_m).min(line_m - LEAST_PIECE_M) - own_m + 1e-9;
+    let mut starts = Vec::new();
+    let mut near_m = inserts.first_m;
+    while near_m <= last_m {
+        starts.push(near_m);
+        near_m += inserts.every_m;
+    }
+    if inserts.counted_from == LineEnd::B {
+        starts.iter_mut().for_each(|near_m| *near_m = line_m - *near_m - own_m);
+        starts.reverse();
+    }
+    starts
+}
+
+fn insert_length(inserts: &Inserts) -> f64 {
+    match &inserts.what {
+        Insert::Rope { length_m, .. } => *length_m,
+        Insert::Sleeve(_) => 0.0,
+    }
+}
+
+/// A line cut at its inserts: own rope and inserts by turns.
+fn cut_at<'l>(
+    line: &'l NewLine<'_>,
+    inserts: &'l Inserts,
+    starts: &[f64],
+    ends: [Option<f64>; 2],
+    at_insert: Option<f64>,
+) -> Vec<Piece<'l>> {
+    let id = &line.id.value;
+    // A sleeve is slid over the cut ends: it takes no strength from them.
+    let at_insert = if matches!(inserts.what, Insert::Sleeve(_)) { at_insert.or(Some(1.0)) } else { at_insert };
+    let own = |number: usize, length_m: f64, left: [Option<f64>; 2]| Piece {
+        id: format!("{id}.{number}"),
+        rope: &line.rope,
+        length_m,
+        left,
+        own: true,
+        sleeve: None,
+    };
+    let (mut pieces, mut done_m, mut left) = (Vec::new(), 0.0, ends[0]);
+    for (number, start_m) in (1..).zip(starts) {
+        let mut piece = own(number, start_m - done_m, [left, at_insert]);
+        done_m = start_m + insert_length(inserts);
+        left = at_insert;
+        match &inserts.what {
+            Insert::Sleeve(item) => {
+                piece.sleeve = Some((format!("{id}.sleeve-{number}"), item));
+                pieces.push(piece);
+            }
+            Insert::Rope { rope, length_m } => {
+                pieces.push(piece);
+                let id = format!("{id}.insert-{number}");
+                // An insert is rated as made up: its own ends take nothing off.
+                pieces.push(Piece { id, rope, length_m: *length_m, left: [Some(1.0); 2], own: false, sleeve: None });
+            }
+        }
+    }
+    pieces.push(own(starts.len() + 1, line.length_m - done_m, [left, ends[1]]));
+    pieces
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fields::{Fields, Problems};
+
+    /// Inserts every 60 ft, as a file has them.
+    fn sixty_feet(counted_from: &str, first: &str, within: f64) -> Inserts {
+        let text = format!(
+            "[inserts]\nrope = \"weak\"\nlength = \"3 ft\"\nevery = \"60 ft\"\ncounted_from = \"{counted_from}\"\nfirst = \"{first}\"\nwithin = {within}\n"
+        );
+        let (node, problems) = (crate::tree::read("test.toml", &text).expect("a TOML text"), Problems::default());
+        LineMake::read(&Fields::of(&node, &problems)).inserts.expect("inserts")
+    }
+
+    #[test]
+    fn inserts_lie_whole_within_their_share_from_the_end_they_are_counted_from() {
+        let starts = starts_from_a(&sixty_feet("to", "12 ft", 0.75), 60.0);
+        // Near edges from the buoy: 3.6576, 21.9456, 40.2336; the next would lie beyond 45 m.
+        let expected = [60.0 - 40.2336 - 0.9144, 60.0 - 21.9456 - 0.9144, 60.0 - 3.6576 - 0.9144];
+        assert_eq!(starts.len(), 3);
+        for (start, expected) in starts.iter().zip(expected) {
+            assert!((start - expected).abs() < 1e-9, "{starts:?}");
+        }
+        assert!((starts_from_a(&sixty_feet("from", "12 ft", 0.75), 60.0)[0] - 3.6576).abs() < 1e-12);
+        assert!(starts_from_a(&sixty_feet("from", "60 ft", 0.3), 60.0).is_empty());
+    }
+}

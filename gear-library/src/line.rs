@@ -1,0 +1,143 @@
+//! How a line is made up: the condition of its rope, what holds its ends, weak inserts or sleeves along it.
+//!
+//! The same keys stand in a `[[line]]` of an assembly or scenario and, for gear that a gear type builds, in
+//! `[gear.lines.<line>]` of a scenario, where they go over those of the assembly.
+
+use endline_sdk::LineEnd;
+
+use crate::diagnostic::{At, Place};
+use crate::fields::{Fields, Range};
+use crate::items::Condition;
+use crate::units::Quantity;
+
+/// How a line is made up; what is not named is usual.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LineMake {
+    /// Condition of its rope.
+    pub condition: Option<At<Condition>>,
+    /// Strength that wear leaves, over the rope's own [1].
+    pub wear_factor: Option<f64>,
+    /// Knot or splice at end A.
+    pub from_knot: Option<At<String>>,
+    /// Knot or splice at end B.
+    pub to_knot: Option<At<String>>,
+    /// Weak inserts or sleeves along it.
+    pub inserts: Option<Inserts>,
+}
+
+/// Weak inserts or sleeves at even distances.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Inserts {
+    /// What is put in.
+    pub what: Insert,
+    /// The end that distances are counted from: the buoy's.
+    pub counted_from: LineEnd,
+    /// From that end to the near edge of the first [m].
+    pub first_m: f64,
+    /// From near edge to near edge [m].
+    pub every_m: f64,
+    /// Share of the line, from that end, that they must lie in whole [1].
+    pub within: f64,
+    /// Knot or splice of the line's rope at each; the rope's usual one where not named.
+    pub knot: Option<At<String>>,
+    /// Where they are written.
+    pub place: Place,
+}
+
+/// What is put into a line.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Insert {
+    /// A length of another rope.
+    Rope {
+        /// Id of the rope.
+        rope: At<String>,
+        /// Its length [m].
+        length_m: f64,
+    },
+    /// A weak link between the two cut ends, which adds no length.
+    Sleeve(At<String>),
+}
+
+impl LineMake {
+    /// Reads the keys of a line that say how it is made up.
+    pub(crate) fn read(fields: &Fields<'_>) -> Self {
+        let condition = fields.word("condition", &Condition::WORDS);
+        let wear = fields.value("wear_factor", Quantity::Ratio, Range::Between(0.05, 1.0));
+        Self {
+            condition: condition.and_then(|word| Some(At { value: Condition::from_word(&word.value)?, place: word.place })),
+            wear_factor: wear.map(|wear| wear.value),
+            from_knot: fields.text("from_knot"),
+            to_knot: fields.text("to_knot"),
+            inserts: fields.table("inserts").and_then(|table| inserts(&table)),
+        }
+    }
+
+    /// These over usual ones.
+    pub(crate) fn over(&self, usual: &Self) -> Self {
+        Self {
+            condition: self.condition.clone().or_else(|| usual.condition.clone()),
+            wear_factor: self.wear_factor.or(usual.wear_factor),
+            from_knot: self.from_knot.clone().or_else(|| usual.from_knot.clone()),
+            to_knot: self.to_knot.clone().or_else(|| usual.to_knot.clone()),
+            inserts: self.inserts.clone().or_else(|| usual.inserts.clone()),
+        }
+    }
+}
+
+/// Reads `[line.inserts]`.
+fn inserts(fields: &Fields<'_>) -> Option<Inserts> {
+    let along = Range::Between(0.01, 20_000.0);
+    let what = insert(fields);
+    let every = fields.need_value("every", Quantity::Length, along);
+    let first = fields.value("first", Quantity::Length, along);
+    let within = fields.value("within", Quantity::Ratio, Range::Between(0.0, 1.0));
+    let end = fields.word("counted_from", &["from", "to"]);
+    let knot = fields.text("knot");
+    fields.finish();
+    let (what, every) = (what?, every?);
+    if let Insert::Rope { length_m, .. } = &what
+        && every.value < *length_m + 0.01
+    {
+        let message = format!("`every` is {} m, and an insert is {length_m} m long", every.value);
+        fields.problems().push(every.place.error(message, "inserts lie apart: write a longer `every`"));
+        return None;
+    }
+    Some(Inserts {
+        what,
+        counted_from: if end.is_some_and(|end| end.value == "from") { LineEnd::A } else { LineEnd::B },
+        first_m: first.map_or(every.value, |first| first.value),
+        every_m: every.value,
+        within: within.map_or(1.0, |within| within.value),
+        knot,
+        place: fields.place.clone(),
+    })
+}
+
+/// `rope` with `length`, or `sleeve`.
+fn insert(fields: &Fields<'_>) -> Option<Insert> {
+    let (rope, sleeve) = (fields.text("rope"), fields.text("sleeve"));
+    let length = fields.value("length", Quantity::Length, Range::Between(0.01, 100.0));
+    match (rope, sleeve, length) {
+        (Some(rope), None, Some(length)) => Some(Insert::Rope { rope, length_m: length.value }),
+        (Some(_), None, None) => {
+            if fields.get("length").is_none() {
+                fields.missing("length", "write the length of an insert, such as \"3 ft\"");
+            }
+            None
+        }
+        (None, Some(sleeve), None) => Some(Insert::Sleeve(sleeve)),
+        (None, Some(sleeve), Some(_)) => {
+            let help = "a sleeve adds no length; take `length` out, or name a rope instead of a sleeve";
+            fields.problems().push(sleeve.place.error("a sleeve has no length", help));
+            None
+        }
+        (Some(rope), Some(_), _) => {
+            fields.problems().push(rope.place.error("both `rope` and `sleeve` are given", "keep the one that is meant"));
+            None
+        }
+        (None, None, _) => {
+            fields.missing("rope", "write rope = \"weak-1700-3-8\" with a length, or sleeve = \"south-shore-1700\"");
+            None
+        }
+    }
+}
