@@ -51,7 +51,7 @@ impl Solver {
         self.lengths.take(model, &state.rope.segment_length);
         self.trial.begin_free(model, &self.plan, state, scheme);
         self.measure_flow(model);
-        self.lanes.take_lengths(&self.lengths, &state.rope.cut);
+        self.lanes.take_lengths(model, &self.lengths, &state.rope.cut);
         self.lanes.gather(&state.rope, scheme, &self.trial.place, &self.flow);
         self.near_seabed = self.nears_seabed(model, state, scheme.dt);
         self.lanes.leave_ground();

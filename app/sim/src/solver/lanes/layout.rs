@@ -21,6 +21,8 @@ pub(crate) struct Piece {
     pub goes_on: bool,
     /// Whether its end A is on a fixture.
     pub anchored: bool,
+    /// Whether its rope resists bending.
+    pub bends: bool,
     /// Where it lies.
     pub group: usize,
     pub lane: usize,
@@ -43,6 +45,8 @@ pub(crate) struct Group {
     pub used: usize,
     /// Whether end A of every piece is on a fixture.
     pub anchored: bool,
+    /// Whether any of its rope resists bending.
+    pub bends: bool,
 }
 
 fn is_fixture(joint: &Joint) -> bool {
@@ -65,6 +69,7 @@ pub(crate) fn pieces(model: &Model) -> Vec<Piece> {
                 segments: to - from,
                 follows: part > 0,
                 goes_on: part + 1 < count,
+                bends: model.spec.ropes[model.spec.lines[line].rope].bending_stiffness_n_m2 > 0.0,
                 anchored: part == 0 && is_fixture(&model.spec.joints[model.spec.lines[line].from]),
                 group: 0,
                 lane: 0,
@@ -91,7 +96,8 @@ pub(crate) fn groups(pieces: &mut [Piece]) -> Vec<Group> {
         let shortest = lengths.into_iter().fold(longest, usize::min);
         let live = (shortest..longest).map(|k| Row(lengths.map(|length| if k < length { 1.0 } else { 0.0 }))).collect();
         let anchored = lanes.iter().all(|piece| pieces[*piece].anchored);
-        groups.push(Group { node_row, segment_row, longest, shortest, live, pieces: lanes, used: chunk.len(), anchored });
+        let bends = lanes.iter().any(|piece| pieces[*piece].bends);
+        groups.push(Group { node_row, segment_row, longest, shortest, live, pieces: lanes, used: chunk.len(), anchored, bends });
         node_row += longest + 3;
         segment_row += longest;
     }

@@ -101,11 +101,11 @@ impl Lanes {
 
     /// Whether the lanes know all that this rope can do.
     pub fn suit(&self, model: &Model) -> bool {
-        model.sea.field().is_none() && model.spec.ropes.iter().all(|rope| rope.bending_stiffness_n_m2 <= 0.0)
+        model.sea.field().is_none()
     }
 
     /// Takes over lengths, laws and what is cut, where they are not those there are.
-    pub fn take_lengths(&mut self, lengths: &Lengths, cut: &[bool]) {
+    pub fn take_lengths(&mut self, model: &Model, lengths: &Lengths, cut: &[bool]) {
         if self.lengths == lengths.segment && self.cut == cut {
             return;
         }
@@ -115,7 +115,11 @@ impl Lanes {
             for (lane, piece) in group.pieces.iter().enumerate() {
                 let segments = &mut self.segments[group.segment_row..][..group.longest];
                 let nodes = &mut self.nodes[group.node_row..][..group.longest + 3];
-                take_lengths(&self.pieces[*piece], lane, (nodes, segments), lengths, cut);
+                let piece = &self.pieces[*piece];
+                take_lengths(piece, lane, (&mut *nodes, &mut *segments), lengths, cut);
+                if group.bends {
+                    take_hinges(model, piece, lane, (nodes, segments), (&lengths.segment, cut));
+                }
             }
         }
     }
@@ -332,6 +336,7 @@ fn group_rows<'a>(
         shortest: group.shortest,
         live: &group.live,
         anchored: group.anchored,
+        bends: group.bends,
         rope,
         shared,
     }
@@ -367,6 +372,29 @@ fn take_lengths(piece: &Piece, lane: usize, (nodes, segments): (&mut [NodeRow], 
         half_before = 0.5 * length;
     }
     nodes[piece.segments + 1].length.0[lane] = half_before;
+}
+
+/// Hinges of a piece, those where it meets the next included: `c = EI/L` at a node that is neither a line's end nor at a cut.
+fn take_hinges(
+    model: &Model,
+    piece: &Piece,
+    lane: usize,
+    (nodes, segments): (&mut [NodeRow], &mut [SegmentRow]),
+    (length, cut): (&[f64], &[bool]),
+) {
+    let bending = model.spec.ropes[model.spec.lines[piece.line].rope].bending_stiffness_n_m2;
+    for (k, row) in nodes[1..][..=piece.segments].iter_mut().enumerate() {
+        let behind = piece.first_segment + k;
+        let is_inner = (k > 0 || piece.follows) && (k < piece.segments || piece.goes_on);
+        let bends = is_inner && !cut[behind - 1] && !cut[behind];
+        let [one, other] = if bends { [length[behind - 1], length[behind]] } else { [1.0, 1.0] };
+        row.hinge.0[lane] = if bends { 2.0 * bending / (one + other) } else { 0.0 };
+        (row.inverse_before.0[lane], row.inverse_behind.0[lane]) = (1.0 / one, 1.0 / other);
+    }
+    for (k, row) in segments[..piece.segments].iter_mut().enumerate() {
+        let hinges = nodes[k + 1].hinge.0[lane] + nodes[k + 2].hinge.0[lane];
+        row.bending.0[lane] = hinges * row.inverse_length.0[lane] * row.inverse_length.0[lane];
+    }
 }
 
 impl Row3 {

@@ -88,6 +88,10 @@ pub(crate) struct NodeRow {
     pub velocity_history: Row3,
     pub flow: Row3,
     pub length: Row,
+    /// Bending stiffness of the hinge here, zero at a line's ends, and the inverse lengths of the segments before and behind.
+    pub hinge: Row,
+    pub inverse_before: Row,
+    pub inverse_behind: Row,
 }
 
 /// What the seabed does to a node.
@@ -105,6 +109,8 @@ pub(crate) struct SegmentRow {
     pub ea: Row,
     pub ea2: Row,
     pub damping: Row,
+    /// What the hinges at both ends add to the block [N/m].
+    pub bending: Row,
     pub tension: Row,
 }
 
@@ -146,6 +152,14 @@ pub(crate) struct MoveRows {
 impl Default for SegmentRow {
     fn default() -> Self {
         let none = Row::default();
-        Self { length: Row([1.0; LANES]), inverse_length: Row([1.0; LANES]), ea: none, ea2: none, damping: none, tension: none }
+        Self {
+            length: Row([1.0; LANES]),
+            inverse_length: Row([1.0; LANES]),
+            ea: none,
+            ea2: none,
+            damping: none,
+            bending: none,
+            tension: none,
+        }
     }
 }

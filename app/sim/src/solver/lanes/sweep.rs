@@ -26,6 +26,8 @@ pub(crate) struct GroupRows<'a> {
     pub live: &'a [Row],
     /// Whether end A of every piece stands still: nothing couples to it then.
     pub anchored: bool,
+    /// Whether any of it resists bending.
+    pub bends: bool,
     pub rope: &'a PerMetre<Row>,
     pub shared: &'a Shared<f64>,
 }
@@ -63,6 +65,7 @@ struct Inputs<'a, S: Simd> {
     nodes: &'a [NodeRow],
     segments: &'a [SegmentRow],
     ground: &'a [GroundRow],
+    bends: bool,
     rope: PerMetre<Lane<S>>,
     shared: Shared<Lane<S>>,
 }
@@ -102,7 +105,22 @@ impl<S: Simd> Inputs<'_, S> {
             damping: part.get(&row.damping),
             foretold: part.get(&row.tension),
         };
-        forces::pull(&at, self.shared.rate)
+        let pull = forces::pull(&at, self.shared.rate);
+        if !self.bends {
+            return pull;
+        }
+        let shear = self.moment(k + 1).sub(self.moment(k)).scale(at.inverse_length);
+        PullOf { force: pull.force.sub(shear), block: pull.block.add(Sym3::diagonal(part.get(&row.bending))), ..pull }
+    }
+
+    /// Bending moment at node `k`, as a vector along the turn (`bending.rs`).
+    #[inline(always)]
+    fn moment(&self, k: usize) -> Vec3<Lane<S>> {
+        let part = self.part;
+        let [before, at, behind] = [0, 1, 2].map(|row| part.get3(&self.nodes[k + row].place));
+        let row = &self.nodes[k + 1];
+        let turn = behind.sub(at).scale(part.get(&row.inverse_behind)).less(at.sub(before), part.get(&row.inverse_before));
+        turn.scale(part.get(&row.hinge))
     }
 }
 
@@ -113,6 +131,7 @@ fn forward<S: Simd, const FILL: bool>(part: Part<S>, group: &mut GroupRows<'_>, 
         nodes: group.nodes,
         segments: group.segments,
         ground: group.ground,
+        bends: group.bends,
         rope: spread_rope(part, group.rope),
         shared: spread_shared(part.simd, group.shared),
     };
