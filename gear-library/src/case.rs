@@ -61,7 +61,7 @@ pub enum Samples {
     Table,
     /// All through the run, at this interval [s].
     Every(f64),
-    /// Of the gear at rest, for each row of measurements anew.
+    /// Of the gear at rest or under way, for each row of measurements anew.
     Rows(Box<Rows>),
 }
 

@@ -94,3 +94,15 @@ fn faults_of_a_case_are_told_where_they_stand() {
     }
     place.endline(&["--library", &text(&library()), "validate", "reference-y"]).fails(1, &["reference-y", "reference-a-100"]);
 }
+
+/// A line drawn through still water from rest comes to the force it has at rest in a current of that speed.
+#[test]
+fn towing_by_dynamics_and_by_statics_agree() {
+    let cases = Cases::open(Some(&library())).unwrap();
+    let (at_rest, driven) = (outcome(&cases, "towed-reference-lines"), outcome(&cases, "towed-driven"));
+    let at_rest: Vec<f64> = at_rest.points.iter().filter(|point| point.group == "18").map(|point| point.got).collect();
+    assert_eq!(at_rest.len(), driven.points.len());
+    for (still, driven) in at_rest.iter().zip(&driven.points) {
+        assert!((driven.got / still - 1.0).abs() < 0.02, "{} N by dynamics, {still} N by statics", driven.got);
+    }
+}

@@ -1,4 +1,4 @@
-//! A case over rows of measurements: the scenario is set anew for each row, and settled.
+//! A case over rows of measurements: the scenario is set anew for each row, and settled or run.
 
 use crate::diagnostic::At;
 use crate::fields::{Fields, Range};
@@ -8,7 +8,7 @@ use crate::units::Quantity;
 use super::{Table, choices};
 use crate::diagnostic::Diagnostic;
 
-/// Which rows of a table are settled, what each sets, and what is compared with what.
+/// Which rows of a table are taken, what each sets, and what is compared with what.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rows {
     /// Column that names the group a row belongs to, such as a set of gear.
@@ -19,6 +19,8 @@ pub struct Rows {
     pub least: Option<(At<String>, f64)>,
     /// Id of the probe that is read.
     pub read: At<String>,
+    /// Where the scenario is run: from when on its reading is averaged [s]; else the gear at rest is read.
+    pub mean_from_s: Option<f64>,
     /// Column of what it should read [SI].
     pub measured: At<String>,
     /// Fields over the scenario's, with `{column}`, `{-column}` or `{column/column}` for a row's numbers.
@@ -32,11 +34,13 @@ pub(super) fn read(fields: &Fields<'_>) -> Option<Rows> {
     let least_of = fields.text("least_of");
     let least = fields.value("least", Quantity::Ratio, Range::Any);
     let read = fields.need_text("read", "write the id of a probe");
+    let mean_from = fields.value("mean_from", Quantity::Time, Range::NotNegative);
     let measured = fields.need_text("measured", "write the column of the measurements");
     let set = choices(fields, "set");
     fields.finish();
     let least = least_of.zip(least.map(|least| least.value));
-    Some(Rows { by: by?, groups: groups?, least, read: read?, measured: measured?, set })
+    let mean_from_s = mean_from.map(|from| from.value);
+    Some(Rows { by: by?, groups: groups?, least, read: read?, mean_from_s, measured: measured?, set })
 }
 
 /// Numbers or texts.

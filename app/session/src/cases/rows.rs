@@ -1,4 +1,4 @@
-//! A case over rows of measurements: each row's gear is settled and read.
+//! A case over rows of measurements: each row's gear is settled or run, and read.
 
 use endline_gear::{Case, Check, Measure, Rows, Table};
 use endline_sim::metrics::{reading, unit};
@@ -77,14 +77,26 @@ fn probe<'a>(setup: &'a Setup, rows: &Rows) -> Result<&'a Probe, Error> {
     })
 }
 
-/// The probe's reading of the gear at rest, or why there is none.
+/// The probe's reading of the gear at rest, or its mean late in the run; or why there is none.
 fn read(setup: &Setup, rows: &Rows) -> Result<Result<f64, String>, Error> {
     let target = probe(setup, rows)?.target;
-    match Run::new(setup.prepared.clone(), RunOptions::default()) {
-        Ok(run) => Ok(Ok(reading(&setup.model, run.state(), target))),
-        Err(error @ Error::Unsettled { .. }) => Ok(Err(error.to_string())),
-        Err(error) => Err(error),
+    let mut run = match Run::new(setup.prepared.clone(), RunOptions::default()) {
+        Ok(run) => run,
+        Err(error @ Error::Unsettled { .. }) => return Ok(Err(error.to_string())),
+        Err(error) => return Err(error),
+    };
+    let Some(from_s) = rows.mean_from_s else { return Ok(Ok(reading(&setup.model, run.state(), target))) };
+    let (mut sum, mut count) = (0.0, 0.0);
+    while !run.finished() {
+        if let Err(stop) = run.step(run.pilot()) {
+            return Ok(Err(Error::Stopped(stop).to_string()));
+        }
+        if run.state().time_s >= from_s - 1e-9 {
+            sum += reading(&setup.model, run.state(), target);
+            count += 1.0;
+        }
     }
+    Ok(if count > 0.0 { Ok(sum / count) } else { Err(format!("the run ends before {from_s} s, where its mean begins")) })
 }
 
 fn judge(check: &Check, groups: &[Group], rows: &Rows, table: &Table, setup: &Setup) -> Result<Vec<Verdict>, Error> {
