@@ -27,6 +27,8 @@ use crate::library::Library;
 use crate::scenario::Scenario;
 use builder::Builder;
 
+pub(crate) use sea::bearing;
+
 pub use body::{box_inertia, buoy_floats, buoy_inertia, shell_inertia};
 
 /// The plugins at hand, by id.

@@ -36,6 +36,9 @@ pub use fields::{Figure, Range, Sureness};
 pub use items::{BoxGear, Buoy, BuoyPiece, BuoyShape, Condition, Knot, Point, Rope, RopeFriction, SeaSite, WeakLink, WhaleItem};
 pub use library::Library;
 pub use line::{Insert, Inserts, LineMake};
-pub use scenario::{Fixture, FreeBody, FrictionChoice, LineStart, PlacedGear, ProbeOf, ProbePart, Scenario, Sea, Swimmer};
+pub use scenario::{
+    Bed, CurrentOf, CurrentRow, Fixture, FreeBody, FrictionChoice, LineStart, PlacedGear, ProbeOf, ProbePart, RowHeight, Scenario, Sea,
+    Swimmer,
+};
 pub use schema::{Field, Kind, Word};
 pub use sources::Sources;

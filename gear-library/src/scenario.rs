@@ -1,8 +1,11 @@
 //! The scenario document: sea, gear, whale, fixtures and probes of one run.
 
+mod current;
 mod motion;
 mod parts;
 mod resolution;
+mod sea;
+mod waves;
 
 use endline_sim::DVec3;
 use endline_sim::model::Resolution;
@@ -17,8 +20,10 @@ use crate::line::LineMake;
 use crate::tree::{self, Node};
 use crate::units::Quantity;
 
+pub use current::{CurrentOf, CurrentRow, RowHeight};
 pub use motion::Swimmer;
 pub use parts::{Fixture, FreeBody, LineStart, ProbeOf, ProbePart};
+pub use sea::{Bed, Sea};
 
 /// A scenario as read; ids are looked up by [`assemble`](crate::assemble).
 #[derive(Clone, Debug, PartialEq)]
@@ -75,31 +80,6 @@ pub struct Scenario {
     pub links: Vec<PartLink>,
     /// Probes.
     pub probes: Vec<ProbeOf>,
-}
-
-/// Site and current.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Sea {
-    /// Library site, if one is named.
-    pub item: Option<At<String>>,
-    /// Depth, over the site's [m].
-    pub depth_m: Option<f64>,
-    /// Density, over the site's [kg/m³].
-    pub density_kg_m3: Option<f64>,
-    /// Gravity, over the site's [m/s²].
-    pub gravity_m_s2: Option<f64>,
-    /// Whether there is a seabed.
-    pub seabed: bool,
-    /// Whether rope above the surface is dry.
-    pub rope_dries: bool,
-    /// Surface speed of the current, over the site's running tide [m/s].
-    pub current_m_s: Option<f64>,
-    /// Compass bearing towards which it runs [rad].
-    pub toward_rad: f64,
-    /// Exponent of its profile, over the site's.
-    pub exponent: Option<f64>,
-    /// Where `[site]` stands.
-    pub place: Place,
 }
 
 /// An assembly of the library, placed.
@@ -175,7 +155,7 @@ impl Scenario {
             rope_condition: rope_condition.and_then(|word| Condition::from_word(&word.value)).unwrap_or_default(),
             rope_bending: fields.flag("rope_bending").unwrap_or(false),
             strength_scatter: fields.flag("strength_scatter").unwrap_or(true),
-            sea: sea(&fields),
+            sea: sea::read(&fields),
             gear: each("gear").filter_map(|node| placed_gear(node, problems)).collect(),
             resolution: follow.as_ref().map(|follow| resolution::read(follow, whale.is_some())),
             whale: whale.as_ref().and_then(Swimmer::read),
@@ -207,51 +187,6 @@ impl Scenario {
             }
         }
     }
-}
-
-fn sea(fields: &Fields<'_>) -> Sea {
-    let site = fields.table("site");
-    let current = fields.table("current");
-    let place = site.as_ref().map_or_else(|| fields.place.clone(), |site| site.place.clone());
-    let mut sea = Sea {
-        item: None,
-        depth_m: None,
-        density_kg_m3: None,
-        gravity_m_s2: None,
-        seabed: true,
-        rope_dries: true,
-        current_m_s: None,
-        toward_rad: std::f64::consts::FRAC_PI_2,
-        exponent: None,
-        place,
-    };
-    match site {
-        Some(site) => read_site(&site, &mut sea),
-        None => fields.missing("site", "write [site] with item = \"cape-cod-bay\", or with depth and density"),
-    }
-    if let Some(current) = current {
-        sea.current_m_s = current.value("speed", Quantity::Speed, Range::Between(0.0, 10.0)).map(|speed| speed.value);
-        sea.toward_rad = current.value("toward", Quantity::Angle, Range::Any).map_or(sea.toward_rad, |toward| toward.value);
-        sea.exponent = current.value("exponent", Quantity::Ratio, Range::Between(0.0, 1.0)).map(|exponent| exponent.value);
-        current.finish();
-    }
-    sea
-}
-
-fn read_site(site: &Fields<'_>, sea: &mut Sea) {
-    sea.item = site.text("item");
-    sea.depth_m = site.value("depth", Quantity::Length, Range::Between(0.5, 6000.0)).map(|depth| depth.value);
-    sea.density_kg_m3 = site.value("density", Quantity::Density, Range::Between(0.0, 2000.0)).map(|density| density.value);
-    sea.gravity_m_s2 = site.value("gravity", Quantity::Acceleration, Range::Between(0.0, 20.0)).map(|gravity| gravity.value);
-    sea.seabed = site.flag("seabed").unwrap_or(true);
-    sea.rope_dries = site.flag("rope_dries").unwrap_or(true);
-    if sea.item.is_none() && sea.depth_m.is_none() {
-        site.missing("depth", "name a site of the library as `item`, or give a depth such as 25 m");
-    }
-    if sea.item.is_none() && sea.density_kg_m3.is_none() {
-        site.missing("density", "name a site of the library as `item`, or give a density such as 1025 kg/m3; 0 kg/m3 is a vacuum");
-    }
-    site.finish();
 }
 
 fn placed_gear(node: &Node, problems: &Problems) -> Option<PlacedGear> {

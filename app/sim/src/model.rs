@@ -210,6 +210,14 @@ pub struct Seabed {
     pub rope_friction: f64,
 }
 
+impl Seabed {
+    /// Its height at a place east and north [m].
+    #[must_use]
+    pub fn height_at(&self, place: DVec3) -> f64 {
+        -self.depth_m - (self.normal.x * place.x + self.normal.y * place.y) / self.normal.z
+    }
+}
+
 /// A weak link at one end of a line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Link {

@@ -65,7 +65,7 @@ impl Builder<'_> {
             return;
         };
         let attributes = gear.attributes.over(usual).resolve(hook.descriptor(), self.library, &mut self.used, &self.problems);
-        let surface = setting.orientation.inverse() * self.spec.water.current.surface_m_s;
+        let surface = setting.orientation.inverse() * self.spec.water.current.at(1.0, 0.0);
         let site = Site { depth_m: self.spec.water.depth_m, current_m_s: [surface.x, surface.y] };
         let rig = match hook.build(&attributes, &site) {
             Ok(rig) => rig,

@@ -43,13 +43,27 @@ impl Setting<'_> {
         let At { value, place } = self.at(id);
         At { value: format!("{}{value}", self.prefix), place }
     }
-
-    fn place(&self, position_m: [f64; 3]) -> DVec3 {
-        self.origin_m + self.orientation * DVec3::from_array(position_m)
-    }
 }
 
 impl Builder<'_> {
+    /// A place of a rig in the world: its height is a share of the depth, which over a slope is the local one.
+    fn rig_place(&self, position_m: [f64; 3], setting: &Setting<'_>) -> DVec3 {
+        let mut place = setting.origin_m + setting.orientation * DVec3::from_array(position_m);
+        let (level_m, local_m) = (self.spec.water.depth_m, -self.seabed_height(place));
+        if local_m <= 0.0 {
+            let message = format!("the seabed rises {:.1} m above the surface under this gear", -local_m);
+            self.problems.push(setting.usual_place.error(message, "move the gear, or make the seabed's slope less steep"));
+        }
+        place.z *= local_m / level_m;
+        place
+    }
+
+    /// The frame of a box that stands on the seabed: the rig's, tilted with the slope.
+    fn standing(&self, setting: &Setting<'_>) -> DQuat {
+        let normal = self.spec.seabed.as_ref().map_or(DVec3::Z, |bed| bed.normal);
+        DQuat::from_rotation_arc(DVec3::Z, normal) * setting.orientation
+    }
+
     /// Puts a rig into the spec; answers its lines by first and last piece, and its links, in the order built.
     pub fn add_rig(&mut self, rig: &Rig, setting: &Setting<'_>) -> (Vec<[usize; 2]>, Vec<usize>) {
         for body in &rig.bodies {
@@ -58,8 +72,7 @@ impl Builder<'_> {
         for joint in &rig.joints {
             let id = setting.named(&joint.id);
             self.name(id.value.clone(), Part::Joint(self.spec.joints.len()), &id.place);
-            let position_m = self.above_bed(setting.place(joint.position_m));
-            self.spec.joints.push(Joint { id: id.value, kind: JointKind::Free, position_m });
+            self.spec.joints.push(Joint { id: id.value, kind: JointKind::Free, position_m: self.rig_place(joint.position_m, setting) });
         }
         let lines = rig.lines.iter().map(|line| self.add_rig_line(line, setting)).collect();
         let first_link = self.spec.links.len();
@@ -77,18 +90,16 @@ impl Builder<'_> {
 
     fn add_rig_body(&mut self, body: &RigBody, setting: &Setting<'_>) {
         let (id, item) = (setting.named(&body.id), setting.at(&body.item));
-        let mut place = setting.place(body.position_m);
+        let (place, standing) = (self.rig_place(body.position_m, setting), self.standing(setting));
         let (library, density) = (self.library, self.spec.water.density_kg_m3);
         let made = match body.kind {
             BodyKind::Buoy => library.buoys.iter().find(|buoy| buoy.entry.id == item.value).map(|buoy| {
-                let place = self.above_bed(place);
                 let made = body::of_buoy(id.value.clone(), buoy, density, place, setting.orientation);
                 (made, body::buoy_points(buoy), &buoy.entry.path)
             }),
             BodyKind::Trap | BodyKind::Anchor => box_item(library, body.kind, &item.value).map(|item| {
-                place.z += self.seabed_height(place) + self.spec.water.depth_m;
                 let role = if body.kind == BodyKind::Trap { BodyRole::Trap } else { BodyRole::Anchor };
-                let made = body::of_box(id.value.clone(), role, item, density, place, setting.orientation);
+                let made = body::of_box(id.value.clone(), role, item, density, place, standing);
                 (made, body::box_points(item), &item.entry.path)
             }),
         };
@@ -114,15 +125,8 @@ impl Builder<'_> {
         let ends = (end(&line.from), end(&line.to));
         let usual = LineMake::default();
         let make = setting.makes.iter().find(|(known, _)| known.value == line.id).map_or(&usual, |(_, make)| make);
-        let laid_m = line.laid_m.iter().map(|place| self.above_bed(setting.place(*place))).collect();
+        let laid_m = line.laid_m.iter().map(|place| self.rig_place(*place, setting)).collect();
         self.add_line(&NewLine { id, rope, ends, length_m: line.length_m, start: LineStart::Straight, laid_m, make })
-    }
-
-    /// A place of a rig, which is built for the depth at its origin, where the seabed is higher or lower: moved with the
-    /// seabed there, and the less the nearer it is to the surface.
-    fn above_bed(&self, place: DVec3) -> DVec3 {
-        let depth = self.spec.water.depth_m;
-        place - DVec3::Z * ((self.seabed_height(place) + depth) * (place.z / depth))
     }
 
     fn add_rig_link(&mut self, link: &RigLink, setting: &Setting<'_>) {

@@ -2,9 +2,12 @@
 
 use endline_sim::DVec3;
 use endline_sim::model::Seabed;
+use endline_sim::water::profile::{Profile, ProfileRow};
+use endline_sim::water::waves::breaking_height;
 use endline_sim::water::{Current, Water};
 
 use crate::items::SeaSite;
+use crate::scenario::{Bed, CurrentOf};
 use crate::schema::Kind;
 
 use super::builder::Builder;
@@ -13,9 +16,11 @@ use super::builder::Builder;
 const ROPE_FRICTION: f64 = 0.5;
 const ROPE_STIFFNESS_N_M2: f64 = 5e3;
 const FOOT_STIFFNESS_N_M: f64 = 2e4;
+/// How far a row of a current's profile may stand out of the water, as a share of the depth: what rounding makes.
+const ROUNDING: f64 = 1e-9;
 
 /// East and north of a compass bearing.
-pub(super) fn bearing(bearing_rad: f64) -> DVec3 {
+pub(crate) fn bearing(bearing_rad: f64) -> DVec3 {
     let clean = |share: f64| if share.abs() < 1e-15 { 0.0 } else { share };
     DVec3::new(clean(libm::sin(bearing_rad)), clean(libm::cos(bearing_rad)), 0.0)
 }
@@ -36,35 +41,83 @@ impl Builder<'_> {
         }
         let from_site = |own: Option<f64>, of: fn(&SeaSite) -> f64, usual: f64| own.unwrap_or_else(|| site.map_or(usual, of));
         let depth_m = from_site(sea.depth_m, |site| site.depth_m, 1.0);
-        let speed = from_site(sea.current_m_s, |site| site.current_m_s, 0.0);
-        let exponent = from_site(sea.exponent, |site| site.current_exponent, 0.0);
         self.spec.water = Water {
             density_kg_m3: from_site(sea.density_kg_m3, |site| site.density_kg_m3, 0.0),
             gravity_m_s2: from_site(sea.gravity_m_s2, |site| site.gravity_m_s2, 9.81),
             depth_m,
             rope_dries: sea.rope_dries,
-            current: Current::power(bearing(sea.toward_rad) * speed, exponent),
-            waves: None,
+            current: self.current(&sea.current, site, depth_m),
+            waves: sea.waves.as_ref().map(|waves| waves.value.clone()),
         };
-        self.spec.seabed = sea.seabed.then(|| seabed(depth_m, site));
+        self.spec.seabed = sea.seabed.as_ref().map(|bed| seabed(bed, depth_m, site));
+        self.check_waves();
     }
 
-    /// Height of the seabed below a place [m].
+    fn current(&self, current: &CurrentOf, site: Option<&SeaSite>, depth_m: f64) -> Current {
+        if !current.rows.is_empty() {
+            return self.tabled(current, depth_m);
+        }
+        let speed = current.speed_m_s.unwrap_or_else(|| site.map_or(0.0, |site| site.current_m_s));
+        let exponent = current.exponent.unwrap_or_else(|| site.map_or(0.0, |site| site.current_exponent));
+        Current { tide: current.tide.clone(), ..Current::power(bearing(current.toward_rad) * speed, exponent) }
+    }
+
+    /// A profile in rows: its fastest row is the velocity that the tide turns, the others are measured by it.
+    fn tabled(&self, current: &CurrentOf, depth_m: f64) -> Current {
+        let by_speed = |row: &&crate::scenario::CurrentRow| row.velocity_m_s.length_squared();
+        let fastest = current.rows.iter().max_by(|one, other| by_speed(one).total_cmp(&by_speed(other)));
+        let fastest = fastest.map_or(DVec3::ZERO, |row| row.velocity_m_s);
+        let whole = fastest.length_squared();
+        let left = DVec3::new(-fastest.y, fastest.x, 0.0);
+        let share = |velocity: DVec3, way: DVec3| if whole > 0.0 { velocity.dot(way) / whole } else { 0.0 };
+        let mut rows = Vec::new();
+        for row in &current.rows {
+            let height = row.at.value.share(depth_m);
+            if !(-ROUNDING..=1.0 + ROUNDING).contains(&height) {
+                let message = format!("this row is out of the water, which is {depth_m} m deep");
+                self.problems.push(row.at.place.error(message, "give a height above the seabed, or a depth, within the water"));
+            }
+            if rows.iter().any(|known: &ProfileRow| (known.height - height).abs() < ROUNDING) {
+                self.problems.push(row.at.place.error("there are two rows at this height", "take one out"));
+            }
+            rows.push(ProfileRow { height, along: share(row.velocity_m_s, fastest), left: share(row.velocity_m_s, left) });
+        }
+        rows.sort_by(|one, other| one.height.total_cmp(&other.height));
+        Current { surface_m_s: fastest, profile: Profile::Table(rows), tide: current.tide.clone() }
+    }
+
+    /// Waves that would break are a problem of their height.
+    fn check_waves(&self) {
+        let (Some(waves), water) = (&self.scenario.sea.waves, &self.spec.water) else { return };
+        let (height, period) = waves.value.height_and_period();
+        if water.gravity_m_s2 <= 0.0 || water.density_kg_m3 <= 0.0 {
+            self.problems
+                .push(waves.place.error("waves without gravity or water", "give the site gravity and density, or take [waves] out"));
+            return;
+        }
+        let greatest = breaking_height(period, water.depth_m, water.gravity_m_s2);
+        if height > greatest {
+            let message = format!("waves of {height} m and {period} s break in {} m of water", water.depth_m);
+            self.problems.push(waves.place.error(message, format!("expected {greatest:.2} m at most, or a longer period")));
+        }
+    }
+
+    /// Height of the seabed at a place, below zero [m].
     pub fn seabed_height(&self, place: DVec3) -> f64 {
-        let depth = self.spec.water.depth_m;
-        self.spec.seabed.as_ref().map_or(-depth, |bed| -depth - (bed.normal.x * place.x + bed.normal.y * place.y) / bed.normal.z)
+        self.spec.seabed.as_ref().map_or(-self.spec.water.depth_m, |bed| bed.height_at(place))
     }
 }
 
-/// A plane that falls by the site's slope towards its bearing.
-fn seabed(depth_m: f64, site: Option<&SeaSite>) -> Seabed {
-    let slope = site.map_or(0.0, |site| site.slope_rad);
-    let toward = bearing(site.map_or(0.0, |site| site.slope_toward_rad));
+/// A plane that falls by a slope towards a bearing.
+fn seabed(bed: &Bed, depth_m: f64, site: Option<&SeaSite>) -> Seabed {
+    let from_site = |own: Option<f64>, of: fn(&SeaSite) -> f64, usual: f64| own.unwrap_or_else(|| site.map_or(usual, of));
+    let slope = from_site(bed.slope_rad, |site| site.slope_rad, 0.0);
+    let toward = bearing(from_site(bed.toward_rad, |site| site.slope_toward_rad, 0.0));
     Seabed {
         depth_m,
         normal: toward * libm::sin(slope) + DVec3::Z * libm::cos(slope),
-        rope_stiffness_n_m2: site.map_or(ROPE_STIFFNESS_N_M2, |site| site.rope_stiffness_n_m2),
-        foot_stiffness_n_m: site.map_or(FOOT_STIFFNESS_N_M, |site| site.foot_stiffness_n_m),
-        rope_friction: site.map_or(ROPE_FRICTION, |site| site.rope_friction),
+        rope_stiffness_n_m2: from_site(bed.rope_stiffness_n_m2, |site| site.rope_stiffness_n_m2, ROPE_STIFFNESS_N_M2),
+        foot_stiffness_n_m: from_site(bed.foot_stiffness_n_m, |site| site.foot_stiffness_n_m, FOOT_STIFFNESS_N_M),
+        rope_friction: from_site(bed.rope_friction, |site| site.rope_friction, ROPE_FRICTION),
     }
 }

@@ -46,7 +46,7 @@ pub(crate) fn drive(model: &Model, input: &Input, whale: &WhaleState, time_s: f6
     next.orientation = (whale.orientation * DQuat::from_scaled_axis(turn_rate * dt_s)).normalize();
     let ahead = whale.orientation.slerp(next.orientation, 0.5) * DVec3::X;
     next.position += (ahead * (0.5 * (whale.speed_m_s + next.speed_m_s)) + model.sea.current(whale.position, time_s)) * dt_s;
-    let floor = model.spec.seabed.as_ref().map_or(f64::NEG_INFINITY, |seabed| -seabed.depth_m + CLEARANCE * spec.length_m);
+    let floor = model.spec.seabed.as_ref().map_or(f64::NEG_INFINITY, |seabed| seabed.height_at(next.position) + CLEARANCE * spec.length_m);
     next.position.z = next.position.z.max(floor).min(0.0);
     Ok(())
 }

@@ -42,7 +42,7 @@ pub fn of_box(id: String, role: BodyRole, item: &BoxGear, density: f64, foot_m: 
         feet_m: corners(size / 2.0).into_iter().map(|corner| middle + corner).collect(),
         start_friction: item.start_friction,
         slide_friction: item.slide_friction,
-        position_m: foot_m + DVec3::Z * (size.z / 2.0) - orientation * middle,
+        position_m: foot_m + orientation * (DVec3::Z * (size.z / 2.0) - middle),
         orientation,
         held_until_s: None,
     }

@@ -1,0 +1,61 @@
+//! The waves of a scenario.
+
+use endline_sim::water::check::MOST_COMPONENTS;
+use endline_sim::water::jonswap::Spectrum;
+use endline_sim::water::waves::{WaveKind, Waves};
+
+use crate::assemble::bearing as unit;
+use crate::diagnostic::At;
+use crate::fields::{Fields, Range};
+use crate::units::Quantity;
+
+use super::sea::bearing;
+
+/// Peak enhancement where none is given: the mean of JONSWAP.
+const USUAL_GAMMA: f64 = 3.3;
+/// Components where no number is given.
+const USUAL_COMPONENTS: usize = 64;
+/// Periods over which waves grow where no ramp is given.
+const USUAL_RAMP: f64 = 2.0;
+
+/// `[waves]`, with the place of their height; `None` where something needed is missing, which is a problem already told.
+pub(super) fn read(fields: &Fields<'_>) -> Option<At<Waves>> {
+    let spectrum = fields.word("spectrum", &["jonswap"]);
+    let height = fields.need_value("height", Quantity::Length, Range::Between(0.0, 40.0));
+    let period = fields.need_value("period", Quantity::Time, Range::Between(0.2, 1e5));
+    let toward = bearing(fields, "toward");
+    let ramp = fields.value("ramp", Quantity::Time, Range::NotNegative);
+    let phase = fields.value("phase", Quantity::Angle, Range::Any);
+    let gamma = fields.value("gamma", Quantity::Ratio, Range::Between(1.0, 20.0));
+    let components = fields.count("components", 1);
+    let misplaced = match (&spectrum, &phase) {
+        (Some(_), Some(phase)) => Some((&phase.place, "a `phase` with a spectrum", "phases of irregular waves are drawn from the seed")),
+        (Some(_), None) => None,
+        (None, _) => gamma.as_ref().map(|gamma| &gamma.place).or(components.as_ref().map(|components| &components.place)).map(|place| {
+            (place, "a figure of a spectrum with regular waves", "write spectrum = \"jonswap\" for irregular waves, or take it out")
+        }),
+    };
+    if let Some((place, message, help)) = misplaced {
+        fields.problems().push(place.error(message, help));
+    }
+    let most = MOST_COMPONENTS as u64;
+    if let Some(components) = components.as_ref().filter(|components| components.value > most) {
+        let message = format!("`components` is {}", components.value);
+        fields.problems().push(components.place.error(message, format!("expected {most} at most; 64 is usual")));
+    }
+    fields.finish();
+    let (height, period_s) = (height?, period?.value);
+    let kind = match spectrum {
+        None => WaveKind::Regular { height_m: height.value, period_s, phase_rad: phase.map_or(0.0, |phase| phase.value) },
+        Some(_) => WaveKind::Jonswap {
+            spectrum: Spectrum {
+                significant_height_m: height.value,
+                peak_period_s: period_s,
+                gamma: gamma.map_or(USUAL_GAMMA, |gamma| gamma.value),
+            },
+            components: components.map_or(USUAL_COMPONENTS, |components| components.value.min(most) as usize),
+        },
+    };
+    let ramp_s = ramp.map_or(USUAL_RAMP * period_s, |ramp| ramp.value);
+    Some(At { value: Waves { toward: unit(toward), ramp_s, kind }, place: height.place })
+}
