@@ -96,6 +96,7 @@ pub struct Sea {
     current: Current,
     power: Option<PowerTable>,
     depth_m: f64,
+    inverse_depth: f64,
     /// How much deeper it gets by a metre east and north.
     slope: Option<(f64, f64)>,
     field: Option<Field>,
@@ -112,6 +113,7 @@ impl Sea {
             power: if let Profile::Power(exponent) = water.current.profile { Some(PowerTable::new(exponent)) } else { None },
             current: water.current.clone(),
             depth_m: water.depth_m,
+            inverse_depth: 1.0 / water.depth_m,
             slope: (slope != (0.0, 0.0)).then_some(slope),
             field: water.waves.as_ref().filter(|_| is_wet).map(|waves| Field::new(waves, water.depth_m, water.gravity_m_s2, seed)),
         }
@@ -125,11 +127,11 @@ impl Sea {
 
     /// Height above the seabed as a share of the local depth, from 0 to 1.
     fn height(&self, place: DVec3) -> f64 {
-        let depth = match self.slope {
-            None => self.depth_m,
-            Some((east, north)) => (self.depth_m + east * place.x + north * place.y).max(LEAST_DEPTH_M),
+        let share = match self.slope {
+            None => place.z * self.inverse_depth,
+            Some((east, north)) => place.z / (self.depth_m + east * place.x + north * place.y).max(LEAST_DEPTH_M),
         };
-        (1.0 + place.z / depth).clamp(0.0, 1.0)
+        (1.0 + share).clamp(0.0, 1.0)
     }
 
     /// Velocity of the current [m/s].
