@@ -107,7 +107,7 @@ fn wrong_use_ends_with_2() {
         &["run", "a.toml", "--weak-links", "maybe"],
         &["run", "a.toml", "--rating", "3 furlong"],
         &["run", "a.toml", "--sed", "1"],
-        &["render", "a.endline", "--out", "a.png"],
+        &["render", "a.endline", "--at", "0"],
         &["plugins", "check"],
     ] {
         place.endline(arguments).fails(2, &["error:"]);

@@ -44,7 +44,7 @@ fn rise_s(model: &Model, from_m: f64) -> f64 {
     let lift = (water.density_kg_m3 * volume - buoy.mass_kg) * water.gravity_m_s2;
     let weight = (rope.mass_kg_m - water.density_kg_m3 * rope.displaced_m3_m) * water.gravity_m_s2;
     let speed = |z: f64| {
-        let area = buoy.drag_area_m2.z + rope.drag_tangential * std::f64::consts::PI * rope.diameter_m * z;
+        let area = buoy.whole_drag_area_m2().z + rope.drag_tangential * std::f64::consts::PI * rope.diameter_m * z;
         (2.0 * (lift - weight * z) / (water.density_kg_m3 * area)).sqrt()
     };
     let pieces = 1000;

@@ -9,7 +9,7 @@
 mod check;
 pub mod contact;
 pub mod float;
-mod frame;
+pub mod frame;
 mod gear_hook;
 mod in_place;
 pub mod metrics;

@@ -132,6 +132,20 @@ pub enum Shape {
     },
 }
 
+impl Shape {
+    /// Corners of the box round it, in the body's frame [m].
+    #[must_use]
+    pub fn corners(&self) -> [DVec3; 8] {
+        let half = match self {
+            Self::Box(half) => *half,
+            Self::Sphere(radius_m) => DVec3::splat(*radius_m),
+            Self::Capsule { radius_m, half_length_m } => DVec3::new(*radius_m, *radius_m, *half_length_m),
+        };
+        let sign = |corner: usize, bit: usize| if corner >> bit & 1 == 0 { -1.0 } else { 1.0 };
+        std::array::from_fn(|corner| half * DVec3::new(sign(corner, 0), sign(corner, 1), sign(corner, 2)))
+    }
+}
+
 /// What a body is, for pictures and reports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BodyRole {

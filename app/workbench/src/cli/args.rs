@@ -28,7 +28,7 @@ pub(super) enum Command {
     Settle(SettleArgs),
     /// Run a recording again; with --verify compare every step.
     Replay(ReplayArgs),
-    /// Draw a moment of a recording; needs no display.
+    /// Draw a moment of a recording or a scenario; needs no display.
     Render(RenderArgs),
     /// Run validation cases and tell what was expected and what was got.
     Validate(ValidateArgs),
@@ -112,11 +112,15 @@ pub(super) struct ReplayArgs {
 
 #[derive(Debug, clap::Args)]
 pub(super) struct RenderArgs {
-    /// Recording file.
-    pub(super) recording: PathBuf,
+    /// Recording, or scenario file: its gear at rest, or run up to the moment.
+    #[arg(value_name = "RECORDING|SCENARIO")]
+    pub(super) file: PathBuf,
     /// Simulated time of the moment, in seconds.
-    #[arg(long, value_name = "T")]
+    #[arg(long, value_name = "T", default_value_t = 0.0)]
     pub(super) at: f64,
+    /// Bodies and lines to fit into the picture, such as trap-1,endline-top; all there is where not given.
+    #[arg(long, value_name = "ID,...", value_delimiter = ',')]
+    pub(super) fit: Vec<String>,
     /// View: orbit, side, top, front or whale.
     #[arg(long, value_name = "NAME", default_value = "orbit")]
     pub(super) view: String,

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use endline_session::{Report, Run};
-use endline_sim::{Frame, Model};
+use endline_sim::{DVec3, Frame, Model};
 
 #[cfg(feature = "scene")]
 use crate::scene;
@@ -26,15 +26,31 @@ pub(super) fn check_view(_view: &str) -> Result<(), String> {
 #[cfg(not(feature = "scene"))]
 const NO_SCENE: &str = "this program was built without the feature `scene` and draws no pictures; build it with default features";
 
-/// Draws a frame as a PNG of this width and height [px].
+/// A picture asked for on the command line.
+#[cfg_attr(not(feature = "scene"), allow(dead_code, reason = "a build that draws nothing only takes it"))]
+pub(super) struct Shot<'a> {
+    /// Name of the view.
+    pub view: &'a str,
+    /// Width and height [px].
+    pub size: [u32; 2],
+    /// Line of text at the top left.
+    pub caption: &'a str,
+    /// File to write.
+    pub out: &'a Path,
+    /// Places to fit in [m]; all gear and whale where empty.
+    pub fit: Vec<DVec3>,
+}
+
+/// Draws a frame as a PNG.
 #[cfg(feature = "scene")]
-pub(super) fn draw(model: &Model, frame: &Frame, view: &str, size: [u32; 2], caption: &str, out: &Path) -> Result<(), String> {
-    scene::render_png(&scene::RenderRequest { model, frame, size, view, scale_n: None, caption, out })
+pub(super) fn draw(model: &Model, frame: &Frame, shot: &Shot<'_>) -> Result<(), String> {
+    let Shot { view, size, caption, out, fit } = shot;
+    scene::render_png(&scene::RenderRequest { model, frame, size: *size, view, scale_n: None, fit, caption, out })
 }
 
 /// A build that draws nothing says so.
 #[cfg(not(feature = "scene"))]
-pub(super) fn draw(_model: &Model, _frame: &Frame, _view: &str, _size: [u32; 2], _caption: &str, _out: &Path) -> Result<(), String> {
+pub(super) fn draw(_model: &Model, _frame: &Frame, _shot: &Shot<'_>) -> Result<(), String> {
     Err(NO_SCENE.into())
 }
 
@@ -51,7 +67,8 @@ pub(super) fn of_peak(run: &Run, report: &Report, out: &Path) {
     let nearest = run.frames().iter().min_by(|a, b| (a.time_s - peak_s).abs().total_cmp(&(b.time_s - peak_s).abs()));
     let Some(frame) = nearest else { return };
     let caption = caption(&report.scenario);
-    if let Err(reason) = draw(run.model(), frame, "orbit", [1280, 800], &caption, out) {
+    let shot = Shot { view: "orbit", size: [1280, 800], caption: &caption, out, fit: Vec::new() };
+    if let Err(reason) = draw(run.model(), frame, &shot) {
         output::note(&format!("no picture: {reason}"));
     }
 }

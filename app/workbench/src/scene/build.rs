@@ -102,7 +102,8 @@ impl Scene {
     pub fn places_of(model: &Model, frame: &Frame) -> Vec<DVec3> {
         let pair = model.spec.whale.as_ref().zip(frame.whale.as_ref());
         let whale = pair.into_iter().flat_map(|(whale, at)| whale_corners(whale, at.position, at.orientation));
-        let bodies = frame.bodies.iter().map(|(place, _)| *place);
+        let shapes = model.spec.bodies.iter().zip(&frame.bodies);
+        let bodies = shapes.flat_map(|(body, (place, turn))| body.shape.corners().map(|corner| *place + *turn * corner));
         frame.nodes.iter().copied().chain(bodies).chain(whale).filter(|place| place.is_finite()).collect()
     }
 

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::BufWriter;
 use std::path::Path;
 
-use endline_sim::{Frame, Model};
+use endline_sim::{DVec3, Frame, Model};
 use three_d::{Context, RenderTarget, ScissorBox, Viewport};
 
 use super::build::{Scene, Show};
@@ -25,6 +25,8 @@ pub struct RenderRequest<'a> {
     pub view: &'a str,
     /// Tension at the top of the colour scale [N]; the frame's own peak where `None`.
     pub scale_n: Option<f64>,
+    /// Places that fill the picture [m]; all of gear and whale where empty.
+    pub fit: &'a [DVec3],
     /// Line of text at the top left, such as the scenario's name.
     pub caption: &'a str,
     /// PNG file to write.
@@ -57,7 +59,9 @@ pub fn render(request: &RenderRequest<'_>) -> Result<Vec<[u8; 4]>, String> {
     let scene = Scene::of(request.model, request.frame, &Show { scale_n: request.scale_n, ..Show::default() });
     let aspect = f64::from(request.size[0]) / f64::from(request.size[1]);
     let length_m = request.model.spec.whale.as_ref().map_or(10.0, |whale| whale.length_m);
-    let camera = Camera::of_view(view, &Scene::places_of(request.model, request.frame), request.frame.whale.as_ref(), length_m, aspect);
+    let all = Scene::places_of(request.model, request.frame);
+    let places = if request.fit.is_empty() { &all } else { request.fit };
+    let camera = Camera::of_view(view, places, request.frame.whale.as_ref(), length_m, aspect);
     draw(request, &scene, &camera)
 }
 

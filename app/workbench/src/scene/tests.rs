@@ -86,7 +86,8 @@ fn picture(view: View) -> (Vec<[u8; 4]>, DVec2, Camera) {
     let frame = sample::frame(&model);
     let size = [640, 480];
     let out = std::path::PathBuf::new();
-    let request = RenderRequest { model: &model, frame: &frame, size, view: view.name(), scale_n: None, caption: "sample", out: &out };
+    let request =
+        RenderRequest { model: &model, frame: &frame, size, view: view.name(), scale_n: None, fit: &[], caption: "sample", out: &out };
     let pixels = render(&request).unwrap();
     let places = Scene::places_of(&model, &frame);
     (pixels, DVec2::new(640.0, 480.0), Camera::of_view(view, &places, frame.whale.as_ref(), 13.0, 640.0 / 480.0))
@@ -128,7 +129,7 @@ fn a_wrong_view_or_size_says_what_is_allowed() {
     let model = sample::model();
     let frame = sample::frame(&model);
     let out = std::path::PathBuf::new();
-    let request = |view, size| RenderRequest { model: &model, frame: &frame, size, view, scale_n: None, caption: "", out: &out };
+    let request = |view, size| RenderRequest { model: &model, frame: &frame, size, view, scale_n: None, fit: &[], caption: "", out: &out };
     assert!(render(&request("behind", [64, 64])).unwrap_err().contains("orbit, side, top, front, whale"));
     assert!(render(&request("side", [64, 0])).unwrap_err().contains("16 to 8192"));
 }
@@ -138,8 +139,16 @@ fn a_png_has_the_size_asked_for_and_an_unwritable_path_is_named() {
     let model = sample::model();
     let frame = sample::frame(&model);
     let out = std::env::temp_dir().join(format!("endline-picture-{}.png", std::process::id()));
-    let request =
-        |out| RenderRequest { model: &model, frame: &frame, size: [900, 600], view: "orbit", scale_n: None, caption: "sample", out };
+    let request = |out| RenderRequest {
+        model: &model,
+        frame: &frame,
+        size: [900, 600],
+        view: "orbit",
+        scale_n: None,
+        fit: &[],
+        caption: "sample",
+        out,
+    };
     render_png(&request(&out)).unwrap();
     let decoder = png::Decoder::new(std::io::BufReader::new(std::fs::File::open(&out).unwrap()));
     let info = decoder.read_info().unwrap().info().clone();

@@ -491,3 +491,29 @@ unsafe fn array_mut<'a, T>(first: *mut T, count: usize) -> &'a mut [T] {
 const fn size<T>() -> u32 {
     size_of::<T>() as u32
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    unsafe extern "C" fn lay(_: *mut c_void, _: AbiText, _: *const [f64; 3], _: usize) -> i32 {
+        STATUS_OK
+    }
+
+    #[test]
+    fn what_a_program_of_an_older_minor_version_lacks_is_none() {
+        let whole = AbiRigHost {
+            struct_size: size::<AbiRigHost>(),
+            host: std::ptr::null_mut(),
+            add_body: None,
+            add_joint: None,
+            add_line: None,
+            add_link: None,
+            lay_line: Some(lay),
+        };
+        let older = AbiRigHost { struct_size: std::mem::offset_of!(AbiRigHost, lay_line) as u32, ..whole };
+        // SAFETY: both are whole structs; the second says that it is shorter.
+        let (whole, older) = unsafe { (known_part(&whole), known_part(&older)) };
+        assert!(whole.lay_line.is_some() && older.lay_line.is_none());
+    }
+}
