@@ -203,6 +203,7 @@ const BOX: &[Field] = &[
         "friction on the seabed before it moves; for an anchor, holding power over wet weight",
     ),
     need("slide_friction", Q::Ratio, Between(0.0, 50.0), "friction on the seabed once it slides"),
+    may("break_out", Q::Force, Positive, "force that holds it back when it is lifted off the seabed; none where not given"),
 ];
 
 const BUOY: &[Field] = &[

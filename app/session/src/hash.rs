@@ -102,11 +102,12 @@ fn fold_rope(rope: &RopeState, ropes: &mut Fold, contact: &mut Fold, links: &mut
 }
 
 fn fold_body(body: &BodyState, fold: &mut Fold) {
-    let BodyState { position, orientation, velocity, spin, earlier_position, earlier_velocity, grip, sliding } = body;
+    let BodyState { position, orientation, velocity, spin, earlier_position, earlier_velocity, grip, sliding, lift_m } = body;
     fold.vectors(&[*position, *velocity, *spin, *earlier_position, *earlier_velocity]);
     fold.turn(*orientation);
     fold.vectors(grip);
     sliding.iter().for_each(|sliding| fold.word(u64::from(*sliding)));
+    fold.reals(lift_m);
 }
 
 fn fold_whale(whale: &WhaleState, fold: &mut Fold, contact: &mut Fold) {

@@ -108,6 +108,7 @@ fn check_body(body: &Body, found: &mut Found) {
     }
     found.not_below_zero("start friction", body.start_friction);
     found.not_below_zero("slide friction", body.slide_friction);
+    found.not_below_zero("break-out force of a foot", body.foot_break_out_n);
 }
 
 fn check_joint(spec: &ModelSpec, joint: &Joint, found: &mut Found) {

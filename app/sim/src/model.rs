@@ -193,6 +193,8 @@ pub struct Body {
     pub start_friction: f64,
     /// Friction on the seabed once it slides.
     pub slide_friction: f64,
+    /// Force that holds each foot back when it is lifted off the seabed, at most [N].
+    pub foot_break_out_n: f64,
     /// First guess of its place [m].
     pub position_m: DVec3,
     /// Start orientation, body to world.

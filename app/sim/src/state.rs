@@ -6,6 +6,7 @@ use glam::{DQuat, DVec3};
 use crate::contact::Grips;
 use crate::in_place::clone_in_place;
 use crate::model::{Body, JointKind, Model};
+use crate::solver::LOOSE_M;
 use crate::whale::Whale;
 
 /// Everything the next step depends on, besides the model and the input.
@@ -73,6 +74,8 @@ pub struct BodyState {
     pub grip: Vec<DVec3>,
     /// Whether each foot slides.
     pub sliding: Vec<bool>,
+    /// Greatest lift of each foot off the seabed since it last set there, up to where it is loose [m].
+    pub lift_m: Vec<f64>,
 }
 
 /// The whale in motion (kinematic: it goes where its motion plugin and pilot send it).
@@ -107,7 +110,7 @@ clone_in_place!(RopeState {
     seabed_grip,
     grips
 });
-clone_in_place!(BodyState { position, orientation, velocity, spin, earlier_position, earlier_velocity, grip, sliding });
+clone_in_place!(BodyState { position, orientation, velocity, spin, earlier_position, earlier_velocity, grip, sliding, lift_m });
 clone_in_place!(WhaleState { position, orientation, speed_m_s, turn_rate, posture, motion, contact_force_n });
 
 impl State {
@@ -179,6 +182,7 @@ impl BodyState {
             earlier_velocity: DVec3::ZERO,
             grip: vec![DVec3::ZERO; body.feet_m.len()],
             sliding: vec![false; body.feet_m.len()],
+            lift_m: vec![LOOSE_M; body.feet_m.len()],
         }
     }
 }

@@ -8,7 +8,7 @@ mod common;
 use common::{fixed, line, model, on_body, water, weight};
 use endline_sdk::LineEnd;
 use endline_sim::model::{Link, Seabed, Settings};
-use endline_sim::{DVec3, Input, Model, State, Workspace, settle, step};
+use endline_sim::{DQuat, DVec3, Input, Model, State, Workspace, settle, step};
 
 fn pendulum(stiffness_times: f64, mass_kg: f64, segments: usize, step_s: f64) -> Model {
     let end = DVec3::new(30.0, 0.0, -51.9);
@@ -124,6 +124,45 @@ fn a_box_slides_to_rest_as_coulomb_says() {
     println!("slid {:.4} m for {expected:.4} m, crept {:.2e} m", rest - start, later - rest);
     assert!(((rest - start) / expected - 1.0).abs() < 0.03);
     assert!((later - rest).abs() < 1e-6);
+}
+
+/// On a slope of `θ` a box holds while `tan θ` is below its starting friction, and else slides off with
+/// `g (sin θ - μ cos θ)`.
+#[test]
+fn a_box_on_a_slope_holds_or_slides_as_coulomb_says() {
+    // Flat, so that its feet share weight and friction alike.
+    let (half, start, slide) = (DVec3::new(0.5, 0.3, 0.02), 0.6, 0.4);
+    for (angle, seconds) in [(0.5, 4.0), (0.6, 1.5)] {
+        let turn = DQuat::from_rotation_y(angle);
+        let normal = turn * DVec3::Z;
+        let mut body = weight("box", 20.0, DVec3::Z * -30.0 + normal * (half.z - 0.001), None);
+        body.feet_m =
+            [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)].map(|(x, y)| DVec3::new(x * half.x, y * half.y, -half.z)).to_vec();
+        (body.start_friction, body.slide_friction, body.orientation) = (start, slide, turn);
+        let mut spec = model(water(0.0, 0.0), Vec::new(), Vec::new(), vec![body], Settings { step_s: 0.002, ..Settings::default() }).spec;
+        spec.seabed = Some(Seabed { depth_m: 30.0, normal, rope_stiffness_n_m2: 1e4, foot_stiffness_n_m: 1e5, rope_friction: 0.5 });
+        let model = Model::new(spec).expect("a sound model");
+        // One that holds starts at rest; one that cannot starts where it stands.
+        let at_rest = if libm::tan(angle) < start { settle(&model).state } else { State::start(&model) };
+        let (mut state, mut workspace) = (at_rest, Workspace::new(&model));
+        let begin = state.bodies[0].position;
+        let mut go = |until: f64| {
+            while state.time_s < until {
+                step(&model, &Input::default(), &mut state, &mut workspace).unwrap_or_else(|stop| panic!("{stop:?}"));
+            }
+            (state.bodies[0].position - begin).dot(turn * DVec3::X)
+        };
+        if libm::tan(angle) < start {
+            let (early, late) = (go(1.0), go(seconds));
+            println!("on {angle} rad it gives {:.2} mm and creeps {:.1e} m", 1e3 * early, late - early);
+            assert!(early < 0.003 && (late - early).abs() < 1e-6);
+        } else {
+            let expected = 0.5 * 9.81 * (libm::sin(angle) - slide * libm::cos(angle)) * seconds * seconds;
+            let slid = go(seconds);
+            println!("on {angle} rad it slides {slid:.4} m for {expected:.4}");
+            assert!((slid / expected - 1.0).abs() < 0.02);
+        }
+    }
 }
 
 /// Spin about the middle axis tumbles (Dzhanibekov), about the long axis keeps its momentum.

@@ -41,6 +41,7 @@ pub(super) fn of_free(body: &FreeBody, density: f64) -> Body {
         feet_m: vec![DVec3::new(0.0, 0.0, -radius)],
         start_friction: SMOOTH_FRICTION,
         slide_friction: SMOOTH_FRICTION,
+        foot_break_out_n: 0.0,
         position_m: body.position_m,
         orientation: DQuat::IDENTITY,
         held_until_s: body.held_until_s,

@@ -42,6 +42,8 @@ pub struct BoxGear {
     pub start_friction: f64,
     /// Friction on the seabed once it slides.
     pub slide_friction: f64,
+    /// Force that holds it back when it is lifted off the seabed it has rested on [N].
+    pub break_out_n: f64,
 }
 
 impl BoxGear {
@@ -75,6 +77,7 @@ impl BoxGear {
             added_mass_vertical: entry.value("added_mass_vertical")?,
             start_friction: start,
             slide_friction: slide.value,
+            break_out_n: or("break_out", 0.0),
             entry,
         };
         item.check(problems);

@@ -46,6 +46,7 @@ fn buoy() -> Body {
         feet_m: Vec::new(),
         start_friction: 0.0,
         slide_friction: 0.0,
+        foot_break_out_n: 0.0,
         position_m: DVec3::new(12.0, 3.0, -8.0),
         orientation: DQuat::IDENTITY,
         held_until_s: None,

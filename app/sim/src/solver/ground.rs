@@ -4,7 +4,7 @@
 //! (smooth onset over `e`). Friction is an elastic grip that slips at its limit: with `z*` the grip
 //! stretched by this step's move along the plane, `f = -k z*` while `k|z*| ≤ μN`, else `f = -μN z*/|z*|`;
 //! the grip keeps `f/k`. It holds without creep. A body's foot starts at `μ_start` and slides at `μ_slide`
-//! until it stands still again.
+//! until it stands still again; lifted, it is held back until it has broken out (`suction.rs`).
 
 use glam::{DMat3, DVec3};
 
@@ -12,6 +12,7 @@ use super::Solver;
 use super::hubs::Seat;
 use super::rope::outer;
 use super::scheme::Scheme;
+use super::suction;
 use crate::model::{Body, Model, Seabed};
 use crate::state::State;
 
@@ -103,10 +104,15 @@ impl Solver {
             let arm = self.trial.bodies[index].orientation * body.feet_m[foot];
             let place = self.trial.bodies[index].place + arm;
             let depth = seabed.depth_of(place);
+            let seat = Seat::Body { block: self.plan.body_block[index], body: index, offset: body.feet_m[foot] };
             if depth <= 0.0 {
+                let (pull, rate) = suction::pull(body.foot_break_out_n, -depth, state.bodies[index].lift_m[foot]);
+                if pull > 0.0 && !scheme.is_static() {
+                    self.hubs.push(seat, arm, seabed.normal * -pull);
+                    self.hubs.add(seat, arm, seat, arm, outer(seabed.normal, seabed.normal) * rate);
+                }
                 continue;
             }
-            let seat = Seat::Body { block: self.plan.body_block[index], body: index, offset: body.feet_m[foot] };
             let before = foot_before(state, index, body, foot);
             let damping =
                 if scheme.is_static() { 0.0 } else { FOOT_DAMPING * (seabed.foot_stiffness_n_m * body.mass_kg).sqrt() / scheme.dt };
@@ -157,6 +163,8 @@ impl Solver {
         } else {
             (DVec3::ZERO, false)
         };
+        let lift = -seabed.depth_of(place);
+        state.bodies[index].lift_m[foot] = suction::keep(lift, state.bodies[index].lift_m[foot], scheme);
         state.bodies[index].grip[foot] = kept;
         state.bodies[index].sliding[foot] = slides;
     }

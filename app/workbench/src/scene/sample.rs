@@ -112,6 +112,7 @@ fn body(id: &str, role: BodyRole) -> Body {
         feet_m: Vec::new(),
         start_friction: 0.5,
         slide_friction: 0.5,
+        foot_break_out_n: 0.0,
         position_m: if trap { place_on_rope(0.0) } else { place_on_rope(1.0) },
         orientation: DQuat::IDENTITY,
         held_until_s: None,

@@ -8,8 +8,10 @@
 //! | inertia | shell of mass `m - m_b`, spread evenly over the six faces; ballast `m_b/12 (b², a², a² + b²)`; each with its `m z²` |
 //! | displaced volume | `(m g - W)/(ρ g)` from the wet weight `W`: ballast by its density, foam as given, the rest the shell |
 //! | added mass | share × `ρ a b c`; added inertia share × `ρ a b c (b² + c²)/12` and so on |
-//! | drag area | `2 C_d · solidity · face` at the middle: the water meets both faces of a cage |
-//! | turning drag | plate strips: `∫|r|³` gives `A_j L_k³/32` |
+//! | drag area | `2 C_d · solidity · face`: the water meets both faces of a cage; a quarter each at `±a/√12, ±b/√12` |
+//! | turning drag | of those four by what they do; by height plate strips, `∫|r|³` gives `A c³/32` |
+//!
+//! Drag spread over the box damps a trap that falls: with all of it at the middle it swings ever wider on the way down.
 
 use endline_sim::model::{Body, BodyRole, Float, Form, Shape};
 use endline_sim::{DQuat, DVec3};
@@ -42,6 +44,7 @@ pub fn of_box(id: String, role: BodyRole, item: &BoxGear, density: f64, foot_m: 
         feet_m: corners(size / 2.0).into_iter().map(|corner| middle + corner).collect(),
         start_friction: item.start_friction,
         slide_friction: item.slide_friction,
+        foot_break_out_n: item.break_out_n / 4.0,
         position_m: foot_m + orientation * (DVec3::Z * (size.z / 2.0) - middle),
         orientation,
         held_until_s: None,
@@ -98,14 +101,17 @@ fn drag_area(item: &BoxGear) -> DVec3 {
     DVec3::new(b * c, a * c, a * b) * DVec3::from_array(item.solidity) * (2.0 * item.drag_coefficient)
 }
 
-/// Wire, ballast and foam, each where it is; the wire has the drag.
+/// Wire, ballast and foam, each where it is. The wire has the drag and stands for the whole box in four parts at
+/// `±a/√12, ±b/√12`, which have its second moments.
 fn floats(item: &BoxGear, middle: DVec3, drag_area_m2: DVec3) -> Vec<Float> {
-    let height_m = item.size_m[2];
+    let [a, b, _] = item.size_m.map(|size| size / 12.0_f64.sqrt());
+    let (volume_m3, drag_area_m2, form) = (item.wire_m3() / 4.0, drag_area_m2 / 4.0, Form::Level { height_m: item.size_m[2] });
+    let wire = |(x, y): (f64, f64)| Float { offset_m: middle + DVec3::new(x, y, 0.0), volume_m3, form, drag_area_m2 };
     let at = |height: f64| middle + DVec3::Z * height;
-    let wire = Float { offset_m: middle, volume_m3: item.wire_m3(), form: Form::Level { height_m }, drag_area_m2 };
     let ballast = Float::level(at(ballast_height(item)), item.ballast_m3(), BALLAST_HEIGHT_M);
-    let foam = Float::level(at(item.foam_height_m - height_m / 2.0), item.foam_m3, BALLAST_HEIGHT_M);
-    [wire].into_iter().chain([ballast, foam].into_iter().filter(|float| float.volume_m3 > 0.0)).collect()
+    let foam = Float::level(at(item.foam_height_m - item.size_m[2] / 2.0), item.foam_m3, BALLAST_HEIGHT_M);
+    let inside = [ballast, foam].into_iter().filter(|float| float.volume_m3 > 0.0);
+    [(a, b), (-a, b), (a, -b), (-a, -b)].map(wire).into_iter().chain(inside).collect()
 }
 
 /// `(b² + c², a² + c², a² + b²)`.
@@ -114,10 +120,10 @@ fn squares(size: DVec3) -> DVec3 {
     DVec3::splat(square.element_sum()) - square
 }
 
-/// Turning drag of the faces as plates cut into strips: `A_j L_k³/32 + A_k L_j³/32`.
+/// Turning drag of the upright faces as plates cut into strips by height: `A c³/32`. What length and width add comes of
+/// the wire's four parts.
 fn strip_drag(area: DVec3, size: DVec3) -> DVec3 {
-    let cubed = size * size * size / 32.0;
-    DVec3::new(area.y * cubed.z + area.z * cubed.y, area.z * cubed.x + area.x * cubed.z, area.x * cubed.y + area.y * cubed.x)
+    DVec3::new(area.y, area.x, 0.0) * (size.z * size.z * size.z / 32.0)
 }
 
 /// The eight corners of a box, the lower four first.

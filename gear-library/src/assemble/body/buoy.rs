@@ -11,7 +11,7 @@
 //! | turning drag | of slices by what they do; of one spheroid plate strips; skin drag `0.02` about the axis |
 //! | added mass | share × `ρ V` across and along; added inertia share × `ρ V (L²/12 + z²)` |
 //!
-//! A bullet's slices are cylinders of the capsule's volume between their ends; its draft then is within 0.5 % of its diameter.
+//! A bullet's slices are cylinders of the capsule's volume between their ends; its draft then is within 1 % of its diameter.
 
 use endline_sim::model::{Body, BodyRole, Float, Form, Shape};
 use endline_sim::{DQuat, DVec3};
@@ -53,6 +53,7 @@ pub fn of_buoy(id: String, item: &Buoy, density: f64, middle_m: DVec3, orientati
         feet_m: vec![middle + DVec3::Z * foot, middle + DVec3::Z * top],
         start_friction: SMOOTH_FRICTION,
         slide_friction: SMOOTH_FRICTION,
+        foot_break_out_n: 0.0,
         position_m: middle_m - orientation * middle,
         orientation,
         held_until_s: None,

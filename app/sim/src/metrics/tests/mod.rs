@@ -114,6 +114,7 @@ fn body(id: &str, role: BodyRole, position_m: DVec3) -> Body {
         feet_m: Vec::new(),
         start_friction: 0.5,
         slide_friction: 0.4,
+        foot_break_out_n: 0.0,
         position_m,
         orientation: DQuat::IDENTITY,
         held_until_s: None,
