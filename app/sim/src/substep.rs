@@ -129,50 +129,67 @@ fn gather(model: &Model, state: &State, work: &mut ContactWork, dt: f64) -> bool
 /// Newton where only water touches the rope.
 fn free_step(model: &Model, state: &State, solver: &mut Solver, scheme: &Scheme, audit: &mut Audit) -> Result<(), Refused> {
     solver.begin_free(model, state, scheme);
-    for pass in 1..=MOST_PASSES {
+    let (mut patience, at_once) = (Patience::new(model), !model.bends());
+    for pass in 1..=patience.most_passes {
         let passed = solver.pass_free(model, state, scheme);
         audit.passes += 1;
         if !passed.finite {
             audit.non_finite += 1;
             return Err(Refused::NotFinite);
         }
-        if is_settled(pass, &passed) {
+        let rests = patience.rests(pass, passed.longest_m);
+        let settled = passed.gap_n < TENSION_GAP_N.max(TENSION_GAP_SHARE * passed.greatest_n);
+        if (rests && settled) || (at_once && is_exact(&passed)) {
             return Ok(());
         }
     }
     Err(Refused::NotConverged)
 }
 
-/// Whether a pass of free rope is the last one needed.
-fn is_settled(pass: usize, passed: &FreePass) -> bool {
-    if pass < LEAST_PASSES {
-        return !passed.near_seabed
-            && passed.longest_m < ONE_PASS_M
-            && passed.gap_n < ONE_PASS_GAP_N.max(ONE_PASS_GAP_SHARE * passed.greatest_n);
-    }
-    passed.longest_m < CONVERGED_M && passed.gap_n < TENSION_GAP_N.max(TENSION_GAP_SHARE * passed.greatest_n)
+/// Whether another pass would change nothing of note.
+fn is_exact(passed: &FreePass) -> bool {
+    let gap_n = ONE_PASS_GAP_N.max(ONE_PASS_GAP_SHARE * passed.greatest_n);
+    !passed.near_seabed && passed.longest_m < ONE_PASS_M && passed.gap_n < gap_n
 }
 
 fn lines_step(model: &Model, state: &State, solver: &mut Solver, scheme: &Scheme, audit: &mut Audit) -> Result<(), Refused> {
-    let bends = model.bends();
-    let (most_passes, converged_m) = if bends { (BENT_MOST_PASSES, BENT_CONVERGED_M) } else { (MOST_PASSES, CONVERGED_M) };
-    let mut moved_before_m = f64::INFINITY;
-    for pass in 1..=most_passes {
+    let mut patience = Patience::new(model);
+    for pass in 1..=patience.most_passes {
         let passed = solver.pass(model, state, scheme);
         audit.passes += 1;
         if !passed.finite {
             audit.non_finite += 1;
             return Err(Refused::NotFinite);
         }
-        // Of moves that shrink by θ each pass, θ/(1-θ) of the last is left.
-        let shrinkage = if bends { (passed.longest_m / moved_before_m).min(0.9999) } else { 0.5 };
-        moved_before_m = passed.longest_m;
-        let left_m = passed.longest_m * shrinkage / (1.0 - shrinkage);
-        if pass >= LEAST_PASSES && left_m < converged_m && solver.pull_is_settled(model, scheme) {
+        if patience.rests(pass, passed.longest_m) && solver.pull_is_settled(model, scheme) {
             return Ok(());
         }
     }
     Err(Refused::NotConverged)
+}
+
+/// How long Newton goes on: rope that bends is solved for only roughly in each pass.
+struct Patience {
+    bends: bool,
+    most_passes: usize,
+    converged_m: f64,
+    moved_before_m: f64,
+}
+
+impl Patience {
+    fn new(model: &Model) -> Self {
+        let bends = model.bends();
+        let (most_passes, converged_m) = if bends { (BENT_MOST_PASSES, BENT_CONVERGED_M) } else { (MOST_PASSES, CONVERGED_M) };
+        Self { bends, most_passes, converged_m, moved_before_m: f64::INFINITY }
+    }
+
+    /// Whether little enough is left to go after a pass that moved so far.
+    fn rests(&mut self, pass: usize, moved_m: f64) -> bool {
+        // Of moves that shrink by θ each pass, θ/(1-θ) of the last is left.
+        let shrinkage = if self.bends { (moved_m / self.moved_before_m).min(0.9999) } else { 0.5 };
+        self.moved_before_m = moved_m;
+        pass >= LEAST_PASSES && moved_m * shrinkage / (1.0 - shrinkage) < self.converged_m
+    }
 }
 
 fn contact_step(

@@ -33,7 +33,7 @@ pub(crate) struct FreePass {
 impl Solver {
     /// Whether the lanes can take a step of this model, where no rope is near the whale.
     pub(crate) fn suits_lanes(&self, model: &Model) -> bool {
-        self.lanes.suit(model) && !model.bends()
+        self.lanes.suit(model)
     }
 
     /// Whether rope may touch the seabed in a step of this length.
