@@ -1,8 +1,9 @@
 //! Assembly: scenario, library and plugins become a model's spec.
 //!
-//! Order: sea, gear of the library, parts written in place, lines cut into segments, weak links,
+//! Order: sea, gear of the library, obstacles, parts written in place, lines cut into segments, weak links,
 //! whale and friction, probes. Every problem is collected and told with its place.
 
+mod around;
 mod body;
 mod builder;
 mod catenary;
@@ -85,6 +86,7 @@ pub fn assemble_traced(scenario: &Scenario, library: &Library, hooks: &dyn Hooks
     let mut builder = Builder::new(scenario, library, hooks, settings(scenario, options));
     builder.add_sea();
     builder.add_gear();
+    builder.add_obstacles();
     builder.add_fixtures();
     builder.add_free_joints();
     builder.add_free_bodies();
@@ -105,6 +107,7 @@ fn settings(scenario: &Scenario, options: &Options) -> Settings {
         duration_s: options.duration_s.unwrap_or(scenario.duration_s),
         resolution: scenario.resolution,
         seed: options.seed.unwrap_or(scenario.seed),
+        rope_on_bodies: scenario.rope_on_bodies,
         as_placed: scenario.as_placed,
         ..usual
     }

@@ -37,8 +37,8 @@ pub use items::{BoxGear, Buoy, BuoyPiece, BuoyShape, Condition, Knot, Point, Rop
 pub use library::Library;
 pub use line::{Insert, Inserts, LineMake};
 pub use scenario::{
-    Bed, CurrentOf, CurrentRow, Fixture, FreeBody, FrictionChoice, LineStart, PlacedGear, ProbeOf, ProbePart, RowHeight, Scenario, Sea,
-    Swimmer,
+    Bed, CurrentOf, CurrentRow, Fixture, FreeBody, FrictionChoice, LineStart, ObstacleOf, PlacedGear, ProbeOf, ProbePart, RowHeight,
+    Scenario, Sea, Swimmer,
 };
 pub use schema::{Field, Kind, Word};
 pub use sources::Sources;

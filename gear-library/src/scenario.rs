@@ -2,6 +2,7 @@
 
 mod current;
 mod motion;
+mod obstacle;
 mod parts;
 mod resolution;
 mod sea;
@@ -22,6 +23,7 @@ use crate::units::Quantity;
 
 pub use current::{CurrentOf, CurrentRow, RowHeight};
 pub use motion::Swimmer;
+pub use obstacle::ObstacleOf;
 pub use parts::{Fixture, FreeBody, LineStart, ProbeOf, ProbePart};
 pub use sea::{Bed, Sea};
 
@@ -50,6 +52,8 @@ pub struct Scenario {
     pub resolution: Option<Resolution>,
     /// Whether weak links can part.
     pub weak_links: bool,
+    /// Whether rope touches the bodies of the rig.
+    pub rope_on_bodies: bool,
     /// Whether the run starts as its parts are placed, without statics.
     pub as_placed: bool,
     /// Condition of every rope whose line names none.
@@ -72,6 +76,8 @@ pub struct Scenario {
     pub fixtures: Vec<Fixture>,
     /// Free joints written in place: id and first guess of the place [m].
     pub joints: Vec<(At<String>, DVec3)>,
+    /// Solid things that stand still.
+    pub obstacles: Vec<ObstacleOf>,
     /// Bodies written in place.
     pub bodies: Vec<FreeBody>,
     /// Lines written in place, with their start shape.
@@ -135,6 +141,7 @@ impl Scenario {
         let rope_nodes = fields.count("rope_nodes", 2);
         let segment = fields.value("segment", Quantity::Length, Range::Between(1e-3, 1000.0));
         let weak_links = fields.flag("weak_links");
+        let rope_on_bodies = fields.flag("rope_on_bodies");
         let whale = fields.table("whale");
         let follow = fields.table("resolution");
         let start = fields.word("start", &["rest", "placed"]);
@@ -151,6 +158,7 @@ impl Scenario {
             rope_nodes,
             segment_m: segment.map(|segment| segment.value),
             weak_links: weak_links.unwrap_or(true),
+            rope_on_bodies: rope_on_bodies.unwrap_or(false),
             as_placed: start.is_some_and(|start| start.value == "placed"),
             rope_condition: rope_condition.and_then(|word| Condition::from_word(&word.value)).unwrap_or_default(),
             rope_bending: fields.flag("rope_bending").unwrap_or(false),
@@ -163,6 +171,7 @@ impl Scenario {
             ropes: parts::ropes(&fields, &file),
             fixtures: each("fixture").filter_map(|node| parts::fixture(node, problems)).collect(),
             joints: each("joint").filter_map(|node| parts::joint(node, problems)).collect(),
+            obstacles: each("obstacle").filter_map(|node| obstacle::obstacle(node, &file, problems)).collect(),
             bodies: each("body").filter_map(|node| parts::body(node, &file, problems)).collect(),
             lines: each("line").filter_map(|node| free_line(node, problems)).collect(),
             links: each("link").filter_map(|node| link(node, problems, true)).collect(),
@@ -250,10 +259,20 @@ fn friction(fields: &Fields<'_>) -> Option<FrictionChoice> {
 fn free_line(node: &Node, problems: &Problems) -> Option<(PartLine, LineStart)> {
     let fields = Fields::of(node, problems);
     let line = line_fields(&fields);
-    let start = fields.word("start", &["straight", "catenary"]);
+    let start = fields.word("start", &["straight", "catenary", "around"]);
+    let start = match start.as_ref().map_or("straight", |start| start.value.as_str()) {
+        "catenary" => Some(LineStart::Catenary),
+        "around" => around(&fields),
+        _ => Some(LineStart::Straight),
+    };
     fields.finish();
-    let start = if start.is_some_and(|start| start.value == "catenary") { LineStart::Catenary } else { LineStart::Straight };
-    Some((line?, start))
+    Some((line?, start?))
+}
+
+fn around(fields: &Fields<'_>) -> Option<LineStart> {
+    let obstacle = fields.need_text("around", "write the id of a cylinder among the obstacles");
+    let turns = fields.need_value("turns", Quantity::Ratio, Range::Between(-100.0, 100.0));
+    Some(LineStart::Around { obstacle: obstacle?, turns: turns?.value })
 }
 
 /// A place as east, north, up [m].

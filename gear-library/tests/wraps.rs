@@ -87,6 +87,7 @@ fn model(skin: &Skin, segments_m: Vec<f64>) -> Model {
         gear: Vec::new(),
         whale: Some(whale),
         friction: Some(Friction { model: Idle::shared(), attributes: Vec::new(), coefficients: vec![[0.2; Region::ALL.len()]] }),
+        obstacles: Vec::new(),
         probes: Vec::new(),
         settings: Settings::default(),
     };

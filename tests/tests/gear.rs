@@ -45,6 +45,8 @@ fn every_shipped_scenario_makes_a_model_with_the_nodes_it_asks_for() {
         ("hello-resolution.toml", 250),
         ("reference-b-static.toml", 501),
         ("reference-a-pendulum.toml", 101),
+        ("reference-d-capstan-half.toml", 501),
+        ("reference-d-capstan-full.toml", 501),
     ] {
         let model = Model::new(shipped(name)).unwrap();
         assert_eq!(model.node_count, nodes, "{name}");

@@ -8,6 +8,7 @@
 
 use endline_sdk::{Controls, Posture};
 use endline_sim::contact::Grips;
+use endline_sim::solids::SolidGrip;
 use endline_sim::state::{BodyState, RopeState, WhaleState};
 use endline_sim::{DQuat, DVec3, Input, State};
 
@@ -87,6 +88,7 @@ fn fold_rope(rope: &RopeState, ropes: &mut Fold, contact: &mut Fold, links: &mut
         earlier_dt_s,
         seabed_grip,
         grips,
+        solid_grips,
     } = rope;
     for vectors in [position, velocity, earlier_position, earlier_velocity] {
         ropes.vectors(vectors);
@@ -98,6 +100,13 @@ fn fold_rope(rope: &RopeState, ropes: &mut Fold, contact: &mut Fold, links: &mut
     let Grips { sites, floats } = grips;
     sites.iter().for_each(|site| contact.word(*site));
     contact.reals(floats);
+    for SolidGrip { solid, line, along_m, at_node, stretch, push_n } in solid_grips {
+        contact.word(*solid as u64);
+        contact.word(*line as u64);
+        contact.word(u64::from(*at_node));
+        contact.reals(&[*along_m, *push_n]);
+        contact.vectors(&[*stretch]);
+    }
     cut.iter().for_each(|cut| links.word(u64::from(*cut)));
 }
 

@@ -1,6 +1,7 @@
 //! What a model must hold before anything moves: every problem is told at once, with its part.
 
 use crate::model::{Body, Joint, JointKind, Line, Link, ModelError, ModelSpec, Resolution, Rope};
+use crate::solids::Obstacle;
 
 /// Everything wrong with a spec.
 pub(crate) fn check(spec: &ModelSpec) -> Vec<ModelError> {
@@ -20,6 +21,9 @@ pub(crate) fn check(spec: &ModelSpec) -> Vec<ModelError> {
     }
     for link in &spec.links {
         check_link(spec, link, found.of("link", &link.id));
+    }
+    for obstacle in &spec.obstacles {
+        check_obstacle(obstacle, found.of("obstacle", &obstacle.id));
     }
     check_whale(spec, found.of("whale", ""));
     found.errors
@@ -113,9 +117,20 @@ fn check_body(body: &Body, found: &mut Found) {
 
 fn check_joint(spec: &ModelSpec, joint: &Joint, found: &mut Found) {
     found.need(joint.position_m.is_finite(), "its place is not a finite number");
-    if let JointKind::Body { body, .. } = joint.kind {
-        found.need(body < spec.bodies.len(), "it sits on a body that is not there");
+    match joint.kind {
+        JointKind::Body { body, .. } => found.need(body < spec.bodies.len(), "it sits on a body that is not there"),
+        JointKind::Pulled { force_n, .. } => found.need(force_n.is_finite(), "the force on it is not a finite number"),
+        _ => {}
     }
+}
+
+fn check_obstacle(obstacle: &Obstacle, found: &mut Found) {
+    found.need(obstacle.position_m.is_finite() && obstacle.orientation.is_normalized(), "its place or orientation is not sound");
+    if let Some(fault) = obstacle.shape.fault() {
+        found.need(false, fault);
+    }
+    found.not_below_zero("friction", obstacle.friction);
+    found.above_zero("stiffness under rope", obstacle.stiffness_n_m2);
 }
 
 fn check_line(spec: &ModelSpec, line: &Line, found: &mut Found) {

@@ -16,6 +16,7 @@ pub mod metrics;
 pub mod model;
 pub mod parting;
 mod regrid;
+pub mod solids;
 mod solver;
 pub mod state;
 pub mod statics;

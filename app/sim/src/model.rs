@@ -8,6 +8,7 @@ use glam::{DQuat, DVec3};
 
 use crate::check::check;
 pub use crate::float::{Float, Form, Wet};
+use crate::solids::Obstacle;
 use crate::water::{Sea, Water};
 use crate::whale::{SkinTree, Whale};
 
@@ -70,6 +71,13 @@ pub enum JointKind {
         from_s: f64,
         /// Until this time [s].
         until_s: f64,
+    },
+    /// A steady force: a rope's free end that is hauled or tailed.
+    Pulled {
+        /// Force [N].
+        force_n: DVec3,
+        /// From this time on; it is held until then, through statics too. Below zero it is never held [s].
+        from_s: f64,
     },
     /// A body: the joint rides at `offset_m` in the body's frame.
     Body {
@@ -349,11 +357,22 @@ pub struct Settings {
     pub seed: u64,
     /// Whether the run starts as its parts are placed, without statics before it.
     pub as_placed: bool,
+    /// Whether rope touches the bodies of the rig too, and not obstacles alone.
+    pub rope_on_bodies: bool,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { step_s: 0.01, contact_step_s: 0.002, least_step_s: 1e-6, resolution: None, duration_s: 60.0, seed: 1, as_placed: false }
+        Self {
+            step_s: 0.01,
+            contact_step_s: 0.002,
+            least_step_s: 1e-6,
+            resolution: None,
+            duration_s: 60.0,
+            seed: 1,
+            rope_on_bodies: false,
+            as_placed: false,
+        }
     }
 }
 
@@ -380,6 +399,8 @@ pub struct ModelSpec {
     pub whale: Option<Whale>,
     /// Friction of rope on whale; needed where there is a whale.
     pub friction: Option<Friction>,
+    /// Solid things that stand still.
+    pub obstacles: Vec<Obstacle>,
     /// Probes.
     pub probes: Vec<Probe>,
     /// Steps and tolerances.

@@ -6,6 +6,7 @@ use glam::{DQuat, DVec3};
 use crate::contact::Grips;
 use crate::in_place::clone_in_place;
 use crate::model::{Body, JointKind, Model};
+use crate::solids::SolidGrip;
 use crate::solver::LOOSE_M;
 use crate::whale::Whale;
 
@@ -53,6 +54,8 @@ pub struct RopeState {
     pub seabed_grip: Vec<DVec3>,
     /// Floats of the friction model where rope touches skin.
     pub grips: Grips,
+    /// Where rope touches obstacles and bodies.
+    pub solid_grips: Vec<SolidGrip>,
 }
 
 /// A rigid body in motion.
@@ -108,7 +111,8 @@ clone_in_place!(RopeState {
     earlier_velocity,
     earlier_dt_s,
     seabed_grip,
-    grips
+    grips,
+    solid_grips
 });
 clone_in_place!(BodyState { position, orientation, velocity, spin, earlier_position, earlier_velocity, grip, sliding, lift_m });
 clone_in_place!(WhaleState { position, orientation, speed_m_s, turn_rate, posture, motion, contact_force_n });
@@ -129,6 +133,7 @@ impl State {
             earlier_dt_s: 0.0,
             seabed_grip: vec![DVec3::ZERO; nodes],
             grips: Grips::default(),
+            solid_grips: Vec::new(),
             position,
         };
         Self {

@@ -147,8 +147,8 @@ fn attempt(model: &Model, from: &State, (way, most_passes): (Way, usize), trace_
             break;
         }
         solver.solve(model);
-        let longest = LONGEST_MOVE_M / solver.longest().max(LONGEST_MOVE_M);
-        let share = if way == Way::Searched { solver.search_free(model, &scheme, longest) } else { longest };
+        let longest = solver.share_past_solids(LONGEST_MOVE_M / solver.longest().max(LONGEST_MOVE_M));
+        let share = if way == Way::Searched { solver.search_free(model, &state, &scheme, longest) } else { longest };
         solver.advance(model, share);
         solver.measure_flow(model);
         let next = balance(model, &state, &mut solver, &scheme, way);

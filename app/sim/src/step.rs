@@ -213,6 +213,11 @@ fn stop(model: &Model, state: &State, workspace: &Workspace, why: Refused) -> St
             let reason = format!("rope is pinched at the whale's {region} by parts of the skin that close on it harder than rope can bear");
             (format!("line {line}"), reason)
         }
+        Refused::WentThrough(segment, solid) => {
+            let line = &model.spec.lines[model.segment_line[segment]].id;
+            let solid = crate::solids::name_of(model, solid);
+            (format!("line {line}"), format!("rope goes through {solid} even at the shortest step; use shorter segments or a slower start"))
+        }
         Refused::Plugin(message) => (friction(), message),
     };
     Stop { time_s: state.time_s, part, reason }

@@ -11,6 +11,7 @@ use crate::contact::law::PINCHED_SHARE;
 use crate::contact::work::ContactWork;
 use crate::model::Model;
 use crate::parting::{self, Parting};
+use crate::solids::work;
 use crate::solver::{BodyTrial, CONTACT_WANTED_M, FreePass, Scheme, Solver, TENSION_GAP_N, TENSION_GAP_SHARE, Touched};
 use crate::state::State;
 use crate::step::{Audit, Workspace};
@@ -32,6 +33,10 @@ const CONVERGED_M: f64 = 1e-3;
 const BENT_CONVERGED_M: f64 = 1e-5;
 /// Passes after which such a step counts as not converged.
 const BENT_MOST_PASSES: usize = 40;
+/// Passes of such a step that trust what the last solve foretold; later ones are searched.
+const FORETOLD_PASSES: usize = 8;
+/// Passes after which a step with rope on obstacles or bodies ends.
+const MOST_SOLID_PASSES: usize = 30;
 /// Most times the move of skin and rope together is cut.
 const MOST_CUTS: usize = 20;
 /// Times the skin may be stopped within a solver step.
@@ -49,8 +54,18 @@ pub(crate) enum Refused {
     Crossed(usize),
     /// This segment is pinched at this triangle by skin that closes on it.
     Pinched(usize, usize),
+    /// This segment went into or through this obstacle or body.
+    WentThrough(usize, usize),
     /// The friction plugin failed, with its message.
     Plugin(String),
+}
+
+/// What free rope met in a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Met {
+    Nothing,
+    /// An obstacle or a body that its drift would not have brought it near to.
+    Solid,
 }
 
 impl Refused {
@@ -68,10 +83,12 @@ pub(crate) fn solver_step(model: &Model, state: &mut State, workspace: &mut Work
         touching = None;
     }
     contacts.clear();
-    let scheme = if careful || touching.is_some() { Scheme::backward_euler(dt) } else { Scheme::bdf2(dt, state.rope.earlier_dt_s) };
+    let on_solid = solver.gather_solids(state, dt);
+    let impact = careful || on_solid || touching.is_some();
+    let scheme = if impact { Scheme::backward_euler(dt) } else { Scheme::bdf2(dt, state.rope.earlier_dt_s) };
     let last = dt * 0.5 < model.spec.settings.least_step_s;
-    if touching.is_none() && solver.suits_lanes(model) {
-        free_step(model, state, solver, &scheme, audit)?;
+    let free = touching.is_none() && !on_solid && solver.suits_lanes(model);
+    if free && free_step(model, state, solver, &scheme, audit)? == Met::Nothing {
         if !last && parting::too_late(model, state, solver.tension_free()) {
             return Err(Refused::PartsTooLate);
         }
@@ -90,7 +107,7 @@ pub(crate) fn solver_step(model: &Model, state: &mut State, workspace: &mut Work
     Ok(())
 }
 
-/// A solver step with rope near the whale or the seabed, line after line.
+/// A solver step with rope near the whale, obstacles or bodies, line after line.
 fn step_by_lines(
     model: &Model,
     state: &mut State,
@@ -101,7 +118,8 @@ fn step_by_lines(
 ) -> Result<(), Refused> {
     solver.begin(model, state, scheme);
     match &mut touching {
-        None => lines_step(model, state, solver, scheme, audit)?,
+        None if solver.solid.pairs.is_empty() => lines_step(model, state, solver, scheme, audit)?,
+        None => solid_step(model, state, solver, scheme, audit)?,
         Some(work) => contact_step(model, state, solver, scheme, work, audit)?,
     }
     if !last && parting::too_late(model, state, solver.tension()) {
@@ -126,13 +144,15 @@ fn gather(model: &Model, state: &State, work: &mut ContactWork, dt: f64) -> bool
     work.near.begin(model, [start, end], &state.rope.position, |node| state.rope.velocity[node] * dt, &state.rope.cut)
 }
 
-/// Newton where only water touches the rope.
-fn free_step(model: &Model, state: &State, solver: &mut Solver, scheme: &Scheme, audit: &mut Audit) -> Result<(), Refused> {
+/// Newton where only water and seabed touch the rope; what it met beyond.
+fn free_step(model: &Model, state: &State, solver: &mut Solver, scheme: &Scheme, audit: &mut Audit) -> Result<Met, Refused> {
     solver.begin_free(model, state, scheme);
     let (mut patience, at_once) = (Patience::new(model), !model.bends());
+    let mut moved_m = 0.0;
     for pass in 1..=patience.most_passes {
         let passed = solver.pass_free(model, state, scheme);
         audit.passes += 1;
+        moved_m += passed.longest_m;
         if !passed.finite {
             audit.non_finite += 1;
             return Err(Refused::NotFinite);
@@ -140,7 +160,9 @@ fn free_step(model: &Model, state: &State, solver: &mut Solver, scheme: &Scheme,
         let rests = patience.rests(pass, passed.longest_m);
         let settled = passed.gap_n < TENSION_GAP_N.max(TENSION_GAP_SHARE * passed.greatest_n);
         if (rests && settled) || (at_once && is_exact(&passed)) {
-            return Ok(());
+            // Rope that kept to its drift has met nothing but what was gathered.
+            let strayed = moved_m > work::MARGIN_M && solver.strayed_free(state, scheme.dt);
+            return Ok(if strayed { Met::Solid } else { Met::Nothing });
         }
     }
     Err(Refused::NotConverged)
@@ -190,6 +212,34 @@ impl Patience {
         self.moved_before_m = moved_m;
         pass >= LEAST_PASSES && moved_m * shrinkage / (1.0 - shrinkage) < self.converged_m
     }
+}
+
+/// Newton with rope on obstacles or bodies.
+fn solid_step(model: &Model, state: &State, solver: &mut Solver, scheme: &Scheme, audit: &mut Audit) -> Result<(), Refused> {
+    let mut last_m = f64::INFINITY;
+    for pass in 1..=MOST_SOLID_PASSES {
+        if pass == FORETOLD_PASSES + 1 {
+            // What was foretold led astray: begin again.
+            solver.begin(model, state, scheme);
+            solver.solid.follow_again();
+        }
+        let passed = if pass <= FORETOLD_PASSES { solver.pass(model, state, scheme) } else { solver.searched_pass(model, state, scheme) };
+        audit.passes += 1;
+        if !passed.finite {
+            audit.non_finite += 1;
+            return Err(Refused::NotFinite);
+        }
+        last_m = passed.longest_m;
+        let settled = last_m < CONTACT_WANTED_M && solver.pushes_are_settled() && solver.pull_is_settled(model, scheme);
+        if pass >= LEAST_PASSES && settled && !solver.strayed_to_solids(state, scheme.dt) {
+            break;
+        }
+    }
+    if last_m > CONTACT_CONVERGED_M {
+        return Err(Refused::NotConverged);
+    }
+    audit.unconverged += u64::from(last_m > CONTACT_WANTED_M);
+    solver.went_through(state).map_or(Ok(()), |(segment, solid)| Err(Refused::WentThrough(segment, solid)))
 }
 
 fn contact_step(

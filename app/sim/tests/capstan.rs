@@ -130,6 +130,7 @@ fn over_drum(radius: f64, region: Region, speed: f64, segments: usize) -> ModelS
             contact_stiffness_n_m2: 2e6,
         }),
         friction: Some(Friction { model: Arc::new(coulomb), attributes, coefficients: vec![[FRICTION; Region::ALL.len()]] }),
+        obstacles: Vec::new(),
         probes: Vec::new(),
         settings: Settings { step_s: 0.002, ..Settings::default() },
     }

@@ -21,6 +21,7 @@ pub(super) enum Part {
     Joint(usize),
     Line { first: usize, last: usize },
     Link(usize),
+    Obstacle(usize),
 }
 
 /// A line before it is cut into segments.
@@ -75,6 +76,7 @@ impl<'a> Builder<'a> {
             gear: Vec::new(),
             whale: None,
             friction: None,
+            obstacles: Vec::new(),
             probes: Vec::new(),
             settings,
         };

@@ -123,7 +123,7 @@ impl Builder<'_> {
         let (id, length_m) = (piece.id, piece.length_m);
         let rope = rope.unwrap_or(0);
         self.spec.lines.push(Line { id, rope, from, to, segments_m: Vec::new(), strength, start_m: Vec::new() });
-        self.uncut.push(Uncut { length_m, start: line.start, laid_m, place: line.id.place.clone() });
+        self.uncut.push(Uncut { length_m, start: line.start.clone(), laid_m, place: line.id.place.clone() });
         if let Some((id, item)) = piece.sleeve {
             let rating = self.rating(item, &id);
             self.add_link_to(&At { value: id, place: item.place.clone() }, rating, index, LineEnd::B);

@@ -2,13 +2,14 @@
 
 use endline_sdk::{BodyKind, LineEnd, Rig, RigBody, RigEnd, RigLine, RigLink};
 use endline_sim::model::{BodyRole, Joint, JointKind, Link};
+use endline_sim::solids::Obstacle;
 use endline_sim::{DQuat, DVec3};
 
 use crate::diagnostic::{At, Place};
 use crate::items::BoxGear;
 use crate::library::Library;
 use crate::line::LineMake;
-use crate::scenario::LineStart;
+use crate::scenario::{LineStart, ObstacleOf};
 use crate::schema::Kind;
 
 use super::body;
@@ -159,12 +160,22 @@ impl Builder<'_> {
         self.spec.links.push(Link { id: id.value.clone(), line, end, rating_n: rating_n.unwrap_or(0.0), enabled: true });
     }
 
-    /// Fixed and driven points of the scenario.
+    /// Obstacles of the scenario.
+    pub fn add_obstacles(&mut self) {
+        for obstacle in &self.scenario.obstacles {
+            let ObstacleOf { id, shape, position_m, orientation, friction, stiffness_n_m2 } = obstacle.clone();
+            self.name(id.value.clone(), Part::Obstacle(self.spec.obstacles.len()), &id.place);
+            self.spec.obstacles.push(Obstacle { id: id.value, shape, position_m, orientation, friction, stiffness_n_m2 });
+        }
+    }
+
+    /// Fixed, driven and pulled points of the scenario.
     pub fn add_fixtures(&mut self) {
         for fixture in &self.scenario.fixtures {
-            let kind = match fixture.drive {
-                Some((velocity_m_s, from_s, until_s)) => JointKind::Driven { velocity_m_s, from_s, until_s },
-                None => JointKind::Fixed,
+            let kind = match (fixture.drive, fixture.pull) {
+                (Some((velocity_m_s, from_s, until_s)), _) => JointKind::Driven { velocity_m_s, from_s, until_s },
+                (None, Some((force_n, from_s))) => JointKind::Pulled { force_n, from_s },
+                (None, None) => JointKind::Fixed,
             };
             self.name(fixture.id.value.clone(), Part::Joint(self.spec.joints.len()), &fixture.id.place);
             self.spec.joints.push(Joint { id: fixture.id.value.clone(), kind, position_m: fixture.position_m });
@@ -193,7 +204,7 @@ impl Builder<'_> {
         for (line, start) in &self.scenario.lines {
             let ends = (self.end(&line.from), self.end(&line.to));
             let (id, rope) = (line.id.clone(), line.rope.clone());
-            self.add_line(&NewLine { id, rope, ends, length_m: line.length_m, start: *start, laid_m: Vec::new(), make: &line.make });
+            self.add_line(&NewLine { id, rope, ends, length_m: line.length_m, start: start.clone(), laid_m: Vec::new(), make: &line.make });
         }
     }
 

@@ -2,11 +2,13 @@
 
 use endline_sim::DVec3;
 use endline_sim::model::JointKind;
+use endline_sim::solids::SolidShape;
 
-use crate::diagnostic::Place;
+use crate::diagnostic::{At, Place};
 use crate::scenario::LineStart;
 
-use super::builder::Builder;
+use super::around::Around;
+use super::builder::{Builder, Part};
 use super::catenary::Catenary;
 
 /// Rope nodes in all where a scenario asks for none.
@@ -42,14 +44,19 @@ impl Builder<'_> {
         self.problems.push(place.error("`rope_nodes` is too small for this gear", help));
     }
 
-    /// Lays a line along the elastic catenary between its ends, where the scenario asks for it.
+    /// Lays a line in the shape the scenario asks for.
     fn shape_start(&mut self, index: usize) {
         if !self.uncut[index].laid_m.is_empty() {
             return self.lay(index);
         }
-        if self.uncut[index].start == LineStart::Straight {
-            return;
+        match self.uncut[index].start.clone() {
+            LineStart::Straight => {}
+            LineStart::Catenary => self.lay_catenary(index),
+            LineStart::Around { obstacle, turns } => self.lay_around(index, &obstacle, turns),
         }
+    }
+
+    fn lay_catenary(&mut self, index: usize) {
         let line = &self.spec.lines[index];
         let rope = &self.spec.ropes[line.rope];
         let water = &self.spec.water;
@@ -62,9 +69,42 @@ impl Builder<'_> {
                 .push(self.uncut[index].place.error(message, "mend its length or the places of its ends, or write start = \"straight\""));
             return;
         };
+        self.lay_along(index, |share| from + catenary.at(length * share));
+    }
+
+    fn lay_around(&mut self, index: usize, id: &At<String>, turns: f64) {
+        let Some(Part::Obstacle(obstacle)) = self.part(&id.value) else {
+            return self.unknown("obstacle", id, |part| matches!(part, Part::Obstacle(_)));
+        };
+        let obstacle = &self.spec.obstacles[obstacle];
+        let SolidShape::Cylinder { radius_m, .. } = obstacle.shape else {
+            let help = "rope starts round an obstacle with shape = \"cylinder\"";
+            return self.problems.push(id.place.error(format!("`{}` is not a cylinder", id.value), help));
+        };
+        let line = &self.spec.lines[index];
+        let radius = radius_m + 0.5 * self.spec.ropes[line.rope].diameter_m;
+        let ends = [self.joint_place(line.from), self.joint_place(line.to)];
+        let axes = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| obstacle.orientation * axis);
+        match Around::between(ends, obstacle.position_m, axes, radius, turns) {
+            Some(path) => self.lay_along(index, |share| path.at(share)),
+            None => {
+                let message = format!("an end of line `{}` lies within `{}`", line.id, id.value);
+                self.problems.push(id.place.error(message, "put both ends outside of it"));
+            }
+        }
+    }
+
+    /// Lays the nodes of a line along a path, its ends where they belong.
+    fn lay_along(&mut self, index: usize, path: impl Fn(f64) -> DVec3) {
+        let line = &self.spec.lines[index];
+        let (from, to) = (self.joint_place(line.from), self.joint_place(line.to));
         let count = line.segments_m.len();
-        let node = |k: usize| from + catenary.at(length * k as f64 / count as f64);
-        self.spec.lines[index].start_m = (0..=count).map(|k| if k == count { to } else { node(k) }).collect();
+        let node = |k: usize| match k {
+            0 => from,
+            k if k == count => to,
+            k => path(k as f64 / count as f64),
+        };
+        self.spec.lines[index].start_m = (0..=count).map(node).collect();
     }
 
     /// Lays a line's nodes evenly along the way its gear type gave it, from joint to joint.

@@ -13,7 +13,7 @@ use crate::units::Quantity;
 
 use super::place3;
 
-/// A point that is held, or driven at a steady velocity between two times.
+/// A point that is held, driven at a steady velocity between two times, or held and then pulled by a steady force.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fixture {
     /// Id.
@@ -22,6 +22,8 @@ pub struct Fixture {
     pub position_m: DVec3,
     /// Velocity [m/s] and from when until when [s], where driven.
     pub drive: Option<(DVec3, f64, f64)>,
+    /// Force [N] and from when on [s], where pulled.
+    pub pull: Option<(DVec3, f64)>,
 }
 
 /// A body written in place: a sphere with given figures, the line at its middle.
@@ -52,12 +54,19 @@ pub struct FreeBody {
 }
 
 /// The shape a line starts in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum LineStart {
     /// Straight between its ends.
     Straight,
     /// The elastic catenary between its ends under its weight in air, for a run that starts held.
     Catenary,
+    /// Round a cylinder.
+    Around {
+        /// Id of the obstacle.
+        obstacle: At<String>,
+        /// How often round; below zero is left-handed about its axis.
+        turns: f64,
+    },
 }
 
 /// A probe as written.
@@ -106,17 +115,24 @@ pub(super) fn fixture(node: &Node, problems: &Problems) -> Option<Fixture> {
     let velocity = fields.values("velocity", Quantity::Speed, &[3]);
     let from = fields.value("from", Quantity::Time, Range::NotNegative);
     let until = fields.value("until", Quantity::Time, Range::NotNegative);
-    if let (None, Some(lone)) = (&velocity, from.as_ref().or(until.as_ref())) {
-        problems.push(
+    let force = fields.values("force", Quantity::Force, &[3]);
+    match (&velocity, &force, from.as_ref().or(until.as_ref()), &until) {
+        (Some(_), Some(force), ..) => {
+            problems.push(force.place.error("both a `velocity` and a `force`", "keep the one that is meant"));
+        }
+        (None, None, Some(lone), _) => problems.push(
             lone.place.error("a time without a `velocity`", "write velocity = [\"2 m/s\", \"0 m/s\", \"0 m/s\"], or take the time out"),
-        );
+        ),
+        (None, Some(_), _, Some(until)) => {
+            problems.push(until.place.error("a `force` has no `until`", "take it out: a force acts from `from` on to the end"));
+        }
+        _ => {}
     }
     fields.finish();
-    let drive = velocity.map(|velocity| {
-        let (from, until) = (from.map_or(0.0, |from| from.value), until.map_or(f64::INFINITY, |until| until.value));
-        (place3(&velocity.value), from, until)
-    });
-    Some(Fixture { id: id?, position_m: position?, drive })
+    let begins = from.map_or(0.0, |from| from.value);
+    let drive = velocity.map(|velocity| (place3(&velocity.value), begins, until.map_or(f64::INFINITY, |until| until.value)));
+    let pull = force.map(|force| (place3(&force.value), begins));
+    Some(Fixture { id: id?, position_m: position?, drive, pull })
 }
 
 /// `[[joint]]`: a free end, or a place where lines meet.
@@ -212,7 +228,7 @@ fn coordinate<'a>(fields: &Fields<'a>, key: &'a str) -> Option<(At<String>, usiz
     Some((part?, ["x", "y", "z"].iter().position(|name| *name == axis.value)?))
 }
 
-fn position(fields: &Fields<'_>) -> Option<DVec3> {
+pub(super) fn position(fields: &Fields<'_>) -> Option<DVec3> {
     let position = fields.values("position", Quantity::Length, &[3]);
     if fields.get("position").is_none() {
         fields.missing("position", "write east, north and up as [\"0 m\", \"0 m\", \"-30 m\"]");

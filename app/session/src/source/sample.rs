@@ -45,6 +45,7 @@ pub(crate) fn hanging_rope(duration_s: f64) -> Prepared {
         gear: vec![],
         whale: None,
         friction: None,
+        obstacles: vec![],
         probes: vec![],
         settings: Settings { duration_s, ..Settings::default() },
     };

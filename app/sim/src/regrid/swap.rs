@@ -113,6 +113,8 @@ fn for_segments(rope: &mut RopeState, work: &mut RegridWork, act: impl Fn(Values
         earlier_dt_s: _,
         seabed_grip: _,
         grips: _,
+        // They lie by length along the line, which stays.
+        solid_grips: _,
     } = rope;
     act(Values::Numbers(segment_length));
     act(Values::Numbers(tension));

@@ -18,7 +18,7 @@ use crate::model::{Body, Float, Model};
 use crate::state::State;
 
 /// Stiffness that keeps a held body where it is.
-const HELD: f64 = 1e30;
+pub(super) const HELD: f64 = 1e30;
 
 impl Solver {
     /// Adds inertia, weight, floats, drag and seabed of every body.

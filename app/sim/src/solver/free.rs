@@ -71,6 +71,7 @@ impl Solver {
             self.join(seat_a, seat_b, &ends);
         }
         self.add_bodies(model, state, scheme);
+        self.add_pulled(model, scheme);
         self.add_end_turns_free(model);
         self.hubs.solve();
         for (index, line) in model.spec.lines.iter().enumerate() {
@@ -112,6 +113,7 @@ impl Solver {
         }
         self.lanes.keep(scheme, &mut state.rope);
         state.rope.earlier_dt_s = scheme.dt;
+        state.rope.solid_grips.clear();
         self.keep_bodies(scheme, state);
     }
 

@@ -88,6 +88,7 @@ fn model(depth_m: f64, current_m_s: f64) -> Model {
         gear: Vec::new(),
         whale: None,
         friction: None,
+        obstacles: Vec::new(),
         probes: Vec::new(),
         settings: Settings::default(),
     };

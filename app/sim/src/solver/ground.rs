@@ -47,6 +47,11 @@ pub(crate) struct Grip {
 }
 
 impl Grip {
+    /// No friction at all.
+    pub fn none() -> Self {
+        Self { force: DVec3::ZERO, block: DMat3::ZERO, kept: DVec3::ZERO, slips: false }
+    }
+
     /// Grip of stiffness `stiffness` stretched to `stretch` across `normal`, under normal force `push`
     /// with derivative `push_rate` by depth.
     pub fn new(stretch: DVec3, normal: DVec3, stiffness: f64, friction: f64, (push, push_rate): (f64, f64)) -> Self {

@@ -16,9 +16,11 @@ mod hubs;
 mod lanes;
 mod lengths;
 mod plan;
+mod pulled;
 mod rope;
 mod scheme;
 mod search;
+mod solid;
 mod suction;
 mod touch;
 mod trial;
@@ -27,6 +29,7 @@ mod water;
 use glam::{DMat3, DVec3};
 
 use crate::model::Model;
+use crate::solids::work::SolidWork;
 use crate::state::State;
 use crate::water::WaterAt;
 use crate::water::field::Walk;
@@ -39,6 +42,7 @@ use lengths::Lengths;
 use plan::Plan;
 use rope::Pull;
 pub(crate) use scheme::Scheme;
+use solid::Judged;
 pub(crate) use suction::LOOSE_M;
 pub(crate) use touch::{CONTACT_WANTED_M, TENSION_GAP_N, TENSION_GAP_SHARE, Touched};
 pub(crate) use trial::BodyTrial;
@@ -73,6 +77,8 @@ pub(crate) struct Solver {
     /// Where rope and bodies would go on their own from where a step with contact begins.
     pub(crate) drift: Vec<DVec3>,
     pub(crate) drift_bodies: Vec<BodyTrial>,
+    /// Rope near obstacles and bodies.
+    pub(crate) solid: SolidWork,
 }
 
 /// Forces and blocks that the search along a step holds linear.
@@ -118,6 +124,7 @@ impl Solver {
             wave_walk: Walk::default(),
             drift: Vec::new(),
             drift_bodies: Vec::new(),
+            solid: SolidWork::new(model),
         }
     }
 
@@ -138,6 +145,8 @@ impl Solver {
         self.add_nodes(model, scheme);
         self.add_push();
         self.add_seabed(model, state, scheme);
+        self.add_solids(state, scheme, Judged::Foretold);
+        self.add_pulled(model, scheme);
         self.add_tension(model, scheme);
         self.add_bending(model);
         self.add_bodies(model, state, scheme);
@@ -151,10 +160,12 @@ impl Solver {
         self.add_nodes(model, scheme);
         self.add_push();
         self.add_seabed(model, state, scheme);
+        self.add_pulled(model, scheme);
         self.add_bodies(model, state, scheme);
         self.rest.diagonal.clone_from(&self.band.diagonal);
         self.rest.force.clone_from(&self.band.force);
         self.rest.hubs.copy_values(&self.hubs);
+        self.add_solids(state, scheme, Judged::AsItIs);
         self.measure_tension(model, scheme);
         self.add_tension(model, scheme);
         self.add_bending(model);
@@ -189,6 +200,7 @@ impl Solver {
     pub(crate) fn advance(&mut self, model: &Model, share: f64) -> Passed {
         let mut finite = true;
         self.foretell_tension(model, share);
+        self.foretell_pushes(share);
         for (place, step) in self.trial.place.iter_mut().zip(&self.band.step) {
             *place += *step * share;
             finite &= step.is_finite();
@@ -203,6 +215,15 @@ impl Solver {
         self.assemble(model, state, scheme);
         self.solve(model);
         self.advance(model, 1.0)
+    }
+
+    /// One Newton pass that goes along the step as far as the forces balance.
+    pub(crate) fn searched_pass(&mut self, model: &Model, state: &State, scheme: &Scheme) -> Passed {
+        self.assemble_searchable(model, state, scheme);
+        self.solve(model);
+        let share = self.search_free(model, state, scheme, 1.0);
+        // What a short share leaves is still to go.
+        Passed { longest_m: self.longest(), ..self.advance(model, share) }
     }
 
     /// Greatest force out of balance at any node or hub, as last assembled (before [`solve`](Self::solve)) [N].
@@ -229,6 +250,11 @@ impl Solver {
             if self.trial.bodies[index].held {
                 hubs[*block] = DVec3::ZERO;
                 hubs[block + 1] = DVec3::ZERO;
+            }
+        }
+        for (joint, seat) in model.spec.joints.iter().zip(&self.plan.seats) {
+            if let (Seat::Free(block), true) = (seat, self.is_held(&joint.kind, true)) {
+                hubs[*block] = DVec3::ZERO;
             }
         }
         // A maximum would pass over what is not a number.
@@ -282,6 +308,7 @@ impl Solver {
     /// Writes the solved step into the state.
     pub(crate) fn keep(&self, model: &Model, scheme: &Scheme, state: &mut State) {
         self.keep_grips(model, scheme, state);
+        self.keep_solid_grips(scheme, state);
         let rope = &mut state.rope;
         rope.earlier_position.clone_from(&rope.position);
         rope.earlier_velocity.clone_from(&rope.velocity);

@@ -75,7 +75,7 @@ fn seats(model: &Model, blocks: &mut usize) -> Vec<Seat> {
         *blocks - 1
     };
     let seat = |joint: &crate::model::Joint| match joint.kind {
-        JointKind::Free => Seat::Free(next()),
+        JointKind::Free | JointKind::Pulled { .. } => Seat::Free(next()),
         JointKind::Fixed | JointKind::Driven { .. } => Seat::Fixed,
         JointKind::Body { body, offset_m } => Seat::Body { block: 0, body, offset: offset_m },
     };

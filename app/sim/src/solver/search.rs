@@ -2,7 +2,7 @@
 //!
 //! `g(s) = -F(x + s δ)·δ` is the slope of the incremental potential along the step `δ`; it begins below zero.
 //! The whole step is taken where `g` has not grown beyond half of what it began with, else the zero of `g` is
-//! closed in on by regula falsi (Illinois). Tension, push and friction are taken anew at each trial, friction by
+//! closed in on by regula falsi (Illinois). Tension, push and friction of skin and of solids are taken anew at each trial, friction by
 //! its plugin, so that neither the barrier's wall nor the kink where rope stops sliding is overshot; inertia, weight,
 //! drag, seabed and bodies are linear along the step by their assembled blocks.
 //! Reference: Nocedal and Wright 2006, Numerical Optimization, section 3.5 (doi:10.1007/978-0-387-40065-5).
@@ -50,17 +50,19 @@ fn balance(longest: f64, mut slope: impl FnMut(f64) -> f64) -> f64 {
 impl Solver {
     /// Share of the solved step to take with contact, at most `safe`.
     pub(super) fn search(&self, model: &Model, state: &State, scheme: &Scheme, work: &mut ContactWork, safe: f64) -> f64 {
-        balance(safe, |share| {
-            self.rest_slope(share)
-                + self.rope_slope(model, scheme, share)
-                + self.bending_slope(model, share)
-                + self.contact_slope(model, state, scheme, work, share)
-        })
+        balance(safe, |share| self.contact_slope(model, state, scheme, work, share) + self.free_slope(model, state, scheme, share))
     }
 
-    /// Share of the solved step to take without contact, at most `longest`.
-    pub(crate) fn search_free(&self, model: &Model, scheme: &Scheme, longest: f64) -> f64 {
-        balance(longest, |share| self.rest_slope(share) + self.rope_slope(model, scheme, share) + self.bending_slope(model, share))
+    /// Share of the solved step to take without a whale, at most `longest`.
+    pub(crate) fn search_free(&self, model: &Model, state: &State, scheme: &Scheme, longest: f64) -> f64 {
+        balance(longest, |share| self.free_slope(model, state, scheme, share))
+    }
+
+    fn free_slope(&self, model: &Model, state: &State, scheme: &Scheme, share: f64) -> f64 {
+        self.rest_slope(share)
+            + self.rope_slope(model, scheme, share)
+            + self.bending_slope(model, share)
+            + self.solid_slope(state, scheme, share)
     }
 
     /// Slope of what is linear along the step: inertia, weight, drag, seabed, bodies.

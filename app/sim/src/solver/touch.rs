@@ -120,7 +120,7 @@ impl Solver {
     }
 
     /// Adds a force and its block at a fraction of a segment.
-    fn add_at(&mut self, segment: usize, node: usize, fraction: f64, force: DVec3, block: &DMat3) {
+    pub(super) fn add_at(&mut self, segment: usize, node: usize, fraction: f64, force: DVec3, block: &DMat3) {
         let (first, second) = (1.0 - fraction, fraction);
         self.band.force[node] += force * first;
         self.band.force[node + 1] += force * second;

@@ -3,6 +3,7 @@
 #![allow(clippy::expect_used, reason = "a test fails by panicking, in its helpers too")]
 
 use endline_sim::model::{Body, BodyRole, Joint, JointKind, Line, Rope, Settings, Shape, Strength};
+use endline_sim::solids::Obstacle;
 use endline_sim::water::{Current, Water};
 use endline_sim::{DQuat, DVec3, Model, ModelSpec};
 
@@ -80,6 +81,18 @@ pub fn line(id: &str, length_m: f64, segments: usize) -> Line {
 
 /// A model of one line between two joints.
 pub fn model(water: Water, joints: Vec<Joint>, lines: Vec<Line>, bodies: Vec<Body>, settings: Settings) -> Model {
+    model_with(water, joints, lines, bodies, settings, Vec::new())
+}
+
+/// The same with obstacles.
+pub fn model_with(
+    water: Water,
+    joints: Vec<Joint>,
+    lines: Vec<Line>,
+    bodies: Vec<Body>,
+    settings: Settings,
+    obstacles: Vec<Obstacle>,
+) -> Model {
     let spec = ModelSpec {
         water,
         seabed: None,
@@ -91,6 +104,7 @@ pub fn model(water: Water, joints: Vec<Joint>, lines: Vec<Line>, bodies: Vec<Bod
         gear: Vec::new(),
         whale: None,
         friction: None,
+        obstacles,
         probes: Vec::new(),
         settings,
     };

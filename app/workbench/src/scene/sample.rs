@@ -36,6 +36,7 @@ pub fn model() -> Model {
         gear: Vec::new(),
         whale: Some(whale()),
         friction: Some(friction()),
+        obstacles: Vec::new(),
         probes: Vec::new(),
         settings: Settings::default(),
     };

@@ -1,0 +1,282 @@
+//! Rope pressed on obstacles and on the bodies of the rig.
+//!
+//! At a slot (`solids/work.rs`) with depth `p` of the rope's surface below the solid's and stiffness `k`: `N = k p` while
+//! it pushes, block `k n nᵀ`. Whether it pushes is judged by the normal force that the last solve foretold, as for
+//! tension: Newton then ends in a few passes. Friction is the elastic grip that slips at `μN` (`ground.rs`), its block
+//! not symmetric, so that it follows the normal force within the solve.
+//! A solid that stands still only acts on the rope. On a body of the rig the reaction acts at the same point, with its
+//! own block; what the one's move does to the other is left to the next pass (block Jacobi), which closes in on the
+//! balance because the contact is kept softer than the body's inertia.
+//! With node turn `φ` and contact at nodes alone, sliding gives `T₂/T₁ = (1 + μ tan φ/2)/(1 - μ tan φ/2)` a node.
+
+use glam::{DQuat, DVec3};
+
+use super::Solver;
+use super::ground::Grip;
+use super::hubs::Seat;
+use super::rope::outer;
+use super::scheme::Scheme;
+use crate::solids::work::{Pair, Slot, least_distance};
+use crate::solids::{Carrier, Pose, Solid, SolidGrip};
+use crate::state::State;
+
+/// Difference between foretold and true normal force at which a step has converged [N].
+const PUSH_GAP_N: f64 = 0.02;
+/// The same as a share of the greatest.
+const PUSH_GAP_SHARE: f64 = 0.02;
+/// Force by which rope and body may differ in what they do to each other when a step has converged [N].
+const ANSWER_GAP_N: f64 = 1e-3;
+/// The same as a share of the greatest normal force.
+const ANSWER_GAP_SHARE: f64 = 1e-3;
+/// Share of a solid's thickness that rope may move in a step without its path being looked at.
+const UNWATCHED_SHARE: f64 = 0.4;
+/// Share of an obstacle's thickness that rope may go into it in a pass of statics.
+const STATIC_SHARE: f64 = 0.1;
+/// Share of a solid's thickness between two looks at a path.
+const LOOK_SHARE: f64 = 0.2;
+/// Most looks at a path.
+const MOST_LOOKS: f64 = 64.0;
+/// Share of a solid's thickness below its surface at which rope has gone into it.
+const INSIDE_SHARE: f64 = 0.25;
+
+/// How a slot is judged to push.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Judged {
+    /// By the normal force that the last solve foretold.
+    Foretold,
+    /// By its depth where it is.
+    AsItIs,
+}
+
+/// A slot at the trial places.
+struct Touch {
+    normal: DVec3,
+    /// Depth of the rope's surface below the solid's; below zero there is a gap [m].
+    depth: f64,
+    /// Place of the rope's centre line.
+    place: DVec3,
+    /// Where the solid is.
+    pose: Pose,
+}
+
+impl Solver {
+    /// Adds push and friction of obstacles and bodies on rope near them.
+    pub(super) fn add_solids(&mut self, state: &State, scheme: &Scheme, judged: Judged) {
+        let mut work = std::mem::take(&mut self.solid);
+        if scheme.is_static() {
+            work.gather(state, &self.trial.place, 0.0);
+        } else if !work.pairs.is_empty() {
+            work.follow_all(state, &self.trial.place, |carrier| self.pose_of(carrier));
+        }
+        for (solids, slot) in work.open_slots_mut() {
+            let solid = &solids[slot.solid];
+            let touch = self.touch_of(solid, slot);
+            slot.normal = touch.normal;
+            slot.push_n = slot.stiffness * touch.depth;
+            let pushes = match judged {
+                Judged::Foretold => slot.foretold_n > 0.0 && touch.depth > -slot.radius_m,
+                Judged::AsItIs => slot.push_n > 0.0,
+            };
+            if pushes {
+                self.add_slot(state, scheme, solid, slot, &touch);
+            }
+        }
+        self.solid = work;
+    }
+
+    fn add_slot(&mut self, state: &State, scheme: &Scheme, solid: &Solid, slot: &Slot, touch: &Touch) {
+        let grip = if scheme.is_static() { Grip::none() } else { grip_of(state, solid, slot, touch) };
+        let force = touch.normal * slot.push_n + grip.force;
+        let block = outer(touch.normal, touch.normal) * slot.stiffness + grip.block;
+        match slot.fraction {
+            Some(fraction) => self.add_at(slot.segment, slot.node, fraction, force, &block),
+            None => {
+                self.band.force[slot.node] += force;
+                self.band.diagonal[slot.node] += block;
+            }
+        }
+        if let Carrier::Body(body) = solid.carrier {
+            let arm = touch.place - touch.pose.place;
+            let seat = Seat::Body { block: self.plan.body_block[body], body, offset: DVec3::ZERO };
+            self.hubs.push(seat, arm, -force);
+            self.hubs.add(seat, arm, seat, arm, block);
+        }
+    }
+
+    /// Slope of the push and friction of solids at a share of the solved step.
+    pub(super) fn solid_slope(&self, state: &State, scheme: &Scheme, share: f64) -> f64 {
+        let slope_of = |slot: &Slot| {
+            let solid = &self.solid.solids[slot.solid];
+            let touch = self.touch_moved(solid, slot, share);
+            let slot = Slot { push_n: slot.stiffness * touch.depth, ..*slot };
+            if slot.push_n <= 0.0 {
+                return 0.0;
+            }
+            let grip = if scheme.is_static() { Grip::none() } else { grip_of(state, solid, &slot, &touch) };
+            -(touch.normal * slot.push_n + grip.force).dot(self.step_on(solid, &slot))
+        };
+        self.solid.open_slots().map(slope_of).sum()
+    }
+
+    /// Where a solid is at a share of the solved step.
+    fn pose_moved(&self, carrier: &Carrier, share: f64) -> Pose {
+        match carrier {
+            Carrier::World(pose) => *pose,
+            Carrier::Body(index) => {
+                let (body, block) = (&self.trial.bodies[*index], self.plan.body_block[*index]);
+                if share == 0.0 || body.held {
+                    return Pose { place: body.place, orientation: body.orientation };
+                }
+                let turn = DQuat::from_scaled_axis(self.hubs.step[block + 1] * share);
+                Pose { place: body.place + self.hubs.step[block] * share, orientation: (turn * body.orientation).normalize() }
+            }
+        }
+    }
+
+    fn pose_of(&self, carrier: &Carrier) -> Pose {
+        self.pose_moved(carrier, 0.0)
+    }
+
+    fn touch_of(&self, solid: &Solid, slot: &Slot) -> Touch {
+        self.touch_moved(solid, slot, 0.0)
+    }
+
+    fn touch_moved(&self, solid: &Solid, slot: &Slot, share: f64) -> Touch {
+        let pose = self.pose_moved(&solid.carrier, share);
+        let place = slot.on_rope(|node| self.trial.place[node] + self.band.step[node] * share);
+        let near = solid.shape.nearest(pose.inward(place));
+        Touch { normal: pose.orientation * near.normal, depth: slot.radius_m - near.distance - slot.forgiven_m, place, pose }
+    }
+
+    /// The solved step of the rope at a slot, as seen from the solid.
+    fn step_on(&self, solid: &Solid, slot: &Slot) -> DVec3 {
+        let step = slot.on_rope(|node| self.band.step[node]);
+        match solid.carrier {
+            Carrier::World(_) => step,
+            Carrier::Body(body) => {
+                let block = self.plan.body_block[body];
+                let arm = slot.on_rope(|node| self.trial.place[node]) - self.trial.bodies[body].place;
+                step - self.hubs.step[block] - self.hubs.step[block + 1].cross(arm)
+            }
+        }
+    }
+
+    /// After a solve: the normal force each slot will have by the linear solution.
+    pub(super) fn foretell_pushes(&mut self, share: f64) {
+        let mut work = std::mem::take(&mut self.solid);
+        for (solids, slot) in work.open_slots_mut() {
+            let step = self.step_on(&solids[slot.solid], slot);
+            slot.foretold_n = slot.push_n - slot.stiffness * slot.normal.dot(step) * share;
+        }
+        self.solid = work;
+    }
+
+    /// Whether the normal force of every slot in the last solve is the one at its place, a gap as zero.
+    pub(crate) fn pushes_are_settled(&self) -> bool {
+        let (mut gap, mut answer, mut greatest) = (0.0_f64, 0.0_f64, 0.0_f64);
+        for slot in self.solid.open_slots() {
+            let solid = &self.solid.solids[slot.solid];
+            let there = (slot.stiffness * self.touch_of(solid, slot).depth).max(0.0);
+            gap = gap.max((slot.foretold_n.max(0.0) - there).abs());
+            greatest = greatest.max(there);
+            if matches!(solid.carrier, Carrier::Body(_)) && there.max(slot.foretold_n) > 0.0 {
+                // What rope and body did not know of each other's last move.
+                let rope = slot.on_rope(|node| self.band.step[node]);
+                answer = answer.max(slot.stiffness * rope.length().max((rope - self.step_on(solid, slot)).length()));
+            }
+        }
+        gap < PUSH_GAP_N.max(PUSH_GAP_SHARE * greatest) && answer < ANSWER_GAP_N.max(ANSWER_GAP_SHARE * greatest)
+    }
+
+    /// Share of the solved step of statics, at most `longest`, that takes no rope through an obstacle: as far as it is away
+    /// and a little of the obstacle's thickness more.
+    pub(crate) fn share_past_solids(&self, longest: f64) -> f64 {
+        let share_of = |pair: &Pair| {
+            let solid = &self.solid.solids[pair.solid];
+            let Carrier::World(pose) = solid.carrier else { return f64::INFINITY };
+            let ends = [pair.node, pair.node + 1];
+            let [a, b] = ends.map(|node| self.trial.place[node]);
+            let room = least_distance(solid, &pose, a, b).max(0.0) + STATIC_SHARE * solid.shape.thickness();
+            room / ends.map(|node| self.band.step[node].length()).into_iter().fold(1e-12, f64::max)
+        };
+        self.solid.pairs.iter().map(share_of).fold(longest, f64::min)
+    }
+
+    /// Gathers rope near solids for a step; whether it may touch one.
+    pub(crate) fn gather_solids(&mut self, state: &State, dt: f64) -> bool {
+        self.solid.gather(state, &state.rope.position, dt);
+        self.solid.touching
+    }
+
+    /// Whether rope went near a solid beyond what was gathered; it then is from now on.
+    pub(crate) fn strayed_to_solids(&mut self, state: &State, dt: f64) -> bool {
+        self.solid.gather_more(state, &self.trial.place, dt)
+    }
+
+    /// The same after a step in the lanes.
+    pub(crate) fn strayed_free(&mut self, state: &State, dt: f64) -> bool {
+        self.lanes.give_places(&mut self.trial.place);
+        self.strayed_to_solids(state, dt)
+    }
+
+    /// The solid that rope went into or through in this step, if any.
+    pub(crate) fn went_through(&self, state: &State) -> Option<(usize, usize)> {
+        let through = |pair: &&Pair| self.goes_through(state, &self.solid.solids[pair.solid], pair);
+        self.solid.pairs.iter().find(through).map(|pair| (pair.segment, pair.solid))
+    }
+
+    fn goes_through(&self, state: &State, solid: &Solid, pair: &Pair) -> bool {
+        let thickness = solid.shape.thickness();
+        let ends = [pair.node, pair.node + 1];
+        let (before, after) = (pose_before(state, solid), self.pose_of(&solid.carrier));
+        let from = ends.map(|node| before.inward(state.rope.position[node]));
+        let to = ends.map(|node| after.inward(self.trial.place[node]));
+        let longest = (to[0] - from[0]).length().max((to[1] - from[1]).length());
+        if longest < UNWATCHED_SHARE * thickness {
+            return false;
+        }
+        let looks = (longest / (LOOK_SHARE * thickness)).ceil().min(MOST_LOOKS);
+        let still = Pose { place: DVec3::ZERO, orientation: DQuat::IDENTITY };
+        let depth = |share: f64| least_distance(solid, &still, from[0].lerp(to[0], share), from[1].lerp(to[1], share));
+        let least_depth = depth(0.0).min(0.0) - INSIDE_SHARE * thickness;
+        (1..=looks as u32).any(|look| depth(f64::from(look) / looks) < least_depth)
+    }
+
+    /// Writes the grips of rope on solids into the state; called while it still holds the places of the step's begin.
+    pub(super) fn keep_solid_grips(&self, scheme: &Scheme, state: &mut State) {
+        let mut grips = std::mem::take(&mut state.rope.solid_grips);
+        grips.clear();
+        if !scheme.is_static() {
+            for slot in self.solid.open_slots() {
+                let solid = &self.solid.solids[slot.solid];
+                let touch = self.touch_of(solid, slot);
+                let slot = Slot { push_n: slot.stiffness * touch.depth, ..*slot };
+                if slot.push_n > 0.0 {
+                    let grip = grip_of(state, solid, &slot, &touch);
+                    grips.push(self.kept(&slot, touch.pose.orientation.inverse() * grip.kept));
+                }
+            }
+        }
+        state.rope.solid_grips = grips;
+    }
+
+    fn kept(&self, slot: &Slot, stretch: DVec3) -> SolidGrip {
+        let (along_m, at_node) = (self.solid.along_of(slot), slot.fraction.is_none());
+        SolidGrip { solid: slot.solid, line: slot.line, along_m, at_node, stretch, push_n: slot.push_n }
+    }
+}
+
+/// Friction at a slot: the grip, carried along with the solid, stretched by how the rope moved on it.
+fn grip_of(state: &State, solid: &Solid, slot: &Slot, touch: &Touch) -> Grip {
+    let before = slot.on_rope(|node| state.rope.position[node]);
+    let carried = touch.pose.outward(pose_before(state, solid).inward(before));
+    let stretch = touch.pose.orientation * slot.kept + touch.place - carried;
+    Grip::new(stretch, touch.normal, slot.stiffness, solid.friction, (slot.push_n.max(0.0), slot.stiffness))
+}
+
+fn pose_before(state: &State, solid: &Solid) -> Pose {
+    match solid.carrier {
+        Carrier::World(pose) => pose,
+        Carrier::Body(body) => Pose { place: state.bodies[body].position, orientation: state.bodies[body].orientation },
+    }
+}
