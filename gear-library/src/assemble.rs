@@ -103,6 +103,7 @@ fn settings(scenario: &Scenario, options: &Options) -> Settings {
     let usual = Settings::default();
     Settings {
         step_s: options.step_s.or(scenario.step_s).unwrap_or(usual.step_s),
+        auto_step: options.step_s.is_none() && scenario.auto_step,
         contact_step_s: options.contact_step_s.or(scenario.contact_step_s).unwrap_or(usual.contact_step_s),
         duration_s: options.duration_s.unwrap_or(scenario.duration_s),
         resolution: scenario.resolution,

@@ -40,7 +40,9 @@ pub struct Scenario {
     pub duration_s: f64,
     /// Seed of everything drawn at random.
     pub seed: u64,
-    /// Step between inputs [s], where the scenario chooses one.
+    /// Whether the program chooses the solver's step.
+    pub auto_step: bool,
+    /// Step between inputs, which is then the solver's too [s].
     pub step_s: Option<f64>,
     /// Longest step while rope is near the whale [s], where the scenario chooses one.
     pub contact_step_s: Option<f64>,
@@ -136,7 +138,7 @@ impl Scenario {
         let (name, notes, file) = entry::header(&fields, "scenario", problems);
         let duration = fields.need_value("duration", Quantity::Time, Range::Between(1e-6, 1e6));
         let seed = fields.count("seed", 0);
-        let step = fields.value("step", Quantity::Time, Range::Between(1e-6, 1.0));
+        let step = step(&fields);
         let contact_step = fields.value("contact_step", Quantity::Time, Range::Between(1e-6, 1.0));
         let rope_nodes = fields.count("rope_nodes", 2);
         let segment = fields.value("segment", Quantity::Length, Range::Between(1e-3, 1000.0));
@@ -153,7 +155,8 @@ impl Scenario {
             place: node.place.clone(),
             duration_s: duration.as_ref().map_or(60.0, |duration| duration.value),
             seed: seed.map_or(1, |seed| seed.value),
-            step_s: step.map(|step| step.value),
+            step_s: step,
+            auto_step: is_auto(&fields),
             contact_step_s: contact_step.map(|step| step.value),
             rope_nodes,
             segment_m: segment.map(|segment| segment.value),
@@ -196,6 +199,19 @@ impl Scenario {
             }
         }
     }
+}
+
+/// Whether `step = "auto"`.
+fn is_auto(fields: &Fields<'_>) -> bool {
+    matches!(fields.get("step"), Some(Node { content: tree::Content::Text(word), .. }) if word == "auto")
+}
+
+/// `step`: a time, or "auto" for the step the program chooses.
+fn step(fields: &Fields<'_>) -> Option<f64> {
+    if is_auto(fields) {
+        return None;
+    }
+    fields.value("step", Quantity::Time, Range::Between(1e-6, 1.0)).map(|step| step.value)
 }
 
 fn placed_gear(node: &Node, problems: &Problems) -> Option<PlacedGear> {

@@ -450,6 +450,18 @@ fn mistakes_in_a_scenario_are_told_with_their_place() {
 }
 
 #[test]
+fn the_program_chooses_the_step_where_the_scenario_says_so() {
+    let text = scenario_text("hello-endline.toml");
+    let with = |step: &str| text.replacen("seed = 1", &format!("seed = 1\n{step}"), 1);
+    let settings = |text: &str| assembled("test.toml", text).settings;
+    assert!(!settings(&text).auto_step && settings(&with("step = \"auto\"")).auto_step);
+    let fixed = settings(&with("step = \"5 ms\""));
+    assert!(!fixed.auto_step && (fixed.step_s - 0.005).abs() < 1e-15);
+    let problems = refused(&with("step = \"automatic\""));
+    assert!(problems.len() == 1 && problems[0].to_string().contains("`step`"), "{}", told(&problems));
+}
+
+#[test]
 fn resolution_follows_the_whale_by_lengths_in_order() {
     let text = scenario_text("hello-endline.toml");
     let with = |lengths: &str| text.replacen("[site]", &format!("[resolution]\n{lengths}\n\n[site]"), 1);

@@ -8,6 +8,7 @@
 
 use endline_sdk::{Controls, Posture};
 use endline_sim::contact::Grips;
+use endline_sim::pace::Pace;
 use endline_sim::solids::SolidGrip;
 use endline_sim::state::{BodyState, RopeState, WhaleState};
 use endline_sim::{DQuat, DVec3, Input, State};
@@ -30,7 +31,7 @@ impl StateHash {
     #[must_use]
     pub fn of(input: &Input, state: &State) -> Self {
         // No `..`: a new field of the state must find its part here before this compiles.
-        let State { time_s, step, rope, bodies, whale, link_parted_s, line_parted, gear } = state;
+        let State { time_s, step, rope, bodies, whale, link_parted_s, line_parted, gear, pace } = state;
         let mut parts = [Fold::new(); PARTS];
         let [_, clock, ropes, rigid, swimmer, contact, links] = &mut parts;
         clock.real(*time_s);
@@ -48,6 +49,7 @@ impl StateHash {
             links.maybe(parted.map(|(_, along_m)| along_m));
         }
         gear.iter().for_each(|floats| links.reals(floats));
+        fold_pace(pace, clock);
         parts[0] = Fold(input_hash(input));
         Self { parts: parts.map(|fold| fold.0) }
     }
@@ -108,6 +110,14 @@ fn fold_rope(rope: &RopeState, ropes: &mut Fold, contact: &mut Fold, links: &mut
         contact.vectors(&[*stretch]);
     }
     cut.iter().for_each(|cut| links.word(u64::from(*cut)));
+}
+
+fn fold_pace(pace: &Pace, clock: &mut Fold) {
+    let Pace { step_s, limit, tension_n, known } = pace;
+    clock.real(*step_s);
+    clock.word(*limit as u64);
+    tension_n.iter().for_each(|two| clock.reals(two));
+    clock.word(u64::from(*known));
 }
 
 fn fold_body(body: &BodyState, fold: &mut Fold) {

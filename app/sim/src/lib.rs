@@ -14,6 +14,7 @@ mod gear_hook;
 mod in_place;
 pub mod metrics;
 pub mod model;
+pub mod pace;
 pub mod parting;
 mod regrid;
 pub mod solids;

@@ -345,6 +345,8 @@ impl Default for Resolution {
 pub struct Settings {
     /// Step between inputs [s]; the solver divides it where it must.
     pub step_s: f64,
+    /// Whether the solver step is chosen from the error of each step; else it is the whole step wherever nothing forbids it.
+    pub auto_step: bool,
     /// Longest step while rope is near the whale [s].
     pub contact_step_s: f64,
     /// Shortest step before a run gives up [s].
@@ -365,6 +367,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             step_s: 0.01,
+            auto_step: false,
             contact_step_s: 0.002,
             least_step_s: 1e-6,
             resolution: None,

@@ -6,6 +6,7 @@ use glam::{DQuat, DVec3};
 use crate::contact::Grips;
 use crate::in_place::clone_in_place;
 use crate::model::{Body, JointKind, Model};
+use crate::pace::Pace;
 use crate::solids::SolidGrip;
 use crate::solver::LOOSE_M;
 use crate::whale::Whale;
@@ -29,6 +30,8 @@ pub struct State {
     pub line_parted: Vec<Option<(f64, f64)>>,
     /// Floats of each gear type.
     pub gear: Vec<Vec<f64>>,
+    /// How long the next solver step is to be, and why.
+    pub pace: Pace,
 }
 
 /// Nodes and segments of all lines, in the model's layout.
@@ -100,7 +103,7 @@ pub struct WhaleState {
     pub contact_force_n: [f64; endline_sdk::BodyPart::ALL.len()],
 }
 
-clone_in_place!(State { time_s, step, rope, bodies, whale, link_parted_s, line_parted, gear });
+clone_in_place!(State { time_s, step, rope, bodies, whale, link_parted_s, line_parted, gear, pace });
 clone_in_place!(RopeState {
     position,
     velocity,
@@ -145,6 +148,7 @@ impl State {
             link_parted_s: vec![None; model.spec.links.len()],
             line_parted: vec![None; model.spec.lines.len()],
             gear: model.spec.gear.iter().map(|hook| vec![0.0; hook.gear.descriptor().state_len]).collect(),
+            pace: Pace::new(model),
         }
     }
 }

@@ -1,8 +1,8 @@
 //! One step of a run: from inputs to the next state.
 //!
 //! A step of the model (`settings.step_s`, one input) is divided into solver steps: whole while the
-//! rope is free, `settings.contact_step_s` while rope is near the whale, halved where a solver step does
-//! not converge or where a link would part late. Halving stops at `settings.least_step_s`, which ends the run.
+//! rope is free, or as long as its error allows (`pace.rs`) where the model asks for that; `settings.contact_step_s` while rope
+//! is near the whale; halved where a solver step does not converge or where a link would part late. Halving stops at `settings.least_step_s`, which ends the run.
 
 use endline_sdk::Controls;
 
@@ -10,15 +10,19 @@ use crate::contact::ContactPoint;
 use crate::contact::near::MARGIN_M;
 use crate::contact::work::{ContactWork, force_by_part};
 use crate::gear_hook::{self, GearWork};
-use crate::model::Model;
+use crate::model::{Model, Settings};
+use crate::pace::{self, LimitedBy, Pace};
 use crate::regrid::{RegridWork, regrid};
 use crate::solver::Solver;
 use crate::state::{State, WhaleState};
-use crate::substep::{self, Refused};
+use crate::substep::{self, Refused, Took};
 use crate::whale::drive::{drive, pose_between};
 
 /// Rope this near to the whale's path over a whole step makes the solver steps short [m].
 const NEAR_M: f64 = MARGIN_M + 0.12;
+
+/// Times a model's step may be taken back and begun with shorter solver steps.
+const MOST_TAKEN_BACK: usize = 3;
 
 /// All that enters a step from outside; recorded, so that a run replays.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -66,6 +70,8 @@ pub struct Audit {
     pub passes: u64,
     /// Segments split, each paid for by a merge, as resolution followed the whale.
     pub splits: u64,
+    /// Solver steps by what kept them from being longer, in the order of [`LimitedBy::ALL`].
+    pub limited_by: [u64; LimitedBy::ALL.len()],
 }
 
 /// Why a run cannot go on.
@@ -114,27 +120,46 @@ pub fn step(model: &Model, input: &Input, state: &mut State, workspace: &mut Wor
 }
 
 fn try_step(model: &Model, input: &Input, state: &mut State, workspace: &mut Workspace) -> Result<(), Stop> {
-    workspace.peak_tension_n.fill(0.0);
-    workspace.contacts.clear();
-    workspace.audit.splits += regrid(model, state, &mut workspace.regrid);
-    let settings = &model.spec.settings;
     let mut whale = workspace.whale.take();
     let moved = move_whale(model, input, state, &mut whale);
-    let done = moved.and_then(|()| {
-        let whale = whale.as_deref();
-        let near = near_whale(model, state, workspace, whale);
-        let longest = if near { settings.contact_step_s.min(settings.step_s) } else { settings.step_s };
-        solver_steps(model, state, workspace, whale, longest)
-    });
+    let done = moved.and_then(|()| paced_steps(model, state, workspace, whale.as_deref()));
     if let (Some(now), Some([_, after])) = (&mut state.whale, whale.as_deref_mut()) {
         after.contact_force_n = force_by_part(&workspace.contacts);
         now.clone_from(after);
     }
     workspace.whale = whale;
     done?;
-    state.time_s = settings.step_s * (state.step + 1) as f64;
+    state.time_s = model.spec.settings.step_s * (state.step + 1) as f64;
     state.step += 1;
     gear_hook::act(model, state, &mut workspace.gear)
+}
+
+/// Solver steps to the end of the model's step, all taken back and begun shorter where one misses the wanted error by far.
+fn paced_steps(model: &Model, state: &mut State, workspace: &mut Workspace, whale: Option<&[WhaleState; 2]>) -> Result<(), Stop> {
+    let settings = &model.spec.settings;
+    for taken_back in 0..=MOST_TAKEN_BACK {
+        workspace.peak_tension_n.fill(0.0);
+        workspace.contacts.clear();
+        let splits = regrid(model, state, &mut workspace.regrid);
+        workspace.audit.splits += if taken_back == 0 { splits } else { 0 };
+        let near = near_whale(model, state, workspace, whale);
+        let longest = if near { settings.contact_step_s.min(settings.step_s) } else { settings.step_s };
+        if solver_steps(model, state, workspace, whale, (longest, taken_back < MOST_TAKEN_BACK))? {
+            break;
+        }
+        workspace.audit.halved += 1;
+        take_back(state, workspace);
+    }
+    Ok(())
+}
+
+/// Goes back to where the model's step began, with the shorter solver step.
+fn take_back(state: &mut State, workspace: &Workspace) {
+    let (step_s, limit) = (state.pace.step_s, state.pace.limit);
+    if let Some(before) = &workspace.before {
+        state.clone_from(before);
+    }
+    (state.pace.step_s, state.pace.limit) = (step_s, limit);
 }
 
 /// Lets the whale swim through the step: where it starts and where it ends.
@@ -158,37 +183,70 @@ fn near_whale(model: &Model, state: &State, workspace: &mut Workspace, whale: Op
     work.near.any([start, end], &state.rope.position, |node| state.rope.velocity[node] * step_s, NEAR_M)
 }
 
-/// Solver steps to the end of the model's step, halved where one is refused.
+/// Solver steps to the end of the model's step, halved where one is refused; `false` where a step missed its wanted error
+/// and may be taken back.
 fn solver_steps(
     model: &Model,
     state: &mut State,
     workspace: &mut Workspace,
     whale: Option<&[WhaleState; 2]>,
-    longest: f64,
-) -> Result<(), Stop> {
+    (longest, may_take_back): (f64, bool),
+) -> Result<bool, Stop> {
     let settings = &model.spec.settings;
     let start = settings.step_s * state.step as f64;
     let end = settings.step_s * (state.step + 1) as f64;
-    let mut halvings = 0_u32;
+    let (mut halvings, mut refused) = (0_u32, LimitedBy::Convergence);
     while end - state.time_s > 1e-9 * settings.step_s {
         let left = end - state.time_s;
-        let wanted = longest / f64::from(1_u32 << halvings.min(30));
+        let (chosen, limit) = wanted(settings, &state.pace, longest);
+        let wanted = chosen / f64::from(1_u32 << halvings.min(30));
         let dt = left / (left / wanted - 1e-9).ceil().max(1.0);
         if let (Some(work), Some([from, to])) = (&mut workspace.contact, whale) {
             let share = |time: f64| ((time - start) / settings.step_s).clamp(0.0, 1.0);
             pose_between(model, from, to, share(state.time_s), &mut work.bones[0]);
             pose_between(model, from, to, share(state.time_s + dt), &mut work.bones[1]);
         }
+        let earlier_dt = state.rope.earlier_dt_s;
         match substep::solver_step(model, state, workspace, dt, halvings > 0) {
-            Ok(()) => halvings = halvings.saturating_sub(1),
+            Ok(took) => {
+                let limit = if halvings > 0 { refused } else { limit };
+                workspace.audit.limited_by[limit as usize] += 1;
+                halvings = halvings.saturating_sub(1);
+                if settings.auto_step && pace_on(model, state, took, dt, earlier_dt) && may_take_back {
+                    return Ok(false);
+                }
+            }
             Err(why) if why.may_halve() && 0.5 * dt >= settings.least_step_s => {
+                refused = if why == Refused::PartsTooLate { LimitedBy::Parting } else { LimitedBy::Convergence };
                 halvings += 1;
                 workspace.audit.halved += 1;
             }
             Err(why) => return Err(stop(model, state, workspace, why)),
         }
     }
-    Ok(())
+    Ok(true)
+}
+
+/// The longest solver step to try now, and what limits it.
+fn wanted(settings: &Settings, pace: &Pace, longest: f64) -> (f64, LimitedBy) {
+    if settings.auto_step && pace.step_s > 0.0 && pace.step_s < longest {
+        (pace.step_s, pace.limit)
+    } else if longest < settings.step_s {
+        (longest, LimitedBy::Contact)
+    } else {
+        (longest, LimitedBy::Inputs)
+    }
+}
+
+/// Chooses the step after this one; whether this one should be taken back.
+fn pace_on(model: &Model, state: &mut State, took: Took, dt: f64, earlier_dt: f64) -> bool {
+    let settings = &model.spec.settings;
+    match took {
+        Took::Parted => state.pace.restart(pace::PARTED_S.min(settings.step_s), LimitedBy::Parting),
+        Took::Touching => state.pace.restart(settings.contact_step_s.min(settings.step_s), LimitedBy::Contact),
+        Took::Free => return pace::choose(model, state, dt, earlier_dt),
+    }
+    false
 }
 
 /// The reason a run ends where even the shortest step is refused.

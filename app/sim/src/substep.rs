@@ -12,7 +12,7 @@ use crate::contact::work::ContactWork;
 use crate::model::Model;
 use crate::parting::{self, Parting};
 use crate::solids::work;
-use crate::solver::{BodyTrial, CONTACT_WANTED_M, FreePass, Scheme, Solver, TENSION_GAP_N, TENSION_GAP_SHARE, Touched};
+use crate::solver::{BodyTrial, CONTACT_WANTED_M, Fine, FreePass, Scheme, Solver, TENSION_GAP_N, TENSION_GAP_SHARE, Touched};
 use crate::state::State;
 use crate::step::{Audit, Workspace};
 
@@ -75,8 +75,19 @@ impl Refused {
     }
 }
 
+/// What a solver step was.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Took {
+    /// No rope near skin.
+    Free,
+    /// Rope near skin.
+    Touching,
+    /// Something parted at its end.
+    Parted,
+}
+
 /// One solver step of length `dt`: kept in `state` where it converges and parts nothing late.
-pub(crate) fn solver_step(model: &Model, state: &mut State, workspace: &mut Workspace, dt: f64, careful: bool) -> Result<(), Refused> {
+pub(crate) fn solver_step(model: &Model, state: &mut State, workspace: &mut Workspace, dt: f64, careful: bool) -> Result<Took, Refused> {
     let Workspace { solver, contact, audit, contacts, peak_tension_n, .. } = workspace;
     let mut touching = contact.as_mut();
     if touching.as_mut().is_none_or(|work| !gather(model, state, work, dt)) {
@@ -84,10 +95,10 @@ pub(crate) fn solver_step(model: &Model, state: &mut State, workspace: &mut Work
     }
     contacts.clear();
     let on_solid = solver.gather_solids(state, dt);
-    let impact = careful || on_solid || touching.is_some();
-    let scheme = if impact { Scheme::backward_euler(dt) } else { Scheme::bdf2(dt, state.rope.earlier_dt_s) };
+    let untouched = touching.is_none() && !on_solid;
+    let scheme = if careful || !untouched { Scheme::backward_euler(dt) } else { Scheme::bdf2(dt, state.rope.earlier_dt_s) };
     let last = dt * 0.5 < model.spec.settings.least_step_s;
-    let free = touching.is_none() && !on_solid && solver.suits_lanes(model);
+    let free = untouched && solver.suits_lanes(model);
     if free && free_step(model, state, solver, &scheme, audit)? == Met::Nothing {
         if !last && parting::too_late(model, state, solver.tension_free()) {
             return Err(Refused::PartsTooLate);
@@ -103,8 +114,9 @@ pub(crate) fn solver_step(model: &Model, state: &mut State, workspace: &mut Work
     }
     if parting::part(model, state) == Parting::Some {
         state.rope.earlier_dt_s = 0.0;
+        return Ok(Took::Parted);
     }
-    Ok(())
+    Ok(if untouched { Took::Free } else { Took::Touching })
 }
 
 /// A solver step with rope near the whale, obstacles or bodies, line after line.
@@ -147,7 +159,8 @@ fn gather(model: &Model, state: &State, work: &mut ContactWork, dt: f64) -> bool
 /// Newton where only water and seabed touch the rope; what it met beyond.
 fn free_step(model: &Model, state: &State, solver: &mut Solver, scheme: &Scheme, audit: &mut Audit) -> Result<Met, Refused> {
     solver.begin_free(model, state, scheme);
-    let (mut patience, at_once) = (Patience::new(model), !model.bends());
+    let fine = solver.fine();
+    let (mut patience, at_once) = (Patience::new(model, &fine), !model.bends());
     let mut moved_m = 0.0;
     for pass in 1..=patience.most_passes {
         let passed = solver.pass_free(model, state, scheme);
@@ -158,8 +171,8 @@ fn free_step(model: &Model, state: &State, solver: &mut Solver, scheme: &Scheme,
             return Err(Refused::NotFinite);
         }
         let rests = patience.rests(pass, passed.longest_m);
-        let settled = passed.gap_n < TENSION_GAP_N.max(TENSION_GAP_SHARE * passed.greatest_n);
-        if (rests && settled) || (at_once && is_exact(&passed)) {
+        let settled = passed.gap_n < TENSION_GAP_N.min(fine.gap_n).max(TENSION_GAP_SHARE * passed.greatest_n);
+        if (rests && settled) || (at_once && is_exact(&passed, &fine)) {
             // Rope that kept to its drift has met nothing but what was gathered.
             let strayed = moved_m > work::MARGIN_M && solver.strayed_free(state, scheme.dt);
             return Ok(if strayed { Met::Solid } else { Met::Nothing });
@@ -169,13 +182,13 @@ fn free_step(model: &Model, state: &State, solver: &mut Solver, scheme: &Scheme,
 }
 
 /// Whether another pass would change nothing of note.
-fn is_exact(passed: &FreePass) -> bool {
-    let gap_n = ONE_PASS_GAP_N.max(ONE_PASS_GAP_SHARE * passed.greatest_n);
-    !passed.near_seabed && passed.longest_m < ONE_PASS_M && passed.gap_n < gap_n
+fn is_exact(passed: &FreePass, fine: &Fine) -> bool {
+    let gap_n = ONE_PASS_GAP_N.min(fine.gap_n).max(ONE_PASS_GAP_SHARE * passed.greatest_n);
+    !passed.near_seabed && passed.longest_m < ONE_PASS_M.min(fine.move_m) && passed.gap_n < gap_n
 }
 
 fn lines_step(model: &Model, state: &State, solver: &mut Solver, scheme: &Scheme, audit: &mut Audit) -> Result<(), Refused> {
-    let mut patience = Patience::new(model);
+    let mut patience = Patience::new(model, &solver.fine());
     for pass in 1..=patience.most_passes {
         let passed = solver.pass(model, state, scheme);
         audit.passes += 1;
@@ -199,9 +212,10 @@ struct Patience {
 }
 
 impl Patience {
-    fn new(model: &Model) -> Self {
+    fn new(model: &Model, fine: &Fine) -> Self {
         let bends = model.bends();
         let (most_passes, converged_m) = if bends { (BENT_MOST_PASSES, BENT_CONVERGED_M) } else { (MOST_PASSES, CONVERGED_M) };
+        let converged_m = converged_m.min(fine.move_m);
         Self { bends, most_passes, converged_m, moved_before_m: f64::INFINITY }
     }
 

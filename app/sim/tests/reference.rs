@@ -5,6 +5,7 @@ mod common;
 
 use common::{fixed, line, model, on_body, water, weight};
 use endline_sim::model::{Float, Joint, JointKind, Settings};
+use endline_sim::pace::LimitedBy;
 use endline_sim::{DVec3, Input, Model, State, Workspace, settle, step};
 
 /// (t, end x, end z, middle x, middle z, tension at the pin) of the pendulum with axial waves, by RK4 with
@@ -177,4 +178,26 @@ fn a_slack_groundline_settles_on_the_seabed() {
         let highest = settled.state.rope.position[..41].iter().map(|place| place.z).fold(f64::MIN, f64::max);
         assert!(highest < -29.4, "the groundline rises to {highest} m");
     }
+}
+
+/// The same with the step left to the program, from a step between inputs far too long for the snap; most of its steps are
+/// limited by the tension, and there are a fifth as many.
+#[test]
+fn problem_c2_snap_load_at_the_programs_own_step() {
+    let driven = JointKind::Driven { velocity_m_s: DVec3::X * 2.0, from_s: 0.0, until_s: 1.0 };
+    let far = Joint { id: "hand".into(), kind: driven, position_m: DVec3::X * 59.0 };
+    let settings = Settings { step_s: 0.02, auto_step: true, ..Settings::default() };
+    let model = model(water(0.0, 0.0), vec![fixed("pin", DVec3::ZERO), far], vec![line("line", 60.0, 100)], Vec::new(), settings);
+    let (mut state, mut workspace) = (settle(&model).state, Workspace::new(&model));
+    let mut peak = 0.0_f64;
+    while state.time_s < 1.5 - 1e-9 {
+        step(&model, &Input::default(), &mut state, &mut workspace).expect("it goes on");
+        peak = peak.max(workspace.peak_tension_n[0]);
+    }
+    let audit = workspace.audit;
+    println!("problem c2 at the program's step: peak {peak:.2} N in {} steps, limited by {:?}", audit.solver_steps, audit.limited_by);
+    assert!((peak / 1840.513769 - 1.0).abs() < 0.04, "{peak} N");
+    assert!(audit.solver_steps < 800);
+    assert_eq!(LimitedBy::mostly(&audit.limited_by).0, LimitedBy::Snap);
+    assert_eq!(audit.limited_by.iter().sum::<u64>(), audit.solver_steps);
 }

@@ -8,7 +8,7 @@ mod common;
 use common::{fixed, line, model, on_body, water, weight};
 use endline_sdk::LineEnd;
 use endline_sim::model::{Link, Seabed, Settings};
-use endline_sim::{DQuat, DVec3, Input, Model, State, Workspace, settle, step};
+use endline_sim::{DQuat, DVec3, Input, Model, State, Stop, Workspace, settle, step};
 
 fn pendulum(stiffness_times: f64, mass_kg: f64, segments: usize, step_s: f64) -> Model {
     let end = DVec3::new(30.0, 0.0, -51.9);
@@ -65,6 +65,76 @@ fn no_stiffness_mass_ratio_or_segment_length_blows_up() {
         println!("EA x {stiffness_times}, {mass_kg} kg, {segments} segments, step {step_s}: energy gained {share:.2e}");
         assert!(share < 1e-3, "energy grew by {share} of the work of gravity");
     }
+}
+
+/// Numbers drawn from a seed.
+struct Dice(u64);
+
+impl Dice {
+    /// Between two bounds, even in the logarithm.
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        low * libm::pow(high / low, (self.0 >> 11) as f64 / (1_u64 << 53) as f64)
+    }
+}
+
+/// Energy gained by a weight let go from the level on a drawn pendulum, as a share of what its fall can give, or why it ended.
+fn let_go(dice: &mut Dice, auto_step: bool) -> (String, Result<f64, Stop>) {
+    let (stiffness, ratio) = (dice.between(1.0, 1e6), dice.between(1e-4, 1e4));
+    let (segment_m, step_s, segments) = (dice.between(1e-3, 10.0), dice.between(1e-4, 0.1), dice.between(2.0, 40.0) as usize);
+    let told = format!(
+        "EA x {stiffness:.3e}, mass ratio {ratio:.3e}, {segments} segments of {segment_m:.3e} m, step {step_s:.3e} s, auto {auto_step}"
+    );
+    let length = segment_m * segments as f64;
+    let (rope_kg, weight_kg) = (0.06 * length, 0.06 * length * ratio);
+    let joints = vec![fixed("pin", DVec3::ZERO), on_body("weight", 0)];
+    let settings = Settings { step_s, auto_step, ..Settings::default() };
+    let bodies = vec![weight("weight", weight_kg, DVec3::X * length, None)];
+    let mut spec = model(water(0.0, 0.0), joints, vec![line("line", length, segments)], bodies, settings).spec;
+    spec.ropes[0].axial_stiffness_n *= stiffness;
+    let model = Model::new(spec).expect("a sound model");
+    let (mut state, mut workspace) = (State::start(&model), Workspace::new(&model));
+    let mut most = 0.0_f64;
+    for _ in 0..60 {
+        if let Err(stop) = step(&model, &Input::default(), &mut state, &mut workspace) {
+            return (told, Err(stop));
+        }
+        let rope: f64 = (0..model.node_count)
+            .map(|node| {
+                let share = if node == 0 || node == segments { 0.5 } else { 1.0 } / segments as f64;
+                share * (0.5 * state.rope.velocity[node].length_squared() + 9.81 * state.rope.position[node].z)
+            })
+            .sum();
+        let body = &state.bodies[0];
+        let energy = rope_kg * rope + weight_kg * (0.5 * body.velocity.length_squared() + 9.81 * body.position.z);
+        assert!(energy.is_finite() && state.rope.tension.iter().all(|tension| tension.is_finite()), "{told}");
+        most = most.max(energy / (9.81 * length * (rope_kg + weight_kg)));
+    }
+    (told, Ok(most))
+}
+
+/// EA to 10⁶ times, mass ratio 1:10 000 either way, segments of 1 mm to 10 m, steps of 0.1 ms to 0.1 s.
+#[test]
+fn no_drawn_setting_blows_up() {
+    let seed = 20_261_122;
+    let mut dice = Dice(seed);
+    let (mut ended, mut worst) = (0, 0.0_f64);
+    for case in 0..200 {
+        let (told, outcome) = let_go(&mut dice, case % 2 == 0);
+        match outcome {
+            Ok(gained) => {
+                worst = worst.max(gained);
+                assert!(gained < 5e-2, "seed {seed}, case {case}: {told}: energy grew by {gained:.2e}");
+            }
+            Err(stop) => {
+                ended += 1;
+                println!("{told}: {stop:?}");
+                assert!(!stop.part.is_empty() && !stop.reason.is_empty());
+            }
+        }
+    }
+    println!("seed {seed}: 200 drawn, {ended} ended with a reason, energy gained {worst:.2e} at most");
+    assert!(ended < 10, "{ended} of 200 ended");
 }
 
 /// A hand draws a line tight against a fixture through a link.

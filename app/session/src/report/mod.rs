@@ -3,6 +3,8 @@
 
 mod of;
 
+use std::collections::BTreeMap;
+
 use serde::Serialize;
 
 use crate::recording::PluginUsed;
@@ -88,6 +90,10 @@ pub struct AuditReport {
     pub passes: u64,
     /// Segments split, each paid for by a merge, as resolution followed the whale.
     pub splits: u64,
+    /// Solver steps by what kept them from being longer: `inputs`, `accuracy`, `snap`, `contact`, `parting`, `convergence`.
+    pub steps_limited_by: BTreeMap<&'static str, u64>,
+    /// What limited most of them, in plain words.
+    pub steps_mostly_limited_by: String,
 }
 
 /// A line.

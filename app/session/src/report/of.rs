@@ -2,6 +2,7 @@
 
 use endline_sim::Audit;
 use endline_sim::metrics::{BodySummary, Event, LineSummary, LinkSummary, ProbeSummary, RegionSummary, Summary, WhaleSummary};
+use endline_sim::pace::LimitedBy;
 
 use super::*;
 use crate::error::Error;
@@ -48,8 +49,24 @@ impl Report {
 }
 
 fn audit_report(audit: &Audit) -> AuditReport {
-    let Audit { tunnelled, max_penetration_m, non_finite, solver_steps, contact_steps, halved, unconverged, passes, splits } = *audit;
-    AuditReport { tunnelled, max_penetration_m, non_finite, solver_steps, contact_steps, halved, unconverged, passes, splits }
+    let Audit { tunnelled, max_penetration_m, non_finite, solver_steps, contact_steps, halved, unconverged, passes, splits, limited_by } =
+        *audit;
+    let steps_limited_by = LimitedBy::ALL.iter().zip(limited_by).map(|(limit, steps)| (limit.name(), steps)).collect();
+    let (limit, steps) = LimitedBy::mostly(&limited_by);
+    let steps_mostly_limited_by = format!("{} ({:.0} %)", limit.words(), 100.0 * steps as f64 / solver_steps.max(1) as f64);
+    AuditReport {
+        tunnelled,
+        max_penetration_m,
+        non_finite,
+        solver_steps,
+        contact_steps,
+        halved,
+        unconverged,
+        passes,
+        splits,
+        steps_limited_by,
+        steps_mostly_limited_by,
+    }
 }
 
 fn line_reports(run: &Run) -> Vec<LineReport> {

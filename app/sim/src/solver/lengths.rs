@@ -8,6 +8,8 @@ use crate::model::Model;
 pub(crate) struct Lengths {
     /// Unstretched length of each segment [m].
     pub segment: Vec<f64>,
+    /// Length of the shortest segment [m].
+    pub shortest: f64,
     /// Unstretched length that hangs on each node: half of its neighbours in the same line [m].
     pub node: Vec<f64>,
     /// Axial law of each segment.
@@ -17,11 +19,12 @@ pub(crate) struct Lengths {
 impl Lengths {
     /// Takes over the lengths of a state, where they are not those there are.
     pub fn take(&mut self, model: &Model, segment_length: &[f64]) {
-        if self.segment == segment_length {
+        if self.shortest > 0.0 && self.segment == segment_length {
             return;
         }
         self.segment.clear();
         self.segment.extend_from_slice(segment_length);
+        self.shortest = segment_length.iter().copied().fold(f64::INFINITY, f64::min);
         self.axial.clear();
         self.axial.extend(segment_length.iter().enumerate().map(|(segment, length)| Axial::of(model.rope_of_segment(segment), *length)));
         self.node.clear();

@@ -89,6 +89,20 @@ struct Rest {
     hubs: Hubs,
 }
 
+/// What is fine enough for a small rig or short segments, below the usual tolerances.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Fine {
+    /// Move of the last pass [m].
+    pub move_m: f64,
+    /// Difference between solved and true tension [N].
+    pub gap_n: f64,
+}
+
+/// Move of the last pass, as a share of the shortest segment.
+const FINE_MOVE_SHARE: f64 = 0.02;
+/// Difference of tension, as a share of the weight of all gear.
+const FINE_GAP_SHARE: f64 = 0.02;
+
 /// What a pass did.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Passed {
@@ -126,6 +140,11 @@ impl Solver {
             drift_bodies: Vec::new(),
             solid: SolidWork::new(model),
         }
+    }
+
+    /// What is fine enough for the gear at hand.
+    pub(crate) fn fine(&self) -> Fine {
+        Fine { move_m: FINE_MOVE_SHARE * self.lengths.shortest, gap_n: FINE_GAP_SHARE * self.plan.weight_n }
     }
 
     /// Begins a step from a state.

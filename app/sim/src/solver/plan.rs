@@ -16,6 +16,8 @@ pub(crate) struct Plan {
     pub segment_node: Vec<usize>,
     /// A node that stands for each joint, where a line ends there.
     pub joint_node: Vec<Option<usize>>,
+    /// Weight in air of all rope and bodies [N].
+    pub weight_n: f64,
 }
 
 impl Plan {
@@ -30,6 +32,7 @@ impl Plan {
             body_block,
             segment_node: Vec::with_capacity(model.segment_count),
             joint_node: vec![None; model.spec.joints.len()],
+            weight_n: weight_n(model),
         };
         for (index, line) in model.spec.lines.iter().enumerate() {
             let first = model.line_nodes[index].start;
@@ -66,6 +69,14 @@ impl Plan {
             _ => DVec3::ZERO,
         }
     }
+}
+
+/// Weight in air of all rope and bodies [N].
+fn weight_n(model: &Model) -> f64 {
+    let line = |line: &crate::model::Line| model.spec.ropes[line.rope].mass_kg_m * line.segments_m.iter().sum::<f64>();
+    let rope: f64 = model.spec.lines.iter().map(line).sum();
+    let bodies: f64 = model.spec.bodies.iter().map(|body| body.mass_kg).sum();
+    9.81 * (rope + bodies)
 }
 
 /// Seats of all joints; blocks of free joints are counted first, bodies follow.
