@@ -10,14 +10,14 @@ use linked::{Linked, library, root, told};
 
 use endline_sim::model::{BodyRole, Shape};
 use endline_sim::statics::Settled;
-use endline_sim::{Model, settle};
+use endline_sim::{Model, Outcome, settle};
 
 /// Greatest vertical force out of balance on a body, by the figures of the model [N].
 const BALANCED_N: f64 = 0.1;
-/// Rigs drawn at random.
+/// Rigs drawn at random where the environment's `ENDLINE_RIGS` does not say how many.
 const DRAWN: u64 = 300;
-/// Share of them that statics may leave short of rest, as measured; one in a hundred is the aim.
-const UNSETTLED_SHARE: f64 = 0.02;
+/// Share of them for which statics may find neither rest nor that they drag, as measured.
+const UNKNOWN_SHARE: f64 = 0.01;
 /// First of their seeds.
 const FIRST_SEED: u64 = 1;
 
@@ -87,20 +87,24 @@ fn made_for(assembly: &str) -> f64 {
     }
 }
 
-/// What does not come to rest yet: gear that drags across full tide (the thick rope of the snow crab trap, the string of
-/// netting), and stowed rope that nothing holds on the seabed.
+/// Gear for which statics finds neither rest nor that it drags: a string of netting, stowed rope that nothing holds on
+/// the seabed, and trawls across full tide.
 fn is_open(assembly: &str, speed: f64, heading: f64) -> bool {
-    match assembly {
-        "snow-crab-single" => speed > 0.3 && (heading - 90.0).abs() < 1.0,
-        "gillnet-string" | "on-demand-trawl" => speed > 0.3,
-        _ => false,
-    }
+    let across = heading > 1.0 && heading < 179.0;
+    speed > 0.3
+        && match assembly {
+            "gillnet-string" | "on-demand-trawl" => true,
+            "trawl-5" => true,
+            "trawl-20" => across,
+            _ => false,
+        }
 }
 
-/// At slack, half and full tide, along, across and against the current.
+/// At slack, half and full tide, along, across and against the current; at slack tide everything comes to rest.
 #[test]
 fn every_shipped_assembly_settles_in_every_current() {
     let library = library();
+    let mut wrong = Vec::new();
     for assembly in library.assemblies.iter().map(|assembly| assembly.entry.id.as_str()) {
         for (speed, heading) in [0.0, 0.25, 0.5].into_iter().flat_map(|speed| [0.0, 90.0, 180.0].map(|heading| (speed, heading))) {
             if is_open(assembly, speed, heading) {
@@ -109,13 +113,16 @@ fn every_shipped_assembly_settles_in_every_current() {
             let site = format!("item = \"cape-cod-bay\"\ndepth = \"{} m\"", made_for(assembly));
             let model = placed(&library, assembly, &Sea { site: &site, speed, heading, nodes: 500 });
             let settled = settle(&model);
-            let what = format!("{assembly} at {speed} m/s and {heading} deg: {:.1e} N", settled.residual_n);
+            let what = format!("{assembly} at {speed} m/s and {heading} deg: {}, {:.1e} N", settled.why(), settled.residual_n);
             println!("{what}, {} passes", settled.trace_n.len());
-            assert!(settled.converged, "{what}");
-            let faults = faults(&model, &settled);
-            assert!(faults.is_empty(), "{what}: {}", faults.join("; "));
+            match settled.outcome {
+                Outcome::AtRest => wrong.extend(faults(&model, &settled).into_iter().map(|fault| format!("{what}: {fault}"))),
+                Outcome::Drags(_) if speed > 0.0 => {}
+                _ => wrong.push(what),
+            }
         }
     }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 /// Numbers drawn from a seed (SplitMix64).
@@ -186,10 +193,27 @@ fn drawn(seed: u64, sources: &mut Sources) -> (Model, String) {
     let library = read(sources);
     let at = |speed| placed(&library, "drawn", &Sea { site: &site, speed, heading, nodes });
     let share = drag_share(&at(speed));
-    let speed = if share > SURE_HOLD { speed * (SURE_HOLD / share).sqrt() } else { speed };
-    let model = at(speed);
+    // Every fourth may drag.
+    let speed = if share > SURE_HOLD && !seed.is_multiple_of(4) { speed * (SURE_HOLD / share).sqrt() } else { speed };
+    let model = hard(seed, at(speed));
     let lines: Vec<String> = model.spec.lines.iter().map(|line| model.spec.ropes[line.rope].id.clone()).collect();
     (model, format!("seed {seed}: {depth:.0} m, {speed:.2} m/s, {heading:.0} deg, {nodes} nodes, {}", lines.join(", ")))
+}
+
+/// Every tenth rig has rope a thousand times as stiff, every tenth a trap ten thousand times as heavy as the lightest node.
+fn hard(seed: u64, model: Model) -> Model {
+    let mut spec = model.spec;
+    match seed % 10 {
+        3 => spec.ropes.iter_mut().for_each(|rope| rope.axial_stiffness_n *= 1e3),
+        7 => {
+            let node_kg = |line: &endline_sim::model::Line| 0.5 * spec.ropes[line.rope].mass_kg_m * line.segments_m[0];
+            let lightest_kg = spec.lines.iter().map(node_kg).fold(f64::INFINITY, f64::min);
+            let trap = spec.bodies.iter_mut().find(|body| body.id == "trap-0").unwrap();
+            trap.mass_kg = trap.mass_kg.max(1e4 * lightest_kg);
+        }
+        _ => {}
+    }
+    Model::new(spec).unwrap()
 }
 
 /// Share of the first trap's weight in water below which the drag of endline and buoy surely leaves it where it
@@ -211,28 +235,34 @@ fn drag_share(model: &Model) -> f64 {
     0.5 * water.density_kg_m3 * area * water.current.surface_m_s.length_squared() / weight
 }
 
-/// Few may fail to settle, none may leave numbers that are not finite; what settles is in balance.
+/// Few may be left without an answer, none may leave numbers that are not finite; what comes to rest is in balance.
+///
+/// `ENDLINE_RIGS=10000 cargo test --release -p endline-tests --test rigs random -- --nocapture` is the full run.
 #[test]
-fn rigs_drawn_at_random_settle() {
+fn rigs_drawn_at_random_settle_or_say_why() {
     let mut sources = Sources::from_folder(&root()).unwrap();
-    let mut unsettled = Vec::new();
-    for seed in FIRST_SEED..FIRST_SEED + DRAWN {
+    let count = std::env::var("ENDLINE_RIGS").map_or(DRAWN, |count| count.parse().unwrap());
+    let (mut unknown, mut dragging, mut passes) = (Vec::new(), 0, 0);
+    for seed in FIRST_SEED..FIRST_SEED + count {
         let (model, what) = drawn(seed, &mut sources);
         let settled = settle(&model);
         let rope = &settled.state.rope;
         assert!(rope.position.iter().all(|place| place.is_finite()) && rope.tension.iter().all(|pull| pull.is_finite()), "{what}");
-        if settled.converged {
-            let out_n = (0..model.spec.bodies.len()).map(|body| balance::vertical(&model, &settled.state, body).abs()).fold(0.0, f64::max);
-            assert!(out_n < BALANCED_N, "{what}: {out_n} N out of vertical balance");
-        } else {
-            unsettled.push(format!("{what}: {:.1e} N after {} passes", settled.residual_n, settled.trace_n.len()));
+        passes += settled.trace_n.len();
+        match settled.outcome {
+            Outcome::AtRest => {
+                let bodies = 0..model.spec.bodies.len();
+                let out_n = bodies.map(|body| balance::vertical(&model, &settled.state, body).abs()).fold(0.0, f64::max);
+                assert!(out_n < BALANCED_N, "{what}: {out_n} N out of vertical balance");
+            }
+            Outcome::Drags(_) => {
+                println!("{what}: {}", settled.why());
+                dragging += 1;
+            }
+            Outcome::NotFound => unknown.push(format!("{what}: {} after {} passes", settled.why(), settled.trace_n.len())),
         }
     }
-    println!("{} of {DRAWN} do not settle\n{}", unsettled.len(), unsettled.join("\n"));
-    assert!(
-        unsettled.len() as f64 <= UNSETTLED_SHARE * DRAWN as f64,
-        "{} of {DRAWN} do not settle:\n{}",
-        unsettled.len(),
-        unsettled.join("\n")
-    );
+    let found = format!("{dragging} of {count} drag, {} are without an answer, {} passes each", unknown.len(), passes as u64 / count);
+    println!("{found}\n{}", unknown.join("\n"));
+    assert!(unknown.len() as f64 <= UNKNOWN_SHARE * count as f64, "{found}:\n{}", unknown.join("\n"));
 }

@@ -20,8 +20,8 @@ pub enum Error {
     Diagnostics(Vec<Diagnostic>),
     /// The statics did not come to rest, and the run was not told to start regardless.
     Unsettled {
-        /// Greatest force out of balance [N].
-        residual_n: f64,
+        /// What was found instead, with the part and the force.
+        why: String,
         /// Passes made.
         passes: usize,
     },
@@ -52,10 +52,10 @@ impl fmt::Display for Error {
                 let all: Vec<String> = diagnostics.iter().map(ToString::to_string).collect();
                 f.write_str(&all.join("\n"))
             }
-            Self::Unsettled { residual_n, passes } => write!(
+            Self::Unsettled { why, passes } => write!(
                 f,
-                "the gear did not come to rest: after {passes} passes a force of {residual_n:.3e} N is out of balance\n\
-                 see `endline settle` for the trace; --unsettled starts the run regardless"
+                "the gear did not come to rest in {passes} passes: {why}\n\
+                 see `endline settle` for the trace; --allow-unsettled starts the run regardless"
             ),
             Self::Stopped(stop) => write!(f, "stopped at {:.3} s: {}: {}", stop.time_s, stop.part, stop.reason),
             Self::Replay(message) => f.write_str(message),

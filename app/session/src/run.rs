@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use endline_sdk::Controls;
 use endline_sim::metrics::{Metrics, Summary};
-use endline_sim::{Audit, Frame, Input, Model, Settled, State, Stop, Workspace, settle, step};
+use endline_sim::{Audit, Frame, Input, Model, Outcome, Settled, State, Stop, Workspace, settle, step};
 
 use crate::error::Error;
 use crate::hash::StateHash;
@@ -49,7 +49,7 @@ impl Run {
         let model = &prepared.model;
         let settled = if model.spec.settings.as_placed { as_placed(model) } else { settle(model) };
         if !settled.converged && !options.unsettled {
-            return Err(Error::Unsettled { residual_n: settled.residual_n, passes: settled.trace_n.len() });
+            return Err(Error::Unsettled { why: settled.why(), passes: settled.trace_n.len() });
         }
         Ok(Self::from_rest(prepared, options, Arc::new(settled), start.elapsed()))
     }
@@ -246,7 +246,7 @@ impl Run {
 
 /// The parts where they are placed, taken as they are.
 fn as_placed(model: &Model) -> Settled {
-    Settled { state: State::start(model), residual_n: 0.0, converged: true, trace_n: Vec::new() }
+    Settled { state: State::start(model), outcome: Outcome::AtRest, residual_n: 0.0, worst: None, converged: true, trace_n: Vec::new() }
 }
 
 /// Steps from one kept frame to the next: the whole number nearest to the rate asked for.

@@ -18,8 +18,12 @@ pub struct SettledShape {
     pub schema: &'static str,
     /// The scenario's file as the user named it.
     pub scenario: String,
-    /// Whether the residual came below the tolerance.
+    /// Whether the gear is at rest.
     pub converged: bool,
+    /// What was found: `at rest`, or why not.
+    pub outcome: String,
+    /// The part with the greatest force out of balance.
+    pub worst_part: Option<String>,
     /// Greatest force out of balance [N].
     pub residual_N: f64,
     /// Residual after each pass [N].
@@ -74,6 +78,8 @@ impl SettledShape {
             schema: SCHEMA,
             scenario: prepared.source.scenario_name.clone(),
             converged: settled.converged,
+            outcome: settled.outcome.to_string(),
+            worst_part: settled.worst.as_ref().map(|worst| worst.part.clone()),
             residual_N: settled.residual_n,
             trace_N: settled.trace_n.clone(),
             wall_s,

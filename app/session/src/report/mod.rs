@@ -220,6 +220,10 @@ pub struct PhaseReport {
 #[derive(Clone, Debug, Serialize)]
 #[allow(non_snake_case, reason = "keys of the JSON contract carry their units")]
 pub struct SettledReport {
+    /// Whether the run began from rest.
+    pub settled: bool,
+    /// What statics found, in words.
+    pub outcome: String,
     /// Greatest force out of balance [N].
     pub residual_N: f64,
     /// Real time [s].

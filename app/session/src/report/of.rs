@@ -39,12 +39,22 @@ impl Report {
             whale: whale.map(whale_report),
             approach: phase_report(&run.timing().approach),
             contact: phase_report(&run.timing().contact),
-            settled: SettledReport { residual_N: run.settled().residual_n, wall_s: run.timing().settle_wall_s },
+            settled: settled_report(run),
             events: event_reports(run),
             version: env!("CARGO_PKG_VERSION"),
             model_hash: run.prepared().source.hash(),
             plugins: run.prepared().plugins.clone(),
         }
+    }
+}
+
+fn settled_report(run: &Run) -> SettledReport {
+    let settled = run.settled();
+    SettledReport {
+        settled: settled.converged,
+        outcome: settled.outcome.to_string(),
+        residual_N: settled.residual_n,
+        wall_s: run.timing().settle_wall_s,
     }
 }
 

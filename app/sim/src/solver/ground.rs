@@ -20,6 +20,8 @@ use crate::state::State;
 const ONSET_M: f64 = 0.01;
 /// Speed below which a sliding foot takes hold again [m/s].
 const HOLD_SPEED_M_S: f64 = 1e-3;
+/// Pseudo-mass of statics at which half of a grip's yielding is trusted [1/s²].
+const TRUSTED_MASS: f64 = 0.01;
 /// Share of critical damping of a foot on the seabed.
 const FOOT_DAMPING: f64 = 0.5;
 
@@ -67,9 +69,39 @@ impl Grip {
     }
 }
 
+impl Grip {
+    /// The same grip for statics, without the corner where it begins to slip: `f = -k z / √(1 + (k|z|/μN)²)`.
+    ///
+    /// With a `trust` below one its block yields less along the slip than the force does; at zero it is the secant `k/√…`,
+    /// with which passes never overshoot.
+    pub fn smooth(stretch: DVec3, normal: DVec3, stiffness: f64, limit: f64, trust: f64) -> Self {
+        let plane = DMat3::IDENTITY - outer(normal, normal);
+        let stretch = plane * stretch;
+        if limit <= 0.0 {
+            return Self { force: DVec3::ZERO, block: DMat3::ZERO, kept: DVec3::ZERO, slips: true };
+        }
+        let reach = stretch * (stiffness / limit);
+        let less = 1.0 / libm::sqrt(1.0 + reach.length_squared());
+        let block = (plane - outer(reach, reach) * (trust * less * less)) * (stiffness * less);
+        let kept = stretch * less;
+        Self { force: kept * -stiffness, block, kept, slips: reach.length_squared() > 1.0 }
+    }
+}
+
 impl Seabed {
+    /// Depth at which one foot bears a load [m].
+    pub(crate) fn depth_under(&self, load_n: f64) -> f64 {
+        let depth = load_n / self.foot_stiffness_n_m + 0.5 * ONSET_M;
+        if depth < ONSET_M { (2.0 * ONSET_M * load_n / self.foot_stiffness_n_m).sqrt() } else { depth }
+    }
+
+    /// Push on one foot at a place [N].
+    pub(crate) fn push_on_foot(&self, place: DVec3) -> f64 {
+        press(self.depth_of(place), self.foot_stiffness_n_m).0
+    }
+
     /// Depth of a place below the plane [m].
-    pub(super) fn depth_of(&self, place: DVec3) -> f64 {
+    pub(crate) fn depth_of(&self, place: DVec3) -> f64 {
         -self.normal.dot(place + DVec3::Z * self.depth_m)
     }
 }
@@ -87,18 +119,21 @@ impl Solver {
             let (push, push_rate) = press(depth, stiffness);
             self.band.force[node] += seabed.normal * push;
             self.band.diagonal[node] += outer(seabed.normal, seabed.normal) * push_rate;
-            if !scheme.is_static() {
-                let grip = self.rope_grip(seabed, state, node, stiffness);
+            if grips_rope(seabed, state, node, scheme) {
+                let grip = self.rope_grip(seabed, state, scheme, node, stiffness);
                 self.band.force[node] += grip.force;
                 self.band.diagonal[node] += grip.block;
             }
         }
     }
 
-    fn rope_grip(&self, seabed: &Seabed, state: &State, node: usize, stiffness: f64) -> Grip {
+    fn rope_grip(&self, seabed: &Seabed, state: &State, scheme: &Scheme, node: usize, stiffness: f64) -> Grip {
         let stretch = state.rope.seabed_grip[node] + self.trial.place[node] - state.rope.position[node];
-        let depth = seabed.depth_of(self.trial.place[node]);
-        Grip::new(stretch, seabed.normal, stiffness, seabed.rope_friction, press(depth, stiffness))
+        let push = press(seabed.depth_of(self.trial.place[node]), stiffness);
+        if scheme.is_static() {
+            return Grip::smooth(stretch, seabed.normal, stiffness, seabed.rope_friction * push.0, trust(scheme));
+        }
+        Grip::new(stretch, seabed.normal, stiffness, seabed.rope_friction, push)
     }
 
     /// Adds the seabed under a body's feet.
@@ -124,7 +159,7 @@ impl Solver {
             let (push, push_rate) = press(depth, seabed.foot_stiffness_n_m);
             let push = (push + damping * seabed.normal.dot(before - place)).max(0.0);
             let push_rate = push_rate + damping;
-            let grip = foot_grip(seabed, state, (index, body, foot), place, (push, push_rate));
+            let grip = foot_grip(seabed, state, scheme, (index, body, foot), place, (push, push_rate));
             self.hubs.push(seat, arm, seabed.normal * push + grip.force);
             self.hubs.add(seat, arm, seat, arm, outer(seabed.normal, seabed.normal) * push_rate + grip.block);
         }
@@ -134,9 +169,10 @@ impl Solver {
     pub(super) fn keep_grips(&self, model: &Model, scheme: &Scheme, state: &mut State) {
         let Some(seabed) = &model.spec.seabed else { return };
         for node in 0..model.node_count {
-            let on_ground = seabed.depth_of(self.trial.place[node]) > 0.0 && !scheme.is_static();
+            let on_ground = seabed.depth_of(self.trial.place[node]) > 0.0 && grips_rope(seabed, state, node, scheme);
             let stiffness = seabed.rope_stiffness_n_m2 * self.lengths.node[node];
-            state.rope.seabed_grip[node] = if on_ground { self.rope_grip(seabed, state, node, stiffness).kept } else { DVec3::ZERO };
+            state.rope.seabed_grip[node] =
+                if on_ground { self.rope_grip(seabed, state, scheme, node, stiffness).kept } else { DVec3::ZERO };
         }
         self.keep_feet(model, scheme, state);
     }
@@ -162,9 +198,15 @@ impl Solver {
         let place = self.trial.bodies[index].place + self.trial.bodies[index].orientation * body.feet_m[foot];
         let push = press(seabed.depth_of(place), seabed.foot_stiffness_n_m);
         let (kept, slides) = if push.0 > 0.0 {
-            let grip = foot_grip(seabed, state, (index, body, foot), place, push);
+            let grip = foot_grip(seabed, state, scheme, (index, body, foot), place, push);
             let speed = (place - foot_before(state, index, body, foot)).length() * scheme.rate;
-            (grip.kept, grip.slips && (speed > HOLD_SPEED_M_S || !state.bodies[index].sliding[foot]))
+            // Statics says itself which feet slide.
+            let slides = if scheme.is_static() {
+                state.bodies[index].sliding[foot]
+            } else {
+                grip.slips && (speed > HOLD_SPEED_M_S || !state.bodies[index].sliding[foot])
+            };
+            (grip.kept, slides)
         } else {
             (DVec3::ZERO, false)
         };
@@ -175,14 +217,35 @@ impl Solver {
     }
 }
 
+/// How far statics trusts a grip to yield as it slips: little while passes are rough, wholly at the end.
+fn trust(scheme: &Scheme) -> f64 {
+    1.0 / (1.0 + scheme.inertia / TRUSTED_MASS)
+}
+
+/// Whether the seabed grips a node that lies on it: in statics only one that lay on it before, for where another
+/// first touched is not known.
+fn grips_rope(seabed: &Seabed, state: &State, node: usize, scheme: &Scheme) -> bool {
+    !scheme.is_static() || seabed.depth_of(state.rope.position[node]) > 0.0
+}
+
 /// Place of a foot when the step begins.
 fn foot_before(state: &State, index: usize, body: &Body, foot: usize) -> DVec3 {
     state.bodies[index].position + state.bodies[index].orientation * body.feet_m[foot]
 }
 
-fn foot_grip(seabed: &Seabed, state: &State, (index, body, foot): (usize, &Body, usize), place: DVec3, push: (f64, f64)) -> Grip {
+fn foot_grip(
+    seabed: &Seabed,
+    state: &State,
+    scheme: &Scheme,
+    (index, body, foot): (usize, &Body, usize),
+    place: DVec3,
+    push: (f64, f64),
+) -> Grip {
     let stretch = state.bodies[index].grip[foot] + place - foot_before(state, index, body, foot);
     let friction = if state.bodies[index].sliding[foot] { body.slide_friction } else { body.start_friction };
+    if scheme.is_static() {
+        return Grip::smooth(stretch, seabed.normal, seabed.foot_stiffness_n_m, friction * push.0, trust(scheme));
+    }
     let mut grip = Grip::new(stretch, seabed.normal, seabed.foot_stiffness_n_m, friction, push);
     if grip.slips && !state.bodies[index].sliding[foot] {
         // It broke loose in this very step: from here on it slides.

@@ -17,6 +17,7 @@ mod lanes;
 mod lengths;
 mod plan;
 mod pulled;
+mod rest;
 mod rope;
 mod scheme;
 mod search;
@@ -40,6 +41,7 @@ use hubs::{Hubs, Seat};
 use lanes::Lanes;
 use lengths::Lengths;
 use plan::Plan;
+pub(crate) use rest::{WorstAt, is_laid};
 use rope::Pull;
 pub(crate) use scheme::Scheme;
 use solid::Judged;
@@ -169,6 +171,7 @@ impl Solver {
         self.add_tension(model, scheme);
         self.add_bending(model);
         self.add_bodies(model, state, scheme);
+        self.add_tethers(model, state, scheme);
         self.add_end_turns(model);
     }
 
@@ -181,6 +184,7 @@ impl Solver {
         self.add_seabed(model, state, scheme);
         self.add_pulled(model, scheme);
         self.add_bodies(model, state, scheme);
+        self.add_tethers(model, state, scheme);
         self.rest.diagonal.clone_from(&self.band.diagonal);
         self.rest.force.clone_from(&self.band.force);
         self.rest.hubs.copy_values(&self.hubs);

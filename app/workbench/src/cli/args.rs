@@ -52,7 +52,7 @@ pub(super) struct RunArgs {
     #[arg(long)]
     pub(super) json: bool,
     /// Start even where the gear did not come to rest.
-    #[arg(long)]
+    #[arg(long = "allow-unsettled", alias = "unsettled")]
     pub(super) unsettled: bool,
     #[command(flatten)]
     pub(super) over: OverArgs,

@@ -20,9 +20,5 @@ pub(super) fn settle(args: &SettleArgs, library: Option<&Path>) -> Result<ExitCo
     if settled.converged {
         return Ok(ExitCode::SUCCESS);
     }
-    Err(Failure::failed(format!(
-        "did not come to rest: after {} passes a force of {:.3e} N is out of balance",
-        settled.trace_n.len(),
-        settled.residual_n
-    )))
+    Err(Failure::failed(format!("did not come to rest in {} passes: {}", settled.trace_n.len(), settled.why())))
 }

@@ -23,11 +23,11 @@ pub(super) fn summary(report: &Report) -> String {
 
 /// The gear at rest.
 pub(super) fn settled(shape: &SettledShape) -> String {
-    let verdict = if shape.converged { "at rest" } else { "NOT at rest" };
     let mut text = format!("{}\n\n", shape.scenario);
     text += &columns(&[
-        vec![verdict.into(), format!("greatest force out of balance {:.2e} N", shape.residual_N)],
-        vec!["passes".into(), shape.trace_N.len().to_string()],
+        vec!["outcome".into(), shape.outcome.clone()],
+        vec!["out of balance".into(), out_of_balance(shape)],
+        vec!["passes".into(), format!("{} in {:.1} ms", shape.trace_N.len(), 1e3 * shape.wall_s)],
         vec!["rope nodes".into(), shape.nodes.to_string()],
     ]);
     let mut rows = vec![row(&["line", "length", "tension at end A", "tension at end B"])];
@@ -38,6 +38,11 @@ pub(super) fn settled(shape: &SettledShape) -> String {
     let mut rows = vec![row(&["body", "east", "north", "up"])];
     rows.extend(shape.bodies.iter().map(|body| place(&body.id, body.position_m)));
     text + &columns(&rows) + &probes(&shape.probes)
+}
+
+fn out_of_balance(shape: &SettledShape) -> String {
+    let at = shape.worst_part.as_ref().map_or_else(String::new, |part| format!(" at {part}"));
+    format!("{:.2e} N{at}", shape.residual_N)
 }
 
 fn head(report: &Report) -> String {

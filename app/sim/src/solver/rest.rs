@@ -1,0 +1,171 @@
+//! What statics asks of the solver besides the balance of forces: tethers, how far a pass turns the gear, and
+//! where the greatest force is left.
+//!
+//! A tether is a horizontal spring of stiffness `k` from a body to where it was laid: `F = -k (x - x₀)` in the
+//! plane. With `k` falling stage by stage, gear that holds by its own friction needs it less and less; gear that
+//! drags keeps pulling on it with just what its friction lacks, however weak it is.
+
+use glam::{DMat3, DVec3};
+
+use super::Solver;
+use super::hubs::Seat;
+use super::rope::outer;
+use super::scheme::Scheme;
+use crate::model::{BodyRole, Model};
+use crate::state::State;
+
+/// Where the greatest force out of balance is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum WorstAt {
+    /// A node within a line.
+    Line(usize),
+    /// A free joint.
+    Joint(usize),
+    /// A body.
+    Body(usize),
+}
+
+/// Whether a body is one that is laid on the seabed.
+pub(crate) fn is_laid(model: &Model, body: usize) -> bool {
+    model.spec.seabed.is_some() && model.spec.bodies[body].role != BodyRole::Buoy && !model.spec.bodies[body].feet_m.is_empty()
+}
+
+/// Pull of a tether on a body that was laid elsewhere [N].
+fn tether_pull(place: DVec3, laid: DVec3, stiffness: f64) -> DVec3 {
+    (laid - place) * DVec3::new(stiffness, stiffness, 0.0)
+}
+
+impl Solver {
+    /// Holds every laid body as it lies, through the attempt that was begun.
+    pub(crate) fn hold_laid(&mut self, model: &Model) {
+        for (index, body) in self.trial.bodies.iter_mut().enumerate() {
+            body.held |= is_laid(model, index);
+        }
+    }
+
+    /// Puts the trial where another state is, through the attempt that was begun; held bodies stay.
+    pub(crate) fn start_at(&mut self, model: &Model, guess: &State) {
+        self.trial.place.clone_from(&guess.rope.position);
+        self.trial.tension.clone_from(&guess.rope.tension);
+        for (trial, body) in self.trial.bodies.iter_mut().zip(&guess.bodies).filter(|(trial, _)| !trial.held) {
+            (trial.place, trial.orientation) = (body.position, body.orientation);
+        }
+        self.trial.seat_ends(model, &self.plan);
+        self.measure_flow(model);
+    }
+
+    /// Moves the trial by a share of the solved step, tension as a multiplier of its own: a share of the way from what
+    /// it was to what the solve foretold, whatever the strain.
+    pub(crate) fn advance_at_rest(&mut self, model: &Model, share: f64, before: &mut Vec<f64>) {
+        before.clone_from(&self.trial.tension);
+        self.foretell_tension(model, 1.0);
+        for (before, foretold) in before.iter_mut().zip(&self.trial.tension) {
+            *before += share * (foretold - *before);
+        }
+        self.advance(model, share);
+        self.trial.tension.clone_from(before);
+        self.measure_flow(model);
+    }
+
+    /// Lets slack segments resist being stretched or shortened within a pass, as rope that is taut does, by a share of its
+    /// stiffness: it changes how a pass goes and not where passes end.
+    pub(crate) fn stiffen_slack(&mut self, model: &Model, share: f64) {
+        for (index, segments) in model.line_segments.iter().enumerate() {
+            let first_node = model.line_nodes[index].start;
+            for (node, segment) in (first_node..).zip(segments.clone()) {
+                let pull = self.pull[segment];
+                if pull.taut || self.cut[segment] {
+                    continue;
+                }
+                let block = outer(pull.direction, pull.direction) * (pull.stiffness * share);
+                self.band.diagonal[node] += block;
+                self.band.diagonal[node + 1] += block;
+                self.band.up[segment] -= block;
+                self.band.low[segment] -= block;
+            }
+        }
+    }
+
+    /// Force on a laid body besides its feet's push, as last assembled with the body held [N].
+    pub(crate) fn load_on(&self, model: &Model, index: usize) -> DVec3 {
+        let mut hubs = self.hubs.force.clone();
+        for (line, nodes) in model.spec.lines.iter().zip(&model.line_nodes) {
+            for (joint, node) in [(line.from, nodes.start), (line.to, nodes.end - 1)] {
+                self.hubs_push(&mut hubs, joint, self.band.force[node]);
+            }
+        }
+        let (body, now) = (&model.spec.bodies[index], &self.trial.bodies[index]);
+        let push = model.spec.seabed.as_ref().map_or(DVec3::ZERO, |seabed| {
+            let feet = body.feet_m.iter().map(|foot| seabed.push_on_foot(now.place + now.orientation * *foot));
+            seabed.normal * feet.sum::<f64>()
+        });
+        hubs[self.plan.body_block[index]] - push
+    }
+
+    /// Adds the tethers of laid bodies.
+    pub(super) fn add_tethers(&mut self, model: &Model, state: &State, scheme: &Scheme) {
+        if scheme.tether <= 0.0 {
+            return;
+        }
+        for index in (0..model.spec.bodies.len()).filter(|index| is_laid(model, *index)) {
+            let block = self.plan.body_block[index];
+            let pull = tether_pull(self.trial.bodies[index].place, state.bodies[index].position, scheme.tether);
+            self.hubs.force[block] += pull;
+            *self.hubs.at(block, block) += DMat3::from_diagonal(DVec3::new(scheme.tether, scheme.tether, 0.0));
+        }
+    }
+
+    /// Greatest turn of any segment or body in the last solve, turned or stretched as one [rad].
+    pub(crate) fn sharpest_turn(&self, model: &Model) -> f64 {
+        let mut greatest = 0.0_f64;
+        for (index, segments) in model.line_segments.iter().enumerate() {
+            let first_node = model.line_nodes[index].start;
+            for (k, segment) in segments.clone().enumerate() {
+                let step = self.band.step[first_node + k + 1] - self.band.step[first_node + k];
+                let step = step.reject_from_normalized(self.pull[segment].direction);
+                greatest = greatest.max(step.length_squared() / (self.lengths.segment[segment] * self.lengths.segment[segment]));
+            }
+        }
+        let bodies = self.plan.body_block.iter().map(|block| 16.0 * self.hubs.step[block + 1].length_squared()).fold(greatest, f64::max);
+        bodies.sqrt()
+    }
+
+    /// Where the force out of balance is greatest, as last assembled (before [`solve`](Self::solve)), and how great [N].
+    pub(crate) fn worst(&self, model: &Model) -> Option<(WorstAt, f64)> {
+        let mut hubs = self.hubs.force.clone();
+        let mut worst: Option<(WorstAt, f64)> = None;
+        let mut offer = |at: WorstAt, force: f64| {
+            if worst.is_none_or(|(_, most)| force > most || force.is_nan()) {
+                worst = Some((at, force));
+            }
+        };
+        for (index, line) in model.spec.lines.iter().enumerate() {
+            let nodes = &model.line_nodes[index];
+            let inner = self.band.force[nodes.start + 1..nodes.end - 1].iter().map(|force| force.length()).fold(0.0, f64::max);
+            offer(WorstAt::Line(index), inner);
+            for (joint, node) in [(line.from, nodes.start), (line.to, nodes.end - 1)] {
+                self.hubs_push(&mut hubs, joint, self.band.force[node]);
+            }
+        }
+        for (joint, seat) in self.plan.seats.iter().enumerate() {
+            if let Seat::Free(block) = seat {
+                offer(WorstAt::Joint(joint), hubs[*block].length());
+            }
+        }
+        for (index, block) in self.plan.body_block.iter().enumerate().filter(|(index, _)| !self.trial.bodies[*index].held) {
+            offer(WorstAt::Body(index), hubs[*block].length().max(hubs[block + 1].length()));
+        }
+        worst
+    }
+
+    fn hubs_push(&self, hubs: &mut [DVec3], joint: usize, force: DVec3) {
+        match self.plan.seats[joint] {
+            Seat::Fixed => {}
+            Seat::Free(block) => hubs[block] += force,
+            Seat::Body { block, .. } => {
+                hubs[block] += force;
+                hubs[block + 1] += self.arm(self.plan.seats[joint]).cross(force);
+            }
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! The first guess: every slack line as the arc that its load would pull it into.
+//!
+//! Where a line of length `L` is longer than the chord `c` between its ends it is laid along the circular arc of
+//! that length, `sin(φ)/φ = c/L` with `φ` half the arc's angle, bulging the way its weight and the current at its
+//! middle press it, `q`. Every segment then has its own length, and its tension is what a uniform load `q` asks of the
+//! arc: `T = |q| R`. Rope that would sink to the seabed lies straight on it.
+
+use glam::DVec3;
+
+use crate::model::{JointKind, Line, Model, Rope, Seabed};
+use crate::solver::is_laid;
+use crate::state::State;
+
+/// How deep rope is laid into the seabed [m].
+const LAID_M: f64 = 1e-4;
+/// How steeply it goes down to it from its ends.
+const DESCENT: f64 = 0.25;
+
+/// The model's own guess of places, with bodies as deep in the seabed as they lie.
+pub(super) fn straight(model: &Model) -> State {
+    let mut state = State::start(model);
+    for index in (0..model.spec.bodies.len()).filter(|index| is_laid(model, *index)) {
+        sink(model, index, &mut state);
+    }
+    state
+}
+
+/// The state that statics starts from.
+pub(super) fn first_guess(model: &Model) -> State {
+    let mut state = straight(model);
+    for index in 0..model.spec.lines.len() {
+        if model.spec.lines[index].start_m.is_empty() {
+            bend(model, index, &mut state);
+        }
+    }
+    state
+}
+
+/// Sinks a body that stands on the seabed until its feet bear its weight, and the line ends at it too.
+fn sink(model: &Model, index: usize, state: &mut State) {
+    let (Some(seabed), body) = (&model.spec.seabed, &model.spec.bodies[index]) else { return };
+    let now = &state.bodies[index];
+    let lowest = body.feet_m.iter().map(|foot| seabed.depth_of(now.position + now.orientation * *foot)).fold(f64::MIN, f64::max);
+    let displaced: f64 = body.floats.iter().map(|float| float.volume_m3).sum();
+    let weight = (body.mass_kg - model.spec.water.density_kg_m3 * displaced) * model.spec.water.gravity_m_s2;
+    if weight <= 0.0 {
+        return;
+    }
+    let down = seabed.normal * (lowest - seabed.depth_under(weight / body.feet_m.len() as f64));
+    state.bodies[index].position += down;
+    for (line, nodes) in model.spec.lines.iter().zip(&model.line_nodes) {
+        for (joint, node) in [(line.from, nodes.start), (line.to, nodes.end - 1)] {
+            if matches!(model.spec.joints[joint].kind, JointKind::Body { body, .. } if body == index) {
+                state.rope.position[node] += down;
+            }
+        }
+    }
+}
+
+/// Lays one line.
+fn bend(model: &Model, index: usize, state: &mut State) {
+    let line = &model.spec.lines[index];
+    let nodes = model.line_nodes[index].clone();
+    let (from, to) = (state.rope.position[nodes.start], state.rope.position[nodes.end - 1]);
+    let (chord, length) = (to - from, line.segments_m.iter().sum::<f64>());
+    let span = chord.length();
+    let load = load(model, &model.spec.ropes[line.rope], from.midpoint(to), chord.normalize_or_zero());
+    if span >= length || span < 1e-6 {
+        let pull = (model.spec.ropes[line.rope].axial_stiffness_n * (span / length - 1.0)).max(1e-3 * load.length() * length);
+        state.rope.tension[model.line_segments[index].clone()].fill(pull);
+        return;
+    }
+    let along = chord / span;
+    let out = (load - along * load.dot(along)).try_normalize().unwrap_or_else(|| along.any_orthonormal_vector());
+    let mut places = arc(line, (from, along), out, span, length);
+    let tension = load.length() * 0.5 * length / half_angle(span / length);
+    if let Some(seabed) = model.spec.seabed.as_ref().filter(|seabed| lies(seabed, &places)) {
+        // It lies in a bight beside its ends, on the side the current takes it to.
+        let level = |vector: DVec3| vector - seabed.normal * vector.dot(seabed.normal);
+        let ahead = level(along).try_normalize().unwrap_or(along);
+        let side = (level(load) - ahead * load.dot(ahead)).try_normalize().unwrap_or_else(|| seabed.normal.cross(ahead));
+        places = lie(seabed, line, (from, to), (ahead, side));
+    }
+    state.rope.position[nodes.start + 1..nodes.end - 1].copy_from_slice(&places[1..nodes.len() - 1]);
+    state.rope.tension[model.line_segments[index].clone()].fill(tension);
+}
+
+/// Nodes of a line along the arc from a place, with its chord along `along` and its bulge along `out`.
+fn arc(line: &Line, (from, along): (DVec3, DVec3), out: DVec3, span: f64, length: f64) -> Vec<DVec3> {
+    let half = half_angle(span / length);
+    let radius = 0.5 * length / half;
+    let middle = from + along * (0.5 * span) - out * (radius * libm::cos(half));
+    let mut angle = -half;
+    let mut places = vec![from];
+    for segment in &line.segments_m {
+        angle += segment / radius;
+        places.push(middle + along * (radius * libm::sin(angle)) + out * (radius * libm::cos(angle)));
+    }
+    places
+}
+
+/// Lays a line on the seabed: down from each end, and between in an arc on the seabed; no segment is stretched.
+fn lie(seabed: &Seabed, line: &Line, (from, to): (DVec3, DVec3), (ahead, side): (DVec3, DVec3)) -> Vec<DVec3> {
+    let whole: f64 = line.segments_m.iter().sum();
+    let (first, last) = (-seabed.depth_of(from), -seabed.depth_of(to));
+    let height = |along: f64| (first - DESCENT * along).max(last - DESCENT * (whole - along)).max(-LAID_M);
+    // Length of each segment along the seabed.
+    let (mut along, mut before, mut level) = (0.0, first, Vec::with_capacity(line.segments_m.len()));
+    for segment in &line.segments_m {
+        along += segment;
+        let after = height(along);
+        level.push(libm::sqrt((segment * segment - (after - before) * (after - before)).max(0.0)));
+        before = after;
+    }
+    let (span, length) = ((to - from).dot(ahead), level.iter().sum::<f64>());
+    let half = half_angle((span / length).min(1.0 - 1e-9));
+    let radius = 0.5 * length / half;
+    let (mut angle, mut along) = (-half, 0.0);
+    let mut places = vec![from];
+    for (segment, level) in line.segments_m.iter().zip(&level) {
+        angle += level / radius;
+        along += segment;
+        let on = from + ahead * (0.5 * span + radius * libm::sin(angle)) + side * (radius * (libm::cos(angle) - libm::cos(half)));
+        places.push(on + seabed.normal * (seabed.depth_of(on) + height(along)));
+    }
+    places
+}
+
+/// Whether a line bent like this lies on the seabed for the greater part.
+fn lies(seabed: &Seabed, places: &[DVec3]) -> bool {
+    let below = places.iter().filter(|place| seabed.depth_of(**place) > 0.0).count();
+    2 * below > places.len()
+}
+
+/// Half the angle of an arc whose chord is this share of its length: `sin(φ)/φ = share` [rad].
+fn half_angle(share: f64) -> f64 {
+    let (mut low, mut high) = (1e-6, core::f64::consts::PI);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if libm::sin(middle) > share * middle { low = middle } else { high = middle }
+    }
+    low
+}
+
+/// Weight in water and drag of a metre of rope that runs along `tangent` at a place [N/m].
+fn load(model: &Model, rope: &Rope, place: DVec3, tangent: DVec3) -> DVec3 {
+    let water = &model.spec.water;
+    let weight = (water.density_kg_m3 * rope.displaced_m3_m - rope.mass_kg_m) * water.gravity_m_s2;
+    let flow = model.sea.at(place, 0.0).velocity_m_s;
+    let across = flow - tangent * flow.dot(tangent);
+    DVec3::Z * weight + across * (0.5 * water.density_kg_m3 * rope.drag_normal * rope.diameter_m * across.length())
+}

@@ -1,0 +1,127 @@
+//! Relaxing: the slow and sure way to rest, for gear whose shape is far from the first guess.
+//!
+//! Two ways of passes. *Foretold*: rope is judged taut or slack by the last linear solve, whole steps are taken, the
+//! pseudo-mass `σ` follows the ratio of residuals. *Searched*: rope is judged where it lies and each step is searched for
+//! balance; slower, and sure where much rope lies slack. Where neither gets there, rope is softened until the gear comes
+//! to rest and then stiffened stage by stage, each from the last that came to rest.
+
+use super::newton::{Hold, Newton, Reached, TOLERANCE_N, Way};
+use crate::model::Model;
+use crate::state::State;
+
+/// The quick way with its passes before it gives up.
+const QUICK: (Way, usize) = (Way::Foretold, 150);
+/// The sure way with its passes.
+const SURE: (Way, usize) = (Way::Searched, 1000);
+/// First pseudo-mass: a free node then moves about `g/σ` in a pass [1/s²].
+const FIRST_PSEUDO_MASS: f64 = 10.0;
+/// Range of its change in a pass, foretold.
+const CHANGE: (f64, f64) = (0.3, 2.0);
+/// Share of a step below which it grows, searched, by the first factor; else it shrinks by the second.
+const SHORT: f64 = 0.3;
+const GROWTH: f64 = 3.0;
+const SHRINKAGE: f64 = 0.3;
+/// Longest move of a node in one pass [m].
+const LONGEST_MOVE_M: f64 = 2.0;
+
+/// Stiffness of the softest rope, tried in turn [N].
+const SOFTEST_N: [f64; 4] = [100.0, 30.0, 300.0, 1000.0];
+/// Greatest growth of stiffness from stage to stage; its root is taken where a stage does not come to rest.
+const GREATEST_FACTOR: f64 = 6.0;
+/// Growth below which a stage is also tried the sure way.
+const NARROW: f64 = 1.3;
+/// Most stages.
+const MOST_STAGES: usize = 24;
+
+/// Finds a state at rest for gear laid as in `laid`.
+pub(super) fn relax(model: &Model, laid: &State, hold: Hold, trace_n: &mut Vec<f64>) -> Reached {
+    let mut best = attempt(model, laid, laid, hold, QUICK, trace_n);
+    for softest_n in SOFTEST_N {
+        if best.at_rest() {
+            break;
+        }
+        let stiffened = stiffen(model, laid, hold, softest_n, trace_n);
+        let tried = approach(model, laid, &stiffened, hold, trace_n);
+        if tried.residual_n < best.residual_n {
+            best = tried;
+        }
+    }
+    best
+}
+
+/// Softens the rope until it comes to rest, then stiffens it stage by stage, each from the last that came to rest.
+fn stiffen(model: &Model, laid: &State, hold: Hold, softest_n: f64, trace_n: &mut Vec<f64>) -> State {
+    let stiffest_n = model.spec.ropes.iter().map(|rope| rope.axial_stiffness_n).fold(0.0, f64::max);
+    let softest = approach(&softened(model, softest_n), laid, laid, hold, trace_n);
+    if !softest.at_rest() {
+        return laid.clone();
+    }
+    let (mut state, mut stiffness_n, mut factor) = (softest.state, softest_n, GREATEST_FACTOR);
+    for _ in 0..MOST_STAGES {
+        let next_n = stiffness_n * factor;
+        if next_n >= stiffest_n {
+            break;
+        }
+        let soft = softened(model, next_n);
+        let reached =
+            if factor < NARROW { approach(&soft, laid, &state, hold, trace_n) } else { attempt(&soft, laid, &state, hold, QUICK, trace_n) };
+        if reached.at_rest() {
+            (state, stiffness_n) = (reached.state, next_n);
+            factor = (factor * factor).min(GREATEST_FACTOR);
+        } else {
+            factor = factor.sqrt();
+        }
+    }
+    state
+}
+
+/// The model with no rope stiffer than `stiffness_n`.
+fn softened(model: &Model, stiffness_n: f64) -> Model {
+    let mut soft = model.clone();
+    for rope in &mut soft.spec.ropes {
+        let share = (stiffness_n / rope.axial_stiffness_n).min(1.0);
+        rope.axial_stiffness_n *= share;
+        rope.axial_stiffening_n *= share;
+    }
+    soft
+}
+
+/// Tries the ways in turn from a guess; the better end.
+fn approach(model: &Model, laid: &State, guess: &State, hold: Hold, trace_n: &mut Vec<f64>) -> Reached {
+    let quick = attempt(model, laid, guess, hold, QUICK, trace_n);
+    if quick.at_rest() {
+        return quick;
+    }
+    let sure = attempt(model, laid, guess, hold, SURE, trace_n);
+    if sure.residual_n < quick.residual_n { sure } else { quick }
+}
+
+/// Newton from a guess in one way.
+fn attempt(model: &Model, laid: &State, guess: &State, hold: Hold, (way, most_passes): (Way, usize), trace_n: &mut Vec<f64>) -> Reached {
+    let mut newton = Newton::new(model, laid, guess, hold, FIRST_PSEUDO_MASS);
+    let mut residual_n = newton.balance(way);
+    for _ in 0..most_passes {
+        if residual_n < TOLERANCE_N {
+            // What was foretold may call a segment slack that is not.
+            residual_n = newton.balance(Way::Searched);
+        }
+        trace_n.push(residual_n);
+        if residual_n < TOLERANCE_N || !residual_n.is_finite() {
+            break;
+        }
+        newton.solver.solve(model);
+        let longest = newton.solver.share_past_solids(LONGEST_MOVE_M / newton.solver.longest().max(LONGEST_MOVE_M));
+        let share = if way == Way::Searched { newton.solver.search_free(model, laid, &newton.scheme, longest) } else { longest };
+        newton.solver.advance(model, share);
+        newton.solver.measure_flow(model);
+        let next_n = newton.balance(way);
+        let change = match way {
+            Way::Foretold => (next_n / residual_n).clamp(CHANGE.0, CHANGE.1),
+            Way::Searched if share < SHORT => GROWTH,
+            Way::Searched => SHRINKAGE,
+        };
+        newton.change_mass(change);
+        residual_n = next_n;
+    }
+    newton.reached(residual_n)
+}
