@@ -257,6 +257,7 @@ const WHALE: &[Field] = &[
     need("burst_speed", Q::Speed, Between(0.1, 15.0), "greatest speed it can swim"),
     need("contact_stiffness", Q::Pressure, Positive, "stiffness of skin and blubber under rope, by length of rope"),
     need("breadth_scale", Q::Ratio, Between(0.3, 2.0), "factor on widths and heights, so that displaced volume and mass agree"),
+    may("density", Q::Density, Between(500.0, 1500.0), "mass over displaced volume; that of sea water, 1025 kg/m3, where not given"),
     need("peduncle_start", Q::Ratio, SHARE, "where the tail stock begins, as a share of length"),
     need("head.share", Q::Ratio, SHARE, "length of the head, as a share of length"),
     need("head.mouth", Q::Ratio, SHARE, "snout to the corner of the mouth, as a share of length"),

@@ -13,7 +13,7 @@ use common::{line, on_body, water, weight};
 use endline_friction_models::Coulomb;
 use endline_sdk::{Descriptor, FrictionModel, HookError, MotionInput, MotionOutput, Region, WhaleMotion};
 use endline_sim::model::{Friction, Joint, JointKind, Model, ModelSpec, Resolution, Settings};
-use endline_sim::whale::{Bone, PilotProgram, Skin, Whale};
+use endline_sim::whale::{Bone, Measures, PilotProgram, Skin, Whale};
 use endline_sim::{DQuat, DVec3, Input, State, Workspace, step};
 
 const RADIUS: f64 = 0.3;
@@ -58,6 +58,7 @@ fn drum(radius: f64, region: Region, facets: u32) -> Skin {
         .collect();
     Skin {
         weights: vec![[(0, 1.0), (0, 0.0), (0, 0.0), (0, 0.0)]; vertices.len()],
+        marks: Vec::new(),
         regions: vec![region; triangles.len()],
         bones: vec![Bone { name: "control".into(), parent: None, origin: DVec3::ZERO, turns: Vec::new() }],
         vertices,
@@ -120,6 +121,7 @@ fn over_drum(radius: f64, region: Region, speed: f64, segments: usize) -> ModelS
         whale: Some(Whale {
             skin: Arc::new(drum(radius, region, 96)),
             length_m: 1.0,
+            measures: Measures::default(),
             burst_speed_m_s: 0.0,
             position_m: DVec3::ZERO,
             orientation: DQuat::IDENTITY,

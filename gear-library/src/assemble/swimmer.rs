@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use endline_sim::DQuat;
 use endline_sim::model::Friction;
-use endline_sim::whale::Whale;
+use endline_sim::whale::{Measures, Whale};
 
 use crate::attributes::numbers;
 use crate::nearest::hint;
@@ -34,8 +34,10 @@ impl Builder<'_> {
         };
         let attributes = swimmer.attributes.resolve(motion.descriptor(), self.library, &mut self.used, &self.problems);
         let length_m = swimmer.length_m.unwrap_or(item.form.length_m);
+        let skin = build_skin(&item.form_at(length_m));
         self.spec.whale = Some(Whale {
-            skin: Arc::new(build_skin(&item.form_at(length_m))),
+            measures: Measures::of(&skin, item.density_kg_m3),
+            skin: Arc::new(skin),
             length_m,
             burst_speed_m_s: item.burst_speed_m_s,
             position_m: swimmer.position_m,

@@ -9,6 +9,9 @@ use crate::tree::{Content, Node};
 use crate::units::Quantity;
 use crate::whale::{FlipperForm, FlukesForm, HeadForm, Station, WhaleForm};
 
+/// Density of a whale that neither sinks nor rises [kg/m³].
+const SEA_WATER_KG_M3: f64 = 1025.0;
+
 /// A whale: its measures, with source and sureness, and its form.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WhaleItem {
@@ -18,6 +21,8 @@ pub struct WhaleItem {
     pub form: WhaleForm,
     /// Figures of the body sections: at, width, dorsal, ventral of each.
     pub sections: Vec<[Figure; 4]>,
+    /// Mass over displaced volume [kg/m³].
+    pub density_kg_m3: f64,
     /// Greatest speed it can swim [m/s].
     pub burst_speed_m_s: f64,
     /// Stiffness of skin and blubber under rope, by length of rope [N/m²].
@@ -37,6 +42,7 @@ impl WhaleItem {
         let sections = sections?;
         Some(Self {
             form: form(&entry, &sections, spine?)?,
+            density_kg_m3: entry.value("density").unwrap_or(SEA_WATER_KG_M3),
             burst_speed_m_s: entry.value("burst_speed")?,
             contact_stiffness_n_m2: entry.value("contact_stiffness")?,
             sections,

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use endline_sdk::Region;
+use endline_sim::whale::Mark;
 
 use super::bones::Skeleton;
 use super::curve::smooth_step;
@@ -27,9 +28,10 @@ pub fn body(form: &WhaleForm, sections: &Sections, skeleton: &Skeleton) -> Part 
     let places = ring_places();
     let corner = |at: f64, column: usize| {
         let angle = TAU * count(column) / count(AROUND);
-        Corner { place: sections.surface(at, angle), weights: weights(form, sections, skeleton, at, angle) }
+        let mark = mark(form, sections, at, angle.min(TAU - angle));
+        Corner { place: sections.surface(at, angle), weights: weights(form, sections, skeleton, at, angle), mark }
     };
-    let pole = |at: f64| Corner { place: sections.axis(at), weights: skeleton.along_body(at) };
+    let pole = |at: f64| Corner { place: sections.axis(at), weights: skeleton.along_body(at), mark: Mark::Skin };
     let rings = places.iter().map(|&at| (0..AROUND).map(|column| corner(at, column)).collect()).collect();
     let rings = Rings { first_pole: pole(0.0), rings, last_pole: pole(1.0) };
     Part::closed(&rings, |ring, column| {
@@ -76,6 +78,20 @@ fn region(form: &WhaleForm, sections: &Sections, at: f64, from_back: f64) -> Reg
         Region::Baleen
     } else {
         Region::Lips
+    }
+}
+
+/// Callosities on the bonnet, the rostrum's ridge and the chin; baleen in the slit; a white patch on the belly.
+fn mark(form: &WhaleForm, sections: &Sections, at: f64, from_back: f64) -> Mark {
+    let rostrum = sections.rostrum_angle();
+    let in_mouth = (0.01..form.head.mouth).contains(&at);
+    let on_rostrum = from_back < 0.7 * rostrum && (at < 0.04 || libm::sin(at * 400.0) > 0.2);
+    let on_chin = at < 0.06 && from_back > 2.6;
+    match from_back {
+        angle if in_mouth && angle > rostrum && angle < rostrum + SLIT => Mark::Baleen,
+        _ if in_mouth && (on_rostrum || on_chin) => Mark::Callosity,
+        angle if (0.48..0.58).contains(&at) && angle > 2.7 => Mark::White,
+        _ => Mark::Skin,
     }
 }
 

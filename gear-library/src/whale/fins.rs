@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use endline_sdk::Region;
+use endline_sim::whale::Mark;
 use glam::{DQuat, DVec3};
 
 use super::bones::{FLIPPER_BENDS, FLUKE_BENDS, Skeleton};
@@ -84,7 +85,7 @@ pub fn left_flipper(form: &WhaleForm, sections: &Sections, skeleton: &Skeleton) 
     let place = |x: f64, s: f64, z: f64| sections.flipper_root() + turn * DVec3::new(x, s * form.flippers.span * form.length_m, z);
     let corner = |s: f64, x: f64, z: f64| {
         let place = place(x, s, z);
-        Corner { place, weights: flipper_weights(form, skeleton, place, s) }
+        Corner { place, weights: flipper_weights(form, skeleton, place, s), mark: Mark::Skin }
     };
     let rings = spans.iter().map(|&s| {
         let section = flipper_section(form, &chords, s);
@@ -156,7 +157,7 @@ pub fn flukes(form: &WhaleForm, sections: &Sections, skeleton: &Skeleton) -> Par
     let corner = |s: f64, aft: f64, z: f64| {
         let height = form.flukes.height * form.breadth_scale * form.length_m;
         let place = sections.place(aft, DVec3::ZERO) + DVec3::new(0.0, s * half_span, height + z);
-        Corner { place, weights: fluke_weights(skeleton, aft, s) }
+        Corner { place, weights: fluke_weights(skeleton, aft, s), mark: Mark::Skin }
     };
     let rings = spans.iter().map(|&s| {
         let section = fluke_section(form, s);

@@ -1,7 +1,7 @@
 //! Closed pieces of skin made of rings, and how they join into one skin.
 
 use endline_sdk::Region;
-use endline_sim::whale::{Bone, Skin};
+use endline_sim::whale::{Bone, Mark, Skin};
 use glam::DVec3;
 
 /// Bones that move a vertex, with weights that sum to 1.
@@ -14,6 +14,8 @@ pub struct Corner {
     pub place: DVec3,
     /// Bones that move it.
     pub weights: Weights,
+    /// What is seen there.
+    pub mark: Mark,
 }
 
 /// A closed piece of skin.
@@ -86,6 +88,7 @@ impl Part {
         let mirror = |corner: &Corner| Corner {
             place: corner.place * DVec3::new(1.0, -1.0, 1.0),
             weights: corner.weights.map(|(mover, weight)| (bone(mover), weight)),
+            mark: corner.mark,
         };
         let mut part = Self {
             corners: self.corners.iter().map(mirror).collect(),
@@ -119,6 +122,7 @@ pub fn join(parts: &[Part], bones: Vec<Bone>) -> Skin {
         let before = index(skin.vertices.len());
         skin.vertices.extend(part.corners.iter().map(|corner| corner.place));
         skin.weights.extend(part.corners.iter().map(|corner| corner.weights));
+        skin.marks.extend(part.corners.iter().map(|corner| corner.mark));
         skin.triangles.extend(part.triangles.iter().map(|triangle| triangle.map(|corner| corner + before)));
         skin.regions.extend(&part.regions);
     }

@@ -1,7 +1,7 @@
 use std::collections::BTreeMap;
 
 use endline_sdk::{Posture, Region};
-use endline_sim::whale::{Angle, pose, skin_all};
+use endline_sim::whale::{Angle, Measures, pose, skin_all};
 use glam::{DQuat, DVec3};
 
 use super::part::Part;
@@ -198,16 +198,27 @@ fn skinning_is_continuous() {
     }
 }
 
-/// Volume of the whole skin against parry's mass properties of the same triangles.
+/// Volume, centre of mass and inertia of the whole skin against parry's of the same triangles.
 #[test]
-fn volume_agrees_with_parry() {
+fn mass_properties_agree_with_parry() {
     use parry3d::math::Vector;
     use parry3d::shape::{Shape, TriMesh};
     let skin = whale();
-    let own: f64 = skin.triangles.iter().map(|t| t.map(|i| skin.vertices[i as usize])).map(|[a, b, c]| a.dot(b.cross(c)) / 6.0).sum();
+    let found = Measures::of(&skin, 1025.0);
+    let own = found.volume_m3;
     let mesh = TriMesh::new(skin.vertices.iter().map(|v| Vector::new(v.x, v.y, v.z)).collect(), skin.triangles.clone()).unwrap();
-    let parry = mesh.mass_properties(1.0).mass();
-    assert!((own / parry - 1.0).abs() < 1e-9, "{own} against {parry}");
+    let properties = mesh.mass_properties(1025.0);
+    assert!((found.mass_kg / properties.mass() - 1.0).abs() < 1e-9, "{own} against {}", properties.mass());
+    let centre = properties.local_com;
+    assert!(found.centre_m.distance(DVec3::new(centre.x, centre.y, centre.z)) < 1e-6, "{} against {centre:?}", found.centre_m);
+    let inertia = properties.reconstruct_inertia_matrix();
+    let largest = found.inertia_kg_m2.y_axis.y;
+    for column in 0..3 {
+        for row in 0..3 {
+            let (own, parry) = (found.inertia_kg_m2.col(column)[row], inertia.col(column)[row]);
+            assert!((own - parry).abs() < 1e-6 * largest, "{own} against {parry} in row {row}, column {column}");
+        }
+    }
     assert!(own > 30.0 && own < 45.0, "a 13.7 m right whale of 36 t, fins counted twice where they join: {own} m³");
 }
 

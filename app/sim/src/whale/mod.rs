@@ -3,6 +3,7 @@
 pub(crate) mod approach;
 pub mod bounds;
 pub mod drive;
+pub mod measures;
 pub mod pose;
 pub mod surface;
 pub mod tree;
@@ -13,6 +14,7 @@ use endline_sdk::{Controls, Region, WhaleMotion};
 use glam::{DQuat, DVec3};
 
 pub use bounds::Bounds;
+pub use measures::Measures;
 pub use pose::{pose, skin_all, skin_vertex};
 pub use surface::{Candidate, Surface};
 pub use tree::SkinTree;
@@ -24,6 +26,8 @@ pub struct Whale {
     pub skin: Arc<Skin>,
     /// Body length, snout to fluke notch [m].
     pub length_m: f64,
+    /// Mass, volume, wetted area, centre of mass and inertia at rest.
+    pub measures: Measures,
     /// Greatest speed it can swim [m/s].
     pub burst_speed_m_s: f64,
     /// Start place of the whale frame's origin [m].
@@ -68,8 +72,28 @@ pub struct Skin {
     pub regions: Vec<Region>,
     /// Bones that move each vertex, with weights that sum to 1; unused places have weight 0.
     pub weights: Vec<[(u16, f64); 4]>,
+    /// What is seen at each vertex, for the view alone: contact goes by region.
+    pub marks: Vec<Mark>,
     /// Bones, parents before children; bone 0 is the control bone (the whale's frame).
     pub bones: Vec<Bone>,
+}
+
+/// What the skin looks like at a vertex.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Mark {
+    /// Dark skin.
+    #[default]
+    Skin,
+    /// Raised, roughened patch on the head, pale with whale lice.
+    Callosity,
+    /// Baleen plates.
+    Baleen,
+    /// Inside of the mouth: gums, palate, tongue.
+    Mouth,
+    /// White patch on belly or throat.
+    White,
+    /// Eye.
+    Eye,
 }
 
 /// A bone: turns about its origin by the posture's channels that drive it.

@@ -87,6 +87,7 @@ mod tests {
             triangles: vec![],
             regions: vec![],
             weights: vec![[(0, 1.0), (0, 0.0), (0, 0.0), (0, 0.0)], only(1), only(2), [(1, 0.5), (2, 0.5), (0, 0.0), (0, 0.0)]],
+            marks: vec![],
             bones: vec![
                 bone("control", None, DVec3::ZERO, None),
                 bone("upper", Some(0), DVec3::ZERO, Some((Angle::SpinePitch(0), DVec3::NEG_Y))),

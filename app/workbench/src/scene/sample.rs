@@ -6,7 +6,7 @@ use endline_sdk::{Contacts, Descriptor, FrictionModel, FrictionResponse, HookErr
 use endline_sim::contact::ContactPoint;
 use endline_sim::model::{Body, BodyRole, Float, Friction, Joint, JointKind, Line, ModelSpec, Rope, Seabed, Settings, Shape, Strength};
 use endline_sim::water::{Current, Water};
-use endline_sim::whale::{Bone, PilotProgram, Skin, Whale};
+use endline_sim::whale::{Bone, Measures, PilotProgram, Skin, Whale};
 use endline_sim::{DQuat, DVec3, Frame, Model, State};
 
 /// Depth of the sample's water [m].
@@ -129,6 +129,7 @@ fn whale() -> Whale {
     let skin = Skin {
         regions: vec![Region::Body; triangles.len()],
         weights: vec![[(0, 1.0), (0, 0.0), (0, 0.0), (0, 0.0)]; vertices.len()],
+        marks: Vec::new(),
         bones: vec![Bone { name: "control".into(), parent: None, origin: DVec3::ZERO, turns: Vec::new() }],
         vertices,
         triangles,
@@ -136,6 +137,7 @@ fn whale() -> Whale {
     Whale {
         skin: Arc::new(skin),
         length_m: 13.0,
+        measures: Measures::default(),
         burst_speed_m_s: 4.0,
         position_m: DVec3::new(-6.0, 2.0, -14.0),
         orientation: DQuat::IDENTITY,

@@ -21,7 +21,7 @@ use crate::model::{
 };
 use crate::state::State;
 use crate::water::{Current, Water};
-use crate::whale::{Bone, PilotProgram, Skin, Whale};
+use crate::whale::{Bone, Measures, PilotProgram, Skin, Whale};
 
 /// Half widths of the fixture's peduncle and flipper, and the flipper's root and tip.
 const PEDUNCLE_R: f64 = 0.3;
@@ -159,6 +159,7 @@ fn whale() -> Whale {
     Whale {
         skin: Arc::new(skin()),
         length_m: 12.0,
+        measures: Measures::default(),
         burst_speed_m_s: 4.0,
         position_m: DVec3::new(0.0, 0.0, -20.0),
         orientation: DQuat::IDENTITY,
