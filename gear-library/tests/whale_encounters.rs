@@ -53,6 +53,7 @@ fn posture(dice: &mut Dice) -> Posture {
         flipper_raise: [some(0.7), some(0.7)],
         flipper_twist: [some(0.6), some(0.6)],
         jaw: 0.1 + some(0.1),
+        ..Posture::default()
     }
 }
 
@@ -64,12 +65,15 @@ fn towards(from: &Posture, to: &Posture, share: f64) -> Posture {
     Posture {
         spine_pitch: spine(from.spine_pitch, to.spine_pitch),
         spine_yaw: spine(from.spine_yaw, to.spine_yaw),
+        spine_roll: spine(from.spine_roll, to.spine_roll),
         fluke_pitch: go(from.fluke_pitch, to.fluke_pitch),
         fluke_flex: pair(from.fluke_flex, to.fluke_flex),
         flipper_sweep: pair(from.flipper_sweep, to.flipper_sweep),
         flipper_raise: pair(from.flipper_raise, to.flipper_raise),
         flipper_twist: pair(from.flipper_twist, to.flipper_twist),
+        flipper_flex: pair(from.flipper_flex, to.flipper_flex),
         jaw: go(from.jaw, to.jaw),
+        lips: pair(from.lips, to.lips),
     }
 }
 

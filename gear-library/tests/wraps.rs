@@ -19,7 +19,7 @@ struct Idle(Descriptor);
 impl Idle {
     fn shared() -> Arc<Self> {
         let (id, name, help) = ("test.idle".into(), "Idle".into(), "Does nothing.".into());
-        Arc::new(Self(Descriptor { id, version: "0.1.0".into(), name, help, attributes: Vec::new(), state_len: 0 }))
+        Arc::new(Self(Descriptor { id, version: "0.1.0".into(), name, help, attributes: Vec::new(), state_len: 0, acts: Vec::new() }))
     }
 }
 

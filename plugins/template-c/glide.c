@@ -2,7 +2,8 @@
  *
  * Symbols: U speed through the water, l glide length (twice mass over density, area and drag
  * coefficient). Drag that grows with the square of speed gives dU/dt = -U*U/l, and over a step dt
- * exactly U(t + dt) = U/(1 + U dt/l). The posture stays at rest and the heading is kept.
+ * exactly U(t + dt) = U/(1 + U dt/l). The heading is kept. Asked for the act `brake`, the first of its list, the
+ * whale raises its flippers and half the glide length counts; otherwise the posture stays at rest.
  *
  * Build:  cc -shared -fPIC -I plugins/sdk/include -o glide.so plugins/template-c/glide.c
  * Check:  endline plugins check glide.so
@@ -29,7 +30,9 @@ static int32_t step(const void *context, const double *attributes, size_t attrib
     if (attribute_count != 1) return fail(message, "expected one attribute value, the glide length");
     if (!(input->speed_m_s >= 0.0)) return fail(message, "cannot glide backwards");
     memset(out, 0, sizeof *out);
-    out->speed_m_s = input->speed_m_s / (1.0 + input->speed_m_s * input->dt_s / attributes[0]);
+    const int brake = input->controls.act == 1.0;
+    if (brake) out->posture.flipper_raise[0] = out->posture.flipper_raise[1] = 0.5;
+    out->speed_m_s = input->speed_m_s / (1.0 + input->speed_m_s * input->dt_s / (attributes[0] * (brake ? 0.5 : 1.0)));
     return ENDLINE_STATUS_OK;
 }
 
@@ -45,6 +48,12 @@ static const endline_attribute_t attributes[] = {{
     .default_number = 150.0,
 }};
 
+static const endline_act_t acts[] = {{
+    .id = TEXT("brake"),
+    .name = TEXT("Brake"),
+    .help = TEXT("Raises the flippers, which halves the glide length."),
+}};
+
 static const endline_plugin_t glide = {
     .struct_size = sizeof glide,
     .kind = ENDLINE_KIND_MOTION,
@@ -56,6 +65,8 @@ static const endline_plugin_t glide = {
     .attribute_count = 1,
     .state_len = 0,
     .table = &motion,
+    .acts = acts,
+    .act_count = 1,
 };
 
 static const endline_plugin_t *const plugins[] = { &glide };

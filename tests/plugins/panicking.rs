@@ -10,7 +10,7 @@ struct Panicking(Descriptor);
 impl Panicking {
     fn new(id: &'static str) -> Self {
         let (version, name, help) = ("0.0.1".into(), "Panicking".into(), "Panics whenever it is called.".into());
-        Self(Descriptor { id: id.into(), version, name, help, attributes: Vec::new(), state_len: 0 })
+        Self(Descriptor { id: id.into(), version, name, help, attributes: Vec::new(), state_len: 0, acts: Vec::new() })
     }
 }
 

@@ -186,10 +186,23 @@ impl Fold {
     }
 
     fn posture(&mut self, posture: &Posture) {
-        let Posture { spine_pitch, spine_yaw, fluke_pitch, fluke_flex, flipper_sweep, flipper_raise, flipper_twist, jaw } = posture;
-        self.reals(spine_pitch);
-        self.reals(spine_yaw);
-        for pair in [fluke_flex, flipper_sweep, flipper_raise, flipper_twist] {
+        let Posture {
+            spine_pitch,
+            spine_yaw,
+            spine_roll,
+            fluke_pitch,
+            fluke_flex,
+            flipper_sweep,
+            flipper_raise,
+            flipper_twist,
+            flipper_flex,
+            jaw,
+            lips,
+        } = posture;
+        for spine in [spine_pitch, spine_yaw, spine_roll] {
+            self.reals(spine);
+        }
+        for pair in [fluke_flex, flipper_sweep, flipper_raise, flipper_twist, flipper_flex, lips] {
             self.reals(pair);
         }
         self.reals(&[*fluke_pitch, *jaw]);

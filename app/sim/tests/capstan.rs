@@ -105,8 +105,15 @@ fn over_drum(radius: f64, region: Region, speed: f64, segments: usize) -> ModelS
         .collect();
     line.start_m.insert(0, path(0.0));
     let joints = vec![on_body("hanging", 0), Joint { id: "hand".into(), kind: driven, position_m: path(whole) }];
-    let descriptor =
-        Descriptor { id: "still".into(), version: "1".into(), name: "still".into(), help: "".into(), attributes: Vec::new(), state_len: 0 };
+    let descriptor = Descriptor {
+        id: "still".into(),
+        version: "1".into(),
+        name: "still".into(),
+        help: "".into(),
+        attributes: Vec::new(),
+        state_len: 0,
+        acts: Vec::new(),
+    };
     let coulomb = Coulomb::new();
     let attributes = coulomb.descriptor().attributes.iter().filter_map(|attribute| attribute.default_value().number()).collect();
     ModelSpec {

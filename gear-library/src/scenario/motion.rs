@@ -98,6 +98,8 @@ fn command(node: &Node, problems: &Problems) -> Option<(At<f64>, Controls)> {
         mouth: control("mouth", 0.0),
         flipper_raise: control("flipper_raise", -1.0),
         flipper_twist: control("flipper_twist", -1.0),
+        flipper_sweep: control("flipper_sweep", -1.0),
+        act: 0.0,
     };
     fields.finish();
     Some((at?, controls))

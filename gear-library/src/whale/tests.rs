@@ -179,7 +179,7 @@ fn skinning_is_continuous() {
         flipper_sweep: [0.8, -0.15],
         flipper_raise: [0.4, -0.6],
         flipper_twist: [0.5, -0.5],
-        jaw: 0.0,
+        ..Posture::default()
     };
     let (rest, places) = (posed(&skin, &Posture::default()), posed(&skin, &posture));
     for triangle in &skin.triangles {

@@ -85,6 +85,7 @@ fn descriptor() -> Descriptor {
             Attribute::number("coefficient_scale", "1", [0.0, 3.0], 1.0, "Multiplies every coefficient of friction of the gear library."),
         ],
         state_len: STATE_LEN,
+        acts: Vec::new(),
     }
 }
 

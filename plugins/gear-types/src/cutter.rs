@@ -144,5 +144,6 @@ fn descriptor() -> Descriptor {
         help: "One trap or more with a cutter in each endline that parts it when the tension has stayed high for a time.".into(),
         attributes,
         state_len: 2 * FLOATS,
+        acts: Vec::new(),
     }
 }

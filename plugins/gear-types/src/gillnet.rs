@@ -208,5 +208,6 @@ fn descriptor() -> Descriptor {
         help: "Panels of netting between a headline with floats and a leadline, anchored at both ends, with endlines.".into(),
         attributes,
         state_len: 0,
+        acts: Vec::new(),
     }
 }

@@ -160,5 +160,6 @@ fn descriptor() -> Descriptor {
         help: "One trap or more whose endline lies stowed at the trap until an acoustic release lets its buoy rise.".into(),
         attributes,
         state_len: MOST_ENDLINES,
+        acts: Vec::new(),
     }
 }

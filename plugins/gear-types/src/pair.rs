@@ -49,5 +49,6 @@ fn descriptor() -> Descriptor {
         help: "Two traps at the ends of one groundline, with one endline and buoy.".into(),
         attributes,
         state_len: 0,
+        acts: Vec::new(),
     }
 }

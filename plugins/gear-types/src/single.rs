@@ -50,5 +50,6 @@ fn descriptor() -> Descriptor {
         help: "One trap, one buoy, and an endline of floating rope below and sinking rope above.".into(),
         attributes,
         state_len: 0,
+        acts: Vec::new(),
     }
 }

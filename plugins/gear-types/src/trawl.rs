@@ -99,5 +99,6 @@ fn descriptor() -> Descriptor {
         help: "Traps on gangions along a groundline, an endline at one end or at both, anchors where wanted.".into(),
         attributes: Set::attributes(5, 1.83, "polyball-a1"),
         state_len: 0,
+        acts: Vec::new(),
     }
 }

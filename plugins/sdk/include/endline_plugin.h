@@ -12,17 +12,16 @@
 #include <stdint.h>
 
 // Id of the factory of this ABI.
-#define ENDLINE_FACTORY_ID "endline.plugins/1"
+#define ENDLINE_FACTORY_ID "endline.plugins/2"
 
 // Spine joints from the skull (0) to the peduncle's end (`SPINE_JOINTS - 1`).
 #define ENDLINE_SPINE_JOINTS 8
 
 // Major version: another number means another layout.
-#define ENDLINE_ABI_MAJOR 1
+#define ENDLINE_ABI_MAJOR 2
 
 // Minor version: a greater number means fields added at the ends of structs, or kinds of attribute.
-// 1 added [`ATTRIBUTE_COUNT`], [`ATTRIBUTE_CHOICE`] and `lay_line` of `endline_rig_host_t`.
-#define ENDLINE_ABI_MINOR 1
+#define ENDLINE_ABI_MINOR 0
 
 // Kind of plugin: whale motion, table `endline_motion_t`.
 #define ENDLINE_KIND_MOTION 1
@@ -48,11 +47,11 @@
 // Kind of attribute: the id of an item of the gear library.
 #define ENDLINE_ATTRIBUTE_ITEM 1
 
-// Kind of attribute: a whole number (since 1.1).
-#define ATTRIBUTE_COUNT 2
+// Kind of attribute: a whole number.
+#define ENDLINE_ATTRIBUTE_COUNT 2
 
-// Kind of attribute: one of a few words (since 1.1).
-#define ATTRIBUTE_CHOICE 3
+// Kind of attribute: one of a few words.
+#define ENDLINE_ATTRIBUTE_CHOICE 3
 
 // Kind of body: trap.
 #define ENDLINE_BODY_TRAP 0
@@ -185,7 +184,7 @@ typedef struct {
   int32_t (*init)(endline_text_t path, endline_message_t *message);
   // `[main-thread]` Called at most once, last; libraries stay mapped, so it may never be called. May be null.
   void (*deinit)(void);
-  // `[main-thread]` The `endline_factory_t` for the id `endline.plugins/1`, null for any other id.
+  // `[main-thread]` The `endline_factory_t` for the id `endline.plugins/2`, null for any other id.
   const void *(*get_factory)(endline_text_t id);
 } endline_entry_t;
 
@@ -197,7 +196,7 @@ typedef struct {
   endline_text_t unit;
   // Help shown beside the field.
   endline_text_t help;
-  // `ENDLINE_ATTRIBUTE_NUMBER`, `ENDLINE_ATTRIBUTE_ITEM`, [`ATTRIBUTE_COUNT`] or [`ATTRIBUTE_CHOICE`].
+  // `ENDLINE_ATTRIBUTE_NUMBER`, `ENDLINE_ATTRIBUTE_ITEM`, `ENDLINE_ATTRIBUTE_COUNT` or `ENDLINE_ATTRIBUTE_CHOICE`.
   uint32_t kind;
   // Number, count: least allowed value.
   double least;
@@ -210,6 +209,16 @@ typedef struct {
   // Item: id where a file names none; empty for no item. Choice: the word.
   endline_text_t default_item;
 } endline_attribute_t;
+
+// Something a whale motion does of itself when asked.
+typedef struct {
+  // Id in files, such as `roll-away`.
+  endline_text_t id;
+  // Name shown in menus.
+  endline_text_t name;
+  // Help shown beside it.
+  endline_text_t help;
+} endline_act_t;
 
 // One plugin: who it is, what it takes, and its functions; lives as long as the library.
 typedef struct {
@@ -235,6 +244,10 @@ typedef struct {
   const void *context;
   // `endline_motion_t`, `endline_friction_t` or `endline_gear_t`, as `kind` says.
   const void *table;
+  // Acts of a whale motion, in the order of the control `act`; may be null for none.
+  const endline_act_t *acts;
+  // How many acts.
+  size_t act_count;
 } endline_plugin_t;
 
 // The plugins of a library; lives as long as the library.
@@ -265,6 +278,10 @@ typedef struct {
   double flipper_raise;
   // Flippers pronated (1) or supinated (-1).
   double flipper_twist;
+  // Flippers swept forward (1) or aft (-1).
+  double flipper_sweep;
+  // Act asked for: 0 none, n the n-th that the motion declares; a whole number.
+  double act;
 } endline_controls_t;
 
 // What a motion may look at.
@@ -300,6 +317,8 @@ typedef struct {
   double spine_pitch[ENDLINE_SPINE_JOINTS];
   // Each spine joint about the whale's z axis; positive swings the part aft of it to starboard.
   double spine_yaw[ENDLINE_SPINE_JOINTS];
+  // Each spine joint about the whale's x axis (torsion); positive turns the part aft of it starboard side down.
+  double spine_roll[ENDLINE_SPINE_JOINTS];
   // Flukes against the peduncle about y; positive turns the trailing edge down.
   double fluke_pitch;
   // Bend of each fluke blade; positive lifts the tip.
@@ -310,8 +329,12 @@ typedef struct {
   double flipper_raise[2];
   // Flipper twisted about its long axis; positive pronates (leading edge down).
   double flipper_twist[2];
+  // Flipper blade bent; positive lifts the tip.
+  double flipper_flex[2];
   // Jaw drop; 0 closed, positive open.
   double jaw;
+  // Lower lips turned out; 0 closed against the rostrum, positive open.
+  double lips[2];
 } endline_posture_t;
 
 // What a motion decides.
@@ -482,7 +505,6 @@ typedef struct {
   // Adds a weak link.
   int32_t (*add_link)(void *host, const endline_link_t *link);
   // Gives a line added before the way it lies at first, `count` places from end A to end B [m].
-  // Since 1.1: there only where `struct_size` reaches past it.
   int32_t (*lay_line)(void *host, endline_text_t line, const double (*places_m)[3], size_t count);
 } endline_rig_host_t;
 

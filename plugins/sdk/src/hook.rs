@@ -19,6 +19,20 @@ pub struct Descriptor {
     /// Floats of state the engine keeps for it: in all for a motion and a gear
     /// type, for each contact for a friction model.
     pub state_len: usize,
+    /// Acts a pilot may ask of a whale motion, in the order of [`Controls::act`](crate::Controls::act);
+    /// empty for other kinds.
+    pub acts: Vec<Act>,
+}
+
+/// Something a whale motion does of itself when asked, such as rolling away.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Act {
+    /// Id in files, such as `roll-away`.
+    pub id: Cow<'static, str>,
+    /// Name shown in menus.
+    pub name: Cow<'static, str>,
+    /// Help shown beside it.
+    pub help: Cow<'static, str>,
 }
 
 /// One setting of a plugin.
@@ -149,6 +163,14 @@ impl AttributeValue {
             Self::Item(id) => Some(id),
             Self::Number(_) | Self::Choice(_) => None,
         }
+    }
+}
+
+impl Act {
+    /// An act with its id, its name and one sentence of help.
+    #[must_use]
+    pub fn new(id: &'static str, name: &'static str, help: &'static str) -> Self {
+        Self { id: id.into(), name: name.into(), help: help.into() }
     }
 }
 

@@ -23,6 +23,10 @@ pub struct Controls {
     pub flipper_raise: f64,
     /// Flippers pronated (1) or supinated (-1).
     pub flipper_twist: f64,
+    /// Flippers swept forward (1) or aft (-1).
+    pub flipper_sweep: f64,
+    /// Act asked for: 0 none, n the n-th that the motion declares; a whole number.
+    pub act: f64,
 }
 
 /// What a motion may look at.

@@ -23,6 +23,8 @@ pub struct Posture {
     pub spine_pitch: [f64; SPINE_JOINTS],
     /// Each spine joint about the whale's z axis; positive swings the part aft of it to starboard.
     pub spine_yaw: [f64; SPINE_JOINTS],
+    /// Each spine joint about the whale's x axis (torsion); positive turns the part aft of it starboard side down.
+    pub spine_roll: [f64; SPINE_JOINTS],
     /// Flukes against the peduncle about y; positive turns the trailing edge down.
     pub fluke_pitch: f64,
     /// Bend of each fluke blade; positive lifts the tip.
@@ -33,8 +35,12 @@ pub struct Posture {
     pub flipper_raise: [f64; 2],
     /// Flipper twisted about its long axis; positive pronates (leading edge down).
     pub flipper_twist: [f64; 2],
+    /// Flipper blade bent; positive lifts the tip.
+    pub flipper_flex: [f64; 2],
     /// Jaw drop; 0 closed, positive open.
     pub jaw: f64,
+    /// Lower lips turned out; 0 closed against the rostrum, positive open.
+    pub lips: [f64; 2],
 }
 
 /// A labelled patch of skin: where a contact is, as fine as friction needs.

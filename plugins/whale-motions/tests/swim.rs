@@ -182,6 +182,8 @@ fn wild(time_s: f64) -> Controls {
         mouth: f64::max(sign(8), 0.0),
         flipper_raise: sign(9),
         flipper_twist: sign(10),
+        flipper_sweep: sign(11),
+        act: 0.0,
     }
 }
 

@@ -14,7 +14,15 @@ const ID: &str = "org.example.bad";
 
 fn descriptor(state_len: usize) -> Descriptor {
     let text = |text: &'static str| text.into();
-    Descriptor { id: text(ID), version: text("1"), name: text("Bad"), help: text("Bad."), attributes: Vec::new(), state_len }
+    Descriptor {
+        id: text(ID),
+        version: text("1"),
+        name: text("Bad"),
+        help: text("Bad."),
+        attributes: Vec::new(),
+        state_len,
+        acts: Vec::new(),
+    }
 }
 
 /// A plugin that gives what it holds.

@@ -28,13 +28,14 @@ __declspec(dllexport)
 extern const endline_entry_t endline_plugin_entry;";
 
 /// Rust name and C name of each type.
-const TYPES: [(&str, &str); 27] = [
+const TYPES: [(&str, &str); 28] = [
     ("AbiText", "endline_text_t"),
     ("AbiMessage", "endline_message_t"),
     ("AbiEntry", "endline_entry_t"),
     ("AbiFactory", "endline_factory_t"),
     ("AbiPlugin", "endline_plugin_t"),
     ("AbiAttribute", "endline_attribute_t"),
+    ("AbiAct", "endline_act_t"),
     ("AbiMotion", "endline_motion_t"),
     ("AbiMotionInput", "endline_motion_input_t"),
     ("Controls", "endline_controls_t"),
@@ -59,7 +60,7 @@ const TYPES: [(&str, &str); 27] = [
 ];
 
 /// Constants; in C each begins with `ENDLINE_`.
-const CONSTANTS: [&str; 18] = [
+const CONSTANTS: [&str; 20] = [
     "ABI_MAJOR",
     "ABI_MINOR",
     "KIND_MOTION",
@@ -70,6 +71,8 @@ const CONSTANTS: [&str; 18] = [
     "STATUS_CRASH",
     "ATTRIBUTE_NUMBER",
     "ATTRIBUTE_ITEM",
+    "ATTRIBUTE_COUNT",
+    "ATTRIBUTE_CHOICE",
     "BODY_TRAP",
     "BODY_BUOY",
     "BODY_ANCHOR",

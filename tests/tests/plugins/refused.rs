@@ -27,10 +27,10 @@ fn each_bad_file_is_named_with_its_reason_and_the_good_one_works() {
     let (host, problems) = PluginHost::discover(std::slice::from_ref(&folder));
 
     for (file, id, reason) in [
-        ("wrong_abi", None, "was built for plugin ABI 2.3, but this program speaks 1.1"),
+        ("wrong_abi", None, "was built for plugin ABI 3.3, but this program speaks 2.0"),
         ("missing_entry", None, "does not export `endline_plugin_entry`"),
         ("truncated", None, "its entry is truncated: 12 bytes where"),
-        ("no_factory", None, "its factory `endline.plugins/1` is missing"),
+        ("no_factory", None, "its factory `endline.plugins/2` is missing"),
         ("notes", None, "is not a library that can be opened"),
         ("faulty", Some("org.example.motion.cut"), "its table of functions is truncated: 4 bytes where"),
         ("faulty", Some("org.example.motion.stepless"), "its table's function is missing"),

@@ -67,7 +67,14 @@ fn the_library_declares_what_the_linked_plugin_declares() {
 fn output_bits(out: &MotionOutput) -> Vec<u64> {
     let p = &out.posture;
     let angles = p.spine_pitch.into_iter().chain(p.spine_yaw).chain(p.fluke_flex).chain(p.flipper_sweep).chain(p.flipper_raise);
-    let rest = p.flipper_twist.into_iter().chain([p.fluke_pitch, p.jaw, out.speed_m_s]).chain(out.turn_rate_rad_s);
+    let rest = p
+        .flipper_twist
+        .into_iter()
+        .chain(p.spine_roll)
+        .chain(p.flipper_flex)
+        .chain(p.lips)
+        .chain([p.fluke_pitch, p.jaw, out.speed_m_s])
+        .chain(out.turn_rate_rad_s);
     bits(angles.chain(rest))
 }
 
@@ -111,6 +118,8 @@ fn controls(random: &mut Random) -> Controls {
         mouth: axis().max(0.0),
         flipper_raise: axis(),
         flipper_twist: axis(),
+        flipper_sweep: axis(),
+        act: (3.0 * axis()).max(0.0).floor(),
     }
 }
 

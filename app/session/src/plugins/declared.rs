@@ -10,9 +10,12 @@ use super::info::Refusal;
 pub(super) const MOST_ATTRIBUTES: usize = 1000;
 pub(super) const MOST_STATE: usize = 1_000_000;
 
+/// Most acts that a motion may declare.
+pub(super) const MOST_ACTS: usize = crate::input::MOST_ACTS;
+
 const TELL_AUTHOR: &str = "tell the plugin's author";
 
-/// Checks id, attributes, defaults and state length.
+/// Checks id, attributes, defaults, state length and acts.
 pub(super) fn check(descriptor: &Descriptor) -> Result<(), Refusal> {
     let id = descriptor.id.as_ref();
     if !id_is_sound(id) {
@@ -33,7 +36,18 @@ pub(super) fn check(descriptor: &Descriptor) -> Result<(), Refusal> {
             return wrong(format!("its attribute `{key}`: {reason}"));
         }
     }
-    Ok(())
+    match act_fault(descriptor) {
+        Some(reason) => wrong(reason),
+        None => Ok(()),
+    }
+}
+
+/// Acts are named in scenarios by their id, each once.
+fn act_fault(descriptor: &Descriptor) -> Option<String> {
+    let is_sound = |id: &str| !id.is_empty() && id.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-');
+    let mut ids = BTreeSet::new();
+    let wrong = descriptor.acts.iter().find(|act| !is_sound(&act.id) || !ids.insert(act.id.as_ref()))?;
+    Some(format!("its act `{}` is named twice or not in small letters, digits and hyphens, such as roll-away", wrong.id))
 }
 
 fn id_is_sound(id: &str) -> bool {

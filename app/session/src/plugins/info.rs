@@ -4,7 +4,7 @@ use std::fmt;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use endline_sdk::{Attribute, Descriptor, FrictionModel, GearType, WhaleMotion};
+use endline_sdk::{Act, Attribute, Descriptor, FrictionModel, GearType, WhaleMotion};
 
 /// Which hook a plugin serves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -83,6 +83,8 @@ pub struct PluginInfo {
     pub help: String,
     /// Declared attributes.
     pub attributes: Vec<Attribute>,
+    /// Acts of a whale motion.
+    pub acts: Vec<Act>,
     /// File it was loaded from; none where it is linked into the program.
     pub file: Option<PathBuf>,
     /// BLAKE3 hash of that file, in hexadecimal.
@@ -100,6 +102,7 @@ impl PluginInfo {
             name: descriptor.name.to_string(),
             help: descriptor.help.to_string(),
             attributes: descriptor.attributes.clone(),
+            acts: descriptor.acts.clone(),
             file,
             hash,
         }

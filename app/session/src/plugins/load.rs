@@ -12,12 +12,12 @@ use std::sync::Arc;
 
 use endline_sdk::abi::table::*;
 use endline_sdk::{
-    Attribute, AttributeKind, AttributeValue, BodyKind, Contacts, Descriptor, FrictionModel, FrictionResponse, GearAction, GearStep,
+    Act, Attribute, AttributeKind, AttributeValue, BodyKind, Contacts, Descriptor, FrictionModel, FrictionResponse, GearAction, GearStep,
     GearType, HookError, LineEnd, MotionInput, MotionOutput, Rig, RigBody, RigEnd, RigJoint, RigLine, RigLink, Site, WhaleMotion,
 };
 use libloading::Library;
 
-use super::declared::MOST_ATTRIBUTES;
+use super::declared::{MOST_ACTS, MOST_ATTRIBUTES};
 use super::info::{Hook, Refusal};
 
 /// Most plugins that one library may hold; more is taken for a lie.
@@ -148,8 +148,11 @@ fn read_descriptor(plugin: &AbiPlugin) -> Result<Descriptor, Refusal> {
     if plugin.attribute_count > MOST_ATTRIBUTES {
         return Err(Refusal::new(format!("it declares {} attributes", plugin.attribute_count), "tell the plugin's author"));
     }
-    // SAFETY: the attributes live as long as the library.
-    let attributes = unsafe { array(plugin.attributes, plugin.attribute_count) };
+    if plugin.act_count > MOST_ACTS {
+        return Err(Refusal::new(format!("it declares {} acts", plugin.act_count), "tell the plugin's author"));
+    }
+    // SAFETY: attributes and acts live as long as the library.
+    let (attributes, acts) = unsafe { (array(plugin.attributes, plugin.attribute_count), array(plugin.acts, plugin.act_count)) };
     Ok(Descriptor {
         id: text(plugin.id)?,
         version: text(plugin.version)?,
@@ -157,7 +160,12 @@ fn read_descriptor(plugin: &AbiPlugin) -> Result<Descriptor, Refusal> {
         help: text(plugin.help)?,
         attributes: attributes.iter().map(read_attribute).collect::<Result<_, _>>()?,
         state_len: plugin.state_len,
+        acts: acts.iter().map(read_act).collect::<Result<_, _>>()?,
     })
+}
+
+fn read_act(raw: &AbiAct) -> Result<Act, Refusal> {
+    Ok(Act { id: text(raw.id)?, name: text(raw.name)?, help: text(raw.help)? })
 }
 
 fn read_attribute(raw: &AbiAttribute) -> Result<Attribute, Refusal> {

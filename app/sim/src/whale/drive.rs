@@ -68,27 +68,45 @@ fn mix(from: &Posture, to: &Posture, share: f64) -> Posture {
     Posture {
         spine_pitch: pairs(from.spine_pitch, to.spine_pitch, blend),
         spine_yaw: pairs(from.spine_yaw, to.spine_yaw, blend),
+        spine_roll: pairs(from.spine_roll, to.spine_roll, blend),
         fluke_pitch: blend(from.fluke_pitch, to.fluke_pitch),
         fluke_flex: pairs(from.fluke_flex, to.fluke_flex, blend),
         flipper_sweep: pairs(from.flipper_sweep, to.flipper_sweep, blend),
         flipper_raise: pairs(from.flipper_raise, to.flipper_raise, blend),
         flipper_twist: pairs(from.flipper_twist, to.flipper_twist, blend),
+        flipper_flex: pairs(from.flipper_flex, to.flipper_flex, blend),
         jaw: blend(from.jaw, to.jaw),
+        lips: pairs(from.lips, to.lips, blend),
     }
 }
 
 /// Whether all angles of a posture are finite numbers.
 fn is_finite(posture: &Posture) -> bool {
-    let Posture { spine_pitch, spine_yaw, fluke_pitch, fluke_flex, flipper_sweep, flipper_raise, flipper_twist, jaw } = posture;
-    let groups: [&[f64]; 8] = [
+    let Posture {
         spine_pitch,
         spine_yaw,
+        spine_roll,
+        fluke_pitch,
+        fluke_flex,
+        flipper_sweep,
+        flipper_raise,
+        flipper_twist,
+        flipper_flex,
+        jaw,
+        lips,
+    } = posture;
+    let groups: [&[f64]; 11] = [
+        spine_pitch,
+        spine_yaw,
+        spine_roll,
         std::slice::from_ref(fluke_pitch),
         fluke_flex,
         flipper_sweep,
         flipper_raise,
         flipper_twist,
+        flipper_flex,
         std::slice::from_ref(jaw),
+        lips,
     ];
     groups.iter().copied().flatten().all(|angle| angle.is_finite())
 }

@@ -125,6 +125,8 @@ pub enum Angle {
     SpinePitch(usize),
     /// Spine yaw at a joint.
     SpineYaw(usize),
+    /// Spine roll at a joint.
+    SpineRoll(usize),
     /// Fluke pitch.
     FlukePitch,
     /// Fluke flex by side.
@@ -135,6 +137,10 @@ pub enum Angle {
     FlipperRaise(usize),
     /// Flipper twist by side.
     FlipperTwist(usize),
+    /// Flipper flex by side.
+    FlipperFlex(usize),
     /// Jaw.
     Jaw,
+    /// Lower lip by side.
+    Lips(usize),
 }

@@ -35,12 +35,15 @@ pub fn angle_of(posture: &Posture, angle: Angle) -> f64 {
     match angle {
         Angle::SpinePitch(joint) => of(&posture.spine_pitch, joint),
         Angle::SpineYaw(joint) => of(&posture.spine_yaw, joint),
+        Angle::SpineRoll(joint) => of(&posture.spine_roll, joint),
         Angle::FlukePitch => posture.fluke_pitch,
         Angle::FlukeFlex(side) => of(&posture.fluke_flex, side),
         Angle::FlipperSweep(side) => of(&posture.flipper_sweep, side),
         Angle::FlipperRaise(side) => of(&posture.flipper_raise, side),
         Angle::FlipperTwist(side) => of(&posture.flipper_twist, side),
+        Angle::FlipperFlex(side) => of(&posture.flipper_flex, side),
         Angle::Jaw => posture.jaw,
+        Angle::Lips(side) => of(&posture.lips, side),
     }
 }
 

@@ -44,6 +44,9 @@ fn told(info: &PluginInfo) -> String {
         // Writing into a String cannot fail.
         let _ = writeln!(text, "    {}: {}; {}", attribute.key, values(attribute), attribute.help);
     }
+    for act in &info.acts {
+        let _ = writeln!(text, "    act {}: {}", act.id, act.help);
+    }
     text
 }
 

@@ -126,6 +126,7 @@ impl Pilot {
             mouth: f64::from(u8::from(self.mouth_open)),
             flipper_raise: self.smooth.flipper_raise,
             flipper_twist: self.smooth.flipper_twist,
+            ..Controls::default()
         }
     }
 }

@@ -156,7 +156,15 @@ fn friction() -> Friction {
 
 /// A plugin without attributes or state.
 fn nothing(id: &'static str) -> Descriptor {
-    Descriptor { id: id.into(), version: "1".into(), name: id.into(), help: "".into(), attributes: Vec::new(), state_len: 0 }
+    Descriptor {
+        id: id.into(),
+        version: "1".into(),
+        name: id.into(),
+        help: "".into(),
+        attributes: Vec::new(),
+        state_len: 0,
+        acts: Vec::new(),
+    }
 }
 
 /// Friction that never pulls.

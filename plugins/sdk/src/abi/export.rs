@@ -13,7 +13,7 @@ use std::sync::OnceLock;
 use super::table::*;
 use crate::friction::{Contacts, FrictionModel, FrictionResponse};
 use crate::gear::{BodyKind, GearAction, GearStep, GearType, Rig, RigBody, RigEnd, RigJoint, RigLine, RigLink, Site};
-use crate::hook::{Attribute, AttributeKind, AttributeValue, Descriptor, HookError};
+use crate::hook::{Act, Attribute, AttributeKind, AttributeValue, Descriptor, HookError};
 use crate::motion::{MotionInput, MotionOutput, WhaleMotion};
 use crate::whale::BodyPart;
 
@@ -139,6 +139,7 @@ fn make_plugin(plugin: Exported) -> AbiPlugin {
 
 fn describe(kind: u32, descriptor: &'static Descriptor, context: *const c_void, table: *const c_void) -> AbiPlugin {
     let attributes = Vec::leak(descriptor.attributes.iter().map(describe_attribute).collect());
+    let acts = Vec::leak(descriptor.acts.iter().map(describe_act).collect());
     AbiPlugin {
         struct_size: size::<AbiPlugin>(),
         kind,
@@ -151,7 +152,13 @@ fn describe(kind: u32, descriptor: &'static Descriptor, context: *const c_void, 
         state_len: descriptor.state_len,
         context,
         table,
+        acts: acts.as_ptr(),
+        act_count: acts.len(),
     }
+}
+
+fn describe_act(act: &'static Act) -> AbiAct {
+    AbiAct { id: AbiText::of(&act.id), name: AbiText::of(&act.name), help: AbiText::of(&act.help) }
 }
 
 fn describe_attribute(attribute: &'static Attribute) -> AbiAttribute {

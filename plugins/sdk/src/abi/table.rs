@@ -17,10 +17,9 @@ use crate::gear::Site;
 use crate::motion::{Controls, MotionOutput};
 
 /// Major version: another number means another layout.
-pub const ABI_MAJOR: u32 = 1;
+pub const ABI_MAJOR: u32 = 2;
 /// Minor version: a greater number means fields added at the ends of structs, or kinds of attribute.
-/// 1 added [`ATTRIBUTE_COUNT`], [`ATTRIBUTE_CHOICE`] and `lay_line` of [`AbiRigHost`].
-pub const ABI_MINOR: u32 = 1;
+pub const ABI_MINOR: u32 = 0;
 
 /// Kind of plugin: whale motion, table [`AbiMotion`].
 pub const KIND_MOTION: u32 = 1;
@@ -40,9 +39,9 @@ pub const STATUS_CRASH: i32 = 2;
 pub const ATTRIBUTE_NUMBER: u32 = 0;
 /// Kind of attribute: the id of an item of the gear library.
 pub const ATTRIBUTE_ITEM: u32 = 1;
-/// Kind of attribute: a whole number (since 1.1).
+/// Kind of attribute: a whole number.
 pub const ATTRIBUTE_COUNT: u32 = 2;
-/// Kind of attribute: one of a few words (since 1.1).
+/// Kind of attribute: one of a few words.
 pub const ATTRIBUTE_CHOICE: u32 = 3;
 
 /// Kind of body: trap.
@@ -98,7 +97,7 @@ pub struct AbiEntry {
     pub init: Option<unsafe extern "C" fn(path: AbiText, message: *mut AbiMessage) -> i32>,
     /// `[main-thread]` Called at most once, last; libraries stay mapped, so it may never be called. May be null.
     pub deinit: Option<unsafe extern "C" fn()>,
-    /// `[main-thread]` The [`AbiFactory`] for the id `endline.plugins/1`, null for any other id.
+    /// `[main-thread]` The [`AbiFactory`] for the id `endline.plugins/2`, null for any other id.
     pub get_factory: Option<unsafe extern "C" fn(id: AbiText) -> *const c_void>,
 }
 
@@ -140,6 +139,22 @@ pub struct AbiPlugin {
     pub context: *const c_void,
     /// [`AbiMotion`], [`AbiFriction`] or [`AbiGear`], as `kind` says.
     pub table: *const c_void,
+    /// Acts of a whale motion, in the order of the control `act`; may be null for none.
+    pub acts: *const AbiAct,
+    /// How many acts.
+    pub act_count: usize,
+}
+
+/// Something a whale motion does of itself when asked.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct AbiAct {
+    /// Id in files, such as `roll-away`.
+    pub id: AbiText,
+    /// Name shown in menus.
+    pub name: AbiText,
+    /// Help shown beside it.
+    pub help: AbiText,
 }
 
 /// One setting of a plugin.
@@ -344,7 +359,6 @@ pub struct AbiRigHost {
     /// Adds a weak link.
     pub add_link: Option<unsafe extern "C" fn(host: *mut c_void, link: *const AbiLink) -> i32>,
     /// Gives a line added before the way it lies at first, `count` places from end A to end B [m].
-    /// Since 1.1: there only where `struct_size` reaches past it.
     pub lay_line: Option<unsafe extern "C" fn(host: *mut c_void, line: AbiText, places_m: *const [f64; 3], count: usize) -> i32>,
 }
 
@@ -429,7 +443,7 @@ pub struct AbiLink {
 /// Name under which the library exports its [`AbiEntry`].
 pub const ENTRY_NAME: &str = "endline_plugin_entry";
 /// Id of the factory of this ABI.
-pub const FACTORY_ID: &str = "endline.plugins/1";
+pub const FACTORY_ID: &str = "endline.plugins/2";
 
 impl AbiText {
     /// Text that lives as long as what it was made from.

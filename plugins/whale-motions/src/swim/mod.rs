@@ -87,6 +87,7 @@ fn descriptor() -> Descriptor {
         help: "Steady swimming with fluke beat; steered by speed, pitch, roll and yaw.".into(),
         attributes: settings::attributes(),
         state_len: floats::LEN,
+        acts: Vec::new(),
     }
 }
 

@@ -37,6 +37,7 @@ pub(super) fn of(settings: &Settings, floats: &Floats, beat: &Beat) -> Posture {
         flipper_raise: [flipper_raise(floats.flipper_raise); 2],
         flipper_twist: flipper_twist(floats),
         jaw: settings.jaw_open_rad * floats.mouth,
+        ..Posture::default()
     }
 }
 
