@@ -3,6 +3,7 @@
 mod box_gear;
 mod buoy;
 mod friction;
+mod joints;
 mod knot;
 mod piece;
 mod point;
@@ -14,6 +15,7 @@ mod whale;
 pub use box_gear::BoxGear;
 pub use buoy::{Buoy, BuoyShape};
 pub use friction::RopeFriction;
+pub use joints::Joints;
 pub use knot::Knot;
 pub use piece::BuoyPiece;
 pub(crate) use piece::pieces;

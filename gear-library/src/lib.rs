@@ -33,7 +33,7 @@ pub use diagnostic::{At, Diagnostic, Place, Severity, SourceText};
 pub use document::{Document, EditError, save_text};
 pub use entry::{Entry, FORMAT};
 pub use fields::{Figure, Range, Sureness};
-pub use items::{BoxGear, Buoy, BuoyPiece, BuoyShape, Condition, Knot, Point, Rope, RopeFriction, SeaSite, WeakLink, WhaleItem};
+pub use items::{BoxGear, Buoy, BuoyPiece, BuoyShape, Condition, Joints, Knot, Point, Rope, RopeFriction, SeaSite, WeakLink, WhaleItem};
 pub use library::Library;
 pub use line::{Insert, Inserts, LineMake};
 pub use scenario::{

@@ -10,7 +10,7 @@ use endline_sdk::{
 use endline_sim::metrics::Metrics;
 use endline_sim::model::{Friction, Joint, JointKind, Line, Rope, Settings, Strength};
 use endline_sim::water::{Current, Water};
-use endline_sim::whale::{Measures, PilotProgram, Skin, Whale};
+use endline_sim::whale::{JointRanges, Measures, PilotProgram, Skin, Whale};
 use endline_sim::{ContactPoint, DQuat, DVec3, Model, ModelSpec, State};
 
 /// A motion and a friction that do nothing.
@@ -49,6 +49,7 @@ fn model(skin: &Skin, segments_m: Vec<f64>) -> Model {
     let joint = |id: &str, z| Joint { id: id.into(), kind: JointKind::Free, position_m: DVec3::Z * z };
     let whale = Whale {
         skin: Arc::new(skin.clone()),
+        joints: JointRanges::unbounded(),
         length_m: 13.0,
         measures: Measures::default(),
         burst_speed_m_s: 4.0,

@@ -70,6 +70,8 @@ pub struct Audit {
     pub passes: u64,
     /// Segments split, each paid for by a merge, as resolution followed the whale.
     pub splits: u64,
+    /// Steps in which the whale's motion asked for a posture beyond the joints' ranges, and was held.
+    pub postures_held: u64,
     /// Solver steps by what kept them from being longer, in the order of [`LimitedBy::ALL`].
     pub limited_by: [u64; LimitedBy::ALL.len()],
 }
@@ -122,7 +124,10 @@ pub fn step(model: &Model, input: &Input, state: &mut State, workspace: &mut Wor
 fn try_step(model: &Model, input: &Input, state: &mut State, workspace: &mut Workspace) -> Result<(), Stop> {
     let mut whale = workspace.whale.take();
     let moved = move_whale(model, input, state, &mut whale);
-    let done = moved.and_then(|()| paced_steps(model, state, workspace, whale.as_deref()));
+    let done = moved.and_then(|held| {
+        workspace.audit.postures_held += u64::from(held);
+        paced_steps(model, state, workspace, whale.as_deref())
+    });
     if let (Some(now), Some([_, after])) = (&mut state.whale, whale.as_deref_mut()) {
         after.contact_force_n = force_by_part(&workspace.contacts);
         now.clone_from(after);
@@ -162,11 +167,11 @@ fn take_back(state: &mut State, workspace: &Workspace) {
     (state.pace.step_s, state.pace.limit) = (step_s, limit);
 }
 
-/// Lets the whale swim through the step: where it starts and where it ends.
-fn move_whale(model: &Model, input: &Input, state: &State, whale: &mut Option<Box<[WhaleState; 2]>>) -> Result<(), Stop> {
+/// Lets the whale swim through the step: where it starts and where it ends; whether its posture was held.
+fn move_whale(model: &Model, input: &Input, state: &State, whale: &mut Option<Box<[WhaleState; 2]>>) -> Result<bool, Stop> {
     let Some(now) = &state.whale else {
         *whale = None;
-        return Ok(());
+        return Ok(false);
     };
     let [from, to] = &mut **whale.get_or_insert_with(|| Box::new([now.clone(), now.clone()]));
     from.clone_from(now);

@@ -13,7 +13,7 @@ use common::{line, on_body, water, weight};
 use endline_friction_models::Coulomb;
 use endline_sdk::{Descriptor, FrictionModel, HookError, MotionInput, MotionOutput, Region, WhaleMotion};
 use endline_sim::model::{Friction, Joint, JointKind, Model, ModelSpec, Resolution, Settings};
-use endline_sim::whale::{Bone, Measures, PilotProgram, Skin, Whale};
+use endline_sim::whale::{Bone, JointRanges, Measures, PilotProgram, Skin, Whale};
 use endline_sim::{DQuat, DVec3, Input, State, Workspace, step};
 
 const RADIUS: f64 = 0.3;
@@ -105,15 +105,6 @@ fn over_drum(radius: f64, region: Region, speed: f64, segments: usize) -> ModelS
         .collect();
     line.start_m.insert(0, path(0.0));
     let joints = vec![on_body("hanging", 0), Joint { id: "hand".into(), kind: driven, position_m: path(whole) }];
-    let descriptor = Descriptor {
-        id: "still".into(),
-        version: "1".into(),
-        name: "still".into(),
-        help: "".into(),
-        attributes: Vec::new(),
-        state_len: 0,
-        acts: Vec::new(),
-    };
     let coulomb = Coulomb::new();
     let attributes = coulomb.descriptor().attributes.iter().filter_map(|attribute| attribute.default_value().number()).collect();
     ModelSpec {
@@ -125,23 +116,38 @@ fn over_drum(radius: f64, region: Region, speed: f64, segments: usize) -> ModelS
         bodies: vec![hanging],
         links: Vec::new(),
         gear: Vec::new(),
-        whale: Some(Whale {
-            skin: Arc::new(drum(radius, region, 96)),
-            length_m: 1.0,
-            measures: Measures::default(),
-            burst_speed_m_s: 0.0,
-            position_m: DVec3::ZERO,
-            orientation: DQuat::IDENTITY,
-            speed_m_s: 0.0,
-            motion: Arc::new(Still(descriptor)),
-            motion_attributes: Vec::new(),
-            pilot: PilotProgram::default(),
-            contact_stiffness_n_m2: 2e6,
-        }),
+        whale: Some(still_drum(radius, region)),
         friction: Some(Friction { model: Arc::new(coulomb), attributes, coefficients: vec![[FRICTION; Region::ALL.len()]] }),
         obstacles: Vec::new(),
         probes: Vec::new(),
         settings: Settings { step_s: 0.002, ..Settings::default() },
+    }
+}
+
+/// The drum as a whale that stays where it is.
+fn still_drum(radius: f64, region: Region) -> Whale {
+    let descriptor = Descriptor {
+        id: "still".into(),
+        version: "1".into(),
+        name: "still".into(),
+        help: "".into(),
+        attributes: Vec::new(),
+        state_len: 0,
+        acts: Vec::new(),
+    };
+    Whale {
+        skin: Arc::new(drum(radius, region, 96)),
+        joints: JointRanges::unbounded(),
+        length_m: 1.0,
+        measures: Measures::default(),
+        burst_speed_m_s: 0.0,
+        position_m: DVec3::ZERO,
+        orientation: DQuat::IDENTITY,
+        speed_m_s: 0.0,
+        motion: Arc::new(Still(descriptor)),
+        motion_attributes: Vec::new(),
+        pilot: PilotProgram::default(),
+        contact_stiffness_n_m2: 2e6,
     }
 }
 

@@ -38,6 +38,7 @@ impl Builder<'_> {
         self.spec.whale = Some(Whale {
             measures: Measures::of(&skin, item.density_kg_m3),
             skin: Arc::new(skin),
+            joints: item.joints.ranges,
             length_m,
             burst_speed_m_s: item.burst_speed_m_s,
             position_m: swimmer.position_m,

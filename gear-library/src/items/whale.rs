@@ -9,6 +9,8 @@ use crate::tree::{Content, Node};
 use crate::units::Quantity;
 use crate::whale::{FlipperForm, FlukesForm, HeadForm, Station, WhaleForm};
 
+use super::Joints;
+
 /// Density of a whale that neither sinks nor rises [kg/m³].
 const SEA_WATER_KG_M3: f64 = 1025.0;
 
@@ -23,6 +25,8 @@ pub struct WhaleItem {
     pub sections: Vec<[Figure; 4]>,
     /// Mass over displaced volume [kg/m³].
     pub density_kg_m3: f64,
+    /// How far its joints turn.
+    pub joints: Joints,
     /// Greatest speed it can swim [m/s].
     pub burst_speed_m_s: f64,
     /// Stiffness of skin and blubber under rope, by length of rope [N/m²].
@@ -38,11 +42,13 @@ impl WhaleItem {
         let entry = entry::body(&fields, Kind::Whale, head, id);
         let sections = sections(&fields, &file);
         let spine = spine(&fields, &file);
+        let joints = Joints::read(&fields, &file);
         fields.finish();
         let sections = sections?;
         Some(Self {
             form: form(&entry, &sections, spine?)?,
             density_kg_m3: entry.value("density").unwrap_or(SEA_WATER_KG_M3),
+            joints: joints?,
             burst_speed_m_s: entry.value("burst_speed")?,
             contact_stiffness_n_m2: entry.value("contact_stiffness")?,
             sections,

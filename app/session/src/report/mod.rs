@@ -90,6 +90,8 @@ pub struct AuditReport {
     pub passes: u64,
     /// Segments split, each paid for by a merge, as resolution followed the whale.
     pub splits: u64,
+    /// Steps in which the whale's posture was held at its joints' ranges.
+    pub postures_held: u64,
     /// Solver steps by what kept them from being longer: `inputs`, `accuracy`, `snap`, `contact`, `parting`, `convergence`.
     pub steps_limited_by: BTreeMap<&'static str, u64>,
     /// What limited most of them, in plain words.

@@ -59,8 +59,19 @@ fn settled_report(run: &Run) -> SettledReport {
 }
 
 fn audit_report(audit: &Audit) -> AuditReport {
-    let Audit { tunnelled, max_penetration_m, non_finite, solver_steps, contact_steps, halved, unconverged, passes, splits, limited_by } =
-        *audit;
+    let Audit {
+        tunnelled,
+        max_penetration_m,
+        non_finite,
+        solver_steps,
+        contact_steps,
+        halved,
+        unconverged,
+        passes,
+        splits,
+        postures_held,
+        limited_by,
+    } = *audit;
     let steps_limited_by = LimitedBy::ALL.iter().zip(limited_by).map(|(limit, steps)| (limit.name(), steps)).collect();
     let (limit, steps) = LimitedBy::mostly(&limited_by);
     let steps_mostly_limited_by = format!("{} ({:.0} %)", limit.words(), 100.0 * steps as f64 / solver_steps.max(1) as f64);
@@ -74,6 +85,7 @@ fn audit_report(audit: &Audit) -> AuditReport {
         unconverged,
         passes,
         splits,
+        postures_held,
         steps_limited_by,
         steps_mostly_limited_by,
     }

@@ -81,7 +81,7 @@ fn strips(gamma: f64) -> Vec<(f64, f64)> {
 }
 
 /// A number from 0 to 1 that a seed and an index draw (SplitMix64).
-fn unit(seed: u64, index: u64) -> f64 {
+pub(crate) fn unit(seed: u64, index: u64) -> f64 {
     let mut mixed = seed.wrapping_add((index + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
     mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);

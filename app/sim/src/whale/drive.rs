@@ -2,7 +2,7 @@
 //!
 //! Kinematic: `dx/dt = R x̂ u + U(x)`, `R` turned by the plugin's rates about the whale's own axes, with the
 //! speed through the water `u` taken as the mean over the step. It neither leaves the water nor enters the seabed:
-//! the height of its origin is held between them.
+//! the height of its origin is held between them. Its joints turn no further than their ranges (`joints.rs`).
 
 use glam::{DQuat, DVec3};
 
@@ -16,13 +16,14 @@ use glam::DAffine3;
 /// Half height of a right whale as a share of its length, kept above the seabed.
 const CLEARANCE: f64 = 0.11;
 
-/// The whale at the end of a step that begins with `whale`, written over `next`.
+/// The whale at the end of a step that begins with `whale`, written over `next`; whether its motion asked for a posture
+/// beyond the joints' ranges.
 ///
 /// # Errors
 /// With the motion plugin's id, where it fails or gives a number that is not finite.
-pub(crate) fn drive(model: &Model, input: &Input, whale: &WhaleState, time_s: f64, next: &mut WhaleState) -> Result<(), Stop> {
+pub(crate) fn drive(model: &Model, input: &Input, whale: &WhaleState, time_s: f64, next: &mut WhaleState) -> Result<bool, Stop> {
     next.clone_from(whale);
-    let Some(spec) = &model.spec.whale else { return Ok(()) };
+    let Some(spec) = &model.spec.whale else { return Ok(false) };
     let dt_s = model.spec.settings.step_s;
     let stop = |reason: String| Stop { time_s, part: spec.motion.descriptor().id.to_string(), reason };
     let seen = MotionInput {
@@ -43,12 +44,13 @@ pub(crate) fn drive(model: &Model, input: &Input, whale: &WhaleState, time_s: f6
     next.speed_m_s = moved.speed_m_s;
     next.turn_rate = turn_rate;
     next.posture = moved.posture;
+    let held = spec.joints.hold(&mut next.posture);
     next.orientation = (whale.orientation * DQuat::from_scaled_axis(turn_rate * dt_s)).normalize();
     let ahead = whale.orientation.slerp(next.orientation, 0.5) * DVec3::X;
     next.position += (ahead * (0.5 * (whale.speed_m_s + next.speed_m_s)) + model.sea.current(whale.position, time_s)) * dt_s;
     let floor = model.spec.seabed.as_ref().map_or(f64::NEG_INFINITY, |seabed| seabed.height_at(next.position) + CLEARANCE * spec.length_m);
     next.position.z = next.position.z.max(floor).min(0.0);
-    Ok(())
+    Ok(held)
 }
 
 /// Bone transforms at a share of the way between two states of the whale.

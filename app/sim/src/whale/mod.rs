@@ -3,6 +3,7 @@
 pub(crate) mod approach;
 pub mod bounds;
 pub mod drive;
+pub mod joints;
 pub mod measures;
 pub mod pose;
 pub mod surface;
@@ -10,10 +11,11 @@ pub mod tree;
 
 use std::sync::Arc;
 
-use endline_sdk::{Controls, Region, WhaleMotion};
+use endline_sdk::{Controls, Region, SPINE_JOINTS, WhaleMotion};
 use glam::{DQuat, DVec3};
 
 pub use bounds::Bounds;
+pub use joints::JointRanges;
 pub use measures::Measures;
 pub use pose::{pose, skin_all, skin_vertex};
 pub use surface::{Candidate, Surface};
@@ -24,6 +26,8 @@ pub use tree::SkinTree;
 pub struct Whale {
     /// Its body.
     pub skin: Arc<Skin>,
+    /// How far its joints turn; a motion's posture is held within.
+    pub joints: JointRanges,
     /// Body length, snout to fluke notch [m].
     pub length_m: f64,
     /// Mass, volume, wetted area, centre of mass and inertia at rest.
@@ -143,4 +147,25 @@ pub enum Angle {
     Jaw,
     /// Lower lip by side.
     Lips(usize),
+}
+
+impl Angle {
+    /// The spine's angles by joint: pitch, yaw, roll.
+    pub const SPINE: [fn(usize) -> Self; 3] = [Self::SpinePitch, Self::SpineYaw, Self::SpineRoll];
+
+    /// Every angle of a posture, once.
+    pub fn all() -> impl Iterator<Item = Self> {
+        let spine = Self::SPINE.into_iter().flat_map(|axis| (0..SPINE_JOINTS).map(axis));
+        let flippers = [Self::FlipperSweep, Self::FlipperRaise, Self::FlipperTwist, Self::FlipperFlex].into_iter().flat_map(Self::sides);
+        spine
+            .chain([Self::FlukePitch])
+            .chain(Self::sides(Self::FlukeFlex))
+            .chain(flippers)
+            .chain([Self::Jaw])
+            .chain(Self::sides(Self::Lips))
+    }
+
+    fn sides(of: fn(usize) -> Self) -> impl Iterator<Item = Self> {
+        (0..2).map(of)
+    }
 }

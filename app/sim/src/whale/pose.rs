@@ -47,6 +47,23 @@ pub fn angle_of(posture: &Posture, angle: Angle) -> f64 {
     }
 }
 
+/// The place of a named angle in a posture; none for a joint or side it does not have.
+pub fn angle_mut(posture: &mut Posture, angle: Angle) -> Option<&mut f64> {
+    match angle {
+        Angle::SpinePitch(joint) => posture.spine_pitch.get_mut(joint),
+        Angle::SpineYaw(joint) => posture.spine_yaw.get_mut(joint),
+        Angle::SpineRoll(joint) => posture.spine_roll.get_mut(joint),
+        Angle::FlukePitch => Some(&mut posture.fluke_pitch),
+        Angle::FlukeFlex(side) => posture.fluke_flex.get_mut(side),
+        Angle::FlipperSweep(side) => posture.flipper_sweep.get_mut(side),
+        Angle::FlipperRaise(side) => posture.flipper_raise.get_mut(side),
+        Angle::FlipperTwist(side) => posture.flipper_twist.get_mut(side),
+        Angle::FlipperFlex(side) => posture.flipper_flex.get_mut(side),
+        Angle::Jaw => Some(&mut posture.jaw),
+        Angle::Lips(side) => posture.lips.get_mut(side),
+    }
+}
+
 /// World place of one vertex under the bones' transforms [m].
 ///
 /// Bones the transforms do not cover move nothing.

@@ -17,7 +17,7 @@ pub(super) fn summary(report: &Report) -> String {
     text += &links(&report.links);
     text += &bodies(report);
     text += &probes(&report.probes);
-    text += &report.whale.as_ref().map(whale).unwrap_or_default();
+    text += &report.whale.as_ref().map(|own| whale(own, report)).unwrap_or_default();
     text
 }
 
@@ -114,13 +114,14 @@ fn probes(probes: &[ProbeReport]) -> String {
     columns(&rows)
 }
 
-fn whale(whale: &WhaleReport) -> String {
+fn whale(whale: &WhaleReport, report: &Report) -> String {
     let undecided = if whale.decided { "" } else { " (undecided: the run is too short to tell)" };
     let mut text = columns(&[
         vec!["whale".into(), whale.outcome.replace('_', " ") + undecided],
         vec!["first touched".into(), moment(whale.first_contact_s)],
         vec!["rope drag".into(), force(whale.drag_added_N)],
         vec!["trailing rope".into(), format!("{:.1} m", whale.trailing_m)],
+        vec!["joints held at their ends".into(), format!("in {} of {} steps", report.audit.postures_held, report.steps)],
     ]);
     let mut rows = vec![row(&["region", "wraps", "rope in contact", "peak normal force", "friction work"])];
     for region in whale.regions.iter().filter(|region| region.peak_normal_N > 0.0) {

@@ -6,7 +6,7 @@ use endline_sdk::{Contacts, Descriptor, FrictionModel, FrictionResponse, HookErr
 use endline_sim::contact::ContactPoint;
 use endline_sim::model::{Body, BodyRole, Float, Friction, Joint, JointKind, Line, ModelSpec, Rope, Seabed, Settings, Shape, Strength};
 use endline_sim::water::{Current, Water};
-use endline_sim::whale::{Bone, Measures, PilotProgram, Skin, Whale};
+use endline_sim::whale::{Bone, JointRanges, Measures, PilotProgram, Skin, Whale};
 use endline_sim::{DQuat, DVec3, Frame, Model, State};
 
 /// Depth of the sample's water [m].
@@ -136,6 +136,7 @@ fn whale() -> Whale {
     };
     Whale {
         skin: Arc::new(skin),
+        joints: JointRanges::unbounded(),
         length_m: 13.0,
         measures: Measures::default(),
         burst_speed_m_s: 4.0,

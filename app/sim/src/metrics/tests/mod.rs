@@ -21,7 +21,7 @@ use crate::model::{
 };
 use crate::state::State;
 use crate::water::{Current, Water};
-use crate::whale::{Bone, Measures, PilotProgram, Skin, Whale};
+use crate::whale::{Bone, JointRanges, Measures, PilotProgram, Skin, Whale};
 
 /// Half widths of the fixture's peduncle and flipper, and the flipper's root and tip.
 const PEDUNCLE_R: f64 = 0.3;
@@ -158,6 +158,7 @@ pub(crate) fn model(spec: ModelSpec) -> Model {
 fn whale() -> Whale {
     Whale {
         skin: Arc::new(skin()),
+        joints: JointRanges::unbounded(),
         length_m: 12.0,
         measures: Measures::default(),
         burst_speed_m_s: 4.0,
