@@ -121,7 +121,7 @@ pub(super) struct RenderArgs {
     /// Bodies and lines to fit into the picture, such as trap-1,endline-top; all there is where not given.
     #[arg(long, value_name = "ID,...", value_delimiter = ',')]
     pub(super) fit: Vec<String>,
-    /// View: orbit, side, top, front or whale.
+    /// View: orbit, side, top or front; of the whale: whale, first-person, whale-side, whale-top or whale-front.
     #[arg(long, value_name = "NAME", default_value = "orbit")]
     pub(super) view: String,
     /// Picture to write.

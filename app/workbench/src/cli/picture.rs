@@ -13,8 +13,8 @@ use super::output;
 /// Refuses a view that does not exist, before anything is run.
 #[cfg(feature = "scene")]
 pub(super) fn check_view(view: &str) -> Result<(), String> {
-    let views = scene::VIEW_NAMES;
-    if views.contains(&view) { Ok(()) } else { Err(format!("there is no view `{view}`; expected one of {}", views.join(", "))) }
+    let known = scene::View::named(view).is_some();
+    if known { Ok(()) } else { Err(format!("there is no view `{view}`; expected one of {}", scene::View::names())) }
 }
 
 /// A build that draws nothing refuses every view.

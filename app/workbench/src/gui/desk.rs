@@ -205,7 +205,7 @@ impl Desk {
             Order::Seek(time_s) => self.tell(Command::Seek(*time_s)),
             Order::WeakLinks => self.toggle_weak_links(),
             Order::Fly => self.toggle_fly(),
-            Order::Person => self.view3d.first_person = !self.view3d.first_person,
+            Order::Person => self.view3d.change_person(),
             Order::Save => self.save(),
             Order::SaveRecording(path) => self.tell(Command::SaveRecording(path.clone())),
             Order::Open(path) => self.open(path),
@@ -295,7 +295,7 @@ impl Desk {
         if self.flying {
             let speed = self.view.as_ref().map_or(0.5, |view| view.controls.speed);
             self.pilot.set_throttle(speed.max(0.3));
-            self.view3d.follow = true;
+            self.view3d.go_with_whale();
         } else {
             self.view3d.follow = false;
             self.view3d.frame_again = true;

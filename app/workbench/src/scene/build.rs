@@ -6,7 +6,7 @@ use glam::{DVec3, Vec3};
 
 use super::bounds::Bounds;
 use super::mesh::Mesh;
-use super::{bodies, rope, sea, whale};
+use super::{bodies, obstacles, rope, sea, whale};
 
 /// How a part is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,12 +22,14 @@ pub enum Look {
     },
     /// Sea surface: see-through, brighter at a flat angle, seen from both sides.
     Surface,
+    /// Wet, mottled skin; its grain sticks to the body at rest.
+    Skin,
 }
 
 /// Triangles drawn one way.
 #[derive(Clone, Debug)]
 pub struct Part {
-    /// What it is: `seabed`, `whale`, `ropes`, `bodies`, `marks`, `surface`.
+    /// What it is: `seabed`, `obstacles`, `whale`, `ropes`, `bodies`, `marks`, `surface`.
     pub name: &'static str,
     /// How it is drawn.
     pub look: Look,
@@ -88,7 +90,8 @@ impl Scene {
             }
         };
         add(show.seabed, "seabed", Look::Seabed { grid_m: 10.0 }, 0.0, sea::seabed(model, &bounds));
-        add(show.whale, "whale", Look::Solid, 0.0, whale::skin(model, frame));
+        add(true, "obstacles", Look::Solid, 0.0, obstacles::obstacles(model));
+        add(show.whale, "whale", Look::Skin, 0.0, whale::skin(model, frame));
         add(true, "ropes", Look::Own, 1.1, rope::lines(model, frame, scale_n));
         add(true, "bodies", Look::Solid, 0.35, bodies::bodies(model, frame));
         add(show.current, "current", Look::Own, 0.8, sea::current(model));

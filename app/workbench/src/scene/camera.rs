@@ -1,5 +1,7 @@
 //! The eye: an orbit about a target, the named views, and following the whale.
 
+use std::f64::consts::FRAC_PI_2;
+
 use endline_sim::frame::WhaleFrame;
 use glam::{DMat4, DVec2, DVec3, DVec4};
 
@@ -17,13 +19,34 @@ pub enum View {
     Top,
     /// From the east, looking west.
     Front,
-    /// Behind the whale.
+    /// Third person: behind the whale and above it.
     Whale,
+    /// First person: out of the whale's head, over its rostrum.
+    FirstPerson,
+    /// The whale alone, from its starboard side.
+    WhaleSide,
+    /// The whale alone, from above.
+    WhaleTop,
+    /// The whale alone, from ahead.
+    WhaleFront,
 }
 
 impl View {
-    /// Every view, in the order of menus.
-    pub const ALL: [Self; 5] = [Self::Orbit, Self::Side, Self::Top, Self::Front, Self::Whale];
+    /// Views of all there is, in the order of menus.
+    pub const WHOLE: [Self; 4] = [Self::Orbit, Self::Side, Self::Top, Self::Front];
+    /// Views of the whale or from it, in the order of menus.
+    pub const OF_WHALE: [Self; 5] = [Self::Whale, Self::FirstPerson, Self::WhaleSide, Self::WhaleTop, Self::WhaleFront];
+
+    /// Every view.
+    pub fn all() -> impl Iterator<Item = Self> {
+        Self::WHOLE.into_iter().chain(Self::OF_WHALE)
+    }
+
+    /// Whether the eye goes with the whale.
+    #[must_use]
+    pub fn is_of_whale(self) -> bool {
+        Self::OF_WHALE.contains(&self)
+    }
 
     /// Its name on the command line and in menus.
     #[must_use]
@@ -34,13 +57,23 @@ impl View {
             Self::Top => "top",
             Self::Front => "front",
             Self::Whale => "whale",
+            Self::FirstPerson => "first-person",
+            Self::WhaleSide => "whale-side",
+            Self::WhaleTop => "whale-top",
+            Self::WhaleFront => "whale-front",
         }
+    }
+
+    /// Every view's name, for messages.
+    #[must_use]
+    pub fn names() -> String {
+        Self::all().map(Self::name).collect::<Vec<_>>().join(", ")
     }
 
     /// The view of a name.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|view| view.name() == name)
+        Self::all().find(|view| view.name() == name)
     }
 }
 
@@ -57,6 +90,8 @@ pub struct Camera {
     pub elevation: f64,
     /// Whole angle of view, bottom to top [rad].
     pub field_of_view: f64,
+    /// How far the eye is rolled to starboard about its line of sight [rad].
+    pub roll: f64,
 }
 
 /// Nearest to straight up or down that the eye may go, so that "up" stays defined [rad].
@@ -67,12 +102,16 @@ const FREE_ANGLE: f64 = 0.6;
 const FLAT_ANGLE: f64 = 0.12;
 /// Air round what is framed, as a factor on its size.
 const MARGIN: f64 = 1.08;
-/// Angle of view when flying [rad].
+/// Width of a portrait of the whale [body lengths].
+const PORTRAIT: f64 = 1.2;
+/// Angle of view when flying behind the whale [rad].
 const FLY_ANGLE: f64 = 1.0;
+/// Angle of view out of the whale's head: its own rostrum stays in sight [rad].
+const HEAD_ANGLE: f64 = 1.25;
 
 impl Default for Camera {
     fn default() -> Self {
-        Self { target: DVec3::ZERO, distance_m: 100.0, azimuth: -1.1, elevation: 0.12, field_of_view: FREE_ANGLE }
+        Self { target: DVec3::ZERO, distance_m: 100.0, azimuth: -1.1, elevation: 0.12, field_of_view: FREE_ANGLE, roll: 0.0 }
     }
 }
 
@@ -80,19 +119,44 @@ impl Camera {
     /// A camera at a named view with all of `places` in sight; `aspect` is width over height.
     #[must_use]
     pub fn of_view(view: View, places: &[DVec3], whale: Option<&WhaleFrame>, length_m: f64, aspect: f64) -> Self {
-        let quarter = std::f64::consts::FRAC_PI_2;
         let mut camera = Self::default();
-        (camera.azimuth, camera.elevation, camera.field_of_view) = match view {
-            View::Orbit | View::Whale => (-1.1, 0.12, FREE_ANGLE),
-            View::Side => (-quarter, 0.0, FLAT_ANGLE),
-            View::Top => (-quarter, STEEPEST, FLAT_ANGLE),
-            View::Front => (0.0, 0.0, FLAT_ANGLE),
-        };
-        match (view, whale) {
-            (View::Whale, Some(whale)) => camera.follow(whale, length_m),
-            _ => camera.frame(places, aspect),
+        match whale.filter(|_| view.is_of_whale()) {
+            Some(whale) => camera.go_with(view, whale, length_m, aspect),
+            None => camera.look_at_all(view, places, aspect),
         }
         camera
+    }
+
+    /// All of `places` in sight, from where a view of everything stands.
+    fn look_at_all(&mut self, view: View, places: &[DVec3], aspect: f64) {
+        (self.azimuth, self.elevation, self.field_of_view) = match view {
+            View::Side | View::WhaleSide => (-FRAC_PI_2, 0.0, FLAT_ANGLE),
+            View::Top | View::WhaleTop => (-FRAC_PI_2, STEEPEST, FLAT_ANGLE),
+            View::Front | View::WhaleFront => (0.0, 0.0, FLAT_ANGLE),
+            View::Orbit | View::Whale | View::FirstPerson => (-1.1, 0.12, FREE_ANGLE),
+        };
+        self.roll = 0.0;
+        self.frame(places, aspect);
+    }
+
+    /// Goes to a view of the whale or from it; any other view is third person.
+    pub fn go_with(&mut self, view: View, whale: &WhaleFrame, length_m: f64, aspect: f64) {
+        let ahead = whale.orientation * DVec3::X;
+        let heading = ahead.y.atan2(ahead.x);
+        match view {
+            View::FirstPerson => self.first_person(whale, length_m),
+            View::WhaleSide => self.portrait(whale, [heading - FRAC_PI_2, 0.0], length_m, aspect),
+            View::WhaleTop => self.portrait(whale, [heading - FRAC_PI_2, STEEPEST], length_m, aspect),
+            View::WhaleFront => self.portrait(whale, [heading, 0.0], length_m, aspect),
+            _ => self.follow(whale, length_m),
+        }
+    }
+
+    /// The whale alone, from an azimuth and elevation [rad], through a long lens.
+    fn portrait(&mut self, whale: &WhaleFrame, [azimuth, elevation]: [f64; 2], length_m: f64, aspect: f64) {
+        (self.azimuth, self.elevation, self.field_of_view, self.roll) = (azimuth, elevation, FLAT_ANGLE, 0.0);
+        self.target = whale.position;
+        self.distance_m = PORTRAIT * length_m / (2.0 * (FLAT_ANGLE / 2.0).tan() * aspect.max(0.1));
     }
 
     /// Moves so that `places` fill the picture.
@@ -139,18 +203,20 @@ impl Camera {
         self.azimuth = (-ahead.y).atan2(-ahead.x) + 0.25;
         self.elevation = 0.22;
         self.distance_m = 1.6 * length_m;
-        self.field_of_view = FLY_ANGLE;
+        (self.field_of_view, self.roll) = (FLY_ANGLE, 0.0);
     }
 
-    /// First person: at the whale's head, looking ahead.
+    /// First person: above and behind the whale's blowholes, looking ahead over its rostrum, rolled as it is rolled.
     pub fn first_person(&mut self, whale: &WhaleFrame, length_m: f64) {
-        let ahead = whale.orientation * DVec3::X;
-        let eye = whale.position + ahead * (0.52 * length_m) + whale.orientation * DVec3::Z * (0.08 * length_m);
+        let [ahead, dorsal] = [DVec3::X, DVec3::Z].map(|axis| whale.orientation * axis);
+        let eye = whale.position + ahead * (0.27 * length_m) + dorsal * (0.115 * length_m);
         self.distance_m = 10.0;
         self.target = eye + ahead * self.distance_m;
         self.azimuth = (-ahead.y).atan2(-ahead.x);
         self.elevation = (-ahead.z).clamp(-1.0, 1.0).asin();
-        self.field_of_view = FLY_ANGLE;
+        (self.field_of_view, self.roll) = (HEAD_ANGLE, 0.0);
+        let (right, up, _) = self.axes();
+        self.roll = dorsal.dot(right).atan2(dorsal.dot(up));
     }
 
     /// Where the eye is [m].
@@ -165,7 +231,9 @@ impl Camera {
     #[must_use]
     pub fn axes(&self) -> (DVec3, DVec3, DVec3) {
         let ahead = (self.target - self.eye()).normalize_or_zero();
-        let right = DVec3::new(-self.azimuth.sin(), self.azimuth.cos(), 0.0);
+        let level = DVec3::new(-self.azimuth.sin(), self.azimuth.cos(), 0.0);
+        let (sin, cos) = self.roll.sin_cos();
+        let right = level * cos - level.cross(ahead) * sin;
         (right, right.cross(ahead), ahead)
     }
 
@@ -306,5 +374,29 @@ mod tests {
         assert!(camera.axes().2.dot(orientation * DVec3::X) > 0.9);
         camera.first_person(&whale, 13.0);
         assert!((camera.axes().2 - orientation * DVec3::X).length() < 1e-9);
+    }
+
+    #[test]
+    fn first_person_rolls_with_the_whale() {
+        for roll in [0.0, 0.7, -2.0] {
+            let orientation = DQuat::from_rotation_z(-0.6) * DQuat::from_rotation_y(0.3) * DQuat::from_rotation_x(roll);
+            let whale = WhaleFrame { position: DVec3::new(9.0, 1.0, -12.0), orientation, speed_m_s: 1.0, posture: Default::default() };
+            let mut camera = Camera::default();
+            camera.first_person(&whale, 13.0);
+            let (right, up, _) = camera.axes();
+            assert!((up - orientation * DVec3::Z).length() < 1e-9, "roll {roll}: up is {up}");
+            assert!((right - orientation * DVec3::NEG_Y).length() < 1e-9, "roll {roll}: right is {right}");
+        }
+    }
+
+    #[test]
+    fn a_portrait_holds_the_whole_whale_with_its_snout_to_the_right() {
+        let orientation = DQuat::from_rotation_z(2.0);
+        let whale = WhaleFrame { position: DVec3::new(9.0, 1.0, -12.0), orientation, speed_m_s: 1.0, posture: Default::default() };
+        for view in [View::WhaleSide, View::WhaleTop] {
+            let camera = Camera::of_view(view, &[], Some(&whale), 13.0, SIZE.x / SIZE.y);
+            let at = |x: f64| camera.project(whale.position + orientation * DVec3::X * x, SIZE).unwrap().x / SIZE.x;
+            assert!((0.85..0.95).contains(&at(6.5)) && (0.05..0.15).contains(&at(-6.5)), "{view:?}: {} to {}", at(-6.5), at(6.5));
+        }
     }
 }

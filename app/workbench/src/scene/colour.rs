@@ -48,15 +48,21 @@ pub const fn faded(colour: Colour, opacity: f32) -> Colour {
 /// Water far away.
 pub const DEEP: Colour = rgb(0x12, 0x2b, 0x38);
 /// Seabed.
-pub const SEABED: Colour = rgb(0x2c, 0x3f, 0x44);
+pub const SEABED: Colour = rgb(0x4b, 0x59, 0x58);
 /// Sea surface.
 pub const SURFACE: Colour = rgb(0x8f, 0xc6, 0xd6);
 /// Whale skin.
-pub const SKIN: Colour = rgb(0x6d, 0x7b, 0x87);
+pub const SKIN: Colour = rgb(0x3f, 0x49, 0x53);
 /// Rough pale patches of a right whale's head.
-pub const CALLOSITY: Colour = rgb(0x8c, 0x96, 0x9b);
+pub const CALLOSITY: Colour = rgb(0xb3, 0xb4, 0xa9);
 /// Baleen.
-pub const BALEEN: Colour = rgb(0xb8, 0xad, 0x93);
+pub const BALEEN: Colour = rgb(0x9a, 0x93, 0x7c);
+/// Inside of the mouth.
+pub const MOUTH: Colour = rgb(0x9b, 0x7a, 0x7c);
+/// White patches of belly and throat.
+pub const WHITE: Colour = rgb(0xa9, 0xb0, 0xb3);
+/// Eye.
+pub const EYE: Colour = rgb(0x16, 0x16, 0x18);
 /// Buoy.
 pub const BUOY: Colour = rgb(0xe8, 0x6a, 0x33);
 /// Band of a buoy.
@@ -67,6 +73,8 @@ pub const TRAP: Colour = rgb(0xb9, 0xcf, 0xb4);
 pub const TRAP_WIRE: Colour = rgb(0x7f, 0x98, 0x82);
 /// Anchor and other weights.
 pub const STEEL: Colour = rgb(0x93, 0xa1, 0xad);
+/// Obstacles.
+pub const ROCK: Colour = rgb(0x8a, 0x80, 0x72);
 /// Current arrows.
 pub const CURRENT: Colour = rgb(0x58, 0xb7, 0xc9);
 /// Places where rope presses on skin.

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use glam::Vec3;
 use three_d::{
     Blend, Camera as ViewOfPlane, ClearState, ColorTexture, Context, CopyEffect, CoreError, Cull, DepthTest, ElementBuffer, Mat4, Program,
     RenderStates, RenderTarget, RenderTargetMultisample, ScissorBox, Texture2D, Vec3 as GlVec3, VertexBuffer, Viewport, WriteMask,
@@ -9,25 +10,28 @@ use three_d::{
 
 use super::build::{Look, Part, Scene};
 use super::camera::Camera;
+use super::colour::rgb;
 use super::mesh::Colour;
 
 /// Samples a pixel for smooth edges.
 const SAMPLES: u32 = 4;
 
-/// The two ends of the water's gradient, low and high in the picture (sRGB).
+/// Colours of the sea (sRGB).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Water {
-    /// At the bottom.
+    /// Water at the seabed.
     pub low: Colour,
-    /// At the top.
+    /// Water just below the surface.
     pub high: Colour,
+    /// Air above it.
+    pub sky: Colour,
 }
 
 impl Water {
     /// For the dark theme and for pictures.
-    pub const DARK: Self = Self { low: super::colour::rgb(0x0d, 0x1f, 0x29), high: super::colour::rgb(0x1d, 0x42, 0x53) };
+    pub const DARK: Self = Self { low: rgb(0x13, 0x33, 0x42), high: rgb(0x3d, 0x7a, 0x90), sky: rgb(0x6b, 0x8c, 0x99) };
     /// For the light theme.
-    pub const LIGHT: Self = Self { low: super::colour::rgb(0x24, 0x48, 0x57), high: super::colour::rgb(0x4b, 0x7f, 0x93) };
+    pub const LIGHT: Self = Self { low: rgb(0x21, 0x46, 0x56), high: rgb(0x5d, 0x97, 0xab), sky: rgb(0xb4, 0xcd, 0xd6) };
 }
 
 /// Draws scenes; owns its programs, buffers and textures on the graphics card.
@@ -37,6 +41,8 @@ pub struct Drawer {
     backdrop: Program,
     corners: VertexBuffer<[f32; 2]>,
     loaded: Vec<Loaded>,
+    depth_m: f32,
+    time_s: f32,
     target: Option<RenderTargetMultisample<[u8; 4], f32>>,
     picture: Option<Texture2D>,
 }
@@ -50,18 +56,30 @@ struct Loaded {
     normal: VertexBuffer<[f32; 3]>,
     radius: VertexBuffer<f32>,
     colour: VertexBuffer<[f32; 4]>,
+    grain: VertexBuffer<[f32; 3]>,
     triangles: ElementBuffer<u32>,
 }
 
-/// What a draw call needs to know of the eye.
+/// What a draw call needs to know of the eye and the sea.
 struct Eye {
     to_clip: Mat4,
     place: GlVec3,
+    /// From the eye to the right edge, the upper edge and the middle of the picture, one unit ahead.
+    sight: [GlVec3; 3],
     pixel_angle: f32,
     clear_m: f32,
     hide_m: f32,
-    water: [GlVec3; 2],
+    depth_m: f32,
+    time_s: f32,
+    water: [GlVec3; 3],
     viewport: Viewport,
+}
+
+/// Source of a shader, with what all know of the sea before it.
+macro_rules! shader {
+    ($file:literal) => {
+        concat!(include_str!("shaders/sea.glsl"), include_str!($file))
+    };
 }
 
 impl Drawer {
@@ -72,16 +90,17 @@ impl Drawer {
     pub fn new(gl: Arc<three_d::context::Context>) -> Result<Self, String> {
         let build = || -> Result<Self, CoreError> {
             let context = Context::from_gl_context(gl)?;
-            let part = Program::from_source(&context, include_str!("shaders/part.vert"), include_str!("shaders/part.frag"))?;
-            let backdrop = Program::from_source(&context, include_str!("shaders/water.vert"), include_str!("shaders/water.frag"))?;
+            let part = Program::from_source(&context, shader!("shaders/part.vert"), shader!("shaders/part.frag"))?;
+            let backdrop = Program::from_source(&context, include_str!("shaders/backdrop.vert"), shader!("shaders/backdrop.frag"))?;
             let corners = VertexBuffer::new_with_data(&context, &[[-1.0, -1.0], [3.0, -1.0], [-1.0, 3.0]]);
-            Ok(Self { context, part, backdrop, corners, loaded: Vec::new(), target: None, picture: None })
+            Ok(Self { context, part, backdrop, corners, loaded: Vec::new(), depth_m: 1.0, time_s: 0.0, target: None, picture: None })
         };
         build().map_err(|error| format!("the 3-D view cannot use this OpenGL: {error}"))
     }
 
     /// Hands a scene's triangles to the graphics card.
     pub fn load(&mut self, scene: &Scene) {
+        (self.depth_m, self.time_s) = (scene.depth_m.max(1.0) as f32, scene.time_s as f32);
         self.loaded.retain(|loaded| scene.part(loaded.name).is_some());
         for (index, part) in scene.parts.iter().enumerate() {
             if self.loaded.get(index).is_none_or(|loaded| loaded.name != part.name) {
@@ -98,7 +117,7 @@ impl Drawer {
             self.target = Some(RenderTargetMultisample::new(&self.context, width, height, SAMPLES));
         }
         let Some(target) = &self.target else { return };
-        let eye = Eye::new(camera, width, height, water);
+        let eye = self.eye(camera, [width, height], water);
         target.clear(ClearState::color_and_depth(0.0, 0.0, 0.0, 1.0, 1.0));
         let drawn = target.write::<CoreError>(|| {
             self.draw_backdrop(&eye);
@@ -111,9 +130,10 @@ impl Drawer {
     }
 
     fn draw_backdrop(&self, eye: &Eye) {
-        self.backdrop.use_uniform("water_low", eye.water[0]);
-        self.backdrop.use_uniform("water_high", eye.water[1]);
-        self.backdrop.use_uniform("height_px", eye.viewport.height as f32);
+        for (name, sight) in ["right", "up", "ahead"].into_iter().zip(eye.sight) {
+            self.backdrop.use_uniform(name, sight);
+        }
+        eye.sea(&self.backdrop);
         self.backdrop.use_vertex_attribute("corner", &self.corners);
         let states = RenderStates { depth_test: DepthTest::Always, write_mask: WriteMask::COLOR, ..RenderStates::default() };
         self.backdrop.draw_arrays(states, eye.viewport, 3);
@@ -158,6 +178,7 @@ impl Loaded {
             normal: VertexBuffer::new(context),
             radius: VertexBuffer::new(context),
             colour: VertexBuffer::new(context),
+            grain: VertexBuffer::new(context),
             triangles: ElementBuffer::new(context),
         }
     }
@@ -165,8 +186,10 @@ impl Loaded {
     fn fill(&mut self, part: &Part) {
         let mesh = &part.mesh;
         (self.look, self.least_px) = (part.look, part.least_px);
-        self.place.fill(&mesh.place.iter().map(|place| place.to_array()).collect::<Vec<_>>());
-        self.normal.fill(&mesh.normal.iter().map(|normal| normal.to_array()).collect::<Vec<_>>());
+        let arrays = |vectors: &[Vec3]| vectors.iter().map(|vector| vector.to_array()).collect::<Vec<_>>();
+        self.place.fill(&arrays(&mesh.place));
+        self.normal.fill(&arrays(&mesh.normal));
+        self.grain.fill(&arrays(mesh.own_grain()));
         self.radius.fill(&mesh.radius_m);
         self.colour.fill(&mesh.colour);
         self.triangles.fill(mesh.triangles.as_flattened());
@@ -178,22 +201,19 @@ impl Loaded {
             Look::Own => (1, 10.0, false),
             Look::Seabed { grid_m } => (2, grid_m, false),
             Look::Surface => (3, 10.0, true),
+            Look::Skin => (4, 10.0, false),
         };
+        eye.sea(program);
         program.use_uniform("to_clip", eye.to_clip);
-        program.use_uniform("eye", eye.place);
         program.use_uniform("pixel_angle", eye.pixel_angle);
         program.use_uniform("least_px", self.least_px);
         program.use_uniform("look", look);
         program.use_uniform("grid_m", grid_m);
-        program.use_uniform("clear_m", eye.clear_m);
-        program.use_uniform("hide_m", eye.hide_m);
-        program.use_uniform("water_low", eye.water[0]);
-        program.use_uniform("water_high", eye.water[1]);
-        program.use_uniform("height_px", eye.viewport.height as f32);
         program.use_vertex_attribute("place", &self.place);
         program.use_vertex_attribute("normal", &self.normal);
         program.use_vertex_attribute("radius", &self.radius);
         program.use_vertex_attribute("colour", &self.colour);
+        program.use_vertex_attribute("grain", &self.grain);
         program.draw_elements(render_states(see_through), eye.viewport, &self.triangles);
     }
 }
@@ -204,20 +224,39 @@ fn render_states(see_through: bool) -> RenderStates {
     RenderStates { depth_test: DepthTest::LessOrEqual, cull: Cull::None, blend, write_mask }
 }
 
-impl Eye {
-    fn new(camera: &Camera, width: u32, height: u32, water: Water) -> Self {
-        let columns = camera.matrix(f64::from(width) / f64::from(height)).as_mat4().to_cols_array_2d();
-        let place = camera.eye().as_vec3();
+impl Drawer {
+    fn eye(&self, camera: &Camera, size: [u32; 2], water: Water) -> Eye {
+        let [width, height] = size;
+        let aspect = f64::from(width) / f64::from(height);
         let seen_m = camera.metres_a_point(1.0) as f32;
-        let gl = |colour: Colour| GlVec3::new(colour[0], colour[1], colour[2]);
-        Self {
-            to_clip: Mat4::from(columns),
-            place: GlVec3::new(place.x, place.y, place.z),
+        let gl = |vector: Vec3| GlVec3::new(vector.x, vector.y, vector.z);
+        let (right, up, ahead) = camera.axes();
+        let half = (camera.field_of_view / 2.0).tan();
+        Eye {
+            to_clip: Mat4::from(camera.matrix(aspect).as_mat4().to_cols_array_2d()),
+            place: gl(camera.eye().as_vec3()),
+            sight: [right * half * aspect, up * half, ahead].map(|vector| gl(vector.as_vec3())),
             pixel_angle: (camera.metres_a_point(f64::from(height)) / camera.distance_m) as f32,
             clear_m: camera.distance_m as f32,
             hide_m: 2.5 * seen_m + 30.0,
-            water: [gl(water.low), gl(water.high)],
+            depth_m: self.depth_m,
+            time_s: self.time_s,
+            water: [water.low, water.high, water.sky].map(|[red, green, blue, _]: Colour| GlVec3::new(red, green, blue)),
             viewport: Viewport::new_at_origo(width, height),
         }
+    }
+}
+
+impl Eye {
+    /// Tells a program what `sea.glsl` asks.
+    fn sea(&self, program: &Program) {
+        program.use_uniform("eye", self.place);
+        program.use_uniform("clear_m", self.clear_m);
+        program.use_uniform("depth_m", self.depth_m);
+        for (name, colour) in ["water_low", "water_high", "sky"].into_iter().zip(self.water) {
+            program.use_uniform(name, colour);
+        }
+        program.use_uniform_if_required("hide_m", self.hide_m);
+        program.use_uniform_if_required("time_s", self.time_s);
     }
 }

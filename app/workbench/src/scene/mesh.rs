@@ -15,6 +15,8 @@ pub struct Mesh {
     pub radius_m: Vec<f32>,
     /// Red, green, blue, opacity, each 0 to 1 (sRGB), one a vertex.
     pub colour: Vec<[f32; 4]>,
+    /// Places on the body at rest to which its grain sticks, one a vertex [m]; empty where it has none.
+    pub grain: Vec<Vec3>,
     /// Vertices of each triangle, anticlockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
 }
@@ -31,6 +33,12 @@ impl Mesh {
         self.radius_m.push(radius_m);
         self.colour.push(colour);
         index
+    }
+
+    /// Where each vertex's grain is taken [m]: its own place where the mesh has no grain of its own.
+    #[must_use]
+    pub fn own_grain(&self) -> &[Vec3] {
+        if self.grain.len() == self.place.len() { &self.grain } else { &self.place }
     }
 
     /// Number of vertices.

@@ -10,6 +10,7 @@ pub mod camera;
 pub mod colour;
 pub mod draw;
 pub mod mesh;
+pub mod obstacles;
 pub mod offscreen;
 pub mod overlay;
 pub mod picture;
@@ -24,9 +25,6 @@ pub use camera::{Camera, View};
 pub use draw::{Drawer, Water};
 pub use overlay::{N_PER_LBF, Overlay};
 pub use picture::{RenderRequest, render, render_png};
-
-/// Names a picture's view may have.
-pub const VIEW_NAMES: [&str; 5] = ["orbit", "side", "top", "front", "whale"];
 
 #[cfg(test)]
 pub(crate) mod sample;

@@ -21,7 +21,7 @@ pub struct RenderRequest<'a> {
     pub frame: &'a Frame,
     /// Width and height [px].
     pub size: [u32; 2],
-    /// One of [`VIEW_NAMES`](super::VIEW_NAMES).
+    /// Name of a [`View`].
     pub view: &'a str,
     /// Tension at the top of the colour scale [N]; the frame's own peak where `None`.
     pub scale_n: Option<f64>,
@@ -50,8 +50,8 @@ pub fn render_png(request: &RenderRequest<'_>) -> Result<(), String> {
 /// # Errors
 /// As [`render_png`], but for the file.
 pub fn render(request: &RenderRequest<'_>) -> Result<Vec<[u8; 4]>, String> {
-    let view = View::named(request.view)
-        .ok_or_else(|| format!("there is no view `{}`; expected one of {}", request.view, super::VIEW_NAMES.join(", ")))?;
+    let view =
+        View::named(request.view).ok_or_else(|| format!("there is no view `{}`; expected one of {}", request.view, View::names()))?;
     if request.size.into_iter().any(|side| !(16..=LARGEST).contains(&side)) {
         let [width, height] = request.size;
         return Err(format!("a picture of {width} x {height} pixels cannot be drawn; each side may have 16 to {LARGEST}"));

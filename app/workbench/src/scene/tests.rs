@@ -23,6 +23,24 @@ fn every_part_of_the_rig_is_in_the_scene_and_can_be_hidden() {
 }
 
 #[test]
+fn obstacles_stand_where_they_are_and_as_large() {
+    use endline_sim::solids::{Obstacle, ROPE_ON_HARD_N_M2, SolidShape};
+    let mut spec = sample::model().spec;
+    let drum = SolidShape::Cylinder { radius_m: 0.5, half_length_m: 2.0 };
+    for (shape, half) in [(drum, DVec3::new(2.0, 0.5, 0.5)), (SolidShape::Box(DVec3::new(3.0, 2.0, 1.0)), DVec3::new(1.0, 2.0, 3.0))] {
+        // Turned so that z leads east.
+        let orientation = endline_sim::DQuat::from_rotation_arc(DVec3::Z, DVec3::X);
+        let position_m = DVec3::new(4.0, -3.0, -20.0);
+        spec.obstacles =
+            vec![Obstacle { id: "rock".into(), shape, position_m, orientation, friction: 0.3, stiffness_n_m2: ROPE_ON_HARD_N_M2 }];
+        let model = endline_sim::Model::new(spec.clone()).unwrap();
+        let mesh = Scene::of(&model, &sample::frame(&model), &Show::default()).part("obstacles").unwrap().mesh.clone();
+        let reach = (0..mesh.vertices()).map(|vertex| (mesh.surface(vertex).as_dvec3() - position_m).abs()).fold(DVec3::ZERO, DVec3::max);
+        assert!((reach - half).length() < 0.01, "{reach}");
+    }
+}
+
+#[test]
 fn meshes_are_whole_every_index_has_a_vertex_and_every_number_is_finite() {
     for part in scene().parts {
         let mesh = &part.mesh;

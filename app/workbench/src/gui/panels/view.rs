@@ -33,8 +33,6 @@ pub struct ViewState {
     pub scale: ScaleTop,
     /// Whether the eye goes with the whale.
     pub follow: bool,
-    /// Whether it looks out of the whale's head when it does.
-    pub first_person: bool,
     /// Whether to bring everything into sight with the next frame.
     pub frame_again: bool,
     /// The last named view.
@@ -54,7 +52,6 @@ impl Default for ViewState {
             show: Show::default(),
             scale: ScaleTop::default(),
             follow: false,
-            first_person: false,
             frame_again: true,
             named: View::default(),
             canvas: None,
@@ -83,12 +80,20 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
 fn toolbar(ui: &mut Ui, desk: &mut Desk) {
     let state = &mut desk.view3d;
     ui.horizontal(|ui| {
-        for view in View::ALL {
-            let chosen = if view == View::Whale { state.follow } else { !state.follow && state.named == view };
-            if ui.selectable_label(chosen, capital(view.name())).clicked() {
+        for view in View::WHOLE {
+            if ui.selectable_label(!state.follow && state.named == view, capital(view.name())).clicked() {
                 state.look(view);
             }
         }
+        let of_whale = if state.follow { spoken(state.named) } else { "Whale".into() };
+        ui.menu_button(format!("{of_whale} ⏷"), |ui| {
+            for view in View::OF_WHALE {
+                if ui.selectable_label(state.follow && state.named == view, spoken(view)).clicked() {
+                    state.look(view);
+                    ui.close();
+                }
+            }
+        });
         if ui.button("Frame").on_hover_text("See everything (F)").clicked() {
             state.follow = false;
             state.frame_again = true;
@@ -113,6 +118,15 @@ fn toolbar(ui: &mut Ui, desk: &mut Desk) {
     });
 }
 
+/// A view of the whale as a menu says it.
+fn spoken(view: View) -> String {
+    match view {
+        View::Whale => "Behind the whale".into(),
+        View::FirstPerson => "First person".into(),
+        _ => capital(&view.name().replace('-', ", ")),
+    }
+}
+
 /// A word with a capital first letter.
 fn capital(word: &str) -> String {
     let mut letters = word.chars();
@@ -122,10 +136,20 @@ fn capital(word: &str) -> String {
 impl ViewState {
     /// Goes to a named view.
     pub fn look(&mut self, view: View) {
-        self.follow = view == View::Whale;
+        self.follow = view.is_of_whale();
         self.turned = [0.0; 3];
         self.named = view;
         self.frame_again = true;
+    }
+
+    /// Goes with the whale: as it last did, or behind it.
+    pub fn go_with_whale(&mut self) {
+        self.look(if self.named.is_of_whale() { self.named } else { View::Whale });
+    }
+
+    /// From third person to first and back.
+    pub fn change_person(&mut self) {
+        self.look(if self.named == View::FirstPerson { View::Whale } else { View::FirstPerson });
     }
 }
 
@@ -159,10 +183,9 @@ fn place_eye(view: &LiveView, desk: &mut Desk, rect: Rect) {
     let state = &mut desk.view3d;
     let length_m = view.model.spec.whale.as_ref().map_or(10.0, |whale| whale.length_m);
     if let (true, Some(whale)) = (state.follow, &view.frame.whale) {
-        if state.first_person {
-            state.camera.first_person(whale, length_m);
-        } else {
-            state.camera.follow(whale, length_m);
+        let aspect = f64::from(rect.width() / rect.height().max(1.0));
+        state.camera.go_with(state.named, whale, length_m, aspect);
+        if state.named != View::FirstPerson {
             state.camera.azimuth += state.turned[0];
             state.camera.elevation = (state.camera.elevation + state.turned[1]).clamp(-1.4, 1.4);
             state.camera.zoom(state.turned[2]);

@@ -1,20 +1,17 @@
-// Light from above, water that hides what is far, grid lines on the seabed.
-uniform vec3 eye;
-uniform int look;         // 0 solid, 1 own colour, 2 seabed, 3 surface
+// Daylight from above that fades with depth, water that hides what is far, a sandy seabed with grid lines, wet skin.
+uniform int look;         // 0 solid, 1 own colour, 2 seabed, 3 surface, 4 skin
 uniform float grid_m;     // distance of the seabed's lines [m]
-uniform float clear_m;    // distance up to which water hides nothing [m]
-uniform float hide_m;     // distance beyond it at which two thirds are hidden [m]
-uniform vec3 water_low;   // water at the bottom and at the top of the picture
-uniform vec3 water_high;
-uniform float height_px;
 
 in vec3 world;
 in vec3 outward;
 in vec4 tint;
+in vec3 own;              // place on the body at rest, where its grain sticks [m]
 
 out vec4 shown;
 
 const vec3 SUN = vec3(0.26, -0.34, 0.90);
+// Cosine of the angle from straight up within which light enters the sea: asin(1/1.34) = 48.3 degrees.
+const float WINDOW = 0.665;
 
 float lines(vec2 at, float spacing) {
     vec2 cell = at / spacing;
@@ -25,30 +22,69 @@ float lines(vec2 at, float spacing) {
     return max(line.x, line.y);
 }
 
+// Light on a surface: sky above, seabed's dim return below, sun with the ripples' play, a rim against the water.
+vec3 lit(vec3 colour, vec3 n, vec3 view, float rim) {
+    float sky_light = 0.46 + 0.30 * n.z;
+    float sun = max(dot(n, SUN), 0.0) * (0.56 + 0.75 * ripples(world));
+    vec3 edge = rim * pow(1.0 - abs(dot(n, view)), 3.0) * vec3(0.45, 0.68, 0.78);
+    return (colour * (sky_light + sun) + edge) * daylight(world.z);
+}
+
+// Skin: dark and mottled, wet and glossy where it is smooth; rough patches stay dull. Its tint's fourth part says how smooth.
+vec3 skin(vec3 n, vec3 view) {
+    float dull = 1.0 - tint.a;
+    float mottle = 0.6 * grain_at(own * 2.3) + 0.4 * grain_at(own * 9.0);
+    float rough = grain_at(own * 16.0);
+    vec3 colour = tint.rgb * (1.0 + mix(0.13 * mottle, 0.22 * rough, dull));
+    vec3 tilt = vec3(grain_at(own * 14.0 + 7.0), grain_at(own * 14.0 + 31.0), rough);
+    vec3 m = normalize(n + mix(0.03, 0.16, dull) * tilt);
+    float gloss = pow(max(dot(reflect(view, m), SUN), 0.0), 22.0);
+    return lit(colour, m, view, 0.34) + (1.0 - dull) * gloss * vec3(0.20, 0.24, 0.25) * daylight(world.z);
+}
+
+// Sand in low ridges, and lines to measure by.
+vec3 seabed(float far) {
+    float fine = exp(-far / 60.0);
+    float sand = 0.5 * grain_at(world * vec3(0.13, 0.13, 0.0)) + fine * 0.5 * grain_at(world * vec3(1.1, 0.5, 0.0));
+    vec3 colour = tint.rgb * (1.0 + 0.16 * sand + 1.2 * ripples(world)) * daylight(world.z);
+    float line = max(0.20 * lines(world.xy, grid_m), 0.055 * lines(world.xy, grid_m * 0.1));
+    return colour + line * vec3(0.45, 0.60, 0.62);
+}
+
+// The surface. From below: daylight within its round window overhead, the deep mirrored beyond; from above: a veil.
+vec4 surface(vec3 view, float hide) {
+    vec2 wave = vec2(grain_at(vec3(world.xy * 0.55, 0.35 * time_s)), grain_at(vec3(world.yx * 0.55 + 9.0, 0.35 * time_s)));
+    float up = abs(normalize(vec3(view.xy + 0.10 * wave, view.z)).z);
+    float flat_angle = pow(1.0 - abs(view.z), 3.0);
+    if (eye.z > 0.0) {
+        return vec4(mix(tint.rgb, sky, 0.4), (mix(0.12, 0.45, flat_angle) + 0.06 * lines(world.xy, grid_m)) * (1.0 - hide));
+    }
+    float within = smoothstep(WINDOW - 0.16, WINDOW + 0.10, up);
+    vec3 colour = mix(water_at(-0.35 * depth_m) * (1.0 + 0.10 * wave.x), mix(water_high, sky, 0.75) * (1.0 + 0.12 * wave.y), within);
+    colour += 0.04 * lines(world.xy, grid_m);
+    return vec4(mix(colour, backdrop(view), hide), 0.60);
+}
+
 void main() {
     vec3 sight = world - eye;
     float far = length(sight);
     vec3 view = sight / far;
     vec3 n = normalize(outward);
     if (!gl_FrontFacing) { n = -n; }
-    vec3 colour = tint.rgb;
-    float opacity = tint.a;
     float hide = 1.0 - exp(-max(far - clear_m, 0.0) / hide_m);
+    vec3 colour = tint.rgb;
+    if (look == 3) {
+        shown = surface(view, hide);
+        return;
+    }
     if (look == 0) {
-        float sky = 0.42 + 0.30 * n.z;
-        float sun = 0.62 * max(dot(n, SUN), 0.0);
-        float rim = 0.22 * pow(1.0 - abs(dot(n, view)), 3.0);
-        colour = colour * (sky + sun) + rim * vec3(0.55, 0.75, 0.82);
+        colour = lit(colour, n, view, 0.16);
     } else if (look == 1) {
         colour *= 0.80 + 0.20 * abs(dot(n, view));
     } else if (look == 2) {
-        float line = max(0.30 * lines(world.xy, grid_m), 0.10 * lines(world.xy, grid_m * 0.1));
-        colour += line * vec3(0.45, 0.60, 0.62);
-    } else if (look == 3) {
-        float flat_angle = pow(1.0 - abs(dot(n, view)), 3.0);
-        opacity = mix(0.10, 0.42, flat_angle) + 0.10 * lines(world.xy, grid_m);
-        opacity *= 1.0 - hide;
+        colour = seabed(far);
+    } else {
+        colour = skin(n, view);
     }
-    vec3 water = mix(water_low, water_high, gl_FragCoord.y / height_px);
-    shown = vec4(mix(colour, water, look == 3 ? 0.0 : hide), opacity);
+    shown = vec4(mix(colour, backdrop(view), hide), 1.0);
 }

@@ -1,6 +1,0 @@
-// The whole picture, behind everything.
-in vec2 corner;
-
-void main() {
-    gl_Position = vec4(corner, 0.0, 1.0);
-}
