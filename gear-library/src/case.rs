@@ -180,7 +180,8 @@ fn words(fields: &Fields<'_>, key: &'static str, allowed: &[&str]) -> Vec<At<Str
 
 /// A number, or a text with a unit of length, force or another quantity that a probe reads.
 fn reading(node: &Node, problems: &Problems) -> Option<f64> {
-    let known = |text: &str| [Quantity::Length, Quantity::Force].into_iter().find(|quantity| crate::units::parse(text, *quantity).is_ok());
+    let quantities = [Quantity::Length, Quantity::Force, Quantity::Speed];
+    let known = |text: &str| quantities.into_iter().find(|quantity| crate::units::parse(text, *quantity).is_ok());
     let quantity = match &node.content {
         Content::Text(text) => known(text).unwrap_or(Quantity::Force),
         _ => Quantity::Ratio,

@@ -78,6 +78,7 @@ fn faults_of_a_case_are_told_where_they_stand() {
     let place = Place::new("case-faults");
     for (start, line, words) in [
         ("measure", "measure = \"distanze\"", &["reference-a-100.toml:18", "did you mean `distance`"][..]),
+        ("measure", "measure = \"rate\"", &["reference-a-100.toml", "`from` is missing"]),
         ("tolerance", "tolerance = \"3 furlongs\"", &["reference-a-100.toml:20", "furlongs"]),
         ("of = ", "of = [[\"end x\", \"end q\"]]", &["no probe `end q`", "middle z"]),
         ("table", "table = \"reference-z\"", &["reference-z.csv"]),

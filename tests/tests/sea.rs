@@ -72,6 +72,22 @@ fn a_tide_in_rows_and_the_seabed_of_a_scenario_are_read() {
     assert!((waves.toward + DVec3::X).length() < 1e-12 && (waves.ramp_s - 10.0).abs() < 1e-12);
 }
 
+/// A logarithmic current runs at its speed where the scenario says so, by `ln(1 + z/z0)`; the site's holds where it says nothing.
+#[test]
+fn a_logarithmic_current_has_its_speed_at_its_height() {
+    let water = assembled(&single("", "[current]\nspeed = \"0.3 m/s\"\nspeed_height = \"1.5 m\"\nroughness = \"3 mm\"\n")).water;
+    let at = |height: f64| water.current.at(height / 25.0, 0.0).x;
+    assert!((at(1.5) - 0.3).abs() < 1e-12);
+    for height in [0.001, 0.1, 5.0, 25.0] {
+        assert!((at(height) - 0.3 * (1.0 + height / 3e-3_f64).ln() / 501_f64.ln()).abs() < 1e-12, "{height} m");
+    }
+    let water = assembled(&single("item = \"jonesport\"", "").replace("item = \"cape-cod-bay\"\n", "")).water;
+    assert!((water.current.at(1.5 / 30.0, 0.0).x - 0.3).abs() < 1e-12 && water.current.at(1.0, 0.0).x > 0.4);
+    // A speed or a law of the scenario goes over the site's.
+    let slow = single("item = \"jonesport\"", "[current]\nspeed = \"0.2 m/s\"\nexponent = 0\n").replace("item = \"cape-cod-bay\"\n", "");
+    assert!((assembled(&slow).water.current.at(0.01, 0.0).x - 0.2).abs() < 1e-12);
+}
+
 /// Each mistake is told at its line, with how to mend it.
 #[test]
 fn mistakes_in_the_sea_are_told_with_their_place() {
@@ -88,6 +104,16 @@ fn mistakes_in_the_sea_are_told_with_their_place() {
             "[current]\nexponent = 0.1\n[[current.profile]]\nheight = \"0 m\"\nspeed = \"1 m/s\"",
             "exponent",
             ["beside a profile in rows", "take this out"],
+        ),
+        ("", "[current]\nexponent = 0.1\nroughness = \"3 mm\"", "roughness", ["both `exponent` and `roughness`", "keep"]),
+        ("", "[current]\nroughness = \"3 m\"", "roughness", ["`roughness` is 3 m", "1 m"]),
+        ("", "[current]\nspeed_height = \"2 m\"", "speed_height", ["without a `speed`", "take this out"]),
+        ("", "[current]\nspeed = \"1 m/s\"\nspeed_height = \"26 m\"", "speed_height", ["out of the water", "25 m deep"]),
+        (
+            "",
+            "[current]\nroughness = \"3 mm\"\n[[current.profile]]\nheight = \"0 m\"\nspeed = \"1 m/s\"",
+            "roughness",
+            ["beside a profile", "take"],
         ),
         ("", "[[current.profile]]\nspeed = \"1 m/s\"", "[[current.profile]]", ["`height` is missing", "above the seabed"]),
         ("", "[[current.profile]]\nheight = \"1 m\"\ndepth = \"1 m\"\nspeed = \"1 m/s\"", "depth", ["both `height` and `depth`", "keep"]),

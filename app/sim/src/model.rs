@@ -275,6 +275,8 @@ pub enum ProbeTarget {
     TensionAt(usize, f64),
     /// A coordinate of a line at an unstretched length from its end A: 0 x, 1 y, 2 z [m].
     LineAt(usize, f64, usize),
+    /// Greatest height of a line above the seabed, with this unstretched length left out at each end [m].
+    Height(usize, f64),
     /// Mechanical energy of all rope and bodies [J].
     Energy(EnergyForm),
     /// A coordinate of the middle of a line by unstretched length: 0 x, 1 y, 2 z [m].

@@ -20,6 +20,7 @@ impl Builder<'_> {
                 ProbePart::Middle(line, axis) => self.whole_line(line).map(|line| ProbeTarget::LineMiddle(line, *axis)),
                 ProbePart::TensionAt(line, length_m) => self.whole_line(line).map(|line| ProbeTarget::TensionAt(line, *length_m)),
                 ProbePart::LineAt(line, length_m, axis) => self.whole_line(line).map(|line| ProbeTarget::LineAt(line, *length_m, *axis)),
+                ProbePart::Height(line, away_m) => self.whole_line(line).map(|line| ProbeTarget::Height(line, *away_m)),
                 ProbePart::Energy(form) => Some(ProbeTarget::Energy(*form)),
                 ProbePart::Place(part, axis) => self.placed(part, *axis),
             };

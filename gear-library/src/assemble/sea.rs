@@ -57,9 +57,18 @@ impl Builder<'_> {
         if !current.rows.is_empty() {
             return self.tabled(current, depth_m);
         }
-        let speed = current.speed_m_s.unwrap_or_else(|| site.map_or(0.0, |site| site.current_m_s));
-        let exponent = current.exponent.unwrap_or_else(|| site.map_or(0.0, |site| site.current_exponent));
-        Current { tide: current.tide.clone(), ..Current::power(bearing(current.toward_rad) * speed, exponent) }
+        let profile = law(current, site, depth_m);
+        let (speed, height_m) = match current.speed_m_s {
+            Some(speed) => (speed, current.speed_height_m.as_ref().map(|height| height.value)),
+            None => site.map_or((0.0, None), |site| (site.current_m_s, site.current_height_m)),
+        };
+        if let Some(height) = current.speed_height_m.as_ref().filter(|height| height.value > depth_m) {
+            let message = format!("`speed_height` is out of the water, which is {depth_m} m deep");
+            self.problems.push(height.place.error(message, "give a height above the seabed within the water"));
+        }
+        // A site's height may lie above the shallower water of a scenario: there it is the surface.
+        let share = height_m.map_or(1.0, |height| profile.turn(DVec3::X, (height / depth_m).min(1.0)).x);
+        Current { surface_m_s: bearing(current.toward_rad) * (speed / share), profile, tide: current.tide.clone() }
     }
 
     /// A profile in rows: its fastest row is the velocity that the tide turns, the others are measured by it.
@@ -105,6 +114,19 @@ impl Builder<'_> {
     /// Height of the seabed at a place, below zero [m].
     pub fn seabed_height(&self, place: DVec3) -> f64 {
         self.spec.seabed.as_ref().map_or(-self.spec.water.depth_m, |bed| bed.height_at(place))
+    }
+}
+
+/// The law of the current by height: the scenario's over its site's; uniform where there is neither.
+fn law(current: &CurrentOf, site: Option<&SeaSite>, depth_m: f64) -> Profile {
+    match (current.exponent, current.roughness_m) {
+        (Some(exponent), _) => Profile::power(exponent),
+        (None, Some(roughness_m)) => Profile::Log(roughness_m / depth_m),
+        (None, None) => match site.map(|site| (site.current_exponent, site.current_roughness_m)) {
+            Some((None, Some(roughness_m))) => Profile::Log(roughness_m / depth_m),
+            Some((Some(exponent), _)) => Profile::power(exponent),
+            _ => Profile::Uniform,
+        },
     }
 }
 

@@ -40,6 +40,17 @@ pub enum Measure {
         /// What should come out.
         expected: f64,
     },
+    /// Greatest sample of a probe, against a number.
+    Greatest(At<String>, f64),
+    /// Mean rate at which a probe's reading changes from a time on, against a number [unit/s].
+    Rate {
+        /// The probe.
+        of: At<String>,
+        /// From this time on [s].
+        from_s: f64,
+        /// What should come out.
+        expected: f64,
+    },
     /// Greatest reading of a probe above its first, over the greatest of another (none is expected).
     Gain(At<String>, At<String>),
     /// Last reading of a probe below its first, over the greatest of another (none is expected).
@@ -85,7 +96,7 @@ pub(super) fn read(node: &Node, problems: &Problems) -> Option<Check> {
     Some(Check { name: name?.value, measure: measure?, limit: limit? })
 }
 
-const MEASURES: [&str; 10] = ["distance", "series", "peak", "value", "mean", "gain", "loss", "sums", "slope", "fall"];
+const MEASURES: [&str; 12] = ["distance", "series", "peak", "value", "mean", "greatest", "rate", "gain", "loss", "sums", "slope", "fall"];
 
 fn measure(fields: &Fields<'_>) -> Option<Measure> {
     let known = MEASURES.join(", ");
@@ -97,6 +108,11 @@ fn measure(fields: &Fields<'_>) -> Option<Measure> {
         "peak" => probe(fields, "of").map(Measure::Peak),
         "value" => Some(Measure::Value(probe(fields, "of")?, expected(fields)?)),
         "mean" => mean(fields),
+        "greatest" => Some(Measure::Greatest(probe(fields, "of")?, expected(fields)?)),
+        "rate" => {
+            let from = fields.need_value("from", Quantity::Time, Range::NotNegative);
+            Some(Measure::Rate { of: probe(fields, "of")?, from_s: from?.value, expected: expected(fields)? })
+        }
         "gain" => Some(Measure::Gain(probe(fields, "of")?, probe(fields, "over")?)),
         "loss" => Some(Measure::Loss(probe(fields, "of")?, probe(fields, "over")?)),
         "sums" => Some(Measure::Sums),

@@ -1,6 +1,7 @@
 //! A place at sea.
 
 use crate::entry::Entry;
+use crate::fields::Problems;
 
 use super::rope::GRAVITY_M_S2;
 
@@ -15,10 +16,14 @@ pub struct SeaSite {
     pub density_kg_m3: f64,
     /// Gravity [m/s²].
     pub gravity_m_s2: f64,
-    /// Surface speed of a running tide [m/s].
+    /// Speed of a running tide at the surface or at `current_height_m` [m/s].
     pub current_m_s: f64,
-    /// Exponent of the current's power law.
-    pub current_exponent: f64,
+    /// Height above the seabed at which it runs so, if not at the surface [m].
+    pub current_height_m: Option<f64>,
+    /// Exponent of the current's power law, where it has one.
+    pub current_exponent: Option<f64>,
+    /// Roughness length of the bed under a logarithmic law, where it has one [m].
+    pub current_roughness_m: Option<f64>,
     /// Slope of the seabed [rad].
     pub slope_rad: f64,
     /// Compass bearing towards which it falls [rad].
@@ -33,13 +38,16 @@ pub struct SeaSite {
 
 impl SeaSite {
     /// From a file's figures; `None` where one is missing, which is a problem already told.
-    pub(crate) fn from_entry(entry: Entry) -> Option<Self> {
+    pub(crate) fn from_entry(entry: Entry, problems: &Problems) -> Option<Self> {
+        check_law(&entry, problems);
         Some(Self {
             depth_m: entry.value("depth")?,
             density_kg_m3: entry.value("density")?,
             gravity_m_s2: entry.value("gravity").unwrap_or(GRAVITY_M_S2),
             current_m_s: entry.value("current")?,
-            current_exponent: entry.value("current_exponent")?,
+            current_height_m: entry.value("current_height"),
+            current_exponent: entry.value("current_exponent"),
+            current_roughness_m: entry.value("current_roughness"),
             slope_rad: entry.value("slope").unwrap_or(0.0),
             slope_toward_rad: entry.value("slope_toward").unwrap_or(0.0),
             rope_friction: entry.value("rope_friction")?,
@@ -47,5 +55,23 @@ impl SeaSite {
             foot_stiffness_n_m: entry.value("foot_stiffness")?,
             entry,
         })
+    }
+}
+
+/// One law of the current by height, and no height of its speed out of the water.
+fn check_law(entry: &Entry, problems: &Problems) {
+    let help = "write current_exponent = 0.142857 for a power law, or current_roughness = \"3 mm\" for a logarithmic one";
+    match (entry.figure("current_exponent"), entry.figure("current_roughness")) {
+        (None, None) => problems.push(entry.place.error("the current has neither `current_exponent` nor `current_roughness`", help)),
+        (Some(_), Some(roughness)) => {
+            problems.push(roughness.place.error("both `current_exponent` and `current_roughness` are given", help));
+        }
+        _ => {}
+    }
+    if let (Some(height), Some(depth)) = (entry.figure("current_height"), entry.value("depth"))
+        && height.value > depth
+    {
+        let message = format!("`current_height` is out of the water, which is {depth} m deep");
+        problems.push(height.place.error(message, "give a height above the seabed within the water"));
     }
 }

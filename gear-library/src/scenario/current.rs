@@ -19,12 +19,16 @@ const SPEED: Range = Range::Between(0.0, 10.0);
 /// A current as written; what it leaves open is the site's.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CurrentOf {
-    /// Surface speed, over the site's running tide [m/s].
+    /// Speed at the surface or at `speed_height_m`, over the site's running tide [m/s].
     pub speed_m_s: Option<f64>,
+    /// Height above the seabed at which it runs so, if not at the surface [m].
+    pub speed_height_m: Option<At<f64>>,
     /// Compass bearing towards which it runs [rad].
     pub toward_rad: f64,
     /// Exponent of its power law, over the site's.
     pub exponent: Option<f64>,
+    /// Roughness length of the bed under a logarithmic law, over the site's [m].
+    pub roughness_m: Option<f64>,
     /// Rows in place of a power law.
     pub rows: Vec<CurrentRow>,
     /// How it changes with time.
@@ -65,7 +69,16 @@ impl RowHeight {
 impl CurrentOf {
     /// The site's own running tide, to the east.
     pub(super) fn of_site(place: &Place) -> Self {
-        Self { speed_m_s: None, toward_rad: FRAC_PI_2, exponent: None, rows: Vec::new(), tide: Tide::Steady, place: place.clone() }
+        Self {
+            speed_m_s: None,
+            speed_height_m: None,
+            toward_rad: FRAC_PI_2,
+            exponent: None,
+            roughness_m: None,
+            rows: Vec::new(),
+            tide: Tide::Steady,
+            place: place.clone(),
+        }
     }
 }
 
@@ -73,14 +86,13 @@ impl CurrentOf {
 pub(super) fn read(fields: &Fields<'_>) -> CurrentOf {
     let speed = fields.value("speed", Quantity::Speed, SPEED);
     let toward_rad = bearing(fields, "toward");
+    let speed_height = fields.value("speed_height", Quantity::Length, Range::Between(0.01, 6000.0));
     let exponent = fields.value("exponent", Quantity::Ratio, Range::Between(0.0, 1.0));
+    let roughness = fields.value("roughness", Quantity::Length, Range::Between(1e-6, 1.0));
     let rows: Vec<_> = fields.tables("profile").iter().filter_map(|node| row(node, toward_rad, fields.problems())).collect();
     let table = times(fields, toward_rad);
     let tide = fields.table("tide").as_ref().and_then(constituent);
-    if let (false, Some(lone)) = (rows.is_empty(), speed.as_ref().or(exponent.as_ref())) {
-        let help = "the rows of [[current.profile]] tell the speed at every height: take this out, or take them out";
-        fields.problems().push(lone.place.error("a speed or exponent beside a profile in rows", help));
-    }
+    check_law(fields, [&speed, &speed_height, &exponent, &roughness], !rows.is_empty());
     if let (false, Some(lone)) = (table.is_empty(), &speed) {
         let help = "the rows of [[current.at]] tell the speed at every time: take this out, or take them out";
         fields.problems().push(lone.place.error("a `speed` beside a tide in rows", help));
@@ -92,11 +104,33 @@ pub(super) fn read(fields: &Fields<'_>) -> CurrentOf {
     fields.finish();
     CurrentOf {
         speed_m_s: speed.map(|speed| speed.value),
+        speed_height_m: speed_height,
         toward_rad,
         exponent: exponent.map(|exponent| exponent.value),
+        roughness_m: roughness.map(|roughness| roughness.value),
         rows,
         tide: if table.is_empty() { tide.map_or(Tide::Steady, |(tide, _)| tide) } else { Tide::Table(table) },
         place: fields.place.clone(),
+    }
+}
+
+/// One law at most, none beside rows, and no height without the speed that it is the height of.
+fn check_law(fields: &Fields<'_>, [speed, speed_height, exponent, roughness]: [&Option<At<f64>>; 4], has_rows: bool) {
+    let told = |lone: &At<f64>, message: &str, help: &str| fields.problems().push(lone.place.error(message, help));
+    let law = exponent.as_ref().or(roughness.as_ref());
+    if let (true, Some(lone)) = (has_rows, speed.as_ref().or(speed_height.as_ref()).or(law)) {
+        let help = "the rows of [[current.profile]] tell the speed at every height: take this out, or take them out";
+        told(lone, "a speed or exponent beside a profile in rows", help);
+    }
+    if let (Some(_), Some(roughness)) = (exponent, roughness) {
+        told(
+            roughness,
+            "both `exponent` and `roughness` are given",
+            "keep the exponent of a power law or the roughness of a logarithmic one",
+        );
+    }
+    if let (None, Some(height)) = (speed, speed_height) {
+        told(height, "a `speed_height` without a `speed`", "write the speed that the current has at this height, or take this out");
     }
 }
 

@@ -87,6 +87,8 @@ pub enum ProbePart {
     TensionAt(At<String>, f64),
     /// A coordinate of a line at an unstretched length from its end A [m].
     LineAt(At<String>, f64, usize),
+    /// Greatest height of a line above the seabed, with this unstretched length left out at each end [m].
+    Height(At<String>, f64),
     /// Mechanical energy of all rope and bodies.
     Energy(EnergyForm),
     /// A coordinate of the middle of a line.
@@ -183,12 +185,13 @@ pub(super) fn body(node: &Node, file: &Provenance, problems: &Problems) -> Optio
 pub(super) fn probe(node: &Node, problems: &Problems) -> Option<ProbeOf> {
     let fields = Fields::of(node, problems);
     let id = fields.need_text("id", "write an id such as \"anchor tension\"");
-    let of = fields.need_text("of", "write tension, middle, line, place or energy");
-    let of = of.and_then(|_| fields.word("of", &["tension", "middle", "line", "place", "energy"]));
+    let of = fields.need_text("of", "write tension, middle, line, height, place or energy");
+    let of = of.and_then(|_| fields.word("of", &["tension", "middle", "line", "height", "place", "energy"]));
     let part = of.and_then(|of| match of.value.as_str() {
         "tension" => tension(&fields),
         "middle" => coordinate(&fields, "line").map(|(line, axis)| ProbePart::Middle(line, axis)),
         "line" => coordinate(&fields, "line").and_then(|(line, axis)| Some(ProbePart::LineAt(line, length_at(&fields)?, axis))),
+        "height" => height(&fields),
         "energy" => Some(ProbePart::Energy(energy_form(&fields))),
         _ => coordinate(&fields, "part").map(|(part, axis)| ProbePart::Place(part, axis)),
     });
@@ -205,6 +208,13 @@ fn tension(fields: &Fields<'_>) -> Option<ProbePart> {
     let end = fields.need_text("end", "write from or to; or `at`, a length of rope from its end `from`");
     let end = end.and_then(|_| fields.word("end", &["from", "to"]))?;
     Some(ProbePart::Tension(line?, if end.value == "from" { LineEnd::A } else { LineEnd::B }))
+}
+
+/// Of a whole line, or of what lies farther than `away` from its ends.
+fn height(fields: &Fields<'_>) -> Option<ProbePart> {
+    let line = fields.need_text("line", "write the id of a line");
+    let away = fields.value("away", Quantity::Length, Range::NotNegative);
+    Some(ProbePart::Height(line?, away.map_or(0.0, |away| away.value)))
 }
 
 fn length_at(fields: &Fields<'_>) -> Option<f64> {

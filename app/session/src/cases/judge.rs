@@ -29,13 +29,13 @@ pub(super) fn check_names(case: &Case, model: &Model, table: Option<&Table>) -> 
             }
         }
         let fits = match (&check.measure, &case.samples) {
-            (Measure::Sums | Measure::Slope(..) | Measure::Fall { .. }, _) => false,
-            (measure, Samples::Table) => of_table(measure) || matches!(measure, Measure::Value(..) | Measure::Mean { .. }),
+            (Measure::Sums | Measure::Slope(..) | Measure::Fall { .. }, _) | (Measure::Rate { .. }, Samples::Rest) => false,
+            (measure, Samples::Table) => !matches!(measure, Measure::Gain(..) | Measure::Loss(..)),
             (measure, _) => !of_table(measure),
         };
         if !fits {
             let message = format!("`{}` cannot be measured of what this case samples", check.name);
-            let help = "distance, series and peak need at = \"table\"; sums, slope and fall need [rows]";
+            let help = "distance, series and peak need at = \"table\"; rate needs times; sums, slope and fall need [rows]";
             problems.push(Diagnostic::of_file(case.place.source.path.clone(), message, help));
         }
     }
@@ -47,7 +47,9 @@ fn probes(measure: &Measure) -> Vec<&At<String>> {
     match measure {
         Measure::Distance(points) => points.iter().flatten().collect(),
         Measure::Series(probes) => probes.iter().collect(),
-        Measure::Peak(of) | Measure::Value(of, _) | Measure::Mean { of, .. } => vec![of],
+        Measure::Peak(of) | Measure::Value(of, _) | Measure::Greatest(of, _) | Measure::Mean { of, .. } | Measure::Rate { of, .. } => {
+            vec![of]
+        }
         Measure::Gain(of, over) | Measure::Loss(of, over) => vec![of, over],
         Measure::Sums | Measure::Slope(..) | Measure::Fall { .. } => Vec::new(),
     }
@@ -124,6 +126,10 @@ impl Scale<'_> {
                 let unit = if (over - 1.0).abs() > 0.0 { "" } else { self.unit(&of.value) };
                 scalar(unit, *expected, late.iter().sum::<f64>() / late.len() as f64)
             }
+            Measure::Greatest(of, expected) => scalar(self.unit(&of.value), *expected, greatest(readings(of))),
+            Measure::Rate { of, from_s, expected } => {
+                scalar(by_second(self.unit(&of.value)), *expected, rate(&observed.times_s, readings(of), *from_s))
+            }
             Measure::Gain(of, over) => scalar("", 0.0, (greatest(readings(of)) - first(readings(of))) / greatest(readings(over))),
             Measure::Loss(of, over) => {
                 let lost = (first(readings(of)) - last(readings(of))) / greatest(readings(over));
@@ -199,6 +205,23 @@ fn last(readings: &[f64]) -> f64 {
     readings.last().copied().unwrap_or(f64::NAN)
 }
 
+/// Change over time from the first sample at or after a time to the last; not a number where there are not two.
+fn rate(times_s: &[f64], readings: &[f64], from_s: f64) -> f64 {
+    let begin = times_s.iter().position(|time| *time >= from_s - 1e-9).unwrap_or(times_s.len());
+    let (times_s, readings) = (times_s.get(begin..).unwrap_or_default(), readings.get(begin..).unwrap_or_default());
+    (last(readings) - first(readings)) / (last(times_s) - first(times_s))
+}
+
+/// Unit of a rate.
+fn by_second(unit: &str) -> &'static str {
+    match unit {
+        "m" => "m/s",
+        "N" => "N/s",
+        "J" => "W",
+        _ => "1/s",
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -209,5 +232,12 @@ mod tests {
         let found = order(&at(0.1), &at(0.05), &at(0.025)).unwrap();
         assert!((found - 2.0).abs() < 1e-6, "{found}");
         assert_eq!(order(&at(0.1), &at(0.1), &at(0.1)), None);
+    }
+
+    #[test]
+    fn a_rate_is_that_from_its_time_on() {
+        let (times, readings) = ([0.0, 1.0, 2.0, 4.0], [9.0, 0.0, -1.0, -6.0]);
+        assert!((rate(&times, &readings, 1.0) + 2.0).abs() < 1e-12);
+        assert!(rate(&times, &readings, 4.0).is_nan() && rate(&times, &readings, 5.0).is_nan(), "one sample or none has no rate");
     }
 }

@@ -43,7 +43,7 @@ pub struct Outcome {
 pub struct Verdict {
     /// What is compared.
     pub name: String,
-    /// Unit of `expected` and `got`: `m`, `N`, `J` or empty for a pure number.
+    /// Unit of `expected` and `got`: `m`, `N`, `J`, one of these by second, or empty for a pure number.
     pub unit: &'static str,
     /// What should come out; 0 where `got` is itself a difference.
     pub expected: f64,

@@ -25,6 +25,19 @@ pub(super) fn place(model: &Model, state: &State, line: usize, length_m: f64) ->
     nodes.last().copied()
 }
 
+/// Greatest height above the seabed of a line's nodes, those left out that lie less than a length from an end; the middle's
+/// where that leaves none, zero without a line. Without a seabed it is the height above where the water ends [m].
+pub(super) fn height(model: &Model, state: &State, line: usize, away_m: f64) -> f64 {
+    let Some(own) = model.line_segments.get(line) else { return 0.0 };
+    let lengths = &state.rope.segment_length[own.clone()];
+    let whole: f64 = lengths.iter().sum();
+    let above = |place: DVec3| place.z - model.spec.seabed.as_ref().map_or(-model.spec.water.depth_m, |bed| bed.height_at(place));
+    let starts = lengths.iter().scan(0.0, |from, length| Some(std::mem::replace(from, *from + length)));
+    let nodes = state.rope.position[model.line_nodes[line].clone()].iter().zip(starts.chain([whole]));
+    let kept = nodes.filter(|(_, from)| *from >= away_m && whole - from >= away_m).map(|(place, _)| above(*place));
+    kept.reduce(f64::max).or_else(|| middle(model, state, line).map(above)).unwrap_or(0.0)
+}
+
 /// Tension at a length, linear between the middles of segments; that of the last segment beyond its
 /// middle, zero where slack, cut or without a line [N].
 pub(super) fn tension(model: &Model, state: &State, line: usize, length_m: f64) -> f64 {

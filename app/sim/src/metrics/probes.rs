@@ -66,7 +66,11 @@ pub fn unit(target: ProbeTarget) -> &'static str {
     match target {
         ProbeTarget::EndTension(..) | ProbeTarget::TensionAt(..) => "N",
         ProbeTarget::Energy(_) => "J",
-        ProbeTarget::LineAt(..) | ProbeTarget::LineMiddle(..) | ProbeTarget::Joint(..) | ProbeTarget::Body(..) => "m",
+        ProbeTarget::LineAt(..)
+        | ProbeTarget::Height(..)
+        | ProbeTarget::LineMiddle(..)
+        | ProbeTarget::Joint(..)
+        | ProbeTarget::Body(..) => "m",
     }
 }
 
@@ -78,6 +82,7 @@ pub fn reading(model: &Model, state: &State, target: ProbeTarget) -> f64 {
         ProbeTarget::EndTension(line, end) => end_tension(model, state, line, end),
         ProbeTarget::TensionAt(line, length_m) => along::tension(model, state, line, length_m),
         ProbeTarget::LineAt(line, length_m, axis) => coordinate(along::place(model, state, line, length_m), axis),
+        ProbeTarget::Height(line, away_m) => along::height(model, state, line, away_m),
         ProbeTarget::Energy(form) => energy(model, state, form),
         ProbeTarget::LineMiddle(line, axis) => coordinate(along::middle(model, state, line), axis),
         ProbeTarget::Joint(joint, axis) => coordinate(joint_place(model, state, joint), axis),

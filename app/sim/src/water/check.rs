@@ -25,6 +25,10 @@ impl Water {
                 let holds = exponent.is_finite() && *exponent > 0.0;
                 need(holds, format!("exponent of the current is {exponent}, expected a number above zero"));
             }
+            Profile::Log(roughness) => {
+                let holds = roughness.is_finite() && *roughness > 0.0;
+                need(holds, format!("roughness of the current is {roughness} of the depth, expected a number above zero"));
+            }
             Profile::Table(rows) => {
                 let sound = rows.iter().all(|row| row.height.is_finite() && row.along.is_finite() && row.left.is_finite());
                 need(sound && !rows.is_empty(), "profile of the current has no rows, or one that is not finite".into());

@@ -8,6 +8,7 @@
 pub mod check;
 pub mod field;
 pub mod jonswap;
+pub mod law;
 pub mod profile;
 pub mod tide;
 pub mod waves;
@@ -16,7 +17,8 @@ use glam::DVec3;
 
 use crate::model::Seabed;
 use field::{Field, Walk};
-use profile::{PowerTable, Profile};
+use law::LawTable;
+use profile::Profile;
 use tide::Tide;
 use waves::Waves;
 
@@ -64,6 +66,12 @@ impl Current {
         Self { profile: Profile::power(exponent), ..Self::uniform(surface_m_s) }
     }
 
+    /// Steady, by the logarithmic law over a bed of a roughness length that is this share of the depth, above zero.
+    #[must_use]
+    pub fn log(surface_m_s: DVec3, roughness: f64) -> Self {
+        Self { profile: Profile::Log(roughness), ..Self::uniform(surface_m_s) }
+    }
+
     /// Velocity at a share of the depth above the seabed and a time, straight from the formulas [m/s].
     #[must_use]
     pub fn at(&self, height: f64, time_s: f64) -> DVec3 {
@@ -94,7 +102,7 @@ pub struct WaterAt {
 #[derive(Clone, Debug)]
 pub struct Sea {
     current: Current,
-    power: Option<PowerTable>,
+    law: Option<LawTable>,
     depth_m: f64,
     inverse_depth: f64,
     /// How much deeper it gets by a metre east and north.
@@ -110,7 +118,7 @@ impl Sea {
         let slope = (normal.x / normal.z, normal.y / normal.z);
         let is_wet = water.density_kg_m3 > 0.0;
         Self {
-            power: if let Profile::Power(exponent) = water.current.profile { Some(PowerTable::new(exponent)) } else { None },
+            law: LawTable::of(&water.current.profile),
             current: water.current.clone(),
             depth_m: water.depth_m,
             inverse_depth: 1.0 / water.depth_m,
@@ -138,7 +146,7 @@ impl Sea {
     #[must_use]
     pub fn current(&self, place: DVec3, time_s: f64) -> DVec3 {
         let fastest = self.current.tide.velocity(self.current.surface_m_s, time_s);
-        match &self.power {
+        match &self.law {
             Some(table) => fastest * table.share(self.height(place)),
             None => self.current.profile.turn(fastest, self.height(place)),
         }
@@ -148,7 +156,7 @@ impl Sea {
     pub fn current_at(&self, places: &[DVec3], time_s: f64, out: &mut [DVec3]) {
         let fastest = self.current.tide.velocity(self.current.surface_m_s, time_s);
         let pairs = out.iter_mut().zip(places);
-        match (&self.power, &self.current.profile) {
+        match (&self.law, &self.current.profile) {
             (Some(table), _) => pairs.for_each(|(velocity, place)| *velocity = fastest * table.share(self.height(*place))),
             (None, Profile::Uniform) => out.fill(fastest),
             (None, profile) => pairs.for_each(|(velocity, place)| *velocity = profile.turn(fastest, self.height(*place))),

@@ -157,6 +157,25 @@ fn energy_has_its_three_forms() {
     assert!((slack - 500.0 * (0.3 * 0.3 + 2.0 * 0.01)).abs() < 1e-9, "a slack segment holds nothing: {slack} J");
 }
 
+/// The greatest height is that of the highest node far enough from both ends, above a bed that may slope; the middle's
+/// where none is.
+#[test]
+fn the_height_of_a_line_leaves_its_ends_out() {
+    let mut spec = spec(vec![1.0, 3.0, 2.0]);
+    let at = |away_m| Probe { id: String::new(), target: ProbeTarget::Height(0, away_m) };
+    spec.probes = [0.0, 1.5, 3.0].map(at).into();
+    let depth = spec.water.depth_m;
+    let model = model(spec);
+    let mut state = State::start(&model);
+    for (node, height) in [2.0, 7.0, 5.0, 6.0].into_iter().enumerate() {
+        state.rope.position[node] = DVec3::Z * (height - depth);
+    }
+    let read: Vec<f64> = model.spec.probes.iter().map(|probe| reading(&model, &state, probe.target)).collect();
+    // Within 1.5 m of the ends lie the nodes at 0 m, 1 m and 6 m of 6 m; the middle is two thirds along the second segment.
+    let middle = 7.0 - 2.0 * 2.0 / 3.0;
+    assert!(read.iter().zip([7.0, 5.0, middle]).all(|(got, wanted)| (got - wanted).abs() < 1e-12), "{read:?}");
+}
+
 /// Places are linear between nodes, tensions between the middles of segments.
 #[test]
 fn a_line_is_read_at_any_length() {
