@@ -188,8 +188,22 @@ impl Solver {
         self.rest.diagonal.clone_from(&self.band.diagonal);
         self.rest.force.clone_from(&self.band.force);
         self.rest.hubs.copy_values(&self.hubs);
-        self.add_solids(state, scheme, Judged::AsItIs);
         self.measure_tension(model, scheme);
+        self.add_taut(model, state, scheme);
+    }
+
+    /// The same again at the same places, with every segment judged by the tension it has in `trial`.
+    fn assemble_again(&mut self, model: &Model, state: &State, scheme: &Scheme) {
+        self.band.clear();
+        self.band.diagonal.clone_from(&self.rest.diagonal);
+        self.band.force.clone_from(&self.rest.force);
+        self.hubs.copy_values(&self.rest.hubs);
+        self.add_taut(model, state, scheme);
+    }
+
+    /// Adds what a search along a step takes anew, but for contact with skin.
+    fn add_taut(&mut self, model: &Model, state: &State, scheme: &Scheme) {
+        self.add_solids(state, scheme, Judged::AsItIs);
         self.add_tension(model, scheme);
         self.add_bending(model);
         self.add_end_turns(model);

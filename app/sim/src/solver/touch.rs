@@ -30,6 +30,8 @@ const UNSEARCHED_M: f64 = 1e-5;
 pub(crate) const TENSION_GAP_N: f64 = 2.0;
 /// The same as a share of the greatest tension.
 pub(crate) const TENSION_GAP_SHARE: f64 = 0.02;
+/// Most times taut and slack are judged anew in a pass.
+const MOST_JUDGED: usize = 30;
 /// Most times a move is cut because bodies turn.
 const MOST_CUTS: usize = 12;
 /// Least share a cut leaves.
@@ -61,7 +63,7 @@ impl Solver {
             if let Err(ended) = self.assemble_touching(model, state, scheme, work) {
                 return ended;
             }
-            self.solve(model);
+            self.solve_judged(model, state, scheme, work);
             let longest = self.longest();
             if !longest.is_finite() {
                 return Touched::NotFinite;
@@ -73,18 +75,34 @@ impl Solver {
             if self.strayed(state, scheme) > near::MARGIN_M - work.greatest_reach {
                 return Touched::TooFar;
             }
-            // What was cut off is still to go: a move cut to nothing has not converged.
-            let cut_off = (1.0 - safe).max(share - taken).min(0.5);
+            // What a short share leaves is still to go.
             let moved_before_m = last_m;
-            last_m = longest * (taken + cut_off);
+            last_m = longest;
             if taken >= 1.0 {
                 last_m = left_to_go(last_m, moved_before_m);
             }
-            if (cut_off > 0.0 || last_m <= enough(passes)) && self.open_more(work) {
+            if (taken < 1.0 || last_m <= enough(passes)) && self.open_more(work) {
                 last_m = f64::INFINITY;
             }
         }
         Touched::Ended { last_m, passes, crossings }
+    }
+
+    /// Solves, until the segments that pull in the linear system are those that will be taut after the whole step.
+    ///
+    /// Judged by where they are alone, slack rope that the step would draw taut stops the search along it after a small share,
+    /// pass after pass: with segments of a centimetre the passes ran out before anything balanced.
+    fn solve_judged(&mut self, model: &Model, state: &State, scheme: &Scheme, work: &ContactWork) {
+        self.solve(model);
+        for _ in 0..MOST_JUDGED {
+            self.foretell_tension(model, 1.0);
+            if self.pull.iter().zip(&self.trial.tension).all(|(pull, tension)| pull.taut == (*tension > 0.0)) {
+                return;
+            }
+            self.assemble_again(model, state, scheme);
+            self.add_contact_blocks(work);
+            self.solve(model);
+        }
     }
 
     /// Opens slots where rope has come nearer to skin than at those it has; whether there were any.
@@ -107,6 +125,12 @@ impl Solver {
         let Some(friction) = &model.spec.friction else { return Ok(()) };
         work.touching.collect(model, &work.near, &work.slots, state, |slot| slot.touch);
         work.touching.respond(friction, scheme.dt)?;
+        self.add_contact_blocks(work);
+        Ok(())
+    }
+
+    /// Adds push and friction of every slot in touch, with what the plugin answered.
+    fn add_contact_blocks(&mut self, work: &ContactWork) {
         for (place, index) in work.touching.slot.iter().enumerate() {
             let slot = &work.slots.list[*index];
             let Some(touch) = &slot.touch else { continue };
@@ -116,7 +140,6 @@ impl Solver {
                 outer(push, touch.normal) - grip::matrix(&response.by_slip) + outer(DVec3::from_array(response.by_normal_force), push);
             self.add_at(slot.segment, slot.node, slot.fraction, work.touching.force_of(place), &block);
         }
-        Ok(())
     }
 
     /// Adds a force and its block at a fraction of a segment.
