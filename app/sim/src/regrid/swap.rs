@@ -2,9 +2,11 @@
 //!
 //! Split of `a–c` of length `l` at its middle `b`: place, velocity, their histories and grips are means of the ends'. The mass
 //! `m l/4` that leaves each end and `m l/2` that comes to the middle carry the same momentum.
-//! Merge of `a–b–c` of lengths `l, l'`: the mass at `b` goes to its neighbours, `m l'/2` to `a` and `m l/2` to `c` (as a lever
-//! would have it), and brings its velocity along: with `M` the mass of `a` before, `v_a ← (M v_a + m l'/2 v_b)/(M + m l'/2)`.
-//! What a node moved in the step before is averaged in the same way, so that the multistep scheme sees the same momentum.
+//! Merge of `a–b–c` of lengths `l, l'`: the mass at `b` goes to its neighbours, `m l'/2` to `a` and `m l/2` to `c`, as a lever
+//! would have it. Where `b` moves as the straight line between its neighbours does, `v = (l' v_a + l v_c)/(l + l')`, that keeps
+//! the momentum and changes no velocity: rope that turns or stretches evenly goes on doing so. What `b` moves beyond that is
+//! shared out: with `M` the mass of `a` before, `v_a ← v_a + (v_b - v) m l'/2 / (M + m l'/2)`.
+//! What a node moved in the step before is shared in the same way, so that the multistep scheme sees the same momentum.
 
 use glam::DVec3;
 
@@ -33,20 +35,55 @@ fn merge_nodes(rope: &mut RopeState, merge: usize, shift: usize) {
     let hanging = |segment: usize| 0.5 * (rope.segment_length[segment] + rope.segment_length[segment + 1]);
     let (before, after) = (hanging(merge - 1), hanging(merge + 1));
     let middle = merge + shift + 1;
-    take_in(rope, middle - 1, middle, 0.5 * second / (before + 0.5 * second));
-    take_in(rope, middle + 1, middle, 0.5 * first / (after + 0.5 * first));
+    let lever = first / (first + second);
+    let excess = Motion::of(rope, middle).less(&Motion::between(rope, middle - 1, middle + 1, lever));
+    for (node, share) in [(middle - 1, 0.5 * second / (before + 0.5 * second)), (middle + 1, 0.5 * first / (after + 0.5 * first))] {
+        excess.give(rope, node, share);
+        rope.seabed_grip[node] = rope.seabed_grip[node].lerp(rope.seabed_grip[middle], share);
+    }
     rope.tension[merge] = (rope.tension[merge] * first + rope.tension[merge + 1] * second) / (first + second);
     rope.segment_length[merge] = first + second;
 }
 
-/// Gives a node a share of another's motion.
-fn take_in(rope: &mut RopeState, node: usize, other: usize, share: f64) {
-    let blend = |values: &[DVec3]| values[node].lerp(values[other], share);
-    let (velocity, earlier_velocity, seabed_grip) = (blend(&rope.velocity), blend(&rope.earlier_velocity), blend(&rope.seabed_grip));
-    let moved = |node: usize| rope.position[node] - rope.earlier_position[node];
-    let moved = moved(node).lerp(moved(other), share);
-    rope.earlier_position[node] = rope.position[node] - moved;
-    (rope.velocity[node], rope.earlier_velocity[node], rope.seabed_grip[node]) = (velocity, earlier_velocity, seabed_grip);
+/// What the time scheme knows of a node's motion.
+#[derive(Clone, Copy)]
+struct Motion {
+    velocity: DVec3,
+    earlier_velocity: DVec3,
+    /// Way in the step before.
+    moved: DVec3,
+}
+
+impl Motion {
+    fn of(rope: &RopeState, node: usize) -> Self {
+        let moved = rope.position[node] - rope.earlier_position[node];
+        Self { velocity: rope.velocity[node], earlier_velocity: rope.earlier_velocity[node], moved }
+    }
+
+    /// Motion at a share of the way from one node to another.
+    fn between(rope: &RopeState, from: usize, to: usize, share: f64) -> Self {
+        let (from, to) = (Self::of(rope, from), Self::of(rope, to));
+        Self {
+            velocity: from.velocity.lerp(to.velocity, share),
+            earlier_velocity: from.earlier_velocity.lerp(to.earlier_velocity, share),
+            moved: from.moved.lerp(to.moved, share),
+        }
+    }
+
+    fn less(self, other: &Self) -> Self {
+        Self {
+            velocity: self.velocity - other.velocity,
+            earlier_velocity: self.earlier_velocity - other.earlier_velocity,
+            moved: self.moved - other.moved,
+        }
+    }
+
+    /// Adds a share of it to a node's motion.
+    fn give(self, rope: &mut RopeState, node: usize, share: f64) {
+        rope.velocity[node] += self.velocity * share;
+        rope.earlier_velocity[node] += self.earlier_velocity * share;
+        rope.earlier_position[node] -= self.moved * share;
+    }
 }
 
 /// Closes the gap a merge left and opens one behind `split`, which moves one place down.

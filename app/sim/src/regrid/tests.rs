@@ -5,6 +5,9 @@ use glam::DVec3;
 use super::*;
 use crate::contact::slots::segment_of;
 use crate::metrics::tests::{model, spec};
+use crate::model::JointKind;
+use crate::water::Current;
+use crate::{Input, Workspace, step};
 
 /// Rope 0.4 m beside the fixture whale's trunk, 40 m of it in 200 segments, from the bed up.
 fn beside() -> Model {
@@ -137,4 +140,64 @@ fn crooked_taut_rope_stays_as_it_is() {
         state.rope.position[node].y += 0.003;
     }
     assert_eq!(rest(&model, &mut state), 0);
+}
+
+/// Random numbers from 0 to 1: Knuth's multiplicative congruences, upper bits.
+fn draw(seed: &mut u64) -> f64 {
+    *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+    (*seed >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+/// Rope in a current, drawn taut between a fixture and one that goes to and fro, after a second of it.
+fn towed(seed: &mut u64) -> (Model, State) {
+    let mut spec = beside().spec;
+    spec.settings.resolution = None;
+    spec.whale = None;
+    spec.friction = None;
+    spec.water.current = Current::uniform(DVec3::new(0.6 * draw(seed), 0.6 * draw(seed), 0.0));
+    let pull_m = 40.0 * (40.0 + 400.0 * draw(seed)) / spec.ropes[0].axial_stiffness_n;
+    let velocity_m_s = DVec3::new(draw(seed) - 0.5, draw(seed) - 0.5, 0.02 * draw(seed));
+    spec.joints[1].position_m.z = pull_m;
+    spec.joints[1].kind = JointKind::Driven { velocity_m_s, from_s: 0.0, until_s: 100.0 };
+    let model = model(spec);
+    let (mut state, mut workspace) = (State::start(&model), Workspace::new(&model));
+    (0..100).for_each(|_| step(&model, &Input::default(), &mut state, &mut workspace).unwrap());
+    (model, state)
+}
+
+/// One swap at a time on rope under way, drawn at random: what the tension jumps by then and in the step after it.
+#[test]
+fn taut_rope_under_way_keeps_its_tension_through_random_splits_and_joins() {
+    let resolution = Resolution::default();
+    let mut work = RegridWork::new(&beside()).unwrap();
+    let mut seed = 7;
+    let (mut swaps, mut at_once, mut after) = (0, 0.0_f64, 0.0_f64);
+    for _ in 0..12 {
+        let (model, mut state) = towed(&mut seed);
+        for _ in 0..20 {
+            work.wanted.iter_mut().for_each(|wanted| *wanted = 0.06 + draw(&mut seed));
+            let view = Line::of(&model, &state, 0, &work.wanted, &work.gripped, &resolution);
+            let Some((split, merge)) = best(&view) else { continue };
+            let mut other = state.clone();
+            swap::swap(&model, &mut state, 0, split, merge, &mut work);
+            swaps += 1;
+            let greatest = other.rope.tension.iter().copied().fold(0.0, f64::max);
+            let jump = |state: &State, other: &State| {
+                let along = (0..400).map(|k| 0.1 * f64::from(k) + 0.05);
+                along.map(|along| (tension_at(&model, state, along) - tension_at(&model, other, along)).abs()).fold(0.0, f64::max)
+                    / greatest
+            };
+            let momentum =
+                sum(&model, &state, |state, node| state.rope.velocity[node]) - sum(&model, &other, |state, node| state.rope.velocity[node]);
+            assert!(momentum.length() < 1e-12, "{momentum}");
+            at_once = at_once.max(jump(&state, &other));
+            for state in [&mut state, &mut other] {
+                step(&model, &Input::default(), state, &mut Workspace::new(&model)).unwrap();
+            }
+            after = after.max(jump(&state, &other));
+            assert!((state.rope.segment_length.iter().sum::<f64>() - 40.0).abs() < 1e-12);
+        }
+    }
+    println!("{swaps} swaps: tension changes by {:.3} % of the greatest at once, {:.3} % after a step", 100.0 * at_once, 100.0 * after);
+    assert!(swaps > 150 && at_once < 0.002 && after < 0.002, "{swaps} swaps, {at_once}, {after}");
 }

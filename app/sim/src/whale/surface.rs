@@ -25,6 +25,8 @@ pub struct Candidate {
 #[derive(Clone, Debug)]
 pub struct Surface {
     tree: Arc<SkinTree>,
+    /// Levels of the tree.
+    depth: usize,
     step: Step,
     rope: Groups,
     pairs: Vec<Pair>,
@@ -73,7 +75,7 @@ impl Surface {
             triangles: vec![Bounds::EMPTY; tree.order().len()],
             vertices: vec![(0, [DVec3::ZERO; 2]); tree.skin().vertices.len()],
         };
-        let mut surface = Self { tree, step, rope: Groups::default(), pairs: Vec::new(), nodes: Vec::new() };
+        let mut surface = Self { depth: tree.depth(), tree, step, rope: Groups::default(), pairs: Vec::new(), nodes: Vec::new() };
         surface.step.number = 1;
         surface
     }
@@ -133,12 +135,14 @@ impl Surface {
 
     /// Hands over every segment and leaf of the tree that meet, until told to stop.
     fn search(&mut self, segments: &[SweptSegment], margin: f64, mut go_on: impl FnMut(&mut Step, &SkinTree, Pair, &Bounds) -> bool) {
-        let Self { tree, step, rope, pairs, .. } = self;
+        let Self { tree, depth, step, rope, pairs, .. } = self;
         pairs.clear();
         if tree.nodes().is_empty() {
             return;
         }
         rope.fill(segments, margin);
+        // A leaf is met with at most this many waiting: all groups of rope, and what each level on the way down left behind.
+        pairs.reserve(rope.levels[2].len() + *depth + 2 * GROUP);
         pairs.extend((0..rope.levels[2].len()).map(|group| Pair { node: 0, level: 2, group }));
         while let Some(pair) = pairs.pop() {
             let rope_box = rope.levels[pair.level][pair.group];

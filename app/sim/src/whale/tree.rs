@@ -67,6 +67,18 @@ impl SkinTree {
         &self.nodes
     }
 
+    /// Levels from the root to the lowest leaf.
+    pub(super) fn depth(&self) -> usize {
+        let mut levels = vec![1; self.nodes.len()];
+        // Children come after their parent.
+        for (node, at) in self.nodes.iter().enumerate() {
+            for child in at.children.into_iter().flatten() {
+                levels[child] = levels[node] + 1;
+            }
+        }
+        levels.into_iter().max().unwrap_or(0)
+    }
+
     /// Triangles in the order of the leaves.
     pub(super) fn order(&self) -> &[u32] {
         &self.order
