@@ -7,8 +7,9 @@ use endline_sim::metrics::unit;
 use crate::error::Error;
 
 use super::Finer;
+use super::curves;
 use super::observe::Observed;
-use super::outcome::{Convergence, Curve, Outcome, Verdict, error};
+use super::outcome::{Convergence, Outcome, Verdict, error};
 use super::setup::Setup;
 
 /// Readings nearer than this share of their size are the same: no order can be told from them.
@@ -43,7 +44,7 @@ pub(super) fn check_names(case: &Case, model: &Model, table: Option<&Table>) -> 
 }
 
 /// The probes a measure reads.
-fn probes(measure: &Measure) -> Vec<&At<String>> {
+pub(super) fn probes(measure: &Measure) -> Vec<&At<String>> {
     match measure {
         Measure::Distance(points) => points.iter().flatten().collect(),
         Measure::Series(probes) => probes.iter().collect(),
@@ -56,7 +57,7 @@ fn probes(measure: &Measure) -> Vec<&At<String>> {
 }
 
 /// Whether a measure compares with the table's columns.
-fn of_table(measure: &Measure) -> bool {
+pub(super) fn of_table(measure: &Measure) -> bool {
     matches!(measure, Measure::Distance(_) | Measure::Series(_) | Measure::Peak(_))
 }
 
@@ -71,12 +72,12 @@ pub(super) fn outcome(case: &Case, setup: &Setup, table: Option<&Table>, base: &
         verdict.segment = scale.convergence(check, base, finer.segment.as_ref())?;
         verdicts.push(verdict);
     }
-    let curves = scale.curves(case, base)?;
+    let curves = curves::of(&scale, case, base)?;
     Ok(Outcome { curves, ..Outcome::begin(case, setup) }.judged(verdicts))
 }
 
 /// What readings are held against.
-struct Scale<'a> {
+pub(super) struct Scale<'a> {
     model: &'a Model,
     table: Option<&'a Table>,
 }
@@ -91,16 +92,16 @@ struct Measured {
 }
 
 impl Scale<'_> {
-    fn probe(&self, name: &str) -> usize {
+    pub fn probe(&self, name: &str) -> usize {
         // Names were checked before the run.
         self.model.spec.probes.iter().position(|probe| probe.id == name).unwrap_or_default()
     }
 
-    fn unit(&self, name: &str) -> &'static str {
+    pub fn unit(&self, name: &str) -> &'static str {
         self.model.spec.probes.get(self.probe(name)).map_or("", |probe| unit(probe.target))
     }
 
-    fn column(&self, name: &str) -> Result<Vec<f64>, Error> {
+    pub fn column(&self, name: &str) -> Result<Vec<f64>, Error> {
         self.table.map_or(Ok(Vec::new()), |table| table.column(name).map_err(Error::from))
     }
 
@@ -159,30 +160,6 @@ impl Scale<'_> {
         let order = order(&whole.readings, &half.readings, &quarter.readings);
         Ok(Some(Convergence { error_at_half: error(half.expected, half.got, check.limit), order }))
     }
-
-    /// The probes that the checks compare, over time.
-    fn curves(&self, case: &Case, base: &Observed) -> Result<Vec<Curve>, Error> {
-        let mut curves: Vec<Curve> = Vec::new();
-        if base.trace.0.is_empty() {
-            return Ok(curves);
-        }
-        for check in &case.checks {
-            for name in probes(&check.measure) {
-                if curves.iter().any(|curve| curve.probe == name.value) {
-                    continue;
-                }
-                let expected = if of_table(&check.measure) { self.column(&name.value)? } else { Vec::new() };
-                curves.push(Curve {
-                    probe: name.value.clone(),
-                    unit: self.unit(&name.value),
-                    times_s: base.trace.0.clone(),
-                    got: base.trace.1[self.probe(&name.value)].clone(),
-                    expected: base.times_s.iter().zip(expected).map(|(time, reading)| [*time, reading]).collect(),
-                });
-            }
-        }
-        Ok(curves)
-    }
 }
 
 /// Order of convergence from readings at whole, half and quarter; `None` where they do not differ.
@@ -207,9 +184,14 @@ fn last(readings: &[f64]) -> f64 {
 
 /// Change over time from the first sample at or after a time to the last; not a number where there are not two.
 fn rate(times_s: &[f64], readings: &[f64], from_s: f64) -> f64 {
-    let begin = times_s.iter().position(|time| *time >= from_s - 1e-9).unwrap_or(times_s.len());
+    let begin = begin(times_s, from_s);
     let (times_s, readings) = (times_s.get(begin..).unwrap_or_default(), readings.get(begin..).unwrap_or_default());
     (last(readings) - first(readings)) / (last(times_s) - first(times_s))
+}
+
+/// Number of the first sample at or after a time.
+pub(super) fn begin(times_s: &[f64], from_s: f64) -> usize {
+    times_s.iter().position(|time| *time >= from_s - 1e-9).unwrap_or(times_s.len())
 }
 
 /// Unit of a rate.

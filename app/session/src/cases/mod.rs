@@ -5,6 +5,7 @@
 //! `p = log₂(|r₁ - r½| / |r½ - r¼|)` of its readings `r`, which needs no exact answer.
 //! Reference: Roache 1998, Verification of codes and calculations (doi:10.2514/2.457).
 
+mod curves;
 mod judge;
 mod observe;
 mod outcome;

@@ -85,7 +85,7 @@ pub struct Curve {
     pub times_s: Vec<f64>,
     /// Readings.
     pub got: Vec<f64>,
-    /// Time [s] and expected reading, where there is a table.
+    /// Time [s] and expected reading, where it is known.
     pub expected: Vec<[f64; 2]>,
 }
 
