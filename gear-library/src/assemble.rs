@@ -3,6 +3,7 @@
 //! Order: sea, gear of the library, obstacles, parts written in place, lines cut into segments, weak links,
 //! whale and friction, probes. Every problem is collected and told with its place.
 
+mod acts;
 mod around;
 mod body;
 mod builder;

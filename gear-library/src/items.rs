@@ -1,7 +1,9 @@
 //! Library items with their figures by name, ready for assembly.
 
+mod act;
 mod box_gear;
 mod buoy;
+mod channel;
 mod friction;
 mod joints;
 mod knot;
@@ -12,8 +14,10 @@ mod site;
 mod weak_link;
 mod whale;
 
+pub use act::ActItem;
 pub use box_gear::BoxGear;
 pub use buoy::{Buoy, BuoyShape};
+pub use channel::{CHANNELS, Channel};
 pub use friction::RopeFriction;
 pub use joints::Joints;
 pub use knot::Knot;

@@ -33,12 +33,15 @@ pub use diagnostic::{At, Diagnostic, Place, Severity, SourceText};
 pub use document::{Document, EditError, save_text};
 pub use entry::{Entry, FORMAT};
 pub use fields::{Figure, Range, Sureness};
-pub use items::{BoxGear, Buoy, BuoyPiece, BuoyShape, Condition, Joints, Knot, Point, Rope, RopeFriction, SeaSite, WeakLink, WhaleItem};
+pub use items::{
+    ActItem, BoxGear, Buoy, BuoyPiece, BuoyShape, CHANNELS, Channel, Condition, Joints, Knot, Point, Rope, RopeFriction, SeaSite, WeakLink,
+    WhaleItem,
+};
 pub use library::Library;
 pub use line::{Insert, Inserts, LineMake};
 pub use scenario::{
-    Bed, CurrentOf, CurrentRow, Fixture, FreeBody, FrictionChoice, LineStart, ObstacleOf, PlacedGear, ProbeOf, ProbePart, RowHeight,
-    Scenario, Sea, Swimmer,
+    AnswerToTouch, Bed, CurrentOf, CurrentRow, Fixture, FreeBody, FrictionChoice, LineStart, ObstacleOf, PlacedGear, ProbeOf, ProbePart,
+    RowHeight, Scenario, Sea, Swimmer,
 };
 pub use schema::{Field, Kind, Word};
 pub use sources::Sources;

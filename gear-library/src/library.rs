@@ -4,7 +4,7 @@ use crate::assembly::Assembly;
 use crate::diagnostic::Diagnostic;
 use crate::entry::{self, Entry};
 use crate::fields::Problems;
-use crate::items::{BoxGear, Buoy, Knot, Rope, RopeFriction, SeaSite, WeakLink, WhaleItem};
+use crate::items::{ActItem, BoxGear, Buoy, Knot, Rope, RopeFriction, SeaSite, WeakLink, WhaleItem};
 use crate::nearest::hint;
 use crate::schema::Kind;
 use crate::sources::Sources;
@@ -31,6 +31,8 @@ pub struct Library {
     pub frictions: Vec<RopeFriction>,
     /// Whales.
     pub whales: Vec<WhaleItem>,
+    /// Acts of whales.
+    pub acts: Vec<ActItem>,
     /// Assemblies.
     pub assemblies: Vec<Assembly>,
 }
@@ -90,6 +92,7 @@ impl Library {
             Kind::Site => self.sites.extend(SeaSite::from_entry(entry(), problems)),
             Kind::Friction => self.frictions.extend(RopeFriction::from_entry(entry())),
             Kind::Whale => self.whales.extend(WhaleItem::read(node, id, problems)),
+            Kind::Act => self.acts.extend(ActItem::read(node, id, problems)),
             Kind::Assembly => self.assemblies.extend(Assembly::read(node, id, problems)),
         }
     }
@@ -104,6 +107,7 @@ impl Library {
         self.sites.append(&mut fresh.sites);
         self.frictions.append(&mut fresh.frictions);
         self.whales.append(&mut fresh.whales);
+        self.acts.append(&mut fresh.acts);
         self.assemblies.append(&mut fresh.assemblies);
     }
 
@@ -131,6 +135,7 @@ impl Library {
             Kind::Site => self.sites.iter().map(|item| &item.entry).collect(),
             Kind::Friction => self.frictions.iter().map(|item| &item.entry).collect(),
             Kind::Whale => self.whales.iter().map(|item| &item.entry).collect(),
+            Kind::Act => self.acts.iter().map(|item| &item.entry).collect(),
             Kind::Assembly => self.assemblies.iter().map(|item| &item.entry).collect(),
         }
     }

@@ -22,7 +22,7 @@ use crate::tree::{self, Node};
 use crate::units::Quantity;
 
 pub use current::{CurrentOf, CurrentRow, RowHeight};
-pub use motion::Swimmer;
+pub use motion::{AnswerToTouch, Swimmer};
 pub use obstacle::ObstacleOf;
 pub use parts::{Fixture, FreeBody, LineStart, ProbeOf, ProbePart};
 pub use sea::{Bed, Sea};

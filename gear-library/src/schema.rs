@@ -26,6 +26,8 @@ pub enum Kind {
     Friction,
     /// Whale, in `whales/`.
     Whale,
+    /// Act of a whale, in `acts/`.
+    Act,
     /// Assembly of gear, in `assemblies/`.
     Assembly,
 }
@@ -58,7 +60,7 @@ pub struct Word {
 
 impl Kind {
     /// Every kind.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Rope,
         Self::Trap,
         Self::Buoy,
@@ -68,6 +70,7 @@ impl Kind {
         Self::Site,
         Self::Friction,
         Self::Whale,
+        Self::Act,
         Self::Assembly,
     ];
 
@@ -101,6 +104,7 @@ impl Kind {
             Self::Site => SITE,
             Self::Friction => FRICTION,
             Self::Whale => WHALE,
+            Self::Act => ACT,
             Self::Assembly => &[],
         }
     }
@@ -130,6 +134,7 @@ impl Kind {
             Self::Site => ("sites", "site"),
             Self::Friction => ("friction", "friction"),
             Self::Whale => ("whales", "whale"),
+            Self::Act => ("acts", "act"),
             Self::Assembly => ("assemblies", "assembly"),
         }
     }
@@ -291,4 +296,9 @@ const WHALE: &[Field] = &[
     need("flukes.notch", Q::Ratio, SHARE, "depth of the notch, as a share of length"),
     need("flukes.height", Q::Ratio, Between(-0.5, 0.5), "height of the flukes above the snout, as a share of length"),
     need("flukes.edge_radius", Q::Length, Between(0.0, 0.5), "radius of the edges"),
+];
+
+const ACT: &[Field] = &[
+    need("fade", Q::Time, Between(0.1, 30.0), "time to get from what the whale did into the act, and out of it again"),
+    may("turn_rate", Q::TurnRate, Between(0.01, 1.0), "greatest rate of turn to a bank or climb; 15 deg/s where not given"),
 ];

@@ -32,6 +32,7 @@ impl Builder<'_> {
             self.problems.push(swimmer.motion.place.error(message, hint(&swimmer.motion.value, ids.iter().map(String::as_str))));
             return;
         };
+        let motion = self.with_acts(motion, swimmer, item);
         let attributes = swimmer.attributes.resolve(motion.descriptor(), self.library, &mut self.used, &self.problems);
         let length_m = swimmer.length_m.unwrap_or(item.form.length_m);
         let skin = build_skin(&item.form_at(length_m));

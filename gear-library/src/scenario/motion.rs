@@ -7,8 +7,11 @@ use endline_sim::whale::PilotProgram;
 use crate::attributes::Attributes;
 use crate::diagnostic::At;
 use crate::fields::{Fields, Problems, Range};
-use crate::tree::Node;
+use crate::tree::{Content, Node};
 use crate::units::Quantity;
+
+/// Force on one part from which a whale feels rope, where a scenario says nothing else [N]; an estimate.
+const FELT_N: f64 = 1.0;
 
 /// A whale in a scenario.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,8 +36,23 @@ pub struct Swimmer {
     pub motion: At<String>,
     /// Its attributes.
     pub attributes: Attributes,
+    /// Acts of the library it can do, in the order of their numbers; `None` for all.
+    pub acts: Option<Vec<At<String>>>,
+    /// What it does when rope touches it.
+    pub answer: Option<AnswerToTouch>,
     /// Timed controls.
     pub pilot: PilotProgram,
+}
+
+/// What a whale does of itself when rope touches it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AnswerToTouch {
+    /// Id of the act.
+    pub act: At<String>,
+    /// Normal force on one part above which it feels a touch [N].
+    pub above_n: f64,
+    /// It answers again after this long while the touch lasts [s]; infinite for never.
+    pub again_s: f64,
 }
 
 impl Swimmer {
@@ -53,6 +71,8 @@ impl Swimmer {
         let stiffness = fields.value("contact_stiffness", Quantity::Pressure, Range::Positive);
         let motion = fields.need_text("motion", "write the id of a motion plugin, such as \"org.endline.motion.swim\"");
         let attributes = Attributes::read(fields, "attributes");
+        let acts = fields.get("acts").map(|node| acts(node, fields.problems()));
+        let answer = answer(fields);
         let pilot = pilot(fields);
         fields.finish();
         let (position, depth) = (position?, depth?);
@@ -67,9 +87,41 @@ impl Swimmer {
             contact_stiffness_n_m2: stiffness.map(|stiffness| stiffness.value),
             motion: motion?,
             attributes,
+            acts,
+            answer,
             pilot,
         })
     }
+}
+
+/// `acts`: a list of ids.
+fn acts(node: &Node, problems: &Problems) -> Vec<At<String>> {
+    let help = "write a list of acts of the library, such as [\"roll-away\", \"flinch\"]";
+    let Content::List(items) = &node.content else {
+        problems.push(node.place.error(format!("`acts` is {}, not a list", node.content.noun()), help));
+        return Vec::new();
+    };
+    let id = |item: &Node| match &item.content {
+        Content::Text(id) => Some(At { value: id.clone(), place: item.place.clone() }),
+        other => {
+            problems.push(item.place.error(format!("an act is {}, not a text", other.noun()), help));
+            None
+        }
+    };
+    items.iter().filter_map(id).collect()
+}
+
+/// `answer_to_touch`, and what belongs to it.
+fn answer(fields: &Fields<'_>) -> Option<AnswerToTouch> {
+    let act = fields.text("answer_to_touch");
+    let above = fields.value("answer_above", Quantity::Force, Range::NotNegative);
+    let again = fields.value("answer_again", Quantity::Time, Range::Positive);
+    let act = act?;
+    Some(AnswerToTouch {
+        act,
+        above_n: above.map_or(FELT_N, |above| above.value),
+        again_s: again.map_or(f64::INFINITY, |again| again.value),
+    })
 }
 
 /// `[[whale.pilot]]`: from each time on, controls that hold until the next.

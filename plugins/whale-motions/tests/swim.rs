@@ -247,11 +247,15 @@ fn a_glide_comes_to_the_rest_posture() {
 
 #[test]
 fn mouth_and_flippers_take_their_time() {
-    let controls = Controls { mouth: 1.0, flipper_raise: 1.0, ..Controls::default() };
+    let controls = Controls { mouth: 1.0, flipper_raise: 1.0, flipper_sweep: 1.0, ..Controls::default() };
     let out = swim(4.0, 0.01, 0.0, |_| controls);
     let (half, whole) = (out[99].posture.jaw, out[399].posture.jaw);
     assert!((whole - attribute("jaw_open")).abs() < 1e-12 && (half / whole - 0.5).abs() < 1e-6, "{half} of {whole}");
     assert!(out[99].posture.flipper_raise.iter().all(|raise| *raise > 0.5), "tips up");
+    let forward = -40_f64.to_radians();
+    assert!(out[399].posture.flipper_sweep.iter().all(|sweep| (sweep - forward).abs() < 0.01), "forward to the end of their range");
+    let aft = swim(4.0, 0.01, 0.0, |_| Controls { flipper_sweep: -1.0, ..Controls::default() });
+    assert!(aft[399].posture.flipper_sweep.iter().all(|sweep| *sweep > 0.5), "and aft");
 }
 
 #[test]

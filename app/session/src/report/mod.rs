@@ -183,6 +183,24 @@ pub struct WhaleReport {
     pub trailing_m: f64,
     /// Rope from the whale to what holds it [m].
     pub tethered_m: f64,
+    /// The fluke beat, mean over all whole beats; null before one.
+    pub beat: Option<BeatReport>,
+}
+
+/// How the whale beat its flukes; see [`BeatSummary`](endline_sim::metrics::BeatSummary).
+#[derive(Clone, Debug, Serialize)]
+#[allow(non_snake_case, reason = "keys of the JSON contract carry their units")]
+pub struct BeatReport {
+    /// Whole beats.
+    pub beats: u32,
+    /// Beats by time [Hz].
+    pub frequency_Hz: f64,
+    /// Way of the fluke tips from top to bottom [m].
+    pub excursion_m: f64,
+    /// Speed through the water meanwhile [m/s].
+    pub speed_m_s: f64,
+    /// Frequency times excursion over speed; null at rest.
+    pub strouhal: Option<f64>,
 }
 
 /// Rope on a body part.

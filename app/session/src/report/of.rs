@@ -1,7 +1,7 @@
 //! From a run to its summary.
 
 use endline_sim::Audit;
-use endline_sim::metrics::{BodySummary, Event, LineSummary, LinkSummary, ProbeSummary, RegionSummary, Summary, WhaleSummary};
+use endline_sim::metrics::{BeatSummary, BodySummary, Event, LineSummary, LinkSummary, ProbeSummary, RegionSummary, Summary, WhaleSummary};
 use endline_sim::pace::LimitedBy;
 
 use super::*;
@@ -134,6 +134,17 @@ fn whale_report(whale: WhaleSummary) -> WhaleReport {
         drag_added_N: whale.drag_added_n,
         trailing_m: whale.trailing_m,
         tethered_m: whale.tethered_m,
+        beat: whale.beat.map(beat_report),
+    }
+}
+
+fn beat_report(beat: BeatSummary) -> BeatReport {
+    BeatReport {
+        beats: beat.beats,
+        frequency_Hz: beat.frequency_hz,
+        excursion_m: beat.excursion_m,
+        speed_m_s: beat.speed_m_s,
+        strouhal: beat.strouhal,
     }
 }
 

@@ -102,8 +102,25 @@ pub struct WhaleSummary {
     pub trailing_m: f64,
     /// Rope from the whale to traps, anchors and fixtures [m].
     pub tethered_m: f64,
+    /// Its fluke beat; `None` before a whole one.
+    pub beat: Option<BeatSummary>,
     /// Alarm: steps in which a winding jumped by more than 0.3 turns along unbroken contact.
     pub winding_jumps: u64,
+}
+
+/// The fluke beat as swum, mean over all whole beats.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BeatSummary {
+    /// How many whole beats.
+    pub beats: u32,
+    /// Beats by time [Hz].
+    pub frequency_hz: f64,
+    /// Way of the fluke tips from top to bottom [m].
+    pub excursion_m: f64,
+    /// Speed through the water meanwhile [m/s].
+    pub speed_m_s: f64,
+    /// Strouhal number, frequency times excursion over speed [1]; `None` at rest.
+    pub strouhal: Option<f64>,
 }
 
 /// Rope on one part of the whale.

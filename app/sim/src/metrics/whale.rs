@@ -7,6 +7,7 @@ use endline_sdk::BodyPart;
 use super::drag::DragMeter;
 use super::event::{EventKind, Log};
 use super::extent::Extent;
+use super::flukes::FlukeMeter;
 use super::outcome::Encounter;
 use super::regions::Loads;
 use super::strands::Strands;
@@ -30,11 +31,13 @@ pub(super) struct WhaleMeter {
     reach: Reach,
     extent: Extent,
     touches: Touches,
+    flukes: FlukeMeter,
 }
 
 impl WhaleMeter {
     pub(super) fn new(model: &Model) -> Option<Self> {
-        let skin = Arc::clone(&model.spec.whale.as_ref()?.skin);
+        let whale = model.spec.whale.as_ref()?;
+        let skin = Arc::clone(&whale.skin);
         Some(Self {
             winding: Winding::new(&skin, Strands::new(model)),
             loads: Loads::default(),
@@ -43,6 +46,7 @@ impl WhaleMeter {
             reach: Reach::new(model),
             extent: Extent::new(&skin),
             touches: Touches::default(),
+            flukes: FlukeMeter::new(&skin, whale.length_m),
             skin,
         })
     }
@@ -56,6 +60,7 @@ impl WhaleMeter {
         self.encounter.fold(state.time_s, dt_s, touching, self.winding.most());
         self.extent.fold(model, whale, state.time_s, log);
         self.touches.fold(&self.loads, state.time_s, log);
+        self.flukes.fold(whale, state.time_s, dt_s);
         self.tell_wraps(state.time_s, log);
     }
 
@@ -73,6 +78,7 @@ impl WhaleMeter {
             drag_added_now_n: self.drag.now_n,
             trailing_m: beyond.trailing_m,
             tethered_m: beyond.tethered_m,
+            beat: self.flukes.summary(),
             winding_jumps: self.winding.jumps,
         }
     }

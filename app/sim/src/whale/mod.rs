@@ -1,5 +1,6 @@
 //! The whale: a skinned mesh on bones, moved by a motion plugin.
 
+pub mod acts;
 pub(crate) mod approach;
 pub mod bounds;
 pub mod drive;

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use endline_session::Report;
-use endline_session::report::{LineReport, LinkReport, PhaseReport, ProbeReport, WhaleReport};
+use endline_session::report::{BeatReport, LineReport, LinkReport, PhaseReport, ProbeReport, WhaleReport};
 use endline_session::settled::SettledShape;
 
 /// Newtons in a pound-force.
@@ -114,6 +114,11 @@ fn probes(probes: &[ProbeReport]) -> String {
     columns(&rows)
 }
 
+fn beat(beat: &BeatReport) -> String {
+    let strouhal = beat.strouhal.map_or_else(String::new, |strouhal| format!(", Strouhal number {strouhal:.2}"));
+    format!("{:.3} Hz, {:.2} m from top to bottom at {:.2} m/s{strouhal}", beat.frequency_Hz, beat.excursion_m, beat.speed_m_s)
+}
+
 fn whale(whale: &WhaleReport, report: &Report) -> String {
     let undecided = if whale.decided { "" } else { " (undecided: the run is too short to tell)" };
     let mut text = columns(&[
@@ -122,6 +127,7 @@ fn whale(whale: &WhaleReport, report: &Report) -> String {
         vec!["rope drag".into(), force(whale.drag_added_N)],
         vec!["trailing rope".into(), format!("{:.1} m", whale.trailing_m)],
         vec!["joints held at their ends".into(), format!("in {} of {} steps", report.audit.postures_held, report.steps)],
+        vec!["fluke beat".into(), whale.beat.as_ref().map_or_else(|| "none".into(), beat)],
     ]);
     let mut rows = vec![row(&["region", "wraps", "rope in contact", "peak normal force", "friction work"])];
     for region in whale.regions.iter().filter(|region| region.peak_normal_N > 0.0) {

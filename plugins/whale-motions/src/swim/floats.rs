@@ -7,7 +7,7 @@ use endline_sdk::{Controls, HookError};
 use super::settings::Settings;
 
 /// How many floats there are.
-pub(super) const LEN: usize = 10;
+pub(super) const LEN: usize = 11;
 
 /// The floats by name; all zero is a whale at rest that has not begun to swim.
 pub(super) struct Floats {
@@ -24,14 +24,15 @@ pub(super) struct Floats {
     pub mouth: f64,
     pub flipper_raise: f64,
     pub flipper_twist: f64,
+    pub flipper_sweep: f64,
 }
 
 impl Floats {
     pub(super) fn read(state: &[f64]) -> Result<Self, HookError> {
-        let &[phase, effort, speed, pitch, roll, yaw, burst, mouth, flipper_raise, flipper_twist] = state else {
+        let &[phase, effort, speed, pitch, roll, yaw, burst, mouth, flipper_raise, flipper_twist, flipper_sweep] = state else {
             return Err(HookError::new(format!("expected {LEN} floats of state, got {}", state.len())));
         };
-        Ok(Self { phase, effort, speed, pitch, roll, yaw, burst, mouth, flipper_raise, flipper_twist })
+        Ok(Self { phase, effort, speed, pitch, roll, yaw, burst, mouth, flipper_raise, flipper_twist, flipper_sweep })
     }
 
     pub(super) fn write(&self, state: &mut [f64]) {
@@ -46,6 +47,7 @@ impl Floats {
             self.mouth,
             self.flipper_raise,
             self.flipper_twist,
+            self.flipper_sweep,
         ];
         state.copy_from_slice(&all);
     }
@@ -68,6 +70,7 @@ impl Floats {
         approach(&mut self.mouth, controls.mouth.clamp(0.0, 1.0), dt_s / settings.mouth_time_s);
         approach(&mut self.flipper_raise, controls.flipper_raise.clamp(-1.0, 1.0), flipper);
         approach(&mut self.flipper_twist, controls.flipper_twist.clamp(-1.0, 1.0), flipper);
+        approach(&mut self.flipper_sweep, controls.flipper_sweep.clamp(-1.0, 1.0), flipper);
     }
 
     pub(super) fn advance_phase(&mut self, frequency_hz: f64, dt_s: f64) {

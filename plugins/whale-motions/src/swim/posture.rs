@@ -18,6 +18,10 @@ const TURN_SWEEP_RAD: [f64; 2] = [0.5, 0.15];
 /// Flipper twist in a full roll or pitch turn [rad]; an estimate.
 const STEER_TWIST_RAD: f64 = 0.3;
 
+/// How far the flippers are swept forward and aft of where they are in swimming [rad]: of a working range of 10 degrees
+/// forward to 80 aft of the perpendicular, an estimate; rest is 30 aft of it.
+const SWEEP_RAD: [f64; 2] = [0.70, 0.60];
+
 /// Range of a flipper up and down [rad]: working range of a right whale's shoulder, an estimate.
 const RAISE_RAD: [f64; 2] = [0.52, 1.05];
 
@@ -41,12 +45,14 @@ pub(super) fn of(settings: &Settings, floats: &Floats, beat: &Beat) -> Posture {
     }
 }
 
-/// Aft while swimming; forward in a turn, the inner flipper further.
+/// Aft while swimming; forward in a turn, the inner flipper further; forward or aft as the pilot asks.
 fn flipper_sweep(settings: &Settings, floats: &Floats) -> [f64; 2] {
     let aft = settings.flipper_sweep_rad * floats.effort;
     let [inner, outer] = TURN_SWEEP_RAD;
     let (to_port, to_starboard) = (floats.yaw.max(0.0), (-floats.yaw).max(0.0));
-    [aft - inner * to_port - outer * to_starboard, aft - inner * to_starboard - outer * to_port]
+    let [forward, back] = SWEEP_RAD;
+    let asked = aft - if floats.flipper_sweep > 0.0 { forward * floats.flipper_sweep } else { back * floats.flipper_sweep };
+    [asked - inner * to_port - outer * to_starboard, asked - inner * to_starboard - outer * to_port].map(|angle| angle.max(-forward))
 }
 
 fn flipper_raise(control: f64) -> f64 {
