@@ -25,7 +25,7 @@ const WALLS: [Wall; 8] = [
     Wall {
         folder: "gear-library",
         ours: &["endline-sdk", "endline-sim"],
-        outside: Some(&["blake3", "csv", "glam", "libm", "serde", "strsim", "toml", "toml_edit"]),
+        outside: Some(&["base64", "blake3", "csv", "glam", "gltf", "libm", "serde", "serde_json", "strsim", "toml", "toml_edit"]),
     },
     Wall { folder: "app/session", ours: &["endline-sdk", "endline-sim", "endline-gear"], outside: None },
     Wall { folder: "app/workbench", ours: &["endline-sdk", "endline-sim", "endline-gear", "endline-session"], outside: None },
