@@ -35,7 +35,7 @@ pub use entry::{Entry, FORMAT};
 pub use fields::{Figure, Range, Sureness};
 pub use items::{
     ActItem, BoxGear, Buoy, BuoyPiece, BuoyShape, CHANNELS, Channel, Condition, Joints, Knot, Point, Rope, RopeFriction, SeaSite, WeakLink,
-    WhaleItem,
+    WhaleItem, WhaleMesh,
 };
 pub use library::Library;
 pub use line::{Insert, Inserts, LineMake};

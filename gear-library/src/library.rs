@@ -48,6 +48,7 @@ impl Library {
             library.read_file(path, text, &problems);
             all.extend(problems.into_sorted());
         }
+        library.whales.retain_mut(|whale| whale.load_mesh(sources, &all));
         library.check_materials(&all);
         (library, all.into_sorted())
     }

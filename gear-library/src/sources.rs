@@ -1,4 +1,4 @@
-//! The texts of a library, in memory, so that a recording can carry them.
+//! The texts and meshes of a library, in memory, so that a recording can carry them.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -8,11 +8,14 @@ use serde::{Deserialize, Serialize};
 
 use crate::diagnostic::Diagnostic;
 use crate::schema::Kind;
+use crate::whale::gltf::Form;
 
 /// Library files by path relative to the library's folder, such as `ropes/pp-3-8.toml`.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Sources {
     files: BTreeMap<String, String>,
+    /// Whales' own meshes by path, such as `whales/my-whale.glb`.
+    meshes: BTreeMap<String, Vec<u8>>,
 }
 
 impl Sources {
@@ -21,35 +24,47 @@ impl Sources {
     /// # Errors
     /// For a folder that is not there or holds no library, and for each file that cannot be read.
     pub fn from_folder(root: &Path) -> Result<Self, Vec<Diagnostic>> {
-        let mut files = BTreeMap::new();
+        let (mut files, mut meshes) = (BTreeMap::new(), BTreeMap::new());
         let mut problems = Vec::new();
         for kind in Kind::ALL {
             read_folder(root, kind.folder(), &mut files, &mut problems);
         }
+        read_meshes(root, &mut meshes, &mut problems);
         if files.is_empty() && problems.is_empty() {
             let help = "a gear library has folders ropes, traps, buoys, weak-links, anchors, sites, friction, whales, assemblies";
             problems.push(Diagnostic::of_file(root.display().to_string(), "no gear library in this folder", help));
         }
-        if problems.is_empty() { Ok(Self { files }) } else { Err(problems) }
+        if problems.is_empty() { Ok(Self { files, meshes }) } else { Err(problems) }
     }
 
-    /// From texts by path.
+    /// From texts by path, without meshes.
     #[must_use]
     pub fn from_map(files: BTreeMap<String, String>) -> Self {
-        Self { files }
+        Self { files, meshes: BTreeMap::new() }
+    }
+
+    /// These with the meshes of another set.
+    #[must_use]
+    pub fn with_meshes_of(mut self, other: &Self) -> Self {
+        self.meshes.clone_from(&other.meshes);
+        self
     }
 
     /// These with another set laid over them: its files take the place of those of the same path.
     #[must_use]
     pub fn overlay(mut self, over: Self) -> Self {
         self.files.extend(over.files);
+        self.meshes.extend(over.meshes);
         self
     }
 
     /// Only the files of these paths, such as a model was made from.
     #[must_use]
     pub fn only(&self, paths: &[String]) -> Self {
-        Self { files: self.files.iter().filter(|(path, _)| paths.contains(path)).map(|(p, t)| (p.clone(), t.clone())).collect() }
+        fn kept<T: Clone>(all: &BTreeMap<String, T>, paths: &[String]) -> BTreeMap<String, T> {
+            all.iter().filter(|(path, _)| paths.contains(path)).map(|(path, content)| (path.clone(), content.clone())).collect()
+        }
+        Self { files: kept(&self.files, paths), meshes: kept(&self.meshes, paths) }
     }
 
     /// Paths and texts, by path.
@@ -61,6 +76,22 @@ impl Sources {
     #[must_use]
     pub fn get(&self, path: &str) -> Option<&str> {
         self.files.get(path).map(String::as_str)
+    }
+
+    /// Paths and bytes of the meshes, by path.
+    pub fn meshes(&self) -> impl Iterator<Item = (&str, &[u8])> {
+        self.meshes.iter().map(|(path, bytes)| (path.as_str(), bytes.as_slice()))
+    }
+
+    /// The bytes of a mesh.
+    #[must_use]
+    pub fn mesh(&self, path: &str) -> Option<&[u8]> {
+        self.meshes.get(path).map(Vec::as_slice)
+    }
+
+    /// Puts a mesh in the place of another, or adds it.
+    pub fn set_mesh(&mut self, path: impl Into<String>, bytes: Vec<u8>) {
+        self.meshes.insert(path.into(), bytes);
     }
 
     /// Puts a text in the place of a file's, or adds it.
@@ -80,6 +111,30 @@ fn read_folder(root: &Path, folder: &str, files: &mut BTreeMap<String, String>, 
             Err(error) => {
                 let help = "a library file is text in UTF-8 that you may read";
                 problems.push(Diagnostic::of_file(format!("{folder}/{name}"), format!("cannot be read: {error}"), help));
+            }
+        }
+    }
+}
+
+/// Whales' meshes, `whales/*.glb` and `whales/*.gltf`.
+fn read_meshes(root: &Path, meshes: &mut BTreeMap<String, Vec<u8>>, problems: &mut Vec<Diagnostic>) {
+    let folder = Kind::Whale.folder();
+    let Ok(entries) = fs::read_dir(root.join(folder)) else { return };
+    for path in entries.flatten().map(|entry| entry.path()) {
+        let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        if Form::of_file(&name).is_none() {
+            continue;
+        }
+        match fs::read(&path) {
+            Ok(bytes) => {
+                meshes.insert(format!("{folder}/{name}"), bytes);
+            }
+            Err(error) => {
+                problems.push(Diagnostic::of_file(
+                    format!("{folder}/{name}"),
+                    format!("cannot be read: {error}"),
+                    "a mesh is a file you may read",
+                ));
             }
         }
     }

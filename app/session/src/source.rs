@@ -100,6 +100,10 @@ impl Source {
             text(content);
         }
         text(&format!("{:?}", self.overrides));
+        for (path, bytes) in self.library.meshes() {
+            hasher.update(path.as_bytes());
+            hasher.update(blake3::hash(bytes).as_bytes());
+        }
         hasher.finalize().to_hex().to_string()
     }
 }

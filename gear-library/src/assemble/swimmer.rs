@@ -10,7 +10,6 @@ use crate::attributes::numbers;
 use crate::nearest::hint;
 use crate::scenario::Swimmer;
 use crate::schema::Kind;
-use crate::whale::build_skin;
 
 use super::builder::Builder;
 
@@ -26,6 +25,7 @@ impl Builder<'_> {
             return;
         };
         self.uses(&item.entry.path);
+        item.mesh.iter().for_each(|mesh| self.uses(&mesh.file.value));
         let Some(motion) = self.hooks.motion(&swimmer.motion.value) else {
             let ids = self.hooks.ids();
             let message = format!("no whale motion `{}` among the plugins", swimmer.motion.value);
@@ -35,7 +35,7 @@ impl Builder<'_> {
         let motion = self.with_acts(motion, swimmer, item);
         let attributes = swimmer.attributes.resolve(motion.descriptor(), self.library, &mut self.used, &self.problems);
         let length_m = swimmer.length_m.unwrap_or(item.form.length_m);
-        let skin = build_skin(&item.form_at(length_m));
+        let skin = item.skin_at(length_m);
         self.spec.whale = Some(Whale {
             measures: Measures::of(&skin, item.density_kg_m3),
             skin: Arc::new(skin),

@@ -9,7 +9,7 @@ use crate::tree::{Content, Node};
 use crate::units::Quantity;
 use crate::whale::{FlipperForm, FlukesForm, HeadForm, Station, WhaleForm};
 
-use super::Joints;
+use super::{Joints, WhaleMesh};
 
 /// Density of a whale that neither sinks nor rises [kg/m³].
 const SEA_WATER_KG_M3: f64 = 1025.0;
@@ -27,6 +27,8 @@ pub struct WhaleItem {
     pub density_kg_m3: f64,
     /// How far its joints turn.
     pub joints: Joints,
+    /// Its own mesh, in place of one made from its measures.
+    pub mesh: Option<WhaleMesh>,
     /// Greatest speed it can swim [m/s].
     pub burst_speed_m_s: f64,
     /// Stiffness of skin and blubber under rope, by length of rope [N/m²].
@@ -43,12 +45,14 @@ impl WhaleItem {
         let sections = sections(&fields, &file);
         let spine = spine(&fields, &file);
         let joints = Joints::read(&fields, &file);
+        let mesh = WhaleMesh::read(&fields);
         fields.finish();
         let sections = sections?;
         Some(Self {
             form: form(&entry, &sections, spine?)?,
             density_kg_m3: entry.value("density").unwrap_or(SEA_WATER_KG_M3),
             joints: joints?,
+            mesh,
             burst_speed_m_s: entry.value("burst_speed")?,
             contact_stiffness_n_m2: entry.value("contact_stiffness")?,
             sections,

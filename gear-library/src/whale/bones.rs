@@ -20,13 +20,18 @@ pub struct Skeleton {
     pub jaw: u16,
     /// Bone of each stretch of the body from the head to the flukes.
     stretches: Vec<u16>,
-    /// Joints between those stretches [share of length from the snout].
-    joints: Vec<f64>,
+    /// Where one of those stretches bends on the next [share of length from the snout].
+    bends: Vec<f64>,
     /// Left fluke and its tip; the right ones follow.
     pub fluke: [u16; 2],
     /// Left flipper's shoulder, blade and tip; the right ones follow.
     pub flipper: [u16; 3],
 }
+
+/// Spine joints that two bones share half and half: those of the tail stock, which is thin and bends far.
+const SHARED: std::ops::Range<usize> = 4..SPINE_JOINTS;
+/// How far on either side of such a joint its two bones turn [share of the way to the nearest joint].
+const APART: f64 = 0.25;
 
 /// Where the fluke blades bend [share of half span].
 pub const FLUKE_BENDS: [f64; 2] = [0.22, 0.60];
@@ -37,17 +42,11 @@ impl Skeleton {
     /// The skeleton of a form.
     #[must_use]
     pub fn of(form: &WhaleForm, sections: &Sections) -> Self {
-        let mut skeleton = Self {
-            bones: vec![control()],
-            skull: 0,
-            jaw: 0,
-            stretches: vec![0],
-            joints: form.spine_joints.to_vec(),
-            fluke: [0; 2],
-            flipper: [0; 3],
-        };
+        let mut skeleton =
+            Self { bones: vec![control()], skull: 0, jaw: 0, stretches: vec![0], bends: Vec::new(), fluke: [0; 2], flipper: [0; 3] };
         let middle = form.spine_joints.iter().filter(|&&joint| joint < 0.5).count();
         skeleton.add_fore_spine(form, sections, middle);
+        skeleton.bends.extend(&form.spine_joints[..middle]);
         skeleton.add_jaw(form, sections);
         skeleton.add_aft_spine(form, sections, middle);
         skeleton.add_flukes(form, sections);
@@ -55,13 +54,13 @@ impl Skeleton {
         skeleton
     }
 
-    /// Weights of a point of the body: the two stretches that meet at the nearest joint.
+    /// Weights of a point of the body: the two stretches that meet at the nearest bend.
     #[must_use]
     pub fn along_body(&self, at: f64) -> Weights {
         let mut weights = [(self.stretches[0], 1.0), (0, 0.0), (0, 0.0), (0, 0.0)];
-        for (index, &joint) in self.joints.iter().enumerate() {
+        for (index, &bend) in self.bends.iter().enumerate() {
             let reach = self.reach(index);
-            let aft = smooth_step(joint - reach, joint + reach, at);
+            let aft = smooth_step(bend - reach, bend + reach, at);
             if aft > 0.0 {
                 weights = [(self.stretches[index], 1.0 - aft), (self.stretches[index + 1], aft), (0, 0.0), (0, 0.0)];
             }
@@ -69,11 +68,11 @@ impl Skeleton {
         weights
     }
 
-    /// How far a joint's bend spreads, so that it ends before its neighbours' begin.
-    fn reach(&self, joint: usize) -> f64 {
-        let here = self.joints[joint];
+    /// How far a bend spreads, so that it ends before its neighbours begin.
+    fn reach(&self, bend: usize) -> f64 {
+        let here = self.bends[bend];
         let gap = |other: Option<&f64>| other.map_or(f64::INFINITY, |place| (place - here).abs());
-        0.48 * gap(self.joints.get(joint + 1)).min(gap(joint.checked_sub(1).and_then(|before| self.joints.get(before))))
+        0.48 * gap(self.bends.get(bend + 1)).min(gap(bend.checked_sub(1).and_then(|before| self.bends.get(before))))
     }
 
     /// Hands part of a vertex's weights over to another bone; the least of five bones gives way.
@@ -99,7 +98,7 @@ impl Skeleton {
     fn add_fore_spine(&mut self, form: &WhaleForm, sections: &Sections, middle: usize) {
         let mut parent = 0;
         for joint in (0..middle).rev() {
-            parent = self.push(&spine_name(joint), parent, sections.axis(form.spine_joints[joint]), &spine_turns(joint, 1.0));
+            parent = self.push(&spine_name(joint), parent, sections.axis(form.spine_joints[joint]), &spine_turns(joint, 1.0, 1.0));
             self.stretches.insert(0, parent);
         }
         self.skull = parent;
@@ -108,8 +107,11 @@ impl Skeleton {
     fn add_aft_spine(&mut self, form: &WhaleForm, sections: &Sections, middle: usize) {
         let mut parent = 0;
         for joint in middle..SPINE_JOINTS {
-            parent = self.push(&spine_name(joint), parent, sections.axis(form.spine_joints[joint]), &spine_turns(joint, -1.0));
-            self.stretches.push(parent);
+            for (name, at, share) in bends_of(form, joint) {
+                parent = self.push(&name, parent, sections.axis(at), &spine_turns(joint, share, -1.0));
+                self.stretches.push(parent);
+                self.bends.push(at);
+            }
         }
     }
 
@@ -119,11 +121,10 @@ impl Skeleton {
     }
 
     fn add_flukes(&mut self, form: &WhaleForm, sections: &Sections) {
-        let joint = 1.0 - 0.8 * form.flukes.root_chord;
-        let joint = joint.max(form.spine_joints[SPINE_JOINTS - 1] + 0.01);
+        let joint = fluke_joint(form);
         let peduncle = self.stretches[self.stretches.len() - 1];
         let flukes = self.push("flukes", peduncle, sections.axis(joint), &[(Angle::FlukePitch, 1.0, DVec3::NEG_Y)]);
-        self.joints.push(joint);
+        self.bends.push(joint);
         self.stretches.push(flukes);
         let height = form.flukes.height * form.breadth_scale;
         for (side, name, out) in sides() {
@@ -146,10 +147,12 @@ impl Skeleton {
             let hinge = |bend: f64| root + span * bend * form.flippers.span * form.length_m;
             let twist = |share: f64| (Angle::FlipperTwist(side), share, span * out);
             let raise = |share: f64| (Angle::FlipperRaise(side), share, DVec3::X * out);
+            let chord = DVec3::new(libm::cos(form.flippers.sweep), libm::sin(form.flippers.sweep), 0.0) * mirror;
+            let flex = (Angle::FlipperFlex(side), 0.5, chord * out);
             let sweep = (Angle::FlipperSweep(side), 1.0, DVec3::Z * out);
             let shoulder = self.push(&format!("{name}_flipper_shoulder"), chest, hinge(FLIPPER_BENDS[0]), &[twist(0.4), raise(0.8), sweep]);
-            let blade = self.push(&format!("{name}_flipper_blade"), shoulder, hinge(FLIPPER_BENDS[1]), &[twist(0.4), raise(0.2)]);
-            let tip = self.push(&format!("{name}_flipper_tip"), blade, hinge(FLIPPER_BENDS[2]), &[twist(0.2)]);
+            let blade = self.push(&format!("{name}_flipper_blade"), shoulder, hinge(FLIPPER_BENDS[1]), &[twist(0.4), raise(0.2), flex]);
+            let tip = self.push(&format!("{name}_flipper_tip"), blade, hinge(FLIPPER_BENDS[2]), &[twist(0.2), flex]);
             if side == 0 {
                 self.flipper = [shoulder, blade, tip];
             }
@@ -188,8 +191,28 @@ fn spine_name(joint: usize) -> String {
     if joint == 0 { "skull".into() } else { format!("spine_{joint}") }
 }
 
-/// A positive pitch bends what lies aft down, a positive yaw swings it to starboard; `way` is 1 for
-/// a bone that carries what lies ahead, -1 for one that carries what lies aft.
-fn spine_turns(joint: usize, way: f64) -> [(Angle, f64, DVec3); 2] {
-    [(Angle::SpinePitch(joint), 1.0, DVec3::Y * way), (Angle::SpineYaw(joint), 1.0, DVec3::NEG_Z * way)]
+/// Where the flukes hinge on the tail stock [share of length from the snout].
+fn fluke_joint(form: &WhaleForm) -> f64 {
+    (1.0 - 0.8 * form.flukes.root_chord).max(form.spine_joints[SPINE_JOINTS - 1] + 0.01)
+}
+
+/// The bones of a spine joint aft of mid-body: name, place [share of length from the snout] and share of the joint's angles.
+fn bends_of(form: &WhaleForm, joint: usize) -> Vec<(String, f64, f64)> {
+    let here = form.spine_joints[joint];
+    if !SHARED.contains(&joint) {
+        return vec![(spine_name(joint), here, 1.0)];
+    }
+    let next = form.spine_joints.get(joint + 1).copied().unwrap_or_else(|| fluke_joint(form));
+    let apart = APART * (next - here).min(here - form.spine_joints[joint - 1]);
+    vec![(spine_name(joint), here - apart, 0.5), (format!("{}_aft", spine_name(joint)), here + apart, 0.5)]
+}
+
+/// A positive pitch bends what lies aft down, a positive yaw swings it to starboard, a positive roll turns its starboard side
+/// down; `way` is 1 for a bone that carries what lies ahead, -1 for one that carries what lies aft.
+fn spine_turns(joint: usize, share: f64, way: f64) -> [(Angle, f64, DVec3); 3] {
+    [
+        (Angle::SpinePitch(joint), share, DVec3::Y * way),
+        (Angle::SpineYaw(joint), share, DVec3::NEG_Z * way),
+        (Angle::SpineRoll(joint), share, DVec3::NEG_X * way),
+    ]
 }

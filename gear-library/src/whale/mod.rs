@@ -5,6 +5,7 @@ pub mod bones;
 pub mod curve;
 pub mod fins;
 pub mod form;
+pub mod gltf;
 pub mod part;
 pub mod section;
 
@@ -24,6 +25,15 @@ pub fn build_skin(form: &WhaleForm) -> Skin {
     let right = left.mirrored(|bone| skeleton.other_side(bone), fins::other_side);
     let parts = [body::body(form, &sections, &skeleton), left, right, fins::flukes(form, &sections, &skeleton)];
     part::join(&parts, skeleton.bones)
+}
+
+/// A skin made larger or smaller about the whale's origin, bones and all.
+#[must_use]
+pub fn scaled(skin: &Skin, factor: f64) -> Skin {
+    let mut skin = skin.clone();
+    skin.vertices.iter_mut().for_each(|place| *place *= factor);
+    skin.bones.iter_mut().for_each(|bone| bone.origin *= factor);
+    skin
 }
 
 #[cfg(test)]

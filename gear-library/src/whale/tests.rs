@@ -46,7 +46,7 @@ fn weights_are_shares_of_known_bones() {
         assert!(bone.parent.is_none_or(|parent| parent < index), "{} stands before its parent", bone.name);
         assert!(bone.turns.iter().all(|(_, axis)| (axis.length() - 1.0).abs() < 1e-12));
     }
-    assert!(skin.bones.len() >= 20 && skin.bones[0].parent.is_none());
+    assert!(skin.bones.len() >= 25 && skin.bones[0].parent.is_none());
 }
 
 #[test]
@@ -119,6 +119,7 @@ fn sides_move_as_mirror_images() {
         flipper_raise: [0.5, 0.0],
         flipper_sweep: [0.4, 0.0],
         flipper_twist: [0.3, 0.0],
+        flipper_flex: [0.2, 0.0],
         fluke_flex: [0.2, 0.0],
         ..Posture::default()
     };
@@ -126,6 +127,7 @@ fn sides_move_as_mirror_images() {
         flipper_raise: [0.0, 0.5],
         flipper_sweep: [0.0, 0.4],
         flipper_twist: [0.0, 0.3],
+        flipper_flex: [0.0, 0.2],
         fluke_flex: [0.0, 0.2],
         ..Posture::default()
     };
@@ -160,6 +162,9 @@ fn angles_turn_the_way_the_posture_says() {
     assert!(moved(&Posture { fluke_pitch: 0.3, ..Posture::default() }, left_fluke).z < -0.1);
     assert!(moved(&Posture { fluke_flex: [0.3, 0.0], ..Posture::default() }, left_fluke).z > 0.1);
     assert!(moved(&Posture { flipper_raise: [0.3, 0.0], ..Posture::default() }, flipper).z > 0.3);
+    assert!(moved(&Posture { flipper_flex: [0.3, 0.0], ..Posture::default() }, flipper).z > 0.1);
+    let rolled = moved(&Posture { spine_roll: all(0.02), ..Posture::default() }, left_fluke);
+    assert!(rolled.z > 0.1 && rolled.x.abs() < 0.05, "roll lifts the left fluke: {rolled}");
     assert!(moved(&Posture { flipper_sweep: [0.3, 0.0], ..Posture::default() }, flipper).x < -0.3);
     let open = posed(&skin, &Posture { jaw: 0.3, ..Posture::default() });
     let lowest = |places: &[DVec3]| places.iter().filter(|p| p.x > 5.0).map(|p| p.z).fold(f64::INFINITY, f64::min);
@@ -235,10 +240,10 @@ fn every_angle_has_a_bone() {
             .sum::<f64>()
     };
     let mut angles = vec![Angle::FlukePitch, Angle::Jaw];
-    angles.extend((0..endline_sdk::SPINE_JOINTS).flat_map(|joint| [Angle::SpinePitch(joint), Angle::SpineYaw(joint)]));
-    angles.extend(
-        (0..2).flat_map(|side| [Angle::FlukeFlex(side), Angle::FlipperSweep(side), Angle::FlipperRaise(side), Angle::FlipperTwist(side)]),
-    );
+    angles.extend((0..endline_sdk::SPINE_JOINTS).flat_map(|joint| Angle::SPINE.map(|axis| axis(joint))));
+    angles.extend((0..2).flat_map(|side| {
+        [Angle::FlukeFlex, Angle::FlipperSweep, Angle::FlipperRaise, Angle::FlipperTwist, Angle::FlipperFlex].map(|angle| angle(side))
+    }));
     for angle in angles {
         assert!((has(angle) - 1.0).abs() < 1e-12, "{angle:?} is shared out as {}", has(angle));
     }

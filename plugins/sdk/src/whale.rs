@@ -114,6 +114,33 @@ impl Region {
         Self::RightFlukeTrailing,
     ];
 
+    /// Its name in files, such as `left_fluke_trailing`: a material of a whale's mesh has it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Rostrum => "rostrum",
+            Self::Baleen => "baleen",
+            Self::Lips => "lips",
+            Self::Head => "head",
+            Self::Body => "body",
+            Self::Peduncle => "peduncle",
+            Self::LeftFlipper => "left_flipper",
+            Self::LeftFlipperLeading => "left_flipper_leading",
+            Self::LeftFlipperTrailing => "left_flipper_trailing",
+            Self::LeftFlipperTip => "left_flipper_tip",
+            Self::RightFlipper => "right_flipper",
+            Self::RightFlipperLeading => "right_flipper_leading",
+            Self::RightFlipperTrailing => "right_flipper_trailing",
+            Self::RightFlipperTip => "right_flipper_tip",
+            Self::LeftFluke => "left_fluke",
+            Self::LeftFlukeLeading => "left_fluke_leading",
+            Self::LeftFlukeTrailing => "left_fluke_trailing",
+            Self::RightFluke => "right_fluke",
+            Self::RightFlukeLeading => "right_fluke_leading",
+            Self::RightFlukeTrailing => "right_fluke_trailing",
+        }
+    }
+
     /// The body part it belongs to.
     #[must_use]
     pub fn part(self) -> BodyPart {

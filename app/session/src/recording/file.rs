@@ -11,7 +11,7 @@ use crate::input;
 /// First bytes of every recording; the high bit and the line end catch text-mode copies.
 const MAGIC: [u8; 8] = *b"\x89ENDLIN\n";
 /// Number of this format.
-const FORMAT: u32 = 2;
+const FORMAT: u32 = 3;
 const INPUT_BYTES: usize = 8 * input::NUMBERS;
 const HASH_BYTES: usize = 8 * PARTS;
 /// Sections in their order in the file, with the names used in messages; the last is empty and marks the end.

@@ -166,6 +166,24 @@ impl Angle {
             .chain(Self::sides(Self::Lips))
     }
 
+    /// Its name in files, such as `spine_yaw`, and its joint or side (0 left, 1 right).
+    #[must_use]
+    pub fn name(self) -> (&'static str, Option<usize>) {
+        match self {
+            Self::SpinePitch(joint) => ("spine_pitch", Some(joint)),
+            Self::SpineYaw(joint) => ("spine_yaw", Some(joint)),
+            Self::SpineRoll(joint) => ("spine_roll", Some(joint)),
+            Self::FlukePitch => ("fluke_pitch", None),
+            Self::FlukeFlex(side) => ("fluke_flex", Some(side)),
+            Self::FlipperSweep(side) => ("flipper_sweep", Some(side)),
+            Self::FlipperRaise(side) => ("flipper_raise", Some(side)),
+            Self::FlipperTwist(side) => ("flipper_twist", Some(side)),
+            Self::FlipperFlex(side) => ("flipper_flex", Some(side)),
+            Self::Jaw => ("jaw", None),
+            Self::Lips(side) => ("lips", Some(side)),
+        }
+    }
+
     fn sides(of: fn(usize) -> Self) -> impl Iterator<Item = Self> {
         (0..2).map(of)
     }

@@ -34,6 +34,11 @@ pub(super) enum Command {
     Validate(ValidateArgs),
     /// Check files, a gear library or a project, and tell all that is wrong.
     Check(CheckArgs),
+    /// Write a whale's mesh as a file for other programs, such as Blender.
+    Whale {
+        #[command(subcommand)]
+        what: WhaleCommand,
+    },
     /// List plugins, or check a plugin file.
     Plugins {
         #[command(subcommand)]
@@ -157,6 +162,24 @@ pub(super) struct CheckArgs {
 }
 
 #[derive(Debug, Subcommand)]
+pub(super) enum WhaleCommand {
+    /// Write the skinned mesh of a whale of the library as glTF 2.0.
+    Build(WhaleBuildArgs),
+}
+
+#[derive(Debug, clap::Args)]
+pub(super) struct WhaleBuildArgs {
+    /// Whale of the library, such as right-whale.
+    pub(super) whale: String,
+    /// Body length, over the library's, such as "13.7 m".
+    #[arg(long, value_name = "LENGTH", value_parser = body_length)]
+    pub(super) length: Option<f64>,
+    /// File to write: .glb (binary) or .gltf (text).
+    #[arg(long, value_name = "FILE.glb")]
+    pub(super) out: PathBuf,
+}
+
+#[derive(Debug, Subcommand)]
 pub(super) enum PluginsCommand {
     /// List the plugins found, with what they take, and those that failed.
     List,
@@ -185,6 +208,11 @@ fn force(text: &str) -> Result<f64, String> {
         Err(_) => units::parse(text, Quantity::Force).map_err(|error| error.to_string())?,
     };
     if newtons > 0.0 && f64::is_finite(newtons) { Ok(newtons) } else { Err("expected a force above 0".into()) }
+}
+
+fn body_length(text: &str) -> Result<f64, String> {
+    let metres = units::parse(text, Quantity::Length).map_err(|error| error.to_string())?;
+    if (1.0..=35.0).contains(&metres) { Ok(metres) } else { Err("expected a length from 1 m to 35 m".into()) }
 }
 
 fn size(text: &str) -> Result<[u32; 2], String> {

@@ -16,6 +16,7 @@ mod run;
 mod settle;
 mod table;
 mod validate;
+mod whale;
 mod workbench;
 
 use std::ffi::OsString;
@@ -45,6 +46,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitCode, Fa
         Some(Command::Render(args)) => render::render(args, library),
         Some(Command::Validate(args)) => validate::validate(args, library),
         Some(Command::Check(args)) => check::check(args, library),
+        Some(Command::Whale { what }) => whale::whale(what, library),
         Some(Command::Plugins { what }) => plugins::plugins(what),
     }
 }

@@ -30,6 +30,8 @@ pub struct Book {
     redo: Vec<Edit>,
     problems: Vec<Diagnostic>,
     library: Library,
+    /// Meshes of the library's folder, as they were when it was opened.
+    meshes: Sources,
 }
 
 impl Book {
@@ -55,6 +57,7 @@ impl Book {
             redo: Vec::new(),
             problems: Vec::new(),
             library: Library::default(),
+            meshes: Sources::default().with_meshes_of(&sources),
         };
         book.read_all();
         Ok(book)
@@ -128,6 +131,7 @@ impl Book {
         Sources::from_map(
             self.texts.iter().filter(|(path, _)| *path != Self::SCENARIO).map(|(path, text)| (path.clone(), text.clone())).collect(),
         )
+        .with_meshes_of(&self.meshes)
     }
 
     /// A field as typed; `None` where it is not there.

@@ -1,0 +1,63 @@
+//! A whale's own mesh: `mesh = "my-whale.glb"` in its file, beside it in `whales/`.
+
+use std::sync::Arc;
+
+use endline_sim::whale::Skin;
+
+use crate::diagnostic::At;
+use crate::fields::{Fields, Problems};
+use crate::nearest::hint;
+use crate::sources::Sources;
+use crate::whale::{build_skin, gltf, scaled};
+
+use super::WhaleItem;
+
+/// A whale's own mesh, in place of the one made from its measures.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WhaleMesh {
+    /// Path of its file, relative to the library's folder.
+    pub file: At<String>,
+    /// Its skin at the whale's own length; none until the library has read the file.
+    pub skin: Option<Arc<Skin>>,
+}
+
+impl WhaleMesh {
+    /// Reads the key `mesh`.
+    pub(super) fn read(fields: &Fields<'_>) -> Option<Self> {
+        let name = fields.text("mesh")?;
+        if name.value.contains(['/', '\\']) || gltf::Form::of_file(&name.value).is_none() {
+            let message = format!("`{}` is no name of a mesh", name.value);
+            fields.problems().push(name.place.error(message, "write the name of a .glb or .gltf file that lies beside this one"));
+            return None;
+        }
+        let folder = name.place.source.path.rsplit_once('/').map_or("", |(folder, _)| folder);
+        let folder = folder.rsplit('/').next().unwrap_or_default();
+        Some(Self { file: At { value: format!("{folder}/{}", name.value), place: name.place }, skin: None })
+    }
+}
+
+impl WhaleItem {
+    /// Its skin at a length [m]: its own mesh where its file names one, else made from its measures.
+    #[must_use]
+    pub fn skin_at(&self, length_m: f64) -> Skin {
+        match self.mesh.as_ref().and_then(|mesh| mesh.skin.as_deref()) {
+            Some(skin) => scaled(skin, length_m / self.form.length_m),
+            None => build_skin(&self.form_at(length_m)),
+        }
+    }
+
+    /// Reads its mesh, where it has one; false where that fails, with every problem told.
+    pub(crate) fn load_mesh(&mut self, sources: &Sources, problems: &Problems) -> bool {
+        let Some(mesh) = &mut self.mesh else { return true };
+        let (path, place) = (&mesh.file.value, &mesh.file.place);
+        let Some(bytes) = sources.mesh(path) else {
+            problems.push(place.error(format!("there is no file `{path}`"), hint(path, sources.meshes().map(|(path, _)| path))));
+            return false;
+        };
+        match gltf::read(bytes, &build_skin(&self.form)) {
+            Ok(skin) => mesh.skin = Some(Arc::new(skin)),
+            Err(faults) => problems.extend(faults.into_iter().map(|fault| place.error(format!("`{path}` {}", fault.message), fault.help))),
+        }
+        mesh.skin.is_some()
+    }
+}

@@ -1,0 +1,301 @@
+//! Whales as glTF files: out, in, and every way in which one can be wrong.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
+
+use std::path::Path;
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use endline_gear::whale::gltf::{About, Form, read, write};
+use endline_gear::whale::scaled;
+use endline_gear::{Library, Sources, WhaleItem};
+use endline_sdk::Region;
+use endline_sim::whale::{JointRanges, Skin, pose, skin_all};
+use glam::{DMat4, DQuat, DVec3};
+use serde_json::{Value, json};
+
+const FILE: &str = "whales/right-whale.toml";
+
+fn sources() -> Sources {
+    Sources::from_folder(Path::new(env!("CARGO_MANIFEST_DIR"))).unwrap()
+}
+
+fn whale() -> WhaleItem {
+    Library::read(&sources()).0.whales.into_iter().find(|whale| whale.entry.id == "right-whale").unwrap()
+}
+
+fn skin() -> Skin {
+    whale().skin_at(13.7)
+}
+
+fn written(skin: &Skin, form: Form) -> Vec<u8> {
+    write(skin, &About { id: "right-whale", name: "Right whale", length_m: 13.7, joints: &whale().joints.ranges }, form)
+}
+
+/// The text of a file as JSON, to be changed.
+fn text(skin: &Skin) -> Value {
+    serde_json::from_slice(&written(skin, Form::Text)).unwrap()
+}
+
+fn posed(skin: &Skin, ranges: &JointRanges, seed: u64) -> Vec<DVec3> {
+    let (mut bones, mut places) = (Vec::new(), Vec::new());
+    let orientation = DQuat::from_rotation_z(0.3) * DQuat::from_rotation_x(-0.2);
+    pose(skin, DVec3::new(3.0, -4.0, -9.0), orientation, &ranges.random(seed), &mut bones);
+    skin_all(skin, &bones, &mut places);
+    places
+}
+
+/// The greatest distance between vertices of two skins of the same order over random postures [m].
+fn apart(one: &Skin, other: &Skin) -> f64 {
+    assert_eq!(one.vertices.len(), other.vertices.len());
+    let ranges = whale().joints.ranges;
+    let off = |seed| posed(one, &ranges, seed).iter().zip(posed(other, &ranges, seed)).map(|(a, b)| a.distance(b)).fold(0.0, f64::max);
+    (0..20).map(off).fold(0.0, f64::max)
+}
+
+#[test]
+fn a_round_trip_gives_the_same_pose() {
+    let skin = skin();
+    for form in [Form::Binary, Form::Text] {
+        let back = read(&written(&skin, form), &skin).unwrap();
+        let off = apart(&skin, &back);
+        println!("{form:?}: vertices return within {off:.2e} m");
+        // Single precision: 13.7 m times 2^-24, a few times over along the chain of bones.
+        assert!(off < 1e-5, "{form:?}: {off} m");
+        assert_eq!(back.marks, skin.marks);
+        let names = |skin: &Skin| skin.bones.iter().map(|bone| (bone.name.clone(), bone.parent, bone.turns.clone())).collect::<Vec<_>>();
+        assert_eq!(names(&back), names(&skin));
+        assert_eq!(by_region(&back), by_region(&skin));
+    }
+}
+
+/// Triangles of each region.
+fn by_region(skin: &Skin) -> Vec<Vec<[u32; 3]>> {
+    let of = |region| skin.triangles.iter().zip(&skin.regions).filter(|(_, own)| **own == region).map(|(own, _)| *own).collect();
+    Region::ALL.into_iter().map(of).collect()
+}
+
+#[test]
+fn the_same_skin_gives_the_same_bytes() {
+    let skin = skin();
+    assert_eq!(written(&skin, Form::Binary), written(&skin, Form::Binary));
+    assert!(Form::of_file("whale.GLB") == Some(Form::Binary) && Form::of_file("whale.obj").is_none());
+}
+
+/// As Blender saves: each material with vertices of its own, so that seams are split; copies' numbers after names; bones
+/// turned along themselves; a bone of its own that moves nothing.
+#[test]
+fn a_file_as_blender_saves_it_gives_the_same_pose() {
+    let skin = skin();
+    let mut split = Skin { bones: skin.bones.clone(), ..Skin::default() };
+    for region in Region::ALL {
+        let mut own = vec![None; skin.vertices.len()];
+        for (triangle, _) in skin.triangles.iter().zip(&skin.regions).filter(|(_, own)| **own == region) {
+            let corners = triangle.map(|corner| {
+                *own[corner as usize].get_or_insert_with(|| {
+                    split.vertices.push(skin.vertices[corner as usize]);
+                    split.weights.push(skin.weights[corner as usize]);
+                    split.marks.push(skin.marks[corner as usize]);
+                    u32::try_from(split.vertices.len() - 1).unwrap()
+                })
+            });
+            split.triangles.push(corners);
+            split.regions.push(region);
+        }
+    }
+    assert!(split.vertices.len() > skin.vertices.len() + 500, "seams were to be split");
+    let mut file = text(&split);
+    turn_bones(&mut file, DQuat::from_scaled_axis(DVec3::new(0.4, -1.1, 2.0)));
+    for material in file["materials"].as_array_mut().unwrap() {
+        material["name"] = json!(format!("{}.001", material["name"].as_str().unwrap()));
+    }
+    let back = read(file.to_string().as_bytes(), &skin).unwrap();
+    assert!(
+        back.vertices.len() <= skin.vertices.len() && back.vertices.len() + 10 > skin.vertices.len(),
+        "{} vertices",
+        back.vertices.len()
+    );
+    assert_eq!(back.triangles.len(), skin.triangles.len());
+    // The order is another, so each vertex is looked for by its rest place.
+    let order: Vec<usize> = skin.vertices.iter().map(|place| nearest(&back, *place)).collect();
+    let mut same = back.clone();
+    (same.vertices, same.weights) = order.iter().map(|&index| (back.vertices[index], back.weights[index])).unzip();
+    let off = apart(&skin, &same);
+    assert!(off < 2e-5, "{off} m");
+}
+
+fn nearest(skin: &Skin, place: DVec3) -> usize {
+    let near = |a: &usize, b: &usize| skin.vertices[*a].distance_squared(place).total_cmp(&skin.vertices[*b].distance_squared(place));
+    (0..skin.vertices.len()).min_by(near).unwrap()
+}
+
+/// Turns the axes of every bone in a file, so that they no longer are the whale's, and adds a bone that moves nothing.
+fn turn_bones(file: &mut Value, turn: DQuat) {
+    let uri = file["buffers"][0]["uri"].as_str().unwrap();
+    let mut bytes = STANDARD.decode(uri.split_once(',').unwrap().1).unwrap();
+    let matrices = file["skins"][0]["inverseBindMatrices"].as_u64().unwrap() as usize;
+    let view = file["accessors"][matrices]["bufferView"].as_u64().unwrap() as usize;
+    let start = file["bufferViews"][view]["byteOffset"].as_u64().unwrap() as usize;
+    let joints: Vec<usize> = file["skins"][0]["joints"].as_array().unwrap().iter().map(|joint| joint.as_u64().unwrap() as usize).collect();
+    for (place, joint) in joints.iter().enumerate() {
+        let node = &mut file["nodes"][*joint];
+        if place == 0 {
+            node["rotation"] = json!(turn.to_array());
+        } else {
+            let moved: [f64; 3] = serde_json::from_value(node["translation"].clone()).unwrap();
+            node["translation"] = json!((turn.inverse() * DVec3::from_array(moved)).to_array());
+        }
+        let own = &mut bytes[start + 64 * place..start + 64 * (place + 1)];
+        let old: [f64; 16] =
+            std::array::from_fn(|number| f64::from(f32::from_le_bytes(own[4 * number..4 * number + 4].try_into().unwrap())));
+        let new = DMat4::from_quat(turn.inverse()) * DMat4::from_cols_array(&old);
+        let new: Vec<u8> = new.to_cols_array().iter().flat_map(|number| (*number as f32).to_le_bytes()).collect();
+        own.copy_from_slice(&new);
+    }
+    file["buffers"][0]["uri"] = json!(format!("data:application/octet-stream;base64,{}", STANDARD.encode(&bytes)));
+    file["nodes"].as_array_mut().unwrap().push(json!({ "name": "neutral_bone" }));
+}
+
+/// The faults of a file, each as message and help.
+fn faults(bytes: &[u8], like: &Skin) -> String {
+    let faults = read(bytes, like).err().unwrap_or_default();
+    faults.iter().map(|fault| format!("{} | {}\n", fault.message, fault.help)).collect()
+}
+
+#[track_caller]
+fn told(bytes: &[u8], wanted: &[&str]) {
+    let faults = faults(bytes, &skin());
+    assert!(wanted.iter().all(|part| faults.contains(part)), "wanted {wanted:?}, got {faults}");
+}
+
+/// A file's text with one thing changed.
+fn changed(change: impl Fn(&mut Value)) -> Vec<u8> {
+    let mut file = text(&skin());
+    change(&mut file);
+    file.to_string().into_bytes()
+}
+
+#[test]
+fn bones_and_regions_are_asked_for_by_name() {
+    let renamed = |list: &'static str, from: &'static str, to: &'static str| {
+        changed(move |file| {
+            let named = file[list].as_array_mut().unwrap().iter_mut().find(|own| own["name"] == from);
+            named.unwrap()["name"] = json!(to);
+        })
+    };
+    told(&renamed("nodes", "jaw", "jaww"), &["has no bone `jaw`", "did you mean `jaww`"]);
+    told(&renamed("materials", "lips", "lipps"), &["has a material `lipps`, which is no region", "did you mean `lips`", "left_fluke_tr"]);
+    let nameless = changed(|file| {
+        file["meshes"][0]["primitives"][0].as_object_mut().unwrap().remove("material");
+    });
+    told(&nameless, &["without a material", "rostrum"]);
+    let stranger = changed(|file| {
+        let fluke = file["nodes"].as_array().unwrap().iter().position(|node| node["name"] == "left_fluke_tip").unwrap();
+        file["nodes"].as_array_mut().unwrap().push(json!({ "name": "left_fluke_tip" }));
+        file["nodes"][fluke]["name"] = json!("tassel");
+        let last = file["nodes"].as_array().unwrap().len() - 1;
+        file["skins"][0]["joints"].as_array_mut().unwrap().push(json!(last));
+        file["skins"][0].as_object_mut().unwrap().remove("inverseBindMatrices");
+    });
+    told(&stranger, &["vertices on the bone `tassel`"]);
+}
+
+#[test]
+fn the_mesh_must_be_whole_and_of_the_whales_size() {
+    let skin = skin();
+    let file = |skin: &Skin| written(skin, Form::Binary);
+    let mut open = skin.clone();
+    open.triangles.pop();
+    open.regions.pop();
+    told(&file(&open), &["is not closed: 3 edges", "in the region `", "Fill Holes"]);
+    told(&file(&scaled(&skin, 0.01)), &["is 0.1", "m was expected", "metres"]);
+    let mut moved = skin.clone();
+    moved.vertices.iter_mut().for_each(|place| place.y += 4.0);
+    told(&file(&moved), &["lies 4.00 m from where the whale lies"]);
+    let mut inward = skin.clone();
+    inward.triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
+    told(&file(&inward), &["faces inward", "Recalculate Outside"]);
+}
+
+#[test]
+fn weights_must_be_there_and_be_four_at_most() {
+    let more = changed(|file| {
+        for primitive in file["meshes"][0]["primitives"].as_array_mut().unwrap() {
+            let own = primitive["attributes"].as_object_mut().unwrap();
+            own.insert("JOINTS_1".into(), own["JOINTS_0"].clone());
+            own.insert("WEIGHTS_1".into(), own["WEIGHTS_0"].clone());
+        }
+    });
+    told(&more, &["vertices on more than four bones", "Limit Total"]);
+    let none = changed(|file| {
+        for primitive in file["meshes"][0]["primitives"].as_array_mut().unwrap() {
+            primitive["attributes"].as_object_mut().unwrap().remove("WEIGHTS_0");
+        }
+    });
+    told(&none, &["vertices without weights", "Skinning"]);
+    let off = changed(|file| {
+        for primitive in file["meshes"][0]["primitives"].as_array_mut().unwrap() {
+            let own = primitive["attributes"].as_object_mut().unwrap();
+            own.insert("WEIGHTS_0".into(), own["COLOR_0"].clone());
+        }
+    });
+    told(&off, &["rows of 3, not 4 numbers"]);
+    let unskinned = changed(|file| {
+        file["nodes"][0].as_object_mut().unwrap().remove("skin");
+    });
+    told(&unskinned, &["the mesh `skin` has no skin", "parent the mesh to the armature"]);
+    let elsewhere = changed(|file| file["buffers"][0]["uri"] = json!("whale.bin"));
+    told(&elsewhere, &["keeps its numbers in another file, `whale.bin`", ".glb"]);
+}
+
+/// Whatever the bytes, the answer is a skin or a fault.
+#[test]
+fn damaged_files_are_faults() {
+    let like = skin();
+    let good = written(&like, Form::Binary);
+    for end in (0..good.len()).step_by(good.len() / 15).chain(0..40) {
+        assert!(read(&good[..end], &like).is_err(), "cut at {end}");
+    }
+    let text = u32::from_le_bytes(good[12..16].try_into().unwrap()) as usize;
+    let mut dice = 1_u64;
+    let mut roll = |below: usize| {
+        dice = dice.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (dice >> 33) as usize % below
+    };
+    for _ in 0..60 {
+        let mut bad = good.clone();
+        for _ in 0..3 {
+            let digits: Vec<usize> = (0..8).map(|_| 20 + roll(text)).collect();
+            // Digits and names of the text, where lengths, offsets and indices stand.
+            let at = digits.into_iter().find(|at| bad[*at].is_ascii_digit()).unwrap_or(20 + roll(text));
+            bad[at] = b'0' + (roll(10) as u8);
+        }
+        let _ = read(&bad, &like);
+    }
+}
+
+/// In the library: a whale's file names its mesh; the mesh stands in for the one made from measures, at any length.
+#[test]
+fn a_whales_file_may_name_a_mesh() {
+    let mut sources = sources();
+    let own = sources.get(FILE).unwrap().to_owned();
+    let told = |sources: &Sources| Library::read(sources).1.into_iter().filter(|problem| problem.file == FILE).collect::<Vec<_>>();
+    sources.set(FILE, own.replacen("\nlength =", "\nmesh = \"mine.glb\"\nlength =", 1));
+    sources.set_mesh("whales/mien.glb", Vec::new());
+    let missing = told(&sources);
+    assert!(missing.iter().any(|one| one.line > 5 && one.message == "there is no file `whales/mine.glb`" && one.help.contains("mien.glb")));
+    sources.set_mesh("whales/mine.glb", b"nothing of the kind".to_vec());
+    assert!(told(&sources).iter().any(|one| one.line > 5 && one.message.contains("`whales/mine.glb` is not sound glTF")));
+
+    let mut mine = skin();
+    mine.vertices.iter_mut().for_each(|place| place.z *= 1.05);
+    sources.set_mesh("whales/mine.glb", written(&mine, Form::Binary));
+    assert!(told(&sources).is_empty(), "{:?}", told(&sources));
+    let whale = Library::read(&sources).0.whales.into_iter().find(|whale| whale.entry.id == "right-whale").unwrap();
+    assert!(apart(&whale.skin_at(13.7), &mine) < 1e-5);
+    let small = whale.skin_at(6.85);
+    assert!(small.vertices.iter().zip(&mine.vertices).all(|(half, whole)| half.distance(*whole / 2.0) < 1e-5));
+
+    sources.set(FILE, own.replacen("\nlength =", "\nmesh = \"../mine.obj\"\nlength =", 1));
+    assert!(told(&sources).iter().any(|one| one.message.contains("no name of a mesh") && one.help.contains(".glb")));
+}
