@@ -103,6 +103,24 @@ fn wet_weight_must_agree_with_mass_and_density() {
     only(&ROPE.replace("-0.052 N/m", "0.052 N/m"), 12, 14, "wet_weight", &["mass and density give -0.0517 N/m"]);
 }
 
+/// A site has one law of its current by height, and its speed at a height within the water.
+#[test]
+fn a_site_has_one_law_of_its_current() {
+    let shipped = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/sites/jonesport.toml")).unwrap();
+    assert_eq!(Library::check_file("sites/test.toml", &shipped), []);
+    let line = |start: &str| shipped.lines().find(|line| line.starts_with(start)).unwrap().to_owned();
+    let (law, height) = (line("current_roughness"), line("current_height"));
+    for (from, to, words) in [
+        (&law, String::new(), ["neither `current_exponent` nor `current_roughness`", "current_exponent = 0.142857"]),
+        (&law, format!("{law}\ncurrent_exponent = 0.1"), ["both `current_exponent` and `current_roughness`", "a power law"]),
+        (&height, height.replace("1.5 m", "31 m"), ["out of the water, which is 30 m deep", "above the seabed"]),
+    ] {
+        let problems = Library::check_file("sites/test.toml", &shipped.replace(from.as_str(), &to));
+        assert_eq!(problems.len(), 1, "{problems:#?}");
+        assert!(words.iter().all(|word| problems[0].to_string().contains(word)), "{}", problems[0]);
+    }
+}
+
 #[test]
 fn strength_should_agree_with_stiffness_and_stretch() {
     let problems = problems_of(&ROPE.replace("49 kN", "490 kN"));
