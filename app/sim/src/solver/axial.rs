@@ -14,17 +14,18 @@
 //! Reference: Clough and Penzien 1975, Dynamics of Structures, chapter 12 (stiffness-proportional damping); the toe is
 //! a fit to fishing rope (docs/physics.md, Rope law).
 
+use super::lanes::real::Real;
 use crate::model::Rope;
 
 /// Axial law of one segment.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Axial {
+pub(crate) struct Axial<R = f64> {
     /// Stiffness at zero strain [N].
-    pub ea: f64,
+    pub ea: R,
     /// Growth of the tension with the square of the strain [N].
-    pub ea2: f64,
+    pub ea2: R,
     /// Damping: tension by strain rate [N s].
-    pub damping: f64,
+    pub damping: R,
 }
 
 impl Axial {
@@ -33,17 +34,25 @@ impl Axial {
         let ratio = 2.0 * rope.axial_damping_ratio * length_m * (rope.axial_stiffness_n * rope.mass_kg_m).sqrt();
         Self { ea: rope.axial_stiffness_n, ea2: rope.axial_stiffening_n, damping: rope.axial_damping_n_s + ratio }
     }
+}
 
+impl<R: Real> Axial<R> {
     /// Tension from strain and strain rate [1/s]; below zero the segment is slack [N].
-    #[inline]
-    pub fn tension(&self, strain: f64, rate: f64) -> f64 {
-        (self.ea + self.ea2 * strain.max(0.0)) * strain + self.damping * rate
+    #[inline(always)]
+    pub fn tension(&self, strain: R, rate: R) -> R {
+        ((self.ea + self.bent(strain)) * strain).plus(self.damping, rate)
     }
 
     /// Derivative of the tension by the strain, where a strain changes the strain rate by `rate_by_strain` [1/s] [N].
-    #[inline]
-    pub fn slope(&self, strain: f64, rate_by_strain: f64) -> f64 {
-        self.ea + 2.0 * self.ea2 * strain.max(0.0) + self.damping * rate_by_strain
+    #[inline(always)]
+    pub fn slope(&self, strain: R, rate_by_strain: R) -> R {
+        let bent = self.bent(strain);
+        (self.ea + bent + bent).plus(self.damping, rate_by_strain)
+    }
+
+    #[inline(always)]
+    fn bent(&self, strain: R) -> R {
+        self.ea2 * strain.max(strain.splat(0.0))
     }
 }
 

@@ -1,16 +1,25 @@
-//! The laws of a rope's nodes and segments, written once for one number and for a row of lanes.
+//! The laws of a rope's nodes and segments, written once for one number (`rope.rs`) and for a row of lanes (`lanes/sweep.rs`).
 //!
 //! Node with hanging length `L`, tangent `t`, water velocity relative to it `u = U - v`, `u_t = u·t`, `u_n = u - u_t t`
 //! (Morison): `F = L [½ρ C_n d |u_n| u_n + ½ρ C_t π d |u_t| u_t t - (m - ρ A_m) g ẑ] - M (v - v̂)/h`, with
 //! `M = L [m 1 + ρ (π d²/4)(C_a (1 - t tᵀ) + C_at t tᵀ)]`, `v = (x - x̂)/h` and `A_m` the volume of fibre per metre.
-//! Segment of unstretched length `l` along `t`, strain `ε`: `T = (EA + EA2 max(ε, 0)) ε + BA t·(v_b - v_a)/l` (`axial.rs`),
-//! pulling only while taut.
+//! Segment of unstretched length `l` along `t`, strain `ε = |x_b - x_a|/l - 1`, strain rate `ε̇ = t·(v_b - v_a)/l`:
+//! `T = T(ε, ε̇)` (`axial.rs`), pulling only while taut. It is judged taut, and stiffened across, by the tension that the last
+//! linear solve foretold rather than by that at the guess: one or two solves a step then suffice (docs/physics.md).
 //! Blocks are `-dF/dx`, symmetric, without the turning of the tangent.
-//! Reference: Morison et al. 1950 (doi:10.2118/950149-G).
+//! Reference: Morison et al. 1950 (doi:10.2118/950149-G); drag coefficients from the gear library.
 
+use core::f64::consts::PI;
+
+use super::axial::Axial;
 use super::lanes::real::Real;
 use super::lanes::space::{Sym3, Vec3};
+use super::scheme::Scheme;
+use crate::model::{Model, Rope};
+use crate::water::Water;
 
+/// Height over which a node goes from wet to dry at the surface [m].
+pub(crate) const SURFACE_HEIGHT_M: f64 = 0.1;
 /// Least chord or speed that is divided by.
 const TINY: f64 = 1e-12;
 
@@ -33,6 +42,23 @@ pub(crate) struct PerMetre<R> {
     pub along: R,
 }
 
+impl PerMetre<f64> {
+    /// A rope in this water.
+    pub fn of(rope: &Rope, water: &Water) -> Self {
+        let density = water.density_kg_m3;
+        let displaced = density * PI * rope.diameter_m * rope.diameter_m / 4.0;
+        Self {
+            mass: rope.mass_kg_m,
+            added: displaced * rope.added_mass_normal,
+            spared: displaced * (rope.added_mass_normal - rope.added_mass_tangential),
+            weight: rope.mass_kg_m * water.gravity_m_s2,
+            lift: density * rope.displaced_m3_m * water.gravity_m_s2,
+            across: 0.5 * density * rope.diameter_m * rope.drag_normal,
+            along: 0.5 * density * rope.diameter_m * rope.drag_tangential * PI,
+        }
+    }
+}
+
 /// What all nodes of a step share.
 #[derive(Clone, Copy)]
 pub(crate) struct Shared<R> {
@@ -40,10 +66,26 @@ pub(crate) struct Shared<R> {
     pub rate: R,
     /// Weight of the mass in the matrix [1/s²].
     pub inertia: R,
-    /// Wet share is `clamp(wet - z · drying, 0, 1)`.
+    /// Wet share is `clamp(wet - height · drying, 0, 1)`.
     pub wet: R,
     /// [1/m].
     pub drying: R,
+}
+
+impl Shared<f64> {
+    /// A step of this scheme.
+    pub fn of(model: &Model, scheme: &Scheme) -> Self {
+        let (wet, drying) = if model.spec.water.rope_dries { (0.5, 1.0 / SURFACE_HEIGHT_M) } else { (1.0, 0.0) };
+        Self { rate: scheme.rate, inertia: scheme.inertia, wet, drying }
+    }
+}
+
+impl<R: Real> Shared<R> {
+    /// Share of a node that is under water at a height above the surface.
+    #[inline(always)]
+    pub fn wet_at(&self, height: R) -> R {
+        self.wet.less(height, self.drying).max(height.splat(0.0)).min(height.splat(1.0))
+    }
 }
 
 /// A node where the trial stands.
@@ -55,8 +97,9 @@ pub(crate) struct NodeAt<R> {
     pub after: Vec3<R>,
     pub place_history: Vec3<R>,
     pub velocity_history: Vec3<R>,
-    /// Velocity of the water.
+    /// Velocity of the water, and the height of its surface.
     pub flow: Vec3<R>,
+    pub surface: R,
     /// Hanging length.
     pub length: R,
 }
@@ -68,8 +111,8 @@ pub(crate) fn node<R: Real>(rope: &PerMetre<R>, shared: &Shared<R>, at: &NodeAt<
     let tiny = shared.rate.splat(TINY);
     let chord = at.after.sub(at.before);
     let tangent = chord.scale(one / chord.dot(chord).sqrt().max(tiny));
-    let dry = shared.wet.less(at.place.z, shared.drying);
-    let wet = dry.max(shared.rate.splat(0.0)).min(one);
+    let height = at.place.z - at.surface;
+    let wet = shared.wet_at(height);
     let velocity = at.place.sub(at.place_history).scale(shared.rate);
     // Drag.
     let relative = at.flow.sub(velocity);
@@ -94,7 +137,7 @@ pub(crate) fn node<R: Real>(rope: &PerMetre<R>, shared: &Shared<R>, at: &NodeAt<
     // Weight and buoyancy, which fades towards the surface.
     let lift = rope.lift * at.length;
     let zero = shared.rate.splat(0.0);
-    let fading = dry.positive((one - dry).positive(lift * shared.drying, zero), zero);
+    let fading = wet.positive((one - wet).positive(lift * shared.drying, zero), zero);
     let mut force = drag.less(acceleration, mass + added).plus(tangent, spared * along_acceleration);
     force.z = force.z.plus(lift, wet).less(rope.weight, at.length);
     (force, Sym3 { zz: block.zz + fading, ..block })
@@ -109,10 +152,8 @@ pub(crate) struct SegmentAt<R> {
     /// Unstretched length and its inverse.
     pub length: R,
     pub inverse_length: R,
-    /// `EA`, `EA2` and `BA`, zero where it is cut.
-    pub ea: R,
-    pub ea2: R,
-    pub damping: R,
+    /// All zero where it is cut.
+    pub law: Axial<R>,
     /// Tension by the last solve: taut above zero.
     pub foretold: R,
 }
@@ -138,11 +179,10 @@ pub(crate) fn pull<R: Real>(at: &SegmentAt<R>, rate: R) -> PullOf<R> {
     let chord = at.between.dot(at.between).sqrt().max(at.length * rate.splat(1e-9));
     let inverse_chord = rate.splat(1.0) / chord;
     let direction = at.between.scale(inverse_chord);
-    let stretching = direction.dot(at.between.sub(at.history)) * rate;
+    let strain_rate = direction.dot(at.between.sub(at.history)) * rate * inverse_length;
     let strain = (chord - at.length) * inverse_length;
-    let bent = at.ea2 * strain.max(zero);
-    let tension = ((at.ea + bent) * strain).plus(at.damping * stretching, inverse_length);
-    let stiffness = (at.ea + bent + bent).plus(at.damping, rate) * inverse_length;
+    let tension = at.law.tension(strain, strain_rate);
+    let stiffness = at.law.slope(strain, rate) * inverse_length;
     let across = at.foretold.max(zero) * inverse_chord;
     let block = Sym3::round(across, direction, stiffness - across);
     let none = Vec3 { x: zero, y: zero, z: zero };

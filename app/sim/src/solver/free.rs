@@ -7,7 +7,6 @@ use super::body;
 use super::forces::Shared;
 use super::hubs::Seat;
 use super::plan::Plan;
-use super::rope::SURFACE_HEIGHT_M;
 use super::scheme::Scheme;
 use crate::model::Model;
 use crate::state::State;
@@ -59,7 +58,7 @@ impl Solver {
 
     /// One Newton pass.
     pub(crate) fn pass_free(&mut self, model: &Model, state: &State, scheme: &Scheme) -> FreePass {
-        let shared = shared(model, scheme);
+        let shared = Shared::of(model, scheme);
         self.hubs.clear();
         if self.near_seabed {
             self.measure_ground(model, state, scheme);
@@ -150,11 +149,6 @@ impl Solver {
             }
         }
     }
-}
-
-fn shared(model: &Model, scheme: &Scheme) -> Shared<f64> {
-    let (wet, drying) = if model.spec.water.rope_dries { (0.5, 1.0 / SURFACE_HEIGHT_M) } else { (1.0, 0.0) };
-    Shared { rate: scheme.rate, inertia: scheme.inertia, wet, drying }
 }
 
 #[cfg(test)]

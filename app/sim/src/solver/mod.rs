@@ -61,7 +61,6 @@ pub(crate) struct Solver {
     /// Whether rope may touch the seabed in a step of free rope.
     near_seabed: bool,
     hubs: Hubs,
-    mass: Vec<DMat3>,
     pull: Vec<Pull>,
     cut: Vec<bool>,
     rest: Rest,
@@ -129,7 +128,6 @@ impl Solver {
             band: Band::new(model.node_count, model.segment_count),
             lanes: Lanes::new(model),
             near_seabed: false,
-            mass: vec![DMat3::ZERO; model.node_count],
             pull: vec![Pull::default(); model.segment_count],
             cut: vec![false; model.segment_count],
             flow: vec![DVec3::ZERO; model.node_count],
@@ -155,8 +153,7 @@ impl Solver {
         self.trial.begin(model, &self.plan, state, scheme);
         self.cut.clone_from(&state.rope.cut);
         self.measure_flow(model);
-        self.weigh(model, state);
-        self.measure_push(model, state);
+        self.measure_push(model, state, scheme);
     }
 
     /// Assembles forces and matrix at the trial places.

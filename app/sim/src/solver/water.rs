@@ -6,10 +6,12 @@
 //! is the rest of the pressure. Without waves, and before they begin, none of this costs anything.
 //! Reference: Morison et al. 1950 (doi:10.2118/950149-G); Sumer and Fredsøe 2006, section 4.1.
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
 use super::Solver;
-use super::rope::wet_share;
+use super::forces::{PerMetre, Shared};
+use super::rope::tangent;
+use super::scheme::Scheme;
 use crate::model::{Body, Model};
 use crate::state::State;
 use crate::water::WaterAt;
@@ -30,20 +32,22 @@ impl Solver {
         self.surface.get(node).copied().unwrap_or(0.0)
     }
 
-    /// Takes the push of accelerating water on every node, once masses are known.
-    pub(super) fn measure_push(&mut self, model: &Model, state: &State) {
+    /// Takes the push of accelerating water on every node, as the step begins.
+    pub(super) fn measure_push(&mut self, model: &Model, state: &State, scheme: &Scheme) {
         self.push.clear();
         if self.flow_acceleration.is_empty() {
             return;
         }
+        let shared = Shared::of(model, scheme);
         for (line, nodes) in model.spec.lines.iter().zip(&model.line_nodes) {
             let rope = &model.spec.ropes[line.rope];
+            let (per_metre, pressure) = (PerMetre::of(rope, &model.spec.water), model.spec.water.density_kg_m3 * rope.displaced_m3_m);
             for node in nodes.clone() {
-                let (acceleration, length) = (self.flow_acceleration[node], self.lengths.node[node]);
-                let wet = wet_share(model, state.rope.position[node].z - self.surface[node]);
-                let pressure = model.spec.water.density_kg_m3 * rope.displaced_m3_m * wet * length;
-                let dry = DMat3::from_diagonal(DVec3::splat(rope.mass_kg_m * length));
-                self.push.push((self.mass[node] - dry) * acceleration + acceleration * pressure);
+                let wet = shared.wet_at(state.rope.position[node].z - self.surface[node]) * self.lengths.node[node];
+                let acceleration = self.flow_acceleration[node];
+                let (tangent, _) = tangent(&state.rope.position, node, nodes);
+                let along = tangent * (per_metre.spared * tangent.dot(acceleration));
+                self.push.push((acceleration * (per_metre.added + pressure) - along) * wet);
             }
         }
     }

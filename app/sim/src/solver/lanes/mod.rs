@@ -10,8 +10,6 @@ mod rows;
 pub(super) mod space;
 mod sweep;
 
-use core::f64::consts::PI;
-
 use glam::{DMat3, DVec3};
 use pulp::Arch;
 
@@ -20,7 +18,7 @@ use super::forces::{PerMetre, Shared};
 use super::lengths::Lengths;
 use super::scheme::Scheme;
 use super::trial::Trial;
-use crate::model::{Model, Rope};
+use crate::model::Model;
 use crate::state::RopeState;
 use layout::{Group, Piece};
 use rows::{EndRows, GroundRow, LANES, MoveRows, NodeRow, Row, Row3, Row6, Row9, SegmentRow, Solved};
@@ -343,17 +341,17 @@ fn group_rows<'a>(
 }
 
 fn rope_rows(model: &Model, pieces: &[Piece], group: &Group) -> PerMetre<Row> {
-    let row = |of: &dyn Fn(&Rope) -> f64| Row(group.pieces.map(|piece| of(&model.spec.ropes[model.spec.lines[pieces[piece].line].rope])));
-    let area = |rope: &Rope| PI * rope.diameter_m * rope.diameter_m / 4.0;
-    let (density, gravity) = (model.spec.water.density_kg_m3, model.spec.water.gravity_m_s2);
+    let rope_of = |piece: usize| &model.spec.ropes[model.spec.lines[pieces[piece].line].rope];
+    let ropes = group.pieces.map(|piece| PerMetre::of(rope_of(piece), &model.spec.water));
+    let row = |of: fn(&PerMetre<f64>) -> f64| Row(ropes.map(|rope| of(&rope)));
     PerMetre {
-        mass: row(&|rope| rope.mass_kg_m),
-        added: row(&|rope| density * area(rope) * rope.added_mass_normal),
-        spared: row(&|rope| density * area(rope) * (rope.added_mass_normal - rope.added_mass_tangential)),
-        weight: row(&|rope| rope.mass_kg_m * gravity),
-        lift: row(&|rope| density * rope.displaced_m3_m * gravity),
-        across: row(&|rope| 0.5 * density * rope.diameter_m * rope.drag_normal),
-        along: row(&|rope| 0.5 * density * rope.diameter_m * rope.drag_tangential * PI),
+        mass: row(|rope| rope.mass),
+        added: row(|rope| rope.added),
+        spared: row(|rope| rope.spared),
+        weight: row(|rope| rope.weight),
+        lift: row(|rope| rope.lift),
+        across: row(|rope| rope.across),
+        along: row(|rope| rope.along),
     }
 }
 

@@ -1,7 +1,8 @@
 //! Numbers the rope's laws are written in: one `f64`, or several in the lanes of the processor.
 //!
-//! Every operation acts on each lane as it acts on one `f64` (IEEE 754, rounded once; a product is added fused, where the
-//! processor cannot by software), so that a rope gives the same bits whatever the width of the processor's lanes.
+//! Every operation acts on each lane alike (IEEE 754, rounded once; a product is added fused, where the processor cannot by
+//! software), so that a rope gives the same bits whatever the width of the processor's lanes. One `f64` alone rounds a product
+//! before it adds it: its code is compiled for any processor, and fusing by software would cost tens of times as much.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -13,9 +14,9 @@ pub(crate) trait Real:
 {
     /// This value in every lane.
     fn splat(self, value: f64) -> Self;
-    /// `self + one · other`, rounded once.
+    /// `self + one · other`, in lanes rounded once.
     fn plus(self, one: Self, other: Self) -> Self;
-    /// `self - one · other`, rounded once.
+    /// `self - one · other`, in lanes rounded once.
     fn less(self, one: Self, other: Self) -> Self;
     /// Square root.
     fn sqrt(self) -> Self;
@@ -27,6 +28,41 @@ pub(crate) trait Real:
     fn min(self, other: Self) -> Self;
     /// `yes` where this is above zero, else `no`.
     fn positive(self, yes: Self, no: Self) -> Self;
+}
+
+impl Real for f64 {
+    #[inline(always)]
+    fn splat(self, value: f64) -> Self {
+        value
+    }
+    #[inline(always)]
+    fn plus(self, one: Self, other: Self) -> Self {
+        self + one * other
+    }
+    #[inline(always)]
+    fn less(self, one: Self, other: Self) -> Self {
+        self - one * other
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self::sqrt(self)
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self::abs(self)
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        (self - other).positive(self, other)
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        (other - self).positive(self, other)
+    }
+    #[inline(always)]
+    fn positive(self, yes: Self, no: Self) -> Self {
+        if self > 0.0 { yes } else { no }
+    }
 }
 
 /// As many numbers as the processor's registers hold.

@@ -1,5 +1,7 @@
 //! Vectors and 3×3 matrices of [`Real`]s, as much of them as a rope needs.
 
+use glam::{DMat3, DVec3};
+
 use super::real::Real;
 
 /// A vector.
@@ -8,6 +10,18 @@ pub(crate) struct Vec3<R> {
     pub x: R,
     pub y: R,
     pub z: R,
+}
+
+impl From<DVec3> for Vec3<f64> {
+    fn from(v: DVec3) -> Self {
+        Self { x: v.x, y: v.y, z: v.z }
+    }
+}
+
+impl From<Vec3<f64>> for DVec3 {
+    fn from(v: Vec3<f64>) -> Self {
+        Self::new(v.x, v.y, v.z)
+    }
 }
 
 /// A symmetric matrix.
@@ -19,6 +33,12 @@ pub(crate) struct Sym3<R> {
     pub yy: R,
     pub yz: R,
     pub zz: R,
+}
+
+impl From<Sym3<f64>> for DMat3 {
+    fn from(m: Sym3<f64>) -> Self {
+        Self::from_cols(DVec3::new(m.xx, m.xy, m.xz), DVec3::new(m.xy, m.yy, m.yz), DVec3::new(m.xz, m.yz, m.zz))
+    }
 }
 
 /// A matrix by its columns.

@@ -10,6 +10,7 @@ use pulp::{Simd, WithSimd};
 use super::real::{Lane, Real};
 use super::rows::{EndRows, GroundRow, MoveRows, NodeRow, Part, Row, Row3, SegmentRow, Solved};
 use super::space::{Mat3, Sym3, Vec3};
+use crate::solver::axial::Axial;
 use crate::solver::forces::{self, NodeAt, PerMetre, PullOf, SegmentAt, Shared};
 
 /// What a group is made of.
@@ -82,6 +83,7 @@ impl<S: Simd> Inputs<'_, S> {
             place_history: part.get3(&row.place_history),
             velocity_history: part.get3(&row.velocity_history),
             flow: part.get3(&row.flow),
+            surface: Lane::new(part.simd, 0.0),
             length: part.get(&row.length),
         };
         let (force, block) = forces::node(&self.rope, &self.shared, &at);
@@ -100,9 +102,7 @@ impl<S: Simd> Inputs<'_, S> {
             history: part.get3(&to.place_history).sub(part.get3(&from.place_history)),
             length: part.get(&row.length),
             inverse_length: part.get(&row.inverse_length),
-            ea: part.get(&row.ea),
-            ea2: part.get(&row.ea2),
-            damping: part.get(&row.damping),
+            law: Axial { ea: part.get(&row.ea), ea2: part.get(&row.ea2), damping: part.get(&row.damping) },
             foretold: part.get(&row.tension),
         };
         let pull = forces::pull(&at, self.shared.rate);
