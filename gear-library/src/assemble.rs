@@ -11,6 +11,7 @@ mod catenary;
 mod ends;
 mod gear;
 mod line;
+mod pilot;
 mod probes;
 mod rig;
 mod scatter;

@@ -47,15 +47,22 @@ impl Document {
     /// The text of a field, such as `3/8 in` for `diameter` or for `diameter.value`.
     #[must_use]
     pub fn get(&self, field: &str) -> Option<String> {
-        let mut item = self.document.as_item();
-        for part in field.split('.') {
-            item = match part.parse::<usize>() {
-                Ok(index) => item.get(index)?,
-                Err(_) => item.get(part)?,
-            };
-        }
+        let item = self.item(field)?;
         let item = item.get("value").unwrap_or(item);
         item.as_str().map(str::to_owned).or_else(|| item.as_value().map(|value| value.to_string().trim().to_owned()))
+    }
+
+    /// Whether there is a field, table or list of this dotted path.
+    #[must_use]
+    pub fn has(&self, field: &str) -> bool {
+        self.item(field).is_some()
+    }
+
+    fn item(&self, field: &str) -> Option<&Item> {
+        field.split('.').try_fold(self.document.as_item(), |item, part| match part.parse::<usize>() {
+            Ok(index) => item.get(index),
+            Err(_) => item.get(part),
+        })
     }
 
     /// Sets a field by its dotted path, such as `diameter` or `line.0.length`.

@@ -4,6 +4,7 @@ mod current;
 mod motion;
 mod obstacle;
 mod parts;
+mod pilot;
 mod resolution;
 mod sea;
 mod waves;
@@ -25,6 +26,7 @@ pub use current::{CurrentOf, CurrentRow, RowHeight};
 pub use motion::{AnswerToTouch, Swimmer};
 pub use obstacle::ObstacleOf;
 pub use parts::{Fixture, FreeBody, LineStart, ProbeOf, ProbePart};
+pub use pilot::{PilotOf, TriggerOf};
 pub use sea::{Bed, Sea};
 
 /// A scenario as read; ids are looked up by [`assemble`](crate::assemble).

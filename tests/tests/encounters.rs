@@ -37,7 +37,7 @@ fn run(spec: ModelSpec) -> Ran {
     metrics.fold(&model, &state, &[]);
     let pilot = model.spec.whale.as_ref().map(|whale| whale.pilot.clone()).unwrap_or_default();
     while state.time_s < model.spec.settings.duration_s - 1e-9 {
-        let input = Input { controls: pilot.at(state.time_s) };
+        let input = Input { controls: pilot.at(&state) };
         step(&model, &input, &mut state, &mut workspace).unwrap_or_else(|stop| panic!("{stop:?} {:?}", workspace.audit));
         metrics.fold_step(&model, &state, &workspace);
     }

@@ -43,7 +43,7 @@ impl Run {
     fn steps(&mut self, count: u64) {
         let pilot = &self.model.spec.whale.as_ref().unwrap().pilot;
         for _ in 0..count {
-            let input = Input { controls: pilot.at(self.state.time_s) };
+            let input = Input { controls: pilot.at(&self.state) };
             step(&self.model, &input, &mut self.state, &mut self.workspace).unwrap();
         }
     }

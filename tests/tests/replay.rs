@@ -8,6 +8,9 @@ use std::fs;
 
 use common::Place;
 
+/// Bytes of the input of one step: ten numbers.
+const INPUT_BYTES: usize = 80;
+
 /// Records a run and gives the file.
 fn record(place: &Place) -> String {
     let scenario = place.encounter();
@@ -44,9 +47,9 @@ fn one_changed_input_byte_is_found_at_its_step() {
     let file = record(&place);
     let whole = fs::read(place.path(&file)).unwrap();
     let inputs = inputs(&whole);
-    for (step, byte) in [(1, 0), (7, 63), (50, 13), (inputs.len() / 64, 42)] {
+    for (step, byte) in [(1, 0), (7, 63), (50, 13), (inputs.len() / INPUT_BYTES, 42)] {
         let mut changed = whole.clone();
-        changed[inputs.start + (step - 1) * 64 + byte] ^= 1;
+        changed[inputs.start + (step - 1) * INPUT_BYTES + byte] ^= 1;
         fs::write(place.path("changed.endline"), &changed).unwrap();
         let told = format!("step {step} ");
         place
@@ -82,4 +85,81 @@ fn a_time_outside_the_recording_is_refused() {
     let refused = place.endline(&["render", &file, "--at", "99", "--out", "late.png"]);
     assert!(matches!(refused.code, Some(1 | 2)) && !refused.stderr.contains("panicked"), "{refused}");
     assert!(!place.path("late.png").exists());
+}
+
+/// A scenario of the encounter whose pilot turns, opens the mouth and works the flippers, by time and by what happens.
+fn flown(place: &Place) -> String {
+    let scenario = place.encounter();
+    let text = fs::read_to_string(&scenario).unwrap();
+    let pilot = "\n[[whale.pilot]]\nat = \"0.3 s\"\nramp = \"0.2 s\"\nyaw = 0.25\nflipper_sweep = -0.5\n\
+        \n[[whale.pilot]]\nwithin = \"100 m\"\ndelay = \"0.105 s\"\nhold = \"0.4 s\"\nroll = -0.3\nmouth = 1.0\n";
+    fs::write(&scenario, text + pilot).unwrap();
+    scenario
+}
+
+fn summary(place: &Place, folder: &str) -> serde_json::Value {
+    serde_json::from_str(&fs::read_to_string(place.path(folder).join("summary.json")).unwrap()).unwrap()
+}
+
+#[test]
+fn a_recording_written_as_a_pilot_program_gives_the_same_bits_and_an_edit_changes_what_follows_it() {
+    let place = Place::new("program");
+    let scenario = flown(&place);
+    place.endline(&["run", &scenario, "--out", "first", "--seed", "3"]).done();
+    let recording = "first/recording.endline";
+    let said = place.endline(&["pilot", recording, "--out", "gear-library/scenarios/flown.toml"]).done().stdout;
+    assert!(said.contains("endline run gear-library/scenarios/flown.toml --seed 3"), "{said}");
+    place.endline(&["run", "gear-library/scenarios/flown.toml", "--seed", "3", "--out", "again"]).done();
+    let (first, again) = (summary(&place, "first"), summary(&place, "again"));
+    assert_eq!(first["state_hash"], again["state_hash"]);
+    assert_eq!(first["steps"], again["steps"]);
+
+    // The recorded ramp is 20 steps of its own; thinned by a tenth of the control, fewer are left.
+    let entries = |file: &str| fs::read_to_string(place.path(file)).unwrap().matches("[[whale.pilot]]").count();
+    place.endline(&["pilot", recording, "--out", "gear-library/scenarios/thin.toml", "--thin", "0.1"]).done();
+    assert!(
+        entries("gear-library/scenarios/thin.toml") + 10 < entries("gear-library/scenarios/flown.toml"),
+        "{} of {}",
+        entries("gear-library/scenarios/thin.toml"),
+        entries("gear-library/scenarios/flown.toml")
+    );
+
+    // An entry edited at half a second: the states before are the recorded ones, the end is another.
+    let text = fs::read_to_string(place.path("gear-library/scenarios/flown.toml")).unwrap();
+    let last = text.rfind("roll = 0.0").unwrap();
+    fs::write(
+        place.path("gear-library/scenarios/edited.toml"),
+        format!("{}roll = 0.5{}", &text[..last], &text[last + "roll = 0.0".len()..]),
+    )
+    .unwrap();
+    let at = edited_s(&text[..last]);
+    let before = format!("{at:.3}");
+    place.endline(&["run", "gear-library/scenarios/edited.toml", "--from", recording, "--at", &before, "--out", "edited"]).done();
+    assert_ne!(summary(&place, "edited")["state_hash"], first["state_hash"]);
+    let verified = place.endline(&["replay", "edited/recording.endline", "--verify"]);
+    assert_eq!(verified.code, Some(0), "{verified}");
+}
+
+/// Time of the last entry of a program [s].
+fn edited_s(text: &str) -> f64 {
+    let at = text.rfind("at = \"").unwrap() + "at = \"".len();
+    text[at..].split(' ').next().unwrap().parse().unwrap()
+}
+
+#[test]
+fn taking_over_with_the_program_that_flew_changes_nothing_and_with_other_gear_is_refused() {
+    let place = Place::new("takeover");
+    let scenario = flown(&place);
+    place.endline(&["run", &scenario, "--out", "first"]).done();
+    let recording = "first/recording.endline";
+    place.endline(&["run", &scenario, "--from", recording, "--at", "0.45", "--out", "again"]).done();
+    assert_eq!(summary(&place, "first")["state_hash"], summary(&place, "again")["state_hash"]);
+
+    let text = fs::read_to_string(&scenario).unwrap();
+    fs::write(place.path("gear-library/scenarios/gear.toml"), text.replace("speed = \"1.3 m/s\"", "speed = \"1.2 m/s\"")).unwrap();
+    place
+        .endline(&["run", "gear-library/scenarios/gear.toml", "--from", recording, "--at", "0.45"])
+        .fails(1, &["not the one recorded", "step 0", "whale"]);
+    place.endline(&["run", &scenario, "--from", recording, "--at", "1e9"]).fails(1, &["outside the recording"]);
+    place.endline(&["run", &scenario, "--from", recording]).fails(2, &["--at"]);
 }

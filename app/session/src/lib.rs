@@ -21,7 +21,6 @@ pub mod check;
 pub mod error;
 pub mod hash;
 mod hooks;
-pub mod input;
 pub mod live;
 pub mod locate;
 pub mod plugins;

@@ -10,7 +10,6 @@ use endline_sim::{Audit, Frame, Input, Model, Outcome, Settled, State, Stop, Wor
 
 use crate::error::Error;
 use crate::hash::StateHash;
-use crate::input;
 use crate::recording::{Header, Recording};
 use crate::source::Prepared;
 use crate::timing::Timing;
@@ -84,7 +83,7 @@ impl Run {
     /// # Errors
     /// Where the run cannot go on; it then stays where it was, and says so in its summary.
     pub fn step(&mut self, controls: Controls) -> Result<(), Stop> {
-        self.step_raw(input::within_range(&controls))
+        self.step_raw(controls.within_range(self.acts()))
     }
 
     /// Takes one step under recorded controls, bit for bit.
@@ -118,7 +117,12 @@ impl Run {
     /// The pilot program's controls for the next step.
     #[must_use]
     pub fn pilot(&self) -> Controls {
-        self.model().spec.whale.as_ref().map_or_else(Controls::default, |whale| whale.pilot.at(self.state.time_s))
+        self.model().spec.whale.as_ref().map_or_else(Controls::default, |whale| whale.pilot.at(&self.state))
+    }
+
+    /// How many acts the whale's motion declares.
+    fn acts(&self) -> usize {
+        self.model().spec.whale.as_ref().map_or(0, |whale| whale.motion.descriptor().acts.len())
     }
 
     /// Whether the scenario's time is over or the run is stopped.

@@ -30,6 +30,19 @@ pub struct Overrides {
     pub rating_n: Option<f64>,
 }
 
+impl Overrides {
+    /// These, and another's where nothing is set.
+    #[must_use]
+    pub fn or(self, other: Self) -> Self {
+        Self {
+            seed: self.seed.or(other.seed),
+            step_s: self.step_s.or(other.step_s),
+            weak_links: self.weak_links.or(other.weak_links),
+            rating_n: self.rating_n.or(other.rating_n),
+        }
+    }
+}
+
 /// Everything a model is made from, as text: what a recording keeps.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Source {

@@ -154,6 +154,7 @@ fn check_whale(spec: &ModelSpec, found: &mut Found) {
     let skin = &whale.skin;
     found.above_zero("length", whale.length_m);
     found.above_zero("contact stiffness", whale.contact_stiffness_n_m2);
+    found.need(whale.pilot.is_sound(), "an entry of its pilot program has a number that is not finite or follows one that is not above it");
     found.need(whale.position_m.is_finite() && whale.orientation.is_normalized(), "its start place or orientation is not sound");
     found.need(!skin.triangles.is_empty() && !skin.bones.is_empty(), "its skin has no triangles or no bones");
     found.need(skin.regions.len() == skin.triangles.len(), "its skin needs one region for each triangle");

@@ -10,6 +10,7 @@ use crate::pace::Pace;
 use crate::solids::SolidGrip;
 use crate::solver::LOOSE_M;
 use crate::whale::Whale;
+use crate::whale::pilot::{self, PilotMemory};
 
 /// Everything the next step depends on, besides the model and the input.
 #[derive(Debug, PartialEq)]
@@ -32,6 +33,8 @@ pub struct State {
     pub gear: Vec<Vec<f64>>,
     /// How long the next solver step is to be, and why.
     pub pace: Pace,
+    /// What the whale's pilot program has seen and begun; it chooses inputs and moves nothing by itself.
+    pub pilot: PilotMemory,
 }
 
 /// Nodes and segments of all lines, in the model's layout.
@@ -103,7 +106,7 @@ pub struct WhaleState {
     pub contact_force_n: [f64; endline_sdk::BodyPart::ALL.len()],
 }
 
-clone_in_place!(State { time_s, step, rope, bodies, whale, link_parted_s, line_parted, gear, pace });
+clone_in_place!(State { time_s, step, rope, bodies, whale, link_parted_s, line_parted, gear, pace, pilot });
 clone_in_place!(RopeState {
     position,
     velocity,
@@ -139,7 +142,7 @@ impl State {
             solid_grips: Vec::new(),
             position,
         };
-        Self {
+        let mut state = Self {
             time_s: 0.0,
             step: 0,
             rope,
@@ -149,7 +152,10 @@ impl State {
             line_parted: vec![None; model.spec.lines.len()],
             gear: model.spec.gear.iter().map(|hook| vec![0.0; hook.gear.descriptor().state_len]).collect(),
             pace: Pace::new(model),
-        }
+            pilot: PilotMemory::default(),
+        };
+        pilot::begin(model, &mut state);
+        state
     }
 }
 

@@ -17,6 +17,7 @@ use crate::solver::Solver;
 use crate::state::{State, WhaleState};
 use crate::substep::{self, Refused, Took};
 use crate::whale::drive::{drive, pose_between};
+use crate::whale::pilot;
 
 /// Rope this near to the whale's path over a whole step makes the solver steps short [m].
 const NEAR_M: f64 = MARGIN_M + 0.12;
@@ -136,7 +137,9 @@ fn try_step(model: &Model, input: &Input, state: &mut State, workspace: &mut Wor
     done?;
     state.time_s = model.spec.settings.step_s * (state.step + 1) as f64;
     state.step += 1;
-    gear_hook::act(model, state, &mut workspace.gear)
+    gear_hook::act(model, state, &mut workspace.gear)?;
+    pilot::look(model, state);
+    Ok(())
 }
 
 /// Solver steps to the end of the model's step, all taken back and begun shorter where one misses the wanted error by far.

@@ -34,6 +34,7 @@ impl Builder<'_> {
         };
         let motion = self.with_acts(motion, swimmer, item);
         let attributes = swimmer.attributes.resolve(motion.descriptor(), self.library, &mut self.used, &self.problems);
+        let pilot = self.pilot(&swimmer.pilot, motion.descriptor());
         let length_m = swimmer.length_m.unwrap_or(item.form.length_m);
         let skin = item.skin_at(length_m);
         self.spec.whale = Some(Whale {
@@ -47,7 +48,7 @@ impl Builder<'_> {
             speed_m_s: swimmer.speed_m_s,
             motion,
             motion_attributes: numbers(&attributes),
-            pilot: swimmer.pilot.clone(),
+            pilot,
             contact_stiffness_n_m2: swimmer.contact_stiffness_n_m2.unwrap_or(item.contact_stiffness_n_m2),
         });
     }

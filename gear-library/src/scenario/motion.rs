@@ -1,14 +1,14 @@
 //! The whale of a scenario: which, where, how it swims, what its pilot does.
 
-use endline_sdk::Controls;
 use endline_sim::DVec3;
-use endline_sim::whale::PilotProgram;
 
 use crate::attributes::Attributes;
 use crate::diagnostic::At;
 use crate::fields::{Fields, Problems, Range};
 use crate::tree::{Content, Node};
 use crate::units::Quantity;
+
+use super::pilot::{self, PilotOf};
 
 /// Force on one part from which a whale feels rope, where a scenario says nothing else [N]; an estimate.
 const FELT_N: f64 = 1.0;
@@ -40,8 +40,8 @@ pub struct Swimmer {
     pub acts: Option<Vec<At<String>>>,
     /// What it does when rope touches it.
     pub answer: Option<AnswerToTouch>,
-    /// Timed controls.
-    pub pilot: PilotProgram,
+    /// What its pilot does.
+    pub pilot: Vec<PilotOf>,
 }
 
 /// What a whale does of itself when rope touches it.
@@ -73,7 +73,7 @@ impl Swimmer {
         let attributes = Attributes::read(fields, "attributes");
         let acts = fields.get("acts").map(|node| acts(node, fields.problems()));
         let answer = answer(fields);
-        let pilot = pilot(fields);
+        let pilot = pilot::pilot(fields);
         fields.finish();
         let (position, depth) = (position?, depth?);
         Some(Self {
@@ -122,37 +122,4 @@ fn answer(fields: &Fields<'_>) -> Option<AnswerToTouch> {
         above_n: above.map_or(FELT_N, |above| above.value),
         again_s: again.map_or(f64::INFINITY, |again| again.value),
     })
-}
-
-/// `[[whale.pilot]]`: from each time on, controls that hold until the next.
-fn pilot(fields: &Fields<'_>) -> PilotProgram {
-    let mut commands: Vec<(f64, Controls)> = Vec::new();
-    for node in fields.tables("pilot") {
-        let Some((from, controls)) = command(node, fields.problems()) else { continue };
-        if commands.last().is_some_and(|(earlier, _)| *earlier >= from.value) {
-            fields.problems().push(from.place.error("commands are not in rising order of `at`", "put them in the order of time"));
-        }
-        commands.push((from.value, controls));
-    }
-    PilotProgram { commands }
-}
-
-fn command(node: &Node, problems: &Problems) -> Option<(At<f64>, Controls)> {
-    let fields = Fields::of(node, problems);
-    let at = fields.need_value("at", Quantity::Time, Range::NotNegative);
-    let control = |key, least| fields.value(key, Quantity::Ratio, Range::Between(least, 1.0)).map_or(0.0, |value| value.value);
-    let controls = Controls {
-        speed: control("speed", 0.0),
-        pitch: control("pitch", -1.0),
-        roll: control("roll", -1.0),
-        yaw: control("yaw", -1.0),
-        burst: control("burst", 0.0),
-        mouth: control("mouth", 0.0),
-        flipper_raise: control("flipper_raise", -1.0),
-        flipper_twist: control("flipper_twist", -1.0),
-        flipper_sweep: control("flipper_sweep", -1.0),
-        act: 0.0,
-    };
-    fields.finish();
-    Some((at?, controls))
 }

@@ -14,6 +14,7 @@
 //! that a run can be recorded, replayed and run many times at once.
 
 pub mod abi;
+mod controls;
 pub mod friction;
 pub mod gear;
 pub mod hook;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use endline_sdk::{AttributeKind, Descriptor};
+use endline_sdk::{AttributeKind, Controls, Descriptor};
 
 use super::info::Refusal;
 
@@ -11,7 +11,7 @@ pub(super) const MOST_ATTRIBUTES: usize = 1000;
 pub(super) const MOST_STATE: usize = 1_000_000;
 
 /// Most acts that a motion may declare.
-pub(super) const MOST_ACTS: usize = crate::input::MOST_ACTS;
+pub(super) const MOST_ACTS: usize = Controls::MOST_ACTS;
 
 const TELL_AUTHOR: &str = "tell the plugin's author";
 

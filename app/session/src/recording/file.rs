@@ -1,18 +1,18 @@
 //! The bytes of a recording: a magic word, a format number, then sections, each with its length
 //! and its BLAKE3 hash. See `docs/recording.md`.
 
+use endline_sdk::Controls;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use super::Recording;
 use crate::hash::{PARTS, StateHash};
-use crate::input;
 
 /// First bytes of every recording; the high bit and the line end catch text-mode copies.
 const MAGIC: [u8; 8] = *b"\x89ENDLIN\n";
 /// Number of this format.
 const FORMAT: u32 = 3;
-const INPUT_BYTES: usize = 8 * input::NUMBERS;
+const INPUT_BYTES: usize = 8 * Controls::COUNT;
 const HASH_BYTES: usize = 8 * PARTS;
 /// Sections in their order in the file, with the names used in messages; the last is empty and marks the end.
 const SECTIONS: [([u8; 4], &str); 5] =
@@ -23,7 +23,7 @@ const INPUTS: usize = 2;
 pub(super) fn write(recording: &Recording) -> Result<Vec<u8>, String> {
     let mut inputs = Vec::with_capacity(recording.inputs.len() * INPUT_BYTES);
     for controls in &recording.inputs {
-        input::to_array(controls).iter().for_each(|number| inputs.extend_from_slice(&number.to_le_bytes()));
+        controls.to_array().iter().for_each(|number| inputs.extend_from_slice(&number.to_le_bytes()));
     }
     let mut hashes = Vec::with_capacity(recording.hashes.len() * HASH_BYTES);
     for hash in &recording.hashes {
@@ -64,7 +64,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Recording, String> {
     Ok(Recording {
         header: decode(header, "header")?,
         source: decode(source, "model source")?,
-        inputs: numbers::<{ input::NUMBERS }>(inputs, "inputs")?.map(|words| input::from_array(words.map(f64::from_bits))).collect(),
+        inputs: numbers::<{ Controls::COUNT }>(inputs, "inputs")?.map(|words| Controls::from_array(words.map(f64::from_bits))).collect(),
         hashes: numbers::<PARTS>(hashes, "state hashes")?.map(|parts| StateHash { parts }).collect(),
         damage,
     })
@@ -146,8 +146,6 @@ impl<'a> Reader<'a> {
 mod tests {
     use super::super::Header;
     use super::*;
-    use endline_sdk::Controls;
-
     fn sample() -> Recording {
         let input = |step: u32| Controls { speed: f64::from(step) / 8.0, yaw: -0.25, ..Controls::default() };
         let hash = |step: u64| StateHash { parts: std::array::from_fn(|part| step * 100 + part as u64) };

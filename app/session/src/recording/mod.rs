@@ -4,7 +4,9 @@
 //! same bits ([`replay`]). The file format is told in `docs/recording.md`.
 
 mod file;
+pub mod program;
 pub mod replay;
+pub mod take_over;
 
 use std::path::Path;
 

@@ -78,22 +78,22 @@ pub fn verify(
     mut progress: impl FnMut(u64, u64),
 ) -> Result<(Run, Verdict), Error> {
     let mut run = start(recording, host, options)?;
-    let verdict = compare(recording, &mut run, &mut progress);
+    let verdict = compare(recording, &mut run, recording.inputs.len(), &mut progress);
     Ok((run, verdict))
 }
 
-/// Steps a run that stands at its start through a recording, up to the first step that differs.
-fn compare(recording: &Recording, run: &mut Run, progress: &mut dyn FnMut(u64, u64)) -> Verdict {
+/// Takes a run that stands at its start through the first `steps` of a recording, up to the first that differs.
+pub(super) fn compare(recording: &Recording, run: &mut Run, steps: usize, progress: &mut dyn FnMut(u64, u64)) -> Verdict {
     let differs = |step: usize, part| Verdict::Differs { step: step as u64, time_s: step as f64 * recording.header.dt_s, part };
     if let Some(part) = recording.hashes.first().and_then(|recorded| recorded.first_difference(&run.state_hash())) {
         return differs(0, part);
     }
-    for (index, controls) in recording.inputs.iter().enumerate() {
+    for (index, controls) in recording.inputs.iter().take(steps).enumerate() {
         let step = index + 1;
         if let Some(part) = step_and_compare(recording, run, step, Input { controls: *controls }) {
             return differs(step, part);
         }
-        progress(step as u64, recording.steps() as u64);
+        progress(step as u64, steps as u64);
     }
     Verdict::Same { steps: run.state().step }
 }
@@ -104,13 +104,8 @@ fn compare(recording: &Recording, run: &mut Run, progress: &mut dyn FnMut(u64, u
 /// As [`replay`]; and a time outside the recording.
 pub fn frame_at(recording: &Recording, host: &PluginHost, options: ReplayOptions, time_s: f64) -> Result<(Run, Arc<Frame>), Error> {
     refuse_damage(recording)?;
-    let (steps, last_s) = (recording.steps(), recording.duration_s());
-    // Half a step of grace, so that the last moment may be named rounded.
-    if !(time_s >= 0.0 && time_s <= last_s + 0.5 * recording.header.dt_s) {
-        return Err(Error::Replay(format!("{time_s} s is outside the recording; expected 0 to {last_s} s")));
-    }
+    let wanted = step_at(recording, time_s)?;
     let mut run = start(recording, host, options)?;
-    let wanted = ((time_s / recording.header.dt_s + 1e-6).floor() as usize).min(steps);
     for controls in &recording.inputs[..wanted] {
         run.step_raw(*controls).map_err(Error::Stopped)?;
     }
@@ -133,7 +128,17 @@ fn step_and_compare(recording: &Recording, run: &mut Run, step: usize, input: In
     }
 }
 
-fn refuse_damage(recording: &Recording) -> Result<(), Error> {
+/// The step nearest before a time.
+pub(super) fn step_at(recording: &Recording, time_s: f64) -> Result<usize, Error> {
+    let last_s = recording.duration_s();
+    // Half a step of grace, so that the last moment may be named rounded.
+    if !(time_s >= 0.0 && time_s <= last_s + 0.5 * recording.header.dt_s) {
+        return Err(Error::Replay(format!("{time_s} s is outside the recording; expected 0 to {last_s} s")));
+    }
+    Ok(((time_s / recording.header.dt_s + 1e-6).floor() as usize).min(recording.steps()))
+}
+
+pub(super) fn refuse_damage(recording: &Recording) -> Result<(), Error> {
     match &recording.damage {
         Some(damage) => Err(Error::Replay(format!("{damage}; `endline replay --verify` names the first step that differs"))),
         None => Ok(()),
@@ -188,7 +193,7 @@ mod tests {
     }
 
     fn verdict(recording: &Recording) -> Verdict {
-        compare(recording, &mut run(), &mut |_, _| {})
+        compare(recording, &mut run(), recording.inputs.len(), &mut |_, _| {})
     }
 
     #[test]

@@ -33,6 +33,7 @@ pub use event::{Event, EventKind};
 pub use flukes::TURN_SHARE;
 pub use lines::end_tension;
 pub use outcome::{LONG_CONTACT_S, LOST_S, RELEASE_S};
+pub(crate) use probes::joint_place;
 pub use probes::{reading, unit};
 pub use summary::{BeatSummary, BodySummary, LineSummary, LinkSummary, Outcome, ProbeSummary, RegionSummary, Summary, WhaleSummary};
 pub use winding::{BRIDGED_GAP_M, WINDING_JUMP};

@@ -91,7 +91,7 @@ pub fn reading(model: &Model, state: &State, target: ProbeTarget) -> f64 {
 }
 
 /// Place of a joint [m]: of the line end that meets there, or on its body.
-fn joint_place(model: &Model, state: &State, joint: usize) -> Option<glam::DVec3> {
+pub(crate) fn joint_place(model: &Model, state: &State, joint: usize) -> Option<glam::DVec3> {
     let kind = &model.spec.joints.get(joint)?.kind;
     if let JointKind::Body { body, offset_m } = kind {
         let body = state.bodies.get(*body)?;

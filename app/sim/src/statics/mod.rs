@@ -12,6 +12,7 @@ mod relax;
 
 use crate::model::Model;
 use crate::state::State;
+use crate::whale::pilot;
 use newton::{Hold, Reached, descend};
 pub use outcome::{Drag, Outcome, Worst};
 
@@ -104,7 +105,8 @@ fn release(model: &Model, held: &Reached, trace_n: &mut Vec<f64>) -> Reached {
     sure(model, Hold::Tethered(0.0), trace_n)
 }
 
-fn told(model: &Model, reached: Reached, outcome: Outcome, trace_n: Vec<f64>) -> Settled {
+fn told(model: &Model, mut reached: Reached, outcome: Outcome, trace_n: Vec<f64>) -> Settled {
     let (worst, converged) = (outcome::worst(model, &reached), outcome == Outcome::AtRest);
+    pilot::begin(model, &mut reached.state);
     Settled { state: reached.state, outcome, residual_n: reached.residual_n, worst, converged, trace_n }
 }

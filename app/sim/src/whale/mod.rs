@@ -6,18 +6,20 @@ pub mod bounds;
 pub mod drive;
 pub mod joints;
 pub mod measures;
+pub mod pilot;
 pub mod pose;
 pub mod surface;
 pub mod tree;
 
 use std::sync::Arc;
 
-use endline_sdk::{Controls, Region, SPINE_JOINTS, WhaleMotion};
+use endline_sdk::{Region, SPINE_JOINTS, WhaleMotion};
 use glam::{DQuat, DVec3};
 
 pub use bounds::Bounds;
 pub use joints::JointRanges;
 pub use measures::Measures;
+pub use pilot::PilotProgram;
 pub use pose::{pose, skin_all, skin_vertex};
 pub use surface::{Candidate, Surface};
 pub use tree::SkinTree;
@@ -45,25 +47,10 @@ pub struct Whale {
     pub motion: Arc<dyn WhaleMotion>,
     /// Attributes of the motion, SI, in the declared order.
     pub motion_attributes: Vec<f64>,
-    /// Timed controls where no pilot flies.
+    /// Controls where no pilot flies.
     pub pilot: PilotProgram,
     /// Stiffness of skin and blubber under rope, per metre of rope [N/m²].
     pub contact_stiffness_n_m2: f64,
-}
-
-/// Timed controls: from each time on, those controls hold until the next.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct PilotProgram {
-    /// Times in rising order [s] and the controls from then on.
-    pub commands: Vec<(f64, Controls)>,
-}
-
-impl PilotProgram {
-    /// The controls at a time.
-    #[must_use]
-    pub fn at(&self, time_s: f64) -> Controls {
-        self.commands.iter().rev().find(|(from, _)| *from <= time_s).map_or_else(Controls::default, |(_, controls)| *controls)
-    }
 }
 
 /// A closed triangle skin on bones: at most four bones move a vertex.

@@ -28,6 +28,8 @@ pub(super) enum Command {
     Settle(SettleArgs),
     /// Run a recording again; with --verify compare every step.
     Replay(ReplayArgs),
+    /// Write a recorded run as a scenario whose pilot program flies it again, to be edited as text.
+    Pilot(PilotArgs),
     /// Draw a moment of a recording or a scenario; needs no display.
     Render(RenderArgs),
     /// Run validation cases and tell what was expected and what was got.
@@ -59,6 +61,12 @@ pub(super) struct RunArgs {
     /// Start even where the gear did not come to rest.
     #[arg(long = "allow-unsettled", alias = "unsettled")]
     pub(super) unsettled: bool,
+    /// Take over from a moment of this recording: up to --at its inputs steer, from then on the scenario's pilot.
+    #[arg(long, value_name = "RECORDING", requires = "at")]
+    pub(super) from: Option<PathBuf>,
+    /// The moment taken over, in seconds of the recording.
+    #[arg(long, value_name = "T", requires = "from")]
+    pub(super) at: Option<f64>,
     #[command(flatten)]
     pub(super) over: OverArgs,
     /// Threads to use; one run takes one thread, and the result is the same for any number.
@@ -113,6 +121,18 @@ pub(super) struct ReplayArgs {
     /// Go on with plugins of another version or file than recorded.
     #[arg(long)]
     pub(super) other_plugins: bool,
+}
+
+#[derive(Debug, clap::Args)]
+pub(super) struct PilotArgs {
+    /// Recording file.
+    pub(super) recording: PathBuf,
+    /// Scenario to write.
+    #[arg(long, value_name = "FILE.toml")]
+    pub(super) out: PathBuf,
+    /// Leave out changes of a control up to this, from 0 to 1; with 0 the run is the same to the bit.
+    #[arg(long, value_name = "SHARE", default_value_t = 0.0, value_parser = share)]
+    pub(super) thin: f64,
 }
 
 #[derive(Debug, clap::Args)]
@@ -200,6 +220,11 @@ impl OverArgs {
 fn step(text: &str) -> Result<f64, String> {
     let seconds: f64 = text.parse().map_err(|_| "expected seconds, such as 0.01".to_owned())?;
     if seconds > 0.0 && seconds <= 1.0 { Ok(seconds) } else { Err("expected seconds above 0 and at most 1".into()) }
+}
+
+fn share(text: &str) -> Result<f64, String> {
+    let share: Option<f64> = text.parse().ok();
+    share.filter(|share| (0.0..=1.0).contains(share)).ok_or_else(|| "expected a number from 0 to 1, such as 0.02".into())
 }
 
 fn force(text: &str) -> Result<f64, String> {

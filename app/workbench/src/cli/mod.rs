@@ -8,6 +8,7 @@ mod failure;
 mod host;
 mod output;
 mod picture;
+mod pilot;
 mod plugins;
 mod progress;
 mod render;
@@ -43,6 +44,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitCode, Fa
         Some(Command::Run(args)) => run::run(args, library),
         Some(Command::Settle(args)) => settle::settle(args, library),
         Some(Command::Replay(args)) => replay::replay(args),
+        Some(Command::Pilot(args)) => pilot::pilot(args),
         Some(Command::Render(args)) => render::render(args, library),
         Some(Command::Validate(args)) => validate::validate(args, library),
         Some(Command::Check(args)) => check::check(args, library),

@@ -3,7 +3,8 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use endline_session::{Report, Run, RunOptions, prepare};
+use endline_session::recording::take_over::take_over;
+use endline_session::{Prepared, Recording, Report, Run, RunOptions, prepare};
 
 use super::args::RunArgs;
 use super::progress::Progress;
@@ -14,9 +15,10 @@ const FRAMES_HZ: f64 = 10.0;
 
 pub(super) fn run(args: &RunArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
     let host = host::load();
-    let prepared = prepare(&args.scenario, library, &host, args.over.overrides())?;
-    let frames_hz = if args.out.is_some() { FRAMES_HZ } else { 0.0 };
-    let mut run = Run::new(prepared, RunOptions { unsettled: args.unsettled, frames_hz })?;
+    let recording = args.from.as_deref().map(Recording::load).transpose()?;
+    let over = args.over.overrides().or(recording.as_ref().map(|recording| recording.source.overrides.clone()).unwrap_or_default());
+    let prepared = prepare(&args.scenario, library, &host, over)?;
+    let mut run = started(args, recording.as_ref(), prepared)?;
     let progress = Progress::new("running");
     run.to_end(|step, steps| progress.at(step, steps));
     drop(progress);
@@ -30,6 +32,17 @@ pub(super) fn run(args: &RunArgs, library: Option<&Path>) -> Result<ExitCode, Fa
         return Err(Failure::failed(stopped));
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// The run at its start, or at the moment taken over from a recording.
+fn started(args: &RunArgs, recording: Option<&Recording>, prepared: Prepared) -> Result<Run, Failure> {
+    let frames_hz = if args.out.is_some() { FRAMES_HZ } else { 0.0 };
+    let options = RunOptions { unsettled: args.unsettled, frames_hz };
+    let (Some(recording), Some(at)) = (recording, args.at) else { return Ok(Run::new(prepared, options)?) };
+    let unsettled = args.unsettled || recording.header.unsettled;
+    let progress = Progress::new("replaying");
+    let tell = |step, steps| progress.at(step, steps);
+    Ok(take_over(recording, prepared, RunOptions { unsettled, ..options }, at, tell)?)
 }
 
 /// Writes `summary.json`, `recording.endline` and, where this build draws, `picture.png`.

@@ -74,13 +74,14 @@ impl App {
                 PilotAction::PlayPause => self.obey(vec![Order::PlayPause]),
                 PilotAction::Person => self.obey(vec![Order::Person]),
                 PilotAction::WeakLinks => self.obey(vec![Order::WeakLinks]),
+                PilotAction::NextAct => self.obey(vec![Order::NextAct]),
             }
         }
         let now_s = context.input(|input| input.time);
         let elapsed_s = self.controls_at_s.replace(now_s).map_or(0.0, |before| (now_s - before).clamp(0.0, 0.25));
         let typing = context.egui_wants_keyboard_input();
         let held = if typing { HeldKeys::default() } else { context.input(HeldKeys::of) };
-        let controls = self.desk.pilot.controls(&held, elapsed_s);
+        let controls = self.desk.pilot.controls(&held, self.desk.acts().len(), elapsed_s);
         self.desk.send(Command::Controls(controls));
         context.request_repaint();
     }

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use endline_gear::Diagnostic;
+use endline_sdk::Act;
 use endline_session::live::{Command, LiveView, Status};
 use endline_session::{Error, Overrides, PluginHost, Prepared, Source};
 use serde::{Deserialize, Serialize};
@@ -57,6 +58,10 @@ pub enum Order {
     Fly,
     /// First or third person.
     Person,
+    /// The next act of the whale's motion.
+    NextAct,
+    /// The act of this index.
+    ChooseAct(usize),
     /// Save every changed text.
     Save,
     /// Save the run so far.
@@ -173,6 +178,13 @@ impl Desk {
         self.status() == Some(&Status::Running)
     }
 
+    /// What the whale's motion can be asked for.
+    #[must_use]
+    pub fn acts(&self) -> &[Act] {
+        let whale = self.view.as_ref().and_then(|view| view.model.spec.whale.as_ref());
+        whale.map_or(&[], |whale| &whale.motion.descriptor().acts)
+    }
+
     /// Problems of texts and of making the model.
     pub fn problems(&self) -> impl Iterator<Item = &Diagnostic> {
         let known = self.book.problems();
@@ -206,6 +218,11 @@ impl Desk {
             Order::WeakLinks => self.toggle_weak_links(),
             Order::Fly => self.toggle_fly(),
             Order::Person => self.view3d.change_person(),
+            Order::NextAct => {
+                let acts = self.acts().len();
+                self.pilot.next_act(acts);
+            }
+            Order::ChooseAct(act) => self.pilot.choose_act(*act),
             Order::Save => self.save(),
             Order::SaveRecording(path) => self.tell(Command::SaveRecording(path.clone())),
             Order::Open(path) => self.open(path),

@@ -1,6 +1,7 @@
-//! What a pilot sees over the 3-D view: speed, depth, heading, worst tension.
+//! What a pilot sees over the 3-D view: speed, depth, heading, worst tension, mouth, flippers and the chosen act.
 
 use egui::{Align2, Color32, FontId, Painter, Rect, pos2, vec2};
+use endline_sdk::Controls;
 use endline_session::live::LiveView;
 use endline_sim::DVec3;
 
@@ -20,8 +21,23 @@ pub fn readings(view: &LiveView, unit: ForceUnit) -> Vec<(&'static str, String)>
     ]
 }
 
+/// What mouth, flippers and acts are told to do, in one line; `act` is the name of the chosen one.
+#[must_use]
+pub fn told(controls: &Controls, act: Option<&str>) -> String {
+    let amounts = [
+        ("burst", controls.burst),
+        ("mouth", controls.mouth),
+        ("flippers raised", controls.flipper_raise),
+        ("twisted", controls.flipper_twist),
+        ("swept", controls.flipper_sweep),
+    ];
+    let moved = amounts.into_iter().filter(|(_, amount)| amount.abs() > 0.005).map(|(name, amount)| format!("{name} {amount:+.2}"));
+    let act = act.map(|name| format!("act {name}{}", if controls.act > 0.0 { ", now" } else { "" }));
+    moved.chain(act).chain(["Esc lets go".to_owned()]).collect::<Vec<_>>().join(" · ")
+}
+
 /// Paints the display along the top of the view.
-pub fn paint(painter: &Painter, rect: Rect, view: &LiveView, unit: ForceUnit) {
+pub fn paint(painter: &Painter, rect: Rect, view: &LiveView, unit: ForceUnit, act: Option<&str>) {
     const WIDTH: f32 = 112.0;
     let readings = readings(view, unit);
     let whole = WIDTH * readings.len() as f32;
@@ -44,7 +60,7 @@ pub fn paint(painter: &Painter, rect: Rect, view: &LiveView, unit: ForceUnit) {
             Color32::from_rgb(0xe8, 0xf2, 0xf4),
         );
     }
-    let note = "Esc lets go";
+    let note = told(&view.controls, act);
     painter.text(
         plate.center_bottom() + vec2(0.0, 10.0),
         Align2::CENTER_CENTER,
@@ -52,4 +68,16 @@ pub fn paint(painter: &Painter, rect: Rect, view: &LiveView, unit: ForceUnit) {
         FontId::proportional(11.0),
         Color32::from_rgb(0xa9, 0xbd, 0xc4),
     );
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_is_moved_is_told_beside_the_chosen_act() {
+        let controls = Controls { speed: 1.0, mouth: 1.0, flipper_sweep: -0.5, act: 2.0, ..Controls::default() };
+        assert_eq!(told(&controls, Some("Roll away")), "mouth +1.00 · swept -0.50 · act Roll away, now · Esc lets go");
+        assert_eq!(told(&Controls::default(), None), "Esc lets go");
+    }
 }

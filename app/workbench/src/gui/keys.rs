@@ -57,7 +57,7 @@ fn flying(context: &Context, desk: &mut Desk) -> Vec<Order> {
     if take(context, Key::M) {
         desk.pilot.toggle_mouth();
     }
-    let table = [(Key::V, Order::Person), (Key::K, Order::WeakLinks), (Key::Escape, Order::Fly)];
+    let table = [(Key::V, Order::Person), (Key::N, Order::NextAct), (Key::K, Order::WeakLinks), (Key::Escape, Order::Fly)];
     table.into_iter().filter(|(key, _)| take(context, *key)).map(|(_, order)| order).collect()
 }
 

@@ -28,11 +28,13 @@ pub fn orders(desk: &Desk) -> Vec<(String, Order)> {
         ("Apply changes".to_owned(), Order::Apply),
         ("Fly the whale, or stop".to_owned(), Order::Fly),
         ("First or third person".to_owned(), Order::Person),
+        ("Next act of the whale".to_owned(), Order::NextAct),
         ("Weak links on or off".to_owned(), Order::WeakLinks),
         ("Save all".to_owned(), Order::Save),
         ("Undo".to_owned(), Order::Undo),
         ("Redo".to_owned(), Order::Redo),
     ];
+    all.extend(desk.acts().iter().enumerate().map(|(index, act)| (format!("Act {}", act.name), Order::ChooseAct(index))));
     all.extend([0.1, 0.25, 0.5, 1.0, 2.0, 5.0].map(|speed| (format!("Speed {speed}×"), Order::Speed(speed))));
     all.push(("Speed as fast as it goes".to_owned(), Order::Speed(f64::INFINITY)));
     all.extend(Panel::ALL.map(|panel| (format!("Show {}", panel.title()), Order::Show(panel))));

@@ -19,6 +19,10 @@ pub struct HeldKeys {
     pub flipper_raise: f64,
     /// Flippers pronated (C, 1) or supinated (Z, -1).
     pub flipper_twist: f64,
+    /// Flippers swept forward (R, 1) or aft (T, -1).
+    pub flipper_sweep: f64,
+    /// The chosen act (G).
+    pub act: bool,
 }
 
 impl HeldKeys {
@@ -34,6 +38,8 @@ impl HeldKeys {
             burst: input.modifiers.shift,
             flipper_raise: pair(Key::E, Key::Q),
             flipper_twist: pair(Key::C, Key::Z),
+            flipper_sweep: pair(Key::R, Key::T),
+            act: input.key_down(Key::G),
         }
     }
 }

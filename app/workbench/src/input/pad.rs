@@ -11,8 +11,12 @@ pub enum PadAxis {
     LeftY,
     /// Right stick, right is 1.
     RightX,
+    /// Right stick, up (away from the pilot) is 1.
+    RightY,
     /// Left trigger, pulled is 1.
     LeftTrigger,
+    /// Right trigger, pulled is 1.
+    RightTrigger,
 }
 
 /// A button the pilot uses.
@@ -24,8 +28,14 @@ pub enum PadButton {
     East,
     /// Upper face button (Y).
     North,
+    /// Left shoulder.
+    LeftShoulder,
     /// Right shoulder.
     RightShoulder,
+    /// Left stick pressed.
+    LeftStick,
+    /// Right stick pressed.
+    RightStick,
     /// Start.
     Start,
     /// Back, also called select.
@@ -86,6 +96,9 @@ impl PadSource for GilrsPads {
                 }
                 gilrs::EventType::ButtonPressed(button, _) => button_of(button).map(PadEvent::Pressed),
                 gilrs::EventType::ButtonReleased(button, _) => button_of(button).map(PadEvent::Released),
+                gilrs::EventType::ButtonChanged(gilrs::Button::RightTrigger2, value, _) => {
+                    Some(PadEvent::Moved(PadAxis::RightTrigger, f64::from(value)))
+                }
                 _ => None,
             };
             out.extend(translated);
@@ -98,6 +111,7 @@ fn axis_of(axis: gilrs::Axis) -> Option<PadAxis> {
         gilrs::Axis::LeftStickX => Some(PadAxis::LeftX),
         gilrs::Axis::LeftStickY => Some(PadAxis::LeftY),
         gilrs::Axis::RightStickX => Some(PadAxis::RightX),
+        gilrs::Axis::RightStickY => Some(PadAxis::RightY),
         _ => None,
     }
 }
@@ -107,7 +121,10 @@ fn button_of(button: gilrs::Button) -> Option<PadButton> {
         gilrs::Button::South => Some(PadButton::South),
         gilrs::Button::East => Some(PadButton::East),
         gilrs::Button::North => Some(PadButton::North),
+        gilrs::Button::LeftTrigger => Some(PadButton::LeftShoulder),
         gilrs::Button::RightTrigger => Some(PadButton::RightShoulder),
+        gilrs::Button::LeftThumb => Some(PadButton::LeftStick),
+        gilrs::Button::RightThumb => Some(PadButton::RightStick),
         gilrs::Button::Start => Some(PadButton::Start),
         gilrs::Button::Select => Some(PadButton::Back),
         _ => None,

@@ -42,8 +42,11 @@ const BINDINGS: &[(&str, &[Binding])] = &[
             ("Turn to port, starboard", "A, D", "right stick"),
             ("Burst", "Shift", "right shoulder"),
             ("Open, close the mouth", "M", "A"),
-            ("Flippers in, out", "Q, E", ""),
-            ("Flippers twist", "Z, C", ""),
+            ("Flippers in, out", "Q, E", "left shoulder and right stick"),
+            ("Flippers twist", "Z, C", "left shoulder and right stick"),
+            ("Flippers swept forward, aft", "R, T", "right trigger; aft with left shoulder"),
+            ("Choose the next act", "N", "left stick pressed"),
+            ("Do the chosen act", "G", "right stick pressed"),
             ("First, third person", "V", "B"),
             ("Weak links on, off", "K", "Y"),
         ],
@@ -70,4 +73,22 @@ pub fn show(ui: &mut Ui) {
             "Gear is text in the library's folder: one TOML file an item, values with their unit, such as \"3/8 in\" or \"1700 lbf\".",
         );
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Keys of the workbench and of flying hold at once; those of the view only while nobody flies.
+    #[test]
+    fn no_key_is_bound_twice() {
+        for groups in [["Workbench", "Flying"], ["Workbench", "3-D view"]] {
+            let bindings = BINDINGS.iter().filter(|(group, _)| groups.contains(group)).flat_map(|(_, bindings)| *bindings);
+            let mut keys: Vec<&str> = bindings.flat_map(|(_, keys, _)| keys.split(", ")).collect();
+            let count = keys.len();
+            keys.sort_unstable();
+            keys.dedup();
+            assert_eq!(keys.len(), count, "{keys:?}");
+        }
+    }
 }

@@ -252,6 +252,7 @@ fn write_over(ui: &Ui, rect: Rect, view: &LiveView, desk: &Desk) {
     let metres_a_point = state.camera.metres_a_point(f64::from(rect.height()));
     overlay::paint(&painter, rect, &Overlay { caption, time_s: view.frame.time_s, scale_n: state.scene_scale_n, metres_a_point });
     if desk.flying {
-        hud::paint(&painter, rect, view, desk.preferences.force);
+        let act = desk.pilot.chosen_act(desk.acts().len()).map(|act| desk.acts()[act].name.as_ref());
+        hud::paint(&painter, rect, view, desk.preferences.force, act);
     }
 }
