@@ -186,6 +186,24 @@ fn a_whale_is_built_as_gltf() {
     place.endline(&["whale", "build", "right-whale", "--length", "90 m", "--out", &out]).fails(2, &["from 1 m to 35 m"]);
 }
 
+/// The mesh that the program has written stands in the whale's place, and goes into the recording with the library's texts.
+#[test]
+fn a_whale_from_a_mesh_file_runs_and_replays() {
+    let place = Place::new("mesh");
+    let scenario = place.short_scenario("hello-endline", "0.1 s");
+    let plain = place.endline(&["run", &scenario, "--json"]).done().json();
+    let whales = place.path("gear-library/whales");
+    place.endline(&["whale", "build", "right-whale", "--out", &text(&whales.join("mine.glb"))]).done();
+    let item = whales.join("right-whale.toml");
+    fs::write(&item, fs::read_to_string(&item).unwrap().replacen("\nlength =", "\nmesh = \"mine.glb\"\nlength =", 1)).unwrap();
+    let own = place.endline(&["run", &scenario, "--json", "--out", "own"]).done().json();
+    assert_eq!(own["triangles"], plain["triangles"]);
+    assert_ne!(own["model_hash"], plain["model_hash"]);
+    fs::remove_file(whales.join("mine.glb")).unwrap();
+    place.endline(&["replay", "own/recording.endline", "--verify"]).done();
+    place.endline(&["run", &scenario]).fails(1, &["right-whale.toml:", "there is no file `whales/mine.glb`"]);
+}
+
 #[test]
 fn the_shipped_library_has_no_faults() {
     let place = Place::new("shipped");
