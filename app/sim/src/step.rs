@@ -144,6 +144,9 @@ fn try_step(model: &Model, input: &Input, state: &mut State, workspace: &mut Wor
 
 /// Solver steps to the end of the model's step, all taken back and begun shorter where one misses the wanted error by far.
 fn paced_steps(model: &Model, state: &mut State, workspace: &mut Workspace, whale: Option<&[WhaleState; 2]>) -> Result<(), Stop> {
+    if model.node_count == 0 && model.spec.bodies.is_empty() {
+        return Ok(()); // a whale alone: there is nothing to solve
+    }
     let settings = &model.spec.settings;
     for taken_back in 0..=MOST_TAKEN_BACK {
         workspace.peak_tension_n.fill(0.0);

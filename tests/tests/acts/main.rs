@@ -8,6 +8,7 @@ mod flight;
 #[path = "../linked/mod.rs"]
 mod linked;
 mod moves;
+mod scenarios;
 mod skin;
 mod smooth;
 mod strouhal;
