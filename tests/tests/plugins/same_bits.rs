@@ -4,12 +4,15 @@ use std::fs;
 use std::sync::Arc;
 
 use endline_friction_models::Coulomb;
+use endline_gear::{Library, Sources};
 use endline_gear_types::Single;
 use endline_sdk::{
     Attribute, AttributeKind, AttributeValue, BodyPart, Contacts, Controls, FrictionModel, FrictionResponse, GearStep, GearType,
     MotionInput, MotionOutput, Site, WhaleMotion,
 };
 use endline_session::plugins::{PluginHost, PluginKind};
+use endline_sim::whale::acts::{Acting, Answer};
+use endline_tests::root;
 use endline_whale_motions::Swim;
 
 use crate::built::{first_party, first_party_file};
@@ -104,6 +107,42 @@ fn swim_gives_the_same_bits_linked_and_loaded() {
             assert_eq!(bits(one.iter().copied()), bits(other.iter().copied()));
             speed_m_s = out.speed_m_s;
         }
+    }
+}
+
+/// Acts of the shipped library over the swim, with touches that it answers: the player is the program's own and gives
+/// the same bits over a loaded motion as over a linked one.
+#[test]
+fn acts_give_the_same_bits_over_a_linked_and_a_loaded_swim() {
+    let (library, problems) = Library::read(&Sources::from_folder(&root().join("gear-library")).unwrap());
+    assert!(problems.is_empty());
+    let clips: Vec<_> = library.acts.iter().flat_map(|act| act.clips.iter().cloned()).collect();
+    let answer = Some(Answer { act: 1, above_n: 5.0, again_s: 3.0 });
+    let swims: [Arc<dyn WhaleMotion>; 2] = [Arc::new(Swim::new()), loaded().motion(SWIM).unwrap()];
+    let [one, other] = swims.map(|swim| Acting::new(swim, clips.clone(), answer));
+    let attributes: Vec<f64> = one.descriptor().attributes.iter().map(|attribute| attribute.default_value().number().unwrap()).collect();
+    let mut states = [vec![0.0; one.descriptor().state_len], vec![0.0; other.descriptor().state_len]];
+    let (mut random, mut asked, mut forces) = (Random(5), Controls::default(), [0.0; BodyPart::ALL.len()]);
+    for step in 0..6000 {
+        if step % 70 == 0 {
+            asked = controls(&mut random);
+            asked.act = random.between(0.0, 1.0 + clips.len() as f64).floor();
+            forces = std::array::from_fn(|_| random.between(-40.0, 20.0).max(0.0));
+        }
+        let input = MotionInput {
+            time_s: f64::from(step) * 0.02,
+            dt_s: 0.02,
+            length_m: 13.7,
+            speed_m_s: 1.2,
+            position_m: [0.0; 3],
+            orientation: [0.0, 0.0, 0.0, 1.0],
+            controls: asked,
+            contact_force_n: &forces,
+        };
+        let [first, second] = &mut states;
+        let out = one.step(&attributes, &input, first).unwrap();
+        assert_eq!(output_bits(&out), output_bits(&other.step(&attributes, &input, second).unwrap()));
+        assert_eq!(bits(first.iter().copied()), bits(second.iter().copied()));
     }
 }
 
