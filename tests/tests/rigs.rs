@@ -87,15 +87,15 @@ fn made_for(assembly: &str) -> f64 {
     }
 }
 
-/// Gear for which statics finds neither rest nor that it drags: a string of netting, stowed rope that nothing holds on
-/// the seabed, and trawls across full tide.
+/// Gear for which statics finds neither rest nor that it drags: a string of netting and a long trawl across full tide, a
+/// short trawl against it, and stowed rope that nothing holds on the seabed.
 fn is_open(assembly: &str, speed: f64, heading: f64) -> bool {
     let across = heading > 1.0 && heading < 179.0;
     speed > 0.3
         && match assembly {
-            "gillnet-string" | "on-demand-trawl" => true,
-            "trawl-5" => true,
-            "trawl-20" => across,
+            "on-demand-trawl" => true,
+            "gillnet-string" | "trawl-20" => across,
+            "trawl-5" => heading > 179.0,
             _ => false,
         }
 }

@@ -458,6 +458,13 @@ impl Model {
         if !errors.is_empty() {
             return Err(errors);
         }
+        let skin_tree = spec.whale.as_ref().map(|whale| Arc::new(SkinTree::new(whale.skin.clone())));
+        let sea = Sea::new(&spec.water, spec.seabed.as_ref(), spec.settings.seed);
+        Ok(Self::laid_out(spec, skin_tree, sea))
+    }
+
+    /// Lays out nodes and segments.
+    fn laid_out(spec: ModelSpec, skin_tree: Option<Arc<SkinTree>>, sea: Sea) -> Self {
         let (mut line_nodes, mut line_segments) = (Vec::new(), Vec::new());
         let (mut node_count, mut segment_count) = (0, 0);
         for line in &spec.lines {
@@ -470,9 +477,28 @@ impl Model {
         let segment_line =
             spec.lines.iter().enumerate().flat_map(|(index, line)| std::iter::repeat_n(index, line.segments_m.len())).collect();
         let segment_strength_n = spec.lines.iter().flat_map(|line| strengths(line, spec.ropes[line.rope].strength_n)).collect();
-        let skin_tree = spec.whale.as_ref().map(|whale| Arc::new(SkinTree::new(whale.skin.clone())));
-        let sea = Sea::new(&spec.water, spec.seabed.as_ref(), spec.settings.seed);
-        Ok(Self { spec, line_nodes, line_segments, node_count, segment_count, segment_line, segment_strength_n, skin_tree, sea })
+        Self { spec, line_nodes, line_segments, node_count, segment_count, segment_line, segment_strength_n, skin_tree, sea }
+    }
+
+    /// The same gear in the same sea with its lines as these, alone: without whale, plugins, links and probes.
+    pub(crate) fn with_lines(&self, lines: Vec<Line>) -> Self {
+        let spec = &self.spec;
+        let alone = ModelSpec {
+            water: spec.water.clone(),
+            seabed: spec.seabed.clone(),
+            ropes: spec.ropes.clone(),
+            joints: spec.joints.clone(),
+            lines,
+            bodies: spec.bodies.clone(),
+            links: Vec::new(),
+            gear: Vec::new(),
+            whale: None,
+            friction: None,
+            obstacles: spec.obstacles.clone(),
+            probes: Vec::new(),
+            settings: Settings { resolution: None, ..spec.settings.clone() },
+        };
+        Self::laid_out(alone, None, self.sea.clone())
     }
 
     /// Whether any rope resists bending.

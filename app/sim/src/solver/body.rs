@@ -30,6 +30,9 @@ impl Solver {
             self.add_part_drag(model, state, (index, DVec3::ZERO, body.drag_area_m2 * wet), scheme);
             self.add_turn_drag(model, state, (index, body, wet), scheme);
             self.add_body_push(model, (index, body, wet));
+            if scheme.exact {
+                self.add_slopes(model, index, body);
+            }
             self.add_feet(model, state, index, scheme);
         }
     }
@@ -38,7 +41,7 @@ impl Solver {
     fn add_floats(&mut self, model: &Model, state: &State, (index, body): (usize, &Body), scheme: &Scheme) -> f64 {
         let (mut wet, mut whole) = (0.0, 0.0);
         for float in &body.floats {
-            let share = self.add_float(model, index, float);
+            let share = self.add_float(model, (index, float), scheme);
             self.add_part_drag(model, state, (index, float.offset_m, float.drag_area_m2 * share), scheme);
             wet += share * float.volume_m3;
             whole += float.volume_m3;
@@ -47,7 +50,7 @@ impl Solver {
     }
 
     /// Buoyancy of a float; gives its wet share.
-    fn add_float(&mut self, model: &Model, index: usize, float: &Float) -> f64 {
+    fn add_float(&mut self, model: &Model, (index, float): (usize, &Float), scheme: &Scheme) -> f64 {
         let water = &model.spec.water;
         let trial = self.trial.bodies[index];
         let block = self.plan.body_block[index];
@@ -58,6 +61,9 @@ impl Solver {
         let (up, force) = (outer(DVec3::Z, DVec3::Z), DVec3::Z * (lift * wet.share));
         self.hubs.push(seat, arm, force);
         self.hubs.force[block + 1] += wet.moment.cross(DVec3::Z * lift);
+        if scheme.exact {
+            return wet.share;
+        }
         self.hubs.add(seat, arm, seat, arm, up * (lift * wet.slope));
         *self.hubs.at(block + 1, block + 1) += turn_stiffness(arm, force) + (DMat3::IDENTITY - up) * (lift * wet.turn);
         wet.share
@@ -70,9 +76,14 @@ impl Solver {
         let turned = |diagonal: DVec3| axes * DMat3::from_diagonal(diagonal) * axes.transpose();
         let mass = DMat3::from_diagonal(DVec3::splat(body.mass_kg)) + turned(body.added_mass_kg * wet);
         let inertia = turned(body.inertia_kg_m2 + body.added_inertia_kg_m2 * wet);
-        *self.hubs.at(block, block) += mass * scheme.inertia;
+        let share = scheme.inertia * trial.burden;
+        *self.hubs.at(block, block) += mass * share;
         if scheme.is_static() {
-            *self.hubs.at(block + 1, block + 1) += inertia * scheme.inertia;
+            *self.hubs.at(block + 1, block + 1) += inertia * share;
+            if scheme.anchored {
+                self.hubs.force[block] -= mass * ((trial.place - trial.place_history) * share);
+                self.hubs.force[block + 1] -= inertia * (spin(trial.orientation, trial.anchor, 1.0) * share);
+            }
         } else {
             let velocity = (trial.place - trial.place_history) * scheme.rate;
             let turn_rate = 1.0 / scheme.dt;

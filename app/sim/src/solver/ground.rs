@@ -219,7 +219,7 @@ impl Solver {
 
 /// How far statics trusts a grip to yield as it slips: little while passes are rough, wholly at the end.
 fn trust(scheme: &Scheme) -> f64 {
-    1.0 / (1.0 + scheme.inertia / TRUSTED_MASS)
+    if scheme.anchored { 1.0 } else { 1.0 / (1.0 + scheme.inertia / TRUSTED_MASS) }
 }
 
 /// Whether the seabed grips a node that lies on it: in statics only one that lay on it before, for where another

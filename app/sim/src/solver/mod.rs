@@ -23,6 +23,7 @@ mod scheme;
 mod search;
 mod solid;
 mod suction;
+mod tilt;
 mod touch;
 mod trial;
 mod water;
@@ -63,6 +64,8 @@ pub(crate) struct Solver {
     hubs: Hubs,
     pull: Vec<Pull>,
     cut: Vec<bool>,
+    /// What the pseudo-mass of each line is multiplied by in anchored passes of statics.
+    burden: Vec<f64>,
     rest: Rest,
     /// Velocity of the water at each node: current and waves [m/s].
     flow: Vec<DVec3>,
@@ -130,6 +133,7 @@ impl Solver {
             near_seabed: false,
             pull: vec![Pull::default(); model.segment_count],
             cut: vec![false; model.segment_count],
+            burden: vec![1.0; model.spec.lines.len()],
             flow: vec![DVec3::ZERO; model.node_count],
             flow_acceleration: Vec::new(),
             surface: Vec::new(),
@@ -168,8 +172,7 @@ impl Solver {
         self.add_tension(model, scheme);
         self.add_bending(model);
         self.add_bodies(model, state, scheme);
-        self.add_tethers(model, state, scheme);
-        self.add_end_turns(model);
+        self.add_end_turns(model, scheme);
     }
 
     /// The same with every segment judged by its tension where it is, and what is linear in a search kept apart.
@@ -181,7 +184,6 @@ impl Solver {
         self.add_seabed(model, state, scheme);
         self.add_pulled(model, scheme);
         self.add_bodies(model, state, scheme);
-        self.add_tethers(model, state, scheme);
         self.rest.diagonal.clone_from(&self.band.diagonal);
         self.rest.force.clone_from(&self.band.force);
         self.rest.hubs.copy_values(&self.hubs);
@@ -203,7 +205,7 @@ impl Solver {
         self.add_solids(state, scheme, Judged::AsItIs);
         self.add_tension(model, scheme);
         self.add_bending(model);
-        self.add_end_turns(model);
+        self.add_end_turns(model, scheme);
     }
 
     /// Solves the assembled system; the moves lie in `band.step` and `hubs.step`.
@@ -326,14 +328,15 @@ impl Solver {
     }
 
     /// Keeps the turning stiffness of rope pulling on bodies (see [`body::turn_stiffness`]).
-    pub(super) fn add_end_turns(&mut self, model: &Model) {
+    pub(super) fn add_end_turns(&mut self, model: &Model, scheme: &Scheme) {
         for (index, line) in model.spec.lines.iter().enumerate() {
             let segments = &model.line_segments[index];
             for (joint, segment, sign) in [(line.from, segments.start, 1.0), (line.to, segments.end - 1, -1.0)] {
                 let seat = self.plan.seats[joint];
                 let Seat::Body { block, .. } = seat else { continue };
                 let force = self.pull[segment].direction * (sign * self.trial.tension[segment].max(0.0));
-                let stiffness = body::turn_stiffness(self.arm(seat), force);
+                let turning = if scheme.exact { tilt::turning } else { body::turn_stiffness };
+                let stiffness = turning(self.arm(seat), force);
                 *self.hubs.at(block + 1, block + 1) += stiffness;
             }
         }

@@ -1,16 +1,11 @@
-//! What statics asks of the solver besides the balance of forces: tethers, how far a pass turns the gear, and
-//! where the greatest force is left.
-//!
-//! A tether is a horizontal spring of stiffness `k` from a body to where it was laid: `F = -k (x - x₀)` in the
-//! plane. With `k` falling stage by stage, gear that holds by its own friction needs it less and less; gear that
-//! drags keeps pulling on it with just what its friction lacks, however weak it is.
+//! What statics asks of the solver besides the balance of forces: how far a pass turns the gear, passes that pull back
+//! to where they began, and where the greatest force is left.
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
 use super::Solver;
 use super::hubs::Seat;
 use super::rope::outer;
-use super::scheme::Scheme;
 use crate::model::{BodyRole, Model};
 use crate::state::State;
 
@@ -30,11 +25,6 @@ pub(crate) fn is_laid(model: &Model, body: usize) -> bool {
     model.spec.seabed.is_some() && model.spec.bodies[body].role != BodyRole::Buoy && !model.spec.bodies[body].feet_m.is_empty()
 }
 
-/// Pull of a tether on a body that was laid elsewhere [N].
-fn tether_pull(place: DVec3, laid: DVec3, stiffness: f64) -> DVec3 {
-    (laid - place) * DVec3::new(stiffness, stiffness, 0.0)
-}
-
 impl Solver {
     /// Holds every laid body as it lies, through the attempt that was begun.
     pub(crate) fn hold_laid(&mut self, model: &Model) {
@@ -51,6 +41,24 @@ impl Solver {
             (trial.place, trial.orientation) = (body.position, body.orientation);
         }
         self.trial.seat_ends(model, &self.plan);
+        self.measure_flow(model);
+    }
+
+    /// Takes the trial as the place that anchored passes pull back to.
+    pub(crate) fn anchor(&mut self) {
+        self.trial.place_history.clone_from(&self.trial.place);
+        for body in &mut self.trial.bodies {
+            (body.place_history, body.anchor) = (body.place, body.orientation);
+        }
+    }
+
+    /// Puts the trial back to its anchor, with these tensions.
+    pub(crate) fn return_to_anchor(&mut self, model: &Model, tension: &[f64]) {
+        self.trial.place.clone_from(&self.trial.place_history);
+        for body in &mut self.trial.bodies {
+            (body.place, body.orientation) = (body.place_history, body.anchor);
+        }
+        self.trial.tension.clone_from_slice(tension);
         self.measure_flow(model);
     }
 
@@ -102,32 +110,42 @@ impl Solver {
         hubs[self.plan.body_block[index]] - push
     }
 
-    /// Adds the tethers of laid bodies.
-    pub(super) fn add_tethers(&mut self, model: &Model, state: &State, scheme: &Scheme) {
-        if scheme.tether <= 0.0 {
-            return;
-        }
-        for index in (0..model.spec.bodies.len()).filter(|index| is_laid(model, *index)) {
-            let block = self.plan.body_block[index];
-            let pull = tether_pull(self.trial.bodies[index].place, state.bodies[index].position, scheme.tether);
-            self.hubs.force[block] += pull;
-            *self.hubs.at(block, block) += DMat3::from_diagonal(DVec3::new(scheme.tether, scheme.tether, 0.0));
-        }
-    }
-
     /// Greatest turn of any segment or body in the last solve, turned or stretched as one [rad].
     pub(crate) fn sharpest_turn(&self, model: &Model) -> f64 {
-        let mut greatest = 0.0_f64;
-        for (index, segments) in model.line_segments.iter().enumerate() {
-            let first_node = model.line_nodes[index].start;
-            for (k, segment) in segments.clone().enumerate() {
-                let step = self.band.step[first_node + k + 1] - self.band.step[first_node + k];
-                let step = step.reject_from_normalized(self.pull[segment].direction);
-                greatest = greatest.max(step.length_squared() / (self.lengths.segment[segment] * self.lengths.segment[segment]));
-            }
+        let lines = (0..model.spec.lines.len()).map(|line| self.turn_of_line(model, line)).fold(0.0, f64::max);
+        (0..model.spec.bodies.len()).map(|body| self.turn_of_body(body)).fold(lines, f64::max)
+    }
+
+    /// Greatest turn of any segment of a line in the last solve [rad].
+    pub(crate) fn turn_of_line(&self, model: &Model, line: usize) -> f64 {
+        let (first_node, mut greatest) = (model.line_nodes[line].start, 0.0_f64);
+        for (node, segment) in (first_node..).zip(model.line_segments[line].clone()) {
+            let step = self.band.step[node + 1] - self.band.step[node];
+            let step = step.reject_from_normalized(self.pull[segment].direction);
+            greatest = greatest.max(step.length_squared() / (self.lengths.segment[segment] * self.lengths.segment[segment]));
         }
-        let bodies = self.plan.body_block.iter().map(|block| 16.0 * self.hubs.step[block + 1].length_squared()).fold(greatest, f64::max);
-        bodies.sqrt()
+        greatest.sqrt()
+    }
+
+    /// Turn of a body in the last solve, counted fourfold [rad].
+    pub(crate) fn turn_of_body(&self, body: usize) -> f64 {
+        4.0 * self.hubs.step[self.plan.body_block[body] + 1].length()
+    }
+
+    /// Greatest force out of balance within a line, as last assembled [N].
+    pub(crate) fn left_in_line(&self, model: &Model, line: usize) -> f64 {
+        let nodes = &model.line_nodes[line];
+        self.band.force[nodes.start + 1..nodes.end - 1].iter().map(|force| force.length()).fold(0.0, f64::max)
+    }
+
+    /// Multiplies the pseudo-mass of a line from here on.
+    pub(crate) fn burden_line(&mut self, line: usize, factor: f64) {
+        self.burden[line] *= factor;
+    }
+
+    /// Multiplies the pseudo-mass of a body from here on.
+    pub(crate) fn burden_body(&mut self, body: usize, factor: f64) {
+        self.trial.bodies[body].burden *= factor;
     }
 
     /// Where the force out of balance is greatest, as last assembled (before [`solve`](Self::solve)), and how great [N].

@@ -21,6 +21,8 @@ impl Solver {
     /// Adds inertia, weight, buoyancy and drag of every node.
     pub(super) fn add_nodes(&mut self, model: &Model, scheme: &Scheme) {
         let shared = Shared::of(model, scheme);
+        // An anchored pass has its pseudo-mass from `add_anchors`.
+        let shared = if scheme.anchored { Shared { inertia: 0.0, ..shared } } else { shared };
         for (index, line) in model.spec.lines.iter().enumerate() {
             let rope = PerMetre::of(&model.spec.ropes[line.rope], &model.spec.water);
             let nodes = &model.line_nodes[index];
@@ -33,6 +35,18 @@ impl Solver {
                     self.add_drag_turn((node, nodes), node - index, (&rope, &shared));
                 }
             }
+            if scheme.anchored {
+                self.add_anchors(nodes, (rope.mass + rope.added) * scheme.inertia * self.burden[index]);
+            }
+        }
+    }
+
+    /// Adds the pull back to where an anchored pass of statics began, by pseudo-mass per metre [kg/m/s²].
+    fn add_anchors(&mut self, nodes: &Range<usize>, pull: f64) {
+        for node in nodes.clone() {
+            let stiffness = pull * self.lengths.node[node];
+            self.band.force[node] -= (self.trial.place[node] - self.trial.place_history[node]) * stiffness;
+            self.band.diagonal[node] += DMat3::from_diagonal(DVec3::splat(stiffness));
         }
     }
 

@@ -27,18 +27,21 @@ pub(crate) struct Scheme {
     pub rate: f64,
     /// Weight of the mass in the matrix: `1/h²`, or the pseudo-mass of statics [1/s²].
     pub inertia: f64,
-    /// Stiffness of the tethers of statics (`rest.rs`) [N/m].
-    pub tether: f64,
+    /// Whether the pseudo-mass of statics pulls back to where a pass began (`rest.rs`).
+    pub anchored: bool,
+    /// Whether forces on bodies are differentiated as they are, and not so that the matrix stays definite while a body
+    /// is far from its balance.
+    pub exact: bool,
     /// Share of the present value in the history.
-    now: f64,
+    pub now: f64,
     /// Share of the earlier value in the history.
-    earlier: f64,
+    pub earlier: f64,
 }
 
 impl Scheme {
     /// First order, strongly damped: for contact and for retries.
     pub fn backward_euler(dt: f64) -> Self {
-        Self { dt, rate: 1.0 / dt, inertia: 1.0 / (dt * dt), tether: 0.0, now: 1.0, earlier: 0.0 }
+        Self { dt, rate: 1.0 / dt, inertia: 1.0 / (dt * dt), anchored: false, exact: false, now: 1.0, earlier: 0.0 }
     }
 
     /// Second order where the last step allows it, else backward Euler.
@@ -50,12 +53,12 @@ impl Scheme {
         let below = 1.0 + 2.0 * ratio;
         let rate = below / (dt * (1.0 + ratio));
         let now = (1.0 + ratio) * (1.0 + ratio) / below;
-        Self { dt, rate, inertia: rate * rate, tether: 0.0, now, earlier: ratio * ratio / below }
+        Self { dt, rate, inertia: rate * rate, anchored: false, exact: false, now, earlier: ratio * ratio / below }
     }
 
-    /// At rest, with a pseudo-mass [1/s²] and tethers [N/m].
-    pub fn statics(pseudo_mass: f64, tether: f64) -> Self {
-        Self { dt: 0.0, rate: 0.0, inertia: pseudo_mass, tether, now: 1.0, earlier: 0.0 }
+    /// At rest, with a pseudo-mass [1/s²].
+    pub fn statics(pseudo_mass: f64) -> Self {
+        Self { dt: 0.0, rate: 0.0, inertia: pseudo_mass, anchored: false, exact: false, now: 1.0, earlier: 0.0 }
     }
 
     /// Whether nothing moves.

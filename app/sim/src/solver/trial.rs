@@ -30,8 +30,12 @@ pub(crate) struct Trial {
 pub(crate) struct BodyTrial {
     pub place: DVec3,
     pub orientation: DQuat,
+    /// Orientation that an anchored pass of statics pulls back to.
+    pub anchor: DQuat,
     pub place_history: DVec3,
     pub velocity_history: DVec3,
+    /// What its pseudo-mass in statics is multiplied by.
+    pub burden: f64,
     /// Whether it is held in place.
     pub held: bool,
 }
@@ -73,6 +77,8 @@ impl Trial {
             let turn = if held { DVec3::ZERO } else { now.spin * scheme.dt };
             self.bodies.push(BodyTrial {
                 place: now.position + move_of,
+                anchor: now.orientation,
+                burden: 1.0,
                 orientation: (DQuat::from_scaled_axis(turn) * now.orientation).normalize(),
                 place_history: scheme.history(now.position, now.earlier_position),
                 velocity_history: scheme.history(now.velocity, now.earlier_velocity),

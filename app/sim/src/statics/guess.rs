@@ -81,6 +81,12 @@ fn bend(model: &Model, index: usize, state: &mut State) {
         let side = (level(load) - ahead * load.dot(ahead)).try_normalize().unwrap_or_else(|| seabed.normal.cross(ahead));
         places = lie(seabed, line, (from, to), (ahead, side));
     }
+    if let Some(seabed) = &model.spec.seabed {
+        // Rope that would hang into the seabed lies slack on it.
+        for place in &mut places {
+            *place += seabed.normal * (seabed.depth_of(*place) - LAID_M).max(0.0);
+        }
+    }
     state.rope.position[nodes.start + 1..nodes.end - 1].copy_from_slice(&places[1..nodes.len() - 1]);
     state.rope.tension[model.line_segments[index].clone()].fill(tension);
 }

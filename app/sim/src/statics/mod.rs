@@ -1,27 +1,27 @@
 //! Statics: the shape and tensions at rest, before any dynamics.
 //!
-//! By continuation from an easy state. *Held*: bodies that lie on the seabed stay as they were laid, and lines find
-//! their shape from arcs of their own length ([`guess`]) by Newton ([`newton`]); where that fails, by way of soft rope
-//! ([`relax`]). *Released*: the bodies lean into their grip on the seabed, with tethers that fade where they must slide.
-//! Where gear does not come to rest, the pull on its held bodies against what they hold says whether it drags ([`outcome`]).
+//! By continuation from an easy state, coarse gear first ([`coarse`]). *Held*: bodies that lie on the seabed stay as
+//! they were laid, and lines find their shape from arcs of their own length ([`guess`]). *Released*: the bodies lean into
+//! their grip on the seabed. *Refined*: the shape is carried over to the gear as it is. Each is tried in several ways in
+//! turn, the quick one first ([`ways`]): Newton ([`newton`]), creeping ([`creep`]), soft rope made stiff ([`relax`]).
+//! Where gear does not come to rest, the pull on its held bodies against what they hold says whether it drags
+//! ([`outcome`]).
 
+mod coarse;
+mod creep;
 mod guess;
 mod newton;
 pub mod outcome;
 mod relax;
+mod ways;
 
 use crate::model::Model;
 use crate::state::State;
 use crate::whale::pilot;
-use newton::{Hold, Reached, descend};
+use coarse::Coarse;
+use newton::{Attempt, FAR, Hold, NEAR, Reached};
 pub use outcome::{Drag, Outcome, Worst};
-
-/// Passes of Newton from the first guess.
-const HELD_PASSES: usize = 200;
-/// Passes of Newton after the bodies are released, with each tether.
-const RELEASED_PASSES: usize = 60;
-/// Tethers that the bodies are released on where they do not come to rest without, one after the other [N/m].
-const TETHERS_N_M: [f64; 4] = [1000.0, 30.0, 1.0, 0.0];
+use ways::{HELD, REFINED, RELEASED, Way};
 
 /// A rig at rest, or the nearest to it that was found.
 #[derive(Clone, Debug)]
@@ -36,7 +36,7 @@ pub struct Settled {
     pub worst: Option<Worst>,
     /// Whether the rig is at rest.
     pub converged: bool,
-    /// Residual after each pass [N].
+    /// Residual after each pass, those of coarser gear among them [N].
     pub trace_n: Vec<f64>,
 }
 
@@ -55,58 +55,71 @@ impl Settled {
 #[must_use]
 pub fn settle(model: &Model) -> Settled {
     let mut trace_n = Vec::new();
-    let held = hold(model, &mut trace_n);
-    let released = release(model, &held, &mut trace_n);
-    if released.at_rest() {
-        return told(model, released, Outcome::AtRest, trace_n);
-    }
-    match outcome::drags(model, &held).filter(|_| held.at_rest()) {
-        Some(drag) => told(model, held, Outcome::Drags(drag), trace_n),
-        None => told(model, released, Outcome::NotFound, trace_n),
-    }
+    let found = find(model, &mut trace_n);
+    told(model, found, trace_n)
 }
 
-/// The lines' shape with bodies held as they were laid.
-fn hold(model: &Model, trace_n: &mut Vec<f64>) -> Reached {
+/// What was found for gear of some fineness.
+struct Found {
+    /// The first guess, from which grips are measured while bodies are held.
+    first: State,
+    /// With bodies held, and from which grips are measured where they are released.
+    held: State,
+    /// Where it ended: released where it is at rest, held where it drags.
+    end: Reached,
+    outcome: Outcome,
+}
+
+/// Coarse gear first, then as it is.
+fn find(model: &Model, trace_n: &mut Vec<f64>) -> Found {
+    let refined = Coarse::of(model).and_then(|coarse| {
+        let found = find(&coarse.model, trace_n);
+        refine(model, &coarse, &found, trace_n)
+    });
+    refined.unwrap_or_else(|| find_anew(model, trace_n))
+}
+
+/// From what was found for coarser gear; nothing where that does not lead there.
+fn refine(model: &Model, coarse: &Coarse, found: &Found, trace_n: &mut Vec<f64>) -> Option<Found> {
+    let [first, held, guess] = [&found.first, &found.held, &found.end.state].map(|state| coarse.carry(model, state));
+    let (laid, hold) = match found.outcome {
+        Outcome::AtRest => (&held, Hold::Released),
+        Outcome::Drags(_) => (&first, Hold::Laid),
+        Outcome::NotFound => return None,
+    };
+    let end = ways::try_all(&REFINED, model, &Attempt { laid, guess: &guess, hold, pseudo_mass: NEAR }, trace_n);
+    if !end.at_rest() {
+        return None;
+    }
+    let outcome = if hold == Hold::Laid { Outcome::Drags(outcome::drags(model, &end)?) } else { Outcome::AtRest };
+    Some(Found { first, held, end, outcome })
+}
+
+/// From the first guess.
+fn find_anew(model: &Model, trace_n: &mut Vec<f64>) -> Found {
     let first = guess::first_guess(model);
-    let held = descend(model, &first, &first, Hold::Laid, HELD_PASSES, trace_n);
-    if held.at_rest() {
-        return held;
+    let held = ways::try_all(&HELD, model, &Attempt { laid: &first, guess: &first, hold: Hold::Laid, pseudo_mass: FAR }, trace_n);
+    let attempt = Attempt { laid: &held.state, guess: &held.state, hold: Hold::Released, pseudo_mass: FAR };
+    if !held.at_rest() {
+        let end = ways::take(Way::Soften, model, &attempt, trace_n);
+        let outcome = if end.at_rest() { Outcome::AtRest } else { Outcome::NotFound };
+        return Found { first, held: held.state, end, outcome };
     }
-    sure(model, Hold::Laid, trace_n)
+    let drag = outcome::drags(model, &held);
+    // Where the pull is greater than the hold, most often there is no rest: the quick ways are enough.
+    let ways = if drag.is_some() { &RELEASED[..2] } else { &RELEASED };
+    let released = ways::try_all(ways, model, &attempt, trace_n);
+    let (outcome, end) = match drag {
+        _ if released.at_rest() => (Outcome::AtRest, released),
+        Some(drag) => (Outcome::Drags(drag), held.clone()),
+        None => (Outcome::NotFound, released),
+    };
+    Found { first, held: held.state, end, outcome }
 }
 
-/// The sure way, and Newton again from where it ends.
-fn sure(model: &Model, hold: Hold, trace_n: &mut Vec<f64>) -> Reached {
-    let laid = if hold == Hold::Laid { guess::straight(model) } else { State::start(model) };
-    let relaxed = relax::relax(model, &laid, hold, trace_n);
-    if relaxed.at_rest() {
-        return relaxed;
-    }
-    let polished = descend(model, &laid, &relaxed.state, hold, HELD_PASSES, trace_n);
-    if polished.residual_n < relaxed.residual_n { polished } else { relaxed }
-}
-
-/// The same with the bodies released.
-fn release(model: &Model, held: &Reached, trace_n: &mut Vec<f64>) -> Reached {
-    if held.at_rest() {
-        let mut reached = descend(model, &held.state, &held.state, Hold::Tethered(0.0), RELEASED_PASSES, trace_n);
-        if reached.at_rest() {
-            return reached;
-        }
-        reached.state.clone_from(&held.state);
-        for tether in TETHERS_N_M {
-            reached = descend(model, &held.state, &reached.state, Hold::Tethered(tether), RELEASED_PASSES, trace_n);
-        }
-        if reached.at_rest() || outcome::drags(model, held).is_some() {
-            return reached;
-        }
-    }
-    sure(model, Hold::Tethered(0.0), trace_n)
-}
-
-fn told(model: &Model, mut reached: Reached, outcome: Outcome, trace_n: Vec<f64>) -> Settled {
-    let (worst, converged) = (outcome::worst(model, &reached), outcome == Outcome::AtRest);
-    pilot::begin(model, &mut reached.state);
-    Settled { state: reached.state, outcome, residual_n: reached.residual_n, worst, converged, trace_n }
+fn told(model: &Model, found: Found, trace_n: Vec<f64>) -> Settled {
+    let Found { mut end, outcome, .. } = found;
+    let (worst, converged) = (outcome::worst(model, &end), outcome == Outcome::AtRest);
+    pilot::begin(model, &mut end.state);
+    Settled { state: end.state, outcome, residual_n: end.residual_n, worst, converged, trace_n }
 }

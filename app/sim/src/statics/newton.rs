@@ -16,13 +16,19 @@ use crate::state::State;
 
 /// Residual at which the rig is at rest [N].
 pub(super) const TOLERANCE_N: f64 = 1e-4;
-/// First pseudo-mass: a free node then moves about `g/σ` in a pass [1/s²].
-const FIRST_PSEUDO_MASS: f64 = 10.0;
+/// First pseudo-mass where the guess may be far from rest [1/s²].
+pub(super) const FAR: f64 = 10.0;
+/// The same where it is near [1/s²].
+pub(super) const NEAR: f64 = 0.01;
 /// Range of the pseudo-mass [1/s²].
-const PSEUDO_MASS: (f64, f64) = (1e-9, 1e6);
+pub(super) const PSEUDO_MASS: (f64, f64) = (1e-9, 1e6);
 /// Turn of a segment in a pass above which the pass is cut, and below which the pseudo-mass falls [rad].
 const SHARP_TURN: f64 = 0.6;
 const SLIGHT_TURN: f64 = 0.3;
+/// Half of the passes to wait after the first that was led astray.
+const WARY_PASSES: usize = 5;
+/// Turn below which bodies are near their balance [rad].
+const NEAR_TURN: f64 = 0.1;
 /// Change of the pseudo-mass after a sharp, slight, very slight pass.
 const GROWTH: f64 = 3.0;
 const SHRINKAGE: f64 = 0.3;
@@ -35,13 +41,28 @@ const SLACK_MASS: f64 = 100.0;
 /// Longest move of a node in one pass as a share of the gear's longest line.
 const LONGEST_MOVE: f64 = 0.2;
 
+/// Height above the seabed at which rope is no longer where it lay [m].
+const LIFTED_M: f64 = 0.05;
+
 /// What holds the gear besides itself.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Hold {
     /// Bodies that were laid stay as they lie.
     Laid,
-    /// They are tethered with this stiffness, zero for not at all [N/m].
-    Tethered(f64),
+    /// They hold by their own grip on the seabed.
+    Released,
+}
+
+/// From where to look for rest.
+#[derive(Clone, Copy)]
+pub(super) struct Attempt<'a> {
+    /// Gear as it was laid: what the seabed's grips are measured from.
+    pub laid: &'a State,
+    /// Where to begin.
+    pub guess: &'a State,
+    pub hold: Hold,
+    /// Pseudo-mass of the first pass: a free node then moves about `g/σ` in it [1/s²].
+    pub pseudo_mass: f64,
 }
 
 /// How a pass is made.
@@ -70,36 +91,70 @@ impl Reached {
     }
 }
 
-/// An attempt in progress: gear that was laid as in `laid`, and where it is tried.
+/// An attempt in progress.
 pub(super) struct Newton<'a> {
     model: &'a Model,
-    laid: &'a State,
-    tether: f64,
+    /// What the seabed's grips are measured from.
+    laid: State,
     pseudo_mass: f64,
+    /// Passes to wait after forces on bodies as they are led one astray, in a place that a body would leave; what is left of them.
+    wary: usize,
+    wait: usize,
     pub solver: Solver,
     pub scheme: Scheme,
 }
 
 impl<'a> Newton<'a> {
     /// Begins at a guess.
-    pub fn new(model: &'a Model, laid: &'a State, guess: &State, hold: Hold, pseudo_mass: f64) -> Self {
-        let tether = if let Hold::Tethered(stiffness) = hold { stiffness } else { 0.0 };
-        let (mut solver, scheme) = (Solver::new(model), Scheme::statics(pseudo_mass, tether));
-        solver.begin(model, laid, &scheme);
-        if hold == Hold::Laid {
+    pub fn new(model: &'a Model, attempt: &Attempt) -> Self {
+        let (mut solver, scheme) = (Solver::new(model), Scheme::statics(attempt.pseudo_mass));
+        solver.begin(model, attempt.laid, &scheme);
+        if attempt.hold == Hold::Laid {
             solver.hold_laid(model);
         }
-        solver.start_at(model, guess);
-        Self { model, laid, tether, pseudo_mass, solver, scheme }
+        solver.start_at(model, attempt.guess);
+        Self { model, laid: attempt.laid.clone(), pseudo_mass: attempt.pseudo_mass, wary: 0, wait: 0, solver, scheme }
     }
 
     /// Assembles forces and matrix at the trial places; the residual [N].
     pub fn balance(&mut self, way: Way) -> f64 {
         match way {
-            Way::Foretold => self.solver.assemble(self.model, self.laid, &self.scheme),
-            Way::Searched => self.solver.assemble_searchable(self.model, self.laid, &self.scheme),
+            Way::Foretold => self.solver.assemble(self.model, &self.laid, &self.scheme),
+            Way::Searched => self.solver.assemble_searchable(self.model, &self.laid, &self.scheme),
         }
         self.solver.residual(self.model)
+    }
+
+    /// The same, judged by the last solve, and as it is where that says the gear is at rest; what was foretold may call a
+    /// segment slack that is not.
+    pub fn balance_at_rest(&mut self) -> f64 {
+        let residual_n = self.balance(Way::Foretold);
+        if residual_n < TOLERANCE_N { self.balance(Way::Searched) } else { residual_n }
+    }
+
+    /// Solves what was assembled; how far that turns any segment or body [rad]. After a slight turn bodies are near their
+    /// balance.
+    pub fn solve(&mut self) -> f64 {
+        self.solver.solve(self.model);
+        let turn = self.solver.sharpest_turn(self.model);
+        if self.scheme.exact && turn > SHARP_TURN {
+            self.wary = 2 * self.wary.max(WARY_PASSES);
+            self.wait = self.wary;
+        }
+        self.wait = self.wait.saturating_sub(1);
+        self.scheme.exact = self.wait == 0 && turn < NEAR_TURN;
+        turn
+    }
+
+    /// Lets the pseudo-mass pull back to where passes begin.
+    pub fn anchored(mut self) -> Self {
+        self.scheme.anchored = true;
+        self
+    }
+
+    /// Share of the solved step to take, at most `longest`.
+    pub fn search(&self, longest: f64) -> f64 {
+        self.solver.search_free(self.model, &self.laid, &self.scheme, longest)
     }
 
     /// Lets slack rope resist while the pseudo-mass is great.
@@ -111,7 +166,21 @@ impl<'a> Newton<'a> {
     /// Changes the pseudo-mass by a factor, within its range.
     pub fn change_mass(&mut self, factor: f64) {
         self.pseudo_mass = (self.pseudo_mass * factor).clamp(PSEUDO_MASS.0, PSEUDO_MASS.1);
-        self.scheme = Scheme::statics(self.pseudo_mass, self.tether);
+        let (anchored, exact) = (self.scheme.anchored, self.scheme.exact);
+        self.scheme = Scheme { anchored, exact, ..Scheme::statics(self.pseudo_mass) };
+    }
+
+    /// Lets the seabed grip rope that has come to lie on it where it lies now, and let go of rope that was lifted off.
+    pub fn regrip(&mut self) {
+        let Some(seabed) = &self.model.spec.seabed else { return };
+        let rope = &mut self.laid.rope;
+        for (node, place) in self.solver.places().iter().enumerate() {
+            let (now, then) = (seabed.depth_of(*place), seabed.depth_of(rope.position[node]));
+            if (now > 0.0 && then <= 0.0) || (now < -LIFTED_M && then > 0.0) {
+                rope.position[node] = *place;
+                rope.seabed_grip[node] = DVec3::ZERO;
+            }
+        }
     }
 
     /// Ends the attempt where it was last assembled.
@@ -119,7 +188,7 @@ impl<'a> Newton<'a> {
         let worst = self.solver.worst(self.model);
         let laid = (0..self.model.spec.bodies.len()).filter(|body| is_laid(self.model, *body));
         let load_n = laid.map(|body| self.solver.load_on(self.model, body)).collect();
-        let mut state = self.laid.clone();
+        let mut state = self.laid;
         if residual_n.is_finite() {
             self.solver.keep(self.model, &self.scheme, &mut state);
             state.rest();
@@ -128,25 +197,20 @@ impl<'a> Newton<'a> {
     }
 }
 
-/// Newton from `guess` for gear that was laid as in `laid`.
-pub(super) fn descend(model: &Model, laid: &State, guess: &State, hold: Hold, most_passes: usize, trace_n: &mut Vec<f64>) -> Reached {
-    let mut newton = Newton::new(model, laid, guess, hold, FIRST_PSEUDO_MASS);
+/// Newton, begun with the pseudo-mass of the attempt.
+pub(super) fn descend(model: &Model, attempt: &Attempt, most_passes: usize, trace_n: &mut Vec<f64>) -> Reached {
+    let mut newton = Newton::new(model, attempt);
     let longest_line = model.spec.lines.iter().map(|line| line.segments_m.iter().sum::<f64>()).fold(1.0, f64::max);
     let mut before = Vec::new();
     let mut residual_n = f64::INFINITY;
     for _ in 0..most_passes {
-        residual_n = newton.balance(Way::Foretold);
-        if residual_n < TOLERANCE_N {
-            // What was foretold may call a segment slack that is not.
-            residual_n = newton.balance(Way::Searched);
-        }
+        residual_n = newton.balance_at_rest();
         trace_n.push(residual_n);
         if residual_n < TOLERANCE_N || !residual_n.is_finite() {
             break;
         }
         newton.stiffen_slack();
-        newton.solver.solve(model);
-        let turn = newton.solver.sharpest_turn(model).max(SHARP_TURN * newton.solver.longest() / (LONGEST_MOVE * longest_line));
+        let turn = newton.solve().max(SHARP_TURN * newton.solver.longest() / (LONGEST_MOVE * longest_line));
         if turn > 2.0 * SHARP_TURN {
             newton.change_mass((turn / SHARP_TURN).min(GREATEST_GROWTH));
         } else {

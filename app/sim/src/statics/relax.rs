@@ -5,7 +5,7 @@
 //! balance; slower, and sure where much rope lies slack. Where neither gets there, rope is softened until the gear comes
 //! to rest and then stiffened stage by stage, each from the last that came to rest.
 
-use super::newton::{Hold, Newton, Reached, TOLERANCE_N, Way};
+use super::newton::{Attempt, FAR, Hold, Newton, Reached, TOLERANCE_N, Way};
 use crate::model::Model;
 use crate::state::State;
 
@@ -13,8 +13,6 @@ use crate::state::State;
 const QUICK: (Way, usize) = (Way::Foretold, 150);
 /// The sure way with its passes.
 const SURE: (Way, usize) = (Way::Searched, 1000);
-/// First pseudo-mass: a free node then moves about `g/σ` in a pass [1/s²].
-const FIRST_PSEUDO_MASS: f64 = 10.0;
 /// Range of its change in a pass, foretold.
 const CHANGE: (f64, f64) = (0.3, 2.0);
 /// Share of a step below which it grows, searched, by the first factor; else it shrinks by the second.
@@ -35,13 +33,14 @@ const MOST_STAGES: usize = 24;
 
 /// Finds a state at rest for gear laid as in `laid`.
 pub(super) fn relax(model: &Model, laid: &State, hold: Hold, trace_n: &mut Vec<f64>) -> Reached {
-    let mut best = attempt(model, laid, laid, hold, QUICK, trace_n);
+    let anew = Attempt { laid, guess: laid, hold, pseudo_mass: FAR };
+    let mut best = quick(model, &anew, trace_n);
     for softest_n in SOFTEST_N {
         if best.at_rest() {
             break;
         }
-        let stiffened = stiffen(model, laid, hold, softest_n, trace_n);
-        let tried = approach(model, laid, &stiffened, hold, trace_n);
+        let stiffened = stiffen(model, &anew, softest_n, trace_n);
+        let tried = approach(model, &Attempt { guess: &stiffened, ..anew }, trace_n);
         if tried.residual_n < best.residual_n {
             best = tried;
         }
@@ -49,12 +48,17 @@ pub(super) fn relax(model: &Model, laid: &State, hold: Hold, trace_n: &mut Vec<f
     best
 }
 
+/// The quick way alone.
+pub(super) fn quick(model: &Model, from: &Attempt, trace_n: &mut Vec<f64>) -> Reached {
+    attempt(model, &Attempt { pseudo_mass: FAR, ..*from }, QUICK, trace_n)
+}
+
 /// Softens the rope until it comes to rest, then stiffens it stage by stage, each from the last that came to rest.
-fn stiffen(model: &Model, laid: &State, hold: Hold, softest_n: f64, trace_n: &mut Vec<f64>) -> State {
+fn stiffen(model: &Model, anew: &Attempt, softest_n: f64, trace_n: &mut Vec<f64>) -> State {
     let stiffest_n = model.spec.ropes.iter().map(|rope| rope.axial_stiffness_n).fold(0.0, f64::max);
-    let softest = approach(&softened(model, softest_n), laid, laid, hold, trace_n);
+    let softest = approach(&softened(model, softest_n), anew, trace_n);
     if !softest.at_rest() {
-        return laid.clone();
+        return anew.laid.clone();
     }
     let (mut state, mut stiffness_n, mut factor) = (softest.state, softest_n, GREATEST_FACTOR);
     for _ in 0..MOST_STAGES {
@@ -62,9 +66,8 @@ fn stiffen(model: &Model, laid: &State, hold: Hold, softest_n: f64, trace_n: &mu
         if next_n >= stiffest_n {
             break;
         }
-        let soft = softened(model, next_n);
-        let reached =
-            if factor < NARROW { approach(&soft, laid, &state, hold, trace_n) } else { attempt(&soft, laid, &state, hold, QUICK, trace_n) };
+        let (soft, from) = (softened(model, next_n), Attempt { guess: &state, ..*anew });
+        let reached = if factor < NARROW { approach(&soft, &from, trace_n) } else { attempt(&soft, &from, QUICK, trace_n) };
         if reached.at_rest() {
             (state, stiffness_n) = (reached.state, next_n);
             factor = (factor * factor).min(GREATEST_FACTOR);
@@ -77,7 +80,7 @@ fn stiffen(model: &Model, laid: &State, hold: Hold, softest_n: f64, trace_n: &mu
 
 /// The model with no rope stiffer than `stiffness_n`.
 fn softened(model: &Model, stiffness_n: f64) -> Model {
-    let mut soft = model.clone();
+    let mut soft = model.with_lines(model.spec.lines.clone());
     for rope in &mut soft.spec.ropes {
         let share = (stiffness_n / rope.axial_stiffness_n).min(1.0);
         rope.axial_stiffness_n *= share;
@@ -87,18 +90,18 @@ fn softened(model: &Model, stiffness_n: f64) -> Model {
 }
 
 /// Tries the ways in turn from a guess; the better end.
-fn approach(model: &Model, laid: &State, guess: &State, hold: Hold, trace_n: &mut Vec<f64>) -> Reached {
-    let quick = attempt(model, laid, guess, hold, QUICK, trace_n);
+fn approach(model: &Model, from: &Attempt, trace_n: &mut Vec<f64>) -> Reached {
+    let quick = attempt(model, from, QUICK, trace_n);
     if quick.at_rest() {
         return quick;
     }
-    let sure = attempt(model, laid, guess, hold, SURE, trace_n);
+    let sure = attempt(model, from, SURE, trace_n);
     if sure.residual_n < quick.residual_n { sure } else { quick }
 }
 
 /// Newton from a guess in one way.
-fn attempt(model: &Model, laid: &State, guess: &State, hold: Hold, (way, most_passes): (Way, usize), trace_n: &mut Vec<f64>) -> Reached {
-    let mut newton = Newton::new(model, laid, guess, hold, FIRST_PSEUDO_MASS);
+fn attempt(model: &Model, from: &Attempt, (way, most_passes): (Way, usize), trace_n: &mut Vec<f64>) -> Reached {
+    let mut newton = Newton::new(model, from);
     let mut residual_n = newton.balance(way);
     for _ in 0..most_passes {
         if residual_n < TOLERANCE_N {
@@ -109,9 +112,9 @@ fn attempt(model: &Model, laid: &State, guess: &State, hold: Hold, (way, most_pa
         if residual_n < TOLERANCE_N || !residual_n.is_finite() {
             break;
         }
-        newton.solver.solve(model);
+        newton.solve();
         let longest = newton.solver.share_past_solids(LONGEST_MOVE_M / newton.solver.longest().max(LONGEST_MOVE_M));
-        let share = if way == Way::Searched { newton.solver.search_free(model, laid, &newton.scheme, longest) } else { longest };
+        let share = if way == Way::Searched { newton.search(longest) } else { longest };
         newton.solver.advance(model, share);
         newton.solver.measure_flow(model);
         let next_n = newton.balance(way);
