@@ -68,6 +68,7 @@ impl WhaleItem {
         form.length_m = length_m;
         form.flippers.edge_radius_m *= scale;
         form.flukes.edge_radius_m *= scale;
+        form.head.callosity_m *= scale;
         form
     }
 }
@@ -162,11 +163,14 @@ fn form(entry: &Entry, sections: &[[Figure; 4]], spine_joints: [f64; SPINE_JOINT
         length_m: value("length")?,
         stations: sections.iter().map(station).collect(),
         breadth_scale: value("breadth_scale")?,
+        girth: vec![[0.0, 1.0]],
         head: HeadForm {
             share: value("head.share")?,
             mouth: value("head.mouth")?,
             rostrum_width: value("head.rostrum_width")?,
             lip_arch: value("head.lip_arch")?,
+            baleen: value("head.baleen")?,
+            callosity_m: value("head.callosities").unwrap_or(0.0),
         },
         peduncle_start: value("peduncle_start")?,
         spine_joints,

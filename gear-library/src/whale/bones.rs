@@ -2,11 +2,12 @@
 
 use endline_sdk::SPINE_JOINTS;
 use endline_sim::whale::{Angle, Bone, Channel};
-use glam::DVec3;
+use glam::{DQuat, DVec2, DVec3};
 
 use super::curve::smooth_step;
 use super::form::WhaleForm;
-use super::part::Weights;
+use super::layout::{CORNER_ANGLE, corner_at};
+use super::mesh::Weights;
 use super::section::Sections;
 
 /// Bones and where to find them. The middle of the body, where the whale's frame has its origin, is
@@ -18,6 +19,8 @@ pub struct Skeleton {
     pub skull: u16,
     /// Lower jaw with the lips.
     pub jaw: u16,
+    /// Left lower lip; the right one follows.
+    pub lip: u16,
     /// Bone of each stretch of the body from the head to the flukes.
     stretches: Vec<u16>,
     /// Where one of those stretches bends on the next [share of length from the snout].
@@ -33,8 +36,12 @@ const SHARED: std::ops::Range<usize> = 4..SPINE_JOINTS;
 /// How far on either side of such a joint its two bones turn [share of the way to the nearest joint].
 const APART: f64 = 0.25;
 
+/// Angle from the back of the foot about which a lower lip turns [rad].
+const LIP_FOOT: f64 = 2.0;
 /// Where the fluke blades bend [share of half span].
 pub const FLUKE_BENDS: [f64; 2] = [0.22, 0.60];
+/// How far behind the middle of its base the flipper turns [share of root chord].
+const HINGE_AFT: f64 = 0.5;
 /// Where the flipper bends [share of span].
 pub const FLIPPER_BENDS: [f64; 3] = [0.0, 0.40, 0.72];
 
@@ -42,8 +49,16 @@ impl Skeleton {
     /// The skeleton of a form.
     #[must_use]
     pub fn of(form: &WhaleForm, sections: &Sections) -> Self {
-        let mut skeleton =
-            Self { bones: vec![control()], skull: 0, jaw: 0, stretches: vec![0], bends: Vec::new(), fluke: [0; 2], flipper: [0; 3] };
+        let mut skeleton = Self {
+            bones: vec![control()],
+            skull: 0,
+            jaw: 0,
+            lip: 0,
+            stretches: vec![0],
+            bends: Vec::new(),
+            fluke: [0; 2],
+            flipper: [0; 3],
+        };
         let middle = form.spine_joints.iter().filter(|&&joint| joint < 0.5).count();
         skeleton.add_fore_spine(form, sections, middle);
         skeleton.bends.extend(&form.spine_joints[..middle]);
@@ -116,8 +131,17 @@ impl Skeleton {
     }
 
     fn add_jaw(&mut self, form: &WhaleForm, sections: &Sections) {
-        let hinge = sections.axis(form.head.mouth);
+        let corner = corner_at(form);
+        let hinge = sections.place(corner, DVec2::Y * sections.outline(corner, CORNER_ANGLE).y);
         self.jaw = self.push("jaw", self.skull, hinge, &[(Angle::Jaw, 1.0, DVec3::Y)]);
+        for (side, name, out) in sides() {
+            let foot = sections.outline(0.5 * corner, LIP_FOOT) * DVec2::new(0.8 * out, 1.0);
+            let turn = [(Angle::Lips(side), 1.0, DVec3::NEG_X * out)];
+            let lip = self.push(&format!("{name}_lip"), self.jaw, sections.place(0.5 * corner, foot), &turn);
+            if side == 0 {
+                self.lip = lip;
+            }
+        }
     }
 
     fn add_flukes(&mut self, form: &WhaleForm, sections: &Sections) {
@@ -128,7 +152,7 @@ impl Skeleton {
         self.stretches.push(flukes);
         let height = form.flukes.height * form.breadth_scale;
         for (side, name, out) in sides() {
-            let hinge = |bend: f64| sections.place(1.0, DVec3::new(0.0, out * bend * form.flukes.span / 2.0, height));
+            let hinge = |bend: f64| sections.place(1.0, DVec2::new(out * bend * form.flukes.span / 2.0, height));
             let flex = [(Angle::FlukeFlex(side), 0.5, DVec3::X * out)];
             let blade = self.push(&format!("{name}_fluke"), flukes, hinge(FLUKE_BENDS[0]), &flex);
             let tip = self.push(&format!("{name}_fluke_tip"), blade, hinge(FLUKE_BENDS[1]), &flex);
@@ -142,15 +166,18 @@ impl Skeleton {
         let chest = self.chest(form.flippers.insertion);
         for (side, name, out) in sides() {
             let mirror = DVec3::new(1.0, out, 1.0);
-            let span = sections.flipper_axis() * mirror;
-            let root = sections.flipper_root() * mirror;
+            let turn = DQuat::from_rotation_z(form.flippers.sweep) * DQuat::from_rotation_x(-form.flippers.droop);
+            let span = turn * DVec3::Y * mirror;
+            let root = sections.flipper_root(form) * mirror;
+            let behind = DVec3::NEG_X * HINGE_AFT * form.flippers.root_chord * form.length_m;
             let hinge = |bend: f64| root + span * bend * form.flippers.span * form.length_m;
             let twist = |share: f64| (Angle::FlipperTwist(side), share, span * out);
             let raise = |share: f64| (Angle::FlipperRaise(side), share, DVec3::X * out);
             let chord = DVec3::new(libm::cos(form.flippers.sweep), libm::sin(form.flippers.sweep), 0.0) * mirror;
             let flex = (Angle::FlipperFlex(side), 0.5, chord * out);
             let sweep = (Angle::FlipperSweep(side), 1.0, DVec3::Z * out);
-            let shoulder = self.push(&format!("{name}_flipper_shoulder"), chest, hinge(FLIPPER_BENDS[0]), &[twist(0.4), raise(0.8), sweep]);
+            let shoulder =
+                self.push(&format!("{name}_flipper_shoulder"), chest, hinge(FLIPPER_BENDS[0]) + behind, &[twist(0.4), raise(0.8), sweep]);
             let blade = self.push(&format!("{name}_flipper_blade"), shoulder, hinge(FLIPPER_BENDS[1]), &[twist(0.4), raise(0.2), flex]);
             let tip = self.push(&format!("{name}_flipper_tip"), blade, hinge(FLIPPER_BENDS[2]), &[twist(0.2), flex]);
             if side == 0 {
@@ -168,7 +195,9 @@ impl Skeleton {
     /// The same bone on the other side.
     #[must_use]
     pub fn other_side(&self, bone: u16) -> u16 {
-        if self.fluke.contains(&bone) {
+        if bone == self.lip {
+            bone + 1
+        } else if self.fluke.contains(&bone) {
             bone + 2
         } else if self.flipper.contains(&bone) {
             bone + 3

@@ -13,6 +13,8 @@ pub struct WhaleForm {
     pub stations: Vec<Station>,
     /// Factor on every width and height of the body, so that displaced volume and mass agree [1].
     pub breadth_scale: f64,
+    /// Factor on widths and heights along the body, by share of length, for condition and pregnancy; at least one.
+    pub girth: Vec<[f64; 2]>,
     /// Head.
     pub head: HeadForm,
     /// Where the peduncle (tail stock) begins [share of length from the snout].
@@ -47,8 +49,12 @@ pub struct HeadForm {
     pub mouth: f64,
     /// Width of the rostrum [share of the head's width].
     pub rostrum_width: f64,
-    /// How far the arched lower lips stand out [share of the section's radius].
+    /// How far the arched lower lips stand off from the baleen, at their foot [share of the baleen's length there].
     pub lip_arch: f64,
+    /// Length of the longest baleen plate [share of length].
+    pub baleen: f64,
+    /// Relief of the highest callosity, the bonnet; 0 for a head without [m].
+    pub callosity_m: f64,
 }
 
 /// A pair of flippers: paddles with a blunt, nearly square tip.
@@ -114,11 +120,14 @@ impl WhaleForm {
             stations: RIGHT_WHALE_STATIONS.iter().map(|&[at, width, dorsal, ventral]| Station { at, width, dorsal, ventral }).collect(),
             // Christiansen et al. 2019: 754.6 kg/m³ of photographed volume; sea water 1025 kg/m³.
             breadth_scale: libm::sqrt(754.6 / 1025.0),
+            girth: vec![[0.0, 1.0]],
             head: HeadForm {
-                share: 0.27,         // SeaLifeBase: 1/4 to nearly 1/3 of length
-                mouth: 0.219,        // Moore et al. 2005, 35 carcasses: 0.219 L in adults
-                rostrum_width: 0.32, // estimate: 0.25 to 0.35 of the head's width
-                lip_arch: 0.11,      // estimate
+                share: 0.27,                         // SeaLifeBase: 1/4 to nearly 1/3 of length
+                mouth: 0.219,                        // Moore et al. 2005, 35 carcasses: 0.219 L in adults
+                rostrum_width: 0.32,                 // estimate: 0.25 to 0.35 of the head's width
+                lip_arch: 0.11,                      // estimate
+                baleen: 0.128,                       // Best and Schell 1996, Omura 1969: 0.208 L - 1.095 m
+                callosity_m: 0.06 * length_m / 13.7, // recalled: 2 to 8 cm
             },
             peduncle_start: 0.70,                                            // estimate: behind the anus, 0.68 to 0.70 L
             spine_joints: [0.27, 0.36, 0.45, 0.55, 0.64, 0.73, 0.81, 0.885], // estimate: lateral bending spread over 0.35 to 0.9 L

@@ -4,14 +4,7 @@ use endline_sdk::{Posture, Region};
 use endline_sim::whale::{Angle, Measures, pose, skin_all};
 use glam::{DQuat, DVec3};
 
-use super::part::Part;
 use super::*;
-
-fn parts(form: &WhaleForm) -> [Part; 3] {
-    let sections = section::Sections::of(form);
-    let skeleton = bones::Skeleton::of(form, &sections);
-    [body::body(form, &sections, &skeleton), fins::left_flipper(form, &sections, &skeleton), fins::flukes(form, &sections, &skeleton)]
-}
 
 fn whale() -> Skin {
     build_skin(&WhaleForm::right_whale(13.7))
@@ -31,7 +24,27 @@ fn the_skin_is_closed() {
         assert!(edges.contains_key(&(to, from)), "edge {from} to {to} has one triangle");
     }
     assert!((13_000..15_000).contains(&skin.triangles.len()), "{} triangles", skin.triangles.len());
+    // One sphere, without handles: vertices - edges + faces is 2 for each closed piece, and there is one.
+    assert_eq!(skin.vertices.len() + skin.triangles.len() - edges.len() / 2, 2);
+    assert_eq!(pieces(&skin), 1);
     assert_eq!(skin.regions.len(), skin.triangles.len());
+}
+
+/// How many pieces hang together.
+fn pieces(skin: &Skin) -> usize {
+    let mut heads: Vec<usize> = (0..skin.vertices.len()).collect();
+    fn head(heads: &[usize], mut vertex: usize) -> usize {
+        while heads[vertex] != vertex {
+            vertex = heads[vertex];
+        }
+        vertex
+    }
+    for triangle in &skin.triangles {
+        let [a, b, c] = triangle.map(|corner| head(&heads, corner as usize));
+        let least = a.min(b).min(c);
+        (heads[a], heads[b], heads[c]) = (least, least, least);
+    }
+    (0..heads.len()).filter(|&vertex| heads[vertex] == vertex).count()
 }
 
 #[test]
@@ -55,50 +68,6 @@ fn every_region_has_skin() {
     for region in Region::ALL {
         assert!(skin.regions.contains(&region), "{region:?} has no triangle");
     }
-}
-
-/// Published digest of the section table: stacked ellipses hold 0.01877 L³ and have 0.445 L² of skin.
-#[test]
-fn the_body_holds_and_wets_what_its_table_does() {
-    let form = WhaleForm { breadth_scale: 1.0, ..WhaleForm::right_whale(1.0) };
-    let [body, _, flukes] = parts(&form);
-    assert!((body.volume() / 0.018_77 - 1.0).abs() < 0.02, "volume {}", body.volume());
-    assert!((body.area() / 0.445 - 1.0).abs() < 0.03, "area {}", body.area());
-    assert!(flukes.volume() > 0.0);
-    // Both breadth and height scale, so volume goes with the square.
-    let slim = WhaleForm { breadth_scale: 0.9, ..form };
-    assert!((parts(&slim)[0].volume() / body.volume() - 0.81).abs() < 1e-9);
-}
-
-/// Widest places of the mesh against the table, at the stations between the rounded ends.
-#[test]
-fn widths_are_those_of_the_table() {
-    let form = WhaleForm { breadth_scale: 1.0, ..WhaleForm::right_whale(1.0) };
-    let [body, ..] = parts(&form);
-    for station in form.stations.iter().filter(|station| (0.04..0.97).contains(&station.at)) {
-        let width = width_at(&body, 0.5 - station.at);
-        assert!(
-            (width / station.width - 1.0).abs() < 0.01,
-            "{} at {}: {width} against {}",
-            width / station.width,
-            station.at,
-            station.width
-        );
-    }
-}
-
-/// Greatest width of the cut through a piece at `x`.
-fn width_at(part: &Part, x: f64) -> f64 {
-    let mut half: f64 = 0.0;
-    for triangle in &part.triangles {
-        for edge in 0..3 {
-            let [a, b] = [triangle[edge], triangle[(edge + 1) % 3]].map(|corner| part.corners[corner as usize].place);
-            if (a.x - x) * (b.x - x) <= 0.0 && (a.x - b.x).abs() > 1e-12 {
-                half = half.max(a.lerp(b, (x - a.x) / (b.x - a.x)).y);
-            }
-        }
-    }
-    2.0 * half
 }
 
 #[test]
@@ -224,7 +193,7 @@ fn mass_properties_agree_with_parry() {
             assert!((own - parry).abs() < 1e-6 * largest, "{own} against {parry} in row {row}, column {column}");
         }
     }
-    assert!(own > 30.0 && own < 45.0, "a 13.7 m right whale of 36 t, fins counted twice where they join: {own} m³");
+    assert!(own > 30.0 && own < 45.0, "a 13.7 m right whale of 36 t: {own} m³");
 }
 
 /// The spine, flukes, flippers and jaw answer to every angle of a posture.
@@ -276,7 +245,7 @@ fn odd_forms_stay_finite() {
             change(&mut form, value);
             let skin = build_skin(&form);
             assert!(skin.vertices.iter().all(|place| place.is_finite()), "change {index} to {value}");
-            let sum = |weights: &part::Weights| weights.iter().map(|(_, weight)| weight).sum::<f64>();
+            let sum = |weights: &mesh::Weights| weights.iter().map(|(_, weight)| weight).sum::<f64>();
             assert!(skin.weights.iter().all(|weights| (sum(weights) - 1.0).abs() < 1e-9), "weights of change {index} to {value}");
         }
     }

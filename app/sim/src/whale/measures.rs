@@ -13,7 +13,7 @@
 
 use glam::{DMat3, DVec3};
 
-use super::Skin;
+use super::{Mark, Skin};
 
 /// Mass and measures of a whale at rest, about the whale's frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -22,7 +22,7 @@ pub struct Measures {
     pub mass_kg: f64,
     /// Displaced volume [m³].
     pub volume_m3: f64,
-    /// Area of all the skin, the mouth's inside included [m²].
+    /// Area of the skin without the mouth's inside, which a closed mouth shuts off [m²].
     pub wetted_area_m2: f64,
     /// Centre of mass in the whale's frame [m].
     pub centre_m: DVec3,
@@ -34,20 +34,23 @@ impl Measures {
     /// Measures of a closed skin filled evenly with a density [kg/m³]; all zero for a skin that holds nothing.
     #[must_use]
     pub fn of(skin: &Skin, density_kg_m3: f64) -> Self {
-        Self::of_triangles(&skin.vertices, &skin.triangles, density_kg_m3)
+        let inside = |vertex: &u32| matches!(skin.marks.get(*vertex as usize), Some(Mark::Mouth | Mark::Baleen));
+        let outside = skin.triangles.iter().filter(|corners| !corners.iter().all(inside));
+        let wetted_area_m2 = outside.map(|corners| area(&skin.vertices, *corners)).sum();
+        Self { wetted_area_m2, ..Self::of_triangles(&skin.vertices, &skin.triangles, density_kg_m3) }
     }
 
-    /// Measures of any closed surface, such as a skin in a posture.
+    /// Measures of any closed surface, such as a skin in a posture, all of it wetted.
     #[must_use]
     pub fn of_triangles(places: &[DVec3], triangles: &[[u32; 3]], density_kg_m3: f64) -> Self {
-        let (mut volume, mut first, mut second, mut area) = (0.0, DVec3::ZERO, DMat3::ZERO, 0.0);
+        let (mut volume, mut first, mut second, mut wetted) = (0.0, DVec3::ZERO, DMat3::ZERO, 0.0);
         for corners in triangles {
             let [a, b, c] = corners.map(|corner| places[corner as usize]);
             let (share, sum) = (a.dot(b.cross(c)) / 6.0, a + b + c);
             volume += share;
             first += share / 4.0 * sum;
             second += (square(a) + square(b) + square(c) + square(sum)) * (share / 20.0);
-            area += (b - a).cross(c - a).length() / 2.0;
+            wetted += area(places, *corners);
         }
         if volume <= 0.0 {
             return Self::default();
@@ -56,8 +59,14 @@ impl Measures {
         let about = second - square(centre) * volume;
         let trace = about.x_axis.x + about.y_axis.y + about.z_axis.z;
         let inertia = (DMat3::IDENTITY * trace - about) * density_kg_m3;
-        Self { mass_kg: density_kg_m3 * volume, volume_m3: volume, wetted_area_m2: area, centre_m: centre, inertia_kg_m2: inertia }
+        Self { mass_kg: density_kg_m3 * volume, volume_m3: volume, wetted_area_m2: wetted, centre_m: centre, inertia_kg_m2: inertia }
     }
+}
+
+/// Area of a triangle [m²].
+fn area(places: &[DVec3], corners: [u32; 3]) -> f64 {
+    let [a, b, c] = corners.map(|corner| places[corner as usize]);
+    (b - a).cross(c - a).length() / 2.0
 }
 
 /// `a aᵀ`.

@@ -1,0 +1,140 @@
+//! The whale's mesh against the tables it is built from, and its fins against the ranges they are written to have.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
+
+use std::f64::consts::PI;
+use std::path::Path;
+
+use endline_gear::whale::{Station, WhaleForm, build_skin};
+use endline_gear::{Library, Sources, WhaleItem};
+use endline_sdk::{BodyPart, Region};
+use endline_sim::DVec3;
+use endline_sim::whale::{Mark, Skin};
+
+const LENGTHS_M: [f64; 3] = [4.2, 10.0, 13.7];
+
+fn whale(id: &str) -> WhaleItem {
+    let sources = Sources::from_folder(Path::new(env!("CARGO_MANIFEST_DIR"))).unwrap();
+    Library::read(&sources).0.whales.into_iter().find(|whale| whale.entry.id == id).unwrap()
+}
+
+/// The cut through a skin at a share of length from the snout, to port and up [m]; fins left out, but for the midline between the flukes.
+fn cut(skin: &Skin, length_m: f64, at: f64) -> Vec<[f64; 2]> {
+    let x = (0.5 - at) * length_m;
+    let fin = |region: Region| !matches!(region.part(), BodyPart::Head | BodyPart::Body | BodyPart::Peduncle);
+    let mut points = Vec::new();
+    for (triangle, region) in skin.triangles.iter().zip(&skin.regions) {
+        for edge in 0..3 {
+            let [a, b] = [triangle[edge], triangle[(edge + 1) % 3]].map(|corner| skin.vertices[corner as usize]);
+            let left_out = fin(*region) && (a.y != 0.0 || b.y != 0.0);
+            if !left_out && (a.x - x) * (b.x - x) <= 0.0 && (a.x - b.x).abs() > 1e-12 {
+                let place = a.lerp(b, (x - a.x) / (b.x - a.x));
+                points.push([place.y, place.z]);
+            }
+        }
+    }
+    points
+}
+
+/// Width, height and girth (a tape drawn tight) of a cut [m].
+fn measured(points: &[[f64; 2]]) -> [f64; 3] {
+    let reach =
+        |axis: usize| points.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| [low.min(p[axis]), high.max(p[axis])]);
+    let [[left, right], [low, high]] = [reach(0), reach(1)];
+    // The tape's length is the mean over all directions of the cut's width, times π (Cauchy).
+    let directions = 720;
+    let width = |turn: f64| {
+        let along = points.iter().map(|p| p[0] * turn.cos() + p[1] * turn.sin());
+        let [least, most] = along.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], a| [low.min(a), high.max(a)]);
+        most - least
+    };
+    let girth = (0..directions).map(|step| width(PI * f64::from(step) / f64::from(directions))).sum::<f64>() * PI / f64::from(directions);
+    [right - left, high - low, girth]
+}
+
+/// Width, height and girth of an ellipse (Ramanujan) [m].
+fn ellipse(form: &WhaleForm, station: &Station) -> [f64; 3] {
+    let scale = form.breadth_scale * form.length_m;
+    let (width, height) = (station.width * scale, (station.dorsal - station.ventral) * scale);
+    let (a, b) = (width / 2.0, height / 2.0);
+    let h = ((a - b) / (a + b)).powi(2);
+    [width, height, PI * (a + b) * (1.0 + 3.0 * h / (10.0 + (4.0 - 3.0 * h).sqrt()))]
+}
+
+/// Width, height and girth of the table (facts 4.2) at every 5 % of length, at three lengths, within 2 %.
+///
+/// Aft of 0.87 the flukes grow out of the peduncle: there the height is asked alone. The ends are rounded.
+#[test]
+fn every_section_is_that_of_the_table() {
+    for length_m in LENGTHS_M {
+        let form = whale("right-whale").form_at(length_m);
+        let skin = build_skin(&form);
+        for station in form.stations.iter().filter(|station| (0.04..0.97).contains(&station.at)) {
+            let found = measured(&cut(&skin, length_m, station.at));
+            for (measure, (found, table)) in found.iter().zip(ellipse(&form, station)).enumerate() {
+                let asked = station.at < 0.87 || measure == 1;
+                let name = ["width", "height", "girth"][measure];
+                assert!(!asked || (found / table - 1.0).abs() < 0.02, "{length_m} m, {} at {}: {found} against {table}", name, station.at);
+            }
+        }
+    }
+}
+
+/// Published digest of the table: stacked ellipses hold 0.01877 L³ and have 0.445 L² of skin, fins and mouth apart.
+#[test]
+fn the_body_holds_and_wets_what_its_table_does() {
+    let form = WhaleForm { breadth_scale: 1.0, ..whale("right-whale").form_at(10.0) };
+    let skin = build_skin(&form);
+    let inside = |corner: &u32| matches!(skin.marks[*corner as usize], Mark::Mouth | Mark::Baleen);
+    let body = |region: Region| matches!(region.part(), BodyPart::Head | BodyPart::Body | BodyPart::Peduncle);
+    let area: f64 = (skin.triangles.iter().zip(&skin.regions))
+        .filter(|(corners, region)| body(**region) && !corners.iter().all(inside))
+        .map(|(corners, _)| {
+            let [a, b, c] = corners.map(|corner| skin.vertices[corner as usize]);
+            (b - a).cross(c - a).length() / 2.0
+        })
+        .sum();
+    // The flukes take the last 13 % of the body's skin, a fortieth of it, and hide the fins' roots.
+    assert!((area / 44.5 - 1.0).abs() < 0.05, "{area} m² against 44.5");
+}
+
+fn reach(skin: &Skin, part: BodyPart, along: DVec3) -> [f64; 2] {
+    let own = skin.triangles.iter().zip(&skin.regions).filter(|(_, region)| region.part() == part);
+    let places = own.flat_map(|(triangle, _)| triangle.map(|corner| skin.vertices[corner as usize].dot(along)));
+    places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], place| [low.min(place), high.max(place)])
+}
+
+/// Flipper length 0.15 to 0.18 L, greatest chord 0.08 to 0.10 L; fluke span 0.36 to 0.42 L, root chord 0.09 to 0.11 L (facts 4.5).
+#[test]
+fn fins_are_as_long_and_wide_as_written() {
+    for length_m in LENGTHS_M {
+        let form = whale("right-whale").form_at(length_m);
+        let skin = build_skin(&form);
+        let (sweep, droop) = (form.flippers.sweep, form.flippers.droop);
+        let along = DVec3::new(-sweep.sin() * droop.cos(), sweep.cos() * droop.cos(), -droop.sin());
+        let chord = DVec3::new(sweep.cos(), sweep.sin(), 0.0);
+        let tip = reach(&skin, BodyPart::LeftFlipper, along)[1];
+        let own = skin.triangles.iter().zip(&skin.regions).filter(|(_, region)| region.part() == BodyPart::LeftFlipper);
+        let outer = own.flat_map(|(corners, _)| corners.map(|corner| skin.vertices[corner as usize]));
+        let outer = outer.filter(|place| tip - place.dot(along) < 0.6 * form.flippers.span * length_m);
+        let [aft, fore] =
+            outer.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], place| [low.min(place.dot(chord)), high.max(place.dot(chord))]);
+        let root = form.flippers.insertion;
+        let [insertion, blade] = [flank(&skin, length_m, root).dot(along), (fore - aft) / length_m];
+        let flipper = (tip - insertion) / length_m;
+        assert!((0.15..=0.18).contains(&flipper), "flipper of {flipper} L");
+        assert!((0.08..=0.10).contains(&blade), "flipper chord of {blade} L");
+        let span = 2.0 * reach(&skin, BodyPart::LeftFluke, DVec3::Y)[1] / length_m;
+        assert!((0.36..=0.42).contains(&span), "fluke span of {span} L");
+        assert!((0.09..=0.11).contains(&form.flukes.root_chord));
+        // The notch is where the midline ends.
+        let notch = skin.vertices.iter().filter(|place| place.y == 0.0).map(|place| place.x).fold(f64::INFINITY, f64::min);
+        assert!((notch + length_m / 2.0).abs() < 0.01 * length_m, "notch at {notch} m, {} m behind mid-body", length_m / 2.0);
+    }
+}
+
+/// The place of the body's port side at the flipper's insertion [m].
+fn flank(skin: &Skin, length_m: f64, at: f64) -> DVec3 {
+    let points = cut(skin, length_m, at);
+    let outer = points.iter().filter(|p| (p[1] / length_m + 0.047).abs() < 0.01).map(|p| p[0]).fold(f64::NEG_INFINITY, f64::max);
+    DVec3::new((0.5 - at) * length_m, outer, -0.047 * length_m)
+}
