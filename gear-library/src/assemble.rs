@@ -1,7 +1,7 @@
 //! Assembly: scenario, library and plugins become a model's spec.
 //!
-//! Order: sea, gear of the library, obstacles, parts written in place, lines cut into segments, weak links,
-//! whale and friction, probes. Every problem is collected and told with its place.
+//! Order: sea, whale, gear of the library, obstacles, parts written in place, lines cut into segments, weak links,
+//! friction, probes. Every problem is collected and told with its place.
 
 mod acts;
 mod around;
@@ -10,6 +10,8 @@ mod builder;
 mod catenary;
 mod ends;
 mod gear;
+mod hitch;
+mod kinetic;
 mod line;
 mod pilot;
 mod probes;
@@ -61,6 +63,8 @@ pub struct Options {
     pub weak_links: Option<bool>,
     /// How many rope nodes there are in all.
     pub rope_nodes: Option<u64>,
+    /// Whether the whale is kinetic.
+    pub kinetic: Option<bool>,
 }
 
 /// A spec with the library files it was made from.
@@ -87,6 +91,7 @@ pub fn assemble(scenario: &Scenario, library: &Library, hooks: &dyn Hooks, optio
 pub fn assemble_traced(scenario: &Scenario, library: &Library, hooks: &dyn Hooks, options: &Options) -> Result<Assembled, Vec<Diagnostic>> {
     let mut builder = Builder::new(scenario, library, hooks, settings(scenario, options));
     builder.add_sea();
+    builder.add_whale(options.kinetic);
     builder.add_gear();
     builder.add_obstacles();
     builder.add_fixtures();
@@ -96,7 +101,7 @@ pub fn assemble_traced(scenario: &Scenario, library: &Library, hooks: &dyn Hooks
     builder.cut_lines(options.rope_nodes);
     builder.add_free_links();
     builder.enable_links(options.weak_links.unwrap_or(scenario.weak_links));
-    builder.add_whale();
+    builder.add_friction();
     builder.add_probes();
     builder.finish()
 }

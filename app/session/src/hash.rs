@@ -11,6 +11,7 @@ use endline_sim::contact::Grips;
 use endline_sim::pace::Pace;
 use endline_sim::solids::SolidGrip;
 use endline_sim::state::{BodyState, RopeState, WhaleState};
+use endline_sim::whale::Exertion;
 use endline_sim::{DQuat, DVec3, Input, State};
 
 /// How many parts a state is hashed by.
@@ -131,13 +132,29 @@ fn fold_body(body: &BodyState, fold: &mut Fold) {
 }
 
 fn fold_whale(whale: &WhaleState, fold: &mut Fold, contact: &mut Fold) {
-    let WhaleState { position, orientation, speed_m_s, turn_rate, posture, motion, contact_force_n } = whale;
+    let WhaleState { position, orientation, speed_m_s, turn_rate, posture, motion, contact_force_n, exertion } = whale;
     fold.vectors(&[*position, *turn_rate]);
     fold.turn(*orientation);
     fold.real(*speed_m_s);
     fold.posture(posture);
     fold.reals(motion);
     contact.reals(contact_force_n);
+    let Exertion {
+        slip_m_s,
+        asked_speed_m_s,
+        asked_turn_rate,
+        thrust_n,
+        drag_n,
+        power_w,
+        rope_force_n,
+        rope_moment_n_m,
+        behind_m,
+        behind_rad,
+    } = exertion;
+    fold.reals(slip_m_s);
+    fold.reals(&[*asked_speed_m_s, *thrust_n, *drag_n, *power_w]);
+    fold.vectors(&[*asked_turn_rate, *behind_m, *behind_rad]);
+    contact.vectors(&[*rope_force_n, *rope_moment_n_m]);
 }
 
 /// A running hash.

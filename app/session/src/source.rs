@@ -28,6 +28,8 @@ pub struct Overrides {
     pub weak_links: Option<bool>,
     /// Rating of every weak link [N].
     pub rating_n: Option<f64>,
+    /// Whether the whale is kinetic.
+    pub kinetic: Option<bool>,
 }
 
 impl Overrides {
@@ -39,6 +41,7 @@ impl Overrides {
             step_s: self.step_s.or(other.step_s),
             weak_links: self.weak_links.or(other.weak_links),
             rating_n: self.rating_n.or(other.rating_n),
+            kinetic: self.kinetic.or(other.kinetic),
         }
     }
 }
@@ -127,8 +130,8 @@ impl Source {
         let name = &self.scenario_name;
         let scenario = Scenario::read(name, &self.scenario).map_err(Error::Diagnostics)?;
         let (library, problems) = Library::read(&self.library);
-        let Overrides { seed, step_s, weak_links, rating_n } = self.overrides;
-        let options = Options { seed, step_s, weak_links, ..Options::default() };
+        let Overrides { seed, step_s, weak_links, rating_n, kinetic } = self.overrides;
+        let options = Options { seed, step_s, weak_links, kinetic, ..Options::default() };
         // An item with errors is missing from the library; its own errors say why, so they come first.
         let Assembled { mut spec, files } = assemble_traced(&scenario, &library, host, &options)
             .map_err(|missing| Error::Diagnostics(problems.into_iter().filter(Diagnostic::is_error).chain(missing).collect()))?;

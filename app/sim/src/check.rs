@@ -119,6 +119,12 @@ fn check_joint(spec: &ModelSpec, joint: &Joint, found: &mut Found) {
     found.need(joint.position_m.is_finite(), "its place is not a finite number");
     match joint.kind {
         JointKind::Body { body, .. } => found.need(body < spec.bodies.len(), "it sits on a body that is not there"),
+        JointKind::Whale(hitch) => {
+            let triangles = spec.whale.as_ref().map_or(0, |whale| whale.skin.triangles.len());
+            found.need(hitch.triangle < triangles, "it is made fast to a whale, or a triangle of its skin, that is not there");
+            let sound = hitch.barycentric.iter().chain([&hitch.stand_off_m]).all(|number| number.is_finite());
+            found.need(sound, "its place on the whale's skin is not a finite number");
+        }
         JointKind::Pulled { force_n, .. } => found.need(force_n.is_finite(), "the force on it is not a finite number"),
         _ => {}
     }
@@ -163,6 +169,9 @@ fn check_whale(spec: &ModelSpec, found: &mut Found) {
     found.need(corners.into_iter().all(|corner| (*corner as usize) < skin.vertices.len()), "a triangle names a vertex that is not there");
     let named = skin.weights.iter().flatten().all(|(bone, _)| usize::from(*bone) < skin.bones.len());
     found.need(named, "a vertex names a bone that is not there");
+    if let Some(fault) = whale.kinetic.as_ref().and_then(|kinetic| kinetic.fault()) {
+        found.need(false, fault);
+    }
     let Some(friction) = &spec.friction else {
         found.need(false, "a whale needs a friction model");
         return;

@@ -6,6 +6,7 @@ use glam::{DQuat, DVec3};
 use crate::contact::ContactPoint;
 use crate::model::Model;
 use crate::state::State;
+use crate::whale::Exertion;
 
 /// A snapshot of a run at one time.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -41,6 +42,8 @@ pub struct WhaleFrame {
     pub speed_m_s: f64,
     /// Joint angles.
     pub posture: Posture,
+    /// What it does and bears.
+    pub exertion: Exertion,
 }
 
 impl Frame {
@@ -60,6 +63,7 @@ impl Frame {
                 orientation: whale.orientation,
                 speed_m_s: whale.speed_m_s,
                 posture: whale.posture,
+                exertion: whale.exertion,
             }),
             contacts: contacts.to_vec(),
         }

@@ -10,7 +10,7 @@ use crate::check::check;
 pub use crate::float::{Float, Form, Wet};
 use crate::solids::Obstacle;
 use crate::water::{Sea, Water};
-use crate::whale::{SkinTree, Whale};
+use crate::whale::{Hitch, SkinTree, Whale};
 
 /// A rope material, per metre of unstretched length.
 #[derive(Clone, Debug, PartialEq)]
@@ -86,6 +86,8 @@ pub enum JointKind {
         /// Place in the body's frame [m].
         offset_m: DVec3,
     },
+    /// The whale's skin: the joint goes where the skin goes, and pulls on the whale.
+    Whale(Hitch),
 }
 
 /// What a line keeps of its rope's breaking strength, as shares of it.

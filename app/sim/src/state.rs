@@ -9,8 +9,8 @@ use crate::model::{Body, JointKind, Model};
 use crate::pace::Pace;
 use crate::solids::SolidGrip;
 use crate::solver::LOOSE_M;
-use crate::whale::Whale;
 use crate::whale::pilot::{self, PilotMemory};
+use crate::whale::{Exertion, Whale};
 
 /// Everything the next step depends on, besides the model and the input.
 #[derive(Debug, PartialEq)]
@@ -87,7 +87,7 @@ pub struct BodyState {
     pub lift_m: Vec<f64>,
 }
 
-/// The whale in motion (kinematic: it goes where its motion plugin and pilot send it).
+/// The whale in motion. A kinematic one goes where its motion plugin and pilot send it, a kinetic one as its forces do.
 #[derive(Debug, PartialEq)]
 pub struct WhaleState {
     /// Place of the whale frame's origin, mid-body [m].
@@ -104,6 +104,8 @@ pub struct WhaleState {
     pub motion: Vec<f64>,
     /// Sum of normal contact forces of the last step, by body part [N].
     pub contact_force_n: [f64; endline_sdk::BodyPart::ALL.len()],
+    /// What it does and bears.
+    pub exertion: Exertion,
 }
 
 clone_in_place!(State { time_s, step, rope, bodies, whale, link_parted_s, line_parted, gear, pace, pilot });
@@ -121,7 +123,7 @@ clone_in_place!(RopeState {
     solid_grips
 });
 clone_in_place!(BodyState { position, orientation, velocity, spin, earlier_position, earlier_velocity, grip, sliding, lift_m });
-clone_in_place!(WhaleState { position, orientation, speed_m_s, turn_rate, posture, motion, contact_force_n });
+clone_in_place!(WhaleState { position, orientation, speed_m_s, turn_rate, posture, motion, contact_force_n, exertion });
 
 impl State {
     /// The state a model starts from before statics: first guesses, at rest.
@@ -204,14 +206,16 @@ impl BodyState {
 
 impl WhaleState {
     fn start(whale: &Whale) -> Self {
+        let dead = whale.kinetic.as_ref().is_some_and(|kinetic| kinetic.dead.is_some());
         Self {
             position: whale.position_m,
             orientation: whale.orientation,
             speed_m_s: whale.speed_m_s,
             turn_rate: DVec3::ZERO,
-            posture: Posture::default(),
+            posture: whale.start_posture(),
             motion: vec![0.0; whale.motion.descriptor().state_len],
             contact_force_n: [0.0; endline_sdk::BodyPart::ALL.len()],
+            exertion: Exertion { asked_speed_m_s: if dead { 0.0 } else { whale.speed_m_s }, ..Exertion::default() },
         }
     }
 }

@@ -17,6 +17,8 @@ use crate::solver::Solver;
 use crate::state::{State, WhaleState};
 use crate::substep::{self, Refused, Took};
 use crate::whale::drive::{drive, pose_between};
+use crate::whale::hitch;
+use crate::whale::kinetic::pull::{RopeImpulse, Times, centre_of};
 use crate::whale::pilot;
 
 /// Rope this near to the whale's path over a whole step makes the solver steps short [m].
@@ -48,6 +50,8 @@ pub struct Workspace {
     regrid: Option<RegridWork>,
     /// The whale at the start and at the end of the step.
     whale: Option<Box<[WhaleState; 2]>>,
+    /// What rope gave the whale over the solver steps of the step.
+    pulled: RopeImpulse,
 }
 
 /// What a run did that its reader should know; see `docs/physics.md`.
@@ -102,6 +106,7 @@ impl Workspace {
             gear: GearWork::default(),
             regrid: RegridWork::new(model),
             whale: None,
+            pulled: RopeImpulse::default(),
         }
     }
 }
@@ -131,6 +136,8 @@ fn try_step(model: &Model, input: &Input, state: &mut State, workspace: &mut Wor
     });
     if let (Some(now), Some([_, after])) = (&mut state.whale, whale.as_deref_mut()) {
         after.contact_force_n = force_by_part(&workspace.contacts);
+        let kinetic = model.spec.whale.as_ref().and_then(|whale| whale.kinetic.as_ref());
+        workspace.pulled.give(kinetic, model.spec.settings.step_s, after);
         now.clone_from(after);
     }
     workspace.whale = whale;
@@ -151,6 +158,7 @@ fn paced_steps(model: &Model, state: &mut State, workspace: &mut Workspace, whal
     for taken_back in 0..=MOST_TAKEN_BACK {
         workspace.peak_tension_n.fill(0.0);
         workspace.contacts.clear();
+        workspace.pulled = RopeImpulse::default();
         let splits = regrid(model, state, &mut workspace.regrid);
         workspace.audit.splits += if taken_back == 0 { splits } else { 0 };
         let near = near_whale(model, state, workspace, whale);
@@ -216,10 +224,12 @@ fn solver_steps(
             let share = |time: f64| ((time - start) / settings.step_s).clamp(0.0, 1.0);
             pose_between(model, from, to, share(state.time_s), &mut work.bones[0]);
             pose_between(model, from, to, share(state.time_s + dt), &mut work.bones[1]);
+            workspace.solver.trial.hitches.move_to(model, [&work.bones[0], &work.bones[1]]);
         }
         let earlier_dt = state.rope.earlier_dt_s;
         match substep::solver_step(model, state, workspace, dt, halvings > 0) {
             Ok(took) => {
+                feel(model, state, workspace, whale, dt);
                 let limit = if halvings > 0 { refused } else { limit };
                 workspace.audit.limited_by[limit as usize] += 1;
                 halvings = halvings.saturating_sub(1);
@@ -236,6 +246,18 @@ fn solver_steps(
         }
     }
     Ok(true)
+}
+
+/// Takes in what rope gave the whale in the solver step that has just ended.
+fn feel(model: &Model, state: &State, workspace: &mut Workspace, whale: Option<&[WhaleState; 2]>, dt: f64) {
+    let (Some(spec), Some([_, after])) = (&model.spec.whale, whale) else { return };
+    let centre = centre_of(spec.kinetic.as_ref(), after);
+    let end_s = model.spec.settings.step_s * (state.step + 1) as f64;
+    let times = Times { dt, left: (end_s - state.time_s).max(0.0) };
+    workspace.pulled.add_contacts(&workspace.contacts, centre, times);
+    for (force, place) in hitch::pulls(model, state) {
+        workspace.pulled.add(force, place - centre, times);
+    }
 }
 
 /// The longest solver step to try now, and what limits it.

@@ -171,7 +171,7 @@ fn free_step(model: &Model, state: &State, solver: &mut Solver, scheme: &Scheme,
             return Err(Refused::NotFinite);
         }
         let rests = patience.rests(pass, passed.longest_m);
-        let settled = passed.gap_n < TENSION_GAP_N.min(fine.gap_n).max(TENSION_GAP_SHARE * passed.greatest_n);
+        let settled = passed.gap_n <= TENSION_GAP_N.min(fine.gap_n).max(TENSION_GAP_SHARE * passed.greatest_n);
         if (rests && settled) || (at_once && is_exact(&passed, &fine)) {
             // Rope that kept to its drift has met nothing but what was gathered.
             let strayed = moved_m > work::MARGIN_M && solver.strayed_free(state, scheme.dt);
@@ -305,6 +305,7 @@ impl Solver {
         self.drift.clone_from(&self.trial.place);
         self.drift_bodies.clone_from(&self.trial.bodies);
         self.trial.place.clone_from(&state.rope.position);
+        self.trial.hitches.share = 0.0;
         for (trial, body) in self.trial.bodies.iter_mut().zip(&state.bodies) {
             (trial.place, trial.orientation) = (body.position, body.orientation);
         }
@@ -339,6 +340,7 @@ impl Solver {
         }
         self.trial.place.clone_from(&work.before);
         self.trial.bodies.clone_from(&work.bodies_before);
+        self.trial.hitches.share = work.near.fraction;
         0
     }
 
@@ -351,8 +353,9 @@ impl Solver {
         if with_bodies {
             self.blend_bodies(&work.bodies_before, share);
         }
-        self.trial.seat_ends(model, &self.plan);
         let skin_to = work.near.fraction + (1.0 - work.near.fraction) * share;
+        self.trial.hitches.share = skin_to;
+        self.trial.seat_ends(model, &self.plan);
         let safe = work.near.safe_share(&work.before, |node| self.trial.place[node], skin_to);
         if safe < 1.0 {
             return Err(safe);

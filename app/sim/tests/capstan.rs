@@ -72,8 +72,7 @@ fn capstan(speed: f64, segments: usize) -> Model {
 }
 
 fn over_drum(radius: f64, region: Region, speed: f64, segments: usize) -> ModelSpec {
-    let over = radius + 0.004;
-    let tail = 1.0;
+    let (over, tail) = (radius + 0.004, 1.0);
     let whole = 2.0 * tail + std::f64::consts::PI * over;
     let path = |s: f64| {
         if s < tail {
@@ -87,8 +86,7 @@ fn over_drum(radius: f64, region: Region, speed: f64, segments: usize) -> ModelS
     };
     let mut rope = common::rope();
     rope.axial_damping_n_s = 200.0;
-    let mut hanging = weight("hanging", HANGING_KG, path(0.0), None);
-    hanging.drag_area_m2 = DVec3::ZERO;
+    let hanging = weight("hanging", HANGING_KG, path(0.0), None);
     let driven = JointKind::Driven { velocity_m_s: DVec3::Z * -speed, from_s: 0.5, until_s: f64::INFINITY };
     let mut line = line("rope", whole, segments);
     if radius < RADIUS {
@@ -148,6 +146,7 @@ fn still_drum(radius: f64, region: Region) -> Whale {
         motion_attributes: Vec::new(),
         pilot: PilotProgram::default(),
         contact_stiffness_n_m2: 2e6,
+        kinetic: None,
     }
 }
 

@@ -1,6 +1,6 @@
 //! Where lines end: a joint's own place, or a point of a body.
 //!
-//! `trap-1` names a body and means its usual point; `trap-1:bridle-port` names another. Lines made fast at one
+//! `trap-1` names a body and means its usual point; `trap-1:bridle-port` names another, `whale:peduncle` a spot on the whale's skin. Lines made fast at one
 //! point share a joint.
 
 use endline_sim::DVec3;
@@ -11,6 +11,9 @@ use crate::nearest::hint;
 
 use super::builder::{Builder, Part};
 
+/// The word by which an end names the whale.
+const WHALE: &str = "whale";
+
 /// The part that an end names, and the point of it where one is named.
 pub(super) fn split(end: &str) -> (&str, Option<&str>) {
     end.rsplit_once(':').map_or((end, None), |(part, point)| (part, Some(point)))
@@ -20,6 +23,9 @@ impl Builder<'_> {
     /// The joint a line's end names: a joint's own, or one at a point of a body.
     pub fn end(&mut self, end: &At<String>) -> Option<usize> {
         let (part, point) = split(&end.value);
+        if part == WHALE && self.part(part).is_none() {
+            return self.whale_joint(point, end);
+        }
         match (self.part(part), point) {
             (Some(Part::Joint(joint)), None) => Some(joint),
             (Some(Part::Joint(_)), Some(point)) => {

@@ -14,12 +14,11 @@ use crate::schema::Kind;
 use super::builder::Builder;
 
 impl Builder<'_> {
-    /// The scenario's whale with its motion, and the friction of every rope on it.
-    pub fn add_whale(&mut self) {
+    /// The scenario's whale with its motion; `kinetic` over the scenario's own choice.
+    pub fn add_whale(&mut self, kinetic: Option<bool>) {
         let Some(swimmer) = &self.scenario.whale else {
             return;
         };
-        self.add_friction();
         let Some(item) = self.library.whales.iter().find(|whale| whale.entry.id == swimmer.item.value) else {
             self.no_item(Kind::Whale, &swimmer.item.value, &swimmer.item.place);
             return;
@@ -37,8 +36,15 @@ impl Builder<'_> {
         let pilot = self.pilot(&swimmer.pilot, motion.descriptor());
         let length_m = swimmer.length_m.unwrap_or(item.form.length_m);
         let skin = item.skin_at(length_m);
+        let measures = Measures::of(&skin, item.density_kg_m3);
+        let density_kg_m3 = self.spec.water.density_kg_m3;
+        let feels = (swimmer.dead || kinetic.unwrap_or(swimmer.kinetic)).then(|| {
+            let alive = item.kinetic(length_m, &measures, density_kg_m3, swimmer.effort)?;
+            if swimmer.dead { item.dead(&skin, alive, &measures, density_kg_m3) } else { Some(alive) }
+        });
+        let feels = feels.flatten();
         self.spec.whale = Some(Whale {
-            measures: Measures::of(&skin, item.density_kg_m3),
+            measures,
             skin: Arc::new(skin),
             joints: item.joints.ranges,
             length_m,
@@ -50,11 +56,15 @@ impl Builder<'_> {
             motion_attributes: numbers(&attributes),
             pilot,
             contact_stiffness_n_m2: swimmer.contact_stiffness_n_m2.unwrap_or(item.contact_stiffness_n_m2),
+            kinetic: feels,
         });
     }
 
-    /// The friction model with the table of coefficients: rope by region.
-    fn add_friction(&mut self) {
+    /// The friction of every rope on a whale: the model with the table of coefficients, rope by region.
+    pub fn add_friction(&mut self) {
+        if self.scenario.whale.is_none() {
+            return;
+        }
         let Some(choice) = &self.scenario.friction else {
             let message = "there is a whale, but no `friction`";
             let help = "write [friction] with model = \"org.endline.friction.coulomb\"";

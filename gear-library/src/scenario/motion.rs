@@ -1,6 +1,7 @@
 //! The whale of a scenario: which, where, how it swims, what its pilot does.
 
 use endline_sim::DVec3;
+use endline_sim::whale::kinetic::Effort;
 
 use crate::attributes::Attributes;
 use crate::diagnostic::At;
@@ -32,6 +33,12 @@ pub struct Swimmer {
     pub speed_m_s: f64,
     /// Stiffness of skin and blubber, over the library's [N/m²].
     pub contact_stiffness_n_m2: Option<f64>,
+    /// Whether it is dead; then it floats, whatever its motion.
+    pub dead: bool,
+    /// Whether it is kinetic.
+    pub kinetic: bool,
+    /// How a kinetic one keeps up its effort.
+    pub effort: Effort,
     /// Id of the motion plugin.
     pub motion: At<String>,
     /// Its attributes.
@@ -55,6 +62,9 @@ pub struct AnswerToTouch {
     pub again_s: f64,
 }
 
+/// Stands for the motion of a dead whale.
+const NO_MOTION: &str = "org.endline.motion.swim";
+
 impl Swimmer {
     /// Reads `[whale]`; `None` where something needed is missing, which is a problem already told.
     pub(super) fn read(fields: &Fields<'_>) -> Option<Self> {
@@ -67,9 +77,12 @@ impl Swimmer {
         let depth = fields.need_value("depth", Quantity::Length, Range::Between(-10.0, 6000.0));
         let angle = |key, default| fields.value(key, Quantity::Angle, Range::Any).map_or(default, |angle| angle.value);
         let (heading_rad, pitch_rad, roll_rad) = (angle("heading", std::f64::consts::FRAC_PI_2), angle("pitch", 0.0), angle("roll", 0.0));
-        let speed = fields.need_value("speed", Quantity::Speed, Range::Between(0.0, 15.0));
         let stiffness = fields.value("contact_stiffness", Quantity::Pressure, Range::Positive);
-        let motion = fields.need_text("motion", "write the id of a motion plugin, such as \"org.endline.motion.swim\"");
+        let state = fields.word("state", &["alive", "dead"]);
+        let dead = state.is_some_and(|word| word.value == "dead");
+        let dynamics = fields.word("dynamics", &["kinematic", "kinetic"]);
+        let effort = fields.word("effort", &["power", "thrust", "speed"]);
+        let (speed, motion) = if dead { adrift(fields) } else { under_way(fields) };
         let attributes = Attributes::read(fields, "attributes");
         let acts = fields.get("acts").map(|node| acts(node, fields.problems()));
         let answer = answer(fields);
@@ -83,8 +96,11 @@ impl Swimmer {
             heading_rad,
             pitch_rad,
             roll_rad,
-            speed_m_s: speed?.value,
+            speed_m_s: speed?,
             contact_stiffness_n_m2: stiffness.map(|stiffness| stiffness.value),
+            dead,
+            kinetic: dynamics.is_some_and(|word| word.value == "kinetic"),
+            effort: effort_of(effort.as_ref().map(|word| word.value.as_str())),
             motion: motion?,
             attributes,
             acts,
@@ -122,4 +138,24 @@ fn answer(fields: &Fields<'_>) -> Option<AnswerToTouch> {
         above_n: above.map_or(FELT_N, |above| above.value),
         again_s: again.map_or(f64::INFINITY, |again| again.value),
     })
+}
+
+/// Speed and motion of a living whale.
+fn under_way(fields: &Fields<'_>) -> (Option<f64>, Option<At<String>>) {
+    let speed = fields.need_value("speed", Quantity::Speed, Range::Between(0.0, 15.0));
+    let motion = fields.need_text("motion", "write the id of a motion plugin, such as \"org.endline.motion.swim\"");
+    (speed.map(|speed| speed.value), motion)
+}
+
+/// A dead whale lies still, and its motion is never asked.
+fn adrift(fields: &Fields<'_>) -> (Option<f64>, Option<At<String>>) {
+    (Some(0.0), Some(At { value: NO_MOTION.to_owned(), place: fields.place.clone() }))
+}
+
+fn effort_of(word: Option<&str>) -> Effort {
+    match word {
+        Some("thrust") => Effort::Thrust,
+        Some("speed") => Effort::Speed,
+        _ => Effort::Power,
+    }
 }

@@ -185,6 +185,28 @@ pub struct WhaleReport {
     pub tethered_m: f64,
     /// The fluke beat, mean over all whole beats; null before one.
     pub beat: Option<BeatReport>,
+    /// What a kinetic whale did; `null` for a kinematic one.
+    pub kinetic: Option<KineticReport>,
+}
+
+/// What a kinetic whale did; all but the peaks are means of the last 5 s.
+#[derive(Clone, Debug, Serialize)]
+#[allow(non_snake_case, reason = "keys of the JSON contract carry their units")]
+pub struct KineticReport {
+    /// Thrust [N].
+    pub thrust_N: f64,
+    /// Power put in: that of the thrust over the efficiency [W].
+    pub power_W: f64,
+    /// Drag of its own body [N].
+    pub body_drag_N: f64,
+    /// Speed through the water [m/s].
+    pub speed_m_s: f64,
+    /// Speed asked of it, less the speed it had [m/s].
+    pub speed_lost_m_s: f64,
+    /// Greatest thrust [N].
+    pub peak_thrust_N: f64,
+    /// Greatest pull of all rope on it [N].
+    pub peak_rope_pull_N: f64,
 }
 
 /// How the whale beat its flukes; see [`BeatSummary`](endline_sim::metrics::BeatSummary).

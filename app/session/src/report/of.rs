@@ -1,7 +1,9 @@
 //! From a run to its summary.
 
 use endline_sim::Audit;
-use endline_sim::metrics::{BeatSummary, BodySummary, Event, LineSummary, LinkSummary, ProbeSummary, RegionSummary, Summary, WhaleSummary};
+use endline_sim::metrics::{
+    BeatSummary, BodySummary, Event, KineticSummary, LineSummary, LinkSummary, ProbeSummary, RegionSummary, Summary, WhaleSummary,
+};
 use endline_sim::pace::LimitedBy;
 
 use super::*;
@@ -123,6 +125,20 @@ impl From<ProbeSummary> for ProbeReport {
     }
 }
 
+impl From<KineticSummary> for KineticReport {
+    fn from(of: KineticSummary) -> Self {
+        Self {
+            thrust_N: of.thrust_n,
+            power_W: of.power_w,
+            body_drag_N: of.body_drag_n,
+            speed_m_s: of.speed_m_s,
+            speed_lost_m_s: of.speed_lost_m_s,
+            peak_thrust_N: of.peak_thrust_n,
+            peak_rope_pull_N: of.peak_rope_pull_n,
+        }
+    }
+}
+
 fn whale_report(whale: WhaleSummary) -> WhaleReport {
     WhaleReport {
         outcome: whale.outcome.name(),
@@ -134,6 +150,7 @@ fn whale_report(whale: WhaleSummary) -> WhaleReport {
         drag_added_N: whale.drag_added_n,
         trailing_m: whale.trailing_m,
         tethered_m: whale.tethered_m,
+        kinetic: whale.kinetic.map(KineticReport::from),
         beat: whale.beat.map(beat_report),
     }
 }

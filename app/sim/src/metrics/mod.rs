@@ -22,12 +22,12 @@ mod touches;
 mod trailing;
 mod whale;
 mod winding;
+mod window;
 
 #[cfg(test)]
 pub(crate) mod tests;
 
 pub use bodies::DRAGGED_M;
-pub use drag::DRAG_WINDOW_S;
 pub use energy::energy;
 pub use event::{Event, EventKind};
 pub use flukes::TURN_SHARE;
@@ -35,8 +35,11 @@ pub use lines::end_tension;
 pub use outcome::{LONG_CONTACT_S, LOST_S, RELEASE_S};
 pub(crate) use probes::joint_place;
 pub use probes::{reading, unit};
-pub use summary::{BeatSummary, BodySummary, LineSummary, LinkSummary, Outcome, ProbeSummary, RegionSummary, Summary, WhaleSummary};
+pub use summary::{
+    BeatSummary, BodySummary, KineticSummary, LineSummary, LinkSummary, Outcome, ProbeSummary, RegionSummary, Summary, WhaleSummary,
+};
 pub use winding::{BRIDGED_GAP_M, WINDING_JUMP};
+pub use window::DRAG_WINDOW_S;
 
 use crate::contact::ContactPoint;
 use crate::model::Model;

@@ -104,6 +104,8 @@ pub struct WhaleSummary {
     pub tethered_m: f64,
     /// Its fluke beat; `None` before a whole one.
     pub beat: Option<BeatSummary>,
+    /// What it did, where it is kinetic.
+    pub kinetic: Option<KineticSummary>,
     /// Alarm: steps in which a winding jumped by more than 0.3 turns along unbroken contact.
     pub winding_jumps: u64,
 }
@@ -121,6 +123,25 @@ pub struct BeatSummary {
     pub speed_m_s: f64,
     /// Strouhal number, frequency times excursion over speed [1]; `None` at rest.
     pub strouhal: Option<f64>,
+}
+
+/// What a kinetic whale did; all but the peaks are means of the last 5 s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KineticSummary {
+    /// Thrust [N].
+    pub thrust_n: f64,
+    /// Power put in [W].
+    pub power_w: f64,
+    /// Drag of its own body [N].
+    pub body_drag_n: f64,
+    /// Speed through the water [m/s].
+    pub speed_m_s: f64,
+    /// Speed that its motion asked for, less the speed it had [m/s].
+    pub speed_lost_m_s: f64,
+    /// Greatest thrust of any step [N].
+    pub peak_thrust_n: f64,
+    /// Greatest pull of all rope on it, mean over any step [N].
+    pub peak_rope_pull_n: f64,
 }
 
 /// Rope on one part of the whale.

@@ -6,6 +6,7 @@ use super::strands::{ends_at, joint_at, other};
 use crate::contact::ContactPoint;
 use crate::model::{BodyRole, JointKind, Model};
 use crate::state::State;
+use crate::whale::hitch;
 
 /// Lengths of rope beyond the outermost contacts [m].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -27,12 +28,17 @@ impl Reach {
         Self { touched: vec![None; model.spec.lines.len()] }
     }
 
-    /// Takes in the contacts of a step.
+    /// Takes in the contacts of a step, and the ends made fast to the whale.
     pub(super) fn fold(&mut self, model: &Model, state: &State, contacts: &[ContactPoint]) {
         self.touched.fill(None);
         for contact in contacts.iter().filter(|contact| contact.normal_force_n > 0.0) {
             let arc = state.arc(model, contact.segment, contact.fraction);
             let span = self.touched[contact.line].get_or_insert((arc, arc));
+            *span = (span.0.min(arc), span.1.max(arc));
+        }
+        for (line, end) in hitch::ends(model) {
+            let arc = if end == LineEnd::A { 0.0 } else { model.spec.lines[line].segments_m.iter().sum() };
+            let span = self.touched[line].get_or_insert((arc, arc));
             *span = (span.0.min(arc), span.1.max(arc));
         }
     }
@@ -108,6 +114,7 @@ impl Walk<'_> {
         let joint = joint_at(self.model, line, end);
         let Some(kind) = self.model.spec.joints.get(joint).map(|joint| &joint.kind) else { return Leads::Loose };
         match kind {
+            JointKind::Whale(_) => Leads::Back,
             JointKind::Fixed | JointKind::Driven { .. } => Leads::Held,
             JointKind::Body { body, .. } if self.model.spec.bodies[*body].role != BodyRole::Buoy => Leads::Held,
             _ => self.on_from(joint, (line, end)),

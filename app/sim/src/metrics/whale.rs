@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use endline_sdk::BodyPart;
 
-use super::drag::DragMeter;
+use super::drag::{EffortMeter, added_drag};
 use super::event::{EventKind, Log};
 use super::extent::Extent;
 use super::flukes::FlukeMeter;
@@ -15,6 +15,7 @@ use super::summary::{RegionSummary, WhaleSummary};
 use super::touches::Touches;
 use super::trailing::Reach;
 use super::winding::Winding;
+use super::window::Window;
 use crate::contact::ContactPoint;
 use crate::model::Model;
 use crate::state::{State, WhaleState};
@@ -26,7 +27,8 @@ pub(super) struct WhaleMeter {
     skin: Arc<Skin>,
     winding: Winding,
     loads: Loads,
-    drag: DragMeter,
+    drag: Window<1>,
+    effort: Option<EffortMeter>,
     encounter: Encounter,
     reach: Reach,
     extent: Extent,
@@ -41,7 +43,8 @@ impl WhaleMeter {
         Some(Self {
             winding: Winding::new(&skin, Strands::new(model)),
             loads: Loads::default(),
-            drag: DragMeter::new(model),
+            drag: Window::new(model),
+            effort: EffortMeter::new(model),
             encounter: Encounter::default(),
             reach: Reach::new(model),
             extent: Extent::new(&skin),
@@ -55,7 +58,10 @@ impl WhaleMeter {
         let touching = contacts.iter().any(|contact| contact.normal_force_n > 0.0);
         self.loads.fold(model, contacts, dt_s);
         self.winding.fold(&self.skin, contacts, &state.rope);
-        self.drag.fold(whale, contacts, dt_s);
+        self.drag.fold([added_drag(model, state, whale, contacts)], dt_s);
+        if let Some(effort) = &mut self.effort {
+            effort.fold(whale, dt_s);
+        }
         self.reach.fold(model, state, contacts);
         self.encounter.fold(state.time_s, dt_s, touching, self.winding.most());
         self.extent.fold(model, whale, state.time_s, log);
@@ -74,11 +80,12 @@ impl WhaleMeter {
             last_contact_s: self.encounter.last_s,
             contact_time_s: self.encounter.contact_time_s,
             regions: BodyPart::ALL.iter().map(|part| self.region(*part)).collect(),
-            drag_added_n: self.drag.mean_n(),
-            drag_added_now_n: self.drag.now_n,
+            drag_added_n: self.drag.mean()[0],
+            drag_added_now_n: self.drag.now[0],
             trailing_m: beyond.trailing_m,
             tethered_m: beyond.tethered_m,
             beat: self.flukes.summary(),
+            kinetic: self.effort.as_ref().map(EffortMeter::summary),
             winding_jumps: self.winding.jumps,
         }
     }

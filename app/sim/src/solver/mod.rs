@@ -35,6 +35,7 @@ use crate::solids::work::SolidWork;
 use crate::state::State;
 use crate::water::WaterAt;
 use crate::water::field::Walk;
+use crate::whale::hitch::Hitches;
 pub(crate) use axial::Axial;
 use chain::{Band, Ends};
 pub(crate) use free::FreePass;
@@ -126,7 +127,7 @@ impl Solver {
             rest: Rest { hubs: hubs.clone(), ..Rest::default() },
             hubs,
             plan,
-            trial: Trial::default(),
+            trial: Trial { hitches: Hitches::new(model), ..Trial::default() },
             lengths: Lengths::default(),
             band: Band::new(model.node_count, model.segment_count),
             lanes: Lanes::new(model),

@@ -87,7 +87,7 @@ fn seats(model: &Model, blocks: &mut usize) -> Vec<Seat> {
     };
     let seat = |joint: &crate::model::Joint| match joint.kind {
         JointKind::Free | JointKind::Pulled { .. } => Seat::Free(next()),
-        JointKind::Fixed | JointKind::Driven { .. } => Seat::Fixed,
+        JointKind::Fixed | JointKind::Driven { .. } | JointKind::Whale(_) => Seat::Fixed,
         JointKind::Body { body, offset_m } => Seat::Body { block: 0, body, offset: offset_m },
     };
     model.spec.joints.iter().map(seat).collect()

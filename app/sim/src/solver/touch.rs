@@ -171,7 +171,7 @@ impl Solver {
                 greatest = greatest.max(solved);
             }
         });
-        gap < TENSION_GAP_N.min(self.fine().gap_n).max(TENSION_GAP_SHARE * greatest)
+        gap <= TENSION_GAP_N.min(self.fine().gap_n).max(TENSION_GAP_SHARE * greatest)
     }
 
     fn each_segment(&mut self, model: &Model, mut act: impl FnMut(&mut Self, usize, usize)) {

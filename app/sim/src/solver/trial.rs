@@ -7,6 +7,7 @@ use super::plan::Plan;
 use super::scheme::Scheme;
 use crate::model::{JointKind, Model};
 use crate::state::State;
+use crate::whale::hitch::Hitches;
 
 /// Unknowns of a step with what they are measured from.
 #[derive(Clone, Debug, Default)]
@@ -23,6 +24,8 @@ pub(crate) struct Trial {
     pub tension: Vec<f64>,
     /// Bodies.
     pub bodies: Vec<BodyTrial>,
+    /// Joints made fast to the whale.
+    pub hitches: Hitches,
 }
 
 /// Unknowns of a body.
@@ -44,6 +47,7 @@ impl Trial {
     /// Starts a step: history from the state, a first guess by its velocities, fixtures at their new place.
     pub fn begin(&mut self, model: &Model, plan: &Plan, state: &State, scheme: &Scheme) {
         self.time = state.time_s + scheme.dt;
+        self.hitches.share = 1.0;
         let rope = &state.rope;
         let count = model.node_count;
         self.place.resize(count, DVec3::ZERO);
@@ -62,6 +66,7 @@ impl Trial {
     /// Starts a step of free rope: the same, but for the rope's history, which the lanes take from the state.
     pub fn begin_free(&mut self, model: &Model, plan: &Plan, state: &State, scheme: &Scheme) {
         self.time = state.time_s + scheme.dt;
+        self.hitches.share = 1.0;
         self.place.clear();
         let rope = &state.rope;
         self.place.extend(rope.position.iter().zip(&rope.velocity).map(|(place, velocity)| *place + *velocity * scheme.dt));
@@ -106,6 +111,7 @@ impl Trial {
         match model.spec.joints[joint].kind {
             JointKind::Driven { velocity_m_s, from_s, until_s } => place + velocity_m_s * (self.time.min(until_s) - from_s).max(0.0),
             JointKind::Fixed => place,
+            JointKind::Whale(_) => self.hitches.place(joint).unwrap_or(place),
             _ => self.place[plan.joint_node[joint].unwrap_or(node)],
         }
     }

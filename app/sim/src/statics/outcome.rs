@@ -112,7 +112,7 @@ fn gear_of_bodies(model: &Model) -> Vec<usize> {
         gear.iter_mut().filter(|gear| **gear == from).for_each(|gear| *gear = to);
     }
     let fixed = |joint: usize| match joints[joint].kind {
-        JointKind::Fixed | JointKind::Driven { .. } => true,
+        JointKind::Fixed | JointKind::Driven { .. } | JointKind::Whale(_) => true,
         JointKind::Body { body, .. } => model.spec.bodies[body].held_until_s.is_some(),
         JointKind::Free | JointKind::Pulled { .. } => false,
     };

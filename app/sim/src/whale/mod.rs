@@ -4,7 +4,9 @@ pub mod acts;
 pub(crate) mod approach;
 pub mod bounds;
 pub mod drive;
+pub mod hitch;
 pub mod joints;
+pub mod kinetic;
 pub mod measures;
 pub mod pilot;
 pub mod pose;
@@ -13,11 +15,13 @@ pub mod tree;
 
 use std::sync::Arc;
 
-use endline_sdk::{Region, SPINE_JOINTS, WhaleMotion};
+use endline_sdk::{Posture, Region, SPINE_JOINTS, WhaleMotion};
 use glam::{DQuat, DVec3};
 
 pub use bounds::Bounds;
+pub use hitch::Hitch;
 pub use joints::JointRanges;
+pub use kinetic::{Exertion, Kinetic};
 pub use measures::Measures;
 pub use pilot::PilotProgram;
 pub use pose::{pose, skin_all, skin_vertex};
@@ -51,6 +55,17 @@ pub struct Whale {
     pub pilot: PilotProgram,
     /// Stiffness of skin and blubber under rope, per metre of rope [N/m²].
     pub contact_stiffness_n_m2: f64,
+    /// What makes it kinetic; `None` where it goes as its motion says, whatever the rope does.
+    pub kinetic: Option<Kinetic>,
+}
+
+impl Whale {
+    /// Joint angles it starts with.
+    #[must_use]
+    pub fn start_posture(&self) -> Posture {
+        let dead = self.kinetic.as_ref().and_then(|kinetic| kinetic.dead.as_ref());
+        dead.map_or_else(Posture::default, |dead| dead.posture)
+    }
 }
 
 /// A closed triangle skin on bones: at most four bones move a vertex.

@@ -100,12 +100,21 @@ pub(super) struct OverArgs {
     /// Rating of every weak link: newtons, or with a unit such as 1700lbf.
     #[arg(long, value_name = "FORCE", value_parser = force)]
     rating: Option<f64>,
+    /// Whether the whale feels the gear (kinetic) or goes as it is steered whatever the rope does (kinematic), over the scenario's.
+    #[arg(long, value_name = "kinetic|kinematic")]
+    whale: Option<Dynamics>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Switch {
     On,
     Off,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Dynamics {
+    Kinetic,
+    Kinematic,
 }
 
 #[derive(Debug, clap::Args)]
@@ -213,7 +222,8 @@ pub(super) enum PluginsCommand {
 impl OverArgs {
     pub(super) fn overrides(&self) -> Overrides {
         let weak_links = self.weak_links.map(|switch| switch == Switch::On);
-        Overrides { seed: self.seed, step_s: self.dt, weak_links, rating_n: self.rating }
+        let kinetic = self.whale.map(|dynamics| dynamics == Dynamics::Kinetic);
+        Overrides { seed: self.seed, step_s: self.dt, weak_links, rating_n: self.rating, kinetic }
     }
 }
 

@@ -129,6 +129,14 @@ fn whale(whale: &WhaleReport, report: &Report) -> String {
         vec!["joints held at their ends".into(), format!("in {} of {} steps", report.audit.postures_held, report.steps)],
         vec!["fluke beat".into(), whale.beat.as_ref().map_or_else(|| "none".into(), beat)],
     ]);
+    if let Some(kinetic) = &whale.kinetic {
+        text += &columns(&[
+            vec!["thrust".into(), format!("{}, at most {}", force(kinetic.thrust_N), force(kinetic.peak_thrust_N))],
+            vec!["pull of rope".into(), format!("at most {}", force(kinetic.peak_rope_pull_N))],
+            vec!["power".into(), format!("{:.0} W", kinetic.power_W)],
+            vec!["speed".into(), format!("{:.2} m/s, {:.2} m/s lost", kinetic.speed_m_s, kinetic.speed_lost_m_s)],
+        ]);
+    }
     let mut rows = vec![row(&["region", "wraps", "rope in contact", "peak normal force", "friction work"])];
     for region in whale.regions.iter().filter(|region| region.peak_normal_N > 0.0) {
         rows.push(vec![

@@ -368,7 +368,13 @@ mod tests {
     #[test]
     fn following_looks_the_way_the_whale_swims() {
         let orientation = DQuat::from_rotation_z(2.0);
-        let whale = WhaleFrame { position: DVec3::new(9.0, 1.0, -12.0), orientation, speed_m_s: 1.0, posture: Default::default() };
+        let whale = WhaleFrame {
+            position: DVec3::new(9.0, 1.0, -12.0),
+            orientation,
+            speed_m_s: 1.0,
+            posture: Default::default(),
+            exertion: Default::default(),
+        };
         let mut camera = Camera::default();
         camera.follow(&whale, 13.0);
         assert!(camera.axes().2.dot(orientation * DVec3::X) > 0.9);
@@ -380,7 +386,13 @@ mod tests {
     fn first_person_rolls_with_the_whale() {
         for roll in [0.0, 0.7, -2.0] {
             let orientation = DQuat::from_rotation_z(-0.6) * DQuat::from_rotation_y(0.3) * DQuat::from_rotation_x(roll);
-            let whale = WhaleFrame { position: DVec3::new(9.0, 1.0, -12.0), orientation, speed_m_s: 1.0, posture: Default::default() };
+            let whale = WhaleFrame {
+                position: DVec3::new(9.0, 1.0, -12.0),
+                orientation,
+                speed_m_s: 1.0,
+                posture: Default::default(),
+                exertion: Default::default(),
+            };
             let mut camera = Camera::default();
             camera.first_person(&whale, 13.0);
             let (right, up, _) = camera.axes();
@@ -392,7 +404,13 @@ mod tests {
     #[test]
     fn a_portrait_holds_the_whole_whale_with_its_snout_to_the_right() {
         let orientation = DQuat::from_rotation_z(2.0);
-        let whale = WhaleFrame { position: DVec3::new(9.0, 1.0, -12.0), orientation, speed_m_s: 1.0, posture: Default::default() };
+        let whale = WhaleFrame {
+            position: DVec3::new(9.0, 1.0, -12.0),
+            orientation,
+            speed_m_s: 1.0,
+            posture: Default::default(),
+            exertion: Default::default(),
+        };
         for view in [View::WhaleSide, View::WhaleTop] {
             let camera = Camera::of_view(view, &[], Some(&whale), 13.0, SIZE.x / SIZE.y);
             let at = |x: f64| camera.project(whale.position + orientation * DVec3::X * x, SIZE).unwrap().x / SIZE.x;

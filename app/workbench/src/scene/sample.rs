@@ -147,6 +147,7 @@ fn whale() -> Whale {
         motion_attributes: Vec::new(),
         pilot: PilotProgram::default(),
         contact_stiffness_n_m2: 1e5,
+        kinetic: None,
     }
 }
 

@@ -169,6 +169,7 @@ fn whale() -> Whale {
         motion_attributes: Vec::new(),
         pilot: PilotProgram::default(),
         contact_stiffness_n_m2: 2e6,
+        kinetic: None,
     }
 }
 

@@ -50,7 +50,7 @@ pub(crate) struct Group {
 }
 
 fn is_fixture(joint: &Joint) -> bool {
-    matches!(joint.kind, JointKind::Fixed | JointKind::Driven { .. })
+    matches!(joint.kind, JointKind::Fixed | JointKind::Driven { .. } | JointKind::Whale(_))
 }
 
 /// All pieces, in the order of the lines and along each.

@@ -1,0 +1,115 @@
+//! How much of a skin is under water, and where: Archimedes on the triangles.
+//!
+//! With `s` the height above the water and `n` the outward normal, the divergence theorem over the wet skin gives the displaced volume
+//! `V = ∮ s n_z dA` and its first moments `∮ x s n_z dA`, `∮ y s n_z dA`; the waterplane adds nothing, since `s = 0` there. On a flat triangle
+//! of area vector `N` the mean of a product of two linear functions is `(Σ f_i g_i + Σ f_i Σ g_i)/12`. Triangles across the
+//! waterline are cut along it, so that a closed mesh is exact at any heel and draught.
+//! Reference: Biran and López-Pulido 2014, Ship Hydrostatics and Stability, chapter 2; the sums are our own.
+
+use glam::{DMat3, DVec3};
+
+use super::super::{Skin, pose, skin_vertex};
+use endline_sdk::Posture;
+use glam::DQuat;
+
+/// A closed surface of flat triangles in the whale's frame.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Hull {
+    places: Vec<DVec3>,
+    triangles: Vec<[u32; 3]>,
+}
+
+/// What is under water.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Wetted {
+    /// Volume [m³].
+    pub volume_m3: f64,
+    /// Volume times how far its middle lies east and north of the point it is measured from [m⁴].
+    pub moment_m4: [f64; 2],
+}
+
+impl Hull {
+    /// A skin in a posture.
+    #[must_use]
+    pub fn of(skin: &Skin, posture: &Posture) -> Self {
+        let mut bones = Vec::new();
+        pose(skin, DVec3::ZERO, DQuat::IDENTITY, posture, &mut bones);
+        let places = (0..skin.vertices.len()).map(|vertex| skin_vertex(skin, &bones, vertex)).collect();
+        Self { places, triangles: skin.triangles.clone() }
+    }
+
+    /// What is under water with the point `centre` of its frame `height_m` above the surface, turned by `orientation`.
+    #[must_use]
+    pub fn wetted(&self, centre: DVec3, orientation: DQuat, height_m: f64) -> Wetted {
+        let axes = DMat3::from_quat(orientation);
+        let up = DVec3::Z * height_m;
+        let mut sum = Wetted::default();
+        for corners in &self.triangles {
+            sum.add_cut(corners.map(|corner| axes * (self.places[corner as usize] - centre) + up));
+        }
+        sum
+    }
+}
+
+impl Wetted {
+    /// Adds the part of a triangle that is under water; heights are above the surface.
+    fn add_cut(&mut self, corners: [DVec3; 3]) {
+        let dry = corners.map(|corner| corner.z > 0.0);
+        match dry.iter().filter(|dry| **dry).count() {
+            0 => self.add(corners),
+            3 => {}
+            count => {
+                // The lone corner, and where its two edges meet the water.
+                let lone = dry.iter().position(|is_dry| *is_dry == (count == 1)).unwrap_or(0);
+                let [a, b, c] = [0, 1, 2].map(|step| corners[(lone + step) % 3]);
+                let cross = |to: DVec3| a.lerp(to, a.z / (a.z - to.z));
+                let (on_b, on_c) = (cross(b), cross(c));
+                if count == 1 {
+                    self.add([on_b, b, c]);
+                    self.add([on_b, c, on_c]);
+                } else {
+                    self.add([a, on_b, on_c]);
+                }
+            }
+        }
+    }
+
+    fn add(&mut self, [a, b, c]: [DVec3; 3]) {
+        let flat = 0.5 * ((b - a).cross(c - a)).z;
+        let depth = a.z + b.z + c.z;
+        self.volume_m3 += flat * depth / 3.0;
+        let moment = (a * a.z + b * b.z + c * c.z + (a + b + c) * depth) * (flat / 12.0);
+        self.moment_m4[0] += moment.x;
+        self.moment_m4[1] += moment.y;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A box of these half sides about the origin.
+    fn crate_of(half: DVec3) -> Hull {
+        let corner = |k: u32| half * DVec3::from_array([0, 1, 2].map(|bit| if k >> bit & 1 == 0 { -1.0 } else { 1.0 }));
+        let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let triangles = faces.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
+        Hull { places: (0..8).map(corner).collect(), triangles }
+    }
+
+    #[test]
+    fn a_box_displaces_what_lies_below_the_waterline() {
+        let hull = crate_of(DVec3::new(4.0, 1.5, 0.5));
+        let level = hull.wetted(DVec3::ZERO, DQuat::IDENTITY, 0.1);
+        assert!((level.volume_m3 - 8.0 * 3.0 * 0.4).abs() < 1e-12 && level.moment_m4.iter().all(|moment| moment.abs() < 1e-12));
+        assert!((hull.wetted(DVec3::ZERO, DQuat::IDENTITY, -9.0).volume_m3 - 24.0).abs() < 1e-12);
+        assert!(hull.wetted(DVec3::ZERO, DQuat::IDENTITY, 9.0).volume_m3.abs() < 1e-12);
+        // Heeled by 0.1 about x with its middle in the surface, the waterline cuts both sides: as much under as over.
+        let heeled = hull.wetted(DVec3::ZERO, DQuat::from_rotation_x(0.1), 0.0);
+        assert!((heeled.volume_m3 - 12.0).abs() < 1e-12);
+        // Its moment about the middle is that of the level half, turned, and of the two wedges: L b³ tan φ/12 (1 + tan²φ/2) along the keel.
+        let (sin, cos, tan) = (libm::sin(0.1), libm::cos(0.1), libm::tan(0.1));
+        let (across, down) = (8.0 * 27.0 * tan / 12.0, -(12.0 * 0.25) + 8.0 * 27.0 * tan * tan / 24.0);
+        let expected = -across * cos - down * sin;
+        assert!((heeled.moment_m4[1] - expected).abs() < 1e-9, "{} against {expected}", heeled.moment_m4[1]);
+    }
+}

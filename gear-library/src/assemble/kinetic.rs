@@ -1,0 +1,110 @@
+//! What makes a whale of the library kinetic: drag by its mass and length, added mass of its shape, strength.
+//!
+//! Mass, centre and inertia are those of the skin. For added mass the body counts as a spheroid as long as the whale with its greatest
+//! diameter. Drag crossways of a body of elliptic outline, side area `A` and length `L`, turning
+//! about its middle: `½ρ C ω|ω| · 4/(60π) A L³`; of fins of half span `s` and chord `c`, rolling: `½ρ C ω|ω| · ½ c s⁴`.
+
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+use endline_sdk::Posture;
+use endline_sim::DVec3;
+use endline_sim::whale::kinetic::added::{fins, spheroid};
+use endline_sim::whale::kinetic::{AxialDrag, Dead, Effort, Hull, Kinetic, Muscle};
+use endline_sim::whale::{Measures, Skin};
+
+use crate::items::WhaleItem;
+use crate::whale::WhaleForm;
+
+/// Drag crossways of an outline like an ellipse as it turns, over its area and the cube of its length.
+const TURNING: f64 = 4.0 / (60.0 * PI);
+
+impl WhaleItem {
+    /// A whale of this length that feels the gear, in water of a density; `None` where a figure is missing, which is a problem
+    /// already told.
+    #[must_use]
+    pub fn kinetic(&self, length_m: f64, measures: &Measures, density_kg_m3: f64, effort: Effort) -> Option<Kinetic> {
+        let value = |key| self.entry.value(key);
+        let (length, form) = (length_m, self.form_at(length_m));
+        let mass_kg = measures.mass_kg;
+        let diameter_m = value("drag.diameter_offset")? + value("drag.diameter")? * length;
+        let inertia = measures.inertia_kg_m2;
+        let inertia_kg_m2 = DVec3::new(inertia.x_axis.x, inertia.y_axis.y, inertia.z_axis.z);
+        let shares = spheroid(length / diameter_m);
+        let fins = [flukes(&form), flippers(&form)];
+        let (area, cross) = (length * length, value("drag.cross")?);
+        let [side, plan] = [value("drag.side_area")? * area, value("drag.plan_area")? * area];
+        let rolling = fins.map(|[span, chord]| 0.5 * chord * span * span * span * span).iter().sum::<f64>();
+        let muscle = self.muscle(&form, effort)?;
+        let arm = DVec3::new(value("strength.rolling_arm")?, value("strength.steering_arm")?, value("strength.steering_arm")?);
+        Some(Kinetic {
+            mass_kg,
+            centre_m: measures.centre_m,
+            inertia_kg_m2,
+            added_mass_kg: DVec3::new(shares.along, shares.across, shares.across) * mass_kg,
+            added_inertia_kg_m2: DVec3::new(
+                fins.iter().map(|[span, chord]| self::fins(density_kg_m3, *span, *chord)).sum(),
+                shares.turning * inertia_kg_m2.y,
+                shares.turning * inertia_kg_m2.z,
+            ),
+            drag: AxialDrag {
+                length_m: length,
+                diameter_m,
+                wetted_area_m2: value("drag.wetted_area")? * mass_kg.powf(value("drag.wetted_area_exponent")?),
+                appendages: value("drag.appendages")?,
+                oscillation: value("drag.oscillation")?,
+                open_mouth: value("drag.open_mouth")?,
+                wide_rad: value("drag.wide_mouth")?,
+            },
+            side_drag_m2: [cross * side, cross * plan],
+            turn_drag_m5: DVec3::new(cross * rolling, TURNING * cross * plan * area * length, TURNING * cross * side * area * length),
+            steering_n_m: arm * (length * muscle.sustained_n),
+            muscle,
+            steering_time_s: value("strength.steering_time")?,
+            buoyancy: value("dynamics.buoyancy")?,
+            dead: None,
+        })
+    }
+
+    /// The same, dead and afloat: as heavy as what it displaces at rest, with gas in the belly.
+    #[must_use]
+    pub fn dead(&self, skin: &Skin, alive: Kinetic, measures: &Measures, density_kg_m3: f64) -> Option<Kinetic> {
+        let value = |key| self.entry.value(key);
+        let mass_kg = density_kg_m3 * measures.volume_m3 * (1.0 - value("dead.afloat")?);
+        let posture = Posture { jaw: value("dead.jaw")?, ..Posture::default() };
+        Some(Kinetic {
+            mass_kg,
+            centre_m: alive.centre_m + DVec3::Z * (value("dead.weight_above")? * alive.drag.length_m),
+            inertia_kg_m2: alive.inertia_kg_m2 * (mass_kg / alive.mass_kg),
+            dead: Some(Dead { posture, hull: Arc::new(Hull::of(skin, &posture)) }),
+            ..alive
+        })
+    }
+
+    fn muscle(&self, form: &WhaleForm, effort: Effort) -> Option<Muscle> {
+        let value = |key| self.entry.value(key);
+        let length = form.length_m;
+        let grown = length.powf(value("strength.exponent")?);
+        Some(Muscle {
+            sustained_n: value("strength.sustained")? * grown,
+            burst_n: value("strength.burst")? * grown,
+            efficiency: value("strength.efficiency")?,
+            swept_area_m2: form.flukes.span * value("strength.stroke")? * length * length,
+            effort,
+        })
+    }
+}
+
+/// Half span and mean chord of the flukes [m].
+fn flukes(form: &WhaleForm) -> [f64; 2] {
+    [0.5 * form.flukes.span * form.length_m, 0.5 * (form.flukes.root_chord + form.flukes.tip_chord) * form.length_m]
+}
+
+/// Reach from the axis and mean chord of the flippers [m].
+fn flippers(form: &WhaleForm) -> [f64; 2] {
+    let at = form.flippers.insertion;
+    let nearest = form.stations.iter().min_by(|one, other| (one.at - at).abs().total_cmp(&(other.at - at).abs()));
+    let half_width = 0.5 * form.breadth_scale * nearest.map_or(0.0, |station| station.width);
+    let reach = half_width + form.flippers.span * form.flippers.droop.cos();
+    [reach * form.length_m, 0.5 * (form.flippers.root_chord + form.flippers.max_chord) * form.length_m]
+}
