@@ -149,5 +149,5 @@ fn shipped_acts_keep_to_the_right_whales_joints() {
     let problems = assemble(&scenario, &Library::read(&sources).0, &Linked, &Options::default()).err().unwrap();
     assert_eq!((problems[0].file.as_str(), problems[0].line), ("acts/flippers-abduct.toml", 12), "{}", told(&problems));
     let message = problems[0].to_string();
-    assert!(message.contains("asks for 50.0 deg of FlipperRaise(0)") && message.contains("turns -60.0 to 30.0 deg"), "{message}");
+    assert!(message.contains("asks for 50.0 deg of FlipperRaise(0)") && message.contains("turns -60.0 to 25.0 deg"), "{message}");
 }
