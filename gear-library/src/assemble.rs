@@ -102,6 +102,7 @@ pub fn assemble_traced(scenario: &Scenario, library: &Library, hooks: &dyn Hooks
     builder.add_free_links();
     builder.enable_links(options.weak_links.unwrap_or(scenario.weak_links));
     builder.add_friction();
+    builder.add_pilot();
     builder.add_probes();
     builder.finish()
 }

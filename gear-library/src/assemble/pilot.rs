@@ -1,5 +1,7 @@
 //! The pilot program of a scenario, with the parts and acts it names looked up.
 
+use std::sync::Arc;
+
 use endline_sdk::{Controls, Descriptor};
 use endline_sim::whale::pilot::{PilotEntry, PilotProgram, Target, Trigger};
 
@@ -10,8 +12,18 @@ use crate::scenario::{PilotOf, TriggerOf};
 use super::builder::{Builder, Part};
 
 impl Builder<'_> {
+    /// The pilot program of the scenario's whale, once the gear is there that its entries may name.
+    pub fn add_pilot(&mut self) {
+        let Some(motion) = self.spec.whale.as_ref().map(|whale| Arc::clone(&whale.motion)) else { return };
+        let Some(swimmer) = &self.scenario.whale else { return };
+        let program = self.pilot(&swimmer.pilot, motion.descriptor());
+        if let Some(whale) = &mut self.spec.whale {
+            whale.pilot = program;
+        }
+    }
+
     /// The program of these entries for a motion that declares its acts.
-    pub fn pilot(&self, entries: &[PilotOf], motion: &Descriptor) -> PilotProgram {
+    fn pilot(&self, entries: &[PilotOf], motion: &Descriptor) -> PilotProgram {
         PilotProgram { entries: entries.iter().filter_map(|entry| self.pilot_entry(entry, motion)).collect() }
     }
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use endline_sim::DQuat;
 use endline_sim::model::Friction;
-use endline_sim::whale::{Measures, Whale};
+use endline_sim::whale::{Measures, PilotProgram, Whale};
 
 use crate::attributes::numbers;
 use crate::nearest::hint;
@@ -33,7 +33,6 @@ impl Builder<'_> {
         };
         let motion = self.with_acts(motion, swimmer, item);
         let attributes = swimmer.attributes.resolve(motion.descriptor(), self.library, &mut self.used, &self.problems);
-        let pilot = self.pilot(&swimmer.pilot, motion.descriptor());
         let length_m = swimmer.length_m.unwrap_or(item.form.length_m);
         let skin = item.skin_at(length_m);
         let measures = Measures::of(&skin, item.density_kg_m3);
@@ -54,7 +53,7 @@ impl Builder<'_> {
             speed_m_s: swimmer.speed_m_s,
             motion,
             motion_attributes: numbers(&attributes),
-            pilot,
+            pilot: PilotProgram::default(),
             contact_stiffness_n_m2: swimmer.contact_stiffness_n_m2.unwrap_or(item.contact_stiffness_n_m2),
             kinetic: feels,
         });
