@@ -144,7 +144,7 @@ fn shipped_acts_keep_to_the_right_whales_joints() {
     let scenario = Scenario::read("test.toml", &scenario(&format!("acts = [{}]", ids.join(", ")))).unwrap();
     assemble(&scenario, &library(), &Linked, &Options::default()).map(drop).unwrap_or_else(|problems| panic!("{}", told(&problems)));
     let mut sources = Sources::from_folder(&root()).unwrap();
-    let text = sources.get("acts/flippers-abduct.toml").unwrap().replace("\"30 deg\"", "\"50 deg\"");
+    let text = sources.get("acts/flippers-abduct.toml").unwrap().replace("\"25 deg\"", "\"50 deg\"");
     sources.set("acts/flippers-abduct.toml", text);
     let problems = assemble(&scenario, &Library::read(&sources).0, &Linked, &Options::default()).err().unwrap();
     assert_eq!((problems[0].file.as_str(), problems[0].line), ("acts/flippers-abduct.toml", 12), "{}", told(&problems));
