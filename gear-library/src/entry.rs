@@ -88,6 +88,9 @@ pub fn body(fields: &Fields<'_>, kind: Kind, head: (String, String, Provenance),
     Entry { kind, id: id.to_owned(), path, name, notes, words, figures: figures(fields, kind.fields(), &file), pieces, points, place }
 }
 
+/// Tables that may be left out whole; where one is there, all that it needs is there.
+const OPTIONAL_TABLES: [&str; 2] = ["mass", "age"];
+
 /// Reads figures in the order of the schema; `head.mouth` is read from the table `head`.
 fn figures(fields: &Fields<'_>, schema: &'static [Field], file: &Provenance) -> Vec<(&'static Field, Figure)> {
     let mut read = Vec::new();
@@ -119,8 +122,8 @@ fn one(fields: &Fields<'_>, field: &'static Field, key: &'static str, file: &Pro
 fn close(open: Option<(&str, Option<Fields<'_>>)>, outer: &Fields<'_>) {
     match open {
         Some((_, Some(inner))) => inner.finish(),
-        Some((table, None)) => outer.missing(table, format!("write a table [{table}]")),
-        None => {}
+        Some((table, None)) if !OPTIONAL_TABLES.contains(&table) => outer.missing(table, format!("write a table [{table}]")),
+        _ => {}
     }
 }
 

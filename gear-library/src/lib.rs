@@ -34,8 +34,8 @@ pub use document::{Document, EditError, save_text};
 pub use entry::{Entry, FORMAT};
 pub use fields::{Figure, Range, Sureness};
 pub use items::{
-    ActItem, BoxGear, Buoy, BuoyPiece, BuoyShape, CHANNELS, Channel, Condition, Joints, Knot, Point, Rope, RopeFriction, SeaSite, WeakLink,
-    WhaleItem, WhaleMesh,
+    ActItem, AgeLaw, BoxGear, Buoy, BuoyPiece, BuoyShape, CHANNELS, Channel, Condition, Growth, Joints, Knot, MassLaw, Point, Rope,
+    RopeFriction, SeaSite, WeakLink, WhaleItem, WhaleMesh,
 };
 pub use library::Library;
 pub use line::{Insert, Inserts, LineMake};

@@ -8,7 +8,7 @@ use endline_gear::whale::{Station, WhaleForm, build_skin};
 use endline_gear::{Library, Sources, WhaleItem};
 use endline_sdk::{BodyPart, Region};
 use endline_sim::DVec3;
-use endline_sim::whale::{Mark, Skin};
+use endline_sim::whale::{Mark, Measures, Skin};
 
 const LENGTHS_M: [f64; 3] = [4.2, 10.0, 13.7];
 
@@ -137,4 +137,47 @@ fn flank(skin: &Skin, length_m: f64, at: f64) -> DVec3 {
     let points = cut(skin, length_m, at);
     let outer = points.iter().filter(|p| (p[1] / length_m + 0.047).abs() < 0.01).map(|p| p[0]).fold(f64::NEG_INFINITY, f64::max);
     DVec3::new((0.5 - at) * length_m, outer, -0.047 * length_m)
+}
+
+/// The skin displaces the mass that law and condition ask for, within 2 %: 36.4 t at 13.7 m (Christiansen et al. 2019 give 36 t).
+#[test]
+fn the_skin_displaces_the_mass_it_should() {
+    for (id, condition, length_m) in
+        [("right-whale", 1.0, 4.2), ("right-whale", 0.72, 10.0), ("right-whale", 1.3, 13.7), ("humpback", 1.0, 11.6)]
+    {
+        let item = whale(id);
+        let wanted = item.growth.mass.unwrap().mass_kg(length_m) * condition;
+        let found = Measures::of(&item.skin_for(length_m, condition, false), item.density_kg_m3).mass_kg;
+        assert!((found / wanted - 1.0).abs() < 0.02, "{id} of {length_m} m in condition {condition}: {found} kg against {wanted}");
+    }
+    let grown = whale("right-whale").growth.mass.unwrap().mass_kg(13.7);
+    assert!((grown / 36_400.0 - 1.0).abs() < 0.01, "{grown}");
+}
+
+/// Late pregnancy adds 5 to 10 % to the widths from 0.5 to 0.7 of length, and nothing to head and flukes (facts 4.3).
+#[test]
+fn a_pregnant_whale_is_wider_amidships() {
+    let item = whale("right-whale");
+    let [lean, full] = [false, true].map(|pregnant| item.skin_for(13.7, 1.0, pregnant));
+    let wider = |at: f64| measured(&cut(&full, 13.7, at))[0] / measured(&cut(&lean, 13.7, at))[0] - 1.0;
+    assert!((0.04..0.11).contains(&wider(0.55)) && (0.04..0.11).contains(&wider(0.65)), "{} {}", wider(0.55), wider(0.65));
+    assert!(wider(0.1).abs() < 1e-9 && wider(0.85).abs() < 1e-9);
+}
+
+/// Head of a calf: mouth 0.2345 L - 0.184 m, width at a tenth of length 0.157 L - 0.106 m, both over its breadth.
+#[test]
+fn a_calf_has_the_head_of_a_calf() {
+    let form = whale("right-whale").form_at(4.2);
+    assert!((form.head.mouth * 4.2 - (0.2345 * 4.2 - 0.184)).abs() < 1e-9);
+    let width = form.stations.iter().find(|station| (station.at - 0.1).abs() < 1e-9).unwrap().width * 4.2;
+    assert!((width - (0.157 * 4.2 - 0.106)).abs() < 1e-9, "{width}");
+}
+
+/// Moore et al. 2005 as tabulated in facts 4.1.
+#[test]
+fn length_follows_age() {
+    let law = whale("right-whale").growth.age.unwrap();
+    for (years, length_m) in [(1.0, 10.11), (2.0, 11.08), (5.0, 12.35), (10.0, 13.32), (20.0, 14.28)] {
+        assert!((law.length_m(years * 365.25 * 86_400.0) - length_m).abs() < 0.01, "{years} years");
+    }
 }

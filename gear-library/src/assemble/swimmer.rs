@@ -7,6 +7,7 @@ use endline_sim::model::Friction;
 use endline_sim::whale::{Measures, PilotProgram, Whale};
 
 use crate::attributes::numbers;
+use crate::items::WhaleItem;
 use crate::nearest::hint;
 use crate::scenario::Swimmer;
 use crate::schema::Kind;
@@ -33,8 +34,8 @@ impl Builder<'_> {
         };
         let motion = self.with_acts(motion, swimmer, item);
         let attributes = swimmer.attributes.resolve(motion.descriptor(), self.library, &mut self.used, &self.problems);
-        let length_m = swimmer.length_m.unwrap_or(item.form.length_m);
-        let skin = item.skin_at(length_m);
+        let Some(length_m) = self.length(swimmer, item) else { return };
+        let skin = item.skin_for(length_m, swimmer.condition, swimmer.pregnant);
         let measures = Measures::of(&skin, item.density_kg_m3);
         let density_kg_m3 = self.spec.water.density_kg_m3;
         let feels = (swimmer.dead || kinetic.unwrap_or(swimmer.kinetic)).then(|| {
@@ -57,6 +58,22 @@ impl Builder<'_> {
             contact_stiffness_n_m2: swimmer.contact_stiffness_n_m2.unwrap_or(item.contact_stiffness_n_m2),
             kinetic: feels,
         });
+    }
+
+    /// The whale's length: its own, by its age, or that of the file.
+    fn length(&self, swimmer: &Swimmer, item: &WhaleItem) -> Option<f64> {
+        if item.mesh.is_some() && (swimmer.pregnant || (swimmer.condition - 1.0).abs() > 0.0) {
+            let help = "leave out `condition` and `pregnant`, or take the mesh out of the whale's file";
+            self.problems
+                .push(swimmer.item.place.error(format!("{} brings its own mesh, whose girth does not change", item.entry.path), help));
+        }
+        let Some(age) = &swimmer.age_s else { return Some(swimmer.length_m.unwrap_or(item.form.length_m)) };
+        let law = item.growth.age;
+        if law.is_none() {
+            let help = "write `length` instead, or the table [age] with `birth`, `one_year` and `tenfold` in the whale's file";
+            self.problems.push(age.place.error(format!("{} does not say how long a whale of some age is", item.entry.path), help));
+        }
+        law.map(|law| law.length_m(age.value))
     }
 
     /// The friction of every rope on a whale: the model with the table of coefficients, rope by region.

@@ -40,10 +40,18 @@ impl WhaleItem {
     /// Its skin at a length [m]: its own mesh where its file names one, else made from its measures.
     #[must_use]
     pub fn skin_at(&self, length_m: f64) -> Skin {
-        match self.mesh.as_ref().and_then(|mesh| mesh.skin.as_deref()) {
-            Some(skin) => scaled(skin, length_m / self.form.length_m),
-            None => build_skin(&self.form_at(length_m)),
+        self.skin_for(length_m, 1.0, false)
+    }
+
+    /// Its skin at a length [m], in a condition (volume over that of middling condition) and late in pregnancy;
+    /// a mesh of its own takes its length alone.
+    #[must_use]
+    pub fn skin_for(&self, length_m: f64, condition: f64, pregnant: bool) -> Skin {
+        if let Some(skin) = self.mesh.as_ref().and_then(|mesh| mesh.skin.as_deref()) {
+            return scaled(skin, length_m / self.form.length_m);
         }
+        let form = self.form_at(length_m).in_condition(condition);
+        build_skin(&if pregnant { form.pregnant() } else { form })
     }
 
     /// Reads its mesh, where it has one; false where that fails, with every problem told.

@@ -4,6 +4,7 @@ use endline_sdk::SPINE_JOINTS;
 
 use crate::entry::{self, Entry};
 use crate::fields::{Fields, Figure, Problems, Provenance, Range, provenance_over, read_figure};
+use crate::items::growth::Growth;
 use crate::schema::Kind;
 use crate::tree::{Content, Node};
 use crate::units::Quantity;
@@ -19,8 +20,11 @@ const SEA_WATER_KG_M3: f64 = 1025.0;
 pub struct WhaleItem {
     /// Its file.
     pub entry: Entry,
-    /// Its measures; edges and stations as shares, so that a scenario may choose another length.
+    /// Its form at its own length, in middling condition.
     pub form: WhaleForm,
+    /// How its body changes with length.
+    pub growth: Growth,
+    shares: WhaleForm,
     /// Figures of the body sections: at, width, dorsal, ventral of each.
     pub sections: Vec<[Figure; 4]>,
     /// Mass over displaced volume [kg/m³].
@@ -48,9 +52,18 @@ impl WhaleItem {
         let mesh = WhaleMesh::read(&fields);
         fields.finish();
         let sections = sections?;
+        let shares = form(&entry, &sections, spine?)?;
+        let growth = Growth::of(&entry);
+        if growth.mass.is_none() && entry.value("breadth_scale").is_none() {
+            let help = "write [mass] with `length`, `mass` and `exponent`, from which the breadth follows, or `breadth_scale`";
+            problems.push(node.place.error("neither `mass` nor `breadth_scale` is there", help));
+        }
+        let density_kg_m3 = entry.value("density").unwrap_or(SEA_WATER_KG_M3);
         Some(Self {
-            form: form(&entry, &sections, spine?)?,
-            density_kg_m3: entry.value("density").unwrap_or(SEA_WATER_KG_M3),
+            form: grown(&shares, &growth, density_kg_m3, shares.length_m),
+            growth,
+            shares,
+            density_kg_m3,
             joints: joints?,
             mesh,
             burst_speed_m_s: entry.value("burst_speed")?,
@@ -60,16 +73,25 @@ impl WhaleItem {
         })
     }
 
-    /// Its form at another length, edges growing with it.
+    /// Its form at another length, in middling condition.
     #[must_use]
     pub fn form_at(&self, length_m: f64) -> WhaleForm {
-        let scale = length_m / self.form.length_m;
-        let mut form = self.form.clone();
-        form.length_m = length_m;
-        form.flippers.edge_radius_m *= scale;
-        form.flukes.edge_radius_m *= scale;
-        form.head.callosity_m *= scale;
-        form
+        grown(&self.shares, &self.growth, self.density_kg_m3, length_m)
+    }
+}
+
+/// A form at a length: edges and callosities grow with it, the head and the mass by their own laws.
+fn grown(shares: &WhaleForm, growth: &Growth, density_kg_m3: f64, length_m: f64) -> WhaleForm {
+    let scale = length_m / shares.length_m;
+    let mut form = shares.clone();
+    form.length_m = length_m;
+    form.flippers.edge_radius_m *= scale;
+    form.flukes.edge_radius_m *= scale;
+    form.head.callosity_m *= scale;
+    growth.proportion(&mut form);
+    match &growth.mass {
+        Some(law) => form.displacing(law.mass_kg(length_m) / density_kg_m3),
+        None => form,
     }
 }
 
@@ -162,7 +184,7 @@ fn form(entry: &Entry, sections: &[[Figure; 4]], spine_joints: [f64; SPINE_JOINT
     Some(WhaleForm {
         length_m: value("length")?,
         stations: sections.iter().map(station).collect(),
-        breadth_scale: value("breadth_scale")?,
+        breadth_scale: value("breadth_scale").unwrap_or(1.0),
         girth: vec![[0.0, 1.0]],
         head: HeadForm {
             share: value("head.share")?,

@@ -6,6 +6,7 @@ use endline_sim::whale::kinetic::Effort;
 use crate::attributes::Attributes;
 use crate::diagnostic::At;
 use crate::fields::{Fields, Problems, Range};
+use crate::items::YEAR_S;
 use crate::tree::{Content, Node};
 use crate::units::Quantity;
 
@@ -21,6 +22,12 @@ pub struct Swimmer {
     pub item: At<String>,
     /// Body length, over the library's [m].
     pub length_m: Option<f64>,
+    /// Age, from which the length follows [s].
+    pub age_s: Option<At<f64>>,
+    /// Volume over that of a whale of its length in middling condition [1].
+    pub condition: f64,
+    /// Whether it is late in pregnancy.
+    pub pregnant: bool,
     /// Start of mid-body: east, north, up [m].
     pub position_m: DVec3,
     /// Compass bearing of its snout [rad].
@@ -70,6 +77,13 @@ impl Swimmer {
     pub(super) fn read(fields: &Fields<'_>) -> Option<Self> {
         let item = fields.need_text("item", "write the id of a whale of the library, such as \"right-whale\"");
         let length = fields.value("length", Quantity::Length, Range::Between(1.0, 35.0));
+        let age = fields.value("age", Quantity::Time, Range::Between(0.0, 120.0 * YEAR_S));
+        if let (Some(_), Some(age)) = (&length, &age) {
+            let help = "leave one of them out: the length follows from the age by the law of the whale's file";
+            fields.problems().push(age.place.error("both `length` and `age` are given", help));
+        }
+        let condition = fields.value("condition", Quantity::Ratio, Range::Between(0.65, 1.5));
+        let pregnant = fields.flag("pregnant").unwrap_or(false);
         let position = fields.values("position", Quantity::Length, &[2]);
         if position.is_none() && fields.get("position").is_none() {
             fields.missing("position", "write where mid-body starts, east and north, as [\"-20 m\", \"0 m\"]");
@@ -92,6 +106,9 @@ impl Swimmer {
         Some(Self {
             item: item?,
             length_m: length.map(|length| length.value),
+            age_s: age,
+            condition: condition.map_or(1.0, |condition| condition.value),
+            pregnant,
             position_m: DVec3::new(position.value[0], position.value[1], -depth.value),
             heading_rad,
             pitch_rad,

@@ -68,11 +68,13 @@ static MASS: [Unit; 4] = [
     Unit::new(&["t", "tonne", "tonnes"], 1e3),
     Unit::new(&["lb", "lbs", "pound", "pounds"], POUND),
 ];
-static TIME: [Unit; 4] = [
+static TIME: [Unit; 6] = [
     Unit::new(&["s", "sec", "second", "seconds"], 1.0),
     Unit::new(&["ms"], 1e-3),
     Unit::new(&["min", "minute", "minutes"], 60.0),
     Unit::new(&["h", "hour", "hours"], 3600.0),
+    Unit::new(&["d", "day", "days"], 86_400.0),
+    Unit::new(&["yr", "year", "years"], 365.25 * 86_400.0),
 ];
 static SPEED: [Unit; 5] = [
     Unit::new(&["m/s"], 1.0),

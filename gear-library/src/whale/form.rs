@@ -4,6 +4,8 @@
 
 use std::f64::consts::PI;
 
+use crate::items::{Growth, MassLaw};
+
 /// Measures of a whale's body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WhaleForm {
@@ -115,15 +117,14 @@ impl WhaleForm {
     /// Each figure's source stands beside it; "estimate" marks those no source gives.
     #[must_use]
     pub fn right_whale(length_m: f64) -> Self {
-        Self {
+        let mut form = Self {
             length_m,
             stations: RIGHT_WHALE_STATIONS.iter().map(|&[at, width, dorsal, ventral]| Station { at, width, dorsal, ventral }).collect(),
-            // Christiansen et al. 2019: 754.6 kg/m³ of photographed volume; sea water 1025 kg/m³.
-            breadth_scale: libm::sqrt(754.6 / 1025.0),
+            breadth_scale: 1.0,
             girth: vec![[0.0, 1.0]],
             head: HeadForm {
                 share: 0.27,                         // SeaLifeBase: 1/4 to nearly 1/3 of length
-                mouth: 0.219,                        // Moore et al. 2005, 35 carcasses: 0.219 L in adults
+                mouth: 0.2345,                       // Moore et al. 2005, 35 carcasses: 0.2345 L - 0.184 m
                 rostrum_width: 0.32,                 // estimate: 0.25 to 0.35 of the head's width
                 lip_arch: 0.11,                      // estimate
                 baleen: 0.128,                       // Best and Schell 1996, Omura 1969: 0.208 L - 1.095 m
@@ -133,19 +134,10 @@ impl WhaleForm {
             spine_joints: [0.27, 0.36, 0.45, 0.55, 0.64, 0.73, 0.81, 0.885], // estimate: lateral bending spread over 0.35 to 0.9 L
             flippers: right_whale_flippers(),
             flukes: right_whale_flukes(),
-        }
-    }
-
-    /// The same body made wider or narrower so that it displaces `volume_m3`.
-    ///
-    /// The table as stacked ellipses holds 0.018 77 L³ for the right whale; each form's own is found here.
-    #[must_use]
-    pub fn with_volume(mut self, volume_m3: f64) -> Self {
-        let full = self.table_volume_m3();
-        if full > 0.0 && volume_m3 > 0.0 {
-            self.breadth_scale = libm::sqrt(volume_m3 / full);
-        }
-        self
+        };
+        RIGHT_WHALE_GROWTH.proportion(&mut form);
+        // Fortune et al. 2020: 1.0 t at 4.3 m, 31.7 t at 13.1 m; sea water 1025 kg/m³.
+        form.displacing(RIGHT_WHALE_MASS.mass_kg(length_m) / 1025.0)
     }
 
     /// Volume of the section table as stacked ellipses, before [`breadth_scale`](Self::breadth_scale) [m³].
@@ -156,6 +148,12 @@ impl WhaleForm {
         share * self.length_m * self.length_m * self.length_m
     }
 }
+
+/// How a right whale's head changes with length; sources beside the shares.
+const RIGHT_WHALE_GROWTH: Growth =
+    Growth { mouth_offset_m: -0.184, baleen_offset_m: -1.095, head_width: Some([0.157, -0.106]), mass: None, age: None };
+/// Its mass: Fortune et al. 2020.
+const RIGHT_WHALE_MASS: MassLaw = MassLaw { length_m: 13.1, mass_kg: 31_700.0, exponent: 3.1026 };
 
 /// Flippers of a right whale.
 fn right_whale_flippers() -> FlipperForm {
@@ -234,9 +232,9 @@ mod tests {
     #[test]
     fn the_default_displaces_its_mass() {
         let form = WhaleForm::right_whale(13.7);
-        let displaced_t = 1.025 * form.table_volume_m3() * form.breadth_scale * form.breadth_scale;
+        let displaced_t = 1.025 * form.skin_volume_m3();
         assert!((displaced_t / 36.4 - 1.0).abs() < 0.02, "{displaced_t}");
-        let scaled = form.with_volume(30.0);
-        assert!((scaled.table_volume_m3() * scaled.breadth_scale * scaled.breadth_scale - 30.0).abs() < 1e-9);
+        let scaled = form.displacing(30.0);
+        assert!((scaled.skin_volume_m3() / 30.0 - 1.0).abs() < 1e-4);
     }
 }

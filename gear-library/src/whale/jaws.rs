@@ -92,8 +92,18 @@ impl<'a> Jaws<'a> {
     pub fn hang(&self, at: f64) -> f64 {
         let ahead = self.ahead(at);
         let grown = smooth_step(0.10, 0.42, ahead) * (1.0 - smooth_step(0.62, 0.86, ahead));
-        let room = self.sections.halves(at).y * 2.0;
-        self.baleen.min(0.62 * room) * grown
+        let most = 0.64 * self.below(at) - self.roof(at) - LIP * self.sections.breadth();
+        self.baleen.min(most).max(0.0) * grown
+    }
+
+    /// Depth of the palate below the rim of the mouth, between the racks [share of length].
+    fn roof(&self, at: f64) -> f64 {
+        (self.roof.at(self.ahead(at)) * self.sections.breadth()).min(0.22 * self.below(at))
+    }
+
+    /// Height of the rim of the mouth above the belly [share of length].
+    fn below(&self, at: f64) -> f64 {
+        self.sections.halves(at).y * (1.0 + libm::cos(self.gape(at)))
     }
 
     /// Half a section of the upper jaw.
@@ -126,13 +136,13 @@ impl<'a> Jaws<'a> {
     /// Half the angle of the closed gape [rad].
     fn slit(&self, at: f64) -> f64 {
         let (ahead, halves) = (self.ahead(at), self.sections.halves(at).max(DVec2::splat(1e-4)));
-        0.5 * GAPE * (smooth_step(0.0, 0.1, ahead) + 2.0 * smooth_step(0.84, 0.95, ahead)) / halves.min_element()
+        0.5 * GAPE * (smooth_step(0.0, 0.1, ahead) + 3.0 * smooth_step(0.84, 0.95, ahead)) / halves.min_element()
     }
 
     /// Inside of the upper jaw: outer face of the rack, its lower edge, its inner face, the palate.
     fn palate(&self, at: f64) -> [DVec2; INSIDE] {
         let rim = self.sections.outline(at, self.gape(at) - self.slit(at));
-        let roof = self.roof.at(self.ahead(at)) * self.sections.breadth();
+        let roof = self.roof(at);
         let deep = roof + self.hang(at);
         let thick = (0.46 * rim.x).min(0.011 * self.sections.breadth());
         let outer = |share: f64| {
@@ -169,7 +179,7 @@ impl<'a> Jaws<'a> {
         let upper = self.palate(at);
         let rim = self.sections.outline(at, self.gape(at) + self.slit(at));
         let (ahead, breadth) = (self.ahead(at), self.sections.breadth());
-        let (room, front) = (ROOM * breadth, 0.012 * breadth * smooth_step(0.80, 0.95, ahead));
+        let (room, front) = (ROOM * breadth, (0.012 * breadth).min(0.2 * self.below(at)) * smooth_step(0.80, 0.95, ahead));
         let beside = self.beside(at);
         let groove = |share: f64| (self.lip * self.hang(at) + self.swing(at)) * share;
         let lip = |vertex: usize, share: f64| {

@@ -3,6 +3,7 @@
 pub mod bones;
 pub mod curve;
 pub mod fin;
+pub mod fit;
 pub mod flipper;
 pub mod flukes;
 pub mod form;
