@@ -340,7 +340,7 @@ pub struct Resolution {
 
 impl Default for Resolution {
     fn default() -> Self {
-        Self { near_m: 0.05, edge_m: 0.02, far_m: 1.0 }
+        Self { near_m: 0.05, edge_m: 0.0125, far_m: 1.0 }
     }
 }
 

@@ -7,31 +7,14 @@
 
 mod common;
 
-use std::sync::Arc;
-
-use common::{line, on_body, water, weight};
-use endline_friction_models::Coulomb;
-use endline_sdk::{Descriptor, FrictionModel, HookError, MotionInput, MotionOutput, Region, WhaleMotion};
-use endline_sim::model::{Friction, Joint, JointKind, Model, ModelSpec, Resolution, Settings};
-use endline_sim::whale::{Bone, JointRanges, Measures, PilotProgram, Skin, Whale};
-use endline_sim::{DQuat, DVec3, Input, State, Workspace, step};
+use common::{drum, line, on_body, water, weight};
+use endline_sdk::Region;
+use endline_sim::model::{Joint, JointKind, Model, ModelSpec, Resolution, Settings};
+use endline_sim::{DVec3, Input, State, Workspace, step};
 
 const RADIUS: f64 = 0.3;
 const FRICTION: f64 = 0.3;
 const HANGING_KG: f64 = 20.0;
-
-/// A motion that stays where it is.
-struct Still(Descriptor);
-
-impl WhaleMotion for Still {
-    fn descriptor(&self) -> &Descriptor {
-        &self.0
-    }
-
-    fn step(&self, _: &[f64], _: &MotionInput<'_>, _: &mut [f64]) -> Result<MotionOutput, HookError> {
-        Ok(MotionOutput::default())
-    }
-}
 
 /// Segments that begin at 1 cm within `inside` of the middle, so that chords clear an edge, and are equal beyond.
 fn finer_inside(whole: f64, segments: usize, inside: f64) -> Vec<f64> {
@@ -40,30 +23,6 @@ fn finer_inside(whole: f64, segments: usize, inside: f64) -> Vec<f64> {
     let fine = (2.0 * inside / 0.01).ceil();
     let beyond = vec![outer / count; count as usize];
     [beyond.clone(), vec![2.0 * inside / fine; fine as usize], beyond].concat()
-}
-
-/// A closed drum along y with so many facets.
-fn drum(radius: f64, region: Region, facets: u32) -> Skin {
-    let half = (5.0 * radius).min(0.5);
-    let angle = |k: u32| f64::from(k) / f64::from(facets) * std::f64::consts::TAU;
-    let rim = |k: u32, y: f64| DVec3::new(radius * libm::cos(angle(k)), y, radius * libm::sin(angle(k)));
-    let mut vertices: Vec<DVec3> = (0..facets).flat_map(|k| [rim(k, -half), rim(k, half)]).collect();
-    vertices.extend([DVec3::Y * -half, DVec3::Y * half]);
-    let (left, right) = (2 * facets, 2 * facets + 1);
-    let triangles: Vec<[u32; 3]> = (0..facets)
-        .flat_map(|k| {
-            let (a, b, c, d) = (2 * k, 2 * k + 1, 2 * ((k + 1) % facets), 2 * ((k + 1) % facets) + 1);
-            [[a, c, b], [b, c, d], [a, left, c], [b, d, right]]
-        })
-        .collect();
-    Skin {
-        weights: vec![[(0, 1.0), (0, 0.0), (0, 0.0), (0, 0.0)]; vertices.len()],
-        marks: Vec::new(),
-        regions: vec![region; triangles.len()],
-        bones: vec![Bone { name: "control".into(), parent: None, origin: DVec3::ZERO, turns: Vec::new() }],
-        vertices,
-        triangles,
-    }
 }
 
 /// The rope over the drum; the free side is drawn down at `speed` from 0.5 s on.
@@ -103,8 +62,6 @@ fn over_drum(radius: f64, region: Region, speed: f64, segments: usize) -> ModelS
         .collect();
     line.start_m.insert(0, path(0.0));
     let joints = vec![on_body("hanging", 0), Joint { id: "hand".into(), kind: driven, position_m: path(whole) }];
-    let coulomb = Coulomb::new();
-    let attributes = coulomb.descriptor().attributes.iter().filter_map(|attribute| attribute.default_value().number()).collect();
     ModelSpec {
         water: water(0.0, 0.0),
         seabed: None,
@@ -114,39 +71,11 @@ fn over_drum(radius: f64, region: Region, speed: f64, segments: usize) -> ModelS
         bodies: vec![hanging],
         links: Vec::new(),
         gear: Vec::new(),
-        whale: Some(still_drum(radius, region)),
-        friction: Some(Friction { model: Arc::new(coulomb), attributes, coefficients: vec![[FRICTION; Region::ALL.len()]] }),
+        whale: Some(drum::still(drum::drum(radius, (5.0 * radius).min(0.5), region, 96))),
+        friction: Some(drum::coulomb(FRICTION)),
         obstacles: Vec::new(),
         probes: Vec::new(),
         settings: Settings { step_s: 0.002, ..Settings::default() },
-    }
-}
-
-/// The drum as a whale that stays where it is.
-fn still_drum(radius: f64, region: Region) -> Whale {
-    let descriptor = Descriptor {
-        id: "still".into(),
-        version: "1".into(),
-        name: "still".into(),
-        help: "".into(),
-        attributes: Vec::new(),
-        state_len: 0,
-        acts: Vec::new(),
-    };
-    Whale {
-        skin: Arc::new(drum(radius, region, 96)),
-        joints: JointRanges::unbounded(),
-        length_m: 1.0,
-        measures: Measures::default(),
-        burst_speed_m_s: 0.0,
-        position_m: DVec3::ZERO,
-        orientation: DQuat::IDENTITY,
-        speed_m_s: 0.0,
-        motion: Arc::new(Still(descriptor)),
-        motion_attributes: Vec::new(),
-        pilot: PilotProgram::default(),
-        contact_stiffness_n_m2: 2e6,
-        kinetic: None,
     }
 }
 

@@ -16,6 +16,8 @@ use crate::model::Model;
 
 /// Longest piece of rope one slot stands for [m].
 const PIECE_M: f64 = 0.025;
+/// Pieces a segment is cut into at least.
+const LEAST_PIECES: f64 = 2.0;
 /// Bits of a site's number below its segment's.
 const SEGMENT_BITS: u32 = 20;
 /// Bits of a site's number that name the slot within its piece.
@@ -81,7 +83,7 @@ impl Slots {
         self.list.clear();
         for (segment, range) in &near.groups {
             let length = segment_length[*segment];
-            let pieces = (length / PIECE_M).ceil().max(1.0);
+            let pieces = (length / PIECE_M).ceil().max(LEAST_PIECES);
             let reach = 0.5 * model.rope_of_segment(*segment).diameter_m;
             for piece in 0..pieces as u64 {
                 self.list.push(Slot {

@@ -2,6 +2,8 @@
 #![allow(dead_code, reason = "each test file uses a part of it")]
 #![allow(clippy::expect_used, reason = "a test fails by panicking, in its helpers too")]
 
+pub mod drum;
+
 use endline_sim::model::{Body, BodyRole, Joint, JointKind, Line, Rope, Settings, Shape, Strength};
 use endline_sim::solids::Obstacle;
 use endline_sim::water::{Current, Water};
