@@ -5,12 +5,69 @@ use std::io::{self, Write};
 use std::path::Path;
 use std::str::FromStr;
 
-use toml_edit::{DocumentMut, Item, TableLike, Value};
+use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, TableLike, Value};
+
+use crate::tree::{Content, Node};
 
 /// A TOML file open for editing.
 #[derive(Clone, Debug)]
 pub struct Document {
     document: DocumentMut,
+}
+
+/// A value as it stands in a file: a text, a number, true or false, or a list of them.
+#[derive(Clone, Debug)]
+pub struct Setting(Value);
+
+impl Setting {
+    /// A text, such as `"0.5 m/s"`.
+    #[must_use]
+    pub fn text(text: &str) -> Self {
+        Self(Value::from(text))
+    }
+
+    /// A plain number.
+    #[must_use]
+    pub fn number(number: f64) -> Self {
+        Self(Value::from(number))
+    }
+
+    /// A list of texts.
+    #[must_use]
+    pub fn texts(texts: &[String]) -> Self {
+        Self(Value::Array(texts.iter().map(String::as_str).collect()))
+    }
+
+    /// A value that stands without quotes where `text` reads as one, else a text.
+    #[must_use]
+    pub fn plain(text: &str) -> Self {
+        Self(text.parse().unwrap_or_else(|_| Value::from(text)))
+    }
+
+    /// What a file's value is; `None` for a table or a date.
+    pub(crate) fn of(node: &Node) -> Option<Self> {
+        let value = match &node.content {
+            Content::Text(text) => Value::from(text.as_str()),
+            Content::Number(number) if number.fract() == 0.0 && number.abs() < 1e15 => Value::from(*number as i64),
+            Content::Number(number) => Value::from(*number),
+            Content::Flag(flag) => Value::from(*flag),
+            Content::List(items) => Value::Array(items.iter().map(|item| Self::of(item).map(|value| value.0)).collect::<Option<Array>>()?),
+            Content::Table(_) | Content::Date(_) => return None,
+        };
+        Some(Self(value))
+    }
+
+    /// As it is written.
+    #[must_use]
+    pub fn written(&self) -> String {
+        self.0.to_string().trim().to_owned()
+    }
+}
+
+impl PartialEq for Setting {
+    fn eq(&self, other: &Self) -> bool {
+        self.written() == other.written()
+    }
 }
 
 /// Why a field could not be set.
@@ -88,6 +145,33 @@ impl Document {
         Ok(())
     }
 
+    /// Puts a value at a dotted path, whatever stood there; tables on the way that are not there are made, and an item
+    /// after the last of a list of tables. A figure written as a table keeps its source and sureness.
+    ///
+    /// # Errors
+    /// Where the path leads through something that is no table or list, or past the end of a list.
+    pub fn put(&mut self, field: &str, value: &Setting) -> Result<(), EditError> {
+        let no_way = |part: &str| EditError { message: format!("`{part}` of `{field}` is no table") };
+        let (parents, last) = field.rsplit_once('.').unwrap_or(("", field));
+        let parts: Vec<&str> = parents.split('.').filter(|part| !part.is_empty()).collect();
+        let mut item = self.document.as_item_mut();
+        for (place, part) in parts.iter().enumerate() {
+            let next_is_index = parts.get(place + 1).copied().unwrap_or(last).parse::<usize>().is_ok();
+            item = way(item, part, next_is_index).ok_or_else(|| no_way(part))?;
+        }
+        if let Ok(index) = last.parse::<usize>() {
+            let slot = item.get_mut(index).and_then(Item::as_value_mut).ok_or_else(|| no_way(last))?;
+            *slot = value.0.clone();
+            return Ok(());
+        }
+        let table = item.as_table_like_mut().ok_or_else(|| no_way(last))?;
+        match table.get_mut(last).and_then(Item::as_table_like_mut).filter(|figure| figure.contains_key("value")) {
+            Some(figure) => figure.insert("value", Item::Value(value.0.clone())),
+            None => table.insert(last, Item::Value(value.0.clone())),
+        };
+        Ok(())
+    }
+
     /// Removes a field of the top level or of a table, with its comment.
     ///
     /// # Errors
@@ -129,6 +213,22 @@ fn write_synced(path: &Path, text: &str) -> io::Result<()> {
     let mut file = File::create(path)?;
     file.write_all(text.as_bytes())?;
     file.sync_all()
+}
+
+/// A step along a path, made where there is nothing yet.
+fn way<'a>(item: &'a mut Item, part: &str, to_list: bool) -> Option<&'a mut Item> {
+    if let Ok(index) = part.parse::<usize>() {
+        if let Some(tables) = item.as_array_of_tables_mut().filter(|tables| tables.len() == index) {
+            tables.push(Table::new());
+        }
+        return item.get_mut(index);
+    }
+    let table = item.as_table_like_mut()?;
+    if !table.contains_key(part) {
+        let fresh = if to_list { Item::ArrayOfTables(ArrayOfTables::new()) } else { Item::Table(Table::new()) };
+        table.insert(part, fresh);
+    }
+    table.get_mut(part)
 }
 
 fn child<'a>(item: &'a mut Item, part: &str) -> Option<&'a mut Item> {

@@ -21,6 +21,7 @@ mod nearest;
 mod scenario;
 mod schema;
 mod sources;
+mod study;
 mod tree;
 pub mod units;
 pub mod whale;
@@ -30,7 +31,7 @@ pub use assembly::{Assembly, Make, PartBody, PartJoint, PartLine, PartLink, Part
 pub use attributes::Attributes;
 pub use case::{Case, Check, Limit, Measure, Rows, Samples, Table};
 pub use diagnostic::{At, Diagnostic, Place, Severity, SourceText};
-pub use document::{Document, EditError, save_text};
+pub use document::{Document, EditError, Setting, save_text};
 pub use entry::{Entry, FORMAT};
 pub use fields::{Figure, Range, Sureness};
 pub use items::{
@@ -39,9 +40,14 @@ pub use items::{
 };
 pub use library::Library;
 pub use line::{Insert, Inserts, LineMake};
+pub use nearest::hint;
 pub use scenario::{
     AnswerToTouch, Bed, CurrentOf, CurrentRow, Fixture, FreeBody, FrictionChoice, LineStart, ObstacleOf, PlacedGear, ProbeOf, ProbePart,
     RowHeight, Scenario, Sea, Swimmer,
 };
 pub use schema::{Field, Kind, Word};
 pub use sources::Sources;
+pub use study::{
+    Aim, Basis, Claim, Enough, Event, HOOKED_TURNS, Law, Level, MOST_ENCOUNTERS, Prior, RegionEvent, RunRule, Setting as OptionSetting,
+    Study, StudyOption, Target,
+};

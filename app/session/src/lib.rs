@@ -30,6 +30,7 @@ pub mod run;
 pub mod save;
 pub mod settled;
 pub mod source;
+pub mod study;
 pub mod timing;
 
 pub use error::Error;

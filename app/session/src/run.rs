@@ -53,6 +53,12 @@ impl Run {
         Ok(Self::from_rest(prepared, options, Arc::new(settled), start.elapsed()))
     }
 
+    /// Stands ready for the first step with gear that was settled before: [`Settled::with_whale_of`] of the model.
+    #[must_use]
+    pub fn from_settled(prepared: Prepared, options: RunOptions, settled: Arc<Settled>) -> Self {
+        Self::from_rest(prepared, options, settled, Duration::ZERO)
+    }
+
     /// The same run at its start again, without settling anew.
     #[must_use]
     pub fn restarted(&self) -> Self {
@@ -249,7 +255,7 @@ impl Run {
 }
 
 /// The parts where they are placed, taken as they are.
-fn as_placed(model: &Model) -> Settled {
+pub(crate) fn as_placed(model: &Model) -> Settled {
     Settled { state: State::start(model), outcome: Outcome::AtRest, residual_n: 0.0, worst: None, converged: true, trace_n: Vec::new() }
 }
 

@@ -41,6 +41,17 @@ pub struct Settled {
 }
 
 impl Settled {
+    /// The same gear at rest with another whale: that of a model whose gear, water and seabed are the same, up to the
+    /// strengths of ropes and links. Statics do not look at the whale, unless a line is made fast to it.
+    #[must_use]
+    pub fn with_whale_of(&self, model: &Model) -> Self {
+        let mut settled = self.clone();
+        let start = State::start(model);
+        (settled.state.whale, settled.state.link_parted_s) = (start.whale, start.link_parted_s);
+        pilot::begin(model, &mut settled.state);
+        settled
+    }
+
     /// What was found and where the greatest force is left, for a message.
     #[must_use]
     pub fn why(&self) -> String {

@@ -6,6 +6,8 @@ use clap::{Parser, Subcommand, ValueEnum};
 use endline_gear::units::{self, Quantity};
 use endline_session::Overrides;
 
+use super::study::args::StudyCommand;
+
 /// Design fishing gear that whales get out of alive.
 ///
 /// Without a command the workbench opens.
@@ -34,6 +36,11 @@ pub(super) enum Command {
     Render(RenderArgs),
     /// Run validation cases and tell what was expected and what was got.
     Validate(ValidateArgs),
+    /// Compare options of gear on the same encounters: plan, run, merge, report, replay.
+    Study {
+        #[command(subcommand)]
+        what: StudyCommand,
+    },
     /// Check files, a gear library or a project, and tell all that is wrong.
     Check(CheckArgs),
     /// Write a whale's mesh as a file for other programs, such as Blender.

@@ -15,6 +15,7 @@ mod render;
 mod replay;
 mod run;
 mod settle;
+mod study;
 mod table;
 mod validate;
 mod whale;
@@ -49,6 +50,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitCode, Fa
         Some(Command::Validate(args)) => validate::validate(args, library),
         Some(Command::Check(args)) => check::check(args, library),
         Some(Command::Whale { what }) => whale::whale(what, library),
+        Some(Command::Study { what }) => study::study(what, library),
         Some(Command::Plugins { what }) => plugins::plugins(what),
     }
 }

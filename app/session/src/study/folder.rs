@@ -1,0 +1,162 @@
+//! A study's folder of results: what it belongs to, and its blocks of encounters.
+//!
+//! | file | what |
+//! |---|---|
+//! | `study.json` | which study this is: hash, version, size |
+//! | `block-00012.parquet` | rows of encounters 48 to 51, whole or not there |
+//! | `table.parquet`, `table.csv` | all rows, once merged |
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+use crate::save;
+
+use super::open::Opened;
+use super::parquet;
+use super::table::Table;
+
+/// Encounters of a block: what a killed program loses at most, for each thread.
+pub const BLOCK: u32 = 4;
+
+/// Name of the schema of `study.json`.
+const SCHEMA: &str = "endline.study/1";
+
+/// Which study a folder belongs to.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Label {
+    /// Always `endline.study/1`.
+    pub schema: String,
+    /// Id of the study.
+    pub study: String,
+    /// Hash of what defines its runs.
+    pub hash: String,
+    /// Version of Endline.
+    pub version: String,
+    /// Encounters asked for.
+    pub encounters: u64,
+    /// Encounters of a block.
+    pub block: u32,
+    /// Ids of the options.
+    pub options: Vec<String>,
+}
+
+impl Label {
+    fn of(opened: &Opened) -> Self {
+        Self {
+            schema: SCHEMA.into(),
+            study: opened.study.id.clone(),
+            hash: opened.hash.clone(),
+            version: env!("CARGO_PKG_VERSION").into(),
+            encounters: opened.study.encounters,
+            block: BLOCK,
+            options: opened.options.iter().map(|option| option.id.clone()).collect(),
+        }
+    }
+}
+
+/// A folder of results of one study.
+#[derive(Clone, Debug)]
+pub struct Folder {
+    /// Where.
+    pub path: PathBuf,
+    hash: String,
+    encounters: u32,
+}
+
+impl Folder {
+    /// Opens a folder for a study, made where it is not there.
+    ///
+    /// # Errors
+    /// A folder that belongs to another study, or cannot be written.
+    pub fn open(path: &Path, opened: &Opened) -> Result<Self, Error> {
+        fs::create_dir_all(path).map_err(|error| Error::at(path, format!("cannot be made: {error}")))?;
+        let file = path.join("study.json");
+        let label = Label::of(opened);
+        match fs::read_to_string(&file) {
+            Err(_) => {
+                let text = serde_json::to_string_pretty(&label).unwrap_or_default() + "\n";
+                save::atomically(&file, text.as_bytes()).map_err(|error| Error::at(&file, format!("cannot be written: {error}")))?;
+            }
+            Ok(text) => same(&file, &text, &label)?,
+        }
+        let encounters = u32::try_from(opened.study.encounters).unwrap_or(u32::MAX);
+        Ok(Self { path: path.to_path_buf(), hash: opened.hash.clone(), encounters })
+    }
+
+    /// How many blocks.
+    #[must_use]
+    pub fn blocks(&self) -> u32 {
+        self.encounters.div_ceil(BLOCK)
+    }
+
+    /// The encounters of a block.
+    #[must_use]
+    pub fn encounters_of(&self, block: u32) -> std::ops::Range<u32> {
+        block * BLOCK..((block + 1) * BLOCK).min(self.encounters)
+    }
+
+    /// The file of a block.
+    #[must_use]
+    pub fn file_of(&self, block: u32) -> PathBuf {
+        self.path.join(format!("block-{block:05}.parquet"))
+    }
+
+    /// Whether a block is there, whole and of this study.
+    #[must_use]
+    pub fn has(&self, block: u32) -> bool {
+        self.file_of(block).is_file() && self.read(block).is_ok()
+    }
+
+    /// Writes the rows of a block, whole or not at all.
+    ///
+    /// # Errors
+    /// Where the folder cannot be written; nothing is then there of it.
+    pub fn write(&self, block: u32, table: &Table) -> Result<(), Error> {
+        let file = self.file_of(block);
+        let tags = [("study".to_owned(), self.hash.clone()), ("block".to_owned(), block.to_string())];
+        let bytes = parquet::write(table, &tags).map_err(|error| Error::at(&file, format!("cannot be put together: {error}")))?;
+        save::atomically(&file, &bytes).map_err(|error| {
+            Error::at(
+                &file,
+                format!("cannot be written: {error}; the blocks that are there are whole, and the same command goes on from them"),
+            )
+        })
+    }
+
+    /// The rows of a block.
+    ///
+    /// # Errors
+    /// A file that is not there, is damaged, or belongs to another study.
+    pub fn read(&self, block: u32) -> Result<Table, Error> {
+        let file = self.file_of(block);
+        let bytes = fs::read(&file).map_err(|error| Error::at(&file, format!("cannot be read: {error}")))?;
+        let (table, tags) =
+            parquet::read(bytes).map_err(|error| Error::at(&file, format!("is damaged: {error}; delete it and run the study again")))?;
+        let tag = |key: &str| tags.iter().find(|(known, _)| known == key).map(|(_, value)| value.as_str()).unwrap_or_default();
+        if tag("study") != self.hash || tag("block") != block.to_string() {
+            return Err(Error::at(&file, "holds rows of another study or block; delete it and run the study again"));
+        }
+        Ok(table)
+    }
+}
+
+/// Whether a folder's label is that of the study; more or fewer encounters are the same study.
+fn same(file: &Path, text: &str, label: &Label) -> Result<(), Error> {
+    let found: Label = serde_json::from_str(text).map_err(|error| Error::at(file, format!("is damaged: {error}")))?;
+    if found.hash == label.hash && found.block == label.block {
+        return Ok(());
+    }
+    let short = |hash: &str| hash.chars().take(16).collect::<String>();
+    let message = format!(
+        "belongs to the study `{}` of hash {} (Endline {}), not to `{}` of hash {}: study, scenario, library, plugins or program have changed; choose another folder with --out",
+        found.study,
+        short(&found.hash),
+        found.version,
+        label.study,
+        short(&label.hash)
+    );
+    Err(Error::at(file, message))
+}

@@ -1,0 +1,115 @@
+//! The table of a study from its blocks, whoever ran them.
+
+use crate::error::Error;
+use crate::save;
+
+use super::batch::Shard;
+use super::folder::Folder;
+use super::open::Opened;
+use super::parquet;
+use super::stats::is_narrow;
+use super::table::Table;
+
+/// The rows of all blocks in order; where the study has seen enough sooner, of those up to there.
+///
+/// # Errors
+/// Blocks that are missing, with the command that runs them, damaged, or of another study.
+pub fn merge(opened: &Opened, folder: &Folder) -> Result<Table, Error> {
+    let mut table = Table::default();
+    for block in 0..folder.blocks() {
+        if !folder.file_of(block).is_file() {
+            return Err(missing(opened, folder));
+        }
+        table.append(folder.read(block)?);
+        if narrow(opened, &table, folder.encounters_of(block).end) {
+            break;
+        }
+    }
+    Ok(table)
+}
+
+/// Writes `table.parquet` and `table.csv`.
+///
+/// # Errors
+/// Where they cannot be written.
+pub fn save(opened: &Opened, folder: &Folder, table: &Table) -> Result<(), Error> {
+    let file = folder.path.join("table.parquet");
+    let tags = [("study".to_owned(), opened.hash.clone())];
+    let bytes = parquet::write(table, &tags).map_err(|error| Error::at(&file, format!("cannot be put together: {error}")))?;
+    for (file, bytes) in [(file, bytes), (folder.path.join("table.csv"), table.csv().into_bytes())] {
+        save::atomically(&file, &bytes).map_err(|error| Error::at(&file, format!("cannot be written: {error}")))?;
+    }
+    Ok(())
+}
+
+/// The merged rows.
+///
+/// # Errors
+/// Where the study was not merged, or its table belongs to another study.
+pub fn load(opened: &Opened, folder: &Folder) -> Result<Table, Error> {
+    let file = folder.path.join("table.parquet");
+    let bytes =
+        std::fs::read(&file).map_err(|error| Error::at(&file, format!("cannot be read: {error}; run `endline study merge` first")))?;
+    let (table, tags) = parquet::read(bytes).map_err(|error| Error::at(&file, format!("is damaged: {error}; merge again")))?;
+    if !tags.iter().any(|(key, value)| key == "study" && *value == opened.hash) {
+        return Err(Error::at(&file, "was merged from another study; merge again"));
+    }
+    Ok(table)
+}
+
+/// Whether the blocks that stand without a gap are enough for the interval the study asks for.
+#[must_use]
+pub fn is_enough(opened: &Opened, folder: &Folder) -> bool {
+    if opened.study.enough.is_none() {
+        return false;
+    }
+    let mut table = Table::default();
+    for block in 0..folder.blocks() {
+        let Ok(rows) = folder.read(block) else { return false };
+        table.append(rows);
+        if narrow(opened, &table, folder.encounters_of(block).end) {
+            return true;
+        }
+    }
+    false
+}
+
+fn narrow(opened: &Opened, table: &Table, encounters: u32) -> bool {
+    let Some(enough) = &opened.study.enough else { return false };
+    u64::from(encounters) >= enough.least && is_narrow(table, &opened.options, &enough.event, enough.width)
+}
+
+fn missing(opened: &Opened, folder: &Folder) -> Error {
+    let blocks: Vec<u32> = (0..folder.blocks()).filter(|block| !folder.file_of(*block).is_file()).collect();
+    let named: Vec<String> = blocks.iter().take(20).map(u32::to_string).collect();
+    let more = if blocks.len() > 20 { format!(" and {} more", blocks.len() - 20) } else { String::new() };
+    Error::at(
+        &folder.path,
+        format!(
+            "lacks {} of {} blocks of encounters: {}{more}\nrun `endline study run {} --out {}` to add them{}",
+            blocks.len(),
+            folder.blocks(),
+            named.join(", "),
+            opened.study.place.source.path,
+            folder.path.display(),
+            shards(&blocks)
+        ),
+    )
+}
+
+/// Which shards of the usual numbers hold what is missing.
+fn shards(blocks: &[u32]) -> String {
+    let of = |of: u32| {
+        let parts: Vec<String> = (0..of)
+            .filter(|part| blocks.iter().any(|block| Shard { part: *part, of }.holds(*block)))
+            .map(|part| format!("{}/{of}", part + 1))
+            .collect();
+        parts
+    };
+    [2, 3, 4, 7, 8, 16, 32, 64]
+        .into_iter()
+        .map(of)
+        .find(|parts| parts.len() <= 2 && !parts.is_empty())
+        .map(|parts| format!("; of {} shards it is --shard {}", parts[0].split('/').nth(1).unwrap_or_default(), parts.join(" and ")))
+        .unwrap_or_default()
+}

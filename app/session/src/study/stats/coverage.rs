@@ -1,0 +1,75 @@
+//! Intervals cover the truth: simulated studies with known rates.
+
+use super::bootstrap::Draws;
+use super::interval::{Interval, Rate};
+use super::paired::Paired;
+
+/// Simulated studies.
+const STUDIES: usize = 2000;
+
+/// Encounters of each.
+const ENCOUNTERS: usize = 300;
+
+/// Joint rates by whether the event came with an option and with the other.
+const JOINT: [[f64; 2]; 2] = [[0.50, 0.20], [0.10, 0.20]];
+
+/// Draws the counts of a study.
+fn counts(draws: &mut Draws) -> [[u64; 2]; 2] {
+    let mut counts = [[0; 2]; 2];
+    for _ in 0..ENCOUNTERS {
+        let mut left = draws.below(1 << 30) as f64 / f64::from(1 << 30);
+        let cell = [(0, 0), (0, 1), (1, 0), (1, 1)].into_iter().find(|(this, other)| {
+            left -= JOINT[*this][*other];
+            left < 0.0
+        });
+        let (this, other) = cell.unwrap_or((1, 1));
+        counts[this][other] += 1;
+    }
+    counts
+}
+
+/// Share of studies whose interval holds the truth.
+fn covered(label: &str, truth: f64, interval: impl Fn([[u64; 2]; 2]) -> Option<Interval>) -> f64 {
+    let mut draws = Draws::of(label);
+    let holds = |interval: Interval| (interval.low..=interval.high).contains(&truth);
+    let held = (0..STUDIES).filter(|_| interval(counts(&mut draws)).is_some_and(holds)).count();
+    held as f64 / STUDIES as f64
+}
+
+#[test]
+fn intervals_of_rates_and_paired_differences_and_ratios_cover_the_truth() {
+    let rate = covered("rate", 0.3, |[_, [only, both]]| Some(Rate::from_counts(only + both, ENCOUNTERS as u64).interval));
+    let difference = covered("difference", -0.1, |counts| Some(Paired::from_counts(counts).difference_interval));
+    let ratio = covered("ratio", 0.3 / 0.4, |counts| Paired::from_counts(counts).ratio_interval);
+    println!("covered: rate {rate}, difference {difference}, ratio {ratio}");
+    for share in [rate, difference, ratio] {
+        assert!((0.93..=0.97).contains(&share), "rate {rate}, difference {difference}, ratio {ratio}");
+    }
+}
+
+#[test]
+fn rare_events_are_covered_too() {
+    let mut draws = Draws::of("rare");
+    let held = (0..STUDIES).filter(|_| {
+        let hits = (0..1000).filter(|_| draws.below(100) < 2).count() as u64;
+        let Interval { low, high } = Rate::from_counts(hits, 1000).interval;
+        (low..=high).contains(&0.02)
+    });
+    let share = held.count() as f64 / STUDIES as f64;
+    assert!((0.93..=0.97).contains(&share), "{share}");
+}
+
+/// The median of differences by drawing again: of a symmetric law about 3 the truth is 3.
+#[test]
+fn the_bootstrap_covers_the_truth() {
+    let mut draws = Draws::of("bootstrap");
+    let studies = 200;
+    let held = (0..studies).filter(|study| {
+        let values: Vec<f64> = (0..60).map(|_| (0..4).map(|_| draws.below(1000) as f64 / 1000.0).sum::<f64>() + 1.0).collect();
+        let mean = |indices: &[usize]| Some(indices.iter().map(|index| values[*index]).sum::<f64>() / indices.len() as f64);
+        let interval = super::bootstrap::interval(&format!("study {study}"), values.len(), mean);
+        interval.is_some_and(|interval| (interval.low..=interval.high).contains(&(1.0 + 4.0 * 0.4995)))
+    });
+    let share = held.count() as f64 / f64::from(studies);
+    assert!((0.90..=0.99).contains(&share), "{share}");
+}

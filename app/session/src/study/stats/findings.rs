@@ -1,0 +1,179 @@
+//! All that a report tells of a merged table.
+
+use endline_gear::Event;
+use serde::Serialize;
+
+use crate::study::open::Opened;
+use crate::study::table::{Column, Table};
+
+use super::claims::{self, ClaimFinding};
+use super::interval::Rate;
+use super::marks::{Marks, encounters};
+use super::paired::Paired;
+use super::sensitivity::{self, InputFinding, best_shares};
+use super::tensions::Tensions;
+
+/// Name of the schema.
+const SCHEMA: &str = "endline.findings/1";
+
+/// What a study found.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Findings {
+    /// Always `endline.findings/1`.
+    pub schema: &'static str,
+    /// Id of the study.
+    pub study: String,
+    /// Hash of what defines its runs.
+    pub hash: String,
+    /// Encounters in the table.
+    pub encounters: u64,
+    /// Name of the event options are ranked by.
+    pub event: String,
+    /// Place of the baseline among the options.
+    pub baseline: usize,
+    /// The options.
+    pub options: Vec<OptionFinding>,
+    /// Levels of the prior by which results are told apart.
+    pub levels: Vec<LevelFinding>,
+    /// Claims.
+    pub claims: Vec<ClaimFinding>,
+    /// Inputs, that with the greatest effect on the event first.
+    pub inputs: Vec<InputFinding>,
+}
+
+/// What came of an option.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct OptionFinding {
+    /// Id.
+    pub id: String,
+    /// Name.
+    pub name: String,
+    /// Strength it stands for [N].
+    pub strength_n: Option<f64>,
+    /// Runs that do not count.
+    pub invalid: u64,
+    /// Runs that were too short for their outcome to stand; they count.
+    pub undecided: u64,
+    /// Rate of every event: name, rate.
+    pub rates: Vec<(String, Rate)>,
+    /// Every event compared with the baseline: name, comparison.
+    pub against: Vec<(String, Paired)>,
+    /// Greatest tensions.
+    pub tensions: Tensions,
+    /// How often it has the lowest rate of the event when encounters are drawn again.
+    pub best_share: f64,
+}
+
+/// Rates within a level of the prior by which results are told apart.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LevelFinding {
+    /// The level.
+    pub level: String,
+    /// By option: rate of the event the study asks about.
+    pub rates: Vec<Rate>,
+    /// By option: the same compared with the baseline.
+    pub against: Vec<Paired>,
+    /// By option: rate of parting.
+    pub parted: Vec<Rate>,
+}
+
+impl OptionFinding {
+    /// The rate of an event.
+    #[must_use]
+    pub fn rate(&self, event: &str) -> Option<&Rate> {
+        self.rates.iter().find(|(name, _)| name == event).map(|(_, rate)| rate)
+    }
+
+    /// The comparison of an event with the baseline.
+    #[must_use]
+    pub fn against(&self, event: &str) -> Option<&Paired> {
+        self.against.iter().find(|(name, _)| name == event).map(|(_, paired)| paired)
+    }
+}
+
+impl Findings {
+    /// Everything there is to tell of a study's table.
+    #[must_use]
+    pub fn of(opened: &Opened, table: &Table) -> Self {
+        let ids: Vec<String> = opened.options.iter().map(|option| option.id.clone()).collect();
+        let event = &opened.study.event;
+        let marks: Vec<Marks> = ids.iter().map(|id| Marks::of(table, id, event)).collect();
+        let best = best_shares(&marks);
+        let mut options: Vec<OptionFinding> = (0..ids.len()).map(|option| found(opened, table, option)).collect();
+        options.iter_mut().zip(best).for_each(|(option, share)| option.best_share = share);
+        Self {
+            schema: SCHEMA,
+            study: opened.study.id.clone(),
+            hash: opened.hash.clone(),
+            encounters: encounters(table).iter().max().map_or(0, |last| *last as u64 + 1),
+            event: event.name(),
+            baseline: opened.baseline,
+            options,
+            levels: levels(opened, table, &marks),
+            claims: opened.study.claims.iter().map(|claim| claims::look(claim, table)).collect(),
+            inputs: sensitivity::look(table, &ids, event),
+        }
+    }
+
+    /// One line of JSON.
+    #[must_use]
+    pub fn json(&self) -> String {
+        // Structs of numbers and strings always serialise; the empty string would fail every reader at once.
+        serde_json::to_string(self).unwrap_or_default()
+    }
+}
+
+fn found(opened: &Opened, table: &Table, option: usize) -> OptionFinding {
+    let (plan, baseline) = (&opened.options[option], &opened.options[opened.baseline].id);
+    let own = |row: &usize| table.texts("option")[*row] == plan.id;
+    let rows: Vec<usize> = (0..table.rows()).filter(own).collect();
+    let count = |flag: &str, wanted: bool| rows.iter().filter(|row| table.flags(flag)[**row] == wanted).count() as u64;
+    let events = Event::all();
+    let marks = |event: &Event| Marks::of(table, &plan.id, event);
+    let paired = |event: &Event| (event.name(), Paired::of(&marks(event), &Marks::of(table, baseline, event)));
+    let undecided = rows.iter().filter(|row| table.flags("valid")[**row] && !table.flags("decided")[**row]).count() as u64;
+    OptionFinding {
+        id: plan.id.clone(),
+        name: plan.name.clone(),
+        strength_n: plan.strength_n,
+        invalid: count("valid", false),
+        undecided,
+        rates: events.iter().map(|event| (event.name(), Rate::of(&marks(event)))).collect(),
+        against: events.iter().map(paired).collect(),
+        tensions: Tensions::of(table, &plan.id, baseline),
+        best_share: 0.0,
+    }
+}
+
+fn levels(opened: &Opened, table: &Table, marks: &[Marks]) -> Vec<LevelFinding> {
+    let Some(split) = &opened.study.split else { return Vec::new() };
+    let Some(column) = table.column(&format!("drawn_{}", split.value)) else { return Vec::new() };
+    let encounters = encounters(table);
+    let mut levels: Vec<String> = (0..table.rows()).map(|row| level(column, row)).collect();
+    levels.sort();
+    levels.dedup();
+    let parted: Vec<Marks> = opened.options.iter().map(|option| Marks::of(table, &option.id, &Event::Parted)).collect();
+    let finding = |level_name: String| {
+        let mut keep = vec![false; marks.iter().map(|marks| marks.0.len()).max().unwrap_or_default()];
+        encounters
+            .iter()
+            .enumerate()
+            .filter(|(row, _)| level(column, *row) == level_name)
+            .for_each(|(_, encounter)| keep[*encounter] = true);
+        let own: Vec<Marks> = marks.iter().map(|marks| marks.within(&keep)).collect();
+        LevelFinding {
+            rates: own.iter().map(Rate::of).collect(),
+            against: own.iter().map(|marks| Paired::of(marks, &own[opened.baseline])).collect(),
+            parted: parted.iter().map(|marks| Rate::of(&marks.within(&keep))).collect(),
+            level: level_name,
+        }
+    };
+    levels.into_iter().map(finding).collect()
+}
+
+fn level(column: &Column, row: usize) -> String {
+    match column {
+        Column::Text(values) => values[row].clone(),
+        column => column.written(row),
+    }
+}

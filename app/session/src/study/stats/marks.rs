@@ -1,0 +1,65 @@
+//! Whether an event came, encounter by encounter.
+
+use endline_gear::{Event, HOOKED_TURNS, RegionEvent};
+
+use crate::study::table::Table;
+
+/// By encounter: whether the event came; `None` where the run is invalid or missing.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Marks(pub Vec<Option<bool>>);
+
+impl Marks {
+    /// The marks of an event in the runs of an option.
+    #[must_use]
+    pub fn of(table: &Table, option: &str, event: &Event) -> Self {
+        let (options, valid) = (table.texts("option"), table.flags("valid"));
+        let came = of_rows(table, event);
+        Self::by_encounter(table, |row| options[row] == option && valid[row], |row| came[row])
+    }
+
+    /// Marks of the rows that count, by their encounters.
+    fn by_encounter(table: &Table, counts: impl Fn(usize) -> bool, came: impl Fn(usize) -> bool) -> Self {
+        let encounters = encounters(table);
+        let mut marks = vec![None; encounters.iter().max().map_or(0, |last| last + 1)];
+        for (row, encounter) in encounters.iter().enumerate().filter(|(row, _)| counts(*row)) {
+            marks[*encounter] = Some(came(row));
+        }
+        Self(marks)
+    }
+
+    /// Only the marks of some encounters.
+    #[must_use]
+    pub fn within(&self, keep: &[bool]) -> Self {
+        Self(self.0.iter().zip(keep).map(|(mark, keep)| mark.filter(|_| *keep)).collect())
+    }
+}
+
+/// The encounter of each row.
+pub(super) fn encounters(table: &Table) -> Vec<usize> {
+    table.reals("encounter").into_iter().map(|index| index.map_or(0, |index| index as usize)).collect()
+}
+
+/// Whether an event came in each row.
+fn of_rows(table: &Table, event: &Event) -> Vec<bool> {
+    let outcome = |wanted: &[&str]| table.texts("outcome").iter().map(|outcome| wanted.contains(&outcome.as_str())).collect();
+    match event {
+        Event::Contact => table.reals("first_contact_s").iter().map(Option::is_some).collect(),
+        Event::Shed => outcome(&["shed"]),
+        Event::Entangled => outcome(&["entangled", "parted_entangled"]),
+        Event::Parted => outcome(&["parted_free", "parted_entangled"]),
+        Event::PartedFree => outcome(&["parted_free"]),
+        Event::PartedEntangled => outcome(&["parted_entangled"]),
+        Event::On(kind, parts) => {
+            let (name, least) = match kind {
+                RegionEvent::Contact => ("peak_normal_N", f64::MIN_POSITIVE),
+                RegionEvent::Wrap => ("peak_wraps", HOOKED_TURNS),
+            };
+            let mut came = vec![false; table.rows()];
+            for part in parts {
+                let values = table.reals(&format!("{}_{name}", part.name()));
+                came.iter_mut().zip(values).for_each(|(came, value)| *came |= value.is_some_and(|value| value >= least));
+            }
+            came
+        }
+    }
+}

@@ -1,0 +1,40 @@
+//! Statistics of a study: rates with intervals, options compared on the same encounters, claims, sensitivity.
+//!
+//! A rate is relative, given an encounter, under the study's distribution of encounters. Invalid runs are counted, shown
+//! and left out; a comparison leaves out an encounter in which either run is invalid. Every interval is of 95 %.
+//! Encounters are taken as independent; those of a Sobol sequence fill their space more evenly, so that intervals err on the wide side.
+
+mod better;
+mod bootstrap;
+mod claims;
+mod findings;
+mod interval;
+mod marks;
+mod paired;
+mod sensitivity;
+mod tensions;
+
+#[cfg(test)]
+mod coverage;
+
+pub use claims::{ClaimFinding, Verdict};
+pub use findings::{Findings, LevelFinding, OptionFinding};
+pub use interval::{Interval, Rate};
+pub use marks::Marks;
+pub use paired::Paired;
+pub use sensitivity::{InputFinding, Part};
+pub use tensions::Tensions;
+
+use endline_gear::Event;
+
+use super::open::OptionPlan;
+use super::table::Table;
+
+/// Whether the interval of an event's rate is narrower than `width` in every option.
+#[must_use]
+pub fn is_narrow(table: &Table, options: &[OptionPlan], event: &Event, width: f64) -> bool {
+    options.iter().all(|option| {
+        let rate = Rate::of(&Marks::of(table, &option.id, event));
+        rate.runs > 0 && rate.interval.high - rate.interval.low < width
+    })
+}

@@ -1,0 +1,136 @@
+//! Sensitivity: how a rate and the ranking of options change with each input that was drawn.
+//!
+//! No run is made for it: the encounters of a study are told apart by the lower and upper half of an input, or by its
+//! levels. Inputs are drawn independently of one another, so that parts differ in that input alone but for chance.
+
+use serde::Serialize;
+
+use endline_gear::Event;
+
+use crate::study::table::{Column, Table};
+
+use super::bootstrap::{Draws, RESAMPLES};
+use super::interval::Rate;
+use super::marks::{Marks, encounters};
+
+/// Part of an input's range.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Part {
+    /// Its name: `below 1.1`, `from 1.1 on`, or a level.
+    pub name: String,
+    /// Rate of the event over all options together.
+    pub rate: Rate,
+    /// Rates by option.
+    pub by_option: Vec<Rate>,
+    /// Options by rising rate.
+    pub ranking: Vec<usize>,
+}
+
+/// What an input does.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct InputFinding {
+    /// Name of the prior.
+    pub name: String,
+    /// Its parts.
+    pub parts: Vec<Part>,
+    /// Greatest less least rate over the parts.
+    pub span: f64,
+    /// Whether the option with the lowest rate is the same in every part.
+    pub same_best: bool,
+}
+
+/// Every input that varies, that with the greatest span first.
+pub(super) fn look(table: &Table, options: &[String], event: &Event) -> Vec<InputFinding> {
+    let marks: Vec<Marks> = options.iter().map(|option| Marks::of(table, option, event)).collect();
+    let inputs = table.columns.iter().filter_map(|(name, column)| Some((name.strip_prefix("drawn_")?, column)));
+    let mut found: Vec<InputFinding> = inputs.filter_map(|(name, column)| input(name, parts(table, column), &marks)).collect();
+    found.sort_by(|one, other| other.span.total_cmp(&one.span));
+    found
+}
+
+fn input(name: &str, parts: Vec<(String, Vec<bool>)>, marks: &[Marks]) -> Option<InputFinding> {
+    if parts.len() < 2 {
+        return None;
+    }
+    let parts: Vec<Part> = parts.into_iter().map(|(name, keep)| part(name, &keep, marks)).collect();
+    let rates = || parts.iter().filter(|part| part.rate.runs > 0).map(|part| part.rate.rate);
+    let span = rates().fold(0.0, f64::max) - rates().fold(1.0, f64::min);
+    let same_best = parts.windows(2).all(|pair| pair[0].ranking.first() == pair[1].ranking.first());
+    Some(InputFinding { name: name.to_owned(), parts, span: span.max(0.0), same_best })
+}
+
+fn part(name: String, keep: &[bool], marks: &[Marks]) -> Part {
+    let own: Vec<Marks> = marks.iter().map(|marks| marks.within(keep)).collect();
+    let by_option: Vec<Rate> = own.iter().map(Rate::of).collect();
+    let rate = Rate::of(&Marks(own.into_iter().flat_map(|marks| marks.0).collect()));
+    Part { name, rate, ranking: ranking(&by_option.iter().map(|rate| rate.rate).collect::<Vec<_>>()), by_option }
+}
+
+/// Options by rising rate; the earlier of equal ones first.
+fn ranking(rates: &[f64]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..rates.len()).collect();
+    order.sort_by(|one, other| rates[*one].total_cmp(&rates[*other]));
+    order
+}
+
+/// The encounters of each part of an input.
+fn parts(table: &Table, column: &Column) -> Vec<(String, Vec<bool>)> {
+    let encounters = encounters(table);
+    let count = encounters.iter().max().map_or(0, |last| last + 1);
+    let keep = |belongs: &dyn Fn(usize) -> bool| {
+        let mut keep = vec![false; count];
+        encounters.iter().enumerate().for_each(|(row, encounter)| keep[*encounter] |= belongs(row));
+        keep
+    };
+    match column {
+        Column::Text(values) => {
+            let mut levels: Vec<&String> = values.iter().collect();
+            levels.sort();
+            levels.dedup();
+            levels.into_iter().map(|level| (level.clone(), keep(&|row| values[row] == *level))).collect()
+        }
+        Column::Real(values) => {
+            let mut sorted: Vec<f64> = values.iter().flatten().copied().collect();
+            sorted.sort_by(f64::total_cmp);
+            let mut levels = sorted.clone();
+            levels.dedup();
+            if (2..=6).contains(&levels.len()) {
+                return levels
+                    .into_iter()
+                    .map(|level| (short(level), keep(&|row| values[row].is_some_and(|value| value.total_cmp(&level).is_eq()))))
+                    .collect();
+            }
+            let (Some(middle), true) = (sorted.get(sorted.len() / 2).copied(), levels.len() > 6) else { return Vec::new() };
+            vec![
+                (format!("below {}", short(middle)), keep(&|row| values[row].is_some_and(|value| value < middle))),
+                (format!("from {} on", short(middle)), keep(&|row| values[row].is_some_and(|value| value >= middle))),
+            ]
+        }
+        _ => Vec::new(),
+    }
+}
+
+fn short(number: f64) -> String {
+    let rounded: f64 = format!("{number:.2e}").parse().unwrap_or(number);
+    rounded.to_string()
+}
+
+/// How often each option has the lowest rate when encounters are drawn again; ties count for all that share it.
+pub(super) fn best_shares(marks: &[Marks]) -> Vec<f64> {
+    let count = marks.iter().map(|marks| marks.0.len()).max().unwrap_or_default();
+    let mut draws = Draws::of("ranking");
+    let mut best = vec![0_u32; marks.len()];
+    let mut indices = vec![0; count];
+    for _ in 0..RESAMPLES {
+        indices.iter_mut().for_each(|index| *index = draws.below(count));
+        let rate = |marks: &Marks| {
+            let known = indices.iter().filter_map(|index| marks.0.get(*index).copied().flatten());
+            let (hits, runs) = known.fold((0_u32, 0_u32), |(hits, runs), hit| (hits + u32::from(hit), runs + 1));
+            f64::from(hits) / f64::from(runs.max(1))
+        };
+        let rates: Vec<f64> = marks.iter().map(rate).collect();
+        let least = rates.iter().copied().fold(f64::INFINITY, f64::min);
+        best.iter_mut().zip(&rates).filter(|(_, rate)| **rate <= least).for_each(|(best, _)| *best += 1);
+    }
+    best.into_iter().map(|count| f64::from(count) / RESAMPLES as f64).collect()
+}

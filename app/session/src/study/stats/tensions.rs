@@ -1,0 +1,66 @@
+//! Distribution of the greatest tension of a run.
+
+use serde::Serialize;
+
+use crate::study::table::Table;
+
+use super::bootstrap;
+use super::interval::Interval;
+use super::marks::encounters;
+
+/// Greatest tensions of an option's runs [N].
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Tensions {
+    /// Of every run that counts, sorted [N].
+    pub sorted_n: Vec<f64>,
+    /// Median of the differences from the baseline's run in the same encounter [N].
+    pub median_difference_n: Option<f64>,
+    /// Its interval [N].
+    pub median_difference_interval_n: Option<Interval>,
+}
+
+impl Tensions {
+    /// Those of an option, compared with another's.
+    #[must_use]
+    pub fn of(table: &Table, option: &str, baseline: &str) -> Self {
+        let (own, other) = (by_encounter(table, option), by_encounter(table, baseline));
+        let mut sorted_n: Vec<f64> = own.iter().flatten().copied().collect();
+        sorted_n.sort_by(f64::total_cmp);
+        let differences: Vec<f64> = own.iter().zip(&other).filter_map(|(own, other)| Some((*own)? - (*other)?)).collect();
+        let median_of = |indices: &[usize]| median(indices.iter().map(|index| differences[*index]).collect());
+        Self {
+            sorted_n,
+            median_difference_n: median(differences.clone()),
+            median_difference_interval_n: bootstrap::interval(&format!("tension {option}"), differences.len(), median_of),
+        }
+    }
+
+    /// The tension below which a share of the runs stays [N].
+    #[must_use]
+    pub fn quantile_n(&self, share: f64) -> Option<f64> {
+        self.sorted_n.get((share * (self.sorted_n.len().max(1) - 1) as f64).round() as usize).copied()
+    }
+
+    /// Share of runs whose greatest tension is above a strength.
+    #[must_use]
+    pub fn share_above(&self, strength_n: f64) -> f64 {
+        let above = self.sorted_n.iter().filter(|tension| **tension > strength_n).count();
+        above as f64 / self.sorted_n.len().max(1) as f64
+    }
+}
+
+fn by_encounter(table: &Table, option: &str) -> Vec<Option<f64>> {
+    let (options, valid, tensions) = (table.texts("option"), table.flags("valid"), table.reals("peak_tension_N"));
+    let encounters = encounters(table);
+    let mut found = vec![None; encounters.iter().max().map_or(0, |last| last + 1)];
+    for (row, encounter) in encounters.iter().enumerate().filter(|(row, _)| options[*row] == option && valid[*row]) {
+        found[*encounter] = tensions[row];
+    }
+    found
+}
+
+fn median(mut values: Vec<f64>) -> Option<f64> {
+    let middle = values.len().checked_sub(1)? / 2;
+    let (_, found, _) = values.select_nth_unstable_by(middle, f64::total_cmp);
+    Some(*found)
+}

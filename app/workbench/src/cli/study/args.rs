@@ -1,0 +1,88 @@
+//! What `endline study` takes.
+
+use std::path::PathBuf;
+
+use clap::{Args, Subcommand};
+use endline_session::study::batch::Shard;
+
+#[derive(Debug, Subcommand)]
+pub(in crate::cli) enum StudyCommand {
+    /// Check a study and tell what it would run: options, encounters, blocks, and the first encounters drawn.
+    Plan(PlanArgs),
+    /// Run what is missing of a study; killed at any moment, the same command goes on.
+    Run(RunArgs),
+    /// Put all blocks together: table.parquet and table.csv.
+    Merge(StudyArgs),
+    /// Tell what a merged study found, and write report.html with its figures, tables and bundle.
+    Report(ReportArgs),
+    /// Run one row of a study again, and compare it with the table.
+    Replay(ReplayArgs),
+}
+
+/// A study and its folder.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct StudyArgs {
+    /// Study file, or the id of a study of the gear library.
+    #[arg(value_name = "STUDY")]
+    pub(super) study: String,
+    /// Folder of results; results/ and the study's id where not given.
+    #[arg(long, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct PlanArgs {
+    #[command(flatten)]
+    pub(super) at: StudyArgs,
+    /// Print one JSON object.
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct RunArgs {
+    #[command(flatten)]
+    pub(super) at: StudyArgs,
+    /// Only this part of the study, such as 2/7; the merged table is the same for any number of parts.
+    #[arg(long, value_name = "I/N", default_value = "1/1", value_parser = shard)]
+    pub(super) shard: Shard,
+    /// Threads; every core where not given.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(super) threads: Option<u16>,
+    /// Run at ordinary priority, not behind everything else on the machine.
+    #[arg(long)]
+    pub(super) eager: bool,
+}
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct ReportArgs {
+    #[command(flatten)]
+    pub(super) at: StudyArgs,
+    /// Print the findings as one JSON object.
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct ReplayArgs {
+    #[command(flatten)]
+    pub(super) at: StudyArgs,
+    /// Encounter.
+    #[arg(long, value_name = "I")]
+    pub(super) row: u32,
+    /// Option; the baseline where not given.
+    #[arg(long, value_name = "ID")]
+    pub(super) option: Option<String>,
+    /// Folder for its scenario, recording, summary and picture.
+    #[arg(long, value_name = "DIR")]
+    pub(super) to: Option<PathBuf>,
+    /// Print the run's summary as one JSON object.
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+fn shard(text: &str) -> Result<Shard, String> {
+    let parts = text.split_once('/').and_then(|(part, of)| Some((part.parse::<u32>().ok()?, of.parse::<u32>().ok()?)));
+    let fits = parts.filter(|(part, of)| (1..=*of).contains(part));
+    fits.map(|(part, of)| Shard { part: part - 1, of }).ok_or_else(|| "expected a part such as 2/7: the second of seven".into())
+}

@@ -1,0 +1,72 @@
+//! How far a study is: a bar on a terminal, else a line now and then on standard error.
+
+use std::io::IsTerminal;
+use std::sync::Mutex;
+use std::sync::PoisonError;
+use std::time::{Duration, Instant};
+
+use endline_session::study::batch::Progress;
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::super::output;
+
+/// Time between two lines where there is no terminal.
+const BETWEEN: Duration = Duration::from_secs(30);
+
+/// Shows blocks done and the time left.
+pub(super) struct Bar {
+    bar: Option<ProgressBar>,
+    start: Instant,
+    told: Mutex<Instant>,
+}
+
+impl Bar {
+    pub(super) fn new() -> Self {
+        let bar = std::io::stderr().is_terminal().then(|| {
+            let bar = ProgressBar::new(0).with_message("encounters");
+            if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {percent:>3}%  {eta_precise} left") {
+                bar.set_style(style);
+            }
+            bar
+        });
+        let now = Instant::now();
+        Self { bar, start: now, told: Mutex::new(now) }
+    }
+
+    pub(super) fn at(&self, progress: Progress) {
+        if let Some(bar) = &self.bar {
+            bar.set_length(u64::from(progress.blocks));
+            bar.set_position(u64::from(progress.done));
+            return;
+        }
+        let mut told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
+        if told.elapsed() < BETWEEN && progress.done < progress.blocks {
+            return;
+        }
+        *told = Instant::now();
+        let fresh = progress.done - progress.found;
+        let left = if fresh == 0 {
+            String::new()
+        } else {
+            format!(", {} left", words(self.start.elapsed() / fresh * (progress.blocks - progress.done)))
+        };
+        output::note(&format!("{} of {} blocks of encounters{left}", progress.done, progress.blocks));
+    }
+}
+
+impl Drop for Bar {
+    fn drop(&mut self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+fn words(left: Duration) -> String {
+    let minutes = left.as_secs() / 60;
+    match minutes {
+        0 => format!("{} s", left.as_secs()),
+        1..60 => format!("{minutes} min"),
+        _ => format!("{} h {} min", minutes / 60, minutes % 60),
+    }
+}

@@ -1,0 +1,171 @@
+//! What the study commands print.
+
+use endline_session::study::Opened;
+use endline_session::study::batch::Progress;
+use endline_session::study::encounter::Encounter;
+use endline_session::study::folder::{BLOCK, Folder};
+use endline_session::study::stats::{Findings, Interval, Rate};
+use serde::Serialize;
+
+use super::super::table::columns;
+
+/// Newtons in a pound-force.
+const N_PER_LBF: f64 = 4.448_221_615_260_5;
+
+/// Encounters shown by a plan.
+const SHOWN: u32 = 5;
+
+/// What `plan --json` prints.
+#[derive(Serialize)]
+struct Plan<'a> {
+    schema: &'static str,
+    study: &'a str,
+    hash: &'a str,
+    encounters: u64,
+    blocks: u64,
+    options: Vec<&'a str>,
+    baseline: &'a str,
+}
+
+pub(super) fn plan_json(opened: &Opened) -> String {
+    let plan = Plan {
+        schema: "endline.study_plan/1",
+        study: &opened.study.id,
+        hash: &opened.hash,
+        encounters: opened.study.encounters,
+        blocks: opened.study.encounters.div_ceil(u64::from(BLOCK)),
+        options: opened.options.iter().map(|option| option.id.as_str()).collect(),
+        baseline: &opened.options[opened.baseline].id,
+    };
+    // Structs of numbers and strings always serialise.
+    serde_json::to_string(&plan).unwrap_or_default() + "\n"
+}
+
+pub(super) fn plan(opened: &Opened) -> String {
+    let study = &opened.study;
+    let options: Vec<&str> = opened.options.iter().map(|option| option.id.as_str()).collect();
+    let mut text = format!("{}\n\n", study.name);
+    text += &columns(&[
+        vec!["hash".into(), opened.hash.clone()],
+        vec!["options".into(), options.join(", ")],
+        vec!["baseline".into(), opened.options[opened.baseline].id.clone()],
+        vec!["encounters".into(), format!("{} for every option, the same for all", study.encounters)],
+        vec!["blocks".into(), format!("{} of {BLOCK} encounters", study.encounters.div_ceil(u64::from(BLOCK)))],
+    ]);
+    let mut rows = vec![vec!["prior".to_owned(), "sureness".into(), "source".into()]];
+    rows.extend(study.priors.iter().map(|prior| vec![prior.name.value.clone(), prior.basis.word().into(), prior.source.clone()]));
+    text += &columns(&rows);
+    let mut rows =
+        vec![["encounter".to_owned()].into_iter().chain(study.priors.iter().map(|prior| prior.name.value.clone())).collect::<Vec<_>>()];
+    for index in 0..SHOWN.min(u32::try_from(study.encounters).unwrap_or(SHOWN)) {
+        let drawn = Encounter::of(opened, index).drawn;
+        rows.push([index.to_string()].into_iter().chain(drawn.iter().map(|drawn| short(&drawn.text))).collect());
+    }
+    text + &columns(&rows)
+}
+
+/// A drawn value with three figures.
+fn short(text: &str) -> String {
+    let (number, unit) = text.split_once(' ').unwrap_or((text, ""));
+    number.parse::<f64>().map_or_else(|_| text.to_owned(), |number| format!("{number:.3} {unit}").trim().to_owned())
+}
+
+pub(super) fn ran(opened: &Opened, folder: &Folder, progress: Progress) -> String {
+    let at = folder.path.display();
+    let whole = (0..folder.blocks()).all(|block| folder.file_of(block).is_file());
+    let next = if whole {
+        format!("next: endline study merge {} --out {at}\n", opened.study.place.source.path)
+    } else {
+        "the other parts are still to be run; endline study merge tells which\n".to_owned()
+    };
+    format!("{} of {} blocks in {at}, {} of them new\n{next}", progress.done, progress.blocks, progress.done - progress.found)
+}
+
+pub(super) fn findings(opened: &Opened, findings: &Findings) -> String {
+    let mut text = format!(
+        "{}\n{} encounters; every rate is relative, given an encounter, under the study's distribution; 95 % intervals\n\n",
+        opened.study.name, findings.encounters
+    );
+    text += &rates(findings);
+    text += &compared(findings);
+    text += &tensions(findings);
+    text += &levels(findings);
+    text + &claims(findings)
+}
+
+fn rates(findings: &Findings) -> String {
+    let events = ["contact", "shed", "entangled", "parted", "parted_entangled"];
+    let mut rows = vec![["option", "runs", "invalid", "undecided"].into_iter().chain(events).map(str::to_owned).collect::<Vec<_>>()];
+    for option in &findings.options {
+        let runs = option.rate("contact").map_or(0, |rate| rate.runs);
+        let mut row = vec![option.id.clone(), runs.to_string(), option.invalid.to_string(), option.undecided.to_string()];
+        row.extend(events.iter().map(|event| option.rate(event).map_or_else(String::new, rate)));
+        rows.push(row);
+    }
+    columns(&rows)
+}
+
+fn compared(findings: &Findings) -> String {
+    let heads = ["against the baseline", &findings.event, "difference", "ratio", "P(fewer)", "McNemar"];
+    let mut rows = vec![heads.map(str::to_owned).to_vec()];
+    for option in &findings.options {
+        let (Some(own), Some(paired)) = (option.rate(&findings.event), option.against(&findings.event)) else { continue };
+        let ratio = paired.ratio.zip(paired.ratio_interval).map_or_else(|| "none".into(), |(ratio, interval)| with(ratio, interval, 1.0));
+        rows.push(vec![
+            option.id.clone(),
+            rate(own),
+            with(100.0 * paired.difference, paired.difference_interval, 100.0) + " points",
+            ratio,
+            format!("{:.3}", paired.fewer),
+            format!("{:.3}", paired.mcnemar),
+        ]);
+    }
+    columns(&rows)
+}
+
+fn tensions(findings: &Findings) -> String {
+    let mut rows = vec![["greatest tension", "median", "95 % below", "greatest"].map(str::to_owned).to_vec()];
+    for option in &findings.options {
+        let at = |share| option.tensions.quantile_n(share).map_or_else(|| "none".into(), force);
+        rows.push(vec![option.id.clone(), at(0.5), at(0.95), at(1.0)]);
+    }
+    columns(&rows)
+}
+
+fn levels(findings: &Findings) -> String {
+    let mut text = String::new();
+    for level in &findings.levels {
+        let mut rows = vec![vec![level.level.clone(), findings.event.clone(), "parted".into()]];
+        for ((option, own), parted) in findings.options.iter().zip(&level.rates).zip(&level.parted) {
+            rows.push(vec![option.id.clone(), rate(own), rate(parted)]);
+        }
+        text += &columns(&rows);
+    }
+    text
+}
+
+fn claims(findings: &Findings) -> String {
+    let mut text = String::new();
+    for claim in &findings.claims {
+        text += &format!("{}\n", claim.says);
+        text += &columns(&[
+            vec!["more".into(), claim.more.clone(), rate(&claim.more_rate)],
+            vec!["less".into(), claim.less.clone(), rate(&claim.less_rate)],
+            vec!["difference".into(), with(100.0 * claim.difference, claim.interval, 100.0) + " points", claim.verdict.words().into()],
+        ]);
+    }
+    text
+}
+
+/// `12.0 % [8.1, 17.4] of 200`.
+fn rate(rate: &Rate) -> String {
+    format!("{:.1} % [{:.1}, {:.1}] {}/{}", 100.0 * rate.rate, 100.0 * rate.interval.low, 100.0 * rate.interval.high, rate.hits, rate.runs)
+}
+
+fn with(value: f64, interval: Interval, factor: f64) -> String {
+    format!("{value:.2} [{:.2}, {:.2}]", factor * interval.low, factor * interval.high)
+}
+
+fn force(newtons: f64) -> String {
+    format!("{newtons:.0} N ({:.0} lbf)", newtons / N_PER_LBF)
+}

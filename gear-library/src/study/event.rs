@@ -1,0 +1,122 @@
+//! Events a study counts: an outcome, or rope on a part of the whale.
+
+use endline_sdk::BodyPart;
+
+use crate::fields::Fields;
+use crate::nearest::hint;
+
+/// Turns about a part from which it counts as wrapped; as `docs/entanglement.md` has it, half a turn hooks. An estimate.
+pub const HOOKED_TURNS: f64 = 0.5;
+
+/// Something an encounter did or did not come to.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Event {
+    /// Rope touched the whale.
+    Contact,
+    /// Rope touched and let go, nothing parted.
+    Shed,
+    /// Rope still held at the end, parted or not.
+    Entangled,
+    /// A link or line parted after the first contact.
+    Parted,
+    /// It parted and the whale came free.
+    PartedFree,
+    /// It parted and rope still held.
+    PartedEntangled,
+    /// Rope on any of these parts.
+    On(RegionEvent, Vec<BodyPart>),
+}
+
+/// What rope did on a part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RegionEvent {
+    /// It touched.
+    Contact,
+    /// It went round at least [`HOOKED_TURNS`] at some time.
+    Wrap,
+}
+
+/// Groups of parts that have a name of their own.
+const GROUPS: [(&str, &[BodyPart]); 3] = [
+    ("flipper", &[BodyPart::LeftFlipper, BodyPart::RightFlipper]),
+    ("fluke", &[BodyPart::LeftFluke, BodyPart::RightFluke]),
+    ("tailstock", &[BodyPart::Peduncle, BodyPart::LeftFluke, BodyPart::RightFluke]),
+];
+
+impl Event {
+    /// Every event there is.
+    #[must_use]
+    pub fn all() -> Vec<Self> {
+        let mut all = vec![Self::Contact, Self::Shed, Self::Entangled, Self::Parted, Self::PartedFree, Self::PartedEntangled];
+        for kind in [RegionEvent::Contact, RegionEvent::Wrap] {
+            all.extend(BodyPart::ALL.into_iter().map(|part| Self::On(kind, vec![part])));
+            all.extend(GROUPS.into_iter().map(|(_, parts)| Self::On(kind, parts.to_vec())));
+        }
+        all.push(Self::On(RegionEvent::Wrap, BodyPart::ALL.to_vec()));
+        all
+    }
+
+    /// Its name in files and tables, such as `entangled`, `contact_head` or `wrap_flipper`.
+    #[must_use]
+    pub fn name(&self) -> String {
+        match self {
+            Self::Contact => "contact".into(),
+            Self::Shed => "shed".into(),
+            Self::Entangled => "entangled".into(),
+            Self::Parted => "parted".into(),
+            Self::PartedFree => "parted_free".into(),
+            Self::PartedEntangled => "parted_entangled".into(),
+            Self::On(kind, parts) => {
+                let kind = if *kind == RegionEvent::Contact { "contact" } else { "wrap" };
+                format!("{kind}_{}", place(parts))
+            }
+        }
+    }
+
+    /// The same for people: `rope on the head`, `a wrap on a flipper`.
+    #[must_use]
+    pub fn words(&self) -> String {
+        match self {
+            Self::Contact => "rope touches".into(),
+            Self::Shed => "shed".into(),
+            Self::Entangled => "entangled at the end".into(),
+            Self::Parted => "something parted".into(),
+            Self::PartedFree => "parted and free".into(),
+            Self::PartedEntangled => "parted, still entangled".into(),
+            Self::On(RegionEvent::Contact, parts) => format!("rope on {}", place(parts).replace('_', " ")),
+            Self::On(RegionEvent::Wrap, parts) => format!("wrap on {}", place(parts).replace('_', " ")),
+        }
+    }
+
+    /// The event of a name.
+    #[must_use]
+    pub fn find(name: &str) -> Option<Self> {
+        Self::all().into_iter().find(|event| event.name() == name)
+    }
+}
+
+fn place(parts: &[BodyPart]) -> String {
+    if let [part] = parts {
+        return part.name().to_owned();
+    }
+    GROUPS.iter().find(|(_, group)| *group == parts).map_or("any", |(name, _)| name).to_owned()
+}
+
+/// An event that must be named under a key.
+pub(super) fn need(fields: &Fields<'_>, key: &'static str) -> Option<Event> {
+    fields.need_text(key, "write an event such as \"entangled\", \"parted\" or \"wrap_flipper\"")?;
+    maybe(fields, key)
+}
+
+/// An event under a key, if it is there.
+pub(super) fn maybe(fields: &Fields<'_>, key: &'static str) -> Option<Event> {
+    let word = fields.text(key)?;
+    let found = Event::find(&word.value);
+    if found.is_none() {
+        let names: Vec<String> = Event::all().iter().map(Event::name).collect();
+        fields
+            .problems()
+            .push(word.place.error(format!("there is no event `{}`", word.value), hint(&word.value, names.iter().map(String::as_str))));
+    }
+    found
+}
