@@ -16,6 +16,7 @@ mod line;
 mod pilot;
 mod probes;
 mod rig;
+mod rub;
 mod scatter;
 mod sea;
 mod segments;

@@ -334,6 +334,9 @@ pub fn read_value(node: &Node, quantity: Quantity, range: Range, problems: &Prob
     None
 }
 
+/// How a figure is given its source.
+const HOW_TO_SOURCE: &str = "write { value = …, source = \"…\", sureness = \"measured\" }, or one for the whole file";
+
 /// Reads a figure: `"3/8 in"` with the file's source and sureness, or a table with its own.
 pub fn read_figure(node: &Node, quantity: Quantity, range: Range, file: &Provenance, problems: &Problems) -> Option<Figure> {
     let (value, source, sureness) = match &node.content {
@@ -357,13 +360,37 @@ pub fn read_figure(node: &Node, quantity: Quantity, range: Range, file: &Provena
     if source.as_deref().unwrap_or_default().trim().is_empty() || sureness.is_none() {
         let lacks = if sureness.is_none() { "sureness" } else { "source" };
         let message = format!("`{}` has no {lacks}", node.place.field);
-        problems.push(node.place.error(message, "write { value = …, source = \"…\", sureness = \"measured\" }, or one for the whole file"));
+        problems.push(node.place.error(message, HOW_TO_SOURCE));
     }
     let text = match &value.content {
         Content::Text(text) => text.clone(),
         _ => format_si(read.as_ref()?.value, quantity),
     };
     Some(Figure { value: read?.value, text, source: source?, sureness: sureness?, place: value.place.clone() })
+}
+
+/// The value of a figure whose quantity is not known yet: `"3/8 in"` with the file's source and sureness, or a table with its own.
+pub fn sourced(node: &Node, file: &Provenance, problems: &Problems) -> Option<Node> {
+    let (value, own) = match &node.content {
+        Content::Table(_) => {
+            let fields = Fields::of(node, problems);
+            let value = fields.get("value").cloned();
+            let own = provenance_over(&fields, file);
+            if value.is_none() {
+                fields.missing("value", "write the value here");
+            }
+            fields.finish();
+            (value?, own)
+        }
+        _ => (node.clone(), file.clone()),
+    };
+    if own.source.as_deref().unwrap_or_default().trim().is_empty() || own.sureness.is_none() {
+        let lacks = if own.sureness.is_none() { "sureness" } else { "source" };
+        problems.push(node.place.error(format!("`{}` has no {lacks}", node.place.field), HOW_TO_SOURCE));
+    }
+    let mut named = value;
+    named.place.field.clone_from(&node.place.field);
+    Some(named)
 }
 
 /// Reads the file's own source and sureness.

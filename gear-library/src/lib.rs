@@ -35,15 +35,15 @@ pub use document::{Document, EditError, Setting, save_text};
 pub use entry::{Entry, FORMAT};
 pub use fields::{Figure, Range, Sureness};
 pub use items::{
-    ActItem, AgeLaw, BoxGear, Buoy, BuoyPiece, BuoyShape, CHANNELS, Channel, Condition, Growth, Joints, Knot, MassLaw, Point, Rope,
-    RopeFriction, SeaSite, WeakLink, WhaleItem, WhaleMesh,
+    ActItem, AgeLaw, BoxGear, Buoy, BuoyPiece, BuoyShape, CHANNELS, Channel, Condition, Growth, Joints, Knot, MassLaw, ModelFigures, Point,
+    Rope, RopeFriction, SeaSite, WeakLink, WhaleItem, WhaleMesh,
 };
 pub use library::Library;
 pub use line::{Insert, Inserts, LineMake};
 pub use nearest::hint;
 pub use scenario::{
-    AnswerToTouch, Bed, CurrentOf, CurrentRow, Fixture, FreeBody, FrictionChoice, LineStart, ObstacleOf, PlacedGear, ProbeOf, ProbePart,
-    RowHeight, Scenario, Sea, Swimmer,
+    AnswerToTouch, Bed, CurrentOf, CurrentRow, Fixture, FreeBody, FrictionChoice, FrictionOn, LineStart, ObstacleOf, PlacedGear, ProbeOf,
+    ProbePart, RowHeight, Scenario, Sea, Swimmer,
 };
 pub use schema::{Field, Kind, Word};
 pub use sources::Sources;

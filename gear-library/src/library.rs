@@ -91,7 +91,7 @@ impl Library {
             Kind::WeakLink => self.weak_links.extend(WeakLink::from_entry(entry())),
             Kind::Knot => self.knots.extend(Knot::from_entry(entry())),
             Kind::Site => self.sites.extend(SeaSite::from_entry(entry(), problems)),
-            Kind::Friction => self.frictions.extend(RopeFriction::from_entry(entry())),
+            Kind::Friction => self.frictions.extend(RopeFriction::read(node, id, problems)),
             Kind::Whale => self.whales.extend(WhaleItem::read(node, id, problems)),
             Kind::Act => self.acts.extend(ActItem::read(node, id, problems)),
             Kind::Assembly => self.assemblies.extend(Assembly::read(node, id, problems)),

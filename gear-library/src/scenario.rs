@@ -1,6 +1,7 @@
 //! The scenario document: sea, gear, whale, fixtures and probes of one run.
 
 mod current;
+mod friction;
 mod motion;
 mod obstacle;
 mod parts;
@@ -23,6 +24,7 @@ use crate::tree::{self, Node};
 use crate::units::Quantity;
 
 pub use current::{CurrentOf, CurrentRow, RowHeight};
+pub use friction::{FrictionChoice, FrictionOn};
 pub use motion::{AnswerToTouch, Swimmer};
 pub use obstacle::ObstacleOf;
 pub use parts::{Fixture, FreeBody, LineStart, ProbeOf, ProbePart};
@@ -111,15 +113,6 @@ pub struct PlacedGear {
     pub lines: Vec<(At<String>, LineMake)>,
 }
 
-/// A friction model with its attributes.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FrictionChoice {
-    /// Id of the plugin.
-    pub model: At<String>,
-    /// Its attributes.
-    pub attributes: Attributes,
-}
-
 impl Scenario {
     /// Reads a scenario's text; `name` is its path as shown in messages.
     ///
@@ -172,7 +165,7 @@ impl Scenario {
             gear: each("gear").filter_map(|node| placed_gear(node, problems)).collect(),
             resolution: follow.as_ref().map(|follow| resolution::read(follow, whale.is_some())),
             whale: whale.as_ref().and_then(Swimmer::read),
-            friction: fields.table("friction").as_ref().and_then(friction),
+            friction: fields.table("friction").as_ref().and_then(friction::read),
             ropes: parts::ropes(&fields, &file),
             fixtures: each("fixture").filter_map(|node| parts::fixture(node, problems)).collect(),
             joints: each("joint").filter_map(|node| parts::joint(node, problems)).collect(),
@@ -265,13 +258,6 @@ fn line_choices(fields: &Fields<'_>) -> Vec<(At<String>, LineMake)> {
         (At { value: line.clone(), place: key.clone() }, make)
     };
     table.rest().into_iter().map(choice).collect()
-}
-
-fn friction(fields: &Fields<'_>) -> Option<FrictionChoice> {
-    let model = fields.need_text("model", "write the id of a friction model, such as \"org.endline.friction.coulomb\"");
-    let attributes = Attributes::read(fields, "attributes");
-    fields.finish();
-    Some(FrictionChoice { model: model?, attributes })
 }
 
 fn free_line(node: &Node, problems: &Problems) -> Option<(PartLine, LineStart)> {

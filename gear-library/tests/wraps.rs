@@ -89,7 +89,7 @@ fn model(skin: &Skin, segments_m: Vec<f64>) -> Model {
         links: Vec::new(),
         gear: Vec::new(),
         whale: Some(whale),
-        friction: Some(Friction { model: Idle::shared(), attributes: Vec::new(), coefficients: vec![[0.2; Region::ALL.len()]] }),
+        friction: Some(Friction::of_one(Idle::shared(), Vec::new(), vec![[0.2; Region::ALL.len()]])),
         obstacles: Vec::new(),
         probes: Vec::new(),
         settings: Settings::default(),

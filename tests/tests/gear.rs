@@ -387,6 +387,7 @@ fn friction_is_by_rope_and_region() {
     };
     assert!(of("pp-3-8", endline_sdk::Region::Baleen) < of("sink-3-8", endline_sdk::Region::Baleen));
     assert!((of("pp-3-8", endline_sdk::Region::LeftFlukeLeading) - 0.15).abs() < 1e-15);
+    assert_eq!(friction.laws.len(), 1);
 }
 
 #[test]

@@ -150,7 +150,7 @@ impl Source {
 fn plugins_of(model: &Model, host: &PluginHost) -> Vec<PluginUsed> {
     let spec = &model.spec;
     let motion = spec.whale.iter().map(|whale| whale.motion.descriptor());
-    let friction = spec.friction.iter().map(|friction| friction.model.descriptor());
+    let friction = spec.friction.iter().flat_map(|friction| &friction.laws).map(|law| law.model.descriptor());
     let gear = spec.gear.iter().map(|hook| hook.gear.descriptor());
     let used = |descriptor: &Descriptor| PluginUsed {
         id: descriptor.id.to_string(),

@@ -177,6 +177,8 @@ fn check_whale(spec: &ModelSpec, found: &mut Found) {
         return;
     };
     found.need(friction.coefficients.len() == spec.ropes.len(), "friction needs a row of coefficients for each rope");
+    let rows = friction.law_of.len() == spec.ropes.len() && friction.law_of.iter().flatten().all(|law| *law < friction.laws.len());
+    found.need(rows && !friction.laws.is_empty(), "friction needs a row of laws for each rope, each one of its laws");
     let sound = friction.coefficients.iter().flatten().all(|value| value.is_finite() && *value >= 0.0);
     found.need(sound, "a coefficient of friction is below zero or not finite");
 }

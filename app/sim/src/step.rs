@@ -285,7 +285,6 @@ fn pace_on(model: &Model, state: &mut State, took: Took, dt: f64, earlier_dt: f6
 /// The reason a run ends where even the shortest step is refused.
 fn stop(model: &Model, state: &State, workspace: &Workspace, why: Refused) -> Stop {
     let line = || workspace.solver.worst_line(model).map_or_else(|| "model".into(), |line| format!("line {}", model.spec.lines[line].id));
-    let friction = || model.spec.friction.as_ref().map_or_else(|| "friction".into(), |friction| friction.model.descriptor().id.to_string());
     let (part, reason) = match why {
         Refused::NotFinite => {
             (line(), "its numbers are no longer finite at the shortest step; check stiffness, mass and current of this part".into())
@@ -309,7 +308,7 @@ fn stop(model: &Model, state: &State, workspace: &Workspace, why: Refused) -> St
             let solid = crate::solids::name_of(model, solid);
             (format!("line {line}"), format!("rope goes through {solid} even at the shortest step; use shorter segments or a slower start"))
         }
-        Refused::Plugin(message) => (friction(), message),
+        Refused::Plugin(failed) => (failed.id, failed.message),
     };
     Stop { time_s: state.time_s, part, reason }
 }

@@ -7,6 +7,7 @@
 use glam::DVec3;
 
 use crate::contact::ContactPoint;
+use crate::contact::grip::Failed;
 use crate::contact::law::PINCHED_SHARE;
 use crate::contact::work::ContactWork;
 use crate::model::Model;
@@ -57,7 +58,7 @@ pub(crate) enum Refused {
     /// This segment went into or through this obstacle or body.
     WentThrough(usize, usize),
     /// The friction plugin failed, with its message.
-    Plugin(String),
+    Plugin(Failed),
 }
 
 /// What free rope met in a step.

@@ -1,9 +1,8 @@
-//! The whale and what rubs on it.
+//! The whale.
 
 use std::sync::Arc;
 
 use endline_sim::DQuat;
-use endline_sim::model::Friction;
 use endline_sim::whale::{Measures, PilotProgram, Whale};
 
 use crate::attributes::numbers;
@@ -74,37 +73,6 @@ impl Builder<'_> {
             self.problems.push(age.place.error(format!("{} does not say how long a whale of some age is", item.entry.path), help));
         }
         law.map(|law| law.length_m(age.value))
-    }
-
-    /// The friction of every rope on a whale: the model with the table of coefficients, rope by region.
-    pub fn add_friction(&mut self) {
-        if self.scenario.whale.is_none() {
-            return;
-        }
-        let Some(choice) = &self.scenario.friction else {
-            let message = "there is a whale, but no `friction`";
-            let help = "write [friction] with model = \"org.endline.friction.coulomb\"";
-            self.problems.push(self.scenario.place.error(message, help));
-            return;
-        };
-        let Some(model) = self.hooks.friction(&choice.model.value) else {
-            let ids = self.hooks.ids();
-            let message = format!("no friction model `{}` among the plugins", choice.model.value);
-            self.problems.push(choice.model.place.error(message, hint(&choice.model.value, ids.iter().map(String::as_str))));
-            return;
-        };
-        let attributes = choice.attributes.resolve(model.descriptor(), self.library, &mut self.used, &self.problems);
-        let mut coefficients = Vec::new();
-        for material in self.materials.clone() {
-            match self.library.frictions.iter().find(|friction| friction.entry.id == material.value) {
-                Some(friction) => {
-                    self.uses(&friction.entry.path);
-                    coefficients.push(friction.coefficients);
-                }
-                None => self.no_item(Kind::Friction, &material.value, &material.place),
-            }
-        }
-        self.spec.friction = Some(Friction { model, attributes: numbers(&attributes), coefficients });
     }
 }
 

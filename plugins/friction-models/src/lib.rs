@@ -3,9 +3,36 @@
 //! | id | law |
 //! |---|---|
 //! | `org.endline.friction.coulomb` | [`Coulomb`]: sticks on a stiff bristle, slips at coefficient times normal force |
+//! | `org.endline.friction.stribeck` | [`Stribeck`]: wet skin; falls from static to kinetic with slip speed, then rises |
+//! | `org.endline.friction.tissue` | [`Tissue`]: skin goes with the rope over an elastic range, then the rope slips |
+//! | `org.endline.friction.baleen` | [`Baleen`]: along and across the plates; wedges between them until pulled out |
 
+pub mod baleen;
+mod bristle;
+mod contact;
 pub mod coulomb;
+mod law;
+pub mod stribeck;
+pub mod tissue;
 
+use std::sync::Arc;
+
+use endline_sdk::FrictionModel;
+
+pub use baleen::Baleen;
 pub use coulomb::Coulomb;
+pub use stribeck::Stribeck;
+pub use tissue::Tissue;
 
-endline_sdk::export_plugin! { friction: Coulomb::new() }
+/// Every friction model that ships with Endline.
+#[must_use]
+pub fn all() -> Vec<Arc<dyn FrictionModel>> {
+    vec![Arc::new(Coulomb::new()), Arc::new(Stribeck::new()), Arc::new(Tissue::new()), Arc::new(Baleen::new())]
+}
+
+endline_sdk::export_plugin! {
+    friction: Coulomb::new(),
+    friction: Stribeck::new(),
+    friction: Tissue::new(),
+    friction: Baleen::new(),
+}

@@ -12,13 +12,13 @@
 #include <stdint.h>
 
 // Id of the factory of this ABI.
-#define ENDLINE_FACTORY_ID "endline.plugins/2"
+#define ENDLINE_FACTORY_ID "endline.plugins/3"
 
 // Spine joints from the skull (0) to the peduncle's end (`SPINE_JOINTS - 1`).
 #define ENDLINE_SPINE_JOINTS 8
 
 // Major version: another number means another layout.
-#define ENDLINE_ABI_MAJOR 2
+#define ENDLINE_ABI_MAJOR 3
 
 // Minor version: a greater number means fields added at the ends of structs, or kinds of attribute.
 #define ENDLINE_ABI_MINOR 0
@@ -184,7 +184,7 @@ typedef struct {
   int32_t (*init)(endline_text_t path, endline_message_t *message);
   // `[main-thread]` Called at most once, last; libraries stay mapped, so it may never be called. May be null.
   void (*deinit)(void);
-  // `[main-thread]` The `endline_factory_t` for the id `endline.plugins/2`, null for any other id.
+  // `[main-thread]` The `endline_factory_t` for the id `endline.plugins/3`, null for any other id.
   const void *(*get_factory)(endline_text_t id);
 } endline_entry_t;
 
@@ -286,6 +286,8 @@ typedef struct {
 
 // What a motion may look at.
 typedef struct {
+  // Size of this struct in bytes.
+  uint32_t struct_size;
   // Simulated time [s].
   double time_s;
   // Length of the step [s].
@@ -364,6 +366,8 @@ typedef struct {
 
 // All contacts of one solver pass: arrays of `count` entries, vectors in the world frame.
 typedef struct {
+  // Size of this struct in bytes.
+  uint32_t struct_size;
   // How many contacts.
   size_t count;
   // Length of the step [s].
@@ -372,6 +376,10 @@ typedef struct {
   const double *normal_force_n;
   // Unit normal, from skin to rope.
   const double (*normal)[3];
+  // Unit vector fixed to the skin, across the normal: athwart the whale at rest; on baleen along the plates.
+  const double (*grain)[3];
+  // Unit vector along the rope.
+  const double (*along)[3];
   // Tangential displacement of rope against skin since the step began [m].
   const double (*slip_m)[3];
   // Length of rope each contact stands for [m].
@@ -510,6 +518,8 @@ typedef struct {
 
 // What a gear type may look at once a step.
 typedef struct {
+  // Size of this struct in bytes.
+  uint32_t struct_size;
   // Simulated time [s].
   double time_s;
   // Length of the step [s].

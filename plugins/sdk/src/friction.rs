@@ -13,6 +13,11 @@ pub struct Contacts<'a> {
     pub normal_force_n: &'a [f64],
     /// Unit normal, from skin to rope.
     pub normal: &'a [[f64; 3]],
+    /// Unit vector fixed to the skin, across the normal: athwart the whale at rest, and so on the racks of baleen along
+    /// the plates. A bristle kept by its parts along this and along `normal x grain` turns with the whale.
+    pub grain: &'a [[f64; 3]],
+    /// Unit vector along the rope.
+    pub along: &'a [[f64; 3]],
     /// Tangential displacement of rope against skin since the step began [m].
     pub slip_m: &'a [[f64; 3]],
     /// Length of rope this contact stands for [m].

@@ -33,14 +33,14 @@ impl Hooks for Linked {
         (motion.descriptor().id == id).then(|| Arc::new(motion) as Arc<dyn WhaleMotion>)
     }
     fn friction(&self, id: &str) -> Option<Arc<dyn FrictionModel>> {
-        let model = endline_friction_models::Coulomb::new();
-        (model.descriptor().id == id).then(|| Arc::new(model) as Arc<dyn FrictionModel>)
+        endline_friction_models::all().into_iter().find(|model| model.descriptor().id == id)
     }
     fn gear(&self, id: &str) -> Option<Arc<dyn GearType>> {
         endline_gear_types::all().into_iter().find(|gear| gear.descriptor().id == id)
     }
     fn ids(&self) -> Vec<String> {
         let gear = endline_gear_types::all().into_iter().map(|gear| gear.descriptor().id.to_string());
-        ["org.endline.motion.swim", "org.endline.friction.coulomb"].map(str::to_owned).into_iter().chain(gear).collect()
+        let friction = endline_friction_models::all().into_iter().map(|model| model.descriptor().id.to_string());
+        std::iter::once("org.endline.motion.swim".to_owned()).chain(friction).chain(gear).collect()
     }
 }

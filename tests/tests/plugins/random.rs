@@ -30,4 +30,17 @@ impl Random {
             }
         }
     }
+
+    /// A unit vector across a unit normal.
+    pub fn tangent(&mut self, normal: [f64; 3]) -> [f64; 3] {
+        loop {
+            let v = self.direction();
+            let up = v.iter().zip(normal).map(|(v, n)| v * n).sum::<f64>();
+            let v: [f64; 3] = std::array::from_fn(|i| v[i] - up * normal[i]);
+            let length = v.iter().map(|c| c * c).sum::<f64>().sqrt();
+            if length > 0.1 {
+                return v.map(|c| c / length);
+            }
+        }
+    }
 }

@@ -27,10 +27,10 @@ fn each_bad_file_is_named_with_its_reason_and_the_good_one_works() {
     let (host, problems) = PluginHost::discover(std::slice::from_ref(&folder));
 
     for (file, id, reason) in [
-        ("wrong_abi", None, "was built for plugin ABI 3.3, but this program speaks 2.0"),
+        ("wrong_abi", None, "was built for plugin ABI 4.3, but this program speaks 3.0"),
         ("missing_entry", None, "does not export `endline_plugin_entry`"),
         ("truncated", None, "its entry is truncated: 12 bytes where"),
-        ("no_factory", None, "its factory `endline.plugins/2` is missing"),
+        ("no_factory", None, "its factory `endline.plugins/3` is missing"),
         ("notes", None, "is not a library that can be opened"),
         ("faulty", Some("org.example.motion.cut"), "its table of functions is truncated: 4 bytes where"),
         ("faulty", Some("org.example.motion.stepless"), "its table's function is missing"),
@@ -41,8 +41,10 @@ fn each_bad_file_is_named_with_its_reason_and_the_good_one_works() {
         assert!(problem.reason.contains(reason), "{problem}");
         assert!(!problem.help.is_empty(), "{problem}");
     }
-    assert_eq!(problems.len(), 9, "{problems:?}");
-    assert_eq!(host.ids(), ["org.endline.friction.coulomb", "org.example.motion.nan"]);
+    // Each of the four models of the second copy is named.
+    assert_eq!(problems.len(), 12, "{problems:?}");
+    let models = ["baleen", "coulomb", "stribeck", "tissue"].map(|name| format!("org.endline.friction.{name}"));
+    assert_eq!(host.ids(), [&models[..], &["org.example.motion.nan".to_owned()]].concat());
 }
 
 #[test]
@@ -81,6 +83,8 @@ pub const ONE_CONTACT: Contacts<'_> = Contacts {
     dt_s: 0.002,
     normal_force_n: &[100.0],
     normal: &[[0.0, 0.0, 1.0]],
+    grain: &[[0.0, 1.0, 0.0]],
+    along: &[[1.0, 0.0, 0.0]],
     slip_m: &[[0.01, 0.0, 0.0]],
     length_m: &[0.02],
     coefficient: &[0.3],

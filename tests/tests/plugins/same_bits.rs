@@ -3,7 +3,6 @@
 use std::fs;
 use std::sync::Arc;
 
-use endline_friction_models::Coulomb;
 use endline_gear::{Library, Sources};
 use endline_gear_types::Single;
 use endline_sdk::{
@@ -19,7 +18,6 @@ use crate::built::{first_party, first_party_file};
 use crate::random::Random;
 
 const SWIM: &str = "org.endline.motion.swim";
-const COULOMB: &str = "org.endline.friction.coulomb";
 const SINGLE: &str = "org.endline.gear.single";
 
 fn loaded() -> PluginHost {
@@ -50,16 +48,22 @@ fn bits(values: impl IntoIterator<Item = f64>) -> Vec<u64> {
 #[test]
 fn the_library_declares_what_the_linked_plugin_declares() {
     let host = loaded();
-    let gear = endline_gear_types::all();
-    let mut ids: Vec<_> = gear.iter().map(|gear| gear.descriptor().id.to_string()).chain([COULOMB, SWIM].map(str::to_owned)).collect();
+    let (gear, friction) = (endline_gear_types::all(), endline_friction_models::all());
+    let frictions = friction.iter().map(|model| model.descriptor().id.to_string());
+    let gears = gear.iter().map(|gear| gear.descriptor().id.to_string());
+    let mut ids: Vec<_> = gears.chain(frictions).chain([SWIM.to_owned()]).collect();
     ids.sort();
     assert_eq!(host.ids(), ids);
     assert_eq!(host.motion(SWIM).unwrap().descriptor(), Swim::new().descriptor());
-    assert_eq!(host.friction(COULOMB).unwrap().descriptor(), Coulomb::new().descriptor());
+    for linked in &friction {
+        assert_eq!(host.friction(&linked.descriptor().id).unwrap().descriptor(), linked.descriptor());
+    }
     for linked in &gear {
         assert_eq!(host.gear(&linked.descriptor().id).unwrap().descriptor(), linked.descriptor());
     }
-    assert!(host.motion(COULOMB).is_none() && host.friction(SWIM).is_none() && host.gear("org.example.none").is_none());
+    assert!(
+        host.motion("org.endline.friction.coulomb").is_none() && host.friction(SWIM).is_none() && host.gear("org.example.none").is_none()
+    );
     let swim = host.list().iter().find(|info| info.id == SWIM).unwrap();
     let file = first_party_file("endline_whale_motions");
     assert_eq!(swim.kind, PluginKind::Motion);
@@ -166,6 +170,8 @@ fn controls(random: &mut Random) -> Controls {
 struct Draw {
     normal_force_n: Vec<f64>,
     normal: Vec<[f64; 3]>,
+    grain: Vec<[f64; 3]>,
+    along: Vec<[f64; 3]>,
     slip_m: Vec<[f64; 3]>,
     length_m: Vec<f64>,
     coefficient: Vec<f64>,
@@ -175,7 +181,7 @@ struct Draw {
 }
 
 impl Draw {
-    fn new(random: &mut Random) -> Self {
+    fn new(random: &mut Random, state_len: usize) -> Self {
         let count = 0..random.next() % 40;
         let mut each = |draw: &mut dyn FnMut(&mut Random) -> f64| count.clone().map(|_| draw(random)).collect::<Vec<_>>();
         let normal_force_n = each(&mut |r| r.between(-50.0, 500.0).max(0.0));
@@ -183,10 +189,12 @@ impl Draw {
         let coefficient = each(&mut |r| r.between(0.0, 1.0));
         let region: Vec<u32> = count.clone().map(|_| (random.next() % 20) as u32).collect();
         let rope = region.iter().map(|region| region % 3).collect();
-        let normal = count.clone().map(|_| random.direction()).collect();
+        let normal: Vec<_> = count.clone().map(|_| random.direction()).collect();
+        let grain: Vec<_> = normal.iter().map(|normal| random.tangent(*normal)).collect();
+        let along = normal.iter().map(|normal| random.tangent(*normal)).collect();
         let slip_m = count.clone().map(|_| random.vector(1e-4)).collect();
-        let state = count.flat_map(|_| random.vector(2e-5)).collect();
-        Self { normal_force_n, normal, slip_m, length_m, coefficient, region, rope, state }
+        let state = count.flat_map(|_| (0..state_len).map(|_| random.between(-2e-5, 2e-5)).collect::<Vec<_>>()).collect();
+        Self { normal_force_n, normal, grain, along, slip_m, length_m, coefficient, region, rope, state }
     }
 
     fn contacts(&self) -> Contacts<'_> {
@@ -194,6 +202,8 @@ impl Draw {
             dt_s: 0.002,
             normal_force_n: &self.normal_force_n,
             normal: &self.normal,
+            grain: &self.grain,
+            along: &self.along,
             slip_m: &self.slip_m,
             length_m: &self.length_m,
             coefficient: &self.coefficient,
@@ -210,25 +220,25 @@ fn response_bits(answers: &[FrictionResponse]) -> Vec<u64> {
 }
 
 #[test]
-fn coulomb_gives_the_same_bits_linked_and_loaded() {
-    let (linked, loaded) = (Coulomb::new(), loaded().friction(COULOMB).unwrap());
-    let mut random = Random(2);
-    for _ in 0..300 {
-        let attributes = numbers(&linked.descriptor().attributes, &mut random);
-        let draw = Draw::new(&mut random);
-        let contacts = draw.contacts();
-        let respond = |model: &dyn FrictionModel| {
-            let mut out = vec![FrictionResponse::default(); contacts.len()];
-            model.respond(&attributes, &contacts, &mut out).unwrap();
-            response_bits(&out)
-        };
-        let advance = |model: &dyn FrictionModel| {
-            let mut out = vec![0.0; draw.state.len()];
-            model.advance(&attributes, &contacts, &mut out).unwrap();
-            bits(out)
-        };
-        assert_eq!(respond(&linked), respond(loaded.as_ref()));
-        assert_eq!(advance(&linked), advance(loaded.as_ref()));
+fn every_friction_model_gives_the_same_bits_linked_and_loaded() {
+    for linked in endline_friction_models::all() {
+        let descriptor = linked.descriptor();
+        let (loaded, mut random) = (loaded().friction(&descriptor.id).unwrap(), Random(2));
+        for _ in 0..300 {
+            let attributes = numbers(&descriptor.attributes, &mut random);
+            let draw = Draw::new(&mut random, descriptor.state_len);
+            let contacts = draw.contacts();
+            let respond = |model: &dyn FrictionModel| {
+                let mut out = vec![FrictionResponse::default(); contacts.len()];
+                model.respond(&attributes, &contacts, &mut out).map(|()| response_bits(&out))
+            };
+            let advance = |model: &dyn FrictionModel| {
+                let mut out = vec![0.0; draw.state.len()];
+                model.advance(&attributes, &contacts, &mut out).map(|()| bits(out))
+            };
+            assert_eq!(respond(linked.as_ref()).unwrap(), respond(loaded.as_ref()).unwrap(), "{}", descriptor.id);
+            assert_eq!(advance(linked.as_ref()).unwrap(), advance(loaded.as_ref()).unwrap(), "{}", descriptor.id);
+        }
     }
 }
 

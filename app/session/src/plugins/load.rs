@@ -239,6 +239,7 @@ impl WhaleMotion for Loaded<Motion> {
 
     fn step(&self, attributes: &[f64], input: &MotionInput<'_>, state: &mut [f64]) -> Result<MotionOutput, HookError> {
         let raw = AbiMotionInput {
+            struct_size: size_of::<AbiMotionInput>() as u32,
             time_s: input.time_s,
             dt_s: input.dt_s,
             length_m: input.length_m,
@@ -283,16 +284,19 @@ impl FrictionModel for Loaded<Friction> {
 /// The contacts as C sees them; an error where array lengths do not agree, for C would read past them.
 fn raw_contacts(contacts: &Contacts<'_>, state_len: usize, room: usize, needed: usize) -> Result<AbiContacts, HookError> {
     let count = contacts.len();
-    let arrays = [contacts.normal.len(), contacts.slip_m.len(), contacts.length_m.len(), contacts.coefficient.len()];
-    let numbers = [contacts.region.len(), contacts.rope.len()];
-    if arrays.iter().chain(&numbers).any(|length| *length != count) || contacts.state.len() != count * state_len || room != needed {
+    let vectors = [contacts.normal.len(), contacts.grain.len(), contacts.along.len(), contacts.slip_m.len()];
+    let numbers = [contacts.length_m.len(), contacts.coefficient.len(), contacts.region.len(), contacts.rope.len()];
+    if vectors.iter().chain(&numbers).any(|length| *length != count) || contacts.state.len() != count * state_len || room != needed {
         return Err(HookError::new("the arrays of contacts differ in length"));
     }
     Ok(AbiContacts {
+        struct_size: size_of::<AbiContacts>() as u32,
         count,
         dt_s: contacts.dt_s,
         normal_force_n: contacts.normal_force_n.as_ptr(),
         normal: contacts.normal.as_ptr(),
+        grain: contacts.grain.as_ptr(),
+        along: contacts.along.as_ptr(),
         slip_m: contacts.slip_m.as_ptr(),
         length_m: contacts.length_m.as_ptr(),
         coefficient: contacts.coefficient.as_ptr(),
@@ -335,7 +339,13 @@ impl GearType for Loaded<Gear> {
     ) -> Result<(), HookError> {
         let Some(step) = self.calls.step else { return Ok(()) };
         let (values, floats, tensions) = (raw_values(&self.descriptor, attributes), state.len(), input.end_tension_n);
-        let raw = AbiGearStep { time_s: input.time_s, dt_s: input.dt_s, line_count: tensions.len(), end_tension_n: tensions.as_ptr() };
+        let raw = AbiGearStep {
+            struct_size: size_of::<AbiGearStep>() as u32,
+            time_s: input.time_s,
+            dt_s: input.dt_s,
+            line_count: tensions.len(),
+            end_tension_n: tensions.as_ptr(),
+        };
         let host = AbiActionHost {
             struct_size: size_of::<AbiActionHost>() as u32,
             host: (&raw mut *actions).cast(),

@@ -1,20 +1,31 @@
-//! Friction between rope and skin: arrays for the friction plugin, its floats from step to step.
+//! Friction between rope and skin: arrays for the friction plugins, their floats from step to step.
+//!
+//! Contacts are handed over law by law (`model::Friction`), one call each. With every contact the state keeps, ahead of the
+//! plugin's floats, the law that they belong to and an account of the energy that friction has taken from the rope and
+//! given to it there (`account.rs`).
+
+use std::ops::Range;
 
 use endline_sdk::{Contacts, FrictionResponse};
 use glam::{DMat3, DVec3};
 
+use super::account::Account;
+use super::grain::grain;
 use super::near::{Near, on_triangle};
 use super::slots::{Slot, Slots, Touch};
 use crate::in_place::clone_in_place;
-use crate::model::{Friction, Model};
+use crate::model::{Friction, FrictionLaw, Model};
 use crate::state::State;
 
-/// Floats of the friction model for the sites in touch, in rising order of site.
+/// Floats of the state ahead of the plugin's own: number of the law, energy taken, energy given.
+const KEPT: usize = 3;
+
+/// Floats of the friction laws for the sites in touch, in rising order of site.
 #[derive(Debug, Default, PartialEq)]
 pub struct Grips {
     /// Sites in touch.
     pub sites: Vec<u64>,
-    /// Floats of each, one after the other.
+    /// Floats of each, one after the other: number of the law, energy taken and given [J], then the plugin's own.
     pub floats: Vec<f64>,
 }
 
@@ -28,20 +39,53 @@ impl Grips {
     }
 }
 
-/// Arrays handed to the friction plugin in a pass, one entry for each slot in touch.
+/// Why friction failed, and whose fault it is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Failed {
+    /// Id of the plugin.
+    pub id: String,
+    /// What went wrong.
+    pub message: String,
+}
+
+/// Contacts of one law: places in the arrays, and in the floats.
+#[derive(Clone, Debug)]
+struct Group {
+    law: usize,
+    contacts: Range<usize>,
+    floats: Range<usize>,
+}
+
+/// A slot in touch, and the law that holds there.
+#[derive(Clone, Copy, Debug)]
+struct Found {
+    law: usize,
+    slot: usize,
+    touch: Touch,
+}
+
+/// Arrays handed to the friction plugins in a pass, one entry for each slot in touch, law by law.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Touching {
     /// Index of the slot.
     pub slot: Vec<usize>,
+    /// Places in these arrays, in rising order of slot.
+    pub in_order: Vec<usize>,
+    found: Vec<Found>,
+    groups: Vec<Group>,
     normal_force: Vec<f64>,
     normal: Vec<[f64; 3]>,
+    grain: Vec<[f64; 3]>,
+    along: Vec<[f64; 3]>,
     slip: Vec<[f64; 3]>,
     length: Vec<f64>,
     coefficient: Vec<f64>,
     region: Vec<u32>,
     rope: Vec<u32>,
     floats: Vec<f64>,
-    /// What the plugin answered.
+    floats_at_end: Vec<f64>,
+    account: Vec<Account>,
+    /// What the plugins answered.
     pub response: Vec<FrictionResponse>,
 }
 
@@ -50,73 +94,151 @@ impl Touching {
     pub fn collect(&mut self, model: &Model, near: &Near, slots: &Slots, state: &State, touch_of: impl Fn(&Slot) -> Option<Touch>) {
         self.clear();
         let (Some(whale), Some(friction)) = (&model.spec.whale, &model.spec.friction) else { return };
-        for (index, slot) in slots.list.iter().enumerate() {
-            let Some(touch) = touch_of(slot) else { continue };
-            let pair = &near.pairs[touch.pair];
-            let region = whale.skin.regions[pair.triangle as usize];
-            let rope = model.spec.lines[model.segment_line[slot.segment]].rope;
-            let rope_move = touch.place - slot.on_rope(|node| state.rope.position[node]);
-            let skin_move = on_triangle(pair.now, touch.barycentric) - on_triangle(pair.sweep[0], touch.barycentric);
-            let slip = rope_move - skin_move;
-            self.slot.push(index);
-            self.normal_force.push(touch.press.force);
-            self.normal.push(touch.normal.to_array());
-            self.slip.push((slip - touch.normal * slip.dot(touch.normal)).to_array());
-            self.length.push(slot.length);
-            self.coefficient.push(friction.coefficients[rope][region as usize]);
-            self.region.push(region as u32);
-            self.rope.push(u32::try_from(rope).unwrap_or(u32::MAX));
-            self.push_floats(friction.model.descriptor().state_len, slot.site, &state.rope.grips);
+        for (slot, at) in slots.list.iter().enumerate() {
+            let Some(touch) = touch_of(at) else { continue };
+            let region = whale.skin.regions[near.pairs[touch.pair].triangle as usize];
+            let rope = model.spec.lines[model.segment_line[at.segment]].rope;
+            self.found.push(Found { law: friction.law_of[rope][region as usize], slot, touch });
+        }
+        if friction.laws.len() > 1 {
+            self.found.sort_unstable_by_key(|found| (found.law, found.slot));
+        }
+        for place in 0..self.found.len() {
+            self.put(model, friction, near, slots, state, place);
+        }
+        self.in_order.extend(0..self.slot.len());
+        if friction.laws.len() > 1 {
+            self.in_order.sort_unstable_by_key(|place| self.slot[*place]);
         }
         self.response.resize(self.slot.len(), FrictionResponse::default());
     }
 
     fn clear(&mut self) {
         self.slot.clear();
+        self.in_order.clear();
+        self.found.clear();
+        self.groups.clear();
         self.normal_force.clear();
         self.normal.clear();
+        self.grain.clear();
+        self.along.clear();
         self.slip.clear();
         self.length.clear();
         self.coefficient.clear();
         self.region.clear();
         self.rope.clear();
         self.floats.clear();
+        self.account.clear();
         self.response.clear();
     }
 
-    fn push_floats(&mut self, width: usize, site: u64, grips: &Grips) {
-        match grips.sites.binary_search(&site) {
-            Ok(place) => self.floats.extend_from_slice(&grips.floats[place * width..(place + 1) * width]),
-            Err(_) => self.floats.resize(self.floats.len() + width, 0.0),
+    /// Puts the contact found at a place into the arrays.
+    fn put(&mut self, model: &Model, friction: &Friction, near: &Near, slots: &Slots, state: &State, place: usize) {
+        let Some(whale) = &model.spec.whale else { return };
+        let Found { law, slot: index, touch } = self.found[place];
+        let (slot, pair) = (&slots.list[index], &near.pairs[touch.pair]);
+        let region = whale.skin.regions[pair.triangle as usize];
+        let rope = model.spec.lines[model.segment_line[slot.segment]].rope;
+        let rope_move = touch.place - slot.on_rope(|node| state.rope.position[node]);
+        let skin_move = on_triangle(pair.now, touch.barycentric) - on_triangle(pair.sweep[0], touch.barycentric);
+        let slip = rope_move - skin_move;
+        self.slot.push(index);
+        self.normal_force.push(touch.press.force);
+        self.normal.push(touch.normal.to_array());
+        self.grain.push(grain(&whale.skin, pair.triangle as usize, pair.now, touch.normal).to_array());
+        self.along.push((state.rope.position[slot.node + 1] - state.rope.position[slot.node]).normalize_or(touch.normal).to_array());
+        self.slip.push((slip - touch.normal * slip.dot(touch.normal)).to_array());
+        self.length.push(slot.length);
+        self.coefficient.push(friction.coefficients[rope][region as usize]);
+        self.region.push(region as u32);
+        self.rope.push(u32::try_from(rope).unwrap_or(u32::MAX));
+        self.put_floats(friction, law, slot.site, &state.rope.grips);
+        self.put_in_group(law, place);
+    }
+
+    /// The plugin's floats and the account as the step began; zero where the contact is new or another law held there.
+    fn put_floats(&mut self, friction: &Friction, law: usize, site: u64, grips: &Grips) {
+        let (width, stride) = (friction.laws[law].model.descriptor().state_len, KEPT + friction.state_len());
+        let kept = grips.sites.binary_search(&site).ok().and_then(|place| grips.floats.get(place * stride..(place + 1) * stride));
+        match kept {
+            Some([of, taken_j, given_j, floats @ ..]) if of.to_bits() == (law as f64).to_bits() => {
+                self.account.push(Account { taken_j: *taken_j, given_j: *given_j });
+                self.floats.extend_from_slice(&floats[..width]);
+            }
+            _ => {
+                self.account.push(Account::default());
+                self.floats.resize(self.floats.len() + width, 0.0);
+            }
         }
     }
 
-    /// Asks the plugin for forces and derivatives.
-    pub fn respond(&mut self, friction: &Friction, dt_s: f64) -> Result<(), String> {
-        if self.slot.is_empty() {
-            return Ok(());
+    fn put_in_group(&mut self, law: usize, place: usize) {
+        match self.groups.last_mut() {
+            Some(group) if group.law == law => {
+                group.contacts.end = place + 1;
+                group.floats.end = self.floats.len();
+            }
+            last => {
+                let from = last.map_or(0, |group| group.floats.end);
+                self.groups.push(Group { law, contacts: place..place + 1, floats: from..self.floats.len() });
+            }
         }
+    }
+
+    /// Asks the plugins for forces and derivatives.
+    pub fn respond(&mut self, friction: &Friction, dt_s: f64) -> Result<(), Failed> {
         let mut response = std::mem::take(&mut self.response);
-        let answer = friction.model.respond(&friction.attributes, &self.contacts(dt_s), &mut response);
+        let answer = self.groups.iter().try_for_each(|group| {
+            let law = &friction.laws[group.law];
+            let out = &mut response[group.contacts.clone()];
+            law.model.respond(&law.attributes, &self.contacts(group, dt_s), out).map_err(|error| failed(law, error.message))?;
+            if out.iter().all(is_finite) { Ok(()) } else { Err(failed(law, "gave a force or derivative that is not a finite number")) }
+        });
         self.response = response;
-        answer.map_err(|error| error.message)?;
-        let finite = |answer: &FrictionResponse| {
-            answer.force_n.iter().chain(answer.by_slip.iter().flatten()).chain(&answer.by_normal_force).all(|x| x.is_finite())
-        };
-        if self.response.iter().all(finite) { Ok(()) } else { Err("gave a force or derivative that is not a finite number".into()) }
+        answer
     }
 
-    /// Asks the plugin for its floats at the end of the step and keeps them for the sites in touch.
-    pub fn advance(&self, friction: &Friction, dt_s: f64, slots: &Slots, grips: &mut Grips) -> Result<(), String> {
-        grips.sites.clear();
-        grips.sites.extend(self.slot.iter().map(|slot| slots.list[*slot].site));
-        grips.floats.clear();
-        grips.floats.resize(self.floats.len(), 0.0);
-        if self.slot.is_empty() {
-            return Ok(());
+    /// Asks the plugins for their floats at the end of the step and keeps them for the sites in touch.
+    pub fn advance(&mut self, friction: &Friction, dt_s: f64, slots: &Slots, grips: &mut Grips) -> Result<(), Failed> {
+        let mut ends = std::mem::take(&mut self.floats_at_end);
+        ends.clear();
+        ends.resize(self.floats.len(), 0.0);
+        let advanced = self.groups.iter().try_for_each(|group| {
+            let (law, out) = (&friction.laws[group.law], &mut ends[group.floats.clone()]);
+            law.model.advance(&law.attributes, &self.contacts(group, dt_s), out).map_err(|error| failed(law, error.message))?;
+            if out.iter().all(|x| x.is_finite()) { Ok(()) } else { Err(failed(law, "gave a state that is not a finite number")) }
+        });
+        self.floats_at_end = ends;
+        advanced?;
+        self.settle_accounts(friction)?;
+        self.keep(friction, slots, grips);
+        Ok(())
+    }
+
+    /// Books the work of the step; a law that gives more than it can have taken ends the run.
+    fn settle_accounts(&mut self, friction: &Friction) -> Result<(), Failed> {
+        for group in &self.groups {
+            for place in group.contacts.clone() {
+                let work_j = DVec3::from_array(self.response[place].force_n).dot(DVec3::from_array(self.slip[place]));
+                self.account[place].book(work_j).map_err(|message| failed(&friction.laws[group.law], message))?;
+            }
         }
-        friction.model.advance(&friction.attributes, &self.contacts(dt_s), &mut grips.floats).map_err(|error| error.message)?;
-        if grips.floats.iter().all(|x| x.is_finite()) { Ok(()) } else { Err("gave a state that is not a finite number".into()) }
+        Ok(())
+    }
+
+    fn keep(&self, friction: &Friction, slots: &Slots, grips: &mut Grips) {
+        let stride = KEPT + friction.state_len();
+        grips.clear();
+        for place in &self.in_order {
+            let Some(group) = self.groups.iter().find(|group| group.contacts.contains(place)) else { continue };
+            let width = friction.laws[group.law].model.descriptor().state_len;
+            let from = group.floats.start + (place - group.contacts.start) * width;
+            let Account { taken_j, given_j } = self.account[*place];
+            grips.sites.push(slots.list[self.slot[*place]].site);
+            grips.floats.extend_from_slice(&[group.law as f64, taken_j, given_j]);
+            grips.floats.extend_from_slice(&self.floats_at_end[from..from + width]);
+            grips.floats.resize(grips.sites.len() * stride, 0.0);
+        }
     }
 
     /// Push and friction of a contact together [N].
@@ -129,19 +251,30 @@ impl Touching {
         DVec3::from_array(self.slip[place])
     }
 
-    fn contacts(&self, dt_s: f64) -> Contacts<'_> {
+    fn contacts(&self, group: &Group, dt_s: f64) -> Contacts<'_> {
+        let at = group.contacts.clone();
         Contacts {
             dt_s,
-            normal_force_n: &self.normal_force,
-            normal: &self.normal,
-            slip_m: &self.slip,
-            length_m: &self.length,
-            coefficient: &self.coefficient,
-            region: &self.region,
-            rope: &self.rope,
-            state: &self.floats,
+            normal_force_n: &self.normal_force[at.clone()],
+            normal: &self.normal[at.clone()],
+            grain: &self.grain[at.clone()],
+            along: &self.along[at.clone()],
+            slip_m: &self.slip[at.clone()],
+            length_m: &self.length[at.clone()],
+            coefficient: &self.coefficient[at.clone()],
+            region: &self.region[at.clone()],
+            rope: &self.rope[at],
+            state: &self.floats[group.floats.clone()],
         }
     }
+}
+
+fn failed(law: &FrictionLaw, message: impl Into<String>) -> Failed {
+    Failed { id: law.model.descriptor().id.to_string(), message: message.into() }
+}
+
+fn is_finite(answer: &FrictionResponse) -> bool {
+    answer.force_n.iter().chain(answer.by_slip.iter().flatten()).chain(&answer.by_normal_force).all(|x| x.is_finite())
 }
 
 /// Rows of a plugin's answer as a matrix.

@@ -1,7 +1,9 @@
 //! Rope against the skinned whale: detection that cannot miss, response inside the rope solve.
 
+mod account;
 pub mod crossing;
 pub mod distance;
+mod grain;
 pub(crate) mod grip;
 pub(crate) mod law;
 pub(crate) mod near;

@@ -4,7 +4,7 @@ use endline_sdk::BodyPart;
 use glam::{DAffine3, DVec3};
 
 use super::ContactPoint;
-use super::grip::Touching;
+use super::grip::{Failed, Touching};
 use super::near::Near;
 use super::slots::{Slots, Touch};
 use crate::model::{Friction, Model};
@@ -75,11 +75,11 @@ impl ContactWork {
         dt_s: f64,
         state: &mut State,
         contacts: &mut Vec<ContactPoint>,
-    ) -> Result<(), String> {
+    ) -> Result<(), Failed> {
         contacts.clear();
         let Some(whale) = &model.spec.whale else { return Ok(()) };
-        for (place, index) in self.touching.slot.iter().enumerate() {
-            let slot = &self.slots.list[*index];
+        for place in self.touching.in_order.iter().copied() {
+            let slot = &self.slots.list[self.touching.slot[place]];
             let Some(touch) = &slot.touch else { continue };
             let triangle = self.near.pairs[touch.pair].triangle as usize;
             contacts.push(ContactPoint {

@@ -10,6 +10,7 @@ use glam::{DMat3, DVec3};
 use super::Solver;
 use super::rope::outer;
 use super::scheme::Scheme;
+use crate::contact::grip::Failed;
 use crate::contact::law::CRUSHED_SHARE;
 use crate::contact::work::ContactWork;
 use crate::contact::{grip, near};
@@ -49,7 +50,7 @@ pub(crate) enum Touched {
     /// Rope is crushed at this segment by this triangle.
     Crushed(usize, usize),
     /// The friction plugin failed.
-    Plugin(String),
+    Plugin(Failed),
 }
 
 impl Solver {
@@ -121,7 +122,7 @@ impl Solver {
         self.add_contacts(model, state, scheme, work).map_err(Touched::Plugin)
     }
 
-    fn add_contacts(&mut self, model: &Model, state: &State, scheme: &Scheme, work: &mut ContactWork) -> Result<(), String> {
+    fn add_contacts(&mut self, model: &Model, state: &State, scheme: &Scheme, work: &mut ContactWork) -> Result<(), Failed> {
         let Some(friction) = &model.spec.friction else { return Ok(()) };
         work.touching.collect(model, &work.near, &work.slots, state, |slot| slot.touch);
         work.touching.respond(friction, scheme.dt)?;

@@ -77,7 +77,7 @@ pub fn still(skin: Skin) -> Whale {
 pub fn coulomb(coefficient: f64) -> Friction {
     let model = Coulomb::new();
     let attributes = model.descriptor().attributes.iter().filter_map(|attribute| attribute.default_value().number()).collect();
-    Friction { model: Arc::new(model), attributes, coefficients: vec![[coefficient; Region::ALL.len()]] }
+    Friction::of_one(Arc::new(model), attributes, vec![[coefficient; Region::ALL.len()]])
 }
 
 /// A rope drawn round a drum: a steady force on the slack end, the other end driven away.

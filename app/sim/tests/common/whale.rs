@@ -167,7 +167,7 @@ pub fn spec(whale: Whale, density_kg_m3: f64) -> ModelSpec {
         links: Vec::new(),
         gear: Vec::new(),
         whale: Some(whale),
-        friction: Some(Friction { model: Arc::new(coulomb), attributes, coefficients: vec![[0.2; Region::ALL.len()]] }),
+        friction: Some(Friction::of_one(Arc::new(coulomb), attributes, vec![[0.2; Region::ALL.len()]])),
         obstacles: Vec::new(),
         probes: Vec::new(),
         settings: endline_sim::model::Settings::default(),

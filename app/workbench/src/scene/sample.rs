@@ -153,7 +153,7 @@ fn whale() -> Whale {
 
 fn friction() -> Friction {
     let model = Arc::new(Smooth(nothing("smooth")));
-    Friction { model, attributes: Vec::new(), coefficients: vec![[0.0; Region::ALL.len()]] }
+    Friction::of_one(model, Vec::new(), vec![[0.0; Region::ALL.len()]])
 }
 
 /// A plugin without attributes or state.

@@ -214,10 +214,10 @@ unsafe extern "C" fn motion_step(
     guarded(message, || {
         // SAFETY: the caller's promise.
         unsafe {
-            let (plugin, raw) = (&*context.cast::<Box<dyn WhaleMotion>>(), &*input);
+            let (plugin, raw) = (&*context.cast::<Box<dyn WhaleMotion>>(), known_part(input));
             let forces = <&[f64; BodyPart::ALL.len()]>::try_from(array(raw.contact_force_n, raw.body_part_count))
                 .map_err(|_| HookError::new(format!("expected {} body parts, got {}", BodyPart::ALL.len(), raw.body_part_count)))?;
-            *out = plugin.step(array(attributes, attribute_count), &motion_input(raw, forces), array_mut(state, state_len))?;
+            *out = plugin.step(array(attributes, attribute_count), &motion_input(&raw, forces), array_mut(state, state_len))?;
         }
         Ok(())
     })
@@ -249,8 +249,8 @@ unsafe extern "C" fn friction_respond(
     guarded(message, || {
         // SAFETY: the caller's promise.
         unsafe {
-            let (plugin, raw) = (&*context.cast::<Box<dyn FrictionModel>>(), &*contacts);
-            plugin.respond(array(attributes, attribute_count), &friction_contacts(raw), array_mut(out, raw.count))
+            let (plugin, raw) = (&*context.cast::<Box<dyn FrictionModel>>(), known_part(contacts));
+            plugin.respond(array(attributes, attribute_count), &friction_contacts(&raw), array_mut(out, raw.count))
         }
     })
 }
@@ -268,9 +268,9 @@ unsafe extern "C" fn friction_advance(
     guarded(message, || {
         // SAFETY: the caller's promise.
         unsafe {
-            let (plugin, raw) = (&*context.cast::<Box<dyn FrictionModel>>(), &*contacts);
+            let (plugin, raw) = (&*context.cast::<Box<dyn FrictionModel>>(), known_part(contacts));
             let out = array_mut(out, raw.count * raw.state_len);
-            plugin.advance(array(attributes, attribute_count), &friction_contacts(raw), out)
+            plugin.advance(array(attributes, attribute_count), &friction_contacts(&raw), out)
         }
     })
 }
@@ -284,6 +284,8 @@ unsafe fn friction_contacts(raw: &AbiContacts) -> Contacts<'_> {
             dt_s: raw.dt_s,
             normal_force_n: array(raw.normal_force_n, raw.count),
             normal: array(raw.normal, raw.count),
+            grain: array(raw.grain, raw.count),
+            along: array(raw.along, raw.count),
             slip_m: array(raw.slip_m, raw.count),
             length_m: array(raw.length_m, raw.count),
             coefficient: array(raw.coefficient, raw.count),
@@ -329,11 +331,12 @@ unsafe extern "C" fn gear_step(
     guarded(message, || {
         // SAFETY: the caller's promise.
         unsafe {
-            let (plugin, raw) = (&*context.cast::<Box<dyn GearType>>(), &*input);
+            let (plugin, raw) = (&*context.cast::<Box<dyn GearType>>(), known_part(input));
             let step = GearStep { time_s: raw.time_s, dt_s: raw.dt_s, end_tension_n: array(raw.end_tension_n, raw.line_count) };
             let mut wanted = Vec::new();
             plugin.step(&attribute_values(array(values, value_count)), &step, array_mut(state, state_len), &mut wanted)?;
-            wanted.iter().try_for_each(|action| act(action, &*actions))
+            let host = known_part(actions);
+            wanted.iter().try_for_each(|action| act(action, &host))
         }
     })
 }
@@ -351,16 +354,17 @@ unsafe fn attribute_values(values: &[AbiValue]) -> Vec<AttributeValue> {
     values.iter().map(value).collect()
 }
 
-/// The program's functions; those that a program of an older minor version lacks are none.
+/// A struct of the program's; what a program of an older minor version lacks is zero, a function then none.
 ///
 /// # Safety
-/// `host` leads to a struct of as many bytes as its first field says.
-unsafe fn known_part(host: *const AbiRigHost) -> AbiRigHost {
-    let mut known = std::mem::MaybeUninit::<AbiRigHost>::zeroed();
-    // SAFETY: the caller's promise; all zeros is a struct without functions.
+/// `given` leads to a struct of as many bytes as its first field says, and `T` is made of numbers, pointers and
+/// functions that may be null.
+unsafe fn known_part<T: Copy>(given: *const T) -> T {
+    let mut known = std::mem::MaybeUninit::<T>::zeroed();
+    // SAFETY: the caller's promise; all zeros is a value of such a struct.
     unsafe {
-        let bytes = (host.cast::<u32>().read() as usize).min(size_of::<AbiRigHost>());
-        std::ptr::copy_nonoverlapping(host.cast::<u8>(), known.as_mut_ptr().cast(), bytes);
+        let bytes = (given.cast::<u32>().read() as usize).min(size_of::<T>());
+        std::ptr::copy_nonoverlapping(given.cast::<u8>(), known.as_mut_ptr().cast(), bytes);
         known.assume_init()
     }
 }

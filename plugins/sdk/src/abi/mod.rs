@@ -4,7 +4,7 @@
 //! factory, the factory to descriptors, each descriptor to a table of functions of its kind:
 //!
 //! ```text
-//! endline_plugin_entry -> get_factory("endline.plugins/2") -> AbiFactory -> AbiPlugin -> AbiMotion | AbiFriction | AbiGear
+//! endline_plugin_entry -> get_factory("endline.plugins/3") -> AbiFactory -> AbiPlugin -> AbiMotion | AbiFriction | AbiGear
 //! ```
 //!
 //! In Rust nobody needs this module: implement a trait and name it in

@@ -8,7 +8,8 @@
 //! called by several runs at once and so writes nothing but what it is handed.
 //!
 //! A later minor version may add fields at the end of a struct that has `struct_size`, never
-//! change or remove one.
+//! change or remove one; each side reads of the other's struct what `struct_size` reaches, and takes the rest
+//! for zero. A struct without `struct_size` stays as it is.
 
 use std::ffi::{c_char, c_void};
 
@@ -17,7 +18,7 @@ use crate::gear::Site;
 use crate::motion::{Controls, MotionOutput};
 
 /// Major version: another number means another layout.
-pub const ABI_MAJOR: u32 = 2;
+pub const ABI_MAJOR: u32 = 3;
 /// Minor version: a greater number means fields added at the ends of structs, or kinds of attribute.
 pub const ABI_MINOR: u32 = 0;
 
@@ -97,7 +98,7 @@ pub struct AbiEntry {
     pub init: Option<unsafe extern "C" fn(path: AbiText, message: *mut AbiMessage) -> i32>,
     /// `[main-thread]` Called at most once, last; libraries stay mapped, so it may never be called. May be null.
     pub deinit: Option<unsafe extern "C" fn()>,
-    /// `[main-thread]` The [`AbiFactory`] for the id `endline.plugins/2`, null for any other id.
+    /// `[main-thread]` The [`AbiFactory`] for the id `endline.plugins/3`, null for any other id.
     pub get_factory: Option<unsafe extern "C" fn(id: AbiText) -> *const c_void>,
 }
 
@@ -204,8 +205,10 @@ pub struct AbiMotion {
 
 /// What a motion may look at.
 #[repr(C)]
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct AbiMotionInput {
+    /// Size of this struct in bytes.
+    pub struct_size: u32,
     /// Simulated time [s].
     pub time_s: f64,
     /// Length of the step [s].
@@ -258,8 +261,10 @@ pub struct AbiFriction {
 
 /// All contacts of one solver pass: arrays of `count` entries, vectors in the world frame.
 #[repr(C)]
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct AbiContacts {
+    /// Size of this struct in bytes.
+    pub struct_size: u32,
     /// How many contacts.
     pub count: usize,
     /// Length of the step [s].
@@ -268,6 +273,10 @@ pub struct AbiContacts {
     pub normal_force_n: *const f64,
     /// Unit normal, from skin to rope.
     pub normal: *const [f64; 3],
+    /// Unit vector fixed to the skin, across the normal: athwart the whale at rest; on baleen along the plates.
+    pub grain: *const [f64; 3],
+    /// Unit vector along the rope.
+    pub along: *const [f64; 3],
     /// Tangential displacement of rope against skin since the step began [m].
     pub slip_m: *const [f64; 3],
     /// Length of rope each contact stands for [m].
@@ -330,8 +339,10 @@ pub struct AbiValue {
 
 /// What a gear type may look at once a step.
 #[repr(C)]
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct AbiGearStep {
+    /// Size of this struct in bytes.
+    pub struct_size: u32,
     /// Simulated time [s].
     pub time_s: f64,
     /// Length of the step [s].
@@ -344,7 +355,7 @@ pub struct AbiGearStep {
 
 /// The program's functions by which a gear type builds; each takes `host` first and gives a status.
 #[repr(C)]
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct AbiRigHost {
     /// Size of this struct in bytes.
     pub struct_size: u32,
@@ -364,7 +375,7 @@ pub struct AbiRigHost {
 
 /// The program's functions by which a gear type acts; indices are in the order built.
 #[repr(C)]
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct AbiActionHost {
     /// Size of this struct in bytes.
     pub struct_size: u32,
@@ -443,7 +454,7 @@ pub struct AbiLink {
 /// Name under which the library exports its [`AbiEntry`].
 pub const ENTRY_NAME: &str = "endline_plugin_entry";
 /// Id of the factory of this ABI.
-pub const FACTORY_ID: &str = "endline.plugins/2";
+pub const FACTORY_ID: &str = "endline.plugins/3";
 
 impl AbiText {
     /// Text that lives as long as what it was made from.

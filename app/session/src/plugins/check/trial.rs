@@ -45,6 +45,8 @@ fn rub(friction: &dyn FrictionModel) -> Result<(), HookError> {
         dt_s: 0.002,
         normal_force_n: &[0.0, 10.0, 100.0],
         normal: &[[0.0, 0.0, 1.0]; 3],
+        grain: &[[0.0, 1.0, 0.0]; 3],
+        along: &[[1.0, 0.0, 0.0]; 3],
         slip_m: &[[0.0; 3], [1e-6, 0.0, 0.0], [0.0, 0.01, 0.0]],
         length_m: &[0.02; 3],
         coefficient: &[0.3; 3],

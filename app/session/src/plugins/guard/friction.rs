@@ -57,6 +57,8 @@ impl Guarded {
         let count = contacts.len();
         for got in [
             contacts.normal.len(),
+            contacts.grain.len(),
+            contacts.along.len(),
             contacts.slip_m.len(),
             contacts.length_m.len(),
             contacts.coefficient.len(),

@@ -144,7 +144,7 @@ pub(crate) fn spec(lengths: Vec<f64>) -> ModelSpec {
         links: Vec::new(),
         gear: Vec::new(),
         whale: Some(whale()),
-        friction: Some(Friction { model: Idle::shared(), attributes: Vec::new(), coefficients: vec![[0.2; Region::ALL.len()]] }),
+        friction: Some(Friction::of_one(Idle::shared(), Vec::new(), vec![[0.2; Region::ALL.len()]])),
         obstacles: Vec::new(),
         probes: Vec::new(),
         settings: Settings { step_s: STEP_S, ..Settings::default() },

@@ -1,0 +1,84 @@
+//! What rubs on the whale: the laws of friction by rope and region.
+//!
+//! For each rope and region the scenario names a model: that of `[friction]`, or of the last `[[friction.on]]` whose surfaces hold it.
+//! Its attributes are the model's own defaults, over them what the file of the rope's material says, over that the scenario.
+
+use endline_sdk::Region;
+use endline_sim::model::{Friction, FrictionLaw};
+
+use crate::attributes::{Attributes, numbers};
+use crate::diagnostic::At;
+use crate::items::{RopeFriction, any_holds};
+use crate::nearest::hint;
+use crate::scenario::FrictionChoice;
+use crate::schema::Kind;
+
+use super::builder::Builder;
+
+impl Builder<'_> {
+    /// The friction of every rope on a whale: the laws, and the table of coefficients, rope by region.
+    pub fn add_friction(&mut self) {
+        if self.scenario.whale.is_none() {
+            return;
+        }
+        let Some(choice) = &self.scenario.friction else {
+            let message = "there is a whale, but no `friction`";
+            let help = "write [friction] with model = \"org.endline.friction.coulomb\"";
+            self.problems.push(self.scenario.place.error(message, help));
+            return;
+        };
+        if !self.all_models_are_there(choice) {
+            return;
+        }
+        let mut friction = Friction { laws: Vec::new(), law_of: Vec::new(), coefficients: Vec::new() };
+        for material in self.materials.clone() {
+            match self.library.frictions.iter().find(|friction| friction.entry.id == material.value) {
+                Some(file) => {
+                    self.uses(&file.entry.path);
+                    friction.coefficients.push(file.coefficients);
+                    let laws = Region::ALL.map(|region| self.law(choice, file, region, &mut friction.laws));
+                    friction.law_of.push(laws);
+                }
+                None => self.no_item(Kind::Friction, &material.value, &material.place),
+            }
+        }
+        if friction.laws.is_empty() {
+            // Nothing here can touch the whale, yet the model is known by its plugin.
+            let attributes = Attributes::default().over(&choice.attributes);
+            friction.laws.extend(self.resolved(&choice.model.value, &attributes));
+        }
+        self.spec.friction = Some(friction);
+    }
+
+    fn all_models_are_there(&self, choice: &FrictionChoice) -> bool {
+        let mut all = true;
+        for model in std::iter::once(&choice.model).chain(choice.on.iter().map(|on| &on.model)) {
+            if self.hooks.friction(&model.value).is_none() {
+                let ids = self.hooks.ids();
+                let message = format!("no friction model `{}` among the plugins", model.value);
+                self.problems.push(model.place.error(message, hint(&model.value, ids.iter().map(String::as_str))));
+                all = false;
+            }
+        }
+        all
+    }
+
+    /// Index of the law of a material on a region among the laws, where it is put if it is new.
+    fn law(&mut self, choice: &FrictionChoice, file: &RopeFriction, region: Region, laws: &mut Vec<FrictionLaw>) -> usize {
+        let on = choice.on.iter().rev().find(|on| any_holds(&on.surfaces, region));
+        let (model, over): (&At<String>, &Attributes) = on.map_or((&choice.model, &choice.attributes), |on| (&on.model, &on.attributes));
+        let attributes = over.over(&file.attributes(&model.value, region));
+        let Some(law) = self.resolved(&model.value, &attributes) else { return 0 };
+        let same = |known: &FrictionLaw| known.model.descriptor().id == law.model.descriptor().id && known.attributes == law.attributes;
+        laws.iter().position(same).unwrap_or_else(|| {
+            laws.push(law);
+            laws.len() - 1
+        })
+    }
+
+    fn resolved(&mut self, model: &str, attributes: &Attributes) -> Option<FrictionLaw> {
+        let model = self.hooks.friction(model)?;
+        let values = attributes.resolve(model.descriptor(), self.library, &mut self.used, &self.problems);
+        Some(FrictionLaw { attributes: numbers(&values), model })
+    }
+}
