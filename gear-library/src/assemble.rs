@@ -10,6 +10,7 @@ mod builder;
 mod catenary;
 mod ends;
 mod gear;
+mod half_hitches;
 mod hitch;
 mod kinetic;
 mod line;
@@ -26,7 +27,7 @@ use std::sync::Arc;
 
 use endline_sdk::{FrictionModel, GearType, WhaleMotion};
 use endline_sim::ModelSpec;
-use endline_sim::model::Settings;
+use endline_sim::model::{RopeOnRope, Settings};
 
 use crate::diagnostic::Diagnostic;
 use crate::library::Library;
@@ -108,6 +109,11 @@ pub fn assemble_traced(scenario: &Scenario, library: &Library, hooks: &dyn Hooks
     builder.finish()
 }
 
+fn rope_on_rope(scenario: &Scenario) -> RopeOnRope {
+    let usual = RopeOnRope::default();
+    RopeOnRope { friction: scenario.rope_friction.as_ref().map_or(usual.friction, |friction| friction.value), ..usual }
+}
+
 fn settings(scenario: &Scenario, options: &Options) -> Settings {
     let usual = Settings::default();
     Settings {
@@ -118,6 +124,7 @@ fn settings(scenario: &Scenario, options: &Options) -> Settings {
         resolution: scenario.resolution,
         seed: options.seed.unwrap_or(scenario.seed),
         rope_on_bodies: scenario.rope_on_bodies,
+        rope_on_rope: scenario.rope_on_rope.then(|| rope_on_rope(scenario)),
         as_placed: scenario.as_placed,
         ..usual
     }

@@ -60,6 +60,10 @@ pub struct Scenario {
     pub weak_links: bool,
     /// Whether rope touches the bodies of the rig.
     pub rope_on_bodies: bool,
+    /// Whether rope touches rope.
+    pub rope_on_rope: bool,
+    /// Friction of rope on rope, where the scenario says.
+    pub rope_friction: Option<At<f64>>,
     /// Whether the run starts as its parts are placed, without statics.
     pub as_placed: bool,
     /// Condition of every rope whose line names none.
@@ -139,6 +143,8 @@ impl Scenario {
         let segment = fields.value("segment", Quantity::Length, Range::Between(1e-3, 1000.0));
         let weak_links = fields.flag("weak_links");
         let rope_on_bodies = fields.flag("rope_on_bodies");
+        let rope_on_rope = fields.flag("rope_on_rope");
+        let rope_friction = fields.value("rope_friction", Quantity::Ratio, Range::Between(0.0, 2.0));
         let whale = fields.table("whale");
         let follow = fields.table("resolution");
         let start = fields.word("start", &["rest", "placed"]);
@@ -157,6 +163,8 @@ impl Scenario {
             segment_m: segment.map(|segment| segment.value),
             weak_links: weak_links.unwrap_or(true),
             rope_on_bodies: rope_on_bodies.unwrap_or(false),
+            rope_on_rope: rope_on_rope.unwrap_or(false),
+            rope_friction,
             as_placed: start.is_some_and(|start| start.value == "placed"),
             rope_condition: rope_condition.and_then(|word| Condition::from_word(&word.value)).unwrap_or_default(),
             rope_bending: fields.flag("rope_bending").unwrap_or(false),
@@ -184,6 +192,10 @@ impl Scenario {
         if let (Some(nodes), Some(_)) = (&self.rope_nodes, self.segment_m) {
             let message = "both `rope_nodes` and `segment` are given";
             fields.problems().push(nodes.place.error(message, "keep the one that is meant"));
+        }
+        if let (Some(friction), false) = (&self.rope_friction, self.rope_on_rope) {
+            let message = "`rope_friction` is given, but ropes pass through each other here";
+            fields.problems().push(friction.place.error(message, "write rope_on_rope = true besides, or take it out"));
         }
         if self.gear.len() > 1 {
             for gear in self.gear.iter().filter(|gear| gear.id.is_none()) {
@@ -276,7 +288,12 @@ fn free_line(node: &Node, problems: &Problems) -> Option<(PartLine, LineStart)> 
 fn around(fields: &Fields<'_>) -> Option<LineStart> {
     let obstacle = fields.need_text("around", "write the id of a cylinder among the obstacles");
     let turns = fields.need_value("turns", Quantity::Ratio, Range::Between(-100.0, 100.0));
-    Some(LineStart::Around { obstacle: obstacle?, turns: turns?.value })
+    let (turns, hitched) = (turns?.value, fields.flag("hitched").unwrap_or(false));
+    if let (Some(node), true) = (fields.get("hitched"), hitched && (turns.abs() - 2.0).abs() > 0.3) {
+        let message = format!("two half hitches are two turns, not {turns}");
+        fields.problems().push(node.place.error(message, "write turns = 2 or -2, or take hitched out"));
+    }
+    Some(LineStart::Around { obstacle: obstacle?, turns, hitched })
 }
 
 /// A place as east, north, up [m].

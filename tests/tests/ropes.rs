@@ -6,6 +6,7 @@ mod linked;
 
 use endline_gear::{Diagnostic, Options, Scenario, assemble};
 use endline_sdk::LineEnd;
+use endline_sim::model::RopeOnRope;
 use endline_sim::{Input, Model, ModelSpec, State, Workspace, settle, step};
 use linked::{Linked, library, root, told};
 
@@ -240,4 +241,24 @@ fn the_hauled_endline_parts_at_an_insert() {
     let (_, parted) = until_it_parts(assembled(&text, None));
     assert_eq!(parted.len(), 1);
     assert!(parted[0].starts_with("endline.insert-"), "{parted:?}");
+}
+
+#[test]
+fn rope_touches_rope_where_a_scenario_says_so() {
+    let law = |head: &str| assembled(&pulled(head, ""), None).settings.rope_on_rope;
+    assert_eq!(law("rope_nodes = 40"), None);
+    assert_eq!(law("rope_nodes = 40\nrope_on_rope = true"), Some(RopeOnRope::default()));
+    let rough = law("rope_nodes = 40\nrope_on_rope = true\nrope_friction = 0.4").unwrap();
+    assert!((rough.friction - 0.4).abs() < 1e-15);
+    for (head, told) in [
+        ("rope_on_rope = \"yes\"", "true or false"),
+        ("rope_on_rope = true\nrope_friction = 7", "rope_friction"),
+        ("rope_on_rope = true\nrope_friction = \"0.2 N\"", "rope_friction"),
+        ("rope_friction = 0.2", "rope_on_rope = true"),
+    ] {
+        let problems = refused(&pulled(head, ""));
+        let here = problems.iter().find(|problem| problem.to_string().contains(told));
+        let line = 5 + head.lines().position(|line| line.starts_with("rope_friction")).unwrap_or(0);
+        assert!(here.is_some_and(|problem| problem.to_string().contains(&format!("test.toml:{line}"))), "{head}: {problems:?}");
+    }
 }

@@ -8,6 +8,7 @@
 
 use endline_sdk::{Controls, Posture};
 use endline_sim::contact::Grips;
+use endline_sim::contact::ropes::RopeGrip;
 use endline_sim::pace::Pace;
 use endline_sim::solids::SolidGrip;
 use endline_sim::state::{BodyState, RopeState, WhaleState};
@@ -93,6 +94,7 @@ fn fold_rope(rope: &RopeState, ropes: &mut Fold, contact: &mut Fold, links: &mut
         seabed_grip,
         grips,
         solid_grips,
+        rope_grips,
     } = rope;
     for vectors in [position, velocity, earlier_position, earlier_velocity] {
         ropes.vectors(vectors);
@@ -110,6 +112,12 @@ fn fold_rope(rope: &RopeState, ropes: &mut Fold, contact: &mut Fold, links: &mut
         contact.word(u64::from(*at_node));
         contact.reals(&[*along_m, *push_n]);
         contact.vectors(&[*stretch]);
+    }
+    for RopeGrip { lines, along_m, stretch, forgiven_m } in rope_grips {
+        lines.iter().for_each(|line| contact.word(*line as u64));
+        contact.reals(along_m);
+        contact.vectors(&[*stretch]);
+        contact.real(*forgiven_m);
     }
     cut.iter().for_each(|cut| links.word(u64::from(*cut)));
 }

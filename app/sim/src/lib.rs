@@ -17,6 +17,7 @@ pub mod model;
 pub mod pace;
 pub mod parting;
 mod regrid;
+mod rope_step;
 pub mod solids;
 mod solver;
 pub mod state;

@@ -7,6 +7,7 @@ use endline_sdk::{AttributeValue, FrictionModel, GearType, LineEnd};
 use glam::{DQuat, DVec3};
 
 use crate::check::check;
+pub use crate::contact::ropes::RopeOnRope;
 pub use crate::float::{Float, Form, Wet};
 use crate::solids::Obstacle;
 use crate::water::{Sea, Water};
@@ -389,6 +390,8 @@ pub struct Settings {
     pub as_placed: bool,
     /// Whether rope touches the bodies of the rig too, and not obstacles alone.
     pub rope_on_bodies: bool,
+    /// How rope touches rope; `None` where ropes pass through each other.
+    pub rope_on_rope: Option<RopeOnRope>,
 }
 
 impl Default for Settings {
@@ -402,6 +405,7 @@ impl Default for Settings {
             duration_s: 60.0,
             seed: 1,
             rope_on_bodies: false,
+            rope_on_rope: None,
             as_placed: false,
         }
     }

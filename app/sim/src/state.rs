@@ -4,6 +4,7 @@ use endline_sdk::Posture;
 use glam::{DQuat, DVec3};
 
 use crate::contact::Grips;
+use crate::contact::ropes::RopeGrip;
 use crate::in_place::clone_in_place;
 use crate::model::{Body, JointKind, Model};
 use crate::pace::Pace;
@@ -62,6 +63,8 @@ pub struct RopeState {
     pub grips: Grips,
     /// Where rope touches obstacles and bodies.
     pub solid_grips: Vec<SolidGrip>,
+    /// Where rope touches rope.
+    pub rope_grips: Vec<RopeGrip>,
 }
 
 /// A rigid body in motion.
@@ -120,7 +123,8 @@ clone_in_place!(RopeState {
     earlier_dt_s,
     seabed_grip,
     grips,
-    solid_grips
+    solid_grips,
+    rope_grips
 });
 clone_in_place!(BodyState { position, orientation, velocity, spin, earlier_position, earlier_velocity, grip, sliding, lift_m });
 clone_in_place!(WhaleState { position, orientation, speed_m_s, turn_rate, posture, motion, contact_force_n, exertion });
@@ -142,6 +146,7 @@ impl State {
             seabed_grip: vec![DVec3::ZERO; nodes],
             grips: Grips::default(),
             solid_grips: Vec::new(),
+            rope_grips: Vec::new(),
             position,
         };
         let mut state = Self {

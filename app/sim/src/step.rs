@@ -8,6 +8,7 @@ use endline_sdk::Controls;
 
 use crate::contact::ContactPoint;
 use crate::contact::near::MARGIN_M;
+use crate::contact::ropes::RopeTouch;
 use crate::contact::work::{ContactWork, force_by_part};
 use crate::gear_hook::{self, GearWork};
 use crate::model::{Model, Settings};
@@ -41,6 +42,8 @@ pub struct Workspace {
     pub contacts: Vec<ContactPoint>,
     /// Greatest tension of each segment over the solver steps of the last step [N].
     pub peak_tension_n: Vec<f64>,
+    /// Places where rope pressed on rope at the end of the last step.
+    pub rope_touches: Vec<RopeTouch>,
     /// Counters of the run so far.
     pub audit: Audit,
     pub(crate) solver: Solver,
@@ -61,6 +64,12 @@ pub struct Audit {
     pub tunnelled: u64,
     /// Deepest the rope's surface sank into the skin [m].
     pub max_penetration_m: f64,
+    /// Rope passed through rope, found by an exact test over every sub-move.
+    pub ropes_crossed: u64,
+    /// Most pairs of segments at a time that run through each other since the start, and are left alone.
+    pub ropes_through: u64,
+    /// Solver steps, away from the whale, that had rope on rope.
+    pub rope_steps: u64,
     /// Numbers that were not finite.
     pub non_finite: u64,
     /// Solver steps taken.
@@ -99,6 +108,7 @@ impl Workspace {
         Self {
             contacts: Vec::new(),
             peak_tension_n: vec![0.0; model.segment_count],
+            rope_touches: Vec::new(),
             audit: Audit::default(),
             solver: Solver::new(model),
             contact: ContactWork::new(model),
@@ -209,7 +219,7 @@ fn solver_steps(
     state: &mut State,
     workspace: &mut Workspace,
     whale: Option<&[WhaleState; 2]>,
-    (longest, may_take_back): (f64, bool),
+    (mut longest, may_take_back): (f64, bool),
 ) -> Result<bool, Stop> {
     let settings = &model.spec.settings;
     let start = settings.step_s * state.step as f64;
@@ -237,6 +247,7 @@ fn solver_steps(
                     return Ok(false);
                 }
             }
+            Err(Refused::RopesMeet) => longest = settings.contact_step_s.min(longest),
             Err(why) if why.may_halve() && 0.5 * dt >= settings.least_step_s => {
                 refused = if why == Refused::PartsTooLate { LimitedBy::Parting } else { LimitedBy::Convergence };
                 halvings += 1;
@@ -308,6 +319,12 @@ fn stop(model: &Model, state: &State, workspace: &Workspace, why: Refused) -> St
             let solid = crate::solids::name_of(model, solid);
             (format!("line {line}"), format!("rope goes through {solid} even at the shortest step; use shorter segments or a slower start"))
         }
+        Refused::RopesPinched([segment, other]) => {
+            let line = |segment: usize| &model.spec.lines[model.segment_line[segment]].id;
+            let reason = format!("it is pressed into line {} harder than rope can bear; check what pulls on both", line(other));
+            (format!("line {}", line(segment)), reason)
+        }
+        Refused::RopesMeet => (line(), "rope meets rope in a step that cannot be made shorter".into()),
         Refused::Plugin(failed) => (failed.id, failed.message),
     };
     Stop { time_s: state.time_s, part, reason }

@@ -9,9 +9,11 @@ use glam::DVec3;
 use crate::contact::ContactPoint;
 use crate::contact::grip::Failed;
 use crate::contact::law::PINCHED_SHARE;
+use crate::contact::ropes::RopeTouch;
 use crate::contact::work::ContactWork;
 use crate::model::Model;
 use crate::parting::{self, Parting};
+use crate::rope_step::rope_step;
 use crate::solids::work;
 use crate::solver::{BodyTrial, CONTACT_WANTED_M, Fine, FreePass, Scheme, Solver, TENSION_GAP_N, TENSION_GAP_SHARE, Touched};
 use crate::state::State;
@@ -43,7 +45,7 @@ const MOST_CUTS: usize = 20;
 /// Times the skin may be stopped within a solver step.
 const MOST_STAGES: usize = 8;
 /// Move of the last pass with contact above which the step is redone shorter [m].
-const CONTACT_CONVERGED_M: f64 = 1e-3;
+pub(crate) const CONTACT_CONVERGED_M: f64 = 1e-3;
 
 /// Why a solver step must be redone shorter, or ends the run.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -55,6 +57,10 @@ pub(crate) enum Refused {
     Crossed(usize),
     /// This segment is pinched at this triangle by skin that closes on it.
     Pinched(usize, usize),
+    /// These two segments are pressed into each other harder than rope can bear.
+    RopesPinched([usize; 2]),
+    /// Rope may touch rope, which needs the shorter step of contact.
+    RopesMeet,
     /// This segment went into or through this obstacle or body.
     WentThrough(usize, usize),
     /// The friction plugin failed, with its message.
@@ -65,8 +71,8 @@ pub(crate) enum Refused {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Met {
     Nothing,
-    /// An obstacle or a body that its drift would not have brought it near to.
-    Solid,
+    /// An obstacle, a body or rope that its drift would not have brought it near to.
+    Something,
 }
 
 impl Refused {
@@ -89,14 +95,19 @@ pub(crate) enum Took {
 
 /// One solver step of length `dt`: kept in `state` where it converges and parts nothing late.
 pub(crate) fn solver_step(model: &Model, state: &mut State, workspace: &mut Workspace, dt: f64, careful: bool) -> Result<Took, Refused> {
-    let Workspace { solver, contact, audit, contacts, peak_tension_n, .. } = workspace;
+    let Workspace { solver, contact, audit, contacts, rope_touches, peak_tension_n, .. } = workspace;
     let mut touching = contact.as_mut();
     if touching.as_mut().is_none_or(|work| !gather(model, state, work, dt)) {
         touching = None;
     }
     contacts.clear();
+    rope_touches.clear();
     let on_solid = solver.gather_solids(state, dt);
-    let untouched = touching.is_none() && !on_solid;
+    let on_rope = solver.gather_ropes(model, state, dt);
+    if on_rope && is_long(model, dt) {
+        return Err(Refused::RopesMeet);
+    }
+    let untouched = touching.is_none() && !on_solid && !on_rope;
     let scheme = if careful || !untouched { Scheme::backward_euler(dt) } else { Scheme::bdf2(dt, state.rope.earlier_dt_s) };
     let last = dt * 0.5 < model.spec.settings.least_step_s;
     let free = untouched && solver.suits_lanes(model);
@@ -107,8 +118,10 @@ pub(crate) fn solver_step(model: &Model, state: &mut State, workspace: &mut Work
         state.rope.grips.clear();
         solver.keep_free(model, &scheme, state);
     } else {
-        step_by_lines(model, state, solver, &scheme, touching, (contacts, audit, last))?;
+        step_by_lines(model, state, solver, &scheme, touching, (contacts, rope_touches, audit, last))?;
     }
+    audit.ropes_crossed += solver.ropes.crossings;
+    audit.ropes_through = audit.ropes_through.max(solver.ropes.through);
     audit.solver_steps += 1;
     for (peak, tension) in peak_tension_n.iter_mut().zip(&state.rope.tension) {
         *peak = peak.max(*tension);
@@ -120,19 +133,37 @@ pub(crate) fn solver_step(model: &Model, state: &mut State, workspace: &mut Work
     Ok(if untouched { Took::Free } else { Took::Touching })
 }
 
-/// A solver step with rope near the whale, obstacles or bodies, line after line.
+/// Whether a step is longer than contact allows.
+fn is_long(model: &Model, dt: f64) -> bool {
+    dt > model.spec.settings.contact_step_s * (1.0 + 1e-9)
+}
+
+/// A solver step with rope near the whale, rope, obstacles or bodies, line after line.
 fn step_by_lines(
     model: &Model,
     state: &mut State,
     solver: &mut Solver,
     scheme: &Scheme,
     mut touching: Option<&mut ContactWork>,
-    (contacts, audit, last): (&mut Vec<ContactPoint>, &mut Audit, bool),
+    (contacts, rope_touches, audit, last): (&mut Vec<ContactPoint>, &mut Vec<RopeTouch>, &mut Audit, bool),
 ) -> Result<(), Refused> {
     solver.begin(model, state, scheme);
     match &mut touching {
-        None if solver.solid.pairs.is_empty() => lines_step(model, state, solver, scheme, audit)?,
-        None => solid_step(model, state, solver, scheme, audit)?,
+        None if solver.ropes.touching => rope_step(model, state, solver, scheme, audit)?,
+        None => {
+            if solver.solid.pairs.is_empty() {
+                lines_step(model, state, solver, scheme, audit)?;
+            } else {
+                solid_step(model, state, solver, scheme, audit)?;
+            }
+            if solver.met_ropes(model, state) {
+                if is_long(model, scheme.dt) {
+                    return Err(Refused::RopesMeet);
+                }
+                solver.begin(model, state, scheme);
+                rope_step(model, state, solver, scheme, audit)?;
+            }
+        }
         Some(work) => contact_step(model, state, solver, scheme, work, audit)?,
     }
     if !last && parting::too_late(model, state, solver.tension()) {
@@ -147,6 +178,7 @@ fn step_by_lines(
         }
         _ => state.rope.grips.clear(),
     }
+    solver.tell_ropes(state, rope_touches);
     solver.keep(model, scheme, state);
     Ok(())
 }
@@ -176,7 +208,8 @@ fn free_step(model: &Model, state: &State, solver: &mut Solver, scheme: &Scheme,
         if (rests && settled) || (at_once && is_exact(&passed, &fine)) {
             // Rope that kept to its drift has met nothing but what was gathered.
             let strayed = moved_m > work::MARGIN_M && solver.strayed_free(state, scheme.dt);
-            return Ok(if strayed { Met::Solid } else { Met::Nothing });
+            let met = strayed || solver.met_ropes_free(model, state, moved_m);
+            return Ok(if met { Met::Something } else { Met::Nothing });
         }
     }
     Err(Refused::NotConverged)
@@ -267,12 +300,14 @@ fn contact_step(
 ) -> Result<(), Refused> {
     work.slots.list.clear();
     solver.set_out(state);
+    solver.ropes.begin();
     for _ in 0..MOST_STAGES {
         work.near.measure(solver.places());
         if let Some(pair) = work.near.pairs.iter().find(|pair| pair.clear <= 0.0) {
             return Err(Refused::Crossed(pair.segment));
         }
         audit.tunnelled += solver.carry(model, work);
+        solver.open_ropes(state);
         match solver.solve_touching(model, state, scheme, work) {
             Touched::Ended { last_m, passes, crossings } => {
                 audit.passes += passes as u64;
@@ -288,13 +323,17 @@ fn contact_step(
             }
             Touched::TooFar => return Err(Refused::NotConverged),
             Touched::Crushed(segment, triangle) => return Err(Refused::Pinched(segment, triangle)),
+            Touched::CrushedRopes(segments) => return Err(Refused::RopesPinched(segments)),
             Touched::Plugin(message) => return Err(Refused::Plugin(message)),
         }
         if let Some((segment, triangle)) = work.nearer_than(PINCHED_SHARE) {
             return Err(Refused::Pinched(segment, triangle));
         }
+        if let Some(segments) = solver.crushed_ropes(true) {
+            return Err(Refused::RopesPinched(segments));
+        }
         if work.near.fraction >= 1.0 - 1e-12 {
-            return Ok(());
+            return if solver.met_more_ropes(model, state) { Err(Refused::NotConverged) } else { Ok(()) };
         }
     }
     Err(Refused::NotConverged)
@@ -302,7 +341,7 @@ fn contact_step(
 
 impl Solver {
     /// Puts rope and bodies back where the step begins; where they would drift to is kept as the first target.
-    fn set_out(&mut self, state: &State) {
+    pub(crate) fn set_out(&mut self, state: &State) {
         self.drift.clone_from(&self.trial.place);
         self.drift_bodies.clone_from(&self.trial.bodies);
         self.trial.place.clone_from(&state.rope.position);
@@ -358,9 +397,11 @@ impl Solver {
         self.trial.hitches.share = skin_to;
         self.trial.seat_ends(model, &self.plan);
         let safe = work.near.safe_share(&work.before, |node| self.trial.place[node], skin_to);
+        let safe = safe.min(self.safe_of_ropes_from(&work.before));
         if safe < 1.0 {
             return Err(safe);
         }
+        self.move_ropes_from(&work.before);
         Ok(work.near.make_move(&work.before, |node| self.trial.place[node], skin_to))
     }
 

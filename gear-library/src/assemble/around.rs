@@ -52,15 +52,25 @@ impl Around {
         self.parts.iter().sum()
     }
 
+    /// Angle round the axis at a share of the whole, from where it first touches [rad].
+    pub fn angle(&self, share: f64) -> f64 {
+        (share * self.length() - self.parts[0]).clamp(0.0, self.parts[1]) / self.radius
+    }
+
     /// Place at a share of the whole.
     pub fn at(&self, share: f64) -> DVec3 {
+        self.shifted(share, 0.0, 0.0)
+    }
+
+    /// The same, so far out from the axis and so far up along it.
+    pub fn shifted(&self, share: f64, out: f64, up: f64) -> DVec3 {
         let along = share * self.length();
-        let round = (along - self.parts[0]).clamp(0.0, self.parts[1]);
-        let angle = self.first + self.sense * round / self.radius;
+        let angle = self.first + self.sense * self.angle(share);
         let (sin, cos) = libm::sincos(angle);
         let ahead = (along - self.parts[0] - self.parts[1]).max(0.0) - (self.parts[0] - along).max(0.0);
-        let (x, y) = (self.radius * cos - self.sense * ahead * sin, self.radius * sin + self.sense * ahead * cos);
-        let height = self.heights.0 + share * (self.heights.1 - self.heights.0);
+        let radius = self.radius + out;
+        let (x, y) = (radius * cos - self.sense * ahead * sin, radius * sin + self.sense * ahead * cos);
+        let height = up + self.heights.0 + share * (self.heights.1 - self.heights.0);
         self.centre + self.axes[0] * x + self.axes[1] * y + self.axes[2] * height
     }
 }

@@ -10,9 +10,13 @@ use crate::scenario::LineStart;
 use super::around::Around;
 use super::builder::{Builder, Part};
 use super::catenary::Catenary;
+use super::half_hitches::hitched;
 
 /// Rope nodes in all where a scenario asks for none.
 const USUAL_NODES: u64 = 500;
+
+/// Share by which a hitched line may be longer or shorter than its way.
+const MISFIT: f64 = 0.02;
 
 impl Builder<'_> {
     /// Cuts every line: `chosen` nodes in all, or the scenario's count, or its longest segment.
@@ -52,7 +56,7 @@ impl Builder<'_> {
         match self.uncut[index].start.clone() {
             LineStart::Straight => {}
             LineStart::Catenary => self.lay_catenary(index),
-            LineStart::Around { obstacle, turns } => self.lay_around(index, &obstacle, turns),
+            LineStart::Around { obstacle, turns, hitched } => self.lay_around(index, &obstacle, turns, hitched),
         }
     }
 
@@ -72,7 +76,7 @@ impl Builder<'_> {
         self.lay_along(index, |share| from + catenary.at(length * share));
     }
 
-    fn lay_around(&mut self, index: usize, id: &At<String>, turns: f64) {
+    fn lay_around(&mut self, index: usize, id: &At<String>, turns: f64, is_hitched: bool) {
         let Some(Part::Obstacle(obstacle)) = self.part(&id.value) else {
             return self.unknown("obstacle", id, |part| matches!(part, Part::Obstacle(_)));
         };
@@ -82,16 +86,29 @@ impl Builder<'_> {
             return self.problems.push(id.place.error(format!("`{}` is not a cylinder", id.value), help));
         };
         let line = &self.spec.lines[index];
-        let radius = radius_m + 0.5 * self.spec.ropes[line.rope].diameter_m;
+        let thick = self.spec.ropes[line.rope].diameter_m;
+        let radius = radius_m + 0.5 * thick;
         let ends = [self.joint_place(line.from), self.joint_place(line.to)];
         let axes = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| obstacle.orientation * axis);
         match Around::between(ends, obstacle.position_m, axes, radius, turns) {
+            Some(path) if is_hitched => self.lay_way(index, &hitched(&path, thick)),
             Some(path) => self.lay_along(index, |share| path.at(share)),
             None => {
                 let message = format!("an end of line `{}` lies within `{}`", line.id, id.value);
                 self.problems.push(id.place.error(message, "put both ends outside of it"));
             }
         }
+    }
+
+    /// Lays a line along a way that it must be as long as, for it crosses itself there.
+    fn lay_way(&mut self, index: usize, way: &[DVec3]) {
+        let (long, length) = (way.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>(), self.uncut[index].length_m);
+        if (length / long - 1.0).abs() > MISFIT {
+            let message =
+                format!("line `{}` is {length:.4} m long, its way round with two half hitches {long:.4} m", self.spec.lines[index].id);
+            self.problems.push(self.uncut[index].place.error(message, format!("write length = \"{long:.4} m\", or move its ends")));
+        }
+        self.lay_along(index, |share| along(way, share));
     }
 
     /// Lays the nodes of a line along a path, its ends where they belong.

@@ -66,6 +66,8 @@ pub enum LineStart {
         obstacle: At<String>,
         /// How often round; below zero is left-handed about its axis.
         turns: f64,
+        /// Whether two turns cross over themselves to two half hitches.
+        hitched: bool,
     },
 }
 

@@ -76,6 +76,12 @@ pub struct AuditReport {
     pub tunnelled: u64,
     /// Deepest the rope's surface sank into the skin [m].
     pub max_penetration_m: f64,
+    /// Times rope passed through rope.
+    pub ropes_crossed: u64,
+    /// Most pairs of segments at a time that run through each other since the start, and are left alone.
+    pub ropes_through: u64,
+    /// Solver steps, away from the whale, with rope on rope.
+    pub rope_steps: u64,
     /// Numbers that were not finite.
     pub non_finite: u64,
     /// Solver steps.

@@ -31,7 +31,7 @@ impl Report {
             nodes: model.node_count,
             triangles: model.spec.whale.as_ref().map_or(0, |whale| whale.skin.triangles.len()),
             state_hash: run.state_hash().hex(),
-            valid: run.stopped().is_none() && audit.tunnelled == 0 && audit.non_finite == 0,
+            valid: run.stopped().is_none() && audit.tunnelled == 0 && audit.ropes_crossed == 0 && audit.non_finite == 0,
             stopped: run.stopped().map(|stop| Error::Stopped(stop.clone()).to_string()),
             audit: audit_report(&audit),
             lines: line_reports(run),
@@ -64,6 +64,9 @@ fn audit_report(audit: &Audit) -> AuditReport {
     let Audit {
         tunnelled,
         max_penetration_m,
+        ropes_crossed,
+        ropes_through,
+        rope_steps,
         non_finite,
         solver_steps,
         contact_steps,
@@ -80,6 +83,9 @@ fn audit_report(audit: &Audit) -> AuditReport {
     AuditReport {
         tunnelled,
         max_penetration_m,
+        ropes_crossed,
+        ropes_through,
+        rope_steps,
         non_finite,
         solver_steps,
         contact_steps,

@@ -61,6 +61,20 @@ pub fn first_meeting(segment: &SweptSegment, triangle: &SweptTriangle) -> Option
     (first <= 1.0).then_some(first)
 }
 
+/// First fraction of the move at which two rope segments have a point in common, if any.
+///
+/// Both move straight from start to end.
+#[must_use]
+pub fn first_crossing(one: &SweptSegment, other: &SweptSegment) -> Option<f64> {
+    let [first, second] = [one, other].map(|swept| Bounds::around(&[swept.a0, swept.b0, swept.a1, swept.b1]));
+    if !first.grown(REACH * (1.0 + second.longest())).meets(&second) {
+        return None;
+    }
+    let [rope, edge] = [one, other].map(|swept| [Mover::between(swept.a0, swept.a1), Mover::between(swept.b0, swept.b1)]);
+    let first = segment_meets_edge(rope, edge);
+    (first <= 1.0).then_some(first)
+}
+
 /// Whether the boxes around the two moves have a point in common.
 fn reach_each_other(segment: &SweptSegment, triangle: &SweptTriangle) -> bool {
     let rope = Bounds::around(&[segment.a0, segment.b0, segment.a1, segment.b1]);

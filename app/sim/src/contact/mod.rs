@@ -7,6 +7,7 @@ mod grain;
 pub(crate) mod grip;
 pub(crate) mod law;
 pub(crate) mod near;
+pub mod ropes;
 pub(crate) mod slots;
 pub mod sweep;
 pub(crate) mod work;

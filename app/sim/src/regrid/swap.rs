@@ -152,6 +152,7 @@ fn for_segments(rope: &mut RopeState, work: &mut RegridWork, act: impl Fn(Values
         grips: _,
         // They lie by length along the line, which stays.
         solid_grips: _,
+        rope_grips: _,
     } = rope;
     act(Values::Numbers(segment_length));
     act(Values::Numbers(tension));

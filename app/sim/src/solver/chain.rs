@@ -22,8 +22,11 @@ pub(crate) struct Band {
     pub force: Vec<DVec3>,
     /// Solution: move of each node.
     pub step: Vec<DVec3>,
-    inverse: Vec<DMat3>,
-    fill: Vec<DMat3>,
+    /// After [`eliminate`](Self::eliminate): inverse of each inner node's diagonal, and what couples its row to end A and end A's row
+    /// to it.
+    pub inverse: Vec<DMat3>,
+    pub fill: Vec<DMat3>,
+    pub back: Vec<DMat3>,
 }
 
 /// What a line leaves on its ends A and B.
@@ -48,6 +51,7 @@ impl Band {
             step: vec![DVec3::ZERO; nodes],
             inverse: vec![DMat3::ZERO; nodes],
             fill: vec![DMat3::ZERO; nodes],
+            back: vec![DMat3::ZERO; nodes],
         }
     }
 
@@ -75,6 +79,7 @@ impl Band {
                 let back = gill * inverse;
                 aa -= back * fill;
                 force_a -= back * force;
+                self.back[node] = gill;
                 gill = -(back * up);
                 self.fill[node] = fill;
                 fill = -(across * fill);

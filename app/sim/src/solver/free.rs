@@ -113,6 +113,7 @@ impl Solver {
         self.lanes.keep(scheme, &mut state.rope);
         state.rope.earlier_dt_s = scheme.dt;
         state.rope.solid_grips.clear();
+        state.rope.rope_grips.clear();
         self.keep_bodies(scheme, state);
     }
 

@@ -6,6 +6,8 @@
 
 use glam::{DMat3, DVec3};
 
+use super::coupled::Columns;
+
 /// Where a line's end sits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Seat {
@@ -133,6 +135,40 @@ impl Hubs {
             // The diagonal was replaced by its inverse in `eliminate`.
             self.step[block] = self.value[self.slot[block * self.blocks + block] as usize] * right;
         }
+    }
+
+    /// Adds a force, or several, at the point of a seat to another right-hand side.
+    pub fn push_again<T: Columns>(&self, seat: Seat, arm: DVec3, force: T, right: &mut [T]) {
+        for (block, part) in parts(seat, arm) {
+            right[block] += force.by(part.transpose());
+        }
+    }
+
+    /// Solves for another right-hand side, after [`solve`](Self::solve).
+    pub fn solve_again<T: Columns>(&self, right: &mut [T], step: &mut [T]) {
+        let at = |row: usize, column: usize| self.value[self.slot[row * self.blocks + column] as usize];
+        for (place, &block) in self.order.iter().enumerate() {
+            let moved = right[block].by(at(block, block));
+            for &row in &self.later[place] {
+                right[row] -= moved.by(at(row, block));
+            }
+        }
+        for (place, &block) in self.order.iter().enumerate().rev() {
+            let mut left = right[block];
+            for &other in &self.later[place] {
+                left -= step[other].by(at(block, other));
+            }
+            step[block] = left.by(at(block, block));
+        }
+    }
+
+    /// Move of the point of a seat in such a solution.
+    pub fn step_again<T: Columns>(&self, seat: Seat, arm: DVec3, step: &[T]) -> T {
+        let mut sum = T::ZERO;
+        for (block, part) in parts(seat, arm) {
+            sum += step[block].by(part);
+        }
+        sum
     }
 
     fn eliminate(&mut self, place: usize) {

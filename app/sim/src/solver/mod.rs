@@ -9,6 +9,7 @@ mod axial;
 mod bending;
 mod body;
 mod chain;
+mod coupled;
 mod forces;
 mod free;
 mod ground;
@@ -19,10 +20,12 @@ mod plan;
 mod pulled;
 mod rest;
 mod rope;
+mod rope_on_rope;
 mod scheme;
 mod search;
 mod solid;
 mod suction;
+mod tied;
 mod tilt;
 mod touch;
 mod trial;
@@ -30,6 +33,7 @@ mod water;
 
 use glam::{DMat3, DVec3};
 
+use crate::contact::ropes::near::RopeWork;
 use crate::model::Model;
 use crate::solids::work::SolidWork;
 use crate::state::State;
@@ -38,6 +42,7 @@ use crate::water::field::Walk;
 use crate::whale::hitch::Hitches;
 pub(crate) use axial::Axial;
 use chain::{Band, Ends};
+use coupled::Coupling;
 pub(crate) use free::FreePass;
 use hubs::{Hubs, Seat};
 use lanes::Lanes;
@@ -48,6 +53,7 @@ use rope::Pull;
 pub(crate) use scheme::Scheme;
 use solid::Judged;
 pub(crate) use suction::LOOSE_M;
+pub(crate) use tied::Tied;
 pub(crate) use touch::{CONTACT_WANTED_M, TENSION_GAP_N, TENSION_GAP_SHARE, Touched};
 pub(crate) use trial::BodyTrial;
 use trial::Trial;
@@ -84,6 +90,14 @@ pub(crate) struct Solver {
     pub(crate) drift_bodies: Vec<BodyTrial>,
     /// Rope near obstacles and bodies.
     pub(crate) solid: SolidWork,
+    /// Rope near rope.
+    pub(crate) ropes: RopeWork,
+    coupling: Coupling,
+    /// Rope and bodies before a move.
+    before: Vec<DVec3>,
+    bodies_before: Vec<BodyTrial>,
+    /// Seat and arm of each joint, for a solve again.
+    seats: Vec<(Seat, DVec3)>,
 }
 
 /// Forces and blocks that the search along a step holds linear.
@@ -144,6 +158,11 @@ impl Solver {
             drift: Vec::new(),
             drift_bodies: Vec::new(),
             solid: SolidWork::new(model),
+            ropes: RopeWork::new(model),
+            coupling: Coupling::default(),
+            before: Vec::new(),
+            bodies_before: Vec::new(),
+            seats: Vec::new(),
         }
     }
 
@@ -165,6 +184,7 @@ impl Solver {
     pub(crate) fn assemble(&mut self, model: &Model, state: &State, scheme: &Scheme) {
         self.band.clear();
         self.hubs.clear();
+        self.coupling.touches.clear();
         self.add_nodes(model, scheme);
         self.add_push();
         self.add_seabed(model, state, scheme);
@@ -189,6 +209,7 @@ impl Solver {
         self.rest.force.clone_from(&self.band.force);
         self.rest.hubs.copy_values(&self.hubs);
         self.measure_tension(model, scheme);
+        self.ropes.follow(&self.trial.place);
         self.add_taut(model, state, scheme);
     }
 
@@ -204,6 +225,7 @@ impl Solver {
     /// Adds what a search along a step takes anew, but for contact with skin.
     fn add_taut(&mut self, model: &Model, state: &State, scheme: &Scheme) {
         self.add_solids(state, scheme, Judged::AsItIs);
+        self.add_ropes(state);
         self.add_tension(model, scheme);
         self.add_bending(model);
         self.add_end_turns(model, scheme);
@@ -224,6 +246,7 @@ impl Solver {
             let step_b = self.hubs.step_of(seat_b, self.arm(seat_b));
             self.band.substitute(&model.line_nodes[index], &model.line_segments[index], seat_a != Seat::Fixed, step_a, step_b);
         }
+        self.solve_coupled(model);
     }
 
     /// Longest solved move of any node or body [m].
@@ -347,6 +370,7 @@ impl Solver {
     pub(crate) fn keep(&self, model: &Model, scheme: &Scheme, state: &mut State) {
         self.keep_grips(model, scheme, state);
         self.keep_solid_grips(scheme, state);
+        self.keep_rope_grips(scheme, state);
         let rope = &mut state.rope;
         rope.earlier_position.clone_from(&rope.position);
         rope.earlier_velocity.clone_from(&rope.velocity);

@@ -2,7 +2,7 @@
 //!
 //! `g(s) = -F(x + s δ)·δ` is the slope of the incremental potential along the step `δ`; it begins below zero.
 //! The whole step is taken where `g` has not grown beyond half of what it began with, else the zero of `g` is
-//! closed in on by regula falsi (Illinois). Tension, push and friction of skin and of solids are taken anew at each trial, friction by
+//! closed in on by regula falsi (Illinois). Tension, push and friction of skin, of solids and of rope on rope are taken anew at each trial, friction by
 //! its plugin, so that neither the barrier's wall nor the kink where rope stops sliding is overshot; inertia, weight,
 //! drag, seabed and bodies are linear along the step by their assembled blocks.
 //! Reference: Nocedal and Wright 2006, Numerical Optimization, section 3.5 (doi:10.1007/978-0-387-40065-5).
@@ -63,6 +63,7 @@ impl Solver {
             + self.rope_slope(model, scheme, share)
             + self.bending_slope(model, share)
             + self.solid_slope(state, scheme, share)
+            + self.ropes_slope(state, share)
     }
 
     /// Slope of what is linear along the step: inertia, weight, drag, seabed, bodies.

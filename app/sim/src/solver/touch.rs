@@ -18,7 +18,7 @@ use crate::model::Model;
 use crate::state::State;
 
 /// Most Newton passes of a solver step with contact.
-const MOST_PASSES: usize = 40;
+pub(super) const MOST_PASSES: usize = 40;
 /// Move at which Newton has converged [m].
 const CONVERGED_M: f64 = 1e-6;
 /// Passes after which a move of less than `CONTACT_WANTED_M` is enough: what still moves then only trembles.
@@ -26,7 +26,7 @@ const FINE_PASSES: usize = 10;
 /// Move of the last pass above which a step counts as not converged [m].
 pub(crate) const CONTACT_WANTED_M: f64 = 1e-5;
 /// Move below which the search along the step is left out: rounding would decide it [m].
-const UNSEARCHED_M: f64 = 1e-5;
+pub(super) const UNSEARCHED_M: f64 = 1e-5;
 /// Difference between solved and true tension at which a step has converged [N].
 pub(crate) const TENSION_GAP_N: f64 = 2.0;
 /// The same as a share of the greatest tension.
@@ -34,9 +34,9 @@ pub(crate) const TENSION_GAP_SHARE: f64 = 0.02;
 /// Most times taut and slack are judged anew in a pass.
 const MOST_JUDGED: usize = 30;
 /// Most times a move is cut because bodies turn.
-const MOST_CUTS: usize = 12;
+pub(super) const MOST_CUTS: usize = 12;
 /// Least share a cut leaves.
-const LEAST_CUT: f64 = 0.1;
+pub(super) const LEAST_CUT: f64 = 0.1;
 
 /// How Newton with contact ended.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,6 +49,8 @@ pub(crate) enum Touched {
     TooFar,
     /// Rope is crushed at this segment by this triangle.
     Crushed(usize, usize),
+    /// These two segments are crushed by each other.
+    CrushedRopes([usize; 2]),
     /// The friction plugin failed.
     Plugin(Failed),
 }
@@ -64,12 +66,14 @@ impl Solver {
             if let Err(ended) = self.assemble_touching(model, state, scheme, work) {
                 return ended;
             }
-            self.solve_judged(model, state, scheme, work);
+            self.solve_judged(model, state, scheme, Some(work));
             let longest = self.longest();
             if !longest.is_finite() {
                 return Touched::NotFinite;
             }
-            let safe = work.near.safe_share(&self.trial.place, |node| self.trial.place[node] + self.band.step[node], work.near.fraction);
+            let moved = |node: usize| self.trial.place[node] + self.band.step[node];
+            let safe = work.near.safe_share(&self.trial.place, moved, work.near.fraction);
+            let safe = safe.min(self.ropes.safe_share(&self.trial.place, moved));
             let share = if longest * safe > UNSEARCHED_M { self.search(model, state, scheme, work, safe) } else { safe };
             let (taken, crossed) = self.move_by(model, work, share);
             crossings += crossed;
@@ -82,7 +86,7 @@ impl Solver {
             if taken >= 1.0 {
                 last_m = left_to_go(last_m, moved_before_m);
             }
-            if (taken < 1.0 || last_m <= enough(passes)) && self.open_more(work) {
+            if (taken < 1.0 || last_m <= enough(passes)) && self.open_more(state, work) {
                 last_m = f64::INFINITY;
             }
         }
@@ -93,7 +97,7 @@ impl Solver {
     ///
     /// Judged by where they are alone, slack rope that the step would draw taut stops the search along it after a small share,
     /// pass after pass: with segments of a centimetre the passes ran out before anything balanced.
-    fn solve_judged(&mut self, model: &Model, state: &State, scheme: &Scheme, work: &ContactWork) {
+    pub(super) fn solve_judged(&mut self, model: &Model, state: &State, scheme: &Scheme, work: Option<&ContactWork>) {
         self.solve(model);
         for _ in 0..MOST_JUDGED {
             self.foretell_tension(model, 1.0);
@@ -101,15 +105,18 @@ impl Solver {
                 return;
             }
             self.assemble_again(model, state, scheme);
-            self.add_contact_blocks(work);
+            if let Some(work) = work {
+                self.add_contact_blocks(work);
+            }
             self.solve(model);
         }
     }
 
-    /// Opens slots where rope has come nearer to skin than at those it has; whether there were any.
-    fn open_more(&self, work: &mut ContactWork) -> bool {
+    /// Opens slots where rope has come nearer to skin or rope than at those it has; whether there were any.
+    fn open_more(&mut self, state: &State, work: &mut ContactWork) -> bool {
         work.slots.measure(&work.near, &self.trial.place);
-        work.slots.open_more(&work.near, &self.trial.place) > 0
+        let on_rope = self.ropes.open_more(state, &self.trial.place);
+        work.slots.open_more(&work.near, &self.trial.place) > 0 || on_rope
     }
 
     /// Forces and matrix with contact at the trial places; what is linear in the search is kept apart.
@@ -118,6 +125,9 @@ impl Solver {
         work.slots.measure(&work.near, &self.trial.place);
         if let Some((segment, triangle)) = work.nearer_than(CRUSHED_SHARE) {
             return Err(Touched::Crushed(segment, triangle));
+        }
+        if let Some(segments) = self.crushed_ropes(false) {
+            return Err(Touched::CrushedRopes(segments));
         }
         self.add_contacts(model, state, scheme, work).map_err(Touched::Plugin)
     }
@@ -194,7 +204,9 @@ impl Solver {
         for _ in 0..MOST_CUTS {
             self.advance(model, share);
             let safe = work.near.safe_share(&work.before, |node| self.trial.place[node], work.near.fraction);
+            let safe = safe.min(self.safe_of_ropes_from(&work.before));
             if safe >= 1.0 {
+                self.move_ropes_from(&work.before);
                 return (share, work.near.make_move(&work.before, |node| self.trial.place[node], work.near.fraction));
             }
             self.trial.place.clone_from(&work.before);
@@ -216,7 +228,7 @@ impl Solver {
 }
 
 /// Move that is small enough after so many passes [m].
-fn enough(passes: usize) -> f64 {
+pub(super) fn enough(passes: usize) -> f64 {
     if passes < FINE_PASSES { CONVERGED_M } else { CONTACT_WANTED_M }
 }
 
@@ -224,7 +236,7 @@ fn enough(passes: usize) -> f64 {
 /// for forces are kept as they were before it.
 ///
 /// With `θ = δ/δ'` the ratio of two moves, what is left is about `θ/(1-θ) δ` (Hairer and Wanner, section IV.8).
-fn left_to_go(last_m: f64, before_m: f64) -> f64 {
+pub(super) fn left_to_go(last_m: f64, before_m: f64) -> f64 {
     let shrinkage = last_m / before_m;
     if last_m < CONTACT_WANTED_M && shrinkage < 0.5 { last_m * shrinkage / (1.0 - shrinkage) } else { last_m }
 }

@@ -59,7 +59,13 @@ fn head(report: &Report) -> String {
         vec!["model".into(), format!("{} rope nodes, {} triangles, seed {}", report.nodes, report.triangles, report.seed)],
         vec![
             "audit".into(),
-            format!("{} tunnelled, {} not finite, {:.2} mm deepest", audit.tunnelled, audit.non_finite, 1e3 * audit.max_penetration_m),
+            format!(
+                "{} tunnelled, {} ropes crossed, {} not finite, {:.2} mm deepest",
+                audit.tunnelled,
+                audit.ropes_crossed,
+                audit.non_finite,
+                1e3 * audit.max_penetration_m
+            ),
         ],
         vec!["solver steps".into(), format!("{}, mostly limited by {}", audit.solver_steps, audit.steps_mostly_limited_by)],
         vec!["state hash".into(), report.state_hash.clone()],

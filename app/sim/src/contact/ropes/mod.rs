@@ -1,0 +1,69 @@
+//! Rope against rope: other lines, and the same line where it comes back to itself.
+//!
+//! Two segments touch where their centre lines come nearer than the sum `h` of their radii. What presses is a *point*: at
+//! fractions `s`, `t` of the two, pushed apart along the line between them by the law of `law.rs`, held by an elastic grip
+//! that slips at `μN` (`solver/ground.rs`). Where ropes cross there is one point, at which they are nearest; where they run
+//! along each other, one at each end of the stretch they share (`points.rs`).
+//!
+//! Nothing crosses: every move is cut short by additive continuous collision detection (`sweep.rs`) and checked again by the
+//! exact test of `crossing.rs`. The forces stand in `solver/rope_on_rope.rs`, the linear algebra in `solver/coupled.rs`.
+
+pub(crate) mod broad;
+pub(crate) mod near;
+pub(crate) mod points;
+pub(crate) mod sweep;
+
+use glam::DVec3;
+
+use crate::solids::ROPE_ON_HARD_N_M2;
+
+/// Friction of wet synthetic rope on itself: 0.1 to 0.2, the order of wet yarn on yarn of nylon and polyester with a marine finish
+/// (Flory, Hearle and Goksoy 1990, as known second hand; estimate).
+pub const ROPE_ON_ROPE_FRICTION: f64 = 0.15;
+
+/// Friction of rope on rope and how hard ropes are under each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RopeOnRope {
+    /// Coulomb friction.
+    pub friction: f64,
+    /// Stiffness, by length over which two ropes bear on each other [N/m²].
+    pub stiffness_n_m2: f64,
+}
+
+impl Default for RopeOnRope {
+    fn default() -> Self {
+        Self { friction: ROPE_ON_ROPE_FRICTION, stiffness_n_m2: ROPE_ON_HARD_N_M2 }
+    }
+}
+
+/// A point at which two ropes touch, as it lasts from step to step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RopeGrip {
+    /// The two lines.
+    pub lines: [usize; 2],
+    /// Unstretched length along each [m].
+    pub along_m: [f64; 2],
+    /// Tangential stretch of the grip [m].
+    pub stretch: DVec3,
+    /// Depth that is forgiven: ropes that lay in each other when the run began are pushed apart slowly [m].
+    pub forgiven_m: f64,
+}
+
+/// A place where two ropes press on each other, at the end of a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RopeTouch {
+    /// The two segments in the model's layout.
+    pub segments: [usize; 2],
+    /// Where on each, 0 at its first node, 1 at its second.
+    pub fractions: [f64; 2],
+    /// Place on the first rope's centre line [m].
+    pub position: DVec3,
+    /// Unit normal from the second rope to the first.
+    pub normal: DVec3,
+    /// Distance of the centre lines [m].
+    pub distance_m: f64,
+    /// Normal force [N].
+    pub normal_force_n: f64,
+    /// Friction force of the second rope on the first [N].
+    pub friction_n: DVec3,
+}
