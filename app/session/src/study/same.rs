@@ -7,7 +7,7 @@
 
 use endline_sdk::AttributeValue;
 use endline_sim::metrics::Summary;
-use endline_sim::model::{Line, Rope};
+use endline_sim::model::{FrictionLaw, Line, Rope};
 use endline_sim::whale::Whale;
 use endline_sim::{Model, ModelSpec};
 
@@ -72,7 +72,10 @@ fn same_gear_types(one: &ModelSpec, other: &ModelSpec) -> bool {
 fn same_whale(one: &ModelSpec, other: &ModelSpec) -> bool {
     let friction = match (&one.friction, &other.friction) {
         (Some(a), Some(b)) => {
-            a.model.descriptor().id == b.model.descriptor().id && a.attributes == b.attributes && a.coefficients == b.coefficients
+            let same_law =
+                |(a, b): (&FrictionLaw, &FrictionLaw)| a.model.descriptor().id == b.model.descriptor().id && a.attributes == b.attributes;
+            let laws = a.laws.len() == b.laws.len() && a.laws.iter().zip(&b.laws).all(same_law);
+            laws && a.law_of == b.law_of && a.coefficients == b.coefficients
         }
         (None, None) => true,
         _ => false,
