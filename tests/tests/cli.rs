@@ -94,6 +94,22 @@ fn settle_prints_shape_tensions_and_residual() {
     assert!(place.endline(&["settle", &scenario]).done().stdout.contains("at rest"));
 }
 
+/// In 2 m/s nothing holds the shipped single: a run does not start from gear that drags, unless told.
+#[test]
+fn a_run_refuses_unsettled_gear_unless_told() {
+    let place = Place::new("unsettled");
+    let scenario = place.short_scenario("hello-endline", "0.1 s");
+    edit(scenario.as_ref(), "speed", "speed = \"2 m/s\"");
+    let why = ["the gear drags", "more pull than", "`trap`"];
+    place.endline(&["settle", &scenario]).fails(1, &why);
+    let refused = place.endline(&["run", &scenario, "--json"]);
+    refused.fails(1, &why);
+    refused.fails(1, &["--allow-unsettled"]);
+    assert_eq!(refused.stdout, "");
+    let told = place.endline(&["run", &scenario, "--json", "--allow-unsettled"]).done().json();
+    assert_eq!(told["valid"], true);
+}
+
 #[test]
 fn wrong_use_ends_with_2() {
     let place = Place::new("use");

@@ -32,5 +32,5 @@ pub use frame::Frame;
 pub use glam::{DAffine3, DMat3, DQuat, DVec3};
 pub use model::{Model, ModelSpec};
 pub use state::State;
-pub use statics::{Outcome, Settled, settle};
+pub use statics::{Outcome, Settled, Unfound, settle};
 pub use step::{Audit, Input, Stop, Workspace, step};

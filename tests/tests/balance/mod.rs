@@ -54,7 +54,8 @@ fn line_ends(model: &Model, state: &State, index: usize) -> f64 {
 fn end_force(model: &Model, rope: usize, length_m: f64, [at, next]: [DVec3; 2]) -> f64 {
     let (rope, water) = (&model.spec.ropes[rope], &model.spec.water);
     let (chord, tangent) = ((next - at).length(), (next - at).normalize());
-    let tension = (rope.axial_stiffness_n * (chord / length_m - 1.0)).max(0.0);
+    let strain = (chord / length_m - 1.0).max(0.0);
+    let tension = rope.axial_stiffness_n * strain + rope.axial_stiffening_n * strain * strain;
     let wet = (0.5 - at.z / SURFACE_HEIGHT_M).clamp(0.0, 1.0);
     let weight = (water.density_kg_m3 * rope.displaced_m3_m * wet - rope.mass_kg_m) * water.gravity_m_s2;
     let flow = water.velocity(at);

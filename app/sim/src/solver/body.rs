@@ -94,6 +94,8 @@ impl Solver {
         }
         if trial.held {
             *self.hubs.at(block, block) += DMat3::IDENTITY * HELD;
+        }
+        if trial.held || trial.upright {
             *self.hubs.at(block + 1, block + 1) += DMat3::IDENTITY * HELD;
         }
     }

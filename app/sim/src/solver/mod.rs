@@ -307,8 +307,11 @@ impl Solver {
             }
         }
         for (index, block) in self.plan.body_block.iter().enumerate() {
-            if self.trial.bodies[index].held {
+            let body = &self.trial.bodies[index];
+            if body.held {
                 hubs[*block] = DVec3::ZERO;
+            }
+            if body.held || body.upright {
                 hubs[block + 1] = DVec3::ZERO;
             }
         }

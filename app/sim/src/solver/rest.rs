@@ -33,6 +33,13 @@ impl Solver {
         }
     }
 
+    /// Lets every laid body move but not turn, through the attempt that was begun.
+    pub(crate) fn keep_upright(&mut self, model: &Model) {
+        for (index, body) in self.trial.bodies.iter_mut().enumerate() {
+            body.upright |= is_laid(model, index);
+        }
+    }
+
     /// Puts the trial where another state is, through the attempt that was begun; held bodies stay.
     pub(crate) fn start_at(&mut self, model: &Model, guess: &State) {
         self.trial.place.clone_from(&guess.rope.position);
@@ -171,7 +178,8 @@ impl Solver {
             }
         }
         for (index, block) in self.plan.body_block.iter().enumerate().filter(|(index, _)| !self.trial.bodies[*index].held) {
-            offer(WorstAt::Body(index), hubs[*block].length().max(hubs[block + 1].length()));
+            let torque = if self.trial.bodies[index].upright { 0.0 } else { hubs[block + 1].length() };
+            offer(WorstAt::Body(index), hubs[*block].length().max(torque));
         }
         worst
     }

@@ -41,6 +41,8 @@ pub(crate) struct BodyTrial {
     pub burden: f64,
     /// Whether it is held in place.
     pub held: bool,
+    /// Whether it may move but not turn.
+    pub upright: bool,
 }
 
 impl Trial {
@@ -88,6 +90,7 @@ impl Trial {
                 place_history: scheme.history(now.position, now.earlier_position),
                 velocity_history: scheme.history(now.velocity, now.earlier_velocity),
                 held,
+                upright: false,
             });
         }
     }

@@ -9,6 +9,7 @@
 //! Reference: Rockafellar 1976, Monotone operators and the proximal point algorithm (doi:10.1137/0314056).
 
 use super::newton::{Attempt, FAR, Newton, PSEUDO_MASS, Reached, TOLERANCE_N, Way};
+use super::trail::Trail;
 use crate::model::Model;
 use crate::solver::WorstAt;
 
@@ -79,21 +80,22 @@ impl<'a> Burdens<'a> {
 }
 
 /// Finds a state at rest from an attempt's guess.
-pub(super) fn creep(model: &Model, attempt: &Attempt, most_passes: usize, trace_n: &mut Vec<f64>) -> Reached {
+pub(super) fn creep(model: &Model, attempt: &Attempt, most_passes: usize, trail: &mut Trail) -> Reached {
     let mut newton = Newton::new(model, &Attempt { pseudo_mass: 1.0, ..*attempt }).anchored();
     let mut burdens = Burdens::new(model, FAR, &mut newton);
-    let last = trace_n.len() + most_passes;
+    let last = trail.passes() + most_passes;
     let mut tension = Vec::new();
     loop {
         newton.solver.anchor();
         let residual_n = newton.balance_at_rest();
-        if residual_n < TOLERANCE_N || !residual_n.is_finite() || trace_n.len() >= last {
+        trail.pass(model, residual_n);
+        if residual_n < TOLERANCE_N || !residual_n.is_finite() || trail.passes() >= last || trail.is_spent() {
             return newton.reached(residual_n);
         }
         tension.clear();
         tension.extend_from_slice(newton.solver.tension());
         let enough_n = (BALANCED * residual_n).max(0.5 * TOLERANCE_N);
-        match stride(&mut newton, model, enough_n, trace_n) {
+        match stride(&mut newton, model, enough_n, trail) {
             Stride::Balanced(passes) => {
                 newton.regrip();
                 burdens.change(&mut newton, change(passes), |_| true);
@@ -108,7 +110,7 @@ pub(super) fn creep(model: &Model, attempt: &Attempt, most_passes: usize, trace_
 }
 
 /// Passes from where the trial was anchored until it balances.
-fn stride(newton: &mut Newton, model: &Model, enough_n: f64, trace_n: &mut Vec<f64>) -> Stride {
+fn stride(newton: &mut Newton, model: &Model, enough_n: f64, trail: &mut Trail) -> Stride {
     let mut turned = 0.0;
     for pass in 1..=STRIDE_PASSES {
         turned += newton.solve();
@@ -119,7 +121,7 @@ fn stride(newton: &mut Newton, model: &Model, enough_n: f64, trace_n: &mut Vec<f
         newton.solver.advance(model, share);
         newton.solver.measure_flow(model);
         let residual_n = newton.balance(Way::Foretold);
-        trace_n.push(residual_n);
+        trail.pass(model, residual_n);
         if residual_n < enough_n {
             return Stride::Balanced(pass);
         }

@@ -16,9 +16,20 @@ const LAID_M: f64 = 1e-4;
 /// How steeply it goes down to it from its ends.
 const DESCENT: f64 = 0.25;
 
-/// The model's own guess of places, with bodies as deep in the seabed as they lie.
+/// Share of its length that a line between laid bodies is laid within, and how often that is seen to.
+const LAID_SHARE: f64 = 1.0 - 1e-4;
+const LAYINGS: usize = 4;
+
+/// The model's own guess of places, with laid bodies no further apart than the lines between them are long, and as deep in
+/// the seabed as they lie.
 pub(super) fn straight(model: &Model) -> State {
     let mut state = State::start(model);
+    for _ in 0..LAYINGS {
+        (0..model.spec.lines.len()).for_each(|line| draw_near(model, line, &mut state));
+    }
+    (0..model.spec.lines.len())
+        .filter(|line| model.spec.lines[*line].start_m.is_empty())
+        .for_each(|line| straighten(model, line, &mut state));
     for index in (0..model.spec.bodies.len()).filter(|index| is_laid(model, *index)) {
         sink(model, index, &mut state);
     }
@@ -46,12 +57,48 @@ fn sink(model: &Model, index: usize, state: &mut State) {
     if weight <= 0.0 {
         return;
     }
-    let down = seabed.normal * (lowest - seabed.depth_under(weight / body.feet_m.len() as f64));
-    state.bodies[index].position += down;
+    shift(model, index, seabed.normal * (lowest - seabed.depth_under(weight / body.feet_m.len() as f64)), state);
+}
+
+/// Draws the laid bodies at a line's ends together where they are further apart than it is long: gear is laid with its
+/// lines slack, and no rope is so stiff that it would be laid stretched.
+fn draw_near(model: &Model, line: usize, state: &mut State) {
+    let (line, nodes) = (&model.spec.lines[line], &model.line_nodes[line]);
+    let movable = |joint: usize| match model.spec.joints[joint].kind {
+        JointKind::Body { body, .. } if is_laid(model, body) => Some((body, model.spec.bodies[body].held_until_s.is_none())),
+        _ => None,
+    };
+    let (Some(seabed), Some((from, from_free)), Some((to, to_free))) = (&model.spec.seabed, movable(line.from), movable(line.to)) else {
+        return;
+    };
+    let chord = state.rope.position[nodes.end - 1] - state.rope.position[nodes.start];
+    let excess = chord.length() - LAID_SHARE * line.segments_m.iter().sum::<f64>();
+    let Some(along) = chord.reject_from_normalized(seabed.normal).try_normalize().filter(|_| excess > 0.0 && from != to) else { return };
+    if to_free {
+        shift(model, to, along * -excess, state);
+    } else if from_free {
+        shift(model, from, along * excess, state);
+    }
+}
+
+/// Lays a line straight between its ends.
+fn straighten(model: &Model, index: usize, state: &mut State) {
+    let (line, nodes) = (&model.spec.lines[index], model.line_nodes[index].clone());
+    let (from, to) = (state.rope.position[nodes.start], state.rope.position[nodes.end - 1]);
+    let (whole, mut along) = (line.segments_m.iter().sum::<f64>(), 0.0);
+    for (node, segment) in (nodes.start + 1..nodes.end - 1).zip(&line.segments_m) {
+        along += segment;
+        state.rope.position[node] = from.lerp(to, along / whole);
+    }
+}
+
+/// Moves a body and the line ends at it.
+fn shift(model: &Model, index: usize, by: DVec3, state: &mut State) {
+    state.bodies[index].position += by;
     for (line, nodes) in model.spec.lines.iter().zip(&model.line_nodes) {
         for (joint, node) in [(line.from, nodes.start), (line.to, nodes.end - 1)] {
             if matches!(model.spec.joints[joint].kind, JointKind::Body { body, .. } if body == index) {
-                state.rope.position[node] += down;
+                state.rope.position[node] += by;
             }
         }
     }

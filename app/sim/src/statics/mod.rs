@@ -13,6 +13,7 @@ mod guess;
 mod newton;
 pub mod outcome;
 mod relax;
+mod trail;
 mod ways;
 
 use crate::model::Model;
@@ -20,7 +21,8 @@ use crate::state::State;
 use crate::whale::pilot;
 use coarse::Coarse;
 use newton::{Attempt, FAR, Hold, NEAR, Reached};
-pub use outcome::{Drag, Outcome, Worst};
+pub use outcome::{Drag, Outcome, Unfound, Worst};
+use trail::Trail;
 use ways::{HELD, REFINED, RELEASED, Way};
 
 /// A rig at rest, or the nearest to it that was found.
@@ -56,7 +58,7 @@ impl Settled {
     #[must_use]
     pub fn why(&self) -> String {
         match (&self.outcome, &self.worst) {
-            (Outcome::NotFound, Some(worst)) => format!("{}: {:.3e} N is left at {}", self.outcome, worst.force_n, worst.part),
+            (Outcome::NotFound(_), Some(worst)) => format!("{}; {:.3e} N is left at {}", self.outcome, worst.force_n, worst.part),
             (outcome, _) => outcome.to_string(),
         }
     }
@@ -65,9 +67,9 @@ impl Settled {
 /// Finds the state at rest under the model's water at time zero.
 #[must_use]
 pub fn settle(model: &Model) -> Settled {
-    let mut trace_n = Vec::new();
-    let found = find(model, &mut trace_n);
-    told(model, found, trace_n)
+    let mut trail = Trail::default();
+    let found = find(model, &mut trail);
+    told(model, found, trail)
 }
 
 /// What was found for gear of some fineness.
@@ -82,23 +84,24 @@ struct Found {
 }
 
 /// Coarse gear first, then as it is.
-fn find(model: &Model, trace_n: &mut Vec<f64>) -> Found {
-    let refined = Coarse::of(model).and_then(|coarse| {
-        let found = find(&coarse.model, trace_n);
-        refine(model, &coarse, &found, trace_n)
-    });
-    refined.unwrap_or_else(|| find_anew(model, trace_n))
+fn find(model: &Model, trail: &mut Trail) -> Found {
+    let Some(coarse) = Coarse::of(model) else { return find_anew(model, trail) };
+    let found = find(&coarse.model, trail);
+    if trail.is_spent() {
+        return carry(model, &coarse, found, trail);
+    }
+    refine(model, &coarse, &found, trail).unwrap_or_else(|| find_anew(model, trail))
 }
 
 /// From what was found for coarser gear; nothing where that does not lead there.
-fn refine(model: &Model, coarse: &Coarse, found: &Found, trace_n: &mut Vec<f64>) -> Option<Found> {
+fn refine(model: &Model, coarse: &Coarse, found: &Found, trail: &mut Trail) -> Option<Found> {
     let [first, held, guess] = [&found.first, &found.held, &found.end.state].map(|state| coarse.carry(model, state));
     let (laid, hold) = match found.outcome {
         Outcome::AtRest => (&held, Hold::Released),
         Outcome::Drags(_) => (&first, Hold::Laid),
-        Outcome::NotFound => return None,
+        Outcome::NotFound(_) => return None,
     };
-    let end = ways::try_all(&REFINED, model, &Attempt { laid, guess: &guess, hold, pseudo_mass: NEAR }, trace_n);
+    let end = ways::try_all(&REFINED, model, &Attempt { laid, guess: &guess, hold, pseudo_mass: NEAR }, trail);
     if !end.at_rest() {
         return None;
     }
@@ -106,31 +109,54 @@ fn refine(model: &Model, coarse: &Coarse, found: &Found, trace_n: &mut Vec<f64>)
     Some(Found { first, held, end, outcome })
 }
 
+/// What was found for coarser gear as it is, where it is time to give up.
+fn carry(model: &Model, coarse: &Coarse, found: Found, trail: &mut Trail) -> Found {
+    let [first, held, guess] = [&found.first, &found.held, &found.end.state].map(|state| coarse.carry(model, state));
+    let (laid, hold) = if matches!(found.outcome, Outcome::Drags(_)) { (&first, Hold::Laid) } else { (&held, Hold::Released) };
+    let end = newton::descend(model, &Attempt { laid, guess: &guess, hold, pseudo_mass: NEAR }, 1, trail);
+    let outcome = match found.outcome {
+        Outcome::AtRest if !end.at_rest() => Outcome::NotFound(Unfound::Fine),
+        outcome => outcome,
+    };
+    Found { first, held, end, outcome }
+}
+
 /// From the first guess.
-fn find_anew(model: &Model, trace_n: &mut Vec<f64>) -> Found {
+fn find_anew(model: &Model, trail: &mut Trail) -> Found {
     let first = guess::first_guess(model);
-    let held = ways::try_all(&HELD, model, &Attempt { laid: &first, guess: &first, hold: Hold::Laid, pseudo_mass: FAR }, trace_n);
+    let held = ways::try_all(&HELD, model, &Attempt { laid: &first, guess: &first, hold: Hold::Laid, pseudo_mass: FAR }, trail);
     let attempt = Attempt { laid: &held.state, guess: &held.state, hold: Hold::Released, pseudo_mass: FAR };
     if !held.at_rest() {
-        let end = ways::take(Way::Soften, model, &attempt, trace_n);
-        let outcome = if end.at_rest() { Outcome::AtRest } else { Outcome::NotFound };
+        let end = ways::take(Way::Soften, model, &attempt, trail);
+        let outcome = if end.at_rest() { Outcome::AtRest } else { Outcome::NotFound(Unfound::Held) };
         return Found { first, held: held.state, end, outcome };
     }
-    let drag = outcome::drags(model, &held);
+    let grip = outcome::grip(model, &held);
+    let drag = grip.clone().filter(Drag::is_lost);
     // Where the pull is greater than the hold, most often there is no rest: the quick ways are enough.
     let ways = if drag.is_some() { &RELEASED[..2] } else { &RELEASED };
-    let released = ways::try_all(ways, model, &attempt, trace_n);
+    let released = release(ways, model, &attempt, trail);
     let (outcome, end) = match drag {
         _ if released.at_rest() => (Outcome::AtRest, released),
         Some(drag) => (Outcome::Drags(drag), held.clone()),
-        None => (Outcome::NotFound, released),
+        None => (Outcome::NotFound(Unfound::Released(grip)), released),
     };
     Found { first, held: held.state, end, outcome }
 }
 
-fn told(model: &Model, found: Found, trace_n: Vec<f64>) -> Settled {
+/// Lets laid bodies go; where that overturns one, once more with bodies that slide before they turn.
+fn release(ways: &[Way], model: &Model, attempt: &Attempt, trail: &mut Trail) -> Reached {
+    let released = ways::try_all(ways, model, attempt, trail);
+    if released.at_rest() && !outcome::overturned(model, attempt.laid, &released.state) {
+        return released;
+    }
+    let slid = ways::take(Way::Slide, model, attempt, trail);
+    if slid.at_rest() { slid } else { released }
+}
+
+fn told(model: &Model, found: Found, trail: Trail) -> Settled {
     let Found { mut end, outcome, .. } = found;
     let (worst, converged) = (outcome::worst(model, &end), outcome == Outcome::AtRest);
     pilot::begin(model, &mut end.state);
-    Settled { state: end.state, outcome, residual_n: end.residual_n, worst, converged, trace_n }
+    Settled { state: end.state, outcome, residual_n: end.residual_n, worst, converged, trace_n: trail.residual_n }
 }

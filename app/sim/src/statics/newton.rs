@@ -10,6 +10,7 @@
 
 use glam::DVec3;
 
+use super::trail::Trail;
 use crate::model::Model;
 use crate::solver::{Scheme, Solver, WorstAt, is_laid};
 use crate::state::State;
@@ -49,6 +50,8 @@ const LIFTED_M: f64 = 0.05;
 pub(super) enum Hold {
     /// Bodies that were laid stay as they lie.
     Laid,
+    /// They hold by their own grip on the seabed, but do not turn.
+    Upright,
     /// They hold by their own grip on the seabed.
     Released,
 }
@@ -109,8 +112,10 @@ impl<'a> Newton<'a> {
     pub fn new(model: &'a Model, attempt: &Attempt) -> Self {
         let (mut solver, scheme) = (Solver::new(model), Scheme::statics(attempt.pseudo_mass));
         solver.begin(model, attempt.laid, &scheme);
-        if attempt.hold == Hold::Laid {
-            solver.hold_laid(model);
+        match attempt.hold {
+            Hold::Laid => solver.hold_laid(model),
+            Hold::Upright => solver.keep_upright(model),
+            Hold::Released => {}
         }
         solver.start_at(model, attempt.guess);
         Self { model, laid: attempt.laid.clone(), pseudo_mass: attempt.pseudo_mass, wary: 0, wait: 0, solver, scheme }
@@ -198,15 +203,15 @@ impl<'a> Newton<'a> {
 }
 
 /// Newton, begun with the pseudo-mass of the attempt.
-pub(super) fn descend(model: &Model, attempt: &Attempt, most_passes: usize, trace_n: &mut Vec<f64>) -> Reached {
+pub(super) fn descend(model: &Model, attempt: &Attempt, most_passes: usize, trail: &mut Trail) -> Reached {
     let mut newton = Newton::new(model, attempt);
     let longest_line = model.spec.lines.iter().map(|line| line.segments_m.iter().sum::<f64>()).fold(1.0, f64::max);
     let mut before = Vec::new();
     let mut residual_n = f64::INFINITY;
     for _ in 0..most_passes {
         residual_n = newton.balance_at_rest();
-        trace_n.push(residual_n);
-        if residual_n < TOLERANCE_N || !residual_n.is_finite() {
+        trail.pass(model, residual_n);
+        if residual_n < TOLERANCE_N || !residual_n.is_finite() || trail.is_spent() {
             break;
         }
         newton.stiffen_slack();

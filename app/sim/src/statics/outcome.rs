@@ -7,6 +7,7 @@ use glam::DVec3;
 use super::newton::Reached;
 use crate::model::{JointKind, Model};
 use crate::solver::{WorstAt, is_laid};
+use crate::state::State;
 
 /// What statics found.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,10 +17,22 @@ pub enum Outcome {
     /// There is no rest: the gear drags. The state is that with the laid bodies held where they were laid.
     Drags(Drag),
     /// No balance was found: the state is the nearest to it.
-    NotFound,
+    NotFound(Unfound),
 }
 
-/// Gear that drags: what pulls it along the seabed and what holds it.
+/// How far statics came where it found no balance.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Unfound {
+    /// Not even with the laid bodies held where they were laid did the lines and buoys come to rest.
+    Held,
+    /// With the laid bodies held it is at rest, but not once they hold by their own grip; the gear that is nearest to
+    /// dragging, where some lies on a seabed.
+    Released(Option<Drag>),
+    /// At rest with coarser segments, but not with these.
+    Fine,
+}
+
+/// What pulls gear along the seabed and what holds it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drag {
     /// The laid body that lacks most.
@@ -31,10 +44,15 @@ pub struct Drag {
 }
 
 impl Drag {
-    /// Pull that nothing holds [N].
+    /// Pull that nothing holds; less than zero where the gear holds more [N].
     #[must_use]
     pub fn excess_n(&self) -> f64 {
         self.pull_n - self.hold_n
+    }
+
+    /// Whether more pulls than holds.
+    pub(super) fn is_lost(&self) -> bool {
+        self.excess_n() > 0.0
     }
 }
 
@@ -58,7 +76,21 @@ impl fmt::Display for Outcome {
                 drag.hold_n,
                 drag.body
             ),
-            Self::NotFound => f.write_str("no balance of forces was found"),
+            Self::NotFound(unfound) => write!(f, "no balance of forces was found{unfound}"),
+        }
+    }
+}
+
+impl fmt::Display for Unfound {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Held => f.write_str(", even with all that lies on the seabed held where it was laid"),
+            Self::Released(None) => Ok(()),
+            Self::Released(Some(Drag { body, pull_n, hold_n })) => {
+                f.write_str(": with all that lies on the seabed held there it is at rest, but not once that is let go, ")?;
+                write!(f, "with {pull_n:.1} N of pull for {hold_n:.1} N of hold, most at `{body}`")
+            }
+            Self::Fine => f.write_str(": it is at rest with coarser segments, but not with these"),
         }
     }
 }
@@ -74,11 +106,20 @@ pub(super) fn worst(model: &Model, reached: &Reached) -> Option<Worst> {
     Some(Worst { part, force_n })
 }
 
-/// Whether some gear is pulled harder than its laid bodies hold, from the loads on them where they are held.
+/// Lean beyond which a laid body lies no more as it was laid, as a cosine: 45 degrees.
+const OVERTURNED: f64 = core::f64::consts::FRAC_1_SQRT_2;
+
+/// Whether a laid body has turned over from how it was laid.
+pub(super) fn overturned(model: &Model, laid: &State, now: &State) -> bool {
+    let up = |state: &State, body: usize| state.bodies[body].orientation * DVec3::Z;
+    (0..model.spec.bodies.len()).any(|body| is_laid(model, body) && up(laid, body).dot(up(now, body)) < OVERTURNED)
+}
+
+/// The gear that is pulled hardest for what its laid bodies hold, from the loads on them where they are held.
 ///
 /// At rest the seabed must take up the whole pull along it on a gear's bodies, and friction takes up no more than `μN`:
-/// where the sum of the pulls is greater than the sum of the `μN` there is no rest, wherever the bodies lie.
-pub(super) fn drags(model: &Model, held: &Reached) -> Option<Drag> {
+/// where the sum of the pulls is greater than the sum of the `μN` the gear drags, wherever the bodies lie.
+pub(super) fn grip(model: &Model, held: &Reached) -> Option<Drag> {
     let seabed = model.spec.seabed.as_ref()?;
     let laid: Vec<usize> = (0..model.spec.bodies.len()).filter(|body| is_laid(model, *body)).collect();
     let gear = gear_of_bodies(model);
@@ -92,7 +133,12 @@ pub(super) fn drags(model: &Model, held: &Reached) -> Option<Drag> {
         Drag { body: most.map_or_else(String::new, |mate| model.spec.bodies[laid[mate]].id.clone()), pull_n, hold_n }
     };
     let free = (0..laid.len()).filter(|index| gear[laid[*index]] != FIXED);
-    free.map(lacks).filter(|drag| drag.excess_n() > 0.0).max_by(|a, b| a.excess_n().total_cmp(&b.excess_n()))
+    free.map(lacks).max_by(|a, b| a.excess_n().total_cmp(&b.excess_n()))
+}
+
+/// Whether some gear is pulled harder than its laid bodies hold.
+pub(super) fn drags(model: &Model, held: &Reached) -> Option<Drag> {
+    grip(model, held).filter(Drag::is_lost)
 }
 
 /// Gear that a fixture or a held body keeps from dragging.

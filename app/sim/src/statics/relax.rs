@@ -6,6 +6,7 @@
 //! to rest and then stiffened stage by stage, each from the last that came to rest.
 
 use super::newton::{Attempt, FAR, Hold, Newton, Reached, TOLERANCE_N, Way};
+use super::trail::Trail;
 use crate::model::Model;
 use crate::state::State;
 
@@ -32,15 +33,15 @@ const NARROW: f64 = 1.3;
 const MOST_STAGES: usize = 24;
 
 /// Finds a state at rest for gear laid as in `laid`.
-pub(super) fn relax(model: &Model, laid: &State, hold: Hold, trace_n: &mut Vec<f64>) -> Reached {
+pub(super) fn relax(model: &Model, laid: &State, hold: Hold, trail: &mut Trail) -> Reached {
     let anew = Attempt { laid, guess: laid, hold, pseudo_mass: FAR };
-    let mut best = quick(model, &anew, trace_n);
+    let mut best = quick(model, &anew, trail);
     for softest_n in SOFTEST_N {
-        if best.at_rest() {
+        if best.at_rest() || trail.is_spent() {
             break;
         }
-        let stiffened = stiffen(model, &anew, softest_n, trace_n);
-        let tried = approach(model, &Attempt { guess: &stiffened, ..anew }, trace_n);
+        let stiffened = stiffen(model, &anew, softest_n, trail);
+        let tried = approach(model, &Attempt { guess: &stiffened, ..anew }, trail);
         if tried.residual_n < best.residual_n {
             best = tried;
         }
@@ -49,25 +50,25 @@ pub(super) fn relax(model: &Model, laid: &State, hold: Hold, trace_n: &mut Vec<f
 }
 
 /// The quick way alone.
-pub(super) fn quick(model: &Model, from: &Attempt, trace_n: &mut Vec<f64>) -> Reached {
-    attempt(model, &Attempt { pseudo_mass: FAR, ..*from }, QUICK, trace_n)
+pub(super) fn quick(model: &Model, from: &Attempt, trail: &mut Trail) -> Reached {
+    attempt(model, &Attempt { pseudo_mass: FAR, ..*from }, QUICK, trail)
 }
 
 /// Softens the rope until it comes to rest, then stiffens it stage by stage, each from the last that came to rest.
-fn stiffen(model: &Model, anew: &Attempt, softest_n: f64, trace_n: &mut Vec<f64>) -> State {
+fn stiffen(model: &Model, anew: &Attempt, softest_n: f64, trail: &mut Trail) -> State {
     let stiffest_n = model.spec.ropes.iter().map(|rope| rope.axial_stiffness_n).fold(0.0, f64::max);
-    let softest = approach(&softened(model, softest_n), anew, trace_n);
+    let softest = approach(&softened(model, softest_n), anew, trail);
     if !softest.at_rest() {
         return anew.laid.clone();
     }
     let (mut state, mut stiffness_n, mut factor) = (softest.state, softest_n, GREATEST_FACTOR);
     for _ in 0..MOST_STAGES {
         let next_n = stiffness_n * factor;
-        if next_n >= stiffest_n {
+        if next_n >= stiffest_n || trail.is_spent() {
             break;
         }
         let (soft, from) = (softened(model, next_n), Attempt { guess: &state, ..*anew });
-        let reached = if factor < NARROW { approach(&soft, &from, trace_n) } else { attempt(&soft, &from, QUICK, trace_n) };
+        let reached = if factor < NARROW { approach(&soft, &from, trail) } else { attempt(&soft, &from, QUICK, trail) };
         if reached.at_rest() {
             (state, stiffness_n) = (reached.state, next_n);
             factor = (factor * factor).min(GREATEST_FACTOR);
@@ -90,17 +91,17 @@ fn softened(model: &Model, stiffness_n: f64) -> Model {
 }
 
 /// Tries the ways in turn from a guess; the better end.
-fn approach(model: &Model, from: &Attempt, trace_n: &mut Vec<f64>) -> Reached {
-    let quick = attempt(model, from, QUICK, trace_n);
+fn approach(model: &Model, from: &Attempt, trail: &mut Trail) -> Reached {
+    let quick = attempt(model, from, QUICK, trail);
     if quick.at_rest() {
         return quick;
     }
-    let sure = attempt(model, from, SURE, trace_n);
+    let sure = attempt(model, from, SURE, trail);
     if sure.residual_n < quick.residual_n { sure } else { quick }
 }
 
 /// Newton from a guess in one way.
-fn attempt(model: &Model, from: &Attempt, (way, most_passes): (Way, usize), trace_n: &mut Vec<f64>) -> Reached {
+fn attempt(model: &Model, from: &Attempt, (way, most_passes): (Way, usize), trail: &mut Trail) -> Reached {
     let mut newton = Newton::new(model, from);
     let mut residual_n = newton.balance(way);
     for _ in 0..most_passes {
@@ -108,8 +109,8 @@ fn attempt(model: &Model, from: &Attempt, (way, most_passes): (Way, usize), trac
             // What was foretold may call a segment slack that is not.
             residual_n = newton.balance(Way::Searched);
         }
-        trace_n.push(residual_n);
-        if residual_n < TOLERANCE_N || !residual_n.is_finite() {
+        trail.pass(model, residual_n);
+        if residual_n < TOLERANCE_N || !residual_n.is_finite() || trail.is_spent() {
             break;
         }
         newton.solve();

@@ -6,6 +6,7 @@ use super::creep::creep;
 use super::guess;
 use super::newton::{Attempt, Hold, Reached, descend};
 use super::relax;
+use super::trail::Trail;
 use crate::model::Model;
 use crate::state::State;
 
@@ -22,6 +23,8 @@ pub(super) enum Way {
     Creep,
     /// Soft rope made stiff.
     Soften,
+    /// Newton, laid bodies first sliding upright and then let go.
+    Slide,
 }
 
 /// With laid bodies held, from the first guess: 223 of 328, 24 of 105, 5 of 81, 58 of 60.
@@ -32,19 +35,25 @@ pub(super) const RELEASED: [Way; 4] = [Way::Turn(80), Way::Fall, Way::Creep, Way
 /// From the shape of coarser gear.
 pub(super) const REFINED: [Way; 3] = [Way::Turn(15), Way::Fall, Way::Creep];
 
+/// With laid bodies that slide upright, and with them let go from there.
+const SLIDING: [Way; 2] = [Way::Turn(80), Way::Fall];
+const LET_GO: [Way; 2] = [Way::Turn(120), Way::Creep];
+/// First pseudo-mass where bodies are let go: it turns a trap by less than its feet are deep in the seabed [1/s²].
+const FIRM: f64 = 1e4;
+
 /// Most passes of creeping.
 const CREEP_PASSES: usize = 600;
 /// Passes of Newton from where soft rope ended.
 const POLISH_PASSES: usize = 200;
 
 /// Tries ways in turn until one leads to rest; the best end.
-pub(super) fn try_all(ways: &[Way], model: &Model, attempt: &Attempt, trace_n: &mut Vec<f64>) -> Reached {
-    let mut best = take(ways[0], model, attempt, trace_n);
+pub(super) fn try_all(ways: &[Way], model: &Model, attempt: &Attempt, trail: &mut Trail) -> Reached {
+    let mut best = take(ways[0], model, attempt, trail);
     for way in &ways[1..] {
-        if best.at_rest() {
+        if best.at_rest() || trail.is_spent() {
             break;
         }
-        let reached = take(*way, model, attempt, trace_n);
+        let reached = take(*way, model, attempt, trail);
         if reached.residual_n < best.residual_n {
             best = reached;
         }
@@ -53,27 +62,35 @@ pub(super) fn try_all(ways: &[Way], model: &Model, attempt: &Attempt, trace_n: &
 }
 
 /// Goes one way.
-pub(super) fn take(way: Way, model: &Model, attempt: &Attempt, trace_n: &mut Vec<f64>) -> Reached {
+pub(super) fn take(way: Way, model: &Model, attempt: &Attempt, trail: &mut Trail) -> Reached {
     match way {
-        Way::Turn(most_passes) => descend(model, attempt, most_passes, trace_n),
-        Way::Fall => relax::quick(model, attempt, trace_n),
+        Way::Turn(most_passes) => descend(model, attempt, most_passes, trail),
+        Way::Fall => relax::quick(model, attempt, trail),
         Way::FallAnew => {
             let laid = straight(model, attempt.hold);
-            relax::quick(model, &Attempt { laid: &laid, guess: &laid, ..*attempt }, trace_n)
+            relax::quick(model, &Attempt { laid: &laid, guess: &laid, ..*attempt }, trail)
         }
-        Way::Creep => creep(model, attempt, CREEP_PASSES, trace_n),
-        Way::Soften => soften(model, attempt, trace_n),
+        Way::Creep => creep(model, attempt, CREEP_PASSES, trail),
+        Way::Soften => soften(model, attempt, trail),
+        Way::Slide => slide(model, attempt, trail),
     }
 }
 
+/// Laid bodies let slide before they may turn: rope that was laid taut pulls them to where it is slack, and does not
+/// overturn them.
+fn slide(model: &Model, attempt: &Attempt, trail: &mut Trail) -> Reached {
+    let slid = try_all(&SLIDING, model, &Attempt { hold: Hold::Upright, ..*attempt }, trail);
+    try_all(&LET_GO, model, &Attempt { guess: &slid.state, pseudo_mass: FIRM, ..*attempt }, trail)
+}
+
 /// Soft rope made stiff, and Newton from where that ends.
-fn soften(model: &Model, attempt: &Attempt, trace_n: &mut Vec<f64>) -> Reached {
+fn soften(model: &Model, attempt: &Attempt, trail: &mut Trail) -> Reached {
     let laid = straight(model, attempt.hold);
-    let relaxed = relax::relax(model, &laid, attempt.hold, trace_n);
+    let relaxed = relax::relax(model, &laid, attempt.hold, trail);
     if relaxed.at_rest() {
         return relaxed;
     }
-    let polished = descend(model, &Attempt { laid: &laid, guess: &relaxed.state, ..*attempt }, POLISH_PASSES, trace_n);
+    let polished = descend(model, &Attempt { laid: &laid, guess: &relaxed.state, ..*attempt }, POLISH_PASSES, trail);
     if polished.residual_n < relaxed.residual_n { polished } else { relaxed }
 }
 
