@@ -172,6 +172,39 @@ impl Document {
         Ok(())
     }
 
+    /// Adds a table at the end of a list of tables, such as `line`; answers its index.
+    ///
+    /// # Errors
+    /// Where there is something of that name that is no list of tables.
+    pub fn push_table(&mut self, list: &str, fields: &[(&str, &str)]) -> Result<usize, EditError> {
+        let no_list = || EditError { message: format!("`{list}` is no list of tables") };
+        let entry = self.document.entry(list).or_insert(Item::ArrayOfTables(ArrayOfTables::new()));
+        let tables = entry.as_array_of_tables_mut().ok_or_else(no_list)?;
+        let mut table = Table::new();
+        for (key, text) in fields {
+            table.insert(key, Item::Value(Setting::plain(text).0));
+        }
+        if !tables.is_empty() {
+            table.decor_mut().set_prefix("\n");
+        }
+        tables.push(table);
+        Ok(tables.len() - 1)
+    }
+
+    /// Takes a table out of a list of tables.
+    ///
+    /// # Errors
+    /// Where it is not there.
+    pub fn remove_table(&mut self, list: &str, index: usize) -> Result<(), EditError> {
+        let missing = || EditError { message: format!("`{list}.{index}` is not there") };
+        let tables = self.document.get_mut(list).and_then(Item::as_array_of_tables_mut).ok_or_else(missing)?;
+        if index >= tables.len() {
+            return Err(missing());
+        }
+        tables.remove(index);
+        Ok(())
+    }
+
     /// Removes a field of the top level or of a table, with its comment.
     ///
     /// # Errors

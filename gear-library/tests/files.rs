@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use endline_gear::{Diagnostic, Document, Library, Scenario, Severity, Sources, save_text};
+use endline_gear::{Diagnostic, Document, Library, Scenario, Setting, Severity, Sources, save_text};
 
 const ROPE: &str = r#"# A mill sheet.
 format = 1
@@ -223,4 +223,26 @@ fn an_overlay_takes_the_place_of_the_shipped_file() {
     let over = of("new").overlay(of("newer"));
     assert_eq!(over.get("ropes/test.toml"), Some("newer"));
     assert_eq!(over.only(&["ropes/other.toml".to_owned()]).iter().count(), 0);
+}
+
+#[test]
+fn tables_are_made_pushed_and_taken_out_with_all_else_as_it_was() {
+    let text = "# top\nname = \"x\"\n\n[[line]] # first\nid = \"a\"\n\n[[line]]\nid = \"b\" # keep\n";
+    let mut document = Document::parse(text).unwrap();
+    for (key, value) in [("rope", "weak"), ("within", "0.75")] {
+        document.put(&format!("line.0.inserts.{key}"), &Setting::plain(value)).unwrap();
+    }
+    let with = document.text();
+    let inserted = "[line.inserts]\nrope = \"weak\"\nwithin = 0.75\n";
+    let (before, after) = (with.find("id = \"a\"").unwrap(), with.find("id = \"b\" # keep").unwrap());
+    let at = with.find(inserted).unwrap();
+    assert!(before < at && at < after, "the inserts stand under their line:\n{with}");
+    assert_eq!(document.push_table("line", &[("id", "c"), ("position", "[\"1 m\", \"2 m\"]")]).unwrap(), 2);
+    assert_eq!(document.get("line.2.position.1").as_deref(), Some("2 m"));
+    assert_eq!(document.push_table("joint", &[("id", "j")]).unwrap(), 0, "a list that is not there is made");
+    document.remove_table("line", 2).unwrap();
+    document.remove_table("joint", 0).unwrap();
+    document.remove("line.0.inserts").unwrap();
+    assert_eq!(document.text().trim_end(), text.trim_end());
+    assert!(document.remove_table("line", 2).is_err());
 }

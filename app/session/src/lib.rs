@@ -8,6 +8,7 @@
 //! | [`recording`] | the file of a run; running it again and comparing every step |
 //! | [`report`] | the summary of a run as JSON |
 //! | [`settled`] | the gear at rest as JSON |
+//! | [`rest`] | one assembly alone at rest, while it is edited |
 //! | [`cases`] | validation cases run and judged |
 //! | [`check`] | every problem of what a user names |
 //! | [`live`] | a run on a thread of its own, for the workbench |
@@ -26,6 +27,7 @@ pub mod locate;
 pub mod plugins;
 pub mod recording;
 pub mod report;
+pub mod rest;
 pub mod run;
 pub mod save;
 pub mod settled;

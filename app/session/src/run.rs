@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use endline_sdk::Controls;
 use endline_sim::metrics::{Metrics, Summary};
-use endline_sim::{Audit, Frame, Input, Model, Outcome, Settled, State, Stop, Workspace, settle, step};
+use endline_sim::{Audit, ContactPoint, Frame, Input, Model, Outcome, Settled, State, Stop, Workspace, settle, step};
 
 use crate::error::Error;
 use crate::hash::StateHash;
@@ -179,6 +179,12 @@ impl Run {
     #[must_use]
     pub fn frame(&self) -> Arc<Frame> {
         Arc::new(Frame::of(self.model(), &self.state, &self.workspace.contacts))
+    }
+
+    /// Places where rope presses on skin, at the end of the last step.
+    #[must_use]
+    pub fn contacts(&self) -> &[ContactPoint] {
+        &self.workspace.contacts
     }
 
     /// The frames kept so far, at the rate asked for.

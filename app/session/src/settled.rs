@@ -73,10 +73,16 @@ impl SettledShape {
     /// Of a settled model; `wall_s` is the real time it took [s].
     #[must_use]
     pub fn of(prepared: &Prepared, settled: &Settled, wall_s: f64) -> Self {
-        let (model, state) = (&*prepared.model, &settled.state);
+        Self::named(&prepared.source.scenario_name, &prepared.model, settled, wall_s)
+    }
+
+    /// The same of a model whose scenario goes by a name.
+    #[must_use]
+    pub fn named(scenario: &str, model: &Model, settled: &Settled, wall_s: f64) -> Self {
+        let state = &settled.state;
         Self {
             schema: SCHEMA,
-            scenario: prepared.source.scenario_name.clone(),
+            scenario: scenario.to_owned(),
             converged: settled.converged,
             outcome: settled.outcome.to_string(),
             worst_part: settled.worst.as_ref().map(|worst| worst.part.clone()),

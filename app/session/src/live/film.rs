@@ -44,9 +44,35 @@ impl Film {
     }
 }
 
+impl Film {
+    /// The frame so many kept frames after the one nearest to a time, or before it; the first or last where there are
+    /// no more.
+    pub(super) fn beside(&self, time_s: f64, by: i64) -> Option<Arc<Frame>> {
+        let at = self.nearest(time_s)?;
+        let index = self.frames.partition_point(|frame| frame.step < at.step);
+        let last = self.frames.len().checked_sub(1)?;
+        self.frames.get(index.saturating_add_signed(isize::try_from(by).unwrap_or(0)).min(last)).cloned()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn frames_beside_one_another_are_found_however_thin_the_film() {
+        let mut film = Film::new(3);
+        for step in 0..60_000_u32 {
+            if film.wants(u64::from(step)) {
+                film.keep(Arc::new(Frame { step: u64::from(step), time_s: f64::from(step) * 0.01, ..Frame::default() }));
+            }
+        }
+        let middle = film.nearest(300.0).unwrap();
+        let (after, before) = (film.beside(300.0, 1).unwrap(), film.beside(300.0, -1).unwrap());
+        assert_eq!([after.step - middle.step, middle.step - before.step], [film.stride; 2]);
+        assert_eq!(film.beside(300.0, -100_000).unwrap().step, 0);
+        assert_eq!(film.beside(300.0, 100_000).unwrap().step, film.frames.last().unwrap().step);
+    }
 
     #[test]
     fn a_long_run_stays_bounded_and_whole() {

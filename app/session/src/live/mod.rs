@@ -4,6 +4,7 @@
 //! ever waits for the solver.
 
 mod film;
+mod history;
 mod pace;
 mod series;
 #[cfg(test)]
@@ -19,6 +20,7 @@ use endline_sdk::Controls;
 use endline_sim::metrics::{Event, Summary};
 use endline_sim::{Audit, Frame, Model};
 
+pub use history::Channel;
 pub use series::{Series, Span};
 
 use crate::plugins::PluginHost;
@@ -49,8 +51,10 @@ pub enum Command {
     WeakLinks(bool),
     /// Another model, back at the start.
     Load(Box<Prepared>),
-    /// Show the moment nearest to a time [s], and stand still.
+    /// Show the moment nearest to a time [s], and stand still; from the newest moment on, that.
     Seek(f64),
+    /// Show the moment so many kept frames later, or earlier, and stand still.
+    Shift(i64),
     /// Save the run so far as a recording.
     SaveRecording(PathBuf),
 }
@@ -87,6 +91,8 @@ pub struct LiveView {
     pub summary: Option<Summary>,
     /// Greatest tension of each line over time [N].
     pub tension: Series,
+    /// The whale's depth, speed, wraps and forces over time, by [`Channel`]; samples are empty without one.
+    pub history: Series,
     /// Counters of the solver up to the newest moment.
     pub audit: Audit,
     /// Hash of the newest state, hexadecimal; empty before the start.

@@ -39,6 +39,14 @@ fn a_run_is_started_stepped_sought_and_reset() {
     let view = until(&live, "the middle", |view| view.sought);
     assert!((view.frame.time_s - 2.5).abs() < 0.02, "{}", view.frame.time_s);
 
+    assert!(live.send(Command::Shift(1)));
+    let after = until(&live, "one moment on", |later| later.frame.step > view.frame.step);
+    assert!(live.send(Command::Shift(-1)));
+    until(&live, "and back", |earlier| earlier.frame.step == view.frame.step);
+    assert!(after.sought && after.history.len() == after.tension.len());
+    assert!(live.send(Command::Seek(f64::MAX)));
+    until(&live, "the newest", |view| !view.sought && (view.frame.time_s - view.newest_s).abs() < 1e-12);
+
     assert!(live.send(Command::Reset));
     let view = until(&live, "the start", |view| view.frame.step == 0 && !view.sought);
     assert_eq!(view.status, Status::Paused);

@@ -10,6 +10,7 @@ use endline_sdk::Controls;
 use endline_sim::{Audit, Frame, State};
 
 use super::film::Film;
+use super::history::Watch;
 use super::pace::Pace;
 use super::series::Series;
 use super::{Command, LiveView, Status};
@@ -53,6 +54,7 @@ pub(super) fn first_view(prepared: &Prepared) -> LiveView {
         sought: false,
         summary: None,
         tension: Series::default(),
+        history: Series::default(),
         audit: Audit::default(),
         state_hash: String::new(),
         events: Arc::new([]),
@@ -89,6 +91,8 @@ struct Worker<'a> {
     controls: Controls,
     film: Film,
     tension: Series,
+    history: Series,
+    watch: Watch,
     /// Greatest tension of each line since the last sample [N].
     peak_n: Vec<f64>,
     sought: Option<Arc<Frame>>,
@@ -112,6 +116,8 @@ impl<'a> Worker<'a> {
             controls: Controls::default(),
             film: Film::new(1),
             tension: Series::default(),
+            history: Series::default(),
+            watch: Watch::default(),
             peak_n: Vec::new(),
             sought: None,
             message: None,
@@ -162,10 +168,24 @@ impl<'a> Worker<'a> {
             Command::Load(prepared) => self.load(*prepared),
             Command::Seek(time_s) => {
                 self.pause();
-                self.sought = self.film.nearest(time_s);
+                self.look(|film, _| film.nearest(time_s));
+            }
+            Command::Shift(by) => {
+                self.pause();
+                self.look(|film, now_s| film.beside(now_s, by));
             }
             Command::SaveRecording(path) => self.save(&path),
         }
+    }
+
+    /// Looks at a kept frame, given the time shown; at the newest moment where that is reached.
+    fn look(&mut self, find: impl FnOnce(&Film, f64) -> Option<Arc<Frame>>) {
+        let newest_s = self.run.as_ref().map_or(0.0, |run| run.state().time_s);
+        let shown_s = self.sought.as_ref().map_or(newest_s, |frame| frame.time_s);
+        let found = find(&self.film, shown_s);
+        // The newest moment lies at most a stride after the last kept frame.
+        let last = self.film.nearest(f64::MAX).map(|frame| frame.step);
+        self.sought = found.filter(|frame| Some(frame.step) != last);
     }
 
     fn start(&mut self) {
@@ -225,7 +245,8 @@ impl<'a> Worker<'a> {
     /// Stands ready at the start of a run.
     fn begin(&mut self, run: Run) {
         self.film = Film::new(frame_stride(KEPT_HZ, run.step_s()));
-        self.tension = Series::default();
+        (self.tension, self.history) = (Series::default(), Series::default());
+        self.watch = Watch::default();
         self.peak_n.clear();
         self.sought = None;
         self.message = None;
@@ -261,7 +282,9 @@ impl<'a> Worker<'a> {
         let now_n = run.peak_tensions_n();
         self.peak_n.resize(now_n.len(), 0.0);
         self.peak_n.iter_mut().zip(now_n).for_each(|(peak, now)| *peak = peak.max(now));
+        self.watch.fold(run.contacts());
         if self.film.wants(run.state().step) {
+            self.history.push(run.state().time_s, self.watch.sample(run));
             self.film.keep(run.frame());
             self.tension.push(run.state().time_s, std::mem::take(&mut self.peak_n));
         }
@@ -289,6 +312,7 @@ impl<'a> Worker<'a> {
             sought: self.sought.is_some(),
             summary: Some(run.summary()),
             tension: self.tension.clone(),
+            history: self.history.clone(),
             audit: run.audit(),
             state_hash: run.state_hash().hex(),
             events: run.metrics().events().into(),

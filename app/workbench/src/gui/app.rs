@@ -50,15 +50,27 @@ impl App {
     }
 
     /// Obeys every order given since the last call.
-    fn obey(&mut self, orders: Vec<Order>) {
+    fn obey(&mut self, context: &Context, orders: Vec<Order>) {
         for order in orders {
             match &order {
                 Order::Show(panel) => layout::open(&mut self.dock, *panel),
                 Order::Arrange(layout) => self.dock = layout.dock(),
                 Order::Commands => self.palette.toggle(),
+                Order::CopyCommandLine => self.copy_command_line(context),
+                Order::AskExportPlots(ending) => menus::ask_export_plots(self, ending),
+                Order::ExportPlots(path) if is_png(path) => self.desk.plots.picture = Some(path.clone()),
+                Order::AskExportTable => menus::ask_export_table(self),
+                Order::AskImportTable => menus::ask_import_table(self),
                 _ => self.desk.obey(&order),
             }
         }
+    }
+
+    fn copy_command_line(&mut self, context: &Context) {
+        let (line, unsaved) = self.desk.command_line();
+        context.copy_text(line);
+        let notice = if unsaved { "copied; save first: the command reads the files" } else { "command line copied" };
+        self.desk.notice = Some((notice.to_owned(), unsaved));
     }
 
     /// Steers the whale with pad and keys, while flying.
@@ -70,11 +82,11 @@ impl App {
         }
         for action in actions {
             match action {
-                PilotAction::Restart => self.obey(vec![Order::Reset, Order::Start]),
-                PilotAction::PlayPause => self.obey(vec![Order::PlayPause]),
-                PilotAction::Person => self.obey(vec![Order::Person]),
-                PilotAction::WeakLinks => self.obey(vec![Order::WeakLinks]),
-                PilotAction::NextAct => self.obey(vec![Order::NextAct]),
+                PilotAction::Restart => self.obey(context, vec![Order::Reset, Order::Start]),
+                PilotAction::PlayPause => self.obey(context, vec![Order::PlayPause]),
+                PilotAction::Person => self.obey(context, vec![Order::Person]),
+                PilotAction::WeakLinks => self.obey(context, vec![Order::WeakLinks]),
+                PilotAction::NextAct => self.obey(context, vec![Order::NextAct]),
             }
         }
         let now_s = context.input(|input| input.time);
@@ -103,9 +115,13 @@ impl eframe::App for App {
     fn logic(&mut self, context: &Context, _frame: &mut eframe::Frame) {
         self.desk.refresh();
         self.take_dialog();
+        if self.desk.replaying() {
+            self.desk.play(f64::from(context.input(|input| input.stable_dt)).min(0.1));
+            context.request_repaint();
+        }
         self.fly(context);
-        let orders = keys::orders(context, &mut self.desk);
-        self.obey(orders);
+        let orders = keys::orders(context, &self.desk);
+        self.obey(context, orders);
     }
 
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
@@ -128,7 +144,7 @@ impl eframe::App for App {
         self.palette.show(ui.ctx(), &mut self.desk);
         let orders = std::mem::take(&mut self.desk.orders);
         if !orders.is_empty() {
-            self.obey(orders);
+            self.obey(&ui.ctx().clone(), orders);
             ui.ctx().request_repaint();
         }
     }
@@ -138,6 +154,10 @@ impl eframe::App for App {
         save_json(storage, LAYOUT_KEY, &self.dock);
         save_json::<Preferences>(storage, PREFERENCES_KEY, &self.desk.preferences);
     }
+}
+
+fn is_png(path: &std::path::Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"))
 }
 
 fn save_json<T: serde::Serialize>(storage: &mut dyn Storage, key: &str, value: &T) {

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use endline_gear::{Diagnostic, Document, Library, Scenario, Sources, save_text};
 
@@ -10,12 +11,20 @@ const UNDO_DEPTH: usize = 500;
 
 /// One change of one text.
 #[derive(Clone, Debug, PartialEq, Eq)]
-struct Edit {
+struct Change {
     path: String,
     /// The text before; `None` where the file is new.
     before: Option<String>,
     /// The text after; `None` where the file goes.
     after: Option<String>,
+}
+
+/// What one undo takes back: changes made together.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Edit {
+    changes: Vec<Change>,
+    /// The field held by a slider while it moves; the next value of it joins this edit.
+    held: Option<String>,
 }
 
 /// All texts open in the workbench. A library file goes by its path in the library's folder, such
@@ -29,7 +38,9 @@ pub struct Book {
     undo: Vec<Edit>,
     redo: Vec<Edit>,
     problems: Vec<Diagnostic>,
-    library: Library,
+    library: Arc<Library>,
+    /// Counts readings of the texts: whoever has seen this number has seen these texts.
+    version: u64,
     /// Meshes of the library's folder, as they were when it was opened.
     meshes: Sources,
 }
@@ -56,7 +67,8 @@ impl Book {
             undo: Vec::new(),
             redo: Vec::new(),
             problems: Vec::new(),
-            library: Library::default(),
+            library: Arc::default(),
+            version: 0,
             meshes: Sources::default().with_meshes_of(&sources),
         };
         book.read_all();
@@ -70,8 +82,9 @@ impl Book {
     pub fn open_scenario(&mut self, path: &Path) -> Result<(), String> {
         let text = read_text(path)?;
         self.scenario_path = path.to_owned();
-        self.undo.retain(|edit| edit.path != Self::SCENARIO);
-        self.redo.retain(|edit| edit.path != Self::SCENARIO);
+        let elsewhere = |edit: &Edit| edit.changes.iter().all(|change| change.path != Self::SCENARIO);
+        self.undo.retain(elsewhere);
+        self.redo.retain(elsewhere);
         self.saved.insert(Self::SCENARIO.to_owned(), text.clone());
         self.put(Self::SCENARIO, Some(text));
         self.read_all();
@@ -92,8 +105,14 @@ impl Book {
 
     /// The library as read from the present texts; items with errors are missing.
     #[must_use]
-    pub fn library(&self) -> &Library {
+    pub fn library(&self) -> &Arc<Library> {
         &self.library
+    }
+
+    /// A number that grows with every change of a text.
+    #[must_use]
+    pub fn version(&self) -> u64 {
+        self.version
     }
 
     /// Every problem of the present texts, by file and place; the scenario's under its file's name.
@@ -179,11 +198,86 @@ impl Book {
         if self.field(path, field).as_deref() == Some(value) {
             return Ok(());
         }
-        let text = self.texts.get(path).ok_or_else(|| format!("{path} is not open"))?;
-        let mut document = Document::parse(text).map_err(|error| error.to_string())?;
-        document.set(field, value).map_err(|error| error.to_string())?;
-        self.change(path, Some(document.text()));
+        self.alter(path, |document| document.set(field, value).map_err(|error| error.to_string()))
+    }
+
+    /// Sets a field from a control that is still moving: values in a row are one edit.
+    ///
+    /// # Errors
+    /// As [`set`](Self::set).
+    pub fn set_held(&mut self, path: &str, field: &str, value: &str) -> Result<(), String> {
+        let held = format!("{path}#{field}");
+        let before = self.undo.len();
+        let joins = self.undo.last().is_some_and(|edit| edit.held.as_deref() == Some(&held));
+        self.set(path, field, value)?;
+        if self.undo.len() > before || joins {
+            self.join(joins && self.undo.len() > before, held);
+        }
         Ok(())
+    }
+
+    /// Joins the last edit to the one before, and notes what holds it.
+    fn join(&mut self, to_the_one_before: bool, held: String) {
+        let Some(mut last) = self.undo.pop() else { return };
+        if to_the_one_before && let Some(first) = self.undo.pop() {
+            for (change, earlier) in last.changes.iter_mut().zip(first.changes) {
+                change.before = earlier.before;
+            }
+        }
+        last.held = Some(held);
+        self.undo.push(last);
+    }
+
+    /// A slider was let go: its next value is an edit of its own.
+    pub fn let_go(&mut self) {
+        self.undo.iter_mut().rev().take(1).for_each(|edit| edit.held = None);
+    }
+
+    /// Changes a text as a document; comments and order stay. A change that fails leaves it as it was.
+    ///
+    /// # Errors
+    /// Where the file is not open or not TOML, or what `change` answers.
+    pub fn alter(&mut self, path: &str, change: impl FnOnce(&mut Document) -> Result<(), String>) -> Result<(), String> {
+        let mut document = self.document(path)?;
+        change(&mut document)?;
+        self.change(vec![(path.to_owned(), Some(document.text()))]);
+        Ok(())
+    }
+
+    /// A text as a document.
+    ///
+    /// # Errors
+    /// Where the file is not open or not TOML.
+    pub fn document(&self, path: &str) -> Result<Document, String> {
+        let text = self.texts.get(path).ok_or_else(|| format!("{path} is not open"))?;
+        Document::parse(text).map_err(|error| format!("{path}: {error}"))
+    }
+
+    /// Sets several texts at once, new files among them; one undo takes all of it back.
+    pub fn put_all(&mut self, texts: Vec<(String, String)>) {
+        self.change(texts.into_iter().map(|(path, text)| (path, Some(text))).collect());
+    }
+
+    /// Takes a file away; undo brings it back, and its file goes when all is saved.
+    pub fn remove(&mut self, path: &str) {
+        self.change(vec![(path.to_owned(), None)]);
+    }
+
+    /// A path in a folder of the library that no file has, from a stem such as `my-rope`.
+    #[must_use]
+    pub fn fresh_path(&self, folder: &str, stem: &str) -> String {
+        let first = format!("{folder}/{stem}.toml");
+        if !self.texts.contains_key(&first) {
+            return first;
+        }
+        let fresh = (2..).map(|number| format!("{folder}/{stem}-{number}.toml")).find(|candidate| !self.texts.contains_key(candidate));
+        fresh.unwrap_or(first)
+    }
+
+    /// The text of a file as it is on disk.
+    #[must_use]
+    pub fn saved_text(&self, path: &str) -> Option<&str> {
+        self.saved.get(path).map(String::as_str)
     }
 
     /// Adds a copy of a library file under a fresh id and answers its path.
@@ -193,19 +287,18 @@ impl Book {
     pub fn duplicate(&mut self, path: &str) -> Result<String, String> {
         let text = self.texts.get(path).ok_or_else(|| format!("{path} is not open"))?;
         let mut document = Document::parse(text).map_err(|error| error.to_string())?;
-        let stem = path.trim_end_matches(".toml");
-        let fresh = (2..).map(|number| format!("{stem}-{number}.toml")).find(|candidate| !self.texts.contains_key(candidate));
-        let fresh = fresh.unwrap_or_else(|| format!("{stem}-copy.toml"));
+        let (folder, file) = path.split_once('/').unwrap_or(("", path));
+        let fresh = self.fresh_path(folder, file.trim_end_matches(".toml"));
         let name = document.get("name").unwrap_or_default();
         document.set("name", &format!("{name} (copy)")).map_err(|error| error.to_string())?;
-        self.change(&fresh, Some(document.text()));
+        self.change(vec![(fresh.clone(), Some(document.text()))]);
         Ok(fresh)
     }
 
     /// Takes the last edit back; false where there is none.
     pub fn undo(&mut self) -> bool {
         let Some(edit) = self.undo.pop() else { return false };
-        self.put(&edit.path, edit.before.clone());
+        edit.changes.iter().rev().for_each(|change| self.put(&change.path, change.before.clone()));
         self.redo.push(edit);
         self.read_all();
         true
@@ -214,7 +307,7 @@ impl Book {
     /// Does the last edit taken back again; false where there is none.
     pub fn redo(&mut self) -> bool {
         let Some(edit) = self.redo.pop() else { return false };
-        self.put(&edit.path, edit.after.clone());
+        edit.changes.iter().for_each(|change| self.put(&change.path, change.after.clone()));
         self.undo.push(edit);
         self.read_all();
         true
@@ -262,14 +355,18 @@ impl Book {
         if failed.is_empty() { Ok(count) } else { Err(failed.join("\n")) }
     }
 
-    fn change(&mut self, path: &str, after: Option<String>) {
-        let edit = Edit { path: path.to_owned(), before: self.texts.get(path).cloned(), after: after.clone() };
+    fn change(&mut self, texts: Vec<(String, Option<String>)>) {
+        let change = |(path, after): (String, Option<String>)| Change { before: self.texts.get(&path).cloned(), path, after };
+        let changes: Vec<Change> = texts.into_iter().map(change).filter(|change| change.before != change.after).collect();
+        if changes.is_empty() {
+            return;
+        }
         if self.undo.len() == UNDO_DEPTH {
             self.undo.remove(0);
         }
-        self.undo.push(edit);
+        changes.iter().for_each(|change| self.put(&change.path, change.after.clone()));
+        self.undo.push(Edit { changes, held: None });
         self.redo.clear();
-        self.put(path, after);
         self.read_all();
     }
 
@@ -286,7 +383,9 @@ impl Book {
                 self.parsed.insert(path.clone(), document);
             }
         }
-        (self.library, self.problems) = Library::read(&self.sources());
+        let (library, problems) = Library::read(&self.sources());
+        (self.library, self.problems) = (Arc::new(library), problems);
+        self.version += 1;
         let name = self.shown_name(Self::SCENARIO);
         if let Some(Err(problems)) = self.text(Self::SCENARIO).map(|text| Scenario::read(&name, text)) {
             self.problems.extend(problems);

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use endline_gear::Diagnostic;
-use endline_sdk::Act;
+use endline_sdk::{Act, GearType};
 use endline_session::live::{Command, LiveView, Status};
 use endline_session::{Error, Overrides, PluginHost, Prepared, Source};
 use serde::{Deserialize, Serialize};
@@ -12,11 +12,18 @@ use serde::{Deserialize, Serialize};
 use super::book::Book;
 use super::engine::{Engine, Launch, Maker, Waker};
 use super::layout::{Layout, Panel};
+use super::panels::assembly::AssemblyState;
+use super::panels::entanglement::EntanglementState;
 use super::panels::library::LibraryState;
+use super::panels::plots::PlotsState;
 use super::panels::view::ViewState;
 use super::theme::Theme;
-use super::units::ForceUnit;
+use super::units::Units;
 use crate::input::Pilot;
+use crate::scene::View;
+
+/// How fast a run is played again where it was run as fast as it went.
+const FASTEST_REPLAY: f64 = 10.0;
 
 /// Texts by path.
 type Texts = std::collections::BTreeMap<String, String>;
@@ -27,8 +34,8 @@ type Texts = std::collections::BTreeMap<String, String>;
 pub struct Preferences {
     /// Dark or light.
     pub theme: Theme,
-    /// Unit of forces on screen.
-    pub force: ForceUnit,
+    /// Units on screen.
+    pub units: Units,
     /// Whether pushing the stick puts the nose down.
     pub invert_pitch: bool,
 }
@@ -50,8 +57,30 @@ pub enum Order {
     Apply,
     /// Simulated seconds for each real one.
     Speed(f64),
+    /// The next slower speed.
+    Slower,
+    /// The next faster speed.
+    Faster,
     /// Show the moment nearest to a time [s].
     Seek(f64),
+    /// So many kept moments later, or earlier.
+    Shift(i64),
+    /// Show the newest moment.
+    Newest,
+    /// Play what was run from the moment shown on, or stop.
+    Replay,
+    /// Ask for a file and write the shown table of the library to it.
+    AskExportTable,
+    /// Ask for a file and write the plots shown to it: `svg`, `png` or `csv`.
+    AskExportPlots(&'static str),
+    /// Write the plots shown, in the format of the file's ending.
+    ExportPlots(PathBuf),
+    /// Ask for a file and take its table into the library.
+    AskImportTable,
+    /// Write the shown table of the library.
+    ExportTable(PathBuf),
+    /// Take a table into the library.
+    ImportTable(PathBuf),
     /// Weak links on or off, in the scenario's text.
     WeakLinks,
     /// The pilot's hands on the whale, or off.
@@ -62,6 +91,16 @@ pub enum Order {
     NextAct,
     /// The act of this index.
     ChooseAct(usize),
+    /// The mouth open, or shut.
+    Mouth,
+    /// A named view of the 3-D drawing.
+    Look(View),
+    /// Everything into sight.
+    Frame,
+    /// Put the command line that gives this run into the clipboard.
+    CopyCommandLine,
+    /// Copy the chosen entry of the library to a file of its own.
+    Duplicate,
     /// Save every changed text.
     Save,
     /// Save the run so far.
@@ -94,6 +133,12 @@ pub struct Desk {
     pub flying: bool,
     /// State of the library panel.
     pub library: LibraryState,
+    /// State of the assembly panel.
+    pub assembly: AssemblyState,
+    /// State of the plots.
+    pub plots: PlotsState,
+    /// State of the entanglement panel.
+    pub entanglement: EntanglementState,
     /// State of the 3-D view.
     pub view3d: ViewState,
     /// Problems found in making the model, beyond those of single files.
@@ -112,6 +157,9 @@ pub struct Desk {
     making: Texts,
     applied: Option<Texts>,
     start_when_made: bool,
+    /// Moment shown of a run that is played again [s].
+    replaying_s: Option<f64>,
+    replay_speed: f64,
 }
 
 impl Desk {
@@ -125,6 +173,9 @@ impl Desk {
             pilot,
             flying: false,
             library: LibraryState::default(),
+            assembly: AssemblyState::default(),
+            plots: PlotsState::default(),
+            entanglement: EntanglementState::default(),
             view3d: ViewState::default(),
             make_problems: Vec::new(),
             plugin_problems: Vec::new(),
@@ -138,6 +189,8 @@ impl Desk {
             making: Texts::new(),
             applied: None,
             start_when_made: false,
+            replaying_s: None,
+            replay_speed: 1.0,
         };
         desk.make();
         desk
@@ -185,6 +238,18 @@ impl Desk {
         whale.map_or(&[], |whale| &whale.motion.descriptor().acts)
     }
 
+    /// What work in the background needs: the plugins, and whom to wake when there is something to draw.
+    #[must_use]
+    pub fn helpers(&self) -> (Arc<PluginHost>, Waker) {
+        (Arc::clone(&self.host), Arc::clone(&self.waker))
+    }
+
+    /// The gear types among the plugins.
+    #[must_use]
+    pub fn gear_types(&self) -> Vec<Arc<dyn GearType>> {
+        self.host.ids().iter().filter_map(|id| self.host.gear(id)).collect()
+    }
+
     /// Problems of texts and of making the model.
     pub fn problems(&self) -> impl Iterator<Item = &Diagnostic> {
         let known = self.book.problems();
@@ -206,15 +271,25 @@ impl Desk {
     /// Obeys an order; those about layout are left to the window.
     pub fn obey(&mut self, order: &Order) {
         match order {
-            Order::Start => self.start(),
+            Order::Start => {
+                self.replaying_s = None;
+                self.start();
+            }
             Order::Pause => self.tell(Command::Pause),
             Order::PlayPause if self.running() => self.tell(Command::Pause),
+            Order::PlayPause if self.replaying() || self.view.as_ref().is_some_and(|view| view.sought) => self.replay(),
             Order::PlayPause => self.start(),
             Order::Step => self.tell(Command::Step),
             Order::Reset => self.tell(Command::Reset),
             Order::Apply => self.make(),
-            Order::Speed(speed) => self.tell(Command::Speed(*speed)),
-            Order::Seek(time_s) => self.tell(Command::Seek(*time_s)),
+            Order::Speed(speed) => self.set_speed(*speed),
+            Order::Seek(time_s) => self.look(Command::Seek(*time_s)),
+            Order::Shift(by) => self.look(Command::Shift(*by)),
+            Order::Newest => self.look(Command::Seek(f64::MAX)),
+            Order::Replay => self.replay(),
+            Order::ExportTable(path) => self.export_table(path),
+            Order::ImportTable(path) => self.import_table(path),
+            Order::ExportPlots(path) => self.export_plots(path),
             Order::WeakLinks => self.toggle_weak_links(),
             Order::Fly => self.toggle_fly(),
             Order::Person => self.view3d.change_person(),
@@ -222,14 +297,104 @@ impl Desk {
                 let acts = self.acts().len();
                 self.pilot.next_act(acts);
             }
+            Order::Slower => self.change_speed(false),
+            Order::Faster => self.change_speed(true),
+            Order::Mouth => self.pilot.toggle_mouth(),
+            Order::Look(view) => self.view3d.look(*view),
+            Order::Frame => self.view3d.frame(),
+            Order::Duplicate => super::panels::library::duplicate(self),
             Order::ChooseAct(act) => self.pilot.choose_act(*act),
             Order::Save => self.save(),
             Order::SaveRecording(path) => self.tell(Command::SaveRecording(path.clone())),
             Order::Open(path) => self.open(path),
             Order::Undo => self.step_back(true),
             Order::Redo => self.step_back(false),
-            Order::Show(_) | Order::Arrange(_) | Order::Commands => {}
+            Order::Show(_)
+            | Order::Arrange(_)
+            | Order::Commands
+            | Order::AskExportPlots(_)
+            | Order::AskExportTable
+            | Order::AskImportTable
+            | Order::CopyCommandLine => {}
         }
+    }
+
+    fn set_speed(&mut self, speed: f64) {
+        self.replay_speed = if speed.is_finite() { speed } else { FASTEST_REPLAY };
+        self.tell(Command::Speed(speed));
+    }
+
+    /// The next of the speeds offered.
+    fn change_speed(&mut self, faster: bool) {
+        let now = self.view.as_ref().map_or(1.0, |view| view.speed);
+        let speeds = super::panels::run::SPEEDS.map(|(speed, _)| speed);
+        let next = if faster { speeds.into_iter().find(|speed| *speed > now) } else { speeds.into_iter().rev().find(|speed| *speed < now) };
+        next.into_iter().for_each(|speed| self.set_speed(speed));
+    }
+
+    /// Looks at another moment; what was playing stands still.
+    fn look(&mut self, command: Command) {
+        self.replaying_s = None;
+        self.tell(command);
+    }
+
+    /// Whether what was run is playing.
+    #[must_use]
+    pub fn replaying(&self) -> bool {
+        self.replaying_s.is_some()
+    }
+
+    /// From the moment shown, or from the start where that is the newest.
+    fn replay(&mut self) {
+        let Some(view) = self.view.clone() else { return };
+        if self.replaying_s.take().is_none() {
+            self.replaying_s = Some(if view.sought { view.frame.time_s } else { 0.0 });
+            self.tell(Command::Pause);
+        }
+    }
+
+    /// Goes on with the moment shown where what was run is playing; `elapsed_s` of real time are over.
+    pub fn play(&mut self, elapsed_s: f64) {
+        let Some((shown_s, view)) = self.replaying_s.zip(self.view.clone()) else { return };
+        let next_s = shown_s + elapsed_s * self.replay_speed;
+        self.replaying_s = (next_s < view.newest_s).then_some(next_s);
+        self.tell(Command::Seek(next_s));
+    }
+
+    /// The plots as SVG or, by the ending, as CSV; a PNG is cut from the window by [`App`](super::app::App).
+    fn export_plots(&mut self, path: &std::path::Path) {
+        let charts = super::panels::plots::charts(self);
+        let csv = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
+        let text = if csv { Ok(charts.iter().map(super::charts::Chart::csv).collect()) } else { super::chart_svg::svg(&charts) };
+        let written =
+            text.and_then(|text: String| endline_session::save::atomically(path, text.as_bytes()).map_err(|error| error.to_string()));
+        self.notice = Some(match written {
+            Ok(()) => (format!("saved {}", path.display()), false),
+            Err(error) => (format!("{}: {error}", path.display()), true),
+        });
+    }
+
+    fn export_table(&mut self, path: &std::path::Path) {
+        let text = super::panels::library::csv(self);
+        self.notice = Some(match endline_session::save::atomically(path, text.as_bytes()) {
+            Ok(()) => (format!("saved {}", path.display()), false),
+            Err(error) => (format!("{}: {error}", path.display()), true),
+        });
+    }
+
+    fn import_table(&mut self, path: &std::path::Path) {
+        match std::fs::read_to_string(path) {
+            Ok(text) => super::panels::library::take_in(self, &text),
+            Err(error) => self.notice = Some((format!("{}: {error}", path.display()), true)),
+        }
+    }
+
+    /// The command line that gives the run shown, and whether files must be saved before it does.
+    #[must_use]
+    pub fn command_line(&self) -> (String, bool) {
+        let quoted = |path: &std::path::Path| format!("'{}'", path.display().to_string().replace('\'', "'\\''"));
+        let line = format!("endline run {} --library {}", quoted(self.book.scenario_path()), quoted(self.book.root()));
+        (line, !self.book.unsaved().is_empty())
     }
 
     fn tell(&mut self, command: Command) {

@@ -19,11 +19,11 @@ pub struct Said<'a> {
 pub fn edit(ui: &mut Ui, book: &Book, path: &str, field: &str, width: f32, said: Said<'_>) -> Option<String> {
     let stored = book.field(path, field).unwrap_or_default();
     let problem = book.problem_at(path, field);
-    let id = Id::new(("field", path, field));
+    let id = field_id(path, field);
     let mut typed = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| stored.clone());
     let palette = Theme::palette_of(ui);
     let colour = if problem.is_some_and(Diagnostic::is_error) { palette.error } else { palette.text };
-    let editor = TextEdit::singleline(&mut typed).id(id.with("edit")).desired_width(width).text_color(colour).clip_text(true);
+    let editor = TextEdit::singleline(&mut typed).id(edit_id(path, field)).desired_width(width).text_color(colour).clip_text(true);
     let editor = editor.hint_text(said.hint);
     let response = ui.add(editor);
     outline(ui, &response, problem);
@@ -38,6 +38,22 @@ pub fn edit(ui: &mut Ui, book: &Book, path: &str, field: &str, width: f32, said:
     ui.data_mut(|data| data.remove_temp::<String>(id));
     let escaped = ui.input(|input| input.key_pressed(Key::Escape));
     (!escaped && typed != stored).then_some(typed)
+}
+
+fn field_id(path: &str, field: &str) -> Id {
+    Id::new(("field", path, field))
+}
+
+/// Id of the text box of a field, for whoever asks which has the focus.
+#[must_use]
+pub fn edit_id(path: &str, field: &str) -> Id {
+    field_id(path, field).with("edit")
+}
+
+/// Drops what is typed into a field and not committed.
+pub fn forget(ui: &Ui, path: &str, field: &str) {
+    ui.data_mut(|data| data.remove_temp::<String>(field_id(path, field)));
+    ui.memory_mut(|memory| memory.surrender_focus(edit_id(path, field)));
 }
 
 fn outline(ui: &Ui, response: &Response, problem: Option<&Diagnostic>) {

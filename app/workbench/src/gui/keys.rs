@@ -1,75 +1,30 @@
-//! Keys of the window, given as orders.
+//! Keys of the window, given as orders by the table of [`bindings`](super::bindings).
 
-use egui::{Context, Key, KeyboardShortcut, Modifiers};
+use egui::{Context, Modifiers};
 
+use super::bindings::{BINDINGS, Binding, When};
 use super::desk::{Desk, Order};
-use super::layout::Panel;
-use crate::scene::View;
 
 /// Orders given by keys since the last frame.
-pub fn orders(context: &Context, desk: &mut Desk) -> Vec<Order> {
-    let mut orders = shortcuts(context);
-    if !context.egui_wants_keyboard_input() {
-        orders.extend(plain(context));
-        if desk.flying {
-            orders.extend(flying(context, desk));
-        } else {
-            views(context, desk);
-        }
-    }
-    orders
-}
-
-/// Keys that work even while typing.
-fn shortcuts(context: &Context) -> Vec<Order> {
-    let ctrl = Modifiers::COMMAND;
-    let table = [
-        (ctrl | Modifiers::SHIFT, Key::Z, Order::Redo),
-        (ctrl, Key::Z, Order::Undo),
-        (ctrl, Key::Y, Order::Redo),
-        (ctrl, Key::S, Order::Save),
-        (ctrl, Key::Enter, Order::Apply),
-        (ctrl, Key::F, Order::Fly),
-        (ctrl, Key::P, Order::Commands),
-        (Modifiers::NONE, Key::F1, Order::Show(Panel::Help)),
-    ];
+pub fn orders(context: &Context, desk: &Desk) -> Vec<Order> {
     let typing = context.egui_wants_keyboard_input();
-    let pressed = |(modifiers, key, order): (Modifiers, Key, Order)| {
+    let holds = |binding: &&Binding| match binding.when {
         // A text being typed has an undo of its own.
-        let own = typing && matches!(order, Order::Undo | Order::Redo);
-        (!own && context.input_mut(|input| input.consume_shortcut(&KeyboardShortcut::new(modifiers, key)))).then_some(order)
+        When::Always => !(typing && matches!(binding.order, Order::Undo | Order::Redo)),
+        When::Idle => !typing,
+        When::Looking => !typing && !desk.flying,
+        When::Flying => !typing && desk.flying,
     };
-    table.into_iter().filter_map(pressed).collect()
+    let mut wanted: Vec<&Binding> = BINDINGS.iter().filter(holds).collect();
+    // The one with more modifiers first: Ctrl+Shift+Z is no Ctrl+Z.
+    wanted.sort_by_key(|binding| std::cmp::Reverse(count(binding.key.modifiers)));
+    wanted
+        .into_iter()
+        .filter(|binding| context.input_mut(|input| input.consume_shortcut(&binding.key)))
+        .map(|binding| binding.order.clone())
+        .collect()
 }
 
-/// Keys of the run.
-fn plain(context: &Context) -> Vec<Order> {
-    let table = [(Key::Space, vec![Order::PlayPause]), (Key::Period, vec![Order::Step]), (Key::Backspace, vec![Order::Reset])];
-    table.into_iter().filter(|(key, _)| take(context, *key)).flat_map(|(_, orders)| orders).collect()
-}
-
-fn take(context: &Context, key: Key) -> bool {
-    context.input_mut(|input| input.consume_key(Modifiers::NONE, key))
-}
-
-/// Keys of the pilot besides steering.
-fn flying(context: &Context, desk: &mut Desk) -> Vec<Order> {
-    if take(context, Key::M) {
-        desk.pilot.toggle_mouth();
-    }
-    let table = [(Key::V, Order::Person), (Key::N, Order::NextAct), (Key::K, Order::WeakLinks), (Key::Escape, Order::Fly)];
-    table.into_iter().filter(|(key, _)| take(context, *key)).map(|(_, order)| order).collect()
-}
-
-/// Keys of the 3-D view.
-fn views(context: &Context, desk: &mut Desk) {
-    let table = [(Key::Num1, View::Side), (Key::Num7, View::Top), (Key::Num3, View::Front), (Key::Num5, View::Orbit)];
-    for (key, view) in table {
-        if take(context, key) {
-            desk.view3d.look(view);
-        }
-    }
-    if take(context, Key::F) {
-        (desk.view3d.follow, desk.view3d.frame_again) = (false, true);
-    }
+fn count(modifiers: Modifiers) -> u32 {
+    [modifiers.shift, modifiers.command, modifiers.ctrl, modifiers.alt].into_iter().map(u32::from).sum()
 }

@@ -7,6 +7,8 @@ use egui_dock::{DockState, NodeIndex};
 pub enum Panel {
     /// Tables of the gear library.
     Library,
+    /// A rig's parts, its statics drawn to scale.
+    Assembly,
     /// What happens: scenario, current, whale, weak links.
     Scenario,
     /// The 3-D view.
@@ -15,6 +17,10 @@ pub enum Panel {
     Run,
     /// Tension over time.
     Tension,
+    /// Tension, force, wraps, depth and speed.
+    Plots,
+    /// Rope on the whale's body, and the outcome.
+    Entanglement,
     /// What happened when.
     Events,
     /// Outcome and loads by part of the whale.
@@ -27,18 +33,33 @@ pub enum Panel {
 
 impl Panel {
     /// Every panel, in the order of the Window menu.
-    pub const ALL: [Self; 9] =
-        [Self::Library, Self::Scenario, Self::View, Self::Run, Self::Tension, Self::Events, Self::Summary, Self::Problems, Self::Help];
+    pub const ALL: [Self; 12] = [
+        Self::Library,
+        Self::Assembly,
+        Self::Scenario,
+        Self::View,
+        Self::Run,
+        Self::Tension,
+        Self::Plots,
+        Self::Entanglement,
+        Self::Events,
+        Self::Summary,
+        Self::Problems,
+        Self::Help,
+    ];
 
     /// Its stable id in saved layouts.
     #[must_use]
     pub fn id(self) -> &'static str {
         match self {
             Self::Library => "library",
+            Self::Assembly => "assembly",
             Self::Scenario => "scenario",
             Self::View => "view",
             Self::Run => "run",
             Self::Tension => "tension",
+            Self::Plots => "plots",
+            Self::Entanglement => "entanglement",
             Self::Events => "events",
             Self::Summary => "summary",
             Self::Problems => "problems",
@@ -51,10 +72,13 @@ impl Panel {
     pub fn title(self) -> &'static str {
         match self {
             Self::Library => "Library",
+            Self::Assembly => "Assembly",
             Self::Scenario => "Scenario",
             Self::View => "3-D view",
             Self::Run => "Run",
             Self::Tension => "Tension",
+            Self::Plots => "Plots",
+            Self::Entanglement => "Entanglement",
             Self::Events => "Events",
             Self::Summary => "Summary",
             Self::Problems => "Problems",
@@ -78,11 +102,13 @@ pub enum Layout {
     Fly,
     /// Look at what happened.
     Review,
+    /// Compare gear: statics of two beside the library and the outcome.
+    Study,
 }
 
 impl Layout {
     /// Every layout, in the order of the menu.
-    pub const ALL: [Self; 3] = [Self::Design, Self::Fly, Self::Review];
+    pub const ALL: [Self; 4] = [Self::Design, Self::Fly, Self::Review, Self::Study];
 
     /// Its name.
     #[must_use]
@@ -91,14 +117,20 @@ impl Layout {
             Self::Design => "Design",
             Self::Fly => "Fly",
             Self::Review => "Review",
+            Self::Study => "Study",
         }
     }
 
     /// Its panels in place.
     #[must_use]
     pub fn dock(self) -> DockState<String> {
-        use Panel::{Events, Library, Problems, Run, Scenario, Summary, Tension, View};
-        let mut dock = DockState::new(ids(&[View]));
+        use Panel::{Assembly, Entanglement, Events, Library, Plots, Problems, Run, Scenario, Summary, Tension, View};
+        let first = match self {
+            Self::Design => ids(&[View, Assembly]),
+            Self::Study => ids(&[Assembly]),
+            Self::Fly | Self::Review => ids(&[View]),
+        };
+        let mut dock = DockState::new(first);
         let tree = dock.main_surface_mut();
         match self {
             Self::Design => {
@@ -113,10 +145,13 @@ impl Layout {
                 tree.split_below(below, 0.5, ids(&[Events, Summary]));
             }
             Self::Review => {
-                let [upper, _] = tree.split_below(NodeIndex::root(), 0.58, ids(&[Tension]));
-                let [_, right] = tree.split_right(upper, 0.66, ids(&[Summary]));
-                let [run, _] = tree.split_below(right, 0.5, ids(&[Events]));
-                tree.split_above(run, 0.34, ids(&[Run]));
+                let [upper, _] = tree.split_below(NodeIndex::root(), 0.55, ids(&[Plots]));
+                let [_, right] = tree.split_right(upper, 0.6, ids(&[Entanglement, Summary]));
+                tree.split_below(right, 0.6, ids(&[Events, Run]));
+            }
+            Self::Study => {
+                let [upper, _] = tree.split_below(NodeIndex::root(), 0.58, ids(&[Library, Problems]));
+                tree.split_right(upper, 0.62, ids(&[Summary, Entanglement, Plots]));
             }
         }
         dock

@@ -9,7 +9,7 @@ use super::desk::Order;
 use super::layout::{self, Layout, Panel};
 use super::panels::scenario::scenarios;
 use super::theme::Theme;
-use super::units::ForceUnit;
+use super::units::Units;
 
 /// Draws the menu bar.
 pub fn show(ui: &mut Ui, app: &mut App) {
@@ -26,8 +26,8 @@ pub fn show(ui: &mut Ui, app: &mut App) {
             item(ui, app, true, "Commands …", "Ctrl+P", Order::Commands);
         });
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            for unit in [ForceUnit::Newton, ForceUnit::Lbf] {
-                ui.selectable_value(&mut app.desk.preferences.force, unit, unit.symbol()).on_hover_text("Unit of forces");
+            for units in Units::ALL.into_iter().rev() {
+                ui.selectable_value(&mut app.desk.preferences.units, units, units.name()).on_hover_text(units.help());
             }
             ui.separator();
             for layout in Layout::ALL.into_iter().rev() {
@@ -88,6 +88,23 @@ fn ask(app: &mut App, question: impl FnOnce() -> Option<Order> + Send + 'static)
         Ok(_) => app.dialog = Some(receiver),
         Err(error) => app.desk.notice = Some((format!("the dialog cannot be opened: {error}"), true)),
     }
+}
+
+/// Asks where to write the library's shown table.
+pub fn ask_export_table(app: &mut App) {
+    let name = format!("{}.csv", app.desk.library.kind.folder());
+    ask(app, move || rfd::FileDialog::new().set_file_name(name).add_filter("CSV", &["csv"]).save_file().map(Order::ExportTable));
+}
+
+/// Asks where to write the plots.
+pub fn ask_export_plots(app: &mut App, ending: &'static str) {
+    let name = format!("{}.{ending}", scenario_name(app));
+    ask(app, move || rfd::FileDialog::new().set_file_name(name).add_filter(ending, &[ending]).save_file().map(Order::ExportPlots));
+}
+
+/// Asks for a table to take into the library.
+pub fn ask_import_table(app: &mut App) {
+    ask(app, || rfd::FileDialog::new().add_filter("table", &["csv", "tsv", "txt"]).pick_file().map(Order::ImportTable));
 }
 
 fn edit(ui: &mut Ui, app: &mut App) {

@@ -4,10 +4,16 @@
 //! and sends commands. Panels draw from the [`Desk`](desk::Desk) and leave [`Order`](desk::Order)s on it.
 
 pub mod app;
+pub mod bench;
+pub mod bindings;
+pub mod bodymap;
 pub mod book;
 pub mod canvas;
+pub mod chart_svg;
+pub mod charts;
 pub mod desk;
 pub mod engine;
+pub mod exchange;
 pub mod fields;
 pub mod hud;
 pub mod keys;
@@ -17,6 +23,7 @@ pub mod palette;
 pub mod panels;
 pub mod status;
 pub mod theme;
+pub mod transport;
 pub mod units;
 
 use std::path::PathBuf;

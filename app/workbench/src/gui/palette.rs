@@ -6,6 +6,7 @@ use super::desk::{Desk, Order};
 use super::layout::{Layout, Panel};
 use super::panels::scenario::scenarios;
 use super::theme::Theme;
+use crate::scene::View;
 
 /// Names shown at once.
 const SHOWN: usize = 10;
@@ -30,6 +31,19 @@ pub fn orders(desk: &Desk) -> Vec<(String, Order)> {
         ("First or third person".to_owned(), Order::Person),
         ("Next act of the whale".to_owned(), Order::NextAct),
         ("Weak links on or off".to_owned(), Order::WeakLinks),
+        ("Open or close the mouth".to_owned(), Order::Mouth),
+        ("Play what was run".to_owned(), Order::Replay),
+        ("First moment".to_owned(), Order::Seek(0.0)),
+        ("Newest moment".to_owned(), Order::Newest),
+        ("One moment back".to_owned(), Order::Shift(-1)),
+        ("One moment on".to_owned(), Order::Shift(1)),
+        ("Slower".to_owned(), Order::Slower),
+        ("Faster".to_owned(), Order::Faster),
+        ("See everything".to_owned(), Order::Frame),
+        ("Copy as command line".to_owned(), Order::CopyCommandLine),
+        ("Duplicate the chosen entry".to_owned(), Order::Duplicate),
+        ("Save the library's table as CSV".to_owned(), Order::AskExportTable),
+        ("Take a CSV into the library".to_owned(), Order::AskImportTable),
         ("Save all".to_owned(), Order::Save),
         ("Undo".to_owned(), Order::Undo),
         ("Redo".to_owned(), Order::Redo),
@@ -37,6 +51,8 @@ pub fn orders(desk: &Desk) -> Vec<(String, Order)> {
     all.extend(desk.acts().iter().enumerate().map(|(index, act)| (format!("Act {}", act.name), Order::ChooseAct(index))));
     all.extend([0.1, 0.25, 0.5, 1.0, 2.0, 5.0].map(|speed| (format!("Speed {speed}×"), Order::Speed(speed))));
     all.push(("Speed as fast as it goes".to_owned(), Order::Speed(f64::INFINITY)));
+    let views = View::WHOLE.into_iter().chain(View::OF_WHALE);
+    all.extend(views.map(|view| (format!("View {}", view.name().replace('-', " ")), Order::Look(view))));
     all.extend(Panel::ALL.map(|panel| (format!("Show {}", panel.title()), Order::Show(panel))));
     all.extend(Layout::ALL.map(|layout| (format!("Layout {}", layout.name()), Order::Arrange(layout))));
     all.extend(scenarios(desk.book.root()).into_iter().map(|path| {

@@ -1,4 +1,4 @@
-//! Units of labels: forces in lbf or N, and the compass.
+//! Units of labels by profile, and the compass.
 
 use serde::{Deserialize, Serialize};
 
@@ -42,6 +42,122 @@ impl ForceUnit {
     }
 }
 
+const METRES_PER_FOOT: f64 = 0.3048;
+const METRES_PER_FATHOM: f64 = 6.0 * METRES_PER_FOOT;
+const METRES_PER_INCH: f64 = METRES_PER_FOOT / 12.0;
+/// A nautical mile an hour [m/s].
+const M_S_PER_KNOT: f64 = 1852.0 / 3600.0;
+
+/// The units everything is shown in. Files keep theirs, and any unit may be typed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Units {
+    /// As rules and the trade have it: lbf, feet, fathoms, knots, fractions of an inch.
+    Noaa,
+    /// Forces in lbf, all else metric.
+    #[default]
+    Mixed,
+    /// SI.
+    Si,
+}
+
+impl Units {
+    /// Every profile, in the order shown.
+    pub const ALL: [Self; 3] = [Self::Noaa, Self::Mixed, Self::Si];
+
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Noaa => "NOAA",
+            Self::Mixed => "Mixed",
+            Self::Si => "SI",
+        }
+    }
+
+    /// What it is, in a few words.
+    #[must_use]
+    pub fn help(self) -> &'static str {
+        match self {
+            Self::Noaa => "lbf, feet, fathoms, knots, fractions of an inch",
+            Self::Mixed => "lbf, and metric besides",
+            Self::Si => "newtons, metres, metres a second",
+        }
+    }
+
+    /// Unit of forces.
+    #[must_use]
+    pub fn force(self) -> ForceUnit {
+        if self == Self::Si { ForceUnit::Newton } else { ForceUnit::Lbf }
+    }
+
+    fn trade(self) -> bool {
+        self == Self::Noaa
+    }
+
+    /// Symbol of lengths.
+    #[must_use]
+    pub fn length_symbol(self) -> &'static str {
+        if self.trade() { "ft" } else { "m" }
+    }
+
+    /// A length given in metres, in this profile's unit.
+    #[must_use]
+    pub fn of_metres(self, length_m: f64) -> f64 {
+        if self.trade() { length_m / METRES_PER_FOOT } else { length_m }
+    }
+
+    /// A length with its unit.
+    #[must_use]
+    pub fn length(self, length_m: f64) -> String {
+        let value = self.of_metres(length_m);
+        let digits = if value.abs() < 10.0 { 2 } else { usize::from(value.abs() < 100.0) };
+        format!("{value:.digits$} {}", self.length_symbol())
+    }
+
+    /// A depth of water with its unit.
+    #[must_use]
+    pub fn depth(self, depth_m: f64) -> String {
+        if self.trade() { format!("{:.1} fathom", depth_m / METRES_PER_FATHOM) } else { format!("{depth_m:.1} m") }
+    }
+
+    /// Symbol of speeds.
+    #[must_use]
+    pub fn speed_symbol(self) -> &'static str {
+        if self.trade() { "kn" } else { "m/s" }
+    }
+
+    /// A speed given in metres a second, in this profile's unit.
+    #[must_use]
+    pub fn of_m_s(self, speed_m_s: f64) -> f64 {
+        if self.trade() { speed_m_s / M_S_PER_KNOT } else { speed_m_s }
+    }
+
+    /// A speed of this profile's unit in metres a second.
+    #[must_use]
+    pub fn to_m_s(self, speed: f64) -> f64 {
+        if self.trade() { speed * M_S_PER_KNOT } else { speed }
+    }
+
+    /// A speed with its unit.
+    #[must_use]
+    pub fn speed(self, speed_m_s: f64) -> String {
+        format!("{:.2} {}", self.of_m_s(speed_m_s), self.speed_symbol())
+    }
+
+    /// A rope's diameter: to the nearest sixteenth of an inch, or in millimetres.
+    #[must_use]
+    pub fn diameter(self, diameter_m: f64) -> String {
+        if !self.trade() {
+            return format!("{:.1} mm", diameter_m * 1000.0);
+        }
+        let (mut top, mut bottom) = ((diameter_m / METRES_PER_INCH * 16.0).round().max(1.0) as u32, 16);
+        while top % 2 == 0 && bottom > 1 {
+            (top, bottom) = (top / 2, bottom / 2);
+        }
+        if bottom == 1 { format!("{top} in") } else { format!("{top}/{bottom} in") }
+    }
+}
+
 /// Compass bearing of a heading in the world: 0 north, 90 east [degrees, 0 to 360).
 #[must_use]
 pub fn bearing_degrees(east: f64, north: f64) -> f64 {
@@ -57,6 +173,18 @@ mod tests {
         assert_eq!(ForceUnit::Lbf.text(7_561.976_746), "1700 lbf");
         assert_eq!(ForceUnit::Newton.text(7_561.976_746), "7562 N");
         assert_eq!(ForceUnit::Newton.text(12.34), "12.3 N");
+    }
+
+    #[test]
+    fn the_trade_reads_its_own_units() {
+        let units = Units::Noaa;
+        assert_eq!(units.diameter(0.009_525), "3/8 in");
+        assert_eq!(units.diameter(0.0254), "1 in");
+        assert_eq!(units.depth(73.152), "40.0 fathom");
+        assert_eq!(units.speed(1.0), "1.94 kn");
+        assert_eq!(units.length(18.288), "60.0 ft");
+        assert!((units.to_m_s(units.of_m_s(0.7)) - 0.7).abs() < 1e-12);
+        assert_eq!([Units::Si.length(18.288), Units::Si.speed(0.5), Units::Mixed.diameter(0.009_525)], ["18.3 m", "0.50 m/s", "9.5 mm"]);
     }
 
     #[test]

@@ -13,7 +13,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
     if view.events.is_empty() {
         return super::nothing(ui, "Nothing has happened yet. Contact, slip, wraps and parted lines will be listed here.");
     }
-    let unit = desk.preferences.force;
+    let unit = desk.preferences.units.force();
     let mut wanted = None;
     ScrollArea::vertical().auto_shrink(false).stick_to_bottom(true).show(ui, |ui| {
         for event in view.events.iter() {
@@ -46,7 +46,8 @@ pub fn what(kind: EventKind) -> String {
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
-fn colour(kind: EventKind, palette: Palette) -> egui::Color32 {
+/// The colour of a kind of event.
+pub(in super::super) fn colour(kind: EventKind, palette: Palette) -> egui::Color32 {
     match kind {
         EventKind::LinkParted | EventKind::LineParted => palette.error,
         EventKind::Wrap | EventKind::Dragged | EventKind::PulledUnder => palette.warning,

@@ -1,12 +1,17 @@
 //! The gear library as tables: edit in place with units, located errors, save.
 
-use egui::{Align, Button, Layout, Rect, RichText, ScrollArea, TextEdit, Ui, UiBuilder};
+mod detail;
+
+use egui::{Align, Button, Layout, RichText, ScrollArea, TextEdit, Ui};
 use egui_extras::{Column, TableBuilder, TableRow};
 use endline_gear::Diagnostic;
 use endline_gear::units;
 use endline_gear::{Field, Kind};
 
+pub use detail::{Against, Uses};
+
 use super::super::desk::{Desk, Order};
+use super::super::exchange::{self, Taken};
 use super::super::fields;
 use super::super::theme::{Theme, primary};
 
@@ -38,25 +43,37 @@ pub struct LibraryState {
     pub sort: Option<(&'static str, bool)>,
     /// The row chosen, by its file's path.
     pub chosen: Option<String>,
+    /// What the chosen row is compared with.
+    pub against: Against,
+    uses: Uses,
 }
 
 impl Default for LibraryState {
     fn default() -> Self {
-        Self { kind: Kind::Rope, search: String::new(), sort: None, chosen: None }
+        let (against, uses) = (Against::Saved, Uses::default());
+        Self { kind: Kind::Rope, search: String::new(), sort: None, chosen: None, against, uses }
     }
 }
 
 /// Draws the library panel.
 pub fn show(ui: &mut Ui, desk: &mut Desk) {
+    paste(ui, desk);
     toolbar(ui, desk);
     ui.add_space(2.0);
     let problems = table_problems(desk);
-    let whole = ui.available_rect_before_wrap();
+    let mut whole = ui.available_rect_before_wrap();
+    let folder = desk.library.kind.folder();
+    let chosen = desk.library.chosen.clone().filter(|path| path.starts_with(folder) && desk.book.text(path).is_some());
+    if let Some(path) = chosen {
+        let (table, entry) = whole.split_left_right_at_x(whole.right() - (whole.width() * 0.3).clamp(220.0, 380.0));
+        super::within(ui, entry.with_min_x(entry.left() + 10.0), |ui| detail::show(ui, desk, &path));
+        whole = table;
+    }
     let strip = if problems.is_empty() { 0.0 } else { 12.0 + 44.0 * problems.len().min(3) as f32 };
     let (above, below) = whole.split_top_bottom_at_y(whole.bottom() - strip);
-    within(ui, above, |ui| ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| table(ui, desk)));
+    super::within(ui, above, |ui| ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| table(ui, desk)));
     if !problems.is_empty() {
-        within(ui, below, |ui| reasons(ui, &problems));
+        super::within(ui, below, |ui| reasons(ui, &problems));
     }
 }
 
@@ -81,15 +98,106 @@ fn toolbar(ui: &mut Ui, desk: &mut Desk) {
             if ui.add_enabled(undo, Button::new("Undo")).on_hover_text("Ctrl+Z").clicked() {
                 desk.orders.push(Order::Undo);
             }
+            ui.menu_button("Table ⏷", |ui| table_menu(ui, desk));
             let chosen = desk.library.chosen.clone();
-            let copy = ui.add_enabled(chosen.is_some(), Button::new("Duplicate")).on_hover_text("Copy the chosen row to a file of its own");
-            if let (true, Some(path)) = (copy.clicked(), chosen) {
-                match desk.book.duplicate(&path) {
-                    Ok(fresh) => desk.library.chosen = Some(fresh),
-                    Err(error) => desk.notice = Some((error, true)),
-                }
+            let copy = Button::new("Duplicate");
+            if ui.add_enabled(chosen.is_some(), copy).on_hover_text("Copy the chosen row to a file of its own (Ctrl+D)").clicked() {
+                desk.orders.push(Order::Duplicate);
             }
         });
+    });
+}
+
+/// Copies the chosen row to a file of its own and compares the two.
+pub fn duplicate(desk: &mut Desk) {
+    let Some(path) = desk.library.chosen.clone() else {
+        desk.notice = Some(("choose a row of the library first".into(), true));
+        return;
+    };
+    match desk.book.duplicate(&path) {
+        Ok(fresh) => {
+            desk.library.against = Against::Entry(path);
+            desk.library.chosen = Some(fresh);
+        }
+        Err(error) => desk.notice = Some((error, true)),
+    }
+}
+
+/// The table as a whole, out and in.
+fn table_menu(ui: &mut Ui, desk: &mut Desk) {
+    if ui.button("Save as CSV …").clicked() {
+        desk.orders.push(Order::AskExportTable);
+        ui.close();
+    }
+    if ui
+        .button("Take in CSV …")
+        .on_hover_text("Rows of a known id change that entry, others are added; one Undo takes all of it back")
+        .clicked()
+    {
+        desk.orders.push(Order::AskImportTable);
+        ui.close();
+    }
+    if ui.button("Copy for a spreadsheet").clicked() {
+        let text = exchange::to_tabs(&desk.book, desk.library.kind, &rows(desk));
+        ui.ctx().copy_text(text);
+        ui.close();
+    }
+    ui.label(RichText::new("Paste cells from a spreadsheet\nwith Ctrl+V in the first cell;\nwith a head row, anywhere here.").small());
+}
+
+/// The CSV of the shown table.
+#[must_use]
+pub fn csv(desk: &Desk) -> String {
+    exchange::to_csv(&desk.book, desk.library.kind, &rows(desk))
+}
+
+/// Takes cells from the clipboard: from the cell being typed in on, or, with a head row, as entries.
+fn paste(ui: &Ui, desk: &mut Desk) {
+    let pasted = |event: &egui::Event| matches!(event, egui::Event::Paste(text) if text.trim_end().contains(['\t', '\n']));
+    if !ui.input(|input| input.events.iter().any(pasted)) {
+        return;
+    }
+    let (kind, paths) = (desk.library.kind, rows(desk));
+    let keys: Vec<&'static str> = kind.words().iter().map(|word| word.key).chain(kind.fields().iter().map(|field| field.key)).collect();
+    let focus = ui.memory(|memory| memory.focused());
+    let at = paths.iter().enumerate().find_map(|(row, path)| {
+        let column = keys.iter().position(|key| focus == Some(fields::edit_id(path, key)))?;
+        Some((row, column))
+    });
+    if at.is_none() && (focus.is_some() || !ui.rect_contains_pointer(ui.max_rect())) {
+        return;
+    }
+    let mut text = String::new();
+    ui.input_mut(|input| {
+        input.events.retain(|event| match event {
+            egui::Event::Paste(pasted) => {
+                text.clone_from(pasted);
+                false
+            }
+            _ => true,
+        });
+    });
+    let head = exchange::cells(&text).is_ok_and(|cells| cells.first().is_some_and(|row| exchange::is_head(kind, row)));
+    let taken = match at {
+        _ if head => exchange::import(&mut desk.book, kind, &text),
+        Some((row, column)) => {
+            fields::forget(ui, &paths[row], keys[column]);
+            exchange::cells(&text).and_then(|cells| exchange::spread(&mut desk.book, &paths[row..], &keys[column..], &cells))
+        }
+        None => Err("click the cell the table begins in, or copy it with its head row".to_owned()),
+    };
+    desk.notice = Some(match taken {
+        Ok(taken) => (taken.told(), !taken.left_out.is_empty()),
+        Err(why) => (format!("not pasted: {why}"), true),
+    });
+}
+
+/// Takes a CSV text into the shown table and says what came of it.
+pub fn take_in(desk: &mut Desk, text: &str) {
+    let taken: Result<Taken, String> = exchange::import(&mut desk.book, desk.library.kind, text);
+    desk.notice = Some(match taken {
+        Ok(taken) => (taken.told(), !taken.left_out.is_empty()),
+        Err(why) => (format!("not taken in: {why}"), true),
     });
 }
 
@@ -186,7 +294,7 @@ fn field_help(field: &Field) -> String {
 }
 
 /// A key as a title: `stretch_at_break` is `Stretch at break`.
-fn title(key: &str) -> String {
+pub(super) fn title(key: &str) -> String {
     let words = key.replace(['_', '.'], " ");
     let mut letters = words.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
@@ -209,12 +317,12 @@ fn name_cell(ui: &mut Ui, desk: &mut Desk, path: &str) {
     let name = desk.book.field(path, "name").unwrap_or_else(|| path.to_owned());
     let mark = if desk.book.is_unsaved(path) { "• " } else { "" };
     let used = desk.book.in_use(path);
-    let colour = match (desk.book.file_has_error(path), used) {
+    let chosen = desk.library.chosen.as_deref() == Some(path);
+    let colour = match (desk.book.file_has_error(path), used && !chosen) {
         (true, _) => palette.error,
         (false, true) => palette.accent,
         (false, false) => palette.text,
     };
-    let chosen = desk.library.chosen.as_deref() == Some(path);
     let label = Button::selectable(chosen, RichText::new(format!("{mark}{name}")).color(colour)).truncate();
     let notes = desk.book.field(path, "notes").map_or(String::new(), |notes| format!("\n\n{notes}"));
     let unsaved = if mark.is_empty() { "" } else { "\nnot saved yet" };
@@ -263,14 +371,6 @@ fn cell_problem<'a>(desk: &'a Desk, path: &str) -> Option<&'a Diagnostic> {
 fn table_problems(desk: &Desk) -> Vec<Diagnostic> {
     let folder = format!("{}/", desk.library.kind.folder());
     desk.book.problems().iter().filter(|problem| problem.file.starts_with(&folder)).cloned().collect()
-}
-
-/// Draws in a part of the panel and nowhere else.
-fn within<R>(ui: &mut Ui, rect: Rect, draw: impl FnOnce(&mut Ui) -> R) {
-    ui.scope_builder(UiBuilder::new().max_rect(rect), |ui| {
-        ui.set_clip_rect(rect.intersect(ui.clip_rect()));
-        draw(ui);
-    });
 }
 
 /// What is wrong in the table, below it: place, reason, how to mend it.

@@ -1,8 +1,11 @@
 //! The panels, one file each: each draws from the desk and leaves orders on it.
 
+pub mod assembly;
+pub mod entanglement;
 pub mod events;
 pub mod help;
 pub mod library;
+pub mod plots;
 pub mod problems;
 pub mod run;
 pub mod scenario;
@@ -10,7 +13,7 @@ pub mod summary;
 pub mod tension;
 pub mod view;
 
-use egui::{RichText, Ui};
+use egui::{Rect, RichText, Ui, UiBuilder};
 
 use super::desk::Desk;
 use super::layout::Panel;
@@ -20,10 +23,13 @@ use super::theme::Theme;
 pub fn show(ui: &mut Ui, panel: Panel, desk: &mut Desk) {
     match panel {
         Panel::Library => library::show(ui, desk),
+        Panel::Assembly => assembly::show(ui, desk),
         Panel::Scenario => scenario::show(ui, desk),
         Panel::View => view::show(ui, desk),
         Panel::Run => run::show(ui, desk),
         Panel::Tension => tension::show(ui, desk),
+        Panel::Plots => plots::show(ui, desk),
+        Panel::Entanglement => entanglement::show(ui, desk),
         Panel::Events => events::show(ui, desk),
         Panel::Summary => summary::show(ui, desk),
         Panel::Problems => problems::show(ui, desk),
@@ -43,4 +49,12 @@ fn nothing(ui: &mut Ui, text: &str) {
     let faint = Theme::palette_of(ui).faint;
     ui.add_space(8.0);
     ui.vertical_centered(|ui| ui.label(RichText::new(text).color(faint)));
+}
+
+/// Draws in a part of the panel and nowhere else.
+fn within<R>(ui: &mut Ui, rect: Rect, draw: impl FnOnce(&mut Ui) -> R) {
+    ui.scope_builder(UiBuilder::new().max_rect(rect), |ui| {
+        ui.set_clip_rect(rect.intersect(ui.clip_rect()));
+        draw(ui);
+    });
 }

@@ -8,7 +8,7 @@ use super::super::theme::{Theme, primary};
 use super::summary::numbers;
 
 /// Speeds offered, simulated over real time; the last is as fast as it goes.
-const SPEEDS: [(f64, &str); 6] = [(0.1, "0.1×"), (0.25, "¼×"), (1.0, "1×"), (2.0, "2×"), (5.0, "5×"), (f64::INFINITY, "max")];
+pub const SPEEDS: [(f64, &str); 6] = [(0.1, "0.1×"), (0.25, "¼×"), (1.0, "1×"), (2.0, "2×"), (5.0, "5×"), (f64::INFINITY, "max")];
 
 /// Draws the run panel.
 pub fn show(ui: &mut Ui, desk: &mut Desk) {
@@ -21,6 +21,13 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
         progress(ui, &view);
         speeds(ui, desk, &view);
         fly(ui, desk);
+        if ui
+            .button("Copy as command line")
+            .on_hover_text("The command that gives this run, for a terminal or a script (Ctrl+Shift+C)")
+            .clicked()
+        {
+            desk.orders.push(Order::CopyCommandLine);
+        }
         state(ui, &view);
     });
 }

@@ -11,7 +11,7 @@ use super::super::units::ForceUnit;
 pub fn show(ui: &mut Ui, desk: &mut Desk) {
     let Some(view) = desk.view.clone() else { return super::nothing(ui, "No run yet.") };
     let Some(summary) = &view.summary else { return super::nothing(ui, "The gear is being settled.") };
-    let unit = desk.preferences.force;
+    let unit = desk.preferences.units.force();
     ScrollArea::both().auto_shrink(false).show(ui, |ui| {
         if let Some(whale) = &summary.whale {
             outcome(ui, whale, unit);

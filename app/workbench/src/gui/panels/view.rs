@@ -11,6 +11,7 @@ use super::super::canvas::Canvas;
 use super::super::desk::{Desk, Order};
 use super::super::hud;
 use super::super::theme::Theme;
+use super::super::transport;
 use crate::scene::{Camera, Overlay, Scene, Show, View, Water, overlay};
 
 /// What the top of the tension scale is.
@@ -65,7 +66,9 @@ impl Default for ViewState {
 /// Draws the 3-D view.
 pub fn show(ui: &mut Ui, desk: &mut Desk) {
     toolbar(ui, desk);
-    let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
+    let size = ui.available_size() - egui::vec2(0.0, transport::HEIGHT);
+    let (rect, response) = ui.allocate_exact_size(size.max(egui::Vec2::ZERO), Sense::click_and_drag());
+    transport::show(ui, desk);
     let Some(view) = desk.view.clone() else { return waiting(ui, rect, desk) };
     if response.clicked() || response.dragged() {
         ui.memory_mut(|memory| memory.stop_text_input());
@@ -95,8 +98,7 @@ fn toolbar(ui: &mut Ui, desk: &mut Desk) {
             }
         });
         if ui.button("Frame").on_hover_text("See everything (F)").clicked() {
-            state.follow = false;
-            state.frame_again = true;
+            state.frame();
         }
         ui.separator();
         ui.menu_button("Show ⏷", |ui| {
@@ -140,6 +142,11 @@ impl ViewState {
         self.turned = [0.0; 3];
         self.named = view;
         self.frame_again = true;
+    }
+
+    /// Brings everything into sight.
+    pub fn frame(&mut self) {
+        (self.follow, self.frame_again) = (false, true);
     }
 
     /// Goes with the whale: as it last did, or behind it.
@@ -253,6 +260,6 @@ fn write_over(ui: &Ui, rect: Rect, view: &LiveView, desk: &Desk) {
     overlay::paint(&painter, rect, &Overlay { caption, time_s: view.frame.time_s, scale_n: state.scene_scale_n, metres_a_point });
     if desk.flying {
         let act = desk.pilot.chosen_act(desk.acts().len()).map(|act| desk.acts()[act].name.as_ref());
-        hud::paint(&painter, rect, view, desk.preferences.force, act);
+        hud::paint(&painter, rect, view, desk.preferences.units.force(), act);
     }
 }

@@ -1,0 +1,131 @@
+//! Gear at rest while it is edited: one assembly alone in a chosen sea, quick enough to follow a hand on a slider.
+//!
+//! The sea is that of a scenario; its whale, and lines and bodies written in place, are left out. Gear that the
+//! scenario places alone keeps what the scenario says over the assembly.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use endline_gear::{Assembled, Diagnostic, Document, Library, Options, Scenario, assemble_traced};
+use endline_sim::model::ModelError;
+use endline_sim::{Model, settle};
+
+use crate::error::Error;
+use crate::plugins::PluginHost;
+use crate::settled::SettledShape;
+
+/// Tables of a scenario that a rig alone has no use for.
+const LEFT_OUT: [&str; 17] = [
+    "whale",
+    "friction",
+    "probe",
+    "resolution",
+    "waves",
+    "start",
+    "rope_on_bodies",
+    "rope_nodes",
+    "segment",
+    "line",
+    "fixture",
+    "body",
+    "joint",
+    "link",
+    "obstacle",
+    "rope",
+    "step",
+];
+
+/// The sea a rig is tried in.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TrialSea {
+    /// Depth in place of the scenario's, with its unit.
+    pub depth: Option<String>,
+    /// Surface speed of the current in place of the scenario's [m/s].
+    pub current_m_s: Option<f64>,
+}
+
+/// A rig at rest, with the model it is of.
+#[derive(Clone)]
+pub struct Rest {
+    /// Shape, tensions, residual.
+    pub shape: SettledShape,
+    /// Ropes, bodies and links of the rig.
+    pub model: Arc<Model>,
+}
+
+/// Text of a scenario that holds one assembly alone, in the sea of `scenario` with what `sea` says over it.
+///
+/// # Errors
+/// Where `scenario` is not TOML.
+pub fn alone(scenario: &str, assembly: &str, sea: &TrialSea, library: &Library) -> Result<String, Error> {
+    let told = |message: String| Error::Diagnostics(vec![Diagnostic::of_file("scenario", message, "")]);
+    let mut document = Document::parse(scenario).map_err(|error| told(error.to_string()))?;
+    let only = document.get("gear.0.assembly").as_deref() == Some(assembly) && !document.has("gear.1");
+    let toward = document.get("current.toward").unwrap_or_else(|| "90 deg".to_owned());
+    let strip = |document: &mut Document, key: &str| {
+        // What is not there need not be taken out.
+        let _ = document.remove(key);
+    };
+    LEFT_OUT.iter().for_each(|key| strip(&mut document, key));
+    let mut added = String::new();
+    if let Some(speed) = sea.current_m_s {
+        strip(&mut document, "current");
+        added += &format!("\n[current]\nspeed = \"{speed} m/s\"\ntoward = \"{toward}\"\n");
+    }
+    if !document.has("site") {
+        let site = library.sites.first().map_or("", |site| site.entry.id.as_str());
+        added += &format!("\n[site]\nitem = \"{site}\"\n");
+        if let Some(depth) = &sea.depth {
+            added += &format!("depth = \"{depth}\"\n");
+        }
+    } else if let Some(depth) = &sea.depth {
+        document.set("site.depth", depth).map_err(|error| told(error.to_string()))?;
+    }
+    if !only {
+        strip(&mut document, "gear");
+        added += &format!("\n[[gear]]\nassembly = \"{assembly}\"\nheading = \"{toward}\"\n");
+    }
+    Ok(format!("segment = \"1 m\"\n{}{added}", document.text()))
+}
+
+/// Assembles the gear of such a text and settles it.
+///
+/// # Errors
+/// Every located error of the texts. Gear that finds no rest is no error: its shape says so.
+pub fn rest(name: &str, text: &str, library: &Library, host: &PluginHost) -> Result<Rest, Error> {
+    let scenario = Scenario::read(name, text).map_err(Error::Diagnostics)?;
+    let Assembled { spec, .. } = assemble_traced(&scenario, library, host, &Options::default()).map_err(Error::Diagnostics)?;
+    let told = |error: ModelError| Diagnostic::of_file(name, format!("{}: {}", error.part, error.message), "");
+    let model = Model::new(spec).map_err(|errors| Error::Diagnostics(errors.into_iter().map(told).collect()))?;
+    let start = Instant::now();
+    let settled = settle(&model);
+    Ok(Rest { shape: SettledShape::named(name, &model, &settled, start.elapsed().as_secs_f64()), model: Arc::new(model) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SCENARIO: &str = "format = 1\nkind = \"scenario\"\nname = \"s\"\nduration = \"1 s\"\n# the sea\n[site]\nitem = \"bay\"\n\n\
+        [current]\nspeed = \"1 kn\"\ntoward = \"45 deg\"\n\n[[gear]]\nassembly = \"single\"\n\n[whale]\nlength = \"9 m\"\n";
+
+    #[test]
+    fn the_whale_goes_and_the_sea_is_what_is_asked_for() {
+        let sea = TrialSea { depth: Some("40 fathom".to_owned()), current_m_s: Some(0.0) };
+        let text = alone(SCENARIO, "single", &sea, &Library::default()).unwrap();
+        assert!(!text.contains("whale") && text.contains("# the sea"), "{text}");
+        let document = Document::parse(&text).unwrap();
+        let field = |name: &str| document.get(name).unwrap_or_default();
+        assert_eq!([field("site.depth"), field("current.speed"), field("current.toward")], ["40 fathom", "0 m/s", "45 deg"]);
+        assert_eq!(field("gear.0.assembly"), "single");
+    }
+
+    #[test]
+    fn another_assembly_takes_the_place_of_all_gear() {
+        let two = format!("{SCENARIO}\n[[gear]]\nassembly = \"pair\"\nid = \"b\"\n");
+        let document = Document::parse(&alone(&two, "trawl-10", &TrialSea::default(), &Library::default()).unwrap()).unwrap();
+        assert_eq!(document.get("gear.0.assembly").as_deref(), Some("trawl-10"));
+        assert!(!document.has("gear.1"));
+        assert_eq!(document.get("current.speed").as_deref(), Some("1 kn"), "the scenario's own current stays");
+    }
+}

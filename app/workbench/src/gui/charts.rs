@@ -1,0 +1,250 @@
+//! What is plotted of a run, as plain data: drawn in the window, exported as CSV and SVG.
+
+use egui_plot::PlotPoint;
+use endline_sdk::BodyPart;
+use endline_session::live::{Channel, LiveView, Series, Span};
+use serde::{Deserialize, Serialize};
+
+use super::units::Units;
+
+/// Spans a curve is drawn with at most: least and greatest of each, so that no peak is lost.
+pub const SPANS: usize = 900;
+
+/// Colours that stay apart for every colour vision (Okabe and Ito 2008, without yellow and black).
+pub const COLOURS: [[u8; 3]; 7] = [
+    [0x56, 0xb4, 0xe9],
+    [0xe6, 0x9f, 0x00],
+    [0x00, 0x9e, 0x73],
+    [0xcc, 0x79, 0xa7],
+    [0xd5, 0x5e, 0x00],
+    [0x4f, 0x8f, 0xd0],
+    [0x99, 0x99, 0x99],
+];
+
+/// A kind of plot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Kind {
+    /// Greatest tension of each line over time, with strengths and ratings.
+    Tension,
+    /// Tension along the lines at the moment shown.
+    Along,
+    /// Normal force on each part of the whale over time.
+    Force,
+    /// Wraps on each part of the whale over time.
+    Wraps,
+    /// Depth of the whale over time.
+    Depth,
+    /// Its speed through the water over time.
+    Speed,
+}
+
+impl Kind {
+    /// Every kind, in the order shown.
+    pub const ALL: [Self; 6] = [Self::Tension, Self::Along, Self::Force, Self::Wraps, Self::Depth, Self::Speed];
+
+    /// Its title.
+    #[must_use]
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Tension => "Tension of each line",
+            Self::Along => "Tension along the lines",
+            Self::Force => "Contact force by part",
+            Self::Wraps => "Wraps by part",
+            Self::Depth => "Depth",
+            Self::Speed => "Speed",
+        }
+    }
+
+    /// Its short name, for files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Tension => "tension",
+            Self::Along => "along",
+            Self::Force => "force",
+            Self::Wraps => "wraps",
+            Self::Depth => "depth",
+            Self::Speed => "speed",
+        }
+    }
+
+    /// Whether it runs over time.
+    #[must_use]
+    pub fn over_time(self) -> bool {
+        self != Self::Along
+    }
+}
+
+/// A curve.
+#[derive(Clone, Debug)]
+pub struct Curve {
+    /// What it is of.
+    pub name: String,
+    /// Its points, in the chart's units.
+    pub points: Vec<PlotPoint>,
+}
+
+/// A level across the chart: a strength or rating.
+#[derive(Clone, Debug)]
+pub struct Level {
+    /// What it is.
+    pub name: String,
+    /// Least and greatest; the same for a sharp level.
+    pub band: [f64; 2],
+}
+
+/// A plot.
+#[derive(Clone, Debug)]
+pub struct Chart {
+    /// Which.
+    pub kind: Kind,
+    /// What its x axis is, with the unit.
+    pub x: String,
+    /// What its y axis is, with the unit.
+    pub y: String,
+    /// Its curves.
+    pub curves: Vec<Curve>,
+    /// Levels near enough to be drawn.
+    pub levels: Vec<Level>,
+    /// End of the x axis.
+    pub end_x: f64,
+}
+
+impl Chart {
+    /// A kind of plot of a run.
+    #[must_use]
+    pub fn of(kind: Kind, view: &LiveView, units: Units) -> Self {
+        let duration_s = view.model.spec.settings.duration_s.max(view.newest_s);
+        let time = "Time [s]".to_owned();
+        let chart = |y: String, curves| Self { kind, x: time, y, curves, levels: Vec::new(), end_x: duration_s };
+        let force = units.force();
+        match kind {
+            Kind::Tension => {
+                let lines = view.model.spec.lines.iter().enumerate();
+                let curves = lines.map(|(index, line)| curve(&line.id, &view.tension, index, |value| force.of_newtons(value))).collect();
+                Self { levels: levels(view, units), ..chart(force.symbol().to_owned(), curves) }
+            }
+            Kind::Along => along(view, units),
+            Kind::Force => chart(force.symbol().to_owned(), by_part(view, Channel::Force, |value| force.of_newtons(value))),
+            Kind::Wraps => chart("turns".to_owned(), by_part(view, Channel::Wraps, |value| value)),
+            // Depth grows downwards.
+            Kind::Depth => {
+                chart(format!("depth, down, {}", units.length_symbol()), whale(view, Channel::Depth, |value| -units.of_metres(value)))
+            }
+            Kind::Speed => chart(units.speed_symbol().to_owned(), whale(view, Channel::Speed, |value| units.of_m_s(value))),
+        }
+    }
+
+    /// Greatest value of any curve.
+    #[must_use]
+    pub fn top(&self) -> f64 {
+        self.curves.iter().flat_map(|curve| &curve.points).map(|point| point.y).fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// As CSV: curve, x, y; one row a point.
+    #[must_use]
+    pub fn csv(&self) -> String {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        let head = [format!("curve of {}", self.kind.title()), self.x.clone(), self.y.clone()];
+        let rows = self
+            .curves
+            .iter()
+            .flat_map(|curve| curve.points.iter().map(|point| [curve.name.clone(), point.x.to_string(), point.y.to_string()]));
+        // Writing to memory cannot fail.
+        let written = std::iter::once(head).chain(rows).try_for_each(|row| writer.write_record(row));
+        let bytes = written.ok().and_then(|()| writer.into_inner().ok()).unwrap_or_default();
+        String::from_utf8(bytes).unwrap_or_default()
+    }
+}
+
+/// A channel of a series as a curve: least and greatest of each span.
+fn curve(name: &str, series: &Series, index: usize, unit: impl Fn(f64) -> f64) -> Curve {
+    let ends = |span: &Span| {
+        let [min, max] = [unit(span.min), unit(span.max)];
+        let point = |y| PlotPoint::new(span.time_s, y);
+        // One sample is one point.
+        if span.min.to_bits() == span.max.to_bits() { vec![point(min)] } else { vec![point(min), point(max)] }
+    };
+    Curve { name: name.to_owned(), points: series.spans(index, SPANS).iter().flat_map(ends).collect() }
+}
+
+fn whale(view: &LiveView, channel: Channel, unit: impl Fn(f64) -> f64) -> Vec<Curve> {
+    if view.model.spec.whale.is_none() {
+        return Vec::new();
+    }
+    vec![curve("whale", &view.history, channel.index(), unit)]
+}
+
+/// A curve for each part that was ever touched.
+fn by_part(view: &LiveView, channel: fn(BodyPart) -> Channel, unit: impl Fn(f64) -> f64) -> Vec<Curve> {
+    let touched = |part: &BodyPart| {
+        let whale = view.summary.as_ref().and_then(|summary| summary.whale.as_ref());
+        whale.is_some_and(|whale| whale.regions.iter().any(|region| region.part == *part && region.peak_contact_length_m > 0.0))
+    };
+    let parts = BodyPart::ALL.into_iter().filter(touched);
+    parts.map(|part| curve(&part.name().replace('_', " "), &view.history, channel(part).index(), &unit)).collect()
+}
+
+/// Strengths of the ropes as a band from the weakest segment to the rope as new, and ratings of weak links.
+fn levels(view: &LiveView, units: Units) -> Vec<Level> {
+    let spec = &view.model.spec;
+    let force = units.force();
+    let links = spec.links.iter().filter(|link| link.enabled).map(|link| (format!("{} parts", link.id), [link.rating_n; 2]));
+    let rope = |(index, rope): (usize, &endline_sim::model::Rope)| {
+        let segments =
+            view.model.segment_line.iter().zip(&view.model.segment_strength_n).filter(|(line, _)| spec.lines[**line].rope == index);
+        let weakest = segments.map(|(_, strength)| *strength).fold(f64::INFINITY, f64::min);
+        weakest.is_finite().then(|| (format!("{} breaks", rope.id), [weakest, rope.strength_n.max(weakest)]))
+    };
+    let all = links.chain(spec.ropes.iter().enumerate().filter_map(rope));
+    all.map(|(name, band)| Level { name, band: band.map(|value| force.of_newtons(value)) }).collect()
+}
+
+/// Tension over the rope's length at the moment shown; lines that go on from one another are drawn in a row.
+fn along(view: &LiveView, units: Units) -> Chart {
+    let (spec, frame, force) = (&view.model.spec, &view.frame, units.force());
+    let mut ends_m: Vec<f64> = Vec::new();
+    let mut curves = Vec::new();
+    for (index, line) in spec.lines.iter().enumerate() {
+        let before = spec.lines[..index].iter().position(|earlier| earlier.to == line.from);
+        let mut at_m = before.map_or(0.0, |before| ends_m[before]);
+        let mut points = Vec::new();
+        for segment in view.model.line_segments[index].clone() {
+            let (Some(length_m), Some(tension_n)) = (frame.segment_length_m.get(segment), frame.tension_n.get(segment)) else { continue };
+            let y = force.of_newtons(*tension_n);
+            points.extend([PlotPoint::new(units.of_metres(at_m), y), PlotPoint::new(units.of_metres(at_m + length_m), y)]);
+            at_m += length_m;
+        }
+        ends_m.push(at_m);
+        curves.push(Curve { name: line.id.clone(), points });
+    }
+    let end_x = units.of_metres(ends_m.iter().copied().fold(0.0, f64::max));
+    let x = format!("Along the rope [{}]", units.length_symbol());
+    Chart { kind: Kind::Along, x, y: force.symbol().to_owned(), curves, levels: levels(view, units), end_x }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_peak_of_one_sample_in_ten_thousand_is_drawn_at_its_height() {
+        let mut series = Series::default();
+        for step in 0..10_000_u32 {
+            series.push(f64::from(step) * 0.01, vec![if step == 7321 { 1000.0 } else { 100.0 }]);
+        }
+        let points = curve("line", &series, 0, |value| value).points;
+        assert!(points.len() <= 2 * SPANS);
+        let top = points.iter().map(|point| point.y).fold(0.0, f64::max);
+        assert!((top - 1000.0).abs() < 1e-6, "{top}");
+    }
+
+    #[test]
+    fn a_chart_is_written_point_by_point() {
+        let points = vec![PlotPoint::new(0.0, 1.0), PlotPoint::new(0.5, 2.0)];
+        let curves = vec![Curve { name: "endline, top".into(), points }];
+        let chart = Chart { kind: Kind::Tension, x: "Time [s]".into(), y: "lbf".into(), curves, levels: Vec::new(), end_x: 1.0 };
+        assert_eq!(chart.csv(), "curve of Tension of each line,Time [s],lbf\n\"endline, top\",0,1\n\"endline, top\",0.5,2\n");
+        assert!((chart.top() - 2.0).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,106 @@
+//! A gear type's attributes as a form, from what the plugin declares.
+
+use egui::{Grid, RichText, Slider, Ui};
+use endline_gear::Kind;
+use endline_gear::units::{Quantity, format_si};
+use endline_sdk::{Attribute, AttributeKind};
+
+use super::super::super::book::Book;
+use super::super::super::desk::Desk;
+use super::super::super::fields;
+use super::super::super::theme::Theme;
+use super::{inserts, item};
+
+/// Draws the form.
+pub(super) fn show(ui: &mut Ui, desk: &mut Desk, file: &str, id: &str, gear_type: &str) {
+    let Some(gear) = desk.gear_types().into_iter().find(|gear| gear.descriptor().id == gear_type) else {
+        let text = format!("No gear type `{gear_type}` among the plugins; see Problems.");
+        ui.label(RichText::new(text).color(Theme::palette_of(ui).error));
+        return;
+    };
+    ui.label(RichText::new(gear.descriptor().name.as_ref()).color(Theme::palette_of(ui).faint));
+    let attributes = gear.descriptor().attributes.clone();
+    if let Some(scope) = attributes.iter().find(|attribute| attribute.key == "scope") {
+        scope_slider(ui, desk, file, scope);
+    }
+    Grid::new("attributes").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
+        for attribute in &attributes {
+            let name = super::super::library::title(&attribute.key);
+            ui.label(RichText::new(name).color(Theme::palette_of(ui).faint)).on_hover_text(help(attribute));
+            cell(ui, desk, file, attribute);
+            ui.end_row();
+        }
+    });
+    if desk.book.field(Book::SCENARIO, "gear.0.assembly").as_deref() == Some(id) {
+        inserts::of_placed(ui, desk);
+    }
+}
+
+/// Scope under the hand: rope over depth, the gear follows while it moves.
+fn scope_slider(ui: &mut Ui, desk: &mut Desk, file: &str, attribute: &Attribute) {
+    let AttributeKind::Number { min, max, default } = attribute.kind else { return };
+    let typed = desk.book.field(file, "attributes.scope").and_then(|text| text.parse::<f64>().ok());
+    let mut scope = typed.unwrap_or(default);
+    let slider = Slider::new(&mut scope, min.max(1.0)..=max.min(3.0)).fixed_decimals(2).text("scope");
+    ui.spacing_mut().slider_width = 110.0;
+    let response = ui.add(slider).on_hover_text("Length of the endline over the depth of water");
+    if response.changed() {
+        let value = format!("{scope:.2}");
+        if let Err(error) = desk.book.set_held(file, "attributes.scope", value.trim_end_matches('0')) {
+            desk.notice = Some((error, true));
+        }
+    }
+    if response.drag_stopped() || response.lost_focus() {
+        desk.book.let_go();
+    }
+}
+
+fn cell(ui: &mut Ui, desk: &mut Desk, file: &str, attribute: &Attribute) {
+    let field = format!("attributes.{}", attribute.key);
+    let width = ui.available_width() - 8.0;
+    match &attribute.kind {
+        AttributeKind::Item { library, default } => {
+            let Some(kind) = Kind::in_folder(library) else { return };
+            item(ui, desk, file, &field, kind, default.is_empty());
+        }
+        AttributeKind::Choice { words, .. } => {
+            let choices: Vec<(String, String)> = words.iter().map(|word| (word.to_string(), word.to_string())).collect();
+            if let Some(taken) = fields::choose(ui, &desk.book, file, &field, &choices, width) {
+                desk.set(file, &field, &taken);
+            }
+        }
+        AttributeKind::Number { .. } | AttributeKind::Count { .. } => {
+            let (hint, help) = (usual(attribute), help(attribute));
+            if let Some(typed) = fields::edit(ui, &desk.book, file, &field, width, fields::Said { hint: &hint, help: &help }) {
+                desk.set(file, &field, &typed);
+            }
+        }
+    }
+}
+
+/// What is taken where the file names nothing.
+fn usual(attribute: &Attribute) -> String {
+    let text = match &attribute.kind {
+        AttributeKind::Number { default, .. } => in_unit(*default, &attribute.unit),
+        AttributeKind::Count { default, .. } => default.to_string(),
+        AttributeKind::Choice { default, .. } | AttributeKind::Item { default, .. } => default.to_string(),
+    };
+    format!("{text} (usual)")
+}
+
+/// Help, range and what is usual.
+fn help(attribute: &Attribute) -> String {
+    let range = match &attribute.kind {
+        AttributeKind::Number { min, max, .. } => {
+            format!("\nbetween {} and {}", in_unit(*min, &attribute.unit), in_unit(*max, &attribute.unit))
+        }
+        AttributeKind::Count { min, max, .. } => format!("\na whole number from {min} to {max}"),
+        AttributeKind::Choice { words, .. } => format!("\none of {}", words.join(", ")),
+        AttributeKind::Item { library, .. } => format!("\nan item of {library}/"),
+    };
+    format!("{}{range}", attribute.help)
+}
+
+fn in_unit(value: f64, unit: &str) -> String {
+    Quantity::from_si_unit(unit).map_or_else(|| format!("{value} {unit}"), |quantity| format_si(value, quantity))
+}

@@ -1,0 +1,211 @@
+//! The rig from the side, to scale: slack tide beside running tide, A solid, B dashed.
+
+use egui::{Color32, RichText, Ui, vec2};
+use egui_plot::{AxisHints, HLine, Line, LineStyle, MarkerShape, Plot, PlotBounds, PlotPoint, PlotPoints, PlotUi, Points, Text};
+use endline_session::rest::Rest;
+use endline_sim::model::{Body, BodyRole};
+use glam::{DVec2, DVec3};
+
+use super::super::super::bench::Answer;
+use super::super::super::desk::Desk;
+use super::super::super::theme::Theme;
+use super::super::super::units::Units;
+use super::{Drawn, surface_m_s};
+
+/// Width drawn over that of the gear: labels stand to the right of lines.
+const LABEL_ROOM: f64 = 1.35;
+/// Lines whose diameter and strength are printed on the picture at most.
+const LABELLED: usize = 6;
+
+/// One of the two gears.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Gear {
+    name: &'static str,
+    dashed: bool,
+}
+
+/// The gear that is edited.
+pub(super) const A: Gear = Gear { name: "A", dashed: false };
+/// The gear it is compared with.
+pub(super) const B: Gear = Gear { name: "B", dashed: true };
+
+impl Gear {
+    /// Its colour.
+    pub(super) fn color(self, ui: &Ui) -> Color32 {
+        match (self.dashed, ui.visuals().dark_mode) {
+            (false, true) => Color32::from_rgb(0x56, 0xb4, 0xe9),
+            (false, false) => Color32::from_rgb(0x00, 0x64, 0x9b),
+            (true, true) => Color32::from_rgb(0xe6, 0x9f, 0x00),
+            (true, false) => Color32::from_rgb(0x9a, 0x5b, 0x00),
+        }
+    }
+
+    fn style(self) -> LineStyle {
+        if self.dashed { LineStyle::dashed_dense() } else { LineStyle::Solid }
+    }
+}
+
+/// Draws both tides.
+pub(super) fn show(ui: &mut Ui, desk: &Desk) {
+    let drawn = desk.assembly.drawn();
+    let flat = Flat { axis: axis(&drawn), units: desk.preferences.units };
+    let size = vec2((ui.available_width() - 8.0) / 2.0, ui.available_height());
+    let bounds = bounds(&drawn, &flat, f64::from((size.x - 60.0) / (size.y - 70.0).max(1.0)));
+    ui.horizontal_top(|ui| {
+        for tide in 0..2 {
+            ui.allocate_ui(size, |ui| ui.vertical(|ui| one(ui, &drawn, tide, bounds, &flat)));
+        }
+    });
+}
+
+/// The horizontal direction drawn: towards the node of A at running tide that lies farthest from its first.
+fn axis(drawn: &Drawn<'_>) -> DVec2 {
+    let rest = drawn.a[1].or(drawn.a[0]).and_then(|answer| answer.as_ref().ok());
+    let places = || rest.iter().flat_map(|rest| rest.shape.lines.iter().flat_map(|line| &line.position_m));
+    let flat = |place: &[f64; 3]| DVec2::new(place[0], place[1]);
+    let Some(first) = places().next().map(flat) else { return DVec2::X };
+    let far = places().map(|place| flat(place) - first).max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
+    far.and_then(DVec2::try_normalize).unwrap_or(DVec2::X)
+}
+
+/// The same box for both tides, round all that is drawn and the sea from seabed to surface, as wide for its height as
+/// the picture.
+fn bounds(drawn: &Drawn<'_>, flat: &Flat, aspect: f64) -> PlotBounds {
+    let rests = || drawn.a.iter().chain(&drawn.b).filter_map(|answer| answer.and_then(|answer| answer.as_ref().ok()));
+    let points = rests().flat_map(|rest| rest.shape.lines.iter().flat_map(|line| &line.position_m)).map(|place| flat.point(*place));
+    let floors = rests().map(|rest| [f64::NAN, -flat.units.of_metres(rest.model.spec.water.depth_m)]);
+    let empty = ([f64::INFINITY, 0.0], [f64::NEG_INFINITY, 0.0]);
+    // f64::min and max take the number where the other is none.
+    let (low, high) = points.chain(floors).fold(empty, |(low, high), point| {
+        (std::array::from_fn(|axis| low[axis].min(point[axis])), std::array::from_fn(|axis| high[axis].max(point[axis])))
+    });
+    if !low[0].is_finite() {
+        return PlotBounds::from_min_max([0.0, -1.0], [1.0, 0.0]);
+    }
+    let height = (high[1] - low[1]).max(0.01) * 1.2;
+    let wide = (high[0] - low[0]) * LABEL_ROOM;
+    let height = height.max(wide / aspect.max(0.1));
+    let middle = [f64::midpoint(low[0], low[0] + wide), f64::midpoint(low[1], high[1])];
+    let half = [height * aspect.max(0.1) / 2.0, height / 2.0];
+    PlotBounds::from_min_max([middle[0] - half[0] * 1.02, middle[1] - half[1]], [middle[0] + half[0] * 0.98, middle[1] + half[1]])
+}
+
+fn one(ui: &mut Ui, drawn: &Drawn<'_>, tide: usize, bounds: PlotBounds, flat: &Flat) {
+    let units = flat.units;
+    let gears = [(A, drawn.a[tide]), (B, drawn.b[tide])];
+    heading(ui, tide, &gears, units);
+    let palette = Theme::palette_of(ui);
+    let colors = [A.color(ui), B.color(ui)];
+    let plot = Plot::new(("side", tide))
+        .data_aspect(1.0)
+        .allow_drag(false)
+        .allow_zoom(false)
+        .allow_boxed_zoom(false)
+        .allow_double_click_reset(false)
+        .custom_x_axes(vec![AxisHints::new_x().label(format!("along [{}]", units.length_symbol()))])
+        .custom_y_axes(vec![AxisHints::new_y().label(format!("height [{}]", units.length_symbol())).min_thickness(42.0)])
+        .grid_spacing(egui::Rangef::new(18.0, 220.0))
+        .grid_color(palette.faint.gamma_multiply(0.5))
+        .show_background(false)
+        .allow_scroll(false);
+    plot.show(ui, |plot| {
+        plot.set_plot_bounds(bounds);
+        let depth_m =
+            gears.iter().find_map(|(_, answer)| answer.and_then(|answer| answer.as_ref().ok())).map(|rest| rest.model.spec.water.depth_m);
+        if let Some(depth_m) = depth_m {
+            plot.hline(HLine::new("sea surface", 0.0).color(palette.accent.gamma_multiply(0.8)).width(1.0));
+            plot.hline(HLine::new("seabed", -units.of_metres(depth_m)).color(palette.faint).width(2.0));
+        }
+        for ((gear, answer), color) in gears.into_iter().zip(colors) {
+            if let Some(Ok(rest)) = answer {
+                rig(plot, rest, gear, color, palette.text, flat);
+            }
+        }
+    });
+}
+
+/// What tide it is, and what keeps a rig from rest.
+fn heading(ui: &mut Ui, tide: usize, gears: &[(Gear, Option<&Answer>); 2], units: Units) {
+    let palette = Theme::palette_of(ui);
+    let rest = gears[0].1.and_then(|answer| answer.as_ref().ok());
+    let title = match (tide, rest) {
+        (0, _) => "Slack tide".to_owned(),
+        (_, Some(rest)) => format!("Running tide, {}", units.speed(surface_m_s(rest))),
+        (_, None) => "Running tide".to_owned(),
+    };
+    ui.horizontal(|ui| {
+        ui.label(RichText::new(title).strong());
+        for (gear, answer) in gears {
+            let wrong = match answer {
+                Some(Err(why)) => Some(why.clone()),
+                Some(Ok(rest)) if !rest.shape.converged => Some(rest.shape.outcome.clone()),
+                _ => None,
+            };
+            if let Some(why) = wrong {
+                let text = RichText::new(format!("{}: {why}", gear.name)).color(palette.warning);
+                ui.add(egui::Label::new(text).truncate()).on_hover_text(why);
+            }
+        }
+    });
+}
+
+/// How places become points of the drawing.
+struct Flat {
+    axis: DVec2,
+    units: Units,
+}
+
+impl Flat {
+    fn point(&self, place: [f64; 3]) -> [f64; 2] {
+        let along = DVec2::new(place[0], place[1]).dot(self.axis);
+        [self.units.of_metres(along), self.units.of_metres(place[2])]
+    }
+}
+
+fn rig(plot: &mut PlotUi<'_>, rest: &Rest, gear: Gear, color: Color32, text: Color32, flat: &Flat) {
+    let spec = &rest.model.spec;
+    for (line, shape) in spec.lines.iter().zip(&rest.shape.lines) {
+        let points: Vec<[f64; 2]> = shape.position_m.iter().map(|place| flat.point(*place)).collect();
+        let rope = &spec.ropes[line.rope];
+        let insert = line.id.contains(".insert-");
+        let (color, width) = if insert { (Color32::from_rgb(0xd5, 0x5e, 0x00), 5.0) } else { (color, 2.0) };
+        let name =
+            format!("{} {}: {}, {}", gear.name, line.id, flat.units.diameter(rope.diameter_m), flat.units.force().text(rope.strength_n));
+        let label_at = points.get(points.len() / 2).copied();
+        plot.line(Line::new(name, PlotPoints::from(points)).color(color).width(width).style(gear.style()));
+        if let (Some(at), true) = (label_at, !gear.dashed && !insert && spec.lines.len() <= LABELLED) {
+            let printed = format!("  {}, {}", flat.units.diameter(rope.diameter_m), flat.units.force().text(rope.strength_n));
+            let place = PlotPoint::new(at[0], at[1]);
+            plot.text(Text::new("", place, RichText::new(printed).size(11.0)).color(text).anchor(egui::Align2::LEFT_CENTER));
+        }
+    }
+    for (body, at) in spec.bodies.iter().zip(&rest.shape.bodies) {
+        mark(plot, body, flat.point(at.position_m), gear, color);
+    }
+    for link in spec.links.iter().filter(|link| link.enabled) {
+        let end =
+            |points: &Vec<[f64; 3]>| if link.end == endline_sdk::LineEnd::A { points.first().copied() } else { points.last().copied() };
+        if let Some(at) = rest.shape.lines.get(link.line).and_then(|line| end(&line.position_m)) {
+            let name = format!("{} {}: parts at {}", gear.name, link.id, flat.units.force().text(link.rating_n));
+            let points = Points::new(name, vec![flat.point(at)]).shape(MarkerShape::Cross).radius(5.0);
+            plot.points(points.color(Color32::from_rgb(0xd5, 0x5e, 0x00)));
+        }
+    }
+}
+
+fn mark(plot: &mut PlotUi<'_>, body: &Body, at: [f64; 2], gear: Gear, color: Color32) {
+    let shape = match body.role {
+        BodyRole::Trap => MarkerShape::Square,
+        BodyRole::Buoy => MarkerShape::Circle,
+        BodyRole::Anchor => MarkerShape::Down,
+        BodyRole::Weight => MarkerShape::Diamond,
+    };
+    plot.points(Points::new(format!("{} {}", gear.name, body.id), vec![at]).shape(shape).radius(5.0).filled(!gear.dashed).color(color));
+}
+
+/// Height of a body's highest point above the calm surface [m].
+pub(super) fn top_m(body: &Body, at: &endline_session::settled::BodyShape) -> f64 {
+    let turn = endline_sim::DQuat::from_array(at.orientation);
+    let corners = body.shape.corners().map(|corner| (turn * (corner + body.shape_offset_m)).z);
+    DVec3::from_array(at.position_m).z + corners.into_iter().fold(f64::NEG_INFINITY, f64::max)
+}

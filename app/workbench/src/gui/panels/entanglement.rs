@@ -1,0 +1,235 @@
+//! How rope lies on the whale: a map of the body, numbers by part, the outcome and what it means.
+
+use std::sync::Arc;
+
+use egui::{Color32, Grid, Rect, RichText, ScrollArea, Sense, Stroke, Ui, vec2};
+use endline_sdk::BodyPart;
+use endline_session::live::LiveView;
+use endline_sim::metrics::{Outcome, RegionSummary, WhaleSummary};
+
+use super::super::bodymap::{BodyMap, Face};
+use super::super::desk::Desk;
+use super::super::theme::Theme;
+use super::super::units::{ForceUnit, Units};
+use super::summary::numbers;
+use crate::scene::colour::tension_colour;
+
+/// What the map is coloured by.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Measure {
+    /// Wraps now.
+    #[default]
+    Wraps,
+    /// Most wraps so far.
+    PeakWraps,
+    /// Rope in contact now.
+    Contact,
+    /// Normal force at the moment shown.
+    Force,
+    /// Greatest normal force so far.
+    PeakForce,
+    /// Greatest pressure so far.
+    Pressure,
+    /// Work of friction so far.
+    Work,
+}
+
+impl Measure {
+    const ALL: [(Self, &'static str); 7] = [
+        (Self::Wraps, "wraps"),
+        (Self::PeakWraps, "most wraps"),
+        (Self::Contact, "rope in contact"),
+        (Self::Force, "force at this moment"),
+        (Self::PeakForce, "greatest force"),
+        (Self::Pressure, "greatest pressure"),
+        (Self::Work, "friction work"),
+    ];
+
+    fn of(self, region: &RegionSummary, force_n: f64) -> f64 {
+        match self {
+            Self::Wraps => region.wraps,
+            Self::PeakWraps => region.peak_wraps,
+            Self::Contact => region.contact_length_m,
+            Self::Force => force_n,
+            Self::PeakForce => region.peak_normal_n,
+            Self::Pressure => region.peak_pressure_pa,
+            Self::Work => region.friction_work_j,
+        }
+    }
+
+    fn text(self, value: f64, units: Units) -> String {
+        match self {
+            Self::Wraps | Self::PeakWraps => format!("{value:.2} turns"),
+            Self::Contact => units.length(value),
+            Self::Force | Self::PeakForce => units.force().text(value),
+            Self::Pressure => pressure(value, units.force()),
+            Self::Work => format!("{value:.0} J"),
+        }
+    }
+}
+
+/// What the entanglement panel shows.
+#[derive(Default)]
+pub struct EntanglementState {
+    /// What the map is coloured by.
+    pub measure: Measure,
+    map: Option<BodyMap>,
+}
+
+/// Draws the entanglement panel.
+pub fn show(ui: &mut Ui, desk: &mut Desk) {
+    let Some(view) = desk.view.clone() else { return super::nothing(ui, "No run yet.") };
+    let Some(whale) = view.summary.as_ref().and_then(|summary| summary.whale.as_ref()) else {
+        return super::nothing(ui, "No whale in this run.");
+    };
+    let units = desk.preferences.units;
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        outcome(ui, whale, units);
+        ui.horizontal(|ui| {
+            ui.label(RichText::new("Colour").color(Theme::palette_of(ui).faint));
+            let name = |measure: Measure| Measure::ALL.iter().find(|(known, _)| *known == measure).map_or("", |(_, name)| name);
+            egui::ComboBox::from_id_salt("measure").selected_text(name(desk.entanglement.measure)).show_ui(ui, |ui| {
+                for (measure, name) in Measure::ALL {
+                    ui.selectable_value(&mut desk.entanglement.measure, measure, name);
+                }
+            });
+        });
+        map(ui, desk, &view, whale);
+        table(ui, &view, whale, units);
+    });
+}
+
+fn outcome(ui: &mut Ui, whale: &WhaleSummary, units: Units) {
+    let palette = Theme::palette_of(ui);
+    let (text, meaning, colour) = meaning(whale.outcome, palette);
+    ui.horizontal_wrapped(|ui| {
+        ui.label(RichText::new(text).heading().color(colour));
+        let standing = if whale.decided { "" } else { "so far: " };
+        ui.label(RichText::new(format!("{standing}{meaning}")).color(palette.faint));
+    });
+    let rows = [
+        ("First contact", whale.first_contact_s.map_or_else(|| "–".into(), |time| format!("{time:.2} s"))),
+        ("Time in contact", format!("{:.2} s", whale.contact_time_s)),
+        ("Added drag, mean of 5 s", units.force().text(whale.drag_added_n)),
+        ("Trailing, tethered rope", format!("{}, {}", units.length(whale.trailing_m), units.length(whale.tethered_m))),
+    ];
+    numbers(ui, "entanglement", &rows);
+    ui.label(RichText::new("Relative, given this encounter: it says nothing of how often whales meet gear.").small().color(palette.faint));
+}
+
+/// An outcome in words, what it means (docs/entanglement.md), and its colour.
+#[must_use]
+pub fn meaning(outcome: Outcome, palette: super::super::theme::Palette) -> (&'static str, &'static str, Color32) {
+    match outcome {
+        Outcome::NoContact => ("No contact", "rope never touched the whale", palette.faint),
+        Outcome::Shed => {
+            ("Shed", "rope touched, nothing parted, and the whale is free: no contact for 10 s, less after a short touch", palette.good)
+        }
+        Outcome::PartedFree => ("Parted, whale free", "a link or line parted after the first contact, and the whale is free", palette.good),
+        Outcome::Entangled => ("Entangled", "rope touches, or did within 10 s, and nothing parted", palette.error),
+        Outcome::PartedEntangled => {
+            ("Parted, still entangled", "a link or line parted after the first contact, and rope still holds", palette.error)
+        }
+    }
+}
+
+/// Normal force on each part at the moment shown [N].
+fn forces_n(view: &LiveView) -> [f64; BodyPart::ALL.len()] {
+    let mut forces = [0.0; BodyPart::ALL.len()];
+    for contact in &view.frame.contacts {
+        forces[contact.region.part() as usize] += contact.normal_force_n.max(0.0);
+    }
+    forces
+}
+
+fn map(ui: &mut Ui, desk: &mut Desk, view: &LiveView, whale: &WhaleSummary) {
+    let Some(model) = &view.model.spec.whale else { return };
+    let state = &mut desk.entanglement;
+    if state.map.as_ref().is_none_or(|map| !map.is_of(&model.skin)) {
+        state.map = Some(BodyMap::of(Arc::clone(&model.skin)));
+    }
+    let Some(map) = &state.map else { return };
+    let (measure, units, forces) = (state.measure, desk.preferences.units, forces_n(view));
+    let value = |part: BodyPart| {
+        whale.regions.iter().find(|region| region.part == part).map_or(0.0, |region| measure.of(region, forces[part as usize]))
+    };
+    let top = BodyPart::ALL.into_iter().map(value).fold(0.0, f64::max);
+    let plain = if ui.visuals().dark_mode { Color32::from_rgb(0x6d, 0x7b, 0x84) } else { Color32::from_rgb(0xb4, 0xc0, 0xc7) };
+    let colour = |part: BodyPart| if value(part) > 0.0 { tint(value(part) / top) } else { plain };
+    let width = (ui.available_width() - 16.0) / 2.0;
+    for faces in Face::ALL.chunks(2) {
+        let height = faces.iter().map(|face| width * map.aspect(*face)).fold(0.0, f32::max) + 18.0;
+        ui.horizontal(|ui| {
+            for face in faces {
+                let (rect, _) = ui.allocate_exact_size(vec2(width, height), Sense::hover());
+                draw(ui, map, *face, rect, view, &colour);
+            }
+        });
+    }
+    ui.label(RichText::new(format!("brightest: {}", measure.text(top, units))).small().color(Theme::palette_of(ui).faint));
+}
+
+fn draw(ui: &Ui, map: &BodyMap, face: Face, rect: Rect, view: &LiveView, colour: &impl Fn(BodyPart) -> Color32) {
+    let palette = Theme::palette_of(ui);
+    let painter = ui.painter_at(rect);
+    painter.text(rect.left_top(), egui::Align2::LEFT_TOP, face.name(), egui::FontId::proportional(11.0), palette.faint);
+    let below = rect.with_min_y(rect.top() + 16.0).shrink(2.0);
+    painter.add(map.mesh(face, below, colour));
+    let strongest = view.frame.contacts.iter().map(|contact| contact.normal_force_n).fold(1.0, f64::max);
+    for contact in view.frame.contacts.iter().filter(|contact| contact.normal_force_n > 0.0) {
+        if let Some(at) = map.contact(face, below, contact) {
+            let size = 1.5 + 3.0 * (contact.normal_force_n / strongest).sqrt() as f32;
+            painter.circle(at, size, palette.error, Stroke::new(0.5, Color32::BLACK));
+        }
+    }
+}
+
+fn tint(share: f64) -> Color32 {
+    let [red, green, blue, _] = tension_colour(share).map(|part| (part * 255.0) as u8);
+    Color32::from_rgb(red, green, blue)
+}
+
+fn table(ui: &mut Ui, view: &LiveView, whale: &WhaleSummary, units: Units) {
+    let palette = Theme::palette_of(ui);
+    let forces = forces_n(view);
+    Grid::new("parts").num_columns(8).striped(true).spacing([12.0, 2.0]).min_row_height(17.0).show(ui, |ui| {
+        for head in ["Part", "Wraps", "most", "Contact", "Force now", "Peak", "Pressure", "Friction work"] {
+            ui.label(RichText::new(head).small().color(palette.faint));
+        }
+        ui.end_row();
+        for region in &whale.regions {
+            let touched = region.peak_contact_length_m > 0.0;
+            let text = |text: String| RichText::new(text).color(if touched { palette.text } else { palette.faint });
+            let force = units.force();
+            ui.label(text(region.part.name().replace('_', " ")));
+            ui.label(text(format!("{:.2}", region.wraps)));
+            ui.label(text(format!("{:.2}", region.peak_wraps)));
+            ui.label(text(units.length(region.contact_length_m)));
+            ui.label(text(force.text(forces[region.part as usize])));
+            ui.label(text(force.text(region.peak_normal_n)));
+            ui.label(text(pressure(region.peak_pressure_pa, force)));
+            ui.label(text(format!("{:.0} J", region.friction_work_j)));
+            ui.end_row();
+        }
+    });
+}
+
+fn pressure(pa: f64, force: ForceUnit) -> String {
+    /// Pascals in a pound-force on a square inch.
+    const PA_PER_PSI: f64 = 6_894.757;
+    match force {
+        ForceUnit::Lbf => format!("{:.1} psi", pa / PA_PER_PSI),
+        ForceUnit::Newton => format!("{:.0} kPa", pa / 1000.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pressure_is_told_in_the_unit_of_forces() {
+        assert_eq!(pressure(6_894.757, ForceUnit::Lbf), "1.0 psi");
+        assert_eq!(pressure(12_000.0, ForceUnit::Newton), "12 kPa");
+    }
+}

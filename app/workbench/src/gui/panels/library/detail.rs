@@ -1,0 +1,188 @@
+//! The chosen entry beside its table: what it is, where it is used, how it differs from another.
+
+use egui::{Grid, RichText, ScrollArea, Ui};
+use endline_gear::units::{self, Quantity};
+use endline_gear::{Document, Kind};
+
+use super::super::super::book::Book;
+use super::super::super::desk::{Desk, Order};
+use super::super::super::exchange::id_of;
+use super::super::super::fields;
+use super::super::super::layout::Panel;
+use super::super::super::theme::Theme;
+use super::title;
+
+/// What the chosen entry is compared with.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum Against {
+    /// Itself as its file on disk has it.
+    #[default]
+    Saved,
+    /// Another entry, by its path.
+    Entry(String),
+}
+
+/// Who uses an entry; looked up when it is chosen.
+#[derive(Clone, Debug, Default)]
+pub struct Uses {
+    path: String,
+    version: u64,
+    assemblies: Vec<String>,
+    scenarios: Vec<std::path::PathBuf>,
+}
+
+/// Draws what there is to say of an entry.
+pub(super) fn show(ui: &mut Ui, desk: &mut Desk, path: &str) {
+    ScrollArea::vertical().id_salt("entry").auto_shrink(false).show(ui, |ui| {
+        words(ui, desk, path);
+        used_in(ui, desk, path);
+        compare(ui, desk, path);
+    });
+}
+
+/// Name, remarks, source and sureness, for editing.
+fn words(ui: &mut Ui, desk: &mut Desk, path: &str) {
+    let faint = Theme::palette_of(ui).faint;
+    ui.horizontal(|ui| {
+        ui.label(RichText::new(path).monospace().size(11.5).color(faint));
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            if ui.small_button("✖").on_hover_text("Close this list").clicked() {
+                desk.library.chosen = None;
+            }
+        });
+    });
+    let rows = [
+        ("Name", "name", "Name shown to the user"),
+        ("Remarks", "notes", "What a reader should know"),
+        ("Source", "source", "Where the figures come from that name no source of their own"),
+        ("Sureness", "sureness", "measured, derived or estimate; of figures that name none of their own"),
+    ];
+    Grid::new("entry-words").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
+        for (name, key, help) in rows {
+            ui.label(RichText::new(name).color(faint));
+            let width = ui.available_width() - 8.0;
+            if let Some(typed) = fields::edit(ui, &desk.book, path, key, width, fields::Said { hint: "", help }) {
+                desk.set(path, key, &typed);
+            }
+            ui.end_row();
+        }
+    });
+}
+
+fn used_in(ui: &mut Ui, desk: &mut Desk, path: &str) {
+    let version = desk.book.version();
+    if desk.library.uses.path != path || desk.library.uses.version != version {
+        desk.library.uses = Uses { version, ..uses(&desk.book, path) };
+    }
+    super::super::caption(ui, "Used in");
+    let uses = desk.library.uses.clone();
+    if uses.assemblies.is_empty() && uses.scenarios.is_empty() {
+        ui.label(RichText::new("no assembly and no scenario").color(Theme::palette_of(ui).faint));
+    }
+    ui.horizontal_wrapped(|ui| {
+        for assembly in &uses.assemblies {
+            if ui.link(assembly).on_hover_text("Show this assembly").clicked() {
+                desk.assembly.shown = Some(id_of(assembly).to_owned());
+                desk.orders.push(Order::Show(Panel::Assembly));
+            }
+        }
+        for scenario in &uses.scenarios {
+            let name = scenario.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+            if ui.link(format!("scenarios/{name}")).on_hover_text("Open this scenario").clicked() {
+                desk.orders.push(Order::Open(scenario.clone()));
+            }
+        }
+    });
+}
+
+/// Assemblies and scenarios whose text names an entry by its id.
+fn uses(book: &Book, path: &str) -> Uses {
+    let named = format!("\"{}\"", id_of(path));
+    let names = |text: &str| text.contains(&named);
+    let assemblies = book.files("assemblies").filter(|file| *file != path && book.text(file).is_some_and(names)).map(str::to_owned);
+    let scenarios = super::super::scenario::scenarios(book.root()).into_iter();
+    let scenarios = scenarios.filter(|file| std::fs::read_to_string(file).is_ok_and(|text| names(&text)));
+    Uses { path: path.to_owned(), version: 0, assemblies: assemblies.collect(), scenarios: scenarios.collect() }
+}
+
+fn compare(ui: &mut Ui, desk: &mut Desk, path: &str) {
+    super::super::caption(ui, "Compared with");
+    let kind = desk.library.kind;
+    choose(ui, desk, path, kind);
+    let other = match &desk.library.against {
+        Against::Saved => desk.book.saved_text(path).map(str::to_owned),
+        Against::Entry(other) => desk.book.text(other).map(str::to_owned),
+    };
+    let Some(other) = other.and_then(|text| Document::parse(&text).ok()) else {
+        ui.label(RichText::new("no file yet: it is new").color(Theme::palette_of(ui).faint));
+        return;
+    };
+    let rows = differences(&desk.book, path, &other, kind);
+    if rows.is_empty() {
+        ui.label(RichText::new("no difference").color(Theme::palette_of(ui).faint));
+        return;
+    }
+    Grid::new("compare").num_columns(4).striped(true).spacing([12.0, 2.0]).show(ui, |ui| {
+        let faint = Theme::palette_of(ui).faint;
+        for head in ["", "here", "there", ""] {
+            ui.label(RichText::new(head).small().color(faint));
+        }
+        ui.end_row();
+        for [name, here, there, by] in rows {
+            ui.label(RichText::new(name).color(faint));
+            ui.label(here);
+            ui.label(there);
+            ui.label(RichText::new(by).color(faint));
+            ui.end_row();
+        }
+    });
+}
+
+fn choose(ui: &mut Ui, desk: &mut Desk, path: &str, kind: Kind) {
+    let name = |path: &str| desk.book.field(path, "name").unwrap_or_else(|| path.to_owned());
+    let shown = match &desk.library.against {
+        Against::Saved => "its file on disk".to_owned(),
+        Against::Entry(other) => name(other),
+    };
+    let others: Vec<(String, String)> =
+        desk.book.files(kind.folder()).filter(|other| *other != path).map(|other| (other.to_owned(), name(other))).collect();
+    let width = ui.available_width() - 8.0;
+    egui::ComboBox::from_id_salt("against").width(width).truncate().selected_text(shown).show_ui(ui, |ui| {
+        ui.selectable_value(&mut desk.library.against, Against::Saved, "its file on disk");
+        for (other, name) in others {
+            ui.selectable_value(&mut desk.library.against, Against::Entry(other), name);
+        }
+    });
+}
+
+/// Fields that differ: name, here, there, by how much.
+fn differences(book: &Book, path: &str, other: &Document, kind: Kind) -> Vec<[String; 4]> {
+    let words = kind.words().iter().map(|word| (word.key, None));
+    let figures = kind.fields().iter().map(|field| (field.key, Some(field.quantity)));
+    let row = |(key, quantity): (&str, Option<Quantity>)| {
+        let (here, there) = (book.field(path, key).unwrap_or_default(), other.get(key).unwrap_or_default());
+        (here != there).then(|| [title(key), here.clone(), there.clone(), by(&here, &there, quantity)])
+    };
+    words.chain(figures).filter_map(row).collect()
+}
+
+/// How much more a figure is here than there.
+fn by(here: &str, there: &str, quantity: Option<Quantity>) -> String {
+    let si = |text: &str| quantity.and_then(|quantity| units::parse(text, quantity).ok());
+    match (si(here), si(there)) {
+        (Some(here), Some(there)) if there != 0.0 => format!("{:+.1} %", 100.0 * (here / there - 1.0)),
+        _ => String::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_difference_is_told_over_units() {
+        assert_eq!(by("1,700 lbf", "3400 lbf", Some(Quantity::Force)), "-50.0 %");
+        assert_eq!(by("1 in", "25.4 mm", Some(Quantity::Length)), "+0.0 %");
+        assert_eq!(by("pp", "sink", None), "");
+    }
+}

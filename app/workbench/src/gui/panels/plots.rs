@@ -1,0 +1,206 @@
+//! Plots of the run, one below the other, with one cursor; a click shows that moment.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use egui::{Color32, Id, Rect, RichText, Ui};
+use egui_plot::{AxisHints, HLine, Legend, Line, LineStyle, Plot, PlotPoint, PlotPoints, Polygon, VLine};
+use endline_session::live::LiveView;
+use endline_sim::Model;
+
+use super::super::charts::{COLOURS, Chart, Kind};
+use super::super::desk::{Desk, Order};
+use super::super::theme::Theme;
+use super::super::units::Units;
+
+/// A strength further above the peak than this share is told, not drawn.
+const REACH: f64 = 3.0;
+
+/// Which plots are shown, and those last made.
+#[derive(Default)]
+pub struct PlotsState {
+    /// The kinds shown; tension, force and wraps where `None`.
+    pub shown: Option<Vec<Kind>>,
+    /// A PNG to be cut from the window as it is drawn next.
+    pub picture: Option<PathBuf>,
+    made: Vec<(Kind, Made)>,
+    /// The file that waits for the window's picture, and the part of it that is the plots.
+    waiting: Option<(PathBuf, Rect)>,
+}
+
+/// A chart with what it was made of.
+struct Made {
+    model: Arc<Model>,
+    samples: usize,
+    shown_s: f64,
+    units: Units,
+    chart: Chart,
+}
+
+impl PlotsState {
+    /// The kinds shown.
+    #[must_use]
+    pub fn kinds(&self) -> Vec<Kind> {
+        self.shown.clone().unwrap_or_else(|| vec![Kind::Tension, Kind::Force, Kind::Wraps])
+    }
+
+    /// Makes charts anew where the run has gone on since.
+    fn make(&mut self, kind: Kind, view: &LiveView, units: Units) -> &Chart {
+        let shown_s = if kind.over_time() { 0.0 } else { view.frame.time_s };
+        let current = |made: &Made| {
+            Arc::ptr_eq(&made.model, &view.model)
+                && made.samples == view.tension.len()
+                && made.shown_s.to_bits() == shown_s.to_bits()
+                && made.units == units
+        };
+        let place = self.made.iter().position(|(known, _)| *known == kind);
+        let fresh =
+            || Made { model: Arc::clone(&view.model), samples: view.tension.len(), shown_s, units, chart: Chart::of(kind, view, units) };
+        let place = match place {
+            Some(place) => {
+                if !current(&self.made[place].1) {
+                    self.made[place].1 = fresh();
+                }
+                place
+            }
+            None => {
+                self.made.push((kind, fresh()));
+                self.made.len() - 1
+            }
+        };
+        &self.made[place].1.chart
+    }
+}
+
+/// Draws the plots panel.
+pub fn show(ui: &mut Ui, desk: &mut Desk) {
+    let Some(view) = desk.view.clone() else { return super::nothing(ui, "No run yet.") };
+    toolbar(ui, desk);
+    let kinds = desk.plots.kinds();
+    if kinds.is_empty() {
+        return super::nothing(ui, "Choose what to plot above.");
+    }
+    photograph(ui, desk);
+    let height = (ui.available_height() / kinds.len() as f32 - 26.0).max(70.0);
+    egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        for kind in kinds {
+            ui.label(RichText::new(kind.title()).color(Theme::palette_of(ui).faint));
+            one(ui, desk, &view, kind, height);
+        }
+    });
+}
+
+/// Draws one plot alone, filling the panel.
+pub fn alone(ui: &mut Ui, desk: &mut Desk, kind: Kind) {
+    let Some(view) = desk.view.clone() else { return super::nothing(ui, "No run yet.") };
+    ui.label(RichText::new("Greatest tension of each line").color(Theme::palette_of(ui).faint));
+    let height = ui.available_height();
+    one(ui, desk, &view, kind, height);
+}
+
+fn toolbar(ui: &mut Ui, desk: &mut Desk) {
+    ui.horizontal_wrapped(|ui| {
+        let mut shown = desk.plots.kinds();
+        for kind in Kind::ALL {
+            let mut on = shown.contains(&kind);
+            if ui.toggle_value(&mut on, kind.title()).changed() {
+                shown = Kind::ALL.into_iter().filter(|known| if *known == kind { on } else { shown.contains(known) }).collect();
+                desk.plots.shown = Some(shown.clone());
+            }
+        }
+        ui.menu_button("Save ⏷", |ui| {
+            for (text, ending) in [("As SVG …", "svg"), ("As PNG …", "png"), ("As CSV …", "csv")] {
+                if ui.button(text).clicked() {
+                    desk.orders.push(Order::AskExportPlots(ending));
+                    ui.close();
+                }
+            }
+        });
+    });
+}
+
+/// Cuts the plots out of a picture of the window.
+fn photograph(ui: &Ui, desk: &mut Desk) {
+    if let Some(path) = desk.plots.picture.take() {
+        desk.plots.waiting = Some((path, ui.available_rect_before_wrap()));
+        ui.ctx().send_viewport_cmd(egui::ViewportCommand::Screenshot(egui::UserData::default()));
+    }
+    let shot = |event: &egui::Event| if let egui::Event::Screenshot { image, .. } = event { Some(Arc::clone(image)) } else { None };
+    let Some(image) = ui.input(|input| input.events.iter().find_map(shot)) else { return };
+    let Some((path, rect)) = desk.plots.waiting.take() else { return };
+    let cut = image.region(&rect, Some(ui.ctx().pixels_per_point()));
+    let written = png_of(&cut).and_then(|bytes| endline_session::save::atomically(&path, &bytes).map_err(|error| error.to_string()));
+    desk.notice = Some(match written {
+        Ok(()) => (format!("saved {}", path.display()), false),
+        Err(error) => (format!("{}: {error}", path.display()), true),
+    });
+}
+
+fn png_of(image: &egui::ColorImage) -> Result<Vec<u8>, String> {
+    let mut bytes = Vec::new();
+    let side = |pixels: usize| u32::try_from(pixels).map_err(|error| error.to_string());
+    let mut encoder = png::Encoder::new(&mut bytes, side(image.size[0])?, side(image.size[1])?);
+    encoder.set_color(png::ColorType::Rgba);
+    let mut writer = encoder.write_header().map_err(|error| error.to_string())?;
+    writer.write_image_data(image.as_raw()).map_err(|error| error.to_string())?;
+    writer.finish().map_err(|error| error.to_string())?;
+    Ok(bytes)
+}
+
+/// The charts shown, for writing.
+pub fn charts(desk: &Desk) -> Vec<Chart> {
+    let Some(view) = &desk.view else { return Vec::new() };
+    desk.plots.kinds().into_iter().map(|kind| Chart::of(kind, view, desk.preferences.units)).collect()
+}
+
+fn one(ui: &mut Ui, desk: &mut Desk, view: &LiveView, kind: Kind, height: f32) {
+    let palette = Theme::palette_of(ui);
+    let units = desk.preferences.units;
+    let chart = desk.plots.make(kind, view, units);
+    if chart.curves.iter().all(|curve| curve.points.is_empty()) {
+        let why = if matches!(kind, Kind::Force | Kind::Wraps) { "No rope has touched the whale." } else { "Nothing yet." };
+        return super::nothing(ui, why);
+    }
+    let top = chart.top().max(1e-6);
+    let mut plot = Plot::new(("plot", kind.name()))
+        .height(height)
+        .legend(Legend::default().position(egui_plot::Corner::RightTop).background_alpha(0.6))
+        .include_x(0.0)
+        .include_x(chart.end_x)
+        .include_y(0.0)
+        .custom_x_axes(vec![AxisHints::new_x().label(chart.x.clone()).label_spacing(egui::Rangef::new(24.0, 48.0))])
+        .custom_y_axes(vec![AxisHints::new_y().label(chart.y.clone()).label_spacing(egui::Rangef::new(14.0, 26.0)).min_thickness(46.0)])
+        .grid_spacing(egui::Rangef::new(14.0, 220.0))
+        .grid_color(palette.faint.gamma_multiply(0.5))
+        .allow_scroll(false)
+        .show_background(false);
+    if top > 0.0 {
+        plot = plot.include_y(top * 1.1);
+    }
+    if kind.over_time() {
+        plot = plot.link_cursor(Id::new("time"), [true, false]).link_axis(Id::new("time"), [true, false]);
+    }
+    let response = plot.show(ui, |plot| {
+        for (curve, [red, green, blue]) in chart.curves.iter().zip(COLOURS.iter().cycle()) {
+            let line = Line::new(&curve.name, PlotPoints::Borrowed(&curve.points));
+            plot.line(line.color(Color32::from_rgb(*red, *green, *blue)).width(1.5));
+        }
+        for level in chart.levels.iter().filter(|level| level.band[0] < REACH * top) {
+            let [low, high] = level.band;
+            if high > low {
+                let corners = [[0.0, low], [chart.end_x, low], [chart.end_x, high], [0.0, high]];
+                let points: Vec<PlotPoint> = corners.map(PlotPoint::from).to_vec();
+                let band = Polygon::new(&level.name, PlotPoints::Owned(points)).fill_color(palette.error.gamma_multiply(0.12));
+                plot.polygon(band.stroke(egui::Stroke::NONE).allow_hover(false));
+            }
+            plot.hline(HLine::new(&level.name, low).color(palette.error).width(1.0).style(LineStyle::dashed_loose()));
+        }
+        if kind.over_time() {
+            plot.vline(VLine::new("", view.frame.time_s).color(palette.faint.gamma_multiply(0.7)).width(1.0));
+        }
+        plot.pointer_coordinate()
+    });
+    if let (true, true, Some(at)) = (kind.over_time(), response.response.clicked(), response.inner) {
+        desk.orders.push(Order::Seek(at.x.clamp(0.0, view.newest_s)));
+    }
+}

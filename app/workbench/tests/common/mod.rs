@@ -1,0 +1,166 @@
+//! The workbench on a fake engine or a real one, with a copy of the shipped library; for every test of the window.
+#![allow(clippy::unwrap_used, dead_code, reason = "a test that cannot go on fails; no test uses all of this")]
+
+use std::cell::RefCell;
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use endline_session::PluginHost;
+use endline_session::live::{Command, LiveView, Status};
+use endline_session::plugins::Hook;
+use endline_workbench::gui::app::App;
+use endline_workbench::gui::book::Book;
+use endline_workbench::gui::desk::Desk;
+use endline_workbench::gui::engine::{Engine, Launch, Waker};
+use endline_workbench::input::Pilot;
+
+/// What a test's engine was told, in words.
+pub type Told = Rc<RefCell<Vec<String>>>;
+
+/// An engine that notes what it is told and does what a run would, at once.
+struct FakeEngine {
+    told: Told,
+    view: RefCell<LiveView>,
+}
+
+impl Engine for FakeEngine {
+    fn send(&self, command: Command) -> bool {
+        let mut view = self.view.borrow_mut();
+        let words = match command {
+            Command::Start => {
+                view.status = Status::Running;
+                "start".to_owned()
+            }
+            Command::Pause => {
+                view.status = Status::Paused;
+                "pause".to_owned()
+            }
+            Command::Step => "step".to_owned(),
+            Command::Reset => "reset".to_owned(),
+            Command::Speed(speed) => format!("speed {speed}"),
+            Command::Controls(controls) => {
+                format!("controls {:.2} {:.2} {:.2} {:.2}", controls.speed, controls.pitch, controls.roll, controls.yaw)
+            }
+            Command::Autopilot => "autopilot".to_owned(),
+            Command::WeakLinks(on) => format!("weak links {on}"),
+            Command::Load(prepared) => {
+                view.model = Arc::clone(&prepared.model);
+                "load".to_owned()
+            }
+            Command::Seek(time_s) => format!("seek {time_s}"),
+            Command::Shift(by) => format!("shift {by}"),
+            Command::SaveRecording(path) => format!("save {}", path.display()),
+        };
+        self.told.borrow_mut().push(words);
+        true
+    }
+
+    fn latest(&self) -> Arc<LiveView> {
+        Arc::new(self.view.borrow().clone())
+    }
+}
+
+/// A copy of the shipped library in a folder of the test's own, deleted in the end.
+pub struct Folder(pub PathBuf);
+
+impl Folder {
+    pub fn new(name: &str) -> Self {
+        let root = std::env::temp_dir().join(format!("endline-workbench-{name}-{}", std::process::id()));
+        let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../gear-library");
+        for kind in
+            ["ropes", "traps", "buoys", "weak-links", "knots", "anchors", "sites", "friction", "whales", "acts", "assemblies", "scenarios"]
+        {
+            std::fs::create_dir_all(root.join(kind)).unwrap();
+            for entry in std::fs::read_dir(shipped.join(kind)).unwrap() {
+                let entry = entry.unwrap();
+                std::fs::copy(entry.path(), root.join(kind).join(entry.file_name())).unwrap();
+            }
+        }
+        Self(root)
+    }
+
+    pub fn book(&self) -> Book {
+        self.book_with("reference-a-pendulum")
+    }
+
+    pub fn book_with(&self, scenario: &str) -> Book {
+        Book::open(&self.0, &self.0.join("scenarios").join(scenario).with_extension("toml")).unwrap()
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        // A folder left behind is not worth failing a test for.
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+/// The workbench on a fake engine; waits until the first model is made.
+pub fn workbench(folder: &Folder, pilot: Pilot) -> (Harness<'static, App>, Told) {
+    let told = Told::default();
+    let noted = Rc::clone(&told);
+    let launch: Launch = Box::new(move |prepared, _waker| {
+        let told = Rc::clone(&noted);
+        let view = RefCell::new(LiveView { status: Status::Paused, ..LiveView::before(&prepared) });
+        let engine: Box<dyn Engine> = Box::new(FakeEngine { told, view });
+        Ok(engine)
+    });
+    let harness = opened(folder.book(), launch, pilot);
+    (harness, told)
+}
+
+pub fn opened(book: Book, launch: Launch, pilot: Pilot) -> Harness<'static, App> {
+    opened_with(book, Arc::new(PluginHost::empty()), launch, pilot)
+}
+
+pub fn opened_with(book: Book, host: Arc<PluginHost>, launch: Launch, pilot: Pilot) -> Harness<'static, App> {
+    let waker: Waker = Arc::new(|| {});
+    let create = move |creation: &mut eframe::CreationContext<'_>| App::new(creation, Desk::new(book, host, launch, waker, pilot));
+    let mut harness = Harness::builder().with_size(egui::vec2(1500.0, 940.0)).build_eframe(create);
+    wait(&mut harness, |app| app.desk.view.is_some());
+    harness
+}
+
+/// Draws until something is so.
+pub fn wait(harness: &mut Harness<'static, App>, so: impl Fn(&App) -> bool) {
+    let patience = Instant::now() + Duration::from_secs(30);
+    while !so(harness.state()) {
+        let desk = &harness.state().desk;
+        assert!(Instant::now() < patience, "waited in vain: {:?}, {:?}", desk.status(), desk.notice);
+        std::thread::sleep(Duration::from_millis(5));
+        harness.step();
+    }
+    harness.run_steps(2);
+}
+
+/// Types into the first field that shows `old`, and commits.
+pub fn retype(harness: &mut Harness<'static, App>, old: &str, new: &str) {
+    harness.get_all_by_value(old).next().unwrap().click();
+    harness.run_steps(2);
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+    harness.run_steps(1);
+    harness.event(egui::Event::Text(new.to_owned()));
+    harness.run_steps(1);
+    harness.key_press(egui::Key::Enter);
+    harness.run_steps(3);
+}
+
+/// The value of a field of a file on disk.
+pub fn on_disk(folder: &Folder, path: &str) -> String {
+    std::fs::read_to_string(folder.0.join(path)).unwrap()
+}
+
+/// The first-party plugins, linked.
+pub fn linked() -> Arc<PluginHost> {
+    let mut host = PluginHost::empty();
+    let motion = Hook::Motion(Arc::new(endline_whale_motions::Swim::default()));
+    let friction = Hook::Friction(Arc::new(endline_friction_models::Coulomb::default()));
+    for hook in [motion, friction].into_iter().chain(endline_gear_types::all().into_iter().map(Hook::Gear)) {
+        host.add(hook).unwrap();
+    }
+    Arc::new(host)
+}
