@@ -181,6 +181,12 @@ impl Run {
         Arc::new(Frame::of(self.model(), &self.state, &self.workspace.contacts))
     }
 
+    /// The controls of every step so far.
+    #[must_use]
+    pub fn inputs(&self) -> &[Controls] {
+        &self.inputs
+    }
+
     /// Places where rope presses on skin, at the end of the last step.
     #[must_use]
     pub fn contacts(&self) -> &[ContactPoint] {

@@ -55,6 +55,10 @@ pub enum Command {
     Seek(f64),
     /// Show the moment so many kept frames later, or earlier, and stand still.
     Shift(i64),
+    /// Back to the settled gear, then these inputs as fast as it goes, then stand still.
+    Inputs(Vec<Controls>),
+    /// The inputs of the run up to the moment shown again, then stand still: to go on from there in another way.
+    Branch,
     /// Save the run so far as a recording.
     SaveRecording(PathBuf),
 }

@@ -96,6 +96,8 @@ struct Worker<'a> {
     /// Greatest tension of each line since the last sample [N].
     peak_n: Vec<f64>,
     sought: Option<Arc<Frame>>,
+    /// Inputs of a recording still to be run, and the speed to go on at after them.
+    script: Option<(std::vec::IntoIter<Controls>, f64)>,
     message: Option<String>,
     shown: Instant,
 }
@@ -120,6 +122,7 @@ impl<'a> Worker<'a> {
             watch: Watch::default(),
             peak_n: Vec::new(),
             sought: None,
+            script: None,
             message: None,
             shown: now,
         };
@@ -174,8 +177,45 @@ impl<'a> Worker<'a> {
                 self.pause();
                 self.look(|film, now_s| film.beside(now_s, by));
             }
+            Command::Inputs(inputs) => self.run_again(inputs),
+            Command::Branch => self.branch(),
             Command::SaveRecording(path) => self.save(&path),
         }
+    }
+
+    /// Runs inputs again from the start as fast as it goes.
+    fn run_again(&mut self, inputs: Vec<Controls>) {
+        let speed = self.script.take().map_or(self.pace.speed(), |(_, speed)| speed);
+        self.reset();
+        if inputs.is_empty() {
+            return;
+        }
+        self.script = Some((inputs.into_iter(), speed));
+        self.start();
+        self.set_speed(f64::INFINITY);
+    }
+
+    /// Runs again up to the moment shown.
+    fn branch(&mut self) {
+        let Some(run) = &self.run else { return };
+        let step = self.sought.as_ref().map_or(run.state().step, |frame| frame.step);
+        let inputs = run.inputs();
+        let upto = usize::try_from(step).unwrap_or(usize::MAX).min(inputs.len());
+        let inputs = inputs[..upto].to_vec();
+        self.run_again(inputs);
+    }
+
+    /// The next input of a recording that is run again; stands still after the last.
+    fn scripted(&mut self) -> Option<Controls> {
+        let (inputs, speed) = self.script.as_mut()?;
+        let next = inputs.next();
+        if inputs.len() == 0 {
+            let speed = *speed;
+            self.script = None;
+            self.pause();
+            self.set_speed(speed);
+        }
+        next
     }
 
     /// Looks at a kept frame, given the time shown; at the newest moment where that is reached.
@@ -248,7 +288,7 @@ impl<'a> Worker<'a> {
         (self.tension, self.history) = (Series::default(), Series::default());
         self.watch = Watch::default();
         self.peak_n.clear();
-        self.sought = None;
+        (self.sought, self.script) = (None, None);
         self.message = None;
         self.run = Some(run);
         self.status = Status::Paused;
@@ -266,8 +306,9 @@ impl<'a> Worker<'a> {
     }
 
     fn step(&mut self) {
+        let scripted = self.scripted();
         let Some(run) = &mut self.run else { return };
-        self.controls = self.pilot.unwrap_or_else(|| run.pilot());
+        self.controls = scripted.or(self.pilot).unwrap_or_else(|| run.pilot());
         if let Err(stop) = run.step(self.controls) {
             self.status = Status::Stopped(Error::Stopped(stop).to_string());
         } else if run.finished() && self.pilot.is_none() {

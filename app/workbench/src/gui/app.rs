@@ -10,7 +10,7 @@ use endline_session::live::Command;
 use super::canvas::Canvas;
 use super::desk::{Desk, Order, Preferences};
 use super::layout::{self, Layout, Panel};
-use super::{keys, menus, panels, status};
+use super::{keys, menus, panels, questions, status};
 use crate::input::{HeldKeys, PilotAction};
 
 const LAYOUT_KEY: &str = "layout";
@@ -24,6 +24,12 @@ pub struct App {
     pub dock: DockState<String>,
     /// Answer of a file dialog still open.
     pub dialog: Option<mpsc::Receiver<Option<Order>>>,
+    /// Edits that a crash left, with their files.
+    pub left_behind: Vec<(std::path::PathBuf, super::recovery::Kept)>,
+    /// Whether it is asked what to do with unsaved edits.
+    pub asking: bool,
+    /// Whether the window may close as it is.
+    pub leave: bool,
     palette: super::palette::Palette,
     dressed: Option<super::theme::Theme>,
     controls_at_s: Option<f64>,
@@ -38,6 +44,8 @@ impl App {
             desk.preferences = serde_json::from_str(&text).unwrap_or_default();
         }
         desk.pilot.invert_pitch = desk.preferences.invert_pitch;
+        desk.pilot.mapping = desk.preferences.mapping.clone();
+        creation.egui_ctx.set_zoom_factor(desk.preferences.scale.0.clamp(0.5, 4.0));
         let saved = stored(LAYOUT_KEY).and_then(|text| serde_json::from_str(&text).ok()).and_then(layout::known);
         if let Some(gl) = &creation.gl {
             match Canvas::new(Arc::clone(gl)) {
@@ -45,8 +53,23 @@ impl App {
                 Err(error) => desk.notice = Some((error, true)),
             }
         }
-        let dock = saved.unwrap_or_else(|| Layout::Design.dock());
-        Self { desk, dock, dialog: None, palette: super::palette::Palette::default(), dressed: None, controls_at_s: None }
+        let first = saved.is_none() && creation.storage.is_some();
+        let mut dock = saved.unwrap_or_else(|| Layout::Design.dock());
+        if first {
+            layout::open_beside(&mut dock, Panel::Start, Panel::View);
+        }
+        let left_behind = desk.keeper.left_behind();
+        Self {
+            desk,
+            dock,
+            left_behind,
+            asking: false,
+            leave: false,
+            dialog: None,
+            palette: super::palette::Palette::default(),
+            dressed: None,
+            controls_at_s: None,
+        }
     }
 
     /// Obeys every order given since the last call.
@@ -54,6 +77,9 @@ impl App {
         for order in orders {
             match &order {
                 Order::Show(panel) => layout::open(&mut self.dock, *panel),
+                Order::Close(panel) => layout::close(&mut self.dock, *panel),
+                Order::Size(scale) => context.set_zoom_factor(*scale),
+                Order::AskRecording => menus::ask_recording(self),
                 Order::Arrange(layout) => self.dock = layout.dock(),
                 Order::Commands => self.palette.toggle(),
                 Order::CopyCommandLine => self.copy_command_line(context),
@@ -78,6 +104,9 @@ impl App {
         let actions = self.desk.pilot.poll_pad();
         if !self.desk.flying {
             self.controls_at_s = None;
+            if let Some(view) = self.desk.view.clone() {
+                self.desk.rumble.skip(&view.events);
+            }
             return;
         }
         for action in actions {
@@ -86,6 +115,8 @@ impl App {
                 PilotAction::PlayPause => self.obey(context, vec![Order::PlayPause]),
                 PilotAction::Person => self.obey(context, vec![Order::Person]),
                 PilotAction::WeakLinks => self.obey(context, vec![Order::WeakLinks]),
+                PilotAction::Slower => self.obey(context, vec![Order::Slower]),
+                PilotAction::Faster => self.obey(context, vec![Order::Faster]),
                 PilotAction::NextAct => self.obey(context, vec![Order::NextAct]),
             }
         }
@@ -94,8 +125,29 @@ impl App {
         let typing = context.egui_wants_keyboard_input();
         let held = if typing { HeldKeys::default() } else { context.input(HeldKeys::of) };
         let controls = self.desk.pilot.controls(&held, self.desk.acts().len(), elapsed_s);
+        if let Some(view) = self.desk.view.clone()
+            && let Some(pulse) = self.desk.rumble.feel(&view.events, now_s)
+        {
+            self.desk.pilot.rumble(pulse.strength, pulse.long_s);
+        }
         self.desk.send(Command::Controls(controls));
         context.request_repaint();
+    }
+
+    /// Keeps unsaved edits where it is time.
+    fn keep(&mut self, context: &Context) {
+        let now_s = context.input(|input| input.time);
+        if let Some(after_s) = self.desk.keeper.keep(&self.desk.book, now_s) {
+            context.request_repaint_after(std::time::Duration::from_secs_f64(after_s));
+        }
+        self.desk.preferences.scale.0 = context.zoom_factor();
+    }
+
+    /// Drops edits that a crash left.
+    pub fn drop_left_behind(&mut self, file: &std::path::Path) {
+        // One that cannot be taken away is offered again next time.
+        let _ = std::fs::remove_file(file);
+        self.left_behind.retain(|(known, _)| known != file);
     }
 
     fn take_dialog(&mut self) {
@@ -115,6 +167,7 @@ impl eframe::App for App {
     fn logic(&mut self, context: &Context, _frame: &mut eframe::Frame) {
         self.desk.refresh();
         self.take_dialog();
+        self.keep(context);
         if self.desk.replaying() {
             self.desk.play(f64::from(context.input(|input| input.stable_dt)).min(0.1));
             context.request_repaint();
@@ -131,6 +184,9 @@ impl eframe::App for App {
         }
         let bar = Margins::new().fill(theme.palette().ground).inner_margin(egui::Margin::symmetric(8, 4));
         Bar::top("menus").frame(bar).show_separator_line(false).show(ui, |ui| menus::show(ui, self));
+        if !self.left_behind.is_empty() {
+            Bar::top("recovery").frame(bar).show(ui, |ui| questions::recovery(ui, self));
+        }
         Bar::bottom("status").frame(bar).show_separator_line(false).show(ui, |ui| status::show(ui, &mut self.desk));
         CentralPanel::default().frame(Margins::new().fill(theme.palette().ground)).show(ui, |ui| {
             let style = theme.dock(ui.style());
@@ -142,6 +198,7 @@ impl eframe::App for App {
                 .show_inside(ui, &mut tabs);
         });
         self.palette.show(ui.ctx(), &mut self.desk);
+        questions::closing(&ui.ctx().clone(), self);
         let orders = std::mem::take(&mut self.desk.orders);
         if !orders.is_empty() {
             self.obey(&ui.ctx().clone(), orders);
@@ -151,6 +208,7 @@ impl eframe::App for App {
 
     fn save(&mut self, storage: &mut dyn Storage) {
         self.desk.preferences.invert_pitch = self.desk.pilot.invert_pitch;
+        self.desk.preferences.mapping = self.desk.pilot.mapping.clone();
         save_json(storage, LAYOUT_KEY, &self.dock);
         save_json::<Preferences>(storage, PREFERENCES_KEY, &self.desk.preferences);
     }

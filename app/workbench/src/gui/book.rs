@@ -258,6 +258,11 @@ impl Book {
         self.change(texts.into_iter().map(|(path, text)| (path, Some(text))).collect());
     }
 
+    /// Sets and takes away texts at once, such as those kept over a crash; one undo takes all of it back.
+    pub fn restore(&mut self, texts: Vec<(String, Option<String>)>) {
+        self.change(texts);
+    }
+
     /// Takes a file away; undo brings it back, and its file goes when all is saved.
     pub fn remove(&mut self, path: &str) {
         self.change(vec![(path.to_owned(), None)]);

@@ -1,5 +1,8 @@
 //! What all panels share: the texts, the run, the pilot; and the orders that change them.
 
+mod files;
+mod runs;
+
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -7,20 +10,22 @@ use endline_gear::Diagnostic;
 use endline_sdk::{Act, GearType};
 use endline_session::live::{Command, LiveView, Status};
 use endline_session::{Error, Overrides, PluginHost, Prepared, Source};
-use serde::{Deserialize, Serialize};
 
 use super::book::Book;
 use super::engine::{Engine, Launch, Maker, Waker};
-use super::layout::{Layout, Panel};
+pub use super::order::Order;
 use super::panels::assembly::AssemblyState;
 use super::panels::entanglement::EntanglementState;
 use super::panels::library::LibraryState;
+use super::panels::pad::Learning;
 use super::panels::plots::PlotsState;
+use super::panels::recordings::RecordingsState;
+use super::panels::start::StartState;
 use super::panels::view::ViewState;
-use super::theme::Theme;
-use super::units::Units;
-use crate::input::Pilot;
-use crate::scene::View;
+pub use super::preferences::{Preferences, Scale};
+use super::recovery::Keeper;
+use crate::input::{Pilot, Rumble};
+use runs::WORTH_KEEPING_S;
 
 /// How fast a run is played again where it was run as fast as it went.
 const FASTEST_REPLAY: f64 = 10.0;
@@ -28,96 +33,8 @@ const FASTEST_REPLAY: f64 = 10.0;
 /// Texts by path.
 type Texts = std::collections::BTreeMap<String, String>;
 
-/// What a user prefers; kept between sessions.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct Preferences {
-    /// Dark or light.
-    pub theme: Theme,
-    /// Units on screen.
-    pub units: Units,
-    /// Whether pushing the stick puts the nose down.
-    pub invert_pitch: bool,
-}
-
-/// All that can be asked of the workbench besides editing a text.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Order {
-    /// Run on; first takes over edited gear.
-    Start,
-    /// Stand still.
-    Pause,
-    /// The one of the two that fits.
-    PlayPause,
-    /// One step.
-    Step,
-    /// Back to the settled gear.
-    Reset,
-    /// Take over edited gear and scenario, back at the start.
-    Apply,
-    /// Simulated seconds for each real one.
-    Speed(f64),
-    /// The next slower speed.
-    Slower,
-    /// The next faster speed.
-    Faster,
-    /// Show the moment nearest to a time [s].
-    Seek(f64),
-    /// So many kept moments later, or earlier.
-    Shift(i64),
-    /// Show the newest moment.
-    Newest,
-    /// Play what was run from the moment shown on, or stop.
-    Replay,
-    /// Ask for a file and write the shown table of the library to it.
-    AskExportTable,
-    /// Ask for a file and write the plots shown to it: `svg`, `png` or `csv`.
-    AskExportPlots(&'static str),
-    /// Write the plots shown, in the format of the file's ending.
-    ExportPlots(PathBuf),
-    /// Ask for a file and take its table into the library.
-    AskImportTable,
-    /// Write the shown table of the library.
-    ExportTable(PathBuf),
-    /// Take a table into the library.
-    ImportTable(PathBuf),
-    /// Weak links on or off, in the scenario's text.
-    WeakLinks,
-    /// The pilot's hands on the whale, or off.
-    Fly,
-    /// First or third person.
-    Person,
-    /// The next act of the whale's motion.
-    NextAct,
-    /// The act of this index.
-    ChooseAct(usize),
-    /// The mouth open, or shut.
-    Mouth,
-    /// A named view of the 3-D drawing.
-    Look(View),
-    /// Everything into sight.
-    Frame,
-    /// Put the command line that gives this run into the clipboard.
-    CopyCommandLine,
-    /// Copy the chosen entry of the library to a file of its own.
-    Duplicate,
-    /// Save every changed text.
-    Save,
-    /// Save the run so far.
-    SaveRecording(PathBuf),
-    /// Open a scenario.
-    Open(PathBuf),
-    /// Take the last edit back.
-    Undo,
-    /// Do it again.
-    Redo,
-    /// Bring a panel to the front.
-    Show(Panel),
-    /// A named layout.
-    Arrange(Layout),
-    /// The list of all orders, open or closed.
-    Commands,
-}
+/// Scenarios kept as open last.
+const RECENT: usize = 8;
 
 /// The shared state of the workbench.
 pub struct Desk {
@@ -141,6 +58,18 @@ pub struct Desk {
     pub entanglement: EntanglementState,
     /// State of the 3-D view.
     pub view3d: ViewState,
+    /// State of the start page.
+    pub start: StartState,
+    /// State of the list of recordings.
+    pub recorded: RecordingsState,
+    /// What of the pad waits to be given a button or stick.
+    pub learning: Learning,
+    /// What the pilot feels.
+    pub rumble: Rumble,
+    /// Keeps unsaved edits.
+    pub keeper: Keeper,
+    /// Folder that runs are kept in.
+    pub recordings: Option<PathBuf>,
     /// Problems found in making the model, beyond those of single files.
     pub make_problems: Vec<Diagnostic>,
     /// Plugins that were refused.
@@ -160,6 +89,12 @@ pub struct Desk {
     /// Moment shown of a run that is played again [s].
     replaying_s: Option<f64>,
     replay_speed: f64,
+    /// Runs kept since the start.
+    kept_runs: u64,
+    /// Whether the run shown was kept as it stands.
+    run_is_kept: bool,
+    /// Inputs of a recording whose model is in the making.
+    inputs_when_made: Option<Vec<endline_sdk::Controls>>,
 }
 
 impl Desk {
@@ -177,6 +112,12 @@ impl Desk {
             plots: PlotsState::default(),
             entanglement: EntanglementState::default(),
             view3d: ViewState::default(),
+            start: StartState::default(),
+            recorded: RecordingsState::default(),
+            learning: Learning::default(),
+            rumble: Rumble::default(),
+            keeper: Keeper::default(),
+            recordings: None,
             make_problems: Vec::new(),
             plugin_problems: Vec::new(),
             notice: None,
@@ -191,6 +132,9 @@ impl Desk {
             start_when_made: false,
             replaying_s: None,
             replay_speed: 1.0,
+            kept_runs: 0,
+            run_is_kept: false,
+            inputs_when_made: None,
         };
         desk.make();
         desk
@@ -203,6 +147,12 @@ impl Desk {
         }
         let settling = self.status() == Some(&Status::Settling);
         self.view = self.engine.as_ref().map(|engine| engine.latest());
+        if self.view.as_ref().is_some_and(|view| view.newest_s < WORTH_KEEPING_S) {
+            self.run_is_kept = false;
+        }
+        if matches!(self.status(), Some(Status::Finished | Status::Stopped(_))) {
+            self.keep_run();
+        }
         // Gear at rest lies elsewhere than where it was first guessed.
         self.view3d.frame_again |= settling && self.status() != Some(&Status::Settling);
     }
@@ -273,6 +223,7 @@ impl Desk {
         match order {
             Order::Start => {
                 self.replaying_s = None;
+                self.run_is_kept = false;
                 self.start();
             }
             Order::Pause => self.tell(Command::Pause),
@@ -280,7 +231,18 @@ impl Desk {
             Order::PlayPause if self.replaying() || self.view.as_ref().is_some_and(|view| view.sought) => self.replay(),
             Order::PlayPause => self.start(),
             Order::Step => self.tell(Command::Step),
-            Order::Reset => self.tell(Command::Reset),
+            Order::Reset => {
+                self.keep_run();
+                self.tell(Command::Reset);
+            }
+            Order::OpenRecording(path) => self.open_recording(path),
+            Order::Branch => {
+                self.keep_run();
+                self.replaying_s = None;
+                self.tell(Command::Branch);
+            }
+            Order::Dress(theme) => self.preferences.theme = *theme,
+            Order::Measure(units) => self.preferences.units = *units,
             Order::Apply => self.make(),
             Order::Speed(speed) => self.set_speed(*speed),
             Order::Seek(time_s) => self.look(Command::Seek(*time_s)),
@@ -309,7 +271,10 @@ impl Desk {
             Order::Open(path) => self.open(path),
             Order::Undo => self.step_back(true),
             Order::Redo => self.step_back(false),
-            Order::Show(_)
+            Order::Close(_)
+            | Order::Size(_)
+            | Order::AskRecording
+            | Order::Show(_)
             | Order::Arrange(_)
             | Order::Commands
             | Order::AskExportPlots(_)
@@ -359,34 +324,6 @@ impl Desk {
         let next_s = shown_s + elapsed_s * self.replay_speed;
         self.replaying_s = (next_s < view.newest_s).then_some(next_s);
         self.tell(Command::Seek(next_s));
-    }
-
-    /// The plots as SVG or, by the ending, as CSV; a PNG is cut from the window by [`App`](super::app::App).
-    fn export_plots(&mut self, path: &std::path::Path) {
-        let charts = super::panels::plots::charts(self);
-        let csv = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
-        let text = if csv { Ok(charts.iter().map(super::charts::Chart::csv).collect()) } else { super::chart_svg::svg(&charts) };
-        let written =
-            text.and_then(|text: String| endline_session::save::atomically(path, text.as_bytes()).map_err(|error| error.to_string()));
-        self.notice = Some(match written {
-            Ok(()) => (format!("saved {}", path.display()), false),
-            Err(error) => (format!("{}: {error}", path.display()), true),
-        });
-    }
-
-    fn export_table(&mut self, path: &std::path::Path) {
-        let text = super::panels::library::csv(self);
-        self.notice = Some(match endline_session::save::atomically(path, text.as_bytes()) {
-            Ok(()) => (format!("saved {}", path.display()), false),
-            Err(error) => (format!("{}: {error}", path.display()), true),
-        });
-    }
-
-    fn import_table(&mut self, path: &std::path::Path) {
-        match std::fs::read_to_string(path) {
-            Ok(text) => super::panels::library::take_in(self, &text),
-            Err(error) => self.notice = Some((format!("{}: {error}", path.display()), true)),
-        }
     }
 
     /// The command line that gives the run shown, and whether files must be saved before it does.
@@ -441,6 +378,10 @@ impl Desk {
             Ok(prepared) => {
                 self.notice = None;
                 self.load(prepared);
+                if let Some(inputs) = self.inputs_when_made.take() {
+                    self.tell(Command::Inputs(inputs));
+                    self.run_is_kept = true;
+                }
                 if start {
                     self.tell(Command::Start);
                 }
@@ -454,6 +395,7 @@ impl Desk {
     }
 
     fn load(&mut self, prepared: Prepared) {
+        self.keep_run();
         self.applied = Some(std::mem::take(&mut self.making));
         self.view3d.frame_again = true;
         if self.engine.is_some() {
@@ -496,7 +438,12 @@ impl Desk {
 
     fn open(&mut self, path: &std::path::Path) {
         match self.book.open_scenario(path) {
-            Ok(()) => self.make(),
+            Ok(()) => {
+                self.preferences.recent.retain(|known| known != path);
+                self.preferences.recent.insert(0, path.to_owned());
+                self.preferences.recent.truncate(RECENT);
+                self.make();
+            }
             Err(error) => self.notice = Some((error, true)),
         }
     }

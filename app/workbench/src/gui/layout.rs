@@ -29,11 +29,17 @@ pub enum Panel {
     Problems,
     /// Keys and pad.
     Help,
+    /// What was open last, and examples.
+    Start,
+    /// Runs that were kept.
+    Recordings,
+    /// What the pad does.
+    Pad,
 }
 
 impl Panel {
     /// Every panel, in the order of the Window menu.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 15] = [
         Self::Library,
         Self::Assembly,
         Self::Scenario,
@@ -46,6 +52,9 @@ impl Panel {
         Self::Summary,
         Self::Problems,
         Self::Help,
+        Self::Start,
+        Self::Recordings,
+        Self::Pad,
     ];
 
     /// Its stable id in saved layouts.
@@ -64,6 +73,9 @@ impl Panel {
             Self::Summary => "summary",
             Self::Problems => "problems",
             Self::Help => "help",
+            Self::Start => "start",
+            Self::Recordings => "recordings",
+            Self::Pad => "pad",
         }
     }
 
@@ -83,6 +95,9 @@ impl Panel {
             Self::Summary => "Summary",
             Self::Problems => "Problems",
             Self::Help => "Keys and help",
+            Self::Start => "Start",
+            Self::Recordings => "Recordings",
+            Self::Pad => "Pad",
         }
     }
 
@@ -124,7 +139,7 @@ impl Layout {
     /// Its panels in place.
     #[must_use]
     pub fn dock(self) -> DockState<String> {
-        use Panel::{Assembly, Entanglement, Events, Library, Plots, Problems, Run, Scenario, Summary, Tension, View};
+        use Panel::{Assembly, Entanglement, Events, Library, Pad, Plots, Problems, Recordings, Run, Scenario, Summary, Tension, View};
         let first = match self {
             Self::Design => ids(&[View, Assembly]),
             Self::Study => ids(&[Assembly]),
@@ -140,14 +155,14 @@ impl Layout {
                 tree.split_below(right, 0.5, ids(&[Tension, Summary, Events]));
             }
             Self::Fly => {
-                let [_, right] = tree.split_right(NodeIndex::root(), 0.78, ids(&[Run, Scenario]));
+                let [_, right] = tree.split_right(NodeIndex::root(), 0.78, ids(&[Run, Scenario, Pad]));
                 let [_, below] = tree.split_below(right, 0.42, ids(&[Tension]));
                 tree.split_below(below, 0.5, ids(&[Events, Summary]));
             }
             Self::Review => {
                 let [upper, _] = tree.split_below(NodeIndex::root(), 0.55, ids(&[Plots]));
                 let [_, right] = tree.split_right(upper, 0.6, ids(&[Entanglement, Summary]));
-                tree.split_below(right, 0.6, ids(&[Events, Run]));
+                tree.split_below(right, 0.6, ids(&[Events, Run, Recordings]));
             }
             Self::Study => {
                 let [upper, _] = tree.split_below(NodeIndex::root(), 0.58, ids(&[Library, Problems]));
@@ -172,6 +187,21 @@ pub fn open(dock: &mut DockState<String>, panel: Panel) {
             dock.set_focused_node_and_surface(path.node_path());
         }
         None => dock.push_to_focused_leaf(id),
+    }
+}
+
+/// Adds a panel in front of the tabs of another.
+pub fn open_beside(dock: &mut DockState<String>, panel: Panel, other: Panel) {
+    if let Some(path) = dock.find_tab(&other.id().to_owned()) {
+        dock.set_focused_node_and_surface(path.node_path());
+    }
+    open(dock, panel);
+}
+
+/// Takes a panel away.
+pub fn close(dock: &mut DockState<String>, panel: Panel) {
+    if let Some(path) = dock.find_tab(&panel.id().to_owned()) {
+        dock.remove_tab(path);
     }
 }
 

@@ -22,6 +22,7 @@ pub fn show(ui: &mut Ui, app: &mut App) {
         ui.menu_button("View", |ui| view(ui, app));
         ui.menu_button("Window", |ui| window(ui, app));
         ui.menu_button("Help", |ui| {
+            item(ui, app, true, "Start page", "", Order::Show(Panel::Start));
             item(ui, app, true, "Keys and help", "F1", Order::Show(Panel::Help));
             item(ui, app, true, "Commands …", "Ctrl+P", Order::Commands);
         });
@@ -62,6 +63,7 @@ fn file(ui: &mut Ui, app: &mut App) {
     });
     let unsaved = !app.desk.book.unsaved().is_empty();
     item(ui, app, unsaved, "Save all", "Ctrl+S", Order::Save);
+    item(ui, app, true, "Open recording …", "", Order::AskRecording);
     if ui.add_enabled(app.desk.view.is_some(), Button::new("Save recording …")).clicked() {
         let name = format!("{}.endline", scenario_name(app));
         ask(app, move || rfd::FileDialog::new().set_file_name(name).save_file().map(Order::SaveRecording));
@@ -96,6 +98,14 @@ pub fn ask_export_table(app: &mut App) {
     ask(app, move || rfd::FileDialog::new().set_file_name(name).add_filter("CSV", &["csv"]).save_file().map(Order::ExportTable));
 }
 
+/// Asks for a recording to open.
+pub fn ask_recording(app: &mut App) {
+    let folder = app.desk.recordings.clone().unwrap_or_default();
+    ask(app, move || {
+        rfd::FileDialog::new().set_directory(folder).add_filter("recording", &["endline"]).pick_file().map(Order::OpenRecording)
+    });
+}
+
 /// Asks where to write the plots.
 pub fn ask_export_plots(app: &mut App, ending: &'static str) {
     let name = format!("{}.{ending}", scenario_name(app));
@@ -119,6 +129,9 @@ fn run(ui: &mut Ui, app: &mut App) {
     item(ui, app, ready, if running { "Pause" } else { "Run" }, "Space", Order::PlayPause);
     item(ui, app, ready && !running, "Step", ".", Order::Step);
     item(ui, app, ready, "Reset", "Backspace", Order::Reset);
+    let back = app.desk.view.as_ref().is_some_and(|view| view.sought);
+    item(ui, app, back, "Go on from the moment shown", "", Order::Branch);
+    item(ui, app, ready, "Copy as command line", "Ctrl+Shift+C", Order::CopyCommandLine);
     ui.separator();
     let changed = app.desk.stale() && !app.desk.book.any_error();
     item(ui, app, changed, "Apply changes", "Ctrl+Enter", Order::Apply);
@@ -133,6 +146,11 @@ fn view(ui: &mut Ui, app: &mut App) {
         ui.radio_value(&mut app.desk.preferences.theme, theme, name);
     }
     ui.separator();
+    for size in [1.0, 1.25, 1.5, 2.0] {
+        let text = format!("Size {:.0} %", 100.0 * size);
+        item(ui, app, true, &text, "", Order::Size(size));
+    }
+    ui.separator();
     for layout in Layout::ALL {
         item(ui, app, true, &format!("Layout: {}", layout.name()), "", Order::Arrange(layout));
     }
@@ -141,7 +159,10 @@ fn view(ui: &mut Ui, app: &mut App) {
 
 fn window(ui: &mut Ui, app: &mut App) {
     for panel in Panel::ALL {
-        let mark = if layout::is_open(&app.dock, panel) { "✔" } else { "" };
-        item(ui, app, true, panel.title(), mark, Order::Show(panel));
+        let mut open = layout::is_open(&app.dock, panel);
+        if ui.checkbox(&mut open, panel.title()).clicked() {
+            app.desk.orders.push(if open { Order::Show(panel) } else { Order::Close(panel) });
+            ui.close();
+        }
     }
 }

@@ -19,8 +19,12 @@ pub mod hud;
 pub mod keys;
 pub mod layout;
 pub mod menus;
+pub mod order;
 pub mod palette;
 pub mod panels;
+pub mod preferences;
+pub mod questions;
+pub mod recovery;
 pub mod status;
 pub mod theme;
 pub mod transport;
@@ -66,8 +70,13 @@ pub fn open(options: Options) -> Result<(), String> {
             .with_inner_size([1500.0, 940.0])
             .with_min_inner_size([900.0, 600.0]),
         renderer: eframe::Renderer::Glow,
-        persistence_path: options.settings,
+        persistence_path: options.settings.clone(),
         ..eframe::NativeOptions::default()
+    };
+    // What is kept between sessions lies beside the settings.
+    let data = match options.settings.as_deref().and_then(std::path::Path::parent) {
+        Some(folder) => Some(folder.to_owned()),
+        None => eframe::storage_dir("endline"),
     };
     let create = move |creation: &eframe::CreationContext<'_>| {
         let host = Arc::new(host);
@@ -76,6 +85,10 @@ pub fn open(options: Options) -> Result<(), String> {
         let launch = engine::live(Arc::clone(&host));
         let mut desk = Desk::new(book, host, launch, waker, Pilot::new(pads()));
         desk.plugin_problems = refused;
+        if let Some(folder) = &data {
+            desk.keeper = recovery::Keeper::in_folder(folder.clone());
+            desk.recordings = Some(folder.join("recordings"));
+        }
         let app: Box<dyn eframe::App> = Box::new(App::new(creation, desk));
         Ok(app)
     };

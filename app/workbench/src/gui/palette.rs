@@ -6,6 +6,7 @@ use super::desk::{Desk, Order};
 use super::layout::{Layout, Panel};
 use super::panels::scenario::scenarios;
 use super::theme::Theme;
+use super::units::Units;
 use crate::scene::View;
 
 /// Names shown at once.
@@ -41,6 +42,13 @@ pub fn orders(desk: &Desk) -> Vec<(String, Order)> {
         ("Faster".to_owned(), Order::Faster),
         ("See everything".to_owned(), Order::Frame),
         ("Copy as command line".to_owned(), Order::CopyCommandLine),
+        ("Go on from the moment shown".to_owned(), Order::Branch),
+        ("Open a recording".to_owned(), Order::AskRecording),
+        ("Save the plots as SVG".to_owned(), Order::AskExportPlots("svg")),
+        ("Save the plots as PNG".to_owned(), Order::AskExportPlots("png")),
+        ("Save the plots as CSV".to_owned(), Order::AskExportPlots("csv")),
+        ("Dark".to_owned(), Order::Dress(Theme::Dark)),
+        ("Light".to_owned(), Order::Dress(Theme::Light)),
         ("Duplicate the chosen entry".to_owned(), Order::Duplicate),
         ("Save the library's table as CSV".to_owned(), Order::AskExportTable),
         ("Take a CSV into the library".to_owned(), Order::AskImportTable),
@@ -54,6 +62,9 @@ pub fn orders(desk: &Desk) -> Vec<(String, Order)> {
     let views = View::WHOLE.into_iter().chain(View::OF_WHALE);
     all.extend(views.map(|view| (format!("View {}", view.name().replace('-', " ")), Order::Look(view))));
     all.extend(Panel::ALL.map(|panel| (format!("Show {}", panel.title()), Order::Show(panel))));
+    all.extend(Panel::ALL.map(|panel| (format!("Close {}", panel.title()), Order::Close(panel))));
+    all.extend(Units::ALL.map(|units| (format!("Units {}", units.name()), Order::Measure(units))));
+    all.extend([1.0, 1.25, 1.5, 2.0].map(|size| (format!("Size {:.0} %", 100.0 * size), Order::Size(size))));
     all.extend(Layout::ALL.map(|layout| (format!("Layout {}", layout.name()), Order::Arrange(layout))));
     all.extend(scenarios(desk.book.root()).into_iter().map(|path| {
         let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();

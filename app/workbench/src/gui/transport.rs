@@ -45,6 +45,7 @@ fn buttons(ui: &mut Ui, desk: &mut Desk, view: &LiveView) {
     button(ui, text, help, run && !running, Order::Replay);
     button(ui, "⏵", "One moment on (→)", run && view.sought, Order::Shift(1));
     button(ui, "⏭", "The newest moment (End)", view.sought, Order::Newest);
+    button(ui, "⤴", "Go on from the moment shown: run again up to here, then fly or let the program steer", view.sought, Order::Branch);
 }
 
 /// The bar itself: what was run, the moment shown, events.

@@ -1,9 +1,12 @@
 //! Gamepads behind a trait, so that tests fly by script.
 
 use std::collections::VecDeque;
+use std::time::Duration;
+
+use serde::{Deserialize, Serialize};
 
 /// A stick or trigger.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum PadAxis {
     /// Left stick, right is 1.
     LeftX,
@@ -19,8 +22,32 @@ pub enum PadAxis {
     RightTrigger,
 }
 
+impl PadAxis {
+    /// Every stick and trigger.
+    pub const ALL: [Self; 6] = [Self::LeftX, Self::LeftY, Self::RightX, Self::RightY, Self::LeftTrigger, Self::RightTrigger];
+
+    /// In words.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::LeftX => "left stick, sideways",
+            Self::LeftY => "left stick, up and down",
+            Self::RightX => "right stick, sideways",
+            Self::RightY => "right stick, up and down",
+            Self::LeftTrigger => "left trigger",
+            Self::RightTrigger => "right trigger",
+        }
+    }
+
+    /// Whether it is a trigger, 0 to 1.
+    #[must_use]
+    pub fn is_trigger(self) -> bool {
+        matches!(self, Self::LeftTrigger | Self::RightTrigger)
+    }
+}
+
 /// A button the pilot uses.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum PadButton {
     /// Lower face button (A).
     South,
@@ -28,6 +55,16 @@ pub enum PadButton {
     East,
     /// Upper face button (Y).
     North,
+    /// Left face button (X).
+    West,
+    /// Up on the cross.
+    Up,
+    /// Down on the cross.
+    Down,
+    /// Left on the cross.
+    Left,
+    /// Right on the cross.
+    Right,
     /// Left shoulder.
     LeftShoulder,
     /// Right shoulder.
@@ -40,6 +77,29 @@ pub enum PadButton {
     Start,
     /// Back, also called select.
     Back,
+}
+
+impl PadButton {
+    /// In words.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::South => "A",
+            Self::East => "B",
+            Self::North => "Y",
+            Self::West => "X",
+            Self::Up => "cross up",
+            Self::Down => "cross down",
+            Self::Left => "cross left",
+            Self::Right => "cross right",
+            Self::LeftShoulder => "left shoulder",
+            Self::RightShoulder => "right shoulder",
+            Self::LeftStick => "left stick pressed",
+            Self::RightStick => "right stick pressed",
+            Self::Start => "Start",
+            Self::Back => "Back",
+        }
+    }
 }
 
 /// Something a pad did.
@@ -61,12 +121,19 @@ pub enum PadEvent {
 pub trait PadSource {
     /// Adds what happened since the last call.
     fn poll(&mut self, out: &mut Vec<PadEvent>);
+
+    /// Shakes the pad with a strength of 0 to 1 for a time; one that cannot shake does nothing.
+    fn rumble(&mut self, strength: f64, long: Duration) {
+        let _ = (strength, long);
+    }
 }
 
 /// Pads of this machine, by gilrs.
 pub struct GilrsPads {
     gilrs: gilrs::Gilrs,
     announced: bool,
+    /// The pulse under way; it ends when dropped.
+    pulse: Option<gilrs::ff::Effect>,
 }
 
 impl GilrsPads {
@@ -76,7 +143,7 @@ impl GilrsPads {
     /// Where the system gives no access to pads at all.
     pub fn new() -> Result<Self, String> {
         let gilrs = gilrs::Gilrs::new().map_err(|error| format!("gamepads cannot be read: {error}"))?;
-        Ok(Self { gilrs, announced: false })
+        Ok(Self { gilrs, announced: false, pulse: None })
     }
 }
 
@@ -104,6 +171,21 @@ impl PadSource for GilrsPads {
             out.extend(translated);
         }
     }
+
+    fn rumble(&mut self, strength: f64, long: Duration) {
+        use gilrs::ff::{BaseEffect, BaseEffectType, EffectBuilder, Replay, Ticks};
+        let pads: Vec<gilrs::GamepadId> = self.gilrs.gamepads().filter(|(_, pad)| pad.is_ff_supported()).map(|(id, _)| id).collect();
+        if pads.is_empty() {
+            return;
+        }
+        let magnitude = (strength.clamp(0.0, 1.0) * f64::from(u16::MAX)) as u16;
+        let long = u32::try_from(long.as_millis()).unwrap_or(u32::MAX);
+        let scheduling = Replay { play_for: Ticks::from_ms(long), ..Replay::default() };
+        let effect = BaseEffect { kind: BaseEffectType::Strong { magnitude }, scheduling, ..BaseEffect::default() };
+        // A pad that does not take the effect flies as well without.
+        self.pulse = EffectBuilder::new().add_effect(effect).gamepads(&pads).finish(&mut self.gilrs).ok();
+        let _ = self.pulse.as_ref().map(gilrs::ff::Effect::play);
+    }
 }
 
 fn axis_of(axis: gilrs::Axis) -> Option<PadAxis> {
@@ -121,6 +203,11 @@ fn button_of(button: gilrs::Button) -> Option<PadButton> {
         gilrs::Button::South => Some(PadButton::South),
         gilrs::Button::East => Some(PadButton::East),
         gilrs::Button::North => Some(PadButton::North),
+        gilrs::Button::West => Some(PadButton::West),
+        gilrs::Button::DPadUp => Some(PadButton::Up),
+        gilrs::Button::DPadDown => Some(PadButton::Down),
+        gilrs::Button::DPadLeft => Some(PadButton::Left),
+        gilrs::Button::DPadRight => Some(PadButton::Right),
         gilrs::Button::LeftTrigger => Some(PadButton::LeftShoulder),
         gilrs::Button::RightTrigger => Some(PadButton::RightShoulder),
         gilrs::Button::LeftThumb => Some(PadButton::LeftStick),

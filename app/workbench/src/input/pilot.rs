@@ -1,14 +1,14 @@
-//! Pad and keyboard together: the preset of 2012 as controls and actions.
+//! Pad and keyboard together as controls and actions, by the pilot's mapping.
 //!
-//! Left trigger speed, left stick pitch and roll, right stick yaw, right shoulder burst; Start
-//! restarts, Back pauses, B changes between first and third person, Y switches the weak links.
-//! Added since: A the mouth; while the left shoulder is held the right stick raises and twists the flippers; the right
-//! trigger sweeps them forward, aft with the left shoulder; the left stick pressed chooses the next act of the motion,
-//! the right one pressed asks for it as long as it is held.
+//! A pad that is unplugged in flight holds its last input for a moment; then the whale glides until a pad or the
+//! keyboard takes over.
+
+use std::time::Duration;
 
 use endline_sdk::Controls;
 
 use super::keys::HeldKeys;
+use super::mapping::{Mapping, Pressed, Steered};
 use super::pad::{PadAxis, PadButton, PadEvent, PadSource};
 
 /// What a pilot asks for besides steering.
@@ -24,10 +24,26 @@ pub enum PilotAction {
     WeakLinks,
     /// The next act of the whale's motion.
     NextAct,
+    /// The next slower speed.
+    Slower,
+    /// The next faster speed.
+    Faster,
 }
 
-/// Share of a stick's way around its middle that counts as the middle.
-const DEAD_ZONE: f64 = 0.12;
+/// How the hands are on the whale.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Hands {
+    /// Pad or keyboard.
+    #[default]
+    On,
+    /// The pad is gone; its last input holds for a moment.
+    Holding,
+    /// The pad is gone, and the whale glides.
+    Gliding,
+}
+
+/// How long the last input of a lost pad holds [s].
+const HOLD_S: f64 = 0.5;
 /// How fast the throttle follows its keys, and smooth axes theirs [1/s].
 const THROTTLE_RATE: f64 = 0.5;
 const KEY_RATE: f64 = 4.0;
@@ -38,26 +54,27 @@ pub struct Pilot {
     source: Option<Box<dyn PadSource>>,
     events: Vec<PadEvent>,
     pad_name: Option<String>,
+    /// What the pad does.
+    pub mapping: Mapping,
     stick: Stick,
     throttle: f64,
     smooth: Smooth,
     mouth_open: bool,
+    /// Time since the pad was lost [s].
+    lost_s: Option<f64>,
+    /// The button that went down last, for the mapping editor.
+    last_pressed: Option<PadButton>,
     /// Index of the chosen act.
     act: usize,
     /// Whether pushing the stick (or the up arrow) puts the nose down, as in an aeroplane.
     pub invert_pitch: bool,
 }
 
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 struct Stick {
-    left_x: f64,
-    left_y: f64,
-    right_x: f64,
-    right_y: f64,
-    left_trigger: f64,
-    right_trigger: f64,
-    left_shoulder: bool,
-    right_shoulder: bool,
+    axes: [f64; PadAxis::ALL.len()],
+    second: bool,
+    burst: bool,
     act: bool,
     /// Whether the act was asked for since the controls were last read: a short press counts.
     act_pressed: bool,
@@ -87,6 +104,35 @@ impl Pilot {
         self.pad_name.as_deref()
     }
 
+    /// How the hands are on the whale.
+    #[must_use]
+    pub fn hands(&self) -> Hands {
+        match self.lost_s {
+            None => Hands::On,
+            Some(lost_s) if lost_s < HOLD_S => Hands::Holding,
+            Some(_) => Hands::Gliding,
+        }
+    }
+
+    /// Where a stick or trigger stands, as the pad tells it.
+    #[must_use]
+    pub fn axis(&self, axis: PadAxis) -> f64 {
+        self.stick.axes[axis as usize]
+    }
+
+    /// The button that went down last, once.
+    pub fn take_pressed(&mut self) -> Option<PadButton> {
+        self.last_pressed.take()
+    }
+
+    /// Shakes the pad, as strongly as its pilot likes it.
+    pub fn rumble(&mut self, strength: f64, long_s: f64) {
+        let strength = strength * self.mapping.rumble;
+        if let (Some(source), true) = (&mut self.source, strength > 0.0) {
+            source.rumble(strength, Duration::from_secs_f64(long_s.clamp(0.0, 2.0)));
+        }
+    }
+
     /// Takes in the pad and answers the actions asked for.
     pub fn poll_pad(&mut self) -> Vec<PilotAction> {
         let Some(source) = &mut self.source else { return Vec::new() };
@@ -99,22 +145,35 @@ impl Pilot {
 
     fn take(&mut self, event: PadEvent) -> Option<PilotAction> {
         match event {
-            PadEvent::Connected(name) => self.pad_name = Some(name),
-            PadEvent::Disconnected => (self.pad_name, self.stick) = (None, Stick::default()),
-            PadEvent::Moved(axis, value) => self.stick.set(axis, value),
-            PadEvent::Pressed(PadButton::LeftShoulder) => self.stick.left_shoulder = true,
-            PadEvent::Released(PadButton::LeftShoulder) => self.stick.left_shoulder = false,
-            PadEvent::Pressed(PadButton::RightShoulder) => self.stick.right_shoulder = true,
-            PadEvent::Released(PadButton::RightShoulder) => self.stick.right_shoulder = false,
-            PadEvent::Pressed(PadButton::RightStick) => (self.stick.act, self.stick.act_pressed) = (true, true),
-            PadEvent::Released(PadButton::RightStick) => self.stick.act = false,
-            PadEvent::Pressed(PadButton::LeftStick) => return Some(PilotAction::NextAct),
-            PadEvent::Pressed(PadButton::South) => self.toggle_mouth(),
-            PadEvent::Pressed(PadButton::Start) => return Some(PilotAction::Restart),
-            PadEvent::Pressed(PadButton::Back) => return Some(PilotAction::PlayPause),
-            PadEvent::Pressed(PadButton::East) => return Some(PilotAction::Person),
-            PadEvent::Pressed(PadButton::North) => return Some(PilotAction::WeakLinks),
-            PadEvent::Released(_) => {}
+            PadEvent::Connected(name) => (self.pad_name, self.lost_s) = (Some(name), None),
+            // What it last gave holds for a moment; `controls` lets go of it.
+            PadEvent::Disconnected => (self.pad_name, self.lost_s) = (None, Some(0.0)),
+            PadEvent::Moved(axis, value) => {
+                self.stick.axes[axis as usize] = if value.is_finite() { value.clamp(-1.0, 1.0) } else { 0.0 };
+            }
+            PadEvent::Pressed(button) => {
+                self.last_pressed = Some(button);
+                return self.press(self.mapping.of_button(button)?, true);
+            }
+            PadEvent::Released(button) => return self.press(self.mapping.of_button(button)?, false),
+        }
+        None
+    }
+
+    fn press(&mut self, does: Pressed, down: bool) -> Option<PilotAction> {
+        match does {
+            Pressed::Second => self.stick.second = down,
+            Pressed::Burst => self.stick.burst = down,
+            Pressed::Act => (self.stick.act, self.stick.act_pressed) = (down, self.stick.act_pressed || down),
+            Pressed::Mouth if down => self.toggle_mouth(),
+            Pressed::NextAct if down => return Some(PilotAction::NextAct),
+            Pressed::Restart if down => return Some(PilotAction::Restart),
+            Pressed::PlayPause if down => return Some(PilotAction::PlayPause),
+            Pressed::Person if down => return Some(PilotAction::Person),
+            Pressed::WeakLinks if down => return Some(PilotAction::WeakLinks),
+            Pressed::Slower if down => return Some(PilotAction::Slower),
+            Pressed::Faster if down => return Some(PilotAction::Faster),
+            _ => {}
         }
         None
     }
@@ -145,45 +204,50 @@ impl Pilot {
         self.throttle = throttle.clamp(0.0, 1.0);
     }
 
+    /// What sticks and triggers give to something.
+    fn steered(&self, steered: Steered) -> f64 {
+        let uses = self.mapping.axes.iter().filter(|uses| uses.steers == steered && uses.second == self.stick.second);
+        let given = uses.map(|uses| self.mapping.live(uses.axis, self.axis(uses.axis)) * if uses.turned { -1.0 } else { 1.0 });
+        given.sum::<f64>().clamp(-1.0, 1.0)
+    }
+
+    /// Lets go of a lost pad's last input when its moment is over; a key held takes over at once.
+    fn watch_pad(&mut self, keys: &HeldKeys, elapsed_s: f64) {
+        let Some(lost_s) = &mut self.lost_s else { return };
+        let held = *lost_s < HOLD_S;
+        *lost_s += elapsed_s;
+        if held && *lost_s >= HOLD_S {
+            (self.stick, self.throttle) = (Stick::default(), 0.0);
+        }
+        if *keys != HeldKeys::default() {
+            (self.stick, self.lost_s) = (Stick::default(), None);
+        }
+    }
+
     /// The controls after `elapsed_s` seconds of these keys, pad included, for a motion with so many acts.
     pub fn controls(&mut self, keys: &HeldKeys, acts: usize, elapsed_s: f64) -> Controls {
+        self.watch_pad(keys, elapsed_s);
         self.throttle = (self.throttle + keys.throttle * THROTTLE_RATE * elapsed_s).clamp(0.0, 1.0);
         let step = KEY_RATE * elapsed_s;
         self.smooth.follow(keys, step);
         let up = if self.invert_pitch { -1.0 } else { 1.0 };
-        let sum = |stick: f64, key: f64| (live(stick) + key).clamp(-1.0, 1.0);
-        let stick = self.stick;
-        // The left shoulder gives the right hand to the flippers.
-        let (turn, flippers) = if stick.left_shoulder { (0.0, [stick.right_x, stick.right_y]) } else { (stick.right_x, [0.0; 2]) };
-        let sweep = if stick.left_shoulder { -stick.right_trigger } else { stick.right_trigger };
-        let asked = stick.act || std::mem::take(&mut self.stick.act_pressed) || keys.act;
+        let sum = |steered: Steered, key: f64| (self.steered(steered) + key).clamp(-1.0, 1.0);
+        let asked = self.stick.act || self.stick.act_pressed || keys.act;
         let act = self.chosen_act(acts).filter(|_| asked).map_or(0.0, |act| (act + 1) as f64);
-        Controls {
-            speed: self.throttle.max(live(stick.left_trigger)),
-            pitch: up * sum(stick.left_y, self.smooth.pitch),
-            roll: sum(stick.left_x, self.smooth.roll),
-            yaw: sum(-turn, self.smooth.yaw),
-            burst: f64::from(u8::from(stick.right_shoulder || keys.burst)),
-            mouth: f64::from(u8::from(self.mouth_open)),
-            flipper_raise: sum(flippers[1], self.smooth.flipper_raise),
-            flipper_twist: sum(flippers[0], self.smooth.flipper_twist),
-            flipper_sweep: sum(sweep, self.smooth.flipper_sweep),
+        let controls = Controls {
+            speed: self.throttle.max(self.steered(Steered::Speed)),
+            pitch: up * sum(Steered::Pitch, self.smooth.pitch),
+            roll: sum(Steered::Roll, self.smooth.roll),
+            yaw: sum(Steered::Yaw, self.smooth.yaw),
+            burst: f64::from(u8::from(self.stick.burst || keys.burst)),
+            mouth: f64::from(u8::from(self.mouth_open)).max(self.steered(Steered::Mouth)),
+            flipper_raise: sum(Steered::FlipperRaise, self.smooth.flipper_raise),
+            flipper_twist: sum(Steered::FlipperTwist, self.smooth.flipper_twist),
+            flipper_sweep: sum(Steered::FlipperSweep, self.smooth.flipper_sweep),
             act,
-        }
-    }
-}
-
-impl Stick {
-    fn set(&mut self, axis: PadAxis, value: f64) {
-        let slot = match axis {
-            PadAxis::LeftX => &mut self.left_x,
-            PadAxis::LeftY => &mut self.left_y,
-            PadAxis::RightX => &mut self.right_x,
-            PadAxis::RightY => &mut self.right_y,
-            PadAxis::LeftTrigger => &mut self.left_trigger,
-            PadAxis::RightTrigger => &mut self.right_trigger,
         };
-        *slot = if value.is_finite() { value.clamp(-1.0, 1.0) } else { 0.0 };
+        self.stick.act_pressed = false;
+        controls
     }
 }
 
@@ -201,11 +265,6 @@ impl Smooth {
             *value += (wanted - *value).clamp(-step, step);
         }
     }
-}
-
-/// A stick outside its dead zone, stretched so that it starts from zero.
-fn live(value: f64) -> f64 {
-    if value.abs() <= DEAD_ZONE { 0.0 } else { (value.abs() - DEAD_ZONE) / (1.0 - DEAD_ZONE) * value.signum() }
 }
 
 #[cfg(test)]
@@ -235,12 +294,41 @@ mod tests {
     }
 
     #[test]
-    fn a_stick_near_its_middle_is_at_rest_and_a_lost_pad_lets_go() {
+    fn a_stick_near_its_middle_is_at_rest() {
         let (mut pilot, _) = flown(vec![vec![PadEvent::Moved(PadAxis::LeftX, 0.1), PadEvent::Moved(PadAxis::LeftTrigger, 0.8)]]);
         let controls = pilot.controls(&HeldKeys::default(), 2, 0.1);
         assert!(controls.roll.abs() < 1e-12 && controls.speed > 0.7);
-        let (mut pilot, _) = flown(vec![vec![PadEvent::Moved(PadAxis::LeftTrigger, 0.8), PadEvent::Disconnected]]);
-        assert_eq!(pilot.controls(&HeldKeys::default(), 2, 0.1), Controls::default());
+    }
+
+    #[test]
+    fn a_lost_pad_holds_its_last_input_for_a_moment_then_the_whale_glides() {
+        let lost = || {
+            flown(vec![vec![
+                PadEvent::Moved(PadAxis::LeftTrigger, 0.8),
+                PadEvent::Pressed(PadButton::RightShoulder),
+                PadEvent::Disconnected,
+            ]])
+            .0
+        };
+        let mut pilot = lost();
+        let held = pilot.controls(&HeldKeys::default(), 2, 0.1);
+        assert!(held.speed > 0.7 && held.burst > 0.5 && pilot.hands() == Hands::Holding, "{held:?}");
+        pilot.controls(&HeldKeys::default(), 2, 0.3);
+        assert_eq!(pilot.controls(&HeldKeys::default(), 2, 0.2), Controls::default());
+        assert_eq!(pilot.hands(), Hands::Gliding);
+        pilot.take(PadEvent::Connected("pad".into()));
+        assert_eq!(pilot.hands(), Hands::On, "it is plugged in again");
+        let mut pilot = lost();
+        let keys = HeldKeys { yaw: 1.0, ..HeldKeys::default() };
+        assert!(pilot.controls(&keys, 2, 0.1).yaw > 0.3 && pilot.hands() == Hands::On, "the keyboard takes over at once");
+    }
+
+    #[test]
+    fn the_feeding_preset_opens_the_mouth_by_the_right_trigger() {
+        let (mut pilot, _) = flown(vec![vec![PadEvent::Moved(PadAxis::RightTrigger, 1.0)]]);
+        pilot.mapping = Mapping::feeding();
+        let controls = pilot.controls(&HeldKeys::default(), 0, 0.1);
+        assert_eq!(controls, Controls { mouth: 1.0, ..Controls::default() });
     }
 
     #[test]

@@ -53,6 +53,8 @@ impl Engine for FakeEngine {
             }
             Command::Seek(time_s) => format!("seek {time_s}"),
             Command::Shift(by) => format!("shift {by}"),
+            Command::Inputs(inputs) => format!("inputs {}", inputs.len()),
+            Command::Branch => "branch".to_owned(),
             Command::SaveRecording(path) => format!("save {}", path.display()),
         };
         self.told.borrow_mut().push(words);

@@ -5,10 +5,13 @@ pub mod entanglement;
 pub mod events;
 pub mod help;
 pub mod library;
+pub mod pad;
 pub mod plots;
 pub mod problems;
+pub mod recordings;
 pub mod run;
 pub mod scenario;
+pub mod start;
 pub mod summary;
 pub mod tension;
 pub mod view;
@@ -34,6 +37,9 @@ pub fn show(ui: &mut Ui, panel: Panel, desk: &mut Desk) {
         Panel::Summary => summary::show(ui, desk),
         Panel::Problems => problems::show(ui, desk),
         Panel::Help => help::show(ui),
+        Panel::Start => start::show(ui, desk),
+        Panel::Recordings => recordings::show(ui, desk),
+        Panel::Pad => pad::show(ui, desk),
     }
 }
 

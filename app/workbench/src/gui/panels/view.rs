@@ -258,8 +258,19 @@ fn write_over(ui: &Ui, rect: Rect, view: &LiveView, desk: &Desk) {
     let painter = ui.painter().with_clip_rect(rect);
     let metres_a_point = state.camera.metres_a_point(f64::from(rect.height()));
     overlay::paint(&painter, rect, &Overlay { caption, time_s: view.frame.time_s, scale_n: state.scene_scale_n, metres_a_point });
+    let felt = desk.rumble.strength(ui.input(|input| input.time));
+    if felt > 0.0 {
+        let warning = Theme::palette_of(ui).warning;
+        painter.rect_stroke(
+            rect,
+            0.0,
+            egui::Stroke::new(10.0 * felt as f32, warning.gamma_multiply(felt as f32)),
+            egui::StrokeKind::Inside,
+        );
+        ui.ctx().request_repaint();
+    }
     if desk.flying {
         let act = desk.pilot.chosen_act(desk.acts().len()).map(|act| desk.acts()[act].name.as_ref());
-        hud::paint(&painter, rect, view, desk.preferences.units.force(), act);
+        hud::paint(&painter, rect, view, desk.preferences.units, &hud::told(&view.controls, act, desk.pilot.hands()));
     }
 }

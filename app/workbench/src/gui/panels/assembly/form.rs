@@ -1,6 +1,6 @@
 //! A gear type's attributes as a form, from what the plugin declares.
 
-use egui::{Grid, RichText, Slider, Ui};
+use egui::{Grid, RichText, Slider, SliderClamping, Ui};
 use endline_gear::Kind;
 use endline_gear::units::{Quantity, format_si};
 use endline_sdk::{Attribute, AttributeKind};
@@ -41,7 +41,7 @@ fn scope_slider(ui: &mut Ui, desk: &mut Desk, file: &str, attribute: &Attribute)
     let AttributeKind::Number { min, max, default } = attribute.kind else { return };
     let typed = desk.book.field(file, "attributes.scope").and_then(|text| text.parse::<f64>().ok());
     let mut scope = typed.unwrap_or(default);
-    let slider = Slider::new(&mut scope, min.max(1.0)..=max.min(3.0)).fixed_decimals(2).text("scope");
+    let slider = Slider::new(&mut scope, min.max(1.0)..=max.min(3.0)).clamping(SliderClamping::Never).fixed_decimals(2).text("scope");
     ui.spacing_mut().slider_width = 110.0;
     let response = ui.add(slider).on_hover_text("Length of the endline over the depth of water");
     if response.changed() {

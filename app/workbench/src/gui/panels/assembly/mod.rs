@@ -8,7 +8,7 @@ mod side;
 mod sweep;
 mod table;
 
-use egui::{RichText, ScrollArea, Slider, Ui};
+use egui::{RichText, ScrollArea, Slider, SliderClamping, Ui};
 use endline_gear::Kind;
 use endline_session::rest::TrialSea;
 
@@ -166,8 +166,10 @@ fn tide(ui: &mut Ui, desk: &mut Desk) {
         ui.label(RichText::new("Running tide").color(Theme::palette_of(ui).faint));
         let mut speed = units.of_m_s(desk.assembly.running_m_s.or(of_scenario_m_s).unwrap_or(0.25));
         ui.spacing_mut().slider_width = 180.0;
-        let slider =
-            Slider::new(&mut speed, 0.0..=units.of_m_s(FASTEST_M_S)).fixed_decimals(2).suffix(format!(" {}", units.speed_symbol()));
+        let slider = Slider::new(&mut speed, 0.0..=units.of_m_s(FASTEST_M_S))
+            .clamping(SliderClamping::Never)
+            .fixed_decimals(2)
+            .suffix(format!(" {}", units.speed_symbol()));
         if ui.add(slider).on_hover_text("Surface speed of the current; slack tide is drawn beside it").changed() {
             desk.assembly.running_m_s = Some(units.to_m_s(speed));
         }

@@ -1,6 +1,6 @@
 //! An assembly written out part by part, as a tree from buoy to trap: add, split, take out.
 
-use egui::{Grid, RichText, Slider, Ui};
+use egui::{Grid, RichText, Slider, SliderClamping, Ui};
 use endline_gear::units::{Quantity, parse};
 use endline_gear::{Document, Kind};
 
@@ -219,7 +219,9 @@ fn length_slider(ui: &mut Ui, desk: &mut Desk, file: &str, at: &str) {
     let units = desk.preferences.units;
     let mut shown = units.of_metres(length_m);
     ui.spacing_mut().slider_width = 130.0;
-    let slider = Slider::new(&mut shown, units.of_metres(longest_m * 0.05)..=units.of_metres(longest_m)).fixed_decimals(1);
+    let slider = Slider::new(&mut shown, units.of_metres(longest_m * 0.05)..=units.of_metres(longest_m))
+        .clamping(SliderClamping::Never)
+        .fixed_decimals(1);
     let response = ui.add(slider.suffix(format!(" {}", units.length_symbol())));
     if response.drag_started() {
         ui.data_mut(|data| data.insert_temp(scale, longest_m));

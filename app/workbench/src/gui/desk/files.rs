@@ -1,0 +1,34 @@
+//! Tables and plots written to files and taken from them.
+
+use super::Desk;
+
+impl Desk {
+    /// The plots as SVG or, by the ending, as CSV; a PNG is cut from the window by [`App`](super::super::app::App).
+    pub(super) fn export_plots(&mut self, path: &std::path::Path) {
+        let charts = super::super::panels::plots::charts(self);
+        let csv = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
+        let text =
+            if csv { Ok(charts.iter().map(super::super::charts::Chart::csv).collect()) } else { super::super::chart_svg::svg(&charts) };
+        let written =
+            text.and_then(|text: String| endline_session::save::atomically(path, text.as_bytes()).map_err(|error| error.to_string()));
+        self.notice = Some(match written {
+            Ok(()) => (format!("saved {}", path.display()), false),
+            Err(error) => (format!("{}: {error}", path.display()), true),
+        });
+    }
+
+    pub(super) fn export_table(&mut self, path: &std::path::Path) {
+        let text = super::super::panels::library::csv(self);
+        self.notice = Some(match endline_session::save::atomically(path, text.as_bytes()) {
+            Ok(()) => (format!("saved {}", path.display()), false),
+            Err(error) => (format!("{}: {error}", path.display()), true),
+        });
+    }
+
+    pub(super) fn import_table(&mut self, path: &std::path::Path) {
+        match std::fs::read_to_string(path) {
+            Ok(text) => super::super::panels::library::take_in(self, &text),
+            Err(error) => self.notice = Some((format!("{}: {error}", path.display()), true)),
+        }
+    }
+}

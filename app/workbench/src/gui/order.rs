@@ -1,0 +1,101 @@
+//! The closed list of what can be asked of the workbench: by menus, keys, palette and tests alike.
+
+use std::path::PathBuf;
+
+use super::layout::{Layout, Panel};
+use super::theme::Theme;
+use super::units::Units;
+use crate::scene::View;
+
+/// All that can be asked of the workbench besides editing a text.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Order {
+    /// Run on; first takes over edited gear.
+    Start,
+    /// Stand still.
+    Pause,
+    /// The one of the two that fits.
+    PlayPause,
+    /// One step.
+    Step,
+    /// Back to the settled gear.
+    Reset,
+    /// Take over edited gear and scenario, back at the start.
+    Apply,
+    /// Simulated seconds for each real one.
+    Speed(f64),
+    /// The next slower speed.
+    Slower,
+    /// The next faster speed.
+    Faster,
+    /// Show the moment nearest to a time [s].
+    Seek(f64),
+    /// So many kept moments later, or earlier.
+    Shift(i64),
+    /// Show the newest moment.
+    Newest,
+    /// Play what was run from the moment shown on, or stop.
+    Replay,
+    /// Ask for a file and write the shown table of the library to it.
+    AskExportTable,
+    /// Ask for a file and write the plots shown to it: `svg`, `png` or `csv`.
+    AskExportPlots(&'static str),
+    /// Write the plots shown, in the format of the file's ending.
+    ExportPlots(PathBuf),
+    /// Ask for a file and take its table into the library.
+    AskImportTable,
+    /// Write the shown table of the library.
+    ExportTable(PathBuf),
+    /// Take a table into the library.
+    ImportTable(PathBuf),
+    /// Weak links on or off, in the scenario's text.
+    WeakLinks,
+    /// The pilot's hands on the whale, or off.
+    Fly,
+    /// First or third person.
+    Person,
+    /// The next act of the whale's motion.
+    NextAct,
+    /// The act of this index.
+    ChooseAct(usize),
+    /// The mouth open, or shut.
+    Mouth,
+    /// A named view of the 3-D drawing.
+    Look(View),
+    /// Everything into sight.
+    Frame,
+    /// Put the command line that gives this run into the clipboard.
+    CopyCommandLine,
+    /// Copy the chosen entry of the library to a file of its own.
+    Duplicate,
+    /// Save every changed text.
+    Save,
+    /// Save the run so far.
+    SaveRecording(PathBuf),
+    /// Open a scenario.
+    Open(PathBuf),
+    /// Take the last edit back.
+    Undo,
+    /// Do it again.
+    Redo,
+    /// Ask for a recording and open it.
+    AskRecording,
+    /// Run a recording again and look at it.
+    OpenRecording(PathBuf),
+    /// Run again up to the moment shown, to go on from there in another way.
+    Branch,
+    /// Size of everything on screen.
+    Size(f32),
+    /// Dark, or light.
+    Dress(Theme),
+    /// Units on screen.
+    Measure(Units),
+    /// Take a panel away.
+    Close(Panel),
+    /// Bring a panel to the front.
+    Show(Panel),
+    /// A named layout.
+    Arrange(Layout),
+    /// The list of all orders, open or closed.
+    Commands,
+}

@@ -1,0 +1,174 @@
+//! The pad: what each stick, trigger and button does, with live axes, dead zones and curve.
+
+use egui::{Grid, RichText, ScrollArea, Sense, Slider, Ui, vec2};
+
+use super::super::desk::Desk;
+use super::super::theme::Theme;
+use crate::input::{AxisUse, Hands, Mapping, PadAxis, Pressed, Steered};
+
+/// What waits for a button or stick to be given to it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Learning {
+    /// Nothing.
+    #[default]
+    Nothing,
+    /// Something a button does.
+    Button(Pressed),
+    /// Something a stick or trigger steers, as its first or second thing.
+    Axis(Steered, bool),
+}
+
+/// A stick or trigger must go this far to be taken.
+const FAR: f64 = 0.7;
+
+/// Draws the pad panel.
+pub fn show(ui: &mut Ui, desk: &mut Desk) {
+    learn(desk);
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        head(ui, desk);
+        zones(ui, desk);
+        super::caption(ui, "Sticks and triggers");
+        axes(ui, desk);
+        super::caption(ui, "Buttons");
+        buttons(ui, desk);
+    });
+    // Live axes move without any event of the window.
+    if desk.pilot.pad_name().is_some() || desk.learning != Learning::Nothing {
+        ui.ctx().request_repaint_after(std::time::Duration::from_millis(33));
+    }
+}
+
+/// Takes what the pilot pressed or moved for what waits for it.
+fn learn(desk: &mut Desk) {
+    match desk.learning {
+        Learning::Nothing => {
+            desk.pilot.take_pressed();
+        }
+        Learning::Button(does) => {
+            if let Some(button) = desk.pilot.take_pressed() {
+                desk.pilot.mapping.bind_button(button, does);
+                desk.learning = Learning::Nothing;
+            }
+        }
+        Learning::Axis(steers, second) => {
+            let moved = PadAxis::ALL.into_iter().find(|axis| desk.pilot.axis(*axis).abs() > FAR);
+            if let Some(axis) = moved {
+                let turned = desk.pilot.axis(axis) < 0.0;
+                desk.pilot.mapping.bind_axis(AxisUse { axis, second, steers, turned });
+                desk.learning = Learning::Nothing;
+            }
+        }
+    }
+}
+
+fn head(ui: &mut Ui, desk: &mut Desk) {
+    let palette = Theme::palette_of(ui);
+    ui.horizontal_wrapped(|ui| {
+        let (text, colour) = match (desk.pilot.hands(), desk.pilot.pad_name()) {
+            (Hands::Holding | Hands::Gliding, _) => ("the pad is gone".to_owned(), palette.warning),
+            (Hands::On, Some(name)) => (name.to_owned(), palette.good),
+            (Hands::On, None) => ("no pad found; the keyboard flies alike (F1)".to_owned(), palette.faint),
+        };
+        ui.label(RichText::new(text).color(colour));
+        ui.separator();
+        ui.label(RichText::new("Preset").color(palette.faint));
+        for (name, preset) in Mapping::presets() {
+            let same = desk.pilot.mapping.axes == preset.axes && desk.pilot.mapping.buttons == preset.buttons;
+            if ui.selectable_label(same, name).clicked() {
+                let own = &desk.pilot.mapping;
+                let (dead_zone, trigger_dead_zone, curve, rumble) = (own.dead_zone, own.trigger_dead_zone, own.curve, own.rumble);
+                desk.pilot.mapping = Mapping { dead_zone, trigger_dead_zone, curve, rumble, ..preset };
+            }
+        }
+        ui.checkbox(&mut desk.pilot.invert_pitch, "Push to put the nose down");
+    });
+}
+
+fn zones(ui: &mut Ui, desk: &mut Desk) {
+    let mapping = &mut desk.pilot.mapping;
+    ui.spacing_mut().slider_width = 120.0;
+    ui.add(Slider::new(&mut mapping.dead_zone, 0.0..=0.5).text("dead zone of sticks").fixed_decimals(2));
+    ui.add(Slider::new(&mut mapping.trigger_dead_zone, 0.0..=0.5).text("dead zone of triggers").fixed_decimals(2));
+    ui.add(Slider::new(&mut mapping.curve, 1.0..=3.0).text("curve: finer about the middle").fixed_decimals(1));
+    ui.horizontal(|ui| {
+        ui.add(Slider::new(&mut desk.pilot.mapping.rumble, 0.0..=1.0).text("rumble").fixed_decimals(1));
+        if ui.button("Try").clicked() {
+            desk.pilot.rumble(1.0, 0.3);
+        }
+    });
+}
+
+/// A bar of where something stands, -1 to 1 from its middle.
+fn bar(ui: &mut Ui, value: f64) {
+    let palette = Theme::palette_of(ui);
+    let (rect, _) = ui.allocate_exact_size(vec2(90.0, 12.0), Sense::hover());
+    ui.painter().rect_filled(rect, 2.0, palette.field);
+    let middle = rect.center().x;
+    let end = middle + value.clamp(-1.0, 1.0) as f32 * rect.width() / 2.0;
+    ui.painter().rect_filled(rect.with_min_x(middle.min(end)).with_max_x(middle.max(end)), 2.0, palette.accent);
+    ui.painter().vline(middle, rect.y_range(), egui::Stroke::new(1.0, palette.line));
+}
+
+fn axes(ui: &mut Ui, desk: &mut Desk) {
+    let faint = Theme::palette_of(ui).faint;
+    Grid::new("pad-axes").num_columns(5).striped(true).spacing([12.0, 3.0]).show(ui, |ui| {
+        for head in ["", "", "", "with the second button held", ""] {
+            ui.label(RichText::new(head).small().color(faint));
+        }
+        ui.end_row();
+        for steers in Steered::ALL {
+            ui.label(steers.words());
+            let first = desk.pilot.mapping.axes.iter().find(|uses| uses.steers == steers && !uses.second).copied();
+            bar(
+                ui,
+                first.map_or(0.0, |uses| {
+                    desk.pilot.mapping.live(uses.axis, desk.pilot.axis(uses.axis)) * if uses.turned { -1.0 } else { 1.0 }
+                }),
+            );
+            for second in [false, true] {
+                axis_cell(ui, desk, steers, second);
+            }
+            ui.end_row();
+        }
+    });
+}
+
+fn axis_cell(ui: &mut Ui, desk: &mut Desk, steers: Steered, second: bool) {
+    ui.horizontal(|ui| {
+        let uses = desk.pilot.mapping.axes.iter_mut().find(|uses| uses.steers == steers && uses.second == second);
+        let learning = desk.learning == Learning::Axis(steers, second);
+        let text = match &uses {
+            _ if learning => "move it all the way …".to_owned(),
+            Some(uses) => format!("{}{}", uses.axis.words(), if uses.turned { ", turned over" } else { "" }),
+            None => "–".to_owned(),
+        };
+        if ui.selectable_label(learning, text).on_hover_text("Click, then move the stick or trigger that is to do it").clicked() {
+            desk.learning = if learning { Learning::Nothing } else { Learning::Axis(steers, second) };
+        }
+        if let Some(uses) = uses
+            && ui.small_button("±").on_hover_text("Turn it over").clicked()
+        {
+            uses.turned = !uses.turned;
+        }
+    });
+}
+
+fn buttons(ui: &mut Ui, desk: &mut Desk) {
+    Grid::new("pad-buttons").num_columns(2).striped(true).spacing([12.0, 3.0]).show(ui, |ui| {
+        for does in Pressed::ALL {
+            ui.label(does.words());
+            let button = desk.pilot.mapping.buttons.iter().find(|(_, done)| *done == does).map(|(button, _)| *button);
+            let learning = desk.learning == Learning::Button(does);
+            let text = match button {
+                _ if learning => "press it …",
+                Some(button) => button.words(),
+                None => "–",
+            };
+            if ui.selectable_label(learning, text).on_hover_text("Click, then press the button that is to do it").clicked() {
+                desk.pilot.take_pressed();
+                desk.learning = if learning { Learning::Nothing } else { Learning::Button(does) };
+            }
+            ui.end_row();
+        }
+    });
+}

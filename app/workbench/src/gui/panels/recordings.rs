@@ -1,0 +1,89 @@
+//! Runs that were kept by themselves, to be opened and seen again.
+
+use std::path::PathBuf;
+use std::time::SystemTime;
+
+use egui::{RichText, ScrollArea, Ui};
+
+use super::super::desk::{Desk, Order};
+use super::super::theme::Theme;
+
+/// The list, read again when a run was kept.
+#[derive(Clone, Debug, Default)]
+pub struct RecordingsState {
+    files: Option<(u64, Vec<Recorded>)>,
+}
+
+#[derive(Clone, Debug)]
+struct Recorded {
+    path: PathBuf,
+    age: String,
+    kilobytes: u64,
+}
+
+/// Draws the list of recordings.
+pub fn show(ui: &mut Ui, desk: &mut Desk) {
+    let Some(folder) = desk.recordings.clone() else {
+        return super::nothing(ui, "No folder to keep recordings in: there is no user data folder here.");
+    };
+    let kept = desk.kept_runs();
+    if desk.recorded.files.as_ref().is_none_or(|(seen, _)| *seen != kept) {
+        desk.recorded.files = Some((kept, list(&folder)));
+    }
+    let files = desk.recorded.files.as_ref().map(|(_, files)| files.clone()).unwrap_or_default();
+    ui.horizontal(|ui| {
+        ui.label(RichText::new("Every run is kept here when it ends or another begins.").color(Theme::palette_of(ui).faint));
+        if ui.button("Open other …").clicked() {
+            desk.orders.push(Order::AskRecording);
+        }
+    });
+    if files.is_empty() {
+        return super::nothing(ui, "No runs yet.");
+    }
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        for file in files {
+            row(ui, desk, &file);
+        }
+    });
+}
+
+fn row(ui: &mut Ui, desk: &mut Desk, file: &Recorded) {
+    let faint = Theme::palette_of(ui).faint;
+    let name = file.path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+    ui.horizontal(|ui| {
+        if ui.button("Open").on_hover_text("Run it again, to the bit, and look at any moment").clicked() {
+            desk.orders.push(Order::OpenRecording(file.path.clone()));
+        }
+        if ui.button("Copy command").on_hover_text("endline replay …, for a terminal").clicked() {
+            ui.ctx().copy_text(format!("endline replay '{}'", file.path.display()));
+        }
+        ui.label(name);
+        ui.label(RichText::new(format!("{}, {} kB", file.age, file.kilobytes)).color(faint));
+    });
+}
+
+fn list(folder: &std::path::Path) -> Vec<Recorded> {
+    let files = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    let mut found: Vec<(SystemTime, PathBuf, u64)> = files
+        .filter(|path| path.extension().is_some_and(|ending| ending == "endline"))
+        .filter_map(|path| {
+            let data = std::fs::metadata(&path).ok()?;
+            Some((data.modified().ok()?, path, data.len()))
+        })
+        .collect();
+    found.sort_by(|a, b| b.0.cmp(&a.0).then(b.1.cmp(&a.1)));
+    let recorded = |(at, path, bytes): (SystemTime, PathBuf, u64)| Recorded { path, age: age(at), kilobytes: bytes.div_ceil(1024) };
+    found.into_iter().map(recorded).collect()
+}
+
+/// How long ago, in the largest whole unit.
+fn age(at: SystemTime) -> String {
+    let seconds = SystemTime::now().duration_since(at).unwrap_or_default().as_secs();
+    let (count, unit) = match seconds {
+        0..=59 => return "just now".to_owned(),
+        60..=3599 => (seconds / 60, "minute"),
+        3600..=86_399 => (seconds / 3600, "hour"),
+        _ => (seconds / 86_400, "day"),
+    };
+    format!("{count} {unit}{} ago", if count == 1 { "" } else { "s" })
+}

@@ -1,0 +1,87 @@
+//! Where a user begins: what was open last, and the examples in their own words.
+
+use std::path::{Path, PathBuf};
+
+use egui::{RichText, ScrollArea, Ui};
+
+use super::super::desk::{Desk, Order};
+use super::super::layout::Panel;
+use super::super::theme::Theme;
+use super::super::units::Units;
+
+/// A scenario as the start page shows it.
+#[derive(Clone, Debug)]
+struct Example {
+    path: PathBuf,
+    name: String,
+    notes: String,
+    whale: bool,
+}
+
+/// The examples of a library, read when the page is first shown.
+#[derive(Clone, Debug, Default)]
+pub struct StartState {
+    examples: Option<Vec<Example>>,
+}
+
+/// Draws the start page.
+pub fn show(ui: &mut Ui, desk: &mut Desk) {
+    let examples = desk.start.examples.get_or_insert_with(|| examples(desk.book.root())).clone();
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        ui.heading("Endline");
+        ui.label("Fishing gear, and whales that get out of it alive.");
+        ui.add_space(6.0);
+        units(ui, desk);
+        recent(ui, desk);
+        super::caption(ui, "Whales meeting gear");
+        list(ui, desk, examples.iter().filter(|example| example.whale));
+        super::caption(ui, "Gear alone, and checks of the physics");
+        list(ui, desk, examples.iter().filter(|example| !example.whale));
+    });
+}
+
+fn units(ui: &mut Ui, desk: &mut Desk) {
+    ui.horizontal(|ui| {
+        ui.label(RichText::new("Units on screen").color(Theme::palette_of(ui).faint));
+        for units in Units::ALL {
+            ui.radio_value(&mut desk.preferences.units, units, format!("{}: {}", units.name(), units.help()));
+        }
+    });
+}
+
+fn recent(ui: &mut Ui, desk: &mut Desk) {
+    let recent: Vec<PathBuf> = desk.preferences.recent.iter().filter(|path| path.exists()).cloned().collect();
+    if recent.is_empty() {
+        return;
+    }
+    super::caption(ui, "Last open");
+    for path in recent {
+        if ui.link(path.display().to_string()).clicked() {
+            open(desk, &path);
+        }
+    }
+}
+
+fn open(desk: &mut Desk, path: &Path) {
+    desk.orders.push(Order::Open(path.to_owned()));
+    desk.orders.push(Order::Show(Panel::View));
+}
+
+fn list<'a>(ui: &mut Ui, desk: &mut Desk, examples: impl Iterator<Item = &'a Example>) {
+    let faint = Theme::palette_of(ui).faint;
+    for example in examples {
+        if ui.link(&example.name).on_hover_text(example.path.display().to_string()).clicked() {
+            open(desk, &example.path);
+        }
+        ui.indent(&example.path, |ui| ui.add(egui::Label::new(RichText::new(&example.notes).color(faint)).wrap()));
+    }
+}
+
+fn examples(root: &Path) -> Vec<Example> {
+    let read = |path: PathBuf| {
+        let document = endline_gear::Document::parse(&std::fs::read_to_string(&path).ok()?).ok()?;
+        let text = |field: &str| document.get(field).unwrap_or_default();
+        Some(Example { name: text("name"), notes: text("notes"), whale: document.has("whale"), path })
+    };
+    super::scenario::scenarios(root).into_iter().filter_map(read).collect()
+}

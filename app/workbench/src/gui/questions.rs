@@ -1,0 +1,65 @@
+//! What the window asks: what to do with edits a crash left, and with unsaved ones as it closes.
+
+use egui::{Align2, Context, RichText, Ui, Window, vec2};
+
+use super::app::App;
+use super::desk::Order;
+use super::theme::{Theme, primary};
+
+/// The bar that offers edits back, where a crash left some.
+pub fn recovery(ui: &mut Ui, app: &mut App) {
+    let Some((file, kept)) = app.left_behind.first().cloned() else { return };
+    let here = kept.root == app.desk.book.root();
+    let palette = Theme::palette_of(ui);
+    ui.horizontal(|ui| {
+        let count = kept.texts.len();
+        let files = if count == 1 { "1 file".to_owned() } else { format!("{count} files") };
+        let text = format!("Endline was not closed last time. Unsaved edits of {files} were kept.");
+        ui.label(RichText::new(text).color(palette.warning)).on_hover_text(kept.texts.keys().cloned().collect::<Vec<_>>().join("\n"));
+        if here {
+            if primary(ui, true, "Recover").on_hover_text("Undo takes it back").clicked() {
+                app.desk.recover(&kept);
+                app.drop_left_behind(&file);
+            }
+        } else {
+            ui.label(RichText::new(format!("They are of {}.", kept.root.display())).color(palette.faint));
+        }
+        if ui.button("Discard").clicked() {
+            app.drop_left_behind(&file);
+        }
+    });
+}
+
+/// Asks before unsaved edits are lost with the window.
+pub fn closing(context: &Context, app: &mut App) {
+    let wanted = context.input(|input| input.viewport().close_requested());
+    let unsaved = app.desk.book.unsaved().len();
+    if wanted && unsaved > 0 && !app.leave {
+        context.send_viewport_cmd(egui::ViewportCommand::CancelClose);
+        app.asking = true;
+    }
+    if !app.asking {
+        return;
+    }
+    let window = Window::new("Unsaved edits").collapsible(false).resizable(false).anchor(Align2::CENTER_CENTER, vec2(0.0, -60.0));
+    window.show(context, |ui| {
+        ui.label(if unsaved == 1 { "1 file has unsaved edits.".to_owned() } else { format!("{unsaved} files have unsaved edits.") });
+        ui.horizontal(|ui| {
+            if primary(ui, true, "Save and quit").clicked() {
+                app.desk.obey(&Order::Save);
+                app.leave = app.desk.book.unsaved().is_empty();
+                app.asking = false;
+            }
+            if ui.button("Quit without saving").clicked() {
+                (app.leave, app.asking) = (true, false);
+            }
+            if ui.button("Stay").clicked() {
+                app.asking = false;
+            }
+        });
+    });
+    if app.leave {
+        app.desk.keeper.clear();
+        context.send_viewport_cmd(egui::ViewportCommand::Close);
+    }
+}

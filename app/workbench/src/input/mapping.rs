@@ -1,0 +1,262 @@
+//! Which stick, trigger and button does what: presets, dead zones and curve, kept with the preferences.
+//!
+//! A stick's way beyond its dead zone becomes `y = x^curve`, so that a curve above 1 is fine about the middle.
+
+use serde::{Deserialize, Serialize};
+
+use super::pad::{PadAxis, PadButton};
+
+/// What a stick or trigger can steer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Steered {
+    /// Swimming speed.
+    Speed,
+    /// Nose up.
+    Pitch,
+    /// Roll to starboard.
+    Roll,
+    /// Turn to port.
+    Yaw,
+    /// Flippers out.
+    FlipperRaise,
+    /// Flippers pronated.
+    FlipperTwist,
+    /// Flippers swept forward.
+    FlipperSweep,
+    /// Mouth open, as far as it is pulled.
+    Mouth,
+}
+
+impl Steered {
+    /// Everything, in the order shown.
+    pub const ALL: [Self; 8] =
+        [Self::Speed, Self::Pitch, Self::Roll, Self::Yaw, Self::FlipperRaise, Self::FlipperTwist, Self::FlipperSweep, Self::Mouth];
+
+    /// In words.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Speed => "Swim faster",
+            Self::Pitch => "Nose up",
+            Self::Roll => "Roll to starboard",
+            Self::Yaw => "Turn to port",
+            Self::FlipperRaise => "Flippers out",
+            Self::FlipperTwist => "Flippers pronated",
+            Self::FlipperSweep => "Flippers swept forward",
+            Self::Mouth => "Open the mouth",
+        }
+    }
+}
+
+/// What a button can do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Pressed {
+    /// While held, sticks and triggers do their second thing.
+    Second,
+    /// Burst, while held.
+    Burst,
+    /// The chosen act, while held.
+    Act,
+    /// Choose the next act.
+    NextAct,
+    /// Open or close the mouth.
+    Mouth,
+    /// Back to the start and go.
+    Restart,
+    /// Pause, or go on.
+    PlayPause,
+    /// First or third person.
+    Person,
+    /// Weak links on or off.
+    WeakLinks,
+    /// The next slower speed.
+    Slower,
+    /// The next faster speed.
+    Faster,
+}
+
+impl Pressed {
+    /// Everything, in the order shown.
+    pub const ALL: [Self; 11] = [
+        Self::Second,
+        Self::Burst,
+        Self::Act,
+        Self::NextAct,
+        Self::Mouth,
+        Self::Restart,
+        Self::PlayPause,
+        Self::Person,
+        Self::WeakLinks,
+        Self::Slower,
+        Self::Faster,
+    ];
+
+    /// In words.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Second => "Second thing of sticks and triggers, while held",
+            Self::Burst => "Burst",
+            Self::Act => "Do the chosen act",
+            Self::NextAct => "Choose the next act",
+            Self::Mouth => "Open, close the mouth",
+            Self::Restart => "Restart",
+            Self::PlayPause => "Run, pause",
+            Self::Person => "First, third person",
+            Self::WeakLinks => "Weak links on, off",
+            Self::Slower => "Slower",
+            Self::Faster => "Faster",
+        }
+    }
+}
+
+/// A stick or trigger and what it steers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct AxisUse {
+    /// The stick or trigger.
+    pub axis: PadAxis,
+    /// Whether it does so while the second thing is asked for, or while it is not.
+    pub second: bool,
+    /// What it steers.
+    pub steers: Steered,
+    /// Whether its way is turned over.
+    pub turned: bool,
+}
+
+/// What a pad does.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Mapping {
+    /// Sticks and triggers.
+    pub axes: Vec<AxisUse>,
+    /// Buttons.
+    pub buttons: Vec<(PadButton, Pressed)>,
+    /// Share of a stick's way about its middle that counts as the middle, 0 to 0.9.
+    pub dead_zone: f64,
+    /// The same of triggers.
+    pub trigger_dead_zone: f64,
+    /// Power of the way beyond the dead zone, 1 to 3.
+    pub curve: f64,
+    /// Strength of the rumble, 0 to 1.
+    pub rumble: f64,
+}
+
+impl Default for Mapping {
+    fn default() -> Self {
+        Self::of_2012()
+    }
+}
+
+impl Mapping {
+    /// Presets by name.
+    #[must_use]
+    pub fn presets() -> [(&'static str, Self); 2] {
+        [("VWES 2012", Self::of_2012()), ("Feeding", Self::feeding())]
+    }
+
+    /// The preset of 2012, with what was added since: flippers, acts, mouth.
+    #[must_use]
+    pub fn of_2012() -> Self {
+        use PadAxis::{LeftTrigger, LeftX, LeftY, RightTrigger, RightX, RightY};
+        let to = |axis, second, steers, turned| AxisUse { axis, second, steers, turned };
+        let both = |axis, steers, turned| [to(axis, false, steers, turned), to(axis, true, steers, turned)];
+        let mut axes = Vec::new();
+        axes.extend(both(LeftTrigger, Steered::Speed, false));
+        axes.extend(both(LeftY, Steered::Pitch, false));
+        axes.extend(both(LeftX, Steered::Roll, false));
+        axes.extend([
+            to(RightX, false, Steered::Yaw, true),
+            to(RightX, true, Steered::FlipperTwist, false),
+            to(RightY, true, Steered::FlipperRaise, false),
+            to(RightTrigger, false, Steered::FlipperSweep, false),
+            to(RightTrigger, true, Steered::FlipperSweep, true),
+        ]);
+        let buttons = vec![
+            (PadButton::LeftShoulder, Pressed::Second),
+            (PadButton::RightShoulder, Pressed::Burst),
+            (PadButton::RightStick, Pressed::Act),
+            (PadButton::LeftStick, Pressed::NextAct),
+            (PadButton::South, Pressed::Mouth),
+            (PadButton::Start, Pressed::Restart),
+            (PadButton::Back, Pressed::PlayPause),
+            (PadButton::East, Pressed::Person),
+            (PadButton::North, Pressed::WeakLinks),
+            (PadButton::Down, Pressed::Slower),
+            (PadButton::Up, Pressed::Faster),
+        ];
+        Self { axes, buttons, dead_zone: 0.12, trigger_dead_zone: 0.12, curve: 1.0, rumble: 1.0 }
+    }
+
+    /// The same with the mouth on the right trigger.
+    #[must_use]
+    pub fn feeding() -> Self {
+        let mut mapping = Self::of_2012();
+        for uses in mapping.axes.iter_mut().filter(|uses| uses.axis == PadAxis::RightTrigger && !uses.second) {
+            (uses.steers, uses.turned) = (Steered::Mouth, false);
+        }
+        mapping
+    }
+
+    /// What a stick or trigger gives at a place of its way, -1 to 1.
+    #[must_use]
+    pub fn live(&self, axis: PadAxis, value: f64) -> f64 {
+        let dead = if axis.is_trigger() { self.trigger_dead_zone } else { self.dead_zone }.clamp(0.0, 0.9);
+        if value.abs() <= dead {
+            return 0.0;
+        }
+        ((value.abs() - dead) / (1.0 - dead)).clamp(0.0, 1.0).powf(self.curve.clamp(0.5, 4.0)) * value.signum()
+    }
+
+    /// What a button does.
+    #[must_use]
+    pub fn of_button(&self, button: PadButton) -> Option<Pressed> {
+        self.buttons.iter().find(|(known, _)| *known == button).map(|(_, does)| *does)
+    }
+
+    /// Gives a button to something; what it did before, and what else did this, are given up.
+    pub fn bind_button(&mut self, button: PadButton, does: Pressed) {
+        self.buttons.retain(|(known, done)| *known != button && *done != does);
+        self.buttons.push((button, does));
+    }
+
+    /// Gives a stick or trigger to something, as its first or second thing.
+    pub fn bind_axis(&mut self, uses: AxisUse) {
+        self.axes.retain(|known| {
+            (known.axis, known.second) != (uses.axis, uses.second) && (known.steers, known.second) != (uses.steers, uses.second)
+        });
+        self.axes.push(uses);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_way_beyond_the_dead_zone_is_stretched_and_bent() {
+        let mapping = Mapping { dead_zone: 0.2, curve: 2.0, ..Mapping::of_2012() };
+        assert!(mapping.live(PadAxis::LeftX, 0.2).abs() < 1e-12);
+        assert!((mapping.live(PadAxis::LeftX, -1.0) + 1.0).abs() < 1e-12);
+        assert!((mapping.live(PadAxis::LeftX, 0.6) - 0.25).abs() < 1e-12, "half of the way beyond, squared");
+        assert!(mapping.live(PadAxis::LeftTrigger, 0.2) > 0.0, "triggers have a dead zone of their own");
+    }
+
+    #[test]
+    fn what_is_bound_anew_is_bound_once() {
+        let mut mapping = Mapping::of_2012();
+        mapping.bind_button(PadButton::South, Pressed::Burst);
+        assert_eq!(mapping.of_button(PadButton::South), Some(Pressed::Burst));
+        assert_eq!(mapping.of_button(PadButton::RightShoulder), None);
+        let uses = AxisUse { axis: PadAxis::RightTrigger, second: false, steers: Steered::Speed, turned: false };
+        mapping.bind_axis(uses);
+        let speed: Vec<_> = mapping.axes.iter().filter(|uses| uses.steers == Steered::Speed && !uses.second).collect();
+        assert_eq!(speed, [&uses]);
+    }
+
+    #[test]
+    fn a_mapping_survives_its_file() {
+        let text = serde_json::to_string(&Mapping::feeding()).unwrap();
+        assert_eq!(serde_json::from_str::<Mapping>(&text).unwrap(), Mapping::feeding());
+        assert_eq!(serde_json::from_str::<Mapping>("{\"curve\":2.0}").unwrap(), Mapping { curve: 2.0, ..Mapping::of_2012() });
+    }
+}
