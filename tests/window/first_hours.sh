@@ -35,7 +35,8 @@ picture() { import -window root "$PICTURES/$1.png"; }
 click() { xdotool mousemove "$1" "$2"; sleep 0.4; xdotool click 1; sleep "${3:-1}"; }
 keys() { xdotool key --delay 150 "$@"; sleep 1; }
 typed() { xdotool type --delay 50 "$1"; sleep 1; }
-command() { keys ctrl+p; typed "$1"; keys Return; sleep "${2:-1}"; }
+# Waits grow with PATIENCE, for machines that draw slowly.
+command() { keys ctrl+p; sleep "${PATIENCE:-1}"; typed "$1"; sleep "${PATIENCE:-1}"; keys Return; sleep "$((${2:-1} * ${PATIENCE:-1}))"; }
 check() { if eval "$2"; then echo "ok    $1"; else echo "WRONG $1"; FAILED=1; fi; }
 
 designer() {

@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use endline_gear::{Assembled, Diagnostic, Document, Library, Options, Scenario, assemble_traced};
 use endline_sim::model::ModelError;
-use endline_sim::{Model, settle};
+use endline_sim::{Frame, Model, settle};
 
 use crate::error::Error;
 use crate::plugins::PluginHost;
@@ -51,6 +51,8 @@ pub struct Rest {
     pub shape: SettledShape,
     /// Ropes, bodies and links of the rig.
     pub model: Arc<Model>,
+    /// The rig as it stands, for drawing.
+    pub frame: Arc<Frame>,
 }
 
 /// Text of a scenario that holds one assembly alone, in the sea of `scenario` with what `sea` says over it.
@@ -99,7 +101,9 @@ pub fn rest(name: &str, text: &str, library: &Library, host: &PluginHost) -> Res
     let model = Model::new(spec).map_err(|errors| Error::Diagnostics(errors.into_iter().map(told).collect()))?;
     let start = Instant::now();
     let settled = settle(&model);
-    Ok(Rest { shape: SettledShape::named(name, &model, &settled, start.elapsed().as_secs_f64()), model: Arc::new(model) })
+    let shape = SettledShape::named(name, &model, &settled, start.elapsed().as_secs_f64());
+    let frame = Arc::new(Frame::of(&model, &settled.state, &[]));
+    Ok(Rest { shape, model: Arc::new(model), frame })
 }
 
 #[cfg(test)]

@@ -186,6 +186,11 @@ fn two_gears_are_compared_and_a_gear_type_is_a_starting_point() {
     harness.get_all_by_label_contains("Trawl").last().unwrap().click();
     harness.run_steps(2);
     wait(&mut harness, |app| app.desk.assembly.settled());
+    let model = folder.0.join("gear.stl");
+    harness.state_mut().desk.obey(&Order::ExportModel(model.clone()));
+    let bytes = std::fs::read(model).unwrap();
+    let triangles = u32::from_le_bytes(bytes[80..84].try_into().unwrap()) as usize;
+    assert!(triangles > 1000 && bytes.len() == 84 + 50 * triangles, "{triangles} triangles");
     let desk = &harness.state().desk;
     assert!(desk.assembly.answers()[0].unwrap().is_ok(), "{:?}", desk.assembly.answers()[0].unwrap().as_ref().err());
     assert!(desk.book.unsaved().iter().any(|path| path.starts_with("assemblies/my-")), "{:?}", desk.book.unsaved());

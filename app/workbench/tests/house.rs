@@ -29,7 +29,10 @@ fn every_command_of_the_palette_is_obeyed_in_every_layout() {
         harness.run_steps(2);
         for (name, order) in orders(&harness.state().desk) {
             // A file dialog needs a display; other scenarios are opened by other tests.
-            let asks = matches!(order, Order::AskExportPlots(_) | Order::AskExportTable | Order::AskImportTable | Order::AskRecording);
+            let asks = matches!(
+                order,
+                Order::AskExportPlots(_) | Order::AskExportTable | Order::AskImportTable | Order::AskRecording | Order::AskExportModel(_)
+            );
             if asks || matches!(order, Order::Open(_)) {
                 continue;
             }

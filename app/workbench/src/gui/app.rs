@@ -79,6 +79,7 @@ impl App {
                 Order::Show(panel) => layout::open(&mut self.dock, *panel),
                 Order::Close(panel) => layout::close(&mut self.dock, *panel),
                 Order::Size(scale) => context.set_zoom_factor(*scale),
+                Order::AskExportModel(ending) => menus::ask_export_model(self, ending),
                 Order::AskRecording => menus::ask_recording(self),
                 Order::Arrange(layout) => self.dock = layout.dock(),
                 Order::Commands => self.palette.toggle(),

@@ -252,6 +252,7 @@ impl Desk {
             Order::ExportTable(path) => self.export_table(path),
             Order::ImportTable(path) => self.import_table(path),
             Order::ExportPlots(path) => self.export_plots(path),
+            Order::ExportModel(path) => self.export_model(path),
             Order::WeakLinks => self.toggle_weak_links(),
             Order::Fly => self.toggle_fly(),
             Order::Person => self.view3d.change_person(),
@@ -274,6 +275,7 @@ impl Desk {
             Order::Close(_)
             | Order::Size(_)
             | Order::AskRecording
+            | Order::AskExportModel(_)
             | Order::Show(_)
             | Order::Arrange(_)
             | Order::Commands

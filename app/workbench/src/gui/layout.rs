@@ -165,7 +165,7 @@ impl Layout {
                 tree.split_below(right, 0.6, ids(&[Events, Run, Recordings]));
             }
             Self::Study => {
-                let [upper, _] = tree.split_below(NodeIndex::root(), 0.58, ids(&[Library, Problems]));
+                let [upper, _] = tree.split_below(NodeIndex::root(), 0.7, ids(&[Library, Problems]));
                 tree.split_right(upper, 0.62, ids(&[Summary, Entanglement, Plots]));
             }
         }

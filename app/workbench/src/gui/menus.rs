@@ -98,6 +98,13 @@ pub fn ask_export_table(app: &mut App) {
     ask(app, move || rfd::FileDialog::new().set_file_name(name).add_filter("CSV", &["csv"]).save_file().map(Order::ExportTable));
 }
 
+/// Asks where to write the gear as a 3-D model.
+pub fn ask_export_model(app: &mut App, ending: &'static str) {
+    ask(app, move || {
+        rfd::FileDialog::new().set_file_name(format!("gear.{ending}")).add_filter(ending, &[ending]).save_file().map(Order::ExportModel)
+    });
+}
+
 /// Asks for a recording to open.
 pub fn ask_recording(app: &mut App) {
     let folder = app.desk.recordings.clone().unwrap_or_default();

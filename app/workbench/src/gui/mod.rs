@@ -19,6 +19,7 @@ pub mod hud;
 pub mod keys;
 pub mod layout;
 pub mod menus;
+pub mod models;
 pub mod order;
 pub mod palette;
 pub mod panels;

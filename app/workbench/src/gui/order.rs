@@ -78,6 +78,10 @@ pub enum Order {
     Undo,
     /// Do it again.
     Redo,
+    /// Ask for a file and write the gear shown as a 3-D model to it: `stl` or `glb`.
+    AskExportModel(&'static str),
+    /// Write the gear shown as a 3-D model, in the format of the file's ending.
+    ExportModel(PathBuf),
     /// Ask for a recording and open it.
     AskRecording,
     /// Run a recording again and look at it.

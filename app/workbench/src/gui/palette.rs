@@ -44,6 +44,8 @@ pub fn orders(desk: &Desk) -> Vec<(String, Order)> {
         ("Copy as command line".to_owned(), Order::CopyCommandLine),
         ("Go on from the moment shown".to_owned(), Order::Branch),
         ("Open a recording".to_owned(), Order::AskRecording),
+        ("Save the gear as STL".to_owned(), Order::AskExportModel("stl")),
+        ("Save the gear as glTF".to_owned(), Order::AskExportModel("glb")),
         ("Save the plots as SVG".to_owned(), Order::AskExportPlots("svg")),
         ("Save the plots as PNG".to_owned(), Order::AskExportPlots("png")),
         ("Save the plots as CSV".to_owned(), Order::AskExportPlots("csv")),

@@ -1,6 +1,7 @@
 //! Tables and plots written to files and taken from them.
 
 use super::Desk;
+use crate::scene::{Scene, Show};
 
 impl Desk {
     /// The plots as SVG or, by the ending, as CSV; a PNG is cut from the window by [`App`](super::super::app::App).
@@ -12,6 +13,23 @@ impl Desk {
         let written =
             text.and_then(|text: String| endline_session::save::atomically(path, text.as_bytes()).map_err(|error| error.to_string()));
         self.notice = Some(match written {
+            Ok(()) => (format!("saved {}", path.display()), false),
+            Err(error) => (format!("{}: {error}", path.display()), true),
+        });
+    }
+
+    /// The gear of the assembly panel, at rest in running tide.
+    pub(super) fn export_model(&mut self, path: &std::path::Path) {
+        let rest = self.assembly.answers()[1].and_then(|answer| answer.as_ref().ok()).cloned();
+        let Some(rest) = rest else {
+            self.notice = Some(("the gear of the assembly panel is not at rest yet".into(), true));
+            return;
+        };
+        let show = Show { surface: false, seabed: false, current: false, contacts: false, whale: false, scale_n: None };
+        let scene = Scene::of(&rest.model, &rest.frame, &show);
+        let stl = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("stl"));
+        let bytes = if stl { super::super::models::stl(&scene) } else { super::super::models::glb(&scene) };
+        self.notice = Some(match endline_session::save::atomically(path, &bytes) {
             Ok(()) => (format!("saved {}", path.display()), false),
             Err(error) => (format!("{}: {error}", path.display()), true),
         });

@@ -31,7 +31,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
         desk.recorded.files = Some((kept, list(&folder)));
     }
     let files = desk.recorded.files.as_ref().map(|(_, files)| files.clone()).unwrap_or_default();
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new("Every run is kept here when it ends or another begins.").color(Theme::palette_of(ui).faint));
         if ui.button("Open other …").clicked() {
             desk.orders.push(Order::AskRecording);
@@ -50,15 +50,15 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
 fn row(ui: &mut Ui, desk: &mut Desk, file: &Recorded) {
     let faint = Theme::palette_of(ui).faint;
     let name = file.path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
+        ui.label(name);
+        ui.label(RichText::new(format!("{}, {} kB", file.age, file.kilobytes)).color(faint));
         if ui.button("Open").on_hover_text("Run it again, to the bit, and look at any moment").clicked() {
             desk.orders.push(Order::OpenRecording(file.path.clone()));
         }
         if ui.button("Copy command").on_hover_text("endline replay …, for a terminal").clicked() {
             ui.ctx().copy_text(format!("endline replay '{}'", file.path.display()));
         }
-        ui.label(name);
-        ui.label(RichText::new(format!("{}, {} kB", file.age, file.kilobytes)).color(faint));
     });
 }
 

@@ -41,10 +41,10 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
 }
 
 fn units(ui: &mut Ui, desk: &mut Desk) {
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new("Units on screen").color(Theme::palette_of(ui).faint));
         for units in Units::ALL {
-            ui.radio_value(&mut desk.preferences.units, units, format!("{}: {}", units.name(), units.help()));
+            ui.radio_value(&mut desk.preferences.units, units, units.name()).on_hover_text(units.help());
         }
     });
 }

@@ -1,38 +1,33 @@
 //! How the run came out: outcome, loads by part of the whale, lines and weak links.
 
 use egui::{Grid, RichText, ScrollArea, Ui};
-use endline_sim::metrics::{Outcome, Summary, WhaleSummary};
+use endline_sim::metrics::{Summary, WhaleSummary};
 
-use super::super::desk::Desk;
+use super::super::desk::{Desk, Order};
 use super::super::theme::Theme;
-use super::super::units::ForceUnit;
+use super::super::units::{ForceUnit, Units};
 
 /// Draws the summary.
 pub fn show(ui: &mut Ui, desk: &mut Desk) {
     let Some(view) = desk.view.clone() else { return super::nothing(ui, "No run yet.") };
     let Some(summary) = &view.summary else { return super::nothing(ui, "The gear is being settled.") };
-    let unit = desk.preferences.units.force();
+    let units = desk.preferences.units;
+    let unit = units.force();
     ScrollArea::both().auto_shrink(false).show(ui, |ui| {
         if let Some(whale) = &summary.whale {
-            outcome(ui, whale, unit);
-            regions(ui, whale, unit);
+            outcome(ui, whale, units);
+            regions(ui, whale, units);
         }
-        lines(ui, summary, unit);
+        desk.orders.extend(lines(ui, summary, unit).map(Order::Seek));
         links(ui, summary, unit);
     });
 }
 
-fn outcome(ui: &mut Ui, whale: &WhaleSummary, unit: ForceUnit) {
+fn outcome(ui: &mut Ui, whale: &WhaleSummary, units: Units) {
     let palette = Theme::palette_of(ui);
-    let (text, colour) = match whale.outcome {
-        Outcome::NoContact => ("No contact", palette.faint),
-        Outcome::Shed => ("Shed", palette.good),
-        Outcome::PartedFree => ("Parted, whale free", palette.good),
-        Outcome::Entangled => ("Entangled", palette.error),
-        Outcome::PartedEntangled => ("Parted, still entangled", palette.error),
-    };
+    let (text, meaning, colour) = super::entanglement::meaning(whale.outcome, palette);
     ui.horizontal(|ui| {
-        ui.label(RichText::new(text).heading().color(colour));
+        ui.label(RichText::new(text).heading().color(colour)).on_hover_text(meaning);
         if !whale.decided {
             ui.label(RichText::new("so far").color(palette.faint)).on_hover_text("The run is too short for this to stand");
         }
@@ -43,8 +38,8 @@ fn outcome(ui: &mut Ui, whale: &WhaleSummary, unit: ForceUnit) {
         &[
             ("First contact", whale.first_contact_s.map_or_else(|| "–".into(), |time| format!("{time:.2} s"))),
             ("Time in contact", format!("{:.2} s", whale.contact_time_s)),
-            ("Added drag", unit.text(whale.drag_added_n)),
-            ("Trailing rope", format!("{:.1} m", whale.trailing_m)),
+            ("Added drag", units.force().text(whale.drag_added_n)),
+            ("Trailing rope", units.length(whale.trailing_m)),
         ],
     );
 }
@@ -69,7 +64,7 @@ fn heads(ui: &mut Ui, names: &[&str]) {
     ui.end_row();
 }
 
-fn regions(ui: &mut Ui, whale: &WhaleSummary, unit: ForceUnit) {
+fn regions(ui: &mut Ui, whale: &WhaleSummary, units: Units) {
     super::caption(ui, "Whale by part");
     let faint = Theme::palette_of(ui).faint;
     Grid::new("regions").num_columns(5).striped(true).spacing([14.0, 2.0]).min_row_height(17.0).show(ui, |ui| {
@@ -79,27 +74,32 @@ fn regions(ui: &mut Ui, whale: &WhaleSummary, unit: ForceUnit) {
             let text = |text: String| if touched { RichText::new(text) } else { RichText::new(text).color(faint) };
             ui.label(RichText::new(region.part.name().replace('_', " ")).color(if touched { ui.visuals().text_color() } else { faint }));
             ui.label(text(format!("{:.2}", region.wraps)));
-            ui.label(text(format!("{:.2} m", region.contact_length_m)));
-            ui.label(text(unit.text(region.peak_normal_n)));
+            ui.label(text(units.length(region.contact_length_m)));
+            ui.label(text(units.force().text(region.peak_normal_n)));
             ui.label(text(format!("{:.0} J", region.friction_work_j)));
             ui.end_row();
         }
     });
 }
 
-fn lines(ui: &mut Ui, summary: &Summary, unit: ForceUnit) {
+/// Peaks of the lines; answers the moment asked for by a click on one.
+fn lines(ui: &mut Ui, summary: &Summary, unit: ForceUnit) -> Option<f64> {
+    let mut wanted = None;
     super::caption(ui, "Lines");
     Grid::new("lines").num_columns(5).striped(true).spacing([14.0, 2.0]).min_row_height(17.0).show(ui, |ui| {
         heads(ui, &["Line", "Peak", "at", "Ends now", "Parted"]);
         for line in &summary.lines {
             ui.label(&line.id);
             ui.label(unit.text(line.peak_tension_n));
-            ui.label(format!("{:.2} s", line.peak_at_s));
+            if ui.link(format!("{:.2} s", line.peak_at_s)).on_hover_text("See this moment").clicked() {
+                wanted = Some(line.peak_at_s);
+            }
             ui.label(format!("{} / {}", unit.text(line.end_a_tension_n), unit.text(line.end_b_tension_n)));
             parted(ui, line.parted_at_s);
             ui.end_row();
         }
     });
+    wanted
 }
 
 fn links(ui: &mut Ui, summary: &Summary, unit: ForceUnit) {

@@ -14,7 +14,7 @@ use endline_session::rest::TrialSea;
 
 use super::super::bench::{Answer, Bench, Trial};
 use super::super::book::Book;
-use super::super::desk::Desk;
+use super::super::desk::{Desk, Order};
 use super::super::theme::{Theme, primary};
 
 /// Fastest current of the slider [m/s]: 2 knots.
@@ -152,6 +152,14 @@ fn toolbar(ui: &mut Ui, desk: &mut Desk, id: &str) {
         if placed.is_some() && placed.as_deref() != Some(id) && primary(ui, true, "Use in scenario").clicked() {
             desk.set(Book::SCENARIO, "gear.0.assembly", id);
         }
+        ui.menu_button("Model ⏷", |ui| {
+            for (text, ending) in [("Save as STL …", "stl"), ("Save as glTF …", "glb")] {
+                if ui.button(text).on_hover_text("A at rest in running tide, in metres, for CAD and pictures").clicked() {
+                    desk.orders.push(Order::AskExportModel(ending));
+                    ui.close();
+                }
+            }
+        });
         ui.separator();
         ui.toggle_value(&mut desk.assembly.sweep, "Depths and tides").on_hover_text("Tension and float height by depth and current");
     });

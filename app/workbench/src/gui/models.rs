@@ -1,0 +1,177 @@
+//! A scene's solid parts as 3-D models for CAD and for pictures: STL, and glTF 2.0 in one file.
+//!
+//! STL has no unit and no axes of its own: coordinates are metres, z up. glTF is in metres with y up, so a place
+//! (x, y, z) is written (x, z, -y), and carries the colours.
+
+use glam::Vec3;
+use serde_json::json;
+
+use crate::scene::Scene;
+use crate::scene::mesh::Mesh;
+
+/// Parts that are things, not the sea or marks on it.
+const SOLID: [&str; 4] = ["obstacles", "whale", "ropes", "bodies"];
+
+/// Magic number, version and kinds of chunk of a binary glTF file.
+const GLB: [u32; 4] = [0x4654_6C67, 2, 0x4E4F_534A, 0x004E_4942];
+
+fn solid(scene: &Scene) -> impl Iterator<Item = (&'static str, &Mesh)> {
+    scene.parts.iter().filter(|part| SOLID.contains(&part.name)).map(|part| (part.name, &part.mesh))
+}
+
+/// Where each vertex is: rope stands out from its centre line.
+fn places(mesh: &Mesh) -> impl Iterator<Item = Vec3> + '_ {
+    mesh.place.iter().zip(&mesh.normal).zip(&mesh.radius_m).map(|((place, normal), radius_m)| *place + *normal * *radius_m)
+}
+
+/// Binary STL.
+#[must_use]
+pub fn stl(scene: &Scene) -> Vec<u8> {
+    let mut triangles: Vec<[Vec3; 3]> = Vec::new();
+    for (_, mesh) in solid(scene) {
+        let places: Vec<Vec3> = places(mesh).collect();
+        triangles.extend(mesh.triangles.iter().map(|corners| corners.map(|corner| places[corner as usize])));
+    }
+    let mut bytes = b"Endline; metres, z up".to_vec();
+    bytes.resize(80, b' ');
+    bytes.extend(u32::try_from(triangles.len()).unwrap_or(u32::MAX).to_le_bytes());
+    for [a, b, c] in triangles {
+        let normal = (b - a).cross(c - a).normalize_or_zero();
+        for place in [normal, a, b, c] {
+            place.to_array().iter().for_each(|number| bytes.extend(number.to_le_bytes()));
+        }
+        bytes.extend([0, 0]);
+    }
+    bytes
+}
+
+/// Binary glTF 2.0: one node and mesh a part.
+#[must_use]
+pub fn glb(scene: &Scene) -> Vec<u8> {
+    let mut buffer = Buffer::default();
+    let (mut meshes, mut nodes) = (Vec::new(), Vec::new());
+    for (name, mesh) in solid(scene) {
+        let turned = |place: Vec3| Vec3::new(place.x, place.z, -place.y);
+        let places: Vec<[f32; 3]> = places(mesh).map(|place| turned(place).to_array()).collect();
+        let normals: Vec<[f32; 3]> = mesh.normal.iter().map(|normal| turned(*normal).normalize_or(Vec3::Y).to_array()).collect();
+        let attributes = json!({
+            "POSITION": buffer.rows(&places, "VEC3", true),
+            "NORMAL": buffer.rows(&normals, "VEC3", false),
+            "COLOR_0": buffer.rows(&mesh.colour, "VEC4", false),
+        });
+        let indices = buffer.indices(&mesh.triangles);
+        nodes.push(json!({ "name": name, "mesh": meshes.len() }));
+        meshes.push(json!({ "name": name, "primitives": [{ "attributes": attributes, "indices": indices, "material": 0 }] }));
+    }
+    let of_scene: Vec<usize> = (0..nodes.len()).collect();
+    let mut document = json!({
+        "asset": { "version": "2.0", "generator": "Endline" },
+        "scene": 0,
+        "scenes": [{ "nodes": of_scene }],
+        "materials": [{ "name": "gear", "doubleSided": true, "pbrMetallicRoughness": { "metallicFactor": 0.0, "roughnessFactor": 0.7 } }],
+        "buffers": [{ "byteLength": buffer.bytes.len() }],
+    });
+    for (key, list) in [("nodes", nodes), ("meshes", meshes), ("bufferViews", buffer.views), ("accessors", buffer.accessors)] {
+        document[key] = json!(list);
+    }
+    chunks(document.to_string().into_bytes(), buffer.bytes)
+}
+
+fn chunks(mut text: Vec<u8>, mut bytes: Vec<u8>) -> Vec<u8> {
+    text.resize(text.len().next_multiple_of(4), b' ');
+    bytes.resize(bytes.len().next_multiple_of(4), 0);
+    let count = |length: usize| u32::try_from(length).unwrap_or(u32::MAX);
+    let words = |words: &[u32]| words.iter().flat_map(|word| word.to_le_bytes()).collect::<Vec<u8>>();
+    let [magic, version, json, binary] = GLB;
+    let whole = words(&[magic, version, count(28 + text.len() + bytes.len())]);
+    [whole, words(&[count(text.len()), json]), text, words(&[count(bytes.len()), binary]), bytes].concat()
+}
+
+/// The binary part of a glTF file with what says how to read it.
+#[derive(Default)]
+struct Buffer {
+    bytes: Vec<u8>,
+    views: Vec<serde_json::Value>,
+    accessors: Vec<serde_json::Value>,
+}
+
+impl Buffer {
+    /// Adds rows of numbers; answers the index of their accessor. Places need their bounds.
+    fn rows<const N: usize>(&mut self, rows: &[[f32; N]], kind: &str, bounded: bool) -> usize {
+        let bytes: Vec<u8> = rows.iter().flatten().flat_map(|number| number.to_le_bytes()).collect();
+        let mut accessor = json!({ "bufferView": self.view(&bytes), "componentType": 5126, "count": rows.len(), "type": kind });
+        if bounded {
+            let bound = |pick: fn(f32, f32) -> f32, first: f32| {
+                (0..N).map(|axis| rows.iter().map(|row| row[axis]).fold(first, pick)).collect::<Vec<f32>>()
+            };
+            accessor["min"] = json!(bound(f32::min, f32::MAX));
+            accessor["max"] = json!(bound(f32::max, f32::MIN));
+        }
+        self.accessors.push(accessor);
+        self.accessors.len() - 1
+    }
+
+    fn indices(&mut self, triangles: &[[u32; 3]]) -> usize {
+        let bytes: Vec<u8> = triangles.iter().flatten().flat_map(|corner| corner.to_le_bytes()).collect();
+        let view = self.view(&bytes);
+        self.accessors.push(json!({ "bufferView": view, "componentType": 5125, "count": 3 * triangles.len(), "type": "SCALAR" }));
+        self.accessors.len() - 1
+    }
+
+    fn view(&mut self, bytes: &[u8]) -> usize {
+        self.views.push(json!({ "buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len() }));
+        self.bytes.extend(bytes);
+        self.views.len() - 1
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::scene::bounds::Bounds;
+    use crate::scene::{Look, Part};
+
+    /// A tetrahedron with legs of 1, 2 and 3 m: 1 m³.
+    fn scene() -> Scene {
+        let mut mesh = Mesh::default();
+        for place in [Vec3::ZERO, Vec3::X, Vec3::Y * 2.0, Vec3::Z * 3.0] {
+            mesh.vertex(place, Vec3::Z, 0.0, [0.5, 0.5, 0.5, 1.0]);
+        }
+        mesh.triangles = vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+        let part = |name, mesh| Part { name, look: Look::Solid, least_px: 0.0, mesh };
+        let parts = vec![part("bodies", mesh.clone()), part("seabed", mesh)];
+        Scene { parts, bounds: Bounds { low: DVec3::ZERO, high: DVec3::ONE }, scale_n: 1.0, time_s: 0.0, depth_m: 1.0 }
+    }
+
+    #[test]
+    fn an_stl_encloses_the_volume_of_the_things_and_leaves_the_sea_out() {
+        let bytes = stl(&scene());
+        assert_eq!(bytes.len(), 84 + 4 * 50);
+        let number = |at: usize| f32::from_le_bytes(bytes[at..at + 4].try_into().unwrap());
+        let corner = |triangle: usize, corner: usize| {
+            let at = 84 + 50 * triangle + 12 * (corner + 1);
+            Vec3::new(number(at), number(at + 4), number(at + 8))
+        };
+        // Divergence theorem: outward triangles sum to the volume.
+        let volume: f32 = (0..4).map(|triangle| corner(triangle, 0).dot(corner(triangle, 1).cross(corner(triangle, 2))) / 6.0).sum();
+        assert!((volume - 1.0).abs() < 1e-6, "{volume}");
+    }
+
+    #[test]
+    fn a_gltf_reader_finds_every_triangle_with_y_up() {
+        let bytes = glb(&scene());
+        let word = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap());
+        assert_eq!([word(0), word(4), word(8)], [GLB[0], 2, u32::try_from(bytes.len()).unwrap()]);
+        let length = word(12) as usize;
+        let document: serde_json::Value = serde_json::from_slice(&bytes[20..20 + length]).unwrap();
+        assert_eq!(document["meshes"].as_array().unwrap().len(), 1);
+        let accessor = |index: &serde_json::Value| &document["accessors"][usize::try_from(index.as_u64().unwrap()).unwrap()];
+        let primitive = &document["meshes"][0]["primitives"][0];
+        assert_eq!(accessor(&primitive["indices"])["count"], 12);
+        let place = accessor(&primitive["attributes"]["POSITION"]);
+        assert_eq!((place["count"].as_u64(), place["max"][1].as_f64(), place["min"][2].as_f64()), (Some(4), Some(3.0), Some(-2.0)));
+        assert_eq!(u64::from(word(20 + length)), document["buffers"][0]["byteLength"].as_u64().unwrap().next_multiple_of(4));
+    }
+}
