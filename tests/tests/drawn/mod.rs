@@ -114,7 +114,7 @@ impl Parts<'_> {
         let reach = 0.9 * (length * length - self.depth_m * self.depth_m).sqrt();
         let buoys = self.library.ids(Kind::Buoy);
         let buoy = self.draw.of(&buoys);
-        let mut text = format!("format = 1\nkind = \"assembly\"\nname = \"Drawn\"\n")
+        let mut text = String::from("format = 1\nkind = \"assembly\"\nname = \"Drawn\"\n")
             + &body("buoy", "buoy", buoy, reach, 1)
             + &joint("splice", share * reach, share);
         let foot = if self.draw.unit() < 0.25 { self.bridle(&mut text) } else { "trap-0" };
