@@ -11,8 +11,15 @@ use endline_sim::{DVec3, Input, Model, State, Workspace, step};
 use linked::{Linked, library, root, told};
 
 fn model(name: &str) -> Model {
-    let text = std::fs::read_to_string(root().join("scenarios").join(name)).unwrap();
-    let scenario = Scenario::read(name, &text).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    model_of(name, &text(name))
+}
+
+fn text(name: &str) -> String {
+    std::fs::read_to_string(root().join("scenarios").join(name)).unwrap()
+}
+
+fn model_of(name: &str, text: &str) -> Model {
+    let scenario = Scenario::read(name, text).unwrap_or_else(|problems| panic!("{}", told(&problems)));
     let spec = assemble(&scenario, &library(), &Linked, &Options::default()).unwrap_or_else(|problems| panic!("{}", told(&problems)));
     Model::new(spec).unwrap_or_else(|problems| panic!("{problems:?}"))
 }
@@ -49,12 +56,47 @@ fn a_grown_whale_parts_the_rope_that_holds_a_young_one() {
     assert!((16_000.0..23_900.0).contains(&whale.exertion.thrust_n), "by thrust, not by a snatch: {} N", whale.exertion.thrust_n);
 }
 
+/// Line and trap of the library made fast to the tail stock: she slows until body and gear take the power that her body alone took at
+/// 1.23 m/s, `(D + R + m du/dt) u = D₀ u₀`, with what the gear pulls at that speed. Measured of such gear: 158 N at 1 m/s, as the square.
+#[test]
+fn a_whale_that_tows_a_trap_slows_by_the_power_ratio() {
+    let model = model("towing-trap.toml");
+    let mut seen = Vec::new();
+    let (state, workspace) = run(&model, model.spec.settings.duration_s, |state| {
+        let whale = state.whale.as_ref().unwrap();
+        let pull = -whale.exertion.rope_force_n.dot(whale.orientation * DVec3::X);
+        seen.extend((state.time_s > 35.0).then_some([state.time_s, whale.speed_m_s, whale.exertion.thrust_n, pull]));
+        false
+    });
+    let mean = |of: usize| seen.iter().map(|row| row[of]).sum::<f64>() / seen.len() as f64;
+    let (first, last) = (seen[0], seen[seen.len() - 1]);
+    let kinetic = model.spec.whale.as_ref().unwrap().kinetic.as_ref().unwrap();
+    let inertia = kinetic.whole_mass_kg().x * (last[1] - first[1]) / (last[0] - first[0]);
+    let [speed, thrust, pull] = [1, 2, 3].map(mean);
+    let (clean, asked) = (|speed: f64| kinetic.drag.drag_n(1025.0, speed), 1.23);
+    let (mut low, mut high) = (0.1, asked);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        let needed = (clean(middle) + pull * (middle / speed).powi(2) + inertia) * middle;
+        if needed > clean(asked) * asked { high = middle } else { low = middle }
+    }
+    println!(
+        "{speed:.3} m/s against {low:.3}; body {:.1} N, gear {pull:.1} N, {inertia:.1} N for its mass, thrust {thrust:.1} N",
+        clean(speed)
+    );
+    assert!((speed / low - 1.0).abs() < 0.015, "she tows at {speed} m/s, the power law says {low}; the gear pulls {pull} N");
+    assert!((thrust / (clean(speed) + pull + inertia) - 1.0).abs() < 0.03, "{thrust} N of thrust against {} + {pull} N", clean(speed));
+    assert!((pull / (speed * speed) / 158.0 - 1.0).abs() < 0.25, "the gear drags with {pull} N at {speed} m/s");
+    assert!(workspace.audit.tunnelled == 0);
+    assert!((state.whale.as_ref().unwrap().position.z + 11.5).abs() < 3.0, "she keeps her depth");
+}
+
 #[test]
 fn a_carcass_floats_belly_up_and_drifts_with_its_gear() {
     let model = model("dead-whale-gear.toml");
     let spec = model.spec.whale.as_ref().unwrap();
     let kinetic = spec.kinetic.as_ref().unwrap();
-    let hull = &kinetic.dead.as_ref().unwrap().hull;
+    let hull = &kinetic.hull;
     let centre = |state: &State| {
         let whale = state.whale.as_ref().unwrap();
         whale.position + whale.orientation * kinetic.centre_m
@@ -92,7 +134,7 @@ fn a_kinetic_run_keeps_its_bits_without_its_workspace() {
 
 #[test]
 fn what_a_whale_cannot_be_or_hold_is_told_with_its_place() {
-    let text = std::fs::read_to_string(root().join("scenarios/part-rope-10m.toml")).unwrap();
+    let text = text("part-rope-10m.toml");
     let problems = |from: &str, to: &str| {
         assert!(text.contains(from), "the scenario says {from}");
         let changed = text.replace(from, to);

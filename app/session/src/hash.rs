@@ -140,13 +140,14 @@ fn fold_body(body: &BodyState, fold: &mut Fold) {
 }
 
 fn fold_whale(whale: &WhaleState, fold: &mut Fold, contact: &mut Fold) {
-    let WhaleState { position, orientation, speed_m_s, turn_rate, posture, motion, contact_force_n, exertion } = whale;
+    let WhaleState { position, orientation, speed_m_s, turn_rate, posture, motion, contact_force_n, contact_port_m, exertion } = whale;
     fold.vectors(&[*position, *turn_rate]);
     fold.turn(*orientation);
     fold.real(*speed_m_s);
     fold.posture(posture);
     fold.reals(motion);
     contact.reals(contact_force_n);
+    contact.reals(contact_port_m);
     let Exertion {
         slip_m_s,
         asked_speed_m_s,
@@ -212,26 +213,7 @@ impl Fold {
     }
 
     fn posture(&mut self, posture: &Posture) {
-        let Posture {
-            spine_pitch,
-            spine_yaw,
-            spine_roll,
-            fluke_pitch,
-            fluke_flex,
-            flipper_sweep,
-            flipper_raise,
-            flipper_twist,
-            flipper_flex,
-            jaw,
-            lips,
-        } = posture;
-        for spine in [spine_pitch, spine_yaw, spine_roll] {
-            self.reals(spine);
-        }
-        for pair in [fluke_flex, flipper_sweep, flipper_raise, flipper_twist, flipper_flex, lips] {
-            self.reals(pair);
-        }
-        self.reals(&[*fluke_pitch, *jaw]);
+        posture.groups().into_iter().for_each(|(_, angles)| self.reals(angles));
     }
 }
 

@@ -107,6 +107,8 @@ pub struct WhaleState {
     pub motion: Vec<f64>,
     /// Sum of normal contact forces of the last step, by body part [N].
     pub contact_force_n: [f64; endline_sdk::BodyPart::ALL.len()],
+    /// Where on each part those forces are: mean place to port of the midplane on the body at rest [m].
+    pub contact_port_m: [f64; endline_sdk::BodyPart::ALL.len()],
     /// What it does and bears.
     pub exertion: Exertion,
 }
@@ -127,7 +129,7 @@ clone_in_place!(RopeState {
     rope_grips
 });
 clone_in_place!(BodyState { position, orientation, velocity, spin, earlier_position, earlier_velocity, grip, sliding, lift_m });
-clone_in_place!(WhaleState { position, orientation, speed_m_s, turn_rate, posture, motion, contact_force_n, exertion });
+clone_in_place!(WhaleState { position, orientation, speed_m_s, turn_rate, posture, motion, contact_force_n, contact_port_m, exertion });
 
 impl State {
     /// The state a model starts from before statics: first guesses, at rest.
@@ -220,6 +222,7 @@ impl WhaleState {
             posture: whale.start_posture(),
             motion: vec![0.0; whale.motion.descriptor().state_len],
             contact_force_n: [0.0; endline_sdk::BodyPart::ALL.len()],
+            contact_port_m: [0.0; endline_sdk::BodyPart::ALL.len()],
             exertion: Exertion { asked_speed_m_s: if dead { 0.0 } else { whale.speed_m_s }, ..Exertion::default() },
         }
     }

@@ -9,7 +9,7 @@ use endline_sdk::Controls;
 use crate::contact::ContactPoint;
 use crate::contact::near::MARGIN_M;
 use crate::contact::ropes::RopeTouch;
-use crate::contact::work::{ContactWork, force_by_part};
+use crate::contact::work::{ContactWork, touch_by_part};
 use crate::gear_hook::{self, GearWork};
 use crate::model::{Model, Settings};
 use crate::pace::{self, LimitedBy, Pace};
@@ -145,9 +145,12 @@ fn try_step(model: &Model, input: &Input, state: &mut State, workspace: &mut Wor
         paced_steps(model, state, workspace, whale.as_deref())
     });
     if let (Some(now), Some([_, after])) = (&mut state.whale, whale.as_deref_mut()) {
-        after.contact_force_n = force_by_part(&workspace.contacts);
-        let kinetic = model.spec.whale.as_ref().and_then(|whale| whale.kinetic.as_ref());
-        workspace.pulled.give(kinetic, model.spec.settings.step_s, after);
+        if let Some(whale) = &model.spec.whale {
+            [after.contact_force_n, after.contact_port_m] = touch_by_part(&whale.skin, &workspace.contacts);
+            if let Some(kinetic) = &whale.kinetic {
+                workspace.pulled.give(kinetic, model.spec.settings.step_s, after);
+            }
+        }
         now.clone_from(after);
     }
     workspace.whale = whale;
@@ -259,10 +262,11 @@ fn solver_steps(
     Ok(true)
 }
 
-/// Takes in what rope gave the whale in the solver step that has just ended.
+/// Takes in what rope gave a kinetic whale in the solver step that has just ended; a kinematic one has no use for it.
 fn feel(model: &Model, state: &State, workspace: &mut Workspace, whale: Option<&[WhaleState; 2]>, dt: f64) {
-    let (Some(spec), Some([_, after])) = (&model.spec.whale, whale) else { return };
-    let centre = centre_of(spec.kinetic.as_ref(), after);
+    let Some(kinetic) = model.spec.whale.as_ref().and_then(|whale| whale.kinetic.as_ref()) else { return };
+    let Some([_, after]) = whale else { return };
+    let centre = centre_of(kinetic, after);
     let end_s = model.spec.settings.step_s * (state.step + 1) as f64;
     let times = Times { dt, left: (end_s - state.time_s).max(0.0) };
     workspace.pulled.add_contacts(&workspace.contacts, centre, times);

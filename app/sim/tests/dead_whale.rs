@@ -31,7 +31,8 @@ fn afloat(height_m: f64, heel_rad: f64, drag_area_m2: f64) -> ModelSpec {
     (kinetic.added_mass_kg, kinetic.added_inertia_kg_m2) = (DVec3::ZERO, DVec3::ZERO);
     kinetic.side_drag_m2 = [drag_area_m2; 2];
     kinetic.turn_drag_m5 = DVec3::splat(drag_area_m2);
-    kinetic.dead = Some(Dead { posture: Posture::default(), hull: Arc::new(Hull::of(&skin, &Posture::default())) });
+    kinetic.hull = Arc::new(Hull::of(&skin, &Posture::default()));
+    kinetic.dead = Some(Dead { posture: Posture::default() });
     let mut whale = whale::whale(kinetic, 0.0, Steady::shared(0.0, [0.0; 3]));
     whale.skin = Arc::new(skin);
     whale.position_m = DVec3::Z * height_m;

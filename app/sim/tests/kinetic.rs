@@ -6,10 +6,13 @@ mod common;
 #[path = "common/whale.rs"]
 mod whale;
 
-use endline_sdk::Controls;
+use std::sync::Arc;
+
+use endline_sdk::{Controls, Posture};
 use endline_sim::whale::Kinetic;
-use endline_sim::{DVec3, Input, Model, State, Workspace, step};
-use whale::{Steady, kinetic, spec, swims};
+use endline_sim::whale::kinetic::Hull;
+use endline_sim::{DQuat, DVec3, Input, Model, State, Workspace, step};
+use whale::{Steady, crate_of, kinetic, spec, swims};
 
 /// Eg 1223: 13.60 m, 32.67 t, 2.93 m.
 fn eg_1223() -> Kinetic {
@@ -54,4 +57,31 @@ fn a_clean_whale_swims_as_it_is_asked_to_and_pays_for_its_drag() {
     // 328 N in the table; power input D U / 0.13.
     assert!((now.exertion.drag_n / 328.0 - 1.0).abs() < 0.01 && (now.exertion.thrust_n / now.exertion.drag_n - 1.0).abs() < 1e-3);
     assert!((now.exertion.power_w / (328.0 * 1.23 / 0.13) - 1.0).abs() < 0.02, "{} W", now.exertion.power_w);
+}
+
+/// A box as heavy as the water it displaces glides straight up: `m s'' = -ρ g A s` with `s` of its length out, so `u √(L/g)` comes out,
+/// and half a period `π √(L/g)` later it is back under at the speed it came with.
+#[test]
+fn what_is_out_of_the_water_weighs_on_the_whale() {
+    let (half, speed) = (DVec3::new(4.0, 1.5, 0.5), 2.0);
+    let mut kinetic = kinetic(8.0, 24.0 * 1025.0, 3.0);
+    kinetic.hull = Arc::new(Hull::of(&crate_of(half), &Posture::default()));
+    (kinetic.drag.wetted_area_m2, kinetic.side_drag_m2) = (0.0, [0.0; 2]);
+    (kinetic.added_mass_kg, kinetic.added_inertia_kg_m2) = (DVec3::ZERO, DVec3::ZERO);
+    let mut whale = whale::whale(kinetic, speed, Steady::shared(0.0, [0.0; 3]));
+    whale.orientation = DQuat::from_rotation_y(-std::f64::consts::FRAC_PI_2);
+    whale.position_m = DVec3::Z * -5.0;
+    let mut spec = spec(whale, 1025.0);
+    spec.settings.step_s = 0.005;
+    let model = Model::new(spec).expect("a sound model");
+    let swing_s = std::f64::consts::PI * libm::sqrt(8.0 / 9.81);
+    let (mut state, mut workspace, mut highest) = (State::start(&model), Workspace::new(&model), f64::NEG_INFINITY);
+    while state.time_s < 0.5 + swing_s + 0.2 {
+        step(&model, &Input::default(), &mut state, &mut workspace).expect("a step");
+        highest = highest.max(state.whale.as_ref().expect("a whale").position.z + 4.0);
+    }
+    let expected = speed * libm::sqrt(8.0 / 9.81);
+    assert!((highest / expected - 1.0).abs() < 0.01, "{highest} against {expected} m out");
+    let now = state.whale.as_ref().expect("a whale");
+    assert!((now.speed_m_s + speed).abs() < 0.02 && now.position.z < -4.0, "{} m/s at {} m", now.speed_m_s, now.position.z);
 }

@@ -23,7 +23,8 @@ impl WhaleItem {
     /// A whale of this length that feels the gear, in water of a density; `None` where a figure is missing, which is a problem
     /// already told.
     #[must_use]
-    pub fn kinetic(&self, length_m: f64, measures: &Measures, density_kg_m3: f64, effort: Effort) -> Option<Kinetic> {
+    pub fn kinetic(&self, length_m: f64, skin: &Skin, density_kg_m3: f64, effort: Effort) -> Option<Kinetic> {
+        let measures = Measures::of(skin, self.density_kg_m3);
         let value = |key| self.entry.value(key);
         let (length, form) = (length_m, self.form_at(length_m));
         let mass_kg = measures.mass_kg;
@@ -62,6 +63,7 @@ impl WhaleItem {
             muscle,
             steering_time_s: value("strength.steering_time")?,
             buoyancy: value("dynamics.buoyancy")?,
+            hull: Arc::new(Hull::of(skin, &Posture::default())),
             dead: None,
         })
     }
@@ -76,7 +78,8 @@ impl WhaleItem {
             mass_kg,
             centre_m: alive.centre_m + DVec3::Z * (value("dead.weight_above")? * alive.drag.length_m),
             inertia_kg_m2: alive.inertia_kg_m2 * (mass_kg / alive.mass_kg),
-            dead: Some(Dead { posture, hull: Arc::new(Hull::of(skin, &posture)) }),
+            hull: Arc::new(Hull::of(skin, &posture)),
+            dead: Some(Dead { posture }),
             ..alive
         })
     }

@@ -38,7 +38,7 @@ impl Builder<'_> {
         let measures = Measures::of(&skin, item.density_kg_m3);
         let density_kg_m3 = self.spec.water.density_kg_m3;
         let feels = (swimmer.dead || kinetic.unwrap_or(swimmer.kinetic)).then(|| {
-            let alive = item.kinetic(length_m, &measures, density_kg_m3, swimmer.effort)?;
+            let alive = item.kinetic(length_m, &skin, density_kg_m3, swimmer.effort)?;
             if swimmer.dead { item.dead(&skin, alive, &measures, density_kg_m3) } else { Some(alive) }
         });
         let feels = feels.flatten();

@@ -40,6 +40,9 @@ impl WhaleForm {
     /// The girth changes most at 60 % of length; head and flukes stay as they are.
     #[must_use]
     pub fn in_condition(self, condition: f64) -> Self {
+        if (condition - 1.0).abs() < f64::EPSILON {
+            return self;
+        }
         let volume = self.skin_volume_m3();
         let fuller = |girth: f64| self.clone().with_girth(&CONDITION, girth);
         let (mut before, mut girth) = ([0.0, volume], (condition - 1.0) * 0.6);

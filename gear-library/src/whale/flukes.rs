@@ -64,7 +64,7 @@ fn midline(build: &Builder, vertex: usize) -> Corner {
     let off = (vertex as f64 + 1.0 - steps) / steps;
     // Even along the outline, then crowded at the notch: at from the row (|off| = 1) to the notch (0).
     let at = from + (1.0 - from) * (1.0 - off * off * (0.55 + 0.45 * off.abs()));
-    let round = tip_rounding((at - from) / (1.0 - from), 14.0);
+    let round = tip_rounding((at - from) / (1.0 - from), 20.0);
     let (middle, half) = (build.sections.height(at), build.sections.halves(at).y * round);
     let height = if off == 0.0 { middle } else { middle + half.copysign(off) };
     let mut place = build.sections.place(at, DVec2::Y * height);

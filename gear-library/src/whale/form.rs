@@ -181,10 +181,10 @@ fn right_whale_flukes() -> FlukesForm {
         tip_chord: 0.016,             // estimate
         sweep: 30.0_f64.to_radians(), // estimate, from the shape of the flukes in photographs
         thickness: 0.17,              // estimate
-        tip_thickness: 0.12,          // estimate
+        tip_thickness: 0.16,          // estimate: so that the tip's edge has the radius below
         notch: 0.022,                 // estimate: deep notch
         height: 0.004,                // Daoust et al. 2018 outline: end of the body
-        edge_radius_m: 0.012,         // estimate: 1 to 3 cm
+        edge_radius_m: 0.014,         // estimate: 1 to 3 cm
     }
 }
 

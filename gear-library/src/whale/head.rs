@@ -16,6 +16,8 @@ const TIP: usize = 4;
 const ALONG: usize = 17;
 /// Depth of the rounded tip [share of length].
 const CAP: f64 = 0.016;
+/// Share of the mouth's length, from the tip, that dark gums take.
+const GUMS: f64 = 0.16;
 /// Angle from the back below which the lips are chin and throat [rad].
 const CHIN: f64 = 1.95;
 
@@ -108,16 +110,27 @@ impl Jaw {
         let outside = half.outside.iter().zip(&half.angles).map(|(&place, &angle)| self.outer(build, at, place, angle));
         let hang = jaws(build).hang(at);
         let inside = half.inside.iter().enumerate().skip(1).map(|(vertex, &place)| {
-            let mark = if vertex < 10 && hang > 0.004 { Mark::Baleen } else { Mark::Mouth };
+            let mark = if vertex < 10 && hang > 0.004 { Mark::Baleen } else { self.within(build, at) };
             self.inner(build, at, place, vertex, mark)
         });
         outside.chain(inside).collect()
     }
 
     fn lower_row(&self, build: &Builder, at: f64, half: &Halfjaw) -> Vec<Corner> {
-        let inside = half.inside.iter().enumerate().skip(1).rev().map(|(vertex, &place)| self.inner(build, at, place, vertex, Mark::Mouth));
+        let inside = half
+            .inside
+            .iter()
+            .enumerate()
+            .skip(1)
+            .rev()
+            .map(|(vertex, &place)| self.inner(build, at, place, vertex, self.within(build, at)));
         let outside = half.outside.iter().zip(&half.angles).map(|(&place, &angle)| self.outer(build, at, place, angle));
         inside.chain(outside).collect()
+    }
+
+    /// What is seen inside: dark gums in front, where the closed lips leave a gap.
+    fn within(&self, build: &Builder, at: f64) -> Mark {
+        if at < GUMS * corner_at(build.form) { Mark::Skin } else { Mark::Mouth }
     }
 
     fn outer(&self, build: &Builder, at: f64, offset: DVec2, angle: f64) -> Corner {

@@ -2,6 +2,7 @@
 
 pub mod bones;
 pub mod curve;
+pub mod edges;
 pub mod fin;
 pub mod fit;
 pub mod flipper;

@@ -306,6 +306,8 @@ typedef struct {
   const double *contact_force_n;
   // How many body parts.
   size_t body_part_count;
+  // Where on each part those forces are: mean place to port of the midplane on the body at rest [m].
+  const double *contact_port_m;
 } endline_motion_input_t;
 
 // Joint angles of a whale [rad]; all zero is the rest posture.

@@ -48,6 +48,8 @@ pub struct MotionInput<'a> {
     pub controls: Controls,
     /// Sum of the normal contact forces of the last step on each [`BodyPart`] [N].
     pub contact_force_n: &'a [f64; BodyPart::ALL.len()],
+    /// Where on each part those forces are: mean place to port of the midplane on the body at rest, negative to starboard [m].
+    pub contact_port_m: &'a [f64; BodyPart::ALL.len()],
 }
 
 /// What a motion decides.

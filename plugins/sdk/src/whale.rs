@@ -43,6 +43,42 @@ pub struct Posture {
     pub lips: [f64; 2],
 }
 
+impl Posture {
+    /// Its angles by name, with one for each joint or side where there are several; every angle is in one of them.
+    #[must_use]
+    pub fn groups(&self) -> [(&'static str, &[f64]); 11] {
+        let Self { spine_pitch, spine_yaw, spine_roll, fluke_pitch, fluke_flex, .. } = self;
+        let Self { flipper_sweep, flipper_raise, flipper_twist, flipper_flex, jaw, lips, .. } = self;
+        [
+            ("spine_pitch", spine_pitch),
+            ("spine_yaw", spine_yaw),
+            ("spine_roll", spine_roll),
+            ("fluke_pitch", std::slice::from_ref(fluke_pitch)),
+            ("fluke_flex", fluke_flex),
+            ("flipper_sweep", flipper_sweep),
+            ("flipper_raise", flipper_raise),
+            ("flipper_twist", flipper_twist),
+            ("flipper_flex", flipper_flex),
+            ("jaw", std::slice::from_ref(jaw)),
+            ("lips", lips),
+        ]
+    }
+
+    /// The places of its angles, in the order of [`groups`](Self::groups).
+    pub fn angles_mut(&mut self) -> impl Iterator<Item = &mut f64> {
+        let Self { spine_pitch, spine_yaw, spine_roll, fluke_pitch, fluke_flex, .. } = self;
+        let Self { flipper_sweep, flipper_raise, flipper_twist, flipper_flex, jaw, lips, .. } = self;
+        let spine = spine_pitch.iter_mut().chain(spine_yaw).chain(spine_roll);
+        let flippers = flipper_sweep.iter_mut().chain(flipper_raise).chain(flipper_twist).chain(flipper_flex);
+        spine.chain([fluke_pitch]).chain(fluke_flex).chain(flippers).chain([jaw]).chain(lips)
+    }
+
+    /// Its angles, in the order of [`groups`](Self::groups) [rad].
+    pub fn angles(&self) -> impl Iterator<Item = f64> {
+        self.groups().into_iter().flat_map(|(_, angles)| angles.iter().copied())
+    }
+}
+
 /// A labelled patch of skin: where a contact is, as fine as friction needs.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -20,6 +20,7 @@ pub struct Flight {
     pub speed_m_s: f64,
     pub orientation: DQuat,
     pub forces: [f64; BodyPart::ALL.len()],
+    pub port_m: [f64; BodyPart::ALL.len()],
 }
 
 /// Every clip of the shipped library.
@@ -45,6 +46,7 @@ impl Flight {
             speed_m_s: 1.23,
             orientation: DQuat::IDENTITY,
             forces: [0.0; BodyPart::ALL.len()],
+            port_m: [0.0; BodyPart::ALL.len()],
         }
     }
 
@@ -74,6 +76,7 @@ impl Flight {
             orientation: self.orientation.to_array(),
             controls,
             contact_force_n: &self.forces,
+            contact_port_m: &self.port_m,
         };
         let out = self.acting.step(&self.attributes, &input, &mut self.state).unwrap();
         self.orientation = (self.orientation * DQuat::from_scaled_axis(DVec3::from_array(out.turn_rate_rad_s) * self.dt_s)).normalize();

@@ -9,6 +9,7 @@ mod flight;
 mod linked;
 mod moves;
 mod scenarios;
+mod size;
 mod skin;
 mod smooth;
 mod strouhal;

@@ -6,7 +6,13 @@ use crate::flight::Flight;
 
 /// Swims, is touched on a part for a second, and goes on.
 fn touch(answer: &str, part: BodyPart, seconds: f64) -> (Vec<MotionOutput>, Flight) {
+    touch_at(answer, (part, 0.0), seconds)
+}
+
+/// The same with the place of the touch, to port of the midplane [m].
+fn touch_at(answer: &str, (part, port_m): (BodyPart, f64), seconds: f64) -> (Vec<MotionOutput>, Flight) {
     let mut flight = Flight::new(Some(answer));
+    flight.port_m[part as usize] = port_m;
     flight.play("", 5.0);
     flight.forces[part as usize] = 30.0;
     let mut out = flight.play("", 1.0);
@@ -30,6 +36,20 @@ fn roll_away_lifts_the_touched_side_and_roll_toward_lowers_it() {
         assert!((away - port * 150.0).abs() < 1.0 && (toward + port * 150.0).abs() < 1.0, "{part:?}: {away} and {toward} degrees");
         let (whole, flight) = touch("roll-away", part, 20.0);
         assert!(turned(&whole, 0).abs() < 0.5 && flight.attitude()[1].abs() < 1.0, "it rights itself");
+    }
+}
+
+/// Rope on head, body or peduncle: the side is where it lies, and the touch before does not count.
+#[test]
+fn a_touch_of_head_body_or_peduncle_has_the_side_where_it_lies() {
+    for (part, port_m) in [(BodyPart::Head, 0.6), (BodyPart::Head, -0.6), (BodyPart::Body, -1.2), (BodyPart::Peduncle, 0.2)] {
+        let (out, mut flight) = touch_at("roll-away", (part, port_m), 30.0);
+        let away = turned(&out[..700], 0);
+        assert!((away - port_m.signum() * 150.0).abs() < 1.0, "{part:?} at {port_m} m: {away} degrees");
+        flight.port_m[part as usize] = -port_m;
+        flight.forces[part as usize] = 30.0;
+        let other = turned(&flight.play("", 7.0), 0);
+        assert!((other + port_m.signum() * 150.0).abs() < 1.0, "{part:?} at {} m: {other} degrees", -port_m);
     }
 }
 

@@ -76,6 +76,7 @@ pub fn motion_input(forces: &[f64; BodyPart::ALL.len()]) -> MotionInput<'_> {
         orientation: [0.0, 0.0, 0.0, 1.0],
         controls: Controls::default(),
         contact_force_n: forces,
+        contact_port_m: forces,
     }
 }
 

@@ -95,6 +95,7 @@ fn swim_gives_the_same_bits_linked_and_loaded() {
         let mut speed_m_s = random.between(0.0, 5.0);
         for step in 0..100 {
             let forces = std::array::from_fn::<_, { BodyPart::ALL.len() }, _>(|_| random.between(0.0, 1e4));
+            let port = std::array::from_fn::<_, { BodyPart::ALL.len() }, _>(|_| random.between(-1.5, 1.5));
             let input = MotionInput {
                 time_s: f64::from(step) * 0.1,
                 dt_s: random.between(1e-4, 0.05),
@@ -104,6 +105,7 @@ fn swim_gives_the_same_bits_linked_and_loaded() {
                 orientation: [0.0, 0.0, 0.0, 1.0],
                 controls: controls(&mut random),
                 contact_force_n: &forces,
+                contact_port_m: &port,
             };
             let [one, other] = &mut states;
             let out = linked.step(&attributes, &input, one).unwrap();
@@ -127,11 +129,13 @@ fn acts_give_the_same_bits_over_a_linked_and_a_loaded_swim() {
     let attributes: Vec<f64> = one.descriptor().attributes.iter().map(|attribute| attribute.default_value().number().unwrap()).collect();
     let mut states = [vec![0.0; one.descriptor().state_len], vec![0.0; other.descriptor().state_len]];
     let (mut random, mut asked, mut forces) = (Random(5), Controls::default(), [0.0; BodyPart::ALL.len()]);
+    let mut port = forces;
     for step in 0..6000 {
         if step % 70 == 0 {
             asked = controls(&mut random);
             asked.act = random.between(0.0, 1.0 + clips.len() as f64).floor();
             forces = std::array::from_fn(|_| random.between(-40.0, 20.0).max(0.0));
+            port = std::array::from_fn(|_| random.between(-1.5, 1.5));
         }
         let input = MotionInput {
             time_s: f64::from(step) * 0.02,
@@ -142,6 +146,7 @@ fn acts_give_the_same_bits_over_a_linked_and_a_loaded_swim() {
             orientation: [0.0, 0.0, 0.0, 1.0],
             controls: asked,
             contact_force_n: &forces,
+            contact_port_m: &port,
         };
         let [first, second] = &mut states;
         let out = one.step(&attributes, &input, first).unwrap();

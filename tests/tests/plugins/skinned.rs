@@ -25,6 +25,7 @@ fn postures(seconds: f64, controls: Controls) -> Vec<Posture> {
             orientation: [0.0, 0.0, 0.0, 1.0],
             controls,
             contact_force_n: &[0.0; BodyPart::ALL.len()],
+            contact_port_m: &[0.0; BodyPart::ALL.len()],
         };
         motion.step(&attributes, &input, &mut state).unwrap().posture
     };

@@ -249,6 +249,7 @@ impl WhaleMotion for Loaded<Motion> {
             controls: input.controls,
             contact_force_n: input.contact_force_n.as_ptr(),
             body_part_count: input.contact_force_n.len(),
+            contact_port_m: input.contact_port_m.as_ptr(),
         };
         let (count, floats) = (attributes.len(), state.len());
         let mut out = MotionOutput::default();

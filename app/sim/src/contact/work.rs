@@ -10,6 +10,7 @@ use super::slots::{Slots, Touch};
 use crate::model::{Friction, Model};
 use crate::solver::BodyTrial;
 use crate::state::State;
+use crate::whale::Skin;
 
 /// Scratch of contact for one model with a whale; it keeps nothing that a step depends on.
 #[derive(Clone, Debug)]
@@ -103,11 +104,16 @@ impl ContactWork {
     }
 }
 
-/// Sum of normal forces on each body part.
-pub(crate) fn force_by_part(contacts: &[ContactPoint]) -> [f64; BodyPart::ALL.len()] {
-    let mut forces = [0.0; BodyPart::ALL.len()];
+/// Sum of normal forces on each body part [N], and their mean place to port of the midplane on the body at rest [m].
+pub(crate) fn touch_by_part(skin: &Skin, contacts: &[ContactPoint]) -> [[f64; BodyPart::ALL.len()]; 2] {
+    let [mut forces, mut port] = [[0.0; BodyPart::ALL.len()]; 2];
     for contact in contacts {
-        forces[contact.region.part() as usize] += contact.normal_force_n;
+        let part = contact.region.part() as usize;
+        let corners = skin.triangles[contact.triangle].map(|corner| skin.vertices[corner as usize].y);
+        let place: f64 = corners.iter().zip(contact.barycentric).map(|(y, share)| y * share).sum();
+        forces[part] += contact.normal_force_n;
+        port[part] += contact.normal_force_n * place;
     }
-    forces
+    port.iter_mut().zip(forces).filter(|(_, force)| *force > 0.0).for_each(|(port, force)| *port /= force);
+    [forces, port]
 }

@@ -2,8 +2,8 @@
 //!
 //! Kinematic: `dx/dt = R x̂ u + U(x)`, `R` turned by the plugin's rates about the whale's own axes, with the
 //! speed through the water `u` taken as the mean over the step. Kinetic: the plugin asks, mass, drag and strength
-//! decide (`kinetic/mod.rs`). Neither leaves the water nor enters the seabed: the height of its
-//! origin is held between them. Joints turn no further than their ranges (`joints.rs`). A dead whale floats (`kinetic/dead.rs`).
+//! decide (`kinetic/mod.rs`). Neither enters the seabed, nor leaves the water further than its speed carries it
+//! (`carried_m`; by its weight, `kinetic/out.rs`). Joints turn no further than their ranges (`joints.rs`). A dead whale floats (`kinetic/dead.rs`).
 
 use glam::{DQuat, DVec3};
 
@@ -20,6 +20,9 @@ use glam::DAffine3;
 /// Half height of a right whale as a share of its length, kept above the seabed.
 const CLEARANCE: f64 = 0.11;
 
+/// Weight of what is out of the water [m/s²].
+const GRAVITY_M_S2: f64 = 9.81;
+
 /// The whale at the end of a step that begins with `whale`, written over `next`; whether its motion asked for a posture
 /// beyond the joints' ranges.
 ///
@@ -28,8 +31,8 @@ const CLEARANCE: f64 = 0.11;
 pub(crate) fn drive(model: &Model, input: &Input, whale: &WhaleState, time_s: f64, next: &mut WhaleState) -> Result<bool, Stop> {
     next.clone_from(whale);
     let Some(spec) = &model.spec.whale else { return Ok(false) };
-    if let Some((kinetic, dead)) = spec.kinetic.as_ref().and_then(|kinetic| Some((kinetic, kinetic.dead.as_ref()?))) {
-        drift(model, kinetic, dead, (whale, time_s), next);
+    if let Some(kinetic) = spec.kinetic.as_ref().filter(|kinetic| kinetic.dead.is_some()) {
+        drift(model, kinetic, (whale, time_s), next);
         keep_in_water(model, spec, next);
         return Ok(false);
     }
@@ -67,9 +70,11 @@ fn ask(
         orientation: whale.orientation.to_array(),
         controls: input.controls,
         contact_force_n: &whale.contact_force_n,
+        contact_port_m: &whale.contact_port_m,
     };
     let asked = spec.motion.step(&spec.motion_attributes, &seen, &mut next.motion).map_err(|error| stop(error.message))?;
-    if !(asked.speed_m_s.is_finite() && DVec3::from_array(asked.turn_rate_rad_s).is_finite() && is_finite(&asked.posture)) {
+    if !(asked.speed_m_s.is_finite() && DVec3::from_array(asked.turn_rate_rad_s).is_finite() && asked.posture.angles().all(f64::is_finite))
+    {
         return Err(stop("gave a speed, turn rate or joint angle that is not a finite number".into()));
     }
     Ok((asked, told_m_s))
@@ -85,12 +90,28 @@ fn go(model: &Model, (speed_m_s, turn_rate): (f64, DVec3), (whale, time_s): (&Wh
     next.position += (ahead * (0.5 * (whale.speed_m_s + next.speed_m_s)) + model.sea.current(whale.position, time_s)) * dt_s;
 }
 
-/// Holds the whale between seabed and surface; a kinetic one stops drifting out.
+/// How high its speed would carry the middle of a whale that leaves the water ahead, against the weight of what is out [m].
+///
+/// With `s` of its length `L` out at a climb `θ`: `½ u² = g sinθ s²/2L` up to `s = L`, and `u²/2g sinθ` of way more than `L/2` beyond.
+/// Its middle is then `(s - L/2) sinθ` above the surface; none for a whale that does not come so far out.
+fn carried_m(length_m: f64, whale: &WhaleState) -> f64 {
+    let rise = (whale.orientation * DVec3::X).z;
+    if rise <= 0.0 || whale.speed_m_s <= 0.0 {
+        return 0.0;
+    }
+    let free = whale.speed_m_s * whale.speed_m_s / (GRAVITY_M_S2 * rise);
+    let out = if free < length_m { (free * length_m).sqrt() } else { 0.5 * (free + length_m) };
+    ((out - 0.5 * length_m) * rise).max(0.0)
+}
+
+/// Holds the whale above the seabed and in the water, a kinematic one as high as its speed would carry it; a kinetic one is held
+/// by its weight, and stops where it is held.
 fn keep_in_water(model: &Model, spec: &Whale, whale: &mut WhaleState) {
     let seabed = model.spec.seabed.as_ref();
     let floor = seabed.map_or(f64::NEG_INFINITY, |seabed| seabed.height_at(whale.position) + CLEARANCE * spec.length_m);
-    let afloat = spec.kinetic.as_ref().is_some_and(|kinetic| kinetic.dead.is_some());
-    let held = whale.position.z.max(floor).min(if afloat { f64::INFINITY } else { 0.0 });
+    let weighs = spec.kinetic.as_ref().is_some_and(|kinetic| kinetic.hull.volume_m3 > 0.0);
+    let ceiling = if weighs { f64::INFINITY } else { carried_m(spec.length_m, whale) };
+    let held = whale.position.z.max(floor).min(ceiling);
     let [port, back] = whale.exertion.slip_m_s;
     if (whale.orientation * DVec3::new(0.0, port, back)).z * (whale.position.z - held) > 0.0 {
         whale.exertion.slip_m_s = [0.0; 2];
@@ -108,52 +129,44 @@ pub(crate) fn pose_between(model: &Model, from: &WhaleState, to: &WhaleState, sh
 
 /// A posture part of the way between two.
 fn mix(from: &Posture, to: &Posture, share: f64) -> Posture {
-    let blend = |one: f64, other: f64| one + (other - one) * share;
-    fn pairs<const N: usize>(one: [f64; N], other: [f64; N], blend: impl Fn(f64, f64) -> f64) -> [f64; N] {
-        std::array::from_fn(|index| blend(one[index], other[index]))
-    }
-    Posture {
-        spine_pitch: pairs(from.spine_pitch, to.spine_pitch, blend),
-        spine_yaw: pairs(from.spine_yaw, to.spine_yaw, blend),
-        spine_roll: pairs(from.spine_roll, to.spine_roll, blend),
-        fluke_pitch: blend(from.fluke_pitch, to.fluke_pitch),
-        fluke_flex: pairs(from.fluke_flex, to.fluke_flex, blend),
-        flipper_sweep: pairs(from.flipper_sweep, to.flipper_sweep, blend),
-        flipper_raise: pairs(from.flipper_raise, to.flipper_raise, blend),
-        flipper_twist: pairs(from.flipper_twist, to.flipper_twist, blend),
-        flipper_flex: pairs(from.flipper_flex, to.flipper_flex, blend),
-        jaw: blend(from.jaw, to.jaw),
-        lips: pairs(from.lips, to.lips, blend),
-    }
+    let mut mixed = *from;
+    mixed.angles_mut().zip(to.angles()).for_each(|(angle, to)| *angle += (to - *angle) * share);
+    mixed
 }
 
-/// Whether all angles of a posture are finite numbers.
-fn is_finite(posture: &Posture) -> bool {
-    let Posture {
-        spine_pitch,
-        spine_yaw,
-        spine_roll,
-        fluke_pitch,
-        fluke_flex,
-        flipper_sweep,
-        flipper_raise,
-        flipper_twist,
-        flipper_flex,
-        jaw,
-        lips,
-    } = posture;
-    let groups: [&[f64]; 11] = [
-        spine_pitch,
-        spine_yaw,
-        spine_roll,
-        std::slice::from_ref(fluke_pitch),
-        fluke_flex,
-        flipper_sweep,
-        flipper_raise,
-        flipper_twist,
-        flipper_flex,
-        std::slice::from_ref(jaw),
-        lips,
-    ];
-    groups.iter().copied().flatten().all(|angle| angle.is_finite())
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn state(speed_m_s: f64, climb: f64) -> WhaleState {
+        let orientation = DQuat::from_rotation_y(-climb);
+        WhaleState {
+            position: DVec3::ZERO,
+            orientation,
+            speed_m_s,
+            turn_rate: DVec3::ZERO,
+            posture: Posture::default(),
+            motion: Vec::new(),
+            contact_force_n: Default::default(),
+            contact_port_m: Default::default(),
+            exertion: Default::default(),
+        }
+    }
+
+    /// Integrated in small steps: along its axis the whale rises until its speed is spent on the weight of what is out.
+    #[test]
+    fn a_whale_comes_as_far_out_as_its_speed_carries_it() {
+        for (length_m, speed_m_s, climb) in [(13.7, 8.0, 1.2), (10.0, 9.9, 1.5), (4.2, 6.0, 0.7), (13.7, 3.0, 0.02)] {
+            let (sin, dt) = (libm::sin(climb), 1e-5);
+            let (mut out, mut speed) = (0.0, speed_m_s);
+            while speed > 0.0 {
+                speed -= 9.81 * sin * f64::min(out / length_m, 1.0) * dt;
+                out += speed * dt;
+            }
+            let (found, expected) = (carried_m(length_m, &state(speed_m_s, climb)), (out - 0.5 * length_m) * sin);
+            assert!((found - expected).abs() < 1e-3, "{length_m} m at {speed_m_s} m/s: {found} against {expected} m");
+        }
+        assert_eq!(carried_m(13.7, &state(4.5, 0.9)).to_bits(), 0.0_f64.to_bits(), "at a right whale's burst its middle stays under");
+        assert_eq!(carried_m(13.7, &state(8.0, -0.9)).to_bits(), 0.0_f64.to_bits());
+    }
 }

@@ -8,7 +8,7 @@ use endline_friction_models::Coulomb;
 use endline_sdk::{Controls, Descriptor, FrictionModel, HookError, MotionInput, MotionOutput, Region, WhaleMotion};
 use endline_sim::model::{Friction, ModelSpec};
 use endline_sim::whale::kinetic::added::spheroid;
-use endline_sim::whale::kinetic::{AxialDrag, Effort, Muscle};
+use endline_sim::whale::kinetic::{AxialDrag, Effort, Hull, Muscle};
 use endline_sim::whale::{Bone, JointRanges, Kinetic, Measures, PilotProgram, Skin, Whale};
 use endline_sim::{DQuat, DVec3};
 
@@ -82,6 +82,7 @@ pub fn kinetic(length_m: f64, mass_kg: f64, diameter_m: f64) -> Kinetic {
         steering_n_m: DVec3::new(0.05, 0.4, 0.4) * length_m * strength,
         steering_time_s: 1.0,
         buoyancy: 0.0,
+        hull: Arc::new(Hull::default()),
         dead: None,
     }
 }

@@ -307,6 +307,17 @@ mod tests {
 
     const SIZE: DVec2 = DVec2::new(800.0, 600.0);
 
+    /// A whale 12 m down.
+    fn swimming(orientation: DQuat) -> WhaleFrame {
+        WhaleFrame {
+            position: DVec3::new(9.0, 1.0, -12.0),
+            orientation,
+            speed_m_s: 1.0,
+            posture: Default::default(),
+            exertion: Default::default(),
+        }
+    }
+
     fn gear() -> Bounds {
         Bounds::of([DVec3::new(-5.0, -8.0, -40.0), DVec3::new(60.0, 4.0, 1.0)])
     }
@@ -368,13 +379,7 @@ mod tests {
     #[test]
     fn following_looks_the_way_the_whale_swims() {
         let orientation = DQuat::from_rotation_z(2.0);
-        let whale = WhaleFrame {
-            position: DVec3::new(9.0, 1.0, -12.0),
-            orientation,
-            speed_m_s: 1.0,
-            posture: Default::default(),
-            exertion: Default::default(),
-        };
+        let whale = swimming(orientation);
         let mut camera = Camera::default();
         camera.follow(&whale, 13.0);
         assert!(camera.axes().2.dot(orientation * DVec3::X) > 0.9);
@@ -386,13 +391,7 @@ mod tests {
     fn first_person_rolls_with_the_whale() {
         for roll in [0.0, 0.7, -2.0] {
             let orientation = DQuat::from_rotation_z(-0.6) * DQuat::from_rotation_y(0.3) * DQuat::from_rotation_x(roll);
-            let whale = WhaleFrame {
-                position: DVec3::new(9.0, 1.0, -12.0),
-                orientation,
-                speed_m_s: 1.0,
-                posture: Default::default(),
-                exertion: Default::default(),
-            };
+            let whale = swimming(orientation);
             let mut camera = Camera::default();
             camera.first_person(&whale, 13.0);
             let (right, up, _) = camera.axes();
@@ -404,13 +403,7 @@ mod tests {
     #[test]
     fn a_portrait_holds_the_whole_whale_with_its_snout_to_the_right() {
         let orientation = DQuat::from_rotation_z(2.0);
-        let whale = WhaleFrame {
-            position: DVec3::new(9.0, 1.0, -12.0),
-            orientation,
-            speed_m_s: 1.0,
-            posture: Default::default(),
-            exertion: Default::default(),
-        };
+        let whale = swimming(orientation);
         for view in [View::WhaleSide, View::WhaleTop] {
             let camera = Camera::of_view(view, &[], Some(&whale), 13.0, SIZE.x / SIZE.y);
             let at = |x: f64| camera.project(whale.position + orientation * DVec3::X * x, SIZE).unwrap().x / SIZE.x;

@@ -58,7 +58,7 @@ pub const CALLOSITY: Colour = rgb(0xb3, 0xb4, 0xa9);
 /// Baleen.
 pub const BALEEN: Colour = rgb(0x9a, 0x93, 0x7c);
 /// Inside of the mouth.
-pub const MOUTH: Colour = rgb(0x9b, 0x7a, 0x7c);
+pub const MOUTH: Colour = rgb(0x74, 0x5c, 0x60);
 /// White patches of belly and throat.
 pub const WHITE: Colour = rgb(0xa9, 0xb0, 0xb3);
 /// Eye.

@@ -15,7 +15,7 @@ pub struct Overlay<'a> {
     pub caption: &'a str,
     /// Simulated time [s].
     pub time_s: f64,
-    /// Tension at the top of the colour scale [N].
+    /// Tension at the top of the colour scale [N]; zero for a scene without rope, which needs no scale.
     pub scale_n: f64,
     /// Length that one point spans at the camera's target [m].
     pub metres_a_point: f64,
@@ -29,7 +29,7 @@ const MARGIN: f32 = 12.0;
 /// Writes the overlay into `rect`.
 pub fn paint(painter: &Painter, rect: Rect, overlay: &Overlay<'_>) {
     caption(painter, rect, overlay);
-    if rect.height() > 260.0 && rect.width() > 320.0 {
+    if overlay.scale_n > 0.0 && rect.height() > 260.0 && rect.width() > 320.0 {
         legend(painter, rect, overlay.scale_n);
     }
     scale_bar(painter, rect, overlay.metres_a_point);

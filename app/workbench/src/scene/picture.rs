@@ -75,7 +75,7 @@ fn draw(request: &RenderRequest<'_>, scene: &Scene, camera: &Camera) -> Result<V
     let overlay = Overlay {
         caption: request.caption,
         time_s: scene.time_s,
-        scale_n: scene.scale_n,
+        scale_n: if request.model.spec.lines.is_empty() { 0.0 } else { scene.scale_n },
         metres_a_point: camera.metres_a_point(f64::from(height)),
     };
     write_over(&surface, request.size, &overlay)?;

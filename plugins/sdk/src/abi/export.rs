@@ -215,15 +215,24 @@ unsafe extern "C" fn motion_step(
         // SAFETY: the caller's promise.
         unsafe {
             let (plugin, raw) = (&*context.cast::<Box<dyn WhaleMotion>>(), known_part(input));
-            let forces = <&[f64; BodyPart::ALL.len()]>::try_from(array(raw.contact_force_n, raw.body_part_count))
-                .map_err(|_| HookError::new(format!("expected {} body parts, got {}", BodyPart::ALL.len(), raw.body_part_count)))?;
-            *out = plugin.step(array(attributes, attribute_count), &motion_input(&raw, forces), array_mut(state, state_len))?;
+            let parts = |what: &str, of: *const f64| {
+                let given = array(of, raw.body_part_count);
+                <&[f64; BodyPart::ALL.len()]>::try_from(given)
+                    .map_err(|_| HookError::new(format!("expected {what} of {} body parts, got {}", BodyPart::ALL.len(), given.len())))
+            };
+            let (force, port) = (parts("forces", raw.contact_force_n)?, parts("places", raw.contact_port_m)?);
+            let input = motion_input(&raw, force, port);
+            *out = plugin.step(array(attributes, attribute_count), &input, array_mut(state, state_len))?;
         }
         Ok(())
     })
 }
 
-fn motion_input<'a>(raw: &AbiMotionInput, contact_force_n: &'a [f64; BodyPart::ALL.len()]) -> MotionInput<'a> {
+fn motion_input<'a>(
+    raw: &AbiMotionInput,
+    contact_force_n: &'a [f64; BodyPart::ALL.len()],
+    contact_port_m: &'a [f64; BodyPart::ALL.len()],
+) -> MotionInput<'a> {
     MotionInput {
         time_s: raw.time_s,
         dt_s: raw.dt_s,
@@ -233,6 +242,7 @@ fn motion_input<'a>(raw: &AbiMotionInput, contact_force_n: &'a [f64; BodyPart::A
         orientation: raw.orientation,
         controls: raw.controls,
         contact_force_n,
+        contact_port_m,
     }
 }
 

@@ -227,6 +227,8 @@ pub struct AbiMotionInput {
     pub contact_force_n: *const f64,
     /// How many body parts.
     pub body_part_count: usize,
+    /// Where on each part those forces are: mean place to port of the midplane on the body at rest [m].
+    pub contact_port_m: *const f64,
 }
 
 /// Functions of a friction model.

@@ -9,7 +9,7 @@
 //!            |d c~/dt| <= 1/time      mouth, flippers
 //! speed      target = cruise c~speed + (burst - cruise c~speed) c~burst,  -braking <= dU/dt <= acceleration
 //! turning    roll, pitch, yaw rate = greatest rate times its smoothed control
-//! beat       f = St U / A   held within its limits;  d phi/dt = 2 pi f
+//! beat       f = St U / A   held within its limits, the greatest as L^-0.53;  d phi/dt = 2 pi f
 //! body wave  y(x) = A/2 e(x) sin(phi - 2 pi x L/lambda)                     see `wave`
 //! flukes     pitch with the heave velocity, a quarter period from the heave: atan(pi St) less the
 //!            angle of attack                                                see `wave`
@@ -26,6 +26,7 @@
 //! 1-17; speeds 1.1-1.5 m/s: van der Hoop et al. 2019; fluke pitch amplitude 20-35 degrees and
 //! phase near 90 degrees: Hover, Haugsdal and Triantafyllou, Journal of Fluids and Structures 19
 //! (2004) 37-47; flippers swept aft in cruise, forward in turns: observers of right whales.
+//! greatest beat by length: Gough et al., Journal of Experimental Biology 222 (2019) jeb204172.
 //! Burst speed, turn rates, rates of mouth and flippers are estimates.
 
 mod floats;

@@ -22,8 +22,8 @@ const STEER_TWIST_RAD: f64 = 0.3;
 /// forward to 80 aft of the perpendicular, an estimate; rest is 30 aft of it.
 const SWEEP_RAD: [f64; 2] = [0.70, 0.60];
 
-/// Range of a flipper up and down [rad]: working range of a right whale's shoulder, an estimate.
-const RAISE_RAD: [f64; 2] = [0.52, 1.05];
+/// Range of a flipper up and down [rad]: 25 and 60 degrees, as far as a right whale's joint turns; an estimate.
+const RAISE_RAD: [f64; 2] = [0.436, 1.047];
 
 /// Range of a flipper's twist either way [rad]; an estimate.
 const TWIST_RAD: f64 = 0.52;

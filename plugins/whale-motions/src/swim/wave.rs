@@ -29,6 +29,11 @@ const STILL: [f64; 2] = [SPINE_STATIONS[2], SPINE_STATIONS[3]];
 /// Heave of the snout over that of the flukes [1].
 const HEAD_HEAVE: f64 = 0.2;
 
+/// Length of a whale whose fastest beat is the setting's [m], and how shorter ones beat faster: f ~ L^-0.53
+/// (Gough et al. 2019, rorquals).
+const GROWN_M: f64 = 13.7;
+const QUICKER: f64 = -0.53;
+
 /// Greatest bend of a fluke blade under its load [rad]; an estimate.
 const BLADE_FLEX_RAD: f64 = 0.15;
 
@@ -48,7 +53,8 @@ impl Beat {
     /// The beat at a speed [m/s] of a whale of a length [m].
     pub(super) fn of(settings: &Settings, floats: &Floats, speed_m_s: f64, length_m: f64) -> Self {
         let widest_m = settings.beat_amplitude * length_m;
-        let greatest = settings.greatest_beat_hz.max(settings.least_beat_hz);
+        let quicker = libm::pow(length_m / GROWN_M, QUICKER);
+        let greatest = (settings.greatest_beat_hz * quicker).max(settings.least_beat_hz);
         let frequency_hz = (settings.strouhal * speed_m_s / widest_m).clamp(settings.least_beat_hz, greatest);
         let excursion_m = widest_m.min(settings.strouhal * speed_m_s / frequency_hz).max(0.0);
         let strouhal = if speed_m_s > 0.0 { frequency_hz * excursion_m / speed_m_s } else { 0.0 };

@@ -34,6 +34,7 @@ fn swim(motion: &dyn WhaleMotion) -> Result<(), HookError> {
         orientation: [0.0, 0.0, 0.0, 1.0],
         controls: Controls { speed: 1.0, yaw: 0.5, ..Controls::default() },
         contact_force_n: &forces,
+        contact_port_m: &forces,
     };
     motion.step(&numbers(motion.descriptor()), &input, &mut state).map(drop)
 }

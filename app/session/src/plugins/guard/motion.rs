@@ -39,19 +39,7 @@ impl Guarded {
 }
 
 fn check_posture(posture: &Posture) -> Result<(), HookError> {
-    for (what, angles) in [
-        ("spine_pitch", &posture.spine_pitch[..]),
-        ("spine_yaw", &posture.spine_yaw),
-        ("spine_roll", &posture.spine_roll),
-        ("fluke_pitch", &[posture.fluke_pitch]),
-        ("fluke_flex", &posture.fluke_flex),
-        ("flipper_sweep", &posture.flipper_sweep),
-        ("flipper_raise", &posture.flipper_raise),
-        ("flipper_twist", &posture.flipper_twist),
-        ("flipper_flex", &posture.flipper_flex),
-        ("jaw", &[posture.jaw]),
-        ("lips", &posture.lips),
-    ] {
+    for (what, angles) in posture.groups() {
         expect_within(what, angles, PI, "rad")?;
     }
     Ok(())

@@ -89,6 +89,7 @@ fn play(acting: &Acting, seconds: f64, act: impl Fn(f64) -> f64, touch: impl Fn(
                 orientation: [0.0, 0.0, 0.0, 1.0],
                 controls: Controls { speed: 1.0, act: act(time_s), ..Controls::default() },
                 contact_force_n: &forces,
+                contact_port_m: &[0.0; BodyPart::ALL.len()],
             };
             acting.step(&[], &input, &mut state).unwrap()
         })
@@ -118,6 +119,7 @@ fn without_an_act_the_motion_beneath_is_passed_on_bit_for_bit() {
             orientation: [0.0, 0.0, 0.0, 1.0],
             controls: Controls { speed: 1.0, ..Controls::default() },
             contact_force_n: &forces,
+            contact_port_m: &forces,
         };
         assert_eq!(out, wag.step(&[], &input, &mut state).unwrap());
     }
@@ -225,6 +227,7 @@ fn the_motions_own_acts_stay_its_own_and_unknown_ones_are_told() {
         orientation: [0.0, 0.0, 0.0, 1.0],
         controls: Controls { act: 6.0, ..Controls::default() },
         contact_force_n: &[0.0; BodyPart::ALL.len()],
+        contact_port_m: &[0.0; BodyPart::ALL.len()],
     };
     assert!(acting.step(&[], &input, &mut state).unwrap_err().message.contains("there is no act 6"));
 }

@@ -33,21 +33,29 @@ pub fn touched(input: &MotionInput<'_>, above_n: f64) -> [bool; BodyPart::ALL.le
     input.contact_force_n.map(|force| force > above_n)
 }
 
+/// How far from the midplane a touch of head, body or peduncle has a whole side [share of length]: half the breadth of the head.
+const WHOLE_SIDE: f64 = 0.07;
+/// Below this share of all the force the touch is in the middle.
+const MIDDLE: f64 = 0.1;
+
 /// The side of a touch: 1 left (port), -1 right, 0 where no force is on either side more than the other.
+///
+/// Flippers and flukes are on their own side; on head, body and peduncle it is where the touch lies.
 #[must_use]
 pub fn side(input: &MotionInput<'_>) -> f64 {
-    let mut moment = 0.0;
-    for (part, force) in BodyPart::ALL.iter().zip(input.contact_force_n) {
-        moment += force
+    let (mut sided, mut all) = (0.0, 0.0);
+    for (part, (force, port_m)) in BodyPart::ALL.iter().zip(input.contact_force_n.iter().zip(input.contact_port_m)) {
+        all += force;
+        sided += force
             * match part {
                 BodyPart::LeftFlipper | BodyPart::LeftFluke => 1.0,
                 BodyPart::RightFlipper | BodyPart::RightFluke => -1.0,
-                BodyPart::Head | BodyPart::Body | BodyPart::Peduncle => 0.0,
+                BodyPart::Head | BodyPart::Body | BodyPart::Peduncle => (port_m / (WHOLE_SIDE * input.length_m)).clamp(-1.0, 1.0),
             };
     }
-    if moment > 0.0 {
+    if sided > MIDDLE * all {
         1.0
-    } else if moment < 0.0 {
+    } else if sided < -MIDDLE * all {
         -1.0
     } else {
         0.0

@@ -2,7 +2,7 @@
 //!
 //! About its centre of mass, `ν` its velocity through the water and `ω` its spin, `M = m + A` and `J = I + A'` turning with it:
 //! `d(Mν)/dt = (ρ g V - m g) ẑ + D + R`, `d(Jω)/dt = r × ρ g V ẑ - ν × Mν + D_ω + M_R`, in the world's frame.
-//! `V` and the middle `r` of what it displaces are those of its skin below the surface over its centre (`hull`). Drag goes with the water's
+//! `V` and the middle `r` of what it displaces are those of its skin below the surface over its centre (`Kinetic::hull`). Drag goes with the water's
 //! velocity there, current and waves, and the whale is carried with the water's acceleration, as a body nearly as heavy as its water is:
 //! ahead the body's drag without its beating, crossways and turning as alive. Its joints stay as they are.
 //!
@@ -11,11 +11,9 @@
 use glam::{DQuat, DVec3};
 
 use super::drag::{coast, drag_n};
-use super::{Exertion, Hull, Kinetic};
+use super::{Exertion, Kinetic};
 use crate::model::Model;
 use crate::state::WhaleState;
-use std::sync::Arc;
-
 use endline_sdk::Posture;
 
 /// What a dead whale is besides.
@@ -23,17 +21,15 @@ use endline_sdk::Posture;
 pub struct Dead {
     /// Its joint angles.
     pub posture: Posture,
-    /// Its skin in that posture.
-    pub hull: Arc<Hull>,
 }
 
 /// Moves `next` over a step of length `dt` from `whale`.
-pub(crate) fn drift(model: &Model, kinetic: &Kinetic, dead: &Dead, (whale, time_s): (&WhaleState, f64), next: &mut WhaleState) {
+pub(crate) fn drift(model: &Model, kinetic: &Kinetic, (whale, time_s): (&WhaleState, f64), next: &mut WhaleState) {
     let (water, dt) = (&model.spec.water, model.spec.settings.step_s);
     let (mass, inertia) = (kinetic.whole_mass_kg(), kinetic.whole_inertia_kg_m2());
     let centre = whale.position + whale.orientation * kinetic.centre_m;
     let sea = model.sea.at(centre, time_s);
-    let wet = dead.hull.wetted(kinetic.centre_m, whale.orientation, centre.z - sea.surface_m);
+    let wet = kinetic.hull.wetted(kinetic.centre_m, whale.orientation, centre.z - sea.surface_m);
     let lift = water.density_kg_m3 * water.gravity_m_s2;
     let [east, north] = wet.moment_m4;
     let force = DVec3::Z * (lift * wet.volume_m3 - kinetic.mass_kg * water.gravity_m_s2);

@@ -8,7 +8,7 @@
 
 use glam::{DMat3, DVec3};
 
-use super::super::{Skin, pose, skin_vertex};
+use super::super::{Measures, Skin, pose, skin_vertex};
 use endline_sdk::Posture;
 use glam::DQuat;
 
@@ -17,6 +17,12 @@ use glam::DQuat;
 pub struct Hull {
     places: Vec<DVec3>,
     triangles: Vec<[u32; 3]>,
+    /// Volume it holds [m³].
+    pub volume_m3: f64,
+    /// Middle of that volume [m].
+    pub middle_m: DVec3,
+    /// Farthest place from the frame's origin [m].
+    pub reach_m: f64,
 }
 
 /// What is under water.
@@ -35,7 +41,14 @@ impl Hull {
         let mut bones = Vec::new();
         pose(skin, DVec3::ZERO, DQuat::IDENTITY, posture, &mut bones);
         let places = (0..skin.vertices.len()).map(|vertex| skin_vertex(skin, &bones, vertex)).collect();
-        Self { places, triangles: skin.triangles.clone() }
+        Self::new(places, skin.triangles.clone())
+    }
+
+    /// A closed surface by its corners.
+    fn new(places: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> Self {
+        let held = Measures::of_triangles(&places, &triangles, 1.0);
+        let reach_m = places.iter().map(|place| place.length()).fold(0.0, f64::max);
+        Self { places, triangles, volume_m3: held.volume_m3, middle_m: held.centre_m, reach_m }
     }
 
     /// What is under water with the point `centre` of its frame `height_m` above the surface, turned by `orientation`.
@@ -93,7 +106,7 @@ mod tests {
         let corner = |k: u32| half * DVec3::from_array([0, 1, 2].map(|bit| if k >> bit & 1 == 0 { -1.0 } else { 1.0 }));
         let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
         let triangles = faces.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
-        Hull { places: (0..8).map(corner).collect(), triangles }
+        Hull::new((0..8).map(corner).collect(), triangles)
     }
 
     #[test]

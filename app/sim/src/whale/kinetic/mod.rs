@@ -10,6 +10,7 @@
 //!
 //! `R` and `M` are force and moment of all rope on the whale. `S` turns it as its motion asks and, as far as its
 //! strength goes, takes back what the rope turned: `S = (I + A') dω_asked/dt - (I + A') δ/τ`, the second part at most `S_max`.
+//! What is out of the water weighs on it besides (`out`).
 //! Flippers and flukes are taken to carry the centripetal force of a turn, so that without rope it goes as its motion asks.
 //!
 //! Rope and whale take turns (`pull`): the whale drifts over a step as its own forces send it, rope is solved for that path, and
@@ -25,8 +26,11 @@ pub mod dead;
 pub mod drag;
 pub mod hull;
 pub mod muscle;
+pub(crate) mod out;
 pub(crate) mod pull;
 pub(crate) mod swim;
+
+use std::sync::Arc;
 
 use glam::DVec3;
 
@@ -62,6 +66,8 @@ pub struct Kinetic {
     pub steering_time_s: f64,
     /// Net buoyancy under water as a share of its weight; of a living whale.
     pub buoyancy: f64,
+    /// Its skin at rest, or as it lies dead, by which it is wetted near the surface; empty for one that is always deep.
+    pub hull: Arc<Hull>,
     /// What it is besides where it is dead.
     pub dead: Option<Dead>,
 }
@@ -97,7 +103,7 @@ impl Kinetic {
 
 /// What a whale does and bears over a step, for its next step and for reports.
 ///
-/// Of a kinematic whale only the rope's pull is told.
+/// All zero of a kinematic whale.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Exertion {
     /// Velocity through the water to port and to the back [m/s].

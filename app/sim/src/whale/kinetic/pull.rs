@@ -48,11 +48,10 @@ impl RopeImpulse {
         self.moment_left += turning * times.left;
     }
 
-    /// Tells the whale at the end of a step of length `dt` what it bore and, where it is kinetic, changes its momentum by it.
-    pub fn give(&self, kinetic: Option<&Kinetic>, dt: f64, whale: &mut WhaleState) {
+    /// Tells the whale at the end of a step of length `dt` what it bore, and changes its momentum by it.
+    pub fn give(&self, kinetic: &Kinetic, dt: f64, whale: &mut WhaleState) {
         whale.exertion.rope_force_n = self.force / dt;
         whale.exertion.rope_moment_n_m = self.moment / dt;
-        let Some(kinetic) = kinetic else { return };
         let inward = whale.orientation.conjugate();
         let (mass, inertia) = (kinetic.whole_mass_kg(), kinetic.whole_inertia_kg_m2());
         let change = inward * self.force / mass;
@@ -66,7 +65,7 @@ impl RopeImpulse {
     }
 }
 
-/// Place of the centre of mass of a whale, or of its frame's origin where it is kinematic [m].
-pub(crate) fn centre_of(kinetic: Option<&Kinetic>, whale: &WhaleState) -> DVec3 {
-    whale.position + kinetic.map_or(DVec3::ZERO, |kinetic| whale.orientation * kinetic.centre_m)
+/// Place of a whale's centre of mass [m].
+pub(crate) fn centre_of(kinetic: &Kinetic, whale: &WhaleState) -> DVec3 {
+    whale.position + whale.orientation * kinetic.centre_m
 }

@@ -1,9 +1,10 @@
-//! A step of a living kinetic whale under its own forces: thrust, drag, steering, buoyancy.
+//! A step of a living kinetic whale under its own forces: thrust, drag, steering, buoyancy, and its weight where it is out of the water.
 
 use glam::{DQuat, DVec3};
 
 use super::drag::{coast, drag_n};
 use super::muscle::Asked;
+use super::out::{Weight, weight_out};
 use super::{Exertion, Kinetic};
 use crate::model::Model;
 use crate::state::WhaleState;
@@ -31,11 +32,12 @@ pub(crate) fn told_speed(whale: &WhaleState) -> f64 {
 /// Moves `next`, which has the posture of the step's end and all else as in `whale`, over a step of length `dt`.
 pub(crate) fn swim(model: &Model, kinetic: &Kinetic, wish: &Wish, (whale, time_s): (&WhaleState, f64), next: &mut WhaleState) {
     let dt = model.spec.settings.step_s;
-    let (thrust_n, speed_m_s) = ahead(model, kinetic, wish, whale, (next.posture.jaw, dt));
-    let turn_rate = turned(kinetic, wish, whale, (model.spec.water.density_kg_m3, dt));
+    let out = weight_out(model, kinetic, whale, time_s);
+    let (thrust_n, speed_m_s) = ahead(model, kinetic, wish, whale, (next.posture.jaw, out.force.x, dt));
+    let turn_rate = turned(kinetic, wish, whale, (&out, model.spec.water.density_kg_m3, dt));
     next.orientation = (whale.orientation * DQuat::from_scaled_axis(turn_rate * dt + whale.exertion.behind_rad)).normalize();
     let middle = whale.orientation.slerp(next.orientation, 0.5);
-    let slip_m_s = sideways(model, kinetic, whale, (middle, dt));
+    let slip_m_s = sideways(model, kinetic, whale, (middle, out.force, dt));
     let mean = DVec3::new(0.5 * (whale.speed_m_s + speed_m_s), slip_m_s[0], slip_m_s[1]);
     let centre = whale.position + whale.orientation * kinetic.centre_m;
     let centre = centre + whale.exertion.behind_m + (middle * mean + model.sea.current(whale.position, time_s)) * dt;
@@ -55,7 +57,7 @@ pub(crate) fn swim(model: &Model, kinetic: &Kinetic, wish: &Wish, (whale, time_s
 }
 
 /// Thrust, and the speed ahead at the end of the step: pushed first, then coasting.
-fn ahead(model: &Model, kinetic: &Kinetic, wish: &Wish, whale: &WhaleState, (jaw_rad, dt): (f64, f64)) -> (f64, f64) {
+fn ahead(model: &Model, kinetic: &Kinetic, wish: &Wish, whale: &WhaleState, (jaw_rad, weight_n, dt): (f64, f64, f64)) -> (f64, f64) {
     let density = model.spec.water.density_kg_m3;
     let mass = kinetic.whole_mass_kg().x;
     let fading = kinetic.drag.factor(density, jaw_rad) * dt / mass;
@@ -68,13 +70,13 @@ fn ahead(model: &Model, kinetic: &Kinetic, wish: &Wish, whale: &WhaleState, (jaw
         burst: wish.burst,
     };
     let thrust_n = kinetic.muscle.thrust_n(density, &asked, whale.speed_m_s);
-    (thrust_n, coast(whale.speed_m_s + thrust_n * dt / mass, fading))
+    (thrust_n, coast(whale.speed_m_s + (thrust_n + weight_n) * dt / mass, fading))
 }
 
 /// Velocity to port and to the back at the end of the step.
-fn sideways(model: &Model, kinetic: &Kinetic, whale: &WhaleState, (orientation, dt): (DQuat, f64)) -> [f64; 2] {
+fn sideways(model: &Model, kinetic: &Kinetic, whale: &WhaleState, (orientation, out, dt): (DQuat, DVec3, f64)) -> [f64; 2] {
     let water = &model.spec.water;
-    let lift = orientation.conjugate() * DVec3::Z * (kinetic.buoyancy * kinetic.mass_kg * water.gravity_m_s2);
+    let lift = orientation.conjugate() * DVec3::Z * (kinetic.buoyancy * kinetic.mass_kg * water.gravity_m_s2) + out;
     let [port, back] = whale.exertion.slip_m_s;
     let speed = DVec3::new(whale.speed_m_s, port, back).length();
     let mass = kinetic.whole_mass_kg();
@@ -85,10 +87,10 @@ fn sideways(model: &Model, kinetic: &Kinetic, whale: &WhaleState, (orientation, 
     [after(port, lift.y, side, mass.y), after(back, lift.z, plan, mass.z)]
 }
 
-/// Turn rates over the step: what is asked for, and what is left of what rope added to that.
-fn turned(kinetic: &Kinetic, wish: &Wish, whale: &WhaleState, (density, dt): (f64, f64)) -> DVec3 {
+/// Turn rates over the step: what is asked for, and what is left of what rope and the weight out of the water added to that.
+fn turned(kinetic: &Kinetic, wish: &Wish, whale: &WhaleState, (out, density, dt): (&Weight, f64, f64)) -> DVec3 {
     let inertia = kinetic.whole_inertia_kg_m2();
-    let astray = whale.turn_rate - whale.exertion.asked_turn_rate;
+    let astray = whale.turn_rate - whale.exertion.asked_turn_rate + out.moment / inertia * dt;
     let left = |axis: usize| {
         let strength = kinetic.steering_n_m[axis] * dt / inertia[axis];
         let taken = astray[axis] * dt / (dt + kinetic.steering_time_s);

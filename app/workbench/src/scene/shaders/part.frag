@@ -57,7 +57,8 @@ vec4 surface(vec3 view, float hide) {
     float up = abs(normalize(vec3(view.xy + 0.10 * wave, view.z)).z);
     float flat_angle = pow(1.0 - abs(view.z), 3.0);
     if (eye.z > 0.0) {
-        return vec4(mix(tint.rgb, sky, 0.4), (mix(0.12, 0.45, flat_angle) + 0.06 * lines(world.xy, grid_m)) * (1.0 - hide));
+        vec3 veil = mix(mix(tint.rgb, water_high, 0.7), sky, 0.15 + 0.7 * flat_angle);
+        return vec4(veil, (mix(0.10, 0.50, flat_angle) + 0.06 * lines(world.xy, grid_m)) * (1.0 - hide));
     }
     float within = smoothstep(WINDOW - 0.16, WINDOW + 0.10, up);
     vec3 colour = mix(water_at(-0.35 * depth_m) * (1.0 + 0.10 * wave.x), mix(water_high, sky, 0.75) * (1.0 + 0.12 * wave.y), within);
@@ -85,6 +86,9 @@ void main() {
         colour = seabed(far);
     } else {
         colour = skin(n, view);
+    }
+    if (eye.z > 0.0 && world.z < 0.0) {
+        colour = mix(colour, mix(water_low, water_high, 0.6), sunk(far * world.z / (world.z - eye.z)));
     }
     shown = vec4(mix(colour, backdrop(view), hide), 1.0);
 }

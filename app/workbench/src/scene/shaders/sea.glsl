@@ -25,6 +25,11 @@ float daylight(float z) {
     return mix(0.66, 1.0, exp(1.4 * min(z, 0.0) / depth_m));
 }
 
+// How far what lies under water goes over into its colour for an eye in the air, by the way of the light through it [m]: never wholly, so that gear stays in sight.
+float sunk(float way) {
+    return 0.4 * (1.0 - exp(-way / 5.0));
+}
+
 // Bright lines that ripples at the surface throw on what lies near under it, 0 to 1.
 float ripples(vec3 at) {
     vec2 p = at.xy * 0.8 + 0.15 * at.z;
