@@ -76,6 +76,12 @@ impl App {
     fn obey(&mut self, context: &Context, orders: Vec<Order>) {
         for order in orders {
             match &order {
+                Order::Start | Order::PlayPause if layout::is_open(&self.dock, Panel::Start) => {
+                    // Whoever runs something wants to see it.
+                    layout::close(&mut self.dock, Panel::Start);
+                    layout::open(&mut self.dock, Panel::View);
+                    self.desk.obey(&order);
+                }
                 Order::Show(panel) => layout::open(&mut self.dock, *panel),
                 Order::Close(panel) => layout::close(&mut self.dock, *panel),
                 Order::Size(scale) => context.set_zoom_factor(*scale),

@@ -162,7 +162,7 @@ impl Layout {
             Self::Review => {
                 let [upper, _] = tree.split_below(NodeIndex::root(), 0.55, ids(&[Plots]));
                 let [_, right] = tree.split_right(upper, 0.6, ids(&[Entanglement, Summary]));
-                tree.split_below(right, 0.6, ids(&[Events, Run, Recordings]));
+                tree.split_below(right, 0.7, ids(&[Events, Run, Recordings]));
             }
             Self::Study => {
                 let [upper, _] = tree.split_below(NodeIndex::root(), 0.7, ids(&[Library, Problems]));
