@@ -1,6 +1,7 @@
 //! Library items with their figures by name, ready for assembly.
 
 mod act;
+mod animation;
 mod box_gear;
 mod buoy;
 mod channel;
@@ -18,6 +19,7 @@ mod weak_link;
 mod whale;
 
 pub use act::ActItem;
+pub use animation::ActAnimation;
 pub use box_gear::BoxGear;
 pub use buoy::{Buoy, BuoyShape};
 pub use channel::{CHANNELS, Channel};

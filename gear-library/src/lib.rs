@@ -35,8 +35,8 @@ pub use document::{Document, EditError, Setting, save_text};
 pub use entry::{Entry, FORMAT};
 pub use fields::{Figure, Range, Sureness};
 pub use items::{
-    ActItem, AgeLaw, BoxGear, Buoy, BuoyPiece, BuoyShape, CHANNELS, Channel, Condition, Growth, Joints, Knot, MassLaw, ModelFigures, Point,
-    Rope, RopeFriction, SeaSite, WeakLink, WhaleItem, WhaleMesh,
+    ActAnimation, ActItem, AgeLaw, BoxGear, Buoy, BuoyPiece, BuoyShape, CHANNELS, Channel, Condition, Growth, Joints, Knot, MassLaw,
+    ModelFigures, Point, Rope, RopeFriction, SeaSite, WeakLink, WhaleItem, WhaleMesh,
 };
 pub use library::Library;
 pub use line::{Insert, Inserts, LineMake};

@@ -49,6 +49,7 @@ impl Library {
             all.extend(problems.into_sorted());
         }
         library.whales.retain_mut(|whale| whale.load_mesh(sources, &all));
+        library.acts.retain_mut(|act| act.load_animation(sources, &all));
         library.check_materials(&all);
         (library, all.into_sorted())
     }

@@ -14,7 +14,7 @@ use crate::whale::gltf::Form;
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Sources {
     files: BTreeMap<String, String>,
-    /// Whales' own meshes by path, such as `whales/my-whale.glb`.
+    /// Whales' own meshes and acts' animations by path, such as `whales/my-whale.glb`.
     meshes: BTreeMap<String, Vec<u8>>,
 }
 
@@ -29,7 +29,9 @@ impl Sources {
         for kind in Kind::ALL {
             read_folder(root, kind.folder(), &mut files, &mut problems);
         }
-        read_meshes(root, &mut meshes, &mut problems);
+        for kind in [Kind::Whale, Kind::Act] {
+            read_meshes(root, kind.folder(), &mut meshes, &mut problems);
+        }
         if files.is_empty() && problems.is_empty() {
             let help = "a gear library has folders ropes, traps, buoys, weak-links, anchors, sites, friction, whales, assemblies";
             problems.push(Diagnostic::of_file(root.display().to_string(), "no gear library in this folder", help));
@@ -116,9 +118,8 @@ fn read_folder(root: &Path, folder: &str, files: &mut BTreeMap<String, String>, 
     }
 }
 
-/// Whales' meshes, `whales/*.glb` and `whales/*.gltf`.
-fn read_meshes(root: &Path, meshes: &mut BTreeMap<String, Vec<u8>>, problems: &mut Vec<Diagnostic>) {
-    let folder = Kind::Whale.folder();
+/// Whales' meshes and acts' animations, `whales/*.glb`, `acts/*.glb` and the same as `.gltf`.
+fn read_meshes(root: &Path, folder: &str, meshes: &mut BTreeMap<String, Vec<u8>>, problems: &mut Vec<Diagnostic>) {
     let Ok(entries) = fs::read_dir(root.join(folder)) else { return };
     for path in entries.flatten().map(|entry| entry.path()) {
         let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();

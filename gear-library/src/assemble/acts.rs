@@ -33,7 +33,7 @@ impl Builder<'_> {
     fn clips(&mut self, swimmer: &Swimmer, whale: &WhaleItem) -> Vec<Clip> {
         let library = self.library;
         let Some(named) = &swimmer.acts else {
-            self.used.extend(library.acts.iter().map(|act| act.entry.path.clone()));
+            self.used.extend(library.acts.iter().flat_map(ActItem::files).map(str::to_owned));
             return library.acts.iter().flat_map(|act| act.clips.iter().cloned()).collect();
         };
         let every = || library.acts.iter().flat_map(|act| act.clips.iter().map(move |clip| (act, clip)));
@@ -44,7 +44,7 @@ impl Builder<'_> {
                 self.problems.push(id.place.error(format!("no act `{}` in acts/", id.value), hint(&id.value, known)));
                 continue;
             };
-            self.used.push(act.entry.path.clone());
+            self.used.extend(act.files().map(str::to_owned));
             self.check_joints(act, whale);
             clips.push(clip.clone());
         }

@@ -13,6 +13,8 @@ use crate::schema::Kind;
 use crate::tree::{Content, Node};
 use crate::units::Quantity;
 
+use super::ActAnimation;
+
 /// An act, and what else its file gives.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ActItem {
@@ -22,6 +24,8 @@ pub struct ActItem {
     pub clips: Vec<Clip>,
     /// Every joint angle that a key asks for [rad].
     pub angles: Vec<(Angle, Figure)>,
+    /// Its keys, where they are those of a glTF animation.
+    pub animation: Option<ActAnimation>,
 }
 
 /// A channel's keys while a file is read: time and figure, for each of its tracks.
@@ -42,9 +46,10 @@ impl ActItem {
         let side = word(&fields, "side", ("as-written", Side::AsWritten), &[("touched", Side::Touched)]);
         let mirror = fields.text("mirrored_as");
         let ends_at_touch = parts(&fields);
-        let (keyed, times) = keys(&fields, &file);
+        let animation = ActAnimation::read(&fields, &file);
+        let (keyed, times) = if fields.get("animation").is_some() { (Vec::new(), Vec::new()) } else { keys(&fields, &file) };
         fields.finish();
-        let length_s = times.last()?.value;
+        let length_s = if animation.is_some() { 0.0 } else { times.last()?.value };
         check_closed(&keyed, after, length_s, problems);
         let clip = Clip {
             id: id.to_owned(),
@@ -59,7 +64,12 @@ impl ActItem {
             side,
             ends_at_touch,
         };
-        Some(Self { angles: angles(&keyed), clips: with_mirror(clip, mirror), entry })
+        Some(Self { angles: angles(&keyed), clips: with_mirror(clip, mirror), entry, animation })
+    }
+
+    /// Every file it is made from.
+    pub fn files(&self) -> impl Iterator<Item = &str> {
+        std::iter::once(self.entry.path.as_str()).chain(self.animation.iter().map(|animation| animation.file.value.as_str()))
     }
 }
 

@@ -82,7 +82,8 @@ fn missing(names: &[String], like: &Skin) -> Result<(), Vec<Fault>> {
     if faults.is_empty() { Ok(()) } else { Err(faults) }
 }
 
-fn parents(file: &File) -> Vec<Option<usize>> {
+/// The parent of each node.
+pub(super) fn parents(file: &File) -> Vec<Option<usize>> {
     let mut parents = vec![None; file.document.nodes().len()];
     for node in file.document.nodes() {
         for child in node.children() {
@@ -90,6 +91,17 @@ fn parents(file: &File) -> Vec<Option<usize>> {
         }
     }
     parents
+}
+
+/// Transform of each node at rest, to the scene: by what it was bound with, or as the file has it.
+pub(super) fn rests(file: &File) -> Result<Vec<DAffine3>, Fault> {
+    let (parents, locals) = (parents(file), file.document.nodes().map(|node| local(&node)).collect::<Vec<_>>());
+    let mut rests: Vec<DAffine3> = (0..locals.len()).map(|node| world(&locals, &parents, node)).collect();
+    for skin in file.document.skins().filter(|skin| skin.inverse_bind_matrices().is_some()) {
+        let inverse = inverse_binds(file, &skin, skin.joints().count())?;
+        skin.joints().zip(inverse).for_each(|(joint, inverse)| rests[joint.index()] = inverse.inverse());
+    }
+    Ok(rests)
 }
 
 /// A node's transform to the scene; a loop of parents ends after as many steps as there are nodes.
@@ -103,7 +115,8 @@ fn world(locals: &[DAffine3], parents: &[Option<usize>], node: usize) -> DAffine
     world
 }
 
-fn local(node: &Node<'_>) -> DAffine3 {
+/// A node's own transform.
+pub(super) fn local(node: &Node<'_>) -> DAffine3 {
     affine(&node.transform().matrix().map(|column| column.map(f64::from)))
 }
 

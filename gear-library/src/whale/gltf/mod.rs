@@ -8,6 +8,7 @@
 //! (Blender turns its bones along themselves). How bones turn is not in the mesh: bones are known by name.
 
 mod accessor;
+mod animation;
 mod check;
 mod corners;
 mod extras;
@@ -21,6 +22,7 @@ mod write;
 use endline_sim::whale::Skin;
 use glam::DVec3;
 
+pub use animation::{Animation, read_animation};
 pub use write::{About, Form, write};
 
 /// What is wrong with a glTF file, and how to mend it.
