@@ -15,6 +15,7 @@ mod judge;
 mod swap;
 mod wanted;
 
+use crate::contact::ropes::near::RopeWork;
 use crate::model::{Model, Resolution};
 use crate::state::State;
 use crate::whale::approach::Approach;
@@ -36,8 +37,9 @@ pub(crate) struct RegridWork {
     bones: Vec<glam::DAffine3>,
     /// Length each segment should have [m].
     wanted: Vec<f64>,
-    /// Whether each segment touches skin.
+    /// Whether each segment touches skin, or is near rope that it may touch.
     gripped: Vec<bool>,
+    ropes: RopeWork,
 }
 
 impl RegridWork {
@@ -50,6 +52,7 @@ impl RegridWork {
             approach: Approach::new(tree),
             wanted: vec![0.0; model.segment_count],
             gripped: vec![false; model.segment_count],
+            ropes: RopeWork::new(model),
         })
     }
 }

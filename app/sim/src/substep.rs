@@ -121,7 +121,7 @@ pub(crate) fn solver_step(model: &Model, state: &mut State, workspace: &mut Work
         step_by_lines(model, state, solver, &scheme, touching, (contacts, rope_touches, audit, last))?;
     }
     audit.ropes_crossed += solver.ropes.crossings;
-    audit.ropes_through = audit.ropes_through.max(solver.ropes.through);
+    audit.ropes_through = audit.ropes_through.max(solver.ropes.count_through());
     audit.solver_steps += 1;
     for (peak, tension) in peak_tension_n.iter_mut().zip(&state.rope.tension) {
         *peak = peak.max(*tension);

@@ -183,3 +183,81 @@ fn ropes_thrown_at_each_other_never_pass() {
     assert_eq!((crossings, counted, changed), (0, 0, 0));
     assert!(steps > 20 * runs);
 }
+
+/// Two ropes side by side along x, turned `turns` times about each other in the middle, their ends drawn apart along x and
+/// shaken across it.
+fn twisted(turns: f64, seed: &mut u64) -> Model {
+    let (half, segments) = (0.5, 80);
+    let wide = |x: f64| 0.501 * REACH + 0.02 * ((x.abs() - 0.3) / 0.2).clamp(0.0, 1.0);
+    let angle = |x: f64| TAU * turns * ((x + 0.3) / 0.6).clamp(0.0, 1.0);
+    let at = |x: f64, side: f64| DVec3::new(x, side * wide(x) * libm::cos(angle(x)), side * wide(x) * libm::sin(angle(x)));
+    let (mut joints, mut lines) = (Vec::new(), Vec::new());
+    for (index, side) in [1.0, -1.0].into_iter().enumerate() {
+        let nodes: Vec<DVec3> = (0..=segments).map(|k| at(half * (2.0 * k as f64 / segments as f64 - 1.0), side)).collect();
+        let shake = DVec3::new(0.0, draw(seed) - 0.5, draw(seed) - 0.5) * 0.6;
+        joints.push(driven("left", nodes[0], shake - DVec3::X * 0.05, 0.3));
+        joints.push(driven("right", nodes[segments], shake + DVec3::X * 0.05, 0.3));
+        let mut rope = line("rope", 1.0, segments);
+        (rope.from, rope.to) = (2 * index, 2 * index + 1);
+        rope.segments_m = nodes.windows(2).map(|pair| 1.01 * pair[0].distance(pair[1])).collect();
+        rope.start_m = nodes;
+        lines.push(rope);
+    }
+    model(Water { gravity_m_s2: 0.0, ..water(1025.0, 0.0) }, joints, lines, Vec::new(), settings(0.15, 0.002))
+}
+
+#[test]
+fn a_twist_stays_twisted() {
+    let mut seed = 5;
+    for turns in [1, 3] {
+        let model = twisted(f64::from(turns), &mut seed);
+        let mut state = State::start(&model);
+        let began = overs(&model, &state.rope.position);
+        let mut here = 0;
+        let workspace = walk(&model, &mut state, 0.3, |before, after| here += crossed(&model, before, after));
+        let tension = state.rope.tension.iter().copied().fold(0.0, f64::max);
+        println!("{turns} turns: {began}, {tension:.0} N, {} touches, {:?}", workspace.rope_touches.len(), workspace.audit);
+        assert_eq!(began.abs(), 2 * turns, "two crossings a turn");
+        assert_eq!((overs(&model, &state.rope.position), here, workspace.audit.ropes_crossed), (began, 0, 0));
+        assert!(tension > 100.0 && workspace.rope_touches.len() > 3);
+    }
+}
+
+/// Scratch thrown away in the middle changes no bit, and the same run again is the same run.
+#[test]
+fn rope_on_rope_repeats_to_the_bit_whatever_the_scratch() {
+    let model = twisted(2.0, &mut 9);
+    let run = |thrown_away: bool| {
+        let (mut state, mut workspace) = (State::start(&model), Workspace::new(&model));
+        for k in 0..60 {
+            if thrown_away && k % 7 == 3 {
+                workspace = Workspace::new(&model);
+            }
+            step(&model, &Input::default(), &mut state, &mut workspace).unwrap_or_else(|stop| panic!("{stop:?}"));
+        }
+        assert!(!state.rope.rope_grips.is_empty());
+        state
+    };
+    assert!(run(false) == run(true));
+}
+
+/// Ropes that cross when the run begins stay as they are and are told; ropes that lie in each other are pushed apart slowly.
+#[test]
+fn ropes_that_lie_in_each_other_at_the_start_are_told_or_pushed_apart() {
+    for (apart, through) in [(0.0, 1), (0.3 * REACH, 0)] {
+        let (x, y) = (DVec3::X, DVec3::Y);
+        let lift = DVec3::Z * apart;
+        let joints = vec![fixed("a", -x), fixed("b", x), fixed("c", lift - y), fixed("d", lift + y)];
+        let lines = vec![straight("low", &joints, [0, 1], 21, 1.02), straight("high", &joints, [2, 3], 21, 1.02)];
+        let model = model(Water { gravity_m_s2: 0.0, ..water(1025.0, 0.0) }, joints, lines, Vec::new(), settings(0.0, 0.01));
+        let mut state = State::start(&model);
+        let mut fastest = 0.0_f64;
+        let workspace = walk(&model, &mut state, 3.0, |_, state| {
+            fastest = state.rope.velocity.iter().map(|velocity| velocity.length()).fold(fastest, f64::max);
+        });
+        let gap = (state.rope.position[10] + state.rope.position[11] - state.rope.position[32] - state.rope.position[33]).length() / 2.0;
+        println!("{apart} m apart: {:?}, then {gap:.4} m, at most {fastest:.4} m/s", workspace.audit);
+        assert_eq!((workspace.audit.ropes_through, workspace.audit.ropes_crossed), (through, 0));
+        assert!(through == 1 || (gap > 0.9 * REACH && fastest < 0.02), "{gap}, {fastest}");
+    }
+}

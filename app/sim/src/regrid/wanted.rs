@@ -34,6 +34,11 @@ pub(super) fn measure(model: &Model, state: &State, resolution: &Resolution, wor
     for site in &state.rope.grips.sites {
         work.gripped[crate::contact::slots::segment_of(*site)] = true;
     }
+    // A merge moves rope, and rope near it would be crossed.
+    work.ropes.gather(model, state, 0.0);
+    for pair in &work.ropes.pairs {
+        pair.segments.iter().for_each(|segment| work.gripped[*segment] = true);
+    }
     work.wanted.fill(resolution.far_m);
     let (Some(whale), Some(now)) = (&model.spec.whale, &state.whale) else { return };
     pose(&whale.skin, now.position, now.orientation, &now.posture, &mut work.bones);

@@ -12,11 +12,11 @@ use crate::model::Model;
 use crate::state::State;
 
 /// Ropes that come this near in a step, beyond touching, are gathered [m].
-pub(crate) const MARGIN_M: f64 = 0.08;
+const MARGIN_M: f64 = 0.03;
 /// Ropes that come this near in a step, beyond touching, may touch [m].
 const TOUCH_M: f64 = 2e-3;
-/// Rope that moved less than this from its drift has met nothing but what was gathered [m].
-const UNWATCHED_M: f64 = 0.03;
+/// Rope that moved less than this from its drift has met nothing but what was gathered: two ropes less than the margin [m].
+const UNWATCHED_M: f64 = 0.014;
 /// The same as a share of the shortest segment, so that a straight piece stayed straight.
 const UNWATCHED_SHARE: f64 = 0.125;
 /// Least separation kept, as a share of the contact distance.
@@ -65,8 +65,8 @@ pub(crate) struct RopeWork {
     pub pairs: Vec<Pair>,
     /// Whether ropes may touch in this step.
     pub touching: bool,
-    /// Pairs that run through each other.
-    pub through: u64,
+    /// Pairs that run through each other; some may stand here twice.
+    through: Vec<[usize; 2]>,
     /// Crossings found in the step by the exact test.
     pub crossings: u64,
     homes: Vec<Home>,
@@ -122,7 +122,8 @@ impl RopeWork {
     /// Gathers rope near rope for a step from the state by its velocities; whether any may touch.
     pub fn gather(&mut self, model: &Model, state: &State, dt: f64) -> bool {
         self.pairs.clear();
-        (self.touching, self.through, self.crossings) = (false, 0, 0);
+        self.through.clear();
+        (self.touching, self.crossings) = (false, 0);
         let rope = &state.rope;
         self.gather_to(model, state, |node| rope.position[node] + rope.velocity[node] * dt, MARGIN_M);
         self.touching
@@ -166,7 +167,7 @@ impl RopeWork {
             return;
         }
         if first < THROUGH_SHARE * reach {
-            self.through += 1;
+            self.through.push(segments);
             return;
         }
         self.touching |= least < reach + TOUCH_M;
@@ -289,6 +290,13 @@ impl RopeWork {
             pair.clear = nearest(one.at(1.0), other.at(1.0)).distance;
             self.crossings += u64::from(first_crossing(&one, &other).is_some());
         }
+    }
+
+    /// How many pairs run through each other.
+    pub fn count_through(&mut self) -> u64 {
+        self.through.sort_unstable();
+        self.through.dedup();
+        self.through.len() as u64
     }
 
     /// Goes back to where the step began.
