@@ -392,6 +392,9 @@ pub struct Settings {
     pub rope_on_bodies: bool,
     /// How rope touches rope; `None` where ropes pass through each other.
     pub rope_on_rope: Option<RopeOnRope>,
+    /// Whether every move near skin is cut short where its path would cross: always, but to show what tests at the end of
+    /// each step alone let through.
+    pub swept: bool,
 }
 
 impl Default for Settings {
@@ -407,6 +410,7 @@ impl Default for Settings {
             rope_on_bodies: false,
             rope_on_rope: None,
             as_placed: false,
+            swept: true,
         }
     }
 }

@@ -19,6 +19,9 @@ pub struct Nearest {
 /// Squared area over squared edge lengths below which a triangle counts as a line.
 const FLAT: f64 = 1e-24;
 
+/// Edges in the order of the corners opposite.
+const EDGES: [[usize; 2]; 3] = [[1, 2], [2, 0], [0, 1]];
+
 /// Barycentric share above which a place is inside an edge for certain.
 const SURELY_INSIDE: f64 = 1e-9;
 
@@ -28,7 +31,12 @@ const SURELY_INSIDE: f64 = 1e-9;
 /// the other edges are left out.
 #[must_use]
 pub fn segment_triangle(segment: [DVec3; 2], triangle: [DVec3; 3]) -> Nearest {
-    let Some(plane) = Plane::of(triangle) else {
+    segment_triangle_in(Plane::of(triangle).as_ref(), segment, triangle)
+}
+
+/// The same with the triangle's plane made ready.
+pub(crate) fn segment_triangle_in(plane: Option<&Plane>, segment: [DVec3; 2], triangle: [DVec3; 3]) -> Nearest {
+    let Some(plane) = plane else {
         return nearest_of_edges(segment, triangle, [true; 3]);
     };
     let ends = segment.map(|end| plane.place(end));
@@ -48,16 +56,44 @@ pub fn segment_triangle(segment: [DVec3; 2], triangle: [DVec3; 3]) -> Nearest {
 /// Nearest place on a triangle to a point: distance and barycentric place.
 #[must_use]
 pub fn point_triangle(point: DVec3, triangle: [DVec3; 3]) -> (f64, [f64; 3]) {
+    point_triangle_in(Plane::of(triangle).as_ref(), point, triangle, f64::INFINITY).unwrap_or((f64::INFINITY, [1.0, 0.0, 0.0]))
+}
+
+/// The same with the triangle's plane made ready; `None` where the distance is `most` or more for certain.
+pub(crate) fn point_triangle_in(plane: Option<&Plane>, point: DVec3, triangle: [DVec3; 3], most: f64) -> Option<(f64, [f64; 3])> {
     let mut beyond = [true; 3];
-    if let Some(plane) = Plane::of(triangle) {
+    if let Some(plane) = plane {
+        let height = plane.height(point);
+        if height.abs() >= most {
+            return None;
+        }
         let (height, barycentric) = plane.place(point);
         if inside(barycentric) {
-            return (height.abs(), barycentric);
+            return Some((height.abs(), barycentric));
         }
         beyond = barycentric.map(|share| share < SURELY_INSIDE);
     }
-    let nearest = nearest_of_edges([point, point], triangle, beyond);
-    (nearest.distance, nearest.barycentric)
+    Some(nearest_edge(point, triangle, beyond))
+}
+
+/// The nearest place to a point on the edges wanted, each named by the corner opposite.
+fn nearest_edge(point: DVec3, triangle: [DVec3; 3], wanted: [bool; 3]) -> (f64, [f64; 3]) {
+    let (mut least, mut barycentric) = (f64::INFINITY, [1.0, 0.0, 0.0]);
+    for (opposite, [from, to]) in EDGES.into_iter().enumerate() {
+        if !wanted[opposite] {
+            continue;
+        }
+        let (along, out) = (triangle[to] - triangle[from], point - triangle[from]);
+        let t = share(along.dot(out), along.length_squared());
+        let square = (point - triangle[from].lerp(triangle[to], t)).length_squared();
+        if square < least {
+            least = square;
+            barycentric = [0.0; 3];
+            barycentric[from] = 1.0 - t;
+            barycentric[to] = t;
+        }
+    }
+    (least.sqrt(), barycentric)
 }
 
 /// Nearest places on two segments, as fractions along each.
@@ -93,7 +129,7 @@ fn share(part: f64, whole: f64) -> f64 {
 fn nearest_of_edges(segment: [DVec3; 2], triangle: [DVec3; 3], wanted: [bool; 3]) -> Nearest {
     let mut best = Nearest { distance: f64::INFINITY, fraction: 0.0, barycentric: [1.0, 0.0, 0.0] };
     let mut least = f64::INFINITY;
-    for (opposite, [from, to]) in [[1, 2], [2, 0], [0, 1]].into_iter().enumerate() {
+    for (opposite, [from, to]) in EDGES.into_iter().enumerate() {
         if !wanted[opposite] {
             continue;
         }
@@ -112,7 +148,8 @@ fn nearest_of_edges(segment: [DVec3; 2], triangle: [DVec3; 3], wanted: [bool; 3]
 }
 
 /// A triangle's plane, ready to place points against the triangle.
-struct Plane {
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Plane {
     corner: DVec3,
     normal: DVec3,
     across: [DVec3; 2],
@@ -120,7 +157,7 @@ struct Plane {
 
 impl Plane {
     /// `None` where the triangle has shrunk to a line or a point.
-    fn of([a, b, c]: [DVec3; 3]) -> Option<Self> {
+    pub fn of([a, b, c]: [DVec3; 3]) -> Option<Self> {
         let (ab, ac) = (b - a, c - a);
         let normal = ab.cross(ac);
         let square = normal.length_squared();
@@ -129,6 +166,17 @@ impl Plane {
         }
         let across = [ac.cross(normal) / square, normal.cross(ab) / square];
         Some(Self { corner: a, normal: normal / square.sqrt(), across })
+    }
+
+    /// Height over the plane.
+    fn height(&self, point: DVec3) -> f64 {
+        (point - self.corner).dot(self.normal)
+    }
+
+    /// No more than a segment's distance from the triangle: how far it stays on one side of the plane.
+    pub fn gap(&self, segment: [DVec3; 2]) -> f64 {
+        let [from, to] = segment.map(|end| self.height(end));
+        if from * to > 0.0 { from.abs().min(to.abs()) } else { 0.0 }
     }
 
     /// Height over the plane and barycentric place of the foot.

@@ -11,7 +11,7 @@ use std::sync::Arc;
 use glam::{DAffine3, DVec3};
 
 use super::crossing::first_meeting;
-use super::distance::{Nearest, segment_triangle};
+use super::distance::{Nearest, Plane, point_triangle_in, segment_triangle_in};
 use super::sweep::{SweptSegment, SweptTriangle, greatest_approach, safe_fraction_from, triangle_at};
 use crate::model::Model;
 use crate::whale::{Bounds, Candidate, SkinTree, Surface};
@@ -20,8 +20,11 @@ use crate::whale::{Bounds, Candidate, SkinTree, Surface};
 pub(crate) const MARGIN_M: f64 = 0.08;
 /// Rope is carried along with skin nearer than this wholly, beyond the next not at all [m].
 const CARRIED_M: (f64, f64) = (0.02, 0.06);
-/// Pairs farther apart than this are known by the gap of their boxes [m].
-const EXACT_M: f64 = 0.02;
+/// Pairs farther apart than this are known by a lower bound of their distance [m].
+const EXACT_M: f64 = 0.001;
+/// Growth of balls over rounding: a factor, and a length [m].
+const GROWN: f64 = 1.0 + 1e-12;
+const ROUNDING_M: f64 = 1e-9;
 /// Least separation kept, as a share of the rope's radius.
 const GUARD_SHARE: f64 = 0.08;
 
@@ -36,6 +39,10 @@ pub(crate) struct Pair {
     pub sweep: SweptTriangle,
     /// Corners now.
     pub now: [DVec3; 3],
+    /// A ball around them.
+    ball: Ball,
+    /// Their plane; `None` for a needle.
+    plane: Option<Plane>,
     /// Lower bound of their distance now [m].
     pub clear: f64,
     /// Longest move of a corner over the solver step [m].
@@ -57,6 +64,8 @@ pub(crate) struct Near {
     segment_node: Vec<usize>,
     /// Share of the solver step at which the skin stands now.
     pub fraction: f64,
+    /// Whether paths are filtered ([`Settings::swept`](crate::model::Settings::swept)).
+    swept: bool,
 }
 
 impl Near {
@@ -70,6 +79,7 @@ impl Near {
             groups: Vec::new(),
             segment_node: nodes.collect(),
             fraction: 0.0,
+            swept: model.spec.settings.swept,
         }
     }
 
@@ -112,7 +122,8 @@ impl Near {
             let node = self.segment_node[segment];
             let index = self.pairs.len();
             let skin_move = (0..3).map(|corner| sweep[0][corner].distance_squared(sweep[1][corner])).fold(0.0, f64::max).sqrt();
-            self.pairs.push(Pair { segment, node, triangle, sweep, now: sweep[0], clear: 0.0, skin_move, guard });
+            let (now, ball, plane) = (sweep[0], Ball::around(sweep[0]), Plane::of(sweep[0]));
+            self.pairs.push(Pair { segment, node, triangle, sweep, now, ball, plane, clear: 0.0, skin_move, guard });
             match self.groups.last_mut() {
                 Some((last, range)) if *last == segment => range.end = index + 1,
                 _ => self.groups.push((segment, index..index + 1)),
@@ -121,15 +132,15 @@ impl Near {
         !self.pairs.is_empty()
     }
 
-    /// Measures every pair at the places given: near ones exactly, others by the gap of their boxes.
+    /// Measures every pair at the places given: near ones exactly, others by a lower bound.
     pub fn measure(&mut self, places: &[DVec3]) {
         for (_, range) in &self.groups {
             let node = self.pairs[range.start].node;
             let segment = [places[node], places[node + 1]];
             let rope_box = Bounds::around(&segment);
             for pair in &mut self.pairs[range.clone()] {
-                let gap = rope_box.gap(&Bounds::around(&pair.now));
-                pair.clear = if gap > EXACT_M { gap } else { segment_triangle(segment, pair.now).distance };
+                let gap = rope_box.gap(&Bounds::around(&pair.now)).max(pair.gap(segment));
+                pair.clear = if gap > EXACT_M { gap } else { pair.nearest_to(segment).distance };
             }
         }
     }
@@ -137,6 +148,9 @@ impl Near {
     /// Where rope goes as the skin makes the rest of its move: on to `target`, held back from coming nearer to skin
     /// than it is, or than its radius; written over `target`.
     pub fn hold_off(&self, places: &[DVec3], target: &mut [DVec3]) {
+        if !self.swept {
+            return;
+        }
         for (_, range) in &self.groups {
             let Some((pair, nearest)) = self.nearest(places, range.clone()) else { continue };
             let between = |at: &[DVec3]| at[pair.node].lerp(at[pair.node + 1], nearest.fraction);
@@ -173,7 +187,7 @@ impl Near {
             if best.is_some_and(|(_, nearest)| pair.clear >= nearest.distance) {
                 continue;
             }
-            let nearest = segment_triangle([places[pair.node], places[pair.node + 1]], pair.now);
+            let nearest = pair.nearest_to([places[pair.node], places[pair.node + 1]]);
             if best.is_none_or(|(_, found)| nearest.distance < found.distance) {
                 best = Some((pair, nearest));
             }
@@ -183,13 +197,16 @@ impl Near {
 
     /// Largest share of the move `places` → `target`, while the skin goes to `skin_to` of its step, along
     /// which nothing crosses.
-    pub fn safe_share(&self, places: &[DVec3], target: impl Fn(usize) -> DVec3, skin_to: f64) -> f64 {
+    pub fn safe_share(&mut self, places: &[DVec3], target: impl Fn(usize) -> DVec3, skin_to: f64) -> f64 {
         let mut share = 1.0_f64;
+        if !self.swept {
+            return share;
+        }
         let skin_share = skin_to - self.fraction;
         for (_, range) in &self.groups {
             let segment = self.pairs[range.start].sweep_of(places, &target);
             let moved = greatest_move(&segment);
-            for pair in &self.pairs[range.clone()] {
+            for pair in &mut self.pairs[range.clone()] {
                 if pair.clear - pair.guard > moved + pair.skin_move * skin_share {
                     continue;
                 }
@@ -197,8 +214,8 @@ impl Near {
                 if pair.clear - pair.guard > greatest_approach(&segment, &triangle) {
                     continue;
                 }
-                let first = segment_triangle(segment.at(0.0), triangle[0]).distance;
-                share = share.min(safe_fraction_from(&segment, &triangle, pair.guard, first));
+                pair.clear = pair.nearest_to(segment.at(0.0)).distance;
+                share = share.min(safe_fraction_from(&segment, &triangle, pair.guard, pair.clear));
             }
         }
         share
@@ -226,7 +243,9 @@ impl Pair {
     /// Takes a move of both: keeps a lower bound of the distance; whether an exact test finds a crossing.
     fn follow(&mut self, segment: &SweptSegment, after: [DVec3; 3], most: f64) -> bool {
         let triangle = [self.now, after];
-        self.now = after;
+        if self.now != after {
+            (self.now, self.ball, self.plane) = (after, Ball::around(after), Plane::of(after));
+        }
         if self.clear > most + EXACT_M {
             self.clear -= most;
             return false;
@@ -236,12 +255,50 @@ impl Pair {
             self.clear -= approach;
             return false;
         }
-        self.clear = segment_triangle(segment.at(1.0), after).distance;
+        self.clear = self.nearest_to(segment.at(1.0)).distance;
         first_meeting(segment, &triangle).is_some()
+    }
+
+    /// Nearest places of a segment and the triangle as it stands.
+    pub fn nearest_to(&self, segment: [DVec3; 2]) -> Nearest {
+        segment_triangle_in(self.plane.as_ref(), segment, self.now)
+    }
+
+    /// Nearest place on it to a point: distance and barycentric place; `None` where it is no nearer than `most`.
+    pub fn nearest_to_point(&self, point: DVec3, most: f64) -> Option<(f64, [f64; 3])> {
+        let reach = most + self.ball.radius;
+        if point.distance_squared(self.ball.centre) > reach * reach {
+            return None;
+        }
+        point_triangle_in(self.plane.as_ref(), point, self.now, most)
+    }
+
+    /// No more than a segment's distance from it, below zero where that tells nothing [m].
+    pub fn gap(&self, segment: [DVec3; 2]) -> f64 {
+        let [from, to] = segment;
+        let (along, centre) = (to - from, self.ball.centre - from);
+        let fraction = (centre.dot(along) / along.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        let round = centre.distance(along * fraction) - self.ball.radius;
+        self.plane.as_ref().map_or(round, |plane| round.max(plane.gap(segment)))
     }
 
     fn sweep_of(&self, places: &[DVec3], target: impl Fn(usize) -> DVec3) -> SweptSegment {
         SweptSegment { a0: places[self.node], b0: places[self.node + 1], a1: target(self.node), b1: target(self.node + 1) }
+    }
+}
+
+/// A ball around a triangle, grown over rounding.
+#[derive(Clone, Copy, Debug)]
+struct Ball {
+    centre: DVec3,
+    radius: f64,
+}
+
+impl Ball {
+    fn around(corners: [DVec3; 3]) -> Self {
+        let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
+        let square = corners.iter().map(|corner| corner.distance_squared(centre)).fold(0.0, f64::max);
+        Self { centre, radius: square.sqrt() * GROWN + ROUNDING_M }
     }
 }
 

@@ -9,7 +9,6 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::distance::{point_triangle, segment_triangle};
 use super::law::Press;
 use super::near::{Near, on_triangle};
 use crate::model::Model;
@@ -28,6 +27,9 @@ const MOST_SLOTS: usize = 1 << PIECE_BITS;
 const NEARER: f64 = 0.8;
 /// Further slots are looked for only within this many contact distances.
 const LOOK_WITHIN: f64 = 3.0;
+/// How far a slot is measured: contact distances, and besides [`LOOK_WITHIN`] lengths of its piece. Beyond, no point of the
+/// piece is looked at.
+const MEASURED_WITHIN: (f64, f64) = (4.0, 1.2);
 
 /// The segment a site lies on.
 pub(crate) fn segment_of(site: u64) -> usize {
@@ -153,9 +155,11 @@ impl Slot {
         if self.out_of_reach(place) {
             return;
         }
-        if let Some((distance, pair, barycentric)) = self.nearest(near, place, 0.0, f64::INFINITY) {
-            self.seen = Some((place, distance));
-            self.touch = self.touch_of(near, place, (distance, pair, barycentric));
+        let within = (MEASURED_WITHIN.0 * self.reach).max(LOOK_WITHIN * self.reach + MEASURED_WITHIN.1 * self.length);
+        self.seen = Some((place, within));
+        if let Some(nearest) = self.nearest(near, place, 0.0, within) {
+            self.seen = Some((place, nearest.0));
+            self.touch = self.touch_of(near, place, nearest);
         }
     }
 
@@ -192,7 +196,7 @@ impl Slot {
             if pair.clear - moved >= least {
                 continue;
             }
-            let (distance, barycentric) = point_triangle(place, pair.now);
+            let Some((distance, barycentric)) = pair.nearest_to_point(place, least) else { continue };
             if distance < least {
                 least = distance;
                 best = Some((distance, index, barycentric));
@@ -219,10 +223,10 @@ impl Slot {
         let mut least = (NEARER * least).min(LOOK_WITHIN * self.reach);
         let mut along = None;
         for pair in near.pairs[self.pairs.clone()].iter() {
-            if pair.clear >= least {
+            if pair.clear >= least || pair.gap(ends) >= least {
                 continue;
             }
-            let nearest = segment_triangle(ends, pair.now);
+            let nearest = pair.nearest_to(ends);
             if nearest.distance < least {
                 least = nearest.distance;
                 along = Some(nearest.fraction);

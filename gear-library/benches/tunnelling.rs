@@ -1,0 +1,41 @@
+//! Encounters of fast, taut rope with the edges of fins, counted: `cargo bench -p endline-gear --bench tunnelling -- 10000`.
+//!
+//! The numbers after `--` are how many encounters, and the first of them (usually 10,000 from 0). The same encounters are run
+//! with tests at the end of each step alone, as many as a tenth of them (`docs/physics.md`, Rope against the whale).
+
+#[path = "../tests/fins/mod.rs"]
+mod fins;
+
+use cpu_time::ProcessTime;
+use fins::{Fins, Tally};
+
+/// Encounters between two lines of the report.
+const TOLD_EVERY: u64 = 1_000;
+
+fn main() {
+    let mut asked = std::env::args().skip(1).filter_map(|word| word.parse::<u64>().ok());
+    let (count, first) = (asked.next().unwrap_or(10_000), asked.next().unwrap_or(0));
+    let fins = Fins::new();
+    run("discrete", &fins, first..first + count / 10, false);
+    run("swept", &fins, first..first + count, true);
+}
+
+fn run(name: &str, fins: &Fins, numbers: std::ops::Range<u64>, swept: bool) {
+    let (start, mut tally, last) = (ProcessTime::now(), Tally::default(), numbers.end - 1);
+    for number in numbers {
+        tally.add(number, fins.encounter(number, swept));
+        if number == last || tally.encounters.is_multiple_of(TOLD_EVERY) {
+            tell(name, &tally, start.elapsed().as_secs_f64());
+        }
+    }
+}
+
+fn tell(name: &str, tally: &Tally, spent_s: f64) {
+    let Tally { encounters, met, crossed, ended, solver_steps, passes, unconverged, told } = tally;
+    println!(
+        "{name}: {encounters} encounters, {met} with contact, {crossed} crossed, {ended} ended early, \
+         {solver_steps} solver steps, {passes} passes, {unconverged} not converged, {:.2} ms each",
+        1e3 * spent_s / *encounters as f64
+    );
+    told.iter().for_each(|told| println!("    {told}"));
+}
