@@ -9,6 +9,7 @@ use crate::error::Error;
 use crate::locate;
 use crate::plugins::PluginHost;
 use crate::source::{Overrides, prepare};
+use crate::study::Opened;
 
 /// What a check found.
 #[derive(Clone, Debug, Default)]
@@ -38,6 +39,7 @@ impl Checked {
             self.library(folder);
             self.scenarios(&folder.join("scenarios"), Some(folder), host);
             self.cases(folder, host);
+            self.studies(folder, host);
             return;
         }
         let before = self.files;
@@ -79,6 +81,9 @@ impl Checked {
         if parent == "cases" {
             return self.case(path, library, host);
         }
+        if parent == "studies" {
+            return self.study(path, library, host);
+        }
         if endline_gear::Kind::in_folder(&parent).is_none() {
             return self.scenario(path, library, host);
         }
@@ -94,6 +99,19 @@ impl Checked {
         for entry in entries(&root.join("cases")).iter().filter(|entry| entry.extension().is_some_and(|end| end == "toml")) {
             self.case(entry, Some(root), host);
         }
+    }
+
+    /// Every study of a library.
+    fn studies(&mut self, root: &Path, host: &PluginHost) {
+        for entry in entries(&root.join("studies")).iter().filter(|entry| entry.extension().is_some_and(|end| end == "toml")) {
+            self.study(entry, Some(root), host);
+        }
+    }
+
+    /// A study is checked by assembling every option with what is drawn first.
+    fn study(&mut self, path: &Path, library: Option<&Path>, host: &PluginHost) {
+        self.files += 1;
+        self.told(path, Opened::open(path, library, host).map(|_| ()));
     }
 
     /// A case is checked with its table and its scenario: a file in the folder `cases` of a library.

@@ -89,6 +89,26 @@ pub enum Law {
     Choice(Vec<(Level, f64)>),
 }
 
+impl Law {
+    /// In words, such as `even from 0.6 m/s to 1.6 m/s`.
+    #[must_use]
+    pub fn words(&self) -> String {
+        match self {
+            Self::Uniform { low, high, quantity } => {
+                format!("even from {} to {}", units::format_si(*low, *quantity), units::format_si(*high, *quantity))
+            }
+            Self::Normal { mean, deviation, low, high, quantity } => {
+                let [mean, deviation, low, high] = [mean, deviation, low, high].map(|value| units::format_si(*value, *quantity));
+                format!("normal about {mean} with deviation {deviation}, from {low} to {high}")
+            }
+            Self::Choice(levels) => {
+                let level = |(level, weight): &(Level, f64)| format!("{} {:.0} %", level.text, 100.0 * weight);
+                levels.iter().map(level).collect::<Vec<_>>().join(", ")
+            }
+        }
+    }
+}
+
 /// A value that may be chosen.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Level {

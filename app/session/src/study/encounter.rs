@@ -44,6 +44,11 @@ pub(super) fn field_of(prior: &Prior) -> &str {
     }
 }
 
+/// The same as an option would name it.
+fn path_of(prior: &Prior) -> String {
+    if let Target::Library(..) = prior.target { prior.name.value.clone() } else { field_of(prior).to_owned() }
+}
+
 /// The scenario field of a known prior; `None` where it is not one field.
 fn known_field(name: &str) -> Option<&'static str> {
     Some(match name {
@@ -72,9 +77,9 @@ pub(super) fn put_drawn(
     sources: &mut Sources,
     priors: &[Prior],
     drawn: &[Drawn],
-    own: &[&str],
+    own: &[String],
 ) -> Result<(), Error> {
-    for (prior, drawn) in priors.iter().zip(drawn).filter(|(prior, _)| !own.contains(&field_of(prior))) {
+    for (prior, drawn) in priors.iter().zip(drawn).filter(|(prior, _)| !own.contains(&path_of(prior))) {
         put_one(scenario, sources, prior, drawn).map_err(|error| Error::Diagnostics(vec![prior.name.place.error(error.message, "")]))?;
     }
     Ok(())
@@ -120,8 +125,7 @@ impl Opened {
     /// The scenario and library of an option in an encounter, but for the whale's place.
     pub(super) fn drawn_source(&self, option: &OptionPlan, encounter: &Encounter) -> Result<(Document, Sources), Error> {
         let (mut scenario, mut sources) = (option.scenario.clone(), option.sources.clone());
-        let own: Vec<&str> = option.settings.iter().map(|setting| setting.field.value.as_str()).collect();
-        put_drawn(&mut scenario, &mut sources, &self.study.priors, &encounter.drawn, &own)?;
+        put_drawn(&mut scenario, &mut sources, &self.study.priors, &encounter.drawn, &option.own)?;
         let fault = |error: EditError| Error::Replay(format!("option `{}`: {}", option.id, error.message));
         for field in &option.removes {
             scenario.remove(field).map_err(fault)?;
@@ -164,7 +168,8 @@ impl Opened {
         let depth_m = value(scenario, "whale.depth", units::Quantity::Length).unwrap_or_default();
         let aim_m = self.aim_at(aimed, encounter, depth_m)?;
         let toward = value(scenario, "current.toward", units::Quantity::Angle).unwrap_or(std::f64::consts::FRAC_PI_2);
-        let heading = encounter.number("heading").map(|heading| toward + heading);
+        let chosen = self.options[option].own.iter().any(|field| field == "whale.heading");
+        let heading = encounter.number("heading").filter(|_| !chosen).map(|heading| toward + heading);
         let bearing = heading.or_else(|| value(scenario, "whale.heading", units::Quantity::Angle)).unwrap_or(std::f64::consts::FRAC_PI_2);
         let back_m = self.study.aim.gap_m + 0.5 * self.length_m(scenario);
         let aside_m = encounter.number("offset").unwrap_or_default();

@@ -15,6 +15,7 @@ pub mod merge;
 mod open;
 mod parquet;
 mod play;
+pub mod report;
 mod rest;
 mod row;
 mod same;

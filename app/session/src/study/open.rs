@@ -11,6 +11,7 @@ use crate::source::{Overrides, Prepared, Source};
 
 use super::draw;
 use super::rest::Rests;
+use super::same;
 
 /// A study ready to run.
 pub struct Opened {
@@ -26,7 +27,11 @@ pub struct Opened {
     pub hash: String,
     pub(super) host: PluginHost,
     pub(super) library: Library,
+    /// The library's files, before anything is set.
+    pub(super) sources: Sources,
     pub(super) rests: Rests,
+    /// By option: the first option it differs from in strengths alone.
+    pub(super) families: Vec<usize>,
 }
 
 /// An option as a scenario and a library.
@@ -37,6 +42,8 @@ pub struct OptionPlan {
     pub name: String,
     /// Strength it stands for [N].
     pub strength_n: Option<f64>,
+    /// Paths of all it sets, of scenario and library.
+    pub(super) own: Vec<String>,
     pub(super) settings: Vec<OptionSetting>,
     pub(super) removes: Vec<String>,
     /// The baseline scenario, before anything is set.
@@ -74,8 +81,20 @@ impl Opened {
             return Err(Error::Diagnostics(problems));
         }
         let hash = hash(&study, &options);
+        let families = families(&study, &options);
         let baseline = options.iter().position(|option| option.id == study.baseline.value).unwrap_or_default();
-        Ok(Self { text, options, baseline, hash, host: host.clone(), library: Library::read(&sources).0, rests: Rests::default(), study })
+        Ok(Self {
+            text,
+            options,
+            baseline,
+            hash,
+            host: host.clone(),
+            library: Library::read(&sources).0,
+            sources,
+            rests: Rests::default(),
+            families,
+            study,
+        })
     }
 
     /// Place of an option.
@@ -87,6 +106,18 @@ impl Opened {
         let found = known().position(|known| known == id);
         found.ok_or_else(|| Error::Replay(format!("{}: there is no option `{id}`; {}", self.study.place.source.path, hint(id, known()))))
     }
+}
+
+/// Paths of all an option sets.
+fn own(option: &StudyOption) -> Vec<String> {
+    option.settings.iter().map(|setting| setting.field.value.clone()).collect()
+}
+
+/// By option: the first that it differs from in strengths alone, most often itself.
+fn families(study: &Study, options: &[OptionPlan]) -> Vec<usize> {
+    let drawn: Vec<&str> = study.priors.iter().map(super::encounter::field_of).collect();
+    let first = |option: usize| (0..option).find(|other| same::family(&options[option], &options[*other], &drawn)).unwrap_or(option);
+    (0..options.len()).map(first).collect()
 }
 
 /// The file of the baseline scenario: of the library by its id, or beside the study by its path.
@@ -128,6 +159,7 @@ impl Base<'_> {
             id: option.id.value.clone(),
             name: option.name.clone(),
             strength_n: option.strength_n,
+            own: own(option),
             settings,
             removes: option.removes.iter().map(|field| field.value.clone()).collect(),
             scenario,
@@ -169,9 +201,8 @@ impl Base<'_> {
         // What is drawn stands in the place of what the option leaves open, so that drawn values are checked too.
         let mut text = scenario.clone();
         let drawn = draw::draw(&self.study.priors, self.study.seed, 0);
-        let own: Vec<&str> = option.settings.iter().map(|setting| setting.field.value.as_str()).collect();
         let mut sources = sources.clone();
-        super::encounter::put_drawn(&mut text, &mut sources, &self.study.priors, &drawn, &own)?;
+        super::encounter::put_drawn(&mut text, &mut sources, &self.study.priors, &drawn, &own(option))?;
         let source = Source { scenario_name: self.name.clone(), scenario: text.text(), library: sources, overrides: Overrides::default() };
         source.prepare(self.host).map_err(|error| match error {
             Error::Diagnostics(problems) => {

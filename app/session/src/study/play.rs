@@ -9,12 +9,13 @@ use endline_sim::metrics::{Outcome, Summary};
 use crate::error::Error;
 use crate::report::Report;
 use crate::run::{Run, RunOptions};
+use crate::source::Prepared;
 
 use super::encounter::Encounter;
 use super::open::Opened;
 use super::rest::fitted;
 use super::row::row;
-use super::same::{least_strength_n, same_run};
+use super::same::{least_strength_n, same_run, surely_same_run};
 use super::table::Row;
 
 /// How often a run is asked whether it is over [Hz].
@@ -33,9 +34,18 @@ pub struct Played {
 
 /// What a run came to, for options that may have the same.
 struct Came {
+    option: usize,
     model: Arc<Model>,
     summary: Summary,
     report: Report,
+}
+
+/// Whether an option needs a run of its own.
+enum Twin {
+    /// It has the run of this place among those that came before.
+    Same(usize),
+    /// It does.
+    None(Prepared),
 }
 
 impl Opened {
@@ -49,30 +59,44 @@ impl Opened {
     #[must_use]
     pub fn rows_with(&self, index: u32, sharing: bool) -> Vec<Row> {
         let encounter = Encounter::of(self, index);
-        let prepared: Vec<_> = (0..self.options.len()).map(|option| self.prepare(option, &encounter)).collect();
-        let mut order: Vec<usize> = (0..self.options.len()).collect();
-        let strength = |option: &usize| prepared[*option].as_ref().map_or(0.0, |prepared| least_strength_n(&prepared.model.spec));
-        order.sort_by(|one, other| strength(other).partial_cmp(&strength(one)).unwrap_or(Ordering::Equal));
-        let mut came: Vec<Came> = Vec::new();
         let mut rows: Vec<Row> = vec![Row::new(); self.options.len()];
-        for option in order {
-            let told = match &prepared[option] {
-                Err(error) => Err(error.to_string()),
-                Ok(prepared) => {
-                    let twin = came.iter().find(|came| sharing && same_run(&prepared.model, &came.model, &came.summary));
-                    if let Some(twin) = twin {
-                        rows[option] = row(self, option, &encounter, Ok(&twin.report));
-                        continue;
-                    }
-                    self.play(option, &encounter, 0.0).map_err(|error| error.to_string())
+        let mut came: Vec<Came> = Vec::new();
+        for option in self.by_falling_strength() {
+            let told = match self.twin(option, &encounter, if sharing { &came } else { &[] }) {
+                Ok(Twin::Same(twin)) => {
+                    rows[option] = row(self, option, &encounter, Ok(&came[twin].report));
+                    continue;
                 }
+                Ok(Twin::None(prepared)) => self.played(option, &encounter, prepared, 0.0),
+                Err(error) => Err(error),
             };
+            let told = told.map_err(|error| error.to_string());
             rows[option] = row(self, option, &encounter, told.as_ref().map(|played| &played.report).map_err(String::as_str));
             if let Ok(Played { run, report }) = told {
-                came.push(Came { model: Arc::clone(run.model()), summary: run.summary(), report });
+                came.push(Came { option, model: Arc::clone(run.model()), summary: run.summary(), report });
             }
         }
         rows
+    }
+
+    /// Options, the strongest first: it is the one whose run others may share.
+    fn by_falling_strength(&self) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..self.options.len()).collect();
+        let strength = |option: &usize| least_strength_n(&self.options[*option].prepared.model.spec);
+        order.sort_by(|one, other| strength(other).partial_cmp(&strength(one)).unwrap_or(Ordering::Equal));
+        order
+    }
+
+    /// A run that is this option's too; else the option ready to run.
+    fn twin(&self, option: usize, encounter: &Encounter, came: &[Came]) -> Result<Twin, Error> {
+        let bare = &self.options[option].prepared.model.spec;
+        let surely = |came: &Came| self.families[option] == self.families[came.option] && surely_same_run(bare, &came.summary);
+        if let Some(twin) = came.iter().position(surely) {
+            return Ok(Twin::Same(twin));
+        }
+        let prepared = self.prepare(option, encounter)?;
+        let twin = came.iter().position(|came| same_run(&prepared.model, &came.model, &came.summary));
+        Ok(twin.map_or(Twin::None(prepared), Twin::Same))
     }
 
     /// Plays an option in an encounter to its end.
@@ -81,6 +105,10 @@ impl Opened {
     /// Faults of the scenario so made, or gear that does not come to rest.
     pub fn play(&self, option: usize, encounter: &Encounter, frames_hz: f64) -> Result<Played, Error> {
         let prepared = self.prepare(option, encounter)?;
+        self.played(option, encounter, prepared, frames_hz)
+    }
+
+    fn played(&self, option: usize, encounter: &Encounter, prepared: Prepared, frames_hz: f64) -> Result<Played, Error> {
         let rest = self.rest(option, encounter)?;
         let settled = fitted(&rest, &prepared.model);
         if !settled.converged {

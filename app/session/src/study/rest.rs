@@ -54,12 +54,11 @@ impl Opened {
     fn still_source(&self, option: usize, encounter: &Encounter) -> Result<Source, Error> {
         let plan = &self.options[option];
         let (mut scenario, mut library) = (plan.scenario.clone(), plan.sources.clone());
-        let own: Vec<&str> = plan.settings.iter().map(|setting| setting.field.value.as_str()).collect();
         let priors = &self.study.priors;
         let moves_gear = |field: &str| !field.starts_with("whale.");
         let (priors, drawn): (Vec<_>, Vec<_>) =
             priors.iter().cloned().zip(encounter.drawn.iter().cloned()).filter(|(prior, _)| moves_gear(field_of(prior))).unzip();
-        put_drawn(&mut scenario, &mut library, &priors, &drawn, &own)?;
+        put_drawn(&mut scenario, &mut library, &priors, &drawn, &plan.own)?;
         let fault = |error: endline_gear::EditError| Error::Replay(format!("option `{}`: {}", plan.id, error.message));
         for field in plan.removes.iter().filter(|field| moves_gear(field)) {
             scenario.remove(field).map_err(fault)?;

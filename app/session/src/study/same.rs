@@ -11,15 +11,43 @@ use endline_sim::model::{FrictionLaw, Line, Rope};
 use endline_sim::whale::Whale;
 use endline_sim::{Model, ModelSpec};
 
+use super::open::OptionPlan;
+
 /// Share of a line's strength up to which tensions count as well below it.
 pub const MARGIN: f64 = 0.7;
 
 /// Whether `model` has the same run as another that came to `summary` with nothing parted.
 pub(super) fn same_run(model: &Model, other: &Model, summary: &Summary) -> bool {
-    let whole = summary.lines.iter().all(|line| line.parted_at_s.is_none()) && summary.links.iter().all(|link| link.parted_at_s.is_none());
-    whole
+    nothing_parted(summary)
         && alike(&model.spec, &other.spec)
         && summary.lines.iter().zip(weakest(&model.spec)).all(|(line, weakest_n)| line.peak_tension_n < MARGIN * weakest_n)
+}
+
+/// Least strength that scatter may leave of a part in one encounter, over the greatest it may give it in another: factors
+/// lie above 0.2, and 1.6 is six deviations of the widest scatter in the library.
+const SCATTER: f64 = 0.2 / 1.6;
+
+/// Whether an option has the same run as another that came to `summary`, told without assembling it: by its `bare` model,
+/// of whatever encounter, where the two options are of one [`family`].
+pub(super) fn surely_same_run(bare: &ModelSpec, summary: &Summary) -> bool {
+    nothing_parted(summary)
+        && summary.lines.iter().zip(weakest(bare)).all(|(line, weakest_n)| line.peak_tension_n < MARGIN * SCATTER * weakest_n)
+}
+
+/// Whether two options differ in strengths alone in every encounter: their models are alike in one, and what is drawn
+/// reaches both in the same fields.
+pub(super) fn family(one: &OptionPlan, other: &OptionPlan, drawn_fields: &[&str]) -> bool {
+    let own = |plan: &OptionPlan| -> Vec<String> {
+        let set = plan.settings.iter().map(|setting| setting.field.value.clone()).chain(plan.removes.iter().cloned());
+        let mut own: Vec<String> = set.filter(|field| drawn_fields.contains(&field.as_str())).collect();
+        own.sort();
+        own
+    };
+    own(one).is_empty() && own(other).is_empty() && alike(&one.prepared.model.spec, &other.prepared.model.spec)
+}
+
+fn nothing_parted(summary: &Summary) -> bool {
+    summary.lines.iter().all(|line| line.parted_at_s.is_none()) && summary.links.iter().all(|link| link.parted_at_s.is_none())
 }
 
 /// What each line holds: the least of its rope's strength and of the links in it [N].

@@ -10,7 +10,7 @@ use std::process::ExitCode;
 use endline_session::study::encounter::Encounter;
 use endline_session::study::folder::Folder;
 use endline_session::study::stats::Findings;
-use endline_session::study::{Opened, REPLAY_HZ, batch, merge};
+use endline_session::study::{Opened, REPLAY_HZ, batch, merge, report};
 use endline_session::{Error, locate, save};
 
 use self::args::{PlanArgs, ReplayArgs, ReportArgs, RunArgs, StudyArgs, StudyCommand};
@@ -22,8 +22,8 @@ pub(super) fn study(command: &StudyCommand, library: Option<&Path>) -> Result<Ex
     match command {
         StudyCommand::Plan(args) => plan(args, library),
         StudyCommand::Run(args) => run(args, library),
-        StudyCommand::Merge(args) => merge(args, library),
-        StudyCommand::Report(args) => report(args, library),
+        StudyCommand::Merge(args) => merged(args, library),
+        StudyCommand::Report(args) => reported(args, library),
         StudyCommand::Replay(args) => replay(args, library),
     }
 }
@@ -48,7 +48,7 @@ fn run(args: &RunArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-fn merge(args: &StudyArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
+fn merged(args: &StudyArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
     let opened = open(args, library)?;
     let folder = Folder::open(&folder_of(args, &opened), &opened)?;
     let table = merge::merge(&opened, &folder)?;
@@ -57,11 +57,13 @@ fn merge(args: &StudyArgs, library: Option<&Path>) -> Result<ExitCode, Failure> 
     Ok(ExitCode::SUCCESS)
 }
 
-fn report(args: &ReportArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
+fn reported(args: &ReportArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
     let opened = open(&args.at, library)?;
     let folder = Folder::open(&folder_of(&args.at, &opened), &opened)?;
     let table = merge::load(&opened, &folder)?;
     let findings = Findings::of(&opened, &table);
+    let page = report::write(&opened, &folder, &findings)?;
+    output::note(&format!("the report is {}", page.display()));
     output::print(&if args.json { findings.json() + "\n" } else { words::findings(&opened, &findings) })?;
     Ok(ExitCode::SUCCESS)
 }

@@ -1,0 +1,146 @@
+//! Pictures as SVG text: lines, marks of several shapes, dashes and words, so that none needs colour to be read.
+
+use std::fmt::Write;
+
+/// Colours that people who see fewer colours can tell apart (Okabe and Ito 2008); marks and dashes differ too.
+pub(super) const COLOURS: [&str; 6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#8a6d00", "#56707f"];
+
+/// Dashes of lines, in the order of the colours.
+const DASHES: [&str; 6] = ["none", "7 3", "2 3", "10 3 2 3", "4 2", "1 2"];
+
+/// A picture being drawn.
+pub(super) struct Svg {
+    body: String,
+    width: f64,
+    height: f64,
+    title: String,
+}
+
+/// Where text stands beside its place.
+#[derive(Clone, Copy)]
+pub(super) enum Side {
+    Start,
+    Middle,
+    End,
+}
+
+impl Svg {
+    pub(super) fn new(width: f64, height: f64, title: &str) -> Self {
+        Self { body: String::new(), width, height, title: escape(title) }
+    }
+
+    pub(super) fn line(&mut self, from: [f64; 2], to: [f64; 2], class: &str) {
+        let _ = write!(self.body, r#"<line class="{class}" x1="{:.1}" y1="{:.1}" x2="{:.1}" y2="{:.1}"/>"#, from[0], from[1], to[0], to[1]);
+    }
+
+    pub(super) fn text(&mut self, at: [f64; 2], side: Side, text: &str) {
+        let anchor = match side {
+            Side::Start => "start",
+            Side::Middle => "middle",
+            Side::End => "end",
+        };
+        let _ = write!(self.body, r#"<text x="{:.1}" y="{:.1}" text-anchor="{anchor}">{}</text>"#, at[0], at[1], escape(text));
+    }
+
+    /// A filled box.
+    pub(super) fn bar(&mut self, from: [f64; 2], size: [f64; 2], colour: usize) {
+        let fill = COLOURS[colour % COLOURS.len()];
+        let _ = write!(
+            self.body,
+            r#"<rect x="{:.1}" y="{:.1}" width="{:.1}" height="{:.1}" fill="{fill}" fill-opacity="0.35" stroke="{fill}"/>"#,
+            from[0], from[1], size[0], size[1]
+        );
+    }
+
+    /// A mark whose shape and colour go by a number: disc, square, triangle, diamond.
+    pub(super) fn mark(&mut self, [x, y]: [f64; 2], kind: usize) {
+        let fill = COLOURS[kind % COLOURS.len()];
+        let _ = match kind % 4 {
+            0 => write!(self.body, r#"<circle cx="{x:.1}" cy="{y:.1}" r="4.5" fill="{fill}"/>"#),
+            1 => write!(self.body, r#"<rect x="{:.1}" y="{:.1}" width="8" height="8" fill="{fill}"/>"#, x - 4.0, y - 4.0),
+            2 => write!(self.body, r#"<path d="M{x:.1} {:.1}l5 9h-10z" fill="{fill}"/>"#, y - 6.0),
+            _ => write!(self.body, r#"<path d="M{x:.1} {:.1}l5.5 5.5l-5.5 5.5l-5.5-5.5z" fill="{fill}"/>"#, y - 5.5),
+        };
+    }
+
+    /// An interval with its value.
+    pub(super) fn whisker(&mut self, y: f64, [low, at, high]: [f64; 3], kind: usize) {
+        let stroke = COLOURS[kind % COLOURS.len()];
+        let _ = write!(
+            self.body,
+            r#"<path d="M{low:.1} {y:.1}H{high:.1}M{low:.1} {:.1}v6M{high:.1} {:.1}v6" stroke="{stroke}" stroke-width="1.6" fill="none"/>"#,
+            y - 3.0,
+            y - 3.0
+        );
+        self.mark([at, y], kind);
+    }
+
+    /// A line through points, its dashes by a number.
+    pub(super) fn path(&mut self, points: &[[f64; 2]], kind: usize) {
+        let mut data = String::new();
+        for (index, [x, y]) in points.iter().enumerate() {
+            let _ = write!(data, "{}{x:.1} {y:.1}", if index == 0 { "M" } else { "L" });
+        }
+        let (stroke, dashes) = (COLOURS[kind % COLOURS.len()], DASHES[kind % DASHES.len()]);
+        let _ = write!(self.body, r#"<path d="{data}" stroke="{stroke}" stroke-dasharray="{dashes}" stroke-width="1.8" fill="none"/>"#);
+    }
+
+    /// The picture's text.
+    pub(super) fn done(self) -> String {
+        let Self { body, width, height, title } = self;
+        format!(
+            r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" role="img" aria-label="{title}"><title>{title}</title>{body}</svg>"#
+        )
+    }
+}
+
+/// Text as HTML and SVG want it.
+pub(super) fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+/// An axis: values to places.
+#[derive(Clone, Copy)]
+pub(super) struct Axis {
+    pub values: [f64; 2],
+    pub places: [f64; 2],
+}
+
+impl Axis {
+    /// The place of a value, kept within the axis.
+    pub(super) fn at(&self, value: f64) -> f64 {
+        let [least, most] = self.values;
+        let share = ((value - least) / (most - least)).clamp(0.0, 1.0);
+        self.places[0] + share * (self.places[1] - self.places[0])
+    }
+
+    /// Round values along it, about five.
+    pub(super) fn ticks(&self) -> Vec<f64> {
+        let [least, most] = self.values;
+        let rough = (most - least) / 5.0;
+        let power = 10.0_f64.powf(rough.log10().floor());
+        let step = [1.0, 2.0, 2.5, 5.0, 10.0].into_iter().map(|factor| factor * power).find(|step| *step >= rough).unwrap_or(rough);
+        let first = (least / step).ceil() as i64;
+        (first..).map(|count| count as f64 * step).take_while(|tick| *tick <= most + 1e-9 * step).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_round_and_within() {
+        let ticks = Axis { values: [-0.13, 0.41], places: [0.0, 1.0] }.ticks();
+        assert_eq!(ticks.len(), 3, "{ticks:?}");
+        assert!(ticks.iter().all(|tick| (-0.13..=0.41).contains(tick)));
+    }
+
+    #[test]
+    fn a_name_cannot_break_the_page() {
+        let mut svg = Svg::new(10.0, 10.0, "a<b");
+        svg.text([0.0, 0.0], Side::Start, "<script>\"&");
+        let text = svg.done();
+        assert!(!text.contains("<script>") && text.contains("&lt;script&gt;&quot;&amp;") && text.contains("a&lt;b"), "{text}");
+    }
+}

@@ -1,0 +1,40 @@
+//! Numbers and events as a report says them.
+
+use endline_gear::Event;
+
+use crate::study::stats::{Interval, Rate};
+
+/// Newtons in a pound-force.
+pub(super) const N_PER_LBF: f64 = 4.448_221_615_260_5;
+
+/// `12.0 % [8.1, 17.4] (24 of 200)`.
+pub(super) fn rate(rate: &Rate) -> String {
+    format!("{:.1} % {} ({} of {})", 100.0 * rate.rate, percent_interval(rate.interval), rate.hits, rate.runs)
+}
+
+/// `-3.5 points [-6.1, -0.9]`.
+pub(super) fn points(difference: f64, interval: Interval) -> String {
+    format!("{:+.1} points {}", 100.0 * difference, percent_interval(interval))
+}
+
+fn percent_interval(Interval { low, high }: Interval) -> String {
+    format!("[{:.1}, {:.1}]", 100.0 * low, 100.0 * high)
+}
+
+/// `0.65 [0.41, 1.02]`.
+pub(super) fn ratio(ratio: Option<f64>, interval: Option<Interval>) -> String {
+    match (ratio, interval) {
+        (Some(ratio), Some(Interval { low, high })) => format!("{ratio:.2} [{low:.2}, {high:.2}]"),
+        _ => "none: the baseline has no such event".into(),
+    }
+}
+
+/// `1,512 N (340 lbf)`.
+pub(super) fn force(newtons: f64) -> String {
+    format!("{newtons:.0} N ({:.0} lbf)", newtons / N_PER_LBF)
+}
+
+/// An event by name, for people.
+pub(super) fn event_words(name: &str) -> String {
+    Event::find(name).map_or_else(|| name.to_owned(), |event| event.words())
+}
