@@ -24,6 +24,27 @@ pub struct Descriptor {
     pub acts: Vec<Act>,
 }
 
+impl Descriptor {
+    /// A plugin of version 0.1.0 with its id, its name and one sentence of help; without attributes, floats and acts.
+    #[must_use]
+    pub fn new(id: &'static str, name: &'static str, help: &'static str) -> Self {
+        let (attributes, acts) = (Vec::new(), Vec::new());
+        Self { id: id.into(), version: "0.1.0".into(), name: name.into(), help: help.into(), attributes, state_len: 0, acts }
+    }
+
+    /// The same with these attributes.
+    #[must_use]
+    pub fn with_attributes(self, attributes: Vec<Attribute>) -> Self {
+        Self { attributes, ..self }
+    }
+
+    /// The same with so many floats of state.
+    #[must_use]
+    pub fn with_state(self, state_len: usize) -> Self {
+        Self { state_len, ..self }
+    }
+}
+
 /// Something a whale motion does of itself when asked, such as rolling away.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Act {

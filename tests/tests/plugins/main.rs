@@ -7,7 +7,13 @@ mod c_plugin;
 mod checked;
 mod guarded;
 mod header;
+mod kept;
+#[path = "../linked/mod.rs"]
+mod linked;
 mod random;
 mod refused;
 mod same_bits;
+mod same_run;
 mod skinned;
+mod templates;
+mod twelve;

@@ -20,7 +20,7 @@ use crate::random::Random;
 const SWIM: &str = "org.endline.motion.swim";
 const SINGLE: &str = "org.endline.gear.single";
 
-fn loaded() -> PluginHost {
+pub fn loaded() -> PluginHost {
     let (host, problems) = PluginHost::discover(&[first_party().to_path_buf()]);
     assert!(problems.is_empty(), "{problems:?}");
     host

@@ -1,38 +1,49 @@
 //! Whether a plugin file is safe to open: tried out in a child process first.
 //!
 //! A library runs code as it is opened, and may crash, hang or lie. The child,
-//! `endline plugins check FILE`, calls [`check_here`]; what becomes of the child is known here.
+//! `endline plugins check FILE --here`, calls [`report_here`]; what becomes of the child is known here.
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::fs;
-use std::io::Read;
+use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
-use std::thread;
+use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 use endline_sdk::abi::table::{ABI_MAJOR, ABI_MINOR};
 
 use super::host::{PluginHost, open_checked};
-use super::info::{Hook, PluginInfo};
+use super::info::PluginInfo;
+use trial::Finding;
 
-mod trial;
+mod report;
+pub mod trial;
 
 /// Lets a file pass, or says why not.
 pub type Checker<'a> = dyn Fn(&Path) -> Result<(), String> + 'a;
 
-/// How much of what a child says is read [bytes]; the verdict is its last line.
+/// How much of what a child says is kept [bytes]; the verdict is the last line of its standard error.
 const MOST_SAID: u64 = 65_536;
 
 /// How often a child is looked at.
 const LOOK: Duration = Duration::from_millis(4);
 
-/// Opens a file in this process and calls each of its plugins once with its own defaults.
+/// A plugin of a file that was tried, and what each check found.
+#[derive(Clone, Debug)]
+pub struct Tried {
+    /// The plugin.
+    pub info: PluginInfo,
+    /// What each check found, in the order made.
+    pub findings: Vec<Finding>,
+}
+
+/// Opens a file in this process and tries each of its plugins; `begin` is told a plugin's id and a check before each begins.
 ///
 /// # Errors
-/// With what is wrong. A file that crashes takes this process with it: that is what the child is for.
-pub fn check_here(file: &Path) -> Result<Vec<PluginInfo>, String> {
+/// Where the file or a plugin's declaration cannot be used. A file that crashes takes this process with it: that is what the child is for.
+pub fn try_here(file: &Path, begin: &dyn Fn(&str, &'static str)) -> Result<Vec<Tried>, String> {
     let (hash, hooks) = open_checked(file, &|_: &Path| Ok(())).map_err(|refusal| refusal.at(file).to_string())?;
     let mut host = PluginHost::empty();
     let mut problems = Vec::new();
@@ -40,34 +51,102 @@ pub fn check_here(file: &Path) -> Result<Vec<PluginInfo>, String> {
     if let Some(problem) = problems.first() {
         return Err(problem.to_string());
     }
-    for info in host.list() {
-        host.hook(&info.id).map_or(Ok(()), trial_of).map_err(|error| format!("{}: {error}", file.display()))?;
-    }
-    Ok(host.list().to_vec())
+    let tried = host.list().iter().map(|info| {
+        let findings = host.hook(&info.id).map(|hook| trial::run(hook, &|check| begin(&info.id, check)));
+        Tried { info: info.clone(), findings: findings.unwrap_or_default() }
+    });
+    Ok(tried.collect())
 }
 
-fn trial_of(hook: &Hook) -> Result<(), String> {
-    trial::run(hook).map_err(|error| format!("tried out with its own defaults, {error}"))
+/// Opens a file in this process and tries each of its plugins.
+///
+/// # Errors
+/// With what is wrong first.
+pub fn check_here(file: &Path) -> Result<Vec<PluginInfo>, String> {
+    let tried = try_here(file, &|_, _| ())?;
+    tried.iter().find_map(fault).map_or(Ok(()), |fault| Err(format!("{}: {fault}", file.display())))?;
+    Ok(tried.into_iter().map(|tried| tried.info).collect())
 }
 
-/// A checker that opens each file in a child: `program plugins check FILE`, killed after a time.
+/// The first thing wrong with a plugin that was tried.
+fn fault(tried: &Tried) -> Option<String> {
+    let (check, fault) = tried.findings.iter().find_map(|finding| Some((finding.check, finding.outcome.as_ref().err()?)))?;
+    let named = format!("plugin `{}`: ", tried.info.id);
+    let fault = if fault.starts_with(&named) { fault.clone() } else { named + fault };
+    Some(if check == "defaults" { format!("tried out with its own defaults, {fault}") } else { format!("at the check `{check}`, {fault}") })
+}
+
+/// What the child does: tries the plugins of a file and tells of each check on `out`, then the report.
+///
+/// # Errors
+/// With what is wrong first, the last line a program reads of its child.
+pub fn report_here(file: &Path, out: &mut dyn Write) -> Result<(), String> {
+    let out = RefCell::new(out);
+    // Where nobody reads any more, the verdict is all that counts.
+    let say = |line: &str| {
+        let mut out = out.borrow_mut();
+        let _ = writeln!(out, "{line}").and_then(|()| out.flush());
+    };
+    let tried = try_here(file, &|id, check| say(&format!("{BEGINS}{check}` of `{id}`")))?;
+    report::lines(&tried).iter().for_each(|line| say(line));
+    tried.iter().find_map(fault).map_or(Ok(()), |fault| Err(format!("{}: {fault}", file.display())))
+}
+
+/// How a line begins that tells of a check before it is made.
+const BEGINS: &str = "trying the check `";
+
+/// A checker that opens each file in a child: `program plugins check FILE --here`, killed after a time.
 pub fn by_child(program: impl Into<PathBuf>, limit: Duration) -> impl Fn(&Path) -> Result<(), String> {
     let program = program.into();
-    move |file| {
-        let mut command = Command::new(&program);
-        command
-            .args(["plugins", "check"])
-            .arg(file)
-            .stdin(Stdio::null())
-            .stdout(Stdio::null())
-            .stderr(Stdio::piped())
-            .env("RUST_BACKTRACE", "0");
-        let mut child = command.spawn().map_err(|error| format!("cannot start {}: {error}", program.display()))?;
-        let Some(status) = wait(&mut child, limit).map_err(|error| error.to_string())? else {
-            return Err(format!("it hangs when opened (no answer in {:.0} s)", limit.as_secs_f64()));
-        };
-        verdict(status, &mut child)
-    }
+    move |file| report_of_child(&program, file, limit).1
+}
+
+/// What the child says of a file, without its lines about each check, and the verdict.
+pub fn report_of_child(program: &Path, file: &Path, limit: Duration) -> (String, Result<(), String>) {
+    let mut command = Command::new(program);
+    command
+        .args(["plugins", "check", "--here"])
+        .arg(file)
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .env("RUST_BACKTRACE", "0");
+    let mut child = match command.spawn() {
+        Ok(child) => child,
+        Err(error) => return (String::new(), Err(format!("cannot start {}: {error}", program.display()))),
+    };
+    let (out, said) = (drained(child.stdout.take()), drained(child.stderr.take()));
+    let ended = wait(&mut child, limit);
+    let out = text_of(out);
+    let at = out.lines().rev().find_map(|line| line.strip_prefix("trying ")).map(|check| format!("at {check}"));
+    let report: String = out.lines().filter(|line| !line.starts_with(BEGINS)).fold(String::new(), |text, line| text + line + "\n");
+    let verdict = match ended {
+        Err(error) => Err(error.to_string()),
+        Ok(None) => {
+            let at = at.unwrap_or_else(|| "when opened".to_owned());
+            Err(format!("it hangs {at} (no answer in {:.0} s)", limit.as_secs_f64()))
+        }
+        Ok(Some(status)) => verdict(status, &text_of(said), at),
+    };
+    (report, verdict)
+}
+
+/// Reads what a child says on a thread of its own, so that it never waits for a reader.
+fn drained<R: Read + Send + 'static>(pipe: Option<R>) -> Option<JoinHandle<Vec<u8>>> {
+    pipe.map(|mut pipe| {
+        thread::spawn(move || {
+            let mut said = Vec::new();
+            // What cannot be read was not said.
+            let _ = pipe.by_ref().take(MOST_SAID).read_to_end(&mut said);
+            let _ = std::io::copy(&mut pipe, &mut std::io::sink());
+            said
+        })
+    })
+}
+
+fn text_of(reader: Option<JoinHandle<Vec<u8>>>) -> String {
+    let said = reader.and_then(|reader| reader.join().ok()).unwrap_or_default();
+    String::from_utf8_lossy(&said).into_owned()
 }
 
 /// Waits for a child; kills it and gives `None` where it takes too long.
@@ -86,20 +165,15 @@ fn wait(child: &mut Child, limit: Duration) -> std::io::Result<Option<ExitStatus
     }
 }
 
-fn verdict(status: ExitStatus, child: &mut Child) -> Result<(), String> {
+fn verdict(status: ExitStatus, said: &str, at: Option<String>) -> Result<(), String> {
     if status.success() {
         return Ok(());
     }
-    let mut said = Vec::new();
-    if let Some(stderr) = child.stderr.take() {
-        stderr.take(MOST_SAID).read_to_end(&mut said).map_err(|error| error.to_string())?;
-    }
-    let said = String::from_utf8_lossy(&said);
-    let last = said.lines().map(str::trim).rfind(|line| !line.is_empty());
+    let last = said.lines().map(|line| line.trim().trim_start_matches("endline: ")).rfind(|line| !line.is_empty());
     match (status.code(), last) {
         (Some(_), Some(last)) => Err(last.to_owned()),
         (Some(code), None) => Err(format!("the check ended with exit code {code}")),
-        (None, _) => Err(format!("it crashes when opened ({status})")),
+        (None, _) => Err(format!("it crashes {} ({status})", at.unwrap_or_else(|| "when opened".to_owned()))),
     }
 }
 

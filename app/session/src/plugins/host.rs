@@ -10,7 +10,7 @@ use endline_sdk::{FrictionModel, GearType, WhaleMotion};
 
 use super::check::Checker;
 use super::info::{Hook, PluginInfo, PluginProblem, Refusal};
-use super::{declared, guard, load};
+use super::{cut_short, declared, guard, load};
 
 /// All usable plugins; each is guarded, so that bad output ends a run with the plugin's id.
 #[derive(Clone, Default)]
@@ -114,6 +114,10 @@ impl PluginHost {
 pub(super) fn open_checked(file: &Path, checker: &Checker<'_>) -> Result<(String, Vec<Result<Hook, Refusal>>), Refusal> {
     let bytes = fs::read(file).map_err(|error| Refusal::new(format!("cannot be read: {error}"), "check its permissions"))?;
     let hash = blake3::hash(&bytes).to_hex().to_string();
+    if let Some(whole) = cut_short::missing_from(&bytes) {
+        let reason = format!("is cut short: {} of {whole} bytes", bytes.len());
+        return Err(Refusal::new(reason, "copy or build it again"));
+    }
     drop(bytes);
     checker(file).map_err(|reason| {
         Refusal::new(format!("set aside, because it failed the check before loading: {reason}"), "remove the file or mend the plugin")

@@ -8,14 +8,18 @@
 //! [`PluginProblem`] and the program goes on without it.
 
 pub mod check;
+mod cut_short;
 mod declared;
 mod folders;
 mod guard;
 mod host;
 mod info;
 mod load;
+mod new;
 
-pub use check::{Checker, by_child, check_here, remembering};
+pub use check::trial::Finding;
+pub use check::{Checker, Tried, by_child, check_here, remembering, report_here, report_of_child, try_here};
 pub use folders::{default_folders, known_file};
 pub use host::PluginHost;
 pub use info::{Hook, PluginInfo, PluginKind, PluginProblem};
+pub use new::{Language, Project, write_project};

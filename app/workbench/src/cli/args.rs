@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Parser, Subcommand, ValueEnum};
 use endline_gear::units::{self, Quantity};
 use endline_session::Overrides;
+use endline_session::plugins::{Language, PluginKind};
 
 use super::study::args::StudyCommand;
 
@@ -219,11 +220,79 @@ pub(super) struct WhaleBuildArgs {
 pub(super) enum PluginsCommand {
     /// List the plugins found, with what they take, and those that failed.
     List,
-    /// Load a plugin file in this process and tell what it holds.
+    /// Try a plugin file in a child process: its declaration, random inputs, bits, state, energy, threads, time.
     Check {
         /// Plugin file.
         file: PathBuf,
+        /// Try it in this process, which it may crash.
+        #[arg(long, hide = true)]
+        here: bool,
     },
+    /// Write a small plugin project that builds and passes the check.
+    New(NewPluginArgs),
+}
+
+#[derive(Debug, clap::Args)]
+pub(super) struct NewPluginArgs {
+    /// Folder to write; its name is the plugin's. Where not given, my-motion, my-friction or my-gear.
+    pub(super) folder: Option<PathBuf>,
+    /// What it is.
+    #[arg(long)]
+    pub(super) kind: PluginKindArg,
+    /// Language it is written in.
+    #[arg(long, default_value = "rust")]
+    pub(super) lang: PluginLanguage,
+    /// Folder of the crate endline-sdk, for Rust; that of Endline's source where not given.
+    #[arg(long, value_name = "FOLDER")]
+    pub(super) sdk: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+pub(super) enum PluginKindArg {
+    /// How a whale moves.
+    Motion,
+    /// How rope rubs on a whale.
+    Friction,
+    /// Gear built from attributes.
+    Gear,
+}
+
+impl PluginKindArg {
+    /// Its word in ids and names.
+    pub(super) fn word(self) -> &'static str {
+        match self {
+            Self::Motion => "motion",
+            Self::Friction => "friction",
+            Self::Gear => "gear",
+        }
+    }
+}
+
+impl From<PluginKindArg> for PluginKind {
+    fn from(kind: PluginKindArg) -> Self {
+        match kind {
+            PluginKindArg::Motion => Self::Motion,
+            PluginKindArg::Friction => Self::Friction,
+            PluginKindArg::Gear => Self::Gear,
+        }
+    }
+}
+
+impl From<PluginLanguage> for Language {
+    fn from(language: PluginLanguage) -> Self {
+        match language {
+            PluginLanguage::Rust => Self::Rust,
+            PluginLanguage::C => Self::C,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+pub(super) enum PluginLanguage {
+    /// Rust, on the crate endline-sdk.
+    Rust,
+    /// C, on the header alone.
+    C,
 }
 
 impl OverArgs {

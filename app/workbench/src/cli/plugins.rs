@@ -1,19 +1,25 @@
-//! `endline plugins`: what is loaded, and a check of one file.
+//! `endline plugins`: what is loaded, a check of one file, a new project.
 
 use std::fmt::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::time::Duration;
 
 use endline_sdk::{Attribute, AttributeKind};
-use endline_session::plugins::{PluginInfo, check_here};
+use endline_session::plugins::{PluginInfo, Project, report_here, report_of_child, write_project};
 
-use super::args::PluginsCommand;
+use super::args::{NewPluginArgs, PluginsCommand};
 use super::{Failure, host, output};
+
+/// How long a file may take to be tried.
+const PATIENCE: Duration = Duration::from_secs(30);
 
 pub(super) fn plugins(what: &PluginsCommand) -> Result<ExitCode, Failure> {
     match what {
         PluginsCommand::List => list(),
-        PluginsCommand::Check { file } => check(file),
+        PluginsCommand::Check { file, here: false } => check(file),
+        PluginsCommand::Check { file, here: true } => check_here(file),
+        PluginsCommand::New(args) => new(args),
     }
 }
 
@@ -29,11 +35,35 @@ fn list() -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Opens a file in this process, which it may crash: the check of every new plugin runs this as a child.
+/// Has a file tried in a child process, and tells what it found.
 fn check(file: &Path) -> Result<ExitCode, Failure> {
-    let plugins = check_here(file).map_err(Failure::failed)?;
-    let text: String = plugins.iter().map(told).collect();
-    output::print(&format!("{}: sound\n{text}", file.display()))?;
+    let program = std::env::current_exe().map_err(|error| Failure::failed(format!("cannot find this program: {error}")))?;
+    let (report, verdict) = report_of_child(&program, file, PATIENCE);
+    output::print(&report)?;
+    match verdict {
+        Ok(()) => output::print(&format!("{}: sound\n", file.display()))?,
+        Err(fault) if fault.contains(&*file.to_string_lossy()) => return Err(Failure::failed(fault)),
+        Err(fault) => return Err(Failure::failed(format!("{}: {fault}", file.display()))),
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Opens a file in this process, which it may crash: the child of every check.
+fn check_here(file: &Path) -> Result<ExitCode, Failure> {
+    report_here(file, &mut std::io::stdout()).map_err(Failure::failed)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Writes a project and says how to go on.
+fn new(args: &NewPluginArgs) -> Result<ExitCode, Failure> {
+    let (kind, language) = (args.kind.into(), args.lang.into());
+    let usual = || PathBuf::from(format!("my-{}", args.kind.word()));
+    let folder = args.folder.clone().unwrap_or_else(usual);
+    let Project { id, build, library } = write_project(&folder, kind, language, args.sdk.as_deref()).map_err(Failure::failed)?;
+    let (build, file) = (build.join(" "), library.display());
+    let place = library.parent().unwrap_or(&folder).display();
+    let steps = format!("  {build}\n  endline plugins check {file}\n  ENDLINE_PLUGINS={place} endline plugins list\n");
+    output::print(&format!("{}: {id}\n\n{steps}", folder.display()))?;
     Ok(ExitCode::SUCCESS)
 }
 

@@ -16,6 +16,10 @@ const GREATEST_RATIO: f64 = 10.0;
 /// Share of rounding that is forgiven [1].
 const ROUNDING: f64 = 1e-9;
 
+/// No number: what a place for an answer holds before the call, and no arithmetic gives.
+const BLANK: f64 = f64::from_bits(0x7ff8_5eed_0e4d_11e5);
+const UNWRITTEN: FrictionResponse = FrictionResponse { force_n: [BLANK; 3], by_slip: [[BLANK; 3]; 3], by_normal_force: [BLANK; 3] };
+
 pub(super) struct Guarded(pub Arc<dyn FrictionModel>);
 
 impl FrictionModel for Guarded {
@@ -36,7 +40,11 @@ impl Guarded {
     fn watched_respond(&self, attributes: &[f64], contacts: &Contacts<'_>, out: &mut [FrictionResponse]) -> Result<(), HookError> {
         self.check_input(attributes, contacts)?;
         expect_len("places for answers", out.len(), contacts.len())?;
+        out.fill(UNWRITTEN);
         self.0.respond(attributes, contacts, out)?;
+        if out.iter().any(is_unwritten) {
+            return fault(format!("it wrote fewer answers than the {} contacts it was asked about", contacts.len()));
+        }
         let floats = self.descriptor().state_len;
         for (index, answer) in out.iter().enumerate() {
             let fresh = contacts.state[floats * index..floats * (index + 1)].iter().all(|float| *float == 0.0);
@@ -48,7 +56,11 @@ impl Guarded {
     fn watched_advance(&self, attributes: &[f64], contacts: &Contacts<'_>, out: &mut [f64]) -> Result<(), HookError> {
         self.check_input(attributes, contacts)?;
         expect_len("places for floats", out.len(), contacts.len() * self.descriptor().state_len)?;
+        out.fill(BLANK);
         self.0.advance(attributes, contacts, out)?;
+        if out.iter().any(|float| float.to_bits() == BLANK.to_bits()) {
+            return fault(format!("it wrote fewer than the {} floats of its contacts", out.len()));
+        }
         expect_finite("a float of its state", out)
     }
 
@@ -69,6 +81,10 @@ impl Guarded {
         }
         expect_len("floats of state", contacts.state.len(), count * self.descriptor().state_len)
     }
+}
+
+fn is_unwritten(answer: &FrictionResponse) -> bool {
+    answer.force_n.iter().all(|force| force.to_bits() == BLANK.to_bits())
 }
 
 fn check_answer(answer: &FrictionResponse, contacts: &Contacts<'_>, index: usize, fresh: bool) -> Result<(), HookError> {

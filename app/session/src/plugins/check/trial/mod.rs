@@ -1,0 +1,161 @@
+//! What is tried of a plugin before it is let in: that it answers, again and again, with the same bits and no hidden memory.
+//!
+//! | check | what is tried |
+//! |---|---|
+//! | defaults | one call of each function with its own defaults |
+//! | ranges | calls at attributes and inputs drawn at random within their ranges: finite, of the right length, within bounds |
+//! | same rig | gear: built again from the same attributes |
+//! | same bits | the same calls from the start again |
+//! | restore | a run taken up again from floats saved on the way |
+//! | pure | friction: more calls of `respond` within a step change nothing |
+//! | energy | friction: over random paths no more comes out than went in |
+//! | threads | the same calls on four threads at once |
+//! | time | how long a call takes |
+
+use std::time::Instant;
+
+use endline_sdk::{Attribute, AttributeKind, AttributeValue, HookError};
+
+use super::super::info::Hook;
+use random::Random;
+
+mod friction;
+mod gear;
+mod motion;
+mod random;
+
+/// What one check found.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Finding {
+    /// Name of the check.
+    pub check: &'static str,
+    /// What was seen, or what is wrong.
+    pub outcome: Result<String, String>,
+}
+
+/// Longest a call may take [s]: a run calls a plugin once a step or more.
+const LONGEST_CALL_S: f64 = 2e-3;
+/// Plays that are timed.
+const TIMED_PLAYS: usize = 5;
+/// Threads that call at once.
+const THREADS: usize = 4;
+
+/// Tries a plugin; `begin` is told of each check before it begins. Where its own defaults fail, nothing more is tried.
+pub(super) fn run(hook: &Hook, begin: &dyn Fn(&'static str)) -> Vec<Finding> {
+    let mut trial = Trial { begin, findings: Vec::new() };
+    match hook {
+        Hook::Motion(motion) => motion::run(motion.as_ref(), &mut trial),
+        Hook::Friction(friction) => friction::run(friction.as_ref(), &mut trial),
+        Hook::Gear(gear) => gear::run(gear.as_ref(), &mut trial),
+    }
+    trial.findings
+}
+
+/// The checks of one plugin so far.
+struct Trial<'a> {
+    begin: &'a dyn Fn(&'static str),
+    findings: Vec<Finding>,
+}
+
+impl Trial<'_> {
+    /// Makes a check and notes what it found; whether all is well.
+    fn check(&mut self, check: &'static str, work: impl FnOnce() -> Result<String, String>) -> bool {
+        (self.begin)(check);
+        let outcome = work();
+        let sound = outcome.is_ok();
+        self.findings.push(Finding { check, outcome });
+        sound
+    }
+
+    /// Notes how long a call takes: the fastest of a few plays of so many calls each, so that a busy machine makes no fault.
+    fn time(&mut self, each: &str, calls: usize, play: impl Fn() -> Result<(), HookError>) {
+        self.check("time", || {
+            let mut fastest = f64::INFINITY;
+            for _ in 0..TIMED_PLAYS {
+                let start = Instant::now();
+                play().map_err(|error| error.message)?;
+                fastest = fastest.min(start.elapsed().as_secs_f64() / calls as f64);
+            }
+            let told = format!("{:.2} µs {each}", 1e6 * fastest);
+            if fastest <= LONGEST_CALL_S { Ok(told) } else { Err(format!("takes {told}, more than {:.0} ms", 1e3 * LONGEST_CALL_S)) }
+        });
+    }
+}
+
+/// An answer as bits, to be compared with another.
+type Bits = Vec<u64>;
+
+fn bits(values: impl IntoIterator<Item = f64>) -> impl Iterator<Item = u64> {
+    values.into_iter().map(f64::to_bits)
+}
+
+/// Plays the same calls again, and from floats saved half way: first what is not the same.
+fn plays_again(
+    trial: &mut Trial<'_>,
+    first: &Play,
+    from_start: impl FnOnce() -> Result<Play, HookError>,
+    from_half: impl FnOnce(&[f64]) -> Result<Play, HookError>,
+) {
+    trial.check("same bits", || {
+        let again = from_start().map_err(|error| error.message)?;
+        match first_difference(&first.answers, &again.answers) {
+            None => Ok(format!("the same {} calls again", first.answers.len())),
+            Some(call) => {
+                Err(format!("call {call} gave other bits the second time: it keeps something besides its floats, or asks clock or chance"))
+            }
+        }
+    });
+    trial.check("restore", || {
+        let rest = from_half(&first.half_way).map_err(|error| error.message)?;
+        match first_difference(&first.answers[first.answers.len() - rest.answers.len()..], &rest.answers) {
+            None => Ok(format!("taken up again from {} floats saved on the way", first.half_way.len())),
+            Some(call) => {
+                Err(format!("its state does not restore: from the floats saved on the way, call {call} gave other bits; it keeps something besides its floats"))
+            }
+        }
+    });
+}
+
+/// Calls in a row: each answer, and the floats half way.
+struct Play {
+    answers: Vec<Bits>,
+    half_way: Vec<f64>,
+}
+
+fn first_difference(one: &[Bits], other: &[Bits]) -> Option<usize> {
+    one.iter().zip(other).position(|(one, other)| one != other).map(|place| place + 1)
+}
+
+/// The same play on several threads at once.
+fn on_threads(first: &Play, play: impl Fn() -> Result<Play, HookError> + Sync) -> Result<String, String> {
+    let plays: Vec<_> = std::thread::scope(|scope| {
+        let handles: Vec<_> = (0..THREADS).map(|_| scope.spawn(&play)).collect();
+        handles.into_iter().map(|handle| handle.join().map_err(|_| "a thread failed".to_owned())).collect()
+    });
+    for play in plays {
+        let play = play?.map_err(|error| error.message)?;
+        if first_difference(&first.answers, &play.answers).is_some() {
+            return Err(format!("gives other bits when {THREADS} threads call it at once"));
+        }
+    }
+    Ok(format!("{THREADS} at once"))
+}
+
+/// Attribute values at random within their ranges; of an item of the library the default.
+fn drawn(attributes: &[Attribute], random: &mut Random) -> Vec<AttributeValue> {
+    let value = |attribute: &Attribute| match &attribute.kind {
+        AttributeKind::Number { min, max, .. } => AttributeValue::Number(random.between(*min, *max)),
+        AttributeKind::Count { min, max, .. } => AttributeValue::Number(random.whole(*min, *max)),
+        AttributeKind::Choice { words, .. } => AttributeValue::Choice(words[random.below(words.len())].to_string()),
+        AttributeKind::Item { default, .. } => AttributeValue::Item(default.to_string()),
+    };
+    attributes.iter().map(value).collect()
+}
+
+fn numbers(values: &[AttributeValue]) -> Vec<f64> {
+    values.iter().filter_map(AttributeValue::number).collect()
+}
+
+fn defaults(attributes: &[Attribute]) -> Vec<AttributeValue> {
+    attributes.iter().map(Attribute::default_value).collect()
+}

@@ -1,0 +1,139 @@
+//! A new plugin project: a few files that build, and pass the check.
+
+use std::env;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::info::PluginKind;
+
+/// The whole C interface, as it ships.
+const HEADER: &str = include_str!("../../../../../plugins/sdk/include/endline_plugin.h");
+
+/// Language of a plugin.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Language {
+    /// Rust, on the crate `endline-sdk`.
+    Rust,
+    /// C, on the header alone.
+    C,
+}
+
+/// A project that was written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Project {
+    /// Id of its plugin.
+    pub id: String,
+    /// Command that builds it.
+    pub build: Vec<String>,
+    /// Library that the command makes.
+    pub library: PathBuf,
+}
+
+/// A file of a project.
+struct Written {
+    path: &'static str,
+    text: String,
+}
+
+/// Writes a project into a folder that is not there yet; the folder's name becomes the plugin's. `sdk` is the folder of `endline-sdk`.
+///
+/// # Errors
+/// Where the folder is there, its name is no name for a plugin, or it cannot be written.
+pub fn write_project(folder: &Path, kind: PluginKind, language: Language, sdk: Option<&Path>) -> Result<Project, String> {
+    if folder.exists() {
+        return Err(format!("{} is there already; name another folder", folder.display()));
+    }
+    let name = name_of(folder)?;
+    let id = format!("org.example.{}.{name}", word(kind));
+    let files = match language {
+        Language::Rust => in_rust(kind, &name, &id, &find_sdk(sdk)?),
+        Language::C => in_c(kind, &name, &id),
+    };
+    for file in &files {
+        let path = folder.join(file.path);
+        let written = path.parent().map_or(Ok(()), fs::create_dir_all).and_then(|()| fs::write(&path, &file.text));
+        written.map_err(|error| format!("{}: {error}", path.display()))?;
+    }
+    let library = folder.join(library(language, &name));
+    let words = |words: &[&str]| words.iter().map(|word| (*word).to_owned()).collect();
+    let build = match language {
+        Language::Rust => words(&["cargo", "build", "--release", "--manifest-path", &folder.join("Cargo.toml").to_string_lossy()]),
+        Language::C => words(&["make", "-C", &folder.to_string_lossy()]),
+    };
+    Ok(Project { id, build, library })
+}
+
+/// The kind's word in ids and folders, such as `motion`.
+fn word(kind: PluginKind) -> &'static str {
+    match kind {
+        PluginKind::Motion => "motion",
+        PluginKind::Friction => "friction",
+        PluginKind::Gear => "gear",
+    }
+}
+
+/// Name of crate and plugin: the folder's.
+fn name_of(folder: &Path) -> Result<String, String> {
+    let name = folder.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let begins = name.starts_with(|c: char| c.is_ascii_lowercase());
+    if begins && name.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-') {
+        return Ok(name);
+    }
+    Err(format!("`{name}` is no name for a plugin; take small letters, digits and hyphens, such as slow-turn"))
+}
+
+/// Folder of the crate `endline-sdk`: as given, or that of Endline's source around the program or the working folder.
+fn find_sdk(given: Option<&Path>) -> Result<PathBuf, String> {
+    let is_sdk = |folder: &Path| folder.join("Cargo.toml").is_file() && folder.join("include/endline_plugin.h").is_file();
+    if let Some(folder) = given {
+        let whole = fs::canonicalize(folder).unwrap_or_else(|_| folder.to_path_buf());
+        return if is_sdk(&whole) { Ok(whole) } else { Err(format!("{} is not the folder of endline-sdk", folder.display())) };
+    }
+    let program = env::current_exe().and_then(fs::canonicalize).ok();
+    let starts: Vec<PathBuf> = program.into_iter().chain(env::current_dir().ok()).collect();
+    let found = starts.iter().flat_map(|start| start.ancestors()).map(|folder| folder.join("plugins/sdk")).find(|folder| is_sdk(folder));
+    let help = "no endline-sdk found above the program or the working folder; name it with --sdk FOLDER (plugins/sdk in Endline's source)";
+    found.ok_or_else(|| help.to_owned())
+}
+
+fn in_rust(kind: PluginKind, name: &str, id: &str, sdk: &Path) -> Vec<Written> {
+    let source = match kind {
+        PluginKind::Motion => include_str!("templates/motion.rs"),
+        PluginKind::Friction => include_str!("templates/friction.rs"),
+        PluginKind::Gear => include_str!("templates/gear.rs"),
+    };
+    let manifest = include_str!("templates/Cargo.toml.txt").replace("@sdk@", &sdk.display().to_string().replace('\\', "/"));
+    vec![
+        Written { path: "Cargo.toml", text: manifest.replace("@name@", name) },
+        Written { path: "src/lib.rs", text: named(source, name, id) },
+        Written { path: ".gitignore", text: "/target\n".to_owned() },
+    ]
+}
+
+fn in_c(kind: PluginKind, name: &str, id: &str) -> Vec<Written> {
+    let source = match kind {
+        PluginKind::Motion => include_str!("templates/motion.c"),
+        PluginKind::Friction => include_str!("templates/friction.c"),
+        PluginKind::Gear => include_str!("templates/gear.c"),
+    };
+    let whole = source.replace("@entry@", include_str!("templates/entry.c").trim_end());
+    vec![
+        Written { path: "plugin.c", text: named(&whole, name, id) },
+        Written { path: "endline_plugin.h", text: HEADER.to_owned() },
+        Written { path: "Makefile", text: include_str!("templates/Makefile.txt").replace("@library@", &library(Language::C, name)) },
+    ]
+}
+
+/// A source with the plugin's id and its name in menus.
+fn named(source: &str, name: &str, id: &str) -> String {
+    let (first, rest) = name.split_at(1);
+    source.replace("@id@", id).replace("@title@", &(first.to_uppercase() + &rest.replace('-', " ")))
+}
+
+/// File of the library within the project.
+fn library(language: Language, name: &str) -> String {
+    match language {
+        Language::Rust => format!("target/release/{}{}{}", env::consts::DLL_PREFIX, name.replace('-', "_"), env::consts::DLL_SUFFIX),
+        Language::C => format!("{name}{}", env::consts::DLL_SUFFIX),
+    }
+}
