@@ -1,6 +1,6 @@
 //! All that a report tells of a merged table.
 
-use endline_gear::Event;
+use endline_gear::{Event, Law, Level};
 use serde::Serialize;
 
 use crate::study::open::Opened;
@@ -165,10 +165,21 @@ fn levels(opened: &Opened, table: &Table, marks: &[Marks]) -> Vec<LevelFinding> 
             rates: own.iter().map(Rate::of).collect(),
             against: own.iter().map(|marks| Paired::of(marks, &own[opened.baseline])).collect(),
             parted: parted.iter().map(|marks| Rate::of(&marks.within(&keep))).collect(),
-            level: level_name,
+            level: told(opened, &split.value, &level_name),
         }
     };
     levels.into_iter().map(finding).collect()
+}
+
+/// A level as the study's file has it, such as `15 yr` for its seconds.
+fn told(opened: &Opened, prior: &str, level: &str) -> String {
+    let prior = opened.study.priors.iter().find(|known| known.name.value == prior);
+    let Some(Law::Choice(levels)) = prior.map(|prior| &prior.law) else { return level.to_owned() };
+    let same = |known: &&(Level, f64)| known.0.number.is_some_and(|number| number.to_string() == level);
+    levels.iter().find(same).map_or_else(
+        || level.to_owned(),
+        |(known, _)| format!("{prior_name} {}", known.text, prior_name = prior.map_or("", |prior| prior.name.value.as_str())),
+    )
 }
 
 fn level(column: &Column, row: usize) -> String {
