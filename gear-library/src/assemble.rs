@@ -22,6 +22,7 @@ mod scatter;
 mod sea;
 mod segments;
 mod swimmer;
+mod wound;
 
 use std::sync::Arc;
 

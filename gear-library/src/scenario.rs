@@ -9,6 +9,7 @@ mod pilot;
 mod resolution;
 mod sea;
 mod waves;
+mod wrap;
 
 use endline_sim::DVec3;
 use endline_sim::model::Resolution;
@@ -30,6 +31,8 @@ pub use obstacle::ObstacleOf;
 pub use parts::{Fixture, FreeBody, LineStart, ProbeOf, ProbePart};
 pub use pilot::{PilotOf, TriggerOf};
 pub use sea::{Bed, Sea};
+pub use wrap::WrapOf;
+pub(crate) use wrap::on_trunk;
 
 /// A scenario as read; ids are looked up by [`assemble`](crate::assemble).
 #[derive(Clone, Debug, PartialEq)]
@@ -275,10 +278,11 @@ fn line_choices(fields: &Fields<'_>) -> Vec<(At<String>, LineMake)> {
 fn free_line(node: &Node, problems: &Problems) -> Option<(PartLine, LineStart)> {
     let fields = Fields::of(node, problems);
     let line = line_fields(&fields);
-    let start = fields.word("start", &["straight", "catenary", "around"]);
+    let start = fields.word("start", &["straight", "catenary", "around", "wrapped"]);
     let start = match start.as_ref().map_or("straight", |start| start.value.as_str()) {
         "catenary" => Some(LineStart::Catenary),
         "around" => around(&fields),
+        "wrapped" => wrapped(&fields),
         _ => Some(LineStart::Straight),
     };
     fields.finish();
@@ -294,6 +298,16 @@ fn around(fields: &Fields<'_>) -> Option<LineStart> {
         fields.problems().push(node.place.error(message, "write turns = 2 or -2, or take hitched out"));
     }
     Some(LineStart::Around { obstacle: obstacle?, turns, hitched })
+}
+
+fn wrapped(fields: &Fields<'_>) -> Option<LineStart> {
+    let wraps = fields.tables("wrap");
+    if wraps.is_empty() && fields.get("wrap").is_none() {
+        fields.missing("wrap", "write each wrap under [[line.wrap]], with `part` and `turns`");
+        return None;
+    }
+    let wraps: Vec<Option<WrapOf>> = wraps.iter().map(|node| WrapOf::read(node, fields.problems())).collect();
+    wraps.into_iter().collect::<Option<Vec<_>>>().map(LineStart::Wrapped)
 }
 
 /// A place as east, north, up [m].

@@ -159,7 +159,7 @@ fn wraps(skin: &Skin, part: BodyPart, mut cuts: Vec<Cut>) -> f64 {
     let contacts: Vec<_> = (0..cuts.len()).map(contact).collect();
     let (mut metrics, state) = (Metrics::new(&model), State::start(&model));
     metrics.fold(&model, &state, &contacts);
-    metrics.summary(&model, &state).whale.map_or(0.0, |whale| whale.regions[part as usize].wraps)
+    metrics.summary(&model, &state).whale.map_or(0.0, |whale| whale.regions[part as usize].touching_wraps)
 }
 
 /// Least and greatest place of a part's vertices along a direction.

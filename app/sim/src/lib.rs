@@ -29,7 +29,7 @@ pub mod whale;
 
 pub use contact::ContactPoint;
 pub use frame::Frame;
-pub use glam::{DAffine3, DMat3, DQuat, DVec3};
+pub use glam::{DAffine3, DMat3, DQuat, DVec3, EulerRot};
 pub use model::{Model, ModelSpec};
 pub use state::State;
 pub use statics::{Outcome, Settled, Unfound, settle};

@@ -70,6 +70,8 @@ pub struct Audit {
     pub ropes_through: u64,
     /// Solver steps, away from the whale, that had rope on rope.
     pub rope_steps: u64,
+    /// Nearest that the rope's centre line came to skin it touched [m]; `None` where it never touched.
+    pub least_distance_m: Option<f64>,
     /// Numbers that were not finite.
     pub non_finite: u64,
     /// Solver steps taken.

@@ -175,6 +175,8 @@ fn step_by_lines(
             audit.contact_steps += 1;
             let deepest = contacts.iter().map(|contact| 0.5 * model.rope_of_segment(contact.segment).diameter_m - contact.distance_m);
             audit.max_penetration_m = deepest.fold(audit.max_penetration_m, f64::max);
+            let nearest = contacts.iter().map(|contact| contact.distance_m).reduce(f64::min);
+            audit.least_distance_m = [audit.least_distance_m, nearest].into_iter().flatten().reduce(f64::min);
         }
         _ => state.rope.grips.clear(),
     }

@@ -81,8 +81,8 @@ impl Builder<'_> {
             let (id, length_m) = (line.id.value.clone(), line.length_m);
             return vec![Piece { id, rope: &line.rope, length_m, left: ends, own: true, sleeve: None }];
         };
-        if line.start == LineStart::Catenary {
-            let message = "a line that starts in its catenary takes no inserts";
+        if matches!(line.start, LineStart::Catenary | LineStart::Wrapped(_)) {
+            let message = "a line that starts in its catenary or in wraps takes no inserts";
             self.problems.push(inserts.place.error(message, "take the inserts out, or write start = \"straight\""));
         }
         let starts = starts_from_a(inserts, line.length_m);

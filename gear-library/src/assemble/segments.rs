@@ -57,6 +57,10 @@ impl Builder<'_> {
             LineStart::Straight => {}
             LineStart::Catenary => self.lay_catenary(index),
             LineStart::Around { obstacle, turns, hitched } => self.lay_around(index, &obstacle, turns, hitched),
+            LineStart::Wrapped(wraps) => {
+                let longest = self.spec.lines[index].segments_m.first().copied().unwrap_or(f64::INFINITY);
+                self.lay_wound(index, &wraps, longest);
+            }
         }
     }
 

@@ -11,7 +11,7 @@ use crate::schema::Kind;
 use crate::tree::Node;
 use crate::units::Quantity;
 
-use super::place3;
+use super::{WrapOf, place3};
 
 /// A point that is held, driven at a steady velocity between two times, or held and then pulled by a steady force.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,6 +69,8 @@ pub enum LineStart {
         /// Whether two turns cross over themselves to two half hitches.
         hitched: bool,
     },
+    /// Wound about the whale, wrap by wrap from its `from` end.
+    Wrapped(Vec<WrapOf>),
 }
 
 /// A probe as written.

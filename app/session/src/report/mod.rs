@@ -2,6 +2,7 @@
 //! never renamed. Each key that carries a unit ends in it.
 
 mod of;
+mod validity;
 
 use std::collections::BTreeMap;
 
@@ -39,6 +40,8 @@ pub struct Report {
     pub state_hash: String,
     /// Whether the numbers can be trusted: not stopped, nothing tunnelled, nothing not finite.
     pub valid: bool,
+    /// Why not, in plain words; empty where it is valid.
+    pub invalid_because: Vec<String>,
     /// Why the run stopped before its end.
     pub stopped: Option<String>,
     /// What the reader should know of the solver's work.
@@ -82,6 +85,10 @@ pub struct AuditReport {
     pub ropes_through: u64,
     /// Solver steps, away from the whale, with rope on rope.
     pub rope_steps: u64,
+    /// Nearest that the rope's centre line came to skin it touched [m]; `null` where it never touched.
+    pub least_distance_m: Option<f64>,
+    /// Alarm: steps in which wraps jumped by more than 0.3 turns along unbroken contact.
+    pub winding_jumps: u64,
     /// Numbers that were not finite.
     pub non_finite: u64,
     /// Solver steps.
@@ -122,6 +129,12 @@ pub struct LineReport {
     pub settled_tension_N: f64,
     /// When it parted [s].
     pub parted_at_s: Option<f64>,
+    /// Drag of the water on its rope at the end: east, north, up [N].
+    pub drag_N: [f64; 3],
+    /// Sum of the normal forces between it and the whale at the end [N].
+    pub whale_normal_N: f64,
+    /// Sum of the friction forces between it and the whale at the end [N].
+    pub whale_friction_N: f64,
 }
 
 /// A weak link.
@@ -140,6 +153,7 @@ pub struct LinkReport {
 
 /// A body.
 #[derive(Clone, Debug, Serialize)]
+#[allow(non_snake_case, reason = "keys of the JSON contract carry their units")]
 pub struct BodyReport {
     /// Id.
     pub id: String,
@@ -147,6 +161,8 @@ pub struct BodyReport {
     pub position_m: [f64; 3],
     /// Greatest speed [m/s].
     pub peak_speed_m_s: f64,
+    /// Drag of the water on it at the end: east, north, up [N].
+    pub drag_N: [f64; 3],
 }
 
 /// A probe.
@@ -183,12 +199,22 @@ pub struct WhaleReport {
     pub contact_time_s: f64,
     /// One for each body part.
     pub regions: Vec<RegionReport>,
+    /// One for each labelled patch of skin, finer than the parts.
+    pub patches: Vec<PatchReport>,
+    /// Whether rope touches, and has gone half a turn or more about some part since the whale last was free.
+    pub hooked: bool,
+    /// Whether rope is lodged in the mouth at the end.
+    pub lodged_in_mouth: bool,
+    /// Whether it ever was.
+    pub was_lodged_in_mouth: bool,
     /// Drag of rope and gear the whale carries [N].
     pub drag_added_N: f64,
     /// Rope from the whale to loose ends [m].
     pub trailing_m: f64,
     /// Rope from the whale to what holds it [m].
     pub tethered_m: f64,
+    /// Ids of the traps, buoys and other bodies that hang on the whale by that rope.
+    pub carried: Vec<String>,
     /// The fluke beat, mean over all whole beats; null before one.
     pub beat: Option<BeatReport>,
     /// What a kinetic whale did; `null` for a kinematic one.
@@ -237,10 +263,14 @@ pub struct BeatReport {
 pub struct RegionReport {
     /// Name of the part.
     pub region: &'static str,
-    /// Wraps at the end [turns].
+    /// Wraps at the end, loose loops included [turns].
     pub wraps: f64,
     /// Most wraps [turns].
     pub peak_wraps: f64,
+    /// Turns of touching rope at the end, from contact to contact [turns].
+    pub touching_wraps: f64,
+    /// Most of those [turns].
+    pub peak_touching_wraps: f64,
     /// Rope in contact at the end [m].
     pub contact_length_m: f64,
     /// Most rope in contact [m].
@@ -248,6 +278,38 @@ pub struct RegionReport {
     /// Greatest sum of normal forces [N].
     pub peak_normal_N: f64,
     /// Greatest pressure under the rope [Pa].
+    pub peak_pressure_Pa: f64,
+    /// Work of friction [J].
+    pub friction_work_J: f64,
+}
+
+/// Rope on a labelled patch of skin; forces are sums over its contacts.
+#[derive(Clone, Debug, Serialize)]
+#[allow(non_snake_case, reason = "keys of the JSON contract carry their units")]
+pub struct PatchReport {
+    /// Name of the patch, such as `left_flipper_leading`.
+    pub patch: &'static str,
+    /// Rope in contact at the end [m].
+    pub contact_length_m: f64,
+    /// Normal forces at the end [N].
+    pub normal_N: f64,
+    /// Friction forces at the end [N].
+    pub friction_N: f64,
+    /// Force of rope on skin at the end: east, north, up [N].
+    pub force_N: [f64; 3],
+    /// Greatest tension of rope that presses there at the end [N].
+    pub tension_N: f64,
+    /// Most rope in contact [m].
+    pub peak_contact_length_m: f64,
+    /// Greatest normal forces [N].
+    pub peak_normal_N: f64,
+    /// Greatest friction forces [N].
+    pub peak_friction_N: f64,
+    /// Greatest tension of rope that pressed there [N].
+    pub peak_tension_N: f64,
+    /// Greatest normal force by length of rope [N/m].
+    pub peak_line_load_N_m: f64,
+    /// The same by the rope's diameter: pressure [Pa].
     pub peak_pressure_Pa: f64,
     /// Work of friction [J].
     pub friction_work_J: f64,

@@ -2,7 +2,8 @@
 
 use endline_sim::Audit;
 use endline_sim::metrics::{
-    BeatSummary, BodySummary, Event, KineticSummary, LineSummary, LinkSummary, ProbeSummary, RegionSummary, Summary, WhaleSummary,
+    BeatSummary, BodySummary, Event, KineticSummary, LineSummary, LinkSummary, PatchSummary, ProbeSummary, RegionSummary, Summary,
+    WhaleSummary,
 };
 use endline_sim::pace::LimitedBy;
 
@@ -19,6 +20,8 @@ impl Report {
         let settings = &model.spec.settings;
         let (audit, whole) = (run.audit(), run.timing().whole());
         let Summary { lines: _, links, bodies, probes, whale } = run.summary();
+        let stopped = run.stopped().map(|stop| Error::Stopped(stop.clone()).to_string());
+        let invalid_because = validity::reasons(stopped.as_deref(), &audit);
         Self {
             schema: SCHEMA,
             scenario: run.prepared().source.scenario_name.clone(),
@@ -31,9 +34,10 @@ impl Report {
             nodes: model.node_count,
             triangles: model.spec.whale.as_ref().map_or(0, |whale| whale.skin.triangles.len()),
             state_hash: run.state_hash().hex(),
-            valid: run.stopped().is_none() && audit.tunnelled == 0 && audit.ropes_crossed == 0 && audit.non_finite == 0,
-            stopped: run.stopped().map(|stop| Error::Stopped(stop.clone()).to_string()),
-            audit: audit_report(&audit),
+            valid: invalid_because.is_empty(),
+            invalid_because,
+            stopped,
+            audit: audit_report(&audit, whale.as_ref().map_or(0, |whale| whale.winding_jumps)),
             lines: line_reports(run),
             links: links.into_iter().map(LinkReport::from).collect(),
             bodies: bodies.into_iter().map(BodyReport::from).collect(),
@@ -60,13 +64,14 @@ fn settled_report(run: &Run) -> SettledReport {
     }
 }
 
-fn audit_report(audit: &Audit) -> AuditReport {
+fn audit_report(audit: &Audit, winding_jumps: u64) -> AuditReport {
     let Audit {
         tunnelled,
         max_penetration_m,
         ropes_crossed,
         ropes_through,
         rope_steps,
+        least_distance_m,
         non_finite,
         solver_steps,
         contact_steps,
@@ -86,6 +91,8 @@ fn audit_report(audit: &Audit) -> AuditReport {
         ropes_crossed,
         ropes_through,
         rope_steps,
+        least_distance_m,
+        winding_jumps,
         non_finite,
         solver_steps,
         contact_steps,
@@ -108,6 +115,9 @@ fn line_reports(run: &Run) -> Vec<LineReport> {
         end_b_tension_N: line.end_b_tension_n,
         settled_tension_N: *settled,
         parted_at_s: line.parted_at_s,
+        drag_N: line.drag_n.to_array(),
+        whale_normal_N: line.whale_normal_n,
+        whale_friction_N: line.whale_friction_n,
     };
     let settled = by_line(run.model(), &run.settled().state.rope.tension);
     run.summary().lines.into_iter().zip(&settled).map(report).collect()
@@ -121,7 +131,7 @@ impl From<LinkSummary> for LinkReport {
 
 impl From<BodySummary> for BodyReport {
     fn from(body: BodySummary) -> Self {
-        Self { id: body.id, position_m: body.position_m.to_array(), peak_speed_m_s: body.peak_speed_m_s }
+        Self { id: body.id, position_m: body.position_m.to_array(), peak_speed_m_s: body.peak_speed_m_s, drag_N: body.drag_n.to_array() }
     }
 }
 
@@ -153,9 +163,14 @@ fn whale_report(whale: WhaleSummary) -> WhaleReport {
         last_contact_s: whale.last_contact_s,
         contact_time_s: whale.contact_time_s,
         regions: whale.regions.into_iter().map(RegionReport::from).collect(),
+        patches: whale.patches.into_iter().map(PatchReport::from).collect(),
+        hooked: whale.hooked,
+        lodged_in_mouth: whale.lodged_in_mouth,
+        was_lodged_in_mouth: whale.was_lodged_in_mouth,
         drag_added_N: whale.drag_added_n,
         trailing_m: whale.trailing_m,
         tethered_m: whale.tethered_m,
+        carried: whale.carried,
         kinetic: whale.kinetic.map(KineticReport::from),
         beat: whale.beat.map(beat_report),
     }
@@ -177,11 +192,33 @@ impl From<RegionSummary> for RegionReport {
             region: region.part.name(),
             wraps: region.wraps,
             peak_wraps: region.peak_wraps,
+            touching_wraps: region.touching_wraps,
+            peak_touching_wraps: region.peak_touching_wraps,
             contact_length_m: region.contact_length_m,
             peak_contact_length_m: region.peak_contact_length_m,
             peak_normal_N: region.peak_normal_n,
             peak_pressure_Pa: region.peak_pressure_pa,
             friction_work_J: region.friction_work_j,
+        }
+    }
+}
+
+impl From<PatchSummary> for PatchReport {
+    fn from(patch: PatchSummary) -> Self {
+        Self {
+            patch: patch.region.name(),
+            contact_length_m: patch.contact_length_m,
+            normal_N: patch.normal_n,
+            friction_N: patch.friction_n,
+            force_N: patch.force_n.to_array(),
+            tension_N: patch.tension_n,
+            peak_contact_length_m: patch.peak_contact_length_m,
+            peak_normal_N: patch.peak_normal_n,
+            peak_friction_N: patch.peak_friction_n,
+            peak_tension_N: patch.peak_tension_n,
+            peak_line_load_N_m: patch.peak_line_load_n_m,
+            peak_pressure_Pa: patch.peak_pressure_pa,
+            friction_work_J: patch.friction_work_j,
         }
     }
 }

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::event::{EventKind, Log};
+use super::gear_loads::body_drag;
 use super::summary::BodySummary;
 use crate::model::{Body, BodyRole, Model};
 use crate::state::{BodyState, State};
@@ -48,8 +49,13 @@ impl BodyMeter {
             id: body.id.clone(),
             position_m: now.position,
             peak_speed_m_s: track.peak_speed_m_s,
+            drag_n: DVec3::ZERO,
         };
-        self.tracks.iter().zip(&model.spec.bodies).zip(&state.bodies).map(summary).collect()
+        let mut bodies: Vec<BodySummary> = self.tracks.iter().zip(&model.spec.bodies).zip(&state.bodies).map(summary).collect();
+        for (index, body) in bodies.iter_mut().enumerate() {
+            body.drag_n = body_drag(model, state, index);
+        }
+        bodies
     }
 }
 

@@ -22,8 +22,18 @@ pub enum EventKind {
     ContactLost,
     /// Rope that had stuck to a body part for a second began to slip; value: its speed [m/s].
     Slip,
-    /// Wraps on a body part passed a level for the first time; value: the level [turns].
+    /// Wraps on a body part passed a level, for the first time or again after it was undone; value: the level [turns].
     Wrap,
+    /// Wraps on a body part fell below a level they had passed; value: the level [turns].
+    WrapUndone,
+    /// Rope hooked: half a turn or more about a part while it touches; value: the turns [turns].
+    Hooked,
+    /// Rope lodged in the mouth; value: sum of normal forces inside it [N].
+    Lodged,
+    /// Rope that was lodged in the mouth came out; value: when it last held there [s].
+    Dislodged,
+    /// Rope let go of the whale; value: when it last touched [s].
+    Shed,
     /// A weak link parted; value: its peak tension [N].
     LinkParted,
     /// A line parted; value: its peak tension [N].
@@ -40,11 +50,16 @@ pub enum EventKind {
 
 impl EventKind {
     /// Every kind.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 15] = [
         Self::Contact,
         Self::ContactLost,
         Self::Slip,
         Self::Wrap,
+        Self::WrapUndone,
+        Self::Hooked,
+        Self::Lodged,
+        Self::Dislodged,
+        Self::Shed,
         Self::LinkParted,
         Self::LineParted,
         Self::Dragged,
@@ -61,6 +76,11 @@ impl EventKind {
             Self::ContactLost => "contact_lost",
             Self::Slip => "slip",
             Self::Wrap => "wrap",
+            Self::WrapUndone => "wrap_undone",
+            Self::Hooked => "hooked",
+            Self::Lodged => "lodged",
+            Self::Dislodged => "dislodged",
+            Self::Shed => "shed",
             Self::LinkParted => "link_parted",
             Self::LineParted => "line_parted",
             Self::Dragged => "dragged",
@@ -74,10 +94,10 @@ impl EventKind {
     #[must_use]
     pub fn unit(self) -> &'static str {
         match self {
-            Self::Contact | Self::LinkParted | Self::LineParted => "N",
-            Self::ContactLost => "s",
+            Self::Contact | Self::Lodged | Self::LinkParted | Self::LineParted => "N",
+            Self::ContactLost | Self::Dislodged | Self::Shed => "s",
             Self::Slip => "m/s",
-            Self::Wrap => "turns",
+            Self::Wrap | Self::WrapUndone | Self::Hooked => "turns",
             Self::Dragged | Self::PulledUnder | Self::AtSeabed | Self::AtSurface => "m",
         }
     }

@@ -2,11 +2,11 @@
 
 use glam::DVec3;
 
-use super::axes::trunk_axis;
 use super::event::{EventKind, Log};
 use crate::model::Model;
 use crate::state::WhaleState;
 use crate::whale::Skin;
+use crate::whale::axes::trunk_axis;
 
 /// How far the whale must move off before another touch is told [m]; estimate.
 const REARM_M: f64 = 0.5;
@@ -23,7 +23,7 @@ impl Extent {
     pub(super) fn new(skin: &Skin) -> Self {
         let sections = trunk_axis(skin).map(|axis| axis.sections).unwrap_or_default();
         let ellipse =
-            |section: &super::axes::Section| (DVec3::new(section.along_m, section.middle_m[0], section.middle_m[1]), section.half_m);
+            |section: &crate::whale::axes::Section| (DVec3::new(section.along_m, section.middle_m[0], section.middle_m[1]), section.half_m);
         Self { ellipses: sections.iter().map(ellipse).collect(), at_seabed: false, at_surface: false }
     }
 

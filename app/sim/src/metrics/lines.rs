@@ -4,6 +4,7 @@ use endline_sdk::LineEnd;
 use glam::DVec3;
 
 use super::event::{EventKind, Log};
+use super::gear_loads::line_drag;
 use super::summary::{LineSummary, LinkSummary};
 use crate::model::Model;
 use crate::state::State;
@@ -56,8 +57,12 @@ impl LineMeter {
         }
     }
 
-    pub(super) fn lines(&self, model: &Model, state: &State) -> Vec<LineSummary> {
+    pub(super) fn lines(&self, model: &Model, state: &State, on_whale: &[[f64; 2]]) -> Vec<LineSummary> {
+        let on_whale = |line: usize| on_whale.get(line).copied().unwrap_or_default();
         let summary = |(index, peak): (usize, &Peak)| LineSummary {
+            drag_n: line_drag(model, state, index),
+            whale_normal_n: on_whale(index)[0],
+            whale_friction_n: on_whale(index)[1],
             id: model.spec.lines[index].id.clone(),
             peak_tension_n: peak.tension_n,
             peak_at_s: peak.at_s,

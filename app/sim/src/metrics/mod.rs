@@ -5,14 +5,16 @@
 //! start state first to have it in means and peaks. Definitions and thresholds: `docs/entanglement.md`.
 
 mod along;
-mod axes;
 mod bodies;
+mod coils;
 mod drag;
 mod energy;
 mod event;
 mod extent;
 mod flukes;
+mod gear_loads;
 mod lines;
+mod mouth;
 mod outcome;
 mod probes;
 mod regions;
@@ -28,15 +30,18 @@ mod window;
 pub(crate) mod tests;
 
 pub use bodies::DRAGGED_M;
+pub use coils::LOOSE_M;
 pub use energy::energy;
 pub use event::{Event, EventKind};
 pub use flukes::TURN_SHARE;
 pub use lines::end_tension;
+pub use mouth::LODGED_S;
 pub use outcome::{LONG_CONTACT_S, LOST_S, RELEASE_S};
 pub(crate) use probes::joint_place;
 pub use probes::{reading, unit};
 pub use summary::{
-    BeatSummary, BodySummary, KineticSummary, LineSummary, LinkSummary, Outcome, ProbeSummary, RegionSummary, Summary, WhaleSummary,
+    BeatSummary, BodySummary, KineticSummary, LineSummary, LinkSummary, Outcome, PatchSummary, ProbeSummary, RegionSummary, Summary,
+    WhaleSummary,
 };
 pub use winding::{BRIDGED_GAP_M, WINDING_JUMP};
 pub use window::DRAG_WINDOW_S;
@@ -100,7 +105,7 @@ impl Metrics {
     #[must_use]
     pub fn summary(&self, model: &Model, state: &State) -> Summary {
         Summary {
-            lines: self.lines.lines(model, state),
+            lines: self.lines.lines(model, state, self.whale.as_ref().map(whale::WhaleMeter::on_lines).unwrap_or_default()),
             links: self.lines.links(model, state),
             bodies: self.bodies.summary(model, state),
             probes: self.probes.summary(model),

@@ -1,5 +1,6 @@
 //! How an encounter ends: contact, its loss, and what parted, judged with hysteresis.
 
+use super::event::{EventKind, Log};
 use super::summary::Outcome;
 use crate::state::State;
 
@@ -28,18 +29,24 @@ pub(super) struct Encounter {
     episode_s: Option<f64>,
     /// Most turns about any part when rope last touched.
     turns: f64,
+    /// Whether it hooked in the present episode.
+    pub(super) hooked: bool,
 }
 
 impl Encounter {
     /// Takes in whether rope touches at `time_s` and the most turns about any part.
-    pub(super) fn fold(&mut self, time_s: f64, dt_s: f64, touching: bool, turns: f64) {
+    pub(super) fn fold(&mut self, time_s: f64, dt_s: f64, (touching, turns): (bool, f64), log: &mut Log) {
         if touching {
             self.first_s.get_or_insert(time_s);
             self.episode_s.get_or_insert(time_s);
             (self.last_s, self.turns) = (Some(time_s), turns);
             self.contact_time_s += dt_s;
+            if turns >= HOOKED_TURNS && !std::mem::replace(&mut self.hooked, true) {
+                log.note(time_s, EventKind::Hooked, "whale", turns);
+            }
         } else if self.episode_s.is_some() && self.free_s(time_s) >= self.release_s(time_s) {
-            self.episode_s = None;
+            (self.episode_s, self.hooked) = (None, false);
+            log.note(time_s, EventKind::Shed, "whale", self.last_s.unwrap_or(time_s));
         }
     }
 

@@ -48,6 +48,11 @@ impl Strands {
         strands
     }
 
+    /// Segments of each strand in its order.
+    pub(super) fn lists(&self) -> &[Vec<usize>] {
+        &self.segments
+    }
+
     /// Takes over the lengths of a state.
     pub(super) fn measure(&mut self, segment_length: &[f64]) {
         for strand in &self.segments {

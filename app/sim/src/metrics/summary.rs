@@ -3,7 +3,7 @@
 //! Fields whose key in the run summary carries a unit carry it here in lower case:
 //! `peak_tension_n` is the key `peak_tension_N`. Definitions: `docs/entanglement.md`.
 
-use endline_sdk::BodyPart;
+use endline_sdk::{BodyPart, Region};
 use glam::DVec3;
 
 /// The measures of a run so far.
@@ -36,6 +36,12 @@ pub struct LineSummary {
     pub end_b_tension_n: f64,
     /// When it parted [s].
     pub parted_at_s: Option<f64>,
+    /// Drag of the water on its rope now [N].
+    pub drag_n: DVec3,
+    /// Sum of the normal forces between it and the whale now [N].
+    pub whale_normal_n: f64,
+    /// Sum of the friction forces between it and the whale now [N].
+    pub whale_friction_n: f64,
 }
 
 /// What a weak link bore.
@@ -60,6 +66,8 @@ pub struct BodySummary {
     pub position_m: DVec3,
     /// Greatest speed over ground [m/s].
     pub peak_speed_m_s: f64,
+    /// Drag of the water on it now [N].
+    pub drag_n: DVec3,
 }
 
 /// What a probe read.
@@ -94,6 +102,14 @@ pub struct WhaleSummary {
     pub contact_time_s: f64,
     /// One for each [`BodyPart`], in the order of its number.
     pub regions: Vec<RegionSummary>,
+    /// One for each labelled patch of skin, in the order of [`Region::ALL`].
+    pub patches: Vec<PatchSummary>,
+    /// Whether rope touches with half a turn or more about some part, or did since it last was free.
+    pub hooked: bool,
+    /// Whether rope is lodged in the mouth.
+    pub lodged_in_mouth: bool,
+    /// Whether it ever was.
+    pub was_lodged_in_mouth: bool,
     /// Drag of rope and gear that the whale carries, mean of the last 5 s [N].
     pub drag_added_n: f64,
     /// The same now [N].
@@ -102,6 +118,8 @@ pub struct WhaleSummary {
     pub trailing_m: f64,
     /// Rope from the whale to traps, anchors and fixtures [m].
     pub tethered_m: f64,
+    /// Ids of the bodies that hang on the whale by that rope.
+    pub carried: Vec<String>,
     /// Its fluke beat; `None` before a whole one.
     pub beat: Option<BeatSummary>,
     /// What it did, where it is kinetic.
@@ -149,10 +167,14 @@ pub struct KineticSummary {
 pub struct RegionSummary {
     /// The part.
     pub part: BodyPart,
-    /// Wraps now [turns].
+    /// Wraps now, loose loops included [turns].
     pub wraps: f64,
     /// Most wraps at any time [turns].
     pub peak_wraps: f64,
+    /// Turns of touching rope now, from contact to contact [turns].
+    pub touching_wraps: f64,
+    /// Most of those at any time [turns].
+    pub peak_touching_wraps: f64,
     /// Rope in contact now [m].
     pub contact_length_m: f64,
     /// Most rope in contact at any time [m].
@@ -160,6 +182,37 @@ pub struct RegionSummary {
     /// Greatest sum of normal forces at any time [N].
     pub peak_normal_n: f64,
     /// Greatest pressure under the rope at any time [Pa].
+    pub peak_pressure_pa: f64,
+    /// Work of friction [J].
+    pub friction_work_j: f64,
+}
+
+/// Rope on one labelled patch of skin; forces are sums over its contacts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PatchSummary {
+    /// The patch.
+    pub region: Region,
+    /// Rope in contact now [m].
+    pub contact_length_m: f64,
+    /// Normal forces now [N].
+    pub normal_n: f64,
+    /// Friction forces now, however they point [N].
+    pub friction_n: f64,
+    /// Force of rope on skin now, normal and friction as vectors [N].
+    pub force_n: DVec3,
+    /// Greatest tension of rope that presses there now [N].
+    pub tension_n: f64,
+    /// Most rope in contact at any time [m].
+    pub peak_contact_length_m: f64,
+    /// Greatest normal forces at any time [N].
+    pub peak_normal_n: f64,
+    /// Greatest friction forces at any time [N].
+    pub peak_friction_n: f64,
+    /// Greatest tension of rope that pressed there [N].
+    pub peak_tension_n: f64,
+    /// Greatest normal force of any contact by its length [N/m].
+    pub peak_line_load_n_m: f64,
+    /// The same by the rope's diameter: pressure [Pa].
     pub peak_pressure_pa: f64,
     /// Work of friction [J].
     pub friction_work_j: f64,

@@ -9,12 +9,14 @@ use crate::state::State;
 use crate::whale::hitch;
 
 /// Lengths of rope beyond the outermost contacts [m].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Beyond {
     /// Rope that leads to loose ends only: broken or bare ends and buoys.
     pub(super) trailing_m: f64,
     /// Rope that leads to a trap, anchor, weight or fixture.
     pub(super) tethered_m: f64,
+    /// Bodies that hang on the whale by that rope, in the model's order.
+    pub(super) bodies: Vec<usize>,
 }
 
 /// The outermost contacts of each line as rope length from its end A [m].
@@ -53,6 +55,8 @@ impl Reach {
                 walk.follow(line, LineEnd::B, whole - high);
             }
         }
+        walk.found.bodies.sort_unstable();
+        walk.found.bodies.dedup();
         walk.found
     }
 }
@@ -113,6 +117,9 @@ impl Walk<'_> {
     fn past(&mut self, line: usize, end: LineEnd) -> Leads {
         let joint = joint_at(self.model, line, end);
         let Some(kind) = self.model.spec.joints.get(joint).map(|joint| &joint.kind) else { return Leads::Loose };
+        if let JointKind::Body { body, .. } = kind {
+            self.found.bodies.push(*body);
+        }
         match kind {
             JointKind::Whale(_) => Leads::Back,
             JointKind::Fixed | JointKind::Driven { .. } => Leads::Held,

@@ -4,10 +4,13 @@ use std::sync::Arc;
 
 use endline_sdk::BodyPart;
 
+use super::coils::Coils;
 use super::drag::{EffortMeter, added_drag};
 use super::event::{EventKind, Log};
 use super::extent::Extent;
 use super::flukes::FlukeMeter;
+use super::gear_loads::on_line;
+use super::mouth::Mouth;
 use super::outcome::Encounter;
 use super::regions::Loads;
 use super::strands::Strands;
@@ -21,11 +24,18 @@ use crate::model::Model;
 use crate::state::{State, WhaleState};
 use crate::whale::Skin;
 
+/// Wraps must fall this far below a level to be told as undone [turns]; estimate.
+const UNDONE_TURNS: f64 = 0.15;
+
 /// All measures of the whale.
 #[derive(Clone, Debug)]
 pub(super) struct WhaleMeter {
     skin: Arc<Skin>,
     winding: Winding,
+    coils: Coils,
+    mouth: Mouth,
+    /// Normal and friction forces on each line now [N].
+    on_lines: Vec<[f64; 2]>,
     loads: Loads,
     drag: Window<1>,
     effort: Option<EffortMeter>,
@@ -40,8 +50,12 @@ impl WhaleMeter {
     pub(super) fn new(model: &Model) -> Option<Self> {
         let whale = model.spec.whale.as_ref()?;
         let skin = Arc::clone(&whale.skin);
+        let strands = Strands::new(model);
         Some(Self {
-            winding: Winding::new(&skin, Strands::new(model)),
+            coils: Coils::new(&skin, &strands),
+            mouth: Mouth::new(&skin),
+            on_lines: vec![[0.0; 2]; model.spec.lines.len()],
+            winding: Winding::new(&skin, strands),
             loads: Loads::default(),
             drag: Window::new(model),
             effort: EffortMeter::new(model),
@@ -56,18 +70,29 @@ impl WhaleMeter {
 
     pub(super) fn fold(&mut self, model: &Model, state: &State, whale: &WhaleState, contacts: &[ContactPoint], dt_s: f64, log: &mut Log) {
         let touching = contacts.iter().any(|contact| contact.normal_force_n > 0.0);
-        self.loads.fold(model, contacts, dt_s);
+        self.loads.fold(model, state, contacts, dt_s);
         self.winding.fold(&self.skin, contacts, &state.rope);
+        self.coils.fold(model, state, whale, &self.winding.strands, contacts);
+        self.mouth.fold(&self.skin, contacts, state.time_s, log);
+        for (line, sums) in self.on_lines.iter_mut().enumerate() {
+            *sums = on_line(contacts, line);
+        }
         self.drag.fold([added_drag(model, state, whale, contacts)], dt_s);
         if let Some(effort) = &mut self.effort {
             effort.fold(whale, dt_s);
         }
         self.reach.fold(model, state, contacts);
-        self.encounter.fold(state.time_s, dt_s, touching, self.winding.most());
         self.extent.fold(model, whale, state.time_s, log);
         self.touches.fold(&self.loads, state.time_s, log);
         self.flukes.fold(whale, state.time_s, dt_s);
         self.tell_wraps(state.time_s, log);
+        let most = self.winding.most().max(self.coils.most());
+        self.encounter.fold(state.time_s, dt_s, (touching, most), log);
+    }
+
+    /// Normal and friction forces on each line now [N].
+    pub(super) fn on_lines(&self) -> &[[f64; 2]] {
+        &self.on_lines
     }
 
     pub(super) fn summary(&self, model: &Model, state: &State) -> WhaleSummary {
@@ -80,13 +105,18 @@ impl WhaleMeter {
             last_contact_s: self.encounter.last_s,
             contact_time_s: self.encounter.contact_time_s,
             regions: BodyPart::ALL.iter().map(|part| self.region(*part)).collect(),
+            patches: self.loads.patches(),
+            hooked: self.encounter.hooked,
+            lodged_in_mouth: self.mouth.lodged,
+            was_lodged_in_mouth: self.mouth.was_lodged,
             drag_added_n: self.drag.mean()[0],
             drag_added_now_n: self.drag.now[0],
             trailing_m: beyond.trailing_m,
             tethered_m: beyond.tethered_m,
+            carried: beyond.bodies.iter().map(|body| model.spec.bodies[*body].id.clone()).collect(),
             beat: self.flukes.summary(),
             kinetic: self.effort.as_ref().map(EffortMeter::summary),
-            winding_jumps: self.winding.jumps,
+            winding_jumps: self.winding.jumps.max(self.coils.jumps),
         }
     }
 
@@ -94,8 +124,10 @@ impl WhaleMeter {
         let load = self.loads.parts[part as usize];
         RegionSummary {
             part,
-            wraps: libm::fabs(self.winding.turns[part as usize]),
+            wraps: libm::fabs(self.coils.turns[part as usize]),
             peak_wraps: load.peak_wraps,
+            touching_wraps: libm::fabs(self.winding.turns[part as usize]),
+            peak_touching_wraps: load.peak_touching_wraps,
             contact_length_m: load.length_m,
             peak_contact_length_m: load.peak_length_m,
             peak_normal_n: load.peak_normal_n,
@@ -104,20 +136,34 @@ impl WhaleMeter {
         }
     }
 
-    /// Tells of every level that wraps pass for the first time: a half, then whole turns.
+    /// Tells of every level that wraps pass, a half, then whole turns, and of every one they fall below again.
     fn tell_wraps(&mut self, time_s: f64, log: &mut Log) {
-        for ((part, load), turns) in BodyPart::ALL.iter().zip(&mut self.loads.parts).zip(&self.winding.turns) {
-            let wraps = libm::fabs(*turns);
-            while next_level(load.peak_wraps) <= wraps {
-                load.peak_wraps = next_level(load.peak_wraps);
-                log.note(time_s, EventKind::Wrap, part.name(), load.peak_wraps);
-            }
+        for (index, (part, load)) in BodyPart::ALL.iter().zip(&mut self.loads.parts).enumerate() {
+            let wraps = libm::fabs(self.coils.turns[index]);
             load.peak_wraps = load.peak_wraps.max(wraps);
+            load.peak_touching_wraps = load.peak_touching_wraps.max(libm::fabs(self.winding.turns[index]));
+            while level_above(load.told_wraps) <= wraps {
+                load.told_wraps = level_above(load.told_wraps);
+                log.note(time_s, EventKind::Wrap, part.name(), load.told_wraps);
+            }
+            while load.told_wraps > 0.0 && wraps < load.told_wraps - UNDONE_TURNS {
+                log.note(time_s, EventKind::WrapUndone, part.name(), load.told_wraps);
+                load.told_wraps = level_below(load.told_wraps);
+            }
         }
     }
 }
 
-/// The least level of wraps above a number of turns: 0.5, 1, 2, 3 and so on.
-fn next_level(turns: f64) -> f64 {
-    if turns < 0.5 { 0.5 } else { libm::floor(turns) + 1.0 }
+/// The least level of wraps above a level: 0.5, 1, 2, 3 and so on.
+fn level_above(level: f64) -> f64 {
+    if level < 0.5 { 0.5 } else { libm::floor(level) + 1.0 }
+}
+
+/// The greatest level of wraps below a level.
+fn level_below(level: f64) -> f64 {
+    match level {
+        _ if level > 1.5 => level - 1.0,
+        _ if level > 0.75 => 0.5,
+        _ => 0.0,
+    }
 }

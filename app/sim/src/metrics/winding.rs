@@ -1,14 +1,14 @@
-//! Wraps: how far touching rope turns about the axis of the part it touches.
+//! Touching wraps: how far rope that touches turns about the axis of the part it touches, from contact to contact.
 
 use std::f64::consts::{PI, TAU};
 
 use endline_sdk::BodyPart;
 
-use super::axes::{Axis, axes_of};
 use super::strands::{Place, Strands};
 use crate::contact::ContactPoint;
 use crate::state::RopeState;
 use crate::whale::Skin;
+use crate::whale::axes::{Axis, axes_of};
 
 /// Rope out of contact up to this length does not end a run of contacts [m]; estimate.
 pub const BRIDGED_GAP_M: f64 = 0.3;
@@ -22,10 +22,10 @@ const PARTS: usize = BodyPart::ALL.len();
 #[derive(Clone, Debug)]
 pub(super) struct Winding {
     axes: [Option<Axis>; PARTS],
-    strands: Strands,
+    pub(super) strands: Strands,
     sites: Vec<Site>,
     open: [Option<Run>; PARTS],
-    /// The longest winding about each part now, with its sign [turns].
+    /// The longest winding of touching rope about each part now, with its sign [turns].
     pub(super) turns: [f64; PARTS],
     runs: [usize; PARTS],
     /// Steps in which a winding jumped along unbroken contact.
@@ -150,7 +150,7 @@ impl Run {
 }
 
 /// The turn from one azimuth to another, in (-π, π] [rad].
-fn between(from: f64, to: f64) -> f64 {
+pub(super) fn between(from: f64, to: f64) -> f64 {
     let turn = to - from;
     if turn > PI {
         turn - TAU

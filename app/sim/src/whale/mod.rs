@@ -2,6 +2,7 @@
 
 pub mod acts;
 pub(crate) mod approach;
+pub mod axes;
 pub mod bounds;
 pub mod drive;
 pub mod hitch;

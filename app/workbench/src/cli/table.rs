@@ -18,7 +18,7 @@ pub(super) fn summary(report: &Report) -> String {
     text += &bodies(report);
     text += &probes(&report.probes);
     text += &report.whale.as_ref().map(|own| whale(own, report)).unwrap_or_default();
-    text
+    text + &events(report)
 }
 
 /// The gear at rest.
@@ -49,7 +49,7 @@ fn head(report: &Report) -> String {
     let state = match &report.stopped {
         Some(stopped) => stopped.clone(),
         None if report.valid => "ran to its end".into(),
-        None => "ran to its end, but its numbers cannot be trusted: see the audit".into(),
+        None => format!("INVALID, ran to its end, but its numbers cannot be trusted: {}", report.invalid_because.join("; ")),
     };
     let audit = &report.audit;
     columns(&[
@@ -60,11 +60,14 @@ fn head(report: &Report) -> String {
         vec![
             "audit".into(),
             format!(
-                "{} tunnelled, {} ropes crossed, {} not finite, {:.2} mm deepest",
+                "{} tunnelled, {} ropes crossed, {} not finite, {:.2} mm deepest, {} off the skin at least, {} winding jumps, {} steps not converged",
                 audit.tunnelled,
                 audit.ropes_crossed,
                 audit.non_finite,
-                1e3 * audit.max_penetration_m
+                1e3 * audit.max_penetration_m,
+                audit.least_distance_m.map_or_else(|| "never near".into(), |least| format!("{:.2} mm", 1e3 * least)),
+                audit.winding_jumps,
+                audit.unconverged
             ),
         ],
         vec!["solver steps".into(), format!("{}, mostly limited by {}", audit.solver_steps, audit.steps_mostly_limited_by)],
@@ -131,7 +134,10 @@ fn whale(whale: &WhaleReport, report: &Report) -> String {
         vec!["whale".into(), whale.outcome.replace('_', " ") + undecided],
         vec!["first touched".into(), moment(whale.first_contact_s)],
         vec!["rope drag".into(), force(whale.drag_added_N)],
-        vec!["trailing rope".into(), format!("{:.1} m", whale.trailing_m)],
+        vec!["hooked".into(), yes_no(whale.hooked)],
+        vec!["lodged in the mouth".into(), yes_no(whale.lodged_in_mouth)],
+        vec!["trailing rope".into(), format!("{:.1} m, and {:.1} m to what holds", whale.trailing_m, whale.tethered_m)],
+        vec!["hangs on it".into(), if whale.carried.is_empty() { "nothing".into() } else { whale.carried.join(", ") }],
         vec!["joints held at their ends".into(), format!("in {} of {} steps", report.audit.postures_held, report.steps)],
         vec!["fluke beat".into(), whale.beat.as_ref().map_or_else(|| "none".into(), beat)],
     ]);
@@ -143,18 +149,50 @@ fn whale(whale: &WhaleReport, report: &Report) -> String {
             vec!["speed".into(), format!("{:.2} m/s, {:.2} m/s lost", kinetic.speed_m_s, kinetic.speed_lost_m_s)],
         ]);
     }
-    let mut rows = vec![row(&["region", "wraps", "rope in contact", "peak normal force", "friction work"])];
+    let mut rows = vec![row(&["region", "wraps", "at most", "touching", "rope in contact", "peak normal force", "friction work"])];
     for region in whale.regions.iter().filter(|region| region.peak_normal_N > 0.0) {
         rows.push(vec![
             region.region.replace('_', " "),
             format!("{:.2}", region.wraps),
+            format!("{:.2}", region.peak_wraps),
+            format!("{:.2}", region.touching_wraps),
             format!("{:.2} m", region.contact_length_m),
             force(region.peak_normal_N),
             format!("{:.1} J", region.friction_work_J),
         ]);
     }
     text += &columns(&rows);
-    text
+    text + &patches(whale)
+}
+
+/// Loads on the patches that rope touched.
+fn patches(whale: &WhaleReport) -> String {
+    let mut rows = vec![row(&["patch", "peak normal force", "peak friction", "peak tension", "peak pressure", "friction work"])];
+    for patch in whale.patches.iter().filter(|patch| patch.peak_normal_N > 0.0) {
+        rows.push(vec![
+            patch.patch.replace('_', " "),
+            force(patch.peak_normal_N),
+            force(patch.peak_friction_N),
+            force(patch.peak_tension_N),
+            format!("{:.3} MPa", 1e-6 * patch.peak_pressure_Pa),
+            format!("{:.1} J", patch.friction_work_J),
+        ]);
+    }
+    columns(&rows)
+}
+
+/// Everything that happened, in order.
+fn events(report: &Report) -> String {
+    let mut rows = vec![row(&["time", "event", "of", "value"])];
+    for event in &report.events {
+        let value = format!("{:.3} {}", event.value, event.unit);
+        rows.push(vec![format!("{:.3} s", event.time_s), event.kind.replace('_', " "), event.subject.replace('_', " "), value]);
+    }
+    columns(&rows)
+}
+
+fn yes_no(yes: bool) -> String {
+    if yes { "yes" } else { "no" }.into()
 }
 
 /// A force in newtons and pounds-force.

@@ -1,5 +1,6 @@
 //! Scripted states and contacts, on a small whale of known shape.
 
+mod coils;
 mod encounter;
 mod gear;
 mod leaving;

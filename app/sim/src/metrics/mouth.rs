@@ -1,0 +1,89 @@
+//! Rope lodged in the mouth.
+//!
+//! Rope is *held in the mouth* where it presses on baleen, or where it presses on the inside of the mouth on one side and
+//! on inside or lips on the other. It is *lodged* once it has been held for [`LODGED_S`], and until it has not been held
+//! for [`LOST_S`]. Inside of the mouth are the triangles of the baleen, and those all of whose corners are marked so.
+
+use endline_sdk::Region;
+
+use super::event::{EventKind, Log};
+use super::outcome::LOST_S;
+use crate::contact::ContactPoint;
+use crate::whale::{Mark, Skin};
+
+/// Rope held in the mouth this long is lodged there [s]; estimate.
+pub const LODGED_S: f64 = 1.0;
+
+/// Nearer to the midplane than this a place is on neither side [m]; estimate.
+const MIDDLE_M: f64 = 0.02;
+
+/// Rope in the mouth.
+#[derive(Clone, Debug)]
+pub(super) struct Mouth {
+    /// Whether each triangle is inside the mouth.
+    inside: Vec<bool>,
+    since_s: Option<f64>,
+    last_s: f64,
+    /// Whether rope is lodged there now.
+    pub(super) lodged: bool,
+    /// Whether it ever was.
+    pub(super) was_lodged: bool,
+}
+
+/// What presses in the mouth: on baleen, inside, and on each side (lips count there too) [N].
+#[derive(Clone, Copy, Debug, Default)]
+struct Grip {
+    baleen: f64,
+    inside: f64,
+    sides: [f64; 2],
+}
+
+impl Mouth {
+    pub(super) fn new(skin: &Skin) -> Self {
+        let marked = |vertex: &u32| matches!(skin.marks.get(*vertex as usize), Some(Mark::Mouth | Mark::Baleen));
+        let inside = |(corners, region): (&[u32; 3], &Region)| *region == Region::Baleen || corners.iter().all(marked);
+        let inside = skin.triangles.iter().zip(&skin.regions).map(inside).collect();
+        Self { inside, since_s: None, last_s: 0.0, lodged: false, was_lodged: false }
+    }
+
+    pub(super) fn fold(&mut self, skin: &Skin, contacts: &[ContactPoint], time_s: f64, log: &mut Log) {
+        let grip = self.grip(skin, contacts);
+        if grip.holds() {
+            let since = *self.since_s.get_or_insert(time_s);
+            self.last_s = time_s;
+            if !self.lodged && time_s - since >= LODGED_S {
+                (self.lodged, self.was_lodged) = (true, true);
+                log.note(time_s, EventKind::Lodged, "head", grip.inside);
+            }
+        } else if self.since_s.is_some() && time_s - self.last_s >= LOST_S {
+            self.since_s = None;
+            if std::mem::take(&mut self.lodged) {
+                log.note(time_s, EventKind::Dislodged, "head", self.last_s);
+            }
+        }
+    }
+
+    fn grip(&self, skin: &Skin, contacts: &[ContactPoint]) -> Grip {
+        let mut grip = Grip::default();
+        for contact in contacts.iter().filter(|contact| contact.normal_force_n > 0.0) {
+            let inside = self.inside[contact.triangle];
+            if !inside && contact.region != Region::Lips {
+                continue;
+            }
+            let corners = skin.triangles[contact.triangle].map(|vertex| skin.vertices[vertex as usize].y);
+            let y: f64 = corners.iter().zip(contact.barycentric).map(|(y, share)| y * share).sum();
+            grip.inside += if inside { contact.normal_force_n } else { 0.0 };
+            grip.baleen += if contact.region == Region::Baleen { contact.normal_force_n } else { 0.0 };
+            if libm::fabs(y) > MIDDLE_M {
+                grip.sides[usize::from(y < 0.0)] += contact.normal_force_n;
+            }
+        }
+        grip
+    }
+}
+
+impl Grip {
+    fn holds(&self) -> bool {
+        self.baleen > 0.0 || (self.inside > 0.0 && self.sides.iter().all(|side| *side > 0.0))
+    }
+}

@@ -1,0 +1,36 @@
+//! Rope between wraps and ends: straight, and over the trunk where straight would go through it.
+
+use endline_sdk::BodyPart;
+use endline_sim::DVec3;
+
+use super::cut::Stretch;
+use super::skin::PosedSkin;
+
+/// Distance of places looked at [m].
+const EACH_M: f64 = 0.05;
+
+/// The way from one place to another, with so much rope where that is given.
+pub(super) fn lay(skin: &PosedSkin, [from, to]: [DVec3; 2], rope_m: Option<f64>) -> Stretch {
+    let steps = (from.distance(to) / EACH_M).ceil().max(1.0);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a way of metres in steps of centimetres")]
+    let steps = steps as u32;
+    let over = |step: u32| {
+        let place = from.lerp(to, f64::from(step) / f64::from(steps));
+        if step == 0 || step == steps { place } else { over_trunk(skin, place) }
+    };
+    Stretch { way: (0..=steps).map(over).collect(), rope_m, fine_m: None }
+}
+
+/// A place, moved straight out from the trunk's axis where it lies within the trunk.
+fn over_trunk(skin: &PosedSkin, place: DVec3) -> DVec3 {
+    let trunk = [BodyPart::Body, BodyPart::Head, BodyPart::Peduncle].into_iter().find_map(|part| skin.axis(part));
+    let Some(spot) = trunk.and_then(|(axis, _)| axis.see(place)) else { return place };
+    let toward = place - spot.middle;
+    let Some(out) = toward.try_normalize() else { return place };
+    let along = spot.along();
+    let Some(across) = (along - out * along.dot(out)).try_normalize() else { return place };
+    match skin.outline(BodyPart::Body, spot.middle, across).radius(out) {
+        Some(radius) if toward.length() < radius + skin.off_m => spot.middle + out * (radius + skin.off_m),
+        _ => place,
+    }
+}

@@ -1,0 +1,102 @@
+//! Lines that start wound about the whale: from end to wrap to wrap to end, just outside the posed skin.
+//!
+//! A wrap is a helix about the part's axis, its radius found by looking outward from the axis for the skin (`helix.rs`).
+//! Rope between wraps goes straight, or over the trunk where that would go through it (`leg.rs`). Each stretch is cut into
+//! segments by its own length and the rope laid evenly along it (`cut.rs`); last, nodes are moved outward until every
+//! segment is clear of the skin (`clear.rs`).
+
+mod clear;
+mod cut;
+mod helix;
+mod leg;
+mod skin;
+
+use endline_sim::DVec3;
+use endline_sim::model::Rope;
+
+use crate::scenario::WrapOf;
+
+use super::builder::Builder;
+use cut::{Laid, Stretch};
+use skin::PosedSkin;
+
+/// Rope's centre line starts this far from the skin, over its radius [m]: it touches as soon as it moves.
+const OFF_SKIN_M: f64 = 1e-5;
+/// Way that may be longer than its rope, as a share: rounding.
+const TAUT: f64 = 1e-6;
+
+impl Builder<'_> {
+    /// Lays a line in its wraps and cuts it: finer in them than `coarse_m`.
+    pub fn lay_wound(&mut self, index: usize, wraps: &[WrapOf], coarse_m: f64) {
+        let place = self.uncut[index].place.clone();
+        if !self.spec.settings.as_placed {
+            let help = "write start = \"placed\" at the top of the scenario: statics knows of no whale";
+            return self.problems.push(place.error("a wrapped line starts where it is laid", help));
+        }
+        let Some(whale) = &self.spec.whale else {
+            // A whale that could not be built is told already.
+            if self.scenario.whale.is_none() {
+                self.problems.push(place.error("there is no whale to wrap rope about", "write a [whale], or another start"));
+            }
+            return;
+        };
+        let line = &self.spec.lines[index];
+        let rope = &self.spec.ropes[line.rope];
+        let mut skin = PosedSkin::of(whale, 0.5 * rope.diameter_m + OFF_SKIN_M);
+        let ends = [self.joint_place(line.from), self.joint_place(line.to)];
+        let laid = wind(&mut skin, rope, ends, wraps, (self.uncut[index].length_m, coarse_m));
+        match laid {
+            Ok(laid) => {
+                self.spec.lines[index].segments_m = laid.segments_m;
+                self.spec.lines[index].start_m = laid.nodes;
+            }
+            Err(wrong) => {
+                let at = wrong.wrap.map_or(&place, |wrap| &wraps[wrap].place);
+                let message = format!("line `{}`: {}", self.spec.lines[index].id, wrong.what);
+                self.problems.push(at.error(message, wrong.help));
+            }
+        }
+    }
+}
+
+/// Why a line cannot be wound as asked.
+pub(super) struct Wrong {
+    /// The wrap it is about; the whole line where none.
+    pub wrap: Option<usize>,
+    pub what: String,
+    pub help: &'static str,
+}
+
+/// Nodes and segments of a line between its ends, through its wraps.
+fn wind(skin: &mut PosedSkin, rope: &Rope, ends: [DVec3; 2], wraps: &[WrapOf], (length_m, coarse_m): (f64, f64)) -> Result<Laid, Wrong> {
+    let mut stretches: Vec<Stretch> = Vec::with_capacity(2 * wraps.len() + 1);
+    let mut at = ends[0];
+    for (number, wrap) in wraps.iter().enumerate() {
+        let on = match wraps.get(number + 1) {
+            Some(next) => helix::middle(skin, next).map_err(|what| none_there(number + 1, what))?,
+            None => ends[1],
+        };
+        let way = helix::lay(skin, rope, wrap, [at, on]).map_err(|what| none_there(number, what))?;
+        let fine_m = wrap.segment_m.unwrap_or_else(|| helix::usual_segment_m(wrap.part));
+        stretches.push(leg::lay(skin, [at, way.first().copied().unwrap_or(at)], wrap.before_m));
+        at = way.last().copied().unwrap_or(at);
+        stretches.push(helix::stretch(way, rope, wrap, fine_m));
+    }
+    stretches.push(leg::lay(skin, [at, ends[1]], None));
+    cut::share_out(&mut stretches, length_m).map_err(|(needs_m, has_m)| Wrong {
+        wrap: None,
+        what: format!("its way round the whale takes {needs_m:.2} m of rope, and it has {has_m:.2} m"),
+        help: "make it longer, bring its ends nearer, or leave `before` out",
+    })?;
+    let mut laid = cut::cut(&stretches, coarse_m);
+    clear::clear(skin, &mut laid).map_err(|region| Wrong {
+        wrap: None,
+        what: format!("its way goes through the whale's {region}"),
+        help: "choose another `azimuth` or `station`, or move its ends",
+    })?;
+    Ok(laid)
+}
+
+fn none_there(wrap: usize, what: String) -> Wrong {
+    Wrong { wrap: Some(wrap), what, help: "move `station` towards the middle of the part, or make `pitch` or `turns` less" }
+}

@@ -1,0 +1,138 @@
+//! The whale's skin as it lies at the start: looked for outward from an axis, and measured from rope.
+
+use std::sync::Arc;
+
+use endline_sdk::{BodyPart, Region};
+use endline_sim::contact::distance::segment_triangle;
+use endline_sim::contact::sweep::SweptSegment;
+use endline_sim::whale::axes::{PosedAxis, axes_of};
+use endline_sim::whale::{Candidate, Skin, SkinTree, Surface, Whale, pose, skin_all};
+use endline_sim::{DAffine3, DVec3};
+
+use crate::scenario::on_trunk;
+
+/// Rope within this distance of skin is measured [m].
+const MARGIN_M: f64 = 0.05;
+
+/// The skin under the whale's start pose.
+pub(super) struct PosedSkin {
+    skin: Arc<Skin>,
+    places: Vec<DVec3>,
+    /// Triangles of each part; those of the trunk count as one.
+    own: [Vec<usize>; BodyPart::ALL.len()],
+    /// Posed axis and reach along it of each part; `None` for one the skin lacks.
+    axes: [Option<(PosedAxis, [f64; 2])>; BodyPart::ALL.len()],
+    surface: Surface,
+    bones: Vec<DAffine3>,
+    /// The whale's up.
+    pub up: DVec3,
+    /// Distance of the rope's centre line from the skin where it is laid [m].
+    pub off_m: f64,
+}
+
+/// The nearest skin to a segment.
+pub(super) struct Nearest {
+    pub distance_m: f64,
+    pub fraction: f64,
+    /// From skin to rope; zero where they cross.
+    pub out: DVec3,
+    pub region: Region,
+}
+
+impl PosedSkin {
+    pub fn of(whale: &Whale, off_m: f64) -> Self {
+        let skin = Arc::clone(&whale.skin);
+        let (mut bones, mut places) = (Vec::new(), Vec::new());
+        pose(&skin, whale.position_m, whale.orientation, &whale.start_posture(), &mut bones);
+        skin_all(&skin, &bones, &mut places);
+        let posed = |axis: endline_sim::whale::axes::Axis| {
+            let mut posed = PosedAxis::default();
+            axis.pose(&bones, &mut posed);
+            (posed, axis.reach_m)
+        };
+        let axes = axes_of(&skin).map(|axis| axis.map(posed));
+        let surface = Surface::new(Arc::new(SkinTree::new(Arc::clone(&skin))));
+        let own = BodyPart::ALL.map(|part| {
+            let wanted = |region: Region| region.part() == part || (on_trunk(part) && on_trunk(region.part()));
+            (0..skin.triangles.len()).filter(|triangle| wanted(skin.regions[*triangle])).collect()
+        });
+        let mut posed = Self { axes, places, own, surface, up: whale.orientation * DVec3::Z, off_m, skin, bones };
+        posed.surface.begin(&posed.bones, &posed.bones);
+        posed
+    }
+
+    /// The axis of a part and its reach along it [m].
+    pub fn axis(&self, part: BodyPart) -> Option<&(PosedAxis, [f64; 2])> {
+        self.axes[part as usize].as_ref()
+    }
+
+    /// The outline of a part in the plane across a direction through a place; the trunk counts as one part.
+    pub fn outline(&self, part: BodyPart, place: DVec3, along: DVec3) -> Outline {
+        let corners = |triangle: &usize| self.skin.triangles[*triangle].map(|corner| self.places[corner as usize]);
+        let cuts: Vec<[DVec3; 2]> = self.own[part as usize].iter().filter_map(|triangle| cut(corners(triangle), place, along)).collect();
+        let weigh = |(sum, whole): (DVec3, f64), [a, b]: &[DVec3; 2]| (sum + a.midpoint(*b) * a.distance(*b), whole + a.distance(*b));
+        let (sum, whole) = cuts.iter().fold((DVec3::ZERO, 0.0), weigh);
+        // A thin blade bends away from its axis: its outline's own middle is surely within.
+        let centre = if on_trunk(part) || whole <= 0.0 { place } else { sum / whole };
+        Outline { cuts, centre, along }
+    }
+
+    /// Whether a straight way goes through any skin.
+    pub fn pierced(&mut self, ends: [DVec3; 2]) -> bool {
+        let [a, b] = ends;
+        let mut pairs = Vec::new();
+        self.surface.gather(&[SweptSegment { a0: a, b0: b, a1: a, b1: b }], 0.0, &mut pairs);
+        pairs.iter().any(|pair| segment_triangle(ends, self.surface.triangle_at(pair.triangle, 0.0)).distance <= 0.0)
+    }
+
+    /// The nearest skin to each segment of a way that is within [`MARGIN_M`] of any.
+    pub fn nearest(&mut self, nodes: &[DVec3]) -> Vec<Option<Nearest>> {
+        let still = |pair: &[DVec3]| SweptSegment { a0: pair[0], b0: pair[1], a1: pair[0], b1: pair[1] };
+        let segments: Vec<SweptSegment> = nodes.windows(2).map(still).collect();
+        let mut pairs = Vec::new();
+        self.surface.gather(&segments, MARGIN_M, &mut pairs);
+        let mut found: Vec<Option<Nearest>> = segments.iter().map(|_| None).collect();
+        for Candidate { segment, triangle } in pairs {
+            let segment = segment as usize;
+            let (ends, corners) = ([nodes[segment], nodes[segment + 1]], self.surface.triangle_at(triangle, 0.0));
+            let near = segment_triangle(ends, corners);
+            if found[segment].as_ref().is_none_or(|known| near.distance < known.distance_m) {
+                let [i, j, k] = near.barycentric;
+                let on_skin = corners[0] * i + corners[1] * j + corners[2] * k;
+                let out = (ends[0].lerp(ends[1], near.fraction) - on_skin).try_normalize().unwrap_or_default();
+                let region = self.skin.regions[triangle as usize];
+                found[segment] = Some(Nearest { distance_m: near.distance, fraction: near.fraction, out, region });
+            }
+        }
+        found
+    }
+}
+
+/// Where a plane cuts the skin of a part.
+pub(super) struct Outline {
+    cuts: Vec<[DVec3; 2]>,
+    /// A place within it.
+    pub centre: DVec3,
+    along: DVec3,
+}
+
+impl Outline {
+    /// How far out it lies from its centre in a unit direction within the plane; the farthest, where that is crossed often [m].
+    pub fn radius(&self, toward: DVec3) -> Option<f64> {
+        let aside = self.along.cross(toward);
+        let crossed = |[a, b]: &[DVec3; 2]| {
+            let [p, q] = [*a - self.centre, *b - self.centre].map(|place| (place.dot(aside), place.dot(toward)));
+            let meets = (p.0 > 0.0) != (q.0 > 0.0);
+            meets.then(|| p.1 + (q.1 - p.1) * p.0 / (p.0 - q.0)).filter(|radius| *radius > 0.0)
+        };
+        self.cuts.iter().filter_map(crossed).reduce(f64::max)
+    }
+}
+
+/// Where a plane through a place cuts a triangle.
+fn cut(corners: [DVec3; 3], place: DVec3, normal: DVec3) -> Option<[DVec3; 2]> {
+    let heights = corners.map(|corner| (corner - place).dot(normal));
+    let mut ends = [(0, 1), (1, 2), (2, 0)].into_iter().filter(|(i, j)| (heights[*i] > 0.0) != (heights[*j] > 0.0));
+    let on_edge = |(i, j): (usize, usize)| corners[i].lerp(corners[j], heights[i] / (heights[i] - heights[j]));
+    Some([on_edge(ends.next()?), on_edge(ends.next()?)])
+}
