@@ -148,8 +148,9 @@ fn wraps_laid_by_construction_are_counted_on_the_right_whale() {
     let (turn, shift) = (DQuat::from_euler(endline_sim::EulerRot::ZYX, 1.0, -0.4, 2.0), DVec3::new(30.0, -7.0, -12.0));
     for (part, segment_m) in [(BodyPart::LeftFlipper, 0.02), (BodyPart::Body, 0.05), (BodyPart::Peduncle, 0.05)] {
         for turns in [0.5, 1.0, 2.25, 3.0] {
-            // Rope that leaves the belly to port again meets the body.
-            if part == BodyPart::Body && turns == 2.25 {
+            let quarter_on = (2.1..2.4).contains(&turns);
+            // None of the ends tried leaves a straight way from the belly, so this one is not laid.
+            if part == BodyPart::Body && quarter_on {
                 continue;
             }
             let [whole, halved] = [segment_m, 0.5 * segment_m].map(|segment_m| wrapped(part, turns, segment_m));
@@ -160,7 +161,7 @@ fn wraps_laid_by_construction_are_counted_on_the_right_whale() {
                 measured(whole, part, turn, shift),
             ];
             println!("{} {turns}: {counts:.4?}, bends {bends:.4}", part.name());
-            let wanted = if part == BodyPart::LeftFlipper && turns == 2.25 { bends } else { turns };
+            let wanted = if part == BodyPart::LeftFlipper && quarter_on { bends } else { turns };
             assert!(counts.iter().all(|count| (count - wanted).abs() < 0.05), "{} {turns}: {counts:?}", part.name());
             assert!((counts[0] - bends).abs() < 0.05, "{} {turns}: {counts:?}, its bends {bends}", part.name());
             assert!((counts[0] - counts[1]).abs() < 0.02 && (counts[0] - counts[2]).abs() < 1e-9, "{counts:?}");

@@ -191,15 +191,16 @@ fn faults_in_a_scenario_end_the_run_with_1_and_their_place() {
 #[test]
 fn a_whale_is_built_as_gltf() {
     let place = Place::new("whale");
-    let out = text(&place.path("whale.glb"));
-    let told = place.endline(&["whale", "build", "right-whale", "--length", "10 m", "--out", &out]).done().stdout;
+    let (out, library) = (text(&place.path("whale.glb")), text(&common::library()));
+    let build = |whale: &[&str]| place.endline(&[&["whale", "build"], whale, &["--library", &library]].concat());
+    let told = build(&["right-whale", "--length", "10 m", "--out", &out]).done().stdout;
     assert!(told.contains(": 10 m, ") && told.contains(" bones, "), "{told}");
     let bytes = fs::read(&out).unwrap();
     assert!(bytes.starts_with(b"glTF") && bytes.len() > 300_000);
     assert_eq!(u32::from_le_bytes(bytes[8..12].try_into().unwrap()) as usize, bytes.len());
-    place.endline(&["whale", "build", "right-whale", "--out", "whale.obj"]).fails(2, &["ends in .glb or .gltf"]);
-    place.endline(&["whale", "build", "sperm-whale", "--out", &out]).fails(1, &["no whale `sperm-whale`", "right-whale"]);
-    place.endline(&["whale", "build", "right-whale", "--length", "90 m", "--out", &out]).fails(2, &["from 1 m to 35 m"]);
+    build(&["right-whale", "--out", "whale.obj"]).fails(2, &["ends in .glb or .gltf"]);
+    build(&["sperm-whale", "--out", &out]).fails(1, &["no whale `sperm-whale`", "right-whale"]);
+    build(&["right-whale", "--length", "90 m", "--out", &out]).fails(2, &["from 1 m to 35 m"]);
 }
 
 /// The mesh that the program has written stands in the whale's place, and goes into the recording with the library's texts.

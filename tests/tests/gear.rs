@@ -469,7 +469,7 @@ fn resolution_follows_the_whale_by_lengths_in_order() {
     let text = scenario_text("hello-endline.toml");
     let with = |lengths: &str| text.replacen("[site]", &format!("[resolution]\n{lengths}\n\n[site]"), 1);
     let spec = assembled("test.toml", &with("near = \"8 cm\"\nfar = \"2 m\""));
-    assert_eq!(spec.settings.resolution, Some(Resolution { near_m: 0.08, edge_m: 0.02, far_m: 2.0 }));
+    assert_eq!(spec.settings.resolution, Some(Resolution { near_m: 0.08, edge_m: 0.0125, far_m: 2.0 }));
     assert_eq!(assembled("test.toml", &text).settings.resolution, None);
     for (lengths, part) in [
         ("edges = \"9 cm\"\nnear = \"8 cm\"", "`edges` is longer than `near`"),

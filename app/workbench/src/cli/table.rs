@@ -60,12 +60,14 @@ fn head(report: &Report) -> String {
         vec![
             "audit".into(),
             format!(
-                "{} tunnelled, {} ropes crossed, {} not finite, {:.2} mm deepest, {} off the skin at least, {} winding jumps, {} steps not converged",
+                "{} tunnelled, {} ropes crossed, {} not finite, {:.2} mm deepest, {}, {} winding jumps, {} steps not converged",
                 audit.tunnelled,
                 audit.ropes_crossed,
                 audit.non_finite,
                 1e3 * audit.max_penetration_m,
-                audit.least_distance_m.map_or_else(|| "never near".into(), |least| format!("{:.2} mm", 1e3 * least)),
+                audit
+                    .least_distance_m
+                    .map_or_else(|| "never near skin".into(), |least| format!("{:.2} mm off the skin at least", 1e3 * least)),
                 audit.winding_jumps,
                 audit.unconverged
             ),

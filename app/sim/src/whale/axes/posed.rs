@@ -174,7 +174,7 @@ mod tests {
             for share in [-0.1, 0.0, 0.37, 0.8, 1.0, 1.1] {
                 let along = axis.reach_m[0] + share * (axis.reach_m[1] - axis.reach_m[0]);
                 let seen = posed.at(along).and_then(|spot| posed.see(spot.middle)).expect("an axis");
-                assert!((seen.along_m - along).abs() < 1e-9 && seen.at_m[0].hypot(seen.at_m[1]) < 1e-9, "{along}: {seen:?}");
+                assert!((seen.along_m - along).abs() < 1e-9 && libm::hypot(seen.at_m[0], seen.at_m[1]) < 1e-9, "{along}: {seen:?}");
             }
         }
     }
