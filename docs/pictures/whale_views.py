@@ -34,7 +34,7 @@ VIEWS = [
     ("flippers", 28, "whale-side", "supinated"),
     ("flippers", 34, "whale-top", "swept forward"),
     ("surface-active", 18, "whale-side", "belly up"),
-    ("dead-whale-gear", 4, "whale", "a carcass with gear"),
+    ("dead-whale-wraps", 0.5, "whale-top", "a carcass wound in gear"),
     ("humpback-endline", 0, "whale-side", "a humpback"),
 ]
 
