@@ -1,48 +1,18 @@
 //! Wraps on the right whale's own mesh: a rope laid once round a part, wherever and however tilted, is one wrap.
 #![allow(clippy::panic, reason = "a test fails by panicking, in its helpers too")]
 
+mod idle;
+
 use std::sync::Arc;
 
 use endline_gear::whale::{WhaleForm, build_skin};
-use endline_sdk::{
-    BodyPart, Contacts, Descriptor, FrictionModel, FrictionResponse, HookError, MotionInput, MotionOutput, Region, WhaleMotion,
-};
+use endline_sdk::{BodyPart, Region};
 use endline_sim::metrics::Metrics;
 use endline_sim::model::{Friction, Joint, JointKind, Line, Rope, Settings, Strength};
 use endline_sim::water::{Current, Water};
 use endline_sim::whale::{JointRanges, Measures, PilotProgram, Skin, Whale};
 use endline_sim::{ContactPoint, DQuat, DVec3, Model, ModelSpec, State};
-
-/// A motion and a friction that do nothing.
-struct Idle(Descriptor);
-
-impl Idle {
-    fn shared() -> Arc<Self> {
-        let (id, name, help) = ("test.idle".into(), "Idle".into(), "Does nothing.".into());
-        Arc::new(Self(Descriptor { id, version: "0.1.0".into(), name, help, attributes: Vec::new(), state_len: 0, acts: Vec::new() }))
-    }
-}
-
-impl WhaleMotion for Idle {
-    fn descriptor(&self) -> &Descriptor {
-        &self.0
-    }
-    fn step(&self, _: &[f64], _: &MotionInput<'_>, _: &mut [f64]) -> Result<MotionOutput, HookError> {
-        Ok(MotionOutput::default())
-    }
-}
-
-impl FrictionModel for Idle {
-    fn descriptor(&self) -> &Descriptor {
-        &self.0
-    }
-    fn respond(&self, _: &[f64], _: &Contacts<'_>, _: &mut [FrictionResponse]) -> Result<(), HookError> {
-        Ok(())
-    }
-    fn advance(&self, _: &[f64], _: &Contacts<'_>, _: &mut [f64]) -> Result<(), HookError> {
-        Ok(())
-    }
-}
+use idle::Still;
 
 /// A line of these segments and the whale.
 fn model(skin: &Skin, segments_m: Vec<f64>) -> Model {
@@ -56,7 +26,7 @@ fn model(skin: &Skin, segments_m: Vec<f64>) -> Model {
         position_m: DVec3::Z * -20.0,
         orientation: DQuat::IDENTITY,
         speed_m_s: 0.0,
-        motion: Idle::shared(),
+        motion: Still::shared(),
         motion_attributes: Vec::new(),
         pilot: PilotProgram::default(),
         contact_stiffness_n_m2: 2e6,
@@ -89,7 +59,7 @@ fn model(skin: &Skin, segments_m: Vec<f64>) -> Model {
         links: Vec::new(),
         gear: Vec::new(),
         whale: Some(whale),
-        friction: Some(Friction::of_one(Idle::shared(), Vec::new(), vec![[0.2; Region::ALL.len()]])),
+        friction: Some(Friction::of_one(Still::shared(), Vec::new(), vec![[0.2; Region::ALL.len()]])),
         obstacles: Vec::new(),
         probes: Vec::new(),
         settings: Settings::default(),

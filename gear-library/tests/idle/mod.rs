@@ -16,9 +16,14 @@ pub struct Still(Descriptor);
 
 impl Idle {
     pub fn shared() -> Self {
+        Self(Still::shared())
+    }
+}
+
+impl Still {
+    pub fn shared() -> Arc<Self> {
         let (id, name, help) = ("test.idle".into(), "Idle".into(), "Does nothing.".into());
-        let descriptor = Descriptor { id, version: "0.1.0".into(), name, help, attributes: Vec::new(), state_len: 0, acts: Vec::new() };
-        Self(Arc::new(Still(descriptor)))
+        Arc::new(Self(Descriptor { id, version: "0.1.0".into(), name, help, attributes: Vec::new(), state_len: 0, acts: Vec::new() }))
     }
 }
 
