@@ -68,9 +68,14 @@ pub fn safe_fraction_from(segment: &SweptSegment, triangle: &SweptTriangle, sepa
     advance(segment, triangle, separation, first, greatest_approach(segment, triangle))
 }
 
-/// Steps of time that the distance left and the greatest possible approach prove safe.
+/// The walk from a first distance that keeps the separation, or half that distance where it is less.
 fn advance(segment: &SweptSegment, triangle: &SweptTriangle, separation: f64, first: f64, approach: f64) -> f64 {
-    let keep = separation.min(first / 2.0);
+    walk(first, separation.min(first / 2.0), approach, |at| segment_triangle(segment.at(at), triangle_at(triangle, at)).distance)
+}
+
+/// Steps of time that the distance left and the greatest possible approach prove safe: the largest proved fraction of a move along
+/// which two things that are `first` apart to begin with (or more) stay farther apart than `keep`, by their distance at a fraction.
+pub(crate) fn walk(first: f64, keep: f64, approach: f64, distance: impl Fn(f64) -> f64) -> f64 {
     if first - keep > approach {
         return 1.0;
     }
@@ -82,7 +87,7 @@ fn advance(segment: &SweptSegment, triangle: &SweptTriangle, separation: f64, fi
         if next >= 1.0 {
             return 1.0;
         }
-        let gap = segment_triangle(segment.at(next), triangle_at(triangle, next)).distance - keep;
+        let gap = distance(next) - keep;
         if safe > 0.0 && gap < stop {
             return safe;
         }

@@ -6,12 +6,7 @@
 use glam::DVec3;
 
 use crate::contact::distance::segment_segment;
-use crate::contact::sweep::SweptSegment;
-
-/// The search stops once this share of the first gap is left.
-const STOP_AT_SHARE: f64 = 0.1;
-/// Steps of time before the search gives back what it has proved.
-const MOST_STEPS: usize = 100;
+use crate::contact::sweep::{SweptSegment, walk};
 
 /// Where two segments are nearest.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,26 +34,7 @@ pub(crate) fn greatest_approach(one: &SweptSegment, other: &SweptSegment) -> f64
 /// The largest proved fraction of the move, 1 for all of it, along which the centre lines stay farther apart than `separation`,
 /// where they are `first` apart to begin with (or more); a pair nearer than twice that is asked for half its first distance.
 pub(crate) fn safe_fraction(one: &SweptSegment, other: &SweptSegment, separation: f64, first: f64) -> f64 {
-    let (keep, approach) = (separation.min(first / 2.0), greatest_approach(one, other));
-    if first - keep > approach {
-        return 1.0;
-    }
-    let stop = STOP_AT_SHARE * (first - keep);
-    let mut safe = 0.0;
-    let mut step = (1.0 - STOP_AT_SHARE) * (first - keep) / approach;
-    for _ in 0..MOST_STEPS {
-        let next = safe + step;
-        if next >= 1.0 {
-            return 1.0;
-        }
-        let gap = nearest(one.at(next), other.at(next)).distance - keep;
-        if safe > 0.0 && gap < stop {
-            return safe;
-        }
-        safe = next;
-        step = (1.0 - STOP_AT_SHARE) * gap / approach;
-    }
-    safe
+    walk(first, separation.min(first / 2.0), greatest_approach(one, other), |at| nearest(one.at(at), other.at(at)).distance)
 }
 
 #[cfg(test)]
