@@ -6,12 +6,14 @@
 #![allow(clippy::expect_used, reason = "a benchmark says what it needs")]
 
 use std::path::Path;
+use std::sync::Arc;
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
+use endline_gear::whale::build_skin;
 use endline_gear::whale::gltf::{About, Form, read, write};
 use endline_gear::{Library, Sources, WhaleItem};
-use endline_sim::whale::{pose, skin_all};
+use endline_sim::whale::{SkinTree, pose, skin_all};
 use glam::{DQuat, DVec3};
 
 fn main() {
@@ -59,8 +61,15 @@ fn skinning(bencher: Bencher) {
 /// The skin from the whale's measures.
 #[divan::bench(sample_count = 20)]
 fn building(bencher: Bencher) {
-    let whale = whale();
-    bencher.bench_local(|| whale.skin_at(divan::black_box(13.7)));
+    let form = whale().form_at(13.7);
+    bencher.bench_local(|| build_skin(divan::black_box(&form)));
+}
+
+/// The tree over the skin by which rope near it is found.
+#[divan::bench(sample_count = 20)]
+fn growing_the_tree(bencher: Bencher) {
+    let skin = Arc::new(whale().skin_at(13.7));
+    bencher.bench_local(|| SkinTree::new(Arc::clone(divan::black_box(&skin))));
 }
 
 /// The skin from a glTF file.

@@ -1,7 +1,5 @@
 //! The whale.
 
-use std::sync::Arc;
-
 use endline_sim::DQuat;
 use endline_sim::whale::{Measures, PilotProgram, Whale};
 
@@ -44,7 +42,7 @@ impl Builder<'_> {
         let feels = feels.flatten();
         self.spec.whale = Some(Whale {
             measures,
-            skin: Arc::new(skin),
+            skin,
             joints: item.joints.ranges,
             length_m,
             burst_speed_m_s: item.burst_speed_m_s,

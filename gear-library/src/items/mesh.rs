@@ -8,7 +8,7 @@ use crate::diagnostic::At;
 use crate::fields::{Fields, Problems};
 use crate::nearest::hint;
 use crate::sources::Sources;
-use crate::whale::{build_skin, gltf, scaled};
+use crate::whale::{gltf, scaled, skin_of};
 
 use super::WhaleItem;
 
@@ -40,18 +40,18 @@ impl WhaleItem {
     /// Its skin at a length [m]: its own mesh where its file names one, else made from its measures.
     #[must_use]
     pub fn skin_at(&self, length_m: f64) -> Skin {
-        self.skin_for(length_m, 1.0, false)
+        Arc::unwrap_or_clone(self.skin_for(length_m, 1.0, false))
     }
 
     /// Its skin at a length [m], in a condition (volume over that of middling condition) and late in pregnancy;
     /// a mesh of its own takes its length alone.
     #[must_use]
-    pub fn skin_for(&self, length_m: f64, condition: f64, pregnant: bool) -> Skin {
+    pub fn skin_for(&self, length_m: f64, condition: f64, pregnant: bool) -> Arc<Skin> {
         if let Some(skin) = self.mesh.as_ref().and_then(|mesh| mesh.skin.as_deref()) {
-            return scaled(skin, length_m / self.form.length_m);
+            return Arc::new(scaled(skin, length_m / self.form.length_m));
         }
         let form = self.form_at(length_m).in_condition(condition);
-        build_skin(&if pregnant { form.pregnant() } else { form })
+        skin_of(&if pregnant { form.pregnant() } else { form })
     }
 
     /// Reads its mesh, where it has one; false where that fails, with every problem told.
@@ -62,7 +62,7 @@ impl WhaleItem {
             problems.push(place.error(format!("there is no file `{path}`"), hint(path, sources.meshes().map(|(path, _)| path))));
             return false;
         };
-        match gltf::read(bytes, &build_skin(&self.form)) {
+        match gltf::read(bytes, &skin_of(&self.form)) {
             Ok(skin) => mesh.skin = Some(Arc::new(skin)),
             Err(faults) => problems.extend(faults.into_iter().map(|fault| place.error(format!("`{path}` {}", fault.message), fault.help))),
         }

@@ -7,11 +7,9 @@
 //! condition g  <-  g + (V - V(g)) g' / V'         girth (1 + g f(x)), f greatest at 0.6 of length (Miller et al. 2012)
 //! ```
 
-use endline_sim::whale::Measures;
-
-use super::build_skin;
 use super::curve::MonotoneCubic;
 use super::form::WhaleForm;
+use super::kept::volume_of;
 
 /// Share of the change of girth by place: most variable at 60 % of length (Miller et al. 2012), none at head and flukes.
 const CONDITION: [[f64; 2]; 7] = [[0.0, 0.0], [0.18, 0.0], [0.35, 0.55], [0.5, 0.9], [0.6, 1.0], [0.75, 0.6], [0.9, 0.0]];
@@ -67,7 +65,7 @@ impl WhaleForm {
     /// Volume that the closed skin holds [m³].
     #[must_use]
     pub fn skin_volume_m3(&self) -> f64 {
-        Measures::of(&build_skin(self), 1.0).volume_m3
+        volume_of(self)
     }
 
     fn with_girth(mut self, shape: &[[f64; 2]], amount: f64) -> Self {

@@ -11,6 +11,7 @@ pub mod form;
 pub mod gltf;
 pub mod head;
 pub mod jaws;
+pub mod kept;
 pub mod layout;
 pub mod marks;
 pub mod mesh;
@@ -21,6 +22,7 @@ pub mod weights;
 use endline_sim::whale::Skin;
 
 pub use form::{FlipperForm, FlukesForm, HeadForm, Station, WhaleForm};
+pub use kept::skin_of;
 
 /// What the parts of a skin are built with and into.
 pub struct Builder<'a> {

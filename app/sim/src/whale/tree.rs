@@ -52,7 +52,9 @@ impl SkinTree {
         let order = (0_u32..).take(skin.triangles.len()).collect();
         let mut tree = Self { skin, nodes: Vec::new(), spheres: Vec::new(), order };
         if !tree.order.is_empty() {
-            tree.grow(0..tree.order.len(), &centres);
+            let bones = tree.skin.bones.len();
+            let mut vertices = Vertices { seen: vec![0; tree.skin.vertices.len()], next: 0, moved: vec![Vec::new(); bones] };
+            tree.grow(0..tree.order.len(), &centres, &mut vertices);
         }
         tree
     }
@@ -98,47 +100,61 @@ impl SkinTree {
     }
 
     /// Adds the node over a range of triangles, and those below it; its index.
-    fn grow(&mut self, triangles: std::ops::Range<usize>, centres: &[DVec3]) -> usize {
+    fn grow(&mut self, triangles: std::ops::Range<usize>, centres: &[DVec3], vertices: &mut Vertices) -> usize {
         let index = self.nodes.len();
         let from = self.spheres.len();
-        self.add_spheres(&triangles);
+        self.add_spheres(&triangles, vertices);
         self.nodes.push(Node { spheres: from..self.spheres.len(), triangles: triangles.clone(), children: None });
         if triangles.len() > CLUSTER {
             let middle = self.split(&triangles, centres);
-            let first = self.grow(triangles.start..middle, centres);
-            let second = self.grow(middle..triangles.end, centres);
+            let first = self.grow(triangles.start..middle, centres, vertices);
+            let second = self.grow(middle..triangles.end, centres, vertices);
             self.nodes[index].children = Some([first, second]);
         }
         index
     }
 
-    /// Sorts a range along its longest side and cuts it near the middle, at whole clusters.
+    /// Cuts a range across its longest side near the middle, at whole clusters.
     fn split(&mut self, triangles: &std::ops::Range<usize>, centres: &[DVec3]) -> usize {
         let order = &mut self.order[triangles.clone()];
         let sides = order.iter().fold(Bounds::EMPTY, |bounds, &triangle| bounds.with(centres[triangle as usize]));
         let extent = sides.high - sides.low;
         let axis = (0..3).fold(0, |best, axis| if extent[axis] > extent[best] { axis } else { best });
-        order.sort_by(|&left, &right| centres[left as usize][axis].total_cmp(&centres[right as usize][axis]).then(left.cmp(&right)));
-        triangles.start + triangles.len().div_ceil(2 * CLUSTER) * CLUSTER
+        let half = triangles.len().div_ceil(2 * CLUSTER) * CLUSTER;
+        let place = |triangle: u32| centres[triangle as usize][axis];
+        order.select_nth_unstable_by(half, |left, right| place(*left).total_cmp(&place(*right)).then(left.cmp(right)));
+        triangles.start + half
     }
 
-    fn add_spheres(&mut self, triangles: &std::ops::Range<usize>) {
-        let mut vertices: Vec<u32> =
-            self.order[triangles.clone()].iter().flat_map(|&triangle| self.skin.triangles[triangle as usize]).collect();
-        vertices.sort_unstable();
-        vertices.dedup();
-        for bone in 0..self.skin.bones.len() {
-            let moved = vertices.iter().map(|&vertex| vertex as usize).filter(|&vertex| self.moves(bone, vertex));
-            let places: Vec<DVec3> = moved.map(|vertex| self.skin.vertices[vertex]).collect();
-            if !places.is_empty() {
-                self.spheres.push(Sphere::around(bone, &places));
+    /// Adds the spheres of a range of triangles: one around the vertices of each bone that moves any.
+    fn add_spheres(&mut self, triangles: &std::ops::Range<usize>, vertices: &mut Vertices) {
+        let skin = &self.skin;
+        vertices.next += 1;
+        for corner in self.order[triangles.clone()].iter().flat_map(|&triangle| skin.triangles[triangle as usize]) {
+            let vertex = corner as usize;
+            if std::mem::replace(&mut vertices.seen[vertex], vertices.next) == vertices.next {
+                continue;
+            }
+            for &(bone, weight) in &skin.weights[vertex] {
+                if weight > 0.0 {
+                    vertices.moved[usize::from(bone)].push(skin.vertices[vertex]);
+                }
             }
         }
+        for (bone, places) in vertices.moved.iter_mut().enumerate().filter(|(_, places)| !places.is_empty()) {
+            self.spheres.push(Sphere::around(bone, places));
+            places.clear();
+        }
     }
+}
 
-    fn moves(&self, bone: usize, vertex: usize) -> bool {
-        self.skin.weights[vertex].iter().any(|&(mover, weight)| usize::from(mover) == bone && weight > 0.0)
-    }
+/// Scratch of growing a tree.
+struct Vertices {
+    /// The last node each vertex was seen in, counted from 1.
+    seen: Vec<usize>,
+    next: usize,
+    /// Places of the vertices of the present node that each bone moves.
+    moved: Vec<Vec<DVec3>>,
 }
 
 impl Sphere {
@@ -146,20 +162,28 @@ impl Sphere {
     fn around(bone: usize, points: &[DVec3]) -> Self {
         let sides = Bounds::around(points);
         let mut centre = (sides.low + sides.high) / 2.0;
-        let farthest = |centre: DVec3| {
-            points
-                .iter()
-                .copied()
-                .fold(centre, |far, point| if centre.distance_squared(point) > centre.distance_squared(far) { point } else { far })
-        };
-        let mut best = (centre, centre.distance(farthest(centre)));
+        let mut far = farthest(points, centre);
+        let mut best = (centre, centre.distance(far));
         for round in 1..20 {
-            centre += (farthest(centre) - centre) / f64::from(round + 1);
-            let radius = centre.distance(farthest(centre));
+            centre += (far - centre) / f64::from(round + 1);
+            far = farthest(points, centre);
+            let radius = centre.distance(far);
             if radius < best.1 {
                 best = (centre, radius);
             }
         }
         Self { bone, centre: best.0, radius: best.1 }
     }
+}
+
+/// The point farthest from a place, the first where several are.
+fn farthest(points: &[DVec3], from: DVec3) -> DVec3 {
+    let mut far = (0.0, from);
+    for point in points {
+        let square = point.distance_squared(from);
+        if square > far.0 {
+            far = (square, *point);
+        }
+    }
+    far.1
 }
