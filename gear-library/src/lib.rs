@@ -18,6 +18,7 @@ mod items;
 mod library;
 mod line;
 mod nearest;
+mod plugin;
 mod scenario;
 mod schema;
 mod sources;
@@ -41,6 +42,7 @@ pub use items::{
 pub use library::Library;
 pub use line::{Insert, Inserts, LineMake};
 pub use nearest::hint;
+pub use plugin::{PLUGIN_FILE, TextGear, TextPlugin};
 pub use scenario::{
     AnswerToTouch, Bed, CurrentOf, CurrentRow, Fixture, FreeBody, FrictionChoice, FrictionOn, LineStart, ObstacleOf, PlacedGear, ProbeOf,
     ProbePart, RowHeight, Scenario, Sea, Swimmer,

@@ -60,6 +60,25 @@ impl Sources {
         self
     }
 
+    /// Only the files of one folder, such as `acts`.
+    #[must_use]
+    pub fn of_folder(&self, folder: &str) -> Self {
+        fn kept<T: Clone>(all: &BTreeMap<String, T>, folder: &str) -> BTreeMap<String, T> {
+            let inside = |path: &String| path.strip_prefix(folder).is_some_and(|rest| rest.starts_with('/'));
+            all.iter().filter(|(path, _)| inside(path)).map(|(path, content)| (path.clone(), content.clone())).collect()
+        }
+        Self { files: kept(&self.files, folder), meshes: kept(&self.meshes, folder) }
+    }
+
+    /// The same with a folder put before every path.
+    #[must_use]
+    pub fn under(&self, folder: &str) -> Self {
+        fn moved<T: Clone>(all: &BTreeMap<String, T>, folder: &str) -> BTreeMap<String, T> {
+            all.iter().map(|(path, content)| (format!("{folder}/{path}"), content.clone())).collect()
+        }
+        Self { files: moved(&self.files, folder), meshes: moved(&self.meshes, folder) }
+    }
+
     /// Only the files of these paths, such as a model was made from.
     #[must_use]
     pub fn only(&self, paths: &[String]) -> Self {

@@ -1,25 +1,140 @@
-//! What the plugin boundary costs: the same calls linked in, through the table of a loaded library, and guarded as in a run,
-//! beside the step that they are part of.
+//! What the plugin boundary costs: the same calls linked in and through the table of a loaded library, both guarded as in a run,
+//! beside the step of an encounter that they are part of.
 //!
-//! `cargo bench -p endline-tests --bench boundary`; the loaded library is the one that `cargo xtask plugins` builds, named by
-//! `ENDLINE_PLUGINS`.
+//! `cargo bench -p endline-tests --bench boundary`; the loaded libraries are those that `cargo xtask plugins` builds, in the folder
+//! named by `ENDLINE_PLUGINS`. Wanted: the boundary below 1 % of a step.
+
+#![allow(clippy::unwrap_used, clippy::panic, missing_docs, reason = "a benchmark says what it needs")]
+
+#[path = "../tests/linked/mod.rs"]
+mod linked;
 
 use std::env;
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Instant;
 
 use divan::Bencher;
 use endline_friction_models::Coulomb;
-use endline_sdk::{Contacts, FrictionModel, FrictionResponse, Region};
-use endline_session::plugins::PluginHost;
-
-fn main() {
-    divan::main();
-}
+use endline_gear::{Hooks, Options, Scenario, assemble};
+use endline_sdk::{Contacts, Descriptor, FrictionModel, FrictionResponse, GearType, HookError, Region, WhaleMotion};
+use endline_session::plugins::{Hook, PluginHost};
+use endline_sim::{Input, Model, State, Workspace, step};
+use linked::{Linked, library, root, told};
 
 /// Contacts of a wrapped rope.
 const CONTACTS: usize = 150;
 const ATTRIBUTES: [f64; 2] = [1e7, 1.0];
+
+/// Steps until the rope lies across the whale, and steps measured from there.
+const UP_TO_CONTACT: usize = 300;
+const MEASURED: usize = 100;
+
+/// Calls of laws of friction, and contacts in them.
+static CALLS: AtomicU64 = AtomicU64::new(0);
+static CONTACTS_SEEN: AtomicU64 = AtomicU64::new(0);
+
+fn main() {
+    shares();
+    divan::main();
+}
+
+/// Tells the calls of a step, the time of a step linked and loaded, and with that the boundary's share.
+fn shares() {
+    let (model, start) = at_contact(&Counted);
+    CALLS.store(0, Ordering::Relaxed);
+    CONTACTS_SEEN.store(0, Ordering::Relaxed);
+    walk(&model, start);
+    let per_step = |counter: &AtomicU64| counter.load(Ordering::Relaxed) as f64 / MEASURED as f64;
+    println!("a step of the encounter: {:.1} calls of friction, {:.0} contacts in them", per_step(&CALLS), per_step(&CONTACTS_SEEN));
+    let (one, other) = (at_contact(&linked_host()), at_contact(&loaded_host()));
+    let (mut fastest, mut ends) = ([f64::INFINITY; 2], [0, 0]);
+    for _ in 0..12 {
+        for (index, (model, state)) in [&one, &other].into_iter().enumerate() {
+            let begun = Instant::now();
+            ends[index] = walk(model, state.clone()).time_s.to_bits();
+            fastest[index] = fastest[index].min(begun.elapsed().as_secs_f64() / MEASURED as f64);
+        }
+    }
+    assert_eq!(ends[0], ends[1]);
+    let [linked, loaded] = fastest.map(|seconds| 1e6 * seconds);
+    println!("linked {linked:.1} us, loaded {loaded:.1} us a step, fastest of 12: {:+.2} %", 100.0 * (loaded / linked - 1.0));
+}
+
+/// The encounter of `hello-friction` with the whale set beside the rope, as the rope lies across it.
+fn at_contact(hooks: &dyn Hooks) -> (Model, State) {
+    let text = std::fs::read_to_string(root().join("scenarios/hello-friction.toml")).unwrap();
+    let scenario = Scenario::read("hello-friction.toml", &text.replace("\"-22 m\"", "\"-9 m\""))
+        .unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    let spec = assemble(&scenario, &library(), hooks, &Options::default()).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    let model = Model::new(spec).unwrap();
+    let (mut state, mut workspace) = (State::start(&model), Workspace::new(&model));
+    for _ in 0..UP_TO_CONTACT {
+        step(&model, &Input::default(), &mut state, &mut workspace).unwrap();
+    }
+    assert!(!workspace.contacts.is_empty(), "the rope does not touch");
+    (model, state)
+}
+
+fn walk(model: &Model, mut state: State) -> State {
+    let mut workspace = Workspace::new(model);
+    for _ in 0..MEASURED {
+        step(model, &Input::default(), &mut state, &mut workspace).unwrap();
+    }
+    state
+}
+
+fn linked_host() -> PluginHost {
+    let mut host = PluginHost::empty();
+    host.add(Hook::Motion(Arc::new(endline_whale_motions::Swim::new()))).unwrap();
+    endline_friction_models::all().into_iter().map(Hook::Friction).for_each(|hook| host.add(hook).unwrap());
+    endline_gear_types::all().into_iter().map(Hook::Gear).for_each(|hook| host.add(hook).unwrap());
+    host
+}
+
+fn loaded_host() -> PluginHost {
+    let folders: Vec<PathBuf> = env::var_os("ENDLINE_PLUGINS").iter().flat_map(env::split_paths).collect();
+    let (host, problems) = PluginHost::discover(&folders);
+    assert!(problems.is_empty() && !host.ids().is_empty(), "name the folder of built plugins with ENDLINE_PLUGINS: {problems:?}");
+    host
+}
+
+/// The linked plugins, with every call of friction counted.
+struct Counted;
+
+struct Counting(Arc<dyn FrictionModel>);
+
+impl FrictionModel for Counting {
+    fn descriptor(&self) -> &Descriptor {
+        self.0.descriptor()
+    }
+    fn respond(&self, attributes: &[f64], contacts: &Contacts<'_>, out: &mut [FrictionResponse]) -> Result<(), HookError> {
+        CALLS.fetch_add(1, Ordering::Relaxed);
+        CONTACTS_SEEN.fetch_add(contacts.len() as u64, Ordering::Relaxed);
+        self.0.respond(attributes, contacts, out)
+    }
+    fn advance(&self, attributes: &[f64], contacts: &Contacts<'_>, out: &mut [f64]) -> Result<(), HookError> {
+        CALLS.fetch_add(1, Ordering::Relaxed);
+        CONTACTS_SEEN.fetch_add(contacts.len() as u64, Ordering::Relaxed);
+        self.0.advance(attributes, contacts, out)
+    }
+}
+
+impl Hooks for Counted {
+    fn motion(&self, id: &str) -> Option<Arc<dyn WhaleMotion>> {
+        Linked.motion(id)
+    }
+    fn friction(&self, id: &str) -> Option<Arc<dyn FrictionModel>> {
+        Linked.friction(id).map(|model| Arc::new(Counting(model)) as Arc<dyn FrictionModel>)
+    }
+    fn gear(&self, id: &str) -> Option<Arc<dyn GearType>> {
+        Linked.gear(id)
+    }
+    fn ids(&self) -> Vec<String> {
+        Linked.ids()
+    }
+}
 
 fn contacts() -> Contacts<'static> {
     Contacts {
@@ -48,24 +163,14 @@ fn friction_linked(bencher: Bencher<'_, '_>) {
     respond(bencher, &Coulomb::new());
 }
 
-/// The model through the table, watched over by the guard: what a run pays.
-#[divan::bench]
-fn friction_loaded_and_guarded(bencher: Bencher<'_, '_>) {
-    let folders: Vec<PathBuf> = env::var_os("ENDLINE_PLUGINS").iter().flat_map(env::split_paths).collect();
-    let (host, _) = PluginHost::discover(&folders);
-    let model: Option<Arc<dyn FrictionModel>> = host.friction("org.endline.friction.coulomb");
-    match model {
-        Some(model) => respond(bencher, model.as_ref()),
-        None => bencher.bench_local(|| ()),
-    }
-}
-
 /// The model linked in, watched over by the guard.
 #[divan::bench]
 fn friction_linked_and_guarded(bencher: Bencher<'_, '_>) {
-    let mut host = PluginHost::empty();
-    let added = host.add(endline_session::plugins::Hook::Friction(Arc::new(Coulomb::new())));
-    if let (Ok(()), Some(model)) = (added, host.friction("org.endline.friction.coulomb")) {
-        respond(bencher, model.as_ref());
-    }
+    respond(bencher, linked_host().friction("org.endline.friction.coulomb").unwrap().as_ref());
+}
+
+/// The model through the table, watched over by the guard: what a run pays.
+#[divan::bench]
+fn friction_loaded_and_guarded(bencher: Bencher<'_, '_>) {
+    respond(bencher, loaded_host().friction("org.endline.friction.coulomb").unwrap().as_ref());
 }

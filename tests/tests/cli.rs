@@ -297,7 +297,12 @@ fn a_bad_plugin_is_told_and_the_rest_goes_on() {
         assert!(checked.code != Some(0), "{checked}");
         assert!(name == "panics" || checked.stderr.contains(words[0]), "{checked}");
 
-        let listed = called(place.command(&["plugins", "list"]).env("ENDLINE_PLUGINS", place.path("plugins"))).done();
+        let list = |arguments: &[&str]| called(place.command(arguments).env("ENDLINE_PLUGINS", place.path("plugins"))).done();
+        let unasked = list(&["plugins", "list"]);
+        assert!(unasked.stdout.contains("not allowed") && unasked.stderr.contains("has not been allowed yet"), "{unasked}");
+        let listed = list(&["--allow-plugins", "plugins", "list"]);
+        let standing = format!("quarantined   {file}");
+        assert!(listed.stdout.contains(&standing), "{standing}; {listed}");
         assert!(words.iter().all(|word| listed.stderr.contains(word)), "{listed}");
         assert!(listed.stdout.contains("org.endline.motion.swim"), "{listed}");
         fs::remove_file(file).unwrap();

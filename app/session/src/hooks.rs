@@ -7,20 +7,32 @@ use std::time::Duration;
 use endline_gear::Hooks;
 use endline_sdk::{FrictionModel, GearType, WhaleMotion};
 
-use crate::plugins::{PluginHost, PluginProblem, by_child, known_file, remembering};
+use crate::plugins::{Choices, Loader, PluginHost, PluginProblem, by_child, chosen_file, known_file, program_folder, remembering};
 
 /// A plugin that has not opened after this is taken to hang.
 const PATIENCE: Duration = Duration::from_secs(10);
+
+/// A loader of these folders that asks for what the user has not allowed; what came with the program needs no leave.
+#[must_use]
+pub fn plugin_loader(folders: &[PathBuf]) -> Loader {
+    let own: Vec<PathBuf> = program_folder().into_iter().collect();
+    Loader::new(folders, Choices::kept_in(chosen_file(), &own))
+}
 
 /// Loads the plugins of these folders for the program `endline`, which opens each new file first
 /// in a child of its own (`endline plugins check`): one that crashes, hangs or lies is set aside.
 #[must_use]
 pub fn load_plugins(folders: &[PathBuf]) -> (PluginHost, Vec<PluginProblem>) {
+    load_with(&mut plugin_loader(folders))
+}
+
+/// The same with a loader that was used before: what has not changed is not opened again.
+pub fn load_with(loader: &mut Loader) -> (PluginHost, Vec<PluginProblem>) {
     match std::env::current_exe() {
-        Ok(program) => PluginHost::discover_checked(folders, &remembering(known_file(), &by_child(program, PATIENCE))),
+        Ok(program) => loader.load(&remembering(known_file(), &by_child(program, PATIENCE))),
         Err(error) => {
             let reason = format!("the program cannot find itself to check it: {error}");
-            PluginHost::discover_checked(folders, &|_: &Path| Err(reason.clone()))
+            loader.load(&|_: &Path| Err(reason.clone()))
         }
     }
 }

@@ -36,7 +36,7 @@ pub mod study;
 pub mod timing;
 
 pub use error::Error;
-pub use hooks::load_plugins;
+pub use hooks::{load_plugins, load_with, plugin_loader};
 pub use plugins::PluginHost;
 pub use recording::Recording;
 pub use report::Report;

@@ -76,7 +76,9 @@ pub struct Prepared {
 /// # Errors
 /// A file that cannot be read, no library, or every located error of the files.
 pub fn prepare(scenario: &Path, library: Option<&Path>, host: &PluginHost, overrides: Overrides) -> Result<Prepared, Error> {
-    Source::read(scenario, library, overrides)?.prepare(host)
+    let mut source = Source::read(scenario, library, overrides)?;
+    source.library = host.with_clips(source.library);
+    source.prepare(host)
 }
 
 impl Source {

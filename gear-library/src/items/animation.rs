@@ -43,8 +43,9 @@ impl ActAnimation {
         if let Some(key) = fields.get("key") {
             fields.problems().push(key.place.error("both `animation` and [[key]] are given", "leave one of them out"));
         }
+        let folder = name.place.source.path.rsplit_once('/').map_or("acts", |(folder, _)| folder);
         Some(Self {
-            file: At { value: format!("acts/{}", name.value), place: name.place },
+            file: At { value: format!("{folder}/{}", name.value), place: name.place.clone() },
             clip,
             source: file.source.clone(),
             sureness: file.sureness,

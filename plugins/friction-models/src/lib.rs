@@ -31,6 +31,7 @@ pub fn all() -> Vec<Arc<dyn FrictionModel>> {
 }
 
 endline_sdk::export_plugin! {
+    about: "Endline; the laws and where their figures come from: docs/friction.md";
     friction: Coulomb::new(),
     friction: Stribeck::new(),
     friction: Tissue::new(),

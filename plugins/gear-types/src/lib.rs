@@ -31,6 +31,7 @@ pub use single::Single;
 pub use trawl::Trawl;
 
 endline_sdk::export_plugin! {
+    about: "Endline; the gears and where their figures come from: docs/gear-types.md";
     gear: Single::new(),
     gear: Pair::new(),
     gear: Trawl::new(),

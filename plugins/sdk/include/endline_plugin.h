@@ -21,7 +21,7 @@
 #define ENDLINE_ABI_MAJOR 3
 
 // Minor version: a greater number means fields added at the ends of structs, or kinds of attribute.
-#define ENDLINE_ABI_MINOR 0
+#define ENDLINE_ABI_MINOR 1
 
 // Kind of plugin: whale motion, table `endline_motion_t`.
 #define ENDLINE_KIND_MOTION 1
@@ -258,6 +258,8 @@ typedef struct {
   uint32_t plugin_count;
   // A pointer to each.
   const endline_plugin_t *const *plugins;
+  // What the library says of itself: who made it, where its laws and figures come from. Since 3.1; may be null.
+  endline_text_t about;
 } endline_factory_t;
 
 // The pilot's controls: one vocabulary for pad, keyboard, recording and pilot program.

@@ -8,4 +8,7 @@ pub mod swim;
 
 pub use swim::Swim;
 
-endline_sdk::export_plugin! { motion: Swim::new() }
+endline_sdk::export_plugin! {
+    about: "Endline; the gaits and where their figures come from: docs/motions.md";
+    motion: Swim::new()
+}

@@ -2,7 +2,10 @@
 //!
 //! `tests/plugins/kept` holds the header and a plugin as they were at 3.0; the header beside the sources is the one they are compiled with.
 
-use endline_sdk::{BodyPart, MotionInput, abi::table::ABI_MAJOR};
+use endline_sdk::{
+    BodyPart, MotionInput,
+    abi::table::{ABI_MAJOR, ABI_MINOR},
+};
 use endline_session::plugins::{PluginHost, try_here};
 
 use crate::built::{compile_c, folder};
@@ -11,6 +14,7 @@ use crate::refused::motion_input;
 #[test]
 fn plugins_of_3_0_and_of_a_later_minor_version_work() {
     assert_eq!(ABI_MAJOR, 3, "frozen");
+    const { assert!(ABI_MINOR >= 1, "the program is of a later version than the plugin kept") };
     let folder = folder("kept");
     for source in ["glide_3_0", "later"] {
         let file = compile_c(&format!("tests/plugins/kept/{source}.c"), &folder);
@@ -20,6 +24,7 @@ fn plugins_of_3_0_and_of_a_later_minor_version_work() {
     }
     let (host, problems) = PluginHost::discover(&[folder]);
     assert!(problems.is_empty(), "{problems:?}");
+    assert!(host.list().iter().all(|info| info.about.is_empty()), "3.1 brought what a library says of itself, and these are of 3.0");
     let forces = [0.0; BodyPart::ALL.len()];
     let input = MotionInput { speed_m_s: 2.0, ..motion_input(&forces) };
     let speed = |id: &str, attributes: &[f64]| host.motion(id).unwrap().step(attributes, &input, &mut []).unwrap().speed_m_s;

@@ -19,7 +19,7 @@ const VERDICTS: [(&str, &str); 15] = [
     ("nan", "at the check `ranges`, plugin `org.example.motion.not-a-number`: it gave NaN for the speed"),
     ("too_few", "plugin `org.example.friction.too-few`: it wrote fewer answers than the 3 contacts it was asked about"),
     ("too_many", "at the check `ranges`, plugin `org.example.friction.too-many`: it wrote beyond the 8 answers and 8 floats"),
-    ("wrong_abi", "was built for plugin ABI 4.3, but this program speaks 3.0"),
+    ("wrong_abi", "was built for plugin ABI 4.3, but this program speaks 3.1"),
     ("missing_entry", "does not export `endline_plugin_entry`"),
     ("truncated_file", "is cut short: "),
     ("notes", "is not a library that can be opened"),

@@ -14,8 +14,10 @@ use std::time::{Duration, Instant};
 
 use endline_sdk::abi::table::{ABI_MAJOR, ABI_MINOR};
 
-use super::host::{PluginHost, open_checked};
+use super::choices::Choices;
+use super::host::PluginHost;
 use super::info::PluginInfo;
+use super::loader::{open_folder, open_here};
 use trial::Finding;
 
 mod report;
@@ -39,20 +41,25 @@ pub struct Tried {
     pub findings: Vec<Finding>,
 }
 
-/// Opens a file in this process and tries each of its plugins; `begin` is told a plugin's id and a check before each begins.
+/// Opens a file, or the folder of a plugin without code, in this process and tries each of its plugins; `begin` is told a plugin's id and a check before each begins.
 ///
 /// # Errors
 /// Where the file or a plugin's declaration cannot be used. A file that crashes takes this process with it: that is what the child is for.
 pub fn try_here(file: &Path, begin: &dyn Fn(&str, &'static str)) -> Result<Vec<Tried>, String> {
-    let (hash, hooks) = open_checked(file, &|_: &Path| Ok(())).map_err(|refusal| refusal.at(file).to_string())?;
     let mut host = PluginHost::empty();
     let mut problems = Vec::new();
-    host.add_loaded(file, &hash, hooks, &mut problems);
+    if file.is_dir() {
+        open_folder(file, &mut host, &mut problems);
+    } else {
+        let (hash, opened) = open_here(file).map_err(|refusal| refusal.at(file).to_string())?;
+        host.add_loaded(file, &hash, opened, &Choices::everything(), &mut problems);
+    }
     if let Some(problem) = problems.first() {
         return Err(problem.to_string());
     }
     let tried = host.list().iter().map(|info| {
         let findings = host.hook(&info.id).map(|hook| trial::run(hook, &|check| begin(&info.id, check)));
+        // Motion clips are tried as they are read: keys in order, within the joints, closed where they repeat.
         Tried { info: info.clone(), findings: findings.unwrap_or_default() }
     });
     Ok(tried.collect())
@@ -64,7 +71,7 @@ pub fn try_here(file: &Path, begin: &dyn Fn(&str, &'static str)) -> Result<Vec<T
 /// With what is wrong first.
 pub fn check_here(file: &Path) -> Result<Vec<PluginInfo>, String> {
     let tried = try_here(file, &|_, _| ())?;
-    tried.iter().find_map(fault).map_or(Ok(()), |fault| Err(format!("{}: {fault}", file.display())))?;
+    sound(file, &tried)?;
     Ok(tried.into_iter().map(|tried| tried.info).collect())
 }
 
@@ -89,7 +96,20 @@ pub fn report_here(file: &Path, out: &mut dyn Write) -> Result<(), String> {
     };
     let tried = try_here(file, &|id, check| say(&format!("{BEGINS}{check}` of `{id}`")))?;
     report::lines(&tried).iter().for_each(|line| say(line));
+    sound(file, &tried)
+}
+
+/// The first thing wrong in a file, as an error.
+fn sound(file: &Path, tried: &[Tried]) -> Result<(), String> {
     tried.iter().find_map(fault).map_or(Ok(()), |fault| Err(format!("{}: {fault}", file.display())))
+}
+
+/// What is found of a plugin without code, which has nothing that could crash this process.
+fn report_of_folder(folder: &Path) -> (String, Result<(), String>) {
+    match try_here(folder, &|_, _| ()) {
+        Ok(tried) => (report::lines(&tried).iter().map(|line| format!("{line}\n")).collect(), sound(folder, &tried)),
+        Err(problem) => (String::new(), Err(problem)),
+    }
 }
 
 /// How a line begins that tells of a check before it is made.
@@ -101,8 +121,11 @@ pub fn by_child(program: impl Into<PathBuf>, limit: Duration) -> impl Fn(&Path) 
     move |file| report_of_child(&program, file, limit).1
 }
 
-/// What the child says of a file, without its lines about each check, and the verdict.
+/// What the child says of a file, without its lines about each check, and the verdict. A folder without code needs no child.
 pub fn report_of_child(program: &Path, file: &Path, limit: Duration) -> (String, Result<(), String>) {
+    if file.is_dir() {
+        return report_of_folder(file);
+    }
     let mut command = Command::new(program);
     command
         .args(["plugins", "check", "--here"])

@@ -7,11 +7,27 @@ use std::path::{Path, PathBuf};
 /// (separated as `PATH` is).
 #[must_use]
 pub fn default_folders() -> Vec<PathBuf> {
-    let beside = env::current_exe().ok().and_then(|program| program.parent().map(|folder| folder.join("plugins")));
     let own = user_folder("XDG_DATA_HOME", ".local/share").map(|folder| folder.join("plugins"));
     let named = env::var_os("ENDLINE_PLUGINS");
     let named = named.iter().flat_map(env::split_paths).filter(|folder| !folder.as_os_str().is_empty());
-    beside.into_iter().chain(own).chain(named).collect()
+    program_folder().into_iter().chain(own).chain(named).collect()
+}
+
+/// The folder of what came with the program, beside it: its libraries are opened unasked.
+#[must_use]
+pub fn program_folder() -> Option<PathBuf> {
+    env::current_exe().ok().and_then(|program| program.parent().map(|folder| folder.join("plugins")))
+}
+
+/// File in the user's data folder that holds what the user has decided about plugins.
+#[must_use]
+pub fn chosen_file() -> Option<PathBuf> {
+    user_folder("XDG_DATA_HOME", ".local/share").map(|folder| folder.join("plugins-chosen"))
+}
+
+/// Folder that libraries are copied to as they are opened; that for temporary files where the user has none.
+pub(super) fn copies_folder() -> PathBuf {
+    user_folder("XDG_CACHE_HOME", ".cache").unwrap_or_else(|| env::temp_dir().join("endline")).join("plugins-open")
 }
 
 /// File in the user's cache folder that lists the hashes of files that passed the check.

@@ -1,22 +1,26 @@
 //! The plugins of this program run, by id.
 
-use std::collections::{BTreeMap, BTreeSet};
-use std::env::consts::DLL_EXTENSION;
-use std::fs;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use endline_sdk::{FrictionModel, GearType, WhaleMotion};
+use endline_gear::{PLUGIN_FILE, Sources, TextPlugin};
+use endline_sdk::{Descriptor, FrictionModel, GearType, WhaleMotion};
 
 use super::check::Checker;
-use super::info::{Hook, PluginInfo, PluginProblem, Refusal};
-use super::{cut_short, declared, guard, load};
+use super::choices::Choices;
+use super::info::{Hook, Origin, PluginInfo, PluginKind, PluginProblem, Refusal};
+use super::load::Opened;
+use super::loader::Loader;
+use super::{declared, guard};
 
 /// All usable plugins; each is guarded, so that bad output ends a run with the plugin's id.
 #[derive(Clone, Default)]
 pub struct PluginHost {
     hooks: BTreeMap<String, Hook>,
     infos: Vec<PluginInfo>,
+    off: Vec<PluginInfo>,
+    clips: Sources,
 }
 
 impl PluginHost {
@@ -37,14 +41,7 @@ impl PluginHost {
     /// Loads every library in the folders that the checker lets pass.
     #[must_use]
     pub fn discover_checked(folders: &[PathBuf], checker: &Checker<'_>) -> (Self, Vec<PluginProblem>) {
-        let (mut host, mut problems) = (Self::empty(), Vec::new());
-        for file in libraries(folders, &mut problems) {
-            match open_checked(&file, checker) {
-                Ok((hash, hooks)) => host.add_loaded(&file, &hash, hooks, &mut problems),
-                Err(refusal) => problems.push(refusal.at(file)),
-            }
-        }
-        (host, problems)
+        Loader::new(folders, Choices::everything()).load(checker)
     }
 
     /// Adds a plugin that is linked into the program.
@@ -52,13 +49,19 @@ impl PluginHost {
     /// # Errors
     /// When its declaration makes no sense or its id is taken.
     pub fn add(&mut self, hook: Hook) -> Result<(), PluginProblem> {
-        self.insert(hook, None).map_err(|refusal| refusal.at("(linked)"))
+        self.insert(hook, None, &Choices::everything()).map_err(|refusal| refusal.at("(linked)"))
     }
 
     /// Every plugin, in the order found.
     #[must_use]
     pub fn list(&self) -> &[PluginInfo] {
         &self.infos
+    }
+
+    /// Plugins that the user has switched off, in the order found.
+    #[must_use]
+    pub fn switched_off(&self) -> &[PluginInfo] {
+        &self.off
     }
 
     /// The whale motion with this id.
@@ -79,7 +82,16 @@ impl PluginHost {
         if let Some(Hook::Gear(gear)) = self.hooks.get(id) { Some(Arc::clone(gear)) } else { None }
     }
 
-    /// Ids of all plugins, sorted.
+    /// Files of a gear library with the acts of plugins; where two files of acts have the same name, the library's own counts.
+    #[must_use]
+    pub fn with_clips(&self, library: Sources) -> Sources {
+        let paths = self.clips.iter().map(|(path, _)| path).chain(self.clips.meshes().map(|(path, _)| path));
+        let is_own = |path: &str| library.get(&format!("acts/{}", path.rsplit('/').next().unwrap_or(path))).is_some();
+        let others: Vec<String> = paths.filter(|path| !is_own(path)).map(str::to_owned).collect();
+        self.clips.only(&others).overlay(library)
+    }
+
+    /// Ids of all plugins that are called, sorted.
     #[must_use]
     pub fn ids(&self) -> Vec<String> {
         self.hooks.keys().cloned().collect()
@@ -90,64 +102,63 @@ impl PluginHost {
         self.hooks.get(id)
     }
 
-    pub(super) fn add_loaded(&mut self, file: &Path, hash: &str, hooks: Vec<Result<Hook, Refusal>>, problems: &mut Vec<PluginProblem>) {
-        for hook in hooks {
-            let added = hook.and_then(|hook| self.insert(hook, Some((file.to_path_buf(), hash.to_owned()))));
+    pub(super) fn add_loaded(&mut self, file: &Path, hash: &str, opened: Opened, choices: &Choices, problems: &mut Vec<PluginProblem>) {
+        for hook in opened.hooks {
+            let from = Origin { file: file.to_path_buf(), hash: hash.to_owned(), about: opened.about.clone() };
+            let added = hook.and_then(|hook| self.insert(hook, Some(from), choices));
             problems.extend(added.err().map(|refusal| refusal.at(file)));
         }
     }
 
-    fn insert(&mut self, hook: Hook, file: Option<(PathBuf, String)>) -> Result<(), Refusal> {
+    /// Adds a plugin without code: its gear types, and its acts to those of the gear library.
+    pub(super) fn add_text(&mut self, folder: &Path, plugin: &TextPlugin, choices: &Choices, problems: &mut Vec<PluginProblem>) {
+        let hash = blake3::hash(&plugin.bytes).to_hex().to_string();
+        let from = Origin { file: folder.join(PLUGIN_FILE), hash, about: plugin.about.clone() };
+        let gear = plugin.gear.iter().map(|gear| self.insert(Hook::Gear(Arc::clone(gear)), Some(from.clone()), choices));
+        let mut refused: Vec<Refusal> = gear.filter_map(Result::err).collect();
+        if !plugin.acts.is_empty() {
+            refused.extend(self.add_clips(plugin, from, choices).err());
+        }
+        problems.extend(refused.into_iter().map(|refusal| refusal.at(folder)));
+    }
+
+    fn add_clips(&mut self, plugin: &TextPlugin, from: Origin, choices: &Choices) -> Result<(), Refusal> {
+        let text = |text: &String| text.clone().into();
+        let (id, version, name, help) = (text(&plugin.id), text(&plugin.version), text(&plugin.name), text(&plugin.help));
+        let acts = plugin.acts.clone();
+        declared::check(&Descriptor { id, version, name, help, attributes: Vec::new(), state_len: 0, acts })?;
+        let taken = |id: &str| self.infos.iter().find(|info| info.kind == PluginKind::Clips && info.acts.iter().any(|act| act.id == id));
+        if let Some((act, first)) = plugin.acts.iter().find_map(|act| Some((act, taken(&act.id)?))) {
+            let reason = format!("`{}` already has an act `{}`", first.id, act.id);
+            return Err(Refusal::of(&plugin.id, reason, "name the act otherwise, or switch one of the two off"));
+        }
+        if self.admit(PluginInfo::of_clips(plugin, from), choices)? {
+            self.clips = std::mem::take(&mut self.clips).overlay(plugin.clips.under(&format!("plugins/{}", plugin.id)));
+        }
+        Ok(())
+    }
+
+    fn insert(&mut self, hook: Hook, from: Option<Origin>, choices: &Choices) -> Result<(), Refusal> {
         declared::check(hook.descriptor())?;
-        let info = PluginInfo::of(&hook, file);
-        if let Some(first) = self.infos.iter().find(|known| known.id == info.id) {
+        let id = hook.descriptor().id.to_string();
+        if self.admit(PluginInfo::of(&hook, from), choices)? {
+            self.hooks.insert(id, guard::guarded(hook));
+        }
+        Ok(())
+    }
+
+    /// Lists a plugin whose id is free; false where its user has switched it off.
+    fn admit(&mut self, info: PluginInfo, choices: &Choices) -> Result<bool, Refusal> {
+        if let Some(first) = self.infos.iter().chain(&self.off).find(|known| known.id == info.id) {
             let place = first.file.as_ref().map_or_else(|| "the program itself".to_owned(), |file| file.display().to_string());
             return Err(Refusal::of(&info.id, format!("{place} already has a plugin with this id"), "remove one of the two"));
         }
-        self.hooks.insert(info.id.clone(), guard::guarded(hook));
-        self.infos.push(info);
-        Ok(())
-    }
-}
-
-/// Reads, checks and opens one file; gives its hash and its plugins.
-pub(super) fn open_checked(file: &Path, checker: &Checker<'_>) -> Result<(String, Vec<Result<Hook, Refusal>>), Refusal> {
-    let bytes = fs::read(file).map_err(|error| Refusal::new(format!("cannot be read: {error}"), "check its permissions"))?;
-    let hash = blake3::hash(&bytes).to_hex().to_string();
-    if let Some(whole) = cut_short::missing_from(&bytes) {
-        let reason = format!("is cut short: {} of {whole} bytes", bytes.len());
-        return Err(Refusal::new(reason, "copy or build it again"));
-    }
-    drop(bytes);
-    checker(file).map_err(|reason| {
-        Refusal::new(format!("set aside, because it failed the check before loading: {reason}"), "remove the file or mend the plugin")
-    })?;
-    Ok((hash, load::open(file)?))
-}
-
-/// Library files of the folders, by folder and then by name; the same file twice counts once.
-fn libraries(folders: &[PathBuf], problems: &mut Vec<PluginProblem>) -> Vec<PathBuf> {
-    let (mut found, mut seen) = (Vec::new(), BTreeSet::new());
-    for folder in folders.iter().filter(|folder| folder.exists()) {
-        match libraries_in(folder) {
-            Ok(files) => found.extend(files.into_iter().filter(|file| seen.insert(file.clone()))),
-            Err(error) => {
-                let refusal = Refusal::new(format!("cannot be searched for plugins: {error}"), "name a folder that can be read");
-                problems.push(refusal.at(folder));
-            }
+        let on = !choices.is_off(&info.id);
+        if on {
+            self.infos.push(info)
+        } else {
+            self.off.push(info)
         }
+        Ok(on)
     }
-    found
-}
-
-fn libraries_in(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
-    let mut files = Vec::new();
-    for entry in fs::read_dir(folder)? {
-        let path = entry?.path();
-        if path.extension().is_some_and(|extension| extension == DLL_EXTENSION) {
-            files.push(path.canonicalize().unwrap_or(path));
-        }
-    }
-    files.sort();
-    Ok(files)
 }

@@ -4,7 +4,10 @@ use std::fmt;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use endline_gear::TextPlugin;
 use endline_sdk::{Act, Attribute, Descriptor, FrictionModel, GearType, WhaleMotion};
+
+use super::choices::Ask;
 
 /// Which hook a plugin serves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -15,6 +18,8 @@ pub enum PluginKind {
     Friction,
     /// A gear type.
     Gear,
+    /// Motion clips: acts of whales, as data.
+    Clips,
 }
 
 impl PluginKind {
@@ -25,6 +30,7 @@ impl PluginKind {
             Self::Motion => "whale motion",
             Self::Friction => "friction model",
             Self::Gear => "gear type",
+            Self::Clips => "motion clips",
         }
     }
 }
@@ -89,12 +95,39 @@ pub struct PluginInfo {
     pub file: Option<PathBuf>,
     /// BLAKE3 hash of that file, in hexadecimal.
     pub hash: Option<String>,
+    /// What its library says of itself: who made it, where its laws and figures come from; may be empty.
+    pub about: String,
+}
+
+/// Where a plugin was loaded from.
+#[derive(Clone)]
+pub(super) struct Origin {
+    pub file: PathBuf,
+    pub hash: String,
+    pub about: String,
 }
 
 impl PluginInfo {
-    pub(super) fn of(hook: &Hook, file: Option<(PathBuf, String)>) -> Self {
+    /// Motion clips of a folder, as lists name them.
+    pub(super) fn of_clips(plugin: &TextPlugin, from: Origin) -> Self {
+        Self {
+            id: plugin.id.clone(),
+            version: plugin.version.clone(),
+            kind: PluginKind::Clips,
+            name: plugin.name.clone(),
+            help: plugin.help.clone(),
+            attributes: Vec::new(),
+            acts: plugin.acts.clone(),
+            file: Some(from.file),
+            hash: Some(from.hash),
+            about: from.about,
+        }
+    }
+
+    pub(super) fn of(hook: &Hook, from: Option<Origin>) -> Self {
         let descriptor = hook.descriptor();
-        let (file, hash) = file.unzip();
+        let about = from.as_ref().map(|from| from.about.clone()).unwrap_or_default();
+        let (file, hash) = from.map(|Origin { file, hash, .. }| (file, hash)).unzip();
         Self {
             id: descriptor.id.to_string(),
             version: descriptor.version.to_string(),
@@ -105,8 +138,20 @@ impl PluginInfo {
             acts: descriptor.acts.clone(),
             file,
             hash,
+            about,
         }
     }
+}
+
+/// What is to become of a file that is not used.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Standing {
+    /// It cannot be used.
+    Unusable,
+    /// It failed the check in a child process: quarantine.
+    SetAside,
+    /// Its user has not allowed it, or not in its present form.
+    Waiting(Box<Ask>),
 }
 
 /// Why a file, or one plugin in it, is not used; the program goes on without it.
@@ -120,6 +165,8 @@ pub struct PluginProblem {
     pub reason: String,
     /// What can be done.
     pub help: String,
+    /// What is to become of the file.
+    pub standing: Standing,
 }
 
 impl fmt::Display for PluginProblem {
@@ -138,18 +185,19 @@ pub(super) struct Refusal {
     pub id: Option<String>,
     pub reason: String,
     pub help: String,
+    pub standing: Standing,
 }
 
 impl Refusal {
     pub(super) fn new(reason: impl Into<String>, help: impl Into<String>) -> Self {
-        Self { id: None, reason: reason.into(), help: help.into() }
+        Self { id: None, reason: reason.into(), help: help.into(), standing: Standing::Unusable }
     }
 
     pub(super) fn of(id: &str, reason: impl Into<String>, help: impl Into<String>) -> Self {
-        Self { id: Some(id.to_owned()), reason: reason.into(), help: help.into() }
+        Self { id: Some(id.to_owned()), ..Self::new(reason, help) }
     }
 
     pub(super) fn at(self, file: impl Into<PathBuf>) -> PluginProblem {
-        PluginProblem { file: file.into(), id: self.id, reason: self.reason, help: self.help }
+        PluginProblem { file: file.into(), id: self.id, reason: self.reason, help: self.help, standing: self.standing }
     }
 }

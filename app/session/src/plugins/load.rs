@@ -35,12 +35,22 @@ const MOST_PLACES: usize = 1_000_000;
 const REBUILD: &str = "rebuild the plugin against this version of endline-sdk or endline_plugin.h";
 const NOT_A_PLUGIN: &str = "only plugin libraries belong in this folder";
 
-/// Opens a library, which stays mapped from then on, and gives its plugins.
-pub(super) fn open(file: &Path) -> Result<Vec<Result<Hook, Refusal>>, Refusal> {
-    let entry = find_entry(file)?;
-    check_entry(entry)?;
-    initialise(entry, file)?;
-    plugins_of(entry)?.iter().map(|plugin| Ok(read_plugin(*plugin))).collect()
+/// What a library holds.
+#[derive(Clone)]
+pub(super) struct Opened {
+    /// What it says of itself: who made it, where its laws and figures come from; may be empty.
+    pub about: String,
+    /// Its plugins, and why each is not used that cannot be.
+    pub hooks: Vec<Result<Hook, Refusal>>,
+}
+
+/// Opens a library, which stays mapped from then on, and gives its plugins. `named` is the file that it is told as its own place,
+/// where `file` is a copy.
+pub(super) fn open(file: &Path, named: &Path) -> Result<Opened, Refusal> {
+    let entry = read_entry(find_entry(file)?)?;
+    initialise(&entry, named)?;
+    let (factory, plugins) = plugins_of(&entry)?;
+    Ok(Opened { about: text(factory.about)?.into_owned(), hooks: plugins.iter().map(|plugin| read_plugin(*plugin)).collect() })
 }
 
 fn find_entry(file: &Path) -> Result<*const AbiEntry, Refusal> {
@@ -53,77 +63,124 @@ fn find_entry(file: &Path) -> Result<*const AbiEntry, Refusal> {
     entry.map_err(|_| Refusal::new(format!("does not export `{ENTRY_NAME}`"), "build it with `export_plugin!` and the feature `entry`"))
 }
 
-/// Major version and size, which stand at the same place in every version of the ABI.
-fn check_entry(entry: *const AbiEntry) -> Result<(), Refusal> {
+/// The entry: major version and size stand at the same place in every version of the ABI.
+fn read_entry(entry: *const AbiEntry) -> Result<AbiEntry, Refusal> {
     // SAFETY: every version of the entry begins with these three numbers.
     let [major, minor, size] = unsafe { entry.cast::<[u32; 3]>().read_unaligned() };
     if major != ABI_MAJOR {
         let reason = format!("was built for plugin ABI {major}.{minor}, but this program speaks {ABI_MAJOR}.{ABI_MINOR}");
         return Err(Refusal::new(reason, REBUILD));
     }
-    whole::<AbiEntry>(size, "entry")
+    // SAFETY: of this major version, so it is as long as it says.
+    unsafe { known_part(entry, size, "entry") }
 }
 
-fn whole<T>(size: u32, what: &str) -> Result<(), Refusal> {
-    if size as usize >= size_of::<T>() {
-        return Ok(());
+/// A struct that a library hands over. A later minor version of the ABI may have made it longer.
+trait HandedOver {
+    /// The bytes of it that every plugin of this major version has: those of its first minor version.
+    const LEAST: usize;
+}
+
+impl HandedOver for AbiEntry {
+    const LEAST: usize = size_of::<Self>();
+}
+
+impl HandedOver for AbiFactory {
+    // `about` came with 3.1.
+    const LEAST: usize = std::mem::offset_of!(Self, about);
+}
+
+impl HandedOver for AbiPlugin {
+    const LEAST: usize = size_of::<Self>();
+}
+
+impl HandedOver for AbiMotion {
+    const LEAST: usize = size_of::<Self>();
+}
+
+impl HandedOver for AbiFriction {
+    const LEAST: usize = size_of::<Self>();
+}
+
+impl HandedOver for AbiGear {
+    const LEAST: usize = size_of::<Self>();
+}
+
+/// What this program knows of a struct of a library: zero, and for a function none, where an older one lacks it.
+///
+/// # Safety
+/// `given` leads to `size` bytes, and `T` is made of numbers, pointers and functions that may be null.
+unsafe fn known_part<T: HandedOver>(given: *const T, size: u32, what: &str) -> Result<T, Refusal> {
+    let size = size as usize;
+    if size < T::LEAST {
+        return Err(Refusal::new(format!("its {what} is truncated: {size} bytes where {} are needed", T::LEAST), REBUILD));
     }
-    Err(Refusal::new(format!("its {what} is truncated: {size} bytes where {} are needed", size_of::<T>()), REBUILD))
+    let mut known = std::mem::MaybeUninit::<T>::zeroed();
+    // SAFETY: the caller's promise; all zeros is a value of such a struct.
+    unsafe {
+        std::ptr::copy_nonoverlapping(given.cast::<u8>(), known.as_mut_ptr().cast(), size.min(size_of::<T>()));
+        Ok(known.assume_init())
+    }
+}
+
+/// The same of a struct that begins with its size; null is refused.
+///
+/// # Safety
+/// `given` is null or leads to as many bytes as it begins with, and `T` is as in [`known_part`].
+unsafe fn known<T: HandedOver>(given: *const T, what: &str) -> Result<T, Refusal> {
+    // SAFETY: the caller's promise.
+    unsafe {
+        let size = given.cast::<u32>().as_ref().ok_or_else(|| missing(what))?;
+        known_part(given, *size, what)
+    }
 }
 
 fn missing(what: &str) -> Refusal {
     Refusal::new(format!("its {what} is missing"), REBUILD)
 }
 
-fn initialise(entry: *const AbiEntry, file: &Path) -> Result<(), Refusal> {
-    // SAFETY: the entry has its whole size and lives as long as the library, which is never unmapped.
-    let init = unsafe { (*entry).init }.ok_or_else(|| missing("function `init`"))?;
+fn initialise(entry: &AbiEntry, file: &Path) -> Result<(), Refusal> {
+    let init = entry.init.ok_or_else(|| missing("function `init`"))?;
     let path = file.to_string_lossy();
     // SAFETY: called as the table says.
     call(|message| unsafe { init(AbiText::of(&path), message) })
         .map_err(|error| Refusal::new(format!("does not start: {error}"), "tell the plugin's author"))
 }
 
-fn plugins_of(entry: *const AbiEntry) -> Result<&'static [*const AbiPlugin], Refusal> {
-    // SAFETY: as in `initialise`; the factory and its list live as long as the library.
+fn plugins_of(entry: &AbiEntry) -> Result<(AbiFactory, &'static [*const AbiPlugin]), Refusal> {
+    let get_factory = entry.get_factory.ok_or_else(|| missing("function `get_factory`"))?;
+    // SAFETY: the factory and its list live as long as the library, which is never unmapped.
     unsafe {
-        let get_factory = (*entry).get_factory.ok_or_else(|| missing("function `get_factory`"))?;
-        let factory = get_factory(AbiText::of(FACTORY_ID)).cast::<AbiFactory>();
-        let size = factory.cast::<u32>().as_ref().ok_or_else(|| missing(&format!("factory `{FACTORY_ID}`")))?;
-        whole::<AbiFactory>(*size, "factory")?;
-        let (count, plugins) = ((*factory).plugin_count, (*factory).plugins);
+        let factory = known(get_factory(AbiText::of(FACTORY_ID)).cast::<AbiFactory>(), &format!("factory `{FACTORY_ID}`"))?;
+        let (count, plugins) = (factory.plugin_count, factory.plugins);
         if count == 0 || count > MOST_PLUGINS || plugins.is_null() {
             return Err(Refusal::new(format!("its factory lists {count} plugins"), "tell the plugin's author"));
         }
-        Ok(std::slice::from_raw_parts(plugins, count as usize))
+        Ok((factory, std::slice::from_raw_parts(plugins, count as usize)))
     }
 }
 
 fn read_plugin(plugin: *const AbiPlugin) -> Result<Hook, Refusal> {
     // SAFETY: a descriptor begins with its size and lives as long as the library.
-    let plugin: &'static AbiPlugin = unsafe {
-        let size = plugin.cast::<u32>().as_ref().ok_or_else(|| missing("descriptor of a plugin"))?;
-        whole::<AbiPlugin>(*size, "descriptor of a plugin")?;
-        &*plugin
-    };
-    let descriptor = read_descriptor(plugin)?;
+    let plugin = unsafe { known(plugin, "descriptor of a plugin")? };
+    let descriptor = read_descriptor(&plugin)?;
     let id = descriptor.id.to_string();
-    read_hook(plugin, descriptor).map_err(|refusal| Refusal { id: Some(id), ..refusal })
+    read_hook(&plugin, descriptor).map_err(|refusal| Refusal { id: Some(id), ..refusal })
 }
 
 fn read_hook(plugin: &AbiPlugin, descriptor: Descriptor) -> Result<Hook, Refusal> {
     Ok(match plugin.kind {
         KIND_MOTION => {
-            let table: &AbiMotion = read_table(plugin)?;
+            let table: AbiMotion = read_table(plugin)?;
             Hook::Motion(Arc::new(Loaded { descriptor, context: plugin.context, calls: Motion { step: needed(table.step)? } }))
         }
         KIND_FRICTION => {
-            let table: &AbiFriction = read_table(plugin)?;
+            let table: AbiFriction = read_table(plugin)?;
             let calls = Friction { respond: needed(table.respond)?, advance: needed(table.advance)? };
             Hook::Friction(Arc::new(Loaded { descriptor, context: plugin.context, calls }))
         }
         KIND_GEAR => {
-            let table: &AbiGear = read_table(plugin)?;
+            let table: AbiGear = read_table(plugin)?;
             let calls = Gear { build: needed(table.build)?, step: table.step };
             Hook::Gear(Arc::new(Loaded { descriptor, context: plugin.context, calls }))
         }
@@ -131,13 +188,9 @@ fn read_hook(plugin: &AbiPlugin, descriptor: Descriptor) -> Result<Hook, Refusal
     })
 }
 
-fn read_table<T>(plugin: &AbiPlugin) -> Result<&'static T, Refusal> {
+fn read_table<T: HandedOver>(plugin: &AbiPlugin) -> Result<T, Refusal> {
     // SAFETY: a table begins with its size, is of the kind the descriptor says, and lives as long as the library.
-    unsafe {
-        let size = plugin.table.cast::<u32>().as_ref().ok_or_else(|| missing("table of functions"))?;
-        whole::<T>(*size, "table of functions")?;
-        Ok(&*plugin.table.cast::<T>())
-    }
+    unsafe { known(plugin.table.cast::<T>(), "table of functions") }
 }
 
 fn needed<F>(function: Option<F>) -> Result<F, Refusal> {

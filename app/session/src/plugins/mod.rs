@@ -1,13 +1,16 @@
 //! Plugins: found in folders, checked in a child process, loaded, and guarded while they run.
 //!
 //! ```text
-//! folders -> files -> checker (child process) -> load (C table) -> guard (finite, passive) -> PluginHost
+//! folders -> files -> choices (allowed by its user) -> checker (child process) -> load (C table, from a copy)
+//!         -> guard (finite, passive) -> PluginHost
 //! ```
 //!
 //! First-party plugins take the same road as anyone's. A file that cannot be used becomes a
 //! [`PluginProblem`] and the program goes on without it.
 
 pub mod check;
+mod choices;
+mod copy;
 mod cut_short;
 mod declared;
 mod folders;
@@ -15,11 +18,14 @@ mod guard;
 mod host;
 mod info;
 mod load;
+mod loader;
 mod new;
 
 pub use check::trial::Finding;
 pub use check::{Checker, Tried, by_child, check_here, remembering, report_here, report_of_child, try_here};
-pub use folders::{default_folders, known_file};
+pub use choices::{Ask, Change, Choices};
+pub use folders::{chosen_file, default_folders, known_file, program_folder};
 pub use host::PluginHost;
-pub use info::{Hook, PluginInfo, PluginKind, PluginProblem};
+pub use info::{Hook, PluginInfo, PluginKind, PluginProblem, Standing};
+pub use loader::{Loader, file_hash};
 pub use new::{Language, Project, write_project};

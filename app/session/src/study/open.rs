@@ -63,7 +63,7 @@ impl Opened {
         let text = std::fs::read_to_string(path).map_err(|error| Error::at(path, format!("cannot be read: {error}")))?;
         let study = Study::read(&path.display().to_string(), &text).map_err(Error::Diagnostics)?;
         let root = locate::library(Some(path), library).map_err(Error::Replay)?;
-        let sources = Sources::from_folder(&root).map_err(Error::Diagnostics)?;
+        let sources = host.with_clips(Sources::from_folder(&root).map_err(Error::Diagnostics)?);
         let (scenario_path, scenario_text) = scenario(&study, path, &root)?;
         let base = Base { study: &study, name: scenario_path.display().to_string(), text: scenario_text, sources: &sources, host };
         let mut options = Vec::new();

@@ -21,6 +21,9 @@ pub struct Args {
     /// Folder of the gear library; found beside the scenario or the program where not given.
     #[arg(long, global = true, value_name = "DIR")]
     pub(super) library: Option<PathBuf>,
+    /// Allow the plugin libraries found that are new or have changed, as `plugins allow` does one by one.
+    #[arg(long, global = true)]
+    pub(super) allow_plugins: bool,
 }
 
 #[derive(Debug, Subcommand)]
@@ -49,7 +52,7 @@ pub(super) enum Command {
         #[command(subcommand)]
         what: WhaleCommand,
     },
-    /// List plugins, or check a plugin file.
+    /// List plugins, check or allow a library, switch one off, begin a new one.
     Plugins {
         #[command(subcommand)]
         what: PluginsCommand,
@@ -222,7 +225,7 @@ pub(super) enum PluginsCommand {
     List,
     /// Try a plugin file in a child process: its declaration, random inputs, bits, state, energy, threads, time.
     Check {
-        /// Plugin file.
+        /// Plugin file, or folder of a plugin without code.
         file: PathBuf,
         /// Try it in this process, which it may crash.
         #[arg(long, hide = true)]
@@ -230,6 +233,28 @@ pub(super) enum PluginsCommand {
     },
     /// Write a small plugin project that builds and passes the check.
     New(NewPluginArgs),
+    /// Let the program open these libraries, as they are now: a plugin runs with your rights.
+    Allow {
+        /// Plugin files.
+        #[arg(required = true)]
+        files: Vec<PathBuf>,
+    },
+    /// Take back that these libraries were allowed.
+    Forget {
+        /// Plugin files.
+        #[arg(required = true)]
+        files: Vec<PathBuf>,
+    },
+    /// Leave a plugin out, until it is switched on again.
+    Off {
+        /// Id of the plugin.
+        id: String,
+    },
+    /// Use a plugin that was switched off.
+    On {
+        /// Id of the plugin.
+        id: String,
+    },
 }
 
 #[derive(Debug, clap::Args)]
@@ -283,6 +308,7 @@ impl From<PluginLanguage> for Language {
         match language {
             PluginLanguage::Rust => Self::Rust,
             PluginLanguage::C => Self::C,
+            PluginLanguage::Text => Self::Text,
         }
     }
 }
@@ -293,6 +319,8 @@ pub(super) enum PluginLanguage {
     Rust,
     /// C, on the header alone.
     C,
+    /// No code: motion clips (for motion) or a gear type (for gear) as text.
+    Text,
 }
 
 impl OverArgs {

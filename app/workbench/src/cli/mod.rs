@@ -40,6 +40,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitCode, Fa
         Err(message) => return Ok(output::usage(&message)),
     };
     let library = args.library.as_deref();
+    host::allow(args.allow_plugins);
     match &args.command {
         None => workbench::open(library),
         Some(Command::Run(args)) => run::run(args, library),

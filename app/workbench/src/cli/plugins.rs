@@ -1,4 +1,4 @@
-//! `endline plugins`: what is loaded, a check of one file, a new project.
+//! `endline plugins`: what is loaded, a check of one file, what is allowed and switched on, a new project.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -6,7 +6,10 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use endline_sdk::{Attribute, AttributeKind};
-use endline_session::plugins::{PluginInfo, Project, report_here, report_of_child, write_project};
+use endline_session::load_with;
+use endline_session::plugins::{
+    Change, PluginInfo, PluginProblem, Project, Standing, file_hash, report_here, report_of_child, write_project,
+};
 
 use super::args::{NewPluginArgs, PluginsCommand};
 use super::{Failure, host, output};
@@ -20,18 +23,68 @@ pub(super) fn plugins(what: &PluginsCommand) -> Result<ExitCode, Failure> {
         PluginsCommand::Check { file, here: false } => check(file),
         PluginsCommand::Check { file, here: true } => check_here(file),
         PluginsCommand::New(args) => new(args),
+        PluginsCommand::Allow { files } => allow(files),
+        PluginsCommand::Forget { files } => forget(files),
+        PluginsCommand::Off { id } => switch(id, false),
+        PluginsCommand::On { id } => switch(id, true),
     }
 }
 
-/// Every plugin found; those that failed are told on standard error as they are found.
+/// Every plugin found, and what was left out; why is told on standard error as it is found.
 fn list() -> Result<ExitCode, Failure> {
-    let host = host::load();
+    let (host, problems) = host::load_told();
     let folders: Vec<String> = host::folders().iter().map(|folder| folder.display().to_string()).collect();
     let mut text: String = host.list().iter().map(told).collect();
     if text.is_empty() {
         text = format!("no plugins found; looked in {}\n", folders.join(", "));
     }
+    text.extend(host.switched_off().iter().map(|info| format!("switched off  {}; endline plugins on {}\n", info.id, info.id)));
+    text.extend(problems.iter().map(left_out));
     output::print(&text)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// A file that is not used, in a line.
+fn left_out(problem: &PluginProblem) -> String {
+    let file = problem.file.display();
+    match &problem.standing {
+        Standing::Waiting(ask) if ask.change == Change::New => format!("not allowed   {file}; endline plugins allow {file}\n"),
+        Standing::Waiting(_) => format!("changed       {file}; endline plugins allow {file}\n"),
+        Standing::SetAside => format!("quarantined   {file}; endline plugins check {file}\n"),
+        Standing::Unusable => format!("not usable    {file}\n"),
+    }
+}
+
+/// Pins files as they are now.
+fn allow(files: &[PathBuf]) -> Result<ExitCode, Failure> {
+    let mut loader = host::loader();
+    for file in files {
+        let hash = file_hash(file).map_err(Failure::failed)?;
+        loader.choices.allow(file, &hash).map_err(Failure::failed)?;
+        output::print(&format!("{}: allowed, hash {hash}\n", file.display()))?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn forget(files: &[PathBuf]) -> Result<ExitCode, Failure> {
+    let mut loader = host::loader();
+    for file in files {
+        let known = loader.choices.forget(file).map_err(Failure::failed)?;
+        output::print(&format!("{}: {}\n", file.display(), if known { "no longer allowed" } else { "was not allowed" }))?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn switch(id: &str, on: bool) -> Result<ExitCode, Failure> {
+    let mut loader = host::loader();
+    let (host, _) = load_with(&mut loader);
+    let mut known = host.list().iter().chain(host.switched_off());
+    if !on && !known.any(|info| info.id == id) {
+        let ids = host.ids();
+        return Err(Failure::failed(format!("no plugin `{id}`; {}", endline_gear::hint(id, ids.iter().map(String::as_str)))));
+    }
+    loader.choices.switch(id, on).map_err(Failure::failed)?;
+    output::print(&format!("{id}: {}\n", if on { "on" } else { "off" }))?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -60,9 +113,19 @@ fn new(args: &NewPluginArgs) -> Result<ExitCode, Failure> {
     let usual = || PathBuf::from(format!("my-{}", args.kind.word()));
     let folder = args.folder.clone().unwrap_or_else(usual);
     let Project { id, build, library } = write_project(&folder, kind, language, args.sdk.as_deref()).map_err(Failure::failed)?;
-    let (build, file) = (build.join(" "), library.display());
+    let file = library.display();
+    if build.is_empty() {
+        output::print(&format!(
+            "{}: {id}\n\n  endline plugins check {file}\n  ENDLINE_PLUGINS={file} endline plugins list\n",
+            folder.display()
+        ))?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    let build = build.join(" ");
     let place = library.parent().unwrap_or(&folder).display();
-    let steps = format!("  {build}\n  endline plugins check {file}\n  ENDLINE_PLUGINS={place} endline plugins list\n");
+    let steps = format!(
+        "  {build}\n  endline plugins check {file}\n  endline plugins allow {file}\n  ENDLINE_PLUGINS={place} endline plugins list\n"
+    );
     output::print(&format!("{}: {id}\n\n{steps}", folder.display()))?;
     Ok(ExitCode::SUCCESS)
 }
@@ -70,6 +133,10 @@ fn new(args: &NewPluginArgs) -> Result<ExitCode, Failure> {
 fn told(info: &PluginInfo) -> String {
     let place = info.file.as_ref().map_or_else(|| "linked in".to_owned(), |file| file.display().to_string());
     let mut text = format!("{}  {}  {}\n  {} ({place})\n  {}\n", info.id, info.version, info.kind, info.name, info.help);
+    if !info.about.is_empty() {
+        // Writing into a String cannot fail.
+        let _ = writeln!(text, "  {}", info.about);
+    }
     for attribute in &info.attributes {
         // Writing into a String cannot fail.
         let _ = writeln!(text, "    {}: {}; {}", attribute.key, values(attribute), attribute.help);

@@ -23,11 +23,15 @@ use crate::whale::BodyPart;
 /// endline_sdk::export_plugin! { motion: Swim::new(), friction: Coulomb::new(), gear: Single::new() }
 /// ```
 ///
-/// Any number of plugins, each after its kind: `motion`, `friction` or `gear`. Without the feature
-/// nothing is generated, so that several plugin crates link into one binary.
+/// Any number of plugins, each after its kind: `motion`, `friction` or `gear`. First may stand what the library says of itself,
+/// as in `about: "A. Author 2026, after Smith 1999";`. Without the feature nothing is generated, so that several plugin crates
+/// link into one binary.
 #[macro_export]
 macro_rules! export_plugin {
     ($($kind:ident: $plugin:expr),+ $(,)?) => {
+        $crate::export_plugin! { about: ""; $($kind: $plugin),+ }
+    };
+    (about: $about:expr; $($kind:ident: $plugin:expr),+ $(,)?) => {
         #[cfg(feature = "entry")]
         mod endline_plugin_export {
             #![allow(unsafe_code, reason = "an exported symbol is unsafe to name; all work is done in endline_sdk::abi::export")]
@@ -38,7 +42,7 @@ macro_rules! export_plugin {
             static FACTORY: ::std::sync::OnceLock<Factory> = ::std::sync::OnceLock::new();
 
             extern "C" fn init_library(_path: AbiText, message: *mut AbiMessage) -> i32 {
-                init(&FACTORY, || ::std::vec![$(Exported::$kind($plugin)),+], message)
+                init(&FACTORY, || ::std::vec![$(Exported::$kind($plugin)),+], $about, message)
             }
 
             extern "C" fn get_factory(id: AbiText) -> *const ::std::ffi::c_void {
@@ -97,9 +101,9 @@ unsafe impl Send for Factory {}
 unsafe impl Sync for Factory {}
 
 /// Makes the factory; a panic in a plugin's constructor becomes a status with its message.
-pub fn init(store: &OnceLock<Factory>, plugins: impl FnOnce() -> Vec<Exported>, message: *mut AbiMessage) -> i32 {
+pub fn init(store: &OnceLock<Factory>, plugins: impl FnOnce() -> Vec<Exported>, about: &'static str, message: *mut AbiMessage) -> i32 {
     guarded(message, || {
-        store.get_or_init(|| make_factory(plugins()));
+        store.get_or_init(|| make_factory(plugins(), about));
         Ok(())
     })
 }
@@ -114,10 +118,15 @@ pub fn factory(store: &OnceLock<Factory>, id: AbiText) -> *const c_void {
     }
 }
 
-fn make_factory(plugins: Vec<Exported>) -> Factory {
+fn make_factory(plugins: Vec<Exported>, about: &'static str) -> Factory {
     let pointers: Vec<*const AbiPlugin> = plugins.into_iter().map(|plugin| &raw const *Box::leak(Box::new(make_plugin(plugin)))).collect();
     let pointers = Vec::leak(pointers);
-    Factory(AbiFactory { struct_size: size::<AbiFactory>(), plugin_count: pointers.len() as u32, plugins: pointers.as_ptr() })
+    Factory(AbiFactory {
+        struct_size: size::<AbiFactory>(),
+        plugin_count: pointers.len() as u32,
+        plugins: pointers.as_ptr(),
+        about: AbiText::of(about),
+    })
 }
 
 fn make_plugin(plugin: Exported) -> AbiPlugin {

@@ -20,7 +20,7 @@ use crate::motion::{Controls, MotionOutput};
 /// Major version: another number means another layout.
 pub const ABI_MAJOR: u32 = 3;
 /// Minor version: a greater number means fields added at the ends of structs, or kinds of attribute.
-pub const ABI_MINOR: u32 = 0;
+pub const ABI_MINOR: u32 = 1;
 
 /// Kind of plugin: whale motion, table [`AbiMotion`].
 pub const KIND_MOTION: u32 = 1;
@@ -112,6 +112,8 @@ pub struct AbiFactory {
     pub plugin_count: u32,
     /// A pointer to each.
     pub plugins: *const *const AbiPlugin,
+    /// What the library says of itself: who made it, where its laws and figures come from. Since 3.1; may be null.
+    pub about: AbiText,
 }
 
 /// One plugin: who it is, what it takes, and its functions; lives as long as the library.

@@ -16,6 +16,8 @@ pub enum Language {
     Rust,
     /// C, on the header alone.
     C,
+    /// No language: text that the program reads, for motion clips and gear types.
+    Text,
 }
 
 /// A project that was written.
@@ -44,8 +46,10 @@ pub fn write_project(folder: &Path, kind: PluginKind, language: Language, sdk: O
         return Err(format!("{} is there already; name another folder", folder.display()));
     }
     let name = name_of(folder)?;
+    let kind = if language == Language::Text && kind == PluginKind::Motion { PluginKind::Clips } else { kind };
     let id = format!("org.example.{}.{name}", word(kind));
     let files = match language {
+        Language::Text => in_text(kind, &name, &id)?,
         Language::Rust => in_rust(kind, &name, &id, &find_sdk(sdk)?),
         Language::C => in_c(kind, &name, &id),
     };
@@ -54,11 +58,12 @@ pub fn write_project(folder: &Path, kind: PluginKind, language: Language, sdk: O
         let written = path.parent().map_or(Ok(()), fs::create_dir_all).and_then(|()| fs::write(&path, &file.text));
         written.map_err(|error| format!("{}: {error}", path.display()))?;
     }
-    let library = folder.join(library(language, &name));
+    let library = if language == Language::Text { folder.to_path_buf() } else { folder.join(library(language, &name)) };
     let words = |words: &[&str]| words.iter().map(|word| (*word).to_owned()).collect();
     let build = match language {
         Language::Rust => words(&["cargo", "build", "--release", "--manifest-path", &folder.join("Cargo.toml").to_string_lossy()]),
         Language::C => words(&["make", "-C", &folder.to_string_lossy()]),
+        Language::Text => Vec::new(),
     };
     Ok(Project { id, build, library })
 }
@@ -69,6 +74,7 @@ fn word(kind: PluginKind) -> &'static str {
         PluginKind::Motion => "motion",
         PluginKind::Friction => "friction",
         PluginKind::Gear => "gear",
+        PluginKind::Clips => "clips",
     }
 }
 
@@ -98,7 +104,7 @@ fn find_sdk(given: Option<&Path>) -> Result<PathBuf, String> {
 
 fn in_rust(kind: PluginKind, name: &str, id: &str, sdk: &Path) -> Vec<Written> {
     let source = match kind {
-        PluginKind::Motion => include_str!("templates/motion.rs"),
+        PluginKind::Motion | PluginKind::Clips => include_str!("templates/motion.rs"),
         PluginKind::Friction => include_str!("templates/friction.rs"),
         PluginKind::Gear => include_str!("templates/gear.rs"),
     };
@@ -112,7 +118,7 @@ fn in_rust(kind: PluginKind, name: &str, id: &str, sdk: &Path) -> Vec<Written> {
 
 fn in_c(kind: PluginKind, name: &str, id: &str) -> Vec<Written> {
     let source = match kind {
-        PluginKind::Motion => include_str!("templates/motion.c"),
+        PluginKind::Motion | PluginKind::Clips => include_str!("templates/motion.c"),
         PluginKind::Friction => include_str!("templates/friction.c"),
         PluginKind::Gear => include_str!("templates/gear.c"),
     };
@@ -122,6 +128,17 @@ fn in_c(kind: PluginKind, name: &str, id: &str) -> Vec<Written> {
         Written { path: "endline_plugin.h", text: HEADER.to_owned() },
         Written { path: "Makefile", text: include_str!("templates/Makefile.txt").replace("@library@", &library(Language::C, name)) },
     ]
+}
+
+fn in_text(kind: PluginKind, name: &str, id: &str) -> Result<Vec<Written>, String> {
+    let (path, text) = match kind {
+        PluginKind::Gear => ("gear-types/simple.toml", include_str!("templates/gear.toml")),
+        PluginKind::Motion | PluginKind::Clips => ("acts/bend.toml", include_str!("templates/act.toml")),
+        PluginKind::Friction => return Err("a law of friction needs code; take --lang rust or --lang c".to_owned()),
+    };
+    // The folder's own id must differ from that of a gear type in it.
+    let plugin = include_str!("templates/plugin.toml").replace("@id@", &id.replace(".gear.", "."));
+    Ok(vec![Written { path: "plugin.toml", text: named(&plugin, name, id) }, Written { path, text: named(text, name, id) }])
 }
 
 /// A source with the plugin's id and its name in menus.
@@ -135,5 +152,6 @@ fn library(language: Language, name: &str) -> String {
     match language {
         Language::Rust => format!("target/release/{}{}{}", env::consts::DLL_PREFIX, name.replace('-', "_"), env::consts::DLL_SUFFIX),
         Language::C => format!("{name}{}", env::consts::DLL_SUFFIX),
+        Language::Text => String::new(),
     }
 }

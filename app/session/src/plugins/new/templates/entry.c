@@ -1,6 +1,9 @@
 /* From here on the same for every plugin: what the program looks for when it opens the library. */
 static const endline_plugin_t *const plugins[] = { &plugin };
-static const endline_factory_t factory = { .struct_size = sizeof factory, .plugin_count = 1, .plugins = plugins };
+static const endline_factory_t factory = {
+    .struct_size = sizeof factory, .plugin_count = 1, .plugins = plugins,
+    .about = TEXT("Who made this, and where its figures come from."),
+};
 
 static int32_t init(endline_text_t path, endline_message_t *message) {
     (void)path, (void)message;

@@ -62,4 +62,7 @@ impl FrictionModel for Sticky {
     }
 }
 
-endline_sdk::export_plugin! { friction: Sticky::new() }
+endline_sdk::export_plugin! {
+    about: "Who made this, and where its figures come from.";
+    friction: Sticky::new()
+}

@@ -64,4 +64,7 @@ impl GearType for Simple {
     }
 }
 
-endline_sdk::export_plugin! { gear: Simple::new() }
+endline_sdk::export_plugin! {
+    about: "Who made this, and where its figures come from.";
+    gear: Simple::new()
+}

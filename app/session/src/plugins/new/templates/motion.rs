@@ -26,4 +26,7 @@ impl WhaleMotion for Glide {
     }
 }
 
-endline_sdk::export_plugin! { motion: Glide::new() }
+endline_sdk::export_plugin! {
+    about: "Who made this, and where its figures come from.";
+    motion: Glide::new()
+}

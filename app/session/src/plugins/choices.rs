@@ -1,0 +1,155 @@
+//! What the user has decided about plugins: which libraries may be opened, each by the hash of its file, and which plugins are off.
+//!
+//! A library runs with the user's rights, so one that did not come with the program is opened only once its user has said so, and
+//! is asked about again when its bytes change. The decisions stand in one text file of the user's data folder, a line each:
+//! `allow HASH FILE` and `off ID`.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::save;
+
+/// Why a library waits for its user.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Change {
+    /// It was never allowed.
+    New,
+    /// It was allowed with other bytes.
+    Changed,
+}
+
+/// What is asked about a library.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Ask {
+    /// BLAKE3 of the file, hexadecimal: what is allowed.
+    pub hash: String,
+    /// Why it is asked.
+    pub change: Change,
+}
+
+/// A user's decisions.
+#[derive(Clone, Debug, Default)]
+pub struct Choices {
+    list: Option<PathBuf>,
+    everything: bool,
+    own: Vec<PathBuf>,
+    allowed: BTreeMap<PathBuf, String>,
+    off: BTreeSet<String>,
+}
+
+impl Choices {
+    /// Every library may be opened, no plugin is off, and nothing is kept: for programs that bring their own.
+    #[must_use]
+    pub fn everything() -> Self {
+        Self { everything: true, ..Self::default() }
+    }
+
+    /// The decisions kept in a file, which need not be there yet. Libraries in the folders `own` need none: they came with the program.
+    #[must_use]
+    pub fn kept_in(list: Option<PathBuf>, own: &[PathBuf]) -> Self {
+        let text = list.as_ref().and_then(|list| fs::read_to_string(list).ok()).unwrap_or_default();
+        let own = own.iter().map(|folder| whole(folder)).collect();
+        let mut choices = Self { list, own, ..Self::default() };
+        for line in text.lines() {
+            match line.split_once(' ') {
+                Some(("allow", rest)) => {
+                    choices.allowed.extend(rest.split_once(' ').map(|(hash, file)| (PathBuf::from(file), hash.to_owned())));
+                }
+                Some(("off", id)) => {
+                    choices.off.insert(id.to_owned());
+                }
+                _ => {}
+            }
+        }
+        choices
+    }
+
+    /// What must be asked before a file of this hash is opened.
+    #[must_use]
+    pub fn ask(&self, file: &Path, hash: &str) -> Option<Ask> {
+        let file = whole(file);
+        if self.everything || self.own.iter().any(|folder| file.starts_with(folder)) {
+            return None;
+        }
+        let change = match self.allowed.get(&file) {
+            Some(allowed) if allowed == hash => return None,
+            Some(_) => Change::Changed,
+            None => Change::New,
+        };
+        Some(Ask { hash: hash.to_owned(), change })
+    }
+
+    /// Allows a file with these bytes.
+    ///
+    /// # Errors
+    /// Where the decision cannot be kept.
+    pub fn allow(&mut self, file: &Path, hash: &str) -> Result<(), String> {
+        self.allowed.insert(whole(file), hash.to_owned());
+        self.keep()
+    }
+
+    /// Takes back that a file was allowed; false where it was not.
+    ///
+    /// # Errors
+    /// Where the decision cannot be kept.
+    pub fn forget(&mut self, file: &Path) -> Result<bool, String> {
+        let known = self.allowed.remove(&whole(file)).is_some();
+        self.keep().map(|()| known)
+    }
+
+    /// Whether the user has switched a plugin off.
+    #[must_use]
+    pub fn is_off(&self, id: &str) -> bool {
+        self.off.contains(id)
+    }
+
+    /// Switches a plugin off, or on again.
+    ///
+    /// # Errors
+    /// Where the decision cannot be kept.
+    pub fn switch(&mut self, id: &str, on: bool) -> Result<(), String> {
+        if on {
+            self.off.remove(id);
+        } else {
+            self.off.insert(id.to_owned());
+        }
+        self.keep()
+    }
+
+    fn keep(&self) -> Result<(), String> {
+        let Some(list) = &self.list else { return Ok(()) };
+        let allowed = self.allowed.iter().map(|(file, hash)| format!("allow {hash} {}\n", file.display()));
+        let text: String = allowed.chain(self.off.iter().map(|id| format!("off {id}\n"))).collect();
+        let kept = list.parent().map_or(Ok(()), fs::create_dir_all).and_then(|()| save::atomically(list, text.as_bytes()));
+        kept.map_err(|error| format!("{}: cannot be written: {error}", list.display()))
+    }
+}
+
+/// A path as the system knows it.
+fn whole(path: &Path) -> PathBuf {
+    path.canonicalize().unwrap_or_else(|_| path.to_path_buf())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn decisions_outlive_the_program_and_a_changed_file_is_asked_about_again() {
+        let folder = std::env::temp_dir().join(format!("endline-choices-{}", std::process::id()));
+        let (list, own, file) = (folder.join("data/plugins-chosen"), folder.join("own"), folder.join("lib with a space.so"));
+        fs::create_dir_all(&own).unwrap();
+        let read = || Choices::kept_in(Some(list.clone()), std::slice::from_ref(&own));
+        let change = |hash: &str| read().ask(&file, hash).map(|ask| ask.change);
+        assert_eq!((change("1"), read().ask(&own.join("lib.so"), "1")), (Some(Change::New), None));
+        read().allow(&file, "1").unwrap();
+        read().switch("org.example.slow", false).unwrap();
+        assert_eq!((change("1"), change("2")), (None, Some(Change::Changed)));
+        assert!(read().is_off("org.example.slow") && !read().is_off("org.example.fast"));
+        assert!(read().forget(&file).unwrap() && !read().forget(&file).unwrap());
+        read().switch("org.example.slow", true).unwrap();
+        assert_eq!((change("1"), read().is_off("org.example.slow")), (Some(Change::New), false));
+        fs::remove_dir_all(&folder).unwrap();
+    }
+}

@@ -1,0 +1,159 @@
+//! From folders to a host, as often as asked: at the start, and again when a plugin was built anew.
+//!
+//! What was opened stays open, and a file whose bytes are the same is not opened twice; so a run under way keeps the plugins it began
+//! with, and the next one has the new.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::env::consts::DLL_EXTENSION;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use endline_gear::{Diagnostic, TextPlugin};
+
+use super::check::Checker;
+use super::choices::{Change, Choices};
+use super::copy::with_copy;
+use super::cut_short;
+use super::folders::copies_folder;
+use super::host::PluginHost;
+use super::info::{PluginProblem, Refusal, Standing};
+use super::load::{self, Opened};
+
+/// Finds, asks about, checks and opens plugins.
+pub struct Loader {
+    /// Folders searched.
+    pub folders: Vec<PathBuf>,
+    /// What the user has decided.
+    pub choices: Choices,
+    opened: BTreeMap<(PathBuf, String), Opened>,
+}
+
+impl Loader {
+    /// A loader of these folders.
+    #[must_use]
+    pub fn new(folders: &[PathBuf], choices: Choices) -> Self {
+        Self { folders: folders.to_vec(), choices, opened: BTreeMap::new() }
+    }
+
+    /// Every usable plugin of the folders as they are now, and why each other file is not used. The checker sees each file that the
+    /// choices allow before it is opened here.
+    pub fn load(&mut self, checker: &Checker<'_>) -> (PluginHost, Vec<PluginProblem>) {
+        let (mut host, mut problems) = (PluginHost::empty(), Vec::new());
+        for file in libraries(&self.folders, &mut problems) {
+            match self.open(&file, checker) {
+                Ok((hash, opened)) => host.add_loaded(&file, &hash, opened, &self.choices, &mut problems),
+                Err(refusal) => problems.push(refusal.at(file)),
+            }
+        }
+        for folder in text_plugins(&self.folders) {
+            match TextPlugin::from_folder(&folder) {
+                Ok(plugin) => host.add_text(&folder, &plugin, &self.choices, &mut problems),
+                Err(found) => problems.push(told(&found).at(folder)),
+            }
+        }
+        (host, problems)
+    }
+
+    fn open(&mut self, file: &Path, checker: &Checker<'_>) -> Result<(String, Opened), Refusal> {
+        let (hash, bytes) = read(file)?;
+        let key = (file.to_path_buf(), hash.clone());
+        if let Some(ask) = self.choices.ask(file, &hash) {
+            let what = if ask.change == Change::New { "has not been allowed yet" } else { "has changed since it was allowed" };
+            let help = format!("a plugin runs with your rights; if you trust it: endline plugins allow {}", file.display());
+            return Err(Refusal { standing: Standing::Waiting(Box::new(ask)), ..Refusal::new(what, help) });
+        }
+        if let Some(opened) = self.opened.get(&key) {
+            return Ok((hash, opened.clone()));
+        }
+        checker(file).map_err(|reason| {
+            let reason = format!("set aside, because it failed the check before loading: {reason}");
+            Refusal { standing: Standing::SetAside, ..Refusal::new(reason, "remove the file or mend the plugin") }
+        })?;
+        let opened = open_copy(file, &bytes)?;
+        self.opened.insert(key, opened.clone());
+        Ok((hash, opened))
+    }
+}
+
+/// The hash of a library file and its bytes, all of them.
+fn read(file: &Path) -> Result<(String, Vec<u8>), Refusal> {
+    let bytes = fs::read(file).map_err(|error| Refusal::new(format!("cannot be read: {error}"), "check its permissions"))?;
+    if let Some(whole) = cut_short::missing_from(&bytes) {
+        let reason = format!("is cut short: {} of {whole} bytes", bytes.len());
+        return Err(Refusal::new(reason, "copy or build it again"));
+    }
+    Ok((blake3::hash(&bytes).to_hex().to_string(), bytes))
+}
+
+fn open_copy(file: &Path, bytes: &[u8]) -> Result<Opened, Refusal> {
+    with_copy(file, bytes, &copies_folder(), |copy| load::open(copy, file))
+}
+
+/// Opens one file unasked and unchecked: the child process does.
+pub(super) fn open_here(file: &Path) -> Result<(String, Opened), Refusal> {
+    let (hash, bytes) = read(file)?;
+    Ok((hash, open_copy(file, &bytes)?))
+}
+
+/// A plugin without code, as the check of its author reads it.
+pub(super) fn open_folder(folder: &Path, host: &mut PluginHost, problems: &mut Vec<PluginProblem>) {
+    match TextPlugin::from_folder(folder) {
+        Ok(plugin) => host.add_text(folder, &plugin, &Choices::everything(), problems),
+        Err(found) => problems.push(told(&found).at(folder)),
+    }
+}
+
+/// Every problem of a folder's files, as one.
+fn told(problems: &[Diagnostic]) -> Refusal {
+    let told: Vec<String> = problems.iter().map(ToString::to_string).collect();
+    Refusal::new(format!("this plugin without code cannot be used:\n{}", told.join("\n")), "mend the files")
+}
+
+/// BLAKE3 of a file, hexadecimal, as [`Choices::allow`] takes it.
+///
+/// # Errors
+/// A file that cannot be read or is cut short.
+pub fn file_hash(file: &Path) -> Result<String, String> {
+    read(file).map(|(hash, _)| hash).map_err(|refusal| refusal.at(file).to_string())
+}
+
+/// Library files of the folders, by folder and then by name; the same file twice counts once.
+fn libraries(folders: &[PathBuf], problems: &mut Vec<PluginProblem>) -> Vec<PathBuf> {
+    let (mut found, mut seen) = (Vec::new(), BTreeSet::new());
+    for folder in folders.iter().filter(|folder| folder.exists()) {
+        match libraries_in(folder) {
+            Ok(files) => found.extend(files.into_iter().filter(|file| seen.insert(file.clone()))),
+            Err(error) => {
+                let refusal = Refusal::new(format!("cannot be searched for plugins: {error}"), "name a folder that can be read");
+                problems.push(refusal.at(folder));
+            }
+        }
+    }
+    found
+}
+
+/// Plugins without code: the folders themselves, and those in them.
+fn text_plugins(folders: &[PathBuf]) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for folder in folders {
+        let mut inner: Vec<PathBuf> = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()).collect();
+        inner.sort();
+        let here = std::iter::once(folder.clone()).chain(inner).filter(|folder| TextPlugin::is_in(folder));
+        found.extend(here.map(|folder| folder.canonicalize().unwrap_or(folder)));
+    }
+    let mut seen = BTreeSet::new();
+    found.retain(|folder| seen.insert(folder.clone()));
+    found
+}
+
+fn libraries_in(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
+        if path.extension().is_some_and(|extension| extension == DLL_EXTENSION) {
+            files.push(path.canonicalize().unwrap_or(path));
+        }
+    }
+    files.sort();
+    Ok(files)
+}

@@ -1,0 +1,93 @@
+//! `[[attribute]]` of a gear type that is data: a length, a pure number, a count or an item of the library.
+
+use endline_sdk::{Attribute, AttributeKind};
+
+use super::expression::Name;
+use crate::fields::{Fields, Problems, Range, read_value};
+use crate::nearest::hint;
+use crate::schema::Kind;
+use crate::tree::{Content, Node};
+use crate::units::Quantity;
+
+/// Names that an attribute may not have: those of the depth and of the count in a row of parts.
+pub(super) const TAKEN: [&str; 5] = ["depth", "i", "min", "max", "sqrt"];
+
+/// Reads an attribute; `None` where something needed is missing or wrong, which is a problem already told.
+pub(super) fn read(node: &Node, problems: &Problems) -> Option<Attribute> {
+    let fields = Fields::of(node, problems);
+    let key = fields.need_text("key", "write a key such as \"scope\"");
+    let help = fields.need_text("help", "write one sentence that says what it is");
+    let kind = kind(&fields);
+    fields.finish();
+    let (key, (unit, kind)) = (key?, kind?);
+    let plain = key.value.starts_with(|c: char| c.is_ascii_lowercase())
+        && key.value.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_');
+    if !plain || TAKEN.contains(&key.value.as_str()) {
+        let message = format!("`{}` cannot be the key of an attribute", key.value);
+        let help = format!("write small letters, digits and underscores; {} are taken", TAKEN.join(", "));
+        problems.push(key.place.error(message, help));
+        return None;
+    }
+    Some(Attribute { key: key.value.into(), unit: unit.into(), help: help?.value.into(), kind })
+}
+
+/// The name by which expressions know it.
+pub(super) fn name(attribute: &Attribute) -> Name {
+    let power = match attribute.kind {
+        AttributeKind::Number { .. } => Some(i32::from(attribute.unit == "m")),
+        AttributeKind::Count { .. } => Some(0),
+        AttributeKind::Choice { .. } | AttributeKind::Item { .. } => None,
+    };
+    Name { key: attribute.key.to_string(), power }
+}
+
+/// Unit and kind: an item where `items` is given, a count where `count` is, else a length or a pure number as `default` is written.
+fn kind(fields: &Fields<'_>) -> Option<(&'static str, AttributeKind)> {
+    if fields.get("items").is_some() {
+        return item(fields);
+    }
+    let is_count = fields.flag("count").unwrap_or(false);
+    let Some(node) = fields.get("default") else {
+        fields.missing("default", "write the value taken where a file names none, such as 1.3 or \"20 m\"");
+        return None;
+    };
+    let quantity = if matches!(node.content, Content::Text(_)) && !is_count { Quantity::Length } else { Quantity::Ratio };
+    let default = read_value(node, quantity, Range::Any, fields.problems())?.value;
+    let Some((min, max)) = range(fields, quantity) else {
+        fields.missing("range", "write the least and the greatest value, such as [1.05, 3] or [\"1 m\", \"90 m\"]");
+        return None;
+    };
+    if !(min..=max).contains(&default) {
+        fields.problems().push(node.place.error("the default lies outside the range", "widen the range, or take a default within it"));
+        return None;
+    }
+    if !is_count {
+        return Some((if quantity == Quantity::Length { "m" } else { "1" }, AttributeKind::Number { min, max, default }));
+    }
+    let whole = |value: f64| value.fract() == 0.0 && (0.0..=1000.0).contains(&value);
+    if ![min, max, default].into_iter().all(whole) {
+        fields.problems().push(node.place.error("a count is a whole number from 0 to 1000", "write whole numbers for default and range"));
+        return None;
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "looked at in the lines before")]
+    let [min, max, default] = [min, max, default].map(|value| value as u32);
+    Some(("1", AttributeKind::Count { min, max, default }))
+}
+
+fn item(fields: &Fields<'_>) -> Option<(&'static str, AttributeKind)> {
+    let folder = fields.text("items")?;
+    let default = fields.text("default").map_or(String::new(), |text| text.value);
+    const FOLDERS: [Kind; 5] = [Kind::Rope, Kind::Trap, Kind::Buoy, Kind::WeakLink, Kind::Anchor];
+    let folders = FOLDERS.map(Kind::folder);
+    if !folders.contains(&folder.value.as_str()) {
+        let message = format!("`{}` is no folder of items for gear", folder.value);
+        fields.problems().push(folder.place.error(message, hint(&folder.value, folders)));
+        return None;
+    }
+    Some(("", AttributeKind::Item { library: folder.value.into(), default: default.into() }))
+}
+
+fn range(fields: &Fields<'_>, quantity: Quantity) -> Option<(f64, f64)> {
+    let values = fields.values("range", quantity, &[2])?.value;
+    Some((values[0], values[1]))
+}

@@ -1,0 +1,163 @@
+//! A plugin without code: a folder with `plugin.toml`, motion clips in `acts/` and gear types in `gear-types/`.
+//!
+//! ```text
+//! plugin.toml            format, kind = "plugin", id, version, name, notes, source
+//! acts/*.toml, *.glb     acts as in a gear library: docs/motions.md
+//! gear-types/*.toml      attributes, and parts whose lengths are expressions of them: docs/gear-types.md
+//! ```
+
+mod attributes;
+mod expression;
+mod gear;
+mod words;
+
+use std::fs;
+use std::path::Path;
+use std::sync::Arc;
+
+use endline_sdk::{Act, GearType};
+
+use crate::diagnostic::Diagnostic;
+use crate::entry;
+use crate::fields::{Fields, Problems};
+use crate::library::Library;
+use crate::schema::Kind;
+use crate::sources::Sources;
+use crate::tree::{self, Node};
+
+pub use gear::TextGear;
+
+/// The file that makes a folder a plugin.
+pub const PLUGIN_FILE: &str = "plugin.toml";
+
+/// Folder of gear types in a plugin.
+const GEAR_TYPES: &str = "gear-types";
+
+/// A plugin without code.
+#[derive(Clone)]
+pub struct TextPlugin {
+    /// Reverse-domain id.
+    pub id: String,
+    /// Version.
+    pub version: String,
+    /// Name shown in menus.
+    pub name: String,
+    /// One sentence of help.
+    pub help: String,
+    /// Who made it, where its figures come from.
+    pub about: String,
+    /// Acts by id, with those of their mirror images.
+    pub acts: Vec<Act>,
+    /// The files of the acts, such as `acts/spy-hop.toml`.
+    pub clips: Sources,
+    /// Gear types.
+    pub gear: Vec<Arc<dyn GearType>>,
+    /// All its files, one after the other, for a hash of the whole.
+    pub bytes: Vec<u8>,
+}
+
+/// Who a plugin says that it is.
+struct Head {
+    id: String,
+    version: String,
+    name: String,
+    help: String,
+    about: String,
+}
+
+impl TextPlugin {
+    /// Whether a folder is a plugin without code.
+    #[must_use]
+    pub fn is_in(folder: &Path) -> bool {
+        folder.join(PLUGIN_FILE).is_file()
+    }
+
+    /// Reads a folder.
+    ///
+    /// # Errors
+    /// Every located problem of its files.
+    pub fn from_folder(folder: &Path) -> Result<Self, Vec<Diagnostic>> {
+        let (problems, mut bytes) = (Problems::default(), Vec::new());
+        let head = text(folder, PLUGIN_FILE, &mut bytes, &problems).and_then(|node| head(&node, &problems));
+        let version = head.as_ref().map_or("", |head| head.version.as_str());
+        let mut gear: Vec<Arc<dyn GearType>> = Vec::new();
+        for path in toml_files(folder, GEAR_TYPES) {
+            let Some(node) = text(folder, &path, &mut bytes, &problems) else { continue };
+            gear.extend(TextGear::read(&node, version, &problems).map(|gear| Arc::new(gear) as Arc<dyn GearType>));
+        }
+        let (clips, acts) = clips(folder, &mut bytes, &problems);
+        if acts.is_empty() && gear.is_empty() && !problems.any_error() {
+            let help = "put acts into acts/, or gear types into gear-types/";
+            problems.push(Diagnostic::of_file(PLUGIN_FILE, "there is nothing in this plugin", help));
+        }
+        match head {
+            Some(Head { id, version, name, help, about }) if !problems.any_error() => {
+                Ok(Self { id, version, name, help, about, acts, clips, gear, bytes })
+            }
+            _ => Err(problems.into_sorted()),
+        }
+    }
+}
+
+fn head(node: &Node, problems: &Problems) -> Option<Head> {
+    let fields = Fields::of(node, problems);
+    let (name, help, file) = entry::header(&fields, "plugin", problems);
+    let id = fields.need_text("id", "write a reverse-domain id such as \"org.example.our-whales\"");
+    let version = fields.need_text("version", "write a version such as \"0.1.0\"");
+    fields.finish();
+    Some(Head { id: id?.value, version: version?.value, name, help, about: file.source.unwrap_or_default() })
+}
+
+/// Reads a text of the folder; what is wrong with it is told under its path there.
+fn text(folder: &Path, path: &str, bytes: &mut Vec<u8>, problems: &Problems) -> Option<Node> {
+    let text = match fs::read_to_string(folder.join(path)) {
+        Ok(text) => text,
+        Err(error) => {
+            let help = "a plugin's file is text in UTF-8 that you may read";
+            problems.push(Diagnostic::of_file(path, format!("cannot be read: {error}"), help));
+            return None;
+        }
+    };
+    add(path, text.as_bytes(), bytes);
+    tree::read(path, &text).map_err(|problem| problems.push(*problem)).ok()
+}
+
+/// A file's path, length and content, so that no two sets of files run together to the same bytes.
+fn add(path: &str, content: &[u8], bytes: &mut Vec<u8>) {
+    bytes.extend_from_slice(format!("{path} {}\n", content.len()).as_bytes());
+    bytes.extend_from_slice(content);
+}
+
+/// Paths of the TOML files of a folder within the plugin, sorted.
+fn toml_files(folder: &Path, inner: &str) -> Vec<String> {
+    let files =
+        fs::read_dir(folder.join(inner)).into_iter().flatten().flatten().map(|entry| entry.file_name().to_string_lossy().into_owned());
+    let mut files: Vec<String> = files.filter(|name| name.ends_with(".toml")).map(|name| format!("{inner}/{name}")).collect();
+    files.sort();
+    files
+}
+
+/// The acts: their files, and each with its name.
+fn clips(folder: &Path, bytes: &mut Vec<u8>, problems: &Problems) -> (Sources, Vec<Act>) {
+    if !folder.join(Kind::Act.folder()).is_dir() {
+        return (Sources::default(), Vec::new());
+    }
+    let sources = match Sources::from_folder(folder) {
+        Ok(sources) => sources.of_folder(Kind::Act.folder()),
+        Err(found) => {
+            problems.extend(found);
+            return (Sources::default(), Vec::new());
+        }
+    };
+    sources.iter().for_each(|(path, text)| add(path, text.as_bytes(), bytes));
+    sources.meshes().for_each(|(path, mesh)| add(path, mesh, bytes));
+    let (library, found) = Library::read(&sources);
+    problems.extend(found);
+    let act = |clip: &endline_sim::whale::acts::Clip| Act {
+        id: clip.id.clone().into(),
+        name: clip.name.clone().into(),
+        help: clip.help.clone().into(),
+    };
+    let acts = library.acts.iter().flat_map(|item| item.clips.iter().map(act)).collect();
+    (sources, acts)
+}
