@@ -4,8 +4,6 @@
 
 mod common;
 
-use std::sync::Arc;
-
 use common::{Folder, linked, on_disk, opened_with, wait, workbench};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
@@ -89,8 +87,7 @@ fn a_copy_is_compared_with_its_original_and_its_users_are_told() {
 
 /// The workbench with the assembly panel in front, plugins linked.
 fn assembly(folder: &Folder) -> Harness<'static, App> {
-    let host = linked();
-    let mut harness = opened_with(folder.book_with("hello-endline"), Arc::clone(&host), engine::live(host), Pilot::default());
+    let mut harness = opened_with(folder.book_with("hello-endline"), linked(), engine::live(), Pilot::default());
     harness.state_mut().dock = egui_dock::DockState::new(vec![Panel::Assembly.id().to_owned()]);
     harness.run_steps(2);
     wait(&mut harness, |app| app.desk.assembly.settled());

@@ -120,8 +120,7 @@ fn flown(folder: &Folder) -> Harness<'static, App> {
     for (field, value) in [("duration", "2 s"), ("rope_nodes", "120"), ("whale.position.1", "-7 m")] {
         book.set("scenario", field, value).unwrap();
     }
-    let host = linked();
-    let mut harness = opened_with(book, Arc::clone(&host), engine::live(host), Pilot::default());
+    let mut harness = opened_with(book, linked(), engine::live(), Pilot::default());
     wait(&mut harness, |app| app.desk.status() == Some(&Status::Paused));
     harness.state_mut().desk.recordings = Some(folder.0.join("recordings"));
     harness.state_mut().desk.obey(&Order::Speed(f64::INFINITY));

@@ -9,7 +9,6 @@ use std::sync::Arc;
 use common::{Folder, linked, on_disk, opened, opened_with, retype, wait, workbench};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
-use endline_session::PluginHost;
 use endline_session::live::Status;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::book::Book;
@@ -152,8 +151,7 @@ impl endline_workbench::input::PadSource for LateStart {
 #[test]
 fn a_real_run_swings_the_pendulum_on_a_thread_of_its_own() {
     let folder = Folder::new("real");
-    let host = Arc::new(PluginHost::empty());
-    let mut harness = opened(folder.book(), engine::live(host), Pilot::default());
+    let mut harness = opened(folder.book(), engine::live(), Pilot::default());
     wait(&mut harness, |app| app.desk.status() == Some(&Status::Paused));
     harness.state_mut().desk.obey(&Order::Speed(f64::INFINITY));
     harness.get_by_label("▶ Run").click();
@@ -167,8 +165,7 @@ fn a_real_run_swings_the_pendulum_on_a_thread_of_its_own() {
 #[test]
 fn editing_the_endline_in_its_table_and_applying_changes_the_answer() {
     let folder = Folder::new("answer");
-    let host = linked();
-    let mut harness = opened_with(folder.book_with("hello-endline"), Arc::clone(&host), engine::live(host), Pilot::default());
+    let mut harness = opened_with(folder.book_with("hello-endline"), linked(), engine::live(), Pilot::default());
     let settled_n = |harness: &Harness<'static, App>| {
         let view = harness.state().desk.view.clone().unwrap();
         view.frame.tension_n.iter().copied().fold(0.0, f64::max)

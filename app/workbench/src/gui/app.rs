@@ -205,6 +205,7 @@ impl eframe::App for App {
                 .show_inside(ui, &mut tabs);
         });
         self.palette.show(ui.ctx(), &mut self.desk);
+        questions::plugin(ui.ctx(), &mut self.desk);
         questions::closing(&ui.ctx().clone(), self);
         let orders = std::mem::take(&mut self.desk.orders);
         if !orders.is_empty() {

@@ -1,6 +1,7 @@
 //! What all panels share: the texts, the run, the pilot; and the orders that change them.
 
 mod files;
+mod plugins;
 mod runs;
 
 use std::path::PathBuf;
@@ -22,6 +23,7 @@ use super::panels::plots::PlotsState;
 use super::panels::recordings::RecordingsState;
 use super::panels::start::StartState;
 use super::panels::view::ViewState;
+use super::plugins::{Change, Plugins};
 pub use super::preferences::{Preferences, Scale};
 use super::recovery::Keeper;
 use crate::input::{Pilot, Rumble};
@@ -72,8 +74,8 @@ pub struct Desk {
     pub recordings: Option<PathBuf>,
     /// Problems found in making the model, beyond those of single files.
     pub make_problems: Vec<Diagnostic>,
-    /// Plugins that were refused.
-    pub plugin_problems: Vec<String>,
+    /// Plugins that are not used, checks of them, and loading them again.
+    pub plugins: Plugins,
     /// What the status bar says last, and whether it is bad.
     pub notice: Option<(String, bool)>,
     /// Orders given by panels, obeyed after drawing.
@@ -93,6 +95,8 @@ pub struct Desk {
     kept_runs: u64,
     /// Whether the run shown was kept as it stands.
     run_is_kept: bool,
+    /// Whether plugins were loaded again since the run's thread began.
+    other_plugins: bool,
     /// Inputs of a recording whose model is in the making.
     inputs_when_made: Option<Vec<endline_sdk::Controls>>,
 }
@@ -119,7 +123,7 @@ impl Desk {
             keeper: Keeper::default(),
             recordings: None,
             make_problems: Vec::new(),
-            plugin_problems: Vec::new(),
+            plugins: Plugins::default(),
             notice: None,
             orders: Vec::new(),
             host,
@@ -134,6 +138,7 @@ impl Desk {
             replay_speed: 1.0,
             kept_runs: 0,
             run_is_kept: false,
+            other_plugins: false,
             inputs_when_made: None,
         };
         desk.make();
@@ -145,6 +150,7 @@ impl Desk {
         if let Some(made) = self.maker.poll() {
             self.take_made(made);
         }
+        self.take_plugins();
         let settling = self.status() == Some(&Status::Settling);
         self.view = self.engine.as_ref().map(|engine| engine.latest());
         if self.view.as_ref().is_some_and(|view| view.newest_s < WORTH_KEEPING_S) {
@@ -270,6 +276,12 @@ impl Desk {
             Order::Save => self.save(),
             Order::SaveRecording(path) => self.tell(Command::SaveRecording(path.clone())),
             Order::Open(path) => self.open(path),
+            Order::ReloadPlugins => self.reload_plugins(Change::None),
+            Order::AllowPlugin(file, hash) => self.reload_plugins(Change::Allow(file.clone(), hash.clone())),
+            Order::SwitchPlugin(id, on) => self.reload_plugins(Change::Switch(id.clone(), *on)),
+            Order::CheckPlugin(file) => self.check_plugin(file),
+            Order::UsePlugin(id) => self.use_plugin(id),
+            Order::OpenFolder(folder) => self.open_folder(folder),
             Order::Undo => self.step_back(true),
             Order::Redo => self.step_back(false),
             Order::Close(_)
@@ -364,7 +376,7 @@ impl Desk {
         let source = Source {
             scenario_name: self.book.shown_name(Book::SCENARIO),
             scenario: self.book.text(Book::SCENARIO).unwrap_or_default().to_owned(),
-            library: self.book.sources(),
+            library: self.host.with_clips(self.book.sources()),
             overrides: Overrides::default(),
         };
         self.making.clone_from(self.book.texts());
@@ -400,11 +412,14 @@ impl Desk {
         self.keep_run();
         self.applied = Some(std::mem::take(&mut self.making));
         self.view3d.frame_again = true;
+        if std::mem::take(&mut self.other_plugins) {
+            self.engine = None;
+        }
         if self.engine.is_some() {
             self.tell(Command::Load(Box::new(prepared)));
             return;
         }
-        match (self.launch)(prepared, Arc::clone(&self.waker)) {
+        match (self.launch)(prepared, Arc::clone(&self.host), Arc::clone(&self.waker)) {
             Ok(engine) => self.engine = Some(engine),
             Err(error) => self.notice = Some((error, true)),
         }

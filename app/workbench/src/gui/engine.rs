@@ -28,15 +28,15 @@ impl Engine for Live {
 /// Called whenever there is something new to draw; may come from any thread.
 pub type Waker = Arc<dyn Fn() + Send + Sync>;
 
-/// Starts a run for a model.
-pub type Launch = Box<dyn Fn(Prepared, Waker) -> Result<Box<dyn Engine>, String>>;
+/// Starts a run for a model, with these plugins.
+pub type Launch = Box<dyn Fn(Prepared, Arc<PluginHost>, Waker) -> Result<Box<dyn Engine>, String>>;
 
-/// Runs on a thread of their own, with these plugins.
+/// Runs on a thread of their own.
 #[must_use]
-pub fn live(host: Arc<PluginHost>) -> Launch {
-    Box::new(move |prepared, waker| {
+pub fn live() -> Launch {
+    Box::new(|prepared, host, waker| {
         let options = RunOptions::default();
-        let live = Live::open(prepared, Arc::clone(&host), options, move || waker());
+        let live = Live::open(prepared, host, options, move || waker());
         let engine: Box<dyn Engine> = Box::new(live.map_err(|error| format!("the run's thread cannot be started: {error}"))?);
         Ok(engine)
     })

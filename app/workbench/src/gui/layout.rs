@@ -35,11 +35,13 @@ pub enum Panel {
     Recordings,
     /// What the pad does.
     Pad,
+    /// Motions, laws of friction and gear types.
+    Plugins,
 }
 
 impl Panel {
     /// Every panel, in the order of the Window menu.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 16] = [
         Self::Library,
         Self::Assembly,
         Self::Scenario,
@@ -55,6 +57,7 @@ impl Panel {
         Self::Start,
         Self::Recordings,
         Self::Pad,
+        Self::Plugins,
     ];
 
     /// Its stable id in saved layouts.
@@ -76,6 +79,7 @@ impl Panel {
             Self::Start => "start",
             Self::Recordings => "recordings",
             Self::Pad => "pad",
+            Self::Plugins => "plugins",
         }
     }
 
@@ -98,6 +102,7 @@ impl Panel {
             Self::Start => "Start",
             Self::Recordings => "Recordings",
             Self::Pad => "Pad",
+            Self::Plugins => "Plugins",
         }
     }
 

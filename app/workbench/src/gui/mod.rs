@@ -23,6 +23,7 @@ pub mod models;
 pub mod order;
 pub mod palette;
 pub mod panels;
+pub mod plugins;
 pub mod preferences;
 pub mod questions;
 pub mod recovery;
@@ -34,13 +35,14 @@ pub mod units;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use endline_session::{load_plugins, locate};
+use endline_session::{load_with, locate, plugin_loader};
 
 use crate::input::{GilrsPads, PadSource, Pilot};
 use app::App;
 use book::Book;
 use desk::Desk;
 use engine::Waker;
+use plugins::Plugins;
 
 /// How the workbench starts.
 #[derive(Clone, Debug, Default)]
@@ -63,8 +65,8 @@ pub fn open(options: Options) -> Result<(), String> {
     let root = locate::library(options.scenario.as_deref(), options.library.as_deref())?;
     let scenario = options.scenario.unwrap_or_else(|| root.join("scenarios/hello-endline.toml"));
     let book = Book::open(&root, &scenario)?;
-    let (host, refused) = load_plugins(&options.plugins);
-    let refused: Vec<String> = refused.iter().map(ToString::to_string).collect();
+    let mut loader = plugin_loader(&options.plugins);
+    let (host, refused) = load_with(&mut loader);
     let native = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_title("Endline")
@@ -83,9 +85,8 @@ pub fn open(options: Options) -> Result<(), String> {
         let host = Arc::new(host);
         let context = creation.egui_ctx.clone();
         let waker: Waker = Arc::new(move || context.request_repaint());
-        let launch = engine::live(Arc::clone(&host));
-        let mut desk = Desk::new(book, host, launch, waker, Pilot::new(pads()));
-        desk.plugin_problems = refused;
+        let mut desk = Desk::new(book, host, engine::live(), waker, Pilot::new(pads()));
+        desk.plugins = Plugins::new(loader, Arc::new(load_with), refused);
         if let Some(folder) = &data {
             desk.keeper = recovery::Keeper::in_folder(folder.clone());
             desk.recordings = Some(folder.join("recordings"));

@@ -74,6 +74,18 @@ pub enum Order {
     SaveRecording(PathBuf),
     /// Open a scenario.
     Open(PathBuf),
+    /// Load the plugins again: what was built anew counts from the next run on.
+    ReloadPlugins,
+    /// Let a plugin library be opened with the bytes of this hash.
+    AllowPlugin(PathBuf, String),
+    /// Switch a plugin on or off.
+    SwitchPlugin(String, bool),
+    /// Try a plugin file in a child process.
+    CheckPlugin(PathBuf),
+    /// Put a motion or a law of friction into the scenario.
+    UsePlugin(String),
+    /// Show a folder in the system's file manager.
+    OpenFolder(PathBuf),
     /// Take the last edit back.
     Undo,
     /// Do it again.

@@ -54,11 +54,20 @@ pub fn orders(desk: &Desk) -> Vec<(String, Order)> {
         ("Duplicate the chosen entry".to_owned(), Order::Duplicate),
         ("Save the library's table as CSV".to_owned(), Order::AskExportTable),
         ("Take a CSV into the library".to_owned(), Order::AskImportTable),
+        ("Reload plugins".to_owned(), Order::ReloadPlugins),
         ("Save all".to_owned(), Order::Save),
         ("Undo".to_owned(), Order::Undo),
         ("Redo".to_owned(), Order::Redo),
     ];
     all.extend(desk.acts().iter().enumerate().map(|(index, act)| (format!("Act {}", act.name), Order::ChooseAct(index))));
+    all.extend(desk.plugins.waiting().map(|(file, ask)| {
+        let name = file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        (format!("Allow plugin {name}"), Order::AllowPlugin(file.clone(), ask.hash.clone()))
+    }));
+    let switches = desk.every_plugin().into_iter();
+    all.extend(
+        switches.map(|(info, on)| (format!("Switch {} {}", if on { "off" } else { "on" }, info.name), Order::SwitchPlugin(info.id, !on))),
+    );
     all.extend([0.1, 0.25, 0.5, 1.0, 2.0, 5.0].map(|speed| (format!("Speed {speed}×"), Order::Speed(speed))));
     all.push(("Speed as fast as it goes".to_owned(), Order::Speed(f64::INFINITY)));
     let views = View::WHOLE.into_iter().chain(View::OF_WHALE);

@@ -1,9 +1,10 @@
-//! What the window asks: what to do with edits a crash left, and with unsaved ones as it closes.
+//! What the window asks: what to do with edits a crash left, with unsaved ones as it closes, and with a plugin it does not know.
 
-use egui::{Align2, Context, RichText, Ui, Window, vec2};
+use egui::{Align2, Context, Label, RichText, Ui, Window, vec2};
+use endline_session::plugins::Change;
 
 use super::app::App;
-use super::desk::Order;
+use super::desk::{Desk, Order};
 use super::theme::{Theme, primary};
 
 /// The bar that offers edits back, where a crash left some.
@@ -27,6 +28,34 @@ pub fn recovery(ui: &mut Ui, app: &mut App) {
         if ui.button("Discard").clicked() {
             app.drop_left_behind(&file);
         }
+    });
+}
+
+/// Asks before a plugin library is opened that is new, or has changed since it was allowed.
+pub fn plugin(context: &Context, desk: &mut Desk) {
+    let Some((file, ask)) = desk.plugins.asked() else { return };
+    let title = if ask.change == Change::New { "A new plugin" } else { "A plugin has changed" };
+    let window = Window::new(title).collapsible(false).resizable(false).anchor(Align2::CENTER_CENTER, vec2(0.0, -60.0)).max_width(460.0);
+    window.show(context, |ui| {
+        let palette = Theme::palette_of(ui);
+        let name = file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        let folder = file.parent().map(|folder| folder.display().to_string()).unwrap_or_default();
+        ui.label(RichText::new(name).strong());
+        ui.add(Label::new(RichText::new(format!("in {folder}")).color(palette.faint)).wrap());
+        ui.add_space(4.0);
+        let why =
+            if ask.change == Change::New { "It was never opened here." } else { "It was allowed with other content than it has now." };
+        ui.add(Label::new(format!("{why} A plugin runs with your rights: open it only if you trust who made it.")).wrap());
+        ui.label(RichText::new(format!("hash {}", ask.hash.get(..16).unwrap_or(&ask.hash))).monospace().size(12.0).color(palette.faint))
+            .on_hover_text(&ask.hash);
+        ui.horizontal(|ui| {
+            if primary(ui, !desk.plugins.busy(), "Allow").on_hover_text("It is checked in a process of its own, then loaded").clicked() {
+                desk.orders.push(Order::AllowPlugin(file.clone(), ask.hash.clone()));
+            }
+            if ui.button("Not now").clicked() {
+                desk.plugins.put_off(&ask);
+            }
+        });
     });
 }
 

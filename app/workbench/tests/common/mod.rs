@@ -105,7 +105,7 @@ impl Drop for Folder {
 pub fn workbench(folder: &Folder, pilot: Pilot) -> (Harness<'static, App>, Told) {
     let told = Told::default();
     let noted = Rc::clone(&told);
-    let launch: Launch = Box::new(move |prepared, _waker| {
+    let launch: Launch = Box::new(move |prepared, _host, _waker| {
         let told = Rc::clone(&noted);
         let view = RefCell::new(LiveView { status: Status::Paused, ..LiveView::before(&prepared) });
         let engine: Box<dyn Engine> = Box::new(FakeEngine { told, view });

@@ -7,6 +7,7 @@ pub mod help;
 pub mod library;
 pub mod pad;
 pub mod plots;
+pub mod plugins;
 pub mod problems;
 pub mod recordings;
 pub mod run;
@@ -40,6 +41,7 @@ pub fn show(ui: &mut Ui, panel: Panel, desk: &mut Desk) {
         Panel::Start => start::show(ui, desk),
         Panel::Recordings => recordings::show(ui, desk),
         Panel::Pad => pad::show(ui, desk),
+        Panel::Plugins => plugins::show(ui, desk),
     }
 }
 

@@ -12,7 +12,7 @@ use super::super::theme::Theme;
 /// Draws the list of problems.
 pub fn show(ui: &mut Ui, desk: &mut Desk) {
     let problems: Vec<Diagnostic> = desk.problems().cloned().collect();
-    if problems.is_empty() && desk.plugin_problems.is_empty() {
+    if problems.is_empty() && desk.plugins.problems.is_empty() {
         super::nothing(ui, "No problems: every file of the library and the scenario can be read.");
         return;
     }
@@ -22,7 +22,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
                 go_to(desk, problem);
             }
         }
-        for problem in &desk.plugin_problems {
+        for problem in &desk.plugins.problems {
             let warning = Theme::palette_of(ui).warning;
             ui.add(Label::new(RichText::new(format!("plugin: {problem}")).color(warning)).wrap());
         }

@@ -1,0 +1,245 @@
+//! The plugins: a list by kind, and of the chosen one what it takes, where it comes from and how it was checked.
+
+use std::path::Path;
+
+use egui::{Button, Grid, Label, RichText, ScrollArea, Ui};
+use endline_gear::units::{Quantity, format_si};
+use endline_sdk::{Attribute, AttributeKind};
+use endline_session::plugins::{Change, PluginInfo, PluginProblem, Standing};
+
+use super::super::book::Book;
+use super::super::desk::{Desk, Order};
+use super::super::fields;
+use super::super::theme::{Theme, primary};
+
+/// Share of the panel's width that the list takes.
+const LIST_SHARE: f32 = 0.38;
+
+/// Draws the panel.
+pub fn show(ui: &mut Ui, desk: &mut Desk) {
+    let plugins = desk.every_plugin();
+    toolbar(ui, desk);
+    ui.separator();
+    let whole = ui.available_rect_before_wrap();
+    let (left, right) = whole.split_left_right_at_x(whole.left() + (whole.width() * LIST_SHARE).clamp(170.0, 340.0));
+    super::within(ui, left.with_max_x(left.right() - 8.0), |ui| {
+        ScrollArea::vertical().id_salt("list").auto_shrink(false).show(ui, |ui| list(ui, desk, &plugins));
+    });
+    super::within(ui, right, |ui| {
+        let chosen = plugins.iter().find(|(info, _)| desk.plugins.chosen.as_ref() == Some(&info.id)).or(plugins.first()).cloned();
+        ScrollArea::vertical().id_salt("chosen").auto_shrink(false).show(ui, |ui| match chosen {
+            Some((info, on)) => detail(ui, desk, &info, on),
+            None => super::nothing(ui, "No plugins: build them with `cargo xtask plugins`, or write one: `endline plugins new`."),
+        });
+    });
+}
+
+fn toolbar(ui: &mut Ui, desk: &mut Desk) {
+    ui.horizontal_wrapped(|ui| {
+        let busy = desk.plugins.busy();
+        if primary(ui, !busy, "Reload").on_hover_text("Load what was built anew; the next run uses it").clicked() {
+            desk.orders.push(Order::ReloadPlugins);
+        }
+        let folders: Vec<_> = desk.plugins.folders().into_iter().filter(|folder| folder.is_dir()).collect();
+        ui.add_enabled_ui(!folders.is_empty(), |ui| {
+            ui.menu_button("Open folder ⏷", |ui| {
+                for folder in folders {
+                    if ui.button(folder.display().to_string()).clicked() {
+                        desk.orders.push(Order::OpenFolder(folder));
+                        ui.close();
+                    }
+                }
+            });
+        });
+        if busy {
+            ui.spinner();
+        }
+        let words = "Begin one in a terminal: endline plugins new my-friction --kind friction --lang rust";
+        ui.add(Label::new(RichText::new(words).color(Theme::palette_of(ui).faint)).truncate());
+    });
+}
+
+/// Every plugin under its kind, then what is left out.
+fn list(ui: &mut Ui, desk: &mut Desk, plugins: &[(PluginInfo, bool)]) {
+    let mut kind = None;
+    for (info, on) in plugins {
+        if kind.replace(info.kind) != Some(info.kind) {
+            super::caption(ui, &format!("{}s", info.kind.name().trim_end_matches('s')));
+        }
+        row(ui, desk, info, *on);
+    }
+    let problems = desk.plugins.problems.clone();
+    if !problems.is_empty() {
+        super::caption(ui, "Left out");
+        problems.iter().for_each(|problem| left_out(ui, desk, problem));
+    }
+}
+
+fn row(ui: &mut Ui, desk: &mut Desk, info: &PluginInfo, on: bool) {
+    let palette = Theme::palette_of(ui);
+    ui.horizontal(|ui| {
+        let mut wanted = on;
+        let help = if on { "In use; click to leave it out" } else { "Left out; click to use it" };
+        if ui.checkbox(&mut wanted, "").on_hover_text(format!("{help}: {}", info.id)).changed() {
+            desk.orders.push(Order::SwitchPlugin(info.id.clone(), wanted));
+        }
+        let colour = match (on, desk.uses_plugin(info)) {
+            (false, _) => palette.faint,
+            (true, true) => palette.accent,
+            (true, false) => palette.text,
+        };
+        let chosen = desk.plugins.chosen.as_ref() == Some(&info.id);
+        let name = Button::selectable(chosen, RichText::new(&info.name).color(colour)).truncate();
+        if ui.add(name).on_hover_text(format!("{}\n{}", info.id, info.help)).clicked() {
+            desk.plugins.chosen = Some(info.id.clone());
+        }
+    });
+}
+
+/// A file that is not used: why, and what can be done about it.
+fn left_out(ui: &mut Ui, desk: &mut Desk, problem: &PluginProblem) {
+    let palette = Theme::palette_of(ui);
+    let name = problem.file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let (word, colour) = match &problem.standing {
+        Standing::Waiting(ask) if ask.change == Change::New => ("not allowed yet", palette.warning),
+        Standing::Waiting(_) => ("changed since it was allowed", palette.warning),
+        Standing::SetAside => ("quarantined", palette.error),
+        Standing::Unusable => ("not usable", palette.error),
+    };
+    let told = problem.to_string();
+    ui.add(Label::new(RichText::new(&name).color(colour)).truncate()).on_hover_text(&told);
+    ui.horizontal_wrapped(|ui| {
+        ui.label(RichText::new(word).size(12.0).color(palette.faint)).on_hover_text(&told);
+        if let Standing::Waiting(ask) = &problem.standing
+            && ui.small_button("Allow").on_hover_text("A plugin runs with your rights").clicked()
+        {
+            desk.orders.push(Order::AllowPlugin(problem.file.clone(), ask.hash.clone()));
+        }
+        if problem.standing == Standing::SetAside && ui.small_button("Check again").clicked() {
+            desk.orders.push(Order::CheckPlugin(problem.file.clone()));
+        }
+    });
+    report(ui, desk, &problem.file);
+}
+
+/// What the chosen plugin is, does and takes.
+fn detail(ui: &mut Ui, desk: &mut Desk, info: &PluginInfo, on: bool) {
+    let palette = Theme::palette_of(ui);
+    ui.heading(&info.name);
+    ui.add(Label::new(RichText::new(format!("{}  {}  {}", info.id, info.version, info.kind)).monospace().size(12.0)).wrap());
+    ui.add(Label::new(&info.help).wrap());
+    if !info.about.is_empty() {
+        ui.add(Label::new(RichText::new(&info.about).color(palette.faint)).wrap());
+    }
+    buttons(ui, desk, info, on);
+    origin(ui, desk, info);
+    if !info.attributes.is_empty() {
+        super::caption(ui, "Attributes");
+        attributes(ui, desk, info);
+    }
+    if !info.acts.is_empty() {
+        super::caption(ui, "Acts");
+        for act in &info.acts {
+            ui.add(Label::new(format!("{}: {}", act.name, act.help)).wrap());
+        }
+    }
+}
+
+fn buttons(ui: &mut Ui, desk: &mut Desk, info: &PluginInfo, on: bool) {
+    ui.horizontal_wrapped(|ui| {
+        if on && Desk::place_of(info.kind).is_some() {
+            if desk.uses_plugin(info) {
+                ui.label(RichText::new("In this scenario").color(Theme::palette_of(ui).accent));
+            } else if ui.button("Use in this scenario").on_hover_text("Undo takes it back").clicked() {
+                desk.orders.push(Order::UsePlugin(info.id.clone()));
+            }
+        }
+        let Some(file) = &info.file else { return };
+        if ui.add_enabled(!desk.plugins.busy(), Button::new("Check")).on_hover_text("Try it in a process of its own").clicked() {
+            desk.orders.push(Order::CheckPlugin(file.clone()));
+        }
+        if let Some(folder) = file.parent()
+            && ui.button("Open its folder").clicked()
+        {
+            desk.orders.push(Order::OpenFolder(folder.to_path_buf()));
+        }
+    });
+}
+
+/// File, hash, and what the check said.
+fn origin(ui: &mut Ui, desk: &Desk, info: &PluginInfo) {
+    let faint = Theme::palette_of(ui).faint;
+    let Some(file) = &info.file else {
+        ui.label(RichText::new("Part of the program.").color(faint));
+        return;
+    };
+    let place = file.display().to_string();
+    ui.add(Label::new(RichText::new(&place).size(12.0).color(faint)).truncate()).on_hover_text(&place);
+    let hash = info.hash.clone().unwrap_or_default();
+    ui.label(RichText::new(format!("hash {}", hash.get(..16).unwrap_or(&hash))).monospace().size(12.0).color(faint)).on_hover_text(&hash);
+    if desk.plugins.reports.contains_key(file) {
+        report(ui, desk, file);
+    } else {
+        ui.label(RichText::new("It passed the check before it was loaded.").size(12.0).color(faint));
+    }
+}
+
+/// What the last check of a file said, line by line.
+fn report(ui: &mut Ui, desk: &Desk, file: &Path) {
+    let palette = Theme::palette_of(ui);
+    let Some(report) = desk.plugins.reports.get(file) else { return };
+    for line in report.text.lines() {
+        let fault = line.contains("  FAULT  ");
+        let colour = if fault { palette.error } else { palette.faint };
+        ui.add(Label::new(RichText::new(line).monospace().size(11.0).color(colour)).wrap());
+    }
+    match &report.fault {
+        Some(fault) => ui.add(Label::new(RichText::new(fault).size(12.0).color(palette.error)).wrap()),
+        None => ui.label(RichText::new("sound").color(palette.good)),
+    };
+}
+
+/// A form where the scenario uses the plugin, else a table of what it takes.
+fn attributes(ui: &mut Ui, desk: &mut Desk, info: &PluginInfo) {
+    let palette = Theme::palette_of(ui);
+    let form = Desk::place_of(info.kind).filter(|_| desk.uses_plugin(info)).map(|(table, _)| table);
+    let mut edits = Vec::new();
+    Grid::new(("attributes", &info.id)).num_columns(3).spacing([10.0, 3.0]).show(ui, |ui| {
+        for attribute in &info.attributes {
+            let (usual, range) = told(attribute);
+            let help = format!("{}\n{range}", attribute.help);
+            ui.label(super::library::title(&attribute.key)).on_hover_text(&help);
+            match form {
+                Some(table) => {
+                    let (field, hint) = (format!("{table}.attributes.{}", attribute.key), format!("{usual} (usual)"));
+                    let said = fields::Said { hint: &hint, help: &help };
+                    let typed = fields::edit(ui, &desk.book, Book::SCENARIO, &field, 120.0, said);
+                    edits.extend(typed.map(|value| (field, value)));
+                }
+                None => {
+                    ui.label(&usual).on_hover_text(&help);
+                }
+            }
+            ui.label(RichText::new(range).size(12.0).color(palette.faint)).on_hover_text(attribute.help.as_ref());
+            ui.end_row();
+        }
+    });
+    for (field, value) in edits {
+        desk.set(Book::SCENARIO, &field, &value);
+    }
+}
+
+/// What is taken where a file names nothing, and what may be written.
+fn told(attribute: &Attribute) -> (String, String) {
+    let in_unit = |value: f64| {
+        Quantity::from_si_unit(&attribute.unit).map_or_else(|| format!("{value} {}", attribute.unit), |quantity| format_si(value, quantity))
+    };
+    match &attribute.kind {
+        AttributeKind::Number { min, max, default } => (in_unit(*default), format!("{} to {}", in_unit(*min), in_unit(*max))),
+        AttributeKind::Count { min, max, default } => (default.to_string(), format!("a whole number from {min} to {max}")),
+        AttributeKind::Choice { words, default } => (default.to_string(), words.join(" or ")),
+        AttributeKind::Item { library, default } => {
+            (if default.is_empty() { "none".to_owned() } else { default.to_string() }, format!("an item of {library}/"))
+        }
+    }
+}
