@@ -1,0 +1,73 @@
+//! The cases of the report of 2012 (`gear-library/scenarios/case-*.toml`) end with its wraps, and their ends replay to the bit.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
+
+mod linked;
+
+use endline_gear::{Options, Scenario, assemble};
+use endline_sdk::BodyPart;
+use endline_session::hash::StateHash;
+use endline_sim::metrics::{Metrics, Outcome, WhaleSummary};
+use endline_sim::{Input, Model, State, Workspace, settle, step};
+use linked::{Linked, library, root, told};
+
+/// How long before its end a run is taken up again [s].
+const AGAIN_S: f64 = 1.0;
+
+fn model(name: &str) -> Model {
+    let text = std::fs::read_to_string(root().join("scenarios").join(name)).unwrap();
+    let scenario = Scenario::read(name, &text).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    let spec = assemble(&scenario, &library(), &Linked, &Options::default()).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    Model::new(spec).unwrap_or_else(|errors| panic!("{errors:?}"))
+}
+
+/// Steps until `until_s` and gives the hash of the last state; each step is told.
+fn steps_to(model: &Model, until_s: f64, state: &mut State, mut told: impl FnMut(&State, &Workspace)) -> StateHash {
+    let pilot = &model.spec.whale.as_ref().unwrap().pilot;
+    let mut workspace = Workspace::new(model);
+    let mut input = Input { controls: pilot.at(state) };
+    while state.time_s < until_s - 1e-9 {
+        input = Input { controls: pilot.at(state) };
+        step(model, &input, state, &mut workspace).unwrap_or_else(|stop| panic!("{stop:?} {:?}", workspace.audit));
+        told(state, &workspace);
+    }
+    assert_eq!((workspace.audit.tunnelled, workspace.audit.ropes_crossed), (0, 0), "nothing passes through");
+    StateHash::of(&input, state)
+}
+
+/// What a case comes to; its last second is run twice, the second time from nothing but the state.
+fn ends(name: &str) -> WhaleSummary {
+    let model = model(name);
+    let settled = settle(&model);
+    assert!(settled.converged, "residual {} N", settled.residual_n);
+    let (end_s, mut state, mut metrics) = (model.spec.settings.duration_s, settled.state, Metrics::new(&model));
+    metrics.fold(&model, &state, &[]);
+    let mut fold = |state: &State, workspace: &Workspace| metrics.fold_step(&model, state, workspace);
+    steps_to(&model, end_s - AGAIN_S, &mut state, &mut fold);
+    let mut again = state.clone();
+    let once = steps_to(&model, end_s, &mut state, &mut fold);
+    let twice = steps_to(&model, end_s, &mut again, |_, _| {});
+    assert_eq!(once.first_difference(&twice), None, "the last {AGAIN_S} s replay to the bit");
+    for event in metrics.events() {
+        println!("{:7.2} s {:?} {} {:.2}", event.time_s, event.kind, event.subject, event.value);
+    }
+    let whale = metrics.summary(&model, &state).whale.unwrap();
+    println!("{name}: {whale:?}");
+    whale
+}
+
+/// Wraps of the centre line about a part.
+fn wraps(whale: &WhaleSummary, part: BodyPart) -> f64 {
+    whale.regions.iter().zip(BodyPart::ALL).find(|(_, of)| *of == part).unwrap().0.wraps
+}
+
+#[test]
+fn e7_99_ends_with_rope_lodged_in_the_mouth_and_half_a_turn_about_the_head() {
+    let whale = ends("case-e7-99-slack.toml");
+    assert_eq!(whale.outcome, Outcome::Entangled);
+    assert!(whale.lodged_in_mouth && whale.hooked);
+    let head = wraps(&whale, BodyPart::Head);
+    assert!((0.5..0.7).contains(&head), "{head} turns");
+    assert!(whale.trailing_m > 15.0, "the buoy's end trails: {} m", whale.trailing_m);
+    assert!(whale.carried.iter().any(|id| id.ends_with("trap")), "the trap comes along: {:?}", whale.carried);
+}
