@@ -79,10 +79,7 @@ fn wrap_of(spec: &ModelSpec) -> (usize, usize) {
 
 /// A wrap whose rope goes straight on at both ends for a metre and a half.
 fn wrapped(part: BodyPart, turns: f64, segment_m: f64) -> ModelSpec {
-    // The flipper's blade is inclined: here is the middle of its face, where rope leaves the same way whatever the pitch.
-    let azimuth = if part == BodyPart::LeftFlipper { 60 } else { 90 };
-    let wrap =
-        format!("[[line.wrap]]\npart = \"{}\"\nturns = {turns}\nazimuth = \"{azimuth} deg\"\nsegment = \"{segment_m} m\"\n", part.name());
+    let wrap = format!("[[line.wrap]]\npart = \"{}\"\nturns = {turns}\nazimuth = \"60 deg\"\nsegment = \"{segment_m} m\"\n", part.name());
     // Where its ends are led does not matter yet, but their ways must be free.
     let north = if part == BodyPart::LeftFlipper { 2.0 } else { -3.0 };
     let far = [DVec3::new(-4.0, north, -12.0), DVec3::new(-4.0, north, -28.0)];
@@ -142,17 +139,12 @@ fn turned(spec: &ModelSpec, part: BodyPart) -> f64 {
     ways.windows(2).map(bend).sum::<f64>().abs() / std::f64::consts::TAU
 }
 
-/// On a blade a quarter of a turn farther round by azimuth may lie on its edge or beyond: there the rope's own direction is what counts.
+/// The number laid, the sum of the rope's bends and the measure agree, on a round trunk and on a thin blade.
 #[test]
 fn wraps_laid_by_construction_are_counted_on_the_right_whale() {
     let (turn, shift) = (DQuat::from_euler(endline_sim::EulerRot::ZYX, 1.0, -0.4, 2.0), DVec3::new(30.0, -7.0, -12.0));
     for (part, segment_m) in [(BodyPart::LeftFlipper, 0.02), (BodyPart::Body, 0.05), (BodyPart::Peduncle, 0.05)] {
         for turns in [0.5, 1.0, 2.25, 3.0] {
-            let quarter_on = (2.1..2.4).contains(&turns);
-            // None of the ends tried leaves a straight way from the belly, so this one is not laid.
-            if part == BodyPart::Body && quarter_on {
-                continue;
-            }
             let [whole, halved] = [segment_m, 0.5 * segment_m].map(|segment_m| wrapped(part, turns, segment_m));
             let bends = turned(&whole, part);
             let counts = [
@@ -161,8 +153,8 @@ fn wraps_laid_by_construction_are_counted_on_the_right_whale() {
                 measured(whole, part, turn, shift),
             ];
             println!("{} {turns}: {counts:.4?}, bends {bends:.4}", part.name());
-            let wanted = if part == BodyPart::LeftFlipper && quarter_on { bends } else { turns };
-            assert!(counts.iter().all(|count| (count - wanted).abs() < 0.05), "{} {turns}: {counts:?}", part.name());
+            assert!((bends - turns).abs() < 0.02, "{} {turns}: its bends are {bends}", part.name());
+            assert!(counts.iter().all(|count| (count - turns).abs() < 0.05), "{} {turns}: {counts:?}", part.name());
             assert!((counts[0] - bends).abs() < 0.05, "{} {turns}: {counts:?}, its bends {bends}", part.name());
             assert!((counts[0] - counts[1]).abs() < 0.02 && (counts[0] - counts[2]).abs() < 1e-9, "{counts:?}");
         }

@@ -8,17 +8,24 @@ use super::skin::PosedSkin;
 
 /// Distance of places looked at [m].
 const EACH_M: f64 = 0.05;
+/// The trunk's skin is nowhere farther from its axis than so many times the half diagonal of its section's box.
+const WIDEST: f64 = 1.2;
 
-/// The way from one place to another, with so much rope where that is given.
-pub(super) fn lay(skin: &PosedSkin, [from, to]: [DVec3; 2], rope_m: Option<f64>) -> Stretch {
-    let steps = (from.distance(to) / EACH_M).ceil().max(1.0);
+/// The way from one place to another as a stretch, with so much rope where that is given.
+pub(super) fn lay(skin: &PosedSkin, ends: [DVec3; 2], rope_m: Option<f64>) -> Stretch {
+    Stretch { way: way(skin, ends, EACH_M), rope_m, fine_m: None }
+}
+
+/// The way from one place to another, looked at every `each_m`.
+pub(super) fn way(skin: &PosedSkin, [from, to]: [DVec3; 2], each_m: f64) -> Vec<DVec3> {
+    let steps = (from.distance(to) / each_m).ceil().max(1.0);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a way of metres in steps of centimetres")]
     let steps = steps as u32;
     let over = |step: u32| {
         let place = from.lerp(to, f64::from(step) / f64::from(steps));
         if step == 0 || step == steps { place } else { over_trunk(skin, place) }
     };
-    Stretch { way: (0..=steps).map(over).collect(), rope_m, fine_m: None }
+    (0..=steps).map(over).collect()
 }
 
 /// A place, moved straight out from the trunk's axis where it lies within the trunk.
@@ -26,6 +33,9 @@ fn over_trunk(skin: &PosedSkin, place: DVec3) -> DVec3 {
     let trunk = [BodyPart::Body, BodyPart::Head, BodyPart::Peduncle].into_iter().find_map(|part| skin.axis(part));
     let Some(spot) = trunk.and_then(|(axis, _)| axis.see(place)) else { return place };
     let toward = place - spot.middle;
+    if toward.length() > WIDEST * libm::hypot(spot.half_m[0], spot.half_m[1]) + skin.off_m {
+        return place;
+    }
     let Some(out) = toward.try_normalize() else { return place };
     let along = spot.along();
     let Some(across) = (along - out * along.dot(out)).try_normalize() else { return place };

@@ -1,10 +1,11 @@
 //! Lines that start wound about the whale: from end to wrap to wrap to end, just outside the posed skin.
 //!
-//! A wrap is a helix about the part's axis, its radius found by looking outward from the axis for the skin (`helix.rs`).
-//! Rope between wraps goes straight, or over the trunk where that would go through it (`leg.rs`). Each stretch is cut into
-//! segments by its own length and the rope laid evenly along it (`cut.rs`); last, nodes are moved outward until every
-//! segment is clear of the skin (`clear.rs`).
+//! A wrap is taut about the sections of a part, going along it (`helix.rs`); where it begins, if it does not say so itself,
+//! is found by trying (`choose.rs`). Rope between wraps goes straight, or over the trunk where that would go through it
+//! (`leg.rs`). Each stretch is cut into segments by its own length and the rope laid evenly along it (`cut.rs`); last,
+//! nodes are moved outward until every segment is clear of the skin (`clear.rs`).
 
+mod choose;
 mod clear;
 mod cut;
 mod helix;
@@ -18,6 +19,7 @@ use crate::scenario::WrapOf;
 
 use super::builder::Builder;
 use cut::{Laid, Stretch};
+use helix::Helix;
 use skin::PosedSkin;
 
 /// Rope's centre line starts this far from the skin, over its radius [m]: it touches as soon as it moves.
@@ -67,20 +69,35 @@ pub(super) struct Wrong {
     pub help: &'static str,
 }
 
-/// Nodes and segments of a line between its ends, through its wraps.
-fn wind(skin: &mut PosedSkin, rope: &Rope, ends: [DVec3; 2], wraps: &[WrapOf], (length_m, coarse_m): (f64, f64)) -> Result<Laid, Wrong> {
-    let mut stretches: Vec<Stretch> = Vec::with_capacity(2 * wraps.len() + 1);
+/// Nodes and segments of a line between its ends, through its wraps: the first way found that is free.
+fn wind(skin: &mut PosedSkin, rope: &Rope, ends: [DVec3; 2], wraps: &[WrapOf], lengths_m: (f64, f64)) -> Result<Laid, Wrong> {
+    let helices: Vec<Helix<'_>> = wraps.iter().map(|wrap| Helix::of(wrap, rope)).collect();
+    let ways = choose::azimuths(skin, &helices, ends).map_err(|(wrap, what)| none_there(wrap, what))?;
+    let mut first_wrong = None;
+    for azimuths in ways {
+        match lay(skin, rope, ends, (&helices, &azimuths), lengths_m) {
+            Ok(laid) => return Ok(laid),
+            Err(wrong) => first_wrong = first_wrong.or(Some(wrong)),
+        }
+    }
+    Err(first_wrong.unwrap_or_else(|| none_there(0, "there is no way round it".into())))
+}
+
+/// The same with each wrap beginning at an azimuth.
+fn lay(
+    skin: &mut PosedSkin,
+    rope: &Rope,
+    ends: [DVec3; 2],
+    (helices, azimuths): (&[Helix<'_>], &[f64]),
+    (length_m, coarse_m): (f64, f64),
+) -> Result<Laid, Wrong> {
+    let mut stretches: Vec<Stretch> = Vec::with_capacity(2 * helices.len() + 1);
     let mut at = ends[0];
-    for (number, wrap) in wraps.iter().enumerate() {
-        let on = match wraps.get(number + 1) {
-            Some(next) => helix::middle(skin, next).map_err(|what| none_there(number + 1, what))?,
-            None => ends[1],
-        };
-        let way = helix::lay(skin, rope, wrap, [at, on]).map_err(|what| none_there(number, what))?;
-        let fine_m = wrap.segment_m.unwrap_or_else(|| helix::usual_segment_m(wrap.part));
-        stretches.push(leg::lay(skin, [at, way.first().copied().unwrap_or(at)], wrap.before_m));
+    for (number, (helix, azimuth)) in helices.iter().zip(azimuths).enumerate() {
+        let way = helix.lay(skin, *azimuth).map_err(|what| none_there(number, what))?;
+        stretches.push(leg::lay(skin, [at, way.first().copied().unwrap_or(at)], helix.wrap.before_m));
         at = way.last().copied().unwrap_or(at);
-        stretches.push(helix::stretch(way, rope, wrap, fine_m));
+        stretches.push(helix.stretch(way, rope));
     }
     stretches.push(leg::lay(skin, [at, ends[1]], None));
     cut::share_out(&mut stretches, length_m).map_err(|(needs_m, has_m)| Wrong {

@@ -77,18 +77,20 @@ impl PosedSkin {
         Outline { cuts, centre, along }
     }
 
-    /// Whether a straight way goes through any skin.
-    pub fn pierced(&mut self, ends: [DVec3; 2]) -> bool {
-        let [a, b] = ends;
+    /// Whether a way goes through any skin.
+    pub fn goes_through(&mut self, way: &[DVec3]) -> bool {
         let mut pairs = Vec::new();
-        self.surface.gather(&[SweptSegment { a0: a, b0: b, a1: a, b1: b }], 0.0, &mut pairs);
-        pairs.iter().any(|pair| segment_triangle(ends, self.surface.triangle_at(pair.triangle, 0.0)).distance <= 0.0)
+        self.surface.gather(&still(way), 0.0, &mut pairs);
+        let crosses = |pair: &Candidate| {
+            let segment = pair.segment as usize;
+            segment_triangle([way[segment], way[segment + 1]], self.surface.triangle_at(pair.triangle, 0.0)).distance <= 0.0
+        };
+        pairs.iter().any(crosses)
     }
 
     /// The nearest skin to each segment of a way that is within [`MARGIN_M`] of any.
     pub fn nearest(&mut self, nodes: &[DVec3]) -> Vec<Option<Nearest>> {
-        let still = |pair: &[DVec3]| SweptSegment { a0: pair[0], b0: pair[1], a1: pair[0], b1: pair[1] };
-        let segments: Vec<SweptSegment> = nodes.windows(2).map(still).collect();
+        let segments = still(nodes);
         let mut pairs = Vec::new();
         self.surface.gather(&segments, MARGIN_M, &mut pairs);
         let mut found: Vec<Option<Nearest>> = segments.iter().map(|_| None).collect();
@@ -108,6 +110,11 @@ impl PosedSkin {
     }
 }
 
+/// The segments of a way, at rest.
+fn still(way: &[DVec3]) -> Vec<SweptSegment> {
+    way.windows(2).map(|pair| SweptSegment { a0: pair[0], b0: pair[1], a1: pair[0], b1: pair[1] }).collect()
+}
+
 /// Where a plane cuts the skin of a part.
 pub(super) struct Outline {
     cuts: Vec<[DVec3; 2]>,
@@ -117,6 +124,17 @@ pub(super) struct Outline {
 }
 
 impl Outline {
+    /// Whether there is no skin there.
+    pub fn is_empty(&self) -> bool {
+        self.cuts.is_empty()
+    }
+
+    /// Its farthest place in a direction: of its hull, a place of taut rope; its centre where there is no skin.
+    pub fn farthest(&self, toward: DVec3) -> DVec3 {
+        let places = self.cuts.iter().flatten().copied();
+        places.reduce(|most, place| if place.dot(toward) > most.dot(toward) { place } else { most }).unwrap_or(self.centre)
+    }
+
     /// How far out it lies from its centre in a unit direction within the plane; the farthest, where that is crossed often [m].
     pub fn radius(&self, toward: DVec3) -> Option<f64> {
         let aside = self.along.cross(toward);
