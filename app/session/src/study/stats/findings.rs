@@ -6,6 +6,7 @@ use serde::Serialize;
 use crate::study::open::Opened;
 use crate::study::table::{Column, Table};
 
+use super::changes::Changes;
 use super::claims::{self, ClaimFinding};
 use super::interval::Rate;
 use super::marks::{Marks, encounters};
@@ -58,6 +59,8 @@ pub struct OptionFinding {
     pub rates: Vec<(String, Rate)>,
     /// Every event compared with the baseline: name, comparison.
     pub against: Vec<(String, Paired)>,
+    /// Outcomes and tensions beside the baseline's in the same encounters.
+    pub changes: Changes,
     /// Greatest tensions.
     pub tensions: Tensions,
     /// How often it has the lowest rate of the event when encounters are drawn again.
@@ -140,6 +143,7 @@ fn found(opened: &Opened, table: &Table, option: usize) -> OptionFinding {
         undecided,
         rates: events.iter().map(|event| (event.name(), Rate::of(&marks(event)))).collect(),
         against: events.iter().map(paired).collect(),
+        changes: Changes::of(table, &plan.id, baseline),
         tensions: Tensions::of(table, &plan.id, baseline),
         best_share: 0.0,
     }

@@ -6,6 +6,7 @@
 
 mod better;
 mod bootstrap;
+mod changes;
 mod claims;
 mod findings;
 mod interval;
@@ -17,6 +18,7 @@ mod tensions;
 #[cfg(test)]
 mod coverage;
 
+pub use changes::{Change, Changes};
 pub use claims::{ClaimFinding, Verdict};
 pub use findings::{Findings, LevelFinding, OptionFinding};
 pub use interval::{Interval, Rate};

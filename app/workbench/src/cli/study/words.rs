@@ -4,7 +4,7 @@ use endline_session::study::Opened;
 use endline_session::study::batch::Progress;
 use endline_session::study::encounter::Encounter;
 use endline_session::study::folder::{BLOCK, Folder};
-use endline_session::study::stats::{Findings, Interval, Rate};
+use endline_session::study::stats::{Change, Findings, Interval, Rate};
 use serde::Serialize;
 
 use super::super::table::columns;
@@ -88,6 +88,7 @@ pub(super) fn findings(opened: &Opened, findings: &Findings) -> String {
     );
     text += &rates(findings);
     text += &compared(findings);
+    text += &changed(findings);
     text += &tensions(findings);
     text += &levels(findings);
     text + &claims(findings)
@@ -121,6 +122,33 @@ fn compared(findings: &Findings) -> String {
         ]);
     }
     columns(&rows)
+}
+
+/// How many encounters end otherwise than with the baseline, how much the mean greatest tension is off, and which ends they were.
+fn changed(findings: &Findings) -> String {
+    let heads =
+        ["against the baseline", "outcome differs", "mean greatest tension", "of those that touch, it differs", "mean greatest tension"];
+    let mut rows = vec![heads.map(str::to_owned).to_vec()];
+    let mut ends = String::new();
+    for (_, option) in findings.options.iter().enumerate().filter(|(option, _)| *option != findings.baseline) {
+        let changes = &option.changes;
+        let cells = [&changes.all, &changes.touching].into_iter().flat_map(|change| [rate(&change.outcome), mean_tension(change)]);
+        rows.push([option.id.clone()].into_iter().chain(cells).collect());
+        let kinds = changes.counts.iter().filter(|(one, other, _)| one != other);
+        let kinds: Vec<String> = kinds.map(|(one, other, count)| format!("{one} to {other} {count}")).collect();
+        ends +=
+            &format!("{}: {}\n", option.id, if kinds.is_empty() { "every outcome is the baseline's".to_owned() } else { kinds.join(", ") });
+    }
+    if rows.len() > 1 { columns(&rows) + &ends + "\n" } else { String::new() }
+}
+
+/// `104.2 N, +1.3 % [-0.2, 2.8]`.
+fn mean_tension(change: &Change) -> String {
+    let (Some([_, own_n]), Some(more)) = (change.mean_tension_n, change.tension) else { return "none".into() };
+    let interval = change
+        .tension_interval
+        .map_or_else(String::new, |interval| format!(" [{:.2}, {:.2}]", 100.0 * interval.low, 100.0 * interval.high));
+    format!("{own_n:.1} N, {:+.2} %{interval}", 100.0 * more)
 }
 
 fn tensions(findings: &Findings) -> String {
