@@ -115,8 +115,16 @@ impl Document {
         self.item(field).is_some()
     }
 
+    /// Keys of a table in the order of the file, each as a part of a path: in quotes where it holds a dot. None of anything else.
+    #[must_use]
+    pub fn keys(&self, field: &str) -> Vec<String> {
+        let table = self.item(field).and_then(Item::as_table_like);
+        let part = |key: &str| if key.contains('.') { format!("\"{key}\"") } else { key.to_owned() };
+        table.map_or_else(Vec::new, |table| table.iter().map(|(key, _)| part(key)).collect())
+    }
+
     fn item(&self, field: &str) -> Option<&Item> {
-        field.split('.').try_fold(self.document.as_item(), |item, part| match part.parse::<usize>() {
+        parts(field).into_iter().try_fold(self.document.as_item(), |item, part| match part.parse::<usize>() {
             Ok(index) => item.get(index),
             Err(_) => item.get(part),
         })
@@ -130,10 +138,10 @@ impl Document {
     /// # Errors
     /// Where the path leads through something that is no table or list.
     pub fn set(&mut self, field: &str, text: &str) -> Result<(), EditError> {
-        let (parents, last) = field.rsplit_once('.').unwrap_or(("", field));
+        let (parents, last) = way_to(field);
         let no_way = |part: &str| EditError { message: format!("`{part}` of `{field}` is not there") };
         let mut item = self.document.as_item_mut();
-        for part in parents.split('.').filter(|part| !part.is_empty()) {
+        for part in parents {
             item = child(item, part).ok_or_else(|| no_way(part))?;
         }
         if let Ok(index) = last.parse::<usize>() {
@@ -152,8 +160,7 @@ impl Document {
     /// Where the path leads through something that is no table or list, or past the end of a list.
     pub fn put(&mut self, field: &str, value: &Setting) -> Result<(), EditError> {
         let no_way = |part: &str| EditError { message: format!("`{part}` of `{field}` is no table") };
-        let (parents, last) = field.rsplit_once('.').unwrap_or(("", field));
-        let parts: Vec<&str> = parents.split('.').filter(|part| !part.is_empty()).collect();
+        let (parts, last) = way_to(field);
         let mut item = self.document.as_item_mut();
         for (place, part) in parts.iter().enumerate() {
             let next_is_index = parts.get(place + 1).copied().unwrap_or(last).parse::<usize>().is_ok();
@@ -210,10 +217,10 @@ impl Document {
     /// # Errors
     /// Where it is not there.
     pub fn remove(&mut self, field: &str) -> Result<(), EditError> {
-        let (parents, last) = field.rsplit_once('.').unwrap_or(("", field));
+        let (parents, last) = way_to(field);
         let missing = || EditError { message: format!("`{field}` is not there") };
         let mut item = self.document.as_item_mut();
-        for part in parents.split('.').filter(|part| !part.is_empty()) {
+        for part in parents {
             item = child(item, part).ok_or_else(missing)?;
         }
         item.as_table_like_mut().and_then(|table| table.remove(last)).map(|_| ()).ok_or_else(missing)
@@ -246,6 +253,23 @@ fn write_synced(path: &Path, text: &str) -> io::Result<()> {
     let mut file = File::create(path)?;
     file.write_all(text.as_bytes())?;
     file.sync_all()
+}
+
+/// The parts of a dotted path; one in double quotes may hold dots itself.
+fn parts(field: &str) -> Vec<&str> {
+    let mut quoted = false;
+    let between = |letter: char| {
+        quoted ^= letter == '"';
+        letter == '.' && !quoted
+    };
+    field.split(between).filter(|part| !part.is_empty()).map(|part| part.trim_matches('"')).collect()
+}
+
+/// The tables on the way to a field, and its own key or index.
+fn way_to(field: &str) -> (Vec<&str>, &str) {
+    let mut parents = parts(field);
+    let last = parents.pop().unwrap_or_default();
+    (parents, last)
 }
 
 /// A step along a path, made where there is nothing yet.

@@ -311,7 +311,16 @@ pub fn read_value(node: &Node, quantity: Quantity, range: Range, problems: &Prob
     let name = node.place.field.rsplit('.').find(|part| part.parse::<usize>().is_err()).unwrap_or_default();
     let value = match &node.content {
         Content::Text(text) => match units::parse(text, quantity) {
-            Ok(value) => value,
+            Ok(value) => {
+                if let Some(nearest) = units::odd_fraction(text) {
+                    let help = format!(
+                        "inches go in halves, quarters, eighths, sixteenths, 32nds and 64ths; the nearest is {nearest}; else write a decimal or millimetres"
+                    );
+                    problems.push(node.place.error(format!("`{text}` in `{name}` is no size in inches"), help));
+                    return None;
+                }
+                value
+            }
             Err(error) => {
                 problems.push(node.place.error(format!("{} in `{name}`", error.message), error.help));
                 return None;

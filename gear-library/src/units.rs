@@ -8,6 +8,7 @@ mod table;
 
 use std::fmt;
 
+pub(crate) use parse::odd_fraction;
 pub use parse::parse;
 pub use table::Unit;
 

@@ -192,3 +192,52 @@ fn two_gears_are_compared_and_a_gear_type_is_a_starting_point() {
     assert!(desk.assembly.answers()[0].unwrap().is_ok(), "{:?}", desk.assembly.answers()[0].unwrap().as_ref().err());
     assert!(desk.book.unsaved().iter().any(|path| path.starts_with("assemblies/my-")), "{:?}", desk.book.unsaved());
 }
+
+#[test]
+fn a_fraction_no_rule_has_is_told_at_its_place_with_the_nearest_size() {
+    let folder = Folder::new("fraction");
+    let mut book = folder.book();
+    // The 2012 report's impossible size.
+    book.set("ropes/sink-3-8.toml", "diameter", "5/17 in").unwrap();
+    let problem = book.problem_at("ropes/sink-3-8.toml", "diameter").unwrap();
+    assert!(problem.is_error() && problem.line > 0 && problem.message.contains("5/17 in"), "{problem}");
+    assert!(problem.help.contains("the nearest is 5/16 in"), "{problem}");
+    for size in ["5/16 in", "1 1/2 in", "11/64 in", "0.3 in", "8 mm"] {
+        book.set("ropes/sink-3-8.toml", "diameter", size).unwrap();
+        assert!(book.problem_at("ropes/sink-3-8.toml", "diameter").is_none_or(|problem| !problem.message.contains("no size")), "{size}");
+    }
+}
+
+#[test]
+fn whales_have_a_table_and_every_figure_tells_how_sure_it_is_and_whence() {
+    let folder = Folder::new("whales");
+    let (mut harness, _) = workbench(&folder, Pilot::default());
+    harness.state_mut().dock = egui_dock::DockState::new(vec![Panel::Library.id().to_owned()]);
+    harness.run_steps(2);
+    harness.get_by_label("Whales").click();
+    harness.run_steps(2);
+    let whale = harness.state().desk.book.files("whales").next().unwrap().to_owned();
+    harness.state_mut().desk.library.chosen = Some(whale.clone());
+    harness.run_steps(3);
+    let library = harness.state().desk.book.library().clone();
+    let entry = library.entry(Kind::Whale, whale.trim_start_matches("whales/").trim_end_matches(".toml")).unwrap();
+    for (_, figure) in entry.figures.iter().take(3) {
+        assert!(harness.query_all_by_label(&figure.source).next().is_some(), "{}", figure.source);
+        assert!(harness.query_all_by_label(figure.sureness.word()).next().is_some(), "{:?}", figure.sureness);
+    }
+}
+
+#[test]
+fn gear_is_chosen_by_its_picture() {
+    let folder = Folder::new("pictures");
+    let mut harness = opened_with(folder.book_with("hello-endline"), linked(), engine::live(), Pilot::default());
+    harness.state_mut().dock = egui_dock::DockState::new(vec![Panel::Assembly.id().to_owned()]);
+    harness.run_steps(2);
+    harness.get_by_label("Pictures").click();
+    harness.run_steps(3);
+    let name = harness.state().desk.book.field("assemblies/single.toml", "name").unwrap();
+    harness.get_all_by_label(&name).last().unwrap().click();
+    harness.run_steps(3);
+    assert_eq!(harness.state().desk.assembly.shown.as_deref(), Some("single"));
+    assert!(!harness.state().desk.assembly.selecting, "the picture is taken and the gear shown");
+}

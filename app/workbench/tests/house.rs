@@ -31,7 +31,13 @@ fn every_command_of_the_palette_is_obeyed_in_every_layout() {
             // A file dialog needs a display; other scenarios are opened by other tests.
             let asks = matches!(
                 order,
-                Order::AskExportPlots(_) | Order::AskExportTable | Order::AskImportTable | Order::AskRecording | Order::AskExportModel(_)
+                Order::AskExportPlots(_)
+                    | Order::AskExportTable
+                    | Order::AskImportTable
+                    | Order::AskRecording
+                    | Order::AskStudy
+                    | Order::AskResults
+                    | Order::AskExportModel(_)
             );
             if asks || matches!(order, Order::Open(_)) {
                 continue;

@@ -6,6 +6,7 @@ mod packages;
 mod plugins;
 mod run;
 mod test;
+mod window;
 mod workspace;
 
 use std::process::ExitCode;
@@ -20,6 +21,7 @@ usage: cargo xtask run [-- ARGUMENTS]    install what is missing, build in relea
                                          (with no display: simulate the bundled encounter and draw it);
                                          ARGUMENTS, where given, go to the program instead
        cargo xtask test                  install what is missing, then run the whole test suite
+       cargo xtask window                drive the built window by mouse and keys, where Xvfb, xdotool and imagemagick are
        cargo xtask plugins [--release]   build the plugins that ship with Endline and put them beside the program";
 
 fn main() -> ExitCode {
@@ -29,6 +31,7 @@ fn main() -> ExitCode {
         ["run"] => Workspace::find().and_then(|workspace| run::run(&workspace)),
         ["run", "--", program @ ..] => Workspace::find().and_then(|workspace| run::run_with(&workspace, program)),
         ["test"] => Workspace::find().and_then(|workspace| test::test(&workspace)),
+        ["window"] => Workspace::find().and_then(|workspace| window::drive(&workspace)),
         ["plugins"] => Workspace::find().and_then(|workspace| plugins::build(&workspace, Profile::Dev)),
         ["plugins", "--release"] => Workspace::find().and_then(|workspace| plugins::build(&workspace, Profile::Release)),
         _ => {

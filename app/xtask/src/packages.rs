@@ -68,7 +68,8 @@ fn is_present(name: &str) -> bool {
     answer.is_ok_and(|answer| String::from_utf8_lossy(&answer.stdout).lines().any(|status| status == "installed"))
 }
 
-fn on_path(command: &str) -> bool {
+/// Whether there is a program of this name.
+pub fn on_path(command: &str) -> bool {
     let folders = std::env::var_os("PATH").unwrap_or_default();
     std::env::split_paths(&folders).any(|folder| folder.join(command).is_file())
 }

@@ -61,6 +61,18 @@ fn read_fraction(text: &str) -> Option<f64> {
     (below > 0.0).then(|| above / below)
 }
 
+/// The size nearest to a fraction of an inch that no rule has, such as `5/17 in`; `None` for every other text.
+pub(crate) fn odd_fraction(text: &str) -> Option<String> {
+    let (number, unit) = split(text.trim());
+    let unit = table::find(unit, Quantity::Length).filter(|unit| unit.name() == "in")?;
+    let (_, below) = number.split_whitespace().last()?.split_once('/')?;
+    if ["2", "4", "8", "16", "32", "64"].contains(&below) {
+        return None;
+    }
+    let sixteenths = (read_number(number)? * 16.0).round().max(1.0);
+    Some(super::format(sixteenths / 16.0 * unit.factor(), unit))
+}
+
 fn read_decimal(text: &str) -> Option<f64> {
     let well_grouped = text.split('.').next().is_some_and(|whole| {
         let mut groups = whole.split(',');

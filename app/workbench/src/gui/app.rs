@@ -87,6 +87,13 @@ impl App {
                 Order::Size(scale) => context.set_zoom_factor(*scale),
                 Order::AskExportModel(ending) => menus::ask_export_model(self, ending),
                 Order::AskRecording => menus::ask_recording(self),
+                Order::AskStudy => menus::ask_study(self),
+                Order::AskResults => menus::ask_results(self),
+                Order::CopyStudyLine => self.copy_study_line(context),
+                Order::ReplayEncounter(..) => {
+                    layout::open(&mut self.dock, Panel::View);
+                    self.desk.obey(&order);
+                }
                 Order::Arrange(layout) => self.dock = layout.dock(),
                 Order::Commands => self.palette.toggle(),
                 Order::CopyCommandLine => self.copy_command_line(context),
@@ -104,6 +111,17 @@ impl App {
         context.copy_text(line);
         let notice = if unsaved { "copied; save first: the command reads the files" } else { "command line copied" };
         self.desk.notice = Some((notice.to_owned(), unsaved));
+    }
+
+    fn copy_study_line(&mut self, context: &Context) {
+        self.desk.notice = Some(match super::studies::command_line(&self.desk) {
+            Some((line, unsaved)) => {
+                context.copy_text(line);
+                let notice = if unsaved { "copied; save first: the commands read the files" } else { "command lines copied" };
+                (notice.to_owned(), unsaved)
+            }
+            None => ("open a study first".to_owned(), true),
+        });
     }
 
     /// Steers the whale with pad and keys, while flying.
@@ -188,6 +206,8 @@ impl eframe::App for App {
         let theme = self.desk.preferences.theme;
         if self.dressed.replace(theme) != Some(theme) {
             theme.apply(ui.ctx());
+            // This frame was begun in the other one's colours.
+            ui.ctx().request_repaint();
         }
         let bar = Margins::new().fill(theme.palette().ground).inner_margin(egui::Margin::symmetric(8, 4));
         Bar::top("menus").frame(bar).show_separator_line(false).show(ui, |ui| menus::show(ui, self));

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use endline_gear::{Diagnostic, Document, Library, Scenario, Sources, save_text};
+use endline_gear::{Diagnostic, Document, Library, Scenario, Sources, Study, save_text};
 
 /// Edits that can be taken back.
 const UNDO_DEPTH: usize = 500;
@@ -28,10 +28,11 @@ struct Edit {
 }
 
 /// All texts open in the workbench. A library file goes by its path in the library's folder, such
-/// as `ropes/x.toml`; the scenario by [`SCENARIO`](Self::SCENARIO).
+/// as `ropes/x.toml`; the scenario by [`SCENARIO`](Self::SCENARIO), the study by [`STUDY`](Self::STUDY).
 pub struct Book {
     root: PathBuf,
     scenario_path: PathBuf,
+    study_path: Option<PathBuf>,
     texts: BTreeMap<String, String>,
     saved: BTreeMap<String, String>,
     parsed: BTreeMap<String, Document>,
@@ -41,6 +42,8 @@ pub struct Book {
     library: Arc<Library>,
     /// Counts readings of the texts: whoever has seen this number has seen these texts.
     version: u64,
+    /// Texts that differ from their files, by path.
+    unsaved: Vec<String>,
     /// Meshes of the library's folder, as they were when it was opened.
     meshes: Sources,
 }
@@ -48,6 +51,9 @@ pub struct Book {
 impl Book {
     /// Key of the scenario's text.
     pub const SCENARIO: &'static str = "scenario";
+
+    /// Key of the study's text, where one is open.
+    pub const STUDY: &'static str = "study";
 
     /// Opens the library in a folder and a scenario.
     ///
@@ -61,6 +67,7 @@ impl Book {
         let mut book = Self {
             root: root.to_owned(),
             scenario_path: scenario_path.to_owned(),
+            study_path: None,
             saved: texts.clone(),
             texts,
             parsed: BTreeMap::new(),
@@ -69,6 +76,7 @@ impl Book {
             problems: Vec::new(),
             library: Arc::default(),
             version: 0,
+            unsaved: Vec::new(),
             meshes: Sources::default().with_meshes_of(&sources),
         };
         book.read_all();
@@ -82,13 +90,29 @@ impl Book {
     pub fn open_scenario(&mut self, path: &Path) -> Result<(), String> {
         let text = read_text(path)?;
         self.scenario_path = path.to_owned();
-        let elsewhere = |edit: &Edit| edit.changes.iter().all(|change| change.path != Self::SCENARIO);
+        self.begin(Self::SCENARIO, text);
+        Ok(())
+    }
+
+    /// Opens a study in place of the present one.
+    ///
+    /// # Errors
+    /// Where its file cannot be read; the present one then stays.
+    pub fn open_study(&mut self, path: &Path) -> Result<(), String> {
+        let text = read_text(path)?;
+        self.study_path = Some(path.to_owned());
+        self.begin(Self::STUDY, text);
+        Ok(())
+    }
+
+    /// Begins with a text as its file has it; edits of what went by its key before are forgotten.
+    fn begin(&mut self, key: &str, text: String) {
+        let elsewhere = |edit: &Edit| edit.changes.iter().all(|change| change.path != key);
         self.undo.retain(elsewhere);
         self.redo.retain(elsewhere);
-        self.saved.insert(Self::SCENARIO.to_owned(), text.clone());
-        self.put(Self::SCENARIO, Some(text));
+        self.saved.insert(key.to_owned(), text.clone());
+        self.put(key, Some(text));
         self.read_all();
-        Ok(())
     }
 
     /// The library's folder.
@@ -101,6 +125,12 @@ impl Book {
     #[must_use]
     pub fn scenario_path(&self) -> &Path {
         &self.scenario_path
+    }
+
+    /// The study's file, where one is open.
+    #[must_use]
+    pub fn study_path(&self) -> Option<&Path> {
+        self.study_path.as_deref()
     }
 
     /// The library as read from the present texts; items with errors are missing.
@@ -121,10 +151,11 @@ impl Book {
         &self.problems
     }
 
-    /// Whether any text has an error.
+    /// Whether any text of gear or scenario has an error; a study has no part in a single run.
     #[must_use]
     pub fn any_error(&self) -> bool {
-        self.problems.iter().any(Diagnostic::is_error)
+        let study = self.shown_name(Self::STUDY);
+        self.problems.iter().any(|problem| problem.is_error() && problem.file != study)
     }
 
     /// Files of a folder of the library, by path.
@@ -147,16 +178,38 @@ impl Book {
     /// The library's present texts.
     #[must_use]
     pub fn sources(&self) -> Sources {
-        Sources::from_map(
-            self.texts.iter().filter(|(path, _)| *path != Self::SCENARIO).map(|(path, text)| (path.clone(), text.clone())).collect(),
-        )
-        .with_meshes_of(&self.meshes)
+        let library = self.texts.iter().filter(|(path, _)| ![Self::SCENARIO, Self::STUDY].contains(&path.as_str()));
+        Sources::from_map(library.map(|(path, text)| (path.clone(), text.clone())).collect()).with_meshes_of(&self.meshes)
+    }
+
+    /// The texts a single run is made from: all but the study's.
+    #[must_use]
+    pub fn texts_of_run(&self) -> BTreeMap<String, String> {
+        self.texts.iter().filter(|(path, _)| *path != Self::STUDY).map(|(path, text)| (path.clone(), text.clone())).collect()
+    }
+
+    /// Whether a single run made from these texts would be made from the present ones.
+    #[must_use]
+    pub fn same_run(&self, texts: &BTreeMap<String, String>) -> bool {
+        texts.iter().eq(self.texts.iter().filter(|(path, _)| *path != Self::STUDY))
     }
 
     /// A field as typed; `None` where it is not there.
     #[must_use]
     pub fn field(&self, path: &str, field: &str) -> Option<String> {
         self.parsed.get(path)?.get(field)
+    }
+
+    /// Whether a text has a field, table or list of this path.
+    #[must_use]
+    pub fn has(&self, path: &str, field: &str) -> bool {
+        self.parsed.get(path).is_some_and(|document| document.has(field))
+    }
+
+    /// Keys of a table of a text, in the order of its file.
+    #[must_use]
+    pub fn keys(&self, path: &str, table: &str) -> Vec<String> {
+        self.parsed.get(path).map_or_else(Vec::new, |document| document.keys(table))
     }
 
     /// The worst problem at a field of a file.
@@ -177,7 +230,11 @@ impl Book {
     /// The name under which problems of a text are told.
     #[must_use]
     pub fn shown_name(&self, path: &str) -> String {
-        if path == Self::SCENARIO { self.scenario_path.display().to_string() } else { path.to_owned() }
+        match (path, &self.study_path) {
+            (Self::SCENARIO, _) => self.scenario_path.display().to_string(),
+            (Self::STUDY, Some(study)) => study.display().to_string(),
+            _ => path.to_owned(),
+        }
     }
 
     /// Whether the scenario or one of its assemblies names a library file by its id.
@@ -326,9 +383,13 @@ impl Book {
 
     /// Texts that differ from their files.
     #[must_use]
-    pub fn unsaved(&self) -> Vec<String> {
+    pub fn unsaved(&self) -> &[String] {
+        &self.unsaved
+    }
+
+    fn compare(&mut self) {
         let all: BTreeSet<&String> = self.texts.keys().chain(self.saved.keys()).collect();
-        all.into_iter().filter(|path| self.texts.get(*path) != self.saved.get(*path)).cloned().collect()
+        self.unsaved = all.into_iter().filter(|path| self.texts.get(*path) != self.saved.get(*path)).cloned().collect();
     }
 
     /// Whether a text differs from its file.
@@ -343,8 +404,12 @@ impl Book {
     /// With the files that could not be written; the others are saved.
     pub fn save(&mut self) -> Result<usize, String> {
         let (mut count, mut failed) = (0, Vec::new());
-        for path in self.unsaved() {
-            let file = if path == Self::SCENARIO { self.scenario_path.clone() } else { self.root.join(&path) };
+        for path in self.unsaved.clone() {
+            let file = match (path.as_str(), &self.study_path) {
+                (Self::SCENARIO, _) => self.scenario_path.clone(),
+                (Self::STUDY, Some(study)) => study.clone(),
+                _ => self.root.join(&path),
+            };
             let written = match self.texts.get(&path) {
                 Some(text) => save_text(&file, text),
                 None => std::fs::remove_file(&file),
@@ -357,6 +422,7 @@ impl Book {
                 Err(error) => failed.push(format!("{}: {error}", file.display())),
             }
         }
+        self.compare();
         if failed.is_empty() { Ok(count) } else { Err(failed.join("\n")) }
     }
 
@@ -388,11 +454,16 @@ impl Book {
                 self.parsed.insert(path.clone(), document);
             }
         }
+        self.compare();
         let (library, problems) = Library::read(&self.sources());
         (self.library, self.problems) = (Arc::new(library), problems);
         self.version += 1;
         let name = self.shown_name(Self::SCENARIO);
         if let Some(Err(problems)) = self.text(Self::SCENARIO).map(|text| Scenario::read(&name, text)) {
+            self.problems.extend(problems);
+        }
+        let name = self.shown_name(Self::STUDY);
+        if let Some(Err(problems)) = self.text(Self::STUDY).map(|text| Study::read(&name, text)) {
             self.problems.extend(problems);
         }
     }

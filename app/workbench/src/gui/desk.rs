@@ -26,6 +26,7 @@ use super::panels::view::ViewState;
 use super::plugins::{Change, Plugins};
 pub use super::preferences::{Preferences, Scale};
 use super::recovery::Keeper;
+use super::studies::Studies;
 use crate::input::{Pilot, Rumble};
 use runs::WORTH_KEEPING_S;
 
@@ -62,6 +63,8 @@ pub struct Desk {
     pub view3d: ViewState,
     /// State of the start page.
     pub start: StartState,
+    /// Studies at work and their results.
+    pub studies: Studies,
     /// State of the list of recordings.
     pub recorded: RecordingsState,
     /// What of the pad waits to be given a button or stick.
@@ -99,6 +102,9 @@ pub struct Desk {
     other_plugins: bool,
     /// Inputs of a recording whose model is in the making.
     inputs_when_made: Option<Vec<endline_sdk::Controls>>,
+    /// Version of the texts when a run was loaded that is not made from them: a recording, or an encounter of a study.
+    guest: Option<u64>,
+    guest_when_made: Option<u64>,
 }
 
 impl Desk {
@@ -117,6 +123,7 @@ impl Desk {
             entanglement: EntanglementState::default(),
             view3d: ViewState::default(),
             start: StartState::default(),
+            studies: Studies::default(),
             recorded: RecordingsState::default(),
             learning: Learning::default(),
             rumble: Rumble::default(),
@@ -140,6 +147,8 @@ impl Desk {
             run_is_kept: false,
             other_plugins: false,
             inputs_when_made: None,
+            guest: None,
+            guest_when_made: None,
         };
         desk.make();
         desk
@@ -151,6 +160,7 @@ impl Desk {
             self.take_made(made);
         }
         self.take_plugins();
+        super::studies::tick(self);
         let settling = self.status() == Some(&Status::Settling);
         self.view = self.engine.as_ref().map(|engine| engine.latest());
         if self.view.as_ref().is_some_and(|view| view.newest_s < WORTH_KEEPING_S) {
@@ -172,7 +182,7 @@ impl Desk {
     /// Whether texts have changed since the run's model was made.
     #[must_use]
     pub fn stale(&self) -> bool {
-        self.applied.as_ref() != Some(self.book.texts())
+        !self.applied.as_ref().is_some_and(|applied| self.book.same_run(applied))
     }
 
     /// How the run stands.
@@ -284,17 +294,9 @@ impl Desk {
             Order::OpenFolder(folder) => self.open_folder(folder),
             Order::Undo => self.step_back(true),
             Order::Redo => self.step_back(false),
-            Order::Close(_)
-            | Order::Size(_)
-            | Order::AskRecording
-            | Order::AskExportModel(_)
-            | Order::Show(_)
-            | Order::Arrange(_)
-            | Order::Commands
-            | Order::AskExportPlots(_)
-            | Order::AskExportTable
-            | Order::AskImportTable
-            | Order::CopyCommandLine => {}
+            Order::ReplayEncounter(option, encounter) => self.replay_encounter(*option, *encounter),
+            // What is left is about studies, or about layout and left to the window.
+            other => super::studies::obey(self, other),
         }
     }
 
@@ -355,7 +357,7 @@ impl Desk {
     }
 
     fn start(&mut self) {
-        if self.stale() && !self.book.any_error() {
+        if self.stale() && self.guest != Some(self.book.version()) && !self.book.any_error() {
             self.start_when_made = true;
             self.make();
             return;
@@ -379,7 +381,8 @@ impl Desk {
             library: self.host.with_clips(self.book.sources()),
             overrides: Overrides::default(),
         };
-        self.making.clone_from(self.book.texts());
+        self.making = self.book.texts_of_run();
+        self.guest_when_made = None;
         if let Err(error) = self.maker.start(source, Arc::clone(&self.host), Arc::clone(&self.waker)) {
             self.notice = Some((format!("the model cannot be made: {error}"), true));
         }
@@ -411,6 +414,7 @@ impl Desk {
     fn load(&mut self, prepared: Prepared) {
         self.keep_run();
         self.applied = Some(std::mem::take(&mut self.making));
+        self.guest = self.guest_when_made.take();
         self.view3d.frame_again = true;
         if std::mem::take(&mut self.other_plugins) {
             self.engine = None;

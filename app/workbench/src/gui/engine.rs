@@ -54,10 +54,18 @@ impl Maker {
     /// # Errors
     /// Where the system gives no thread.
     pub fn start(&mut self, source: Source, host: Arc<PluginHost>, waker: Waker) -> Result<(), String> {
+        self.start_with(move || source.prepare(&host), waker)
+    }
+
+    /// The same by any way of making one.
+    ///
+    /// # Errors
+    /// Where the system gives no thread.
+    pub fn start_with(&mut self, make: impl FnOnce() -> Result<Prepared, Error> + Send + 'static, waker: Waker) -> Result<(), String> {
         let (sender, receiver) = channel();
         let work = move || {
             // Nobody waits any more where the receiver is gone.
-            let _ = sender.send(source.prepare(&host));
+            let _ = sender.send(make());
             waker();
         };
         std::thread::Builder::new().name("endline-assemble".into()).spawn(work).map_err(|error| error.to_string())?;

@@ -37,11 +37,15 @@ pub enum Panel {
     Pad,
     /// Motions, laws of friction and gear types.
     Plugins,
+    /// The designer of a study, and the queue.
+    Study,
+    /// What a study found.
+    Results,
 }
 
 impl Panel {
     /// Every panel, in the order of the Window menu.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 18] = [
         Self::Library,
         Self::Assembly,
         Self::Scenario,
@@ -58,6 +62,8 @@ impl Panel {
         Self::Recordings,
         Self::Pad,
         Self::Plugins,
+        Self::Study,
+        Self::Results,
     ];
 
     /// Its stable id in saved layouts.
@@ -80,6 +86,8 @@ impl Panel {
             Self::Recordings => "recordings",
             Self::Pad => "pad",
             Self::Plugins => "plugins",
+            Self::Study => "study",
+            Self::Results => "results",
         }
     }
 
@@ -103,6 +111,8 @@ impl Panel {
             Self::Recordings => "Recordings",
             Self::Pad => "Pad",
             Self::Plugins => "Plugins",
+            Self::Study => "Study",
+            Self::Results => "Results",
         }
     }
 
@@ -122,7 +132,7 @@ pub enum Layout {
     Fly,
     /// Look at what happened.
     Review,
-    /// Compare gear: statics of two beside the library and the outcome.
+    /// Compare options on the same encounters: designer and queue, what was found, any run again.
     Study,
 }
 
@@ -144,10 +154,13 @@ impl Layout {
     /// Its panels in place.
     #[must_use]
     pub fn dock(self) -> DockState<String> {
-        use Panel::{Assembly, Entanglement, Events, Library, Pad, Plots, Problems, Recordings, Run, Scenario, Summary, Tension, View};
+        use Panel::{
+            Assembly, Entanglement, Events, Library, Pad, Plots, Problems, Recordings, Results, Run, Scenario, Study, Summary, Tension,
+            View,
+        };
         let first = match self {
             Self::Design => ids(&[View, Assembly]),
-            Self::Study => ids(&[Assembly]),
+            Self::Study => ids(&[Results]),
             Self::Fly | Self::Review => ids(&[View]),
         };
         let mut dock = DockState::new(first);
@@ -170,8 +183,9 @@ impl Layout {
                 tree.split_below(right, 0.7, ids(&[Events, Run, Recordings]));
             }
             Self::Study => {
-                let [upper, _] = tree.split_below(NodeIndex::root(), 0.7, ids(&[Library, Problems]));
-                tree.split_right(upper, 0.62, ids(&[Summary, Entanglement, Plots]));
+                let [right, _] = tree.split_left(NodeIndex::root(), 0.36, ids(&[Study, Library, Problems]));
+                let [_, below] = tree.split_below(right, 0.52, ids(&[View]));
+                tree.split_right(below, 0.62, ids(&[Summary, Entanglement, Plots, Events]));
             }
         }
         dock

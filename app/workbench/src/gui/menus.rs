@@ -113,6 +113,18 @@ pub fn ask_recording(app: &mut App) {
     });
 }
 
+/// Asks for a study's file to open.
+pub fn ask_study(app: &mut App) {
+    let folder = app.desk.book.root().join("studies");
+    ask(app, move || rfd::FileDialog::new().set_directory(folder).add_filter("study", &["toml"]).pick_file().map(Order::OpenStudy));
+}
+
+/// Asks for a folder of a study's results.
+pub fn ask_results(app: &mut App) {
+    let folder = app.desk.studies.root();
+    ask(app, move || rfd::FileDialog::new().set_directory(folder).pick_folder().map(Order::OpenResults));
+}
+
 /// Asks where to write the plots.
 pub fn ask_export_plots(app: &mut App, ending: &'static str) {
     let name = format!("{}.{ending}", scenario_name(app));

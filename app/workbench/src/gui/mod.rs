@@ -28,6 +28,7 @@ pub mod preferences;
 pub mod questions;
 pub mod recovery;
 pub mod status;
+pub mod studies;
 pub mod theme;
 pub mod transport;
 pub mod units;
@@ -90,6 +91,7 @@ pub fn open(options: Options) -> Result<(), String> {
         if let Some(folder) = &data {
             desk.keeper = recovery::Keeper::in_folder(folder.clone());
             desk.recordings = Some(folder.join("recordings"));
+            desk.studies.folder = Some(folder.join("studies"));
         }
         let app: Box<dyn eframe::App> = Box::new(App::new(creation, desk));
         Ok(app)

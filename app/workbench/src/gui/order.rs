@@ -100,6 +100,26 @@ pub enum Order {
     OpenRecording(PathBuf),
     /// Run again up to the moment shown, to go on from there in another way.
     Branch,
+    /// Open a study.
+    OpenStudy(PathBuf),
+    /// Ask for a study's file and open it.
+    AskStudy,
+    /// Go on with a copy of the open study.
+    DuplicateStudy,
+    /// Run the open study, or go on with it.
+    QueueStudy,
+    /// The study at work stands still, or goes on.
+    PauseStudy,
+    /// Take the study at work out of the queue.
+    CancelStudy,
+    /// Put the command lines that run the open study into the clipboard.
+    CopyStudyLine,
+    /// Ask for a folder of results and show them.
+    AskResults,
+    /// Show the results in a folder.
+    OpenResults(PathBuf),
+    /// Run an encounter of the results shown again: place of the option, index of the encounter.
+    ReplayEncounter(usize, u32),
     /// Size of everything on screen.
     Size(f32),
     /// Dark, or light.

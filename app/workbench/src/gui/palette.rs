@@ -5,6 +5,7 @@ use egui::{Align2, Context, Key, RichText, TextEdit, Window, vec2};
 use super::desk::{Desk, Order};
 use super::layout::{Layout, Panel};
 use super::panels::scenario::scenarios;
+use super::studies::studies;
 use super::theme::Theme;
 use super::units::Units;
 use crate::scene::View;
@@ -55,6 +56,13 @@ pub fn orders(desk: &Desk) -> Vec<(String, Order)> {
         ("Save the library's table as CSV".to_owned(), Order::AskExportTable),
         ("Take a CSV into the library".to_owned(), Order::AskImportTable),
         ("Reload plugins".to_owned(), Order::ReloadPlugins),
+        ("Run the study".to_owned(), Order::QueueStudy),
+        ("Pause the study, or go on".to_owned(), Order::PauseStudy),
+        ("Cancel the study".to_owned(), Order::CancelStudy),
+        ("Duplicate the study".to_owned(), Order::DuplicateStudy),
+        ("Copy the study as command line".to_owned(), Order::CopyStudyLine),
+        ("Open a study's file".to_owned(), Order::AskStudy),
+        ("Open a study's results".to_owned(), Order::AskResults),
         ("Save all".to_owned(), Order::Save),
         ("Undo".to_owned(), Order::Undo),
         ("Redo".to_owned(), Order::Redo),
@@ -80,6 +88,10 @@ pub fn orders(desk: &Desk) -> Vec<(String, Order)> {
     all.extend(scenarios(desk.book.root()).into_iter().map(|path| {
         let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
         (format!("Open {name}"), Order::Open(path))
+    }));
+    all.extend(studies(desk.book.root()).into_iter().map(|path| {
+        let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        (format!("Open study {name}"), Order::OpenStudy(path))
     }));
     all
 }

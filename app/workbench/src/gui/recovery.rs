@@ -21,6 +21,9 @@ pub struct Kept {
     pub root: PathBuf,
     /// The scenario's file.
     pub scenario: PathBuf,
+    /// The study's file, where one was open.
+    #[serde(default)]
+    pub study: Option<PathBuf>,
     /// Texts by path that differ from their files; `None` for a file that was taken away.
     pub texts: BTreeMap<String, Option<String>>,
 }
@@ -63,10 +66,16 @@ impl Keeper {
             let _ = std::fs::remove_file(file);
             return None;
         }
-        let texts = unsaved.into_iter().map(|path| (path.clone(), book.text(&path).map(str::to_owned))).collect();
-        let kept = Kept { root: book.root().to_owned(), scenario: book.scenario_path().to_owned(), texts };
+        let texts = unsaved.iter().map(|path| (path.clone(), book.text(path).map(str::to_owned))).collect();
+        let kept = Kept {
+            root: book.root().to_owned(),
+            scenario: book.scenario_path().to_owned(),
+            study: book.study_path().map(Path::to_owned),
+            texts,
+        };
         let write = move || {
             // Where edits cannot be kept, saving by hand still tells why.
+            let _ = file.parent().map(std::fs::create_dir_all);
             let _ = serde_json::to_vec(&kept).map(|bytes| atomically(&file, &bytes));
         };
         self.writing = std::thread::Builder::new().name("endline-keep".into()).spawn(write).ok();

@@ -41,8 +41,28 @@ impl Desk {
         };
         self.making.clear();
         self.inputs_when_made = Some(recording.inputs);
+        self.guest_when_made = Some(self.book.version());
         if let Err(error) = self.maker.start(recording.source, Arc::clone(&self.host), Arc::clone(&self.waker)) {
             self.notice = Some((format!("the model cannot be made: {error}"), true));
+        }
+    }
+
+    /// Runs an encounter of the study shown again, up to where it ended in the study.
+    pub(super) fn replay_encounter(&mut self, option: usize, encounter: u32) {
+        let Some(shown) = self.studies.results.shown().cloned() else {
+            return self.notice = Some(("no results of a study are shown".into(), true));
+        };
+        if option >= shown.opened.options.len() || u64::from(encounter) >= shown.opened.study.encounters {
+            return self.notice = Some(("the study shown has no such run".into(), true));
+        }
+        self.studies.results.replayed = Some((option, encounter));
+        self.keep_run();
+        self.making.clear();
+        (self.guest_when_made, self.start_when_made) = (Some(self.book.version()), true);
+        let host = Arc::clone(&self.host);
+        let work = move || super::super::studies::again(&shown, option, encounter, &host);
+        if let Err(error) = self.maker.start_with(work, Arc::clone(&self.waker)) {
+            self.notice = Some((format!("the run cannot be made again: {error}"), true));
         }
     }
 
@@ -50,6 +70,11 @@ impl Desk {
     pub fn recover(&mut self, kept: &Kept) {
         let elsewhere = kept.scenario != self.book.scenario_path() && kept.texts.contains_key(Book::SCENARIO);
         if elsewhere && let Err(error) = self.book.open_scenario(&kept.scenario) {
+            self.notice = Some((error, true));
+            return;
+        }
+        let study = kept.study.as_deref().filter(|study| kept.texts.contains_key(Book::STUDY) && Some(*study) != self.book.study_path());
+        if let Some(Err(error)) = study.map(|study| self.book.open_study(study)) {
             self.notice = Some((error, true));
             return;
         }

@@ -1,6 +1,10 @@
 //! The gear library as tables: edit in place with units, located errors, save.
 
 mod detail;
+mod figures;
+mod picture;
+
+use std::sync::Arc;
 
 use egui::{Align, Button, Layout, RichText, ScrollArea, TextEdit, Ui};
 use egui_extras::{Column, TableBuilder, TableRow};
@@ -16,7 +20,7 @@ use super::super::fields;
 use super::super::theme::{Theme, primary};
 
 /// Kinds with a table, in the order of their tabs.
-pub const KINDS: [(Kind, &str); 8] = [
+pub const KINDS: [(Kind, &str); 9] = [
     (Kind::Rope, "Ropes"),
     (Kind::Trap, "Traps"),
     (Kind::Buoy, "Buoys"),
@@ -25,6 +29,7 @@ pub const KINDS: [(Kind, &str); 8] = [
     (Kind::Anchor, "Anchors"),
     (Kind::Site, "Sites"),
     (Kind::Friction, "Friction"),
+    (Kind::Whale, "Whales"),
 ];
 
 const NAME_WIDTH: f32 = 230.0;
@@ -46,12 +51,30 @@ pub struct LibraryState {
     /// What the chosen row is compared with.
     pub against: Against,
     uses: Uses,
+    found: Option<(Wanted, Arc<Vec<Row>>)>,
+}
+
+/// What the rows shown were found for.
+#[derive(Clone, Debug, PartialEq)]
+struct Wanted {
+    version: u64,
+    scenario: std::path::PathBuf,
+    kind: Kind,
+    search: String,
+    sort: Option<(&'static str, bool)>,
+}
+
+/// A row of the table: its file, and whether one of its cells has a problem.
+#[derive(Clone, Debug)]
+struct Row {
+    path: String,
+    problem: bool,
 }
 
 impl Default for LibraryState {
     fn default() -> Self {
         let (against, uses) = (Against::Saved, Uses::default());
-        Self { kind: Kind::Rope, search: String::new(), sort: None, chosen: None, against, uses }
+        Self { kind: Kind::Rope, search: String::new(), sort: None, chosen: None, against, uses, found: None }
     }
 }
 
@@ -224,6 +247,20 @@ fn rows(desk: &Desk) -> Vec<String> {
     rows
 }
 
+/// The same as the table shows them, found anew where texts or choices have changed.
+fn shown_rows(desk: &mut Desk) -> Arc<Vec<Row>> {
+    let (state, version) = (&desk.library, desk.book.version());
+    let scenario = desk.book.scenario_path().to_owned();
+    let wanted = Wanted { version, scenario, kind: state.kind, search: state.search.clone(), sort: state.sort };
+    if let Some((_, rows)) = desk.library.found.as_ref().filter(|(found, _)| *found == wanted) {
+        return Arc::clone(rows);
+    }
+    let with_problem = |path: String| Row { problem: cell_problem(desk, &path).is_some(), path };
+    let rows: Arc<Vec<Row>> = Arc::new(rows(desk).into_iter().map(with_problem).collect());
+    desk.library.found = Some((wanted, Arc::clone(&rows)));
+    rows
+}
+
 /// The SI value of a cell, where it can be read.
 fn si_value(desk: &Desk, path: &str, field: &Field) -> Option<f64> {
     units::parse(&desk.book.field(path, field.key)?, field.quantity).ok()
@@ -232,17 +269,17 @@ fn si_value(desk: &Desk, path: &str, field: &Field) -> Option<f64> {
 fn table(ui: &mut Ui, desk: &mut Desk) {
     let kind = desk.library.kind;
     let (words, figures) = (kind.words(), kind.fields());
-    let paths = rows(desk);
+    let shown = shown_rows(desk);
     let mut builder =
         TableBuilder::new(ui).id_salt(kind.folder()).striped(true).resizable(true).cell_layout(Layout::left_to_right(Align::Center));
     builder = builder.column(Column::initial(NAME_WIDTH).at_least(120.0).clip(true));
     builder = builder.columns(Column::initial(CELL_WIDTH).at_least(60.0).clip(true), words.len() + figures.len());
     let mut edits = Vec::new();
     let table = builder.header(24.0, |mut row| header(&mut row, desk, kind));
-    let heights: Vec<f32> = paths.iter().map(|path| if cell_problem(desk, path).is_some() { ROW_WITH_REASON } else { ROW }).collect();
+    let heights = shown.iter().map(|row| if row.problem { ROW_WITH_REASON } else { ROW });
     table.body(|body| {
-        body.heterogeneous_rows(heights.into_iter(), |mut row| {
-            let path = &paths[row.index()];
+        body.heterogeneous_rows(heights, |mut row| {
+            let path = &shown[row.index()].path;
             row.set_selected(desk.library.chosen.as_ref() == Some(path));
             cells(&mut row, desk, path, &mut edits);
         });
@@ -308,7 +345,10 @@ fn cells(row: &mut TableRow<'_, '_>, desk: &mut Desk, path: &str, edits: &mut Ve
     }
     for field in kind.fields() {
         let help = format!("{}{}", field_help(field), provenance(desk, path, field));
-        row.col(|ui| edits.extend(cell(ui, desk, path, field.key, &help)));
+        row.col(|ui| {
+            edits.extend(cell(ui, desk, path, field.key, &help));
+            sureness(ui, desk, path, field);
+        });
     }
 }
 
@@ -347,6 +387,16 @@ fn cell(ui: &mut Ui, desk: &Desk, path: &str, key: &'static str, help: &str) -> 
         })
         .inner;
     committed.map(|value| (path.to_owned(), key, value))
+}
+
+/// A letter in the cell's corner for how sure its figure is: m measured, d derived, e estimate.
+fn sureness(ui: &Ui, desk: &Desk, path: &str, field: &Field) {
+    let entry = desk.book.library().entry(desk.library.kind, exchange::id_of(path));
+    let Some(figure) = entry.and_then(|entry| entry.figure(field.key)) else { return };
+    let letter = figure.sureness.word().get(..1).unwrap_or_default();
+    let colour = figures::colour(figure.sureness, Theme::palette_of(ui));
+    let corner = ui.max_rect().right_top() + egui::vec2(-13.0, 4.0);
+    ui.painter().text(corner, egui::Align2::RIGHT_TOP, letter, egui::FontId::proportional(9.5), colour);
 }
 
 /// Source and sureness of a figure, where its file can be read.

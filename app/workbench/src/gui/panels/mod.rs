@@ -10,9 +10,11 @@ pub mod plots;
 pub mod plugins;
 pub mod problems;
 pub mod recordings;
+pub mod results;
 pub mod run;
 pub mod scenario;
 pub mod start;
+pub mod study;
 pub mod summary;
 pub mod tension;
 pub mod view;
@@ -42,6 +44,8 @@ pub fn show(ui: &mut Ui, panel: Panel, desk: &mut Desk) {
         Panel::Recordings => recordings::show(ui, desk),
         Panel::Pad => pad::show(ui, desk),
         Panel::Plugins => plugins::show(ui, desk),
+        Panel::Study => study::show(ui, desk),
+        Panel::Results => results::show(ui, desk),
     }
 }
 

@@ -23,6 +23,13 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, file: &str, id: &str, gear_type
     if let Some(scope) = attributes.iter().find(|attribute| attribute.key == "scope") {
         scope_slider(ui, desk, file, scope);
     }
+    if desk.book.field(Book::SCENARIO, "gear.0.assembly").as_deref() == Some(id) {
+        inserts::of_placed(ui, desk);
+    } else {
+        let text = "Weak inserts go into gear that the scenario uses: Use in scenario, above.";
+        ui.add(egui::Label::new(RichText::new(text).small().color(Theme::palette_of(ui).faint)).wrap());
+    }
+    super::super::caption(ui, "Attributes");
     Grid::new("attributes").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
         for attribute in &attributes {
             let name = super::super::library::title(&attribute.key);
@@ -31,9 +38,6 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, file: &str, id: &str, gear_type
             ui.end_row();
         }
     });
-    if desk.book.field(Book::SCENARIO, "gear.0.assembly").as_deref() == Some(id) {
-        inserts::of_placed(ui, desk);
-    }
 }
 
 /// Scope under the hand: rope over depth, the gear follows while it moves.
@@ -41,14 +45,14 @@ fn scope_slider(ui: &mut Ui, desk: &mut Desk, file: &str, attribute: &Attribute)
     let AttributeKind::Number { min, max, default } = attribute.kind else { return };
     let typed = desk.book.field(file, "attributes.scope").and_then(|text| text.parse::<f64>().ok());
     let mut scope = typed.unwrap_or(default);
-    let slider = Slider::new(&mut scope, min.max(1.0)..=max.min(3.0)).clamping(SliderClamping::Never).fixed_decimals(2).text("scope");
+    let slider =
+        Slider::new(&mut scope, min.max(1.0)..=max.min(3.0)).clamping(SliderClamping::Never).min_decimals(2).max_decimals(4).text("scope");
     ui.spacing_mut().slider_width = 110.0;
     let response = ui.add(slider).on_hover_text("Length of the endline over the depth of water");
-    if response.changed() {
-        let value = format!("{scope:.2}");
-        if let Err(error) = desk.book.set_held(file, "attributes.scope", value.trim_end_matches('0')) {
-            desk.notice = Some((error, true));
-        }
+    if response.changed()
+        && let Err(error) = desk.book.set_held(file, "attributes.scope", &super::written(scope))
+    {
+        desk.notice = Some((error, true));
     }
     if response.drag_stopped() || response.lost_focus() {
         desk.book.let_go();

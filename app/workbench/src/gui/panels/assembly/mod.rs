@@ -4,6 +4,7 @@
 mod form;
 mod inserts;
 mod parts;
+mod selector;
 mod side;
 mod sweep;
 mod table;
@@ -35,6 +36,10 @@ pub struct AssemblyState {
     pub sweep: bool,
     bench: Bench,
     asked: Option<(u64, Vec<Trial>)>,
+    /// Whether the gear selector is shown.
+    pub selecting: bool,
+    pictured: Bench,
+    pictured_for: Option<u64>,
     swept: Bench,
     swept_for: Option<(u64, String)>,
 }
@@ -73,6 +78,12 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
     ask(desk, &id);
     toolbar(ui, desk, &id);
     ui.separator();
+    if desk.assembly.selecting {
+        if let Some(taken) = selector::show(ui, desk) {
+            (desk.assembly.shown, desk.assembly.selecting) = (Some(taken), false);
+        }
+        return;
+    }
     let left = (ui.available_width() * 0.3).clamp(230.0, 340.0);
     let whole = ui.available_rect_before_wrap();
     let (at_left, rest) = whole.split_left_right_at_x(whole.left() + left);
@@ -141,6 +152,8 @@ fn toolbar(ui: &mut Ui, desk: &mut Desk, id: &str) {
         if let Some(taken) = pick(ui, "gear-b", &choices, other.as_deref(), Some("compare with …")) {
             desk.assembly.other = taken;
         }
+        ui.toggle_value(&mut desk.assembly.selecting, "Pictures")
+            .on_hover_text("Choose A by its picture: every assembly at rest in this scenario's sea");
         ui.menu_button("New ⏷", |ui| new(ui, desk));
         if ui.button("Duplicate").on_hover_text("Copy A to a file of its own").clicked() {
             match desk.book.duplicate(&path(id)) {
@@ -176,7 +189,8 @@ fn tide(ui: &mut Ui, desk: &mut Desk) {
         ui.spacing_mut().slider_width = 180.0;
         let slider = Slider::new(&mut speed, 0.0..=units.of_m_s(FASTEST_M_S))
             .clamping(SliderClamping::Never)
-            .fixed_decimals(2)
+            .min_decimals(2)
+            .max_decimals(4)
             .suffix(format!(" {}", units.speed_symbol()));
         if ui.add(slider).on_hover_text("Surface speed of the current; slack tide is drawn beside it").changed() {
             desk.assembly.running_m_s = Some(units.to_m_s(speed));
@@ -193,6 +207,12 @@ fn tide(ui: &mut Ui, desk: &mut Desk) {
 /// Surface speed of the current of a model at the start [m/s].
 fn surface_m_s(rest: &endline_session::rest::Rest) -> f64 {
     rest.model.spec.water.current.at(1.0, 0.0).length()
+}
+
+/// A number from a slider as a file has it: as typed, to four decimals, without zeros at its end.
+fn written(value: f64) -> String {
+    let text = format!("{value:.4}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 /// Every assembly: id and name.

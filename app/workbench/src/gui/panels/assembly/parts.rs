@@ -221,13 +221,14 @@ fn length_slider(ui: &mut Ui, desk: &mut Desk, file: &str, at: &str) {
     ui.spacing_mut().slider_width = 130.0;
     let slider = Slider::new(&mut shown, units.of_metres(longest_m * 0.05)..=units.of_metres(longest_m))
         .clamping(SliderClamping::Never)
-        .fixed_decimals(1);
+        .min_decimals(1)
+        .max_decimals(4);
     let response = ui.add(slider.suffix(format!(" {}", units.length_symbol())));
     if response.drag_started() {
         ui.data_mut(|data| data.insert_temp(scale, longest_m));
     }
     if response.changed()
-        && let Err(error) = desk.book.set_held(file, &field, &format!("{shown:.1} {}", units.length_symbol()))
+        && let Err(error) = desk.book.set_held(file, &field, &format!("{} {}", super::written(shown), units.length_symbol()))
     {
         desk.notice = Some((error, true));
     }

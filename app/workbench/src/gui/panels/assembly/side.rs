@@ -174,9 +174,12 @@ fn rig(plot: &mut PlotUi<'_>, rest: &Rest, gear: Gear, color: Color32, text: Col
         let label_at = points.get(points.len() / 2).copied();
         plot.line(Line::new(name, PlotPoints::from(points)).color(color).width(width).style(gear.style()));
         if let (Some(at), true) = (label_at, !gear.dashed && !insert && spec.lines.len() <= LABELLED) {
-            let printed = format!("  {}, {}", flat.units.diameter(rope.diameter_m), flat.units.force().text(rope.strength_n));
+            let printed = format!("  {}, {}  ", flat.units.diameter(rope.diameter_m), flat.units.force().text(rope.strength_n));
             let place = PlotPoint::new(at[0], at[1]);
-            plot.text(Text::new("", place, RichText::new(printed).size(11.0)).color(text).anchor(egui::Align2::LEFT_CENTER));
+            // On the side where there is room.
+            let right = at[0] > plot.plot_bounds().center().x;
+            let anchor = if right { egui::Align2::RIGHT_CENTER } else { egui::Align2::LEFT_CENTER };
+            plot.text(Text::new("", place, RichText::new(printed).size(11.0)).color(text).anchor(anchor));
         }
     }
     for (body, at) in spec.bodies.iter().zip(&rest.shape.bodies) {

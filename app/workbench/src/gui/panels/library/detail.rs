@@ -34,9 +34,14 @@ pub struct Uses {
 /// Draws what there is to say of an entry.
 pub(super) fn show(ui: &mut Ui, desk: &mut Desk, path: &str) {
     ScrollArea::vertical().id_salt("entry").auto_shrink(false).show(ui, |ui| {
+        let kind = desk.library.kind;
+        if super::picture::has(kind) {
+            super::picture::show(ui, &desk.book, kind, path, egui::vec2(190.0, 120.0)).on_hover_text("From its figures; all to one scale");
+        }
         words(ui, desk, path);
         used_in(ui, desk, path);
         compare(ui, desk, path);
+        super::figures::show(ui, desk, path);
     });
 }
 

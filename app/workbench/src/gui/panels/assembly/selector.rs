@@ -1,0 +1,114 @@
+//! The gear selector: every assembly as a picture of it at rest, beside its name; a click shows it.
+
+use egui::{Color32, Pos2, Rect, RichText, ScrollArea, Sense, Stroke, Ui, pos2, vec2};
+use endline_session::rest::{Rest, TrialSea};
+use endline_sim::model::BodyRole;
+use glam::DVec2;
+
+use super::super::super::bench::{Answer, Trial};
+use super::super::super::book::Book;
+use super::super::super::desk::Desk;
+use super::super::super::theme::Theme;
+use super::side::A;
+
+/// Size of a picture.
+const CARD: egui::Vec2 = vec2(168.0, 112.0);
+
+/// Draws all assemblies as cards; answers the one clicked.
+pub(super) fn show(ui: &mut Ui, desk: &mut Desk) -> Option<String> {
+    let all = super::assemblies(desk);
+    ask(desk, &all);
+    let chosen = super::shown(desk);
+    let mut taken = None;
+    ScrollArea::vertical().id_salt("selector").auto_shrink(false).show(ui, |ui| {
+        ui.horizontal_wrapped(|ui| {
+            for (index, (id, name)) in all.iter().enumerate() {
+                let answer = desk.assembly.pictured.newest(index).cloned();
+                if card(ui, name, answer.as_ref(), chosen.as_ref() == Some(id)) {
+                    taken = Some(id.clone());
+                }
+            }
+        });
+    });
+    taken
+}
+
+/// Asks for every assembly at rest in the scenario's sea, where texts have changed since.
+fn ask(desk: &mut Desk, all: &[(String, String)]) {
+    desk.assembly.pictured.poll();
+    let version = desk.book.version();
+    if desk.assembly.pictured_for == Some(version) {
+        return;
+    }
+    let trial = |(id, _): &(String, String)| Trial { assembly: id.clone(), sea: TrialSea { depth: None, current_m_s: None } };
+    let trials = all.iter().map(trial).collect();
+    let scenario = desk.book.text(Book::SCENARIO).unwrap_or_default().to_owned();
+    let (library, (host, waker)) = (desk.book.library().clone(), desk.helpers());
+    desk.assembly.pictured.ask(&scenario, &library, trials, &host, &waker);
+    desk.assembly.pictured_for = Some(version);
+}
+
+fn card(ui: &mut Ui, name: &str, answer: Option<&Answer>, chosen: bool) -> bool {
+    let palette = Theme::palette_of(ui);
+    let color = A.color(ui);
+    let size = CARD + vec2(0.0, 20.0);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    let (picture, below) = rect.split_top_bottom_at_y(rect.top() + CARD.y);
+    let painter = ui.painter_at(rect);
+    painter.rect_filled(picture, 4.0, palette.field);
+    let say = |text: &str| {
+        painter.text(picture.center(), egui::Align2::CENTER_CENTER, text, egui::FontId::proportional(12.0), palette.faint);
+    };
+    match answer {
+        None => say("…"),
+        Some(Ok(rest)) => draw(&painter, picture.shrink(8.0), rest, color, palette.faint),
+        Some(Err(_)) => say("not here"),
+    }
+    let outline = match (chosen, response.hovered()) {
+        (true, _) => Stroke::new(2.0, palette.accent),
+        (false, true) => Stroke::new(1.5, palette.faint),
+        (false, false) => Stroke::new(1.0, palette.line),
+    };
+    painter.rect_stroke(picture, 4.0, outline, egui::StrokeKind::Inside);
+    let text = ui.painter().layout(name.to_owned(), egui::FontId::proportional(12.0), palette.text, f32::INFINITY);
+    painter.with_clip_rect(below).galley(below.left_top() + vec2(2.0, 3.0), text, palette.text);
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Button, true, name));
+    let told = match answer {
+        Some(Err(why)) => format!("{name}\nnot at rest in this scenario's sea: {why}"),
+        _ => name.to_owned(),
+    };
+    response.on_hover_text(RichText::new(told)).clicked()
+}
+
+/// Lines and bodies from the side, as large as they fit.
+fn draw(painter: &egui::Painter, room: Rect, rest: &Rest, color: Color32, faint: Color32) {
+    let places = || rest.shape.lines.iter().flat_map(|line| &line.position_m);
+    let flat = |place: &[f64; 3]| DVec2::new(place[0], place[1]);
+    let Some(first) = places().next().map(flat) else { return };
+    let far = places().map(|place| flat(place) - first).max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
+    let axis = far.and_then(DVec2::try_normalize).unwrap_or(DVec2::X);
+    let along = |place: &[f64; 3]| flat(place).dot(axis);
+    let ends = places().map(along).fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
+    let depth_m = rest.model.spec.water.depth_m.max(0.1);
+    let middle = f64::midpoint(ends[0], ends[1]);
+    // One scale across and up, so that scope shows; a long trawl is pressed together.
+    let up = f64::from(room.height()) / depth_m;
+    let across = (f64::from(room.width()) / (ends[1] - ends[0]).max(0.1)).min(up);
+    let at = |place: &[f64; 3]| -> Pos2 {
+        pos2(room.center().x + ((along(place) - middle) * across) as f32, room.top() + (-place[2] * up) as f32)
+    };
+    for y in [room.top(), room.bottom()] {
+        painter.line_segment([pos2(room.left(), y), pos2(room.right(), y)], Stroke::new(1.0, faint.gamma_multiply(0.6)));
+    }
+    for line in &rest.shape.lines {
+        painter.add(egui::Shape::line(line.position_m.iter().map(at).collect(), Stroke::new(1.4, color)));
+    }
+    for (body, shape) in rest.model.spec.bodies.iter().zip(&rest.shape.bodies) {
+        let place = at(&shape.position_m);
+        if body.role == BodyRole::Buoy {
+            painter.circle_filled(place, 3.0, Color32::from_rgb(0xd5, 0x5e, 0x00));
+        } else {
+            painter.rect_filled(Rect::from_center_size(place, vec2(5.0, 5.0)), 0.0, color);
+        }
+    }
+}

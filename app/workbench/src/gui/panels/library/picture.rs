@@ -1,0 +1,91 @@
+//! Traps, buoys and anchors drawn from their figures, to scale with one another.
+
+use egui::{Color32, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
+use endline_gear::{Kind, units};
+
+use super::super::super::book::Book;
+use super::super::super::theme::{Palette, Theme};
+
+/// Length that a picture's width stands for [m].
+const WIDE_M: f32 = 1.6;
+
+/// Whether entries of a kind have a picture.
+#[must_use]
+pub(in super::super) fn has(kind: Kind) -> bool {
+    matches!(kind, Kind::Trap | Kind::Buoy | Kind::Anchor)
+}
+
+/// Draws an entry in a box of a size.
+pub(in super::super) fn show(ui: &mut Ui, book: &Book, kind: Kind, path: &str, size: egui::Vec2) -> egui::Response {
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    let palette = Theme::palette_of(ui);
+    let painter = ui.painter_at(rect);
+    painter.rect_filled(rect, 4.0, palette.field);
+    match kind {
+        Kind::Buoy => buoy(&painter, rect, palette, book, path),
+        _ => a_box(&painter, rect, palette, book, path),
+    }
+    response
+}
+
+/// A length of an entry [m].
+fn metres(book: &Book, path: &str, key: &str) -> Option<f32> {
+    let field = Kind::ALL.into_iter().flat_map(Kind::fields).find(|field| field.key == key)?;
+    Some(units::parse(&book.field(path, key)?, field.quantity).ok()? as f32)
+}
+
+/// Points on the picture for a metre; smaller where the thing would not fit.
+fn scale(rect: Rect, wide_m: f32, high_m: f32) -> f32 {
+    let room = rect.shrink(8.0);
+    (rect.width() / WIDE_M).min(room.width() / wide_m.max(0.01)).min(room.height() / high_m.max(0.01))
+}
+
+/// A trap or anchor: its box seen from a corner, with its mesh.
+fn a_box(painter: &Painter, rect: Rect, palette: Palette, book: &Book, path: &str) {
+    let [length, width, height] = ["length", "width", "height"].map(|key| metres(book, path, key).unwrap_or(0.3));
+    // Cabinet projection: the width goes back at 45 degrees, halved.
+    let back = width * 0.5 * std::f32::consts::FRAC_1_SQRT_2;
+    let scale = scale(rect, length + back, height + back);
+    let low_left = rect.center() + vec2(-(length + back) * scale / 2.0, (height + back) * scale / 2.0);
+    let at = |x: f32, y: f32, z: f32| low_left + vec2(x * length + y * back, -(z * height + y * back)) * scale;
+    let face = |corners: [Pos2; 4], strength: f32| {
+        let fill = palette.accent.gamma_multiply(strength);
+        painter.add(Shape::convex_polygon(corners.to_vec(), fill, Stroke::new(1.4, palette.text)));
+    };
+    face([at(0.0, 0.0, 0.0), at(1.0, 0.0, 0.0), at(1.0, 0.0, 1.0), at(0.0, 0.0, 1.0)], 0.18);
+    face([at(0.0, 0.0, 1.0), at(1.0, 0.0, 1.0), at(1.0, 1.0, 1.0), at(0.0, 1.0, 1.0)], 0.30);
+    face([at(1.0, 0.0, 0.0), at(1.0, 1.0, 0.0), at(1.0, 1.0, 1.0), at(1.0, 0.0, 1.0)], 0.10);
+    let mesh = Stroke::new(0.6, palette.faint);
+    for part in 1..6 {
+        let share = part as f32 / 6.0;
+        painter.line_segment([at(share, 0.0, 0.0), at(share, 0.0, 1.0)], mesh);
+        painter.line_segment([at(share, 0.0, 1.0), at(share, 1.0, 1.0)], mesh);
+        painter.line_segment([at(0.0, 0.0, share), at(1.0, 0.0, share)], mesh);
+    }
+}
+
+/// A buoy: its float with water up to its middle, and the line below.
+fn buoy(painter: &Painter, rect: Rect, palette: Palette, book: &Book, path: &str) {
+    let diameter = metres(book, path, "diameter").unwrap_or(0.2);
+    let shape = book.field(path, "shape").unwrap_or_default();
+    let length = metres(book, path, "length").filter(|_| shape != "sphere").unwrap_or(diameter);
+    let scale = scale(rect, diameter, length);
+    let (half_wide, half_high) = (diameter * scale / 2.0, length * scale / 2.0);
+    let centre = rect.center();
+    painter.line_segment([pos2(rect.left(), centre.y), pos2(rect.right(), centre.y)], Stroke::new(1.0, palette.accent));
+    painter.line_segment([centre, pos2(centre.x, rect.bottom())], Stroke::new(1.4, palette.faint));
+    let fill = Color32::from_rgb(0xd5, 0x5e, 0x00);
+    let outline = Stroke::new(1.2, palette.text);
+    let body = Rect::from_center_size(centre, vec2(2.0 * half_wide, 2.0 * half_high));
+    let corner = match shape.as_str() {
+        "cylinder" => 2.0,
+        "bullet" => half_wide.min(half_high).min(250.0),
+        _ => {
+            let turn = |step: i32| f64::from(step) * std::f64::consts::TAU / 48.0;
+            let point = |step: i32| centre + vec2(half_wide * turn(step).cos() as f32, half_high * turn(step).sin() as f32);
+            painter.add(Shape::convex_polygon((0..48).map(point).collect(), fill, outline));
+            return;
+        }
+    };
+    painter.rect(body, corner, fill, outline, egui::StrokeKind::Inside);
+}

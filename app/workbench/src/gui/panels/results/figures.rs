@@ -1,0 +1,191 @@
+//! Differences from the baseline as a forest of intervals, and the effect of each input as a tornado.
+
+use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Sense, Stroke, Ui, pos2, vec2};
+use endline_session::study::stats::{Interval, OptionFinding};
+
+use super::super::super::charts::COLOURS;
+use super::super::super::studies::Shown;
+use super::super::super::theme::{Palette, Theme};
+use super::rates::{points, rate};
+
+/// Height of a row.
+const ROW: f32 = 26.0;
+/// Room for names at the left.
+const NAMES: f32 = 190.0;
+
+/// A figure being drawn: rows below one another over an axis of values.
+struct Figure {
+    painter: Painter,
+    rect: Rect,
+    values: [f64; 2],
+    palette: Palette,
+}
+
+impl Figure {
+    /// Room for so many rows, with an axis below.
+    fn new(ui: &mut Ui, rows: usize, values: [f64; 2]) -> Self {
+        let size = vec2(ui.available_width().max(420.0), ROW * rows as f32 + 34.0);
+        let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
+        Self { painter: ui.painter_at(rect), rect, values, palette: Theme::palette_of(ui) }
+    }
+
+    fn x(&self, value: f64) -> f32 {
+        let [least, most] = self.values;
+        let share = ((value - least) / (most - least)).clamp(0.0, 1.0) as f32;
+        self.rect.left() + NAMES + share * (self.rect.width() - NAMES - 24.0)
+    }
+
+    fn y(&self, row: usize) -> f32 {
+        self.rect.top() + ROW * (row as f32 + 0.5)
+    }
+
+    fn text(&self, at: Pos2, align: Align2, text: &str, colour: Color32) -> Rect {
+        self.painter.text(at, align, text, FontId::proportional(12.5), colour)
+    }
+
+    fn name(&self, row: usize, name: &str, colour: Color32) {
+        let font = FontId::proportional(12.5);
+        let galley = self.painter.layout(name.to_owned(), font, colour, NAMES - 14.0);
+        let first = galley.rows.first().map_or(0.0, |row| row.height());
+        let clipped =
+            self.painter.with_clip_rect(Rect::from_min_size(pos2(self.rect.left(), self.y(row) - first / 2.0), vec2(NAMES, first)));
+        clipped.galley(pos2(self.rect.left() + 2.0, self.y(row) - first / 2.0), galley, colour);
+    }
+
+    fn axis(&self, words: impl Fn(f64) -> String) {
+        let (top, bottom) = (self.rect.top(), self.rect.bottom() - 30.0);
+        for tick in ticks(self.values) {
+            let x = self.x(tick);
+            self.painter.line_segment([pos2(x, top), pos2(x, bottom)], Stroke::new(1.0, self.palette.line));
+            self.text(pos2(x, bottom + 6.0), Align2::CENTER_TOP, &words(tick), self.palette.faint);
+        }
+    }
+
+    fn hover(&self, ui: &Ui, row: usize, text: &str) {
+        let strip = Rect::from_min_max(pos2(self.rect.left(), self.y(row) - ROW / 2.0), pos2(self.rect.right(), self.y(row) + ROW / 2.0));
+        ui.interact(strip, ui.id().with(("row", self.rect.top().to_bits(), row)), Sense::hover()).on_hover_text(text);
+    }
+}
+
+/// Round values within a range, about five.
+fn ticks([least, most]: [f64; 2]) -> Vec<f64> {
+    let rough = (most - least) / 5.0;
+    let power = 10.0_f64.powf(rough.log10().floor());
+    let step = [1.0, 2.0, 2.5, 5.0, 10.0].into_iter().map(|factor| factor * power).find(|step| *step >= rough).unwrap_or(rough);
+    let first = (least / step).ceil() as i64;
+    (first..).map(|count| count as f64 * step).take_while(|tick| *tick <= most + 1e-9 * step).collect()
+}
+
+/// An option's name, its difference from the baseline, and the interval.
+type Difference = (String, f64, Interval);
+
+/// Differences from the baseline: of all encounters, then by level.
+pub(super) fn forest(ui: &mut Ui, shown: &Shown, event: &str) {
+    let findings = &shown.findings;
+    let others = |index: &usize| *index != findings.baseline;
+    let all = |option: &OptionFinding| option.against(event).map(|paired| (paired.difference, paired.difference_interval));
+    let mut groups: Vec<(String, Vec<Difference>)> = Vec::new();
+    let rows = (0..findings.options.len()).filter(others);
+    let own = rows.filter_map(|index| {
+        all(&findings.options[index]).map(|(difference, interval)| (findings.options[index].name.clone(), difference, interval))
+    });
+    groups.push(("all encounters".into(), own.collect()));
+    for level in findings.levels.iter().filter(|_| event == findings.event) {
+        let rows = (0..findings.options.len()).filter(others).filter_map(|index| {
+            let paired = level.against.get(index)?;
+            Some((findings.options[index].name.clone(), paired.difference, paired.difference_interval))
+        });
+        groups.push((level.level.clone(), rows.collect()));
+    }
+    let baseline = &findings.options[findings.baseline];
+    let words = baseline.rate(event).map_or_else(String::new, rate);
+    ui.label(format!("Difference of rates from {} ({words}), in points of a percent: left is rarer", baseline.name));
+    let ends = groups.iter().flat_map(|(_, rows)| rows).map(|(_, _, interval)| interval.low.abs().max(interval.high.abs()));
+    let widest = ends.fold(0.02, f64::max);
+    let count = groups.iter().map(|(_, rows)| rows.len() + 1).sum();
+    let figure = Figure::new(ui, count, [-widest, widest]);
+    figure.axis(|tick| format!("{:+.0}", 100.0 * tick));
+    let zero = figure.x(0.0);
+    let strong = Stroke::new(1.0, figure.palette.faint);
+    figure.painter.line_segment([pos2(zero, figure.rect.top()), pos2(zero, figure.rect.bottom() - 30.0)], strong);
+    let mut row = 0;
+    for (kind, (name, rows)) in groups.iter().enumerate() {
+        figure.name(row, name, figure.palette.faint);
+        row += 1;
+        for (option, difference, interval) in rows {
+            figure.name(row, &format!("   {option}"), figure.palette.text);
+            whisker(&figure, row, [interval.low, *difference, interval.high], kind);
+            figure.hover(ui, row, &format!("{option}, {name}: {} points", points(*difference, *interval)));
+            row += 1;
+        }
+    }
+}
+
+/// An interval with its value; the marks of each group have a shape of their own.
+fn whisker(figure: &Figure, row: usize, [low, at, high]: [f64; 3], kind: usize) {
+    let [red, green, blue] = COLOURS[kind % COLOURS.len()];
+    let colour = Color32::from_rgb(red, green, blue);
+    let (y, stroke) = (figure.y(row), Stroke::new(1.6, colour));
+    let [low, at, high] = [low, at, high].map(|value| figure.x(value));
+    figure.painter.line_segment([pos2(low, y), pos2(high, y)], stroke);
+    for end in [low, high] {
+        figure.painter.line_segment([pos2(end, y - 3.5), pos2(end, y + 3.5)], stroke);
+    }
+    if kind.is_multiple_of(2) {
+        figure.painter.circle_filled(pos2(at, y), 4.5, colour);
+    } else {
+        figure.painter.rect_filled(Rect::from_center_size(pos2(at, y), vec2(8.0, 8.0)), 0.0, colour);
+    }
+}
+
+/// Least and greatest rate over the parts of each input, the greatest effect first.
+pub(super) fn tornado(ui: &mut Ui, shown: &Shown) {
+    let findings = &shown.findings;
+    if findings.inputs.is_empty() {
+        return super::super::nothing(ui, "Nothing was drawn that varies.");
+    }
+    let most = findings.inputs.iter().flat_map(|input| &input.parts).map(|part| part.rate.rate).fold(0.02, f64::max);
+    let words = endline_gear::Event::find(&findings.event).map_or_else(|| findings.event.clone(), |event| event.words());
+    ui.label(format!("Rate of \"{words}\" over all options, by parts of each input's range"));
+    let figure = Figure::new(ui, 2 * findings.inputs.len(), [0.0, 1.15 * most]);
+    figure.axis(|tick| format!("{:.0} %", 100.0 * tick));
+    for (index, input) in findings.inputs.iter().enumerate() {
+        let mut parts: Vec<_> = input.parts.iter().filter(|part| part.rate.runs > 0).collect();
+        parts.sort_by(|one, other| one.rate.rate.total_cmp(&other.rate.rate));
+        let (Some(least), Some(most)) = (parts.first(), parts.last()) else { continue };
+        let (row, [red, green, blue]) = (2 * index, COLOURS[0]);
+        let (from, to, y) = (figure.x(least.rate.rate), figure.x(most.rate.rate), figure.y(row));
+        let bar = Rect::from_min_max(pos2(from, y - 7.0), pos2(to.max(from + 1.0), y + 7.0));
+        figure.painter.rect(
+            bar,
+            2.0,
+            Color32::from_rgb(red, green, blue).gamma_multiply(0.45),
+            Stroke::new(1.0, Color32::from_rgb(red, green, blue)),
+            egui::StrokeKind::Inside,
+        );
+        let mark = if input.same_best { "" } else { "  (another option is best)" };
+        figure.name(row, &input.name.replace('_', " "), figure.palette.text);
+        let below = figure.y(row + 1) - 6.0;
+        let left = figure.text(pos2(from, below), Align2::RIGHT_CENTER, &least.name, figure.palette.faint);
+        let right = (to).max(left.right() + 8.0);
+        figure.text(pos2(right, below), Align2::LEFT_CENTER, &format!("{}{mark}", most.name), figure.palette.faint);
+        let told: Vec<String> = parts.iter().map(|part| format!("{}: {}", part.name, rate(&part.rate))).collect();
+        let best = if input.same_best {
+            "The option with the lowest rate is the same in every part."
+        } else {
+            "Which option has the lowest rate hangs on this input."
+        };
+        figure.hover(ui, row, &format!("{}\n{best}", told.join("\n")));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::ticks;
+
+    #[test]
+    fn ticks_are_round_and_few() {
+        assert_eq!(ticks([0.0, 1.0]).len(), 6);
+        assert!(ticks([-0.13, 0.13]).iter().any(|tick| tick.abs() < 1e-12), "zero is one of them");
+    }
+}

@@ -1,0 +1,197 @@
+//! Every run of a study as a table: sorted, filtered, and a click shows it in the 3-D view.
+
+use std::sync::Arc;
+
+use egui::{Align, ComboBox, Layout, RichText, Sense, Ui};
+use egui_extras::{Column, TableBuilder};
+use endline_session::study::Table;
+
+use super::super::super::desk::Desk;
+use super::super::super::studies::Shown;
+use super::super::super::theme::Theme;
+use super::super::super::units::ForceUnit;
+
+/// What runs are sorted by.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Sort {
+    /// Their encounters.
+    #[default]
+    Encounter,
+    /// Their greatest tension.
+    Tension,
+    /// Wraps on all parts together at their greatest.
+    Wraps,
+    /// Their outcomes.
+    Outcome,
+}
+
+/// A run as a row.
+#[derive(Clone, Debug)]
+struct RunRow {
+    option: usize,
+    encounter: u32,
+    outcome: String,
+    tension_n: Option<f64>,
+    parted: String,
+    wraps: f64,
+    valid: bool,
+    fault: String,
+}
+
+/// The rows last listed, with what they were listed for.
+#[derive(Clone)]
+pub struct Listed {
+    shown: Arc<Shown>,
+    only: Option<String>,
+    sort: (Sort, bool),
+    rows: Arc<Vec<RunRow>>,
+}
+
+const HEADS: [(&str, Option<Sort>); 6] = [
+    ("Encounter", Some(Sort::Encounter)),
+    ("Option", None),
+    ("Outcome", Some(Sort::Outcome)),
+    ("Greatest tension", Some(Sort::Tension)),
+    ("Wraps", Some(Sort::Wraps)),
+    ("Parted", None),
+];
+
+/// Draws the table of runs.
+pub(super) fn show(ui: &mut Ui, desk: &mut Desk, shown: &Arc<Shown>) {
+    filter(ui, desk, shown);
+    let rows = listed(desk, shown);
+    let unit = desk.preferences.units.force();
+    let replayed = desk.studies.results.replayed;
+    let mut wanted = None;
+    let mut sort = desk.studies.results.sort;
+    let table = TableBuilder::new(ui)
+        .id_salt("runs")
+        .striped(true)
+        .resizable(true)
+        .sense(Sense::click())
+        .cell_layout(Layout::left_to_right(Align::Center));
+    let table = table
+        .column(Column::initial(80.0))
+        .column(Column::initial(130.0).clip(true))
+        .columns(Column::initial(110.0).clip(true), 3)
+        .column(Column::remainder().clip(true));
+    table
+        .header(22.0, |mut header| {
+            for (name, by) in HEADS {
+                header.col(|ui| head(ui, name, by, &mut sort));
+            }
+        })
+        .body(|body| {
+            body.rows(21.0, rows.len(), |mut line| {
+                let row = &rows[line.index()];
+                line.set_selected(replayed == Some((row.option, row.encounter)));
+                cells(&mut line, row, shown, unit);
+                let response = line.response().on_hover_text("Click to see this run in the 3-D view");
+                if response.clicked() {
+                    wanted = Some((row.option, row.encounter));
+                }
+            });
+        });
+    desk.studies.results.sort = sort;
+    if let Some((option, encounter)) = wanted {
+        super::replay(desk, option, encounter);
+    }
+}
+
+fn filter(ui: &mut Ui, desk: &mut Desk, shown: &Shown) {
+    ui.horizontal(|ui| {
+        let only = &mut desk.studies.results.only;
+        let name =
+            |id: &String| shown.findings.options.iter().find(|option| option.id == *id).map_or(id.clone(), |option| option.name.clone());
+        let text = only.as_ref().map_or_else(|| "every option".to_owned(), name);
+        ComboBox::from_id_salt("only").width(160.0).truncate().selected_text(text).show_ui(ui, |ui| {
+            ui.selectable_value(only, None, "every option");
+            for option in &shown.findings.options {
+                ui.selectable_value(only, Some(option.id.clone()), &option.name);
+            }
+        });
+        ui.label(RichText::new("Click a run to see it.").color(Theme::palette_of(ui).faint));
+    });
+}
+
+fn head(ui: &mut Ui, name: &str, by: Option<Sort>, sort: &mut (Sort, bool)) {
+    let palette = Theme::palette_of(ui);
+    let Some(by) = by else {
+        ui.label(RichText::new(name).small().color(palette.faint));
+        return;
+    };
+    let (colour, arrow) = if sort.0 == by { (palette.accent, if sort.1 { " ⏷" } else { " ⏶" }) } else { (palette.faint, "") };
+    let button = egui::Button::new(RichText::new(format!("{name}{arrow}")).small().color(colour)).frame(false);
+    if ui.add(button).clicked() {
+        // Numbers are looked at from the top.
+        *sort = if sort.0 == by { (by, !sort.1) } else { (by, matches!(by, Sort::Tension | Sort::Wraps)) };
+    }
+}
+
+fn cells(line: &mut egui_extras::TableRow<'_, '_>, row: &RunRow, shown: &Shown, unit: ForceUnit) {
+    line.col(|ui| drop(ui.label(row.encounter.to_string())));
+    line.col(|ui| drop(ui.label(&shown.findings.options[row.option].name)));
+    line.col(|ui| {
+        let palette = Theme::palette_of(ui);
+        if row.valid {
+            ui.label(row.outcome.replace('_', " "));
+        } else {
+            ui.label(RichText::new("invalid").color(palette.error)).on_hover_text(&row.fault);
+        }
+    });
+    line.col(|ui| drop(ui.label(row.tension_n.map_or_else(|| "–".into(), |tension| unit.text(tension)))));
+    line.col(|ui| drop(ui.label(format!("{:.2}", row.wraps))));
+    line.col(|ui| drop(ui.label(&row.parted)));
+}
+
+/// The rows as they are sorted and filtered now, listed anew where that or the results have changed.
+fn listed(desk: &mut Desk, shown: &Arc<Shown>) -> Arc<Vec<RunRow>> {
+    let results = &mut desk.studies.results;
+    let same = |listed: &&Listed| Arc::ptr_eq(&listed.shown, shown) && listed.only == results.only && listed.sort == results.sort;
+    if let Some(listed) = results.listed.as_ref().filter(same) {
+        return Arc::clone(&listed.rows);
+    }
+    let rows = Arc::new(rows(shown, results.only.as_deref(), results.sort));
+    results.listed = Some(Listed { shown: Arc::clone(shown), only: results.only.clone(), sort: results.sort, rows: Arc::clone(&rows) });
+    rows
+}
+
+fn rows(shown: &Shown, only: Option<&str>, (sort, down): (Sort, bool)) -> Vec<RunRow> {
+    let table = &shown.table;
+    let (encounters, tensions, wraps) = (table.reals("encounter"), table.reals("peak_tension_N"), wraps(table));
+    let (options, valid, outcomes) = (table.texts("option"), table.flags("valid"), table.texts("outcome"));
+    let (parted, faults) = (table.texts("parted"), table.texts("fault"));
+    let row = |row: usize| {
+        let option = shown.findings.options.iter().position(|option| option.id == options[row])?;
+        Some(RunRow {
+            option,
+            encounter: encounters[row]? as u32,
+            outcome: outcomes[row].clone(),
+            tension_n: tensions[row],
+            parted: parted[row].clone(),
+            wraps: wraps[row],
+            valid: valid[row],
+            fault: faults[row].clone(),
+        })
+    };
+    let mut rows: Vec<RunRow> = (0..table.rows()).filter(|row| only.is_none_or(|only| options[*row] == only)).filter_map(row).collect();
+    match sort {
+        Sort::Encounter => rows.sort_by_key(|row| (row.encounter, row.option)),
+        Sort::Tension => rows.sort_by(|one, other| one.tension_n.unwrap_or(-1.0).total_cmp(&other.tension_n.unwrap_or(-1.0))),
+        Sort::Wraps => rows.sort_by(|one, other| one.wraps.total_cmp(&other.wraps)),
+        Sort::Outcome => rows.sort_by(|one, other| one.outcome.cmp(&other.outcome).then(one.encounter.cmp(&other.encounter))),
+    }
+    if down {
+        rows.reverse();
+    }
+    rows
+}
+
+/// By row: greatest wraps on any part.
+fn wraps(table: &Table) -> Vec<f64> {
+    let mut most = vec![0.0_f64; table.rows()];
+    for (name, _) in table.columns.iter().filter(|(name, _)| name.ends_with("_peak_wraps")) {
+        most.iter_mut().zip(table.reals(name)).for_each(|(most, value)| *most = most.max(value.unwrap_or_default()));
+    }
+    most
+}

@@ -1,0 +1,197 @@
+//! The designer of a study: what it asks, its options, how encounters are drawn; and the queue it goes to.
+
+mod options;
+mod priors;
+mod queue;
+
+use std::path::Path;
+
+use egui::{Button, ComboBox, RichText, ScrollArea, Ui};
+use endline_gear::{Diagnostic, Event, Setting};
+
+use super::super::book::Book;
+use super::super::desk::{Desk, Order};
+use super::super::fields::{self, Said};
+use super::super::studies::studies;
+use super::super::theme::{Theme, primary};
+
+/// An edit of the study's text: a dotted path, and its value as TOML; `None` takes it away.
+type Edits = Vec<(String, Option<Setting>)>;
+
+/// Draws the study panel.
+pub fn show(ui: &mut Ui, desk: &mut Desk) {
+    pick(ui, desk);
+    if desk.book.text(Book::STUDY).is_none() {
+        super::nothing(
+            ui,
+            "Choose a study above. Each meets every option of gear with the same drawn encounters and counts what comes of them.",
+        );
+        queue::show(ui, desk);
+        return;
+    }
+    start(ui, desk);
+    queue::show(ui, desk);
+    ui.separator();
+    ScrollArea::vertical().id_salt("designer").auto_shrink(false).show(ui, |ui| {
+        let mut edits = Edits::new();
+        question(ui, desk, &mut edits);
+        options::show(ui, desk, &mut edits);
+        priors::show(ui, desk, &mut edits);
+        problems(ui, desk);
+        apply(desk, edits);
+    });
+}
+
+/// Puts edits into the study's text, together.
+fn apply(desk: &mut Desk, edits: Edits) {
+    if edits.is_empty() {
+        return;
+    }
+    let told = |error: endline_gear::EditError| error.message;
+    let change = |document: &mut endline_gear::Document| {
+        edits.iter().try_for_each(|(path, value)| match value {
+            Some(value) => document.put(path, value).map_err(told),
+            None if document.has(path) => document.remove(path).map_err(told),
+            None => Ok(()),
+        })
+    };
+    if let Err(error) = desk.book.alter(Book::STUDY, change) {
+        desk.notice = Some((error, true));
+    }
+}
+
+fn pick(ui: &mut Ui, desk: &mut Desk) {
+    let path = desk.book.study_path().map(Path::to_owned);
+    let stem = |path: &Path| path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+    let mark = if path.is_some() && desk.book.is_unsaved(Book::STUDY) { "• " } else { "" };
+    ui.horizontal(|ui| {
+        let shown = path.as_deref().map_or_else(|| "Choose a study".to_owned(), |path| format!("{mark}{}", stem(path)));
+        let width = ui.available_width() - 152.0;
+        ComboBox::from_id_salt("study").width(width).truncate().selected_text(shown).show_ui(ui, |ui| {
+            for file in studies(desk.book.root()) {
+                if ui.selectable_label(path.as_ref() == Some(&file), stem(&file)).clicked() && path.as_ref() != Some(&file) {
+                    desk.orders.push(Order::OpenStudy(file));
+                }
+            }
+        });
+        if ui.button("Open …").on_hover_text("A study file elsewhere").clicked() {
+            desk.orders.push(Order::AskStudy);
+        }
+        let copy = Button::new("Duplicate");
+        if ui.add_enabled(path.is_some(), copy).on_hover_text("Go on with a copy in the library's folder of studies").clicked() {
+            desk.orders.push(Order::DuplicateStudy);
+        }
+    });
+}
+
+/// The one thing to do next, and the same as text.
+fn start(ui: &mut Ui, desk: &mut Desk) {
+    let faint = Theme::palette_of(ui).faint;
+    let ready = !desk.book.file_has_error(Book::STUDY) && !desk.book.any_error();
+    ui.horizontal_wrapped(|ui| {
+        if primary(ui, ready, "Run study")
+            .on_hover_text("Save, and run what is missing behind everything else; it can be left off and goes on")
+            .clicked()
+        {
+            desk.orders.push(Order::QueueStudy);
+        }
+        if ui.button("Copy as command line").on_hover_text("The commands that run, merge and report this study in a terminal").clicked() {
+            desk.orders.push(Order::CopyStudyLine);
+        }
+        if ui.button("Open results …").on_hover_text("The folder of a study that was run, here or elsewhere").clicked() {
+            desk.orders.push(Order::AskResults);
+        }
+        let help = "At ordinary priority, not behind everything else on the machine; the window may draw more slowly";
+        ui.checkbox(&mut desk.studies.eager, "Eager").on_hover_text(help);
+        if !ready {
+            ui.label(RichText::new("errors below, or in Problems").color(faint));
+        }
+    });
+}
+
+fn question(ui: &mut Ui, desk: &mut Desk, edits: &mut Edits) {
+    super::caption(ui, "Question");
+    text(ui, desk, "Name", "name", "Shown in the report");
+    let scenarios = desk.studies.scenarios.clone();
+    choice(ui, desk, ("Scenario", "scenario"), &scenarios, edits);
+    number(ui, desk, ("Encounters", "encounters"), "How many encounters every option meets; the same for all, at most 65,536", edits);
+    let mut events: Vec<(String, String)> = Event::all().iter().map(|event| (event.name(), event.words())).collect();
+    if !desk.book.has(Book::STUDY, "event") {
+        events.insert(0, (String::new(), Event::Entangled.words()));
+    }
+    choice(ui, desk, ("Asks about", "event"), &events, edits);
+    let options: Vec<(String, String)> = option_ids(&desk.book).into_iter().map(|id| (id.clone(), id)).collect();
+    choice(ui, desk, ("Baseline", "baseline"), &options, edits);
+    let drawn = desk.book.keys(Book::STUDY, "encounter").into_iter();
+    let chosen = drawn.filter(|name| desk.book.has(Book::STUDY, &format!("encounter.{name}.choice"))).map(|name| name.replace('"', ""));
+    let mut levels: Vec<(String, String)> = chosen.map(|name| (name.clone(), name)).collect();
+    levels.insert(0, (String::new(), "nothing".into()));
+    choice(ui, desk, ("Told apart by", "split"), &levels, edits);
+    number(ui, desk, ("Seed", "seed"), "Another seed draws other encounters", edits);
+    number(
+        ui,
+        desk,
+        ("Enough below", "enough.narrower"),
+        "Stop once the interval of every option's rate is narrower than this, such as 0.05; empty: run all encounters",
+        edits,
+    );
+}
+
+/// Labels all as wide, so that fields line up.
+fn label(ui: &mut Ui, text: &str) {
+    let (rect, _) = ui.allocate_exact_size(egui::vec2(84.0, 20.0), egui::Sense::hover());
+    let colour = Theme::palette_of(ui).faint;
+    ui.painter().text(rect.left_center(), egui::Align2::LEFT_CENTER, text, egui::FontId::proportional(13.0), colour);
+}
+
+fn text(ui: &mut Ui, desk: &mut Desk, name: &str, field: &str, help: &str) {
+    ui.horizontal(|ui| {
+        label(ui, name);
+        let width = ui.available_width() - 12.0;
+        if let Some(typed) = fields::edit(ui, &desk.book, Book::STUDY, field, width, Said { hint: "", help }) {
+            desk.set(Book::STUDY, field, &typed);
+        }
+    });
+}
+
+fn number(ui: &mut Ui, desk: &Desk, (name, field): (&str, &str), help: &str, edits: &mut Edits) {
+    ui.horizontal(|ui| {
+        label(ui, name);
+        if let Some(typed) = fields::edit(ui, &desk.book, Book::STUDY, field, 90.0, Said { hint: "not set", help }) {
+            let typed = typed.replace(',', "");
+            let value = (!typed.trim().is_empty()).then(|| Setting::plain(typed.trim()));
+            if field == "enough.narrower" {
+                let event = desk.book.field(Book::STUDY, "event").unwrap_or_else(|| "entangled".into());
+                match value {
+                    Some(_) => edits.push(("enough.event".into(), Some(Setting::text(&event)))),
+                    None => return edits.push(("enough".into(), None)),
+                }
+            }
+            edits.push((field.to_owned(), value));
+        }
+    });
+}
+
+fn choice(ui: &mut Ui, desk: &Desk, (name, field): (&str, &str), choices: &[(String, String)], edits: &mut Edits) {
+    ui.horizontal(|ui| {
+        label(ui, name);
+        let width = ui.available_width() - 12.0;
+        if let Some(taken) = fields::choose(ui, &desk.book, Book::STUDY, field, choices, width) {
+            edits.push((field.to_owned(), (!taken.is_empty()).then(|| Setting::text(&taken))));
+        }
+    });
+}
+
+/// Ids of the options in the order of the file.
+fn option_ids(book: &Book) -> Vec<String> {
+    (0..).map_while(|index| book.field(Book::STUDY, &format!("option.{index}.id"))).collect()
+}
+
+/// What is wrong with the study's text.
+fn problems(ui: &mut Ui, desk: &Desk) {
+    let file = desk.book.shown_name(Book::STUDY);
+    let own: Vec<Diagnostic> = desk.book.problems().iter().filter(|problem| problem.file == file).cloned().collect();
+    for problem in &own {
+        super::problems::entry(ui, problem);
+    }
+}

@@ -1,0 +1,178 @@
+//! Options of a study: each a list of differences from the baseline scenario.
+
+use egui::{Frame, RichText, Ui};
+use endline_gear::Setting;
+
+use super::super::super::book::Book;
+use super::super::super::desk::Desk;
+use super::super::super::fields::{self, Said};
+use super::super::super::theme::Theme;
+use super::Edits;
+
+/// What is often set, as a hint where a setting is typed.
+const SUCH_AS: &str = "current.speed, weak_links, link.0.rating, gear.0.assembly, ropes/sink-3-8.strength";
+
+/// What is done with the list of options.
+enum Act {
+    Copy(usize),
+    Drop(usize),
+}
+
+/// Draws every option with its settings.
+pub(super) fn show(ui: &mut Ui, desk: &mut Desk, edits: &mut Edits) {
+    super::super::caption(ui, "Options");
+    let count = super::option_ids(&desk.book).len();
+    let baseline = desk.book.field(Book::STUDY, "baseline").unwrap_or_default();
+    let mut act = None;
+    for index in 0..count {
+        Frame::new().fill(Theme::palette_of(ui).field).corner_radius(4.0).inner_margin(6.0).show(ui, |ui| {
+            act = head(ui, desk, index, &baseline, edits).or(act.take());
+            settings(ui, desk, index, edits);
+        });
+        ui.add_space(4.0);
+    }
+    if ui.button("Add option").on_hover_text("A copy of the last one, to be changed").clicked() {
+        act = Some(Act::Copy(count.saturating_sub(1)));
+    }
+    match act {
+        Some(Act::Copy(index)) => copy(desk, index),
+        Some(Act::Drop(index)) => {
+            if let Err(error) =
+                desk.book.alter(Book::STUDY, |document| document.remove_table("option", index).map_err(|error| error.message))
+            {
+                desk.notice = Some((error, true));
+            }
+        }
+        None => {}
+    }
+}
+
+fn head(ui: &mut Ui, desk: &Desk, index: usize, baseline: &str, edits: &mut Edits) -> Option<Act> {
+    let mut act = None;
+    ui.horizontal(|ui| {
+        let id = format!("option.{index}.id");
+        let is_baseline = desk.book.field(Book::STUDY, &id).as_deref() == Some(baseline);
+        let fields = [
+            (id, 84.0, "id", "Id, unique among the options"),
+            (format!("option.{index}.name"), (ui.available_width() - 292.0).max(90.0), "name", "Name in tables and figures"),
+            (
+                format!("option.{index}.strength"),
+                84.0,
+                "strength",
+                "Breaking strength it stands for, for the curve of parting against strength; may be empty",
+            ),
+        ];
+        for (field, width, hint, help) in fields {
+            if let Some(typed) = fields::edit(ui, &desk.book, Book::STUDY, &field, width, Said { hint, help }) {
+                if field.ends_with(".id") && is_baseline {
+                    edits.push(("baseline".into(), Some(Setting::text(&typed))));
+                }
+                edits.push((field, (!typed.is_empty()).then(|| Setting::text(&typed))));
+            }
+        }
+        if is_baseline {
+            ui.label(RichText::new("baseline").small().color(Theme::palette_of(ui).accent));
+        }
+        if ui.small_button("Copy").on_hover_text("Another option like this one").clicked() {
+            act = Some(Act::Copy(index));
+        }
+        if !is_baseline && ui.small_button("✖").on_hover_text("Take this option out").clicked() {
+            act = Some(Act::Drop(index));
+        }
+    });
+    act
+}
+
+fn settings(ui: &mut Ui, desk: &mut Desk, index: usize, edits: &mut Edits) {
+    let faint = Theme::palette_of(ui).faint;
+    let table = format!("option.{index}.set");
+    let leaves = leaves(&desk.book, &table);
+    if leaves.is_empty() {
+        ui.label(RichText::new("the scenario as it stands").color(faint));
+    }
+    for path in leaves {
+        ui.horizontal(|ui| {
+            let shown = path.trim_start_matches(&table).trim_start_matches('.').replace('"', "");
+            ui.label(RichText::new(&shown).monospace()).on_hover_text("A field of the scenario, or of a library item, by its dotted path");
+            let width = (ui.available_width() - 40.0).max(60.0);
+            if let Some(typed) = fields::edit(
+                ui,
+                &desk.book,
+                Book::STUDY,
+                &path,
+                width,
+                Said { hint: "", help: "As it would stand in the file, with its unit" },
+            ) {
+                edits.push((path.clone(), Some(Setting::plain(&typed))));
+            }
+            if ui.small_button("✖").on_hover_text("Leave this as the scenario has it").clicked() {
+                edits.push((path.clone(), None));
+            }
+        });
+    }
+    ui.horizontal(|ui| {
+        let id = ui.id().with(("fresh setting", index));
+        let mut typed = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_default();
+        let width = ui.available_width() - 70.0;
+        let editor = egui::TextEdit::singleline(&mut typed).desired_width(width).hint_text("field to set, such as current.speed");
+        let response = ui.add(editor).on_hover_text(SUCH_AS);
+        let entered = response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
+        let wanted = (ui.button("Set").clicked() || entered) && !typed.trim().is_empty();
+        if wanted {
+            let (field, value) = typed.split_once('=').unwrap_or((&typed, ""));
+            let value = if value.trim().is_empty() { current(desk, field.trim()) } else { value.trim().to_owned() };
+            edits.push((format!("{table}.\"{}\"", field.trim()), Some(Setting::plain(&value))));
+            typed.clear();
+        }
+        ui.data_mut(|data| data.insert_temp(id, typed));
+    });
+}
+
+/// A field as the library has it, so that a setting begins with what it changes.
+fn current(desk: &Desk, field: &str) -> String {
+    let item = field.split_once('.').filter(|(item, _)| item.contains('/'));
+    let found = match item {
+        Some((item, field)) => desk.book.field(&format!("{item}.toml"), field),
+        None => desk.book.field(Book::SCENARIO, field),
+    };
+    found.unwrap_or_default()
+}
+
+/// Paths of all values under a table.
+fn leaves(book: &Book, table: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    for key in book.keys(Book::STUDY, table) {
+        let path = format!("{table}.{key}");
+        if book.field(Book::STUDY, &path).is_some() { found.push(path) } else { found.extend(leaves(book, &path)) }
+    }
+    found
+}
+
+/// Adds an option like another, under an id of its own.
+fn copy(desk: &mut Desk, index: usize) {
+    let ids = super::option_ids(&desk.book);
+    let old = ids.get(index).cloned().unwrap_or_else(|| "option".into());
+    let Some(id) = (2..).map(|number| format!("{old}-{number}")).find(|id| !ids.contains(id)) else { return };
+    let of = |key: &str| desk.book.field(Book::STUDY, &format!("option.{index}.{key}"));
+    let name = of("name").map(|name| format!("{name} (copy)"));
+    let strength = of("strength");
+    let table = format!("option.{index}.set");
+    let settings: Vec<(String, String)> = leaves(&desk.book, &table)
+        .into_iter()
+        .filter_map(|path| Some((path.trim_start_matches(&table).to_owned(), desk.book.field(Book::STUDY, &path)?)))
+        .collect();
+    let change = |document: &mut endline_gear::Document| {
+        let quoted = |text: &str| format!("{text:?}");
+        let mut fields = vec![("id", quoted(&id))];
+        fields.extend(name.as_deref().map(|name| ("name", quoted(name))));
+        fields.extend(strength.as_deref().map(|strength| ("strength", quoted(strength))));
+        let fields: Vec<(&str, &str)> = fields.iter().map(|(key, text)| (*key, text.as_str())).collect();
+        let place = document.push_table("option", &fields).map_err(|error| error.message)?;
+        settings.iter().try_for_each(|(path, value)| {
+            document.put(&format!("option.{place}.set{path}"), &Setting::plain(value)).map_err(|error| error.message)
+        })
+    };
+    if let Err(error) = desk.book.alter(Book::STUDY, change) {
+        desk.notice = Some((error, true));
+    }
+}

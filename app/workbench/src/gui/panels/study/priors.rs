@@ -1,0 +1,209 @@
+//! How encounters are drawn: one prior for each thing that varies, with its law, source and sureness.
+
+use egui::{ComboBox, RichText, Ui};
+use endline_gear::Setting;
+
+use super::super::super::book::Book;
+use super::super::super::desk::Desk;
+use super::super::super::fields::{self, Said};
+use super::super::super::theme::Theme;
+use super::Edits;
+
+/// What an encounter knows, with a first law for each.
+const KNOWN: [(&str, &str, &str); 17] = [
+    ("age", "value", "\"10 yr\""),
+    ("answer", "choice", "[\"none\", \"roll-away\", \"turn-away\"]"),
+    ("answer_above", "value", "\"10 N\""),
+    ("behaviour", "choice", "[\"swim\", \"skim-feed\"]"),
+    ("condition", "uniform", "[0.9, 1.1]"),
+    ("depth", "uniform", "[\"4 m\", \"18 m\"]"),
+    ("flipper_raise", "uniform", "[-0.5, 0.5]"),
+    ("flipper_sweep", "uniform", "[-0.5, 0.5]"),
+    ("flipper_twist", "uniform", "[-0.5, 0.5]"),
+    ("gape", "uniform", "[0.0, 1.0]"),
+    ("heading", "uniform", "[\"0 deg\", \"360 deg\"]"),
+    ("length", "normal", "[\"12 m\", \"1.5 m\"]"),
+    ("offset", "uniform", "[\"-2 m\", \"2 m\"]"),
+    ("pitch", "uniform", "[\"-10 deg\", \"10 deg\"]"),
+    ("roll", "uniform", "[\"-20 deg\", \"20 deg\"]"),
+    ("speed", "uniform", "[\"0.6 m/s\", \"1.6 m/s\"]"),
+    ("tide", "choice", "[\"0 m/s\", \"0.25 m/s\", \"0.5 m/s\"]"),
+];
+
+/// Keys of `[encounter]` that are no priors.
+const NO_PRIORS: [&str; 3] = ["aim", "aim_by", "gap"];
+
+/// Laws, as a file names them and as people do.
+const LAWS: [(&str, &str); 4] = [("uniform", "even from, to"), ("normal", "normal about, by"), ("choice", "one of"), ("value", "always")];
+
+/// Draws where the whale is aimed, and every prior.
+pub(super) fn show(ui: &mut Ui, desk: &mut Desk, edits: &mut Edits) {
+    super::super::caption(ui, "Encounters, drawn alike for every option");
+    list(ui, desk, ("Aimed at", "encounter.aim"), "Lines of the gear at rest; empty: any", edits);
+    super::text(ui, desk, "Begins", "encounter.gap", "From the snout to the rope at the start, such as 3 m");
+    let names: Vec<String> =
+        desk.book.keys(Book::STUDY, "encounter").into_iter().filter(|name| !NO_PRIORS.contains(&name.as_str())).collect();
+    for name in &names {
+        ui.add_space(3.0);
+        prior(ui, desk, name, edits);
+    }
+    add(ui, &names, edits);
+}
+
+fn prior(ui: &mut Ui, desk: &mut Desk, name: &str, edits: &mut Edits) {
+    let at = format!("encounter.{name}");
+    let Some((law, _)) = LAWS.iter().find(|(law, _)| desk.book.has(Book::STUDY, &format!("{at}.{law}"))) else { return };
+    ui.horizontal(|ui| {
+        super::label(ui, &name.replace('_', " ").replace('"', ""));
+        laws(ui, &at, law, name, edits);
+        match *law {
+            "uniform" => pair(ui, desk, &format!("{at}.uniform"), edits),
+            "normal" => {
+                pair(ui, desk, &format!("{at}.normal"), edits);
+                ui.label("within");
+                pair(ui, desk, &format!("{at}.between"), edits);
+            }
+            "value" => one(ui, desk, &format!("{at}.value"), 84.0, edits),
+            _ => {}
+        }
+        if ui.small_button("✖").on_hover_text("As the scenario has it, in every encounter").clicked() {
+            edits.push((at.clone(), None));
+        }
+    });
+    if *law == "choice" {
+        list(ui, desk, ("", &format!("{at}.choice")), "Values, with commas between", edits);
+        list(ui, desk, ("  weights", &format!("{at}.weights")), "How often each, with commas between; empty: all alike", edits);
+    }
+    sureness(ui, desk, &at, edits);
+}
+
+/// The law of a prior; another one begins with what is usual.
+fn laws(ui: &mut Ui, at: &str, law: &str, name: &str, edits: &mut Edits) {
+    let shown = LAWS.iter().find(|(known, _)| *known == law).map_or(law, |(_, words)| words);
+    ComboBox::from_id_salt(("law", at)).width(108.0).selected_text(shown).show_ui(ui, |ui| {
+        for (other, words) in LAWS {
+            if ui.selectable_label(other == law, words).clicked() && other != law {
+                edits.push((format!("{at}.{law}"), None));
+                edits.push((format!("{at}.weights"), None));
+                edits.push((format!("{at}.between"), None));
+                begin(at, other, name, edits);
+            }
+        }
+    });
+}
+
+/// A law of a prior with its first values.
+fn begin(at: &str, law: &str, name: &str, edits: &mut Edits) {
+    let usual = KNOWN.iter().find(|(known, ..)| *known == name);
+    let pair = usual.filter(|(_, law, _)| ["uniform", "normal"].contains(law)).map_or("[0.0, 1.0]", |(.., values)| values);
+    let single = usual.map_or("1.0", |(.., values)| values).trim_start_matches('[').split([',', ']']).next().unwrap_or("1.0");
+    let values = match law {
+        "uniform" | "normal" => pair.to_owned(),
+        "choice" => format!("[{single}]"),
+        _ => single.to_owned(),
+    };
+    edits.push((format!("{at}.{law}"), Some(Setting::plain(&values))));
+    if law == "normal" {
+        edits.push((format!("{at}.between"), Some(Setting::plain(pair))));
+    }
+}
+
+fn pair(ui: &mut Ui, desk: &Desk, field: &str, edits: &mut Edits) {
+    for index in 0..2 {
+        one(ui, desk, &format!("{field}.{index}"), 62.0, edits);
+    }
+}
+
+fn one(ui: &mut Ui, desk: &Desk, field: &str, width: f32, edits: &mut Edits) {
+    let said = Said { hint: "", help: "With its unit, such as 0.6 m/s" };
+    if let Some(typed) = fields::edit(ui, &desk.book, Book::STUDY, field, width, said) {
+        edits.push((field.to_owned(), Some(Setting::plain(&typed))));
+    }
+}
+
+/// A list of values as one line with commas.
+fn list(ui: &mut Ui, desk: &Desk, (name, field): (&str, &str), help: &str, edits: &mut Edits) {
+    ui.horizontal(|ui| {
+        super::label(ui, name);
+        let id = egui::Id::new(("list", field));
+        let values: Vec<String> = (0..).map_while(|index| desk.book.field(Book::STUDY, &format!("{field}.{index}"))).collect();
+        let stored = values.join(", ");
+        let mut typed = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| stored.clone());
+        let width = ui.available_width() - 12.0;
+        let response = ui.add(egui::TextEdit::singleline(&mut typed).id(id.with("edit")).desired_width(width)).on_hover_text(help);
+        if response.changed() {
+            ui.data_mut(|data| data.insert_temp(id, typed.clone()));
+        }
+        if response.lost_focus() {
+            ui.data_mut(|data| data.remove_temp::<String>(id));
+            let escaped = ui.input(|input| input.key_pressed(egui::Key::Escape));
+            if !escaped && typed != stored {
+                edits.push((field.to_owned(), written(&typed)));
+            }
+        }
+    });
+}
+
+/// Values with commas between as a list of a file: numbers bare, all else in quotes.
+fn written(typed: &str) -> Option<Setting> {
+    let value = |text: &str| if text.parse::<f64>().is_ok() { text.to_owned() } else { format!("{:?}", text.trim_matches('"')) };
+    let values: Vec<String> = typed.split(',').map(str::trim).filter(|text| !text.is_empty()).map(value).collect();
+    (!values.is_empty()).then(|| Setting::plain(&format!("[{}]", values.join(", "))))
+}
+
+fn sureness(ui: &mut Ui, desk: &mut Desk, at: &str, edits: &mut Edits) {
+    ui.horizontal(|ui| {
+        super::label(ui, "  source");
+        let field = format!("{at}.source");
+        let assumed = desk.book.field(Book::STUDY, &field).as_deref() == Some("assumed");
+        let width = ui.available_width() - if assumed { 12.0 } else { 110.0 };
+        let said = Said { hint: "assumed", help: "Where the distribution comes from, or assumed" };
+        if let Some(typed) = fields::edit(ui, &desk.book, Book::STUDY, &field, width, said) {
+            let typed = if typed.trim().is_empty() { "assumed".to_owned() } else { typed };
+            if typed == "assumed" {
+                edits.push((format!("{at}.sureness"), None));
+            } else if desk.book.field(Book::STUDY, &format!("{at}.sureness")).is_none() {
+                edits.push((format!("{at}.sureness"), Some(Setting::text("assumed"))));
+            }
+            edits.push((field, Some(Setting::text(&typed))));
+        }
+        if !assumed {
+            let field = format!("{at}.sureness");
+            let words: Vec<(String, String)> = ["measured", "derived", "assumed"].map(|word| (word.to_owned(), word.to_owned())).to_vec();
+            if let Some(word) = fields::choose(ui, &desk.book, Book::STUDY, &field, &words, 88.0) {
+                edits.push((field, Some(Setting::text(&word))));
+            }
+        }
+    });
+}
+
+fn add(ui: &mut Ui, names: &[String], edits: &mut Edits) {
+    ui.add_space(4.0);
+    let faint = Theme::palette_of(ui).faint;
+    ui.menu_button("Add what varies ⏷", |ui| {
+        for (name, law, values) in KNOWN.iter().filter(|(name, ..)| !names.iter().any(|known| known == name)) {
+            if ui.button(name.replace('_', " ")).clicked() {
+                let at = format!("encounter.{name}");
+                edits.push((format!("{at}.{law}"), Some(Setting::plain(values))));
+                if *law == "normal" {
+                    edits.push((format!("{at}.between"), Some(Setting::plain("[\"9 m\", \"15 m\"]"))));
+                }
+                edits.push((format!("{at}.source"), Some(Setting::text("assumed"))));
+                ui.close();
+            }
+        }
+    });
+    ui.label(RichText::new("What is not named is as the scenario has it.").small().color(faint));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_list_is_written_as_a_file_has_it() {
+        assert_eq!(written("2 yr, 15 yr").unwrap().written(), "[\"2 yr\", \"15 yr\"]");
+        assert_eq!(written("0.7, 0.3").unwrap().written(), "[0.7, 0.3]");
+        assert!(written(" , ").is_none());
+    }
+}

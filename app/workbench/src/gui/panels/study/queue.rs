@@ -1,0 +1,134 @@
+//! The queue of studies: how far each is, what can be done with it, and studies that are ready.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use egui::{ProgressBar, RichText, Ui};
+use endline_session::study::folder::Label;
+
+use super::super::super::desk::{Desk, Order};
+use super::super::super::studies::job::{Job, State};
+use super::super::super::theme::Theme;
+
+/// What is done with a job.
+#[derive(Clone, Copy)]
+enum Act {
+    Pause,
+    Resume,
+    Cancel,
+    Forget,
+}
+
+/// Draws the queue.
+pub(super) fn show(ui: &mut Ui, desk: &mut Desk) {
+    let mut act = None;
+    let mut wanted = None;
+    for (index, job) in desk.studies.jobs.iter().enumerate() {
+        ui.add_space(3.0);
+        if let Some(done) = row(ui, job, &mut wanted) {
+            act = Some((index, done));
+        }
+    }
+    if desk.studies.jobs.iter().any(Job::at_work) {
+        ui.ctx().request_repaint_after(Duration::from_millis(500));
+    }
+    match act {
+        Some((index, Act::Pause)) => desk.studies.jobs[index].pause(),
+        Some((index, Act::Resume)) => desk.studies.jobs[index].resume(),
+        Some((index, Act::Cancel)) => desk.studies.jobs[index].cancel(),
+        Some((index, Act::Forget)) => drop(desk.studies.jobs.remove(index)),
+        None => {}
+    }
+    ready(ui, desk);
+    desk.orders.extend(wanted.map(Order::OpenResults));
+}
+
+fn row(ui: &mut Ui, job: &Job, wanted: &mut Option<PathBuf>) -> Option<Act> {
+    let (progress, palette) = (job.progress(), Theme::palette_of(ui));
+    let mut act = None;
+    ui.horizontal(|ui| {
+        ui.add(egui::Label::new(&job.name).truncate()).on_hover_text(job.file.display().to_string());
+    });
+    ui.horizontal_wrapped(|ui| {
+        let (words, colour) = match &progress.state {
+            State::Waiting => ("waiting".to_owned(), palette.faint),
+            State::Opening => ("opening".to_owned(), palette.warning),
+            State::Running => (progress.left().map_or_else(|| "running".into(), |left| format!("{} left", time(left))), palette.good),
+            State::Paused => ("paused".to_owned(), palette.warning),
+            State::Reporting => ("writing the report".to_owned(), palette.good),
+            State::Done => ("done".to_owned(), palette.good),
+            State::Cancelled => ("cancelled; what was run stays".to_owned(), palette.faint),
+            State::Failed(why) => (why.lines().next().unwrap_or_default().to_owned(), palette.error),
+        };
+        if progress.total > 0 {
+            let text = format!("{} of {} encounters", progress.done, progress.total);
+            ui.add(ProgressBar::new(progress.share()).desired_width(170.0).text(text));
+        }
+        match progress.state {
+            State::Running | State::Opening => act = button(ui, "Pause", Act::Pause).or(act),
+            State::Paused => act = button(ui, "Resume", Act::Resume).or(act),
+            _ => {}
+        }
+        if job.unfinished() {
+            act = button(ui, "Cancel", Act::Cancel).or(act);
+        } else {
+            act = button(ui, "✖", Act::Forget).or(act);
+        }
+        if progress.blocks > 0
+            && let Some(folder) = job.folder()
+            && ui.small_button("Results").clicked()
+        {
+            *wanted = Some(folder);
+        }
+        let told = if let State::Failed(why) = &progress.state { why.clone() } else { words.clone() };
+        ui.add(egui::Label::new(RichText::new(words).color(colour)).truncate()).on_hover_text(told);
+    });
+    act
+}
+
+fn button(ui: &mut Ui, text: &str, act: Act) -> Option<Act> {
+    ui.small_button(text).clicked().then_some(act)
+}
+
+/// Results that lie ready, of studies run before.
+fn ready(ui: &mut Ui, desk: &mut Desk) {
+    let root = desk.studies.root();
+    let id = egui::Id::new("ready studies");
+    let count = desk.studies.jobs.iter().filter(|job| !job.unfinished()).count();
+    let known = ui.data(|data| data.get_temp::<(usize, Vec<(PathBuf, String)>)>(id)).filter(|(seen, _)| *seen == count);
+    let (_, found) = known.unwrap_or_else(|| (count, list(&root)));
+    ui.data_mut(|data| data.insert_temp(id, (count, found.clone())));
+    if found.is_empty() {
+        return;
+    }
+    egui::CollapsingHeader::new(format!("Studies that were run ({})", found.len())).id_salt("ready").show(ui, |ui| {
+        for (folder, words) in found {
+            if ui.link(words).on_hover_text(folder.display().to_string()).clicked() {
+                desk.orders.push(Order::OpenResults(folder));
+            }
+        }
+    });
+}
+
+fn list(root: &std::path::Path) -> Vec<(PathBuf, String)> {
+    let folders = std::fs::read_dir(root).into_iter().flatten().flatten().map(|entry| entry.path());
+    let label = |folder: PathBuf| {
+        let text = std::fs::read_to_string(folder.join("study.json")).ok()?;
+        let label: Label = serde_json::from_str(&text).ok()?;
+        let state = if folder.join("report.html").is_file() { "reported" } else { "not done" };
+        Some((folder, format!("{}, {} options, {} encounters, {state}", label.study, label.options.len(), label.encounters)))
+    };
+    let mut found: Vec<(PathBuf, String)> = folders.filter_map(label).collect();
+    found.sort();
+    found
+}
+
+/// A time in the largest fitting units.
+fn time(left: Duration) -> String {
+    let minutes = left.as_secs().div_ceil(60);
+    match left.as_secs() {
+        seconds @ 0..=59 => format!("{seconds} s"),
+        60..=3599 => format!("{minutes} min"),
+        _ => format!("{} h {} min", minutes / 60, minutes % 60),
+    }
+}
