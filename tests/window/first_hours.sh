@@ -139,6 +139,27 @@ scientist() {
     picture scientist-2-recordings
     command "show entanglement"
     picture scientist-3-entanglement
+    command "open hello-endline" 6
+    command "speed as fast"
+    command "run or pause" 20
+    command "run or pause"
+    command "first moment"
+    command "one moment on"
+    command "edit the inputs" 3
+    command "show pilot program" 2
+    picture scientist-4-inputs-as-a-program
+    command "add an entry"
+    command "rerun from the moment" 20
+    command "hold this run" 6
+    command "run or pause" 20
+    command "run or pause"
+    picture scientist-5-two-runs-compared
+    command "end the comparison"
+    command "views at once: 4" 3
+    command "read buoy" 2
+    picture scientist-6-four-views-and-a-reading
+    command "views at once: 1"
+    command "let go of what is read"
 }
 
 # Killed amid edits: nothing on disk is touched, and the edits are offered back.

@@ -232,8 +232,13 @@ impl Run {
     /// Greatest tension of each line within the last step, or at rest before the first [N].
     #[must_use]
     pub fn peak_tensions_n(&self) -> Vec<f64> {
-        let segments = if self.state.step == 0 { &self.state.rope.tension } else { &self.workspace.peak_tension_n };
-        by_line(self.model(), segments)
+        by_line(self.model(), self.segment_peaks_n())
+    }
+
+    /// The same of each segment, in the model's layout [N].
+    #[must_use]
+    pub fn segment_peaks_n(&self) -> &[f64] {
+        if self.state.step == 0 { &self.state.rope.tension } else { &self.workspace.peak_tension_n }
     }
 
     /// Hash of the state now.

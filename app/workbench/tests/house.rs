@@ -6,14 +6,13 @@ mod common;
 
 use std::sync::Arc;
 
-use common::{Folder, linked, opened_with, wait, workbench};
+use common::{Folder, flown, wait, workbench};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_session::live::{Channel, Status};
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::charts::{Chart, Kind};
 use endline_workbench::gui::desk::Order;
-use endline_workbench::gui::engine;
 use endline_workbench::gui::layout::{self, Layout, Panel};
 use endline_workbench::gui::palette::orders;
 use endline_workbench::gui::recovery::{EVERY_S, Keeper};
@@ -38,6 +37,7 @@ fn every_command_of_the_palette_is_obeyed_in_every_layout() {
                     | Order::AskStudy
                     | Order::AskResults
                     | Order::AskExportModel(_)
+                    | Order::AskScenarioAs
             );
             if asks || matches!(order, Order::Open(_)) {
                 continue;
@@ -118,21 +118,6 @@ fn a_button_is_given_to_something_else_by_pressing_it() {
     harness.get_by_label("VWES 2012").click();
     harness.run_steps(2);
     assert_eq!(harness.state().desk.pilot.mapping.of_button(PadButton::RightShoulder), Some(Pressed::Burst));
-}
-
-/// A short encounter run to its end, with every panel that reads it.
-fn flown(folder: &Folder) -> Harness<'static, App> {
-    let mut book = folder.book_with("hello-endline");
-    for (field, value) in [("duration", "2 s"), ("rope_nodes", "120"), ("whale.position.1", "-7 m")] {
-        book.set("scenario", field, value).unwrap();
-    }
-    let mut harness = opened_with(book, linked(), engine::live(), Pilot::default());
-    wait(&mut harness, |app| app.desk.status() == Some(&Status::Paused));
-    harness.state_mut().desk.recordings = Some(folder.0.join("recordings"));
-    harness.state_mut().desk.obey(&Order::Speed(f64::INFINITY));
-    harness.state_mut().desk.obey(&Order::Start);
-    wait(&mut harness, |app| app.desk.status() == Some(&Status::Finished));
-    harness
 }
 
 #[test]

@@ -3,6 +3,7 @@
 //! The workbench sends [`Command`]s and reads the [`latest`](Live::latest) [`LiveView`]; neither
 //! ever waits for the solver.
 
+mod envelope;
 mod film;
 mod history;
 mod pace;
@@ -20,10 +21,12 @@ use endline_sdk::Controls;
 use endline_sim::metrics::{Event, Summary};
 use endline_sim::{Audit, Frame, Model};
 
+pub use envelope::{Envelope, LineEnvelope};
 pub use history::Channel;
 pub use series::{Series, Span};
 
 use crate::plugins::PluginHost;
+use crate::recording::program::Program;
 use crate::run::RunOptions;
 use crate::source::Prepared;
 
@@ -59,9 +62,16 @@ pub enum Command {
     Inputs(Vec<Controls>),
     /// The inputs of the run up to the moment shown again, then stand still: to go on from there in another way.
     Branch,
+    /// Another model, in which the inputs of the run up to the moment shown are run again; then its own pilot program steers.
+    Rerun(Box<Prepared>),
+    /// Make the run so far a scenario whose pilot program flies it again; controls may be off by this much [1].
+    Program(f64),
     /// Save the run so far as a recording.
     SaveRecording(PathBuf),
 }
+
+/// A run made a scenario with a pilot program, or why it cannot be.
+pub type Made = Result<Program, String>;
 
 /// How a run stands.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -115,6 +125,10 @@ pub struct LiveView {
     pub controls: Controls,
     /// Answer to the last command that asked for one, such as the file saved.
     pub message: Option<String>,
+    /// Least and greatest tension along each line up to the newest moment.
+    pub envelope: Arc<Envelope>,
+    /// Answer to the last [`Command::Program`].
+    pub program: Option<Arc<Made>>,
 }
 
 impl LiveView {

@@ -53,6 +53,37 @@ fn a_run_is_started_stepped_sought_and_reset() {
 }
 
 #[test]
+fn the_envelope_along_a_line_reaches_its_peak_and_no_further() {
+    let live = open(3.0);
+    until(&live, "settled", |view| view.status == Status::Paused);
+    assert!(live.send(Command::Speed(f64::INFINITY)) && live.send(Command::Start));
+    let view = until(&live, "the end", |view| view.status == Status::Finished);
+    let summary = view.summary.as_ref().unwrap();
+    for (line, of) in view.envelope.lines.iter().zip(&summary.lines) {
+        let top = line.greatest_n.iter().copied().fold(0.0, f64::max);
+        assert!((top - of.peak_tension_n).abs() < 1e-9 * of.peak_tension_n.max(1.0), "{top} N, {} N", of.peak_tension_n);
+        assert!(line.least_n.iter().zip(&line.greatest_n).all(|(least, greatest)| least <= greatest), "{line:?}");
+    }
+}
+
+#[test]
+fn a_run_goes_on_from_the_moment_shown_in_another_model_to_the_same_bits() {
+    let live = open(2.0);
+    until(&live, "settled", |view| view.status == Status::Paused);
+    assert!(live.send(Command::Speed(f64::INFINITY)) && live.send(Command::Start));
+    let end = until(&live, "the end", |view| view.status == Status::Finished);
+    assert!(live.send(Command::Seek(1.0)));
+    until(&live, "the middle", |view| view.sought);
+    assert!(live.send(Command::Rerun(Box::new(hanging_rope(2.0)))));
+    let again = until(&live, "the end again", |view| !Arc::ptr_eq(&view.model, &end.model) && view.status == Status::Finished);
+    assert_eq!(again.state_hash, end.state_hash);
+    assert!(live.send(Command::Program(0.0)));
+    let view = until(&live, "an answer", |view| view.program.is_some());
+    // The sample is no scenario of a library, and has no whale: nothing to fly again, and it says why.
+    assert!(view.program.as_ref().unwrap().as_ref().as_ref().is_err_and(|why| !why.is_empty()));
+}
+
+#[test]
 fn real_time_is_kept() {
     let live = open(60.0);
     until(&live, "settled", |view| view.status == Status::Paused);

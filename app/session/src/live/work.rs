@@ -1,5 +1,7 @@
 //! The thread of a live run: takes commands, steps when due, publishes what there is to see.
 
+mod again;
+
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
@@ -9,15 +11,17 @@ use std::time::{Duration, Instant};
 use endline_sdk::Controls;
 use endline_sim::{Audit, Frame, State};
 
+use super::envelope::Envelope;
 use super::film::Film;
 use super::history::Watch;
 use super::pace::Pace;
 use super::series::Series;
-use super::{Command, LiveView, Status};
+use super::{Command, LiveView, Made, Status};
 use crate::error::Error;
 use crate::plugins::PluginHost;
 use crate::run::{Run, RunOptions, frame_stride};
 use crate::source::Prepared;
+use again::Script;
 
 /// Views published for each real second, at most.
 const VIEWS_HZ: f64 = 60.0;
@@ -64,6 +68,8 @@ pub(super) fn first_view(prepared: &Prepared) -> LiveView {
         piloted: false,
         controls: Controls::default(),
         message: None,
+        envelope: Arc::default(),
+        program: None,
     }
 }
 
@@ -96,8 +102,9 @@ struct Worker<'a> {
     /// Greatest tension of each line since the last sample [N].
     peak_n: Vec<f64>,
     sought: Option<Arc<Frame>>,
-    /// Inputs of a recording still to be run, and the speed to go on at after them.
-    script: Option<(std::vec::IntoIter<Controls>, f64)>,
+    script: Option<Script>,
+    envelope: Envelope,
+    program: Option<Arc<Made>>,
     message: Option<String>,
     shown: Instant,
 }
@@ -123,6 +130,8 @@ impl<'a> Worker<'a> {
             peak_n: Vec::new(),
             sought: None,
             script: None,
+            envelope: Envelope::default(),
+            program: None,
             message: None,
             shown: now,
         };
@@ -177,45 +186,12 @@ impl<'a> Worker<'a> {
                 self.pause();
                 self.look(|film, now_s| film.beside(now_s, by));
             }
-            Command::Inputs(inputs) => self.run_again(inputs),
+            Command::Inputs(inputs) => self.run_again(inputs, false),
+            Command::Rerun(prepared) => self.rerun(*prepared),
+            Command::Program(thin) => self.make_program(thin),
             Command::Branch => self.branch(),
             Command::SaveRecording(path) => self.save(&path),
         }
-    }
-
-    /// Runs inputs again from the start as fast as it goes.
-    fn run_again(&mut self, inputs: Vec<Controls>) {
-        let speed = self.script.take().map_or(self.pace.speed(), |(_, speed)| speed);
-        self.reset();
-        if inputs.is_empty() {
-            return;
-        }
-        self.script = Some((inputs.into_iter(), speed));
-        self.start();
-        self.set_speed(f64::INFINITY);
-    }
-
-    /// Runs again up to the moment shown.
-    fn branch(&mut self) {
-        let Some(run) = &self.run else { return };
-        let step = self.sought.as_ref().map_or(run.state().step, |frame| frame.step);
-        let inputs = run.inputs();
-        let upto = usize::try_from(step).unwrap_or(usize::MAX).min(inputs.len());
-        let inputs = inputs[..upto].to_vec();
-        self.run_again(inputs);
-    }
-
-    /// The next input of a recording that is run again; stands still after the last.
-    fn scripted(&mut self) -> Option<Controls> {
-        let (inputs, speed) = self.script.as_mut()?;
-        let next = inputs.next();
-        if inputs.len() == 0 {
-            let speed = *speed;
-            self.script = None;
-            self.pause();
-            self.set_speed(speed);
-        }
-        next
     }
 
     /// Looks at a kept frame, given the time shown; at the newest moment where that is reached.
@@ -288,6 +264,7 @@ impl<'a> Worker<'a> {
         (self.tension, self.history) = (Series::default(), Series::default());
         self.watch = Watch::default();
         self.peak_n.clear();
+        self.envelope = Envelope::default();
         (self.sought, self.script) = (None, None);
         self.message = None;
         self.run = Some(run);
@@ -324,6 +301,7 @@ impl<'a> Worker<'a> {
         self.peak_n.resize(now_n.len(), 0.0);
         self.peak_n.iter_mut().zip(now_n).for_each(|(peak, now)| *peak = peak.max(now));
         self.watch.fold(run.contacts());
+        self.envelope.fold(run.model(), run.state(), run.segment_peaks_n());
         if self.film.wants(run.state().step) {
             self.history.push(run.state().time_s, self.watch.sample(run));
             self.film.keep(run.frame());
@@ -363,6 +341,8 @@ impl<'a> Worker<'a> {
             piloted: self.pilot.is_some(),
             controls: self.controls,
             message: self.message.clone(),
+            envelope: Arc::new(self.envelope.clone()),
+            program: self.program.clone(),
         });
     }
 }

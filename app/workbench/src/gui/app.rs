@@ -49,7 +49,7 @@ impl App {
         let saved = stored(LAYOUT_KEY).and_then(|text| serde_json::from_str(&text).ok()).and_then(layout::known);
         if let Some(gl) = &creation.gl {
             match Canvas::new(Arc::clone(gl)) {
-                Ok(canvas) => desk.view3d.canvas = Some(Arc::new(Mutex::new(canvas))),
+                Ok(canvas) => desk.view3d.drawn[0].canvas = Some(Arc::new(Mutex::new(canvas))),
                 Err(error) => desk.notice = Some((error, true)),
             }
         }
@@ -82,6 +82,10 @@ impl App {
                     layout::open(&mut self.dock, Panel::View);
                     self.desk.obey(&order);
                 }
+                Order::HoldRun | Order::CompareWith(_) => {
+                    layout::open(&mut self.dock, Panel::Compare);
+                    self.desk.obey(&order);
+                }
                 Order::Show(panel) => layout::open(&mut self.dock, *panel),
                 Order::Close(panel) => layout::close(&mut self.dock, *panel),
                 Order::Size(scale) => context.set_zoom_factor(*scale),
@@ -94,6 +98,7 @@ impl App {
                     layout::open(&mut self.dock, Panel::View);
                     self.desk.obey(&order);
                 }
+                Order::AskScenarioAs => menus::ask_scenario_as(self),
                 Order::Arrange(layout) => self.dock = layout.dock(),
                 Order::Commands => self.palette.toggle(),
                 Order::CopyCommandLine => self.copy_command_line(context),

@@ -47,7 +47,7 @@ const CTRL: Modifiers = Modifiers::COMMAND;
 const CTRL_SHIFT: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
 
 /// Every key of the window. Keys that steer stand in [`STEERING`](crate::input::keys::STEERING).
-pub static BINDINGS: [Binding; 29] = [
+pub static BINDINGS: [Binding; 30] = [
     bind("This list", NONE, Key::F1, When::Always, Order::Show(Panel::Help)),
     bind("Every command by name", CTRL, Key::P, When::Always, Order::Commands),
     bind("Save all", CTRL, Key::S, When::Always, Order::Save),
@@ -67,6 +67,7 @@ pub static BINDINGS: [Binding; 29] = [
     bind("One moment back", NONE, Key::ArrowLeft, When::Looking, Order::Shift(-1)),
     bind("One moment on", NONE, Key::ArrowRight, When::Looking, Order::Shift(1)),
     bind("See everything", NONE, Key::F, When::Looking, Order::Frame),
+    bind("Ruler: measure between two places", NONE, Key::R, When::Looking, Order::Ruler),
     bind("From the side", NONE, Key::Num1, When::Looking, Order::Look(View::Side)),
     bind("From above", NONE, Key::Num7, When::Looking, Order::Look(View::Top)),
     bind("From the front", NONE, Key::Num3, When::Looking, Order::Look(View::Front)),
@@ -80,7 +81,8 @@ pub static BINDINGS: [Binding; 29] = [
 ];
 
 /// What the mouse does in the 3-D view.
-pub const MOUSE: [(&str, &str); 3] = [("Orbit", "drag"), ("Pan", "right drag, or Shift and drag"), ("Zoom", "wheel")];
+pub const MOUSE: [(&str, &str); 4] =
+    [("Read a rope, body or the skin", "click"), ("Orbit", "drag"), ("Pan", "right drag, or Shift and drag"), ("Zoom", "wheel")];
 
 /// The key of an order, as menus show it; empty where it has none.
 #[must_use]

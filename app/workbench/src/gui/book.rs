@@ -212,6 +212,12 @@ impl Book {
         self.parsed.get(path).map_or_else(Vec::new, |document| document.keys(table))
     }
 
+    /// How many tables a list of a file has, such as `whale.pilot` of the scenario.
+    #[must_use]
+    pub fn count(&self, path: &str, list: &str) -> usize {
+        self.parsed.get(path).map_or(0, |document| document.count(list))
+    }
+
     /// The worst problem at a field of a file.
     #[must_use]
     pub fn problem_at(&self, path: &str, field: &str) -> Option<&Diagnostic> {
@@ -424,6 +430,19 @@ impl Book {
         }
         self.compare();
         if failed.is_empty() { Ok(count) } else { Err(failed.join("\n")) }
+    }
+
+    /// Writes the scenario to another file, and goes on with that; the one before stays as it was saved.
+    ///
+    /// # Errors
+    /// Where the file cannot be written.
+    pub fn save_scenario_as(&mut self, path: &Path) -> Result<(), String> {
+        let text = self.texts.get(Self::SCENARIO).cloned().unwrap_or_default();
+        save_text(path, &text).map_err(|error| format!("{}: {error}", path.display()))?;
+        self.scenario_path = path.to_owned();
+        self.saved.insert(Self::SCENARIO.to_owned(), text);
+        self.read_all();
+        Ok(())
     }
 
     fn change(&mut self, texts: Vec<(String, Option<String>)>) {

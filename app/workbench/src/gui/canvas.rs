@@ -7,11 +7,16 @@ use three_d::{ScissorBox, Viewport};
 
 use crate::scene::{Camera, Drawer, Scene, Water};
 
-/// A drawer with the scene that waits for it and what it drew last.
+/// What a slot was drawn with last.
+type Drawn = (Camera, [u32; 2], Water);
+
+/// A drawer with the scene that waits for it and what it drew last, for each slot: a pane that shows the scene.
+#[derive(Default)]
 pub struct Canvas {
-    drawer: Drawer,
+    /// Made when it is first needed.
+    drawer: Option<Drawer>,
     waiting: Option<Scene>,
-    drawn: Option<(Camera, [u32; 2], Water)>,
+    drawn: Vec<Option<Drawn>>,
 }
 
 impl Canvas {
@@ -20,7 +25,7 @@ impl Canvas {
     /// # Errors
     /// Where this OpenGL cannot draw the scene.
     pub fn new(gl: Arc<three_d::context::Context>) -> Result<Self, String> {
-        Ok(Self { drawer: Drawer::new(gl)?, waiting: None, drawn: None })
+        Ok(Self { drawer: Some(Drawer::new(gl)?), waiting: None, drawn: Vec::new() })
     }
 
     /// Takes a scene to be drawn next.
@@ -28,33 +33,42 @@ impl Canvas {
         self.waiting = Some(scene);
     }
 
-    /// What egui calls to have the canvas painted in a rectangle.
-    pub fn callback(canvas: &Arc<Mutex<Self>>, rect: Rect, camera: Camera, water: Water) -> PaintCallback {
+    /// What egui calls to have a slot of the canvas painted in a rectangle.
+    pub fn callback(canvas: &Arc<Mutex<Self>>, slot: usize, rect: Rect, camera: Camera, water: Water) -> PaintCallback {
         let canvas = Arc::clone(canvas);
-        let paint = egui_glow::CallbackFn::new(move |info, _painter| {
-            canvas.lock().unwrap_or_else(PoisonError::into_inner).paint(&info, &camera, water);
+        let paint = egui_glow::CallbackFn::new(move |info, painter| {
+            let mut canvas = canvas.lock().unwrap_or_else(PoisonError::into_inner);
+            canvas.paint(painter.gl(), slot, &info, &camera, water);
         });
         PaintCallback { rect, callback: Arc::new(paint) }
     }
 
-    fn paint(&mut self, info: &egui::PaintCallbackInfo, camera: &Camera, water: Water) {
+    fn paint(&mut self, gl: &Arc<three_d::context::Context>, slot: usize, info: &egui::PaintCallbackInfo, camera: &Camera, water: Water) {
         let (place, clip) = (info.viewport_in_pixels(), info.clip_rect_in_pixels());
         let side = |pixels: i32| u32::try_from(pixels).unwrap_or(0);
         let size = [side(place.width_px), side(place.height_px)];
         if size.contains(&0) {
             return;
         }
-        let fresh = self.waiting.take();
-        if let Some(scene) = &fresh {
-            self.drawer.load(scene);
+        if self.drawer.is_none() {
+            // A card that cannot draw has said so when the window was opened.
+            self.drawer = Drawer::new(Arc::clone(gl)).ok();
+        }
+        let Some(drawer) = &mut self.drawer else { return };
+        if let Some(scene) = self.waiting.take() {
+            drawer.load(&scene);
+            self.drawn.clear();
+        }
+        if self.drawn.len() <= slot {
+            self.drawn.resize(slot + 1, None);
         }
         let wanted = (camera.clone(), size, water);
-        if fresh.is_some() || self.drawn.as_ref() != Some(&wanted) {
-            self.drawer.draw(camera, size, water);
-            self.drawn = Some(wanted);
+        if self.drawn[slot].as_ref() != Some(&wanted) {
+            drawer.draw(slot, camera, size, water);
+            self.drawn[slot] = Some(wanted);
         }
         let viewport = Viewport { x: place.left_px, y: place.from_bottom_px, width: size[0], height: size[1] };
         let scissor = ScissorBox { x: clip.left_px, y: clip.from_bottom_px, width: side(clip.width_px), height: side(clip.height_px) };
-        self.drawer.show(info.screen_size_px, viewport, scissor);
+        drawer.show(slot, info.screen_size_px, viewport, scissor);
     }
 }

@@ -3,7 +3,7 @@
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use super::charts::{COLOURS, Chart};
+use super::charts::{Chart, Style};
 
 /// Size of one chart [px].
 const SIZE: (u32, u32) = (800, 280);
@@ -40,9 +40,18 @@ fn one(area: &Area<'_>, chart: &Chart) -> Result<(), Box<dyn std::error::Error>>
     builder.caption(chart.kind.title(), ("sans-serif", 15)).margin(8).x_label_area_size(38).y_label_area_size(60);
     let mut drawn = builder.build_cartesian_2d(0.0..chart.end_x.max(1e-9), low..high)?;
     drawn.configure_mesh().light_line_style(TRANSPARENT).x_desc(&chart.x).y_desc(&chart.y).draw()?;
-    for (curve, [red, green, blue]) in chart.curves.iter().zip(COLOURS.iter().cycle()) {
-        let colour = RGBColor(*red, *green, *blue);
-        let series = drawn.draw_series(LineSeries::new(curve.points.iter().map(|point| (point.x, point.y)), colour.stroke_width(2)))?;
+    for curve in &chart.curves {
+        let [red, green, blue] = curve.rgb();
+        let colour = RGBColor(red, green, blue);
+        let points = curve.points.iter().map(|point| (point.x, point.y));
+        let series = match curve.style {
+            Style::Solid => drawn.draw_series(LineSeries::new(points, colour.stroke_width(2)))?,
+            Style::Dashed => drawn.draw_series(DashedLineSeries::new(points, 6, 4, colour.stroke_width(2)))?,
+            Style::Edge => {
+                drawn.draw_series(LineSeries::new(points, colour.mix(0.5)))?;
+                continue;
+            }
+        };
         series.label(&curve.name).legend(move |(x, y)| PathElement::new([(x, y), (x + 16, y)], colour.stroke_width(2)));
     }
     for level in chart.levels.iter().filter(|level| level.band[0] < high) {

@@ -75,13 +75,37 @@ impl Kind {
     }
 }
 
+/// How a curve is drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Style {
+    /// Of the run shown.
+    #[default]
+    Solid,
+    /// Of the run it is compared with.
+    Dashed,
+    /// Least or greatest so far of another curve: thin.
+    Edge,
+}
+
 /// A curve.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Curve {
     /// What it is of.
     pub name: String,
     /// Its points, in the chart's units.
     pub points: Vec<PlotPoint>,
+    /// How it is drawn.
+    pub style: Style,
+    /// Its colour, counted through [`COLOURS`].
+    pub colour: usize,
+}
+
+impl Curve {
+    /// Its colour.
+    #[must_use]
+    pub fn rgb(&self) -> [u8; 3] {
+        COLOURS[self.colour % COLOURS.len()]
+    }
 }
 
 /// A level across the chart: a strength or rating.
@@ -118,7 +142,7 @@ impl Chart {
         let time = "Time [s]".to_owned();
         let chart = |y: String, curves| Self { kind, x: time, y, curves, levels: Vec::new(), end_x: duration_s };
         let force = units.force();
-        match kind {
+        let made = match kind {
             Kind::Tension => {
                 let lines = view.model.spec.lines.iter().enumerate();
                 let curves = lines.map(|(index, line)| curve(&line.id, &view.tension, index, |value| force.of_newtons(value))).collect();
@@ -132,7 +156,29 @@ impl Chart {
                 chart(format!("depth, down, {}", units.length_symbol()), whale(view, Channel::Depth, |value| -units.of_metres(value)))
             }
             Kind::Speed => chart(units.speed_symbol().to_owned(), whale(view, Channel::Speed, |value| units.of_m_s(value))),
+        };
+        if kind == Kind::Along { made } else { made.coloured() }
+    }
+
+    /// Each curve in a colour of its own.
+    fn coloured(mut self) -> Self {
+        self.curves.iter_mut().enumerate().for_each(|(index, curve)| curve.colour = index);
+        self
+    }
+
+    /// With the curves of another run beside its own: dashed, in the colour of the curve of the same name.
+    #[must_use]
+    pub fn beside(mut self, other: Self) -> Self {
+        let mut fresh = self.curves.iter().map(|curve| curve.colour + 1).max().unwrap_or(0);
+        let mut theirs = Vec::new();
+        for curve in other.curves.into_iter().filter(|curve| curve.style == Style::Solid) {
+            let colour = self.curves.iter().find(|own| own.name == curve.name).map_or(fresh, |own| own.colour);
+            fresh = fresh.max(colour + 1);
+            theirs.push(Curve { name: format!("{} (B)", curve.name), style: Style::Dashed, colour, ..curve });
         }
+        self.curves.extend(theirs);
+        self.end_x = self.end_x.max(other.end_x);
+        self
     }
 
     /// Greatest value of any curve.
@@ -165,7 +211,7 @@ fn curve(name: &str, series: &Series, index: usize, unit: impl Fn(f64) -> f64) -
         // One sample is one point.
         if span.min.to_bits() == span.max.to_bits() { vec![point(min)] } else { vec![point(min), point(max)] }
     };
-    Curve { name: name.to_owned(), points: series.spans(index, SPANS).iter().flat_map(ends).collect() }
+    Curve { name: name.to_owned(), points: series.spans(index, SPANS).iter().flat_map(ends).collect(), ..Curve::default() }
 }
 
 fn whale(view: &LiveView, channel: Channel, unit: impl Fn(f64) -> f64) -> Vec<Curve> {
@@ -200,7 +246,8 @@ fn levels(view: &LiveView, units: Units) -> Vec<Level> {
     all.map(|(name, band)| Level { name, band: band.map(|value| force.of_newtons(value)) }).collect()
 }
 
-/// Tension over the rope's length at the moment shown; lines that go on from one another are drawn in a row.
+/// Tension over the rope's length at the moment shown, and least and greatest so far; lines that go on from one another are
+/// drawn in a row.
 fn along(view: &LiveView, units: Units) -> Chart {
     let (spec, frame, force) = (&view.model.spec, &view.frame, units.force());
     let mut ends_m: Vec<f64> = Vec::new();
@@ -216,11 +263,28 @@ fn along(view: &LiveView, units: Units) -> Chart {
             at_m += length_m;
         }
         ends_m.push(at_m);
-        curves.push(Curve { name: line.id.clone(), points });
+        curves.push(Curve { name: line.id.clone(), points, style: Style::Solid, colour: index });
+        let start_m = before.map_or(0.0, |before| ends_m[before]);
+        curves.extend(envelope(view, index, start_m, units));
     }
     let end_x = units.of_metres(ends_m.iter().copied().fold(0.0, f64::max));
     let x = format!("Along the rope [{}]", units.length_symbol());
     Chart { kind: Kind::Along, x, y: force.symbol().to_owned(), curves, levels: levels(view, units), end_x }
+}
+
+/// Least and greatest tension so far along a line that starts at a length of rope.
+fn envelope(view: &LiveView, index: usize, start_m: f64, units: Units) -> Vec<Curve> {
+    let Some(line) = view.envelope.lines.get(index) else { return Vec::new() };
+    let stretch_m = line.length_m / line.least_n.len().max(1) as f64;
+    let curve = |what: &str, values_n: &[f64]| {
+        let at = |(stretch, value_n): (usize, &f64)| {
+            let x = units.of_metres(start_m + stretch_m * (stretch as f64 + 0.5));
+            value_n.is_finite().then(|| PlotPoint::new(x, units.force().of_newtons(*value_n)))
+        };
+        let points = values_n.iter().enumerate().filter_map(at).collect();
+        Curve { name: format!("{}, {what} so far", view.model.spec.lines[index].id), points, style: Style::Edge, colour: index }
+    };
+    vec![curve("least", &line.least_n), curve("greatest", &line.greatest_n)]
 }
 
 #[cfg(test)]
@@ -242,9 +306,21 @@ mod tests {
     #[test]
     fn a_chart_is_written_point_by_point() {
         let points = vec![PlotPoint::new(0.0, 1.0), PlotPoint::new(0.5, 2.0)];
-        let curves = vec![Curve { name: "endline, top".into(), points }];
+        let curves = vec![Curve { name: "endline, top".into(), points, ..Curve::default() }];
         let chart = Chart { kind: Kind::Tension, x: "Time [s]".into(), y: "lbf".into(), curves, levels: Vec::new(), end_x: 1.0 };
         assert_eq!(chart.csv(), "curve of Tension of each line,Time [s],lbf\n\"endline, top\",0,1\n\"endline, top\",0.5,2\n");
         assert!((chart.top() - 2.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn another_run_is_drawn_dashed_in_the_colours_of_the_first() {
+        let curve = |name: &str, colour| Curve { name: name.into(), points: vec![PlotPoint::new(0.0, 1.0)], style: Style::Solid, colour };
+        let chart = |curves, end_x| Chart { kind: Kind::Tension, x: String::new(), y: String::new(), curves, levels: Vec::new(), end_x };
+        let both = chart(vec![curve("top", 0), curve("bottom", 1)], 5.0).beside(chart(vec![curve("bottom", 0), curve("other", 1)], 9.0));
+        let told: Vec<_> = both.curves.iter().map(|curve| (curve.name.as_str(), curve.style, curve.colour)).collect();
+        let wanted =
+            [("top", Style::Solid, 0), ("bottom", Style::Solid, 1), ("bottom (B)", Style::Dashed, 1), ("other (B)", Style::Dashed, 2)];
+        assert_eq!(told, wanted);
+        assert!((both.end_x - 9.0).abs() < 1e-12);
     }
 }

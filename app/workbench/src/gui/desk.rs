@@ -1,7 +1,9 @@
 //! What all panels share: the texts, the run, the pilot; and the orders that change them.
 
+mod compare;
 mod files;
 mod plugins;
+mod rerun;
 mod runs;
 
 use std::path::PathBuf;
@@ -12,6 +14,8 @@ use endline_sdk::{Act, GearType};
 use endline_session::live::{Command, LiveView, Status};
 use endline_session::{Error, Overrides, PluginHost, Prepared, Source};
 
+use compare::Other;
+
 use super::book::Book;
 use super::engine::{Engine, Launch, Maker, Waker};
 pub use super::order::Order;
@@ -19,11 +23,13 @@ use super::panels::assembly::AssemblyState;
 use super::panels::entanglement::EntanglementState;
 use super::panels::library::LibraryState;
 use super::panels::pad::Learning;
+use super::panels::pilot::PilotState;
 use super::panels::plots::PlotsState;
 use super::panels::recordings::RecordingsState;
 use super::panels::start::StartState;
 use super::panels::view::ViewState;
-use super::plugins::{Change, Plugins};
+use super::plugins::Plugins;
+use super::pose::Posing;
 pub use super::preferences::{Preferences, Scale};
 use super::recovery::Keeper;
 use super::studies::Studies;
@@ -61,6 +67,10 @@ pub struct Desk {
     pub entanglement: EntanglementState,
     /// State of the 3-D view.
     pub view3d: ViewState,
+    /// State of the pilot program's timeline.
+    pub program: PilotState,
+    /// Handles of the whale's start in the 3-D view.
+    pub posing: Posing,
     /// State of the start page.
     pub start: StartState,
     /// Studies at work and their results.
@@ -105,6 +115,9 @@ pub struct Desk {
     /// Version of the texts when a run was loaded that is not made from them: a recording, or an encounter of a study.
     guest: Option<u64>,
     guest_when_made: Option<u64>,
+    /// The run that the one shown is compared with.
+    other: Option<Other>,
+    again: rerun::Again,
 }
 
 impl Desk {
@@ -122,6 +135,8 @@ impl Desk {
             plots: PlotsState::default(),
             entanglement: EntanglementState::default(),
             view3d: ViewState::default(),
+            program: PilotState::default(),
+            posing: Posing::default(),
             start: StartState::default(),
             studies: Studies::default(),
             recorded: RecordingsState::default(),
@@ -149,6 +164,8 @@ impl Desk {
             inputs_when_made: None,
             guest: None,
             guest_when_made: None,
+            other: None,
+            again: rerun::Again::default(),
         };
         desk.make();
         desk
@@ -169,8 +186,12 @@ impl Desk {
         if matches!(self.status(), Some(Status::Finished | Status::Stopped(_))) {
             self.keep_run();
         }
+        self.take_program();
+        self.refresh_other();
         // Gear at rest lies elsewhere than where it was first guessed.
-        self.view3d.frame_again |= settling && self.status() != Some(&Status::Settling);
+        if settling && self.status() != Some(&Status::Settling) && !self.posing.on {
+            self.view3d.frame_all();
+        }
     }
 
     /// Whether a model is in the making.
@@ -257,21 +278,16 @@ impl Desk {
                 self.replaying_s = None;
                 self.tell(Command::Branch);
             }
+            Order::HoldRun | Order::CompareWith(_) | Order::EndCompare => self.obey_compare(order),
+            Order::Pose => self.posing.on = !self.posing.on,
+            Order::AddEntry | Order::DeleteEntry | Order::EditInputs | Order::Rerun => self.obey_program(order),
             Order::Dress(theme) => self.preferences.theme = *theme,
             Order::Measure(units) => self.preferences.units = *units,
             Order::Apply => self.make(),
             Order::Speed(speed) => self.set_speed(*speed),
-            Order::Seek(time_s) => self.look(Command::Seek(*time_s)),
-            Order::Shift(by) => self.look(Command::Shift(*by)),
-            Order::Newest => self.look(Command::Seek(f64::MAX)),
-            Order::Replay => self.replay(),
-            Order::ExportTable(path) => self.export_table(path),
-            Order::ImportTable(path) => self.import_table(path),
-            Order::ExportPlots(path) => self.export_plots(path),
-            Order::ExportModel(path) => self.export_model(path),
+            Order::Seek(_) | Order::Shift(_) | Order::Newest | Order::Replay => self.obey_time(order),
             Order::WeakLinks => self.toggle_weak_links(),
             Order::Fly => self.toggle_fly(),
-            Order::Person => self.view3d.change_person(),
             Order::NextAct => {
                 let acts = self.acts().len();
                 self.pilot.next_act(acts);
@@ -279,19 +295,23 @@ impl Desk {
             Order::Slower => self.change_speed(false),
             Order::Faster => self.change_speed(true),
             Order::Mouth => self.pilot.toggle_mouth(),
-            Order::Look(view) => self.view3d.look(*view),
-            Order::Frame => self.view3d.frame(),
+            Order::Person | Order::Look(_) | Order::Frame | Order::Views(_) | Order::Ruler | Order::LetGo | Order::Read(_) => {
+                self.view3d.obey(order);
+            }
             Order::Duplicate => super::panels::library::duplicate(self),
             Order::ChooseAct(act) => self.pilot.choose_act(*act),
             Order::Save => self.save(),
+            Order::ScenarioAs(_) | Order::ExportTable(_) | Order::ImportTable(_) | Order::ExportPlots(_) | Order::ExportModel(_) => {
+                self.obey_files(order);
+            }
             Order::SaveRecording(path) => self.tell(Command::SaveRecording(path.clone())),
             Order::Open(path) => self.open(path),
-            Order::ReloadPlugins => self.reload_plugins(Change::None),
-            Order::AllowPlugin(file, hash) => self.reload_plugins(Change::Allow(file.clone(), hash.clone())),
-            Order::SwitchPlugin(id, on) => self.reload_plugins(Change::Switch(id.clone(), *on)),
-            Order::CheckPlugin(file) => self.check_plugin(file),
-            Order::UsePlugin(id) => self.use_plugin(id),
-            Order::OpenFolder(folder) => self.open_folder(folder),
+            Order::ReloadPlugins
+            | Order::AllowPlugin(..)
+            | Order::SwitchPlugin(..)
+            | Order::CheckPlugin(_)
+            | Order::UsePlugin(_)
+            | Order::OpenFolder(_) => self.obey_plugins(order),
             Order::Undo => self.step_back(true),
             Order::Redo => self.step_back(false),
             Order::ReplayEncounter(option, encounter) => self.replay_encounter(*option, *encounter),
@@ -311,6 +331,16 @@ impl Desk {
         let speeds = super::panels::run::SPEEDS.map(|(speed, _)| speed);
         let next = if faster { speeds.into_iter().find(|speed| *speed > now) } else { speeds.into_iter().rev().find(|speed| *speed < now) };
         next.into_iter().for_each(|speed| self.set_speed(speed));
+    }
+
+    /// Another moment shown by one order.
+    fn obey_time(&mut self, order: &Order) {
+        match order {
+            Order::Seek(time_s) => self.look(Command::Seek(*time_s)),
+            Order::Shift(by) => self.look(Command::Shift(*by)),
+            Order::Newest => self.look(Command::Seek(f64::MAX)),
+            _ => self.replay(),
+        }
     }
 
     /// Looks at another moment; what was playing stands still.
@@ -415,12 +445,17 @@ impl Desk {
         self.keep_run();
         self.applied = Some(std::mem::take(&mut self.making));
         self.guest = self.guest_when_made.take();
-        self.view3d.frame_again = true;
+        // Whoever drags the whale's start wants to see it from where they drag it.
+        if !self.posing.on {
+            self.view3d.frame_all();
+        }
+        let rerun = self.again.rerun_when_made();
         if std::mem::take(&mut self.other_plugins) {
             self.engine = None;
         }
         if self.engine.is_some() {
-            self.tell(Command::Load(Box::new(prepared)));
+            let command = if rerun { Command::Rerun } else { Command::Load };
+            self.tell(command(Box::new(prepared)));
             return;
         }
         match (self.launch)(prepared, Arc::clone(&self.host), Arc::clone(&self.waker)) {
@@ -442,8 +477,7 @@ impl Desk {
             self.pilot.set_throttle(speed.max(0.3));
             self.view3d.go_with_whale();
         } else {
-            self.view3d.follow = false;
-            self.view3d.frame_again = true;
+            self.view3d.leave_whale();
             self.tell(Command::Autopilot);
         }
     }
@@ -460,13 +494,18 @@ impl Desk {
     fn open(&mut self, path: &std::path::Path) {
         match self.book.open_scenario(path) {
             Ok(()) => {
-                self.preferences.recent.retain(|known| known != path);
-                self.preferences.recent.insert(0, path.to_owned());
-                self.preferences.recent.truncate(RECENT);
+                self.remember(path);
                 self.make();
             }
             Err(error) => self.notice = Some((error, true)),
         }
+    }
+
+    /// Puts a scenario first among those open last.
+    fn remember(&mut self, path: &std::path::Path) {
+        self.preferences.recent.retain(|known| known != path);
+        self.preferences.recent.insert(0, path.to_owned());
+        self.preferences.recent.truncate(RECENT);
     }
 
     fn step_back(&mut self, undo: bool) {

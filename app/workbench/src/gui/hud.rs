@@ -1,25 +1,51 @@
-//! What a pilot sees over the 3-D view: speed, depth, heading, worst tension, mouth, flippers and the chosen act.
+//! What a pilot sees over the 3-D view: speed, depth, heading, worst tension and its line, rope on each part of the body,
+//! mouth, flippers and the chosen act.
 
-use egui::{Align2, Color32, FontId, Painter, Rect, pos2, vec2};
-use endline_sdk::Controls;
+use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, pos2, vec2};
+use endline_sdk::{BodyPart, Controls};
 use endline_session::live::LiveView;
 use endline_sim::DVec3;
 
+use super::reading::spoken;
 use super::units::{Units, bearing_degrees};
 use crate::input::Hands;
 
+/// Width of a reading [points].
+const WIDTH: f32 = 118.0;
+
 /// The readings of the display: name and value.
 #[must_use]
-pub fn readings(view: &LiveView, units: Units) -> Vec<(&'static str, String)> {
+pub fn readings(view: &LiveView, units: Units) -> Vec<(String, String)> {
     let Some(whale) = &view.frame.whale else { return Vec::new() };
     let ahead = whale.orientation * DVec3::X;
-    let tension_n = view.frame.tension_n.iter().copied().fold(0.0, f64::max);
+    let (worst, tension_n) = worst(view);
     vec![
-        ("SPEED", units.speed(whale.speed_m_s)),
-        ("DEPTH", units.depth(-whale.position.z)),
-        ("HEADING", format!("{:03.0}°", bearing_degrees(ahead.x, ahead.y).round().rem_euclid(360.0))),
-        ("TENSION", units.force().text(tension_n)),
+        ("SPEED".into(), units.speed(whale.speed_m_s)),
+        ("DEPTH".into(), units.depth(-whale.position.z)),
+        ("HEADING".into(), format!("{:03.0}°", bearing_degrees(ahead.x, ahead.y).round().rem_euclid(360.0))),
+        (format!("TENSION {worst}").trim_end().to_owned(), units.force().text(tension_n)),
     ]
+}
+
+/// The line of the greatest tension now, by its id, and that tension [N].
+#[must_use]
+pub fn worst(view: &LiveView) -> (&str, f64) {
+    let segments = view.frame.tension_n.iter().copied().enumerate();
+    let most = segments.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, tension_n)| *tension_n > 0.0);
+    let line = most.and_then(|(segment, _)| view.model.segment_line.get(segment));
+    (line.map_or("", |line| view.model.spec.lines[*line].id.as_str()), most.map_or(0.0, |(_, tension_n)| tension_n))
+}
+
+/// Rope that presses on each part now, the hardest first, in one line; empty where none does.
+#[must_use]
+pub fn touched(view: &LiveView, units: Units) -> String {
+    let mut forces = BodyPart::ALL.map(|part| (part, 0.0));
+    for contact in &view.frame.contacts {
+        forces[contact.region.part() as usize].1 += contact.normal_force_n.max(0.0);
+    }
+    forces.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let told = forces.iter().filter(|(_, force_n)| *force_n > 0.0);
+    told.map(|(part, force_n)| format!("{} {}", spoken(part.name()), units.force().text(*force_n))).collect::<Vec<_>>().join(" · ")
 }
 
 /// What mouth, flippers and acts are told to do, in one line; `act` is the name of the chosen one.
@@ -44,20 +70,18 @@ pub fn told(controls: &Controls, act: Option<&str>, hands: Hands) -> String {
 
 /// Paints the display along the top of the view.
 pub fn paint(painter: &Painter, rect: Rect, view: &LiveView, units: Units, note: &str) {
-    const WIDTH: f32 = 112.0;
     let readings = readings(view, units);
     let whole = WIDTH * readings.len() as f32;
     let plate = Rect::from_min_size(pos2(rect.center().x - whole / 2.0, rect.top() + 12.0), vec2(whole, 50.0));
     painter.rect_filled(plate, 6.0, Color32::from_black_alpha(140));
     for (index, (name, value)) in readings.iter().enumerate() {
         let x = plate.left() + WIDTH * (index as f32 + 0.5);
-        painter.text(
-            pos2(x, plate.top() + 13.0),
-            Align2::CENTER_CENTER,
-            name,
-            FontId::proportional(10.5),
-            Color32::from_rgb(0x9f, 0xb6, 0xbf),
-        );
+        let faint = Color32::from_rgb(0x9f, 0xb6, 0xbf);
+        // A long name of a line ends where the next reading begins.
+        let place = Rect::from_center_size(pos2(x, plate.top() + 13.0), vec2(WIDTH - 6.0, 14.0));
+        let galley = painter.layout_no_wrap(name.clone(), FontId::proportional(10.5), faint);
+        let left = (x - galley.size().x / 2.0).max(place.left());
+        painter.with_clip_rect(place).galley(pos2(left, place.center().y - galley.size().y / 2.0), galley, faint);
         painter.text(
             pos2(x, plate.top() + 33.0),
             Align2::CENTER_CENTER,
@@ -66,11 +90,21 @@ pub fn paint(painter: &Painter, rect: Rect, view: &LiveView, units: Units, note:
             Color32::from_rgb(0xe8, 0xf2, 0xf4),
         );
     }
-    let place = plate.center_bottom() + vec2(0.0, 13.0);
-    let note = painter.layout_no_wrap(note.to_owned(), FontId::proportional(12.0), Color32::from_rgb(0xd4, 0xe2, 0xe6));
-    let behind = Rect::from_center_size(place, note.size() + vec2(14.0, 4.0));
+    let mut below = plate.center_bottom() + vec2(0.0, 13.0);
+    let touched = touched(view, units);
+    let lines = [(touched.as_str(), Color32::from_rgb(0xff, 0xc9, 0x7a)), (note, Color32::from_rgb(0xd4, 0xe2, 0xe6))];
+    for (text, colour) in lines.into_iter().filter(|(text, _)| !text.is_empty()) {
+        line(painter, below, text, colour);
+        below.y += 20.0;
+    }
+}
+
+/// A line of text on a plate of its own.
+fn line(painter: &Painter, middle: Pos2, text: &str, colour: Color32) {
+    let text = painter.layout_no_wrap(text.to_owned(), FontId::proportional(12.0), colour);
+    let behind = Rect::from_center_size(middle, text.size() + vec2(14.0, 4.0));
     painter.rect_filled(behind, 4.0, Color32::from_black_alpha(120));
-    painter.galley(behind.center() - note.size() / 2.0, note, Color32::WHITE);
+    painter.galley(behind.center() - text.size() / 2.0, text, Color32::WHITE);
 }
 
 #[cfg(test)]

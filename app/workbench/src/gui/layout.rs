@@ -41,11 +41,15 @@ pub enum Panel {
     Study,
     /// What a study found.
     Results,
+    /// The pilot program on a timeline.
+    Program,
+    /// Two runs beside one another.
+    Compare,
 }
 
 impl Panel {
     /// Every panel, in the order of the Window menu.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 20] = [
         Self::Library,
         Self::Assembly,
         Self::Scenario,
@@ -64,6 +68,8 @@ impl Panel {
         Self::Plugins,
         Self::Study,
         Self::Results,
+        Self::Program,
+        Self::Compare,
     ];
 
     /// Its stable id in saved layouts.
@@ -88,6 +94,8 @@ impl Panel {
             Self::Plugins => "plugins",
             Self::Study => "study",
             Self::Results => "results",
+            Self::Program => "pilot",
+            Self::Compare => "compare",
         }
     }
 
@@ -113,6 +121,8 @@ impl Panel {
             Self::Plugins => "Plugins",
             Self::Study => "Study",
             Self::Results => "Results",
+            Self::Program => "Pilot program",
+            Self::Compare => "Compare",
         }
     }
 
@@ -155,8 +165,8 @@ impl Layout {
     #[must_use]
     pub fn dock(self) -> DockState<String> {
         use Panel::{
-            Assembly, Entanglement, Events, Library, Pad, Plots, Problems, Recordings, Results, Run, Scenario, Study, Summary, Tension,
-            View,
+            Assembly, Compare, Entanglement, Events, Library, Pad, Plots, Problems, Program, Recordings, Results, Run, Scenario, Study,
+            Summary, Tension, View,
         };
         let first = match self {
             Self::Design => ids(&[View, Assembly]),
@@ -178,9 +188,9 @@ impl Layout {
                 tree.split_below(below, 0.5, ids(&[Events, Summary]));
             }
             Self::Review => {
-                let [upper, _] = tree.split_below(NodeIndex::root(), 0.55, ids(&[Plots]));
-                let [_, right] = tree.split_right(upper, 0.6, ids(&[Entanglement, Summary]));
-                tree.split_below(right, 0.7, ids(&[Events, Run, Recordings]));
+                let [upper, lower] = tree.split_below(NodeIndex::root(), 0.55, ids(&[Plots, Program]));
+                tree.split_right(upper, 0.6, ids(&[Entanglement, Summary]));
+                tree.split_right(lower, 0.66, ids(&[Events, Run, Recordings, Compare]));
             }
             Self::Study => {
                 let [right, _] = tree.split_left(NodeIndex::root(), 0.36, ids(&[Study, Library, Problems]));

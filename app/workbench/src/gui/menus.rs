@@ -63,6 +63,7 @@ fn file(ui: &mut Ui, app: &mut App) {
     });
     let unsaved = !app.desk.book.unsaved().is_empty();
     item(ui, app, unsaved, "Save all", "Ctrl+S", Order::Save);
+    item(ui, app, true, "Save scenario as …", "", Order::AskScenarioAs);
     item(ui, app, true, "Open recording …", "", Order::AskRecording);
     if ui.add_enabled(app.desk.view.is_some(), Button::new("Save recording …")).clicked() {
         let name = format!("{}.endline", scenario_name(app));
@@ -102,6 +103,16 @@ pub fn ask_export_table(app: &mut App) {
 pub fn ask_export_model(app: &mut App, ending: &'static str) {
     ask(app, move || {
         rfd::FileDialog::new().set_file_name(format!("gear.{ending}")).add_filter(ending, &[ending]).save_file().map(Order::ExportModel)
+    });
+}
+
+/// Asks for another file to save the scenario to.
+pub fn ask_scenario_as(app: &mut App) {
+    let folder = app.desk.book.scenario_path().parent().map(std::path::Path::to_owned).unwrap_or_default();
+    let name = format!("{}-2.toml", scenario_name(app));
+    ask(app, move || {
+        let dialog = rfd::FileDialog::new().add_filter("scenario", &["toml"]).set_directory(folder).set_file_name(name);
+        dialog.save_file().map(Order::ScenarioAs)
     });
 }
 
@@ -148,6 +159,10 @@ fn run(ui: &mut Ui, app: &mut App) {
     item(ui, app, ready, if running { "Pause" } else { "Run" }, "Space", Order::PlayPause);
     item(ui, app, ready && !running, "Step", ".", Order::Step);
     item(ui, app, ready, "Reset", "Backspace", Order::Reset);
+    let run = app.desk.view.as_ref().is_some_and(|view| view.newest_s > 0.0);
+    item(ui, app, run, "Edit the inputs of this run", "", Order::EditInputs);
+    item(ui, app, run, "Rerun from the moment shown", "", Order::Rerun);
+    item(ui, app, run, "Hold this run to compare with", "", Order::HoldRun);
     let back = app.desk.view.as_ref().is_some_and(|view| view.sought);
     item(ui, app, back, "Go on from the moment shown", "", Order::Branch);
     item(ui, app, ready, "Copy as command line", "Ctrl+Shift+C", Order::CopyCommandLine);

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::layout::{Layout, Panel};
 use super::theme::Theme;
 use super::units::Units;
-use crate::scene::View;
+use crate::scene::{Picked, View};
 
 /// All that can be asked of the workbench besides editing a text.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,12 +64,26 @@ pub enum Order {
     Look(View),
     /// Everything into sight.
     Frame,
+    /// So many views at once, one to four.
+    Views(usize),
+    /// Handles in the 3-D view to drag the whale's start by, or none.
+    Pose,
+    /// Clicks in the 3-D view measure, or read again.
+    Ruler,
+    /// Tell what there is to tell of a thing in the 3-D view.
+    Read(Picked),
+    /// Tell and measure nothing any more.
+    LetGo,
     /// Put the command line that gives this run into the clipboard.
     CopyCommandLine,
     /// Copy the chosen entry of the library to a file of its own.
     Duplicate,
     /// Save every changed text.
     Save,
+    /// Ask for a file and save the scenario to it.
+    AskScenarioAs,
+    /// Save the scenario to another file and go on with that.
+    ScenarioAs(PathBuf),
     /// Save the run so far.
     SaveRecording(PathBuf),
     /// Open a scenario.
@@ -120,6 +134,20 @@ pub enum Order {
     OpenResults(PathBuf),
     /// Run an encounter of the results shown again: place of the option, index of the encounter.
     ReplayEncounter(usize, u32),
+    /// The run shown stays, to be compared with; the texts make a new one.
+    HoldRun,
+    /// Run a recording again beside the run shown.
+    CompareWith(PathBuf),
+    /// Compare no more.
+    EndCompare,
+    /// Add an entry to the pilot program at the moment shown.
+    AddEntry,
+    /// Take the chosen entry out of the pilot program.
+    DeleteEntry,
+    /// What was flown or steered in the run shown becomes the scenario's pilot program.
+    EditInputs,
+    /// The same inputs up to the moment shown, then the pilot program as it stands now.
+    Rerun,
     /// Size of everything on screen.
     Size(f32),
     /// Dark, or light.

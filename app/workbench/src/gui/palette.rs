@@ -5,10 +5,12 @@ use egui::{Align2, Context, Key, RichText, TextEdit, Window, vec2};
 use super::desk::{Desk, Order};
 use super::layout::{Layout, Panel};
 use super::panels::scenario::scenarios;
+use super::panels::view::MOST;
+use super::reading::worst_m;
 use super::studies::studies;
 use super::theme::Theme;
 use super::units::Units;
-use crate::scene::View;
+use crate::scene::{Picked, View};
 
 /// Names shown at once.
 const SHOWN: usize = 10;
@@ -21,52 +23,65 @@ pub struct Palette {
     chosen: usize,
 }
 
+/// Orders that are always there, by name.
+static NAMED: [(&str, Order); 51] = [
+    ("Run or pause", Order::PlayPause),
+    ("Step", Order::Step),
+    ("Reset", Order::Reset),
+    ("Apply changes", Order::Apply),
+    ("Fly the whale, or stop", Order::Fly),
+    ("First or third person", Order::Person),
+    ("Next act of the whale", Order::NextAct),
+    ("Weak links on or off", Order::WeakLinks),
+    ("Open or close the mouth", Order::Mouth),
+    ("Play what was run", Order::Replay),
+    ("First moment", Order::Seek(0.0)),
+    ("Newest moment", Order::Newest),
+    ("One moment back", Order::Shift(-1)),
+    ("One moment on", Order::Shift(1)),
+    ("Slower", Order::Slower),
+    ("Faster", Order::Faster),
+    ("See everything", Order::Frame),
+    ("Drag the whale's start", Order::Pose),
+    ("Ruler", Order::Ruler),
+    ("Let go of what is read or measured", Order::LetGo),
+    ("Hold this run to compare with", Order::HoldRun),
+    ("End the comparison", Order::EndCompare),
+    ("Add an entry to the pilot program", Order::AddEntry),
+    ("Delete the chosen entry of the pilot program", Order::DeleteEntry),
+    ("Edit the inputs of this run", Order::EditInputs),
+    ("Rerun from the moment shown", Order::Rerun),
+    ("Copy as command line", Order::CopyCommandLine),
+    ("Go on from the moment shown", Order::Branch),
+    ("Open a recording", Order::AskRecording),
+    ("Save the scenario as", Order::AskScenarioAs),
+    ("Save the gear as STL", Order::AskExportModel("stl")),
+    ("Save the gear as glTF", Order::AskExportModel("glb")),
+    ("Save the plots as SVG", Order::AskExportPlots("svg")),
+    ("Save the plots as PNG", Order::AskExportPlots("png")),
+    ("Save the plots as CSV", Order::AskExportPlots("csv")),
+    ("Dark", Order::Dress(Theme::Dark)),
+    ("Light", Order::Dress(Theme::Light)),
+    ("Duplicate the chosen entry", Order::Duplicate),
+    ("Save the library's table as CSV", Order::AskExportTable),
+    ("Take a CSV into the library", Order::AskImportTable),
+    ("Reload plugins", Order::ReloadPlugins),
+    ("Run the study", Order::QueueStudy),
+    ("Pause the study, or go on", Order::PauseStudy),
+    ("Cancel the study", Order::CancelStudy),
+    ("Duplicate the study", Order::DuplicateStudy),
+    ("Copy the study as command line", Order::CopyStudyLine),
+    ("Open a study's file", Order::AskStudy),
+    ("Open a study's results", Order::AskResults),
+    ("Save all", Order::Save),
+    ("Undo", Order::Undo),
+    ("Redo", Order::Redo),
+];
+
 /// Every order a user may give by name.
 #[must_use]
 pub fn orders(desk: &Desk) -> Vec<(String, Order)> {
-    let mut all = vec![
-        ("Run or pause".to_owned(), Order::PlayPause),
-        ("Step".to_owned(), Order::Step),
-        ("Reset".to_owned(), Order::Reset),
-        ("Apply changes".to_owned(), Order::Apply),
-        ("Fly the whale, or stop".to_owned(), Order::Fly),
-        ("First or third person".to_owned(), Order::Person),
-        ("Next act of the whale".to_owned(), Order::NextAct),
-        ("Weak links on or off".to_owned(), Order::WeakLinks),
-        ("Open or close the mouth".to_owned(), Order::Mouth),
-        ("Play what was run".to_owned(), Order::Replay),
-        ("First moment".to_owned(), Order::Seek(0.0)),
-        ("Newest moment".to_owned(), Order::Newest),
-        ("One moment back".to_owned(), Order::Shift(-1)),
-        ("One moment on".to_owned(), Order::Shift(1)),
-        ("Slower".to_owned(), Order::Slower),
-        ("Faster".to_owned(), Order::Faster),
-        ("See everything".to_owned(), Order::Frame),
-        ("Copy as command line".to_owned(), Order::CopyCommandLine),
-        ("Go on from the moment shown".to_owned(), Order::Branch),
-        ("Open a recording".to_owned(), Order::AskRecording),
-        ("Save the gear as STL".to_owned(), Order::AskExportModel("stl")),
-        ("Save the gear as glTF".to_owned(), Order::AskExportModel("glb")),
-        ("Save the plots as SVG".to_owned(), Order::AskExportPlots("svg")),
-        ("Save the plots as PNG".to_owned(), Order::AskExportPlots("png")),
-        ("Save the plots as CSV".to_owned(), Order::AskExportPlots("csv")),
-        ("Dark".to_owned(), Order::Dress(Theme::Dark)),
-        ("Light".to_owned(), Order::Dress(Theme::Light)),
-        ("Duplicate the chosen entry".to_owned(), Order::Duplicate),
-        ("Save the library's table as CSV".to_owned(), Order::AskExportTable),
-        ("Take a CSV into the library".to_owned(), Order::AskImportTable),
-        ("Reload plugins".to_owned(), Order::ReloadPlugins),
-        ("Run the study".to_owned(), Order::QueueStudy),
-        ("Pause the study, or go on".to_owned(), Order::PauseStudy),
-        ("Cancel the study".to_owned(), Order::CancelStudy),
-        ("Duplicate the study".to_owned(), Order::DuplicateStudy),
-        ("Copy the study as command line".to_owned(), Order::CopyStudyLine),
-        ("Open a study's file".to_owned(), Order::AskStudy),
-        ("Open a study's results".to_owned(), Order::AskResults),
-        ("Save all".to_owned(), Order::Save),
-        ("Undo".to_owned(), Order::Undo),
-        ("Redo".to_owned(), Order::Redo),
-    ];
+    let mut all: Vec<(String, Order)> = NAMED.iter().map(|(name, order)| ((*name).to_owned(), order.clone())).collect();
     all.extend(desk.acts().iter().enumerate().map(|(index, act)| (format!("Act {}", act.name), Order::ChooseAct(index))));
     all.extend(desk.plugins.waiting().map(|(file, ask)| {
         let name = file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
@@ -80,8 +95,9 @@ pub fn orders(desk: &Desk) -> Vec<(String, Order)> {
     all.push(("Speed as fast as it goes".to_owned(), Order::Speed(f64::INFINITY)));
     let views = View::WHOLE.into_iter().chain(View::OF_WHALE);
     all.extend(views.map(|view| (format!("View {}", view.name().replace('-', " ")), Order::Look(view))));
-    all.extend(Panel::ALL.map(|panel| (format!("Show {}", panel.title()), Order::Show(panel))));
-    all.extend(Panel::ALL.map(|panel| (format!("Close {}", panel.title()), Order::Close(panel))));
+    all.extend((1..=MOST).map(|count| (format!("Views at once: {count}"), Order::Views(count))));
+    all.extend(readable(desk));
+    all.extend(Panel::ALL.into_iter().flat_map(of_panel));
     all.extend(Units::ALL.map(|units| (format!("Units {}", units.name()), Order::Measure(units))));
     all.extend([1.0, 1.25, 1.5, 2.0].map(|size| (format!("Size {:.0} %", 100.0 * size), Order::Size(size))));
     all.extend(Layout::ALL.map(|layout| (format!("Layout {}", layout.name()), Order::Arrange(layout))));
@@ -94,6 +110,23 @@ pub fn orders(desk: &Desk) -> Vec<(String, Order)> {
         (format!("Open study {name}"), Order::OpenStudy(path))
     }));
     all
+}
+
+/// A panel brought to the front, and taken away.
+fn of_panel(panel: Panel) -> [(String, Order); 2] {
+    let title = panel.title();
+    [(format!("Show {title}"), Order::Show(panel)), (format!("Close {title}"), Order::Close(panel))]
+}
+
+/// The things in the 3-D view that can be read: each line where its tension is greatest now, each body.
+fn readable(desk: &Desk) -> Vec<(String, Order)> {
+    let Some(view) = &desk.view else { return Vec::new() };
+    let spec = &view.model.spec;
+    let lines = spec.lines.iter().enumerate().map(|(line, of)| {
+        (format!("Read line {}", of.id), Order::Read(Picked::Rope { line, at_m: worst_m(&view.model, &view.frame, line) }))
+    });
+    let bodies = spec.bodies.iter().enumerate().map(|(index, body)| (format!("Read {}", body.id), Order::Read(Picked::Body(index))));
+    lines.chain(bodies).collect()
 }
 
 /// The orders whose names hold every typed word, whatever its case.

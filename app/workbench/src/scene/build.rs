@@ -29,7 +29,7 @@ pub enum Look {
 /// Triangles drawn one way.
 #[derive(Clone, Debug)]
 pub struct Part {
-    /// What it is: `seabed`, `obstacles`, `whale`, `ropes`, `bodies`, `marks`, `surface`.
+    /// What it is: `seabed`, `obstacles`, `whale`, `ropes`, `bodies`, `marks`, `forces`, `surface`.
     pub name: &'static str,
     /// How it is drawn.
     pub look: Look,
@@ -67,13 +67,15 @@ pub struct Show {
     pub current: bool,
     /// Marks where rope presses on skin.
     pub contacts: bool,
+    /// Arrows of its force on the skin.
+    pub forces: bool,
     /// The whale.
     pub whale: bool,
 }
 
 impl Default for Show {
     fn default() -> Self {
-        Self { scale_n: None, surface: true, seabed: true, current: true, contacts: true, whale: true }
+        Self { scale_n: None, surface: true, seabed: true, current: true, contacts: true, forces: false, whale: true }
     }
 }
 
@@ -96,6 +98,7 @@ impl Scene {
         add(true, "bodies", Look::Solid, 0.35, bodies::bodies(model, frame));
         add(show.current, "current", Look::Own, 0.8, sea::current(model));
         add(show.contacts, "marks", Look::Own, 4.0, rope::contacts(frame));
+        add(show.forces, "forces", Look::Own, 1.2, rope::forces(frame));
         add(show.surface, "surface", Look::Surface, 0.0, sea::surface(model, &bounds));
         Self { parts, bounds, scale_n, time_s: frame.time_s, depth_m: model.spec.water.depth_m }
     }

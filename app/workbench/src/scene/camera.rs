@@ -292,6 +292,16 @@ impl Camera {
         projection * view
     }
 
+    /// The eye [m], and the unit vector from it through a place of a picture of `size`, from its top left corner [points].
+    #[must_use]
+    pub fn ray(&self, at: DVec2, size: DVec2) -> (DVec3, DVec3) {
+        let (right, up, ahead) = self.axes();
+        let half = (self.field_of_view / 2.0).tan();
+        let x = (2.0 * at.x / size.x.max(1.0) - 1.0) * half * size.x / size.y.max(1.0);
+        let y = (1.0 - 2.0 * at.y / size.y.max(1.0)) * half;
+        (self.eye(), (ahead + right * x + up * y).normalize_or_zero())
+    }
+
     /// Where a place falls in a picture of `size`, from its top left corner [points]; `None` behind the eye.
     #[must_use]
     pub fn project(&self, place: DVec3, size: DVec2) -> Option<DVec2> {

@@ -79,6 +79,8 @@ pub const ROCK: Colour = rgb(0x8a, 0x80, 0x72);
 pub const CURRENT: Colour = rgb(0x58, 0xb7, 0xc9);
 /// Places where rope presses on skin.
 pub const CONTACT: Colour = rgb(0xff, 0x5f, 0x8f);
+/// Force of rope on skin.
+pub const FORCE: Colour = rgb(0xff, 0xc9, 0x7a);
 /// Ends of a cut rope.
 pub const PARTED: Colour = rgb(0xff, 0x9b, 0x54);
 

@@ -43,7 +43,13 @@ pub struct Drawer {
     loaded: Vec<Loaded>,
     depth_m: f32,
     time_s: f32,
-    target: Option<RenderTargetMultisample<[u8; 4], f32>>,
+    /// One for each place that shows the scene.
+    pictures: Vec<Option<Picture>>,
+}
+
+/// The scene as it was drawn last for one place on screen.
+struct Picture {
+    target: RenderTargetMultisample<[u8; 4], f32>,
     picture: Option<Texture2D>,
 }
 
@@ -93,7 +99,7 @@ impl Drawer {
             let part = Program::from_source(&context, shader!("shaders/part.vert"), shader!("shaders/part.frag"))?;
             let backdrop = Program::from_source(&context, include_str!("shaders/backdrop.vert"), shader!("shaders/backdrop.frag"))?;
             let corners = VertexBuffer::new_with_data(&context, &[[-1.0, -1.0], [3.0, -1.0], [-1.0, 3.0]]);
-            Ok(Self { context, part, backdrop, corners, loaded: Vec::new(), depth_m: 1.0, time_s: 0.0, target: None, picture: None })
+            Ok(Self { context, part, backdrop, corners, loaded: Vec::new(), depth_m: 1.0, time_s: 0.0, pictures: Vec::new() })
         };
         build().map_err(|error| format!("the 3-D view cannot use this OpenGL: {error}"))
     }
@@ -110,13 +116,14 @@ impl Drawer {
         }
     }
 
-    /// Draws the loaded scene into the drawer's own texture of `size` pixels.
-    pub fn draw(&mut self, camera: &Camera, size: [u32; 2], water: Water) {
+    /// Draws the loaded scene into a texture of the drawer's own of `size` pixels; each `slot` has one.
+    pub fn draw(&mut self, slot: usize, camera: &Camera, size: [u32; 2], water: Water) {
         let [width, height] = size.map(|side| side.max(1));
-        if self.target.as_ref().is_none_or(|target| [target.width(), target.height()] != [width, height]) {
-            self.target = Some(RenderTargetMultisample::new(&self.context, width, height, SAMPLES));
+        if self.pictures.len() <= slot {
+            self.pictures.resize_with(slot + 1, || None);
         }
-        let Some(target) = &self.target else { return };
+        let known = self.pictures[slot].take().filter(|known| [known.target.width(), known.target.height()] == [width, height]);
+        let target = known.map_or_else(|| RenderTargetMultisample::new(&self.context, width, height, SAMPLES), |known| known.target);
         let eye = self.eye(camera, [width, height], water);
         target.clear(ClearState::color_and_depth(0.0, 0.0, 0.0, 1.0, 1.0));
         let drawn = target.write::<CoreError>(|| {
@@ -126,7 +133,8 @@ impl Drawer {
             }
             Ok(())
         });
-        self.picture = drawn.is_ok().then(|| target.resolve_color());
+        let picture = drawn.is_ok().then(|| target.resolve_color());
+        self.pictures[slot] = Some(Picture { target, picture });
     }
 
     fn draw_backdrop(&self, eye: &Eye) {
@@ -139,9 +147,10 @@ impl Drawer {
         self.backdrop.draw_arrays(states, eye.viewport, 3);
     }
 
-    /// Copies the drawn picture onto a window of `window` pixels, at `viewport`, inside `clip` (both from the bottom left).
-    pub fn show(&self, window: [u32; 2], viewport: Viewport, clip: ScissorBox) {
-        if let Some(picture) = &self.picture {
+    /// Copies the picture drawn for a slot onto a window of `window` pixels, at `viewport`, inside `clip` (both from the
+    /// bottom left).
+    pub fn show(&self, slot: usize, window: [u32; 2], viewport: Viewport, clip: ScissorBox) {
+        if let Some(picture) = self.pictures.get(slot).and_then(Option::as_ref).and_then(|drawn| drawn.picture.as_ref()) {
             let copy = CopyEffect { write_mask: WriteMask::COLOR, blend: Blend::Disabled };
             let screen = RenderTarget::screen(&self.context, window[0], window[1]);
             screen.apply_screen_effect_partially(
@@ -153,18 +162,6 @@ impl Drawer {
                 None,
             );
         }
-    }
-
-    /// Size of the drawn picture [px]; `None` before the first [`draw`](Self::draw).
-    #[must_use]
-    pub fn drawn_size(&self) -> Option<[u32; 2]> {
-        self.picture.as_ref().map(|picture| [picture.width(), picture.height()])
-    }
-
-    /// The drawn picture's pixels, row by row from the top: red, green, blue, opacity.
-    #[must_use]
-    pub fn pixels(&self) -> Vec<[u8; 4]> {
-        self.picture.as_ref().map(|picture| picture.as_color_target(None).read()).unwrap_or_default()
     }
 }
 

@@ -13,6 +13,7 @@ pub mod mesh;
 pub mod obstacles;
 pub mod offscreen;
 pub mod overlay;
+pub mod pick;
 pub mod picture;
 pub mod rope;
 pub mod sea;
@@ -24,6 +25,7 @@ pub use build::{Look, Part, Scene, Show};
 pub use camera::{Camera, View};
 pub use draw::{Drawer, Water};
 pub use overlay::{N_PER_LBF, Overlay};
+pub use pick::Picked;
 pub use picture::{RenderRequest, render, render_png};
 
 #[cfg(test)]

@@ -70,8 +70,8 @@ fn draw(request: &RenderRequest<'_>, scene: &Scene, camera: &Camera) -> Result<V
     let surface = Offscreen::new(request.size)?;
     let mut drawer = Drawer::new(surface.gl.clone())?;
     drawer.load(scene);
-    drawer.draw(camera, request.size, Water::DARK);
-    drawer.show(request.size, Viewport::new_at_origo(width, height), ScissorBox::new_at_origo(width, height));
+    drawer.draw(0, camera, request.size, Water::DARK);
+    drawer.show(0, request.size, Viewport::new_at_origo(width, height), ScissorBox::new_at_origo(width, height));
     let overlay = Overlay {
         caption: request.caption,
         time_s: scene.time_s,

@@ -1,10 +1,11 @@
 //! Ropes as tubes coloured by tension, and marks where they press on skin.
 
-use endline_sim::{Frame, Model};
+use endline_sim::contact::ContactPoint;
+use endline_sim::{DVec3, Frame, Model};
 use glam::Vec3;
 
 use super::build::single;
-use super::colour::{CONTACT, PARTED, tension_colour};
+use super::colour::{CONTACT, FORCE, PARTED, tension_colour};
 use super::mesh::{Colour, Mesh};
 
 /// Sides of a rope's tube.
@@ -28,7 +29,7 @@ pub fn lines(model: &Model, frame: &Frame, scale_n: f64) -> Mesh {
 
 /// One line in a frame.
 struct Rope<'a> {
-    nodes: &'a [endline_sim::DVec3],
+    nodes: &'a [DVec3],
     tension_n: &'a [f64],
     cut: &'a [bool],
     radius: f32,
@@ -69,6 +70,37 @@ impl Rope<'_> {
             mesh.ball(single(self.nodes[node]), 3.0 * self.radius, PARTED, 6);
         }
     }
+}
+
+/// Length of the arrow of the greatest force [m].
+const LONGEST_M: f64 = 1.5;
+/// Forces below this share of the greatest have no arrow.
+const LEAST: f64 = 0.02;
+
+/// Greatest force of rope on skin at one place in a frame [N].
+#[must_use]
+pub fn greatest_n(frame: &Frame) -> f64 {
+    frame.contacts.iter().map(|contact| on_skin(contact).length()).fold(0.0, f64::max)
+}
+
+/// Force of rope on skin at a contact: it presses against the normal, and drags along the skin [N].
+fn on_skin(contact: &ContactPoint) -> DVec3 {
+    -contact.normal * contact.normal_force_n.max(0.0) - contact.friction_n
+}
+
+/// An arrow for the force of rope on skin, its tip at the contact; its length goes with the force, the greatest of the frame
+/// being 1.5 m.
+pub fn forces(frame: &Frame) -> Mesh {
+    let mut mesh = Mesh::default();
+    let greatest_n = greatest_n(frame);
+    for contact in frame.contacts.iter().filter(|contact| contact.normal_force_n > 0.0) {
+        let force = on_skin(contact);
+        if force.length() > LEAST * greatest_n {
+            let shaft = force * (LONGEST_M / greatest_n);
+            mesh.arrow(single(contact.position - shaft), single(shaft), 0.012, FORCE);
+        }
+    }
+    mesh
 }
 
 /// A ball at every place where rope presses on skin.

@@ -17,7 +17,7 @@ fn every_part_of_the_rig_is_in_the_scene_and_can_be_hidden() {
     let names: Vec<&str> = scene().parts.iter().map(|part| part.name).collect();
     assert_eq!(names, ["seabed", "whale", "ropes", "bodies", "current", "marks", "surface"]);
     let model = sample::model();
-    let bare = Show { scale_n: None, surface: false, seabed: false, current: false, contacts: false, whale: false };
+    let bare = Show { scale_n: None, surface: false, seabed: false, current: false, contacts: false, forces: false, whale: false };
     let names: Vec<&str> = Scene::of(&model, &sample::frame(&model), &bare).parts.iter().map(|part| part.name).collect();
     assert_eq!(names, ["ropes", "bodies"]);
 }
@@ -174,4 +174,22 @@ fn a_png_has_the_size_asked_for_and_an_unwritable_path_is_named() {
     assert_eq!((info.width, info.height), (900, 600));
     let nowhere = std::path::Path::new("/nowhere/at/all.png");
     assert!(render_png(&request(nowhere)).unwrap_err().contains("/nowhere/at/all.png"));
+}
+
+#[test]
+fn the_arrow_of_the_greatest_force_ends_at_its_contact_and_points_against_the_normal() {
+    let model = sample::model();
+    let frame = sample::frame(&model);
+    let scene = Scene::of(&model, &frame, &Show { forces: true, ..Show::default() });
+    let mesh = &scene.part("forces").unwrap().mesh;
+    let touch = &frame.contacts[0];
+    // The sample's normal points east and nothing slips: the arrow comes from 1.5 m east.
+    let reach = mesh
+        .place
+        .iter()
+        .map(|place| f64::from(place.x) - touch.position.x)
+        .fold([f64::MAX, f64::MIN], |[low, high], x| [low.min(x), high.max(x)]);
+    assert!(reach[0].abs() < 1e-3 && (reach[1] - 1.5).abs() < 1e-3, "{reach:?}");
+    assert!((super::rope::greatest_n(&frame) - 80.0).abs() < 1e-9);
+    assert!(Scene::of(&model, &frame, &Show::default()).part("forces").is_none());
 }

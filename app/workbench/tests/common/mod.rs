@@ -14,8 +14,8 @@ use endline_session::live::{Command, LiveView, Status};
 use endline_session::plugins::Hook;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::book::Book;
-use endline_workbench::gui::desk::Desk;
-use endline_workbench::gui::engine::{Engine, Launch, Waker};
+use endline_workbench::gui::desk::{Desk, Order};
+use endline_workbench::gui::engine::{Engine, Launch, Waker, live};
 use endline_workbench::input::Pilot;
 
 /// What a test's engine was told, in words.
@@ -55,6 +55,11 @@ impl Engine for FakeEngine {
             Command::Shift(by) => format!("shift {by}"),
             Command::Inputs(inputs) => format!("inputs {}", inputs.len()),
             Command::Branch => "branch".to_owned(),
+            Command::Rerun(prepared) => {
+                view.model = Arc::clone(&prepared.model);
+                "rerun".to_owned()
+            }
+            Command::Program(thin) => format!("program {thin}"),
             Command::SaveRecording(path) => format!("save {}", path.display()),
         };
         self.told.borrow_mut().push(words);
@@ -165,4 +170,37 @@ pub fn linked() -> Arc<PluginHost> {
         host.add(hook).unwrap();
     }
     Arc::new(host)
+}
+
+/// A short encounter run to its end, with every panel that reads it.
+pub fn flown(folder: &Folder) -> Harness<'static, App> {
+    let mut book = folder.book_with("hello-endline");
+    for (field, value) in [("duration", "2 s"), ("rope_nodes", "120"), ("whale.position.1", "-7 m")] {
+        book.set("scenario", field, value).unwrap();
+    }
+    let mut harness = opened_with(book, linked(), live(), Pilot::default());
+    wait(&mut harness, |app| app.desk.status() == Some(&Status::Paused));
+    harness.state_mut().desk.recordings = Some(folder.0.join("recordings"));
+    harness.state_mut().desk.obey(&Order::Speed(f64::INFINITY));
+    harness.state_mut().desk.obey(&Order::Start);
+    wait(&mut harness, |app| app.desk.status() == Some(&Status::Finished));
+    harness
+}
+
+/// Drags with the mouse.
+pub fn drag(harness: &mut Harness<'static, App>, from: egui::Pos2, to: egui::Pos2) {
+    let button = |pos, pressed| {
+        let (button, modifiers) = (egui::PointerButton::Primary, egui::Modifiers::NONE);
+        egui::Event::PointerButton { pos, button, pressed, modifiers }
+    };
+    harness.event(egui::Event::PointerMoved(from));
+    harness.run_steps(1);
+    harness.event(button(from, true));
+    harness.run_steps(1);
+    for share in [0.3, 0.7, 1.0] {
+        harness.event(egui::Event::PointerMoved(from + (to - from) * share));
+        harness.run_steps(1);
+    }
+    harness.event(button(to, false));
+    harness.run_steps(2);
 }

@@ -7,7 +7,7 @@ use endline_session::plugins::{PluginInfo, PluginKind};
 
 use super::super::book::Book;
 use super::super::plugins::{Change, open_folder};
-use super::Desk;
+use super::{Desk, Order};
 
 impl Desk {
     /// Every plugin, those switched off too, each with whether it is on; by kind and then by name.
@@ -19,7 +19,20 @@ impl Desk {
         all
     }
 
-    pub(super) fn reload_plugins(&mut self, change: Change) {
+    /// Plugins loaded, tried and put to use by one order.
+    pub(super) fn obey_plugins(&mut self, order: &Order) {
+        match order {
+            Order::ReloadPlugins => self.reload_plugins(Change::None),
+            Order::AllowPlugin(file, hash) => self.reload_plugins(Change::Allow(file.clone(), hash.clone())),
+            Order::SwitchPlugin(id, on) => self.reload_plugins(Change::Switch(id.clone(), *on)),
+            Order::CheckPlugin(file) => self.check_plugin(file),
+            Order::UsePlugin(id) => self.use_plugin(id),
+            Order::OpenFolder(folder) => self.open_folder(folder),
+            _ => {}
+        }
+    }
+
+    fn reload_plugins(&mut self, change: Change) {
         if let Err(error) = self.plugins.reload(change, Arc::clone(&self.waker)) {
             self.notice = Some((format!("plugins cannot be loaded: {error}"), true));
         }
@@ -51,13 +64,13 @@ impl Desk {
         self.notice = Some((notice, fault.is_some()));
     }
 
-    pub(super) fn check_plugin(&mut self, file: &Path) {
+    fn check_plugin(&mut self, file: &Path) {
         if let Err(error) = self.plugins.check(file, Arc::clone(&self.waker)) {
             self.notice = Some((error, true));
         }
     }
 
-    pub(super) fn open_folder(&mut self, folder: &Path) {
+    fn open_folder(&mut self, folder: &Path) {
         if let Err(error) = open_folder(folder) {
             self.notice = Some((error, true));
         }
@@ -81,7 +94,7 @@ impl Desk {
     }
 
     /// Puts a motion or a law of friction into the scenario; attributes of the one before go.
-    pub(super) fn use_plugin(&mut self, id: &str) {
+    fn use_plugin(&mut self, id: &str) {
         let kind = self.every_plugin().iter().find(|(info, _)| info.id == id).map(|(info, _)| info.kind);
         let Some((table, key)) = kind.and_then(Self::place_of) else { return };
         let attributes = format!("{table}.attributes");

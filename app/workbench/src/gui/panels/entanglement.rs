@@ -8,9 +8,11 @@ use endline_session::live::LiveView;
 use endline_sim::metrics::{Outcome, RegionSummary, WhaleSummary};
 
 use super::super::bodymap::{BodyMap, Face};
-use super::super::desk::Desk;
+use super::super::desk::{Desk, Order};
+use super::super::reading::spoken;
 use super::super::theme::Theme;
 use super::super::units::{ForceUnit, Units};
+use super::super::wraps::wraps;
 use super::summary::numbers;
 use crate::scene::colour::tension_colour;
 
@@ -95,6 +97,8 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
             });
         });
         map(ui, desk, &view, whale);
+        desk.orders.extend(wrap_list(ui, &view, units).map(Order::Seek));
+        super::caption(ui, "By part");
         table(ui, &view, whale, units);
     });
 }
@@ -189,6 +193,43 @@ fn tint(share: f64) -> Color32 {
     Color32::from_rgb(red, green, blue)
 }
 
+/// Wrap by wrap at the moment shown; answers the moment asked for by a click on one.
+fn wrap_list(ui: &mut Ui, view: &LiveView, units: Units) -> Option<f64> {
+    let palette = Theme::palette_of(ui);
+    super::caption(ui, "Wraps at this moment");
+    let found = wraps(view);
+    if found.is_empty() {
+        ui.label(RichText::new("No rope lies a quarter of a turn or more about a part.").color(palette.faint));
+        return None;
+    }
+    let mut wanted = None;
+    Grid::new("wraps").num_columns(5).striped(true).spacing([14.0, 2.0]).min_row_height(17.0).show(ui, |ui| {
+        for head in ["Part", "Turns", "Since", "Touching", "Rope"] {
+            ui.label(RichText::new(head).small().color(palette.faint));
+        }
+        ui.end_row();
+        for wrap in &found {
+            ui.label(spoken(wrap.part.name()));
+            ui.label(format!("{:.2}", wrap.turns));
+            match wrap.since_s {
+                Some(since_s) if ui.link(format!("{since_s:.2} s")).on_hover_text("See when it came half round").clicked() => {
+                    wanted = Some(since_s);
+                }
+                Some(_) => {}
+                None => {
+                    ui.label(RichText::new("not yet half round").color(palette.faint));
+                }
+            }
+            ui.label(units.length(wrap.touching_m));
+            let lines = wrap.lines.iter().map(|(line, length_m)| format!("{line} {}", units.length(*length_m)));
+            let lines = lines.collect::<Vec<_>>().join(", ");
+            ui.label(if lines.is_empty() { "loose: nothing presses".to_owned() } else { lines });
+            ui.end_row();
+        }
+    });
+    wanted
+}
+
 fn table(ui: &mut Ui, view: &LiveView, whale: &WhaleSummary, units: Units) {
     let palette = Theme::palette_of(ui);
     let forces = forces_n(view);
@@ -214,7 +255,8 @@ fn table(ui: &mut Ui, view: &LiveView, whale: &WhaleSummary, units: Units) {
     });
 }
 
-fn pressure(pa: f64, force: ForceUnit) -> String {
+/// A pressure with its unit.
+pub(in super::super) fn pressure(pa: f64, force: ForceUnit) -> String {
     /// Pascals in a pound-force on a square inch.
     const PA_PER_PSI: f64 = 6_894.757;
     match force {

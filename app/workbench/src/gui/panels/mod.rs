@@ -1,11 +1,13 @@
 //! The panels, one file each: each draws from the desk and leaves orders on it.
 
 pub mod assembly;
+pub mod compare;
 pub mod entanglement;
 pub mod events;
 pub mod help;
 pub mod library;
 pub mod pad;
+pub mod pilot;
 pub mod plots;
 pub mod plugins;
 pub mod problems;
@@ -46,6 +48,8 @@ pub fn show(ui: &mut Ui, panel: Panel, desk: &mut Desk) {
         Panel::Plugins => plugins::show(ui, desk),
         Panel::Study => study::show(ui, desk),
         Panel::Results => results::show(ui, desk),
+        Panel::Program => pilot::show(ui, desk),
+        Panel::Compare => compare::show(ui, desk),
     }
 }
 

@@ -4,11 +4,11 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use egui::{Color32, Id, Rect, RichText, Ui};
-use egui_plot::{AxisHints, HLine, Legend, Line, LineStyle, Plot, PlotPoint, PlotPoints, Polygon, VLine};
+use egui_plot::{AxisHints, FilledArea, HLine, Legend, Line, LineStyle, Plot, PlotPoint, PlotPoints, Polygon, VLine};
 use endline_session::live::LiveView;
 use endline_sim::Model;
 
-use super::super::charts::{COLOURS, Chart, Kind};
+use super::super::charts::{Chart, Curve, Kind, Style};
 use super::super::desk::{Desk, Order};
 use super::super::theme::Theme;
 use super::super::units::Units;
@@ -30,11 +30,29 @@ pub struct PlotsState {
 
 /// A chart with what it was made of.
 struct Made {
+    of: (Part, Option<Part>),
+    units: Units,
+    chart: Chart,
+}
+
+/// As much of a run as a chart shows.
+struct Part {
     model: Arc<Model>,
     samples: usize,
     shown_s: f64,
-    units: Units,
-    chart: Chart,
+}
+
+impl Part {
+    fn of(kind: Kind, view: &LiveView) -> Self {
+        let shown_s = if kind.over_time() { 0.0 } else { view.frame.time_s };
+        Self { model: Arc::clone(&view.model), samples: view.tension.len(), shown_s }
+    }
+}
+
+impl PartialEq for Part {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.model, &other.model) && self.samples == other.samples && self.shown_s.to_bits() == other.shown_s.to_bits()
+    }
 }
 
 impl PlotsState {
@@ -44,31 +62,29 @@ impl PlotsState {
         self.shown.clone().unwrap_or_else(|| vec![Kind::Tension, Kind::Force, Kind::Wraps])
     }
 
-    /// Makes charts anew where the run has gone on since.
-    fn make(&mut self, kind: Kind, view: &LiveView, units: Units) -> &Chart {
-        let shown_s = if kind.over_time() { 0.0 } else { view.frame.time_s };
-        let current = |made: &Made| {
-            Arc::ptr_eq(&made.model, &view.model)
-                && made.samples == view.tension.len()
-                && made.shown_s.to_bits() == shown_s.to_bits()
-                && made.units == units
-        };
+    /// Makes charts anew where a run has gone on since.
+    fn make(&mut self, kind: Kind, view: &LiveView, other: Option<&LiveView>, units: Units) -> &Chart {
+        let of = (Part::of(kind, view), other.map(|other| Part::of(kind, other)));
         let place = self.made.iter().position(|(known, _)| *known == kind);
-        let fresh =
-            || Made { model: Arc::clone(&view.model), samples: view.tension.len(), shown_s, units, chart: Chart::of(kind, view, units) };
-        let place = match place {
-            Some(place) => {
-                if !current(&self.made[place].1) {
-                    self.made[place].1 = fresh();
-                }
-                place
+        let known = place.is_some_and(|place| self.made[place].1.of == of && self.made[place].1.units == units);
+        if !known {
+            let made = (kind, Made { of, units, chart: chart(kind, view, other, units) });
+            match place {
+                Some(place) => self.made[place] = made,
+                None => self.made.push(made),
             }
-            None => {
-                self.made.push((kind, fresh()));
-                self.made.len() - 1
-            }
-        };
-        &self.made[place].1.chart
+        }
+        let last = self.made.len() - 1;
+        &self.made[place.unwrap_or(last)].1.chart
+    }
+}
+
+/// A chart of a run, with the one it is compared with.
+fn chart(kind: Kind, view: &LiveView, other: Option<&LiveView>, units: Units) -> Chart {
+    let own = Chart::of(kind, view, units);
+    match other {
+        Some(other) => own.beside(Chart::of(kind, other, units)),
+        None => own,
     }
 }
 
@@ -81,10 +97,12 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
         return super::nothing(ui, "Choose what to plot above.");
     }
     photograph(ui, desk);
-    let height = (ui.available_height() / kinds.len() as f32 - 26.0).max(70.0);
+    let height = (ui.available_height() / kinds.len() as f32 - 26.0).max(104.0);
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         for kind in kinds {
-            ui.label(RichText::new(kind.title()).color(Theme::palette_of(ui).faint));
+            let compared = if desk.other().is_some() { "; A solid, B dashed" } else { "" };
+            let note = if kind == Kind::Along { "; shaded from least to greatest so far" } else { "" };
+            ui.label(RichText::new(format!("{}{note}{compared}", kind.title())).color(Theme::palette_of(ui).faint));
             one(ui, desk, &view, kind, height);
         }
     });
@@ -150,13 +168,15 @@ fn png_of(image: &egui::ColorImage) -> Result<Vec<u8>, String> {
 /// The charts shown, for writing.
 pub fn charts(desk: &Desk) -> Vec<Chart> {
     let Some(view) = &desk.view else { return Vec::new() };
-    desk.plots.kinds().into_iter().map(|kind| Chart::of(kind, view, desk.preferences.units)).collect()
+    let other = desk.other_view();
+    desk.plots.kinds().into_iter().map(|kind| chart(kind, view, other.as_deref(), desk.preferences.units)).collect()
 }
 
 fn one(ui: &mut Ui, desk: &mut Desk, view: &LiveView, kind: Kind, height: f32) {
     let palette = Theme::palette_of(ui);
     let units = desk.preferences.units;
-    let chart = desk.plots.make(kind, view, units);
+    let other = desk.other_view();
+    let chart = desk.plots.make(kind, view, other.as_deref(), units);
     if chart.curves.iter().all(|curve| curve.points.is_empty()) {
         let why = if matches!(kind, Kind::Force | Kind::Wraps) { "No rope has touched the whale." } else { "Nothing yet." };
         return super::nothing(ui, why);
@@ -181,9 +201,17 @@ fn one(ui: &mut Ui, desk: &mut Desk, view: &LiveView, kind: Kind, height: f32) {
         plot = plot.link_cursor(Id::new("time"), [true, false]).link_axis(Id::new("time"), [true, false]);
     }
     let response = plot.show(ui, |plot| {
-        for (curve, [red, green, blue]) in chart.curves.iter().zip(COLOURS.iter().cycle()) {
+        shade(plot, &chart.curves);
+        for curve in &chart.curves {
+            let [red, green, blue] = curve.rgb();
+            let colour = Color32::from_rgb(red, green, blue);
             let line = Line::new(&curve.name, PlotPoints::Borrowed(&curve.points));
-            plot.line(line.color(Color32::from_rgb(*red, *green, *blue)).width(1.5));
+            match curve.style {
+                Style::Solid => plot.line(line.color(colour).width(1.5)),
+                Style::Dashed => plot.line(line.color(colour).width(1.5).style(LineStyle::dashed_dense())),
+                // Named in the legend by its line alone.
+                Style::Edge => plot.line(Line::new("", PlotPoints::Borrowed(&curve.points)).color(colour.gamma_multiply(0.55)).width(1.0)),
+            }
         }
         for level in chart.levels.iter().filter(|level| level.band[0] < REACH * top) {
             let [low, high] = level.band;
@@ -202,5 +230,20 @@ fn one(ui: &mut Ui, desk: &mut Desk, view: &LiveView, kind: Kind, height: f32) {
     });
     if let (true, true, Some(at)) = (kind.over_time(), response.response.clicked(), response.inner) {
         desk.orders.push(Order::Seek(at.x.clamp(0.0, view.newest_s)));
+    }
+}
+
+/// Fills between least and greatest so far, which stand one after the other.
+fn shade(plot: &mut egui_plot::PlotUi<'_>, curves: &[Curve]) {
+    for pair in curves.windows(2) {
+        let [least, greatest] = pair else { continue };
+        let edges = least.style == Style::Edge && greatest.style == Style::Edge && least.colour == greatest.colour;
+        if edges && least.points.len() == greatest.points.len() && least.points.len() > 1 {
+            let [red, green, blue] = least.rgb();
+            let xs: Vec<f64> = least.points.iter().map(|point| point.x).collect();
+            let [low, high] = [least, greatest].map(|curve| curve.points.iter().map(|point| point.y).collect::<Vec<f64>>());
+            let fill = Color32::from_rgb(red, green, blue).gamma_multiply(0.16);
+            plot.add(FilledArea::new("", &xs, &low, &high).fill_color(fill).allow_hover(false));
+        }
     }
 }

@@ -56,6 +56,9 @@ fn row(ui: &mut Ui, desk: &mut Desk, file: &Recorded) {
         if ui.button("Open").on_hover_text("Run it again, to the bit, and look at any moment").clicked() {
             desk.orders.push(Order::OpenRecording(file.path.clone()));
         }
+        if ui.button("Compare").on_hover_text("Run it again beside the run shown, as B").clicked() {
+            desk.orders.push(Order::CompareWith(file.path.clone()));
+        }
         if ui.button("Copy command").on_hover_text("endline replay …, for a terminal").clicked() {
             ui.ctx().copy_text(format!("endline replay '{}'", file.path.display()));
         }

@@ -1,0 +1,78 @@
+//! Two runs beside one another: A as shown, B held or opened; their key figures and what differs.
+
+use egui::{Grid, RichText, ScrollArea, Ui};
+use endline_session::live::{LiveView, Status};
+
+use super::super::compare::{Group, groups};
+use super::super::desk::{Desk, Order};
+use super::super::theme::Theme;
+
+/// Draws the comparison.
+pub fn show(ui: &mut Ui, desk: &mut Desk) {
+    buttons(ui, desk);
+    let Some(other) = desk.other() else {
+        let text = "Hold a run, change the gear or the pilot, and run again: the 3-D view shows both at one moment, plots draw A \
+                    solid and B dashed. Or compare with a run of Recordings.";
+        return super::nothing(ui, text);
+    };
+    ui.horizontal_wrapped(|ui| {
+        ui.label(RichText::new("A").strong());
+        ui.label(desk.scenario_stem());
+        ui.label(RichText::new("B").strong());
+        ui.label(&other.name);
+    });
+    let (Some(a), Some(b)) = (desk.view.clone(), other.view.clone()) else { return super::nothing(ui, "Making the model …") };
+    standing(ui, &a, &b);
+    ScrollArea::both().auto_shrink(false).show(ui, |ui| {
+        for group in groups(&a, &b, desk.preferences.units) {
+            table(ui, &group);
+        }
+    });
+}
+
+fn buttons(ui: &mut Ui, desk: &mut Desk) {
+    ui.horizontal_wrapped(|ui| {
+        let ready = desk.view.as_ref().is_some_and(|view| view.newest_s > 0.0) && !desk.making();
+        let help = "The run shown stays as B; the gear and scenario as they stand make a new A";
+        if ui.add_enabled(ready, egui::Button::new("Hold this run as B")).on_hover_text(help).clicked() {
+            desk.orders.push(Order::HoldRun);
+        }
+        if ui.button("Recordings …").on_hover_text("Choose a kept run to compare with").clicked() {
+            desk.orders.push(Order::Show(super::super::layout::Panel::Recordings));
+        }
+        if ui.add_enabled(desk.other().is_some(), egui::Button::new("End comparison")).clicked() {
+            desk.orders.push(Order::EndCompare);
+        }
+    });
+}
+
+/// How far each was run: figures of runs of different length do not compare.
+fn standing(ui: &mut Ui, a: &LiveView, b: &LiveView) {
+    let palette = Theme::palette_of(ui);
+    if b.status == Status::Running {
+        ui.label(RichText::new(format!("B runs again: {:.2} s", b.newest_s)).color(palette.faint));
+    } else if (a.newest_s - b.newest_s).abs() > 0.011 {
+        let text =
+            format!("A was run for {:.2} s, B for {:.2} s: peaks and times compare only over the same time.", a.newest_s, b.newest_s);
+        ui.add(egui::Label::new(RichText::new(text).color(palette.warning)).wrap());
+    }
+}
+
+fn table(ui: &mut Ui, (head, rows): &Group) {
+    let palette = Theme::palette_of(ui);
+    super::caption(ui, head);
+    Grid::new(head).num_columns(4).striped(true).spacing([16.0, 2.0]).min_row_height(17.0).show(ui, |ui| {
+        for text in ["", "A", "B", "B less A"] {
+            ui.label(RichText::new(text).small().color(palette.faint));
+        }
+        ui.end_row();
+        for row in rows {
+            ui.label(RichText::new(&row.name).color(palette.faint));
+            ui.label(&row.a);
+            ui.label(&row.b);
+            let colour = if row.difference == "same" { palette.faint } else { palette.text };
+            ui.label(RichText::new(&row.difference).color(colour));
+            ui.end_row();
+        }
+    });
+}

@@ -1,0 +1,221 @@
+//! A track for each control that the program names: when it is told what, to be dragged.
+
+use egui::{Align2, Color32, CursorIcon, FontId, Painter, Pos2, Rect, Sense, Stroke, StrokeKind, Ui, WidgetInfo, WidgetType, pos2, vec2};
+use endline_gear::units::{Quantity, parse};
+use endline_sdk::Controls;
+
+use super::super::super::book::Book;
+use super::super::super::desk::{Desk, Order};
+use super::super::super::program::{Entry, move_to, seconds, set, spoken, until_s};
+use super::super::super::theme::{Palette, Theme};
+use crate::scene::ticks::ticks;
+
+/// Height of a track [points].
+const ROW: f32 = 24.0;
+/// Height of the axis [points].
+const AXIS: f32 = 20.0;
+/// Width of the names [points].
+const NAMES: f32 = 92.0;
+/// How near to its end a bar is taken by its end [points].
+const EDGE: f32 = 6.0;
+
+/// A bar under the hand.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Drag {
+    index: usize,
+    /// Whether its end is dragged, not its beginning.
+    end: bool,
+    /// From the pointer to what is dragged [s].
+    off_s: f64,
+    /// Where that would go now [s].
+    to_s: f64,
+}
+
+/// What an entry tells one control, as drawn.
+struct Bar {
+    index: usize,
+    rect: Rect,
+    text: String,
+    /// Height of the fill over the track's height, from the middle or the foot.
+    level: f32,
+    signed: bool,
+}
+
+/// Times on the width of the tracks.
+#[derive(Clone, Copy)]
+struct Axis {
+    rect: Rect,
+    end_s: f64,
+}
+
+impl Axis {
+    fn x(&self, time_s: f64) -> f32 {
+        self.rect.left() + (time_s / self.end_s) as f32 * self.rect.width()
+    }
+
+    fn time_s(&self, x: f32) -> f64 {
+        (f64::from((x - self.rect.left()) / self.rect.width()) * self.end_s).clamp(0.0, self.end_s)
+    }
+
+    /// To a tenth of a second, or to a hundredth where that can be seen.
+    fn snapped_s(&self, time_s: f64) -> f64 {
+        let grid = if self.end_s / f64::from(self.rect.width()) < 0.02 { 100.0 } else { 10.0 };
+        (time_s * grid).round() / grid
+    }
+}
+
+pub(super) fn show(ui: &mut Ui, desk: &mut Desk, all: &[Entry]) {
+    let named =
+        |control: &usize| all.iter().any(|entry| entry.begin_s.is_some() && entry.controls.iter().any(|(known, _)| known == control));
+    let tracks: Vec<usize> = (0..Controls::COUNT).filter(named).collect();
+    let size = vec2(ui.available_width(), AXIS + ROW * tracks.len() as f32);
+    let (whole, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
+    response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, "Timeline"));
+    let rect = Rect::from_min_max(pos2(whole.left() + NAMES, whole.top()), whole.max - vec2(8.0, 0.0));
+    let duration_s = desk.book.field(Book::SCENARIO, "duration").and_then(|text| parse(&text, Quantity::Time).ok()).unwrap_or(60.0);
+    let latest_s = all.iter().filter_map(|entry| entry.begin_s).fold(0.0, f64::max);
+    let axis = Axis { rect, end_s: duration_s.max(latest_s * 1.02).max(1e-3) };
+    let bars = bars(all, &tracks, axis, desk.program.drag);
+    let (painter, palette) = (ui.painter_at(whole), Theme::palette_of(ui));
+    grid(&painter, axis, &tracks, palette);
+    for bar in &bars {
+        draw(&painter, bar, desk.program.chosen == Some(bar.index), palette);
+    }
+    if let Some(view) = &desk.view {
+        let x = axis.x(view.frame.time_s);
+        painter.line_segment([pos2(x, rect.top()), pos2(x, rect.bottom())], Stroke::new(1.5, palette.warning));
+    }
+    hand(ui, desk, all, &bars, axis, &response);
+}
+
+fn bars(all: &[Entry], tracks: &[usize], axis: Axis, drag: Option<Drag>) -> Vec<Bar> {
+    let mut bars = Vec::new();
+    for entry in all {
+        let Some(begin_s) = entry.begin_s else { continue };
+        for (control, text) in &entry.controls {
+            let Some(track) = tracks.iter().position(|known| known == control) else { continue };
+            let mut reach_s = [begin_s, until_s(all, entry, *control, axis.end_s)];
+            if let Some(drag) = drag.filter(|drag| drag.index == entry.index) {
+                let by_s = drag.to_s - begin_s;
+                reach_s = if drag.end { [begin_s, drag.to_s.max(begin_s)] } else { [drag.to_s, reach_s[1] + by_s] };
+            }
+            let top = axis.rect.top() + AXIS + ROW * track as f32;
+            let left = axis.x(reach_s[0]);
+            let right = axis.x(reach_s[1]).clamp(left + 3.0, axis.rect.right().max(left + 3.0));
+            let signed = Controls::RANGES[*control][0] < 0.0;
+            let level = entry.number(*control).map_or(1.0, |number| number as f32);
+            let rect = Rect::from_min_max(pos2(left, top + 2.0), pos2(right, top + ROW - 2.0));
+            bars.push(Bar { index: entry.index, rect, text: text.clone(), level, signed });
+        }
+    }
+    bars
+}
+
+fn grid(painter: &Painter, axis: Axis, tracks: &[usize], palette: Palette) {
+    let small = FontId::proportional(11.0);
+    for tick in ticks(axis.end_s, 8) {
+        let x = axis.x(tick);
+        painter.line_segment([pos2(x, axis.rect.top() + AXIS - 4.0), pos2(x, axis.rect.bottom())], Stroke::new(1.0, palette.line));
+        let align = if x > axis.rect.right() - 20.0 { Align2::RIGHT_CENTER } else { Align2::CENTER_CENTER };
+        painter.text(pos2(x, axis.rect.top() + 8.0), align, format!("{tick} s"), small.clone(), palette.faint);
+    }
+    for (row, control) in tracks.iter().enumerate() {
+        let top = axis.rect.top() + AXIS + ROW * row as f32;
+        let place = pos2(axis.rect.left() - NAMES, top + ROW / 2.0);
+        painter.text(place, Align2::LEFT_CENTER, spoken(Controls::NAMES[*control]), FontId::proportional(12.5), palette.text);
+        painter.line_segment([pos2(place.x, top + ROW), pos2(axis.rect.right(), top + ROW)], Stroke::new(1.0, palette.line));
+        if Controls::RANGES[*control][0] < 0.0 {
+            let middle = [pos2(axis.rect.left(), top + ROW / 2.0), pos2(axis.rect.right(), top + ROW / 2.0)];
+            painter.line_segment(middle, Stroke::new(1.0, palette.line.gamma_multiply(0.6)));
+        }
+    }
+}
+
+fn draw(painter: &Painter, bar: &Bar, chosen: bool, palette: Palette) {
+    let rect = bar.rect;
+    painter.rect_filled(rect, 2.0, palette.accent.gamma_multiply(if chosen { 0.3 } else { 0.14 }));
+    let fill = if bar.signed {
+        let (middle, half) = (rect.center().y, rect.height() / 2.0 * bar.level.clamp(-1.0, 1.0));
+        Rect::from_two_pos(pos2(rect.left(), middle), pos2(rect.right(), middle - half))
+    } else {
+        rect.with_min_y(rect.bottom() - rect.height() * bar.level.clamp(0.0, 1.0))
+    };
+    painter.rect_filled(fill, 2.0, palette.accent.gamma_multiply(if chosen { 0.75 } else { 0.45 }));
+    let line = if chosen { palette.accent } else { palette.accent.gamma_multiply(0.6) };
+    painter.rect_stroke(rect, 2.0, Stroke::new(1.0, line), StrokeKind::Inside);
+    if rect.width() > 34.0 {
+        let shadow = Color32::from_black_alpha(if palette.text.r() > 128 { 120 } else { 0 });
+        let painter = painter.with_clip_rect(rect);
+        let galley = painter.layout_no_wrap(bar.text.clone(), FontId::proportional(11.5), palette.text);
+        let at = pos2(rect.left() + 5.0, rect.center().y - galley.size().y / 2.0);
+        painter.rect_filled(Rect::from_min_size(at, galley.size()).expand2(vec2(2.0, 0.0)), 2.0, shadow);
+        painter.galley(at, galley, palette.text);
+    }
+}
+
+/// The bar under a place, the one drawn last first; and whether its end is.
+fn hit(bars: &[Bar], at: Pos2) -> Option<(usize, bool)> {
+    let bar = bars.iter().rev().find(|bar| bar.rect.expand2(vec2(2.0, 2.0)).contains(at))?;
+    let end = at.x > bar.rect.right() - EDGE && bar.rect.width() > 2.0 * EDGE;
+    Some((bar.index, end))
+}
+
+/// A click chooses; a drag moves the beginning or the hold; on the axis it shows that moment.
+fn hand(ui: &Ui, desk: &mut Desk, all: &[Entry], bars: &[Bar], axis: Axis, response: &egui::Response) {
+    let pointer = response.interact_pointer_pos().or(response.hover_pos());
+    let Some(at) = pointer else { return finish(desk, all, response) };
+    let under = hit(bars, at);
+    if let Some((index, end)) = under {
+        ui.ctx().set_cursor_icon(if end { CursorIcon::ResizeHorizontal } else { CursorIcon::Grab });
+        if desk.program.drag.is_none() && !response.dragged() {
+            response.clone().on_hover_text(all[index].words());
+        }
+    }
+    if response.clicked() {
+        match under {
+            Some((index, _)) => desk.program.chosen = Some(index),
+            None if at.y < axis.rect.top() + AXIS => desk.orders.push(Order::Seek(axis.time_s(at.x))),
+            None => desk.program.chosen = None,
+        }
+    }
+    if response.drag_started()
+        && let Some((index, end)) = ui.input(|input| input.pointer.press_origin()).and_then(|origin| hit(bars, origin))
+        && let Some(begin_s) = all[index].begin_s
+    {
+        desk.program.chosen = Some(index);
+        let origin_s = ui.input(|input| input.pointer.press_origin()).map_or(begin_s, |origin| axis.time_s(origin.x));
+        let held_s = if end { end_s(bars, index, axis) } else { begin_s };
+        desk.program.drag = Some(Drag { index, end, off_s: held_s - origin_s, to_s: held_s });
+    }
+    if let Some(drag) = &mut desk.program.drag {
+        drag.to_s = axis.snapped_s((axis.time_s(at.x) + drag.off_s).max(0.0));
+    }
+    finish(desk, all, response);
+}
+
+/// Where the bars of an entry end, as drawn [s].
+fn end_s(bars: &[Bar], index: usize, axis: Axis) -> f64 {
+    axis.time_s(bars.iter().filter(|bar| bar.index == index).map(|bar| bar.rect.right()).fold(0.0, f32::max))
+}
+
+/// Lets the bar go: one edit of the text.
+fn finish(desk: &mut Desk, all: &[Entry], response: &egui::Response) {
+    if !response.drag_stopped() {
+        return;
+    }
+    let Some(drag) = desk.program.drag.take() else { return };
+    let Some(entry) = all.get(drag.index) else { return };
+    let begin_s = entry.begin_s.unwrap_or(0.0);
+    let mut chosen = drag.index;
+    super::change(desk, |document| match (drag.end, entry.trigger) {
+        (true, _) => set(document, drag.index, "hold", &seconds((drag.to_s - begin_s).max(0.1))),
+        (false, "at") => move_to(document, drag.index, drag.to_s).map(|index| chosen = index),
+        // An entry after another keeps its place behind it: what is dragged is its delay.
+        (false, _) => {
+            let delay_s = document.get(&super::super::super::program::path(drag.index, "delay"));
+            let delay_s = delay_s.and_then(|text| parse(&text, Quantity::Time).ok()).unwrap_or(0.0);
+            set(document, drag.index, "delay", &seconds(delay_s + drag.to_s - begin_s))
+        }
+    });
+    desk.program.chosen = Some(chosen);
+}

@@ -1,0 +1,111 @@
+//! A typed field put into the scenario's text, with what must go with it.
+
+use endline_gear::units::{Quantity, parse};
+use endline_gear::{Document, Setting};
+
+use super::super::super::book::Book;
+use super::super::super::program::{self, LIST};
+
+/// Tables that are nothing without one of their fields.
+const WHOLE: [(&str, &str); 2] = [("waves.height", "waves"), ("current.tide.period", "current.tide")];
+/// What a fresh field needs beside it.
+const BESIDE: [(&str, &str, &str); 1] = [("waves.height", "waves.period", "6 s")];
+/// Fields that stand for one another.
+const EITHER: [(&str, &str); 2] = [("whale.length", "whale.age"), ("whale.age", "whale.length")];
+/// What a dead whale has not, in the order of the file.
+const ALIVE: [&str; 7] = ["whale.speed", "whale.motion", "whale.dynamics", "whale.acts", "whale.answer_to_touch", "whale.attributes", LIST];
+/// What a living one needs.
+const TO_LIVE: [(&str, &str); 2] = [("whale.speed", "1 m/s"), ("whale.motion", "org.endline.motion.swim")];
+
+/// Puts what is typed into a field; nothing typed takes the field away.
+///
+/// # Errors
+/// Where the scenario is so written that the field has no place.
+pub(super) fn commit(document: &mut Document, field: &str, text: &str) -> Result<(), String> {
+    let text = text.trim();
+    if text.is_empty() {
+        let whole = WHOLE.iter().find(|(known, _)| *known == field).map_or(field, |(_, table)| table);
+        take_away(document, whole)?;
+        return if field == "whale.state" { revive(document) } else { Ok(()) };
+    }
+    if field == "whale.state" {
+        ALIVE.iter().try_for_each(|field| take_away(document, field))?;
+    }
+    for (_, other) in EITHER.iter().filter(|(known, _)| *known == field) {
+        take_away(document, other)?;
+    }
+    put(document, field, text)?;
+    for (_, other, usual) in BESIDE.iter().filter(|(known, ..)| *known == field) {
+        if !document.has(other) {
+            put(document, other, usual)?;
+        }
+    }
+    Ok(())
+}
+
+fn put(document: &mut Document, field: &str, text: &str) -> Result<(), String> {
+    let told = |error: endline_gear::EditError| error.to_string();
+    // The start of the whale that nobody wrote down is an entry of its own.
+    if field.starts_with(LIST) && !document.has(field.rsplit_once('.').map_or(field, |(table, _)| table)) {
+        let index = document.push_table(LIST, &[("at", "0 s"), ("mouth", text)]).map_err(told)?;
+        return program::in_order(document, index).map(|_| ());
+    }
+    if document.has(field) { document.set(field, text).map_err(told) } else { document.put(field, &Setting::plain(text)).map_err(told) }
+}
+
+fn take_away(document: &mut Document, field: &str) -> Result<(), String> {
+    if document.has(field) { document.remove(field).map_err(|error| error.to_string()) } else { Ok(()) }
+}
+
+fn revive(document: &mut Document) -> Result<(), String> {
+    for (field, usual) in TO_LIVE {
+        if !document.has(field) {
+            put(document, field, usual)?;
+        }
+    }
+    Ok(())
+}
+
+/// Where the scenario says how far the mouth is open at the start: in the entry of the pilot at time zero, or a fresh one.
+pub(super) fn mouth(book: &Book) -> String {
+    let count = book.count(Book::SCENARIO, LIST);
+    let at = |index: usize| book.field(Book::SCENARIO, &program::path(index, "at")).and_then(|text| parse(&text, Quantity::Time).ok());
+    let first = (0..count).find(|index| at(*index) == Some(0.0)).unwrap_or(count);
+    program::path(first, "mouth")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn waves_come_with_a_period_and_go_as_a_whole() {
+        let mut document = Document::parse("duration = \"9 s\"\n").unwrap();
+        commit(&mut document, "waves.height", "1.2 m").unwrap();
+        assert_eq!(document.get("waves.period").as_deref(), Some("6 s"));
+        commit(&mut document, "waves.period", "8 s").unwrap();
+        commit(&mut document, "waves.height", "1.5 m").unwrap();
+        assert_eq!(document.get("waves.period").as_deref(), Some("8 s"), "what was typed stays");
+        commit(&mut document, "waves.height", " ").unwrap();
+        assert!(!document.has("waves"), "{}", document.text());
+    }
+
+    #[test]
+    fn a_length_takes_the_place_of_an_age_and_a_number_stays_a_number() {
+        let mut document = Document::parse("[whale]\nitem = \"right-whale\"\nlength = \"13 m\"\n").unwrap();
+        commit(&mut document, "whale.age", "2 yr").unwrap();
+        assert!(!document.has("whale.length"));
+        commit(&mut document, "whale.condition", "0.9").unwrap();
+        assert!(document.text().contains("condition = 0.9"), "{}", document.text());
+    }
+
+    #[test]
+    fn a_dead_whale_neither_swims_nor_is_steered_and_one_alive_swims_again() {
+        let text = "[whale]\nitem = \"x\"\nspeed = \"1 m/s\"\nmotion = \"m\"\n[whale.attributes]\ncruise_speed = \"1 m/s\"\n[[whale.pilot]]\nat = \"0 s\"\nspeed = 1.0\n";
+        let mut document = Document::parse(text).unwrap();
+        commit(&mut document, "whale.state", "dead").unwrap();
+        assert!(["speed", "motion", "attributes", "pilot"].iter().all(|key| !document.has(&format!("whale.{key}"))), "{}", document.text());
+        commit(&mut document, "whale.state", "").unwrap();
+        assert_eq!(document.get("whale.motion").as_deref(), Some("org.endline.motion.swim"));
+    }
+}

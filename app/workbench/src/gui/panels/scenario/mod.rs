@@ -1,0 +1,249 @@
+//! What happens in the run: gear, sea, whale, friction and weak links of the scenario, as typed in its file.
+
+mod commit;
+mod rows;
+
+use egui::{ComboBox, Grid, RichText, ScrollArea, Ui};
+use endline_gear::Kind;
+
+use super::super::book::Book;
+use super::super::desk::{Desk, Order};
+use super::super::fields;
+use super::super::theme::{Theme, primary};
+use rows::{FLAGS, RUN, Row, SEA, TIDE, WAVES, WHALE};
+
+/// What is typed into a field of the scenario.
+type Edit = (String, String);
+
+/// Draws the scenario panel.
+pub fn show(ui: &mut Ui, desk: &mut Desk) {
+    pick(ui, desk);
+    let foot = 34.0;
+    ScrollArea::vertical().auto_shrink(false).max_height(ui.available_height() - foot).show(ui, |ui| {
+        let mut edits: Vec<Edit> = Vec::new();
+        gear(ui, desk, &mut edits);
+        sea(ui, desk, &mut edits);
+        if desk.book.field(Book::SCENARIO, "whale.item").is_some() {
+            whale(ui, desk, &mut edits);
+        }
+        super::caption(ui, "Run");
+        rows(ui, desk, "run", RUN, &mut edits);
+        flags(ui, desk, &mut edits);
+        for (field, text) in edits {
+            let changed = desk.book.alter(Book::SCENARIO, |document| commit::commit(document, &field, &text));
+            if let Err(error) = changed {
+                desk.notice = Some((error, true));
+            }
+        }
+    });
+    ui.separator();
+    apply(ui, desk);
+}
+
+/// The scenario itself, out of those beside it.
+fn pick(ui: &mut Ui, desk: &mut Desk) {
+    let path = desk.book.scenario_path().to_owned();
+    let stem = |path: &std::path::Path| path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+    let mark = if desk.book.is_unsaved(Book::SCENARIO) { "• " } else { "" };
+    let width = ui.available_width() - 8.0;
+    let shown = format!("{mark}{}", stem(&path));
+    ComboBox::from_id_salt("scenario").width(width).truncate().selected_text(shown).show_ui(ui, |ui| {
+        for file in scenarios(desk.book.root()) {
+            if ui.selectable_label(file == path, stem(&file)).clicked() && file != path {
+                desk.orders.push(Order::Open(file));
+            }
+        }
+    });
+    if let Some(name) = desk.book.field(Book::SCENARIO, "name") {
+        let notes = desk.book.field(Book::SCENARIO, "notes").unwrap_or_default();
+        let label = egui::Label::new(RichText::new(name).color(Theme::palette_of(ui).faint)).wrap();
+        ui.add(label).on_hover_text(notes);
+    }
+}
+
+/// The scenarios of a library, by name.
+#[must_use]
+pub fn scenarios(root: &std::path::Path) -> Vec<std::path::PathBuf> {
+    let entries = std::fs::read_dir(root.join("scenarios")).into_iter().flatten().flatten();
+    let mut files: Vec<_> = entries.map(|entry| entry.path()).filter(|path| path.extension().is_some_and(|end| end == "toml")).collect();
+    files.sort();
+    files
+}
+
+fn gear(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
+    if desk.book.field(Book::SCENARIO, "gear.0.assembly").is_none() {
+        return;
+    }
+    super::caption(ui, "Gear");
+    Grid::new("gear").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
+        for index in 0..9 {
+            let field = format!("gear.{index}.assembly");
+            if desk.book.field(Book::SCENARIO, &field).is_none() {
+                break;
+            }
+            name(ui, "Assembly");
+            choice(ui, desk, &field, Kind::Assembly, edits);
+            ui.end_row();
+        }
+    });
+}
+
+fn sea(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
+    super::caption(ui, "Sea");
+    if desk.book.field(Book::SCENARIO, "site.item").is_some() {
+        Grid::new("site").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
+            name(ui, "Site");
+            choice(ui, desk, "site.item", Kind::Site, edits);
+            ui.end_row();
+        });
+    }
+    rows(ui, desk, "sea", SEA, edits);
+    super::caption(ui, "Tide that turns");
+    rows(ui, desk, "tide", TIDE, edits);
+    super::caption(ui, "Waves");
+    rows(ui, desk, "waves", WAVES, edits);
+}
+
+fn whale(ui: &mut Ui, desk: &mut Desk, edits: &mut Vec<Edit>) {
+    super::caption(ui, "Whale");
+    let (host, _) = desk.helpers();
+    let motions = host.ids().into_iter().filter_map(|id| host.motion(&id).map(|motion| (id, motion.descriptor().name.to_string())));
+    let motions: Vec<(String, String)> = motions.collect();
+    let dead = desk.book.field(Book::SCENARIO, "whale.state").as_deref() == Some("dead");
+    Grid::new("animal").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
+        name(ui, "Animal");
+        choice(ui, desk, "whale.item", Kind::Whale, edits);
+        ui.end_row();
+        words(ui, desk, "State", "whale.state", &[("", "alive"), ("dead", "dead, afloat")], edits);
+        if !dead {
+            words(ui, desk, "Feels gear", "whale.dynamics", &[("", "no: goes as it is steered"), ("kinetic", "yes: gear holds it")], edits);
+            name(ui, "Motion");
+            let width = ui.available_width() - 8.0;
+            let taken = fields::choose(ui, &desk.book, Book::SCENARIO, "whale.motion", &motions, width);
+            edits.extend(taken.map(|id| ("whale.motion".to_owned(), id)));
+            ui.end_row();
+        }
+    });
+    rows(ui, desk, "whale", WHALE, edits);
+    if !dead {
+        rows(ui, desk, "swims", rows::SWIMS, edits);
+        mouth(ui, desk, edits);
+    }
+    let mut posing = desk.posing.on;
+    if ui.toggle_value(&mut posing, "Drag the start in the view").on_hover_text("Handles in the 3-D view: place, depth, heading").clicked()
+    {
+        desk.orders.extend([Order::Show(super::super::layout::Panel::View), Order::Pose]);
+    }
+    friction(ui, desk, edits);
+}
+
+/// How far the mouth is open at the start: the pilot program says so.
+fn mouth(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
+    let field = commit::mouth(&desk.book);
+    Grid::new("mouth").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
+        name(ui, "Mouth");
+        let said = fields::Said { hint: "0, shut", help: "How far open from the start, 0 to 1; the pilot program may change it" };
+        let width = ui.available_width() - 12.0;
+        edits.extend(fields::edit(ui, &desk.book, Book::SCENARIO, &field, width, said).map(|text| (field.clone(), text)));
+        ui.end_row();
+    });
+}
+
+fn friction(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
+    super::caption(ui, "Friction of rope on whale");
+    let (host, _) = desk.helpers();
+    let laws = host.ids().into_iter().filter_map(|id| host.friction(&id).map(|law| (id, law.descriptor().name.to_string())));
+    let laws: Vec<(String, String)> = laws.collect();
+    Grid::new("friction").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
+        name(ui, "Law");
+        let width = ui.available_width() - 8.0;
+        let taken = fields::choose(ui, &desk.book, Book::SCENARIO, "friction.model", &laws, width);
+        edits.extend(taken.map(|id| ("friction.model".to_owned(), id)));
+        ui.end_row();
+    });
+    let others = desk.book.count(Book::SCENARIO, "friction.on");
+    if others > 0 {
+        let text = format!("and {others} more for single surfaces, in the file");
+        ui.label(RichText::new(text).small().color(Theme::palette_of(ui).faint));
+    }
+}
+
+/// A choice among words of the format; the empty one takes the field away.
+fn words(ui: &mut Ui, desk: &Desk, label: &str, field: &str, words: &[(&str, &str)], edits: &mut Vec<Edit>) {
+    name(ui, label);
+    let choices: Vec<(String, String)> = words.iter().map(|(word, text)| ((*word).to_owned(), (*text).to_owned())).collect();
+    let width = ui.available_width() - 8.0;
+    edits.extend(fields::choose(ui, &desk.book, Book::SCENARIO, field, &choices, width).map(|word| (field.to_owned(), word)));
+    ui.end_row();
+}
+
+/// Labels to the left all as wide, so that the groups line up.
+fn name(ui: &mut Ui, text: &str) {
+    let (rect, _) = ui.allocate_exact_size(egui::vec2(74.0, 20.0), egui::Sense::hover());
+    let colour = Theme::palette_of(ui).faint;
+    ui.painter().text(rect.left_center(), egui::Align2::LEFT_CENTER, text, egui::FontId::proportional(13.0), colour);
+}
+
+fn choice(ui: &mut Ui, desk: &Desk, field: &str, kind: Kind, edits: &mut Vec<Edit>) {
+    let library = desk.book.library();
+    let choices: Vec<(String, String)> = library.entries(kind).iter().map(|entry| (entry.id.clone(), entry.name.clone())).collect();
+    let width = ui.available_width() - 8.0;
+    edits.extend(fields::choose(ui, &desk.book, Book::SCENARIO, field, &choices, width).map(|id| (field.to_owned(), id)));
+}
+
+fn rows(ui: &mut Ui, desk: &Desk, id: &str, rows: &[Row], edits: &mut Vec<Edit>) {
+    Grid::new(id).num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
+        for row in rows {
+            name(ui, row.label);
+            let width = ui.available_width() - 12.0;
+            ui.vertical(|ui| {
+                let site = of_site(&desk.book, row.field);
+                let hint = if site.is_empty() { row.usual } else { &site };
+                let typed = fields::edit(ui, &desk.book, Book::SCENARIO, row.field, width, fields::Said { hint, help: row.help });
+                edits.extend(typed.map(|value| (row.field.to_owned(), value)));
+                if let Some(problem) = desk.book.problem_at(Book::SCENARIO, row.field) {
+                    let error = RichText::new(fields::told(problem)).size(11.0).color(Theme::palette_of(ui).error);
+                    ui.add(egui::Label::new(error).wrap());
+                }
+            });
+            ui.end_row();
+        }
+    });
+}
+
+/// What the site gives where the scenario itself names nothing.
+fn of_site(book: &Book, field: &str) -> String {
+    let key = match field {
+        "site.depth" => "depth",
+        "current.speed" => "current",
+        _ => return String::new(),
+    };
+    let file = |item: String| format!("sites/{item}.toml");
+    let site = book.field(Book::SCENARIO, "site.item").map(file);
+    let given = site.and_then(|path| book.field(&path, &format!("{key}.value")).or_else(|| book.field(&path, key)));
+    given.map_or_else(String::new, |value| format!("{value} (site)"))
+}
+
+fn flags(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
+    for flag in FLAGS {
+        let mut on = desk.book.field(Book::SCENARIO, flag.field).map_or(flag.usual, |text| text == "true");
+        if ui.checkbox(&mut on, flag.label).on_hover_text(flag.help).changed() {
+            edits.push((flag.field.to_owned(), on.to_string()));
+        }
+    }
+}
+
+fn apply(ui: &mut Ui, desk: &mut Desk) {
+    let wanted = desk.stale() && !desk.making() && !desk.book.any_error();
+    ui.horizontal(|ui| {
+        if primary(ui, wanted, "Apply").on_hover_text("Make the model from the present texts (Ctrl+Enter)").clicked() {
+            desk.orders.push(Order::Apply);
+        }
+        if ui.button("Pilot program …").on_hover_text("What the whale is steered to do, on a timeline").clicked() {
+            desk.orders.push(Order::Show(super::super::layout::Panel::Program));
+        }
+        if desk.making() {
+            ui.spinner();
+        }
+    });
+}

@@ -1,0 +1,90 @@
+//! The fields of the scenario panel: what each is called, where it stands, what it means.
+
+/// A field of the scenario's file that is typed.
+pub(super) struct Row {
+    /// Its name on screen.
+    pub(super) label: &'static str,
+    /// Where it stands in the file.
+    pub(super) field: &'static str,
+    /// What holds where it is empty.
+    pub(super) usual: &'static str,
+    /// What it means, with an example.
+    pub(super) help: &'static str,
+}
+
+/// A field that is on or off.
+pub(super) struct Flag {
+    /// Its name on screen.
+    pub(super) label: &'static str,
+    /// Where it stands in the file.
+    pub(super) field: &'static str,
+    /// What holds where it is not there.
+    pub(super) usual: bool,
+    /// What it means.
+    pub(super) help: &'static str,
+}
+
+const fn row(label: &'static str, field: &'static str, usual: &'static str, help: &'static str) -> Row {
+    Row { label, field, usual, help }
+}
+
+const fn flag(label: &'static str, field: &'static str, usual: bool, help: &'static str) -> Flag {
+    Flag { label, field, usual, help }
+}
+
+pub(super) const SEA: &[Row] = &[
+    row("Depth", "site.depth", "", "Water depth, over the site's, such as 40 fathom"),
+    row("Current", "current.speed", "", "Surface speed of the current, such as 0.5 m/s or 1 kn"),
+    row("Towards", "current.toward", "90 deg", "Compass bearing the current runs towards, such as 90 deg"),
+];
+
+pub(super) const TIDE: &[Row] = &[
+    row(
+        "Period",
+        "current.tide.period",
+        "steady",
+        "Period of the tide, such as 12.42 h; the current above is that at its peak. Empty: a steady current",
+    ),
+    row("Peak at", "current.tide.peak", "0 s", "Time of the run at which the current is at its peak"),
+    row("Residual", "current.tide.residual", "none", "Steady current that is left without the tide, such as 0.05 m/s"),
+];
+
+pub(super) const WAVES: &[Row] = &[
+    row("Height", "waves.height", "no waves", "Height from trough to crest, such as 1.2 m; empty for a flat sea"),
+    row("Period", "waves.period", "", "Period of the waves, such as 6 s"),
+    row("Towards", "waves.toward", "90 deg", "Compass bearing towards which they run"),
+    row("Spectrum", "waves.spectrum", "regular", "jonswap for irregular waves, drawn from the seed; height is then the significant one"),
+];
+
+pub(super) const WHALE: &[Row] = &[
+    row("Length", "whale.length", "of its file", "Body length, snout to fluke notch, such as 13 m; or an age"),
+    row("Age", "whale.age", "by length", "Age, such as 2 yr: the length follows by the law of the whale's file"),
+    row("Condition", "whale.condition", "1", "Volume over that of middling condition, 0.65 to 1.5; below 1 is thin"),
+    row("Start east", "whale.position.0", "", "Where mid-body starts, east of the origin"),
+    row("Start north", "whale.position.1", "", "Where mid-body starts, north of the origin"),
+    row("Depth", "whale.depth", "", "Depth of mid-body at the start, such as 12 m"),
+    row("Heading", "whale.heading", "90 deg", "Compass bearing of the snout, such as 90 deg"),
+    row("Pitch", "whale.pitch", "0 deg", "Nose up at the start"),
+    row("Roll", "whale.roll", "0 deg", "Roll to starboard at the start"),
+];
+
+/// Of a living whale.
+pub(super) const SWIMS: &[Row] = &[row("Speed", "whale.speed", "", "Speed through the water at the start, such as 1 m/s")];
+
+pub(super) const RUN: &[Row] = &[
+    row("Duration", "duration", "", "Length of the run, such as 60 s"),
+    row("Seed", "seed", "0", "Seed of everything drawn at random"),
+    row("Rope nodes", "rope_nodes", "", "Nodes of all ropes, shared out by length; more is finer and slower"),
+];
+
+pub(super) const FLAGS: &[Flag] = &[
+    flag("Weak links part", "weak_links", true, "Off: links hold whatever they are rated (K when flying)"),
+    flag(
+        "Strengths are drawn at random",
+        "strength_scatter",
+        false,
+        "Strengths of ropes and links scatter as their files say, by the seed",
+    ),
+    flag("Ropes touch each other", "rope_on_rope", false, "Twists and hitches hold; slower"),
+    flag("Ropes touch traps and buoys", "rope_on_bodies", false, "Rope lies on traps, buoys and anchors"),
+];

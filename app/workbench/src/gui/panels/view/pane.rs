@@ -1,0 +1,119 @@
+//! One pane of the 3-D view.
+
+use egui::{Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, WidgetType};
+use endline_session::live::LiveView;
+use glam::DVec2;
+
+use super::super::super::canvas::Canvas;
+use super::super::super::desk::Desk;
+use super::super::super::theme::Theme;
+use super::super::super::{hud, picking, pose};
+use super::spoken;
+use crate::scene::pick::pick;
+use crate::scene::rope::greatest_n;
+use crate::scene::{Camera, Overlay, Water, overlay};
+
+/// What a pane shows.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pane {
+    /// 0 for the run, 1 for the one it is compared with.
+    pub(super) run: usize,
+    /// Its eye.
+    pub(super) slot: usize,
+}
+
+/// Draws a pane in its place.
+pub(super) fn show(ui: &mut Ui, desk: &mut Desk, view: &LiveView, pane: Pane, rect: Rect) {
+    let Pane { run, slot } = pane;
+    let response = ui.interact(rect, ui.id().with(("pane", run, slot)), Sense::click_and_drag());
+    let name = if run == 0 { format!("Pane {}", slot + 1) } else { format!("Pane {} of B", slot + 1) };
+    response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, &name));
+    if response.clicked() || response.dragged() {
+        ui.memory_mut(|memory| memory.stop_text_input());
+        desk.view3d.chosen = slot;
+    }
+    let flying = desk.flying;
+    let eye = &mut desk.view3d.eyes[slot];
+    eye.turn(ui, &response, flying);
+    let camera = eye.placed(view, rect);
+    if run == 0 {
+        (eye.camera, eye.frame_again) = (camera.clone(), false);
+    }
+    click(desk, view, &camera, &response);
+    paint(ui, desk, pane, rect, &camera);
+    write_over(ui, desk, view, pane, rect, &camera);
+    if run == 0 {
+        pose::show(ui, rect, &camera, desk, slot);
+    }
+}
+
+/// A click reads what is there, or measures.
+fn click(desk: &mut Desk, view: &LiveView, camera: &Camera, response: &Response) {
+    let rect = response.rect;
+    let Some(at) = response.interact_pointer_pos().filter(|_| response.clicked()) else { return };
+    let at = at - rect.min;
+    let (at, size) = (DVec2::new(f64::from(at.x), f64::from(at.y)), DVec2::new(f64::from(rect.width()), f64::from(rect.height())));
+    let hit = pick(&view.model, &view.frame, camera, at, size, desk.view3d.show.whale);
+    desk.view3d.picks.take(hit);
+}
+
+fn paint(ui: &Ui, desk: &Desk, pane: Pane, rect: Rect, camera: &Camera) {
+    match &desk.view3d.drawn[pane.run].canvas {
+        Some(canvas) => {
+            let water = if desk.preferences.theme == Theme::Dark { Water::DARK } else { Water::LIGHT };
+            ui.painter().add(Canvas::callback(canvas, pane.slot, rect, camera.clone(), water));
+        }
+        None => {
+            ui.painter().rect_filled(rect, 0.0, Theme::palette_of(ui).ground);
+        }
+    }
+}
+
+fn write_over(ui: &Ui, desk: &Desk, view: &LiveView, pane: Pane, rect: Rect, camera: &Camera) {
+    let Pane { run, slot } = pane;
+    let (state, painter) = (&desk.view3d, ui.painter().with_clip_rect(rect));
+    let several = state.eyes.len() > 1;
+    let compared = desk.other().is_some();
+    let caption = caption(desk, view, pane, several, compared);
+    // One scale is enough for all panes: in the last, at the foot.
+    let last = slot + 1 == state.eyes.len() && run == usize::from(compared);
+    let scale_n = if last { state.scale_n } else { 0.0 };
+    let metres_a_point = camera.metres_a_point(f64::from(rect.height()));
+    overlay::paint(&painter, rect, &Overlay { caption: &caption, time_s: view.frame.time_s, scale_n, metres_a_point });
+    picking::paint(&painter, rect, camera, desk, view);
+    if several && slot == state.chosen {
+        painter.rect_stroke(rect, 0.0, Stroke::new(1.5, Theme::palette_of(ui).accent), StrokeKind::Inside);
+    }
+    if slot == 0 && run == 0 {
+        felt(ui, desk, &painter, rect);
+    }
+    if desk.flying && slot == state.chosen && run == 0 {
+        let act = desk.pilot.chosen_act(desk.acts().len()).map(|act| desk.acts()[act].name.as_ref());
+        hud::paint(&painter, rect, view, desk.preferences.units, &hud::told(&view.controls, act, desk.pilot.hands()));
+    }
+}
+
+fn caption(desk: &Desk, view: &LiveView, pane: Pane, several: bool, compared: bool) -> String {
+    let eye = &desk.view3d.eyes[pane.slot];
+    let run = if compared { ["A", "B"][pane.run] } else { "" };
+    let named = if several { spoken(eye.named) } else { String::new() };
+    let standing = match (view.sought && pane.run == 0, desk.stale() && pane.run == 0) {
+        (true, _) => "looking back",
+        (false, true) => "before the last edits",
+        (false, false) => "",
+    };
+    let greatest_n = if desk.view3d.show.forces { greatest_n(&view.frame) } else { 0.0 };
+    let arrows =
+        if greatest_n > 0.0 { format!("longest arrow {}", desk.preferences.units.force().text(greatest_n)) } else { String::new() };
+    [run, named.as_str(), standing, arrows.as_str()].into_iter().filter(|words| !words.is_empty()).collect::<Vec<_>>().join(", ")
+}
+
+/// The edge flashes with what the pilot feels.
+fn felt(ui: &Ui, desk: &Desk, painter: &egui::Painter, rect: Rect) {
+    let felt = desk.rumble.strength(ui.input(|input| input.time));
+    if felt > 0.0 {
+        let warning = Theme::palette_of(ui).warning.gamma_multiply(felt as f32);
+        painter.rect_stroke(rect, 0.0, Stroke::new(10.0 * felt as f32, warning), StrokeKind::Inside);
+        ui.ctx().request_repaint();
+    }
+}

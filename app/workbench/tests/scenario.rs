@@ -1,0 +1,129 @@
+//! The scenario edited in the window: the whale's start dragged in the view, fields and choices of the panel; wraps told.
+#![cfg(feature = "gui")]
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+mod common;
+
+use common::{Folder, drag, linked, opened_with, retype, wait};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use endline_session::live::Status;
+use endline_workbench::gui::app::App;
+use endline_workbench::gui::book::Book;
+use endline_workbench::gui::desk::Order;
+use endline_workbench::gui::engine;
+use endline_workbench::gui::layout::Panel;
+use endline_workbench::gui::pose::Start;
+use endline_workbench::gui::wraps::wraps;
+use endline_workbench::input::Pilot;
+use endline_workbench::scene::View;
+
+/// A scenario settled, with one panel alone.
+fn settled(folder: &Folder, scenario: &str, panel: Panel) -> Harness<'static, App> {
+    let mut harness = opened_with(folder.book_with(scenario), linked(), engine::live(), Pilot::default());
+    wait(&mut harness, |app| app.desk.status() == Some(&Status::Paused));
+    harness.state_mut().dock = egui_dock::DockState::new(vec![panel.id().to_owned()]);
+    harness.run_steps(3);
+    harness
+}
+
+#[test]
+fn the_whale_is_dragged_to_where_it_starts_and_one_undo_brings_it_back() {
+    let folder = Folder::new("pose");
+    let mut harness = settled(&folder, "hello-endline", Panel::View);
+    let start = |harness: &Harness<'static, App>| Start::of(&harness.state().desk.book).unwrap();
+    let before = start(&harness);
+    harness.get_by_label("Start pose").click();
+    harness.run_steps(3);
+    harness.state_mut().desk.obey(&Order::Look(View::Top));
+    harness.run_steps(3);
+    let middle = harness.get_by_label("Start place").rect().center();
+    drag(&mut harness, middle, middle + egui::vec2(40.0, -25.0));
+    let moved = start(&harness);
+    let metres = f64::from(40.0_f32) * harness.state().desk.view3d.eyes[0].camera.metres_a_point(800.0);
+    assert!(moved.place.x - before.place.x > 0.3 * metres && moved.place.y > before.place.y, "east and north: {moved:?}");
+    assert!((moved.place.z - before.place.z).abs() < 1e-9 && (moved.heading - before.heading).abs() < 1e-9, "{moved:?}");
+    wait(&mut harness, |app| {
+        app.desk
+            .view
+            .as_ref()
+            .and_then(|view| view.model.spec.whale.as_ref())
+            .is_some_and(|whale| (whale.position_m - moved.place).length() < 1e-6)
+    });
+
+    let snout = harness.get_by_label("Start heading").rect().center();
+    let middle = harness.get_by_label("Start place").rect().center();
+    // North is up in the view from above: a snout dragged to the right of the middle heads east.
+    drag(&mut harness, snout, middle + egui::vec2((snout - middle).length(), 0.0));
+    let turned = start(&harness);
+    assert!((turned.heading.to_degrees() - 90.0).abs() < 3.0, "{turned:?}");
+    for _ in 0..2 {
+        harness.state_mut().desk.obey(&Order::Undo);
+    }
+    assert_eq!(start(&harness), before);
+    assert!(harness.state().desk.book.unsaved().is_empty());
+}
+
+#[test]
+fn fields_choices_and_flags_of_the_panel_reach_the_text() {
+    let folder = Folder::new("scenario-fields");
+    let mut harness = settled(&folder, "hello-endline", Panel::Scenario);
+    retype(&mut harness, "12 m", "9 m");
+    let field = |harness: &Harness<'static, App>, field: &str| harness.state().desk.book.field(Book::SCENARIO, field);
+    assert_eq!(field(&harness, "whale.depth").as_deref(), Some("9 m"));
+    harness.get_by_label("Ropes touch each other").scroll_to_me();
+    harness.run_steps(3);
+    harness.get_by_label("Ropes touch each other").click();
+    harness.run_steps(3);
+    assert_eq!(field(&harness, "rope_on_rope").as_deref(), Some("true"));
+    harness.state_mut().desk.obey(&Order::Undo);
+    assert_eq!(field(&harness, "rope_on_rope"), None);
+    assert!(!harness.state().desk.book.any_error(), "{:?}", harness.state().desk.book.problems());
+    for head in ["SEA", "TIDE THAT TURNS", "WAVES", "WHALE", "FRICTION OF ROPE ON WHALE", "RUN"] {
+        assert!(harness.query_by_label(head).is_some(), "{head} is on screen");
+    }
+    harness.get_by_label("Pilot program …").click();
+    harness.run_steps(3);
+    assert!(harness.query_by_label("Timeline").is_some());
+}
+
+#[test]
+fn wraps_of_a_whale_wound_in_rope_are_told_as_measured() {
+    let folder = Folder::new("wraps");
+    let mut harness = settled(&folder, "dead-whale-wraps", Panel::Entanglement);
+    for step in 1..=3_u64 {
+        harness.state_mut().desk.obey(&Order::Step);
+        wait(&mut harness, |app| app.desk.view.as_ref().is_some_and(|view| view.frame.step >= step));
+    }
+    let view = harness.state().desk.view.clone().unwrap();
+    let found = wraps(&view);
+    let whale = view.summary.as_ref().unwrap().whale.as_ref().unwrap();
+    let wound: Vec<_> = whale.regions.iter().filter(|region| region.wraps >= 0.25).collect();
+    assert!(!wound.is_empty() && wound.len() == found.len(), "{found:?}");
+    for region in wound {
+        let wrap = found.iter().find(|wrap| wrap.part == region.part).unwrap();
+        assert!((wrap.turns - region.wraps).abs() < 1e-12, "{wrap:?}");
+        assert!((wrap.touching_m - region.contact_length_m).abs() < 1e-9, "{wrap:?}, {} m", region.contact_length_m);
+        if region.wraps >= 0.5 {
+            assert!(wrap.since_s.is_some(), "an event has told of it: {wrap:?}");
+        }
+    }
+    assert!(found.windows(2).all(|pair| pair[0].turns >= pair[1].turns), "most turns first");
+    assert!(harness.query_by_label("WRAPS AT THIS MOMENT").is_some());
+}
+
+#[test]
+fn a_scenario_saved_as_another_leaves_the_first_as_it_was() {
+    let folder = Folder::new("save-as");
+    let mut harness = settled(&folder, "reference-a-pendulum", Panel::Scenario);
+    let first = harness.state().desk.book.scenario_path().to_owned();
+    let before = std::fs::read_to_string(&first).unwrap();
+    harness.state_mut().desk.set(Book::SCENARIO, "duration", "7 s");
+    let other = folder.0.join("scenarios/my-pendulum.toml");
+    harness.state_mut().desk.obey(&Order::ScenarioAs(other.clone()));
+    assert_eq!(std::fs::read_to_string(&first).unwrap(), before);
+    assert!(std::fs::read_to_string(&other).unwrap().contains("7 s"));
+    let desk = &harness.state().desk;
+    assert!(desk.book.scenario_path() == other && desk.book.unsaved().is_empty());
+    assert_eq!(desk.preferences.recent.first(), Some(&other));
+}
