@@ -9,13 +9,14 @@ use std::sync::Arc;
 use common::{Folder, linked, opened_with, wait};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
+use endline_gear::{Document, Setting};
 use endline_session::plugins::{Choices, Language, Loader, PluginKind, Standing, write_project};
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::book::Book;
 use endline_workbench::gui::desk::Order;
-use endline_workbench::gui::engine;
 use endline_workbench::gui::layout::Panel;
 use endline_workbench::gui::plugins::{Load, Plugins};
+use endline_workbench::gui::{engine, fields};
 use endline_workbench::input::Pilot;
 
 /// A folder of plugins, deleted in the end.
@@ -59,9 +60,9 @@ fn a_plugin_is_listed_switched_off_and_taken_in_anew() {
     harness.get_by_label("Reload").click();
     harness.run_steps(2);
     reloaded(&mut harness, 1);
-    harness.get_by_label("Our gear").click();
+    harness.get_all_by_label("Our gear").next().unwrap().click();
     harness.run_steps(2);
-    assert!(harness.query_by_label_contains("20 fathom").is_some() || harness.query_by_label_contains("36.6 m").is_some(), "units");
+    assert!(harness.query_by_label_contains("36.576 m").is_some(), "20 fathoms, with their unit");
 
     let file = project.library.join("gear-types/simple.toml");
     std::fs::write(&file, std::fs::read_to_string(&file).unwrap().replace("Our gear", "Their gear")).unwrap();
@@ -114,7 +115,9 @@ fn a_law_of_friction_is_put_into_the_scenario_and_its_attributes_are_a_form() {
     let (motion, _) = harness.state().desk.every_plugin().into_iter().find(|(info, _)| info.id == "org.endline.motion.swim").unwrap();
     assert!(harness.state().desk.uses_plugin(&motion));
     harness.state_mut().desk.book.set(Book::SCENARIO, "friction.model", "org.example.friction.other").unwrap();
-    harness.state_mut().desk.book.set(Book::SCENARIO, "friction.attributes.slip", "0.1 m").unwrap();
+    let other =
+        |scenario: &mut Document| scenario.put("friction.attributes.slip", &Setting::text("0.1 m")).map_err(|error| error.to_string());
+    harness.state_mut().desk.book.alter(Book::SCENARIO, other).unwrap();
     harness.state_mut().desk.plugins.chosen = Some(id.to_owned());
     harness.run_steps(2);
     harness.get_by_label("Use in this scenario").click();
@@ -123,6 +126,18 @@ fn a_law_of_friction_is_put_into_the_scenario_and_its_attributes_are_a_form() {
     assert_eq!(book.field(Book::SCENARIO, "friction.model").as_deref(), Some(id));
     assert_eq!(book.field(Book::SCENARIO, "friction.attributes.slip"), None, "those of the other law are gone");
     assert!(harness.query_by_label("In this scenario").is_some());
+
+    // A value typed into the form makes the table of attributes that is not there.
+    let field = fields::edit_id(Book::SCENARIO, "friction.attributes.coefficient_scale");
+    harness.ctx.memory_mut(|memory| memory.request_focus(field));
+    harness.run_steps(2);
+    harness.event(egui::Event::Text("1.5".to_owned()));
+    harness.run_steps(1);
+    harness.key_press(egui::Key::Enter);
+    harness.run_steps(3);
+    let scale = harness.state().desk.book.field(Book::SCENARIO, "friction.attributes.coefficient_scale");
+    assert_eq!(scale.as_deref(), Some("1.5"));
+    harness.state_mut().desk.obey(&Order::Undo);
     harness.state_mut().desk.obey(&Order::Undo);
     assert_eq!(harness.state().desk.book.field(Book::SCENARIO, "friction.model").as_deref(), Some("org.example.friction.other"));
 }

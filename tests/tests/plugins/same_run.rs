@@ -21,12 +21,20 @@ fn scenarios() -> Vec<PathBuf> {
     files
 }
 
-/// A run of so many steps: its end as the hash that recordings keep, or what stopped it; and whether rope touched the whale.
+/// A run of so many steps: its end as the hash that recordings keep, or what stopped it; and whether rope touched the whale. A whale
+/// that no rope touches so soon is set with its snout before the rope.
 fn run(library: &Library, text: &str, hooks: &dyn Hooks, steps: usize) -> (Result<String, String>, bool) {
-    match model(library, text, hooks) {
-        Ok(model) => walk(&model, steps),
-        Err(told) => (Err(told), false),
+    let first = match model(library, text, hooks, None) {
+        Ok(model) => model,
+        Err(told) => return (Err(told), false),
+    };
+    let as_written = walk(&first, steps);
+    if as_written.1 || first.spec.whale.is_none() {
+        return as_written;
     }
+    let rope = State::start(&first).rope.position;
+    let near = model(library, text, hooks, Some(&rope)).map(|model| walk(&model, steps));
+    near.ok().filter(|(end, _)| end.is_ok()).unwrap_or(as_written)
 }
 
 fn walk(model: &Model, steps: usize) -> (Result<String, String>, bool) {
@@ -41,17 +49,22 @@ fn walk(model: &Model, steps: usize) -> (Result<String, String>, bool) {
     (Ok(StateHash::of(&input, &state).hex()), touched)
 }
 
-/// The scenario's model, a whale set so that the rope lies against its back: contact from the first steps on.
-fn model(library: &Library, text: &str, hooks: &dyn Hooks) -> Result<Model, String> {
+/// The scenario's model; the whale just short of the rope where that is given.
+fn model(library: &Library, text: &str, hooks: &dyn Hooks, rope: Option<&[DVec3]>) -> Result<Model, String> {
     let scenario = Scenario::read("test.toml", text).map_err(|problems| format!("{problems:?}"))?;
     let options = Options { rope_nodes: scenario.rope_nodes.as_ref().map(|_| 80), ..Options::default() };
     let spec = assemble(&scenario, library, hooks, &options).or_else(|_| assemble(&scenario, library, hooks, &Options::default()));
-    let mut model = Model::new(spec.map_err(|problems| format!("{problems:?}"))?).map_err(|errors| format!("{errors:?}"))?;
-    let rope = State::start(&model).rope.position;
-    let (Some(whale), Some(node)) = (&mut model.spec.whale, rope.get(rope.len() / 2)) else { return Ok(model) };
-    let back = whale.skin.vertices.iter().copied().max_by(|a, b| a.z.total_cmp(&b.z)).unwrap();
-    whale.position_m = *node - whale.orientation * (back - 0.01 * DVec3::Z);
-    Model::new(model.spec).map_err(|errors| format!("{errors:?}"))
+    let mut spec = spec.map_err(|problems| format!("{problems:?}"))?;
+    if let (Some(whale), Some(rope)) = (&mut spec.whale, rope) {
+        let ahead = whale.orientation * DVec3::X;
+        let least = rope.iter().map(|node| node.dot(ahead)).fold(f64::INFINITY, f64::min);
+        // The hindmost of the rope on the whale's way, as far from its ends as can be.
+        let hindmost = (0..rope.len()).filter(|index| rope[*index].dot(ahead) < least + 0.05);
+        let node = hindmost.min_by_key(|index| index.abs_diff(rope.len() / 2)).map_or(DVec3::ZERO, |index| rope[index]);
+        let snout = whale.skin.vertices.iter().copied().max_by(|a, b| a.x.total_cmp(&b.x)).unwrap();
+        whale.position_m = node - whale.orientation * snout - 0.08 * ahead;
+    }
+    Model::new(spec).map_err(|errors| format!("{errors:?}"))
 }
 
 #[test]
@@ -75,7 +88,9 @@ fn every_bundled_scenario_runs_to_the_same_hash_linked_and_loaded() {
 /// Four laws of friction at work.
 #[test]
 fn an_encounter_with_a_law_for_each_surface_runs_to_the_same_hash() {
-    let text = fs::read_to_string(root().join("scenarios/hello-friction.toml")).unwrap();
+    let far = fs::read_to_string(root().join("scenarios/hello-friction.toml")).unwrap();
+    let text = far.replace("\"-22 m\"", "\"-9 m\"");
+    assert_ne!(far, text);
     let (library, loaded) = (library(), loaded());
     let (end, touched) = run(&library, &text, &Linked, 300);
     assert!(touched, "the rope touches the whale");

@@ -146,7 +146,10 @@ pub(super) fn refuse_damage(recording: &Recording) -> Result<(), Error> {
 }
 
 /// Every recorded plugin must be here, the same version from the same file.
-fn check_plugins(recorded: &[PluginUsed], here: &[PluginUsed]) -> Result<(), Error> {
+///
+/// # Errors
+/// Naming each that is missing or another.
+pub fn check_plugins(recorded: &[PluginUsed], here: &[PluginUsed]) -> Result<(), Error> {
     let mut problems = Vec::new();
     for plugin in recorded {
         let id = &plugin.id;

@@ -12,6 +12,8 @@ use std::sync::Arc;
 use endline_gear::Diagnostic;
 use endline_sdk::{Act, GearType};
 use endline_session::live::{Command, LiveView, Status};
+use endline_session::recording::PluginUsed;
+use endline_session::recording::replay::check_plugins;
 use endline_session::{Error, Overrides, PluginHost, Prepared, Source};
 
 use compare::Other;
@@ -110,8 +112,8 @@ pub struct Desk {
     run_is_kept: bool,
     /// Whether plugins were loaded again since the run's thread began.
     other_plugins: bool,
-    /// Inputs of a recording whose model is in the making.
-    inputs_when_made: Option<Vec<endline_sdk::Controls>>,
+    /// Inputs of a recording whose model is in the making, and the plugins it ran on.
+    inputs_when_made: Option<(Vec<endline_sdk::Controls>, Vec<PluginUsed>)>,
     /// Version of the texts when a run was loaded that is not made from them: a recording, or an encounter of a study.
     guest: Option<u64>,
     guest_when_made: Option<u64>,
@@ -421,11 +423,17 @@ impl Desk {
     fn take_made(&mut self, made: Result<Prepared, Error>) {
         self.make_problems.clear();
         let start = std::mem::take(&mut self.start_when_made);
+        let recorded = self.inputs_when_made.take();
         match made {
             Ok(prepared) => {
+                let other = recorded.as_ref().and_then(|(_, plugins)| check_plugins(plugins, &prepared.plugins).err());
+                if let Some(error) = other {
+                    self.guest_when_made = None;
+                    return self.notice = Some((error.to_string(), true));
+                }
                 self.notice = None;
                 self.load(prepared);
-                if let Some(inputs) = self.inputs_when_made.take() {
+                if let Some((inputs, _)) = recorded {
                     self.tell(Command::Inputs(inputs));
                     self.run_is_kept = true;
                 }

@@ -57,7 +57,8 @@ impl Desk {
             // The next model goes to a run with the new plugins.
             self.applied = None;
             self.other_plugins = true;
-            if !waiting && !self.book.any_error() {
+            // While a question stands open, the model would lack what is asked about.
+            if !waiting && !self.book.any_error() && self.plugins.asked().is_none() {
                 self.make();
             }
         }

@@ -40,7 +40,7 @@ impl Desk {
             Err(error) => return self.notice = Some((error.to_string(), true)),
         };
         self.making.clear();
-        self.inputs_when_made = Some(recording.inputs);
+        self.inputs_when_made = Some((recording.inputs, recording.header.plugins));
         self.guest_when_made = Some(self.book.version());
         if let Err(error) = self.maker.start(recording.source, Arc::clone(&self.host), Arc::clone(&self.waker)) {
             self.notice = Some((format!("the model cannot be made: {error}"), true));

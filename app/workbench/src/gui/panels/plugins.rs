@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use egui::{Button, Grid, Label, RichText, ScrollArea, Ui};
+use endline_gear::Setting;
 use endline_gear::units::{Quantity, format_si};
 use endline_sdk::{Attribute, AttributeKind};
 use endline_session::plugins::{Change, PluginInfo, PluginProblem, Standing};
@@ -18,6 +19,9 @@ const LIST_SHARE: f32 = 0.38;
 /// Draws the panel.
 pub fn show(ui: &mut Ui, desk: &mut Desk) {
     let plugins = desk.every_plugin();
+    if !plugins.iter().any(|(info, _)| desk.plugins.chosen.as_ref() == Some(&info.id)) {
+        desk.plugins.chosen = plugins.first().map(|(info, _)| info.id.clone());
+    }
     toolbar(ui, desk);
     ui.separator();
     let whole = ui.available_rect_before_wrap();
@@ -26,7 +30,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
         ScrollArea::vertical().id_salt("list").auto_shrink(false).show(ui, |ui| list(ui, desk, &plugins));
     });
     super::within(ui, right, |ui| {
-        let chosen = plugins.iter().find(|(info, _)| desk.plugins.chosen.as_ref() == Some(&info.id)).or(plugins.first()).cloned();
+        let chosen = plugins.iter().find(|(info, _)| desk.plugins.chosen.as_ref() == Some(&info.id)).cloned();
         ScrollArea::vertical().id_salt("chosen").auto_shrink(false).show(ui, |ui| match chosen {
             Some((info, on)) => detail(ui, desk, &info, on),
             None => super::nothing(ui, "No plugins: build them with `cargo xtask plugins`, or write one: `endline plugins new`."),
@@ -225,7 +229,11 @@ fn attributes(ui: &mut Ui, desk: &mut Desk, info: &PluginInfo) {
         }
     });
     for (field, value) in edits {
-        desk.set(Book::SCENARIO, &field, &value);
+        // The table of attributes may not be there yet.
+        let value = Setting::plain(&value);
+        if let Err(error) = desk.book.alter(Book::SCENARIO, |scenario| scenario.put(&field, &value).map_err(|error| error.to_string())) {
+            desk.notice = Some((error, true));
+        }
     }
 }
 
