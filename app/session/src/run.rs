@@ -1,5 +1,7 @@
 //! A run: a settled model stepped through time, measured and recorded on the way.
 
+mod moment;
+
 use std::ops::Range;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -13,6 +15,8 @@ use crate::hash::StateHash;
 use crate::recording::{Header, Recording};
 use crate::source::Prepared;
 use crate::timing::Timing;
+
+pub use moment::Moment;
 
 /// How a run is kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -118,6 +122,11 @@ impl Run {
         while !self.finished() && self.step(self.pilot()).is_ok() {
             progress(self.state.step, self.steps_in_all());
         }
+    }
+
+    /// Ends the run here, with a reason.
+    pub fn give_up(&mut self, reason: &str) {
+        self.stopped = Some(Stop { time_s: self.state.time_s, part: "the run".into(), reason: reason.into() });
     }
 
     /// The pilot program's controls for the next step.

@@ -8,7 +8,7 @@ use crate::tree::{Content, Node};
 const DEFINING: [&str; 5] = ["scenario", "seed", "run", "option", "encounter"];
 
 /// Keys that only explain.
-const EXPLAINING: [&str; 4] = ["name", "notes", "source", "sureness"];
+const EXPLAINING: [&str; 5] = ["curve", "name", "notes", "source", "sureness"];
 
 /// The text a study is hashed by.
 pub(super) fn of(study: &Node) -> String {

@@ -23,6 +23,8 @@ pub enum Event {
     PartedFree,
     /// It parted and rope still held.
     PartedEntangled,
+    /// Rope lodged in the mouth at some time.
+    Lodged,
     /// Rope on any of these parts.
     On(RegionEvent, Vec<BodyPart>),
 }
@@ -47,7 +49,7 @@ impl Event {
     /// Every event there is.
     #[must_use]
     pub fn all() -> Vec<Self> {
-        let mut all = vec![Self::Contact, Self::Shed, Self::Entangled, Self::Parted, Self::PartedFree, Self::PartedEntangled];
+        let mut all = vec![Self::Contact, Self::Shed, Self::Entangled, Self::Parted, Self::PartedFree, Self::PartedEntangled, Self::Lodged];
         for kind in [RegionEvent::Contact, RegionEvent::Wrap] {
             all.extend(BodyPart::ALL.into_iter().map(|part| Self::On(kind, vec![part])));
             all.extend(GROUPS.into_iter().map(|(_, parts)| Self::On(kind, parts.to_vec())));
@@ -66,6 +68,7 @@ impl Event {
             Self::Parted => "parted".into(),
             Self::PartedFree => "parted_free".into(),
             Self::PartedEntangled => "parted_entangled".into(),
+            Self::Lodged => "lodged".into(),
             Self::On(kind, parts) => {
                 let kind = if *kind == RegionEvent::Contact { "contact" } else { "wrap" };
                 format!("{kind}_{}", place(parts))
@@ -83,6 +86,7 @@ impl Event {
             Self::Parted => "something parted".into(),
             Self::PartedFree => "parted and free".into(),
             Self::PartedEntangled => "parted, still entangled".into(),
+            Self::Lodged => "lodged in the mouth".into(),
             Self::On(RegionEvent::Contact, parts) => format!("rope on {}", place(parts).replace('_', " ")),
             Self::On(RegionEvent::Wrap, parts) => format!("wrap on {}", place(parts).replace('_', " ")),
         }

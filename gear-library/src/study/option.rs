@@ -14,6 +14,8 @@ pub struct StudyOption {
     pub name: String,
     /// Breaking strength that it stands for, for the curve of break-away against strength [N].
     pub strength_n: Option<f64>,
+    /// Which of the curves it belongs to, where strengths of several kinds are compared, such as `weak link`.
+    pub curve: Option<String>,
     /// What it sets.
     pub settings: Vec<Setting>,
     /// Fields it takes out of the scenario.
@@ -62,6 +64,7 @@ fn read(node: &Node, problems: &Problems) -> Option<StudyOption> {
     let id = fields.need_text("id", "write an id such as \"link-600\"");
     let name = fields.text("name");
     let strength = fields.value("strength", crate::units::Quantity::Force, crate::fields::Range::Positive);
+    let curve = fields.text("curve");
     let removes = texts(&fields, "remove");
     let mut settings = Vec::new();
     if let Some(set) = fields.get("set") {
@@ -71,7 +74,8 @@ fn read(node: &Node, problems: &Problems) -> Option<StudyOption> {
     fields.finish();
     let id = id?;
     let name = name.map_or_else(|| id.value.clone(), |name| name.value);
-    Some(StudyOption { id, name, strength_n: strength.map(|strength| strength.value), settings, removes })
+    let (strength_n, curve) = (strength.map(|strength| strength.value), curve.map(|curve| curve.value));
+    Some(StudyOption { id, name, strength_n, curve, settings, removes })
 }
 
 /// Every leaf of a table with its dotted path; quoted and bare keys come to the same.

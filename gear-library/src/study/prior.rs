@@ -90,15 +90,28 @@ pub enum Law {
 }
 
 impl Law {
+    /// A drawn number [SI] as the file would have it, to three figures: `1.18 m/s`; a level by its own text.
+    #[must_use]
+    pub fn told(&self, number: f64) -> String {
+        let rounded: f64 = format!("{number:.2e}").parse().unwrap_or(number);
+        match self {
+            Self::Uniform { quantity, .. } | Self::Normal { quantity, .. } => in_words(rounded, *quantity),
+            Self::Choice(levels) => {
+                let same = |level: &Level| level.number.is_some_and(|known| known.total_cmp(&number).is_eq());
+                levels.iter().find(|(level, _)| same(level)).map_or_else(|| rounded.to_string(), |(level, _)| level.text.clone())
+            }
+        }
+    }
+
     /// In words, such as `even from 0.6 m/s to 1.6 m/s`.
     #[must_use]
     pub fn words(&self) -> String {
         match self {
             Self::Uniform { low, high, quantity } => {
-                format!("even from {} to {}", units::format_si(*low, *quantity), units::format_si(*high, *quantity))
+                format!("even from {} to {}", in_words(*low, *quantity), in_words(*high, *quantity))
             }
             Self::Normal { mean, deviation, low, high, quantity } => {
-                let [mean, deviation, low, high] = [mean, deviation, low, high].map(|value| units::format_si(*value, *quantity));
+                let [mean, deviation, low, high] = [mean, deviation, low, high].map(|value| in_words(*value, *quantity));
                 format!("normal about {mean} with deviation {deviation}, from {low} to {high}")
             }
             Self::Choice(levels) => {
@@ -106,6 +119,23 @@ impl Law {
                 levels.iter().map(level).collect::<Vec<_>>().join(", ")
             }
         }
+    }
+}
+
+/// A value with its unit: angles in degrees, all else in SI.
+fn in_words(value: f64, quantity: Quantity) -> String {
+    if quantity == Quantity::Angle {
+        return format!("{} deg", value.to_degrees().round());
+    }
+    units::format_si(value, quantity)
+}
+
+impl Prior {
+    /// Its name for people: `flipper sweep`, `friction coefficient scale`.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let parts = self.name.value.split(['.', '/']).filter(|part| *part != "attributes" && part.parse::<usize>().is_err());
+        parts.collect::<Vec<_>>().join(" ").replace('_', " ")
     }
 }
 

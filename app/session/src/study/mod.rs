@@ -8,6 +8,7 @@
 //! How to use it and what its numbers do not say: `docs/studies.md`.
 
 pub mod batch;
+mod branch;
 pub mod draw;
 pub mod encounter;
 pub mod folder;
@@ -15,6 +16,7 @@ pub mod merge;
 mod open;
 mod parquet;
 mod play;
+mod ready;
 pub mod report;
 mod rest;
 mod row;

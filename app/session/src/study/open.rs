@@ -42,8 +42,12 @@ pub struct OptionPlan {
     pub name: String,
     /// Strength it stands for [N].
     pub strength_n: Option<f64>,
+    /// Which curve of break-away against strength it belongs to.
+    pub curve: Option<String>,
     /// Paths of all it sets, of scenario and library.
     pub(super) own: Vec<String>,
+    /// The same with what they are set to, as a file has it.
+    pub(super) sets: Vec<(String, String)>,
     pub(super) settings: Vec<OptionSetting>,
     pub(super) removes: Vec<String>,
     /// The baseline scenario, before anything is set.
@@ -108,6 +112,16 @@ impl Opened {
     }
 }
 
+impl Opened {
+    /// Ids of the options by families: those of one differ in strengths alone, and share their runs until something parts.
+    #[must_use]
+    pub fn families(&self) -> Vec<Vec<&str>> {
+        let of = |family: usize| (0..self.options.len()).filter(move |option| self.families[*option] == family);
+        let ids = |family: usize| of(family).map(|option| self.options[option].id.as_str()).collect::<Vec<_>>();
+        (0..self.options.len()).map(ids).filter(|ids| !ids.is_empty()).collect()
+    }
+}
+
 /// Paths of all an option sets.
 fn own(option: &StudyOption) -> Vec<String> {
     option.settings.iter().map(|setting| setting.field.value.clone()).collect()
@@ -159,7 +173,9 @@ impl Base<'_> {
             id: option.id.value.clone(),
             name: option.name.clone(),
             strength_n: option.strength_n,
+            curve: option.curve.clone(),
             own: own(option),
+            sets: option.settings.iter().map(|setting| (setting.field.value.clone(), setting.value.written())).collect(),
             settings,
             removes: option.removes.iter().map(|field| field.value.clone()).collect(),
             scenario,

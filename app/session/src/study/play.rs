@@ -1,25 +1,29 @@
 //! One encounter played: every option meets it.
 
 use std::cmp::Ordering;
-use std::sync::Arc;
 
-use endline_sim::Model;
 use endline_sim::metrics::{Outcome, Summary};
 
 use crate::error::Error;
 use crate::report::Report;
-use crate::run::{Run, RunOptions};
+use crate::run::{Moment, Run, RunOptions};
 use crate::source::Prepared;
 
+use super::branch::{self, Watch};
 use super::encounter::Encounter;
 use super::open::Opened;
+use super::ready::Ready;
 use super::rest::fitted;
 use super::row::row;
-use super::same::{least_strength_n, same_run, surely_same_run};
+use super::same::{least_strength_n, same_run};
 use super::table::Row;
 
 /// How often a run is asked whether it is over [Hz].
 const LOOKS_HZ: f64 = 2.0;
+
+/// A run has stuck where its solver tried this many times the steps of its whole duration in contact: in the few that do,
+/// rope is wedged so that only steps of a millionth of a second go through.
+const STUCK: f64 = 3.0;
 
 /// Frames kept for each second of a run that is replayed.
 pub const REPLAY_HZ: f64 = 10.0;
@@ -32,51 +36,44 @@ pub struct Played {
     pub report: Report,
 }
 
-/// What a run came to, for options that may have the same.
+/// What a run came to, for options that may have the same, or the same until something parts.
 struct Came {
     option: usize,
-    model: Arc<Model>,
+    run: Run,
     summary: Summary,
     report: Report,
-}
-
-/// Whether an option needs a run of its own.
-enum Twin {
-    /// It has the run of this place among those that came before.
-    Same(usize),
-    /// It does.
-    None(Prepared),
+    parted: Vec<(usize, Moment)>,
 }
 
 impl Opened {
     /// Rows of every option in encounter `index`, in the order of the options.
     #[must_use]
     pub fn rows(&self, index: u32) -> Vec<Row> {
-        self.rows_with(index, true)
-    }
-
-    /// The same; without `sharing` each option is run whether it needs to or not.
-    #[must_use]
-    pub fn rows_with(&self, index: u32, sharing: bool) -> Vec<Row> {
-        let encounter = Encounter::of(self, index);
+        let ready = Ready::new(self, index);
         let mut rows: Vec<Row> = vec![Row::new(); self.options.len()];
         let mut came: Vec<Came> = Vec::new();
-        for option in self.by_falling_strength() {
-            let told = match self.twin(option, &encounter, if sharing { &came } else { &[] }) {
-                Ok(Twin::Same(twin)) => {
-                    rows[option] = row(self, option, &encounter, Ok(&came[twin].report));
-                    continue;
-                }
-                Ok(Twin::None(prepared)) => self.played(option, &encounter, prepared, 0.0),
-                Err(error) => Err(error),
-            };
-            let told = told.map_err(|error| error.to_string());
-            rows[option] = row(self, option, &encounter, told.as_ref().map(|played| &played.report).map_err(String::as_str));
-            if let Ok(Played { run, report }) = told {
-                came.push(Came { option, model: Arc::clone(run.model()), summary: run.summary(), report });
+        let order = self.by_falling_strength();
+        for (place, option) in order.iter().copied().enumerate() {
+            if let Some(twin) = came.iter().find(|came| is_twin(&ready, option, came)) {
+                rows[option] = row(self, option, &ready.encounter, Ok(&twin.report));
+                continue;
             }
+            let told = self.came(&ready, option, &order[place + 1..], &came);
+            rows[option] = row(self, option, &ready.encounter, told.as_ref().map(|came| &came.report).map_err(String::as_str));
+            came.extend(told.ok());
         }
         rows
+    }
+
+    /// The run of an option, begun where it parts ways with one that came before if it can be; watched for those that come after.
+    fn came(&self, ready: &Ready<'_>, option: usize, after: &[usize], came: &[Came]) -> Result<Came, String> {
+        let prepared = ready.option(option)?;
+        let begun = came.iter().find_map(|came| branch::begun(option, prepared, &came.run, &came.parted));
+        let begin = || self.begin(option, &ready.encounter, prepared.clone(), 0.0).map_err(|error| error.to_string());
+        let mut run = begun.map_or_else(begin, Ok)?;
+        let mut watch = Watch::new(ready, option, after);
+        self.to_its_end(&mut run, |run| watch.look(run));
+        Ok(Came { option, summary: run.summary(), report: Report::of(&run), parted: watch.parted, run })
     }
 
     /// Options, the strongest first: it is the one whose run others may share.
@@ -87,42 +84,45 @@ impl Opened {
         order
     }
 
-    /// A run that is this option's too; else the option ready to run.
-    fn twin(&self, option: usize, encounter: &Encounter, came: &[Came]) -> Result<Twin, Error> {
-        let bare = &self.options[option].prepared.model.spec;
-        let surely = |came: &Came| self.families[option] == self.families[came.option] && surely_same_run(bare, &came.summary);
-        if let Some(twin) = came.iter().position(surely) {
-            return Ok(Twin::Same(twin));
-        }
-        let prepared = self.prepare(option, encounter)?;
-        let twin = came.iter().position(|came| same_run(&prepared.model, &came.model, &came.summary));
-        Ok(twin.map_or(Twin::None(prepared), Twin::Same))
-    }
-
     /// Plays an option in an encounter to its end.
     ///
     /// # Errors
     /// Faults of the scenario so made, or gear that does not come to rest.
     pub fn play(&self, option: usize, encounter: &Encounter, frames_hz: f64) -> Result<Played, Error> {
-        let prepared = self.prepare(option, encounter)?;
-        self.played(option, encounter, prepared, frames_hz)
+        let mut run = self.begin(option, encounter, self.prepare(option, encounter)?, frames_hz)?;
+        self.to_its_end(&mut run, |_| {});
+        let report = Report::of(&run);
+        Ok(Played { run, report })
     }
 
-    fn played(&self, option: usize, encounter: &Encounter, prepared: Prepared, frames_hz: f64) -> Result<Played, Error> {
+    /// A run of an option at its start, its gear at rest.
+    fn begin(&self, option: usize, encounter: &Encounter, prepared: Prepared, frames_hz: f64) -> Result<Run, Error> {
         let rest = self.rest(option, encounter)?;
         let settled = fitted(&rest, &prepared.model);
         if !settled.converged {
             return Err(Error::Unsettled { why: settled.why(), passes: settled.trace_n.len() });
         }
-        let mut run = Run::from_settled(prepared, RunOptions { unsettled: false, frames_hz }, settled);
-        let look = (1.0 / (LOOKS_HZ * run.step_s())).round().max(1.0) as u64;
+        Ok(Run::from_settled(prepared, RunOptions { unsettled: false, frames_hz }, settled))
+    }
+
+    /// Takes a run to its end, looking at it now and then.
+    fn to_its_end(&self, run: &mut Run, mut look: impl FnMut(&Run)) {
+        let stride = (1.0 / (LOOKS_HZ * run.step_s())).round().max(1.0) as u64;
+        let settings = &run.model().spec.settings;
+        let most = (STUCK * settings.duration_s / settings.contact_step_s.min(settings.step_s)) as u64;
         while !run.finished() && run.step(run.pilot()).is_ok() {
-            if run.state().step.is_multiple_of(look) && self.is_over(&run) {
+            let audit = run.audit();
+            if audit.solver_steps + audit.halved > most {
+                run.give_up("it sticks: hardly a step of the solver goes through");
                 break;
             }
+            if run.state().step.is_multiple_of(stride) {
+                look(run);
+                if self.is_over(run) {
+                    break;
+                }
+            }
         }
-        let report = Report::of(&run);
-        Ok(Played { run, report })
     }
 
     /// Whether nothing more can happen that counts.
@@ -137,4 +137,10 @@ impl Opened {
             }
         }
     }
+}
+
+/// Whether an option has the run of another that came before.
+fn is_twin(ready: &Ready<'_>, option: usize, came: &Came) -> bool {
+    let exactly = || ready.option(option).is_ok_and(|prepared| same_run(&prepared.model, came.run.model(), &came.summary));
+    ready.opened.is_family(option, came.option) && (ready.opened.surely(option, came.option, &came.run, &came.summary) || exactly())
 }

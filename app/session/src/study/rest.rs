@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use endline_gear::hint;
+use endline_gear::{Prior, Target, hint};
 use endline_sim::model::JointKind;
 use endline_sim::{Model, Settled, State, settle};
 
@@ -55,9 +55,8 @@ impl Opened {
         let plan = &self.options[option];
         let (mut scenario, mut library) = (plan.scenario.clone(), plan.sources.clone());
         let priors = &self.study.priors;
-        let moves_gear = |field: &str| !field.starts_with("whale.");
         let (priors, drawn): (Vec<_>, Vec<_>) =
-            priors.iter().cloned().zip(encounter.drawn.iter().cloned()).filter(|(prior, _)| moves_gear(field_of(prior))).unzip();
+            priors.iter().cloned().zip(encounter.drawn.iter().cloned()).filter(|(prior, _)| is_drawn_for_gear(prior)).unzip();
         put_drawn(&mut scenario, &mut library, &priors, &drawn, &plan.own)?;
         let fault = |error: endline_gear::EditError| Error::Replay(format!("option `{}`: {}", plan.id, error.message));
         for field in plan.removes.iter().filter(|field| moves_gear(field)) {
@@ -91,6 +90,19 @@ impl Opened {
         }
         rope_at(&rest.model, &rest.settled.state, &lines, depth_m)
             .ok_or_else(|| Error::Replay("the gear has no rope to aim at; name lines in `aim` of [encounter]".into()))
+    }
+}
+
+/// Whether a field of the scenario matters to gear at rest: those of the whale and of its friction do not.
+fn moves_gear(field: &str) -> bool {
+    !["whale.", "friction."].iter().any(|whale| field.starts_with(whale))
+}
+
+/// The same of what is drawn; folders of the library hold one kind of item each.
+fn is_drawn_for_gear(prior: &Prior) -> bool {
+    match &prior.target {
+        Target::Library(file, _) => !["whales/", "friction/", "acts/"].iter().any(|folder| file.starts_with(folder)),
+        _ => moves_gear(field_of(prior)),
     }
 }
 

@@ -60,6 +60,7 @@ fn whale(row: &mut Row, whale: Option<&WhaleReport>) {
         ("drag_added_N".into(), real(|whale| Some(whale.drag_added_N))),
         ("trailing_m".into(), real(|whale| Some(whale.trailing_m))),
         ("tethered_m".into(), real(|whale| Some(whale.tethered_m))),
+        ("was_lodged_in_mouth".into(), Cell::Flag(whale.is_some_and(|whale| whale.was_lodged_in_mouth))),
     ]);
     for part in BodyPart::ALL {
         let name = part.name();
@@ -91,10 +92,12 @@ fn gear(row: &mut Row, report: Option<&Report>) {
     let parted_lines = lines.iter().filter_map(|line| Some((line.parted_at_s?, line.id.as_str())));
     let parted_links = links.iter().filter_map(|link| Some((link.parted_at_s?, link.id.as_str())));
     let parted = first(&mut parted_links.chain(parted_lines));
+    let at_links = links.iter().map(|link| link.peak_tension_N).reduce(f64::max);
     row.extend([
         ("peak_tension_N".into(), Cell::Real(tautest.map(|line| line.peak_tension_N))),
         ("peak_line".into(), Cell::Text(tautest.map(|line| line.id.clone()).unwrap_or_default())),
         ("peak_at_s".into(), Cell::Real(tautest.map(|line| line.peak_at_s))),
+        ("link_peak_N".into(), Cell::Real(at_links)),
         ("parted".into(), Cell::Text(parted.as_ref().map(|(_, id)| id.clone()).unwrap_or_default())),
         ("parted_at_s".into(), Cell::Real(parted.map(|(time, _)| time))),
     ]);

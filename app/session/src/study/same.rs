@@ -2,40 +2,69 @@
 //!
 //! Ratings and breaking strengths enter the physics only where a tension passes them. An option whose model is that of
 //! another but for strengths, and whose strengths stay well above every tension of the other's run, in which nothing
-//! parted, has the same run to the bit; its row is copied. A solver step may try a tension that it does not keep, and a
-//! strength passed by such a trial would shorten the step; [`MARGIN`] keeps clear of that, and `endline study replay` compares hashes.
+//! parted, has the same run to the bit; its row is copied. A step that is kept was kept with the tensions that count among the
+//! run's greatest, so that with fixed steps a strength above those changes nothing ([`MARGIN`] is for rounding). Steps that follow
+//! their error may be taken back, and forget what they tried: [`PACED_MARGIN`] keeps clear of that. `endline study replay` compares hashes.
 
 use endline_sdk::AttributeValue;
-use endline_sim::metrics::Summary;
-use endline_sim::model::{FrictionLaw, Line, Rope};
+use endline_sim::metrics::{LinkSummary, Summary};
+use endline_sim::model::{FrictionLaw, Line, Link, Rope};
 use endline_sim::whale::Whale;
 use endline_sim::{Model, ModelSpec};
 
 use super::open::OptionPlan;
 
-/// Share of a line's strength up to which tensions count as well below it.
-pub const MARGIN: f64 = 0.7;
+/// Share of a strength up to which tensions count as below it, with fixed steps.
+const MARGIN: f64 = 0.99;
+
+/// The same with steps that follow their error.
+const PACED_MARGIN: f64 = 0.7;
+
+fn margin(spec: &ModelSpec) -> f64 {
+    if spec.settings.auto_step { PACED_MARGIN } else { MARGIN }
+}
 
 /// Whether `model` has the same run as another that came to `summary` with nothing parted.
 pub(super) fn same_run(model: &Model, other: &Model, summary: &Summary) -> bool {
-    nothing_parted(summary)
-        && alike(&model.spec, &other.spec)
-        && summary.lines.iter().zip(weakest(&model.spec)).all(|(line, weakest_n)| line.peak_tension_n < MARGIN * weakest_n)
+    same_so_far(model, summary) && same_until_parting(model, other)
+}
+
+/// The same where it is known that the two differ in strengths alone.
+pub(super) fn same_so_far(model: &Model, summary: &Summary) -> bool {
+    nothing_parted(summary) && holds(&model.spec, summary, margin(&model.spec))
 }
 
 /// Least strength that scatter may leave of a part in one encounter, over the greatest it may give it in another: factors
 /// lie above 0.2, and 1.6 is six deviations of the widest scatter in the library.
 const SCATTER: f64 = 0.2 / 1.6;
 
-/// Whether an option has the same run as another that came to `summary`, told without assembling it: by its `bare` model,
-/// of whatever encounter, where the two options are of one [`family`].
-pub(super) fn surely_same_run(bare: &ModelSpec, summary: &Summary) -> bool {
-    nothing_parted(summary)
-        && summary.lines.iter().zip(weakest(bare)).all(|(line, weakest_n)| line.peak_tension_n < MARGIN * SCATTER * weakest_n)
+/// Whether two models have the same run up to the moment when something first parts.
+pub(super) fn same_until_parting(one: &Model, other: &Model) -> bool {
+    alike(&one.spec, &other.spec)
 }
 
-/// Whether two options differ in strengths alone in every encounter: their models are alike in one, and what is drawn
-/// reaches both in the same fields.
+/// Whether an option has the same run as another that came to `summary`, told without assembling it: by the two options'
+/// models of whatever encounter, first its own, where they are of one [`family`].
+pub(super) fn surely_same_run([bare, other_bare]: [&ModelSpec; 2], other: &Model, summary: &Summary) -> bool {
+    // Where the other has in this encounter the strengths it always has, none are drawn.
+    let drawn = if strengths(&other.spec).eq(strengths(other_bare)) { 1.0 } else { SCATTER };
+    nothing_parted(summary) && holds(bare, summary, margin(bare) * drawn)
+}
+
+/// Whether every tension of another model's run stays below a share of what bears it: of the rope's strength along a line, of
+/// its rating at a link. The other has the same lines and links.
+fn holds(spec: &ModelSpec, summary: &Summary, share: f64) -> bool {
+    let lines = summary.lines.iter().zip(ropes(spec)).all(|(line, strength_n)| line.peak_tension_n < share * strength_n);
+    let at_link = |(link, borne): (&Link, &LinkSummary)| !link.enabled || borne.peak_tension_n < share * link.rating_n;
+    lines && spec.links.iter().zip(&summary.links).all(at_link)
+}
+
+/// Last parts of the paths of strengths: what else an option sets may change its runs in ways that no model shows, such as
+/// how a whale's motion answers a touch.
+const STRENGTHS: [&str; 4] = ["rating", "strength", "weak_link", "weak_links"];
+
+/// Whether two options differ in strengths alone in every encounter: what they set differently are strengths, their models are
+/// alike in one encounter, and what is drawn reaches both in the same fields.
 pub(super) fn family(one: &OptionPlan, other: &OptionPlan, drawn_fields: &[&str]) -> bool {
     let own = |plan: &OptionPlan| -> Vec<String> {
         let set = plan.settings.iter().map(|setting| setting.field.value.clone()).chain(plan.removes.iter().cloned());
@@ -43,29 +72,30 @@ pub(super) fn family(one: &OptionPlan, other: &OptionPlan, drawn_fields: &[&str]
         own.sort();
         own
     };
-    own(one).is_empty() && own(other).is_empty() && alike(&one.prepared.model.spec, &other.prepared.model.spec)
+    let is_strength = |path: &str| path.rsplit('.').next().is_some_and(|last| STRENGTHS.contains(&last));
+    let only_strengths = |one: &OptionPlan, other: &OptionPlan| one.sets.iter().all(|set| other.sets.contains(set) || is_strength(&set.0));
+    let strengths = only_strengths(one, other) && only_strengths(other, one) && one.removes == other.removes;
+    strengths && own(one).is_empty() && own(other).is_empty() && alike(&one.prepared.model.spec, &other.prepared.model.spec)
 }
 
 fn nothing_parted(summary: &Summary) -> bool {
     summary.lines.iter().all(|line| line.parted_at_s.is_none()) && summary.links.iter().all(|link| link.parted_at_s.is_none())
 }
 
-/// What each line holds: the least of its rope's strength and of the links in it [N].
-fn weakest(spec: &ModelSpec) -> Vec<f64> {
-    let mut weakest: Vec<f64> = spec
-        .lines
-        .iter()
-        .map(|line| spec.ropes[line.rope].strength_n * line.strength.all * line.strength.end_a.min(line.strength.end_b).min(1.0))
-        .collect();
-    for link in spec.links.iter().filter(|link| link.enabled) {
-        weakest[link.line] = weakest[link.line].min(link.rating_n);
-    }
-    weakest
+/// What the rope of each line holds, at its weakest place [N].
+fn ropes(spec: &ModelSpec) -> impl Iterator<Item = f64> {
+    let holds = |line: &Line| spec.ropes[line.rope].strength_n * line.strength.all * line.strength.end_a.min(line.strength.end_b).min(1.0);
+    spec.lines.iter().map(holds)
+}
+
+/// What ropes and links hold [N].
+fn strengths(spec: &ModelSpec) -> impl Iterator<Item = f64> {
+    ropes(spec).chain(spec.links.iter().filter(|link| link.enabled).map(|link| link.rating_n))
 }
 
 /// The least strength of all, by which options are put in order [N].
 pub(super) fn least_strength_n(spec: &ModelSpec) -> f64 {
-    weakest(spec).into_iter().fold(f64::INFINITY, f64::min)
+    strengths(spec).fold(f64::INFINITY, f64::min)
 }
 
 /// Whether two models differ in nothing but the strengths of links and ropes.
@@ -74,8 +104,11 @@ fn alike(one: &ModelSpec, other: &ModelSpec) -> bool {
         && one.ropes.iter().zip(&other.ropes).all(|(a, b)| *a == Rope { id: a.id.clone(), strength_n: a.strength_n, ..b.clone() });
     let lines = one.lines.len() == other.lines.len()
         && one.lines.iter().zip(&other.lines).all(|(a, b)| *a == Line { strength: a.strength, ..b.clone() });
+    let links = one.links.len() == other.links.len()
+        && one.links.iter().zip(&other.links).all(|(a, b)| (&a.id, a.line, a.end) == (&b.id, b.line, b.end));
     ropes
         && lines
+        && links
         && same_gear_types(one, other)
         && one.joints == other.joints
         && one.bodies == other.bodies

@@ -7,17 +7,17 @@ use endline_gear::Basis;
 use crate::study::open::Opened;
 use crate::study::stats::{Findings, OptionFinding};
 
-use super::figures;
 use super::svg::escape;
 use super::words::{event_words, force, points, rate, ratio};
+use super::{curves, figures};
 
 /// Look of the page: dark on light, no colour needed, narrow enough to read, good to print.
 const STYLE: &str = "body{font:16px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#1a1a1a;background:#fff}\
 h1{line-height:1.2}h2{margin-top:2.5rem;border-bottom:1px solid #999}table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:.9rem;margin:1rem 0}\
 th,td{border-bottom:1px solid #ccc;padding:.3rem .7rem;text-align:left;vertical-align:top}th{border-bottom:2px solid #666}caption{text-align:left;font-weight:600;padding:.3rem 0}\
-figure{margin:1.5rem 0}svg{width:100%;height:auto;font:12px system-ui,sans-serif}svg .grid{stroke:#ddd}svg .zero{stroke:#333;stroke-width:1.5}svg .bar{stroke:#0072b2;stroke-width:1.6}\
+figure{margin:1.5rem 0}svg{width:100%;height:auto;font:12px system-ui,sans-serif}svg .grid{stroke:#ddd}svg .zero{stroke:#333;stroke-width:1.5}\
 figcaption{font-size:.9rem;color:#444}.tag{border:1.5px solid;border-radius:.3rem;padding:0 .4rem;white-space:nowrap}.measured{color:#00664a}.derived{color:#00558a}.assumed{color:#a34700;border-style:dashed}\
-code,pre{font-size:.85rem;background:#f3f3f3;padding:.1rem .3rem}pre{padding:.7rem;overflow-x:auto}.wide{overflow-x:auto}";
+code,pre{font-size:.85rem;background:#f3f3f3;padding:.1rem .3rem}pre{padding:.7rem;overflow-x:auto}.wide{overflow-x:auto}.i,td:first-child{white-space:nowrap}";
 
 /// The page.
 pub(super) fn page(opened: &Opened, findings: &Findings) -> String {
@@ -108,7 +108,8 @@ fn compared(opened: &Opened, findings: &Findings) -> String {
             format!("{:.0} %", 100.0 * option.best_share),
         ])
     };
-    let rows: Vec<Vec<String>> = findings.options.iter().filter_map(row).collect();
+    let others = findings.options.iter().enumerate().filter(|(index, _)| *index != findings.baseline);
+    let rows: Vec<Vec<String>> = others.filter_map(|(_, option)| row(option)).collect();
     let baseline = escape(&opened.options[opened.baseline].name);
     let heads = [
         "option",
@@ -156,14 +157,14 @@ fn tensions(findings: &Findings) -> String {
     let heads = ["option", "5 % below", "median", "95 % below", "greatest", "median of differences from the baseline"];
     let mut text = format!(
         "<h2>Greatest tension in any line</h2>{}",
-        figure(&figures::tensions(findings), "Share of runs whose greatest tension stays below a value.")
+        figure(&curves::tensions(findings), "Share of runs whose greatest tension stays below a value.")
     );
     text += &table("Greatest tension of a run", &heads, &rows);
-    if let Some(svg) = figures::break_away(findings) {
+    if let Some(svg) = curves::break_away(findings) {
         text += "<h2>Break-away against strength</h2>";
         text += &figure(
             &svg,
-            "Points: share of encounters in which something parted, by the strength of the option. Dashed line: share of the baseline's runs whose greatest tension in any line passes that strength.",
+            "Marks: share of encounters in which something parted, by the strength the option stands for. Line: share of the baseline's runs whose greatest tension in any line passes that strength, which is how often a line of that strength would be expected to part wherever the tension is greatest.",
         );
     }
     text
@@ -214,12 +215,12 @@ fn sensitivity(findings: &Findings) -> String {
     let Some(svg) = figures::tornado(findings) else { return String::new() };
     let row = |input: &crate::study::stats::InputFinding| {
         let parts: Vec<String> = input.parts.iter().map(|part| format!("{}: {}", escape(&part.name), rate(&part.rate))).collect();
-        let best = if input.same_best { "the same throughout" } else { "changes, or is tied" };
-        vec![escape(&input.name.replace('_', " ")), parts.join("<br>"), best.to_owned()]
+        let best = if input.same_best { "some option has or shares it throughout" } else { "changes" };
+        vec![escape(&input.words), parts.join("<br>"), best.to_owned()]
     };
     let rows: Vec<Vec<String>> = findings.inputs.iter().map(row).collect();
     let caption = format!(
-        "Rate of \"{}\" over all options, by the lower and upper half of each input or by its levels.",
+        "Rate of \"{}\" with the baseline, by the lower and upper half of each input or by its levels: the words at a bar's ends name the parts with the least and the greatest rate. A wide bar is an input on which the result hangs.",
         event_words(&findings.event)
     );
     format!(
@@ -232,12 +233,8 @@ fn sensitivity(findings: &Findings) -> String {
 fn inputs(opened: &Opened) -> String {
     let tag = |basis: Basis| format!("<span class=\"tag {0}\">{0}</span>", basis.word());
     let law = |prior: &endline_gear::Prior| escape(&prior.law.words());
-    let rows: Vec<Vec<String>> = opened
-        .study
-        .priors
-        .iter()
-        .map(|prior| vec![escape(&prior.name.value), law(prior), tag(prior.basis), escape(&prior.source)])
-        .collect();
+    let rows: Vec<Vec<String>> =
+        opened.study.priors.iter().map(|prior| vec![escape(&prior.words()), law(prior), tag(prior.basis), escape(&prior.source)]).collect();
     let options: Vec<Vec<String>> = opened
         .study
         .options

@@ -42,6 +42,11 @@ impl Svg {
         let _ = write!(self.body, r#"<text x="{:.1}" y="{:.1}" text-anchor="{anchor}">{}</text>"#, at[0], at[1], escape(text));
     }
 
+    /// Text that heads what follows.
+    pub(super) fn heading(&mut self, at: [f64; 2], text: &str) {
+        let _ = write!(self.body, r#"<text x="{:.1}" y="{:.1}" font-weight="600">{}</text>"#, at[0], at[1], escape(text));
+    }
+
     /// A filled box.
     pub(super) fn bar(&mut self, from: [f64; 2], size: [f64; 2], colour: usize) {
         let fill = COLOURS[colour % COLOURS.len()];
@@ -73,6 +78,18 @@ impl Svg {
             y - 3.0
         );
         self.mark([at, y], kind);
+    }
+
+    /// An interval that stands upright, with its value.
+    pub(super) fn post(&mut self, x: f64, [low, at, high]: [f64; 3], kind: usize) {
+        let stroke = COLOURS[kind % COLOURS.len()];
+        let _ = write!(
+            self.body,
+            r#"<path d="M{x:.1} {low:.1}V{high:.1}M{:.1} {low:.1}h6M{:.1} {high:.1}h6" stroke="{stroke}" stroke-width="1.6" fill="none"/>"#,
+            x - 3.0,
+            x - 3.0
+        );
+        self.mark([x, at], kind);
     }
 
     /// A line through points, its dashes by a number.

@@ -1,4 +1,4 @@
-//! Numbers and events as a report says them.
+//! Numbers and events as a report says them, in HTML.
 
 use endline_gear::Event;
 
@@ -18,7 +18,8 @@ pub(super) fn points(difference: f64, interval: Interval) -> String {
 }
 
 fn percent_interval(Interval { low, high }: Interval) -> String {
-    format!("[{:.1}, {:.1}]", 100.0 * low, 100.0 * high)
+    // Not to be broken over lines.
+    format!("<span class=\"i\">[{:.1}, {:.1}]</span>", 100.0 * low, 100.0 * high)
 }
 
 /// `0.65 [0.41, 1.02]`.
@@ -31,7 +32,7 @@ pub(super) fn ratio(ratio: Option<f64>, interval: Option<Interval>) -> String {
 
 /// `1,512 N (340 lbf)`.
 pub(super) fn force(newtons: f64) -> String {
-    format!("{newtons:.0} N ({:.0} lbf)", newtons / N_PER_LBF)
+    format!("<span class=\"i\">{newtons:.0} N ({:.0} lbf)</span>", newtons / N_PER_LBF)
 }
 
 /// An event by name, for people.

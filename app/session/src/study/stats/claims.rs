@@ -82,23 +82,50 @@ pub(super) fn look(claim: &Claim, table: &Table) -> ClaimFinding {
         source: claim.source.clone(),
         more: told(&claim.event, &claim.more),
         less: told(&claim.less_event, &claim.less),
-        more_rate: Rate::of(&Marks(more.into_iter().flat_map(|marks| marks.0).collect())),
-        less_rate: Rate::of(&Marks(less.into_iter().flat_map(|marks| marks.0).collect())),
+        more_rate: rate(&format!("more {}", claim.id.value), &more),
+        less_rate: rate(&format!("less {}", claim.id.value), &less),
         difference,
         interval,
         verdict,
     }
 }
 
+/// The rate over several options, whose interval counts each encounter once.
+fn rate(label: &str, marks: &[Marks]) -> Rate {
+    let all = Rate::of(&Marks(marks.iter().flat_map(|marks| marks.0.clone()).collect()));
+    if marks.len() < 2 {
+        return all;
+    }
+    let shares = shares(marks);
+    if all.hits == 0 || all.hits == all.runs {
+        // Drawing again what never varies says nothing of chance.
+        let counted = if all.hits == 0 { 0 } else { shares.len() as u64 };
+        return Rate { interval: Rate::from_counts(counted, shares.len() as u64).interval, ..all };
+    }
+    let interval = bootstrap::interval(label, shares.len(), |indices| mean(&shares, indices));
+    interval.map_or(all, |interval| Rate { interval, ..all })
+}
+
+/// Share of the options in which the event came, by encounter with any run that counts.
+fn shares(marks: &[Marks]) -> Vec<f64> {
+    let encounters = marks.iter().map(|marks| marks.0.len()).max().unwrap_or_default();
+    (0..encounters).filter_map(|encounter| share(marks, encounter)).collect()
+}
+
+fn share(marks: &[Marks], encounter: usize) -> Option<f64> {
+    let known: Vec<bool> = marks.iter().filter_map(|marks| marks.0.get(encounter).copied().flatten()).collect();
+    (!known.is_empty()).then(|| known.iter().filter(|hit| **hit).count() as f64 / known.len() as f64)
+}
+
+fn mean(values: &[f64], indices: &[usize]) -> Option<f64> {
+    Some(indices.iter().map(|index| values[*index]).sum::<f64>() / indices.len() as f64)
+}
+
 /// Several options together: the difference of shares within each encounter, encounters drawn again for the interval.
 fn pooled(label: &str, more: &[Marks], less: &[Marks]) -> (f64, Interval) {
-    let share = |marks: &[Marks], encounter: usize| {
-        let known: Vec<bool> = marks.iter().filter_map(|marks| marks.0.get(encounter).copied().flatten()).collect();
-        (!known.is_empty()).then(|| known.iter().filter(|hit| **hit).count() as f64 / known.len() as f64)
-    };
     let encounters = more.iter().chain(less).map(|marks| marks.0.len()).max().unwrap_or_default();
     let differences: Vec<f64> = (0..encounters).filter_map(|encounter| Some(share(more, encounter)? - share(less, encounter)?)).collect();
-    let mean = |indices: &[usize]| Some(indices.iter().map(|index| differences[*index]).sum::<f64>() / indices.len() as f64);
+    let mean = |indices: &[usize]| mean(&differences, indices);
     let all: Vec<usize> = (0..differences.len()).collect();
     let difference = if all.is_empty() { 0.0 } else { mean(&all).unwrap_or_default() };
     let interval = bootstrap::interval(&format!("claim {label}"), differences.len(), mean);

@@ -1,6 +1,6 @@
 //! All that a report tells of a merged table.
 
-use endline_gear::{Event, Law, Level};
+use endline_gear::Event;
 use serde::Serialize;
 
 use crate::study::open::Opened;
@@ -51,6 +51,8 @@ pub struct OptionFinding {
     pub name: String,
     /// Strength it stands for [N].
     pub strength_n: Option<f64>,
+    /// Which curve of break-away against strength it belongs to.
+    pub curve: Option<String>,
     /// Runs that do not count.
     pub invalid: u64,
     /// Runs that were too short for their outcome to stand; they count.
@@ -114,7 +116,7 @@ impl Findings {
             options,
             levels: levels(opened, table, &marks),
             claims: opened.study.claims.iter().map(|claim| claims::look(claim, table)).collect(),
-            inputs: sensitivity::look(table, &ids, event),
+            inputs: sensitivity::look(table, &opened.study.priors, &marks, opened.baseline),
         }
     }
 
@@ -139,6 +141,7 @@ fn found(opened: &Opened, table: &Table, option: usize) -> OptionFinding {
         id: plan.id.clone(),
         name: plan.name.clone(),
         strength_n: plan.strength_n,
+        curve: plan.curve.clone(),
         invalid: count("valid", false),
         undecided,
         rates: events.iter().map(|event| (event.name(), Rate::of(&marks(event)))).collect(),
@@ -178,12 +181,8 @@ fn levels(opened: &Opened, table: &Table, marks: &[Marks]) -> Vec<LevelFinding> 
 /// A level as the study's file has it, such as `15 yr` for its seconds.
 fn told(opened: &Opened, prior: &str, level: &str) -> String {
     let prior = opened.study.priors.iter().find(|known| known.name.value == prior);
-    let Some(Law::Choice(levels)) = prior.map(|prior| &prior.law) else { return level.to_owned() };
-    let same = |known: &&(Level, f64)| known.0.number.is_some_and(|number| number.to_string() == level);
-    levels.iter().find(same).map_or_else(
-        || level.to_owned(),
-        |(known, _)| format!("{prior_name} {}", known.text, prior_name = prior.map_or("", |prior| prior.name.value.as_str())),
-    )
+    let (Some(prior), Ok(number)) = (prior, level.parse()) else { return level.to_owned() };
+    format!("{} {}", prior.words(), prior.law.told(number))
 }
 
 fn level(column: &Column, row: usize) -> String {

@@ -49,6 +49,10 @@ fn of_rows(table: &Table, event: &Event) -> Vec<bool> {
         Event::Parted => outcome(&["parted_free", "parted_entangled"]),
         Event::PartedFree => outcome(&["parted_free"]),
         Event::PartedEntangled => outcome(&["parted_entangled"]),
+        Event::Lodged => {
+            let lodged = table.flags("was_lodged_in_mouth");
+            (0..table.rows()).map(|row| lodged.get(row) == Some(&true)).collect()
+        }
         Event::On(kind, parts) => {
             let (name, least) = match kind {
                 RegionEvent::Contact => ("peak_normal_N", f64::MIN_POSITIVE),

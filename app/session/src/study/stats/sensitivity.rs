@@ -1,11 +1,12 @@
 //! Sensitivity: how a rate and the ranking of options change with each input that was drawn.
 //!
 //! No run is made for it: the encounters of a study are told apart by the lower and upper half of an input, or by its
-//! levels. Inputs are drawn independently of one another, so that parts differ in that input alone but for chance.
+//! levels. Inputs are drawn independently of one another, so that parts differ in that input alone but for chance. Rates
+//! are the baseline's: options meet the same encounters, so that their runs together would count each encounter many times.
 
 use serde::Serialize;
 
-use endline_gear::Event;
+use endline_gear::Prior;
 
 use crate::study::table::{Column, Table};
 
@@ -18,7 +19,7 @@ use super::marks::{Marks, encounters};
 pub struct Part {
     /// Its name: `below 1.1`, `from 1.1 on`, or a level.
     pub name: String,
-    /// Rate of the event over all options together.
+    /// Rate of the event with the baseline.
     pub rate: Rate,
     /// Rates by option.
     pub by_option: Vec<Rate>,
@@ -31,38 +32,41 @@ pub struct Part {
 pub struct InputFinding {
     /// Name of the prior.
     pub name: String,
+    /// The same for people.
+    pub words: String,
     /// Its parts.
     pub parts: Vec<Part>,
     /// Greatest less least rate over the parts.
     pub span: f64,
-    /// Whether the option with the lowest rate is the same in every part.
+    /// Whether some option has the lowest rate, or shares it, in every part.
     pub same_best: bool,
 }
 
 /// Every input that varies, that with the greatest span first.
-pub(super) fn look(table: &Table, options: &[String], event: &Event) -> Vec<InputFinding> {
-    let marks: Vec<Marks> = options.iter().map(|option| Marks::of(table, option, event)).collect();
-    let inputs = table.columns.iter().filter_map(|(name, column)| Some((name.strip_prefix("drawn_")?, column)));
-    let mut found: Vec<InputFinding> = inputs.filter_map(|(name, column)| input(name, parts(table, column), &marks)).collect();
+pub(super) fn look(table: &Table, priors: &[Prior], marks: &[Marks], baseline: usize) -> Vec<InputFinding> {
+    let column = |prior: &Prior| table.column(&format!("drawn_{}", prior.name.value));
+    let of = |prior: &Prior| input(prior, parts(table, column(prior)?, &|number| prior.law.told(number)), marks, baseline);
+    let mut found: Vec<InputFinding> = priors.iter().filter_map(of).collect();
     found.sort_by(|one, other| other.span.total_cmp(&one.span));
     found
 }
 
-fn input(name: &str, parts: Vec<(String, Vec<bool>)>, marks: &[Marks]) -> Option<InputFinding> {
+fn input(prior: &Prior, parts: Vec<(String, Vec<bool>)>, marks: &[Marks], baseline: usize) -> Option<InputFinding> {
     if parts.len() < 2 {
         return None;
     }
-    let parts: Vec<Part> = parts.into_iter().map(|(name, keep)| part(name, &keep, marks)).collect();
+    let parts: Vec<Part> = parts.into_iter().map(|(name, keep)| part(name, &keep, marks, baseline)).collect();
     let rates = || parts.iter().filter(|part| part.rate.runs > 0).map(|part| part.rate.rate);
     let span = rates().fold(0.0, f64::max) - rates().fold(1.0, f64::min);
-    let same_best = parts.windows(2).all(|pair| pair[0].ranking.first() == pair[1].ranking.first());
-    Some(InputFinding { name: name.to_owned(), parts, span: span.max(0.0), same_best })
+    let best = |part: &Part, option: usize| part.by_option.iter().all(|other| part.by_option[option].rate <= other.rate);
+    let same_best = (0..marks.len()).any(|option| parts.iter().all(|part| best(part, option)));
+    Some(InputFinding { name: prior.name.value.clone(), words: prior.words(), parts, span: span.max(0.0), same_best })
 }
 
-fn part(name: String, keep: &[bool], marks: &[Marks]) -> Part {
+fn part(name: String, keep: &[bool], marks: &[Marks], baseline: usize) -> Part {
     let own: Vec<Marks> = marks.iter().map(|marks| marks.within(keep)).collect();
     let by_option: Vec<Rate> = own.iter().map(Rate::of).collect();
-    let rate = Rate::of(&Marks(own.into_iter().flat_map(|marks| marks.0).collect()));
+    let rate = by_option[baseline];
     Part { name, rate, ranking: ranking(&by_option.iter().map(|rate| rate.rate).collect::<Vec<_>>()), by_option }
 }
 
@@ -73,8 +77,8 @@ fn ranking(rates: &[f64]) -> Vec<usize> {
     order
 }
 
-/// The encounters of each part of an input.
-fn parts(table: &Table, column: &Column) -> Vec<(String, Vec<bool>)> {
+/// The encounters of each part of an input, whose numbers `told` puts in words.
+fn parts(table: &Table, column: &Column, told: &dyn Fn(f64) -> String) -> Vec<(String, Vec<bool>)> {
     let encounters = encounters(table);
     let count = encounters.iter().max().map_or(0, |last| last + 1);
     let keep = |belongs: &dyn Fn(usize) -> bool| {
@@ -97,22 +101,17 @@ fn parts(table: &Table, column: &Column) -> Vec<(String, Vec<bool>)> {
             if (2..=6).contains(&levels.len()) {
                 return levels
                     .into_iter()
-                    .map(|level| (short(level), keep(&|row| values[row].is_some_and(|value| value.total_cmp(&level).is_eq()))))
+                    .map(|level| (told(level), keep(&|row| values[row].is_some_and(|value| value.total_cmp(&level).is_eq()))))
                     .collect();
             }
             let (Some(middle), true) = (sorted.get(sorted.len() / 2).copied(), levels.len() > 6) else { return Vec::new() };
             vec![
-                (format!("below {}", short(middle)), keep(&|row| values[row].is_some_and(|value| value < middle))),
-                (format!("from {} on", short(middle)), keep(&|row| values[row].is_some_and(|value| value >= middle))),
+                (format!("below {}", told(middle)), keep(&|row| values[row].is_some_and(|value| value < middle))),
+                (format!("from {} on", told(middle)), keep(&|row| values[row].is_some_and(|value| value >= middle))),
             ]
         }
         _ => Vec::new(),
     }
-}
-
-fn short(number: f64) -> String {
-    let rounded: f64 = format!("{number:.2e}").parse().unwrap_or(number);
-    rounded.to_string()
 }
 
 /// How often each option has the lowest rate when encounters are drawn again; ties count for all that share it.

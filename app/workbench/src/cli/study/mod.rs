@@ -117,7 +117,7 @@ fn compare(args: &ReplayArgs, opened: &Opened, option: usize, hash: &str) -> Res
 /// Opens a study by its file or its id in the gear library.
 fn open(args: &StudyArgs, library: Option<&Path>) -> Result<Opened, Failure> {
     let named = Path::new(&args.study);
-    let path = if named.exists() || args.study.ends_with(".toml") { named.to_path_buf() } else { in_library(&args.study, library)? };
+    let path = if named.is_file() || args.study.ends_with(".toml") { named.to_path_buf() } else { in_library(&args.study, library)? };
     Ok(Opened::open(&path, library, &host::load())?)
 }
 

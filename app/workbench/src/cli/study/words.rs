@@ -25,6 +25,8 @@ struct Plan<'a> {
     blocks: u64,
     options: Vec<&'a str>,
     baseline: &'a str,
+    /// Options that share their runs until something parts.
+    families: Vec<Vec<&'a str>>,
 }
 
 pub(super) fn plan_json(opened: &Opened) -> String {
@@ -36,6 +38,7 @@ pub(super) fn plan_json(opened: &Opened) -> String {
         blocks: opened.study.encounters.div_ceil(u64::from(BLOCK)),
         options: opened.options.iter().map(|option| option.id.as_str()).collect(),
         baseline: &opened.options[opened.baseline].id,
+        families: opened.families(),
     };
     // Structs of numbers and strings always serialise.
     serde_json::to_string(&plan).unwrap_or_default() + "\n"

@@ -1,0 +1,59 @@
+//! A moment of a run, from which another run goes on.
+
+use std::sync::Arc;
+
+use endline_sim::metrics::Metrics;
+use endline_sim::{Audit, State, Workspace};
+
+use crate::source::Prepared;
+
+use super::Run;
+
+/// What a run is at the end of one of its steps.
+#[derive(Clone, Debug)]
+pub struct Moment {
+    state: State,
+    metrics: Metrics,
+    audit: Audit,
+    /// Steps so far.
+    steps: usize,
+    /// Frames kept so far.
+    frames: usize,
+}
+
+impl Run {
+    /// This moment.
+    #[must_use]
+    pub fn moment(&self) -> Moment {
+        Moment {
+            state: self.state.clone(),
+            metrics: self.metrics.clone(),
+            audit: self.workspace.audit,
+            steps: self.inputs.len(),
+            frames: self.frames.len(),
+        }
+    }
+
+    /// The run of another model that had the same run up to a moment of this one: it goes on from there.
+    ///
+    /// The models differ in nothing that had any effect until then, such as in strengths above every tension so far.
+    #[must_use]
+    pub fn branched(&self, moment: &Moment, prepared: Prepared) -> Self {
+        // A workspace is scratch: a new one changes no bit.
+        let mut workspace = Workspace::new(&prepared.model);
+        workspace.audit = moment.audit;
+        Self {
+            workspace,
+            metrics: moment.metrics.clone(),
+            inputs: self.inputs[..moment.steps].to_vec(),
+            hashes: self.hashes[..=moment.steps].to_vec(),
+            frames: self.frames[..moment.frames].to_vec(),
+            state: moment.state.clone(),
+            settled: Arc::clone(&self.settled),
+            stopped: None,
+            timing: self.timing,
+            options: self.options,
+            prepared,
+        }
+    }
+}
