@@ -57,13 +57,16 @@ fn clearance(spec: &ModelSpec) -> f64 {
 fn rope_lies_clear_of_the_skin_with_all_its_length() {
     let out = [DVec3::new(-6.0, 0.0, -26.0), DVec3::new(-6.0, 1.0, -14.0)];
     for part in [BodyPart::LeftFlipper, BodyPart::Body, BodyPart::Peduncle] {
-        for turns in [0.5, 1.0, 2.75, -3.0] {
+        for turns in [0.5_f64, 1.0, 2.75, -3.0] {
             let text = scenario(out, 50.0, &format!("[[line.wrap]]\npart = \"{}\"\nturns = {turns}\n", part.name()));
             let spec = read(&text).unwrap_or_else(|problems| panic!("{} {turns}: {}", part.name(), problems[0]));
             let line = &spec.lines[0];
             assert!((line.segments_m.iter().sum::<f64>() - 50.0).abs() < 1e-9);
             let (least, radius) = (clearance(&spec), 0.5 * spec.ropes[0].diameter_m);
-            println!("{} {turns}: {} segments, {:.2} mm clear", part.name(), line.segments_m.len(), 1e3 * least);
+            let bends = turned(&spec, part);
+            println!("{} {turns}: {} segments, {:.2} mm clear, bends {bends:.3}", part.name(), line.segments_m.len(), 1e3 * least);
+            // The ends set the bends but for whole turns: where a wrap begins is chosen so that they come to the nearest number.
+            assert!(part != BodyPart::Peduncle || (bends - turns.abs()).abs() < 0.55, "{turns}: its bends are {bends}");
             assert!(least > 0.9 * radius && least < 1.1 * radius + RADIUS_M, "{}: {least} m", part.name());
         }
     }

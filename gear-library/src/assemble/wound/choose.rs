@@ -1,6 +1,7 @@
-//! Where wraps begin that name no azimuth: so that the ways to them, between them and on from them are short and free.
+//! Where wraps begin that name no azimuth: so that the ways to them, between them and on from them are short and free, and bend
+//! little where they leave a wrap, for such a bend adds to its turns or takes from them.
 //!
-//! A way that goes through skin counts [`THROUGH_M`] more. The best beginnings of the first wraps are kept and gone on
+//! A way that goes through skin counts [`THROUGH_M`] more, one that turns back at a wrap [`BACK_M`]. The best beginnings of the first wraps are kept and gone on
 //! from, wrap by wrap; what is left are whole lines, the best first.
 
 use std::f64::consts::TAU;
@@ -19,21 +20,26 @@ const KEPT: usize = 12;
 const EACH_M: f64 = 0.1;
 /// Length that a way through the whale counts for [m].
 const THROUGH_M: f64 = 100.0;
+/// Length that a way counts for which turns back where it leaves a wrap; the versed sine of a lesser bend's part of it [m].
+const BACK_M: f64 = 20.0;
 
 /// Where each wrap of a line begins, and what the ways between cost.
 #[derive(Clone)]
 struct Line {
     azimuths: Vec<f64>,
-    at: DVec3,
+    end: End,
     cost_m: f64,
 }
+
+/// An end of a wrap or of the line, and which way rope goes there; none at the line's.
+type End = (DVec3, Option<DVec3>);
 
 /// Azimuths for every wrap, the best first.
 ///
 /// # Errors
 /// With the wrap that has no place to lie, and why.
 pub(super) fn azimuths(skin: &mut PosedSkin, helices: &[Helix<'_>], [from, to]: [DVec3; 2]) -> Result<Vec<Vec<f64>>, (usize, String)> {
-    let mut lines = vec![Line { azimuths: Vec::new(), at: from, cost_m: 0.0 }];
+    let mut lines = vec![Line { azimuths: Vec::new(), end: (from, None), cost_m: 0.0 }];
     for (number, helix) in helices.iter().enumerate() {
         let tried: Vec<f64> = match helix.wrap.azimuth_rad {
             Some(azimuth) => vec![azimuth],
@@ -41,15 +47,15 @@ pub(super) fn azimuths(skin: &mut PosedSkin, helices: &[Helix<'_>], [from, to]: 
         };
         let mut longer = Vec::with_capacity(lines.len() * tried.len());
         for azimuth in tried {
-            let [first, last] = helix.ends(skin, azimuth).map_err(|what| (number, what))?;
+            let [first, last] = helix.ends(skin, azimuth).map_err(|what| (number, what))?.map(|(place, way)| (place, Some(way)));
             for line in &lines {
                 let azimuths = line.azimuths.iter().copied().chain([azimuth]).collect();
-                longer.push(Line { azimuths, at: last, cost_m: line.cost_m + cost_m(skin, [line.at, first]) });
+                longer.push(Line { azimuths, end: last, cost_m: line.cost_m + cost_m(skin, [line.end, first]) });
             }
         }
         lines = best(longer);
     }
-    lines.iter_mut().for_each(|line| line.cost_m += cost_m(skin, [line.at, to]));
+    lines.iter_mut().for_each(|line| line.cost_m += cost_m(skin, [line.end, (to, None)]));
     Ok(best(lines).into_iter().map(|line| line.azimuths).collect())
 }
 
@@ -59,9 +65,11 @@ fn best(mut lines: Vec<Line>) -> Vec<Line> {
     lines
 }
 
-/// What the way between two places counts for.
-fn cost_m(skin: &mut PosedSkin, ends: [DVec3; 2]) -> f64 {
-    let way = leg::way(skin, ends, EACH_M);
+/// What the way between two ends counts for.
+fn cost_m(skin: &mut PosedSkin, ends: [End; 2]) -> f64 {
+    let way = leg::way(skin, ends.map(|(place, _)| place), EACH_M);
     let through = skin.goes_through(&way);
-    length(&way) + if through { THROUGH_M } else { 0.0 }
+    let straight = (ends[1].0 - ends[0].0).normalize_or_zero();
+    let bends: f64 = ends.iter().filter_map(|(_, along)| Some(0.5 * (1.0 - straight.dot((*along)?)))).sum();
+    length(&way) + BACK_M * bends + if through { THROUGH_M } else { 0.0 }
 }

@@ -71,11 +71,13 @@ impl<'a> Helix<'a> {
         Ok(way)
     }
 
-    /// Where it begins and ends when it begins at an azimuth.
-    pub fn ends(&self, skin: &PosedSkin, azimuth: f64) -> Result<[DVec3; 2], String> {
+    /// Where it begins and ends when it begins at an azimuth, and which way rope goes there.
+    pub fn ends(&self, skin: &PosedSkin, azimuth: f64) -> Result<[(DVec3, DVec3); 2], String> {
         let (first, last) = (self.section(skin, 0.0, 0.0)?, self.section(skin, 1.0, 1.0)?);
-        let end =
-            |section: &Section, azimuth: f64, sense: f64| section.place(azimuth, skin.off_m) + section.way(azimuth) * self.on_m(sense);
+        let end = |section: &Section, azimuth: f64, sense: f64| {
+            let way = section.way(azimuth);
+            (section.place(azimuth, skin.off_m) + way * self.on_m(sense), way * self.wrap.turns.signum())
+        };
         Ok([end(&first, azimuth, -1.0), end(&last, azimuth + TAU * self.wrap.turns, 1.0)])
     }
 
