@@ -7,7 +7,7 @@ mod linked;
 use endline_gear::{Options, Scenario, assemble};
 use endline_sdk::BodyPart;
 use endline_session::hash::StateHash;
-use endline_sim::metrics::{Metrics, Outcome, WhaleSummary};
+use endline_sim::metrics::{Metrics, Outcome, RegionSummary, WhaleSummary};
 use endline_sim::{Input, Model, State, Workspace, settle, step};
 use linked::{Linked, library, root, told};
 
@@ -56,9 +56,9 @@ fn ends(name: &str) -> WhaleSummary {
     whale
 }
 
-/// Wraps of the centre line about a part.
-fn wraps(whale: &WhaleSummary, part: BodyPart) -> f64 {
-    whale.regions.iter().zip(BodyPart::ALL).find(|(_, of)| *of == part).unwrap().0.wraps
+/// What was measured of a part.
+fn part(whale: &WhaleSummary, part: BodyPart) -> &RegionSummary {
+    whale.regions.iter().find(|region| region.part == part).unwrap()
 }
 
 #[test]
@@ -66,8 +66,30 @@ fn e7_99_ends_with_rope_lodged_in_the_mouth_and_half_a_turn_about_the_head() {
     let whale = ends("case-e7-99-slack.toml");
     assert_eq!(whale.outcome, Outcome::Entangled);
     assert!(whale.lodged_in_mouth && whale.hooked);
-    let head = wraps(&whale, BodyPart::Head);
+    let head = part(&whale, BodyPart::Head).wraps;
     assert!((0.5..0.7).contains(&head), "{head} turns");
     assert!(whale.trailing_m > 15.0, "the buoy's end trails: {} m", whale.trailing_m);
     assert!(whale.carried.iter().any(|id| id.ends_with("trap")), "the trap comes along: {:?}", whale.carried);
+}
+
+#[test]
+fn e7_99_on_its_side_ends_with_rope_lodged_in_the_mouth() {
+    let whale = ends("case-e7-99-sideways.toml");
+    assert_eq!(whale.outcome, Outcome::Entangled);
+    assert!(whale.lodged_in_mouth);
+    let head = part(&whale, BodyPart::Head);
+    assert!(head.contact_length_m > 0.3, "{} m of rope", head.contact_length_m);
+    assert!(head.wraps < 0.2, "it goes straight through: {} turns", head.wraps);
+}
+
+#[test]
+fn e25_05_with_a_roll_ends_with_rope_about_flipper_and_body() {
+    let whale = ends("case-e25-05-roll.toml");
+    assert_eq!(whale.outcome, Outcome::Entangled);
+    assert!(whale.hooked);
+    let (flipper, body) = (part(&whale, BodyPart::LeftFlipper), part(&whale, BodyPart::Body));
+    assert!((0.5..0.65).contains(&flipper.wraps), "{} turns about the flipper", flipper.wraps);
+    // From contact to contact: along the whole strand the ways about the body before and behind the flipper turn against each other.
+    assert!((0.4..0.7).contains(&body.touching_wraps), "{} turns about the body", body.touching_wraps);
+    assert!(body.contact_length_m > 2.5, "{} m of rope on the body", body.contact_length_m);
 }
