@@ -93,3 +93,27 @@ fn e25_05_with_a_roll_ends_with_rope_about_flipper_and_body() {
     assert!((0.4..0.7).contains(&body.touching_wraps), "{} turns about the body", body.touching_wraps);
     assert!(body.contact_length_m > 2.5, "{} m of rope on the body", body.contact_length_m);
 }
+
+/// Wraps about the left and the right fluke.
+fn flukes(whale: &WhaleSummary) -> [f64; 2] {
+    [BodyPart::LeftFluke, BodyPart::RightFluke].map(|fluke| part(whale, fluke).wraps)
+}
+
+#[test]
+fn e15_02_ends_with_rope_about_both_flukes() {
+    let whale = ends("case-e15-02.toml");
+    assert_eq!(whale.outcome, Outcome::Entangled);
+    assert!(whale.hooked);
+    let turns = flukes(&whale);
+    assert!(turns.iter().all(|turns| (0.5..0.8).contains(turns)), "{turns:?} turns");
+}
+
+#[test]
+fn e15_02_at_slack_water_ends_with_rope_before_the_root_of_both_flukes() {
+    let whale = ends("case-e15-02-slack.toml");
+    assert_eq!(whale.outcome, Outcome::Entangled);
+    assert!(whale.hooked);
+    let turns = flukes(&whale);
+    assert!(turns.iter().all(|turns| (0.3..0.7).contains(turns)), "{turns:?} turns");
+    assert!(turns.iter().sum::<f64>() > 0.8, "{turns:?} turns about the tail stock");
+}
