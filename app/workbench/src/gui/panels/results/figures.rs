@@ -104,7 +104,7 @@ pub(super) fn forest(ui: &mut Ui, shown: &Shown, event: &str) {
     let widest = ends.fold(0.02, f64::max);
     let count = groups.iter().map(|(_, rows)| rows.len() + 1).sum();
     let figure = Figure::new(ui, count, [-widest, widest]);
-    figure.axis(|tick| format!("{:+.0}", 100.0 * tick));
+    figure.axis(|tick| format!("{:+.*}", usize::from(widest < 0.1), 100.0 * tick));
     let zero = figure.x(0.0);
     let strong = Stroke::new(1.0, figure.palette.faint);
     figure.painter.line_segment([pos2(zero, figure.rect.top()), pos2(zero, figure.rect.bottom() - 30.0)], strong);
@@ -148,7 +148,7 @@ pub(super) fn tornado(ui: &mut Ui, shown: &Shown) {
     let words = endline_gear::Event::find(&findings.event).map_or_else(|| findings.event.clone(), |event| event.words());
     ui.label(format!("Rate of \"{words}\" over all options, by parts of each input's range"));
     let figure = Figure::new(ui, 2 * findings.inputs.len(), [0.0, 1.15 * most]);
-    figure.axis(|tick| format!("{:.0} %", 100.0 * tick));
+    figure.axis(|tick| format!("{:.*} %", usize::from(most < 0.1), 100.0 * tick));
     for (index, input) in findings.inputs.iter().enumerate() {
         let mut parts: Vec<_> = input.parts.iter().filter(|part| part.rate.runs > 0).collect();
         parts.sort_by(|one, other| one.rate.rate.total_cmp(&other.rate.rate));

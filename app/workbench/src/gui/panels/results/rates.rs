@@ -27,7 +27,7 @@ pub(super) fn show(ui: &mut Ui, shown: &Shown, event: &str) {
         ("Option", ""),
         ("Runs", "Runs that count, of those made"),
         ("Rate [%]", "Share of runs that came to the event, with its interval"),
-        ("Less than baseline [points]", "Rate less the baseline's in the same encounters; below zero is rarer"),
+        ("Difference from baseline [points]", "Rate less the baseline's in the same encounters; below zero is rarer"),
         ("Ratio", "Rate over the baseline's"),
         ("P(rarer)", "Probability that the event is rarer than with the baseline"),
         ("Best", "How often this option has the lowest rate when encounters are drawn again"),
@@ -78,7 +78,7 @@ fn levels(ui: &mut Ui, shown: &Shown) {
     for level in &shown.findings.levels {
         super::super::caption(ui, &level.level);
         Grid::new(("level", &level.level)).num_columns(4).striped(true).spacing([16.0, 3.0]).show(ui, |ui| {
-            for head in ["Option", "Rate of what is asked [%]", "Less than baseline [points]", "Parted [%]"] {
+            for head in ["Option", "Rate of what is asked [%]", "Difference from baseline [points]", "Parted [%]"] {
                 ui.label(RichText::new(head).small().color(faint));
             }
             ui.end_row();

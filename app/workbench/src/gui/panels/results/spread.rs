@@ -43,7 +43,10 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, shown: &Arc<Shown>) {
         RichText::new("Share of runs whose greatest tension stays below a value. Each dot is a run: click it to see it.")
             .color(Theme::palette_of(ui).faint),
     );
-    let words = move |value: f64| format!("{:.0}", 10.0_f64.powf(value) - 1.0);
+    let words = move |value: f64| {
+        let tension = 10.0_f64.powf(value) - 1.0;
+        format!("{tension:.*}", usize::from(tension < 10.0))
+    };
     let response = Plot::new("tensions of runs")
         .height(ui.available_height())
         .legend(Legend::default().position(egui_plot::Corner::LeftTop).background_alpha(0.6))
