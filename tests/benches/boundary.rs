@@ -11,8 +11,8 @@ mod linked;
 
 use std::env;
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, OnceLock};
 use std::time::Instant;
 
 use divan::Bencher;
@@ -53,9 +53,10 @@ fn shares() {
     let (mut fastest, mut ends) = ([f64::INFINITY; 2], [0, 0]);
     for _ in 0..12 {
         for (index, (model, state)) in [&one, &other].into_iter().enumerate() {
-            let begun = Instant::now();
-            ends[index] = walk(model, state.clone()).time_s.to_bits();
-            fastest[index] = fastest[index].min(begun.elapsed().as_secs_f64() / MEASURED as f64);
+            let state = state.clone();
+            let begun = seconds();
+            ends[index] = walk(model, state).time_s.to_bits();
+            fastest[index] = fastest[index].min((seconds() - begun) / MEASURED as f64);
         }
     }
     assert_eq!(ends[0], ends[1]);
@@ -78,6 +79,14 @@ fn at_contact(hooks: &dyn Hooks) -> (Model, State) {
         }
     }
     panic!("the rope does not lie across the whale");
+}
+
+/// Time that this thread has been on a processor [s], where the system tells; a busy machine makes no difference to it.
+fn seconds() -> f64 {
+    static BEGUN: OnceLock<Instant> = OnceLock::new();
+    let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
+    let nanoseconds = told.and_then(|text| text.split_whitespace().next()?.parse::<f64>().ok());
+    nanoseconds.map_or_else(|| BEGUN.get_or_init(Instant::now).elapsed().as_secs_f64(), |nanoseconds| 1e-9 * nanoseconds)
 }
 
 fn walk(model: &Model, mut state: State) -> State {

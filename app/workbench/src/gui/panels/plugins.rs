@@ -16,6 +16,9 @@ use super::super::theme::{Theme, primary};
 /// Share of the panel's width that the list takes.
 const LIST_SHARE: f32 = 0.38;
 
+/// Width of a field of the form.
+const FIELD_WIDTH: f32 = 140.0;
+
 /// Draws the panel.
 pub fn show(ui: &mut Ui, desk: &mut Desk) {
     let plugins = desk.every_plugin();
@@ -217,7 +220,11 @@ fn attributes(ui: &mut Ui, desk: &mut Desk, info: &PluginInfo) {
                 Some(table) => {
                     let (field, hint) = (format!("{table}.attributes.{}", attribute.key), format!("{usual} (usual)"));
                     let said = fields::Said { hint: &hint, help: &help };
-                    let typed = fields::edit(ui, &desk.book, Book::SCENARIO, &field, 120.0, said);
+                    let cell = ui.horizontal(|ui| {
+                        ui.set_min_width(FIELD_WIDTH);
+                        fields::edit(ui, &desk.book, Book::SCENARIO, &field, FIELD_WIDTH - 8.0, said)
+                    });
+                    let typed = cell.inner;
                     edits.extend(typed.map(|value| (field, value)));
                 }
                 None => {
