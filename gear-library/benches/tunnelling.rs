@@ -7,7 +7,8 @@
 mod fins;
 
 use cpu_time::ProcessTime;
-use fins::{Fins, Tally};
+use fins::Fins;
+use fins::tally::Tally;
 
 /// Encounters between two lines of the report.
 const TOLD_EVERY: u64 = 1_000;

@@ -1,0 +1,112 @@
+//! The rig of an encounter: a taut rope in still water, and a whale that is a piece of fin on its way.
+
+use std::sync::Arc;
+
+use endline_friction_models::Coulomb;
+use endline_sdk::{Descriptor, FrictionModel, HookError, MotionInput, MotionOutput, Region, WhaleMotion};
+use endline_sim::model::{Friction, Joint, JointKind, Line, Rope, Settings, Strength};
+use endline_sim::water::{Current, Water};
+use endline_sim::whale::{JointRanges, Measures, PilotProgram, Skin, Whale};
+use endline_sim::{DQuat, DVec3, ModelSpec};
+
+const EA_N: f64 = 1e5;
+
+/// A motion at one speed and turn rate.
+struct Steady {
+    descriptor: Descriptor,
+    speed_m_s: f64,
+    turn_rate: [f64; 3],
+}
+
+impl WhaleMotion for Steady {
+    fn descriptor(&self) -> &Descriptor {
+        &self.descriptor
+    }
+
+    fn step(&self, _: &[f64], _: &MotionInput<'_>, _: &mut [f64]) -> Result<MotionOutput, HookError> {
+        Ok(MotionOutput { speed_m_s: self.speed_m_s, turn_rate_rad_s: self.turn_rate, ..MotionOutput::default() })
+    }
+}
+
+/// A piece of fin on its way.
+pub fn whale(skin: Skin, speed_m_s: f64, turn_rate: [f64; 3]) -> Whale {
+    let (id, name, help) = ("test.steady".into(), "Steady".into(), "Always the same.".into());
+    let descriptor = Descriptor { id, version: "1".into(), name, help, attributes: Vec::new(), state_len: 0, acts: Vec::new() };
+    Whale {
+        skin: Arc::new(skin),
+        joints: JointRanges::unbounded(),
+        length_m: 1.0,
+        measures: Measures::default(),
+        burst_speed_m_s: speed_m_s,
+        position_m: DVec3::ZERO,
+        orientation: DQuat::IDENTITY,
+        speed_m_s,
+        motion: Arc::new(Steady { descriptor, speed_m_s, turn_rate }),
+        motion_attributes: Vec::new(),
+        pilot: PilotProgram::default(),
+        contact_stiffness_n_m2: 4e5,
+        kinetic: None,
+    }
+}
+
+/// A taut rope, held where it begins.
+pub struct Taut {
+    pub held: DVec3,
+    pub along: DVec3,
+    pub pull_n: f64,
+    pub radius_m: f64,
+    pub length_m: f64,
+    pub segments: usize,
+}
+
+impl Taut {
+    /// All of the encounter: the rope, held at one end and pulled at the other, and the whale.
+    pub fn rig(&self, whale: Whale, friction: f64, settings: Settings) -> ModelSpec {
+        let Self { held, along, pull_n, radius_m, length_m, segments } = *self;
+        let segment_m = length_m / segments as f64;
+        let stretched = segment_m * (1.0 + pull_n / EA_N);
+        let start_m: Vec<DVec3> = (0..=segments).map(|node| held + along * (stretched * node as f64)).collect();
+        let segments_m = vec![segment_m; segments];
+        let joint = |id: &str, kind, position_m| Joint { id: id.into(), kind, position_m };
+        let pulled = JointKind::Pulled { force_n: along * pull_n, from_s: -1.0 };
+        let joints = vec![joint("held", JointKind::Fixed, held), joint("pulled", pulled, start_m[segments])];
+        let line = Line { id: "rope".into(), rope: 0, from: 0, to: 1, segments_m, strength: Strength::default(), start_m };
+        let coulomb = Coulomb::new();
+        let attributes = coulomb.descriptor().attributes.iter().filter_map(|attribute| attribute.default_value().number()).collect();
+        let current = Current::uniform(DVec3::ZERO);
+        ModelSpec {
+            water: Water { density_kg_m3: 1025.0, gravity_m_s2: 9.81, depth_m: 100.0, rope_dries: false, current, waves: None },
+            seabed: None,
+            ropes: vec![rope(2.0 * radius_m)],
+            joints,
+            lines: vec![line],
+            bodies: Vec::new(),
+            links: Vec::new(),
+            gear: Vec::new(),
+            whale: Some(whale),
+            friction: Some(Friction::of_one(Arc::new(coulomb), attributes, vec![[friction; Region::ALL.len()]])),
+            obstacles: Vec::new(),
+            probes: Vec::new(),
+            settings,
+        }
+    }
+}
+
+fn rope(diameter_m: f64) -> Rope {
+    Rope {
+        id: "rope".into(),
+        diameter_m,
+        mass_kg_m: 600.0 * diameter_m * diameter_m,
+        displaced_m3_m: 0.6 * diameter_m * diameter_m,
+        axial_stiffness_n: EA_N,
+        axial_stiffening_n: 0.0,
+        axial_damping_n_s: 5.0,
+        axial_damping_ratio: 0.0,
+        bending_stiffness_n_m2: 0.0,
+        drag_normal: 1.2,
+        drag_tangential: 0.015,
+        added_mass_normal: 1.0,
+        added_mass_tangential: 0.0,
+        strength_n: f64::INFINITY,
+    }
+}

@@ -1,0 +1,72 @@
+//! Encounters run and counted.
+
+use endline_sim::contact::crossing::pierces;
+use endline_sim::whale::{pose, skin_all};
+use endline_sim::{Input, Model, State, Workspace, step};
+
+use super::Encounter;
+
+/// What came of encounters.
+#[derive(Clone, Debug, Default)]
+pub struct Tally {
+    pub encounters: u64,
+    /// In which rope was pressed on.
+    pub met: u64,
+    /// In which rope crossed skin, by the exact test of the paths or by a look at each end of a step.
+    pub crossed: u64,
+    /// That ended for another reason.
+    pub ended: u64,
+    pub solver_steps: u64,
+    pub passes: u64,
+    pub unconverged: u64,
+    /// Numbers of the first that crossed or ended, with what was said.
+    pub told: Vec<String>,
+}
+
+impl Tally {
+    /// Both together.
+    pub fn with(mut self, other: Self) -> Self {
+        self.encounters += other.encounters;
+        self.met += other.met;
+        self.crossed += other.crossed;
+        self.ended += other.ended;
+        self.solver_steps += other.solver_steps;
+        self.passes += other.passes;
+        self.unconverged += other.unconverged;
+        self.told.extend(other.told);
+        self
+    }
+
+    /// Runs an encounter and counts it.
+    pub fn add(&mut self, number: u64, encounter: Encounter) {
+        let Encounter { speed_m_s, pull_n, steps, spec } = encounter;
+        let model = Model::new(spec).expect("a sound model");
+        let (mut state, mut workspace) = (State::start(&model), Workspace::new(&model));
+        let (mut met, mut crossed, mut ended) = (false, false, None);
+        while state.step < steps && !crossed && ended.is_none() {
+            ended = step(&model, &Input::default(), &mut state, &mut workspace).err();
+            met |= workspace.audit.least_distance_m.is_some();
+            crossed = workspace.audit.tunnelled > 0 || is_pierced(&model, &state);
+        }
+        self.encounters += 1;
+        self.met += u64::from(met);
+        self.crossed += u64::from(crossed);
+        self.ended += u64::from(ended.is_some() && !crossed);
+        self.solver_steps += workspace.audit.solver_steps;
+        self.passes += workspace.audit.passes;
+        self.unconverged += workspace.audit.unconverged;
+        if (crossed || ended.is_some()) && self.told.len() < 10 {
+            self.told.push(format!("encounter {number}, {speed_m_s:.1} m/s, {pull_n:.0} N: crossed {crossed}, {ended:?}"));
+        }
+    }
+}
+
+/// Whether any segment passes through any triangle where they stand.
+pub fn is_pierced(model: &Model, state: &State) -> bool {
+    let (Some(whale), Some(now)) = (&model.spec.whale, &state.whale) else { return false };
+    let (mut bones, mut places) = (Vec::new(), Vec::new());
+    pose(&whale.skin, now.position, now.orientation, &now.posture, &mut bones);
+    skin_all(&whale.skin, &bones, &mut places);
+    let skin = || whale.skin.triangles.iter().map(|corners| corners.map(|corner| places[corner as usize]));
+    state.rope.position.windows(2).any(|ends| skin().any(|triangle| pierces([ends[0], ends[1]], triangle)))
+}
