@@ -94,6 +94,15 @@ fn e25_05_with_a_roll_ends_with_rope_about_flipper_and_body() {
     assert!(body.contact_length_m > 2.5, "{} m of rope on the body", body.contact_length_m);
 }
 
+#[test]
+fn e25_05_with_thrashing_keeps_the_bight_round_the_flipper() {
+    let whale = ends("case-e25-05-thrash.toml");
+    assert_eq!(whale.outcome, Outcome::Entangled);
+    assert!(whale.hooked);
+    let flipper = part(&whale, BodyPart::LeftFlipper).wraps;
+    assert!((0.5..0.65).contains(&flipper), "{flipper} turns");
+}
+
 /// Wraps about the left and the right fluke.
 fn flukes(whale: &WhaleSummary) -> [f64; 2] {
     [BodyPart::LeftFluke, BodyPart::RightFluke].map(|fluke| part(whale, fluke).wraps)
