@@ -44,6 +44,8 @@ const MOST_SOLID_PASSES: usize = 30;
 const MOST_CUTS: usize = 20;
 /// Times the skin may be stopped within a solver step.
 const MOST_STAGES: usize = 8;
+/// Rope that begins a step pinched may end it this much nearer to skin, as a share.
+const STILL_PINCHED: f64 = 0.99;
 /// Move of the last pass with contact above which the step is redone shorter [m].
 pub(crate) const CONTACT_CONVERGED_M: f64 = 1e-3;
 
@@ -303,10 +305,15 @@ fn contact_step(
     work.slots.list.clear();
     solver.set_out(state);
     solver.ropes.begin();
-    for _ in 0..MOST_STAGES {
+    let mut pinched = PINCHED_SHARE;
+    for stage in 0..MOST_STAGES {
         work.near.measure(solver.places());
         if let Some(pair) = work.near.pairs.iter().find(|pair| pair.clear <= 0.0) {
             return Err(Refused::Crossed(pair.segment));
+        }
+        if stage == 0 {
+            // Rope that lies there already may stay, and come out again.
+            pinched = pinched.min(STILL_PINCHED * work.near.least_share());
         }
         audit.tunnelled += solver.carry(model, work);
         solver.open_ropes(state);
@@ -328,7 +335,7 @@ fn contact_step(
             Touched::CrushedRopes(segments) => return Err(Refused::RopesPinched(segments)),
             Touched::Plugin(message) => return Err(Refused::Plugin(message)),
         }
-        if let Some((segment, triangle)) = work.nearer_than(PINCHED_SHARE) {
+        if let Some((segment, triangle)) = work.nearer_than(pinched) {
             return Err(Refused::Pinched(segment, triangle));
         }
         if let Some(segments) = solver.crushed_ropes(true) {

@@ -10,6 +10,7 @@ use endline_sdk::{Contacts, FrictionResponse};
 use glam::{DMat3, DVec3};
 
 use super::account::Account;
+use super::crease::Faces;
 use super::grain::grain;
 use super::near::{Near, on_triangle};
 use super::slots::{Slot, Slots, Touch};
@@ -61,6 +62,7 @@ struct Group {
 struct Found {
     law: usize,
     slot: usize,
+    face: usize,
     touch: Touch,
 }
 
@@ -69,6 +71,8 @@ struct Found {
 pub(crate) struct Touching {
     /// Index of the slot.
     pub slot: Vec<usize>,
+    /// Which of the faces that the slot touches.
+    pub face: Vec<usize>,
     /// Places in these arrays, in rising order of slot.
     pub in_order: Vec<usize>,
     found: Vec<Found>,
@@ -90,31 +94,34 @@ pub(crate) struct Touching {
 }
 
 impl Touching {
-    /// Collects the slots in touch, as `touch_of` tells it.
-    pub fn collect(&mut self, model: &Model, near: &Near, slots: &Slots, state: &State, touch_of: impl Fn(&Slot) -> Option<Touch>) {
+    /// Collects the slots in touch, as `touches_of` tells it.
+    pub fn collect(&mut self, model: &Model, near: &Near, slots: &Slots, state: &State, touches_of: impl Fn(&Slot) -> Faces) {
         self.clear();
         let (Some(whale), Some(friction)) = (&model.spec.whale, &model.spec.friction) else { return };
         for (slot, at) in slots.list.iter().enumerate() {
-            let Some(touch) = touch_of(at) else { continue };
-            let region = whale.skin.regions[near.pairs[touch.pair].triangle as usize];
-            let rope = model.spec.lines[model.segment_line[at.segment]].rope;
-            self.found.push(Found { law: friction.law_of[rope][region as usize], slot, touch });
+            for (face, touch) in touches_of(at).into_iter().enumerate() {
+                let Some(touch) = touch else { continue };
+                let region = whale.skin.regions[near.skin_of(touch.pair).triangle as usize];
+                let rope = model.spec.lines[model.segment_line[at.segment]].rope;
+                self.found.push(Found { law: friction.law_of[rope][region as usize], slot, face, touch });
+            }
         }
         if friction.laws.len() > 1 {
-            self.found.sort_unstable_by_key(|found| (found.law, found.slot));
+            self.found.sort_unstable_by_key(|found| (found.law, found.slot, found.face));
         }
         for place in 0..self.found.len() {
             self.put(model, friction, near, slots, state, place);
         }
         self.in_order.extend(0..self.slot.len());
         if friction.laws.len() > 1 {
-            self.in_order.sort_unstable_by_key(|place| self.slot[*place]);
+            self.in_order.sort_unstable_by_key(|place| (self.slot[*place], self.face[*place]));
         }
         self.response.resize(self.slot.len(), FrictionResponse::default());
     }
 
     fn clear(&mut self) {
         self.slot.clear();
+        self.face.clear();
         self.in_order.clear();
         self.found.clear();
         self.groups.clear();
@@ -135,14 +142,15 @@ impl Touching {
     /// Puts the contact found at a place into the arrays.
     fn put(&mut self, model: &Model, friction: &Friction, near: &Near, slots: &Slots, state: &State, place: usize) {
         let Some(whale) = &model.spec.whale else { return };
-        let Found { law, slot: index, touch } = self.found[place];
-        let (slot, pair) = (&slots.list[index], &near.pairs[touch.pair]);
+        let Found { law, slot: index, face, touch } = self.found[place];
+        let (slot, pair) = (&slots.list[index], near.skin_of(touch.pair));
         let region = whale.skin.regions[pair.triangle as usize];
         let rope = model.spec.lines[model.segment_line[slot.segment]].rope;
         let rope_move = touch.place - slot.on_rope(|node| state.rope.position[node]);
         let skin_move = on_triangle(pair.now, touch.barycentric) - on_triangle(pair.sweep[0], touch.barycentric);
         let slip = rope_move - skin_move;
         self.slot.push(index);
+        self.face.push(face);
         self.normal_force.push(touch.press.force);
         self.normal.push(touch.normal.to_array());
         self.grain.push(grain(&whale.skin, pair.triangle as usize, pair.now, touch.normal).to_array());
@@ -152,7 +160,7 @@ impl Touching {
         self.coefficient.push(friction.coefficients[rope][region as usize]);
         self.region.push(region as u32);
         self.rope.push(u32::try_from(rope).unwrap_or(u32::MAX));
-        self.put_floats(friction, law, slot.site, &state.rope.grips);
+        self.put_floats(friction, law, slot.site(face), &state.rope.grips);
         self.put_in_group(law, place);
     }
 
@@ -234,7 +242,7 @@ impl Touching {
             let width = friction.laws[group.law].model.descriptor().state_len;
             let from = group.floats.start + (place - group.contacts.start) * width;
             let Account { taken_j, given_j } = self.account[*place];
-            grips.sites.push(slots.list[self.slot[*place]].site);
+            grips.sites.push(slots.list[self.slot[*place]].site(self.face[*place]));
             grips.floats.extend_from_slice(&[group.law as f64, taken_j, given_j]);
             grips.floats.extend_from_slice(&self.floats_at_end[from..from + width]);
             grips.floats.resize(grips.sites.len() * stride, 0.0);

@@ -1,12 +1,14 @@
 //! Rope against the skinned whale: detection that cannot miss, response inside the rope solve.
 
 mod account;
+mod crease;
 pub mod crossing;
 pub mod distance;
 mod grain;
 pub(crate) mod grip;
 pub(crate) mod law;
 pub(crate) mod near;
+pub(crate) mod placed;
 pub mod ropes;
 pub(crate) mod slots;
 pub mod sweep;

@@ -11,7 +11,8 @@ use std::sync::Arc;
 use glam::{DAffine3, DVec3};
 
 use super::crossing::first_meeting;
-use super::distance::{Nearest, Plane, point_triangle_in, segment_triangle_in};
+use super::distance::Nearest;
+use super::placed::Placed;
 use super::sweep::{SweptSegment, SweptTriangle, greatest_approach, safe_fraction_from, triangle_at};
 use crate::model::Model;
 use crate::whale::{Bounds, Candidate, SkinTree, Surface};
@@ -22,11 +23,10 @@ pub(crate) const MARGIN_M: f64 = 0.08;
 const CARRIED_M: (f64, f64) = (0.02, 0.06);
 /// Pairs farther apart than this are known by a lower bound of their distance [m].
 const EXACT_M: f64 = 0.001;
-/// Growth of balls over rounding: a factor, and a length [m].
-const GROWN: f64 = 1.0 + 1e-12;
-const ROUNDING_M: f64 = 1e-9;
 /// Least separation kept, as a share of the rope's radius.
 const GUARD_SHARE: f64 = 0.08;
+/// A triangle that stays where it is.
+const STILL: SweptTriangle = [[DVec3::ZERO; 3]; 2];
 
 /// A segment and a triangle that may touch.
 #[derive(Clone, Copy, Debug)]
@@ -34,19 +34,12 @@ pub(crate) struct Pair {
     pub segment: usize,
     /// First node of the segment.
     pub node: usize,
-    pub triangle: u32,
-    /// Corners at the start and the end of the solver step.
-    pub sweep: SweptTriangle,
-    /// Corners now.
-    pub now: [DVec3; 3],
-    /// A ball around them.
-    ball: Ball,
-    /// Their plane; `None` for a needle.
-    plane: Option<Plane>,
+    /// Place of the triangle in [`Near::skin`].
+    skin: usize,
     /// Lower bound of their distance now [m].
     pub clear: f64,
-    /// Longest move of a corner over the solver step [m].
-    skin_move: f64,
+    /// Whether it is their distance.
+    exact: bool,
     /// Separation kept [m].
     guard: f64,
 }
@@ -57,6 +50,11 @@ pub(crate) struct Near {
     surface: Surface,
     sweeps: Vec<SweptSegment>,
     candidates: Vec<Candidate>,
+    /// Triangles that have pairs.
+    skin: Vec<Placed>,
+    /// Where each triangle of the skin lies among them, with the number of the step for which that holds.
+    placed_at: Vec<(u64, usize)>,
+    number: u64,
     pub pairs: Vec<Pair>,
     /// Pairs of each segment that has any.
     pub groups: Vec<(usize, Range<usize>)>,
@@ -72,6 +70,9 @@ impl Near {
     pub fn new(model: &Model, tree: Arc<SkinTree>) -> Self {
         let nodes = model.line_nodes.iter().flat_map(|nodes| nodes.start..nodes.end - 1);
         Self {
+            skin: Vec::new(),
+            placed_at: vec![(0, 0); tree.skin().triangles.len()],
+            number: 0,
             surface: Surface::new(tree),
             sweeps: vec![SweptSegment::default(); model.segment_count],
             candidates: Vec::new(),
@@ -109,6 +110,8 @@ impl Near {
         self.sweep(bones, places, moves);
         self.surface.gather(&self.sweeps, MARGIN_M, &mut self.candidates);
         self.fraction = 0.0;
+        self.number += 1;
+        self.skin.clear();
         self.pairs.clear();
         self.groups.clear();
         for place in 0..self.candidates.len() {
@@ -117,19 +120,32 @@ impl Near {
             if cut[segment] {
                 continue;
             }
-            let sweep = self.surface.triangle_sweep(triangle);
+            let skin = self.place_of(triangle);
             let guard = GUARD_SHARE * 0.5 * model.rope_of_segment(segment).diameter_m;
             let node = self.segment_node[segment];
             let index = self.pairs.len();
-            let skin_move = (0..3).map(|corner| sweep[0][corner].distance_squared(sweep[1][corner])).fold(0.0, f64::max).sqrt();
-            let (now, ball, plane) = (sweep[0], Ball::around(sweep[0]), Plane::of(sweep[0]));
-            self.pairs.push(Pair { segment, node, triangle, sweep, now, ball, plane, clear: 0.0, skin_move, guard });
+            self.pairs.push(Pair { segment, node, skin, clear: 0.0, exact: false, guard });
             match self.groups.last_mut() {
                 Some((last, range)) if *last == segment => range.end = index + 1,
                 _ => self.groups.push((segment, index..index + 1)),
             }
         }
         !self.pairs.is_empty()
+    }
+
+    /// Where a triangle lies among those that have pairs; put there where it is new.
+    fn place_of(&mut self, triangle: u32) -> usize {
+        let at = &mut self.placed_at[triangle as usize];
+        if at.0 != self.number {
+            *at = (self.number, self.skin.len());
+            self.skin.push(Placed::new(triangle, self.surface.triangle_sweep(triangle)));
+        }
+        at.1
+    }
+
+    /// The triangle of a pair, by the place of the pair.
+    pub fn skin_of(&self, pair: usize) -> &Placed {
+        &self.skin[self.pairs[pair].skin]
     }
 
     /// Measures every pair at the places given: near ones exactly, others by a lower bound.
@@ -139,10 +155,17 @@ impl Near {
             let segment = [places[node], places[node + 1]];
             let rope_box = Bounds::around(&segment);
             for pair in &mut self.pairs[range.clone()] {
-                let gap = rope_box.gap(&Bounds::around(&pair.now)).max(pair.gap(segment));
-                pair.clear = if gap > EXACT_M { gap } else { pair.nearest_to(segment).distance };
+                let skin = &self.skin[pair.skin];
+                let gap = rope_box.gap(&Bounds::around(&skin.now)).max(skin.gap(segment));
+                pair.exact = gap <= EXACT_M;
+                pair.clear = if pair.exact { skin.nearest_to(segment).distance } else { gap };
             }
         }
+    }
+
+    /// Least distance of any pair as last measured, as a share of the rope's radius; 1 or more where none is nearer.
+    pub fn least_share(&self) -> f64 {
+        self.pairs.iter().map(|pair| GUARD_SHARE * pair.clear / pair.guard).fold(1.0, f64::min)
     }
 
     /// Where rope goes as the skin makes the rest of its move: on to `target`, held back from coming nearer to skin
@@ -153,9 +176,10 @@ impl Near {
         }
         for (_, range) in &self.groups {
             let Some((pair, nearest)) = self.nearest(places, range.clone()) else { continue };
+            let skin = &self.skin[pair.skin];
             let between = |at: &[DVec3]| at[pair.node].lerp(at[pair.node + 1], nearest.fraction);
-            let foot = on_triangle(pair.now, nearest.barycentric);
-            let skin_move = on_triangle(pair.sweep[1], nearest.barycentric) - foot;
+            let foot = on_triangle(skin.now, nearest.barycentric);
+            let skin_move = on_triangle(skin.sweep[1], nearest.barycentric) - foot;
             let from = between(places);
             let normal = (from - foot) / nearest.distance.max(1e-12);
             let approach = normal.dot(skin_move - (between(target) - from));
@@ -172,8 +196,9 @@ impl Near {
         for (_, range) in &self.groups {
             let Some((pair, nearest)) = self.nearest(places, range.clone()) else { continue };
             let share = ((CARRIED_M.1 - nearest.distance) / (CARRIED_M.1 - CARRIED_M.0)).clamp(0.0, 1.0);
-            let end = on_triangle(pair.sweep[1], nearest.barycentric);
-            let skin_move = end - on_triangle(pair.now, nearest.barycentric);
+            let skin = &self.skin[pair.skin];
+            let end = on_triangle(skin.sweep[1], nearest.barycentric);
+            let skin_move = end - on_triangle(skin.now, nearest.barycentric);
             for node in [pair.node, pair.node + 1] {
                 let carried = places[node] + skin_move;
                 target[node] = target[node].lerp(carried, share);
@@ -187,7 +212,7 @@ impl Near {
             if best.is_some_and(|(_, nearest)| pair.clear >= nearest.distance) {
                 continue;
             }
-            let nearest = pair.nearest_to([places[pair.node], places[pair.node + 1]]);
+            let nearest = self.skin[pair.skin].nearest_to([places[pair.node], places[pair.node + 1]]);
             if best.is_none_or(|(_, found)| nearest.distance < found.distance) {
                 best = Some((pair, nearest));
             }
@@ -205,16 +230,20 @@ impl Near {
         let skin_share = skin_to - self.fraction;
         for (_, range) in &self.groups {
             let segment = self.pairs[range.start].sweep_of(places, &target);
-            let moved = greatest_move(&segment);
+            let (moved, alone) = (greatest_move(&segment), greatest_approach(&segment, &STILL));
             for pair in &mut self.pairs[range.clone()] {
-                if pair.clear - pair.guard > moved + pair.skin_move * skin_share {
+                let skin = &self.skin[pair.skin];
+                if pair.clear - pair.guard > moved + skin.longest_move * skin_share {
                     continue;
                 }
-                let triangle = [pair.now, if skin_share > 0.0 { triangle_at(&pair.sweep, skin_to) } else { pair.now }];
-                if pair.clear - pair.guard > greatest_approach(&segment, &triangle) {
+                let triangle = [skin.now, if skin_share > 0.0 { triangle_at(&skin.sweep, skin_to) } else { skin.now }];
+                let approach = if skin_share > 0.0 { greatest_approach(&segment, &triangle) } else { alone };
+                if pair.clear - pair.guard > approach {
                     continue;
                 }
-                pair.clear = pair.nearest_to(segment.at(0.0)).distance;
+                if !pair.exact {
+                    (pair.clear, pair.exact) = (skin.nearest_to(segment.at(0.0)).distance, true);
+                }
                 share = share.min(safe_fraction_from(&segment, &triangle, pair.guard, pair.clear));
             }
         }
@@ -225,13 +254,26 @@ impl Near {
     /// moved. Gives the number of crossings an exact test finds on the way.
     pub fn make_move(&mut self, places: &[DVec3], target: impl Fn(usize) -> DVec3, skin_to: f64) -> u64 {
         let skin_share = skin_to - self.fraction;
+        self.skin.iter_mut().for_each(|skin| skin.go(if skin_share > 0.0 { triangle_at(&skin.sweep, skin_to) } else { skin.now }));
         let mut crossings = 0;
         for (_, range) in &self.groups {
             let segment = self.pairs[range.start].sweep_of(places, &target);
-            let moved = greatest_move(&segment);
+            let (moved, alone) = (greatest_move(&segment), greatest_approach(&segment, &STILL));
             for pair in &mut self.pairs[range.clone()] {
-                let after = if skin_share > 0.0 { triangle_at(&pair.sweep, skin_to) } else { pair.now };
-                crossings += u64::from(pair.follow(&segment, after, moved + pair.skin_move * skin_share));
+                let skin = &self.skin[pair.skin];
+                let most = moved + skin.longest_move * skin_share;
+                if pair.clear > most + EXACT_M {
+                    (pair.clear, pair.exact) = (pair.clear - most, false);
+                    continue;
+                }
+                let triangle = [skin.before, skin.now];
+                let approach = if skin_share > 0.0 { greatest_approach(&segment, &triangle) } else { alone };
+                if pair.clear > approach {
+                    (pair.clear, pair.exact) = (pair.clear - approach, false);
+                    continue;
+                }
+                (pair.clear, pair.exact) = (skin.nearest_to(segment.at(1.0)).distance, true);
+                crossings += u64::from(first_meeting(&segment, &triangle).is_some());
             }
         }
         self.fraction = skin_to;
@@ -240,65 +282,8 @@ impl Near {
 }
 
 impl Pair {
-    /// Takes a move of both: keeps a lower bound of the distance; whether an exact test finds a crossing.
-    fn follow(&mut self, segment: &SweptSegment, after: [DVec3; 3], most: f64) -> bool {
-        let triangle = [self.now, after];
-        if self.now != after {
-            (self.now, self.ball, self.plane) = (after, Ball::around(after), Plane::of(after));
-        }
-        if self.clear > most + EXACT_M {
-            self.clear -= most;
-            return false;
-        }
-        let approach = greatest_approach(segment, &triangle);
-        if self.clear > approach {
-            self.clear -= approach;
-            return false;
-        }
-        self.clear = self.nearest_to(segment.at(1.0)).distance;
-        first_meeting(segment, &triangle).is_some()
-    }
-
-    /// Nearest places of a segment and the triangle as it stands.
-    pub fn nearest_to(&self, segment: [DVec3; 2]) -> Nearest {
-        segment_triangle_in(self.plane.as_ref(), segment, self.now)
-    }
-
-    /// Nearest place on it to a point: distance and barycentric place; `None` where it is no nearer than `most`.
-    pub fn nearest_to_point(&self, point: DVec3, most: f64) -> Option<(f64, [f64; 3])> {
-        let reach = most + self.ball.radius;
-        if point.distance_squared(self.ball.centre) > reach * reach {
-            return None;
-        }
-        point_triangle_in(self.plane.as_ref(), point, self.now, most)
-    }
-
-    /// No more than a segment's distance from it, below zero where that tells nothing [m].
-    pub fn gap(&self, segment: [DVec3; 2]) -> f64 {
-        let [from, to] = segment;
-        let (along, centre) = (to - from, self.ball.centre - from);
-        let fraction = (centre.dot(along) / along.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-        let round = centre.distance(along * fraction) - self.ball.radius;
-        self.plane.as_ref().map_or(round, |plane| round.max(plane.gap(segment)))
-    }
-
     fn sweep_of(&self, places: &[DVec3], target: impl Fn(usize) -> DVec3) -> SweptSegment {
         SweptSegment { a0: places[self.node], b0: places[self.node + 1], a1: target(self.node), b1: target(self.node + 1) }
-    }
-}
-
-/// A ball around a triangle, grown over rounding.
-#[derive(Clone, Copy, Debug)]
-struct Ball {
-    centre: DVec3,
-    radius: f64,
-}
-
-impl Ball {
-    fn around(corners: [DVec3; 3]) -> Self {
-        let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
-        let square = corners.iter().map(|corner| corner.distance_squared(centre)).fold(0.0, f64::max);
-        Self { centre, radius: square.sqrt() * GROWN + ROUNDING_M }
     }
 }
 

@@ -2,13 +2,14 @@
 //!
 //! A segment near skin is cut into sub-segments of at most [`PIECE_M`], so that stiffness does not depend on
 //! the length of segments. Each piece has a slot at its middle, and more where another of its points
-//! comes clearly nearer (a thin edge). Slots keep their place on the rope within a solver step: letting
+//! comes clearly nearer (a thin edge). A slot touches one face of skin, or several in a crease (`crease.rs`). Slots keep their place on the rope within a solver step: letting
 //! them hop to the closest point in every pass is what keeps Newton from converging (docs/physics.md).
 
 use std::ops::Range;
 
 use glam::DVec3;
 
+use super::crease::{self, Faces};
 use super::law::Press;
 use super::near::{Near, on_triangle};
 use crate::model::Model;
@@ -19,10 +20,12 @@ const PIECE_M: f64 = 0.025;
 const LEAST_PIECES: f64 = 2.0;
 /// Bits of a site's number below its segment's.
 const SEGMENT_BITS: u32 = 20;
-/// Bits of a site's number that name the slot within its piece.
-const PIECE_BITS: u32 = 3;
+/// Bits of a site's number that name the face of skin.
+const FACE_BITS: u32 = 2;
+/// Bits of a site's number that name the slot within its piece, and the face.
+const PIECE_BITS: u32 = 3 + FACE_BITS;
 /// Most slots of a piece.
-const MOST_SLOTS: usize = 1 << PIECE_BITS;
+const MOST_SLOTS: usize = 1 << (PIECE_BITS - FACE_BITS);
 /// A further slot is opened where its distance is below this share of those there are.
 const NEARER: f64 = 0.8;
 /// Further slots are looked for only within this many contact distances.
@@ -44,8 +47,8 @@ pub(crate) fn shift_site(site: u64, segments: Range<usize>, by: i64) -> u64 {
 /// One place on the rope.
 #[derive(Clone, Debug)]
 pub(crate) struct Slot {
-    /// Number that names it from step to step: segment, piece, which of the piece's slots.
-    pub site: u64,
+    /// Number that names it from step to step: segment, piece, which of the piece's slots; that of its first face.
+    site: u64,
     pub segment: usize,
     pub node: usize,
     pub fraction: f64,
@@ -58,8 +61,10 @@ pub(crate) struct Slot {
     stiffness: f64,
     /// Where it was last measured, and the distance found there.
     seen: Option<(DVec3, f64)>,
+    /// The pair it was nearest to then.
+    nearest_pair: Option<usize>,
     /// What it touches now.
-    pub touch: Option<Touch>,
+    pub touches: Faces,
 }
 
 /// A slot in touch with skin.
@@ -72,6 +77,9 @@ pub(crate) struct Touch {
     pub distance: f64,
     pub press: Press,
 }
+
+/// The nearest place on a triangle: distance, place of the pair, barycentric place.
+type Foot = (f64, usize, [f64; 3]);
 
 /// All slots of a solver step.
 #[derive(Clone, Debug, Default)]
@@ -99,7 +107,8 @@ impl Slots {
                     reach,
                     stiffness: stiffness_n_m2 * length / pieces,
                     seen: None,
-                    touch: None,
+                    nearest_pair: None,
+                    touches: Faces::default(),
                 });
             }
         }
@@ -116,8 +125,8 @@ impl Slots {
             if to - from < MOST_SLOTS
                 && let Some(fraction) = self.list[from].nearer_fraction(near, places, least)
             {
-                let site = self.list[to - 1].site + 1;
-                self.list.push(Slot { site, fraction, seen: None, touch: None, ..self.list[from].clone() });
+                let site = self.list[to - 1].site + (1 << FACE_BITS);
+                self.list.push(Slot { site, fraction, seen: None, touches: Faces::default(), ..self.list[from].clone() });
             }
             from = to;
         }
@@ -151,7 +160,10 @@ impl Slot {
 
     fn measure(&mut self, near: &Near, places: &[DVec3]) {
         let place = self.on_rope(|node| places[node]);
-        self.touch = None;
+        if self.seen.is_some_and(|(seen, _)| seen == place) {
+            return;
+        }
+        self.touches = Faces::default();
         if self.out_of_reach(place) {
             return;
         }
@@ -159,24 +171,42 @@ impl Slot {
         self.seen = Some((place, within));
         if let Some(nearest) = self.nearest(near, place, 0.0, within) {
             self.seen = Some((place, nearest.0));
-            self.touch = self.touch_of(near, place, nearest);
+            self.nearest_pair = Some(nearest.1);
+            self.touches = self.faces(near, place, 0.0, nearest);
         }
+    }
+
+    /// Number that names a face that it touches from step to step.
+    pub fn site(&self, face: usize) -> u64 {
+        self.site | face as u64
     }
 
     /// What it touches with the rope moved by `step` from the places measured last.
-    pub fn touch_moved(&self, near: &Near, place: DVec3, step: DVec3) -> Option<Touch> {
+    pub fn touches_moved(&self, near: &Near, place: DVec3, step: DVec3) -> Faces {
         let (place, moved) = (place + step, step.length());
         if self.out_of_reach(place) {
-            return None;
+            return Faces::default();
         }
-        let nearest = self.nearest(near, place, moved, self.reach)?;
-        self.touch_of(near, place, nearest)
+        self.nearest(near, place, moved, self.reach).map_or_else(Faces::default, |nearest| self.faces(near, place, moved, nearest))
     }
 
-    fn touch_of(&self, near: &Near, place: DVec3, (distance, pair, barycentric): (f64, usize, [f64; 3])) -> Option<Touch> {
+    /// What it touches, from the nearest triangle.
+    fn faces(&self, near: &Near, place: DVec3, moved: f64, nearest: Foot) -> Faces {
+        let Some(nearest) = self.touch_of(near, place, nearest) else { return Faces::default() };
+        let others = self.pairs.clone().filter_map(|index| {
+            if index == nearest.pair || near.pairs[index].clear - moved >= self.reach {
+                return None;
+            }
+            let (distance, barycentric) = near.skin_of(index).nearest_to_point(place, self.reach)?;
+            self.touch_of(near, place, (distance, index, barycentric))
+        });
+        crease::faces(nearest, others)
+    }
+
+    fn touch_of(&self, near: &Near, place: DVec3, (distance, pair, barycentric): Foot) -> Option<Touch> {
         let press = Press::new(distance, self.reach, self.stiffness);
         (press.force > 0.0).then(|| {
-            let foot = on_triangle(near.pairs[pair].now, barycentric);
+            let foot = on_triangle(near.skin_of(pair).now, barycentric);
             let normal = (place - foot) / distance.max(1e-12);
             Touch { pair, barycentric, place, normal, distance, press }
         })
@@ -187,16 +217,16 @@ impl Slot {
         self.seen.is_some_and(|(seen, distance)| distance - seen.distance(place) > self.reach)
     }
 
-    /// The nearest triangle within `most`, with the rope moved by at most `moved` since pairs were bounded.
-    fn nearest(&self, near: &Near, place: DVec3, moved: f64, most: f64) -> Option<(f64, usize, [f64; 3])> {
-        let mut best: Option<(f64, usize, [f64; 3])> = None;
+    /// The nearest triangle within `most`, with the rope moved by at most `moved` since pairs were bounded. The one it was nearest to
+    /// when measured last is asked first, for the others are then told too far without much ado.
+    fn nearest(&self, near: &Near, place: DVec3, moved: f64, most: f64) -> Option<Foot> {
+        let mut best: Option<Foot> = None;
         let mut least = most;
-        for index in self.pairs.clone() {
-            let pair = &near.pairs[index];
-            if pair.clear - moved >= least {
+        for index in self.nearest_pair.into_iter().chain(self.pairs.clone()) {
+            if near.pairs[index].clear - moved >= least {
                 continue;
             }
-            let Some((distance, barycentric)) = pair.nearest_to_point(place, least) else { continue };
+            let Some((distance, barycentric)) = near.skin_of(index).nearest_to_point(place, least) else { continue };
             if distance < least {
                 least = distance;
                 best = Some((distance, index, barycentric));
@@ -222,11 +252,11 @@ impl Slot {
         }
         let mut least = (NEARER * least).min(LOOK_WITHIN * self.reach);
         let mut along = None;
-        for pair in near.pairs[self.pairs.clone()].iter() {
-            if pair.clear >= least || pair.gap(ends) >= least {
+        for index in self.pairs.clone() {
+            if near.pairs[index].clear >= least || near.skin_of(index).gap(ends) >= least {
                 continue;
             }
-            let nearest = pair.nearest_to(ends);
+            let nearest = near.skin_of(index).nearest_to(ends);
             if nearest.distance < least {
                 least = nearest.distance;
                 along = Some(nearest.fraction);

@@ -6,7 +6,7 @@ use glam::{DAffine3, DVec3};
 use super::ContactPoint;
 use super::grip::{Failed, Touching};
 use super::near::Near;
-use super::slots::{Slots, Touch};
+use super::slots::Slots;
 use crate::model::{Friction, Model};
 use crate::solver::BodyTrial;
 use crate::state::State;
@@ -62,10 +62,10 @@ impl ContactWork {
 
     /// A segment and triangle nearer than this share of the contact distance, if any.
     pub fn nearer_than(&self, share: f64) -> Option<(usize, usize)> {
-        let deep = |touch: &Touch, reach: f64| touch.distance < share * reach;
-        let slot = self.slots.list.iter().find(|slot| slot.touch.as_ref().is_some_and(|touch| deep(touch, slot.reach)))?;
-        let touch = slot.touch.as_ref()?;
-        Some((slot.segment, self.near.pairs[touch.pair].triangle as usize))
+        self.slots.list.iter().find_map(|slot| {
+            let touch = slot.touches.iter().flatten().find(|touch| touch.distance < share * slot.reach)?;
+            Some((slot.segment, self.near.skin_of(touch.pair).triangle as usize))
+        })
     }
 
     /// Contacts at the end of an accepted step; the friction model's floats move on.
@@ -81,8 +81,8 @@ impl ContactWork {
         let Some(whale) = &model.spec.whale else { return Ok(()) };
         for place in self.touching.in_order.iter().copied() {
             let slot = &self.slots.list[self.touching.slot[place]];
-            let Some(touch) = &slot.touch else { continue };
-            let triangle = self.near.pairs[touch.pair].triangle as usize;
+            let Some(touch) = &slot.touches[self.touching.face[place]] else { continue };
+            let triangle = self.near.skin_of(touch.pair).triangle as usize;
             contacts.push(ContactPoint {
                 line: model.segment_line[slot.segment],
                 segment: slot.segment,

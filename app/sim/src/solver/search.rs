@@ -93,7 +93,7 @@ impl Solver {
         let ContactWork { near, slots, probe, .. } = work;
         let step_of = |slot: &crate::contact::slots::Slot| slot.on_rope(|node| self.band.step[node]);
         probe.collect(model, near, slots, state, |slot| {
-            slot.touch_moved(near, slot.on_rope(|node| self.trial.place[node]), step_of(slot) * share)
+            slot.touches_moved(near, slot.on_rope(|node| self.trial.place[node]), step_of(slot) * share)
         });
         if probe.respond(friction, scheme.dt).is_err() {
             return f64::INFINITY;

@@ -23,6 +23,10 @@ pub(super) const MOST_PASSES: usize = 40;
 const CONVERGED_M: f64 = 1e-6;
 /// Passes after which a move of less than `CONTACT_WANTED_M` is enough: what still moves then only trembles.
 const FINE_PASSES: usize = 10;
+/// Share of a move below which a pass has got nowhere.
+const STALLED_SHARE: f64 = 0.02;
+/// Passes in a row that got nowhere after which no more are made.
+const MOST_STALLED: usize = 4;
 /// Move of the last pass above which a step counts as not converged [m].
 pub(crate) const CONTACT_WANTED_M: f64 = 1e-5;
 /// Move below which the search along the step is left out: rounding would decide it [m].
@@ -60,8 +64,8 @@ impl Solver {
     pub(crate) fn solve_touching(&mut self, model: &Model, state: &State, scheme: &Scheme, work: &mut ContactWork) -> Touched {
         let (mut last_m, mut crossings) = (f64::INFINITY, 0);
         work.open_slots(model, &self.lengths.segment, &self.trial.place);
-        let mut passes = 0;
-        while passes < MOST_PASSES && last_m > enough(passes) {
+        let (mut passes, mut stalled) = (0, 0);
+        while passes < MOST_PASSES && stalled < MOST_STALLED && last_m > enough(passes) {
             passes += 1;
             if let Err(ended) = self.assemble_touching(model, state, scheme, work) {
                 return ended;
@@ -86,6 +90,7 @@ impl Solver {
             if taken >= 1.0 {
                 last_m = left_to_go(last_m, moved_before_m);
             }
+            stalled = if taken < STALLED_SHARE { stalled + 1 } else { 0 };
             if (taken < 1.0 || last_m <= enough(passes)) && self.open_more(state, work) {
                 last_m = f64::INFINITY;
             }
@@ -134,7 +139,7 @@ impl Solver {
 
     fn add_contacts(&mut self, model: &Model, state: &State, scheme: &Scheme, work: &mut ContactWork) -> Result<(), Failed> {
         let Some(friction) = &model.spec.friction else { return Ok(()) };
-        work.touching.collect(model, &work.near, &work.slots, state, |slot| slot.touch);
+        work.touching.collect(model, &work.near, &work.slots, state, |slot| slot.touches);
         work.touching.respond(friction, scheme.dt)?;
         self.add_contact_blocks(work);
         Ok(())
@@ -144,7 +149,7 @@ impl Solver {
     fn add_contact_blocks(&mut self, work: &ContactWork) {
         for (place, index) in work.touching.slot.iter().enumerate() {
             let slot = &work.slots.list[*index];
-            let Some(touch) = &slot.touch else { continue };
+            let Some(touch) = &slot.touches[work.touching.face[place]] else { continue };
             let response = &work.touching.response[place];
             let push = touch.normal * touch.press.stiffness;
             let block =

@@ -1,0 +1,86 @@
+//! A triangle of skin near rope, as it stands within a solver step, ready to be measured from.
+//!
+//! A ball around it and its plane tell of most rope that it is too far; both are made once for each place of the skin and
+//! serve every segment that is near.
+
+use glam::DVec3;
+
+use super::distance::{Nearest, Plane, point_triangle_in, segment_triangle_in};
+use super::sweep::SweptTriangle;
+
+/// Growth of balls over rounding: a factor, and a length [m].
+const GROWN: f64 = 1.0 + 1e-12;
+const ROUNDING_M: f64 = 1e-9;
+
+/// A triangle near rope.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Placed {
+    /// Its index in the skin.
+    pub triangle: u32,
+    /// Corners at the start and the end of the solver step.
+    pub sweep: SweptTriangle,
+    /// Corners now.
+    pub now: [DVec3; 3],
+    /// Corners before the last move.
+    pub before: [DVec3; 3],
+    ball: Ball,
+    /// `None` for a needle.
+    plane: Option<Plane>,
+    /// Longest move of a corner over the solver step [m].
+    pub longest_move: f64,
+}
+
+/// A ball around a triangle, grown over rounding.
+#[derive(Clone, Copy, Debug)]
+struct Ball {
+    centre: DVec3,
+    radius: f64,
+}
+
+impl Placed {
+    /// A triangle of the skin at the start of a solver step.
+    pub fn new(triangle: u32, sweep: SweptTriangle) -> Self {
+        let [now, end] = sweep;
+        let square = (0..3).map(|corner| now[corner].distance_squared(end[corner])).fold(0.0, f64::max);
+        Self { triangle, sweep, now, before: now, ball: Ball::around(now), plane: Plane::of(now), longest_move: square.sqrt() }
+    }
+
+    /// Moves it on.
+    pub fn go(&mut self, to: [DVec3; 3]) {
+        self.before = self.now;
+        if self.now != to {
+            (self.now, self.ball, self.plane) = (to, Ball::around(to), Plane::of(to));
+        }
+    }
+
+    /// Nearest places of a segment and the triangle as it stands.
+    pub fn nearest_to(&self, segment: [DVec3; 2]) -> Nearest {
+        segment_triangle_in(self.plane.as_ref(), segment, self.now)
+    }
+
+    /// Nearest place on it to a point: distance and barycentric place; `None` where it is no nearer than `most`.
+    pub fn nearest_to_point(&self, point: DVec3, most: f64) -> Option<(f64, [f64; 3])> {
+        let reach = most + self.ball.radius;
+        if point.distance_squared(self.ball.centre) > reach * reach {
+            return None;
+        }
+        point_triangle_in(self.plane.as_ref(), point, self.now, most)
+    }
+
+    /// No more than a segment's distance from it, below zero where that tells nothing [m].
+    pub fn gap(&self, segment: [DVec3; 2]) -> f64 {
+        let [from, to] = segment;
+        let (along, centre) = (to - from, self.ball.centre - from);
+        let fraction = (centre.dot(along) / along.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        let round = centre.distance(along * fraction) - self.ball.radius;
+        self.plane.as_ref().map_or(round, |plane| round.max(plane.gap(segment)))
+    }
+}
+
+impl Ball {
+    fn around(corners: [DVec3; 3]) -> Self {
+        let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
+        let square = corners.iter().map(|corner| corner.distance_squared(centre)).fold(0.0, f64::max);
+        Self { centre, radius: square.sqrt() * GROWN + ROUNDING_M }
+    }
+}
