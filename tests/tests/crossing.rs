@@ -13,6 +13,14 @@ use endline_sim::model::Settings;
 use endline_sim::whale::{pose, skin_all};
 use endline_sim::{Model, ModelSpec};
 
+/// The shipped encounter with a whale at 5 m/s, 5 cm a step: what is tested at the end of a step alone goes through a fin.
+fn fast(place: &Place) -> String {
+    let path = place.encounter();
+    let text = std::fs::read_to_string(&path).unwrap();
+    std::fs::write(&path, text.replace("1.3 m/s", "5 m/s")).unwrap();
+    path
+}
+
 /// Runs an encounter whose whale goes more than a rope's diameter in a step, with paths filtered or without, as far as a crossing.
 fn run(prepared: &Prepared, swept: bool) -> Run {
     let spec = prepared.model.spec.clone();
@@ -42,13 +50,13 @@ fn a_forced_crossing_makes_a_run_invalid_and_is_told() {
     let plugins = endline_tests::products().unwrap().join("plugins");
     let (host, problems) = PluginHost::discover(&[plugins]);
     assert!(problems.is_empty(), "{problems:?}");
-    let prepared = prepare(place.encounter().as_ref(), None, &host, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
+    let path = fast(&place);
+    let prepared = prepare(path.as_ref(), None, &host, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
 
     let forced = run(&prepared, false);
     let report = Report::of(&forced);
     println!("{:?} {:?}", report.audit, report.invalid_because);
-    assert!(is_pierced(&forced), "rope stands through the skin");
-    assert!(report.audit.tunnelled > 0, "the exact test along the paths finds it too");
+    assert!(report.audit.tunnelled > 0, "the exact test along the paths finds rope that went through");
     assert!(
         !report.valid && report.invalid_because.iter().any(|why| why.contains("rope passed through skin")),
         "{:?}",

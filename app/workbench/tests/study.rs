@@ -56,8 +56,11 @@ source = "assumed"
 fn studying(folder: &Folder) -> Harness<'static, App> {
     let scenario = common::on_disk(folder, "scenarios/study-endline-held.toml");
     let (gear, _) = scenario.split_once("[whale]").unwrap();
-    let gear = gear.replace("duration = \"75 s\"", "duration = \"0.5 s\"").replace("rope_nodes = 160", "rope_nodes = 12");
-    std::fs::write(folder.0.join("scenarios/small-rig.toml"), gear.replace("[resolution]\nnear = \"0.15 m\"\n", "")).unwrap();
+    // Without a whale there is none for the resolution to follow.
+    let (head, rest) = gear.split_once("[resolution]").unwrap();
+    let (_, rest) = rest.split_once("[site]").unwrap();
+    let gear = format!("{head}[site]{rest}").replace("duration = \"75 s\"", "duration = \"0.5 s\"");
+    std::fs::write(folder.0.join("scenarios/small-rig.toml"), gear.replace("rope_nodes = 80", "rope_nodes = 12")).unwrap();
     std::fs::create_dir_all(folder.0.join("studies")).unwrap();
     std::fs::write(folder.0.join("studies/small.toml"), STUDY).unwrap();
     let mut harness = opened_with(folder.book(), linked(), engine::live(), Pilot::default());
