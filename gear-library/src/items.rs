@@ -35,6 +35,7 @@ pub use point::Point;
 pub(crate) use point::points;
 pub use rope::{Condition, Rope};
 pub use site::SeaSite;
+pub use surface::WORDS as SURFACES;
 pub(crate) use surface::{any_holds, read as read_surfaces};
 pub use weak_link::WeakLink;
 pub use whale::WhaleItem;

@@ -37,7 +37,7 @@ pub use entry::{Entry, FORMAT};
 pub use fields::{Figure, Range, Sureness};
 pub use items::{
     ActAnimation, ActItem, AgeLaw, BoxGear, Buoy, BuoyPiece, BuoyShape, CHANNELS, Channel, Condition, Growth, Joints, Knot, MassLaw,
-    ModelFigures, Point, Rope, RopeFriction, SeaSite, WeakLink, WhaleItem, WhaleMesh,
+    ModelFigures, Point, Rope, RopeFriction, SURFACES, SeaSite, WeakLink, WhaleItem, WhaleMesh,
 };
 pub use library::Library;
 pub use line::{Insert, Inserts, LineMake};

@@ -127,3 +127,84 @@ fn a_scenario_saved_as_another_leaves_the_first_as_it_was() {
     assert!(desk.book.scenario_path() == other && desk.book.unsaved().is_empty());
     assert_eq!(desk.preferences.recent.first(), Some(&other));
 }
+
+#[test]
+fn weak_links_and_friction_are_changed_in_the_panel_comments_kept_and_taken_back() {
+    let folder = Folder::new("links-friction");
+    let mut harness = settled(&folder, "hello-weak-link", Panel::Scenario);
+    let before = harness.state().desk.book.text(Book::SCENARIO).unwrap().to_owned();
+    let field = |harness: &Harness<'static, App>, field: &str| harness.state().desk.book.field(Book::SCENARIO, field);
+    click(&mut harness, "Add a weak link ⏷");
+    click(&mut harness, "at the foot of endline");
+    assert_eq!(["line", "end", "rating"].map(|key| field(&harness, &format!("link.1.{key}")).unwrap()), ["endline", "from", "600 lbf"]);
+    retype(&mut harness, "600 lbf", "1,700 furlong");
+    assert!(harness.query_by_label_contains("furlong").is_some(), "what is wrong stands beside the field");
+    retype(&mut harness, "1,700 furlong", "1,700 lbf");
+    assert!(!harness.state().desk.book.any_error(), "{:?}", harness.state().desk.book.problems());
+    click(&mut harness, "Another law for … ⏷");
+    click(&mut harness, "baleen");
+    assert_eq!(field(&harness, "friction.on.0.surfaces.0").as_deref(), Some("baleen"));
+
+    harness
+        .state_mut()
+        .desk
+        .book
+        .alter(Book::SCENARIO, |text| {
+            let value = endline_gear::Setting::plain("1.25");
+            text.put("friction.attributes.coefficient_scale", &value).map_err(|error| error.to_string())
+        })
+        .unwrap();
+    harness.run_steps(3);
+    retype(&mut harness, "1.25", "-3");
+    harness.state_mut().desk.obey(&Order::Apply);
+    wait(&mut harness, |app| !app.desk.making() && !app.desk.make_problems.is_empty());
+    let wrong = harness.state().desk.problem_at(Book::SCENARIO, "friction.attributes.coefficient_scale").unwrap();
+    assert!(wrong.line > 0, "{wrong}");
+    retype(&mut harness, "-3", "1.5");
+    harness.state_mut().desk.obey(&Order::Apply);
+    wait(&mut harness, |app| !app.desk.making() && !app.desk.stale());
+    let view = harness.state().desk.view.clone().unwrap();
+    let ratings: Vec<f64> = view.model.spec.links.iter().map(|link| link.rating_n).collect();
+    assert!((ratings[1] - 1700.0 * endline_workbench::scene::N_PER_LBF).abs() < 1e-6, "{ratings:?}");
+    let text = harness.state().desk.book.text(Book::SCENARIO).unwrap();
+    assert!(text.contains("# The snagged trap.") && text.contains("# A poly ball A-5."), "{text}");
+    while harness.state().desk.book.can_undo_redo().0 {
+        harness.state_mut().desk.obey(&Order::Undo);
+    }
+    assert_eq!(harness.state().desk.book.text(Book::SCENARIO), Some(before.as_str()));
+}
+
+#[test]
+fn another_scenario_is_opened_over_unsaved_edits_only_when_told_to() {
+    let folder = Folder::new("opened-over");
+    let mut harness = settled(&folder, "reference-a-pendulum", Panel::Scenario);
+    let first = harness.state().desk.book.scenario_path().to_owned();
+    let other = folder.0.join("scenarios/hello-endline.toml");
+    harness.state_mut().desk.set(Book::SCENARIO, "duration", "7 s");
+    for (answer, opened, on_disk) in [("Stay", &first, false), ("Save and open", &other, true)] {
+        harness.state_mut().desk.orders.push(Order::Open(other.clone()));
+        harness.run_steps(3);
+        assert_eq!(harness.state().desk.book.scenario_path(), first, "it asks first");
+        click(&mut harness, answer);
+        assert_eq!(harness.state().desk.book.scenario_path(), opened, "{answer}");
+        assert_eq!(std::fs::read_to_string(&first).unwrap().contains("7 s"), on_disk, "{answer}");
+    }
+    harness.state_mut().desk.set(Book::SCENARIO, "duration", "9 s");
+    harness.state_mut().desk.orders.push(Order::Open(first.clone()));
+    harness.run_steps(3);
+    click(&mut harness, "Open without saving");
+    assert_eq!(harness.state().desk.book.scenario_path(), first);
+    assert!(!std::fs::read_to_string(&other).unwrap().contains("9 s"));
+    // With nothing to lose it does not ask.
+    harness.state_mut().desk.orders.push(Order::Open(other.clone()));
+    harness.run_steps(3);
+    assert_eq!(harness.state().desk.book.scenario_path(), other);
+}
+
+/// Clicks what has a label, scrolled to.
+fn click(harness: &mut Harness<'static, App>, label: &str) {
+    harness.get_by_label(label).scroll_to_me();
+    harness.run_steps(3);
+    harness.get_by_label(label).click();
+    harness.run_steps(3);
+}

@@ -7,8 +7,8 @@ use crate::fields::Fields;
 use crate::nearest::hint;
 use crate::tree::Content;
 
-/// The words, from the head aft, then those that stand for several.
-pub(crate) const WORDS: [&str; 10] = ["rostrum", "baleen", "lips", "head", "body", "peduncle", "flippers", "flukes", "edges", "skin"];
+/// Surfaces of a whale by the words that files use, from the head aft, then those that stand for several.
+pub const WORDS: [&str; 10] = ["rostrum", "baleen", "lips", "head", "body", "peduncle", "flippers", "flukes", "edges", "skin"];
 
 /// The surface that a region's coefficient is filed under.
 pub(crate) fn surface_of(region: Region) -> &'static str {

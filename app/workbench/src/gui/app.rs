@@ -7,6 +7,7 @@ use egui::{CentralPanel, Context, Frame as Margins, Id, Panel as Bar, Ui};
 use egui_dock::{DockArea, DockState, TabViewer};
 use endline_session::live::Command;
 
+use super::book::Book;
 use super::canvas::Canvas;
 use super::desk::{Desk, Order, Preferences};
 use super::layout::{self, Layout, Panel};
@@ -30,9 +31,13 @@ pub struct App {
     pub asking: bool,
     /// Whether the window may close as it is.
     pub leave: bool,
+    /// The scenario to be opened, while it is asked what to do with unsaved edits of the present one.
+    pub opening: Option<std::path::PathBuf>,
     palette: super::palette::Palette,
     dressed: Option<super::theme::Theme>,
     controls_at_s: Option<f64>,
+    /// Whether each order is told on standard error, for whoever drives the window and must know what it has taken in.
+    tells: bool,
 }
 
 impl App {
@@ -65,16 +70,21 @@ impl App {
             left_behind,
             asking: false,
             leave: false,
+            opening: None,
             dialog: None,
             palette: super::palette::Palette::default(),
             dressed: None,
             controls_at_s: None,
+            tells: std::env::var_os("ENDLINE_TELL_ORDERS").is_some(),
         }
     }
 
     /// Obeys every order given since the last call.
     fn obey(&mut self, context: &Context, orders: Vec<Order>) {
         for order in orders {
+            if self.tells {
+                eprintln!("order: {order:?}");
+            }
             match &order {
                 Order::Start | Order::PlayPause if layout::is_open(&self.dock, Panel::Start) => {
                     // Whoever runs something wants to see it.
@@ -86,7 +96,13 @@ impl App {
                     layout::open(&mut self.dock, Panel::Compare);
                     self.desk.obey(&order);
                 }
+                // Another text in its place would take the edits with it.
+                Order::Open(path) if self.desk.book.is_unsaved(Book::SCENARIO) => self.opening = Some(path.clone()),
                 Order::Show(panel) => layout::open(&mut self.dock, *panel),
+                Order::Table(_) => {
+                    layout::open(&mut self.dock, Panel::Library);
+                    self.desk.obey(&order);
+                }
                 Order::Close(panel) => layout::close(&mut self.dock, *panel),
                 Order::Size(scale) => context.set_zoom_factor(*scale),
                 Order::AskExportModel(ending) => menus::ask_export_model(self, ending),
@@ -232,6 +248,7 @@ impl eframe::App for App {
         self.palette.show(ui.ctx(), &mut self.desk);
         questions::plugin(ui.ctx(), &mut self.desk);
         questions::closing(&ui.ctx().clone(), self);
+        questions::opening(ui.ctx(), self);
         let orders = std::mem::take(&mut self.desk.orders);
         if !orders.is_empty() {
             self.obey(&ui.ctx().clone(), orders);

@@ -181,6 +181,13 @@ impl Chart {
         self
     }
 
+    /// The name that a curve is taken away by: its own, or that of the line whose least or greatest it is.
+    #[must_use]
+    pub fn line_of<'a>(&'a self, curve: &'a Curve) -> &'a str {
+        let line = self.curves.iter().find(|line| line.style == Style::Solid && line.colour == curve.colour);
+        line.filter(|_| curve.style == Style::Edge).map_or(&curve.name, |line| &line.name)
+    }
+
     /// Greatest value of any curve.
     #[must_use]
     pub fn top(&self) -> f64 {

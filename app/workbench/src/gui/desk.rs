@@ -245,6 +245,15 @@ impl Desk {
         known.iter().chain(self.make_problems.iter().filter(|problem| !known.contains(problem)))
     }
 
+    /// The worst problem at a field of a text, or of the model last made of the texts as they stand.
+    #[must_use]
+    pub fn problem_at(&self, path: &str, field: &str) -> Option<&Diagnostic> {
+        let file = self.book.shown_name(path);
+        let here = |problem: &&Diagnostic| problem.file == file && problem.field == field;
+        let made = || self.make_problems.iter().find(here).filter(|_| self.book.same_run(&self.making));
+        self.book.problem_at(path, field).or_else(made)
+    }
+
     /// Sends a command to the run; false where there is none to take it.
     pub fn send(&mut self, command: Command) -> bool {
         self.engine.as_ref().is_some_and(|engine| engine.send(command))
@@ -300,6 +309,7 @@ impl Desk {
             Order::Person | Order::Look(_) | Order::Frame | Order::Views(_) | Order::Ruler | Order::LetGo | Order::Read(_) => {
                 self.view3d.obey(order);
             }
+            Order::Table(kind) => self.library.turn_to(*kind),
             Order::Duplicate => super::panels::library::duplicate(self),
             Order::ChooseAct(act) => self.pilot.choose_act(*act),
             Order::Save => self.save(),

@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use endline_gear::Kind;
+
 use super::layout::{Layout, Panel};
 use super::theme::Theme;
 use super::units::Units;
@@ -76,6 +78,8 @@ pub enum Order {
     LetGo,
     /// Put the command line that gives this run into the clipboard.
     CopyCommandLine,
+    /// Show a table of the library.
+    Table(Kind),
     /// Copy the chosen entry of the library to a file of its own.
     Duplicate,
     /// Save every changed text.

@@ -1,9 +1,10 @@
 //! The command palette: every order by its name (Ctrl+P).
 
-use egui::{Align2, Context, Key, RichText, TextEdit, Window, vec2};
+use egui::{Align2, Context, Key, RichText, TextEdit, Ui, Window, vec2};
 
 use super::desk::{Desk, Order};
 use super::layout::{Layout, Panel};
+use super::panels::library::KINDS;
 use super::panels::scenario::scenarios;
 use super::panels::view::MOST;
 use super::reading::worst_m;
@@ -98,6 +99,7 @@ pub fn orders(desk: &Desk) -> Vec<(String, Order)> {
     all.extend((1..=MOST).map(|count| (format!("Views at once: {count}"), Order::Views(count))));
     all.extend(readable(desk));
     all.extend(Panel::ALL.into_iter().flat_map(of_panel));
+    all.extend(KINDS.map(|(kind, title)| (format!("Table of {}", title.to_lowercase()), Order::Table(kind))));
     all.extend(Units::ALL.map(|units| (format!("Units {}", units.name()), Order::Measure(units))));
     all.extend([1.0, 1.25, 1.5, 2.0].map(|size| (format!("Size {:.0} %", 100.0 * size), Order::Size(size))));
     all.extend(Layout::ALL.map(|layout| (format!("Layout {}", layout.name()), Order::Arrange(layout))));
@@ -146,7 +148,6 @@ impl Palette {
         if !self.open {
             return;
         }
-        let found = matching(orders(desk), &self.typed);
         let (down, up, enter, escape) = context.input(|input| {
             (
                 input.key_pressed(Key::ArrowDown),
@@ -155,26 +156,34 @@ impl Palette {
                 input.key_pressed(Key::Escape),
             )
         });
-        self.chosen = (self.chosen + usize::from(down)).saturating_sub(usize::from(up)).min(found.len().saturating_sub(1));
-        let mut taken = enter.then(|| found.get(self.chosen).cloned()).flatten();
         let window = Window::new("Commands")
             .title_bar(false)
             .resizable(false)
             .anchor(Align2::CENTER_TOP, vec2(0.0, 70.0))
             .fixed_size(vec2(380.0, 300.0));
-        window.show(context, |ui| taken = self.list(ui, &found).or(taken.take()));
+        let mut taken = None;
+        window.show(context, |ui| {
+            self.field(ui);
+            // What was typed in this frame counts for an Enter in it.
+            let found = matching(orders(desk), &self.typed);
+            self.chosen = (self.chosen + usize::from(down)).saturating_sub(usize::from(up)).min(found.len().saturating_sub(1));
+            taken = self.list(ui, &found).or_else(|| enter.then(|| found.get(self.chosen).cloned()).flatten());
+        });
         if taken.is_some() || escape || enter {
             self.open = false;
         }
         desk.orders.extend(taken.map(|(_, order)| order));
     }
 
-    fn list(&mut self, ui: &mut egui::Ui, found: &[(String, Order)]) -> Option<(String, Order)> {
+    fn field(&mut self, ui: &mut Ui) {
         let field = ui.add(TextEdit::singleline(&mut self.typed).hint_text("Type a command").desired_width(f32::INFINITY));
         field.request_focus();
         if field.changed() {
             self.chosen = 0;
         }
+    }
+
+    fn list(&self, ui: &mut Ui, found: &[(String, Order)]) -> Option<(String, Order)> {
         let first = self.chosen.saturating_sub(SHOWN - 1);
         let mut taken = None;
         for (index, (name, order)) in found.iter().enumerate().skip(first).take(SHOWN) {

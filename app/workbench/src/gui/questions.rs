@@ -1,9 +1,11 @@
-//! What the window asks: what to do with edits a crash left, with unsaved ones as it closes, and with a plugin it does not know.
+//! What the window asks: what to do with edits a crash left, with unsaved ones as it closes or another scenario is opened, and with a
+//! plugin it does not know.
 
 use egui::{Align2, Context, Label, RichText, Ui, Window, vec2};
 use endline_session::plugins::Change;
 
 use super::app::App;
+use super::book::Book;
 use super::desk::{Desk, Order};
 use super::theme::{Theme, primary};
 
@@ -91,4 +93,31 @@ pub fn closing(context: &Context, app: &mut App) {
         app.desk.keeper.clear();
         context.send_viewport_cmd(egui::ViewportCommand::Close);
     }
+}
+
+/// Asks before unsaved edits of the scenario are lost with it, as another is opened.
+pub fn opening(context: &Context, app: &mut App) {
+    let Some(path) = app.opening.clone() else { return };
+    let stem = |path: &std::path::Path| path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+    let (present, next) = (stem(app.desk.book.scenario_path()), stem(&path));
+    let window = Window::new("Unsaved scenario").collapsible(false).resizable(false).anchor(Align2::CENTER_CENTER, vec2(0.0, -60.0));
+    window.show(context, |ui| {
+        ui.label(format!("{present} has edits that are not saved. {next} takes its place."));
+        ui.horizontal(|ui| {
+            let mut open = false;
+            if primary(ui, true, "Save and open").on_hover_text("Saves every file with edits").clicked() {
+                app.desk.obey(&Order::Save);
+                open = !app.desk.book.is_unsaved(Book::SCENARIO);
+                app.opening = None;
+            }
+            open |= ui.button("Open without saving").on_hover_text("The edits are lost; Undo does not bring them back").clicked();
+            if open {
+                app.opening = None;
+                app.desk.obey(&Order::Open(path));
+            }
+            if ui.button("Stay").clicked() {
+                app.opening = None;
+            }
+        });
+    });
 }

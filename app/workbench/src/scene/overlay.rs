@@ -3,7 +3,7 @@
 use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Stroke, Vec2, pos2, vec2};
 
 use super::colour::tension_colour;
-use super::ticks::{nice_below, ticks};
+use super::ticks::{decimals, nice_below, ticks};
 
 /// Newtons in a pound-force, exact by definition.
 pub const N_PER_LBF: f64 = 4.448_221_615_260_5;
@@ -56,11 +56,13 @@ fn legend(painter: &Painter, rect: Rect, scale_n: f64) {
     painter.text(bar.right_top() + vec2(7.0, -14.0), Align2::LEFT_CENTER, "N", small.clone(), FAINT);
     gradient(painter, bar);
     for (per_n, side, align) in [(1.0 / N_PER_LBF, -1.0, Align2::RIGHT_CENTER), (1.0, 1.0, Align2::LEFT_CENTER)] {
-        for tick in ticks(scale_n * per_n, 5) {
+        let ticks = ticks(scale_n * per_n, 5);
+        let places = ticks.get(1).map_or(0, |step| decimals(*step));
+        for tick in ticks {
             let y = bar.bottom() - bar.height() * (tick / (scale_n * per_n)) as f32;
             let edge = if side < 0.0 { bar.left() } else { bar.right() };
             painter.line_segment([pos2(edge, y), pos2(edge + side * 4.0, y)], Stroke::new(1.0, FAINT));
-            painter.text(pos2(edge + side * 7.0, y), align, thousands(tick), small.clone(), INK);
+            painter.text(pos2(edge + side * 7.0, y), align, thousands(tick, places), small.clone(), INK);
         }
     }
 }
@@ -99,13 +101,13 @@ fn scale_bar(painter: &Painter, rect: Rect, metres_a_point: f64) {
         painter.line_segment([end - vec2(0.0, 4.0), end + vec2(0.0, 4.0)], line);
     }
     let middle: Pos2 = left + (right - left) * 0.5;
-    let text = if length_m < 1.0 { format!("{:.0} cm", length_m * 100.0) } else { format!("{} m", thousands(length_m)) };
+    let text = if length_m < 1.0 { format!("{:.0} cm", length_m * 100.0) } else { format!("{} m", thousands(length_m, 0)) };
     painter.text(middle - vec2(0.0, 13.0), Align2::CENTER_CENTER, text, FontId::proportional(12.0), INK);
 }
 
-/// A number of ticks: no needless digits, a thin space between thousands.
-fn thousands(value: f64) -> String {
-    let text = if value.abs() >= 100.0 || value.fract().abs() < 1e-9 { format!("{value:.0}") } else { format!("{value:.1}") };
+/// A number to so many decimals, a thin space between thousands; zero is only 0.
+fn thousands(value: f64, places: usize) -> String {
+    let text = if value == 0.0 { "0".to_owned() } else { format!("{value:.places$}") };
     let mut out = String::new();
     let whole = text.find('.').unwrap_or(text.len());
     for (index, digit) in text.char_indices() {
@@ -128,10 +130,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn thousands_are_grouped_and_needless_digits_dropped() {
-        assert_eq!(thousands(7560.0), "7\u{2009}560");
-        assert_eq!(thousands(1_700_000.0), "1\u{2009}700\u{2009}000");
-        assert_eq!(thousands(0.5), "0.5");
-        assert_eq!(thousands(200.0), "200");
+    fn thousands_are_grouped() {
+        assert_eq!(thousands(7560.0, 0), "7\u{2009}560");
+        assert_eq!(thousands(1_700_000.0, 0), "1\u{2009}700\u{2009}000");
+        assert_eq!(thousands(0.5, 1), "0.5");
+        assert_eq!(thousands(200.0, 0), "200");
     }
 }

@@ -25,6 +25,12 @@ pub fn ticks(top: f64, count: u32) -> Vec<f64> {
     (0..).map(|index| f64::from(index) * step).take_while(|tick| *tick <= top * (1.0 + 1e-9)).collect()
 }
 
+/// Decimals with which round values this far apart are told apart: none from 1 on, one from 0.1 on, and so on.
+#[must_use]
+pub fn decimals(step: f64) -> usize {
+    if step.is_finite() && step > 0.0 { (-(step.log10() + 1e-9).floor()).clamp(0.0, 9.0) as usize } else { 0 }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -44,5 +50,19 @@ mod tests {
             assert!((4..=9).contains(&ticks.len()), "{top}: {ticks:?}");
         }
         assert_eq!(ticks(0.0, 5), vec![0.0]);
+    }
+
+    #[test]
+    fn no_two_ticks_of_a_scale_are_written_alike() {
+        for top in [0.003, 0.04, 0.22, 0.3, 0.7, 1.0, 1.4, 3.3, 12.0, 512.0] {
+            let ticks = ticks(top, 5);
+            let places = decimals(ticks[1] - ticks[0]);
+            let mut written: Vec<String> = ticks.iter().map(|tick| format!("{tick:.places$}")).collect();
+            for (tick, text) in ticks.iter().zip(&written) {
+                assert!((text.parse::<f64>().unwrap() - tick).abs() < 1e-9 * top, "{tick} is written {text}");
+            }
+            written.dedup();
+            assert_eq!(written.len(), ticks.len(), "{top}: {written:?}");
+        }
     }
 }

@@ -78,6 +78,13 @@ impl Default for LibraryState {
     }
 }
 
+impl LibraryState {
+    /// Another table; what is searched for stays.
+    pub fn turn_to(&mut self, kind: Kind) {
+        *self = Self { kind, search: std::mem::take(&mut self.search), ..Self::default() };
+    }
+}
+
 /// Draws the library panel.
 pub fn show(ui: &mut Ui, desk: &mut Desk) {
     paste(ui, desk);
@@ -104,7 +111,7 @@ fn toolbar(ui: &mut Ui, desk: &mut Desk) {
     ui.horizontal(|ui| {
         for (kind, title) in KINDS {
             if ui.selectable_label(desk.library.kind == kind, title).clicked() {
-                desk.library = LibraryState { kind, search: std::mem::take(&mut desk.library.search), ..LibraryState::default() };
+                desk.library.turn_to(kind);
             }
         }
         ui.separator();

@@ -1,6 +1,8 @@
 //! The pad: what each stick, trigger and button does, with live axes, dead zones and curve.
 
-use egui::{Grid, RichText, ScrollArea, Sense, Slider, Ui, vec2};
+use std::ops::RangeInclusive;
+
+use egui::{Grid, RichText, ScrollArea, Sense, Slider, SliderClamping, Ui, vec2};
 
 use super::super::desk::Desk;
 use super::super::theme::Theme;
@@ -87,15 +89,20 @@ fn head(ui: &mut Ui, desk: &mut Desk) {
 fn zones(ui: &mut Ui, desk: &mut Desk) {
     let mapping = &mut desk.pilot.mapping;
     ui.spacing_mut().slider_width = 120.0;
-    ui.add(Slider::new(&mut mapping.dead_zone, 0.0..=0.5).text("dead zone of sticks").fixed_decimals(2));
-    ui.add(Slider::new(&mut mapping.trigger_dead_zone, 0.0..=0.5).text("dead zone of triggers").fixed_decimals(2));
-    ui.add(Slider::new(&mut mapping.curve, 1.0..=3.0).text("curve: finer about the middle").fixed_decimals(1));
+    ui.add(slider(&mut mapping.dead_zone, 0.0..=0.5, "dead zone of sticks"));
+    ui.add(slider(&mut mapping.trigger_dead_zone, 0.0..=0.5, "dead zone of triggers"));
+    ui.add(slider(&mut mapping.curve, 1.0..=3.0, "curve: finer about the middle"));
     ui.horizontal(|ui| {
-        ui.add(Slider::new(&mut desk.pilot.mapping.rumble, 0.0..=1.0).text("rumble").fixed_decimals(1));
+        ui.add(slider(&mut desk.pilot.mapping.rumble, 0.0..=1.0, "rumble"));
         if ui.button("Try").clicked() {
             desk.pilot.rumble(1.0, 0.3);
         }
     });
+}
+
+/// A slider that leaves what it shows as it is until it is moved, and takes what is typed to four decimals.
+fn slider<'a>(value: &'a mut f64, range: RangeInclusive<f64>, text: &'a str) -> Slider<'a> {
+    Slider::new(value, range).text(text).clamping(SliderClamping::Edits).min_decimals(2).max_decimals(4)
 }
 
 /// A bar of where something stands, -1 to 1 from its middle.

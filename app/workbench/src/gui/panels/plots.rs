@@ -1,10 +1,13 @@
 //! Plots of the run, one below the other, with one cursor; a click shows that moment.
 
+mod key;
+
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use egui::{Color32, Id, Rect, RichText, Ui};
-use egui_plot::{AxisHints, FilledArea, HLine, Legend, Line, LineStyle, Plot, PlotPoint, PlotPoints, Polygon, VLine};
+use egui::{Color32, Id, Rect, Ui};
+use egui_plot::{AxisHints, FilledArea, HLine, Line, LineStyle, Plot, PlotPoint, PlotPoints, Polygon, VLine};
 use endline_session::live::LiveView;
 use endline_sim::Model;
 
@@ -16,6 +19,9 @@ use super::super::units::Units;
 /// A strength further above the peak than this share is told, not drawn.
 const REACH: f64 = 3.0;
 
+/// Height of a plot's title and key.
+const HEAD: f32 = 26.0;
+
 /// Which plots are shown, and those last made.
 #[derive(Default)]
 pub struct PlotsState {
@@ -23,6 +29,8 @@ pub struct PlotsState {
     pub shown: Option<Vec<Kind>>,
     /// A PNG to be cut from the window as it is drawn next.
     pub picture: Option<PathBuf>,
+    /// Names of curves that a click in the key took away.
+    hidden: BTreeSet<String>,
     made: Vec<(Kind, Made)>,
     /// The file that waits for the window's picture, and the part of it that is the plots.
     waiting: Option<(PathBuf, Rect)>,
@@ -97,13 +105,12 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
         return super::nothing(ui, "Choose what to plot above.");
     }
     photograph(ui, desk);
-    let height = (ui.available_height() / kinds.len() as f32 - 26.0).max(104.0);
+    let height = (ui.available_height() / kinds.len() as f32 - HEAD).max(104.0);
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         for kind in kinds {
             let compared = if desk.other().is_some() { "; A solid, B dashed" } else { "" };
             let note = if kind == Kind::Along { "; shaded from least to greatest so far" } else { "" };
-            ui.label(RichText::new(format!("{}{note}{compared}", kind.title())).color(Theme::palette_of(ui).faint));
-            one(ui, desk, &view, kind, height);
+            one(ui, desk, &view, kind, &format!("{}{note}{compared}", kind.title()), height);
         }
     });
 }
@@ -111,9 +118,8 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
 /// Draws one plot alone, filling the panel.
 pub fn alone(ui: &mut Ui, desk: &mut Desk, kind: Kind) {
     let Some(view) = desk.view.clone() else { return super::nothing(ui, "No run yet.") };
-    ui.label(RichText::new("Greatest tension of each line").color(Theme::palette_of(ui).faint));
-    let height = ui.available_height();
-    one(ui, desk, &view, kind, height);
+    let height = ui.available_height() - HEAD;
+    one(ui, desk, &view, kind, "Greatest tension of each line", height);
 }
 
 fn toolbar(ui: &mut Ui, desk: &mut Desk) {
@@ -172,11 +178,14 @@ pub fn charts(desk: &Desk) -> Vec<Chart> {
     desk.plots.kinds().into_iter().map(|kind| chart(kind, view, other.as_deref(), desk.preferences.units)).collect()
 }
 
-fn one(ui: &mut Ui, desk: &mut Desk, view: &LiveView, kind: Kind, height: f32) {
+/// One plot below its title and its key, which never covers a curve.
+fn one(ui: &mut Ui, desk: &mut Desk, view: &LiveView, kind: Kind, title: &str, height: f32) {
     let palette = Theme::palette_of(ui);
     let units = desk.preferences.units;
     let other = desk.other_view();
+    let hidden = desk.plots.hidden.clone();
     let chart = desk.plots.make(kind, view, other.as_deref(), units);
+    let clicked = key::show(ui, title, chart, &hidden);
     if chart.curves.iter().all(|curve| curve.points.is_empty()) {
         let why = if matches!(kind, Kind::Force | Kind::Wraps) { "No rope has touched the whale." } else { "Nothing yet." };
         return super::nothing(ui, why);
@@ -184,7 +193,6 @@ fn one(ui: &mut Ui, desk: &mut Desk, view: &LiveView, kind: Kind, height: f32) {
     let top = chart.top().max(1e-6);
     let mut plot = Plot::new(("plot", kind.name()))
         .height(height)
-        .legend(Legend::default().position(egui_plot::Corner::RightTop).background_alpha(0.6))
         .include_x(0.0)
         .include_x(chart.end_x)
         .include_y(0.0)
@@ -201,15 +209,15 @@ fn one(ui: &mut Ui, desk: &mut Desk, view: &LiveView, kind: Kind, height: f32) {
         plot = plot.link_cursor(Id::new("time"), [true, false]).link_axis(Id::new("time"), [true, false]);
     }
     let response = plot.show(ui, |plot| {
-        shade(plot, &chart.curves);
-        for curve in &chart.curves {
+        let shown: Vec<&Curve> = chart.curves.iter().filter(|curve| !hidden.contains(chart.line_of(curve))).collect();
+        shade(plot, &shown);
+        for curve in shown {
             let [red, green, blue] = curve.rgb();
             let colour = Color32::from_rgb(red, green, blue);
             let line = Line::new(&curve.name, PlotPoints::Borrowed(&curve.points));
             match curve.style {
                 Style::Solid => plot.line(line.color(colour).width(1.5)),
                 Style::Dashed => plot.line(line.color(colour).width(1.5).style(LineStyle::dashed_dense())),
-                // Named in the legend by its line alone.
                 Style::Edge => plot.line(Line::new("", PlotPoints::Borrowed(&curve.points)).color(colour.gamma_multiply(0.55)).width(1.0)),
             }
         }
@@ -228,13 +236,18 @@ fn one(ui: &mut Ui, desk: &mut Desk, view: &LiveView, kind: Kind, height: f32) {
         }
         plot.pointer_coordinate()
     });
+    if let Some(name) = clicked
+        && !desk.plots.hidden.remove(&name)
+    {
+        desk.plots.hidden.insert(name);
+    }
     if let (true, true, Some(at)) = (kind.over_time(), response.response.clicked(), response.inner) {
         desk.orders.push(Order::Seek(at.x.clamp(0.0, view.newest_s)));
     }
 }
 
 /// Fills between least and greatest so far, which stand one after the other.
-fn shade(plot: &mut egui_plot::PlotUi<'_>, curves: &[Curve]) {
+fn shade(plot: &mut egui_plot::PlotUi<'_>, curves: &[&Curve]) {
     for pair in curves.windows(2) {
         let [least, greatest] = pair else { continue };
         let edges = least.style == Style::Edge && greatest.style == Style::Edge && least.colour == greatest.colour;

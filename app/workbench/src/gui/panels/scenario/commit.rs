@@ -28,6 +28,11 @@ pub(super) fn commit(document: &mut Document, field: &str, text: &str) -> Result
         take_away(document, whole)?;
         return if field == "whale.state" { revive(document) } else { Ok(()) };
     }
+    // Another motion or law of friction has attributes of its own.
+    let of_other = field.strip_suffix(".model").or_else(|| field.strip_suffix(".motion"));
+    if let Some(table) = of_other {
+        take_away(document, &format!("{table}.attributes"))?;
+    }
     if field == "whale.state" {
         ALIVE.iter().try_for_each(|field| take_away(document, field))?;
     }
@@ -97,6 +102,18 @@ mod tests {
         assert!(!document.has("whale.length"));
         commit(&mut document, "whale.condition", "0.9").unwrap();
         assert!(document.text().contains("condition = 0.9"), "{}", document.text());
+    }
+
+    #[test]
+    fn another_law_of_friction_begins_without_the_attributes_of_the_one_before() {
+        let text = "[friction]\nmodel = \"a\" # law\nattributes = { scale = 2 }\n\n[[friction.on]]\nsurfaces = [\"baleen\"]\nmodel = \"b\"\nattributes = { pull = \"5 N\" }\n";
+        let mut document = Document::parse(text).unwrap();
+        commit(&mut document, "friction.attributes.scale", "3").unwrap();
+        commit(&mut document, "friction.on.0.model", "c").unwrap();
+        assert!(document.text().contains("scale = 3") && document.text().contains("# law"), "{}", document.text());
+        assert!(!document.has("friction.on.0.attributes") && document.get("friction.on.0.model").as_deref() == Some("c"));
+        commit(&mut document, "friction.model", "d").unwrap();
+        assert!(!document.has("friction.attributes") && document.has("friction.on.0"), "{}", document.text());
     }
 
     #[test]

@@ -1,6 +1,9 @@
 //! What happens in the run: gear, sea, whale, friction and weak links of the scenario, as typed in its file.
 
+mod attributes;
 mod commit;
+mod friction;
+mod links;
 mod rows;
 
 use egui::{ComboBox, Grid, RichText, ScrollArea, Ui};
@@ -10,10 +13,13 @@ use super::super::book::Book;
 use super::super::desk::{Desk, Order};
 use super::super::fields;
 use super::super::theme::{Theme, primary};
-use rows::{FLAGS, RUN, Row, SEA, TIDE, WAVES, WHALE};
+use rows::{FLAGS, Flag, RUN, Row, SEA, TIDE, WAVES, WHALE};
 
 /// What is typed into a field of the scenario.
 type Edit = (String, String);
+
+/// Width of the labels.
+const NAME_WIDTH: f32 = 74.0;
 
 /// Draws the scenario panel.
 pub fn show(ui: &mut Ui, desk: &mut Desk) {
@@ -26,9 +32,10 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
         if desk.book.field(Book::SCENARIO, "whale.item").is_some() {
             whale(ui, desk, &mut edits);
         }
+        links::show(ui, desk, &mut edits);
         super::caption(ui, "Run");
         rows(ui, desk, "run", RUN, &mut edits);
-        flags(ui, desk, &mut edits);
+        FLAGS.iter().for_each(|of| flag(ui, desk, of, &mut edits));
         for (field, text) in edits {
             let changed = desk.book.alter(Book::SCENARIO, |document| commit::commit(document, &field, &text));
             if let Err(error) = changed {
@@ -109,6 +116,7 @@ fn whale(ui: &mut Ui, desk: &mut Desk, edits: &mut Vec<Edit>) {
     let (host, _) = desk.helpers();
     let motions = host.ids().into_iter().filter_map(|id| host.motion(&id).map(|motion| (id, motion.descriptor().name.to_string())));
     let motions: Vec<(String, String)> = motions.collect();
+    let motion = desk.book.field(Book::SCENARIO, "whale.motion").and_then(|id| host.motion(&id));
     let dead = desk.book.field(Book::SCENARIO, "whale.state").as_deref() == Some("dead");
     Grid::new("animal").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
         name(ui, "Animal");
@@ -127,6 +135,9 @@ fn whale(ui: &mut Ui, desk: &mut Desk, edits: &mut Vec<Edit>) {
     rows(ui, desk, "whale", WHALE, edits);
     if !dead {
         rows(ui, desk, "swims", rows::SWIMS, edits);
+        if let Some(motion) = motion {
+            attributes::show(ui, desk, "whale.attributes", &motion.descriptor().attributes, edits);
+        }
         mouth(ui, desk, edits);
     }
     let mut posing = desk.posing.on;
@@ -134,7 +145,7 @@ fn whale(ui: &mut Ui, desk: &mut Desk, edits: &mut Vec<Edit>) {
     {
         desk.orders.extend([Order::Show(super::super::layout::Panel::View), Order::Pose]);
     }
-    friction(ui, desk, edits);
+    friction::show(ui, desk, edits);
 }
 
 /// How far the mouth is open at the start: the pilot program says so.
@@ -149,25 +160,6 @@ fn mouth(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
     });
 }
 
-fn friction(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
-    super::caption(ui, "Friction of rope on whale");
-    let (host, _) = desk.helpers();
-    let laws = host.ids().into_iter().filter_map(|id| host.friction(&id).map(|law| (id, law.descriptor().name.to_string())));
-    let laws: Vec<(String, String)> = laws.collect();
-    Grid::new("friction").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
-        name(ui, "Law");
-        let width = ui.available_width() - 8.0;
-        let taken = fields::choose(ui, &desk.book, Book::SCENARIO, "friction.model", &laws, width);
-        edits.extend(taken.map(|id| ("friction.model".to_owned(), id)));
-        ui.end_row();
-    });
-    let others = desk.book.count(Book::SCENARIO, "friction.on");
-    if others > 0 {
-        let text = format!("and {others} more for single surfaces, in the file");
-        ui.label(RichText::new(text).small().color(Theme::palette_of(ui).faint));
-    }
-}
-
 /// A choice among words of the format; the empty one takes the field away.
 fn words(ui: &mut Ui, desk: &Desk, label: &str, field: &str, words: &[(&str, &str)], edits: &mut Vec<Edit>) {
     name(ui, label);
@@ -179,9 +171,19 @@ fn words(ui: &mut Ui, desk: &Desk, label: &str, field: &str, words: &[(&str, &st
 
 /// Labels to the left all as wide, so that the groups line up.
 fn name(ui: &mut Ui, text: &str) {
-    let (rect, _) = ui.allocate_exact_size(egui::vec2(74.0, 20.0), egui::Sense::hover());
+    name_with_help(ui, text, "");
+}
+
+/// A label that goes on in a second line where it is long, told on hover.
+fn name_with_help(ui: &mut Ui, text: &str, help: &str) {
     let colour = Theme::palette_of(ui).faint;
-    ui.painter().text(rect.left_center(), egui::Align2::LEFT_CENTER, text, egui::FontId::proportional(13.0), colour);
+    let galley = ui.painter().layout(text.to_owned(), egui::FontId::proportional(13.0), colour, NAME_WIDTH);
+    let size = egui::vec2(NAME_WIDTH, galley.size().y.max(20.0));
+    let (rect, response) = ui.allocate_exact_size(size, egui::Sense::hover());
+    ui.painter().galley(rect.left_center() - egui::vec2(0.0, galley.size().y / 2.0), galley, colour);
+    if !help.is_empty() {
+        response.on_hover_text(help);
+    }
 }
 
 fn choice(ui: &mut Ui, desk: &Desk, field: &str, kind: Kind, edits: &mut Vec<Edit>) {
@@ -191,7 +193,7 @@ fn choice(ui: &mut Ui, desk: &Desk, field: &str, kind: Kind, edits: &mut Vec<Edi
     edits.extend(fields::choose(ui, &desk.book, Book::SCENARIO, field, &choices, width).map(|id| (field.to_owned(), id)));
 }
 
-fn rows(ui: &mut Ui, desk: &Desk, id: &str, rows: &[Row], edits: &mut Vec<Edit>) {
+fn rows(ui: &mut Ui, desk: &Desk, id: &str, rows: &[Row<'_>], edits: &mut Vec<Edit>) {
     Grid::new(id).num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
         for row in rows {
             name(ui, row.label);
@@ -201,14 +203,19 @@ fn rows(ui: &mut Ui, desk: &Desk, id: &str, rows: &[Row], edits: &mut Vec<Edit>)
                 let hint = if site.is_empty() { row.usual } else { &site };
                 let typed = fields::edit(ui, &desk.book, Book::SCENARIO, row.field, width, fields::Said { hint, help: row.help });
                 edits.extend(typed.map(|value| (row.field.to_owned(), value)));
-                if let Some(problem) = desk.book.problem_at(Book::SCENARIO, row.field) {
-                    let error = RichText::new(fields::told(problem)).size(11.0).color(Theme::palette_of(ui).error);
-                    ui.add(egui::Label::new(error).wrap());
-                }
+                problem(ui, desk, row.field);
             });
             ui.end_row();
         }
     });
+}
+
+/// What is wrong with a field, in its text or in the model last made of it.
+fn problem(ui: &mut Ui, desk: &Desk, field: &str) {
+    if let Some(problem) = desk.problem_at(Book::SCENARIO, field) {
+        let error = RichText::new(fields::told(problem)).size(11.0).color(Theme::palette_of(ui).error);
+        ui.add(egui::Label::new(error).wrap());
+    }
 }
 
 /// What the site gives where the scenario itself names nothing.
@@ -224,12 +231,10 @@ fn of_site(book: &Book, field: &str) -> String {
     given.map_or_else(String::new, |value| format!("{value} (site)"))
 }
 
-fn flags(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
-    for flag in FLAGS {
-        let mut on = desk.book.field(Book::SCENARIO, flag.field).map_or(flag.usual, |text| text == "true");
-        if ui.checkbox(&mut on, flag.label).on_hover_text(flag.help).changed() {
-            edits.push((flag.field.to_owned(), on.to_string()));
-        }
+fn flag(ui: &mut Ui, desk: &Desk, flag: &Flag, edits: &mut Vec<Edit>) {
+    let mut on = desk.book.field(Book::SCENARIO, flag.field).map_or(flag.usual, |text| text == "true");
+    if ui.checkbox(&mut on, flag.label).on_hover_text(flag.help).changed() {
+        edits.push((flag.field.to_owned(), on.to_string()));
     }
 }
 

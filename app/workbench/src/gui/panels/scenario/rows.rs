@@ -1,15 +1,15 @@
 //! The fields of the scenario panel: what each is called, where it stands, what it means.
 
 /// A field of the scenario's file that is typed.
-pub(super) struct Row {
+pub(super) struct Row<'a> {
     /// Its name on screen.
-    pub(super) label: &'static str,
+    pub(super) label: &'a str,
     /// Where it stands in the file.
-    pub(super) field: &'static str,
+    pub(super) field: &'a str,
     /// What holds where it is empty.
-    pub(super) usual: &'static str,
+    pub(super) usual: &'a str,
     /// What it means, with an example.
-    pub(super) help: &'static str,
+    pub(super) help: &'a str,
 }
 
 /// A field that is on or off.
@@ -24,7 +24,7 @@ pub(super) struct Flag {
     pub(super) help: &'static str,
 }
 
-const fn row(label: &'static str, field: &'static str, usual: &'static str, help: &'static str) -> Row {
+const fn row(label: &'static str, field: &'static str, usual: &'static str, help: &'static str) -> Row<'static> {
     Row { label, field, usual, help }
 }
 
@@ -32,13 +32,13 @@ const fn flag(label: &'static str, field: &'static str, usual: bool, help: &'sta
     Flag { label, field, usual, help }
 }
 
-pub(super) const SEA: &[Row] = &[
+pub(super) const SEA: &[Row<'static>] = &[
     row("Depth", "site.depth", "", "Water depth, over the site's, such as 40 fathom"),
     row("Current", "current.speed", "", "Surface speed of the current, such as 0.5 m/s or 1 kn"),
     row("Towards", "current.toward", "90 deg", "Compass bearing the current runs towards, such as 90 deg"),
 ];
 
-pub(super) const TIDE: &[Row] = &[
+pub(super) const TIDE: &[Row<'static>] = &[
     row(
         "Period",
         "current.tide.period",
@@ -49,14 +49,14 @@ pub(super) const TIDE: &[Row] = &[
     row("Residual", "current.tide.residual", "none", "Steady current that is left without the tide, such as 0.05 m/s"),
 ];
 
-pub(super) const WAVES: &[Row] = &[
+pub(super) const WAVES: &[Row<'static>] = &[
     row("Height", "waves.height", "no waves", "Height from trough to crest, such as 1.2 m; empty for a flat sea"),
     row("Period", "waves.period", "", "Period of the waves, such as 6 s"),
     row("Towards", "waves.toward", "90 deg", "Compass bearing towards which they run"),
     row("Spectrum", "waves.spectrum", "regular", "jonswap for irregular waves, drawn from the seed; height is then the significant one"),
 ];
 
-pub(super) const WHALE: &[Row] = &[
+pub(super) const WHALE: &[Row<'static>] = &[
     row("Length", "whale.length", "of its file", "Body length, snout to fluke notch, such as 13 m; or an age"),
     row("Age", "whale.age", "by length", "Age, such as 2 yr: the length follows by the law of the whale's file"),
     row("Condition", "whale.condition", "1", "Volume over that of middling condition, 0.65 to 1.5; below 1 is thin"),
@@ -69,16 +69,17 @@ pub(super) const WHALE: &[Row] = &[
 ];
 
 /// Of a living whale.
-pub(super) const SWIMS: &[Row] = &[row("Speed", "whale.speed", "", "Speed through the water at the start, such as 1 m/s")];
+pub(super) const SWIMS: &[Row<'static>] = &[row("Speed", "whale.speed", "", "Speed through the water at the start, such as 1 m/s")];
 
-pub(super) const RUN: &[Row] = &[
+pub(super) const RUN: &[Row<'static>] = &[
     row("Duration", "duration", "", "Length of the run, such as 60 s"),
     row("Seed", "seed", "0", "Seed of everything drawn at random"),
     row("Rope nodes", "rope_nodes", "", "Nodes of all ropes, shared out by length; more is finer and slower"),
 ];
 
+pub(super) const LINKS_PART: Flag = flag("Weak links part", "weak_links", true, "Off: links hold whatever they are rated (K when flying)");
+
 pub(super) const FLAGS: &[Flag] = &[
-    flag("Weak links part", "weak_links", true, "Off: links hold whatever they are rated (K when flying)"),
     flag(
         "Strengths are drawn at random",
         "strength_scatter",

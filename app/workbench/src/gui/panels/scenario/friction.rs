@@ -1,0 +1,91 @@
+//! Friction of rope on whale: the law, its attributes, and laws of their own for single surfaces.
+
+use egui::{Grid, Label, RichText, Ui};
+use endline_gear::{Document, SURFACES, Setting};
+
+use super::super::super::book::Book;
+use super::super::super::desk::Desk;
+use super::super::super::fields;
+use super::super::super::theme::Theme;
+use super::{Edit, attributes, name};
+
+/// Laws for single surfaces in the scenario's file.
+const ON: &str = "friction.on";
+
+/// A change of the laws for single surfaces.
+enum Change {
+    /// A law for a surface.
+    Add(&'static str, String),
+    /// The law of this place goes.
+    Remove(usize),
+}
+
+impl Change {
+    fn make(self, document: &mut Document) -> Result<(), String> {
+        let made = match self {
+            Self::Remove(index) => document.remove_table(ON, index),
+            Self::Add(surface, model) => document
+                .push_table(ON, &[("model", &model)])
+                .and_then(|index| document.put(&format!("{ON}.{index}.surfaces"), &Setting::plain(&format!("[\"{surface}\"]")))),
+        };
+        made.map_err(|error| error.to_string())
+    }
+}
+
+/// Draws the laws of friction.
+pub(super) fn show(ui: &mut Ui, desk: &mut Desk, edits: &mut Vec<Edit>) {
+    super::super::caption(ui, "Friction of rope on whale");
+    law(ui, desk, "friction", edits);
+    let mut change = None;
+    for index in 0..desk.book.count(Book::SCENARIO, ON) {
+        let table = format!("{ON}.{index}");
+        let surfaces = surfaces(&desk.book, &table);
+        ui.horizontal(|ui| {
+            if ui.small_button("✖").on_hover_text("Take it out; Undo brings it back").clicked() {
+                change = Some(Change::Remove(index));
+            }
+            ui.add(Label::new(RichText::new(format!("On {surfaces}")).color(Theme::palette_of(ui).faint)).truncate());
+        });
+        law(ui, desk, &table, edits);
+    }
+    let usual = desk.book.field(Book::SCENARIO, "friction.model");
+    ui.add_enabled_ui(usual.is_some(), |ui| {
+        ui.menu_button("Another law for … ⏷", |ui| {
+            for word in SURFACES {
+                if ui.button(word).clicked() {
+                    change = usual.clone().map(|model| Change::Add(word, model));
+                    ui.close();
+                }
+            }
+        });
+    });
+    if let Some(change) = change
+        && let Err(error) = desk.book.alter(Book::SCENARIO, |document| change.make(document))
+    {
+        desk.notice = Some((error, true));
+    }
+}
+
+/// The law named in a table of the scenario, with its attributes.
+fn law(ui: &mut Ui, desk: &Desk, table: &str, edits: &mut Vec<Edit>) {
+    let (host, _) = desk.helpers();
+    let laws = host.ids().into_iter().filter_map(|id| host.friction(&id).map(|law| (id, law.descriptor().name.to_string())));
+    let laws: Vec<(String, String)> = laws.collect();
+    let field = format!("{table}.model");
+    Grid::new(("law", table)).num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
+        name(ui, "Law");
+        let width = ui.available_width() - 8.0;
+        let taken = fields::choose(ui, &desk.book, Book::SCENARIO, &field, &laws, width);
+        edits.extend(taken.map(|id| (field.clone(), id)));
+        ui.end_row();
+    });
+    if let Some(law) = desk.book.field(Book::SCENARIO, &field).and_then(|id| host.friction(&id)) {
+        attributes::show(ui, desk, &format!("{table}.attributes"), &law.descriptor().attributes, edits);
+    }
+}
+
+/// The surfaces of a law, as words in a row.
+fn surfaces(book: &Book, table: &str) -> String {
+    let words = (0..).map_while(|index| book.field(Book::SCENARIO, &format!("{table}.surfaces.{index}")));
+    words.collect::<Vec<_>>().join(", ")
+}

@@ -1,0 +1,152 @@
+//! Weak links of the scenario: those of its gear types, those put on its lines, whether they part at all.
+
+use egui::{Grid, RichText, Ui};
+use endline_gear::{Document, Kind};
+use endline_sdk::AttributeKind;
+
+use super::super::super::book::Book;
+use super::super::super::desk::Desk;
+use super::super::super::fields;
+use super::super::super::theme::Theme;
+use super::rows::{LINKS_PART, Row};
+use super::{Edit, flag, name, problem, rows};
+
+/// A change of the scenario's list of weak links.
+enum Change {
+    /// A link at an end of a line.
+    Add(String, &'static str),
+    /// The link of this place goes.
+    Remove(usize),
+}
+
+/// Draws the weak links.
+pub(super) fn show(ui: &mut Ui, desk: &mut Desk, edits: &mut Vec<Edit>) {
+    super::super::caption(ui, "Weak links");
+    of_gear(ui, desk, edits);
+    let mut change = None;
+    for index in 0..desk.book.count(Book::SCENARIO, "link") {
+        let remove = one(ui, desk, index, edits);
+        change = change.or(remove.then_some(Change::Remove(index)));
+    }
+    change = add(ui, desk).or(change);
+    flag(ui, desk, &LINKS_PART, edits);
+    if let Some(change) = change
+        && let Err(error) = desk.book.alter(Book::SCENARIO, |document| change.make(document))
+    {
+        desk.notice = Some((error, true));
+    }
+}
+
+/// Links that the gear types put in: of the assembly, unless the scenario names another.
+fn of_gear(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
+    let placed = (0..).map_while(|index| desk.book.field(Book::SCENARIO, &format!("gear.{index}.assembly")).map(|id| (index, id)));
+    for (index, assembly) in placed {
+        let file = format!("assemblies/{assembly}.toml");
+        let wanted = desk.book.field(&file, "gear_type");
+        let Some(gear) = desk.gear_types().into_iter().find(|gear| Some(gear.descriptor().id.as_ref()) == wanted.as_deref()) else {
+            continue;
+        };
+        Grid::new(("links of gear", index)).num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
+            for attribute in &gear.descriptor().attributes {
+                let AttributeKind::Item { library, default } = &attribute.kind else { continue };
+                if Kind::in_folder(library) != Some(Kind::WeakLink) {
+                    continue;
+                }
+                let own = desk.book.field(&file, &format!("attributes.{}", attribute.key)).unwrap_or_else(|| default.to_string());
+                let own = if own.is_empty() { "none".to_owned() } else { title_of(desk, &own) };
+                name(ui, &super::super::library::title(&attribute.key));
+                let field = format!("gear.{index}.attributes.{}", attribute.key);
+                let width = ui.available_width() - 8.0;
+                let choices: Vec<(String, String)> =
+                    std::iter::once((String::new(), format!("{own} (assembly)"))).chain(items(desk)).collect();
+                let taken = fields::choose(ui, &desk.book, Book::SCENARIO, &field, &choices, width);
+                edits.extend(taken.map(|id| (field, id)));
+                ui.end_row();
+            }
+        });
+    }
+}
+
+/// A link written into the scenario: which item, or what rating; answers whether it is to go.
+fn one(ui: &mut Ui, desk: &Desk, index: usize, edits: &mut Vec<Edit>) -> bool {
+    let at = format!("link.{index}");
+    let text = |key: &str| desk.book.field(Book::SCENARIO, &format!("{at}.{key}")).unwrap_or_default();
+    let remove = ui
+        .horizontal(|ui| {
+            let words = format!("{}, at the {} of {}", text("id"), word_of(&text("end")), text("line"));
+            let out = ui.small_button("✖").on_hover_text("Take it out; Undo brings it back").clicked();
+            ui.add(egui::Label::new(RichText::new(&words).color(Theme::palette_of(ui).faint)).truncate()).on_hover_text(&words);
+            out
+        })
+        .inner;
+    let (item, rating) = (format!("{at}.item"), format!("{at}.rating"));
+    Grid::new(("link", index)).num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
+        name(ui, "Link");
+        let none = (String::new(), "none: the rating below".to_owned());
+        let choices: Vec<(String, String)> = std::iter::once(none).chain(items(desk)).collect();
+        let width = ui.available_width() - 8.0;
+        edits.extend(fields::choose(ui, &desk.book, Book::SCENARIO, &item, &choices, width).map(|id| (item.clone(), id)));
+        ui.end_row();
+    });
+    let usual = desk.book.field(&format!("weak-links/{}.toml", text("item")), "rating").unwrap_or_default();
+    let row = [Row {
+        label: "Parts above",
+        field: &rating,
+        usual: &usual,
+        help: "Tension above which it parts, such as 600 lbf; over the link's own",
+    }];
+    problem(ui, desk, &item);
+    rows(ui, desk, &rating, &row, edits);
+    remove
+}
+
+/// The menu of places where a link can be put.
+fn add(ui: &mut Ui, desk: &Desk) -> Option<Change> {
+    let view = desk.view.as_ref()?;
+    // Pieces of a line with inserts are one line in the file.
+    let mut lines: Vec<&str> = view.model.spec.lines.iter().map(|line| line.id.split('.').next().unwrap_or(&line.id)).collect();
+    lines.dedup();
+    let mut change = None;
+    ui.menu_button("Add a weak link ⏷", |ui| {
+        for line in lines {
+            for end in ["to", "from"] {
+                if ui.button(format!("at the {} of {line}", word_of(end))).clicked() {
+                    change = Some(Change::Add(line.to_owned(), end));
+                    ui.close();
+                }
+            }
+        }
+    });
+    change
+}
+
+impl Change {
+    fn make(self, document: &mut Document) -> Result<(), String> {
+        let told = |error: endline_gear::EditError| error.to_string();
+        match self {
+            Self::Remove(index) => document.remove_table("link", index).map_err(told),
+            Self::Add(line, end) => {
+                let known: Vec<String> =
+                    (0..document.count("link")).filter_map(|index| document.get(&format!("link.{index}.id"))).collect();
+                let stem = format!("{}-link", line.replace('/', "-"));
+                let numbered = (2..).map(|number| format!("{stem}-{number}"));
+                let id = std::iter::once(stem.clone()).chain(numbered).find(|id| !known.contains(id)).unwrap_or_default();
+                let fields = [("id", id.as_str()), ("rating", "600 lbf"), ("line", &line), ("end", end)];
+                document.push_table("link", &fields).map(|_| ()).map_err(told)
+            }
+        }
+    }
+}
+
+/// The end of a line in words: lines of shipped gear run from the bottom to the buoy.
+fn word_of(end: &str) -> &'static str {
+    if end == "from" { "foot" } else { "top" }
+}
+
+fn items(desk: &Desk) -> Vec<(String, String)> {
+    desk.book.library().entries(Kind::WeakLink).iter().map(|entry| (entry.id.clone(), entry.name.clone())).collect()
+}
+
+fn title_of(desk: &Desk, id: &str) -> String {
+    items(desk).into_iter().find(|(known, _)| known == id).map_or_else(|| id.to_owned(), |(_, name)| name)
+}

@@ -1,0 +1,65 @@
+# What drives the workbench's window: a screen of its own (Xvfb), real mouse and keys (xdotool), pictures (imagemagick).
+# Sourced by the scripts beside it, after PROGRAM, PICTURES and SIZE are set. Nothing waits for a time where there is something
+# to wait for: a command until the program has told that it obeyed it, a picture until the window stands still.
+ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+WORK=$(mktemp -d)
+FAILED=0
+WINDOW=
+mkdir -p "$PICTURES"
+cp -r "$ROOT/gear-library" "$WORK/library"
+# Each order that the program obeys is a line of its log.
+export XDG_DATA_HOME="$WORK/data" LIBGL_ALWAYS_SOFTWARE=1 ENDLINE_TELL_ORDERS=1
+DATA="$WORK/data/endline"
+
+# Waits until something is so, at most so many seconds.
+within() { local end=$((SECONDS + $1)); until eval "$2"; do [ $SECONDS -lt $end ] || return 1; sleep "${3:-0.1}"; done; }
+
+SCREENS=$(seq $((100 + $$ % 400)) $((600 + $$ % 400)))
+for NUMBER in $SCREENS; do
+    [ -e "/tmp/.X$NUMBER-lock" ] && continue
+    export DISPLAY=":$NUMBER"
+    Xvfb "$DISPLAY" -screen 0 "${SIZE}x24" >/dev/null 2>&1 &
+    SCREEN=$!
+    within 30 "[ -e '/tmp/.X11-unix/X$NUMBER' ] || ! kill -0 $SCREEN 2>/dev/null"
+    kill -0 $SCREEN 2>/dev/null && break
+done
+trap 'kill $WINDOW $SCREEN 2>/dev/null; rm -rf "$WORK"' EXIT
+
+screen() { import -window root -depth 8 rgb:- 2>/dev/null | md5sum; }
+# Waits until nothing on the screen has changed for some time, at most so many seconds.
+still() {
+    local end=$((SECONDS + ${1:-10})) before now same=0
+    before=$(screen)
+    while [ $SECONDS -lt $end ] && [ $same -lt 2 ]; do
+        sleep 0.15
+        now=$(screen)
+        if [ "$now" = "$before" ]; then same=$((same + 1)); else same=0; fi
+        before=$now
+    done
+}
+picture() { still "${2:-10}"; import -window root "$PICTURES/$1.png"; }
+click() { xdotool mousemove "$1" "$2"; still 5; xdotool click 1; still 5; }
+keys() { xdotool key --delay 30 "$@"; }
+typed() { xdotool type --delay 5 "$1"; }
+orders() { grep -c '^order: ' "$WORK/log"; }
+# An order by its name in the palette.
+command() {
+    local before
+    before=$(orders)
+    keys ctrl+p
+    within 30 "[ \$(orders) -gt $before ]"
+    typed "$1"
+    keys Return
+    within 30 "[ \$(orders) -gt $((before + 1)) ]" || { echo "WRONG no such command: $1"; FAILED=1; keys Escape; }
+}
+check() { if eval "$2"; then echo "ok    $1"; else echo "WRONG $1"; FAILED=1; picture "wrong-$(echo "$1" | tr -c 'a-z\n' -)"; fi; }
+
+# The window at the screen's size.
+opened() {
+    "$PROGRAM" --library "$WORK/library" >>"$WORK/log" 2>&1 &
+    WINDOW=$!
+    within 120 "ID=\$(xdotool search --onlyvisible --name '^Endline\$' 2>/dev/null) || ! kill -0 $WINDOW 2>/dev/null" 0.25
+    if [ -z "${ID:-}" ]; then echo "WRONG no window: $(tail -3 "$WORK/log")"; exit 1; fi
+    xdotool windowmove "$ID" 0 0 windowsize "$ID" "${SIZE%x*}" "${SIZE#*x}" windowfocus "$ID"
+    still 30
+}
