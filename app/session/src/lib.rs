@@ -35,6 +35,10 @@ pub mod source;
 pub mod study;
 pub mod timing;
 
+/// Version of Endline and, after the plus sign, the mark of the code that decides what a run is (`build.rs`): the bits of a
+/// run are promised for one mark.
+pub const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), "+", env!("ENDLINE_CODE"));
+
 pub use error::Error;
 pub use hooks::{load_plugins, load_with, plugin_loader};
 pub use plugins::PluginHost;
@@ -42,3 +46,13 @@ pub use recording::Recording;
 pub use report::Report;
 pub use run::{Run, RunOptions};
 pub use source::{Overrides, Prepared, Source, prepare};
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn the_version_carries_a_mark_of_the_code() {
+        let (version, mark) = super::VERSION.split_once('+').unwrap();
+        assert_eq!(version, env!("CARGO_PKG_VERSION"));
+        assert!(mark.len() == 8 && mark.bytes().all(|digit| digit.is_ascii_hexdigit()), "{mark}");
+    }
+}

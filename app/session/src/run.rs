@@ -261,7 +261,7 @@ impl Run {
     pub fn recording(&self) -> Recording {
         let settings = &self.model().spec.settings;
         let header = Header {
-            program: env!("CARGO_PKG_VERSION").into(),
+            program: crate::VERSION.into(),
             model_hash: self.prepared.source.hash(),
             plugins: self.prepared.plugins.clone(),
             seed: settings.seed,

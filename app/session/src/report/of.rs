@@ -47,7 +47,7 @@ impl Report {
             contact: phase_report(&run.timing().contact),
             settled: settled_report(run),
             events: event_reports(run),
-            version: env!("CARGO_PKG_VERSION"),
+            version: crate::VERSION,
             model_hash: run.prepared().source.hash(),
             plugins: run.prepared().plugins.clone(),
         }

@@ -49,7 +49,7 @@ impl Label {
             schema: SCHEMA.into(),
             study: opened.study.id.clone(),
             hash: opened.hash.clone(),
-            version: env!("CARGO_PKG_VERSION").into(),
+            version: crate::VERSION.into(),
             encounters: opened.study.encounters,
             block: BLOCK,
             options: opened.options.iter().map(|option| option.id.clone()).collect(),

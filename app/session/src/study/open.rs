@@ -250,7 +250,7 @@ fn hash(study: &Study, options: &[OptionPlan]) -> String {
         hasher.update(&(text.len() as u64).to_le_bytes());
         hasher.update(text.as_bytes());
     };
-    text(env!("CARGO_PKG_VERSION"));
+    text(crate::VERSION);
     text(&study.canonical);
     for option in options {
         text(&option.id);

@@ -24,7 +24,7 @@ pub(super) fn write(table: &Table, tags: &[(String, String)]) -> Result<Vec<u8>>
     let tags = tags.iter().map(|(key, value)| KeyValue::new(key.clone(), value.clone())).collect();
     let properties = WriterProperties::builder()
         .set_compression(Compression::ZSTD(ZstdLevel::default()))
-        .set_created_by(format!("endline {}", env!("CARGO_PKG_VERSION")))
+        .set_created_by(format!("endline {}", crate::VERSION))
         .set_key_value_metadata(Some(tags))
         .build();
     let mut file = SerializedFileWriter::new(Vec::new(), schema, Arc::new(properties))?;

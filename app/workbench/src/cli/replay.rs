@@ -60,7 +60,7 @@ fn again(args: &ReplayArgs, recording: &Recording) -> Result<(Run, Option<Verdic
 
 /// Bits are promised for one program only; another version may differ, and says so beforehand.
 fn tell_version(recording: &Recording) {
-    let (recorded, here) = (&recording.header.program, env!("CARGO_PKG_VERSION"));
+    let (recorded, here) = (&recording.header.program, endline_session::VERSION);
     if recorded != here {
         output::note(&format!("recorded with Endline {recorded}, this is {here}: the bits may differ"));
     }

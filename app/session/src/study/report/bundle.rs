@@ -41,7 +41,7 @@ fn readme(opened: &Opened) -> String {
         opened.study.name,
         opened.hash,
         opened.study.seed,
-        env!("CARGO_PKG_VERSION")
+        crate::VERSION
     )
 }
 

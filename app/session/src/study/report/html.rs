@@ -9,7 +9,7 @@ use crate::study::stats::{Findings, OptionFinding};
 
 use super::svg::escape;
 use super::words::{event_words, force, points, rate, ratio};
-use super::{curves, figures};
+use super::{changed, curves, figures};
 
 /// Look of the page: dark on light, no colour needed, narrow enough to read, good to print.
 const STYLE: &str = "body{font:16px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#1a1a1a;background:#fff}\
@@ -31,6 +31,7 @@ pub(super) fn page(opened: &Opened, findings: &Findings) -> String {
     page += &lead(opened, findings);
     page += &rates(findings);
     page += &compared(opened, findings);
+    page += &changed::section(findings);
     page += &tensions(findings);
     page += &regions(findings);
     page += &claims(findings);
@@ -56,7 +57,7 @@ fn lead(opened: &Opened, findings: &Findings) -> String {
 }
 
 /// A table with a caption.
-fn table(caption: &str, heads: &[&str], rows: &[Vec<String>]) -> String {
+pub(super) fn table(caption: &str, heads: &[&str], rows: &[Vec<String>]) -> String {
     let mut text = format!("<div class=\"wide\"><table><caption>{}</caption><thead><tr>", escape(caption));
     heads.iter().for_each(|head| {
         let _ = write!(text, "<th scope=\"col\">{}</th>", escape(head));
@@ -274,7 +275,7 @@ fn again(opened: &Opened, findings: &Findings) -> String {
     format!(
         "<h2>To do it again</h2><p>The folder <code>bundle</code> beside this file holds study, scenario and library as they were. With Endline {}:</p>\
          <pre>{}</pre><p>Study hash <code>{}</code>, seed {}, {} encounters; plugins {}.</p>",
-        env!("CARGO_PKG_VERSION"),
+        crate::VERSION,
         escape(super::bundle::COMMANDS),
         findings.hash,
         opened.study.seed,

@@ -1,6 +1,7 @@
 //! The report of a study: one HTML file with its figures inside, the numbers as CSV and JSON, and a bundle that reproduces it.
 
 mod bundle;
+mod changed;
 mod curves;
 mod figures;
 mod html;

@@ -17,7 +17,8 @@ pub(super) fn points(difference: f64, interval: Interval) -> String {
     format!("{:+.1} points {}", 100.0 * difference, percent_interval(interval))
 }
 
-fn percent_interval(Interval { low, high }: Interval) -> String {
+/// `[-6.1, -0.9]`, in percent.
+pub(super) fn percent_interval(Interval { low, high }: Interval) -> String {
     // Not to be broken over lines.
     format!("<span class=\"i\">[{:.1}, {:.1}]</span>", 100.0 * low, 100.0 * high)
 }
@@ -38,4 +39,9 @@ pub(super) fn force(newtons: f64) -> String {
 /// An event by name, for people.
 pub(super) fn event_words(name: &str) -> String {
     Event::find(name).map_or_else(|| name.to_owned(), |event| event.words())
+}
+
+/// An outcome by name, for people.
+pub(super) fn outcome_words(name: &str) -> String {
+    name.replace('_', " ")
 }

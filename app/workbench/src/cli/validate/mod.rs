@@ -52,7 +52,7 @@ fn outcomes(args: &ValidateArgs, cases: &Cases) -> Result<Vec<Outcome>, Failure>
 }
 
 fn json(outcomes: &[Outcome], missed: usize) -> String {
-    let report = Report { schema: "endline.validate/1", version: env!("CARGO_PKG_VERSION"), passed: missed == 0, cases: outcomes };
+    let report = Report { schema: "endline.validate/1", version: endline_session::VERSION, passed: missed == 0, cases: outcomes };
     // Structs of numbers and strings always serialise.
     serde_json::to_string(&report).unwrap_or_default() + "\n"
 }
