@@ -20,8 +20,9 @@ const USAGE: &str = "\
 usage: cargo xtask run [-- ARGUMENTS]    install what is missing, build in release, open the workbench
                                          (with no display: simulate the bundled encounter and draw it);
                                          ARGUMENTS, where given, go to the program instead
-       cargo xtask test                  install what is missing, then run the whole test suite
-       cargo xtask window                drive the built window by mouse and keys, where Xvfb, xdotool and imagemagick are
+       cargo xtask test                  install what is missing, then run the whole test suite; where Xvfb, xdotool and
+                                         imagemagick are, drive the window too
+       cargo xtask window                only drive the window that was built
        cargo xtask plugins [--release]   build the plugins that ship with Endline and put them beside the program";
 
 fn main() -> ExitCode {

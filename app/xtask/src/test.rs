@@ -3,9 +3,9 @@
 use std::process::{Command, Stdio};
 
 use crate::workspace::{Profile, Workspace, announce};
-use crate::{Outcome, packages, plugins, run};
+use crate::{Outcome, packages, plugins, run, window};
 
-/// Formatting, lints, every test of the workspace, and the bundled encounter from start to picture.
+/// Formatting, lints, every test of the workspace, the bundled encounter from start to picture, and the window in use.
 ///
 /// # Errors
 /// When any of them fails; the first failure ends it.
@@ -19,7 +19,8 @@ pub fn test(workspace: &Workspace) -> Outcome {
     workspace.cargo(&["build", "--workspace", "--all-targets"])?;
     plugins::build(workspace, Profile::Dev)?;
     workspace.cargo(&["test", "--workspace", "--no-fail-fast"])?;
-    run::show_encounter(workspace, Profile::Dev)
+    run::show_encounter(workspace, Profile::Dev)?;
+    window::drive(workspace)
 }
 
 /// A minimal Rust toolchain comes without its formatter and linter; rustup can add them.
