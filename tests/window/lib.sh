@@ -41,16 +41,17 @@ picture() { still "${2:-10}"; import -window root "$PICTURES/$1.png"; }
 click() { xdotool mousemove "$1" "$2"; still 5; xdotool click 1; still 5; }
 keys() { xdotool key --delay 30 "$@"; }
 typed() { xdotool type --delay 5 "$1"; }
-orders() { grep -c '^order: ' "$WORK/log"; }
+orders() { grep -c "^order: ${1:-}" "$WORK/log"; }
 # An order by its name in the palette.
 command() {
     local before
-    before=$(orders)
+    before=$(orders Commands)
     keys ctrl+p
-    within 30 "[ \$(orders) -gt $before ]"
+    within 30 "[ \$(orders Commands) -gt $before ]"
+    before=$(orders)
     typed "$1"
     keys Return
-    within 30 "[ \$(orders) -gt $((before + 1)) ]" || { echo "WRONG no such command: $1"; FAILED=1; keys Escape; }
+    within 30 "[ \$(orders) -gt $before ]" || { echo "WRONG no such command: $1"; FAILED=1; keys Escape; }
 }
 check() { if eval "$2"; then echo "ok    $1"; else echo "WRONG $1"; FAILED=1; picture "wrong-$(echo "$1" | tr -c 'a-z\n' -)"; fi; }
 

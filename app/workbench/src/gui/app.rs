@@ -36,8 +36,9 @@ pub struct App {
     palette: super::palette::Palette,
     dressed: Option<super::theme::Theme>,
     controls_at_s: Option<f64>,
-    /// Whether each order is told on standard error, for whoever drives the window and must know what it has taken in.
-    tells: bool,
+    /// Orders obeyed in this frame and in the one before, told on standard error once a frame after them was drawn; `None` where
+    /// nobody asked.
+    told: Option<[Vec<String>; 2]>,
 }
 
 impl App {
@@ -75,15 +76,15 @@ impl App {
             palette: super::palette::Palette::default(),
             dressed: None,
             controls_at_s: None,
-            tells: std::env::var_os("ENDLINE_TELL_ORDERS").is_some(),
+            told: std::env::var_os("ENDLINE_TELL_ORDERS").map(|_| Default::default()),
         }
     }
 
     /// Obeys every order given since the last call.
     fn obey(&mut self, context: &Context, orders: Vec<Order>) {
         for order in orders {
-            if self.tells {
-                eprintln!("order: {order:?}");
+            if let Some([now, _]) = &mut self.told {
+                now.push(format!("{order:?}"));
             }
             match &order {
                 Order::Start | Order::PlayPause if layout::is_open(&self.dock, Panel::Start) => {
@@ -116,7 +117,7 @@ impl App {
                 }
                 Order::AskScenarioAs => menus::ask_scenario_as(self),
                 Order::Arrange(layout) => self.dock = layout.dock(),
-                Order::Commands => self.palette.toggle(),
+                Order::Commands => self.palette.toggle(context),
                 Order::CopyCommandLine => self.copy_command_line(context),
                 Order::AskExportPlots(ending) => menus::ask_export_plots(self, ending),
                 Order::ExportPlots(path) if is_png(path) => self.desk.plots.picture = Some(path.clone()),
@@ -180,6 +181,16 @@ impl App {
         context.request_repaint();
     }
 
+    /// Tells the orders whose effect is on the screen by now; for whoever drives the window and must know what it has taken in.
+    fn tell(&mut self, context: &Context) {
+        let Some([now, drawn]) = &mut self.told else { return };
+        drawn.drain(..).for_each(|order| eprintln!("order: {order}"));
+        std::mem::swap(now, drawn);
+        if !drawn.is_empty() {
+            context.request_repaint();
+        }
+    }
+
     /// Keeps unsaved edits where it is time.
     fn keep(&mut self, context: &Context) {
         let now_s = context.input(|input| input.time);
@@ -211,6 +222,7 @@ impl App {
 
 impl eframe::App for App {
     fn logic(&mut self, context: &Context, _frame: &mut eframe::Frame) {
+        self.tell(context);
         self.desk.refresh();
         self.take_dialog();
         self.keep(context);

@@ -17,13 +17,22 @@ pub struct Said<'a> {
 
 /// Shows a field for typing; answers the new text when it is committed. Escape leaves it as it was.
 pub fn edit(ui: &mut Ui, book: &Book, path: &str, field: &str, width: f32, said: Said<'_>) -> Option<String> {
+    edit_as(ui, edit_id(path, field), book, (path, field), width, said)
+}
+
+/// The same in a second place on screen, under an id of its own.
+pub fn edit_in(ui: &mut Ui, place: &str, book: &Book, (path, field): (&str, &str), width: f32, said: Said<'_>) -> Option<String> {
+    edit_as(ui, Id::new((place, path, field)), book, (path, field), width, said)
+}
+
+fn edit_as(ui: &mut Ui, edit_id: Id, book: &Book, (path, field): (&str, &str), width: f32, said: Said<'_>) -> Option<String> {
     let stored = book.field(path, field).unwrap_or_default();
     let problem = book.problem_at(path, field);
-    let id = field_id(path, field);
+    let id = typed_id(edit_id);
     let mut typed = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| stored.clone());
     let palette = Theme::palette_of(ui);
     let colour = if problem.is_some_and(Diagnostic::is_error) { palette.error } else { palette.text };
-    let editor = TextEdit::singleline(&mut typed).id(edit_id(path, field)).desired_width(width).text_color(colour).clip_text(true);
+    let editor = TextEdit::singleline(&mut typed).id(edit_id).desired_width(width).text_color(colour).clip_text(true);
     let editor = editor.hint_text(said.hint);
     let response = ui.add(editor);
     outline(ui, &response, problem);
@@ -40,19 +49,20 @@ pub fn edit(ui: &mut Ui, book: &Book, path: &str, field: &str, width: f32, said:
     (!escaped && typed != stored).then_some(typed)
 }
 
-fn field_id(path: &str, field: &str) -> Id {
-    Id::new(("field", path, field))
+/// Id of what is typed into a text box and not committed yet.
+fn typed_id(edit_id: Id) -> Id {
+    edit_id.with("typed")
 }
 
 /// Id of the text box of a field, for whoever asks which has the focus.
 #[must_use]
 pub fn edit_id(path: &str, field: &str) -> Id {
-    field_id(path, field).with("edit")
+    Id::new(("field", path, field))
 }
 
 /// Drops what is typed into a field and not committed.
 pub fn forget(ui: &Ui, path: &str, field: &str) {
-    ui.data_mut(|data| data.remove_temp::<String>(field_id(path, field)));
+    ui.data_mut(|data| data.remove_temp::<String>(typed_id(edit_id(path, field))));
     ui.memory_mut(|memory| memory.surrender_focus(edit_id(path, field)));
 }
 
@@ -91,7 +101,7 @@ pub fn choose(ui: &mut Ui, book: &Book, path: &str, field: &str, choices: &[(Str
     let stored = book.field(path, field).unwrap_or_default();
     let shown = choices.iter().find(|(id, _)| *id == stored).map_or(stored.clone(), |(_, name)| name.clone());
     let mut taken = None;
-    let combo = egui::ComboBox::from_id_salt(("choice", path, field)).width(width).truncate().selected_text(shown);
+    let combo = egui::ComboBox::from_id_salt(("choice", path, field)).width(width).truncate().selected_text(&shown);
     let response = combo.show_ui(ui, |ui| {
         for (id, name) in choices {
             if ui.selectable_label(*id == stored, name).on_hover_text(id).clicked() {
@@ -100,5 +110,9 @@ pub fn choose(ui: &mut Ui, book: &Book, path: &str, field: &str, choices: &[(Str
         }
     });
     outline(ui, &response.response, book.problem_at(path, field));
+    // A long name is cut in a narrow panel.
+    if !shown.is_empty() {
+        response.response.on_hover_text(shown);
+    }
     taken.filter(|id| *id != stored)
 }

@@ -194,8 +194,8 @@ impl Layout {
             }
             Self::Study => {
                 let [right, _] = tree.split_left(NodeIndex::root(), 0.36, ids(&[Study, Library, Problems]));
-                let [_, below] = tree.split_below(right, 0.52, ids(&[View]));
-                tree.split_right(below, 0.62, ids(&[Summary, Entanglement, Plots, Events]));
+                let [_, below] = tree.split_below(right, 0.52, ids(&[View, Plots]));
+                tree.split_right(below, 0.62, ids(&[Summary, Entanglement, Events]));
             }
         }
         dock

@@ -134,13 +134,20 @@ fn readable(desk: &Desk) -> Vec<(String, Order)> {
 /// The orders whose names hold every typed word, whatever its case.
 fn matching(all: Vec<(String, Order)>, typed: &str) -> Vec<(String, Order)> {
     let words: Vec<String> = typed.to_lowercase().split_whitespace().map(str::to_owned).collect();
-    all.into_iter().filter(|(name, _)| words.iter().all(|word| name.to_lowercase().contains(word.as_str()))).collect()
+    let holds = |(name, _): &(String, Order)| words.iter().all(|word| name.to_lowercase().contains(word.as_str()));
+    let mut found: Vec<(String, Order)> = all.into_iter().filter(holds).collect();
+    // "Speed 1×" is also a part of "Speed 0.1×".
+    let whole = words.join(" ");
+    found.sort_by_key(|(name, _)| name.to_lowercase() != whole);
+    found
 }
 
 impl Palette {
-    /// Opens it empty, or closes it.
-    pub fn toggle(&mut self) {
-        *self = Self { open: !self.open, ..Self::default() };
+    /// Opens it, or closes it. What was typed before the frame in which it opens was drawn is its text.
+    pub fn toggle(&mut self, context: &Context) {
+        let text = |event: &egui::Event| if let egui::Event::Text(text) = event { Some(text.clone()) } else { None };
+        let typed = if self.open { String::new() } else { context.input(|input| input.events.iter().filter_map(text).collect()) };
+        *self = Self { open: !self.open, typed, ..Self::default() };
     }
 
     /// Draws it where open; leaves the chosen order on the desk.
@@ -207,6 +214,8 @@ mod tests {
         let all = vec![("Show Tension".to_owned(), Order::Step), ("Show Events".to_owned(), Order::Save), ("Undo".to_owned(), Order::Undo)];
         let names = |typed: &str| matching(all.clone(), typed).into_iter().map(|(name, _)| name).collect::<Vec<_>>();
         assert_eq!(names("tens SHOW"), ["Show Tension"]);
+        let speeds = ["Speed 0.1×", "Speed 1×"].map(|name| (name.to_owned(), Order::Step)).to_vec();
+        assert_eq!(matching(speeds, "speed 1×")[0].0, "Speed 1×", "the whole name comes before a part of one");
         assert_eq!(names("").len(), 3);
         assert!(names("dance").is_empty());
     }

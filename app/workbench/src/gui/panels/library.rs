@@ -337,8 +337,21 @@ fn field_help(field: &Field) -> String {
     )
 }
 
+/// Keys that say too little without their table.
+const TITLES: [(&str, &str); 6] = [
+    ("mass.length", "Mass, of length"),
+    ("mass.mass", "Mass"),
+    ("mass.exponent", "Mass, exponent"),
+    ("age.birth", "Length at birth"),
+    ("age.one_year", "Length at 1 year"),
+    ("age.tenfold", "Growth, tenfold age"),
+];
+
 /// A key as a title: `stretch_at_break` is `Stretch at break`.
 pub(super) fn title(key: &str) -> String {
+    if let Some((_, title)) = TITLES.iter().find(|(known, _)| *known == key) {
+        return (*title).to_owned();
+    }
     let words = key.replace(['_', '.'], " ");
     let mut letters = words.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())

@@ -72,7 +72,7 @@ fn head(ui: &mut Ui, desk: &mut Desk) {
             (Hands::On, None) => ("no pad found; the keyboard flies alike (F1)".to_owned(), palette.faint),
         };
         ui.label(RichText::new(text).color(colour));
-        ui.separator();
+        ui.end_row();
         ui.label(RichText::new("Preset").color(palette.faint));
         for (name, preset) in Mapping::presets() {
             let same = desk.pilot.mapping.axes == preset.axes && desk.pilot.mapping.buttons == preset.buttons;
@@ -88,21 +88,31 @@ fn head(ui: &mut Ui, desk: &mut Desk) {
 
 fn zones(ui: &mut Ui, desk: &mut Desk) {
     let mapping = &mut desk.pilot.mapping;
-    ui.spacing_mut().slider_width = 120.0;
-    ui.add(slider(&mut mapping.dead_zone, 0.0..=0.5, "dead zone of sticks"));
-    ui.add(slider(&mut mapping.trigger_dead_zone, 0.0..=0.5, "dead zone of triggers"));
-    ui.add(slider(&mut mapping.curve, 1.0..=3.0, "curve: finer about the middle"));
-    ui.horizontal(|ui| {
-        ui.add(slider(&mut desk.pilot.mapping.rumble, 0.0..=1.0, "rumble"));
-        if ui.button("Try").clicked() {
-            desk.pilot.rumble(1.0, 0.3);
-        }
+    // Name and value take their room first.
+    ui.spacing_mut().slider_width = (ui.available_width() - 190.0).clamp(40.0, 160.0);
+    let mut tried = false;
+    Grid::new("pad-zones").num_columns(2).spacing([10.0, 3.0]).show(ui, |ui| {
+        row(ui, "Dead zone, sticks", "How far a stick moves before it counts, as a share", &mut mapping.dead_zone, 0.0..=0.5);
+        ui.end_row();
+        row(ui, "Dead zone, triggers", "The same of the triggers", &mut mapping.trigger_dead_zone, 0.0..=0.5);
+        ui.end_row();
+        row(ui, "Curve", "1 is even; above, sticks are finer about their middle", &mut mapping.curve, 1.0..=3.0);
+        ui.end_row();
+        row(ui, "Rumble", "How hard the pad shakes; 0 not at all", &mut mapping.rumble, 0.0..=1.0);
+        ui.end_row();
+        ui.label("");
+        tried = ui.button("Try the rumble").clicked();
+        ui.end_row();
     });
+    if tried {
+        desk.pilot.rumble(1.0, 0.3);
+    }
 }
 
-/// A slider that leaves what it shows as it is until it is moved, and takes what is typed to four decimals.
-fn slider<'a>(value: &'a mut f64, range: RangeInclusive<f64>, text: &'a str) -> Slider<'a> {
-    Slider::new(value, range).text(text).clamping(SliderClamping::Edits).min_decimals(2).max_decimals(4)
+/// A name and a slider that leaves what it shows as it is until it is moved, and takes what is typed to four decimals.
+fn row(ui: &mut Ui, name: &str, help: &str, value: &mut f64, range: RangeInclusive<f64>) {
+    ui.label(name).on_hover_text(help);
+    ui.add(Slider::new(value, range).clamping(SliderClamping::Edits).max_decimals(4)).on_hover_text(help);
 }
 
 /// A bar of where something stands, -1 to 1 from its middle.

@@ -19,8 +19,11 @@ use super::super::units::Units;
 /// A strength further above the peak than this share is told, not drawn.
 const REACH: f64 = 3.0;
 
-/// Height of a plot's title and key.
+/// Height of a plot's title and key where they take one row.
 const HEAD: f32 = 26.0;
+
+/// A plot is never less high.
+const LEAST: f32 = 104.0;
 
 /// Which plots are shown, and those last made.
 #[derive(Default)]
@@ -105,7 +108,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
         return super::nothing(ui, "Choose what to plot above.");
     }
     photograph(ui, desk);
-    let height = (ui.available_height() / kinds.len() as f32 - HEAD).max(104.0);
+    let height = (ui.available_height() / kinds.len() as f32 - HEAD).max(LEAST);
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         for kind in kinds {
             let compared = if desk.other().is_some() { "; A solid, B dashed" } else { "" };
@@ -119,7 +122,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
 pub fn alone(ui: &mut Ui, desk: &mut Desk, kind: Kind) {
     let Some(view) = desk.view.clone() else { return super::nothing(ui, "No run yet.") };
     let height = ui.available_height() - HEAD;
-    one(ui, desk, &view, kind, "Greatest tension of each line", height);
+    one(ui, desk, &view, kind, "", height);
 }
 
 fn toolbar(ui: &mut Ui, desk: &mut Desk) {
@@ -185,7 +188,9 @@ fn one(ui: &mut Ui, desk: &mut Desk, view: &LiveView, kind: Kind, title: &str, h
     let other = desk.other_view();
     let hidden = desk.plots.hidden.clone();
     let chart = desk.plots.make(kind, view, other.as_deref(), units);
-    let clicked = key::show(ui, title, chart, &hidden);
+    let head_top = ui.cursor().top();
+    let clicked = key::show(ui, (title, height), chart, &hidden);
+    let height = (height + HEAD - (ui.cursor().top() - head_top)).max(LEAST);
     if chart.curves.iter().all(|curve| curve.points.is_empty()) {
         let why = if matches!(kind, Kind::Force | Kind::Wraps) { "No rope has touched the whale." } else { "Nothing yet." };
         return super::nothing(ui, why);

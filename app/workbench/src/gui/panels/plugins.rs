@@ -222,7 +222,7 @@ fn attributes(ui: &mut Ui, desk: &mut Desk, info: &PluginInfo) {
                     let said = fields::Said { hint: &hint, help: &help };
                     let cell = ui.horizontal(|ui| {
                         ui.set_min_width(FIELD_WIDTH);
-                        fields::edit(ui, &desk.book, Book::SCENARIO, &field, FIELD_WIDTH - 8.0, said)
+                        fields::edit_in(ui, "plugins", &desk.book, (Book::SCENARIO, &field), FIELD_WIDTH - 8.0, said)
                     });
                     let typed = cell.inner;
                     edits.extend(typed.map(|value| (field, value)));

@@ -114,7 +114,8 @@ fn state(ui: &mut Ui, view: &LiveView) {
         "run",
         &[
             ("Solver speed", format!("{:.1} × real time", view.times_real_time)),
-            ("Solver steps", format!("{} ({} in contact)", audit.solver_steps, audit.contact_steps)),
+            ("Solver steps", audit.solver_steps.to_string()),
+            ("Of these in contact", audit.contact_steps.to_string()),
             ("Redone, unconverged", format!("{}, {}", audit.halved, audit.unconverged)),
             ("Tunnelled", audit.tunnelled.to_string()),
             ("Deepest in skin", format!("{:.1} mm", audit.max_penetration_m * 1000.0)),

@@ -83,5 +83,8 @@ fn examples(root: &Path) -> Vec<Example> {
         let text = |field: &str| document.get(field).unwrap_or_default();
         Some(Example { name: text("name"), notes: text("notes"), whale: document.has("whale"), path })
     };
-    super::scenario::scenarios(root).into_iter().filter_map(read).collect()
+    let mut examples: Vec<Example> = super::scenario::scenarios(root).into_iter().filter_map(read).collect();
+    // Whoever is new begins with the plainest.
+    examples.sort_by_key(|example| !example.path.file_stem().is_some_and(|stem| stem.to_string_lossy().starts_with("hello-")));
+    examples
 }

@@ -10,7 +10,8 @@ use super::super::super::units::Units;
 use super::side::{A, B, top_m};
 use super::{Answer, surface_m_s};
 
-const HEADS: [&str; 9] = ["", "Line", "Rope", "Length", "Slack, low / high end", "Running, low / high end", "Strength", "Used", ""];
+/// What is compared comes first, and is seen in a narrow panel.
+const HEADS: [&str; 8] = ["", "Line", "Slack, low / high end", "Running, low / high end", "Used", "Strength", "Length", "Rope"];
 
 /// Draws the table.
 pub(super) fn show(ui: &mut Ui, desk: &Desk) {
@@ -49,21 +50,19 @@ fn gear_rows(ui: &mut Ui, name: &str, color: Color32, answers: [Option<&Answer>;
         let rope = &model.spec.ropes[line.rope];
         ui.label(RichText::new(name).color(color));
         ui.label(&line.id);
-        ui.label(format!("{}  {}", rope.id, units.diameter(rope.diameter_m)));
-        ui.label(units.length(line.segments_m.iter().sum()));
         for rest in [slack, running] {
             ui.label(ends(rest, index, units));
         }
         let strength_n = line_strength(rope.strength_n, line.strength);
-        ui.label(units.force().text(strength_n)).on_hover_text("Breaking strength with wear, knots and splices");
         ui.label(used(running, index, strength_n)).on_hover_text("Greatest tension at running tide over strength");
+        ui.label(units.force().text(strength_n)).on_hover_text("Breaking strength with wear, knots and splices");
+        ui.label(units.length(line.segments_m.iter().sum()));
+        ui.label(format!("{}  {}", rope.id, units.diameter(rope.diameter_m)));
         ui.end_row();
     }
     for (index, body) in model.spec.bodies.iter().enumerate().filter(|(_, body)| body.role == BodyRole::Buoy) {
         ui.label(RichText::new(name).color(color));
-        ui.label(&body.id);
-        ui.label("float height");
-        ui.label("");
+        ui.label(format!("{}, float height", body.id));
         for rest in [slack, running] {
             float(ui, rest, index, units);
         }
@@ -107,9 +106,7 @@ fn float(ui: &mut Ui, rest: Option<&Rest>, body: usize, units: Units) {
 fn whole(ui: &mut Ui, name: &str, color: Color32, slack: Option<&Rest>, running: Option<&Rest>, units: Units) {
     let palette = Theme::palette_of(ui);
     ui.label(RichText::new(name).color(color));
-    ui.label("whole gear");
-    ui.label(slack.map_or_else(String::new, |rest| format!("in {} of water", units.depth(rest.model.spec.water.depth_m))));
-    ui.label("");
+    ui.label(slack.map_or_else(|| "whole gear".to_owned(), |rest| format!("in {} of water", units.depth(rest.model.spec.water.depth_m))));
     for rest in [slack, running] {
         let (text, colour) = match rest {
             Some(rest) if rest.shape.converged => (format!("at rest in {:.0} ms", rest.shape.wall_s * 1000.0), palette.good),

@@ -2,43 +2,75 @@
 
 use std::collections::BTreeSet;
 
-use egui::{Button, Color32, RichText, ScrollArea, Sense, Shape, Stroke, Ui, vec2};
+use egui::{Color32, FontId, Rect, RichText, ScrollArea, Sense, Shape, Stroke, Ui, WidgetInfo, WidgetType, vec2};
 
 use super::super::super::charts::{Chart, Curve, Kind, Style};
 use super::super::super::theme::Theme;
 
-/// Draws title and key; answers the name of the curve that was clicked.
-pub(super) fn show(ui: &mut Ui, title: &str, chart: &Chart, hidden: &BTreeSet<String>) -> Option<String> {
+/// The key takes as many rows as it needs up to this share of the plot's height.
+const SHARE: f32 = 0.3;
+
+/// Width of a letter, more or less [points].
+const LETTER: f32 = 6.5;
+
+/// Length of the piece of line [points].
+const SAMPLE: f32 = 14.0;
+
+/// Between it and the name [points].
+const GAP: f32 = 6.0;
+
+/// Size of the names, and height of a row [points].
+const SIZE: f32 = 12.0;
+const HEIGHT: f32 = 18.0;
+
+/// Draws title and key of a plot of a height; answers the name of the curve that was clicked.
+pub(super) fn show(ui: &mut Ui, (title, plot): (&str, f32), chart: &Chart, hidden: &BTreeSet<String>) -> Option<String> {
     let faint = Theme::palette_of(ui).faint;
-    let row = ScrollArea::horizontal().id_salt(("key", chart.kind.name())).auto_shrink([false, true]);
-    row.show(ui, |ui| {
-        ui.horizontal(|ui| {
+    let named: Vec<&Curve> = chart.curves.iter().filter(|curve| curve.style != Style::Edge).collect();
+    let all = |ui: &mut Ui| {
+        ui.spacing_mut().item_spacing.y = 2.0;
+        if !title.is_empty() {
             ui.label(RichText::new(title).color(faint));
-            let named = chart.curves.iter().filter(|curve| curve.style != Style::Edge);
-            named.filter_map(|curve| entry(ui, chart, curve, hidden.contains(&curve.name))).last()
-        })
-        .inner
-    })
-    .inner
+        }
+        named.iter().filter_map(|curve| entry(ui, chart, curve, hidden.contains(&curve.name))).last()
+    };
+    let letters: usize = named.iter().map(|curve| curve.name.len() + peak(chart, curve).len() + 5).sum::<usize>() + title.len();
+    let rows = (letters as f32 * LETTER / ui.available_width()).ceil();
+    if rows * HEIGHT <= SHARE * plot {
+        return ui
+            .scope(|ui| {
+                ui.spacing_mut().interact_size.y = HEIGHT;
+                ui.horizontal_wrapped(all).inner
+            })
+            .inner;
+    }
+    // A long key must not push its plot away: it is moved along in one row.
+    ScrollArea::horizontal().id_salt(("key", chart.kind.name())).auto_shrink([false, true]).show(ui, |ui| ui.horizontal(all).inner).inner
 }
 
-/// A piece of the curve's line, then its name.
+/// A piece of the curve's line, then its name; never on two rows.
 fn entry(ui: &mut Ui, chart: &Chart, curve: &Curve, hidden: bool) -> Option<String> {
     let palette = Theme::palette_of(ui);
+    let text = format!("{}{}", curve.name, peak(chart, curve));
+    let galley = ui.painter().layout_no_wrap(text.clone(), FontId::proportional(SIZE), if hidden { palette.faint } else { palette.text });
+    let (rect, response) = ui.allocate_exact_size(vec2(SAMPLE + GAP + galley.size().x, HEIGHT), Sense::click());
+    response.widget_info(|| WidgetInfo::selected(WidgetType::Checkbox, true, !hidden, &text));
     let [red, green, blue] = curve.rgb();
-    let (rect, _) = ui.allocate_exact_size(vec2(14.0, 12.0), Sense::hover());
-    let ends = [rect.left_center(), rect.right_center()];
     let stroke = Stroke::new(2.5, Color32::from_rgb(red, green, blue).gamma_multiply(if hidden { 0.35 } else { 1.0 }));
+    let ends = [rect.left_center(), rect.left_center() + vec2(SAMPLE, 0.0)];
     match curve.style {
         Style::Dashed => ui.painter().extend(Shape::dashed_line(&ends, stroke, 4.0, 3.0)),
         _ => {
             ui.painter().line_segment(ends, stroke);
         }
     }
-    let text = RichText::new(format!("{}{}", curve.name, peak(chart, curve))).size(12.0);
-    let text = if hidden { text.strikethrough().color(palette.faint) } else { text.color(palette.text) };
+    let words = Rect::from_min_size(rect.left_center() + vec2(SAMPLE + GAP, -galley.size().y / 2.0), galley.size());
+    ui.painter().galley(words.min, galley, palette.text);
+    if hidden {
+        ui.painter().hline(words.x_range(), words.center().y, Stroke::new(1.0, palette.faint));
+    }
     let help = if hidden { "Click to show it" } else { "Click to take it away" };
-    ui.add(Button::new(text).frame(false)).on_hover_text(help).clicked().then(|| curve.name.clone())
+    response.on_hover_text(help).clicked().then(|| curve.name.clone())
 }
 
 /// The greatest value of a tension or a force, with its unit, and its time.
@@ -48,5 +80,5 @@ fn peak(chart: &Chart, curve: &Curve) -> String {
     }
     let Some(top) = curve.points.iter().max_by(|a, b| a.y.total_cmp(&b.y)) else { return String::new() };
     let value = if top.y.abs() < 100.0 { format!("{:.1}", top.y) } else { format!("{:.0}", top.y) };
-    format!(" (peak {value} {} at {:.1} s)", chart.y, top.x)
+    format!(" peak {value} {} at {:.1} s", chart.y, top.x)
 }

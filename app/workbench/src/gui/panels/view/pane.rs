@@ -13,6 +13,9 @@ use crate::scene::pick::pick;
 use crate::scene::rope::greatest_n;
 use crate::scene::{Camera, Overlay, Water, overlay};
 
+/// Width from which a pane tells the force of its longest arrow, else only what it is [points].
+const ROOMY: f32 = 480.0;
+
 /// What a pane shows.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pane {
@@ -74,7 +77,7 @@ fn write_over(ui: &Ui, desk: &Desk, view: &LiveView, pane: Pane, rect: Rect, cam
     let (state, painter) = (&desk.view3d, ui.painter().with_clip_rect(rect));
     let several = state.eyes.len() > 1;
     let compared = desk.other().is_some();
-    let caption = caption(desk, view, pane, several, compared);
+    let caption = caption(desk, view, pane, several, compared, rect.width() > ROOMY);
     // One scale is enough for all panes: in the last, at the foot.
     let last = slot + 1 == state.eyes.len() && run == usize::from(compared);
     let scale_n = if last { state.scale_n } else { 0.0 };
@@ -93,7 +96,7 @@ fn write_over(ui: &Ui, desk: &Desk, view: &LiveView, pane: Pane, rect: Rect, cam
     }
 }
 
-fn caption(desk: &Desk, view: &LiveView, pane: Pane, several: bool, compared: bool) -> String {
+fn caption(desk: &Desk, view: &LiveView, pane: Pane, several: bool, compared: bool, roomy: bool) -> String {
     let eye = &desk.view3d.eyes[pane.slot];
     let run = if compared { ["A", "B"][pane.run] } else { "" };
     let named = if several { spoken(eye.named) } else { String::new() };
@@ -102,7 +105,7 @@ fn caption(desk: &Desk, view: &LiveView, pane: Pane, several: bool, compared: bo
         (false, true) => "before the last edits",
         (false, false) => "",
     };
-    let greatest_n = if desk.view3d.show.forces { greatest_n(&view.frame) } else { 0.0 };
+    let greatest_n = if desk.view3d.show.forces && roomy { greatest_n(&view.frame) } else { 0.0 };
     let arrows =
         if greatest_n > 0.0 { format!("longest arrow {}", desk.preferences.units.force().text(greatest_n)) } else { String::new() };
     [run, named.as_str(), standing, arrows.as_str()].into_iter().filter(|words| !words.is_empty()).collect::<Vec<_>>().join(", ")
