@@ -32,7 +32,10 @@ pub fn paint(painter: &Painter, rect: Rect, overlay: &Overlay<'_>) {
     if overlay.scale_n > 0.0 && rect.height() > 260.0 && rect.width() > 320.0 {
         legend(painter, rect, overlay.scale_n);
     }
-    scale_bar(painter, rect, overlay.metres_a_point);
+    // In a flat pane it would lie on the caption.
+    if rect.height() > 90.0 {
+        scale_bar(painter, rect, overlay.metres_a_point);
+    }
 }
 
 fn caption(painter: &Painter, rect: Rect, overlay: &Overlay<'_>) {

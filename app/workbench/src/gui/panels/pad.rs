@@ -26,7 +26,9 @@ const FAR: f64 = 0.7;
 /// Draws the pad panel.
 pub fn show(ui: &mut Ui, desk: &mut Desk) {
     learn(desk);
-    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+    ScrollArea::both().auto_shrink(false).show(ui, |ui| {
+        // Only the tables may be wider than the panel.
+        ui.set_max_width(ui.clip_rect().width() - 16.0);
         head(ui, desk);
         zones(ui, desk);
         super::caption(ui, "Sticks and triggers");
@@ -118,7 +120,7 @@ fn row(ui: &mut Ui, name: &str, help: &str, value: &mut f64, range: RangeInclusi
 /// A bar of where something stands, -1 to 1 from its middle.
 fn bar(ui: &mut Ui, value: f64) {
     let palette = Theme::palette_of(ui);
-    let (rect, _) = ui.allocate_exact_size(vec2(90.0, 12.0), Sense::hover());
+    let (rect, _) = ui.allocate_exact_size(vec2(56.0, 12.0), Sense::hover());
     ui.painter().rect_filled(rect, 2.0, palette.field);
     let middle = rect.center().x;
     let end = middle + value.clamp(-1.0, 1.0) as f32 * rect.width() / 2.0;

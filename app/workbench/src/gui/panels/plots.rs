@@ -20,7 +20,7 @@ use super::super::units::Units;
 const REACH: f64 = 3.0;
 
 /// Height of a plot's title and key where they take one row.
-const HEAD: f32 = 26.0;
+const HEAD: f32 = 34.0;
 
 /// A plot is never less high.
 const LEAST: f32 = 104.0;

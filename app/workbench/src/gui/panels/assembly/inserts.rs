@@ -63,9 +63,9 @@ fn alter(desk: &mut Desk, file: &str, change: impl FnOnce(&mut endline_gear::Doc
 fn editor(ui: &mut Ui, desk: &mut Desk, file: &str, inserts: &str) {
     let rows = [
         ("Length", "length", "Length of each, such as 3 ft"),
-        ("First", "first", "From the buoy's end to the first, such as 12 ft"),
+        ("First at", "first", "From the buoy's end to the first, such as 12 ft"),
         ("Repeat every", "every", "From one to the next, such as 60 ft"),
-        ("Within", "within", "Share of the line, from the buoy's end, they lie in: 0.75 for the top 75 %"),
+        ("Within top", "within", "Share of the line, from the buoy's end, they lie in: 0.75 for the top 75 %"),
     ];
     ui.indent(inserts, |ui| {
         Grid::new(("inserts", inserts)).num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {

@@ -164,7 +164,7 @@ impl Flat {
 
 fn rig(plot: &mut PlotUi<'_>, rest: &Rest, gear: Gear, color: Color32, text: Color32, flat: &Flat) {
     let spec = &rest.model.spec;
-    for (line, shape) in spec.lines.iter().zip(&rest.shape.lines) {
+    for (index, (line, shape)) in spec.lines.iter().zip(&rest.shape.lines).enumerate() {
         let points: Vec<[f64; 2]> = shape.position_m.iter().map(|place| flat.point(*place)).collect();
         let rope = &spec.ropes[line.rope];
         let insert = line.id.contains(".insert-");
@@ -173,7 +173,7 @@ fn rig(plot: &mut PlotUi<'_>, rest: &Rest, gear: Gear, color: Color32, text: Col
             format!("{} {}: {}, {}", gear.name, line.id, flat.units.diameter(rope.diameter_m), flat.units.force().text(rope.strength_n));
         let label_at = points.get(points.len() / 2).copied();
         plot.line(Line::new(name, PlotPoints::from(points)).color(color).width(width).style(gear.style()));
-        if let (Some(at), true) = (label_at, !gear.dashed && !insert && spec.lines.len() <= LABELLED) {
+        if let (Some(at), true) = (label_at, !gear.dashed && !insert && spec.lines.len() <= LABELLED && speaks(&spec.lines, index)) {
             let printed = format!("  {}, {}  ", flat.units.diameter(rope.diameter_m), flat.units.force().text(rope.strength_n));
             let place = PlotPoint::new(at[0], at[1]);
             // On the side where there is room.
@@ -194,6 +194,15 @@ fn rig(plot: &mut PlotUi<'_>, rest: &Rest, gear: Gear, color: Color32, text: Col
             plot.points(points.color(Color32::from_rgb(0xd5, 0x5e, 0x00)));
         }
     }
+}
+
+/// Whether a piece tells the rope for all pieces of its line: the longest of this rope does.
+fn speaks(lines: &[endline_sim::model::Line], index: usize) -> bool {
+    let (of, length) =
+        (|id: &str| id.split('.').next().map(str::to_owned), |line: &endline_sim::model::Line| -> f64 { line.segments_m.iter().sum() });
+    let own = &lines[index];
+    let same = lines.iter().enumerate().filter(|(_, line)| of(&line.id) == of(&own.id) && line.rope == own.rope);
+    same.max_by(|(_, a), (_, b)| length(a).total_cmp(&length(b))).is_some_and(|(longest, _)| longest == index)
 }
 
 fn mark(plot: &mut PlotUi<'_>, body: &Body, at: [f64; 2], gear: Gear, color: Color32) {

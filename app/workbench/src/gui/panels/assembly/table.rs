@@ -16,7 +16,7 @@ const HEADS: [&str; 8] = ["", "Line", "Slack, low / high end", "Running, low / h
 /// Draws the table.
 pub(super) fn show(ui: &mut Ui, desk: &Desk) {
     let (drawn, units) = (desk.assembly.drawn(), desk.preferences.units);
-    Grid::new("statics").num_columns(HEADS.len()).striped(true).spacing([14.0, 3.0]).show(ui, |ui| {
+    Grid::new("statics").num_columns(HEADS.len()).min_col_width(12.0).striped(true).spacing([12.0, 3.0]).show(ui, |ui| {
         let faint = Theme::palette_of(ui).faint;
         for head in HEADS {
             ui.label(RichText::new(head).small().color(faint));
