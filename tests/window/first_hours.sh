@@ -12,7 +12,7 @@ SIZE=1280x720
 . "$(dirname "$0")/lib.sh"
 SCENARIOS="$WORK/library/scenarios"
 # The encounter's first seconds are enough, with rope no finer than a picture of it needs: the whale meets the rope at thirteen.
-sed -i 's/^duration = .*/duration = "18 s"/; s/^rope_nodes = .*/rope_nodes = 200/' "$SCENARIOS/hello-endline.toml"
+sed -i 's/^duration = .*/duration = "20 s"/; s/^rope_nodes = .*/rope_nodes = 200/' "$SCENARIOS/hello-endline.toml"
 sed -i 's/^rope_nodes = .*/rope_nodes = 100/' "$SCENARIOS/hello-weak-link.toml"
 
 # A study small enough for an hour's first minutes: two ratings, four encounters.

@@ -8,7 +8,7 @@ PROGRAM=$(realpath "${1:?the program to drive, such as target/debug/endline}")
 PICTURES=${2:?a folder for the pictures}
 SIZE=${3:-1280x720}
 . "$(dirname "$0")/lib.sh"
-sed -i 's/^duration = .*/duration = "18 s"/; s/^rope_nodes.*/rope_nodes = 200/' "$WORK/library/scenarios/hello-endline.toml"
+sed -i 's/^duration = .*/duration = "20 s"/; s/^rope_nodes.*/rope_nodes = 200/' "$WORK/library/scenarios/hello-endline.toml"
 
 flown() {
     command "run or pause"
@@ -29,7 +29,7 @@ layouts() {
     command "show compare"; picture "$1-compare"
     command "show run"; command "views at once: 4"; picture "$1-four-views-run"
     command "views at once: 1"
-    command "layout study"; command "open study weak-link"; picture "$1-study"
+    command "layout study"; command "open study weak-link"; picture "$1-study" 60
     command "layout design"; command "show 3-d view"
     command "show plugins"; picture "$1-plugins"
     command "show keys and help"; picture "$1-help"

@@ -156,11 +156,15 @@ fn a_study_stands_still_when_paused_keeps_its_blocks_when_cancelled_and_goes_on(
     wait(&mut harness, |app| app.desk.studies.jobs[0].progress().blocks >= 2);
     give(&mut harness, Order::PauseStudy);
     assert_eq!(state(harness.state()), Some(State::Paused));
-    // The encounter under way still comes to its end.
-    std::thread::sleep(std::time::Duration::from_millis(400));
-    let before = harness.state().desk.studies.jobs[0].progress().done;
-    std::thread::sleep(std::time::Duration::from_millis(300));
-    assert_eq!(harness.state().desk.studies.jobs[0].progress().done, before, "paused");
+    // The encounter under way still comes to its end, later on a busy machine.
+    let done = || harness.state().desk.studies.jobs[0].progress().done;
+    let rests = |_| {
+        std::thread::sleep(std::time::Duration::from_millis(400));
+        let before = done();
+        std::thread::sleep(std::time::Duration::from_millis(300));
+        (done() == before).then_some(before)
+    };
+    let before = (0..3).find_map(rests).expect("paused");
     give(&mut harness, Order::PauseStudy);
     wait(&mut harness, |app| app.desk.studies.jobs[0].progress().done > before);
     give(&mut harness, Order::CancelStudy);

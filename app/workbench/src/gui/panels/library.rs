@@ -337,6 +337,11 @@ fn field_help(field: &Field) -> String {
     )
 }
 
+/// A number of a plugin as it is told: six digits of it.
+pub(super) fn rounded(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
+}
+
 /// Keys that say too little without their table.
 const TITLES: [(&str, &str); 6] = [
     ("mass.length", "Mass, of length"),

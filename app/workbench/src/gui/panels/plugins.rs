@@ -247,6 +247,7 @@ fn attributes(ui: &mut Ui, desk: &mut Desk, info: &PluginInfo) {
 /// What is taken where a file names nothing, and what may be written.
 fn told(attribute: &Attribute) -> (String, String) {
     let in_unit = |value: f64| {
+        let value = super::library::rounded(value);
         Quantity::from_si_unit(&attribute.unit).map_or_else(|| format!("{value} {}", attribute.unit), |quantity| format_si(value, quantity))
     };
     match &attribute.kind {

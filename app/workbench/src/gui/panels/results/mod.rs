@@ -48,10 +48,14 @@ impl Part {
 /// Draws the results panel.
 pub fn show(ui: &mut Ui, desk: &mut Desk) {
     let Some(shown) = desk.studies.results.shown().cloned() else {
-        let why = match (&desk.studies.results.problem, desk.studies.results.busy()) {
-            (_, true) => "Reading …",
-            (Some(problem), _) => problem,
-            _ => "No results yet. Choose a study in Study and run it, or open the results of one that was run.",
+        // Every option's model is made for it, which takes a while.
+        if desk.studies.results.busy() {
+            ui.vertical_centered(|ui| ui.spinner());
+            return super::nothing(ui, "Reading the study and what it has found …");
+        }
+        let why = match &desk.studies.results.problem {
+            Some(problem) => problem,
+            None => "No results yet. Choose a study in Study and run it, or open the results of one that was run.",
         };
         return super::nothing(ui, why);
     };

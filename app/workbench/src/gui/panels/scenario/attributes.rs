@@ -62,5 +62,6 @@ fn help(attribute: &Attribute) -> String {
 }
 
 fn in_unit(value: f64, unit: &str) -> String {
+    let value = super::super::library::rounded(value);
     Quantity::from_si_unit(unit).map_or_else(|| format!("{value} {unit}").trim().to_owned(), |quantity| format_si(value, quantity))
 }
