@@ -1,0 +1,59 @@
+//! A study that was run, so that its panels have something to show.
+
+use endline_workbench::gui::desk::Order;
+use endline_workbench::gui::layout::Layout;
+use endline_workbench::gui::studies::job::State;
+
+use crate::common::{Folder, on_disk};
+use crate::screen::Screen;
+
+/// Short draws of a small rig without a whale: what is looked at here is the window, not the physics.
+const STUDY: &str = r#"format = 1
+kind = "study"
+name = "Small"
+scenario = "small-rig"
+encounters = 40
+baseline = "strong"
+
+[[option]]
+id = "strong"
+name = "Strong link"
+
+[[option]]
+id = "weak"
+name = "Weak link"
+
+[option.set]
+"link.0.rating" = "5 N"
+
+[encounter."body.0.drag_area"]
+uniform = ["0.1 m2", "0.3 m2"]
+source = "assumed"
+
+[encounter.tide]
+choice = ["0.2 m/s", "0.5 m/s"]
+source = "assumed"
+"#;
+
+/// Runs the study and opens its results.
+pub fn run(screen: &mut Screen, folder: &Folder) {
+    let scenario = on_disk(folder, "scenarios/study-endline-held.toml");
+    let (gear, _) = scenario.split_once("[whale]").unwrap();
+    // Without a whale there is none for the resolution to follow.
+    let (head, rest) = gear.split_once("[resolution]").unwrap();
+    let (_, rest) = rest.split_once("[site]").unwrap();
+    let rig = format!("{head}[site]{rest}").replace("duration = \"75 s\"", "duration = \"0.5 s\"");
+    std::fs::write(folder.0.join("scenarios/small-rig.toml"), rig.replace("rope_nodes = 80", "rope_nodes = 12")).unwrap();
+    std::fs::create_dir_all(folder.0.join("studies")).unwrap();
+    std::fs::write(folder.0.join("studies/small.toml"), STUDY).unwrap();
+    let studies = &mut screen.app.desk.studies;
+    (studies.folder, studies.eager) = (Some(folder.0.join("results")), true);
+    screen.app.dock = Layout::Study.dock();
+    screen.app.desk.obey(&Order::OpenStudy(folder.0.join("studies/small.toml")));
+    screen.app.desk.obey(&Order::QueueStudy);
+    let ended = |state: &State| matches!(state, State::Done | State::Failed(_));
+    screen.wait(|app| app.desk.studies.jobs.last().is_none_or(|job| ended(&job.progress().state)));
+    let state = screen.app.desk.studies.jobs.last().map(|job| job.progress().state);
+    assert_eq!(state, Some(State::Done), "{:?}", screen.app.desk.notice);
+    screen.wait(|app| !app.desk.studies.results.busy() && app.desk.studies.results.shown().is_some_and(|shown| shown.whole));
+}
