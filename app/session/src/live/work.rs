@@ -319,8 +319,8 @@ impl<'a> Worker<'a> {
 
     fn show(&mut self) {
         self.shown = Instant::now();
-        let first = first_view(&self.prepared);
         let Some(run) = &self.run else {
+            let first = first_view(&self.prepared);
             self.screen.show(LiveView { status: self.status.clone(), message: self.message.clone(), speed: self.pace.speed(), ..first });
             return;
         };

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use egui::epaint::{Mesh, Vertex, WHITE_UV};
-use egui::{Color32, Pos2, Rect, pos2};
+use egui::{Color32, Pos2, Rect, Vec2, vec2};
 use endline_sdk::BodyPart;
 use endline_sim::whale::Skin;
 use endline_sim::{ContactPoint, DVec3};
@@ -53,8 +53,25 @@ pub struct BodyMap {
     low: DVec3,
     high: DVec3,
     /// Triangles that face the eye, the farthest first.
-    sorted: [Vec<u32>; 4],
+    seen: [Vec<Seen>; 4],
+    /// What was drawn last of each face, and where and in which colours.
+    drawn: [Option<Drawn>; 4],
 }
+
+/// A face as it was drawn last: where, in which colours of the parts, and its triangles.
+type Drawn = (Rect, [Color32; PARTS], Arc<Mesh>);
+
+/// A triangle as a face shows it.
+#[derive(Clone, Copy)]
+struct Seen {
+    /// Corners from the middle of the picture, in widths of it, y down.
+    corners: [Vec2; 3],
+    part: BodyPart,
+    /// How it is lit [1].
+    light: f32,
+}
+
+const PARTS: usize = BodyPart::ALL.len();
 
 impl BodyMap {
     /// Of a skin at rest.
@@ -62,8 +79,9 @@ impl BodyMap {
     pub fn of(skin: Arc<Skin>) -> Self {
         let low = skin.vertices.iter().copied().fold(DVec3::INFINITY, DVec3::min);
         let high = skin.vertices.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
-        let sorted = Face::ALL.map(|face| sorted(&skin, face));
-        Self { skin, low, high, sorted }
+        let mut map = Self { skin, low, high, seen: [const { Vec::new() }; 4], drawn: [const { None }; 4] };
+        map.seen = Face::ALL.map(|face| map.seen_from(face));
+        map
     }
 
     /// Whether it is of this skin.
@@ -81,28 +99,47 @@ impl BodyMap {
     }
 
     fn place(&self, face: Face, rect: Rect, point: DVec3) -> Pos2 {
-        let [right, up, _] = face.axes();
-        let middle = (self.low + self.high) * 0.5;
-        let scale = f64::from(rect.width()) / (self.high - self.low).dot(right.abs()).max(1e-9);
-        let from_middle = (point - middle) * scale;
-        pos2(rect.center().x + from_middle.dot(right) as f32, rect.center().y - from_middle.dot(up) as f32)
+        rect.center() + self.flat(face, point) * rect.width()
     }
 
-    /// A face in a rectangle, each part in its colour, lit from the eye.
-    #[must_use]
-    pub fn mesh(&self, face: Face, rect: Rect, colour: impl Fn(BodyPart) -> Color32) -> Mesh {
+    /// A place from the middle of a face's picture, in widths of it, y down.
+    fn flat(&self, face: Face, point: DVec3) -> Vec2 {
+        let [right, up, _] = face.axes();
+        let middle = (self.low + self.high) * 0.5;
+        let from_middle = (point - middle) / (self.high - self.low).dot(right.abs()).max(1e-9);
+        vec2(from_middle.dot(right) as f32, -from_middle.dot(up) as f32)
+    }
+
+    fn seen_from(&self, face: Face) -> Vec<Seen> {
         let eye = face.axes()[2];
+        let seen = |triangle: u32| {
+            let corners = corners(&self.skin, triangle);
+            let light = 0.55 + 0.45 * normal(corners).dot(eye).clamp(0.0, 1.0) as f32;
+            let part = self.skin.regions[triangle as usize].part();
+            Seen { corners: corners.map(|corner| self.flat(face, corner)), part, light }
+        };
+        sorted(&self.skin, face).into_iter().map(seen).collect()
+    }
+
+    /// A face in a rectangle, each part in its colour, lit from the eye; the same as last where nothing has changed.
+    #[must_use]
+    pub fn mesh(&mut self, face: Face, rect: Rect, colour: impl Fn(BodyPart) -> Color32) -> Arc<Mesh> {
         let colours = BodyPart::ALL.map(colour);
-        let mut mesh = Mesh::default();
-        for triangle in &self.sorted[face as usize] {
-            let corners = self.skin.triangles[*triangle as usize].map(|vertex| self.skin.vertices[vertex as usize]);
-            let light = normal(corners).dot(eye).clamp(0.0, 1.0);
-            let part = self.skin.regions[*triangle as usize].part();
-            let lit = shade(colours[part as usize], 0.55 + 0.45 * light as f32);
-            let first = mesh.vertices.len() as u32;
-            mesh.vertices.extend(corners.map(|corner| Vertex { pos: self.place(face, rect, corner), uv: WHITE_UV, color: lit }));
-            mesh.indices.extend([first, first + 1, first + 2]);
+        let drawn = self.drawn[face as usize].as_ref().filter(|(place, of, _)| *place == rect && *of == colours);
+        if let Some((_, _, mesh)) = drawn {
+            return Arc::clone(mesh);
         }
+        let seen = &self.seen[face as usize];
+        let mut mesh = Mesh::default();
+        mesh.indices.extend(0..3 * u32::try_from(seen.len()).unwrap_or(0));
+        mesh.vertices.reserve(3 * seen.len());
+        for triangle in seen {
+            let color = shade(colours[triangle.part as usize], triangle.light);
+            let vertex = |corner: Vec2| Vertex { pos: rect.center() + corner * rect.width(), uv: WHITE_UV, color };
+            mesh.vertices.extend(triangle.corners.map(vertex));
+        }
+        let mesh = Arc::new(mesh);
+        self.drawn[face as usize] = Some((rect, colours, Arc::clone(&mesh)));
         mesh
     }
 
@@ -118,12 +155,15 @@ impl BodyMap {
 
 fn sorted(skin: &Skin, face: Face) -> Vec<u32> {
     let eye = face.axes()[2];
-    let corners = |triangle: u32| skin.triangles[triangle as usize].map(|vertex| skin.vertices[vertex as usize]);
     let count = u32::try_from(skin.triangles.len()).unwrap_or(0);
-    let mut seen: Vec<u32> = (0..count).filter(|triangle| normal(corners(*triangle)).dot(eye) > 0.0).collect();
-    let nearness = |triangle: u32| corners(triangle).iter().map(|corner| corner.dot(eye)).sum::<f64>();
+    let mut seen: Vec<u32> = (0..count).filter(|triangle| normal(corners(skin, *triangle)).dot(eye) > 0.0).collect();
+    let nearness = |triangle: u32| corners(skin, triangle).iter().map(|corner| corner.dot(eye)).sum::<f64>();
     seen.sort_by(|a, b| nearness(*a).total_cmp(&nearness(*b)));
     seen
+}
+
+fn corners(skin: &Skin, triangle: u32) -> [DVec3; 3] {
+    skin.triangles[triangle as usize].map(|vertex| skin.vertices[vertex as usize])
 }
 
 fn normal([a, b, c]: [DVec3; 3]) -> DVec3 {

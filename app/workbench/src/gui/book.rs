@@ -221,6 +221,9 @@ impl Book {
     /// The worst problem at a field of a file.
     #[must_use]
     pub fn problem_at(&self, path: &str, field: &str) -> Option<&Diagnostic> {
+        if self.problems.is_empty() {
+            return None;
+        }
         let file = self.shown_name(path);
         let here = |problem: &&Diagnostic| problem.file == file && (problem.field == field || problem.field == format!("{field}.value"));
         self.problems.iter().filter(here).max_by_key(|problem| problem.severity)
@@ -229,6 +232,9 @@ impl Book {
     /// Whether a file has an error anywhere.
     #[must_use]
     pub fn file_has_error(&self, path: &str) -> bool {
+        if self.problems.is_empty() {
+            return false;
+        }
         let file = self.shown_name(path);
         self.problems.iter().any(|problem| problem.file == file && problem.is_error())
     }

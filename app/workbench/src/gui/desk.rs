@@ -6,6 +6,7 @@ mod plugins;
 mod rerun;
 mod runs;
 
+use std::cell::Cell;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -102,6 +103,8 @@ pub struct Desk {
     maker: Maker,
     making: Texts,
     applied: Option<Texts>,
+    /// Whether texts differ from those, found for a version of the texts.
+    stale: Cell<Option<(u64, bool)>>,
     start_when_made: bool,
     /// Moment shown of a run that is played again [s].
     replaying_s: Option<f64>,
@@ -157,6 +160,7 @@ impl Desk {
             maker: Maker::default(),
             making: Texts::new(),
             applied: None,
+            stale: Cell::new(None),
             start_when_made: false,
             replaying_s: None,
             replay_speed: 1.0,
@@ -205,7 +209,13 @@ impl Desk {
     /// Whether texts have changed since the run's model was made.
     #[must_use]
     pub fn stale(&self) -> bool {
-        !self.applied.as_ref().is_some_and(|applied| self.book.same_run(applied))
+        let version = self.book.version();
+        if let Some((_, stale)) = self.stale.get().filter(|(known, _)| *known == version) {
+            return stale;
+        }
+        let stale = !self.applied.as_ref().is_some_and(|applied| self.book.same_run(applied));
+        self.stale.set(Some((version, stale)));
+        stale
     }
 
     /// How the run stands.
@@ -462,6 +472,7 @@ impl Desk {
     fn load(&mut self, prepared: Prepared) {
         self.keep_run();
         self.applied = Some(std::mem::take(&mut self.making));
+        self.stale.set(None);
         self.guest = self.guest_when_made.take();
         // Whoever drags the whale's start wants to see it from where they drag it.
         if !self.posing.on {

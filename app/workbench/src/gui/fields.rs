@@ -75,6 +75,10 @@ fn outline(ui: &Ui, response: &Response, problem: Option<&Diagnostic>) {
 }
 
 fn hover(response: Response, problem: Option<&Diagnostic>, help: &str) {
+    // Of a table's hundreds of fields at most one is pointed at.
+    if !response.contains_pointer() {
+        return;
+    }
     let text = match problem {
         Some(problem) => told(problem),
         None => help.to_owned(),

@@ -7,6 +7,9 @@ use super::desk::{Desk, Order};
 
 /// Orders given by keys since the last frame.
 pub fn orders(context: &Context, desk: &Desk) -> Vec<Order> {
+    if !context.input(|input| input.events.iter().any(|event| matches!(event, Event::Key { .. }))) {
+        return Vec::new();
+    }
     let typing = context.egui_wants_keyboard_input();
     let holds = |binding: &&Binding| match binding.when {
         // A text being typed has an undo of its own.

@@ -56,6 +56,7 @@ impl Desk {
         if changed {
             // The next model goes to a run with the new plugins.
             self.applied = None;
+            self.stale.set(None);
             self.other_plugins = true;
             // While a question stands open, the model would lack what is asked about.
             if !waiting && !self.book.any_error() && self.plugins.asked().is_none() {

@@ -152,7 +152,7 @@ fn map(ui: &mut Ui, desk: &mut Desk, view: &LiveView, whale: &WhaleSummary) {
     if state.map.as_ref().is_none_or(|map| !map.is_of(&model.skin)) {
         state.map = Some(BodyMap::of(Arc::clone(&model.skin)));
     }
-    let Some(map) = &state.map else { return };
+    let Some(map) = &mut state.map else { return };
     let (measure, units, forces) = (state.measure, desk.preferences.units, forces_n(view));
     let value = |part: BodyPart| {
         whale.regions.iter().find(|region| region.part == part).map_or(0.0, |region| measure.of(region, forces[part as usize]))
@@ -166,6 +166,9 @@ fn map(ui: &mut Ui, desk: &mut Desk, view: &LiveView, whale: &WhaleSummary) {
         ui.horizontal(|ui| {
             for face in faces {
                 let (rect, _) = ui.allocate_exact_size(vec2(width, height), Sense::hover());
+                if !ui.is_rect_visible(rect) {
+                    continue;
+                }
                 draw(ui, map, *face, rect, view, &colour);
             }
         });
@@ -173,7 +176,7 @@ fn map(ui: &mut Ui, desk: &mut Desk, view: &LiveView, whale: &WhaleSummary) {
     ui.label(RichText::new(format!("brightest: {}", measure.text(top, units))).small().color(Theme::palette_of(ui).faint));
 }
 
-fn draw(ui: &Ui, map: &BodyMap, face: Face, rect: Rect, view: &LiveView, colour: &impl Fn(BodyPart) -> Color32) {
+fn draw(ui: &Ui, map: &mut BodyMap, face: Face, rect: Rect, view: &LiveView, colour: &impl Fn(BodyPart) -> Color32) {
     let palette = Theme::palette_of(ui);
     let painter = ui.painter_at(rect);
     painter.text(rect.left_top(), egui::Align2::LEFT_TOP, face.name(), egui::FontId::proportional(11.0), palette.faint);

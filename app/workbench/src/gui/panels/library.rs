@@ -51,6 +51,7 @@ pub struct LibraryState {
     /// What the chosen row is compared with.
     pub against: Against,
     uses: Uses,
+    compared: detail::Compared,
     found: Option<(Wanted, Arc<Vec<Row>>)>,
 }
 
@@ -64,17 +65,18 @@ struct Wanted {
     sort: Option<(&'static str, bool)>,
 }
 
-/// A row of the table: its file, and whether one of its cells has a problem.
+/// A row of the table: its file, whether one of its cells has a problem, whether the scenario is made of it.
 #[derive(Clone, Debug)]
 struct Row {
     path: String,
     problem: bool,
+    used: bool,
 }
 
 impl Default for LibraryState {
     fn default() -> Self {
-        let (against, uses) = (Against::Saved, Uses::default());
-        Self { kind: Kind::Rope, search: String::new(), sort: None, chosen: None, against, uses, found: None }
+        let (against, uses, compared) = (Against::Saved, Uses::default(), detail::Compared::default());
+        Self { kind: Kind::Rope, search: String::new(), sort: None, chosen: None, against, uses, compared, found: None }
     }
 }
 
@@ -262,8 +264,8 @@ fn shown_rows(desk: &mut Desk) -> Arc<Vec<Row>> {
     if let Some((_, rows)) = desk.library.found.as_ref().filter(|(found, _)| *found == wanted) {
         return Arc::clone(rows);
     }
-    let with_problem = |path: String| Row { problem: cell_problem(desk, &path).is_some(), path };
-    let rows: Arc<Vec<Row>> = Arc::new(rows(desk).into_iter().map(with_problem).collect());
+    let row = |path: String| Row { problem: cell_problem(desk, &path).is_some(), used: desk.book.in_use(&path), path };
+    let rows: Arc<Vec<Row>> = Arc::new(rows(desk).into_iter().map(row).collect());
     desk.library.found = Some((wanted, Arc::clone(&rows)));
     rows
 }
@@ -286,9 +288,9 @@ fn table(ui: &mut Ui, desk: &mut Desk) {
     let heights = shown.iter().map(|row| if row.problem { ROW_WITH_REASON } else { ROW });
     table.body(|body| {
         body.heterogeneous_rows(heights, |mut row| {
-            let path = &shown[row.index()].path;
-            row.set_selected(desk.library.chosen.as_ref() == Some(path));
-            cells(&mut row, desk, path, &mut edits);
+            let shown = &shown[row.index()];
+            row.set_selected(desk.library.chosen.as_ref() == Some(&shown.path));
+            cells(&mut row, desk, shown, &mut edits);
         });
     });
     for (path, field, value) in edits {
@@ -362,26 +364,39 @@ pub(super) fn title(key: &str) -> String {
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
-fn cells(row: &mut TableRow<'_, '_>, desk: &mut Desk, path: &str, edits: &mut Vec<(String, &'static str, String)>) {
-    let kind = desk.library.kind;
-    row.col(|ui| name_cell(ui, desk, path));
+fn cells(row: &mut TableRow<'_, '_>, desk: &mut Desk, shown: &Row, edits: &mut Vec<(String, &'static str, String)>) {
+    let (kind, path) = (desk.library.kind, shown.path.as_str());
+    row.col(|ui| name_cell(ui, desk, shown));
     for word in kind.words() {
-        row.col(|ui| edits.extend(cell(ui, desk, path, word.key, word.help)));
+        row.col(|ui| {
+            if near(ui) {
+                edits.extend(cell(ui, desk, path, word.key, word.help));
+            }
+        });
     }
     for field in kind.fields() {
-        let help = format!("{}{}", field_help(field), provenance(desk, path, field));
         row.col(|ui| {
+            if !near(ui) {
+                return;
+            }
+            let pointed = ui.rect_contains_pointer(ui.max_rect());
+            let help = if pointed { format!("{}{}", field_help(field), provenance(desk, path, field)) } else { String::new() };
             edits.extend(cell(ui, desk, path, field.key, &help));
             sureness(ui, desk, path, field);
         });
     }
 }
 
-fn name_cell(ui: &mut Ui, desk: &mut Desk, path: &str) {
+/// Whether a cell is in sight, or next to what is, so that Tab still reaches it; the others are left empty.
+fn near(ui: &Ui) -> bool {
+    ui.clip_rect().expand2(egui::vec2(2.0 * CELL_WIDTH, 0.0)).intersects(ui.max_rect())
+}
+
+fn name_cell(ui: &mut Ui, desk: &mut Desk, row: &Row) {
+    let (path, used) = (row.path.as_str(), row.used);
     let palette = Theme::palette_of(ui);
     let name = desk.book.field(path, "name").unwrap_or_else(|| path.to_owned());
     let mark = if desk.book.is_unsaved(path) { "• " } else { "" };
-    let used = desk.book.in_use(path);
     let chosen = desk.library.chosen.as_deref() == Some(path);
     let colour = match (desk.book.file_has_error(path), used && !chosen) {
         (true, _) => palette.error,
@@ -389,11 +404,15 @@ fn name_cell(ui: &mut Ui, desk: &mut Desk, path: &str) {
         (false, false) => palette.text,
     };
     let label = Button::selectable(chosen, RichText::new(format!("{mark}{name}")).color(colour)).truncate();
-    let notes = desk.book.field(path, "notes").map_or(String::new(), |notes| format!("\n\n{notes}"));
-    let unsaved = if mark.is_empty() { "" } else { "\nnot saved yet" };
-    let used = if used { "\nin use by this scenario" } else { "" };
-    if ui.add(label).on_hover_text(format!("{name}\n{path}{used}{unsaved}{notes}")).clicked() {
+    let response = ui.add(label);
+    if response.clicked() {
         desk.library.chosen = Some(path.to_owned());
+    }
+    if response.contains_pointer() {
+        let notes = desk.book.field(path, "notes").map_or(String::new(), |notes| format!("\n\n{notes}"));
+        let unsaved = if mark.is_empty() { "" } else { "\nnot saved yet" };
+        let used = if used { "\nin use by this scenario" } else { "" };
+        response.on_hover_text(format!("{name}\n{path}{used}{unsaved}{notes}"));
     }
 }
 

@@ -1,6 +1,7 @@
 //! Where a user begins: what was open last, and the examples in their own words.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use egui::{RichText, ScrollArea, Ui};
 
@@ -21,12 +22,12 @@ struct Example {
 /// The examples of a library, read when the page is first shown.
 #[derive(Clone, Debug, Default)]
 pub struct StartState {
-    examples: Option<Vec<Example>>,
+    examples: Option<Arc<[Example]>>,
 }
 
 /// Draws the start page.
 pub fn show(ui: &mut Ui, desk: &mut Desk) {
-    let examples = desk.start.examples.get_or_insert_with(|| examples(desk.book.root())).clone();
+    let examples = desk.start.examples.get_or_insert_with(|| examples(desk.book.root()).into()).clone();
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         ui.heading("Endline");
         ui.label("Fishing gear, and whales that get out of it alive.");

@@ -1,5 +1,7 @@
 //! The chosen entry beside its table: what it is, where it is used, how it differs from another.
 
+use std::sync::Arc;
+
 use egui::{Grid, RichText, ScrollArea, Ui};
 use endline_gear::units::{self, Quantity};
 use endline_gear::{Document, Kind};
@@ -29,6 +31,25 @@ pub struct Uses {
     version: u64,
     assemblies: Vec<String>,
     scenarios: Vec<std::path::PathBuf>,
+}
+
+/// How an entry differs from another, found once as long as both texts stay the same.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Compared {
+    texts: Option<[String; 2]>,
+    rows: Option<Arc<[[String; 4]]>>,
+}
+
+impl Compared {
+    /// Fields that differ; `None` where the other text is no document.
+    fn rows(&mut self, book: &Book, path: &str, other: &str, kind: Kind) -> Option<Arc<[[String; 4]]>> {
+        let own = book.text(path).unwrap_or_default();
+        if self.texts.as_ref().is_none_or(|texts| texts[0] != own || texts[1] != other) {
+            self.rows = Document::parse(other).ok().map(|other| differences(book, path, &other, kind).into());
+            self.texts = Some([own.to_owned(), other.to_owned()]);
+        }
+        self.rows.clone()
+    }
 }
 
 /// Draws what there is to say of an entry.
@@ -115,14 +136,14 @@ fn compare(ui: &mut Ui, desk: &mut Desk, path: &str) {
     let kind = desk.library.kind;
     choose(ui, desk, path, kind);
     let other = match &desk.library.against {
-        Against::Saved => desk.book.saved_text(path).map(str::to_owned),
-        Against::Entry(other) => desk.book.text(other).map(str::to_owned),
+        Against::Saved => desk.book.saved_text(path),
+        Against::Entry(other) => desk.book.text(other),
     };
-    let Some(other) = other.and_then(|text| Document::parse(&text).ok()) else {
+    let rows = other.and_then(|other| desk.library.compared.rows(&desk.book, path, other, kind));
+    let Some(rows) = rows else {
         ui.label(RichText::new("no file yet: it is new").color(Theme::palette_of(ui).faint));
         return;
     };
-    let rows = differences(&desk.book, path, &other, kind);
     if rows.is_empty() {
         ui.label(RichText::new("no difference").color(Theme::palette_of(ui).faint));
         return;
@@ -133,7 +154,7 @@ fn compare(ui: &mut Ui, desk: &mut Desk, path: &str) {
             ui.label(RichText::new(head).small().color(faint));
         }
         ui.end_row();
-        for [name, here, there, by] in rows {
+        for [name, here, there, by] in rows.iter() {
             ui.label(RichText::new(name).color(faint));
             ui.label(here);
             ui.label(there);
@@ -149,13 +170,11 @@ fn choose(ui: &mut Ui, desk: &mut Desk, path: &str, kind: Kind) {
         Against::Saved => "its file on disk".to_owned(),
         Against::Entry(other) => name(other),
     };
-    let others: Vec<(String, String)> =
-        desk.book.files(kind.folder()).filter(|other| *other != path).map(|other| (other.to_owned(), name(other))).collect();
     let width = ui.available_width() - 8.0;
     egui::ComboBox::from_id_salt("against").width(width).truncate().selected_text(shown).show_ui(ui, |ui| {
         ui.selectable_value(&mut desk.library.against, Against::Saved, "its file on disk");
-        for (other, name) in others {
-            ui.selectable_value(&mut desk.library.against, Against::Entry(other), name);
+        for other in desk.book.files(kind.folder()).filter(|other| *other != path) {
+            ui.selectable_value(&mut desk.library.against, Against::Entry(other.to_owned()), name(other));
         }
     });
 }

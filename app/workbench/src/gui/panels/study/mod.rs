@@ -112,8 +112,7 @@ fn start(ui: &mut Ui, desk: &mut Desk) {
 fn question(ui: &mut Ui, desk: &mut Desk, edits: &mut Edits) {
     super::caption(ui, "Question");
     text(ui, desk, "Name", "name", "Shown in the report");
-    let scenarios = desk.studies.scenarios.clone();
-    choice(ui, desk, ("Scenario", "scenario"), &scenarios, edits);
+    choice(ui, desk, ("Scenario", "scenario"), &desk.studies.scenarios, edits);
     number(ui, desk, ("Encounters", "encounters"), "How many encounters every option meets; the same for all, at most 65,536", edits);
     let mut events: Vec<(String, String)> = Event::all().iter().map(|event| (event.name(), event.words())).collect();
     if !desk.book.has(Book::STUDY, "event") {
