@@ -110,7 +110,7 @@ scientist() {
     command "layout fly"
     still 20
     command "fly the whale"
-    command "speed 1×"
+    command "speed 1"
     command "run or pause"
     xdotool keydown Up keydown w; sleep 2; xdotool keyup Up keyup w
     import -window root "$PICTURES/scientist-1-flown-by-hand.png"

@@ -136,9 +136,12 @@ fn matching(all: Vec<(String, Order)>, typed: &str) -> Vec<(String, Order)> {
     let words: Vec<String> = typed.to_lowercase().split_whitespace().map(str::to_owned).collect();
     let holds = |(name, _): &(String, Order)| words.iter().all(|word| name.to_lowercase().contains(word.as_str()));
     let mut found: Vec<(String, Order)> = all.into_iter().filter(holds).collect();
-    // "Speed 1×" is also a part of "Speed 0.1×".
-    let whole = words.join(" ");
-    found.sort_by_key(|(name, _)| name.to_lowercase() != whole);
+    // "Speed 1" is also a part of "Speed 0.1×": names whose words begin as typed come first, and no keyboard has a "×".
+    let begins = |name: &str, word: &str| name.split_whitespace().any(|own| own.starts_with(word));
+    found.sort_by_cached_key(|(name, _)| {
+        let name = name.to_lowercase();
+        words.iter().filter(|word| !begins(&name, word)).count()
+    });
     found
 }
 
@@ -215,7 +218,9 @@ mod tests {
         let names = |typed: &str| matching(all.clone(), typed).into_iter().map(|(name, _)| name).collect::<Vec<_>>();
         assert_eq!(names("tens SHOW"), ["Show Tension"]);
         let speeds = ["Speed 0.1×", "Speed 1×"].map(|name| (name.to_owned(), Order::Step)).to_vec();
-        assert_eq!(matching(speeds, "speed 1×")[0].0, "Speed 1×", "the whole name comes before a part of one");
+        for typed in ["speed 1×", "speed 1", "1 speed"] {
+            assert_eq!(matching(speeds.clone(), typed)[0].0, "Speed 1×", "{typed}: a word's beginning comes before its middle");
+        }
         assert_eq!(names("").len(), 3);
         assert!(names("dance").is_empty());
     }
