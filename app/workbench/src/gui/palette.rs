@@ -138,9 +138,10 @@ fn matching(all: Vec<(String, Order)>, typed: &str) -> Vec<(String, Order)> {
     let mut found: Vec<(String, Order)> = all.into_iter().filter(holds).collect();
     // "Speed 1" is also a part of "Speed 0.1×": names whose words begin as typed come first, and no keyboard has a "×".
     let begins = |name: &str, word: &str| name.split_whitespace().any(|own| own.starts_with(word));
+    let whole = words.join(" ");
     found.sort_by_cached_key(|(name, _)| {
         let name = name.to_lowercase();
-        words.iter().filter(|word| !begins(&name, word)).count()
+        (words.iter().filter(|word| !begins(&name, word)).count(), name != whole)
     });
     found
 }
