@@ -10,12 +10,13 @@ use common::{Folder, linked, on_disk, opened, opened_with, retype, wait, workben
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_session::live::Status;
+use endline_session::{Overrides, Run, RunOptions, prepare};
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::book::Book;
 use endline_workbench::gui::desk::Order;
 use endline_workbench::gui::engine;
 use endline_workbench::gui::layout::{self, Panel};
-use endline_workbench::input::{PadAxis, PadButton, PadEvent, Pilot, ScriptedPad};
+use endline_workbench::input::{HeldKeys, PadAxis, PadButton, PadEvent, Pilot, ScriptedPad};
 
 #[test]
 fn a_bad_unit_is_red_with_its_place_and_reason_and_undo_mends_it() {
@@ -146,6 +147,31 @@ impl endline_workbench::input::PadSource for LateStart {
             out.push(PadEvent::Pressed(PadButton::Start));
         }
     }
+}
+
+/// The state after 14 s of `hello-endline` flown by a pad that is read at each step.
+fn flight(script: &[Vec<PadEvent>]) -> String {
+    let scenario = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../gear-library/scenarios/hello-endline.toml");
+    let mut run = Run::new(prepare(&scenario, None, &linked(), Overrides::default()).unwrap(), RunOptions::default()).unwrap();
+    let mut pilot = Pilot::new(Some(Box::new(ScriptedPad { script: script.to_vec().into() })));
+    while run.state().time_s < 14.0 {
+        pilot.poll_pad();
+        let step_s = run.step_s();
+        run.step(pilot.controls(&HeldKeys::default(), 0, step_s)).unwrap();
+    }
+    run.state_hash().hex()
+}
+
+#[test]
+fn a_pad_flies_the_encounter_to_the_same_state_each_time() {
+    let mut script = vec![vec![]; 800];
+    script[0] = vec![PadEvent::Connected("pad".into()), PadEvent::Moved(PadAxis::LeftTrigger, 0.9)];
+    script[300] = vec![PadEvent::Moved(PadAxis::LeftX, -0.8), PadEvent::Moved(PadAxis::RightX, 0.3)];
+    script[350] = vec![PadEvent::Moved(PadAxis::LeftX, 0.0), PadEvent::Moved(PadAxis::RightX, 0.0)];
+    let flown = flight(&script);
+    assert_eq!(flown, flight(&script));
+    script[300].pop();
+    assert_ne!(flown, flight(&script), "what the stick does is part of the flight");
 }
 
 #[test]
