@@ -7,13 +7,15 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Folders whose sources decide a run, from this package.
-const DECIDING: [&str; 4] = ["../sim/src", "../../gear-library/src", "../../plugins/sdk/src", "src"];
+const DECIDING: [&str; 4] =
+    ["../sim/src", "../../gear-library/src", "../../plugins/sdk/src", "src"];
 
 /// What of them only tells of runs.
 const TELLING: [&str; 4] = ["src/cases", "src/live", "src/study/report", "src/study/stats"];
 
 /// Libraries whose version may change a bit of a run.
-const CALCULATING: [&str; 8] = ["glam", "glamx", "libm", "nalgebra", "parry3d-f64", "rapier3d-f64", "simba", "sobol_burley"];
+const CALCULATING: [&str; 8] =
+    ["glam", "glamx", "libm", "nalgebra", "parry3d-f64", "rapier3d-f64", "simba", "sobol_burley"];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut files = Vec::new();
@@ -57,6 +59,8 @@ fn versions(lock: &str) -> Result<String, Box<dyn Error>> {
     println!("cargo::rerun-if-changed={lock}");
     let text = fs::read_to_string(lock)?.replace("\r\n", "\n");
     let packages = text.split("[[package]]\n").skip(1);
-    let named = packages.filter(|package| CALCULATING.iter().any(|name| package.starts_with(&format!("name = \"{name}\"\n"))));
+    let named = packages.filter(|package| {
+        CALCULATING.iter().any(|name| package.starts_with(&format!("name = \"{name}\"\n")))
+    });
     Ok(named.flat_map(|package| package.lines().take(2).chain(["\n"])).collect())
 }

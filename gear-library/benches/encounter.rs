@@ -32,7 +32,13 @@ const STRETCHES: [Stretch; 5] = [
     Stretch { name: "near", scenario: "hello-endline", changes: &[], from_s: 10.5, to_s: 12.0 },
     Stretch { name: "sliding", scenario: "hello-endline", changes: &[], from_s: 15.0, to_s: 33.0 },
     Stretch { name: "wound", scenario: "dead-whale-wraps", changes: &[], from_s: 1.0, to_s: 4.0 },
-    Stretch { name: "wound-tight", scenario: "dead-whale-wraps", changes: TIGHT, from_s: 1.0, to_s: 2.0 },
+    Stretch {
+        name: "wound-tight",
+        scenario: "dead-whale-wraps",
+        changes: TIGHT,
+        from_s: 1.0,
+        to_s: 2.0,
+    },
 ];
 
 /// More turns, laid on taut: more of the rope bears on skin.
@@ -44,9 +50,14 @@ const TIGHT: &[(&str, &str)] = &[
 ];
 
 fn main() {
-    let asked: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with('-')).collect();
-    println!("stretch      run s   steps  passes  touches  pairs  us a step  detection us  times real time");
-    for stretch in STRETCHES.iter().filter(|stretch| asked.is_empty() || asked.iter().any(|word| stretch.name.contains(word.as_str()))) {
+    let asked: Vec<String> =
+        std::env::args().skip(1).filter(|word| !word.starts_with('-')).collect();
+    println!(
+        "stretch      run s   steps  passes  touches  pairs  us a step  detection us  times real time"
+    );
+    for stretch in STRETCHES.iter().filter(|stretch| {
+        asked.is_empty() || asked.iter().any(|word| stretch.name.contains(word.as_str()))
+    }) {
         run(stretch);
     }
 }
@@ -61,7 +72,8 @@ struct Taken {
 
 fn run(stretch: &Stretch) {
     let model = model(stretch.scenario, stretch.changes);
-    let start = if model.spec.settings.as_placed { State::start(&model) } else { settle(&model).state };
+    let start =
+        if model.spec.settings.as_placed { State::start(&model) } else { settle(&model).state };
     let (mut state, mut workspace) = (start, Workspace::new(&model));
     while state.time_s < stretch.from_s - 1e-9 {
         advance(&model, &mut state, &mut workspace);
@@ -82,13 +94,20 @@ fn run(stretch: &Stretch) {
 
 fn advance(model: &Model, state: &mut State, workspace: &mut Workspace) {
     let pilot = model.spec.whale.as_ref().map(|whale| whale.pilot.at(state)).unwrap_or_default();
-    step(model, &Input { controls: pilot }, state, workspace).unwrap_or_else(|stop| panic!("{stop:?}"));
+    step(model, &Input { controls: pilot }, state, workspace)
+        .unwrap_or_else(|stop| panic!("{stop:?}"));
 }
 
-fn tell(stretch: &Stretch, (before, after): (&Audit, &Audit), taken: &Taken, detection: &Detection) {
+fn tell(
+    stretch: &Stretch,
+    (before, after): (&Audit, &Audit),
+    taken: &Taken,
+    detection: &Detection,
+) {
     let steps = (after.solver_steps - before.solver_steps) as f64;
     let passes = (after.passes - before.passes) as f64 / steps;
-    let [touches, pairs] = [taken.touches, detection.pairs].map(|count| count as f64 / taken.model_steps as f64);
+    let [touches, pairs] =
+        [taken.touches, detection.pairs].map(|count| count as f64 / taken.model_steps as f64);
     println!(
         "{:<12} {:5.1} {:7} {:7.1} {:8.0} {:6.0} {:10.1} {:13.1} {:16.1}",
         stretch.name,
@@ -101,7 +120,12 @@ fn tell(stretch: &Stretch, (before, after): (&Audit, &Audit), taken: &Taken, det
         1e6 * detection.seconds / detection.steps as f64,
         (stretch.to_s - stretch.from_s) / taken.seconds
     );
-    let [tunnelled, unconverged, halved] =
-        [after.tunnelled - before.tunnelled, after.unconverged - before.unconverged, after.halved - before.halved];
-    println!("             {tunnelled} crossed, {unconverged} not converged, {halved} redone shorter");
+    let [tunnelled, unconverged, halved] = [
+        after.tunnelled - before.tunnelled,
+        after.unconverged - before.unconverged,
+        after.halved - before.halved,
+    ];
+    println!(
+        "             {tunnelled} crossed, {unconverged} not converged, {halved} redone shorter"
+    );
 }

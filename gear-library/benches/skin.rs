@@ -21,9 +21,14 @@ fn main() {
 }
 
 fn whale() -> WhaleItem {
-    let sources = Sources::from_folder(Path::new(env!("CARGO_MANIFEST_DIR"))).expect("the gear library");
+    let sources =
+        Sources::from_folder(Path::new(env!("CARGO_MANIFEST_DIR"))).expect("the gear library");
     let (library, _) = Library::read(&sources);
-    library.whales.into_iter().find(|whale| whale.entry.id == "right-whale").expect("the right whale")
+    library
+        .whales
+        .into_iter()
+        .find(|whale| whale.entry.id == "right-whale")
+        .expect("the right whale")
 }
 
 /// Transforms of all bones from a posture.
@@ -33,7 +38,15 @@ fn posing(bencher: Bencher) {
     let (skin, posture) = (whale.skin_at(13.7), whale.joints.ranges.random(1));
     let mut bones = Vec::new();
     let bencher = bencher.counter(ItemsCount::new(skin.bones.len()));
-    bencher.bench_local(|| pose(&skin, DVec3::Z, DQuat::IDENTITY, divan::black_box(&posture), divan::black_box(&mut bones)));
+    bencher.bench_local(|| {
+        pose(
+            &skin,
+            DVec3::Z,
+            DQuat::IDENTITY,
+            divan::black_box(&posture),
+            divan::black_box(&mut bones),
+        )
+    });
 }
 
 /// Holding a posture within the joints' ranges, once a step.
@@ -55,7 +68,8 @@ fn skinning(bencher: Bencher) {
     let (mut bones, mut places) = (Vec::new(), Vec::new());
     pose(&skin, DVec3::Z, DQuat::IDENTITY, &posture, &mut bones);
     let bencher = bencher.counter(ItemsCount::new(skin.vertices.len()));
-    bencher.bench_local(|| skin_all(&skin, divan::black_box(&bones), divan::black_box(&mut places)));
+    bencher
+        .bench_local(|| skin_all(&skin, divan::black_box(&bones), divan::black_box(&mut places)));
 }
 
 /// The skin from the whale's measures.
@@ -77,7 +91,12 @@ fn growing_the_tree(bencher: Bencher) {
 fn reading(bencher: Bencher) {
     let whale = whale();
     let skin = whale.skin_at(13.7);
-    let about = About { id: "right-whale", name: "Right whale", length_m: 13.7, joints: &whale.joints.ranges };
+    let about = About {
+        id: "right-whale",
+        name: "Right whale",
+        length_m: 13.7,
+        joints: &whale.joints.ranges,
+    };
     let bytes = write(&skin, &about, Form::Binary);
     bencher.bench_local(|| read(divan::black_box(&bytes), &skin));
 }

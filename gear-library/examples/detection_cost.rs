@@ -23,10 +23,17 @@ const SEPARATION_M: f64 = 0.000_5;
 
 fn main() {
     let skin = Arc::new(build_skin(&WhaleForm::right_whale(13.7)));
-    println!("{} triangles, {} vertices, {} bones", skin.triangles.len(), skin.vertices.len(), skin.bones.len());
+    println!(
+        "{} triangles, {} vertices, {} bones",
+        skin.triangles.len(),
+        skin.vertices.len(),
+        skin.bones.len()
+    );
     let mut surface = Surface::new(Arc::new(SkinTree::new(skin.clone())));
-    let frames: Vec<Vec<DAffine3>> = (0..=STEPS).map(|step| bones_at(&skin, step as f64 * DT_S)).collect();
-    for (name, rope) in [("far", straight(60.0)), ("near", straight(2.95)), ("wrapped", wrapped())] {
+    let frames: Vec<Vec<DAffine3>> =
+        (0..=STEPS).map(|step| bones_at(&skin, step as f64 * DT_S)).collect();
+    for (name, rope) in [("far", straight(60.0)), ("near", straight(2.95)), ("wrapped", wrapped())]
+    {
         measure(name, &mut surface, &frames, &rope);
     }
 }
@@ -34,7 +41,12 @@ fn main() {
 /// A whale that swims at 2 m/s and beats flukes and flippers.
 fn bones_at(skin: &Skin, time: f64) -> Vec<DAffine3> {
     let beat = libm::sin(6.0 * time);
-    let posture = Posture { spine_pitch: [0.05 * beat; 8], fluke_pitch: 0.3 * beat, flipper_raise: [0.4 * beat; 2], ..Posture::default() };
+    let posture = Posture {
+        spine_pitch: [0.05 * beat; 8],
+        fluke_pitch: 0.3 * beat,
+        flipper_raise: [0.4 * beat; 2],
+        ..Posture::default()
+    };
     let mut bones = Vec::new();
     pose(skin, DVec3::new(2.0 * time, 0.0, 0.0), DQuat::IDENTITY, &posture, &mut bones);
     bones
@@ -69,7 +81,10 @@ fn wrapped() -> Vec<Node> {
 /// The segments over one step.
 fn segments(rope: &[Node], start: &[DAffine3], end: &[DAffine3]) -> Vec<SweptSegment> {
     let place = |(rest, weights): &Node, bones: &[DAffine3]| -> DVec3 {
-        weights.iter().map(|&(bone, weight)| weight * bones[usize::from(bone)].transform_point3(*rest)).sum()
+        weights
+            .iter()
+            .map(|&(bone, weight)| weight * bones[usize::from(bone)].transform_point3(*rest))
+            .sum()
     };
     let swept = |pair: &[Node]| SweptSegment {
         a0: place(&pair[0], start),
@@ -81,7 +96,8 @@ fn segments(rope: &[Node], start: &[DAffine3], end: &[DAffine3]) -> Vec<SweptSeg
 }
 
 fn measure(name: &str, surface: &mut Surface, frames: &[Vec<DAffine3>], rope: &[Node]) {
-    let (mut found, mut gather, mut narrow, mut whole) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let (mut found, mut gather, mut narrow, mut whole) =
+        (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let (mut pairs, mut cut) = (0, 0);
     for step in frames.windows(2) {
         let segments = segments(rope, &step[0], &step[1]);
@@ -92,13 +108,19 @@ fn measure(name: &str, surface: &mut Surface, frames: &[Vec<DAffine3>], rope: &[
         let mut least = f64::INFINITY;
         for candidate in &found {
             let triangle = surface.triangle_at(candidate.triangle, 0.0);
-            least = least.min(segment_triangle(segments[candidate.segment as usize].at(0.0), triangle).distance);
+            least = least.min(
+                segment_triangle(segments[candidate.segment as usize].at(0.0), triangle).distance,
+            );
         }
         narrow.push(from.elapsed().as_secs_f64() * 1e6);
         let mut safe = 1.0_f64;
         for candidate in &found {
             let triangle = surface.triangle_sweep(candidate.triangle);
-            safe = safe.min(safe_fraction(&segments[candidate.segment as usize], &triangle, SEPARATION_M));
+            safe = safe.min(safe_fraction(
+                &segments[candidate.segment as usize],
+                &triangle,
+                SEPARATION_M,
+            ));
         }
         whole.push(from.elapsed().as_secs_f64() * 1e6);
         pairs += found.len();

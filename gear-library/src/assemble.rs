@@ -83,7 +83,12 @@ pub struct Assembled {
 ///
 /// # Errors
 /// Every problem, with its place in the scenario or in an assembly's file.
-pub fn assemble(scenario: &Scenario, library: &Library, hooks: &dyn Hooks, options: &Options) -> Result<ModelSpec, Vec<Diagnostic>> {
+pub fn assemble(
+    scenario: &Scenario,
+    library: &Library,
+    hooks: &dyn Hooks,
+    options: &Options,
+) -> Result<ModelSpec, Vec<Diagnostic>> {
     assemble_traced(scenario, library, hooks, options).map(|assembled| assembled.spec)
 }
 
@@ -91,7 +96,12 @@ pub fn assemble(scenario: &Scenario, library: &Library, hooks: &dyn Hooks, optio
 ///
 /// # Errors
 /// Every problem, with its place in the scenario or in an assembly's file.
-pub fn assemble_traced(scenario: &Scenario, library: &Library, hooks: &dyn Hooks, options: &Options) -> Result<Assembled, Vec<Diagnostic>> {
+pub fn assemble_traced(
+    scenario: &Scenario,
+    library: &Library,
+    hooks: &dyn Hooks,
+    options: &Options,
+) -> Result<Assembled, Vec<Diagnostic>> {
     let mut builder = Builder::new(scenario, library, hooks, settings(scenario, options));
     builder.add_sea();
     builder.add_whale(options.kinetic);
@@ -112,7 +122,10 @@ pub fn assemble_traced(scenario: &Scenario, library: &Library, hooks: &dyn Hooks
 
 fn rope_on_rope(scenario: &Scenario) -> RopeOnRope {
     let usual = RopeOnRope::default();
-    RopeOnRope { friction: scenario.rope_friction.as_ref().map_or(usual.friction, |friction| friction.value), ..usual }
+    RopeOnRope {
+        friction: scenario.rope_friction.as_ref().map_or(usual.friction, |friction| friction.value),
+        ..usual
+    }
 }
 
 fn settings(scenario: &Scenario, options: &Options) -> Settings {
@@ -120,7 +133,10 @@ fn settings(scenario: &Scenario, options: &Options) -> Settings {
     Settings {
         step_s: options.step_s.or(scenario.step_s).unwrap_or(usual.step_s),
         auto_step: options.step_s.is_none() && scenario.auto_step,
-        contact_step_s: options.contact_step_s.or(scenario.contact_step_s).unwrap_or(usual.contact_step_s),
+        contact_step_s: options
+            .contact_step_s
+            .or(scenario.contact_step_s)
+            .unwrap_or(usual.contact_step_s),
         duration_s: options.duration_s.unwrap_or(scenario.duration_s),
         resolution: scenario.resolution,
         seed: options.seed.unwrap_or(scenario.seed),

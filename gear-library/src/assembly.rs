@@ -120,8 +120,12 @@ impl Assembly {
             Some(id) => Make::GearType { id, attributes: Attributes::read(&fields, "attributes") },
             None => Make::Parts(Parts::read(&fields)),
         };
-        if matches!(&make, Make::Parts(parts) if parts.lines.is_empty() && parts.bodies.is_empty()) {
-            fields.missing("gear_type", "name a gear type, or write parts under [[body]], [[joint]], [[line]] and [[link]]");
+        if matches!(&make, Make::Parts(parts) if parts.lines.is_empty() && parts.bodies.is_empty())
+        {
+            fields.missing(
+                "gear_type",
+                "name a gear type, or write parts under [[body]], [[joint]], [[line]] and [[link]]",
+            );
         }
         fields.finish();
         Some(Self { entry, make })
@@ -131,10 +135,26 @@ impl Assembly {
 impl Parts {
     fn read(fields: &Fields<'_>) -> Self {
         Self {
-            bodies: fields.tables("body").iter().filter_map(|node| body(node, fields.problems())).collect(),
-            joints: fields.tables("joint").iter().filter_map(|node| joint(node, fields.problems())).collect(),
-            lines: fields.tables("line").iter().filter_map(|node| line(node, fields.problems())).collect(),
-            links: fields.tables("link").iter().filter_map(|node| link(node, fields.problems(), false)).collect(),
+            bodies: fields
+                .tables("body")
+                .iter()
+                .filter_map(|node| body(node, fields.problems()))
+                .collect(),
+            joints: fields
+                .tables("joint")
+                .iter()
+                .filter_map(|node| joint(node, fields.problems()))
+                .collect(),
+            lines: fields
+                .tables("line")
+                .iter()
+                .filter_map(|node| line(node, fields.problems()))
+                .collect(),
+            links: fields
+                .tables("link")
+                .iter()
+                .filter_map(|node| link(node, fields.problems(), false))
+                .collect(),
         }
     }
 }
@@ -144,7 +164,8 @@ fn body(node: &Node, problems: &Problems) -> Option<PartBody> {
     let id = fields.need_text("id", "write an id such as \"trap-1\"");
     let kind = fields.need_text("kind", "write trap, buoy or anchor");
     let known = kind.and_then(|_| fields.word("kind", &["trap", "buoy", "anchor"]));
-    let item = fields.need_text("item", "write the id of a library item, such as \"wire-lobster-3ft\"");
+    let item =
+        fields.need_text("item", "write the id of a library item, such as \"wire-lobster-3ft\"");
     let start = start(&fields);
     fields.finish();
     let kind = match known?.value.as_str() {
@@ -165,8 +186,12 @@ fn joint(node: &Node, problems: &Problems) -> Option<PartJoint> {
 
 /// `position` along and across the assembly, `height` as a share of depth.
 fn start(fields: &Fields<'_>) -> Start {
-    let xy = fields.values("position", Quantity::Length, &[2]).map_or([0.0; 2], |xy| [xy.value[0], xy.value[1]]);
-    let height = fields.value("height", Quantity::Ratio, Range::Between(0.0, 1.0)).map_or(0.0, |height| height.value);
+    let xy = fields
+        .values("position", Quantity::Length, &[2])
+        .map_or([0.0; 2], |xy| [xy.value[0], xy.value[1]]);
+    let height = fields
+        .value("height", Quantity::Ratio, Range::Between(0.0, 1.0))
+        .map_or(0.0, |height| height.value);
     Start { xy_m: xy, height }
 }
 
@@ -189,7 +214,10 @@ pub(crate) fn line_fields(fields: &Fields<'_>) -> Option<PartLine> {
     if let (Some(from), Some(to)) = (&from, &to)
         && from.value == to.value
     {
-        fields.problems().push(to.place.error(format!("both ends are at `{}`", to.value), "a line runs between two parts"));
+        fields.problems().push(
+            to.place
+                .error(format!("both ends are at `{}`", to.value), "a line runs between two parts"),
+        );
     }
     Some(PartLine { id: id?, rope: rope?, from: from?, to: to?, length_m: length?.value, make })
 }
@@ -198,9 +226,13 @@ pub(crate) fn line_fields(fields: &Fields<'_>) -> Option<PartLine> {
 pub(crate) fn link(node: &Node, problems: &Problems, in_place: bool) -> Option<PartLink> {
     let fields = Fields::of(node, problems);
     let id = fields.need_text("id", "write an id such as \"buoy-link\"");
-    let rating = if in_place { fields.value("rating", Quantity::Force, Range::Positive) } else { None };
-    let item =
-        if rating.is_some() { fields.text("item") } else { fields.need_text("item", "write the id of a weak link, such as \"wl-600\"") };
+    let rating =
+        if in_place { fields.value("rating", Quantity::Force, Range::Positive) } else { None };
+    let item = if rating.is_some() {
+        fields.text("item")
+    } else {
+        fields.need_text("item", "write the id of a weak link, such as \"wl-600\"")
+    };
     let line = fields.need_text("line", "write the id of its line");
     let end = fields.need_text("end", "write from or to");
     let end = end.and_then(|_| fields.word("end", &["from", "to"]));

@@ -83,13 +83,19 @@ impl Case {
     fn from_node(path: &str, node: &Node, problems: &Problems) -> Option<Self> {
         let fields = Fields::of(node, problems);
         let (name, notes, file) = entry::header(&fields, "case", problems);
-        for (missing, key) in [(file.source.is_none(), "source"), (file.sureness.is_none(), "sureness")] {
+        for (missing, key) in
+            [(file.source.is_none(), "source"), (file.sureness.is_none(), "sureness")]
+        {
             if missing {
                 fields.missing(key, "say where the expected values come from, and whether they are measured, derived or estimate");
             }
         }
-        let group = fields.need_text("group", "write the heading it belongs under, such as \"Reference problems\"");
-        let scenario = fields.need_text("scenario", "write the id of a scenario, such as \"reference-a-pendulum\"");
+        let group = fields.need_text(
+            "group",
+            "write the heading it belongs under, such as \"Reference problems\"",
+        );
+        let scenario = fields
+            .need_text("scenario", "write the id of a scenario, such as \"reference-a-pendulum\"");
         let set = choices(&fields, "set");
         let halve = words(&fields, "halve", &["step", "segment"]);
         let quick = fields.flag("quick").unwrap_or(false);
@@ -97,9 +103,13 @@ impl Case {
         let samples = samples(&fields, table.is_some());
         if let (Some(Samples::Rows(rows)), [knob, ..]) = (&samples, halve.as_slice()) {
             let message = format!("`{}` cannot be halved with [rows]", knob.value);
-            problems.push(knob.place.error(message, format!("take `halve` out, or [rows] by `{}`", rows.by.value)));
+            problems.push(
+                knob.place
+                    .error(message, format!("take `halve` out, or [rows] by `{}`", rows.by.value)),
+            );
         }
-        let checks: Vec<Check> = fields.tables("check").iter().filter_map(|node| check::read(node, problems)).collect();
+        let checks: Vec<Check> =
+            fields.tables("check").iter().filter_map(|node| check::read(node, problems)).collect();
         if fields.tables("check").is_empty() {
             fields.missing("check", "write what is compared under [[check]]");
         }
@@ -148,10 +158,15 @@ fn choices(fields: &Fields<'_>, key: &'static str) -> Vec<(At<String>, String)> 
     let mut choices = Vec::new();
     for (field, place, node) in table.rest() {
         match &node.content {
-            Content::Text(text) => choices.push((At { value: field.clone(), place: place.clone() }, text.clone())),
+            Content::Text(text) => {
+                choices.push((At { value: field.clone(), place: place.clone() }, text.clone()))
+            }
             other => {
                 let message = format!("`{field}` is {}, not a text", other.noun());
-                fields.problems().push(node.place.error(message, "write the value in quotes, as it would stand in the scenario"));
+                fields.problems().push(node.place.error(
+                    message,
+                    "write the value in quotes, as it would stand in the scenario",
+                ));
             }
         }
     }
@@ -170,8 +185,15 @@ fn words(fields: &Fields<'_>, key: &'static str, allowed: &[&str]) -> Vec<At<Str
             Some(At { value: text.clone(), place: item.place.clone() })
         }
         _ => {
-            let choice = if allowed.is_empty() { "texts in quotes".to_owned() } else { format!("of {}", allowed.join(", ")) };
-            fields.problems().push(item.place.error(format!("this is no value of `{key}`"), format!("expected a list {choice}")));
+            let choice = if allowed.is_empty() {
+                "texts in quotes".to_owned()
+            } else {
+                format!("of {}", allowed.join(", "))
+            };
+            fields.problems().push(item.place.error(
+                format!("this is no value of `{key}`"),
+                format!("expected a list {choice}"),
+            ));
             None
         }
     };
@@ -181,7 +203,9 @@ fn words(fields: &Fields<'_>, key: &'static str, allowed: &[&str]) -> Vec<At<Str
 /// A number, or a text with a unit of length, force or another quantity that a probe reads.
 fn reading(node: &Node, problems: &Problems) -> Option<f64> {
     let quantities = [Quantity::Length, Quantity::Force, Quantity::Speed];
-    let known = |text: &str| quantities.into_iter().find(|quantity| crate::units::parse(text, *quantity).is_ok());
+    let known = |text: &str| {
+        quantities.into_iter().find(|quantity| crate::units::parse(text, *quantity).is_ok())
+    };
     let quantity = match &node.content {
         Content::Text(text) => known(text).unwrap_or(Quantity::Force),
         _ => Quantity::Ratio,

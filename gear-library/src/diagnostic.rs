@@ -38,7 +38,11 @@ pub struct Diagnostic {
 
 impl Diagnostic {
     /// A problem of a file as a whole, such as one that cannot be read.
-    pub fn of_file(file: impl Into<String>, message: impl Into<String>, help: impl Into<String>) -> Self {
+    pub fn of_file(
+        file: impl Into<String>,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> Self {
         Self {
             file: file.into(),
             line: 0,
@@ -67,7 +71,8 @@ impl fmt::Display for Diagnostic {
         } else {
             write!(f, "{}:{}:{}: {kind}: {}", self.file, self.line, self.column, self.message)?;
             let gutter = " ".repeat(self.line.to_string().len());
-            let (indent, mark) = (" ".repeat(self.column.saturating_sub(1)), "^".repeat(self.width.max(1)));
+            let (indent, mark) =
+                (" ".repeat(self.column.saturating_sub(1)), "^".repeat(self.width.max(1)));
             write!(f, "\n {} | {}\n {gutter} | {indent}{mark}", self.line, self.excerpt)?;
         }
         if self.help.is_empty() { Ok(()) } else { write!(f, "\n  = {}", self.help) }

@@ -48,10 +48,17 @@ impl Setting {
     pub(crate) fn of(node: &Node) -> Option<Self> {
         let value = match &node.content {
             Content::Text(text) => Value::from(text.as_str()),
-            Content::Number(number) if number.fract() == 0.0 && number.abs() < 1e15 => Value::from(*number as i64),
+            Content::Number(number) if number.fract() == 0.0 && number.abs() < 1e15 => {
+                Value::from(*number as i64)
+            }
             Content::Number(number) => Value::from(*number),
             Content::Flag(flag) => Value::from(*flag),
-            Content::List(items) => Value::Array(items.iter().map(|item| Self::of(item).map(|value| value.0)).collect::<Option<Array>>()?),
+            Content::List(items) => Value::Array(
+                items
+                    .iter()
+                    .map(|item| Self::of(item).map(|value| value.0))
+                    .collect::<Option<Array>>()?,
+            ),
             Content::Table(_) | Content::Date(_) => return None,
         };
         Some(Self(value))
@@ -91,7 +98,8 @@ impl Document {
     /// # Errors
     /// Where it is not TOML; [`Library::check_file`](crate::Library::check_file) says where.
     pub fn parse(text: &str) -> Result<Self, EditError> {
-        let document = DocumentMut::from_str(text).map_err(|error| EditError { message: error.message().trim().to_owned() })?;
+        let document = DocumentMut::from_str(text)
+            .map_err(|error| EditError { message: error.message().trim().to_owned() })?;
         Ok(Self { document })
     }
 
@@ -106,7 +114,9 @@ impl Document {
     pub fn get(&self, field: &str) -> Option<String> {
         let item = self.item(field)?;
         let item = item.get("value").unwrap_or(item);
-        item.as_str().map(str::to_owned).or_else(|| item.as_value().map(|value| value.to_string().trim().to_owned()))
+        item.as_str()
+            .map(str::to_owned)
+            .or_else(|| item.as_value().map(|value| value.to_string().trim().to_owned()))
     }
 
     /// Whether there is a field, table or list of this dotted path.
@@ -119,14 +129,17 @@ impl Document {
     #[must_use]
     pub fn keys(&self, field: &str) -> Vec<String> {
         let table = self.item(field).and_then(Item::as_table_like);
-        let part = |key: &str| if key.contains('.') { format!("\"{key}\"") } else { key.to_owned() };
+        let part =
+            |key: &str| if key.contains('.') { format!("\"{key}\"") } else { key.to_owned() };
         table.map_or_else(Vec::new, |table| table.iter().map(|(key, _)| part(key)).collect())
     }
 
     fn item(&self, field: &str) -> Option<&Item> {
-        parts(field).into_iter().try_fold(self.document.as_item(), |item, part| match part.parse::<usize>() {
-            Ok(index) => item.get(index),
-            Err(_) => item.get(part),
+        parts(field).into_iter().try_fold(self.document.as_item(), |item, part| {
+            match part.parse::<usize>() {
+                Ok(index) => item.get(index),
+                Err(_) => item.get(part),
+            }
         })
     }
 
@@ -139,13 +152,15 @@ impl Document {
     /// Where the path leads through something that is no table or list.
     pub fn set(&mut self, field: &str, text: &str) -> Result<(), EditError> {
         let (parents, last) = way_to(field);
-        let no_way = |part: &str| EditError { message: format!("`{part}` of `{field}` is not there") };
+        let no_way =
+            |part: &str| EditError { message: format!("`{part}` of `{field}` is not there") };
         let mut item = self.document.as_item_mut();
         for part in parents {
             item = child(item, part).ok_or_else(|| no_way(part))?;
         }
         if let Ok(index) = last.parse::<usize>() {
-            let slot = item.get_mut(index).and_then(Item::as_value_mut).ok_or_else(|| no_way(last))?;
+            let slot =
+                item.get_mut(index).and_then(Item::as_value_mut).ok_or_else(|| no_way(last))?;
             replace(slot, text);
             return Ok(());
         }
@@ -159,20 +174,27 @@ impl Document {
     /// # Errors
     /// Where the path leads through something that is no table or list, or past the end of a list.
     pub fn put(&mut self, field: &str, value: &Setting) -> Result<(), EditError> {
-        let no_way = |part: &str| EditError { message: format!("`{part}` of `{field}` is no table") };
+        let no_way =
+            |part: &str| EditError { message: format!("`{part}` of `{field}` is no table") };
         let (parts, last) = way_to(field);
         let mut item = self.document.as_item_mut();
         for (place, part) in parts.iter().enumerate() {
-            let next_is_index = parts.get(place + 1).copied().unwrap_or(last).parse::<usize>().is_ok();
+            let next_is_index =
+                parts.get(place + 1).copied().unwrap_or(last).parse::<usize>().is_ok();
             item = way(item, part, next_is_index).ok_or_else(|| no_way(part))?;
         }
         if let Ok(index) = last.parse::<usize>() {
-            let slot = item.get_mut(index).and_then(Item::as_value_mut).ok_or_else(|| no_way(last))?;
+            let slot =
+                item.get_mut(index).and_then(Item::as_value_mut).ok_or_else(|| no_way(last))?;
             *slot = value.0.clone();
             return Ok(());
         }
         let table = item.as_table_like_mut().ok_or_else(|| no_way(last))?;
-        match table.get_mut(last).and_then(Item::as_table_like_mut).filter(|figure| figure.contains_key("value")) {
+        match table
+            .get_mut(last)
+            .and_then(Item::as_table_like_mut)
+            .filter(|figure| figure.contains_key("value"))
+        {
             Some(figure) => figure.insert("value", Item::Value(value.0.clone())),
             None => table.insert(last, Item::Value(value.0.clone())),
         };
@@ -218,7 +240,8 @@ impl Document {
     /// # Errors
     /// Where one of them is not there.
     pub fn swap_tables(&mut self, list: &str, one: usize, other: usize) -> Result<(), EditError> {
-        let missing = |index: usize| EditError { message: format!("`{list}.{index}` is not there") };
+        let missing =
+            |index: usize| EditError { message: format!("`{list}.{index}` is not there") };
         let tables = self.tables(list).ok_or_else(|| missing(one))?;
         let copy = |index: usize| tables.get(index).cloned().ok_or_else(|| missing(index));
         let (mut first, mut second) = (copy(one)?, copy(other)?);
@@ -253,7 +276,10 @@ impl Document {
         for part in parents {
             item = child(item, part).ok_or_else(missing)?;
         }
-        item.as_table_like_mut().and_then(|table| table.remove(last)).map(|_| ()).ok_or_else(missing)
+        item.as_table_like_mut()
+            .and_then(|table| table.remove(last))
+            .map(|_| ())
+            .ok_or_else(missing)
     }
 
     /// Saves: writes beside, syncs, renames, so that a crash leaves the old file or the new one.
@@ -270,7 +296,9 @@ impl Document {
 /// # Errors
 /// Where the folder or the file cannot be written.
 pub fn save_text(path: &Path, text: &str) -> io::Result<()> {
-    let name = path.file_name().ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "not the name of a file"))?;
+    let name = path
+        .file_name()
+        .ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "not the name of a file"))?;
     let beside = path.with_file_name(format!(".{}.saving", name.to_string_lossy()));
     let written = write_synced(&beside, text).and_then(|()| fs::rename(&beside, path));
     if written.is_err() {
@@ -292,7 +320,11 @@ fn parts(field: &str) -> Vec<&str> {
         quoted ^= letter == '"';
         letter == '.' && !quoted
     };
-    field.split(between).filter(|part| !part.is_empty()).map(|part| part.trim_matches('"')).collect()
+    field
+        .split(between)
+        .filter(|part| !part.is_empty())
+        .map(|part| part.trim_matches('"'))
+        .collect()
 }
 
 /// The tables on the way to a field, and its own key or index.
@@ -312,7 +344,11 @@ fn way<'a>(item: &'a mut Item, part: &str, to_list: bool) -> Option<&'a mut Item
     }
     let table = item.as_table_like_mut()?;
     if !table.contains_key(part) {
-        let fresh = if to_list { Item::ArrayOfTables(ArrayOfTables::new()) } else { Item::Table(Table::new()) };
+        let fresh = if to_list {
+            Item::ArrayOfTables(ArrayOfTables::new())
+        } else {
+            Item::Table(Table::new())
+        };
         table.insert(part, fresh);
     }
     table.get_mut(part)
@@ -332,7 +368,11 @@ fn set_in(table: &mut dyn TableLike, key: &str, text: &str) {
             figure.get_mut("value").into_iter().for_each(|slot| replace(slot, text));
         }
         Some(Item::Table(figure)) if figure.contains_key("value") => {
-            figure.get_mut("value").and_then(Item::as_value_mut).into_iter().for_each(|slot| replace(slot, text));
+            figure
+                .get_mut("value")
+                .and_then(Item::as_value_mut)
+                .into_iter()
+                .for_each(|slot| replace(slot, text));
         }
         Some(Item::Value(slot)) => replace(slot, text),
         _ => {
@@ -345,7 +385,11 @@ fn set_in(table: &mut dyn TableLike, key: &str, text: &str) {
 fn replace(slot: &mut Value, text: &str) {
     let decor = slot.decor().clone();
     let plain = !matches!(slot, Value::String(_));
-    let fresh = if plain { text.parse::<Value>().unwrap_or_else(|_| Value::from(text)) } else { Value::from(text) };
+    let fresh = if plain {
+        text.parse::<Value>().unwrap_or_else(|_| Value::from(text))
+    } else {
+        Value::from(text)
+    };
     *slot = fresh;
     *slot.decor_mut() = decor;
 }

@@ -55,26 +55,47 @@ impl Entry {
 }
 
 /// Reads what every library file holds: format, kind, name, notes; answers the file's source and sureness.
-pub fn header(fields: &Fields<'_>, word: &str, problems: &Problems) -> (String, String, Provenance) {
+pub fn header(
+    fields: &Fields<'_>,
+    word: &str,
+    problems: &Problems,
+) -> (String, String, Provenance) {
     match fields.count("format", 1) {
         Some(format) if format.value > FORMAT => {
             let help = format!("this program reads format {FORMAT}; open it with a newer one");
-            problems.push(format.place.error(format!("format {} is newer than this program", format.value), help));
+            problems.push(
+                format
+                    .place
+                    .error(format!("format {} is newer than this program", format.value), help),
+            );
         }
         Some(_) => {}
-        None if fields.get("format").is_none() => fields.missing("format", format!("write format = {FORMAT}")),
+        None if fields.get("format").is_none() => {
+            fields.missing("format", format!("write format = {FORMAT}"))
+        }
         None => {}
     }
-    if fields.need_text("kind", &format!("write kind = \"{word}\"")).is_some_and(|kind| kind.value != word) {
+    if fields
+        .need_text("kind", &format!("write kind = \"{word}\""))
+        .is_some_and(|kind| kind.value != word)
+    {
         fields.word("kind", &[word]);
     }
-    let name = fields.need_text("name", "write a name in quotes").map(|name| name.value).unwrap_or_default();
+    let name = fields
+        .need_text("name", "write a name in quotes")
+        .map(|name| name.value)
+        .unwrap_or_default();
     let notes = fields.text("notes").map(|notes| notes.value).unwrap_or_default();
     (name, notes, provenance(fields))
 }
 
 /// Reads the texts and figures of a kind; what is missing or wrong becomes a problem.
-pub fn body(fields: &Fields<'_>, kind: Kind, head: (String, String, Provenance), id: &str) -> Entry {
+pub fn body(
+    fields: &Fields<'_>,
+    kind: Kind,
+    head: (String, String, Provenance),
+    id: &str,
+) -> Entry {
     let (name, notes, file) = head;
     let mut words = Vec::new();
     for word in kind.words() {
@@ -83,16 +104,35 @@ pub fn body(fields: &Fields<'_>, kind: Kind, head: (String, String, Provenance),
         words.extend(text.map(|text| (word.key, text)));
     }
     let (path, place) = (fields.place.source.path.clone(), fields.place.clone());
-    let points = if matches!(kind, Kind::Trap | Kind::Buoy | Kind::Anchor) { points(fields, &file) } else { Vec::new() };
+    let points = if matches!(kind, Kind::Trap | Kind::Buoy | Kind::Anchor) {
+        points(fields, &file)
+    } else {
+        Vec::new()
+    };
     let pieces = if kind == Kind::Buoy { pieces(fields, &file) } else { Vec::new() };
-    Entry { kind, id: id.to_owned(), path, name, notes, words, figures: figures(fields, kind.fields(), &file), pieces, points, place }
+    Entry {
+        kind,
+        id: id.to_owned(),
+        path,
+        name,
+        notes,
+        words,
+        figures: figures(fields, kind.fields(), &file),
+        pieces,
+        points,
+        place,
+    }
 }
 
 /// Tables that may be left out whole; where one is there, all that it needs is there.
 const OPTIONAL_TABLES: [&str; 2] = ["mass", "age"];
 
 /// Reads figures in the order of the schema; `head.mouth` is read from the table `head`.
-fn figures(fields: &Fields<'_>, schema: &'static [Field], file: &Provenance) -> Vec<(&'static Field, Figure)> {
+fn figures(
+    fields: &Fields<'_>,
+    schema: &'static [Field],
+    file: &Provenance,
+) -> Vec<(&'static Field, Figure)> {
     let mut read = Vec::new();
     let mut open: Option<(&str, Option<Fields<'_>>)> = None;
     for field in schema {
@@ -112,9 +152,22 @@ fn figures(fields: &Fields<'_>, schema: &'static [Field], file: &Provenance) -> 
     read
 }
 
-fn one(fields: &Fields<'_>, field: &'static Field, key: &'static str, file: &Provenance) -> Option<Figure> {
+fn one(
+    fields: &Fields<'_>,
+    field: &'static Field,
+    key: &'static str,
+    file: &Provenance,
+) -> Option<Figure> {
     if field.needed && fields.get(key).is_none() {
-        fields.missing(key, format!("{}: expected {} such as {}", field.help, field.quantity.noun(), field.quantity.examples()));
+        fields.missing(
+            key,
+            format!(
+                "{}: expected {} such as {}",
+                field.help,
+                field.quantity.noun(),
+                field.quantity.examples()
+            ),
+        );
     }
     fields.figure(key, field.quantity, field.range, file)
 }
@@ -122,7 +175,9 @@ fn one(fields: &Fields<'_>, field: &'static Field, key: &'static str, file: &Pro
 fn close(open: Option<(&str, Option<Fields<'_>>)>, outer: &Fields<'_>) {
     match open {
         Some((_, Some(inner))) => inner.finish(),
-        Some((table, None)) if !OPTIONAL_TABLES.contains(&table) => outer.missing(table, format!("write a table [{table}]")),
+        Some((table, None)) if !OPTIONAL_TABLES.contains(&table) => {
+            outer.missing(table, format!("write a table [{table}]"))
+        }
         _ => {}
     }
 }

@@ -33,7 +33,9 @@ impl Sureness {
     }
 
     fn from_word(word: &str) -> Option<Self> {
-        [Self::Measured, Self::Derived, Self::Estimate].into_iter().find(|sureness| sureness.word() == word)
+        [Self::Measured, Self::Derived, Self::Estimate]
+            .into_iter()
+            .find(|sureness| sureness.word() == word)
     }
 }
 
@@ -91,7 +93,9 @@ impl Range {
             Self::Any => "any number".to_owned(),
             Self::Positive => "above zero".to_owned(),
             Self::NotNegative => "zero or above".to_owned(),
-            Self::Between(least, most) => format!("between {} and {}", format_si(least, quantity), format_si(most, quantity)),
+            Self::Between(least, most) => {
+                format!("between {} and {}", format_si(least, quantity), format_si(most, quantity))
+            }
         }
     }
 }
@@ -140,7 +144,10 @@ impl<'a> Fields<'a> {
         let entries = match &node.content {
             Content::Table(entries) => entries.as_slice(),
             other => {
-                problems.push(node.place.error(format!("`{}` is {}, not a table", node.place.field, other.noun()), "write a table here"));
+                problems.push(node.place.error(
+                    format!("`{}` is {}, not a table", node.place.field, other.noun()),
+                    "write a table here",
+                ));
                 &[]
             }
         };
@@ -155,16 +162,25 @@ impl<'a> Fields<'a> {
 
     /// Every entry not asked for so far, now taken as asked for.
     pub fn rest(&self) -> Vec<&'a (String, Place, Node)> {
-        let rest: Vec<_> = self.entries.iter().filter(|(name, _, _)| !self.asked.borrow().contains(&name.as_str())).collect();
+        let rest: Vec<_> = self
+            .entries
+            .iter()
+            .filter(|(name, _, _)| !self.asked.borrow().contains(&name.as_str()))
+            .collect();
         self.asked.borrow_mut().extend(rest.iter().map(|(name, _, _)| name.as_str()));
         rest
     }
 
     /// Reports a key that must be there and is not.
     pub fn missing(&self, key: &str, help: impl Into<String>) {
-        let within = if self.place.field.is_empty() { String::new() } else { format!(" in `{}`", self.place.field) };
+        let within = if self.place.field.is_empty() {
+            String::new()
+        } else {
+            format!(" in `{}`", self.place.field)
+        };
         let mut place = self.place.clone();
-        place.field = if place.field.is_empty() { key.to_owned() } else { format!("{}.{key}", place.field) };
+        place.field =
+            if place.field.is_empty() { key.to_owned() } else { format!("{}.{key}", place.field) };
         self.problems.push(place.error(format!("`{key}` is missing{within}"), help));
     }
 
@@ -196,8 +212,10 @@ impl<'a> Fields<'a> {
             return Some(text);
         }
         let message = format!("`{}` is no value of `{key}`", text.value);
-        let meant = nearest(&text.value, allowed.iter().copied()).map(|word| format!("; did you mean `{word}`?"));
-        let choices = format!("expected one of {}{}", allowed.join(", "), meant.unwrap_or_default());
+        let meant = nearest(&text.value, allowed.iter().copied())
+            .map(|word| format!("; did you mean `{word}`?"));
+        let choices =
+            format!("expected one of {}{}", allowed.join(", "), meant.unwrap_or_default());
         self.problems.push(text.place.error(message, choices));
         None
     }
@@ -208,7 +226,10 @@ impl<'a> Fields<'a> {
         if let Content::Flag(flag) = node.content {
             return Some(flag);
         }
-        self.problems.push(node.place.error(format!("`{key}` is {}", node.content.noun()), "write true or false, without quotes"));
+        self.problems.push(node.place.error(
+            format!("`{key}` is {}", node.content.noun()),
+            "write true or false, without quotes",
+        ));
         None
     }
 
@@ -221,25 +242,46 @@ impl<'a> Fields<'a> {
     /// A value with unit that must be there.
     pub fn need_value(&self, key: &'a str, quantity: Quantity, range: Range) -> Option<At<f64>> {
         if !self.has(key) {
-            self.missing(key, format!("expected {} such as {}", quantity.noun(), quantity.examples()));
+            self.missing(
+                key,
+                format!("expected {} such as {}", quantity.noun(), quantity.examples()),
+            );
         }
         self.value(key, quantity, range)
     }
 
     /// A list of values with unit, of a length that must fit.
-    pub fn values(&self, key: &'a str, quantity: Quantity, lengths: &[usize]) -> Option<At<Vec<f64>>> {
+    pub fn values(
+        &self,
+        key: &'a str,
+        quantity: Quantity,
+        lengths: &[usize],
+    ) -> Option<At<Vec<f64>>> {
         let node = self.get(key)?;
-        let help = format!("expected a list of {} values such as [\"{}\"]", words_of(lengths), quantity.examples());
+        let help = format!(
+            "expected a list of {} values such as [\"{}\"]",
+            words_of(lengths),
+            quantity.examples()
+        );
         let Content::List(items) = &node.content else {
-            self.problems.push(node.place.error(format!("`{key}` is {}, not a list", node.content.noun()), help));
+            self.problems.push(
+                node.place.error(format!("`{key}` is {}, not a list", node.content.noun()), help),
+            );
             return None;
         };
         if !lengths.contains(&items.len()) {
-            self.problems.push(node.place.error(format!("`{key}` has {} values", items.len()), help));
+            self.problems
+                .push(node.place.error(format!("`{key}` has {} values", items.len()), help));
             return None;
         }
-        let read: Vec<_> = items.iter().map(|item| read_value(item, quantity, Range::Any, self.problems)).collect();
-        let value = read.into_iter().map(|item| item.map(|item| item.value)).collect::<Option<Vec<f64>>>()?;
+        let read: Vec<_> = items
+            .iter()
+            .map(|item| read_value(item, quantity, Range::Any, self.problems))
+            .collect();
+        let value = read
+            .into_iter()
+            .map(|item| item.map(|item| item.value))
+            .collect::<Option<Vec<f64>>>()?;
         Some(At { value, place: node.place.clone() })
     }
 
@@ -247,21 +289,37 @@ impl<'a> Fields<'a> {
     pub fn count(&self, key: &'a str, least: u64) -> Option<At<u64>> {
         let node = self.get(key)?;
         let Content::Number(number) = node.content else {
-            self.problems.push(node.place.error(format!("`{key}` is {}", node.content.noun()), "write a whole number, without quotes"));
+            self.problems.push(node.place.error(
+                format!("`{key}` is {}", node.content.noun()),
+                "write a whole number, without quotes",
+            ));
             return None;
         };
         #[expect(clippy::cast_precision_loss, reason = "least is small")]
         if number.fract() != 0.0 || number < least as f64 || number > 9e15 {
-            self.problems.push(node.place.error(format!("`{key}` is {number}"), format!("expected a whole number, {least} or more")));
+            self.problems.push(node.place.error(
+                format!("`{key}` is {number}"),
+                format!("expected a whole number, {least} or more"),
+            ));
             return None;
         }
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked above")]
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "checked above"
+        )]
         let value = number as u64;
         Some(At { value, place: node.place.clone() })
     }
 
     /// A figure with source and sureness, if it is there.
-    pub fn figure(&self, key: &'a str, quantity: Quantity, range: Range, file: &Provenance) -> Option<Figure> {
+    pub fn figure(
+        &self,
+        key: &'a str,
+        quantity: Quantity,
+        range: Range,
+        file: &Provenance,
+    ) -> Option<Figure> {
         let node = self.get(key)?;
         read_figure(node, quantity, range, file, self.problems)
     }
@@ -271,7 +329,10 @@ impl<'a> Fields<'a> {
         match self.get(key).map(|node| (&node.content, node)) {
             Some((Content::List(items), _)) => items,
             Some((other, node)) => {
-                self.problems.push(node.place.error(format!("`{key}` is {}", other.noun()), format!("write each one under [[{key}]]")));
+                self.problems.push(node.place.error(
+                    format!("`{key}` is {}", other.noun()),
+                    format!("write each one under [[{key}]]"),
+                ));
                 &[]
             }
             None => &[],
@@ -286,8 +347,12 @@ impl<'a> Fields<'a> {
     /// Refuses every key that was not asked for; the last thing done with a table.
     pub fn finish(&self) {
         let asked = self.asked.borrow();
-        for (name, key, _) in self.entries.iter().filter(|(name, _, _)| !asked.contains(&name.as_str())) {
-            self.problems.push(key.error(format!("unknown field `{name}`"), hint(name, asked.iter().copied())));
+        for (name, key, _) in
+            self.entries.iter().filter(|(name, _, _)| !asked.contains(&name.as_str()))
+        {
+            self.problems.push(
+                key.error(format!("unknown field `{name}`"), hint(name, asked.iter().copied())),
+            );
         }
     }
 
@@ -306,9 +371,19 @@ fn words_of(lengths: &[usize]) -> String {
 }
 
 /// Reads a value: a text with unit, a plain number where that is meant, or a table whose `value` it is.
-pub fn read_value(node: &Node, quantity: Quantity, range: Range, problems: &Problems) -> Option<At<f64>> {
+pub fn read_value(
+    node: &Node,
+    quantity: Quantity,
+    range: Range,
+    problems: &Problems,
+) -> Option<At<f64>> {
     let help = || format!("expected {} such as {}", quantity.noun(), quantity.examples());
-    let name = node.place.field.rsplit('.').find(|part| part.parse::<usize>().is_err()).unwrap_or_default();
+    let name = node
+        .place
+        .field
+        .rsplit('.')
+        .find(|part| part.parse::<usize>().is_err())
+        .unwrap_or_default();
     let value = match &node.content {
         Content::Text(text) => match units::parse(text, quantity) {
             Ok(value) => {
@@ -316,19 +391,26 @@ pub fn read_value(node: &Node, quantity: Quantity, range: Range, problems: &Prob
                     let help = format!(
                         "inches go in halves, quarters, eighths, sixteenths, 32nds and 64ths; the nearest is {nearest}; else write a decimal or millimetres"
                     );
-                    problems.push(node.place.error(format!("`{text}` in `{name}` is no size in inches"), help));
+                    problems.push(
+                        node.place
+                            .error(format!("`{text}` in `{name}` is no size in inches"), help),
+                    );
                     return None;
                 }
                 value
             }
             Err(error) => {
-                problems.push(node.place.error(format!("{} in `{name}`", error.message), error.help));
+                problems
+                    .push(node.place.error(format!("{} in `{name}`", error.message), error.help));
                 return None;
             }
         },
         Content::Number(number) if quantity == Quantity::Ratio => *number,
         Content::Number(number) => {
-            problems.push(node.place.error(format!("`{name}` is {number} without a unit"), format!("{}, in quotes", help())));
+            problems.push(node.place.error(
+                format!("`{name}` is {number} without a unit"),
+                format!("{}, in quotes", help()),
+            ));
             return None;
         }
         other => {
@@ -339,23 +421,38 @@ pub fn read_value(node: &Node, quantity: Quantity, range: Range, problems: &Prob
     if range.holds(value) {
         return Some(At { value, place: node.place.clone() });
     }
-    problems.push(node.place.error(format!("`{name}` is {}", format_si(value, quantity)), format!("it must be {}", range.words(quantity))));
+    problems.push(node.place.error(
+        format!("`{name}` is {}", format_si(value, quantity)),
+        format!("it must be {}", range.words(quantity)),
+    ));
     None
 }
 
 /// How a figure is given its source.
-const HOW_TO_SOURCE: &str = "write { value = …, source = \"…\", sureness = \"measured\" }, or one for the whole file";
+const HOW_TO_SOURCE: &str =
+    "write { value = …, source = \"…\", sureness = \"measured\" }, or one for the whole file";
 
 /// Reads a figure: `"3/8 in"` with the file's source and sureness, or a table with its own.
-pub fn read_figure(node: &Node, quantity: Quantity, range: Range, file: &Provenance, problems: &Problems) -> Option<Figure> {
+pub fn read_figure(
+    node: &Node,
+    quantity: Quantity,
+    range: Range,
+    file: &Provenance,
+    problems: &Problems,
+) -> Option<Figure> {
     let (value, source, sureness) = match &node.content {
         Content::Table(_) => {
             let fields = Fields::of(node, problems);
             let value = fields.get("value");
             let source = fields.text("source").map(|text| text.value);
-            let sureness = fields.word("sureness", &Sureness::WORDS).and_then(|word| Sureness::from_word(&word.value));
+            let sureness = fields
+                .word("sureness", &Sureness::WORDS)
+                .and_then(|word| Sureness::from_word(&word.value));
             if value.is_none() {
-                fields.missing("value", format!("expected {} such as {}", quantity.noun(), quantity.examples()));
+                fields.missing(
+                    "value",
+                    format!("expected {} such as {}", quantity.noun(), quantity.examples()),
+                );
             }
             fields.finish();
             (value?, source, sureness)
@@ -375,7 +472,13 @@ pub fn read_figure(node: &Node, quantity: Quantity, range: Range, file: &Provena
         Content::Text(text) => text.clone(),
         _ => format_si(read.as_ref()?.value, quantity),
     };
-    Some(Figure { value: read?.value, text, source: source?, sureness: sureness?, place: value.place.clone() })
+    Some(Figure {
+        value: read?.value,
+        text,
+        source: source?,
+        sureness: sureness?,
+        place: value.place.clone(),
+    })
 }
 
 /// The value of a figure whose quantity is not known yet: `"3/8 in"` with the file's source and sureness, or a table with its own.
@@ -395,7 +498,9 @@ pub fn sourced(node: &Node, file: &Provenance, problems: &Problems) -> Option<No
     };
     if own.source.as_deref().unwrap_or_default().trim().is_empty() || own.sureness.is_none() {
         let lacks = if own.sureness.is_none() { "sureness" } else { "source" };
-        problems.push(node.place.error(format!("`{}` has no {lacks}", node.place.field), HOW_TO_SOURCE));
+        problems.push(
+            node.place.error(format!("`{}` has no {lacks}", node.place.field), HOW_TO_SOURCE),
+        );
     }
     let mut named = value;
     named.place.field.clone_from(&node.place.field);
@@ -405,12 +510,16 @@ pub fn sourced(node: &Node, file: &Provenance, problems: &Problems) -> Option<No
 /// Reads the file's own source and sureness.
 pub fn provenance(fields: &Fields<'_>) -> Provenance {
     let source = fields.text("source").map(|text| text.value);
-    let sureness = fields.word("sureness", &Sureness::WORDS).and_then(|word| Sureness::from_word(&word.value));
+    let sureness =
+        fields.word("sureness", &Sureness::WORDS).and_then(|word| Sureness::from_word(&word.value));
     Provenance { source, sureness }
 }
 
 /// Reads a table's own source and sureness over those of the file.
 pub fn provenance_over(fields: &Fields<'_>, file: &Provenance) -> Provenance {
     let own = provenance(fields);
-    Provenance { source: own.source.or_else(|| file.source.clone()), sureness: own.sureness.or(file.sureness) }
+    Provenance {
+        source: own.source.or_else(|| file.source.clone()),
+        sureness: own.sureness.or(file.sureness),
+    }
 }

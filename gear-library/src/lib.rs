@@ -27,7 +27,10 @@ mod tree;
 pub mod units;
 pub mod whale;
 
-pub use assemble::{Assembled, Hooks, Options, assemble, assemble_traced, box_inertia, buoy_floats, buoy_inertia, shell_inertia};
+pub use assemble::{
+    Assembled, Hooks, Options, assemble, assemble_traced, box_inertia, buoy_floats, buoy_inertia,
+    shell_inertia,
+};
 pub use assembly::{Assembly, Make, PartBody, PartJoint, PartLine, PartLink, Parts, Start};
 pub use attributes::Attributes;
 pub use case::{Case, Check, Limit, Measure, Rows, Samples, Table};
@@ -36,20 +39,21 @@ pub use document::{Document, EditError, Setting, save_text};
 pub use entry::{Entry, FORMAT};
 pub use fields::{Figure, Range, Sureness};
 pub use items::{
-    ActAnimation, ActItem, AgeLaw, BoxGear, Buoy, BuoyPiece, BuoyShape, CHANNELS, Channel, Condition, Growth, Joints, Knot, MassLaw,
-    ModelFigures, Point, Rope, RopeFriction, SURFACES, SeaSite, WeakLink, WhaleItem, WhaleMesh,
+    ActAnimation, ActItem, AgeLaw, BoxGear, Buoy, BuoyPiece, BuoyShape, CHANNELS, Channel,
+    Condition, Growth, Joints, Knot, MassLaw, ModelFigures, Point, Rope, RopeFriction, SURFACES,
+    SeaSite, WeakLink, WhaleItem, WhaleMesh,
 };
 pub use library::Library;
 pub use line::{Insert, Inserts, LineMake};
 pub use nearest::hint;
 pub use plugin::{PLUGIN_FILE, TextGear, TextPlugin};
 pub use scenario::{
-    AnswerToTouch, Bed, CurrentOf, CurrentRow, Fixture, FreeBody, FrictionChoice, FrictionOn, LineStart, ObstacleOf, PlacedGear, ProbeOf,
-    ProbePart, RowHeight, Scenario, Sea, Swimmer,
+    AnswerToTouch, Bed, CurrentOf, CurrentRow, Fixture, FreeBody, FrictionChoice, FrictionOn,
+    LineStart, ObstacleOf, PlacedGear, ProbeOf, ProbePart, RowHeight, Scenario, Sea, Swimmer,
 };
 pub use schema::{Field, Kind, Word};
 pub use sources::Sources;
 pub use study::{
-    Aim, Basis, Claim, Enough, Event, HOOKED_TURNS, Law, Level, MOST_ENCOUNTERS, Prior, RegionEvent, RunRule, Setting as OptionSetting,
-    Study, StudyOption, Target,
+    Aim, Basis, Claim, Enough, Event, HOOKED_TURNS, Law, Level, MOST_ENCOUNTERS, Prior,
+    RegionEvent, RunRule, Setting as OptionSetting, Study, StudyOption, Target,
 };

@@ -4,7 +4,9 @@ use crate::assembly::Assembly;
 use crate::diagnostic::Diagnostic;
 use crate::entry::{self, Entry};
 use crate::fields::Problems;
-use crate::items::{ActItem, BoxGear, Buoy, Knot, Rope, RopeFriction, SeaSite, WeakLink, WhaleItem};
+use crate::items::{
+    ActItem, BoxGear, Buoy, Knot, Rope, RopeFriction, SeaSite, WeakLink, WhaleItem,
+};
 use crate::nearest::hint;
 use crate::schema::Kind;
 use crate::sources::Sources;
@@ -68,7 +70,11 @@ impl Library {
         let id = file.trim_end_matches(".toml");
         let Some(kind) = Kind::in_folder(folder) else {
             let folders = Kind::ALL.map(Kind::folder);
-            problems.push(Diagnostic::of_file(path, format!("`{folder}` is no folder of a library"), hint(folder, folders)));
+            problems.push(Diagnostic::of_file(
+                path,
+                format!("`{folder}` is no folder of a library"),
+                hint(folder, folders),
+            ));
             return;
         };
         let node = match tree::read(path, text) {
@@ -118,8 +124,10 @@ impl Library {
         let known = self.ids(Kind::Friction);
         for rope in self.ropes.iter().filter(|rope| !known.contains(&rope.material.as_str())) {
             if let Some(word) = rope.entry.word("material") {
-                problems
-                    .push(word.place.error(format!("no `{}` in friction/", rope.material), hint(&rope.material, known.iter().copied())));
+                problems.push(word.place.error(
+                    format!("no `{}` in friction/", rope.material),
+                    hint(&rope.material, known.iter().copied()),
+                ));
             }
         }
     }

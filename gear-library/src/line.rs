@@ -64,7 +64,9 @@ impl LineMake {
         let condition = fields.word("condition", &Condition::WORDS);
         let wear = fields.value("wear_factor", Quantity::Ratio, Range::Between(0.05, 1.0));
         Self {
-            condition: condition.and_then(|word| Some(At { value: Condition::from_word(&word.value)?, place: word.place })),
+            condition: condition.and_then(|word| {
+                Some(At { value: Condition::from_word(&word.value)?, place: word.place })
+            }),
             wear_factor: wear.map(|wear| wear.value),
             from_knot: fields.text("from_knot"),
             to_knot: fields.text("to_knot"),
@@ -99,12 +101,18 @@ fn inserts(fields: &Fields<'_>) -> Option<Inserts> {
         && every.value < *length_m + 0.01
     {
         let message = format!("`every` is {} m, and an insert is {length_m} m long", every.value);
-        fields.problems().push(every.place.error(message, "inserts lie apart: write a longer `every`"));
+        fields
+            .problems()
+            .push(every.place.error(message, "inserts lie apart: write a longer `every`"));
         return None;
     }
     Some(Inserts {
         what,
-        counted_from: if end.is_some_and(|end| end.value == "from") { LineEnd::A } else { LineEnd::B },
+        counted_from: if end.is_some_and(|end| end.value == "from") {
+            LineEnd::A
+        } else {
+            LineEnd::B
+        },
         first_m: first.map_or(every.value, |first| first.value),
         every_m: every.value,
         within: within.map_or(1.0, |within| within.value),
@@ -127,16 +135,23 @@ fn insert(fields: &Fields<'_>) -> Option<Insert> {
         }
         (None, Some(sleeve), None) => Some(Insert::Sleeve(sleeve)),
         (None, Some(sleeve), Some(_)) => {
-            let help = "a sleeve adds no length; take `length` out, or name a rope instead of a sleeve";
+            let help =
+                "a sleeve adds no length; take `length` out, or name a rope instead of a sleeve";
             fields.problems().push(sleeve.place.error("a sleeve has no length", help));
             None
         }
         (Some(rope), Some(_), _) => {
-            fields.problems().push(rope.place.error("both `rope` and `sleeve` are given", "keep the one that is meant"));
+            fields.problems().push(
+                rope.place
+                    .error("both `rope` and `sleeve` are given", "keep the one that is meant"),
+            );
             None
         }
         (None, None, _) => {
-            fields.missing("rope", "write rope = \"weak-1700-3-8\" with a length, or sleeve = \"south-shore-1700\"");
+            fields.missing(
+                "rope",
+                "write rope = \"weak-1700-3-8\" with a length, or sleeve = \"south-shore-1700\"",
+            );
             None
         }
     }

@@ -147,7 +147,8 @@ impl Scenario {
         let weak_links = fields.flag("weak_links");
         let rope_on_bodies = fields.flag("rope_on_bodies");
         let rope_on_rope = fields.flag("rope_on_rope");
-        let rope_friction = fields.value("rope_friction", Quantity::Ratio, Range::Between(0.0, 2.0));
+        let rope_friction =
+            fields.value("rope_friction", Quantity::Ratio, Range::Between(0.0, 2.0));
         let whale = fields.table("whale");
         let follow = fields.table("resolution");
         let start = fields.word("start", &["rest", "placed"]);
@@ -169,7 +170,9 @@ impl Scenario {
             rope_on_rope: rope_on_rope.unwrap_or(false),
             rope_friction,
             as_placed: start.is_some_and(|start| start.value == "placed"),
-            rope_condition: rope_condition.and_then(|word| Condition::from_word(&word.value)).unwrap_or_default(),
+            rope_condition: rope_condition
+                .and_then(|word| Condition::from_word(&word.value))
+                .unwrap_or_default(),
             rope_bending: fields.flag("rope_bending").unwrap_or(false),
             strength_scatter: fields.flag("strength_scatter").unwrap_or(true),
             sea: sea::read(&fields),
@@ -180,7 +183,9 @@ impl Scenario {
             ropes: parts::ropes(&fields, &file),
             fixtures: each("fixture").filter_map(|node| parts::fixture(node, problems)).collect(),
             joints: each("joint").filter_map(|node| parts::joint(node, problems)).collect(),
-            obstacles: each("obstacle").filter_map(|node| obstacle::obstacle(node, &file, problems)).collect(),
+            obstacles: each("obstacle")
+                .filter_map(|node| obstacle::obstacle(node, &file, problems))
+                .collect(),
             bodies: each("body").filter_map(|node| parts::body(node, &file, problems)).collect(),
             lines: each("line").filter_map(|node| free_line(node, problems)).collect(),
             links: each("link").filter_map(|node| link(node, problems, true)).collect(),
@@ -198,14 +203,17 @@ impl Scenario {
         }
         if let (Some(friction), false) = (&self.rope_friction, self.rope_on_rope) {
             let message = "`rope_friction` is given, but ropes pass through each other here";
-            fields.problems().push(friction.place.error(message, "write rope_on_rope = true besides, or take it out"));
+            fields.problems().push(
+                friction.place.error(message, "write rope_on_rope = true besides, or take it out"),
+            );
         }
         if self.gear.len() > 1 {
             for gear in self.gear.iter().filter(|gear| gear.id.is_none()) {
                 let message = "this gear has no `id`, and there is more than one";
-                fields
-                    .problems()
-                    .push(gear.assembly.place.error(message, "write an id such as id = \"north\"; its parts are then north/trap …"));
+                fields.problems().push(gear.assembly.place.error(
+                    message,
+                    "write an id such as id = \"north\"; its parts are then north/trap …",
+                ));
             }
         }
     }
@@ -251,9 +259,10 @@ fn rope_choices(fields: &Fields<'_>) -> Vec<(At<String>, At<String>)> {
     let mut choices = Vec::new();
     for (line, key, node) in table.rest() {
         match &node.content {
-            tree::Content::Text(rope) => {
-                choices.push((At { value: line.clone(), place: key.clone() }, At { value: rope.clone(), place: node.place.clone() }))
-            }
+            tree::Content::Text(rope) => choices.push((
+                At { value: line.clone(), place: key.clone() },
+                At { value: rope.clone(), place: node.place.clone() },
+            )),
             other => {
                 let message = format!("`{line}` is {}, not the id of a rope", other.noun());
                 fields.problems().push(node.place.error(message, "write the rope's id in quotes"));
@@ -293,9 +302,12 @@ fn around(fields: &Fields<'_>) -> Option<LineStart> {
     let obstacle = fields.need_text("around", "write the id of a cylinder among the obstacles");
     let turns = fields.need_value("turns", Quantity::Ratio, Range::Between(-100.0, 100.0));
     let (turns, hitched) = (turns?.value, fields.flag("hitched").unwrap_or(false));
-    if let (Some(node), true) = (fields.get("hitched"), hitched && (turns.abs() - 2.0).abs() > 0.3) {
+    if let (Some(node), true) = (fields.get("hitched"), hitched && (turns.abs() - 2.0).abs() > 0.3)
+    {
         let message = format!("two half hitches are two turns, not {turns}");
-        fields.problems().push(node.place.error(message, "write turns = 2 or -2, or take hitched out"));
+        fields
+            .problems()
+            .push(node.place.error(message, "write turns = 2 or -2, or take hitched out"));
     }
     Some(LineStart::Around { obstacle: obstacle?, turns, hitched })
 }
@@ -306,7 +318,8 @@ fn wrapped(fields: &Fields<'_>) -> Option<LineStart> {
         fields.missing("wrap", "write each wrap under [[line.wrap]], with `part` and `turns`");
         return None;
     }
-    let wraps: Vec<Option<WrapOf>> = wraps.iter().map(|node| WrapOf::read(node, fields.problems())).collect();
+    let wraps: Vec<Option<WrapOf>> =
+        wraps.iter().map(|node| WrapOf::read(node, fields.problems())).collect();
     wraps.into_iter().collect::<Option<Vec<_>>>().map(LineStart::Wrapped)
 }
 

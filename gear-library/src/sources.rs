@@ -34,7 +34,11 @@ impl Sources {
         }
         if files.is_empty() && problems.is_empty() {
             let help = "a gear library has folders ropes, traps, buoys, weak-links, anchors, sites, friction, whales, assemblies";
-            problems.push(Diagnostic::of_file(root.display().to_string(), "no gear library in this folder", help));
+            problems.push(Diagnostic::of_file(
+                root.display().to_string(),
+                "no gear library in this folder",
+                help,
+            ));
         }
         if problems.is_empty() { Ok(Self { files, meshes }) } else { Err(problems) }
     }
@@ -64,8 +68,12 @@ impl Sources {
     #[must_use]
     pub fn of_folder(&self, folder: &str) -> Self {
         fn kept<T: Clone>(all: &BTreeMap<String, T>, folder: &str) -> BTreeMap<String, T> {
-            let inside = |path: &String| path.strip_prefix(folder).is_some_and(|rest| rest.starts_with('/'));
-            all.iter().filter(|(path, _)| inside(path)).map(|(path, content)| (path.clone(), content.clone())).collect()
+            let inside =
+                |path: &String| path.strip_prefix(folder).is_some_and(|rest| rest.starts_with('/'));
+            all.iter()
+                .filter(|(path, _)| inside(path))
+                .map(|(path, content)| (path.clone(), content.clone()))
+                .collect()
         }
         Self { files: kept(&self.files, folder), meshes: kept(&self.meshes, folder) }
     }
@@ -74,7 +82,9 @@ impl Sources {
     #[must_use]
     pub fn under(&self, folder: &str) -> Self {
         fn moved<T: Clone>(all: &BTreeMap<String, T>, folder: &str) -> BTreeMap<String, T> {
-            all.iter().map(|(path, content)| (format!("{folder}/{path}"), content.clone())).collect()
+            all.iter()
+                .map(|(path, content)| (format!("{folder}/{path}"), content.clone()))
+                .collect()
         }
         Self { files: moved(&self.files, folder), meshes: moved(&self.meshes, folder) }
     }
@@ -83,7 +93,10 @@ impl Sources {
     #[must_use]
     pub fn only(&self, paths: &[String]) -> Self {
         fn kept<T: Clone>(all: &BTreeMap<String, T>, paths: &[String]) -> BTreeMap<String, T> {
-            all.iter().filter(|(path, _)| paths.contains(path)).map(|(path, content)| (path.clone(), content.clone())).collect()
+            all.iter()
+                .filter(|(path, _)| paths.contains(path))
+                .map(|(path, content)| (path.clone(), content.clone()))
+                .collect()
         }
         Self { files: kept(&self.files, paths), meshes: kept(&self.meshes, paths) }
     }
@@ -121,27 +134,47 @@ impl Sources {
     }
 }
 
-fn read_folder(root: &Path, folder: &str, files: &mut BTreeMap<String, String>, problems: &mut Vec<Diagnostic>) {
+fn read_folder(
+    root: &Path,
+    folder: &str,
+    files: &mut BTreeMap<String, String>,
+    problems: &mut Vec<Diagnostic>,
+) {
     let Ok(entries) = fs::read_dir(root.join(folder)) else { return };
-    for path in entries.flatten().map(|entry| entry.path()).filter(|path| path.extension().is_some_and(|end| end == "toml")) {
-        let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    for path in entries
+        .flatten()
+        .map(|entry| entry.path())
+        .filter(|path| path.extension().is_some_and(|end| end == "toml"))
+    {
+        let name =
+            path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
         match fs::read_to_string(&path) {
             Ok(text) => {
                 files.insert(format!("{folder}/{name}"), text);
             }
             Err(error) => {
                 let help = "a library file is text in UTF-8 that you may read";
-                problems.push(Diagnostic::of_file(format!("{folder}/{name}"), format!("cannot be read: {error}"), help));
+                problems.push(Diagnostic::of_file(
+                    format!("{folder}/{name}"),
+                    format!("cannot be read: {error}"),
+                    help,
+                ));
             }
         }
     }
 }
 
 /// Whales' meshes and acts' animations, `whales/*.glb`, `acts/*.glb` and the same as `.gltf`.
-fn read_meshes(root: &Path, folder: &str, meshes: &mut BTreeMap<String, Vec<u8>>, problems: &mut Vec<Diagnostic>) {
+fn read_meshes(
+    root: &Path,
+    folder: &str,
+    meshes: &mut BTreeMap<String, Vec<u8>>,
+    problems: &mut Vec<Diagnostic>,
+) {
     let Ok(entries) = fs::read_dir(root.join(folder)) else { return };
     for path in entries.flatten().map(|entry| entry.path()) {
-        let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        let name =
+            path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
         if Form::of_file(&name).is_none() {
             continue;
         }

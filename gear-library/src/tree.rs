@@ -63,8 +63,13 @@ pub fn read(path: &str, text: &str) -> Result<Node, Box<Diagnostic>> {
 
 fn table(table: &dyn TableLike, parent: &Place) -> Content {
     let entry = |(name, item): (&str, &Item)| {
-        let field = if parent.field.is_empty() { name.to_owned() } else { format!("{}.{name}", parent.field) };
-        let key_span = table.key(name).and_then(toml_edit::Key::span).unwrap_or_else(|| parent.span.clone());
+        let field = if parent.field.is_empty() {
+            name.to_owned()
+        } else {
+            format!("{}.{name}", parent.field)
+        };
+        let key_span =
+            table.key(name).and_then(toml_edit::Key::span).unwrap_or_else(|| parent.span.clone());
         let key = Place { source: Arc::clone(&parent.source), span: key_span, field };
         let node = item_node(item, &key);
         (name.to_owned(), key, node)
@@ -79,7 +84,8 @@ fn item_node(item: &Item, key: &Place) -> Node {
     match item {
         Item::Value(value) => value_node(value, place),
         Item::ArrayOfTables(tables) => {
-            let nodes = tables.iter().enumerate().map(|(index, one)| element(one, &place, index)).collect();
+            let nodes =
+                tables.iter().enumerate().map(|(index, one)| element(one, &place, index)).collect();
             Node { content: Content::List(nodes), place }
         }
         Item::Table(inner) => Node { content: table(inner, &place), place: key.clone() },
@@ -89,7 +95,11 @@ fn item_node(item: &Item, key: &Place) -> Node {
 
 fn element(one: &Table, parent: &Place, index: usize) -> Node {
     let field = format!("{}.{index}", parent.field);
-    let place = Place { source: Arc::clone(&parent.source), span: one.span().unwrap_or_else(|| parent.span.clone()), field };
+    let place = Place {
+        source: Arc::clone(&parent.source),
+        span: one.span().unwrap_or_else(|| parent.span.clone()),
+        field,
+    };
     Node { content: table(one, &place), place }
 }
 
@@ -105,7 +115,14 @@ fn value_node(value: &Value, place: Place) -> Node {
         Value::Array(values) => {
             let one = |(index, value): (usize, &Value)| {
                 let span = value.span().unwrap_or_else(|| place.span.clone());
-                value_node(value, Place { source: Arc::clone(&place.source), span, field: format!("{}.{index}", place.field) })
+                value_node(
+                    value,
+                    Place {
+                        source: Arc::clone(&place.source),
+                        span,
+                        field: format!("{}.{index}", place.field),
+                    },
+                )
             };
             Content::List(values.iter().enumerate().map(one).collect())
         }

@@ -117,7 +117,9 @@ impl Quantity {
     /// The quantity a plugin means by an SI unit such as `m/s`, `rad` or `1`.
     #[must_use]
     pub fn from_si_unit(unit: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|quantity| table::plain(quantity.si_unit()) == table::plain(unit))
+        Self::ALL
+            .into_iter()
+            .find(|quantity| table::plain(quantity.si_unit()) == table::plain(unit))
     }
 
     /// The units it may be written in, the SI unit first; none for a pure number.
@@ -177,13 +179,20 @@ pub fn find(name: &str, quantity: Quantity) -> Option<&'static Unit> {
 /// The shortest decimal that agrees to ten significant digits.
 fn short(number: f64) -> String {
     let rounded: f64 = format!("{number:.9e}").parse().unwrap_or(number);
-    if rounded != 0.0 && !(1e-6..1e12).contains(&rounded.abs()) { format!("{rounded:e}") } else { format!("{rounded}") }
+    if rounded != 0.0 && !(1e-6..1e12).contains(&rounded.abs()) {
+        format!("{rounded:e}")
+    } else {
+        format!("{rounded}")
+    }
 }
 
 /// Inches as a rope maker writes them: `3/8`, `1 1/2`; `None` where not whole sixteenths.
 fn inches(number: f64) -> Option<String> {
     let sixteenths = (number * 16.0).round();
-    if !(0.0..576.0).contains(&number) || (number * 16.0 - sixteenths).abs() > 1e-7 || sixteenths % 16.0 == 0.0 {
+    if !(0.0..576.0).contains(&number)
+        || (number * 16.0 - sixteenths).abs() > 1e-7
+        || sixteenths % 16.0 == 0.0
+    {
         return None;
     }
     let whole = (sixteenths / 16.0).floor();

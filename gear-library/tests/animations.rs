@@ -15,22 +15,32 @@ use endline_sim::whale::{Angle, Bone, Skin};
 use glam::DQuat;
 use serde_json::{Value, json};
 
-const ACT: &str =
-    "format = 1\nkind = \"act\"\nname = \"Wave\"\nsource = \"test\"\nsureness = \"estimate\"\nfade = \"1 s\"\nanimation = \"wave.gltf\"\n";
+const ACT: &str = "format = 1\nkind = \"act\"\nname = \"Wave\"\nsource = \"test\"\nsureness = \"estimate\"\nfade = \"1 s\"\nanimation = \"wave.gltf\"\n";
 
 fn sources() -> Sources {
     Sources::from_folder(Path::new(env!("CARGO_MANIFEST_DIR"))).unwrap()
 }
 
 fn skin() -> Skin {
-    Library::read(&sources()).0.whales.into_iter().find(|whale| whale.entry.id == "right-whale").unwrap().skin_at(13.7)
+    Library::read(&sources())
+        .0
+        .whales
+        .into_iter()
+        .find(|whale| whale.entry.id == "right-whale")
+        .unwrap()
+        .skin_at(13.7)
 }
 
 /// Postures of a made-up act: bends about every axis at once, flippers, flukes, jaw and lips.
 fn keys() -> Vec<(f64, Posture)> {
     let at = |time_s: f64| {
         let swing = libm::sin(1.3 * time_s);
-        let mut posture = Posture { fluke_pitch: 0.4 * swing, flipper_sweep: [0.3 * swing, -0.2], jaw: 0.2 * time_s, ..Posture::default() };
+        let mut posture = Posture {
+            fluke_pitch: 0.4 * swing,
+            flipper_sweep: [0.3 * swing, -0.2],
+            jaw: 0.2 * time_s,
+            ..Posture::default()
+        };
         posture.flipper_raise = [-0.5 * swing, 0.3];
         posture.flipper_twist = [0.2, -0.4 * swing];
         posture.lips = [0.1 * time_s, 0.3];
@@ -65,7 +75,10 @@ fn file(bones: &[Bone], lie: DQuat, keys: &[(f64, Posture)]) -> Value {
     let input = store(keys.iter().map(|key| key.0).collect(), "SCALAR", keys.len());
     let (mut channels, mut samplers) = (Vec::new(), Vec::new());
     for (index, bone) in bones.iter().enumerate().skip(1) {
-        let turns = keys.iter().flat_map(|(_, posture)| (lie.conjugate() * turn(bone, posture) * lie).to_array()).collect();
+        let turns = keys
+            .iter()
+            .flat_map(|(_, posture)| (lie.conjugate() * turn(bone, posture) * lie).to_array())
+            .collect();
         let output = store(turns, "VEC4", keys.len());
         samplers.push(json!({ "input": input, "output": output }));
         channels.push(json!({ "sampler": samplers.len() - 1, "target": { "node": index, "path": "rotation" } }));
@@ -73,7 +86,8 @@ fn file(bones: &[Bone], lie: DQuat, keys: &[(f64, Posture)]) -> Value {
     let mut nodes: Vec<Value> = bones.iter().map(|bone| json!({ "name": bone.name })).collect();
     nodes[0]["rotation"] = json!(lie.to_array());
     for (parent, node) in nodes.iter_mut().enumerate() {
-        let children: Vec<usize> = (0..bones.len()).filter(|child| bones[*child].parent == Some(parent)).collect();
+        let children: Vec<usize> =
+            (0..bones.len()).filter(|child| bones[*child].parent == Some(parent)).collect();
         if !children.is_empty() {
             node["children"] = json!(children);
         }
@@ -114,10 +128,16 @@ fn bones_keyed_in_a_file_move_the_angles_they_were_keyed_to() {
                 assert!(off < 1e-5, "{angle:?} at {time_s} s is {off} rad off");
             }
         }
-        assert!(act.angles.iter().any(|(angle, figure)| *angle == Angle::Jaw && (figure.value - 0.4).abs() < 1e-5));
+        assert!(
+            act.angles
+                .iter()
+                .any(|(angle, figure)| *angle == Angle::Jaw && (figure.value - 0.4).abs() < 1e-5)
+        );
         assert!(act.files().any(|file| file == "acts/wave.gltf"), "a recording carries it");
         assert!(
-            clip(&act).tracks.iter().all(|track| matches!(track.moves, Moves::Angle(angle) if angle != Angle::FlukeFlex(0))),
+            clip(&act).tracks.iter().all(
+                |track| matches!(track.moves, Moves::Angle(angle) if angle != Angle::FlukeFlex(0))
+            ),
             "what lies still is left out"
         );
     }
@@ -127,16 +147,32 @@ fn bones_keyed_in_a_file_move_the_angles_they_were_keyed_to() {
 fn a_bad_animation_is_told_with_its_place_and_how_to_mend_it() {
     let (bones, keys) = (skin().bones, keys());
     let good = file(&bones, DQuat::IDENTITY, &keys);
-    let told = |act: &str, file: &Value| read(act, file).err().unwrap_or_else(|| panic!("it is taken"));
+    let told =
+        |act: &str, file: &Value| read(act, file).err().unwrap_or_else(|| panic!("it is taken"));
     for (from, to, parts) in [
-        ("wave.gltf", "wav.gltf", ["there is no file `acts/wav.gltf`", "did you mean `acts/wave.gltf`?"]),
+        (
+            "wave.gltf",
+            "wav.gltf",
+            ["there is no file `acts/wav.gltf`", "did you mean `acts/wave.gltf`?"],
+        ),
         ("wave.gltf", "wave.fbx", ["`wave.fbx` is no name of an animation", ".glb or .gltf"]),
         ("fade", "clip = \"Wav\"\nfade", ["has no animation `Wav`", "did you mean `Wave`?"]),
-        ("fade", "after = \"repeat\"\nfade", ["ends elsewhere than it begins", "the pose of the first"]),
-        ("animation", "key = [{ at = \"0 s\", jaw = \"1 deg\" }]\nanimation", ["both `animation` and [[key]]", "leave one of them out"]),
+        (
+            "fade",
+            "after = \"repeat\"\nfade",
+            ["ends elsewhere than it begins", "the pose of the first"],
+        ),
+        (
+            "animation",
+            "key = [{ at = \"0 s\", jaw = \"1 deg\" }]\nanimation",
+            ["both `animation` and [[key]]", "leave one of them out"],
+        ),
     ] {
         let message = told(&ACT.replacen(from, to, 1), &good);
-        assert!(parts.iter().all(|part| message.contains(part)) && message.contains("acts/wave.toml:"), "{to}: {message}");
+        assert!(
+            parts.iter().all(|part| message.contains(part)) && message.contains("acts/wave.toml:"),
+            "{to}: {message}"
+        );
     }
     let jaw = bones.iter().position(|bone| bone.name == "jaw").unwrap();
     let mut twisted = good.clone();
@@ -147,14 +183,24 @@ fn a_bad_animation_is_told_with_its_place_and_how_to_mend_it() {
         }
     }
     let message = told(ACT, &twisted);
-    assert!(message.contains("turns `jaw`") && message.contains("axis that it does not have") && message.contains("lock"), "{message}");
+    assert!(
+        message.contains("turns `jaw`")
+            && message.contains("axis that it does not have")
+            && message.contains("lock"),
+        "{message}"
+    );
     let mut strange = good.clone();
-    strange["nodes"].as_array_mut().unwrap().iter_mut().for_each(|node| node["name"] = json!("bone"));
+    strange["nodes"]
+        .as_array_mut()
+        .unwrap()
+        .iter_mut()
+        .for_each(|node| node["name"] = json!("bone"));
     assert!(told(ACT, &strange).contains("turns no bone of the whale"));
     let mut two = good.clone();
     let again = two["animations"][0].clone();
     two["animations"].as_array_mut().unwrap().push(again);
     assert!(
-        told(ACT, &two).contains("has 2 animations") && told(ACT, &json!({ "asset": { "version": "2.0" } })).contains("has no animation")
+        told(ACT, &two).contains("has 2 animations")
+            && told(ACT, &json!({ "asset": { "version": "2.0" } })).contains("has no animation")
     );
 }

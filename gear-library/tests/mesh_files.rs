@@ -21,7 +21,12 @@ fn sources() -> Sources {
 }
 
 fn whale() -> WhaleItem {
-    Library::read(&sources()).0.whales.into_iter().find(|whale| whale.entry.id == "right-whale").unwrap()
+    Library::read(&sources())
+        .0
+        .whales
+        .into_iter()
+        .find(|whale| whale.entry.id == "right-whale")
+        .unwrap()
 }
 
 fn skin() -> Skin {
@@ -29,7 +34,16 @@ fn skin() -> Skin {
 }
 
 fn written(skin: &Skin, form: Form) -> Vec<u8> {
-    write(skin, &About { id: "right-whale", name: "Right whale", length_m: 13.7, joints: &whale().joints.ranges }, form)
+    write(
+        skin,
+        &About {
+            id: "right-whale",
+            name: "Right whale",
+            length_m: 13.7,
+            joints: &whale().joints.ranges,
+        },
+        form,
+    )
 }
 
 /// The text of a file as JSON, to be changed.
@@ -49,7 +63,13 @@ fn posed(skin: &Skin, ranges: &JointRanges, seed: u64) -> Vec<DVec3> {
 fn apart(one: &Skin, other: &Skin) -> f64 {
     assert_eq!(one.vertices.len(), other.vertices.len());
     let ranges = whale().joints.ranges;
-    let off = |seed| posed(one, &ranges, seed).iter().zip(posed(other, &ranges, seed)).map(|(a, b)| a.distance(b)).fold(0.0, f64::max);
+    let off = |seed| {
+        posed(one, &ranges, seed)
+            .iter()
+            .zip(posed(other, &ranges, seed))
+            .map(|(a, b)| a.distance(b))
+            .fold(0.0, f64::max)
+    };
     (0..20).map(off).fold(0.0, f64::max)
 }
 
@@ -63,7 +83,12 @@ fn a_round_trip_gives_the_same_pose() {
         // Single precision: 13.7 m times 2^-24, a few times over along the chain of bones.
         assert!(off < 1e-5, "{form:?}: {off} m");
         assert_eq!(back.marks, skin.marks);
-        let names = |skin: &Skin| skin.bones.iter().map(|bone| (bone.name.clone(), bone.parent, bone.turns.clone())).collect::<Vec<_>>();
+        let names = |skin: &Skin| {
+            skin.bones
+                .iter()
+                .map(|bone| (bone.name.clone(), bone.parent, bone.turns.clone()))
+                .collect::<Vec<_>>()
+        };
         assert_eq!(names(&back), names(&skin));
         assert_eq!(by_region(&back), by_region(&skin));
     }
@@ -71,7 +96,14 @@ fn a_round_trip_gives_the_same_pose() {
 
 /// Triangles of each region.
 fn by_region(skin: &Skin) -> Vec<Vec<[u32; 3]>> {
-    let of = |region| skin.triangles.iter().zip(&skin.regions).filter(|(_, own)| **own == region).map(|(own, _)| *own).collect();
+    let of = |region| {
+        skin.triangles
+            .iter()
+            .zip(&skin.regions)
+            .filter(|(_, own)| **own == region)
+            .map(|(own, _)| *own)
+            .collect()
+    };
     Region::ALL.into_iter().map(of).collect()
 }
 
@@ -79,7 +111,9 @@ fn by_region(skin: &Skin) -> Vec<Vec<[u32; 3]>> {
 fn the_same_skin_gives_the_same_bytes() {
     let skin = skin();
     assert_eq!(written(&skin, Form::Binary), written(&skin, Form::Binary));
-    assert!(Form::of_file("whale.GLB") == Some(Form::Binary) && Form::of_file("whale.obj").is_none());
+    assert!(
+        Form::of_file("whale.GLB") == Some(Form::Binary) && Form::of_file("whale.obj").is_none()
+    );
 }
 
 /// As Blender saves: each material with vertices of its own, so that seams are split; copies' numbers after names; bones
@@ -90,7 +124,9 @@ fn a_file_as_blender_saves_it_gives_the_same_pose() {
     let mut split = Skin { bones: skin.bones.clone(), ..Skin::default() };
     for region in Region::ALL {
         let mut own = vec![None; skin.vertices.len()];
-        for (triangle, _) in skin.triangles.iter().zip(&skin.regions).filter(|(_, own)| **own == region) {
+        for (triangle, _) in
+            skin.triangles.iter().zip(&skin.regions).filter(|(_, own)| **own == region)
+        {
             let corners = triangle.map(|corner| {
                 *own[corner as usize].get_or_insert_with(|| {
                     split.vertices.push(skin.vertices[corner as usize]);
@@ -111,7 +147,8 @@ fn a_file_as_blender_saves_it_gives_the_same_pose() {
     }
     let back = read(file.to_string().as_bytes(), &skin).unwrap();
     assert!(
-        back.vertices.len() <= skin.vertices.len() && back.vertices.len() + 10 > skin.vertices.len(),
+        back.vertices.len() <= skin.vertices.len()
+            && back.vertices.len() + 10 > skin.vertices.len(),
         "{} vertices",
         back.vertices.len()
     );
@@ -119,13 +156,18 @@ fn a_file_as_blender_saves_it_gives_the_same_pose() {
     // The order is another, so each vertex is looked for by its rest place.
     let order: Vec<usize> = skin.vertices.iter().map(|place| nearest(&back, *place)).collect();
     let mut same = back.clone();
-    (same.vertices, same.weights) = order.iter().map(|&index| (back.vertices[index], back.weights[index])).unzip();
+    (same.vertices, same.weights) =
+        order.iter().map(|&index| (back.vertices[index], back.weights[index])).unzip();
     let off = apart(&skin, &same);
     assert!(off < 2e-5, "{off} m");
 }
 
 fn nearest(skin: &Skin, place: DVec3) -> usize {
-    let near = |a: &usize, b: &usize| skin.vertices[*a].distance_squared(place).total_cmp(&skin.vertices[*b].distance_squared(place));
+    let near = |a: &usize, b: &usize| {
+        skin.vertices[*a]
+            .distance_squared(place)
+            .total_cmp(&skin.vertices[*b].distance_squared(place))
+    };
     (0..skin.vertices.len()).min_by(near).unwrap()
 }
 
@@ -136,7 +178,12 @@ fn turn_bones(file: &mut Value, turn: DQuat) {
     let matrices = file["skins"][0]["inverseBindMatrices"].as_u64().unwrap() as usize;
     let view = file["accessors"][matrices]["bufferView"].as_u64().unwrap() as usize;
     let start = file["bufferViews"][view]["byteOffset"].as_u64().unwrap() as usize;
-    let joints: Vec<usize> = file["skins"][0]["joints"].as_array().unwrap().iter().map(|joint| joint.as_u64().unwrap() as usize).collect();
+    let joints: Vec<usize> = file["skins"][0]["joints"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|joint| joint.as_u64().unwrap() as usize)
+        .collect();
     for (place, joint) in joints.iter().enumerate() {
         let node = &mut file["nodes"][*joint];
         if place == 0 {
@@ -146,13 +193,16 @@ fn turn_bones(file: &mut Value, turn: DQuat) {
             node["translation"] = json!((turn.inverse() * DVec3::from_array(moved)).to_array());
         }
         let own = &mut bytes[start + 64 * place..start + 64 * (place + 1)];
-        let old: [f64; 16] =
-            std::array::from_fn(|number| f64::from(f32::from_le_bytes(own[4 * number..4 * number + 4].try_into().unwrap())));
+        let old: [f64; 16] = std::array::from_fn(|number| {
+            f64::from(f32::from_le_bytes(own[4 * number..4 * number + 4].try_into().unwrap()))
+        });
         let new = DMat4::from_quat(turn.inverse()) * DMat4::from_cols_array(&old);
-        let new: Vec<u8> = new.to_cols_array().iter().flat_map(|number| (*number as f32).to_le_bytes()).collect();
+        let new: Vec<u8> =
+            new.to_cols_array().iter().flat_map(|number| (*number as f32).to_le_bytes()).collect();
         own.copy_from_slice(&new);
     }
-    file["buffers"][0]["uri"] = json!(format!("data:application/octet-stream;base64,{}", STANDARD.encode(&bytes)));
+    file["buffers"][0]["uri"] =
+        json!(format!("data:application/octet-stream;base64,{}", STANDARD.encode(&bytes)));
     file["nodes"].as_array_mut().unwrap().push(json!({ "name": "neutral_bone" }));
 }
 
@@ -179,18 +229,27 @@ fn changed(change: impl Fn(&mut Value)) -> Vec<u8> {
 fn bones_and_regions_are_asked_for_by_name() {
     let renamed = |list: &'static str, from: &'static str, to: &'static str| {
         changed(move |file| {
-            let named = file[list].as_array_mut().unwrap().iter_mut().find(|own| own["name"] == from);
+            let named =
+                file[list].as_array_mut().unwrap().iter_mut().find(|own| own["name"] == from);
             named.unwrap()["name"] = json!(to);
         })
     };
     told(&renamed("nodes", "jaw", "jaww"), &["has no bone `jaw`", "did you mean `jaww`"]);
-    told(&renamed("materials", "lips", "lipps"), &["has a material `lipps`, which is no region", "did you mean `lips`", "left_fluke_tr"]);
+    told(
+        &renamed("materials", "lips", "lipps"),
+        &["has a material `lipps`, which is no region", "did you mean `lips`", "left_fluke_tr"],
+    );
     let nameless = changed(|file| {
         file["meshes"][0]["primitives"][0].as_object_mut().unwrap().remove("material");
     });
     told(&nameless, &["without a material", "rostrum"]);
     let stranger = changed(|file| {
-        let fluke = file["nodes"].as_array().unwrap().iter().position(|node| node["name"] == "left_fluke_tip").unwrap();
+        let fluke = file["nodes"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .position(|node| node["name"] == "left_fluke_tip")
+            .unwrap();
         file["nodes"].as_array_mut().unwrap().push(json!({ "name": "left_fluke_tip" }));
         file["nodes"][fluke]["name"] = json!("tassel");
         let last = file["nodes"].as_array().unwrap().len() - 1;
@@ -267,7 +326,8 @@ fn damaged_files_are_faults() {
         for _ in 0..3 {
             let digits: Vec<usize> = (0..8).map(|_| 20 + roll(text)).collect();
             // Digits and names of the text, where lengths, offsets and indices stand.
-            let at = digits.into_iter().find(|at| bad[*at].is_ascii_digit()).unwrap_or(20 + roll(text));
+            let at =
+                digits.into_iter().find(|at| bad[*at].is_ascii_digit()).unwrap_or(20 + roll(text));
             bad[at] = b'0' + (roll(10) as u8);
         }
         let _ = read(&bad, &like);
@@ -279,23 +339,50 @@ fn damaged_files_are_faults() {
 fn a_whales_file_may_name_a_mesh() {
     let mut sources = sources();
     let own = sources.get(FILE).unwrap().to_owned();
-    let told = |sources: &Sources| Library::read(sources).1.into_iter().filter(|problem| problem.file == FILE).collect::<Vec<_>>();
+    let told = |sources: &Sources| {
+        Library::read(sources)
+            .1
+            .into_iter()
+            .filter(|problem| problem.file == FILE)
+            .collect::<Vec<_>>()
+    };
     sources.set(FILE, own.replacen("\nlength =", "\nmesh = \"mine.glb\"\nlength =", 1));
     sources.set_mesh("whales/mien.glb", Vec::new());
     let missing = told(&sources);
-    assert!(missing.iter().any(|one| one.line > 5 && one.message == "there is no file `whales/mine.glb`" && one.help.contains("mien.glb")));
+    assert!(missing.iter().any(|one| one.line > 5
+        && one.message == "there is no file `whales/mine.glb`"
+        && one.help.contains("mien.glb")));
     sources.set_mesh("whales/mine.glb", b"nothing of the kind".to_vec());
-    assert!(told(&sources).iter().any(|one| one.line > 5 && one.message.contains("`whales/mine.glb` is not sound glTF")));
+    assert!(
+        told(&sources)
+            .iter()
+            .any(|one| one.line > 5 && one.message.contains("`whales/mine.glb` is not sound glTF"))
+    );
 
     let mut mine = skin();
     mine.vertices.iter_mut().for_each(|place| place.z *= 1.05);
     sources.set_mesh("whales/mine.glb", written(&mine, Form::Binary));
     assert!(told(&sources).is_empty(), "{:?}", told(&sources));
-    let whale = Library::read(&sources).0.whales.into_iter().find(|whale| whale.entry.id == "right-whale").unwrap();
+    let whale = Library::read(&sources)
+        .0
+        .whales
+        .into_iter()
+        .find(|whale| whale.entry.id == "right-whale")
+        .unwrap();
     assert!(apart(&whale.skin_at(13.7), &mine) < 1e-5);
     let small = whale.skin_at(6.85);
-    assert!(small.vertices.iter().zip(&mine.vertices).all(|(half, whole)| half.distance(*whole / 2.0) < 1e-5));
+    assert!(
+        small
+            .vertices
+            .iter()
+            .zip(&mine.vertices)
+            .all(|(half, whole)| half.distance(*whole / 2.0) < 1e-5)
+    );
 
     sources.set(FILE, own.replacen("\nlength =", "\nmesh = \"../mine.obj\"\nlength =", 1));
-    assert!(told(&sources).iter().any(|one| one.message.contains("no name of a mesh") && one.help.contains(".glb")));
+    assert!(
+        told(&sources)
+            .iter()
+            .any(|one| one.message.contains("no name of a mesh") && one.help.contains(".glb"))
+    );
 }

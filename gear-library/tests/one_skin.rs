@@ -33,7 +33,12 @@ fn no_skin_passes_through_itself_at_rest() {
         for length_m in [4.2, 7.0, 10.0, 13.7, 15.0] {
             let skin = build_skin(&whale.form_at(length_m));
             let found = meetings(&skin.vertices, &skin.triangles);
-            assert!(found.is_empty(), "{} of {length_m} m: {}", whale.entry.id, tell(&skin, &found));
+            assert!(
+                found.is_empty(),
+                "{} of {length_m} m: {}",
+                whale.entry.id,
+                tell(&skin, &found)
+            );
         }
     }
 }
@@ -49,11 +54,21 @@ fn nor_in_any_posture_its_joints_allow() {
                 let found = meetings(&posed(&skin, &posture), &skin.triangles);
                 if !found.is_empty() {
                     bad += 1;
-                    let limbs = [posture.flipper_sweep, posture.flipper_raise, posture.flipper_twist, posture.lips, [posture.jaw; 2]];
+                    let limbs = [
+                        posture.flipper_sweep,
+                        posture.flipper_raise,
+                        posture.flipper_twist,
+                        posture.lips,
+                        [posture.jaw; 2],
+                    ];
                     told = format!("{told}seed {seed}: {limbs:.2?}: {}\n", tell(&skin, &found));
                 }
             }
-            assert_eq!(bad, 0, "{} of {length_m} m in {bad} of {POSTURES} postures:\n{told}", whale.entry.id);
+            assert_eq!(
+                bad, 0,
+                "{} of {length_m} m in {bad} of {POSTURES} postures:\n{told}",
+                whale.entry.id
+            );
         }
     }
 }
@@ -62,15 +77,27 @@ fn nor_in_any_posture_its_joints_allow() {
 fn drawn(ranges: &JointRanges, seed: u64) -> Posture {
     let mut posture = ranges.random(seed);
     if seed % 2 == 1 {
-        let end = |value: f64, least: f64, most: f64| if value - least < most - value { least } else { most };
+        let end = |value: f64, least: f64, most: f64| {
+            if value - least < most - value { least } else { most }
+        };
         for side in 0..2 {
-            posture.flipper_sweep[side] =
-                end(posture.flipper_sweep[side], ranges.least.flipper_sweep[side], ranges.most.flipper_sweep[side]);
-            posture.flipper_raise[side] =
-                end(posture.flipper_raise[side], ranges.least.flipper_raise[side], ranges.most.flipper_raise[side]);
-            posture.flipper_twist[side] =
-                end(posture.flipper_twist[side], ranges.least.flipper_twist[side], ranges.most.flipper_twist[side]);
-            posture.lips[side] = end(posture.lips[side], ranges.least.lips[side], ranges.most.lips[side]);
+            posture.flipper_sweep[side] = end(
+                posture.flipper_sweep[side],
+                ranges.least.flipper_sweep[side],
+                ranges.most.flipper_sweep[side],
+            );
+            posture.flipper_raise[side] = end(
+                posture.flipper_raise[side],
+                ranges.least.flipper_raise[side],
+                ranges.most.flipper_raise[side],
+            );
+            posture.flipper_twist[side] = end(
+                posture.flipper_twist[side],
+                ranges.least.flipper_twist[side],
+                ranges.most.flipper_twist[side],
+            );
+            posture.lips[side] =
+                end(posture.lips[side], ranges.least.lips[side], ranges.most.lips[side]);
         }
         posture.jaw = end(posture.jaw, ranges.least.jaw, ranges.most.jaw);
     }
@@ -86,7 +113,10 @@ fn a_fin_in_the_body_is_found() {
 }
 
 fn tell(skin: &Skin, found: &[[usize; 2]]) -> String {
-    let mut pairs: Vec<String> = found.iter().map(|pair| format!("{:?}", pair.map(|triangle| skin.regions[triangle]))).collect();
+    let mut pairs: Vec<String> = found
+        .iter()
+        .map(|pair| format!("{:?}", pair.map(|triangle| skin.regions[triangle])))
+        .collect();
     pairs.sort();
     pairs.dedup();
     format!("{} crossings, of {}", found.len(), pairs.join(" "))
@@ -94,12 +124,17 @@ fn tell(skin: &Skin, found: &[[usize; 2]]) -> String {
 
 /// Pairs of triangles that pass through one another.
 fn meetings(places: &[DVec3], triangles: &[[u32; 3]]) -> Vec<[usize; 2]> {
-    let boxes: Vec<Bounds> = triangles.iter().map(|corners| Bounds::around(&corners.map(|corner| places[corner as usize]))).collect();
+    let boxes: Vec<Bounds> = triangles
+        .iter()
+        .map(|corners| Bounds::around(&corners.map(|corner| places[corner as usize])))
+        .collect();
     let mut order: Vec<usize> = (0..triangles.len()).collect();
     order.sort_by(|&left, &right| boxes[left].low.x.total_cmp(&boxes[right].low.x));
     let mut found = Vec::new();
     for (rank, &one) in order.iter().enumerate() {
-        for &other in order[rank + 1..].iter().take_while(|&&other| boxes[other].low.x <= boxes[one].high.x) {
+        for &other in
+            order[rank + 1..].iter().take_while(|&&other| boxes[other].low.x <= boxes[one].high.x)
+        {
             if boxes[one].meets(&boxes[other]) && meet(places, [triangles[one], triangles[other]]) {
                 found.push([one, other]);
             }
@@ -116,7 +151,11 @@ fn meet(places: &[DVec3], pair: [[u32; 3]; 2]) -> bool {
         (0..3).any(|edge| {
             let ends = [pair[one][edge], pair[one][(edge + 1) % 3]];
             let common = ends.iter().any(|end| pair[other].contains(end));
-            !common && runs_through(ends.map(|end| places[end as usize]), pair[other].map(|corner| places[corner as usize]))
+            !common
+                && runs_through(
+                    ends.map(|end| places[end as usize]),
+                    pair[other].map(|corner| places[corner as usize]),
+                )
         })
     })
 }

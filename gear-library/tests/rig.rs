@@ -18,7 +18,12 @@ fn whales() -> Vec<WhaleItem> {
 /// Postures of every 0.1 s of a swim, from rest to well past its first beats.
 fn swim(length_m: f64, controls: Controls) -> Vec<Posture> {
     let motion = Swim::new();
-    let attributes: Vec<f64> = motion.descriptor().attributes.iter().map(|own| own.default_value().number().unwrap()).collect();
+    let attributes: Vec<f64> = motion
+        .descriptor()
+        .attributes
+        .iter()
+        .map(|own| own.default_value().number().unwrap())
+        .collect();
     let (mut state, mut speed_m_s) = (vec![0.0; motion.descriptor().state_len], 1.23);
     let mut step = |index: u32| {
         let input = MotionInput {
@@ -66,13 +71,25 @@ fn every_vertex_is_shared_out_among_four_bones_at_most() {
         assert!(skin.bones.len() >= 25, "{} has {} bones", whale.entry.id, skin.bones.len());
         for weights in &skin.weights {
             assert!((weights.iter().map(|(_, weight)| weight).sum::<f64>() - 1.0).abs() < 1e-12);
-            assert!(weights.iter().all(|(bone, weight)| *weight >= 0.0 && usize::from(*bone) < skin.bones.len()));
+            assert!(
+                weights
+                    .iter()
+                    .all(|(bone, weight)| *weight >= 0.0 && usize::from(*bone) < skin.bones.len())
+            );
         }
         for (index, bone) in skin.bones.iter().enumerate().skip(1) {
-            let used = skin.weights.iter().flatten().any(|(mover, weight)| usize::from(*mover) == index && *weight > 0.0);
+            let used = skin
+                .weights
+                .iter()
+                .flatten()
+                .any(|(mover, weight)| usize::from(*mover) == index && *weight > 0.0);
             assert!(used, "{} of {} moves nothing", bone.name, whale.entry.id);
         }
-        assert_eq!(skin.bones.iter().filter(|bone| bone.parent.is_none()).count(), 1, "one control bone");
+        assert_eq!(
+            skin.bones.iter().filter(|bone| bone.parent.is_none()).count(),
+            1,
+            "one control bone"
+        );
     }
 }
 
@@ -99,9 +116,16 @@ fn no_posture_within_the_ranges_costs_much_volume() {
     for whale in whales() {
         let skin = whale.skin_at(whale.form.length_m);
         let rest = volume(&skin, &Posture::default());
-        let closed = |seed| Posture { jaw: 0.0, lips: [0.0; 2], ..whale.joints.ranges.random(seed) };
-        let worst = (0..200).map(|seed| (volume(&skin, &closed(seed)) / rest - 1.0).abs()).fold(0.0, f64::max);
-        println!("{}: the volume changes by {:.2} % at most over 200 postures", whale.entry.id, 100.0 * worst);
+        let closed =
+            |seed| Posture { jaw: 0.0, lips: [0.0; 2], ..whale.joints.ranges.random(seed) };
+        let worst = (0..200)
+            .map(|seed| (volume(&skin, &closed(seed)) / rest - 1.0).abs())
+            .fold(0.0, f64::max);
+        println!(
+            "{}: the volume changes by {:.2} % at most over 200 postures",
+            whale.entry.id,
+            100.0 * worst
+        );
         assert!(worst < 0.03, "{} changes by {worst}", whale.entry.id);
     }
 }
@@ -114,7 +138,10 @@ fn a_swim_stays_within_the_joints_ranges() {
     for controls in controls() {
         for mut posture in swim(13.7, controls) {
             let asked = posture;
-            assert!(!ranges.hold(&mut posture), "{controls:?} asks for {asked:?}, held at {posture:?}");
+            assert!(
+                !ranges.hold(&mut posture),
+                "{controls:?} asks for {asked:?}, held at {posture:?}"
+            );
         }
     }
 }

@@ -38,11 +38,14 @@ fn run(fins: &Fins, numbers: Range<u64>, swept: bool) -> Tally {
             let first = numbers.start + part * each;
             scope.spawn(move || {
                 let mut tally = Tally::default();
-                (first..first + each).for_each(|number| tally.add(number, fins.encounter(number, swept)));
+                (first..first + each)
+                    .for_each(|number| tally.add(number, fins.encounter(number, swept)));
                 tally
             })
         };
         let parts: Vec<_> = (0..PARTS).map(part).collect();
-        parts.into_iter().fold(Tally::default(), |sum, part| sum.with(part.join().expect("a part ran to its end")))
+        parts.into_iter().fold(Tally::default(), |sum, part| {
+            sum.with(part.join().expect("a part ran to its end"))
+        })
     })
 }

@@ -47,13 +47,20 @@ const READS: &[(&str, Q, f64)] = &[
 fn values_read_as_their_definitions_say() {
     for (text, quantity, expected) in READS {
         let read = units::parse(text, *quantity).unwrap_or_else(|error| panic!("{text}: {error}"));
-        assert!((read - expected).abs() <= 1e-12 * expected.abs(), "{text}: {read} against {expected}");
+        assert!(
+            (read - expected).abs() <= 1e-12 * expected.abs(),
+            "{text}: {read} against {expected}"
+        );
     }
 }
 
 /// Text, quantity, parts of the message.
 const REFUSED: &[(&str, Q, &[&str])] = &[
-    ("3/8 furlong", Q::Length, &["unknown unit `furlong`", "expected a length such as 3/8 in", "known units are m, mm"]),
+    (
+        "3/8 furlong",
+        Q::Length,
+        &["unknown unit `furlong`", "expected a length such as 3/8 in", "known units are m, mm"],
+    ),
     ("40 fathm", Q::Length, &["unknown unit `fathm`", "did you mean `fathom`?"]),
     ("12", Q::Length, &["`12` has no unit", "expected a length"]),
     ("", Q::Length, &["has no number", "expected a length"]),
@@ -78,7 +85,9 @@ fn what_does_not_read_says_what_was_expected() {
 }
 
 fn every_unit() -> impl Iterator<Item = (Q, &'static Unit)> {
-    Q::ALL.into_iter().flat_map(|quantity| quantity.units().iter().map(move |unit| (quantity, unit)))
+    Q::ALL
+        .into_iter()
+        .flat_map(|quantity| quantity.units().iter().map(move |unit| (quantity, unit)))
 }
 
 #[test]
@@ -87,7 +96,8 @@ fn every_unit_comes_back_as_it_went_out() {
         for number in [1.0, 0.375, -2.5, 1234.5678, 3e-7, 4.25e9] {
             let value = number * unit.factor();
             let text = units::format(value, unit);
-            let back = units::parse(&text, quantity).unwrap_or_else(|error| panic!("{text}: {error}"));
+            let back =
+                units::parse(&text, quantity).unwrap_or_else(|error| panic!("{text}: {error}"));
             assert!((back - value).abs() <= 1e-9 * value.abs(), "{text}: {back} against {value}");
         }
         for name in unit.names() {
@@ -106,14 +116,23 @@ fn names_are_not_shared_within_a_quantity() {
         names.sort_unstable();
         names.dedup();
         assert_eq!(names.len(), count, "{quantity:?}");
-        assert!(quantity.units().first().is_none_or(|unit| (unit.factor() - 1.0).abs() < 1e-15), "{quantity:?}");
+        assert!(
+            quantity.units().first().is_none_or(|unit| (unit.factor() - 1.0).abs() < 1e-15),
+            "{quantity:?}"
+        );
     }
 }
 
 #[test]
 fn rope_sizes_are_written_as_fractions() {
     let inch = units::find("in", Q::Length).unwrap();
-    for (value, text) in [(0.009525, "3/8 in"), (0.0381, "1 1/2 in"), (0.0254, "1 in"), (0.0111125, "7/16 in"), (0.01, "0.3937007874 in")] {
+    for (value, text) in [
+        (0.009525, "3/8 in"),
+        (0.0381, "1 1/2 in"),
+        (0.0254, "1 in"),
+        (0.0111125, "7/16 in"),
+        (0.01, "0.3937007874 in"),
+    ] {
         assert_eq!(units::format(value, inch), text);
     }
 }
@@ -121,7 +140,13 @@ fn rope_sizes_are_written_as_fractions() {
 /// The units plugins declare their attributes in.
 #[test]
 fn plugin_units_are_known() {
-    for (unit, quantity) in [("1", Q::Ratio), ("m/s", Q::Speed), ("rad", Q::Angle), ("N/m^2", Q::Pressure), ("m/s^2", Q::Acceleration)] {
+    for (unit, quantity) in [
+        ("1", Q::Ratio),
+        ("m/s", Q::Speed),
+        ("rad", Q::Angle),
+        ("N/m^2", Q::Pressure),
+        ("m/s^2", Q::Acceleration),
+    ] {
         assert_eq!(Q::from_si_unit(unit), Some(quantity));
     }
     assert_eq!(Q::from_si_unit("furlong"), None);

@@ -20,7 +20,8 @@ struct Dice(u64);
 impl Dice {
     /// -1..1.
     fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 
@@ -61,7 +62,8 @@ fn posture(dice: &mut Dice) -> Posture {
 fn towards(from: &Posture, to: &Posture, share: f64) -> Posture {
     let go = |from: f64, to: f64| from + share * (to - from);
     let pair = |from: [f64; 2], to: [f64; 2]| [go(from[0], to[0]), go(from[1], to[1])];
-    let spine = |from: [f64; 8], to: [f64; 8]| std::array::from_fn(|joint| go(from[joint], to[joint]));
+    let spine =
+        |from: [f64; 8], to: [f64; 8]| std::array::from_fn(|joint| go(from[joint], to[joint]));
     Posture {
         spine_pitch: spine(from.spine_pitch, to.spine_pitch),
         spine_yaw: spine(from.spine_yaw, to.spine_yaw),
@@ -80,7 +82,8 @@ fn towards(from: &Posture, to: &Posture, share: f64) -> Posture {
 /// Bones at the start and at the end of a step of a thrashing, swimming, turning whale.
 fn thrash(skin: &Skin, dice: &mut Dice) -> [Vec<DAffine3>; 2] {
     let (from, aim) = (posture(dice), posture(dice));
-    let (place, turned) = (dice.point() * 20.0, DQuat::from_scaled_axis(dice.direction() * dice.between(0.0, 3.0)));
+    let (place, turned) =
+        (dice.point() * 20.0, DQuat::from_scaled_axis(dice.direction() * dice.between(0.0, 3.0)));
     let share = dice.between(0.003, 0.02);
     let (moved, turn) = (dice.point() * 0.02, DQuat::from_scaled_axis(dice.point() * 0.01));
     let mut bones = [Vec::new(), Vec::new()];
@@ -98,7 +101,12 @@ fn meet(dice: &mut Dice, path: [DVec3; 2]) -> SweptSegment {
     let own = path[1] - path[0] + across * dice.between(0.01, 0.15);
     let spin = dice.point() * 0.01;
     let (from, to) = (spot - own * when, spot + own * (1.0 - when));
-    SweptSegment { a0: from - half - spin, b0: from + half + spin, a1: to - half + spin, b1: to + half - spin }
+    SweptSegment {
+        a0: from - half - spin,
+        b0: from + half + spin,
+        a1: to - half + spin,
+        b1: to + half - spin,
+    }
 }
 
 /// Vertices on the edges and tips of flippers and flukes.
@@ -115,7 +123,8 @@ fn edge_vertices(skin: &Skin) -> Vec<usize> {
         Region::LeftFluke,
         Region::RightFluke,
     ];
-    let on_edges = skin.triangles.iter().zip(&skin.regions).filter(|(_, region)| !PLAIN.contains(region));
+    let on_edges =
+        skin.triangles.iter().zip(&skin.regions).filter(|(_, region)| !PLAIN.contains(region));
     on_edges.flat_map(|(corners, _)| corners.map(|corner| corner as usize)).collect()
 }
 
@@ -174,15 +183,27 @@ fn encounter(surface: &mut Surface, segment: &SweptSegment, found: &[Candidate],
     for candidate in found {
         let [start, _] = surface.triangle_sweep(candidate.triangle);
         let end = surface.triangle_at(candidate.triangle, safe);
-        assert_eq!(first_meeting(&cut, &[start, end]), None, "the move cut to {safe} still crosses");
+        assert_eq!(
+            first_meeting(&cut, &[start, end]),
+            None,
+            "the move cut to {safe} still crosses"
+        );
     }
 }
 
 /// No triangle outside the candidates is met.
-fn nothing_is_left_out(skin: &Skin, surface: &mut Surface, segment: &SweptSegment, found: &[Candidate]) {
+fn nothing_is_left_out(
+    skin: &Skin,
+    surface: &mut Surface,
+    segment: &SweptSegment,
+    found: &[Candidate],
+) {
     for (triangle, _) in (0_u32..).zip(&skin.triangles) {
         let listed = found.iter().any(|candidate| candidate.triangle == triangle);
         let sweep = surface.triangle_sweep(triangle);
-        assert!(listed || first_meeting(segment, &sweep).is_none(), "triangle {triangle} is met but not listed");
+        assert!(
+            listed || first_meeting(segment, &sweep).is_none(),
+            "triangle {triangle} is met but not listed"
+        );
     }
 }

@@ -16,7 +16,8 @@ use idle::Still;
 
 /// A line of these segments and the whale.
 fn model(skin: &Skin, segments_m: Vec<f64>) -> Model {
-    let joint = |id: &str, z| Joint { id: id.into(), kind: JointKind::Free, position_m: DVec3::Z * z };
+    let joint =
+        |id: &str, z| Joint { id: id.into(), kind: JointKind::Free, position_m: DVec3::Z * z };
     let whale = Whale {
         skin: Arc::new(skin.clone()),
         joints: JointRanges::unbounded(),
@@ -50,16 +51,35 @@ fn model(skin: &Skin, segments_m: Vec<f64>) -> Model {
     };
     let current = Current::uniform(DVec3::ZERO);
     let spec = ModelSpec {
-        water: Water { density_kg_m3: 1025.0, gravity_m_s2: 9.81, depth_m: 40.0, rope_dries: true, current, waves: None },
+        water: Water {
+            density_kg_m3: 1025.0,
+            gravity_m_s2: 9.81,
+            depth_m: 40.0,
+            rope_dries: true,
+            current,
+            waves: None,
+        },
         seabed: None,
         ropes: vec![rope],
         joints: vec![joint("low", -30.0), joint("high", -10.0)],
-        lines: vec![Line { id: "rope".into(), rope: 0, from: 0, to: 1, segments_m, strength: Strength::default(), start_m: Vec::new() }],
+        lines: vec![Line {
+            id: "rope".into(),
+            rope: 0,
+            from: 0,
+            to: 1,
+            segments_m,
+            strength: Strength::default(),
+            start_m: Vec::new(),
+        }],
         bodies: Vec::new(),
         links: Vec::new(),
         gear: Vec::new(),
         whale: Some(whale),
-        friction: Some(Friction::of_one(Still::shared(), Vec::new(), vec![[0.2; Region::ALL.len()]])),
+        friction: Some(Friction::of_one(
+            Still::shared(),
+            Vec::new(),
+            vec![[0.2; Region::ALL.len()]],
+        )),
         obstacles: Vec::new(),
         probes: Vec::new(),
         settings: Settings::default(),
@@ -85,10 +105,14 @@ fn cut(skin: &Skin, triangle: usize, point: DVec3, normal: DVec3) -> Option<Cut>
         (weights[i], weights[j]) = (1.0 - share, share);
         weights
     };
-    let crossed = [(0, 1), (1, 2), (2, 0)].into_iter().filter(|(i, j)| (heights[*i] > 0.0) != (heights[*j] > 0.0));
+    let crossed = [(0, 1), (1, 2), (2, 0)]
+        .into_iter()
+        .filter(|(i, j)| (heights[*i] > 0.0) != (heights[*j] > 0.0));
     let ends: Vec<[f64; 3]> = crossed.map(on_edge).collect();
     let [one, other] = ends[..] else { return None };
-    let place = |weights: [f64; 3]| corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2];
+    let place = |weights: [f64; 3]| {
+        corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2]
+    };
     Some((triangle, [0, 1, 2].map(|k| 0.5 * (one[k] + other[k])), [place(one), place(other)]))
 }
 
@@ -129,14 +153,21 @@ fn wraps(skin: &Skin, part: BodyPart, mut cuts: Vec<Cut>) -> f64 {
     let contacts: Vec<_> = (0..cuts.len()).map(contact).collect();
     let (mut metrics, state) = (Metrics::new(&model), State::start(&model));
     metrics.fold(&model, &state, &contacts);
-    metrics.summary(&model, &state).whale.map_or(0.0, |whale| whale.regions[part as usize].touching_wraps)
+    metrics
+        .summary(&model, &state)
+        .whale
+        .map_or(0.0, |whale| whale.regions[part as usize].touching_wraps)
 }
 
 /// Least and greatest place of a part's vertices along a direction.
 fn reach(skin: &Skin, part: BodyPart, along: DVec3) -> [f64; 2] {
-    let of_part = skin.triangles.iter().zip(&skin.regions).filter(|(_, region)| region.part() == part);
-    let places = of_part.flat_map(|(triangle, _)| triangle.map(|vertex| skin.vertices[vertex as usize].dot(along)));
-    places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], place| [low.min(place), high.max(place)])
+    let of_part =
+        skin.triangles.iter().zip(&skin.regions).filter(|(_, region)| region.part() == part);
+    let places = of_part
+        .flat_map(|(triangle, _)| triangle.map(|vertex| skin.vertices[vertex as usize].dot(along)));
+    places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], place| {
+        [low.min(place), high.max(place)]
+    })
 }
 
 /// Fins are cut across the whale, the trunk across its length. The head is left out: a plane through it
@@ -145,7 +176,8 @@ fn reach(skin: &Skin, part: BodyPart, along: DVec3) -> [f64; 2] {
 fn a_loop_round_any_part_of_the_right_whale_is_one_wrap() {
     let skin = build_skin(&WhaleForm::right_whale(13.0));
     for part in BodyPart::ALL.into_iter().filter(|part| *part != BodyPart::Head) {
-        let along = if matches!(part, BodyPart::Body | BodyPart::Peduncle) { DVec3::X } else { DVec3::Y };
+        let along =
+            if matches!(part, BodyPart::Body | BodyPart::Peduncle) { DVec3::X } else { DVec3::Y };
         let [low, high] = reach(&skin, part, along);
         let (mut closed, mut worst) = (0, 0.0_f64);
         for station in 0..9 {
@@ -153,7 +185,9 @@ fn a_loop_round_any_part_of_the_right_whale_is_one_wrap() {
             let straight = section(&skin, part, place, along);
             let middle = straight.iter().map(|cut| cut.2[0]).sum::<DVec3>() / straight.len() as f64;
             for tilt in [DVec3::ZERO, DVec3::Z * 0.3, DVec3::X * 0.1 - DVec3::Z * 0.2] {
-                if let Some(cuts) = closed_loop(section(&skin, part, middle, (along + tilt).normalize())) {
+                if let Some(cuts) =
+                    closed_loop(section(&skin, part, middle, (along + tilt).normalize()))
+                {
                     closed += 1;
                     worst = worst.max((wraps(&skin, part, cuts) - 1.0).abs());
                 }

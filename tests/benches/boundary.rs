@@ -4,7 +4,12 @@
 //! `cargo bench -p endline-tests --bench boundary`; the loaded libraries are those that `cargo xtask plugins` builds, in the folder
 //! named by `ENDLINE_PLUGINS`. Wanted: the boundary below 1 % of a step.
 
-#![allow(clippy::unwrap_used, clippy::panic, missing_docs, reason = "a benchmark says what it needs")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    missing_docs,
+    reason = "a benchmark says what it needs"
+)]
 
 #[path = "../tests/linked/mod.rs"]
 mod linked;
@@ -18,7 +23,9 @@ use std::time::Instant;
 use divan::Bencher;
 use endline_friction_models::Coulomb;
 use endline_gear::{Hooks, Options, Scenario, assemble};
-use endline_sdk::{Contacts, Descriptor, FrictionModel, FrictionResponse, GearType, HookError, Region, WhaleMotion};
+use endline_sdk::{
+    Contacts, Descriptor, FrictionModel, FrictionResponse, GearType, HookError, Region, WhaleMotion,
+};
 use endline_session::plugins::{Hook, PluginHost};
 use endline_sim::{Input, Model, State, Workspace, step};
 use linked::{Linked, library, root, told};
@@ -48,7 +55,11 @@ fn shares() {
     CONTACTS_SEEN.store(0, Ordering::Relaxed);
     walk(&model, start);
     let per_step = |counter: &AtomicU64| counter.load(Ordering::Relaxed) as f64 / MEASURED as f64;
-    println!("a step of the encounter: {:.1} calls of friction, {:.0} contacts in them", per_step(&CALLS), per_step(&CONTACTS_SEEN));
+    println!(
+        "a step of the encounter: {:.1} calls of friction, {:.0} contacts in them",
+        per_step(&CALLS),
+        per_step(&CONTACTS_SEEN)
+    );
     let (one, other) = (at_contact(&linked_host()), at_contact(&loaded_host()));
     let (mut fastest, mut ends) = ([f64::INFINITY; 2], [0, 0]);
     for _ in 0..12 {
@@ -61,7 +72,10 @@ fn shares() {
     }
     assert_eq!(ends[0], ends[1]);
     let [linked, loaded] = fastest.map(|seconds| 1e6 * seconds);
-    println!("linked {linked:.1} us, loaded {loaded:.1} us a step, fastest of 12: {:+.2} %", 100.0 * (loaded / linked - 1.0));
+    println!(
+        "linked {linked:.1} us, loaded {loaded:.1} us a step, fastest of 12: {:+.2} %",
+        100.0 * (loaded / linked - 1.0)
+    );
 }
 
 /// The encounter of `hello-friction` with the whale set beside the rope, as the rope lies across it.
@@ -69,7 +83,8 @@ fn at_contact(hooks: &dyn Hooks) -> (Model, State) {
     let text = std::fs::read_to_string(root().join("scenarios/hello-friction.toml")).unwrap();
     let scenario = Scenario::read("hello-friction.toml", &text.replace("\"-22 m\"", "\"-9 m\""))
         .unwrap_or_else(|problems| panic!("{}", told(&problems)));
-    let spec = assemble(&scenario, &library(), hooks, &Options::default()).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    let spec = assemble(&scenario, &library(), hooks, &Options::default())
+        .unwrap_or_else(|problems| panic!("{}", told(&problems)));
     let model = Model::new(spec).unwrap();
     let (mut state, mut workspace) = (State::start(&model), Workspace::new(&model));
     for _ in 0..UP_TO_CONTACT {
@@ -86,7 +101,10 @@ fn seconds() -> f64 {
     static BEGUN: OnceLock<Instant> = OnceLock::new();
     let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
     let nanoseconds = told.and_then(|text| text.split_whitespace().next()?.parse::<f64>().ok());
-    nanoseconds.map_or_else(|| BEGUN.get_or_init(Instant::now).elapsed().as_secs_f64(), |nanoseconds| 1e-9 * nanoseconds)
+    nanoseconds.map_or_else(
+        || BEGUN.get_or_init(Instant::now).elapsed().as_secs_f64(),
+        |nanoseconds| 1e-9 * nanoseconds,
+    )
 }
 
 fn walk(model: &Model, mut state: State) -> State {
@@ -100,15 +118,22 @@ fn walk(model: &Model, mut state: State) -> State {
 fn linked_host() -> PluginHost {
     let mut host = PluginHost::empty();
     host.add(Hook::Motion(Arc::new(endline_whale_motions::Swim::new()))).unwrap();
-    endline_friction_models::all().into_iter().map(Hook::Friction).for_each(|hook| host.add(hook).unwrap());
+    endline_friction_models::all()
+        .into_iter()
+        .map(Hook::Friction)
+        .for_each(|hook| host.add(hook).unwrap());
     endline_gear_types::all().into_iter().map(Hook::Gear).for_each(|hook| host.add(hook).unwrap());
     host
 }
 
 fn loaded_host() -> PluginHost {
-    let folders: Vec<PathBuf> = env::var_os("ENDLINE_PLUGINS").iter().flat_map(env::split_paths).collect();
+    let folders: Vec<PathBuf> =
+        env::var_os("ENDLINE_PLUGINS").iter().flat_map(env::split_paths).collect();
     let (host, problems) = PluginHost::discover(&folders);
-    assert!(problems.is_empty() && !host.ids().is_empty(), "name the folder of built plugins with ENDLINE_PLUGINS: {problems:?}");
+    assert!(
+        problems.is_empty() && !host.ids().is_empty(),
+        "name the folder of built plugins with ENDLINE_PLUGINS: {problems:?}"
+    );
     host
 }
 
@@ -121,12 +146,22 @@ impl FrictionModel for Counting {
     fn descriptor(&self) -> &Descriptor {
         self.0.descriptor()
     }
-    fn respond(&self, attributes: &[f64], contacts: &Contacts<'_>, out: &mut [FrictionResponse]) -> Result<(), HookError> {
+    fn respond(
+        &self,
+        attributes: &[f64],
+        contacts: &Contacts<'_>,
+        out: &mut [FrictionResponse],
+    ) -> Result<(), HookError> {
         CALLS.fetch_add(1, Ordering::Relaxed);
         CONTACTS_SEEN.fetch_add(contacts.len() as u64, Ordering::Relaxed);
         self.0.respond(attributes, contacts, out)
     }
-    fn advance(&self, attributes: &[f64], contacts: &Contacts<'_>, out: &mut [f64]) -> Result<(), HookError> {
+    fn advance(
+        &self,
+        attributes: &[f64],
+        contacts: &Contacts<'_>,
+        out: &mut [f64],
+    ) -> Result<(), HookError> {
         CALLS.fetch_add(1, Ordering::Relaxed);
         CONTACTS_SEEN.fetch_add(contacts.len() as u64, Ordering::Relaxed);
         self.0.advance(attributes, contacts, out)
@@ -166,7 +201,9 @@ fn contacts() -> Contacts<'static> {
 
 fn respond(bencher: Bencher<'_, '_>, model: &dyn FrictionModel) {
     let mut out = [FrictionResponse::default(); CONTACTS];
-    bencher.bench_local(|| model.respond(&ATTRIBUTES, &divan::black_box(contacts()), &mut out).is_ok());
+    bencher.bench_local(|| {
+        model.respond(&ATTRIBUTES, &divan::black_box(contacts()), &mut out).is_ok()
+    });
 }
 
 /// The model called as a function of the program.

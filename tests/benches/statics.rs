@@ -2,7 +2,12 @@
 //!
 //! Wanted: a single below 5 ms, a trawl of ten traps below 50 ms, at the resolution they ship with.
 
-#![allow(clippy::unwrap_used, clippy::panic, missing_docs, reason = "a benchmark says what it needs")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    missing_docs,
+    reason = "a benchmark says what it needs"
+)]
 
 #[path = "../tests/linked/mod.rs"]
 mod linked;
@@ -20,8 +25,10 @@ fn main() {
 fn model(scenario: &str) -> Model {
     let name = format!("scenarios/{scenario}.toml");
     let text = std::fs::read_to_string(root().join(&name)).unwrap();
-    let scenario = Scenario::read(&name, &text).unwrap_or_else(|problems| panic!("{}", told(&problems)));
-    let spec = assemble(&scenario, &library(), &Linked, &Options::default()).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    let scenario =
+        Scenario::read(&name, &text).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    let spec = assemble(&scenario, &library(), &Linked, &Options::default())
+        .unwrap_or_else(|problems| panic!("{}", told(&problems)));
     Model::new(spec).unwrap()
 }
 

@@ -1,16 +1,25 @@
 //! Plugins that panic in each of their functions; the program must live.
 
 use endline_sdk::{
-    AttributeValue, Contacts, Descriptor, FrictionModel, FrictionResponse, GearType, HookError, MotionInput, MotionOutput, Rig, Site,
-    WhaleMotion,
+    AttributeValue, Contacts, Descriptor, FrictionModel, FrictionResponse, GearType, HookError,
+    MotionInput, MotionOutput, Rig, Site, WhaleMotion,
 };
 
 struct Panicking(Descriptor);
 
 impl Panicking {
     fn new(id: &'static str) -> Self {
-        let (version, name, help) = ("0.0.1".into(), "Panicking".into(), "Panics whenever it is called.".into());
-        Self(Descriptor { id: id.into(), version, name, help, attributes: Vec::new(), state_len: 0, acts: Vec::new() })
+        let (version, name, help) =
+            ("0.0.1".into(), "Panicking".into(), "Panics whenever it is called.".into());
+        Self(Descriptor {
+            id: id.into(),
+            version,
+            name,
+            help,
+            attributes: Vec::new(),
+            state_len: 0,
+            acts: Vec::new(),
+        })
     }
 }
 
@@ -24,7 +33,12 @@ impl WhaleMotion for Panicking {
         &self.0
     }
 
-    fn step(&self, _: &[f64], _: &MotionInput<'_>, _: &mut [f64]) -> Result<MotionOutput, HookError> {
+    fn step(
+        &self,
+        _: &[f64],
+        _: &MotionInput<'_>,
+        _: &mut [f64],
+    ) -> Result<MotionOutput, HookError> {
         fail()
     }
 }
@@ -34,7 +48,12 @@ impl FrictionModel for Panicking {
         &self.0
     }
 
-    fn respond(&self, _: &[f64], _: &Contacts<'_>, _: &mut [FrictionResponse]) -> Result<(), HookError> {
+    fn respond(
+        &self,
+        _: &[f64],
+        _: &Contacts<'_>,
+        _: &mut [FrictionResponse],
+    ) -> Result<(), HookError> {
         fail()
     }
 

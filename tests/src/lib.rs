@@ -14,8 +14,12 @@ pub fn root() -> &'static Path {
 /// # Errors
 /// When the operating system does not say where this test runs from.
 pub fn products() -> Result<PathBuf, String> {
-    let test = std::env::current_exe().map_err(|error| format!("cannot tell where this test runs from: {error}"))?;
-    test.ancestors().nth(2).map(Path::to_path_buf).ok_or_else(|| format!("{} lies in no target folder", test.display()))
+    let test = std::env::current_exe()
+        .map_err(|error| format!("cannot tell where this test runs from: {error}"))?;
+    test.ancestors()
+        .nth(2)
+        .map(Path::to_path_buf)
+        .ok_or_else(|| format!("{} lies in no target folder", test.display()))
 }
 
 /// The program `endline` of the same build.

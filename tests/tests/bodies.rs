@@ -27,15 +27,18 @@ fn spec(kind: &str, item: &str, height: f64, further: &str) -> ModelSpec {
         "format = 1\nkind = \"scenario\"\nname = \"Bodies\"\nduration = \"60 s\"\nsegment = \"0.25 m\"\n[site]\nitem = \"cape-cod-bay\"\n\
          depth = \"15 m\"\n[current]\nspeed = \"0 m/s\"\n[[gear]]\nassembly = \"one\"\n{further}"
     );
-    let scenario = Scenario::read("bodies.toml", &text).unwrap_or_else(|problems| panic!("{}", told(&problems)));
-    assemble(&scenario, &library, &Linked, &Options::default()).unwrap_or_else(|problems| panic!("{}", told(&problems)))
+    let scenario = Scenario::read("bodies.toml", &text)
+        .unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    assemble(&scenario, &library, &Linked, &Options::default())
+        .unwrap_or_else(|problems| panic!("{}", told(&problems)))
 }
 
 /// Steps until a time, looking at the state after each step.
 fn run(model: &Model, state: &mut State, until_s: f64, mut look: impl FnMut(&State)) {
     let mut workspace = Workspace::new(model);
     while state.time_s < until_s - 1e-9 {
-        step(model, &Input::default(), state, &mut workspace).unwrap_or_else(|stop| panic!("{stop:?}"));
+        step(model, &Input::default(), state, &mut workspace)
+            .unwrap_or_else(|stop| panic!("{stop:?}"));
         look(state);
     }
 }
@@ -60,7 +63,10 @@ fn a_dropped_trap_falls_flat_and_lands_on_its_runners() {
     println!("falls at {speed:.4} m/s for {terminal:.4}, axis {flat:.5} upright");
     assert!((speed / terminal - 1.0).abs() < 0.01 && flat > 0.999);
     run(&model, &mut state, 40.0, |_| ());
-    let lowest = model.spec.bodies[0].feet_m.iter().map(|foot| (state.bodies[0].position + state.bodies[0].orientation * *foot).z);
+    let lowest = model.spec.bodies[0]
+        .feet_m
+        .iter()
+        .map(|foot| (state.bodies[0].position + state.bodies[0].orientation * *foot).z);
     let lowest = lowest.fold(f64::INFINITY, f64::min);
     assert!((lowest + 15.0).abs() < 0.02 && upright(&state) > 0.9999, "{lowest} m");
     assert!(state.bodies[0].velocity.length() < 1e-4 && state.bodies[0].spin.length() < 1e-4);
@@ -139,7 +145,8 @@ fn a_bullets_draft_is_that_of_its_capsule() {
         (radius * radius - over * over).max(0.0).sqrt()
     };
     let along = |strip: u32| -half + (f64::from(strip) + 0.5) * thick;
-    let whole: f64 = (0..strips).map(|strip| PI * outline(along(strip)) * outline(along(strip)) * thick).sum();
+    let whole: f64 =
+        (0..strips).map(|strip| PI * outline(along(strip)) * outline(along(strip)) * thick).sum();
     // Area of a circle below a height above its middle.
     let segment = |r: f64, z: f64| -> f64 {
         let q: f64 = (z / r.max(1e-12)).clamp(-1.0, 1.0);
@@ -154,8 +161,13 @@ fn a_bullets_draft_is_that_of_its_capsule() {
                 true => 0.0,
                 false => segment(outline(along(strip)), level),
             };
-            let volume = |level: f64| (0..strips).map(|strip| wet(strip, level) * thick).sum::<f64>() / whole;
-            let slices: f64 = buoy_floats(buoy).iter().map(|f| f.volume_m3 * f.form.wet((turn * f.offset_m).z - level, axis).share).sum();
+            let volume = |level: f64| {
+                (0..strips).map(|strip| wet(strip, level) * thick).sum::<f64>() / whole
+            };
+            let slices: f64 = buoy_floats(buoy)
+                .iter()
+                .map(|f| f.volume_m3 * f.form.wet((turn * f.offset_m).z - level, axis).share)
+                .sum();
             let (share, d) = (slices / buoy.volume_m3, 1e-3 * reach);
             let by_draft = (volume(level + d) - volume(level - d)) / (2.0 * d);
             let off = (share - volume(level)) / by_draft;
@@ -179,12 +191,20 @@ fn a_high_flyer_pitches_by_its_metacentric_height() {
     let settled = settle(&model);
     assert!(settled.converged && upright(&settled.state) > 0.999_999);
     // By hand, heights above the middle of the float: waterline, wet volumes and their middles.
-    let water = -(settled.state.bodies[0].position + settled.state.bodies[0].orientation * body.shape_offset_m).z;
+    let water = -(settled.state.bodies[0].position
+        + settled.state.bodies[0].orientation * body.shape_offset_m)
+        .z;
     let mut parts = vec![(0.0, flyer.length_m, flyer.volume_m3, flyer.diameter_m)];
-    parts.extend(flyer.pieces.iter().map(|piece| (piece.at_m, piece.length_m, piece.volume_m3, piece.diameter_m)));
+    parts.extend(
+        flyer
+            .pieces
+            .iter()
+            .map(|piece| (piece.at_m, piece.length_m, piece.volume_m3, piece.diameter_m)),
+    );
     let (mut volume, mut moment, mut plane) = (0.0, 0.0, 0.0);
     for (at, length, whole, diameter) in parts {
-        let (low, high) = (at - length / 2.0, (at + length / 2.0).min(water).max(at - length / 2.0));
+        let (low, high) =
+            (at - length / 2.0, (at + length / 2.0).min(water).max(at - length / 2.0));
         volume += whole * (high - low) / length;
         moment += whole * (high - low) / length * 0.5 * (low + high);
         if high > low && high < at + length / 2.0 {
@@ -206,7 +226,8 @@ fn a_high_flyer_pitches_by_its_metacentric_height() {
         }
         before = tilt;
     });
-    let measured = 2.0 * (crossings[crossings.len() - 1] - crossings[0]) / (crossings.len() - 1) as f64;
+    let measured =
+        2.0 * (crossings[crossings.len() - 1] - crossings[0]) / (crossings.len() - 1) as f64;
     println!("metacentric height {height:.3} m, period {measured:.3} s for {period:.3} s");
     assert!(height > 0.3 && (measured / period - 1.0).abs() < 0.02);
 }
@@ -226,7 +247,10 @@ fn a_high_flyer_stands_up_again() {
     run(&model, &mut state, 30.0, |_| ());
     let (lean, place) = (upright(&state).min(1.0).acos().to_degrees(), state.bodies[0].position);
     run(&model, &mut state, 90.0, |_| ());
-    println!("towed at 1 m/s it leans {lean:.1} deg, left alone {:.2} deg", upright(&state).min(1.0).acos().to_degrees());
+    println!(
+        "towed at 1 m/s it leans {lean:.1} deg, left alone {:.2} deg",
+        upright(&state).min(1.0).acos().to_degrees()
+    );
     assert!(place.x > 20.0 && (3.0..60.0).contains(&lean), "{place}");
     assert!(upright(&state) > 0.99);
 }

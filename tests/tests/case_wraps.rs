@@ -16,22 +16,34 @@ const AGAIN_S: f64 = 1.0;
 
 fn model(name: &str) -> Model {
     let text = std::fs::read_to_string(root().join("scenarios").join(name)).unwrap();
-    let scenario = Scenario::read(name, &text).unwrap_or_else(|problems| panic!("{}", told(&problems)));
-    let spec = assemble(&scenario, &library(), &Linked, &Options::default()).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    let scenario =
+        Scenario::read(name, &text).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    let spec = assemble(&scenario, &library(), &Linked, &Options::default())
+        .unwrap_or_else(|problems| panic!("{}", told(&problems)));
     Model::new(spec).unwrap_or_else(|errors| panic!("{errors:?}"))
 }
 
 /// Steps until `until_s` and gives the hash of the last state; each step is told.
-fn steps_to(model: &Model, until_s: f64, state: &mut State, mut told: impl FnMut(&State, &Workspace)) -> StateHash {
+fn steps_to(
+    model: &Model,
+    until_s: f64,
+    state: &mut State,
+    mut told: impl FnMut(&State, &Workspace),
+) -> StateHash {
     let pilot = &model.spec.whale.as_ref().unwrap().pilot;
     let mut workspace = Workspace::new(model);
     let mut input = Input { controls: pilot.at(state) };
     while state.time_s < until_s - 1e-9 {
         input = Input { controls: pilot.at(state) };
-        step(model, &input, state, &mut workspace).unwrap_or_else(|stop| panic!("{stop:?} {:?}", workspace.audit));
+        step(model, &input, state, &mut workspace)
+            .unwrap_or_else(|stop| panic!("{stop:?} {:?}", workspace.audit));
         told(state, &workspace);
     }
-    assert_eq!((workspace.audit.tunnelled, workspace.audit.ropes_crossed), (0, 0), "nothing passes through");
+    assert_eq!(
+        (workspace.audit.tunnelled, workspace.audit.ropes_crossed),
+        (0, 0),
+        "nothing passes through"
+    );
     StateHash::of(&input, state)
 }
 
@@ -40,9 +52,11 @@ fn ends(name: &str) -> WhaleSummary {
     let model = model(name);
     let settled = settle(&model);
     assert!(settled.converged, "residual {} N", settled.residual_n);
-    let (end_s, mut state, mut metrics) = (model.spec.settings.duration_s, settled.state, Metrics::new(&model));
+    let (end_s, mut state, mut metrics) =
+        (model.spec.settings.duration_s, settled.state, Metrics::new(&model));
     metrics.fold(&model, &state, &[]);
-    let mut fold = |state: &State, workspace: &Workspace| metrics.fold_step(&model, state, workspace);
+    let mut fold =
+        |state: &State, workspace: &Workspace| metrics.fold_step(&model, state, workspace);
     steps_to(&model, end_s - AGAIN_S, &mut state, &mut fold);
     let mut again = state.clone();
     let once = steps_to(&model, end_s, &mut state, &mut fold);
@@ -69,7 +83,11 @@ fn e7_99_ends_with_rope_lodged_in_the_mouth_and_half_a_turn_about_the_head() {
     let head = part(&whale, BodyPart::Head).wraps;
     assert!((0.5..0.7).contains(&head), "{head} turns");
     assert!(whale.trailing_m > 15.0, "the buoy's end trails: {} m", whale.trailing_m);
-    assert!(whale.carried.iter().any(|id| id.ends_with("trap")), "the trap comes along: {:?}", whale.carried);
+    assert!(
+        whale.carried.iter().any(|id| id.ends_with("trap")),
+        "the trap comes along: {:?}",
+        whale.carried
+    );
 }
 
 #[test]
@@ -90,7 +108,11 @@ fn e25_05_with_a_roll_ends_with_rope_about_flipper_and_body() {
     let (flipper, body) = (part(&whale, BodyPart::LeftFlipper), part(&whale, BodyPart::Body));
     assert!((0.5..0.65).contains(&flipper.wraps), "{} turns about the flipper", flipper.wraps);
     // From contact to contact: along the whole strand the ways about the body before and behind the flipper turn against each other.
-    assert!((0.4..0.7).contains(&body.touching_wraps), "{} turns about the body", body.touching_wraps);
+    assert!(
+        (0.4..0.7).contains(&body.touching_wraps),
+        "{} turns about the body",
+        body.touching_wraps
+    );
     assert!(body.contact_length_m > 2.5, "{} m of rope on the body", body.contact_length_m);
 }
 

@@ -1,6 +1,10 @@
 //! The command line as scripts depend on it: exit codes, one JSON object, clear errors, never a panic.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking, in its helpers too")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test fails by panicking, in its helpers too"
+)]
 
 mod common;
 
@@ -32,7 +36,9 @@ fn holds(contract: &Value, found: &Value, path: &str) {
                 holds(value, inner, &format!("{path}.{key}"));
             }
         }
-        (Value::Array(wanted), Value::Array(elements)) => elements.iter().for_each(|element| holds(&wanted[0], element, path)),
+        (Value::Array(wanted), Value::Array(elements)) => {
+            elements.iter().for_each(|element| holds(&wanted[0], element, path))
+        }
         (Value::String(_), Value::String(_))
         | (Value::Number(_), Value::Number(_))
         | (Value::Bool(_), Value::Bool(_))
@@ -65,7 +71,9 @@ fn out_holds_summary_and_recording() {
     let place = Place::new("out");
     let scenario = place.short_scenario("hello-endline", "0.1 s");
     let printed = place.endline(&["run", &scenario, "--json", "--out", "deep/er"]).done().json();
-    let saved: Value = serde_json::from_str(&fs::read_to_string(place.path("deep/er/summary.json")).unwrap()).unwrap();
+    let saved: Value =
+        serde_json::from_str(&fs::read_to_string(place.path("deep/er/summary.json")).unwrap())
+            .unwrap();
     assert_eq!(saved, printed);
     assert!(place.path("deep/er/recording.endline").is_file());
 }
@@ -88,7 +96,10 @@ fn settle_prints_shape_tensions_and_residual() {
     assert_eq!(shape["converged"], true);
     assert!(shape["residual_N"].as_f64().unwrap() < 1.0);
     for line in shape["lines"].as_array().unwrap() {
-        let (nodes, tensions) = (line["position_m"].as_array().unwrap().len(), line["tension_N"].as_array().unwrap().len());
+        let (nodes, tensions) = (
+            line["position_m"].as_array().unwrap().len(),
+            line["tension_N"].as_array().unwrap().len(),
+        );
         assert_eq!(nodes, tensions + 1);
     }
     assert!(place.endline(&["settle", &scenario]).done().stdout.contains("at rest"));
@@ -160,7 +171,11 @@ fn faults_in_a_rope_file_are_located_by_check() {
         let rope = rope(&library);
         place.endline(&["check", &text(&library)]).done();
         edit(&rope, start, faulty);
-        let number = 1 + fs::read_to_string(&rope).unwrap().lines().position(|line| line == *faulty).unwrap();
+        let number = 1 + fs::read_to_string(&rope)
+            .unwrap()
+            .lines()
+            .position(|line| line == *faulty)
+            .unwrap();
         let located = format!("{}:{number}:", rope.file_name().unwrap().to_str().unwrap());
         for target in [text(&library), text(&rope)] {
             let checked = place.endline(&["check", &target]);
@@ -172,10 +187,12 @@ fn faults_in_a_rope_file_are_located_by_check() {
 
 #[test]
 fn faults_in_a_scenario_end_the_run_with_1_and_their_place() {
-    for (index, (start, faulty, words)) in
-        [("duration", "durration = \"1 s\"", ["durration", "duration"]), ("duration", "duration = \"1 furlong\"", ["furlong", "a time"])]
-            .iter()
-            .enumerate()
+    for (index, (start, faulty, words)) in [
+        ("duration", "durration = \"1 s\"", ["durration", "duration"]),
+        ("duration", "duration = \"1 furlong\"", ["furlong", "a time"]),
+    ]
+    .iter()
+    .enumerate()
     {
         let place = Place::new(&format!("scenario-{index}"));
         let scenario = place.short_scenario("hello-endline", "1 s");
@@ -192,7 +209,9 @@ fn faults_in_a_scenario_end_the_run_with_1_and_their_place() {
 fn a_whale_is_built_as_gltf() {
     let place = Place::new("whale");
     let (out, library) = (text(&place.path("whale.glb")), text(&common::library()));
-    let build = |whale: &[&str]| place.endline(&[&["whale", "build"], whale, &["--library", &library]].concat());
+    let build = |whale: &[&str]| {
+        place.endline(&[&["whale", "build"], whale, &["--library", &library]].concat())
+    };
     let told = build(&["right-whale", "--length", "10 m", "--out", &out]).done().stdout;
     assert!(told.contains(": 10 m, ") && told.contains(" bones, "), "{told}");
     let bytes = fs::read(&out).unwrap();
@@ -210,15 +229,27 @@ fn a_whale_from_a_mesh_file_runs_and_replays() {
     let scenario = place.short_scenario("hello-endline", "0.1 s");
     let plain = place.endline(&["run", &scenario, "--json"]).done().json();
     let whales = place.path("gear-library/whales");
-    place.endline(&["whale", "build", "right-whale", "--out", &text(&whales.join("mine.glb"))]).done();
+    place
+        .endline(&["whale", "build", "right-whale", "--out", &text(&whales.join("mine.glb"))])
+        .done();
     let item = whales.join("right-whale.toml");
-    fs::write(&item, fs::read_to_string(&item).unwrap().replacen("\nlength =", "\nmesh = \"mine.glb\"\nlength =", 1)).unwrap();
+    fs::write(
+        &item,
+        fs::read_to_string(&item).unwrap().replacen(
+            "\nlength =",
+            "\nmesh = \"mine.glb\"\nlength =",
+            1,
+        ),
+    )
+    .unwrap();
     let own = place.endline(&["run", &scenario, "--json", "--out", "own"]).done().json();
     assert_eq!(own["triangles"], plain["triangles"]);
     assert_ne!(own["model_hash"], plain["model_hash"]);
     fs::remove_file(whales.join("mine.glb")).unwrap();
     place.endline(&["replay", "own/recording.endline", "--verify"]).done();
-    place.endline(&["run", &scenario]).fails(1, &["right-whale.toml:", "there is no file `whales/mine.glb`"]);
+    place
+        .endline(&["run", &scenario])
+        .fails(1, &["right-whale.toml:", "there is no file `whales/mine.glb`"]);
 }
 
 #[test]
@@ -237,20 +268,31 @@ fn without_a_display_the_program_names_the_command_line() {
 fn a_reader_who_leaves_is_no_fault() {
     let place = Place::new("pipe");
     let scenario = place.short_scenario("hello-endline", "0.1 s");
-    for arguments in
-        [&["run", &scenario][..], &["run", &scenario, "--json"], &["settle", &scenario, "--json"], &["plugins", "list"], &["--help"]]
-    {
-        let mut child = place.command(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    for arguments in [
+        &["run", &scenario][..],
+        &["run", &scenario, "--json"],
+        &["settle", &scenario, "--json"],
+        &["plugins", "list"],
+        &["--help"],
+    ] {
+        let mut child =
+            place.command(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
         drop(child.stdout.take());
         let output = child.wait_with_output().unwrap();
-        assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+        assert_eq!(
+            output.status.code(),
+            Some(0),
+            "{arguments:?}: {}",
+            String::from_utf8_lossy(&output.stderr)
+        );
     }
 }
 
 #[test]
 fn the_shipped_plugins_are_listed() {
     let listed = Place::new("plugins").endline(&["plugins", "list"]).done();
-    for id in ["org.endline.motion.swim", "org.endline.friction.coulomb", "org.endline.gear.single"] {
+    for id in ["org.endline.motion.swim", "org.endline.friction.coulomb", "org.endline.gear.single"]
+    {
         assert!(listed.stdout.contains(id), "no {id}; {listed}");
     }
 }
@@ -283,23 +325,37 @@ fn library(place: &Place, name: &str, source: &str) -> String {
     let file = place.path("plugins").join(format!("{name}.{}", std::env::consts::DLL_EXTENSION));
     fs::create_dir_all(place.path("plugins")).unwrap();
     let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
-    called(Command::new(rustc).args(["--edition", "2024", "--crate-type", "cdylib", "-o"]).arg(&file).arg(source)).done();
+    called(
+        Command::new(rustc)
+            .args(["--edition", "2024", "--crate-type", "cdylib", "-o"])
+            .arg(&file)
+            .arg(source),
+    )
+    .done();
     text(&file)
 }
 
 #[test]
 fn a_bad_plugin_is_told_and_the_rest_goes_on() {
     let place = Place::new("bad-plugins");
-    for (name, source, words) in [("wrong_abi", WRONG_ABI, &["4711"][..]), ("panics", PANICS, &["panics."][..])] {
+    for (name, source, words) in
+        [("wrong_abi", WRONG_ABI, &["4711"][..]), ("panics", PANICS, &["panics."][..])]
+    {
         let file = library(&place, name, source);
         let checked = place.endline(&["plugins", "check", &file]);
         // The check of a library that panics across its boundary is itself ended by a signal: that is what the child is for.
         assert!(checked.code != Some(0), "{checked}");
         assert!(name == "panics" || checked.stderr.contains(words[0]), "{checked}");
 
-        let list = |arguments: &[&str]| called(place.command(arguments).env("ENDLINE_PLUGINS", place.path("plugins"))).done();
+        let list = |arguments: &[&str]| {
+            called(place.command(arguments).env("ENDLINE_PLUGINS", place.path("plugins"))).done()
+        };
         let unasked = list(&["plugins", "list"]);
-        assert!(unasked.stdout.contains("not allowed") && unasked.stderr.contains("has not been allowed yet"), "{unasked}");
+        assert!(
+            unasked.stdout.contains("not allowed")
+                && unasked.stderr.contains("has not been allowed yet"),
+            "{unasked}"
+        );
         let listed = list(&["--allow-plugins", "plugins", "list"]);
         let standing = format!("quarantined   {file}");
         assert!(listed.stdout.contains(&standing), "{standing}; {listed}");
@@ -307,6 +363,7 @@ fn a_bad_plugin_is_told_and_the_rest_goes_on() {
         assert!(listed.stdout.contains("org.endline.motion.swim"), "{listed}");
         fs::remove_file(file).unwrap();
     }
-    let file = place.write(&format!("plugins/text.{}", std::env::consts::DLL_EXTENSION), "no library at all");
+    let file = place
+        .write(&format!("plugins/text.{}", std::env::consts::DLL_EXTENSION), "no library at all");
     place.endline(&["plugins", "check", &text(&file)]).fails(1, &["text."]);
 }

@@ -1,6 +1,10 @@
 //! The same run gives the same bits: twice, on any number of threads, and with its scratch memory dropped at any time.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking, in its helpers too")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test fails by panicking, in its helpers too"
+)]
 
 mod common;
 
@@ -18,7 +22,8 @@ fn the_same_run_has_the_same_hash_on_any_number_of_threads() {
     let place = Place::new("threads");
     let scenario = place.encounter();
     let hash = |threads: &str| {
-        let summary = place.endline(&["run", &scenario, "--json", "--threads", threads]).done().json();
+        let summary =
+            place.endline(&["run", &scenario, "--json", "--threads", threads]).done().json();
         assert!(summary["whale"]["first_contact_s"].is_number(), "the rope was never touched");
         summary["state_hash"].as_str().unwrap().to_owned()
     };
@@ -37,7 +42,8 @@ fn dropping_the_workspace_between_steps_changes_no_bit() {
     let plugins = endline_tests::products().unwrap().join("plugins");
     let (host, problems) = PluginHost::discover(&[plugins]);
     assert!(problems.is_empty(), "{problems:?}");
-    let prepared = prepare(scenario.as_ref(), None, &host, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
+    let prepared = prepare(scenario.as_ref(), None, &host, Overrides::default())
+        .unwrap_or_else(|error| panic!("{error}"));
     let model = &*prepared.model;
 
     let start = settle(model).state;
@@ -57,7 +63,8 @@ fn dropping_the_workspace_between_steps_changes_no_bit() {
     assert!(workspace.audit.splits > 10, "{} splits", workspace.audit.splits);
 
     // The session's own run walks the same states.
-    let mut run = Run::new(prepared.clone(), RunOptions::default()).unwrap_or_else(|error| panic!("{error}"));
+    let mut run =
+        Run::new(prepared.clone(), RunOptions::default()).unwrap_or_else(|error| panic!("{error}"));
     while run.state().step < STEPS {
         run.step(run.pilot()).unwrap();
     }

@@ -16,8 +16,10 @@ fn changed(name: &str, changes: &[(&str, &str)]) -> ModelSpec {
         assert!(text.contains(from), "{name} says {from}");
         text = text.replace(from, to);
     }
-    let scenario = Scenario::read(name, &text).unwrap_or_else(|problems| panic!("{}", told(&problems)));
-    assemble(&scenario, &library(), &Linked, &Options::default()).unwrap_or_else(|problems| panic!("{}", told(&problems)))
+    let scenario =
+        Scenario::read(name, &text).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    assemble(&scenario, &library(), &Linked, &Options::default())
+        .unwrap_or_else(|problems| panic!("{}", told(&problems)))
 }
 
 /// An encounter run to its end.
@@ -31,21 +33,31 @@ struct Ran {
 fn run(spec: ModelSpec) -> Ran {
     let model = Model::new(spec).unwrap_or_else(|errors| panic!("{errors:?}"));
     let settled = settle(&model);
-    assert!(settled.converged, "residual {} N after {} passes", settled.residual_n, settled.trace_n.len());
-    let (mut state, mut workspace, mut metrics) = (settled.state, Workspace::new(&model), Metrics::new(&model));
+    assert!(
+        settled.converged,
+        "residual {} N after {} passes",
+        settled.residual_n,
+        settled.trace_n.len()
+    );
+    let (mut state, mut workspace, mut metrics) =
+        (settled.state, Workspace::new(&model), Metrics::new(&model));
     let settled_peak_n = state.rope.tension.iter().copied().fold(0.0, f64::max);
     metrics.fold(&model, &state, &[]);
     let pilot = model.spec.whale.as_ref().map(|whale| whale.pilot.clone()).unwrap_or_default();
     while state.time_s < model.spec.settings.duration_s - 1e-9 {
         let input = Input { controls: pilot.at(&state) };
-        step(&model, &input, &mut state, &mut workspace).unwrap_or_else(|stop| panic!("{stop:?} {:?}", workspace.audit));
+        step(&model, &input, &mut state, &mut workspace)
+            .unwrap_or_else(|stop| panic!("{stop:?} {:?}", workspace.audit));
         metrics.fold_step(&model, &state, &workspace);
     }
     let summary = metrics.summary(&model, &state);
     for event in metrics.events() {
         println!("{:7.2} s {:?} {} {:.2}", event.time_s, event.kind, event.subject, event.value);
     }
-    println!("{:?}\n{:?}\nsettled peak {settled_peak_n:.1} N\n{:?}", workspace.audit, summary.lines, summary.links);
+    println!(
+        "{:?}\n{:?}\nsettled peak {settled_peak_n:.1} N\n{:?}",
+        workspace.audit, summary.lines, summary.links
+    );
     println!("{:?}", summary.whale);
     Ran { settled_peak_n, summary, audit: workspace.audit, state }
 }
@@ -55,8 +67,15 @@ fn hello_endline_meets_the_whale() {
     let ran = run(changed("hello-endline.toml", &[]));
     let whale = ran.summary.whale.unwrap();
     let peak = ran.summary.lines.iter().map(|line| line.peak_tension_n).fold(0.0, f64::max);
-    assert!(whale.regions.iter().any(|region| region.peak_normal_n > 0.0), "the whale touches the rope");
-    assert!(peak.is_finite() && peak > ran.settled_peak_n, "{peak} N above {} N", ran.settled_peak_n);
+    assert!(
+        whale.regions.iter().any(|region| region.peak_normal_n > 0.0),
+        "the whale touches the rope"
+    );
+    assert!(
+        peak.is_finite() && peak > ran.settled_peak_n,
+        "{peak} N above {} N",
+        ran.settled_peak_n
+    );
     assert_eq!(ran.audit.tunnelled, 0);
     assert!(ran.state.rope.position.iter().all(|place| place.is_finite()));
 }

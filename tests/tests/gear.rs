@@ -5,7 +5,8 @@
 mod linked;
 
 use endline_gear::{
-    BuoyShape, Diagnostic, Kind, Library, Options, Scenario, Sources, assemble, assemble_traced, box_inertia, buoy_floats, shell_inertia,
+    BuoyShape, Diagnostic, Kind, Library, Options, Scenario, Sources, assemble, assemble_traced,
+    box_inertia, buoy_floats, shell_inertia,
 };
 use linked::{Linked, library, root, told};
 
@@ -28,8 +29,10 @@ fn every_shipped_file_reads_without_a_word() {
 }
 
 fn assembled(name: &str, text: &str) -> ModelSpec {
-    let scenario = Scenario::read(name, text).unwrap_or_else(|problems| panic!("{}", told(&problems)));
-    assemble(&scenario, &library(), &Linked, &Options::default()).unwrap_or_else(|problems| panic!("{}", told(&problems)))
+    let scenario =
+        Scenario::read(name, text).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    assemble(&scenario, &library(), &Linked, &Options::default())
+        .unwrap_or_else(|problems| panic!("{}", told(&problems)))
 }
 
 fn shipped(name: &str) -> ModelSpec {
@@ -81,7 +84,9 @@ fn every_shipped_figure_has_source_and_sureness() {
 
 /// Counts the figures of a table; fails where one has no source or sureness of its own or above it.
 fn walk(path: &str, table: &toml::Table, above_source: bool, above_sureness: bool) -> usize {
-    let text = |key: &str| table.get(key).and_then(toml::Value::as_str).is_some_and(|text| !text.trim().is_empty());
+    let text = |key: &str| {
+        table.get(key).and_then(toml::Value::as_str).is_some_and(|text| !text.trim().is_empty())
+    };
     let (source, sureness) = (above_source || text("source"), above_sureness || text("sureness"));
     if table.contains_key("value") {
         assert!(source && sureness, "{path}: {table:?}");
@@ -95,7 +100,9 @@ fn walk(path: &str, table: &toml::Table, above_source: bool, above_sureness: boo
 fn count(path: &str, key: &str, value: &toml::Value, source: bool, sureness: bool) -> usize {
     match value {
         toml::Value::Table(inner) => walk(path, inner, source, sureness),
-        toml::Value::Array(items) => items.iter().map(|item| count(path, key, item, source, sureness)).sum(),
+        toml::Value::Array(items) => {
+            items.iter().map(|item| count(path, key, item, source, sureness)).sum()
+        }
         _ => {
             assert!(source && sureness, "{path}: {key}");
             1
@@ -145,13 +152,20 @@ fn a_hollow_box_turns_as_its_faces_do() {
             place[u] = ((f64::from(cell % cells) + 0.5) / f64::from(cells) - 0.5) * size[u];
             place[v] = ((f64::from(cell / cells) + 0.5) / f64::from(cells) - 0.5) * size[v];
             let square = place * place;
-            inertia += (DVec3::splat(square.element_sum()) - square) * (2.0 * mass * point_area / area);
+            inertia +=
+                (DVec3::splat(square.element_sum()) - square) * (2.0 * mass * point_area / area);
         }
     }
     let formula = shell_inertia(mass, size);
-    assert!(((formula - inertia) / inertia).abs().max_element() < 1e-4, "{formula} against {inertia}");
+    assert!(
+        ((formula - inertia) / inertia).abs().max_element() < 1e-4,
+        "{formula} against {inertia}"
+    );
     let cube = shell_inertia(6.0, DVec3::splat(2.0));
-    assert!((cube - DVec3::splat(6.0 * 4.0 * 5.0 / 18.0)).abs().max_element() < 1e-12, "hollow cube: 5/18 m a²");
+    assert!(
+        (cube - DVec3::splat(6.0 * 4.0 * 5.0 / 18.0)).abs().max_element() < 1e-12,
+        "hollow cube: 5/18 m a²"
+    );
 }
 
 #[test]
@@ -166,8 +180,16 @@ fn a_buoys_slices_hold_its_volume_about_its_middle() {
         let moment = weights.sum::<f64>() + buoy.mass_kg * (buoy.centre_of_mass_m + middle);
         assert!(moment.abs() < 1e-12 * buoy.whole_mass_kg(), "{}: {moment}", buoy.entry.id);
         let drag = own.iter().map(|float| float.drag_area_m2.x).sum::<f64>();
-        let side = if buoy.shape == BuoyShape::Sphere { FRAC_PI_4 * buoy.diameter_m } else { buoy.length_m };
-        assert!((drag / (buoy.drag_across * buoy.diameter_m * side) - 1.0).abs() < 1e-12, "{}: {drag}", buoy.entry.id);
+        let side = if buoy.shape == BuoyShape::Sphere {
+            FRAC_PI_4 * buoy.diameter_m
+        } else {
+            buoy.length_m
+        };
+        assert!(
+            (drag / (buoy.drag_across * buoy.diameter_m * side) - 1.0).abs() < 1e-12,
+            "{}: {drag}",
+            buoy.entry.id
+        );
     }
 }
 
@@ -186,7 +208,11 @@ fn a_trap_in_sea_water_weighs_its_wet_weight_and_stands_on_the_seabed() {
     let trap = spec.bodies.iter().find(|body| body.id == "trap").unwrap();
     let displaced: f64 = trap.floats.iter().map(|float| float.volume_m3).sum();
     assert!(((trap.mass_kg - 1025.0 * displaced) * 9.81 - 130.0).abs() < 1e-9);
-    let lowest = trap.feet_m.iter().map(|foot| (trap.position_m + trap.orientation * *foot).z).fold(f64::INFINITY, f64::min);
+    let lowest = trap
+        .feet_m
+        .iter()
+        .map(|foot| (trap.position_m + trap.orientation * *foot).z)
+        .fold(f64::INFINITY, f64::min);
     assert!((lowest + 25.0).abs() < 1e-12, "{lowest}");
     assert_eq!(trap.feet_m.len(), 8);
 }
@@ -201,11 +227,20 @@ fn a_trap_is_a_shell_with_ballast_on_its_floor() {
         let centre = trap.ballast_kg * low / trap.mass_kg;
         assert!(centre < -0.02, "{}: centre of mass {centre} m above the middle", trap.entry.id);
         let reduced = shell * trap.ballast_kg / trap.mass_kg * low * low;
-        let plate = DVec3::new(size.y * size.y, size.x * size.x, size.x * size.x + size.y * size.y) * (trap.ballast_kg / 12.0);
+        let plate = DVec3::new(size.y * size.y, size.x * size.x, size.x * size.x + size.y * size.y)
+            * (trap.ballast_kg / 12.0);
         let expected = shell_inertia(shell, size) + plate + DVec3::new(reduced, reduced, 0.0);
-        assert!(((box_inertia(trap) - expected) / expected).abs().max_element() < 1e-12, "{}", trap.entry.id);
+        assert!(
+            ((box_inertia(trap) - expected) / expected).abs().max_element() < 1e-12,
+            "{}",
+            trap.entry.id
+        );
         let parts = trap.wire_m3() + trap.ballast_m3() + trap.foam_m3;
-        assert!((parts / trap.displaced_m3() - 1.0).abs() < 1e-12 && trap.wire_m3() > 0.0, "{}", trap.entry.id);
+        assert!(
+            (parts / trap.displaced_m3() - 1.0).abs() < 1e-12 && trap.wire_m3() > 0.0,
+            "{}",
+            trap.entry.id
+        );
         // What is left to the wire is no lighter than wet wood and no heavier than steel.
         let wire = shell / trap.wire_m3();
         assert!((1000.0..8000.0).contains(&wire), "{}: {wire} kg/m3", trap.entry.id);
@@ -220,15 +255,29 @@ fn ballast_and_pieces_that_cannot_be_are_told() {
         assert!(text.contains(from), "{path}: {from}");
         sources.set(path, text.replacen(from, to, 1));
         let problems = Library::read(&sources).1;
-        assert!(problems.len() == 1 && problems[0].file == path && problems[0].line > 1, "{to}: {}", told(&problems));
+        assert!(
+            problems.len() == 1 && problems[0].file == path && problems[0].line > 1,
+            "{to}: {}",
+            told(&problems)
+        );
         problems[0].to_string()
     };
     let (trap, flyer) = ("traps/wire-lobster-3ft.toml", "buoys/high-flyer.toml");
     for (path, from, to, part) in [
         (trap, "\"6.6 kg\"", "\"30 kg\"", "`ballast` 30 kg is not below the `mass`"),
-        (trap, "\"6.6 kg\"", "\"11 kg\"", "ballast and foam displace 5.50 L, more than the 4.77 L of the whole"),
+        (
+            trap,
+            "\"6.6 kg\"",
+            "\"11 kg\"",
+            "ballast and foam displace 5.50 L, more than the 4.77 L of the whole",
+        ),
         (trap, "\"0.03 m\"", "\"0.4 m\"", "`ballast_height` 0.4 m is above the box"),
-        (flyer, "\"0.1 m\"\nlength", "\"0.1 kg\"\nlength", "`kg` is a unit of a mass, not of a length"),
+        (
+            flyer,
+            "\"0.1 m\"\nlength",
+            "\"0.1 kg\"\nlength",
+            "`kg` is a unit of a mass, not of a length",
+        ),
         (flyer, "\"0.9 L\"", "\"9 L\"", "`volume` 9 L is more than the whole cylinder's 1.18 L"),
         (flyer, "\"7 kg\"", "\"70 kg\"", "does not carry its own mass"),
     ] {
@@ -241,13 +290,21 @@ fn ballast_and_pieces_that_cannot_be_are_told() {
 #[test]
 fn nodes_are_shared_out_by_length() {
     for name in ["single", "pair", "trawl-5"] {
-        let spec = assembled("test.toml", &scenario_text("hello-endline.toml").replace("\"single\"", &format!("\"{name}\"")));
-        let lengths: Vec<f64> = spec.lines.iter().map(|line| line.segments_m.iter().sum()).collect();
+        let spec = assembled(
+            "test.toml",
+            &scenario_text("hello-endline.toml").replace("\"single\"", &format!("\"{name}\"")),
+        );
+        let lengths: Vec<f64> =
+            spec.lines.iter().map(|line| line.segments_m.iter().sum()).collect();
         let total: f64 = lengths.iter().sum();
         let spare = (500 - 2 * lengths.len()) as f64;
         for (line, length) in spec.lines.iter().zip(&lengths) {
             let share = 1.0 + spare * length / total;
-            assert!((line.segments_m.len() as f64 - share).abs() < 1.0, "{name} {}: {share}", line.id);
+            assert!(
+                (line.segments_m.len() as f64 - share).abs() < 1.0,
+                "{name} {}: {share}",
+                line.id
+            );
         }
         assert_eq!(Model::new(spec).unwrap().node_count, 500, "{name}");
     }
@@ -255,11 +312,16 @@ fn nodes_are_shared_out_by_length() {
 
 #[test]
 fn lines_that_leave_one_body_share_a_joint() {
-    let spec = assembled("test.toml", &scenario_text("hello-endline.toml").replace("\"single\"", "\"pair\""));
+    let spec = assembled(
+        "test.toml",
+        &scenario_text("hello-endline.toml").replace("\"single\"", "\"pair\""),
+    );
     let line = |id: &str| spec.lines.iter().find(|line| line.id == id).unwrap();
     assert_eq!(line("endline-bottom").from, line("groundline-1").from);
     let joint = &spec.joints[line("groundline-1").from];
-    let JointKind::Body { body, offset_m } = joint.kind else { panic!("{} is not on a body", joint.id) };
+    let JointKind::Body { body, offset_m } = joint.kind else {
+        panic!("{} is not on a body", joint.id)
+    };
     let from_middle = offset_m - spec.bodies[body].shape_offset_m;
     assert!((from_middle - DVec3::new(0.4572, 0.0, 0.1778)).length() < 1e-12);
 }
@@ -267,7 +329,10 @@ fn lines_that_leave_one_body_share_a_joint() {
 /// A bridle's legs leave the corners of the trap's top edge; lines at one point share a joint, and a bare id is the usual point.
 #[test]
 fn a_line_is_made_fast_at_the_point_it_names() {
-    let spec = assembled("test.toml", &scenario_text("hello-endline.toml").replace("\"single\"", "\"single-bridle\""));
+    let spec = assembled(
+        "test.toml",
+        &scenario_text("hello-endline.toml").replace("\"single\"", "\"single-bridle\""),
+    );
     let offset = |id: &str| {
         let line = spec.lines.iter().find(|line| line.id == id).unwrap();
         match spec.joints[line.from].kind {
@@ -277,7 +342,12 @@ fn a_line_is_made_fast_at_the_point_it_names() {
     };
     let apart = offset("bridle-port") - offset("bridle-starboard");
     assert!((apart - DVec3::new(0.0, 21.0 * 0.0254, 0.0)).length() < 1e-12, "{apart}");
-    let legs: Vec<usize> = spec.lines.iter().filter(|line| line.id.starts_with("bridle")).map(|line| line.to).collect();
+    let legs: Vec<usize> = spec
+        .lines
+        .iter()
+        .filter(|line| line.id.starts_with("bridle"))
+        .map(|line| line.to)
+        .collect();
     assert!(legs.len() == 2 && legs[0] == legs[1]);
 }
 
@@ -293,14 +363,35 @@ fn a_point_that_is_not_there_is_told_with_those_that_are() {
         let (library, problems) = Library::read(&sources);
         assert!(problems.is_empty(), "{}", told(&problems));
         let problems = assemble(&scenario, &library, &Linked, &Options::default()).err().unwrap();
-        assert_eq!((problems[0].file.as_str(), problems[0].line), ("assemblies/single-bridle.toml", line), "{}", told(&problems));
+        assert_eq!(
+            (problems[0].file.as_str(), problems[0].line),
+            ("assemblies/single-bridle.toml", line),
+            "{}",
+            told(&problems)
+        );
         problems[0].to_string()
     };
     for (from, to, parts) in [
-        ("trap:bridle-port", "trap:bridle-prt", ["body `trap` has no point `bridle-prt`", "did you mean `bridle-port`?"]),
-        ("trap:bridle-port", "trap:xyz", ["has no point `xyz`", "known names are end, bridle-port, bridle-starboard"]),
-        ("trap:bridle-port", "trp:bridle-port", ["there is no body or joint `trp`", "did you mean `trap`?"]),
-        ("to = \"splice\"", "to = \"splice:end\"", ["joint `splice` has no point `end`", "only a body has points"]),
+        (
+            "trap:bridle-port",
+            "trap:bridle-prt",
+            ["body `trap` has no point `bridle-prt`", "did you mean `bridle-port`?"],
+        ),
+        (
+            "trap:bridle-port",
+            "trap:xyz",
+            ["has no point `xyz`", "known names are end, bridle-port, bridle-starboard"],
+        ),
+        (
+            "trap:bridle-port",
+            "trp:bridle-port",
+            ["there is no body or joint `trp`", "did you mean `trap`?"],
+        ),
+        (
+            "to = \"splice\"",
+            "to = \"splice:end\"",
+            ["joint `splice` has no point `end`", "only a body has points"],
+        ),
     ] {
         let message = told_of(from, to);
         assert!(parts.iter().all(|part| message.contains(part)), "{message}");
@@ -316,12 +407,20 @@ fn an_item_may_have_points_of_its_own() {
         sources.set("traps/wire-lobster-3ft.toml", trap);
         Library::read(&sources)
     };
-    let at = |name: &str, x: &str| format!("[[point]]\nname = \"{name}\"\nat = [\"{x}\", \"0 m\", \"0.1 m\"]\n");
+    let at = |name: &str, x: &str| {
+        format!("[[point]]\nname = \"{name}\"\nat = [\"{x}\", \"0 m\", \"0.1 m\"]\n")
+    };
     let (library, problems) = read(&(at("becket", "0.3 m") + &at("end", "0.4 m")));
     assert!(problems.is_empty(), "{}", told(&problems));
-    let points = library.traps.iter().find(|trap| trap.entry.id == "wire-lobster-3ft").unwrap().points();
-    assert!(points[0].name == "end" && DVec3::from_array(points[0].at_m).distance(DVec3::new(0.4, 0.0, 0.1)) < 1e-12);
-    assert!(points.iter().any(|point| point.name == "becket" && (point.at_m[0] - 0.3).abs() < 1e-12));
+    let points =
+        library.traps.iter().find(|trap| trap.entry.id == "wire-lobster-3ft").unwrap().points();
+    assert!(
+        points[0].name == "end"
+            && DVec3::from_array(points[0].at_m).distance(DVec3::new(0.4, 0.0, 0.1)) < 1e-12
+    );
+    assert!(
+        points.iter().any(|point| point.name == "becket" && (point.at_m[0] - 0.3).abs() < 1e-12)
+    );
     for (points, part) in [
         (at("a:b", "0.3 m"), "`a:b` cannot be a point's name"),
         (at("becket", "0.3 kg"), "`kg` is a unit of a mass, not of a length"),
@@ -329,7 +428,11 @@ fn an_item_may_have_points_of_its_own() {
         ("[[point]]\nname = \"becket\"\n".to_owned(), "`at` is missing"),
     ] {
         let problems = read(&points).1;
-        assert!(problems.len() == 1 && problems[0].to_string().contains(part), "{points}: {}", told(&problems));
+        assert!(
+            problems.len() == 1 && problems[0].to_string().contains(part),
+            "{points}: {}",
+            told(&problems)
+        );
     }
 }
 
@@ -348,7 +451,9 @@ fn problem_b_has_its_rope_buoy_and_probes() {
     let spec = shipped("reference-b-static.toml");
     let (rope, buoy) = (&spec.ropes[0], &spec.bodies[0]);
     assert!((rope.displaced_m3_m - std::f64::consts::PI / 4.0 * 1e-4).abs() < 1e-16);
-    assert!((buoy.added_mass_kg.z - 5.125).abs() < 1e-12 && !buoy.wetted_drag && !spec.water.rope_dries);
+    assert!(
+        (buoy.added_mass_kg.z - 5.125).abs() < 1e-12 && !buoy.wetted_drag && !spec.water.rope_dries
+    );
     assert_eq!(spec.water.current.surface_m_s, DVec3::new(0.5, 0.0, 0.0));
     assert!(matches!(spec.probes[2].target, ProbeTarget::Body(0, 0)));
 }
@@ -357,8 +462,10 @@ fn problem_b_has_its_rope_buoy_and_probes() {
 fn a_whale_starts_where_and_as_the_scenario_says() {
     let whale = shipped("hello-endline.toml").whale.unwrap();
     assert!((whale.orientation * DVec3::X - DVec3::Y).length() < 1e-12, "heading 0 deg is north");
-    let text =
-        scenario_text("hello-endline.toml").replace("heading = \"0 deg\"", "heading = \"90 deg\"\npitch = \"30 deg\"\nroll = \"90 deg\"");
+    let text = scenario_text("hello-endline.toml").replace(
+        "heading = \"0 deg\"",
+        "heading = \"90 deg\"\npitch = \"30 deg\"\nroll = \"90 deg\"",
+    );
     let whale = assembled("test.toml", &text).whale.unwrap();
     let nose = whale.orientation * DVec3::X;
     assert!((nose - DVec3::new(3.0_f64.sqrt() / 2.0, 0.0, 0.5)).length() < 1e-12, "{nose}");
@@ -369,12 +476,22 @@ fn a_whale_starts_where_and_as_the_scenario_says() {
 
 #[test]
 fn gear_turns_with_its_heading_and_answers_the_current() {
-    let north = scenario_text("hello-endline.toml").replace("[[gear]]", "[[gear]]\nposition = [\"3 m\", \"4 m\"]\nheading = \"0 deg\"");
+    let north = scenario_text("hello-endline.toml")
+        .replace("[[gear]]", "[[gear]]\nposition = [\"3 m\", \"4 m\"]\nheading = \"0 deg\"");
     let spec = assembled("test.toml", &north);
     let buoy = spec.bodies.iter().find(|body| body.id == "buoy").unwrap();
-    assert!(buoy.position_m.x > 5.0 && (buoy.position_m.y - 4.0).abs() < 1e-9, "{}: still down-current, to the east", buoy.position_m);
+    assert!(
+        buoy.position_m.x > 5.0 && (buoy.position_m.y - 4.0).abs() < 1e-9,
+        "{}: still down-current, to the east",
+        buoy.position_m
+    );
     assert!((buoy.orientation * DVec3::X - DVec3::Y).length() < 1e-12);
-    assert!(spec.bodies[0].orientation.angle_between(DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2)) < 1e-7);
+    assert!(
+        spec.bodies[0]
+            .orientation
+            .angle_between(DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2))
+            < 1e-7
+    );
 }
 
 #[test]
@@ -383,9 +500,12 @@ fn friction_is_by_rope_and_region() {
     let friction = spec.friction.unwrap();
     assert_eq!(friction.coefficients.len(), spec.ropes.len());
     let of = |rope: &str, region: endline_sdk::Region| {
-        friction.coefficients[spec.ropes.iter().position(|known| known.id == rope).unwrap()][region as usize]
+        friction.coefficients[spec.ropes.iter().position(|known| known.id == rope).unwrap()]
+            [region as usize]
     };
-    assert!(of("pp-3-8", endline_sdk::Region::Baleen) < of("sink-3-8", endline_sdk::Region::Baleen));
+    assert!(
+        of("pp-3-8", endline_sdk::Region::Baleen) < of("sink-3-8", endline_sdk::Region::Baleen)
+    );
     assert!((of("pp-3-8", endline_sdk::Region::LeftFlukeLeading) - 0.15).abs() < 1e-15);
     assert_eq!(friction.laws.len(), 1);
 }
@@ -395,14 +515,19 @@ fn files_used_are_named_and_are_enough_to_build_again() {
     let text = scenario_text("hello-endline.toml");
     let scenario = Scenario::read("test.toml", &text).unwrap();
     let sources = Sources::from_folder(&root()).unwrap();
-    let first =
-        assemble_traced(&scenario, &library(), &Linked, &Options::default()).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    let first = assemble_traced(&scenario, &library(), &Linked, &Options::default())
+        .unwrap_or_else(|problems| panic!("{}", told(&problems)));
     let (again, problems) = Library::read(&sources.only(&first.files));
     assert!(problems.is_empty(), "{}", told(&problems));
     // The whale can do every act of the library, so their files are used, too.
     let gear = first.files.iter().filter(|path| !path.starts_with("acts/")).count();
-    assert!(first.files.iter().any(|path| path == "traps/wire-lobster-3ft.toml") && gear < 14, "{:?}", first.files);
-    let second = assemble(&scenario, &again, &Linked, &Options::default()).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    assert!(
+        first.files.iter().any(|path| path == "traps/wire-lobster-3ft.toml") && gear < 14,
+        "{:?}",
+        first.files
+    );
+    let second = assemble(&scenario, &again, &Linked, &Options::default())
+        .unwrap_or_else(|problems| panic!("{}", told(&problems)));
     assert_eq!(first.spec.bodies, second.bodies);
     assert_eq!(first.spec.lines, second.lines);
 }
@@ -410,8 +535,15 @@ fn files_used_are_named_and_are_enough_to_build_again() {
 #[test]
 fn options_come_before_the_scenario() {
     let scenario = Scenario::read("test.toml", &scenario_text("hello-endline.toml")).unwrap();
-    let options = Options { seed: Some(7), step_s: Some(0.02), weak_links: Some(false), rope_nodes: Some(60), ..Options::default() };
-    let spec = assemble(&scenario, &library(), &Linked, &options).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    let options = Options {
+        seed: Some(7),
+        step_s: Some(0.02),
+        weak_links: Some(false),
+        rope_nodes: Some(60),
+        ..Options::default()
+    };
+    let spec = assemble(&scenario, &library(), &Linked, &options)
+        .unwrap_or_else(|problems| panic!("{}", told(&problems)));
     assert_eq!((spec.settings.seed, spec.settings.step_s, spec.links[0].enabled), (7, 0.02, false));
     assert_eq!(Model::new(spec).unwrap().node_count, 60);
 }
@@ -421,22 +553,57 @@ fn options_come_before_the_scenario() {
 fn mistakes_in_a_scenario_are_told_with_their_place() {
     let text = scenario_text("hello-endline.toml");
     for (from, to, parts) in [
-        ("rope_nodes = 500", "rope_node = 500", vec!["unknown field `rope_node`", "did you mean `rope_nodes`?"]),
-        ("rope_nodes = 500", "rope_nodes = 3", vec!["`rope_nodes` is too small", "at least 4 nodes"]),
+        (
+            "rope_nodes = 500",
+            "rope_node = 500",
+            vec!["unknown field `rope_node`", "did you mean `rope_nodes`?"],
+        ),
+        (
+            "rope_nodes = 500",
+            "rope_nodes = 3",
+            vec!["`rope_nodes` is too small", "at least 4 nodes"],
+        ),
         ("\"13.7 m\"", "\"13.7 furlong\"", vec!["unknown unit `furlong` in `length`"]),
         ("\"single\"", "\"singel\"", vec!["no `singel` in assemblies/", "did you mean `single`?"]),
-        ("\"right-whale\"", "\"rihgt-whale\"", vec!["no `rihgt-whale` in whales/", "did you mean `right-whale`?"]),
+        (
+            "\"right-whale\"",
+            "\"rihgt-whale\"",
+            vec!["no `rihgt-whale` in whales/", "did you mean `right-whale`?"],
+        ),
         ("\"cape-cod-bay\"", "\"cape-cod\"", vec!["no `cape-cod` in sites/"]),
         (
             "org.endline.motion.swim",
             "org.endline.motion.swin",
-            vec!["no whale motion `org.endline.motion.swin`", "did you mean `org.endline.motion.swim`?"],
+            vec![
+                "no whale motion `org.endline.motion.swin`",
+                "did you mean `org.endline.motion.swim`?",
+            ],
         ),
-        ("org.endline.friction.coulomb", "org.endline.friction.colomb", vec!["no friction model", "did you mean"]),
-        ("cruise_speed = \"1.3 m/s\"", "cruise_speed = \"1.3 m\"", vec!["`m` is a unit of a length, not of a speed"]),
-        ("cruise_speed = \"1.3 m/s\"", "cruise_sped = \"1.3 m/s\"", vec!["`org.endline.motion.swim` has no attribute `cruise_sped`"]),
-        ("cruise_speed = \"1.3 m/s\"", "cruise_speed = \"99 m/s\"", vec!["`cruise_speed` is 99 m/s", "between 0.1 m/s and 5 m/s"]),
-        ("part = \"buoy\"", "part = \"bouy\"", vec!["there is no body or joint `bouy`", "did you mean `buoy`?"]),
+        (
+            "org.endline.friction.coulomb",
+            "org.endline.friction.colomb",
+            vec!["no friction model", "did you mean"],
+        ),
+        (
+            "cruise_speed = \"1.3 m/s\"",
+            "cruise_speed = \"1.3 m\"",
+            vec!["`m` is a unit of a length, not of a speed"],
+        ),
+        (
+            "cruise_speed = \"1.3 m/s\"",
+            "cruise_sped = \"1.3 m/s\"",
+            vec!["`org.endline.motion.swim` has no attribute `cruise_sped`"],
+        ),
+        (
+            "cruise_speed = \"1.3 m/s\"",
+            "cruise_speed = \"99 m/s\"",
+            vec!["`cruise_speed` is 99 m/s", "between 0.1 m/s and 5 m/s"],
+        ),
+        (
+            "part = \"buoy\"",
+            "part = \"bouy\"",
+            vec!["there is no body or joint `bouy`", "did you mean `buoy`?"],
+        ),
         ("speed = 1.0", "speed = 1.5", vec!["`speed` is 1.5", "between 0 and 1"]),
         ("duration = \"60 s\"", "duration = 60", vec!["`duration` is 60 without a unit"]),
     ] {
@@ -445,7 +612,12 @@ fn mistakes_in_a_scenario_are_told_with_their_place() {
         let problems = refused(&changed);
         assert_eq!(problems.len(), 1, "{to}: {}", told(&problems));
         let line = 1 + changed.lines().position(|line| line.contains(to)).unwrap();
-        assert_eq!((problems[0].file.as_str(), problems[0].line), ("test.toml", line), "{}", problems[0]);
+        assert_eq!(
+            (problems[0].file.as_str(), problems[0].line),
+            ("test.toml", line),
+            "{}",
+            problems[0]
+        );
         for part in parts {
             assert!(problems[0].to_string().contains(part), "`{}` lacks `{part}`", problems[0]);
         }
@@ -461,15 +633,23 @@ fn the_program_chooses_the_step_where_the_scenario_says_so() {
     let fixed = settings(&with("step = \"5 ms\""));
     assert!(!fixed.auto_step && (fixed.step_s - 0.005).abs() < 1e-15);
     let problems = refused(&with("step = \"automatic\""));
-    assert!(problems.len() == 1 && problems[0].to_string().contains("`step`"), "{}", told(&problems));
+    assert!(
+        problems.len() == 1 && problems[0].to_string().contains("`step`"),
+        "{}",
+        told(&problems)
+    );
 }
 
 #[test]
 fn resolution_follows_the_whale_by_lengths_in_order() {
     let text = scenario_text("hello-endline.toml");
-    let with = |lengths: &str| text.replacen("[site]", &format!("[resolution]\n{lengths}\n\n[site]"), 1);
+    let with =
+        |lengths: &str| text.replacen("[site]", &format!("[resolution]\n{lengths}\n\n[site]"), 1);
     let spec = assembled("test.toml", &with("near = \"8 cm\"\nfar = \"2 m\""));
-    assert_eq!(spec.settings.resolution, Some(Resolution { near_m: 0.08, edge_m: 0.0125, far_m: 2.0 }));
+    assert_eq!(
+        spec.settings.resolution,
+        Some(Resolution { near_m: 0.08, edge_m: 0.0125, far_m: 2.0 })
+    );
     assert_eq!(assembled("test.toml", &text).settings.resolution, None);
     for (lengths, part) in [
         ("edges = \"9 cm\"\nnear = \"8 cm\"", "`edges` is longer than `near`"),
@@ -478,17 +658,27 @@ fn resolution_follows_the_whale_by_lengths_in_order() {
         ("nearer = \"8 cm\"", "unknown field `nearer`"),
     ] {
         let problems = refused(&with(lengths));
-        assert!(problems.len() == 1 && problems[0].to_string().contains(part), "{}", told(&problems));
+        assert!(
+            problems.len() == 1 && problems[0].to_string().contains(part),
+            "{}",
+            told(&problems)
+        );
     }
-    let whaleless = scenario_text("reference-a-pendulum.toml").replacen("[site]", "[resolution]\n\n[site]", 1);
+    let whaleless =
+        scenario_text("reference-a-pendulum.toml").replacen("[site]", "[resolution]\n\n[site]", 1);
     assert!(refused(&whaleless)[0].to_string().contains("no whale for the resolution to follow"));
 }
 
 #[test]
 fn ropes_and_attributes_of_placed_gear_may_be_chosen() {
     let text = scenario_text("hello-endline.toml");
-    let with = |extra: &str| text.replacen("assembly = \"single\"", &format!("assembly = \"single\"\n{extra}"), 1);
-    let spec = assembled("test.toml", &with("[gear.ropes]\nendline-top = \"polysteel-7-16\"\n[gear.attributes]\nscope = 2.0"));
+    let with = |extra: &str| {
+        text.replacen("assembly = \"single\"", &format!("assembly = \"single\"\n{extra}"), 1)
+    };
+    let spec = assembled(
+        "test.toml",
+        &with("[gear.ropes]\nendline-top = \"polysteel-7-16\"\n[gear.attributes]\nscope = 2.0"),
+    );
     let top = spec.lines.iter().find(|line| line.id == "endline-top").unwrap();
     assert_eq!(spec.ropes[top.rope].id, "polysteel-7-16");
     let length: f64 = spec.lines.iter().flat_map(|line| &line.segments_m).sum();
@@ -499,14 +689,22 @@ fn ropes_and_attributes_of_placed_gear_may_be_chosen() {
         ("[gear.attributes]\nbuoy = \"bullet-6x15\"", "did you mean `bullet-6x14`?"),
     ] {
         let problems = refused(&with(extra));
-        assert!(problems.len() == 1 && problems[0].to_string().contains(part), "{}", told(&problems));
+        assert!(
+            problems.len() == 1 && problems[0].to_string().contains(part),
+            "{}",
+            told(&problems)
+        );
     }
 }
 
 #[test]
 fn a_mistake_in_an_assembly_is_told_in_its_own_file() {
     let mut sources = Sources::from_folder(&root()).unwrap();
-    let body = |id: &str| format!("[[body]]\nid = \"{id}\"\nkind = \"trap\"\nitem = \"wire-lobster-3ft\"\nheight = 0\n");
+    let body = |id: &str| {
+        format!(
+            "[[body]]\nid = \"{id}\"\nkind = \"trap\"\nitem = \"wire-lobster-3ft\"\nheight = 0\n"
+        )
+    };
     let pair = format!(
         "format = 1\nkind = \"assembly\"\nname = \"Two traps\"\n{}{}\
          [[line]]\nid = \"groundline-1\"\nrope = \"pp-3-9\"\nfrom = \"trap-1\"\nto = \"trap-22\"\nlength = \"20 m\"\n",
@@ -516,11 +714,17 @@ fn a_mistake_in_an_assembly_is_told_in_its_own_file() {
     sources.set("assemblies/pair.toml", pair);
     let (library, problems) = Library::read(&sources);
     assert!(problems.is_empty(), "{}", told(&problems));
-    let text = scenario_text("hello-endline.toml").replace("\"single\"", "\"pair\"").replace("part = \"buoy\"", "part = \"trap-1\"");
+    let text = scenario_text("hello-endline.toml")
+        .replace("\"single\"", "\"pair\"")
+        .replace("part = \"buoy\"", "part = \"trap-1\"");
     let scenario = Scenario::read("test.toml", &text).unwrap();
     let problems = assemble(&scenario, &library, &Linked, &Options::default()).err().unwrap();
     assert_eq!(problems.len(), 2, "{}", told(&problems));
-    assert!(problems.iter().all(|problem| problem.file == "assemblies/pair.toml" && problem.line > 10), "{}", told(&problems));
+    assert!(
+        problems.iter().all(|problem| problem.file == "assemblies/pair.toml" && problem.line > 10),
+        "{}",
+        told(&problems)
+    );
 }
 
 #[test]
@@ -544,7 +748,12 @@ fn all_shipped_gear_settles() {
         assert!(settled.converged, "{:?}: {} N", model.spec.lines[0].id, settled.residual_n);
         let bodies = model.spec.bodies.iter().zip(&settled.state.bodies);
         for (body, state) in bodies.filter(|(body, _)| body.role == BodyRole::Trap) {
-            assert!((state.position - body.position_m).length() < 0.05, "{} stays where it was set: {}", body.id, state.position);
+            assert!(
+                (state.position - body.position_m).length() < 0.05,
+                "{} stays where it was set: {}",
+                body.id,
+                state.position
+            );
         }
     }
 }
@@ -561,5 +770,9 @@ fn problem_b_as_a_file_settles_to_its_reference() {
     }
     let buoy = settled.state.bodies[0].position;
     assert!((buoy - DVec3::new(50.34061059, 0.0, 0.06596101)).length() < 0.05, "{buoy}");
-    assert!((rope.position[250] - DVec3::new(27.63402, 0.0, -18.31986)).length() < 0.05, "{}", rope.position[250]);
+    assert!(
+        (rope.position[250] - DVec3::new(27.63402, 0.0, -18.31986)).length() < 0.05,
+        "{}",
+        rope.position[250]
+    );
 }

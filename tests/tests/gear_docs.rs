@@ -21,16 +21,20 @@ fn start(id: &str) -> String {
 fn values(attribute: &Attribute) -> [String; 2] {
     match &attribute.kind {
         AttributeKind::Number { min, max, default } => {
-            let unit = if attribute.unit == "1" { String::new() } else { format!(" {}", attribute.unit) };
+            let unit =
+                if attribute.unit == "1" { String::new() } else { format!(" {}", attribute.unit) };
             // Shares such as a third are told to four places.
             let rounded = (default * 1e4).round() / 1e4;
             [format!("{min} to {max}{unit}"), format!("{rounded}{unit}")]
         }
-        AttributeKind::Count { min, max, default } => [format!("whole, {min} to {max}"), default.to_string()],
-        AttributeKind::Choice { words, default } => [words.join(", "), default.to_string()],
-        AttributeKind::Item { library, default } => {
-            [format!("item of {library}"), if default.is_empty() { "none".to_owned() } else { default.to_string() }]
+        AttributeKind::Count { min, max, default } => {
+            [format!("whole, {min} to {max}"), default.to_string()]
         }
+        AttributeKind::Choice { words, default } => [words.join(", "), default.to_string()],
+        AttributeKind::Item { library, default } => [
+            format!("item of {library}"),
+            if default.is_empty() { "none".to_owned() } else { default.to_string() },
+        ],
     }
 }
 
@@ -38,7 +42,8 @@ fn table(gear: &dyn GearType) -> String {
     let mut text = String::from("| attribute | values | default | |\n|---|---|---|---|\n");
     for attribute in &gear.descriptor().attributes {
         let [range, default] = values(attribute);
-        writeln!(text, "| `{}` | {range} | {default} | {} |", attribute.key, attribute.help).unwrap();
+        writeln!(text, "| `{}` | {range} | {default} | {} |", attribute.key, attribute.help)
+            .unwrap();
     }
     text
 }
@@ -46,8 +51,11 @@ fn table(gear: &dyn GearType) -> String {
 /// The document with a gear type's table put between its marks.
 fn with_table(document: &str, gear: &dyn GearType) -> String {
     let start = start(&gear.descriptor().id);
-    let (before, rest) = document.split_once(&start).unwrap_or_else(|| panic!("{DOCUMENT} lacks the mark {start}"));
-    let (_, after) = rest.split_once(END).unwrap_or_else(|| panic!("{DOCUMENT} lacks the mark {END} after {start}"));
+    let (before, rest) =
+        document.split_once(&start).unwrap_or_else(|| panic!("{DOCUMENT} lacks the mark {start}"));
+    let (_, after) = rest
+        .split_once(END)
+        .unwrap_or_else(|| panic!("{DOCUMENT} lacks the mark {END} after {start}"));
     format!("{before}{start}\n{}{END}{after}", table(gear))
 }
 
@@ -55,7 +63,9 @@ fn with_table(document: &str, gear: &dyn GearType) -> String {
 fn the_document_has_every_gear_type_with_its_attributes() {
     let path = root().join(DOCUMENT);
     let document = fs::read_to_string(&path).unwrap();
-    let fresh = endline_gear_types::all().iter().fold(document.clone(), |text, gear| with_table(&text, gear.as_ref()));
+    let fresh = endline_gear_types::all()
+        .iter()
+        .fold(document.clone(), |text, gear| with_table(&text, gear.as_ref()));
     if std::env::var_os("ENDLINE_WRITE_DOCS").is_some() {
         fs::write(&path, &fresh).unwrap();
         return;

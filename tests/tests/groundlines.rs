@@ -24,7 +24,9 @@ fn groundline(rope: &str, slack: f64, speed: f64, heading: f64) -> (Model, Settl
         );
     }
     let length = 2.0 * HALF_SPAN_M * (1.0 + slack);
-    text += &format!("[[line]]\nid = \"groundline\"\nrope = \"{rope}\"\nfrom = \"trap-a\"\nto = \"trap-b\"\nlength = \"{length} m\"\n");
+    text += &format!(
+        "[[line]]\nid = \"groundline\"\nrope = \"{rope}\"\nfrom = \"trap-a\"\nto = \"trap-b\"\nlength = \"{length} m\"\n"
+    );
     sources.set("assemblies/groundline.toml", text);
     let (library, problems) = endline_gear::Library::read(&sources);
     assert!(problems.is_empty(), "{}", told(&problems));
@@ -34,8 +36,10 @@ fn groundline(rope: &str, slack: f64, speed: f64, heading: f64) -> (Model, Settl
          [[gear]]\nassembly = \"groundline\"\nheading = \"{} deg\"\n",
         90.0 + heading
     );
-    let scenario = Scenario::read("groundline.toml", &scenario).unwrap_or_else(|problems| panic!("{}", told(&problems)));
-    let spec = assemble(&scenario, &library, &Linked, &Options::default()).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    let scenario = Scenario::read("groundline.toml", &scenario)
+        .unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    let spec = assemble(&scenario, &library, &Linked, &Options::default())
+        .unwrap_or_else(|problems| panic!("{}", told(&problems)));
     let model = Model::new(spec).unwrap();
     let settled = settle(&model);
     (model, settled)
@@ -49,7 +53,11 @@ fn heights(model: &Model, settled: &Settled) -> Vec<f64> {
 /// Greatest height of the groundline away from its traps, a tenth of its length at each end left out [m].
 fn arc(rope: &str, slack: f64, speed: f64, heading: f64) -> f64 {
     let (model, settled) = groundline(rope, slack, speed, heading);
-    assert!(settled.converged, "{rope}, slack {slack}, {speed} m/s, {heading} deg: {} N", settled.residual_n);
+    assert!(
+        settled.converged,
+        "{rope}, slack {slack}, {speed} m/s, {heading} deg: {} N",
+        settled.residual_n
+    );
     let heights = heights(&model, &settled);
     let end = heights.len() / 10;
     heights[end..heights.len() - end].iter().fold(0.0, |top, height| top.max(*height))
@@ -82,7 +90,10 @@ fn floating_groundline_at_slack_tide_is_a_catenary() {
         let rise = low * ((span / (2.0 * low)).cosh() - 1.0);
         let top = heights(&model, &settled).iter().fold(0.0_f64, |top, height| top.max(*height));
         let foot = place[0].z + model.spec.water.depth_m;
-        assert!((top - foot - rise).abs() < 0.02, "slack {slack}: {top} over {foot}, catenary {rise}");
+        assert!(
+            (top - foot - rise).abs() < 0.02,
+            "slack {slack}: {top} over {foot}, catenary {rise}"
+        );
     }
 }
 
@@ -109,8 +120,10 @@ fn ball(speed: f64) -> (f64, f64) {
          [site]\nitem = \"jonesport\"\n[current]\nspeed = \"{speed} m/s\"\ntoward = \"90 deg\"\n\
          [[gear]]\nassembly = \"single\"\n[gear.attributes]\nbuoy = \"polyball-60\"\n"
     );
-    let scenario = Scenario::read("ball.toml", &scenario).unwrap_or_else(|problems| panic!("{}", told(&problems)));
-    let mut spec = assemble(&scenario, &library(), &Linked, &Options::default()).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    let scenario = Scenario::read("ball.toml", &scenario)
+        .unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    let mut spec = assemble(&scenario, &library(), &Linked, &Options::default())
+        .unwrap_or_else(|problems| panic!("{}", told(&problems)));
     for body in spec.bodies.iter_mut().filter(|body| body.role == BodyRole::Trap) {
         body.held_until_s = Some(0.0);
     }

@@ -19,8 +19,10 @@ fn text(name: &str) -> String {
 }
 
 fn model_of(name: &str, text: &str) -> Model {
-    let scenario = Scenario::read(name, text).unwrap_or_else(|problems| panic!("{}", told(&problems)));
-    let spec = assemble(&scenario, &library(), &Linked, &Options::default()).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    let scenario =
+        Scenario::read(name, text).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    let spec = assemble(&scenario, &library(), &Linked, &Options::default())
+        .unwrap_or_else(|problems| panic!("{}", told(&problems)));
     Model::new(spec).unwrap_or_else(|problems| panic!("{problems:?}"))
 }
 
@@ -45,15 +47,27 @@ fn a_grown_whale_parts_the_rope_that_holds_a_young_one() {
     let (state, _) = run(&young, young.spec.settings.duration_s, |_| false);
     assert!(state.line_parted[0].is_none(), "a 10 m whale cannot part it");
     let whale = state.whale.as_ref().unwrap();
-    assert!((whale.exertion.thrust_n / (401.0 * 10_f64.powf(1.56)) - 1.0).abs() < 1e-9, "{} N", whale.exertion.thrust_n);
+    assert!(
+        (whale.exertion.thrust_n / (401.0 * 10_f64.powf(1.56)) - 1.0).abs() < 1e-9,
+        "{} N",
+        whale.exertion.thrust_n
+    );
     let pull = end_tension(&young, &state, 0, LineEnd::A);
-    assert!((pull / whale.exertion.thrust_n - 1.0).abs() < 0.12, "it hangs in the rope with all it has: {pull} N");
+    assert!(
+        (pull / whale.exertion.thrust_n - 1.0).abs() < 0.12,
+        "it hangs in the rope with all it has: {pull} N"
+    );
 
     let grown = model("part-rope-13m7.toml");
-    let (state, _) = run(&grown, grown.spec.settings.duration_s, |state| state.line_parted[0].is_some());
+    let (state, _) =
+        run(&grown, grown.spec.settings.duration_s, |state| state.line_parted[0].is_some());
     let whale = state.whale.as_ref().unwrap();
     assert!(state.line_parted[0].is_some(), "a 13.7 m whale parts it");
-    assert!((16_000.0..23_900.0).contains(&whale.exertion.thrust_n), "by thrust, not by a snatch: {} N", whale.exertion.thrust_n);
+    assert!(
+        (16_000.0..23_900.0).contains(&whale.exertion.thrust_n),
+        "by thrust, not by a snatch: {} N",
+        whale.exertion.thrust_n
+    );
 }
 
 /// Line and trap of the library made fast to the tail stock: she slows until body and gear take the power that her body alone took at
@@ -65,7 +79,12 @@ fn a_whale_that_tows_a_trap_slows_by_the_power_ratio() {
     let (state, workspace) = run(&model, model.spec.settings.duration_s, |state| {
         let whale = state.whale.as_ref().unwrap();
         let pull = -whale.exertion.rope_force_n.dot(whale.orientation * DVec3::X);
-        seen.extend((state.time_s > 35.0).then_some([state.time_s, whale.speed_m_s, whale.exertion.thrust_n, pull]));
+        seen.extend((state.time_s > 35.0).then_some([
+            state.time_s,
+            whale.speed_m_s,
+            whale.exertion.thrust_n,
+            pull,
+        ]));
         false
     });
     let mean = |of: usize| seen.iter().map(|row| row[of]).sum::<f64>() / seen.len() as f64;
@@ -84,9 +103,19 @@ fn a_whale_that_tows_a_trap_slows_by_the_power_ratio() {
         "{speed:.3} m/s against {low:.3}; body {:.1} N, gear {pull:.1} N, {inertia:.1} N for its mass, thrust {thrust:.1} N",
         clean(speed)
     );
-    assert!((speed / low - 1.0).abs() < 0.015, "she tows at {speed} m/s, the power law says {low}; the gear pulls {pull} N");
-    assert!((thrust / (clean(speed) + pull + inertia) - 1.0).abs() < 0.03, "{thrust} N of thrust against {} + {pull} N", clean(speed));
-    assert!((pull / (speed * speed) / 158.0 - 1.0).abs() < 0.25, "the gear drags with {pull} N at {speed} m/s");
+    assert!(
+        (speed / low - 1.0).abs() < 0.015,
+        "she tows at {speed} m/s, the power law says {low}; the gear pulls {pull} N"
+    );
+    assert!(
+        (thrust / (clean(speed) + pull + inertia) - 1.0).abs() < 0.03,
+        "{thrust} N of thrust against {} + {pull} N",
+        clean(speed)
+    );
+    assert!(
+        (pull / (speed * speed) / 158.0 - 1.0).abs() < 0.25,
+        "the gear drags with {pull} N at {speed} m/s"
+    );
     assert!(workspace.audit.tunnelled == 0);
     assert!((state.whale.as_ref().unwrap().position.z + 11.5).abs() < 3.0, "she keeps her depth");
 }
@@ -126,10 +155,14 @@ fn a_kinetic_run_keeps_its_bits_without_its_workspace() {
     let mut state = State::start(&model);
     while state.time_s < 3.0 {
         let input = controls(&model, &state);
-        step(&model, &input, &mut state, &mut Workspace::new(&model)).unwrap_or_else(|stop| panic!("{stop:?}"));
+        step(&model, &input, &mut state, &mut Workspace::new(&model))
+            .unwrap_or_else(|stop| panic!("{stop:?}"));
     }
     assert!(state == whole);
-    assert!(whole.whale.as_ref().unwrap().exertion.rope_force_n.length() > 100.0, "the rope is taut by then");
+    assert!(
+        whole.whale.as_ref().unwrap().exertion.rope_force_n.length() > 100.0,
+        "the rope is taut by then"
+    );
 }
 
 #[test]
@@ -138,12 +171,17 @@ fn what_a_whale_cannot_be_or_hold_is_told_with_its_place() {
     let problems = |from: &str, to: &str| {
         assert!(text.contains(from), "the scenario says {from}");
         let changed = text.replace(from, to);
-        let told_of =
-            Scenario::read("whale.toml", &changed).map(|scenario| assemble(&scenario, &library(), &Linked, &Options::default()).err());
+        let told_of = Scenario::read("whale.toml", &changed)
+            .map(|scenario| assemble(&scenario, &library(), &Linked, &Options::default()).err());
         told(&told_of.unwrap_or_else(Some).unwrap_or_else(|| panic!("{to} is taken")))
     };
     let spot = problems("whale:peduncle", "whale:pedunkle");
-    assert!(spot.contains("whale.toml:45") && spot.contains("no spot `pedunkle`") && spot.contains("peduncle"), "{spot}");
+    assert!(
+        spot.contains("whale.toml:45")
+            && spot.contains("no spot `pedunkle`")
+            && spot.contains("peduncle"),
+        "{spot}"
+    );
     let dynamics = problems("dynamics = \"kinetic\"", "dynamics = \"kinetik\"");
     assert!(dynamics.contains("whale.toml:56") && dynamics.contains("kinetic"), "{dynamics}");
     let dead = problems("dynamics = \"kinetic\"", "state = \"dead\"");

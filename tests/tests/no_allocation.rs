@@ -22,8 +22,10 @@ const GROWTH: u64 = 100;
 fn encounter(place: DVec3) -> Model {
     let name = "hello-endline.toml";
     let text = std::fs::read_to_string(root().join("scenarios").join(name)).unwrap();
-    let scenario = Scenario::read(name, &text).unwrap_or_else(|problems| panic!("{}", told(&problems)));
-    let mut spec = assemble(&scenario, &library(), &Linked, &Options::default()).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    let scenario =
+        Scenario::read(name, &text).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    let mut spec = assemble(&scenario, &library(), &Linked, &Options::default())
+        .unwrap_or_else(|problems| panic!("{}", told(&problems)));
     spec.whale.as_mut().unwrap().position_m = place;
     Model::new(spec).unwrap_or_else(|errors| panic!("{errors:?}"))
 }
@@ -84,5 +86,10 @@ fn rope_on_skin_allocates_only_as_its_lists_grow() {
     let counted = measure(|| run.steps(STEPS));
     assert!(run.workspace.audit.contact_steps - before > STEPS, "rope was to stay on the skin");
     println!("{} allocations, {} bytes", counted.count_total, counted.bytes_total);
-    assert!(counted.count_total < GROWTH, "{} allocations, {} bytes", counted.count_total, counted.bytes_total);
+    assert!(
+        counted.count_total < GROWTH,
+        "{} allocations, {} bytes",
+        counted.count_total,
+        counted.bytes_total
+    );
 }

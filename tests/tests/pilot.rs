@@ -8,7 +8,10 @@ use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
 use endline_gear::{Hooks, Options, Scenario, assemble};
-use endline_sdk::{Act, Controls, Descriptor, FrictionModel, GearType, HookError, MotionInput, MotionOutput, WhaleMotion};
+use endline_sdk::{
+    Act, Controls, Descriptor, FrictionModel, GearType, HookError, MotionInput, MotionOutput,
+    WhaleMotion,
+};
 use endline_sim::{Input, Model, State, Workspace, settle, step};
 use linked::{Linked, library, told};
 
@@ -28,7 +31,15 @@ impl Plain {
     fn new() -> Self {
         let (version, name, help) = ("1".into(), "Plain".into(), "".into());
         let acts = vec![Act::new("wiggle", "Wiggle", ""), Act::new("spin", "Spin", "")];
-        Self(Descriptor { id: "org.example.plain".into(), version, name, help, attributes: Vec::new(), state_len: 0, acts })
+        Self(Descriptor {
+            id: "org.example.plain".into(),
+            version,
+            name,
+            help,
+            attributes: Vec::new(),
+            state_len: 0,
+            acts,
+        })
     }
 }
 
@@ -36,10 +47,19 @@ impl WhaleMotion for Plain {
     fn descriptor(&self) -> &Descriptor {
         &self.0
     }
-    fn step(&self, _: &[f64], input: &MotionInput<'_>, _: &mut [f64]) -> Result<MotionOutput, HookError> {
+    fn step(
+        &self,
+        _: &[f64],
+        input: &MotionInput<'_>,
+        _: &mut [f64],
+    ) -> Result<MotionOutput, HookError> {
         let Controls { speed, pitch, yaw, .. } = input.controls;
         let turn_rate_rad_s = [0.0, -TURN_RAD_S * pitch, TURN_RAD_S * yaw];
-        Ok(MotionOutput { speed_m_s: SPEED_M_S * speed, turn_rate_rad_s, ..MotionOutput::default() })
+        Ok(MotionOutput {
+            speed_m_s: SPEED_M_S * speed,
+            turn_rate_rad_s,
+            ..MotionOutput::default()
+        })
     }
 }
 
@@ -104,8 +124,10 @@ speed = 1.0
 }
 
 fn read(pilot: &str) -> Result<Model, String> {
-    let scenario = Scenario::read("pilot.toml", &text(pilot)).map_err(|problems| told(&problems))?;
-    let spec = assemble(&scenario, &library(), &WithPlain, &Options::default()).map_err(|problems| told(&problems))?;
+    let scenario =
+        Scenario::read("pilot.toml", &text(pilot)).map_err(|problems| told(&problems))?;
+    let spec = assemble(&scenario, &library(), &WithPlain, &Options::default())
+        .map_err(|problems| told(&problems))?;
     Model::new(spec).map_err(|errors| format!("{errors:?}"))
 }
 
@@ -115,7 +137,8 @@ fn model(pilot: &str) -> Model {
 
 /// Flies by the program until so many entries have begun; the state then, with the controls of every step.
 fn flown(model: &Model, entries: usize) -> (State, Vec<Controls>) {
-    let (mut state, mut workspace, mut controls) = (settle(model).state, Workspace::new(model), Vec::new());
+    let (mut state, mut workspace, mut controls) =
+        (settle(model).state, Workspace::new(model), Vec::new());
     let pilot = &model.spec.whale.as_ref().unwrap().pilot;
     while state.pilot.begun.len() < entries {
         assert!(state.time_s < 60.0, "never began: {:?}", state.pilot);
@@ -135,7 +158,10 @@ fn second_began_s(pilot: &str) -> f64 {
 
 /// Within the step in which it comes to that: the first step's end at or after `expected_s`.
 fn is_next_step(began_s: f64, expected_s: f64) {
-    assert!((-1e-6..STEP_S + 1e-6).contains(&(began_s - expected_s)), "began at {began_s} s, expected {expected_s} s");
+    assert!(
+        (-1e-6..STEP_S + 1e-6).contains(&(began_s - expected_s)),
+        "began at {began_s} s, expected {expected_s} s"
+    );
 }
 
 #[test]
@@ -145,7 +171,8 @@ fn a_distance_is_met_where_the_snout_comes_that_near() {
         let below_m: f64 = if of.contains("bottom") { 31.0 - DEPTH_M } else { 0.0 };
         let within_m: f64 = if of.contains("bottom") { 20.0 } else { 5.0 };
         let ahead_m = nearest_m - (within_m.powi(2) - below_m.powi(2)).sqrt();
-        let began_s = second_began_s(&format!("[[whale.pilot]]\nwithin = \"{within_m} m\"\n{of}\nyaw = 1.0"));
+        let began_s =
+            second_began_s(&format!("[[whale.pilot]]\nwithin = \"{within_m} m\"\n{of}\nyaw = 1.0"));
         is_next_step(began_s, (ahead_m - 0.5 * LENGTH_M) / SPEED_M_S);
     }
 }
@@ -177,7 +204,10 @@ fn the_first_touch_is_met_when_rope_presses_and_an_entry_follows_another() {
     // The foremost point of the skin meets the rope, or the sides of a head that tapers do a little later.
     let met_s = felt.at_s - 0.5;
     let reach_s = (ROPE_M - 0.5 * LENGTH_M) / SPEED_M_S;
-    assert!((reach_s - 0.05..reach_s + 0.25).contains(&met_s), "touched at {met_s} s, the snout is there at {reach_s} s");
+    assert!(
+        (reach_s - 0.05..reach_s + 0.25).contains(&met_s),
+        "touched at {met_s} s, the snout is there at {reach_s} s"
+    );
     assert!((after.at_s - felt.at_s - 0.25).abs() < 1e-12);
     let swimming = controls.iter().take_while(|controls| controls.speed > 0.5).count();
     is_next_step(swimming as f64 * STEP_S, felt.at_s);
@@ -193,7 +223,11 @@ fn holds_and_ramps_give_the_written_curve_and_then_let_go() {
     let (_, controls) = flown(&model, 3);
     for (index, controls) in controls.iter().enumerate() {
         let t = index as f64 * STEP_S;
-        let weight = if t < 2.0 { ((t - 1.0) / 0.5).clamp(0.0, 1.0) } else { (1.0 - (t - 2.0) / 0.5).clamp(0.0, 1.0) };
+        let weight = if t < 2.0 {
+            ((t - 1.0) / 0.5).clamp(0.0, 1.0)
+        } else {
+            (1.0 - (t - 2.0) / 0.5).clamp(0.0, 1.0)
+        };
         assert!((controls.yaw - (0.4 - weight)).abs() < 1e-6, "{t} s: {controls:?}");
         assert!((controls.speed - 1.0).abs() < 1e-12);
         let act = if (1.0 - 1e-9..2.0 - 1e-9).contains(&t) { 2.0 } else { 0.0 };
@@ -203,7 +237,9 @@ fn holds_and_ramps_give_the_written_curve_and_then_let_go() {
 
 #[test]
 fn a_snapshot_goes_on_as_the_run_it_was_taken_from() {
-    let model = model("[[whale.pilot]]\nheading = \"60 deg\"\nyaw = 0.0\nspeed = 0.1\n[[whale.pilot]]\nat = \"1 s\"\nyaw = 1.0");
+    let model = model(
+        "[[whale.pilot]]\nheading = \"60 deg\"\nyaw = 0.0\nspeed = 0.1\n[[whale.pilot]]\nat = \"1 s\"\nyaw = 1.0",
+    );
     let (mut kept, mut workspace) = (settle(&model).state, Workspace::new(&model));
     let pilot = &model.spec.whale.as_ref().unwrap().pilot;
     let go = |state: &mut State, workspace: &mut Workspace| {

@@ -1,6 +1,10 @@
 //! Recordings as users have them: they replay bit for bit, and every damage is told by its place.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking, in its helpers too")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test fails by panicking, in its helpers too"
+)]
 
 mod common;
 
@@ -30,13 +34,26 @@ fn inputs(bytes: &[u8]) -> std::ops::Range<usize> {
 fn a_recording_verifies_and_gives_the_same_summary() {
     let place = Place::new("verify");
     let file = record(&place);
-    let recorded: serde_json::Value = serde_json::from_str(&fs::read_to_string(place.path("summary.json")).unwrap()).unwrap();
+    let recorded: serde_json::Value =
+        serde_json::from_str(&fs::read_to_string(place.path("summary.json")).unwrap()).unwrap();
     assert!(recorded["whale"]["first_contact_s"].is_number(), "the rope was never touched");
     let verified = place.endline(&["replay", &file, "--verify", "--json"]).done().json();
     assert_eq!(verified["verified"], true);
     assert_eq!(verified["steps"], recorded["steps"]);
     // What was measured is the same to the last digit; what it took in real time is not.
-    for key in ["state_hash", "simulated_s", "audit", "lines", "links", "bodies", "probes", "whale", "events", "model_hash", "plugins"] {
+    for key in [
+        "state_hash",
+        "simulated_s",
+        "audit",
+        "lines",
+        "links",
+        "bodies",
+        "probes",
+        "whale",
+        "events",
+        "model_hash",
+        "plugins",
+    ] {
         assert_eq!(verified["run"][key], recorded[key], "{key}");
     }
 }
@@ -74,7 +91,11 @@ fn cut_short_changed_or_foreign_files_are_refused() {
     changed[hashes + 3] ^= 1;
     fs::write(place.path("changed.endline"), &changed).unwrap();
     place.endline(&["replay", "changed.endline", "--verify"]).fails(1, &["state hashes", "BLAKE3"]);
-    fs::write(place.path("other.endline"), "a letter, not a recording, though long enough to be one").unwrap();
+    fs::write(
+        place.path("other.endline"),
+        "a letter, not a recording, though long enough to be one",
+    )
+    .unwrap();
     place.endline(&["replay", "other.endline"]).fails(1, &["is no recording"]);
 }
 
@@ -83,7 +104,10 @@ fn a_time_outside_the_recording_is_refused() {
     let place = Place::new("render");
     let file = record(&place);
     let refused = place.endline(&["render", &file, "--at", "99", "--out", "late.png"]);
-    assert!(matches!(refused.code, Some(1 | 2)) && !refused.stderr.contains("panicked"), "{refused}");
+    assert!(
+        matches!(refused.code, Some(1 | 2)) && !refused.stderr.contains("panicked"),
+        "{refused}"
+    );
     assert!(!place.path("late.png").exists());
 }
 
@@ -98,27 +122,46 @@ fn flown(place: &Place) -> String {
 }
 
 fn summary(place: &Place, folder: &str) -> serde_json::Value {
-    serde_json::from_str(&fs::read_to_string(place.path(folder).join("summary.json")).unwrap()).unwrap()
+    serde_json::from_str(&fs::read_to_string(place.path(folder).join("summary.json")).unwrap())
+        .unwrap()
 }
 
 #[test]
-fn a_recording_written_as_a_pilot_program_gives_the_same_bits_and_an_edit_changes_what_follows_it() {
+fn a_recording_written_as_a_pilot_program_gives_the_same_bits_and_an_edit_changes_what_follows_it()
+{
     let place = Place::new("program");
     let scenario = flown(&place);
     place.endline(&["run", &scenario, "--out", "first", "--seed", "3"]).done();
     let recording = "first/recording.endline";
-    let said = place.endline(&["pilot", recording, "--out", "gear-library/scenarios/flown.toml"]).done().stdout;
+    let said = place
+        .endline(&["pilot", recording, "--out", "gear-library/scenarios/flown.toml"])
+        .done()
+        .stdout;
     assert!(said.contains("endline run gear-library/scenarios/flown.toml --seed 3"), "{said}");
-    place.endline(&["run", "gear-library/scenarios/flown.toml", "--seed", "3", "--out", "again"]).done();
+    place
+        .endline(&["run", "gear-library/scenarios/flown.toml", "--seed", "3", "--out", "again"])
+        .done();
     let (first, again) = (summary(&place, "first"), summary(&place, "again"));
     assert_eq!(first["state_hash"], again["state_hash"]);
     assert_eq!(first["steps"], again["steps"]);
 
     // The recorded ramp is 20 steps of its own; thinned by a tenth of the control, fewer are left.
-    let entries = |file: &str| fs::read_to_string(place.path(file)).unwrap().matches("[[whale.pilot]]").count();
-    place.endline(&["pilot", recording, "--out", "gear-library/scenarios/thin.toml", "--thin", "0.1"]).done();
+    let entries = |file: &str| {
+        fs::read_to_string(place.path(file)).unwrap().matches("[[whale.pilot]]").count()
+    };
+    place
+        .endline(&[
+            "pilot",
+            recording,
+            "--out",
+            "gear-library/scenarios/thin.toml",
+            "--thin",
+            "0.1",
+        ])
+        .done();
     assert!(
-        entries("gear-library/scenarios/thin.toml") + 10 < entries("gear-library/scenarios/flown.toml"),
+        entries("gear-library/scenarios/thin.toml") + 10
+            < entries("gear-library/scenarios/flown.toml"),
         "{} of {}",
         entries("gear-library/scenarios/thin.toml"),
         entries("gear-library/scenarios/flown.toml")
@@ -134,7 +177,18 @@ fn a_recording_written_as_a_pilot_program_gives_the_same_bits_and_an_edit_change
     .unwrap();
     let at = edited_s(&text[..last]);
     let before = format!("{at:.3}");
-    place.endline(&["run", "gear-library/scenarios/edited.toml", "--from", recording, "--at", &before, "--out", "edited"]).done();
+    place
+        .endline(&[
+            "run",
+            "gear-library/scenarios/edited.toml",
+            "--from",
+            recording,
+            "--at",
+            &before,
+            "--out",
+            "edited",
+        ])
+        .done();
     assert_ne!(summary(&place, "edited")["state_hash"], first["state_hash"]);
     let verified = place.endline(&["replay", "edited/recording.endline", "--verify"]);
     assert_eq!(verified.code, Some(0), "{verified}");
@@ -152,14 +206,22 @@ fn taking_over_with_the_program_that_flew_changes_nothing_and_with_other_gear_is
     let scenario = flown(&place);
     place.endline(&["run", &scenario, "--out", "first"]).done();
     let recording = "first/recording.endline";
-    place.endline(&["run", &scenario, "--from", recording, "--at", "0.45", "--out", "again"]).done();
+    place
+        .endline(&["run", &scenario, "--from", recording, "--at", "0.45", "--out", "again"])
+        .done();
     assert_eq!(summary(&place, "first")["state_hash"], summary(&place, "again")["state_hash"]);
 
     let text = fs::read_to_string(&scenario).unwrap();
-    fs::write(place.path("gear-library/scenarios/gear.toml"), text.replace("speed = \"1.3 m/s\"", "speed = \"1.2 m/s\"")).unwrap();
+    fs::write(
+        place.path("gear-library/scenarios/gear.toml"),
+        text.replace("speed = \"1.3 m/s\"", "speed = \"1.2 m/s\""),
+    )
+    .unwrap();
     place
         .endline(&["run", "gear-library/scenarios/gear.toml", "--from", recording, "--at", "0.45"])
         .fails(1, &["not the one recorded", "step 0", "whale"]);
-    place.endline(&["run", &scenario, "--from", recording, "--at", "1e9"]).fails(1, &["outside the recording"]);
+    place
+        .endline(&["run", &scenario, "--from", recording, "--at", "1e9"])
+        .fails(1, &["outside the recording"]);
     place.endline(&["run", &scenario, "--from", recording]).fails(2, &["--at"]);
 }

@@ -33,11 +33,17 @@ const FIRST_SEED: u64 = 1;
 fn faults(model: &Model, settled: &Settled) -> Vec<String> {
     let mut faults = Vec::new();
     let rope = &settled.state.rope;
-    if !rope.tension.iter().all(|tension| tension.is_finite()) || !rope.position.iter().all(|place| place.is_finite()) {
+    if !rope.tension.iter().all(|tension| tension.is_finite())
+        || !rope.position.iter().all(|place| place.is_finite())
+    {
         return vec!["not finite".into()];
     }
     for (index, (body, state)) in model.spec.bodies.iter().zip(&settled.state.bodies).enumerate() {
-        let foot = body.feet_m.iter().map(|foot| (state.position + state.orientation * *foot).z).fold(f64::INFINITY, f64::min);
+        let foot = body
+            .feet_m
+            .iter()
+            .map(|foot| (state.position + state.orientation * *foot).z)
+            .fold(f64::INFINITY, f64::min);
         let ground = -model.spec.water.depth_m;
         let radius = match body.shape {
             Shape::Sphere(radius_m) => radius_m,
@@ -45,8 +51,12 @@ fn faults(model: &Model, settled: &Settled) -> Vec<String> {
             Shape::Box(half) => half.z,
         };
         match body.role {
-            BodyRole::Buoy if state.position.z >= radius => faults.push(format!("{} flies: {} m", body.id, state.position.z)),
-            BodyRole::Trap if (foot - ground).abs() > 0.05 => faults.push(format!("{} is {} m off the seabed", body.id, foot - ground)),
+            BodyRole::Buoy if state.position.z >= radius => {
+                faults.push(format!("{} flies: {} m", body.id, state.position.z))
+            }
+            BodyRole::Trap if (foot - ground).abs() > 0.05 => {
+                faults.push(format!("{} is {} m off the seabed", body.id, foot - ground))
+            }
             _ => {}
         }
         let out_n = balance::vertical(model, &settled.state, index);
@@ -93,23 +103,42 @@ fn every_shipped_assembly_settles_in_every_current() {
     let (library, open_too) = (library(), std::env::var_os("ENDLINE_OPEN").is_some());
     let mut wrong = Vec::new();
     for assembly in library.assemblies.iter().map(|assembly| assembly.entry.id.as_str()) {
-        for (speed, heading) in [0.0, 0.25, 0.5].into_iter().flat_map(|speed| [0.0, 90.0, 180.0].map(|heading| (speed, heading))) {
+        for (speed, heading) in [0.0, 0.25, 0.5]
+            .into_iter()
+            .flat_map(|speed| [0.0, 90.0, 180.0].map(|heading| (speed, heading)))
+        {
             let open = is_open(assembly, speed, heading);
             if open && !open_too {
                 continue;
             }
             let site = format!("item = \"cape-cod-bay\"\ndepth = \"{} m\"", made_for(assembly));
-            let model = placed(&library, assembly, &Sea { site: &site, speed, heading, nodes: 500 });
+            let model =
+                placed(&library, assembly, &Sea { site: &site, speed, heading, nodes: 500 });
             let settled = settle(&model);
-            let what = format!("{assembly} at {speed} m/s and {heading} deg: {}, {:.1e} N", settled.why(), settled.residual_n);
+            let what = format!(
+                "{assembly} at {speed} m/s and {heading} deg: {}, {:.1e} N",
+                settled.why(),
+                settled.residual_n
+            );
             println!("{what}, {} passes", settled.trace_n.len());
             match settled.outcome {
                 Outcome::AtRest => {
-                    let lean = if rolls(assembly, speed, heading) { Vec::new() } else { fallen(&model, &settled) };
-                    wrong.extend(faults(&model, &settled).into_iter().chain(lean).map(|fault| format!("{what}: {fault}")));
+                    let lean = if rolls(assembly, speed, heading) {
+                        Vec::new()
+                    } else {
+                        fallen(&model, &settled)
+                    };
+                    wrong.extend(
+                        faults(&model, &settled)
+                            .into_iter()
+                            .chain(lean)
+                            .map(|fault| format!("{what}: {fault}")),
+                    );
                 }
                 Outcome::Drags(_) if speed > 0.0 => {}
-                Outcome::NotFound(_) if open => assert!(settled.why().contains(" N is left at "), "{what}"),
+                Outcome::NotFound(_) if open => {
+                    assert!(settled.why().contains(" N is left at "), "{what}")
+                }
                 _ => wrong.push(what),
             }
         }
@@ -122,7 +151,9 @@ const SLICE: u64 = 500;
 
 /// A whole number of the environment, for a longer run.
 fn told_by(name: &str, usual: u64) -> u64 {
-    std::env::var(name).map_or(usual, |count| count.parse().unwrap_or_else(|_| panic!("{name} = {count} is no whole number")))
+    std::env::var(name).map_or(usual, |count| {
+        count.parse().unwrap_or_else(|_| panic!("{name} = {count} is no whole number"))
+    })
 }
 
 /// What statics made of drawn rigs.
@@ -143,15 +174,19 @@ impl Tally {
     fn add(&mut self, Rig { model, what }: &Rig, settled: &Settled) {
         let rope = &settled.state.rope;
         self.passes += settled.trace_n.len();
-        if !rope.position.iter().all(|place| place.is_finite()) || !rope.tension.iter().all(|pull| pull.is_finite()) {
+        if !rope.position.iter().all(|place| place.is_finite())
+            || !rope.tension.iter().all(|pull| pull.is_finite())
+        {
             self.wrong.push(format!("{what}: not finite"));
         }
         let told = format!("{what}: {}, {} passes", settled.why(), settled.trace_n.len());
         match settled.outcome {
             Outcome::AtRest => {
                 self.rest += 1;
-                self.wrong.extend(out_of_balance(model, settled).map(|fault| format!("{what}: {fault}")));
-                let fallen = fallen(model, settled).into_iter().map(|fault| format!("{what}: {fault}"));
+                self.wrong
+                    .extend(out_of_balance(model, settled).map(|fault| format!("{what}: {fault}")));
+                let fallen =
+                    fallen(model, settled).into_iter().map(|fault| format!("{what}: {fault}"));
                 self.fallen.extend(fallen.inspect(|fault| println!("{fault}")));
             }
             Outcome::Drags(_) => {
@@ -168,23 +203,44 @@ impl Tally {
     fn told(&self) -> String {
         let Self { rest, drag, passes, unknown, wrong, fallen } = self;
         let count = rest + drag + unknown.len() as u64;
-        let found = format!("of {count} rigs {rest} rest, {drag} drag, {} are without an answer, {} are wrong", unknown.len(), wrong.len());
-        format!("{found}, {} traps lie overturned; {} passes each", fallen.len(), *passes as u64 / count.max(1))
+        let found = format!(
+            "of {count} rigs {rest} rest, {drag} drag, {} are without an answer, {} are wrong",
+            unknown.len(),
+            wrong.len()
+        );
+        format!(
+            "{found}, {} traps lie overturned; {} passes each",
+            fallen.len(),
+            *passes as u64 / count.max(1)
+        )
     }
 }
 
 /// Traps that do not stand upright where they were laid. One that was dragged may have rolled, and an anchor falls over.
 fn fallen(model: &Model, settled: &Settled) -> Vec<String> {
-    let traps = model.spec.bodies.iter().zip(&settled.state.bodies).filter(|(body, _)| body.role == BodyRole::Trap);
-    let stayed = traps.filter(|(body, state)| (state.position - body.position_m).truncate().length() < DRAGGED_M);
-    let leans = stayed.map(|(body, state)| (&body.id, (state.orientation * DVec3::Z).angle_between(DVec3::Z).to_degrees()));
-    leans.filter(|(_, lean)| *lean > UPRIGHT_DEG).map(|(id, lean)| format!("{id} leans {lean:.0} deg")).collect()
+    let traps = model
+        .spec
+        .bodies
+        .iter()
+        .zip(&settled.state.bodies)
+        .filter(|(body, _)| body.role == BodyRole::Trap);
+    let stayed = traps
+        .filter(|(body, state)| (state.position - body.position_m).truncate().length() < DRAGGED_M);
+    let leans = stayed.map(|(body, state)| {
+        (&body.id, (state.orientation * DVec3::Z).angle_between(DVec3::Z).to_degrees())
+    });
+    leans
+        .filter(|(_, lean)| *lean > UPRIGHT_DEG)
+        .map(|(id, lean)| format!("{id} leans {lean:.0} deg"))
+        .collect()
 }
 
 /// The body that is furthest out of vertical balance, where one is.
 fn out_of_balance(model: &Model, settled: &Settled) -> Option<String> {
-    let out = |body: usize| (balance::vertical(model, &settled.state, body), &model.spec.bodies[body].id);
-    let (out_n, body) = (0..model.spec.bodies.len()).map(out).max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
+    let out =
+        |body: usize| (balance::vertical(model, &settled.state, body), &model.spec.bodies[body].id);
+    let (out_n, body) =
+        (0..model.spec.bodies.len()).map(out).max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
     (out_n.abs() > BALANCED_N).then(|| format!("{body} is {out_n} N out of vertical balance"))
 }
 
@@ -205,6 +261,15 @@ fn rigs_drawn_at_random_settle_or_say_why() {
     }
     println!("from seed {first}: {}", tally.told());
     assert!(tally.wrong.is_empty(), "{}", tally.wrong.join("\n"));
-    assert!(tally.fallen.len() as f64 <= FALLEN_SHARE * count as f64, "{}", tally.fallen.join("\n"));
-    assert!(tally.unknown.len() as f64 <= UNKNOWN_SHARE * count as f64, "{}:\n{}", tally.told(), tally.unknown.join("\n"));
+    assert!(
+        tally.fallen.len() as f64 <= FALLEN_SHARE * count as f64,
+        "{}",
+        tally.fallen.join("\n")
+    );
+    assert!(
+        tally.unknown.len() as f64 <= UNKNOWN_SHARE * count as f64,
+        "{}:\n{}",
+        tally.told(),
+        tally.unknown.join("\n")
+    );
 }

@@ -16,8 +16,10 @@ fn text(name: &str) -> String {
 }
 
 fn assembled(text: &str) -> ModelSpec {
-    let scenario = Scenario::read("test.toml", text).unwrap_or_else(|problems| panic!("{}", told(&problems)));
-    assemble(&scenario, &library(), &Linked, &Options::default()).unwrap_or_else(|problems| panic!("{}", told(&problems)))
+    let scenario =
+        Scenario::read("test.toml", text).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    assemble(&scenario, &library(), &Linked, &Options::default())
+        .unwrap_or_else(|problems| panic!("{}", told(&problems)))
 }
 
 /// The single in Cape Cod Bay with these lines in `[site]` and these tables after it.
@@ -31,7 +33,8 @@ fn single(site: &str, tables: &str) -> String {
 fn run(model: &Model, state: &mut State, until_s: f64, mut see: impl FnMut(&State)) {
     let mut workspace = Workspace::new(model);
     while state.time_s < until_s - 1e-9 {
-        step(model, &Input::default(), state, &mut workspace).unwrap_or_else(|stop| panic!("{stop:?}"));
+        step(model, &Input::default(), state, &mut workspace)
+            .unwrap_or_else(|stop| panic!("{stop:?}"));
         see(state);
     }
 }
@@ -42,7 +45,9 @@ fn a_current_in_rows_turns_with_height_and_the_tide_turns_all_of_it() {
                 [[current.profile]]\nheight = \"5 m\"\nspeed = \"0.25 m/s\"\ntoward = \"0 deg\"\n\
                 [current.tide]\nperiod = \"12.42 h\"\nslack = \"0 s\"\nresidual = \"0.1 m/s\"\nresidual_toward = \"180 deg\"\n";
     let water = assembled(&single("", rows)).water;
-    let Profile::Table(table) = &water.current.profile else { panic!("{:?}", water.current.profile) };
+    let Profile::Table(table) = &water.current.profile else {
+        panic!("{:?}", water.current.profile)
+    };
     assert!((table[0].height - 0.2).abs() < 1e-12 && (table[1].height - 1.0).abs() < 1e-12);
     // At slack water the residual is left; a quarter of a period later the fastest row runs as written.
     assert!((water.current.at(1.0, 0.0) - DVec3::new(0.0, -0.1, 0.0)).length() < 1e-12);
@@ -56,35 +61,57 @@ fn a_current_in_rows_turns_with_height_and_the_tide_turns_all_of_it() {
 
 #[test]
 fn a_tide_in_rows_and_the_seabed_of_a_scenario_are_read() {
-    let at =
-        |time: &str, speed: &str, toward: &str| format!("[[current.at]]\ntime = \"{time}\"\nspeed = \"{speed}\"\ntoward = \"{toward}\"\n");
-    let rows = at("0 s", "0.4 m/s", "90 deg") + &at("1 h", "0 m/s", "90 deg") + &at("2 h", "0.4 m/s", "270 deg");
-    let bed =
-        "slope = \"5 deg\"\nslope_toward = \"90 deg\"\nrope_friction = 0.8\nrope_stiffness = \"9 kN/m2\"\nfoot_stiffness = \"30 kN/m\"";
+    let at = |time: &str, speed: &str, toward: &str| {
+        format!("[[current.at]]\ntime = \"{time}\"\nspeed = \"{speed}\"\ntoward = \"{toward}\"\n")
+    };
+    let rows = at("0 s", "0.4 m/s", "90 deg")
+        + &at("1 h", "0 m/s", "90 deg")
+        + &at("2 h", "0.4 m/s", "270 deg");
+    let bed = "slope = \"5 deg\"\nslope_toward = \"90 deg\"\nrope_friction = 0.8\nrope_stiffness = \"9 kN/m2\"\nfoot_stiffness = \"30 kN/m\"";
     let spec = assembled(&single(bed, &rows));
     assert!(matches!(&spec.water.current.tide, Tide::Table(rows) if rows.len() == 3));
     assert!((spec.water.current.at(1.0, 5400.0) - DVec3::new(-0.2, 0.0, 0.0)).length() < 1e-12);
     let seabed = spec.seabed.unwrap();
-    assert!((seabed.height_at(DVec3::X * 100.0) + 25.0 + 100.0 * 5_f64.to_radians().tan()).abs() < 1e-9);
-    assert_eq!((seabed.rope_friction, seabed.rope_stiffness_n_m2, seabed.foot_stiffness_n_m), (0.8, 9e3, 3e4));
+    assert!(
+        (seabed.height_at(DVec3::X * 100.0) + 25.0 + 100.0 * 5_f64.to_radians().tan()).abs() < 1e-9
+    );
+    assert_eq!(
+        (seabed.rope_friction, seabed.rope_stiffness_n_m2, seabed.foot_stiffness_n_m),
+        (0.8, 9e3, 3e4)
+    );
     let waves = assembled(&text("waves-buoy.toml")).water.waves.unwrap();
-    assert!(matches!(waves.kind, WaveKind::Jonswap { spectrum, components: 64 } if (spectrum.significant_height_m - 1.2).abs() < 1e-12));
+    assert!(
+        matches!(waves.kind, WaveKind::Jonswap { spectrum, components: 64 } if (spectrum.significant_height_m - 1.2).abs() < 1e-12)
+    );
     assert!((waves.toward + DVec3::X).length() < 1e-12 && (waves.ramp_s - 10.0).abs() < 1e-12);
 }
 
 /// A logarithmic current runs at its speed where the scenario says so, by `ln(1 + z/z0)`; the site's holds where it says nothing.
 #[test]
 fn a_logarithmic_current_has_its_speed_at_its_height() {
-    let water = assembled(&single("", "[current]\nspeed = \"0.3 m/s\"\nspeed_height = \"1.5 m\"\nroughness = \"3 mm\"\n")).water;
+    let water = assembled(&single(
+        "",
+        "[current]\nspeed = \"0.3 m/s\"\nspeed_height = \"1.5 m\"\nroughness = \"3 mm\"\n",
+    ))
+    .water;
     let at = |height: f64| water.current.at(height / 25.0, 0.0).x;
     assert!((at(1.5) - 0.3).abs() < 1e-12);
     for height in [0.001, 0.1, 5.0, 25.0] {
-        assert!((at(height) - 0.3 * (1.0 + height / 3e-3_f64).ln() / 501_f64.ln()).abs() < 1e-12, "{height} m");
+        assert!(
+            (at(height) - 0.3 * (1.0 + height / 3e-3_f64).ln() / 501_f64.ln()).abs() < 1e-12,
+            "{height} m"
+        );
     }
-    let water = assembled(&single("item = \"jonesport\"", "").replace("item = \"cape-cod-bay\"\n", "")).water;
-    assert!((water.current.at(1.5 / 30.0, 0.0).x - 0.3).abs() < 1e-12 && water.current.at(1.0, 0.0).x > 0.4);
+    let water =
+        assembled(&single("item = \"jonesport\"", "").replace("item = \"cape-cod-bay\"\n", ""))
+            .water;
+    assert!(
+        (water.current.at(1.5 / 30.0, 0.0).x - 0.3).abs() < 1e-12
+            && water.current.at(1.0, 0.0).x > 0.4
+    );
     // A speed or a law of the scenario goes over the site's.
-    let slow = single("item = \"jonesport\"", "[current]\nspeed = \"0.2 m/s\"\nexponent = 0\n").replace("item = \"cape-cod-bay\"\n", "");
+    let slow = single("item = \"jonesport\"", "[current]\nspeed = \"0.2 m/s\"\nexponent = 0\n")
+        .replace("item = \"cape-cod-bay\"\n", "");
     assert!((assembled(&slow).water.current.at(0.01, 0.0).x - 0.2).abs() < 1e-12);
 }
 
@@ -105,21 +132,61 @@ fn mistakes_in_the_sea_are_told_with_their_place() {
             "exponent",
             ["beside a profile in rows", "take this out"],
         ),
-        ("", "[current]\nexponent = 0.1\nroughness = \"3 mm\"", "roughness", ["both `exponent` and `roughness`", "keep"]),
+        (
+            "",
+            "[current]\nexponent = 0.1\nroughness = \"3 mm\"",
+            "roughness",
+            ["both `exponent` and `roughness`", "keep"],
+        ),
         ("", "[current]\nroughness = \"3 m\"", "roughness", ["`roughness` is 3 m", "1 m"]),
-        ("", "[current]\nspeed_height = \"2 m\"", "speed_height", ["without a `speed`", "take this out"]),
-        ("", "[current]\nspeed = \"1 m/s\"\nspeed_height = \"26 m\"", "speed_height", ["out of the water", "25 m deep"]),
+        (
+            "",
+            "[current]\nspeed_height = \"2 m\"",
+            "speed_height",
+            ["without a `speed`", "take this out"],
+        ),
+        (
+            "",
+            "[current]\nspeed = \"1 m/s\"\nspeed_height = \"26 m\"",
+            "speed_height",
+            ["out of the water", "25 m deep"],
+        ),
         (
             "",
             "[current]\nroughness = \"3 mm\"\n[[current.profile]]\nheight = \"0 m\"\nspeed = \"1 m/s\"",
             "roughness",
             ["beside a profile", "take"],
         ),
-        ("", "[[current.profile]]\nspeed = \"1 m/s\"", "[[current.profile]]", ["`height` is missing", "above the seabed"]),
-        ("", "[[current.profile]]\nheight = \"1 m\"\ndepth = \"1 m\"\nspeed = \"1 m/s\"", "depth", ["both `height` and `depth`", "keep"]),
-        ("", "[[current.profile]]\nheight = \"26 m\"\nspeed = \"1 m/s\"", "height", ["out of the water", "25 m deep"]),
-        ("", "[current.tide]\npeak = \"0 s\"", "[current.tide]", ["`period` is missing", "expected a time"]),
-        ("", "[current.tide]\nperiod = \"12 h\"\npeak = \"0 s\"\nslack = \"0 s\"", "slack", ["both `peak` and `slack`", "keep"]),
+        (
+            "",
+            "[[current.profile]]\nspeed = \"1 m/s\"",
+            "[[current.profile]]",
+            ["`height` is missing", "above the seabed"],
+        ),
+        (
+            "",
+            "[[current.profile]]\nheight = \"1 m\"\ndepth = \"1 m\"\nspeed = \"1 m/s\"",
+            "depth",
+            ["both `height` and `depth`", "keep"],
+        ),
+        (
+            "",
+            "[[current.profile]]\nheight = \"26 m\"\nspeed = \"1 m/s\"",
+            "height",
+            ["out of the water", "25 m deep"],
+        ),
+        (
+            "",
+            "[current.tide]\npeak = \"0 s\"",
+            "[current.tide]",
+            ["`period` is missing", "expected a time"],
+        ),
+        (
+            "",
+            "[current.tide]\nperiod = \"12 h\"\npeak = \"0 s\"\nslack = \"0 s\"",
+            "slack",
+            ["both `peak` and `slack`", "keep"],
+        ),
         (
             "",
             "[[current.at]]\ntime = \"9 s\"\nspeed = \"1 m/s\"\n[[current.at]]\ntime = \"8 s\"\nspeed = \"1 m/s\"",
@@ -127,8 +194,18 @@ fn mistakes_in_the_sea_are_told_with_their_place() {
             ["rising order", "order of time"],
         ),
         ("", "[waves]\nheight = \"1 m\"", "[waves]", ["`period` is missing", "expected a time"]),
-        ("", "[waves]\nheight = \"8 m\"\nperiod = \"5 s\"", "height", ["waves of 8 m and 5 s break", "at most"]),
-        ("", "[waves]\nheight = \"1 m\"\nperiod = \"5 s\"\ngamma = 2.0", "gamma", ["figure of a spectrum", "spectrum = \"jonswap\""]),
+        (
+            "",
+            "[waves]\nheight = \"8 m\"\nperiod = \"5 s\"",
+            "height",
+            ["waves of 8 m and 5 s break", "at most"],
+        ),
+        (
+            "",
+            "[waves]\nheight = \"1 m\"\nperiod = \"5 s\"\ngamma = 2.0",
+            "gamma",
+            ["figure of a spectrum", "spectrum = \"jonswap\""],
+        ),
         (
             "",
             "[waves]\nspectrum = \"jonswop\"\nheight = \"1 m\"\nperiod = \"5 s\"",
@@ -145,7 +222,9 @@ fn mistakes_in_the_sea_are_told_with_their_place() {
         let whole = single(site, tables);
         let problems = match Scenario::read("test.toml", &whole) {
             Err(problems) => problems,
-            Ok(scenario) => assemble(&scenario, &library(), &Linked, &Options::default()).err().unwrap_or_default(),
+            Ok(scenario) => assemble(&scenario, &library(), &Linked, &Options::default())
+                .err()
+                .unwrap_or_default(),
         };
         let message = told(&problems);
         let first = problems.first().unwrap_or_else(|| panic!("this assembles:\n{whole}"));
@@ -159,10 +238,16 @@ fn mistakes_in_the_sea_are_told_with_their_place() {
 fn gear_on_a_slope_of_five_degrees_rests_on_it() {
     let site = "slope = \"5 deg\"\nslope_toward = \"90 deg\"";
     for tables in ["[current]\nspeed = \"0 m/s\"", "[current]\nspeed = \"0.25 m/s\""] {
-        let east = single(site, tables).replace("assembly = \"single\"", "assembly = \"single\"\nposition = [\"40 m\", \"0 m\"]");
+        let east = single(site, tables).replace(
+            "assembly = \"single\"",
+            "assembly = \"single\"\nposition = [\"40 m\", \"0 m\"]",
+        );
         let model = Model::new(assembled(&east)).unwrap();
         let seabed = model.spec.seabed.clone().unwrap();
-        assert!((model.spec.bodies[0].position_m.z + 28.5).abs() < 0.5 && seabed.height_at(DVec3::X * 40.0) < -28.4);
+        assert!(
+            (model.spec.bodies[0].position_m.z + 28.5).abs() < 0.5
+                && seabed.height_at(DVec3::X * 40.0) < -28.4
+        );
         let settled = settle(&model);
         assert!(settled.converged, "{tables}: {} N", settled.residual_n);
         let feet = |state: &State| {
@@ -190,7 +275,8 @@ fn the_shipped_tide_swings_the_buoy_round() {
     let buoy = model.spec.bodies.iter().position(|body| body.id == "buoy").unwrap();
     let settled = settle(&model);
     assert!(settled.converged);
-    let (flood, mut state, mut highest) = (settled.state.bodies[buoy].position, settled.state.clone(), f64::MIN);
+    let (flood, mut state, mut highest) =
+        (settled.state.bodies[buoy].position, settled.state.clone(), f64::MIN);
     run(&model, &mut state, 600.0, |state| highest = highest.max(state.bodies[buoy].position.z));
     let ebb = state.bodies[buoy].position;
     println!("flood {flood:.2}, ebb {ebb:.2}, highest {highest:.2}");
@@ -217,6 +303,8 @@ fn the_shipped_buoy_rides_its_waves() {
         }
     });
     let (off, heave): (f64, f64) = ((off / count).sqrt(), (heave / count).sqrt());
-    println!("surface over the buoy {heave:.3} m rms, buoy off it {off:.3} m rms, greatest tension {peak:.0} N");
+    println!(
+        "surface over the buoy {heave:.3} m rms, buoy off it {off:.3} m rms, greatest tension {peak:.0} N"
+    );
     assert!((0.15..0.5).contains(&heave) && off < 0.5 * heave);
 }

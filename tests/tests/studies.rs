@@ -1,6 +1,10 @@
 //! Studies as their users run them: the same table for any threads, shards and kills, and clear errors that lose nothing.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking, in its helpers too")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test fails by panicking, in its helpers too"
+)]
 
 mod common;
 
@@ -62,7 +66,9 @@ fn small(place: &Place) -> String {
     fs::create_dir_all(&folder).unwrap();
     let scenario = fs::read_to_string(library().join("scenarios/study-endline-held.toml")).unwrap();
     let (gear, _) = scenario.split_once("[whale]").unwrap();
-    let gear = gear.replace("duration = \"75 s\"", "duration = \"0.5 s\"").replace("rope_nodes = 80", "rope_nodes = 12");
+    let gear = gear
+        .replace("duration = \"75 s\"", "duration = \"0.5 s\"")
+        .replace("rope_nodes = 80", "rope_nodes = 12");
     let scenario = gear.replace("[resolution]\nnear = \"30 cm\"\nedges = \"10 cm\"\n", "");
     fs::write(folder.join("small.toml"), scenario).unwrap();
     let study = folder.join("study.toml");
@@ -91,9 +97,21 @@ fn the_table_is_the_same_for_any_threads_and_shards() {
         let folder = out(&format!("of-{shards}"));
         for shard in (1..=shards).rev() {
             if shard == 1 {
-                place.endline(&["study", "merge", &study, "--out", &folder]).fails(1, &["lacks", "block", "1/"]);
+                place
+                    .endline(&["study", "merge", &study, "--out", &folder])
+                    .fails(1, &["lacks", "block", "1/"]);
             }
-            place.endline(&["study", "run", &study, "--out", &folder, "--shard", &format!("{shard}/{shards}")]).done();
+            place
+                .endline(&[
+                    "study",
+                    "run",
+                    &study,
+                    "--out",
+                    &folder,
+                    "--shard",
+                    &format!("{shard}/{shards}"),
+                ])
+                .done();
         }
         place.endline(&["study", "merge", &study, "--out", &folder]).done();
         assert_eq!(table(Path::new(&folder)), whole, "{shards} shards");
@@ -149,11 +167,21 @@ fn a_run_begun_where_options_part_ways_is_the_whole_run() {
         let row = rows.lines().find(|row| row.split(',').nth(1) == Some(option)).unwrap();
         row.split(',').nth(place).unwrap().to_owned()
     };
-    let at: Vec<f64> = ["rope", "middle", "late"].map(|option| cell(option, "parted_at_s").parse().unwrap()).to_vec();
-    assert!(0.5 < at[0] && at[0] + 0.5 < at[1] && at[1] + 0.5 < at[2], "each parts after a look at the run: {at:?}");
+    let at: Vec<f64> = ["rope", "middle", "late"]
+        .map(|option| cell(option, "parted_at_s").parse().unwrap())
+        .to_vec();
+    assert!(
+        0.5 < at[0] && at[0] + 0.5 < at[1] && at[1] + 0.5 < at[2],
+        "each parts after a look at the run: {at:?}"
+    );
     for option in ["middle", "late", "rope"] {
-        let replayed = place.endline(&["study", "replay", &study, "--out", &out, "--row", "0", "--option", option]).done();
-        assert!(replayed.stderr.contains("ends in the state that the table has"), "{option}: {replayed}");
+        let replayed = place
+            .endline(&["study", "replay", &study, "--out", &out, "--row", "0", "--option", option])
+            .done();
+        assert!(
+            replayed.stderr.contains("ends in the state that the table has"),
+            "{option}: {replayed}"
+        );
     }
 }
 
@@ -168,7 +196,9 @@ fn killed_at_any_moment_it_goes_on_to_the_same_table() {
     let study = small(&place);
     let whole_at = place.folder.join("whole");
     let start = Instant::now();
-    place.endline(&["study", "run", &study, "--out", whole_at.to_str().unwrap(), "--threads", "1"]).done();
+    place
+        .endline(&["study", "run", &study, "--out", whole_at.to_str().unwrap(), "--threads", "1"])
+        .done();
     let mut takes = start.elapsed();
     place.endline(&["study", "merge", &study, "--out", whole_at.to_str().unwrap()]).done();
     let whole = table(&whole_at);
@@ -178,8 +208,10 @@ fn killed_at_any_moment_it_goes_on_to_the_same_table() {
     let (mut killed, mut midway) = (0, 0);
     for moment in moments(100) {
         let folder = folders.last().unwrap().clone();
-        let arguments = ["study", "run", &study, "--out", folder.to_str().unwrap(), "--threads", "1"];
-        let mut child = place.command(&arguments).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        let arguments =
+            ["study", "run", &study, "--out", folder.to_str().unwrap(), "--threads", "1"];
+        let mut child =
+            place.command(&arguments).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
         std::thread::sleep(takes.mul_f64(moment));
         if child.try_wait().unwrap().is_some() {
             // It was quicker this time: the machine does other things too.
@@ -206,7 +238,11 @@ fn killed_at_any_moment_it_goes_on_to_the_same_table() {
 
 /// Blocks that stand in a folder.
 fn blocks(folder: &Path) -> usize {
-    let names = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.file_name().into_string().unwrap());
+    let names = fs::read_dir(folder)
+        .into_iter()
+        .flatten()
+        .flatten()
+        .map(|entry| entry.file_name().into_string().unwrap());
     names.filter(|name| name.starts_with("block-") && name.ends_with(".parquet")).count()
 }
 
@@ -216,51 +252,98 @@ fn a_study_that_has_seen_enough_ends_there() {
     let study = small(&place);
     // Of 4 encounters none has contact, of which the interval is 0 to 0.49; of 8 it is 0 to 0.32.
     let asks = |narrower: f64, least: u32| {
-        let enough = format!("[enough]\nevent = \"contact\"\nnarrower = {narrower}\nleast = {least}\n\n[[option]]\nid = \"none\"");
+        let enough = format!(
+            "[enough]\nevent = \"contact\"\nnarrower = {narrower}\nleast = {least}\n\n[[option]]\nid = \"none\""
+        );
         fs::write(&study, STUDY.replacen("[[option]]\nid = \"none\"", &enough, 1)).unwrap();
     };
-    let rows = |folder: &Path| fs::read_to_string(folder.join("table.csv")).unwrap().lines().count() - 1;
-    for (name, narrower, least, threads, encounters) in
-        [("at-4", 0.5, 4, "1", 4), ("two", 0.5, 4, "2", 4), ("at-8", 0.4, 4, "1", 8), ("least", 0.5, 8, "1", 8)]
-    {
+    let rows =
+        |folder: &Path| fs::read_to_string(folder.join("table.csv")).unwrap().lines().count() - 1;
+    for (name, narrower, least, threads, encounters) in [
+        ("at-4", 0.5, 4, "1", 4),
+        ("two", 0.5, 4, "2", 4),
+        ("at-8", 0.4, 4, "1", 8),
+        ("least", 0.5, 8, "1", 8),
+    ] {
         asks(narrower, least);
         let folder = place.folder.join(name);
-        place.endline(&["study", "run", &study, "--out", folder.to_str().unwrap(), "--threads", threads]).done();
+        place
+            .endline(&[
+                "study",
+                "run",
+                &study,
+                "--out",
+                folder.to_str().unwrap(),
+                "--threads",
+                threads,
+            ])
+            .done();
         place.endline(&["study", "merge", &study, "--out", folder.to_str().unwrap()]).done();
         assert_eq!(rows(&folder), 4 * encounters, "{name}: rows of four options");
     }
-    assert_eq!(table(&place.folder.join("at-4")), table(&place.folder.join("two")), "whichever block a second thread had begun");
+    assert_eq!(
+        table(&place.folder.join("at-4")),
+        table(&place.folder.join("two")),
+        "whichever block a second thread had begun"
+    );
 }
 
 /// What the table says of options that are the same, and of a link that parts at a touch.
 fn findings(place: &Place, study: &str, out: &str) {
     let found = place.endline(&["study", "report", study, "--out", out, "--json"]).done().json();
-    let option = |id: &str| found["options"].as_array().unwrap().iter().find(|option| option["id"] == id).unwrap().clone();
-    for (event, paired) in option("same")["against"].as_array().unwrap().iter().map(|pair| (&pair[0], &pair[1])) {
+    let option = |id: &str| {
+        found["options"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .find(|option| option["id"] == id)
+            .unwrap()
+            .clone()
+    };
+    for (event, paired) in
+        option("same")["against"].as_array().unwrap().iter().map(|pair| (&pair[0], &pair[1]))
+    {
         assert_eq!(paired["difference"].as_f64(), Some(0.0), "{event}");
         assert_eq!(paired["only_this"], 0, "{event}");
     }
     assert_eq!(option("same")["tensions"]["sorted_n"], option("none")["tensions"]["sorted_n"]);
     let rows = fs::read_to_string(Path::new(out).join("table.csv")).unwrap();
-    let parted = |id: &str| rows.lines().filter(|row| row.split(',').nth(1) == Some(id) && row.contains(",buoy-link,")).count();
+    let parted = |id: &str| {
+        rows.lines()
+            .filter(|row| row.split(',').nth(1) == Some(id) && row.contains(",buoy-link,"))
+            .count()
+    };
     assert!(parted("weak") > 0, "a link of 5 N bears no buoy in a running tide");
     assert_eq!([parted("strong"), parted("none")], [0, 0], "one of 600 lbf does");
 
     let page = fs::read_to_string(Path::new(out).join("report.html")).unwrap();
-    assert!(page.matches("<svg").count() >= 5 && page.contains("given an encounter") && page.contains("lbf"), "the figures are inside");
+    assert!(
+        page.matches("<svg").count() >= 5
+            && page.contains("given an encounter")
+            && page.contains("lbf"),
+        "the figures are inside"
+    );
     assert!(!page.contains("NaN") && !page.contains("<script"));
 
-    let replayed = place.endline(&["study", "replay", study, "--out", out, "--row", "3", "--option", "weak"]).done();
+    let replayed = place
+        .endline(&["study", "replay", study, "--out", out, "--row", "3", "--option", "weak"])
+        .done();
     assert!(replayed.stderr.contains("ends in the state that the table has"), "{replayed}");
-    let strong = place.endline(&["study", "replay", study, "--out", out, "--row", "3", "--option", "strong"]).done();
-    assert!(strong.stderr.contains("ends in the state that the table has"), "a shared row is the run it stands for: {strong}");
+    let strong = place
+        .endline(&["study", "replay", study, "--out", out, "--row", "3", "--option", "strong"])
+        .done();
+    assert!(
+        strong.stderr.contains("ends in the state that the table has"),
+        "a shared row is the run it stands for: {strong}"
+    );
 }
 
 /// The bundle makes the same table by the two commands it names, without the library it came from.
 fn bundle(place: &Place, folder: &Path, whole: &[u8]) {
     fs::remove_dir_all(place.path("gear-library")).unwrap();
     let readme = fs::read_to_string(folder.join("bundle/README.txt")).unwrap();
-    let commands: Vec<&str> = readme.lines().filter_map(|line| line.strip_prefix("endline ")).collect();
+    let commands: Vec<&str> =
+        readme.lines().filter_map(|line| line.strip_prefix("endline ")).collect();
     assert_eq!(commands.len(), 2, "{readme}");
     for command in commands {
         let arguments: Vec<&str> = command.split(' ').collect();
@@ -279,19 +362,34 @@ fn mistakes_are_told_at_their_place() {
         fs::write(&study, STUDY.replace(from, to)).unwrap();
         place.endline(&["study", "plan", &study])
     };
-    plan("encounters = 10", "encountres = 10").fails(1, &["study.toml:6:1", "unknown field `encountres`", "did you mean `encounters`?"]);
-    plan("\"link.0.rating\" = \"5 N\"", "\"link.0.rating\" = \"0 lbf\"").fails(1, &["study.toml", "option `weak`", "above zero"]);
-    plan("baseline = \"none\"", "baseline = \"noen\"").fails(1, &["no option `noen`", "did you mean `none`?"]);
+    plan("encounters = 10", "encountres = 10")
+        .fails(1, &["study.toml:6:1", "unknown field `encountres`", "did you mean `encounters`?"]);
+    plan("\"link.0.rating\" = \"5 N\"", "\"link.0.rating\" = \"0 lbf\"")
+        .fails(1, &["study.toml", "option `weak`", "above zero"]);
+    plan("baseline = \"none\"", "baseline = \"noen\"")
+        .fails(1, &["no option `noen`", "did you mean `none`?"]);
     plan("[encounter.tide]", "[encounter.tied]").fails(1, &["`tied`", "did you mean `tide`?"]);
     plan("\"link.0.rating\" = \"5 N\"", "\"link.0.ratign\" = \"5 N\"")
         .fails(1, &["unknown field `ratign`", "did you mean `rating`?", "study.toml"]);
-    plan("source = \"assumed\"\n\n[encounter.tide]", "\n[encounter.tide]").fails(1, &["`source` is missing", "assumed"]);
-    plan("scenario = \"small.toml\"", "scenario = \"hello-endlin\"").fails(1, &["did you mean `hello-endline`?"]);
+    plan("source = \"assumed\"\n\n[encounter.tide]", "\n[encounter.tide]")
+        .fails(1, &["`source` is missing", "assumed"]);
+    plan("scenario = \"small.toml\"", "scenario = \"hello-endlin\"")
+        .fails(1, &["did you mean `hello-endline`?"]);
 
     fs::write(&study, STUDY).unwrap();
-    place.endline(&["study", "replay", &study, "--row", "3", "--option", "week"]).fails(1, &["no option `week`", "did you mean `weak`?"]);
+    place
+        .endline(&["study", "replay", &study, "--row", "3", "--option", "week"])
+        .fails(1, &["no option `week`", "did you mean `weak`?"]);
     place.endline(&["study", "run", &study, "--shard", "8/7"]).fails(2, &["2/7"]);
-    place.endline(&["study", "report", &study, "--out", &place.folder.join("no").display().to_string()]).fails(1, &["merge"]);
+    place
+        .endline(&[
+            "study",
+            "report",
+            &study,
+            "--out",
+            &place.folder.join("no").display().to_string(),
+        ])
+        .fails(1, &["merge"]);
 }
 
 #[test]
@@ -306,7 +404,10 @@ fn a_folder_keeps_to_its_study_and_what_cannot_be_written_loses_nothing() {
     // A study made longer is the same study, and so is one with its tables in another order.
     fs::write(&study, STUDY.replace("encounters = 10", "encounters = 14")).unwrap();
     let longer = place.endline(&arguments).done();
-    assert!(longer.stdout.contains("1 of them new") || longer.stdout.contains("0 of them new"), "{longer}");
+    assert!(
+        longer.stdout.contains("1 of them new") || longer.stdout.contains("0 of them new"),
+        "{longer}"
+    );
 
     // A name that cannot be written: the block before it stays whole.
     fs::write(&study, STUDY).unwrap();
@@ -314,7 +415,9 @@ fn a_folder_keeps_to_its_study_and_what_cannot_be_written_loses_nothing() {
     fs::create_dir(out.join("block-00001.parquet")).unwrap();
     fs::write(out.join("block-00001.parquet/in-the-way"), "").unwrap();
     let second = ["study", "run", &study, "--out", &out.display().to_string(), "--shard", "2/3"];
-    place.endline(&second).fails(1, &["block-00001.parquet", "cannot be written", "goes on from them"]);
+    place
+        .endline(&second)
+        .fails(1, &["block-00001.parquet", "cannot be written", "goes on from them"]);
     assert_eq!(fs::read(out.join("block-00000.parquet")).unwrap(), before);
     fs::remove_dir_all(out.join("block-00001.parquet")).unwrap();
     place.endline(&second).done();
@@ -323,13 +426,29 @@ fn a_folder_keeps_to_its_study_and_what_cannot_be_written_loses_nothing() {
     #[cfg(unix)]
     {
         let before = blocks(&out);
-        let third = place.command(&["study", "run", &study, "--out", out.to_str().unwrap(), "--shard", "3/3"]);
+        let third = place.command(&[
+            "study",
+            "run",
+            &study,
+            "--out",
+            out.to_str().unwrap(),
+            "--shard",
+            "3/3",
+        ]);
         let mut limited = std::process::Command::new("sh");
-        limited.args(["-c", "trap '' XFSZ; ulimit -f 4; exec \"$0\" \"$@\""]).arg(third.get_program()).args(third.get_args());
-        limited.current_dir(&place.folder).envs(third.get_envs().filter_map(|(name, value)| Some((name, value?))));
-        common::called(&mut limited).fails(1, &["block-00002.parquet", "cannot be written", "goes on from them"]);
+        limited
+            .args(["-c", "trap '' XFSZ; ulimit -f 4; exec \"$0\" \"$@\""])
+            .arg(third.get_program())
+            .args(third.get_args());
+        limited
+            .current_dir(&place.folder)
+            .envs(third.get_envs().filter_map(|(name, value)| Some((name, value?))));
+        common::called(&mut limited)
+            .fails(1, &["block-00002.parquet", "cannot be written", "goes on from them"]);
         assert_eq!(blocks(&out), before, "nothing half written stands there as a block");
-        place.endline(&["study", "run", &study, "--out", out.to_str().unwrap(), "--shard", "3/3"]).done();
+        place
+            .endline(&["study", "run", &study, "--out", out.to_str().unwrap(), "--shard", "3/3"])
+            .done();
         place.endline(&["study", "merge", &study, "--out", out.to_str().unwrap()]).done();
     }
 }
@@ -338,15 +457,26 @@ fn a_folder_keeps_to_its_study_and_what_cannot_be_written_loses_nothing() {
 fn every_shipped_study_assembles() {
     let place = Place::new("study-shipped");
     let folder = library().join("studies");
-    let mut files: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    let mut files: Vec<_> =
+        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     files.sort();
     assert!(!files.is_empty());
     for file in files {
-        let plan = place.endline(&["study", "plan", &file.display().to_string(), "--json"]).done().json();
+        let plan =
+            place.endline(&["study", "plan", &file.display().to_string(), "--json"]).done().json();
         // Only options that differ in strengths alone share runs: all of one study, none of the others.
-        let alone = plan["families"].as_array().unwrap().iter().all(|family| family.as_array().unwrap().len() == 1);
+        let alone = plan["families"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .all(|family| family.as_array().unwrap().len() == 1);
         let together = plan["families"].as_array().unwrap().len() == 1;
-        assert_eq!([alone, together], if plan["study"] == "weak-links" { [false, true] } else { [true, false] }, "{}", plan["study"]);
+        assert_eq!(
+            [alone, together],
+            if plan["study"] == "weak-links" { [false, true] } else { [true, false] },
+            "{}",
+            plan["study"]
+        );
         assert_eq!(plan["study"], file.file_stem().unwrap().to_string_lossy().as_ref());
     }
 }

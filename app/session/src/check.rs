@@ -51,7 +51,11 @@ impl Checked {
             }
         }
         if self.files == before && self.problems.is_empty() {
-            self.tell(folder, "nothing to check here", "expected a gear library, a scenario or a library file (.toml)");
+            self.tell(
+                folder,
+                "nothing to check here",
+                "expected a gear library, a scenario or a library file (.toml)",
+            );
         }
     }
 
@@ -60,7 +64,9 @@ impl Checked {
         match Sources::from_folder(root) {
             Ok(sources) => {
                 self.files += sources.iter().count();
-                self.problems.extend(Library::read(&sources).1.into_iter().map(|problem| under(root, problem)));
+                self.problems.extend(
+                    Library::read(&sources).1.into_iter().map(|problem| under(root, problem)),
+                );
             }
             Err(problems) => self.problems.extend(problems),
         }
@@ -77,7 +83,11 @@ impl Checked {
     }
 
     fn file(&mut self, path: &Path, library: Option<&Path>, host: &PluginHost) {
-        let parent = path.parent().and_then(Path::file_name).map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        let parent = path
+            .parent()
+            .and_then(Path::file_name)
+            .map(|name| name.to_string_lossy().into_owned())
+            .unwrap_or_default();
         if parent == "cases" {
             return self.case(path, library, host);
         }
@@ -89,21 +99,29 @@ impl Checked {
         }
         self.files += 1;
         match std::fs::read_to_string(path) {
-            Ok(text) => self.problems.extend(Library::check_file(&path.display().to_string(), &text)),
+            Ok(text) => {
+                self.problems.extend(Library::check_file(&path.display().to_string(), &text))
+            }
             Err(error) => self.tell(path, &format!("cannot be read: {error}"), ""),
         }
     }
 
     /// Every validation case of a library.
     fn cases(&mut self, root: &Path, host: &PluginHost) {
-        for entry in entries(&root.join("cases")).iter().filter(|entry| entry.extension().is_some_and(|end| end == "toml")) {
+        for entry in entries(&root.join("cases"))
+            .iter()
+            .filter(|entry| entry.extension().is_some_and(|end| end == "toml"))
+        {
             self.case(entry, Some(root), host);
         }
     }
 
     /// Every study of a library.
     fn studies(&mut self, root: &Path, host: &PluginHost) {
-        for entry in entries(&root.join("studies")).iter().filter(|entry| entry.extension().is_some_and(|end| end == "toml")) {
+        for entry in entries(&root.join("studies"))
+            .iter()
+            .filter(|entry| entry.extension().is_some_and(|end| end == "toml"))
+        {
             self.study(entry, Some(root), host);
         }
     }
@@ -118,7 +136,8 @@ impl Checked {
     fn case(&mut self, path: &Path, library: Option<&Path>, host: &PluginHost) {
         self.files += 1;
         let around = path.ancestors().nth(2).filter(|folder| locate::is_library(folder));
-        let id = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        let id =
+            path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
         let checked = Cases::open(around.or(library)).and_then(|cases| cases.check(&id, host));
         self.told(path, checked);
     }
@@ -134,10 +153,15 @@ impl Checked {
         match checked {
             Ok(()) => {}
             Err(Error::Diagnostics(problems)) => {
-                let fresh: Vec<Diagnostic> = problems.into_iter().filter(|problem| !self.problems.contains(problem)).collect();
+                let fresh: Vec<Diagnostic> = problems
+                    .into_iter()
+                    .filter(|problem| !self.problems.contains(problem))
+                    .collect();
                 self.problems.extend(fresh);
             }
-            Err(Error::File { file, message }) => self.problems.push(Diagnostic::of_file(file, message, "")),
+            Err(Error::File { file, message }) => {
+                self.problems.push(Diagnostic::of_file(file, message, ""))
+            }
             Err(error) => self.tell(path, &error.to_string(), ""),
         }
     }
@@ -155,7 +179,12 @@ fn under(root: &Path, mut problem: Diagnostic) -> Diagnostic {
 
 /// What is in a folder, by name.
 fn entries(folder: &Path) -> Vec<PathBuf> {
-    let mut entries: Vec<PathBuf> = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()).collect();
+    let mut entries: Vec<PathBuf> = std::fs::read_dir(folder)
+        .into_iter()
+        .flatten()
+        .flatten()
+        .map(|entry| entry.path())
+        .collect();
     entries.sort();
     entries
 }

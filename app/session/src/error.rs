@@ -57,7 +57,9 @@ impl fmt::Display for Error {
                 "the gear did not come to rest in {passes} passes: {why}\n\
                  see `endline settle` for the trace; --allow-unsettled starts the run regardless"
             ),
-            Self::Stopped(stop) => write!(f, "stopped at {:.3} s: {}: {}", stop.time_s, stop.part, stop.reason),
+            Self::Stopped(stop) => {
+                write!(f, "stopped at {:.3} s: {}: {}", stop.time_s, stop.part, stop.reason)
+            }
             Self::Replay(message) => f.write_str(message),
         }
     }

@@ -19,7 +19,8 @@ use endline_sim::{DQuat, DVec3, Input, State};
 pub const PARTS: usize = 7;
 
 /// Names of the parts, in the order of [`StateHash::parts`].
-pub const PART_NAMES: [&str; PARTS] = ["input", "clock", "rope", "bodies", "whale", "contact and friction", "links and gear"];
+pub const PART_NAMES: [&str; PARTS] =
+    ["input", "clock", "rope", "bodies", "whale", "contact and friction", "links and gear"];
 
 /// Hash of a state and of the input that led to it, part by part.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -34,7 +35,18 @@ impl StateHash {
     pub fn of(input: &Input, state: &State) -> Self {
         // No `..`: a new field of the state must find its part here before this compiles. The pilot's memory chooses
         // inputs, which are hashed; so a run flown by hand and its program, which sees nothing, have the same hashes.
-        let State { time_s, step, rope, bodies, whale, link_parted_s, line_parted, gear, pace, pilot: _ } = state;
+        let State {
+            time_s,
+            step,
+            rope,
+            bodies,
+            whale,
+            link_parted_s,
+            line_parted,
+            gear,
+            pace,
+            pilot: _,
+        } = state;
         let mut parts = [Fold::new(); PARTS];
         let [_, clock, ropes, rigid, swimmer, contact, links] = &mut parts;
         clock.real(*time_s);
@@ -131,7 +143,17 @@ fn fold_pace(pace: &Pace, clock: &mut Fold) {
 }
 
 fn fold_body(body: &BodyState, fold: &mut Fold) {
-    let BodyState { position, orientation, velocity, spin, earlier_position, earlier_velocity, grip, sliding, lift_m } = body;
+    let BodyState {
+        position,
+        orientation,
+        velocity,
+        spin,
+        earlier_position,
+        earlier_velocity,
+        grip,
+        sliding,
+        lift_m,
+    } = body;
     fold.vectors(&[*position, *velocity, *spin, *earlier_position, *earlier_velocity]);
     fold.turn(*orientation);
     fold.vectors(grip);
@@ -140,7 +162,17 @@ fn fold_body(body: &BodyState, fold: &mut Fold) {
 }
 
 fn fold_whale(whale: &WhaleState, fold: &mut Fold, contact: &mut Fold) {
-    let WhaleState { position, orientation, speed_m_s, turn_rate, posture, motion, contact_force_n, contact_port_m, exertion } = whale;
+    let WhaleState {
+        position,
+        orientation,
+        speed_m_s,
+        turn_rate,
+        posture,
+        motion,
+        contact_force_n,
+        contact_port_m,
+        exertion,
+    } = whale;
     fold.vectors(&[*position, *turn_rate]);
     fold.turn(*orientation);
     fold.real(*speed_m_s);
@@ -223,7 +255,8 @@ mod tests {
 
     #[test]
     fn one_changed_word_always_changes_the_hash() {
-        let words: Vec<u64> = (0..64).map(|word: u64| word.wrapping_mul(0x1234_5678_9abc_def1)).collect();
+        let words: Vec<u64> =
+            (0..64).map(|word: u64| word.wrapping_mul(0x1234_5678_9abc_def1)).collect();
         let hash = |words: &[u64]| {
             let mut fold = Fold::new();
             words.iter().for_each(|word| fold.word(*word));

@@ -7,7 +7,10 @@ use std::time::Duration;
 use endline_gear::Hooks;
 use endline_sdk::{FrictionModel, GearType, WhaleMotion};
 
-use crate::plugins::{Choices, Loader, PluginHost, PluginProblem, by_child, chosen_file, known_file, program_folder, remembering};
+use crate::plugins::{
+    Choices, Loader, PluginHost, PluginProblem, by_child, chosen_file, known_file, program_folder,
+    remembering,
+};
 
 /// A plugin that has not opened after this is taken to hang.
 const PATIENCE: Duration = Duration::from_secs(10);

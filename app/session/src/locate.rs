@@ -14,13 +14,19 @@ const LIBRARY: &str = "gear-library";
 /// With every place that was looked in, for the user.
 pub fn library(scenario: Option<&Path>, given: Option<&Path>) -> Result<PathBuf, String> {
     if let Some(folder) = given {
-        return if is_library(folder) { Ok(folder.to_path_buf()) } else { Err(no_library(&[folder.to_path_buf()])) };
+        return if is_library(folder) {
+            Ok(folder.to_path_buf())
+        } else {
+            Err(no_library(&[folder.to_path_buf()]))
+        };
     }
     let mut looked = Vec::new();
     around(scenario, &mut looked);
     looked.extend(env::var_os("ENDLINE_LIBRARY").map(PathBuf::from));
     let program = env::current_exe().ok();
-    looked.extend(program.iter().flat_map(|exe| exe.ancestors().skip(1).map(|folder| folder.join(LIBRARY))));
+    looked.extend(
+        program.iter().flat_map(|exe| exe.ancestors().skip(1).map(|folder| folder.join(LIBRARY))),
+    );
     looked.push(PathBuf::from(LIBRARY));
     looked.iter().find(|folder| is_library(folder)).cloned().ok_or_else(|| no_library(&looked))
 }
@@ -38,7 +44,8 @@ pub(crate) fn is_library(folder: &Path) -> bool {
 }
 
 fn no_library(looked: &[PathBuf]) -> String {
-    let places: Vec<String> = looked.iter().map(|folder| format!("  {}", folder.display())).collect();
+    let places: Vec<String> =
+        looked.iter().map(|folder| format!("  {}", folder.display())).collect();
     format!(
         "no gear library found: expected a folder that holds `ropes` and `scenarios`\nlooked in:\n{}\nname one with --library FOLDER or ENDLINE_LIBRARY",
         places.join("\n")

@@ -59,10 +59,17 @@ pub struct Rest {
 ///
 /// # Errors
 /// Where `scenario` is not TOML.
-pub fn alone(scenario: &str, assembly: &str, sea: &TrialSea, library: &Library) -> Result<String, Error> {
-    let told = |message: String| Error::Diagnostics(vec![Diagnostic::of_file("scenario", message, "")]);
+pub fn alone(
+    scenario: &str,
+    assembly: &str,
+    sea: &TrialSea,
+    library: &Library,
+) -> Result<String, Error> {
+    let told =
+        |message: String| Error::Diagnostics(vec![Diagnostic::of_file("scenario", message, "")]);
     let mut document = Document::parse(scenario).map_err(|error| told(error.to_string()))?;
-    let only = document.get("gear.0.assembly").as_deref() == Some(assembly) && !document.has("gear.1");
+    let only =
+        document.get("gear.0.assembly").as_deref() == Some(assembly) && !document.has("gear.1");
     let toward = document.get("current.toward").unwrap_or_else(|| "90 deg".to_owned());
     let strip = |document: &mut Document, key: &str| {
         // What is not there need not be taken out.
@@ -96,9 +103,13 @@ pub fn alone(scenario: &str, assembly: &str, sea: &TrialSea, library: &Library) 
 /// Every located error of the texts. Gear that finds no rest is no error: its shape says so.
 pub fn rest(name: &str, text: &str, library: &Library, host: &PluginHost) -> Result<Rest, Error> {
     let scenario = Scenario::read(name, text).map_err(Error::Diagnostics)?;
-    let Assembled { spec, .. } = assemble_traced(&scenario, library, host, &Options::default()).map_err(Error::Diagnostics)?;
-    let told = |error: ModelError| Diagnostic::of_file(name, format!("{}: {}", error.part, error.message), "");
-    let model = Model::new(spec).map_err(|errors| Error::Diagnostics(errors.into_iter().map(told).collect()))?;
+    let Assembled { spec, .. } = assemble_traced(&scenario, library, host, &Options::default())
+        .map_err(Error::Diagnostics)?;
+    let told = |error: ModelError| {
+        Diagnostic::of_file(name, format!("{}: {}", error.part, error.message), "")
+    };
+    let model = Model::new(spec)
+        .map_err(|errors| Error::Diagnostics(errors.into_iter().map(told).collect()))?;
     let start = Instant::now();
     let settled = settle(&model);
     let shape = SettledShape::named(name, &model, &settled, start.elapsed().as_secs_f64());
@@ -120,16 +131,26 @@ mod tests {
         assert!(!text.contains("whale") && text.contains("# the sea"), "{text}");
         let document = Document::parse(&text).unwrap();
         let field = |name: &str| document.get(name).unwrap_or_default();
-        assert_eq!([field("site.depth"), field("current.speed"), field("current.toward")], ["40 fathom", "0 m/s", "45 deg"]);
+        assert_eq!(
+            [field("site.depth"), field("current.speed"), field("current.toward")],
+            ["40 fathom", "0 m/s", "45 deg"]
+        );
         assert_eq!(field("gear.0.assembly"), "single");
     }
 
     #[test]
     fn another_assembly_takes_the_place_of_all_gear() {
         let two = format!("{SCENARIO}\n[[gear]]\nassembly = \"pair\"\nid = \"b\"\n");
-        let document = Document::parse(&alone(&two, "trawl-10", &TrialSea::default(), &Library::default()).unwrap()).unwrap();
+        let document = Document::parse(
+            &alone(&two, "trawl-10", &TrialSea::default(), &Library::default()).unwrap(),
+        )
+        .unwrap();
         assert_eq!(document.get("gear.0.assembly").as_deref(), Some("trawl-10"));
         assert!(!document.has("gear.1"));
-        assert_eq!(document.get("current.speed").as_deref(), Some("1 kn"), "the scenario's own current stays");
+        assert_eq!(
+            document.get("current.speed").as_deref(),
+            Some("1 kn"),
+            "the scenario's own current stays"
+        );
     }
 }

@@ -8,7 +8,10 @@ use std::time::{Duration, Instant};
 
 use endline_sdk::Controls;
 use endline_sim::metrics::{Metrics, Summary};
-use endline_sim::{Audit, ContactPoint, Frame, Input, Model, Outcome, Settled, State, Stop, Workspace, settle, step};
+use endline_sim::{
+    Audit, ContactPoint, Frame, Input, Model, Outcome, Settled, State, Stop, Workspace, settle,
+    step,
+};
 
 use crate::error::Error;
 use crate::hash::StateHash;
@@ -66,10 +69,20 @@ impl Run {
     /// The same run at its start again, without settling anew.
     #[must_use]
     pub fn restarted(&self) -> Self {
-        Self::from_rest(self.prepared.clone(), self.options, Arc::clone(&self.settled), Duration::ZERO)
+        Self::from_rest(
+            self.prepared.clone(),
+            self.options,
+            Arc::clone(&self.settled),
+            Duration::ZERO,
+        )
     }
 
-    fn from_rest(prepared: Prepared, options: RunOptions, settled: Arc<Settled>, settled_in: Duration) -> Self {
+    fn from_rest(
+        prepared: Prepared,
+        options: RunOptions,
+        settled: Arc<Settled>,
+        settled_in: Duration,
+    ) -> Self {
         let mut run = Self {
             workspace: Workspace::new(&prepared.model),
             metrics: Metrics::new(&prepared.model),
@@ -126,13 +139,18 @@ impl Run {
 
     /// Ends the run here, with a reason.
     pub fn give_up(&mut self, reason: &str) {
-        self.stopped = Some(Stop { time_s: self.state.time_s, part: "the run".into(), reason: reason.into() });
+        self.stopped =
+            Some(Stop { time_s: self.state.time_s, part: "the run".into(), reason: reason.into() });
     }
 
     /// The pilot program's controls for the next step.
     #[must_use]
     pub fn pilot(&self) -> Controls {
-        self.model().spec.whale.as_ref().map_or_else(Controls::default, |whale| whale.pilot.at(&self.state))
+        self.model()
+            .spec
+            .whale
+            .as_ref()
+            .map_or_else(Controls::default, |whale| whale.pilot.at(&self.state))
     }
 
     /// How many acts the whale's motion declares.
@@ -270,11 +288,19 @@ impl Run {
             stopped: self.stopped.as_ref().map(|stop| Error::Stopped(stop.clone()).to_string()),
         };
         let source = (*self.prepared.source).clone();
-        Recording { header, source, inputs: self.inputs.clone(), hashes: self.hashes.clone(), damage: None }
+        Recording {
+            header,
+            source,
+            inputs: self.inputs.clone(),
+            hashes: self.hashes.clone(),
+            damage: None,
+        }
     }
 
     fn keep_frame(&mut self) {
-        if self.options.frames_hz > 0.0 && self.state.step.is_multiple_of(frame_stride(self.options.frames_hz, self.step_s())) {
+        if self.options.frames_hz > 0.0
+            && self.state.step.is_multiple_of(frame_stride(self.options.frames_hz, self.step_s()))
+        {
             self.frames.push(self.frame());
         }
     }
@@ -282,7 +308,14 @@ impl Run {
 
 /// The parts where they are placed, taken as they are.
 pub(crate) fn as_placed(model: &Model) -> Settled {
-    Settled { state: State::start(model), outcome: Outcome::AtRest, residual_n: 0.0, worst: None, converged: true, trace_n: Vec::new() }
+    Settled {
+        state: State::start(model),
+        outcome: Outcome::AtRest,
+        residual_n: 0.0,
+        worst: None,
+        converged: true,
+        trace_n: Vec::new(),
+    }
 }
 
 /// Steps from one kept frame to the next: the whole number nearest to the rate asked for.
@@ -292,6 +325,8 @@ pub(crate) fn frame_stride(frames_hz: f64, step_s: f64) -> u64 {
 
 /// Greatest of each line's segments, never below zero.
 pub(crate) fn by_line(model: &Model, segments: &[f64]) -> Vec<f64> {
-    let greatest = |own: &Range<usize>| segments.get(own.clone()).unwrap_or_default().iter().copied().fold(0.0, f64::max);
+    let greatest = |own: &Range<usize>| {
+        segments.get(own.clone()).unwrap_or_default().iter().copied().fold(0.0, f64::max)
+    };
     model.line_segments.iter().map(greatest).collect()
 }

@@ -106,25 +106,32 @@ impl SettledShape {
 
 fn lines(model: &Model, state: &State) -> Vec<LineShape> {
     let shape = |(index, line): (usize, &endline_sim::model::Line)| {
-        let tension_n: Vec<f64> = state.rope.tension[model.line_segments[index].clone()].iter().map(|tension| tension.max(0.0)).collect();
+        let tension_n: Vec<f64> = state.rope.tension[model.line_segments[index].clone()]
+            .iter()
+            .map(|tension| tension.max(0.0))
+            .collect();
         LineShape {
             id: line.id.clone(),
             length_m: line.segments_m.iter().sum(),
             end_a_tension_N: tension_n.first().copied().unwrap_or_default(),
             end_b_tension_N: tension_n.last().copied().unwrap_or_default(),
             tension_N: tension_n,
-            position_m: state.rope.position[model.line_nodes[index].clone()].iter().map(|place| place.to_array()).collect(),
+            position_m: state.rope.position[model.line_nodes[index].clone()]
+                .iter()
+                .map(|place| place.to_array())
+                .collect(),
         }
     };
     model.spec.lines.iter().enumerate().map(shape).collect()
 }
 
 fn bodies(model: &Model, state: &State) -> Vec<BodyShape> {
-    let shape = |(body, now): (&endline_sim::model::Body, &endline_sim::state::BodyState)| BodyShape {
-        id: body.id.clone(),
-        position_m: now.position.to_array(),
-        orientation: now.orientation.to_array(),
-    };
+    let shape =
+        |(body, now): (&endline_sim::model::Body, &endline_sim::state::BodyState)| BodyShape {
+            id: body.id.clone(),
+            position_m: now.position.to_array(),
+            orientation: now.orientation.to_array(),
+        };
     model.spec.bodies.iter().zip(&state.bodies).map(shape).collect()
 }
 

@@ -75,7 +75,12 @@ pub struct Prepared {
 ///
 /// # Errors
 /// A file that cannot be read, no library, or every located error of the files.
-pub fn prepare(scenario: &Path, library: Option<&Path>, host: &PluginHost, overrides: Overrides) -> Result<Prepared, Error> {
+pub fn prepare(
+    scenario: &Path,
+    library: Option<&Path>,
+    host: &PluginHost,
+    overrides: Overrides,
+) -> Result<Prepared, Error> {
     let mut source = Source::read(scenario, library, overrides)?;
     source.library = host.with_clips(source.library);
     source.prepare(host)
@@ -86,11 +91,21 @@ impl Source {
     ///
     /// # Errors
     /// A file that cannot be read, or no library.
-    pub fn read(scenario: &Path, library: Option<&Path>, overrides: Overrides) -> Result<Self, Error> {
-        let text = std::fs::read_to_string(scenario).map_err(|error| Error::at(scenario, format!("cannot be read: {error}")))?;
+    pub fn read(
+        scenario: &Path,
+        library: Option<&Path>,
+        overrides: Overrides,
+    ) -> Result<Self, Error> {
+        let text = std::fs::read_to_string(scenario)
+            .map_err(|error| Error::at(scenario, format!("cannot be read: {error}")))?;
         let root: PathBuf = locate::library(Some(scenario), library).map_err(Error::Replay)?;
         let library = Sources::from_folder(&root).map_err(Error::Diagnostics)?;
-        Ok(Self { scenario_name: scenario.display().to_string(), scenario: text, library, overrides })
+        Ok(Self {
+            scenario_name: scenario.display().to_string(),
+            scenario: text,
+            library,
+            overrides,
+        })
     }
 
     /// Reads the texts and assembles the model.
@@ -136,12 +151,18 @@ impl Source {
         let options = Options { seed, step_s, weak_links, kinetic, ..Options::default() };
         // An item with errors is missing from the library; its own errors say why, so they come first.
         let Assembled { mut spec, files } = assemble_traced(&scenario, &library, host, &options)
-            .map_err(|missing| Error::Diagnostics(problems.into_iter().filter(Diagnostic::is_error).chain(missing).collect()))?;
+            .map_err(|missing| {
+                Error::Diagnostics(
+                    problems.into_iter().filter(Diagnostic::is_error).chain(missing).collect(),
+                )
+            })?;
         if let Some(rating_n) = rating_n {
             spec.links.iter_mut().for_each(|link| link.rating_n = rating_n);
         }
         let model = Model::new(spec).map_err(|errors| {
-            let told = |error: ModelError| Diagnostic::of_file(name, format!("{}: {}", error.part, error.message), "");
+            let told = |error: ModelError| {
+                Diagnostic::of_file(name, format!("{}: {}", error.part, error.message), "")
+            };
             Error::Diagnostics(errors.into_iter().map(told).collect())
         })?;
         Ok((model, files))
@@ -152,7 +173,8 @@ impl Source {
 fn plugins_of(model: &Model, host: &PluginHost) -> Vec<PluginUsed> {
     let spec = &model.spec;
     let motion = spec.whale.iter().map(|whale| whale.motion.descriptor());
-    let friction = spec.friction.iter().flat_map(|friction| &friction.laws).map(|law| law.model.descriptor());
+    let friction =
+        spec.friction.iter().flat_map(|friction| &friction.laws).map(|law| law.model.descriptor());
     let gear = spec.gear.iter().map(|hook| hook.gear.descriptor());
     let used = |descriptor: &Descriptor| PluginUsed {
         id: descriptor.id.to_string(),
@@ -167,5 +189,9 @@ fn plugins_of(model: &Model, host: &PluginHost) -> Vec<PluginUsed> {
 
 /// Hash of the file a plugin was loaded from; empty where it is linked in.
 fn file_hash(host: &PluginHost, id: &str) -> String {
-    host.list().iter().find(|plugin| plugin.id == id).and_then(|plugin| plugin.hash.clone()).unwrap_or_default()
+    host.list()
+        .iter()
+        .find(|plugin| plugin.id == id)
+        .and_then(|plugin| plugin.hash.clone())
+        .unwrap_or_default()
 }

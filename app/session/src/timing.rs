@@ -49,7 +49,10 @@ impl Timing {
     /// Both phases together, without the statics.
     #[must_use]
     pub fn whole(&self) -> Phase {
-        Phase { simulated_s: self.approach.simulated_s + self.contact.simulated_s, wall_s: self.approach.wall_s + self.contact.wall_s }
+        Phase {
+            simulated_s: self.approach.simulated_s + self.contact.simulated_s,
+            wall_s: self.approach.wall_s + self.contact.wall_s,
+        }
     }
 }
 

@@ -27,8 +27,15 @@ fn main() {
 /// A slack rope between two fixed points, across a current.
 fn slack_rope(nodes: usize) -> Model {
     let length_m = SEGMENT_M * (nodes - 1) as f64;
-    let ends = vec![fixed("near", DVec3::NEG_Z), fixed("far", DVec3::new(0.0, SPAN * length_m, -1.0))];
-    common::model(water(1025.0, 0.5), ends, vec![line("rope", length_m, nodes - 1)], Vec::new(), Settings::default())
+    let ends =
+        vec![fixed("near", DVec3::NEG_Z), fixed("far", DVec3::new(0.0, SPAN * length_m, -1.0))];
+    common::model(
+        water(1025.0, 0.5),
+        ends,
+        vec![line("rope", length_m, nodes - 1)],
+        Vec::new(),
+        Settings::default(),
+    )
 }
 
 #[divan::bench(args = [100, 500, 2_000, 20_000])]
@@ -42,15 +49,23 @@ fn node_step_of_eight_rigs(bencher: Bencher, nodes: usize) {
     let mut spec = slack_rope(nodes).spec;
     let (joints, rope) = (spec.joints.clone(), spec.lines[0].clone());
     for rig in 1..8 {
-        spec.joints.extend(joints.iter().map(|joint| Joint { id: format!("{}-{rig}", joint.id), ..joint.clone() }));
-        spec.lines.push(Line { id: format!("rope-{rig}"), from: 2 * rig, to: 2 * rig + 1, ..rope.clone() });
+        spec.joints.extend(
+            joints.iter().map(|joint| Joint { id: format!("{}-{rig}", joint.id), ..joint.clone() }),
+        );
+        spec.lines.push(Line {
+            id: format!("rope-{rig}"),
+            from: 2 * rig,
+            to: 2 * rig + 1,
+            ..rope.clone()
+        });
     }
     time(bencher, &Model::new(spec).expect("eight ropes"), 8 * nodes);
 }
 
 fn time(bencher: Bencher, model: &Model, nodes: usize) {
     let (mut state, mut workspace) = (State::start(model), Workspace::new(model));
-    let mut advance = || step(model, &Input::default(), &mut state, &mut workspace).expect("a rope that swings");
+    let mut advance =
+        || step(model, &Input::default(), &mut state, &mut workspace).expect("a rope that swings");
     (0..WARM_STEPS).for_each(|_| advance());
     bencher.counter(ItemsCount::new(nodes)).bench_local(advance);
 }

@@ -32,7 +32,8 @@ struct Case {
 fn main() {
     let mut words = std::env::args().skip(1);
     let name = words.next().expect("a case: a or c2");
-    let segments: usize = words.next().and_then(|word| word.parse().ok()).expect("a number of segments");
+    let segments: usize =
+        words.next().and_then(|word| word.parse().ok()).expect("a number of segments");
     for step_s in words.map(|word| word.parse().expect("a step in seconds")) {
         let case = case(&name, segments, step_s);
         let settled = settle(&case.model);
@@ -41,7 +42,10 @@ fn main() {
         let (seconds, rows) = runs.min_by(|one, other| one.0.total_cmp(&other.0)).expect("a run");
         let simulated = case.reference.last().expect("a row")[0];
         let (place, tension, peak) = errors(&rows, &case.reference);
-        println!("{name} {segments} {step_s} {:.3} {place:.4} {tension:.4} {peak:.4}", simulated / seconds);
+        println!(
+            "{name} {segments} {step_s} {:.3} {place:.4} {tension:.4} {peak:.4}",
+            simulated / seconds
+        );
     }
 }
 
@@ -49,13 +53,21 @@ fn case(name: &str, segments: usize, step_s: f64) -> Case {
     let settings = Settings { step_s, ..Settings::default() };
     let rope = vec![line("rope", 60.0, segments)];
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/peers/data");
-    let text = std::fs::read_to_string(format!("{folder}/ref_{name}.txt")).expect("the reference of a case a or c2");
-    let numbers = |row: &str| row.split_whitespace().map(|word| word.parse().expect("a number")).collect();
+    let text = std::fs::read_to_string(format!("{folder}/ref_{name}.txt"))
+        .expect("the reference of a case a or c2");
+    let numbers =
+        |row: &str| row.split_whitespace().map(|word| word.parse().expect("a number")).collect();
     let reference = text.lines().map(numbers).collect();
     let vacuum = water(0.0, 0.0);
     let model = if name == "a" {
         let end = DVec3::new(30.04414861, 0.0, -52.03799186);
-        model(vacuum, vec![fixed("pin", DVec3::ZERO), on_body("weight", 0)], rope, vec![weight("weight", 20.0, end, Some(0.0))], settings)
+        model(
+            vacuum,
+            vec![fixed("pin", DVec3::ZERO), on_body("weight", 0)],
+            rope,
+            vec![weight("weight", 20.0, end, Some(0.0))],
+            settings,
+        )
     } else {
         let driven = JointKind::Driven { velocity_m_s: DVec3::X * 2.0, from_s: 0.0, until_s: 1.0 };
         let hand = Joint { id: "hand".into(), kind: driven, position_m: DVec3::X * 59.0 };
@@ -89,6 +101,11 @@ fn errors(rows: &[[f64; 5]], reference: &[Vec<f64>]) -> (f64, f64, f64) {
         size += expected[5].powi(2);
     }
     let greatest = |values: &mut dyn Iterator<Item = f64>| values.fold(f64::MIN, f64::max);
-    let peak = greatest(&mut rows.iter().map(|row| row[4])) / greatest(&mut reference.iter().map(|row| row[5]));
-    (100.0 * (place / (2.0 * rows.len() as f64)).sqrt(), 100.0 * (tension / size).sqrt(), 100.0 * (peak - 1.0))
+    let peak = greatest(&mut rows.iter().map(|row| row[4]))
+        / greatest(&mut reference.iter().map(|row| row[5]));
+    (
+        100.0 * (place / (2.0 * rows.len() as f64)).sqrt(),
+        100.0 * (tension / size).sqrt(),
+        100.0 * (peak - 1.0),
+    )
 }

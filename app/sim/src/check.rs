@@ -48,11 +48,17 @@ impl Found {
     }
 
     fn above_zero(&mut self, name: &str, value: f64) {
-        self.need(value.is_finite() && value > 0.0, &format!("{name} is {value}, expected a number above zero"));
+        self.need(
+            value.is_finite() && value > 0.0,
+            &format!("{name} is {value}, expected a number above zero"),
+        );
     }
 
     fn not_below_zero(&mut self, name: &str, value: f64) {
-        self.need(value.is_finite() && value >= 0.0, &format!("{name} is {value}, expected zero or more"));
+        self.need(
+            value.is_finite() && value >= 0.0,
+            &format!("{name} is {value}, expected zero or more"),
+        );
     }
 }
 
@@ -67,7 +73,10 @@ fn check_water(spec: &ModelSpec, found: &mut Found) {
         found.above_zero("stiffness under rope", seabed.rope_stiffness_n_m2);
         found.above_zero("stiffness under a foot", seabed.foot_stiffness_n_m);
         found.not_below_zero("friction", seabed.rope_friction);
-        found.need((seabed.normal.length() - 1.0).abs() < 1e-9 && seabed.normal.z > 0.0, "its normal is not a unit vector that points up");
+        found.need(
+            (seabed.normal.length() - 1.0).abs() < 1e-9 && seabed.normal.z > 0.0,
+            "its normal is not a unit vector that points up",
+        );
     }
     let found = found.of("settings", "");
     found.above_zero("step", spec.settings.step_s);
@@ -78,7 +87,10 @@ fn check_water(spec: &ModelSpec, found: &mut Found) {
         found.above_zero("resolution near the whale", near_m);
         found.above_zero("resolution near edges", edge_m);
         found.above_zero("resolution far from the whale", far_m);
-        found.need(edge_m <= near_m && near_m <= far_m, "resolution is not finest near edges and coarsest far from the whale");
+        found.need(
+            edge_m <= near_m && near_m <= far_m,
+            "resolution is not finest near edges and coarsest far from the whale",
+        );
     }
 }
 
@@ -100,15 +112,28 @@ fn check_rope(rope: &Rope, found: &mut Found) {
 
 fn check_body(body: &Body, found: &mut Found) {
     found.above_zero("mass", body.mass_kg);
-    found.need(body.inertia_kg_m2.is_finite() && body.inertia_kg_m2.min_element() > 0.0, "moments of inertia are not all above zero");
-    let zero_or_more = [body.added_mass_kg, body.added_inertia_kg_m2, body.drag_area_m2, body.turn_drag_m5];
-    found.need(zero_or_more.iter().all(|v| v.is_finite() && v.min_element() >= 0.0), "an added mass, added inertia or drag is below zero");
-    found.need(body.position_m.is_finite() && body.orientation.is_normalized(), "its start place or orientation is not sound");
+    found.need(
+        body.inertia_kg_m2.is_finite() && body.inertia_kg_m2.min_element() > 0.0,
+        "moments of inertia are not all above zero",
+    );
+    let zero_or_more =
+        [body.added_mass_kg, body.added_inertia_kg_m2, body.drag_area_m2, body.turn_drag_m5];
+    found.need(
+        zero_or_more.iter().all(|v| v.is_finite() && v.min_element() >= 0.0),
+        "an added mass, added inertia or drag is below zero",
+    );
+    found.need(
+        body.position_m.is_finite() && body.orientation.is_normalized(),
+        "its start place or orientation is not sound",
+    );
     for float in &body.floats {
         found.not_below_zero("volume of a float", float.volume_m3);
         found.need(float.form.is_sound(), "a measure of a float is not above zero");
         found.need(float.offset_m.is_finite(), "the place of a float is not a finite number");
-        found.need(float.drag_area_m2.is_finite() && float.drag_area_m2.min_element() >= 0.0, "the drag of a float is below zero");
+        found.need(
+            float.drag_area_m2.is_finite() && float.drag_area_m2.min_element() >= 0.0,
+            "the drag of a float is below zero",
+        );
     }
     found.not_below_zero("start friction", body.start_friction);
     found.not_below_zero("slide friction", body.slide_friction);
@@ -118,20 +143,34 @@ fn check_body(body: &Body, found: &mut Found) {
 fn check_joint(spec: &ModelSpec, joint: &Joint, found: &mut Found) {
     found.need(joint.position_m.is_finite(), "its place is not a finite number");
     match joint.kind {
-        JointKind::Body { body, .. } => found.need(body < spec.bodies.len(), "it sits on a body that is not there"),
+        JointKind::Body { body, .. } => {
+            found.need(body < spec.bodies.len(), "it sits on a body that is not there")
+        }
         JointKind::Whale(hitch) => {
             let triangles = spec.whale.as_ref().map_or(0, |whale| whale.skin.triangles.len());
-            found.need(hitch.triangle < triangles, "it is made fast to a whale, or a triangle of its skin, that is not there");
-            let sound = hitch.barycentric.iter().chain([&hitch.stand_off_m]).all(|number| number.is_finite());
+            found.need(
+                hitch.triangle < triangles,
+                "it is made fast to a whale, or a triangle of its skin, that is not there",
+            );
+            let sound = hitch
+                .barycentric
+                .iter()
+                .chain([&hitch.stand_off_m])
+                .all(|number| number.is_finite());
             found.need(sound, "its place on the whale's skin is not a finite number");
         }
-        JointKind::Pulled { force_n, .. } => found.need(force_n.is_finite(), "the force on it is not a finite number"),
+        JointKind::Pulled { force_n, .. } => {
+            found.need(force_n.is_finite(), "the force on it is not a finite number")
+        }
         _ => {}
     }
 }
 
 fn check_obstacle(obstacle: &Obstacle, found: &mut Found) {
-    found.need(obstacle.position_m.is_finite() && obstacle.orientation.is_normalized(), "its place or orientation is not sound");
+    found.need(
+        obstacle.position_m.is_finite() && obstacle.orientation.is_normalized(),
+        "its place or orientation is not sound",
+    );
     if let Some(fault) = obstacle.shape.fault() {
         found.need(false, fault);
     }
@@ -141,13 +180,25 @@ fn check_obstacle(obstacle: &Obstacle, found: &mut Found) {
 
 fn check_line(spec: &ModelSpec, line: &Line, found: &mut Found) {
     found.need(line.rope < spec.ropes.len(), "its rope is not there");
-    found.need(line.from < spec.joints.len() && line.to < spec.joints.len(), "an end sits on a joint that is not there");
+    found.need(
+        line.from < spec.joints.len() && line.to < spec.joints.len(),
+        "an end sits on a joint that is not there",
+    );
     found.need(line.from != line.to, "both ends sit on the same joint");
     found.need(!line.segments_m.is_empty(), "it has no segments");
-    found.need(line.segments_m.iter().all(|length| length.is_finite() && *length > 0.0), "a segment's length is not above zero");
+    found.need(
+        line.segments_m.iter().all(|length| length.is_finite() && *length > 0.0),
+        "a segment's length is not above zero",
+    );
     let shares = [line.strength.all, line.strength.end_a, line.strength.end_b];
-    found.need(shares.iter().all(|share| share.is_finite() && *share > 0.0), "a share of its strength is not above zero");
-    found.need(line.start_m.is_empty() || line.start_m.len() == line.segments_m.len() + 1, "its first guess has a wrong number of nodes");
+    found.need(
+        shares.iter().all(|share| share.is_finite() && *share > 0.0),
+        "a share of its strength is not above zero",
+    );
+    found.need(
+        line.start_m.is_empty() || line.start_m.len() == line.segments_m.len() + 1,
+        "its first guess has a wrong number of nodes",
+    );
 }
 
 fn check_link(spec: &ModelSpec, link: &Link, found: &mut Found) {
@@ -161,13 +212,26 @@ fn check_whale(spec: &ModelSpec, found: &mut Found) {
     found.above_zero("length", whale.length_m);
     found.above_zero("contact stiffness", whale.contact_stiffness_n_m2);
     found.need(whale.pilot.is_sound(), "an entry of its pilot program has a number that is not finite or follows one that is not above it");
-    found.need(whale.position_m.is_finite() && whale.orientation.is_normalized(), "its start place or orientation is not sound");
-    found.need(!skin.triangles.is_empty() && !skin.bones.is_empty(), "its skin has no triangles or no bones");
-    found.need(skin.regions.len() == skin.triangles.len(), "its skin needs one region for each triangle");
+    found.need(
+        whale.position_m.is_finite() && whale.orientation.is_normalized(),
+        "its start place or orientation is not sound",
+    );
+    found.need(
+        !skin.triangles.is_empty() && !skin.bones.is_empty(),
+        "its skin has no triangles or no bones",
+    );
+    found.need(
+        skin.regions.len() == skin.triangles.len(),
+        "its skin needs one region for each triangle",
+    );
     found.need(skin.weights.len() == skin.vertices.len(), "its skin needs weights for each vertex");
     let corners = skin.triangles.iter().flatten();
-    found.need(corners.into_iter().all(|corner| (*corner as usize) < skin.vertices.len()), "a triangle names a vertex that is not there");
-    let named = skin.weights.iter().flatten().all(|(bone, _)| usize::from(*bone) < skin.bones.len());
+    found.need(
+        corners.into_iter().all(|corner| (*corner as usize) < skin.vertices.len()),
+        "a triangle names a vertex that is not there",
+    );
+    let named =
+        skin.weights.iter().flatten().all(|(bone, _)| usize::from(*bone) < skin.bones.len());
     found.need(named, "a vertex names a bone that is not there");
     if let Some(fault) = whale.kinetic.as_ref().and_then(|kinetic| kinetic.fault()) {
         found.need(false, fault);
@@ -176,9 +240,17 @@ fn check_whale(spec: &ModelSpec, found: &mut Found) {
         found.need(false, "a whale needs a friction model");
         return;
     };
-    found.need(friction.coefficients.len() == spec.ropes.len(), "friction needs a row of coefficients for each rope");
-    let rows = friction.law_of.len() == spec.ropes.len() && friction.law_of.iter().flatten().all(|law| *law < friction.laws.len());
-    found.need(rows && !friction.laws.is_empty(), "friction needs a row of laws for each rope, each one of its laws");
-    let sound = friction.coefficients.iter().flatten().all(|value| value.is_finite() && *value >= 0.0);
+    found.need(
+        friction.coefficients.len() == spec.ropes.len(),
+        "friction needs a row of coefficients for each rope",
+    );
+    let rows = friction.law_of.len() == spec.ropes.len()
+        && friction.law_of.iter().flatten().all(|law| *law < friction.laws.len());
+    found.need(
+        rows && !friction.laws.is_empty(),
+        "friction needs a row of laws for each rope, each one of its laws",
+    );
+    let sound =
+        friction.coefficients.iter().flatten().all(|value| value.is_finite() && *value >= 0.0);
     found.need(sound, "a coefficient of friction is below zero or not finite");
 }

@@ -93,7 +93,9 @@ impl Form {
         }
         match *self {
             Self::Level { height_m: whole } => Wet::plain(0.5 - height_m / whole, 1.0 / whole),
-            Self::Spheroid { across_m, along_m } => spheroid(height_m, axis, (across_m, along_m), reach),
+            Self::Spheroid { across_m, along_m } => {
+                spheroid(height_m, axis, (across_m, along_m), reach)
+            }
             Self::Cylinder { radius_m, length_m } => cylinder(height_m, axis, radius_m, length_m),
         }
     }
@@ -104,8 +106,12 @@ impl Form {
         let level = (1.0 - upright).max(0.0);
         match *self {
             Self::Level { height_m } => 0.5 * height_m,
-            Self::Spheroid { across_m, along_m } => (along_m * along_m * upright + across_m * across_m * level).sqrt(),
-            Self::Cylinder { radius_m, length_m } => 0.5 * length_m * axis.z.abs() + radius_m * level.sqrt(),
+            Self::Spheroid { across_m, along_m } => {
+                (along_m * along_m * upright + across_m * across_m * level).sqrt()
+            }
+            Self::Cylinder { radius_m, length_m } => {
+                0.5 * length_m * axis.z.abs() + radius_m * level.sqrt()
+            }
         }
     }
 
@@ -139,7 +145,8 @@ const FLAT: f64 = 1e-3;
 
 fn cylinder(height: f64, axis: DVec3, radius: f64, length: f64) -> Wet {
     let lying = (1.0 - axis.z * axis.z).max(0.0).sqrt();
-    let (uniform, circle) = (length * axis.z.abs(), Semicircle { radius: (radius * lying).max(1e-12 * radius) });
+    let (uniform, circle) =
+        (length * axis.z.abs(), Semicircle { radius: (radius * lying).max(1e-12 * radius) });
     let depth = -height;
     let (low, high) = (depth - 0.5 * uniform, depth + 0.5 * uniform);
     let (share, slope, across, along) = if uniform < FLAT * circle.radius {
@@ -189,7 +196,9 @@ impl Semicircle {
     /// Integral of that.
     fn share_second_integral(&self, u: f64) -> f64 {
         let (q, root, angle) = self.parts(u);
-        let inside = 0.25 * q * q + ((0.5 * q * q + 0.25) * angle + 0.75 * q * root) / PI - cubed(q, root, angle) / (3.0 * PI) + 0.0625;
+        let inside = 0.25 * q * q + ((0.5 * q * q + 0.25) * angle + 0.75 * q * root) / PI
+            - cubed(q, root, angle) / (3.0 * PI)
+            + 0.0625;
         let beyond = (u * u - self.radius * self.radius).max(0.0);
         self.radius * self.radius * inside + if u > self.radius { 0.5 * beyond } else { 0.0 }
     }

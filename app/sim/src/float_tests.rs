@@ -47,9 +47,17 @@ fn share_and_moment_are_those_of_the_points_under_water() {
             for part in [-0.8, -0.3, 0.05, 0.6] {
                 let height = part * form.reach_m(axis);
                 let (wet, (share, moment)) = (form.wet(height, axis), summed(form, height, axis));
-                assert!((wet.share - share).abs() < 0.008, "{form:?} {angle} {part}: {} for {share}", wet.share);
+                assert!(
+                    (wet.share - share).abs() < 0.008,
+                    "{form:?} {angle} {part}: {} for {share}",
+                    wet.share
+                );
                 let off = (wet.moment - moment).length();
-                assert!(off < 0.008 * form.reach_m(axis).max(0.02), "{form:?} {angle} {part}: {} for {moment}", wet.moment);
+                assert!(
+                    off < 0.008 * form.reach_m(axis).max(0.02),
+                    "{form:?} {angle} {part}: {} for {moment}",
+                    wet.moment
+                );
             }
         }
     }
@@ -65,13 +73,20 @@ fn a_float_gains_nothing_by_rolling() {
                 let height = part * form.reach_m(axis);
                 let (d, at) = (1e-6, |height: f64, angle: f64| form.wet(height, tilted(angle)));
                 // Mixed derivatives agree: how the share changes with tilt, and the turning moment with height.
-                let by_tilt = (at(height, angle + d).share - at(height, angle - d).share) / (2.0 * d);
+                let by_tilt =
+                    (at(height, angle + d).share - at(height, angle - d).share) / (2.0 * d);
                 let turning = |height: f64| at(height, angle).moment.cross(DVec3::Z).x;
                 let by_height = (turning(height + d) - turning(height - d)) / (2.0 * d);
-                assert!((by_tilt - by_height).abs() < 2e-4 * (1.0 + by_tilt.abs()), "{form:?} {angle} {part}: {by_tilt} {by_height}");
+                assert!(
+                    (by_tilt - by_height).abs() < 2e-4 * (1.0 + by_tilt.abs()),
+                    "{form:?} {angle} {part}: {by_tilt} {by_height}"
+                );
                 let slope = (at(height - d, angle).share - at(height + d, angle).share) / (2.0 * d);
                 let expected = at(height, angle).slope;
-                assert!((slope - expected).abs() < 1e-4 * expected, "{form:?} {angle} {part}: {slope} {expected}");
+                assert!(
+                    (slope - expected).abs() < 1e-4 * expected,
+                    "{form:?} {angle} {part}: {slope} {expected}"
+                );
             }
         }
     }
@@ -105,5 +120,9 @@ fn an_upright_cylinder_rights_itself_by_its_waterplane() {
 #[test]
 fn a_level_float_goes_under_evenly() {
     let wet = Form::Level { height_m: 0.25 }.wet(0.05, tilted(0.7));
-    assert!((wet.share - 0.3).abs() < 1e-15 && (wet.slope - 4.0).abs() < 1e-15 && wet.moment == DVec3::ZERO);
+    assert!(
+        (wet.share - 0.3).abs() < 1e-15
+            && (wet.slope - 4.0).abs() < 1e-15
+            && wet.moment == DVec3::ZERO
+    );
 }

@@ -24,8 +24,16 @@ pub(crate) fn act(model: &Model, state: &mut State, work: &mut GearWork) -> Resu
         tensions.clear();
         tensions.extend(hook.lines.iter().map(|line| end_tensions(model, state, *line)));
         actions.clear();
-        let input = GearStep { time_s: state.time_s, dt_s: model.spec.settings.step_s, end_tension_n: tensions };
-        let stop = |time_s: f64, reason: String| Stop { time_s, part: hook.gear.descriptor().id.to_string(), reason };
+        let input = GearStep {
+            time_s: state.time_s,
+            dt_s: model.spec.settings.step_s,
+            end_tension_n: tensions,
+        };
+        let stop = |time_s: f64, reason: String| Stop {
+            time_s,
+            part: hook.gear.descriptor().id.to_string(),
+            reason,
+        };
         let mut floats = std::mem::take(&mut state.gear[index]);
         let answer = hook.gear.step(&hook.attributes, &input, &mut floats, actions);
         state.gear[index] = floats;
@@ -39,7 +47,8 @@ pub(crate) fn act(model: &Model, state: &mut State, work: &mut GearWork) -> Resu
 
 /// Tension at the outer ends of a line's first and last piece [N].
 fn end_tensions(model: &Model, state: &State, [first, last]: [usize; 2]) -> [f64; 2] {
-    [model.line_segments[first].start, model.line_segments[last].end - 1].map(|segment| state.rope.tension[segment].max(0.0))
+    [model.line_segments[first].start, model.line_segments[last].end - 1]
+        .map(|segment| state.rope.tension[segment].max(0.0))
 }
 
 fn obey(model: &Model, state: &mut State, hook: usize, action: GearAction) -> Result<(), String> {
@@ -49,7 +58,11 @@ fn obey(model: &Model, state: &mut State, hook: usize, action: GearAction) -> Re
             let Some(&[first, last]) = hook.lines.get(line as usize) else {
                 return Err(format!("asked to cut line {line}, which it did not build"));
             };
-            let segment = if end == LineEnd::A { model.line_segments[first].start } else { model.line_segments[last].end - 1 };
+            let segment = if end == LineEnd::A {
+                model.line_segments[first].start
+            } else {
+                model.line_segments[last].end - 1
+            };
             if !state.rope.cut[segment] {
                 note_line(model, state, segment);
                 cut(state, segment);

@@ -150,10 +150,14 @@ impl Shape {
         let half = match self {
             Self::Box(half) => *half,
             Self::Sphere(radius_m) => DVec3::splat(*radius_m),
-            Self::Capsule { radius_m, half_length_m } => DVec3::new(*radius_m, *radius_m, *half_length_m),
+            Self::Capsule { radius_m, half_length_m } => {
+                DVec3::new(*radius_m, *radius_m, *half_length_m)
+            }
         };
         let sign = |corner: usize, bit: usize| if corner >> bit & 1 == 0 { -1.0 } else { 1.0 };
-        std::array::from_fn(|corner| half * DVec3::new(sign(corner, 0), sign(corner, 1), sign(corner, 2)))
+        std::array::from_fn(|corner| {
+            half * DVec3::new(sign(corner, 0), sign(corner, 1), sign(corner, 2))
+        })
     }
 }
 
@@ -326,7 +330,11 @@ pub struct Friction {
 impl Friction {
     /// One law for every rope and region.
     #[must_use]
-    pub fn of_one(model: Arc<dyn FrictionModel>, attributes: Vec<f64>, coefficients: Vec<[f64; endline_sdk::Region::ALL.len()]>) -> Self {
+    pub fn of_one(
+        model: Arc<dyn FrictionModel>,
+        attributes: Vec<f64>,
+        coefficients: Vec<[f64; endline_sdk::Region::ALL.len()]>,
+    ) -> Self {
         let law_of = vec![[0; endline_sdk::Region::ALL.len()]; coefficients.len()];
         Self { laws: vec![FrictionLaw { model, attributes }], law_of, coefficients }
     }
@@ -492,7 +500,8 @@ impl Model {
         if !errors.is_empty() {
             return Err(errors);
         }
-        let skin_tree = spec.whale.as_ref().map(|whale| Arc::new(SkinTree::new(whale.skin.clone())));
+        let skin_tree =
+            spec.whale.as_ref().map(|whale| Arc::new(SkinTree::new(whale.skin.clone())));
         let sea = Sea::new(&spec.water, spec.seabed.as_ref(), spec.settings.seed);
         Ok(Self::laid_out(spec, skin_tree, sea))
     }
@@ -508,10 +517,28 @@ impl Model {
             node_count += segments + 1;
             segment_count += segments;
         }
-        let segment_line =
-            spec.lines.iter().enumerate().flat_map(|(index, line)| std::iter::repeat_n(index, line.segments_m.len())).collect();
-        let segment_strength_n = spec.lines.iter().flat_map(|line| strengths(line, spec.ropes[line.rope].strength_n)).collect();
-        Self { spec, line_nodes, line_segments, node_count, segment_count, segment_line, segment_strength_n, skin_tree, sea }
+        let segment_line = spec
+            .lines
+            .iter()
+            .enumerate()
+            .flat_map(|(index, line)| std::iter::repeat_n(index, line.segments_m.len()))
+            .collect();
+        let segment_strength_n = spec
+            .lines
+            .iter()
+            .flat_map(|line| strengths(line, spec.ropes[line.rope].strength_n))
+            .collect();
+        Self {
+            spec,
+            line_nodes,
+            line_segments,
+            node_count,
+            segment_count,
+            segment_line,
+            segment_strength_n,
+            skin_tree,
+            sea,
+        }
     }
 
     /// The same gear in the same sea with its lines as these, alone: without whale, plugins, links and probes.

@@ -50,7 +50,8 @@ pub enum LimitedBy {
 
 impl LimitedBy {
     /// Every limit, in the order of its number.
-    pub const ALL: [Self; 6] = [Self::Inputs, Self::Accuracy, Self::Snap, Self::Contact, Self::Parting, Self::Convergence];
+    pub const ALL: [Self; 6] =
+        [Self::Inputs, Self::Accuracy, Self::Snap, Self::Contact, Self::Parting, Self::Convergence];
 
     /// Its name, as key of the summary.
     #[must_use]
@@ -61,7 +62,10 @@ impl LimitedBy {
     /// What limited most of the steps counted, and how many of them.
     #[must_use]
     pub fn mostly(counts: &[u64; Self::ALL.len()]) -> (Self, u64) {
-        Self::ALL.into_iter().zip(*counts).fold((Self::Inputs, 0), |most, next| if next.1 > most.1 { next } else { most })
+        Self::ALL
+            .into_iter()
+            .zip(*counts)
+            .fold((Self::Inputs, 0), |most, next| if next.1 > most.1 { next } else { most })
     }
 
     /// The same in plain words.
@@ -96,7 +100,12 @@ clone_in_place!(Pace { step_s, limit, tension_n, known });
 impl Pace {
     /// Nothing chosen yet.
     pub(crate) fn new(model: &Model) -> Self {
-        Self { step_s: 0.0, limit: LimitedBy::Inputs, tension_n: vec![[0.0; 2]; model.spec.lines.len()], known: 0 }
+        Self {
+            step_s: 0.0,
+            limit: LimitedBy::Inputs,
+            tension_n: vec![[0.0; 2]; model.spec.lines.len()],
+            known: 0,
+        }
     }
 
     /// Begins anew with this step.

@@ -49,7 +49,9 @@ pub(crate) fn too_late(model: &Model, state: &State, tension: &[f64]) -> bool {
         let segment = link_segment(model, link);
         link.enabled && !state.rope.cut[segment] && tension[segment] > LATE * link.rating_n
     };
-    let rope_late = |segment: usize| !state.rope.cut[segment] && tension[segment] > LATE * model.segment_strength_n[segment];
+    let rope_late = |segment: usize| {
+        !state.rope.cut[segment] && tension[segment] > LATE * model.segment_strength_n[segment]
+    };
     model.spec.links.iter().any(link_late) || (0..model.segment_count).any(rope_late)
 }
 
@@ -71,7 +73,9 @@ pub(crate) fn part(model: &Model, state: &mut State) -> Parting {
         let load = |segment: usize| state.rope.tension[segment] / model.segment_strength_n[segment];
         let over = |segment: &usize| !state.rope.cut[*segment] && load(*segment) > 1.0;
         let segments = model.line_segments[index].clone();
-        let Some(worst) = segments.filter(over).max_by(|one, other| load(*one).total_cmp(&load(*other))) else {
+        let Some(worst) =
+            segments.filter(over).max_by(|one, other| load(*one).total_cmp(&load(*other)))
+        else {
             continue;
         };
         note_line(model, state, worst);

@@ -73,7 +73,13 @@ fn is_time(model: &Model, state: &State) -> bool {
     state.step.is_multiple_of(steps)
 }
 
-fn regrid_line(model: &Model, state: &mut State, line: usize, work: &mut RegridWork, resolution: &Resolution) -> u64 {
+fn regrid_line(
+    model: &Model,
+    state: &mut State,
+    line: usize,
+    work: &mut RegridWork,
+    resolution: &Resolution,
+) -> u64 {
     for splits in 0..MOST_SPLITS {
         let view = Line::of(model, state, line, &work.wanted, &work.gripped, resolution);
         let Some((split, merge)) = best(&view) else { return splits as u64 };

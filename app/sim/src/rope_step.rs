@@ -13,7 +13,13 @@ use crate::substep::{CONTACT_CONVERGED_M, Refused};
 const MOST_GATHERED: usize = 4;
 
 /// A solver step that the solver has just begun.
-pub(crate) fn rope_step(model: &Model, state: &State, solver: &mut Solver, scheme: &Scheme, audit: &mut Audit) -> Result<(), Refused> {
+pub(crate) fn rope_step(
+    model: &Model,
+    state: &State,
+    solver: &mut Solver,
+    scheme: &Scheme,
+    audit: &mut Audit,
+) -> Result<(), Refused> {
     for again in 0..MOST_GATHERED {
         if again > 0 {
             solver.begin(model, state, scheme);
@@ -26,14 +32,22 @@ pub(crate) fn rope_step(model: &Model, state: &State, solver: &mut Solver, schem
         let on_solids = solver.strayed_to_solids(state, scheme.dt);
         if !solver.met_more_ropes(model, state) && !on_solids {
             audit.rope_steps += 1;
-            return solver.went_through(state).map_or(Ok(()), |(segment, solid)| Err(Refused::WentThrough(segment, solid)));
+            return solver
+                .went_through(state)
+                .map_or(Ok(()), |(segment, solid)| Err(Refused::WentThrough(segment, solid)));
         }
     }
     Err(Refused::NotConverged)
 }
 
 /// Newton to the balance of forces.
-fn balance(model: &Model, state: &State, solver: &mut Solver, scheme: &Scheme, audit: &mut Audit) -> Result<(), Refused> {
+fn balance(
+    model: &Model,
+    state: &State,
+    solver: &mut Solver,
+    scheme: &Scheme,
+    audit: &mut Audit,
+) -> Result<(), Refused> {
     match solver.solve_tied(model, state, scheme) {
         Tied::Ended { last_m, passes } => {
             audit.passes += passes as u64;

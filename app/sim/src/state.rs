@@ -113,7 +113,18 @@ pub struct WhaleState {
     pub exertion: Exertion,
 }
 
-clone_in_place!(State { time_s, step, rope, bodies, whale, link_parted_s, line_parted, gear, pace, pilot });
+clone_in_place!(State {
+    time_s,
+    step,
+    rope,
+    bodies,
+    whale,
+    link_parted_s,
+    line_parted,
+    gear,
+    pace,
+    pilot
+});
 clone_in_place!(RopeState {
     position,
     velocity,
@@ -128,8 +139,28 @@ clone_in_place!(RopeState {
     solid_grips,
     rope_grips
 });
-clone_in_place!(BodyState { position, orientation, velocity, spin, earlier_position, earlier_velocity, grip, sliding, lift_m });
-clone_in_place!(WhaleState { position, orientation, speed_m_s, turn_rate, posture, motion, contact_force_n, contact_port_m, exertion });
+clone_in_place!(BodyState {
+    position,
+    orientation,
+    velocity,
+    spin,
+    earlier_position,
+    earlier_velocity,
+    grip,
+    sliding,
+    lift_m
+});
+clone_in_place!(WhaleState {
+    position,
+    orientation,
+    speed_m_s,
+    turn_rate,
+    posture,
+    motion,
+    contact_force_n,
+    contact_port_m,
+    exertion
+});
 
 impl State {
     /// The state a model starts from before statics: first guesses, at rest.
@@ -139,7 +170,12 @@ impl State {
         let nodes = position.len();
         let rope = RopeState {
             velocity: vec![DVec3::ZERO; nodes],
-            segment_length: model.spec.lines.iter().flat_map(|line| line.segments_m.iter().copied()).collect(),
+            segment_length: model
+                .spec
+                .lines
+                .iter()
+                .flat_map(|line| line.segments_m.iter().copied())
+                .collect(),
             tension: vec![0.0; model.segment_count],
             cut: vec![false; model.segment_count],
             earlier_position: position.clone(),
@@ -159,7 +195,12 @@ impl State {
             whale: model.spec.whale.as_ref().map(WhaleState::start),
             link_parted_s: vec![None; model.spec.links.len()],
             line_parted: vec![None; model.spec.lines.len()],
-            gear: model.spec.gear.iter().map(|hook| vec![0.0; hook.gear.descriptor().state_len]).collect(),
+            gear: model
+                .spec
+                .gear
+                .iter()
+                .map(|hook| vec![0.0; hook.gear.descriptor().state_len])
+                .collect(),
             pace: Pace::new(model),
             pilot: PilotMemory::default(),
         };
@@ -223,7 +264,10 @@ impl WhaleState {
             motion: vec![0.0; whale.motion.descriptor().state_len],
             contact_force_n: [0.0; endline_sdk::BodyPart::ALL.len()],
             contact_port_m: [0.0; endline_sdk::BodyPart::ALL.len()],
-            exertion: Exertion { asked_speed_m_s: if dead { 0.0 } else { whale.speed_m_s }, ..Exertion::default() },
+            exertion: Exertion {
+                asked_speed_m_s: if dead { 0.0 } else { whale.speed_m_s },
+                ..Exertion::default()
+            },
         }
     }
 }
@@ -233,7 +277,8 @@ impl State {
     #[must_use]
     pub fn arc(&self, model: &Model, segment: usize, fraction: f64) -> f64 {
         let first = model.line_segments[model.segment_line[segment]].start;
-        self.rope.segment_length[first..segment].iter().sum::<f64>() + fraction * self.rope.segment_length[segment]
+        self.rope.segment_length[first..segment].iter().sum::<f64>()
+            + fraction * self.rope.segment_length[segment]
     }
 
     /// Forgets all motion: the history of a rig at rest.

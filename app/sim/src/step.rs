@@ -127,7 +127,12 @@ impl Workspace {
 ///
 /// # Errors
 /// With the part and the reason, where the run cannot go on; `state` is then as it was before the step.
-pub fn step(model: &Model, input: &Input, state: &mut State, workspace: &mut Workspace) -> Result<(), Stop> {
+pub fn step(
+    model: &Model,
+    input: &Input,
+    state: &mut State,
+    workspace: &mut Workspace,
+) -> Result<(), Stop> {
     match &mut workspace.before {
         Some(before) => before.clone_from(state),
         none => *none = Some(state.clone()),
@@ -139,7 +144,12 @@ pub fn step(model: &Model, input: &Input, state: &mut State, workspace: &mut Wor
     done
 }
 
-fn try_step(model: &Model, input: &Input, state: &mut State, workspace: &mut Workspace) -> Result<(), Stop> {
+fn try_step(
+    model: &Model,
+    input: &Input,
+    state: &mut State,
+    workspace: &mut Workspace,
+) -> Result<(), Stop> {
     let mut whale = workspace.whale.take();
     let moved = move_whale(model, input, state, &mut whale);
     let done = moved.and_then(|held| {
@@ -148,7 +158,8 @@ fn try_step(model: &Model, input: &Input, state: &mut State, workspace: &mut Wor
     });
     if let (Some(now), Some([_, after])) = (&mut state.whale, whale.as_deref_mut()) {
         if let Some(whale) = &model.spec.whale {
-            [after.contact_force_n, after.contact_port_m] = touch_by_part(&whale.skin, &workspace.contacts);
+            [after.contact_force_n, after.contact_port_m] =
+                touch_by_part(&whale.skin, &workspace.contacts);
             if let Some(kinetic) = &whale.kinetic {
                 workspace.pulled.give(kinetic, model.spec.settings.step_s, after);
             }
@@ -165,7 +176,12 @@ fn try_step(model: &Model, input: &Input, state: &mut State, workspace: &mut Wor
 }
 
 /// Solver steps to the end of the model's step, all taken back and begun shorter where one misses the wanted error by far.
-fn paced_steps(model: &Model, state: &mut State, workspace: &mut Workspace, whale: Option<&[WhaleState; 2]>) -> Result<(), Stop> {
+fn paced_steps(
+    model: &Model,
+    state: &mut State,
+    workspace: &mut Workspace,
+    whale: Option<&[WhaleState; 2]>,
+) -> Result<(), Stop> {
     if model.node_count == 0 && model.spec.bodies.is_empty() {
         return Ok(()); // a whale alone: there is nothing to solve
     }
@@ -177,7 +193,8 @@ fn paced_steps(model: &Model, state: &mut State, workspace: &mut Workspace, whal
         let splits = regrid(model, state, &mut workspace.regrid);
         workspace.audit.splits += if taken_back == 0 { splits } else { 0 };
         let near = near_whale(model, state, workspace, whale);
-        let longest = if near { settings.contact_step_s.min(settings.step_s) } else { settings.step_s };
+        let longest =
+            if near { settings.contact_step_s.min(settings.step_s) } else { settings.step_s };
         if solver_steps(model, state, workspace, whale, (longest, taken_back < MOST_TAKEN_BACK))? {
             break;
         }
@@ -197,7 +214,12 @@ fn take_back(state: &mut State, workspace: &Workspace) {
 }
 
 /// Lets the whale swim through the step: where it starts and where it ends; whether its posture was held.
-fn move_whale(model: &Model, input: &Input, state: &State, whale: &mut Option<Box<[WhaleState; 2]>>) -> Result<bool, Stop> {
+fn move_whale(
+    model: &Model,
+    input: &Input,
+    state: &State,
+    whale: &mut Option<Box<[WhaleState; 2]>>,
+) -> Result<bool, Stop> {
     let Some(now) = &state.whale else {
         *whale = None;
         return Ok(false);
@@ -208,13 +230,23 @@ fn move_whale(model: &Model, input: &Input, state: &State, whale: &mut Option<Bo
 }
 
 /// Whether rope may come near the whale in this step.
-fn near_whale(model: &Model, state: &State, workspace: &mut Workspace, whale: Option<&[WhaleState; 2]>) -> bool {
+fn near_whale(
+    model: &Model,
+    state: &State,
+    workspace: &mut Workspace,
+    whale: Option<&[WhaleState; 2]>,
+) -> bool {
     let (Some(work), Some([from, to])) = (&mut workspace.contact, whale) else { return false };
     pose_between(model, from, to, 0.0, &mut work.bones[0]);
     pose_between(model, from, to, 1.0, &mut work.bones[1]);
     let step_s = model.spec.settings.step_s;
     let [start, end] = &work.bones;
-    work.near.any([start, end], &state.rope.position, |node| state.rope.velocity[node] * step_s, NEAR_M)
+    work.near.any(
+        [start, end],
+        &state.rope.position,
+        |node| state.rope.velocity[node] * step_s,
+        NEAR_M,
+    )
 }
 
 /// Solver steps to the end of the model's step, halved where one is refused; `false` where a step missed its wanted error
@@ -248,13 +280,20 @@ fn solver_steps(
                 let limit = if halvings > 0 { refused } else { limit };
                 workspace.audit.limited_by[limit as usize] += 1;
                 halvings = halvings.saturating_sub(1);
-                if settings.auto_step && pace_on(model, state, took, dt, earlier_dt) && may_take_back {
+                if settings.auto_step
+                    && pace_on(model, state, took, dt, earlier_dt)
+                    && may_take_back
+                {
                     return Ok(false);
                 }
             }
             Err(Refused::RopesMeet) => longest = settings.contact_step_s.min(longest),
             Err(why) if why.may_halve() && 0.5 * dt >= settings.least_step_s => {
-                refused = if why == Refused::PartsTooLate { LimitedBy::Parting } else { LimitedBy::Convergence };
+                refused = if why == Refused::PartsTooLate {
+                    LimitedBy::Parting
+                } else {
+                    LimitedBy::Convergence
+                };
                 halvings += 1;
                 workspace.audit.halved += 1;
             }
@@ -265,8 +304,16 @@ fn solver_steps(
 }
 
 /// Takes in what rope gave a kinetic whale in the solver step that has just ended; a kinematic one has no use for it.
-fn feel(model: &Model, state: &State, workspace: &mut Workspace, whale: Option<&[WhaleState; 2]>, dt: f64) {
-    let Some(kinetic) = model.spec.whale.as_ref().and_then(|whale| whale.kinetic.as_ref()) else { return };
+fn feel(
+    model: &Model,
+    state: &State,
+    workspace: &mut Workspace,
+    whale: Option<&[WhaleState; 2]>,
+    dt: f64,
+) {
+    let Some(kinetic) = model.spec.whale.as_ref().and_then(|whale| whale.kinetic.as_ref()) else {
+        return;
+    };
     let Some([_, after]) = whale else { return };
     let centre = centre_of(kinetic, after);
     let end_s = model.spec.settings.step_s * (state.step + 1) as f64;
@@ -293,7 +340,9 @@ fn pace_on(model: &Model, state: &mut State, took: Took, dt: f64, earlier_dt: f6
     let settings = &model.spec.settings;
     match took {
         Took::Parted => state.pace.restart(pace::PARTED_S.min(settings.step_s), LimitedBy::Parting),
-        Took::Touching => state.pace.restart(settings.contact_step_s.min(settings.step_s), LimitedBy::Contact),
+        Took::Touching => {
+            state.pace.restart(settings.contact_step_s.min(settings.step_s), LimitedBy::Contact)
+        }
         Took::Free => return pace::choose(model, state, dt, earlier_dt),
     }
     false
@@ -301,7 +350,12 @@ fn pace_on(model: &Model, state: &mut State, took: Took, dt: f64, earlier_dt: f6
 
 /// The reason a run ends where even the shortest step is refused.
 fn stop(model: &Model, state: &State, workspace: &Workspace, why: Refused) -> Stop {
-    let line = || workspace.solver.worst_line(model).map_or_else(|| "model".into(), |line| format!("line {}", model.spec.lines[line].id));
+    let line = || {
+        workspace
+            .solver
+            .worst_line(model)
+            .map_or_else(|| "model".into(), |line| format!("line {}", model.spec.lines[line].id))
+    };
     let (part, reason) = match why {
         Refused::NotFinite => {
             (line(), "its numbers are no longer finite at the shortest step; check stiffness, mass and current of this part".into())

@@ -15,7 +15,10 @@ use crate::model::Model;
 use crate::parting::{self, Parting};
 use crate::rope_step::rope_step;
 use crate::solids::work;
-use crate::solver::{BodyTrial, CONTACT_WANTED_M, Fine, FreePass, Scheme, Solver, TENSION_GAP_N, TENSION_GAP_SHARE, Touched};
+use crate::solver::{
+    BodyTrial, CONTACT_WANTED_M, Fine, FreePass, Scheme, Solver, TENSION_GAP_N, TENSION_GAP_SHARE,
+    Touched,
+};
 use crate::state::State;
 use crate::step::{Audit, Workspace};
 
@@ -96,8 +99,15 @@ pub(crate) enum Took {
 }
 
 /// One solver step of length `dt`: kept in `state` where it converges and parts nothing late.
-pub(crate) fn solver_step(model: &Model, state: &mut State, workspace: &mut Workspace, dt: f64, careful: bool) -> Result<Took, Refused> {
-    let Workspace { solver, contact, audit, contacts, rope_touches, peak_tension_n, .. } = workspace;
+pub(crate) fn solver_step(
+    model: &Model,
+    state: &mut State,
+    workspace: &mut Workspace,
+    dt: f64,
+    careful: bool,
+) -> Result<Took, Refused> {
+    let Workspace { solver, contact, audit, contacts, rope_touches, peak_tension_n, .. } =
+        workspace;
     let mut touching = contact.as_mut();
     if touching.as_mut().is_none_or(|work| !gather(model, state, work, dt)) {
         touching = None;
@@ -110,7 +120,11 @@ pub(crate) fn solver_step(model: &Model, state: &mut State, workspace: &mut Work
         return Err(Refused::RopesMeet);
     }
     let untouched = touching.is_none() && !on_solid && !on_rope;
-    let scheme = if careful || !untouched { Scheme::backward_euler(dt) } else { Scheme::bdf2(dt, state.rope.earlier_dt_s) };
+    let scheme = if careful || !untouched {
+        Scheme::backward_euler(dt)
+    } else {
+        Scheme::bdf2(dt, state.rope.earlier_dt_s)
+    };
     let last = dt * 0.5 < model.spec.settings.least_step_s;
     let free = untouched && solver.suits_lanes(model);
     if free && free_step(model, state, solver, &scheme, audit)? == Met::Nothing {
@@ -120,7 +134,14 @@ pub(crate) fn solver_step(model: &Model, state: &mut State, workspace: &mut Work
         state.rope.grips.clear();
         solver.keep_free(model, &scheme, state);
     } else {
-        step_by_lines(model, state, solver, &scheme, touching, (contacts, rope_touches, audit, last))?;
+        step_by_lines(
+            model,
+            state,
+            solver,
+            &scheme,
+            touching,
+            (contacts, rope_touches, audit, last),
+        )?;
     }
     audit.ropes_crossed += solver.ropes.crossings;
     audit.ropes_through = audit.ropes_through.max(solver.ropes.count_through());
@@ -147,7 +168,12 @@ fn step_by_lines(
     solver: &mut Solver,
     scheme: &Scheme,
     mut touching: Option<&mut ContactWork>,
-    (contacts, rope_touches, audit, last): (&mut Vec<ContactPoint>, &mut Vec<RopeTouch>, &mut Audit, bool),
+    (contacts, rope_touches, audit, last): (
+        &mut Vec<ContactPoint>,
+        &mut Vec<RopeTouch>,
+        &mut Audit,
+        bool,
+    ),
 ) -> Result<(), Refused> {
     solver.begin(model, state, scheme);
     match &mut touching {
@@ -175,10 +201,13 @@ fn step_by_lines(
         (Some(work), Some(friction)) => {
             work.keep(model, friction, scheme.dt, state, contacts).map_err(Refused::Plugin)?;
             audit.contact_steps += 1;
-            let deepest = contacts.iter().map(|contact| 0.5 * model.rope_of_segment(contact.segment).diameter_m - contact.distance_m);
+            let deepest = contacts.iter().map(|contact| {
+                0.5 * model.rope_of_segment(contact.segment).diameter_m - contact.distance_m
+            });
             audit.max_penetration_m = deepest.fold(audit.max_penetration_m, f64::max);
             let nearest = contacts.iter().map(|contact| contact.distance_m).reduce(f64::min);
-            audit.least_distance_m = [audit.least_distance_m, nearest].into_iter().flatten().reduce(f64::min);
+            audit.least_distance_m =
+                [audit.least_distance_m, nearest].into_iter().flatten().reduce(f64::min);
         }
         _ => state.rope.grips.clear(),
     }
@@ -190,11 +219,23 @@ fn step_by_lines(
 /// Gathers rope near the whale for a solver step; whether there is any.
 fn gather(model: &Model, state: &State, work: &mut ContactWork, dt: f64) -> bool {
     let [start, end] = &work.bones;
-    work.near.begin(model, [start, end], &state.rope.position, |node| state.rope.velocity[node] * dt, &state.rope.cut)
+    work.near.begin(
+        model,
+        [start, end],
+        &state.rope.position,
+        |node| state.rope.velocity[node] * dt,
+        &state.rope.cut,
+    )
 }
 
 /// Newton where only water and seabed touch the rope; what it met beyond.
-fn free_step(model: &Model, state: &State, solver: &mut Solver, scheme: &Scheme, audit: &mut Audit) -> Result<Met, Refused> {
+fn free_step(
+    model: &Model,
+    state: &State,
+    solver: &mut Solver,
+    scheme: &Scheme,
+    audit: &mut Audit,
+) -> Result<Met, Refused> {
     solver.begin_free(model, state, scheme);
     let fine = solver.fine();
     let (mut patience, at_once) = (Patience::new(model, &fine), !model.bends());
@@ -208,7 +249,8 @@ fn free_step(model: &Model, state: &State, solver: &mut Solver, scheme: &Scheme,
             return Err(Refused::NotFinite);
         }
         let rests = patience.rests(pass, passed.longest_m);
-        let settled = passed.gap_n <= TENSION_GAP_N.min(fine.gap_n).max(TENSION_GAP_SHARE * passed.greatest_n);
+        let settled = passed.gap_n
+            <= TENSION_GAP_N.min(fine.gap_n).max(TENSION_GAP_SHARE * passed.greatest_n);
         if (rests && settled) || (at_once && is_exact(&passed, &fine)) {
             // Rope that kept to its drift has met nothing but what was gathered.
             let strayed = moved_m > work::MARGIN_M && solver.strayed_free(state, scheme.dt);
@@ -225,7 +267,13 @@ fn is_exact(passed: &FreePass, fine: &Fine) -> bool {
     !passed.near_seabed && passed.longest_m < ONE_PASS_M.min(fine.move_m) && passed.gap_n < gap_n
 }
 
-fn lines_step(model: &Model, state: &State, solver: &mut Solver, scheme: &Scheme, audit: &mut Audit) -> Result<(), Refused> {
+fn lines_step(
+    model: &Model,
+    state: &State,
+    solver: &mut Solver,
+    scheme: &Scheme,
+    audit: &mut Audit,
+) -> Result<(), Refused> {
     let mut patience = Patience::new(model, &solver.fine());
     for pass in 1..=patience.most_passes {
         let passed = solver.pass(model, state, scheme);
@@ -252,7 +300,8 @@ struct Patience {
 impl Patience {
     fn new(model: &Model, fine: &Fine) -> Self {
         let bends = model.bends();
-        let (most_passes, converged_m) = if bends { (BENT_MOST_PASSES, BENT_CONVERGED_M) } else { (MOST_PASSES, CONVERGED_M) };
+        let (most_passes, converged_m) =
+            if bends { (BENT_MOST_PASSES, BENT_CONVERGED_M) } else { (MOST_PASSES, CONVERGED_M) };
         let converged_m = converged_m.min(fine.move_m);
         Self { bends, most_passes, converged_m, moved_before_m: f64::INFINITY }
     }
@@ -267,7 +316,13 @@ impl Patience {
 }
 
 /// Newton with rope on obstacles or bodies.
-fn solid_step(model: &Model, state: &State, solver: &mut Solver, scheme: &Scheme, audit: &mut Audit) -> Result<(), Refused> {
+fn solid_step(
+    model: &Model,
+    state: &State,
+    solver: &mut Solver,
+    scheme: &Scheme,
+    audit: &mut Audit,
+) -> Result<(), Refused> {
     let mut last_m = f64::INFINITY;
     for pass in 1..=MOST_SOLID_PASSES {
         if pass == FORETOLD_PASSES + 1 {
@@ -275,14 +330,20 @@ fn solid_step(model: &Model, state: &State, solver: &mut Solver, scheme: &Scheme
             solver.begin(model, state, scheme);
             solver.solid.follow_again();
         }
-        let passed = if pass <= FORETOLD_PASSES { solver.pass(model, state, scheme) } else { solver.searched_pass(model, state, scheme) };
+        let passed = if pass <= FORETOLD_PASSES {
+            solver.pass(model, state, scheme)
+        } else {
+            solver.searched_pass(model, state, scheme)
+        };
         audit.passes += 1;
         if !passed.finite {
             audit.non_finite += 1;
             return Err(Refused::NotFinite);
         }
         last_m = passed.longest_m;
-        let settled = last_m < CONTACT_WANTED_M && solver.pushes_are_settled() && solver.pull_is_settled(model, scheme);
+        let settled = last_m < CONTACT_WANTED_M
+            && solver.pushes_are_settled()
+            && solver.pull_is_settled(model, scheme);
         if pass >= LEAST_PASSES && settled && !solver.strayed_to_solids(state, scheme.dt) {
             break;
         }
@@ -291,7 +352,9 @@ fn solid_step(model: &Model, state: &State, solver: &mut Solver, scheme: &Scheme
         return Err(Refused::NotConverged);
     }
     audit.unconverged += u64::from(last_m > CONTACT_WANTED_M);
-    solver.went_through(state).map_or(Ok(()), |(segment, solid)| Err(Refused::WentThrough(segment, solid)))
+    solver
+        .went_through(state)
+        .map_or(Ok(()), |(segment, solid)| Err(Refused::WentThrough(segment, solid)))
 }
 
 fn contact_step(
@@ -342,7 +405,11 @@ fn contact_step(
             return Err(Refused::RopesPinched(segments));
         }
         if work.near.fraction >= 1.0 - 1e-12 {
-            return if solver.met_more_ropes(model, state) { Err(Refused::NotConverged) } else { Ok(()) };
+            return if solver.met_more_ropes(model, state) {
+                Err(Refused::NotConverged)
+            } else {
+                Ok(())
+            };
         }
     }
     Err(Refused::NotConverged)
@@ -395,7 +462,13 @@ impl Solver {
 
     /// Makes a share of the move to the target: the number of crossings found, or the share of it that is safe where
     /// all of it is not.
-    fn carry_by(&mut self, model: &Model, work: &mut ContactWork, share: f64, with_bodies: bool) -> Result<u64, f64> {
+    fn carry_by(
+        &mut self,
+        model: &Model,
+        work: &mut ContactWork,
+        share: f64,
+        with_bodies: bool,
+    ) -> Result<u64, f64> {
         for (node, place) in self.trial.place.iter_mut().enumerate() {
             *place = work.before[node].lerp(work.target[node], share);
         }

@@ -46,7 +46,8 @@ fn over_drum(radius: f64, region: Region, speed: f64, segments: usize) -> ModelS
     let mut rope = common::rope();
     rope.axial_damping_n_s = 200.0;
     let hanging = weight("hanging", HANGING_KG, path(0.0), None);
-    let driven = JointKind::Driven { velocity_m_s: DVec3::Z * -speed, from_s: 0.5, until_s: f64::INFINITY };
+    let driven =
+        JointKind::Driven { velocity_m_s: DVec3::Z * -speed, from_s: 0.5, until_s: f64::INFINITY };
     let mut line = line("rope", whole, segments);
     if radius < RADIUS {
         line.segments_m = finer_inside(whole, segments, 0.06 + 0.5 * std::f64::consts::PI * over);
@@ -61,7 +62,10 @@ fn over_drum(radius: f64, region: Region, speed: f64, segments: usize) -> ModelS
         })
         .collect();
     line.start_m.insert(0, path(0.0));
-    let joints = vec![on_body("hanging", 0), Joint { id: "hand".into(), kind: driven, position_m: path(whole) }];
+    let joints = vec![
+        on_body("hanging", 0),
+        Joint { id: "hand".into(), kind: driven, position_m: path(whole) },
+    ];
     ModelSpec {
         water: water(0.0, 0.0),
         seabed: None,
@@ -86,7 +90,8 @@ fn run(model: &Model, until_s: f64, from_s: f64) -> ([f64; 2], f64, Workspace) {
     let (mut sum, mut count) = ([0.0; 2], 0.0);
     let last = model.segment_count - 1;
     while state.time_s < until_s - 1e-9 {
-        step(model, &Input::default(), &mut state, &mut workspace).unwrap_or_else(|stop| panic!("{stop:?}"));
+        step(model, &Input::default(), &mut state, &mut workspace)
+            .unwrap_or_else(|stop| panic!("{stop:?}"));
         if state.time_s > from_s {
             sum[0] += state.rope.tension[0];
             sum[1] += state.rope.tension[last];
@@ -101,7 +106,10 @@ fn rope_sliding_over_skin_obeys_the_capstan_law() {
     let model = capstan(0.2, 96);
     let ([slack, taut], _, workspace) = run(&model, 3.5, 1.5);
     let effective = libm::log(taut / slack) / std::f64::consts::PI;
-    println!("capstan: {slack:.1} N against {taut:.1} N, effective friction {effective:.4} for {FRICTION}, {:?}", workspace.audit);
+    println!(
+        "capstan: {slack:.1} N against {taut:.1} N, effective friction {effective:.4} for {FRICTION}, {:?}",
+        workspace.audit
+    );
     assert!((effective / FRICTION - 1.0).abs() < 0.02, "effective friction {effective}");
     assert_eq!(workspace.audit.tunnelled, 0);
 }
@@ -124,14 +132,23 @@ fn over_an_edge(segments: usize, resolution: Option<Resolution>) -> (f64, f64, u
     let (mut state, mut workspace) = (State::start(&model), Workspace::new(&model));
     let (mut readings, last) = (Vec::new(), model.segment_count - 1);
     while state.time_s < 3.0 {
-        step(&model, &Input::default(), &mut state, &mut workspace).unwrap_or_else(|stop| panic!("{stop:?}"));
+        step(&model, &Input::default(), &mut state, &mut workspace)
+            .unwrap_or_else(|stop| panic!("{stop:?}"));
         if state.time_s > 1.0 {
-            readings.push(libm::log(state.rope.tension[last] / state.rope.tension[0]) / (std::f64::consts::PI * FRICTION));
+            readings.push(
+                libm::log(state.rope.tension[last] / state.rope.tension[0])
+                    / (std::f64::consts::PI * FRICTION),
+            );
         }
     }
     let mean = readings.iter().sum::<f64>() / readings.len() as f64;
-    let spread = readings.iter().map(|reading| (reading - mean) * (reading - mean)).sum::<f64>() / readings.len() as f64;
-    println!("{segments} segments, {resolution:?}: friction {mean:.3} of it, ripple {:.3}, {:?}", spread.sqrt(), workspace.audit);
+    let spread = readings.iter().map(|reading| (reading - mean) * (reading - mean)).sum::<f64>()
+        / readings.len() as f64;
+    println!(
+        "{segments} segments, {resolution:?}: friction {mean:.3} of it, ripple {:.3}, {:?}",
+        spread.sqrt(),
+        workspace.audit
+    );
     assert_eq!(workspace.audit.tunnelled, 0);
     (mean, spread.sqrt(), workspace.audit.splits)
 }
@@ -139,7 +156,8 @@ fn over_an_edge(segments: usize, resolution: Option<Resolution>) -> (f64, f64, u
 #[test]
 fn resolution_that_follows_mends_friction_over_a_thin_edge() {
     let (uniform, uniform_ripple, _) = over_an_edge(60, None);
-    let (follows, ripple, splits) = over_an_edge(60, Some(Resolution { near_m: 0.05, edge_m: 0.0125, far_m: 0.2 }));
+    let (follows, ripple, splits) =
+        over_an_edge(60, Some(Resolution { near_m: 0.05, edge_m: 0.0125, far_m: 0.2 }));
     assert!(splits > 20, "{splits} splits");
     assert!(uniform < 0.85, "the gap that is to be mended: {uniform}");
     assert!((follows - 1.0).abs() < 0.06, "{follows}");

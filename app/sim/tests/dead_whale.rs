@@ -58,7 +58,12 @@ fn it_floats_at_the_draught_of_archimedes_and_comes_to_rest_there() {
     assert!((last.0.z - HEIGHT_M).abs() < 0.01, "{} against {HEIGHT_M} m", last.0.z);
     assert!(last.1.abs() < 0.02, "it rights itself: {} rad", last.1);
     let model = Model::new(afloat(HEIGHT_M, 0.0, 0.0)).expect("a sound model");
-    run(&model, 20.0, |_, place, heel| assert!((place - DVec3::Z * HEIGHT_M).length() < 1e-6 && heel.abs() < 1e-9, "{place} {heel}"));
+    run(&model, 20.0, |_, place, heel| {
+        assert!(
+            (place - DVec3::Z * HEIGHT_M).length() < 1e-6 && heel.abs() < 1e-9,
+            "{place} {heel}"
+        )
+    });
 }
 
 /// `T = 2π √(I/(m g GM))`, `GM = KB + b²/(12 d) - KG` for breadth `b` and draught `d`; heave `2π √(d/g)`. Neither dies out without drag.
@@ -83,7 +88,10 @@ fn it_rolls_and_heaves_at_its_own_periods() {
         });
         let found = (crossings[9] - crossings[0]) / 9.0;
         assert!((found / period_s - 1.0).abs() < 5e-3, "{found} against {period_s} s");
-        assert!((greatest / 0.02 - 1.0).abs() < 0.02, "after nine periods still {greatest} of 0.02");
+        assert!(
+            (greatest / 0.02 - 1.0).abs() < 0.02,
+            "after nine periods still {greatest} of 0.02"
+        );
     }
 }
 

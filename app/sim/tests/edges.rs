@@ -16,7 +16,12 @@ const SHIPPED_M: f64 = 0.07;
 fn read(what: &str, capstan: &Capstan) -> Reading {
     let read = capstan.read();
     let share = |part: f64| 100.0 * (part - 1.0);
-    println!("{what}: friction {:+.2} %, ratio {:+.2} %, ripple {:.2} %", share(read.friction), share(read.ratio), 100.0 * read.ripple);
+    println!(
+        "{what}: friction {:+.2} %, ratio {:+.2} %, ripple {:.2} %",
+        share(read.friction),
+        share(read.ratio),
+        100.0 * read.ripple
+    );
     assert_eq!(read.audit.tunnelled, 0, "{what}");
     read
 }
@@ -25,7 +30,14 @@ fn read(what: &str, capstan: &Capstan) -> Reading {
 fn friction_round_a_drum_is_that_of_the_law_within_two_per_cent() {
     for (turn, friction) in [(FRAC_PI_2, 0.1), (TAU, 0.3), (2.0 * TAU, 0.6)] {
         let slack_n = 4000.0 / libm::exp(friction * turn);
-        let capstan = Capstan { turn, friction, slack_n, segment_m: SHIPPED_M, drawn_m: [0.1, 0.1], ..Capstan::default() };
+        let capstan = Capstan {
+            turn,
+            friction,
+            slack_n,
+            segment_m: SHIPPED_M,
+            drawn_m: [0.1, 0.1],
+            ..Capstan::default()
+        };
         let read = read(&format!("{turn:.2} rad at {friction}"), &capstan);
         assert!((read.friction - 1.0).abs() < 0.02, "{read:?}");
     }
@@ -57,11 +69,21 @@ fn tension_over_the_edge_of_a_fin_is_that_of_the_law() {
 /// Nine tenths of what friction holds, for a minute.
 #[test]
 fn rope_at_rest_under_load_does_not_creep() {
-    for (radius_m, degrees, segment_m) in [(0.3, 180.0_f64, 2.0 * SHIPPED_M), (0.02, 160.0, 0.0125)] {
+    for (radius_m, degrees, segment_m) in [(0.3, 180.0_f64, 2.0 * SHIPPED_M), (0.02, 160.0, 0.0125)]
+    {
         let turn = degrees.to_radians();
         let slack_n = 100.0;
         let held_n = Some(slack_n * libm::exp(0.9 * 0.3 * turn));
-        let capstan = Capstan { turn, radius_m, facets: 24, slack_n, held_n, segment_m, tail_m: 0.1, ..Capstan::default() };
+        let capstan = Capstan {
+            turn,
+            radius_m,
+            facets: 24,
+            slack_n,
+            held_n,
+            segment_m,
+            tail_m: 0.1,
+            ..Capstan::default()
+        };
         let creep = capstan.creep(1.0, 61.0);
         println!("drum of {radius_m} m: {:.6} mm in 60 s", 1e3 * creep);
         assert!(creep < 1e-3, "crept {creep} m");

@@ -16,14 +16,24 @@ fn a_coarse_line_bears_the_end_tensions_of_the_shooting_solution() {
     buoy.drag_area_m2 = DVec3::splat(0.0281);
     buoy.added_mass_kg = DVec3::splat(0.5 * 1025.0 * 0.010);
     let joints = vec![fixed("anchor", DVec3::new(0.0, 0.0, -30.0)), on_body("buoy", 0)];
-    let model = model(water(1025.0, 0.5), joints, vec![line("endline", 60.0, 20)], vec![buoy], Settings::default());
+    let model = model(
+        water(1025.0, 0.5),
+        joints,
+        vec![line("endline", 60.0, 20)],
+        vec![buoy],
+        Settings::default(),
+    );
     let settled = settle(&model);
     assert!(settled.converged);
     let summary = Metrics::new(&model).summary(&model, &settled.state);
     let bare = [settled.state.rope.tension[0], settled.state.rope.tension[19]];
     let ends = [summary.lines[0].end_a_tension_n, summary.lines[0].end_b_tension_n];
     for (wanted, (bare, end)) in [23.93630, 14.39362].into_iter().zip(bare.into_iter().zip(ends)) {
-        println!("{wanted} N: segment {:+.3} %, end {:+.3} %", 100.0 * (bare / wanted - 1.0), 100.0 * (end / wanted - 1.0));
+        println!(
+            "{wanted} N: segment {:+.3} %, end {:+.3} %",
+            100.0 * (bare / wanted - 1.0),
+            100.0 * (end / wanted - 1.0)
+        );
         assert!((end / wanted - 1.0).abs() < 0.002, "{end} N for {wanted} N");
     }
 }

@@ -1,7 +1,12 @@
 //! Laws of friction at work in the rope solve: a rope drawn over a drum of skin obeys the capstan law of whichever law holds where it
 //! lies, baleen knows its plates, and a law that adds energy ends the run with its name.
 
-#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test says what it needs")]
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::unwrap_used,
+    reason = "a test says what it needs"
+)]
 
 mod common;
 
@@ -10,7 +15,9 @@ use std::sync::Arc;
 
 use common::{line, on_body, water, weight};
 use endline_friction_models::{Baleen, Coulomb, Stribeck};
-use endline_sdk::{AttributeKind, Contacts, Descriptor, FrictionModel, FrictionResponse, HookError, Region};
+use endline_sdk::{
+    AttributeKind, Contacts, Descriptor, FrictionModel, FrictionResponse, HookError, Region,
+};
 use endline_sim::model::{Friction, FrictionLaw, Joint, JointKind, Model, ModelSpec, Settings};
 use endline_sim::whale::{Bone, Skin, Whale};
 use endline_sim::{DQuat, DVec3, Input, State, Stop, Workspace, step};
@@ -21,19 +28,30 @@ const FACETS: u32 = 96;
 
 fn descriptor(id: &'static str, state_len: usize) -> Descriptor {
     let (version, name, help) = ("1".into(), id.into(), "For a test.".into());
-    Descriptor { id: id.into(), version, name, help, attributes: Vec::new(), state_len, acts: Vec::new() }
+    Descriptor {
+        id: id.into(),
+        version,
+        name,
+        help,
+        attributes: Vec::new(),
+        state_len,
+        acts: Vec::new(),
+    }
 }
 
 /// A closed drum along an axis of the whale's frame; `aside` and `up` make a right-handed frame with it. Regions by angle from `aside`.
 fn drum([axis, aside, up]: [DVec3; 3], region: impl Fn(f64) -> Region) -> Skin {
     let angle = |k: u32| f64::from(k) / f64::from(FACETS) * TAU;
-    let rim = |k: u32, along: f64| axis * along + (aside * libm::cos(angle(k)) + up * libm::sin(angle(k))) * RADIUS;
+    let rim = |k: u32, along: f64| {
+        axis * along + (aside * libm::cos(angle(k)) + up * libm::sin(angle(k))) * RADIUS
+    };
     let mut vertices: Vec<DVec3> = (0..FACETS).flat_map(|k| [rim(k, -0.5), rim(k, 0.5)]).collect();
     vertices.extend([axis * -0.5, axis * 0.5]);
     let (low, high) = (2 * FACETS, 2 * FACETS + 1);
     let triangles: Vec<[u32; 3]> = (0..FACETS)
         .flat_map(|k| {
-            let (a, b, c, d) = (2 * k, 2 * k + 1, 2 * ((k + 1) % FACETS), 2 * ((k + 1) % FACETS) + 1);
+            let (a, b, c, d) =
+                (2 * k, 2 * k + 1, 2 * ((k + 1) % FACETS), 2 * ((k + 1) % FACETS) + 1);
             [[a, c, b], [b, c, d], [a, low, c], [b, d, high]]
         })
         .collect();
@@ -41,7 +59,12 @@ fn drum([axis, aside, up]: [DVec3; 3], region: impl Fn(f64) -> Region) -> Skin {
         weights: vec![[(0, 1.0), (0, 0.0), (0, 0.0), (0, 0.0)]; vertices.len()],
         marks: Vec::new(),
         regions: (0..FACETS).flat_map(|k| [region(angle(k) + PI / f64::from(FACETS)); 4]).collect(),
-        bones: vec![Bone { name: "control".into(), parent: None, origin: DVec3::ZERO, turns: Vec::new() }],
+        bones: vec![Bone {
+            name: "control".into(),
+            parent: None,
+            origin: DVec3::ZERO,
+            turns: Vec::new(),
+        }],
         vertices,
         triangles,
     }
@@ -70,12 +93,16 @@ fn drawn_over(whale: Whale, friction: Friction, speed: f64) -> Model {
     rope.axial_damping_n_s = 200.0;
     let mut line = line("rope", whole, 72);
     line.start_m = (0..=72).map(|k| path(whole * f64::from(k) / 72.0)).collect();
-    let driven = JointKind::Driven { velocity_m_s: DVec3::Z * -speed, from_s: 0.3, until_s: f64::INFINITY };
+    let driven =
+        JointKind::Driven { velocity_m_s: DVec3::Z * -speed, from_s: 0.3, until_s: f64::INFINITY };
     Model::new(ModelSpec {
         water: water(0.0, 0.0),
         seabed: None,
         ropes: vec![rope],
-        joints: vec![on_body("hanging", 0), Joint { id: "hand".into(), kind: driven, position_m: path(whole) }],
+        joints: vec![
+            on_body("hanging", 0),
+            Joint { id: "hand".into(), kind: driven, position_m: path(whole) },
+        ],
         lines: vec![line],
         bodies: vec![weight("hanging", 20.0, path(0.0), None)],
         links: Vec::new(),
@@ -91,10 +118,16 @@ fn drawn_over(whale: Whale, friction: Friction, speed: f64) -> Model {
 
 fn law(model: impl FrictionModel + 'static, changed: &[(&str, f64)]) -> FrictionLaw {
     let value = |attribute: &endline_sdk::Attribute| match attribute.kind {
-        AttributeKind::Number { default, .. } => changed.iter().find(|(key, _)| attribute.key == *key).map_or(default, |(_, value)| *value),
+        AttributeKind::Number { default, .. } => changed
+            .iter()
+            .find(|(key, _)| attribute.key == *key)
+            .map_or(default, |(_, value)| *value),
         _ => panic!("a number"),
     };
-    FrictionLaw { attributes: model.descriptor().attributes.iter().map(value).collect(), model: Arc::new(model) }
+    FrictionLaw {
+        attributes: model.descriptor().attributes.iter().map(value).collect(),
+        model: Arc::new(model),
+    }
 }
 
 /// Angle times effective friction, `ln(T2/T1)`, once the rope slides steadily.
@@ -102,7 +135,8 @@ fn log_ratio(model: &Model) -> f64 {
     let (mut state, mut workspace) = (State::start(model), Workspace::new(model));
     let (mut slack, mut taut) = (0.0, 0.0);
     while state.time_s < 1.8 - 1e-9 {
-        step(model, &Input::default(), &mut state, &mut workspace).unwrap_or_else(|stop| panic!("{stop:?}"));
+        step(model, &Input::default(), &mut state, &mut workspace)
+            .unwrap_or_else(|stop| panic!("{stop:?}"));
         if state.time_s > 1.0 {
             slack += state.rope.tension[0];
             taut += state.rope.tension[model.segment_count - 1];
@@ -123,7 +157,8 @@ fn rope_over_baleen_obeys_the_capstan_law_of_its_direction() {
         coefficients: vec![[mu; Region::ALL.len()]],
     };
     let baleen = |_| Region::Baleen;
-    let lengthwise = still(drum([DVec3::X, DVec3::Y, DVec3::Z], baleen), DQuat::from_rotation_z(FRAC_PI_2));
+    let lengthwise =
+        still(drum([DVec3::X, DVec3::Y, DVec3::Z], baleen), DQuat::from_rotation_z(FRAC_PI_2));
     let athwart = still(drum([DVec3::Y, DVec3::Z, DVec3::X], baleen), DQuat::IDENTITY);
     let along = log_ratio(&drawn_over(lengthwise, friction(), 0.2)) / PI;
     let across = log_ratio(&drawn_over(athwart, friction(), 0.2)) / PI;
@@ -140,9 +175,15 @@ fn each_region_has_its_own_law() {
     let skin = drum([DVec3::Y, DVec3::Z, DVec3::X], move |angle| halves(angle - FRAC_PI_2));
     let mut law_of = [0; Region::ALL.len()];
     law_of[Region::Peduncle as usize] = 1;
-    let wet = law(Stribeck::new(), &[("static_ratio", 1.5), ("stribeck_speed", 0.1), ("viscous_speed", 1.0)]);
-    let friction =
-        Friction { laws: vec![law(Coulomb::new(), &[]), wet], law_of: vec![law_of], coefficients: vec![[mu; Region::ALL.len()]] };
+    let wet = law(
+        Stribeck::new(),
+        &[("static_ratio", 1.5), ("stribeck_speed", 0.1), ("viscous_speed", 1.0)],
+    );
+    let friction = Friction {
+        laws: vec![law(Coulomb::new(), &[]), wet],
+        law_of: vec![law_of],
+        coefficients: vec![[mu; Region::ALL.len()]],
+    };
     let model = drawn_over(still(skin, DQuat::IDENTITY), friction, speed);
     let expected = mu * FRAC_PI_2 * (1.0 + (1.0 + 0.5 * libm::exp(-1.0) + 0.1));
     let got = log_ratio(&model);
@@ -156,7 +197,8 @@ fn replays_to_the_bit(model: &Model) {
     let run = |drop_every: usize| {
         let (mut state, mut workspace) = (State::start(model), Workspace::new(model));
         for count in 1..=400 {
-            step(model, &Input::default(), &mut state, &mut workspace).unwrap_or_else(|stop| panic!("{stop:?}"));
+            step(model, &Input::default(), &mut state, &mut workspace)
+                .unwrap_or_else(|stop| panic!("{stop:?}"));
             if count % drop_every == 0 {
                 workspace = Workspace::new(model);
             }
@@ -165,8 +207,12 @@ fn replays_to_the_bit(model: &Model) {
     };
     let (one, other) = (run(usize::MAX), run(7));
     assert!(!one.rope.grips.sites.is_empty() && one.rope.grips.sites.is_sorted());
-    let bits = |state: &State| state.rope.grips.floats.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
-    assert_eq!((bits(&one), one.rope.position.clone()), (bits(&other), other.rope.position.clone()));
+    let bits =
+        |state: &State| state.rope.grips.floats.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+    assert_eq!(
+        (bits(&one), one.rope.position.clone()),
+        (bits(&other), other.rope.position.clone())
+    );
 }
 
 /// Friction with a memory that pushes the rope the way it slipped last: each answer alone could come out of a bristle.
@@ -177,7 +223,12 @@ impl FrictionModel for Motor {
         &self.0
     }
 
-    fn respond(&self, _: &[f64], contacts: &Contacts<'_>, out: &mut [FrictionResponse]) -> Result<(), HookError> {
+    fn respond(
+        &self,
+        _: &[f64],
+        contacts: &Contacts<'_>,
+        out: &mut [FrictionResponse],
+    ) -> Result<(), HookError> {
         for (index, answer) in out.iter_mut().enumerate() {
             let force = 0.5 * contacts.coefficient[index] * contacts.normal_force_n[index];
             answer.force_n = std::array::from_fn(|i| force * contacts.state[3 * index + i]);
@@ -187,7 +238,12 @@ impl FrictionModel for Motor {
         Ok(())
     }
 
-    fn advance(&self, _: &[f64], contacts: &Contacts<'_>, out: &mut [f64]) -> Result<(), HookError> {
+    fn advance(
+        &self,
+        _: &[f64],
+        contacts: &Contacts<'_>,
+        out: &mut [f64],
+    ) -> Result<(), HookError> {
         for (floats, slip) in out.chunks_exact_mut(3).zip(contacts.slip_m) {
             let way = slip.iter().map(|c| c * c).sum::<f64>().sqrt().max(1e-12);
             floats.copy_from_slice(&slip.map(|c| c / way));
@@ -198,11 +254,20 @@ impl FrictionModel for Motor {
 
 #[test]
 fn a_law_that_adds_energy_ends_the_run_with_its_name() {
-    let friction =
-        Friction::of_one(Arc::new(Motor(descriptor("org.example.friction.motor", 3))), Vec::new(), vec![[0.3; Region::ALL.len()]]);
-    let model = drawn_over(still(drum([DVec3::Y, DVec3::Z, DVec3::X], |_| Region::Body), DQuat::IDENTITY), friction, 0.2);
+    let friction = Friction::of_one(
+        Arc::new(Motor(descriptor("org.example.friction.motor", 3))),
+        Vec::new(),
+        vec![[0.3; Region::ALL.len()]],
+    );
+    let model = drawn_over(
+        still(drum([DVec3::Y, DVec3::Z, DVec3::X], |_| Region::Body), DQuat::IDENTITY),
+        friction,
+        0.2,
+    );
     let (mut state, mut workspace) = (State::start(&model), Workspace::new(&model));
-    let stop: Stop = (0..1000).find_map(|_| step(&model, &Input::default(), &mut state, &mut workspace).err()).expect("the run ends");
+    let stop: Stop = (0..1000)
+        .find_map(|_| step(&model, &Input::default(), &mut state, &mut workspace).err())
+        .expect("the run ends");
     assert_eq!(stop.part, "org.example.friction.motor");
     assert!(stop.reason.contains("its friction adds energy"), "{}", stop.reason);
 }

@@ -64,13 +64,19 @@ impl Way {
     fn fine(&self) -> Vec<DVec3> {
         let count = 4000;
         let at = |angle: f64| {
-            let (radius, height) = ((self.radius)(angle, self.turn), (self.height)(angle, self.turn));
+            let (radius, height) =
+                ((self.radius)(angle, self.turn), (self.height)(angle, self.turn));
             DVec3::new(radius * libm::cos(angle), radius * libm::sin(angle), height)
         };
         let ahead = |angle: f64| DVec3::new(-libm::sin(angle), libm::cos(angle), 0.0);
-        let mut way: Vec<DVec3> = (1..=50).rev().map(|k| at(0.0) - ahead(0.0) * (STRAIGHT * f64::from(k) / 50.0)).collect();
+        let mut way: Vec<DVec3> = (1..=50)
+            .rev()
+            .map(|k| at(0.0) - ahead(0.0) * (STRAIGHT * f64::from(k) / 50.0))
+            .collect();
         way.extend((0..=count).map(|k| at(self.turn * f64::from(k) / f64::from(count))));
-        way.extend((1..=50).map(|k| at(self.turn) + ahead(self.turn) * (STRAIGHT * f64::from(k) / 50.0)));
+        way.extend(
+            (1..=50).map(|k| at(self.turn) + ahead(self.turn) * (STRAIGHT * f64::from(k) / 50.0)),
+        );
         way
     }
 
@@ -84,18 +90,28 @@ impl Way {
         let whole = along[along.len() - 1];
         let at = |length: f64| {
             let next = along.partition_point(|here| *here < length).clamp(1, way.len() - 1);
-            way[next - 1].lerp(way[next], (length - along[next - 1]) / (along[next] - along[next - 1]))
+            way[next - 1]
+                .lerp(way[next], (length - along[next - 1]) / (along[next] - along[next - 1]))
         };
-        let nodes: Vec<DVec3> = (0..=segments).map(|k| at(whole * k as f64 / segments as f64)).collect();
+        let nodes: Vec<DVec3> =
+            (0..=segments).map(|k| at(whole * k as f64 / segments as f64)).collect();
         let out = (nodes[0] - nodes[1]).normalize();
         let tail = (nodes[segments] - nodes[segments - 1]).normalize() * TAIL_N;
         let joints = vec![
             Joint {
                 id: "hand".into(),
-                kind: JointKind::Driven { velocity_m_s: out * SPEED, from_s: 0.0, until_s: f64::INFINITY },
+                kind: JointKind::Driven {
+                    velocity_m_s: out * SPEED,
+                    from_s: 0.0,
+                    until_s: f64::INFINITY,
+                },
                 position_m: nodes[0],
             },
-            Joint { id: "tail".into(), kind: JointKind::Pulled { force_n: tail, from_s: -1.0 }, position_m: nodes[segments] },
+            Joint {
+                id: "tail".into(),
+                kind: JointKind::Pulled { force_n: tail, from_s: -1.0 },
+                position_m: nodes[segments],
+            },
         ];
         let mut rope = line("rope", whole, segments);
         rope.segments_m = nodes.windows(2).map(|pair| pair[0].distance(pair[1])).collect();
@@ -108,7 +124,12 @@ impl Way {
             friction: FRICTION,
             stiffness_n_m2: ROPE_ON_HARD_N_M2,
         };
-        let settings = Settings { step_s: 0.002, rope_on_rope: Some(RopeOnRope::default()), as_placed: true, ..Settings::default() };
+        let settings = Settings {
+            step_s: 0.002,
+            rope_on_rope: Some(RopeOnRope::default()),
+            as_placed: true,
+            ..Settings::default()
+        };
         let mut sea = water(1025.0, 0.0);
         sea.gravity_m_s2 = 0.0;
         model_with(sea, joints, vec![rope], Vec::new(), settings, vec![post])
@@ -129,12 +150,15 @@ impl Pull {
     fn begin(model: Model) -> Self {
         let (state, workspace) = (State::start(&model), Workspace::new(&model));
         let from = state.rope.position[model.node_count - 1];
-        let JointKind::Pulled { force_n, .. } = model.spec.joints[1].kind else { panic!("the tail is pulled") };
+        let JointKind::Pulled { force_n, .. } = model.spec.joints[1].kind else {
+            panic!("the tail is pulled")
+        };
         Self { model, state, workspace, from, tail: force_n.normalize() }
     }
 
     fn step(&mut self) {
-        step(&self.model, &Input::default(), &mut self.state, &mut self.workspace).unwrap_or_else(|stop| panic!("{stop:?}"));
+        step(&self.model, &Input::default(), &mut self.state, &mut self.workspace)
+            .unwrap_or_else(|stop| panic!("{stop:?}"));
     }
 
     /// The hand's pull over the tail's.
@@ -166,7 +190,11 @@ impl Pull {
             self.step();
         }
         let mut spec = self.model.spec.clone();
-        spec.joints[0] = Joint { kind: JointKind::Fixed, position_m: self.state.rope.position[0], ..spec.joints[0].clone() };
+        spec.joints[0] = Joint {
+            kind: JointKind::Fixed,
+            position_m: self.state.rope.position[0],
+            ..spec.joints[0].clone()
+        };
         self.model = Model::new(spec).expect("the same with the hand at rest");
         self.draw(0.5 * seconds);
         let before = self.came();
@@ -184,8 +212,15 @@ fn one_turn_and_two_slip_where_the_capstan_law_says() {
         let mut pull = Pull::begin(round_turns(turns).model((60.0 + 30.0 * turns) as usize));
         let ratio = pull.draw(seconds);
         let expected = libm::exp(FRICTION * TAU * turns);
-        println!("{turns} turns: {ratio:.3} for {expected:.3}, tail came {:.1} mm, {:?}", 1e3 * pull.came(), pull.workspace.audit);
-        assert!(expected < ASKED && (ratio / expected - 1.0).abs() < 0.03, "{ratio} for {expected}");
+        println!(
+            "{turns} turns: {ratio:.3} for {expected:.3}, tail came {:.1} mm, {:?}",
+            1e3 * pull.came(),
+            pull.workspace.audit
+        );
+        assert!(
+            expected < ASKED && (ratio / expected - 1.0).abs() < 0.03,
+            "{ratio} for {expected}"
+        );
         assert!(pull.came() > 0.01);
     }
 }
@@ -206,7 +241,10 @@ fn two_half_hitches_hold_it_too() {
     let (held, crept) = pull.hold(ASKED, 1.0);
     println!("two half hitches: {held:.2}, crept {:.2e} m, {:?}", crept, pull.workspace.audit);
     assert!(held > 0.95 * ASKED && crept < 1e-5, "{held}, {crept}");
-    assert!(pull.workspace.rope_touches.iter().map(|touch| touch.normal_force_n).fold(0.0, f64::max) > TAIL_N);
+    assert!(
+        pull.workspace.rope_touches.iter().map(|touch| touch.normal_force_n).fold(0.0, f64::max)
+            > TAIL_N
+    );
     assert_eq!((pull.workspace.audit.ropes_crossed, pull.workspace.audit.ropes_through), (0, 0));
 }
 

@@ -31,15 +31,24 @@ fn run(model: &Model, controls: Controls, time_s: f64) -> State {
 fn a_whale_that_stops_fluking_slows_as_the_drag_law_integrates() {
     let kinetic = eg_1223();
     let (factor, mass) = (kinetic.drag.factor(1025.0, 0.0), kinetic.whole_mass_kg().x);
-    let model = Model::new(spec(whale::whale(kinetic, 2.0, Steady::shared(2.0, [0.0; 3])), 1025.0)).expect("a sound model");
+    let model = Model::new(spec(whale::whale(kinetic, 2.0, Steady::shared(2.0, [0.0; 3])), 1025.0))
+        .expect("a sound model");
     // m dU/dt = -c U^1.8: U = (U0^-0.8 + 0.8 c t/m)^-1.25, and the way is its integral, (U0^0.2 - U^0.2) m/0.2c.
     for time_s in [5.0, 60.0, 240.0] {
         let state = run(&model, Controls::default(), time_s);
         let now = state.whale.as_ref().expect("a whale");
         let speed = libm::pow(libm::pow(2.0, -0.8) + 0.8 * factor * time_s / mass, -1.25);
         let way = (libm::pow(2.0, 0.2) - libm::pow(speed, 0.2)) * mass / (0.2 * factor);
-        assert!((now.speed_m_s / speed - 1.0).abs() < 1e-9, "{time_s} s: {} against {speed} m/s", now.speed_m_s);
-        assert!((now.position.x / way - 1.0).abs() < 1e-6, "{time_s} s: {} against {way} m", now.position.x);
+        assert!(
+            (now.speed_m_s / speed - 1.0).abs() < 1e-9,
+            "{time_s} s: {} against {speed} m/s",
+            now.speed_m_s
+        );
+        assert!(
+            (now.position.x / way - 1.0).abs() < 1e-6,
+            "{time_s} s: {} against {way} m",
+            now.position.x
+        );
         assert!(now.exertion.thrust_n.abs() < 1e-12);
     }
 }
@@ -48,15 +57,29 @@ fn a_whale_that_stops_fluking_slows_as_the_drag_law_integrates() {
 fn a_clean_whale_swims_as_it_is_asked_to_and_pays_for_its_drag() {
     let (turn, speed) = (0.05, 1.23);
     let kinetic = eg_1223();
-    let model = Model::new(spec(whale::whale(kinetic, speed, Steady::shared(speed, [0.0, 0.0, turn])), 1025.0)).expect("a sound model");
+    let model = Model::new(spec(
+        whale::whale(kinetic, speed, Steady::shared(speed, [0.0, 0.0, turn])),
+        1025.0,
+    ))
+    .expect("a sound model");
     let now = run(&model, swims(), 40.0).whale.expect("a whale");
-    assert!((now.speed_m_s - speed).abs() < 1e-9 && (now.turn_rate - DVec3::Z * turn).length() < 1e-12);
+    assert!(
+        (now.speed_m_s - speed).abs() < 1e-9 && (now.turn_rate - DVec3::Z * turn).length() < 1e-12
+    );
     // 2 rad round a circle of radius U/ω.
-    let circle = DVec3::new(libm::sin(40.0 * turn), 1.0 - libm::cos(40.0 * turn), 0.0) * (speed / turn);
+    let circle =
+        DVec3::new(libm::sin(40.0 * turn), 1.0 - libm::cos(40.0 * turn), 0.0) * (speed / turn);
     assert!((now.position - circle + DVec3::Z * 12.0).length() < 1e-3, "{}", now.position);
     // 328 N in the table; power input D U / 0.13.
-    assert!((now.exertion.drag_n / 328.0 - 1.0).abs() < 0.01 && (now.exertion.thrust_n / now.exertion.drag_n - 1.0).abs() < 1e-3);
-    assert!((now.exertion.power_w / (328.0 * 1.23 / 0.13) - 1.0).abs() < 0.02, "{} W", now.exertion.power_w);
+    assert!(
+        (now.exertion.drag_n / 328.0 - 1.0).abs() < 0.01
+            && (now.exertion.thrust_n / now.exertion.drag_n - 1.0).abs() < 1e-3
+    );
+    assert!(
+        (now.exertion.power_w / (328.0 * 1.23 / 0.13) - 1.0).abs() < 0.02,
+        "{} W",
+        now.exertion.power_w
+    );
 }
 
 /// A box as heavy as the water it displaces glides straight up: `m s'' = -ρ g A s` with `s` of its length out, so `u √(L/g)` comes out,
@@ -75,7 +98,8 @@ fn what_is_out_of_the_water_weighs_on_the_whale() {
     spec.settings.step_s = 0.005;
     let model = Model::new(spec).expect("a sound model");
     let swing_s = std::f64::consts::PI * libm::sqrt(8.0 / 9.81);
-    let (mut state, mut workspace, mut highest) = (State::start(&model), Workspace::new(&model), f64::NEG_INFINITY);
+    let (mut state, mut workspace, mut highest) =
+        (State::start(&model), Workspace::new(&model), f64::NEG_INFINITY);
     while state.time_s < 0.5 + swing_s + 0.2 {
         step(&model, &Input::default(), &mut state, &mut workspace).expect("a step");
         highest = highest.max(state.whale.as_ref().expect("a whale").position.z + 4.0);
@@ -83,5 +107,10 @@ fn what_is_out_of_the_water_weighs_on_the_whale() {
     let expected = speed * libm::sqrt(8.0 / 9.81);
     assert!((highest / expected - 1.0).abs() < 0.01, "{highest} against {expected} m out");
     let now = state.whale.as_ref().expect("a whale");
-    assert!((now.speed_m_s + speed).abs() < 0.02 && now.position.z < -4.0, "{} m/s at {} m", now.speed_m_s, now.position.z);
+    assert!(
+        (now.speed_m_s + speed).abs() < 0.02 && now.position.z < -4.0,
+        "{} m/s at {} m",
+        now.speed_m_s,
+        now.position.z
+    );
 }

@@ -22,11 +22,20 @@ fn eg_2212() -> Kinetic {
 /// The joint at the tip of the tail.
 fn tail(length_m: f64) -> Joint {
     let hitch = Hitch { triangle: 1, barycentric: [1.0, 0.0, 0.0], stand_off_m: 0.05 };
-    Joint { id: "whale:tail".into(), kind: JointKind::Whale(hitch), position_m: DVec3::new(-0.5 * length_m - 0.05, 0.0, -12.0) }
+    Joint {
+        id: "whale:tail".into(),
+        kind: JointKind::Whale(hitch),
+        position_m: DVec3::new(-0.5 * length_m - 0.05, 0.0, -12.0),
+    }
 }
 
 /// A whale with `length_m` of rope from its tail to a joint so far behind it.
-fn towing(whale: Whale, density_kg_m3: f64, (length_m, segments): (f64, usize), end: impl Fn(DVec3) -> (Joint, Vec<Body>)) -> ModelSpec {
+fn towing(
+    whale: Whale,
+    density_kg_m3: f64,
+    (length_m, segments): (f64, usize),
+    end: impl Fn(DVec3) -> (Joint, Vec<Body>),
+) -> ModelSpec {
     let mut spec = spec(whale, density_kg_m3);
     let tail = tail(spec.whale.as_ref().map_or(0.0, |whale| whale.length_m));
     let (end, bodies) = end(tail.position_m - DVec3::X * length_m);
@@ -63,7 +72,9 @@ fn a_tether_gives_back_the_energy_it_took() {
         let model = Model::new(spec).expect("a sound model");
         let mut peak = 0.0_f64;
         let swing_s = std::f64::consts::PI * libm::sqrt(mass / stiffness);
-        let state = run(&model, Controls::default(), swing_s + 0.5, |state| peak = peak.max(state.rope.tension[0]));
+        let state = run(&model, Controls::default(), swing_s + 0.5, |state| {
+            peak = peak.max(state.rope.tension[0])
+        });
         let foretold = libm::sqrt(stiffness * mass);
         assert!((peak / foretold - 1.0).abs() < 5e-3, "step {step_s}: {peak} against {foretold} N");
         assert!((speed(&state) + 1.0).abs() < 2e-3, "step {step_s}: left at {} m/s", speed(&state));
@@ -75,23 +86,35 @@ fn whale_and_what_it_pulls_keep_their_momentum() {
     let kinetic = eg_2212();
     let mass = kinetic.whole_mass_kg().x;
     let whale = whale::whale(kinetic, 1.5, Steady::shared(0.0, [0.0; 3]));
-    let mut spec = towing(whale, 0.0, (10.0, 8), |end| (on_body("load", 0), vec![weight("load", 2_000.0, end, None)]));
+    let mut spec = towing(whale, 0.0, (10.0, 8), |end| {
+        (on_body("load", 0), vec![weight("load", 2_000.0, end, None)])
+    });
     spec.water.gravity_m_s2 = 0.0;
     let model = Model::new(spec).expect("a sound model");
     let momentum = |state: &State| {
         let whale = state.whale.as_ref().expect("a whale");
         let rope: DVec3 = (1..8).map(|node| state.rope.velocity[node] * (0.06 * 10.0 / 8.0)).sum();
         let end = state.rope.velocity[8] * (0.06 * 10.0 / 16.0);
-        whale.orientation * DVec3::X * (mass * whale.speed_m_s) + rope + end + state.bodies[0].velocity * 2_000.0
+        whale.orientation * DVec3::X * (mass * whale.speed_m_s)
+            + rope
+            + end
+            + state.bodies[0].velocity * 2_000.0
     };
     let (mut least, mut greatest) = (f64::INFINITY, f64::NEG_INFINITY);
     let state = run(&model, Controls::default(), 5.0, |state| {
         least = least.min(momentum(state).x);
         greatest = greatest.max(momentum(state).x);
     });
-    assert!(state.bodies[0].velocity.x > 0.5, "the load is under way: {}", state.bodies[0].velocity.x);
+    assert!(
+        state.bodies[0].velocity.x > 0.5,
+        "the load is under way: {}",
+        state.bodies[0].velocity.x
+    );
     let start = 1.5 * mass;
-    assert!(((least - start) / start).abs() < 1e-5 && ((greatest - start) / start).abs() < 1e-5, "{least} and {greatest} against {start}");
+    assert!(
+        ((least - start) / start).abs() < 1e-5 && ((greatest - start) / start).abs() < 1e-5,
+        "{least} and {greatest} against {start}"
+    );
 }
 
 /// Thrust against a post: what it sustains, and in a burst Arthur's greatest force.
@@ -108,7 +131,11 @@ fn held_at_a_post_it_pulls_with_what_its_length_allows() {
         let model = Model::new(spec).expect("a sound model");
         let state = run(&model, controls, 25.0, |_| ());
         let pull = strength * libm::pow(12.35, 1.56);
-        assert!((state.rope.tension[0] / pull - 1.0).abs() < 0.01, "{} against {pull} N", state.rope.tension[0]);
+        assert!(
+            (state.rope.tension[0] / pull - 1.0).abs() < 0.01,
+            "{} against {pull} N",
+            state.rope.tension[0]
+        );
     }
 }
 
@@ -143,12 +170,23 @@ fn gear_under_tow_slows_a_whale_by_the_power_ratio() {
         let model = Model::new(spec).expect("a sound model");
         let state = run(&model, swims(), 60.0, |_| ());
         let now = state.whale.as_ref().expect("a whale");
-        assert!((now.speed_m_s / expected - 1.0).abs() < 0.01, "{effort:?}: {} against {expected} m/s", now.speed_m_s);
+        assert!(
+            (now.speed_m_s / expected - 1.0).abs() < 0.01,
+            "{effort:?}: {} against {expected} m/s",
+            now.speed_m_s
+        );
         let power = now.exertion.power_w * clean.muscle.efficiency;
         let needed = resisted(now.speed_m_s) * now.speed_m_s;
         assert!((power / needed - 1.0).abs() < 0.03, "{effort:?}: {power} W against {needed} W");
         let ratio = power / clean_power;
-        let paid = if effort == Effort::Speed { resisted(asked) / clean.drag.drag_n(1025.0, asked) } else { 1.0 };
-        assert!((ratio / paid - 1.0).abs() < 0.03, "{effort:?}: power {ratio} times that of a clean whale, against {paid}");
+        let paid = if effort == Effort::Speed {
+            resisted(asked) / clean.drag.drag_n(1025.0, asked)
+        } else {
+            1.0
+        };
+        assert!(
+            (ratio / paid - 1.0).abs() < 0.03,
+            "{effort:?}: power {ratio} times that of a clean whale, against {paid}"
+        );
     }
 }

@@ -18,11 +18,18 @@ const SECONDS: f64 = 2.0;
 fn by_endline() -> (DVec3, DQuat) {
     let mut body = weight("box", MASS, DVec3::ZERO, None);
     body.inertia_kg_m2 = INERTIA;
-    let model = model(water(0.0, 0.0), Vec::new(), Vec::new(), vec![body], Settings { step_s: STEP, ..Settings::default() });
+    let model = model(
+        water(0.0, 0.0),
+        Vec::new(),
+        Vec::new(),
+        vec![body],
+        Settings { step_s: STEP, ..Settings::default() },
+    );
     let (mut state, mut workspace) = (State::start(&model), Workspace::new(&model));
     state.bodies[0].spin = SPIN;
     while state.time_s < SECONDS - 1e-9 {
-        step(&model, &Input::default(), &mut state, &mut workspace).unwrap_or_else(|stop| panic!("{stop:?}"));
+        step(&model, &Input::default(), &mut state, &mut workspace)
+            .unwrap_or_else(|stop| panic!("{stop:?}"));
     }
     (state.bodies[0].position, state.bodies[0].orientation)
 }
@@ -32,7 +39,12 @@ fn by_rapier() -> (DVec3, DQuat) {
     world.gravity = DVec3::Z * -9.81;
     world.integration_parameters.dt = STEP;
     let properties = MassProperties::new(DVec3::ZERO, MASS, INERTIA);
-    let handle = world.insert_body(RigidBodyBuilder::dynamic().additional_mass_properties(properties).angvel(SPIN).can_sleep(false));
+    let handle = world.insert_body(
+        RigidBodyBuilder::dynamic()
+            .additional_mass_properties(properties)
+            .angvel(SPIN)
+            .can_sleep(false),
+    );
     for _ in 0..(SECONDS / STEP).round() as usize {
         world.step();
     }

@@ -27,7 +27,13 @@ fn pendulum(segments: usize, step_s: f64) -> Model {
     let end = DVec3::new(30.04414861, 0.0, -52.03799186);
     let joints = vec![fixed("pin", DVec3::ZERO), on_body("weight", 0)];
     let settings = Settings { step_s, ..Settings::default() };
-    model(water(0.0, 0.0), joints, vec![line("pendulum", 60.0, segments)], vec![weight("weight", 20.0, end, Some(0.0))], settings)
+    model(
+        water(0.0, 0.0),
+        joints,
+        vec![line("pendulum", 60.0, segments)],
+        vec![weight("weight", 20.0, end, Some(0.0))],
+        settings,
+    )
 }
 
 fn run_until(model: &Model, state: &mut State, workspace: &mut Workspace, time_s: f64) {
@@ -43,13 +49,17 @@ fn problem_a_pendulum_with_axial_waves() {
     let settled = settle(&model);
     assert!(settled.converged, "{:?}", settled.trace_n);
     let mut state = settled.state;
-    assert!((state.rope.position[segments / 2] - DVec3::new(14.4026908, 0.0, -26.3797929)).length() < 1e-3);
+    assert!(
+        (state.rope.position[segments / 2] - DVec3::new(14.4026908, 0.0, -26.3797929)).length()
+            < 1e-3
+    );
     let mut workspace = Workspace::new(&model);
     let (mut place, mut tension, mut size) = (0.0, 0.0, 0.0);
     for [time, end_x, end_z, middle_x, middle_z, pin] in PENDULUM {
         run_until(&model, &mut state, &mut workspace, time);
         let (end, middle) = (state.rope.position[segments], state.rope.position[segments / 2]);
-        place += (end - DVec3::new(end_x, 0.0, end_z)).length_squared() + (middle - DVec3::new(middle_x, 0.0, middle_z)).length_squared();
+        place += (end - DVec3::new(end_x, 0.0, end_z)).length_squared()
+            + (middle - DVec3::new(middle_x, 0.0, middle_z)).length_squared();
         tension += (state.rope.tension[0] - pin) * (state.rope.tension[0] - pin);
         size += pin * pin;
     }
@@ -82,9 +92,12 @@ fn problem_b_static_agrees_with_shooting() {
     println!("problem b: {} passes, residual {:.2e} N", settled.trace_n.len(), settled.residual_n);
     assert!(settled.converged, "{:?}", settled.trace_n);
     let rope = &settled.state.rope;
-    for (s, x, z) in
-        [(15.0, 13.91000, -24.37792), (30.0, 27.63402, -18.31986), (45.0, 40.75153, -11.06805), (60.0, 50.34061059, 0.06596101)]
-    {
+    for (s, x, z) in [
+        (15.0, 13.91000, -24.37792),
+        (30.0, 27.63402, -18.31986),
+        (45.0, 40.75153, -11.06805),
+        (60.0, 50.34061059, 0.06596101),
+    ] {
         let node = (s / 60.0 * segments as f64).round() as usize;
         let error = (rope.position[node] - DVec3::new(x, 0.0, z)).length();
         println!("  node at {s} m: {:.3} mm", 1e3 * error);
@@ -111,7 +124,8 @@ fn problem_b_transient_agrees_with_rk4() {
     ] {
         run_until(&model, &mut state, &mut workspace, time);
         let buoy_off = (state.bodies[0].position - DVec3::new(x, 0.0, z)).length();
-        let middle_off = (state.rope.position[segments / 2] - DVec3::new(middle_x, 0.0, middle_z)).length();
+        let middle_off =
+            (state.rope.position[segments / 2] - DVec3::new(middle_x, 0.0, middle_z)).length();
         println!(
             "problem b at {time} s: buoy {:.2} mm, middle {:.2} mm, anchor {:.4} N",
             1e3 * buoy_off,
@@ -130,7 +144,13 @@ fn problem_c2_snap_load() {
     let driven = JointKind::Driven { velocity_m_s: DVec3::X * 2.0, from_s: 0.0, until_s: 1.0 };
     let far = Joint { id: "hand".into(), kind: driven, position_m: DVec3::X * 59.0 };
     let settings = Settings { step_s: 0.0005, ..Settings::default() };
-    let model = model(water(0.0, 0.0), vec![fixed("pin", DVec3::ZERO), far], vec![line("line", 60.0, segments)], Vec::new(), settings);
+    let model = model(
+        water(0.0, 0.0),
+        vec![fixed("pin", DVec3::ZERO), far],
+        vec![line("line", 60.0, segments)],
+        Vec::new(),
+        settings,
+    );
     let settled = settle(&model);
     assert!(settled.converged);
     let mut state = settled.state;
@@ -151,7 +171,9 @@ fn problem_c2_snap_load() {
 #[test]
 fn a_slack_groundline_settles_on_the_seabed() {
     use endline_sim::model::Seabed;
-    let feet = [(0.3, 0.2), (0.3, -0.2), (-0.3, 0.2), (-0.3, -0.2)].map(|(x, y)| DVec3::new(x, y, -0.15)).to_vec();
+    let feet = [(0.3, 0.2), (0.3, -0.2), (-0.3, 0.2), (-0.3, -0.2)]
+        .map(|(x, y)| DVec3::new(x, y, -0.15))
+        .to_vec();
     let trap = |id: &str, x: f64| {
         let mut body = weight(id, 15.0, DVec3::new(x, 0.0, -29.85), None);
         body.feet_m.clone_from(&feet);
@@ -167,15 +189,30 @@ fn a_slack_groundline_settles_on_the_seabed() {
     for slack in [1.001, 1.02, 1.1, 1.5] {
         let lines = vec![line("groundline", 20.0 * slack, 40), endline.clone()];
         let bodies = vec![trap("one", 0.0), trap("two", 20.0), float.clone()];
-        let mut spec = model(water(1025.0, 0.3), joints.clone(), lines, bodies, Settings::default()).spec;
+        let mut spec =
+            model(water(1025.0, 0.3), joints.clone(), lines, bodies, Settings::default()).spec;
         // Sinking rope: 65 N/km in water would float off, so give it more.
         spec.ropes[0].mass_kg_m = 0.09;
-        spec.seabed =
-            Some(Seabed { depth_m: 30.0, normal: DVec3::Z, rope_stiffness_n_m2: 5e3, foot_stiffness_n_m: 2e4, rope_friction: 0.5 });
+        spec.seabed = Some(Seabed {
+            depth_m: 30.0,
+            normal: DVec3::Z,
+            rope_stiffness_n_m2: 5e3,
+            foot_stiffness_n_m: 2e4,
+            rope_friction: 0.5,
+        });
         let settled = settle(&Model::new(spec).expect("a sound model"));
-        println!("slack {slack}: {} passes, residual {:.1e} N", settled.trace_n.len(), settled.residual_n);
-        assert!(settled.converged, "slack {slack}: {:?}", settled.trace_n.iter().rev().take(12).collect::<Vec<_>>());
-        let highest = settled.state.rope.position[..41].iter().map(|place| place.z).fold(f64::MIN, f64::max);
+        println!(
+            "slack {slack}: {} passes, residual {:.1e} N",
+            settled.trace_n.len(),
+            settled.residual_n
+        );
+        assert!(
+            settled.converged,
+            "slack {slack}: {:?}",
+            settled.trace_n.iter().rev().take(12).collect::<Vec<_>>()
+        );
+        let highest =
+            settled.state.rope.position[..41].iter().map(|place| place.z).fold(f64::MIN, f64::max);
         assert!(highest < -29.4, "the groundline rises to {highest} m");
     }
 }
@@ -187,7 +224,13 @@ fn problem_c2_snap_load_at_the_programs_own_step() {
     let driven = JointKind::Driven { velocity_m_s: DVec3::X * 2.0, from_s: 0.0, until_s: 1.0 };
     let far = Joint { id: "hand".into(), kind: driven, position_m: DVec3::X * 59.0 };
     let settings = Settings { step_s: 0.02, auto_step: true, ..Settings::default() };
-    let model = model(water(0.0, 0.0), vec![fixed("pin", DVec3::ZERO), far], vec![line("line", 60.0, 100)], Vec::new(), settings);
+    let model = model(
+        water(0.0, 0.0),
+        vec![fixed("pin", DVec3::ZERO), far],
+        vec![line("line", 60.0, 100)],
+        Vec::new(),
+        settings,
+    );
     let (mut state, mut workspace) = (settle(&model).state, Workspace::new(&model));
     let mut peak = 0.0_f64;
     while state.time_s < 1.5 - 1e-9 {
@@ -195,7 +238,10 @@ fn problem_c2_snap_load_at_the_programs_own_step() {
         peak = peak.max(workspace.peak_tension_n[0]);
     }
     let audit = workspace.audit;
-    println!("problem c2 at the program's step: peak {peak:.2} N in {} steps, limited by {:?}", audit.solver_steps, audit.limited_by);
+    println!(
+        "problem c2 at the program's step: peak {peak:.2} N in {} steps, limited by {:?}",
+        audit.solver_steps, audit.limited_by
+    );
     assert!((peak / 1840.513769 - 1.0).abs() < 0.04, "{peak} N");
     assert!(audit.solver_steps < 800);
     assert_eq!(LimitedBy::mostly(&audit.limited_by).0, LimitedBy::Snap);

@@ -1,5 +1,9 @@
 //! Rope law: damping named as a ratio, the toe's energy, bending against analytic answers.
-#![allow(clippy::expect_used, clippy::panic, reason = "a test fails by panicking, in its helpers too")]
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking, in its helpers too"
+)]
 
 mod common;
 
@@ -22,7 +26,10 @@ fn advance(model: &Model, state: &mut State, workspace: &mut Workspace) {
 
 /// Times and values of the greatest swings of a series about zero, by a parabola through each peak's three points.
 fn peaks(series: &[f64], step_s: f64) -> Vec<[f64; 2]> {
-    let found = series.windows(3).enumerate().filter(|(_, near)| near[1] > near[0] && near[1] >= near[2] && near[1] > 0.0);
+    let found = series
+        .windows(3)
+        .enumerate()
+        .filter(|(_, near)| near[1] > near[0] && near[1] >= near[2] && near[1] > 0.0);
     let fitted = found.map(|(index, near)| {
         let (slope, curve) = (0.5 * (near[2] - near[0]), near[2] - 2.0 * near[1] + near[0]);
         let shift = -slope / curve;
@@ -48,7 +55,9 @@ fn damping_gives_the_logarithmic_decrement_it_names() {
     // The ratio that gives the same BA.
     let ratio = damping / (2.0 * 0.25 * (stiffness * mass).sqrt());
     for (named, ratio_named) in [(damping, 0.0), (0.0, ratio), (0.5 * damping, 0.5 * ratio)] {
-        let model = with_rope(&bounced, |rope| (rope.axial_damping_n_s, rope.axial_damping_ratio) = (named, ratio_named));
+        let model = with_rope(&bounced, |rope| {
+            (rope.axial_damping_n_s, rope.axial_damping_ratio) = (named, ratio_named)
+        });
         let mut state = settle(&model).state;
         let rest = state.bodies[0].position.z;
         // The swing is a third of the stretch at rest, so the rope stays taut.
@@ -65,7 +74,9 @@ fn damping_gives_the_logarithmic_decrement_it_names() {
         let share = damping * bounce / (2.0 * stiffness);
         let expected = 2.0 * PI * share / (1.0 - share * share).sqrt();
         let period = (swings[4][0] - swings[0][0]) / 4.0;
-        println!("BA {named} N s, ratio {ratio_named:.3}: decrement {measured:.5} for {expected:.5}, period {period:.5} s");
+        println!(
+            "BA {named} N s, ratio {ratio_named:.3}: decrement {measured:.5} for {expected:.5}, period {period:.5} s"
+        );
         assert!((measured / expected - 1.0).abs() < 0.02, "{measured} against {expected}");
         assert!((period * bounce / (2.0 * PI) - 1.0).abs() < 0.005, "{period}");
     }
@@ -85,7 +96,8 @@ fn the_toe_takes_up_the_energy_of_a_fall() {
         Settings { step_s: 5e-4, ..Settings::default() },
     );
     let model = with_rope(&dropped, |rope| {
-        (rope.axial_stiffness_n, rope.axial_stiffening_n, rope.axial_damping_n_s) = (stiffness, stiffening, 0.0);
+        (rope.axial_stiffness_n, rope.axial_stiffening_n, rope.axial_damping_n_s) =
+            (stiffness, stiffening, 0.0);
         rope.mass_kg_m = 1e-3;
     });
     let (mut state, mut workspace) = (State::start(&model), Workspace::new(&model));
@@ -95,7 +107,8 @@ fn the_toe_takes_up_the_energy_of_a_fall() {
         lowest = lowest.min(state.bodies[0].position.z);
     }
     let strain = -lowest / length - 1.0;
-    let taken = length * (stiffness * strain * strain / 2.0 + stiffening * strain * strain * strain / 3.0);
+    let taken =
+        length * (stiffness * strain * strain / 2.0 + stiffening * strain * strain * strain / 3.0);
     let fallen = heavy * 9.81 * (drop + length * strain);
     println!("strain {strain:.5}: taken {taken:.2} J of {fallen:.2} J");
     assert!((taken / fallen - 1.0).abs() < 0.01);
@@ -114,14 +127,18 @@ fn taut_beam(segments: usize, bending: f64) -> (f64, f64) {
         Vec::new(),
         Settings::default(),
     );
-    let model = with_rope(&bent, |rope| (rope.axial_stiffness_n, rope.mass_kg_m, rope.bending_stiffness_n_m2) = (stiffness, mass, bending));
+    let model = with_rope(&bent, |rope| {
+        (rope.axial_stiffness_n, rope.mass_kg_m, rope.bending_stiffness_n_m2) =
+            (stiffness, mass, bending)
+    });
     let settled = settle(&model);
     println!("residual {:.1e} N after {} passes", settled.residual_n, settled.trace_n.len());
     assert!(settled.converged);
     let tension = settled.state.rope.tension[segments / 2];
     let (span, load) = (length * stretch, mass * 9.81 / stretch);
     let k = (tension / bending).sqrt();
-    let sag = load / tension * (span * span / 8.0 - (1.0 - 1.0 / libm::cosh(k * span / 2.0)) / (k * k));
+    let sag =
+        load / tension * (span * span / 8.0 - (1.0 - 1.0 / libm::cosh(k * span / 2.0)) / (k * k));
     (-settled.state.rope.position[segments / 2].z, sag)
 }
 
@@ -155,7 +172,8 @@ fn a_pinned_rod_swings_with_the_frequency_of_a_beam() {
     );
     let mut spec = rod.spec.clone();
     let rope = &mut spec.ropes[0];
-    (rope.axial_stiffness_n, rope.axial_damping_n_s, rope.mass_kg_m, rope.bending_stiffness_n_m2) = (1.0, 0.0, mass, bending);
+    (rope.axial_stiffness_n, rope.axial_damping_n_s, rope.mass_kg_m, rope.bending_stiffness_n_m2) =
+        (1.0, 0.0, mass, bending);
     spec.water.gravity_m_s2 = 0.0;
     let model = Model::new(spec).expect("a sound model");
     let (mut state, mut workspace) = (State::start(&model), Workspace::new(&model));
@@ -197,10 +215,18 @@ fn no_bending_stiffness_blows_up() {
         let (mut fastest, mut lowest) = (0.0_f64, 0.0_f64);
         while state.time_s < 2.0 {
             advance(&model, &mut state, &mut workspace);
-            fastest = state.rope.velocity.iter().map(|velocity| velocity.length()).fold(fastest, f64::max);
+            fastest = state
+                .rope
+                .velocity
+                .iter()
+                .map(|velocity| velocity.length())
+                .fold(fastest, f64::max);
             lowest = state.rope.position.iter().map(|place| place.z).fold(lowest, f64::min);
         }
-        println!("EI {bending} N m2: at most {fastest:.2} m/s, lowest {lowest:.3} m, {} passes", workspace.audit.passes);
+        println!(
+            "EI {bending} N m2: at most {fastest:.2} m/s, lowest {lowest:.3} m, {} passes",
+            workspace.audit.passes
+        );
         // A weight that falls by its rope's length goes at √(2 g L) = 9.9 m/s; rope whipped about it at a few times that.
         assert!(fastest < 40.0 && lowest > -5.5);
     }

@@ -39,7 +39,12 @@ fn key(key: Key, modifiers: Modifiers) -> Event {
 }
 
 fn button(pos: Pos2, pressed: bool) -> Event {
-    Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE }
+    Event::PointerButton {
+        pos,
+        button: PointerButton::Primary,
+        pressed,
+        modifiers: Modifiers::NONE,
+    }
 }
 
 /// Brings the mouse to a place and presses it there.
@@ -57,7 +62,10 @@ fn keys_letters_clicks_and_drags_show_within_two_frames() {
 
     let commands = |window: &Window| window.ctx.egui_wants_keyboard_input();
     assert!(!commands(&window), "nothing is typed yet");
-    assert!(frames(&mut window, key(Key::P, Modifiers::COMMAND), commands) <= 2, "the list of commands");
+    assert!(
+        frames(&mut window, key(Key::P, Modifiers::COMMAND), commands) <= 2,
+        "the list of commands"
+    );
     window.event(key(Key::Escape, Modifiers::NONE));
     window.run_steps(2);
 
@@ -75,15 +83,18 @@ fn keys_letters_clicks_and_drags_show_within_two_frames() {
     let pane = window.get_by_label("Pane 1").rect().center();
     let before = window.state().desk.view3d.eyes[0].camera.clone();
     press(&mut window, pane);
-    let turned =
-        frames(&mut window, Event::PointerMoved(pane + vec2(60.0, 0.0)), |window| window.state().desk.view3d.eyes[0].camera != before);
+    let turned = frames(&mut window, Event::PointerMoved(pane + vec2(60.0, 0.0)), |window| {
+        window.state().desk.view3d.eyes[0].camera != before
+    });
     assert!(turned <= 2, "the view turned by the mouse: {turned}");
     window.event(button(pane + vec2(60.0, 0.0), false));
     window.step();
 
     let run = window.get_by_label("▶ Run").rect().center();
     press(&mut window, run);
-    let started = frames(&mut window, button(run, false), |window| window.query_by_label("⏸ Pause").is_some() && !told.borrow().is_empty());
+    let started = frames(&mut window, button(run, false), |window| {
+        window.query_by_label("⏸ Pause").is_some() && !told.borrow().is_empty()
+    });
     assert!(started <= 2, "a button, its order and what it changes: {started}");
     assert_eq!(*told.borrow(), ["start"]);
 }
@@ -95,7 +106,9 @@ fn what_steers_reaches_the_run_in_the_frame_of_its_key() {
     window.state_mut().desk.orders.push(Order::Fly);
     window.run_steps(3);
     // Speed, pitch, roll, yaw, as the run was told them last.
-    let yaw = || told.borrow().last().and_then(|words| words.split(' ').nth(4)?.parse::<f64>().ok()).unwrap();
+    let yaw = || {
+        told.borrow().last().and_then(|words| words.split(' ').nth(4)?.parse::<f64>().ok()).unwrap()
+    };
     assert!(yaw().abs() < 1e-12, "it swims straight on: {:?}", told.borrow().last());
     let steered = frames(&mut window, key(Key::A, Modifiers::NONE), |_| yaw().abs() > 0.0);
     assert!(steered <= 2, "{steered}: {:?}", told.borrow());
@@ -139,5 +152,8 @@ fn a_moment_asked_for_on_the_transport_bar_shows_with_the_frame_after_the_press(
     window.step();
     let view = window.state().desk.view.clone().unwrap();
     assert!(view.sought && (view.frame.time_s - 0.25).abs() < 0.02, "{} s", view.frame.time_s);
-    assert!(window.query_all_by_label_contains(&format!("{:.2} s", view.frame.time_s)).next().is_some(), "and the bar says so");
+    assert!(
+        window.query_all_by_label_contains(&format!("{:.2} s", view.frame.time_s)).next().is_some(),
+        "and the bar says so"
+    );
 }

@@ -39,22 +39,37 @@ fn a_table_changes_adds_and_says_what_it_left_out_and_one_undo_takes_it_back() {
     let table = "id,Name,Diameter,Strength,Colour\nsink-3-8,,,\"2,650 lbf\",red\nmill-7,Mill 7,3/8 in,\"1,700 lbf\",\n,,1 in,,\n";
     let taken = import(&mut book, Kind::Rope, table).unwrap();
     assert_eq!((taken.changed, taken.added), (1, 1));
-    assert!(taken.left_out[0].contains("Colour") && taken.left_out[1].contains("row 4"), "{taken:?}");
+    assert!(
+        taken.left_out[0].contains("Colour") && taken.left_out[1].contains("row 4"),
+        "{taken:?}"
+    );
     assert_eq!(book.field("ropes/sink-3-8.toml", "strength").as_deref(), Some("2,650 lbf"));
     assert_eq!(book.field("ropes/mill-7.toml", "diameter").as_deref(), Some("3/8 in"));
-    assert!(book.text("ropes/sink-3-8.toml").unwrap().contains("# Hydrodynamic coefficients"), "comments stay");
-    let missing = book.problems().iter().filter(|problem| problem.file == "ropes/mill-7.toml" && problem.is_error()).count();
+    assert!(
+        book.text("ropes/sink-3-8.toml").unwrap().contains("# Hydrodynamic coefficients"),
+        "comments stay"
+    );
+    let missing = book
+        .problems()
+        .iter()
+        .filter(|problem| problem.file == "ropes/mill-7.toml" && problem.is_error())
+        .count();
     assert!(missing > 3, "figures the table lacks are told: {missing}");
     assert!(book.undo());
     assert_eq!(to_csv(&book, Kind::Rope, &paths(&book)), before);
-    assert!(import(&mut book, Kind::Rope, "one,two\n1,2\n").is_err(), "a table without a head is refused");
+    assert!(
+        import(&mut book, Kind::Rope, "one,two\n1,2\n").is_err(),
+        "a table without a head is refused"
+    );
 }
 
 #[test]
 fn cells_pasted_from_a_spreadsheet_spread_from_the_cell_typed_in() {
     let folder = Folder::new("paste");
     let (mut harness, _) = workbench(&folder, Pilot::default());
-    let file = |harness: &Harness<'static, App>, path: &str, key: &str| harness.state().desk.book.field(path, key).unwrap();
+    let file = |harness: &Harness<'static, App>, path: &str, key: &str| {
+        harness.state().desk.book.field(path, key).unwrap()
+    };
     harness.state_mut().desk.library.search = "polypropylene 5/16".into();
     harness.run_steps(2);
     harness.get_all_by_value("5/16 in").next().unwrap().click();
@@ -87,7 +102,8 @@ fn a_copy_is_compared_with_its_original_and_its_users_are_told() {
 
 /// The workbench with the assembly panel in front, plugins linked.
 fn assembly(folder: &Folder) -> Harness<'static, App> {
-    let mut harness = opened_with(folder.book_with("hello-endline"), linked(), engine::live(), Pilot::default());
+    let mut harness =
+        opened_with(folder.book_with("hello-endline"), linked(), engine::live(), Pilot::default());
     harness.state_mut().dock = egui_dock::DockState::new(vec![Panel::Assembly.id().to_owned()]);
     harness.run_steps(2);
     wait(&mut harness, |app| app.desk.assembly.settled());
@@ -116,7 +132,12 @@ fn gear_is_settled_at_slack_and_running_tide_as_its_scope_is_moved() {
     };
     assert!((length(&harness) - 1.3 * 25.0).abs() < 0.1, "{}", length(&harness));
     for scope in ["1.5", "1.8", "2"] {
-        harness.state_mut().desk.book.set_held("assemblies/single.toml", "attributes.scope", scope).unwrap();
+        harness
+            .state_mut()
+            .desk
+            .book
+            .set_held("assemblies/single.toml", "attributes.scope", scope)
+            .unwrap();
     }
     harness.run_steps(2);
     wait(&mut harness, |app| app.desk.assembly.settled());
@@ -134,8 +155,18 @@ fn weak_inserts_are_put_in_every_sixty_feet_and_saved_with_all_else_as_it_was() 
     harness.run_steps(2);
     wait(&mut harness, |app| app.desk.assembly.settled());
     let rest = harness.state().desk.assembly.answers()[0].unwrap().as_ref().unwrap().clone();
-    let inserts: Vec<&str> = rest.shape.lines.iter().map(|line| line.id.as_str()).filter(|id| id.contains(".insert-")).collect();
-    assert_eq!(inserts.len(), 1, "21.7 m of rope, 16 m of it in the top three quarters, has room for one: {inserts:?}");
+    let inserts: Vec<&str> = rest
+        .shape
+        .lines
+        .iter()
+        .map(|line| line.id.as_str())
+        .filter(|id| id.contains(".insert-"))
+        .collect();
+    assert_eq!(
+        inserts.len(),
+        1,
+        "21.7 m of rope, 16 m of it in the top three quarters, has room for one: {inserts:?}"
+    );
     let before = on_disk(&folder, "scenarios/hello-endline.toml");
     harness.state_mut().desk.obey(&Order::Save);
     let after = on_disk(&folder, "scenarios/hello-endline.toml");
@@ -166,7 +197,10 @@ fn a_line_is_split_with_a_splice_and_the_gear_still_settles() {
     let field = |harness: &Harness<'static, App>, field: &str| {
         harness.state().desk.book.field("assemblies/massachusetts-single.toml", field).unwrap()
     };
-    assert_eq!((field(&harness, "line.0.length"), field(&harness, "line.2.length")), ("4.05 m".to_owned(), "4.05 m".to_owned()));
+    assert_eq!(
+        (field(&harness, "line.0.length"), field(&harness, "line.2.length")),
+        ("4.05 m".to_owned(), "4.05 m".to_owned())
+    );
 }
 
 #[test]
@@ -177,7 +211,10 @@ fn two_gears_are_compared_and_a_gear_type_is_a_starting_point() {
     harness.run_steps(2);
     wait(&mut harness, |app| app.desk.assembly.settled());
     harness.run_steps(2);
-    assert!(harness.query_all_by_label("surface-line").next().is_some(), "the other gear's lines stand in the table");
+    assert!(
+        harness.query_all_by_label("surface-line").next().is_some(),
+        "the other gear's lines stand in the table"
+    );
     harness.get_by_label("New ⏷").click();
     harness.run_steps(3);
     harness.get_all_by_label_contains("Trawl").last().unwrap().click();
@@ -189,8 +226,16 @@ fn two_gears_are_compared_and_a_gear_type_is_a_starting_point() {
     let triangles = u32::from_le_bytes(bytes[80..84].try_into().unwrap()) as usize;
     assert!(triangles > 1000 && bytes.len() == 84 + 50 * triangles, "{triangles} triangles");
     let desk = &harness.state().desk;
-    assert!(desk.assembly.answers()[0].unwrap().is_ok(), "{:?}", desk.assembly.answers()[0].unwrap().as_ref().err());
-    assert!(desk.book.unsaved().iter().any(|path| path.starts_with("assemblies/my-")), "{:?}", desk.book.unsaved());
+    assert!(
+        desk.assembly.answers()[0].unwrap().is_ok(),
+        "{:?}",
+        desk.assembly.answers()[0].unwrap().as_ref().err()
+    );
+    assert!(
+        desk.book.unsaved().iter().any(|path| path.starts_with("assemblies/my-")),
+        "{:?}",
+        desk.book.unsaved()
+    );
 }
 
 #[test]
@@ -200,11 +245,18 @@ fn a_fraction_no_rule_has_is_told_at_its_place_with_the_nearest_size() {
     // The 2012 report's impossible size.
     book.set("ropes/sink-3-8.toml", "diameter", "5/17 in").unwrap();
     let problem = book.problem_at("ropes/sink-3-8.toml", "diameter").unwrap();
-    assert!(problem.is_error() && problem.line > 0 && problem.message.contains("5/17 in"), "{problem}");
+    assert!(
+        problem.is_error() && problem.line > 0 && problem.message.contains("5/17 in"),
+        "{problem}"
+    );
     assert!(problem.help.contains("the nearest is 5/16 in"), "{problem}");
     for size in ["5/16 in", "1 1/2 in", "11/64 in", "0.3 in", "8 mm"] {
         book.set("ropes/sink-3-8.toml", "diameter", size).unwrap();
-        assert!(book.problem_at("ropes/sink-3-8.toml", "diameter").is_none_or(|problem| !problem.message.contains("no size")), "{size}");
+        assert!(
+            book.problem_at("ropes/sink-3-8.toml", "diameter")
+                .is_none_or(|problem| !problem.message.contains("no size")),
+            "{size}"
+        );
     }
 }
 
@@ -220,17 +272,24 @@ fn whales_have_a_table_and_every_figure_tells_how_sure_it_is_and_whence() {
     harness.state_mut().desk.library.chosen = Some(whale.clone());
     harness.run_steps(3);
     let library = harness.state().desk.book.library().clone();
-    let entry = library.entry(Kind::Whale, whale.trim_start_matches("whales/").trim_end_matches(".toml")).unwrap();
+    let entry = library
+        .entry(Kind::Whale, whale.trim_start_matches("whales/").trim_end_matches(".toml"))
+        .unwrap();
     for (_, figure) in entry.figures.iter().take(3) {
         assert!(harness.query_all_by_label(&figure.source).next().is_some(), "{}", figure.source);
-        assert!(harness.query_all_by_label(figure.sureness.word()).next().is_some(), "{:?}", figure.sureness);
+        assert!(
+            harness.query_all_by_label(figure.sureness.word()).next().is_some(),
+            "{:?}",
+            figure.sureness
+        );
     }
 }
 
 #[test]
 fn gear_is_chosen_by_its_picture() {
     let folder = Folder::new("pictures");
-    let mut harness = opened_with(folder.book_with("hello-endline"), linked(), engine::live(), Pilot::default());
+    let mut harness =
+        opened_with(folder.book_with("hello-endline"), linked(), engine::live(), Pilot::default());
     harness.state_mut().dock = egui_dock::DockState::new(vec![Panel::Assembly.id().to_owned()]);
     harness.run_steps(2);
     harness.get_by_label("Pictures").click();

@@ -48,7 +48,8 @@ fn every_command_of_the_palette_is_obeyed_in_every_layout() {
         }
         harness.state_mut().desk.flying = false;
     }
-    let names: Vec<String> = orders(&harness.state().desk).into_iter().map(|(name, _)| name).collect();
+    let names: Vec<String> =
+        orders(&harness.state().desk).into_iter().map(|(name, _)| name).collect();
     let mut unique = names.clone();
     unique.sort();
     unique.dedup();
@@ -93,10 +94,15 @@ fn edits_of_a_program_that_was_killed_are_offered_back_and_undone_as_one() {
     assert!(harness.query_by_label_contains("Unsaved edits of 2 files").is_some());
     harness.get_by_label("Recover").click();
     harness.run_steps(3);
-    let strength = |harness: &Harness<'static, App>, path: &str| harness.state().desk.book.field(path, "strength").unwrap();
+    let strength = |harness: &Harness<'static, App>, path: &str| {
+        harness.state().desk.book.field(path, "strength").unwrap()
+    };
     assert_eq!(strength(&harness, "ropes/sink-3-8.toml"), "2,600 lbf");
     assert_eq!(strength(&harness, "ropes/nylon-1-2.toml"), "25 kN");
-    assert!(harness.query_by_label("Recover").is_none() && !data.join("recovery-4294967295.json").exists());
+    assert!(
+        harness.query_by_label("Recover").is_none()
+            && !data.join("recovery-4294967295.json").exists()
+    );
     harness.state_mut().desk.obey(&Order::Undo);
     assert!(harness.state().desk.book.unsaved().is_empty(), "one undo takes all of it back");
 }
@@ -104,7 +110,9 @@ fn edits_of_a_program_that_was_killed_are_offered_back_and_undone_as_one() {
 #[test]
 fn a_button_is_given_to_something_else_by_pressing_it() {
     let folder = Folder::new("mapping");
-    let pad = |events: Vec<PadEvent>| Pilot::new(Some(Box::new(ScriptedPad { script: vec![vec![], events].into() })));
+    let pad = |events: Vec<PadEvent>| {
+        Pilot::new(Some(Box::new(ScriptedPad { script: vec![vec![], events].into() })))
+    };
     let (mut harness, _) = workbench(&folder, Pilot::default());
     harness.state_mut().dock = egui_dock::DockState::new(vec![Panel::Pad.id().to_owned()]);
     harness.run_steps(2);
@@ -117,7 +125,10 @@ fn a_button_is_given_to_something_else_by_pressing_it() {
     harness.get_by_label("X");
     harness.get_by_label("VWES 2012").click();
     harness.run_steps(2);
-    assert_eq!(harness.state().desk.pilot.mapping.of_button(PadButton::RightShoulder), Some(Pressed::Burst));
+    assert_eq!(
+        harness.state().desk.pilot.mapping.of_button(PadButton::RightShoulder),
+        Some(Pressed::Burst)
+    );
 }
 
 #[test]
@@ -131,9 +142,15 @@ fn a_run_is_kept_by_itself_opened_again_to_the_bit_and_branched() {
     harness.state_mut().desk.obey(&Order::OpenRecording(kept));
     wait(&mut harness, |app| {
         let view = app.desk.view.as_ref().unwrap();
-        !Arc::ptr_eq(&view.model, &end.model) && view.frame.step == end.frame.step && view.status != Status::Running
+        !Arc::ptr_eq(&view.model, &end.model)
+            && view.frame.step == end.frame.step
+            && view.status != Status::Running
     });
-    assert_eq!(harness.state().desk.view.as_ref().unwrap().state_hash, end.state_hash, "the recording runs to the same bits");
+    assert_eq!(
+        harness.state().desk.view.as_ref().unwrap().state_hash,
+        end.state_hash,
+        "the recording runs to the same bits"
+    );
 
     harness.state_mut().desk.obey(&Order::Seek(1.0));
     wait(&mut harness, |app| app.desk.view.as_ref().is_some_and(|view| view.sought));
@@ -164,18 +181,36 @@ fn plots_of_an_encounter_agree_with_its_summary_and_every_panel_draws_it() {
     let tension = Chart::of(Kind::Tension, &view, Units::Si);
     for (curve, line) in tension.curves.iter().zip(&summary.lines) {
         let top = curve.points.iter().map(|point| point.y).fold(0.0, f64::max);
-        assert!((top - line.peak_tension_n).abs() < 1e-6 * line.peak_tension_n.max(1.0), "{}: {top}, {}", curve.name, line.peak_tension_n);
+        assert!(
+            (top - line.peak_tension_n).abs() < 1e-6 * line.peak_tension_n.max(1.0),
+            "{}: {top}, {}",
+            curve.name,
+            line.peak_tension_n
+        );
     }
     let whale = summary.whale.as_ref().unwrap();
     for region in &whale.regions {
-        let force = view.history.samples(Channel::Force(region.part).index()).map(|(_, value)| value).fold(0.0, f64::max);
-        assert!(force <= region.peak_normal_n * (1.0 + 1e-9), "{:?}: {force}, {}", region.part, region.peak_normal_n);
+        let force = view
+            .history
+            .samples(Channel::Force(region.part).index())
+            .map(|(_, value)| value)
+            .fold(0.0, f64::max);
+        assert!(
+            force <= region.peak_normal_n * (1.0 + 1e-9),
+            "{:?}: {force}, {}",
+            region.part,
+            region.peak_normal_n
+        );
     }
     let depth = Chart::of(Kind::Depth, &view, Units::Si);
     assert!((depth.curves[0].points[0].y + 12.0).abs() < 0.05, "the whale begins at 12 m");
     let along = Chart::of(Kind::Along, &view, Units::Si);
     let rope_m: f64 = view.frame.segment_length_m.iter().sum();
-    assert!((along.end_x - rope_m).abs() < 1e-6, "one endline of two ropes: {} m of {rope_m} m", along.end_x);
+    assert!(
+        (along.end_x - rope_m).abs() < 1e-6,
+        "one endline of two ropes: {} m of {rope_m} m",
+        along.end_x
+    );
     let svg = folder.0.join("plots.svg");
     harness.state_mut().desk.obey(&Order::ExportPlots(svg.clone()));
     assert!(std::fs::read_to_string(svg).unwrap().contains("Tension of each line"));

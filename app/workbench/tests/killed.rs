@@ -30,7 +30,11 @@ const FIELD: &str = "strength";
 
 /// A library of two ropes and the scenario that uses one: small, so that an edit is quick.
 fn small_library(folder: &Folder, root: &Path) {
-    for file in FILES.into_iter().chain(["friction/sink.toml", "friction/nylon.toml", "scenarios/reference-a-pendulum.toml"]) {
+    for file in FILES.into_iter().chain([
+        "friction/sink.toml",
+        "friction/nylon.toml",
+        "scenarios/reference-a-pendulum.toml",
+    ]) {
         std::fs::create_dir_all(root.join(file).parent().unwrap()).unwrap();
         std::fs::copy(folder.0.join(file), root.join(file)).unwrap();
     }
@@ -41,7 +45,8 @@ fn edit_until_killed(root: &Path) {
     let mut book = Book::open(root, &root.join("scenarios/reference-a-pendulum.toml")).unwrap();
     // A folder that is not there yet, as on a new user's first day.
     let mut keeper = Keeper::in_folder(root.join("data"));
-    let mut log = std::fs::OpenOptions::new().append(true).create(true).open(root.join("log")).unwrap();
+    let mut log =
+        std::fs::OpenOptions::new().append(true).create(true).open(root.join("log")).unwrap();
     let start = Instant::now();
     let first = std::fs::read_to_string(root.join("log")).unwrap().lines().count();
     for edit in first.. {
@@ -59,13 +64,24 @@ fn edit_until_killed(root: &Path) {
 /// The number of the edit that a text holds; none where it holds the figure as shipped.
 fn edit_in(text: &str) -> Option<usize> {
     let strength = Document::parse(text).unwrap().get(FIELD).unwrap();
-    strength.strip_suffix(" lbf").filter(|number| !number.contains(','))?.parse::<usize>().ok()?.checked_sub(1000)
+    strength
+        .strip_suffix(" lbf")
+        .filter(|number| !number.contains(','))?
+        .parse::<usize>()
+        .ok()?
+        .checked_sub(1000)
 }
 
 fn began(root: &Path) -> Child {
     let program = std::env::current_exe().unwrap();
     let exact = ["the_script_as_a_program_of_its_own", "--exact", "--nocapture"];
-    Command::new(program).args(exact).env(ROLE, root).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
+    Command::new(program)
+        .args(exact)
+        .env(ROLE, root)
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap()
 }
 
 /// Kills one program after a while, and looks at what it left; answers what is wrong.
@@ -92,7 +108,8 @@ fn kill_one(root: &Path, after: Duration) -> String {
 fn looked_at(root: &Path, first: usize) -> String {
     let mut wrong = String::new();
     let log = std::fs::read_to_string(root.join("log")).unwrap();
-    let times: Vec<f64> = log.lines().skip(first).filter_map(|line| line.split_once(' ')?.1.parse().ok()).collect();
+    let times: Vec<f64> =
+        log.lines().skip(first).filter_map(|line| line.split_once(' ')?.1.parse().ok()).collect();
     let left = Keeper::in_folder(root.join("data")).left_behind();
     let offered: Option<&Kept> = left.first().map(|(_, kept)| kept);
     let mut newest = None;
@@ -105,7 +122,8 @@ fn looked_at(root: &Path, first: usize) -> String {
         newest = newest.max(edit_in(&text)).max(kept);
     }
     // Saved or kept before this program began: nothing of its own was kept yet.
-    let kept_s = newest.and_then(|edit| times.get(edit.checked_sub(first)?).copied()).unwrap_or(0.0);
+    let kept_s =
+        newest.and_then(|edit| times.get(edit.checked_sub(first)?).copied()).unwrap_or(0.0);
     let lost_s = times.last().copied().unwrap_or(0.0) - kept_s;
     if lost_s > LOST_S {
         let _ = writeln!(wrong, "edits of {lost_s:.1} s are lost, of {:?} s", times.last());
@@ -132,7 +150,9 @@ fn fifty_programs_killed_amid_edits_break_no_file_and_lose_little() {
             small_library(&folder, &root);
             // Moments spread over the script by the golden ratio, each its own.
             let moment = move |kill: usize| ((which * KILLS[1] + kill) as f64 * 0.618_034).fract();
-            (0..KILLS[1]).map(|kill| kill_one(&root, Duration::from_secs_f64(0.05 + 3.0 * moment(kill)))).collect::<String>()
+            (0..KILLS[1])
+                .map(|kill| kill_one(&root, Duration::from_secs_f64(0.05 + 3.0 * moment(kill))))
+                .collect::<String>()
         };
         let threads: Vec<_> = (0..KILLS[0]).map(|which| scope.spawn(move || work(which))).collect();
         threads.into_iter().map(|thread| thread.join().unwrap()).collect()
@@ -165,6 +185,9 @@ fn edits_kept_by_a_killed_program_come_back_whole() {
     let (_, offered) = left.first().expect("the edits are offered");
     let mut book = Book::open(&offered.root, &offered.scenario).unwrap();
     book.restore(offered.texts.iter().map(|(path, text)| (path.clone(), text.clone())).collect());
-    assert!(FILES.iter().any(|file| offered.texts.contains_key(*file) && book.is_unsaved(file)), "they are unsaved edits again");
+    assert!(
+        FILES.iter().any(|file| offered.texts.contains_key(*file) && book.is_unsaved(file)),
+        "they are unsaved edits again"
+    );
     assert!(book.undo() && book.unsaved().is_empty(), "one undo takes them back");
 }

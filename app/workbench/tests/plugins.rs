@@ -24,7 +24,8 @@ struct Place(PathBuf);
 
 impl Place {
     fn new(name: &str) -> Self {
-        let folder = std::env::temp_dir().join(format!("endline-plugins-{name}-{}", std::process::id()));
+        let folder =
+            std::env::temp_dir().join(format!("endline-plugins-{name}-{}", std::process::id()));
         std::fs::create_dir_all(&folder).unwrap();
         Self(folder)
     }
@@ -39,7 +40,8 @@ impl Drop for Place {
 
 /// The workbench with the panel in front and a loader of a folder.
 fn bench(folder: &Folder, place: &Path, scenario: &str) -> Harness<'static, App> {
-    let mut harness = opened_with(folder.book_with(scenario), linked(), engine::live(), Pilot::default());
+    let mut harness =
+        opened_with(folder.book_with(scenario), linked(), engine::live(), Pilot::default());
     let load: Load = Arc::new(|loader| loader.load(&|_: &Path| Ok(())));
     let loader = Loader::new(&[place.to_path_buf()], Choices::kept_in(None, &[]));
     harness.state_mut().desk.plugins = Plugins::new(loader, load, Vec::new());
@@ -55,7 +57,8 @@ fn reloaded(harness: &mut Harness<'static, App>, times: u64) {
 #[test]
 fn a_plugin_is_listed_switched_off_and_taken_in_anew() {
     let (folder, place) = (Folder::new("plugins"), Place::new("anew"));
-    let project = write_project(&place.0.join("our-gear"), PluginKind::Gear, Language::Text, None).unwrap();
+    let project =
+        write_project(&place.0.join("our-gear"), PluginKind::Gear, Language::Text, None).unwrap();
     let mut harness = bench(&folder, &place.0, "reference-a-pendulum");
     harness.get_by_label("Reload").click();
     harness.run_steps(2);
@@ -65,7 +68,11 @@ fn a_plugin_is_listed_switched_off_and_taken_in_anew() {
     assert!(harness.query_by_label_contains("36.576 m").is_some(), "20 fathoms, with their unit");
 
     let file = project.library.join("gear-types/simple.toml");
-    std::fs::write(&file, std::fs::read_to_string(&file).unwrap().replace("Our gear", "Their gear")).unwrap();
+    std::fs::write(
+        &file,
+        std::fs::read_to_string(&file).unwrap().replace("Our gear", "Their gear"),
+    )
+    .unwrap();
     harness.get_by_label("Reload").click();
     harness.run_steps(2);
     reloaded(&mut harness, 2);
@@ -74,7 +81,10 @@ fn a_plugin_is_listed_switched_off_and_taken_in_anew() {
     harness.state_mut().desk.orders.push(Order::SwitchPlugin(project.id.clone(), false));
     harness.run_steps(2);
     reloaded(&mut harness, 3);
-    assert_eq!(harness.state().desk.every_plugin().iter().map(|(_, on)| *on).collect::<Vec<_>>(), [false]);
+    assert_eq!(
+        harness.state().desk.every_plugin().iter().map(|(_, on)| *on).collect::<Vec<_>>(),
+        [false]
+    );
     assert!(harness.state().desk.gear_types().is_empty());
 }
 
@@ -88,12 +98,18 @@ fn an_unknown_library_is_asked_about_before_it_is_opened() {
     harness.run_steps(2);
     reloaded(&mut harness, 1);
     assert!(matches!(harness.state().desk.plugins.problems[0].standing, Standing::Waiting(_)));
-    assert!(harness.query_by_label_contains("A plugin runs with your rights").is_some(), "the window asks");
+    assert!(
+        harness.query_by_label_contains("A plugin runs with your rights").is_some(),
+        "the window asks"
+    );
     harness.get_all_by_label("Allow").last().unwrap().click();
     harness.run_steps(2);
     reloaded(&mut harness, 2);
     let problem = harness.state().desk.plugins.problems[0].clone();
-    assert!(problem.standing == Standing::Unusable && problem.reason.contains("is not a library"), "{problem}");
+    assert!(
+        problem.standing == Standing::Unusable && problem.reason.contains("is not a library"),
+        "{problem}"
+    );
     assert!(harness.query_by_label_contains("A plugin runs with your rights").is_none());
 
     // Another file, put off: it is not asked about again, and stays left out.
@@ -112,11 +128,25 @@ fn a_law_of_friction_is_put_into_the_scenario_and_its_attributes_are_a_form() {
     let (folder, place) = (Folder::new("plugins-used"), Place::new("used"));
     let mut harness = bench(&folder, &place.0, "hello-endline");
     let id = "org.endline.friction.coulomb";
-    let (motion, _) = harness.state().desk.every_plugin().into_iter().find(|(info, _)| info.id == "org.endline.motion.swim").unwrap();
+    let (motion, _) = harness
+        .state()
+        .desk
+        .every_plugin()
+        .into_iter()
+        .find(|(info, _)| info.id == "org.endline.motion.swim")
+        .unwrap();
     assert!(harness.state().desk.uses_plugin(&motion));
-    harness.state_mut().desk.book.set(Book::SCENARIO, "friction.model", "org.example.friction.other").unwrap();
-    let other =
-        |scenario: &mut Document| scenario.put("friction.attributes.slip", &Setting::text("0.1 m")).map_err(|error| error.to_string());
+    harness
+        .state_mut()
+        .desk
+        .book
+        .set(Book::SCENARIO, "friction.model", "org.example.friction.other")
+        .unwrap();
+    let other = |scenario: &mut Document| {
+        scenario
+            .put("friction.attributes.slip", &Setting::text("0.1 m"))
+            .map_err(|error| error.to_string())
+    };
     harness.state_mut().desk.book.alter(Book::SCENARIO, other).unwrap();
     harness.state_mut().desk.plugins.chosen = Some(id.to_owned());
     harness.run_steps(2);
@@ -124,7 +154,11 @@ fn a_law_of_friction_is_put_into_the_scenario_and_its_attributes_are_a_form() {
     harness.run_steps(3);
     let book = &harness.state().desk.book;
     assert_eq!(book.field(Book::SCENARIO, "friction.model").as_deref(), Some(id));
-    assert_eq!(book.field(Book::SCENARIO, "friction.attributes.slip"), None, "those of the other law are gone");
+    assert_eq!(
+        book.field(Book::SCENARIO, "friction.attributes.slip"),
+        None,
+        "those of the other law are gone"
+    );
     assert!(harness.query_by_label("In this scenario").is_some());
 
     // A value typed into the form makes the table of attributes that is not there.
@@ -135,9 +169,13 @@ fn a_law_of_friction_is_put_into_the_scenario_and_its_attributes_are_a_form() {
     harness.run_steps(1);
     harness.key_press(egui::Key::Enter);
     harness.run_steps(3);
-    let scale = harness.state().desk.book.field(Book::SCENARIO, "friction.attributes.coefficient_scale");
+    let scale =
+        harness.state().desk.book.field(Book::SCENARIO, "friction.attributes.coefficient_scale");
     assert_eq!(scale.as_deref(), Some("1.5"));
     harness.state_mut().desk.obey(&Order::Undo);
     harness.state_mut().desk.obey(&Order::Undo);
-    assert_eq!(harness.state().desk.book.field(Book::SCENARIO, "friction.model").as_deref(), Some("org.example.friction.other"));
+    assert_eq!(
+        harness.state().desk.book.field(Book::SCENARIO, "friction.model").as_deref(),
+        Some("org.example.friction.other")
+    );
 }

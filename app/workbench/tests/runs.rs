@@ -46,7 +46,9 @@ fn rerun(harness: &mut Harness<'static, App>) -> Arc<LiveView> {
     let before = view(harness);
     harness.state_mut().desk.obey(&Order::Rerun);
     wait(harness, |app| {
-        app.desk.view.as_ref().is_some_and(|view| !Arc::ptr_eq(&view.model, &before.model) && view.status == Status::Finished)
+        app.desk.view.as_ref().is_some_and(|view| {
+            !Arc::ptr_eq(&view.model, &before.model) && view.status == Status::Finished
+        })
     });
     view(harness)
 }
@@ -58,7 +60,9 @@ fn the_inputs_of_a_run_are_edited_as_a_program_and_rerun_from_a_moment() {
     let (end, middle) = (view(&harness), seek(&mut harness, 1.0));
     only(&mut harness, Panel::Program);
     harness.get_by_label("Edit inputs of this run").click();
-    wait(&mut harness, |app| app.desk.book.text(Book::SCENARIO).is_some_and(|text| text.contains("# Flown")));
+    wait(&mut harness, |app| {
+        app.desk.book.text(Book::SCENARIO).is_some_and(|text| text.contains("# Flown"))
+    });
     let program = entries(&harness.state().desk.book);
     assert!(!program.is_empty() && program[0].begin_s == Some(0.0), "{program:?}");
     assert!(!harness.state().desk.book.any_error(), "{:?}", harness.state().desk.book.problems());
@@ -66,10 +70,15 @@ fn the_inputs_of_a_run_are_edited_as_a_program_and_rerun_from_a_moment() {
     harness.get_by_label_contains("Rerun from").click();
     harness.run_steps(2);
     wait(&mut harness, |app| {
-        app.desk.view.as_ref().is_some_and(|view| !Arc::ptr_eq(&view.model, &end.model) && view.status == Status::Finished)
+        app.desk.view.as_ref().is_some_and(|view| {
+            !Arc::ptr_eq(&view.model, &end.model) && view.status == Status::Finished
+        })
     });
     let again = view(&harness);
-    assert!(same(&again, &end), "the program is the run: rope and whale where they were, to the bit");
+    assert!(
+        same(&again, &end),
+        "the program is the run: rope and whale where they were, to the bit"
+    );
 
     seek(&mut harness, 1.0);
     harness.state_mut().desk.obey(&Order::AddEntry);
@@ -126,26 +135,40 @@ fn a_run_held_beside_itself_differs_in_nothing_and_beside_another_in_something()
     harness.state_mut().desk.obey(&Order::Start);
     wait(&mut harness, |app| app.desk.status() == Some(&Status::Finished));
     let (a, b) = (view(&harness), harness.state().desk.other_view().unwrap());
-    assert!(Arc::ptr_eq(&b.model, &first.model) && !Arc::ptr_eq(&a.model, &b.model), "B is the run held, A a new one");
+    assert!(
+        Arc::ptr_eq(&b.model, &first.model) && !Arc::ptr_eq(&a.model, &b.model),
+        "B is the run held, A a new one"
+    );
     let all = groups(&a, &b, Units::Si);
     let rows: Vec<_> = all.iter().flat_map(|(_, rows)| rows).collect();
-    assert!(rows.len() > 8 && rows.iter().all(|row| row.difference == "same" || row.difference.is_empty()), "{rows:?}");
+    assert!(
+        rows.len() > 8
+            && rows.iter().all(|row| row.difference == "same" || row.difference.is_empty()),
+        "{rows:?}"
+    );
 
     drawn_alike(&a, &b);
     seek(&mut harness, 1.0);
     let at_s = view(&harness).frame.time_s;
-    wait(&mut harness, |app| app.desk.other_view().is_some_and(|other| (other.frame.time_s - at_s).abs() < 1e-9));
+    wait(&mut harness, |app| {
+        app.desk.other_view().is_some_and(|other| (other.frame.time_s - at_s).abs() < 1e-9)
+    });
     only(&mut harness, Panel::View);
     assert!(harness.query_by_label("Pane 1 of B").is_some(), "both are drawn");
 
     harness.state_mut().desk.set(Book::SCENARIO, "whale.depth", "9 m");
     harness.state_mut().desk.obey(&Order::Start);
     wait(&mut harness, |app| {
-        app.desk.view.as_ref().is_some_and(|view| !Arc::ptr_eq(&view.model, &a.model) && view.status == Status::Finished)
+        app.desk.view.as_ref().is_some_and(|view| {
+            !Arc::ptr_eq(&view.model, &a.model) && view.status == Status::Finished
+        })
     });
     let (a, b) = (view(&harness), harness.state().desk.other_view().unwrap());
     let all = groups(&a, &b, Units::Si);
-    assert!(all.iter().flat_map(|(_, rows)| rows).any(|row| row.difference.contains('%')), "{all:?}");
+    assert!(
+        all.iter().flat_map(|(_, rows)| rows).any(|row| row.difference.contains('%')),
+        "{all:?}"
+    );
     only(&mut harness, Panel::Compare);
     assert!(harness.query_all_by_label("B less A").next().is_some(), "the table is on screen");
     harness.get_by_label("End comparison").click();
@@ -162,26 +185,47 @@ fn a_kept_run_is_opened_beside_the_one_shown_and_follows_its_clock() {
     harness.state_mut().desk.orders.push(Order::CompareWith(kept));
     harness.run_steps(2);
     let end = view(&harness);
-    wait(&mut harness, |app| app.desk.other_view().is_some_and(|other| other.frame.step == end.frame.step));
-    assert_eq!(harness.state().desk.other_view().unwrap().state_hash, end.state_hash, "run again to the bit");
+    wait(&mut harness, |app| {
+        app.desk.other_view().is_some_and(|other| other.frame.step == end.frame.step)
+    });
+    assert_eq!(
+        harness.state().desk.other_view().unwrap().state_hash,
+        end.state_hash,
+        "run again to the bit"
+    );
     let middle = seek(&mut harness, 0.5);
-    wait(&mut harness, |app| app.desk.other_view().is_some_and(|other| other.frame.step == middle.frame.step));
+    wait(&mut harness, |app| {
+        app.desk.other_view().is_some_and(|other| other.frame.step == middle.frame.step)
+    });
     assert_eq!(harness.state().desk.other_view().unwrap().frame.nodes, middle.frame.nodes);
 }
 
 /// Plots of a run beside itself: dashed lies on solid; along a line the greatest so far is the line's peak.
 fn drawn_alike(a: &LiveView, b: &LiveView) {
-    let both = Chart::of(Kind::Tension, a, Units::Si).beside(Chart::of(Kind::Tension, b, Units::Si));
+    let both =
+        Chart::of(Kind::Tension, a, Units::Si).beside(Chart::of(Kind::Tension, b, Units::Si));
     let of = |style: Style| both.curves.iter().filter(move |curve| curve.style == style);
     assert!(of(Style::Solid).count() > 1 && of(Style::Solid).count() == of(Style::Dashed).count());
     for (solid, dashed) in of(Style::Solid).zip(of(Style::Dashed)) {
-        assert_eq!((format!("{} (B)", solid.name), &solid.points), (dashed.name.clone(), &dashed.points));
+        assert_eq!(
+            (format!("{} (B)", solid.name), &solid.points),
+            (dashed.name.clone(), &dashed.points)
+        );
         assert_eq!(solid.colour, dashed.colour);
     }
     let along = Chart::of(Kind::Along, a, Units::Si);
     for line in &a.summary.as_ref().unwrap().lines {
-        let greatest = along.curves.iter().find(|curve| curve.name == format!("{}, greatest so far", line.id)).unwrap();
+        let greatest = along
+            .curves
+            .iter()
+            .find(|curve| curve.name == format!("{}, greatest so far", line.id))
+            .unwrap();
         let top = greatest.points.iter().map(|point| point.y).fold(0.0, f64::max);
-        assert!((top - line.peak_tension_n).abs() < 1e-6 * line.peak_tension_n.max(1.0), "{}: {top} N, {} N", line.id, line.peak_tension_n);
+        assert!(
+            (top - line.peak_tension_n).abs() < 1e-6 * line.peak_tension_n.max(1.0),
+            "{}: {top} N, {} N",
+            line.id,
+            line.peak_tension_n
+        );
     }
 }

@@ -20,7 +20,8 @@ use endline_workbench::scene::View;
 
 /// A scenario settled, with one panel alone.
 fn settled(folder: &Folder, scenario: &str, panel: Panel) -> Harness<'static, App> {
-    let mut harness = opened_with(folder.book_with(scenario), linked(), engine::live(), Pilot::default());
+    let mut harness =
+        opened_with(folder.book_with(scenario), linked(), engine::live(), Pilot::default());
     wait(&mut harness, |app| app.desk.status() == Some(&Status::Paused));
     harness.state_mut().dock = egui_dock::DockState::new(vec![panel.id().to_owned()]);
     harness.run_steps(3);
@@ -40,9 +41,17 @@ fn the_whale_is_dragged_to_where_it_starts_and_one_undo_brings_it_back() {
     let middle = harness.get_by_label("Start place").rect().center();
     drag(&mut harness, middle, middle + egui::vec2(40.0, -25.0));
     let moved = start(&harness);
-    let metres = f64::from(40.0_f32) * harness.state().desk.view3d.eyes[0].camera.metres_a_point(800.0);
-    assert!(moved.place.x - before.place.x > 0.3 * metres && moved.place.y > before.place.y, "east and north: {moved:?}");
-    assert!((moved.place.z - before.place.z).abs() < 1e-9 && (moved.heading - before.heading).abs() < 1e-9, "{moved:?}");
+    let metres =
+        f64::from(40.0_f32) * harness.state().desk.view3d.eyes[0].camera.metres_a_point(800.0);
+    assert!(
+        moved.place.x - before.place.x > 0.3 * metres && moved.place.y > before.place.y,
+        "east and north: {moved:?}"
+    );
+    assert!(
+        (moved.place.z - before.place.z).abs() < 1e-9
+            && (moved.heading - before.heading).abs() < 1e-9,
+        "{moved:?}"
+    );
     wait(&mut harness, |app| {
         app.desk
             .view
@@ -69,7 +78,9 @@ fn fields_choices_and_flags_of_the_panel_reach_the_text() {
     let folder = Folder::new("scenario-fields");
     let mut harness = settled(&folder, "hello-endline", Panel::Scenario);
     retype(&mut harness, "12 m", "9 m");
-    let field = |harness: &Harness<'static, App>, field: &str| harness.state().desk.book.field(Book::SCENARIO, field);
+    let field = |harness: &Harness<'static, App>, field: &str| {
+        harness.state().desk.book.field(Book::SCENARIO, field)
+    };
     assert_eq!(field(&harness, "whale.depth").as_deref(), Some("9 m"));
     harness.get_by_label("Ropes touch each other").scroll_to_me();
     harness.run_steps(3);
@@ -93,7 +104,9 @@ fn wraps_of_a_whale_wound_in_rope_are_told_as_measured() {
     let mut harness = settled(&folder, "dead-whale-wraps", Panel::Entanglement);
     for step in 1..=3_u64 {
         harness.state_mut().desk.obey(&Order::Step);
-        wait(&mut harness, |app| app.desk.view.as_ref().is_some_and(|view| view.frame.step >= step));
+        wait(&mut harness, |app| {
+            app.desk.view.as_ref().is_some_and(|view| view.frame.step >= step)
+        });
     }
     let view = harness.state().desk.view.clone().unwrap();
     let found = wraps(&view);
@@ -103,7 +116,11 @@ fn wraps_of_a_whale_wound_in_rope_are_told_as_measured() {
     for region in wound {
         let wrap = found.iter().find(|wrap| wrap.part == region.part).unwrap();
         assert!((wrap.turns - region.wraps).abs() < 1e-12, "{wrap:?}");
-        assert!((wrap.touching_m - region.contact_length_m).abs() < 1e-9, "{wrap:?}, {} m", region.contact_length_m);
+        assert!(
+            (wrap.touching_m - region.contact_length_m).abs() < 1e-9,
+            "{wrap:?}, {} m",
+            region.contact_length_m
+        );
         if region.wraps >= 0.5 {
             assert!(wrap.since_s.is_some(), "an event has told of it: {wrap:?}");
         }
@@ -133,12 +150,20 @@ fn weak_links_and_friction_are_changed_in_the_panel_comments_kept_and_taken_back
     let folder = Folder::new("links-friction");
     let mut harness = settled(&folder, "hello-weak-link", Panel::Scenario);
     let before = harness.state().desk.book.text(Book::SCENARIO).unwrap().to_owned();
-    let field = |harness: &Harness<'static, App>, field: &str| harness.state().desk.book.field(Book::SCENARIO, field);
+    let field = |harness: &Harness<'static, App>, field: &str| {
+        harness.state().desk.book.field(Book::SCENARIO, field)
+    };
     click(&mut harness, "Add a weak link ⏷");
     click(&mut harness, "at the foot of endline");
-    assert_eq!(["line", "end", "rating"].map(|key| field(&harness, &format!("link.1.{key}")).unwrap()), ["endline", "from", "600 lbf"]);
+    assert_eq!(
+        ["line", "end", "rating"].map(|key| field(&harness, &format!("link.1.{key}")).unwrap()),
+        ["endline", "from", "600 lbf"]
+    );
     retype(&mut harness, "600 lbf", "1,700 furlong");
-    assert!(harness.query_by_label_contains("furlong").is_some(), "what is wrong stands beside the field");
+    assert!(
+        harness.query_by_label_contains("furlong").is_some(),
+        "what is wrong stands beside the field"
+    );
     retype(&mut harness, "1,700 furlong", "1,700 lbf");
     assert!(!harness.state().desk.book.any_error(), "{:?}", harness.state().desk.book.problems());
     click(&mut harness, "Another law for … ⏷");
@@ -151,21 +176,29 @@ fn weak_links_and_friction_are_changed_in_the_panel_comments_kept_and_taken_back
         .book
         .alter(Book::SCENARIO, |text| {
             let value = endline_gear::Setting::plain("1.25");
-            text.put("friction.attributes.coefficient_scale", &value).map_err(|error| error.to_string())
+            text.put("friction.attributes.coefficient_scale", &value)
+                .map_err(|error| error.to_string())
         })
         .unwrap();
     harness.run_steps(3);
     retype(&mut harness, "1.25", "-3");
     harness.state_mut().desk.obey(&Order::Apply);
     wait(&mut harness, |app| !app.desk.making() && !app.desk.make_problems.is_empty());
-    let wrong = harness.state().desk.problem_at(Book::SCENARIO, "friction.attributes.coefficient_scale").unwrap();
+    let wrong = harness
+        .state()
+        .desk
+        .problem_at(Book::SCENARIO, "friction.attributes.coefficient_scale")
+        .unwrap();
     assert!(wrong.line > 0, "{wrong}");
     retype(&mut harness, "-3", "1.5");
     harness.state_mut().desk.obey(&Order::Apply);
     wait(&mut harness, |app| !app.desk.making() && !app.desk.stale());
     let view = harness.state().desk.view.clone().unwrap();
     let ratings: Vec<f64> = view.model.spec.links.iter().map(|link| link.rating_n).collect();
-    assert!((ratings[1] - 1700.0 * endline_workbench::scene::N_PER_LBF).abs() < 1e-6, "{ratings:?}");
+    assert!(
+        (ratings[1] - 1700.0 * endline_workbench::scene::N_PER_LBF).abs() < 1e-6,
+        "{ratings:?}"
+    );
     let text = harness.state().desk.book.text(Book::SCENARIO).unwrap();
     assert!(text.contains("# The snagged trap.") && text.contains("# A poly ball A-5."), "{text}");
     while harness.state().desk.book.can_undo_redo().0 {

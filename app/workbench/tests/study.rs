@@ -60,7 +60,11 @@ fn studying(folder: &Folder) -> Harness<'static, App> {
     let (head, rest) = gear.split_once("[resolution]").unwrap();
     let (_, rest) = rest.split_once("[site]").unwrap();
     let gear = format!("{head}[site]{rest}").replace("duration = \"75 s\"", "duration = \"0.5 s\"");
-    std::fs::write(folder.0.join("scenarios/small-rig.toml"), gear.replace("rope_nodes = 80", "rope_nodes = 12")).unwrap();
+    std::fs::write(
+        folder.0.join("scenarios/small-rig.toml"),
+        gear.replace("rope_nodes = 80", "rope_nodes = 12"),
+    )
+    .unwrap();
     std::fs::create_dir_all(folder.0.join("studies")).unwrap();
     std::fs::write(folder.0.join("studies/small.toml"), STUDY).unwrap();
     let mut harness = opened_with(folder.book(), linked(), engine::live(), Pilot::default());
@@ -78,7 +82,11 @@ fn wait(harness: &mut Harness<'static, App>, so: impl Fn(&App) -> bool) {
     while !so(harness.state()) {
         let studies = &harness.state().desk.studies;
         let told = studies.jobs.last().map(|job| job.progress());
-        assert!(std::time::Instant::now() < patience, "waited in vain: {told:?}, {:?}", harness.state().desk.notice);
+        assert!(
+            std::time::Instant::now() < patience,
+            "waited in vain: {told:?}, {:?}",
+            harness.state().desk.notice
+        );
         std::thread::sleep(std::time::Duration::from_millis(20));
         harness.step();
     }
@@ -99,7 +107,10 @@ fn done(harness: &mut Harness<'static, App>, encounters: u64) {
     wait(harness, |app| state(app) == Some(State::Done));
     wait(harness, |app| {
         let results = &app.desk.studies.results;
-        !results.busy() && results.shown().is_some_and(|shown| shown.whole && shown.findings.encounters == encounters)
+        !results.busy()
+            && results
+                .shown()
+                .is_some_and(|shown| shown.whole && shown.findings.encounters == encounters)
     });
 }
 
@@ -114,7 +125,9 @@ fn a_study_is_edited_run_and_any_run_of_it_is_seen_again_to_the_bit() {
     harness.run_steps(2);
     let saved = common::on_disk(&folder, "studies/small.toml");
     assert!(
-        saved.contains("encounters = 7\n") && saved.contains("# Why these two.") && saved.contains("\"link.0.rating\" = \"6 N\""),
+        saved.contains("encounters = 7\n")
+            && saved.contains("# Why these two.")
+            && saved.contains("\"link.0.rating\" = \"6 N\""),
         "{saved}"
     );
     done(&mut harness, 7);
@@ -137,14 +150,26 @@ fn a_study_is_edited_run_and_any_run_of_it_is_seen_again_to_the_bit() {
     give(&mut harness, Order::ReplayEncounter(1, 4));
     wait(&mut harness, |app| app.desk.status() == Some(&Status::Finished));
     let table = &shown.table;
-    let row = (0..table.rows()).find(|row| table.reals("encounter")[*row] == Some(4.0) && table.texts("option")[*row] == "weak").unwrap();
+    let row = (0..table.rows())
+        .find(|row| {
+            table.reals("encounter")[*row] == Some(4.0) && table.texts("option")[*row] == "weak"
+        })
+        .unwrap();
     let view = harness.state().desk.view.clone().unwrap();
-    assert_eq!(view.state_hash, table.texts("state_hash")[row], "the run in the window ends in the state the table has");
+    assert_eq!(
+        view.state_hash,
+        table.texts("state_hash")[row],
+        "the run in the window ends in the state the table has"
+    );
     assert!(!table.texts("parted")[row].is_empty(), "6 N part in this sea");
 
     give(&mut harness, Order::Undo);
     give(&mut harness, Order::Undo);
-    assert_eq!(harness.state().desk.book.field(Book::STUDY, "encounters").as_deref(), Some("6"), "edits of a study are taken back");
+    assert_eq!(
+        harness.state().desk.book.field(Book::STUDY, "encounters").as_deref(),
+        Some("6"),
+        "edits of a study are taken back"
+    );
 }
 
 #[test]
@@ -175,16 +200,30 @@ fn a_study_stands_still_when_paused_keeps_its_blocks_when_cancelled_and_goes_on(
     give(&mut harness, Order::QueueStudy);
     wait(&mut harness, |app| state(app) == Some(State::Done));
     let progress = harness.state().desk.studies.jobs[0].progress();
-    assert_eq!((progress.found, progress.done, progress.total), (8, 8, 8), "blocks that were done are not run again");
+    assert_eq!(
+        (progress.found, progress.done, progress.total),
+        (8, 8, 8),
+        "blocks that were done are not run again"
+    );
     let folder = harness.state().desk.studies.jobs[0].folder().unwrap();
     for file in ["table.csv", "report.html", "bundle/study.toml"] {
         assert!(folder.join(file).is_file(), "{file}");
     }
-    let (line, unsaved) = endline_workbench::gui::studies::command_line(&harness.state().desk).unwrap();
-    assert!(!unsaved && line.contains("endline study run") && line.contains(&folder.display().to_string()), "{line}");
+    let (line, unsaved) =
+        endline_workbench::gui::studies::command_line(&harness.state().desk).unwrap();
+    assert!(
+        !unsaved
+            && line.contains("endline study run")
+            && line.contains(&folder.display().to_string()),
+        "{line}"
+    );
     give(&mut harness, Order::OpenResults(folder));
     wait(&mut harness, |app| !app.desk.studies.results.busy());
-    assert_eq!(harness.state().desk.studies.results.problem, None, "a folder of results is opened by its own bundle");
+    assert_eq!(
+        harness.state().desk.studies.results.problem,
+        None,
+        "a folder of results is opened by its own bundle"
+    );
 }
 
 #[test]
@@ -195,11 +234,20 @@ fn options_and_priors_are_added_and_wrong_ones_told_at_their_place() {
     harness.run_steps(2);
     harness.get_by_label("Add option").click();
     harness.run_steps(2);
-    let field = |harness: &Harness<'static, App>, field: &str| harness.state().desk.book.field(Book::STUDY, field);
+    let field = |harness: &Harness<'static, App>, field: &str| {
+        harness.state().desk.book.field(Book::STUDY, field)
+    };
     assert_eq!(field(&harness, "option.2.id").as_deref(), Some("weak-2"));
-    assert_eq!(field(&harness, "option.2.set.\"link.0.rating\"").as_deref(), Some("5 N"), "an option begins as a copy");
+    assert_eq!(
+        field(&harness, "option.2.set.\"link.0.rating\"").as_deref(),
+        Some("5 N"),
+        "an option begins as a copy"
+    );
     retype(&mut harness, "0.1 m2", "0.4 m2");
-    assert!(harness.state().desk.book.file_has_error(Book::STUDY), "the least is above the greatest");
+    assert!(
+        harness.state().desk.book.file_has_error(Book::STUDY),
+        "the least is above the greatest"
+    );
     assert!(harness.query_by_label_contains("the first value is not below the second").is_some());
     assert!(!harness.state().desk.book.any_error(), "a single run does not mind the study");
     give(&mut harness, Order::QueueStudy);

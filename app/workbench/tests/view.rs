@@ -21,7 +21,8 @@ use glam::{DVec2, DVec3};
 
 /// The single's endline at rest beside its whale, with the 3-D view alone.
 fn settled(folder: &Folder) -> Harness<'static, App> {
-    let mut harness = opened_with(folder.book_with("hello-endline"), linked(), engine::live(), Pilot::default());
+    let mut harness =
+        opened_with(folder.book_with("hello-endline"), linked(), engine::live(), Pilot::default());
     wait(&mut harness, |app| app.desk.status() == Some(&Status::Paused));
     harness.state_mut().dock = egui_dock::DockState::new(vec![Panel::View.id().to_owned()]);
     harness.run_steps(3);
@@ -32,7 +33,9 @@ fn settled(folder: &Folder) -> Harness<'static, App> {
 fn click(harness: &mut Harness<'static, App>, pane: usize, place: DVec3) {
     let rect = harness.get_by_label(&format!("Pane {}", pane + 1)).rect();
     let camera = harness.state().desk.view3d.eyes[pane].camera.clone();
-    let at = camera.project(place, DVec2::new(f64::from(rect.width()), f64::from(rect.height()))).unwrap();
+    let at = camera
+        .project(place, DVec2::new(f64::from(rect.width()), f64::from(rect.height())))
+        .unwrap();
     let at = rect.min + egui::vec2(at.x as f32, at.y as f32);
     for pressed in [true, false] {
         harness.event(egui::Event::PointerMoved(at));
@@ -57,11 +60,17 @@ fn a_click_on_a_rope_reads_its_tension_and_place_and_a_click_beside_lets_go() {
     let there = place(&harness, wanted);
     click(&mut harness, 0, there);
     let view = harness.state().desk.view.clone().unwrap();
-    let Some(Picked::Rope { line, at_m }) = harness.state().desk.view3d.picks.read else { panic!("the rope is read") };
+    let Some(Picked::Rope { line, at_m }) = harness.state().desk.view3d.picks.read else {
+        panic!("the rope is read")
+    };
     assert!(line == 0 && (at_m - 9.0).abs() < 1.0, "line {line} at {at_m} m");
     let reading = read(&view, Picked::Rope { line, at_m }, Units::Si).unwrap();
-    let (segment, _) = endline_workbench::scene::pick::on_line(&view.model, &view.frame, line, at_m).unwrap();
-    assert!(harness.query_by_label(&view.model.spec.lines[line].id).is_some(), "its name is on screen");
+    let (segment, _) =
+        endline_workbench::scene::pick::on_line(&view.model, &view.frame, line, at_m).unwrap();
+    assert!(
+        harness.query_by_label(&view.model.spec.lines[line].id).is_some(),
+        "its name is on screen"
+    );
     let tension = Units::Si.force().text(view.frame.tension_n[segment]);
     assert!(reading.rows.contains(&("Tension here", tension)), "{reading:?}");
     harness.get_by_label("×").click();
@@ -83,7 +92,11 @@ fn bodies_and_skin_are_read_where_they_are_clicked() {
     harness.run_steps(3);
     let middle = harness.state().desk.view.as_ref().unwrap().frame.whale.as_ref().unwrap().position;
     click(&mut harness, 0, middle);
-    assert!(matches!(harness.state().desk.view3d.picks.read, Some(Picked::Skin { .. })), "{:?}", harness.state().desk.view3d.picks);
+    assert!(
+        matches!(harness.state().desk.view3d.picks.read, Some(Picked::Skin { .. })),
+        "{:?}",
+        harness.state().desk.view3d.picks
+    );
     assert!(harness.query_by_label("Body").is_some(), "the part's name is on screen");
     assert!(harness.query_by_label("Greatest pressure").is_some());
 }
@@ -107,10 +120,18 @@ fn the_ruler_measures_straight_and_along_the_rope() {
     assert!((along - 6.0).abs() < 1.0, "{along} m of rope between 2 m and 8 m");
     // Stretch is far below a thousandth here.
     assert!(straight <= along * 1.001 && straight > 3.0, "{straight} m straight, {along} m along");
-    assert!(measured(&view, &picked, Units::Si).unwrap().rows.contains(&("Along the rope", Units::Si.length(along))));
+    assert!(
+        measured(&view, &picked, Units::Si)
+            .unwrap()
+            .rows
+            .contains(&("Along the rope", Units::Si.length(along)))
+    );
     let through = along_m(&view, Picked::Body(0), Picked::Body(1)).unwrap();
     let rope_m: f64 = view.frame.segment_length_m.iter().sum();
-    assert!((through - rope_m).abs() < 1e-9, "from trap to buoy all of the endline: {through} m of {rope_m} m");
+    assert!(
+        (through - rope_m).abs() < 1e-9,
+        "from trap to buoy all of the endline: {through} m of {rope_m} m"
+    );
 }
 
 #[test]
@@ -121,26 +142,37 @@ fn four_views_each_look_from_their_own_side_and_only_the_chosen_one_turns() {
     harness.run_steps(3);
     let named: Vec<View> = harness.state().desk.view3d.eyes.iter().map(|eye| eye.named).collect();
     assert_eq!(named, [View::Orbit, View::Side, View::Top, View::Front]);
-    let rects: Vec<egui::Rect> = (1..=4).map(|pane| harness.get_by_label(&format!("Pane {pane}")).rect()).collect();
+    let rects: Vec<egui::Rect> =
+        (1..=4).map(|pane| harness.get_by_label(&format!("Pane {pane}")).rect()).collect();
     for (index, rect) in rects.iter().enumerate() {
-        assert!(rects[..index].iter().all(|other| !rect.intersect(*other).is_positive()), "panes do not overlap: {rects:?}");
+        assert!(
+            rects[..index].iter().all(|other| !rect.intersect(*other).is_positive()),
+            "panes do not overlap: {rects:?}"
+        );
     }
     // Side looks north, top looks down, front looks west: the axes of sight stand square on one another.
-    let ahead: Vec<DVec3> = harness.state().desk.view3d.eyes.iter().map(|eye| eye.camera.axes().2).collect();
+    let ahead: Vec<DVec3> =
+        harness.state().desk.view3d.eyes.iter().map(|eye| eye.camera.axes().2).collect();
     for (one, other) in [(1, 2), (1, 3), (2, 3)] {
         assert!(ahead[one].dot(ahead[other]).abs() < 0.01, "{one} and {other}: {ahead:?}");
     }
     let there = place(&harness, Picked::Body(0));
     click(&mut harness, 2, there);
     assert_eq!(harness.state().desk.view3d.chosen, 2);
-    assert_eq!(harness.state().desk.view3d.picks.read, Some(Picked::Body(0)), "read from above too");
+    assert_eq!(
+        harness.state().desk.view3d.picks.read,
+        Some(Picked::Body(0)),
+        "read from above too"
+    );
     harness.state_mut().desk.obey(&Order::Look(View::FirstPerson));
     harness.run_steps(2);
     let named: Vec<View> = harness.state().desk.view3d.eyes.iter().map(|eye| eye.named).collect();
     assert_eq!(named, [View::Orbit, View::Side, View::FirstPerson, View::Front]);
     harness.state_mut().desk.obey(&Order::Views(1));
     harness.run_steps(2);
-    assert!(harness.query_by_label("Pane 2").is_none() && harness.query_by_label("Pane 1").is_some());
+    assert!(
+        harness.query_by_label("Pane 2").is_none() && harness.query_by_label("Pane 1").is_some()
+    );
 }
 
 #[test]
@@ -149,15 +181,23 @@ fn the_palette_names_every_line_and_body_to_be_read() {
     let harness = settled(&folder);
     let desk = &harness.state().desk;
     let view = desk.view.clone().unwrap();
-    let readings: Vec<Picked> =
-        orders(desk).into_iter().filter_map(|(_, order)| if let Order::Read(picked) = order { Some(picked) } else { None }).collect();
+    let readings: Vec<Picked> = orders(desk)
+        .into_iter()
+        .filter_map(|(_, order)| if let Order::Read(picked) = order { Some(picked) } else { None })
+        .collect();
     assert_eq!(readings.len(), view.model.spec.lines.len() + view.model.spec.bodies.len());
     for picked in readings {
         let reading = read(&view, picked, Units::Noaa).unwrap();
         assert!(reading.rows.iter().all(|(_, value)| !value.contains("NaN")), "{reading:?}");
         if let Picked::Rope { line, .. } = picked {
-            let most = view.frame.tension_n[view.model.line_segments[line].clone()].iter().copied().fold(0.0, f64::max);
-            assert!(reading.rows.contains(&("Tension here", Units::Noaa.force().text(most))), "{reading:?}: {most} N");
+            let most = view.frame.tension_n[view.model.line_segments[line].clone()]
+                .iter()
+                .copied()
+                .fold(0.0, f64::max);
+            assert!(
+                reading.rows.contains(&("Tension here", Units::Noaa.force().text(most))),
+                "{reading:?}: {most} N"
+            );
         }
     }
 }

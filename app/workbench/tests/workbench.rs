@@ -25,9 +25,17 @@ fn a_bad_unit_is_red_with_its_place_and_reason_and_undo_mends_it() {
     retype(&mut harness, "2,700 lbf", "2,700 furlong");
     let problems = harness.state().desk.book.problems().to_vec();
     assert_eq!(problems.len(), 1, "{problems:?}");
-    assert!(problems[0].file.starts_with("ropes/") && problems[0].line > 0 && problems[0].field.starts_with("strength"), "{problems:?}");
+    assert!(
+        problems[0].file.starts_with("ropes/")
+            && problems[0].line > 0
+            && problems[0].field.starts_with("strength"),
+        "{problems:?}"
+    );
     let place = format!("{}:{}:{}", problems[0].file, problems[0].line, problems[0].column);
-    assert!(harness.query_all_by_label_contains("furlong").next().is_some(), "the reason is on screen");
+    assert!(
+        harness.query_all_by_label_contains("furlong").next().is_some(),
+        "the reason is on screen"
+    );
     assert!(harness.query_all_by_label(&place).next().is_some(), "its place is on screen: {place}");
     harness.get_by_label("Undo").click();
     harness.run_steps(3);
@@ -89,7 +97,10 @@ fn every_panel_opens_from_the_window_menu_and_the_layout_resets() {
     }
     harness.state_mut().desk.orders.push(Order::Arrange(layout::Layout::Design));
     harness.run_steps(2);
-    assert!(layout::is_open(&harness.state().dock, Panel::Library) && layout::is_open(&harness.state().dock, Panel::View));
+    assert!(
+        layout::is_open(&harness.state().dock, Panel::Library)
+            && layout::is_open(&harness.state().dock, Panel::View)
+    );
 }
 
 #[test]
@@ -119,7 +130,11 @@ fn the_pad_steers_only_while_flying() {
     assert!(told.borrow().is_empty(), "hands off: {:?}", told.borrow());
     harness.get_by_label("Fly the whale").click();
     harness.run_steps(3);
-    assert!(told.borrow().last().unwrap().starts_with("controls 1.00 0.00 0.00 -1.00"), "{:?}", told.borrow());
+    assert!(
+        told.borrow().last().unwrap().starts_with("controls 1.00 0.00 0.00 -1.00"),
+        "{:?}",
+        told.borrow()
+    );
     harness.key_press(egui::Key::Escape);
     harness.run_steps(3);
     assert_eq!(told.borrow().last().unwrap(), "autopilot");
@@ -151,8 +166,13 @@ impl endline_workbench::input::PadSource for LateStart {
 
 /// The state after 14 s of `hello-endline` flown by a pad that is read at each step.
 fn flight(script: &[Vec<PadEvent>]) -> String {
-    let scenario = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../gear-library/scenarios/hello-endline.toml");
-    let mut run = Run::new(prepare(&scenario, None, &linked(), Overrides::default()).unwrap(), RunOptions::default()).unwrap();
+    let scenario = std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../gear-library/scenarios/hello-endline.toml");
+    let mut run = Run::new(
+        prepare(&scenario, None, &linked(), Overrides::default()).unwrap(),
+        RunOptions::default(),
+    )
+    .unwrap();
     let mut pilot = Pilot::new(Some(Box::new(ScriptedPad { script: script.to_vec().into() })));
     while run.state().time_s < 14.0 {
         pilot.poll_pad();
@@ -166,7 +186,8 @@ fn flight(script: &[Vec<PadEvent>]) -> String {
 fn a_pad_flies_the_encounter_to_the_same_state_each_time() {
     let mut script = vec![vec![]; 800];
     script[0] = vec![PadEvent::Connected("pad".into()), PadEvent::Moved(PadAxis::LeftTrigger, 0.9)];
-    script[300] = vec![PadEvent::Moved(PadAxis::LeftX, -0.8), PadEvent::Moved(PadAxis::RightX, 0.3)];
+    script[300] =
+        vec![PadEvent::Moved(PadAxis::LeftX, -0.8), PadEvent::Moved(PadAxis::RightX, 0.3)];
     script[350] = vec![PadEvent::Moved(PadAxis::LeftX, 0.0), PadEvent::Moved(PadAxis::RightX, 0.0)];
     let flown = flight(&script);
     assert_eq!(flown, flight(&script));
@@ -191,7 +212,8 @@ fn a_real_run_swings_the_pendulum_on_a_thread_of_its_own() {
 #[test]
 fn editing_the_endline_in_its_table_and_applying_changes_the_answer() {
     let folder = Folder::new("answer");
-    let mut harness = opened_with(folder.book_with("hello-endline"), linked(), engine::live(), Pilot::default());
+    let mut harness =
+        opened_with(folder.book_with("hello-endline"), linked(), engine::live(), Pilot::default());
     let settled_n = |harness: &Harness<'static, App>| {
         let view = harness.state().desk.view.clone().unwrap();
         view.frame.tension_n.iter().copied().fold(0.0, f64::max)
@@ -206,10 +228,15 @@ fn editing_the_endline_in_its_table_and_applying_changes_the_answer() {
     harness.get_all_by_label("Apply").next().unwrap().click();
     harness.run_steps(2);
     wait(&mut harness, |app| {
-        app.desk.view.as_ref().is_some_and(|view| !Arc::ptr_eq(&view.model, &earlier.model) && view.status == Status::Paused)
+        app.desk.view.as_ref().is_some_and(|view| {
+            !Arc::ptr_eq(&view.model, &earlier.model) && view.status == Status::Paused
+        })
     });
     let after_n = settled_n(&harness);
-    assert!(before_n > 1.0 && (after_n / before_n - 1.0).abs() > 0.02, "{diameter}: {before_n} N; 7/16 in: {after_n} N");
+    assert!(
+        before_n > 1.0 && (after_n / before_n - 1.0).abs() > 0.02,
+        "{diameter}: {before_n} N; 7/16 in: {after_n} N"
+    );
 }
 
 #[test]
@@ -224,8 +251,12 @@ fn a_duplicated_rope_is_a_file_of_its_own_once_saved() {
     assert!(!folder.0.join("ropes/nylon-1-2-2.toml").exists());
     harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::S);
     harness.run_steps(3);
-    let (original, copy) = (on_disk(&folder, "ropes/nylon-1-2.toml"), on_disk(&folder, "ropes/nylon-1-2-2.toml"));
-    assert_eq!(copy, original.replacen("Nylon 1/2 in, 3-strand", "Nylon 1/2 in, 3-strand (copy)", 1));
+    let (original, copy) =
+        (on_disk(&folder, "ropes/nylon-1-2.toml"), on_disk(&folder, "ropes/nylon-1-2-2.toml"));
+    assert_eq!(
+        copy,
+        original.replacen("Nylon 1/2 in, 3-strand", "Nylon 1/2 in, 3-strand (copy)", 1)
+    );
 }
 
 #[test]
@@ -234,8 +265,12 @@ fn a_model_that_cannot_be_made_says_why_in_problems() {
     let (mut harness, _) = workbench(&folder, Pilot::default());
     harness.state_mut().desk.obey(&Order::Open(folder.0.join("scenarios/hello-endline.toml")));
     wait(&mut harness, |app| !app.desk.making());
-    let problems: Vec<String> = harness.state().desk.problems().map(|problem| problem.message.clone()).collect();
-    assert!(problems.iter().any(|message| message.contains("org.endline.")), "no plugin is there, and that is told: {problems:?}");
+    let problems: Vec<String> =
+        harness.state().desk.problems().map(|problem| problem.message.clone()).collect();
+    assert!(
+        problems.iter().any(|message| message.contains("org.endline.")),
+        "no plugin is there, and that is told: {problems:?}"
+    );
 }
 
 #[test]

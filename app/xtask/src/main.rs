@@ -30,11 +30,17 @@ fn main() -> ExitCode {
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     let done = match words.as_slice() {
         ["run"] => Workspace::find().and_then(|workspace| run::run(&workspace)),
-        ["run", "--", program @ ..] => Workspace::find().and_then(|workspace| run::run_with(&workspace, program)),
+        ["run", "--", program @ ..] => {
+            Workspace::find().and_then(|workspace| run::run_with(&workspace, program))
+        }
         ["test"] => Workspace::find().and_then(|workspace| test::test(&workspace)),
         ["window"] => Workspace::find().and_then(|workspace| window::drive(&workspace)),
-        ["plugins"] => Workspace::find().and_then(|workspace| plugins::build(&workspace, Profile::Dev)),
-        ["plugins", "--release"] => Workspace::find().and_then(|workspace| plugins::build(&workspace, Profile::Release)),
+        ["plugins"] => {
+            Workspace::find().and_then(|workspace| plugins::build(&workspace, Profile::Dev))
+        }
+        ["plugins", "--release"] => {
+            Workspace::find().and_then(|workspace| plugins::build(&workspace, Profile::Release))
+        }
         _ => {
             eprintln!("{USAGE}");
             return ExitCode::from(2);

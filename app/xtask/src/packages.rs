@@ -33,7 +33,11 @@ pub fn ensure_for_test() -> Outcome {
 /// Installs what is missing, or prints the line that does. Goes on without what is only needed later.
 fn ensure(later: &[&'static str]) -> Outcome {
     if !on_path("dpkg-query") {
-        eprintln!("this is not Debian, so I do not look for system packages; Debian calls them {} {}", BUILD.join(" "), later.join(" "));
+        eprintln!(
+            "this is not Debian, so I do not look for system packages; Debian calls them {} {}",
+            BUILD.join(" "),
+            later.join(" ")
+        );
         return Ok(());
     }
     let (build, later) = (missing(&BUILD), missing(later));
@@ -63,9 +67,14 @@ fn is_present(name: &str) -> bool {
         "pkg-config" if on_path("pkg-config") => return true,
         _ => {}
     }
-    let answer = Command::new("dpkg-query").args(["--show", "--showformat=${db:Status-Status}\\n", name]).stderr(Stdio::null()).output();
+    let answer = Command::new("dpkg-query")
+        .args(["--show", "--showformat=${db:Status-Status}\\n", name])
+        .stderr(Stdio::null())
+        .output();
     // One line for each architecture that knows the package.
-    answer.is_ok_and(|answer| String::from_utf8_lossy(&answer.stdout).lines().any(|status| status == "installed"))
+    answer.is_ok_and(|answer| {
+        String::from_utf8_lossy(&answer.stdout).lines().any(|status| status == "installed")
+    })
 }
 
 /// Whether there is a program of this name.
@@ -80,7 +89,11 @@ fn administrator() -> Option<&'static [&'static str]> {
     if is_root {
         return Some(&[]);
     }
-    let sudo = Command::new("sudo").args(["-n", "true"]).stdout(Stdio::null()).stderr(Stdio::null()).status();
+    let sudo = Command::new("sudo")
+        .args(["-n", "true"])
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .status();
     sudo.is_ok_and(|status| status.success()).then_some(&["sudo", "-n"])
 }
 
@@ -99,6 +112,13 @@ fn apt_get(prefix: &[&str], arguments: &[&str]) -> Outcome {
     // `env` inside sudo, which would drop our own environment.
     let words = [prefix, &["env", "DEBIAN_FRONTEND=noninteractive", "apt-get"], arguments].concat();
     announce(words[0], &words[1..]);
-    let status = Command::new(words[0]).args(&words[1..]).status().map_err(|error| format!("cannot start {}: {error}", words[0]))?;
-    if status.success() { Ok(()) } else { Err(format!("`apt-get {}` failed, see above", arguments.join(" "))) }
+    let status = Command::new(words[0])
+        .args(&words[1..])
+        .status()
+        .map_err(|error| format!("cannot start {}: {error}", words[0]))?;
+    if status.success() {
+        Ok(())
+    } else {
+        Err(format!("`apt-get {}` failed, see above", arguments.join(" ")))
+    }
 }

@@ -7,7 +7,8 @@ use crate::Outcome;
 use crate::workspace::{Profile, Workspace};
 
 /// The crates; each makes one library.
-const CRATES: [&str; 3] = ["endline-whale-motions", "endline-friction-models", "endline-gear-types"];
+const CRATES: [&str; 3] =
+    ["endline-whale-motions", "endline-friction-models", "endline-gear-types"];
 
 /// What every plugin library exports; a library built without its `entry` feature lacks it.
 const ENTRY: &str = "endline_plugin_entry";
@@ -25,9 +26,15 @@ pub fn build(workspace: &Workspace, profile: Profile) -> Outcome {
     workspace.cargo(&arguments)?;
     let products = workspace.products(profile);
     let folder = products.join("plugins");
-    fs::create_dir_all(&folder).map_err(|error| format!("cannot make {}: {error}", folder.display()))?;
+    fs::create_dir_all(&folder)
+        .map_err(|error| format!("cannot make {}: {error}", folder.display()))?;
     for name in CRATES {
-        let library = format!("{}{}{}", std::env::consts::DLL_PREFIX, name.replace('-', "_"), std::env::consts::DLL_SUFFIX);
+        let library = format!(
+            "{}{}{}",
+            std::env::consts::DLL_PREFIX,
+            name.replace('-', "_"),
+            std::env::consts::DLL_SUFFIX
+        );
         place(&products.join(&library), &folder.join(&library))?;
     }
     eprintln!("{} plugins in {}", CRATES.len(), folder.display());
@@ -36,12 +43,18 @@ pub fn build(workspace: &Workspace, profile: Profile) -> Outcome {
 
 /// Copies a library beside its place and renames it there: a program that has the old one open keeps it whole.
 fn place(from: &Path, to: &Path) -> Outcome {
-    let bytes = fs::read(from).map_err(|error| format!("cannot read {}: {error}", from.display()))?;
+    let bytes =
+        fs::read(from).map_err(|error| format!("cannot read {}: {error}", from.display()))?;
     if !bytes.windows(ENTRY.len()).any(|window| window == ENTRY.as_bytes()) {
-        return Err(format!("{} does not export {ENTRY}: its crate must do so with its feature `entry`", from.display()));
+        return Err(format!(
+            "{} does not export {ENTRY}: its crate must do so with its feature `entry`",
+            from.display()
+        ));
     }
     let beside = to.with_extension("new");
-    fs::write(&beside, bytes).and_then(|()| fs::rename(&beside, to)).map_err(|error| format!("cannot write {}: {error}", to.display()))
+    fs::write(&beside, bytes)
+        .and_then(|()| fs::rename(&beside, to))
+        .map_err(|error| format!("cannot write {}: {error}", to.display()))
 }
 
 #[cfg(test)]
@@ -56,7 +69,9 @@ mod tests {
         fs::write(&placed, "the old one").unwrap();
 
         fs::write(&built, "a library without").unwrap();
-        assert!(place(&built, &placed).unwrap_err().contains("does not export endline_plugin_entry"));
+        assert!(
+            place(&built, &placed).unwrap_err().contains("does not export endline_plugin_entry")
+        );
         assert_eq!(fs::read(&placed).unwrap(), b"the old one");
 
         fs::write(&built, "a library with endline_plugin_entry in it").unwrap();

@@ -17,7 +17,9 @@ pub fn run(workspace: &Workspace) -> Outcome {
     if has_display() {
         return succeeded(workspace.call_program(Profile::Release, &[])?);
     }
-    eprintln!("no display here (neither DISPLAY nor WAYLAND_DISPLAY is set): running the bundled encounter instead of the workbench");
+    eprintln!(
+        "no display here (neither DISPLAY nor WAYLAND_DISPLAY is set): running the bundled encounter instead of the workbench"
+    );
     show_encounter(workspace, Profile::Release)
 }
 
@@ -45,12 +47,16 @@ pub fn show_encounter(workspace: &Workspace, profile: Profile) -> Outcome {
     let picture = folder.join("picture.png");
     if picture.exists() {
         // So that an old one is not taken for a new one.
-        std::fs::remove_file(&picture).map_err(|error| format!("cannot remove {}: {error}", picture.display()))?;
+        std::fs::remove_file(&picture)
+            .map_err(|error| format!("cannot remove {}: {error}", picture.display()))?;
     }
     let folder = folder.to_str().ok_or("the target folder's name is not plain text")?;
     succeeded(workspace.call_program(profile, &["run", ENCOUNTER, "--out", folder])?)?;
     if !picture.is_file() {
-        return Err(format!("the encounter ran, but {} was not drawn; see above", picture.display()));
+        return Err(format!(
+            "the encounter ran, but {} was not drawn; see above",
+            picture.display()
+        ));
     }
     eprintln!("summary, recording and picture are in {folder}");
     Ok(())

@@ -16,16 +16,29 @@ const TOOLS: [&str; 3] = ["Xvfb", "xdotool", "import"];
 /// When a step of it fails.
 pub fn drive(workspace: &Workspace) -> Outcome {
     if let Some(missing) = TOOLS.into_iter().find(|tool| !on_path(tool)) {
-        eprintln!("there is no {missing} here, so the window is not driven; Debian: apt-get install xvfb xdotool imagemagick");
+        eprintln!(
+            "there is no {missing} here, so the window is not driven; Debian: apt-get install xvfb xdotool imagemagick"
+        );
         return Ok(());
     }
-    let (script, pictures) = (Path::new("tests/window/first_hours.sh"), workspace.target.join("first-hours"));
+    let (script, pictures) =
+        (Path::new("tests/window/first_hours.sh"), workspace.target.join("first-hours"));
     let program = workspace.program(Profile::Dev);
-    announce("tests/window/first_hours.sh", &[&program.display().to_string(), &pictures.display().to_string()]);
-    let status = Command::new("bash").arg(script).args([&program, &pictures]).current_dir(&workspace.root).status();
+    announce(
+        "tests/window/first_hours.sh",
+        &[&program.display().to_string(), &pictures.display().to_string()],
+    );
+    let status = Command::new("bash")
+        .arg(script)
+        .args([&program, &pictures])
+        .current_dir(&workspace.root)
+        .status();
     match status {
         Ok(status) if status.success() => Ok(()),
-        Ok(_) => Err(format!("a user's first hour went wrong, see WRONG above; pictures are in {}", pictures.display())),
+        Ok(_) => Err(format!(
+            "a user's first hour went wrong, see WRONG above; pictures are in {}",
+            pictures.display()
+        )),
         Err(error) => Err(format!("bash cannot be started: {error}")),
     }
 }

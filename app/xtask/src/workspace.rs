@@ -47,11 +47,20 @@ impl Workspace {
     /// # Errors
     /// When not started through cargo.
     pub fn find() -> Outcome<Self> {
-        let crate_folder =
-            std::env::var_os("CARGO_MANIFEST_DIR").ok_or("start me as `cargo xtask`, so that I know where the workspace is")?;
-        let root = Path::new(&crate_folder).ancestors().nth(2).ok_or("app/xtask is not inside a workspace")?.to_path_buf();
-        let executable = std::env::current_exe().map_err(|error| format!("cannot tell where I run from: {error}"))?;
-        let target = executable.ancestors().nth(2).ok_or("I do not run from a target folder; start me as `cargo xtask`")?.to_path_buf();
+        let crate_folder = std::env::var_os("CARGO_MANIFEST_DIR")
+            .ok_or("start me as `cargo xtask`, so that I know where the workspace is")?;
+        let root = Path::new(&crate_folder)
+            .ancestors()
+            .nth(2)
+            .ok_or("app/xtask is not inside a workspace")?
+            .to_path_buf();
+        let executable = std::env::current_exe()
+            .map_err(|error| format!("cannot tell where I run from: {error}"))?;
+        let target = executable
+            .ancestors()
+            .nth(2)
+            .ok_or("I do not run from a target folder; start me as `cargo xtask`")?
+            .to_path_buf();
         Ok(Self { root, target })
     }
 
@@ -85,13 +94,21 @@ impl Workspace {
     /// When cargo fails; it has said why itself.
     pub fn cargo(&self, arguments: &[&str]) -> Outcome {
         announce("cargo", arguments);
-        let status = self.cargo_command(arguments).status().map_err(|error| format!("cannot start cargo: {error}"))?;
-        if status.success() { Ok(()) } else { Err(format!("`cargo {}` failed, see above", arguments.join(" "))) }
+        let status = self
+            .cargo_command(arguments)
+            .status()
+            .map_err(|error| format!("cannot start cargo: {error}"))?;
+        if status.success() {
+            Ok(())
+        } else {
+            Err(format!("`cargo {}` failed, see above", arguments.join(" ")))
+        }
     }
 
     /// Whether a cargo call succeeds; shows nothing.
     pub fn quiet_cargo(&self, arguments: &[&str]) -> bool {
-        let quiet = self.cargo_command(arguments).stdout(Stdio::null()).stderr(Stdio::null()).status();
+        let quiet =
+            self.cargo_command(arguments).stdout(Stdio::null()).stderr(Stdio::null()).status();
         quiet.is_ok_and(|status| status.success())
     }
 

@@ -8,6 +8,11 @@ fn wrong_use_prints_the_chores_and_gives_2() {
         let answer = Command::new(env!("CARGO_BIN_EXE_xtask")).args(&words).output().unwrap();
         let said = String::from_utf8(answer.stderr).unwrap();
         assert_eq!(answer.status.code(), Some(2), "{words:?}");
-        assert!(["cargo xtask run", "cargo xtask test", "cargo xtask plugins"].iter().all(|chore| said.contains(chore)), "{said}");
+        assert!(
+            ["cargo xtask run", "cargo xtask test", "cargo xtask plugins"]
+                .iter()
+                .all(|chore| said.contains(chore)),
+            "{said}"
+        );
     }
 }

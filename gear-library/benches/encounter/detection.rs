@@ -29,7 +29,15 @@ impl Detection {
     /// Scratch for a model.
     pub fn of(model: &Model) -> Self {
         let surface = model.skin_tree.clone().map(Surface::new);
-        Self { surface, bones: [Vec::new(), Vec::new()], found: Vec::new(), segments: Vec::new(), seconds: 0.0, pairs: 0, steps: 0 }
+        Self {
+            surface,
+            bones: [Vec::new(), Vec::new()],
+            found: Vec::new(),
+            segments: Vec::new(),
+            seconds: 0.0,
+            pairs: 0,
+            steps: 0,
+        }
     }
 
     /// Finds contacts of one solver step that begins where the whale was earlier and ends where it is.
@@ -39,7 +47,8 @@ impl Detection {
             let Some(at) = &state.whale else { return };
             pose(&whale.skin, at.position, at.orientation, &at.posture, bones);
         }
-        let nodes = (0..model.spec.lines.len()).flat_map(|line| model.line_nodes[line].clone().skip(1));
+        let nodes =
+            (0..model.spec.lines.len()).flat_map(|line| model.line_nodes[line].clone().skip(1));
         self.segments.clear();
         self.segments.extend(nodes.map(|node| SweptSegment {
             a0: earlier.rope.position[node - 1],
@@ -53,8 +62,11 @@ impl Detection {
         surface.gather(&self.segments, MARGIN_M, &mut self.found);
         let mut least = f64::INFINITY;
         for pair in &self.found {
-            let (segment, triangle) = (&self.segments[pair.segment as usize], surface.triangle_sweep(pair.triangle));
-            least = least.min(segment_triangle(segment.at(0.0), triangle[0]).distance).min(safe_fraction(segment, &triangle, SEPARATION_M));
+            let (segment, triangle) =
+                (&self.segments[pair.segment as usize], surface.triangle_sweep(pair.triangle));
+            least = least
+                .min(segment_triangle(segment.at(0.0), triangle[0]).distance)
+                .min(safe_fraction(segment, &triangle, SEPARATION_M));
         }
         divan::black_box(least);
         self.seconds += start.elapsed().as_secs_f64();

@@ -10,7 +10,9 @@ use endline_sim::Model;
 /// The model of a scenario with pieces of its text replaced.
 pub fn model(scenario: &str, changes: &[(&str, &str)]) -> Model {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let (library, _) = Library::read(&Sources::from_folder(root).unwrap_or_else(|problems| panic!("{problems:?}")));
+    let (library, _) = Library::read(
+        &Sources::from_folder(root).unwrap_or_else(|problems| panic!("{problems:?}")),
+    );
     let name = format!("scenarios/{scenario}.toml");
     let mut text = std::fs::read_to_string(root.join(&name)).expect("a shipped scenario");
     for (from, to) in changes {
@@ -18,7 +20,8 @@ pub fn model(scenario: &str, changes: &[(&str, &str)]) -> Model {
         text = text.replace(from, to);
     }
     let scenario = Scenario::read(&name, &text).unwrap_or_else(|problems| panic!("{problems:?}"));
-    let spec = assemble(&scenario, &library, &Linked, &Options::default()).unwrap_or_else(|problems| panic!("{problems:?}"));
+    let spec = assemble(&scenario, &library, &Linked, &Options::default())
+        .unwrap_or_else(|problems| panic!("{problems:?}"));
     Model::new(spec).unwrap_or_else(|problems| panic!("{problems:?}"))
 }
 

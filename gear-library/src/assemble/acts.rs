@@ -13,14 +13,20 @@ use super::builder::Builder;
 
 impl Builder<'_> {
     /// The motion with the acts that the scenario names, or all of the library's, and its answer to touch.
-    pub fn with_acts(&mut self, motion: Arc<dyn WhaleMotion>, swimmer: &Swimmer, whale: &WhaleItem) -> Arc<dyn WhaleMotion> {
+    pub fn with_acts(
+        &mut self,
+        motion: Arc<dyn WhaleMotion>,
+        swimmer: &Swimmer,
+        whale: &WhaleItem,
+    ) -> Arc<dyn WhaleMotion> {
         let clips = self.clips(swimmer, whale);
         self.check_ids(motion.as_ref(), &clips, swimmer);
         let own = motion.descriptor().acts.len();
         let answer = swimmer.answer.as_ref().and_then(|answer| {
             let ids = || clips.iter().map(|clip| clip.id.as_str());
             let Some(at) = ids().position(|id| id == answer.act.value) else {
-                let message = format!("the whale has no act `{}` to answer a touch with", answer.act.value);
+                let message =
+                    format!("the whale has no act `{}` to answer a touch with", answer.act.value);
                 self.problems.push(answer.act.place.error(message, hint(&answer.act.value, ids())));
                 return None;
             };
@@ -36,12 +42,16 @@ impl Builder<'_> {
             self.used.extend(library.acts.iter().flat_map(ActItem::files).map(str::to_owned));
             return library.acts.iter().flat_map(|act| act.clips.iter().cloned()).collect();
         };
-        let every = || library.acts.iter().flat_map(|act| act.clips.iter().map(move |clip| (act, clip)));
+        let every =
+            || library.acts.iter().flat_map(|act| act.clips.iter().map(move |clip| (act, clip)));
         let mut clips = Vec::new();
         for id in named {
             let Some((act, clip)) = every().find(|(_, clip)| clip.id == id.value) else {
                 let known = every().map(|(_, clip)| clip.id.as_str());
-                self.problems.push(id.place.error(format!("no act `{}` in acts/", id.value), hint(&id.value, known)));
+                self.problems.push(
+                    id.place
+                        .error(format!("no act `{}` in acts/", id.value), hint(&id.value, known)),
+                );
                 continue;
             };
             self.used.extend(act.files().map(str::to_owned));
@@ -62,7 +72,8 @@ impl Builder<'_> {
                     "the act asks for {value:.1} deg of {angle:?}, the joint of `{}` turns {least:.1} to {most:.1} deg",
                     whale.entry.id
                 );
-                let help = format!("keep to that range, or change [joints] in {}", whale.entry.path);
+                let help =
+                    format!("keep to that range, or change [joints] in {}", whale.entry.path);
                 self.problems.push(figure.place.error(message, help));
             }
         }

@@ -28,7 +28,13 @@ pub(super) struct Around {
 
 impl Around {
     /// The path between two places that comes nearest to so many turns; `None` where an end lies within the cylinder.
-    pub fn between(ends: [DVec3; 2], centre: DVec3, axes: [DVec3; 3], radius: f64, turns: f64) -> Option<Self> {
+    pub fn between(
+        ends: [DVec3; 2],
+        centre: DVec3,
+        axes: [DVec3; 3],
+        radius: f64,
+        turns: f64,
+    ) -> Option<Self> {
         let [from, to] = ends.map(|end| end - centre);
         let flat = |place: DVec3| (place.dot(axes[0]), place.dot(axes[1]));
         let reach = |(x, y): (f64, f64)| libm::hypot(x, y);
@@ -38,13 +44,23 @@ impl Around {
         }
         let sense = if turns < 0.0 { -1.0 } else { 1.0 };
         let lead = |place: (f64, f64)| libm::acos(radius / reach(place));
-        let straight = |place: (f64, f64)| libm::sqrt((reach(place) * reach(place) - radius * radius).max(0.0));
+        let straight = |place: (f64, f64)| {
+            libm::sqrt((reach(place) * reach(place) - radius * radius).max(0.0))
+        };
         let first = libm::atan2(p.1, p.0) + sense * lead(p);
         let last = libm::atan2(q.1, q.0) - sense * lead(q);
         let least = (sense * (last - first)).rem_euclid(TAU);
         let round = (least + TAU * (turns.abs() - least / TAU).round()).max(0.0);
         let parts = [straight(p), radius * round, straight(q)];
-        Some(Self { centre, axes, radius, sense, first, parts, heights: (from.dot(axes[2]), to.dot(axes[2])) })
+        Some(Self {
+            centre,
+            axes,
+            radius,
+            sense,
+            first,
+            parts,
+            heights: (from.dot(axes[2]), to.dot(axes[2])),
+        })
     }
 
     /// Length across the axis of the whole [m].
@@ -67,9 +83,11 @@ impl Around {
         let along = share * self.length();
         let angle = self.first + self.sense * self.angle(share);
         let (sin, cos) = libm::sincos(angle);
-        let ahead = (along - self.parts[0] - self.parts[1]).max(0.0) - (self.parts[0] - along).max(0.0);
+        let ahead =
+            (along - self.parts[0] - self.parts[1]).max(0.0) - (self.parts[0] - along).max(0.0);
         let radius = self.radius + out;
-        let (x, y) = (radius * cos - self.sense * ahead * sin, radius * sin + self.sense * ahead * cos);
+        let (x, y) =
+            (radius * cos - self.sense * ahead * sin, radius * sin + self.sense * ahead * cos);
         let height = up + self.heights.0 + share * (self.heights.1 - self.heights.0);
         self.centre + self.axes[0] * x + self.axes[1] * y + self.axes[2] * height
     }
@@ -82,15 +100,40 @@ mod tests {
     #[test]
     fn a_path_round_a_drum_ends_where_it_should_and_is_as_long_as_it_should_be() {
         let (radius, tail) = (0.5, 2.0);
-        for (turns, to) in
-            [(0.5, DVec3::new(-radius, -tail, 0.1)), (1.0, DVec3::new(radius, tail, 0.1)), (2.5, DVec3::new(-radius, -tail, 0.1))]
-        {
+        for (turns, to) in [
+            (0.5, DVec3::new(-radius, -tail, 0.1)),
+            (1.0, DVec3::new(radius, tail, 0.1)),
+            (2.5, DVec3::new(-radius, -tail, 0.1)),
+        ] {
             let from = DVec3::new(radius, -tail, 0.0);
-            let path = Around::between([from, to], DVec3::ZERO, [DVec3::X, DVec3::Y, DVec3::Z], radius, turns).unwrap();
-            assert!((path.length() - 2.0 * tail - radius * TAU * turns).abs() < 1e-12, "{turns}: {}", path.length());
+            let path = Around::between(
+                [from, to],
+                DVec3::ZERO,
+                [DVec3::X, DVec3::Y, DVec3::Z],
+                radius,
+                turns,
+            )
+            .unwrap();
+            assert!(
+                (path.length() - 2.0 * tail - radius * TAU * turns).abs() < 1e-12,
+                "{turns}: {}",
+                path.length()
+            );
             assert!((path.at(0.0) - from).length() < 1e-12 && (path.at(1.0) - to).length() < 1e-12);
-            assert!((1..100).all(|k| libm::hypot(path.at(f64::from(k) / 100.0).x, path.at(f64::from(k) / 100.0).y) > radius - 1e-12));
+            assert!((1..100).all(|k| libm::hypot(
+                path.at(f64::from(k) / 100.0).x,
+                path.at(f64::from(k) / 100.0).y
+            ) > radius - 1e-12));
         }
-        assert!(Around::between([DVec3::ZERO, DVec3::X], DVec3::ZERO, [DVec3::X, DVec3::Y, DVec3::Z], radius, 1.0).is_none());
+        assert!(
+            Around::between(
+                [DVec3::ZERO, DVec3::X],
+                DVec3::ZERO,
+                [DVec3::X, DVec3::Y, DVec3::Z],
+                radius,
+                1.0
+            )
+            .is_none()
+        );
     }
 }

@@ -56,7 +56,12 @@ pub(super) struct Builder<'a> {
 }
 
 impl<'a> Builder<'a> {
-    pub fn new(scenario: &'a Scenario, library: &'a Library, hooks: &'a dyn Hooks, settings: Settings) -> Self {
+    pub fn new(
+        scenario: &'a Scenario,
+        library: &'a Library,
+        hooks: &'a dyn Hooks,
+        settings: Settings,
+    ) -> Self {
         let water = Water {
             density_kg_m3: 0.0,
             gravity_m_s2: 9.81,
@@ -99,11 +104,17 @@ impl<'a> Builder<'a> {
     /// Gives a part its id; a second part of the same id is a problem.
     pub fn name(&mut self, id: String, part: Part, place: &Place) {
         if self.names.iter().any(|(known, _)| *known == id) {
-            self.problems.push(place.error(format!("there are two parts with the id `{id}`"), "give one of them another id"));
+            self.problems.push(place.error(
+                format!("there are two parts with the id `{id}`"),
+                "give one of them another id",
+            ));
         }
         if id.contains(':') && matches!(part, Part::Body(_) | Part::Joint(_)) {
             let message = format!("the id `{id}` has a colon");
-            self.problems.push(place.error(message, "a colon parts a body from the point where a line is made fast; choose another id"));
+            self.problems.push(place.error(
+                message,
+                "a colon parts a body from the point where a line is made fast; choose another id",
+            ));
         }
         self.names.push((id, part));
     }
@@ -118,13 +129,21 @@ impl<'a> Builder<'a> {
         if self.incomplete {
             return;
         }
-        let known = self.names.iter().filter(|(_, part)| wanted(*part)).map(|(name, _)| name.as_str());
-        self.problems.push(id.place.error(format!("there is no {what} `{}`", id.value), hint(&id.value, known)));
+        let known =
+            self.names.iter().filter(|(_, part)| wanted(*part)).map(|(name, _)| name.as_str());
+        self.problems.push(
+            id.place.error(format!("there is no {what} `{}`", id.value), hint(&id.value, known)),
+        );
     }
 
     /// Reports an item the library does not have.
     pub fn no_item(&self, kind: Kind, id: &str, place: &Place) {
-        self.problems.push(place.error(format!("no `{id}` in {}/", kind.folder()), hint(id, self.library.ids(kind))));
+        self.problems.push(
+            place.error(
+                format!("no `{id}` in {}/", kind.folder()),
+                hint(id, self.library.ids(kind)),
+            ),
+        );
     }
 
     /// Notes a library file as used.
@@ -138,8 +157,16 @@ impl<'a> Builder<'a> {
         let mut made = match rope.in_condition(condition.value) {
             Ok(made) => made,
             Err(key) => {
-                let message = format!("rope `{}` has no `{key}`, so it cannot be \"{}\"", id.value, condition.value.word());
-                self.problems.push(condition.place.error(message, format!("give it a `{key}`, or choose another condition")));
+                let message = format!(
+                    "rope `{}` has no `{key}`, so it cannot be \"{}\"",
+                    id.value,
+                    condition.value.word()
+                );
+                self.problems.push(
+                    condition
+                        .place
+                        .error(message, format!("give it a `{key}`, or choose another condition")),
+                );
                 return None;
             }
         };
@@ -165,7 +192,8 @@ impl<'a> Builder<'a> {
         let Some(rope) = rope else {
             let mut known = self.library.ids(Kind::Rope);
             known.extend(self.scenario.ropes.iter().map(|entry| entry.id.as_str()));
-            self.problems.push(id.place.error(format!("no rope `{}`", id.value), hint(&id.value, known)));
+            self.problems
+                .push(id.place.error(format!("no rope `{}`", id.value), hint(&id.value, known)));
             return None;
         };
         if in_place.is_none() {

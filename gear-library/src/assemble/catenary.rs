@@ -56,7 +56,8 @@ impl Catenary {
         let (h, v, w, ea) = (self.horizontal, self.vertical, self.weight, self.stiffness);
         let (low, high) = (v / h, (v + w * s) / h);
         let x = h * s / ea + h / w * (libm::asinh(high) - libm::asinh(low));
-        let z = (v * s + 0.5 * w * s * s) / ea + h / w * (libm::hypot(1.0, high) - libm::hypot(1.0, low));
+        let z = (v * s + 0.5 * w * s * s) / ea
+            + h / w * (libm::hypot(1.0, high) - libm::hypot(1.0, low));
         (x, z)
     }
 
@@ -78,7 +79,11 @@ impl Catenary {
         }
         let (dh, dv) = (-(x * zv - z * xv) / det, -(z * xh - x * zh) / det);
         let damp = if dh < -0.5 * self.horizontal { -0.5 * self.horizontal / dh } else { 1.0 };
-        Some(Self { horizontal: self.horizontal + damp * dh, vertical: self.vertical + damp * dv, ..*self })
+        Some(Self {
+            horizontal: self.horizontal + damp * dh,
+            vertical: self.vertical + damp * dv,
+            ..*self
+        })
     }
 }
 
@@ -89,7 +94,8 @@ fn first_guess(span: f64, rise: f64, length: f64, weight: f64, stiffness: f64) -
         let tension = stiffness * (chord / length - 1.0) + weight.abs() * length;
         return (tension * span / chord, tension * rise / chord - 0.5 * weight * length);
     }
-    let slack = libm::sqrt((3.0 * ((length * length - rise * rise) / (span * span) - 1.0)).max(1e-4));
+    let slack =
+        libm::sqrt((3.0 * ((length * length - rise * rise) / (span * span) - 1.0)).max(1e-4));
     let horizontal = (weight * span / (2.0 * slack)).abs();
     (horizontal, 0.5 * weight * (rise / libm::tanh(slack) - length))
 }

@@ -30,13 +30,20 @@ impl Builder<'_> {
             (Some(Part::Joint(joint)), None) => Some(joint),
             (Some(Part::Joint(_)), Some(point)) => {
                 let message = format!("joint `{part}` has no point `{point}`");
-                self.problems.push(end.place.error(message, "only a body has points; take the colon and what follows out"));
+                self.problems.push(
+                    end.place.error(
+                        message,
+                        "only a body has points; take the colon and what follows out",
+                    ),
+                );
                 None
             }
             (Some(Part::Body(body)), point) => self.body_joint(body, point, end),
             _ => {
                 let wanted = At { value: part.to_owned(), place: end.place.clone() };
-                self.unknown("body or joint", &wanted, |part| matches!(part, Part::Body(_) | Part::Joint(_)));
+                self.unknown("body or joint", &wanted, |part| {
+                    matches!(part, Part::Body(_) | Part::Joint(_))
+                });
                 None
             }
         }
@@ -58,8 +65,13 @@ impl Builder<'_> {
             return None;
         };
         let (name, offset_m) = &points[found];
-        let (id, offset_m) = (if found == 0 { holder.id.clone() } else { format!("{}:{name}", holder.id) }, *offset_m);
-        let at_point = |joint: &Joint| matches!(joint.kind, JointKind::Body { body: of, .. } if of == body) && joint.id == id;
+        let (id, offset_m) = (
+            if found == 0 { holder.id.clone() } else { format!("{}:{name}", holder.id) },
+            *offset_m,
+        );
+        let at_point = |joint: &Joint| {
+            matches!(joint.kind, JointKind::Body { body: of, .. } if of == body) && joint.id == id
+        };
         if let Some(joint) = self.spec.joints.iter().position(at_point) {
             return Some(joint);
         }

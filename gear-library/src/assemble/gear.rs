@@ -20,7 +20,12 @@ impl Builder<'_> {
     /// Every assembly the scenario places.
     pub fn add_gear(&mut self) {
         for gear in &self.scenario.gear {
-            let Some(assembly) = self.library.assemblies.iter().find(|assembly| assembly.entry.id == gear.assembly.value) else {
+            let Some(assembly) = self
+                .library
+                .assemblies
+                .iter()
+                .find(|assembly| assembly.entry.id == gear.assembly.value)
+            else {
                 self.no_item(Kind::Assembly, &gear.assembly.value, &gear.assembly.place);
                 self.incomplete = true;
                 continue;
@@ -45,8 +50,14 @@ impl Builder<'_> {
             Make::GearType { id, attributes } => self.add_built(gear, &setting, id, attributes),
             Make::Parts(parts) => {
                 if let Some((_, key, _)) = gear.attributes.0.first() {
-                    let message = format!("`{}` is written out part by part and takes no attributes", assembly.entry.id);
-                    self.problems.push(key.error(message, "take the attributes out, or place an assembly with a gear type"));
+                    let message = format!(
+                        "`{}` is written out part by part and takes no attributes",
+                        assembly.entry.id
+                    );
+                    self.problems.push(key.error(
+                        message,
+                        "take the attributes out, or place an assembly with a gear type",
+                    ));
                 }
                 setting.places = places(parts);
                 setting.makes = makes(parts, &gear.lines);
@@ -56,22 +67,35 @@ impl Builder<'_> {
     }
 
     /// Gear that a gear type builds from attributes.
-    fn add_built(&mut self, gear: &PlacedGear, setting: &Setting<'_>, id: &At<String>, usual: &Attributes) {
+    fn add_built(
+        &mut self,
+        gear: &PlacedGear,
+        setting: &Setting<'_>,
+        id: &At<String>,
+        usual: &Attributes,
+    ) {
         let Some(hook) = self.hooks.gear(&id.value) else {
             let ids = self.hooks.ids();
             let message = format!("no gear type `{}` among the plugins", id.value);
-            self.problems.push(id.place.error(message, hint(&id.value, ids.iter().map(String::as_str))));
+            self.problems
+                .push(id.place.error(message, hint(&id.value, ids.iter().map(String::as_str))));
             self.incomplete = true;
             return;
         };
-        let attributes = gear.attributes.over(usual).resolve(hook.descriptor(), self.library, &mut self.used, &self.problems);
+        let attributes = gear.attributes.over(usual).resolve(
+            hook.descriptor(),
+            self.library,
+            &mut self.used,
+            &self.problems,
+        );
         let surface = setting.orientation.inverse() * self.spec.water.current.at(1.0, 0.0);
         let site = Site { depth_m: self.spec.water.depth_m, current_m_s: [surface.x, surface.y] };
         let rig = match hook.build(&attributes, &site) {
             Ok(rig) => rig,
             Err(error) => {
                 let message = format!("`{}` cannot build this gear: {error}", id.value);
-                self.problems.push(gear.assembly.place.error(message, "mend the attribute it names"));
+                self.problems
+                    .push(gear.assembly.place.error(message, "mend the attribute it names"));
                 self.incomplete = true;
                 return;
             }
@@ -85,7 +109,13 @@ impl Builder<'_> {
 fn rig(parts: &Parts, depth_m: f64) -> Rig {
     let at = |start: &Start| [start.xy_m[0], start.xy_m[1], depth_m * (start.height - 1.0)];
     let is_body = |end: &str| parts.bodies.iter().any(|body| body.id.value == split(end).0);
-    let end = |id: &At<String>| if is_body(&id.value) { RigEnd::Body(id.value.clone()) } else { RigEnd::Joint(id.value.clone()) };
+    let end = |id: &At<String>| {
+        if is_body(&id.value) {
+            RigEnd::Body(id.value.clone())
+        } else {
+            RigEnd::Joint(id.value.clone())
+        }
+    };
     let kind = |kind| match kind {
         Kind::Trap => BodyKind::Trap,
         Kind::Buoy => BodyKind::Buoy,
@@ -113,7 +143,11 @@ fn rig(parts: &Parts, depth_m: f64) -> Rig {
     };
     Rig {
         bodies: parts.bodies.iter().map(body).collect(),
-        joints: parts.joints.iter().map(|joint| RigJoint { id: joint.id.value.clone(), position_m: at(&joint.start) }).collect(),
+        joints: parts
+            .joints
+            .iter()
+            .map(|joint| RigJoint { id: joint.id.value.clone(), position_m: at(&joint.start) })
+            .collect(),
         lines: parts.lines.iter().map(line).collect(),
         links: parts.links.iter().map(link).collect(),
     }
@@ -136,7 +170,10 @@ fn makes(parts: &Parts, chosen: &[(At<String>, LineMake)]) -> Vec<(At<String>, L
 fn places(parts: &Parts) -> Vec<(String, Place)> {
     let ids = parts.bodies.iter().flat_map(|body| [&body.item, &body.id]);
     let ids = ids.chain(parts.joints.iter().map(|joint| &joint.id));
-    let ids = ids.chain(parts.lines.iter().flat_map(|line| [&line.id, &line.rope, &line.from, &line.to]));
-    let ids = ids.chain(parts.links.iter().flat_map(|link| [&link.id, &link.line].into_iter().chain(&link.item)));
+    let ids =
+        ids.chain(parts.lines.iter().flat_map(|line| [&line.id, &line.rope, &line.from, &line.to]));
+    let ids = ids.chain(
+        parts.links.iter().flat_map(|link| [&link.id, &link.line].into_iter().chain(&link.item)),
+    );
     ids.map(|id| (id.value.clone(), id.place.clone())).collect()
 }

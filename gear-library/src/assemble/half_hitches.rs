@@ -52,10 +52,13 @@ mod tests {
     fn a_hitch_lies_on_itself_and_not_in_itself() {
         let (radius, thick) = (0.055, 0.01);
         let ends = [DVec3::new(radius, -0.3, 0.01), DVec3::new(radius, 0.3, -0.01)];
-        let around = Around::between(ends, DVec3::ZERO, [DVec3::X, DVec3::Y, DVec3::Z], radius, 2.0).unwrap();
+        let around =
+            Around::between(ends, DVec3::ZERO, [DVec3::X, DVec3::Y, DVec3::Z], radius, 2.0)
+                .unwrap();
         let way: Vec<DVec3> = hitched(&around, thick).into_iter().step_by(5).collect();
         let mut along = vec![0.0];
-        way.windows(2).for_each(|pair| along.push(along[along.len() - 1] + pair[0].distance(pair[1])));
+        way.windows(2)
+            .for_each(|pair| along.push(along[along.len() - 1] + pair[0].distance(pair[1])));
         let mut least = f64::INFINITY;
         for one in 0..way.len() {
             assert!(way[one].truncate().length() > radius - 1e-9);

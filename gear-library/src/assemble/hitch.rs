@@ -35,7 +35,12 @@ const UP: DVec3 = DVec3::Z;
 /// Every spot.
 const SPOTS: [Spot; 9] = [
     Spot { name: "peduncle", regions: &[Region::Peduncle], toward: UP, at: |_| Some(0.86) },
-    Spot { name: "mouth-left", regions: &[Region::Lips, Region::Baleen, Region::Head], toward: PORT, at: |form| Some(form.head.mouth) },
+    Spot {
+        name: "mouth-left",
+        regions: &[Region::Lips, Region::Baleen, Region::Head],
+        toward: PORT,
+        at: |form| Some(form.head.mouth),
+    },
     Spot {
         name: "mouth-right",
         regions: &[Region::Lips, Region::Baleen, Region::Head],
@@ -43,9 +48,24 @@ const SPOTS: [Spot; 9] = [
         at: |form| Some(form.head.mouth),
     },
     Spot { name: "flipper-left", regions: &[Region::LeftFlipperLeading], toward: UP, at: |_| None },
-    Spot { name: "flipper-right", regions: &[Region::RightFlipperLeading], toward: UP, at: |_| None },
-    Spot { name: "fluke-left", regions: &[Region::LeftFlukeLeading], toward: DVec3::X, at: |_| None },
-    Spot { name: "fluke-right", regions: &[Region::RightFlukeLeading], toward: DVec3::X, at: |_| None },
+    Spot {
+        name: "flipper-right",
+        regions: &[Region::RightFlipperLeading],
+        toward: UP,
+        at: |_| None,
+    },
+    Spot {
+        name: "fluke-left",
+        regions: &[Region::LeftFlukeLeading],
+        toward: DVec3::X,
+        at: |_| None,
+    },
+    Spot {
+        name: "fluke-right",
+        regions: &[Region::RightFlukeLeading],
+        toward: DVec3::X,
+        at: |_| None,
+    },
     Spot { name: "back", regions: &[Region::Body], toward: UP, at: |_| Some(0.5) },
     Spot { name: "belly", regions: &[Region::Body], toward: DVec3::NEG_Z, at: |_| Some(0.5) },
 ];
@@ -58,13 +78,17 @@ impl Builder<'_> {
             if self.scenario.whale.is_some() {
                 return None;
             }
-            self.problems.push(end.place.error("there is no whale to make rope fast to", "write a [whale], or name a body or joint"));
+            self.problems.push(end.place.error(
+                "there is no whale to make rope fast to",
+                "write a [whale], or name a body or joint",
+            ));
             return None;
         };
         let name = spot.unwrap_or_default();
         let Some(found) = SPOTS.iter().find(|known| known.name == name) else {
             let message = format!("the whale has no spot `{name}`");
-            self.problems.push(end.place.error(message, hint(name, SPOTS.iter().map(|spot| spot.name))));
+            self.problems
+                .push(end.place.error(message, hint(name, SPOTS.iter().map(|spot| spot.name))));
             return None;
         };
         let id = format!("whale:{name}");
@@ -72,10 +96,12 @@ impl Builder<'_> {
             return Some(joint);
         }
         let swimmer = self.scenario.whale.as_ref()?;
-        let form = &self.library.whales.iter().find(|item| item.entry.id == swimmer.item.value)?.form;
+        let form =
+            &self.library.whales.iter().find(|item| item.entry.id == swimmer.item.value)?.form;
         let Some(triangle) = found.on(&whale.skin, form, whale.length_m) else {
             let message = format!("this whale's skin has nothing at its `{name}`");
-            self.problems.push(end.place.error(message, hint("", SPOTS.iter().map(|spot| spot.name))));
+            self.problems
+                .push(end.place.error(message, hint("", SPOTS.iter().map(|spot| spot.name))));
             return None;
         };
         let hitch = Hitch { triangle, barycentric: [1.0 / 3.0; 3], stand_off_m: STAND_OFF_M };
@@ -90,19 +116,31 @@ impl Builder<'_> {
 impl Spot {
     /// The triangle of a skin that is meant.
     fn on(&self, skin: &Skin, form: &WhaleForm, length_m: f64) -> Option<usize> {
-        let middle = |triangle: usize| skin.triangles[triangle].iter().map(|corner| skin.vertices[*corner as usize]).sum::<DVec3>() / 3.0;
-        let there = (0..skin.triangles.len()).filter(|triangle| self.regions.contains(&skin.regions[*triangle]));
-        let there: Vec<(usize, DVec3)> = there.map(|triangle| (triangle, middle(triangle))).collect();
-        let best = |(_, one): &&(usize, DVec3), (_, other): &&(usize, DVec3), toward: &dyn Fn(DVec3) -> f64| {
-            toward(*one).total_cmp(&toward(*other))
+        let middle = |triangle: usize| {
+            skin.triangles[triangle]
+                .iter()
+                .map(|corner| skin.vertices[*corner as usize])
+                .sum::<DVec3>()
+                / 3.0
         };
+        let there = (0..skin.triangles.len())
+            .filter(|triangle| self.regions.contains(&skin.regions[*triangle]));
+        let there: Vec<(usize, DVec3)> =
+            there.map(|triangle| (triangle, middle(triangle))).collect();
+        let best =
+            |(_, one): &&(usize, DVec3),
+             (_, other): &&(usize, DVec3),
+             toward: &dyn Fn(DVec3) -> f64| { toward(*one).total_cmp(&toward(*other)) };
         let found = match (self.at)(form) {
             Some(at) => {
-                let score = |place: DVec3| place.dot(self.toward) - STRAY * (place.x - (0.5 - at) * length_m).abs();
+                let score = |place: DVec3| {
+                    place.dot(self.toward) - STRAY * (place.x - (0.5 - at) * length_m).abs()
+                };
                 there.iter().max_by(|one, other| best(one, other, &score))
             }
             None => {
-                let mean = there.iter().map(|(_, place)| *place).sum::<DVec3>() / there.len().max(1) as f64;
+                let mean = there.iter().map(|(_, place)| *place).sum::<DVec3>()
+                    / there.len().max(1) as f64;
                 there.iter().max_by(|one, other| best(one, other, &|place| -place.distance(mean)))
             }
         };

@@ -23,7 +23,13 @@ impl WhaleItem {
     /// A whale of this length that feels the gear, in water of a density; `None` where a figure is missing, which is a problem
     /// already told.
     #[must_use]
-    pub fn kinetic(&self, length_m: f64, skin: &Skin, density_kg_m3: f64, effort: Effort) -> Option<Kinetic> {
+    pub fn kinetic(
+        &self,
+        length_m: f64,
+        skin: &Skin,
+        density_kg_m3: f64,
+        effort: Effort,
+    ) -> Option<Kinetic> {
         let measures = Measures::of(skin, self.density_kg_m3);
         let value = |key| self.entry.value(key);
         let (length, form) = (length_m, self.form_at(length_m));
@@ -35,9 +41,14 @@ impl WhaleItem {
         let fins = [flukes(&form), flippers(&form)];
         let (area, cross) = (length * length, value("drag.cross")?);
         let [side, plan] = [value("drag.side_area")? * area, value("drag.plan_area")? * area];
-        let rolling = fins.map(|[span, chord]| 0.5 * chord * span * span * span * span).iter().sum::<f64>();
+        let rolling =
+            fins.map(|[span, chord]| 0.5 * chord * span * span * span * span).iter().sum::<f64>();
         let muscle = self.muscle(&form, effort)?;
-        let arm = DVec3::new(value("strength.rolling_arm")?, value("strength.steering_arm")?, value("strength.steering_arm")?);
+        let arm = DVec3::new(
+            value("strength.rolling_arm")?,
+            value("strength.steering_arm")?,
+            value("strength.steering_arm")?,
+        );
         Some(Kinetic {
             mass_kg,
             centre_m: measures.centre_m,
@@ -51,14 +62,19 @@ impl WhaleItem {
             drag: AxialDrag {
                 length_m: length,
                 diameter_m,
-                wetted_area_m2: value("drag.wetted_area")? * mass_kg.powf(value("drag.wetted_area_exponent")?),
+                wetted_area_m2: value("drag.wetted_area")?
+                    * mass_kg.powf(value("drag.wetted_area_exponent")?),
                 appendages: value("drag.appendages")?,
                 oscillation: value("drag.oscillation")?,
                 open_mouth: value("drag.open_mouth")?,
                 wide_rad: value("drag.wide_mouth")?,
             },
             side_drag_m2: [cross * side, cross * plan],
-            turn_drag_m5: DVec3::new(cross * rolling, TURNING * cross * plan * area * length, TURNING * cross * side * area * length),
+            turn_drag_m5: DVec3::new(
+                cross * rolling,
+                TURNING * cross * plan * area * length,
+                TURNING * cross * side * area * length,
+            ),
             steering_n_m: arm * (length * muscle.sustained_n),
             muscle,
             steering_time_s: value("strength.steering_time")?,
@@ -70,13 +86,20 @@ impl WhaleItem {
 
     /// The same, dead and afloat: as heavy as what it displaces at rest, with gas in the belly.
     #[must_use]
-    pub fn dead(&self, skin: &Skin, alive: Kinetic, measures: &Measures, density_kg_m3: f64) -> Option<Kinetic> {
+    pub fn dead(
+        &self,
+        skin: &Skin,
+        alive: Kinetic,
+        measures: &Measures,
+        density_kg_m3: f64,
+    ) -> Option<Kinetic> {
         let value = |key| self.entry.value(key);
         let mass_kg = density_kg_m3 * measures.volume_m3 * (1.0 - value("dead.afloat")?);
         let posture = Posture { jaw: value("dead.jaw")?, ..Posture::default() };
         Some(Kinetic {
             mass_kg,
-            centre_m: alive.centre_m + DVec3::Z * (value("dead.weight_above")? * alive.drag.length_m),
+            centre_m: alive.centre_m
+                + DVec3::Z * (value("dead.weight_above")? * alive.drag.length_m),
             inertia_kg_m2: alive.inertia_kg_m2 * (mass_kg / alive.mass_kg),
             hull: Arc::new(Hull::of(skin, &posture)),
             dead: Some(Dead { posture }),
@@ -100,14 +123,23 @@ impl WhaleItem {
 
 /// Half span and mean chord of the flukes [m].
 fn flukes(form: &WhaleForm) -> [f64; 2] {
-    [0.5 * form.flukes.span * form.length_m, 0.5 * (form.flukes.root_chord + form.flukes.tip_chord) * form.length_m]
+    [
+        0.5 * form.flukes.span * form.length_m,
+        0.5 * (form.flukes.root_chord + form.flukes.tip_chord) * form.length_m,
+    ]
 }
 
 /// Reach from the axis and mean chord of the flippers [m].
 fn flippers(form: &WhaleForm) -> [f64; 2] {
     let at = form.flippers.insertion;
-    let nearest = form.stations.iter().min_by(|one, other| (one.at - at).abs().total_cmp(&(other.at - at).abs()));
+    let nearest = form
+        .stations
+        .iter()
+        .min_by(|one, other| (one.at - at).abs().total_cmp(&(other.at - at).abs()));
     let half_width = 0.5 * form.breadth_scale * nearest.map_or(0.0, |station| station.width);
     let reach = half_width + form.flippers.span * form.flippers.droop.cos();
-    [reach * form.length_m, 0.5 * (form.flippers.root_chord + form.flippers.max_chord) * form.length_m]
+    [
+        reach * form.length_m,
+        0.5 * (form.flippers.root_chord + form.flippers.max_chord) * form.length_m,
+    ]
 }

@@ -62,8 +62,16 @@ impl Builder<'_> {
         for (index, piece) in pieces.into_iter().enumerate() {
             let begin_m = along_m;
             along_m += piece.length_m;
-            let end = if index + 1 == count { to } else { self.add_join(line, index + 1, along(&way, along_m / line.length_m)) };
-            let laid_m = if line.laid_m.is_empty() { Vec::new() } else { part_of(&way, [begin_m, along_m].map(|m| m / line.length_m)) };
+            let end = if index + 1 == count {
+                to
+            } else {
+                self.add_join(line, index + 1, along(&way, along_m / line.length_m))
+            };
+            let laid_m = if line.laid_m.is_empty() {
+                Vec::new()
+            } else {
+                part_of(&way, [begin_m, along_m].map(|m| m / line.length_m))
+            };
             self.add_piece(line, piece, (from, end), laid_m);
             from = end;
         }
@@ -76,19 +84,36 @@ impl Builder<'_> {
 
     /// The pieces of a line from its `from` end.
     fn pieces<'l>(&mut self, line: &'l NewLine<'_>) -> Vec<Piece<'l>> {
-        let ends = [&line.make.from_knot, &line.make.to_knot].map(|knot| knot.as_ref().and_then(|knot| self.knot(knot)));
+        let ends = [&line.make.from_knot, &line.make.to_knot]
+            .map(|knot| knot.as_ref().and_then(|knot| self.knot(knot)));
         let Some(inserts) = &line.make.inserts else {
             let (id, length_m) = (line.id.value.clone(), line.length_m);
-            return vec![Piece { id, rope: &line.rope, length_m, left: ends, own: true, sleeve: None }];
+            return vec![Piece {
+                id,
+                rope: &line.rope,
+                length_m,
+                left: ends,
+                own: true,
+                sleeve: None,
+            }];
         };
         if matches!(line.start, LineStart::Catenary | LineStart::Wrapped(_)) {
             let message = "a line that starts in its catenary or in wraps takes no inserts";
-            self.problems.push(inserts.place.error(message, "take the inserts out, or write start = \"straight\""));
+            self.problems.push(
+                inserts.place.error(message, "take the inserts out, or write start = \"straight\""),
+            );
         }
         let starts = starts_from_a(inserts, line.length_m);
         if starts.is_empty() {
-            let message = format!("no insert fits into the {:.2} m of line `{}`", line.length_m, line.id.value);
-            self.problems.push(inserts.place.error(message, "write a shorter `first` or `every`, or a greater `within`"));
+            let message = format!(
+                "no insert fits into the {:.2} m of line `{}`",
+                line.length_m, line.id.value
+            );
+            self.problems.push(
+                inserts
+                    .place
+                    .error(message, "write a shorter `first` or `every`, or a greater `within`"),
+            );
         }
         let at_insert = inserts.knot.as_ref().and_then(|knot| self.knot(knot));
         cut_at(line, inserts, &starts, ends, at_insert)
@@ -114,30 +139,63 @@ impl Builder<'_> {
         self.spec.joints.len() - 1
     }
 
-    fn add_piece(&mut self, line: &NewLine<'_>, piece: Piece<'_>, (from, to): (usize, usize), laid_m: Vec<DVec3>) {
+    fn add_piece(
+        &mut self,
+        line: &NewLine<'_>,
+        piece: Piece<'_>,
+        (from, to): (usize, usize),
+        laid_m: Vec<DVec3>,
+    ) {
         let condition = self.condition(line.make);
         let rope = self.rope(piece.rope, &condition);
-        let strength = rope.map_or_else(Strength::default, |rope| self.strength(rope, &piece, line.make, condition.value));
+        let strength = rope.map_or_else(Strength::default, |rope| {
+            self.strength(rope, &piece, line.make, condition.value)
+        });
         let index = self.spec.lines.len();
         self.name(piece.id.clone(), Part::Line { first: index, last: index }, &line.id.place);
         let (id, length_m) = (piece.id, piece.length_m);
         let rope = rope.unwrap_or(0);
-        self.spec.lines.push(Line { id, rope, from, to, segments_m: Vec::new(), strength, start_m: Vec::new() });
-        self.uncut.push(Uncut { length_m, start: line.start.clone(), laid_m, place: line.id.place.clone() });
+        self.spec.lines.push(Line {
+            id,
+            rope,
+            from,
+            to,
+            segments_m: Vec::new(),
+            strength,
+            start_m: Vec::new(),
+        });
+        self.uncut.push(Uncut {
+            length_m,
+            start: line.start.clone(),
+            laid_m,
+            place: line.id.place.clone(),
+        });
         if let Some((id, item)) = piece.sleeve {
             let rating = self.rating(item, &id);
-            self.add_link_to(&At { value: id, place: item.place.clone() }, rating, index, LineEnd::B);
+            self.add_link_to(
+                &At { value: id, place: item.place.clone() },
+                rating,
+                index,
+                LineEnd::B,
+            );
         }
     }
 
     /// The condition of a line's rope: its own, or the scenario's.
     fn condition(&self, make: &LineMake) -> At<Condition> {
-        let usual = || At { value: self.scenario.rope_condition, place: self.scenario.place.clone() };
+        let usual =
+            || At { value: self.scenario.rope_condition, place: self.scenario.place.clone() };
         make.condition.clone().unwrap_or_else(usual)
     }
 
     /// What a piece keeps of its rope's strength: wear and scatter all along, a knot or splice at each end.
-    fn strength(&self, rope: usize, piece: &Piece<'_>, make: &LineMake, condition: Condition) -> Strength {
+    fn strength(
+        &self,
+        rope: usize,
+        piece: &Piece<'_>,
+        make: &LineMake,
+        condition: Condition,
+    ) -> Strength {
         let item = &self.stock[rope];
         let worn = if condition == Condition::New { 1.0 } else { item.wear_factor };
         let wear = if piece.own { make.wear_factor.unwrap_or(worn) } else { worn };
@@ -148,7 +206,11 @@ impl Builder<'_> {
 
     /// The drawn factor on the strength of a part; 1 where the scenario takes strengths as they are named.
     pub fn scatter(&self, variation: f64, id: &str) -> f64 {
-        if self.scenario.strength_scatter { scatter::factor(self.spec.settings.seed, id, variation) } else { 1.0 }
+        if self.scenario.strength_scatter {
+            scatter::factor(self.spec.settings.seed, id, variation)
+        } else {
+            1.0
+        }
     }
 
     /// Share of strength left at a knot or splice of the library.
@@ -211,7 +273,8 @@ fn cut_at<'l>(
 ) -> Vec<Piece<'l>> {
     let id = &line.id.value;
     // A sleeve is slid over the cut ends: it takes no strength from them.
-    let at_insert = if matches!(inserts.what, Insert::Sleeve(_)) { at_insert.or(Some(1.0)) } else { at_insert };
+    let at_insert =
+        if matches!(inserts.what, Insert::Sleeve(_)) { at_insert.or(Some(1.0)) } else { at_insert };
     let own = |number: usize, length_m: f64, left: [Option<f64>; 2]| Piece {
         id: format!("{id}.{number}"),
         rope: &line.rope,
@@ -234,7 +297,14 @@ fn cut_at<'l>(
                 pieces.push(piece);
                 let id = format!("{id}.insert-{number}");
                 // An insert is rated as made up: its own ends take nothing off.
-                pieces.push(Piece { id, rope, length_m: *length_m, left: [Some(1.0); 2], own: false, sleeve: None });
+                pieces.push(Piece {
+                    id,
+                    rope,
+                    length_m: *length_m,
+                    left: [Some(1.0); 2],
+                    own: false,
+                    sleeve: None,
+                });
             }
         }
     }
@@ -252,7 +322,8 @@ mod tests {
         let text = format!(
             "[inserts]\nrope = \"weak\"\nlength = \"3 ft\"\nevery = \"60 ft\"\ncounted_from = \"{counted_from}\"\nfirst = \"{first}\"\nwithin = {within}\n"
         );
-        let (node, problems) = (crate::tree::read("test.toml", &text).expect("a TOML text"), Problems::default());
+        let (node, problems) =
+            (crate::tree::read("test.toml", &text).expect("a TOML text"), Problems::default());
         LineMake::read(&Fields::of(&node, &problems)).inserts.expect("inserts")
     }
 
@@ -265,7 +336,9 @@ mod tests {
         for (start, expected) in starts.iter().zip(expected) {
             assert!((start - expected).abs() < 1e-9, "{starts:?}");
         }
-        assert!((starts_from_a(&sixty_feet("from", "12 ft", 0.75), 60.0)[0] - 3.6576).abs() < 1e-12);
+        assert!(
+            (starts_from_a(&sixty_feet("from", "12 ft", 0.75), 60.0)[0] - 3.6576).abs() < 1e-12
+        );
         assert!(starts_from_a(&sixty_feet("from", "60 ft", 0.3), 60.0).is_empty());
     }
 }

@@ -14,7 +14,9 @@ use super::builder::{Builder, Part};
 impl Builder<'_> {
     /// The pilot program of the scenario's whale, once the gear is there that its entries may name.
     pub fn add_pilot(&mut self) {
-        let Some(motion) = self.spec.whale.as_ref().map(|whale| Arc::clone(&whale.motion)) else { return };
+        let Some(motion) = self.spec.whale.as_ref().map(|whale| Arc::clone(&whale.motion)) else {
+            return;
+        };
         let Some(swimmer) = &self.scenario.whale else { return };
         let program = self.pilot(&swimmer.pilot, motion.descriptor());
         if let Some(whale) = &mut self.spec.whale {
@@ -24,7 +26,9 @@ impl Builder<'_> {
 
     /// The program of these entries for a motion that declares its acts.
     fn pilot(&self, entries: &[PilotOf], motion: &Descriptor) -> PilotProgram {
-        PilotProgram { entries: entries.iter().filter_map(|entry| self.pilot_entry(entry, motion)).collect() }
+        PilotProgram {
+            entries: entries.iter().filter_map(|entry| self.pilot_entry(entry, motion)).collect(),
+        }
     }
 
     fn pilot_entry(&self, entry: &PilotOf, motion: &Descriptor) -> Option<PilotEntry> {
@@ -35,12 +39,20 @@ impl Builder<'_> {
         let trigger = match &entry.trigger {
             TriggerOf::Time(time_s) => Trigger::Time(*time_s),
             TriggerOf::Touch(part) => Trigger::Touch(*part),
-            TriggerOf::Within(distance_m, of) => Trigger::Within(*distance_m, self.target(of.as_ref())?),
+            TriggerOf::Within(distance_m, of) => {
+                Trigger::Within(*distance_m, self.target(of.as_ref())?)
+            }
             TriggerOf::Depth(depth_m) => Trigger::Depth(*depth_m),
             TriggerOf::Heading(bearing_rad) => Trigger::Heading(*bearing_rad),
             TriggerOf::After(entry) => Trigger::After(*entry),
         };
-        Some(PilotEntry { trigger, delay_s: entry.delay_s, hold_s: entry.hold_s, ramp_s: entry.ramp_s, controls })
+        Some(PilotEntry {
+            trigger,
+            delay_s: entry.delay_s,
+            hold_s: entry.hold_s,
+            ramp_s: entry.ramp_s,
+            controls,
+        })
     }
 
     /// Number of an act; `none` is 0.
@@ -62,7 +74,8 @@ impl Builder<'_> {
             Some(Part::Joint(joint)) => Some(Target::Joint(joint)),
             Some(Part::Line { first, last }) => Some(Target::Lines(first..last + 1)),
             _ => {
-                let is_target = |part| matches!(part, Part::Body(_) | Part::Joint(_) | Part::Line { .. });
+                let is_target =
+                    |part| matches!(part, Part::Body(_) | Part::Joint(_) | Part::Line { .. });
                 self.unknown("line, body or joint", of, is_target);
                 None
             }

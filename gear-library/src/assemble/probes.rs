@@ -14,13 +14,22 @@ impl Builder<'_> {
         for probe in &self.scenario.probes {
             let target = match &probe.part {
                 ProbePart::Tension(line, end) => {
-                    let at_end = |[first, last]: [usize; 2]| if *end == LineEnd::A { first } else { last };
+                    let at_end =
+                        |[first, last]: [usize; 2]| if *end == LineEnd::A { first } else { last };
                     self.line(line).map(|pieces| ProbeTarget::EndTension(at_end(pieces), *end))
                 }
-                ProbePart::Middle(line, axis) => self.whole_line(line).map(|line| ProbeTarget::LineMiddle(line, *axis)),
-                ProbePart::TensionAt(line, length_m) => self.whole_line(line).map(|line| ProbeTarget::TensionAt(line, *length_m)),
-                ProbePart::LineAt(line, length_m, axis) => self.whole_line(line).map(|line| ProbeTarget::LineAt(line, *length_m, *axis)),
-                ProbePart::Height(line, away_m) => self.whole_line(line).map(|line| ProbeTarget::Height(line, *away_m)),
+                ProbePart::Middle(line, axis) => {
+                    self.whole_line(line).map(|line| ProbeTarget::LineMiddle(line, *axis))
+                }
+                ProbePart::TensionAt(line, length_m) => {
+                    self.whole_line(line).map(|line| ProbeTarget::TensionAt(line, *length_m))
+                }
+                ProbePart::LineAt(line, length_m, axis) => {
+                    self.whole_line(line).map(|line| ProbeTarget::LineAt(line, *length_m, *axis))
+                }
+                ProbePart::Height(line, away_m) => {
+                    self.whole_line(line).map(|line| ProbeTarget::Height(line, *away_m))
+                }
                 ProbePart::Energy(form) => Some(ProbeTarget::Energy(*form)),
                 ProbePart::Place(part, axis) => self.placed(part, *axis),
             };
@@ -28,7 +37,9 @@ impl Builder<'_> {
                 let message = format!("there are two probes with the id `{}`", probe.id.value);
                 self.problems.push(probe.id.place.error(message, "give one of them another id"));
             }
-            self.spec.probes.extend(target.map(|target| Probe { id: probe.id.value.clone(), target }));
+            self.spec
+                .probes
+                .extend(target.map(|target| Probe { id: probe.id.value.clone(), target }));
         }
     }
 
@@ -46,7 +57,10 @@ impl Builder<'_> {
         let [first, last] = self.line(id)?;
         if first != last {
             let message = format!("line `{}` is in {} pieces", id.value, last + 1 - first);
-            let help = format!("name the piece whose middle is meant, such as `{}`", self.spec.lines[first].id);
+            let help = format!(
+                "name the piece whose middle is meant, such as `{}`",
+                self.spec.lines[first].id
+            );
             self.problems.push(id.place.error(message, help));
             return None;
         }
@@ -58,7 +72,9 @@ impl Builder<'_> {
             Some(Part::Body(body)) => Some(ProbeTarget::Body(body, axis)),
             Some(Part::Joint(joint)) => Some(ProbeTarget::Joint(joint, axis)),
             _ => {
-                self.unknown("body or joint", id, |part| matches!(part, Part::Body(_) | Part::Joint(_)));
+                self.unknown("body or joint", id, |part| {
+                    matches!(part, Part::Body(_) | Part::Joint(_))
+                });
                 None
             }
         }

@@ -36,7 +36,11 @@ pub(super) struct Setting<'a> {
 
 impl Setting<'_> {
     fn at(&self, id: &str) -> At<String> {
-        let place = self.places.iter().find(|(known, _)| known == id).map_or(&self.usual_place, |(_, place)| place);
+        let place = self
+            .places
+            .iter()
+            .find(|(known, _)| known == id)
+            .map_or(&self.usual_place, |(_, place)| place);
         At { value: id.to_owned(), place: place.clone() }
     }
 
@@ -52,8 +56,13 @@ impl Builder<'_> {
         let mut place = setting.origin_m + setting.orientation * DVec3::from_array(position_m);
         let (level_m, local_m) = (self.spec.water.depth_m, -self.seabed_height(place));
         if local_m <= 0.0 {
-            let message = format!("the seabed rises {:.1} m above the surface under this gear", -local_m);
-            self.problems.push(setting.usual_place.error(message, "move the gear, or make the seabed's slope less steep"));
+            let message =
+                format!("the seabed rises {:.1} m above the surface under this gear", -local_m);
+            self.problems.push(
+                setting
+                    .usual_place
+                    .error(message, "move the gear, or make the seabed's slope less steep"),
+            );
         }
         place.z *= local_m / level_m;
         place
@@ -73,18 +82,27 @@ impl Builder<'_> {
         for joint in &rig.joints {
             let id = setting.named(&joint.id);
             self.name(id.value.clone(), Part::Joint(self.spec.joints.len()), &id.place);
-            self.spec.joints.push(Joint { id: id.value, kind: JointKind::Free, position_m: self.rig_place(joint.position_m, setting) });
+            self.spec.joints.push(Joint {
+                id: id.value,
+                kind: JointKind::Free,
+                position_m: self.rig_place(joint.position_m, setting),
+            });
         }
         let lines = rig.lines.iter().map(|line| self.add_rig_line(line, setting)).collect();
         let first_link = self.spec.links.len();
         for link in &rig.links {
             self.add_rig_link(link, setting);
         }
-        let named = setting.ropes.iter().map(|(line, _)| line).chain(setting.makes.iter().map(|(line, _)| line));
+        let named = setting
+            .ropes
+            .iter()
+            .map(|(line, _)| line)
+            .chain(setting.makes.iter().map(|(line, _)| line));
         for line in named.filter(|line| !rig.lines.iter().any(|known| known.id == line.value)) {
             let known = rig.lines.iter().map(|line| line.id.as_str());
             let help = crate::nearest::hint(&line.value, known);
-            self.problems.push(line.place.error(format!("this gear has no line `{}`", line.value), help));
+            self.problems
+                .push(line.place.error(format!("this gear has no line `{}`", line.value), help));
         }
         (lines, (first_link..self.spec.links.len()).collect())
     }
@@ -94,15 +112,21 @@ impl Builder<'_> {
         let (place, standing) = (self.rig_place(body.position_m, setting), self.standing(setting));
         let (library, density) = (self.library, self.spec.water.density_kg_m3);
         let made = match body.kind {
-            BodyKind::Buoy => library.buoys.iter().find(|buoy| buoy.entry.id == item.value).map(|buoy| {
-                let made = body::of_buoy(id.value.clone(), buoy, density, place, setting.orientation);
-                (made, body::buoy_points(buoy), &buoy.entry.path)
-            }),
-            BodyKind::Trap | BodyKind::Anchor => box_item(library, body.kind, &item.value).map(|item| {
-                let role = if body.kind == BodyKind::Trap { BodyRole::Trap } else { BodyRole::Anchor };
-                let made = body::of_box(id.value.clone(), role, item, density, place, standing);
-                (made, body::box_points(item), &item.entry.path)
-            }),
+            BodyKind::Buoy => {
+                library.buoys.iter().find(|buoy| buoy.entry.id == item.value).map(|buoy| {
+                    let made =
+                        body::of_buoy(id.value.clone(), buoy, density, place, setting.orientation);
+                    (made, body::buoy_points(buoy), &buoy.entry.path)
+                })
+            }
+            BodyKind::Trap | BodyKind::Anchor => {
+                box_item(library, body.kind, &item.value).map(|item| {
+                    let role =
+                        if body.kind == BodyKind::Trap { BodyRole::Trap } else { BodyRole::Anchor };
+                    let made = body::of_box(id.value.clone(), role, item, density, place, standing);
+                    (made, body::box_points(item), &item.entry.path)
+                })
+            }
         };
         let Some((made, points, path)) = made else {
             self.no_item(library_kind(body.kind), &item.value, &item.place);
@@ -117,7 +141,11 @@ impl Builder<'_> {
 
     fn add_rig_line(&mut self, line: &RigLine, setting: &Setting<'_>) -> [usize; 2] {
         let id = setting.named(&line.id);
-        let chosen = setting.ropes.iter().find(|(known, _)| known.value == line.id).map(|(_, rope)| rope.clone());
+        let chosen = setting
+            .ropes
+            .iter()
+            .find(|(known, _)| known.value == line.id)
+            .map(|(_, rope)| rope.clone());
         let rope = chosen.unwrap_or_else(|| setting.at(&line.rope));
         let mut end = |end: &RigEnd| {
             let (RigEnd::Body(part) | RigEnd::Joint(part)) = end;
@@ -125,20 +153,34 @@ impl Builder<'_> {
         };
         let ends = (end(&line.from), end(&line.to));
         let usual = LineMake::default();
-        let make = setting.makes.iter().find(|(known, _)| known.value == line.id).map_or(&usual, |(_, make)| make);
+        let make = setting
+            .makes
+            .iter()
+            .find(|(known, _)| known.value == line.id)
+            .map_or(&usual, |(_, make)| make);
         let laid_m = line.laid_m.iter().map(|place| self.rig_place(*place, setting)).collect();
-        self.add_line(&NewLine { id, rope, ends, length_m: line.length_m, start: LineStart::Straight, laid_m, make })
+        self.add_line(&NewLine {
+            id,
+            rope,
+            ends,
+            length_m: line.length_m,
+            start: LineStart::Straight,
+            laid_m,
+            make,
+        })
     }
 
     fn add_rig_link(&mut self, link: &RigLink, setting: &Setting<'_>) {
-        let (id, item, line) = (setting.named(&link.id), setting.at(&link.item), setting.named(&link.line));
+        let (id, item, line) =
+            (setting.named(&link.id), setting.at(&link.item), setting.named(&link.line));
         let rating = self.rating(&item, &id.value);
         self.add_link(&id, rating, &line, link.end);
     }
 
     /// Rating of a weak link of the library, drawn for the link of this id.
     pub fn rating(&mut self, item: &At<String>, id: &str) -> Option<f64> {
-        let Some(found) = self.library.weak_links.iter().find(|known| known.entry.id == item.value) else {
+        let Some(found) = self.library.weak_links.iter().find(|known| known.entry.id == item.value)
+        else {
             self.no_item(Kind::WeakLink, &item.value, &item.place);
             return None;
         };
@@ -146,7 +188,13 @@ impl Builder<'_> {
         Some(found.rating_n * self.scatter(found.spread, id))
     }
 
-    fn add_link(&mut self, id: &At<String>, rating_n: Option<f64>, line: &At<String>, end: LineEnd) {
+    fn add_link(
+        &mut self,
+        id: &At<String>,
+        rating_n: Option<f64>,
+        line: &At<String>,
+        end: LineEnd,
+    ) {
         let Some(Part::Line { first, last }) = self.part(&line.value) else {
             self.unknown("line", line, |part| matches!(part, Part::Line { .. }));
             return;
@@ -155,17 +203,37 @@ impl Builder<'_> {
     }
 
     /// Puts a weak link at an end of a line of the spec.
-    pub fn add_link_to(&mut self, id: &At<String>, rating_n: Option<f64>, line: usize, end: LineEnd) {
+    pub fn add_link_to(
+        &mut self,
+        id: &At<String>,
+        rating_n: Option<f64>,
+        line: usize,
+        end: LineEnd,
+    ) {
         self.name(id.value.clone(), Part::Link(self.spec.links.len()), &id.place);
-        self.spec.links.push(Link { id: id.value.clone(), line, end, rating_n: rating_n.unwrap_or(0.0), enabled: true });
+        self.spec.links.push(Link {
+            id: id.value.clone(),
+            line,
+            end,
+            rating_n: rating_n.unwrap_or(0.0),
+            enabled: true,
+        });
     }
 
     /// Obstacles of the scenario.
     pub fn add_obstacles(&mut self) {
         for obstacle in &self.scenario.obstacles {
-            let ObstacleOf { id, shape, position_m, orientation, friction, stiffness_n_m2 } = obstacle.clone();
+            let ObstacleOf { id, shape, position_m, orientation, friction, stiffness_n_m2 } =
+                obstacle.clone();
             self.name(id.value.clone(), Part::Obstacle(self.spec.obstacles.len()), &id.place);
-            self.spec.obstacles.push(Obstacle { id: id.value, shape, position_m, orientation, friction, stiffness_n_m2 });
+            self.spec.obstacles.push(Obstacle {
+                id: id.value,
+                shape,
+                position_m,
+                orientation,
+                friction,
+                stiffness_n_m2,
+            });
         }
     }
 
@@ -173,12 +241,22 @@ impl Builder<'_> {
     pub fn add_fixtures(&mut self) {
         for fixture in &self.scenario.fixtures {
             let kind = match (fixture.drive, fixture.pull) {
-                (Some((velocity_m_s, from_s, until_s)), _) => JointKind::Driven { velocity_m_s, from_s, until_s },
+                (Some((velocity_m_s, from_s, until_s)), _) => {
+                    JointKind::Driven { velocity_m_s, from_s, until_s }
+                }
                 (None, Some((force_n, from_s))) => JointKind::Pulled { force_n, from_s },
                 (None, None) => JointKind::Fixed,
             };
-            self.name(fixture.id.value.clone(), Part::Joint(self.spec.joints.len()), &fixture.id.place);
-            self.spec.joints.push(Joint { id: fixture.id.value.clone(), kind, position_m: fixture.position_m });
+            self.name(
+                fixture.id.value.clone(),
+                Part::Joint(self.spec.joints.len()),
+                &fixture.id.place,
+            );
+            self.spec.joints.push(Joint {
+                id: fixture.id.value.clone(),
+                kind,
+                position_m: fixture.position_m,
+            });
         }
     }
 
@@ -186,7 +264,11 @@ impl Builder<'_> {
     pub fn add_free_joints(&mut self) {
         for (id, position_m) in &self.scenario.joints {
             self.name(id.value.clone(), Part::Joint(self.spec.joints.len()), &id.place);
-            self.spec.joints.push(Joint { id: id.value.clone(), kind: JointKind::Free, position_m: *position_m });
+            self.spec.joints.push(Joint {
+                id: id.value.clone(),
+                kind: JointKind::Free,
+                position_m: *position_m,
+            });
         }
     }
 
@@ -204,14 +286,24 @@ impl Builder<'_> {
         for (line, start) in &self.scenario.lines {
             let ends = (self.end(&line.from), self.end(&line.to));
             let (id, rope) = (line.id.clone(), line.rope.clone());
-            self.add_line(&NewLine { id, rope, ends, length_m: line.length_m, start: start.clone(), laid_m: Vec::new(), make: &line.make });
+            self.add_line(&NewLine {
+                id,
+                rope,
+                ends,
+                length_m: line.length_m,
+                start: start.clone(),
+                laid_m: Vec::new(),
+                make: &line.make,
+            });
         }
     }
 
     /// Weak links written into the scenario.
     pub fn add_free_links(&mut self) {
         for link in &self.scenario.links {
-            let rating = link.rating_n.or_else(|| link.item.as_ref().and_then(|item| self.rating(item, &link.id.value)));
+            let rating = link
+                .rating_n
+                .or_else(|| link.item.as_ref().and_then(|item| self.rating(item, &link.id.value)));
             self.add_link(&link.id, rating, &link.line, link.end);
         }
     }

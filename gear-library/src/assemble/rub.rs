@@ -30,13 +30,16 @@ impl Builder<'_> {
         if !self.all_models_are_there(choice) {
             return;
         }
-        let mut friction = Friction { laws: Vec::new(), law_of: Vec::new(), coefficients: Vec::new() };
+        let mut friction =
+            Friction { laws: Vec::new(), law_of: Vec::new(), coefficients: Vec::new() };
         for material in self.materials.clone() {
-            match self.library.frictions.iter().find(|friction| friction.entry.id == material.value) {
+            match self.library.frictions.iter().find(|friction| friction.entry.id == material.value)
+            {
                 Some(file) => {
                     self.uses(&file.entry.path);
                     friction.coefficients.push(file.coefficients);
-                    let laws = Region::ALL.map(|region| self.law(choice, file, region, &mut friction.laws));
+                    let laws = Region::ALL
+                        .map(|region| self.law(choice, file, region, &mut friction.laws));
                     friction.law_of.push(laws);
                 }
                 None => self.no_item(Kind::Friction, &material.value, &material.place),
@@ -56,7 +59,9 @@ impl Builder<'_> {
             if self.hooks.friction(&model.value).is_none() {
                 let ids = self.hooks.ids();
                 let message = format!("no friction model `{}` among the plugins", model.value);
-                self.problems.push(model.place.error(message, hint(&model.value, ids.iter().map(String::as_str))));
+                self.problems.push(
+                    model.place.error(message, hint(&model.value, ids.iter().map(String::as_str))),
+                );
                 all = false;
             }
         }
@@ -64,12 +69,22 @@ impl Builder<'_> {
     }
 
     /// Index of the law of a material on a region among the laws, where it is put if it is new.
-    fn law(&mut self, choice: &FrictionChoice, file: &RopeFriction, region: Region, laws: &mut Vec<FrictionLaw>) -> usize {
+    fn law(
+        &mut self,
+        choice: &FrictionChoice,
+        file: &RopeFriction,
+        region: Region,
+        laws: &mut Vec<FrictionLaw>,
+    ) -> usize {
         let on = choice.on.iter().rev().find(|on| any_holds(&on.surfaces, region));
-        let (model, over): (&At<String>, &Attributes) = on.map_or((&choice.model, &choice.attributes), |on| (&on.model, &on.attributes));
+        let (model, over): (&At<String>, &Attributes) =
+            on.map_or((&choice.model, &choice.attributes), |on| (&on.model, &on.attributes));
         let attributes = over.over(&file.attributes(&model.value, region));
         let Some(law) = self.resolved(&model.value, &attributes) else { return 0 };
-        let same = |known: &FrictionLaw| known.model.descriptor().id == law.model.descriptor().id && known.attributes == law.attributes;
+        let same = |known: &FrictionLaw| {
+            known.model.descriptor().id == law.model.descriptor().id
+                && known.attributes == law.attributes
+        };
         laws.iter().position(same).unwrap_or_else(|| {
             laws.push(law);
             laws.len() - 1
@@ -78,7 +93,8 @@ impl Builder<'_> {
 
     fn resolved(&mut self, model: &str, attributes: &Attributes) -> Option<FrictionLaw> {
         let model = self.hooks.friction(model)?;
-        let values = attributes.resolve(model.descriptor(), self.library, &mut self.used, &self.problems);
+        let values =
+            attributes.resolve(model.descriptor(), self.library, &mut self.used, &self.problems);
         Some(FrictionLaw { attributes: numbers(&values), model })
     }
 }

@@ -39,7 +39,9 @@ impl Builder<'_> {
         if let Some(site) = site {
             self.uses(&site.entry.path);
         }
-        let from_site = |own: Option<f64>, of: fn(&SeaSite) -> f64, usual: f64| own.unwrap_or_else(|| site.map_or(usual, of));
+        let from_site = |own: Option<f64>, of: fn(&SeaSite) -> f64, usual: f64| {
+            own.unwrap_or_else(|| site.map_or(usual, of))
+        };
         let depth_m = from_site(sea.depth_m, |site| site.depth_m, 1.0);
         self.spec.water = Water {
             density_kg_m3: from_site(sea.density_kg_m3, |site| site.density_kg_m3, 0.0),
@@ -62,34 +64,53 @@ impl Builder<'_> {
             Some(speed) => (speed, current.speed_height_m.as_ref().map(|height| height.value)),
             None => site.map_or((0.0, None), |site| (site.current_m_s, site.current_height_m)),
         };
-        if let Some(height) = current.speed_height_m.as_ref().filter(|height| height.value > depth_m) {
+        if let Some(height) =
+            current.speed_height_m.as_ref().filter(|height| height.value > depth_m)
+        {
             let message = format!("`speed_height` is out of the water, which is {depth_m} m deep");
-            self.problems.push(height.place.error(message, "give a height above the seabed within the water"));
+            self.problems.push(
+                height.place.error(message, "give a height above the seabed within the water"),
+            );
         }
         // A site's height may lie above the shallower water of a scenario: there it is the surface.
-        let share = height_m.map_or(1.0, |height| profile.turn(DVec3::X, (height / depth_m).min(1.0)).x);
-        Current { surface_m_s: bearing(current.toward_rad) * (speed / share), profile, tide: current.tide.clone() }
+        let share =
+            height_m.map_or(1.0, |height| profile.turn(DVec3::X, (height / depth_m).min(1.0)).x);
+        Current {
+            surface_m_s: bearing(current.toward_rad) * (speed / share),
+            profile,
+            tide: current.tide.clone(),
+        }
     }
 
     /// A profile in rows: its fastest row is the velocity that the tide turns, the others are measured by it.
     fn tabled(&self, current: &CurrentOf, depth_m: f64) -> Current {
         let by_speed = |row: &&crate::scenario::CurrentRow| row.velocity_m_s.length_squared();
-        let fastest = current.rows.iter().max_by(|one, other| by_speed(one).total_cmp(&by_speed(other)));
+        let fastest =
+            current.rows.iter().max_by(|one, other| by_speed(one).total_cmp(&by_speed(other)));
         let fastest = fastest.map_or(DVec3::ZERO, |row| row.velocity_m_s);
         let whole = fastest.length_squared();
         let left = DVec3::new(-fastest.y, fastest.x, 0.0);
-        let share = |velocity: DVec3, way: DVec3| if whole > 0.0 { velocity.dot(way) / whole } else { 0.0 };
+        let share =
+            |velocity: DVec3, way: DVec3| if whole > 0.0 { velocity.dot(way) / whole } else { 0.0 };
         let mut rows = Vec::new();
         for row in &current.rows {
             let height = row.at.value.share(depth_m);
             if !(-ROUNDING..=1.0 + ROUNDING).contains(&height) {
                 let message = format!("this row is out of the water, which is {depth_m} m deep");
-                self.problems.push(row.at.place.error(message, "give a height above the seabed, or a depth, within the water"));
+                self.problems.push(row.at.place.error(
+                    message,
+                    "give a height above the seabed, or a depth, within the water",
+                ));
             }
             if rows.iter().any(|known: &ProfileRow| (known.height - height).abs() < ROUNDING) {
-                self.problems.push(row.at.place.error("there are two rows at this height", "take one out"));
+                self.problems
+                    .push(row.at.place.error("there are two rows at this height", "take one out"));
             }
-            rows.push(ProfileRow { height, along: share(row.velocity_m_s, fastest), left: share(row.velocity_m_s, left) });
+            rows.push(ProfileRow {
+                height,
+                along: share(row.velocity_m_s, fastest),
+                left: share(row.velocity_m_s, left),
+            });
         }
         rows.sort_by(|one, other| one.height.total_cmp(&other.height));
         Current { surface_m_s: fastest, profile: Profile::Table(rows), tide: current.tide.clone() }
@@ -100,14 +121,22 @@ impl Builder<'_> {
         let (Some(waves), water) = (&self.scenario.sea.waves, &self.spec.water) else { return };
         let (height, period) = waves.value.height_and_period();
         if water.gravity_m_s2 <= 0.0 || water.density_kg_m3 <= 0.0 {
-            self.problems
-                .push(waves.place.error("waves without gravity or water", "give the site gravity and density, or take [waves] out"));
+            self.problems.push(waves.place.error(
+                "waves without gravity or water",
+                "give the site gravity and density, or take [waves] out",
+            ));
             return;
         }
         let greatest = breaking_height(period, water.depth_m, water.gravity_m_s2);
         if height > greatest {
-            let message = format!("waves of {height} m and {period} s break in {} m of water", water.depth_m);
-            self.problems.push(waves.place.error(message, format!("expected {greatest:.2} m at most, or a longer period")));
+            let message =
+                format!("waves of {height} m and {period} s break in {} m of water", water.depth_m);
+            self.problems.push(
+                waves.place.error(
+                    message,
+                    format!("expected {greatest:.2} m at most, or a longer period"),
+                ),
+            );
         }
     }
 
@@ -132,14 +161,24 @@ fn law(current: &CurrentOf, site: Option<&SeaSite>, depth_m: f64) -> Profile {
 
 /// A plane that falls by a slope towards a bearing.
 fn seabed(bed: &Bed, depth_m: f64, site: Option<&SeaSite>) -> Seabed {
-    let from_site = |own: Option<f64>, of: fn(&SeaSite) -> f64, usual: f64| own.unwrap_or_else(|| site.map_or(usual, of));
+    let from_site = |own: Option<f64>, of: fn(&SeaSite) -> f64, usual: f64| {
+        own.unwrap_or_else(|| site.map_or(usual, of))
+    };
     let slope = from_site(bed.slope_rad, |site| site.slope_rad, 0.0);
     let toward = bearing(from_site(bed.toward_rad, |site| site.slope_toward_rad, 0.0));
     Seabed {
         depth_m,
         normal: toward * libm::sin(slope) + DVec3::Z * libm::cos(slope),
-        rope_stiffness_n_m2: from_site(bed.rope_stiffness_n_m2, |site| site.rope_stiffness_n_m2, ROPE_STIFFNESS_N_M2),
-        foot_stiffness_n_m: from_site(bed.foot_stiffness_n_m, |site| site.foot_stiffness_n_m, FOOT_STIFFNESS_N_M),
+        rope_stiffness_n_m2: from_site(
+            bed.rope_stiffness_n_m2,
+            |site| site.rope_stiffness_n_m2,
+            ROPE_STIFFNESS_N_M2,
+        ),
+        foot_stiffness_n_m: from_site(
+            bed.foot_stiffness_n_m,
+            |site| site.foot_stiffness_n_m,
+            FOOT_STIFFNESS_N_M,
+        ),
         rope_friction: from_site(bed.rope_friction, |site| site.rope_friction, ROPE_FRICTION),
     }
 }

@@ -31,7 +31,9 @@ impl Builder<'_> {
             (None, None) => (None, &self.scenario.place),
         };
         let counts = match (asked, self.scenario.segment_m) {
-            (None, Some(longest)) => lengths.iter().map(|length| at_least_one(length / longest)).collect(),
+            (None, Some(longest)) => {
+                lengths.iter().map(|length| at_least_one(length / longest)).collect()
+            }
             (nodes, _) => match share_out(nodes.unwrap_or(USUAL_NODES), &lengths) {
                 Some(counts) => counts,
                 None => return self.too_few(&place.clone(), lengths.len()),
@@ -44,7 +46,8 @@ impl Builder<'_> {
     }
 
     fn too_few(&self, place: &Place, lines: usize) {
-        let help = format!("with {lines} lines there are at least {} nodes: two for each line", 2 * lines);
+        let help =
+            format!("with {lines} lines there are at least {} nodes: two for each line", 2 * lines);
         self.problems.push(place.error("`rope_nodes` is too small for this gear", help));
     }
 
@@ -56,9 +59,12 @@ impl Builder<'_> {
         match self.uncut[index].start.clone() {
             LineStart::Straight => {}
             LineStart::Catenary => self.lay_catenary(index),
-            LineStart::Around { obstacle, turns, hitched } => self.lay_around(index, &obstacle, turns, hitched),
+            LineStart::Around { obstacle, turns, hitched } => {
+                self.lay_around(index, &obstacle, turns, hitched)
+            }
             LineStart::Wrapped(wraps) => {
-                let longest = self.spec.lines[index].segments_m.first().copied().unwrap_or(f64::INFINITY);
+                let longest =
+                    self.spec.lines[index].segments_m.first().copied().unwrap_or(f64::INFINITY);
                 self.lay_wound(index, &wraps, longest);
             }
         }
@@ -68,13 +74,17 @@ impl Builder<'_> {
         let line = &self.spec.lines[index];
         let rope = &self.spec.ropes[line.rope];
         let water = &self.spec.water;
-        let weight = (rope.mass_kg_m - water.density_kg_m3 * rope.displaced_m3_m) * water.gravity_m_s2;
+        let weight =
+            (rope.mass_kg_m - water.density_kg_m3 * rope.displaced_m3_m) * water.gravity_m_s2;
         let (from, to) = (self.joint_place(line.from), self.joint_place(line.to));
         let length = self.uncut[index].length_m;
-        let Some(catenary) = Catenary::between(to - from, length, weight, rope.axial_stiffness_n) else {
+        let Some(catenary) = Catenary::between(to - from, length, weight, rope.axial_stiffness_n)
+        else {
             let message = format!("there is no catenary for line `{}` between its ends", line.id);
-            self.problems
-                .push(self.uncut[index].place.error(message, "mend its length or the places of its ends, or write start = \"straight\""));
+            self.problems.push(self.uncut[index].place.error(
+                message,
+                "mend its length or the places of its ends, or write start = \"straight\"",
+            ));
             return;
         };
         self.lay_along(index, |share| from + catenary.at(length * share));
@@ -87,7 +97,9 @@ impl Builder<'_> {
         let obstacle = &self.spec.obstacles[obstacle];
         let SolidShape::Cylinder { radius_m, .. } = obstacle.shape else {
             let help = "rope starts round an obstacle with shape = \"cylinder\"";
-            return self.problems.push(id.place.error(format!("`{}` is not a cylinder", id.value), help));
+            return self
+                .problems
+                .push(id.place.error(format!("`{}` is not a cylinder", id.value), help));
         };
         let line = &self.spec.lines[index];
         let thick = self.spec.ropes[line.rope].diameter_m;
@@ -106,11 +118,20 @@ impl Builder<'_> {
 
     /// Lays a line along a way that it must be as long as, for it crosses itself there.
     fn lay_way(&mut self, index: usize, way: &[DVec3]) {
-        let (long, length) = (way.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>(), self.uncut[index].length_m);
+        let (long, length) = (
+            way.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>(),
+            self.uncut[index].length_m,
+        );
         if (length / long - 1.0).abs() > MISFIT {
-            let message =
-                format!("line `{}` is {length:.4} m long, its way round with two half hitches {long:.4} m", self.spec.lines[index].id);
-            self.problems.push(self.uncut[index].place.error(message, format!("write length = \"{long:.4} m\", or move its ends")));
+            let message = format!(
+                "line `{}` is {length:.4} m long, its way round with two half hitches {long:.4} m",
+                self.spec.lines[index].id
+            );
+            self.problems.push(
+                self.uncut[index]
+                    .place
+                    .error(message, format!("write length = \"{long:.4} m\", or move its ends")),
+            );
         }
         self.lay_along(index, |share| along(way, share));
     }
@@ -137,7 +158,8 @@ impl Builder<'_> {
             (*first, *last) = (from, to);
         }
         let count = line.segments_m.len();
-        self.spec.lines[index].start_m = (0..=count).map(|k| along(&way, k as f64 / count as f64)).collect();
+        self.spec.lines[index].start_m =
+            (0..=count).map(|k| along(&way, k as f64 / count as f64)).collect();
     }
 
     /// Where a joint lies to begin with [m].
@@ -167,7 +189,11 @@ pub(super) fn along(way: &[DVec3], share: f64) -> DVec3 {
     way.last().copied().unwrap_or_default()
 }
 
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "lengths are positive and bounded by the reader")]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "lengths are positive and bounded by the reader"
+)]
 fn at_least_one(count: f64) -> usize {
     (count - 1e-9).ceil().max(1.0) as usize
 }
@@ -179,7 +205,11 @@ fn share_out(nodes: u64, lengths: &[f64]) -> Option<Vec<usize>> {
     let spare = usize::try_from(nodes).ok()?.checked_sub(2 * lengths.len())?;
     let total: f64 = lengths.iter().sum();
     let shares: Vec<f64> = lengths.iter().map(|length| spare as f64 * length / total).collect();
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "shares are positive and below `spare`")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "shares are positive and below `spare`"
+    )]
     let mut counts: Vec<usize> = shares.iter().map(|share| 1 + share.floor() as usize).collect();
     let mut order: Vec<usize> = (0..lengths.len()).collect();
     order.sort_by(|a, b| shares[*b].fract().total_cmp(&shares[*a].fract()).then(a.cmp(b)));

@@ -17,7 +17,9 @@ impl Builder<'_> {
         let Some(swimmer) = &self.scenario.whale else {
             return;
         };
-        let Some(item) = self.library.whales.iter().find(|whale| whale.entry.id == swimmer.item.value) else {
+        let Some(item) =
+            self.library.whales.iter().find(|whale| whale.entry.id == swimmer.item.value)
+        else {
             self.no_item(Kind::Whale, &swimmer.item.value, &swimmer.item.place);
             return;
         };
@@ -26,18 +28,32 @@ impl Builder<'_> {
         let Some(motion) = self.hooks.motion(&swimmer.motion.value) else {
             let ids = self.hooks.ids();
             let message = format!("no whale motion `{}` among the plugins", swimmer.motion.value);
-            self.problems.push(swimmer.motion.place.error(message, hint(&swimmer.motion.value, ids.iter().map(String::as_str))));
+            self.problems.push(
+                swimmer
+                    .motion
+                    .place
+                    .error(message, hint(&swimmer.motion.value, ids.iter().map(String::as_str))),
+            );
             return;
         };
         let motion = self.with_acts(motion, swimmer, item);
-        let attributes = swimmer.attributes.resolve(motion.descriptor(), self.library, &mut self.used, &self.problems);
+        let attributes = swimmer.attributes.resolve(
+            motion.descriptor(),
+            self.library,
+            &mut self.used,
+            &self.problems,
+        );
         let Some(length_m) = self.length(swimmer, item) else { return };
         let skin = item.skin_for(length_m, swimmer.condition, swimmer.pregnant);
         let measures = Measures::of(&skin, item.density_kg_m3);
         let density_kg_m3 = self.spec.water.density_kg_m3;
         let feels = (swimmer.dead || kinetic.unwrap_or(swimmer.kinetic)).then(|| {
             let alive = item.kinetic(length_m, &skin, density_kg_m3, swimmer.effort)?;
-            if swimmer.dead { item.dead(&skin, alive, &measures, density_kg_m3) } else { Some(alive) }
+            if swimmer.dead {
+                item.dead(&skin, alive, &measures, density_kg_m3)
+            } else {
+                Some(alive)
+            }
         });
         let feels = feels.flatten();
         self.spec.whale = Some(Whale {
@@ -52,7 +68,9 @@ impl Builder<'_> {
             motion,
             motion_attributes: numbers(&attributes),
             pilot: PilotProgram::default(),
-            contact_stiffness_n_m2: swimmer.contact_stiffness_n_m2.unwrap_or(item.contact_stiffness_n_m2),
+            contact_stiffness_n_m2: swimmer
+                .contact_stiffness_n_m2
+                .unwrap_or(item.contact_stiffness_n_m2),
             kinetic: feels,
         });
     }
@@ -60,15 +78,23 @@ impl Builder<'_> {
     /// The whale's length: its own, by its age, or that of the file.
     fn length(&self, swimmer: &Swimmer, item: &WhaleItem) -> Option<f64> {
         if item.mesh.is_some() && (swimmer.pregnant || (swimmer.condition - 1.0).abs() > 0.0) {
-            let help = "leave out `condition` and `pregnant`, or take the mesh out of the whale's file";
-            self.problems
-                .push(swimmer.item.place.error(format!("{} brings its own mesh, whose girth does not change", item.entry.path), help));
+            let help =
+                "leave out `condition` and `pregnant`, or take the mesh out of the whale's file";
+            self.problems.push(swimmer.item.place.error(
+                format!("{} brings its own mesh, whose girth does not change", item.entry.path),
+                help,
+            ));
         }
-        let Some(age) = &swimmer.age_s else { return Some(swimmer.length_m.unwrap_or(item.form.length_m)) };
+        let Some(age) = &swimmer.age_s else {
+            return Some(swimmer.length_m.unwrap_or(item.form.length_m));
+        };
         let law = item.growth.age;
         if law.is_none() {
             let help = "write `length` instead, or the table [age] with `birth`, `one_year` and `tenfold` in the whale's file";
-            self.problems.push(age.place.error(format!("{} does not say how long a whale of some age is", item.entry.path), help));
+            self.problems.push(age.place.error(
+                format!("{} does not say how long a whale of some age is", item.entry.path),
+                help,
+            ));
         }
         law.map(|law| law.length_m(age.value))
     }

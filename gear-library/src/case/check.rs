@@ -96,7 +96,10 @@ pub(super) fn read(node: &Node, problems: &Problems) -> Option<Check> {
     Some(Check { name: name?.value, measure: measure?, limit: limit? })
 }
 
-const MEASURES: [&str; 12] = ["distance", "series", "peak", "value", "mean", "greatest", "rate", "gain", "loss", "sums", "slope", "fall"];
+const MEASURES: [&str; 12] = [
+    "distance", "series", "peak", "value", "mean", "greatest", "rate", "gain", "loss", "sums",
+    "slope", "fall",
+];
 
 fn measure(fields: &Fields<'_>) -> Option<Measure> {
     let known = MEASURES.join(", ");
@@ -111,20 +114,33 @@ fn measure(fields: &Fields<'_>) -> Option<Measure> {
         "greatest" => Some(Measure::Greatest(probe(fields, "of")?, expected(fields)?)),
         "rate" => {
             let from = fields.need_value("from", Quantity::Time, Range::NotNegative);
-            Some(Measure::Rate { of: probe(fields, "of")?, from_s: from?.value, expected: expected(fields)? })
+            Some(Measure::Rate {
+                of: probe(fields, "of")?,
+                from_s: from?.value,
+                expected: expected(fields)?,
+            })
         }
         "gain" => Some(Measure::Gain(probe(fields, "of")?, probe(fields, "over")?)),
         "loss" => Some(Measure::Loss(probe(fields, "of")?, probe(fields, "over")?)),
         "sums" => Some(Measure::Sums),
         "slope" => Some(Measure::Slope(probe(fields, "over")?, expected(fields)?)),
-        _ => Some(Measure::Fall { from: probe(fields, "from")?.value, to: probe(fields, "to")?.value, square: probe(fields, "square")? }),
+        _ => Some(Measure::Fall {
+            from: probe(fields, "from")?.value,
+            to: probe(fields, "to")?.value,
+            square: probe(fields, "square")?,
+        }),
     }
 }
 
 fn mean(fields: &Fields<'_>) -> Option<Measure> {
     let from = fields.need_value("from", Quantity::Time, Range::NotNegative);
     let over = fields.get("over").map_or(Some(1.0), |node| reading(node, fields.problems()));
-    Some(Measure::Mean { of: probe(fields, "of")?, from_s: from?.value, over: over?, expected: expected(fields)? })
+    Some(Measure::Mean {
+        of: probe(fields, "of")?,
+        from_s: from?.value,
+        over: over?,
+        expected: expected(fields)?,
+    })
 }
 
 fn probe(fields: &Fields<'_>, key: &'static str) -> Option<At<String>> {
@@ -135,7 +151,10 @@ fn expected(fields: &Fields<'_>) -> Option<f64> {
     match fields.get("expected") {
         Some(node) => reading(node, fields.problems()),
         None => {
-            fields.missing("expected", "write what should come out, such as \"23.9 N\", \"1.5 m\" or 2.57");
+            fields.missing(
+                "expected",
+                "write what should come out, such as \"23.9 N\", \"1.5 m\" or 2.57",
+            );
             None
         }
     }
@@ -180,12 +199,21 @@ fn limit(fields: &Fields<'_>) -> Option<Limit> {
     match (fields.get("tolerance"), fields.get("between")) {
         (Some(node), None) => {
             let value = reading(node, problems)?;
-            Some(if matches!(node.content, Content::Number(_)) { Limit::Share(value) } else { Limit::Absolute(value) })
+            Some(if matches!(node.content, Content::Number(_)) {
+                Limit::Share(value)
+            } else {
+                Limit::Absolute(value)
+            })
         }
         (None, Some(node)) => match &node.content {
-            Content::List(ends) if ends.len() == 2 => Some(Limit::Between(reading(&ends[0], problems)?, reading(&ends[1], problems)?)),
+            Content::List(ends) if ends.len() == 2 => {
+                Some(Limit::Between(reading(&ends[0], problems)?, reading(&ends[1], problems)?))
+            }
             _ => {
-                problems.push(node.place.error("`between` has not two ends", "write [least, most], such as [0.35, 0.6]"));
+                problems.push(node.place.error(
+                    "`between` has not two ends",
+                    "write [least, most], such as [0.35, 0.6]",
+                ));
                 None
             }
         },

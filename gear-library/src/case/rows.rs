@@ -40,7 +40,15 @@ pub(super) fn read(fields: &Fields<'_>) -> Option<Rows> {
     fields.finish();
     let least = least_of.zip(least.map(|least| least.value));
     let mean_from_s = mean_from.map(|from| from.value);
-    Some(Rows { by: by?, groups: groups?, least, read: read?, mean_from_s, measured: measured?, set })
+    Some(Rows {
+        by: by?,
+        groups: groups?,
+        least,
+        read: read?,
+        mean_from_s,
+        measured: measured?,
+        set,
+    })
 }
 
 /// Numbers or texts.
@@ -84,8 +92,15 @@ impl Rows {
     ///
     /// # Errors
     /// Where a column is not there, or what is needed is no number.
-    pub fn fields(&self, table: &Table, row: usize) -> Result<Vec<(String, String)>, Box<Diagnostic>> {
-        self.set.iter().map(|(field, text)| Ok((field.value.clone(), filled(text, table, row)?))).collect()
+    pub fn fields(
+        &self,
+        table: &Table,
+        row: usize,
+    ) -> Result<Vec<(String, String)>, Box<Diagnostic>> {
+        self.set
+            .iter()
+            .map(|(field, text)| Ok((field.value.clone(), filled(text, table, row)?)))
+            .collect()
     }
 }
 

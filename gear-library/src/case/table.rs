@@ -19,14 +19,19 @@ impl Table {
     /// # Errors
     /// With the line, where a row has more or fewer cells than the heading.
     pub fn read(name: &str, text: &str) -> Result<Self, Box<Diagnostic>> {
-        let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).trim(csv::Trim::All).from_reader(text.as_bytes());
+        let mut reader = csv::ReaderBuilder::new()
+            .comment(Some(b'#'))
+            .trim(csv::Trim::All)
+            .from_reader(text.as_bytes());
         let wrong = |error: &csv::Error| {
             let help = "expected a heading row and rows of as many cells, with commas between; remarks begin with #";
             Box::new(Diagnostic::of_file(name, error.to_string(), help))
         };
-        let cells = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect::<Vec<_>>();
+        let cells =
+            |record: &csv::StringRecord| record.iter().map(str::to_owned).collect::<Vec<_>>();
         let heading = cells(reader.headers().map_err(|error| wrong(&error))?);
-        let rows: Result<Vec<_>, _> = reader.records().map(|record| record.map(|record| cells(&record))).collect();
+        let rows: Result<Vec<_>, _> =
+            reader.records().map(|record| record.map(|record| cells(&record))).collect();
         Ok(Self { name: name.to_owned(), heading, rows: rows.map_err(|error| wrong(&error))? })
     }
 
@@ -49,10 +54,20 @@ impl Table {
     pub fn text(&self, row: usize, column: &str) -> Result<&str, Box<Diagnostic>> {
         let Some(index) = self.heading.iter().position(|name| name == column) else {
             let help = hint(column, self.heading.iter().map(String::as_str));
-            return Err(Box::new(Diagnostic::of_file(&self.name, format!("there is no column `{column}`"), help)));
+            return Err(Box::new(Diagnostic::of_file(
+                &self.name,
+                format!("there is no column `{column}`"),
+                help,
+            )));
         };
         let cell = self.rows.get(row).and_then(|cells| cells.get(index)).map(String::as_str);
-        cell.ok_or_else(|| Box::new(Diagnostic::of_file(&self.name, format!("there is no row {}", row + 1), "the table is shorter")))
+        cell.ok_or_else(|| {
+            Box::new(Diagnostic::of_file(
+                &self.name,
+                format!("there is no row {}", row + 1),
+                "the table is shorter",
+            ))
+        })
     }
 
     /// A cell's number.
@@ -64,7 +79,11 @@ impl Table {
         let number = text.parse().ok().filter(|number: &f64| number.is_finite());
         number.ok_or_else(|| {
             let message = format!("row {}: `{text}` in column `{column}` is no number", row + 1);
-            Box::new(Diagnostic::of_file(&self.name, message, "expected a finite decimal number in SI"))
+            Box::new(Diagnostic::of_file(
+                &self.name,
+                message,
+                "expected a finite decimal number in SI",
+            ))
         })
     }
 
@@ -95,8 +114,14 @@ mod tests {
     fn faults_are_told_by_row_and_column() {
         let table = Table::read("a.csv", TEXT).unwrap();
         let told = table.column("end x").unwrap_err().to_string();
-        assert!(told.contains("a.csv") && told.contains("row 2") && told.contains("`four`"), "{told}");
+        assert!(
+            told.contains("a.csv") && told.contains("row 2") && told.contains("`four`"),
+            "{told}"
+        );
         assert!(table.column("end y").unwrap_err().help.contains("end x"));
-        assert!(Table::read("a.csv", "a,b\n1\n").unwrap_err().message.contains("line"), "a short row");
+        assert!(
+            Table::read("a.csv", "a,b\n1\n").unwrap_err().message.contains("line"),
+            "a short row"
+        );
     }
 }

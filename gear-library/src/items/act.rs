@@ -41,13 +41,23 @@ impl ActItem {
         let head = entry::header(&fields, Kind::Act.word(), problems);
         let file = head.2.clone();
         let entry = entry::body(&fields, Kind::Act, head, id);
-        let after = word(&fields, "after", ("return", After::Return), &[("hold", After::Hold), ("repeat", After::Repeat)]);
+        let after = word(
+            &fields,
+            "after",
+            ("return", After::Return),
+            &[("hold", After::Hold), ("repeat", After::Repeat)],
+        );
         let blend = word(&fields, "blend", ("replace", Blend::Replace), &[("add", Blend::Add)]);
-        let side = word(&fields, "side", ("as-written", Side::AsWritten), &[("touched", Side::Touched)]);
+        let side =
+            word(&fields, "side", ("as-written", Side::AsWritten), &[("touched", Side::Touched)]);
         let mirror = fields.text("mirrored_as");
         let ends_at_touch = parts(&fields);
         let animation = ActAnimation::read(&fields, &file);
-        let (keyed, times) = if fields.get("animation").is_some() { (Vec::new(), Vec::new()) } else { keys(&fields, &file) };
+        let (keyed, times) = if fields.get("animation").is_some() {
+            (Vec::new(), Vec::new())
+        } else {
+            keys(&fields, &file)
+        };
         fields.finish();
         let length_s = if animation.is_some() { 0.0 } else { times.last()?.value };
         check_closed(&keyed, after, length_s, problems);
@@ -69,7 +79,8 @@ impl ActItem {
 
     /// Every file it is made from.
     pub fn files(&self) -> impl Iterator<Item = &str> {
-        std::iter::once(self.entry.path.as_str()).chain(self.animation.iter().map(|animation| animation.file.value.as_str()))
+        std::iter::once(self.entry.path.as_str())
+            .chain(self.animation.iter().map(|animation| animation.file.value.as_str()))
     }
 }
 
@@ -78,13 +89,24 @@ const TURN_RATE_RAD_S: f64 = 0.261_799_387_799_149_4;
 
 /// The clip, and its mirror image where that has a name.
 fn with_mirror(clip: Clip, mirror: Option<At<String>>) -> Vec<Clip> {
-    let other = mirror.map(|id| Clip { id: id.value, name: format!("{}, mirrored", clip.name), side: Side::Mirrored, ..clip.clone() });
+    let other = mirror.map(|id| Clip {
+        id: id.value,
+        name: format!("{}, mirrored", clip.name),
+        side: Side::Mirrored,
+        ..clip.clone()
+    });
     std::iter::once(clip).chain(other).collect()
 }
 
 /// One of a few words; the first where the file has none.
-fn word<T: Copy>(fields: &Fields<'_>, key: &'static str, first: (&str, T), others: &[(&str, T)]) -> T {
-    let all: Vec<&str> = std::iter::once(first.0).chain(others.iter().map(|(word, _)| *word)).collect();
+fn word<T: Copy>(
+    fields: &Fields<'_>,
+    key: &'static str,
+    first: (&str, T),
+    others: &[(&str, T)],
+) -> T {
+    let all: Vec<&str> =
+        std::iter::once(first.0).chain(others.iter().map(|(word, _)| *word)).collect();
     let Some(given) = fields.word(key, &all) else { return first.1 };
     others.iter().find(|(word, _)| *word == given.value).map_or(first.1, |(_, meaning)| *meaning)
 }
@@ -94,7 +116,9 @@ fn parts(fields: &Fields<'_>) -> [bool; BodyPart::ALL.len()] {
     let mut ends = [false; BodyPart::ALL.len()];
     let Some(node) = fields.get("ends_at_touch") else { return ends };
     let names = BodyPart::ALL.map(BodyPart::name);
-    let help = || format!("write true, or a list of parts such as [\"head\"]; parts are {}", names.join(", "));
+    let help = || {
+        format!("write true, or a list of parts such as [\"head\"]; parts are {}", names.join(", "))
+    };
     match &node.content {
         Content::Flag(any) => ends = [*any; BodyPart::ALL.len()],
         Content::List(items) => {
@@ -102,11 +126,16 @@ fn parts(fields: &Fields<'_>) -> [bool; BodyPart::ALL.len()] {
                 let name = if let Content::Text(name) = &item.content { name.as_str() } else { "" };
                 match names.iter().position(|known| *known == name) {
                     Some(part) => ends[part] = true,
-                    None => fields.problems().push(item.place.error(format!("`{name}` is no part of a whale"), hint(name, names))),
+                    None => fields.problems().push(
+                        item.place
+                            .error(format!("`{name}` is no part of a whale"), hint(name, names)),
+                    ),
                 }
             }
         }
-        other => fields.problems().push(node.place.error(format!("`ends_at_touch` is {}", other.noun()), help())),
+        other => fields
+            .problems()
+            .push(node.place.error(format!("`ends_at_touch` is {}", other.noun()), help())),
     }
     ends
 }
@@ -122,7 +151,10 @@ fn keys(fields: &Fields<'_>, file: &Provenance) -> (Vec<Keyed>, Vec<At<f64>>) {
     for node in nodes {
         let key = Fields::of(node, fields.problems());
         if key.get("at").is_none() {
-            key.missing("at", "write the time of the key since the act began, such as at = \"1.5 s\"");
+            key.missing(
+                "at",
+                "write the time of the key since the act began, such as at = \"1.5 s\"",
+            );
         }
         let at = key.figure("at", Quantity::Time, Range::Between(0.0, 3600.0), file);
         for channel in CHANNELS {
@@ -136,7 +168,10 @@ fn keys(fields: &Fields<'_>, file: &Provenance) -> (Vec<Keyed>, Vec<At<f64>>) {
         key.finish();
         let Some(at) = at else { continue };
         if times.last().is_some_and(|earlier| earlier.value >= at.value) {
-            fields.problems().push(at.place.error("keys are not in rising order of `at`", "put them in the order of time"));
+            fields.problems().push(
+                at.place
+                    .error("keys are not in rising order of `at`", "put them in the order of time"),
+            );
         }
         times.push(At { value: at.value, place: at.place });
     }
@@ -144,7 +179,11 @@ fn keys(fields: &Fields<'_>, file: &Provenance) -> (Vec<Keyed>, Vec<At<f64>>) {
 }
 
 /// The values of a channel in a key: one figure, shared out, or a list with one for each joint or side.
-fn channel_key<'a>(key: &Fields<'a>, channel: &'static Channel, file: &Provenance) -> Option<Vec<Figure>> {
+fn channel_key<'a>(
+    key: &Fields<'a>,
+    channel: &'static Channel,
+    file: &Provenance,
+) -> Option<Vec<Figure>> {
     let node = key.get(channel.key)?;
     let places = channel.places();
     let Content::List(items) = &node.content else {
@@ -152,7 +191,12 @@ fn channel_key<'a>(key: &Fields<'a>, channel: &'static Channel, file: &Provenanc
         let most = shares.iter().copied().fold(0.0, f64::max);
         let range = Range::Between(channel.range[0] / most, channel.range[1] / most);
         let figure = read_figure(node, channel.quantity, range, file, key.problems())?;
-        return Some(shares.iter().map(|share| Figure { value: share * figure.value, ..figure.clone() }).collect());
+        return Some(
+            shares
+                .iter()
+                .map(|share| Figure { value: share * figure.value, ..figure.clone() })
+                .collect(),
+        );
     };
     if items.len() != places || places == 1 {
         let message = format!("`{}` has {} values", channel.key, items.len());
@@ -160,22 +204,33 @@ fn channel_key<'a>(key: &Fields<'a>, channel: &'static Channel, file: &Provenanc
         return None;
     }
     let range = Range::Between(channel.range[0], channel.range[1]);
-    items.iter().map(|item| read_figure(item, channel.quantity, range, file, key.problems())).collect()
+    items
+        .iter()
+        .map(|item| read_figure(item, channel.quantity, range, file, key.problems()))
+        .collect()
 }
 
 /// Every joint angle of every key.
 fn angles(keyed: &[Keyed]) -> Vec<(Angle, Figure)> {
     let of_key = |keyed: &Keyed, figures: &[Figure]| -> Vec<(Angle, Figure)> {
         let moved = keyed.channel.moves().into_iter().zip(figures);
-        moved.filter_map(|(moves, figure)| if let Moves::Angle(angle) = moves { Some((angle, figure.clone())) } else { None }).collect()
+        moved
+            .filter_map(|(moves, figure)| {
+                if let Moves::Angle(angle) = moves { Some((angle, figure.clone())) } else { None }
+            })
+            .collect()
     };
-    keyed.iter().flat_map(|keyed| keyed.keys.iter().flat_map(move |(_, figures)| of_key(keyed, figures))).collect()
+    keyed
+        .iter()
+        .flat_map(|keyed| keyed.keys.iter().flat_map(move |(_, figures)| of_key(keyed, figures)))
+        .collect()
 }
 
 /// A curve for each joint or side of a channel.
 fn tracks(keyed: &Keyed, repeats: bool) -> Vec<Track> {
     let track = |(place, moves): (usize, Moves)| {
-        let points: Vec<(f64, f64)> = keyed.keys.iter().map(|(at, figures)| (*at, figures[place].value)).collect();
+        let points: Vec<(f64, f64)> =
+            keyed.keys.iter().map(|(at, figures)| (*at, figures[place].value)).collect();
         Track { moves, curve: Curve::through(&points, repeats) }
     };
     keyed.channel.moves().into_iter().enumerate().map(track).collect()
@@ -189,20 +244,27 @@ fn check_closed(keyed: &[Keyed], after: After, length_s: f64, problems: &Problem
     for Keyed { channel, keys } in keyed {
         let [(first_s, first), .., (last_s, last)] = keys.as_slice() else {
             let place = &keys[0].1[0].place;
-            problems.push(
-                place.error(
-                    format!("`{}` stands in one key alone", channel.key),
-                    "an act that repeats needs it at the start and at the end",
-                ),
-            );
+            problems.push(place.error(
+                format!("`{}` stands in one key alone", channel.key),
+                "an act that repeats needs it at the start and at the end",
+            ));
             continue;
         };
         let place = &last[0].place;
         if *first_s > 0.0 || *last_s < length_s {
-            let message = format!("`{}` does not reach from the start to the end of an act that repeats", channel.key);
-            problems.push(place.error(message, format!("give it in the key at 0 s and in the last key, at {length_s} s")));
-        } else if !channel.turns() && first.iter().zip(last).any(|(first, last)| (first.value - last.value).abs() > 1e-9) {
-            let message = format!("`{}` ends elsewhere than it begins, in an act that repeats", channel.key);
+            let message = format!(
+                "`{}` does not reach from the start to the end of an act that repeats",
+                channel.key
+            );
+            problems.push(place.error(
+                message,
+                format!("give it in the key at 0 s and in the last key, at {length_s} s"),
+            ));
+        } else if !channel.turns()
+            && first.iter().zip(last).any(|(first, last)| (first.value - last.value).abs() > 1e-9)
+        {
+            let message =
+                format!("`{}` ends elsewhere than it begins, in an act that repeats", channel.key);
             problems.push(place.error(message, "give the last key the values of the first"));
         }
     }

@@ -37,11 +37,16 @@ impl ActAnimation {
         let name = fields.text("animation")?;
         if name.value.contains(['/', '\\']) || gltf::Form::of_file(&name.value).is_none() {
             let message = format!("`{}` is no name of an animation", name.value);
-            fields.problems().push(name.place.error(message, "write the name of a .glb or .gltf file that lies beside this one"));
+            fields.problems().push(name.place.error(
+                message,
+                "write the name of a .glb or .gltf file that lies beside this one",
+            ));
             return None;
         }
         if let Some(key) = fields.get("key") {
-            fields.problems().push(key.place.error("both `animation` and [[key]] are given", "leave one of them out"));
+            fields.problems().push(
+                key.place.error("both `animation` and [[key]] are given", "leave one of them out"),
+            );
         }
         let folder = name.place.source.path.rsplit_once('/').map_or("acts", |(folder, _)| folder);
         Some(Self {
@@ -59,12 +64,19 @@ impl ActItem {
         let Some(asked) = self.animation.clone() else { return true };
         let (path, place) = (&asked.file.value, &asked.file.place);
         let Some(bytes) = sources.mesh(path) else {
-            problems.push(place.error(format!("there is no file `{path}`"), hint(path, sources.meshes().map(|(path, _)| path))));
+            problems.push(place.error(
+                format!("there is no file `{path}`"),
+                hint(path, sources.meshes().map(|(path, _)| path)),
+            ));
             return false;
         };
         let form = WhaleForm::right_whale(ANY_LENGTH_M);
         let bones = Skeleton::of(&form, &Sections::of(&form)).bones;
-        match gltf::read_animation(bytes, asked.clip.as_ref().map(|clip| clip.value.as_str()), &bones) {
+        match gltf::read_animation(
+            bytes,
+            asked.clip.as_ref().map(|clip| clip.value.as_str()),
+            &bones,
+        ) {
             Ok(animation) => self.take(&asked, &animation, problems),
             Err(fault) => {
                 problems.push(place.error(format!("`{path}` {}", fault.message), fault.help));
@@ -75,14 +87,26 @@ impl ActItem {
 
     fn take(&mut self, asked: &ActAnimation, animation: &Animation, problems: &Problems) -> bool {
         let repeats = self.clips.iter().any(|clip| clip.after == After::Repeat);
-        let open = |values: &[f64]| values.first().zip(values.last()).is_some_and(|(first, last)| (first - last).abs() > CLOSED_RAD);
-        if let Some((angle, _)) = animation.angles.iter().find(|(_, values)| repeats && open(values)) {
-            let message = format!("`{}` ends elsewhere than it begins, in an act that repeats", angle.name().0);
-            problems.push(asked.file.place.error(message, "give the last key the pose of the first"));
+        let open = |values: &[f64]| {
+            values
+                .first()
+                .zip(values.last())
+                .is_some_and(|(first, last)| (first - last).abs() > CLOSED_RAD)
+        };
+        if let Some((angle, _)) =
+            animation.angles.iter().find(|(_, values)| repeats && open(values))
+        {
+            let message = format!(
+                "`{}` ends elsewhere than it begins, in an act that repeats",
+                angle.name().0
+            );
+            problems
+                .push(asked.file.place.error(message, "give the last key the pose of the first"));
             return false;
         }
         let track = |(angle, values): &(_, Vec<f64>)| {
-            let points: Vec<(f64, f64)> = animation.times_s.iter().copied().zip(values.iter().copied()).collect();
+            let points: Vec<(f64, f64)> =
+                animation.times_s.iter().copied().zip(values.iter().copied()).collect();
             Track { moves: Moves::Angle(*angle), curve: Curve::through(&points, repeats) }
         };
         for clip in &mut self.clips {
@@ -96,8 +120,14 @@ impl ActItem {
             sureness: asked.sureness.unwrap_or(Sureness::Estimate),
             place: asked.file.place.clone(),
         };
-        let ends = |values: &[f64]| [f64::min, f64::max].map(|pick| values.iter().copied().fold(values[0], pick));
-        self.angles = animation.angles.iter().flat_map(|(angle, values)| ends(values).map(|value| (*angle, figure(value)))).collect();
+        let ends = |values: &[f64]| {
+            [f64::min, f64::max].map(|pick| values.iter().copied().fold(values[0], pick))
+        };
+        self.angles = animation
+            .angles
+            .iter()
+            .flat_map(|(angle, values)| ends(values).map(|value| (*angle, figure(value))))
+            .collect();
         true
     }
 }

@@ -51,23 +51,37 @@ impl BoxGear {
     pub(crate) fn from_entry(entry: Entry, problems: &Problems) -> Option<Self> {
         let (mass_kg, wet_weight) = (entry.value("mass")?, entry.figure("wet_weight")?);
         if wet_weight.value >= mass_kg * GRAVITY_M_S2 {
-            let message = format!("`wet_weight` {} is not below the weight in air, {:.0} N", wet_weight.text, mass_kg * GRAVITY_M_S2);
-            problems.push(wet_weight.place.error(message, "what is in the water weighs less there; mend the wet weight or the mass"));
+            let message = format!(
+                "`wet_weight` {} is not below the weight in air, {:.0} N",
+                wet_weight.text,
+                mass_kg * GRAVITY_M_S2
+            );
+            problems.push(wet_weight.place.error(
+                message,
+                "what is in the water weighs less there; mend the wet weight or the mass",
+            ));
         }
         let (start, slide) = (entry.value("start_friction")?, entry.figure("slide_friction")?);
         if slide.value > start {
-            let message = format!("`slide_friction` {} is above `start_friction` {start}", slide.value);
-            problems.push(slide.place.error(message, "a thing that slides grips no better than one at rest"));
+            let message =
+                format!("`slide_friction` {} is above `start_friction` {start}", slide.value);
+            problems.push(
+                slide.place.error(message, "a thing that slides grips no better than one at rest"),
+            );
         }
-        let (ballast_kg, solidity) = (entry.value("ballast").unwrap_or(0.0), entry.value("solidity")?);
-        let (size_m, or) =
-            ([entry.value("length")?, entry.value("width")?, entry.value("height")?], |key, usual| entry.value(key).unwrap_or(usual));
+        let (ballast_kg, solidity) =
+            (entry.value("ballast").unwrap_or(0.0), entry.value("solidity")?);
+        let (size_m, or) = (
+            [entry.value("length")?, entry.value("width")?, entry.value("height")?],
+            |key, usual| entry.value(key).unwrap_or(usual),
+        );
         let item = Self {
             size_m,
             mass_kg,
             wet_weight_n: wet_weight.value,
             drag_coefficient: entry.value("drag_coefficient")?,
-            solidity: ["solidity_ends", "solidity_sides", "solidity_top"].map(|key| or(key, solidity)),
+            solidity: ["solidity_ends", "solidity_sides", "solidity_top"]
+                .map(|key| or(key, solidity)),
             ballast_kg,
             ballast_height_m: or("ballast_height", 0.0),
             ballast_density_kg_m3: or("ballast_density", BRICK_KG_M3),
@@ -91,16 +105,33 @@ impl BoxGear {
             problems.push(place.error(message, help));
         };
         if self.ballast_kg >= self.mass_kg {
-            told("ballast", format!("`ballast` {} kg is not below the `mass`", self.ballast_kg), "the mass has the ballast in it");
+            told(
+                "ballast",
+                format!("`ballast` {} kg is not below the `mass`", self.ballast_kg),
+                "the mass has the ballast in it",
+            );
         } else if self.wire_m3() < 0.0 {
             let litres = 1e3 * (self.ballast_m3() + self.foam_m3);
-            let message = format!("ballast and foam displace {litres:.2} L, more than the {:.2} L of the whole", 1e3 * self.displaced_m3());
+            let message = format!(
+                "ballast and foam displace {litres:.2} L, more than the {:.2} L of the whole",
+                1e3 * self.displaced_m3()
+            );
             let key = if self.foam_m3 > 0.0 { "foam" } else { "ballast" };
-            told(key, message, "the whole displaces what it weighs less in water; mend the ballast, its density, the foam or `wet_weight`");
+            told(
+                key,
+                message,
+                "the whole displaces what it weighs less in water; mend the ballast, its density, the foam or `wet_weight`",
+            );
         }
-        for (key, height) in [("ballast_height", self.ballast_height_m), ("foam_height", self.foam_height_m)] {
+        for (key, height) in
+            [("ballast_height", self.ballast_height_m), ("foam_height", self.foam_height_m)]
+        {
             if height > self.size_m[2] {
-                told(key, format!("`{key}` {height} m is above the box"), "it is measured from the underside up to the `height`");
+                told(
+                    key,
+                    format!("`{key}` {height} m is above the box"),
+                    "it is measured from the underside up to the `height`",
+                );
             }
         }
     }
@@ -132,7 +163,10 @@ impl BoxGear {
             ("starboard", [0.0, -y, z]),
             ("top", [0.0, 0.0, z]),
         ];
-        with_own(usual.map(|(name, at_m)| Point { name: name.to_owned(), at_m }).to_vec(), &self.entry.points)
+        with_own(
+            usual.map(|(name, at_m)| Point { name: name.to_owned(), at_m }).to_vec(),
+            &self.entry.points,
+        )
     }
 
     /// Volume of wire, wood and ballast: `(m g - W) / (ρ g)` in sea water [m³].

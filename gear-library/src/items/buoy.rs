@@ -94,27 +94,46 @@ impl Buoy {
             ("above", [0.0, 0.0, self.length_m / 2.0]),
             ("side", [self.diameter_m / 2.0, 0.0, 0.0]),
         ];
-        with_own(usual.map(|(name, at_m)| Point { name: name.to_owned(), at_m }).to_vec(), &self.entry.points)
+        with_own(
+            usual.map(|(name, at_m)| Point { name: name.to_owned(), at_m }).to_vec(),
+            &self.entry.points,
+        )
     }
 }
 
 /// A sphere is as long as it is wide; anything else says its length, which is no less than its diameter.
-fn float_length(entry: &Entry, shape: BuoyShape, diameter_m: f64, problems: &Problems) -> Option<f64> {
+fn float_length(
+    entry: &Entry,
+    shape: BuoyShape,
+    diameter_m: f64,
+    problems: &Problems,
+) -> Option<f64> {
     match (shape, entry.figure("length")) {
         (BuoyShape::Sphere, None) => Some(diameter_m),
         (BuoyShape::Sphere, Some(length)) => {
-            problems.push(length.place.error("a sphere has no `length`", "take it out, or choose the shape \"bullet\""));
+            problems.push(
+                length.place.error(
+                    "a sphere has no `length`",
+                    "take it out, or choose the shape \"bullet\"",
+                ),
+            );
             None
         }
         (_, Some(length)) if length.value >= diameter_m => Some(length.value),
         (_, Some(length)) => {
             let message = format!("`length` {} is below the diameter", length.text);
-            problems.push(length.place.error(message, "a float lies along its axis: the length is the longer one"));
+            problems.push(
+                length
+                    .place
+                    .error(message, "a float lies along its axis: the length is the longer one"),
+            );
             None
         }
         (_, None) => {
-            problems
-                .push(entry.place.error("`length` is missing", "every shape but a sphere needs the length of its float, such as 14 in"));
+            problems.push(entry.place.error(
+                "`length` is missing",
+                "every shape but a sphere needs the length of its float, such as 14 in",
+            ));
             None
         }
     }
@@ -122,13 +141,20 @@ fn float_length(entry: &Entry, shape: BuoyShape, diameter_m: f64, problems: &Pro
 
 /// A volume beyond the box around the float, or one that sinks under the buoy's own weight, is a slip of the pen.
 fn check_volume(entry: &Entry, length_m: f64, problems: &Problems) {
-    let (Some(volume), Some(diameter), Some(mass)) = (entry.figure("volume"), entry.value("diameter"), entry.value("mass")) else {
+    let (Some(volume), Some(diameter), Some(mass)) =
+        (entry.figure("volume"), entry.value("diameter"), entry.value("mass"))
+    else {
         return;
     };
     let mass = mass + entry.pieces.iter().map(|piece| piece.mass_kg).sum::<f64>();
     let whole = volume.value + entry.pieces.iter().map(|piece| piece.volume_m3).sum::<f64>();
     if volume.value > 1.02 * diameter * diameter * length_m {
-        let message = format!("`volume` {} does not fit into {:.0} × {:.0} mm", volume.text, diameter * 1e3, length_m * 1e3);
+        let message = format!(
+            "`volume` {} does not fit into {:.0} × {:.0} mm",
+            volume.text,
+            diameter * 1e3,
+            length_m * 1e3
+        );
         problems.push(volume.place.error(message, "mend the volume, the diameter or the length"));
     }
     if whole * SEA_WATER_KG_M3 <= mass {

@@ -47,7 +47,9 @@ impl Channel {
     #[must_use]
     pub fn shares(&self) -> Vec<f64> {
         match self.kind {
-            Of::Spine(_, bends) => bends.iter().map(|bend| bend / bends.iter().sum::<f64>()).collect(),
+            Of::Spine(_, bends) => {
+                bends.iter().map(|bend| bend / bends.iter().sum::<f64>()).collect()
+            }
             Of::Pair(_) | Of::One(_) => vec![1.0; self.places()],
         }
     }
@@ -56,7 +58,9 @@ impl Channel {
     #[must_use]
     pub fn moves(&self) -> Vec<Moves> {
         match self.kind {
-            Of::Spine(angle, _) | Of::Pair(angle) => (0..self.places()).map(|place| Moves::Angle(angle(place))).collect(),
+            Of::Spine(angle, _) | Of::Pair(angle) => {
+                (0..self.places()).map(|place| Moves::Angle(angle(place))).collect()
+            }
             Of::One(moves) => vec![moves],
         }
     }
@@ -71,8 +75,12 @@ impl Channel {
     #[must_use]
     pub fn expected(&self) -> String {
         match self.kind {
-            Of::Spine(..) => format!("expected the bend of the whole spine, or a list of {SPINE_JOINTS} from the neck aft"),
-            Of::Pair(_) => "expected one angle for both sides, or a list of two: left, right".to_owned(),
+            Of::Spine(..) => format!(
+                "expected the bend of the whole spine, or a list of {SPINE_JOINTS} from the neck aft"
+            ),
+            Of::Pair(_) => {
+                "expected one angle for both sides, or a list of two: left, right".to_owned()
+            }
             Of::One(_) => format!("expected one value: {}", self.help),
         }
     }
@@ -82,16 +90,39 @@ const fn spine(key: &'static str, most_deg: f64, of: Of, help: &'static str) -> 
     angles(key, [-most_deg, most_deg], of, help)
 }
 
-const fn angles(key: &'static str, [least_deg, most_deg]: [f64; 2], kind: Of, help: &'static str) -> Channel {
-    Channel { key, quantity: Quantity::Angle, range: [least_deg * DEGREE, most_deg * DEGREE], help, kind }
+const fn angles(
+    key: &'static str,
+    [least_deg, most_deg]: [f64; 2],
+    kind: Of,
+    help: &'static str,
+) -> Channel {
+    Channel {
+        key,
+        quantity: Quantity::Angle,
+        range: [least_deg * DEGREE, most_deg * DEGREE],
+        help,
+        kind,
+    }
 }
 
 const fn control(key: &'static str, least: f64, control: Control, help: &'static str) -> Channel {
-    Channel { key, quantity: Quantity::Ratio, range: [least, 1.0], help, kind: Of::One(Moves::Control(control)) }
+    Channel {
+        key,
+        quantity: Quantity::Ratio,
+        range: [least, 1.0],
+        help,
+        kind: Of::One(Moves::Control(control)),
+    }
 }
 
 const fn turn(key: &'static str, turn: Turn, help: &'static str) -> Channel {
-    Channel { key, quantity: Quantity::Angle, range: [-100.0 * TAU, 100.0 * TAU], help, kind: Of::One(Moves::Turn(turn)) }
+    Channel {
+        key,
+        quantity: Quantity::Angle,
+        range: [-100.0 * TAU, 100.0 * TAU],
+        help,
+        kind: Of::One(Moves::Turn(turn)),
+    }
 }
 
 const DEGREE: f64 = PI / 180.0;
@@ -109,21 +140,71 @@ pub const CHANNELS: &[Channel] = &[
         Of::Spine(Angle::SpinePitch, &PITCH),
         "spine bent down (positive, head and tail down) or arched, in all or joint by joint",
     ),
-    spine("spine_yaw", 15.0, Of::Spine(Angle::SpineYaw, &YAW), "spine bent sideways, positive swings what lies aft to starboard"),
-    spine("spine_roll", 5.0, Of::Spine(Angle::SpineRoll, &ROLL), "spine twisted, positive turns what lies aft starboard side down"),
-    angles("fluke_pitch", [-60.0, 60.0], Of::One(Moves::Angle(Angle::FlukePitch)), "flukes, trailing edge down"),
+    spine(
+        "spine_yaw",
+        15.0,
+        Of::Spine(Angle::SpineYaw, &YAW),
+        "spine bent sideways, positive swings what lies aft to starboard",
+    ),
+    spine(
+        "spine_roll",
+        5.0,
+        Of::Spine(Angle::SpineRoll, &ROLL),
+        "spine twisted, positive turns what lies aft starboard side down",
+    ),
+    angles(
+        "fluke_pitch",
+        [-60.0, 60.0],
+        Of::One(Moves::Angle(Angle::FlukePitch)),
+        "flukes, trailing edge down",
+    ),
     angles("fluke_flex", [-30.0, 30.0], Of::Pair(Angle::FlukeFlex), "fluke blades bent, tips up"),
-    angles("flipper_sweep", [-60.0, 80.0], Of::Pair(Angle::FlipperSweep), "flippers swept aft from rest; negative forward"),
-    angles("flipper_raise", [-80.0, 60.0], Of::Pair(Angle::FlipperRaise), "flippers abducted, tips up; negative adducted"),
-    angles("flipper_twist", [-60.0, 60.0], Of::Pair(Angle::FlipperTwist), "flippers pronated, leading edge down; negative supinated"),
-    angles("flipper_flex", [-30.0, 30.0], Of::Pair(Angle::FlipperFlex), "flipper blades bent, tips up"),
-    angles("jaw", [0.0, 45.0], Of::One(Moves::Angle(Angle::Jaw)), "jaw dropped; the control `mouth` opens it as swimming does"),
+    angles(
+        "flipper_sweep",
+        [-60.0, 80.0],
+        Of::Pair(Angle::FlipperSweep),
+        "flippers swept aft from rest; negative forward",
+    ),
+    angles(
+        "flipper_raise",
+        [-80.0, 60.0],
+        Of::Pair(Angle::FlipperRaise),
+        "flippers abducted, tips up; negative adducted",
+    ),
+    angles(
+        "flipper_twist",
+        [-60.0, 60.0],
+        Of::Pair(Angle::FlipperTwist),
+        "flippers pronated, leading edge down; negative supinated",
+    ),
+    angles(
+        "flipper_flex",
+        [-30.0, 30.0],
+        Of::Pair(Angle::FlipperFlex),
+        "flipper blades bent, tips up",
+    ),
+    angles(
+        "jaw",
+        [0.0, 45.0],
+        Of::One(Moves::Angle(Angle::Jaw)),
+        "jaw dropped; the control `mouth` opens it as swimming does",
+    ),
     angles("lips", [0.0, 60.0], Of::Pair(Angle::Lips), "lower lips turned out"),
     turn("roll", Turn::Roll, "turned to starboard since the act began"),
     turn("pitch", Turn::Pitch, "turned nose up since the act began"),
     turn("yaw", Turn::Yaw, "turned to port since the act began"),
-    angles("bank", [-360.0, 360.0], Of::One(Moves::Bank), "roll against the horizon that it turns to, starboard side down"),
-    angles("climb", [-85.0, 85.0], Of::One(Moves::Climb), "pitch against the horizon that it turns to, nose up"),
+    angles(
+        "bank",
+        [-360.0, 360.0],
+        Of::One(Moves::Bank),
+        "roll against the horizon that it turns to, starboard side down",
+    ),
+    angles(
+        "climb",
+        [-85.0, 85.0],
+        Of::One(Moves::Climb),
+        "pitch against the horizon that it turns to, nose up",
+    ),
     control("speed", 0.0, Control::Speed, "swim speed as the control has it"),
     control("burst", 0.0, Control::Burst, "burst as the control has it"),
     control("mouth", 0.0, Control::Mouth, "mouth as the control has it"),

@@ -39,7 +39,11 @@ impl RopeFriction {
         let head = entry::header(&fields, Kind::Friction.word(), problems);
         let file = head.2.clone();
         let entry = entry::body(&fields, Kind::Friction, head, id);
-        let models = fields.tables("model").iter().filter_map(|node| model_figures(node, &file, problems)).collect();
+        let models = fields
+            .tables("model")
+            .iter()
+            .filter_map(|node| model_figures(node, &file, problems))
+            .collect();
         fields.finish();
         let mut coefficients = [0.0; Region::ALL.len()];
         for (place, region) in coefficients.iter_mut().zip(Region::ALL) {
@@ -50,18 +54,27 @@ impl RopeFriction {
 
     /// What the file says of a model's attributes on a region; of two entries the later counts.
     pub(crate) fn attributes(&self, model: &str, region: Region) -> Attributes {
-        let holds = |figures: &&ModelFigures| figures.model.value == model && surface::any_holds(&figures.surfaces, region);
-        self.models.iter().filter(holds).fold(Attributes::default(), |earlier, later| later.attributes.over(&earlier))
+        let holds = |figures: &&ModelFigures| {
+            figures.model.value == model && surface::any_holds(&figures.surfaces, region)
+        };
+        self.models
+            .iter()
+            .filter(holds)
+            .fold(Attributes::default(), |earlier, later| later.attributes.over(&earlier))
     }
 }
 
 /// A table of `[[model]]`.
 fn model_figures(node: &Node, file: &Provenance, problems: &Problems) -> Option<ModelFigures> {
     let fields = Fields::of(node, problems);
-    let model = fields.need_text("id", "write the id of a friction model, such as \"org.endline.friction.baleen\"");
+    let model = fields.need_text(
+        "id",
+        "write the id of a friction model, such as \"org.endline.friction.baleen\"",
+    );
     let surfaces = surface::read(&fields, "surfaces");
-    let attributes =
-        fields.rest().into_iter().filter_map(|(key, place, node)| Some((key.clone(), place.clone(), sourced(node, file, problems)?)));
+    let attributes = fields.rest().into_iter().filter_map(|(key, place, node)| {
+        Some((key.clone(), place.clone(), sourced(node, file, problems)?))
+    });
     let attributes = Attributes(attributes.collect());
     fields.finish();
     Some(ModelFigures { model: model?, surfaces, attributes })

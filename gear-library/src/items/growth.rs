@@ -51,21 +51,18 @@ impl Growth {
     /// Reads the laws of a file that has been checked.
     pub(crate) fn of(entry: &Entry) -> Self {
         let value = |key: &str| entry.value(key);
-        let all = |[one, two, three]: [&'static str; 3]| Some([value(one)?, value(two)?, value(three)?]);
+        let all =
+            |[one, two, three]: [&'static str; 3]| Some([value(one)?, value(two)?, value(three)?]);
         Self {
             mouth_offset_m: value("head.mouth_offset").unwrap_or(0.0),
             baleen_offset_m: value("head.baleen_offset").unwrap_or(0.0),
-            head_width: value("head.width").map(|share| [share, value("head.width_offset").unwrap_or(0.0)]),
-            mass: all(["mass.length", "mass.mass", "mass.exponent"]).map(|[length_m, mass_kg, exponent]| MassLaw {
-                length_m,
-                mass_kg,
-                exponent,
-            }),
-            age: all(["age.birth", "age.one_year", "age.tenfold"]).map(|[birth_m, at_one_m, per_tenfold_m]| AgeLaw {
-                birth_m,
-                at_one_m,
-                per_tenfold_m,
-            }),
+            head_width: value("head.width")
+                .map(|share| [share, value("head.width_offset").unwrap_or(0.0)]),
+            mass: all(["mass.length", "mass.mass", "mass.exponent"])
+                .map(|[length_m, mass_kg, exponent]| MassLaw { length_m, mass_kg, exponent }),
+            age: all(["age.birth", "age.one_year", "age.tenfold"]).map(
+                |[birth_m, at_one_m, per_tenfold_m]| AgeLaw { birth_m, at_one_m, per_tenfold_m },
+            ),
         }
     }
 
@@ -73,7 +70,8 @@ impl Growth {
     pub(crate) fn proportion(&self, form: &mut WhaleForm) {
         let length_m = form.length_m;
         form.head.mouth = (form.head.mouth + self.mouth_offset_m / length_m).clamp(0.08, 0.4);
-        form.head.baleen = (form.head.baleen + self.baleen_offset_m / length_m).max(LEAST_BALEEN.min(form.head.baleen));
+        form.head.baleen = (form.head.baleen + self.baleen_offset_m / length_m)
+            .max(LEAST_BALEEN.min(form.head.baleen));
         if let Some([share, offset_m]) = self.head_width {
             let wide = share + offset_m / length_m;
             let table = width_at(&form.stations, HEAD_WIDTH[0]);
@@ -111,5 +109,8 @@ impl AgeLaw {
 /// Width of the table at a place, straight between its stations [share of length].
 fn width_at(stations: &[Station], at: f64) -> f64 {
     let between = stations.windows(2).find(|pair| pair[0].at <= at && at <= pair[1].at);
-    between.map_or(0.0, |pair| pair[0].width + (pair[1].width - pair[0].width) * (at - pair[0].at) / (pair[1].at - pair[0].at))
+    between.map_or(0.0, |pair| {
+        pair[0].width
+            + (pair[1].width - pair[0].width) * (at - pair[0].at) / (pair[1].at - pair[0].at)
+    })
 }

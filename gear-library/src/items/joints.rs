@@ -47,18 +47,35 @@ impl Joints {
             return None;
         };
         let of_all = provenance_over(&table, file);
-        let ranges = JointRanges { least: Posture::default(), most: Posture::default(), spine_total: [0.0; 3] };
+        let ranges = JointRanges {
+            least: Posture::default(),
+            most: Posture::default(),
+            spine_total: [0.0; 3],
+        };
         let mut joints = Self { ranges, figures: Vec::new() };
-        let spine = SPINE.iter().enumerate().map(|(axis, name)| joints.spine(&table, axis, name, &of_all).is_some());
+        let spine = SPINE
+            .iter()
+            .enumerate()
+            .map(|(axis, name)| joints.spine(&table, axis, name, &of_all).is_some());
         let mut complete: Vec<bool> = spine.collect();
-        complete.extend(PAIRED.iter().map(|(name, angle)| joints.pair(&table, name, *angle, &of_all).is_some()));
+        complete.extend(
+            PAIRED.iter().map(|(name, angle)| joints.pair(&table, name, *angle, &of_all).is_some()),
+        );
         table.finish();
         complete.into_iter().all(|read| read).then_some(joints)
     }
 
     /// `spine_yaw = { each = ["5 deg", …], total = "75 deg" }`.
-    fn spine(&mut self, table: &Fields<'_>, axis: usize, name: &'static str, of_all: &Provenance) -> Option<()> {
-        let example = format!("{name} = {{ each = [\"5 deg\", … {SPINE_JOINTS} in all, from the neck aft], total = \"60 deg\" }}");
+    fn spine(
+        &mut self,
+        table: &Fields<'_>,
+        axis: usize,
+        name: &'static str,
+        of_all: &Provenance,
+    ) -> Option<()> {
+        let example = format!(
+            "{name} = {{ each = [\"5 deg\", … {SPINE_JOINTS} in all, from the neck aft], total = \"60 deg\" }}"
+        );
         let inner = open(table, name, &example)?;
         let row = provenance_over(&inner, of_all);
         let total = bound(&inner, "total", Range::Between(0.0, TAU), &row);
@@ -70,13 +87,24 @@ impl Joints {
             self.ranges.set(Angle::SPINE[axis](joint), [-figure.value, figure.value]);
         }
         self.figures.push((format!("{name}.total"), total));
-        self.figures.extend(each.into_iter().enumerate().map(|(joint, figure)| (format!("{name}.each.{joint}"), figure)));
+        self.figures.extend(
+            each.into_iter()
+                .enumerate()
+                .map(|(joint, figure)| (format!("{name}.each.{joint}"), figure)),
+        );
         Some(())
     }
 
     /// `jaw = { least = "0 deg", most = "25 deg" }`.
-    fn pair(&mut self, table: &Fields<'_>, name: &'static str, angle: fn(usize) -> Angle, of_all: &Provenance) -> Option<()> {
-        let inner = open(table, name, &format!("{name} = {{ least = \"-10 deg\", most = \"10 deg\" }}"))?;
+    fn pair(
+        &mut self,
+        table: &Fields<'_>,
+        name: &'static str,
+        angle: fn(usize) -> Angle,
+        of_all: &Provenance,
+    ) -> Option<()> {
+        let inner =
+            open(table, name, &format!("{name} = {{ least = \"-10 deg\", most = \"10 deg\" }}"))?;
         let row = provenance_over(&inner, of_all);
         let least = bound(&inner, "least", Range::Between(-PI, 0.0), &row);
         let most = bound(&inner, "most", Range::Between(0.0, PI), &row);
@@ -105,17 +133,28 @@ fn bound(inner: &Fields<'_>, key: &'static str, range: Range, row: &Provenance) 
     inner.figure(key, Quantity::Angle, range, row)
 }
 
-fn each(inner: &Fields<'_>, list: Option<&Node>, row: &Provenance, example: &str) -> Option<Vec<Figure>> {
+fn each(
+    inner: &Fields<'_>,
+    list: Option<&Node>,
+    row: &Provenance,
+    example: &str,
+) -> Option<Vec<Figure>> {
     let Some(Node { content: Content::List(items), place }) = list else {
         inner.missing("each", format!("write {example}"));
         return None;
     };
     if items.len() != SPINE_JOINTS {
         let message = format!("`each` has {} angles", items.len());
-        inner.problems().push(place.error(message, format!("write {SPINE_JOINTS}, one for each spine joint from the neck aft")));
+        inner.problems().push(place.error(
+            message,
+            format!("write {SPINE_JOINTS}, one for each spine joint from the neck aft"),
+        ));
         return None;
     }
     let range = Range::Between(0.0, FRAC_PI_2);
-    let read: Vec<_> = items.iter().map(|item| read_figure(item, Quantity::Angle, range, row, inner.problems())).collect();
+    let read: Vec<_> = items
+        .iter()
+        .map(|item| read_figure(item, Quantity::Angle, range, row, inner.problems()))
+        .collect();
     read.into_iter().collect()
 }

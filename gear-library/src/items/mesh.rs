@@ -27,12 +27,18 @@ impl WhaleMesh {
         let name = fields.text("mesh")?;
         if name.value.contains(['/', '\\']) || gltf::Form::of_file(&name.value).is_none() {
             let message = format!("`{}` is no name of a mesh", name.value);
-            fields.problems().push(name.place.error(message, "write the name of a .glb or .gltf file that lies beside this one"));
+            fields.problems().push(name.place.error(
+                message,
+                "write the name of a .glb or .gltf file that lies beside this one",
+            ));
             return None;
         }
         let folder = name.place.source.path.rsplit_once('/').map_or("", |(folder, _)| folder);
         let folder = folder.rsplit('/').next().unwrap_or_default();
-        Some(Self { file: At { value: format!("{folder}/{}", name.value), place: name.place }, skin: None })
+        Some(Self {
+            file: At { value: format!("{folder}/{}", name.value), place: name.place },
+            skin: None,
+        })
     }
 }
 
@@ -59,12 +65,19 @@ impl WhaleItem {
         let Some(mesh) = &mut self.mesh else { return true };
         let (path, place) = (&mesh.file.value, &mesh.file.place);
         let Some(bytes) = sources.mesh(path) else {
-            problems.push(place.error(format!("there is no file `{path}`"), hint(path, sources.meshes().map(|(path, _)| path))));
+            problems.push(place.error(
+                format!("there is no file `{path}`"),
+                hint(path, sources.meshes().map(|(path, _)| path)),
+            ));
             return false;
         };
         match gltf::read(bytes, &skin_of(&self.form)) {
             Ok(skin) => mesh.skin = Some(Arc::new(skin)),
-            Err(faults) => problems.extend(faults.into_iter().map(|fault| place.error(format!("`{path}` {}", fault.message), fault.help))),
+            Err(faults) => problems.extend(
+                faults
+                    .into_iter()
+                    .map(|fault| place.error(format!("`{path}` {}", fault.message), fault.help)),
+            ),
         }
         mesh.skin.is_some()
     }

@@ -38,7 +38,10 @@ fn piece(node: &Node, file: &Provenance, problems: &Problems) -> Option<BuoyPiec
     let row = provenance_over(&fields, file);
     let need = |key, quantity: Quantity, range| {
         if fields.get(key).is_none() {
-            fields.missing(key, format!("expected {} such as {}", quantity.noun(), quantity.examples()));
+            fields.missing(
+                key,
+                format!("expected {} such as {}", quantity.noun(), quantity.examples()),
+            );
         }
         fields.figure(key, quantity, range, &row)
     };
@@ -67,6 +70,7 @@ fn piece(node: &Node, file: &Provenance, problems: &Problems) -> Option<BuoyPiec
 
 fn check_volume(volume: Option<&Figure>, solid: f64, problems: &Problems) {
     let Some(volume) = volume.filter(|volume| volume.value > 1.02 * solid) else { return };
-    let message = format!("`volume` {} is more than the whole cylinder's {:.2} L", volume.text, 1e3 * solid);
+    let message =
+        format!("`volume` {} is more than the whole cylinder's {:.2} L", volume.text, 1e3 * solid);
     problems.push(volume.place.error(message, "mend the volume, the diameter or the length"));
 }

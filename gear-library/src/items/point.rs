@@ -36,12 +36,18 @@ fn point(node: &Node, file: &Provenance, problems: &Problems) -> Option<(At<Stri
     let name = fields.need_text("name", "write a name such as \"eye\"");
     let row = provenance_over(&fields, file);
     if fields.get("at").is_none() {
-        fields.missing("at", "write along, to port and up from the middle, as [\"0.4 m\", \"0 m\", \"0.1 m\"]");
+        fields.missing(
+            "at",
+            "write along, to port and up from the middle, as [\"0.4 m\", \"0 m\", \"0.1 m\"]",
+        );
     }
     let at = fields.values("at", Quantity::Length, &[3]);
     if row.source.is_none() || row.sureness.is_none() {
         let message = format!("`{}` has no source or no sureness", node.place.field);
-        problems.push(node.place.error(message, "write source = \"…\" and sureness = \"measured\" here, or for the whole file"));
+        problems.push(node.place.error(
+            message,
+            "write source = \"…\" and sureness = \"measured\" here, or for the whole file",
+        ));
     }
     fields.finish();
     let name = name?;

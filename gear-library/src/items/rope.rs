@@ -162,13 +162,19 @@ impl Rope {
     ///
     /// # Errors
     /// The key of the figure that is missing for it.
-    pub fn in_condition(&self, condition: Condition) -> Result<endline_sim::model::Rope, &'static str> {
+    pub fn in_condition(
+        &self,
+        condition: Condition,
+    ) -> Result<endline_sim::model::Rope, &'static str> {
         let mut rope = self.to_model();
         match condition {
             Condition::Secant => return Ok(rope),
-            Condition::Worked => rope.axial_stiffness_n = self.worked_stiffness_n.ok_or("worked_stiffness")?,
+            Condition::Worked => {
+                rope.axial_stiffness_n = self.worked_stiffness_n.ok_or("worked_stiffness")?
+            }
             Condition::New => {
-                let (toe, stretch) = (self.toe.ok_or("toe")?, self.stretch_at_break.ok_or("stretch_at_break")?);
+                let (toe, stretch) =
+                    (self.toe.ok_or("toe")?, self.stretch_at_break.ok_or("stretch_at_break")?);
                 rope.axial_stiffness_n = toe * self.stiffness_n;
                 rope.axial_stiffening_n = (1.0 - toe) * self.stiffness_n / stretch;
             }
@@ -184,10 +190,16 @@ fn check_damping(entry: &Entry, problems: &Problems) {
     match (entry.figure("damping"), entry.figure("damping_ratio")) {
         (None, None) => {
             let mut place = entry.place.clone();
-            place.field = if place.field.is_empty() { "damping".to_owned() } else { format!("{}.damping", place.field) };
+            place.field = if place.field.is_empty() {
+                "damping".to_owned()
+            } else {
+                format!("{}.damping", place.field)
+            };
             problems.push(place.error("`damping` is missing", help));
         }
-        (Some(_), Some(ratio)) => problems.push(ratio.place.error("both `damping` and `damping_ratio` are given", help)),
+        (Some(_), Some(ratio)) => {
+            problems.push(ratio.place.error("both `damping` and `damping_ratio` are given", help))
+        }
         _ => {}
     }
 }
@@ -199,7 +211,9 @@ fn wet_weight(mass_kg_m: f64, density_kg_m3: f64) -> f64 {
 
 /// A stated wet weight must agree with mass and density to 2 % of the weight in air.
 fn check_wet_weight(entry: &Entry, problems: &Problems) {
-    let (Some(stated), Some(mass), Some(density)) = (entry.figure("wet_weight"), entry.value("mass"), entry.value("density")) else {
+    let (Some(stated), Some(mass), Some(density)) =
+        (entry.figure("wet_weight"), entry.value("mass"), entry.value("density"))
+    else {
         return;
     };
     let derived = wet_weight(mass, density);
@@ -208,7 +222,10 @@ fn check_wet_weight(entry: &Entry, problems: &Problems) {
     }
     let shown = format_si((derived * 1e4).round() / 1e4, Quantity::ForceByLength);
     let message = format!("`wet_weight` is {}, but mass and density give {shown}", stated.text);
-    problems.push(stated.place.error(message, "mend the wet weight, the mass or the density of the fibre; or leave the wet weight out"));
+    problems.push(stated.place.error(
+        message,
+        "mend the wet weight, the mass or the density of the fibre; or leave the wet weight out",
+    ));
 }
 
 /// Stiffness times stretch at break should be the strength within 25 %.
@@ -227,6 +244,7 @@ fn check_stretch(entry: &Entry, problems: &Problems) {
         format_si(at_break.round(), Quantity::Force),
         format_si(strength.round(), Quantity::Force)
     );
-    let help = "the three belong together: strength ≈ stiffness × stretch; mend the one that is wrong";
+    let help =
+        "the three belong together: strength ≈ stiffness × stretch; mend the one that is wrong";
     problems.push(stiffness.place.warning(message, help));
 }

@@ -62,9 +62,17 @@ impl SeaSite {
 fn check_law(entry: &Entry, problems: &Problems) {
     let help = "write current_exponent = 0.142857 for a power law, or current_roughness = \"3 mm\" for a logarithmic one";
     match (entry.figure("current_exponent"), entry.figure("current_roughness")) {
-        (None, None) => problems.push(entry.place.error("the current has neither `current_exponent` nor `current_roughness`", help)),
+        (None, None) => problems.push(
+            entry
+                .place
+                .error("the current has neither `current_exponent` nor `current_roughness`", help),
+        ),
         (Some(_), Some(roughness)) => {
-            problems.push(roughness.place.error("both `current_exponent` and `current_roughness` are given", help));
+            problems.push(
+                roughness
+                    .place
+                    .error("both `current_exponent` and `current_roughness` are given", help),
+            );
         }
         _ => {}
     }
@@ -72,6 +80,7 @@ fn check_law(entry: &Entry, problems: &Problems) {
         && height.value > depth
     {
         let message = format!("`current_height` is out of the water, which is {depth} m deep");
-        problems.push(height.place.error(message, "give a height above the seabed within the water"));
+        problems
+            .push(height.place.error(message, "give a height above the seabed within the water"));
     }
 }

@@ -8,7 +8,9 @@ use crate::nearest::hint;
 use crate::tree::Content;
 
 /// Surfaces of a whale by the words that files use, from the head aft, then those that stand for several.
-pub const WORDS: [&str; 10] = ["rostrum", "baleen", "lips", "head", "body", "peduncle", "flippers", "flukes", "edges", "skin"];
+pub const WORDS: [&str; 10] = [
+    "rostrum", "baleen", "lips", "head", "body", "peduncle", "flippers", "flukes", "edges", "skin",
+];
 
 /// The surface that a region's coefficient is filed under.
 pub(crate) fn surface_of(region: Region) -> &'static str {
@@ -60,19 +62,26 @@ pub(crate) fn read<'a>(fields: &Fields<'a>, key: &'a str) -> Vec<At<String>> {
     let Some(node) = fields.get(key) else { return Vec::new() };
     let Content::List(items) = &node.content else {
         let message = format!("`{key}` is {}, not a list of surfaces", node.content.noun());
-        fields.problems().push(node.place.error(message, "write a list such as [\"baleen\", \"lips\"]"));
+        fields
+            .problems()
+            .push(node.place.error(message, "write a list such as [\"baleen\", \"lips\"]"));
         return Vec::new();
     };
     if items.is_empty() {
-        fields.problems().push(node.place.error(format!("`{key}` is empty"), "write a surface such as \"baleen\", or leave it out"));
+        fields.problems().push(node.place.error(
+            format!("`{key}` is empty"),
+            "write a surface such as \"baleen\", or leave it out",
+        ));
     }
     let mut words = Vec::new();
     for item in items {
         match &item.content {
-            Content::Text(word) if WORDS.contains(&word.as_str()) => words.push(At { value: word.clone(), place: item.place.clone() }),
-            Content::Text(word) => {
-                fields.problems().push(item.place.error(format!("`{word}` is no surface of a whale"), hint(word, WORDS)))
+            Content::Text(word) if WORDS.contains(&word.as_str()) => {
+                words.push(At { value: word.clone(), place: item.place.clone() })
             }
+            Content::Text(word) => fields.problems().push(
+                item.place.error(format!("`{word}` is no surface of a whale"), hint(word, WORDS)),
+            ),
             other => {
                 let message = format!("a surface is {}, not a text", other.noun());
                 fields.problems().push(item.place.error(message, hint("", WORDS)));

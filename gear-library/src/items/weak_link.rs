@@ -16,6 +16,10 @@ pub struct WeakLink {
 impl WeakLink {
     /// From a file's figures; `None` where one is missing, which is a problem already told.
     pub(crate) fn from_entry(entry: Entry) -> Option<Self> {
-        Some(Self { rating_n: entry.value("rating")?, spread: entry.value("spread").unwrap_or(0.0), entry })
+        Some(Self {
+            rating_n: entry.value("rating")?,
+            spread: entry.value("spread").unwrap_or(0.0),
+            entry,
+        })
     }
 }

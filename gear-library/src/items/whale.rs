@@ -97,8 +97,7 @@ fn grown(shares: &WhaleForm, growth: &Growth, density_kg_m3: f64, length_m: f64)
 
 /// The rows of `[sections]`, from snout to notch.
 fn sections(fields: &Fields<'_>, file: &Provenance) -> Option<Vec<[Figure; 4]>> {
-    let help =
-        "write at least four body sections as rows of [sections], such as { at = 0.1, width = 0.149, dorsal = 0.063, ventral = -0.060 }";
+    let help = "write at least four body sections as rows of [sections], such as { at = 0.1, width = 0.149, dorsal = 0.063, ventral = -0.060 }";
     let Some(table) = fields.table("sections") else {
         fields.missing("sections", help);
         return None;
@@ -114,7 +113,10 @@ fn sections(fields: &Fields<'_>, file: &Provenance) -> Option<Vec<[Figure; 4]>> 
     let sections = read.into_iter().collect::<Option<Vec<_>>>()?;
     for pair in sections.windows(2).filter(|pair| pair[1][0].value <= pair[0][0].value) {
         let place = &pair[1][0].place;
-        fields.problems().push(place.error("body sections are not in rising order of `at`", "put them in order from snout to fluke notch"));
+        fields.problems().push(place.error(
+            "body sections are not in rising order of `at`",
+            "put them in order from snout to fluke notch",
+        ));
     }
     Some(sections)
 }
@@ -136,15 +138,19 @@ fn section(node: &Node, file: &Provenance, problems: &Problems) -> Option<[Figur
     if let (Some(dorsal), Some(ventral)) = (&dorsal, &ventral)
         && ventral.value > dorsal.value
     {
-        problems
-            .push(ventral.place.error("`ventral` is above `dorsal`", "heights are above the snout's level: the belly is the lower one"));
+        problems.push(ventral.place.error(
+            "`ventral` is above `dorsal`",
+            "heights are above the snout's level: the belly is the lower one",
+        ));
     }
     Some([at?, width?, dorsal?, ventral?])
 }
 
 /// The places of the spine joints: a list as `value`, with source and sureness.
 fn spine(fields: &Fields<'_>, file: &Provenance) -> Option<[f64; SPINE_JOINTS]> {
-    let help = format!("write [spine] with `joints`, {SPINE_JOINTS} shares of length from the neck aft, and their source and sureness");
+    let help = format!(
+        "write [spine] with `joints`, {SPINE_JOINTS} shares of length from the neck aft, and their source and sureness"
+    );
     let Some(spine) = fields.table("spine") else {
         fields.missing("spine", help);
         return None;
@@ -155,25 +161,41 @@ fn spine(fields: &Fields<'_>, file: &Provenance) -> Option<[f64; SPINE_JOINTS]> 
     joints
 }
 
-fn spine_joints(joints: Option<&Node>, row: &Provenance, spine: &Fields<'_>, help: String) -> Option<[f64; SPINE_JOINTS]> {
+fn spine_joints(
+    joints: Option<&Node>,
+    row: &Provenance,
+    spine: &Fields<'_>,
+    help: String,
+) -> Option<[f64; SPINE_JOINTS]> {
     let Some(Node { content: Content::List(items), place }) = joints else {
         spine.missing("joints", help);
         return None;
     };
-    let read: Vec<_> =
-        items.iter().map(|item| read_figure(item, Quantity::Ratio, Range::Between(0.0, 1.0), row, spine.problems())).collect();
-    let values: Vec<f64> = read.into_iter().map(|figure| figure.map(|figure| figure.value)).collect::<Option<_>>()?;
+    let read: Vec<_> = items
+        .iter()
+        .map(|item| {
+            read_figure(item, Quantity::Ratio, Range::Between(0.0, 1.0), row, spine.problems())
+        })
+        .collect();
+    let values: Vec<f64> =
+        read.into_iter().map(|figure| figure.map(|figure| figure.value)).collect::<Option<_>>()?;
     let rising = values.windows(2).all(|pair| pair[1] > pair[0]);
     match values.try_into() {
         Ok(joints) if rising => Some(joints),
         _ => {
-            spine.problems().push(place.error("`joints` is not a rising list of the right length", help));
+            spine
+                .problems()
+                .push(place.error("`joints` is not a rising list of the right length", help));
             None
         }
     }
 }
 
-fn form(entry: &Entry, sections: &[[Figure; 4]], spine_joints: [f64; SPINE_JOINTS]) -> Option<WhaleForm> {
+fn form(
+    entry: &Entry,
+    sections: &[[Figure; 4]],
+    spine_joints: [f64; SPINE_JOINTS],
+) -> Option<WhaleForm> {
     let value = |key| entry.value(key);
     let station = |[at, width, dorsal, ventral]: &[Figure; 4]| Station {
         at: at.value,

@@ -24,7 +24,8 @@ pub(super) fn read(node: &Node, problems: &Problems) -> Option<Attribute> {
         && key.value.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_');
     if !plain || TAKEN.contains(&key.value.as_str()) {
         let message = format!("`{}` cannot be the key of an attribute", key.value);
-        let help = format!("write small letters, digits and underscores; {} are taken", TAKEN.join(", "));
+        let help =
+            format!("write small letters, digits and underscores; {} are taken", TAKEN.join(", "));
         problems.push(key.place.error(message, help));
         return None;
     }
@@ -48,28 +49,51 @@ fn kind(fields: &Fields<'_>) -> Option<(&'static str, AttributeKind)> {
     }
     let is_count = fields.flag("count").unwrap_or(false);
     let Some(node) = fields.get("default") else {
-        fields.missing("default", "write the value taken where a file names none, such as 1.3 or \"20 m\"");
+        fields.missing(
+            "default",
+            "write the value taken where a file names none, such as 1.3 or \"20 m\"",
+        );
         return None;
     };
-    let quantity = if matches!(node.content, Content::Text(_)) && !is_count { Quantity::Length } else { Quantity::Ratio };
+    let quantity = if matches!(node.content, Content::Text(_)) && !is_count {
+        Quantity::Length
+    } else {
+        Quantity::Ratio
+    };
     let default = read_value(node, quantity, Range::Any, fields.problems())?.value;
     let Some((min, max)) = range(fields, quantity) else {
-        fields.missing("range", "write the least and the greatest value, such as [1.05, 3] or [\"1 m\", \"90 m\"]");
+        fields.missing(
+            "range",
+            "write the least and the greatest value, such as [1.05, 3] or [\"1 m\", \"90 m\"]",
+        );
         return None;
     };
     if !(min..=max).contains(&default) {
-        fields.problems().push(node.place.error("the default lies outside the range", "widen the range, or take a default within it"));
+        fields.problems().push(node.place.error(
+            "the default lies outside the range",
+            "widen the range, or take a default within it",
+        ));
         return None;
     }
     if !is_count {
-        return Some((if quantity == Quantity::Length { "m" } else { "1" }, AttributeKind::Number { min, max, default }));
+        return Some((
+            if quantity == Quantity::Length { "m" } else { "1" },
+            AttributeKind::Number { min, max, default },
+        ));
     }
     let whole = |value: f64| value.fract() == 0.0 && (0.0..=1000.0).contains(&value);
     if ![min, max, default].into_iter().all(whole) {
-        fields.problems().push(node.place.error("a count is a whole number from 0 to 1000", "write whole numbers for default and range"));
+        fields.problems().push(node.place.error(
+            "a count is a whole number from 0 to 1000",
+            "write whole numbers for default and range",
+        ));
         return None;
     }
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "looked at in the lines before")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "looked at in the lines before"
+    )]
     let [min, max, default] = [min, max, default].map(|value| value as u32);
     Some(("1", AttributeKind::Count { min, max, default }))
 }

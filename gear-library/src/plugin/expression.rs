@@ -61,7 +61,10 @@ impl Expression {
         let mut reader = Reader { rest: text, names, code: Vec::new(), depth: 0 };
         let power = reader.sum()?;
         if let Some(left) = reader.peek() {
-            return fail(format!("`{left}` stands where the expression should end"), "write an operator + - * / before it, or take it out");
+            return fail(
+                format!("`{left}` stands where the expression should end"),
+                "write an operator + - * / before it, or take it out",
+            );
         }
         Ok(Self { code: reader.code, power })
     }
@@ -129,7 +132,11 @@ impl Reader<'_> {
 
     fn write(&mut self, code: Code) -> Result<(), (String, String)> {
         self.code.push(code);
-        if self.code.len() > MOST { fail(format!("the expression has more than {MOST} parts"), "make it shorter") } else { Ok(()) }
+        if self.code.len() > MOST {
+            fail(format!("the expression has more than {MOST} parts"), "make it shorter")
+        } else {
+            Ok(())
+        }
     }
 
     fn sum(&mut self) -> Power {
@@ -178,8 +185,18 @@ impl Reader<'_> {
             Some('(') => self.bracket()?,
             Some(c) if c.is_ascii_digit() || c == '.' => self.number()?,
             Some(c) if c.is_alphabetic() => self.name()?,
-            Some(c) => return fail(format!("`{c}` is no part of an expression"), "write numbers, names, + - * / and brackets"),
-            None => return fail("the expression ends where a number or a name should follow", "write what is meant, such as 1.3 * depth"),
+            Some(c) => {
+                return fail(
+                    format!("`{c}` is no part of an expression"),
+                    "write numbers, names, + - * / and brackets",
+                );
+            }
+            None => {
+                return fail(
+                    "the expression ends where a number or a name should follow",
+                    "write what is meant, such as 1.3 * depth",
+                );
+            }
         };
         self.depth -= 1;
         Ok(power)
@@ -188,15 +205,25 @@ impl Reader<'_> {
     fn bracket(&mut self) -> Power {
         self.take('(');
         let power = self.sum()?;
-        if self.take(')') { Ok(power) } else { fail("a bracket is not closed", "write a ) where it ends") }
+        if self.take(')') {
+            Ok(power)
+        } else {
+            fail("a bracket is not closed", "write a ) where it ends")
+        }
     }
 
     /// A number, and a unit of length where one follows.
     fn number(&mut self) -> Power {
         let digits = self.word(|c| c.is_ascii_digit() || c == '.');
-        let unit = if self.peek().is_some_and(char::is_alphabetic) { self.word(char::is_alphanumeric) } else { String::new() };
-        let (quantity, power) = if unit.is_empty() { (Quantity::Ratio, 0) } else { (Quantity::Length, 1) };
-        let value = units::parse(&format!("{digits} {unit}"), quantity).map_err(|error| (error.message, error.help))?;
+        let unit = if self.peek().is_some_and(char::is_alphabetic) {
+            self.word(char::is_alphanumeric)
+        } else {
+            String::new()
+        };
+        let (quantity, power) =
+            if unit.is_empty() { (Quantity::Ratio, 0) } else { (Quantity::Length, 1) };
+        let value = units::parse(&format!("{digits} {unit}"), quantity)
+            .map_err(|error| (error.message, error.help))?;
         self.write(Code::Push(value))?;
         Ok(power)
     }
@@ -218,7 +245,10 @@ impl Reader<'_> {
             _ => {}
         }
         let Some(index) = self.names.iter().position(|name| name.key == word) else {
-            return fail(format!("nothing is called `{word}` here"), hint(&word, self.names.iter().map(|name| name.key.as_str())));
+            return fail(
+                format!("nothing is called `{word}` here"),
+                hint(&word, self.names.iter().map(|name| name.key.as_str())),
+            );
         };
         let Some(power) = self.names[index].power else {
             return fail(
@@ -239,13 +269,20 @@ impl Reader<'_> {
         }
         let power = same(one, self.sum()?)?;
         self.write(Code::Two(operator))?;
-        if self.take(')') { Ok(power) } else { fail("a bracket is not closed", "write a ) where it ends") }
+        if self.take(')') {
+            Ok(power)
+        } else {
+            fail("a bracket is not closed", "write a ) where it ends")
+        }
     }
 
     fn root(&mut self) -> Power {
         let power = self.bracket()?;
         if power % 2 != 0 {
-            return fail(format!("the root of {} is no length and no number", noun(power)), "take the root of a product of two lengths");
+            return fail(
+                format!("the root of {} is no length and no number", noun(power)),
+                "take the root of a product of two lengths",
+            );
         }
         self.write(Code::Root)?;
         Ok(power / 2)
@@ -290,7 +327,11 @@ mod tests {
         ] {
             let expression = Expression::read(text, &names()).unwrap();
             let value = expression.value(&[20.0, 1.5, f64::NAN]);
-            assert!((value - expected).abs() < 1e-12 && expression.power == power, "{text}: {value} {}", expression.power);
+            assert!(
+                (value - expected).abs() < 1e-12 && expression.power == power,
+                "{text}: {value} {}",
+                expression.power
+            );
         }
     }
 

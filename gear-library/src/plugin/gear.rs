@@ -5,7 +5,8 @@
 //! ```
 
 use endline_sdk::{
-    AttributeValue, BodyKind, Descriptor, GearType, HookError, LineEnd, Rig, RigBody, RigEnd, RigJoint, RigLine, RigLink, Site,
+    AttributeValue, BodyKind, Descriptor, GearType, HookError, LineEnd, Rig, RigBody, RigEnd,
+    RigJoint, RigLine, RigLink, Site,
 };
 
 use super::attributes;
@@ -80,14 +81,21 @@ impl TextGear {
     pub(super) fn read(node: &Node, version: &str, problems: &Problems) -> Option<Self> {
         let fields = Fields::of(node, problems);
         let (name, notes, _) = entry::header(&fields, "gear-type", problems);
-        let id = fields.need_text("id", "write a reverse-domain id such as \"org.example.gear.two-buoys\"");
-        let attributes: Vec<_> = fields.tables("attribute").iter().filter_map(|node| attributes::read(node, problems)).collect();
-        let own = [("depth", 1), ("i", 0)].map(|(key, power)| Name { key: key.to_owned(), power: Some(power) });
+        let id = fields
+            .need_text("id", "write a reverse-domain id such as \"org.example.gear.two-buoys\"");
+        let attributes: Vec<_> = fields
+            .tables("attribute")
+            .iter()
+            .filter_map(|node| attributes::read(node, problems))
+            .collect();
+        let own = [("depth", 1), ("i", 0)]
+            .map(|(key, power)| Name { key: key.to_owned(), power: Some(power) });
         let names = attributes.iter().map(attributes::name).chain(own).collect();
         let reader = Reader { names, problems };
         let bodies = fields.tables("body").iter().filter_map(|node| reader.body(node)).collect();
         let joints = fields.tables("joint").iter().filter_map(|node| reader.joint(node)).collect();
-        let lines: Vec<_> = fields.tables("line").iter().filter_map(|node| reader.line(node)).collect();
+        let lines: Vec<_> =
+            fields.tables("line").iter().filter_map(|node| reader.line(node)).collect();
         let links = fields.tables("link").iter().filter_map(|node| reader.link(node)).collect();
         fields.finish();
         if lines.is_empty() && !problems.any_error() {
@@ -109,7 +117,11 @@ impl TextGear {
 impl Reader<'_> {
     fn part(&self, fields: &Fields<'_>) -> Option<Part> {
         let id = fields.need_text("id", "write an id such as \"trap\", or \"trap-{i}\" in a row");
-        let repeat = if fields.get("repeat").is_some() { self.expression(fields, "repeat", 0) } else { Some(Expression::number(1.0)) };
+        let repeat = if fields.get("repeat").is_some() {
+            self.expression(fields, "repeat", 0)
+        } else {
+            Some(Expression::number(1.0))
+        };
         Some(Part { id: self.words(&id?)?, repeat: repeat? })
     }
 
@@ -126,7 +138,8 @@ impl Reader<'_> {
         match fields.get(key) {
             Some(node) => self.expression_of(node, power),
             None => {
-                let example = if power == 1 { "\"1.3 * depth\" or \"20 m\"" } else { "\"traps - 1\"" };
+                let example =
+                    if power == 1 { "\"1.3 * depth\" or \"20 m\"" } else { "\"traps - 1\"" };
                 fields.missing(key, format!("write {} such as {example}", noun(power)));
                 None
             }
@@ -137,12 +150,19 @@ impl Reader<'_> {
         let read = match &node.content {
             Content::Number(number) => Ok(Expression::number(*number)),
             Content::Text(text) => Expression::read(text, &self.names),
-            other => Err((format!("this is {}, not an expression", other.noun()), "write it in quotes, as in \"1.3 * depth\"".to_owned())),
+            other => Err((
+                format!("this is {}, not an expression", other.noun()),
+                "write it in quotes, as in \"1.3 * depth\"".to_owned(),
+            )),
         };
         let read = read.and_then(|expression| {
             let (is, wanted) = (noun(expression.power), noun(power));
             let help = "lengths carry a unit, such as 2 m; pure numbers carry none".to_owned();
-            if expression.power == power { Ok(expression) } else { Err((format!("this is {is}; expected {wanted}"), help)) }
+            if expression.power == power {
+                Ok(expression)
+            } else {
+                Err((format!("this is {is}; expected {wanted}"), help))
+            }
         });
         read.map_err(|(message, help)| self.problems.push(node.place.error(message, help))).ok()
     }
@@ -152,14 +172,21 @@ impl Reader<'_> {
         let zero = || Some(Expression::number(0.0));
         let [x, y] = match fields.get("position").map(|node| (&node.content, node)) {
             None => [zero(), zero()],
-            Some((Content::List(items), _)) if items.len() == 2 => [&items[0], &items[1]].map(|node| self.expression_of(node, 1)),
+            Some((Content::List(items), _)) if items.len() == 2 => {
+                [&items[0], &items[1]].map(|node| self.expression_of(node, 1))
+            }
             Some((_, node)) => {
-                let help = "write it along and across the gear, as in position = [\"-10 m\", \"0 m\"]";
+                let help =
+                    "write it along and across the gear, as in position = [\"-10 m\", \"0 m\"]";
                 self.problems.push(node.place.error("`position` is no list of two lengths", help));
                 return None;
             }
         };
-        let height = if fields.get("height").is_some() { self.expression(fields, "height", 0) } else { zero() };
+        let height = if fields.get("height").is_some() {
+            self.expression(fields, "height", 0)
+        } else {
+            zero()
+        };
         Some(Place([x?, y?, height?]))
     }
 
@@ -168,7 +195,11 @@ impl Reader<'_> {
         let part = self.part(&fields);
         let kind = fields.need_text("kind", "write trap, buoy or anchor");
         let kind = kind.and_then(|_| fields.word("kind", &["trap", "buoy", "anchor"]));
-        let item = self.need_words(&fields, "item", "write the id of an item, or the key of an attribute in braces: \"{trap}\"");
+        let item = self.need_words(
+            &fields,
+            "item",
+            "write the id of an item, or the key of an attribute in braces: \"{trap}\"",
+        );
         let place = self.place(&fields);
         fields.finish();
         let kind = match kind?.value.as_str() {
@@ -189,8 +220,13 @@ impl Reader<'_> {
     fn line(&self, node: &Node) -> Option<Line> {
         let fields = Fields::of(node, self.problems);
         let part = self.part(&fields);
-        let rope = self.need_words(&fields, "rope", "write the id of a rope, or the key of an attribute in braces: \"{rope}\"");
-        let from = self.need_words(&fields, "from", "write the id of the body or joint at this end");
+        let rope = self.need_words(
+            &fields,
+            "rope",
+            "write the id of a rope, or the key of an attribute in braces: \"{rope}\"",
+        );
+        let from =
+            self.need_words(&fields, "from", "write the id of the body or joint at this end");
         let to = self.need_words(&fields, "to", "write the id of the body or joint at that end");
         let length = self.expression(&fields, "length", 1);
         fields.finish();
@@ -200,9 +236,15 @@ impl Reader<'_> {
     fn link(&self, node: &Node) -> Option<Link> {
         let fields = Fields::of(node, self.problems);
         let part = self.part(&fields);
-        let item = self.need_words(&fields, "item", "write the id of a weak link, or the key of an attribute in braces: \"{weak_link}\"");
+        let item = self.need_words(
+            &fields,
+            "item",
+            "write the id of a weak link, or the key of an attribute in braces: \"{weak_link}\"",
+        );
         let line = self.need_words(&fields, "line", "write the id of its line");
-        let end = fields.need_text("end", "write from or to").and_then(|_| fields.word("end", &["from", "to"]));
+        let end = fields
+            .need_text("end", "write from or to")
+            .and_then(|_| fields.word("end", &["from", "to"]));
         fields.finish();
         let end = if end?.value == "from" { LineEnd::A } else { LineEnd::B };
         Some(Link { part: part?, item: item?, line: line?, end })
@@ -226,24 +268,37 @@ impl Values<'_> {
         if value.is_finite() {
             Ok(value)
         } else {
-            Err(HookError::new(format!("`{what}` of `{id}` comes to {value} with these attributes")))
+            Err(HookError::new(format!(
+                "`{what}` of `{id}` comes to {value} with these attributes"
+            )))
         }
     }
 
     fn place(&self, place: &Place, id: &str) -> Result<[f64; 3], HookError> {
         let [x, y, height] = &place.0;
-        let (x, y, height) = (self.number(x, "position", id)?, self.number(y, "position", id)?, self.number(height, "height", id)?);
+        let (x, y, height) = (
+            self.number(x, "position", id)?,
+            self.number(y, "position", id)?,
+            self.number(height, "height", id)?,
+        );
         let depth_m = self.numbers[self.numbers.len() - 2];
         Ok([x, y, depth_m * (height - 1.0)])
     }
 
     /// Does something once for each part of a row, with its id.
-    fn row(&mut self, part: &Part, mut add: impl FnMut(&Self, String) -> Result<(), HookError>) -> Result<(), HookError> {
+    fn row(
+        &mut self,
+        part: &Part,
+        mut add: impl FnMut(&Self, String) -> Result<(), HookError>,
+    ) -> Result<(), HookError> {
         let last = self.numbers.len() - 1;
         self.numbers[last] = 1.0;
         let count = self.number(&part.repeat, "repeat", &self.text(&part.id))?.floor();
         if count > MOST_IN_ROW {
-            return Err(HookError::new(format!("`repeat` of `{}` comes to {count}, more than {MOST_IN_ROW}", self.text(&part.id))));
+            return Err(HookError::new(format!(
+                "`repeat` of `{}` comes to {count}, more than {MOST_IN_ROW}",
+                self.text(&part.id)
+            )));
         }
         while self.numbers[last] <= count {
             add(self, self.text(&part.id))?;
@@ -259,7 +314,8 @@ impl GearType for TextGear {
     }
 
     fn build(&self, attributes: &[AttributeValue], site: &Site) -> Result<Rig, HookError> {
-        let mut numbers: Vec<f64> = attributes.iter().map(|value| value.number().unwrap_or(f64::NAN)).collect();
+        let mut numbers: Vec<f64> =
+            attributes.iter().map(|value| value.number().unwrap_or(f64::NAN)).collect();
         numbers.extend([site.depth_m, 1.0]);
         let (mut values, mut rig) = (Values { attributes, numbers }, Rig::default());
         for Body { part, kind, item, place } in &self.bodies {
@@ -277,12 +333,20 @@ impl GearType for TextGear {
             })?;
         }
         let joints: Vec<String> = rig.joints.iter().map(|joint| joint.id.clone()).collect();
-        let end = |id: String| if joints.contains(&id) { RigEnd::Joint(id) } else { RigEnd::Body(id) };
+        let end =
+            |id: String| if joints.contains(&id) { RigEnd::Joint(id) } else { RigEnd::Body(id) };
         for Line { part, rope, ends, length } in &self.lines {
             values.row(part, |values, id| {
                 let [from, to] = [&ends[0], &ends[1]].map(|words| end(values.text(words)));
                 let length_m = values.number(length, "length", &id)?;
-                rig.lines.push(RigLine { id, rope: values.text(rope), from, to, length_m, laid_m: Vec::new() });
+                rig.lines.push(RigLine {
+                    id,
+                    rope: values.text(rope),
+                    from,
+                    to,
+                    length_m,
+                    laid_m: Vec::new(),
+                });
                 Ok(())
             })?;
         }

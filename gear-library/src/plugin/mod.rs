@@ -78,17 +78,25 @@ impl TextPlugin {
     /// Every located problem of its files.
     pub fn from_folder(folder: &Path) -> Result<Self, Vec<Diagnostic>> {
         let (problems, mut bytes) = (Problems::default(), Vec::new());
-        let head = text(folder, PLUGIN_FILE, &mut bytes, &problems).and_then(|node| head(&node, &problems));
+        let head = text(folder, PLUGIN_FILE, &mut bytes, &problems)
+            .and_then(|node| head(&node, &problems));
         let version = head.as_ref().map_or("", |head| head.version.as_str());
         let mut gear: Vec<Arc<dyn GearType>> = Vec::new();
         for path in toml_files(folder, GEAR_TYPES) {
             let Some(node) = text(folder, &path, &mut bytes, &problems) else { continue };
-            gear.extend(TextGear::read(&node, version, &problems).map(|gear| Arc::new(gear) as Arc<dyn GearType>));
+            gear.extend(
+                TextGear::read(&node, version, &problems)
+                    .map(|gear| Arc::new(gear) as Arc<dyn GearType>),
+            );
         }
         let (clips, acts) = clips(folder, &mut bytes, &problems);
         if acts.is_empty() && gear.is_empty() && !problems.any_error() {
             let help = "put acts into acts/, or gear types into gear-types/";
-            problems.push(Diagnostic::of_file(PLUGIN_FILE, "there is nothing in this plugin", help));
+            problems.push(Diagnostic::of_file(
+                PLUGIN_FILE,
+                "there is nothing in this plugin",
+                help,
+            ));
         }
         match head {
             Some(Head { id, version, name, help, about }) if !problems.any_error() => {
@@ -105,7 +113,13 @@ fn head(node: &Node, problems: &Problems) -> Option<Head> {
     let id = fields.need_text("id", "write a reverse-domain id such as \"org.example.our-whales\"");
     let version = fields.need_text("version", "write a version such as \"0.1.0\"");
     fields.finish();
-    Some(Head { id: id?.value, version: version?.value, name, help, about: file.source.unwrap_or_default() })
+    Some(Head {
+        id: id?.value,
+        version: version?.value,
+        name,
+        help,
+        about: file.source.unwrap_or_default(),
+    })
 }
 
 /// Reads a text of the folder; what is wrong with it is told under its path there.
@@ -130,9 +144,15 @@ fn add(path: &str, content: &[u8], bytes: &mut Vec<u8>) {
 
 /// Paths of the TOML files of a folder within the plugin, sorted.
 fn toml_files(folder: &Path, inner: &str) -> Vec<String> {
-    let files =
-        fs::read_dir(folder.join(inner)).into_iter().flatten().flatten().map(|entry| entry.file_name().to_string_lossy().into_owned());
-    let mut files: Vec<String> = files.filter(|name| name.ends_with(".toml")).map(|name| format!("{inner}/{name}")).collect();
+    let files = fs::read_dir(folder.join(inner))
+        .into_iter()
+        .flatten()
+        .flatten()
+        .map(|entry| entry.file_name().to_string_lossy().into_owned());
+    let mut files: Vec<String> = files
+        .filter(|name| name.ends_with(".toml"))
+        .map(|name| format!("{inner}/{name}"))
+        .collect();
     files.sort();
     files
 }

@@ -26,7 +26,12 @@ impl Words {
         while let Some((before, after)) = rest.split_once('{') {
             pieces.push(Piece::Text(before.to_owned()));
             let Some((inside, after)) = after.split_once('}') else {
-                problems.push(text.place.error("a brace is not closed", "write a } where it ends, as in \"trap-{i}\""));
+                problems.push(
+                    text.place.error(
+                        "a brace is not closed",
+                        "write a } where it ends, as in \"trap-{i}\"",
+                    ),
+                );
                 return None;
             };
             pieces.push(piece(inside.trim(), text, names, problems)?);
@@ -42,8 +47,12 @@ impl Words {
         for piece in &self.0 {
             match piece {
                 Piece::Text(words) => text.push_str(words),
-                Piece::Item(index) => text.push_str(attributes.get(*index).and_then(AttributeValue::item).unwrap_or_default()),
-                Piece::Count(expression) => text.push_str(&format!("{:.0}", expression.value(values))),
+                Piece::Item(index) => text.push_str(
+                    attributes.get(*index).and_then(AttributeValue::item).unwrap_or_default(),
+                ),
+                Piece::Count(expression) => {
+                    text.push_str(&format!("{:.0}", expression.value(values)))
+                }
             }
         }
         text
@@ -57,8 +66,14 @@ fn piece(inside: &str, text: &At<String>, names: &[Name], problems: &Problems) -
     match Expression::read(inside, names) {
         Ok(expression) if expression.power == 0 => Some(Piece::Count(expression)),
         Ok(expression) => {
-            let message = format!("`{{{inside}}}` is {}, not a whole number or an item", noun(expression.power));
-            problems.push(text.place.error(message, "write a count such as {i}, or the key of an attribute that is an item"));
+            let message = format!(
+                "`{{{inside}}}` is {}, not a whole number or an item",
+                noun(expression.power)
+            );
+            problems.push(text.place.error(
+                message,
+                "write a count such as {i}, or the key of an attribute that is an item",
+            ));
             None
         }
         Err((message, help)) => {

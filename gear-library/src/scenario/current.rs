@@ -89,7 +89,11 @@ pub(super) fn read(fields: &Fields<'_>) -> CurrentOf {
     let speed_height = fields.value("speed_height", Quantity::Length, Range::Between(0.01, 6000.0));
     let exponent = fields.value("exponent", Quantity::Ratio, Range::Between(0.0, 1.0));
     let roughness = fields.value("roughness", Quantity::Length, Range::Between(1e-6, 1.0));
-    let rows: Vec<_> = fields.tables("profile").iter().filter_map(|node| row(node, toward_rad, fields.problems())).collect();
+    let rows: Vec<_> = fields
+        .tables("profile")
+        .iter()
+        .filter_map(|node| row(node, toward_rad, fields.problems()))
+        .collect();
     let table = times(fields, toward_rad);
     let tide = fields.table("tide").as_ref().and_then(constituent);
     check_law(fields, [&speed, &speed_height, &exponent, &roughness], !rows.is_empty());
@@ -109,14 +113,24 @@ pub(super) fn read(fields: &Fields<'_>) -> CurrentOf {
         exponent: exponent.map(|exponent| exponent.value),
         roughness_m: roughness.map(|roughness| roughness.value),
         rows,
-        tide: if table.is_empty() { tide.map_or(Tide::Steady, |(tide, _)| tide) } else { Tide::Table(table) },
+        tide: if table.is_empty() {
+            tide.map_or(Tide::Steady, |(tide, _)| tide)
+        } else {
+            Tide::Table(table)
+        },
         place: fields.place.clone(),
     }
 }
 
 /// One law at most, none beside rows, and no height without the speed that it is the height of.
-fn check_law(fields: &Fields<'_>, [speed, speed_height, exponent, roughness]: [&Option<At<f64>>; 4], has_rows: bool) {
-    let told = |lone: &At<f64>, message: &str, help: &str| fields.problems().push(lone.place.error(message, help));
+fn check_law(
+    fields: &Fields<'_>,
+    [speed, speed_height, exponent, roughness]: [&Option<At<f64>>; 4],
+    has_rows: bool,
+) {
+    let told = |lone: &At<f64>, message: &str, help: &str| {
+        fields.problems().push(lone.place.error(message, help))
+    };
     let law = exponent.as_ref().or(roughness.as_ref());
     if let (true, Some(lone)) = (has_rows, speed.as_ref().or(speed_height.as_ref()).or(law)) {
         let help = "the rows of [[current.profile]] tell the speed at every height: take this out, or take them out";
@@ -130,7 +144,11 @@ fn check_law(fields: &Fields<'_>, [speed, speed_height, exponent, roughness]: [&
         );
     }
     if let (None, Some(height)) = (speed, speed_height) {
-        told(height, "a `speed_height` without a `speed`", "write the speed that the current has at this height, or take this out");
+        told(
+            height,
+            "a `speed_height` without a `speed`",
+            "write the speed that the current has at this height, or take this out",
+        );
     }
 }
 
@@ -142,10 +160,17 @@ fn row(node: &Node, toward_rad: f64, problems: &Problems) -> Option<CurrentRow> 
     let velocity_m_s = velocity(&fields, toward_rad);
     let written = fields.get("height").or(fields.get("depth")).is_some();
     let at = match (height, depth) {
-        (Some(height), None) => Some(At { value: RowHeight::AboveBed(height.value), place: height.place }),
-        (None, Some(depth)) => Some(At { value: RowHeight::BelowSurface(depth.value), place: depth.place }),
+        (Some(height), None) => {
+            Some(At { value: RowHeight::AboveBed(height.value), place: height.place })
+        }
+        (None, Some(depth)) => {
+            Some(At { value: RowHeight::BelowSurface(depth.value), place: depth.place })
+        }
         (Some(_), Some(depth)) => {
-            problems.push(depth.place.error("a row with both `height` and `depth`", "keep the height above the seabed or the depth"));
+            problems.push(depth.place.error(
+                "a row with both `height` and `depth`",
+                "keep the height above the seabed or the depth",
+            ));
             None
         }
         (None, None) if written => None,
@@ -168,7 +193,12 @@ fn times(fields: &Fields<'_>, toward_rad: f64) -> Vec<(f64, DVec3)> {
         row.finish();
         let (Some(time), Some(velocity)) = (time, velocity) else { continue };
         if rows.last().is_some_and(|(earlier, _)| *earlier >= time.value) {
-            fields.problems().push(time.place.error("rows are not in rising order of `time`", "put them in the order of time"));
+            fields.problems().push(
+                time.place.error(
+                    "rows are not in rising order of `time`",
+                    "put them in the order of time",
+                ),
+            );
         }
         rows.push((time.value, velocity));
     }
@@ -177,7 +207,9 @@ fn times(fields: &Fields<'_>, toward_rad: f64) -> Vec<(f64, DVec3)> {
 
 fn velocity(fields: &Fields<'_>, usual_rad: f64) -> Option<DVec3> {
     let speed = fields.need_value("speed", Quantity::Speed, SPEED);
-    let toward = fields.value("toward", Quantity::Angle, Range::Any).map_or(usual_rad, |toward| toward.value);
+    let toward = fields
+        .value("toward", Quantity::Angle, Range::Any)
+        .map_or(usual_rad, |toward| toward.value);
     Some(unit(toward) * speed?.value)
 }
 
@@ -190,12 +222,16 @@ fn constituent(fields: &Fields<'_>) -> Option<(Tide, Place)> {
     let residual = fields.value("residual", Quantity::Speed, SPEED);
     let residual_toward = bearing(fields, "residual_toward");
     if let (Some(_), Some(slack)) = (&peak, &slack) {
-        let help = "keep the time at which it runs as [current] says, or that of the slack water before";
+        let help =
+            "keep the time at which it runs as [current] says, or that of the slack water before";
         fields.problems().push(slack.place.error("both `peak` and `slack` are given", help));
     }
     fields.finish();
     let period_s = period?.value;
-    let peak_s = peak.map_or_else(|| slack.map_or(0.0, |slack| slack.value + 0.25 * period_s), |peak| peak.value);
+    let peak_s = peak.map_or_else(
+        || slack.map_or(0.0, |slack| slack.value + 0.25 * period_s),
+        |peak| peak.value,
+    );
     let tide = Tide::Constituent {
         period_s,
         peak_s,

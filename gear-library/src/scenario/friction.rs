@@ -30,9 +30,16 @@ pub struct FrictionOn {
 
 /// Reads the table `[friction]`.
 pub(super) fn read(fields: &Fields<'_>) -> Option<FrictionChoice> {
-    let model = fields.need_text("model", "write the id of a friction model, such as \"org.endline.friction.coulomb\"");
+    let model = fields.need_text(
+        "model",
+        "write the id of a friction model, such as \"org.endline.friction.coulomb\"",
+    );
     let attributes = Attributes::read(fields, "attributes");
-    let on = fields.tables("on").iter().filter_map(|node| friction_on(node, fields.problems())).collect();
+    let on = fields
+        .tables("on")
+        .iter()
+        .filter_map(|node| friction_on(node, fields.problems()))
+        .collect();
     fields.finish();
     Some(FrictionChoice { model: model?, attributes, on })
 }
@@ -44,7 +51,10 @@ fn friction_on(node: &Node, problems: &Problems) -> Option<FrictionOn> {
         fields.missing("surfaces", "write the surfaces this model is for, such as [\"baleen\"]");
     }
     let surfaces = read_surfaces(&fields, "surfaces");
-    let model = fields.need_text("model", "write the id of a friction model, such as \"org.endline.friction.baleen\"");
+    let model = fields.need_text(
+        "model",
+        "write the id of a friction model, such as \"org.endline.friction.baleen\"",
+    );
     let attributes = Attributes::read(&fields, "attributes");
     fields.finish();
     (!surfaces.is_empty()).then_some(FrictionOn { surfaces, model: model?, attributes })

@@ -75,7 +75,8 @@ const NO_MOTION: &str = "org.endline.motion.swim";
 impl Swimmer {
     /// Reads `[whale]`; `None` where something needed is missing, which is a problem already told.
     pub(super) fn read(fields: &Fields<'_>) -> Option<Self> {
-        let item = fields.need_text("item", "write the id of a whale of the library, such as \"right-whale\"");
+        let item = fields
+            .need_text("item", "write the id of a whale of the library, such as \"right-whale\"");
         let length = fields.value("length", Quantity::Length, Range::Between(1.0, 35.0));
         let age = fields.value("age", Quantity::Time, Range::Between(0.0, 120.0 * YEAR_S));
         if let (Some(_), Some(age)) = (&length, &age) {
@@ -86,11 +87,20 @@ impl Swimmer {
         let pregnant = fields.flag("pregnant").unwrap_or(false);
         let position = fields.values("position", Quantity::Length, &[2]);
         if position.is_none() && fields.get("position").is_none() {
-            fields.missing("position", "write where mid-body starts, east and north, as [\"-20 m\", \"0 m\"]");
+            fields.missing(
+                "position",
+                "write where mid-body starts, east and north, as [\"-20 m\", \"0 m\"]",
+            );
         }
         let depth = fields.need_value("depth", Quantity::Length, Range::Between(-10.0, 6000.0));
-        let angle = |key, default| fields.value(key, Quantity::Angle, Range::Any).map_or(default, |angle| angle.value);
-        let (heading_rad, pitch_rad, roll_rad) = (angle("heading", std::f64::consts::FRAC_PI_2), angle("pitch", 0.0), angle("roll", 0.0));
+        let angle = |key, default| {
+            fields.value(key, Quantity::Angle, Range::Any).map_or(default, |angle| angle.value)
+        };
+        let (heading_rad, pitch_rad, roll_rad) = (
+            angle("heading", std::f64::consts::FRAC_PI_2),
+            angle("pitch", 0.0),
+            angle("roll", 0.0),
+        );
         let stiffness = fields.value("contact_stiffness", Quantity::Pressure, Range::Positive);
         let state = fields.word("state", &["alive", "dead"]);
         let dead = state.is_some_and(|word| word.value == "dead");
@@ -131,13 +141,15 @@ impl Swimmer {
 fn acts(node: &Node, problems: &Problems) -> Vec<At<String>> {
     let help = "write a list of acts of the library, such as [\"roll-away\", \"flinch\"]";
     let Content::List(items) = &node.content else {
-        problems.push(node.place.error(format!("`acts` is {}, not a list", node.content.noun()), help));
+        problems
+            .push(node.place.error(format!("`acts` is {}, not a list", node.content.noun()), help));
         return Vec::new();
     };
     let id = |item: &Node| match &item.content {
         Content::Text(id) => Some(At { value: id.clone(), place: item.place.clone() }),
         other => {
-            problems.push(item.place.error(format!("an act is {}, not a text", other.noun()), help));
+            problems
+                .push(item.place.error(format!("an act is {}, not a text", other.noun()), help));
             None
         }
     };
@@ -160,7 +172,10 @@ fn answer(fields: &Fields<'_>) -> Option<AnswerToTouch> {
 /// Speed and motion of a living whale.
 fn under_way(fields: &Fields<'_>) -> (Option<f64>, Option<At<String>>) {
     let speed = fields.need_value("speed", Quantity::Speed, Range::Between(0.0, 15.0));
-    let motion = fields.need_text("motion", "write the id of a motion plugin, such as \"org.endline.motion.swim\"");
+    let motion = fields.need_text(
+        "motion",
+        "write the id of a motion plugin, such as \"org.endline.motion.swim\"",
+    );
     (speed.map(|speed| speed.value), motion)
 }
 

@@ -47,7 +47,9 @@ pub(super) fn obstacle(node: &Node, file: &Provenance, problems: &Problems) -> O
     // Without a shape its measures cannot be judged.
     let shape = match word?.value.as_str() {
         "plane" => direction(&fields, "normal").map(|turn| (SolidShape::Plane, turn)),
-        "sphere" => measure(&fields, "radius").map(|radius| (SolidShape::Sphere(radius), DQuat::IDENTITY)),
+        "sphere" => {
+            measure(&fields, "radius").map(|radius| (SolidShape::Sphere(radius), DQuat::IDENTITY))
+        }
         "cylinder" => cylinder(&fields),
         _ => cuboid(&fields),
     };
@@ -75,15 +77,21 @@ fn cuboid(fields: &Fields<'_>) -> Option<(SolidShape, DQuat)> {
     if fields.get("size").is_none() {
         fields.missing("size", "write length, width and height as [\"2 m\", \"1 m\", \"0.5 m\"]");
     }
-    let heading = fields.value("heading", Quantity::Angle, Range::Any).map_or(std::f64::consts::FRAC_PI_2, |heading| heading.value);
+    let heading = fields
+        .value("heading", Quantity::Angle, Range::Any)
+        .map_or(std::f64::consts::FRAC_PI_2, |heading| heading.value);
     let pitch = fields.value("pitch", Quantity::Angle, Range::Any).map_or(0.0, |pitch| pitch.value);
     let size = size?;
     let half = 0.5 * place3(&size.value);
     if half.min_element() <= 0.0 {
-        fields.problems().push(size.place.error("a `size` is not above zero", "write length, width and height, each above zero"));
+        fields.problems().push(size.place.error(
+            "a `size` is not above zero",
+            "write length, width and height, each above zero",
+        ));
         return None;
     }
-    let turn = DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2 - heading) * DQuat::from_rotation_y(-pitch);
+    let turn = DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2 - heading)
+        * DQuat::from_rotation_y(-pitch);
     Some((SolidShape::Box(half), turn))
 }
 
@@ -99,7 +107,9 @@ fn direction(fields: &Fields<'_>, key: &'static str) -> Option<DQuat> {
     let values = fields.values(key, Quantity::Ratio, &[3])?;
     let Some(direction) = place3(&values.value).try_normalize() else {
         let message = format!("`{key}` has no length");
-        fields.problems().push(values.place.error(message, "write east, north and up, such as [0, 0, 1]"));
+        fields
+            .problems()
+            .push(values.place.error(message, "write east, north and up, such as [0, 0, 1]"));
         return None;
     };
     Some(DQuat::from_rotation_arc(DVec3::Z, direction))

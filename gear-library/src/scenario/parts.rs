@@ -107,7 +107,8 @@ pub(super) fn ropes(fields: &Fields<'_>, file: &Provenance) -> Vec<Entry> {
         let inner = Fields::of(node, fields.problems());
         let id = inner.need_text("id", "write an id such as \"test-rope\"")?;
         let row = provenance_over(&inner, file);
-        let entry = entry::body(&inner, Kind::Rope, (id.value.clone(), String::new(), row), &id.value);
+        let entry =
+            entry::body(&inner, Kind::Rope, (id.value.clone(), String::new(), row), &id.value);
         inner.finish();
         Some(entry)
     };
@@ -124,19 +125,27 @@ pub(super) fn fixture(node: &Node, problems: &Problems) -> Option<Fixture> {
     let force = fields.values("force", Quantity::Force, &[3]);
     match (&velocity, &force, from.as_ref().or(until.as_ref()), &until) {
         (Some(_), Some(force), ..) => {
-            problems.push(force.place.error("both a `velocity` and a `force`", "keep the one that is meant"));
+            problems.push(
+                force.place.error("both a `velocity` and a `force`", "keep the one that is meant"),
+            );
         }
-        (None, None, Some(lone), _) => problems.push(
-            lone.place.error("a time without a `velocity`", "write velocity = [\"2 m/s\", \"0 m/s\", \"0 m/s\"], or take the time out"),
-        ),
+        (None, None, Some(lone), _) => problems.push(lone.place.error(
+            "a time without a `velocity`",
+            "write velocity = [\"2 m/s\", \"0 m/s\", \"0 m/s\"], or take the time out",
+        )),
         (None, Some(_), _, Some(until)) => {
-            problems.push(until.place.error("a `force` has no `until`", "take it out: a force acts from `from` on to the end"));
+            problems.push(until.place.error(
+                "a `force` has no `until`",
+                "take it out: a force acts from `from` on to the end",
+            ));
         }
         _ => {}
     }
     fields.finish();
     let begins = from.map_or(0.0, |from| from.value);
-    let drive = velocity.map(|velocity| (place3(&velocity.value), begins, until.map_or(f64::INFINITY, |until| until.value)));
+    let drive = velocity.map(|velocity| {
+        (place3(&velocity.value), begins, until.map_or(f64::INFINITY, |until| until.value))
+    });
     let pull = force.map(|force| (place3(&force.value), begins));
     Some(Fixture { id: id?, position_m: position?, drive, pull })
 }
@@ -190,11 +199,14 @@ pub(super) fn probe(node: &Node, problems: &Problems) -> Option<ProbeOf> {
     let fields = Fields::of(node, problems);
     let id = fields.need_text("id", "write an id such as \"anchor tension\"");
     let of = fields.need_text("of", "write tension, middle, line, height, place or energy");
-    let of = of.and_then(|_| fields.word("of", &["tension", "middle", "line", "height", "place", "energy"]));
+    let of = of.and_then(|_| {
+        fields.word("of", &["tension", "middle", "line", "height", "place", "energy"])
+    });
     let part = of.and_then(|of| match of.value.as_str() {
         "tension" => tension(&fields),
         "middle" => coordinate(&fields, "line").map(|(line, axis)| ProbePart::Middle(line, axis)),
-        "line" => coordinate(&fields, "line").and_then(|(line, axis)| Some(ProbePart::LineAt(line, length_at(&fields)?, axis))),
+        "line" => coordinate(&fields, "line")
+            .and_then(|(line, axis)| Some(ProbePart::LineAt(line, length_at(&fields)?, axis))),
         "height" => height(&fields),
         "energy" => Some(ProbePart::Energy(energy_form(&fields))),
         _ => coordinate(&fields, "part").map(|(part, axis)| ProbePart::Place(part, axis)),
@@ -209,7 +221,8 @@ fn tension(fields: &Fields<'_>) -> Option<ProbePart> {
     if fields.get("at").is_some() {
         return Some(ProbePart::TensionAt(line?, length_at(fields)?));
     }
-    let end = fields.need_text("end", "write from or to; or `at`, a length of rope from its end `from`");
+    let end =
+        fields.need_text("end", "write from or to; or `at`, a length of rope from its end `from`");
     let end = end.and_then(|_| fields.word("end", &["from", "to"]))?;
     Some(ProbePart::Tension(line?, if end.value == "from" { LineEnd::A } else { LineEnd::B }))
 }

@@ -63,7 +63,10 @@ pub(super) fn pilot(fields: &Fields<'_>) -> Vec<PilotOf> {
         if let Some(PilotOf { trigger: TriggerOf::Time(at_s), .. }) = entry {
             if at_s <= latest_s {
                 let place = place_of(node, "at");
-                fields.problems().push(place.error("commands are not in rising order of `at`", "put them in the order of time"));
+                fields.problems().push(place.error(
+                    "commands are not in rising order of `at`",
+                    "put them in the order of time",
+                ));
             }
             latest_s = at_s;
         }
@@ -79,14 +82,24 @@ fn entry(node: &Node, ids: &Ids, problems: &Problems) -> (Option<At<String>>, Op
     let id = own_id(&fields, ids);
     let trigger = trigger(&fields, ids);
     let time = |key, range| fields.value(key, Quantity::Time, range);
-    let (delay, hold, ramp) = (time("delay", Range::NotNegative), time("hold", Range::Positive), time("ramp", Range::NotNegative));
+    let (delay, hold, ramp) = (
+        time("delay", Range::NotNegative),
+        time("hold", Range::Positive),
+        time("ramp", Range::NotNegative),
+    );
     if let (Some(TriggerOf::Time(_)), Some(delay)) = (&trigger, &delay) {
         problems.push(delay.place.error("an entry with `at` has no `delay`", "add it to `at`"));
     }
     let controls = controls(&fields);
     let act = fields.text("act");
-    if act.is_none() && controls.iter().all(Option::is_none) && Controls::NAMES.iter().all(|name| fields.get(name).is_none()) {
-        problems.push(fields.place.error("the entry sets no control", format!("write one or more of {}", Controls::NAMES.join(", "))));
+    if act.is_none()
+        && controls.iter().all(Option::is_none)
+        && Controls::NAMES.iter().all(|name| fields.get(name).is_none())
+    {
+        problems.push(fields.place.error(
+            "the entry sets no control",
+            format!("write one or more of {}", Controls::NAMES.join(", ")),
+        ));
     }
     fields.finish();
     let or = |value: Option<At<f64>>, default| value.map_or(default, |value| value.value);
@@ -115,39 +128,60 @@ fn controls(fields: &Fields<'_>) -> [Option<f64>; Controls::COUNT] {
     std::array::from_fn(|index| {
         let [least, most] = Controls::RANGES[index];
         let is_amount = index != Controls::ACT;
-        is_amount.then(|| fields.value(Controls::NAMES[index], Quantity::Ratio, Range::Between(least, most)))?.map(|value| value.value)
+        is_amount
+            .then(|| {
+                fields.value(Controls::NAMES[index], Quantity::Ratio, Range::Between(least, most))
+            })?
+            .map(|value| value.value)
     })
 }
 
 /// The one thing that begins an entry.
 fn trigger(fields: &Fields<'_>, ids: &Ids) -> Option<TriggerOf> {
-    let given: Vec<_> = TRIGGERS.iter().filter_map(|(key, _)| Some((*key, fields.get(key)?))).collect();
+    let given: Vec<_> =
+        TRIGGERS.iter().filter_map(|(key, _)| Some((*key, fields.get(key)?))).collect();
     let of = fields.text("of");
     let Some((key, _)) = given.first() else {
         let examples = TRIGGERS.map(|(_, example)| example).join(", ");
-        fields.problems().push(fields.place.error("nothing begins this entry of the pilot", format!("write one of {examples}")));
+        fields.problems().push(
+            fields.place.error(
+                "nothing begins this entry of the pilot",
+                format!("write one of {examples}"),
+            ),
+        );
         return None;
     };
     if let Some((other, node)) = given.get(1) {
         let message = format!("both `{key}` and `{other}` begin this entry");
-        fields.problems().push(node.place.error(message, "keep one; an entry of its own may begin with the other"));
+        fields.problems().push(
+            node.place.error(message, "keep one; an entry of its own may begin with the other"),
+        );
     }
     if let Some(of) = of.as_ref().filter(|_| *key != "within") {
-        fields.problems().push(of.place.error("`of` without `within`", "write within = \"5 m\", or take it out"));
+        fields.problems().push(
+            of.place.error("`of` without `within`", "write within = \"5 m\", or take it out"),
+        );
     }
     Some(match *key {
         "at" => TriggerOf::Time(fields.value("at", Quantity::Time, Range::NotNegative)?.value),
         "touch" => TriggerOf::Touch(touch(fields)?),
-        "within" => TriggerOf::Within(fields.value("within", Quantity::Length, Range::Positive)?.value, of),
-        "depth" => TriggerOf::Depth(fields.value("depth", Quantity::Length, Range::NotNegative)?.value),
-        "heading" => TriggerOf::Heading(fields.value("heading", Quantity::Angle, Range::Any)?.value),
+        "within" => {
+            TriggerOf::Within(fields.value("within", Quantity::Length, Range::Positive)?.value, of)
+        }
+        "depth" => {
+            TriggerOf::Depth(fields.value("depth", Quantity::Length, Range::NotNegative)?.value)
+        }
+        "heading" => {
+            TriggerOf::Heading(fields.value("heading", Quantity::Angle, Range::Any)?.value)
+        }
         _ => TriggerOf::After(after(fields, ids)?),
     })
 }
 
 /// A body part by name, or any.
 fn touch(fields: &Fields<'_>) -> Option<Option<BodyPart>> {
-    let words: Vec<&str> = std::iter::once("any").chain(BodyPart::ALL.map(BodyPart::name)).collect();
+    let words: Vec<&str> =
+        std::iter::once("any").chain(BodyPart::ALL.map(BodyPart::name)).collect();
     let word = fields.word("touch", &words)?;
     Some(BodyPart::ALL.into_iter().find(|part| part.name() == word.value))
 }
@@ -167,5 +201,7 @@ fn after(fields: &Fields<'_>, ids: &Ids) -> Option<usize> {
 /// Where a key of a table stands.
 fn place_of(node: &Node, key: &str) -> Place {
     let problems = Problems::default();
-    Fields::of(node, &problems).get(key).map_or_else(|| node.place.clone(), |value| value.place.clone())
+    Fields::of(node, &problems)
+        .get(key)
+        .map_or_else(|| node.place.clone(), |value| value.place.clone())
 }

@@ -67,7 +67,10 @@ pub(super) fn read(fields: &Fields<'_>) -> Sea {
     };
     match site {
         Some(site) => read_site(&site, &mut sea),
-        None => fields.missing("site", "write [site] with item = \"cape-cod-bay\", or with depth and density"),
+        None => fields.missing(
+            "site",
+            "write [site] with item = \"cape-cod-bay\", or with depth and density",
+        ),
     }
     sea
 }

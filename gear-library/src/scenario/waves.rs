@@ -29,11 +29,23 @@ pub(super) fn read(fields: &Fields<'_>) -> Option<At<Waves>> {
     let gamma = fields.value("gamma", Quantity::Ratio, Range::Between(1.0, 20.0));
     let components = fields.count("components", 1);
     let misplaced = match (&spectrum, &phase) {
-        (Some(_), Some(phase)) => Some((&phase.place, "a `phase` with a spectrum", "phases of irregular waves are drawn from the seed")),
+        (Some(_), Some(phase)) => Some((
+            &phase.place,
+            "a `phase` with a spectrum",
+            "phases of irregular waves are drawn from the seed",
+        )),
         (Some(_), None) => None,
-        (None, _) => gamma.as_ref().map(|gamma| &gamma.place).or(components.as_ref().map(|components| &components.place)).map(|place| {
-            (place, "a figure of a spectrum with regular waves", "write spectrum = \"jonswap\" for irregular waves, or take it out")
-        }),
+        (None, _) => gamma
+            .as_ref()
+            .map(|gamma| &gamma.place)
+            .or(components.as_ref().map(|components| &components.place))
+            .map(|place| {
+                (
+                    place,
+                    "a figure of a spectrum with regular waves",
+                    "write spectrum = \"jonswap\" for irregular waves, or take it out",
+                )
+            }),
     };
     if let Some((place, message, help)) = misplaced {
         fields.problems().push(place.error(message, help));
@@ -41,19 +53,26 @@ pub(super) fn read(fields: &Fields<'_>) -> Option<At<Waves>> {
     let most = MOST_COMPONENTS as u64;
     if let Some(components) = components.as_ref().filter(|components| components.value > most) {
         let message = format!("`components` is {}", components.value);
-        fields.problems().push(components.place.error(message, format!("expected {most} at most; 64 is usual")));
+        fields
+            .problems()
+            .push(components.place.error(message, format!("expected {most} at most; 64 is usual")));
     }
     fields.finish();
     let (height, period_s) = (height?, period?.value);
     let kind = match spectrum {
-        None => WaveKind::Regular { height_m: height.value, period_s, phase_rad: phase.map_or(0.0, |phase| phase.value) },
+        None => WaveKind::Regular {
+            height_m: height.value,
+            period_s,
+            phase_rad: phase.map_or(0.0, |phase| phase.value),
+        },
         Some(_) => WaveKind::Jonswap {
             spectrum: Spectrum {
                 significant_height_m: height.value,
                 peak_period_s: period_s,
                 gamma: gamma.map_or(USUAL_GAMMA, |gamma| gamma.value),
             },
-            components: components.map_or(USUAL_COMPONENTS, |components| components.value.min(most) as usize),
+            components: components
+                .map_or(USUAL_COMPONENTS, |components| components.value.min(most) as usize),
         },
     };
     let ramp_s = ramp.map_or(USUAL_RAMP * period_s, |ramp| ramp.value);

@@ -45,11 +45,15 @@ impl WrapOf {
     pub(super) fn read(node: &Node, problems: &Problems) -> Option<Self> {
         let fields = Fields::of(node, problems);
         let names = BodyPart::ALL.map(BodyPart::name);
-        let part = fields.need_text("part", "write the part of the whale it goes round, such as \"peduncle\"");
+        let part = fields
+            .need_text("part", "write the part of the whale it goes round, such as \"peduncle\"");
         let part = part.and_then(|_| fields.word("part", &names));
         let turns = fields.need_value("turns", Quantity::Ratio, Range::Between(-20.0, 20.0));
         if let Some(none) = turns.as_ref().filter(|turns| turns.value.abs() < 0.05) {
-            problems.push(none.place.error("`turns` is next to nothing", "write at least 0.05 turns, or below -0.05, left-handed"));
+            problems.push(none.place.error(
+                "`turns` is next to nothing",
+                "write at least 0.05 turns, or below -0.05, left-handed",
+            ));
         }
         let station = fields.value("station", Quantity::Ratio, Range::Between(0.0, 1.0));
         let pitch = fields.value("pitch", Quantity::Length, Range::Between(-5.0, 5.0));
@@ -62,11 +66,16 @@ impl WrapOf {
             && slack.value > 0.0
             && pretension.value > 0.0
         {
-            problems.push(slack.place.error("both `slack` and `pretension` are given", "a slack wrap bears no tension: keep one of them"));
+            problems.push(slack.place.error(
+                "both `slack` and `pretension` are given",
+                "a slack wrap bears no tension: keep one of them",
+            ));
         }
         fields.finish();
         let value = |at: Option<crate::diagnostic::At<f64>>| at.map(|at| at.value);
-        let part = BodyPart::ALL.into_iter().find(|known| part.as_ref().is_some_and(|part| part.value == known.name()))?;
+        let part = BodyPart::ALL
+            .into_iter()
+            .find(|known| part.as_ref().is_some_and(|part| part.value == known.name()))?;
         Some(Self {
             part,
             turns: turns?.value,

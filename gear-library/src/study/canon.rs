@@ -31,7 +31,8 @@ fn canonical(node: &Node) -> String {
         Content::List(items) => list(items),
         Content::Table(entries) => {
             let telling = entries.iter().filter(|(key, _, _)| !EXPLAINING.contains(&key.as_str()));
-            let mut pairs: Vec<String> = telling.map(|(key, _, value)| format!("{key:?}={}", canonical(value))).collect();
+            let mut pairs: Vec<String> =
+                telling.map(|(key, _, value)| format!("{key:?}={}", canonical(value))).collect();
             pairs.sort();
             format!("{{{}}}", pairs.join(","))
         }

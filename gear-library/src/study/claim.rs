@@ -29,7 +29,11 @@ pub struct Claim {
 
 /// Reads `[[claim]]`, sorted by id.
 pub(super) fn read_all(fields: &Fields<'_>, options: &[StudyOption]) -> Vec<Claim> {
-    let mut claims: Vec<Claim> = fields.tables("claim").iter().filter_map(|node| read(node, options, fields.problems())).collect();
+    let mut claims: Vec<Claim> = fields
+        .tables("claim")
+        .iter()
+        .filter_map(|node| read(node, options, fields.problems()))
+        .collect();
     claims.sort_by(|one, other| one.id.value.cmp(&other.id.value));
     claims
 }
@@ -65,7 +69,9 @@ fn known(fields: &Fields<'_>, key: &'static str, options: &[StudyOption]) -> Opt
     }
     let ids = || options.iter().map(|option| option.id.value.as_str());
     for id in named.iter().filter(|id| !ids().any(|known| known == id.value)) {
-        fields.problems().push(id.place.error(format!("there is no option `{}`", id.value), hint(&id.value, ids())));
+        fields.problems().push(
+            id.place.error(format!("there is no option `{}`", id.value), hint(&id.value, ids())),
+        );
     }
     Some(named.into_iter().map(|id| id.value).collect())
 }

@@ -49,7 +49,15 @@ impl Event {
     /// Every event there is.
     #[must_use]
     pub fn all() -> Vec<Self> {
-        let mut all = vec![Self::Contact, Self::Shed, Self::Entangled, Self::Parted, Self::PartedFree, Self::PartedEntangled, Self::Lodged];
+        let mut all = vec![
+            Self::Contact,
+            Self::Shed,
+            Self::Entangled,
+            Self::Parted,
+            Self::PartedFree,
+            Self::PartedEntangled,
+            Self::Lodged,
+        ];
         for kind in [RegionEvent::Contact, RegionEvent::Wrap] {
             all.extend(BodyPart::ALL.into_iter().map(|part| Self::On(kind, vec![part])));
             all.extend(GROUPS.into_iter().map(|(_, parts)| Self::On(kind, parts.to_vec())));
@@ -87,8 +95,12 @@ impl Event {
             Self::PartedFree => "parted and free".into(),
             Self::PartedEntangled => "parted, still entangled".into(),
             Self::Lodged => "lodged in the mouth".into(),
-            Self::On(RegionEvent::Contact, parts) => format!("rope on {}", place(parts).replace('_', " ")),
-            Self::On(RegionEvent::Wrap, parts) => format!("wrap on {}", place(parts).replace('_', " ")),
+            Self::On(RegionEvent::Contact, parts) => {
+                format!("rope on {}", place(parts).replace('_', " "))
+            }
+            Self::On(RegionEvent::Wrap, parts) => {
+                format!("wrap on {}", place(parts).replace('_', " "))
+            }
         }
     }
 
@@ -108,7 +120,8 @@ fn place(parts: &[BodyPart]) -> String {
 
 /// An event that must be named under a key.
 pub(super) fn need(fields: &Fields<'_>, key: &'static str) -> Option<Event> {
-    fields.need_text(key, "write an event such as \"entangled\", \"parted\" or \"wrap_flipper\"")?;
+    fields
+        .need_text(key, "write an event such as \"entangled\", \"parted\" or \"wrap_flipper\"")?;
     maybe(fields, key)
 }
 
@@ -118,9 +131,10 @@ pub(super) fn maybe(fields: &Fields<'_>, key: &'static str) -> Option<Event> {
     let found = Event::find(&word.value);
     if found.is_none() {
         let names: Vec<String> = Event::all().iter().map(Event::name).collect();
-        fields
-            .problems()
-            .push(word.place.error(format!("there is no event `{}`", word.value), hint(&word.value, names.iter().map(String::as_str))));
+        fields.problems().push(word.place.error(
+            format!("there is no event `{}`", word.value),
+            hint(&word.value, names.iter().map(String::as_str)),
+        ));
     }
     found
 }

@@ -111,10 +111,14 @@ impl Study {
     fn from_node(path: &str, node: &Node, problems: &Problems) -> Option<Self> {
         let fields = Fields::of(node, problems);
         let (name, notes, _) = entry::header(&fields, "study", problems);
-        let scenario = fields.need_text("scenario", "write the id of a scenario of the library, such as \"hello-endline\"");
+        let scenario = fields.need_text(
+            "scenario",
+            "write the id of a scenario of the library, such as \"hello-endline\"",
+        );
         let seed = fields.count("seed", 0);
         let encounters = encounters(&fields);
-        let baseline = fields.need_text("baseline", "write the id of the option that others are compared with");
+        let baseline = fields
+            .need_text("baseline", "write the id of the option that others are compared with");
         let event = event::maybe(&fields, "event");
         let split = fields.text("split");
         let run = run_rule(&fields);
@@ -149,12 +153,20 @@ impl Study {
     fn check_whole(&self, problems: &Problems) {
         let ids = || self.options.iter().map(|option| option.id.value.as_str());
         if !ids().any(|id| id == self.baseline.value) {
-            problems.push(
-                self.baseline.place.error(format!("there is no option `{}`", self.baseline.value), hint(&self.baseline.value, ids())),
-            );
+            problems.push(self.baseline.place.error(
+                format!("there is no option `{}`", self.baseline.value),
+                hint(&self.baseline.value, ids()),
+            ));
         }
-        let choices = || self.priors.iter().filter(|prior| matches!(prior.law, Law::Choice { .. })).map(|prior| prior.name.value.as_str());
-        if let Some(split) = self.split.as_ref().filter(|split| !choices().any(|name| name == split.value)) {
+        let choices = || {
+            self.priors
+                .iter()
+                .filter(|prior| matches!(prior.law, Law::Choice { .. }))
+                .map(|prior| prior.name.value.as_str())
+        };
+        if let Some(split) =
+            self.split.as_ref().filter(|split| !choices().any(|name| name == split.value))
+        {
             let message = format!("`{}` is no prior with a `choice`", split.value);
             problems.push(split.place.error(message, hint(&split.value, choices())));
         }
@@ -163,13 +175,17 @@ impl Study {
 
 fn encounters(fields: &Fields<'_>) -> Option<u64> {
     if fields.get("encounters").is_none() {
-        fields.missing("encounters", "write how many encounters every option meets, such as encounters = 1000");
+        fields.missing(
+            "encounters",
+            "write how many encounters every option meets, such as encounters = 1000",
+        );
     }
     let count = fields.count("encounters", 1)?;
     if count.value > MOST_ENCOUNTERS {
-        fields
-            .problems()
-            .push(count.place.error(format!("`encounters` is {}", count.value), format!("at most {MOST_ENCOUNTERS} can be drawn")));
+        fields.problems().push(count.place.error(
+            format!("`encounters` is {}", count.value),
+            format!("at most {MOST_ENCOUNTERS} can be drawn"),
+        ));
     }
     Some(count.value)
 }
@@ -181,7 +197,10 @@ fn run_rule(fields: &Fields<'_>) -> RunRule {
     let passed = table.value("passed", Quantity::Time, Range::Positive);
     let held = table.value("held", Quantity::Time, Range::Positive);
     table.finish();
-    RunRule { passed_s: passed.map_or(usual.passed_s, |passed| passed.value), held_s: held.map_or(usual.held_s, |held| held.value) }
+    RunRule {
+        passed_s: passed.map_or(usual.passed_s, |passed| passed.value),
+        held_s: held.map_or(usual.held_s, |held| held.value),
+    }
 }
 
 /// `[enough]`: when the study has seen enough.
@@ -190,7 +209,11 @@ fn enough(table: &Fields<'_>) -> Option<Enough> {
     let width = table.need_value("narrower", Quantity::Ratio, Range::Between(1e-4, 1.0));
     let least = table.count("least", 1);
     table.finish();
-    Some(Enough { event: event?, width: width?.value, least: least.map_or(50, |least| least.value) })
+    Some(Enough {
+        event: event?,
+        width: width?.value,
+        least: least.map_or(50, |least| least.value),
+    })
 }
 
 /// `[encounter]`: where the whale is aimed, and one table for each prior.
@@ -202,7 +225,11 @@ fn encounter(fields: &Fields<'_>) -> (Aim, Vec<Prior>) {
     let lines = option::texts(&table, "aim");
     let by = table.word("aim_by", &["baseline", "own"]);
     let gap = table.value("gap", Quantity::Length, Range::Between(0.1, 1000.0));
-    let aim = Aim { lines, own: by.is_some_and(|by| by.value == "own"), gap_m: gap.map_or(4.0, |gap| gap.value) };
+    let aim = Aim {
+        lines,
+        own: by.is_some_and(|by| by.value == "own"),
+        gap_m: gap.map_or(4.0, |gap| gap.value),
+    };
     let priors = prior::read_all(&table);
     table.finish();
     (aim, priors)

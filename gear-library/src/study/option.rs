@@ -47,7 +47,8 @@ pub(super) fn library_field(path: &str) -> Option<(String, &str)> {
 
 /// Reads `[[option]]`, sorted by id.
 pub(super) fn read_all(fields: &Fields<'_>) -> Vec<StudyOption> {
-    let mut options: Vec<StudyOption> = fields.tables("option").iter().filter_map(|node| read(node, fields.problems())).collect();
+    let mut options: Vec<StudyOption> =
+        fields.tables("option").iter().filter_map(|node| read(node, fields.problems())).collect();
     if fields.tables("option").is_empty() {
         fields.missing("option", "write each option under [[option]], the baseline too");
     }
@@ -63,7 +64,8 @@ fn read(node: &Node, problems: &Problems) -> Option<StudyOption> {
     let fields = Fields::of(node, problems);
     let id = fields.need_text("id", "write an id such as \"link-600\"");
     let name = fields.text("name");
-    let strength = fields.value("strength", crate::units::Quantity::Force, crate::fields::Range::Positive);
+    let strength =
+        fields.value("strength", crate::units::Quantity::Force, crate::fields::Range::Positive);
     let curve = fields.text("curve");
     let removes = texts(&fields, "remove");
     let mut settings = Vec::new();
@@ -74,7 +76,8 @@ fn read(node: &Node, problems: &Problems) -> Option<StudyOption> {
     fields.finish();
     let id = id?;
     let name = name.map_or_else(|| id.value.clone(), |name| name.value);
-    let (strength_n, curve) = (strength.map(|strength| strength.value), curve.map(|curve| curve.value));
+    let (strength_n, curve) =
+        (strength.map(|strength| strength.value), curve.map(|curve| curve.value));
     Some(StudyOption { id, name, strength_n, curve, settings, removes })
 }
 
@@ -93,9 +96,10 @@ fn flatten(node: &Node, path: &str, settings: &mut Vec<Setting>, problems: &Prob
 
 fn setting(path: String, place: &Place, node: &Node, problems: &Problems) -> Option<Setting> {
     let Some(value) = Value::of(node) else {
-        problems.push(
-            node.place.error(format!("`{path}` is {}", node.content.noun()), "write a text, a number, true or false, or a list of them"),
-        );
+        problems.push(node.place.error(
+            format!("`{path}` is {}", node.content.noun()),
+            "write a text, a number, true or false, or a list of them",
+        ));
         return None;
     };
     Some(Setting { field: At { value: path, place: place.clone() }, value })
@@ -111,7 +115,10 @@ pub(super) fn texts(fields: &Fields<'_>, key: &'static str) -> Vec<At<String>> {
     let text = |item: &&Node| match &item.content {
         Content::Text(text) => Some(At { value: text.clone(), place: item.place.clone() }),
         other => {
-            fields.problems().push(item.place.error(format!("`{key}` holds {}, not a text", other.noun()), "write texts in quotes"));
+            fields.problems().push(item.place.error(
+                format!("`{key}` holds {}, not a text", other.noun()),
+                "write texts in quotes",
+            ));
             None
         }
     };

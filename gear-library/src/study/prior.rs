@@ -95,10 +95,17 @@ impl Law {
     pub fn told(&self, number: f64) -> String {
         let rounded: f64 = format!("{number:.2e}").parse().unwrap_or(number);
         match self {
-            Self::Uniform { quantity, .. } | Self::Normal { quantity, .. } => in_words(rounded, *quantity),
+            Self::Uniform { quantity, .. } | Self::Normal { quantity, .. } => {
+                in_words(rounded, *quantity)
+            }
             Self::Choice(levels) => {
-                let same = |level: &Level| level.number.is_some_and(|known| known.total_cmp(&number).is_eq());
-                levels.iter().find(|(level, _)| same(level)).map_or_else(|| rounded.to_string(), |(level, _)| level.text.clone())
+                let same = |level: &Level| {
+                    level.number.is_some_and(|known| known.total_cmp(&number).is_eq())
+                };
+                levels
+                    .iter()
+                    .find(|(level, _)| same(level))
+                    .map_or_else(|| rounded.to_string(), |(level, _)| level.text.clone())
             }
         }
     }
@@ -111,11 +118,14 @@ impl Law {
                 format!("even from {} to {}", in_words(*low, *quantity), in_words(*high, *quantity))
             }
             Self::Normal { mean, deviation, low, high, quantity } => {
-                let [mean, deviation, low, high] = [mean, deviation, low, high].map(|value| in_words(*value, *quantity));
+                let [mean, deviation, low, high] =
+                    [mean, deviation, low, high].map(|value| in_words(*value, *quantity));
                 format!("normal about {mean} with deviation {deviation}, from {low} to {high}")
             }
             Self::Choice(levels) => {
-                let level = |(level, weight): &(Level, f64)| format!("{} {:.0} %", level.text, 100.0 * weight);
+                let level = |(level, weight): &(Level, f64)| {
+                    format!("{} {:.0} %", level.text, 100.0 * weight)
+                };
                 levels.iter().map(level).collect::<Vec<_>>().join(", ")
             }
         }
@@ -134,7 +144,11 @@ impl Prior {
     /// Its name for people: `flipper sweep`, `friction coefficient scale`.
     #[must_use]
     pub fn words(&self) -> String {
-        let parts = self.name.value.split(['.', '/']).filter(|part| *part != "attributes" && part.parse::<usize>().is_err());
+        let parts = self
+            .name
+            .value
+            .split(['.', '/'])
+            .filter(|part| *part != "attributes" && part.parse::<usize>().is_err());
         parts.collect::<Vec<_>>().join(" ").replace('_', " ")
     }
 }
@@ -180,7 +194,11 @@ const KNOWN: [(&str, Takes); 17] = [
 
 /// Reads every table of `[encounter]` that is left, sorted by name.
 pub(super) fn read_all(fields: &Fields<'_>) -> Vec<Prior> {
-    let mut priors: Vec<Prior> = fields.rest().into_iter().filter_map(|(name, key, node)| read(name, key, node, fields)).collect();
+    let mut priors: Vec<Prior> = fields
+        .rest()
+        .into_iter()
+        .filter_map(|(name, key, node)| read(name, key, node, fields))
+        .collect();
     priors.sort_by(|one, other| one.name.value.cmp(&other.name.value));
     priors
 }
@@ -212,7 +230,8 @@ fn read(name: &str, key: &Place, node: &Node, outer: &Fields<'_>) -> Option<Prio
     fields.finish();
     let source = source?;
     let assumed = source.value == "assumed";
-    let basis = basis.and_then(|word| Basis::ALL.into_iter().find(|basis| basis.word() == word.value));
+    let basis =
+        basis.and_then(|word| Basis::ALL.into_iter().find(|basis| basis.word() == word.value));
     if basis.is_none() && !assumed {
         problems.push(source.place.error(
             format!("`{name}` has a source but no sureness"),
@@ -220,7 +239,13 @@ fn read(name: &str, key: &Place, node: &Node, outer: &Fields<'_>) -> Option<Prio
         ));
     }
     let name = At { value: name.to_owned(), place: key.clone() };
-    Some(Prior { name, target, law: law?, basis: basis.unwrap_or(Basis::Assumed), source: source.value })
+    Some(Prior {
+        name,
+        target,
+        law: law?,
+        basis: basis.unwrap_or(Basis::Assumed),
+        source: source.value,
+    })
 }
 
 /// One of `uniform`, `normal` with `between`, `choice` with `weights`, or `value`.
@@ -233,17 +258,19 @@ fn law(fields: &Fields<'_>, known: Option<Takes>) -> Option<Law> {
             let (pair, quantity) = numbers(node, known, fields)?;
             let [low, high] = two(&pair, node, fields)?;
             if low >= high {
-                fields.problems().push(
-                    node.place
-                        .error("the first value is not below the second", "write the least value first; value = … where it does not vary"),
-                );
+                fields.problems().push(node.place.error(
+                    "the first value is not below the second",
+                    "write the least value first; value = … where it does not vary",
+                ));
                 return None;
             }
             Some(Law::Uniform { low, high, quantity })
         }
         [None, Some(node), None, None] => normal(node, between, known, fields),
         [None, None, Some(node), None] => choice(node, weights, known, fields),
-        [None, None, None, Some(node)] => Some(Law::Choice(vec![(level(node, known, fields)?, 1.0)])),
+        [None, None, None, Some(node)] => {
+            Some(Law::Choice(vec![(level(node, known, fields)?, 1.0)]))
+        }
         _ => {
             fields.missing("uniform", "write one of uniform = [least, greatest], normal = [mean, deviation] with between = [least, greatest], choice = [a, b] or value = a");
             None
@@ -251,46 +278,74 @@ fn law(fields: &Fields<'_>, known: Option<Takes>) -> Option<Law> {
     }
 }
 
-fn normal(node: &Node, between: Option<&Node>, known: Option<Takes>, fields: &Fields<'_>) -> Option<Law> {
+fn normal(
+    node: &Node,
+    between: Option<&Node>,
+    known: Option<Takes>,
+    fields: &Fields<'_>,
+) -> Option<Law> {
     let Some(between) = between else {
         fields.missing("between", "a normal law is cut off: write between = [least, greatest]");
         return None;
     };
     // A deviation need not lie in the quantity's own range.
-    let free = known.map(|takes| if let Takes::Number(quantity, _) = takes { Takes::Number(quantity, Range::Any) } else { takes });
+    let free = known.map(|takes| {
+        if let Takes::Number(quantity, _) = takes {
+            Takes::Number(quantity, Range::Any)
+        } else {
+            takes
+        }
+    });
     let (pair, quantity) = numbers(node, free, fields)?;
     let [mean, deviation] = two(&pair, node, fields)?;
     let (ends, _) = numbers(between, known, fields)?;
     let [low, high] = two(&ends, between, fields)?;
     if deviation <= 0.0 || low >= high {
-        fields.problems().push(node.place.error("this normal law has no width", "the deviation is above zero, and `between` rises"));
+        fields.problems().push(node.place.error(
+            "this normal law has no width",
+            "the deviation is above zero, and `between` rises",
+        ));
         return None;
     }
     Some(Law::Normal { mean, deviation, low, high, quantity })
 }
 
-fn choice(node: &Node, weights: Option<&Node>, known: Option<Takes>, fields: &Fields<'_>) -> Option<Law> {
+fn choice(
+    node: &Node,
+    weights: Option<&Node>,
+    known: Option<Takes>,
+    fields: &Fields<'_>,
+) -> Option<Law> {
     let Content::List(items) = &node.content else {
-        fields
-            .problems()
-            .push(node.place.error("`choice` is no list", "write choice = [a, b], and weights = [0.7, 0.3] where they are not alike"));
+        fields.problems().push(node.place.error(
+            "`choice` is no list",
+            "write choice = [a, b], and weights = [0.7, 0.3] where they are not alike",
+        ));
         return None;
     };
-    let levels = items.iter().map(|item| level(item, known, fields)).collect::<Option<Vec<Level>>>()?;
+    let levels =
+        items.iter().map(|item| level(item, known, fields)).collect::<Option<Vec<Level>>>()?;
     let weights = match weights {
         None => vec![1.0; levels.len()],
         Some(node) => {
             let Content::List(items) = &node.content else { return None };
-            let read = items.iter().map(|item| read_value(item, Quantity::Ratio, Range::NotNegative, fields.problems()).map(|at| at.value));
+            let read = items.iter().map(|item| {
+                read_value(item, Quantity::Ratio, Range::NotNegative, fields.problems())
+                    .map(|at| at.value)
+            });
             read.collect::<Option<Vec<f64>>>()?
         }
     };
     let sum: f64 = weights.iter().sum();
     if weights.len() != levels.len() || levels.is_empty() || sum <= 0.0 {
-        fields.problems().push(node.place.error("`choice` and `weights` do not fit", "give as many weights as values, not all zero"));
+        fields.problems().push(node.place.error(
+            "`choice` and `weights` do not fit",
+            "give as many weights as values, not all zero",
+        ));
         return None;
     }
-    let mut choice: Vec<(Level, f64)> = levels.into_iter().zip(weights.into_iter().map(|weight| weight / sum)).collect();
+    let mut choice: Vec<(Level, f64)> =
+        levels.into_iter().zip(weights.into_iter().map(|weight| weight / sum)).collect();
     choice.sort_by(|one, other| one.0.text.cmp(&other.0.text));
     Some(Law::Choice(choice))
 }
@@ -298,15 +353,25 @@ fn choice(node: &Node, weights: Option<&Node>, known: Option<Takes>, fields: &Fi
 fn level(node: &Node, known: Option<Takes>, fields: &Fields<'_>) -> Option<Level> {
     if let Some(Takes::Number(quantity, range)) = known {
         let number = read_value(node, quantity, range, fields.problems())?.value;
-        let text = if let Content::Text(text) = &node.content { text.clone() } else { number.to_string() };
+        let text =
+            if let Content::Text(text) = &node.content { text.clone() } else { number.to_string() };
         return Some(Level { text, number: Some(number), plain: quantity == Quantity::Ratio });
     }
     match &node.content {
-        Content::Text(text) => Some(Level { text: text.clone(), number: quantity_of(text).map(|(_, number)| number), plain: false }),
-        Content::Number(number) => Some(Level { text: number.to_string(), number: Some(*number), plain: true }),
+        Content::Text(text) => Some(Level {
+            text: text.clone(),
+            number: quantity_of(text).map(|(_, number)| number),
+            plain: false,
+        }),
+        Content::Number(number) => {
+            Some(Level { text: number.to_string(), number: Some(*number), plain: true })
+        }
         Content::Flag(flag) => Some(Level { text: flag.to_string(), number: None, plain: true }),
         other => {
-            fields.problems().push(node.place.error(format!("this is {}", other.noun()), "write a text, a number, true or false"));
+            fields.problems().push(node.place.error(
+                format!("this is {}", other.noun()),
+                "write a text, a number, true or false",
+            ));
             None
         }
     }
@@ -321,17 +386,27 @@ fn numbers(node: &Node, known: Option<Takes>, fields: &Fields<'_>) -> Option<(Ve
     let (quantity, range) = match known {
         Some(Takes::Number(quantity, range)) => (quantity, range),
         Some(Takes::Word) => {
-            fields.problems().push(node.place.error("this is drawn among words", "write choice = [\"…\", \"…\"]"));
+            fields.problems().push(
+                node.place.error("this is drawn among words", "write choice = [\"…\", \"…\"]"),
+            );
             return None;
         }
         None => {
             let first = items.first().map(|item| &item.content);
-            let quantity = if let Some(Content::Text(text)) = first { quantity_of(text).map(|(quantity, _)| quantity) } else { None };
+            let quantity = if let Some(Content::Text(text)) = first {
+                quantity_of(text).map(|(quantity, _)| quantity)
+            } else {
+                None
+            };
             (quantity.unwrap_or(Quantity::Ratio), Range::Any)
         }
     };
-    let read: Vec<_> = items.iter().map(|item| read_value(item, quantity, range, fields.problems())).collect();
-    let values = read.into_iter().map(|value| value.map(|value| value.value)).collect::<Option<Vec<f64>>>()?;
+    let read: Vec<_> =
+        items.iter().map(|item| read_value(item, quantity, range, fields.problems())).collect();
+    let values = read
+        .into_iter()
+        .map(|value| value.map(|value| value.value))
+        .collect::<Option<Vec<f64>>>()?;
     Some((values, quantity))
 }
 
@@ -339,11 +414,15 @@ fn two(values: &[f64], node: &Node, fields: &Fields<'_>) -> Option<[f64; 2]> {
     if let [first, second] = *values {
         return Some([first, second]);
     }
-    fields.problems().push(node.place.error(format!("there are {} values", values.len()), "write two"));
+    fields
+        .problems()
+        .push(node.place.error(format!("there are {} values", values.len()), "write two"));
     None
 }
 
 /// What a text with a unit measures.
 fn quantity_of(text: &str) -> Option<(Quantity, f64)> {
-    Quantity::ALL.into_iter().find_map(|quantity| Some((quantity, units::parse(text, quantity).ok()?)))
+    Quantity::ALL
+        .into_iter()
+        .find_map(|quantity| Some((quantity, units::parse(text, quantity).ok()?)))
 }

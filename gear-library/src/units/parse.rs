@@ -20,9 +20,14 @@ fn split(text: &str) -> (&str, &str) {
     let bytes = text.as_bytes();
     while end < bytes.len() {
         let exponent = matches!(bytes[end], b'e' | b'E') && exponent_follows(bytes, end);
-        let sign = matches!(bytes[end], b'+' | b'-') && (end == 0 || matches!(bytes[end - 1], b'e' | b'E'));
-        let part = bytes[end].is_ascii_digit() || matches!(bytes[end], b'.' | b',' | b' ') || exponent || sign;
-        let fraction = bytes[end] == b'/' && end > 0 && bytes.get(end + 1).is_some_and(u8::is_ascii_digit);
+        let sign = matches!(bytes[end], b'+' | b'-')
+            && (end == 0 || matches!(bytes[end - 1], b'e' | b'E'));
+        let part = bytes[end].is_ascii_digit()
+            || matches!(bytes[end], b'.' | b',' | b' ')
+            || exponent
+            || sign;
+        let fraction =
+            bytes[end] == b'/' && end > 0 && bytes.get(end + 1).is_some_and(u8::is_ascii_digit);
         if !part && !fraction {
             break;
         }
@@ -33,7 +38,8 @@ fn split(text: &str) -> (&str, &str) {
 
 fn exponent_follows(bytes: &[u8], at: usize) -> bool {
     let after = bytes.get(at + 1).copied().unwrap_or(b' ');
-    let digits = after.is_ascii_digit() || (matches!(after, b'+' | b'-') && bytes.get(at + 2).is_some_and(u8::is_ascii_digit));
+    let digits = after.is_ascii_digit()
+        || (matches!(after, b'+' | b'-') && bytes.get(at + 2).is_some_and(u8::is_ascii_digit));
     at > 0 && bytes[at - 1].is_ascii_digit() && digits
 }
 
@@ -79,7 +85,8 @@ fn read_decimal(text: &str) -> Option<f64> {
         let first = groups.next().unwrap_or_default();
         !whole.contains(',') || (!first.is_empty() && groups.all(|group| group.len() == 3))
     });
-    let fraction_has_comma = text.split_once('.').is_some_and(|(_, fraction)| fraction.contains(','));
+    let fraction_has_comma =
+        text.split_once('.').is_some_and(|(_, fraction)| fraction.contains(','));
     if !well_grouped || fraction_has_comma {
         return None;
     }
@@ -87,9 +94,20 @@ fn read_decimal(text: &str) -> Option<f64> {
 }
 
 fn bad_number(text: &str, number: &str, quantity: Quantity) -> UnitError {
-    let message = if number.is_empty() { format!("`{text}` has no number") } else { format!("`{number}` does not read as a number") };
-    let comma = if number.contains(',') { "; write decimals with a point, commas only between thousands" } else { "" };
-    UnitError { message, help: format!("expected {} such as {}{comma}", quantity.noun(), quantity.examples()) }
+    let message = if number.is_empty() {
+        format!("`{text}` has no number")
+    } else {
+        format!("`{number}` does not read as a number")
+    };
+    let comma = if number.contains(',') {
+        "; write decimals with a point, commas only between thousands"
+    } else {
+        ""
+    };
+    UnitError {
+        message,
+        help: format!("expected {} such as {}{comma}", quantity.noun(), quantity.examples()),
+    }
 }
 
 /// The factor of a unit, or what is wrong with it.
@@ -107,12 +125,17 @@ fn read_unit(text: &str, unit: &str, quantity: Quantity) -> Result<f64, UnitErro
     }
     let other = Quantity::ALL.into_iter().find(|other| table::find(unit, *other).is_some());
     let message = match other {
-        Some(other) => format!("`{unit}` is a unit of {}, not of {}", other.noun(), quantity.noun()),
+        Some(other) => {
+            format!("`{unit}` is a unit of {}, not of {}", other.noun(), quantity.noun())
+        }
         None => format!("unknown unit `{unit}`"),
     };
     let names = quantity.units().iter().flat_map(super::Unit::names).copied();
     let known: Vec<&str> = quantity.units().iter().map(super::Unit::name).collect();
     let meant = if other.is_none() { nearest(unit, names) } else { None };
-    let hint = meant.map_or_else(|| format!("; known units are {}", known.join(", ")), |name| format!("; did you mean `{name}`?"));
+    let hint = meant.map_or_else(
+        || format!("; known units are {}", known.join(", ")),
+        |name| format!("; did you mean `{name}`?"),
+    );
     Err(UnitError { message, help: expected + &hint })
 }

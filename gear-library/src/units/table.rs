@@ -53,8 +53,12 @@ static LENGTH: [Unit; 8] = [
     Unit::new(&["fathom", "fathoms", "fm"], FATHOM),
     Unit::new(&["nmi", "NM"], NAUTICAL_MILE),
 ];
-static AREA: [Unit; 4] =
-    [Unit::new(&["m2"], 1.0), Unit::new(&["cm2"], 1e-4), Unit::new(&["ft2"], FOOT * FOOT), Unit::new(&["in2"], INCH * INCH)];
+static AREA: [Unit; 4] = [
+    Unit::new(&["m2"], 1.0),
+    Unit::new(&["cm2"], 1e-4),
+    Unit::new(&["ft2"], FOOT * FOOT),
+    Unit::new(&["in2"], INCH * INCH),
+];
 static VOLUME: [Unit; 5] = [
     Unit::new(&["m3"], 1.0),
     Unit::new(&["L", "l", "litre", "litres", "liter", "liters"], 1e-3),
@@ -120,12 +124,19 @@ static DENSITY: [Unit; 4] = [
     Unit::new(&["lb/ft3"], POUND / (FOOT * FOOT * FOOT)),
 ];
 static DAMPING: [Unit; 2] = [Unit::new(&["N s", "Ns"], 1.0), Unit::new(&["kN s", "kNs"], 1e3)];
-static BENDING_STIFFNESS: [Unit; 2] = [Unit::new(&["N m2", "Nm2"], 1.0), Unit::new(&["N mm2", "Nmm2"], 1e-6)];
+static BENDING_STIFFNESS: [Unit; 2] =
+    [Unit::new(&["N m2", "Nm2"], 1.0), Unit::new(&["N mm2", "Nmm2"], 1e-6)];
 static INERTIA: [Unit; 1] = [Unit::new(&["kg m2", "kgm2"], 1.0)];
-static ANGLE: [Unit; 3] =
-    [Unit::new(&["rad"], 1.0), Unit::new(&["deg", "degree", "degrees", "°"], DEGREE), Unit::new(&["turn", "turns"], 360.0 * DEGREE)];
-static TURN_RATE: [Unit; 3] =
-    [Unit::new(&["rad/s"], 1.0), Unit::new(&["deg/s", "°/s"], DEGREE), Unit::new(&["rpm"], 2.0 * std::f64::consts::PI / 60.0)];
+static ANGLE: [Unit; 3] = [
+    Unit::new(&["rad"], 1.0),
+    Unit::new(&["deg", "degree", "degrees", "°"], DEGREE),
+    Unit::new(&["turn", "turns"], 360.0 * DEGREE),
+];
+static TURN_RATE: [Unit; 3] = [
+    Unit::new(&["rad/s"], 1.0),
+    Unit::new(&["deg/s", "°/s"], DEGREE),
+    Unit::new(&["rpm"], 2.0 * std::f64::consts::PI / 60.0),
+];
 static FREQUENCY: [Unit; 2] = [Unit::new(&["Hz"], 1.0), Unit::new(&["beats/min"], 1.0 / 60.0)];
 
 /// The units of a quantity, the SI unit first.
@@ -156,8 +167,11 @@ pub(super) fn units(quantity: Quantity) -> &'static [Unit] {
 /// The unit of a quantity by any of its names, written with or without spaces, dots and superscripts.
 pub(super) fn find(name: &str, quantity: Quantity) -> Option<&'static Unit> {
     let plain = plain(name);
-    let named =
-        |same: fn(&str, &str) -> bool| units(quantity).iter().find(|unit| unit.names.iter().any(|known| same(&self::plain(known), &plain)));
+    let named = |same: fn(&str, &str) -> bool| {
+        units(quantity)
+            .iter()
+            .find(|unit| unit.names.iter().any(|known| same(&self::plain(known), &plain)))
+    };
     named(|a, b| a == b).or_else(|| named(|a, b| a.eq_ignore_ascii_case(b)))
 }
 

@@ -77,7 +77,12 @@ impl Skeleton {
             let reach = self.reach(index);
             let aft = smooth_step(bend - reach, bend + reach, at);
             if aft > 0.0 {
-                weights = [(self.stretches[index], 1.0 - aft), (self.stretches[index + 1], aft), (0, 0.0), (0, 0.0)];
+                weights = [
+                    (self.stretches[index], 1.0 - aft),
+                    (self.stretches[index + 1], aft),
+                    (0, 0.0),
+                    (0, 0.0),
+                ];
             }
         }
         weights
@@ -87,7 +92,8 @@ impl Skeleton {
     fn reach(&self, bend: usize) -> f64 {
         let here = self.bends[bend];
         let gap = |other: Option<&f64>| other.map_or(f64::INFINITY, |place| (place - here).abs());
-        0.48 * gap(self.bends.get(bend + 1)).min(gap(bend.checked_sub(1).and_then(|before| self.bends.get(before))))
+        0.48 * gap(self.bends.get(bend + 1))
+            .min(gap(bend.checked_sub(1).and_then(|before| self.bends.get(before))))
     }
 
     /// Hands part of a vertex's weights over to another bone; the least of five bones gives way.
@@ -103,9 +109,21 @@ impl Skeleton {
         kept.map(|(mover, weight)| (mover, weight / sum))
     }
 
-    fn push(&mut self, name: &str, parent: u16, origin: DVec3, turns: &[(Angle, f64, DVec3)]) -> u16 {
-        let turns = turns.iter().map(|&(angle, share, axis)| (Channel { angle, share }, axis)).collect();
-        self.bones.push(Bone { name: name.into(), parent: Some(usize::from(parent)), origin, turns });
+    fn push(
+        &mut self,
+        name: &str,
+        parent: u16,
+        origin: DVec3,
+        turns: &[(Angle, f64, DVec3)],
+    ) -> u16 {
+        let turns =
+            turns.iter().map(|&(angle, share, axis)| (Channel { angle, share }, axis)).collect();
+        self.bones.push(Bone {
+            name: name.into(),
+            parent: Some(usize::from(parent)),
+            origin,
+            turns,
+        });
         u16::try_from(self.bones.len() - 1).unwrap_or(u16::MAX)
     }
 
@@ -113,7 +131,12 @@ impl Skeleton {
     fn add_fore_spine(&mut self, form: &WhaleForm, sections: &Sections, middle: usize) {
         let mut parent = 0;
         for joint in (0..middle).rev() {
-            parent = self.push(&spine_name(joint), parent, sections.axis(form.spine_joints[joint]), &spine_turns(joint, 1.0, 1.0));
+            parent = self.push(
+                &spine_name(joint),
+                parent,
+                sections.axis(form.spine_joints[joint]),
+                &spine_turns(joint, 1.0, 1.0),
+            );
             self.stretches.insert(0, parent);
         }
         self.skull = parent;
@@ -123,7 +146,8 @@ impl Skeleton {
         let mut parent = 0;
         for joint in middle..SPINE_JOINTS {
             for (name, at, share) in bends_of(form, joint) {
-                parent = self.push(&name, parent, sections.axis(at), &spine_turns(joint, share, -1.0));
+                parent =
+                    self.push(&name, parent, sections.axis(at), &spine_turns(joint, share, -1.0));
                 self.stretches.push(parent);
                 self.bends.push(at);
             }
@@ -137,7 +161,12 @@ impl Skeleton {
         for (side, name, out) in sides() {
             let foot = sections.outline(0.5 * corner, LIP_FOOT) * DVec2::new(0.8 * out, 1.0);
             let turn = [(Angle::Lips(side), 1.0, DVec3::NEG_X * out)];
-            let lip = self.push(&format!("{name}_lip"), self.jaw, sections.place(0.5 * corner, foot), &turn);
+            let lip = self.push(
+                &format!("{name}_lip"),
+                self.jaw,
+                sections.place(0.5 * corner, foot),
+                &turn,
+            );
             if side == 0 {
                 self.lip = lip;
             }
@@ -147,12 +176,19 @@ impl Skeleton {
     fn add_flukes(&mut self, form: &WhaleForm, sections: &Sections) {
         let joint = fluke_joint(form);
         let peduncle = self.stretches[self.stretches.len() - 1];
-        let flukes = self.push("flukes", peduncle, sections.axis(joint), &[(Angle::FlukePitch, 1.0, DVec3::NEG_Y)]);
+        let flukes = self.push(
+            "flukes",
+            peduncle,
+            sections.axis(joint),
+            &[(Angle::FlukePitch, 1.0, DVec3::NEG_Y)],
+        );
         self.bends.push(joint);
         self.stretches.push(flukes);
         let height = form.flukes.height * form.breadth_scale;
         for (side, name, out) in sides() {
-            let hinge = |bend: f64| sections.place(1.0, DVec2::new(out * bend * form.flukes.span / 2.0, height));
+            let hinge = |bend: f64| {
+                sections.place(1.0, DVec2::new(out * bend * form.flukes.span / 2.0, height))
+            };
             let flex = [(Angle::FlukeFlex(side), 0.5, DVec3::X * out)];
             let blade = self.push(&format!("{name}_fluke"), flukes, hinge(FLUKE_BENDS[0]), &flex);
             let tip = self.push(&format!("{name}_fluke_tip"), blade, hinge(FLUKE_BENDS[1]), &flex);
@@ -166,20 +202,37 @@ impl Skeleton {
         let chest = self.chest(form.flippers.insertion);
         for (side, name, out) in sides() {
             let mirror = DVec3::new(1.0, out, 1.0);
-            let turn = DQuat::from_rotation_z(form.flippers.sweep) * DQuat::from_rotation_x(-form.flippers.droop);
+            let turn = DQuat::from_rotation_z(form.flippers.sweep)
+                * DQuat::from_rotation_x(-form.flippers.droop);
             let span = turn * DVec3::Y * mirror;
             let root = sections.flipper_root(form) * mirror;
             let behind = DVec3::NEG_X * HINGE_AFT * form.flippers.root_chord * form.length_m;
             let hinge = |bend: f64| root + span * bend * form.flippers.span * form.length_m;
             let twist = |share: f64| (Angle::FlipperTwist(side), share, span * out);
             let raise = |share: f64| (Angle::FlipperRaise(side), share, DVec3::X * out);
-            let chord = DVec3::new(libm::cos(form.flippers.sweep), libm::sin(form.flippers.sweep), 0.0) * mirror;
+            let chord =
+                DVec3::new(libm::cos(form.flippers.sweep), libm::sin(form.flippers.sweep), 0.0)
+                    * mirror;
             let flex = (Angle::FlipperFlex(side), 0.5, chord * out);
             let sweep = (Angle::FlipperSweep(side), 1.0, DVec3::Z * out);
-            let shoulder =
-                self.push(&format!("{name}_flipper_shoulder"), chest, hinge(FLIPPER_BENDS[0]) + behind, &[twist(0.4), raise(0.8), sweep]);
-            let blade = self.push(&format!("{name}_flipper_blade"), shoulder, hinge(FLIPPER_BENDS[1]), &[twist(0.4), raise(0.2), flex]);
-            let tip = self.push(&format!("{name}_flipper_tip"), blade, hinge(FLIPPER_BENDS[2]), &[twist(0.2), flex]);
+            let shoulder = self.push(
+                &format!("{name}_flipper_shoulder"),
+                chest,
+                hinge(FLIPPER_BENDS[0]) + behind,
+                &[twist(0.4), raise(0.8), sweep],
+            );
+            let blade = self.push(
+                &format!("{name}_flipper_blade"),
+                shoulder,
+                hinge(FLIPPER_BENDS[1]),
+                &[twist(0.4), raise(0.2), flex],
+            );
+            let tip = self.push(
+                &format!("{name}_flipper_tip"),
+                blade,
+                hinge(FLIPPER_BENDS[2]),
+                &[twist(0.2), flex],
+            );
             if side == 0 {
                 self.flipper = [shoulder, blade, tip];
             }
@@ -233,7 +286,10 @@ fn bends_of(form: &WhaleForm, joint: usize) -> Vec<(String, f64, f64)> {
     }
     let next = form.spine_joints.get(joint + 1).copied().unwrap_or_else(|| fluke_joint(form));
     let apart = APART * (next - here).min(here - form.spine_joints[joint - 1]);
-    vec![(spine_name(joint), here - apart, 0.5), (format!("{}_aft", spine_name(joint)), here + apart, 0.5)]
+    vec![
+        (spine_name(joint), here - apart, 0.5),
+        (format!("{}_aft", spine_name(joint)), here + apart, 0.5),
+    ]
 }
 
 /// A positive pitch bends what lies aft down, a positive yaw swings it to starboard, a positive roll turns its starboard side

@@ -25,7 +25,10 @@ impl MonotoneCubic {
     #[must_use]
     pub fn at(&self, x: f64) -> f64 {
         let above = self.points.partition_point(|point| point[0] <= x);
-        match (above.checked_sub(1).and_then(|below| self.points.get(below)), self.points.get(above)) {
+        match (
+            above.checked_sub(1).and_then(|below| self.points.get(below)),
+            self.points.get(above),
+        ) {
             (Some(&low), Some(&high)) => self.between(above - 1, low, high, x),
             (Some(end), None) | (None, Some(end)) => end[1],
             (None, None) => 0.0,
@@ -38,16 +41,22 @@ impl MonotoneCubic {
         let (t2, t3) = (t * t, t * t * t);
         low[1] * (2.0 * t3 - 3.0 * t2 + 1.0)
             + high[1] * (3.0 * t2 - 2.0 * t3)
-            + width * (self.slopes[index] * (t3 - 2.0 * t2 + t) + self.slopes[index + 1] * (t3 - t2))
+            + width
+                * (self.slopes[index] * (t3 - 2.0 * t2 + t) + self.slopes[index + 1] * (t3 - t2))
     }
 }
 
 /// Slope at each point: the harmonic mean of its neighbours' where they agree in sign, else level.
 fn slopes(points: &[[f64; 2]]) -> Vec<f64> {
-    let rises: Vec<f64> = points.windows(2).map(|pair| (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0])).collect();
+    let rises: Vec<f64> = points
+        .windows(2)
+        .map(|pair| (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0]))
+        .collect();
     (0..points.len())
         .map(|index| match (index.checked_sub(1).map(|before| rises[before]), rises.get(index)) {
-            (Some(before), Some(&after)) if before * after > 0.0 => 2.0 * before * after / (before + after),
+            (Some(before), Some(&after)) if before * after > 0.0 => {
+                2.0 * before * after / (before + after)
+            }
             (Some(_), Some(_)) | (None, None) => 0.0,
             (Some(rise), None) | (None, Some(&rise)) => rise,
         })

@@ -20,7 +20,8 @@ use glam::DVec3;
 pub fn smallest_radius(skin: &Skin, of: impl Fn(Region) -> bool) -> Option<(f64, DVec3)> {
     let mut first = BTreeMap::new();
     let mut least: Option<(f64, DVec3)> = None;
-    for (triangle, _) in skin.triangles.iter().zip(&skin.regions).filter(|(_, region)| of(**region)) {
+    for (triangle, _) in skin.triangles.iter().zip(&skin.regions).filter(|(_, region)| of(**region))
+    {
         for turn in 0..3 {
             let [a, b, c] = [0, 1, 2].map(|step| triangle[(turn + step) % 3]);
             let Some(other) = first.remove(&(b, a)) else {

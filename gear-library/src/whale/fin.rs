@@ -53,7 +53,8 @@ pub fn tip_rounding(s: f64, blunt: f64) -> f64 {
 /// Exponent that rounds a tip of some half thickness to a radius over a span.
 #[must_use]
 pub fn tip_bluntness(radius: f64, span: f64, half_thickness: f64) -> f64 {
-    (2.0 * radius * span / (half_thickness * half_thickness).max(LEAST_M * LEAST_M)).clamp(8.0, 80.0)
+    (2.0 * radius * span / (half_thickness * half_thickness).max(LEAST_M * LEAST_M))
+        .clamp(8.0, 80.0)
 }
 
 /// Shares of the span at which a fin's rings stand, without its root (0) and tip (1): close at the root's fillet and at the tip.

@@ -12,9 +12,11 @@ use super::form::WhaleForm;
 use super::kept::volume_of;
 
 /// Share of the change of girth by place: most variable at 60 % of length (Miller et al. 2012), none at head and flukes.
-const CONDITION: [[f64; 2]; 7] = [[0.0, 0.0], [0.18, 0.0], [0.35, 0.55], [0.5, 0.9], [0.6, 1.0], [0.75, 0.6], [0.9, 0.0]];
+const CONDITION: [[f64; 2]; 7] =
+    [[0.0, 0.0], [0.18, 0.0], [0.35, 0.55], [0.5, 0.9], [0.6, 1.0], [0.75, 0.6], [0.9, 0.0]];
 /// Growth of girth late in pregnancy: 5 to 10 % from 0.5 to 0.7 of length, the calf's bulge at 0.55 to 0.65 (facts 4.3, estimate).
-const PREGNANCY: [[f64; 2]; 7] = [[0.0, 0.0], [0.4, 0.0], [0.5, 0.05], [0.6, 0.10], [0.7, 0.05], [0.8, 0.0], [1.0, 0.0]];
+const PREGNANCY: [[f64; 2]; 7] =
+    [[0.0, 0.0], [0.4, 0.0], [0.5, 0.05], [0.6, 0.10], [0.7, 0.05], [0.8, 0.0], [1.0, 0.0]];
 /// Places of the girth's curve.
 const PLACES: u32 = 40;
 
@@ -27,7 +29,8 @@ impl WhaleForm {
         for _ in 0..5 {
             let held = self.skin_volume_m3();
             if held > 0.0 && volume_m3 > 0.0 && volume_m3.is_finite() {
-                self.breadth_scale = (self.breadth_scale * libm::sqrt(volume_m3 / held)).clamp(0.2, 3.0);
+                self.breadth_scale =
+                    (self.breadth_scale * libm::sqrt(volume_m3 / held)).clamp(0.2, 3.0);
             }
         }
         self
@@ -69,9 +72,14 @@ impl WhaleForm {
     }
 
     fn with_girth(mut self, shape: &[[f64; 2]], amount: f64) -> Self {
-        let (own, shape) = (MonotoneCubic::through(self.girth.iter().copied()), MonotoneCubic::through(shape.iter().copied()));
+        let (own, shape) = (
+            MonotoneCubic::through(self.girth.iter().copied()),
+            MonotoneCubic::through(shape.iter().copied()),
+        );
         let at = |place: u32| f64::from(place) / f64::from(PLACES);
-        self.girth = (0..=PLACES).map(|place| [at(place), own.at(at(place)) * (1.0 + amount * shape.at(at(place)))]).collect();
+        self.girth = (0..=PLACES)
+            .map(|place| [at(place), own.at(at(place)) * (1.0 + amount * shape.at(at(place)))])
+            .collect();
         self
     }
 }

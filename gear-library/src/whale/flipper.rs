@@ -30,18 +30,26 @@ const LEAD: f64 = 0.46;
 pub fn add(build: &mut Builder, hole: &[u32]) {
     let chords = chords(build.form);
     let rim: Vec<DVec3> = hole.iter().map(|&vertex| build.half.place(vertex)).collect();
-    let base: Vec<DVec3> = (0..hole.len()).map(|vertex| base(build, &chords, vertex, hole.len())).collect();
+    let base: Vec<DVec3> =
+        (0..hole.len()).map(|vertex| base(build, &chords, vertex, hole.len())).collect();
     let (mut before, mut inner) = (hole.to_vec(), 0.0);
     for s in spans(RINGS) {
-        let ring: Vec<Corner> = (0..hole.len()).map(|vertex| corner(build, &chords, s, vertex, &rim, &base)).collect();
+        let ring: Vec<Corner> =
+            (0..hole.len()).map(|vertex| corner(build, &chords, s, vertex, &rim, &base)).collect();
         let ring = build.half.row(ring);
         let middle = (s + inner) / 2.0;
         let count = hole.len();
         let section = section(build.form, &chords, middle);
-        build.half.ring(&before, &ring, |patch| Some(region(middle, section.corner(share(patch as f64 + 0.5, count)).2)));
+        build.half.ring(&before, &ring, |patch| {
+            Some(region(middle, section.corner(share(patch as f64 + 0.5, count)).2))
+        });
         (before, inner) = (ring, s);
     }
-    let place = build.flipper_place((LEAD - 0.5) * build.form.flippers.tip_chord * build.form.length_m, 1.0, 0.0);
+    let place = build.flipper_place(
+        (LEAD - 0.5) * build.form.flippers.tip_chord * build.form.length_m,
+        1.0,
+        0.0,
+    );
     let tip = Corner { place, weights: weights(build, place, 1.0), mark: Mark::Skin };
     let tip = build.half.add(tip);
     build.half.fan_in(&before, tip, |_| Region::LeftFlipperTip);
@@ -56,7 +64,8 @@ fn share(vertex: f64, of: usize) -> f64 {
 fn base(build: &Builder, chords: &MonotoneCubic, vertex: usize, of: usize) -> DVec3 {
     let (x, z, _) = section(build.form, chords, 0.0).corner(share(vertex as f64, of));
     let (from, along) = (build.flipper_place(x, 0.0, z), build.flipper_axis());
-    let reach = 0.6 * build.form.flippers.root_chord * build.form.length_m + 0.01 * build.form.length_m;
+    let reach =
+        0.6 * build.form.flippers.root_chord * build.form.length_m + 0.01 * build.form.length_m;
     let (mut low, mut high) = (-reach, reach);
     for _ in 0..40 {
         let middle = (low + high) / 2.0;
@@ -65,13 +74,22 @@ fn base(build: &Builder, chords: &MonotoneCubic, vertex: usize, of: usize) -> DV
     from + along * (low + high) / 2.0
 }
 
-fn corner(build: &Builder, chords: &MonotoneCubic, s: f64, vertex: usize, rim: &[DVec3], base: &[DVec3]) -> Corner {
+fn corner(
+    build: &Builder,
+    chords: &MonotoneCubic,
+    s: f64,
+    vertex: usize,
+    rim: &[DVec3],
+    base: &[DVec3],
+) -> Corner {
     let part = share(vertex as f64, rim.len());
     let (x, z, _) = section(build.form, chords, 0.0).corner(part);
     let root = base[vertex] - build.flipper_place(x, 0.0, z);
     let (x, z, _) = section(build.form, chords, s).corner(part);
     let left = 1.0 - smooth_step(0.0, 0.55, s);
-    let place = build.flipper_place(x, s, z) + root * left + (rim[vertex] - base[vertex]) * fillet(s, FILLET);
+    let place = build.flipper_place(x, s, z)
+        + root * left
+        + (rim[vertex] - base[vertex]) * fillet(s, FILLET);
     Corner { place, weights: weights(build, place, s), mark: Mark::Skin }
 }
 
@@ -88,7 +106,11 @@ fn region(s: f64, along: f64) -> Region {
 /// Chord along a flipper [m by share of span].
 fn chords(form: &WhaleForm) -> MonotoneCubic {
     let flippers = &form.flippers;
-    let points = [[0.0, flippers.root_chord], [flippers.max_chord_at, flippers.max_chord], [1.0, flippers.tip_chord]];
+    let points = [
+        [0.0, flippers.root_chord],
+        [flippers.max_chord_at, flippers.max_chord],
+        [1.0, flippers.tip_chord],
+    ];
     MonotoneCubic::through(points.map(|[s, chord]| [s, chord * form.length_m]))
 }
 
@@ -97,10 +119,17 @@ fn section(form: &WhaleForm, chords: &MonotoneCubic, s: f64) -> Section {
     let full = chords.at(s);
     let middle = (LEAD - 0.5) * full;
     let half_chord = full / 2.0 * tip_rounding(s, 10.0);
-    let half_thickness = full / 2.0 * (flippers.thickness + (flippers.tip_thickness - flippers.thickness) * s);
-    let blunt = tip_bluntness(flippers.edge_radius_m, flippers.span * form.length_m, half_thickness);
+    let half_thickness =
+        full / 2.0 * (flippers.thickness + (flippers.tip_thickness - flippers.thickness) * s);
+    let blunt =
+        tip_bluntness(flippers.edge_radius_m, flippers.span * form.length_m, half_thickness);
     let half_thickness = half_thickness * tip_rounding(s, blunt);
-    Section { lead: middle + half_chord, trail: middle - half_chord, half_thickness, edge_radius: flippers.edge_radius_m }
+    Section {
+        lead: middle + half_chord,
+        trail: middle - half_chord,
+        half_thickness,
+        edge_radius: flippers.edge_radius_m,
+    }
 }
 
 /// The base goes with body and shoulder, the rest with shoulder, blade and tip.

@@ -37,10 +37,16 @@ pub fn add(build: &mut Builder, back: &[u32]) {
     let places: Vec<DVec3> = root.iter().map(|&vertex| build.half.place(vertex)).collect();
     let (mut before, mut inner) = (root, 0.0);
     for s in spans(RINGS) {
-        let ring: Vec<Corner> = places.iter().enumerate().map(|(vertex, &root)| corner(build, s, vertex, root)).collect();
+        let ring: Vec<Corner> = places
+            .iter()
+            .enumerate()
+            .map(|(vertex, &root)| corner(build, s, vertex, root))
+            .collect();
         let ring = build.half.row(ring);
         let section = section(build.form, (s + inner) / 2.0);
-        let regions: Vec<Region> = (0..AROUND).map(|patch| region(&section, patch_x(build, &[&before, &ring], patch))).collect();
+        let regions: Vec<Region> = (0..AROUND)
+            .map(|patch| region(&section, patch_x(build, &[&before, &ring], patch)))
+            .collect();
         build.half.ring(&before, &ring, |patch| regions.get(patch).copied());
         (before, inner) = (ring, s);
     }
@@ -101,8 +107,10 @@ fn section(form: &WhaleForm, out: f64) -> Section {
     let chord = (trail - lead).max(0.2 * flukes.tip_chord) * form.length_m;
     let middle = -(lead + trail) / 2.0 * form.length_m;
     let half_chord = chord / 2.0 * tip_rounding(out, 16.0);
-    let half_thickness = chord / 2.0 * (flukes.thickness + (flukes.tip_thickness - flukes.thickness) * out);
-    let blunt = tip_bluntness(flukes.edge_radius_m, flukes.span / 2.0 * form.length_m, half_thickness);
+    let half_thickness =
+        chord / 2.0 * (flukes.thickness + (flukes.tip_thickness - flukes.thickness) * out);
+    let blunt =
+        tip_bluntness(flukes.edge_radius_m, flukes.span / 2.0 * form.length_m, half_thickness);
     Section {
         lead: middle + half_chord,
         trail: middle - half_chord,

@@ -119,18 +119,21 @@ impl WhaleForm {
     pub fn right_whale(length_m: f64) -> Self {
         let mut form = Self {
             length_m,
-            stations: RIGHT_WHALE_STATIONS.iter().map(|&[at, width, dorsal, ventral]| Station { at, width, dorsal, ventral }).collect(),
+            stations: RIGHT_WHALE_STATIONS
+                .iter()
+                .map(|&[at, width, dorsal, ventral]| Station { at, width, dorsal, ventral })
+                .collect(),
             breadth_scale: 1.0,
             girth: vec![[0.0, 1.0]],
             head: HeadForm {
                 share: 0.27,                         // SeaLifeBase: 1/4 to nearly 1/3 of length
-                mouth: 0.2345,                       // Moore et al. 2005, 35 carcasses: 0.2345 L - 0.184 m
-                rostrum_width: 0.32,                 // estimate: 0.25 to 0.35 of the head's width
-                lip_arch: 0.11,                      // estimate
-                baleen: 0.128,                       // Best and Schell 1996, Omura 1969: 0.208 L - 1.095 m
+                mouth: 0.2345, // Moore et al. 2005, 35 carcasses: 0.2345 L - 0.184 m
+                rostrum_width: 0.32, // estimate: 0.25 to 0.35 of the head's width
+                lip_arch: 0.11, // estimate
+                baleen: 0.128, // Best and Schell 1996, Omura 1969: 0.208 L - 1.095 m
                 callosity_m: 0.06 * length_m / 13.7, // recalled: 2 to 8 cm
             },
-            peduncle_start: 0.70,                                            // estimate: behind the anus, 0.68 to 0.70 L
+            peduncle_start: 0.70, // estimate: behind the anus, 0.68 to 0.70 L
             spine_joints: [0.27, 0.36, 0.45, 0.55, 0.64, 0.73, 0.81, 0.885], // estimate: lateral bending spread over 0.35 to 0.9 L
             flippers: right_whale_flippers(),
             flukes: right_whale_flukes(),
@@ -144,14 +147,23 @@ impl WhaleForm {
     #[must_use]
     pub fn table_volume_m3(&self) -> f64 {
         let area = |s: &Station| PI / 4.0 * s.width * (s.dorsal - s.ventral);
-        let share: f64 = self.stations.windows(2).map(|w| (w[1].at - w[0].at) * (area(&w[0]) + area(&w[1])) / 2.0).sum();
+        let share: f64 = self
+            .stations
+            .windows(2)
+            .map(|w| (w[1].at - w[0].at) * (area(&w[0]) + area(&w[1])) / 2.0)
+            .sum();
         share * self.length_m * self.length_m * self.length_m
     }
 }
 
 /// How a right whale's head changes with length; sources beside the shares.
-const RIGHT_WHALE_GROWTH: Growth =
-    Growth { mouth_offset_m: -0.184, baleen_offset_m: -1.095, head_width: Some([0.157, -0.106]), mass: None, age: None };
+const RIGHT_WHALE_GROWTH: Growth = Growth {
+    mouth_offset_m: -0.184,
+    baleen_offset_m: -1.095,
+    head_width: Some([0.157, -0.106]),
+    mass: None,
+    age: None,
+};
 /// Its mass: Fortune et al. 2020.
 const RIGHT_WHALE_MASS: MassLaw = MassLaw { length_m: 13.1, mass_kg: 31_700.0, exponent: 3.1026 };
 

@@ -91,7 +91,11 @@ impl Jaw {
         let mut place = (ends[0] + ends[1]) / 2.0;
         let at = if self.upper { 0.0 } else { jaws(build).lower_place(0.0) };
         place.x = (0.5 - at) * build.form.length_m;
-        let mark = if self.upper && build.form.head.callosity_m > 0.0 { Mark::Callosity } else { Mark::Skin };
+        let mark = if self.upper && build.form.head.callosity_m > 0.0 {
+            Mark::Callosity
+        } else {
+            Mark::Skin
+        };
         let pole = Corner { place, weights: self.weights(build, at, None), mark };
         let pole = build.half.add(pole);
         let regions = self.regions(build, at);
@@ -102,29 +106,39 @@ impl Jaw {
         let jaws = jaws(build);
         let at = if self.upper { at } else { jaws.lower_place(at) };
         let half = if self.upper { jaws.upper(at) } else { jaws.lower(at) };
-        let corners = if self.upper { self.upper_row(build, at, &half) } else { self.lower_row(build, at, &half) };
+        let corners = if self.upper {
+            self.upper_row(build, at, &half)
+        } else {
+            self.lower_row(build, at, &half)
+        };
         (at, build.half.row(corners))
     }
 
     fn upper_row(&self, build: &Builder, at: f64, half: &Halfjaw) -> Vec<Corner> {
-        let outside = half.outside.iter().zip(&half.angles).map(|(&place, &angle)| self.outer(build, at, place, angle));
+        let outside = half
+            .outside
+            .iter()
+            .zip(&half.angles)
+            .map(|(&place, &angle)| self.outer(build, at, place, angle));
         let hang = jaws(build).hang(at);
         let inside = half.inside.iter().enumerate().skip(1).map(|(vertex, &place)| {
-            let mark = if vertex < 10 && hang > 0.004 { Mark::Baleen } else { self.within(build, at) };
+            let mark =
+                if vertex < 10 && hang > 0.004 { Mark::Baleen } else { self.within(build, at) };
             self.inner(build, at, place, vertex, mark)
         });
         outside.chain(inside).collect()
     }
 
     fn lower_row(&self, build: &Builder, at: f64, half: &Halfjaw) -> Vec<Corner> {
-        let inside = half
-            .inside
+        let inside =
+            half.inside.iter().enumerate().skip(1).rev().map(|(vertex, &place)| {
+                self.inner(build, at, place, vertex, self.within(build, at))
+            });
+        let outside = half
+            .outside
             .iter()
-            .enumerate()
-            .skip(1)
-            .rev()
-            .map(|(vertex, &place)| self.inner(build, at, place, vertex, self.within(build, at)));
-        let outside = half.outside.iter().zip(&half.angles).map(|(&place, &angle)| self.outer(build, at, place, angle));
+            .zip(&half.angles)
+            .map(|(&place, &angle)| self.outer(build, at, place, angle));
         inside.chain(outside).collect()
     }
 
@@ -152,7 +166,12 @@ impl Jaw {
         Corner { place, weights: self.weights(build, at, Some((0.0, vertex))), mark }
     }
 
-    fn weights(&self, build: &Builder, at: f64, place: Option<(f64, usize)>) -> super::mesh::Weights {
+    fn weights(
+        &self,
+        build: &Builder,
+        at: f64,
+        place: Option<(f64, usize)>,
+    ) -> super::mesh::Weights {
         match place {
             _ if self.upper => build.skeleton.along_body(at),
             Some((angle, inside)) => build.lower_jaw_weights(at, angle, inside),
@@ -176,7 +195,11 @@ impl Jaw {
             _ if !self.upper && patch < 4 => Region::Lips,
             _ => Region::Head,
         });
-        if self.upper { outside.chain(inside).collect() } else { inside.rev().chain(outside).collect() }
+        if self.upper {
+            outside.chain(inside).collect()
+        } else {
+            inside.rev().chain(outside).collect()
+        }
     }
 }
 

@@ -65,7 +65,8 @@ impl<'a> Jaws<'a> {
             [0.93, mean(0.42)],
             [1.0, mean(0.6)],
         ];
-        let roof = [[0.0, 0.0], [0.2, 0.010], [0.45, 0.020], [0.7, 0.017], [0.9, 0.008], [1.0, 0.004]];
+        let roof =
+            [[0.0, 0.0], [0.2, 0.010], [0.45, 0.020], [0.7, 0.017], [0.9, 0.008], [1.0, 0.004]];
         Self {
             sections,
             corner: corner_at(form),
@@ -110,8 +111,10 @@ impl<'a> Jaws<'a> {
     #[must_use]
     pub fn upper(&self, at: f64) -> Halfjaw {
         let gape = self.gape(at) - self.slit(at);
-        let angles: Vec<f64> = (0..=CORNER).map(|column| mouth_angle(gape, column as f64)).collect();
-        let outside: Vec<DVec2> = angles.iter().map(|&angle| self.sections.outline(at, angle)).collect();
+        let angles: Vec<f64> =
+            (0..=CORNER).map(|column| mouth_angle(gape, column as f64)).collect();
+        let outside: Vec<DVec2> =
+            angles.iter().map(|&angle| self.sections.outline(at, angle)).collect();
         let inside = self.merged(at, outside[CORNER], &self.palate(at));
         capped(at / CAP, 0.6, angles, outside, inside)
     }
@@ -120,8 +123,10 @@ impl<'a> Jaws<'a> {
     #[must_use]
     pub fn lower(&self, at: f64) -> Halfjaw {
         let gape = self.gape(at) + self.slit(at);
-        let angles: Vec<f64> = (CORNER..=HALF_AROUND).map(|column| mouth_angle(gape, column as f64)).collect();
-        let outside: Vec<DVec2> = angles.iter().map(|&angle| self.sections.outline(at, angle)).collect();
+        let angles: Vec<f64> =
+            (CORNER..=HALF_AROUND).map(|column| mouth_angle(gape, column as f64)).collect();
+        let outside: Vec<DVec2> =
+            angles.iter().map(|&angle| self.sections.outline(at, angle)).collect();
         let inside = self.merged(at, outside[0], &self.floor(at));
         capped((at - CHIN_BACK) / (CAP * 0.9), 0.8, angles, outside, inside)
     }
@@ -136,7 +141,8 @@ impl<'a> Jaws<'a> {
     /// Half the angle of the closed gape [rad].
     fn slit(&self, at: f64) -> f64 {
         let (ahead, halves) = (self.ahead(at), self.sections.halves(at).max(DVec2::splat(1e-4)));
-        0.5 * GAPE * (smooth_step(0.0, 0.1, ahead) + 3.0 * smooth_step(0.84, 0.95, ahead)) / halves.min_element()
+        0.5 * GAPE * (smooth_step(0.0, 0.1, ahead) + 3.0 * smooth_step(0.84, 0.95, ahead))
+            / halves.min_element()
     }
 
     /// Inside of the upper jaw: outer face of the rack, its lower edge, its inner face, the palate.
@@ -153,10 +159,15 @@ impl<'a> Jaws<'a> {
         };
         let inner = |share: f64| {
             let height = rim.y - roof - (deep - roof) * share;
-            DVec2::new(outer((rim.y - height) / deep.max(1e-9)).x - thick * (1.0 - 0.5 * share), height)
+            DVec2::new(
+                outer((rim.y - height) / deep.max(1e-9)).x - thick * (1.0 - 0.5 * share),
+                height,
+            )
         };
         let bottom = |share: f64| outer(1.0).lerp(inner(1.0), share);
-        let across = |share: f64| DVec2::new(inner(0.0).x * (1.0 - share), rim.y - roof * (1.0 - 0.12 * share));
+        let across = |share: f64| {
+            DVec2::new(inner(0.0).x * (1.0 - share), rim.y - roof * (1.0 - 0.12 * share))
+        };
         [
             rim,
             outer(0.12),
@@ -179,7 +190,10 @@ impl<'a> Jaws<'a> {
         let upper = self.palate(at);
         let rim = self.sections.outline(at, self.gape(at) + self.slit(at));
         let (ahead, breadth) = (self.ahead(at), self.sections.breadth());
-        let (room, front) = (ROOM * breadth, (0.012 * breadth).min(0.2 * self.below(at)) * smooth_step(0.80, 0.95, ahead));
+        let (room, front) = (
+            ROOM * breadth,
+            (0.012 * breadth).min(0.2 * self.below(at)) * smooth_step(0.80, 0.95, ahead),
+        );
         let beside = self.beside(at);
         let groove = |share: f64| (self.lip * self.hang(at) + self.swing(at)) * share;
         let lip = |vertex: usize, share: f64| {
@@ -188,11 +202,17 @@ impl<'a> Jaws<'a> {
             let most = edge - (LIP * breadth * beside * share).max(0.15 * edge * (1.0 - beside));
             DVec2::new((upper[vertex].x + room * beside + groove(share)).min(most), height)
         };
-        let under = |vertex: usize, side: f64| upper[vertex] + DVec2::new(side * beside, -room - front);
-        let tongue = |vertex: usize| DVec2::new((upper[vertex].x - room * beside).max(0.0), upper[vertex].y - room - front);
+        let under =
+            |vertex: usize, side: f64| upper[vertex] + DVec2::new(side * beside, -room - front);
+        let tongue = |vertex: usize| {
+            DVec2::new((upper[vertex].x - room * beside).max(0.0), upper[vertex].y - room - front)
+        };
         let back = |vertex: usize| {
             let share = upper[vertex].x / upper[9].x.max(1e-9);
-            DVec2::new((upper[vertex].x - room * beside * share).max(0.0), upper[vertex].y - room - front)
+            DVec2::new(
+                (upper[vertex].x - room * beside * share).max(0.0),
+                upper[vertex].y - room - front,
+            )
         };
         [
             rim,
@@ -219,7 +239,10 @@ impl<'a> Jaws<'a> {
     /// Further room for the lip's foot near the corner of the mouth [share of length].
     fn swing(&self, at: f64) -> f64 {
         let ahead = self.ahead(at);
-        SWING * self.sections.breadth() * smooth_step(0.02, 0.2, ahead) * (1.0 - smooth_step(0.38, 0.6, ahead))
+        SWING
+            * self.sections.breadth()
+            * smooth_step(0.02, 0.2, ahead)
+            * (1.0 - smooth_step(0.38, 0.6, ahead))
     }
 
     /// Room that the upper jaw leaves for the lip within the head's outline [share of length].
@@ -238,19 +261,32 @@ impl<'a> Jaws<'a> {
     fn merged(&self, at: f64, rim: DVec2, full: &[DVec2; INSIDE]) -> Vec<DVec2> {
         let grown = smooth_step(-0.04, 0.26, self.ahead(at));
         let grown = (grown - smooth_step(-0.04, 0.26, 0.0)) / (1.0 - smooth_step(-0.04, 0.26, 0.0));
-        let flat = |vertex: usize| DVec2::new(rim.x * (1.0 - vertex as f64 / (INSIDE - 1) as f64), rim.y);
+        let flat =
+            |vertex: usize| DVec2::new(rim.x * (1.0 - vertex as f64 / (INSIDE - 1) as f64), rim.y);
         full.iter().enumerate().map(|(vertex, &place)| flat(vertex).lerp(place, grown)).collect()
     }
 }
 
 /// A section drawn together about its middle, at a share `lift` of its height, near a jaw's tip;
 /// `depth` is 0 at the tip and 1 where the rounding ends.
-fn capped(depth: f64, lift: f64, angles: Vec<f64>, outside: Vec<DVec2>, inside: Vec<DVec2>) -> Halfjaw {
+fn capped(
+    depth: f64,
+    lift: f64,
+    angles: Vec<f64>,
+    outside: Vec<DVec2>,
+    inside: Vec<DVec2>,
+) -> Halfjaw {
     let off = (1.0 - depth).clamp(0.0, 1.0);
     let left = libm::sqrt(1.0 - off * off);
-    let (low, high) =
-        outside.iter().chain(&inside).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), place| (low.min(place.y), high.max(place.y)));
+    let (low, high) = outside
+        .iter()
+        .chain(&inside)
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), place| {
+            (low.min(place.y), high.max(place.y))
+        });
     let middle = DVec2::Y * (low + (high - low) * lift);
-    let draw = |places: Vec<DVec2>| places.into_iter().map(|place| middle + (place - middle) * left).collect();
+    let draw = |places: Vec<DVec2>| {
+        places.into_iter().map(|place| middle + (place - middle) * left).collect()
+    };
     Halfjaw { angles, outside: draw(outside), inside: draw(inside) }
 }

@@ -67,7 +67,10 @@ mod tests {
         for n in (0..SKINS + 2).chain([0, SKINS + 1]) {
             let (kept, grown) = (skin_of(&wide(n)), build_skin(&wide(n)));
             assert!(*kept == grown, "form {n}");
-            assert_eq!(volume_of(&wide(n)).to_bits(), Measures::of(&grown, 1.0).volume_m3.to_bits());
+            assert_eq!(
+                volume_of(&wide(n)).to_bits(),
+                Measures::of(&grown, 1.0).volume_m3.to_bits()
+            );
         }
         assert!(Arc::ptr_eq(&skin_of(&wide(0)), &skin_of(&wide(0))));
     }

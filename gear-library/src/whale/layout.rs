@@ -44,13 +44,16 @@ impl Layout {
         let (corner_at, flukes_at) = (corner_at(form), flukes_at(form));
         let room = flukes_at - corner_at;
         let flippers = &form.flippers;
-        let half = (flippers.root_chord / 2.0 / libm::cos(flippers.sweep).max(0.3) + MARGIN).min(0.25 * room);
+        let half = (flippers.root_chord / 2.0 / libm::cos(flippers.sweep).max(0.3) + MARGIN)
+            .min(0.25 * room);
         let least = corner_at + 0.02 * room + half;
         let middle = flippers.insertion.clamp(least, flukes_at - 0.3 * room - half);
         let hole_at = [middle - half, middle + half];
         let girth = sections.halves(middle).max_element().max(1e-6);
         let spread = ((flippers.root_chord * flippers.thickness / 2.0 + MARGIN) / girth).min(0.5);
-        let angle = sections.angle_of_height(middle, flippers.insertion_height).clamp(spread + 0.9, PI - spread - 0.3);
+        let angle = sections
+            .angle_of_height(middle, flippers.insertion_height)
+            .clamp(spread + 0.9, PI - spread - 0.3);
         let first = (angle / PI * HALF_AROUND as f64 - HOLE[1] as f64 / 2.0).round() as usize;
         let first = first.clamp(CORNER + 3, HALF_AROUND - HOLE[1] - 2);
         Self {
@@ -76,7 +79,12 @@ impl Layout {
         let even = column / HALF_AROUND as f64 * PI;
         let gathered = {
             let [first, last] = self.hole_columns;
-            let points = [[0.0, 0.0], [first as f64, self.hole_angles[0]], [last as f64, self.hole_angles[1]], [HALF_AROUND as f64, PI]];
+            let points = [
+                [0.0, 0.0],
+                [first as f64, self.hole_angles[0]],
+                [last as f64, self.hole_angles[1]],
+                [HALF_AROUND as f64, PI],
+            ];
             MonotoneCubic::through(points).at(column)
         };
         let [front, back] = self.hole_at;
@@ -91,7 +99,11 @@ impl Layout {
 #[must_use]
 pub fn mouth_angle(gape: f64, column: f64) -> f64 {
     let corner = CORNER as f64;
-    if column <= corner { gape * column / corner } else { gape + (PI - gape) * (column - corner) / (HALF_AROUND as f64 - corner) }
+    if column <= corner {
+        gape * column / corner
+    } else {
+        gape + (PI - gape) * (column - corner) / (HALF_AROUND as f64 - corner)
+    }
 }
 
 /// Where the corner of the mouth lies [share of length from the snout].
@@ -107,7 +119,9 @@ pub fn flukes_at(form: &WhaleForm) -> f64 {
 }
 
 fn rows(corner: f64, [front, back]: [f64; 2], flukes: f64) -> Vec<f64> {
-    let between = |from: f64, to: f64, patches: usize| (0..patches).map(move |row| from + (to - from) * row as f64 / patches as f64);
+    let between = |from: f64, to: f64, patches: usize| {
+        (0..patches).map(move |row| from + (to - from) * row as f64 / patches as f64)
+    };
     let ahead = between(corner, front, AHEAD);
     let beside = between(front, back, HOLE[0]);
     let aft = (0..=AFT).map(|row| {

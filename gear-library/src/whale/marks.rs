@@ -61,11 +61,17 @@ impl Marks {
         }
         let round = if upper { angle / gape.max(0.1) } else { angle - gape };
         let on = |patch: &Patch| {
-            let near = |value: f64, [middle, half]: [f64; 2]| 1.0 - smooth_step(0.5, 1.25, (value - middle).abs() / half);
+            let near = |value: f64, [middle, half]: [f64; 2]| {
+                1.0 - smooth_step(0.5, 1.25, (value - middle).abs() / half)
+            };
             near(at / self.corner, patch.at) * near(round, patch.angle)
         };
-        let own = PATCHES.iter().filter(|patch| patch.upper == upper).map(|patch| (on(patch), patch.height));
-        let (most, height) = own.fold((0.0, 0.0), |best, patch| if patch.0 > best.0 { patch } else { best });
+        let own = PATCHES
+            .iter()
+            .filter(|patch| patch.upper == upper)
+            .map(|patch| (on(patch), patch.height));
+        let (most, height) =
+            own.fold((0.0, 0.0), |best, patch| if patch.0 > best.0 { patch } else { best });
         let mark = if most > 0.35 { Mark::Callosity } else { Mark::Skin };
         (mark, most * height * self.relief)
     }

@@ -109,7 +109,8 @@ impl Half {
     /// A patch of four corners, cut along its shorter diagonal.
     fn patch(&mut self, [a, b, c, d]: [u32; 4], region: Region) {
         let long = |from: u32, to: u32| self.place(from).distance_squared(self.place(to));
-        let halves = if long(a, c) <= long(b, d) { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] };
+        let halves =
+            if long(a, c) <= long(b, d) { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] };
         halves.into_iter().for_each(|half| self.triangle(half, region));
     }
 
@@ -121,7 +122,11 @@ impl Half {
         let mut other = BTreeMap::new();
         for vertex in 0..half {
             let corner = self.corners[vertex];
-            let own = if corner.place.y == 0.0 { index(vertex) } else { self.add(mirrored(&corner, &skeleton)) };
+            let own = if corner.place.y == 0.0 {
+                index(vertex)
+            } else {
+                self.add(mirrored(&corner, &skeleton))
+            };
             other.insert(index(vertex), own);
         }
         for triangle in 0..self.triangles.len() {

@@ -49,7 +49,14 @@ pub fn build_skin(form: &WhaleForm) -> Skin {
     let sections = section::Sections::of(form);
     let skeleton = bones::Skeleton::of(form, &sections);
     let layout = layout::Layout::of(form, &sections);
-    let mut build = Builder { form, sections, skeleton, layout, marks: marks::Marks::of(form), half: mesh::Half::default() };
+    let mut build = Builder {
+        form,
+        sections,
+        skeleton,
+        layout,
+        marks: marks::Marks::of(form),
+        half: mesh::Half::default(),
+    };
     let trunk = trunk::add(&mut build);
     head::add(&mut build, &trunk.front);
     flipper::add(&mut build, &trunk.hole);

@@ -19,8 +19,9 @@ impl Sections {
     /// Smooth sections of a form.
     #[must_use]
     pub fn of(form: &WhaleForm) -> Self {
-        let curve =
-            |value: fn(&super::Station) -> f64| MonotoneCubic::through(form.stations.iter().map(|station| [station.at, value(station)]));
+        let curve = |value: fn(&super::Station) -> f64| {
+            MonotoneCubic::through(form.stations.iter().map(|station| [station.at, value(station)]))
+        };
         Self {
             length_m: form.length_m,
             breadth: form.breadth_scale,
@@ -59,7 +60,8 @@ impl Sections {
     /// A point of a section's outline, to port and up; `angle` runs from the back (0) over port to the belly (π) [share of length].
     #[must_use]
     pub fn outline(&self, at: f64, angle: f64) -> DVec2 {
-        DVec2::Y * self.height(at) + self.halves(at) * DVec2::new(libm::sin(angle), libm::cos(angle))
+        DVec2::Y * self.height(at)
+            + self.halves(at) * DVec2::new(libm::sin(angle), libm::cos(angle))
     }
 
     /// A place on the surface [m]; on the midplane `y` is exactly 0.
@@ -94,7 +96,10 @@ impl Sections {
         let flippers = &form.flippers;
         self.place(
             flippers.insertion,
-            self.outline(flippers.insertion, self.angle_of_height(flippers.insertion, flippers.insertion_height)),
+            self.outline(
+                flippers.insertion,
+                self.angle_of_height(flippers.insertion, flippers.insertion_height),
+            ),
         )
     }
 

@@ -53,10 +53,17 @@ fn weights_are_shares_of_known_bones() {
     assert_eq!(skin.weights.len(), skin.vertices.len());
     for weights in &skin.weights {
         assert!((weights.iter().map(|(_, weight)| weight).sum::<f64>() - 1.0).abs() < 1e-12);
-        assert!(weights.iter().all(|&(bone, weight)| (0.0..=1.0).contains(&weight) && usize::from(bone) < skin.bones.len()));
+        assert!(
+            weights.iter().all(|&(bone, weight)| (0.0..=1.0).contains(&weight)
+                && usize::from(bone) < skin.bones.len())
+        );
     }
     for (index, bone) in skin.bones.iter().enumerate() {
-        assert!(bone.parent.is_none_or(|parent| parent < index), "{} stands before its parent", bone.name);
+        assert!(
+            bone.parent.is_none_or(|parent| parent < index),
+            "{} stands before its parent",
+            bone.name
+        );
         assert!(bone.turns.iter().all(|(_, axis)| (axis.length() - 1.0).abs() < 1e-12));
     }
     assert!(skin.bones.len() >= 25 && skin.bones[0].parent.is_none());
@@ -74,9 +81,13 @@ fn every_region_has_skin() {
 fn left_and_right_mirror_one_another() {
     let skin = whale();
     let key = |place: DVec3| (place * 1e6).round().as_i64vec3().to_array();
-    let places: BTreeMap<_, usize> = skin.vertices.iter().enumerate().map(|(index, &place)| (key(place), index)).collect();
+    let places: BTreeMap<_, usize> =
+        skin.vertices.iter().enumerate().map(|(index, &place)| (key(place), index)).collect();
     for place in &skin.vertices {
-        assert!(places.contains_key(&key(*place * DVec3::new(1.0, -1.0, 1.0))), "no mirror image of {place}");
+        assert!(
+            places.contains_key(&key(*place * DVec3::new(1.0, -1.0, 1.0))),
+            "no mirror image of {place}"
+        );
     }
 }
 
@@ -101,8 +112,12 @@ fn sides_move_as_mirror_images() {
         ..Posture::default()
     };
     let key = |place: DVec3| (place * 1e6).round().as_i64vec3().to_array();
-    let mirrored: BTreeMap<_, ()> = posed(&skin, &right).iter().map(|place| (key(*place * DVec3::new(1.0, -1.0, 1.0)), ())).collect();
-    let missing = posed(&skin, &left).iter().filter(|place| !mirrored.contains_key(&key(**place))).count();
+    let mirrored: BTreeMap<_, ()> = posed(&skin, &right)
+        .iter()
+        .map(|place| (key(*place * DVec3::new(1.0, -1.0, 1.0)), ()))
+        .collect();
+    let missing =
+        posed(&skin, &left).iter().filter(|place| !mirrored.contains_key(&key(**place))).count();
     assert_eq!(missing, 0);
 }
 
@@ -118,16 +133,27 @@ fn posed(skin: &Skin, posture: &Posture) -> Vec<DVec3> {
 fn angles_turn_the_way_the_posture_says() {
     let skin = whale();
     let rest = posed(&skin, &Posture::default());
-    let most = |value: fn(DVec3) -> f64| (0..rest.len()).max_by(|&a, &b| value(rest[a]).total_cmp(&value(rest[b]))).unwrap();
+    let most = |value: fn(DVec3) -> f64| {
+        (0..rest.len()).max_by(|&a, &b| value(rest[a]).total_cmp(&value(rest[b]))).unwrap()
+    };
     let (snout, left_fluke) = (most(|p| p.x), most(|p| p.y - p.x));
-    let flipper = (0..rest.len()).filter(|&v| rest[v].x > 0.0).max_by(|&a, &b| rest[a].y.total_cmp(&rest[b].y)).unwrap();
+    let flipper = (0..rest.len())
+        .filter(|&v| rest[v].x > 0.0)
+        .max_by(|&a, &b| rest[a].y.total_cmp(&rest[b].y))
+        .unwrap();
     let tail = most(|p| -p.x - p.y.abs());
     let moved = |posture: &Posture, vertex: usize| posed(&skin, posture)[vertex] - rest[vertex];
     let all = |angle: f64| [angle; endline_sdk::SPINE_JOINTS];
     let bent = Posture { spine_pitch: all(0.1), ..Posture::default() };
-    assert!(moved(&bent, tail).z < -0.5 && moved(&bent, snout).z < -0.2, "pitch bends the tail, and the head against it, down");
+    assert!(
+        moved(&bent, tail).z < -0.5 && moved(&bent, snout).z < -0.2,
+        "pitch bends the tail, and the head against it, down"
+    );
     let swung = Posture { spine_yaw: all(0.1), ..Posture::default() };
-    assert!(moved(&swung, tail).y < -0.5 && moved(&swung, snout).y < -0.2, "yaw swings the tail, and the head against it, to starboard");
+    assert!(
+        moved(&swung, tail).y < -0.5 && moved(&swung, snout).y < -0.2,
+        "yaw swings the tail, and the head against it, to starboard"
+    );
     assert!(moved(&Posture { fluke_pitch: 0.3, ..Posture::default() }, left_fluke).z < -0.1);
     assert!(moved(&Posture { fluke_flex: [0.3, 0.0], ..Posture::default() }, left_fluke).z > 0.1);
     assert!(moved(&Posture { flipper_raise: [0.3, 0.0], ..Posture::default() }, flipper).z > 0.3);
@@ -136,7 +162,9 @@ fn angles_turn_the_way_the_posture_says() {
     assert!(rolled.z > 0.1 && rolled.x.abs() < 0.05, "roll lifts the left fluke: {rolled}");
     assert!(moved(&Posture { flipper_sweep: [0.3, 0.0], ..Posture::default() }, flipper).x < -0.3);
     let open = posed(&skin, &Posture { jaw: 0.3, ..Posture::default() });
-    let lowest = |places: &[DVec3]| places.iter().filter(|p| p.x > 5.0).map(|p| p.z).fold(f64::INFINITY, f64::min);
+    let lowest = |places: &[DVec3]| {
+        places.iter().filter(|p| p.x > 5.0).map(|p| p.z).fold(f64::INFINITY, f64::min)
+    };
     assert!(lowest(&open) < lowest(&rest) - 0.3, "the jaw drops");
 }
 
@@ -160,7 +188,11 @@ fn skinning_is_continuous() {
         for edge in 0..3 {
             let [a, b] = [triangle[edge] as usize, triangle[(edge + 1) % 3] as usize];
             let (before, after) = (rest[a].distance(rest[b]), places[a].distance(places[b]));
-            assert!(after < 2.0 * before + 0.35, "an edge of {before} m is drawn out to {after} m near {}", rest[a]);
+            assert!(
+                after < 2.0 * before + 0.35,
+                "an edge of {before} m is drawn out to {after} m near {}",
+                rest[a]
+            );
         }
     }
     // A millionth of a turn moves nothing by more than a millionth of the body.
@@ -180,17 +212,32 @@ fn mass_properties_agree_with_parry() {
     let skin = whale();
     let found = Measures::of(&skin, 1025.0);
     let own = found.volume_m3;
-    let mesh = TriMesh::new(skin.vertices.iter().map(|v| Vector::new(v.x, v.y, v.z)).collect(), skin.triangles.clone()).unwrap();
+    let mesh = TriMesh::new(
+        skin.vertices.iter().map(|v| Vector::new(v.x, v.y, v.z)).collect(),
+        skin.triangles.clone(),
+    )
+    .unwrap();
     let properties = mesh.mass_properties(1025.0);
-    assert!((found.mass_kg / properties.mass() - 1.0).abs() < 1e-9, "{own} against {}", properties.mass());
+    assert!(
+        (found.mass_kg / properties.mass() - 1.0).abs() < 1e-9,
+        "{own} against {}",
+        properties.mass()
+    );
     let centre = properties.local_com;
-    assert!(found.centre_m.distance(DVec3::new(centre.x, centre.y, centre.z)) < 1e-6, "{} against {centre:?}", found.centre_m);
+    assert!(
+        found.centre_m.distance(DVec3::new(centre.x, centre.y, centre.z)) < 1e-6,
+        "{} against {centre:?}",
+        found.centre_m
+    );
     let inertia = properties.reconstruct_inertia_matrix();
     let largest = found.inertia_kg_m2.y_axis.y;
     for column in 0..3 {
         for row in 0..3 {
             let (own, parry) = (found.inertia_kg_m2.col(column)[row], inertia.col(column)[row]);
-            assert!((own - parry).abs() < 1e-6 * largest, "{own} against {parry} in row {row}, column {column}");
+            assert!(
+                (own - parry).abs() < 1e-6 * largest,
+                "{own} against {parry} in row {row}, column {column}"
+            );
         }
     }
     assert!(own > 30.0 && own < 45.0, "a 13.7 m right whale of 36 t: {own} m³");
@@ -209,9 +256,18 @@ fn every_angle_has_a_bone() {
             .sum::<f64>()
     };
     let mut angles = vec![Angle::FlukePitch, Angle::Jaw];
-    angles.extend((0..endline_sdk::SPINE_JOINTS).flat_map(|joint| Angle::SPINE.map(|axis| axis(joint))));
+    angles.extend(
+        (0..endline_sdk::SPINE_JOINTS).flat_map(|joint| Angle::SPINE.map(|axis| axis(joint))),
+    );
     angles.extend((0..2).flat_map(|side| {
-        [Angle::FlukeFlex, Angle::FlipperSweep, Angle::FlipperRaise, Angle::FlipperTwist, Angle::FlipperFlex].map(|angle| angle(side))
+        [
+            Angle::FlukeFlex,
+            Angle::FlipperSweep,
+            Angle::FlipperRaise,
+            Angle::FlipperTwist,
+            Angle::FlipperFlex,
+        ]
+        .map(|angle| angle(side))
     }));
     for angle in angles {
         assert!((has(angle) - 1.0).abs() < 1e-12, "{angle:?} is shared out as {}", has(angle));
@@ -244,9 +300,16 @@ fn odd_forms_stay_finite() {
             let mut form = WhaleForm::right_whale(13.7);
             change(&mut form, value);
             let skin = build_skin(&form);
-            assert!(skin.vertices.iter().all(|place| place.is_finite()), "change {index} to {value}");
-            let sum = |weights: &mesh::Weights| weights.iter().map(|(_, weight)| weight).sum::<f64>();
-            assert!(skin.weights.iter().all(|weights| (sum(weights) - 1.0).abs() < 1e-9), "weights of change {index} to {value}");
+            assert!(
+                skin.vertices.iter().all(|place| place.is_finite()),
+                "change {index} to {value}"
+            );
+            let sum =
+                |weights: &mesh::Weights| weights.iter().map(|(_, weight)| weight).sum::<f64>();
+            assert!(
+                skin.weights.iter().all(|weights| (sum(weights) - 1.0).abs() < 1e-9),
+                "weights of change {index} to {value}"
+            );
         }
     }
 }

@@ -18,12 +18,14 @@ pub struct Trunk {
 
 /// Adds the trunk.
 pub fn add(build: &mut Builder) -> Trunk {
-    let rows: Vec<Vec<u32>> = build.layout.rows.clone().into_iter().map(|at| row(build, at)).collect();
+    let rows: Vec<Vec<u32>> =
+        build.layout.rows.clone().into_iter().map(|at| row(build, at)).collect();
     let ([top, bottom], [first, last]) = (build.layout.hole_columns, build.layout.hole_rows);
     for (number, pair) in rows.windows(2).enumerate() {
         let at = (build.layout.rows[number] + build.layout.rows[number + 1]) / 2.0;
         let region = build.trunk_region(at);
-        let open = |column: usize| (first..last).contains(&number) && (top..bottom).contains(&column);
+        let open =
+            |column: usize| (first..last).contains(&number) && (top..bottom).contains(&column);
         build.half.strip(&pair[0], &pair[1], |column| (!open(column)).then_some(region));
     }
     let rim = |step: usize| match step {
@@ -50,7 +52,11 @@ impl Builder<'_> {
     /// A vertex of the trunk or of the head's outside.
     pub fn trunk_corner(&self, at: f64, angle: f64) -> Corner {
         let place = self.sections.surface(at, angle);
-        Corner { place, weights: self.trunk_weights(place, at, angle), mark: self.marks.trunk(at, angle) }
+        Corner {
+            place,
+            weights: self.trunk_weights(place, at, angle),
+            mark: self.marks.trunk(at, angle),
+        }
     }
 
     fn trunk_region(&self, at: f64) -> Region {

@@ -20,14 +20,22 @@ impl Builder<'_> {
     /// Bones of a place on the trunk.
     #[must_use]
     pub fn trunk_weights(&self, place: DVec3, at: f64, angle: f64) -> Weights {
-        let weights = Skeleton::hand_over(self.skeleton.along_body(at), self.skeleton.jaw, self.jaw_share(at, angle, 0));
+        let weights = Skeleton::hand_over(
+            self.skeleton.along_body(at),
+            self.skeleton.jaw,
+            self.jaw_share(at, angle, 0),
+        );
         Skeleton::hand_over(weights, self.skeleton.flipper[0], self.shoulder_share(place, at))
     }
 
     /// Bones of the lower jaw: `inside` counts vertices from the rim inwards, 0 for the outside.
     #[must_use]
     pub fn lower_jaw_weights(&self, at: f64, angle: f64, inside: usize) -> Weights {
-        let weights = Skeleton::hand_over(self.skeleton.along_body(at), self.skeleton.jaw, self.jaw_share(at, angle, inside));
+        let weights = Skeleton::hand_over(
+            self.skeleton.along_body(at),
+            self.skeleton.jaw,
+            self.jaw_share(at, angle, inside),
+        );
         Skeleton::hand_over(weights, self.skeleton.lip, self.lip_share(at, angle, inside))
     }
 
@@ -50,7 +58,11 @@ impl Builder<'_> {
         let ahead = 1.0 - at / corner_at(self.form);
         let along = smooth_step(0.06, 0.3, ahead) * (1.0 - smooth_step(0.7, 0.93, ahead));
         let gape = self.jaws().gape(at);
-        let up = if inside > 0 { 1.0 - smooth_step(0.0, 5.0, inside as f64) } else { 1.0 - smooth_step(gape, 2.0, angle) };
+        let up = if inside > 0 {
+            1.0 - smooth_step(0.0, 5.0, inside as f64)
+        } else {
+            1.0 - smooth_step(gape, 2.0, angle)
+        };
         along * up
     }
 
@@ -62,9 +74,12 @@ impl Builder<'_> {
         let half = flippers.root_chord / 2.0 / libm::cos(flippers.sweep).max(0.3);
         let along = (off.x.abs() / self.form.length_m - half).max(0.0);
         let off = DVec3::new(along * self.form.length_m, off.y, off.z);
-        let behind = smooth_step(self.layout.rows[0], self.layout.rows[self.layout.hole_rows[0]], at);
+        let behind =
+            smooth_step(self.layout.rows[0], self.layout.rows[self.layout.hole_rows[0]], at);
         let behind = behind * smooth_step(0.0, 0.03, place.y / self.form.length_m);
-        SHOULDER_RIM * behind * (1.0 - smooth_step(0.005, SHOULDER_REACH, off.length() / self.form.length_m))
+        SHOULDER_RIM
+            * behind
+            * (1.0 - smooth_step(0.005, SHOULDER_REACH, off.length() / self.form.length_m))
     }
 
     fn jaws(&self) -> Jaws<'_> {

@@ -5,7 +5,11 @@
 //! 8 kN, on segments of 1.25 to 13 cm; the piece comes from any side, turned any way, at 2 to 20 m/s, turning as it goes, and
 //! what it strikes the rope with is an edge. A run begins a step or two of contact before that and goes on until the
 //! piece has come [`THROUGH_M`] farther, in no fewer than [`LEAST_STEPS`] steps.
-#![allow(dead_code, clippy::expect_used, reason = "each test uses a part of this; a test says what it needs, in its helpers too")]
+#![allow(
+    dead_code,
+    clippy::expect_used,
+    reason = "each test uses a part of this; a test says what it needs, in its helpers too"
+)]
 
 mod dice;
 mod piece;
@@ -62,12 +66,22 @@ impl Fins {
     /// Cuts pieces out of a right whale of 13.7 m.
     pub fn new() -> Self {
         let whole = build_skin(&WhaleForm::right_whale(13.7));
-        let on_edges = whole.triangles.iter().zip(&whole.regions).filter(|(_, region)| is_edge(**region));
+        let on_edges =
+            whole.triangles.iter().zip(&whole.regions).filter(|(_, region)| is_edge(**region));
         let mut edges: Vec<u32> = on_edges.flat_map(|(corners, _)| *corners).collect();
         edges.sort_unstable();
         edges.dedup();
-        let pieces: Vec<Skin> = edges.iter().map(|vertex| piece(&whole, *vertex)).filter(|piece| reach(piece) < REACH_M).collect();
-        assert!(pieces.len() > PIECES, "{} pieces of {} places on edges", pieces.len(), edges.len());
+        let pieces: Vec<Skin> = edges
+            .iter()
+            .map(|vertex| piece(&whole, *vertex))
+            .filter(|piece| reach(piece) < REACH_M)
+            .collect();
+        assert!(
+            pieces.len() > PIECES,
+            "{} pieces of {} places on edges",
+            pieces.len(),
+            edges.len()
+        );
         Self(pieces)
     }
 
@@ -81,16 +95,19 @@ impl Fins {
         let turn_rate = (dice.direction() * (0.5 * speed_m_s * dice.share())).to_array();
         let friction = dice.between(0.05, 0.6);
         let forward = heading * DVec3::X;
-        let before_m = radius_m / ASLANT + speed_m_s * settings.contact_step_s * dice.between(0.5, 2.0);
+        let before_m =
+            radius_m / ASLANT + speed_m_s * settings.contact_step_s * dice.between(0.5, 2.0);
         let whale = Whale {
             position_m: MET + forward * (strike.way_m - before_m),
             orientation: heading,
             speed_m_s,
             ..rig::whale(skin, speed_m_s, turn_rate)
         };
-        let steps = ((before_m + THROUGH_M) / speed_m_s / settings.step_s).ceil().max(LEAST_STEPS) as u64;
+        let steps =
+            ((before_m + THROUGH_M) / speed_m_s / settings.step_s).ceil().max(LEAST_STEPS) as u64;
         let held = MET + along * (strike.least_along_m - dice.between(0.1, 0.3));
-        let segments = (ROPE_M / (SHORTEST_M * libm::pow(LONGEST_M / SHORTEST_M, dice.share()))).round() as usize;
+        let segments = (ROPE_M / (SHORTEST_M * libm::pow(LONGEST_M / SHORTEST_M, dice.share())))
+            .round() as usize;
         let rope = rig::Taut { held, along, pull_n, radius_m, length_m: ROPE_M, segments };
         Encounter { speed_m_s, pull_n, steps, spec: rope.rig(whale, friction, settings) }
     }
@@ -99,13 +116,15 @@ impl Fins {
     fn meeting(&self, dice: &mut Dice) -> Meeting {
         loop {
             let piece = &self.0[(dice.share() * self.0.len() as f64) as usize % self.0.len()];
-            let (turned, heading, beside, along) = (dice.turn(), dice.turn(), dice.direction() * BESIDE_M, dice.direction());
+            let (turned, heading, beside, along) =
+                (dice.turn(), dice.turn(), dice.direction() * BESIDE_M, dice.direction());
             let forward = heading * DVec3::X;
             let along = if along.dot(forward) < 0.0 { -along } else { along };
             if forward.cross(along).length() < ASLANT {
                 continue;
             }
-            let strike = strike(piece, |place| heading * (turned * place + beside), [along, forward]);
+            let strike =
+                strike(piece, |place| heading * (turned * place + beside), [along, forward]);
             if let Some(strike) = strike.filter(|strike| is_edge(strike.region)) {
                 let mut skin = piece.clone();
                 skin.vertices.iter_mut().for_each(|place| *place = turned * *place + beside);

@@ -16,10 +16,19 @@ pub fn is_edge(region: Region) -> bool {
 pub fn piece(whole: &Skin, about: u32) -> Skin {
     let middle = whole.vertices[about as usize];
     let near = |vertex: &u32| whole.vertices[*vertex as usize].distance(middle) < PIECE_M;
-    let mut skin =
-        Skin { bones: vec![Bone { name: "control".into(), parent: None, origin: DVec3::ZERO, turns: Vec::new() }], ..Skin::default() };
+    let mut skin = Skin {
+        bones: vec![Bone {
+            name: "control".into(),
+            parent: None,
+            origin: DVec3::ZERO,
+            turns: Vec::new(),
+        }],
+        ..Skin::default()
+    };
     let mut renumbered = vec![None; whole.vertices.len()];
-    for (corners, region) in whole.triangles.iter().zip(&whole.regions).filter(|(corners, _)| corners.iter().any(near)) {
+    for (corners, region) in
+        whole.triangles.iter().zip(&whole.regions).filter(|(corners, _)| corners.iter().any(near))
+    {
         let corners = corners.map(|vertex| {
             *renumbered[vertex as usize].get_or_insert_with(|| {
                 skin.vertices.push(whole.vertices[vertex as usize] - middle);
@@ -41,14 +50,20 @@ pub fn reach(skin: &Skin) -> f64 {
 
 /// Closes every hole by a fan about the middle of its rim.
 fn close(skin: &mut Skin) {
-    let edges: Vec<[u32; 2]> = skin.triangles.iter().flat_map(|[a, b, c]| [[*a, *b], [*b, *c], [*c, *a]]).collect();
-    let mut rims: Vec<[u32; 2]> = edges.iter().filter(|[a, b]| !edges.contains(&[*b, *a])).copied().collect();
+    let edges: Vec<[u32; 2]> =
+        skin.triangles.iter().flat_map(|[a, b, c]| [[*a, *b], [*b, *c], [*c, *a]]).collect();
+    let mut rims: Vec<[u32; 2]> =
+        edges.iter().filter(|[a, b]| !edges.contains(&[*b, *a])).copied().collect();
     while let Some(first) = rims.pop() {
         let mut rim = vec![first];
-        while let Some(next) = rims.iter().position(|edge| rim.iter().any(|[a, b]| edge.contains(a) || edge.contains(b))) {
+        while let Some(next) = rims
+            .iter()
+            .position(|edge| rim.iter().any(|[a, b]| edge.contains(a) || edge.contains(b)))
+        {
             rim.push(rims.swap_remove(next));
         }
-        let middle = rim.iter().map(|[a, _]| skin.vertices[*a as usize]).sum::<DVec3>() / rim.len() as f64;
+        let middle =
+            rim.iter().map(|[a, _]| skin.vertices[*a as usize]).sum::<DVec3>() / rim.len() as f64;
         let tip = u32::try_from(skin.vertices.len()).expect("few vertices");
         skin.vertices.push(middle);
         skin.weights.push([(0, 1.0), (0, 0.0), (0, 0.0), (0, 0.0)]);
@@ -68,7 +83,11 @@ pub struct Strike {
 
 /// The first strike of a piece whose vertices `place` puts into the world, from afar; `ways` are the directions of the rope and of
 /// the piece. Seen along the rope, it is the place of an edge of a triangle farthest ahead on the rope's line of sight.
-pub fn strike(skin: &Skin, place: impl Fn(DVec3) -> DVec3, [along, forward]: [DVec3; 2]) -> Option<Strike> {
+pub fn strike(
+    skin: &Skin,
+    place: impl Fn(DVec3) -> DVec3,
+    [along, forward]: [DVec3; 2],
+) -> Option<Strike> {
     let ahead = forward - along * forward.dot(along);
     let aside = along.cross(ahead).normalize();
     let places: Vec<DVec3> = skin.vertices.iter().map(|vertex| place(*vertex)).collect();
@@ -88,5 +107,8 @@ pub fn strike(skin: &Skin, place: impl Fn(DVec3) -> DVec3, [along, forward]: [DV
         }
     }
     let least_m = places.iter().map(|place| place.dot(along)).fold(f64::INFINITY, f64::min);
-    first.map(|strike| Strike { least_along_m: least_m + strike.way_m * forward.dot(along), ..strike })
+    first.map(|strike| Strike {
+        least_along_m: least_m + strike.way_m * forward.dot(along),
+        ..strike
+    })
 }

@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use endline_friction_models::Coulomb;
-use endline_sdk::{Descriptor, FrictionModel, HookError, MotionInput, MotionOutput, Region, WhaleMotion};
+use endline_sdk::{
+    Descriptor, FrictionModel, HookError, MotionInput, MotionOutput, Region, WhaleMotion,
+};
 use endline_sim::model::{Friction, Joint, JointKind, Line, Rope, Settings, Strength};
 use endline_sim::water::{Current, Water};
 use endline_sim::whale::{JointRanges, Measures, PilotProgram, Skin, Whale};
@@ -23,15 +25,32 @@ impl WhaleMotion for Steady {
         &self.descriptor
     }
 
-    fn step(&self, _: &[f64], _: &MotionInput<'_>, _: &mut [f64]) -> Result<MotionOutput, HookError> {
-        Ok(MotionOutput { speed_m_s: self.speed_m_s, turn_rate_rad_s: self.turn_rate, ..MotionOutput::default() })
+    fn step(
+        &self,
+        _: &[f64],
+        _: &MotionInput<'_>,
+        _: &mut [f64],
+    ) -> Result<MotionOutput, HookError> {
+        Ok(MotionOutput {
+            speed_m_s: self.speed_m_s,
+            turn_rate_rad_s: self.turn_rate,
+            ..MotionOutput::default()
+        })
     }
 }
 
 /// A piece of fin on its way.
 pub fn whale(skin: Skin, speed_m_s: f64, turn_rate: [f64; 3]) -> Whale {
     let (id, name, help) = ("test.steady".into(), "Steady".into(), "Always the same.".into());
-    let descriptor = Descriptor { id, version: "1".into(), name, help, attributes: Vec::new(), state_len: 0, acts: Vec::new() };
+    let descriptor = Descriptor {
+        id,
+        version: "1".into(),
+        name,
+        help,
+        attributes: Vec::new(),
+        state_len: 0,
+        acts: Vec::new(),
+    };
     Whale {
         skin: Arc::new(skin),
         joints: JointRanges::unbounded(),
@@ -65,17 +84,39 @@ impl Taut {
         let Self { held, along, pull_n, radius_m, length_m, segments } = *self;
         let segment_m = length_m / segments as f64;
         let stretched = segment_m * (1.0 + pull_n / EA_N);
-        let start_m: Vec<DVec3> = (0..=segments).map(|node| held + along * (stretched * node as f64)).collect();
+        let start_m: Vec<DVec3> =
+            (0..=segments).map(|node| held + along * (stretched * node as f64)).collect();
         let segments_m = vec![segment_m; segments];
         let joint = |id: &str, kind, position_m| Joint { id: id.into(), kind, position_m };
         let pulled = JointKind::Pulled { force_n: along * pull_n, from_s: -1.0 };
-        let joints = vec![joint("held", JointKind::Fixed, held), joint("pulled", pulled, start_m[segments])];
-        let line = Line { id: "rope".into(), rope: 0, from: 0, to: 1, segments_m, strength: Strength::default(), start_m };
+        let joints =
+            vec![joint("held", JointKind::Fixed, held), joint("pulled", pulled, start_m[segments])];
+        let line = Line {
+            id: "rope".into(),
+            rope: 0,
+            from: 0,
+            to: 1,
+            segments_m,
+            strength: Strength::default(),
+            start_m,
+        };
         let coulomb = Coulomb::new();
-        let attributes = coulomb.descriptor().attributes.iter().filter_map(|attribute| attribute.default_value().number()).collect();
+        let attributes = coulomb
+            .descriptor()
+            .attributes
+            .iter()
+            .filter_map(|attribute| attribute.default_value().number())
+            .collect();
         let current = Current::uniform(DVec3::ZERO);
         ModelSpec {
-            water: Water { density_kg_m3: 1025.0, gravity_m_s2: 9.81, depth_m: 100.0, rope_dries: false, current, waves: None },
+            water: Water {
+                density_kg_m3: 1025.0,
+                gravity_m_s2: 9.81,
+                depth_m: 100.0,
+                rope_dries: false,
+                current,
+                waves: None,
+            },
             seabed: None,
             ropes: vec![rope(2.0 * radius_m)],
             joints,
@@ -84,7 +125,11 @@ impl Taut {
             links: Vec::new(),
             gear: Vec::new(),
             whale: Some(whale),
-            friction: Some(Friction::of_one(Arc::new(coulomb), attributes, vec![[friction; Region::ALL.len()]])),
+            friction: Some(Friction::of_one(
+                Arc::new(coulomb),
+                attributes,
+                vec![[friction; Region::ALL.len()]],
+            )),
             obstacles: Vec::new(),
             probes: Vec::new(),
             settings,

@@ -67,6 +67,11 @@ pub fn is_pierced(model: &Model, state: &State) -> bool {
     let (mut bones, mut places) = (Vec::new(), Vec::new());
     pose(&whale.skin, now.position, now.orientation, &now.posture, &mut bones);
     skin_all(&whale.skin, &bones, &mut places);
-    let skin = || whale.skin.triangles.iter().map(|corners| corners.map(|corner| places[corner as usize]));
-    state.rope.position.windows(2).any(|ends| skin().any(|triangle| pierces([ends[0], ends[1]], triangle)))
+    let skin =
+        || whale.skin.triangles.iter().map(|corners| corners.map(|corner| places[corner as usize]));
+    state
+        .rope
+        .position
+        .windows(2)
+        .any(|ends| skin().any(|triangle| pierces([ends[0], ends[1]], triangle)))
 }

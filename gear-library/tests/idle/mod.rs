@@ -1,12 +1,19 @@
 //! Plugins that do nothing, and the shipped library.
 
-#![allow(dead_code, clippy::unwrap_used, reason = "each test uses a part of this; helpers of tests fail the test")]
+#![allow(
+    dead_code,
+    clippy::unwrap_used,
+    reason = "each test uses a part of this; helpers of tests fail the test"
+)]
 
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
 use endline_gear::{Hooks, Library, Sources};
-use endline_sdk::{Contacts, Descriptor, FrictionModel, FrictionResponse, GearType, HookError, MotionInput, MotionOutput, WhaleMotion};
+use endline_sdk::{
+    Contacts, Descriptor, FrictionModel, FrictionResponse, GearType, HookError, MotionInput,
+    MotionOutput, WhaleMotion,
+};
 
 /// A motion that stands still and a friction of none, under the id `test.idle`.
 pub struct Idle(Arc<Still>);
@@ -23,7 +30,15 @@ impl Idle {
 impl Still {
     pub fn shared() -> Arc<Self> {
         let (id, name, help) = ("test.idle".into(), "Idle".into(), "Does nothing.".into());
-        Arc::new(Self(Descriptor { id, version: "0.1.0".into(), name, help, attributes: Vec::new(), state_len: 0, acts: Vec::new() }))
+        Arc::new(Self(Descriptor {
+            id,
+            version: "0.1.0".into(),
+            name,
+            help,
+            attributes: Vec::new(),
+            state_len: 0,
+            acts: Vec::new(),
+        }))
     }
 }
 
@@ -46,7 +61,12 @@ impl WhaleMotion for Still {
     fn descriptor(&self) -> &Descriptor {
         &self.0
     }
-    fn step(&self, _: &[f64], _: &MotionInput<'_>, _: &mut [f64]) -> Result<MotionOutput, HookError> {
+    fn step(
+        &self,
+        _: &[f64],
+        _: &MotionInput<'_>,
+        _: &mut [f64],
+    ) -> Result<MotionOutput, HookError> {
         Ok(MotionOutput::default())
     }
 }
@@ -55,7 +75,12 @@ impl FrictionModel for Still {
     fn descriptor(&self) -> &Descriptor {
         &self.0
     }
-    fn respond(&self, _: &[f64], _: &Contacts<'_>, _: &mut [FrictionResponse]) -> Result<(), HookError> {
+    fn respond(
+        &self,
+        _: &[f64],
+        _: &Contacts<'_>,
+        _: &mut [FrictionResponse],
+    ) -> Result<(), HookError> {
         Ok(())
     }
     fn advance(&self, _: &[f64], _: &Contacts<'_>, _: &mut [f64]) -> Result<(), HookError> {
@@ -66,5 +91,7 @@ impl FrictionModel for Still {
 /// The shipped library.
 pub fn library() -> &'static Library {
     static LIBRARY: OnceLock<Library> = OnceLock::new();
-    LIBRARY.get_or_init(|| Library::read(&Sources::from_folder(Path::new(env!("CARGO_MANIFEST_DIR"))).unwrap()).0)
+    LIBRARY.get_or_init(|| {
+        Library::read(&Sources::from_folder(Path::new(env!("CARGO_MANIFEST_DIR"))).unwrap()).0
+    })
 }

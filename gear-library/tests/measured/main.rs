@@ -13,7 +13,9 @@ use std::sync::Arc;
 
 use endline_friction_models::Coulomb;
 use endline_gear::{Hooks, Options, Scenario, assemble};
-use endline_sdk::{Descriptor, FrictionModel, GearType, HookError, MotionInput, MotionOutput, WhaleMotion};
+use endline_sdk::{
+    Descriptor, FrictionModel, GearType, HookError, MotionInput, MotionOutput, WhaleMotion,
+};
 use endline_sim::metrics::{Metrics, Summary};
 use endline_sim::{Input, Model, ModelSpec, State, Workspace, step};
 use idle::{Idle, library};
@@ -31,8 +33,17 @@ struct Script(Descriptor, Timetable);
 
 impl Hands {
     fn of(timetable: Timetable, rubs: bool) -> Self {
-        let (id, name, help) = ("test.script".into(), "Script".into(), "Keeps to a timetable.".into());
-        let descriptor = Descriptor { id, version: "0.1.0".into(), name, help, attributes: Vec::new(), state_len: 0, acts: Vec::new() };
+        let (id, name, help) =
+            ("test.script".into(), "Script".into(), "Keeps to a timetable.".into());
+        let descriptor = Descriptor {
+            id,
+            version: "0.1.0".into(),
+            name,
+            help,
+            attributes: Vec::new(),
+            state_len: 0,
+            acts: Vec::new(),
+        };
         Self { whale: Arc::new(Script(descriptor, timetable)), rubs }
     }
 }
@@ -41,7 +52,12 @@ impl WhaleMotion for Script {
     fn descriptor(&self) -> &Descriptor {
         &self.0
     }
-    fn step(&self, _: &[f64], input: &MotionInput<'_>, _: &mut [f64]) -> Result<MotionOutput, HookError> {
+    fn step(
+        &self,
+        _: &[f64],
+        input: &MotionInput<'_>,
+        _: &mut [f64],
+    ) -> Result<MotionOutput, HookError> {
         Ok(self.1(input.time_s + input.dt_s))
     }
 }
@@ -62,8 +78,10 @@ impl Hooks for Hands {
 }
 
 fn spec(text: &str, hands: &Hands) -> ModelSpec {
-    let scenario = Scenario::read("test.toml", text).unwrap_or_else(|problems| panic!("{}", problems[0]));
-    assemble(&scenario, library(), hands, &Options::default()).unwrap_or_else(|problems| panic!("{}", problems[0]))
+    let scenario =
+        Scenario::read("test.toml", text).unwrap_or_else(|problems| panic!("{}", problems[0]));
+    assemble(&scenario, library(), hands, &Options::default())
+        .unwrap_or_else(|problems| panic!("{}", problems[0]))
 }
 
 /// A run with its measures.
@@ -77,7 +95,8 @@ struct Run {
 impl Run {
     fn of(spec: ModelSpec) -> Self {
         let model = Model::new(spec).unwrap_or_else(|errors| panic!("{errors:?}"));
-        let (state, workspace, mut metrics) = (State::start(&model), Workspace::new(&model), Metrics::new(&model));
+        let (state, workspace, mut metrics) =
+            (State::start(&model), Workspace::new(&model), Metrics::new(&model));
         metrics.fold(&model, &state, &[]);
         Self { model, state, workspace, metrics }
     }
@@ -85,7 +104,8 @@ impl Run {
     /// Goes on to a time, looking after every step.
     fn until(&mut self, time_s: f64, mut look: impl FnMut(&Self)) {
         while self.state.time_s < time_s - 1e-9 {
-            step(&self.model, &Input::default(), &mut self.state, &mut self.workspace).unwrap_or_else(|stop| panic!("{stop:?}"));
+            step(&self.model, &Input::default(), &mut self.state, &mut self.workspace)
+                .unwrap_or_else(|stop| panic!("{stop:?}"));
             self.metrics.fold_step(&self.model, &self.state, &self.workspace);
             look(self);
         }

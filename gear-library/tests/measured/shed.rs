@@ -17,21 +17,42 @@ fn a_loop_drawn_off_a_flipper_is_told_step_by_step() {
     let line = "[[line]]\nid = \"rope\"\nrope = \"rope\"\nfrom = \"fore\"\nto = \"aft\"\nlength = \"12 m\"\nstart = \"wrapped\"\n\
                 [[line.wrap]]\npart = \"left_flipper\"\nturns = 1.5\n";
     let hands = Hands::of(Box::new(|_| MotionOutput::default()), false);
-    let mut run = Run::of(spec(&scenario(&(end("fore", 2.0, -21.0) + &end("aft", 0.0, -22.0) + line)), &hands));
+    let mut run = Run::of(spec(
+        &scenario(&(end("fore", 2.0, -21.0) + &end("aft", 0.0, -22.0) + line)),
+        &hands,
+    ));
     run.until(1.0, |_| ());
     let early = run.summary().whale.unwrap();
-    assert_eq!((early.outcome, early.hooked), (Outcome::Entangled, true), "{:?}", run.metrics.events());
+    assert_eq!(
+        (early.outcome, early.hooked),
+        (Outcome::Entangled, true),
+        "{:?}",
+        run.metrics.events()
+    );
     run.until(20.0, |_| ());
     let events = run.metrics.events();
-    events.iter().for_each(|event| println!("{:6.2} s {:?} {} {:.2}", event.time_s, event.kind, event.subject, event.value));
+    events.iter().for_each(|event| {
+        println!("{:6.2} s {:?} {} {:.2}", event.time_s, event.kind, event.subject, event.value)
+    });
     assert!(events.windows(2).all(|pair| pair[0].time_s <= pair[1].time_s), "in order of time");
-    let of_wraps = |event: &&endline_sim::metrics::Event| event.subject == "left_flipper" && event.kind != EventKind::Slip;
-    let told: Vec<(EventKind, f64)> = events.iter().filter(of_wraps).map(|event| (event.kind, event.value)).collect();
+    let of_wraps = |event: &&endline_sim::metrics::Event| {
+        event.subject == "left_flipper" && event.kind != EventKind::Slip
+    };
+    let told: Vec<(EventKind, f64)> =
+        events.iter().filter(of_wraps).map(|event| (event.kind, event.value)).collect();
     let kinds: Vec<EventKind> = told.iter().map(|(kind, _)| *kind).collect();
     let [contact, wraps @ .., lost] = &kinds[..] else { panic!("{told:?}") };
     assert_eq!((*contact, *lost), (EventKind::Contact, EventKind::ContactLost), "{told:?}");
-    assert_eq!(wraps.iter().filter(|kind| **kind == EventKind::Wrap).count(), 2, "half a turn and one: {told:?}");
-    let undone: Vec<f64> = told.iter().filter(|(kind, _)| *kind == EventKind::WrapUndone).map(|(_, level)| *level).collect();
+    assert_eq!(
+        wraps.iter().filter(|kind| **kind == EventKind::Wrap).count(),
+        2,
+        "half a turn and one: {told:?}"
+    );
+    let undone: Vec<f64> = told
+        .iter()
+        .filter(|(kind, _)| *kind == EventKind::WrapUndone)
+        .map(|(_, level)| *level)
+        .collect();
     assert_eq!(undone, [1.0, 0.5], "{told:?}");
     // Less than half a turn at the last touch: let go once free for a third of the episode, t - t_last = (t - t_first)/3.
     let shed = events.iter().find(|event| event.kind == EventKind::Shed).unwrap();

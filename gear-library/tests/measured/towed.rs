@@ -12,7 +12,10 @@ fn drag_added_is_that_of_the_gear_towed() {
                 volume = \"40 L\"\nfloat_height = \"0.4 m\"\ndrag_area = \"0.1 m2\"\nadded_mass = 0.5\n\
                 [[line]]\nid = \"rope\"\nrope = \"rope\"\nfrom = \"whale:back\"\nto = \"pot\"\nlength = \"20 m\"\n";
     let speed = 1.2;
-    let hands = Hands::of(Box::new(move |_| MotionOutput { speed_m_s: speed, ..MotionOutput::default() }), false);
+    let hands = Hands::of(
+        Box::new(move |_| MotionOutput { speed_m_s: speed, ..MotionOutput::default() }),
+        false,
+    );
     let text = scenario(gear)
         .replace("segment = \"0.1 m\"", "segment = \"1 m\"")
         .replace("speed = \"0 m/s\"\nmotion", "speed = \"1.2 m/s\"\nmotion");
@@ -20,18 +23,34 @@ fn drag_added_is_that_of_the_gear_towed() {
     run.until(30.0, |_| ());
     let whale = run.summary().whale.unwrap();
     let wanted = 0.5 * 1025.0 * speed * speed * (0.1 + 0.02 * std::f64::consts::PI * 0.01 * 20.0);
-    println!("{:.3} N, now {:.3} N, by the law {wanted:.3} N", whale.drag_added_n, whale.drag_added_now_n);
-    assert!((whale.drag_added_n / wanted - 1.0).abs() < 0.01, "{} N for {wanted} N", whale.drag_added_n);
-    assert!((whale.drag_added_now_n / wanted - 1.0).abs() < 0.01, "{} N for {wanted} N", whale.drag_added_now_n);
+    println!(
+        "{:.3} N, now {:.3} N, by the law {wanted:.3} N",
+        whale.drag_added_n, whale.drag_added_now_n
+    );
+    assert!(
+        (whale.drag_added_n / wanted - 1.0).abs() < 0.01,
+        "{} N for {wanted} N",
+        whale.drag_added_n
+    );
+    assert!(
+        (whale.drag_added_now_n / wanted - 1.0).abs() < 0.01,
+        "{} N for {wanted} N",
+        whale.drag_added_now_n
+    );
     assert_eq!(whale.carried, ["pot"]);
-    assert!((whale.tethered_m - 20.0).abs() < 0.1 && whale.trailing_m < 1e-9, "a weight holds: {whale:?}");
+    assert!(
+        (whale.tethered_m - 20.0).abs() < 0.1 && whale.trailing_m < 1e-9,
+        "a weight holds: {whale:?}"
+    );
 }
 
 /// The carcass wound in gear: forces of rope on the patches are all that it feels, as a vector, step by step.
 #[test]
 fn forces_on_the_patches_add_up_to_what_the_whale_feels() {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/scenarios/dead-whale-wraps.toml");
-    let text = std::fs::read_to_string(file).unwrap().replace("contact_step = \"5 ms\"", "step = \"5 ms\"\ncontact_step = \"5 ms\"");
+    let text = std::fs::read_to_string(file)
+        .unwrap()
+        .replace("contact_step = \"5 ms\"", "step = \"5 ms\"\ncontact_step = \"5 ms\"");
     let mut run = Run::of(spec(&text, &Hands::of(Box::new(|_| MotionOutput::default()), true)));
     let (mut compared, mut greatest, mut steps) = (0, 0.0_f64, 0);
     run.until(0.4, |run| {
@@ -44,7 +63,10 @@ fn forces_on_the_patches_add_up_to_what_the_whale_feels() {
         let patches = run.summary().whale.unwrap().patches;
         let sum: DVec3 = patches.iter().map(|patch| patch.force_n).sum();
         let felt = run.state.whale.as_ref().unwrap().exertion.rope_force_n;
-        assert!((sum - felt).length() <= 1e-9 * felt.length().max(1.0), "{sum} N on the patches, {felt} N felt");
+        assert!(
+            (sum - felt).length() <= 1e-9 * felt.length().max(1.0),
+            "{sum} N on the patches, {felt} N felt"
+        );
         compared += 1;
         greatest = greatest.max(patches.iter().map(|patch| patch.normal_n).sum());
     });

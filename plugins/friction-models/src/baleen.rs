@@ -60,8 +60,20 @@ fn descriptor() -> Descriptor {
             500.0,
             "Normal force by length of rope above which a rope that lies along the plates goes in between.",
         ),
-        Attribute::number("wedge_coefficient", "1", [0.0, 3.0], 1.5, "Effective coefficient of a wedged rope."),
-        Attribute::number("pull_out", "N/m", [0.0, 1e5], 600.0, "Pull by length of rope that draws a wedged rope out."),
+        Attribute::number(
+            "wedge_coefficient",
+            "1",
+            [0.0, 3.0],
+            1.5,
+            "Effective coefficient of a wedged rope.",
+        ),
+        Attribute::number(
+            "pull_out",
+            "N/m",
+            [0.0, 1e5],
+            600.0,
+            "Pull by length of rope that draws a wedged rope out.",
+        ),
         coefficient_scale(),
     ];
     law::descriptor("org.endline.friction.baleen", "Baleen", help, Plates::STATE_LEN, own)
@@ -82,9 +94,22 @@ impl Law for Plates {
     const STATE_LEN: usize = 4;
 
     fn read(attributes: &[f64]) -> Result<Self, HookError> {
-        let [stick_stiffness_n_m2, across_ratio, wedge_pressure_n_m, wedge_coefficient, pull_out_n_m, coefficient_scale] =
-            values(attributes)?;
-        Ok(Self { stick_stiffness_n_m2, across_ratio, wedge_pressure_n_m, wedge_coefficient, pull_out_n_m, coefficient_scale })
+        let [
+            stick_stiffness_n_m2,
+            across_ratio,
+            wedge_pressure_n_m,
+            wedge_coefficient,
+            pull_out_n_m,
+            coefficient_scale,
+        ] = values(attributes)?;
+        Ok(Self {
+            stick_stiffness_n_m2,
+            across_ratio,
+            wedge_pressure_n_m,
+            wedge_coefficient,
+            pull_out_n_m,
+            coefficient_scale,
+        })
     }
 
     fn respond(&self, contact: &Contact<'_>) -> FrictionResponse {
@@ -94,7 +119,8 @@ impl Law for Plates {
 
     fn advance(&self, contact: &Contact<'_>, out: &mut [f64]) {
         let (bristle, limit) = self.bristle(contact);
-        let wedged = bristle.sticks(&limit) && (contact.state[3] > 0.5 || self.goes_between(contact));
+        let wedged =
+            bristle.sticks(&limit) && (contact.state[3] > 0.5 || self.goes_between(contact));
         out[..3].copy_from_slice(&bristle.end(&limit));
         out[3] = f64::from(u8::from(wedged));
     }
@@ -108,7 +134,11 @@ impl Plates {
 
     fn bristle(&self, contact: &Contact<'_>) -> (Bristle, Limit) {
         let [x, y, z] = [contact.state[0], contact.state[1], contact.state[2]];
-        let bristle = Bristle::new(contact.normal, contact.stretched([x, y, z]), self.stick_stiffness_n_m2 * contact.length_m);
+        let bristle = Bristle::new(
+            contact.normal,
+            contact.stretched([x, y, z]),
+            self.stick_stiffness_n_m2 * contact.length_m,
+        );
         let free = self.free(contact, &bristle);
         let limit = if contact.state[3] > 0.5 { self.wedged(contact, free) } else { free };
         (bristle, limit)
@@ -123,7 +153,9 @@ impl Plates {
         let across = self.across_ratio * along;
         let parts = [dot(t, contact.grain) / along, dot(t, aside) / across];
         let q = (parts[0] * parts[0] + parts[1] * parts[1]).sqrt();
-        let turned: Vec3 = std::array::from_fn(|i| parts[0] / along * contact.grain[i] + parts[1] / across * aside[i]);
+        let turned: Vec3 = std::array::from_fn(|i| {
+            parts[0] / along * contact.grain[i] + parts[1] / across * aside[i]
+        });
         let rate = contact.normal_force_n / bristle.length_m;
         Limit {
             force_n: contact.normal_force_n / q,
@@ -134,7 +166,8 @@ impl Plates {
 
     fn wedged(&self, contact: &Contact<'_>, free: Limit) -> Limit {
         let coefficient = self.wedge_coefficient.min(MOST_WEDGE * contact.coefficient);
-        let (pressed, pull_out) = (coefficient * contact.normal_force_n, self.pull_out_n_m * contact.length_m);
+        let (pressed, pull_out) =
+            (coefficient * contact.normal_force_n, self.pull_out_n_m * contact.length_m);
         let held = if pressed < pull_out {
             Limit { force_n: pressed, by_normal_force: coefficient, ..Limit::default() }
         } else {

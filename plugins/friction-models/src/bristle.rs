@@ -70,7 +70,9 @@ impl Bristle {
         let rate = limit.force_n / self.length_m;
         FrictionResponse {
             force_n: t.map(|t| -limit.force_n * t),
-            by_slip: matrix(|i, j| -rate * (projector(self.normal, i, j) - t[i] * t[j]) - t[i] * limit.by_stretch[j]),
+            by_slip: matrix(|i, j| {
+                -rate * (projector(self.normal, i, j) - t[i] * t[j]) - t[i] * limit.by_stretch[j]
+            }),
             by_normal_force: t.map(|t| -limit.by_normal_force * t),
         }
     }

@@ -29,7 +29,8 @@ pub(crate) struct Contact<'a> {
 impl<'a> Contact<'a> {
     /// The contact at a place in the arrays, with `state_len` floats.
     pub fn at(contacts: &Contacts<'a>, index: usize, state_len: usize) -> Result<Self, HookError> {
-        let missing = || HookError::new(format!("contact {index}: the arrays of contacts differ in length"));
+        let missing =
+            || HookError::new(format!("contact {index}: the arrays of contacts differ in length"));
         let number = |array: &[f64]| array.get(index).copied().ok_or_else(missing);
         let vector = |array: &[Vec3]| array.get(index).copied().ok_or_else(missing);
         Ok(Self {
@@ -41,13 +42,19 @@ impl<'a> Contact<'a> {
             normal_force_n: number(contacts.normal_force_n)?,
             length_m: number(contacts.length_m)?,
             coefficient: number(contacts.coefficient)?,
-            state: contacts.state.get(state_len * index..state_len * (index + 1)).ok_or_else(missing)?,
+            state: contacts
+                .state
+                .get(state_len * index..state_len * (index + 1))
+                .ok_or_else(missing)?,
         })
     }
 
     /// The trial bristle `z* = P (z + s)` of a bristle kept in the world frame.
     pub fn stretched(&self, bristle: Vec3) -> Vec3 {
-        across(self.normal, [bristle[0] + self.slip_m[0], bristle[1] + self.slip_m[1], bristle[2] + self.slip_m[2]])
+        across(
+            self.normal,
+            [bristle[0] + self.slip_m[0], bristle[1] + self.slip_m[1], bristle[2] + self.slip_m[2]],
+        )
     }
 
     /// Across the grain, on the skin: `normal x grain`.
@@ -72,5 +79,7 @@ pub(crate) fn across(normal: Vec3, vector: Vec3) -> Vec3 {
 
 /// The attribute values of a call, as many as the model declares.
 pub(crate) fn values<const COUNT: usize>(attributes: &[f64]) -> Result<[f64; COUNT], HookError> {
-    attributes.try_into().map_err(|_| HookError::new(format!("expected {COUNT} attribute values, got {}", attributes.len())))
+    attributes.try_into().map_err(|_| {
+        HookError::new(format!("expected {COUNT} attribute values, got {}", attributes.len()))
+    })
 }

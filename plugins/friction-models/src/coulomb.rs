@@ -42,7 +42,13 @@ fn descriptor() -> Descriptor {
         1e7,
         "How stiffly skin holds a sticking rope, per metre of rope; stands for the shear compliance of tissue.",
     );
-    law::descriptor("org.endline.friction.coulomb", "Coulomb", help, Sticking::STATE_LEN, vec![stiffness, coefficient_scale()])
+    law::descriptor(
+        "org.endline.friction.coulomb",
+        "Coulomb",
+        help,
+        Sticking::STATE_LEN,
+        vec![stiffness, coefficient_scale()],
+    )
 }
 
 /// The law with a call's attribute values.
@@ -75,7 +81,18 @@ impl Sticking {
     fn bristle(&self, contact: &Contact<'_>) -> (Bristle, Limit) {
         let [x, y, z] = [contact.state[0], contact.state[1], contact.state[2]];
         let coefficient = self.coefficient_scale * contact.coefficient;
-        let limit = Limit { force_n: coefficient * contact.normal_force_n, by_normal_force: coefficient, ..Limit::default() };
-        (Bristle::new(contact.normal, contact.stretched([x, y, z]), self.stick_stiffness_n_m2 * contact.length_m), limit)
+        let limit = Limit {
+            force_n: coefficient * contact.normal_force_n,
+            by_normal_force: coefficient,
+            ..Limit::default()
+        };
+        (
+            Bristle::new(
+                contact.normal,
+                contact.stretched([x, y, z]),
+                self.stick_stiffness_n_m2 * contact.length_m,
+            ),
+            limit,
+        )
     }
 }

@@ -17,7 +17,11 @@ pub(crate) trait Law: Sized {
 }
 
 /// Answers for all contacts of a pass.
-pub(crate) fn respond<L: Law>(attributes: &[f64], contacts: &Contacts<'_>, out: &mut [FrictionResponse]) -> Result<(), HookError> {
+pub(crate) fn respond<L: Law>(
+    attributes: &[f64],
+    contacts: &Contacts<'_>,
+    out: &mut [FrictionResponse],
+) -> Result<(), HookError> {
     let law = L::read(attributes)?;
     for (index, answer) in out.iter_mut().enumerate() {
         *answer = law.respond(&Contact::at(contacts, index, L::STATE_LEN)?);
@@ -26,7 +30,11 @@ pub(crate) fn respond<L: Law>(attributes: &[f64], contacts: &Contacts<'_>, out: 
 }
 
 /// Floats of all contacts at the end of an accepted step.
-pub(crate) fn advance<L: Law>(attributes: &[f64], contacts: &Contacts<'_>, out: &mut [f64]) -> Result<(), HookError> {
+pub(crate) fn advance<L: Law>(
+    attributes: &[f64],
+    contacts: &Contacts<'_>,
+    out: &mut [f64],
+) -> Result<(), HookError> {
     let law = L::read(attributes)?;
     for (index, floats) in out.chunks_exact_mut(L::STATE_LEN).enumerate() {
         law.advance(&Contact::at(contacts, index, L::STATE_LEN)?, floats);
@@ -35,7 +43,13 @@ pub(crate) fn advance<L: Law>(attributes: &[f64], contacts: &Contacts<'_>, out: 
 }
 
 /// Descriptor of a friction model.
-pub(crate) fn descriptor(id: &'static str, name: &'static str, help: &'static str, state_len: usize, own: Vec<Attribute>) -> Descriptor {
+pub(crate) fn descriptor(
+    id: &'static str,
+    name: &'static str,
+    help: &'static str,
+    state_len: usize,
+    own: Vec<Attribute>,
+) -> Descriptor {
     Descriptor {
         id: id.into(),
         version: env!("CARGO_PKG_VERSION").into(),
@@ -49,7 +63,13 @@ pub(crate) fn descriptor(id: &'static str, name: &'static str, help: &'static st
 
 /// The attribute that every model has: what the library's coefficients are multiplied by.
 pub(crate) fn coefficient_scale() -> Attribute {
-    Attribute::number("coefficient_scale", "1", [0.0, 3.0], 1.0, "Multiplies every coefficient of friction of the gear library.")
+    Attribute::number(
+        "coefficient_scale",
+        "1",
+        [0.0, 3.0],
+        1.0,
+        "Multiplies every coefficient of friction of the gear library.",
+    )
 }
 
 /// Makes a type a friction model by its [`Law`].
@@ -74,11 +94,21 @@ macro_rules! friction_model {
                 &self.descriptor
             }
 
-            fn respond(&self, attributes: &[f64], contacts: &Contacts<'_>, out: &mut [FrictionResponse]) -> Result<(), HookError> {
+            fn respond(
+                &self,
+                attributes: &[f64],
+                contacts: &Contacts<'_>,
+                out: &mut [FrictionResponse],
+            ) -> Result<(), HookError> {
                 law::respond::<$law>(attributes, contacts, out)
             }
 
-            fn advance(&self, attributes: &[f64], contacts: &Contacts<'_>, out: &mut [f64]) -> Result<(), HookError> {
+            fn advance(
+                &self,
+                attributes: &[f64],
+                contacts: &Contacts<'_>,
+                out: &mut [f64],
+            ) -> Result<(), HookError> {
                 law::advance::<$law>(attributes, contacts, out)
             }
         }

@@ -27,7 +27,12 @@ pub use tissue::Tissue;
 /// Every friction model that ships with Endline.
 #[must_use]
 pub fn all() -> Vec<Arc<dyn FrictionModel>> {
-    vec![Arc::new(Coulomb::new()), Arc::new(Stribeck::new()), Arc::new(Tissue::new()), Arc::new(Baleen::new())]
+    vec![
+        Arc::new(Coulomb::new()),
+        Arc::new(Stribeck::new()),
+        Arc::new(Tissue::new()),
+        Arc::new(Baleen::new()),
+    ]
 }
 
 endline_sdk::export_plugin! {

@@ -39,7 +39,13 @@ friction_model!(Stribeck, Film);
 fn descriptor() -> Descriptor {
     let help = "Rope on wet skin: holds most at rest, least at a slow slip, and more again as it slips faster.";
     let own = vec![
-        Attribute::number("stick_stiffness", "N/m^2", [1e4, 1e10], 1e7, "How stiffly skin holds a sticking rope, per metre of rope."),
+        Attribute::number(
+            "stick_stiffness",
+            "N/m^2",
+            [1e4, 1e10],
+            1e7,
+            "How stiffly skin holds a sticking rope, per metre of rope.",
+        ),
         Attribute::number(
             "static_ratio",
             "1",
@@ -61,7 +67,13 @@ fn descriptor() -> Descriptor {
             20.0,
             "Slip speed at which drag in the film is as great as kinetic friction; it grows no further.",
         ),
-        Attribute::number("film_time", "s", [0.0, 1.0], 0.01, "Time by which the film lags behind the slip speed."),
+        Attribute::number(
+            "film_time",
+            "s",
+            [0.0, 1.0],
+            0.01,
+            "Time by which the film lags behind the slip speed.",
+        ),
         coefficient_scale(),
     ];
     law::descriptor("org.endline.friction.stribeck", "Stribeck", help, Film::STATE_LEN, own)
@@ -82,9 +94,22 @@ impl Law for Film {
     const STATE_LEN: usize = 4;
 
     fn read(attributes: &[f64]) -> Result<Self, HookError> {
-        let [stick_stiffness_n_m2, static_ratio, stribeck_speed_m_s, viscous_speed_m_s, film_time_s, coefficient_scale] =
-            values(attributes)?;
-        Ok(Self { stick_stiffness_n_m2, static_ratio, stribeck_speed_m_s, viscous_speed_m_s, film_time_s, coefficient_scale })
+        let [
+            stick_stiffness_n_m2,
+            static_ratio,
+            stribeck_speed_m_s,
+            viscous_speed_m_s,
+            film_time_s,
+            coefficient_scale,
+        ] = values(attributes)?;
+        Ok(Self {
+            stick_stiffness_n_m2,
+            static_ratio,
+            stribeck_speed_m_s,
+            viscous_speed_m_s,
+            film_time_s,
+            coefficient_scale,
+        })
     }
 
     fn respond(&self, contact: &Contact<'_>) -> FrictionResponse {
@@ -105,13 +130,18 @@ impl Law for Film {
 impl Film {
     fn bristle(&self, contact: &Contact<'_>) -> (Bristle, Limit) {
         let [x, y, z] = [contact.state[0], contact.state[1], contact.state[2]];
-        let bristle = Bristle::new(contact.normal, contact.stretched([x, y, z]), self.stick_stiffness_n_m2 * contact.length_m);
+        let bristle = Bristle::new(
+            contact.normal,
+            contact.stretched([x, y, z]),
+            self.stick_stiffness_n_m2 * contact.length_m,
+        );
         let limit = self.limit(contact, &bristle);
         (bristle, limit)
     }
 
     fn limit(&self, contact: &Contact<'_>, bristle: &Bristle) -> Limit {
-        let (kinetic, normal_n) = (self.coefficient_scale * contact.coefficient, contact.normal_force_n);
+        let (kinetic, normal_n) =
+            (self.coefficient_scale * contact.coefficient, contact.normal_force_n);
         let share = contact.state[3] / self.stribeck_speed_m_s;
         let film = kinetic * (1.0 + (self.static_ratio - 1.0) * libm::exp(-share * share));
         let still = Limit { force_n: film * normal_n, by_normal_force: film, ..Limit::default() };

@@ -34,7 +34,8 @@ pub struct Tissue {
 friction_model!(Tissue, Drawn);
 
 fn descriptor() -> Descriptor {
-    let help = "Skin goes with the rope over an elastic range, then the rope breaks loose and slips.";
+    let help =
+        "Skin goes with the rope over an elastic range, then the rope breaks loose and slips.";
     let own = vec![
         Attribute::number(
             "stiffness",
@@ -43,8 +44,20 @@ fn descriptor() -> Descriptor {
             3e4,
             "How stiffly tissue holds the rope within its elastic range, per metre of rope.",
         ),
-        Attribute::number("draw", "m", [1e-4, 0.5], 0.05, "Elastic range: how far skin goes with the rope before it is taut."),
-        Attribute::number("taut_ratio", "1", [1.0, 1e3], 50.0, "How many times stiffer taut tissue is."),
+        Attribute::number(
+            "draw",
+            "m",
+            [1e-4, 0.5],
+            0.05,
+            "Elastic range: how far skin goes with the rope before it is taut.",
+        ),
+        Attribute::number(
+            "taut_ratio",
+            "1",
+            [1.0, 1e3],
+            50.0,
+            "How many times stiffer taut tissue is.",
+        ),
         Attribute::number(
             "static_ratio",
             "1",
@@ -71,32 +84,56 @@ impl Law for Drawn {
     const STATE_LEN: usize = 3;
 
     fn read(attributes: &[f64]) -> Result<Self, HookError> {
-        let [stiffness_n_m2, draw_m, taut_ratio, static_ratio, coefficient_scale] = values(attributes)?;
+        let [stiffness_n_m2, draw_m, taut_ratio, static_ratio, coefficient_scale] =
+            values(attributes)?;
         Ok(Self { stiffness_n_m2, draw_m, taut_ratio, static_ratio, coefficient_scale })
     }
 
     fn respond(&self, contact: &Contact<'_>) -> FrictionResponse {
         let (bristle, limit) = self.bristle(contact);
-        if bristle.length_m > 0.0 && self.force(&bristle) > limit.force_n { bristle.slipping(&limit) } else { self.stuck(&bristle) }
+        if bristle.length_m > 0.0 && self.force(&bristle) > limit.force_n {
+            bristle.slipping(&limit)
+        } else {
+            self.stuck(&bristle)
+        }
     }
 
     fn advance(&self, contact: &Contact<'_>, out: &mut [f64]) {
         let (bristle, limit) = self.bristle(contact);
         let slips = bristle.length_m > 0.0 && self.force(&bristle) > limit.force_n;
-        let share = if slips { self.draw_at(&bristle, limit.force_n) / bristle.length_m } else { 1.0 };
+        let share =
+            if slips { self.draw_at(&bristle, limit.force_n) / bristle.length_m } else { 1.0 };
         let kept = bristle.stretch_m.map(|z| share * z);
-        out.copy_from_slice(&[dot(kept, contact.grain), dot(kept, contact.across_grain()), f64::from(u8::from(slips))]);
+        out.copy_from_slice(&[
+            dot(kept, contact.grain),
+            dot(kept, contact.across_grain()),
+            f64::from(u8::from(slips)),
+        ]);
     }
 }
 
 impl Drawn {
     fn bristle(&self, contact: &Contact<'_>) -> (Bristle, Limit) {
         let (along, aside) = (contact.grain, contact.across_grain());
-        let drawn: Vec3 = std::array::from_fn(|i| contact.state[0] * along[i] + contact.state[1] * aside[i] + contact.slip_m[i]);
+        let drawn: Vec3 = std::array::from_fn(|i| {
+            contact.state[0] * along[i] + contact.state[1] * aside[i] + contact.slip_m[i]
+        });
         let kinetic = self.coefficient_scale * contact.coefficient;
-        let coefficient = if contact.state[2] > 0.5 { kinetic } else { self.static_ratio * kinetic };
-        let limit = Limit { force_n: coefficient * contact.normal_force_n, by_normal_force: coefficient, ..Limit::default() };
-        (Bristle::new(contact.normal, across(contact.normal, drawn), self.stiffness_n_m2 * contact.length_m), limit)
+        let coefficient =
+            if contact.state[2] > 0.5 { kinetic } else { self.static_ratio * kinetic };
+        let limit = Limit {
+            force_n: coefficient * contact.normal_force_n,
+            by_normal_force: coefficient,
+            ..Limit::default()
+        };
+        (
+            Bristle::new(
+                contact.normal,
+                across(contact.normal, drawn),
+                self.stiffness_n_m2 * contact.length_m,
+            ),
+            limit,
+        )
     }
 
     /// `F(r)` [N].
@@ -114,11 +151,14 @@ impl Drawn {
     fn stuck(&self, bristle: &Bristle) -> FrictionResponse {
         let (r, k) = (bristle.length_m, bristle.stiffness_n_m);
         let taut = r > self.draw_m;
-        let (around, out) = if taut { (self.force(bristle) / r, k * self.taut_ratio) } else { (k, k) };
+        let (around, out) =
+            if taut { (self.force(bristle) / r, k * self.taut_ratio) } else { (k, k) };
         let t = if taut { bristle.direction() } else { [0.0; 3] };
         FrictionResponse {
             force_n: bristle.stretch_m.map(|z| -around * z),
-            by_slip: matrix(|i, j| -around * projector(bristle.normal, i, j) - (out - around) * t[i] * t[j]),
+            by_slip: matrix(|i, j| {
+                -around * projector(bristle.normal, i, j) - (out - around) * t[i] * t[j]
+            }),
             by_normal_force: [0.0; 3],
         }
     }

@@ -39,9 +39,13 @@ fn steady_slip_has_the_ellipse_of_friction() {
 #[test]
 fn a_wedged_rope_is_drawn_out_at_the_pull_out_force() {
     let model = Baleen::new();
-    let attributes = values(&model, &[("wedge_pressure", 500.0), ("wedge_coefficient", 3.0), ("pull_out", 1000.0)]);
+    let attributes = values(
+        &model,
+        &[("wedge_pressure", 500.0), ("wedge_coefficient", 3.0), ("pull_out", 1000.0)],
+    );
     let fresh = Contact { along: [0.0, 1.0, 0.0], ..Contact::on_plane(&model, NORMAL, MU) };
-    let mut slider = Slider::new(&model, attributes.clone(), Contact { dt: 1e-3, ..fresh.clone() }, 500.0, 0.1);
+    let mut slider =
+        Slider::new(&model, attributes.clone(), Contact { dt: 1e-3, ..fresh.clone() }, 500.0, 0.1);
     let (mut most, mut pulled_out_at) = (0.0_f64, None);
     for _ in 0..8_000 {
         let before = slider.contact.state[3];
@@ -72,7 +76,10 @@ fn a_wedged_rope_is_drawn_out_at_the_pull_out_force() {
 #[test]
 fn what_wedges_and_how_hard_it_holds() {
     let model = Baleen::new();
-    let attributes = values(&model, &[("wedge_pressure", 500.0), ("wedge_coefficient", 1.5), ("pull_out", 5000.0)]);
+    let attributes = values(
+        &model,
+        &[("wedge_pressure", 500.0), ("wedge_coefficient", 1.5), ("pull_out", 5000.0)],
+    );
     let wedged = |contact: Contact| {
         let mut contact = contact;
         contact.slide(&model, &attributes, [0.0; 3]);
@@ -82,6 +89,12 @@ fn what_wedges_and_how_hard_it_holds() {
     let along = Contact { along: [0.0, 1.0, 0.0], ..Contact::on_plane(&model, NORMAL, MU) };
     assert!((wedged(along.clone()) - 1.5 * NORMAL).abs() < 1e-9);
     let plain = 1.5 * MU * NORMAL;
-    assert!((wedged(Contact { along: [1.0, 0.0, 0.0], ..along.clone() }) - plain).abs() < 1e-9, "lies across");
-    assert!((wedged(Contact { normal_force: 9.0, ..along }) - 1.5 * MU * 9.0).abs() < 1e-9, "pressed too little");
+    assert!(
+        (wedged(Contact { along: [1.0, 0.0, 0.0], ..along.clone() }) - plain).abs() < 1e-9,
+        "lies across"
+    );
+    assert!(
+        (wedged(Contact { normal_force: 9.0, ..along }) - 1.5 * MU * 9.0).abs() < 1e-9,
+        "pressed too little"
+    );
 }

@@ -25,7 +25,8 @@ fn random(random: &mut Random) -> Contact {
 }
 
 fn sticks(contact: &Contact) -> bool {
-    let stretch = across(contact.normal, std::array::from_fn(|i| contact.state[i] + contact.slip[i]));
+    let stretch =
+        across(contact.normal, std::array::from_fn(|i| contact.state[i] + contact.slip[i]));
     STIFFNESS * contact.length * norm(stretch) <= contact.mu * contact.normal_force
 }
 
@@ -42,7 +43,9 @@ fn derivatives_agree_with_finite_differences() {
             other.slip[axis] += by;
             other
         };
-        let crosses = (0..3).any(|axis| [step, -step].iter().any(|by| sticks(&moved(axis, *by)) != sticks(&contact)));
+        let crosses = (0..3).any(|axis| {
+            [step, -step].iter().any(|by| sticks(&moved(axis, *by)) != sticks(&contact))
+        });
         if crosses {
             continue;
         }
@@ -53,17 +56,26 @@ fn derivatives_agree_with_finite_differences() {
         }
         let scale = STIFFNESS * contact.length;
         for axis in 0..3 {
-            let (plus, minus) = (respond(&moved(axis, step)).force_n, respond(&moved(axis, -step)).force_n);
+            let (plus, minus) =
+                (respond(&moved(axis, step)).force_n, respond(&moved(axis, -step)).force_n);
             for row in 0..3 {
                 let by_difference = (plus[row] - minus[row]) / (2.0 * step);
-                assert!((by_difference - here.by_slip[row][axis]).abs() < 2e-5 * scale, "{by_difference} {:?}", here.by_slip);
+                assert!(
+                    (by_difference - here.by_slip[row][axis]).abs() < 2e-5 * scale,
+                    "{by_difference} {:?}",
+                    here.by_slip
+                );
             }
         }
         let mut pressed = contact.clone();
         pressed.normal_force += 1e-6;
         for row in 0..3 {
             let by_difference = (respond(&pressed).force_n[row] - here.force_n[row]) / 1e-6;
-            assert!((by_difference - here.by_normal_force[row]).abs() < 1e-5, "{by_difference} {:?}", here.by_normal_force);
+            assert!(
+                (by_difference - here.by_normal_force[row]).abs() < 1e-5,
+                "{by_difference} {:?}",
+                here.by_normal_force
+            );
         }
     }
     assert!(stuck > 300 && slipping > 300, "{stuck} stuck, {slipping} slipping");
@@ -96,7 +108,10 @@ fn friction_takes_energy_over_any_path() {
             let stored = 0.5
                 * STIFFNESS
                 * contact.length
-                * dot([contact.state[0], contact.state[1], contact.state[2]], [contact.state[0], contact.state[1], contact.state[2]]);
+                * dot(
+                    [contact.state[0], contact.state[1], contact.state[2]],
+                    [contact.state[0], contact.state[1], contact.state[2]],
+                );
             assert!(work + stored <= 1e-12 * work.abs(), "work {work} J with {stored} J stored");
         }
     }
@@ -173,6 +188,7 @@ fn wrong_lengths_are_an_error() {
     };
     let error = model.respond(&[1.0], &contacts, &mut [FrictionResponse::default()]).unwrap_err();
     assert!(error.message.contains("2 attribute values"), "{error}");
-    let error = model.respond(&attributes, &contacts, &mut [FrictionResponse::default(); 2]).unwrap_err();
+    let error =
+        model.respond(&attributes, &contacts, &mut [FrictionResponse::default(); 2]).unwrap_err();
     assert!(error.message.contains("differ in length"));
 }

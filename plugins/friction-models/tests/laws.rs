@@ -20,7 +20,13 @@ fn used(model: &dyn FrictionModel, attributes: &[f64], random: &mut Random) -> C
 }
 
 /// Forces a little to either side along an axis: their difference tells the derivative, and their bend whether a branch changes between.
-fn beside(model: &dyn FrictionModel, attributes: &[f64], contact: &Contact, axis: usize, by: f64) -> [Vec3; 2] {
+fn beside(
+    model: &dyn FrictionModel,
+    attributes: &[f64],
+    contact: &Contact,
+    axis: usize,
+    by: f64,
+) -> [Vec3; 2] {
     [by, -by].map(|by| {
         let mut moved = contact.clone();
         moved.slip[axis] += by;
@@ -37,9 +43,19 @@ fn derivatives_agree_with_finite_differences() {
             let contact = used(model.as_ref(), &attributes, &mut random);
             let here = contact.respond(model.as_ref(), &attributes);
             let by = 1e-5 * norm(contact.slip).max(1e-8);
-            let sides: Vec<_> = (0..3).map(|axis| beside(model.as_ref(), &attributes, &contact, axis, by)).collect();
-            let scale = here.by_slip.as_flattened().iter().fold(0.0_f64, |most, entry| most.max(entry.abs())).max(1e-9);
-            let bent = |plus: Vec3, minus: Vec3| (0..3).any(|i| (plus[i] + minus[i] - 2.0 * here.force_n[i]).abs() > 1e-4 * scale * by);
+            let sides: Vec<_> = (0..3)
+                .map(|axis| beside(model.as_ref(), &attributes, &contact, axis, by))
+                .collect();
+            let scale = here
+                .by_slip
+                .as_flattened()
+                .iter()
+                .fold(0.0_f64, |most, entry| most.max(entry.abs()))
+                .max(1e-9);
+            let bent = |plus: Vec3, minus: Vec3| {
+                (0..3)
+                    .any(|i| (plus[i] + minus[i] - 2.0 * here.force_n[i]).abs() > 1e-4 * scale * by)
+            };
             if sides.iter().any(|[plus, minus]| bent(*plus, *minus)) {
                 continue;
             }
@@ -49,18 +65,31 @@ fn derivatives_agree_with_finite_differences() {
                     let difference = (plus[row] - minus[row]) / (2.0 * by);
                     let rounding = 1e-10 * norm(here.force_n) / by;
                     let error = (difference - here.by_slip[row][axis]).abs();
-                    assert!(error < 1e-3 * scale + rounding, "{}: {difference} {:?}", model.descriptor().id, here.by_slip);
+                    assert!(
+                        error < 1e-3 * scale + rounding,
+                        "{}: {difference} {:?}",
+                        model.descriptor().id,
+                        here.by_slip
+                    );
                 }
             }
             let press = 1e-5 * contact.normal_force;
-            let pressed =
-                |by: f64| Contact { normal_force: contact.normal_force + by, ..contact.clone() }.respond(model.as_ref(), &attributes);
+            let pressed = |by: f64| {
+                Contact { normal_force: contact.normal_force + by, ..contact.clone() }
+                    .respond(model.as_ref(), &attributes)
+            };
             let (more, less) = (pressed(press).force_n, pressed(-press).force_n);
             for row in 0..3 {
-                let (up, down) = ((more[row] - here.force_n[row]) / press, (here.force_n[row] - less[row]) / press);
+                let (up, down) = (
+                    (more[row] - here.force_n[row]) / press,
+                    (here.force_n[row] - less[row]) / press,
+                );
                 if (up - down).abs() < 1e-3 * contact.mu {
                     let difference = 0.5 * (up + down);
-                    assert!((difference - here.by_normal_force[row]).abs() < 2e-3 * contact.mu, "{difference} {here:?}");
+                    assert!(
+                        (difference - here.by_normal_force[row]).abs() < 2e-3 * contact.mu,
+                        "{difference} {here:?}"
+                    );
                 }
             }
         }
@@ -78,7 +107,12 @@ fn force_lies_across_the_normal_and_is_bounded() {
             let force = contact.respond(model.as_ref(), &attributes).force_n;
             assert!(dot(force, contact.normal).abs() < 1e-9 * (1.0 + norm(force)));
             let most = 10.0 * contact.mu * contact.normal_force;
-            assert!(norm(force) <= most * (1.0 + 1e-9), "{}: {} N beyond {most} N", model.descriptor().id, norm(force));
+            assert!(
+                norm(force) <= most * (1.0 + 1e-9),
+                "{}: {} N beyond {most} N",
+                model.descriptor().id,
+                norm(force)
+            );
         }
     }
 }
@@ -102,7 +136,11 @@ fn no_model_adds_energy_over_any_path() {
                 work += step;
                 exchanged += step.abs();
                 given += step.max(0.0);
-                assert!(work <= 1e-12 * exchanged, "{}: {work} J out of nothing, {attributes:?}", model.descriptor().id);
+                assert!(
+                    work <= 1e-12 * exchanged,
+                    "{}: {work} J out of nothing, {attributes:?}",
+                    model.descriptor().id
+                );
             }
         }
         assert!(given > 0.0, "{}: bristles give back what they stored", model.descriptor().id);
@@ -111,7 +149,9 @@ fn no_model_adds_energy_over_any_path() {
 
 /// Turns a contact's frame with the skin under it, by a small rotation vector.
 fn turn(contact: &mut Contact, by: Vec3) {
-    let cross = |v: Vec3| [by[1] * v[2] - by[2] * v[1], by[2] * v[0] - by[0] * v[2], by[0] * v[1] - by[1] * v[0]];
+    let cross = |v: Vec3| {
+        [by[1] * v[2] - by[2] * v[1], by[2] * v[0] - by[0] * v[2], by[0] * v[1] - by[1] * v[0]]
+    };
     let turned = |v: Vec3| {
         let d = cross(v);
         let moved: Vec3 = std::array::from_fn(|i| v[i] + d[i]);
@@ -138,7 +178,8 @@ fn a_rope_held_below_the_limit_does_not_creep() {
             for _ in 0..80 {
                 contact.slip = [0.5 * (less + more), 0.0, 0.0];
                 let holds = -contact.respond(model.as_ref(), &attributes).force_n[0] >= pull;
-                (less, more) = if holds { (less, contact.slip[0]) } else { (contact.slip[0], more) };
+                (less, more) =
+                    if holds { (less, contact.slip[0]) } else { (contact.slip[0], more) };
             }
             travelled.push(contact.slip[0]);
             contact.advance(model.as_ref(), &attributes);

@@ -10,7 +10,8 @@ const NORMAL: f64 = 100.0;
 
 /// Steady friction over kinetic friction by the written law.
 fn curve(ratio: f64, speed: f64, stribeck: f64, viscous: f64) -> f64 {
-    1.0 + (ratio - 1.0) * libm::exp(-(speed / stribeck) * (speed / stribeck)) + (speed / viscous).min(1.0)
+    1.0 + (ratio - 1.0) * libm::exp(-(speed / stribeck) * (speed / stribeck))
+        + (speed / viscous).min(1.0)
 }
 
 #[test]
@@ -51,10 +52,19 @@ fn the_film_lags_by_its_time() {
 fn a_slowly_drawn_block_sticks_and_slips_with_the_closed_form_period() {
     let model = Stribeck::new();
     let (ratio, spring, mass, hand) = (1.4, 400.0, 1.0, 0.004);
-    let attributes = values(&model, &[("static_ratio", ratio), ("stribeck_speed", 2e-3), ("viscous_speed", 1e4), ("film_time", 2e-4)]);
+    let attributes = values(
+        &model,
+        &[
+            ("static_ratio", ratio),
+            ("stribeck_speed", 2e-3),
+            ("viscous_speed", 1e4),
+            ("film_time", 2e-4),
+        ],
+    );
     let contact = Contact { dt: 1e-4, ..Contact::on_plane(&model, NORMAL, MU) };
     let mut slider = Slider::new(&model, attributes, contact, spring, mass);
-    let (mut leaps, mut tops, mut bottoms, mut was_slipping) = (Vec::new(), Vec::new(), Vec::new(), false);
+    let (mut leaps, mut tops, mut bottoms, mut was_slipping) =
+        (Vec::new(), Vec::new(), Vec::new(), false);
     for step in 0..600_000 {
         let before = slider.pull();
         slider.step(hand);
@@ -69,7 +79,8 @@ fn a_slowly_drawn_block_sticks_and_slips_with_the_closed_form_period() {
     }
     let friction = MU * NORMAL;
     let period = (leaps[leaps.len() - 1] - leaps[1]) / (leaps.len() - 2) as f64;
-    let expected = 2.0 * (ratio - 1.0) * friction / (spring * hand) + std::f64::consts::PI * (mass / spring).sqrt();
+    let expected = 2.0 * (ratio - 1.0) * friction / (spring * hand)
+        + std::f64::consts::PI * (mass / spring).sqrt();
     let (top, bottom) = (tops[2], bottoms[2]);
     assert!(leaps.len() > 4, "{leaps:?}");
     assert!((period / expected - 1.0).abs() < 0.02, "{period} s for {expected} s");
@@ -83,10 +94,13 @@ fn a_slowly_drawn_block_sticks_and_slips_with_the_closed_form_period() {
 fn stick_slip_ends_at_the_least_of_the_curve() {
     let model = Stribeck::new();
     let (stribeck, viscous) = (0.05, 2.0);
-    let attributes = values(&model, &[("stribeck_speed", stribeck), ("viscous_speed", viscous), ("film_time", 0.02)]);
-    let least = (1..4000)
-        .map(|i| f64::from(i) * 1e-4)
-        .min_by(|a, b| curve(1.4, *a, stribeck, viscous).total_cmp(&curve(1.4, *b, stribeck, viscous)));
+    let attributes = values(
+        &model,
+        &[("stribeck_speed", stribeck), ("viscous_speed", viscous), ("film_time", 0.02)],
+    );
+    let least = (1..4000).map(|i| f64::from(i) * 1e-4).min_by(|a, b| {
+        curve(1.4, *a, stribeck, viscous).total_cmp(&curve(1.4, *b, stribeck, viscous))
+    });
     let least = least.unwrap_or_default();
     assert!((0.1..0.15).contains(&least), "{least} m/s");
     let swing = |speed: f64| {

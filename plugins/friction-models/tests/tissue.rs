@@ -20,7 +20,10 @@ fn skin_goes_with_the_rope_and_comes_back() {
     }
     // 4 cm of draw, within the elastic range, along its direction.
     let expected = STIFFNESS * LENGTH * 0.04;
-    assert!((norm(force) / expected - 1.0).abs() < 1e-12 && (force[0] / force[1] - 0.75).abs() < 1e-12, "{force:?}");
+    assert!(
+        (norm(force) / expected - 1.0).abs() < 1e-12 && (force[0] / force[1] - 0.75).abs() < 1e-12,
+        "{force:?}"
+    );
     for _ in 0..40 {
         force = contact.slide(&model, &attributes, [-6e-4, -8e-4, 0.0]);
     }
@@ -36,7 +39,11 @@ fn slip_begins_at_the_static_limit_and_falls_to_the_kinetic() {
     let soft = STIFFNESS * LENGTH;
     for normal in [50.0, 100.0, 400.0] {
         let (kinetic, fixed) = (0.2 * normal, 1.25 * 0.2 * normal);
-        let begins = if fixed < soft * DRAW { fixed / soft } else { DRAW + (fixed - soft * DRAW) / (50.0 * soft) };
+        let begins = if fixed < soft * DRAW {
+            fixed / soft
+        } else {
+            DRAW + (fixed - soft * DRAW) / (50.0 * soft)
+        };
         let mut contact = Contact::on_plane(&model, normal, 0.2);
         let (mut drawn, mut most, mut last) = (0.0, (0.0, 0.0), 0.0);
         for _ in 0..20_000 {
@@ -62,7 +69,10 @@ fn draw_turns_with_the_skin() {
     contact.slip = [0.0; 3];
     contact.grain = [-1.0, 0.0, 0.0];
     let force = contact.respond(&model, &attributes).force_n;
-    assert!(force[0].abs() < 1e-9 && (force[1] + STIFFNESS * LENGTH * 0.03).abs() < 1e-9, "{force:?}");
+    assert!(
+        force[0].abs() < 1e-9 && (force[1] + STIFFNESS * LENGTH * 0.03).abs() < 1e-9,
+        "{force:?}"
+    );
 }
 
 /// A light rope drawn by a spring at a slow, steady speed sticks and slips; skin and spring give in series, so with
@@ -91,7 +101,11 @@ fn a_drawn_rope_sticks_and_slips_with_the_closed_form_period() {
     let together = 1.0 / (1.0 / spring + 1.0 / (STIFFNESS * LENGTH));
     let expected = (ratio - 1.0) * friction / (together * hand);
     assert!(leaps.len() > 5, "{leaps:?}");
-    assert!((leaps[3].1 / (ratio * friction) - 1.0).abs() < 0.01, "breaks loose at {} N", leaps[3].1);
+    assert!(
+        (leaps[3].1 / (ratio * friction) - 1.0).abs() < 0.01,
+        "breaks loose at {} N",
+        leaps[3].1
+    );
     assert!((least / friction - 1.0).abs() < 0.02, "holds again at {least} N");
     assert!((period / expected - 1.0).abs() < 0.02, "{period} s for {expected} s");
 }

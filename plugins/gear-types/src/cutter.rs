@@ -7,7 +7,10 @@
 //! Hauling is quick and jerks are short; a whale pulls on. The device sits at the endline's foot (the whole line goes with
 //! the whale, but no trap), at the splice, or at the buoy. Floats: for each endline the time `t` [s] and whether it was cut.
 
-use endline_sdk::{Attribute, AttributeValue, Descriptor, GearAction, GearStep, GearType, HookError, LineEnd, Rig, Site};
+use endline_sdk::{
+    Attribute, AttributeValue, Descriptor, GearAction, GearStep, GearType, HookError, LineEnd, Rig,
+    Site,
+};
 
 use crate::lay::Values;
 use crate::trawl::Set;
@@ -57,7 +60,8 @@ impl GearType for TimeTensionCutter {
             let (line, end) = cutter.seat(&set, endline);
             let tension = input.end_tension_n.get(line).map_or(0.0, |ends| ends[end as usize]);
             if cutter.parts(tension, input.dt_s, floats) {
-                let line = u32::try_from(line).map_err(|_| HookError::new("the gear has too many lines"))?;
+                let line = u32::try_from(line)
+                    .map_err(|_| HookError::new("the gear has too many lines"))?;
                 actions.push(GearAction::CutLine { line, end });
             }
         }
@@ -97,7 +101,11 @@ impl Cutter {
                 60.0,
                 "How long the tension must stay above that before the cutter parts the line.",
             ),
-            Attribute::choice("cutter_at", &["foot", "splice", "buoy"], "Where in the endline the cutter sits."),
+            Attribute::choice(
+                "cutter_at",
+                &["foot", "splice", "buoy"],
+                "Where in the endline the cutter sits.",
+            ),
         ]
     }
 
@@ -107,7 +115,11 @@ impl Cutter {
             "buoy" => Seat::Buoy,
             _ => Seat::Foot,
         };
-        Ok(Self { tension_n: values.number("cutter_tension")?, hold_s: values.number("cutter_hold")?, at })
+        Ok(Self {
+            tension_n: values.number("cutter_tension")?,
+            hold_s: values.number("cutter_hold")?,
+            at,
+        })
     }
 
     /// Index of the line, and its end, at which the device of an endline cuts.

@@ -18,7 +18,10 @@
 //!
 //! Panels, anchors of 22 lb and weak links of 1,100 lbf in the headline: practice and rules of the northeast United States.
 
-use endline_sdk::{Attribute, AttributeValue, BodyKind, Descriptor, GearType, HookError, LineEnd, Rig, RigEnd, Site};
+use endline_sdk::{
+    Attribute, AttributeValue, BodyKind, Descriptor, GearType, HookError, LineEnd, Rig, RigEnd,
+    Site,
+};
 
 use crate::lay::{Endline, FAR, Foot, Lay, Values, depth_of};
 
@@ -81,18 +84,78 @@ impl<'a> Net<'a> {
     fn attributes() -> Vec<Attribute> {
         vec![
             Attribute::count("panels", [1, 40], 3, "How many panels of netting."),
-            Attribute::number("panel_length", "m", [5.0, 500.0], 91.44, "Length of a panel's headline; 300 ft where not given."),
-            Attribute::number("net_height", "m", [0.5, 30.0], 3.0, "Height of the net from leadline to headline, the netting taut."),
-            Attribute::item("headline", "ropes", "gillnet-headline", "Headline with its floats and half of the netting."),
-            Attribute::item("leadline", "ropes", "gillnet-leadline", "Leadline with the other half of the netting."),
-            Attribute::item("netting", "ropes", "gillnet-netting", "The twine of a stretch of net, gathered in one line."),
-            Attribute::count("netting_lines", [1, 100], 6, "How many netting lines stand for a panel."),
-            Attribute::number("slack", "1", [0.0, 0.5], 0.01, "How much longer headline and leadline are than what they lie along."),
-            Attribute::item("panel_link", "weak-links", "wl-1100", "Weak link in the headline at each panel; empty for none."),
-            Attribute::number("bridle", "m", [1.0, 50.0], 4.0, "Length of each bridle leg from headline and leadline to the anchor line."),
-            Attribute::item("bridle_rope", "ropes", "sink-7-16", "Rope of bridles and anchor lines."),
+            Attribute::number(
+                "panel_length",
+                "m",
+                [5.0, 500.0],
+                91.44,
+                "Length of a panel's headline; 300 ft where not given.",
+            ),
+            Attribute::number(
+                "net_height",
+                "m",
+                [0.5, 30.0],
+                3.0,
+                "Height of the net from leadline to headline, the netting taut.",
+            ),
+            Attribute::item(
+                "headline",
+                "ropes",
+                "gillnet-headline",
+                "Headline with its floats and half of the netting.",
+            ),
+            Attribute::item(
+                "leadline",
+                "ropes",
+                "gillnet-leadline",
+                "Leadline with the other half of the netting.",
+            ),
+            Attribute::item(
+                "netting",
+                "ropes",
+                "gillnet-netting",
+                "The twine of a stretch of net, gathered in one line.",
+            ),
+            Attribute::count(
+                "netting_lines",
+                [1, 100],
+                6,
+                "How many netting lines stand for a panel.",
+            ),
+            Attribute::number(
+                "slack",
+                "1",
+                [0.0, 0.5],
+                0.01,
+                "How much longer headline and leadline are than what they lie along.",
+            ),
+            Attribute::item(
+                "panel_link",
+                "weak-links",
+                "wl-1100",
+                "Weak link in the headline at each panel; empty for none.",
+            ),
+            Attribute::number(
+                "bridle",
+                "m",
+                [1.0, 50.0],
+                4.0,
+                "Length of each bridle leg from headline and leadline to the anchor line.",
+            ),
+            Attribute::item(
+                "bridle_rope",
+                "ropes",
+                "sink-7-16",
+                "Rope of bridles and anchor lines.",
+            ),
             Attribute::item("anchor", "anchors", "danforth-22lb", "Anchor at each end."),
-            Attribute::number("anchor_line", "m", [1.0, 500.0], 20.0, "Length of each anchor line."),
+            Attribute::number(
+                "anchor_line",
+                "m",
+                [1.0, 500.0],
+                20.0,
+                "Length of each anchor line.",
+            ),
         ]
     }
 
@@ -125,7 +188,10 @@ impl<'a> Net<'a> {
     fn lay(&self, into: &mut Lay, site: &Site) -> Result<[Foot; 2], HookError> {
         let bed_m = -depth_of(site)?;
         if self.height_m > -0.9 * bed_m {
-            let message = format!("attribute `net_height`: {} m in water of {} m; it must stay below the surface", self.height_m, -bed_m);
+            let message = format!(
+                "attribute `net_height`: {} m in water of {} m; it must stay below the surface",
+                self.height_m, -bed_m
+            );
             return Err(HookError::new(message));
         }
         let (spans, chord) = (self.panels * self.lines_a_panel, self.chord_m());
@@ -134,15 +200,21 @@ impl<'a> Net<'a> {
             let x = -self.lead_m() - f64::from(column) * chord;
             let ends = self.lay_column(into, column, [x, bed_m]);
             if let Some([low, high]) = columns.last() {
-                self.lay_span(into, column, [low.clone(), ends[0].clone()], [high.clone(), ends[1].clone()]);
+                self.lay_span(
+                    into,
+                    column,
+                    [low.clone(), ends[0].clone()],
+                    [high.clone(), ends[1].clone()],
+                );
             }
             columns.push(ends);
         }
         let length_m = 2.0 * self.lead_m() + f64::from(spans) * chord;
         match (columns.first(), columns.last()) {
-            (Some(near), Some(far)) => {
-                Ok([self.lay_end(into, "", near, [0.0, -1.0], bed_m), self.lay_end(into, FAR, far, [-length_m, 1.0], bed_m)])
-            }
+            (Some(near), Some(far)) => Ok([
+                self.lay_end(into, "", near, [0.0, -1.0], bed_m),
+                self.lay_end(into, FAR, far, [-length_m, 1.0], bed_m),
+            ]),
             _ => Err(HookError::new("attribute `panels`: a string has one panel at least")),
         }
     }
@@ -171,7 +243,12 @@ impl<'a> Net<'a> {
     fn lay_column(&self, into: &mut Lay, column: u32, [x, bed_m]: [f64; 2]) -> [RigEnd; 2] {
         let low = into.joint(&format!("lead-{column}"), [x, 0.0, bed_m]);
         let high = into.joint(&format!("head-{column}"), [x, 0.0, bed_m + 0.95 * self.height_m]);
-        into.line(&format!("netting-{column}"), self.netting, [low.clone(), high.clone()], self.height_m);
+        into.line(
+            &format!("netting-{column}"),
+            self.netting,
+            [low.clone(), high.clone()],
+            self.height_m,
+        );
         [low, high]
     }
 
@@ -181,25 +258,60 @@ impl<'a> Net<'a> {
         into.line(&format!("leadline-{column}"), self.leadline, low, self.span_m());
         into.line(&headline, self.headline, high, self.span_m());
         if first.is_multiple_of(self.lines_a_panel) {
-            into.link(&format!("panel-link-{}", first / self.lines_a_panel + 1), self.panel_link, &headline, LineEnd::A);
+            into.link(
+                &format!("panel-link-{}", first / self.lines_a_panel + 1),
+                self.panel_link,
+                &headline,
+                LineEnd::A,
+            );
         }
     }
 
     /// Bridle, anchor line and anchor beyond the end of the netting; `sense` is that of x from the anchor to the net.
-    fn lay_end(&self, into: &mut Lay, prefix: &str, [low, high]: &[RigEnd; 2], [x, sense]: [f64; 2], bed_m: f64) -> Foot {
+    fn lay_end(
+        &self,
+        into: &mut Lay,
+        prefix: &str,
+        [low, high]: &[RigEnd; 2],
+        [x, sense]: [f64; 2],
+        bed_m: f64,
+    ) -> Foot {
         let (at_m, named) = ([x, 0.0, bed_m], |id: &str| format!("{prefix}{id}"));
-        let bridle = into.joint(&named("bridle"), [x + sense * self.reach_m(), 0.0, bed_m + 0.3 * self.height_m]);
-        into.line(&named("bridle-top"), self.bridle_rope, [bridle.clone(), high.clone()], self.bridle_m);
-        into.line(&named("bridle-bottom"), self.bridle_rope, [bridle.clone(), low.clone()], self.bridle_m);
+        let bridle = into.joint(
+            &named("bridle"),
+            [x + sense * self.reach_m(), 0.0, bed_m + 0.3 * self.height_m],
+        );
+        into.line(
+            &named("bridle-top"),
+            self.bridle_rope,
+            [bridle.clone(), high.clone()],
+            self.bridle_m,
+        );
+        into.line(
+            &named("bridle-bottom"),
+            self.bridle_rope,
+            [bridle.clone(), low.clone()],
+            self.bridle_m,
+        );
         let anchor = into.body(&named("anchor"), BodyKind::Anchor, self.anchor, at_m);
-        into.line(&named("anchor-line"), self.bridle_rope, [anchor.clone(), bridle], self.anchor_line_m);
+        into.line(
+            &named("anchor-line"),
+            self.bridle_rope,
+            [anchor.clone(), bridle],
+            self.anchor_line_m,
+        );
         Foot { end: anchor.clone(), at_m, body: anchor, body_at_m: at_m }
     }
 }
 
 fn descriptor() -> Descriptor {
     let mut attributes = Net::attributes();
-    attributes.push(Attribute::count("endlines", [0, 2], 2, "How many endlines: none, one at the near end, or one at each end."));
+    attributes.push(Attribute::count(
+        "endlines",
+        [0, 2],
+        2,
+        "How many endlines: none, one at the near end, or one at each end.",
+    ));
     attributes.extend(Endline::attributes("polyball-a1"));
     Descriptor {
         id: "org.endline.gear.gillnet".into(),

@@ -14,7 +14,10 @@
 //!
 //! Floats: for each endline 1 once it has been released.
 
-use endline_sdk::{Attribute, AttributeValue, BodyKind, Descriptor, GearAction, GearStep, GearType, HookError, LineEnd, Rig, RigEnd, Site};
+use endline_sdk::{
+    Attribute, AttributeValue, BodyKind, Descriptor, GearAction, GearStep, GearType, HookError,
+    LineEnd, Rig, RigEnd, Site,
+};
 
 use crate::lay::{FAR, Foot, Ground, Lay, Values, depth_of};
 
@@ -75,7 +78,8 @@ impl GearType for OnDemand {
             }
             *released = 1.0;
             let first = endline as u32 * stow.flakes;
-            actions.extend((first..first + stow.flakes).map(|link| GearAction::ReleaseLink { link }));
+            actions
+                .extend((first..first + stow.flakes).map(|link| GearAction::ReleaseLink { link }));
         }
         Ok(())
     }
@@ -96,15 +100,59 @@ struct Stow<'a> {
 impl<'a> Stow<'a> {
     fn attributes() -> Vec<Attribute> {
         vec![
-            Attribute::count("endlines", [1, 2], 1, "How many stowed endlines: 1 at the near end, 2 at both."),
-            Attribute::item("buoy", "buoys", "bullet-7x16", "The buoy; its lift must be less than the trap's weight in water."),
-            Attribute::item("rope", "ropes", "sink-3-8", "Rope of the stowed endline; sinking rope, or it floats out of the stow."),
-            Attribute::number("scope", "1", [1.0, 5.0], 1.3, "Length of the endline as a multiple of water depth."),
+            Attribute::count(
+                "endlines",
+                [1, 2],
+                1,
+                "How many stowed endlines: 1 at the near end, 2 at both.",
+            ),
+            Attribute::item(
+                "buoy",
+                "buoys",
+                "bullet-7x16",
+                "The buoy; its lift must be less than the trap's weight in water.",
+            ),
+            Attribute::item(
+                "rope",
+                "ropes",
+                "sink-3-8",
+                "Rope of the stowed endline; sinking rope, or it floats out of the stow.",
+            ),
+            Attribute::number(
+                "scope",
+                "1",
+                [1.0, 5.0],
+                1.3,
+                "Length of the endline as a multiple of water depth.",
+            ),
             Attribute::count("flakes", [2, 60], 8, "In how many flakes the endline is stowed."),
-            Attribute::number("hold_length", "m", [0.6, 5.0], 1.0, "Length of the line that holds the buoy down, and of the flakes' ties."),
-            Attribute::item("release", "weak-links", "acoustic-release", "The acoustic release; above its rating it parts by itself."),
-            Attribute::number("release_at", "s", [0.0, 1e7], 60.0, "When the near endline's release is called."),
-            Attribute::number("far_release_at", "s", [0.0, 1e7], 1e7, "When the far endline's release is called, where there is one."),
+            Attribute::number(
+                "hold_length",
+                "m",
+                [0.6, 5.0],
+                1.0,
+                "Length of the line that holds the buoy down, and of the flakes' ties.",
+            ),
+            Attribute::item(
+                "release",
+                "weak-links",
+                "acoustic-release",
+                "The acoustic release; above its rating it parts by itself.",
+            ),
+            Attribute::number(
+                "release_at",
+                "s",
+                [0.0, 1e7],
+                60.0,
+                "When the near endline's release is called.",
+            ),
+            Attribute::number(
+                "far_release_at",
+                "s",
+                [0.0, 1e7],
+                1e7,
+                "When the far endline's release is called, where there is one.",
+            ),
         ]
     }
 
@@ -124,17 +172,35 @@ impl<'a> Stow<'a> {
     /// Puts the endline beside the body at a foot; `prefix` goes before its ids.
     fn lay(&self, into: &mut Lay, foot: &Foot, site: &Site, prefix: &str) -> Result<(), HookError> {
         let flake_m = self.scope * depth_of(site)? / f64::from(self.flakes);
-        let at = |x: f64, y: f64, z: f64| [foot.body_at_m[0] + x, foot.body_at_m[1] + y, foot.body_at_m[2] + z];
-        let buoy = into.body(&format!("{prefix}buoy"), BodyKind::Buoy, self.buoy, at(TIED_AT_M[0], 0.0, self.hold_m + BUOY_UP_M));
+        let at = |x: f64, y: f64, z: f64| {
+            [foot.body_at_m[0] + x, foot.body_at_m[1] + y, foot.body_at_m[2] + z]
+        };
+        let buoy = into.body(
+            &format!("{prefix}buoy"),
+            BodyKind::Buoy,
+            self.buoy,
+            at(TIED_AT_M[0], 0.0, self.hold_m + BUOY_UP_M),
+        );
         self.hold(into, &format!("{prefix}release"), [foot.body.clone(), buoy.clone()]);
         let mut from = foot.body.clone();
         for flake in 1..=self.flakes {
             // Flakes lie to either side in turn; each goes out and comes back.
             let side = if flake.is_multiple_of(2) { 1.0 } else { -1.0 };
             let [x, y, z] = TIED_AT_M;
-            let (start, turn, end) = (at(x, side * y, z), at(x, side * (y + flake_m / 2.0), 0.05), at(x, side * y, z));
-            let to = if flake == self.flakes { buoy.clone() } else { into.joint(&format!("{prefix}flake-{flake}"), end) };
-            into.line_along(&format!("{prefix}endline-{flake}"), self.rope, [from, to.clone()], flake_m, vec![start, turn, end]);
+            let (start, turn, end) =
+                (at(x, side * y, z), at(x, side * (y + flake_m / 2.0), 0.05), at(x, side * y, z));
+            let to = if flake == self.flakes {
+                buoy.clone()
+            } else {
+                into.joint(&format!("{prefix}flake-{flake}"), end)
+            };
+            into.line_along(
+                &format!("{prefix}endline-{flake}"),
+                self.rope,
+                [from, to.clone()],
+                flake_m,
+                vec![start, turn, end],
+            );
             if flake < self.flakes {
                 self.hold(into, &format!("{prefix}tie-{flake}"), [foot.body.clone(), to.clone()]);
             }

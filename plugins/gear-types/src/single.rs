@@ -1,6 +1,8 @@
 //! The single: one trap on the seabed with an endline and a buoy.
 
-use endline_sdk::{Attribute, AttributeValue, BodyKind, Descriptor, GearType, HookError, Rig, Site};
+use endline_sdk::{
+    Attribute, AttributeValue, BodyKind, Descriptor, GearType, HookError, Rig, Site,
+};
 
 use crate::lay::{Endline, Foot, Lay, Values, depth_of};
 
@@ -47,7 +49,8 @@ fn descriptor() -> Descriptor {
         id: "org.endline.gear.single".into(),
         version: env!("CARGO_PKG_VERSION").into(),
         name: "Single".into(),
-        help: "One trap, one buoy, and an endline of floating rope below and sinking rope above.".into(),
+        help: "One trap, one buoy, and an endline of floating rope below and sinking rope above."
+            .into(),
         attributes,
         state_len: 0,
         acts: Vec::new(),

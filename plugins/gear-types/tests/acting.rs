@@ -1,5 +1,8 @@
 //! Gear that acts: the cutter's clock, and the release of on-demand gear.
-#![expect(clippy::unwrap_used, reason = "helpers of tests: where one cannot go on, the test fails there")]
+#![expect(
+    clippy::unwrap_used,
+    reason = "helpers of tests: where one cannot go on, the test fails there"
+)]
 
 mod common;
 
@@ -20,7 +23,13 @@ fn acted(
         let time_s = step as f64 * dt_s;
         let tensions: Vec<_> = (0..count).map(|line| tension_n(time_s, line)).collect();
         let mut actions = Vec::new();
-        gear.step(&values, &GearStep { time_s, dt_s, end_tension_n: &tensions }, &mut state, &mut actions).unwrap();
+        gear.step(
+            &values,
+            &GearStep { time_s, dt_s, end_tension_n: &tensions },
+            &mut state,
+            &mut actions,
+        )
+        .unwrap();
         all.extend(actions.into_iter().map(|action| (time_s, action)));
     }
     all
@@ -42,7 +51,9 @@ fn the_cutter_parts_its_line_once_the_tension_has_stayed_for_its_time() {
     let gear = TimeTensionCutter::new();
     let changes = cutter(&[]);
     let foot = line(&gear, &changes, "endline-bottom");
-    let pulled = |time_s: f64, line: usize| if line == foot && time_s > 2.005 { [1000.0, 0.0] } else { [999.0, 5000.0] };
+    let pulled = |time_s: f64, line: usize| {
+        if line == foot && time_s > 2.005 { [1000.0, 0.0] } else { [999.0, 5000.0] }
+    };
     let cuts = acted(&gear, &changes, pulled, 20.0);
     assert_eq!(cuts.len(), 1, "{cuts:?}");
     assert!((cuts[0].0 - 7.0).abs() < 0.0101, "2 s and 5 s of hold: {}", cuts[0].0);
@@ -60,9 +71,11 @@ fn tension_that_lets_go_in_between_starts_the_cutters_time_again() {
 #[test]
 fn the_cutter_sits_where_it_is_told_in_each_endline() {
     let gear = TimeTensionCutter::new();
-    for (at, id, end) in
-        [("foot", "endline-bottom", LineEnd::A), ("splice", "endline-top", LineEnd::A), ("buoy", "surface-system", LineEnd::B)]
-    {
+    for (at, id, end) in [
+        ("foot", "endline-bottom", LineEnd::A),
+        ("splice", "endline-top", LineEnd::A),
+        ("buoy", "surface-system", LineEnd::B),
+    ] {
         let trawl = [
             ("traps", number(6.0)),
             ("gangion", number(2.0)),
@@ -74,9 +87,15 @@ fn the_cutter_sits_where_it_is_told_in_each_endline() {
         ];
         let changes = cutter(&trawl);
         let cuts = acted(&gear, &changes, |_, _| [2000.0; 2], 6.0);
-        let wanted: Vec<_> = [id.to_owned(), format!("far-{id}")].map(|id| line(&gear, &changes, &id) as u32).to_vec();
+        let wanted: Vec<_> = [id.to_owned(), format!("far-{id}")]
+            .map(|id| line(&gear, &changes, &id) as u32)
+            .to_vec();
         let asked: Vec<_> = cuts.iter().map(|(_, action)| *action).collect();
-        assert_eq!(asked, wanted.iter().map(|line| GearAction::CutLine { line: *line, end }).collect::<Vec<_>>(), "{at}");
+        assert_eq!(
+            asked,
+            wanted.iter().map(|line| GearAction::CutLine { line: *line, end }).collect::<Vec<_>>(),
+            "{at}"
+        );
     }
 }
 
@@ -92,7 +111,13 @@ fn on_demand_gear_opens_its_release_and_every_tie_at_its_time() {
     ];
     let links: Vec<_> = built(&gear, &changes).links.iter().map(|link| link.id.clone()).collect();
     let near = ["release", "tie-1", "tie-2", "tie-3"];
-    assert_eq!(links, near.into_iter().map(str::to_owned).chain(near.map(|id| format!("far-{id}"))).collect::<Vec<_>>());
+    assert_eq!(
+        links,
+        near.into_iter()
+            .map(str::to_owned)
+            .chain(near.map(|id| format!("far-{id}")))
+            .collect::<Vec<_>>()
+    );
     let released = acted(&gear, &changes, |_, _| [0.0; 2], 10.0);
     assert_eq!(released.len(), 8);
     for (index, (time_s, action)) in released.into_iter().enumerate() {
@@ -108,5 +133,8 @@ fn the_stowed_endline_lies_on_the_seabed_and_is_as_long_as_its_scope_says() {
     assert_eq!(lines(&rig, "endline").len(), 8);
     assert!((flakes.iter().map(|line| line.length_m).sum::<f64>() - 1.3 * 25.0).abs() < 1e-9);
     assert!(flakes.iter().all(|line| line.laid_m.iter().all(|place| place[2] < -25.0 + 0.2)));
-    assert!(rig.bodies.iter().all(|body| body.position_m[2] < -23.0), "nothing stands in the water");
+    assert!(
+        rig.bodies.iter().all(|body| body.position_m[2] < -23.0),
+        "nothing stands in the water"
+    );
 }

@@ -1,5 +1,8 @@
 //! The single: its parts, its lengths, a first guess that the rope can reach.
-#![expect(clippy::unwrap_used, reason = "helpers of tests: where one cannot go on, the test fails there")]
+#![expect(
+    clippy::unwrap_used,
+    reason = "helpers of tests: where one cannot go on, the test fails there"
+)]
 
 use endline_gear_types::Single;
 use endline_sdk::{AttributeValue, GearType, LineEnd, Rig, RigEnd, Site};
@@ -7,11 +10,21 @@ use endline_sdk::{AttributeValue, GearType, LineEnd, Rig, RigEnd, Site};
 const SITE: Site = Site { depth_m: 25.0, current_m_s: [0.0, 0.4] };
 
 fn values() -> Vec<AttributeValue> {
-    Single::new().descriptor().attributes.iter().map(|attribute| attribute.default_value()).collect()
+    Single::new()
+        .descriptor()
+        .attributes
+        .iter()
+        .map(|attribute| attribute.default_value())
+        .collect()
 }
 
 fn with(key: &str, value: AttributeValue) -> Vec<AttributeValue> {
-    let index = Single::new().descriptor().attributes.iter().position(|attribute| attribute.key == key).unwrap();
+    let index = Single::new()
+        .descriptor()
+        .attributes
+        .iter()
+        .position(|attribute| attribute.key == key)
+        .unwrap();
     let mut values = values();
     values[index] = value;
     values
@@ -31,30 +44,45 @@ fn place(rig: &Rig, end: &RigEnd) -> [f64; 3] {
 #[test]
 fn default_single_is_a_trap_a_buoy_and_two_ropes_in_a_row() {
     let rig = Single::new().build(&values(), &SITE).unwrap();
-    let parts: Vec<_> = rig.bodies.iter().map(|body| (body.id.as_str(), body.item.as_str())).collect();
+    let parts: Vec<_> =
+        rig.bodies.iter().map(|body| (body.id.as_str(), body.item.as_str())).collect();
     assert_eq!(parts, [("trap", "wire-lobster-3ft"), ("buoy", "bullet-6x14")]);
-    let ropes: Vec<_> = rig.lines.iter().map(|line| (line.id.as_str(), line.rope.as_str())).collect();
+    let ropes: Vec<_> =
+        rig.lines.iter().map(|line| (line.id.as_str(), line.rope.as_str())).collect();
     assert_eq!(ropes, [("endline-bottom", "pp-3-8"), ("endline-top", "sink-3-8")]);
     assert_eq!(rig.lines[0].to, rig.lines[1].from);
     let length: f64 = rig.lines.iter().map(|line| line.length_m).sum();
     assert!((length - 1.3 * 25.0).abs() < 1e-9);
     assert!((rig.lines[0].length_m - length / 3.0).abs() < 1e-9);
     let link = &rig.links[0];
-    assert_eq!((link.id.as_str(), link.item.as_str(), link.line.as_str(), link.end), ("buoy-link", "wl-600", "endline-top", LineEnd::B));
+    assert_eq!(
+        (link.id.as_str(), link.item.as_str(), link.line.as_str(), link.end),
+        ("buoy-link", "wl-600", "endline-top", LineEnd::B)
+    );
 }
 
 #[test]
 fn first_guess_is_downstream_and_within_the_reach_of_every_line() {
     for scope in [1.0, 1.3, 2.0, 5.0] {
         for current_m_s in [[0.0, 0.4], [-0.7, 0.1], [0.0, 0.0]] {
-            let rig = Single::new().build(&with("scope", AttributeValue::Number(scope)), &Site { current_m_s, ..SITE }).unwrap();
+            let rig = Single::new()
+                .build(&with("scope", AttributeValue::Number(scope)), &Site { current_m_s, ..SITE })
+                .unwrap();
             for line in &rig.lines {
                 let (a, b) = (place(&rig, &line.from), place(&rig, &line.to));
                 let apart: f64 = (0..3).map(|i| (a[i] - b[i]) * (a[i] - b[i])).sum::<f64>().sqrt();
-                assert!(apart <= line.length_m * (1.0 + 1e-12), "{}: ends {apart} m apart, {} m of rope", line.id, line.length_m);
+                assert!(
+                    apart <= line.length_m * (1.0 + 1e-12),
+                    "{}: ends {apart} m apart, {} m of rope",
+                    line.id,
+                    line.length_m
+                );
             }
             let buoy = place(&rig, &RigEnd::Body("buoy".into()));
-            assert!(buoy[0] * current_m_s[0] + buoy[1] * current_m_s[1] >= 0.0, "upstream: {buoy:?}");
+            assert!(
+                buoy[0] * current_m_s[0] + buoy[1] * current_m_s[1] >= 0.0,
+                "upstream: {buoy:?}"
+            );
         }
     }
 }

@@ -13,8 +13,18 @@ impl Controls {
     pub const MOST_ACTS: usize = 1000;
 
     /// Their names in files, in the order in which they are listed and recorded.
-    pub const NAMES: [&'static str; Self::COUNT] =
-        ["speed", "pitch", "roll", "yaw", "burst", "mouth", "flipper_raise", "flipper_twist", "flipper_sweep", "act"];
+    pub const NAMES: [&'static str; Self::COUNT] = [
+        "speed",
+        "pitch",
+        "roll",
+        "yaw",
+        "burst",
+        "mouth",
+        "flipper_raise",
+        "flipper_twist",
+        "flipper_sweep",
+        "act",
+    ];
 
     /// Least and greatest of each.
     pub const RANGES: [[f64; 2]; Self::COUNT] = {
@@ -25,15 +35,48 @@ impl Controls {
     /// The controls in the order of [`NAMES`](Self::NAMES).
     #[must_use]
     pub fn to_array(&self) -> [f64; Self::COUNT] {
-        let Self { speed, pitch, roll, yaw, burst, mouth, flipper_raise, flipper_twist, flipper_sweep, act } = *self;
+        let Self {
+            speed,
+            pitch,
+            roll,
+            yaw,
+            burst,
+            mouth,
+            flipper_raise,
+            flipper_twist,
+            flipper_sweep,
+            act,
+        } = *self;
         [speed, pitch, roll, yaw, burst, mouth, flipper_raise, flipper_twist, flipper_sweep, act]
     }
 
     /// The controls from numbers in the order of [`NAMES`](Self::NAMES).
     #[must_use]
     pub fn from_array(numbers: [f64; Self::COUNT]) -> Self {
-        let [speed, pitch, roll, yaw, burst, mouth, flipper_raise, flipper_twist, flipper_sweep, act] = numbers;
-        Self { speed, pitch, roll, yaw, burst, mouth, flipper_raise, flipper_twist, flipper_sweep, act }
+        let [
+            speed,
+            pitch,
+            roll,
+            yaw,
+            burst,
+            mouth,
+            flipper_raise,
+            flipper_twist,
+            flipper_sweep,
+            act,
+        ] = numbers;
+        Self {
+            speed,
+            pitch,
+            roll,
+            yaw,
+            burst,
+            mouth,
+            flipper_raise,
+            flipper_twist,
+            flipper_sweep,
+            act,
+        }
     }
 
     /// The controls within their ranges; a number that is not finite counts as 0, an act is a whole number, and one
@@ -59,8 +102,22 @@ mod tests {
         let numbers = [0.1, -0.2, 0.3, -0.4, 0.5, 0.6, -0.7, 0.8, -0.9, 3.0];
         let bits = |numbers: [f64; Controls::COUNT]| numbers.map(f64::to_bits);
         assert_eq!(bits(Controls::from_array(numbers).to_array()), bits(numbers));
-        let wild = Controls::from_array([-3.0, f64::NAN, 7.0, f64::NEG_INFINITY, 2.0, 0.5, -9.0, 1.0, -2.0, 2.6]);
-        assert_eq!(bits(wild.within_range(3).to_array()), bits([0.0, 0.0, 1.0, 0.0, 1.0, 0.5, -1.0, 1.0, -1.0, 3.0]));
+        let wild = Controls::from_array([
+            -3.0,
+            f64::NAN,
+            7.0,
+            f64::NEG_INFINITY,
+            2.0,
+            0.5,
+            -9.0,
+            1.0,
+            -2.0,
+            2.6,
+        ]);
+        assert_eq!(
+            bits(wild.within_range(3).to_array()),
+            bits([0.0, 0.0, 1.0, 0.0, 1.0, 0.5, -1.0, 1.0, -1.0, 3.0])
+        );
         assert_eq!(wild.within_range(2).act.to_bits(), 0.0_f64.to_bits());
     }
 }

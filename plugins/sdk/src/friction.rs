@@ -69,11 +69,21 @@ pub trait FrictionModel: Send + Sync {
     ///
     /// # Errors
     /// With a message for the user; the run ends with it.
-    fn respond(&self, attributes: &[f64], contacts: &Contacts<'_>, out: &mut [FrictionResponse]) -> Result<(), HookError>;
+    fn respond(
+        &self,
+        attributes: &[f64],
+        contacts: &Contacts<'_>,
+        out: &mut [FrictionResponse],
+    ) -> Result<(), HookError>;
 
     /// Once a step is accepted: the floats at its end, `state_len` for each contact.
     ///
     /// # Errors
     /// With a message for the user; the run ends with it.
-    fn advance(&self, attributes: &[f64], contacts: &Contacts<'_>, out: &mut [f64]) -> Result<(), HookError>;
+    fn advance(
+        &self,
+        attributes: &[f64],
+        contacts: &Contacts<'_>,
+        out: &mut [f64],
+    ) -> Result<(), HookError>;
 }

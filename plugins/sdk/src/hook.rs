@@ -29,7 +29,15 @@ impl Descriptor {
     #[must_use]
     pub fn new(id: &'static str, name: &'static str, help: &'static str) -> Self {
         let (attributes, acts) = (Vec::new(), Vec::new());
-        Self { id: id.into(), version: "0.1.0".into(), name: name.into(), help: help.into(), attributes, state_len: 0, acts }
+        Self {
+            id: id.into(),
+            version: "0.1.0".into(),
+            name: name.into(),
+            help: help.into(),
+            attributes,
+            state_len: 0,
+            acts,
+        }
     }
 
     /// The same with these attributes.
@@ -120,15 +128,36 @@ pub enum AttributeValue {
 impl Attribute {
     /// A numeric attribute.
     #[must_use]
-    pub fn number(key: &'static str, unit: &'static str, range: [f64; 2], default: f64, help: &'static str) -> Self {
+    pub fn number(
+        key: &'static str,
+        unit: &'static str,
+        range: [f64; 2],
+        default: f64,
+        help: &'static str,
+    ) -> Self {
         let [min, max] = range;
-        Self { key: key.into(), unit: unit.into(), help: help.into(), kind: AttributeKind::Number { min, max, default } }
+        Self {
+            key: key.into(),
+            unit: unit.into(),
+            help: help.into(),
+            kind: AttributeKind::Number { min, max, default },
+        }
     }
 
     /// An attribute that counts.
     #[must_use]
-    pub fn count(key: &'static str, [min, max]: [u32; 2], default: u32, help: &'static str) -> Self {
-        Self { key: key.into(), unit: "1".into(), help: help.into(), kind: AttributeKind::Count { min, max, default } }
+    pub fn count(
+        key: &'static str,
+        [min, max]: [u32; 2],
+        default: u32,
+        help: &'static str,
+    ) -> Self {
+        Self {
+            key: key.into(),
+            unit: "1".into(),
+            help: help.into(),
+            kind: AttributeKind::Count { min, max, default },
+        }
     }
 
     /// An attribute that is one of a few words; the first is taken where a file names none.
@@ -136,12 +165,22 @@ impl Attribute {
     pub fn choice(key: &'static str, words: &[&'static str], help: &'static str) -> Self {
         let default = words.first().copied().unwrap_or_default().into();
         let words = words.iter().map(|word| Cow::Borrowed(*word)).collect();
-        Self { key: key.into(), unit: "".into(), help: help.into(), kind: AttributeKind::Choice { words, default } }
+        Self {
+            key: key.into(),
+            unit: "".into(),
+            help: help.into(),
+            kind: AttributeKind::Choice { words, default },
+        }
     }
 
     /// An attribute that names an item of the gear library.
     #[must_use]
-    pub fn item(key: &'static str, library: &'static str, default: &'static str, help: &'static str) -> Self {
+    pub fn item(
+        key: &'static str,
+        library: &'static str,
+        default: &'static str,
+        help: &'static str,
+    ) -> Self {
         let kind = AttributeKind::Item { library: library.into(), default: default.into() };
         Self { key: key.into(), unit: "".into(), help: help.into(), kind }
     }

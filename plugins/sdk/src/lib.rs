@@ -22,7 +22,10 @@ pub mod motion;
 pub mod whale;
 
 pub use friction::{Contacts, FrictionModel, FrictionResponse};
-pub use gear::{BodyKind, GearAction, GearStep, GearType, LineEnd, Rig, RigBody, RigEnd, RigJoint, RigLine, RigLink, Site};
+pub use gear::{
+    BodyKind, GearAction, GearStep, GearType, LineEnd, Rig, RigBody, RigEnd, RigJoint, RigLine,
+    RigLink, Site,
+};
 pub use hook::{Act, Attribute, AttributeKind, AttributeValue, Descriptor, HookError};
 pub use motion::{Controls, MotionInput, MotionOutput, WhaleMotion};
 pub use whale::{BodyPart, FLUKE_STATION, Posture, Region, SPINE_JOINTS, SPINE_STATIONS};

@@ -74,5 +74,10 @@ pub trait WhaleMotion: Send + Sync {
     ///
     /// # Errors
     /// With a message for the user; the run ends with it.
-    fn step(&self, attributes: &[f64], input: &MotionInput<'_>, state: &mut [f64]) -> Result<MotionOutput, HookError>;
+    fn step(
+        &self,
+        attributes: &[f64],
+        input: &MotionInput<'_>,
+        state: &mut [f64],
+    ) -> Result<MotionOutput, HookError>;
 }

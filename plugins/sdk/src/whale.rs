@@ -48,7 +48,8 @@ impl Posture {
     #[must_use]
     pub fn groups(&self) -> [(&'static str, &[f64]); 11] {
         let Self { spine_pitch, spine_yaw, spine_roll, fluke_pitch, fluke_flex, .. } = self;
-        let Self { flipper_sweep, flipper_raise, flipper_twist, flipper_flex, jaw, lips, .. } = self;
+        let Self { flipper_sweep, flipper_raise, flipper_twist, flipper_flex, jaw, lips, .. } =
+            self;
         [
             ("spine_pitch", spine_pitch),
             ("spine_yaw", spine_yaw),
@@ -67,9 +68,11 @@ impl Posture {
     /// The places of its angles, in the order of [`groups`](Self::groups).
     pub fn angles_mut(&mut self) -> impl Iterator<Item = &mut f64> {
         let Self { spine_pitch, spine_yaw, spine_roll, fluke_pitch, fluke_flex, .. } = self;
-        let Self { flipper_sweep, flipper_raise, flipper_twist, flipper_flex, jaw, lips, .. } = self;
+        let Self { flipper_sweep, flipper_raise, flipper_twist, flipper_flex, jaw, lips, .. } =
+            self;
         let spine = spine_pitch.iter_mut().chain(spine_yaw).chain(spine_roll);
-        let flippers = flipper_sweep.iter_mut().chain(flipper_raise).chain(flipper_twist).chain(flipper_flex);
+        let flippers =
+            flipper_sweep.iter_mut().chain(flipper_raise).chain(flipper_twist).chain(flipper_flex);
         spine.chain([fluke_pitch]).chain(fluke_flex).chain(flippers).chain([jaw]).chain(lips)
     }
 
@@ -184,10 +187,20 @@ impl Region {
             Self::Rostrum | Self::Baleen | Self::Lips | Self::Head => BodyPart::Head,
             Self::Body => BodyPart::Body,
             Self::Peduncle => BodyPart::Peduncle,
-            Self::LeftFlipper | Self::LeftFlipperLeading | Self::LeftFlipperTrailing | Self::LeftFlipperTip => BodyPart::LeftFlipper,
-            Self::RightFlipper | Self::RightFlipperLeading | Self::RightFlipperTrailing | Self::RightFlipperTip => BodyPart::RightFlipper,
-            Self::LeftFluke | Self::LeftFlukeLeading | Self::LeftFlukeTrailing => BodyPart::LeftFluke,
-            Self::RightFluke | Self::RightFlukeLeading | Self::RightFlukeTrailing => BodyPart::RightFluke,
+            Self::LeftFlipper
+            | Self::LeftFlipperLeading
+            | Self::LeftFlipperTrailing
+            | Self::LeftFlipperTip => BodyPart::LeftFlipper,
+            Self::RightFlipper
+            | Self::RightFlipperLeading
+            | Self::RightFlipperTrailing
+            | Self::RightFlipperTip => BodyPart::RightFlipper,
+            Self::LeftFluke | Self::LeftFlukeLeading | Self::LeftFlukeTrailing => {
+                BodyPart::LeftFluke
+            }
+            Self::RightFluke | Self::RightFlukeLeading | Self::RightFlukeTrailing => {
+                BodyPart::RightFluke
+            }
         }
     }
 }
@@ -214,8 +227,15 @@ pub enum BodyPart {
 
 impl BodyPart {
     /// Every part, in the order of its number.
-    pub const ALL: [Self; 7] =
-        [Self::Head, Self::Body, Self::LeftFlipper, Self::RightFlipper, Self::Peduncle, Self::LeftFluke, Self::RightFluke];
+    pub const ALL: [Self; 7] = [
+        Self::Head,
+        Self::Body,
+        Self::LeftFlipper,
+        Self::RightFlipper,
+        Self::Peduncle,
+        Self::LeftFluke,
+        Self::RightFluke,
+    ];
 
     /// Its name in files and results, such as `left_flipper`.
     #[must_use]

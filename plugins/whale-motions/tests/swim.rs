@@ -1,22 +1,43 @@
 //! The swim, measured from outside: from speeds, turn rates and joint angles alone.
-#![expect(clippy::unwrap_used, reason = "helpers of tests: where one cannot go on, the test fails there")]
+#![expect(
+    clippy::unwrap_used,
+    reason = "helpers of tests: where one cannot go on, the test fails there"
+)]
 
-use endline_sdk::{BodyPart, Controls, FLUKE_STATION, MotionInput, MotionOutput, Posture, SPINE_STATIONS, WhaleMotion};
+use endline_sdk::{
+    BodyPart, Controls, FLUKE_STATION, MotionInput, MotionOutput, Posture, SPINE_STATIONS,
+    WhaleMotion,
+};
 use endline_whale_motions::Swim;
 
 const LENGTH_M: f64 = 13.7;
 
 fn attributes() -> Vec<f64> {
-    Swim::new().descriptor().attributes.iter().map(|attribute| attribute.default_value().number().unwrap()).collect()
+    Swim::new()
+        .descriptor()
+        .attributes
+        .iter()
+        .map(|attribute| attribute.default_value().number().unwrap())
+        .collect()
 }
 
 fn attribute(key: &str) -> f64 {
-    let index = Swim::new().descriptor().attributes.iter().position(|attribute| attribute.key == key).unwrap();
+    let index = Swim::new()
+        .descriptor()
+        .attributes
+        .iter()
+        .position(|attribute| attribute.key == key)
+        .unwrap();
     attributes()[index]
 }
 
 /// Swims for a time under given controls; every step's output.
-fn swim(seconds: f64, dt_s: f64, start_m_s: f64, controls: impl Fn(f64) -> Controls) -> Vec<MotionOutput> {
+fn swim(
+    seconds: f64,
+    dt_s: f64,
+    start_m_s: f64,
+    controls: impl Fn(f64) -> Controls,
+) -> Vec<MotionOutput> {
     let (motion, attributes) = (Swim::new(), attributes());
     let mut state = vec![0.0; motion.descriptor().state_len];
     let mut speed_m_s = start_m_s;
@@ -84,13 +105,16 @@ fn span(values: impl Iterator<Item = f64> + Clone) -> f64 {
 
 /// Frequency from rising zero crossings [Hz].
 fn frequency(values: &[f64], dt_s: f64) -> f64 {
-    let rises: Vec<usize> = (1..values.len()).filter(|i| values[i - 1] < 0.0 && values[*i] >= 0.0).collect();
+    let rises: Vec<usize> =
+        (1..values.len()).filter(|i| values[i - 1] < 0.0 && values[*i] >= 0.0).collect();
     (rises.len() - 1) as f64 / ((rises[rises.len() - 1] - rises[0]) as f64 * dt_s)
 }
 
 #[test]
 fn strouhal_number_lies_where_swimmers_keep_it() {
-    for (speed, burst, wanted_m_s) in [(1.0, 0.0, 1.23), (0.5, 0.0, 0.615), (0.15, 0.0, 0.1845), (1.0, 1.0, 4.5)] {
+    for (speed, burst, wanted_m_s) in
+        [(1.0, 0.0, 1.23), (0.5, 0.0, 0.615), (0.15, 0.0, 0.1845), (1.0, 1.0, 4.5)]
+    {
         let controls = Controls { speed, burst, ..Controls::default() };
         let out = swim(160.0, 0.01, 1.0, |_| controls);
         let steady = &out[4000..];
@@ -119,16 +143,24 @@ fn cruise_beat_is_that_of_a_foraging_right_whale() {
 fn wave_runs_from_head_to_tail_and_grows() {
     let out = swim(60.0, 0.01, 1.23, |_| forward());
     let period = (1.0 / 0.1347 / 0.01) as usize;
-    let late: Vec<Vec<f64>> = out[4000..4000 + 2 * period].iter().map(|out| heights(&out.posture).0).collect();
+    let late: Vec<Vec<f64>> =
+        out[4000..4000 + 2 * period].iter().map(|out| heights(&out.posture).0).collect();
     let mut last_crest = 0;
     for station in 1..=HINGE {
         let mean = late[..period].iter().map(|h| h[station]).sum::<f64>() / period as f64;
         assert!(mean.abs() < 0.02 * LENGTH_M);
         let from = last_crest;
-        let crest = (from..from + period).max_by(|a, b| late[*a][station].total_cmp(&late[*b][station])).unwrap();
+        let crest = (from..from + period)
+            .max_by(|a, b| late[*a][station].total_cmp(&late[*b][station]))
+            .unwrap();
         if station > 1 {
-            assert!(crest > last_crest && crest - last_crest < period / 2, "station {station}: crest at {crest} after {last_crest}");
-            assert!(span(late.iter().map(|h| h[station])) > span(late.iter().map(|h| h[station - 1])));
+            assert!(
+                crest > last_crest && crest - last_crest < period / 2,
+                "station {station}: crest at {crest} after {last_crest}"
+            );
+            assert!(
+                span(late.iter().map(|h| h[station])) > span(late.iter().map(|h| h[station - 1]))
+            );
         }
         last_crest = if station == 1 { crest % period } else { crest };
     }
@@ -139,7 +171,8 @@ fn flukes_push_water_back_on_both_strokes() {
     let out = swim(60.0, 0.01, 1.23, |_| forward());
     let (mut product, mut heave_square, mut pitch_square) = (0.0, 0.0, 0.0);
     for pair in out[3000..].windows(2) {
-        let (before, (after, pitch)) = (heights(&pair[0].posture).0[HINGE], heights(&pair[1].posture));
+        let (before, (after, pitch)) =
+            (heights(&pair[0].posture).0[HINGE], heights(&pair[1].posture));
         let heave = after[HINGE] - before;
         product += heave * pitch;
         heave_square += heave * heave;
@@ -199,7 +232,8 @@ fn posture_is_continuous_whatever_the_pilot_does() {
 #[test]
 fn speed_keeps_its_limits() {
     let out = swim(60.0, 0.01, 0.0, wild);
-    let (most, faster, slower) = (attribute("burst_speed"), attribute("acceleration"), attribute("braking"));
+    let (most, faster, slower) =
+        (attribute("burst_speed"), attribute("acceleration"), attribute("braking"));
     for pair in out.windows(2) {
         let rate = (pair[1].speed_m_s - pair[0].speed_m_s) / 0.01;
         assert!(rate <= faster + 1e-9 && rate >= -slower - 1e-9, "{rate} m/s²");
@@ -207,7 +241,9 @@ fn speed_keeps_its_limits() {
     }
     let rates = [attribute("roll_rate"), attribute("pitch_rate"), attribute("yaw_rate")];
     for out in &out {
-        assert!(out.turn_rate_rad_s.iter().zip(rates).all(|(rate, most)| rate.abs() <= most + 1e-12));
+        assert!(
+            out.turn_rate_rad_s.iter().zip(rates).all(|(rate, most)| rate.abs() <= most + 1e-12)
+        );
     }
 }
 
@@ -222,11 +258,23 @@ fn turns_go_the_way_the_controls_say() {
     let after = |controls: Controls| *swim(10.0, 0.01, 1.0, |_| controls).last().unwrap();
     let (snout, port_side) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
     let to_port = after(Controls { yaw: 1.0, ..forward() });
-    assert!((carried(&to_port, snout)[1] - 10_f64.to_radians()).abs() < 1e-6, "snout to port at 10 degrees a second");
-    assert!(to_port.posture.spine_yaw.iter().all(|angle| *angle < 0.0), "tail to port, the turn's inside");
-    assert!(to_port.posture.flipper_sweep[0] < to_port.posture.flipper_sweep[1], "inner flipper further forward");
+    assert!(
+        (carried(&to_port, snout)[1] - 10_f64.to_radians()).abs() < 1e-6,
+        "snout to port at 10 degrees a second"
+    );
+    assert!(
+        to_port.posture.spine_yaw.iter().all(|angle| *angle < 0.0),
+        "tail to port, the turn's inside"
+    );
+    assert!(
+        to_port.posture.flipper_sweep[0] < to_port.posture.flipper_sweep[1],
+        "inner flipper further forward"
+    );
     let to_starboard = after(Controls { yaw: -1.0, ..forward() });
-    assert!(carried(&to_starboard, snout)[1] < 0.0 && to_starboard.posture.flipper_sweep[1] < to_starboard.posture.flipper_sweep[0]);
+    assert!(
+        carried(&to_starboard, snout)[1] < 0.0
+            && to_starboard.posture.flipper_sweep[1] < to_starboard.posture.flipper_sweep[0]
+    );
     let nose_up = after(Controls { pitch: 1.0, ..forward() });
     assert!(carried(&nose_up, snout)[2] > 0.0);
     let level = after(forward());
@@ -240,7 +288,12 @@ fn turns_go_the_way_the_controls_say() {
 
 #[test]
 fn a_glide_comes_to_the_rest_posture() {
-    let out = swim(40.0, 0.01, 1.0, |time_s| if time_s < 15.0 { wild(time_s) } else { Controls::default() });
+    let out = swim(
+        40.0,
+        0.01,
+        1.0,
+        |time_s| if time_s < 15.0 { wild(time_s) } else { Controls::default() },
+    );
     assert!(angles(&out[1400].posture).iter().any(|angle| angle.abs() > 0.1));
     let rest = angles(&out.last().unwrap().posture);
     assert!(rest.iter().all(|angle| angle.abs() < 1e-6), "{rest:?}");
@@ -248,16 +301,23 @@ fn a_glide_comes_to_the_rest_posture() {
 
 #[test]
 fn mouth_and_flippers_take_their_time() {
-    let controls = Controls { mouth: 1.0, flipper_raise: 1.0, flipper_sweep: 1.0, ..Controls::default() };
+    let controls =
+        Controls { mouth: 1.0, flipper_raise: 1.0, flipper_sweep: 1.0, ..Controls::default() };
     let out = swim(4.0, 0.01, 0.0, |_| controls);
     let (half, whole) = (out[99].posture.jaw, out[399].posture.jaw);
-    assert!((whole - attribute("jaw_open")).abs() < 1e-12 && (half / whole - 0.5).abs() < 1e-6, "{half} of {whole}");
+    assert!(
+        (whole - attribute("jaw_open")).abs() < 1e-12 && (half / whole - 0.5).abs() < 1e-6,
+        "{half} of {whole}"
+    );
     assert!(
         out[99].posture.flipper_raise.iter().all(|raise| (raise.to_degrees() - 25.0).abs() < 0.1),
         "tips up, as far as the joint turns"
     );
     let forward = -40_f64.to_radians();
-    assert!(out[399].posture.flipper_sweep.iter().all(|sweep| (sweep - forward).abs() < 0.01), "forward to the end of their range");
+    assert!(
+        out[399].posture.flipper_sweep.iter().all(|sweep| (sweep - forward).abs() < 0.01),
+        "forward to the end of their range"
+    );
     let aft = swim(4.0, 0.01, 0.0, |_| Controls { flipper_sweep: -1.0, ..Controls::default() });
     assert!(aft[399].posture.flipper_sweep.iter().all(|sweep| *sweep > 0.5), "and aft");
 }
@@ -279,6 +339,18 @@ fn wrong_lengths_and_bad_steps_are_errors() {
     let mut state = vec![0.0; motion.descriptor().state_len];
     assert!(motion.step(&attributes(), &input, &mut state).unwrap_err().message.contains("NaN"));
     let input = MotionInput { dt_s: 0.01, ..input };
-    assert!(motion.step(&attributes()[1..], &input, &mut state).unwrap_err().message.contains("17 attribute values"));
-    assert!(motion.step(&attributes(), &input, &mut state[1..]).unwrap_err().message.contains("floats of state"));
+    assert!(
+        motion
+            .step(&attributes()[1..], &input, &mut state)
+            .unwrap_err()
+            .message
+            .contains("17 attribute values")
+    );
+    assert!(
+        motion
+            .step(&attributes(), &input, &mut state[1..])
+            .unwrap_err()
+            .message
+            .contains("floats of state")
+    );
 }

@@ -7,7 +7,8 @@ use crate::linked::{Linked, library, root, told};
 #[test]
 fn what_observers_list_is_shipped_and_every_act_has_an_id_of_its_own() {
     let library = library();
-    let ids: Vec<&str> = library.acts.iter().flat_map(|act| act.clips.iter().map(|clip| clip.id.as_str())).collect();
+    let ids: Vec<&str> =
+        library.acts.iter().flat_map(|act| act.clips.iter().map(|clip| clip.id.as_str())).collect();
     for wanted in [
         "glide descent ascent level fluking-dive barrel-roll skim-feed skim-feed-on-right-side close-mouth",
         "flippers-abduct flippers-adduct flippers-pronate flippers-supinate flippers-sweep flippers-tuck",
@@ -51,18 +52,38 @@ fn problems_of(from: &str, to: &str) -> String {
 #[test]
 fn a_mistake_in_an_act_is_told_with_its_place_and_how_to_mend_it() {
     for (from, to, parts) in [
-        ("spine_yaw = \"40 deg\"", "spin_yaw = \"40 deg\"", ["unknown field `spin_yaw`", "did you mean `spine_yaw`?"]),
-        ("at = \"3 s\"", "at = \"0.5 s\"", ["keys are not in rising order of `at`", "order of time"]),
-        ("spine_yaw = \"40 deg\"", "spine_yaw = \"140 deg\"", ["`spine_yaw` is 2.44", "it must be between -1.8"]),
+        (
+            "spine_yaw = \"40 deg\"",
+            "spin_yaw = \"40 deg\"",
+            ["unknown field `spin_yaw`", "did you mean `spine_yaw`?"],
+        ),
+        (
+            "at = \"3 s\"",
+            "at = \"0.5 s\"",
+            ["keys are not in rising order of `at`", "order of time"],
+        ),
+        (
+            "spine_yaw = \"40 deg\"",
+            "spine_yaw = \"140 deg\"",
+            ["`spine_yaw` is 2.44", "it must be between -1.8"],
+        ),
         (
             "flipper_raise = [\"-30 deg\", \"0 deg\"]",
             "flipper_raise = [\"-90 deg\", \"0 deg\"]",
             ["`flipper_raise` is -1.57", "between -1.39"],
         ),
-        ("flipper_raise = [\"-30 deg\", \"0 deg\"]", "flipper_raise = [\"-30 deg\"]", ["`flipper_raise` has 1 values", "left, right"]),
+        (
+            "flipper_raise = [\"-30 deg\", \"0 deg\"]",
+            "flipper_raise = [\"-30 deg\"]",
+            ["`flipper_raise` has 1 values", "left, right"],
+        ),
         ("spine_yaw = \"40 deg\"", "spine_yaw = 40", ["without a unit", "deg"]),
         ("at = \"0.8 s\"", "", ["`at` is missing", "time of the key"]),
-        ("blend = \"add\"", "blend = \"ad\"", ["`ad` is no value of `blend`", "did you mean `add`?"]),
+        (
+            "blend = \"add\"",
+            "blend = \"ad\"",
+            ["`ad` is no value of `blend`", "did you mean `add`?"],
+        ),
         (
             "side = \"touched\"",
             "after = \"repeat\"\nside = \"touched\"\nends_at_touch = [\"hed\"]",
@@ -85,7 +106,11 @@ fn an_act_that_repeats_must_close() {
     let open = closed.replace("at = \"4 s\"\njaw = \"0 deg\"", "at = \"4 s\"\njaw = \"3 deg\"");
     assert!(problems(&open).contains("`jaw` ends elsewhere than it begins"), "{}", problems(&open));
     let short = closed.replace("at = \"4 s\"\njaw = \"0 deg\"", "at = \"4 s\"");
-    assert!(problems(&short).contains("`jaw` does not reach from the start to the end"), "{}", problems(&short));
+    assert!(
+        problems(&short).contains("`jaw` does not reach from the start to the end"),
+        "{}",
+        problems(&short)
+    );
 }
 
 fn scenario(acts: &str) -> String {
@@ -97,18 +122,28 @@ fn scenario(acts: &str) -> String {
 #[test]
 fn an_act_is_added_with_a_file_alone() {
     let mut sources = Sources::from_folder(&root()).unwrap();
-    let mine = sources.get("acts/roll-away.toml").unwrap().replace("150 deg", "90 deg").replace("Roll away", "Mine");
+    let mine = sources
+        .get("acts/roll-away.toml")
+        .unwrap()
+        .replace("150 deg", "90 deg")
+        .replace("Roll away", "Mine");
     sources.set("acts/mine.toml", mine);
     let (library, problems) = Library::read(&sources);
     assert!(problems.is_empty(), "{}", told(&problems));
-    let text =
-        scenario("acts = [\"mine\", \"barrel-roll-port\"]\nanswer_to_touch = \"mine\"\nanswer_above = \"5 N\"\nanswer_again = \"20 s\"");
-    let scenario = Scenario::read("test.toml", &text).unwrap_or_else(|problems| panic!("{}", told(&problems)));
-    let made = assemble_traced(&scenario, &library, &Linked, &Options::default()).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    let text = scenario(
+        "acts = [\"mine\", \"barrel-roll-port\"]\nanswer_to_touch = \"mine\"\nanswer_above = \"5 N\"\nanswer_again = \"20 s\"",
+    );
+    let scenario =
+        Scenario::read("test.toml", &text).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    let made = assemble_traced(&scenario, &library, &Linked, &Options::default())
+        .unwrap_or_else(|problems| panic!("{}", told(&problems)));
     let whale = made.spec.whale.as_ref().unwrap();
     let ids: Vec<&str> = whale.motion.descriptor().acts.iter().map(|act| act.id.as_ref()).collect();
     assert_eq!(ids, ["mine", "barrel-roll-port"]);
-    assert!(made.files.contains(&"acts/mine.toml".to_owned()) && made.files.contains(&"acts/barrel-roll.toml".to_owned()));
+    assert!(
+        made.files.contains(&"acts/mine.toml".to_owned())
+            && made.files.contains(&"acts/barrel-roll.toml".to_owned())
+    );
     assert!(!made.files.iter().any(|file| file.ends_with("roll-away.toml")));
 }
 
@@ -118,19 +153,36 @@ fn a_scenario_that_names_no_acts_has_them_all_and_a_misspelt_one_is_told() {
         let text = scenario(acts);
         let problems = match Scenario::read("test.toml", &text) {
             Err(problems) => problems,
-            Ok(scenario) => assemble(&scenario, &library(), &Linked, &Options::default()).err().unwrap(),
+            Ok(scenario) => {
+                assemble(&scenario, &library(), &Linked, &Options::default()).err().unwrap()
+            }
         };
         assert!(problems.len() == 1 && problems[0].line > 20, "{}", told(&problems));
         problems[0].to_string()
     };
-    let all = assemble(&Scenario::read("test.toml", &scenario("")).unwrap(), &library(), &Linked, &Options::default()).unwrap();
+    let all = assemble(
+        &Scenario::read("test.toml", &scenario("")).unwrap(),
+        &library(),
+        &Linked,
+        &Options::default(),
+    )
+    .unwrap();
     assert!(all.whale.unwrap().motion.descriptor().acts.len() > 40);
     for (acts, parts) in [
-        ("acts = [\"barel-roll\"]", ["no act `barel-roll` in acts/", "did you mean `barrel-roll`?"]),
+        (
+            "acts = [\"barel-roll\"]",
+            ["no act `barel-roll` in acts/", "did you mean `barrel-roll`?"],
+        ),
         ("acts = [\"flinch\", \"flinch\"]", ["two acts are called `flinch`", "each act once"]),
         ("acts = \"flinch\"", ["`acts` is a text, not a list", "[\"roll-away\", \"flinch\"]"]),
-        ("answer_to_touch = \"flich\"", ["no act `flich` to answer a touch with", "did you mean `flinch`?"]),
-        ("answer_to_touch = \"flinch\"\nanswer_above = \"-1 N\"", ["`answer_above` is -1 N", "zero or above"]),
+        (
+            "answer_to_touch = \"flich\"",
+            ["no act `flich` to answer a touch with", "did you mean `flinch`?"],
+        ),
+        (
+            "answer_to_touch = \"flinch\"\nanswer_above = \"-1 N\"",
+            ["`answer_above` is -1 N", "zero or above"],
+        ),
     ] {
         let message = refused(acts);
         assert!(parts.iter().all(|part| message.contains(part)), "{acts}: {message}");
@@ -140,14 +192,33 @@ fn a_scenario_that_names_no_acts_has_them_all_and_a_misspelt_one_is_told() {
 /// A scenario that names every act: each keeps to the joints of the right whale, and one that does not is told where it asks for more.
 #[test]
 fn shipped_acts_keep_to_the_right_whales_joints() {
-    let ids: Vec<String> = library().acts.iter().flat_map(|act| act.clips.iter().map(|clip| format!("\"{}\"", clip.id))).collect();
-    let scenario = Scenario::read("test.toml", &scenario(&format!("acts = [{}]", ids.join(", ")))).unwrap();
-    assemble(&scenario, &library(), &Linked, &Options::default()).map(drop).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    let ids: Vec<String> = library()
+        .acts
+        .iter()
+        .flat_map(|act| act.clips.iter().map(|clip| format!("\"{}\"", clip.id)))
+        .collect();
+    let scenario =
+        Scenario::read("test.toml", &scenario(&format!("acts = [{}]", ids.join(", ")))).unwrap();
+    assemble(&scenario, &library(), &Linked, &Options::default())
+        .map(drop)
+        .unwrap_or_else(|problems| panic!("{}", told(&problems)));
     let mut sources = Sources::from_folder(&root()).unwrap();
-    let text = sources.get("acts/flippers-abduct.toml").unwrap().replace("\"25 deg\"", "\"50 deg\"");
+    let text =
+        sources.get("acts/flippers-abduct.toml").unwrap().replace("\"25 deg\"", "\"50 deg\"");
     sources.set("acts/flippers-abduct.toml", text);
-    let problems = assemble(&scenario, &Library::read(&sources).0, &Linked, &Options::default()).err().unwrap();
-    assert_eq!((problems[0].file.as_str(), problems[0].line), ("acts/flippers-abduct.toml", 12), "{}", told(&problems));
+    let problems = assemble(&scenario, &Library::read(&sources).0, &Linked, &Options::default())
+        .err()
+        .unwrap();
+    assert_eq!(
+        (problems[0].file.as_str(), problems[0].line),
+        ("acts/flippers-abduct.toml", 12),
+        "{}",
+        told(&problems)
+    );
     let message = problems[0].to_string();
-    assert!(message.contains("asks for 50.0 deg of FlipperRaise(0)") && message.contains("turns -60.0 to 25.0 deg"), "{message}");
+    assert!(
+        message.contains("asks for 50.0 deg of FlipperRaise(0)")
+            && message.contains("turns -60.0 to 25.0 deg"),
+        "{message}"
+    );
 }

@@ -32,12 +32,19 @@ impl Flight {
     /// A whale of 13.7 m at cruise, with all the library's acts and the named one as its answer to touch.
     pub fn new(answer: Option<&str>) -> Self {
         let clips = clips();
-        let answer =
-            answer.map(|id| Answer { act: 1 + clips.iter().position(|clip| clip.id == id).unwrap(), above_n: 1.0, again_s: f64::INFINITY });
+        let answer = answer.map(|id| Answer {
+            act: 1 + clips.iter().position(|clip| clip.id == id).unwrap(),
+            above_n: 1.0,
+            again_s: f64::INFINITY,
+        });
         let acting = Acting::new(Arc::new(Swim::new()), clips, answer);
         let descriptor = acting.descriptor();
         Self {
-            attributes: descriptor.attributes.iter().map(|attribute| attribute.default_value().number().unwrap()).collect(),
+            attributes: descriptor
+                .attributes
+                .iter()
+                .map(|attribute| attribute.default_value().number().unwrap())
+                .collect(),
             state: vec![0.0; descriptor.state_len],
             acting,
             dt_s: 0.01,
@@ -52,7 +59,13 @@ impl Flight {
 
     /// Sets an attribute of the swim.
     pub fn set(&mut self, key: &str, value: f64) {
-        let index = self.acting.descriptor().attributes.iter().position(|attribute| attribute.key == key).unwrap();
+        let index = self
+            .acting
+            .descriptor()
+            .attributes
+            .iter()
+            .position(|attribute| attribute.key == key)
+            .unwrap();
         self.attributes[index] = value;
     }
 
@@ -62,7 +75,8 @@ impl Flight {
             return 0.0;
         }
         let acts = &self.acting.descriptor().acts;
-        1.0 + acts.iter().position(|act| act.id == id).unwrap_or_else(|| panic!("no act {id}")) as f64
+        1.0 + acts.iter().position(|act| act.id == id).unwrap_or_else(|| panic!("no act {id}"))
+            as f64
     }
 
     /// One step.
@@ -79,7 +93,9 @@ impl Flight {
             contact_port_m: &self.port_m,
         };
         let out = self.acting.step(&self.attributes, &input, &mut self.state).unwrap();
-        self.orientation = (self.orientation * DQuat::from_scaled_axis(DVec3::from_array(out.turn_rate_rad_s) * self.dt_s)).normalize();
+        self.orientation = (self.orientation
+            * DQuat::from_scaled_axis(DVec3::from_array(out.turn_rate_rad_s) * self.dt_s))
+        .normalize();
         self.speed_m_s = out.speed_m_s;
         self.time_s += self.dt_s;
         out

@@ -10,14 +10,18 @@ use crate::linked::{Linked, library, root, told};
 /// Runs a shipped scenario to its end; the whale at each of these times [s].
 fn run(name: &str, times: &[f64]) -> Vec<WhaleState> {
     let text = std::fs::read_to_string(root().join("scenarios").join(name)).unwrap();
-    let scenario = Scenario::read(name, &text).unwrap_or_else(|problems| panic!("{}", told(&problems)));
-    let spec = assemble(&scenario, &library(), &Linked, &Options::default()).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    let scenario =
+        Scenario::read(name, &text).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    let spec = assemble(&scenario, &library(), &Linked, &Options::default())
+        .unwrap_or_else(|problems| panic!("{}", told(&problems)));
     let model = Model::new(spec).unwrap();
-    let (mut state, mut workspace, mut seen) = (State::start(&model), Workspace::new(&model), Vec::new());
+    let (mut state, mut workspace, mut seen) =
+        (State::start(&model), Workspace::new(&model), Vec::new());
     let pilot = &model.spec.whale.as_ref().unwrap().pilot;
     while state.time_s < model.spec.settings.duration_s - 1e-9 {
         let input = Input { controls: pilot.at(&state) };
-        step(&model, &input, &mut state, &mut workspace).unwrap_or_else(|stop| panic!("{name}: {stop:?}"));
+        step(&model, &input, &mut state, &mut workspace)
+            .unwrap_or_else(|stop| panic!("{name}: {stop:?}"));
         if times.iter().any(|time_s| (state.time_s - time_s).abs() < 1e-6) {
             seen.push(state.whale.clone().unwrap());
         }
@@ -35,11 +39,19 @@ fn bank_and_climb(whale: &WhaleState) -> [f64; 2] {
 /// Ten tagged dives went down at -58 ± 6 and up at 54 ± 8 degrees.
 #[test]
 fn a_foraging_dive_has_the_pitch_of_tagged_ones() {
-    let [down, feeding, up] = <[_; 3]>::try_from(run("foraging-dive.toml", &[21.0, 42.0, 54.0])).unwrap();
+    let [down, feeding, up] =
+        <[_; 3]>::try_from(run("foraging-dive.toml", &[21.0, 42.0, 54.0])).unwrap();
     let [_, descent] = bank_and_climb(&down);
     let [_, ascent] = bank_and_climb(&up);
-    assert!((descent + 58.0).abs() < 6.0 && (ascent - 54.0).abs() < 8.0, "{descent} and {ascent} degrees");
-    assert!(feeding.posture.jaw > 0.2 && bank_and_climb(&feeding)[1].abs() < 2.0 && down.position.z < -8.0);
+    assert!(
+        (descent + 58.0).abs() < 6.0 && (ascent - 54.0).abs() < 8.0,
+        "{descent} and {ascent} degrees"
+    );
+    assert!(
+        feeding.posture.jaw > 0.2
+            && bank_and_climb(&feeding)[1].abs() < 2.0
+            && down.position.z < -8.0
+    );
 }
 
 #[test]
@@ -63,10 +75,20 @@ fn the_barrel_roll_comes_round_and_the_flippers_and_the_group_play_to_their_end(
     assert!(bank_and_climb(&over)[0].abs() > 150.0, "on its back half way round");
     let flippers = run("flippers.toml", &[10.0, 16.0, 22.0, 28.0, 34.0, 40.0]);
     let degrees = |whale: &WhaleState| {
-        [whale.posture.flipper_raise[0], whale.posture.flipper_twist[0], whale.posture.flipper_sweep[0]].map(f64::to_degrees)
+        [
+            whale.posture.flipper_raise[0],
+            whale.posture.flipper_twist[0],
+            whale.posture.flipper_sweep[0],
+        ]
+        .map(f64::to_degrees)
     };
     let [abduct, adduct, pronate, supinate, sweep, tuck] = <[_; 6]>::try_from(flippers).unwrap();
-    assert!(degrees(&abduct)[0] > 24.0 && degrees(&adduct)[0] < -54.0 && degrees(&pronate)[1] > 29.0 && degrees(&supinate)[1] < -29.0);
+    assert!(
+        degrees(&abduct)[0] > 24.0
+            && degrees(&adduct)[0] < -54.0
+            && degrees(&pronate)[1] > 29.0
+            && degrees(&supinate)[1] < -29.0
+    );
     assert!(degrees(&sweep)[2] < -34.0 && degrees(&tuck)[2] > 39.0);
     let [back] = <[_; 1]>::try_from(run("surface-active.toml", &[20.0])).unwrap();
     assert!(bank_and_climb(&back)[0].abs() > 175.0, "belly up");

@@ -16,13 +16,15 @@ fn scenario(size: &str) -> String {
 }
 
 fn made(size: &str, library: &Library) -> Result<ModelSpec, String> {
-    let scenario = Scenario::read("test.toml", &scenario(size)).map_err(|problems| told(&problems))?;
+    let scenario =
+        Scenario::read("test.toml", &scenario(size)).map_err(|problems| told(&problems))?;
     assemble(&scenario, library, &Linked, &Options::default()).map_err(|problems| told(&problems))
 }
 
 /// Length and mass of the whale a scenario asks for.
 fn sized(size: &str) -> [f64; 2] {
-    let whale = made(size, &library()).unwrap_or_else(|told| panic!("{size}: {told}")).whale.unwrap();
+    let whale =
+        made(size, &library()).unwrap_or_else(|told| panic!("{size}: {told}")).whale.unwrap();
     [whale.length_m, whale.measures.mass_kg]
 }
 
@@ -34,7 +36,10 @@ fn age_and_condition_make_the_whale() {
     let [_, same_kg] = sized("length = \"11.075 m\"");
     assert!((mass_kg / same_kg - 1.0).abs() < 0.01, "{mass_kg} and {same_kg} kg");
     let [_, lean_kg] = sized("age = \"2 yr\"\ncondition = 0.72");
-    assert!((lean_kg / mass_kg - 0.72).abs() < 0.01, "28 % of its mass is what an emaciated whale lost: {lean_kg} of {mass_kg} kg");
+    assert!(
+        (lean_kg / mass_kg - 0.72).abs() < 0.01,
+        "28 % of its mass is what an emaciated whale lost: {lean_kg} of {mass_kg} kg"
+    );
     let [_, pregnant_kg] = sized("length = \"13.7 m\"\npregnant = true");
     assert!((1.01..1.10).contains(&(pregnant_kg / sized("length = \"13.7 m\"")[1])));
 }
@@ -42,7 +47,10 @@ fn age_and_condition_make_the_whale() {
 #[test]
 fn a_size_that_cannot_be_is_told_with_its_place() {
     for (size, parts) in [
-        ("length = \"11 m\"\nage = \"2 yr\"", ["both `length` and `age` are given", "leave one of them out"]),
+        (
+            "length = \"11 m\"\nage = \"2 yr\"",
+            ["both `length` and `age` are given", "leave one of them out"],
+        ),
         ("length = \"60 m\"", ["`length` is 60", "between 1 m and 35 m"]),
         ("age = \"300 yr\"", ["`age` is", "between"]),
         ("age = 2", ["without a unit", "expected a time"]),
@@ -51,7 +59,10 @@ fn a_size_that_cannot_be_is_told_with_its_place() {
         ("pregnant = \"yes\"", ["`pregnant` is", "true or false"]),
     ] {
         let message = made(size, &library()).err().unwrap_or_else(|| panic!("{size} is taken"));
-        assert!(parts.iter().all(|part| message.contains(part)) && message.contains("test.toml:2"), "{size}: {message}");
+        assert!(
+            parts.iter().all(|part| message.contains(part)) && message.contains("test.toml:2"),
+            "{size}: {message}"
+        );
     }
 }
 
@@ -73,7 +84,11 @@ fn a_whale_without_a_law_of_age_has_no_age() {
     assert_eq!(problems, "", "the law may be left out");
     assert!(made("length = \"11 m\"", &library).is_ok());
     let message = made("age = \"2 yr\"", &library).err().unwrap();
-    assert!(message.contains("does not say how long a whale of some age is") && message.contains("[age] with `birth`"), "{message}");
+    assert!(
+        message.contains("does not say how long a whale of some age is")
+            && message.contains("[age] with `birth`"),
+        "{message}"
+    );
 }
 
 #[test]
@@ -81,10 +96,15 @@ fn a_whales_file_says_how_wide_it_is() {
     let text = Sources::from_folder(&root()).unwrap().get(WHALE).unwrap().to_owned();
     let law = &text[text.find("[mass]").unwrap()..text.find("[age]").unwrap()];
     let (_, problems) = changed(law, "");
-    assert!(problems.contains("neither `mass` nor `breadth_scale` is there") && problems.contains("write [mass]"), "{problems}");
+    assert!(
+        problems.contains("neither `mass` nor `breadth_scale` is there")
+            && problems.contains("write [mass]"),
+        "{problems}"
+    );
     let (_, problems) = changed("exponent = { value = 3.1026, ", "exponents = { value = 3.1026, ");
     assert!(
-        problems.contains("`mass.exponent` is missing") || problems.contains("`exponent` is missing"),
+        problems.contains("`mass.exponent` is missing")
+            || problems.contains("`exponent` is missing"),
         "half a law is none: {problems}"
     );
 }
@@ -94,7 +114,12 @@ fn a_whales_file_says_how_wide_it_is() {
 fn a_mesh_has_the_condition_it_was_made_with() {
     let mut sources = Sources::from_folder(&root()).unwrap();
     let whale = library().whales.into_iter().find(|whale| whale.entry.id == "right-whale").unwrap();
-    let about = About { id: "right-whale", name: "Right whale", length_m: 13.7, joints: &whale.joints.ranges };
+    let about = About {
+        id: "right-whale",
+        name: "Right whale",
+        length_m: 13.7,
+        joints: &whale.joints.ranges,
+    };
     sources.set_mesh("whales/mine.glb", write(&whale.skin_at(13.7), &about, Form::Binary));
     let text = sources.get(WHALE).unwrap().to_owned();
     sources.set(WHALE, text.replacen("[spine]", "mesh = \"mine.glb\"\n\n[spine]", 1));
@@ -103,6 +128,10 @@ fn a_mesh_has_the_condition_it_was_made_with() {
     assert!(made("age = \"2 yr\"", &library).is_ok(), "its length may follow from its age");
     for size in ["condition = 0.8", "pregnant = true"] {
         let message = made(size, &library).err().unwrap_or_else(|| panic!("{size} is taken"));
-        assert!(message.contains("brings its own mesh") && message.contains("leave out `condition` and `pregnant`"), "{message}");
+        assert!(
+            message.contains("brings its own mesh")
+                && message.contains("leave out `condition` and `pregnant`"),
+            "{message}"
+        );
     }
 }

@@ -47,10 +47,14 @@ impl Posed {
             self.skin.bones[usize::from(heavy.0)].name.starts_with("left_flipper")
         };
         let blade: Vec<usize> = (0..self.skin.vertices.len()).filter(|v| of_blade(*v)).collect();
-        let (near, reach) =
-            blade.iter().fold((f64::MAX, f64::MIN), |(l, m), v| (l.min(self.skin.vertices[*v].y), m.max(self.skin.vertices[*v].y)));
-        let outer = blade.into_iter().filter(|v| self.skin.vertices[*v].y > near + beyond * (reach - near));
-        outer.max_by(|a, b| far(self.skin.vertices[*a]).total_cmp(&far(self.skin.vertices[*b]))).unwrap()
+        let (near, reach) = blade.iter().fold((f64::MAX, f64::MIN), |(l, m), v| {
+            (l.min(self.skin.vertices[*v].y), m.max(self.skin.vertices[*v].y))
+        });
+        let outer =
+            blade.into_iter().filter(|v| self.skin.vertices[*v].y > near + beyond * (reach - near));
+        outer
+            .max_by(|a, b| far(self.skin.vertices[*a]).total_cmp(&far(self.skin.vertices[*b])))
+            .unwrap()
     }
 }
 
@@ -59,9 +63,15 @@ fn the_four_motions_of_the_flippers_and_their_sweep_move_the_skin_as_their_names
     assert!(Posed::holding("flippers-abduct").tip().z > 0.5, "abduction lifts the tip");
     assert!(Posed::holding("flippers-adduct").tip().z < -0.5, "adduction lowers it");
     let [leading, trailing] = Posed::holding("flippers-pronate").edges();
-    assert!(leading < -0.05 && trailing > leading + 0.2, "pronation turns the leading edge down: {leading} {trailing}");
+    assert!(
+        leading < -0.05 && trailing > leading + 0.2,
+        "pronation turns the leading edge down: {leading} {trailing}"
+    );
     let [leading, trailing] = Posed::holding("flippers-supinate").edges();
-    assert!(leading > 0.05 && trailing < leading - 0.2, "supination turns it up: {leading} {trailing}");
+    assert!(
+        leading > 0.05 && trailing < leading - 0.2,
+        "supination turns it up: {leading} {trailing}"
+    );
     assert!(Posed::holding("flippers-sweep").tip().x > 0.5, "swept forward");
     let tuck = Posed::holding("flippers-tuck").tip();
     assert!(tuck.x < -0.5 && tuck.y < -0.3, "tucked aft along the body: {tuck}");

@@ -55,7 +55,8 @@ fn jumps(out: &[MotionOutput]) -> [f64; 2] {
             most[0] = most[0].max((of(&pair[1]) - of(&pair[0])).abs());
         }
         for axis in 0..3 {
-            most[1] = most[1].max((pair[1].turn_rate_rad_s[axis] - pair[0].turn_rate_rad_s[axis]).abs());
+            most[1] =
+                most[1].max((pair[1].turn_rate_rad_s[axis] - pair[0].turn_rate_rad_s[axis]).abs());
         }
     }
     most
@@ -67,7 +68,10 @@ fn posture_and_turn_rates_are_continuous_whatever_the_pilot_and_the_rope_do() {
         let (coarse, fine) = (jumps(&fly(seed, 0.02)), jumps(&fly(seed, 0.005)));
         assert!(coarse[0] < 0.08 && coarse[1] < 0.08, "seed {seed}: {coarse:?} in 20 ms");
         for (coarse, fine) in coarse.iter().zip(fine) {
-            assert!(fine < 0.35 * coarse, "seed {seed}: a jump does not shrink with the step: {coarse} then {fine}");
+            assert!(
+                fine < 0.35 * coarse,
+                "seed {seed}: a jump does not shrink with the step: {coarse} then {fine}"
+            );
         }
     }
 }
@@ -75,7 +79,9 @@ fn posture_and_turn_rates_are_continuous_whatever_the_pilot_and_the_rope_do() {
 #[test]
 fn the_same_flight_gives_the_same_bits() {
     let bits = |out: Vec<MotionOutput>| -> Vec<u64> {
-        let angles = out.iter().flat_map(|out| Angle::all().map(|angle| angle_of(&out.posture, angle).to_bits()));
+        let angles = out
+            .iter()
+            .flat_map(|out| Angle::all().map(|angle| angle_of(&out.posture, angle).to_bits()));
         angles.chain(out.iter().flat_map(|out| out.turn_rate_rad_s.map(f64::to_bits))).collect()
     };
     assert!(bits(fly(7, 0.02)) == bits(fly(7, 0.02)) && bits(fly(7, 0.02)) != bits(fly(8, 0.02)));

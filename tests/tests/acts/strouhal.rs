@@ -30,11 +30,13 @@ fn beat(length_m: f64, speed_m_s: f64, burst: f64) -> [f64; 2] {
     }
     assert!((flight.speed_m_s - speed_m_s).abs() < 1e-3, "{} m/s", flight.speed_m_s);
     let mean = heights.iter().sum::<f64>() / heights.len() as f64;
-    let rises: Vec<usize> = (1..heights.len()).filter(|i| heights[i - 1] < mean && heights[*i] >= mean).collect();
+    let rises: Vec<usize> =
+        (1..heights.len()).filter(|i| heights[i - 1] < mean && heights[*i] >= mean).collect();
     let whole = &heights[rises[0]..rises[rises.len() - 1]];
     let ways = rises.windows(2).map(|pair| {
         let beat = &heights[pair[0]..pair[1]];
-        beat.iter().fold(f64::MIN, |most, h| most.max(*h)) - beat.iter().fold(f64::MAX, |least, h| least.min(*h))
+        beat.iter().fold(f64::MIN, |most, h| most.max(*h))
+            - beat.iter().fold(f64::MAX, |least, h| least.min(*h))
     });
     let beats = (rises.len() - 1) as f64;
     [beats / (whole.len() as f64 * flight.dt_s), ways.sum::<f64>() / beats]
@@ -50,8 +52,14 @@ fn at_every_speed_right_whales_swim_it_lies_between_0_2_and_0_4() {
         for (speed_m_s, burst) in cruise.into_iter().chain(sprint.into_iter().take(sprints)) {
             let [frequency_hz, way_m] = beat(length_m, speed_m_s, burst);
             let strouhal = frequency_hz * way_m / speed_m_s;
-            println!("{length_m:5.1} m {speed_m_s:5.2} m/s: {frequency_hz:.3} Hz, {:.3} L, St {strouhal:.3}", way_m / length_m);
-            assert!((0.2..=0.4).contains(&strouhal), "{length_m} m at {speed_m_s} m/s: {frequency_hz} Hz, {way_m} m, St {strouhal}");
+            println!(
+                "{length_m:5.1} m {speed_m_s:5.2} m/s: {frequency_hz:.3} Hz, {:.3} L, St {strouhal:.3}",
+                way_m / length_m
+            );
+            assert!(
+                (0.2..=0.4).contains(&strouhal),
+                "{length_m} m at {speed_m_s} m/s: {frequency_hz} Hz, {way_m} m, St {strouhal}"
+            );
         }
     }
 }
@@ -60,5 +68,8 @@ fn at_every_speed_right_whales_swim_it_lies_between_0_2_and_0_4() {
 #[test]
 fn the_beat_is_near_that_of_tagged_whales() {
     let [frequency_hz, way_m] = beat(13.0, 1.1, 0.0);
-    assert!((0.11..0.16).contains(&frequency_hz) && (0.17..0.27).contains(&(way_m / 13.0)), "{frequency_hz} Hz, {way_m} m");
+    assert!(
+        (0.11..0.16).contains(&frequency_hz) && (0.17..0.27).contains(&(way_m / 13.0)),
+        "{frequency_hz} Hz, {way_m} m"
+    );
 }

@@ -1,7 +1,11 @@
 //! Calling the program as a user does, in a folder of the test's own.
 
 #![allow(dead_code, reason = "each test file uses its part of this")]
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking, in its helpers too")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test fails by panicking, in its helpers too"
+)]
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -21,7 +25,10 @@ impl Called {
     /// The one JSON object on standard output.
     pub fn json(&self) -> Value {
         let mut documents = serde_json::Deserializer::from_str(&self.stdout).into_iter::<Value>();
-        let first = documents.next().unwrap_or_else(|| panic!("no JSON; {self}")).unwrap_or_else(|error| panic!("{error}; {self}"));
+        let first = documents
+            .next()
+            .unwrap_or_else(|| panic!("no JSON; {self}"))
+            .unwrap_or_else(|error| panic!("{error}; {self}"));
         assert!(documents.next().is_none(), "more than one JSON object; {self}");
         assert!(first.is_object(), "{self}");
         first
@@ -46,7 +53,11 @@ impl Called {
 
 impl std::fmt::Display for Called {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "exit code {:?}\n--- stdout\n{}\n--- stderr\n{}", self.code, self.stdout, self.stderr)
+        write!(
+            f,
+            "exit code {:?}\n--- stdout\n{}\n--- stderr\n{}",
+            self.code, self.stdout, self.stderr
+        )
     }
 }
 
@@ -57,7 +68,8 @@ pub struct Place {
 
 impl Place {
     pub fn new(name: &str) -> Self {
-        let folder = std::env::temp_dir().join(format!("endline-test-{name}-{}", std::process::id()));
+        let folder =
+            std::env::temp_dir().join(format!("endline-test-{name}-{}", std::process::id()));
         fs::create_dir_all(&folder).unwrap();
         Self { folder }
     }
@@ -149,7 +161,10 @@ pub fn text(path: &Path) -> String {
 /// Puts a line in the place of the first that starts with a word, which must be there.
 pub fn edit(path: &Path, start: &str, line: &str) {
     let before = fs::read_to_string(path).unwrap();
-    let old = before.lines().find(|line| line.starts_with(start)).unwrap_or_else(|| panic!("{} has no `{start}`", path.display()));
+    let old = before
+        .lines()
+        .find(|line| line.starts_with(start))
+        .unwrap_or_else(|| panic!("{} has no `{start}`", path.display()));
     fs::write(path, before.replacen(old, line, 1)).unwrap();
 }
 

@@ -23,8 +23,10 @@ pub fn placed(library: &Library, assembly: &str, sea: &Sea<'_>) -> Model {
          [[gear]]\nassembly = \"{assembly}\"\nheading = \"{} deg\"\n",
         90.0 + heading
     );
-    let scenario = Scenario::read("rig.toml", &text).unwrap_or_else(|problems| panic!("{}", told(&problems)));
-    let spec = assemble(&scenario, library, &Linked, &Options::default()).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    let scenario =
+        Scenario::read("rig.toml", &text).unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    let spec = assemble(&scenario, library, &Linked, &Options::default())
+        .unwrap_or_else(|problems| panic!("{}", told(&problems)));
     Model::new(spec).unwrap()
 }
 
@@ -47,19 +49,32 @@ impl Drawer {
     /// The rig of a seed; its current is no stronger than the first trap surely withstands, but for every fourth.
     pub fn rig(&mut self, seed: u64) -> Rig {
         let mut draw = Draw(seed);
-        let (depth, speed, heading) = (draw.between(10.0, 150.0), draw.unit(), draw.between(0.0, 360.0));
+        let (depth, speed, heading) =
+            (draw.between(10.0, 150.0), draw.unit(), draw.between(0.0, 360.0));
         let nodes = draw.between(40.0, 200.0) as u64;
         let parts = Parts { draw: &mut draw, library: &self.library, depth_m: depth };
         let text = parts.text();
-        let bed = format!("rope_friction = {}\nfoot_stiffness = \"{} kN/m\"", draw.between(0.3, 1.0), draw.between(10.0, 40.0));
+        let bed = format!(
+            "rope_friction = {}\nfoot_stiffness = \"{} kN/m\"",
+            draw.between(0.3, 1.0),
+            draw.between(10.0, 40.0)
+        );
         self.lay(text);
         let site = format!("depth = \"{depth} m\"\ndensity = \"1025 kg/m3\"\n{bed}");
         let at = |speed| placed(&self.library, DRAWN, &Sea { site: &site, speed, heading, nodes });
         let share = drag_share(&at(speed));
-        let speed = if share > SURE_HOLD && !seed.is_multiple_of(4) { speed * (SURE_HOLD / share).sqrt() } else { speed };
+        let speed = if share > SURE_HOLD && !seed.is_multiple_of(4) {
+            speed * (SURE_HOLD / share).sqrt()
+        } else {
+            speed
+        };
         let model = hard(seed, at(speed));
-        let lines: Vec<String> = model.spec.lines.iter().map(|line| model.spec.ropes[line.rope].id.clone()).collect();
-        let what = format!("seed {seed}: {depth:.0} m, {speed:.2} m/s, {heading:.0} deg, {nodes} nodes, {}", lines.join(", "));
+        let lines: Vec<String> =
+            model.spec.lines.iter().map(|line| model.spec.ropes[line.rope].id.clone()).collect();
+        let what = format!(
+            "seed {seed}: {depth:.0} m, {speed:.2} m/s, {heading:.0} deg, {nodes} nodes, {}",
+            lines.join(", ")
+        );
         Rig { model, what }
     }
 
@@ -123,7 +138,9 @@ impl Parts<'_> {
         if self.draw.unit() < 0.5 {
             let links = self.library.ids(Kind::WeakLink);
             let link = self.draw.of(&links);
-            text += &format!("[[link]]\nid = \"link\"\nitem = \"{link}\"\nline = \"top\"\nend = \"to\"\n");
+            text += &format!(
+                "[[link]]\nid = \"link\"\nitem = \"{link}\"\nline = \"top\"\nend = \"to\"\n"
+            );
         }
         text + &self.ground()
     }
@@ -144,11 +161,19 @@ impl Parts<'_> {
         let (count, anchored) = (1 + (self.draw.unit() * 3.0) as usize, self.draw.unit() < 0.3);
         let mut text = String::new();
         for place in 0..count + usize::from(anchored) {
-            let (kind, item) = if place < count { ("trap", self.draw.of(&traps)) } else { ("anchor", self.draw.of(&anchors)) };
+            let (kind, item) = if place < count {
+                ("trap", self.draw.of(&traps))
+            } else {
+                ("anchor", self.draw.of(&anchors))
+            };
             text += &body(&format!("trap-{place}"), kind, item, -(place as f64) * spacing, 0);
             if place > 0 {
                 let ends = [format!("trap-{}", place - 1), format!("trap-{place}")];
-                text += &self.line(&format!("ground-{place}"), ends.each_ref().map(String::as_str), spacing * slack);
+                text += &self.line(
+                    &format!("ground-{place}"),
+                    ends.each_ref().map(String::as_str),
+                    spacing * slack,
+                );
             }
         }
         text
@@ -158,8 +183,12 @@ impl Parts<'_> {
     fn line(&mut self, id: &str, [from, to]: [&str; 2], length: f64) -> String {
         let ropes = self.library.ids(Kind::Rope);
         let rope = self.draw.of(&ropes);
-        let is = |condition: &str| self.library.ropes.iter().any(|known| known.entry.id == rope && has(known, condition));
-        let condition = Some(self.draw.of(&["secant", "secant", "new", "worked"])).filter(|condition| is(condition)).unwrap_or("secant");
+        let is = |condition: &str| {
+            self.library.ropes.iter().any(|known| known.entry.id == rope && has(known, condition))
+        };
+        let condition = Some(self.draw.of(&["secant", "secant", "new", "worked"]))
+            .filter(|condition| is(condition))
+            .unwrap_or("secant");
         format!(
             "[[line]]\nid = \"{id}\"\nrope = \"{rope}\"\nfrom = \"{from}\"\nto = \"{to}\"\nlength = \"{length} m\"\ncondition = \"{condition}\"\n"
         )
@@ -176,7 +205,9 @@ fn has(rope: &Rope, condition: &str) -> bool {
 }
 
 fn body(id: &str, kind: &str, item: &str, x: f64, height: u8) -> String {
-    format!("[[body]]\nid = \"{id}\"\nkind = \"{kind}\"\nitem = \"{item}\"\nposition = [\"{x} m\", \"0 m\"]\nheight = {height}\n")
+    format!(
+        "[[body]]\nid = \"{id}\"\nkind = \"{kind}\"\nitem = \"{item}\"\nposition = [\"{x} m\", \"0 m\"]\nheight = {height}\n"
+    )
 }
 
 fn joint(id: &str, x: f64, height: f64) -> String {
@@ -189,7 +220,9 @@ fn hard(seed: u64, model: Model) -> Model {
     match seed % 10 {
         3 => spec.ropes.iter_mut().for_each(|rope| rope.axial_stiffness_n *= 1e3),
         7 => {
-            let node_kg = |line: &endline_sim::model::Line| 0.5 * spec.ropes[line.rope].mass_kg_m * line.segments_m[0];
+            let node_kg = |line: &endline_sim::model::Line| {
+                0.5 * spec.ropes[line.rope].mass_kg_m * line.segments_m[0]
+            };
             let lightest_kg = spec.lines.iter().map(node_kg).fold(f64::INFINITY, f64::min);
             let trap = spec.bodies.iter_mut().find(|body| body.id == "trap-0").unwrap();
             trap.mass_kg = trap.mass_kg.max(1e4 * lightest_kg);

@@ -39,8 +39,11 @@ impl Hooks for Linked {
         endline_gear_types::all().into_iter().find(|gear| gear.descriptor().id == id)
     }
     fn ids(&self) -> Vec<String> {
-        let gear = endline_gear_types::all().into_iter().map(|gear| gear.descriptor().id.to_string());
-        let friction = endline_friction_models::all().into_iter().map(|model| model.descriptor().id.to_string());
+        let gear =
+            endline_gear_types::all().into_iter().map(|gear| gear.descriptor().id.to_string());
+        let friction = endline_friction_models::all()
+            .into_iter()
+            .map(|model| model.descriptor().id.to_string());
         std::iter::once("org.endline.motion.swim".to_owned()).chain(friction).chain(gear).collect()
     }
 }

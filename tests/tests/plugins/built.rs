@@ -25,7 +25,12 @@ fn cargo_build(arguments: &[&str]) -> PathBuf {
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("plugin-libraries");
     let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut command = Command::new(cargo);
-    command.current_dir(root()).args(["build", "--quiet"]).args(arguments).arg("--target-dir").arg(&target);
+    command
+        .current_dir(root())
+        .args(["build", "--quiet"])
+        .args(arguments)
+        .arg("--target-dir")
+        .arg(&target);
     let output = command.output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     target.join("debug")
@@ -57,7 +62,14 @@ pub fn first_party_file(stem: &str) -> PathBuf {
 pub fn panicking() -> &'static Path {
     static FILE: OnceLock<PathBuf> = OnceLock::new();
     FILE.get_or_init(|| {
-        let built = cargo_build(&["--package", "endline-sdk", "--example", "panicking", "--features", "entry"]);
+        let built = cargo_build(&[
+            "--package",
+            "endline-sdk",
+            "--example",
+            "panicking",
+            "--features",
+            "entry",
+        ]);
         built.join("examples").join(library_name("panicking"))
     })
 }
@@ -67,7 +79,16 @@ pub fn compile_c(source: &str, folder: &Path) -> PathBuf {
     let source = root().join(source);
     let file = folder.join(library_name(source.file_stem().unwrap().to_str().unwrap()));
     let mut command = Command::new(env::var_os("CC").unwrap_or_else(|| "cc".into()));
-    command.args(["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-shared", "-fPIC", "-I"]);
+    command.args([
+        "-std=c99",
+        "-Wall",
+        "-Wextra",
+        "-Wpedantic",
+        "-Werror",
+        "-shared",
+        "-fPIC",
+        "-I",
+    ]);
     command.arg(root().join("plugins/sdk/include")).arg("-o").arg(&file).arg(&source);
     let output = command.output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));

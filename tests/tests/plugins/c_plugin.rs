@@ -18,17 +18,29 @@ fn the_c_template_builds_loads_and_glides_as_its_equation_says() {
     assert!(problems.is_empty(), "{problems:?}");
     let motion = host.motion(GLIDE).unwrap();
     let attribute = &motion.descriptor().attributes[0];
-    assert_eq!((attribute.key.as_ref(), attribute.unit.as_ref(), attribute.default_value().number()), ("glide_length", "m", Some(150.0)));
+    assert_eq!(
+        (attribute.key.as_ref(), attribute.unit.as_ref(), attribute.default_value().number()),
+        ("glide_length", "m", Some(150.0))
+    );
 
     let forces = [0.0; BodyPart::ALL.len()];
     let mut speed_m_s = 2.0;
     for step in 1..=6000 {
-        let out = motion.step(&[150.0], &endline_sdk::MotionInput { speed_m_s, ..motion_input(&forces) }, &mut []).unwrap();
+        let out = motion
+            .step(
+                &[150.0],
+                &endline_sdk::MotionInput { speed_m_s, ..motion_input(&forces) },
+                &mut [],
+            )
+            .unwrap();
         speed_m_s = out.speed_m_s;
         let exact = 2.0 / (1.0 + 2.0 * f64::from(step) * 0.01 / 150.0);
         assert!((speed_m_s - exact).abs() < 1e-12, "{speed_m_s} {exact}");
     }
-    assert_eq!(motion.descriptor().acts, [Act::new("brake", "Brake", "Raises the flippers, which halves the glide length.")]);
+    assert_eq!(
+        motion.descriptor().acts,
+        [Act::new("brake", "Brake", "Raises the flippers, which halves the glide length.")]
+    );
     let controls = Controls { act: 1.0, ..Controls::default() };
     let braking = endline_sdk::MotionInput { speed_m_s: 2.0, controls, ..motion_input(&forces) };
     let out = motion.step(&[150.0], &braking, &mut []).unwrap();

@@ -20,7 +20,10 @@ const FILE_VARIABLE: &str = "ENDLINE_TEST_CHECK_FILE";
 pub fn stand_in(folder: &Path) -> PathBuf {
     let program = folder.join("endline");
     let test = env::current_exe().unwrap();
-    let call = format!("exec '{}' --exact checked::bad_files_are_set_aside --nocapture --quiet", test.display());
+    let call = format!(
+        "exec '{}' --exact checked::bad_files_are_set_aside --nocapture --quiet",
+        test.display()
+    );
     fs::write(&program, format!("#!/bin/sh\n[ \"$1 $2 $3\" = \"plugins check --here\" ] || exit 2\n{FILE_VARIABLE}=\"$4\" {call}\n"))
         .unwrap();
     fs::set_permissions(&program, fs::Permissions::from_mode(0o755)).unwrap();
@@ -40,9 +43,20 @@ fn be_the_child(file: &Path) -> ! {
 }
 
 /// A checker with little patience for the file that hangs, and much for the rest: the machine may be busy.
-pub fn patient(program: PathBuf, hangs: &str, seconds: u64) -> impl Fn(&Path) -> Result<(), String> {
-    let [short, long] = [seconds, 60].map(|seconds| by_child(program.clone(), Duration::from_secs(seconds)));
-    move |file| if file.to_string_lossy().ends_with(&format!("{hangs}{}", env::consts::DLL_SUFFIX)) { short(file) } else { long(file) }
+pub fn patient(
+    program: PathBuf,
+    hangs: &str,
+    seconds: u64,
+) -> impl Fn(&Path) -> Result<(), String> {
+    let [short, long] =
+        [seconds, 60].map(|seconds| by_child(program.clone(), Duration::from_secs(seconds)));
+    move |file| {
+        if file.to_string_lossy().ends_with(&format!("{hangs}{}", env::consts::DLL_SUFFIX)) {
+            short(file)
+        } else {
+            long(file)
+        }
+    }
 }
 
 #[test]
@@ -72,8 +86,12 @@ fn bad_files_are_set_aside() {
             "tried out with its own defaults, plugin `org.example.motion.panicking`: it failed inside (panicked): the whale bit me",
         ),
     ] {
-        let problem = problems.iter().find(|problem| problem.file.to_string_lossy().contains(file)).unwrap();
-        assert!(problem.reason.contains("set aside") && problem.reason.contains(reason), "{problem}");
+        let problem =
+            problems.iter().find(|problem| problem.file.to_string_lossy().contains(file)).unwrap();
+        assert!(
+            problem.reason.contains("set aside") && problem.reason.contains(reason),
+            "{problem}"
+        );
     }
     assert_eq!(problems.len(), 4, "{problems:?}");
 }
@@ -81,7 +99,11 @@ fn bad_files_are_set_aside() {
 #[test]
 fn a_checker_that_cannot_start_is_named() {
     let checker = by_child("/nowhere/endline", Duration::from_secs(1));
-    assert!(checker(&first_party_file("endline_gear_types")).unwrap_err().contains("cannot start /nowhere/endline"));
+    assert!(
+        checker(&first_party_file("endline_gear_types"))
+            .unwrap_err()
+            .contains("cannot start /nowhere/endline")
+    );
 }
 
 #[test]

@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use endline_sdk::{
-    AttributeValue, BodyKind, BodyPart, Contacts, Descriptor, FrictionModel, FrictionResponse, GearAction, GearStep, GearType, HookError,
-    LineEnd, MotionInput, MotionOutput, Rig, RigBody, RigEnd, RigJoint, RigLine, RigLink, Site, WhaleMotion,
+    AttributeValue, BodyKind, BodyPart, Contacts, Descriptor, FrictionModel, FrictionResponse,
+    GearAction, GearStep, GearType, HookError, LineEnd, MotionInput, MotionOutput, Rig, RigBody,
+    RigEnd, RigJoint, RigLine, RigLink, Site, WhaleMotion,
 };
 use endline_session::plugins::{Hook, PluginHost};
 
@@ -33,7 +34,12 @@ impl WhaleMotion for Gives<MotionOutput> {
         &self.0
     }
 
-    fn step(&self, _: &[f64], _: &MotionInput<'_>, _: &mut [f64]) -> Result<MotionOutput, HookError> {
+    fn step(
+        &self,
+        _: &[f64],
+        _: &MotionInput<'_>,
+        _: &mut [f64],
+    ) -> Result<MotionOutput, HookError> {
         Ok(self.1)
     }
 }
@@ -43,7 +49,12 @@ impl FrictionModel for Gives<FrictionResponse> {
         &self.0
     }
 
-    fn respond(&self, _: &[f64], _: &Contacts<'_>, out: &mut [FrictionResponse]) -> Result<(), HookError> {
+    fn respond(
+        &self,
+        _: &[f64],
+        _: &Contacts<'_>,
+        out: &mut [FrictionResponse],
+    ) -> Result<(), HookError> {
         out.fill(self.1);
         Ok(())
     }
@@ -63,7 +74,13 @@ impl GearType for Gives<Rig> {
         Ok(self.1.clone())
     }
 
-    fn step(&self, _: &[AttributeValue], _: &GearStep<'_>, _: &mut [f64], actions: &mut Vec<GearAction>) -> Result<(), HookError> {
+    fn step(
+        &self,
+        _: &[AttributeValue],
+        _: &GearStep<'_>,
+        _: &mut [f64],
+        actions: &mut Vec<GearAction>,
+    ) -> Result<(), HookError> {
         actions.push(GearAction::CutLine { line: 1, end: LineEnd::A });
         Ok(())
     }
@@ -76,7 +93,10 @@ fn host(hook: Hook) -> PluginHost {
 }
 
 fn expect(error: &HookError, reason: &str) {
-    assert!(error.message.starts_with(&format!("plugin `{ID}`: ")) && error.message.contains(reason), "{error}");
+    assert!(
+        error.message.starts_with(&format!("plugin `{ID}`: ")) && error.message.contains(reason),
+        "{error}"
+    );
 }
 
 fn friction(force_n: [f64; 3]) -> Arc<dyn FrictionModel> {
@@ -86,16 +106,24 @@ fn friction(force_n: [f64; 3]) -> Arc<dyn FrictionModel> {
 
 #[test]
 fn friction_that_cannot_be_is_refused() {
-    let respond = |force_n| friction(force_n).respond(&[], &ONE_CONTACT, &mut [FrictionResponse::default()]);
+    let respond =
+        |force_n| friction(force_n).respond(&[], &ONE_CONTACT, &mut [FrictionResponse::default()]);
     respond([-30.0, 0.0, 0.0]).unwrap();
     expect(&respond([f64::NAN, 0.0, 0.0]).unwrap_err(), "it gave NaN for the force");
     expect(&respond([30.0, 0.0, 0.0]).unwrap_err(), "friction may not create energy");
     expect(&respond([0.0, 0.0, -5.0]).unwrap_err(), "does not lie across the normal");
-    expect(&respond([-301.0, 0.0, 0.0]).unwrap_err(), "beyond 10 times coefficient times normal force");
+    expect(
+        &respond([-301.0, 0.0, 0.0]).unwrap_err(),
+        "beyond 10 times coefficient times normal force",
+    );
     let too_few = friction([0.0; 3]).respond(&[], &ONE_CONTACT, &mut []);
     expect(&too_few.unwrap_err(), "expected 1 places for answers, got 0");
     let hook = Hook::Friction(Arc::new(Gives(descriptor(1), FrictionResponse::default())));
-    let advanced = host(hook).friction(ID).unwrap().advance(&[], &Contacts { state: &[0.0], ..ONE_CONTACT }, &mut [0.0]);
+    let advanced = host(hook).friction(ID).unwrap().advance(
+        &[],
+        &Contacts { state: &[0.0], ..ONE_CONTACT },
+        &mut [0.0],
+    );
     expect(&advanced.unwrap_err(), "it gave inf for a float of its state");
 }
 
@@ -119,7 +147,12 @@ fn a_whale_that_cannot_be_is_refused() {
 fn rig() -> Rig {
     let position_m = [0.0, 0.0, -10.0];
     Rig {
-        bodies: vec![RigBody { id: "trap".into(), kind: BodyKind::Trap, item: "wire".into(), position_m }],
+        bodies: vec![RigBody {
+            id: "trap".into(),
+            kind: BodyKind::Trap,
+            item: "wire".into(),
+            position_m,
+        }],
         joints: vec![RigJoint { id: "top".into(), position_m: [0.0; 3] }],
         lines: vec![RigLine {
             id: "endline".into(),
@@ -129,7 +162,12 @@ fn rig() -> Rig {
             length_m: 12.0,
             laid_m: Vec::new(),
         }],
-        links: vec![RigLink { id: "link".into(), item: "wl".into(), line: "endline".into(), end: LineEnd::B }],
+        links: vec![RigLink {
+            id: "link".into(),
+            item: "wl".into(),
+            line: "endline".into(),
+            end: LineEnd::B,
+        }],
     }
 }
 
@@ -143,21 +181,43 @@ fn a_rig_that_does_not_fit_together_is_refused() {
     };
     assert_eq!(build(|_| ()).unwrap(), rig());
     build(|rig| rig.lines[0].from = RigEnd::Body("trap:bridle-port".into())).unwrap();
-    expect(&build(|rig| rig.lines[0].from = RigEnd::Body("buoy:side".into())).unwrap_err(), "ends at body `buoy`, which its rig lacks");
-    expect(&build(|rig| rig.lines[0].to = RigEnd::Joint("buoy".into())).unwrap_err(), "ends at joint `buoy`, which its rig lacks");
+    expect(
+        &build(|rig| rig.lines[0].from = RigEnd::Body("buoy:side".into())).unwrap_err(),
+        "ends at body `buoy`, which its rig lacks",
+    );
+    expect(
+        &build(|rig| rig.lines[0].to = RigEnd::Joint("buoy".into())).unwrap_err(),
+        "ends at joint `buoy`, which its rig lacks",
+    );
     expect(&build(|rig| rig.lines[0].length_m = -1.0).unwrap_err(), "line `endline` is -1 m long");
-    expect(&build(|rig| rig.lines[0].laid_m = vec![[0.0; 3]]).unwrap_err(), "line `endline` is laid through one place");
-    expect(&build(|rig| rig.lines[0].laid_m = vec![[f64::INFINITY; 3]; 2]).unwrap_err(), "inf for a place");
+    expect(
+        &build(|rig| rig.lines[0].laid_m = vec![[0.0; 3]]).unwrap_err(),
+        "line `endline` is laid through one place",
+    );
+    expect(
+        &build(|rig| rig.lines[0].laid_m = vec![[f64::INFINITY; 3]; 2]).unwrap_err(),
+        "inf for a place",
+    );
     expect(&build(|rig| rig.lines[0].rope.clear()).unwrap_err(), "names no rope");
     expect(&build(|rig| rig.links[0].line = "other".into()).unwrap_err(), "link `link`");
     expect(&build(|rig| rig.bodies[0].position_m[2] = f64::NAN).unwrap_err(), "NaN for a place");
-    expect(&build(|rig| rig.bodies.push(rig.bodies[0].clone())).unwrap_err(), "body id `trap` is empty or used twice");
+    expect(
+        &build(|rig| rig.bodies.push(rig.bodies[0].clone())).unwrap_err(),
+        "body id `trap` is empty or used twice",
+    );
 }
 
 #[test]
 fn an_action_on_a_line_it_lacks_is_refused() {
     let gear = host(Hook::Gear(Arc::new(Gives(descriptor(0), rig())))).gear(ID).unwrap();
-    let step = |end_tension_n: &[[f64; 2]]| gear.step(&[], &GearStep { time_s: 0.0, dt_s: 0.01, end_tension_n }, &mut [], &mut Vec::new());
+    let step = |end_tension_n: &[[f64; 2]]| {
+        gear.step(
+            &[],
+            &GearStep { time_s: 0.0, dt_s: 0.01, end_tension_n },
+            &mut [],
+            &mut Vec::new(),
+        )
+    };
     step(&[[0.0; 2]; 2]).unwrap();
     expect(&step(&[[0.0; 2]]).unwrap_err(), "it cuts line 1, but its rig has 1 lines");
 }

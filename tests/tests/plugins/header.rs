@@ -90,13 +90,16 @@ fn names() -> impl Iterator<Item = (String, String)> {
 }
 
 fn config() -> Config {
-    let mut config = Config { language: Language::C, style: Style::Type, line_length: 110, ..Config::default() };
+    let mut config =
+        Config { language: Language::C, style: Style::Type, line_length: 110, ..Config::default() };
     config.header = Some(PREAMBLE.to_owned());
     config.trailer = Some(TRAILER.to_owned());
     config.include_guard = Some("ENDLINE_PLUGIN_H".to_owned());
     config.no_includes = true;
     config.sys_includes = vec!["stddef.h".to_owned(), "stdint.h".to_owned()];
-    config.after_includes = Some(format!("\n// Id of the factory of this ABI.\n#define ENDLINE_FACTORY_ID \"{FACTORY_ID}\""));
+    config.after_includes = Some(format!(
+        "\n// Id of the factory of this ABI.\n#define ENDLINE_FACTORY_ID \"{FACTORY_ID}\""
+    ));
     config.usize_is_size_t = true;
     config.documentation_style = DocumentationStyle::C99;
     config.enumeration.rename_variants = RenameRule::QualifiedScreamingSnakeCase;
@@ -116,7 +119,8 @@ fn generated() -> String {
     builder.generate().unwrap().write(&mut bytes);
     let text = String::from_utf8(bytes).unwrap();
     // Lists of enum values have no meaning in C.
-    let text = text.split("\n\n").filter(|part| !part.contains("_ALL {")).collect::<Vec<_>>().join("\n\n");
+    let text =
+        text.split("\n\n").filter(|part| !part.contains("_ALL {")).collect::<Vec<_>>().join("\n\n");
     names().fold(text, |text, (rust, c)| text.replace(&format!("[`{rust}`]"), &format!("`{c}`")))
 }
 
@@ -128,5 +132,8 @@ fn header_is_up_to_date() {
     }
     let committed = fs::read_to_string(&path).unwrap_or_default();
     let first = committed.lines().zip(fresh.lines()).position(|(a, b)| a != b);
-    assert_eq!(committed, fresh, "{HEADER} is out of date from line {first:?}; its head says how to write it anew");
+    assert_eq!(
+        committed, fresh,
+        "{HEADER} is out of date from line {first:?}; its head says how to write it anew"
+    );
 }

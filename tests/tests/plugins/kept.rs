@@ -24,10 +24,19 @@ fn plugins_of_3_0_and_of_a_later_minor_version_work() {
     }
     let (host, problems) = PluginHost::discover(&[folder]);
     assert!(problems.is_empty(), "{problems:?}");
-    assert!(host.list().iter().all(|info| info.about.is_empty()), "3.1 brought what a library says of itself, and these are of 3.0");
+    assert!(
+        host.list().iter().all(|info| info.about.is_empty()),
+        "3.1 brought what a library says of itself, and these are of 3.0"
+    );
     let forces = [0.0; BodyPart::ALL.len()];
     let input = MotionInput { speed_m_s: 2.0, ..motion_input(&forces) };
-    let speed = |id: &str, attributes: &[f64]| host.motion(id).unwrap().step(attributes, &input, &mut []).unwrap().speed_m_s;
+    let speed = |id: &str, attributes: &[f64]| {
+        host.motion(id).unwrap().step(attributes, &input, &mut []).unwrap().speed_m_s
+    };
     assert!((speed("org.example.motion.later", &[]) - 1.0).abs() < 1e-15);
-    assert!((speed("org.example.motion.glide", &[100.0]) - 2.0 / (1.0 + 2.0 * input.dt_s / 100.0)).abs() < 1e-15);
+    assert!(
+        (speed("org.example.motion.glide", &[100.0]) - 2.0 / (1.0 + 2.0 * input.dt_s / 100.0))
+            .abs()
+            < 1e-15
+    );
 }

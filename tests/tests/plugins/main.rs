@@ -1,6 +1,10 @@
 //! The plugin boundary: what is linked and what is loaded give the same bits, a plugin in C works,
 //! and nothing that is wrong with a plugin takes the program with it.
-#![expect(clippy::unwrap_used, clippy::panic, reason = "helpers of tests: where one cannot go on, the test fails there")]
+#![expect(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "helpers of tests: where one cannot go on, the test fails there"
+)]
 
 mod built;
 mod c_plugin;

@@ -9,8 +9,13 @@ use endline_session::plugins::{PluginHost, PluginProblem};
 use crate::built::{compile_c, first_party_file, folder, panicking};
 
 fn problem<'a>(problems: &'a [PluginProblem], file: &str, id: Option<&str>) -> &'a PluginProblem {
-    let named = |problem: &&PluginProblem| problem.file.to_string_lossy().contains(file) && problem.id.as_deref() == id;
-    problems.iter().find(named).unwrap_or_else(|| panic!("no problem of {file} {id:?} among {problems:?}"))
+    let named = |problem: &&PluginProblem| {
+        problem.file.to_string_lossy().contains(file) && problem.id.as_deref() == id
+    };
+    problems
+        .iter()
+        .find(named)
+        .unwrap_or_else(|| panic!("no problem of {file} {id:?} among {problems:?}"))
 }
 
 #[test]
@@ -22,8 +27,10 @@ fn each_bad_file_is_named_with_its_reason_and_the_good_one_works() {
     let suffix = std::env::consts::DLL_SUFFIX;
     fs::write(folder.join(format!("notes{suffix}")), "not a library\n").unwrap();
     fs::write(folder.join("README.txt"), "passed over\n").unwrap();
-    fs::copy(first_party_file("endline_friction_models"), folder.join(format!("a{suffix}"))).unwrap();
-    fs::copy(first_party_file("endline_friction_models"), folder.join(format!("b{suffix}"))).unwrap();
+    fs::copy(first_party_file("endline_friction_models"), folder.join(format!("a{suffix}")))
+        .unwrap();
+    fs::copy(first_party_file("endline_friction_models"), folder.join(format!("b{suffix}")))
+        .unwrap();
     let (host, problems) = PluginHost::discover(std::slice::from_ref(&folder));
 
     for (file, id, reason) in [
@@ -32,9 +39,17 @@ fn each_bad_file_is_named_with_its_reason_and_the_good_one_works() {
         ("truncated", None, "its entry is truncated: 12 bytes where"),
         ("no_factory", None, "its factory `endline.plugins/3` is missing"),
         ("notes", None, "is not a library that can be opened"),
-        ("faulty", Some("org.example.motion.cut"), "its table of functions is truncated: 4 bytes where"),
+        (
+            "faulty",
+            Some("org.example.motion.cut"),
+            "its table of functions is truncated: 4 bytes where",
+        ),
         ("faulty", Some("org.example.motion.stepless"), "its table's function is missing"),
-        ("faulty", Some("org.example.motion.endless"), "its attribute `depth`: its default inf and range 0 to 1 must be finite"),
+        (
+            "faulty",
+            Some("org.example.motion.endless"),
+            "its attribute `depth`: its default inf and range 0 to 1 must be finite",
+        ),
         ("b.", Some("org.endline.friction.coulomb"), "already has a plugin with this id"),
     ] {
         let problem = problem(&problems, file, id);
@@ -43,7 +58,8 @@ fn each_bad_file_is_named_with_its_reason_and_the_good_one_works() {
     }
     // Each of the four models of the second copy is named.
     assert_eq!(problems.len(), 12, "{problems:?}");
-    let models = ["baleen", "coulomb", "stribeck", "tissue"].map(|name| format!("org.endline.friction.{name}"));
+    let models = ["baleen", "coulomb", "stribeck", "tissue"]
+        .map(|name| format!("org.endline.friction.{name}"));
     assert_eq!(host.ids(), [&models[..], &["org.example.motion.nan".to_owned()]].concat());
 }
 
@@ -109,7 +125,9 @@ fn a_plugin_that_panics_ends_the_call_with_its_name_and_message() {
             gear.build(&[], &Site { depth_m: 20.0, current_m_s: [0.0; 2] }).unwrap_err(),
         ];
         for (error, kind) in errors.iter().zip(["motion", "friction", "friction", "gear"]) {
-            let expected = format!("plugin `org.example.{kind}.panicking`: it failed inside (panicked): the whale bit me");
+            let expected = format!(
+                "plugin `org.example.{kind}.panicking`: it failed inside (panicked): the whale bit me"
+            );
             assert_eq!(error.message, expected);
         }
     }

@@ -45,13 +45,20 @@ fn a_library_built_anew_is_asked_about_and_taken_in_beside_the_old() {
     let mut loader = Loader::new(std::slice::from_ref(&folder), choices);
     let file = build(&folder, "1.0");
     let (first, change) = asked(&loader.load(&checker));
-    assert_eq!((change, checks.get()), (Change::New, 0), "what is not allowed is not even opened in a child");
+    assert_eq!(
+        (change, checks.get()),
+        (Change::New, 0),
+        "what is not allowed is not even opened in a child"
+    );
     loader.choices.allow(&file, &first).unwrap();
     let (host, problems) = loader.load(&checker);
     assert!(problems.is_empty(), "{problems:?}");
     let old = host.motion(ID).unwrap();
     assert!((speed(&*old) - 1.0).abs() < 1e-15);
-    assert_eq!((host.list()[0].hash.as_ref(), host.list()[0].about.as_str()), (Some(&first), "Made for a test."));
+    assert_eq!(
+        (host.list()[0].hash.as_ref(), host.list()[0].about.as_str()),
+        (Some(&first), "Made for a test.")
+    );
     let _ = loader.load(&checker);
     assert_eq!(checks.get(), 1, "what has not changed is not opened twice");
 

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use endline_gear::{Library, Sources};
 use endline_gear_types::Single;
 use endline_sdk::{
-    Attribute, AttributeKind, AttributeValue, BodyPart, Contacts, Controls, FrictionModel, FrictionResponse, GearStep, GearType,
-    MotionInput, MotionOutput, Site, WhaleMotion,
+    Attribute, AttributeKind, AttributeValue, BodyPart, Contacts, Controls, FrictionModel,
+    FrictionResponse, GearStep, GearType, MotionInput, MotionOutput, Site, WhaleMotion,
 };
 use endline_session::plugins::{PluginHost, PluginKind};
 use endline_sim::whale::acts::{Acting, Answer};
@@ -29,11 +29,21 @@ pub fn loaded() -> PluginHost {
 /// A value within an attribute's range.
 fn value(attribute: &Attribute, random: &mut Random) -> AttributeValue {
     match &attribute.kind {
-        AttributeKind::Number { min, max, .. } => AttributeValue::Number(random.between(*min, *max)),
-        AttributeKind::Count { min, max, .. } => AttributeValue::Number(random.between(f64::from(*min), f64::from(*max) + 1.0).floor()),
-        AttributeKind::Choice { words, .. } => AttributeValue::Choice(words[random.next() as usize % words.len()].to_string()),
-        AttributeKind::Item { default, .. } if random.between(0.0, 1.0) < 0.5 => AttributeValue::Item(default.to_string()),
-        AttributeKind::Item { library, .. } => AttributeValue::Item(format!("{library}-{}", random.next() % 100)),
+        AttributeKind::Number { min, max, .. } => {
+            AttributeValue::Number(random.between(*min, *max))
+        }
+        AttributeKind::Count { min, max, .. } => {
+            AttributeValue::Number(random.between(f64::from(*min), f64::from(*max) + 1.0).floor())
+        }
+        AttributeKind::Choice { words, .. } => {
+            AttributeValue::Choice(words[random.next() as usize % words.len()].to_string())
+        }
+        AttributeKind::Item { default, .. } if random.between(0.0, 1.0) < 0.5 => {
+            AttributeValue::Item(default.to_string())
+        }
+        AttributeKind::Item { library, .. } => {
+            AttributeValue::Item(format!("{library}-{}", random.next() % 100))
+        }
     }
 }
 
@@ -56,13 +66,18 @@ fn the_library_declares_what_the_linked_plugin_declares() {
     assert_eq!(host.ids(), ids);
     assert_eq!(host.motion(SWIM).unwrap().descriptor(), Swim::new().descriptor());
     for linked in &friction {
-        assert_eq!(host.friction(&linked.descriptor().id).unwrap().descriptor(), linked.descriptor());
+        assert_eq!(
+            host.friction(&linked.descriptor().id).unwrap().descriptor(),
+            linked.descriptor()
+        );
     }
     for linked in &gear {
         assert_eq!(host.gear(&linked.descriptor().id).unwrap().descriptor(), linked.descriptor());
     }
     assert!(
-        host.motion("org.endline.friction.coulomb").is_none() && host.friction(SWIM).is_none() && host.gear("org.example.none").is_none()
+        host.motion("org.endline.friction.coulomb").is_none()
+            && host.friction(SWIM).is_none()
+            && host.gear("org.example.none").is_none()
     );
     let swim = host.list().iter().find(|info| info.id == SWIM).unwrap();
     let file = first_party_file("endline_whale_motions");
@@ -73,7 +88,13 @@ fn the_library_declares_what_the_linked_plugin_declares() {
 
 fn output_bits(out: &MotionOutput) -> Vec<u64> {
     let p = &out.posture;
-    let angles = p.spine_pitch.into_iter().chain(p.spine_yaw).chain(p.fluke_flex).chain(p.flipper_sweep).chain(p.flipper_raise);
+    let angles = p
+        .spine_pitch
+        .into_iter()
+        .chain(p.spine_yaw)
+        .chain(p.fluke_flex)
+        .chain(p.flipper_sweep)
+        .chain(p.flipper_raise);
     let rest = p
         .flipper_twist
         .into_iter()
@@ -91,11 +112,14 @@ fn swim_gives_the_same_bits_linked_and_loaded() {
     let mut random = Random(1);
     for _ in 0..40 {
         let attributes = numbers(&linked.descriptor().attributes, &mut random);
-        let mut states = [vec![0.0; linked.descriptor().state_len], vec![0.0; linked.descriptor().state_len]];
+        let mut states =
+            [vec![0.0; linked.descriptor().state_len], vec![0.0; linked.descriptor().state_len]];
         let mut speed_m_s = random.between(0.0, 5.0);
         for step in 0..100 {
-            let forces = std::array::from_fn::<_, { BodyPart::ALL.len() }, _>(|_| random.between(0.0, 1e4));
-            let port = std::array::from_fn::<_, { BodyPart::ALL.len() }, _>(|_| random.between(-1.5, 1.5));
+            let forces =
+                std::array::from_fn::<_, { BodyPart::ALL.len() }, _>(|_| random.between(0.0, 1e4));
+            let port =
+                std::array::from_fn::<_, { BodyPart::ALL.len() }, _>(|_| random.between(-1.5, 1.5));
             let input = MotionInput {
                 time_s: f64::from(step) * 0.1,
                 dt_s: random.between(1e-4, 0.05),
@@ -109,7 +133,10 @@ fn swim_gives_the_same_bits_linked_and_loaded() {
             };
             let [one, other] = &mut states;
             let out = linked.step(&attributes, &input, one).unwrap();
-            assert_eq!(output_bits(&out), output_bits(&loaded.step(&attributes, &input, other).unwrap()));
+            assert_eq!(
+                output_bits(&out),
+                output_bits(&loaded.step(&attributes, &input, other).unwrap())
+            );
             assert_eq!(bits(one.iter().copied()), bits(other.iter().copied()));
             speed_m_s = out.speed_m_s;
         }
@@ -120,15 +147,23 @@ fn swim_gives_the_same_bits_linked_and_loaded() {
 /// the same bits over a loaded motion as over a linked one.
 #[test]
 fn acts_give_the_same_bits_over_a_linked_and_a_loaded_swim() {
-    let (library, problems) = Library::read(&Sources::from_folder(&root().join("gear-library")).unwrap());
+    let (library, problems) =
+        Library::read(&Sources::from_folder(&root().join("gear-library")).unwrap());
     assert!(problems.is_empty());
     let clips: Vec<_> = library.acts.iter().flat_map(|act| act.clips.iter().cloned()).collect();
     let answer = Some(Answer { act: 1, above_n: 5.0, again_s: 3.0 });
     let swims: [Arc<dyn WhaleMotion>; 2] = [Arc::new(Swim::new()), loaded().motion(SWIM).unwrap()];
     let [one, other] = swims.map(|swim| Acting::new(swim, clips.clone(), answer));
-    let attributes: Vec<f64> = one.descriptor().attributes.iter().map(|attribute| attribute.default_value().number().unwrap()).collect();
-    let mut states = [vec![0.0; one.descriptor().state_len], vec![0.0; other.descriptor().state_len]];
-    let (mut random, mut asked, mut forces) = (Random(5), Controls::default(), [0.0; BodyPart::ALL.len()]);
+    let attributes: Vec<f64> = one
+        .descriptor()
+        .attributes
+        .iter()
+        .map(|attribute| attribute.default_value().number().unwrap())
+        .collect();
+    let mut states =
+        [vec![0.0; one.descriptor().state_len], vec![0.0; other.descriptor().state_len]];
+    let (mut random, mut asked, mut forces) =
+        (Random(5), Controls::default(), [0.0; BodyPart::ALL.len()]);
     let mut port = forces;
     for step in 0..6000 {
         if step % 70 == 0 {
@@ -150,7 +185,10 @@ fn acts_give_the_same_bits_over_a_linked_and_a_loaded_swim() {
         };
         let [first, second] = &mut states;
         let out = one.step(&attributes, &input, first).unwrap();
-        assert_eq!(output_bits(&out), output_bits(&other.step(&attributes, &input, second).unwrap()));
+        assert_eq!(
+            output_bits(&out),
+            output_bits(&other.step(&attributes, &input, second).unwrap())
+        );
         assert_eq!(bits(first.iter().copied()), bits(second.iter().copied()));
     }
 }
@@ -188,7 +226,9 @@ struct Draw {
 impl Draw {
     fn new(random: &mut Random, state_len: usize) -> Self {
         let count = 0..random.next() % 40;
-        let mut each = |draw: &mut dyn FnMut(&mut Random) -> f64| count.clone().map(|_| draw(random)).collect::<Vec<_>>();
+        let mut each = |draw: &mut dyn FnMut(&mut Random) -> f64| {
+            count.clone().map(|_| draw(random)).collect::<Vec<_>>()
+        };
         let normal_force_n = each(&mut |r| r.between(-50.0, 500.0).max(0.0));
         let length_m = each(&mut |r| r.between(1e-3, 0.03));
         let coefficient = each(&mut |r| r.between(0.0, 1.0));
@@ -198,8 +238,21 @@ impl Draw {
         let grain: Vec<_> = normal.iter().map(|normal| random.tangent(*normal)).collect();
         let along = normal.iter().map(|normal| random.tangent(*normal)).collect();
         let slip_m = count.clone().map(|_| random.vector(1e-4)).collect();
-        let state = count.flat_map(|_| (0..state_len).map(|_| random.between(-2e-5, 2e-5)).collect::<Vec<_>>()).collect();
-        Self { normal_force_n, normal, grain, along, slip_m, length_m, coefficient, region, rope, state }
+        let state = count
+            .flat_map(|_| (0..state_len).map(|_| random.between(-2e-5, 2e-5)).collect::<Vec<_>>())
+            .collect();
+        Self {
+            normal_force_n,
+            normal,
+            grain,
+            along,
+            slip_m,
+            length_m,
+            coefficient,
+            region,
+            rope,
+            state,
+        }
     }
 
     fn contacts(&self) -> Contacts<'_> {
@@ -220,7 +273,9 @@ impl Draw {
 }
 
 fn response_bits(answers: &[FrictionResponse]) -> Vec<u64> {
-    let flat = |a: &FrictionResponse| a.force_n.into_iter().chain(a.by_slip.into_iter().flatten()).chain(a.by_normal_force);
+    let flat = |a: &FrictionResponse| {
+        a.force_n.into_iter().chain(a.by_slip.into_iter().flatten()).chain(a.by_normal_force)
+    };
     bits(answers.iter().flat_map(flat))
 }
 
@@ -241,8 +296,18 @@ fn every_friction_model_gives_the_same_bits_linked_and_loaded() {
                 let mut out = vec![0.0; draw.state.len()];
                 model.advance(&attributes, &contacts, &mut out).map(|()| bits(out))
             };
-            assert_eq!(respond(linked.as_ref()).unwrap(), respond(loaded.as_ref()).unwrap(), "{}", descriptor.id);
-            assert_eq!(advance(linked.as_ref()).unwrap(), advance(loaded.as_ref()).unwrap(), "{}", descriptor.id);
+            assert_eq!(
+                respond(linked.as_ref()).unwrap(),
+                respond(loaded.as_ref()).unwrap(),
+                "{}",
+                descriptor.id
+            );
+            assert_eq!(
+                advance(linked.as_ref()).unwrap(),
+                advance(loaded.as_ref()).unwrap(),
+                "{}",
+                descriptor.id
+            );
         }
     }
 }
@@ -291,11 +356,17 @@ fn every_gear_type_acts_the_same_linked_and_loaded() {
         let (descriptor, mut random) = (linked.descriptor(), Random(4));
         let loaded = host.gear(&descriptor.id).unwrap();
         let values: Vec<_> = descriptor.attributes.iter().map(Attribute::default_value).collect();
-        let lines = linked.build(&values, &Site { depth_m: 30.0, current_m_s: [0.2, 0.0] }).unwrap().lines.len();
+        let lines = linked
+            .build(&values, &Site { depth_m: 30.0, current_m_s: [0.2, 0.0] })
+            .unwrap()
+            .lines
+            .len();
         let mut states = [vec![0.0; descriptor.state_len], vec![0.0; descriptor.state_len]];
         for step in 0..400 {
             let least = if step % 100 < 20 { 0.0 } else { 3000.0 };
-            let tensions: Vec<_> = (0..lines).map(|_| [random.between(least, 5000.0), random.between(least, 5000.0)]).collect();
+            let tensions: Vec<_> = (0..lines)
+                .map(|_| [random.between(least, 5000.0), random.between(least, 5000.0)])
+                .collect();
             let input = GearStep { time_s: f64::from(step), dt_s: 1.0, end_tension_n: &tensions };
             let (mut asked, mut other) = (Vec::new(), Vec::new());
             linked.step(&values, &input, &mut states[0], &mut asked).unwrap();
@@ -312,7 +383,8 @@ fn every_gear_type_acts_the_same_linked_and_loaded() {
 #[test]
 fn a_loaded_plugin_serves_several_threads() {
     let gear: Arc<dyn GearType> = loaded().gear(SINGLE).unwrap();
-    let values: Vec<_> = gear.descriptor().attributes.iter().map(Attribute::default_value).collect();
+    let values: Vec<_> =
+        gear.descriptor().attributes.iter().map(Attribute::default_value).collect();
     let site = Site { depth_m: 30.0, current_m_s: [0.3, 0.1] };
     let alone = Single::new().build(&values, &site).unwrap();
     std::thread::scope(|scope| {
@@ -320,7 +392,8 @@ fn a_loaded_plugin_serves_several_threads() {
             scope.spawn(|| {
                 for _ in 0..200 {
                     assert_eq!(gear.build(&values, &site).unwrap(), alone);
-                    let step = GearStep { time_s: 0.0, dt_s: 0.01, end_tension_n: &[[1.0, 2.0]; 2] };
+                    let step =
+                        GearStep { time_s: 0.0, dt_s: 0.01, end_tension_n: &[[1.0, 2.0]; 2] };
                     gear.step(&values, &step, &mut [], &mut Vec::new()).unwrap();
                 }
             });

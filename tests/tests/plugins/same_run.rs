@@ -16,14 +16,20 @@ const STEPS: usize = 25;
 
 fn scenarios() -> Vec<PathBuf> {
     let folder = fs::read_dir(root().join("scenarios")).unwrap();
-    let mut files: Vec<PathBuf> = folder.map(|entry| entry.unwrap().path()).filter(|path| path.is_file()).collect();
+    let mut files: Vec<PathBuf> =
+        folder.map(|entry| entry.unwrap().path()).filter(|path| path.is_file()).collect();
     files.sort();
     files
 }
 
 /// A run of so many steps: its end as the hash that recordings keep, or what stopped it; and whether rope touched the whale. A whale
 /// that no rope touches so soon is set with its snout before the rope.
-fn run(library: &Library, text: &str, hooks: &dyn Hooks, steps: usize) -> (Result<String, String>, bool) {
+fn run(
+    library: &Library,
+    text: &str,
+    hooks: &dyn Hooks,
+    steps: usize,
+) -> (Result<String, String>, bool) {
     let first = match model(library, text, hooks, None) {
         Ok(model) => model,
         Err(told) => return (Err(told), false),
@@ -38,7 +44,8 @@ fn run(library: &Library, text: &str, hooks: &dyn Hooks, steps: usize) -> (Resul
 }
 
 fn walk(model: &Model, steps: usize) -> (Result<String, String>, bool) {
-    let (mut state, mut workspace, input) = (State::start(model), Workspace::new(model), Input::default());
+    let (mut state, mut workspace, input) =
+        (State::start(model), Workspace::new(model), Input::default());
     let mut touched = false;
     for _ in 0..steps {
         if let Err(stop) = step(model, &input, &mut state, &mut workspace) {
@@ -50,17 +57,26 @@ fn walk(model: &Model, steps: usize) -> (Result<String, String>, bool) {
 }
 
 /// The scenario's model; the whale just short of the rope where that is given.
-fn model(library: &Library, text: &str, hooks: &dyn Hooks, rope: Option<&[DVec3]>) -> Result<Model, String> {
+fn model(
+    library: &Library,
+    text: &str,
+    hooks: &dyn Hooks,
+    rope: Option<&[DVec3]>,
+) -> Result<Model, String> {
     let scenario = Scenario::read("test.toml", text).map_err(|problems| format!("{problems:?}"))?;
-    let options = Options { rope_nodes: scenario.rope_nodes.as_ref().map(|_| 80), ..Options::default() };
-    let spec = assemble(&scenario, library, hooks, &options).or_else(|_| assemble(&scenario, library, hooks, &Options::default()));
+    let options =
+        Options { rope_nodes: scenario.rope_nodes.as_ref().map(|_| 80), ..Options::default() };
+    let spec = assemble(&scenario, library, hooks, &options)
+        .or_else(|_| assemble(&scenario, library, hooks, &Options::default()));
     let mut spec = spec.map_err(|problems| format!("{problems:?}"))?;
     if let (Some(whale), Some(rope)) = (&mut spec.whale, rope) {
         let ahead = whale.orientation * DVec3::X;
         let least = rope.iter().map(|node| node.dot(ahead)).fold(f64::INFINITY, f64::min);
         // The hindmost of the rope on the whale's way, as far from its ends as can be.
         let hindmost = (0..rope.len()).filter(|index| rope[*index].dot(ahead) < least + 0.05);
-        let node = hindmost.min_by_key(|index| index.abs_diff(rope.len() / 2)).map_or(DVec3::ZERO, |index| rope[index]);
+        let node = hindmost
+            .min_by_key(|index| index.abs_diff(rope.len() / 2))
+            .map_or(DVec3::ZERO, |index| rope[index]);
         let snout = whale.skin.vertices.iter().copied().max_by(|a, b| a.x.total_cmp(&b.x)).unwrap();
         whale.position_m = node - whale.orientation * snout - 0.08 * ahead;
     }
@@ -76,7 +92,8 @@ fn every_bundled_scenario_runs_to_the_same_hash_linked_and_loaded() {
         if !text.contains("[whale]") && !text.contains("[[gear]]") {
             continue;
         }
-        let (one, other) = (run(&library, &text, &Linked, STEPS), run(&library, &text, &loaded, STEPS));
+        let (one, other) =
+            (run(&library, &text, &Linked, STEPS), run(&library, &text, &loaded, STEPS));
         assert_eq!(one, other, "{}", path.display());
         ran += usize::from(one.0.is_ok());
         met += usize::from(one.1);

@@ -10,8 +10,11 @@ use endline_tests::root;
 
 use crate::built::{first_party_file, folder};
 
-const KINDS: [(PluginKind, &str); 3] =
-    [(PluginKind::Motion, "my-motion"), (PluginKind::Friction, "my-friction"), (PluginKind::Gear, "my-gear")];
+const KINDS: [(PluginKind, &str); 3] = [
+    (PluginKind::Motion, "my-motion"),
+    (PluginKind::Friction, "my-friction"),
+    (PluginKind::Gear, "my-gear"),
+];
 
 fn written(place: &Path, kind: PluginKind, name: &str, language: Language) -> Project {
     write_project(&place.join(name), kind, language, Some(&root().join("plugins/sdk"))).unwrap()
@@ -21,7 +24,10 @@ fn written(place: &Path, kind: PluginKind, name: &str, language: Language) -> Pr
 fn build(project: &Project) {
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("plugin-templates");
     let mut command = Command::new(&project.build[0]);
-    command.args(&project.build[1..]).env("CARGO_TARGET_DIR", &target).env("CFLAGS", "-std=c99 -Wall -Wextra -Wpedantic -Werror");
+    command
+        .args(&project.build[1..])
+        .env("CARGO_TARGET_DIR", &target)
+        .env("CFLAGS", "-std=c99 -Wall -Wextra -Wpedantic -Werror");
     let output = command.output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     if project.build[0] == "cargo" {
@@ -56,7 +62,11 @@ fn a_project_of_each_kind_in_c_builds_and_passes() {
         }
     }
     let motion = fs::read_to_string(place.join("my-motion/plugin.c")).unwrap();
-    assert!(motion.lines().count() < 60, "the smallest motion has {} lines", motion.lines().count());
+    assert!(
+        motion.lines().count() < 60,
+        "the smallest motion has {} lines",
+        motion.lines().count()
+    );
 }
 
 #[test]
@@ -68,7 +78,11 @@ fn a_project_of_each_kind_in_rust_builds_and_passes() {
         passes(&project, &OF_ALL);
     }
     let motion = fs::read_to_string(place.join("my-motion/src/lib.rs")).unwrap();
-    assert!(motion.lines().count() < 60, "the smallest motion has {} lines", motion.lines().count());
+    assert!(
+        motion.lines().count() < 60,
+        "the smallest motion has {} lines",
+        motion.lines().count()
+    );
 }
 
 #[test]
@@ -86,8 +100,10 @@ fn every_plugin_that_ships_passes() {
 #[test]
 fn what_cannot_be_written_is_told() {
     let place = folder("templates-refused");
-    let refused =
-        |name: &str, sdk: &str| write_project(&place.join(name), PluginKind::Motion, Language::Rust, Some(Path::new(sdk))).unwrap_err();
+    let refused = |name: &str, sdk: &str| {
+        write_project(&place.join(name), PluginKind::Motion, Language::Rust, Some(Path::new(sdk)))
+            .unwrap_err()
+    };
     assert!(refused("My Motion", "").contains("small letters"));
     assert!(refused("mine", "/nowhere").contains("/nowhere is not the folder of endline-sdk"));
     fs::create_dir(place.join("there")).unwrap();

@@ -5,7 +5,9 @@ use std::path::Path;
 
 use endline_gear::{Library, Options, Scenario, Sources, assemble};
 use endline_sdk::{Attribute, RigEnd, Site};
-use endline_session::plugins::{Language, PluginHost, PluginKind, Project, try_here, write_project};
+use endline_session::plugins::{
+    Language, PluginHost, PluginKind, Project, try_here, write_project,
+};
 
 use crate::built::folder;
 use crate::linked::root;
@@ -36,13 +38,21 @@ fn a_gear_type_as_text_passes_the_check_and_builds_what_its_expressions_say() {
 
     let host = discovered(&place);
     let gear = host.gear(GEAR).unwrap();
-    let values: Vec<_> = gear.descriptor().attributes.iter().map(Attribute::default_value).collect();
+    let values: Vec<_> =
+        gear.descriptor().attributes.iter().map(Attribute::default_value).collect();
     let rig = gear.build(&values, &Site { depth_m: 20.0, current_m_s: [0.0; 2] }).unwrap();
     let spacing_m = 20.0 * 1.8288;
     let ids: Vec<&str> = rig.bodies.iter().map(|body| body.id.as_str()).collect();
     assert_eq!(ids, ["trap-1", "trap-2", "trap-3", "buoy"]);
-    assert!((rig.bodies[2].position_m[0] - 2.0 * 0.98 * spacing_m).abs() < 1e-9, "{:?}", rig.bodies[2]);
-    assert!((rig.bodies[2].position_m[2] + 20.0).abs() < 1e-12 && rig.bodies[3].position_m[2].abs() < 1e-12);
+    assert!(
+        (rig.bodies[2].position_m[0] - 2.0 * 0.98 * spacing_m).abs() < 1e-9,
+        "{:?}",
+        rig.bodies[2]
+    );
+    assert!(
+        (rig.bodies[2].position_m[2] + 20.0).abs() < 1e-12
+            && rig.bodies[3].position_m[2].abs() < 1e-12
+    );
     let lengths: Vec<f64> = rig.lines.iter().map(|line| line.length_m).collect();
     for (length, expected) in lengths.iter().zip([spacing_m, spacing_m, 28.0]) {
         assert!((length - expected).abs() < 1e-9, "{lengths:?}");
@@ -58,7 +68,8 @@ fn a_change_of_the_text_changes_its_hash() {
     let hash = || discovered(&place).list()[0].hash.clone().unwrap();
     let before = hash();
     let file = project.library.join("gear-types/simple.toml");
-    fs::write(&file, fs::read_to_string(&file).unwrap().replace("default = 1.4", "default = 1.5")).unwrap();
+    fs::write(&file, fs::read_to_string(&file).unwrap().replace("default = 1.4", "default = 1.5"))
+        .unwrap();
     assert_ne!(hash(), before);
 }
 
@@ -69,8 +80,16 @@ fn what_is_wrong_in_a_text_is_told_with_its_place() {
     let file = project.library.join("gear-types/simple.toml");
     let good = fs::read_to_string(&file).unwrap();
     for (old, new, told) in [
-        ("length = \"scope * depth\"", "length = \"scope\"", "this is a pure number; expected a length"),
-        ("length = \"scope * depth\"", "length = \"scop * depth\"", "nothing is called `scop` here"),
+        (
+            "length = \"scope * depth\"",
+            "length = \"scope\"",
+            "this is a pure number; expected a length",
+        ),
+        (
+            "length = \"scope * depth\"",
+            "length = \"scop * depth\"",
+            "nothing is called `scop` here",
+        ),
         ("rope = \"{rope}\"", "rope = \"{rop}\"", "nothing is called `rop` here"),
         ("key = \"spacing\"", "key = \"depth\"", "`depth` cannot be the key of an attribute"),
         ("default = 3\n", "default = 90\n", "the default lies outside the range"),
@@ -82,14 +101,19 @@ fn what_is_wrong_in_a_text_is_told_with_its_place() {
         fs::write(&file, &bad).unwrap();
         let problem = try_here(&project.library, &|_, _| ()).unwrap_err();
         let line = 1 + bad.lines().position(|line| line.contains(new.trim_end())).unwrap();
-        assert!(problem.contains(told) && problem.contains(&format!("gear-types/simple.toml:{line}:")), "{new}: {problem}");
+        assert!(
+            problem.contains(told) && problem.contains(&format!("gear-types/simple.toml:{line}:")),
+            "{new}: {problem}"
+        );
         let (host, problems) = PluginHost::discover(std::slice::from_ref(&place));
         assert!(host.list().is_empty() && problems.len() == 1, "left out, and the program goes on");
     }
     // A row that the attributes make endless ends with a message.
-    fs::write(&file, good.replace("repeat = \"traps - 1\"", "repeat = \"1 / (traps - traps)\"")).unwrap();
+    fs::write(&file, good.replace("repeat = \"traps - 1\"", "repeat = \"1 / (traps - traps)\""))
+        .unwrap();
     let gear = discovered(&place).gear(GEAR).unwrap();
-    let values: Vec<_> = gear.descriptor().attributes.iter().map(Attribute::default_value).collect();
+    let values: Vec<_> =
+        gear.descriptor().attributes.iter().map(Attribute::default_value).collect();
     let error = gear.build(&values, &Site { depth_m: 20.0, current_m_s: [0.0; 2] }).unwrap_err();
     assert!(error.message.contains("`repeat` of `groundline-1` comes to inf"), "{error}");
 }
@@ -98,7 +122,13 @@ fn what_is_wrong_in_a_text_is_told_with_its_place() {
 fn motion_clips_of_a_folder_are_acts_of_every_whale() {
     let place = folder("text-clips");
     let project = written(&place, PluginKind::Motion, "my-clips");
-    assert!(try_here(&project.library, &|_, _| ()).unwrap()[0].info.acts.iter().any(|act| act.id == "bend"));
+    assert!(
+        try_here(&project.library, &|_, _| ()).unwrap()[0]
+            .info
+            .acts
+            .iter()
+            .any(|act| act.id == "bend")
+    );
     let host = discovered(&place);
     assert_eq!((host.list()[0].kind, host.ids().len()), (PluginKind::Clips, 0));
 
@@ -106,14 +136,29 @@ fn motion_clips_of_a_folder_are_acts_of_every_whale() {
     let (library, problems) = Library::read(&sources);
     assert!(problems.is_empty(), "{problems:?}");
     let text = fs::read_to_string(root().join("scenarios/hello-endline.toml")).unwrap();
-    let scenario = Scenario::read("test.toml", &text.replace("motion =", "acts = [\"bend\"]\nmotion =")).unwrap();
-    let spec = assemble(&scenario, &library, &loaded(), &Options { rope_nodes: Some(80), ..Options::default() }).unwrap();
-    let acts: Vec<_> = spec.whale.unwrap().motion.descriptor().acts.iter().map(|act| act.id.to_string()).collect();
+    let scenario =
+        Scenario::read("test.toml", &text.replace("motion =", "acts = [\"bend\"]\nmotion ="))
+            .unwrap();
+    let spec = assemble(
+        &scenario,
+        &library,
+        &loaded(),
+        &Options { rope_nodes: Some(80), ..Options::default() },
+    )
+    .unwrap();
+    let acts: Vec<_> =
+        spec.whale.unwrap().motion.descriptor().acts.iter().map(|act| act.id.to_string()).collect();
     assert_eq!(acts, ["bend"]);
 }
 
 #[test]
 fn friction_without_code_is_refused() {
-    let refused = write_project(&folder("text-friction").join("mine"), PluginKind::Friction, Language::Text, None).unwrap_err();
+    let refused = write_project(
+        &folder("text-friction").join("mine"),
+        PluginKind::Friction,
+        Language::Text,
+        None,
+    )
+    .unwrap_err();
     assert!(refused.contains("needs code"), "{refused}");
 }

@@ -14,21 +14,46 @@ struct Wall {
     outside: Option<&'static [&'static str]>,
 }
 
-const PLUGINS: [&str; 3] = ["endline-friction-models", "endline-gear-types", "endline-whale-motions"];
+const PLUGINS: [&str; 3] =
+    ["endline-friction-models", "endline-gear-types", "endline-whale-motions"];
 
 const WALLS: [Wall; 8] = [
     Wall { folder: "plugins/sdk", ours: &[], outside: Some(&[]) },
     Wall { folder: "plugins/friction-models", ours: &["endline-sdk"], outside: Some(&["libm"]) },
     Wall { folder: "plugins/gear-types", ours: &["endline-sdk"], outside: Some(&["libm"]) },
     Wall { folder: "plugins/whale-motions", ours: &["endline-sdk"], outside: Some(&["libm"]) },
-    Wall { folder: "app/sim", ours: &["endline-sdk"], outside: Some(&["glam", "libm", "parry3d", "pulp", "rapier3d"]) },
+    Wall {
+        folder: "app/sim",
+        ours: &["endline-sdk"],
+        outside: Some(&["glam", "libm", "parry3d", "pulp", "rapier3d"]),
+    },
     Wall {
         folder: "gear-library",
         ours: &["endline-sdk", "endline-sim"],
-        outside: Some(&["base64", "blake3", "csv", "glam", "gltf", "libm", "serde", "serde_json", "strsim", "toml", "toml_edit"]),
+        outside: Some(&[
+            "base64",
+            "blake3",
+            "csv",
+            "glam",
+            "gltf",
+            "libm",
+            "serde",
+            "serde_json",
+            "strsim",
+            "toml",
+            "toml_edit",
+        ]),
     },
-    Wall { folder: "app/session", ours: &["endline-sdk", "endline-sim", "endline-gear"], outside: None },
-    Wall { folder: "app/workbench", ours: &["endline-sdk", "endline-sim", "endline-gear", "endline-session"], outside: None },
+    Wall {
+        folder: "app/session",
+        ours: &["endline-sdk", "endline-sim", "endline-gear"],
+        outside: None,
+    },
+    Wall {
+        folder: "app/workbench",
+        ours: &["endline-sdk", "endline-sim", "endline-gear", "endline-session"],
+        outside: None,
+    },
 ];
 
 /// Outside crates that only one of ours may use, and why.
@@ -48,9 +73,16 @@ const KEPT_TO: [(&str, &str, &str); 11] = [
 
 /// Keys of every table of this kind in a manifest, target-specific ones too.
 fn dependencies(manifest: &toml::Table, kind: &str) -> BTreeSet<String> {
-    let targets = manifest.get("target").and_then(toml::Value::as_table).into_iter().flat_map(|targets| targets.values());
+    let targets = manifest
+        .get("target")
+        .and_then(toml::Value::as_table)
+        .into_iter()
+        .flat_map(|targets| targets.values());
     let tables = targets.filter_map(toml::Value::as_table).chain([manifest]);
-    tables.filter_map(|table| table.get(kind)?.as_table()).flat_map(|table| table.keys().cloned()).collect()
+    tables
+        .filter_map(|table| table.get(kind)?.as_table())
+        .flat_map(|table| table.keys().cloned())
+        .collect()
 }
 
 /// Manifests of all members, by folder.
@@ -80,9 +112,15 @@ fn each_crate_knows_only_what_it_may() {
             }
         }
         // Tests of a crate may also link plugins, which know the sdk alone; nothing above the crate.
-        for name in dependencies(&manifest, "dev-dependencies").iter().filter(|name| name.starts_with("endline")) {
+        for name in dependencies(&manifest, "dev-dependencies")
+            .iter()
+            .filter(|name| name.starts_with("endline"))
+        {
             if !wall.ours.contains(&name.as_str()) && !PLUGINS.contains(&name.as_str()) {
-                complaints.push(format!("{} must not depend on {name}, not even in its tests", wall.folder));
+                complaints.push(format!(
+                    "{} must not depend on {name}, not even in its tests",
+                    wall.folder
+                ));
             }
         }
     }
@@ -91,7 +129,8 @@ fn each_crate_knows_only_what_it_may() {
 
 #[test]
 fn every_member_is_walled() {
-    let walled: BTreeSet<&str> = WALLS.iter().map(|wall| wall.folder).chain(["app/xtask", "tests"]).collect();
+    let walled: BTreeSet<&str> =
+        WALLS.iter().map(|wall| wall.folder).chain(["app/xtask", "tests"]).collect();
     let members = members();
     let members: BTreeSet<&str> = members.iter().map(|(folder, _)| folder.as_str()).collect();
     assert_eq!(members, walled, "a new crate needs its line in WALLS");
@@ -102,7 +141,9 @@ fn outside_crates_stay_where_they_belong() {
     let mut complaints = Vec::new();
     for (folder, manifest) in members() {
         let used = dependencies(&manifest, "dependencies");
-        for (name, home, reason) in KEPT_TO.iter().filter(|(name, home, _)| used.contains(*name) && folder != *home) {
+        for (name, home, reason) in
+            KEPT_TO.iter().filter(|(name, home, _)| used.contains(*name) && folder != *home)
+        {
             complaints.push(format!("{folder} depends on {name}: {reason} ({home})"));
         }
     }
@@ -112,23 +153,35 @@ fn outside_crates_stay_where_they_belong() {
 #[test]
 fn xtask_compiles_from_the_standard_library_alone() {
     let manifest = toml_file("app/xtask/Cargo.toml");
-    assert_eq!(dependencies(&manifest, "dependencies"), BTreeSet::new(), "xtask is the first thing a newcomer compiles");
+    assert_eq!(
+        dependencies(&manifest, "dependencies"),
+        BTreeSet::new(),
+        "xtask is the first thing a newcomer compiles"
+    );
 }
 
 #[test]
 fn members_share_lints_and_licence() {
     let mut complaints = Vec::new();
     for (folder, manifest) in members() {
-        let shares = |table: &str, key: &str| manifest.get(table).and_then(|table| table.get(key)).is_some();
+        let shares =
+            |table: &str, key: &str| manifest.get(table).and_then(|table| table.get(key)).is_some();
         if !shares("lints", "workspace") {
             complaints.push(format!("{folder} lacks `[lints] workspace = true`"));
         }
-        if manifest["package"]["license"].as_table().is_none_or(|license| !license.contains_key("workspace")) {
+        if manifest["package"]["license"]
+            .as_table()
+            .is_none_or(|license| !license.contains_key("workspace"))
+        {
             complaints.push(format!("{folder} lacks `license.workspace = true`"));
         }
-        for (name, value) in manifest.get("dependencies").and_then(toml::Value::as_table).into_iter().flatten() {
+        for (name, value) in
+            manifest.get("dependencies").and_then(toml::Value::as_table).into_iter().flatten()
+        {
             if value.as_table().is_none_or(|value| !value.contains_key("workspace")) {
-                complaints.push(format!("{folder}: the version of {name} belongs in [workspace.dependencies]"));
+                complaints.push(format!(
+                    "{folder}: the version of {name} belongs in [workspace.dependencies]"
+                ));
             }
         }
     }
@@ -137,31 +190,58 @@ fn members_share_lints_and_licence() {
 
 #[test]
 fn plugins_are_libraries_whose_entry_is_off_by_default() {
-    let chore = std::fs::read_to_string(endline_tests::root().join("app/xtask/src/plugins.rs")).expect("xtask builds the plugins");
-    for (folder, manifest) in members().iter().filter(|(folder, _)| folder.starts_with("plugins/") && folder != "plugins/sdk") {
+    let chore = std::fs::read_to_string(endline_tests::root().join("app/xtask/src/plugins.rs"))
+        .expect("xtask builds the plugins");
+    for (folder, manifest) in members()
+        .iter()
+        .filter(|(folder, _)| folder.starts_with("plugins/") && folder != "plugins/sdk")
+    {
         let kinds = manifest["lib"]["crate-type"].as_array().expect("crate-type");
         let kinds: Vec<&str> = kinds.iter().filter_map(toml::Value::as_str).collect();
-        assert_eq!(kinds, ["cdylib", "rlib"], "{folder}: loaded like anyone's plugin, and linked in tests");
+        assert_eq!(
+            kinds,
+            ["cdylib", "rlib"],
+            "{folder}: loaded like anyone's plugin, and linked in tests"
+        );
         let features = manifest["features"].as_table().expect("features");
-        assert!(features.contains_key("entry"), "{folder}: the exported symbol stands behind the feature `entry`");
+        assert!(
+            features.contains_key("entry"),
+            "{folder}: the exported symbol stands behind the feature `entry`"
+        );
         let default = features.get("default").and_then(toml::Value::as_array);
-        assert!(default.is_none_or(Vec::is_empty), "{folder}: off by default, so that plugins link side by side");
+        assert!(
+            default.is_none_or(Vec::is_empty),
+            "{folder}: off by default, so that plugins link side by side"
+        );
         let name = manifest["package"]["name"].as_str().expect("a name");
-        assert!(chore.contains(&format!("\"{name}\"")), "{folder}: app/xtask/src/plugins.rs does not build {name}");
+        assert!(
+            chore.contains(&format!("\"{name}\"")),
+            "{folder}: app/xtask/src/plugins.rs does not build {name}"
+        );
     }
 }
 
 #[test]
 fn sim_and_plugins_repeat_the_lint_settings_of_the_house() {
     // Clippy reads the nearest clippy.toml only.
-    let (house, sim, plugins) = (toml_file("clippy.toml"), toml_file("app/sim/clippy.toml"), toml_file("plugins/clippy.toml"));
+    let (house, sim, plugins) = (
+        toml_file("clippy.toml"),
+        toml_file("app/sim/clippy.toml"),
+        toml_file("plugins/clippy.toml"),
+    );
     for (key, value) in &house {
         assert_eq!(sim.get(key), Some(value), "app/sim/clippy.toml must repeat {key}");
         assert_eq!(plugins.get(key), Some(value), "plugins/clippy.toml must repeat {key}");
     }
     let banned = |file: &toml::Table| {
         let methods = file["disallowed-methods"].as_array().expect("a list").iter();
-        methods.map(|method| method["path"].as_str().expect("a path").to_owned()).collect::<BTreeSet<_>>()
+        methods
+            .map(|method| method["path"].as_str().expect("a path").to_owned())
+            .collect::<BTreeSet<_>>()
     };
-    assert_eq!(banned(&sim), banned(&plugins), "a plugin is part of the physics: it may call no more than sim does");
+    assert_eq!(
+        banned(&sim),
+        banned(&plugins),
+        "a plugin is part of the physics: it may call no more than sim does"
+    );
 }

@@ -1,6 +1,10 @@
 //! The rules of the house that no compiler holds; docs/ARCHITECTURE.md says why they are there.
 
-#![allow(clippy::expect_used, clippy::panic, reason = "a test fails by panicking, in its helpers too")]
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking, in its helpers too"
+)]
 
 mod arrows;
 mod documents;
@@ -19,10 +23,13 @@ struct Source {
 fn sources(endings: &[&str]) -> Vec<Source> {
     let root = endline_tests::root();
     let files = endline_tests::files_below(root).expect("the workspace can be read");
-    let ours = files.iter().filter(|file| endings.iter().any(|ending| file.to_string_lossy().ends_with(ending)));
+    let ours = files
+        .iter()
+        .filter(|file| endings.iter().any(|ending| file.to_string_lossy().ends_with(ending)));
     ours.map(|file| Source {
         path: relative(file, root),
-        text: std::fs::read_to_string(file).unwrap_or_else(|error| panic!("{}: {error}", file.display())),
+        text: std::fs::read_to_string(file)
+            .unwrap_or_else(|error| panic!("{}: {error}", file.display())),
     })
     .collect()
 }

@@ -30,38 +30,55 @@ const TOP: [&str; 16] = [
 
 /// Where unsafe code may stand, in one file each: the two sides of the boundary to plugins, and the
 /// place where the system is asked for OpenGL without a display (its EGL is a C library).
-const UNSAFE: [&str; 3] = ["app/session/src/plugins/", "plugins/sdk/src/abi/", "app/workbench/src/scene/offscreen.rs"];
+const UNSAFE: [&str; 3] =
+    ["app/session/src/plugins/", "plugins/sdk/src/abi/", "app/workbench/src/scene/offscreen.rs"];
 
 #[test]
 fn source_files_are_short() {
-    let lengths: Vec<(usize, String)> = sources(&[".rs"]).into_iter().map(|source| (source.text.lines().count(), source.path)).collect();
+    let lengths: Vec<(usize, String)> = sources(&[".rs"])
+        .into_iter()
+        .map(|source| (source.text.lines().count(), source.path))
+        .collect();
     for (lines, path) in lengths.iter().filter(|(lines, _)| *lines > LONG) {
         println!("{lines} lines: {path}");
     }
     let too_long = lengths.iter().filter(|(lines, _)| *lines > LONGEST);
-    none(&too_long.map(|(lines, path)| format!("{path}: {lines}")).collect::<Vec<_>>(), "source files over 600 lines");
+    none(
+        &too_long.map(|(lines, path)| format!("{path}: {lines}")).collect::<Vec<_>>(),
+        "source files over 600 lines",
+    );
 }
 
 #[test]
 fn the_top_of_the_workspace_holds_only_what_it_should() {
     let entries = std::fs::read_dir(endline_tests::root()).expect("the workspace can be read");
-    let names = entries.map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned());
-    let strays: Vec<String> = names.filter(|name| !name.starts_with('.') && !TOP.contains(&name.as_str())).collect();
+    let names =
+        entries.map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned());
+    let strays: Vec<String> =
+        names.filter(|name| !name.starts_with('.') && !TOP.contains(&name.as_str())).collect();
     none(&strays, "these do not belong at the top of the workspace");
 }
 
 #[test]
 fn unsafe_code_stands_at_the_boundaries_to_c_only() {
     let lints = crate::toml_file("Cargo.toml");
-    assert_eq!(lints["workspace"]["lints"]["rust"]["unsafe_code"].as_str(), Some("deny"), "so that each exception must be written down");
+    assert_eq!(
+        lints["workspace"]["lints"]["rust"]["unsafe_code"].as_str(),
+        Some("deny"),
+        "so that each exception must be written down"
+    );
     // An exception names the lint; this file does, too, to look for it.
-    let exceptions =
-        sources(&[".rs"]).into_iter().filter(|source| source.text.contains("(unsafe_code") && !source.path.starts_with("tests/"));
+    let exceptions = sources(&[".rs"]).into_iter().filter(|source| {
+        source.text.contains("(unsafe_code") && !source.path.starts_with("tests/")
+    });
     let files: Vec<String> = exceptions.map(|source| source.path).collect();
     let strays = files.iter().filter(|path| !UNSAFE.iter().any(|folder| path.starts_with(folder)));
     none(&strays.cloned().collect::<Vec<_>>(), "unsafe code outside the boundaries to C");
     for folder in UNSAFE {
-        assert!(files.iter().filter(|path| path.starts_with(folder)).count() <= 1, "unsafe code in more than one file of {folder}");
+        assert!(
+            files.iter().filter(|path| path.starts_with(folder)).count() <= 1,
+            "unsafe code in more than one file of {folder}"
+        );
     }
 }
 
@@ -71,8 +88,14 @@ fn no_file_names_a_place_on_someones_machine() {
     let mut complaints = Vec::new();
     for source in sources(&[".rs", ".toml", ".md", ".c", ".h", ".wgsl", ".glsl", ".ci/run"]) {
         for (number, line) in source.text.lines().enumerate() {
-            let starts_path = |at: usize| !line[..at].ends_with(|before: char| before.is_alphanumeric() || "._-/}>".contains(before));
-            if folders.iter().any(|folder| line.match_indices(folder.as_str()).any(|(at, _)| starts_path(at))) {
+            let starts_path = |at: usize| {
+                !line[..at]
+                    .ends_with(|before: char| before.is_alphanumeric() || "._-/}>".contains(before))
+            };
+            if folders
+                .iter()
+                .any(|folder| line.match_indices(folder.as_str()).any(|(at, _)| starts_path(at)))
+            {
                 complaints.push(format!("{}:{}: {}", source.path, number + 1, line.trim()));
             }
         }
@@ -87,7 +110,9 @@ fn nothing_is_left_for_later() {
     let mut complaints = Vec::new();
     for source in sources(&[".rs", ".toml", ".md"]) {
         for (number, line) in source.text.lines().enumerate() {
-            if marks.iter().any(|mark| has_word(line, mark)) || switches.iter().any(|switch| line.contains(switch)) {
+            if marks.iter().any(|mark| has_word(line, mark))
+                || switches.iter().any(|switch| line.contains(switch))
+            {
                 complaints.push(format!("{}:{}: {}", source.path, number + 1, line.trim()));
             }
         }
@@ -97,7 +122,10 @@ fn nothing_is_left_for_later() {
 
 #[test]
 fn gear_files_are_whole_text_files() {
-    let files: Vec<_> = sources(&[".toml"]).into_iter().filter(|file| file.path.starts_with("gear-library/")).collect();
+    let files: Vec<_> = sources(&[".toml"])
+        .into_iter()
+        .filter(|file| file.path.starts_with("gear-library/"))
+        .collect();
     let mut complaints = Vec::new();
     for file in &files {
         if let Err(error) = file.text.parse::<toml::Table>() {
@@ -116,5 +144,7 @@ fn gear_files_are_whole_text_files() {
 /// Whether a line holds this word by itself, not inside a longer one.
 fn has_word(line: &str, word: &str) -> bool {
     let is_inside = |letter: char| letter.is_alphanumeric() || letter == '_';
-    line.match_indices(word).any(|(at, _)| !line[..at].ends_with(is_inside) && !line[at + word.len()..].starts_with(is_inside))
+    line.match_indices(word).any(|(at, _)| {
+        !line[..at].ends_with(is_inside) && !line[at + word.len()..].starts_with(is_inside)
+    })
 }

@@ -21,7 +21,11 @@ pub(super) fn of(scale: &Scale<'_>, case: &Case, base: &Observed) -> Result<Vec<
             }
             let probe = scale.probe(&name.value);
             let expected = if of_table(&check.measure) {
-                base.times_s.iter().zip(scale.column(&name.value)?).map(|(time, reading)| [*time, reading]).collect()
+                base.times_s
+                    .iter()
+                    .zip(scale.column(&name.value)?)
+                    .map(|(time, reading)| [*time, reading])
+                    .collect()
             } else {
                 expected(check, &base.times_s, &base.samples[probe])
             };
@@ -42,7 +46,9 @@ fn expected(check: &Check, times_s: &[f64], readings: &[f64]) -> Vec<[f64; 2]> {
     let Some(end_s) = times_s.last().copied() else { return Vec::new() };
     match check.measure {
         Measure::Value(_, expected) => vec![[end_s, expected]],
-        Measure::Mean { from_s, over, expected, .. } => vec![[from_s, over * expected], [end_s, over * expected]],
+        Measure::Mean { from_s, over, expected, .. } => {
+            vec![[from_s, over * expected], [end_s, over * expected]]
+        }
         Measure::Greatest(_, expected) => {
             let peak = readings.iter().zip(times_s).max_by(|one, other| one.0.total_cmp(other.0));
             peak.map(|(_, time)| vec![[*time, expected]]).unwrap_or_default()
@@ -50,7 +56,10 @@ fn expected(check: &Check, times_s: &[f64], readings: &[f64]) -> Vec<[f64; 2]> {
         Measure::Rate { from_s, expected, .. } => {
             let first = begin(times_s, from_s);
             let from = times_s.get(first).zip(readings.get(first));
-            from.map(|(time, reading)| vec![[*time, *reading], [end_s, reading + expected * (end_s - time)]]).unwrap_or_default()
+            from.map(|(time, reading)| {
+                vec![[*time, *reading], [end_s, reading + expected * (end_s - time)]]
+            })
+            .unwrap_or_default()
         }
         _ => Vec::new(),
     }

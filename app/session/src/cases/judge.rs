@@ -21,16 +21,20 @@ pub(super) fn check_names(case: &Case, model: &Model, table: Option<&Table>) -> 
     for check in &case.checks {
         for name in probes(&check.measure) {
             if !model.spec.probes.iter().any(|probe| probe.id == name.value) {
-                let known: Vec<&str> = model.spec.probes.iter().map(|probe| probe.id.as_str()).collect();
+                let known: Vec<&str> =
+                    model.spec.probes.iter().map(|probe| probe.id.as_str()).collect();
                 let help = format!("its probes are {}", known.join(", "));
-                problems.push(name.place.error(format!("the scenario has no probe `{}`", name.value), help));
+                problems.push(
+                    name.place.error(format!("the scenario has no probe `{}`", name.value), help),
+                );
             }
             if let (true, Some(table)) = (of_table(&check.measure), table) {
                 problems.extend(table.column(&name.value).err().map(|problem| *problem));
             }
         }
         let fits = match (&check.measure, &case.samples) {
-            (Measure::Sums | Measure::Slope(..) | Measure::Fall { .. }, _) | (Measure::Rate { .. }, Samples::Rest) => false,
+            (Measure::Sums | Measure::Slope(..) | Measure::Fall { .. }, _)
+            | (Measure::Rate { .. }, Samples::Rest) => false,
             (measure, Samples::Table) => !matches!(measure, Measure::Gain(..) | Measure::Loss(..)),
             (measure, _) => !of_table(measure),
         };
@@ -48,7 +52,11 @@ pub(super) fn probes(measure: &Measure) -> Vec<&At<String>> {
     match measure {
         Measure::Distance(points) => points.iter().flatten().collect(),
         Measure::Series(probes) => probes.iter().collect(),
-        Measure::Peak(of) | Measure::Value(of, _) | Measure::Greatest(of, _) | Measure::Mean { of, .. } | Measure::Rate { of, .. } => {
+        Measure::Peak(of)
+        | Measure::Value(of, _)
+        | Measure::Greatest(of, _)
+        | Measure::Mean { of, .. }
+        | Measure::Rate { of, .. } => {
             vec![of]
         }
         Measure::Gain(of, over) | Measure::Loss(of, over) => vec![of, over],
@@ -62,12 +70,24 @@ pub(super) fn of_table(measure: &Measure) -> bool {
 }
 
 /// The verdicts of a case, with what halving came to.
-pub(super) fn outcome(case: &Case, setup: &Setup, table: Option<&Table>, base: &Observed, finer: &Finer) -> Result<Outcome, Error> {
+pub(super) fn outcome(
+    case: &Case,
+    setup: &Setup,
+    table: Option<&Table>,
+    base: &Observed,
+    finer: &Finer,
+) -> Result<Outcome, Error> {
     let scale = Scale { model: &setup.model, table };
     let mut verdicts = Vec::new();
     for check in &case.checks {
         let measured = scale.measure(check, base)?;
-        let mut verdict = Verdict::new(check.name.clone(), measured.unit, measured.expected, measured.got, check.limit);
+        let mut verdict = Verdict::new(
+            check.name.clone(),
+            measured.unit,
+            measured.expected,
+            measured.got,
+            check.limit,
+        );
         verdict.step = scale.convergence(check, base, finer.step.as_ref())?;
         verdict.segment = scale.convergence(check, base, finer.segment.as_ref())?;
         verdicts.push(verdict);
@@ -116,22 +136,41 @@ impl Scale<'_> {
                 Measured { unit: "m", expected: 0.0, got: (off / count).sqrt(), readings: all }
             }
             Measure::Series(probes) => {
-                let (off, size, all) = self.squares(&probes.iter().collect::<Vec<_>>(), observed)?;
+                let (off, size, all) =
+                    self.squares(&probes.iter().collect::<Vec<_>>(), observed)?;
                 Measured { unit: "", expected: 0.0, got: (off / size).sqrt(), readings: all }
             }
-            Measure::Peak(of) => scalar(self.unit(&of.value), greatest(&self.column(&of.value)?), greatest(readings(of))),
-            Measure::Value(of, expected) => scalar(self.unit(&of.value), *expected, last(readings(of))),
+            Measure::Peak(of) => scalar(
+                self.unit(&of.value),
+                greatest(&self.column(&of.value)?),
+                greatest(readings(of)),
+            ),
+            Measure::Value(of, expected) => {
+                scalar(self.unit(&of.value), *expected, last(readings(of)))
+            }
             Measure::Mean { of, from_s, over, expected } => {
-                let late = observed.times_s.iter().zip(readings(of)).filter(|(time, _)| **time >= from_s - 1e-9);
+                let late = observed
+                    .times_s
+                    .iter()
+                    .zip(readings(of))
+                    .filter(|(time, _)| **time >= from_s - 1e-9);
                 let late: Vec<f64> = late.map(|(_, reading)| reading / over).collect();
                 let unit = if (over - 1.0).abs() > 0.0 { "" } else { self.unit(&of.value) };
                 scalar(unit, *expected, late.iter().sum::<f64>() / late.len() as f64)
             }
-            Measure::Greatest(of, expected) => scalar(self.unit(&of.value), *expected, greatest(readings(of))),
-            Measure::Rate { of, from_s, expected } => {
-                scalar(by_second(self.unit(&of.value)), *expected, rate(&observed.times_s, readings(of), *from_s))
+            Measure::Greatest(of, expected) => {
+                scalar(self.unit(&of.value), *expected, greatest(readings(of)))
             }
-            Measure::Gain(of, over) => scalar("", 0.0, (greatest(readings(of)) - first(readings(of))) / greatest(readings(over))),
+            Measure::Rate { of, from_s, expected } => scalar(
+                by_second(self.unit(&of.value)),
+                *expected,
+                rate(&observed.times_s, readings(of), *from_s),
+            ),
+            Measure::Gain(of, over) => scalar(
+                "",
+                0.0,
+                (greatest(readings(of)) - first(readings(of))) / greatest(readings(over)),
+            ),
             Measure::Loss(of, over) => {
                 let lost = (first(readings(of)) - last(readings(of))) / greatest(readings(over));
                 scalar("", 0.0, lost.max(0.0))
@@ -141,7 +180,11 @@ impl Scale<'_> {
     }
 
     /// Sum of the squared differences from the table, that of the table's squares, and all readings.
-    fn squares(&self, probes: &[&At<String>], observed: &Observed) -> Result<(f64, f64, Vec<f64>), Error> {
+    fn squares(
+        &self,
+        probes: &[&At<String>],
+        observed: &Observed,
+    ) -> Result<(f64, f64, Vec<f64>), Error> {
         let (mut off, mut size, mut all) = (0.0, 0.0, Vec::new());
         for name in probes {
             let readings = &observed.samples[self.probe(&name.value)];
@@ -154,9 +197,15 @@ impl Scale<'_> {
         Ok((off, size, all))
     }
 
-    fn convergence(&self, check: &Check, base: &Observed, finer: Option<&[Observed; 2]>) -> Result<Option<Convergence>, Error> {
+    fn convergence(
+        &self,
+        check: &Check,
+        base: &Observed,
+        finer: Option<&[Observed; 2]>,
+    ) -> Result<Option<Convergence>, Error> {
         let Some([half, quarter]) = finer else { return Ok(None) };
-        let [whole, half, quarter] = [self.measure(check, base)?, self.measure(check, half)?, self.measure(check, quarter)?];
+        let [whole, half, quarter] =
+            [self.measure(check, base)?, self.measure(check, half)?, self.measure(check, quarter)?];
         let order = order(&whole.readings, &half.readings, &quarter.readings);
         Ok(Some(Convergence { error_at_half: error(half.expected, half.got, check.limit), order }))
     }
@@ -164,7 +213,9 @@ impl Scale<'_> {
 
 /// Order of convergence from readings at whole, half and quarter; `None` where they do not differ.
 fn order(whole: &[f64], half: &[f64], quarter: &[f64]) -> Option<f64> {
-    let apart = |one: &[f64], other: &[f64]| one.iter().zip(other).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
+    let apart = |one: &[f64], other: &[f64]| {
+        one.iter().zip(other).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
+    };
     let size = quarter.iter().map(|reading| reading * reading).sum::<f64>().sqrt();
     let (coarse, fine) = (apart(whole, half), apart(half, quarter));
     (coarse > SAME * size && fine > SAME * size).then(|| (coarse / fine).log2())
@@ -185,7 +236,8 @@ fn last(readings: &[f64]) -> f64 {
 /// Change over time from the first sample at or after a time to the last; not a number where there are not two.
 fn rate(times_s: &[f64], readings: &[f64], from_s: f64) -> f64 {
     let begin = begin(times_s, from_s);
-    let (times_s, readings) = (times_s.get(begin..).unwrap_or_default(), readings.get(begin..).unwrap_or_default());
+    let (times_s, readings) =
+        (times_s.get(begin..).unwrap_or_default(), readings.get(begin..).unwrap_or_default());
     (last(readings) - first(readings)) / (last(times_s) - first(times_s))
 }
 
@@ -220,6 +272,9 @@ mod tests {
     fn a_rate_is_that_from_its_time_on() {
         let (times, readings) = ([0.0, 1.0, 2.0, 4.0], [9.0, 0.0, -1.0, -6.0]);
         assert!((rate(&times, &readings, 1.0) + 2.0).abs() < 1e-12);
-        assert!(rate(&times, &readings, 4.0).is_nan() && rate(&times, &readings, 5.0).is_nan(), "one sample or none has no rate");
+        assert!(
+            rate(&times, &readings, 4.0).is_nan() && rate(&times, &readings, 5.0).is_nan(),
+            "one sample or none has no rate"
+        );
     }
 }

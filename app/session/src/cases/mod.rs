@@ -68,9 +68,15 @@ impl Cases {
     /// Where the folder `cases` cannot be read.
     pub fn ids(&self) -> Result<Vec<String>, Error> {
         let folder = self.root.join("cases");
-        let entries = std::fs::read_dir(&folder).map_err(|error| Error::at(&folder, format!("cannot be read: {error}")))?;
-        let files = entries.flatten().map(|entry| entry.path()).filter(|path| path.extension().is_some_and(|end| end == "toml"));
-        let mut ids: Vec<String> = files.filter_map(|path| Some(path.file_stem()?.to_string_lossy().into_owned())).collect();
+        let entries = std::fs::read_dir(&folder)
+            .map_err(|error| Error::at(&folder, format!("cannot be read: {error}")))?;
+        let files = entries
+            .flatten()
+            .map(|entry| entry.path())
+            .filter(|path| path.extension().is_some_and(|end| end == "toml"));
+        let mut ids: Vec<String> = files
+            .filter_map(|path| Some(path.file_stem()?.to_string_lossy().into_owned()))
+            .collect();
         ids.sort();
         Ok(ids)
     }
@@ -81,7 +87,8 @@ impl Cases {
     /// A file that is not there, or every located error of it.
     pub fn load(&self, id: &str) -> Result<Loaded, Error> {
         let path = self.root.join("cases").join(format!("{id}.toml"));
-        let case = Case::read(&path.display().to_string(), &self.text(&path, || self.known(id))?).map_err(Error::Diagnostics)?;
+        let case = Case::read(&path.display().to_string(), &self.text(&path, || self.known(id))?)
+            .map_err(Error::Diagnostics)?;
         let table = match &case.table {
             Some(name) => {
                 let path = self.root.join("cases/tables").join(format!("{}.csv", name.value));
@@ -102,7 +109,11 @@ impl Cases {
         match (&case.samples, &table) {
             (Samples::Rows(rows), Some(table)) => rows::check(self, &case, rows, table, host),
             (Samples::Rows(_), None) => Err(no_table(&case)),
-            _ => judge::check_names(&case, &Setup::new(self, &case, &[], host)?.model, table.as_ref()),
+            _ => judge::check_names(
+                &case,
+                &Setup::new(self, &case, &[], host)?.model,
+                table.as_ref(),
+            ),
         }
     }
 
@@ -110,7 +121,12 @@ impl Cases {
     ///
     /// # Errors
     /// Faults of the case, its scenario or its table.
-    pub fn run(&self, loaded: &Loaded, effort: Effort, host: &PluginHost) -> Result<Outcome, Error> {
+    pub fn run(
+        &self,
+        loaded: &Loaded,
+        effort: Effort,
+        host: &PluginHost,
+    ) -> Result<Outcome, Error> {
         let Loaded { case, table } = loaded;
         if let Samples::Rows(rows) = &case.samples {
             let table = table.as_ref().ok_or_else(|| no_table(case))?;
@@ -130,12 +146,17 @@ impl Cases {
     }
 
     fn text(&self, path: &Path, more: impl Fn() -> String) -> Result<String, Error> {
-        std::fs::read_to_string(path).map_err(|error| Error::at(path, format!("cannot be read: {error}{}", more())))
+        std::fs::read_to_string(path)
+            .map_err(|error| Error::at(path, format!("cannot be read: {error}{}", more())))
     }
 
     fn known(&self, id: &str) -> String {
         let ids = self.ids().unwrap_or_default();
-        if ids.iter().any(|known| known == id) { String::new() } else { format!("\nknown cases are {}", ids.join(", ")) }
+        if ids.iter().any(|known| known == id) {
+            String::new()
+        } else {
+            format!("\nknown cases are {}", ids.join(", "))
+        }
     }
 }
 
@@ -162,5 +183,9 @@ impl Finer {
 
 fn no_table(case: &Case) -> Error {
     let help = "write table = \"name\" for the file cases/tables/name.csv";
-    Error::Diagnostics(vec![Diagnostic::of_file(case.place.source.path.clone(), "there are [rows] without a `table`", help)])
+    Error::Diagnostics(vec![Diagnostic::of_file(
+        case.place.source.path.clone(),
+        "there are [rows] without a `table`",
+        help,
+    )])
 }

@@ -24,7 +24,12 @@ pub(super) struct Observed {
 }
 
 /// Runs a case at a share of its step and segments; the reason where it does not get to its end.
-pub(super) fn observe(setup: &Setup, case: &Case, table: Option<&Table>, share: [u32; 2]) -> Result<Result<Observed, String>, Error> {
+pub(super) fn observe(
+    setup: &Setup,
+    case: &Case,
+    table: Option<&Table>,
+    share: [u32; 2],
+) -> Result<Result<Observed, String>, Error> {
     let prepared = setup.finer(share)?;
     let times = times(case, table, &prepared.model)?;
     let mut run = match Run::new(prepared, RunOptions::default()) {
@@ -57,7 +62,11 @@ fn times(case: &Case, table: Option<&Table>, model: &Model) -> Result<Option<Vec
     match (&case.samples, table) {
         (Samples::Every(between_s), _) => {
             let count = (model.spec.settings.duration_s / between_s + 1e-9).floor();
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a positive whole number")]
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "a positive whole number"
+            )]
             let times = (0..=count as u64).map(|index| index as f64 * between_s);
             Ok(Some(times.collect()))
         }

@@ -136,7 +136,13 @@ pub(super) fn failed(case: &Case, setup: &Setup, reason: String) -> Outcome {
 
 impl Verdict {
     /// Judges what was got.
-    pub(super) fn new(name: String, unit: &'static str, expected: f64, got: f64, limit: Limit) -> Self {
+    pub(super) fn new(
+        name: String,
+        unit: &'static str,
+        expected: f64,
+        got: f64,
+        limit: Limit,
+    ) -> Self {
         let error = error(expected, got, limit);
         let (most, between, share) = match limit {
             Limit::Share(most) => (most, None, true),
@@ -145,7 +151,19 @@ impl Verdict {
         };
         // What is not a number is not within.
         let passed = error <= most;
-        Self { name, unit, expected, got, error, limit: most, between, share, passed, step: None, segment: None }
+        Self {
+            name,
+            unit,
+            expected,
+            got,
+            error,
+            limit: most,
+            between,
+            share,
+            passed,
+            step: None,
+            segment: None,
+        }
     }
 }
 

@@ -26,7 +26,13 @@ struct Group {
 }
 
 /// Settles every row and judges.
-pub(super) fn run(cases: &Cases, case: &Case, rows: &Rows, table: &Table, host: &PluginHost) -> Result<Outcome, Error> {
+pub(super) fn run(
+    cases: &Cases,
+    case: &Case,
+    rows: &Rows,
+    table: &Table,
+    host: &PluginHost,
+) -> Result<Outcome, Error> {
     let mut groups = Vec::new();
     let mut last = None;
     for name in &rows.groups {
@@ -34,8 +40,18 @@ pub(super) fn run(cases: &Cases, case: &Case, rows: &Rows, table: &Table, host: 
         for row in rows.of_group(table, name)? {
             let setup = Setup::new(cases, case, &rows.fields(table, row)?, host)?;
             match read(&setup, rows)? {
-                Ok(got) => pairs.push(Pair { row, measured: table.number(row, &rows.measured.value)?, got }),
-                Err(reason) => return Ok(failed(case, &setup, format!("{} {name}, row {}: {reason}", rows.by.value, row + 1))),
+                Ok(got) => pairs.push(Pair {
+                    row,
+                    measured: table.number(row, &rows.measured.value)?,
+                    got,
+                }),
+                Err(reason) => {
+                    return Ok(failed(
+                        case,
+                        &setup,
+                        format!("{} {name}, row {}: {reason}", rows.by.value, row + 1),
+                    ));
+                }
             }
             last = Some(setup);
         }
@@ -43,23 +59,40 @@ pub(super) fn run(cases: &Cases, case: &Case, rows: &Rows, table: &Table, host: 
     }
     let Some(setup) = last else {
         let help = "mend `groups`, `by` or `least`";
-        return Err(Error::Diagnostics(vec![rows.by.place.error("no row of the table belongs to these groups", help)]));
+        return Err(Error::Diagnostics(vec![
+            rows.by.place.error("no row of the table belongs to these groups", help),
+        ]));
     };
     let mut verdicts = Vec::new();
     for check in &case.checks {
         verdicts.extend(judge(check, &groups, rows, table, &setup)?);
     }
-    let point = |group: &Group, pair: &Pair| Point { group: group.name.clone(), measured: pair.measured, got: pair.got };
-    let points = groups.iter().flat_map(|group| group.pairs.iter().map(move |pair| point(group, pair))).collect();
+    let point = |group: &Group, pair: &Pair| Point {
+        group: group.name.clone(),
+        measured: pair.measured,
+        got: pair.got,
+    };
+    let points = groups
+        .iter()
+        .flat_map(|group| group.pairs.iter().map(move |pair| point(group, pair)))
+        .collect();
     Ok(Outcome { points, ..Outcome::begin(case, &setup) }.judged(verdicts))
 }
 
 /// Checks that there are rows of every group, and assembles the first of each.
-pub(super) fn check(cases: &Cases, case: &Case, rows: &Rows, table: &Table, host: &PluginHost) -> Result<(), Error> {
+pub(super) fn check(
+    cases: &Cases,
+    case: &Case,
+    rows: &Rows,
+    table: &Table,
+    host: &PluginHost,
+) -> Result<(), Error> {
     for name in &rows.groups {
         let Some(row) = rows.of_group(table, name)?.first().copied() else {
             let message = format!("no row of the table has {} {name}", rows.by.value);
-            return Err(Error::Diagnostics(vec![rows.by.place.error(message, "mend `groups`, `by` or `least`")]));
+            return Err(Error::Diagnostics(vec![
+                rows.by.place.error(message, "mend `groups`, `by` or `least`"),
+            ]));
         };
         let setup = Setup::new(cases, case, &rows.fields(table, row)?, host)?;
         probe(&setup, rows)?;
@@ -71,9 +104,12 @@ pub(super) fn check(cases: &Cases, case: &Case, rows: &Rows, table: &Table, host
 /// The probe that is read.
 fn probe<'a>(setup: &'a Setup, rows: &Rows) -> Result<&'a Probe, Error> {
     setup.model.spec.probes.iter().find(|probe| probe.id == rows.read.value).ok_or_else(|| {
-        let known: Vec<&str> = setup.model.spec.probes.iter().map(|probe| probe.id.as_str()).collect();
+        let known: Vec<&str> =
+            setup.model.spec.probes.iter().map(|probe| probe.id.as_str()).collect();
         let help = format!("its probes are {}", known.join(", "));
-        Error::Diagnostics(vec![rows.read.place.error(format!("the scenario has no probe `{}`", rows.read.value), help)])
+        Error::Diagnostics(vec![
+            rows.read.place.error(format!("the scenario has no probe `{}`", rows.read.value), help),
+        ])
     })
 }
 
@@ -85,7 +121,9 @@ fn read(setup: &Setup, rows: &Rows) -> Result<Result<f64, String>, Error> {
         Err(error @ Error::Unsettled { .. }) => return Ok(Err(error.to_string())),
         Err(error) => return Err(error),
     };
-    let Some(from_s) = rows.mean_from_s else { return Ok(Ok(reading(&setup.model, run.state(), target))) };
+    let Some(from_s) = rows.mean_from_s else {
+        return Ok(Ok(reading(&setup.model, run.state(), target)));
+    };
     let (mut sum, mut count) = (0.0, 0.0);
     while !run.finished() {
         if let Err(stop) = run.step(run.pilot()) {
@@ -96,16 +134,34 @@ fn read(setup: &Setup, rows: &Rows) -> Result<Result<f64, String>, Error> {
             count += 1.0;
         }
     }
-    Ok(if count > 0.0 { Ok(sum / count) } else { Err(format!("the run ends before {from_s} s, where its mean begins")) })
+    Ok(if count > 0.0 {
+        Ok(sum / count)
+    } else {
+        Err(format!("the run ends before {from_s} s, where its mean begins"))
+    })
 }
 
-fn judge(check: &Check, groups: &[Group], rows: &Rows, table: &Table, setup: &Setup) -> Result<Vec<Verdict>, Error> {
-    let verdict = |name: String, unit, expected, got| Verdict::new(name, unit, expected, got, check.limit);
+fn judge(
+    check: &Check,
+    groups: &[Group],
+    rows: &Rows,
+    table: &Table,
+    setup: &Setup,
+) -> Result<Vec<Verdict>, Error> {
+    let verdict =
+        |name: String, unit, expected, got| Verdict::new(name, unit, expected, got, check.limit);
     match &check.measure {
         Measure::Sums => {
             let unit = unit(probe(setup, rows)?.target);
             let name = |group: &Group| format!("{}, {} {}", check.name, rows.by.value, group.name);
-            let mean = |group: &Group| verdict(name(group), unit, mean(group, |pair| pair.measured), mean(group, |pair| pair.got));
+            let mean = |group: &Group| {
+                verdict(
+                    name(group),
+                    unit,
+                    mean(group, |pair| pair.measured),
+                    mean(group, |pair| pair.got),
+                )
+            };
             Ok(groups.iter().map(mean).collect())
         }
         Measure::Slope(over, expected) => {
@@ -121,10 +177,17 @@ fn judge(check: &Check, groups: &[Group], rows: &Rows, table: &Table, setup: &Se
             let squares = table.column(&square.value)?;
             let level = |name: &str, of: fn(&Pair) -> f64| {
                 let group = groups.iter().find(|group| group.name == name);
-                group.map_or(f64::NAN, |group| mean(group, |pair| of(pair) / (squares[pair.row] * squares[pair.row])))
+                group.map_or(f64::NAN, |group| {
+                    mean(group, |pair| of(pair) / (squares[pair.row] * squares[pair.row]))
+                })
             };
             let fall = |of: fn(&Pair) -> f64| 1.0 - level(to, of) / level(from, of);
-            Ok(vec![verdict(check.name.clone(), "", fall(|pair| pair.measured), fall(|pair| pair.got))])
+            Ok(vec![verdict(
+                check.name.clone(),
+                "",
+                fall(|pair| pair.measured),
+                fall(|pair| pair.got),
+            )])
         }
         _ => {
             let help = "cases with [rows] measure sums, slope or fall";
@@ -142,7 +205,8 @@ fn mean(group: &Group, of: impl Fn(&Pair) -> f64) -> f64 {
 fn slope(places: &[f64], values: &[f64]) -> f64 {
     let count = places.len() as f64;
     let (middle, level) = (places.iter().sum::<f64>() / count, values.iter().sum::<f64>() / count);
-    let across: f64 = places.iter().zip(values).map(|(place, value)| (place - middle) * (value - level)).sum();
+    let across: f64 =
+        places.iter().zip(values).map(|(place, value)| (place - middle) * (value - level)).sum();
     across / places.iter().map(|place| (place - middle) * (place - middle)).sum::<f64>()
 }
 

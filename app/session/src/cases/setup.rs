@@ -20,17 +20,29 @@ pub(super) struct Setup {
 
 impl Setup {
     /// Reads the case's scenario and sets its fields and `more`.
-    pub fn new(cases: &Cases, case: &Case, more: &[(String, String)], host: &PluginHost) -> Result<Self, Error> {
+    pub fn new(
+        cases: &Cases,
+        case: &Case,
+        more: &[(String, String)],
+        host: &PluginHost,
+    ) -> Result<Self, Error> {
         let path = cases.root.join("scenarios").join(format!("{}.toml", case.scenario.value));
         let text = std::fs::read_to_string(&path).map_err(|error| {
             let message = format!("the scenario `{}` cannot be read: {error}", case.scenario.value);
-            Error::Diagnostics(vec![case.scenario.place.error(message, "write the name of a file of scenarios/ without .toml")])
+            Error::Diagnostics(vec![
+                case.scenario
+                    .place
+                    .error(message, "write the name of a file of scenarios/ without .toml"),
+            ])
         })?;
         let fault = |message: String| Error::at(&path, format!("cannot be set: {message}"));
         let mut document = Document::parse(&text).map_err(|error| fault(error.message))?;
         for (field, value) in &case.set {
-            let told =
-                |error: endline_gear::EditError| Error::Diagnostics(vec![field.place.error(error.message, "name a field of the scenario")]);
+            let told = |error: endline_gear::EditError| {
+                Error::Diagnostics(vec![
+                    field.place.error(error.message, "name a field of the scenario"),
+                ])
+            };
             document.set(&field.value, value).map_err(told)?;
         }
         for (field, value) in more {
@@ -53,8 +65,15 @@ impl Setup {
         spec.settings.step_s /= f64::from(step);
         spec.settings.contact_step_s /= f64::from(step);
         spec.lines.iter_mut().for_each(|line| divide(line, segment as usize));
-        let told = |error: ModelError| endline_gear::Diagnostic::of_file(&self.prepared.source.scenario_name, error.message, error.part);
-        let model = Model::new(spec).map_err(|errors| Error::Diagnostics(errors.into_iter().map(told).collect()))?;
+        let told = |error: ModelError| {
+            endline_gear::Diagnostic::of_file(
+                &self.prepared.source.scenario_name,
+                error.message,
+                error.part,
+            )
+        };
+        let model = Model::new(spec)
+            .map_err(|errors| Error::Diagnostics(errors.into_iter().map(told).collect()))?;
         Ok(Prepared { model: Arc::new(model), ..self.prepared.clone() })
     }
 }
@@ -67,11 +86,17 @@ fn divide(line: &mut Line, into: usize) {
     line.start_m = match line.start_m.split_last() {
         None => Vec::new(),
         Some((last, _)) => {
-            let between = |pair: &[DVec3]| (0..into).map(|k| pair[0].lerp(pair[1], k as f64 / into as f64)).collect::<Vec<_>>();
+            let between = |pair: &[DVec3]| {
+                (0..into).map(|k| pair[0].lerp(pair[1], k as f64 / into as f64)).collect::<Vec<_>>()
+            };
             line.start_m.windows(2).flat_map(between).chain([*last]).collect()
         }
     };
-    line.segments_m = line.segments_m.iter().flat_map(|length| std::iter::repeat_n(length / into as f64, into)).collect();
+    line.segments_m = line
+        .segments_m
+        .iter()
+        .flat_map(|length| std::iter::repeat_n(length / into as f64, into))
+        .collect();
 }
 
 #[cfg(test)]
@@ -83,10 +108,26 @@ mod tests {
     #[test]
     fn a_divided_line_keeps_its_length_and_shape() {
         let start_m = vec![DVec3::ZERO, DVec3::X, DVec3::new(1.0, 0.0, 2.0)];
-        let mut line =
-            Line { id: "line".into(), rope: 0, from: 0, to: 1, segments_m: vec![1.0, 2.0], strength: Strength::default(), start_m };
+        let mut line = Line {
+            id: "line".into(),
+            rope: 0,
+            from: 0,
+            to: 1,
+            segments_m: vec![1.0, 2.0],
+            strength: Strength::default(),
+            start_m,
+        };
         divide(&mut line, 2);
         assert_eq!(line.segments_m, [0.5, 0.5, 1.0, 1.0]);
-        assert_eq!(line.start_m, [DVec3::ZERO, DVec3::X * 0.5, DVec3::X, DVec3::new(1.0, 0.0, 1.0), DVec3::new(1.0, 0.0, 2.0)]);
+        assert_eq!(
+            line.start_m,
+            [
+                DVec3::ZERO,
+                DVec3::X * 0.5,
+                DVec3::X,
+                DVec3::new(1.0, 0.0, 1.0),
+                DVec3::new(1.0, 0.0, 2.0)
+            ]
+        );
     }
 }

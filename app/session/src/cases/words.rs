@@ -6,7 +6,9 @@ use super::outcome::Verdict;
 #[must_use]
 pub fn value(number: f64, unit: &str) -> String {
     match unit {
-        "m" if number.abs() < 0.01 && number.abs() > 0.0 => format!("{} mm", significant(1e3 * number)),
+        "m" if number.abs() < 0.01 && number.abs() > 0.0 => {
+            format!("{} mm", significant(1e3 * number))
+        }
         "" => significant(number),
         _ => format!("{} {unit}", significant(number)),
     }
@@ -29,7 +31,9 @@ pub fn error(verdict: &Verdict, error: f64) -> String {
 #[must_use]
 pub fn limit(verdict: &Verdict) -> String {
     match verdict.between {
-        Some([least, most]) => format!("{} to {}", value(least, verdict.unit), value(most, verdict.unit)),
+        Some([least, most]) => {
+            format!("{} to {}", value(least, verdict.unit), value(most, verdict.unit))
+        }
         None if verdict.share => format!("{} %", significant(100.0 * verdict.limit)),
         None => value(verdict.limit, verdict.unit),
     }
@@ -38,7 +42,11 @@ pub fn limit(verdict: &Verdict) -> String {
 /// Six significant digits, without zeros at the end.
 fn significant(number: f64) -> String {
     let rounded: f64 = format!("{number:.5e}").parse().unwrap_or(number);
-    if rounded.abs() >= 1e6 || (rounded.abs() < 1e-4 && rounded.abs() > 0.0) { format!("{rounded:e}") } else { format!("{rounded}") }
+    if rounded.abs() >= 1e6 || (rounded.abs() < 1e-4 && rounded.abs() > 0.0) {
+        format!("{rounded:e}")
+    } else {
+        format!("{rounded}")
+    }
 }
 
 #[cfg(test)]

@@ -35,7 +35,8 @@ impl Envelope {
             line.begin(lengths_m.iter().sum());
             let mut from_m = 0.0;
             for (segment, length_m) in segments.clone().zip(lengths_m) {
-                let tension_n = state.rope.tension.get(segment).map_or(0.0, |tension| tension.max(0.0));
+                let tension_n =
+                    state.rope.tension.get(segment).map_or(0.0, |tension| tension.max(0.0));
                 let peak_n = peaks_n.get(segment).map_or(tension_n, |peak| peak.max(tension_n));
                 line.take([from_m, from_m + length_m], tension_n, peak_n);
                 from_m += length_m;
@@ -48,7 +49,8 @@ impl LineEnvelope {
     fn begin(&mut self, length_m: f64) {
         self.length_m = length_m;
         if self.least_n.is_empty() {
-            (self.least_n, self.greatest_n) = (vec![f64::INFINITY; STRETCHES], vec![0.0; STRETCHES]);
+            (self.least_n, self.greatest_n) =
+                (vec![f64::INFINITY; STRETCHES], vec![0.0; STRETCHES]);
         }
     }
 

@@ -40,7 +40,9 @@ impl Film {
     pub(super) fn nearest(&self, time_s: f64) -> Option<Arc<Frame>> {
         let after = self.frames.partition_point(|frame| frame.time_s < time_s);
         let near = self.frames.get(after.saturating_sub(1)..(after + 1).min(self.frames.len()))?;
-        near.iter().min_by(|a, b| (a.time_s - time_s).abs().total_cmp(&(b.time_s - time_s).abs())).cloned()
+        near.iter()
+            .min_by(|a, b| (a.time_s - time_s).abs().total_cmp(&(b.time_s - time_s).abs()))
+            .cloned()
     }
 }
 
@@ -51,7 +53,9 @@ impl Film {
         let at = self.nearest(time_s)?;
         let index = self.frames.partition_point(|frame| frame.step < at.step);
         let last = self.frames.len().checked_sub(1)?;
-        self.frames.get(index.saturating_add_signed(isize::try_from(by).unwrap_or(0)).min(last)).cloned()
+        self.frames
+            .get(index.saturating_add_signed(isize::try_from(by).unwrap_or(0)).min(last))
+            .cloned()
     }
 }
 
@@ -64,7 +68,11 @@ mod tests {
         let mut film = Film::new(3);
         for step in 0..60_000_u32 {
             if film.wants(u64::from(step)) {
-                film.keep(Arc::new(Frame { step: u64::from(step), time_s: f64::from(step) * 0.01, ..Frame::default() }));
+                film.keep(Arc::new(Frame {
+                    step: u64::from(step),
+                    time_s: f64::from(step) * 0.01,
+                    ..Frame::default()
+                }));
             }
         }
         let middle = film.nearest(300.0).unwrap();
@@ -79,13 +87,21 @@ mod tests {
         let mut film = Film::new(3);
         for step in 0..100_000_u32 {
             if film.wants(u64::from(step)) {
-                film.keep(Arc::new(Frame { step: u64::from(step), time_s: f64::from(step) * 0.01, ..Frame::default() }));
+                film.keep(Arc::new(Frame {
+                    step: u64::from(step),
+                    time_s: f64::from(step) * 0.01,
+                    ..Frame::default()
+                }));
             }
         }
         assert!(film.frames.len() <= MOST);
         for time_s in [0.0, 123.4, 567.8, 999.0] {
             let near = film.nearest(time_s).unwrap();
-            assert!((near.time_s - time_s).abs() <= 0.5 * 0.01 * film.stride as f64 + 1e-9, "{time_s}: {}", near.time_s);
+            assert!(
+                (near.time_s - time_s).abs() <= 0.5 * 0.01 * film.stride as f64 + 1e-9,
+                "{time_s}: {}",
+                near.time_s
+            );
         }
         assert_eq!(film.nearest(1e9).unwrap().step, film.frames.last().unwrap().step);
     }

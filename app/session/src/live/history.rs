@@ -52,7 +52,9 @@ impl Watch {
     /// The sample of a run's moment; forces begin anew. Empty where there is no whale.
     pub(super) fn sample(&mut self, run: &Run) -> Vec<f64> {
         let peak_n = std::mem::take(&mut self.peak_n);
-        let Some((whale, summary)) = run.state().whale.as_ref().zip(run.summary().whale) else { return Vec::new() };
+        let Some((whale, summary)) = run.state().whale.as_ref().zip(run.summary().whale) else {
+            return Vec::new();
+        };
         let mut sample = vec![-whale.position.z, whale.speed_m_s];
         sample.extend(summary.regions.iter().map(|region| region.wraps));
         sample.extend(peak_n);
@@ -67,7 +69,10 @@ mod tests {
     #[test]
     fn every_channel_has_a_place_of_its_own() {
         let parts = || BodyPart::ALL.into_iter();
-        let all = [Channel::Depth, Channel::Speed].into_iter().chain(parts().map(Channel::Wraps)).chain(parts().map(Channel::Force));
+        let all = [Channel::Depth, Channel::Speed]
+            .into_iter()
+            .chain(parts().map(Channel::Wraps))
+            .chain(parts().map(Channel::Force));
         let places: Vec<usize> = all.map(Channel::index).collect();
         assert_eq!(places, (0..2 + 2 * PARTS).collect::<Vec<_>>());
     }

@@ -26,7 +26,8 @@ impl Pace {
 
     /// How long to wait until a simulated time is due; nothing where it is due already.
     pub(super) fn wait(&mut self, now: Instant, simulated_s: f64) -> Duration {
-        let due = Duration::try_from_secs_f64((simulated_s - self.simulated_s) / self.speed).unwrap_or_default();
+        let due = Duration::try_from_secs_f64((simulated_s - self.simulated_s) / self.speed)
+            .unwrap_or_default();
         let gone = now.saturating_duration_since(self.wall);
         if gone > due + PATIENCE {
             *self = Self::new(self.speed, now, simulated_s);

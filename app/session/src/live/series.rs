@@ -58,7 +58,11 @@ impl Series {
     pub fn samples(&self, line: usize) -> impl Iterator<Item = (f64, f64)> + '_ {
         let chunks = self.full.iter().map(Arc::as_ref).chain(std::iter::once(&self.open));
         chunks.flat_map(move |chunk| {
-            chunk.time_s.iter().zip(&chunk.values).filter_map(move |(time_s, values)| Some((*time_s, *values.get(line)?)))
+            chunk
+                .time_s
+                .iter()
+                .zip(&chunk.values)
+                .filter_map(move |(time_s, values)| Some((*time_s, *values.get(line)?)))
         })
     }
 

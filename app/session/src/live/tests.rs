@@ -45,7 +45,9 @@ fn a_run_is_started_stepped_sought_and_reset() {
     until(&live, "and back", |earlier| earlier.frame.step == view.frame.step);
     assert!(after.sought && after.history.len() == after.tension.len());
     assert!(live.send(Command::Seek(f64::MAX)));
-    until(&live, "the newest", |view| !view.sought && (view.frame.time_s - view.newest_s).abs() < 1e-12);
+    until(&live, "the newest", |view| {
+        !view.sought && (view.frame.time_s - view.newest_s).abs() < 1e-12
+    });
 
     assert!(live.send(Command::Reset));
     let view = until(&live, "the start", |view| view.frame.step == 0 && !view.sought);
@@ -61,8 +63,15 @@ fn the_envelope_along_a_line_reaches_its_peak_and_no_further() {
     let summary = view.summary.as_ref().unwrap();
     for (line, of) in view.envelope.lines.iter().zip(&summary.lines) {
         let top = line.greatest_n.iter().copied().fold(0.0, f64::max);
-        assert!((top - of.peak_tension_n).abs() < 1e-9 * of.peak_tension_n.max(1.0), "{top} N, {} N", of.peak_tension_n);
-        assert!(line.least_n.iter().zip(&line.greatest_n).all(|(least, greatest)| least <= greatest), "{line:?}");
+        assert!(
+            (top - of.peak_tension_n).abs() < 1e-9 * of.peak_tension_n.max(1.0),
+            "{top} N, {} N",
+            of.peak_tension_n
+        );
+        assert!(
+            line.least_n.iter().zip(&line.greatest_n).all(|(least, greatest)| least <= greatest),
+            "{line:?}"
+        );
     }
 }
 
@@ -75,7 +84,9 @@ fn a_run_goes_on_from_the_moment_shown_in_another_model_to_the_same_bits() {
     assert!(live.send(Command::Seek(1.0)));
     until(&live, "the middle", |view| view.sought);
     assert!(live.send(Command::Rerun(Box::new(hanging_rope(2.0)))));
-    let again = until(&live, "the end again", |view| !Arc::ptr_eq(&view.model, &end.model) && view.status == Status::Finished);
+    let again = until(&live, "the end again", |view| {
+        !Arc::ptr_eq(&view.model, &end.model) && view.status == Status::Finished
+    });
     assert_eq!(again.state_hash, end.state_hash);
     assert!(live.send(Command::Program(0.0)));
     let view = until(&live, "an answer", |view| view.program.is_some());
@@ -108,7 +119,9 @@ fn a_recording_is_saved_with_the_pilots_controls() {
     assert!(live.send(Command::Controls(controls)) && live.send(Command::Step));
     assert!(live.send(Command::Autopilot) && live.send(Command::Step));
     assert!(live.send(Command::SaveRecording(path.clone())));
-    until(&live, "a message", |view| view.message.as_ref().is_some_and(|message| message.starts_with("saved")));
+    until(&live, "a message", |view| {
+        view.message.as_ref().is_some_and(|message| message.starts_with("saved"))
+    });
     let recording = crate::Recording::load(&path).unwrap();
     assert_eq!(recording.inputs, [controls, Controls::default()]);
     std::fs::remove_file(&path).unwrap();

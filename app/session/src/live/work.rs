@@ -74,7 +74,13 @@ pub(super) fn first_view(prepared: &Prepared) -> LiveView {
 }
 
 /// Runs until the sender of commands is gone.
-pub(super) fn work(prepared: Prepared, host: &PluginHost, options: RunOptions, commands: &Receiver<Command>, screen: &Screen) {
+pub(super) fn work(
+    prepared: Prepared,
+    host: &PluginHost,
+    options: RunOptions,
+    commands: &Receiver<Command>,
+    screen: &Screen,
+) {
     // A panic here is a fault of ours or of a plugin's; the workbench stays up and says so.
     let worked = catch_unwind(AssertUnwindSafe(|| {
         let mut worker = Worker::new(prepared, host, options, screen);
@@ -110,7 +116,12 @@ struct Worker<'a> {
 }
 
 impl<'a> Worker<'a> {
-    fn new(prepared: Prepared, host: &'a PluginHost, options: RunOptions, screen: &'a Screen) -> Self {
+    fn new(
+        prepared: Prepared,
+        host: &'a PluginHost,
+        options: RunOptions,
+        screen: &'a Screen,
+    ) -> Self {
         let now = Instant::now();
         let mut worker = Self {
             host,
@@ -221,7 +232,11 @@ impl<'a> Worker<'a> {
     fn set_speed(&mut self, speed: f64) {
         let [least, most] = SPEEDS;
         let speed = if speed > most { f64::INFINITY } else { speed.max(least) };
-        self.pace = Pace::new(speed, Instant::now(), self.run.as_ref().map_or(0.0, |run| run.state().time_s));
+        self.pace = Pace::new(
+            speed,
+            Instant::now(),
+            self.run.as_ref().map_or(0.0, |run| run.state().time_s),
+        );
     }
 
     fn set_weak_links(&mut self, on: bool) {
@@ -321,7 +336,12 @@ impl<'a> Worker<'a> {
         self.shown = Instant::now();
         let Some(run) = &self.run else {
             let first = first_view(&self.prepared);
-            self.screen.show(LiveView { status: self.status.clone(), message: self.message.clone(), speed: self.pace.speed(), ..first });
+            self.screen.show(LiveView {
+                status: self.status.clone(),
+                message: self.message.clone(),
+                speed: self.pace.speed(),
+                ..first
+            });
             return;
         };
         self.screen.show(LiveView {

@@ -58,7 +58,8 @@ pub fn try_here(file: &Path, begin: &dyn Fn(&str, &'static str)) -> Result<Vec<T
         return Err(problem.to_string());
     }
     let tried = host.list().iter().map(|info| {
-        let findings = host.hook(&info.id).map(|hook| trial::run(hook, &|check| begin(&info.id, check)));
+        let findings =
+            host.hook(&info.id).map(|hook| trial::run(hook, &|check| begin(&info.id, check)));
         // Motion clips are tried as they are read: keys in order, within the joints, closed where they repeat.
         Tried { info: info.clone(), findings: findings.unwrap_or_default() }
     });
@@ -77,10 +78,17 @@ pub fn check_here(file: &Path) -> Result<Vec<PluginInfo>, String> {
 
 /// The first thing wrong with a plugin that was tried.
 fn fault(tried: &Tried) -> Option<String> {
-    let (check, fault) = tried.findings.iter().find_map(|finding| Some((finding.check, finding.outcome.as_ref().err()?)))?;
+    let (check, fault) = tried
+        .findings
+        .iter()
+        .find_map(|finding| Some((finding.check, finding.outcome.as_ref().err()?)))?;
     let named = format!("plugin `{}`: ", tried.info.id);
     let fault = if fault.starts_with(&named) { fault.clone() } else { named + fault };
-    Some(if check == "defaults" { format!("tried out with its own defaults, {fault}") } else { format!("at the check `{check}`, {fault}") })
+    Some(if check == "defaults" {
+        format!("tried out with its own defaults, {fault}")
+    } else {
+        format!("at the check `{check}`, {fault}")
+    })
 }
 
 /// What the child does: tries the plugins of a file and tells of each check on `out`, then the report.
@@ -107,7 +115,10 @@ fn sound(file: &Path, tried: &[Tried]) -> Result<(), String> {
 /// What is found of a plugin without code, which has nothing that could crash this process.
 fn report_of_folder(folder: &Path) -> (String, Result<(), String>) {
     match try_here(folder, &|_, _| ()) {
-        Ok(tried) => (report::lines(&tried).iter().map(|line| format!("{line}\n")).collect(), sound(folder, &tried)),
+        Ok(tried) => (
+            report::lines(&tried).iter().map(|line| format!("{line}\n")).collect(),
+            sound(folder, &tried),
+        ),
         Err(problem) => (String::new(), Err(problem)),
     }
 }
@@ -116,13 +127,20 @@ fn report_of_folder(folder: &Path) -> (String, Result<(), String>) {
 const BEGINS: &str = "trying the check `";
 
 /// A checker that opens each file in a child: `program plugins check FILE --here`, killed after a time.
-pub fn by_child(program: impl Into<PathBuf>, limit: Duration) -> impl Fn(&Path) -> Result<(), String> {
+pub fn by_child(
+    program: impl Into<PathBuf>,
+    limit: Duration,
+) -> impl Fn(&Path) -> Result<(), String> {
     let program = program.into();
     move |file| report_of_child(&program, file, limit).1
 }
 
 /// What the child says of a file, without its lines about each check, and the verdict. A folder without code needs no child.
-pub fn report_of_child(program: &Path, file: &Path, limit: Duration) -> (String, Result<(), String>) {
+pub fn report_of_child(
+    program: &Path,
+    file: &Path,
+    limit: Duration,
+) -> (String, Result<(), String>) {
     if file.is_dir() {
         return report_of_folder(file);
     }
@@ -136,13 +154,22 @@ pub fn report_of_child(program: &Path, file: &Path, limit: Duration) -> (String,
         .env("RUST_BACKTRACE", "0");
     let mut child = match command.spawn() {
         Ok(child) => child,
-        Err(error) => return (String::new(), Err(format!("cannot start {}: {error}", program.display()))),
+        Err(error) => {
+            return (String::new(), Err(format!("cannot start {}: {error}", program.display())));
+        }
     };
     let (out, said) = (drained(child.stdout.take()), drained(child.stderr.take()));
     let ended = wait(&mut child, limit);
     let out = text_of(out);
-    let at = out.lines().rev().find_map(|line| line.strip_prefix("trying ")).map(|check| format!("at {check}"));
-    let report: String = out.lines().filter(|line| !line.starts_with(BEGINS)).fold(String::new(), |text, line| text + line + "\n");
+    let at = out
+        .lines()
+        .rev()
+        .find_map(|line| line.strip_prefix("trying "))
+        .map(|check| format!("at {check}"));
+    let report: String = out
+        .lines()
+        .filter(|line| !line.starts_with(BEGINS))
+        .fold(String::new(), |text, line| text + line + "\n");
     let verdict = match ended {
         Err(error) => Err(error.to_string()),
         Ok(None) => {
@@ -192,17 +219,25 @@ fn verdict(status: ExitStatus, said: &str, at: Option<String>) -> Result<(), Str
     if status.success() {
         return Ok(());
     }
-    let last = said.lines().map(|line| line.trim().trim_start_matches("endline: ")).rfind(|line| !line.is_empty());
+    let last = said
+        .lines()
+        .map(|line| line.trim().trim_start_matches("endline: "))
+        .rfind(|line| !line.is_empty());
     match (status.code(), last) {
         (Some(_), Some(last)) => Err(last.to_owned()),
         (Some(code), None) => Err(format!("the check ended with exit code {code}")),
-        (None, _) => Err(format!("it crashes {} ({status})", at.unwrap_or_else(|| "when opened".to_owned()))),
+        (None, _) => {
+            Err(format!("it crashes {} ({status})", at.unwrap_or_else(|| "when opened".to_owned())))
+        }
     }
 }
 
 /// A checker that asks another only about files it has not seen pass under this ABI: in this run, or, where a list
 /// file is given, in any run. What cannot be read from or written to the list is checked again.
-pub fn remembering<'a>(list: Option<PathBuf>, checker: &'a Checker<'a>) -> impl Fn(&Path) -> Result<(), String> + 'a {
+pub fn remembering<'a>(
+    list: Option<PathBuf>,
+    checker: &'a Checker<'a>,
+) -> impl Fn(&Path) -> Result<(), String> + 'a {
     let known = list.as_ref().and_then(|list| fs::read_to_string(list).ok()).unwrap_or_default();
     let known = RefCell::new(known.lines().map(str::to_owned).collect::<BTreeSet<_>>());
     move |file| {
@@ -224,7 +259,8 @@ pub fn remembering<'a>(list: Option<PathBuf>, checker: &'a Checker<'a>) -> impl 
 fn note(list: &Path, known: &BTreeSet<String>) {
     let text = known.iter().fold(String::new(), |text, passed| text + passed + "\n");
     let beside = list.with_extension(format!("{}.new", std::process::id()));
-    let written = list.parent().map_or(Ok(()), fs::create_dir_all).and_then(|()| fs::write(&beside, text));
+    let written =
+        list.parent().map_or(Ok(()), fs::create_dir_all).and_then(|()| fs::write(&beside, text));
     // A list that cannot be kept costs only a check at the next start.
     let _ = written.and_then(|()| fs::rename(&beside, list));
 }

@@ -54,7 +54,10 @@ impl Choices {
         for line in text.lines() {
             match line.split_once(' ') {
                 Some(("allow", rest)) => {
-                    choices.allowed.extend(rest.split_once(' ').map(|(hash, file)| (PathBuf::from(file), hash.to_owned())));
+                    choices.allowed.extend(
+                        rest.split_once(' ')
+                            .map(|(hash, file)| (PathBuf::from(file), hash.to_owned())),
+                    );
                 }
                 Some(("off", id)) => {
                     choices.off.insert(id.to_owned());
@@ -119,9 +122,13 @@ impl Choices {
 
     fn keep(&self) -> Result<(), String> {
         let Some(list) = &self.list else { return Ok(()) };
-        let allowed = self.allowed.iter().map(|(file, hash)| format!("allow {hash} {}\n", file.display()));
+        let allowed =
+            self.allowed.iter().map(|(file, hash)| format!("allow {hash} {}\n", file.display()));
         let text: String = allowed.chain(self.off.iter().map(|id| format!("off {id}\n"))).collect();
-        let kept = list.parent().map_or(Ok(()), fs::create_dir_all).and_then(|()| save::atomically(list, text.as_bytes()));
+        let kept = list
+            .parent()
+            .map_or(Ok(()), fs::create_dir_all)
+            .and_then(|()| save::atomically(list, text.as_bytes()));
         kept.map_err(|error| format!("{}: cannot be written: {error}", list.display()))
     }
 }
@@ -138,7 +145,11 @@ mod tests {
     #[test]
     fn decisions_outlive_the_program_and_a_changed_file_is_asked_about_again() {
         let folder = std::env::temp_dir().join(format!("endline-choices-{}", std::process::id()));
-        let (list, own, file) = (folder.join("data/plugins-chosen"), folder.join("own"), folder.join("lib with a space.so"));
+        let (list, own, file) = (
+            folder.join("data/plugins-chosen"),
+            folder.join("own"),
+            folder.join("lib with a space.so"),
+        );
         fs::create_dir_all(&own).unwrap();
         let read = || Choices::kept_in(Some(list.clone()), std::slice::from_ref(&own));
         let change = |hash: &str| read().ask(&file, hash).map(|ask| ask.change);

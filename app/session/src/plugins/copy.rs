@@ -16,7 +16,12 @@ static COPIES: AtomicU64 = AtomicU64::new(0);
 const LEFT_BEHIND: Duration = Duration::from_secs(24 * 3600);
 
 /// Does something with a copy of a file, and removes it where the system allows; with the file itself where none can be made.
-pub(super) fn with_copy<T>(file: &Path, bytes: &[u8], folder: &Path, work: impl FnOnce(&Path) -> T) -> T {
+pub(super) fn with_copy<T>(
+    file: &Path,
+    bytes: &[u8],
+    folder: &Path,
+    work: impl FnOnce(&Path) -> T,
+) -> T {
     let Some(copy) = write(file, bytes, folder) else { return work(file) };
     let done = work(&copy);
     // Where an open file cannot be removed it is left for a later start.
@@ -26,7 +31,11 @@ pub(super) fn with_copy<T>(file: &Path, bytes: &[u8], folder: &Path, work: impl 
 
 fn write(file: &Path, bytes: &[u8], folder: &Path) -> Option<PathBuf> {
     let number = COPIES.fetch_add(1, Ordering::Relaxed);
-    let copy = folder.join(format!("{}-{number}-{}", std::process::id(), file.file_name()?.to_string_lossy()));
+    let copy = folder.join(format!(
+        "{}-{number}-{}",
+        std::process::id(),
+        file.file_name()?.to_string_lossy()
+    ));
     fs::create_dir_all(folder).ok()?;
     clear(folder);
     fs::write(&copy, bytes).ok()?;
@@ -35,9 +44,18 @@ fn write(file: &Path, bytes: &[u8], folder: &Path) -> Option<PathBuf> {
 
 /// Removes what earlier programs could not.
 fn clear(folder: &Path) {
-    let old =
-        |path: &Path| fs::metadata(path).and_then(|about| about.modified()).is_ok_and(|at| at.elapsed().is_ok_and(|age| age > LEFT_BEHIND));
-    for path in fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()).filter(|path| old(path)) {
+    let old = |path: &Path| {
+        fs::metadata(path)
+            .and_then(|about| about.modified())
+            .is_ok_and(|at| at.elapsed().is_ok_and(|age| age > LEFT_BEHIND))
+    };
+    for path in fs::read_dir(folder)
+        .into_iter()
+        .flatten()
+        .flatten()
+        .map(|entry| entry.path())
+        .filter(|path| old(path))
+    {
         // One still in use stays.
         let _ = fs::remove_file(path);
     }

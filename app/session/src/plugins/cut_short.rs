@@ -10,8 +10,12 @@ pub(super) fn missing_from(bytes: &[u8]) -> Option<u64> {
         return None;
     }
     let Some(header) = bytes.get(..64) else { return Some(64) };
-    let number =
-        |from: usize, length: usize| header[from..from + length].iter().rev().fold(0_u64, |number, byte| number << 8 | u64::from(*byte));
+    let number = |from: usize, length: usize| {
+        header[from..from + length]
+            .iter()
+            .rev()
+            .fold(0_u64, |number, byte| number << 8 | u64::from(*byte))
+    };
     let (sections_at, each, count) = (number(0x28, 8), number(0x3a, 2), number(0x3c, 2));
     let whole = sections_at.saturating_add(each * count);
     (whole > bytes.len() as u64).then_some(whole)

@@ -19,12 +19,16 @@ const TELL_AUTHOR: &str = "tell the plugin's author";
 pub(super) fn check(descriptor: &Descriptor) -> Result<(), Refusal> {
     let id = descriptor.id.as_ref();
     if !id_is_sound(id) {
-        let reason = format!("its id `{id}` is not a reverse-domain name such as org.example.friction.wet");
+        let reason =
+            format!("its id `{id}` is not a reverse-domain name such as org.example.friction.wet");
         return Err(Refusal::new(reason, TELL_AUTHOR));
     }
     let wrong = |reason: String| Err(Refusal::of(id, reason, TELL_AUTHOR));
     if descriptor.state_len > MOST_STATE {
-        return wrong(format!("it asks for {} floats of state, more than {MOST_STATE}", descriptor.state_len));
+        return wrong(format!(
+            "it asks for {} floats of state, more than {MOST_STATE}",
+            descriptor.state_len
+        ));
     }
     let mut keys = BTreeSet::new();
     for attribute in &descriptor.attributes {
@@ -44,28 +48,39 @@ pub(super) fn check(descriptor: &Descriptor) -> Result<(), Refusal> {
 
 /// Acts are named in scenarios by their id, each once.
 fn act_fault(descriptor: &Descriptor) -> Option<String> {
-    let is_sound = |id: &str| !id.is_empty() && id.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-');
+    let is_sound = |id: &str| {
+        !id.is_empty()
+            && id.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-')
+    };
     let mut ids = BTreeSet::new();
-    let wrong = descriptor.acts.iter().find(|act| !is_sound(&act.id) || !ids.insert(act.id.as_ref()))?;
-    Some(format!("its act `{}` is named twice or not in small letters, digits and hyphens, such as roll-away", wrong.id))
+    let wrong =
+        descriptor.acts.iter().find(|act| !is_sound(&act.id) || !ids.insert(act.id.as_ref()))?;
+    Some(format!(
+        "its act `{}` is named twice or not in small letters, digits and hyphens, such as roll-away",
+        wrong.id
+    ))
 }
 
 fn id_is_sound(id: &str) -> bool {
-    let part = |part: &str| !part.is_empty() && part.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_');
+    let part = |part: &str| {
+        !part.is_empty() && part.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_')
+    };
     id.contains('.') && id.split('.').all(part)
 }
 
 fn fault(kind: &AttributeKind) -> Option<String> {
     match kind {
         AttributeKind::Number { min, max, default } => {
-            let sound = [min, max, default].iter().all(|number| number.is_finite()) && min <= default && default <= max;
+            let sound = [min, max, default].iter().all(|number| number.is_finite())
+                && min <= default
+                && default <= max;
             (!sound).then(|| format!("its default {default} and range {min} to {max} must be finite, the default within the range"))
         }
-        AttributeKind::Count { min, max, default } => {
-            (!(min..=max).contains(&default)).then(|| format!("its default {default} is not within its range {min} to {max}"))
-        }
+        AttributeKind::Count { min, max, default } => (!(min..=max).contains(&default))
+            .then(|| format!("its default {default} is not within its range {min} to {max}")),
         AttributeKind::Choice { words, default } => {
-            let sound = words.iter().all(|word| !word.is_empty() && !word.contains('|')) && words.contains(default);
+            let sound = words.iter().all(|word| !word.is_empty() && !word.contains('|'))
+                && words.contains(default);
             (!sound).then(|| format!("its words must not be empty or hold a `|`, and its default `{default}` must be one of them"))
         }
         AttributeKind::Item { .. } => None,

@@ -9,14 +9,17 @@ use std::path::{Path, PathBuf};
 pub fn default_folders() -> Vec<PathBuf> {
     let own = user_folder("XDG_DATA_HOME", ".local/share").map(|folder| folder.join("plugins"));
     let named = env::var_os("ENDLINE_PLUGINS");
-    let named = named.iter().flat_map(env::split_paths).filter(|folder| !folder.as_os_str().is_empty());
+    let named =
+        named.iter().flat_map(env::split_paths).filter(|folder| !folder.as_os_str().is_empty());
     program_folder().into_iter().chain(own).chain(named).collect()
 }
 
 /// The folder of what came with the program, beside it: its libraries are opened unasked.
 #[must_use]
 pub fn program_folder() -> Option<PathBuf> {
-    env::current_exe().ok().and_then(|program| program.parent().map(|folder| folder.join("plugins")))
+    env::current_exe()
+        .ok()
+        .and_then(|program| program.parent().map(|folder| folder.join("plugins")))
 }
 
 /// File in the user's data folder that holds what the user has decided about plugins.
@@ -27,7 +30,9 @@ pub fn chosen_file() -> Option<PathBuf> {
 
 /// Folder that libraries are copied to as they are opened; that for temporary files where the user has none.
 pub(super) fn copies_folder() -> PathBuf {
-    user_folder("XDG_CACHE_HOME", ".cache").unwrap_or_else(|| env::temp_dir().join("endline")).join("plugins-open")
+    user_folder("XDG_CACHE_HOME", ".cache")
+        .unwrap_or_else(|| env::temp_dir().join("endline"))
+        .join("plugins-open")
 }
 
 /// File in the user's cache folder that lists the hashes of files that passed the check.
@@ -38,6 +43,10 @@ pub fn known_file() -> Option<PathBuf> {
 
 fn user_folder(variable: &str, under_home: &str) -> Option<PathBuf> {
     let named = env::var_os(variable).map(PathBuf::from).filter(|folder| folder.is_absolute());
-    let home = || env::var_os("HOME").or_else(|| env::var_os("USERPROFILE")).map(|home| Path::new(&home).join(under_home));
+    let home = || {
+        env::var_os("HOME")
+            .or_else(|| env::var_os("USERPROFILE"))
+            .map(|home| Path::new(&home).join(under_home))
+    };
     named.or_else(home).map(|folder| folder.join("endline"))
 }

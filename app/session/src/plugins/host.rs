@@ -40,7 +40,10 @@ impl PluginHost {
 
     /// Loads every library in the folders that the checker lets pass.
     #[must_use]
-    pub fn discover_checked(folders: &[PathBuf], checker: &Checker<'_>) -> (Self, Vec<PluginProblem>) {
+    pub fn discover_checked(
+        folders: &[PathBuf],
+        checker: &Checker<'_>,
+    ) -> (Self, Vec<PluginProblem>) {
         Loader::new(folders, Choices::everything()).load(checker)
     }
 
@@ -67,13 +70,21 @@ impl PluginHost {
     /// The whale motion with this id.
     #[must_use]
     pub fn motion(&self, id: &str) -> Option<Arc<dyn WhaleMotion>> {
-        if let Some(Hook::Motion(motion)) = self.hooks.get(id) { Some(Arc::clone(motion)) } else { None }
+        if let Some(Hook::Motion(motion)) = self.hooks.get(id) {
+            Some(Arc::clone(motion))
+        } else {
+            None
+        }
     }
 
     /// The friction model with this id.
     #[must_use]
     pub fn friction(&self, id: &str) -> Option<Arc<dyn FrictionModel>> {
-        if let Some(Hook::Friction(friction)) = self.hooks.get(id) { Some(Arc::clone(friction)) } else { None }
+        if let Some(Hook::Friction(friction)) = self.hooks.get(id) {
+            Some(Arc::clone(friction))
+        } else {
+            None
+        }
     }
 
     /// The gear type with this id.
@@ -85,8 +96,14 @@ impl PluginHost {
     /// Files of a gear library with the acts of plugins; where two files of acts have the same name, the library's own counts.
     #[must_use]
     pub fn with_clips(&self, library: Sources) -> Sources {
-        let paths = self.clips.iter().map(|(path, _)| path).chain(self.clips.meshes().map(|(path, _)| path));
-        let is_own = |path: &str| library.get(&format!("acts/{}", path.rsplit('/').next().unwrap_or(path))).is_some();
+        let paths = self
+            .clips
+            .iter()
+            .map(|(path, _)| path)
+            .chain(self.clips.meshes().map(|(path, _)| path));
+        let is_own = |path: &str| {
+            library.get(&format!("acts/{}", path.rsplit('/').next().unwrap_or(path))).is_some()
+        };
         let others: Vec<String> = paths.filter(|path| !is_own(path)).map(str::to_owned).collect();
         self.clips.only(&others).overlay(library)
     }
@@ -102,19 +119,39 @@ impl PluginHost {
         self.hooks.get(id)
     }
 
-    pub(super) fn add_loaded(&mut self, file: &Path, hash: &str, opened: Opened, choices: &Choices, problems: &mut Vec<PluginProblem>) {
+    pub(super) fn add_loaded(
+        &mut self,
+        file: &Path,
+        hash: &str,
+        opened: Opened,
+        choices: &Choices,
+        problems: &mut Vec<PluginProblem>,
+    ) {
         for hook in opened.hooks {
-            let from = Origin { file: file.to_path_buf(), hash: hash.to_owned(), about: opened.about.clone() };
+            let from = Origin {
+                file: file.to_path_buf(),
+                hash: hash.to_owned(),
+                about: opened.about.clone(),
+            };
             let added = hook.and_then(|hook| self.insert(hook, Some(from), choices));
             problems.extend(added.err().map(|refusal| refusal.at(file)));
         }
     }
 
     /// Adds a plugin without code: its gear types, and its acts to those of the gear library.
-    pub(super) fn add_text(&mut self, folder: &Path, plugin: &TextPlugin, choices: &Choices, problems: &mut Vec<PluginProblem>) {
+    pub(super) fn add_text(
+        &mut self,
+        folder: &Path,
+        plugin: &TextPlugin,
+        choices: &Choices,
+        problems: &mut Vec<PluginProblem>,
+    ) {
         let hash = blake3::hash(&plugin.bytes).to_hex().to_string();
         let from = Origin { file: folder.join(PLUGIN_FILE), hash, about: plugin.about.clone() };
-        let gear = plugin.gear.iter().map(|gear| self.insert(Hook::Gear(Arc::clone(gear)), Some(from.clone()), choices));
+        let gear = plugin
+            .gear
+            .iter()
+            .map(|gear| self.insert(Hook::Gear(Arc::clone(gear)), Some(from.clone()), choices));
         let mut refused: Vec<Refusal> = gear.filter_map(Result::err).collect();
         if !plugin.acts.is_empty() {
             refused.extend(self.add_clips(plugin, from, choices).err());
@@ -122,23 +159,52 @@ impl PluginHost {
         problems.extend(refused.into_iter().map(|refusal| refusal.at(folder)));
     }
 
-    fn add_clips(&mut self, plugin: &TextPlugin, from: Origin, choices: &Choices) -> Result<(), Refusal> {
+    fn add_clips(
+        &mut self,
+        plugin: &TextPlugin,
+        from: Origin,
+        choices: &Choices,
+    ) -> Result<(), Refusal> {
         let text = |text: &String| text.clone().into();
-        let (id, version, name, help) = (text(&plugin.id), text(&plugin.version), text(&plugin.name), text(&plugin.help));
+        let (id, version, name, help) =
+            (text(&plugin.id), text(&plugin.version), text(&plugin.name), text(&plugin.help));
         let acts = plugin.acts.clone();
-        declared::check(&Descriptor { id, version, name, help, attributes: Vec::new(), state_len: 0, acts })?;
-        let taken = |id: &str| self.infos.iter().find(|info| info.kind == PluginKind::Clips && info.acts.iter().any(|act| act.id == id));
-        if let Some((act, first)) = plugin.acts.iter().find_map(|act| Some((act, taken(&act.id)?))) {
+        declared::check(&Descriptor {
+            id,
+            version,
+            name,
+            help,
+            attributes: Vec::new(),
+            state_len: 0,
+            acts,
+        })?;
+        let taken = |id: &str| {
+            self.infos.iter().find(|info| {
+                info.kind == PluginKind::Clips && info.acts.iter().any(|act| act.id == id)
+            })
+        };
+        if let Some((act, first)) = plugin.acts.iter().find_map(|act| Some((act, taken(&act.id)?)))
+        {
             let reason = format!("`{}` already has an act `{}`", first.id, act.id);
-            return Err(Refusal::of(&plugin.id, reason, "name the act otherwise, or switch one of the two off"));
+            return Err(Refusal::of(
+                &plugin.id,
+                reason,
+                "name the act otherwise, or switch one of the two off",
+            ));
         }
         if self.admit(PluginInfo::of_clips(plugin, from), choices)? {
-            self.clips = std::mem::take(&mut self.clips).overlay(plugin.clips.under(&format!("plugins/{}", plugin.id)));
+            self.clips = std::mem::take(&mut self.clips)
+                .overlay(plugin.clips.under(&format!("plugins/{}", plugin.id)));
         }
         Ok(())
     }
 
-    fn insert(&mut self, hook: Hook, from: Option<Origin>, choices: &Choices) -> Result<(), Refusal> {
+    fn insert(
+        &mut self,
+        hook: Hook,
+        from: Option<Origin>,
+        choices: &Choices,
+    ) -> Result<(), Refusal> {
         declared::check(hook.descriptor())?;
         let id = hook.descriptor().id.to_string();
         if self.admit(PluginInfo::of(&hook, from), choices)? {
@@ -150,8 +216,15 @@ impl PluginHost {
     /// Lists a plugin whose id is free; false where its user has switched it off.
     fn admit(&mut self, info: PluginInfo, choices: &Choices) -> Result<bool, Refusal> {
         if let Some(first) = self.infos.iter().chain(&self.off).find(|known| known.id == info.id) {
-            let place = first.file.as_ref().map_or_else(|| "the program itself".to_owned(), |file| file.display().to_string());
-            return Err(Refusal::of(&info.id, format!("{place} already has a plugin with this id"), "remove one of the two"));
+            let place = first
+                .file
+                .as_ref()
+                .map_or_else(|| "the program itself".to_owned(), |file| file.display().to_string());
+            return Err(Refusal::of(
+                &info.id,
+                format!("{place} already has a plugin with this id"),
+                "remove one of the two",
+            ));
         }
         let on = !choices.is_off(&info.id);
         if on {

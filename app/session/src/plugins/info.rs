@@ -198,6 +198,12 @@ impl Refusal {
     }
 
     pub(super) fn at(self, file: impl Into<PathBuf>) -> PluginProblem {
-        PluginProblem { file: file.into(), id: self.id, reason: self.reason, help: self.help, standing: self.standing }
+        PluginProblem {
+            file: file.into(),
+            id: self.id,
+            reason: self.reason,
+            help: self.help,
+            standing: self.standing,
+        }
     }
 }

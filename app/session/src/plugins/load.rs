@@ -3,7 +3,10 @@
 //! What can be checked of a library is checked here: ABI version, sizes, null pointers, UTF-8,
 //! counts. What cannot is whether its pointers lead where they say; that is why a new file is first
 //! opened in a child process.
-#![expect(unsafe_code, reason = "one of the two sides of the plugin boundary: a library's pointers become safe values here")]
+#![expect(
+    unsafe_code,
+    reason = "one of the two sides of the plugin boundary: a library's pointers become safe values here"
+)]
 
 use std::borrow::Cow;
 use std::ffi::c_void;
@@ -12,8 +15,9 @@ use std::sync::Arc;
 
 use endline_sdk::abi::table::*;
 use endline_sdk::{
-    Act, Attribute, AttributeKind, AttributeValue, BodyKind, Contacts, Descriptor, FrictionModel, FrictionResponse, GearAction, GearStep,
-    GearType, HookError, LineEnd, MotionInput, MotionOutput, Rig, RigBody, RigEnd, RigJoint, RigLine, RigLink, Site, WhaleMotion,
+    Act, Attribute, AttributeKind, AttributeValue, BodyKind, Contacts, Descriptor, FrictionModel,
+    FrictionResponse, GearAction, GearStep, GearType, HookError, LineEnd, MotionInput,
+    MotionOutput, Rig, RigBody, RigEnd, RigJoint, RigLine, RigLink, Site, WhaleMotion,
 };
 use libloading::Library;
 
@@ -50,17 +54,26 @@ pub(super) fn open(file: &Path, named: &Path) -> Result<Opened, Refusal> {
     let entry = read_entry(find_entry(file)?)?;
     initialise(&entry, named)?;
     let (factory, plugins) = plugins_of(&entry)?;
-    Ok(Opened { about: text(factory.about)?.into_owned(), hooks: plugins.iter().map(|plugin| read_plugin(*plugin)).collect() })
+    Ok(Opened {
+        about: text(factory.about)?.into_owned(),
+        hooks: plugins.iter().map(|plugin| read_plugin(*plugin)).collect(),
+    })
 }
 
 fn find_entry(file: &Path) -> Result<*const AbiEntry, Refusal> {
     // SAFETY: opening runs the library's initialisers; a file that cannot stand that was refused by the child process.
-    let library = unsafe { Library::new(file) }
-        .map_err(|error| Refusal::new(format!("is not a library that can be opened: {error}"), NOT_A_PLUGIN))?;
+    let library = unsafe { Library::new(file) }.map_err(|error| {
+        Refusal::new(format!("is not a library that can be opened: {error}"), NOT_A_PLUGIN)
+    })?;
     // SAFETY: the symbol is only taken for an address here.
     let entry = unsafe { library.get::<*const AbiEntry>(ENTRY_NAME) }.map(|symbol| *symbol);
     std::mem::forget(library);
-    entry.map_err(|_| Refusal::new(format!("does not export `{ENTRY_NAME}`"), "build it with `export_plugin!` and the feature `entry`"))
+    entry.map_err(|_| {
+        Refusal::new(
+            format!("does not export `{ENTRY_NAME}`"),
+            "build it with `export_plugin!` and the feature `entry`",
+        )
+    })
 }
 
 /// The entry: major version and size stand at the same place in every version of the ABI.
@@ -68,7 +81,9 @@ fn read_entry(entry: *const AbiEntry) -> Result<AbiEntry, Refusal> {
     // SAFETY: every version of the entry begins with these three numbers.
     let [major, minor, size] = unsafe { entry.cast::<[u32; 3]>().read_unaligned() };
     if major != ABI_MAJOR {
-        let reason = format!("was built for plugin ABI {major}.{minor}, but this program speaks {ABI_MAJOR}.{ABI_MINOR}");
+        let reason = format!(
+            "was built for plugin ABI {major}.{minor}, but this program speaks {ABI_MAJOR}.{ABI_MINOR}"
+        );
         return Err(Refusal::new(reason, REBUILD));
     }
     // SAFETY: of this major version, so it is as long as it says.
@@ -113,12 +128,19 @@ impl HandedOver for AbiGear {
 unsafe fn known_part<T: HandedOver>(given: *const T, size: u32, what: &str) -> Result<T, Refusal> {
     let size = size as usize;
     if size < T::LEAST {
-        return Err(Refusal::new(format!("its {what} is truncated: {size} bytes where {} are needed", T::LEAST), REBUILD));
+        return Err(Refusal::new(
+            format!("its {what} is truncated: {size} bytes where {} are needed", T::LEAST),
+            REBUILD,
+        ));
     }
     let mut known = std::mem::MaybeUninit::<T>::zeroed();
     // SAFETY: the caller's promise; all zeros is a value of such a struct.
     unsafe {
-        std::ptr::copy_nonoverlapping(given.cast::<u8>(), known.as_mut_ptr().cast(), size.min(size_of::<T>()));
+        std::ptr::copy_nonoverlapping(
+            given.cast::<u8>(),
+            known.as_mut_ptr().cast(),
+            size.min(size_of::<T>()),
+        );
         Ok(known.assume_init())
     }
 }
@@ -143,18 +165,25 @@ fn initialise(entry: &AbiEntry, file: &Path) -> Result<(), Refusal> {
     let init = entry.init.ok_or_else(|| missing("function `init`"))?;
     let path = file.to_string_lossy();
     // SAFETY: called as the table says.
-    call(|message| unsafe { init(AbiText::of(&path), message) })
-        .map_err(|error| Refusal::new(format!("does not start: {error}"), "tell the plugin's author"))
+    call(|message| unsafe { init(AbiText::of(&path), message) }).map_err(|error| {
+        Refusal::new(format!("does not start: {error}"), "tell the plugin's author")
+    })
 }
 
 fn plugins_of(entry: &AbiEntry) -> Result<(AbiFactory, &'static [*const AbiPlugin]), Refusal> {
     let get_factory = entry.get_factory.ok_or_else(|| missing("function `get_factory`"))?;
     // SAFETY: the factory and its list live as long as the library, which is never unmapped.
     unsafe {
-        let factory = known(get_factory(AbiText::of(FACTORY_ID)).cast::<AbiFactory>(), &format!("factory `{FACTORY_ID}`"))?;
+        let factory = known(
+            get_factory(AbiText::of(FACTORY_ID)).cast::<AbiFactory>(),
+            &format!("factory `{FACTORY_ID}`"),
+        )?;
         let (count, plugins) = (factory.plugin_count, factory.plugins);
         if count == 0 || count > MOST_PLUGINS || plugins.is_null() {
-            return Err(Refusal::new(format!("its factory lists {count} plugins"), "tell the plugin's author"));
+            return Err(Refusal::new(
+                format!("its factory lists {count} plugins"),
+                "tell the plugin's author",
+            ));
         }
         Ok((factory, std::slice::from_raw_parts(plugins, count as usize)))
     }
@@ -172,11 +201,16 @@ fn read_hook(plugin: &AbiPlugin, descriptor: Descriptor) -> Result<Hook, Refusal
     Ok(match plugin.kind {
         KIND_MOTION => {
             let table: AbiMotion = read_table(plugin)?;
-            Hook::Motion(Arc::new(Loaded { descriptor, context: plugin.context, calls: Motion { step: needed(table.step)? } }))
+            Hook::Motion(Arc::new(Loaded {
+                descriptor,
+                context: plugin.context,
+                calls: Motion { step: needed(table.step)? },
+            }))
         }
         KIND_FRICTION => {
             let table: AbiFriction = read_table(plugin)?;
-            let calls = Friction { respond: needed(table.respond)?, advance: needed(table.advance)? };
+            let calls =
+                Friction { respond: needed(table.respond)?, advance: needed(table.advance)? };
             Hook::Friction(Arc::new(Loaded { descriptor, context: plugin.context, calls }))
         }
         KIND_GEAR => {
@@ -184,7 +218,12 @@ fn read_hook(plugin: &AbiPlugin, descriptor: Descriptor) -> Result<Hook, Refusal
             let calls = Gear { build: needed(table.build)?, step: table.step };
             Hook::Gear(Arc::new(Loaded { descriptor, context: plugin.context, calls }))
         }
-        other => return Err(Refusal::new(format!("its kind {other} is not known to this program"), REBUILD)),
+        other => {
+            return Err(Refusal::new(
+                format!("its kind {other} is not known to this program"),
+                REBUILD,
+            ));
+        }
     })
 }
 
@@ -199,13 +238,21 @@ fn needed<F>(function: Option<F>) -> Result<F, Refusal> {
 
 fn read_descriptor(plugin: &AbiPlugin) -> Result<Descriptor, Refusal> {
     if plugin.attribute_count > MOST_ATTRIBUTES {
-        return Err(Refusal::new(format!("it declares {} attributes", plugin.attribute_count), "tell the plugin's author"));
+        return Err(Refusal::new(
+            format!("it declares {} attributes", plugin.attribute_count),
+            "tell the plugin's author",
+        ));
     }
     if plugin.act_count > MOST_ACTS {
-        return Err(Refusal::new(format!("it declares {} acts", plugin.act_count), "tell the plugin's author"));
+        return Err(Refusal::new(
+            format!("it declares {} acts", plugin.act_count),
+            "tell the plugin's author",
+        ));
     }
     // SAFETY: attributes and acts live as long as the library.
-    let (attributes, acts) = unsafe { (array(plugin.attributes, plugin.attribute_count), array(plugin.acts, plugin.act_count)) };
+    let (attributes, acts) = unsafe {
+        (array(plugin.attributes, plugin.attribute_count), array(plugin.acts, plugin.act_count))
+    };
     Ok(Descriptor {
         id: text(plugin.id)?,
         version: text(plugin.version)?,
@@ -223,14 +270,24 @@ fn read_act(raw: &AbiAct) -> Result<Act, Refusal> {
 
 fn read_attribute(raw: &AbiAttribute) -> Result<Attribute, Refusal> {
     let kind = match raw.kind {
-        ATTRIBUTE_NUMBER => AttributeKind::Number { min: raw.least, max: raw.greatest, default: raw.default_number },
+        ATTRIBUTE_NUMBER => {
+            AttributeKind::Number { min: raw.least, max: raw.greatest, default: raw.default_number }
+        }
         ATTRIBUTE_COUNT => read_count(raw)?,
         ATTRIBUTE_CHOICE => {
-            let words = text(raw.library)?.split('|').map(|word| Cow::Owned(word.to_owned())).collect();
+            let words =
+                text(raw.library)?.split('|').map(|word| Cow::Owned(word.to_owned())).collect();
             AttributeKind::Choice { words, default: text(raw.default_item)? }
         }
-        ATTRIBUTE_ITEM => AttributeKind::Item { library: text(raw.library)?, default: text(raw.default_item)? },
-        other => return Err(Refusal::new(format!("it declares an attribute of unknown kind {other}"), REBUILD)),
+        ATTRIBUTE_ITEM => {
+            AttributeKind::Item { library: text(raw.library)?, default: text(raw.default_item)? }
+        }
+        other => {
+            return Err(Refusal::new(
+                format!("it declares an attribute of unknown kind {other}"),
+                REBUILD,
+            ));
+        }
     };
     Ok(Attribute { key: text(raw.key)?, unit: text(raw.unit)?, help: text(raw.help)?, kind })
 }
@@ -238,21 +295,36 @@ fn read_attribute(raw: &AbiAttribute) -> Result<Attribute, Refusal> {
 fn read_count(raw: &AbiAttribute) -> Result<AttributeKind, Refusal> {
     let whole = |number: f64| {
         if number.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&number) {
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "looked at in the line before")]
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "looked at in the line before"
+            )]
             return Ok(number as u32);
         }
-        Err(Refusal::new(format!("it declares a count with the figure {number}, which is no whole number"), "tell the plugin's author"))
+        Err(Refusal::new(
+            format!("it declares a count with the figure {number}, which is no whole number"),
+            "tell the plugin's author",
+        ))
     };
-    Ok(AttributeKind::Count { min: whole(raw.least)?, max: whole(raw.greatest)?, default: whole(raw.default_number)? })
+    Ok(AttributeKind::Count {
+        min: whole(raw.least)?,
+        max: whole(raw.greatest)?,
+        default: whole(raw.default_number)?,
+    })
 }
 
 fn text(raw: AbiText) -> Result<Cow<'static, str>, Refusal> {
     if raw.length > LONGEST_TEXT {
-        return Err(Refusal::new(format!("one of its texts claims {} bytes", raw.length), "tell the plugin's author"));
+        return Err(Refusal::new(
+            format!("one of its texts claims {} bytes", raw.length),
+            "tell the plugin's author",
+        ));
     }
     // SAFETY: text of a descriptor lives as long as the library; it is copied all the same.
     let bytes = unsafe { array(raw.text.cast::<u8>(), raw.length) };
-    let text = std::str::from_utf8(bytes).map_err(|_| Refusal::new("one of its texts is not UTF-8", "tell the plugin's author"))?;
+    let text = std::str::from_utf8(bytes)
+        .map_err(|_| Refusal::new("one of its texts is not UTF-8", "tell the plugin's author"))?;
     Ok(Cow::Owned(text.to_owned()))
 }
 
@@ -268,8 +340,18 @@ unsafe impl<F> Send for Loaded<F> {}
 // SAFETY: as above.
 unsafe impl<F> Sync for Loaded<F> {}
 
-type Step<A, I, O> = unsafe extern "C" fn(*const c_void, *const A, usize, *const I, *mut f64, usize, O, *mut AbiMessage) -> i32;
-type Pass<A, I, O> = unsafe extern "C" fn(*const c_void, *const A, usize, *const I, O, *mut AbiMessage) -> i32;
+type Step<A, I, O> = unsafe extern "C" fn(
+    *const c_void,
+    *const A,
+    usize,
+    *const I,
+    *mut f64,
+    usize,
+    O,
+    *mut AbiMessage,
+) -> i32;
+type Pass<A, I, O> =
+    unsafe extern "C" fn(*const c_void, *const A, usize, *const I, O, *mut AbiMessage) -> i32;
 
 struct Motion {
     step: Step<f64, AbiMotionInput, *mut MotionOutput>,
@@ -290,7 +372,12 @@ impl WhaleMotion for Loaded<Motion> {
         &self.descriptor
     }
 
-    fn step(&self, attributes: &[f64], input: &MotionInput<'_>, state: &mut [f64]) -> Result<MotionOutput, HookError> {
+    fn step(
+        &self,
+        attributes: &[f64],
+        input: &MotionInput<'_>,
+        state: &mut [f64],
+    ) -> Result<MotionOutput, HookError> {
         let raw = AbiMotionInput {
             struct_size: size_of::<AbiMotionInput>() as u32,
             time_s: input.time_s,
@@ -308,7 +395,16 @@ impl WhaleMotion for Loaded<Motion> {
         let mut out = MotionOutput::default();
         // SAFETY: pointers and lengths of live slices.
         call(|message| unsafe {
-            (self.calls.step)(self.context, attributes.as_ptr(), count, &raw, state.as_mut_ptr(), floats, &mut out, message)
+            (self.calls.step)(
+                self.context,
+                attributes.as_ptr(),
+                count,
+                &raw,
+                state.as_mut_ptr(),
+                floats,
+                &mut out,
+                message,
+            )
         })?;
         Ok(out)
     }
@@ -319,28 +415,56 @@ impl FrictionModel for Loaded<Friction> {
         &self.descriptor
     }
 
-    fn respond(&self, attributes: &[f64], contacts: &Contacts<'_>, out: &mut [FrictionResponse]) -> Result<(), HookError> {
+    fn respond(
+        &self,
+        attributes: &[f64],
+        contacts: &Contacts<'_>,
+        out: &mut [FrictionResponse],
+    ) -> Result<(), HookError> {
         let raw = raw_contacts(contacts, self.descriptor.state_len, out.len(), contacts.len())?;
         let (respond, count) = (self.calls.respond, attributes.len());
         // SAFETY: pointers and lengths of live slices; `raw_contacts` saw that they agree.
-        call(|message| unsafe { respond(self.context, attributes.as_ptr(), count, &raw, out.as_mut_ptr(), message) })
+        call(|message| unsafe {
+            respond(self.context, attributes.as_ptr(), count, &raw, out.as_mut_ptr(), message)
+        })
     }
 
-    fn advance(&self, attributes: &[f64], contacts: &Contacts<'_>, out: &mut [f64]) -> Result<(), HookError> {
+    fn advance(
+        &self,
+        attributes: &[f64],
+        contacts: &Contacts<'_>,
+        out: &mut [f64],
+    ) -> Result<(), HookError> {
         let floats = self.descriptor.state_len;
         let raw = raw_contacts(contacts, floats, out.len(), contacts.len() * floats)?;
         let (advance, count) = (self.calls.advance, attributes.len());
         // SAFETY: as in `respond`.
-        call(|message| unsafe { advance(self.context, attributes.as_ptr(), count, &raw, out.as_mut_ptr(), message) })
+        call(|message| unsafe {
+            advance(self.context, attributes.as_ptr(), count, &raw, out.as_mut_ptr(), message)
+        })
     }
 }
 
 /// The contacts as C sees them; an error where array lengths do not agree, for C would read past them.
-fn raw_contacts(contacts: &Contacts<'_>, state_len: usize, room: usize, needed: usize) -> Result<AbiContacts, HookError> {
+fn raw_contacts(
+    contacts: &Contacts<'_>,
+    state_len: usize,
+    room: usize,
+    needed: usize,
+) -> Result<AbiContacts, HookError> {
     let count = contacts.len();
-    let vectors = [contacts.normal.len(), contacts.grain.len(), contacts.along.len(), contacts.slip_m.len()];
-    let numbers = [contacts.length_m.len(), contacts.coefficient.len(), contacts.region.len(), contacts.rope.len()];
-    if vectors.iter().chain(&numbers).any(|length| *length != count) || contacts.state.len() != count * state_len || room != needed {
+    let vectors =
+        [contacts.normal.len(), contacts.grain.len(), contacts.along.len(), contacts.slip_m.len()];
+    let numbers = [
+        contacts.length_m.len(),
+        contacts.coefficient.len(),
+        contacts.region.len(),
+        contacts.rope.len(),
+    ];
+    if vectors.iter().chain(&numbers).any(|length| *length != count)
+        || contacts.state.len() != count * state_len
+        || room != needed
+    {
         return Err(HookError::new("the arrays of contacts differ in length"));
     }
     Ok(AbiContacts {
@@ -380,7 +504,9 @@ impl GearType for Loaded<Gear> {
         };
         let build = self.calls.build;
         // SAFETY: pointers and lengths of live values; `host` lives through the call.
-        call(|message| unsafe { build(self.context, values.as_ptr(), values.len(), site, &host, message) })?;
+        call(|message| unsafe {
+            build(self.context, values.as_ptr(), values.len(), site, &host, message)
+        })?;
         Ok(rig)
     }
 
@@ -392,7 +518,8 @@ impl GearType for Loaded<Gear> {
         actions: &mut Vec<GearAction>,
     ) -> Result<(), HookError> {
         let Some(step) = self.calls.step else { return Ok(()) };
-        let (values, floats, tensions) = (raw_values(&self.descriptor, attributes), state.len(), input.end_tension_n);
+        let (values, floats, tensions) =
+            (raw_values(&self.descriptor, attributes), state.len(), input.end_tension_n);
         let raw = AbiGearStep {
             struct_size: size_of::<AbiGearStep>() as u32,
             time_s: input.time_s,
@@ -407,19 +534,39 @@ impl GearType for Loaded<Gear> {
             release_link: Some(release_link),
         };
         // SAFETY: as in `build`.
-        call(|message| unsafe { step(self.context, values.as_ptr(), values.len(), &raw, state.as_mut_ptr(), floats, &host, message) })
+        call(|message| unsafe {
+            step(
+                self.context,
+                values.as_ptr(),
+                values.len(),
+                &raw,
+                state.as_mut_ptr(),
+                floats,
+                &host,
+                message,
+            )
+        })
     }
 }
 
 fn raw_values(descriptor: &Descriptor, values: &[AttributeValue]) -> Vec<AbiValue> {
-    let is_count = |index: usize| descriptor.attributes.get(index).is_some_and(|known| matches!(known.kind, AttributeKind::Count { .. }));
+    let is_count = |index: usize| {
+        descriptor
+            .attributes
+            .get(index)
+            .is_some_and(|known| matches!(known.kind, AttributeKind::Count { .. }))
+    };
     let raw = |(index, value): (usize, &AttributeValue)| match value {
         AttributeValue::Number(number) => {
             let kind = if is_count(index) { ATTRIBUTE_COUNT } else { ATTRIBUTE_NUMBER };
             AbiValue { kind, number: *number, item: AbiText::of("") }
         }
-        AttributeValue::Choice(word) => AbiValue { kind: ATTRIBUTE_CHOICE, number: 0.0, item: AbiText::of(word) },
-        AttributeValue::Item(id) => AbiValue { kind: ATTRIBUTE_ITEM, number: 0.0, item: AbiText::of(id) },
+        AttributeValue::Choice(word) => {
+            AbiValue { kind: ATTRIBUTE_CHOICE, number: 0.0, item: AbiText::of(word) }
+        }
+        AttributeValue::Item(id) => {
+            AbiValue { kind: ATTRIBUTE_ITEM, number: 0.0, item: AbiText::of(id) }
+        }
     };
     values.iter().enumerate().map(raw).collect()
 }
@@ -428,16 +575,28 @@ fn raw_values(descriptor: &Descriptor, values: &[AttributeValue]) -> Vec<AbiValu
 ///
 /// # Safety
 /// `host` is the `Rig` of [`Loaded::build`], `part` null or a live struct.
-unsafe fn add<T>(host: *mut c_void, part: *const T, put: impl FnOnce(&mut Rig, &T) -> Option<()>) -> i32 {
+unsafe fn add<T>(
+    host: *mut c_void,
+    part: *const T,
+    put: impl FnOnce(&mut Rig, &T) -> Option<()>,
+) -> i32 {
     // SAFETY: the caller's promise.
-    let taken = unsafe { host.cast::<Rig>().as_mut().zip(part.as_ref()) }.and_then(|(rig, part)| put(rig, part));
+    let taken = unsafe { host.cast::<Rig>().as_mut().zip(part.as_ref()) }
+        .and_then(|(rig, part)| put(rig, part));
     if taken.is_some() { STATUS_OK } else { STATUS_ERROR }
 }
 
 unsafe extern "C" fn add_body(host: *mut c_void, body: *const AbiBody) -> i32 {
     let put = |rig: &mut Rig, body: &AbiBody| {
-        let kind = [BodyKind::Trap, BodyKind::Buoy, BodyKind::Anchor].into_iter().find(|kind| *kind as u32 == body.kind)?;
-        rig.bodies.push(RigBody { id: owned(body.id)?, kind, item: owned(body.item)?, position_m: body.position_m });
+        let kind = [BodyKind::Trap, BodyKind::Buoy, BodyKind::Anchor]
+            .into_iter()
+            .find(|kind| *kind as u32 == body.kind)?;
+        rig.bodies.push(RigBody {
+            id: owned(body.id)?,
+            kind,
+            item: owned(body.item)?,
+            position_m: body.position_m,
+        });
         Some(())
     };
     // SAFETY: `host` is what the table's user was handed.
@@ -456,7 +615,14 @@ unsafe extern "C" fn add_joint(host: *mut c_void, joint: *const AbiJoint) -> i32
 unsafe extern "C" fn add_line(host: *mut c_void, line: *const AbiLine) -> i32 {
     let put = |rig: &mut Rig, line: &AbiLine| {
         let (from, to) = (rig_end(line.from)?, rig_end(line.to)?);
-        rig.lines.push(RigLine { id: owned(line.id)?, rope: owned(line.rope)?, from, to, length_m: line.length_m, laid_m: Vec::new() });
+        rig.lines.push(RigLine {
+            id: owned(line.id)?,
+            rope: owned(line.rope)?,
+            from,
+            to,
+            length_m: line.length_m,
+            laid_m: Vec::new(),
+        });
         Some(())
     };
     // SAFETY: as in `add_body`.
@@ -465,10 +631,18 @@ unsafe extern "C" fn add_line(host: *mut c_void, line: *const AbiLine) -> i32 {
 
 /// # Safety
 /// As [`add`], for the rig's lines and `count` places.
-unsafe extern "C" fn lay_line(host: *mut c_void, line: AbiText, places_m: *const [f64; 3], count: usize) -> i32 {
+unsafe extern "C" fn lay_line(
+    host: *mut c_void,
+    line: AbiText,
+    places_m: *const [f64; 3],
+    count: usize,
+) -> i32 {
     // SAFETY: the caller's promise.
-    let (rig, places) = unsafe { (host.cast::<Rig>().as_mut(), array(places_m, count.min(MOST_PLACES))) };
-    let known = rig.zip(owned(line)).and_then(|(rig, id)| rig.lines.iter_mut().find(|known| known.id == id));
+    let (rig, places) =
+        unsafe { (host.cast::<Rig>().as_mut(), array(places_m, count.min(MOST_PLACES))) };
+    let known = rig
+        .zip(owned(line))
+        .and_then(|(rig, id)| rig.lines.iter_mut().find(|known| known.id == id));
     match known {
         Some(line) if count <= MOST_PLACES => {
             line.laid_m = places.to_vec();
@@ -480,7 +654,12 @@ unsafe extern "C" fn lay_line(host: *mut c_void, line: AbiText, places_m: *const
 
 unsafe extern "C" fn add_link(host: *mut c_void, link: *const AbiLink) -> i32 {
     let put = |rig: &mut Rig, link: &AbiLink| {
-        rig.links.push(RigLink { id: owned(link.id)?, item: owned(link.item)?, line: owned(link.line)?, end: line_end(link.end)? });
+        rig.links.push(RigLink {
+            id: owned(link.id)?,
+            item: owned(link.item)?,
+            line: owned(link.line)?,
+            end: line_end(link.end)?,
+        });
         Some(())
     };
     // SAFETY: as in `add_body`.
@@ -506,7 +685,10 @@ unsafe extern "C" fn release_link(host: *mut c_void, link: u32) -> i32 {
 /// As [`cut_line`].
 unsafe fn push_action(host: *mut c_void, action: Option<GearAction>) -> i32 {
     // SAFETY: the caller's promise.
-    let Some((actions, action)) = unsafe { host.cast::<Vec<GearAction>>().as_mut() }.zip(action) else { return STATUS_ERROR };
+    let Some((actions, action)) = unsafe { host.cast::<Vec<GearAction>>().as_mut() }.zip(action)
+    else {
+        return STATUS_ERROR;
+    };
     actions.push(action);
     STATUS_OK
 }

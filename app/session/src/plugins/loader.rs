@@ -41,7 +41,9 @@ impl Loader {
         let (mut host, mut problems) = (PluginHost::empty(), Vec::new());
         for file in libraries(&self.folders, &mut problems) {
             match self.open(&file, checker) {
-                Ok((hash, opened)) => host.add_loaded(&file, &hash, opened, &self.choices, &mut problems),
+                Ok((hash, opened)) => {
+                    host.add_loaded(&file, &hash, opened, &self.choices, &mut problems)
+                }
                 Err(refusal) => problems.push(refusal.at(file)),
             }
         }
@@ -58,16 +60,29 @@ impl Loader {
         let (hash, bytes) = read(file)?;
         let key = (file.to_path_buf(), hash.clone());
         if let Some(ask) = self.choices.ask(file, &hash) {
-            let what = if ask.change == Change::New { "has not been allowed yet" } else { "has changed since it was allowed" };
-            let help = format!("a plugin runs with your rights; if you trust it: endline plugins allow {}", file.display());
-            return Err(Refusal { standing: Standing::Waiting(Box::new(ask)), ..Refusal::new(what, help) });
+            let what = if ask.change == Change::New {
+                "has not been allowed yet"
+            } else {
+                "has changed since it was allowed"
+            };
+            let help = format!(
+                "a plugin runs with your rights; if you trust it: endline plugins allow {}",
+                file.display()
+            );
+            return Err(Refusal {
+                standing: Standing::Waiting(Box::new(ask)),
+                ..Refusal::new(what, help)
+            });
         }
         if let Some(opened) = self.opened.get(&key) {
             return Ok((hash, opened.clone()));
         }
         checker(file).map_err(|reason| {
             let reason = format!("set aside, because it failed the check before loading: {reason}");
-            Refusal { standing: Standing::SetAside, ..Refusal::new(reason, "remove the file or mend the plugin") }
+            Refusal {
+                standing: Standing::SetAside,
+                ..Refusal::new(reason, "remove the file or mend the plugin")
+            }
         })?;
         let opened = open_copy(file, &bytes)?;
         self.opened.insert(key, opened.clone());
@@ -77,7 +92,9 @@ impl Loader {
 
 /// The hash of a library file and its bytes, all of them.
 fn read(file: &Path) -> Result<(String, Vec<u8>), Refusal> {
-    let bytes = fs::read(file).map_err(|error| Refusal::new(format!("cannot be read: {error}"), "check its permissions"))?;
+    let bytes = fs::read(file).map_err(|error| {
+        Refusal::new(format!("cannot be read: {error}"), "check its permissions")
+    })?;
     if let Some(whole) = cut_short::missing_from(&bytes) {
         let reason = format!("is cut short: {} of {whole} bytes", bytes.len());
         return Err(Refusal::new(reason, "copy or build it again"));
@@ -106,7 +123,10 @@ pub(super) fn open_folder(folder: &Path, host: &mut PluginHost, problems: &mut V
 /// Every problem of a folder's files, as one.
 fn told(problems: &[Diagnostic]) -> Refusal {
     let told: Vec<String> = problems.iter().map(ToString::to_string).collect();
-    Refusal::new(format!("this plugin without code cannot be used:\n{}", told.join("\n")), "mend the files")
+    Refusal::new(
+        format!("this plugin without code cannot be used:\n{}", told.join("\n")),
+        "mend the files",
+    )
 }
 
 /// BLAKE3 of a file, hexadecimal, as [`Choices::allow`] takes it.
@@ -124,7 +144,10 @@ fn libraries(folders: &[PathBuf], problems: &mut Vec<PluginProblem>) -> Vec<Path
         match libraries_in(folder) {
             Ok(files) => found.extend(files.into_iter().filter(|file| seen.insert(file.clone()))),
             Err(error) => {
-                let refusal = Refusal::new(format!("cannot be searched for plugins: {error}"), "name a folder that can be read");
+                let refusal = Refusal::new(
+                    format!("cannot be searched for plugins: {error}"),
+                    "name a folder that can be read",
+                );
                 problems.push(refusal.at(folder));
             }
         }
@@ -136,9 +159,15 @@ fn libraries(folders: &[PathBuf], problems: &mut Vec<PluginProblem>) -> Vec<Path
 fn text_plugins(folders: &[PathBuf]) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for folder in folders {
-        let mut inner: Vec<PathBuf> = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()).collect();
+        let mut inner: Vec<PathBuf> = fs::read_dir(folder)
+            .into_iter()
+            .flatten()
+            .flatten()
+            .map(|entry| entry.path())
+            .collect();
         inner.sort();
-        let here = std::iter::once(folder.clone()).chain(inner).filter(|folder| TextPlugin::is_in(folder));
+        let here =
+            std::iter::once(folder.clone()).chain(inner).filter(|folder| TextPlugin::is_in(folder));
         found.extend(here.map(|folder| folder.canonicalize().unwrap_or(folder)));
     }
     let mut seen = BTreeSet::new();

@@ -22,7 +22,9 @@ mod loader;
 mod new;
 
 pub use check::trial::Finding;
-pub use check::{Checker, Tried, by_child, check_here, remembering, report_here, report_of_child, try_here};
+pub use check::{
+    Checker, Tried, by_child, check_here, remembering, report_here, report_of_child, try_here,
+};
 pub use choices::{Ask, Change, Choices};
 pub use folders::{chosen_file, default_folders, known_file, program_folder};
 pub use host::PluginHost;

@@ -15,21 +15,30 @@ const FORMAT: u32 = 3;
 const INPUT_BYTES: usize = 8 * Controls::COUNT;
 const HASH_BYTES: usize = 8 * PARTS;
 /// Sections in their order in the file, with the names used in messages; the last is empty and marks the end.
-const SECTIONS: [([u8; 4], &str); 5] =
-    [(*b"HEAD", "header"), (*b"MODL", "model source"), (*b"INPT", "inputs"), (*b"HASH", "state hashes"), (*b"DONE", "end mark")];
+const SECTIONS: [([u8; 4], &str); 5] = [
+    (*b"HEAD", "header"),
+    (*b"MODL", "model source"),
+    (*b"INPT", "inputs"),
+    (*b"HASH", "state hashes"),
+    (*b"DONE", "end mark"),
+];
 const INPUTS: usize = 2;
 
 /// The bytes of a recording.
 pub(super) fn write(recording: &Recording) -> Result<Vec<u8>, String> {
     let mut inputs = Vec::with_capacity(recording.inputs.len() * INPUT_BYTES);
     for controls in &recording.inputs {
-        controls.to_array().iter().for_each(|number| inputs.extend_from_slice(&number.to_le_bytes()));
+        controls
+            .to_array()
+            .iter()
+            .for_each(|number| inputs.extend_from_slice(&number.to_le_bytes()));
     }
     let mut hashes = Vec::with_capacity(recording.hashes.len() * HASH_BYTES);
     for hash in &recording.hashes {
         hash.parts.iter().for_each(|part| hashes.extend_from_slice(&part.to_le_bytes()));
     }
-    let payloads = [encode(&recording.header)?, encode(&recording.source)?, inputs, hashes, Vec::new()];
+    let payloads =
+        [encode(&recording.header)?, encode(&recording.source)?, inputs, hashes, Vec::new()];
     let mut bytes = Vec::new();
     bytes.extend_from_slice(&MAGIC);
     bytes.extend_from_slice(&FORMAT.to_le_bytes());
@@ -52,9 +61,13 @@ pub(super) fn read(bytes: &[u8]) -> Result<Recording, String> {
         let (payload, sound) = reader.section(*tag, name)?;
         payloads[index] = payload;
         if !sound && index == INPUTS {
-            damage = Some(format!("the {name} were changed after the recording was saved (their BLAKE3 hash differs)"));
+            damage = Some(format!(
+                "the {name} were changed after the recording was saved (their BLAKE3 hash differs)"
+            ));
         } else if !sound {
-            return Err(format!("is damaged: the BLAKE3 hash of its {name} differs from the one saved with it"));
+            return Err(format!(
+                "is damaged: the BLAKE3 hash of its {name} differs from the one saved with it"
+            ));
         }
     }
     if !reader.rest.is_empty() {
@@ -64,8 +77,12 @@ pub(super) fn read(bytes: &[u8]) -> Result<Recording, String> {
     Ok(Recording {
         header: decode(header, "header")?,
         source: decode(source, "model source")?,
-        inputs: numbers::<{ Controls::COUNT }>(inputs, "inputs")?.map(|words| Controls::from_array(words.map(f64::from_bits))).collect(),
-        hashes: numbers::<PARTS>(hashes, "state hashes")?.map(|parts| StateHash { parts }).collect(),
+        inputs: numbers::<{ Controls::COUNT }>(inputs, "inputs")?
+            .map(|words| Controls::from_array(words.map(f64::from_bits)))
+            .collect(),
+        hashes: numbers::<PARTS>(hashes, "state hashes")?
+            .map(|parts| StateHash { parts })
+            .collect(),
         damage,
     })
     .and_then(check_counts)
@@ -76,16 +93,26 @@ fn check_start(reader: &mut Reader<'_>) -> Result<(), String> {
     if reader.take(MAGIC.len()) != Some(&MAGIC) {
         return Err(format!("is no recording: {expected}"));
     }
-    let format = reader.number::<4>().map(u32::from_le_bytes).ok_or_else(|| format!("is cut short in its format number; {expected}"))?;
-    if format == FORMAT { Ok(()) } else { Err(format!("has recording format {format}; this program reads format {FORMAT}")) }
+    let format = reader
+        .number::<4>()
+        .map(u32::from_le_bytes)
+        .ok_or_else(|| format!("is cut short in its format number; {expected}"))?;
+    if format == FORMAT {
+        Ok(())
+    } else {
+        Err(format!("has recording format {format}; this program reads format {FORMAT}"))
+    }
 }
 
 /// A stopped run keeps the input of the step refused, so it has as many inputs as hashes.
 fn check_counts(recording: Recording) -> Result<Recording, String> {
     let (inputs, hashes) = (recording.inputs.len(), recording.hashes.len());
-    let expected = if recording.header.stopped.is_some() { hashes } else { hashes.saturating_sub(1) };
+    let expected =
+        if recording.header.stopped.is_some() { hashes } else { hashes.saturating_sub(1) };
     if hashes == 0 || inputs != expected {
-        return Err(format!("is damaged: {inputs} inputs and {hashes} state hashes do not belong together; expected {expected} inputs"));
+        return Err(format!(
+            "is damaged: {inputs} inputs and {hashes} state hashes do not belong together; expected {expected} inputs"
+        ));
     }
     Ok(recording)
 }
@@ -95,13 +122,21 @@ fn encode(value: &impl Serialize) -> Result<Vec<u8>, String> {
 }
 
 fn decode<T: DeserializeOwned>(bytes: &[u8], name: &str) -> Result<T, String> {
-    postcard::from_bytes(bytes).map_err(|error| format!("is damaged: its {name} cannot be decoded ({error})"))
+    postcard::from_bytes(bytes)
+        .map_err(|error| format!("is damaged: its {name} cannot be decoded ({error})"))
 }
 
 /// Rows of `N` 64-bit words.
-fn numbers<'a, const N: usize>(bytes: &'a [u8], name: &str) -> Result<impl Iterator<Item = [u64; N]> + use<'a, N>, String> {
+fn numbers<'a, const N: usize>(
+    bytes: &'a [u8],
+    name: &str,
+) -> Result<impl Iterator<Item = [u64; N]> + use<'a, N>, String> {
     if !bytes.len().is_multiple_of(8 * N) {
-        return Err(format!("is damaged: its {name} take {} bytes; expected a multiple of {}", bytes.len(), 8 * N));
+        return Err(format!(
+            "is damaged: its {name} take {} bytes; expected a multiple of {}",
+            bytes.len(),
+            8 * N
+        ));
     }
     let (words, _) = bytes.as_chunks::<8>();
     let (rows, _) = words.as_chunks::<N>();
@@ -129,15 +164,20 @@ impl<'a> Reader<'a> {
         let short = |what: &str| format!("is cut short: expected {what} of its {name}");
         let found = self.number::<4>().ok_or_else(|| short("the start"))?;
         if found != tag {
-            return Err(format!("is damaged: expected the section `{}` ({name}), found `{}`", tag.escape_ascii(), found.escape_ascii()));
+            return Err(format!(
+                "is damaged: expected the section `{}` ({name}), found `{}`",
+                tag.escape_ascii(),
+                found.escape_ascii()
+            ));
         }
-        let length = self.number::<8>().map(u64::from_le_bytes).ok_or_else(|| short("the length"))?;
+        let length =
+            self.number::<8>().map(u64::from_le_bytes).ok_or_else(|| short("the length"))?;
         let hash = self.number::<32>().ok_or_else(|| short("the hash"))?;
         let left = self.rest.len();
-        let payload = usize::try_from(length)
-            .ok()
-            .and_then(|length| self.take(length))
-            .ok_or_else(|| format!("is cut short: expected {length} bytes of its {name}, {left} are left"))?;
+        let payload =
+            usize::try_from(length).ok().and_then(|length| self.take(length)).ok_or_else(|| {
+                format!("is cut short: expected {length} bytes of its {name}, {left} are left")
+            })?;
         Ok((payload, *blake3::hash(payload).as_bytes() == hash))
     }
 }
@@ -147,8 +187,13 @@ mod tests {
     use super::super::Header;
     use super::*;
     fn sample() -> Recording {
-        let input = |step: u32| Controls { speed: f64::from(step) / 8.0, yaw: -0.25, ..Controls::default() };
-        let hash = |step: u64| StateHash { parts: std::array::from_fn(|part| step * 100 + part as u64) };
+        let input = |step: u32| Controls {
+            speed: f64::from(step) / 8.0,
+            yaw: -0.25,
+            ..Controls::default()
+        };
+        let hash =
+            |step: u64| StateHash { parts: std::array::from_fn(|part| step * 100 + part as u64) };
         Recording {
             header: Header { program: "0.1.0".into(), seed: 7, dt_s: 0.01, ..Header::default() },
             source: crate::source::sample::source(),
@@ -168,7 +213,10 @@ mod tests {
         let whole = write(&sample()).unwrap();
         for length in 0..whole.len() {
             let message = read(&whole[..length]).unwrap_err();
-            assert!(message.contains("cut short") || message.contains("no recording"), "{length}: {message}");
+            assert!(
+                message.contains("cut short") || message.contains("no recording"),
+                "{length}: {message}"
+            );
         }
     }
 
@@ -179,7 +227,10 @@ mod tests {
             let mut changed = whole.clone();
             changed[place] ^= 0x10;
             // Refused, or taken with the damage told: never read as if nothing had happened.
-            assert!(read(&changed).map_or(true, |recording| recording.damage.is_some()), "byte {place}");
+            assert!(
+                read(&changed).map_or(true, |recording| recording.damage.is_some()),
+                "byte {place}"
+            );
         }
     }
 

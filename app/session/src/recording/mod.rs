@@ -85,7 +85,8 @@ impl Recording {
     /// Where it cannot be written.
     pub fn save(&self, path: &Path) -> Result<(), Error> {
         let bytes = file::write(self).map_err(|message| Error::at(path, message))?;
-        crate::save::atomically(path, &bytes).map_err(|error| Error::at(path, format!("cannot be written: {error}")))
+        crate::save::atomically(path, &bytes)
+            .map_err(|error| Error::at(path, format!("cannot be written: {error}")))
     }
 
     /// Loads a recording. Changed inputs do not hinder it: they are told in `damage`, and
@@ -94,7 +95,8 @@ impl Recording {
     /// # Errors
     /// Where it cannot be read, is no recording, is of another format, is cut short or damaged.
     pub fn load(path: &Path) -> Result<Self, Error> {
-        let bytes = std::fs::read(path).map_err(|error| Error::at(path, format!("cannot be read: {error}")))?;
+        let bytes = std::fs::read(path)
+            .map_err(|error| Error::at(path, format!("cannot be read: {error}")))?;
         file::read(&bytes).map_err(|message| Error::at(path, message))
     }
 }

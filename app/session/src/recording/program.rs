@@ -35,7 +35,9 @@ pub fn program(recording: &Recording, host: &PluginHost, thin: f64) -> Result<Pr
     }
     let prepared = recording.source.clone().prepare(host)?;
     let Some(whale) = &prepared.model.spec.whale else {
-        return Err(Error::Replay("the recorded scenario has no whale, so nothing was flown".into()));
+        return Err(Error::Replay(
+            "the recorded scenario has no whale, so nothing was flown".into(),
+        ));
     };
     let changes = changes(&recording.inputs, thin);
     let mut scenario = without_pilot(recording)?;
@@ -81,7 +83,9 @@ fn changes(inputs: &[Controls], thin: f64) -> Vec<Change> {
 
 /// The recorded scenario, as long as the recording, without its own pilot program.
 fn without_pilot(recording: &Recording) -> Result<String, Error> {
-    let told = |error: EditError| Error::Replay(format!("the recorded scenario cannot be edited: {error}"));
+    let told = |error: EditError| {
+        Error::Replay(format!("the recorded scenario cannot be edited: {error}"))
+    };
     let mut document = Document::parse(&recording.source.scenario).map_err(told)?;
     if document.has("whale.pilot") {
         document.remove("whale.pilot").map_err(told)?;
@@ -112,14 +116,19 @@ fn entry(change: &Change, dt_s: f64, acts: &[Act]) -> String {
 /// Id of an act by its number; `None` for the other controls.
 fn act_id(control: usize, number: f64, acts: &[Act]) -> Option<&str> {
     (control == Controls::ACT).then(|| {
-        let chosen = acts.iter().enumerate().find(|(index, _)| ((*index + 1) as f64).to_bits() == number.to_bits());
+        let chosen = acts
+            .iter()
+            .enumerate()
+            .find(|(index, _)| ((*index + 1) as f64).to_bits() == number.to_bits());
         chosen.map_or("none", |(_, act)| act.id.as_ref())
     })
 }
 
 fn options(over: &Overrides, unsettled: bool) -> String {
     let mut text = String::new();
-    let mut add = |option: Option<String>| option.into_iter().for_each(|option| text = format!("{text} {option}"));
+    let mut add = |option: Option<String>| {
+        option.into_iter().for_each(|option| text = format!("{text} {option}"))
+    };
     add(over.seed.map(|seed| format!("--seed {seed}")));
     add(over.step_s.map(|step_s| format!("--dt {step_s}")));
     add(over.weak_links.map(|on| format!("--weak-links {}", if on { "on" } else { "off" })));

@@ -43,19 +43,31 @@ pub enum Verdict {
 /// # Errors
 /// A plugin that is missing or another than recorded; files this program no longer reads;
 /// statics that do not converge and did when recorded.
-pub fn start(recording: &Recording, host: &PluginHost, options: ReplayOptions) -> Result<Run, Error> {
+pub fn start(
+    recording: &Recording,
+    host: &PluginHost,
+    options: ReplayOptions,
+) -> Result<Run, Error> {
     let prepared = recording.source.clone().prepare(host)?;
     if !options.other_plugins {
         check_plugins(&recording.header.plugins, &prepared.plugins)?;
     }
-    Run::new(prepared, RunOptions { unsettled: recording.header.unsettled, frames_hz: options.frames_hz })
+    Run::new(
+        prepared,
+        RunOptions { unsettled: recording.header.unsettled, frames_hz: options.frames_hz },
+    )
 }
 
 /// Runs a recording again to its end, telling the steps taken and in all.
 ///
 /// # Errors
 /// As [`start`]; and inputs changed since they were saved.
-pub fn replay(recording: &Recording, host: &PluginHost, options: ReplayOptions, mut progress: impl FnMut(u64, u64)) -> Result<Run, Error> {
+pub fn replay(
+    recording: &Recording,
+    host: &PluginHost,
+    options: ReplayOptions,
+    mut progress: impl FnMut(u64, u64),
+) -> Result<Run, Error> {
     refuse_damage(recording)?;
     let mut run = start(recording, host, options)?;
     for controls in &recording.inputs {
@@ -83,9 +95,20 @@ pub fn verify(
 }
 
 /// Takes a run that stands at its start through the first `steps` of a recording, up to the first that differs.
-pub(super) fn compare(recording: &Recording, run: &mut Run, steps: usize, progress: &mut dyn FnMut(u64, u64)) -> Verdict {
-    let differs = |step: usize, part| Verdict::Differs { step: step as u64, time_s: step as f64 * recording.header.dt_s, part };
-    if let Some(part) = recording.hashes.first().and_then(|recorded| recorded.first_difference(&run.state_hash())) {
+pub(super) fn compare(
+    recording: &Recording,
+    run: &mut Run,
+    steps: usize,
+    progress: &mut dyn FnMut(u64, u64),
+) -> Verdict {
+    let differs = |step: usize, part| Verdict::Differs {
+        step: step as u64,
+        time_s: step as f64 * recording.header.dt_s,
+        part,
+    };
+    if let Some(part) =
+        recording.hashes.first().and_then(|recorded| recorded.first_difference(&run.state_hash()))
+    {
         return differs(0, part);
     }
     for (index, controls) in recording.inputs.iter().take(steps).enumerate() {
@@ -102,7 +125,12 @@ pub(super) fn compare(recording: &Recording, run: &mut Run, steps: usize, progre
 ///
 /// # Errors
 /// As [`replay`]; and a time outside the recording.
-pub fn frame_at(recording: &Recording, host: &PluginHost, options: ReplayOptions, time_s: f64) -> Result<(Run, Arc<Frame>), Error> {
+pub fn frame_at(
+    recording: &Recording,
+    host: &PluginHost,
+    options: ReplayOptions,
+    time_s: f64,
+) -> Result<(Run, Arc<Frame>), Error> {
     refuse_damage(recording)?;
     let wanted = step_at(recording, time_s)?;
     let mut run = start(recording, host, options)?;
@@ -115,7 +143,12 @@ pub fn frame_at(recording: &Recording, host: &PluginHost, options: ReplayOptions
 
 /// Steps once and names the part that differs. A changed input is found before it is stepped
 /// with; the last input of a stopped run has no state to compare, only that it stops again.
-fn step_and_compare(recording: &Recording, run: &mut Run, step: usize, input: Input) -> Option<&'static str> {
+fn step_and_compare(
+    recording: &Recording,
+    run: &mut Run,
+    step: usize,
+    input: Input,
+) -> Option<&'static str> {
     let recorded = recording.hashes.get(step);
     if recorded.is_some_and(|recorded| recorded.parts[0] != input_hash(&input)) {
         return Some(PART_NAMES[0]);
@@ -133,14 +166,18 @@ pub(super) fn step_at(recording: &Recording, time_s: f64) -> Result<usize, Error
     let last_s = recording.duration_s();
     // Half a step of grace, so that the last moment may be named rounded.
     if !(time_s >= 0.0 && time_s <= last_s + 0.5 * recording.header.dt_s) {
-        return Err(Error::Replay(format!("{time_s} s is outside the recording; expected 0 to {last_s} s")));
+        return Err(Error::Replay(format!(
+            "{time_s} s is outside the recording; expected 0 to {last_s} s"
+        )));
     }
     Ok(((time_s / recording.header.dt_s + 1e-6).floor() as usize).min(recording.steps()))
 }
 
 pub(super) fn refuse_damage(recording: &Recording) -> Result<(), Error> {
     match &recording.damage {
-        Some(damage) => Err(Error::Replay(format!("{damage}; `endline replay --verify` names the first step that differs"))),
+        Some(damage) => Err(Error::Replay(format!(
+            "{damage}; `endline replay --verify` names the first step that differs"
+        ))),
         None => Ok(()),
     }
 }
@@ -154,9 +191,14 @@ pub fn check_plugins(recorded: &[PluginUsed], here: &[PluginUsed]) -> Result<(),
     for plugin in recorded {
         let id = &plugin.id;
         match here.iter().find(|found| found.id == *id) {
-            None => problems.push(format!("plugin {id}: recorded, but the model does not use it here")),
+            None => {
+                problems.push(format!("plugin {id}: recorded, but the model does not use it here"))
+            }
             Some(found) if found.version != plugin.version => {
-                problems.push(format!("plugin {id}: recorded with version {}, found version {}", plugin.version, found.version));
+                problems.push(format!(
+                    "plugin {id}: recorded with version {}, found version {}",
+                    plugin.version, found.version
+                ));
             }
             Some(found) if found.file_hash != plugin.file_hash => {
                 let (was, is) = (short(&plugin.file_hash), short(&found.file_hash));
@@ -190,7 +232,8 @@ mod tests {
     fn recorded(steps: u32) -> Recording {
         let mut run = run();
         for step in 0..steps {
-            run.step(Controls { yaw: f64::from(step) / f64::from(steps), ..Controls::default() }).unwrap();
+            run.step(Controls { yaw: f64::from(step) / f64::from(steps), ..Controls::default() })
+                .unwrap();
         }
         run.recording()
     }
@@ -209,7 +252,9 @@ mod tests {
         for wrong in [0.123, -0.0, f64::NAN, f64::INFINITY] {
             let mut recording = recorded(40);
             recording.inputs[16].pitch = wrong;
-            let Verdict::Differs { step, part, .. } = verdict(&recording) else { panic!("{wrong} was not found") };
+            let Verdict::Differs { step, part, .. } = verdict(&recording) else {
+                panic!("{wrong} was not found")
+            };
             assert_eq!((step, part), (17, "input"));
         }
     }
@@ -221,7 +266,9 @@ mod tests {
                 let mut recording = recorded(40);
                 recording.hashes[step].parts[part] ^= 1;
                 // Nothing is fed in to reach the settled state, but its hash is compared all the same.
-                assert!(matches!(verdict(&recording), Verdict::Differs { step: found, part, .. } if found == step as u64 && part == *name));
+                assert!(
+                    matches!(verdict(&recording), Verdict::Differs { step: found, part, .. } if found == step as u64 && part == *name)
+                );
             }
         }
     }
@@ -231,11 +278,18 @@ mod tests {
         let mut recording = recorded(40);
         recording.header.stopped = Some("stopped at 0.400 s: line: reason".into());
         recording.inputs.push(Controls::default());
-        assert!(matches!(verdict(&recording), Verdict::Differs { step: 41, part: "end of the run", .. }));
+        assert!(matches!(
+            verdict(&recording),
+            Verdict::Differs { step: 41, part: "end of the run", .. }
+        ));
     }
 
     fn plugin(version: &str, file_hash: &str) -> PluginUsed {
-        PluginUsed { id: "org.example.motion".into(), version: version.into(), file_hash: file_hash.into() }
+        PluginUsed {
+            id: "org.example.motion".into(),
+            version: version.into(),
+            file_hash: file_hash.into(),
+        }
     }
 
     #[test]

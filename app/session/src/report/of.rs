@@ -2,8 +2,8 @@
 
 use endline_sim::Audit;
 use endline_sim::metrics::{
-    BeatSummary, BodySummary, Event, KineticSummary, LineSummary, LinkSummary, PatchSummary, ProbeSummary, RegionSummary, Summary,
-    WhaleSummary,
+    BeatSummary, BodySummary, Event, KineticSummary, LineSummary, LinkSummary, PatchSummary,
+    ProbeSummary, RegionSummary, Summary, WhaleSummary,
 };
 use endline_sim::pace::LimitedBy;
 
@@ -82,9 +82,11 @@ fn audit_report(audit: &Audit, winding_jumps: u64) -> AuditReport {
         postures_held,
         limited_by,
     } = *audit;
-    let steps_limited_by = LimitedBy::ALL.iter().zip(limited_by).map(|(limit, steps)| (limit.name(), steps)).collect();
+    let steps_limited_by =
+        LimitedBy::ALL.iter().zip(limited_by).map(|(limit, steps)| (limit.name(), steps)).collect();
     let (limit, steps) = LimitedBy::mostly(&limited_by);
-    let steps_mostly_limited_by = format!("{} ({:.0} %)", limit.words(), 100.0 * steps as f64 / solver_steps.max(1) as f64);
+    let steps_mostly_limited_by =
+        format!("{} ({:.0} %)", limit.words(), 100.0 * steps as f64 / solver_steps.max(1) as f64);
     AuditReport {
         tunnelled,
         max_penetration_m,
@@ -125,19 +127,36 @@ fn line_reports(run: &Run) -> Vec<LineReport> {
 
 impl From<LinkSummary> for LinkReport {
     fn from(link: LinkSummary) -> Self {
-        Self { id: link.id, rating_N: link.rating_n, peak_tension_N: link.peak_tension_n, parted_at_s: link.parted_at_s }
+        Self {
+            id: link.id,
+            rating_N: link.rating_n,
+            peak_tension_N: link.peak_tension_n,
+            parted_at_s: link.parted_at_s,
+        }
     }
 }
 
 impl From<BodySummary> for BodyReport {
     fn from(body: BodySummary) -> Self {
-        Self { id: body.id, position_m: body.position_m.to_array(), peak_speed_m_s: body.peak_speed_m_s, drag_N: body.drag_n.to_array() }
+        Self {
+            id: body.id,
+            position_m: body.position_m.to_array(),
+            peak_speed_m_s: body.peak_speed_m_s,
+            drag_N: body.drag_n.to_array(),
+        }
     }
 }
 
 impl From<ProbeSummary> for ProbeReport {
     fn from(probe: ProbeSummary) -> Self {
-        Self { id: probe.id, unit: probe.unit, last: probe.last, min: probe.min, max: probe.max, mean: probe.mean }
+        Self {
+            id: probe.id,
+            unit: probe.unit,
+            last: probe.last,
+            min: probe.min,
+            max: probe.max,
+            mean: probe.mean,
+        }
     }
 }
 
@@ -224,7 +243,11 @@ impl From<PatchSummary> for PatchReport {
 }
 
 fn phase_report(phase: &Phase) -> PhaseReport {
-    PhaseReport { simulated_s: phase.simulated_s, wall_s: phase.wall_s, times_real_time: phase.times_real_time() }
+    PhaseReport {
+        simulated_s: phase.simulated_s,
+        wall_s: phase.wall_s,
+        times_real_time: phase.times_real_time(),
+    }
 }
 
 fn event_reports(run: &Run) -> Vec<EventReport> {

@@ -13,12 +13,18 @@ use super::{Overrides, Prepared, Source};
 pub(crate) fn source() -> Source {
     let mut library = Sources::default();
     library.set("ropes/sample.toml", "name = \"sample\"");
-    Source { scenario_name: "sample.toml".into(), scenario: "duration = \"1 s\"".into(), library, overrides: Overrides::default() }
+    Source {
+        scenario_name: "sample.toml".into(),
+        scenario: "duration = \"1 s\"".into(),
+        library,
+        overrides: Overrides::default(),
+    }
 }
 
 /// Ten metres of rope hung from a fixed point in still water.
 pub(crate) fn hanging_rope(duration_s: f64) -> Prepared {
-    let joint = |id: &str, kind, z| Joint { id: id.into(), kind, position_m: DVec3::new(0.0, 0.0, z) };
+    let joint =
+        |id: &str, kind, z| Joint { id: id.into(), kind, position_m: DVec3::new(0.0, 0.0, z) };
     let spec = ModelSpec {
         water: Water {
             density_kg_m3: 1025.0,
@@ -49,7 +55,11 @@ pub(crate) fn hanging_rope(duration_s: f64) -> Prepared {
         probes: vec![],
         settings: Settings { duration_s, ..Settings::default() },
     };
-    Prepared { source: Arc::new(source()), model: Arc::new(Model::new(spec).unwrap()), plugins: vec![] }
+    Prepared {
+        source: Arc::new(source()),
+        model: Arc::new(Model::new(spec).unwrap()),
+        plugins: vec![],
+    }
 }
 
 fn rope() -> Rope {

@@ -46,16 +46,28 @@ pub struct Progress {
 ///
 /// # Errors
 /// Where a block cannot be written: the others that are done stay, and the same call goes on from them.
-pub fn run(opened: &Opened, folder: &Folder, shard: Shard, threads: usize, tell: &(dyn Fn(Progress) + Sync)) -> Result<Progress, Error> {
+pub fn run(
+    opened: &Opened,
+    folder: &Folder,
+    shard: Shard,
+    threads: usize,
+    tell: &(dyn Fn(Progress) + Sync),
+) -> Result<Progress, Error> {
     let own: Vec<u32> = (0..folder.blocks()).filter(|block| shard.holds(*block)).collect();
     let missing: Vec<u32> = own.iter().copied().filter(|block| !folder.has(*block)).collect();
     let found = u32::try_from(own.len() - missing.len()).unwrap_or(u32::MAX);
-    let progress = Mutex::new(Progress { done: found, found, blocks: u32::try_from(own.len()).unwrap_or(u32::MAX) });
+    let progress = Mutex::new(Progress {
+        done: found,
+        found,
+        blocks: u32::try_from(own.len()).unwrap_or(u32::MAX),
+    });
     tell(*progress.lock().unwrap_or_else(PoisonError::into_inner));
     let (next, over, failure) = (AtomicU32::new(0), AtomicBool::new(false), Mutex::new(None));
     let work = || {
         while !over.load(Ordering::Relaxed) {
-            let Some(block) = missing.get(next.fetch_add(1, Ordering::Relaxed) as usize) else { break };
+            let Some(block) = missing.get(next.fetch_add(1, Ordering::Relaxed) as usize) else {
+                break;
+            };
             if merge::is_enough(opened, folder) {
                 break;
             }

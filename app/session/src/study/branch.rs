@@ -46,7 +46,8 @@ impl<'a> Watch<'a> {
         }
         let summary = run.summary();
         let all = std::mem::take(&mut self.waiting);
-        let (waiting, gone): (Vec<Waiting>, Vec<Waiting>) = all.into_iter().partition(|other| self.is_same(other, run, &summary));
+        let (waiting, gone): (Vec<Waiting>, Vec<Waiting>) =
+            all.into_iter().partition(|other| self.is_same(other, run, &summary));
         self.waiting = waiting;
         if let Some(last) = &self.last {
             self.parted.extend(gone.iter().map(|other| (other.option, last.clone())));
@@ -58,9 +59,11 @@ impl<'a> Watch<'a> {
 
     fn is_same(&self, other: &Waiting, run: &Run, summary: &Summary) -> bool {
         let exactly = |prepared: &Prepared| {
-            same_so_far(&prepared.model, summary) && *other.alike.get_or_init(|| same_until_parting(&prepared.model, run.model()))
+            same_so_far(&prepared.model, summary)
+                && *other.alike.get_or_init(|| same_until_parting(&prepared.model, run.model()))
         };
-        self.ready.opened.surely(other.option, self.option, run, summary) || self.ready.option(other.option).is_ok_and(exactly)
+        self.ready.opened.surely(other.option, self.option, run, summary)
+            || self.ready.option(other.option).is_ok_and(exactly)
     }
 }
 
@@ -78,7 +81,12 @@ impl Opened {
 }
 
 /// The run of an option begun where it parts ways with another's, if it is known where.
-pub(super) fn begun(option: usize, prepared: &Prepared, run: &Run, parted: &[(usize, Moment)]) -> Option<Run> {
+pub(super) fn begun(
+    option: usize,
+    prepared: &Prepared,
+    run: &Run,
+    parted: &[(usize, Moment)],
+) -> Option<Run> {
     let (_, moment) = parted.iter().find(|(other, _)| *other == option)?;
     same_until_parting(&prepared.model, run.model()).then(|| run.branched(moment, prepared.clone()))
 }

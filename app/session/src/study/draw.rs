@@ -31,14 +31,21 @@ impl Drawn {
 /// Every prior's value in encounter `index`, in the order of the priors (by name).
 #[must_use]
 pub fn draw(priors: &[Prior], seed: u64, index: u32) -> Vec<Drawn> {
-    #[expect(clippy::cast_possible_truncation, reason = "both halves of the seed are folded into the sequence's 32 bits")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "both halves of the seed are folded into the sequence's 32 bits"
+    )]
     let seed = (seed ^ (seed >> 32)) as u32;
     let mut dimension = 0;
     let mut drawn = Vec::with_capacity(priors.len());
     for prior in priors {
         let fixed = matches!(&prior.law, Law::Choice(levels) if levels.len() == 1);
         // The middle of the point's cell: never 0, never 1.
-        let share = if fixed { 0.5 } else { f64::from(sobol_burley::sample(index, dimension, seed)) + f64::from(f32::EPSILON) / 4.0 };
+        let share = if fixed {
+            0.5
+        } else {
+            f64::from(sobol_burley::sample(index, dimension, seed)) + f64::from(f32::EPSILON) / 4.0
+        };
         dimension += u32::from(!fixed);
         drawn.push(value(prior, share));
     }
@@ -123,7 +130,13 @@ source = "assumed"
 
     fn numbers(name: &str, count: u32) -> Vec<f64> {
         let priors = priors();
-        let one = |index| draw(&priors, 7, index).into_iter().find(|drawn| drawn.name == name).and_then(|drawn| drawn.number).unwrap();
+        let one = |index| {
+            draw(&priors, 7, index)
+                .into_iter()
+                .find(|drawn| drawn.name == name)
+                .and_then(|drawn| drawn.number)
+                .unwrap()
+        };
         (0..count).map(one).collect()
     }
 
@@ -137,8 +150,14 @@ source = "assumed"
         let lengths = numbers("length", 4096);
         let mean = lengths.iter().sum::<f64>() / 4096.0;
         let variance = lengths.iter().map(|length| (length - mean).powi(2)).sum::<f64>() / 4096.0;
-        assert!((mean - 12.0).abs() < 2e-3 && (variance.sqrt() - 1.5 * 0.8796).abs() < 2e-3, "{mean} {}", variance.sqrt());
-        let swims = (0..4096).filter(|index| draw(&priors(), 7, *index).iter().any(|drawn| drawn.text == "swim")).count();
+        assert!(
+            (mean - 12.0).abs() < 2e-3 && (variance.sqrt() - 1.5 * 0.8796).abs() < 2e-3,
+            "{mean} {}",
+            variance.sqrt()
+        );
+        let swims = (0..4096)
+            .filter(|index| draw(&priors(), 7, *index).iter().any(|drawn| drawn.text == "swim"))
+            .count();
         assert!((swims as f64 / 4096.0 - 0.7).abs() < 2e-3, "{swims}");
     }
 
@@ -155,7 +174,8 @@ source = "assumed"
         let (head, tables) = STUDY.split_at(STUDY.find("[encounter.speed]").unwrap());
         let (speed, rest) = tables.split_at(tables.find("[encounter.length]").unwrap());
         let turned = format!("{head}{rest}{speed}");
-        let [one, other] = [STUDY, turned.as_str()].map(|text| Study::read("draws.toml", text).unwrap());
+        let [one, other] =
+            [STUDY, turned.as_str()].map(|text| Study::read("draws.toml", text).unwrap());
         assert_eq!(one.canonical, other.canonical);
         assert_eq!(draw(&one.priors, 1, 5), draw(&other.priors, 1, 5));
     }

@@ -46,7 +46,11 @@ pub(super) fn field_of(prior: &Prior) -> &str {
 
 /// The same as an option would name it.
 fn path_of(prior: &Prior) -> String {
-    if let Target::Library(..) = prior.target { prior.name.value.clone() } else { field_of(prior).to_owned() }
+    if let Target::Library(..) = prior.target {
+        prior.name.value.clone()
+    } else {
+        field_of(prior).to_owned()
+    }
 }
 
 /// The scenario field of a known prior; `None` where it is not one field.
@@ -79,13 +83,21 @@ pub(super) fn put_drawn(
     drawn: &[Drawn],
     own: &[String],
 ) -> Result<(), Error> {
-    for (prior, drawn) in priors.iter().zip(drawn).filter(|(prior, _)| !own.contains(&path_of(prior))) {
-        put_one(scenario, sources, prior, drawn).map_err(|error| Error::Diagnostics(vec![prior.name.place.error(error.message, "")]))?;
+    for (prior, drawn) in
+        priors.iter().zip(drawn).filter(|(prior, _)| !own.contains(&path_of(prior)))
+    {
+        put_one(scenario, sources, prior, drawn)
+            .map_err(|error| Error::Diagnostics(vec![prior.name.place.error(error.message, "")]))?;
     }
     Ok(())
 }
 
-fn put_one(scenario: &mut Document, sources: &mut Sources, prior: &Prior, drawn: &Drawn) -> Result<(), EditError> {
+fn put_one(
+    scenario: &mut Document,
+    sources: &mut Sources,
+    prior: &Prior,
+    drawn: &Drawn,
+) -> Result<(), EditError> {
     match &prior.target {
         Target::Scenario(field) => scenario.put(field, &drawn.setting()),
         Target::Library(file, field) => {
@@ -123,10 +135,15 @@ fn forget(scenario: &mut Document, field: &str) -> Result<(), EditError> {
 
 impl Opened {
     /// The scenario and library of an option in an encounter, but for the whale's place.
-    pub(super) fn drawn_source(&self, option: &OptionPlan, encounter: &Encounter) -> Result<(Document, Sources), Error> {
+    pub(super) fn drawn_source(
+        &self,
+        option: &OptionPlan,
+        encounter: &Encounter,
+    ) -> Result<(Document, Sources), Error> {
         let (mut scenario, mut sources) = (option.scenario.clone(), option.sources.clone());
         put_drawn(&mut scenario, &mut sources, &self.study.priors, &encounter.drawn, &option.own)?;
-        let fault = |error: EditError| Error::Replay(format!("option `{}`: {}", option.id, error.message));
+        let fault =
+            |error: EditError| Error::Replay(format!("option `{}`: {}", option.id, error.message));
         for field in &option.removes {
             scenario.remove(field).map_err(fault)?;
         }
@@ -143,9 +160,13 @@ impl Opened {
     pub fn prepare(&self, option: usize, encounter: &Encounter) -> Result<Prepared, Error> {
         let plan = &self.options[option];
         let (mut scenario, sources) = self.drawn_source(plan, encounter)?;
-        self.place_whale(option, encounter, &mut scenario).map_err(|error| self.of_encounter(plan, encounter, error))?;
+        self.place_whale(option, encounter, &mut scenario)
+            .map_err(|error| self.of_encounter(plan, encounter, error))?;
         let source = Source {
-            scenario_name: format!("{} ({} {} of {})", plan.scenario_name, plan.id, encounter.index, self.study.id),
+            scenario_name: format!(
+                "{} ({} {} of {})",
+                plan.scenario_name, plan.id, encounter.index, self.study.id
+            ),
             scenario: scenario.text(),
             library: sources,
             overrides: Overrides::default(),
@@ -154,35 +175,62 @@ impl Opened {
     }
 
     fn of_encounter(&self, plan: &OptionPlan, encounter: &Encounter, error: Error) -> Error {
-        Error::Replay(format!("{}: encounter {}, option `{}`: {error}", self.study.place.source.path, encounter.index, plan.id))
+        Error::Replay(format!(
+            "{}: encounter {}, option `{}`: {error}",
+            self.study.place.source.path, encounter.index, plan.id
+        ))
     }
 
     /// Aims the whale at rope and gives the run a seed of its own.
-    fn place_whale(&self, option: usize, encounter: &Encounter, scenario: &mut Document) -> Result<(), Error> {
+    fn place_whale(
+        &self,
+        option: usize,
+        encounter: &Encounter,
+        scenario: &mut Document,
+    ) -> Result<(), Error> {
         let fault = |error: EditError| Error::Replay(error.message);
-        scenario.put("seed", &Setting::plain(&(u64::from(encounter.index) + 1).to_string())).map_err(fault)?;
-        if !self.study.priors.iter().any(|prior| matches!(prior.name.value.as_str(), "depth" | "heading" | "offset")) {
+        scenario
+            .put("seed", &Setting::plain(&(u64::from(encounter.index) + 1).to_string()))
+            .map_err(fault)?;
+        if !self
+            .study
+            .priors
+            .iter()
+            .any(|prior| matches!(prior.name.value.as_str(), "depth" | "heading" | "offset"))
+        {
             return Ok(());
         }
         let aimed = if self.study.aim.own { option } else { self.baseline };
         let depth_m = value(scenario, "whale.depth", units::Quantity::Length).unwrap_or_default();
         let aim_m = self.aim_at(aimed, encounter, depth_m)?;
-        let toward = value(scenario, "current.toward", units::Quantity::Angle).unwrap_or(std::f64::consts::FRAC_PI_2);
+        let toward = value(scenario, "current.toward", units::Quantity::Angle)
+            .unwrap_or(std::f64::consts::FRAC_PI_2);
         let chosen = self.options[option].own.iter().any(|field| field == "whale.heading");
-        let heading = encounter.number("heading").filter(|_| !chosen).map(|heading| toward + heading);
-        let bearing = heading.or_else(|| value(scenario, "whale.heading", units::Quantity::Angle)).unwrap_or(std::f64::consts::FRAC_PI_2);
+        let heading =
+            encounter.number("heading").filter(|_| !chosen).map(|heading| toward + heading);
+        let bearing = heading
+            .or_else(|| value(scenario, "whale.heading", units::Quantity::Angle))
+            .unwrap_or(std::f64::consts::FRAC_PI_2);
         let back_m = self.study.aim.gap_m + 0.5 * self.length_m(scenario);
         let aside_m = encounter.number("offset").unwrap_or_default();
         let (east, north) = (libm::sin(bearing), libm::cos(bearing));
-        let position = [aim_m[0] - back_m * east + aside_m * north, aim_m[1] - back_m * north - aside_m * east];
+        let position = [
+            aim_m[0] - back_m * east + aside_m * north,
+            aim_m[1] - back_m * north - aside_m * east,
+        ];
         scenario.put("whale.heading", &Setting::text(&format!("{bearing} rad"))).map_err(fault)?;
-        scenario.put("whale.position", &Setting::texts(&position.map(|metres| format!("{metres} m")))).map_err(fault)
+        scenario
+            .put("whale.position", &Setting::texts(&position.map(|metres| format!("{metres} m"))))
+            .map_err(fault)
     }
 
     /// Length of the scenario's whale [m].
     fn length_m(&self, scenario: &Document) -> f64 {
-        let item = scenario.get("whale.item").and_then(|id| self.library.whales.iter().find(|whale| whale.entry.id == id));
-        let by_age = value(scenario, "whale.age", units::Quantity::Time).and_then(|age_s| Some(item?.growth.age?.length_m(age_s)));
+        let item = scenario
+            .get("whale.item")
+            .and_then(|id| self.library.whales.iter().find(|whale| whale.entry.id == id));
+        let by_age = value(scenario, "whale.age", units::Quantity::Time)
+            .and_then(|age_s| Some(item?.growth.age?.length_m(age_s)));
         let named = value(scenario, "whale.length", units::Quantity::Length);
         named.or(by_age).or(item.map(|item| item.form.length_m)).unwrap_or(USUAL_LENGTH_M)
     }

@@ -72,13 +72,15 @@ impl Folder {
     /// # Errors
     /// A folder that belongs to another study, or cannot be written.
     pub fn open(path: &Path, opened: &Opened) -> Result<Self, Error> {
-        fs::create_dir_all(path).map_err(|error| Error::at(path, format!("cannot be made: {error}")))?;
+        fs::create_dir_all(path)
+            .map_err(|error| Error::at(path, format!("cannot be made: {error}")))?;
         let file = path.join("study.json");
         let label = Label::of(opened);
         match fs::read_to_string(&file) {
             Err(_) => {
                 let text = serde_json::to_string_pretty(&label).unwrap_or_default() + "\n";
-                save::atomically(&file, text.as_bytes()).map_err(|error| Error::at(&file, format!("cannot be written: {error}")))?;
+                save::atomically(&file, text.as_bytes())
+                    .map_err(|error| Error::at(&file, format!("cannot be written: {error}")))?;
             }
             Ok(text) => same(&file, &text, &label)?,
         }
@@ -116,8 +118,10 @@ impl Folder {
     /// Where the folder cannot be written; nothing is then there of it.
     pub fn write(&self, block: u32, table: &Table) -> Result<(), Error> {
         let file = self.file_of(block);
-        let tags = [("study".to_owned(), self.hash.clone()), ("block".to_owned(), block.to_string())];
-        let bytes = parquet::write(table, &tags).map_err(|error| Error::at(&file, format!("cannot be put together: {error}")))?;
+        let tags =
+            [("study".to_owned(), self.hash.clone()), ("block".to_owned(), block.to_string())];
+        let bytes = parquet::write(table, &tags)
+            .map_err(|error| Error::at(&file, format!("cannot be put together: {error}")))?;
         save::atomically(&file, &bytes).map_err(|error| {
             Error::at(
                 &file,
@@ -132,12 +136,22 @@ impl Folder {
     /// A file that is not there, is damaged, or belongs to another study.
     pub fn read(&self, block: u32) -> Result<Table, Error> {
         let file = self.file_of(block);
-        let bytes = fs::read(&file).map_err(|error| Error::at(&file, format!("cannot be read: {error}")))?;
-        let (table, tags) =
-            parquet::read(bytes).map_err(|error| Error::at(&file, format!("is damaged: {error}; delete it and run the study again")))?;
-        let tag = |key: &str| tags.iter().find(|(known, _)| known == key).map(|(_, value)| value.as_str()).unwrap_or_default();
+        let bytes = fs::read(&file)
+            .map_err(|error| Error::at(&file, format!("cannot be read: {error}")))?;
+        let (table, tags) = parquet::read(bytes).map_err(|error| {
+            Error::at(&file, format!("is damaged: {error}; delete it and run the study again"))
+        })?;
+        let tag = |key: &str| {
+            tags.iter()
+                .find(|(known, _)| known == key)
+                .map(|(_, value)| value.as_str())
+                .unwrap_or_default()
+        };
         if tag("study") != self.hash || tag("block") != block.to_string() {
-            return Err(Error::at(&file, "holds rows of another study or block; delete it and run the study again"));
+            return Err(Error::at(
+                &file,
+                "holds rows of another study or block; delete it and run the study again",
+            ));
         }
         Ok(table)
     }
@@ -145,7 +159,8 @@ impl Folder {
 
 /// Whether a folder's label is that of the study; more or fewer encounters are the same study.
 fn same(file: &Path, text: &str, label: &Label) -> Result<(), Error> {
-    let found: Label = serde_json::from_str(text).map_err(|error| Error::at(file, format!("is damaged: {error}")))?;
+    let found: Label = serde_json::from_str(text)
+        .map_err(|error| Error::at(file, format!("is damaged: {error}")))?;
     if found.hash == label.hash && found.block == label.block {
         return Ok(());
     }

@@ -35,9 +35,12 @@ pub fn merge(opened: &Opened, folder: &Folder) -> Result<Table, Error> {
 pub fn save(opened: &Opened, folder: &Folder, table: &Table) -> Result<(), Error> {
     let file = folder.path.join("table.parquet");
     let tags = [("study".to_owned(), opened.hash.clone())];
-    let bytes = parquet::write(table, &tags).map_err(|error| Error::at(&file, format!("cannot be put together: {error}")))?;
-    for (file, bytes) in [(file, bytes), (folder.path.join("table.csv"), table.csv().into_bytes())] {
-        save::atomically(&file, &bytes).map_err(|error| Error::at(&file, format!("cannot be written: {error}")))?;
+    let bytes = parquet::write(table, &tags)
+        .map_err(|error| Error::at(&file, format!("cannot be put together: {error}")))?;
+    for (file, bytes) in [(file, bytes), (folder.path.join("table.csv"), table.csv().into_bytes())]
+    {
+        save::atomically(&file, &bytes)
+            .map_err(|error| Error::at(&file, format!("cannot be written: {error}")))?;
     }
     Ok(())
 }
@@ -48,9 +51,11 @@ pub fn save(opened: &Opened, folder: &Folder, table: &Table) -> Result<(), Error
 /// Where the study was not merged, or its table belongs to another study.
 pub fn load(opened: &Opened, folder: &Folder) -> Result<Table, Error> {
     let file = folder.path.join("table.parquet");
-    let bytes =
-        std::fs::read(&file).map_err(|error| Error::at(&file, format!("cannot be read: {error}; run `endline study merge` first")))?;
-    let (table, tags) = parquet::read(bytes).map_err(|error| Error::at(&file, format!("is damaged: {error}; merge again")))?;
+    let bytes = std::fs::read(&file).map_err(|error| {
+        Error::at(&file, format!("cannot be read: {error}; run `endline study merge` first"))
+    })?;
+    let (table, tags) = parquet::read(bytes)
+        .map_err(|error| Error::at(&file, format!("is damaged: {error}; merge again")))?;
     if !tags.iter().any(|(key, value)| key == "study" && *value == opened.hash) {
         return Err(Error::at(&file, "was merged from another study; merge again"));
     }
@@ -76,13 +81,16 @@ pub fn is_enough(opened: &Opened, folder: &Folder) -> bool {
 
 fn narrow(opened: &Opened, table: &Table, encounters: u32) -> bool {
     let Some(enough) = &opened.study.enough else { return false };
-    u64::from(encounters) >= enough.least && is_narrow(table, &opened.options, &enough.event, enough.width)
+    u64::from(encounters) >= enough.least
+        && is_narrow(table, &opened.options, &enough.event, enough.width)
 }
 
 fn missing(opened: &Opened, folder: &Folder) -> Error {
-    let blocks: Vec<u32> = (0..folder.blocks()).filter(|block| !folder.file_of(*block).is_file()).collect();
+    let blocks: Vec<u32> =
+        (0..folder.blocks()).filter(|block| !folder.file_of(*block).is_file()).collect();
     let named: Vec<String> = blocks.iter().take(20).map(u32::to_string).collect();
-    let more = if blocks.len() > 20 { format!(" and {} more", blocks.len() - 20) } else { String::new() };
+    let more =
+        if blocks.len() > 20 { format!(" and {} more", blocks.len() - 20) } else { String::new() };
     Error::at(
         &folder.path,
         format!(
@@ -110,6 +118,12 @@ fn shards(blocks: &[u32]) -> String {
         .into_iter()
         .map(of)
         .find(|parts| parts.len() <= 2 && !parts.is_empty())
-        .map(|parts| format!("; of {} shards it is --shard {}", parts[0].split('/').nth(1).unwrap_or_default(), parts.join(" and ")))
+        .map(|parts| {
+            format!(
+                "; of {} shards it is --shard {}",
+                parts[0].split('/').nth(1).unwrap_or_default(),
+                parts.join(" and ")
+            )
+        })
         .unwrap_or_default()
 }

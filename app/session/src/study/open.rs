@@ -2,7 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use endline_gear::{Diagnostic, Document, EditError, Library, OptionSetting, Sources, Study, StudyOption, hint};
+use endline_gear::{
+    Diagnostic, Document, EditError, Library, OptionSetting, Sources, Study, StudyOption, hint,
+};
 
 use crate::error::Error;
 use crate::locate;
@@ -64,20 +66,30 @@ impl Opened {
     /// # Errors
     /// A file that cannot be read, or every located error of study, scenario and library.
     pub fn open(path: &Path, library: Option<&Path>, host: &PluginHost) -> Result<Self, Error> {
-        let text = std::fs::read_to_string(path).map_err(|error| Error::at(path, format!("cannot be read: {error}")))?;
+        let text = std::fs::read_to_string(path)
+            .map_err(|error| Error::at(path, format!("cannot be read: {error}")))?;
         let study = Study::read(&path.display().to_string(), &text).map_err(Error::Diagnostics)?;
         let root = locate::library(Some(path), library).map_err(Error::Replay)?;
         let sources = host.with_clips(Sources::from_folder(&root).map_err(Error::Diagnostics)?);
         let (scenario_path, scenario_text) = scenario(&study, path, &root)?;
-        let base = Base { study: &study, name: scenario_path.display().to_string(), text: scenario_text, sources: &sources, host };
+        let base = Base {
+            study: &study,
+            name: scenario_path.display().to_string(),
+            text: scenario_text,
+            sources: &sources,
+            host,
+        };
         let mut options = Vec::new();
         let mut problems = Vec::new();
         for option in &study.options {
             match base.option(option) {
                 Ok(plan) => options.push(plan),
-                Err(Error::Diagnostics(found)) => {
-                    problems.extend(found.into_iter().filter(|problem| !problems.contains(problem)).collect::<Vec<_>>())
-                }
+                Err(Error::Diagnostics(found)) => problems.extend(
+                    found
+                        .into_iter()
+                        .filter(|problem| !problems.contains(problem))
+                        .collect::<Vec<_>>(),
+                ),
                 Err(error) => return Err(error),
             }
         }
@@ -86,7 +98,8 @@ impl Opened {
         }
         let hash = hash(&study, &options);
         let families = families(&study, &options);
-        let baseline = options.iter().position(|option| option.id == study.baseline.value).unwrap_or_default();
+        let baseline =
+            options.iter().position(|option| option.id == study.baseline.value).unwrap_or_default();
         Ok(Self {
             text,
             options,
@@ -108,7 +121,13 @@ impl Opened {
     pub fn option(&self, id: &str) -> Result<usize, Error> {
         let known = || self.options.iter().map(|option| option.id.as_str());
         let found = known().position(|known| known == id);
-        found.ok_or_else(|| Error::Replay(format!("{}: there is no option `{id}`; {}", self.study.place.source.path, hint(id, known()))))
+        found.ok_or_else(|| {
+            Error::Replay(format!(
+                "{}: there is no option `{id}`; {}",
+                self.study.place.source.path,
+                hint(id, known())
+            ))
+        })
     }
 }
 
@@ -116,8 +135,12 @@ impl Opened {
     /// Ids of the options by families: those of one differ in strengths alone, and share their runs until something parts.
     #[must_use]
     pub fn families(&self) -> Vec<Vec<&str>> {
-        let of = |family: usize| (0..self.options.len()).filter(move |option| self.families[*option] == family);
-        let ids = |family: usize| of(family).map(|option| self.options[option].id.as_str()).collect::<Vec<_>>();
+        let of = |family: usize| {
+            (0..self.options.len()).filter(move |option| self.families[*option] == family)
+        };
+        let ids = |family: usize| {
+            of(family).map(|option| self.options[option].id.as_str()).collect::<Vec<_>>()
+        };
         (0..self.options.len()).map(ids).filter(|ids| !ids.is_empty()).collect()
     }
 }
@@ -130,7 +153,11 @@ fn own(option: &StudyOption) -> Vec<String> {
 /// By option: the first that it differs from in strengths alone, most often itself.
 fn families(study: &Study, options: &[OptionPlan]) -> Vec<usize> {
     let drawn: Vec<&str> = study.priors.iter().map(super::encounter::field_of).collect();
-    let first = |option: usize| (0..option).find(|other| same::family(&options[option], &options[*other], &drawn)).unwrap_or(option);
+    let first = |option: usize| {
+        (0..option)
+            .find(|other| same::family(&options[option], &options[*other], &drawn))
+            .unwrap_or(option)
+    };
     (0..options.len()).map(first).collect()
 }
 
@@ -143,11 +170,18 @@ fn scenario(study: &Study, path: &Path, root: &Path) -> Result<(PathBuf, String)
     };
     let text = std::fs::read_to_string(&file).map_err(|error| {
         let folder = std::fs::read_dir(root.join("scenarios")).into_iter().flatten().flatten();
-        let mut ids: Vec<String> =
-            folder.map(|entry| entry.path()).filter_map(|path| Some(path.file_stem()?.to_string_lossy().into_owned())).collect();
+        let mut ids: Vec<String> = folder
+            .map(|entry| entry.path())
+            .filter_map(|path| Some(path.file_stem()?.to_string_lossy().into_owned()))
+            .collect();
         ids.sort();
         let help = hint(named, ids.iter().map(String::as_str));
-        Error::Diagnostics(vec![study.scenario.place.error(format!("the scenario {} cannot be read: {error}", file.display()), help)])
+        Error::Diagnostics(vec![
+            study
+                .scenario
+                .place
+                .error(format!("the scenario {} cannot be read: {error}", file.display()), help),
+        ])
     })?;
     Ok((file, text))
 }
@@ -163,19 +197,29 @@ struct Base<'a> {
 
 impl Base<'_> {
     fn option(&self, option: &StudyOption) -> Result<OptionPlan, Error> {
-        let scenario = Document::parse(&self.text).map_err(|error| Error::Replay(format!("{}: {}", self.name, error.message)))?;
+        let scenario = Document::parse(&self.text)
+            .map_err(|error| Error::Replay(format!("{}: {}", self.name, error.message)))?;
         let mut sources = self.sources.clone();
         let mut edited = scenario.clone();
         self.put(option, &mut edited, &mut sources)?;
         let prepared = self.prepare(option, &edited, &sources)?;
-        let settings = option.settings.iter().filter(|setting| setting.library_field().is_none()).cloned().collect();
+        let settings = option
+            .settings
+            .iter()
+            .filter(|setting| setting.library_field().is_none())
+            .cloned()
+            .collect();
         Ok(OptionPlan {
             id: option.id.value.clone(),
             name: option.name.clone(),
             strength_n: option.strength_n,
             curve: option.curve.clone(),
             own: own(option),
-            sets: option.settings.iter().map(|setting| (setting.field.value.clone(), setting.value.written())).collect(),
+            sets: option
+                .settings
+                .iter()
+                .map(|setting| (setting.field.value.clone(), setting.value.written()))
+                .collect(),
             settings,
             removes: option.removes.iter().map(|field| field.value.clone()).collect(),
             scenario,
@@ -185,27 +229,41 @@ impl Base<'_> {
         })
     }
 
-    fn put(&self, option: &StudyOption, scenario: &mut Document, sources: &mut Sources) -> Result<(), Error> {
+    fn put(
+        &self,
+        option: &StudyOption,
+        scenario: &mut Document,
+        sources: &mut Sources,
+    ) -> Result<(), Error> {
         let told = |field: &endline_gear::At<String>, error: EditError, help: &str| {
             Error::Diagnostics(vec![field.place.error(error.message, help)])
         };
         for field in &option.removes {
-            scenario.remove(&field.value).map_err(|error| told(field, error, "name a field of the baseline scenario"))?;
+            scenario
+                .remove(&field.value)
+                .map_err(|error| told(field, error, "name a field of the baseline scenario"))?;
         }
         for setting in &option.settings {
             let Some((file, field)) = setting.library_field() else {
                 let help = "name a field of the scenario by its dotted path, such as gear.0.attributes.buoy";
-                scenario.put(&setting.field.value, &setting.value).map_err(|error| told(&setting.field, error, help))?;
+                scenario
+                    .put(&setting.field.value, &setting.value)
+                    .map_err(|error| told(&setting.field, error, help))?;
                 continue;
             };
             let Some(text) = sources.get(&file) else {
                 let known: Vec<&str> = sources.iter().map(|(path, _)| path).collect();
                 return Err(Error::Diagnostics(vec![
-                    setting.field.place.error(format!("the library has no file {file}"), hint(&file, known)),
+                    setting
+                        .field
+                        .place
+                        .error(format!("the library has no file {file}"), hint(&file, known)),
                 ]));
             };
-            let mut item = Document::parse(text).map_err(|error| told(&setting.field, error, ""))?;
-            item.put(field, &setting.value).map_err(|error| told(&setting.field, error, "name a field of the item"))?;
+            let mut item =
+                Document::parse(text).map_err(|error| told(&setting.field, error, ""))?;
+            item.put(field, &setting.value)
+                .map_err(|error| told(&setting.field, error, "name a field of the item"))?;
             let text = item.text();
             sources.set(file, text);
         }
@@ -213,32 +271,57 @@ impl Base<'_> {
     }
 
     /// The option assembled as it stands; a fault that one of its settings brought in is told at that setting.
-    fn prepare(&self, option: &StudyOption, scenario: &Document, sources: &Sources) -> Result<Prepared, Error> {
+    fn prepare(
+        &self,
+        option: &StudyOption,
+        scenario: &Document,
+        sources: &Sources,
+    ) -> Result<Prepared, Error> {
         // What is drawn stands in the place of what the option leaves open, so that drawn values are checked too.
         let mut text = scenario.clone();
         let drawn = draw::draw(&self.study.priors, self.study.seed, 0);
         let mut sources = sources.clone();
-        super::encounter::put_drawn(&mut text, &mut sources, &self.study.priors, &drawn, &own(option))?;
-        let source = Source { scenario_name: self.name.clone(), scenario: text.text(), library: sources, overrides: Overrides::default() };
+        super::encounter::put_drawn(
+            &mut text,
+            &mut sources,
+            &self.study.priors,
+            &drawn,
+            &own(option),
+        )?;
+        let source = Source {
+            scenario_name: self.name.clone(),
+            scenario: text.text(),
+            library: sources,
+            overrides: Overrides::default(),
+        };
         source.prepare(self.host).map_err(|error| match error {
-            Error::Diagnostics(problems) => {
-                Error::Diagnostics(problems.into_iter().map(|problem| self.relocate(option, problem)).collect())
-            }
+            Error::Diagnostics(problems) => Error::Diagnostics(
+                problems.into_iter().map(|problem| self.relocate(option, problem)).collect(),
+            ),
             error => error,
         })
     }
 
     fn relocate(&self, option: &StudyOption, problem: Diagnostic) -> Diagnostic {
-        let leads_to =
-            |field: &str| !problem.field.is_empty() && (field == problem.field || field.starts_with(&format!("{}.", problem.field)));
+        let leads_to = |field: &str| {
+            !problem.field.is_empty()
+                && (field == problem.field || field.starts_with(&format!("{}.", problem.field)))
+        };
         let by_option = option.settings.iter().find(|setting| {
-            let field = setting.library_field().map_or(setting.field.value.as_str(), |(_, field)| field);
+            let field =
+                setting.library_field().map_or(setting.field.value.as_str(), |(_, field)| field);
             leads_to(field)
         });
-        let by_prior = self.study.priors.iter().find(|prior| leads_to(super::encounter::field_of(prior)));
-        let place = by_option.map(|setting| &setting.field.place).or(by_prior.map(|prior| &prior.name.place));
+        let by_prior =
+            self.study.priors.iter().find(|prior| leads_to(super::encounter::field_of(prior)));
+        let place = by_option
+            .map(|setting| &setting.field.place)
+            .or(by_prior.map(|prior| &prior.name.place));
         place.map_or(problem.clone(), |place| {
-            place.error(format!("option `{}`: {}", option.id.value, problem.message), problem.help.clone())
+            place.error(
+                format!("option `{}`: {}", option.id.value, problem.message),
+                problem.help.clone(),
+            )
         })
     }
 }

@@ -19,7 +19,11 @@ pub(super) type Tagged = (Table, Vec<(String, String)>);
 
 /// The bytes of a file.
 pub(super) fn write(table: &Table, tags: &[(String, String)]) -> Result<Vec<u8>> {
-    let fields = table.columns.iter().map(|(name, column)| field(name, column).map(Arc::new)).collect::<Result<Vec<_>>>()?;
+    let fields = table
+        .columns
+        .iter()
+        .map(|(name, column)| field(name, column).map(Arc::new))
+        .collect::<Result<Vec<_>>>()?;
     let schema = Arc::new(Type::group_type_builder("runs").with_fields(fields).build()?);
     let tags = tags.iter().map(|(key, value)| KeyValue::new(key.clone(), value.clone())).collect();
     let properties = WriterProperties::builder()
@@ -43,7 +47,10 @@ fn field(name: &str, column: &Column) -> Result<Type> {
         Column::Text(_) => (Physical::BYTE_ARRAY, Some(LogicalType::String), Repetition::REQUIRED),
         Column::Flag(_) => (Physical::BOOLEAN, None, Repetition::REQUIRED),
     };
-    Type::primitive_type_builder(name, physical).with_logical_type(logical).with_repetition(repetition).build()
+    Type::primitive_type_builder(name, physical)
+        .with_logical_type(logical)
+        .with_repetition(repetition)
+        .build()
 }
 
 fn write_column(group: &mut SerializedRowGroupWriter<'_, Vec<u8>>, column: &Column) -> Result<()> {
@@ -55,15 +62,22 @@ fn write_column(group: &mut SerializedRowGroupWriter<'_, Vec<u8>>, column: &Colu
             write_values::<DoubleType>(group, &values, Some(&levels))
         }
         Column::Text(values) => {
-            let values: Vec<ByteArray> = values.iter().map(|text| ByteArray::from(text.as_str())).collect();
+            let values: Vec<ByteArray> =
+                values.iter().map(|text| ByteArray::from(text.as_str())).collect();
             write_values::<ByteArrayType>(group, &values, None)
         }
         Column::Flag(values) => write_values::<BoolType>(group, values, None),
     }
 }
 
-fn write_values<T: DataType>(group: &mut SerializedRowGroupWriter<'_, Vec<u8>>, values: &[T::T], levels: Option<&[i16]>) -> Result<()> {
-    let Some(mut writer) = group.next_column()? else { return Err(ParquetError::General("one column too many".into())) };
+fn write_values<T: DataType>(
+    group: &mut SerializedRowGroupWriter<'_, Vec<u8>>,
+    values: &[T::T],
+    levels: Option<&[i16]>,
+) -> Result<()> {
+    let Some(mut writer) = group.next_column()? else {
+        return Err(ParquetError::General("one column too many".into()));
+    };
     writer.typed::<T>().write_batch(values, levels, None)?;
     writer.close()
 }
@@ -74,12 +88,19 @@ pub(super) fn read(bytes: Vec<u8>) -> Result<Tagged> {
     let metadata = file.metadata().file_metadata();
     let tags = metadata.key_value_metadata().into_iter().flatten();
     let tags = tags.map(|tag| (tag.key.clone(), tag.value.clone().unwrap_or_default())).collect();
-    let columns: Vec<(String, Physical)> =
-        metadata.schema_descr().columns().iter().map(|column| (column.name().to_owned(), column.physical_type())).collect();
+    let columns: Vec<(String, Physical)> = metadata
+        .schema_descr()
+        .columns()
+        .iter()
+        .map(|column| (column.name().to_owned(), column.physical_type()))
+        .collect();
     let mut table = Table::default();
     for group in 0..file.num_row_groups() {
         let group = file.get_row_group(group)?;
-        let read = columns.iter().enumerate().map(|(index, (name, kind))| Ok((name.clone(), read_column(&*group, index, *kind)?)));
+        let read = columns
+            .iter()
+            .enumerate()
+            .map(|(index, (name, kind))| Ok((name.clone(), read_column(&*group, index, *kind)?)));
         table.append(Table { columns: read.collect::<Result<_>>()? });
     }
     Ok((table, tags))
@@ -91,18 +112,32 @@ fn read_column(group: &dyn RowGroupReader, index: usize, kind: Physical) -> Resu
         Physical::BOOLEAN => Column::Flag(read_values::<BoolType>(group, index, false)?.0),
         Physical::BYTE_ARRAY => {
             let texts = read_values::<ByteArrayType>(group, index, false)?.0;
-            Column::Text(texts.iter().map(|text| text.as_utf8().map(str::to_owned)).collect::<Result<_>>()?)
+            Column::Text(
+                texts
+                    .iter()
+                    .map(|text| text.as_utf8().map(str::to_owned))
+                    .collect::<Result<_>>()?,
+            )
         }
         Physical::DOUBLE => {
             let (values, levels) = read_values::<DoubleType>(group, index, true)?;
             let mut values = values.into_iter();
-            Column::Real(levels.into_iter().map(|level| if level > 0 { values.next() } else { None }).collect())
+            Column::Real(
+                levels
+                    .into_iter()
+                    .map(|level| if level > 0 { values.next() } else { None })
+                    .collect(),
+            )
         }
         other => return Err(ParquetError::General(format!("no column of ours holds {other}"))),
     })
 }
 
-fn read_values<T: DataType>(group: &dyn RowGroupReader, index: usize, may_lack: bool) -> Result<(Vec<T::T>, Vec<i16>)> {
+fn read_values<T: DataType>(
+    group: &dyn RowGroupReader,
+    index: usize,
+    may_lack: bool,
+) -> Result<(Vec<T::T>, Vec<i16>)> {
     let rows = usize::try_from(group.metadata().num_rows()).unwrap_or_default();
     let mut reader = get_typed_column_reader::<T>(group.get_column_reader(index)?);
     let (mut values, mut levels) = (Vec::new(), Vec::new());
@@ -131,7 +166,10 @@ mod tests {
         assert_eq!(bytes, write(&sample(), &tags).unwrap());
         let (table, read_tags) = read(bytes).unwrap();
         assert_eq!(table, sample());
-        assert_eq!(read_tags.iter().find(|(key, _)| key == "study").map(|(_, value)| value.as_str()), Some("abc"));
+        assert_eq!(
+            read_tags.iter().find(|(key, _)| key == "study").map(|(_, value)| value.as_str()),
+            Some("abc")
+        );
     }
 
     #[test]

@@ -59,28 +59,52 @@ impl Opened {
                 continue;
             }
             let told = self.came(&ready, option, &order[place + 1..], &came);
-            rows[option] = row(self, option, &ready.encounter, told.as_ref().map(|came| &came.report).map_err(String::as_str));
+            rows[option] = row(
+                self,
+                option,
+                &ready.encounter,
+                told.as_ref().map(|came| &came.report).map_err(String::as_str),
+            );
             came.extend(told.ok());
         }
         rows
     }
 
     /// The run of an option, begun where it parts ways with one that came before if it can be; watched for those that come after.
-    fn came(&self, ready: &Ready<'_>, option: usize, after: &[usize], came: &[Came]) -> Result<Came, String> {
+    fn came(
+        &self,
+        ready: &Ready<'_>,
+        option: usize,
+        after: &[usize],
+        came: &[Came],
+    ) -> Result<Came, String> {
         let prepared = ready.option(option)?;
-        let begun = came.iter().find_map(|came| branch::begun(option, prepared, &came.run, &came.parted));
-        let begin = || self.begin(option, &ready.encounter, prepared.clone(), 0.0).map_err(|error| error.to_string());
+        let begun =
+            came.iter().find_map(|came| branch::begun(option, prepared, &came.run, &came.parted));
+        let begin = || {
+            self.begin(option, &ready.encounter, prepared.clone(), 0.0)
+                .map_err(|error| error.to_string())
+        };
         let mut run = begun.map_or_else(begin, Ok)?;
         let mut watch = Watch::new(ready, option, after);
         self.to_its_end(&mut run, |run| watch.look(run));
-        Ok(Came { option, summary: run.summary(), report: Report::of(&run), parted: watch.parted, run })
+        Ok(Came {
+            option,
+            summary: run.summary(),
+            report: Report::of(&run),
+            parted: watch.parted,
+            run,
+        })
     }
 
     /// Options, the strongest first: it is the one whose run others may share.
     fn by_falling_strength(&self) -> Vec<usize> {
         let mut order: Vec<usize> = (0..self.options.len()).collect();
-        let strength = |option: &usize| least_strength_n(&self.options[*option].prepared.model.spec);
-        order.sort_by(|one, other| strength(other).partial_cmp(&strength(one)).unwrap_or(Ordering::Equal));
+        let strength =
+            |option: &usize| least_strength_n(&self.options[*option].prepared.model.spec);
+        order.sort_by(|one, other| {
+            strength(other).partial_cmp(&strength(one)).unwrap_or(Ordering::Equal)
+        });
         order
     }
 
@@ -88,7 +112,12 @@ impl Opened {
     ///
     /// # Errors
     /// Faults of the scenario so made, or gear that does not come to rest.
-    pub fn play(&self, option: usize, encounter: &Encounter, frames_hz: f64) -> Result<Played, Error> {
+    pub fn play(
+        &self,
+        option: usize,
+        encounter: &Encounter,
+        frames_hz: f64,
+    ) -> Result<Played, Error> {
         let mut run = self.begin(option, encounter, self.prepare(option, encounter)?, frames_hz)?;
         self.to_its_end(&mut run, |_| {});
         let report = Report::of(&run);
@@ -96,7 +125,13 @@ impl Opened {
     }
 
     /// A run of an option at its start, its gear at rest.
-    fn begin(&self, option: usize, encounter: &Encounter, prepared: Prepared, frames_hz: f64) -> Result<Run, Error> {
+    fn begin(
+        &self,
+        option: usize,
+        encounter: &Encounter,
+        prepared: Prepared,
+        frames_hz: f64,
+    ) -> Result<Run, Error> {
         let rest = self.rest(option, encounter)?;
         let settled = fitted(&rest, &prepared.model);
         if !settled.converged {
@@ -109,7 +144,8 @@ impl Opened {
     fn to_its_end(&self, run: &mut Run, mut look: impl FnMut(&Run)) {
         let stride = (1.0 / (LOOKS_HZ * run.step_s())).round().max(1.0) as u64;
         let settings = &run.model().spec.settings;
-        let most = (STUCK * settings.duration_s / settings.contact_step_s.min(settings.step_s)) as u64;
+        let most =
+            (STUCK * settings.duration_s / settings.contact_step_s.min(settings.step_s)) as u64;
         while !run.finished() && run.step(run.pilot()).is_ok() {
             let audit = run.audit();
             if audit.solver_steps + audit.halved > most {
@@ -133,7 +169,8 @@ impl Opened {
             Outcome::NoContact => now >= rule.passed_s,
             Outcome::Shed | Outcome::PartedFree => whale.decided,
             Outcome::Entangled | Outcome::PartedEntangled => {
-                whale.decided && whale.first_contact_s.is_some_and(|first| now - first >= rule.held_s)
+                whale.decided
+                    && whale.first_contact_s.is_some_and(|first| now - first >= rule.held_s)
             }
         }
     }
@@ -141,6 +178,11 @@ impl Opened {
 
 /// Whether an option has the run of another that came before.
 fn is_twin(ready: &Ready<'_>, option: usize, came: &Came) -> bool {
-    let exactly = || ready.option(option).is_ok_and(|prepared| same_run(&prepared.model, came.run.model(), &came.summary));
-    ready.opened.is_family(option, came.option) && (ready.opened.surely(option, came.option, &came.run, &came.summary) || exactly())
+    let exactly = || {
+        ready
+            .option(option)
+            .is_ok_and(|prepared| same_run(&prepared.model, came.run.model(), &came.summary))
+    };
+    ready.opened.is_family(option, came.option)
+        && (ready.opened.surely(option, came.option, &came.run, &came.summary) || exactly())
 }

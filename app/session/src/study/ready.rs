@@ -22,7 +22,8 @@ impl<'a> Ready<'a> {
 
     /// An option ready to run, or why it is not.
     pub(super) fn option(&self, option: usize) -> Result<&Prepared, String> {
-        let made = || self.opened.prepare(option, &self.encounter).map_err(|error| error.to_string());
+        let made =
+            || self.opened.prepare(option, &self.encounter).map_err(|error| error.to_string());
         self.options[option].get_or_init(made).as_ref().map_err(Clone::clone)
     }
 }

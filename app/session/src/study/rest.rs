@@ -40,7 +40,11 @@ impl Opened {
             return Ok(rest);
         }
         let model = source.prepare(&self.host)?.model;
-        let settled = Arc::new(if model.spec.settings.as_placed { as_placed(&model) } else { settle(&model) });
+        let settled = Arc::new(if model.spec.settings.as_placed {
+            as_placed(&model)
+        } else {
+            settle(&model)
+        });
         let rest = Arc::new(Rest { model, settled });
         let mut rests = self.rests.0.lock().unwrap_or_else(PoisonError::into_inner);
         if rests.len() >= MOST_KEPT {
@@ -55,21 +59,37 @@ impl Opened {
         let plan = &self.options[option];
         let (mut scenario, mut library) = (plan.scenario.clone(), plan.sources.clone());
         let priors = &self.study.priors;
-        let (priors, drawn): (Vec<_>, Vec<_>) =
-            priors.iter().cloned().zip(encounter.drawn.iter().cloned()).filter(|(prior, _)| is_drawn_for_gear(prior)).unzip();
+        let (priors, drawn): (Vec<_>, Vec<_>) = priors
+            .iter()
+            .cloned()
+            .zip(encounter.drawn.iter().cloned())
+            .filter(|(prior, _)| is_drawn_for_gear(prior))
+            .unzip();
         put_drawn(&mut scenario, &mut library, &priors, &drawn, &plan.own)?;
-        let fault = |error: endline_gear::EditError| Error::Replay(format!("option `{}`: {}", plan.id, error.message));
+        let fault = |error: endline_gear::EditError| {
+            Error::Replay(format!("option `{}`: {}", plan.id, error.message))
+        };
         for field in plan.removes.iter().filter(|field| moves_gear(field)) {
             scenario.remove(field).map_err(fault)?;
         }
         for setting in plan.settings.iter().filter(|setting| moves_gear(&setting.field.value)) {
             scenario.put(&setting.field.value, &setting.value).map_err(fault)?;
         }
-        Ok(Source { scenario_name: plan.scenario_name.clone(), scenario: scenario.text(), library, overrides: Overrides::default() })
+        Ok(Source {
+            scenario_name: plan.scenario_name.clone(),
+            scenario: scenario.text(),
+            library,
+            overrides: Overrides::default(),
+        })
     }
 
     /// Where rope lies at rest at a depth, east and north [m].
-    pub(super) fn aim_at(&self, option: usize, encounter: &Encounter, depth_m: f64) -> Result<[f64; 2], Error> {
+    pub(super) fn aim_at(
+        &self,
+        option: usize,
+        encounter: &Encounter,
+        depth_m: f64,
+    ) -> Result<[f64; 2], Error> {
         let rest = self.rest(option, encounter)?;
         let wanted = &self.study.aim.lines;
         let line_ids = || rest.model.spec.lines.iter().map(|line| line.id.as_str());
@@ -78,18 +98,25 @@ impl Opened {
             match line_ids().position(|known| known == id.value) {
                 Some(line) => lines.push(line),
                 // Gear of another kind may have no such line: then the whale goes where it would go for the baseline.
-                None if option != self.baseline => return self.aim_at(self.baseline, encounter, depth_m),
+                None if option != self.baseline => {
+                    return self.aim_at(self.baseline, encounter, depth_m);
+                }
                 None => {
                     let message = format!("the baseline's gear has no line `{}`", id.value);
-                    return Err(Error::Diagnostics(vec![id.place.error(message, hint(&id.value, line_ids()))]));
+                    return Err(Error::Diagnostics(vec![
+                        id.place.error(message, hint(&id.value, line_ids())),
+                    ]));
                 }
             }
         }
         if wanted.is_empty() {
             lines = (0..rest.model.spec.lines.len()).collect();
         }
-        rope_at(&rest.model, &rest.settled.state, &lines, depth_m)
-            .ok_or_else(|| Error::Replay("the gear has no rope to aim at; name lines in `aim` of [encounter]".into()))
+        rope_at(&rest.model, &rest.settled.state, &lines, depth_m).ok_or_else(|| {
+            Error::Replay(
+                "the gear has no rope to aim at; name lines in `aim` of [encounter]".into(),
+            )
+        })
     }
 }
 
@@ -101,7 +128,9 @@ fn moves_gear(field: &str) -> bool {
 /// The same of what is drawn; folders of the library hold one kind of item each.
 fn is_drawn_for_gear(prior: &Prior) -> bool {
     match &prior.target {
-        Target::Library(file, _) => !["whales/", "friction/", "acts/"].iter().any(|folder| file.starts_with(folder)),
+        Target::Library(file, _) => {
+            !["whales/", "friction/", "acts/"].iter().any(|folder| file.starts_with(folder))
+        }
         _ => moves_gear(field_of(prior)),
     }
 }
@@ -130,8 +159,10 @@ fn rope_at(model: &Model, state: &State, lines: &[usize], depth_m: f64) -> Optio
 
 /// The gear at rest for an encounter's own model; settled anew where the two do not fit.
 pub(super) fn fitted(rest: &Rest, model: &Model) -> Arc<Settled> {
-    let fast_to_whale = model.spec.joints.iter().any(|joint| matches!(joint.kind, JointKind::Whale(_)));
-    let fits = rest.model.node_count == model.node_count && rest.model.spec.bodies.len() == model.spec.bodies.len();
+    let fast_to_whale =
+        model.spec.joints.iter().any(|joint| matches!(joint.kind, JointKind::Whale(_)));
+    let fits = rest.model.node_count == model.node_count
+        && rest.model.spec.bodies.len() == model.spec.bodies.len();
     match (fits && !fast_to_whale, model.spec.settings.as_placed) {
         (true, _) => Arc::new(rest.settled.with_whale_of(model)),
         (false, true) => Arc::new(as_placed(model)),

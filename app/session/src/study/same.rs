@@ -45,7 +45,11 @@ pub(super) fn same_until_parting(one: &Model, other: &Model) -> bool {
 
 /// Whether an option has the same run as another that came to `summary`, told without assembling it: by the two options'
 /// models of whatever encounter, first its own, where they are of one [`family`].
-pub(super) fn surely_same_run([bare, other_bare]: [&ModelSpec; 2], other: &Model, summary: &Summary) -> bool {
+pub(super) fn surely_same_run(
+    [bare, other_bare]: [&ModelSpec; 2],
+    other: &Model,
+    summary: &Summary,
+) -> bool {
     // Where the other has in this encounter the strengths it always has, none are drawn.
     let drawn = if strengths(&other.spec).eq(strengths(other_bare)) { 1.0 } else { SCATTER };
     nothing_parted(summary) && holds(bare, summary, margin(bare) * drawn)
@@ -54,8 +58,14 @@ pub(super) fn surely_same_run([bare, other_bare]: [&ModelSpec; 2], other: &Model
 /// Whether every tension of another model's run stays below a share of what bears it: of the rope's strength along a line, of
 /// its rating at a link. The other has the same lines and links.
 fn holds(spec: &ModelSpec, summary: &Summary, share: f64) -> bool {
-    let lines = summary.lines.iter().zip(ropes(spec)).all(|(line, strength_n)| line.peak_tension_n < share * strength_n);
-    let at_link = |(link, borne): (&Link, &LinkSummary)| !link.enabled || borne.peak_tension_n < share * link.rating_n;
+    let lines = summary
+        .lines
+        .iter()
+        .zip(ropes(spec))
+        .all(|(line, strength_n)| line.peak_tension_n < share * strength_n);
+    let at_link = |(link, borne): (&Link, &LinkSummary)| {
+        !link.enabled || borne.peak_tension_n < share * link.rating_n
+    };
     lines && spec.links.iter().zip(&summary.links).all(at_link)
 }
 
@@ -67,24 +77,41 @@ const STRENGTHS: [&str; 4] = ["rating", "strength", "weak_link", "weak_links"];
 /// alike in one encounter, and what is drawn reaches both in the same fields.
 pub(super) fn family(one: &OptionPlan, other: &OptionPlan, drawn_fields: &[&str]) -> bool {
     let own = |plan: &OptionPlan| -> Vec<String> {
-        let set = plan.settings.iter().map(|setting| setting.field.value.clone()).chain(plan.removes.iter().cloned());
-        let mut own: Vec<String> = set.filter(|field| drawn_fields.contains(&field.as_str())).collect();
+        let set = plan
+            .settings
+            .iter()
+            .map(|setting| setting.field.value.clone())
+            .chain(plan.removes.iter().cloned());
+        let mut own: Vec<String> =
+            set.filter(|field| drawn_fields.contains(&field.as_str())).collect();
         own.sort();
         own
     };
-    let is_strength = |path: &str| path.rsplit('.').next().is_some_and(|last| STRENGTHS.contains(&last));
-    let only_strengths = |one: &OptionPlan, other: &OptionPlan| one.sets.iter().all(|set| other.sets.contains(set) || is_strength(&set.0));
-    let strengths = only_strengths(one, other) && only_strengths(other, one) && one.removes == other.removes;
-    strengths && own(one).is_empty() && own(other).is_empty() && alike(&one.prepared.model.spec, &other.prepared.model.spec)
+    let is_strength =
+        |path: &str| path.rsplit('.').next().is_some_and(|last| STRENGTHS.contains(&last));
+    let only_strengths = |one: &OptionPlan, other: &OptionPlan| {
+        one.sets.iter().all(|set| other.sets.contains(set) || is_strength(&set.0))
+    };
+    let strengths =
+        only_strengths(one, other) && only_strengths(other, one) && one.removes == other.removes;
+    strengths
+        && own(one).is_empty()
+        && own(other).is_empty()
+        && alike(&one.prepared.model.spec, &other.prepared.model.spec)
 }
 
 fn nothing_parted(summary: &Summary) -> bool {
-    summary.lines.iter().all(|line| line.parted_at_s.is_none()) && summary.links.iter().all(|link| link.parted_at_s.is_none())
+    summary.lines.iter().all(|line| line.parted_at_s.is_none())
+        && summary.links.iter().all(|link| link.parted_at_s.is_none())
 }
 
 /// What the rope of each line holds, at its weakest place [N].
 fn ropes(spec: &ModelSpec) -> impl Iterator<Item = f64> {
-    let holds = |line: &Line| spec.ropes[line.rope].strength_n * line.strength.all * line.strength.end_a.min(line.strength.end_b).min(1.0);
+    let holds = |line: &Line| {
+        spec.ropes[line.rope].strength_n
+            * line.strength.all
+            * line.strength.end_a.min(line.strength.end_b).min(1.0)
+    };
     spec.lines.iter().map(holds)
 }
 
@@ -100,12 +127,23 @@ pub(super) fn least_strength_n(spec: &ModelSpec) -> f64 {
 
 /// Whether two models differ in nothing but the strengths of links and ropes.
 fn alike(one: &ModelSpec, other: &ModelSpec) -> bool {
-    let ropes = one.ropes.len() == other.ropes.len()
-        && one.ropes.iter().zip(&other.ropes).all(|(a, b)| *a == Rope { id: a.id.clone(), strength_n: a.strength_n, ..b.clone() });
+    let ropes =
+        one.ropes.len() == other.ropes.len()
+            && one.ropes.iter().zip(&other.ropes).all(|(a, b)| {
+                *a == Rope { id: a.id.clone(), strength_n: a.strength_n, ..b.clone() }
+            });
     let lines = one.lines.len() == other.lines.len()
-        && one.lines.iter().zip(&other.lines).all(|(a, b)| *a == Line { strength: a.strength, ..b.clone() });
+        && one
+            .lines
+            .iter()
+            .zip(&other.lines)
+            .all(|(a, b)| *a == Line { strength: a.strength, ..b.clone() });
     let links = one.links.len() == other.links.len()
-        && one.links.iter().zip(&other.links).all(|(a, b)| (&a.id, a.line, a.end) == (&b.id, b.line, b.end));
+        && one
+            .links
+            .iter()
+            .zip(&other.links)
+            .all(|(a, b)| (&a.id, a.line, a.end) == (&b.id, b.line, b.end));
     ropes
         && lines
         && links
@@ -121,20 +159,25 @@ fn alike(one: &ModelSpec, other: &ModelSpec) -> bool {
 
 /// Gear types that keep nothing in mind and differ in items alone, whose effect on the gear shows elsewhere in the model.
 fn same_gear_types(one: &ModelSpec, other: &ModelSpec) -> bool {
-    let same_value =
-        |(a, b): (&AttributeValue, &AttributeValue)| a == b || matches!((a, b), (AttributeValue::Item(_), AttributeValue::Item(_)));
+    let same_value = |(a, b): (&AttributeValue, &AttributeValue)| {
+        a == b || matches!((a, b), (AttributeValue::Item(_), AttributeValue::Item(_)))
+    };
     one.gear.len() == other.gear.len()
         && one.gear.iter().zip(&other.gear).all(|(a, b)| {
             let (own, its) = (a.gear.descriptor(), b.gear.descriptor());
-            own.id == its.id && own.state_len == 0 && a.lines == b.lines && a.attributes.iter().zip(&b.attributes).all(same_value)
+            own.id == its.id
+                && own.state_len == 0
+                && a.lines == b.lines
+                && a.attributes.iter().zip(&b.attributes).all(same_value)
         })
 }
 
 fn same_whale(one: &ModelSpec, other: &ModelSpec) -> bool {
     let friction = match (&one.friction, &other.friction) {
         (Some(a), Some(b)) => {
-            let same_law =
-                |(a, b): (&FrictionLaw, &FrictionLaw)| a.model.descriptor().id == b.model.descriptor().id && a.attributes == b.attributes;
+            let same_law = |(a, b): (&FrictionLaw, &FrictionLaw)| {
+                a.model.descriptor().id == b.model.descriptor().id && a.attributes == b.attributes
+            };
             let laws = a.laws.len() == b.laws.len() && a.laws.iter().zip(&b.laws).all(same_law);
             laws && a.law_of == b.law_of && a.coefficients == b.coefficients
         }
@@ -143,10 +186,23 @@ fn same_whale(one: &ModelSpec, other: &ModelSpec) -> bool {
     };
     let whale = match (&one.whale, &other.whale) {
         (Some(a), Some(b)) => {
-            let motion = a.motion.descriptor().id == b.motion.descriptor().id && a.motion_attributes == b.motion_attributes;
-            let body = a.skin == b.skin && a.joints == b.joints && a.kinetic == b.kinetic && a.measures == b.measures;
-            let start = a.position_m == b.position_m && a.orientation == b.orientation && a.pilot == b.pilot;
-            let numbers = |whale: &Whale| [whale.length_m, whale.burst_speed_m_s, whale.speed_m_s, whale.contact_stiffness_n_m2];
+            let motion = a.motion.descriptor().id == b.motion.descriptor().id
+                && a.motion_attributes == b.motion_attributes;
+            let body = a.skin == b.skin
+                && a.joints == b.joints
+                && a.kinetic == b.kinetic
+                && a.measures == b.measures;
+            let start = a.position_m == b.position_m
+                && a.orientation == b.orientation
+                && a.pilot == b.pilot;
+            let numbers = |whale: &Whale| {
+                [
+                    whale.length_m,
+                    whale.burst_speed_m_s,
+                    whale.speed_m_s,
+                    whale.contact_stiffness_n_m2,
+                ]
+            };
             motion && body && start && numbers(a).map(f64::to_bits) == numbers(b).map(f64::to_bits)
         }
         (None, None) => true,

@@ -49,7 +49,9 @@ impl Column {
     fn push(&mut self, cell: Cell) {
         match (self, cell) {
             (Self::Whole(values), Cell::Whole(value)) => values.push(value),
-            (Self::Real(values), Cell::Real(value)) => values.push(value.filter(|number| number.is_finite())),
+            (Self::Real(values), Cell::Real(value)) => {
+                values.push(value.filter(|number| number.is_finite()))
+            }
             (Self::Text(values), Cell::Text(value)) => values.push(value),
             (Self::Flag(values), Cell::Flag(value)) => values.push(value),
             // A row has the kinds of its column: both come from one function.
@@ -88,7 +90,11 @@ impl Column {
 
 /// A text as CSV wants it (RFC 4180).
 fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+    if text.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_owned()
+    }
 }
 
 impl Table {
@@ -98,7 +104,8 @@ impl Table {
         let mut table = Self::default();
         for row in rows {
             if table.columns.is_empty() {
-                table.columns = row.iter().map(|(name, cell)| (name.clone(), Column::of(cell))).collect();
+                table.columns =
+                    row.iter().map(|(name, cell)| (name.clone(), Column::of(cell))).collect();
             }
             for ((_, column), (_, cell)) in table.columns.iter_mut().zip(row) {
                 column.push(cell);
@@ -164,7 +171,8 @@ impl Table {
         let names: Vec<String> = self.columns.iter().map(|(name, _)| quoted(name)).collect();
         let mut text = names.join(",") + "\n";
         for row in 0..self.rows() {
-            let cells: Vec<String> = self.columns.iter().map(|(_, column)| column.written(row)).collect();
+            let cells: Vec<String> =
+                self.columns.iter().map(|(_, column)| column.written(row)).collect();
             text += &(cells.join(",") + "\n");
         }
         text

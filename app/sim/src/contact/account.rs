@@ -30,7 +30,9 @@ impl Account {
         if given_j <= MOST_RETURNED * taken_j + OF_NOTHING_J {
             return Ok(());
         }
-        Err(format!("its friction adds energy: at one contact it has given the rope {given_j:.3} J, of {taken_j:.3} J that it took"))
+        Err(format!(
+            "its friction adds energy: at one contact it has given the rope {given_j:.3} J, of {taken_j:.3} J that it took"
+        ))
     }
 }
 

@@ -37,12 +37,19 @@ pub(crate) fn faces(nearest: Touch, others: impl Iterator<Item = Touch>) -> Face
     faces[0] = Some(nearest);
     let mut whole = faces;
     for face in 1..MOST_FACES {
-        let beside = |other: &Touch| whole.iter().flatten().map(|touch| share(touch, other)).product::<f64>();
+        let beside = |other: &Touch| {
+            whole.iter().flatten().map(|touch| share(touch, other)).product::<f64>()
+        };
         let rising = risen[..count].iter().flatten().filter(|other| beside(other) > 0.0);
-        let Some(next) = rising.min_by(|one, other| one.distance.total_cmp(&other.distance)).copied() else { break };
+        let Some(next) =
+            rising.min_by(|one, other| one.distance.total_cmp(&other.distance)).copied()
+        else {
+            break;
+        };
         let part = beside(&next);
         let Press { energy, force, stiffness } = next.press;
-        let press = Press { energy: energy * part, force: force * part, stiffness: stiffness * part };
+        let press =
+            Press { energy: energy * part, force: force * part, stiffness: stiffness * part };
         (whole[face], faces[face]) = (Some(next), Some(Touch { press, ..next }));
     }
     if count > 0 {
@@ -57,8 +64,10 @@ fn share(nearer: &Touch, other: &Touch) -> f64 {
     if alike >= ALIKE.0 {
         return 0.0;
     }
-    let risen = (nearer.distance - other.distance * alike) / (nearer.distance * (1.0 - alike)).max(f64::MIN_POSITIVE);
-    ((ALIKE.0 - alike) / (ALIKE.0 - ALIKE.1)).min(1.0) * ((risen - RISEN.0) / (RISEN.1 - RISEN.0)).clamp(0.0, 1.0)
+    let risen = (nearer.distance - other.distance * alike)
+        / (nearer.distance * (1.0 - alike)).max(f64::MIN_POSITIVE);
+    ((ALIKE.0 - alike) / (ALIKE.0 - ALIKE.1)).min(1.0)
+        * ((risen - RISEN.0) / (RISEN.1 - RISEN.0)).clamp(0.0, 1.0)
 }
 
 #[cfg(test)]
@@ -73,14 +82,26 @@ mod tests {
     fn touch(pair: usize, place: DVec3, foot: DVec3) -> Touch {
         let distance = place.distance(foot);
         let press = Press::new(distance, REACH_M, 1e4);
-        Touch { pair, barycentric: [1.0, 0.0, 0.0], place, normal: (place - foot) / distance, distance, press }
+        Touch {
+            pair,
+            barycentric: [1.0, 0.0, 0.0],
+            place,
+            normal: (place - foot) / distance,
+            distance,
+            press,
+        }
     }
 
     /// Force of the faces touched, between the walls z = 0 and x = 0 of a square corner.
     fn force_in_corner(place: DVec3) -> DVec3 {
-        let (floor, wall) = (touch(7, place, place.with_z(0.0)), touch(3, place, place.with_x(0.0)));
+        let (floor, wall) =
+            (touch(7, place, place.with_z(0.0)), touch(3, place, place.with_x(0.0)));
         let (near, far) = if place.z < place.x { (floor, wall) } else { (wall, floor) };
-        faces(near, std::iter::once(far)).iter().flatten().map(|touch| touch.normal * touch.press.force).sum()
+        faces(near, std::iter::once(far))
+            .iter()
+            .flatten()
+            .map(|touch| touch.normal * touch.press.force)
+            .sum()
     }
 
     #[test]
@@ -92,7 +113,11 @@ mod tests {
         let mut before = force_in_corner(place(0.635));
         for step in 1..=1000 {
             let now = force_in_corner(place(0.635 + 3e-4 * f64::from(step)));
-            assert!(now.distance(before) < 0.01 * alone, "jumps by {} of {alone} N", now.distance(before));
+            assert!(
+                now.distance(before) < 0.01 * alone,
+                "jumps by {} of {alone} N",
+                now.distance(before)
+            );
             before = now;
         }
     }
@@ -102,8 +127,15 @@ mod tests {
     fn convex_skin_is_one_face() {
         for share in [0.01, 0.1, 0.5, 0.9] {
             let place = DVec3::new(0.004 * share, 0.0, 0.003);
-            let faces = faces(touch(7, place, place.with_z(0.0)), std::iter::once(touch(3, place, DVec3::ZERO)));
-            assert!(faces[0].is_some_and(|touch| touch.pair == 7) && faces[1..].iter().all(Option::is_none), "{share}");
+            let faces = faces(
+                touch(7, place, place.with_z(0.0)),
+                std::iter::once(touch(3, place, DVec3::ZERO)),
+            );
+            assert!(
+                faces[0].is_some_and(|touch| touch.pair == 7)
+                    && faces[1..].iter().all(Option::is_none),
+                "{share}"
+            );
         }
     }
 }

@@ -66,11 +66,13 @@ pub fn first_meeting(segment: &SweptSegment, triangle: &SweptTriangle) -> Option
 /// Both move straight from start to end.
 #[must_use]
 pub fn first_crossing(one: &SweptSegment, other: &SweptSegment) -> Option<f64> {
-    let [first, second] = [one, other].map(|swept| Bounds::around(&[swept.a0, swept.b0, swept.a1, swept.b1]));
+    let [first, second] =
+        [one, other].map(|swept| Bounds::around(&[swept.a0, swept.b0, swept.a1, swept.b1]));
     if !first.grown(REACH * (1.0 + second.longest())).meets(&second) {
         return None;
     }
-    let [rope, edge] = [one, other].map(|swept| [Mover::between(swept.a0, swept.a1), Mover::between(swept.b0, swept.b1)]);
+    let [rope, edge] = [one, other]
+        .map(|swept| [Mover::between(swept.a0, swept.a1), Mover::between(swept.b0, swept.b1)]);
     let first = segment_meets_edge(rope, edge);
     (first <= 1.0).then_some(first)
 }
@@ -102,13 +104,16 @@ fn end_meets_face(end: Mover, skin: [Mover; 3]) -> f64 {
         let normal = (b - a).cross(c - a);
         let point = end.at(time);
         let square = normal.length_squared();
-        [(b, c), (c, a), (a, b)].iter().all(|&(from, to)| (to - from).cross(point - from).dot(normal) >= -SLACK * square)
+        [(b, c), (c, a), (a, b)]
+            .iter()
+            .all(|&(from, to)| (to - from).cross(point - from).dot(normal) >= -SLACK * square)
     })
 }
 
 /// First time a moving segment meets a moving edge, or infinity.
 fn segment_meets_edge(rope: [Mover; 2], edge: [Mover; 2]) -> f64 {
-    let cubic = Cubic::coplanar(rope[1].from(rope[0]), edge[1].from(edge[0]), edge[0].from(rope[0]));
+    let cubic =
+        Cubic::coplanar(rope[1].from(rope[0]), edge[1].from(edge[0]), edge[0].from(rope[0]));
     cubic.first_root(|time| {
         let (u, v) = (rope[1].at(time) - rope[0].at(time), edge[1].at(time) - edge[0].at(time));
         let gap = edge[0].at(time) - rope[0].at(time);
@@ -128,7 +133,11 @@ struct Cubic {
 impl Cubic {
     /// Volume spanned by three moving vectors.
     fn coplanar(u: Mover, v: Mover, w: Mover) -> Self {
-        let cross = [u.start.cross(v.start), u.start.cross(v.shift) + u.shift.cross(v.start), u.shift.cross(v.shift)];
+        let cross = [
+            u.start.cross(v.start),
+            u.start.cross(v.shift) + u.shift.cross(v.start),
+            u.shift.cross(v.shift),
+        ];
         let c = [
             cross[0].dot(w.start),
             cross[0].dot(w.shift) + cross[1].dot(w.start),
@@ -200,7 +209,8 @@ impl Cubic {
 mod tests {
     use super::*;
 
-    const FLAT: [DVec3; 3] = [DVec3::new(0.0, 0.0, 0.0), DVec3::new(1.0, 0.0, 0.0), DVec3::new(0.0, 1.0, 0.0)];
+    const FLAT: [DVec3; 3] =
+        [DVec3::new(0.0, 0.0, 0.0), DVec3::new(1.0, 0.0, 0.0), DVec3::new(0.0, 1.0, 0.0)];
 
     fn meeting(start: [[f64; 3]; 2], end: [[f64; 3]; 2]) -> Option<f64> {
         let [a0, b0] = start.map(DVec3::from);
@@ -211,21 +221,29 @@ mod tests {
     /// A segment that falls end first meets the face at the time its lower end reaches it.
     #[test]
     fn an_end_meets_the_face() {
-        let time = meeting([[0.2, 0.2, 0.3], [0.2, 0.2, 0.9]], [[0.2, 0.2, -0.7], [0.2, 0.2, -0.1]]);
+        let time =
+            meeting([[0.2, 0.2, 0.3], [0.2, 0.2, 0.9]], [[0.2, 0.2, -0.7], [0.2, 0.2, -0.1]]);
         assert!((time.unwrap() - 0.3).abs() < 1e-12);
     }
 
     /// A standing segment swept sideways meets the edge y = 0 a quarter of the way.
     #[test]
     fn a_segment_meets_an_edge() {
-        let time = meeting([[0.4, -0.1, -1.0], [0.4, -0.1, 1.0]], [[0.4, 0.3, -1.0], [0.4, 0.3, 1.0]]);
+        let time =
+            meeting([[0.4, -0.1, -1.0], [0.4, -0.1, 1.0]], [[0.4, 0.3, -1.0], [0.4, 0.3, 1.0]]);
         assert!((time.unwrap() - 0.25).abs() < 1e-12);
     }
 
     #[test]
     fn a_miss_is_a_miss() {
-        assert_eq!(meeting([[0.8, 0.8, 0.3], [0.9, 0.8, 0.9]], [[0.8, 0.8, -0.7], [0.9, 0.8, -0.1]]), None);
-        assert_eq!(meeting([[0.2, 0.2, 0.3], [0.3, 0.2, 0.3]], [[0.2, 0.2, 0.1], [0.3, 0.2, 0.1]]), None);
+        assert_eq!(
+            meeting([[0.8, 0.8, 0.3], [0.9, 0.8, 0.9]], [[0.8, 0.8, -0.7], [0.9, 0.8, -0.1]]),
+            None
+        );
+        assert_eq!(
+            meeting([[0.2, 0.2, 0.3], [0.3, 0.2, 0.3]], [[0.2, 0.2, 0.1], [0.3, 0.2, 0.1]]),
+            None
+        );
     }
 
     /// In and out again within one move: both ends of the move are clear, the meeting is not.
@@ -244,6 +262,9 @@ mod tests {
 
     #[test]
     fn a_crossed_start_is_at_once() {
-        assert_eq!(meeting([[0.2, 0.2, 0.3], [0.2, 0.2, -0.3]], [[0.2, 0.2, 0.3], [0.2, 0.2, -0.3]]), Some(0.0));
+        assert_eq!(
+            meeting([[0.2, 0.2, 0.3], [0.2, 0.2, -0.3]], [[0.2, 0.2, 0.3], [0.2, 0.2, -0.3]]),
+            Some(0.0)
+        );
     }
 }

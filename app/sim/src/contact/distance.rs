@@ -35,7 +35,11 @@ pub fn segment_triangle(segment: [DVec3; 2], triangle: [DVec3; 3]) -> Nearest {
 }
 
 /// The same with the triangle's plane made ready.
-pub(crate) fn segment_triangle_in(plane: Option<&Plane>, segment: [DVec3; 2], triangle: [DVec3; 3]) -> Nearest {
+pub(crate) fn segment_triangle_in(
+    plane: Option<&Plane>,
+    segment: [DVec3; 2],
+    triangle: [DVec3; 3],
+) -> Nearest {
     let Some(plane) = plane else {
         return nearest_of_edges(segment, triangle, [true; 3]);
     };
@@ -43,7 +47,8 @@ pub(crate) fn segment_triangle_in(plane: Option<&Plane>, segment: [DVec3; 2], tr
     if let Some(crossing) = crossing(ends) {
         return crossing;
     }
-    let beyond = [0, 1, 2].map(|corner| ends.iter().any(|(_, place)| place[corner] < SURELY_INSIDE));
+    let beyond =
+        [0, 1, 2].map(|corner| ends.iter().any(|(_, place)| place[corner] < SURELY_INSIDE));
     let mut best = nearest_of_edges(segment, triangle, beyond);
     for ((height, barycentric), fraction) in ends.into_iter().zip([0.0, 1.0]) {
         if height.abs() < best.distance && inside(barycentric) {
@@ -56,11 +61,17 @@ pub(crate) fn segment_triangle_in(plane: Option<&Plane>, segment: [DVec3; 2], tr
 /// Nearest place on a triangle to a point: distance and barycentric place.
 #[must_use]
 pub fn point_triangle(point: DVec3, triangle: [DVec3; 3]) -> (f64, [f64; 3]) {
-    point_triangle_in(Plane::of(triangle).as_ref(), point, triangle, f64::INFINITY).unwrap_or((f64::INFINITY, [1.0, 0.0, 0.0]))
+    point_triangle_in(Plane::of(triangle).as_ref(), point, triangle, f64::INFINITY)
+        .unwrap_or((f64::INFINITY, [1.0, 0.0, 0.0]))
 }
 
 /// The same with the triangle's plane made ready; `None` where the distance is `most` or more for certain.
-pub(crate) fn point_triangle_in(plane: Option<&Plane>, point: DVec3, triangle: [DVec3; 3], most: f64) -> Option<(f64, [f64; 3])> {
+pub(crate) fn point_triangle_in(
+    plane: Option<&Plane>,
+    point: DVec3,
+    triangle: [DVec3; 3],
+    most: f64,
+) -> Option<(f64, [f64; 3])> {
     let mut beyond = [true; 3];
     if let Some(plane) = plane {
         let height = plane.height(point);
@@ -197,7 +208,8 @@ fn crossing([(from, start), (to, end)]: [(f64, [f64; 3]); 2]) -> Option<Nearest>
         return None;
     }
     let fraction = from / (from - to);
-    let barycentric = [0, 1, 2].map(|corner| start[corner] + fraction * (end[corner] - start[corner]));
+    let barycentric =
+        [0, 1, 2].map(|corner| start[corner] + fraction * (end[corner] - start[corner]));
     inside(barycentric).then_some(Nearest { distance: 0.0, fraction, barycentric })
 }
 

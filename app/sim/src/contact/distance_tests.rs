@@ -5,7 +5,8 @@ struct Dice(u64);
 
 impl Dice {
     fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 
@@ -23,7 +24,11 @@ fn searched(segment: [DVec3; 2], triangle: [DVec3; 3]) -> f64 {
             let low = triangle[0].lerp(triangle[1], v);
             let high = triangle[0].lerp(triangle[2], v);
             let along = high - low;
-            let t = if along.length_squared() > 0.0 { ((point - low).dot(along) / along.length_squared()).clamp(0.0, 1.0) } else { 0.0 };
+            let t = if along.length_squared() > 0.0 {
+                ((point - low).dot(along) / along.length_squared()).clamp(0.0, 1.0)
+            } else {
+                0.0
+            };
             (low + along * t).distance(point)
         })
     })
@@ -48,7 +53,11 @@ fn distance_agrees_with_a_search() {
         let triangle = [dice.point(), dice.point(), dice.point()];
         let nearest = segment_triangle(segment, triangle);
         let reference = searched(segment, triangle);
-        assert!((nearest.distance - reference).abs() < 2e-6, "{} against {reference}", nearest.distance);
+        assert!(
+            (nearest.distance - reference).abs() < 2e-6,
+            "{} against {reference}",
+            nearest.distance
+        );
         crossed += i32::from(nearest.distance == 0.0);
     }
     assert!(crossed > 50, "the search must see crossings too, saw {crossed}");
@@ -63,9 +72,13 @@ fn places_and_distance_agree() {
         let triangle = [dice.point(), dice.point(), dice.point()];
         let nearest = segment_triangle(segment, triangle);
         let on_rope = segment[0].lerp(segment[1], nearest.fraction);
-        let on_skin: DVec3 = triangle.iter().zip(nearest.barycentric).map(|(corner, share)| *corner * share).sum();
+        let on_skin: DVec3 =
+            triangle.iter().zip(nearest.barycentric).map(|(corner, share)| *corner * share).sum();
         assert!((on_rope.distance(on_skin) - nearest.distance).abs() < 1e-12);
-        assert!((nearest.barycentric.iter().sum::<f64>() - 1.0).abs() < 1e-12 && inside(nearest.barycentric));
+        assert!(
+            (nearest.barycentric.iter().sum::<f64>() - 1.0).abs() < 1e-12
+                && inside(nearest.barycentric)
+        );
         assert!((0.0..=1.0).contains(&nearest.fraction));
     }
 }
@@ -92,7 +105,10 @@ fn degenerate_shapes_are_measured() {
     assert!((above.distance - 1.0).abs() < 1e-15);
     let (flat, _) = point_triangle(DVec3::new(2.0, 0.0, 0.0), line);
     assert!((flat - 1.0).abs() < 1e-15);
-    let parallel = segment_triangle([DVec3::new(-5.0, 0.25, 0.5), DVec3::new(5.0, 0.25, 0.5)], [DVec3::ZERO, DVec3::X, DVec3::Y]);
+    let parallel = segment_triangle(
+        [DVec3::new(-5.0, 0.25, 0.5), DVec3::new(5.0, 0.25, 0.5)],
+        [DVec3::ZERO, DVec3::X, DVec3::Y],
+    );
     assert!((parallel.distance - 0.5).abs() < 1e-15);
 }
 
@@ -100,7 +116,8 @@ fn degenerate_shapes_are_measured() {
 #[test]
 fn coplanar_overlap_is_contact() {
     let triangle = [DVec3::ZERO, DVec3::X, DVec3::Y];
-    let across = segment_triangle([DVec3::new(-1.0, 0.2, 0.0), DVec3::new(1.0, 0.2, 0.0)], triangle);
+    let across =
+        segment_triangle([DVec3::new(-1.0, 0.2, 0.0), DVec3::new(1.0, 0.2, 0.0)], triangle);
     assert!(across.distance < 1e-15);
     let within = segment_triangle([DVec3::new(0.2, 0.2, 0.0), DVec3::new(0.3, 0.2, 0.0)], triangle);
     assert!(within.distance < 1e-15);

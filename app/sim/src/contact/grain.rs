@@ -16,8 +16,12 @@ const LEAST_SHARE: f64 = 0.2;
 /// Unit vector across `normal` that is fixed to the skin of a triangle whose corners now stand at `now`.
 pub(crate) fn grain(skin: &Skin, triangle: usize, now: [DVec3; 3], normal: DVec3) -> DVec3 {
     let corners = skin.triangles[triangle].map(|corner| skin.vertices[corner as usize]);
-    let carried = |axis: DVec3| carry(corners, now, axis).map(|along| normal.cross(along)).and_then(DVec3::try_normalize);
-    carried(DVec3::X).or_else(|| carried(DVec3::Z)).unwrap_or_else(|| normal.any_orthonormal_vector())
+    let carried = |axis: DVec3| {
+        carry(corners, now, axis).map(|along| normal.cross(along)).and_then(DVec3::try_normalize)
+    };
+    carried(DVec3::X)
+        .or_else(|| carried(DVec3::Z))
+        .unwrap_or_else(|| normal.any_orthonormal_vector())
 }
 
 /// The part of an axis within the rest triangle, carried to where the triangle is now; none where the axis stands across it.
@@ -29,7 +33,8 @@ fn carry(rest: [DVec3; 3], now: [DVec3; 3], axis: DVec3) -> Option<DVec3> {
         return None;
     }
     let (on_a, on_b) = (a.dot(axis), b.dot(axis));
-    let (alpha, beta) = ((bb * on_a - ab * on_b) / area_squared, (aa * on_b - ab * on_a) / area_squared);
+    let (alpha, beta) =
+        ((bb * on_a - ab * on_b) / area_squared, (aa * on_b - ab * on_a) / area_squared);
     let within = (a * alpha + b * beta).length();
     (within > LEAST_SHARE).then(|| (now[1] - now[0]) * alpha + (now[2] - now[0]) * beta)
 }
@@ -54,14 +59,23 @@ mod tests {
 
     #[test]
     fn grain_is_athwart_at_rest_and_goes_with_the_skin() {
-        let rest = [DVec3::new(0.1, 0.2, 0.3), DVec3::new(0.5, 0.3, 0.2), DVec3::new(0.2, 0.9, 0.4)];
+        let rest =
+            [DVec3::new(0.1, 0.2, 0.3), DVec3::new(0.5, 0.3, 0.2), DVec3::new(0.2, 0.9, 0.4)];
         let skin = skin(rest);
         let normal = |at: [DVec3; 3]| (at[1] - at[0]).cross(at[2] - at[0]).normalize();
         let still = grain(&skin, 0, rest, normal(rest));
-        assert!(still.dot(DVec3::X).abs() < 1e-12 && still.dot(normal(rest)).abs() < 1e-12 && still.y.abs() > 0.9, "{still}");
+        assert!(
+            still.dot(DVec3::X).abs() < 1e-12
+                && still.dot(normal(rest)).abs() < 1e-12
+                && still.y.abs() > 0.9,
+            "{still}"
+        );
         let turn = DMat3::from_quat(DQuat::from_rotation_z(0.7) * DQuat::from_rotation_x(1.1));
         let turned = rest.map(|place| turn * place + DVec3::Y);
-        assert!((grain(&skin, 0, turned, normal(turned)) - turn * still).length() < 1e-12, "turned with the whale");
+        assert!(
+            (grain(&skin, 0, turned, normal(turned)) - turn * still).length() < 1e-12,
+            "turned with the whale"
+        );
         // Stretched fore and aft the direction stays; a contact normal that leans keeps it across.
         let leaning = (normal(rest) + DVec3::new(0.2, 0.1, -0.1)).normalize();
         assert!(grain(&skin, 0, rest, leaning).dot(leaning).abs() < 1e-12);
@@ -72,6 +86,9 @@ mod tests {
         let rest = [DVec3::ZERO, DVec3::Y, DVec3::Z];
         let at = grain(&skin(rest), 0, rest, DVec3::X);
         assert!((at.abs() - DVec3::Y).length() < 1e-12, "{at}");
-        assert!((grain(&skin([DVec3::ZERO; 3]), 0, [DVec3::ZERO; 3], DVec3::X).length() - 1.0).abs() < 1e-12);
+        assert!(
+            (grain(&skin([DVec3::ZERO; 3]), 0, [DVec3::ZERO; 3], DVec3::X).length() - 1.0).abs()
+                < 1e-12
+        );
     }
 }

@@ -95,15 +95,29 @@ pub(crate) struct Touching {
 
 impl Touching {
     /// Collects the slots in touch, as `touches_of` tells it.
-    pub fn collect(&mut self, model: &Model, near: &Near, slots: &Slots, state: &State, touches_of: impl Fn(&Slot) -> Faces) {
+    pub fn collect(
+        &mut self,
+        model: &Model,
+        near: &Near,
+        slots: &Slots,
+        state: &State,
+        touches_of: impl Fn(&Slot) -> Faces,
+    ) {
         self.clear();
-        let (Some(whale), Some(friction)) = (&model.spec.whale, &model.spec.friction) else { return };
+        let (Some(whale), Some(friction)) = (&model.spec.whale, &model.spec.friction) else {
+            return;
+        };
         for (slot, at) in slots.list.iter().enumerate() {
             for (face, touch) in touches_of(at).into_iter().enumerate() {
                 let Some(touch) = touch else { continue };
                 let region = whale.skin.regions[near.skin_of(touch.pair).triangle as usize];
                 let rope = model.spec.lines[model.segment_line[at.segment]].rope;
-                self.found.push(Found { law: friction.law_of[rope][region as usize], slot, face, touch });
+                self.found.push(Found {
+                    law: friction.law_of[rope][region as usize],
+                    slot,
+                    face,
+                    touch,
+                });
             }
         }
         if friction.laws.len() > 1 {
@@ -140,21 +154,35 @@ impl Touching {
     }
 
     /// Puts the contact found at a place into the arrays.
-    fn put(&mut self, model: &Model, friction: &Friction, near: &Near, slots: &Slots, state: &State, place: usize) {
+    fn put(
+        &mut self,
+        model: &Model,
+        friction: &Friction,
+        near: &Near,
+        slots: &Slots,
+        state: &State,
+        place: usize,
+    ) {
         let Some(whale) = &model.spec.whale else { return };
         let Found { law, slot: index, face, touch } = self.found[place];
         let (slot, pair) = (&slots.list[index], near.skin_of(touch.pair));
         let region = whale.skin.regions[pair.triangle as usize];
         let rope = model.spec.lines[model.segment_line[slot.segment]].rope;
         let rope_move = touch.place - slot.on_rope(|node| state.rope.position[node]);
-        let skin_move = on_triangle(pair.now, touch.barycentric) - on_triangle(pair.sweep[0], touch.barycentric);
+        let skin_move = on_triangle(pair.now, touch.barycentric)
+            - on_triangle(pair.sweep[0], touch.barycentric);
         let slip = rope_move - skin_move;
         self.slot.push(index);
         self.face.push(face);
         self.normal_force.push(touch.press.force);
         self.normal.push(touch.normal.to_array());
-        self.grain.push(grain(&whale.skin, pair.triangle as usize, pair.now, touch.normal).to_array());
-        self.along.push((state.rope.position[slot.node + 1] - state.rope.position[slot.node]).normalize_or(touch.normal).to_array());
+        self.grain
+            .push(grain(&whale.skin, pair.triangle as usize, pair.now, touch.normal).to_array());
+        self.along.push(
+            (state.rope.position[slot.node + 1] - state.rope.position[slot.node])
+                .normalize_or(touch.normal)
+                .to_array(),
+        );
         self.slip.push((slip - touch.normal * slip.dot(touch.normal)).to_array());
         self.length.push(slot.length);
         self.coefficient.push(friction.coefficients[rope][region as usize]);
@@ -166,8 +194,13 @@ impl Touching {
 
     /// The plugin's floats and the account as the step began; zero where the contact is new or another law held there.
     fn put_floats(&mut self, friction: &Friction, law: usize, site: u64, grips: &Grips) {
-        let (width, stride) = (friction.laws[law].model.descriptor().state_len, KEPT + friction.state_len());
-        let kept = grips.sites.binary_search(&site).ok().and_then(|place| grips.floats.get(place * stride..(place + 1) * stride));
+        let (width, stride) =
+            (friction.laws[law].model.descriptor().state_len, KEPT + friction.state_len());
+        let kept = grips
+            .sites
+            .binary_search(&site)
+            .ok()
+            .and_then(|place| grips.floats.get(place * stride..(place + 1) * stride));
         match kept {
             Some([of, taken_j, given_j, floats @ ..]) if of.to_bits() == (law as f64).to_bits() => {
                 self.account.push(Account { taken_j: *taken_j, given_j: *given_j });
@@ -188,7 +221,11 @@ impl Touching {
             }
             last => {
                 let from = last.map_or(0, |group| group.floats.end);
-                self.groups.push(Group { law, contacts: place..place + 1, floats: from..self.floats.len() });
+                self.groups.push(Group {
+                    law,
+                    contacts: place..place + 1,
+                    floats: from..self.floats.len(),
+                });
             }
         }
     }
@@ -199,22 +236,40 @@ impl Touching {
         let answer = self.groups.iter().try_for_each(|group| {
             let law = &friction.laws[group.law];
             let out = &mut response[group.contacts.clone()];
-            law.model.respond(&law.attributes, &self.contacts(group, dt_s), out).map_err(|error| failed(law, error.message))?;
-            if out.iter().all(is_finite) { Ok(()) } else { Err(failed(law, "gave a force or derivative that is not a finite number")) }
+            law.model
+                .respond(&law.attributes, &self.contacts(group, dt_s), out)
+                .map_err(|error| failed(law, error.message))?;
+            if out.iter().all(is_finite) {
+                Ok(())
+            } else {
+                Err(failed(law, "gave a force or derivative that is not a finite number"))
+            }
         });
         self.response = response;
         answer
     }
 
     /// Asks the plugins for their floats at the end of the step and keeps them for the sites in touch.
-    pub fn advance(&mut self, friction: &Friction, dt_s: f64, slots: &Slots, grips: &mut Grips) -> Result<(), Failed> {
+    pub fn advance(
+        &mut self,
+        friction: &Friction,
+        dt_s: f64,
+        slots: &Slots,
+        grips: &mut Grips,
+    ) -> Result<(), Failed> {
         let mut ends = std::mem::take(&mut self.floats_at_end);
         ends.clear();
         ends.resize(self.floats.len(), 0.0);
         let advanced = self.groups.iter().try_for_each(|group| {
             let (law, out) = (&friction.laws[group.law], &mut ends[group.floats.clone()]);
-            law.model.advance(&law.attributes, &self.contacts(group, dt_s), out).map_err(|error| failed(law, error.message))?;
-            if out.iter().all(|x| x.is_finite()) { Ok(()) } else { Err(failed(law, "gave a state that is not a finite number")) }
+            law.model
+                .advance(&law.attributes, &self.contacts(group, dt_s), out)
+                .map_err(|error| failed(law, error.message))?;
+            if out.iter().all(|x| x.is_finite()) {
+                Ok(())
+            } else {
+                Err(failed(law, "gave a state that is not a finite number"))
+            }
         });
         self.floats_at_end = ends;
         advanced?;
@@ -227,8 +282,11 @@ impl Touching {
     fn settle_accounts(&mut self, friction: &Friction) -> Result<(), Failed> {
         for group in &self.groups {
             for place in group.contacts.clone() {
-                let work_j = DVec3::from_array(self.response[place].force_n).dot(DVec3::from_array(self.slip[place]));
-                self.account[place].book(work_j).map_err(|message| failed(&friction.laws[group.law], message))?;
+                let work_j = DVec3::from_array(self.response[place].force_n)
+                    .dot(DVec3::from_array(self.slip[place]));
+                self.account[place]
+                    .book(work_j)
+                    .map_err(|message| failed(&friction.laws[group.law], message))?;
             }
         }
         Ok(())
@@ -238,7 +296,10 @@ impl Touching {
         let stride = KEPT + friction.state_len();
         grips.clear();
         for place in &self.in_order {
-            let Some(group) = self.groups.iter().find(|group| group.contacts.contains(place)) else { continue };
+            let Some(group) = self.groups.iter().find(|group| group.contacts.contains(place))
+            else {
+                continue;
+            };
             let width = friction.laws[group.law].model.descriptor().state_len;
             let from = group.floats.start + (place - group.contacts.start) * width;
             let Account { taken_j, given_j } = self.account[*place];
@@ -251,7 +312,8 @@ impl Touching {
 
     /// Push and friction of a contact together [N].
     pub fn force_of(&self, place: usize) -> DVec3 {
-        DVec3::from_array(self.normal[place]) * self.normal_force[place] + DVec3::from_array(self.response[place].force_n)
+        DVec3::from_array(self.normal[place]) * self.normal_force[place]
+            + DVec3::from_array(self.response[place].force_n)
     }
 
     /// Slip of a contact in this step.
@@ -282,7 +344,12 @@ fn failed(law: &FrictionLaw, message: impl Into<String>) -> Failed {
 }
 
 fn is_finite(answer: &FrictionResponse) -> bool {
-    answer.force_n.iter().chain(answer.by_slip.iter().flatten()).chain(&answer.by_normal_force).all(|x| x.is_finite())
+    answer
+        .force_n
+        .iter()
+        .chain(answer.by_slip.iter().flatten())
+        .chain(&answer.by_normal_force)
+        .all(|x| x.is_finite())
 }
 
 /// Rows of a plugin's answer as a matrix.

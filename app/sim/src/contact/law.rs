@@ -65,10 +65,19 @@ mod tests {
     fn force_and_stiffness_are_derivatives_of_the_energy() {
         for distance in [0.0059, 0.004, 0.002, 0.001_502, 0.001] {
             let (reach, stiffness, step) = (0.006, 5e4, 1e-9);
-            let (ahead, behind) = (Press::new(distance - step, reach, stiffness), Press::new(distance + step, reach, stiffness));
+            let (ahead, behind) = (
+                Press::new(distance - step, reach, stiffness),
+                Press::new(distance + step, reach, stiffness),
+            );
             let here = Press::new(distance, reach, stiffness);
-            assert!(((ahead.energy - behind.energy) / (2.0 * step) / here.force - 1.0).abs() < 1e-4, "{distance}");
-            assert!(((ahead.force - behind.force) / (2.0 * step) / here.stiffness - 1.0).abs() < 1e-4, "{distance}");
+            assert!(
+                ((ahead.energy - behind.energy) / (2.0 * step) / here.force - 1.0).abs() < 1e-4,
+                "{distance}"
+            );
+            assert!(
+                ((ahead.force - behind.force) / (2.0 * step) / here.stiffness - 1.0).abs() < 1e-4,
+                "{distance}"
+            );
         }
         assert_eq!(Press::new(0.006, 0.006, 5e4), Press::default());
     }

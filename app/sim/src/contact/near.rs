@@ -13,7 +13,9 @@ use glam::{DAffine3, DVec3};
 use super::crossing::first_meeting;
 use super::distance::Nearest;
 use super::placed::Placed;
-use super::sweep::{SweptSegment, SweptTriangle, greatest_approach, safe_fraction_from, triangle_at};
+use super::sweep::{
+    SweptSegment, SweptTriangle, greatest_approach, safe_fraction_from, triangle_at,
+};
 use crate::model::Model;
 use crate::whale::{Bounds, Candidate, SkinTree, Surface};
 
@@ -85,7 +87,13 @@ impl Near {
     }
 
     /// Whether rope that moves from `places` by `moves` may come near skin between two poses.
-    pub fn any(&mut self, bones: [&[DAffine3]; 2], places: &[DVec3], moves: impl Fn(usize) -> DVec3, margin: f64) -> bool {
+    pub fn any(
+        &mut self,
+        bones: [&[DAffine3]; 2],
+        places: &[DVec3],
+        moves: impl Fn(usize) -> DVec3,
+        margin: f64,
+    ) -> bool {
         self.sweep(bones, places, moves);
         self.surface.is_any_near(&self.sweeps, margin)
     }
@@ -195,7 +203,8 @@ impl Near {
     pub fn carry(&self, places: &[DVec3], target: &mut [DVec3]) {
         for (_, range) in &self.groups {
             let Some((pair, nearest)) = self.nearest(places, range.clone()) else { continue };
-            let share = ((CARRIED_M.1 - nearest.distance) / (CARRIED_M.1 - CARRIED_M.0)).clamp(0.0, 1.0);
+            let share =
+                ((CARRIED_M.1 - nearest.distance) / (CARRIED_M.1 - CARRIED_M.0)).clamp(0.0, 1.0);
             let skin = &self.skin[pair.skin];
             let end = on_triangle(skin.sweep[1], nearest.barycentric);
             let skin_move = end - on_triangle(skin.now, nearest.barycentric);
@@ -212,7 +221,8 @@ impl Near {
             if best.is_some_and(|(_, nearest)| pair.clear >= nearest.distance) {
                 continue;
             }
-            let nearest = self.skin[pair.skin].nearest_to([places[pair.node], places[pair.node + 1]]);
+            let nearest =
+                self.skin[pair.skin].nearest_to([places[pair.node], places[pair.node + 1]]);
             if best.is_none_or(|(_, found)| nearest.distance < found.distance) {
                 best = Some((pair, nearest));
             }
@@ -222,7 +232,12 @@ impl Near {
 
     /// Largest share of the move `places` → `target`, while the skin goes to `skin_to` of its step, along
     /// which nothing crosses.
-    pub fn safe_share(&mut self, places: &[DVec3], target: impl Fn(usize) -> DVec3, skin_to: f64) -> f64 {
+    pub fn safe_share(
+        &mut self,
+        places: &[DVec3],
+        target: impl Fn(usize) -> DVec3,
+        skin_to: f64,
+    ) -> f64 {
         let mut share = 1.0_f64;
         if !self.swept {
             return share;
@@ -236,8 +251,12 @@ impl Near {
                 if pair.clear - pair.guard > moved + skin.longest_move * skin_share {
                     continue;
                 }
-                let triangle = [skin.now, if skin_share > 0.0 { triangle_at(&skin.sweep, skin_to) } else { skin.now }];
-                let approach = if skin_share > 0.0 { greatest_approach(&segment, &triangle) } else { alone };
+                let triangle = [
+                    skin.now,
+                    if skin_share > 0.0 { triangle_at(&skin.sweep, skin_to) } else { skin.now },
+                ];
+                let approach =
+                    if skin_share > 0.0 { greatest_approach(&segment, &triangle) } else { alone };
                 if pair.clear - pair.guard > approach {
                     continue;
                 }
@@ -252,9 +271,16 @@ impl Near {
 
     /// Makes the move `places` → `target`: skin goes to `skin_to` of its step, bounds of distance shrink by what
     /// moved. Gives the number of crossings an exact test finds on the way.
-    pub fn make_move(&mut self, places: &[DVec3], target: impl Fn(usize) -> DVec3, skin_to: f64) -> u64 {
+    pub fn make_move(
+        &mut self,
+        places: &[DVec3],
+        target: impl Fn(usize) -> DVec3,
+        skin_to: f64,
+    ) -> u64 {
         let skin_share = skin_to - self.fraction;
-        self.skin.iter_mut().for_each(|skin| skin.go(if skin_share > 0.0 { triangle_at(&skin.sweep, skin_to) } else { skin.now }));
+        self.skin.iter_mut().for_each(|skin| {
+            skin.go(if skin_share > 0.0 { triangle_at(&skin.sweep, skin_to) } else { skin.now })
+        });
         let mut crossings = 0;
         for (_, range) in &self.groups {
             let segment = self.pairs[range.start].sweep_of(places, &target);
@@ -267,7 +293,8 @@ impl Near {
                     continue;
                 }
                 let triangle = [skin.before, skin.now];
-                let approach = if skin_share > 0.0 { greatest_approach(&segment, &triangle) } else { alone };
+                let approach =
+                    if skin_share > 0.0 { greatest_approach(&segment, &triangle) } else { alone };
                 if pair.clear > approach {
                     (pair.clear, pair.exact) = (pair.clear - approach, false);
                     continue;
@@ -283,13 +310,21 @@ impl Near {
 
 impl Pair {
     fn sweep_of(&self, places: &[DVec3], target: impl Fn(usize) -> DVec3) -> SweptSegment {
-        SweptSegment { a0: places[self.node], b0: places[self.node + 1], a1: target(self.node), b1: target(self.node + 1) }
+        SweptSegment {
+            a0: places[self.node],
+            b0: places[self.node + 1],
+            a1: target(self.node),
+            b1: target(self.node + 1),
+        }
     }
 }
 
 /// The longer move of a segment's two ends [m].
 fn greatest_move(segment: &SweptSegment) -> f64 {
-    (segment.a1 - segment.a0).length_squared().max((segment.b1 - segment.b0).length_squared()).sqrt()
+    (segment.a1 - segment.a0)
+        .length_squared()
+        .max((segment.b1 - segment.b0).length_squared())
+        .sqrt()
 }
 
 /// A barycentric place on a triangle.

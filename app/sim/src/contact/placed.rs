@@ -41,8 +41,17 @@ impl Placed {
     /// A triangle of the skin at the start of a solver step.
     pub fn new(triangle: u32, sweep: SweptTriangle) -> Self {
         let [now, end] = sweep;
-        let square = (0..3).map(|corner| now[corner].distance_squared(end[corner])).fold(0.0, f64::max);
-        Self { triangle, sweep, now, before: now, ball: Ball::around(now), plane: Plane::of(now), longest_move: square.sqrt() }
+        let square =
+            (0..3).map(|corner| now[corner].distance_squared(end[corner])).fold(0.0, f64::max);
+        Self {
+            triangle,
+            sweep,
+            now,
+            before: now,
+            ball: Ball::around(now),
+            plane: Plane::of(now),
+            longest_move: square.sqrt(),
+        }
     }
 
     /// Moves it on.
@@ -71,7 +80,8 @@ impl Placed {
     pub fn gap(&self, segment: [DVec3; 2]) -> f64 {
         let [from, to] = segment;
         let (along, centre) = (to - from, self.ball.centre - from);
-        let fraction = (centre.dot(along) / along.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        let fraction =
+            (centre.dot(along) / along.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
         let round = centre.distance(along * fraction) - self.ball.radius;
         self.plane.as_ref().map_or(round, |plane| round.max(plane.gap(segment)))
     }
@@ -80,7 +90,8 @@ impl Placed {
 impl Ball {
     fn around(corners: [DVec3; 3]) -> Self {
         let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
-        let square = corners.iter().map(|corner| corner.distance_squared(centre)).fold(0.0, f64::max);
+        let square =
+            corners.iter().map(|corner| corner.distance_squared(centre)).fold(0.0, f64::max);
         Self { centre, radius: square.sqrt() * GROWN + ROUNDING_M }
     }
 }

@@ -41,7 +41,11 @@ pub(crate) fn segment_of(site: u64) -> usize {
 
 /// A site whose segment, where it is among these, has moved by one place up or down.
 pub(crate) fn shift_site(site: u64, segments: Range<usize>, by: i64) -> u64 {
-    if segments.contains(&segment_of(site)) { site.wrapping_add_signed(by << SEGMENT_BITS) } else { site }
+    if segments.contains(&segment_of(site)) {
+        site.wrapping_add_signed(by << SEGMENT_BITS)
+    } else {
+        site
+    }
 }
 
 /// One place on the rope.
@@ -89,7 +93,13 @@ pub(crate) struct Slots {
 
 impl Slots {
     /// Opens the middle slots of every segment that has pairs.
-    pub fn open(&mut self, model: &Model, near: &Near, segment_length: &[f64], stiffness_n_m2: f64) {
+    pub fn open(
+        &mut self,
+        model: &Model,
+        near: &Near,
+        segment_length: &[f64],
+        stiffness_n_m2: f64,
+    ) {
         self.list.clear();
         for (segment, range) in &near.groups {
             let length = segment_length[*segment];
@@ -120,13 +130,24 @@ impl Slots {
         let mut from = 0;
         while from < count {
             let piece = self.list[from].site >> PIECE_BITS;
-            let to = (from..count).find(|index| self.list[*index].site >> PIECE_BITS != piece).unwrap_or(count);
-            let least = self.list[from..to].iter().map(|slot| slot.at_least(places)).fold(f64::INFINITY, f64::min);
+            let to = (from..count)
+                .find(|index| self.list[*index].site >> PIECE_BITS != piece)
+                .unwrap_or(count);
+            let least = self.list[from..to]
+                .iter()
+                .map(|slot| slot.at_least(places))
+                .fold(f64::INFINITY, f64::min);
             if to - from < MOST_SLOTS
                 && let Some(fraction) = self.list[from].nearer_fraction(near, places, least)
             {
                 let site = self.list[to - 1].site + (1 << FACE_BITS);
-                self.list.push(Slot { site, fraction, seen: None, touches: Faces::default(), ..self.list[from].clone() });
+                self.list.push(Slot {
+                    site,
+                    fraction,
+                    seen: None,
+                    touches: Faces::default(),
+                    ..self.list[from].clone()
+                });
             }
             from = to;
         }
@@ -167,7 +188,8 @@ impl Slot {
         if self.out_of_reach(place) {
             return;
         }
-        let within = (MEASURED_WITHIN.0 * self.reach).max(LOOK_WITHIN * self.reach + MEASURED_WITHIN.1 * self.length);
+        let within = (MEASURED_WITHIN.0 * self.reach)
+            .max(LOOK_WITHIN * self.reach + MEASURED_WITHIN.1 * self.length);
         self.seen = Some((place, within));
         if let Some(nearest) = self.nearest(near, place, 0.0, within) {
             self.seen = Some((place, nearest.0));
@@ -187,7 +209,8 @@ impl Slot {
         if self.out_of_reach(place) {
             return Faces::default();
         }
-        self.nearest(near, place, moved, self.reach).map_or_else(Faces::default, |nearest| self.faces(near, place, moved, nearest))
+        self.nearest(near, place, moved, self.reach)
+            .map_or_else(Faces::default, |nearest| self.faces(near, place, moved, nearest))
     }
 
     /// What it touches, from the nearest triangle.
@@ -197,13 +220,19 @@ impl Slot {
             if index == nearest.pair || near.pairs[index].clear - moved >= self.reach {
                 return None;
             }
-            let (distance, barycentric) = near.skin_of(index).nearest_to_point(place, self.reach)?;
+            let (distance, barycentric) =
+                near.skin_of(index).nearest_to_point(place, self.reach)?;
             self.touch_of(near, place, (distance, index, barycentric))
         });
         crease::faces(nearest, others)
     }
 
-    fn touch_of(&self, near: &Near, place: DVec3, (distance, pair, barycentric): Foot) -> Option<Touch> {
+    fn touch_of(
+        &self,
+        near: &Near,
+        place: DVec3,
+        (distance, pair, barycentric): Foot,
+    ) -> Option<Touch> {
         let press = Press::new(distance, self.reach, self.stiffness);
         (press.force > 0.0).then(|| {
             let foot = on_triangle(near.skin_of(pair).now, barycentric);
@@ -226,7 +255,10 @@ impl Slot {
             if near.pairs[index].clear - moved >= least {
                 continue;
             }
-            let Some((distance, barycentric)) = near.skin_of(index).nearest_to_point(place, least) else { continue };
+            let Some((distance, barycentric)) = near.skin_of(index).nearest_to_point(place, least)
+            else {
+                continue;
+            };
             if distance < least {
                 least = distance;
                 best = Some((distance, index, barycentric));
@@ -246,7 +278,8 @@ impl Slot {
     fn nearer_fraction(&self, near: &Near, places: &[DVec3], least: f64) -> Option<f64> {
         let share = 0.5 * self.length / self.segment_length;
         let (from, to) = (self.fraction - share, self.fraction + share);
-        let ends = [from, to].map(|fraction| places[self.node].lerp(places[self.node + 1], fraction));
+        let ends =
+            [from, to].map(|fraction| places[self.node].lerp(places[self.node + 1], fraction));
         if least - ends[0].distance(ends[1]) > LOOK_WITHIN * self.reach {
             return None;
         }

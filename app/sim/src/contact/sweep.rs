@@ -64,13 +64,26 @@ fn height(segment: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> f64 {
 
 /// As [`safe_fraction`] where the first distance, or a lower bound of it, is known.
 #[must_use]
-pub fn safe_fraction_from(segment: &SweptSegment, triangle: &SweptTriangle, separation: f64, first: f64) -> f64 {
+pub fn safe_fraction_from(
+    segment: &SweptSegment,
+    triangle: &SweptTriangle,
+    separation: f64,
+    first: f64,
+) -> f64 {
     advance(segment, triangle, separation, first, greatest_approach(segment, triangle))
 }
 
 /// The walk from a first distance that keeps the separation, or half that distance where it is less.
-fn advance(segment: &SweptSegment, triangle: &SweptTriangle, separation: f64, first: f64, approach: f64) -> f64 {
-    walk(first, separation.min(first / 2.0), approach, |at| segment_triangle(segment.at(at), triangle_at(triangle, at)).distance)
+fn advance(
+    segment: &SweptSegment,
+    triangle: &SweptTriangle,
+    separation: f64,
+    first: f64,
+    approach: f64,
+) -> f64 {
+    walk(first, separation.min(first / 2.0), approach, |at| {
+        segment_triangle(segment.at(at), triangle_at(triangle, at)).distance
+    })
 }
 
 /// Steps of time that the distance left and the greatest possible approach prove safe: the largest proved fraction of a move along
@@ -103,7 +116,9 @@ pub fn greatest_approach(segment: &SweptSegment, triangle: &SweptTriangle) -> f6
     let rope = [segment.a1 - segment.a0, segment.b1 - segment.b0];
     let skin = [0, 1, 2].map(|corner| triangle[1][corner] - triangle[0][corner]);
     let shared = (rope[0] + rope[1]) / 4.0 + (skin[0] + skin[1] + skin[2]) / 6.0;
-    let most = |moves: &[DVec3]| moves.iter().map(|step| (*step - shared).length_squared()).fold(0.0, f64::max).sqrt();
+    let most = |moves: &[DVec3]| {
+        moves.iter().map(|step| (*step - shared).length_squared()).fold(0.0, f64::max).sqrt()
+    };
     most(&rope) + most(&skin)
 }
 
@@ -117,7 +132,8 @@ pub fn triangle_at(triangle: &SweptTriangle, fraction: f64) -> [DVec3; 3] {
 mod tests {
     use super::*;
 
-    const FLAT: [DVec3; 3] = [DVec3::new(0.0, 0.0, 0.0), DVec3::new(1.0, 0.0, 0.0), DVec3::new(0.0, 1.0, 0.0)];
+    const FLAT: [DVec3; 3] =
+        [DVec3::new(0.0, 0.0, 0.0), DVec3::new(1.0, 0.0, 0.0), DVec3::new(0.0, 1.0, 0.0)];
 
     fn falling(from: f64, to: f64) -> SweptSegment {
         let at = |x: f64, z: f64| DVec3::new(x, 0.2, z);
@@ -135,8 +151,14 @@ mod tests {
 
     #[test]
     fn what_moves_away_or_stays_is_free() {
-        assert_eq!(safe_fraction(&falling(0.5, 0.6), &[FLAT, FLAT], 0.001).to_bits(), 1.0_f64.to_bits());
-        assert_eq!(safe_fraction(&falling(0.5, 0.5), &[FLAT, FLAT], 0.001).to_bits(), 1.0_f64.to_bits());
+        assert_eq!(
+            safe_fraction(&falling(0.5, 0.6), &[FLAT, FLAT], 0.001).to_bits(),
+            1.0_f64.to_bits()
+        );
+        assert_eq!(
+            safe_fraction(&falling(0.5, 0.5), &[FLAT, FLAT], 0.001).to_bits(),
+            1.0_f64.to_bits()
+        );
     }
 
     /// Moving both by the same displacement approaches nothing, however far it is.

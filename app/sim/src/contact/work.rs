@@ -45,7 +45,12 @@ impl ContactWork {
             before: Vec::new(),
             bodies_before: Vec::new(),
             target: Vec::new(),
-            greatest_reach: model.spec.ropes.iter().map(|rope| 0.5 * rope.diameter_m).fold(0.0, f64::max),
+            greatest_reach: model
+                .spec
+                .ropes
+                .iter()
+                .map(|rope| 0.5 * rope.diameter_m)
+                .fold(0.0, f64::max),
         })
     }
 
@@ -63,7 +68,8 @@ impl ContactWork {
     /// A segment and triangle nearer than this share of the contact distance, if any.
     pub fn nearer_than(&self, share: f64) -> Option<(usize, usize)> {
         self.slots.list.iter().find_map(|slot| {
-            let touch = slot.touches.iter().flatten().find(|touch| touch.distance < share * slot.reach)?;
+            let touch =
+                slot.touches.iter().flatten().find(|touch| touch.distance < share * slot.reach)?;
             Some((slot.segment, self.near.skin_of(touch.pair).triangle as usize))
         })
     }
@@ -105,15 +111,22 @@ impl ContactWork {
 }
 
 /// Sum of normal forces on each body part [N], and their mean place to port of the midplane on the body at rest [m].
-pub(crate) fn touch_by_part(skin: &Skin, contacts: &[ContactPoint]) -> [[f64; BodyPart::ALL.len()]; 2] {
+pub(crate) fn touch_by_part(
+    skin: &Skin,
+    contacts: &[ContactPoint],
+) -> [[f64; BodyPart::ALL.len()]; 2] {
     let [mut forces, mut port] = [[0.0; BodyPart::ALL.len()]; 2];
     for contact in contacts {
         let part = contact.region.part() as usize;
-        let corners = skin.triangles[contact.triangle].map(|corner| skin.vertices[corner as usize].y);
+        let corners =
+            skin.triangles[contact.triangle].map(|corner| skin.vertices[corner as usize].y);
         let place: f64 = corners.iter().zip(contact.barycentric).map(|(y, share)| y * share).sum();
         forces[part] += contact.normal_force_n;
         port[part] += contact.normal_force_n * place;
     }
-    port.iter_mut().zip(forces).filter(|(_, force)| *force > 0.0).for_each(|(port, force)| *port /= force);
+    port.iter_mut()
+        .zip(forces)
+        .filter(|(_, force)| *force > 0.0)
+        .for_each(|(port, force)| *port /= force);
     [forces, port]
 }

@@ -31,10 +31,21 @@ pub(super) fn height(model: &Model, state: &State, line: usize, away_m: f64) -> 
     let Some(own) = model.line_segments.get(line) else { return 0.0 };
     let lengths = &state.rope.segment_length[own.clone()];
     let whole: f64 = lengths.iter().sum();
-    let above = |place: DVec3| place.z - model.spec.seabed.as_ref().map_or(-model.spec.water.depth_m, |bed| bed.height_at(place));
-    let starts = lengths.iter().scan(0.0, |from, length| Some(std::mem::replace(from, *from + length)));
-    let nodes = state.rope.position[model.line_nodes[line].clone()].iter().zip(starts.chain([whole]));
-    let kept = nodes.filter(|(_, from)| *from >= away_m && whole - from >= away_m).map(|(place, _)| above(*place));
+    let above = |place: DVec3| {
+        place.z
+            - model
+                .spec
+                .seabed
+                .as_ref()
+                .map_or(-model.spec.water.depth_m, |bed| bed.height_at(place))
+    };
+    let starts =
+        lengths.iter().scan(0.0, |from, length| Some(std::mem::replace(from, *from + length)));
+    let nodes =
+        state.rope.position[model.line_nodes[line].clone()].iter().zip(starts.chain([whole]));
+    let kept = nodes
+        .filter(|(_, from)| *from >= away_m && whole - from >= away_m)
+        .map(|(place, _)| above(*place));
     kept.reduce(f64::max).or_else(|| middle(model, state, line).map(above)).unwrap_or(0.0)
 }
 
@@ -42,13 +53,16 @@ pub(super) fn height(model: &Model, state: &State, line: usize, away_m: f64) -> 
 /// middle, zero where slack, cut or without a line [N].
 pub(super) fn tension(model: &Model, state: &State, line: usize, length_m: f64) -> f64 {
     let Some(own) = model.line_segments.get(line) else { return 0.0 };
-    let pull = |segment: usize| if state.rope.cut[segment] { 0.0 } else { state.rope.tension[segment].max(0.0) };
+    let pull = |segment: usize| {
+        if state.rope.cut[segment] { 0.0 } else { state.rope.tension[segment].max(0.0) }
+    };
     let (mut from, mut before) = (0.0, None);
     for (segment, length) in own.clone().zip(&state.rope.segment_length[own.clone()]) {
         let middle = from + 0.5 * length;
         if length_m <= middle {
             let Some((last_middle, last)) = before else { return pull(segment) };
-            return last + (pull(segment) - last) * (length_m - last_middle) / (middle - last_middle);
+            return last
+                + (pull(segment) - last) * (length_m - last_middle) / (middle - last_middle);
         }
         before = Some((middle, pull(segment)));
         from += length;

@@ -35,11 +35,15 @@ impl BodyMeter {
     }
 
     pub(super) fn fold(&mut self, model: &Model, state: &State, log: &mut Log) {
-        for ((track, body), now) in self.tracks.iter_mut().zip(&model.spec.bodies).zip(&state.bodies) {
+        for ((track, body), now) in
+            self.tracks.iter_mut().zip(&model.spec.bodies).zip(&state.bodies)
+        {
             track.peak_speed_m_s = track.peak_speed_m_s.max(now.velocity.length());
             match body.role {
                 BodyRole::Buoy => track.float(body, now, state.time_s, log),
-                BodyRole::Trap | BodyRole::Anchor | BodyRole::Weight => track.drag(body, now, state.time_s, log),
+                BodyRole::Trap | BodyRole::Anchor | BodyRole::Weight => {
+                    track.drag(body, now, state.time_s, log)
+                }
             }
         }
     }
@@ -51,7 +55,8 @@ impl BodyMeter {
             peak_speed_m_s: track.peak_speed_m_s,
             drag_n: DVec3::ZERO,
         };
-        let mut bodies: Vec<BodySummary> = self.tracks.iter().zip(&model.spec.bodies).zip(&state.bodies).map(summary).collect();
+        let mut bodies: Vec<BodySummary> =
+            self.tracks.iter().zip(&model.spec.bodies).zip(&state.bodies).map(summary).collect();
         for (index, body) in bodies.iter_mut().enumerate() {
             body.drag_n = body_drag(model, state, index);
         }

@@ -91,7 +91,14 @@ impl Coils {
     }
 
     /// Measures the coils of all strands that press on a part, or did less than [`LOST_S`] ago.
-    pub(super) fn fold(&mut self, model: &Model, state: &State, whale: &WhaleState, strands: &Strands, contacts: &[ContactPoint]) {
+    pub(super) fn fold(
+        &mut self,
+        model: &Model,
+        state: &State,
+        whale: &WhaleState,
+        strands: &Strands,
+        contacts: &[ContactPoint],
+    ) {
         self.take_contacts(state.time_s, strands, contacts);
         let (before, counts) = (self.turns, self.counts);
         (self.turns, self.counts) = ([0.0; PARTS], [0; PARTS]);
@@ -129,14 +136,16 @@ impl Coils {
     fn measure(&mut self, model: &Model, state: &State, strands: &Strands, part: usize) {
         let Some(axis) = &self.axes[part] else { return };
         axis.pose(&self.bones, &mut self.posed);
-        let near = Neighbourhood { axis: &self.posed, reach_m: axis.reach_m, ball: self.posed.ball() };
+        let near =
+            Neighbourhood { axis: &self.posed, reach_m: axis.reach_m, ball: self.posed.ball() };
         for (strand, segments) in strands.lists().iter().enumerate() {
             if self.last_s[strand][part].is_none_or(|last| state.time_s - last >= LOST_S) {
                 continue;
             }
             let coils = near.coils(model, state, strands, segments);
             self.counts[part] += coils.len();
-            let sum = |sense: f64| coils.iter().map(|coil| (sense * coil.turns()).max(0.0)).sum::<f64>();
+            let sum =
+                |sense: f64| coils.iter().map(|coil| (sense * coil.turns()).max(0.0)).sum::<f64>();
             let (one, other) = (sum(1.0), sum(-1.0));
             let turns = if one >= other { one } else { -other };
             if libm::fabs(turns) > libm::fabs(self.turns[part]) {
@@ -148,7 +157,13 @@ impl Coils {
 
 impl Neighbourhood<'_> {
     /// All coils of a strand, in its order.
-    fn coils(&self, model: &Model, state: &State, strands: &Strands, segments: &[usize]) -> Vec<Coil> {
+    fn coils(
+        &self,
+        model: &Model,
+        state: &State,
+        strands: &Strands,
+        segments: &[usize],
+    ) -> Vec<Coil> {
         let (mut coils, mut open) = (Vec::new(), None::<Coil>);
         let mut known: Option<(DVec3, Option<Spot>)> = None;
         for &segment in segments {
@@ -167,9 +182,13 @@ impl Neighbourhood<'_> {
                 continue;
             }
             let way = (to - from).normalize_or_zero();
-            let (enters, leaves) = (starts.or_else(|| self.edge(to, from)), stops.or_else(|| self.edge(from, to)));
+            let (enters, leaves) =
+                (starts.or_else(|| self.edge(to, from)), stops.or_else(|| self.edge(from, to)));
             let (Some(enters), Some(leaves)) = (enters, leaves) else { continue };
-            let mut coil = open.take().filter(|_| starts.is_some()).unwrap_or_else(|| Coil::begin(&enters, way));
+            let mut coil = open
+                .take()
+                .filter(|_| starts.is_some())
+                .unwrap_or_else(|| Coil::begin(&enters, way));
             coil.go(&leaves, way);
             if stops.is_some() { open = Some(coil) } else { coils.push(coil) }
         }
@@ -185,7 +204,10 @@ impl Neighbourhood<'_> {
         }
         let spot = self.axis.see(place)?;
         let [u, v] = [0, 1].map(|k| spot.at_m[k] / (spot.half_m[k] + LOOSE_M));
-        (spot.along_m >= self.reach_m[0] && spot.along_m <= self.reach_m[1] && libm::hypot(u, v) <= 1.0).then_some(spot)
+        (spot.along_m >= self.reach_m[0]
+            && spot.along_m <= self.reach_m[1]
+            && libm::hypot(u, v) <= 1.0)
+            .then_some(spot)
     }
 
     /// The last place in the neighbourhood on the way from a place in it to one that is not.
@@ -193,7 +215,11 @@ impl Neighbourhood<'_> {
         let (mut low, mut high) = (0.0, 1.0);
         for _ in 0..HALVINGS {
             let middle = 0.5 * (low + high);
-            if self.look(within.lerp(beyond, middle)).is_some() { low = middle } else { high = middle }
+            if self.look(within.lerp(beyond, middle)).is_some() {
+                low = middle
+            } else {
+                high = middle
+            }
         }
         self.look(within.lerp(beyond, low))
     }

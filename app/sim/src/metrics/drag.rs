@@ -10,8 +10,16 @@ use crate::state::{State, WhaleState};
 use crate::whale::hitch;
 
 /// How hard rope that touches it or is made fast to it holds the whale back along its x axis [N].
-pub(super) fn added_drag(model: &Model, state: &State, whale: &WhaleState, contacts: &[ContactPoint]) -> f64 {
-    let on_rope: DVec3 = contacts.iter().map(|contact| contact.normal * contact.normal_force_n + contact.friction_n).sum();
+pub(super) fn added_drag(
+    model: &Model,
+    state: &State,
+    whale: &WhaleState,
+    contacts: &[ContactPoint],
+) -> f64 {
+    let on_rope: DVec3 = contacts
+        .iter()
+        .map(|contact| contact.normal * contact.normal_force_n + contact.friction_n)
+        .sum();
     let made_fast: DVec3 = hitch::pulls(model, state).map(|(force, _)| force).sum();
     (on_rope - made_fast).dot(whale.orientation * DVec3::X)
 }
@@ -43,6 +51,14 @@ impl EffortMeter {
     pub(super) fn summary(&self) -> KineticSummary {
         let [thrust_n, power_w, body_drag_n, speed_m_s, speed_lost_m_s] = self.means.mean();
         let (peak_thrust_n, peak_rope_pull_n) = (self.peak_thrust_n, self.peak_pull_n);
-        KineticSummary { thrust_n, power_w, body_drag_n, speed_m_s, speed_lost_m_s, peak_thrust_n, peak_rope_pull_n }
+        KineticSummary {
+            thrust_n,
+            power_w,
+            body_drag_n,
+            speed_m_s,
+            speed_lost_m_s,
+            peak_thrust_n,
+            peak_rope_pull_n,
+        }
     }
 }

@@ -22,9 +22,14 @@ pub(super) struct Extent {
 impl Extent {
     pub(super) fn new(skin: &Skin) -> Self {
         let sections = trunk_axis(skin).map(|axis| axis.sections).unwrap_or_default();
-        let ellipse =
-            |section: &crate::whale::axes::Section| (DVec3::new(section.along_m, section.middle_m[0], section.middle_m[1]), section.half_m);
-        Self { ellipses: sections.iter().map(ellipse).collect(), at_seabed: false, at_surface: false }
+        let ellipse = |section: &crate::whale::axes::Section| {
+            (DVec3::new(section.along_m, section.middle_m[0], section.middle_m[1]), section.half_m)
+        };
+        Self {
+            ellipses: sections.iter().map(ellipse).collect(),
+            at_seabed: false,
+            at_surface: false,
+        }
     }
 
     pub(super) fn fold(&mut self, model: &Model, whale: &WhaleState, time_s: f64, log: &mut Log) {
@@ -47,7 +52,9 @@ impl Extent {
     fn reach(&self, whale: &WhaleState, point: DVec3, out: DVec3) -> f64 {
         let own = whale.orientation.inverse() * out;
         let base = (whale.position - point).dot(out);
-        let beyond = |(middle, half): &(DVec3, [f64; 2])| base + middle.dot(own) + libm::hypot(half[0] * own.y, half[1] * own.z);
+        let beyond = |(middle, half): &(DVec3, [f64; 2])| {
+            base + middle.dot(own) + libm::hypot(half[0] * own.y, half[1] * own.z)
+        };
         self.ellipses.iter().map(beyond).fold(f64::NEG_INFINITY, f64::max)
     }
 }

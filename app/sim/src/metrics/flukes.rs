@@ -68,7 +68,8 @@ impl FlukeMeter {
         self.swum_m += whale.speed_m_s * dt_s;
         let Some(tips) = self.tips else { return };
         pose(&self.skin, DVec3::ZERO, DQuat::IDENTITY, &whale.posture, &mut self.bones);
-        let height_m = 0.5 * tips.map(|tip| skin_vertex(&self.skin, &self.bones, tip).z).iter().sum::<f64>();
+        let height_m =
+            0.5 * tips.map(|tip| skin_vertex(&self.skin, &self.bones, tip).z).iter().sum::<f64>();
         self.follow([height_m, time_s, self.swum_m]);
     }
 
@@ -105,7 +106,8 @@ impl FlukeMeter {
     pub(super) fn summary(&self) -> Option<BeatSummary> {
         let (from, beats) = (self.first.filter(|_| self.beats > 0)?, f64::from(self.beats));
         let time_s = self.last[0] - from[0];
-        let (frequency_hz, excursion_m, speed_m_s) = (beats / time_s, self.ways_m / beats, (self.last[1] - from[1]) / time_s);
+        let (frequency_hz, excursion_m, speed_m_s) =
+            (beats / time_s, self.ways_m / beats, (self.last[1] - from[1]) / time_s);
         let strouhal = (speed_m_s > 0.0).then(|| frequency_hz * excursion_m / speed_m_s);
         Some(BeatSummary { beats: self.beats, frequency_hz, excursion_m, speed_m_s, strouhal })
     }
@@ -151,7 +153,9 @@ mod tests {
     #[test]
     fn a_whale_that_does_not_beat_has_no_beat() {
         let mut meter = FlukeMeter::new(&Arc::new(Skin::default()), 10.0);
-        (0..1000).for_each(|step| meter.follow([0.05 * libm::sin(f64::from(step)), f64::from(step), f64::from(step)]));
+        (0..1000).for_each(|step| {
+            meter.follow([0.05 * libm::sin(f64::from(step)), f64::from(step), f64::from(step)])
+        });
         assert_eq!(meter.summary(), None);
     }
 }

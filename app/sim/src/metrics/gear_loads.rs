@@ -18,7 +18,8 @@ pub(super) fn line_drag(model: &Model, state: &State, line: usize) -> DVec3 {
     let (nodes, segments) = (model.line_nodes[line].clone(), &model.line_segments[line]);
     let on_segment = |(node, segment): (usize, usize)| {
         let [from, to] = [node, node + 1].map(|node| state.rope.position[node]);
-        let (place, velocity) = (from.midpoint(to), state.rope.velocity[node].midpoint(state.rope.velocity[node + 1]));
+        let (place, velocity) =
+            (from.midpoint(to), state.rope.velocity[node].midpoint(state.rope.velocity[node + 1]));
         let flow = model.sea.at(place, state.time_s);
         if water.rope_dries && place.z > flow.surface_m {
             return DVec3::ZERO;
@@ -27,8 +28,10 @@ pub(super) fn line_drag(model: &Model, state: &State, line: usize) -> DVec3 {
         let relative = flow.velocity_m_s - velocity;
         let along = way * relative.dot(way);
         let across = relative - along;
-        let by_metre = across * (rope.drag_normal * across.length()) + along * (PI * rope.drag_tangential * along.length());
-        by_metre * (0.5 * water.density_kg_m3 * rope.diameter_m * state.rope.segment_length[segment])
+        let by_metre = across * (rope.drag_normal * across.length())
+            + along * (PI * rope.drag_tangential * along.length());
+        by_metre
+            * (0.5 * water.density_kg_m3 * rope.diameter_m * state.rope.segment_length[segment])
     };
     nodes.zip(segments.clone()).map(on_segment).sum()
 }
@@ -57,5 +60,7 @@ pub(super) fn body_drag(model: &Model, state: &State, body: usize) -> DVec3 {
 /// Push and friction of the whale on a line: sums of their sizes [N].
 pub(super) fn on_line(contacts: &[ContactPoint], line: usize) -> [f64; 2] {
     let own = contacts.iter().filter(|contact| contact.line == line);
-    own.fold([0.0; 2], |[normal, friction], contact| [normal + contact.normal_force_n, friction + contact.friction_n.length()])
+    own.fold([0.0; 2], |[normal, friction], contact| {
+        [normal + contact.normal_force_n, friction + contact.friction_n.length()]
+    })
 }

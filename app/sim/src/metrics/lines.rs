@@ -34,21 +34,38 @@ impl Peak {
 
 impl LineMeter {
     pub(super) fn new(model: &Model) -> Self {
-        Self { lines: vec![Peak::default(); model.spec.lines.len()], links: vec![Peak::default(); model.spec.links.len()] }
+        Self {
+            lines: vec![Peak::default(); model.spec.lines.len()],
+            links: vec![Peak::default(); model.spec.links.len()],
+        }
     }
 
     /// Takes in a step; `peak_tension_n` is the greatest tension of each segment during it.
-    pub(super) fn fold(&mut self, model: &Model, state: &State, peak_tension_n: &[f64], log: &mut Log) {
+    pub(super) fn fold(
+        &mut self,
+        model: &Model,
+        state: &State,
+        peak_tension_n: &[f64],
+        log: &mut Log,
+    ) {
         for (line, peak) in self.lines.iter_mut().enumerate() {
-            let most = peak_tension_n[model.line_segments[line].clone()].iter().fold(0.0_f64, |most, tension| most.max(*tension));
+            let most = peak_tension_n[model.line_segments[line].clone()]
+                .iter()
+                .fold(0.0_f64, |most, tension| most.max(*tension));
             peak.take(most, state.time_s);
             if state.line_parted[line].is_some() && !peak.told {
                 peak.told = true;
-                log.note(state.time_s, EventKind::LineParted, &model.spec.lines[line].id, peak.tension_n);
+                log.note(
+                    state.time_s,
+                    EventKind::LineParted,
+                    &model.spec.lines[line].id,
+                    peak.tension_n,
+                );
             }
         }
         for (index, (link, peak)) in model.spec.links.iter().zip(&mut self.links).enumerate() {
-            let borne = end_segment(model, link.line, link.end).map_or(0.0, |(segment, ..)| peak_tension_n[segment]);
+            let borne = end_segment(model, link.line, link.end)
+                .map_or(0.0, |(segment, ..)| peak_tension_n[segment]);
             peak.take(borne, state.time_s);
             if state.link_parted_s[index].is_some() && !peak.told {
                 peak.told = true;
@@ -57,7 +74,12 @@ impl LineMeter {
         }
     }
 
-    pub(super) fn lines(&self, model: &Model, state: &State, on_whale: &[[f64; 2]]) -> Vec<LineSummary> {
+    pub(super) fn lines(
+        &self,
+        model: &Model,
+        state: &State,
+        on_whale: &[[f64; 2]],
+    ) -> Vec<LineSummary> {
         let on_whale = |line: usize| on_whale.get(line).copied().unwrap_or_default();
         let summary = |(index, peak): (usize, &Peak)| LineSummary {
             drag_n: line_drag(model, state, index),
@@ -96,7 +118,10 @@ pub fn end_tension(model: &Model, state: &State, line: usize, end: LineEnd) -> f
     if middle <= 0.0 {
         return 0.0;
     }
-    let Some(outward) = (state.rope.position[tip] - state.rope.position[inner]).try_normalize() else { return middle };
+    let Some(outward) = (state.rope.position[tip] - state.rope.position[inner]).try_normalize()
+    else {
+        return middle;
+    };
     let length = state.rope.segment_length[segment];
     (middle - 0.5 * length * load_along(model, state, line, tip, outward)).max(0.0)
 }
@@ -106,16 +131,24 @@ fn load_along(model: &Model, state: &State, line: usize, node: usize, along: DVe
     let (rope, water) = (&model.spec.ropes[model.spec.lines[line].rope], &model.spec.water);
     let place = state.rope.position[node];
     let flow = model.sea.at(place, state.time_s);
-    let density = if water.rope_dries && place.z > flow.surface_m { 0.0 } else { water.density_kg_m3 };
+    let density =
+        if water.rope_dries && place.z > flow.surface_m { 0.0 } else { water.density_kg_m3 };
     let speed = (flow.velocity_m_s - state.rope.velocity[node]).dot(along);
-    let drag = 0.5 * density * rope.drag_tangential * std::f64::consts::PI * rope.diameter_m * libm::fabs(speed) * speed;
+    let drag = 0.5
+        * density
+        * rope.drag_tangential
+        * std::f64::consts::PI
+        * rope.diameter_m
+        * libm::fabs(speed)
+        * speed;
     drag - (rope.mass_kg_m - density * rope.displaced_m3_m) * water.gravity_m_s2 * along.z
 }
 
 /// Tension of the segment at an end, never below zero [N].
 fn end_segment_tension(model: &Model, state: &State, line: usize, end: LineEnd) -> f64 {
-    end_segment(model, line, end)
-        .map_or(0.0, |(segment, ..)| if state.rope.cut[segment] { 0.0 } else { state.rope.tension[segment].max(0.0) })
+    end_segment(model, line, end).map_or(0.0, |(segment, ..)| {
+        if state.rope.cut[segment] { 0.0 } else { state.rope.tension[segment].max(0.0) }
+    })
 }
 
 /// The segment at an end, its node at the joint and its other node.

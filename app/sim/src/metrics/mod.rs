@@ -40,8 +40,8 @@ pub use outcome::{LONG_CONTACT_S, LOST_S, RELEASE_S};
 pub(crate) use probes::joint_place;
 pub use probes::{reading, unit};
 pub use summary::{
-    BeatSummary, BodySummary, KineticSummary, LineSummary, LinkSummary, Outcome, PatchSummary, ProbeSummary, RegionSummary, Summary,
-    WhaleSummary,
+    BeatSummary, BodySummary, KineticSummary, LineSummary, LinkSummary, Outcome, PatchSummary,
+    ProbeSummary, RegionSummary, Summary, WhaleSummary,
 };
 pub use winding::{BRIDGED_GAP_M, WINDING_JUMP};
 pub use window::DRAG_WINDOW_S;
@@ -90,7 +90,13 @@ impl Metrics {
         self.take(model, state, contacts, &state.rope.tension);
     }
 
-    fn take(&mut self, model: &Model, state: &State, contacts: &[ContactPoint], peak_tension_n: &[f64]) {
+    fn take(
+        &mut self,
+        model: &Model,
+        state: &State,
+        contacts: &[ContactPoint],
+        peak_tension_n: &[f64],
+    ) {
         let dt_s = (state.time_s - self.time_s).max(0.0);
         self.time_s = state.time_s;
         self.lines.fold(model, state, peak_tension_n, &mut self.log);
@@ -105,7 +111,11 @@ impl Metrics {
     #[must_use]
     pub fn summary(&self, model: &Model, state: &State) -> Summary {
         Summary {
-            lines: self.lines.lines(model, state, self.whale.as_ref().map(whale::WhaleMeter::on_lines).unwrap_or_default()),
+            lines: self.lines.lines(
+                model,
+                state,
+                self.whale.as_ref().map(whale::WhaleMeter::on_lines).unwrap_or_default(),
+            ),
             links: self.lines.links(model, state),
             bodies: self.bodies.summary(model, state),
             probes: self.probes.summary(model),

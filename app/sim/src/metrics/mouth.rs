@@ -40,13 +40,23 @@ struct Grip {
 
 impl Mouth {
     pub(super) fn new(skin: &Skin) -> Self {
-        let marked = |vertex: &u32| matches!(skin.marks.get(*vertex as usize), Some(Mark::Mouth | Mark::Baleen));
-        let inside = |(corners, region): (&[u32; 3], &Region)| *region == Region::Baleen || corners.iter().all(marked);
+        let marked = |vertex: &u32| {
+            matches!(skin.marks.get(*vertex as usize), Some(Mark::Mouth | Mark::Baleen))
+        };
+        let inside = |(corners, region): (&[u32; 3], &Region)| {
+            *region == Region::Baleen || corners.iter().all(marked)
+        };
         let inside = skin.triangles.iter().zip(&skin.regions).map(inside).collect();
         Self { inside, since_s: None, last_s: 0.0, lodged: false, was_lodged: false }
     }
 
-    pub(super) fn fold(&mut self, skin: &Skin, contacts: &[ContactPoint], time_s: f64, log: &mut Log) {
+    pub(super) fn fold(
+        &mut self,
+        skin: &Skin,
+        contacts: &[ContactPoint],
+        time_s: f64,
+        log: &mut Log,
+    ) {
         let grip = self.grip(skin, contacts);
         if grip.holds() {
             let since = *self.since_s.get_or_insert(time_s);
@@ -70,10 +80,12 @@ impl Mouth {
             if !inside && contact.region != Region::Lips {
                 continue;
             }
-            let corners = skin.triangles[contact.triangle].map(|vertex| skin.vertices[vertex as usize].y);
+            let corners =
+                skin.triangles[contact.triangle].map(|vertex| skin.vertices[vertex as usize].y);
             let y: f64 = corners.iter().zip(contact.barycentric).map(|(y, share)| y * share).sum();
             grip.inside += if inside { contact.normal_force_n } else { 0.0 };
-            grip.baleen += if contact.region == Region::Baleen { contact.normal_force_n } else { 0.0 };
+            grip.baleen +=
+                if contact.region == Region::Baleen { contact.normal_force_n } else { 0.0 };
             if libm::fabs(y) > MIDDLE_M {
                 grip.sides[usize::from(y < 0.0)] += contact.normal_force_n;
             }

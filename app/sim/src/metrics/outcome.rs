@@ -35,7 +35,13 @@ pub(super) struct Encounter {
 
 impl Encounter {
     /// Takes in whether rope touches at `time_s` and the most turns about any part.
-    pub(super) fn fold(&mut self, time_s: f64, dt_s: f64, (touching, turns): (bool, f64), log: &mut Log) {
+    pub(super) fn fold(
+        &mut self,
+        time_s: f64,
+        dt_s: f64,
+        (touching, turns): (bool, f64),
+        log: &mut Log,
+    ) {
         if touching {
             self.first_s.get_or_insert(time_s);
             self.episode_s.get_or_insert(time_s);
@@ -74,7 +80,11 @@ impl Encounter {
     /// How long without contact ends the present episode [s].
     fn release_s(&self, time_s: f64) -> f64 {
         let episode = self.episode_s.map_or(0.0, |start| time_s - start);
-        if self.turns >= HOOKED_TURNS { RELEASE_S } else { (RELEASE_SHARE * episode).clamp(LOST_S, RELEASE_S) }
+        if self.turns >= HOOKED_TURNS {
+            RELEASE_S
+        } else {
+            (RELEASE_SHARE * episode).clamp(LOST_S, RELEASE_S)
+        }
     }
 }
 

@@ -42,7 +42,11 @@ impl ProbeMeter {
             last: track.last.unwrap_or(0.0),
             min: track.min,
             max: track.max,
-            mean: if track.time_s > 0.0 { track.sum / track.time_s } else { track.last.unwrap_or(0.0) },
+            mean: if track.time_s > 0.0 {
+                track.sum / track.time_s
+            } else {
+                track.last.unwrap_or(0.0)
+            },
         };
         self.tracks.iter().zip(&model.spec.probes).map(summary).collect()
     }
@@ -77,16 +81,22 @@ pub fn unit(target: ProbeTarget) -> &'static str {
 /// What a probe reads in a state; zero where its target does not exist.
 #[must_use]
 pub fn reading(model: &Model, state: &State, target: ProbeTarget) -> f64 {
-    let coordinate = |place: Option<glam::DVec3>, axis: usize| place.and_then(|place| place.to_array().get(axis).copied()).unwrap_or(0.0);
+    let coordinate = |place: Option<glam::DVec3>, axis: usize| {
+        place.and_then(|place| place.to_array().get(axis).copied()).unwrap_or(0.0)
+    };
     match target {
         ProbeTarget::EndTension(line, end) => end_tension(model, state, line, end),
         ProbeTarget::TensionAt(line, length_m) => along::tension(model, state, line, length_m),
-        ProbeTarget::LineAt(line, length_m, axis) => coordinate(along::place(model, state, line, length_m), axis),
+        ProbeTarget::LineAt(line, length_m, axis) => {
+            coordinate(along::place(model, state, line, length_m), axis)
+        }
         ProbeTarget::Height(line, away_m) => along::height(model, state, line, away_m),
         ProbeTarget::Energy(form) => energy(model, state, form),
         ProbeTarget::LineMiddle(line, axis) => coordinate(along::middle(model, state, line), axis),
         ProbeTarget::Joint(joint, axis) => coordinate(joint_place(model, state, joint), axis),
-        ProbeTarget::Body(body, axis) => coordinate(state.bodies.get(body).map(|body| body.position), axis),
+        ProbeTarget::Body(body, axis) => {
+            coordinate(state.bodies.get(body).map(|body| body.position), axis)
+        }
     }
 }
 
@@ -97,10 +107,11 @@ pub(crate) fn joint_place(model: &Model, state: &State, joint: usize) -> Option<
         let body = state.bodies.get(*body)?;
         return Some(body.position + body.orientation * *offset_m);
     }
-    let node = model.spec.lines.iter().zip(&model.line_nodes).find_map(|(line, nodes)| match joint {
-        _ if line.from == joint => Some(nodes.start),
-        _ if line.to == joint => Some(nodes.end - 1),
-        _ => None,
-    });
+    let node =
+        model.spec.lines.iter().zip(&model.line_nodes).find_map(|(line, nodes)| match joint {
+            _ if line.from == joint => Some(nodes.start),
+            _ if line.to == joint => Some(nodes.end - 1),
+            _ => None,
+        });
     node.map(|node| state.rope.position[node])
 }

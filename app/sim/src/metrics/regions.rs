@@ -46,12 +46,20 @@ pub(super) struct Load {
 
 impl Loads {
     /// Takes in the contacts of a step of `dt_s`.
-    pub(super) fn fold(&mut self, model: &Model, state: &State, contacts: &[ContactPoint], dt_s: f64) {
+    pub(super) fn fold(
+        &mut self,
+        model: &Model,
+        state: &State,
+        contacts: &[ContactPoint],
+        dt_s: f64,
+    ) {
         let Self { parts, patches } = self;
         parts.iter_mut().chain(patches.iter_mut()).for_each(Load::begin);
         for contact in contacts.iter().filter(|contact| contact.normal_force_n > 0.0) {
             let tension_n = state.rope.tension[contact.segment].max(0.0);
-            for load in [&mut parts[contact.region.part() as usize], &mut patches[contact.region as usize]] {
+            for load in
+                [&mut parts[contact.region.part() as usize], &mut patches[contact.region as usize]]
+            {
                 load.take(model, contact, tension_n, dt_s);
             }
         }
@@ -93,10 +101,12 @@ impl Load {
         self.tension_n = self.tension_n.max(tension_n);
         self.slip_m_s = self.slip_m_s.max(slip_speed(contact));
         self.work_j += work(contact, dt_s);
-        let line_load = if contact.length_m > 0.0 { contact.normal_force_n / contact.length_m } else { 0.0 };
+        let line_load =
+            if contact.length_m > 0.0 { contact.normal_force_n / contact.length_m } else { 0.0 };
         let width = model.spec.ropes[model.spec.lines[contact.line].rope].diameter_m;
         self.peak_line_load_n_m = self.peak_line_load_n_m.max(line_load);
-        self.peak_pressure_pa = self.peak_pressure_pa.max(if width > 0.0 { line_load / width } else { 0.0 });
+        self.peak_pressure_pa =
+            self.peak_pressure_pa.max(if width > 0.0 { line_load / width } else { 0.0 });
     }
 
     fn end(&mut self) {

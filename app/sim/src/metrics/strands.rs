@@ -37,7 +37,8 @@ impl Place {
 
 impl Strands {
     pub(super) fn new(model: &Model) -> Self {
-        let mut strands = Self { places: vec![Place::default(); model.segment_count], segments: Vec::new() };
+        let mut strands =
+            Self { places: vec![Place::default(); model.segment_count], segments: Vec::new() };
         let mut laid = vec![false; model.spec.lines.len()];
         for line in 0..model.spec.lines.len() {
             if !laid[line] {
@@ -79,7 +80,8 @@ impl Strands {
             let reversed = entered == LineEnd::B;
             let segments = model.line_segments[line].clone();
             let mut lay_one = |segment: usize| {
-                self.places[segment] = Place { strand, order: order.len(), arc_m: 0.0, length_m: 0.0, reversed };
+                self.places[segment] =
+                    Place { strand, order: order.len(), arc_m: 0.0, length_m: 0.0, reversed };
                 order.push(segment);
             };
             if reversed {
@@ -121,7 +123,8 @@ fn spliced_to(model: &Model, line: usize, end: LineEnd) -> Option<(usize, LineEn
 
 /// Every line end at a joint.
 pub(super) fn ends_at(model: &Model, joint: usize) -> impl Iterator<Item = (usize, LineEnd)> {
-    let ends = (0..model.spec.lines.len()).flat_map(|line| [(line, LineEnd::A), (line, LineEnd::B)]);
+    let ends =
+        (0..model.spec.lines.len()).flat_map(|line| [(line, LineEnd::A), (line, LineEnd::B)]);
     ends.filter(move |(line, end)| joint_at(model, *line, *end) == joint)
 }
 

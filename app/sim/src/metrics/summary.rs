@@ -235,7 +235,8 @@ pub enum Outcome {
 
 impl Outcome {
     /// Every outcome.
-    pub const ALL: [Self; 5] = [Self::NoContact, Self::Shed, Self::Entangled, Self::PartedFree, Self::PartedEntangled];
+    pub const ALL: [Self; 5] =
+        [Self::NoContact, Self::Shed, Self::Entangled, Self::PartedFree, Self::PartedEntangled];
 
     /// Its name in results, such as `parted_free`.
     #[must_use]

@@ -39,7 +39,11 @@ impl Reach {
             *span = (span.0.min(arc), span.1.max(arc));
         }
         for (line, end) in hitch::ends(model) {
-            let arc = if end == LineEnd::A { 0.0 } else { model.spec.lines[line].segments_m.iter().sum() };
+            let arc = if end == LineEnd::A {
+                0.0
+            } else {
+                model.spec.lines[line].segments_m.iter().sum()
+            };
             let span = self.touched[line].get_or_insert((arc, arc));
             *span = (span.0.min(arc), span.1.max(arc));
         }
@@ -47,7 +51,13 @@ impl Reach {
 
     /// Rope beyond the outermost contacts.
     pub(super) fn beyond(&self, model: &Model, state: &State) -> Beyond {
-        let mut walk = Walk { model, state, touched: &self.touched, seen: vec![false; model.spec.lines.len()], found: Beyond::default() };
+        let mut walk = Walk {
+            model,
+            state,
+            touched: &self.touched,
+            seen: vec![false; model.spec.lines.len()],
+            found: Beyond::default(),
+        };
         for (line, span) in self.touched.iter().enumerate() {
             if let Some((low, high)) = *span {
                 let whole: f64 = model.spec.lines[line].segments_m.iter().sum();
@@ -116,21 +126,28 @@ impl Walk<'_> {
     /// Where what lies past an end of a line leads.
     fn past(&mut self, line: usize, end: LineEnd) -> Leads {
         let joint = joint_at(self.model, line, end);
-        let Some(kind) = self.model.spec.joints.get(joint).map(|joint| &joint.kind) else { return Leads::Loose };
+        let Some(kind) = self.model.spec.joints.get(joint).map(|joint| &joint.kind) else {
+            return Leads::Loose;
+        };
         if let JointKind::Body { body, .. } = kind {
             self.found.bodies.push(*body);
         }
         match kind {
             JointKind::Whale(_) => Leads::Back,
             JointKind::Fixed | JointKind::Driven { .. } => Leads::Held,
-            JointKind::Body { body, .. } if self.model.spec.bodies[*body].role != BodyRole::Buoy => Leads::Held,
+            JointKind::Body { body, .. }
+                if self.model.spec.bodies[*body].role != BodyRole::Buoy =>
+            {
+                Leads::Held
+            }
             _ => self.on_from(joint, (line, end)),
         }
     }
 
     /// Walks on from a splice or buoy along every other line there.
     fn on_from(&mut self, joint: usize, came: (usize, LineEnd)) -> Leads {
-        let mut ends: Vec<(usize, LineEnd)> = self.hub(joint).into_iter().flat_map(|joint| ends_at(self.model, joint)).collect();
+        let mut ends: Vec<(usize, LineEnd)> =
+            self.hub(joint).into_iter().flat_map(|joint| ends_at(self.model, joint)).collect();
         ends.retain(|end| *end != came);
         if ends.is_empty() {
             return Leads::Loose;
@@ -150,8 +167,12 @@ impl Walk<'_> {
 
     /// The joints that move as one with a joint: itself, or all on its body.
     fn hub(&self, joint: usize) -> Vec<usize> {
-        let JointKind::Body { body, .. } = self.model.spec.joints[joint].kind else { return vec![joint] };
+        let JointKind::Body { body, .. } = self.model.spec.joints[joint].kind else {
+            return vec![joint];
+        };
         let same = |kind: &JointKind| matches!(kind, JointKind::Body { body: other, .. } if *other == body);
-        (0..self.model.spec.joints.len()).filter(|joint| same(&self.model.spec.joints[*joint].kind)).collect()
+        (0..self.model.spec.joints.len())
+            .filter(|joint| same(&self.model.spec.joints[*joint].kind))
+            .collect()
     }
 }

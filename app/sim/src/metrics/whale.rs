@@ -68,7 +68,15 @@ impl WhaleMeter {
         })
     }
 
-    pub(super) fn fold(&mut self, model: &Model, state: &State, whale: &WhaleState, contacts: &[ContactPoint], dt_s: f64, log: &mut Log) {
+    pub(super) fn fold(
+        &mut self,
+        model: &Model,
+        state: &State,
+        whale: &WhaleState,
+        contacts: &[ContactPoint],
+        dt_s: f64,
+        log: &mut Log,
+    ) {
         let touching = contacts.iter().any(|contact| contact.normal_force_n > 0.0);
         self.loads.fold(model, state, contacts, dt_s);
         self.winding.fold(&self.skin, contacts, &state.rope);
@@ -141,7 +149,8 @@ impl WhaleMeter {
         for (index, (part, load)) in BodyPart::ALL.iter().zip(&mut self.loads.parts).enumerate() {
             let wraps = libm::fabs(self.coils.turns[index]);
             load.peak_wraps = load.peak_wraps.max(wraps);
-            load.peak_touching_wraps = load.peak_touching_wraps.max(libm::fabs(self.winding.turns[index]));
+            load.peak_touching_wraps =
+                load.peak_touching_wraps.max(libm::fabs(self.winding.turns[index]));
             while level_above(load.told_wraps) <= wraps {
                 load.told_wraps = level_above(load.told_wraps);
                 log.note(time_s, EventKind::Wrap, part.name(), load.told_wraps);

@@ -92,17 +92,29 @@ impl Winding {
         self.sites.clear();
         for contact in contacts.iter().filter(|contact| contact.normal_force_n > 0.0) {
             let part = contact.region.part() as usize;
-            let corners = skin.triangles[contact.triangle].map(|vertex| skin.vertices[vertex as usize]);
+            let corners =
+                skin.triangles[contact.triangle].map(|vertex| skin.vertices[vertex as usize]);
             let [a, b, c] = contact.barycentric;
             let rest = corners[0] * a + corners[1] * b + corners[2] * c;
             if let Some(azimuth) = self.axes[part].as_ref().and_then(|axis| axis.azimuth(rest)) {
                 let place = self.strands.places[contact.segment];
                 let arc_m = place.arc_at(contact.fraction);
-                self.sites.push(Site { place, arc_m, half_m: 0.5 * contact.length_m, part, azimuth });
+                self.sites.push(Site {
+                    place,
+                    arc_m,
+                    half_m: 0.5 * contact.length_m,
+                    part,
+                    azimuth,
+                });
             }
         }
         self.sites.sort_unstable_by(|a, b| {
-            let along = a.place.strand.cmp(&b.place.strand).then(a.place.order.cmp(&b.place.order)).then(a.arc_m.total_cmp(&b.arc_m));
+            let along = a
+                .place
+                .strand
+                .cmp(&b.place.strand)
+                .then(a.place.order.cmp(&b.place.order))
+                .then(a.arc_m.total_cmp(&b.arc_m));
             along.then(a.part.cmp(&b.part)).then(a.azimuth.total_cmp(&b.azimuth))
         });
     }

@@ -41,6 +41,8 @@ impl<const N: usize> Window<N> {
         if time <= 0.0 {
             return self.now;
         }
-        std::array::from_fn(|index| self.steps.iter().map(|(dt, readings)| dt * readings[index]).sum::<f64>() / time)
+        std::array::from_fn(|index| {
+            self.steps.iter().map(|(dt, readings)| dt * readings[index]).sum::<f64>() / time
+        })
     }
 }

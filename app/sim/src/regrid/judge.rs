@@ -41,10 +41,25 @@ pub(super) struct Line<'a> {
 }
 
 impl<'a> Line<'a> {
-    pub fn of(model: &'a Model, state: &'a State, line: usize, wanted: &'a [f64], gripped: &'a [bool], resolution: &'a Resolution) -> Self {
+    pub fn of(
+        model: &'a Model,
+        state: &'a State,
+        line: usize,
+        wanted: &'a [f64],
+        gripped: &'a [bool],
+        resolution: &'a Resolution,
+    ) -> Self {
         let segments = model.line_segments[line].clone();
         let shift = model.line_nodes[line].start - segments.start;
-        Self { rope: &model.spec.ropes[model.spec.lines[line].rope], state: &state.rope, segments, shift, wanted, gripped, resolution }
+        Self {
+            rope: &model.spec.ropes[model.spec.lines[line].rope],
+            state: &state.rope,
+            segments,
+            shift,
+            wanted,
+            gripped,
+            resolution,
+        }
     }
 
     fn length(&self, segment: usize) -> f64 {
@@ -84,7 +99,10 @@ impl<'a> Line<'a> {
         let whole = self.length(segment) + self.length(next);
         let least = self.length(segment - 1).min(self.length(next + 1));
         let far = is_far(self.resolution, self.wanted[segment].min(self.wanted[next]));
-        far && !self.stays(segment) && !self.stays(next) && whole <= GREATEST_RATIO * least && self.is_straight(segment)
+        far && !self.stays(segment)
+            && !self.stays(next)
+            && whole <= GREATEST_RATIO * least
+            && self.is_straight(segment)
     }
 
     /// Whether the rope of this segment and the next is so straight that one chord has its tension.
@@ -96,16 +114,24 @@ impl<'a> Line<'a> {
         if off.length_squared() > (SAG_SHARE * SAG_SHARE) * chord.length_squared() {
             return false;
         }
-        let tensions = [self.tension(segment, node, node + 1), self.tension(segment + 1, node + 1, node + 2)];
-        let (length, velocity) =
-            (self.length(segment) + self.length(segment + 1), self.state.velocity[node + 2] - self.state.velocity[node]);
+        let tensions =
+            [self.tension(segment, node, node + 1), self.tension(segment + 1, node + 1, node + 2)];
+        let (length, velocity) = (
+            self.length(segment) + self.length(segment + 1),
+            self.state.velocity[node + 2] - self.state.velocity[node],
+        );
         let merged = tension(self.rope, chord, velocity, length);
         tensions.iter().all(|one| (one - merged).abs() <= jump_n(one.max(merged)))
     }
 
     fn tension(&self, segment: usize, a: usize, b: usize) -> f64 {
         let (position, velocity) = (&self.state.position, &self.state.velocity);
-        tension(self.rope, position[b] - position[a], velocity[b] - velocity[a], self.length(segment))
+        tension(
+            self.rope,
+            position[b] - position[a],
+            velocity[b] - velocity[a],
+            self.length(segment),
+        )
     }
 }
 

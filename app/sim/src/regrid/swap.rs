@@ -16,7 +16,14 @@ use crate::model::Model;
 use crate::state::{RopeState, State};
 
 /// Splits segment `split` and merges `merge` with the one after it; both lie in `line`, apart from one another.
-pub(super) fn swap(model: &Model, state: &mut State, line: usize, split: usize, merge: usize, work: &mut RegridWork) {
+pub(super) fn swap(
+    model: &Model,
+    state: &mut State,
+    line: usize,
+    split: usize,
+    merge: usize,
+    work: &mut RegridWork,
+) {
     let shift = model.line_nodes[line].start - model.line_segments[line].start;
     merge_nodes(&mut state.rope, merge, shift);
     work.wanted[merge] = work.wanted[merge].min(work.wanted[merge + 1]);
@@ -32,16 +39,22 @@ pub(super) fn swap(model: &Model, state: &mut State, line: usize, split: usize, 
 /// Takes the middle node of two segments into its neighbours; the first segment is then both, the second is to be overwritten.
 fn merge_nodes(rope: &mut RopeState, merge: usize, shift: usize) {
     let [first, second] = [merge, merge + 1].map(|segment| rope.segment_length[segment]);
-    let hanging = |segment: usize| 0.5 * (rope.segment_length[segment] + rope.segment_length[segment + 1]);
+    let hanging =
+        |segment: usize| 0.5 * (rope.segment_length[segment] + rope.segment_length[segment + 1]);
     let (before, after) = (hanging(merge - 1), hanging(merge + 1));
     let middle = merge + shift + 1;
     let lever = first / (first + second);
-    let excess = Motion::of(rope, middle).less(&Motion::between(rope, middle - 1, middle + 1, lever));
-    for (node, share) in [(middle - 1, 0.5 * second / (before + 0.5 * second)), (middle + 1, 0.5 * first / (after + 0.5 * first))] {
+    let excess =
+        Motion::of(rope, middle).less(&Motion::between(rope, middle - 1, middle + 1, lever));
+    for (node, share) in [
+        (middle - 1, 0.5 * second / (before + 0.5 * second)),
+        (middle + 1, 0.5 * first / (after + 0.5 * first)),
+    ] {
         excess.give(rope, node, share);
         rope.seabed_grip[node] = rope.seabed_grip[node].lerp(rope.seabed_grip[middle], share);
     }
-    rope.tension[merge] = (rope.tension[merge] * first + rope.tension[merge + 1] * second) / (first + second);
+    rope.tension[merge] =
+        (rope.tension[merge] * first + rope.tension[merge + 1] * second) / (first + second);
     rope.segment_length[merge] = first + second;
 }
 
@@ -87,7 +100,13 @@ impl Motion {
 }
 
 /// Closes the gap a merge left and opens one behind `split`, which moves one place down.
-fn move_left(rope: &mut RopeState, merge: usize, split: usize, shift: usize, work: &mut RegridWork) {
+fn move_left(
+    rope: &mut RopeState,
+    merge: usize,
+    split: usize,
+    shift: usize,
+    work: &mut RegridWork,
+) {
     for_segments(rope, work, |values| values.rotate(merge + 1..split + 1, false));
     for_nodes(rope, |values| values[merge + 1 + shift..=split + shift].rotate_left(1));
     for site in &mut rope.grips.sites {
@@ -96,7 +115,13 @@ fn move_left(rope: &mut RopeState, merge: usize, split: usize, shift: usize, wor
 }
 
 /// The same where the merge lies behind the split, which stays in its place.
-fn move_right(rope: &mut RopeState, merge: usize, split: usize, shift: usize, work: &mut RegridWork) {
+fn move_right(
+    rope: &mut RopeState,
+    merge: usize,
+    split: usize,
+    shift: usize,
+    work: &mut RegridWork,
+) {
     for_segments(rope, work, |values| values.rotate(split + 1..merge + 2, true));
     for_nodes(rope, |values| values[split + 1 + shift..=merge + 1 + shift].rotate_right(1));
     for site in &mut rope.grips.sites {

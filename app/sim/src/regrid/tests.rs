@@ -28,8 +28,10 @@ fn drawn(model: &Model) -> State {
         let wave = 12.0 * along;
         state.rope.position[node].z = -40.0 + 40.0 * along * (1.0 + strain);
         state.rope.position[node].x += 0.02 * libm::sin(std::f64::consts::PI * along);
-        state.rope.velocity[node] = DVec3::new(0.3 * libm::sin(wave), 0.2 * libm::cos(wave), 0.001 * libm::cos(0.2 * wave));
-        state.rope.earlier_position[node] = state.rope.position[node] - 0.01 * state.rope.velocity[node];
+        state.rope.velocity[node] =
+            DVec3::new(0.3 * libm::sin(wave), 0.2 * libm::cos(wave), 0.001 * libm::cos(0.2 * wave));
+        state.rope.earlier_position[node] =
+            state.rope.position[node] - 0.01 * state.rope.velocity[node];
         state.rope.earlier_velocity[node] = state.rope.velocity[node] * 0.9;
     }
     state.rope.tension.fill(20.0);
@@ -46,7 +48,10 @@ fn rest(model: &Model, state: &mut State) -> u64 {
 /// Sum over nodes of hanging length times a vector.
 fn sum(model: &Model, state: &State, of: impl Fn(&State, usize) -> DVec3) -> DVec3 {
     let lengths = &state.rope.segment_length;
-    let hanging = |node: usize| 0.5 * (if node > 0 { lengths[node - 1] } else { 0.0 } + lengths.get(node).copied().unwrap_or(0.0));
+    let hanging = |node: usize| {
+        0.5 * (if node > 0 { lengths[node - 1] } else { 0.0 }
+            + lengths.get(node).copied().unwrap_or(0.0))
+    };
     (0..model.node_count).map(|node| of(state, node) * hanging(node)).sum()
 }
 
@@ -56,8 +61,12 @@ fn tension_at(model: &Model, state: &State, mut along_m: f64) -> f64 {
     for (segment, length) in state.rope.segment_length.iter().enumerate() {
         if along_m <= *length {
             let chord = state.rope.position[segment + 1] - state.rope.position[segment];
-            let rate = (state.rope.velocity[segment + 1] - state.rope.velocity[segment]).dot(chord.normalize()) / length;
-            return (rope.axial_stiffness_n * (chord.length() / length - 1.0) + rope.axial_damping_n_s * rate).max(0.0);
+            let rate = (state.rope.velocity[segment + 1] - state.rope.velocity[segment])
+                .dot(chord.normalize())
+                / length;
+            return (rope.axial_stiffness_n * (chord.length() / length - 1.0)
+                + rope.axial_damping_n_s * rate)
+                .max(0.0);
         }
         along_m -= length;
     }
@@ -82,9 +91,9 @@ fn length_and_momentum_are_kept_and_tension_does_not_jump() {
         assert!((sum(&model, &before, of) - sum(&model, &state, of)).length() < 1e-12);
     }
     // Rope may be merged more than once; each time it may change by the share or the least jump.
-    let jump = (0..4000)
-        .map(|k| 0.01 * f64::from(k) + 0.005)
-        .map(|along| (tension_at(&model, &state, along) - tension_at(&model, &before, along)).abs());
+    let jump = (0..4000).map(|k| 0.01 * f64::from(k) + 0.005).map(|along| {
+        (tension_at(&model, &state, along) - tension_at(&model, &before, along)).abs()
+    });
     let worst = jump.fold(0.0, f64::max);
     println!("{splits} splits, tension changes by {worst:.4} N of 20 N at most");
     assert!(worst < 0.4, "{worst} N");
@@ -99,7 +108,10 @@ fn rope_is_fine_near_skin_coarse_far_and_in_proportion() {
     for pair in lengths.windows(2) {
         assert!(pair[0] <= 2.000_001 * pair[1] && pair[1] <= 2.000_001 * pair[0], "{pair:?}");
     }
-    let near: Vec<f64> = (0..200).filter(|k| (state.rope.position[*k].z + 20.0).abs() < 0.5).map(|k| lengths[k]).collect();
+    let near: Vec<f64> = (0..200)
+        .filter(|k| (state.rope.position[*k].z + 20.0).abs() < 0.5)
+        .map(|k| lengths[k])
+        .collect();
     assert!(near.iter().all(|length| *length <= 0.1001), "{near:?}");
     assert!(lengths.iter().any(|length| *length >= 0.4), "{lengths:?}");
     assert_eq!(rest(&model, &mut state), 0, "what is at rest stays");
@@ -113,13 +125,22 @@ fn segments_at_ends_cut_and_in_touch_stay_and_keep_what_is_theirs() {
     // In touch: a segment beside the whale, and its neighbour.
     state.rope.grips.sites = vec![(99 << 20) | 24, 100 << 20];
     state.rope.grips.floats = vec![1.0, 2.0];
-    let place_of = |state: &State, segment: usize| (state.rope.position[segment], state.arc(&model, segment, 0.0));
+    let place_of = |state: &State, segment: usize| {
+        (state.rope.position[segment], state.arc(&model, segment, 0.0))
+    };
     let touching = [99, 100].map(|segment| place_of(&state, segment));
     let cut = place_of(&state, 150);
     assert!(rest(&model, &mut state) > 20);
     let lengths = &state.rope.segment_length;
     assert!([lengths[0], lengths[199]].iter().all(|length| (length - 0.2).abs() < 1e-15));
-    let now = state.rope.grips.sites.clone().into_iter().map(|site| (segment_of(site), site & 0xf_ffff)).collect::<Vec<_>>();
+    let now = state
+        .rope
+        .grips
+        .sites
+        .clone()
+        .into_iter()
+        .map(|site| (segment_of(site), site & 0xf_ffff))
+        .collect::<Vec<_>>();
     assert_eq!((now[0].1, now[1].1), (24, 0));
     for ((segment, _), (place, arc_m)) in now.iter().zip(touching) {
         assert!((lengths[*segment] - 0.2).abs() < 1e-15);
@@ -128,7 +149,10 @@ fn segments_at_ends_cut_and_in_touch_stay_and_keep_what_is_theirs() {
     }
     let is_cut = (0..200).filter(|segment| state.rope.cut[*segment]).collect::<Vec<_>>();
     assert_eq!(is_cut.len(), 1);
-    assert!(place_of(&state, is_cut[0]).0 == cut.0 && (place_of(&state, is_cut[0]).1 - cut.1).abs() < 1e-12);
+    assert!(
+        place_of(&state, is_cut[0]).0 == cut.0
+            && (place_of(&state, is_cut[0]).1 - cut.1).abs() < 1e-12
+    );
 }
 
 /// Crooked rope under tension is not merged: one chord would pull less.
@@ -184,11 +208,15 @@ fn taut_rope_under_way_keeps_its_tension_through_random_splits_and_joins() {
             let greatest = other.rope.tension.iter().copied().fold(0.0, f64::max);
             let jump = |state: &State, other: &State| {
                 let along = (0..400).map(|k| 0.1 * f64::from(k) + 0.05);
-                along.map(|along| (tension_at(&model, state, along) - tension_at(&model, other, along)).abs()).fold(0.0, f64::max)
+                along
+                    .map(|along| {
+                        (tension_at(&model, state, along) - tension_at(&model, other, along)).abs()
+                    })
+                    .fold(0.0, f64::max)
                     / greatest
             };
-            let momentum =
-                sum(&model, &state, |state, node| state.rope.velocity[node]) - sum(&model, &other, |state, node| state.rope.velocity[node]);
+            let momentum = sum(&model, &state, |state, node| state.rope.velocity[node])
+                - sum(&model, &other, |state, node| state.rope.velocity[node]);
             assert!(momentum.length() < 1e-12, "{momentum}");
             at_once = at_once.max(jump(&state, &other));
             for state in [&mut state, &mut other] {
@@ -198,6 +226,10 @@ fn taut_rope_under_way_keeps_its_tension_through_random_splits_and_joins() {
             assert!((state.rope.segment_length.iter().sum::<f64>() - 40.0).abs() < 1e-12);
         }
     }
-    println!("{swaps} swaps: tension changes by {:.3} % of the greatest at once, {:.3} % after a step", 100.0 * at_once, 100.0 * after);
+    println!(
+        "{swaps} swaps: tension changes by {:.3} % of the greatest at once, {:.3} % after a step",
+        100.0 * at_once,
+        100.0 * after
+    );
     assert!(swaps > 150 && at_once < 0.002 && after < 0.002, "{swaps} swaps, {at_once}, {after}");
 }

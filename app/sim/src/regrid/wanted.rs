@@ -18,7 +18,8 @@ const GRADE: f64 = 0.3;
 
 /// Length wanted at a distance from skin [m].
 fn size(resolution: &Resolution, gap_m: f64, thin: bool) -> f64 {
-    let at = |least: f64, within: f64| (least + GRADE * (gap_m - within).max(0.0)).min(resolution.far_m);
+    let at =
+        |least: f64, within: f64| (least + GRADE * (gap_m - within).max(0.0)).min(resolution.far_m);
     let near = at(resolution.near_m, NEAR_M);
     if thin { near.min(at(resolution.edge_m, EDGE_M)) } else { near }
 }
@@ -29,7 +30,12 @@ pub(super) fn is_far(resolution: &Resolution, wanted_m: f64) -> bool {
 }
 
 /// Measures the wanted length of every segment, and which ones touch skin.
-pub(super) fn measure(model: &Model, state: &State, resolution: &Resolution, work: &mut RegridWork) {
+pub(super) fn measure(
+    model: &Model,
+    state: &State,
+    resolution: &Resolution,
+    work: &mut RegridWork,
+) {
     work.gripped.fill(false);
     for site in &state.rope.grips.sites {
         work.gripped[crate::contact::slots::segment_of(*site)] = true;
@@ -46,7 +52,10 @@ pub(super) fn measure(model: &Model, state: &State, resolution: &Resolution, wor
     for (nodes, segments) in model.line_nodes.iter().zip(&model.line_segments) {
         for (node, segment) in (nodes.start..).zip(segments.clone()) {
             let place = Bounds::around(&[state.rope.position[node], state.rope.position[node + 1]]);
-            work.wanted[segment] = work.approach.least(&work.bones, &place, resolution.far_m, |gap_m, thin| size(resolution, gap_m, thin));
+            work.wanted[segment] =
+                work.approach.least(&work.bones, &place, resolution.far_m, |gap_m, thin| {
+                    size(resolution, gap_m, thin)
+                });
         }
     }
 }

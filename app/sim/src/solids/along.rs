@@ -21,7 +21,10 @@ pub(crate) struct NearestStretch {
 }
 
 /// Where a convex `distance` is least between two fractions.
-pub(crate) fn nearest_stretch(distance: impl Fn(f64) -> f64, (first, last): (f64, f64)) -> NearestStretch {
+pub(crate) fn nearest_stretch(
+    distance: impl Fn(f64) -> f64,
+    (first, last): (f64, f64),
+) -> NearestStretch {
     let (at, least) = golden(&distance, first, last);
     let level = least + AS_NEAR_M;
     let low = cross(&distance, at, first, level);
@@ -81,7 +84,10 @@ mod tests {
         let shape = SolidShape::Box(DVec3::new(0.25, 1.0, 0.1));
         let (from, to) = (DVec3::new(-1.0, 0.0, 0.104), DVec3::new(1.0, 0.0, 0.104));
         let stretch = nearest_stretch(|at| shape.distance(from.lerp(to, at)), (0.0, 1.0));
-        assert!((stretch.ends.0 - 0.375).abs() < 2e-3 && (stretch.ends.1 - 0.625).abs() < 2e-3, "{stretch:?}");
+        assert!(
+            (stretch.ends.0 - 0.375).abs() < 2e-3 && (stretch.ends.1 - 0.625).abs() < 2e-3,
+            "{stretch:?}"
+        );
     }
 
     #[test]

@@ -62,7 +62,11 @@ impl Boxes {
             for start in segments.clone().step_by(IN_A_BOX) {
                 let end = (start + IN_A_BOX).min(segments.end);
                 let node = nodes.start + start - segments.start;
-                boxes.pieces.push(Piece { segments: start..end, nodes: node..node + end - start + 1, bounds: Bounds::EMPTY });
+                boxes.pieces.push(Piece {
+                    segments: start..end,
+                    nodes: node..node + end - start + 1,
+                    bounds: Bounds::EMPTY,
+                });
             }
             boxes.lines.push((first..boxes.pieces.len(), Bounds::EMPTY));
         }
@@ -87,11 +91,28 @@ impl Boxes {
     }
 
     /// Segments, with the first node and the line of each, whose box comes within reach of a solid.
-    pub fn near<'a>(&'a self, solid: &'a Solid, poses: &'a [Pose; 2], reach: f64) -> impl Iterator<Item = (usize, usize, usize)> + 'a {
-        let lines = self.lines.iter().enumerate().filter(move |(_, (_, bounds))| bounds.meets(solid, poses, reach));
+    pub fn near<'a>(
+        &'a self,
+        solid: &'a Solid,
+        poses: &'a [Pose; 2],
+        reach: f64,
+    ) -> impl Iterator<Item = (usize, usize, usize)> + 'a {
+        let lines = self
+            .lines
+            .iter()
+            .enumerate()
+            .filter(move |(_, (_, bounds))| bounds.meets(solid, poses, reach));
         lines.flat_map(move |(line, (pieces, _))| {
-            let pieces = self.pieces[pieces.clone()].iter().filter(move |piece| piece.bounds.meets(solid, poses, reach));
-            pieces.flat_map(move |piece| piece.segments.clone().zip(piece.nodes.clone()).map(move |(segment, node)| (segment, node, line)))
+            let pieces = self.pieces[pieces.clone()]
+                .iter()
+                .filter(move |piece| piece.bounds.meets(solid, poses, reach));
+            pieces.flat_map(move |piece| {
+                piece
+                    .segments
+                    .clone()
+                    .zip(piece.nodes.clone())
+                    .map(move |(segment, node)| (segment, node, line))
+            })
         })
     }
 }

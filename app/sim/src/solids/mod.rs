@@ -85,7 +85,10 @@ impl Solid {
     fn of_obstacle(obstacle: &Obstacle) -> Self {
         Self {
             shape: obstacle.shape.clone(),
-            carrier: Carrier::World(Pose { place: obstacle.position_m, orientation: obstacle.orientation }),
+            carrier: Carrier::World(Pose {
+                place: obstacle.position_m,
+                orientation: obstacle.orientation,
+            }),
             friction: obstacle.friction,
             stiffness_n_m2: obstacle.stiffness_n_m2,
             mass_kg: f64::INFINITY,
@@ -97,7 +100,9 @@ impl Solid {
         let shape = match body.shape {
             Shape::Box(half) => SolidShape::Box(half),
             Shape::Sphere(radius) => SolidShape::Sphere(radius),
-            Shape::Capsule { radius_m, half_length_m } => SolidShape::Capsule { radius_m, half_length_m },
+            Shape::Capsule { radius_m, half_length_m } => {
+                SolidShape::Capsule { radius_m, half_length_m }
+            }
         };
         let radius_m = shape.radius();
         let turning = radius_m * radius_m / body.inertia_kg_m2.min_element();

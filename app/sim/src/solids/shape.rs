@@ -46,7 +46,9 @@ impl SolidShape {
         match self {
             Self::Plane => Nearest { distance: place.z, normal: DVec3::Z },
             Self::Sphere(radius) => from_centre(place, *radius),
-            Self::Cylinder { radius_m, half_length_m } => from_cylinder(place, *radius_m, *half_length_m),
+            Self::Cylinder { radius_m, half_length_m } => {
+                from_cylinder(place, *radius_m, *half_length_m)
+            }
             Self::Capsule { radius_m, half_length_m } => {
                 let straight = (half_length_m - radius_m).max(0.0);
                 from_centre(place - DVec3::Z * place.z.clamp(-straight, straight), *radius_m)
@@ -101,11 +103,13 @@ impl SolidShape {
 
     /// What is wrong with its measures, if anything.
     pub(crate) fn fault(&self) -> Option<&'static str> {
-        let above_zero = |values: &[f64]| values.iter().all(|value| value.is_finite() && *value > 0.0);
+        let above_zero =
+            |values: &[f64]| values.iter().all(|value| value.is_finite() && *value > 0.0);
         let (sound, fault) = match self {
             Self::Plane => (true, ""),
             Self::Sphere(radius) => (above_zero(&[*radius]), "its radius is not above zero"),
-            Self::Cylinder { radius_m, half_length_m } | Self::Capsule { radius_m, half_length_m } => {
+            Self::Cylinder { radius_m, half_length_m }
+            | Self::Capsule { radius_m, half_length_m } => {
                 (above_zero(&[*radius_m, *half_length_m]), "its radius or length is not above zero")
             }
             Self::Box(half) => (above_zero(&half.to_array()), "its size is not above zero"),
@@ -130,7 +134,11 @@ fn from_cylinder(place: DVec3, radius: f64, half_length: f64) -> Nearest {
         let distance = libm::hypot(beside, beyond);
         return Nearest { distance, normal: (outward * beside + endward * beyond) / distance };
     }
-    if beside > beyond { Nearest { distance: beside, normal: outward } } else { Nearest { distance: beyond, normal: endward } }
+    if beside > beyond {
+        Nearest { distance: beside, normal: outward }
+    } else {
+        Nearest { distance: beyond, normal: endward }
+    }
 }
 
 fn from_box(place: DVec3, half: DVec3) -> Nearest {
@@ -181,9 +189,16 @@ mod tests {
                 let near = shape.nearest(place);
                 assert!((near.normal.length() - 1.0).abs() < 1e-12);
                 let foot = place - near.normal * near.distance;
-                assert!(shape.distance(foot).abs() < 1e-9, "{shape:?} at {place}: {}", shape.distance(foot));
+                assert!(
+                    shape.distance(foot).abs() < 1e-9,
+                    "{shape:?} at {place}: {}",
+                    shape.distance(foot)
+                );
                 let other = place + DVec3::new(0.013, -0.021, 0.017);
-                assert!((shape.distance(other) - near.distance).abs() <= (other - place).length() + 1e-12);
+                assert!(
+                    (shape.distance(other) - near.distance).abs()
+                        <= (other - place).length() + 1e-12
+                );
             }
         }
     }
@@ -195,7 +210,10 @@ mod tests {
         for shape in shapes() {
             let mut kinks = 0;
             for place in places() {
-                let by = |axis: DVec3| (shape.distance(place + axis * step) - shape.distance(place - axis * step)) / (2.0 * step);
+                let by = |axis: DVec3| {
+                    (shape.distance(place + axis * step) - shape.distance(place - axis * step))
+                        / (2.0 * step)
+                };
                 let gradient = DVec3::new(by(DVec3::X), by(DVec3::Y), by(DVec3::Z));
                 kinks += usize::from((gradient - shape.nearest(place).normal).length() > 1e-4);
             }

@@ -155,10 +155,24 @@ impl SolidWork {
     pub fn new(model: &Model) -> Self {
         let solids = of_model(model);
         let spared = spared(model, &solids);
-        let radius_m = model.spec.lines.iter().map(|line| 0.5 * model.spec.ropes[line.rope].diameter_m).collect();
-        let lines = model.line_nodes.iter().cloned().zip(model.line_segments.iter().cloned()).collect();
+        let radius_m = model
+            .spec
+            .lines
+            .iter()
+            .map(|line| 0.5 * model.spec.ropes[line.rope].diameter_m)
+            .collect();
+        let lines =
+            model.line_nodes.iter().cloned().zip(model.line_segments.iter().cloned()).collect();
         let along_m = vec![0.0; model.node_count];
-        Self { boxes: Boxes::new(model), solids, spared, lines, along_m, radius_m, ..Self::default() }
+        Self {
+            boxes: Boxes::new(model),
+            solids,
+            spared,
+            lines,
+            along_m,
+            radius_m,
+            ..Self::default()
+        }
     }
 
     /// Takes over the lengths of segments, where they are not those there are.
@@ -185,7 +199,8 @@ impl SolidWork {
 
     /// Unstretched length from the line's start to a slot [m].
     pub fn along_of(&self, slot: &Slot) -> f64 {
-        self.along_m[slot.node] + slot.fraction.map_or(0.0, |fraction| fraction * self.length_of(slot.node))
+        self.along_m[slot.node]
+            + slot.fraction.map_or(0.0, |fraction| fraction * self.length_of(slot.node))
     }
 
     /// Gathers rope near solids for a step of length `dt` (zero in statics) that starts at `from`.
@@ -193,14 +208,19 @@ impl SolidWork {
         // Statics gathers anew in every pass, and goes on with what the last solve foretold.
         self.foretold.clear();
         if dt <= 0.0 {
-            self.foretold.extend(self.nodes.iter().map(|slot| ((slot.solid, slot.node), slot.foretold_n)));
+            self.foretold
+                .extend(self.nodes.iter().map(|slot| ((slot.solid, slot.node), slot.foretold_n)));
         }
         self.pairs.clear();
         self.nodes.clear();
         self.touching = false;
         (self.passes, self.dt) = (0, dt);
         // Obstacles come first.
-        let any = if dt > 0.0 { !self.solids.is_empty() } else { self.solids.first().is_some_and(|solid| solid.mass_kg.is_infinite()) };
+        let any = if dt > 0.0 {
+            !self.solids.is_empty()
+        } else {
+            self.solids.first().is_some_and(|solid| solid.mass_kg.is_infinite())
+        };
         if !any {
             return;
         }
@@ -220,19 +240,40 @@ impl SolidWork {
         self.pairs.len() > before
     }
 
-    fn add_pairs(&mut self, state: &State, from: &[DVec3], to: impl Fn(usize) -> DVec3, dt: f64, margin: f64, again: bool) {
-        let (mut boxes, solids) = (std::mem::take(&mut self.boxes), std::mem::take(&mut self.solids));
+    fn add_pairs(
+        &mut self,
+        state: &State,
+        from: &[DVec3],
+        to: impl Fn(usize) -> DVec3,
+        dt: f64,
+        margin: f64,
+        again: bool,
+    ) {
+        let (mut boxes, solids) =
+            (std::mem::take(&mut self.boxes), std::mem::take(&mut self.solids));
         boxes.measure(from, &to);
         let widest = self.radius_m.iter().copied().fold(0.0, f64::max);
         // Statics has no friction and moves far: there bodies do not push rope.
-        for (index, solid) in solids.iter().enumerate().filter(|(_, solid)| dt > 0.0 || matches!(solid.carrier, Carrier::World(_))) {
+        for (index, solid) in solids
+            .iter()
+            .enumerate()
+            .filter(|(_, solid)| dt > 0.0 || matches!(solid.carrier, Carrier::World(_)))
+        {
             let poses = poses_of(solid, state, dt);
             for (segment, node, line) in boxes.near(solid, &poses, widest + margin) {
                 let places = [from[node], from[node + 1], to(node), to(node + 1)];
                 let reach = self.radius_m[line] + margin;
-                let known = again && self.pairs.iter().any(|pair| pair.solid == index && pair.segment == segment);
+                let known = again
+                    && self.pairs.iter().any(|pair| pair.solid == index && pair.segment == segment);
                 if !known && may_reach(&solid.shape, &poses, &places, reach) {
-                    self.add_pair(state, solid, (index, segment, node, line), &places, &poses, again);
+                    self.add_pair(
+                        state,
+                        solid,
+                        (index, segment, node, line),
+                        &places,
+                        &poses,
+                        again,
+                    );
                 }
             }
         }
@@ -249,9 +290,13 @@ impl SolidWork {
         again: bool,
     ) {
         let (range, radius_m) = (self.range_of(solid, line, node), self.radius_m[line]);
-        let follows = self.pairs.last().is_some_and(|last| last.solid == solid && last.segment + 1 == segment && last.line == line);
+        let follows = self.pairs.last().is_some_and(|last| {
+            last.solid == solid && last.segment + 1 == segment && last.line == line
+        });
         for (end, node) in [(0, node), (1, node + 1)] {
-            let there = (end == 0 && follows) || (again && self.nodes.iter().any(|slot| slot.solid == solid && slot.node == node));
+            let there = (end == 0 && follows)
+                || (again
+                    && self.nodes.iter().any(|slot| slot.solid == solid && slot.node == node));
             if there || self.is_spared(solid, line, self.along_m[node]) {
                 continue;
             }
@@ -266,20 +311,29 @@ impl SolidWork {
         }
         for slot in pair.inner.iter_mut().filter(|slot| slot.open) {
             let at = |ends: &[DVec3]| ends[0].lerp(ends[1], slot.fraction.unwrap_or(0.0));
-            *slot = self.begin_slot(state, thing, *slot, [at(&places[..2]), at(&places[2..])], poses);
+            *slot =
+                self.begin_slot(state, thing, *slot, [at(&places[..2]), at(&places[2..])], poses);
         }
         self.pairs.push(pair);
     }
 
     /// Stiffness, grip and first normal force of a slot whose rope goes from one place to another.
-    fn begin_slot(&mut self, state: &State, solid: &Solid, slot: Slot, places: [DVec3; 2], poses: &[Pose; 2]) -> Slot {
+    fn begin_slot(
+        &mut self,
+        state: &State,
+        solid: &Solid,
+        slot: Slot,
+        places: [DVec3; 2],
+        poses: &[Pose; 2],
+    ) -> Slot {
         let radius = slot.radius_m;
         let depths = [0, 1].map(|k| radius - solid.shape.distance(poses[k].inward(places[k])));
         self.touching |= depths[0].max(depths[1]) > -TOUCH_M;
         let forgiven_m = (depths[0] - radius).max(0.0);
         let slot = Slot { forgiven_m, ..self.regrip(state, solid, slot) };
         let here_n = slot.stiffness * (depths[1] - forgiven_m);
-        let known = self.foretold.binary_search_by_key(&(slot.solid, slot.node), |(key, _)| *key).ok();
+        let known =
+            self.foretold.binary_search_by_key(&(slot.solid, slot.node), |(key, _)| *key).ok();
         let foretold_n = match known.filter(|_| slot.fraction.is_none()) {
             Some(known) => self.foretold[known].1,
             None if slot.foretold_n > 0.0 => slot.foretold_n,
@@ -297,7 +351,8 @@ impl SolidWork {
         };
         slot.stiffness = solid.stiffness_n_m2 * length;
         if solid.mass_kg.is_finite() {
-            let held = state.rope.solid_grips.iter().filter(|grip| grip.solid == slot.solid).count();
+            let held =
+                state.rope.solid_grips.iter().filter(|grip| grip.solid == slot.solid).count();
             let most = BODY_SHARE * solid.mass_kg / (self.dt * self.dt * (held + 1) as f64);
             slot.stiffness = slot.stiffness.min(most);
         }
@@ -308,8 +363,12 @@ impl SolidWork {
                 && grip.at_node == slot.fraction.is_none()
                 && (grip.along_m - along_m).abs() <= farthest
         };
-        let nearest =
-            state.rope.solid_grips.iter().filter(mine).min_by(|a, b| (a.along_m - along_m).abs().total_cmp(&(b.along_m - along_m).abs()));
+        let nearest = state
+            .rope
+            .solid_grips
+            .iter()
+            .filter(mine)
+            .min_by(|a, b| (a.along_m - along_m).abs().total_cmp(&(b.along_m - along_m).abs()));
         if let Some(grip) = nearest {
             (slot.kept, slot.foretold_n) = (grip.stretch, grip.push_n);
         }
@@ -318,8 +377,13 @@ impl SolidWork {
 
     /// Unstretched length that hangs on a node [m].
     fn node_length(&self, node: usize) -> f64 {
-        let before = if node > 0 && self.along_m[node] > 0.0 { self.along_m[node] - self.along_m[node - 1] } else { 0.0 };
-        let after = self.along_m.get(node + 1).map_or(0.0, |next| (next - self.along_m[node]).max(0.0));
+        let before = if node > 0 && self.along_m[node] > 0.0 {
+            self.along_m[node] - self.along_m[node - 1]
+        } else {
+            0.0
+        };
+        let after =
+            self.along_m.get(node + 1).map_or(0.0, |next| (next - self.along_m[node]).max(0.0));
         0.5 * (before + after)
     }
 
@@ -327,7 +391,9 @@ impl SolidWork {
     fn range_of(&self, solid: usize, line: usize, node: usize) -> (f64, f64) {
         let (start, length) = (self.along_m[node], self.length_of(node));
         let (mut low, mut high) = (NODES_SHARE, 1.0 - NODES_SHARE);
-        for spared in self.spared.iter().filter(|spared| spared.solid == solid && spared.line == line) {
+        for spared in
+            self.spared.iter().filter(|spared| spared.solid == solid && spared.line == line)
+        {
             let end = (self.spared_end(spared) - start) / length;
             if spared.at_start {
                 low = low.max(end);
@@ -340,7 +406,9 @@ impl SolidWork {
 
     fn is_spared(&self, solid: usize, line: usize, along_m: f64) -> bool {
         let here = |spared: &Spared| (along_m <= self.spared_end(spared)) == spared.at_start;
-        self.spared.iter().any(|spared| spared.solid == solid && spared.line == line && here(spared))
+        self.spared
+            .iter()
+            .any(|spared| spared.solid == solid && spared.line == line && here(spared))
     }
 
     /// Where along its line a spared length ends [m].
@@ -369,7 +437,14 @@ impl SolidWork {
         self.passes = 0;
     }
 
-    fn follow(&self, state: &State, solid: &Solid, pair: &mut Pair, places: [DVec3; 2], pose: &Pose) {
+    fn follow(
+        &self,
+        state: &State,
+        solid: &Solid,
+        pair: &mut Pair,
+        places: [DVec3; 2],
+        pose: &Pose,
+    ) {
         let fractions = self.inner_points(solid, pair, places, pose);
         for (slot, fraction) in pair.inner.iter_mut().zip(fractions) {
             let was_open = slot.open;
@@ -378,13 +453,20 @@ impl SolidWork {
                 slot.fraction = fraction;
             }
             if slot.open && !was_open {
-                *slot = self.regrip(state, solid, Slot { foretold_n: 0.0, kept: DVec3::ZERO, ..*slot });
+                *slot =
+                    self.regrip(state, solid, Slot { foretold_n: 0.0, kept: DVec3::ZERO, ..*slot });
             }
         }
     }
 
     /// Fractions of a segment at which it touches a solid between its nodes.
-    fn inner_points(&self, solid: &Solid, pair: &Pair, [a, b]: [DVec3; 2], pose: &Pose) -> [Option<f64>; 2] {
+    fn inner_points(
+        &self,
+        solid: &Solid,
+        pair: &Pair,
+        [a, b]: [DVec3; 2],
+        pose: &Pose,
+    ) -> [Option<f64>; 2] {
         let length = self.length_of(pair.node);
         let (low, high) = pair.range;
         if low >= high || solid.radius_m.is_infinite() {
@@ -401,12 +483,19 @@ impl SolidWork {
         }
         let within = |at: f64| (at > low + 1e-6 && at < high - 1e-6).then_some(at);
         let (first, last) = stretch.ends;
-        if (last - first) * length > TWO_POINTS_M { [within(first), within(last)] } else { [within(stretch.at), None] }
+        if (last - first) * length > TWO_POINTS_M {
+            [within(first), within(last)]
+        } else {
+            [within(stretch.at), None]
+        }
     }
 
     /// Every slot that is open.
     pub fn open_slots(&self) -> impl Iterator<Item = &Slot> {
-        self.nodes.iter().chain(self.pairs.iter().flat_map(|pair| &pair.inner)).filter(|slot| slot.open)
+        self.nodes
+            .iter()
+            .chain(self.pairs.iter().flat_map(|pair| &pair.inner))
+            .filter(|slot| slot.open)
     }
 
     /// Every slot that is open, to be changed.
@@ -418,7 +507,12 @@ impl SolidWork {
 }
 
 /// Whether a segment that goes from two places to two others may come within reach of a shape.
-fn may_reach(shape: &super::SolidShape, poses: &[Pose; 2], places: &[DVec3; 4], reach: f64) -> bool {
+fn may_reach(
+    shape: &super::SolidShape,
+    poses: &[Pose; 2],
+    places: &[DVec3; 4],
+    reach: f64,
+) -> bool {
     let middles = [0.5 * (places[0] + places[1]), 0.5 * (places[2] + places[3])];
     let half = 0.5 * (places[1] - places[0]).length().max((places[3] - places[2]).length());
     let (from, to) = (poses[0].inward(middles[0]), poses[1].inward(middles[1]));
@@ -429,7 +523,9 @@ fn may_reach(shape: &super::SolidShape, poses: &[Pose; 2], places: &[DVec3; 4], 
 /// The least distance of a segment from a solid, ends included.
 pub(crate) fn least_distance(solid: &Solid, pose: &Pose, a: DVec3, b: DVec3) -> f64 {
     let (a, b) = (pose.inward(a), pose.inward(b));
-    least(|at| solid.shape.distance(a.lerp(b, at)), (0.0, 1.0)).min(solid.shape.distance(a)).min(solid.shape.distance(b))
+    least(|at| solid.shape.distance(a.lerp(b, at)), (0.0, 1.0))
+        .min(solid.shape.distance(a))
+        .min(solid.shape.distance(b))
 }
 
 /// Ends of lines made fast to bodies.
@@ -441,7 +537,9 @@ fn spared(model: &Model, solids: &[Solid]) -> Vec<Spared> {
     }
     for (index, line) in model.spec.lines.iter().enumerate() {
         for (joint, at_start) in [(line.from, true), (line.to, false)] {
-            let JointKind::Body { body, offset_m } = model.spec.joints[joint].kind else { continue };
+            let JointKind::Body { body, offset_m } = model.spec.joints[joint].kind else {
+                continue;
+            };
             let solid = obstacles + body;
             let length_m = SPARED_M.max(-2.0 * solids[solid].shape.distance(offset_m));
             list.push(Spared { line: index, solid, at_start, length_m });

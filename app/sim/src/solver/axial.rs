@@ -31,8 +31,15 @@ pub(crate) struct Axial<R = f64> {
 impl Axial {
     /// The law of a segment of this unstretched length [m].
     pub fn of(rope: &Rope, length_m: f64) -> Self {
-        let ratio = 2.0 * rope.axial_damping_ratio * length_m * (rope.axial_stiffness_n * rope.mass_kg_m).sqrt();
-        Self { ea: rope.axial_stiffness_n, ea2: rope.axial_stiffening_n, damping: rope.axial_damping_n_s + ratio }
+        let ratio = 2.0
+            * rope.axial_damping_ratio
+            * length_m
+            * (rope.axial_stiffness_n * rope.mass_kg_m).sqrt();
+        Self {
+            ea: rope.axial_stiffness_n,
+            ea2: rope.axial_stiffening_n,
+            damping: rope.axial_damping_n_s + ratio,
+        }
     }
 }
 
@@ -63,7 +70,11 @@ mod tests {
     /// The toe of 3/8 in polypropylene: strength 10,854 N at a stretch of 0.22.
     fn toe() -> Axial {
         let (strength, stretch) = (10_854.0, 0.22);
-        Axial { ea: 0.35 * strength / stretch, ea2: 0.65 * strength / (stretch * stretch), damping: 0.0 }
+        Axial {
+            ea: 0.35 * strength / stretch,
+            ea2: 0.65 * strength / (stretch * stretch),
+            damping: 0.0,
+        }
     }
 
     #[test]
@@ -77,7 +88,8 @@ mod tests {
     #[test]
     fn work_to_break_is_that_of_the_toe() {
         let expected = 10_854.0 * 0.22 * (0.35 / 2.0 + 0.65 / 3.0);
-        let work = 0.22 / 6.0 * (toe().tension(0.0, 0.0) + 4.0 * toe().tension(0.11, 0.0) + toe().tension(0.22, 0.0));
+        let work = 0.22 / 6.0
+            * (toe().tension(0.0, 0.0) + 4.0 * toe().tension(0.11, 0.0) + toe().tension(0.22, 0.0));
         assert!((work / expected - 1.0).abs() < 1e-12, "{work} against {expected}");
     }
 
@@ -86,8 +98,9 @@ mod tests {
         let law = Axial { damping: 3.0, ..toe() };
         for strain in [-0.05, -1e-3, 0.02, 0.15] {
             let step = 1e-6;
-            let difference =
-                (law.tension(strain + step, 40.0 * (strain + step)) - law.tension(strain - step, 40.0 * (strain - step))) / (2.0 * step);
+            let difference = (law.tension(strain + step, 40.0 * (strain + step))
+                - law.tension(strain - step, 40.0 * (strain - step)))
+                / (2.0 * step);
             assert!((law.slope(strain, 40.0) / difference - 1.0).abs() < 1e-6);
         }
     }

@@ -34,7 +34,8 @@ struct Hinge {
 impl Hinge {
     /// `g` of vectors at the nodes: of places the turn, of moves its change.
     fn turn(&self, at: &[DVec3]) -> DVec3 {
-        (at[self.node + 1] - at[self.node]) * self.inverse[1] - (at[self.node] - at[self.node - 1]) * self.inverse[0]
+        (at[self.node + 1] - at[self.node]) * self.inverse[1]
+            - (at[self.node] - at[self.node - 1]) * self.inverse[0]
     }
 }
 
@@ -48,7 +49,9 @@ impl Solver {
             band.force[hinge.node - 1] -= pull * before;
             band.force[hinge.node] += pull * (before + after);
             band.force[hinge.node + 1] -= pull * after;
-            for (segment, node, inverse) in [(hinge.before, hinge.node, before), (hinge.before + 1, hinge.node + 1, after)] {
+            for (segment, node, inverse) in
+                [(hinge.before, hinge.node, before), (hinge.before + 1, hinge.node + 1, after)]
+            {
                 let block = DMat3::from_diagonal(DVec3::splat(hinge.stiffness * inverse * inverse));
                 band.diagonal[node - 1] += block;
                 band.diagonal[node] += block;

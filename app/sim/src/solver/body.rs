@@ -24,7 +24,8 @@ impl Solver {
     /// Adds inertia, weight, floats, drag and seabed of every body.
     pub(super) fn add_bodies(&mut self, model: &Model, state: &State, scheme: &Scheme) {
         for (index, body) in model.spec.bodies.iter().enumerate() {
-            self.hubs.force[self.plan.body_block[index]].z -= body.mass_kg * model.spec.water.gravity_m_s2;
+            self.hubs.force[self.plan.body_block[index]].z -=
+                body.mass_kg * model.spec.water.gravity_m_s2;
             let wet = self.add_floats(model, state, (index, body), scheme);
             self.add_body_inertia(state, (index, body, wet), scheme);
             self.add_part_drag(model, state, (index, DVec3::ZERO, body.drag_area_m2 * wet), scheme);
@@ -38,11 +39,22 @@ impl Solver {
     }
 
     /// Buoyancy and drag of a body's floats; gives its wet share, for drag and added mass as a whole.
-    fn add_floats(&mut self, model: &Model, state: &State, (index, body): (usize, &Body), scheme: &Scheme) -> f64 {
+    fn add_floats(
+        &mut self,
+        model: &Model,
+        state: &State,
+        (index, body): (usize, &Body),
+        scheme: &Scheme,
+    ) -> f64 {
         let (mut wet, mut whole) = (0.0, 0.0);
         for float in &body.floats {
             let share = self.add_float(model, (index, float), scheme);
-            self.add_part_drag(model, state, (index, float.offset_m, float.drag_area_m2 * share), scheme);
+            self.add_part_drag(
+                model,
+                state,
+                (index, float.offset_m, float.drag_area_m2 * share),
+                scheme,
+            );
             wet += share * float.volume_m3;
             whole += float.volume_m3;
         }
@@ -50,12 +62,20 @@ impl Solver {
     }
 
     /// Buoyancy of a float; gives its wet share.
-    fn add_float(&mut self, model: &Model, (index, float): (usize, &Float), scheme: &Scheme) -> f64 {
+    fn add_float(
+        &mut self,
+        model: &Model,
+        (index, float): (usize, &Float),
+        scheme: &Scheme,
+    ) -> f64 {
         let water = &model.spec.water;
         let trial = self.trial.bodies[index];
         let block = self.plan.body_block[index];
         let arm = trial.orientation * float.offset_m;
-        let wet = float.form.wet(trial.place.z + arm.z - self.flow_bodies[index].surface_m, trial.orientation * DVec3::Z);
+        let wet = float.form.wet(
+            trial.place.z + arm.z - self.flow_bodies[index].surface_m,
+            trial.orientation * DVec3::Z,
+        );
         let lift = water.density_kg_m3 * water.gravity_m_s2 * float.volume_m3;
         let seat = Seat::Body { block, body: index, offset: float.offset_m };
         let (up, force) = (outer(DVec3::Z, DVec3::Z), DVec3::Z * (lift * wet.share));
@@ -65,16 +85,23 @@ impl Solver {
             return wet.share;
         }
         self.hubs.add(seat, arm, seat, arm, up * (lift * wet.slope));
-        *self.hubs.at(block + 1, block + 1) += turn_stiffness(arm, force) + (DMat3::IDENTITY - up) * (lift * wet.turn);
+        *self.hubs.at(block + 1, block + 1) +=
+            turn_stiffness(arm, force) + (DMat3::IDENTITY - up) * (lift * wet.turn);
         wet.share
     }
 
-    fn add_body_inertia(&mut self, state: &State, (index, body, wet): (usize, &Body, f64), scheme: &Scheme) {
+    fn add_body_inertia(
+        &mut self,
+        state: &State,
+        (index, body, wet): (usize, &Body, f64),
+        scheme: &Scheme,
+    ) {
         let (trial, now) = (self.trial.bodies[index], &state.bodies[index]);
         let block = self.plan.body_block[index];
         let axes = DMat3::from_quat(trial.orientation);
         let turned = |diagonal: DVec3| axes * DMat3::from_diagonal(diagonal) * axes.transpose();
-        let mass = DMat3::from_diagonal(DVec3::splat(body.mass_kg)) + turned(body.added_mass_kg * wet);
+        let mass =
+            DMat3::from_diagonal(DVec3::splat(body.mass_kg)) + turned(body.added_mass_kg * wet);
         let inertia = turned(body.inertia_kg_m2 + body.added_inertia_kg_m2 * wet);
         let share = scheme.inertia * trial.burden;
         *self.hubs.at(block, block) += mass * share;
@@ -82,14 +109,16 @@ impl Solver {
             *self.hubs.at(block + 1, block + 1) += inertia * share;
             if scheme.anchored {
                 self.hubs.force[block] -= mass * ((trial.place - trial.place_history) * share);
-                self.hubs.force[block + 1] -= inertia * (spin(trial.orientation, trial.anchor, 1.0) * share);
+                self.hubs.force[block + 1] -=
+                    inertia * (spin(trial.orientation, trial.anchor, 1.0) * share);
             }
         } else {
             let velocity = (trial.place - trial.place_history) * scheme.rate;
             let turn_rate = 1.0 / scheme.dt;
             let spin = spin(trial.orientation, now.orientation, scheme.dt);
             self.hubs.force[block] -= mass * ((velocity - trial.velocity_history) * scheme.rate);
-            self.hubs.force[block + 1] -= inertia * ((spin - now.spin) * turn_rate) + spin.cross(inertia * spin);
+            self.hubs.force[block + 1] -=
+                inertia * ((spin - now.spin) * turn_rate) + spin.cross(inertia * spin);
             *self.hubs.at(block + 1, block + 1) += inertia * (turn_rate * turn_rate);
         }
         if trial.held {
@@ -101,7 +130,13 @@ impl Solver {
     }
 
     /// Drag of a part of a body, its coefficient times area given by body axis, at a place in the body's frame.
-    fn add_part_drag(&mut self, model: &Model, state: &State, (index, offset, area): (usize, DVec3, DVec3), scheme: &Scheme) {
+    fn add_part_drag(
+        &mut self,
+        model: &Model,
+        state: &State,
+        (index, offset, area): (usize, DVec3, DVec3),
+        scheme: &Scheme,
+    ) {
         if area == DVec3::ZERO {
             return;
         }
@@ -118,7 +153,8 @@ impl Solver {
         let seat = Seat::Body { block, body: index, offset };
         self.hubs.push(seat, arm, axes * (area * relative * (half_density * speed)));
         if !scheme.is_static() {
-            let slope = area * (DVec3::splat(speed) + relative * relative / speed.max(1e-9)) * half_density;
+            let slope =
+                area * (DVec3::splat(speed) + relative * relative / speed.max(1e-9)) * half_density;
             let slope = axes * DMat3::from_diagonal(slope * scheme.rate) * axes.transpose();
             // Place and rotation move by different schemes.
             self.hubs.add(seat, arm, seat, arm / (scheme.dt * scheme.rate), slope);
@@ -126,7 +162,13 @@ impl Solver {
     }
 
     /// Drag that a body's turning meets besides that of its parts.
-    fn add_turn_drag(&mut self, model: &Model, state: &State, (index, body, wet): (usize, &Body, f64), scheme: &Scheme) {
+    fn add_turn_drag(
+        &mut self,
+        model: &Model,
+        state: &State,
+        (index, body, wet): (usize, &Body, f64),
+        scheme: &Scheme,
+    ) {
         if scheme.is_static() {
             return;
         }
@@ -137,7 +179,8 @@ impl Solver {
         let spin = axes.transpose() * spin(trial.orientation, now.orientation, scheme.dt);
         self.hubs.force[block + 1] -= axes * (body.turn_drag_m5 * spin * spin.abs() * half_density);
         let slope = body.turn_drag_m5 * spin.abs() * (2.0 * half_density / scheme.dt);
-        *self.hubs.at(block + 1, block + 1) += axes * DMat3::from_diagonal(slope) * axes.transpose();
+        *self.hubs.at(block + 1, block + 1) +=
+            axes * DMat3::from_diagonal(slope) * axes.transpose();
     }
 }
 

@@ -64,7 +64,12 @@ impl Band {
     }
 
     /// Eliminates the inner nodes of a line; `a_moves` says whether end A has freedom at all.
-    pub fn eliminate(&mut self, nodes: &Range<usize>, segments: &Range<usize>, a_moves: bool) -> Ends {
+    pub fn eliminate(
+        &mut self,
+        nodes: &Range<usize>,
+        segments: &Range<usize>,
+        a_moves: bool,
+    ) -> Ends {
         let (a, b) = (nodes.start, nodes.end - 1);
         let (mut fill, mut gill) = (self.low[segments.start], self.up[segments.start]);
         let (mut aa, mut force_a) = (self.diagonal[a], self.force[a]);
@@ -89,7 +94,14 @@ impl Band {
     }
 
     /// Moves of the inner nodes from the moves of the ends.
-    pub fn substitute(&mut self, nodes: &Range<usize>, segments: &Range<usize>, a_moves: bool, step_a: DVec3, step_b: DVec3) {
+    pub fn substitute(
+        &mut self,
+        nodes: &Range<usize>,
+        segments: &Range<usize>,
+        a_moves: bool,
+        step_a: DVec3,
+        step_b: DVec3,
+    ) {
         let (a, b) = (nodes.start, nodes.end - 1);
         self.step[a] = step_a;
         self.step[b] = step_b;

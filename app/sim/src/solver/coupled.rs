@@ -97,7 +97,14 @@ impl<T: Columns> Again<T> {
     }
 
     /// Solves the factored system for the right-hand side, on some lines alone.
-    fn solve(&mut self, model: &Model, band: &Band, hubs: &Hubs, seats: &[(Seat, DVec3)], wanted: impl Fn(usize) -> bool) {
+    fn solve(
+        &mut self,
+        model: &Model,
+        band: &Band,
+        hubs: &Hubs,
+        seats: &[(Seat, DVec3)],
+        wanted: impl Fn(usize) -> bool,
+    ) {
         let lines = || model.spec.lines.iter().enumerate().filter(|(index, _)| wanted(*index));
         for (index, line) in lines() {
             let ((seat_a, arm_a), (seat_b, arm_b)) = (seats[line.from], seats[line.to]);
@@ -108,7 +115,8 @@ impl<T: Columns> Again<T> {
         }
         hubs.solve_again(&mut self.hub_right, &mut self.hub_step);
         for (index, line) in lines() {
-            let ends = [seats[line.from], seats[line.to]].map(|(seat, arm)| hubs.step_again(seat, arm, &self.hub_step));
+            let ends = [seats[line.from], seats[line.to]]
+                .map(|(seat, arm)| hubs.step_again(seat, arm, &self.hub_step));
             let (nodes, segments) = (&model.line_nodes[index], &model.line_segments[index]);
             let a_moves = seats[line.from].0 != Seat::Fixed;
             band.substitute_again((nodes, segments), a_moves, ends, &self.right, &mut self.step);
@@ -118,7 +126,13 @@ impl<T: Columns> Again<T> {
 
 impl Band {
     /// Eliminates the inner nodes from another right-hand side, after [`eliminate`](Self::eliminate); what is left on both ends.
-    fn reduce_again<T: Columns>(&self, nodes: &Range<usize>, segments: &Range<usize>, a_moves: bool, right: &mut [T]) -> [T; 2] {
+    fn reduce_again<T: Columns>(
+        &self,
+        nodes: &Range<usize>,
+        segments: &Range<usize>,
+        a_moves: bool,
+        right: &mut [T],
+    ) -> [T; 2] {
         let (a, b) = (nodes.start, nodes.end - 1);
         let mut end_a = right[a];
         for (node, segment) in (a + 1..b).zip(segments.start + 1..segments.end) {
@@ -187,7 +201,8 @@ impl Coupling {
         }));
         for column in 0..self.touches.len() {
             self.three.begin(model.node_count, hubs.step.len());
-            for (nodes, _) in model.line_nodes.iter().zip(&self.lines).filter(|(_, there)| **there) {
+            for (nodes, _) in model.line_nodes.iter().zip(&self.lines).filter(|(_, there)| **there)
+            {
                 self.three.right[nodes.clone()].fill(DMat3::ZERO);
             }
             for (node, weight) in self.touches[column].weights() {
@@ -235,7 +250,9 @@ fn solve_in_place(matrix: &mut [f64], right: &mut [f64]) {
     let rows = right.len();
     for pivot in 0..rows {
         let size = |row: usize, matrix: &[f64]| matrix[row * rows + pivot].abs();
-        let best = (pivot + 1..rows).fold(pivot, |best, row| if size(row, matrix) > size(best, matrix) { row } else { best });
+        let best = (pivot + 1..rows).fold(pivot, |best, row| {
+            if size(row, matrix) > size(best, matrix) { row } else { best }
+        });
         if best != pivot {
             let (above, below) = matrix.split_at_mut(best * rows);
             above[pivot * rows..(pivot + 1) * rows].swap_with_slice(&mut below[..rows]);
@@ -246,13 +263,17 @@ fn solve_in_place(matrix: &mut [f64], right: &mut [f64]) {
         for (row, values) in below.chunks_exact_mut(rows).enumerate() {
             let factor = values[pivot] / lead[pivot];
             if factor != 0.0 {
-                values[pivot + 1..].iter_mut().zip(&lead[pivot + 1..]).for_each(|(value, above)| *value -= factor * above);
+                values[pivot + 1..]
+                    .iter_mut()
+                    .zip(&lead[pivot + 1..])
+                    .for_each(|(value, above)| *value -= factor * above);
                 right[pivot + 1 + row] -= factor * right[pivot];
             }
         }
     }
     for row in (0..rows).rev() {
-        let known: f64 = (row + 1..rows).map(|column| matrix[row * rows + column] * right[column]).sum();
+        let known: f64 =
+            (row + 1..rows).map(|column| matrix[row * rows + column] * right[column]).sum();
         right[row] = (right[row] - known) / matrix[row * rows + row];
     }
 }
@@ -265,8 +286,14 @@ mod tests {
     fn a_dense_system_that_needs_pivots_is_solved() {
         let matrix = [0.0, 2.0, -1.0, 1e-9, 1.0, 3.0, 4.0, -2.0, 0.5];
         let wanted = [1.5, -2.0, 0.25];
-        let mut right: Vec<f64> = matrix.chunks_exact(3).map(|row| row.iter().zip(&wanted).map(|(a, x)| a * x).sum()).collect();
+        let mut right: Vec<f64> = matrix
+            .chunks_exact(3)
+            .map(|row| row.iter().zip(&wanted).map(|(a, x)| a * x).sum())
+            .collect();
         solve_in_place(&mut matrix.clone(), &mut right);
-        assert!(right.iter().zip(&wanted).all(|(got, wanted)| (got - wanted).abs() < 1e-12), "{right:?}");
+        assert!(
+            right.iter().zip(&wanted).all(|(got, wanted)| (got - wanted).abs() < 1e-12),
+            "{right:?}"
+        );
     }
 }

@@ -75,7 +75,8 @@ pub(crate) struct Shared<R> {
 impl Shared<f64> {
     /// A step of this scheme.
     pub fn of(model: &Model, scheme: &Scheme) -> Self {
-        let (wet, drying) = if model.spec.water.rope_dries { (0.5, 1.0 / SURFACE_HEIGHT_M) } else { (1.0, 0.0) };
+        let (wet, drying) =
+            if model.spec.water.rope_dries { (0.5, 1.0 / SURFACE_HEIGHT_M) } else { (1.0, 0.0) };
         Self { rate: scheme.rate, inertia: scheme.inertia, wet, drying }
     }
 }
@@ -106,7 +107,11 @@ pub(crate) struct NodeAt<R> {
 
 /// Force on a node and `-dF/dx`.
 #[inline(always)]
-pub(crate) fn node<R: Real>(rope: &PerMetre<R>, shared: &Shared<R>, at: &NodeAt<R>) -> (Vec3<R>, Sym3<R>) {
+pub(crate) fn node<R: Real>(
+    rope: &PerMetre<R>,
+    shared: &Shared<R>,
+    at: &NodeAt<R>,
+) -> (Vec3<R>, Sym3<R>) {
     let one = shared.rate.splat(1.0);
     let tiny = shared.rate.splat(TINY);
     let chord = at.after.sub(at.before);
@@ -138,7 +143,8 @@ pub(crate) fn node<R: Real>(rope: &PerMetre<R>, shared: &Shared<R>, at: &NodeAt<
     let lift = rope.lift * at.length;
     let zero = shared.rate.splat(0.0);
     let fading = wet.positive((one - wet).positive(lift * shared.drying, zero), zero);
-    let mut force = drag.less(acceleration, mass + added).plus(tangent, spared * along_acceleration);
+    let mut force =
+        drag.less(acceleration, mass + added).plus(tangent, spared * along_acceleration);
     force.z = force.z.plus(lift, wet).less(rope.weight, at.length);
     (force, Sym3 { zz: block.zz + fading, ..block })
 }

@@ -127,11 +127,13 @@ impl Solver {
     /// Moves the bodies by a share of the solved step; the longest solved move and whether all are finite.
     pub(super) fn advance_bodies(&mut self, share: f64) -> (f64, bool) {
         let (mut longest, mut finite) = (0.0_f64, true);
-        for (index, body) in self.trial.bodies.iter_mut().enumerate().filter(|(_, body)| !body.held) {
+        for (index, body) in self.trial.bodies.iter_mut().enumerate().filter(|(_, body)| !body.held)
+        {
             let block = self.plan.body_block[index];
             let (step, turn) = (self.hubs.step[block], self.hubs.step[block + 1]);
             body.place += step * share;
-            body.orientation = (DQuat::from_scaled_axis(turn * share) * body.orientation).normalize();
+            body.orientation =
+                (DQuat::from_scaled_axis(turn * share) * body.orientation).normalize();
             longest = longest.max(step.length());
             finite &= step.is_finite() && turn.is_finite();
         }
@@ -146,7 +148,8 @@ impl Solver {
                 let Seat::Body { block, .. } = seat else { continue };
                 let (direction, tension) = self.lanes.end_pull(index, at_b);
                 let arm = Plan::arm(seat, |body| self.trial.bodies[body].orientation);
-                *self.hubs.at(block + 1, block + 1) += body::turn_stiffness(arm, direction * (sign * tension.max(0.0)));
+                *self.hubs.at(block + 1, block + 1) +=
+                    body::turn_stiffness(arm, direction * (sign * tension.max(0.0)));
             }
         }
     }

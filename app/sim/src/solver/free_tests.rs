@@ -4,7 +4,9 @@ use glam::{DQuat, DVec3};
 use pulp::Arch;
 
 use super::*;
-use crate::model::{Body, BodyRole, Joint, JointKind, Line, ModelSpec, Rope, Seabed, Settings, Shape, Strength};
+use crate::model::{
+    Body, BodyRole, Joint, JointKind, Line, ModelSpec, Rope, Seabed, Settings, Shape, Strength,
+};
 use crate::water::{Current, Water};
 
 /// Passes after which Newton has long come to rest, though bending is solved for only roughly in each.
@@ -61,7 +63,9 @@ fn model(depth_m: f64, current_m_s: f64) -> Model {
         rope,
         from,
         to,
-        segments_m: (0..segments).map(|k| length_m / segments as f64 * if k % 2 == 0 { 1.1 } else { 0.9 }).collect(),
+        segments_m: (0..segments)
+            .map(|k| length_m / segments as f64 * if k % 2 == 0 { 1.1 } else { 0.9 })
+            .collect(),
         strength: Strength::default(),
         start_m: Vec::new(),
     };
@@ -74,15 +78,29 @@ fn model(depth_m: f64, current_m_s: f64) -> Model {
             current: Current::uniform(DVec3::new(current_m_s, 0.2 * current_m_s, 0.0)),
             waves: None,
         },
-        seabed: Some(Seabed { depth_m, normal: DVec3::Z, rope_stiffness_n_m2: 5e3, foot_stiffness_n_m: 1e5, rope_friction: 0.5 }),
+        seabed: Some(Seabed {
+            depth_m,
+            normal: DVec3::Z,
+            rope_stiffness_n_m2: 5e3,
+            foot_stiffness_n_m: 1e5,
+            rope_friction: 0.5,
+        }),
         ropes: vec![rope("float", 0.05, 0.0), rope("sink", 0.08, 0.02)],
         joints: vec![
             joint("anchor", JointKind::Fixed, DVec3::new(0.0, 0.0, -20.0)),
             joint("splice", JointKind::Free, DVec3::new(6.0, 1.0, -14.0)),
-            joint("buoy", JointKind::Body { body: 0, offset_m: DVec3::new(0.0, 0.0, -0.2) }, DVec3::ZERO),
+            joint(
+                "buoy",
+                JointKind::Body { body: 0, offset_m: DVec3::new(0.0, 0.0, -0.2) },
+                DVec3::ZERO,
+            ),
             joint("tail", JointKind::Free, DVec3::new(9.0, -7.0, -19.0)),
         ],
-        lines: vec![line("low", 0, 0, 1, 9.0, 60), line("high", 1, 1, 2, 11.0, 37), line("tail", 1, 1, 3, 12.0, 9)],
+        lines: vec![
+            line("low", 0, 0, 1, 9.0, 60),
+            line("high", 1, 1, 2, 11.0, 37),
+            line("tail", 1, 1, 3, 12.0, 9),
+        ],
         bodies: vec![buoy()],
         links: Vec::new(),
         gear: Vec::new(),
@@ -96,7 +114,13 @@ fn model(depth_m: f64, current_m_s: f64) -> Model {
 }
 
 /// Places after `passes` passes of one step from a rig that has begun to move.
-fn in_lanes(model: &Model, state: &State, scheme: &Scheme, passes: usize, arch: Option<Arch>) -> Vec<DVec3> {
+fn in_lanes(
+    model: &Model,
+    state: &State,
+    scheme: &Scheme,
+    passes: usize,
+    arch: Option<Arch>,
+) -> Vec<DVec3> {
     let mut solver = Solver::new(model);
     if let Some(arch) = arch {
         solver.lanes.set_arch(arch);
@@ -114,7 +138,8 @@ fn moving(model: &Model) -> State {
     let mut state = State::start(model);
     let mut workspace = crate::Workspace::new(model);
     for _ in 0..5 {
-        crate::step(model, &crate::Input::default(), &mut state, &mut workspace).expect("a rig that moves");
+        crate::step(model, &crate::Input::default(), &mut state, &mut workspace)
+            .expect("a rig that moves");
     }
     state
 }
@@ -124,15 +149,24 @@ fn eight(model: &Model) -> Model {
     let (mut spec, one) = (model.spec.clone(), &model.spec);
     for rig in 1..8 {
         let (joints, bodies) = (spec.joints.len(), spec.bodies.len());
-        spec.bodies.extend(one.bodies.iter().map(|body| Body { id: format!("{}-{rig}", body.id), ..body.clone() }));
+        spec.bodies.extend(
+            one.bodies.iter().map(|body| Body { id: format!("{}-{rig}", body.id), ..body.clone() }),
+        );
         spec.joints.extend(one.joints.iter().map(|joint| {
             let kind = match &joint.kind {
-                JointKind::Body { body, offset_m } => JointKind::Body { body: body + bodies, offset_m: *offset_m },
+                JointKind::Body { body, offset_m } => {
+                    JointKind::Body { body: body + bodies, offset_m: *offset_m }
+                }
                 kind => kind.clone(),
             };
             Joint { id: format!("{}-{rig}", joint.id), kind, ..joint.clone() }
         }));
-        let line = |line: &Line| Line { id: format!("{}-{rig}", line.id), from: line.from + joints, to: line.to + joints, ..line.clone() };
+        let line = |line: &Line| Line {
+            id: format!("{}-{rig}", line.id),
+            from: line.from + joints,
+            to: line.to + joints,
+            ..line.clone()
+        };
         spec.lines.extend(one.lines.iter().map(line));
     }
     Model::new(spec).expect("eight sound models")
@@ -149,9 +183,25 @@ fn lanes_solve_what_the_lines_solve() {
             solver.pass(&model, &state, &scheme);
         }
         let lanes = in_lanes(&model, &state, &scheme, PASSES, None);
-        let apart = solver.trial.place.iter().zip(&lanes).map(|(one, other)| one.distance(*other)).fold(0.0, f64::max);
-        let moved = state.rope.position.iter().zip(&lanes).map(|(one, other)| one.distance(*other)).fold(0.0, f64::max);
-        assert!(moved > 1e-3 && apart < 1e-9, "{} nodes: {apart} m apart after a move of {moved} m", model.node_count);
+        let apart = solver
+            .trial
+            .place
+            .iter()
+            .zip(&lanes)
+            .map(|(one, other)| one.distance(*other))
+            .fold(0.0, f64::max);
+        let moved = state
+            .rope
+            .position
+            .iter()
+            .zip(&lanes)
+            .map(|(one, other)| one.distance(*other))
+            .fold(0.0, f64::max);
+        assert!(
+            moved > 1e-3 && apart < 1e-9,
+            "{} nodes: {apart} m apart after a move of {moved} m",
+            model.node_count
+        );
     }
 }
 
@@ -161,5 +211,10 @@ fn the_width_of_the_lanes_changes_no_bit() {
     let (state, scheme) = (moving(&model), Scheme::bdf2(0.01, 0.01));
     let wide = in_lanes(&model, &state, &scheme, 3, None);
     let narrow = in_lanes(&model, &state, &scheme, 3, Some(Arch::Scalar));
-    assert!(wide.iter().zip(&narrow).all(|(one, other)| one.to_array().map(f64::to_bits) == other.to_array().map(f64::to_bits)));
+    assert!(
+        wide.iter()
+            .zip(&narrow)
+            .all(|(one, other)| one.to_array().map(f64::to_bits)
+                == other.to_array().map(f64::to_bits))
+    );
 }

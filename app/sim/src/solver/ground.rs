@@ -56,16 +56,33 @@ impl Grip {
 
     /// Grip of stiffness `stiffness` stretched to `stretch` across `normal`, under normal force `push`
     /// with derivative `push_rate` by depth.
-    pub fn new(stretch: DVec3, normal: DVec3, stiffness: f64, friction: f64, (push, push_rate): (f64, f64)) -> Self {
+    pub fn new(
+        stretch: DVec3,
+        normal: DVec3,
+        stiffness: f64,
+        friction: f64,
+        (push, push_rate): (f64, f64),
+    ) -> Self {
         let plane = DMat3::IDENTITY - outer(normal, normal);
         let stretch = plane * stretch;
         let (length, limit) = (stretch.length(), friction * push);
         if stiffness * length <= limit || length <= 0.0 {
-            return Self { force: stretch * -stiffness, block: plane * stiffness, kept: stretch, slips: false };
+            return Self {
+                force: stretch * -stiffness,
+                block: plane * stiffness,
+                kept: stretch,
+                slips: false,
+            };
         }
         let direction = stretch / length;
-        let block = (plane - outer(direction, direction)) * (limit / length) - outer(direction, normal) * (friction * push_rate);
-        Self { force: direction * -limit, block, kept: direction * (limit / stiffness), slips: true }
+        let block = (plane - outer(direction, direction)) * (limit / length)
+            - outer(direction, normal) * (friction * push_rate);
+        Self {
+            force: direction * -limit,
+            block,
+            kept: direction * (limit / stiffness),
+            slips: true,
+        }
     }
 }
 
@@ -92,7 +109,11 @@ impl Seabed {
     /// Depth at which one foot bears a load [m].
     pub(crate) fn depth_under(&self, load_n: f64) -> f64 {
         let depth = load_n / self.foot_stiffness_n_m + 0.5 * ONSET_M;
-        if depth < ONSET_M { (2.0 * ONSET_M * load_n / self.foot_stiffness_n_m).sqrt() } else { depth }
+        if depth < ONSET_M {
+            (2.0 * ONSET_M * load_n / self.foot_stiffness_n_m).sqrt()
+        } else {
+            depth
+        }
     }
 
     /// Push on one foot at a place [N].
@@ -127,11 +148,25 @@ impl Solver {
         }
     }
 
-    fn rope_grip(&self, seabed: &Seabed, state: &State, scheme: &Scheme, node: usize, stiffness: f64) -> Grip {
-        let stretch = state.rope.seabed_grip[node] + self.trial.place[node] - state.rope.position[node];
+    fn rope_grip(
+        &self,
+        seabed: &Seabed,
+        state: &State,
+        scheme: &Scheme,
+        node: usize,
+        stiffness: f64,
+    ) -> Grip {
+        let stretch =
+            state.rope.seabed_grip[node] + self.trial.place[node] - state.rope.position[node];
         let push = press(seabed.depth_of(self.trial.place[node]), stiffness);
         if scheme.is_static() {
-            return Grip::smooth(stretch, seabed.normal, stiffness, seabed.rope_friction * push.0, trust(scheme));
+            return Grip::smooth(
+                stretch,
+                seabed.normal,
+                stiffness,
+                seabed.rope_friction * push.0,
+                trust(scheme),
+            );
         }
         Grip::new(stretch, seabed.normal, stiffness, seabed.rope_friction, push)
     }
@@ -144,9 +179,14 @@ impl Solver {
             let arm = self.trial.bodies[index].orientation * body.feet_m[foot];
             let place = self.trial.bodies[index].place + arm;
             let depth = seabed.depth_of(place);
-            let seat = Seat::Body { block: self.plan.body_block[index], body: index, offset: body.feet_m[foot] };
+            let seat = Seat::Body {
+                block: self.plan.body_block[index],
+                body: index,
+                offset: body.feet_m[foot],
+            };
             if depth <= 0.0 {
-                let (pull, rate) = suction::pull(body.foot_break_out_n, -depth, state.bodies[index].lift_m[foot]);
+                let (pull, rate) =
+                    suction::pull(body.foot_break_out_n, -depth, state.bodies[index].lift_m[foot]);
                 if pull > 0.0 && !scheme.is_static() {
                     self.hubs.push(seat, arm, seabed.normal * -pull);
                     self.hubs.add(seat, arm, seat, arm, outer(seabed.normal, seabed.normal) * rate);
@@ -154,14 +194,24 @@ impl Solver {
                 continue;
             }
             let before = foot_before(state, index, body, foot);
-            let damping =
-                if scheme.is_static() { 0.0 } else { FOOT_DAMPING * (seabed.foot_stiffness_n_m * body.mass_kg).sqrt() / scheme.dt };
+            let damping = if scheme.is_static() {
+                0.0
+            } else {
+                FOOT_DAMPING * (seabed.foot_stiffness_n_m * body.mass_kg).sqrt() / scheme.dt
+            };
             let (push, push_rate) = press(depth, seabed.foot_stiffness_n_m);
             let push = (push + damping * seabed.normal.dot(before - place)).max(0.0);
             let push_rate = push_rate + damping;
-            let grip = foot_grip(seabed, state, scheme, (index, body, foot), place, (push, push_rate));
+            let grip =
+                foot_grip(seabed, state, scheme, (index, body, foot), place, (push, push_rate));
             self.hubs.push(seat, arm, seabed.normal * push + grip.force);
-            self.hubs.add(seat, arm, seat, arm, outer(seabed.normal, seabed.normal) * push_rate + grip.block);
+            self.hubs.add(
+                seat,
+                arm,
+                seat,
+                arm,
+                outer(seabed.normal, seabed.normal) * push_rate + grip.block,
+            );
         }
     }
 
@@ -169,10 +219,14 @@ impl Solver {
     pub(super) fn keep_grips(&self, model: &Model, scheme: &Scheme, state: &mut State) {
         let Some(seabed) = &model.spec.seabed else { return };
         for node in 0..model.node_count {
-            let on_ground = seabed.depth_of(self.trial.place[node]) > 0.0 && grips_rope(seabed, state, node, scheme);
+            let on_ground = seabed.depth_of(self.trial.place[node]) > 0.0
+                && grips_rope(seabed, state, node, scheme);
             let stiffness = seabed.rope_stiffness_n_m2 * self.lengths.node[node];
-            state.rope.seabed_grip[node] =
-                if on_ground { self.rope_grip(seabed, state, scheme, node, stiffness).kept } else { DVec3::ZERO };
+            state.rope.seabed_grip[node] = if on_ground {
+                self.rope_grip(seabed, state, scheme, node, stiffness).kept
+            } else {
+                DVec3::ZERO
+            };
         }
         self.keep_feet(model, scheme, state);
     }
@@ -194,8 +248,15 @@ impl Solver {
         }
     }
 
-    fn keep_foot(&self, seabed: &Seabed, scheme: &Scheme, (index, body, foot): (usize, &Body, usize), state: &mut State) {
-        let place = self.trial.bodies[index].place + self.trial.bodies[index].orientation * body.feet_m[foot];
+    fn keep_foot(
+        &self,
+        seabed: &Seabed,
+        scheme: &Scheme,
+        (index, body, foot): (usize, &Body, usize),
+        state: &mut State,
+    ) {
+        let place = self.trial.bodies[index].place
+            + self.trial.bodies[index].orientation * body.feet_m[foot];
         let push = press(seabed.depth_of(place), seabed.foot_stiffness_n_m);
         let (kept, slides) = if push.0 > 0.0 {
             let grip = foot_grip(seabed, state, scheme, (index, body, foot), place, push);
@@ -211,7 +272,8 @@ impl Solver {
             (DVec3::ZERO, false)
         };
         let lift = -seabed.depth_of(place);
-        state.bodies[index].lift_m[foot] = suction::keep(lift, state.bodies[index].lift_m[foot], scheme);
+        state.bodies[index].lift_m[foot] =
+            suction::keep(lift, state.bodies[index].lift_m[foot], scheme);
         state.bodies[index].grip[foot] = kept;
         state.bodies[index].sliding[foot] = slides;
     }
@@ -242,14 +304,22 @@ fn foot_grip(
     push: (f64, f64),
 ) -> Grip {
     let stretch = state.bodies[index].grip[foot] + place - foot_before(state, index, body, foot);
-    let friction = if state.bodies[index].sliding[foot] { body.slide_friction } else { body.start_friction };
+    let friction =
+        if state.bodies[index].sliding[foot] { body.slide_friction } else { body.start_friction };
     if scheme.is_static() {
-        return Grip::smooth(stretch, seabed.normal, seabed.foot_stiffness_n_m, friction * push.0, trust(scheme));
+        return Grip::smooth(
+            stretch,
+            seabed.normal,
+            seabed.foot_stiffness_n_m,
+            friction * push.0,
+            trust(scheme),
+        );
     }
     let mut grip = Grip::new(stretch, seabed.normal, seabed.foot_stiffness_n_m, friction, push);
     if grip.slips && !state.bodies[index].sliding[foot] {
         // It broke loose in this very step: from here on it slides.
-        grip = Grip::new(stretch, seabed.normal, seabed.foot_stiffness_n_m, body.slide_friction, push);
+        grip =
+            Grip::new(stretch, seabed.normal, seabed.foot_stiffness_n_m, body.slide_friction, push);
     }
     grip
 }

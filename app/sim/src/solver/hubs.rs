@@ -87,7 +87,14 @@ impl Hubs {
 
     /// Adds a block that acts between the points of two seats; `row_arm` and `column_arm` lead from a
     /// body's origin to its point in the world frame.
-    pub fn add(&mut self, row: Seat, row_arm: DVec3, column: Seat, column_arm: DVec3, value: DMat3) {
+    pub fn add(
+        &mut self,
+        row: Seat,
+        row_arm: DVec3,
+        column: Seat,
+        column_arm: DVec3,
+        value: DMat3,
+    ) {
         for (row_block, row_part) in parts(row, row_arm) {
             for (column_block, column_part) in parts(column, column_arm) {
                 *self.at(row_block, column_block) += row_part.transpose() * value * column_part;
@@ -113,8 +120,12 @@ impl Hubs {
         for block in body_block {
             for row in [*block, block + 1] {
                 let columns = [*block, block + 1];
-                let bent: DVec3 =
-                    columns.map(|column| self.value[self.slot[row * self.blocks + column] as usize] * step[column]).into_iter().sum();
+                let bent: DVec3 = columns
+                    .map(|column| {
+                        self.value[self.slot[row * self.blocks + column] as usize] * step[column]
+                    })
+                    .into_iter()
+                    .sum();
                 slope += share * step[row].dot(bent) - self.force[row].dot(step[row]);
             }
         }
@@ -130,7 +141,8 @@ impl Hubs {
             let block = self.order[place];
             let mut right = self.force[block];
             for &other in &self.later[place] {
-                right -= self.value[self.slot[block * self.blocks + other] as usize] * self.step[other];
+                right -=
+                    self.value[self.slot[block * self.blocks + other] as usize] * self.step[other];
             }
             // The diagonal was replaced by its inverse in `eliminate`.
             self.step[block] = self.value[self.slot[block * self.blocks + block] as usize] * right;
@@ -146,7 +158,8 @@ impl Hubs {
 
     /// Solves for another right-hand side, after [`solve`](Self::solve).
     pub fn solve_again<T: Columns>(&self, right: &mut [T], step: &mut [T]) {
-        let at = |row: usize, column: usize| self.value[self.slot[row * self.blocks + column] as usize];
+        let at =
+            |row: usize, column: usize| self.value[self.slot[row * self.blocks + column] as usize];
         for (place, &block) in self.order.iter().enumerate() {
             let moved = right[block].by(at(block, block));
             for &row in &self.later[place] {
@@ -195,14 +208,20 @@ fn parts(seat: Seat, arm: DVec3) -> impl Iterator<Item = (usize, DMat3)> {
     let list = match seat {
         Seat::Fixed => [None, None],
         Seat::Free(block) => [Some((block, DMat3::IDENTITY)), None],
-        Seat::Body { block, .. } => [Some((block, DMat3::IDENTITY)), Some((block + 1, -cross_matrix(arm)))],
+        Seat::Body { block, .. } => {
+            [Some((block, DMat3::IDENTITY)), Some((block + 1, -cross_matrix(arm)))]
+        }
     };
     list.into_iter().flatten()
 }
 
 /// The matrix of `arm ×`.
 pub(crate) fn cross_matrix(arm: DVec3) -> DMat3 {
-    DMat3::from_cols(DVec3::new(0.0, arm.z, -arm.y), DVec3::new(-arm.z, 0.0, arm.x), DVec3::new(arm.y, -arm.x, 0.0))
+    DMat3::from_cols(
+        DVec3::new(0.0, arm.z, -arm.y),
+        DVec3::new(-arm.z, 0.0, arm.x),
+        DVec3::new(arm.y, -arm.x, 0.0),
+    )
 }
 
 /// Greedy order of least degree; `coupled` is completed with the fill.
@@ -210,10 +229,12 @@ fn order_of_least_degree(blocks: usize, coupled: &mut [bool]) -> (Vec<usize>, Ve
     let mut left: Vec<usize> = (0..blocks).collect();
     let (mut order, mut later) = (Vec::new(), Vec::new());
     while !left.is_empty() {
-        let degree = |block: &usize| left.iter().filter(|other| coupled[block * blocks + **other]).count();
+        let degree =
+            |block: &usize| left.iter().filter(|other| coupled[block * blocks + **other]).count();
         let Some(&next) = left.iter().min_by_key(|block| (degree(block), **block)) else { break };
         left.retain(|block| *block != next);
-        let neighbours: Vec<usize> = left.iter().copied().filter(|other| coupled[next * blocks + other]).collect();
+        let neighbours: Vec<usize> =
+            left.iter().copied().filter(|other| coupled[next * blocks + other]).collect();
         for &one in &neighbours {
             for &other in &neighbours {
                 coupled[one * blocks + other] = true;
@@ -233,24 +254,33 @@ mod tests {
     #[test]
     fn a_loop_of_hubs_is_solved_exactly() {
         let blocks = 5;
-        let pairs: Vec<(usize, usize)> = (0..blocks).map(|block| (block, (block + 1) % blocks)).collect();
+        let pairs: Vec<(usize, usize)> =
+            (0..blocks).map(|block| (block, (block + 1) % blocks)).collect();
         let mut hubs = Hubs::new(blocks, &pairs);
         let mut dense = vec![DMat3::ZERO; blocks * blocks];
         for (index, &(one, other)) in pairs.iter().enumerate() {
             let size = 1.0 + index as f64;
-            let block = DMat3::from_cols(DVec3::new(0.3, size, 0.1), DVec3::new(-0.2, 0.5, size), DVec3::new(0.7, 0.1, 0.4));
-            for (row, column, value) in
-                [(one, other, block), (other, one, block.transpose()), (one, one, DMat3::from_diagonal(DVec3::splat(9.0 + size)))]
-            {
+            let block = DMat3::from_cols(
+                DVec3::new(0.3, size, 0.1),
+                DVec3::new(-0.2, 0.5, size),
+                DVec3::new(0.7, 0.1, 0.4),
+            );
+            for (row, column, value) in [
+                (one, other, block),
+                (other, one, block.transpose()),
+                (one, one, DMat3::from_diagonal(DVec3::splat(9.0 + size))),
+            ] {
                 *hubs.at(row, column) += value;
                 dense[row * blocks + column] += value;
             }
         }
-        let right: Vec<DVec3> = (0..blocks).map(|block| DVec3::new(1.0, block as f64, -2.0)).collect();
+        let right: Vec<DVec3> =
+            (0..blocks).map(|block| DVec3::new(1.0, block as f64, -2.0)).collect();
         hubs.force.copy_from_slice(&right);
         hubs.solve();
         for row in 0..blocks {
-            let product: DVec3 = (0..blocks).map(|column| dense[row * blocks + column] * hubs.step[column]).sum();
+            let product: DVec3 =
+                (0..blocks).map(|column| dense[row * blocks + column] * hubs.step[column]).sum();
             assert!((product - right[row]).length() < 1e-12);
         }
     }

@@ -26,7 +26,12 @@ impl Lengths {
         self.segment.extend_from_slice(segment_length);
         self.shortest = segment_length.iter().copied().fold(f64::INFINITY, f64::min);
         self.axial.clear();
-        self.axial.extend(segment_length.iter().enumerate().map(|(segment, length)| Axial::of(model.rope_of_segment(segment), *length)));
+        self.axial.extend(
+            segment_length
+                .iter()
+                .enumerate()
+                .map(|(segment, length)| Axial::of(model.rope_of_segment(segment), *length)),
+        );
         self.node.clear();
         self.node.resize(model.node_count, 0.0);
         for (nodes, segments) in model.line_nodes.iter().zip(&model.line_segments) {

@@ -168,7 +168,10 @@ impl Solver {
 
     /// What is fine enough for the gear at hand.
     pub(crate) fn fine(&self) -> Fine {
-        Fine { move_m: FINE_MOVE_SHARE * self.lengths.shortest, gap_n: FINE_GAP_SHARE * self.plan.weight_n }
+        Fine {
+            move_m: FINE_MOVE_SHARE * self.lengths.shortest,
+            gap_n: FINE_GAP_SHARE * self.plan.weight_n,
+        }
     }
 
     /// Begins a step from a state.
@@ -244,7 +247,13 @@ impl Solver {
             let (seat_a, seat_b) = (self.plan.seats[line.from], self.plan.seats[line.to]);
             let step_a = self.hubs.step_of(seat_a, self.arm(seat_a));
             let step_b = self.hubs.step_of(seat_b, self.arm(seat_b));
-            self.band.substitute(&model.line_nodes[index], &model.line_segments[index], seat_a != Seat::Fixed, step_a, step_b);
+            self.band.substitute(
+                &model.line_nodes[index],
+                &model.line_segments[index],
+                seat_a != Seat::Fixed,
+                step_a,
+                step_b,
+            );
         }
         self.solve_coupled(model);
     }
@@ -252,7 +261,12 @@ impl Solver {
     /// Longest solved move of any node or body [m].
     pub(crate) fn longest(&self) -> f64 {
         let nodes = self.band.step.iter().map(|step| step.length_squared()).fold(0.0, f64::max);
-        let bodies = self.plan.body_block.iter().map(|block| self.hubs.step[*block].length_squared()).fold(nodes, f64::max);
+        let bodies = self
+            .plan
+            .body_block
+            .iter()
+            .map(|block| self.hubs.step[*block].length_squared())
+            .fold(nodes, f64::max);
         bodies.sqrt()
     }
 
@@ -278,7 +292,12 @@ impl Solver {
     }
 
     /// One Newton pass that goes along the step as far as the forces balance.
-    pub(crate) fn searched_pass(&mut self, model: &Model, state: &State, scheme: &Scheme) -> Passed {
+    pub(crate) fn searched_pass(
+        &mut self,
+        model: &Model,
+        state: &State,
+        scheme: &Scheme,
+    ) -> Passed {
         self.assemble_searchable(model, state, scheme);
         self.solve(model);
         let share = self.search_free(model, state, scheme, 1.0);
@@ -301,7 +320,8 @@ impl Solver {
                     Seat::Free(block) => hubs[block] += self.band.force[node],
                     Seat::Body { block, .. } => {
                         hubs[block] += self.band.force[node];
-                        hubs[block + 1] += self.arm(self.plan.seats[joint]).cross(self.band.force[node]);
+                        hubs[block + 1] +=
+                            self.arm(self.plan.seats[joint]).cross(self.band.force[node]);
                     }
                 }
             }
@@ -322,7 +342,11 @@ impl Solver {
         }
         // A maximum would pass over what is not a number.
         let all_finite = hubs.iter().chain(&self.band.force).all(|force| force.is_finite());
-        if all_finite { hubs.iter().map(|force| force.length()).fold(greatest, f64::max) } else { f64::INFINITY }
+        if all_finite {
+            hubs.iter().map(|force| force.length()).fold(greatest, f64::max)
+        } else {
+            f64::INFINITY
+        }
     }
 
     /// Tension of each segment at the end of the step being solved; below zero it is slack [N].
@@ -334,7 +358,10 @@ impl Solver {
     pub(crate) fn worst_line(&self, model: &Model) -> Option<usize> {
         let size = |line: &usize| {
             let steps = &self.band.step[model.line_nodes[*line].clone()];
-            steps.iter().map(|step| if step.is_finite() { step.length() } else { f64::INFINITY }).fold(0.0, f64::max)
+            steps
+                .iter()
+                .map(|step| if step.is_finite() { step.length() } else { f64::INFINITY })
+                .fold(0.0, f64::max)
         };
         (0..model.spec.lines.len()).max_by(|one, other| size(one).total_cmp(&size(other)))
     }
@@ -358,10 +385,13 @@ impl Solver {
     pub(super) fn add_end_turns(&mut self, model: &Model, scheme: &Scheme) {
         for (index, line) in model.spec.lines.iter().enumerate() {
             let segments = &model.line_segments[index];
-            for (joint, segment, sign) in [(line.from, segments.start, 1.0), (line.to, segments.end - 1, -1.0)] {
+            for (joint, segment, sign) in
+                [(line.from, segments.start, 1.0), (line.to, segments.end - 1, -1.0)]
+            {
                 let seat = self.plan.seats[joint];
                 let Seat::Body { block, .. } = seat else { continue };
-                let force = self.pull[segment].direction * (sign * self.trial.tension[segment].max(0.0));
+                let force =
+                    self.pull[segment].direction * (sign * self.trial.tension[segment].max(0.0));
                 let turning = if scheme.exact { tilt::turning } else { body::turn_stiffness };
                 let stiffness = turning(self.arm(seat), force);
                 *self.hubs.at(block + 1, block + 1) += stiffness;
@@ -381,7 +411,8 @@ impl Solver {
         rope.tension.clone_from(&self.trial.tension);
         for node in 0..model.node_count {
             rope.position[node] = self.trial.place[node];
-            rope.velocity[node] = (self.trial.place[node] - self.trial.place_history[node]) * scheme.rate;
+            rope.velocity[node] =
+                (self.trial.place[node] - self.trial.place_history[node]) * scheme.rate;
         }
         self.keep_bodies(scheme, state);
     }
@@ -393,7 +424,11 @@ impl Solver {
             body.earlier_velocity = body.velocity;
             body.position = trial.place;
             body.velocity = (trial.place - trial.place_history) * scheme.rate;
-            body.spin = if scheme.is_static() { DVec3::ZERO } else { body::spin(trial.orientation, body.orientation, scheme.dt) };
+            body.spin = if scheme.is_static() {
+                DVec3::ZERO
+            } else {
+                body::spin(trial.orientation, body.orientation, scheme.dt)
+            };
             body.orientation = trial.orientation;
         }
         state.time_s = self.trial.time;

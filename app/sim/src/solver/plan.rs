@@ -25,7 +25,8 @@ impl Plan {
     pub fn new(model: &Model) -> Self {
         let mut blocks = 0;
         let seats = seats(model, &mut blocks);
-        let body_block = (0..model.spec.bodies.len()).map(|body| blocks + 2 * body).collect::<Vec<_>>();
+        let body_block =
+            (0..model.spec.bodies.len()).map(|body| blocks + 2 * body).collect::<Vec<_>>();
         let seats = seats.into_iter().map(|seat| shift_body(seat, &body_block)).collect();
         let mut plan = Self {
             seats,
@@ -50,7 +51,8 @@ impl Plan {
             Seat::Free(block) => [Some(block), None],
             Seat::Body { block, .. } => [Some(block), Some(block + 1)],
         };
-        let mut pairs: Vec<(usize, usize)> = self.body_block.iter().map(|block| (*block, block + 1)).collect();
+        let mut pairs: Vec<(usize, usize)> =
+            self.body_block.iter().map(|block| (*block, block + 1)).collect();
         for line in &model.spec.lines {
             for one in blocks_of(line.from).into_iter().flatten() {
                 for other in blocks_of(line.to).into_iter().flatten() {
@@ -73,7 +75,9 @@ impl Plan {
 
 /// Weight in air of all rope and bodies [N].
 fn weight_n(model: &Model) -> f64 {
-    let line = |line: &crate::model::Line| model.spec.ropes[line.rope].mass_kg_m * line.segments_m.iter().sum::<f64>();
+    let line = |line: &crate::model::Line| {
+        model.spec.ropes[line.rope].mass_kg_m * line.segments_m.iter().sum::<f64>()
+    };
     let rope: f64 = model.spec.lines.iter().map(line).sum();
     let bodies: f64 = model.spec.bodies.iter().map(|body| body.mass_kg).sum();
     9.81 * (rope + bodies)

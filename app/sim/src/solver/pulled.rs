@@ -12,7 +12,9 @@ impl Solver {
     /// Adds steady forces on free ends.
     pub(super) fn add_pulled(&mut self, model: &Model, scheme: &Scheme) {
         for (joint, seat) in model.spec.joints.iter().zip(&self.plan.seats) {
-            let (JointKind::Pulled { force_n, .. }, Seat::Free(block)) = (&joint.kind, seat) else { continue };
+            let (JointKind::Pulled { force_n, .. }, Seat::Free(block)) = (&joint.kind, seat) else {
+                continue;
+            };
             if self.is_held(&joint.kind, scheme.is_static()) {
                 *self.hubs.at(*block, *block) += DMat3::IDENTITY * HELD;
             } else {

@@ -22,7 +22,9 @@ pub(crate) enum WorstAt {
 
 /// Whether a body is one that is laid on the seabed.
 pub(crate) fn is_laid(model: &Model, body: usize) -> bool {
-    model.spec.seabed.is_some() && model.spec.bodies[body].role != BodyRole::Buoy && !model.spec.bodies[body].feet_m.is_empty()
+    model.spec.seabed.is_some()
+        && model.spec.bodies[body].role != BodyRole::Buoy
+        && !model.spec.bodies[body].feet_m.is_empty()
 }
 
 impl Solver {
@@ -44,7 +46,9 @@ impl Solver {
     pub(crate) fn start_at(&mut self, model: &Model, guess: &State) {
         self.trial.place.clone_from(&guess.rope.position);
         self.trial.tension.clone_from(&guess.rope.tension);
-        for (trial, body) in self.trial.bodies.iter_mut().zip(&guess.bodies).filter(|(trial, _)| !trial.held) {
+        for (trial, body) in
+            self.trial.bodies.iter_mut().zip(&guess.bodies).filter(|(trial, _)| !trial.held)
+        {
             (trial.place, trial.orientation) = (body.position, body.orientation);
         }
         self.trial.seat_ends(model, &self.plan);
@@ -111,7 +115,10 @@ impl Solver {
         }
         let (body, now) = (&model.spec.bodies[index], &self.trial.bodies[index]);
         let push = model.spec.seabed.as_ref().map_or(DVec3::ZERO, |seabed| {
-            let feet = body.feet_m.iter().map(|foot| seabed.push_on_foot(now.place + now.orientation * *foot));
+            let feet = body
+                .feet_m
+                .iter()
+                .map(|foot| seabed.push_on_foot(now.place + now.orientation * *foot));
             seabed.normal * feet.sum::<f64>()
         });
         hubs[self.plan.body_block[index]] - push
@@ -119,7 +126,9 @@ impl Solver {
 
     /// Greatest turn of any segment or body in the last solve, turned or stretched as one [rad].
     pub(crate) fn sharpest_turn(&self, model: &Model) -> f64 {
-        let lines = (0..model.spec.lines.len()).map(|line| self.turn_of_line(model, line)).fold(0.0, f64::max);
+        let lines = (0..model.spec.lines.len())
+            .map(|line| self.turn_of_line(model, line))
+            .fold(0.0, f64::max);
         (0..model.spec.bodies.len()).map(|body| self.turn_of_body(body)).fold(lines, f64::max)
     }
 
@@ -129,7 +138,10 @@ impl Solver {
         for (node, segment) in (first_node..).zip(model.line_segments[line].clone()) {
             let step = self.band.step[node + 1] - self.band.step[node];
             let step = step.reject_from_normalized(self.pull[segment].direction);
-            greatest = greatest.max(step.length_squared() / (self.lengths.segment[segment] * self.lengths.segment[segment]));
+            greatest = greatest.max(
+                step.length_squared()
+                    / (self.lengths.segment[segment] * self.lengths.segment[segment]),
+            );
         }
         greatest.sqrt()
     }
@@ -142,7 +154,10 @@ impl Solver {
     /// Greatest force out of balance within a line, as last assembled [N].
     pub(crate) fn left_in_line(&self, model: &Model, line: usize) -> f64 {
         let nodes = &model.line_nodes[line];
-        self.band.force[nodes.start + 1..nodes.end - 1].iter().map(|force| force.length()).fold(0.0, f64::max)
+        self.band.force[nodes.start + 1..nodes.end - 1]
+            .iter()
+            .map(|force| force.length())
+            .fold(0.0, f64::max)
     }
 
     /// Multiplies the pseudo-mass of a line from here on.
@@ -166,7 +181,10 @@ impl Solver {
         };
         for (index, line) in model.spec.lines.iter().enumerate() {
             let nodes = &model.line_nodes[index];
-            let inner = self.band.force[nodes.start + 1..nodes.end - 1].iter().map(|force| force.length()).fold(0.0, f64::max);
+            let inner = self.band.force[nodes.start + 1..nodes.end - 1]
+                .iter()
+                .map(|force| force.length())
+                .fold(0.0, f64::max);
             offer(WorstAt::Line(index), inner);
             for (joint, node) in [(line.from, nodes.start), (line.to, nodes.end - 1)] {
                 self.hubs_push(&mut hubs, joint, self.band.force[node]);
@@ -177,8 +195,15 @@ impl Solver {
                 offer(WorstAt::Joint(joint), hubs[*block].length());
             }
         }
-        for (index, block) in self.plan.body_block.iter().enumerate().filter(|(index, _)| !self.trial.bodies[*index].held) {
-            let torque = if self.trial.bodies[index].upright { 0.0 } else { hubs[block + 1].length() };
+        for (index, block) in self
+            .plan
+            .body_block
+            .iter()
+            .enumerate()
+            .filter(|(index, _)| !self.trial.bodies[*index].held)
+        {
+            let torque =
+                if self.trial.bodies[index].upright { 0.0 } else { hubs[block + 1].length() };
             offer(WorstAt::Body(index), hubs[*block].length().max(torque));
         }
         worst

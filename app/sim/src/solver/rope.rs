@@ -36,7 +36,10 @@ impl Solver {
                 }
             }
             if scheme.anchored {
-                self.add_anchors(nodes, (rope.mass + rope.added) * scheme.inertia * self.burden[index]);
+                self.add_anchors(
+                    nodes,
+                    (rope.mass + rope.added) * scheme.inertia * self.burden[index],
+                );
             }
         }
     }
@@ -45,7 +48,8 @@ impl Solver {
     fn add_anchors(&mut self, nodes: &Range<usize>, pull: f64) {
         for node in nodes.clone() {
             let stiffness = pull * self.lengths.node[node];
-            self.band.force[node] -= (self.trial.place[node] - self.trial.place_history[node]) * stiffness;
+            self.band.force[node] -=
+                (self.trial.place[node] - self.trial.place_history[node]) * stiffness;
             self.band.diagonal[node] += DMat3::from_diagonal(DVec3::splat(stiffness));
         }
     }
@@ -65,10 +69,17 @@ impl Solver {
     }
 
     /// Adds the change of a node's drag at rest as its neighbours turn it.
-    fn add_drag_turn(&mut self, (node, nodes): (usize, &Range<usize>), segment: usize, (rope, shared): (&PerMetre<f64>, &Shared<f64>)) {
-        let wet = shared.wet_at(self.trial.place[node].z - self.surface_at(node)) * self.lengths.node[node];
+    fn add_drag_turn(
+        &mut self,
+        (node, nodes): (usize, &Range<usize>),
+        segment: usize,
+        (rope, shared): (&PerMetre<f64>, &Shared<f64>),
+    ) {
+        let wet = shared.wet_at(self.trial.place[node].z - self.surface_at(node))
+            * self.lengths.node[node];
         let (tangent, inverse_chord) = tangent(&self.trial.place, node, nodes);
-        let turn = drag_by_tangent(self.flow[node], tangent, rope.across * wet, rope.along * wet) * inverse_chord;
+        let turn = drag_by_tangent(self.flow[node], tangent, rope.across * wet, rope.along * wet)
+            * inverse_chord;
         if node + 1 < nodes.end {
             self.band.up[segment] -= turn;
         } else {
@@ -96,7 +107,12 @@ impl Solver {
             self.pull[segment] = Pull::default();
             return;
         }
-        let pull = self.law_between(segment, node, scheme, self.trial.place[node + 1] - self.trial.place[node]);
+        let pull = self.law_between(
+            segment,
+            node,
+            scheme,
+            self.trial.place[node + 1] - self.trial.place[node],
+        );
         let taut = self.trial.tension[segment] > 0.0;
         self.pull[segment] = Pull { taut, ..Pull::of(&pull) };
         if !taut {
@@ -118,13 +134,25 @@ impl Solver {
     }
 
     /// The same with the trial moved by a share of the solved step.
-    pub(super) fn pull_moved(&self, segment: usize, node: usize, scheme: &Scheme, share: f64) -> Pull {
+    pub(super) fn pull_moved(
+        &self,
+        segment: usize,
+        node: usize,
+        scheme: &Scheme,
+        share: f64,
+    ) -> Pull {
         let between = self.trial.place[node + 1] - self.trial.place[node];
         let moved = (self.band.step[node + 1] - self.band.step[node]) * share;
         Pull::of(&self.law_between(segment, node, scheme, between + moved))
     }
 
-    fn law_between(&self, segment: usize, node: usize, scheme: &Scheme, between: DVec3) -> PullOf<f64> {
+    fn law_between(
+        &self,
+        segment: usize,
+        node: usize,
+        scheme: &Scheme,
+        between: DVec3,
+    ) -> PullOf<f64> {
         let length = self.lengths.segment[segment];
         let at = SegmentAt {
             between: between.into(),
@@ -143,7 +171,8 @@ impl Solver {
             let first_node = model.line_nodes[index].start;
             for (k, segment) in model.line_segments[index].clone().enumerate() {
                 let pull = &self.pull[segment];
-                self.trial.tension[segment] = pull.tension + pull.stiffness * pull.stretch(&self.band.step, first_node + k) * share;
+                self.trial.tension[segment] = pull.tension
+                    + pull.stiffness * pull.stretch(&self.band.step, first_node + k) * share;
             }
         }
     }
@@ -161,7 +190,12 @@ pub(crate) struct Pull {
 
 impl Pull {
     fn of(pull: &PullOf<f64>) -> Self {
-        Self { direction: pull.direction.into(), tension: pull.tension, stiffness: pull.stiffness, taut: false }
+        Self {
+            direction: pull.direction.into(),
+            tension: pull.tension,
+            stiffness: pull.stiffness,
+            taut: false,
+        }
     }
 
     /// How much the solved step stretches the segment [m].
@@ -190,7 +224,10 @@ fn drag_by_tangent(relative: DVec3, tangent: DVec3, across: f64, along: f64) -> 
 
 /// The nodes before and after one in its line, or itself at an end.
 fn neighbours(node: usize, nodes: &Range<usize>) -> [usize; 2] {
-    [if node > nodes.start { node - 1 } else { node }, if node + 1 < nodes.end { node + 1 } else { node }]
+    [
+        if node > nodes.start { node - 1 } else { node },
+        if node + 1 < nodes.end { node + 1 } else { node },
+    ]
 }
 
 /// Direction of a line at a node from its neighbours, and the inverse of the chord it was taken over.
@@ -207,7 +244,15 @@ mod tests {
 
     /// Rope of one metre in water that flows past it, its neighbours at either end, moving.
     fn moving() -> (PerMetre<f64>, Shared<f64>, NodeAt<f64>) {
-        let rope = PerMetre { mass: 0.07, added: 0.05, spared: 0.04, weight: 0.7, lift: 0.6, across: 6.0, along: 0.3 };
+        let rope = PerMetre {
+            mass: 0.07,
+            added: 0.05,
+            spared: 0.04,
+            weight: 0.7,
+            lift: 0.6,
+            across: 6.0,
+            along: 0.3,
+        };
         let shared = Shared { rate: 150.0, inertia: 22_500.0, wet: 0.5, drying: 10.0 };
         let (place, tangent) = (DVec3::new(0.3, -0.2, 0.01), DVec3::new(0.1, 0.2, 0.9).normalize());
         let at = NodeAt {
@@ -233,7 +278,11 @@ mod tests {
     fn the_block_of_a_node_is_the_derivative_of_its_force() {
         for (surface, across) in [(1.0, 6.0), (-1.0, 6.0), (0.0, 0.0)] {
             let (rope, shared, at) = moving();
-            let rope = if across > 0.0 { rope } else { PerMetre { across, along: 0.0, added: 0.0, spared: 0.0, ..rope } };
+            let rope = if across > 0.0 {
+                rope
+            } else {
+                PerMetre { across, along: 0.0, added: 0.0, spared: 0.0, ..rope }
+            };
             let at = NodeAt { surface, ..at };
             let block = DMat3::from(forces::node(&rope, &shared, &at).1);
             let step = 1e-6;
@@ -243,7 +292,10 @@ mod tests {
                     force(&rope, &shared, &NodeAt { place, ..at })
                 });
                 let difference = (behind - ahead) / (2.0 * step);
-                assert!((block * axis - difference).length() < 1e-6 * difference.length(), "{surface}: {block} {difference}");
+                assert!(
+                    (block * axis - difference).length() < 1e-6 * difference.length(),
+                    "{surface}: {block} {difference}"
+                );
             }
         }
     }
@@ -254,7 +306,8 @@ mod tests {
         let at = NodeAt { surface: 1.0, ..at };
         let shared = Shared { inertia: 0.0, rate: 0.0, ..shared };
         let chord = DVec3::from(at.after) - DVec3::from(at.before);
-        let turn = drag_by_tangent(at.flow.into(), chord.normalize(), rope.across, rope.along) / chord.length();
+        let turn = drag_by_tangent(at.flow.into(), chord.normalize(), rope.across, rope.along)
+            / chord.length();
         let step = 1e-6;
         for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
             let [ahead, behind] = [step, -step].map(|by| {

@@ -75,14 +75,22 @@ impl Solver {
         let Some(law) = self.ropes.law else { return };
         for pair in &self.ropes.pairs {
             for point in &pair.points {
-                let Some(touch) = touch_at(&law, state, pair, point, point.fractions, |node| self.trial.place[node]) else { continue };
+                let Some(touch) = touch_at(&law, state, pair, point, point.fractions, |node| {
+                    self.trial.place[node]
+                }) else {
+                    continue;
+                };
                 let force = touch.force();
                 for (k, sign) in [(0, 1.0), (1, -1.0)] {
                     let (node, fraction) = (pair.nodes[k], touch.fractions[k]);
                     self.band.force[node] += force * (sign * (1.0 - fraction));
                     self.band.force[node + 1] += force * (sign * fraction);
                 }
-                self.coupling.touches.push(Coupled { nodes: pair.nodes, fractions: touch.fractions, block: touch.block() });
+                self.coupling.touches.push(Coupled {
+                    nodes: pair.nodes,
+                    fractions: touch.fractions,
+                    block: touch.block(),
+                });
             }
         }
     }
@@ -96,7 +104,8 @@ impl Solver {
             let [one, other] = pair.places(moved);
             let [step_one, step_other] = pair.places(|node| self.band.step[node]);
             for point in pair.points.iter().filter(|point| point.length > 0.0) {
-                let fractions = if self.ropes.follows() { point.followed(one, other) } else { point.fractions };
+                let fractions =
+                    if self.ropes.follows() { point.followed(one, other) } else { point.fractions };
                 if let Some(touch) = touch_at(&law, state, pair, point, fractions, moved) {
                     slope -= touch.force().dot(between(step_one, step_other, fractions).0);
                 }
@@ -111,7 +120,9 @@ impl Solver {
         let share = if at_end { PINCHED_SHARE } else { CRUSHED_SHARE };
         let crushed = |pair: &&Pair| {
             let [one, other] = pair.places(|node| self.trial.place[node]);
-            let here = |point: &Point| between(one, other, point.fractions).1 + point.forgiven_m < share * pair.reach;
+            let here = |point: &Point| {
+                between(one, other, point.fractions).1 + point.forgiven_m < share * pair.reach
+            };
             pair.points.iter().any(|point| point.length > 0.0 && here(point))
         };
         self.ropes.pairs.iter().find(crushed).map(|pair| pair.segments)
@@ -139,14 +150,17 @@ impl Solver {
     pub(crate) fn tell_ropes(&self, state: &State, touches: &mut Vec<RopeTouch>) {
         touches.clear();
         self.each_touch(state, |pair, _, touch| {
-            touches.extend(touch.map(|touch| RopeTouch {
-                segments: pair.segments,
-                fractions: touch.fractions,
-                position: self.trial.place[pair.nodes[0]].lerp(self.trial.place[pair.nodes[0] + 1], touch.fractions[0]),
-                normal: touch.normal,
-                distance_m: touch.distance,
-                normal_force_n: touch.press.force,
-                friction_n: touch.grip.force,
+            touches.extend(touch.map(|touch| {
+                RopeTouch {
+                    segments: pair.segments,
+                    fractions: touch.fractions,
+                    position: self.trial.place[pair.nodes[0]]
+                        .lerp(self.trial.place[pair.nodes[0] + 1], touch.fractions[0]),
+                    normal: touch.normal,
+                    distance_m: touch.distance,
+                    normal_force_n: touch.press.force,
+                    friction_n: touch.grip.force,
+                }
             }));
         });
     }
@@ -156,7 +170,13 @@ impl Solver {
         let Some(law) = self.ropes.law else { return };
         for pair in &self.ropes.pairs {
             for point in pair.points.iter().filter(|point| point.length > 0.0) {
-                act(pair, point, touch_at(&law, state, pair, point, point.fractions, |node| self.trial.place[node]));
+                act(
+                    pair,
+                    point,
+                    touch_at(&law, state, pair, point, point.fractions, |node| {
+                        self.trial.place[node]
+                    }),
+                );
             }
         }
     }

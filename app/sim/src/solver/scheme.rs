@@ -41,7 +41,15 @@ pub(crate) struct Scheme {
 impl Scheme {
     /// First order, strongly damped: for contact and for retries.
     pub fn backward_euler(dt: f64) -> Self {
-        Self { dt, rate: 1.0 / dt, inertia: 1.0 / (dt * dt), anchored: false, exact: false, now: 1.0, earlier: 0.0 }
+        Self {
+            dt,
+            rate: 1.0 / dt,
+            inertia: 1.0 / (dt * dt),
+            anchored: false,
+            exact: false,
+            now: 1.0,
+            earlier: 0.0,
+        }
     }
 
     /// Second order where the last step allows it, else backward Euler.
@@ -53,12 +61,28 @@ impl Scheme {
         let below = 1.0 + 2.0 * ratio;
         let rate = below / (dt * (1.0 + ratio));
         let now = (1.0 + ratio) * (1.0 + ratio) / below;
-        Self { dt, rate, inertia: rate * rate, anchored: false, exact: false, now, earlier: ratio * ratio / below }
+        Self {
+            dt,
+            rate,
+            inertia: rate * rate,
+            anchored: false,
+            exact: false,
+            now,
+            earlier: ratio * ratio / below,
+        }
     }
 
     /// At rest, with a pseudo-mass [1/s²].
     pub fn statics(pseudo_mass: f64) -> Self {
-        Self { dt: 0.0, rate: 0.0, inertia: pseudo_mass, anchored: false, exact: false, now: 1.0, earlier: 0.0 }
+        Self {
+            dt: 0.0,
+            rate: 0.0,
+            inertia: pseudo_mass,
+            anchored: false,
+            exact: false,
+            now: 1.0,
+            earlier: 0.0,
+        }
     }
 
     /// Whether nothing moves.
@@ -89,6 +113,9 @@ mod tests {
 
     #[test]
     fn a_step_that_grows_too_fast_falls_back_to_backward_euler() {
-        assert_eq!(Scheme::bdf2(0.01, 0.001).inertia.to_bits(), Scheme::backward_euler(0.01).inertia.to_bits());
+        assert_eq!(
+            Scheme::bdf2(0.01, 0.001).inertia.to_bits(),
+            Scheme::backward_euler(0.01).inertia.to_bits()
+        );
     }
 }

@@ -31,7 +31,8 @@ fn balance(longest: f64, mut slope: impl FnMut(f64) -> f64) -> f64 {
     let (mut low, mut high) = ((0.0, first), (longest, last));
     for _ in 0..MOST_TRIALS {
         let width = high.0 - low.0;
-        let share = (low.0 - low.1 * width / (high.1 - low.1)).clamp(low.0 + 0.1 * width, high.0 - 0.1 * width);
+        let share = (low.0 - low.1 * width / (high.1 - low.1))
+            .clamp(low.0 + 0.1 * width, high.0 - 0.1 * width);
         let here = slope(share);
         if here.abs() <= -ENOUGH * first {
             return share;
@@ -49,12 +50,28 @@ fn balance(longest: f64, mut slope: impl FnMut(f64) -> f64) -> f64 {
 
 impl Solver {
     /// Share of the solved step to take with contact, at most `safe`.
-    pub(super) fn search(&self, model: &Model, state: &State, scheme: &Scheme, work: &mut ContactWork, safe: f64) -> f64 {
-        balance(safe, |share| self.contact_slope(model, state, scheme, work, share) + self.free_slope(model, state, scheme, share))
+    pub(super) fn search(
+        &self,
+        model: &Model,
+        state: &State,
+        scheme: &Scheme,
+        work: &mut ContactWork,
+        safe: f64,
+    ) -> f64 {
+        balance(safe, |share| {
+            self.contact_slope(model, state, scheme, work, share)
+                + self.free_slope(model, state, scheme, share)
+        })
     }
 
     /// Share of the solved step to take without a whale, at most `longest`.
-    pub(crate) fn search_free(&self, model: &Model, state: &State, scheme: &Scheme, longest: f64) -> f64 {
+    pub(crate) fn search_free(
+        &self,
+        model: &Model,
+        state: &State,
+        scheme: &Scheme,
+        longest: f64,
+    ) -> f64 {
         balance(longest, |share| self.free_slope(model, state, scheme, share))
     }
 
@@ -79,7 +96,11 @@ impl Solver {
         let mut slope = 0.0;
         for index in 0..model.spec.lines.len() {
             let first_node = model.line_nodes[index].start;
-            for (k, segment) in model.line_segments[index].clone().enumerate().filter(|(_, segment)| !self.cut[*segment]) {
+            for (k, segment) in model.line_segments[index]
+                .clone()
+                .enumerate()
+                .filter(|(_, segment)| !self.cut[*segment])
+            {
                 let pull = self.pull_moved(segment, first_node + k, scheme, share);
                 slope += pull.tension.max(0.0) * pull.stretch(&self.band.step, first_node + k);
             }
@@ -88,16 +109,30 @@ impl Solver {
     }
 
     /// Slope of push and friction.
-    fn contact_slope(&self, model: &Model, state: &State, scheme: &Scheme, work: &mut ContactWork, share: f64) -> f64 {
+    fn contact_slope(
+        &self,
+        model: &Model,
+        state: &State,
+        scheme: &Scheme,
+        work: &mut ContactWork,
+        share: f64,
+    ) -> f64 {
         let Some(friction) = &model.spec.friction else { return 0.0 };
         let ContactWork { near, slots, probe, .. } = work;
-        let step_of = |slot: &crate::contact::slots::Slot| slot.on_rope(|node| self.band.step[node]);
+        let step_of =
+            |slot: &crate::contact::slots::Slot| slot.on_rope(|node| self.band.step[node]);
         probe.collect(model, near, slots, state, |slot| {
-            slot.touches_moved(near, slot.on_rope(|node| self.trial.place[node]), step_of(slot) * share)
+            slot.touches_moved(
+                near,
+                slot.on_rope(|node| self.trial.place[node]),
+                step_of(slot) * share,
+            )
         });
         if probe.respond(friction, scheme.dt).is_err() {
             return f64::INFINITY;
         }
-        -(0..probe.slot.len()).map(|place| probe.force_of(place).dot(step_of(&slots.list[probe.slot[place]]))).sum::<f64>()
+        -(0..probe.slot.len())
+            .map(|place| probe.force_of(place).dot(step_of(&slots.list[probe.slot[place]])))
+            .sum::<f64>()
     }
 }

@@ -84,8 +84,16 @@ impl Solver {
         self.solid = work;
     }
 
-    fn add_slot(&mut self, state: &State, scheme: &Scheme, solid: &Solid, slot: &Slot, touch: &Touch) {
-        let grip = if scheme.is_static() { Grip::none() } else { grip_of(state, solid, slot, touch) };
+    fn add_slot(
+        &mut self,
+        state: &State,
+        scheme: &Scheme,
+        solid: &Solid,
+        slot: &Slot,
+        touch: &Touch,
+    ) {
+        let grip =
+            if scheme.is_static() { Grip::none() } else { grip_of(state, solid, slot, touch) };
         let force = touch.normal * slot.push_n + grip.force;
         let block = outer(touch.normal, touch.normal) * slot.stiffness + grip.block;
         match slot.fraction {
@@ -112,7 +120,11 @@ impl Solver {
             if slot.push_n <= 0.0 {
                 return 0.0;
             }
-            let grip = if scheme.is_static() { Grip::none() } else { grip_of(state, solid, &slot, &touch) };
+            let grip = if scheme.is_static() {
+                Grip::none()
+            } else {
+                grip_of(state, solid, &slot, &touch)
+            };
             -(touch.normal * slot.push_n + grip.force).dot(self.step_on(solid, &slot))
         };
         self.solid.open_slots().map(slope_of).sum()
@@ -128,7 +140,10 @@ impl Solver {
                     return Pose { place: body.place, orientation: body.orientation };
                 }
                 let turn = DQuat::from_scaled_axis(self.hubs.step[block + 1] * share);
-                Pose { place: body.place + self.hubs.step[block] * share, orientation: (turn * body.orientation).normalize() }
+                Pose {
+                    place: body.place + self.hubs.step[block] * share,
+                    orientation: (turn * body.orientation).normalize(),
+                }
             }
         }
     }
@@ -145,7 +160,12 @@ impl Solver {
         let pose = self.pose_moved(&solid.carrier, share);
         let place = slot.on_rope(|node| self.trial.place[node] + self.band.step[node] * share);
         let near = solid.shape.nearest(pose.inward(place));
-        Touch { normal: pose.orientation * near.normal, depth: slot.radius_m - near.distance - slot.forgiven_m, place, pose }
+        Touch {
+            normal: pose.orientation * near.normal,
+            depth: slot.radius_m - near.distance - slot.forgiven_m,
+            place,
+            pose,
+        }
     }
 
     /// The solved step of the rope at a slot, as seen from the solid.
@@ -155,7 +175,8 @@ impl Solver {
             Carrier::World(_) => step,
             Carrier::Body(body) => {
                 let block = self.plan.body_block[body];
-                let arm = slot.on_rope(|node| self.trial.place[node]) - self.trial.bodies[body].place;
+                let arm =
+                    slot.on_rope(|node| self.trial.place[node]) - self.trial.bodies[body].place;
                 step - self.hubs.step[block] - self.hubs.step[block + 1].cross(arm)
             }
         }
@@ -182,10 +203,13 @@ impl Solver {
             if matches!(solid.carrier, Carrier::Body(_)) && there.max(slot.foretold_n) > 0.0 {
                 // What rope and body did not know of each other's last move.
                 let rope = slot.on_rope(|node| self.band.step[node]);
-                answer = answer.max(slot.stiffness * rope.length().max((rope - self.step_on(solid, slot)).length()));
+                answer = answer.max(
+                    slot.stiffness * rope.length().max((rope - self.step_on(solid, slot)).length()),
+                );
             }
         }
-        gap < PUSH_GAP_N.max(PUSH_GAP_SHARE * greatest) && answer < ANSWER_GAP_N.max(ANSWER_GAP_SHARE * greatest)
+        gap < PUSH_GAP_N.max(PUSH_GAP_SHARE * greatest)
+            && answer < ANSWER_GAP_N.max(ANSWER_GAP_SHARE * greatest)
     }
 
     /// Share of the solved step of statics, at most `longest`, that takes no rope through an obstacle: as far as it is away
@@ -196,7 +220,8 @@ impl Solver {
             let Carrier::World(pose) = solid.carrier else { return f64::INFINITY };
             let ends = [pair.node, pair.node + 1];
             let [a, b] = ends.map(|node| self.trial.place[node]);
-            let room = least_distance(solid, &pose, a, b).max(0.0) + STATIC_SHARE * solid.shape.thickness();
+            let room = least_distance(solid, &pose, a, b).max(0.0)
+                + STATIC_SHARE * solid.shape.thickness();
             room / ends.map(|node| self.band.step[node].length()).into_iter().fold(1e-12, f64::max)
         };
         self.solid.pairs.iter().map(share_of).fold(longest, f64::min)
@@ -237,7 +262,9 @@ impl Solver {
         }
         let looks = (longest / (LOOK_SHARE * thickness)).ceil().min(MOST_LOOKS);
         let still = Pose { place: DVec3::ZERO, orientation: DQuat::IDENTITY };
-        let depth = |share: f64| least_distance(solid, &still, from[0].lerp(to[0], share), from[1].lerp(to[1], share));
+        let depth = |share: f64| {
+            least_distance(solid, &still, from[0].lerp(to[0], share), from[1].lerp(to[1], share))
+        };
         let least_depth = depth(0.0).min(0.0) - INSIDE_SHARE * thickness;
         (1..=looks as u32).any(|look| depth(f64::from(look) / looks) < least_depth)
     }
@@ -262,7 +289,14 @@ impl Solver {
 
     fn kept(&self, slot: &Slot, stretch: DVec3) -> SolidGrip {
         let (along_m, at_node) = (self.solid.along_of(slot), slot.fraction.is_none());
-        SolidGrip { solid: slot.solid, line: slot.line, along_m, at_node, stretch, push_n: slot.push_n }
+        SolidGrip {
+            solid: slot.solid,
+            line: slot.line,
+            along_m,
+            at_node,
+            stretch,
+            push_n: slot.push_n,
+        }
     }
 }
 
@@ -271,12 +305,20 @@ fn grip_of(state: &State, solid: &Solid, slot: &Slot, touch: &Touch) -> Grip {
     let before = slot.on_rope(|node| state.rope.position[node]);
     let carried = touch.pose.outward(pose_before(state, solid).inward(before));
     let stretch = touch.pose.orientation * slot.kept + touch.place - carried;
-    Grip::new(stretch, touch.normal, slot.stiffness, solid.friction, (slot.push_n.max(0.0), slot.stiffness))
+    Grip::new(
+        stretch,
+        touch.normal,
+        slot.stiffness,
+        solid.friction,
+        (slot.push_n.max(0.0), slot.stiffness),
+    )
 }
 
 fn pose_before(state: &State, solid: &Solid) -> Pose {
     match solid.carrier {
         Carrier::World(pose) => pose,
-        Carrier::Body(body) => Pose { place: state.bodies[body].position, orientation: state.bodies[body].orientation },
+        Carrier::Body(body) => {
+            Pose { place: state.bodies[body].position, orientation: state.bodies[body].orientation }
+        }
     }
 }

@@ -40,13 +40,21 @@ impl Solver {
             if !longest.is_finite() {
                 return Tied::NotFinite;
             }
-            let safe = self.ropes.safe_share(&self.trial.place, |node| self.trial.place[node] + self.band.step[node]);
-            let share = if longest * safe > UNSEARCHED_M { self.search_free(model, state, scheme, safe) } else { safe };
+            let safe = self.ropes.safe_share(&self.trial.place, |node| {
+                self.trial.place[node] + self.band.step[node]
+            });
+            let share = if longest * safe > UNSEARCHED_M {
+                self.search_free(model, state, scheme, safe)
+            } else {
+                safe
+            };
             let taken = self.move_tied(model, share);
             // What a short share leaves is still to go.
             let moved_before_m = last_m;
             last_m = if taken >= 1.0 { left_to_go(longest, moved_before_m) } else { longest };
-            if (taken < 1.0 || last_m <= enough(passes)) && self.ropes.open_more(state, &self.trial.place) {
+            if (taken < 1.0 || last_m <= enough(passes))
+                && self.ropes.open_more(state, &self.trial.place)
+            {
                 last_m = f64::INFINITY;
             }
         }
@@ -61,7 +69,9 @@ impl Solver {
             for (node, place) in self.trial.place.iter_mut().enumerate() {
                 *place = self.before[node].lerp(self.drift[node], share);
             }
-            for ((trial, from), to) in self.trial.bodies.iter_mut().zip(&self.bodies_before).zip(&self.drift_bodies) {
+            for ((trial, from), to) in
+                self.trial.bodies.iter_mut().zip(&self.bodies_before).zip(&self.drift_bodies)
+            {
                 trial.place = from.place.lerp(to.place, share);
                 trial.orientation = from.orientation.slerp(to.orientation, share);
             }

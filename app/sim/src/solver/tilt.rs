@@ -26,15 +26,23 @@ pub(super) fn turning(arm: DVec3, force: DVec3) -> DMat3 {
 impl Solver {
     /// Adds `-∂f/∂(x, θ)` of the water's force and torque on a body at rest.
     pub(super) fn add_slopes(&mut self, model: &Model, index: usize, body: &Body) {
-        let (place, orientation) = (self.trial.bodies[index].place, self.trial.bodies[index].orientation);
+        let (place, orientation) =
+            (self.trial.bodies[index].place, self.trial.bodies[index].orientation);
         let block = self.plan.body_block[index];
         let moved = |solver: &Self, axis: DVec3| {
-            let at = |step: f64| solver.wrench(model, (index, body), place + axis * step, orientation);
+            let at =
+                |step: f64| solver.wrench(model, (index, body), place + axis * step, orientation);
             slope(at(-STEP), at(STEP))
         };
         let turned = |solver: &Self, axis: DVec3| {
-            let at =
-                |step: f64| solver.wrench(model, (index, body), place, (DQuat::from_scaled_axis(axis * step) * orientation).normalize());
+            let at = |step: f64| {
+                solver.wrench(
+                    model,
+                    (index, body),
+                    place,
+                    (DQuat::from_scaled_axis(axis * step) * orientation).normalize(),
+                )
+            };
             slope(at(-STEP), at(STEP))
         };
         let by_place = DVec3::AXES.map(|axis| moved(self, axis));
@@ -46,11 +54,19 @@ impl Solver {
     }
 
     /// Force and torque of still floats and of the current on a body, placed and turned like this.
-    fn wrench(&self, model: &Model, (index, body): (usize, &Body), place: DVec3, orientation: DQuat) -> Wrench {
+    fn wrench(
+        &self,
+        model: &Model,
+        (index, body): (usize, &Body),
+        place: DVec3,
+        orientation: DQuat,
+    ) -> Wrench {
         let (water, flow) = (&model.spec.water, &self.flow_bodies[index]);
         let axes = DMat3::from_quat(orientation);
         let mut wrench = (DVec3::ZERO, DVec3::ZERO);
-        let mut push = |arm: DVec3, force: DVec3, torque: DVec3| wrench = (wrench.0 + force, wrench.1 + arm.cross(force) + torque);
+        let mut push = |arm: DVec3, force: DVec3, torque: DVec3| {
+            wrench = (wrench.0 + force, wrench.1 + arm.cross(force) + torque)
+        };
         let drag = |area: DVec3| {
             let along = axes.transpose() * flow.velocity_m_s;
             axes * (area * along * (0.5 * water.density_kg_m3 * along.length()))
@@ -60,7 +76,11 @@ impl Solver {
             let arm = axes * float.offset_m;
             let wet = float.form.wet(place.z + arm.z - flow.surface_m, axes * DVec3::Z);
             let lift = DVec3::Z * (water.density_kg_m3 * water.gravity_m_s2 * float.volume_m3);
-            push(arm, lift * wet.share + drag(float.drag_area_m2 * wet.share), wet.moment.cross(lift));
+            push(
+                arm,
+                lift * wet.share + drag(float.drag_area_m2 * wet.share),
+                wet.moment.cross(lift),
+            );
             share += wet.share * float.volume_m3;
             whole += float.volume_m3;
         }

@@ -61,7 +61,13 @@ pub(crate) enum Touched {
 
 impl Solver {
     /// Newton passes at the skin's present place until the moves are small.
-    pub(crate) fn solve_touching(&mut self, model: &Model, state: &State, scheme: &Scheme, work: &mut ContactWork) -> Touched {
+    pub(crate) fn solve_touching(
+        &mut self,
+        model: &Model,
+        state: &State,
+        scheme: &Scheme,
+        work: &mut ContactWork,
+    ) -> Touched {
         let (mut last_m, mut crossings) = (f64::INFINITY, 0);
         work.open_slots(model, &self.lengths.segment, &self.trial.place);
         let (mut passes, mut stalled) = (0, 0);
@@ -78,7 +84,11 @@ impl Solver {
             let moved = |node: usize| self.trial.place[node] + self.band.step[node];
             let safe = work.near.safe_share(&self.trial.place, moved, work.near.fraction);
             let safe = safe.min(self.ropes.safe_share(&self.trial.place, moved));
-            let share = if longest * safe > UNSEARCHED_M { self.search(model, state, scheme, work, safe) } else { safe };
+            let share = if longest * safe > UNSEARCHED_M {
+                self.search(model, state, scheme, work, safe)
+            } else {
+                safe
+            };
             let (taken, crossed) = self.move_by(model, work, share);
             crossings += crossed;
             if self.strayed(state, scheme) > near::MARGIN_M - work.greatest_reach {
@@ -102,11 +112,22 @@ impl Solver {
     ///
     /// Judged by where they are alone, slack rope that the step would draw taut stops the search along it after a small share,
     /// pass after pass: with segments of a centimetre the passes ran out before anything balanced.
-    pub(super) fn solve_judged(&mut self, model: &Model, state: &State, scheme: &Scheme, work: Option<&ContactWork>) {
+    pub(super) fn solve_judged(
+        &mut self,
+        model: &Model,
+        state: &State,
+        scheme: &Scheme,
+        work: Option<&ContactWork>,
+    ) {
         self.solve(model);
         for _ in 0..MOST_JUDGED {
             self.foretell_tension(model, 1.0);
-            if self.pull.iter().zip(&self.trial.tension).all(|(pull, tension)| pull.taut == (*tension > 0.0)) {
+            if self
+                .pull
+                .iter()
+                .zip(&self.trial.tension)
+                .all(|(pull, tension)| pull.taut == (*tension > 0.0))
+            {
                 return;
             }
             self.assemble_again(model, state, scheme);
@@ -125,7 +146,13 @@ impl Solver {
     }
 
     /// Forces and matrix with contact at the trial places; what is linear in the search is kept apart.
-    fn assemble_touching(&mut self, model: &Model, state: &State, scheme: &Scheme, work: &mut ContactWork) -> Result<(), Touched> {
+    fn assemble_touching(
+        &mut self,
+        model: &Model,
+        state: &State,
+        scheme: &Scheme,
+        work: &mut ContactWork,
+    ) -> Result<(), Touched> {
         self.assemble_searchable(model, state, scheme);
         work.slots.measure(&work.near, &self.trial.place);
         if let Some((segment, triangle)) = work.nearer_than(CRUSHED_SHARE) {
@@ -137,7 +164,13 @@ impl Solver {
         self.add_contacts(model, state, scheme, work).map_err(Touched::Plugin)
     }
 
-    fn add_contacts(&mut self, model: &Model, state: &State, scheme: &Scheme, work: &mut ContactWork) -> Result<(), Failed> {
+    fn add_contacts(
+        &mut self,
+        model: &Model,
+        state: &State,
+        scheme: &Scheme,
+        work: &mut ContactWork,
+    ) -> Result<(), Failed> {
         let Some(friction) = &model.spec.friction else { return Ok(()) };
         work.touching.collect(model, &work.near, &work.slots, state, |slot| slot.touches);
         work.touching.respond(friction, scheme.dt)?;
@@ -152,14 +185,27 @@ impl Solver {
             let Some(touch) = &slot.touches[work.touching.face[place]] else { continue };
             let response = &work.touching.response[place];
             let push = touch.normal * touch.press.stiffness;
-            let block =
-                outer(push, touch.normal) - grip::matrix(&response.by_slip) + outer(DVec3::from_array(response.by_normal_force), push);
-            self.add_at(slot.segment, slot.node, slot.fraction, work.touching.force_of(place), &block);
+            let block = outer(push, touch.normal) - grip::matrix(&response.by_slip)
+                + outer(DVec3::from_array(response.by_normal_force), push);
+            self.add_at(
+                slot.segment,
+                slot.node,
+                slot.fraction,
+                work.touching.force_of(place),
+                &block,
+            );
         }
     }
 
     /// Adds a force and its block at a fraction of a segment.
-    pub(super) fn add_at(&mut self, segment: usize, node: usize, fraction: f64, force: DVec3, block: &DMat3) {
+    pub(super) fn add_at(
+        &mut self,
+        segment: usize,
+        node: usize,
+        fraction: f64,
+        force: DVec3,
+        block: &DMat3,
+    ) {
         let (first, second) = (1.0 - fraction, fraction);
         self.band.force[node] += force * first;
         self.band.force[node + 1] += force * second;
@@ -172,7 +218,11 @@ impl Solver {
     /// Takes the tension of every segment at the trial places as it is.
     pub(super) fn measure_tension(&mut self, model: &Model, scheme: &Scheme) {
         self.each_segment(model, |solver, segment, node| {
-            solver.trial.tension[segment] = if solver.cut[segment] { 0.0 } else { solver.pull_of(segment, node, scheme).tension };
+            solver.trial.tension[segment] = if solver.cut[segment] {
+                0.0
+            } else {
+                solver.pull_of(segment, node, scheme).tension
+            };
         });
     }
 
@@ -181,7 +231,8 @@ impl Solver {
         let (mut gap, mut greatest) = (0.0_f64, 0.0_f64);
         self.each_segment(model, |solver, segment, node| {
             if !solver.cut[segment] {
-                let solved = if solver.pull[segment].taut { solver.trial.tension[segment] } else { 0.0 };
+                let solved =
+                    if solver.pull[segment].taut { solver.trial.tension[segment] } else { 0.0 };
                 let there = solver.pull_of(segment, node, scheme).tension.max(0.0);
                 gap = gap.max((solved - there).abs());
                 greatest = greatest.max(solved);
@@ -208,11 +259,22 @@ impl Solver {
         work.bodies_before.clone_from(&self.trial.bodies);
         for _ in 0..MOST_CUTS {
             self.advance(model, share);
-            let safe = work.near.safe_share(&work.before, |node| self.trial.place[node], work.near.fraction);
+            let safe = work.near.safe_share(
+                &work.before,
+                |node| self.trial.place[node],
+                work.near.fraction,
+            );
             let safe = safe.min(self.safe_of_ropes_from(&work.before));
             if safe >= 1.0 {
                 self.move_ropes_from(&work.before);
-                return (share, work.near.make_move(&work.before, |node| self.trial.place[node], work.near.fraction));
+                return (
+                    share,
+                    work.near.make_move(
+                        &work.before,
+                        |node| self.trial.place[node],
+                        work.near.fraction,
+                    ),
+                );
             }
             self.trial.place.clone_from(&work.before);
             self.trial.bodies.clone_from(&work.bodies_before);
@@ -225,7 +287,9 @@ impl Solver {
     fn strayed(&self, state: &State, scheme: &Scheme) -> f64 {
         let away = |node: usize| {
             let (from, path) = (state.rope.position[node], state.rope.velocity[node] * scheme.dt);
-            let along = ((self.trial.place[node] - from).dot(path) / path.length_squared().max(1e-30)).clamp(0.0, 1.0);
+            let along = ((self.trial.place[node] - from).dot(path)
+                / path.length_squared().max(1e-30))
+            .clamp(0.0, 1.0);
             (self.trial.place[node] - from - path * along).length_squared()
         };
         (0..self.trial.place.len()).map(away).fold(0.0, f64::max).sqrt()
@@ -243,5 +307,9 @@ pub(super) fn enough(passes: usize) -> f64 {
 /// With `θ = δ/δ'` the ratio of two moves, what is left is about `θ/(1-θ) δ` (Hairer and Wanner, section IV.8).
 pub(super) fn left_to_go(last_m: f64, before_m: f64) -> f64 {
     let shrinkage = last_m / before_m;
-    if last_m < CONTACT_WANTED_M && shrinkage < 0.5 { last_m * shrinkage / (1.0 - shrinkage) } else { last_m }
+    if last_m < CONTACT_WANTED_M && shrinkage < 0.5 {
+        last_m * shrinkage / (1.0 - shrinkage)
+    } else {
+        last_m
+    }
 }

@@ -56,8 +56,10 @@ impl Trial {
         self.place_history.resize(count, DVec3::ZERO);
         self.velocity_history.resize(count, DVec3::ZERO);
         for node in 0..count {
-            self.place_history[node] = scheme.history(rope.position[node], rope.earlier_position[node]);
-            self.velocity_history[node] = scheme.history(rope.velocity[node], rope.earlier_velocity[node]);
+            self.place_history[node] =
+                scheme.history(rope.position[node], rope.earlier_position[node]);
+            self.velocity_history[node] =
+                scheme.history(rope.velocity[node], rope.earlier_velocity[node]);
             self.place[node] = rope.position[node] + rope.velocity[node] * scheme.dt;
         }
         self.tension.clone_from(&rope.tension);
@@ -71,7 +73,12 @@ impl Trial {
         self.hitches.share = 1.0;
         self.place.clear();
         let rope = &state.rope;
-        self.place.extend(rope.position.iter().zip(&rope.velocity).map(|(place, velocity)| *place + *velocity * scheme.dt));
+        self.place.extend(
+            rope.position
+                .iter()
+                .zip(&rope.velocity)
+                .map(|(place, velocity)| *place + *velocity * scheme.dt),
+        );
         self.begin_bodies(model, state, scheme);
         self.seat_ends(model, plan);
     }
@@ -79,7 +86,8 @@ impl Trial {
     fn begin_bodies(&mut self, model: &Model, state: &State, scheme: &Scheme) {
         self.bodies.clear();
         for (body, now) in model.spec.bodies.iter().zip(&state.bodies) {
-            let held = body.held_until_s.is_some_and(|until| scheme.is_static() || self.time <= until);
+            let held =
+                body.held_until_s.is_some_and(|until| scheme.is_static() || self.time <= until);
             let move_of = if held { DVec3::ZERO } else { now.velocity * scheme.dt };
             let turn = if held { DVec3::ZERO } else { now.spin * scheme.dt };
             self.bodies.push(BodyTrial {
@@ -112,7 +120,9 @@ impl Trial {
         }
         let place = model.spec.joints[joint].position_m;
         match model.spec.joints[joint].kind {
-            JointKind::Driven { velocity_m_s, from_s, until_s } => place + velocity_m_s * (self.time.min(until_s) - from_s).max(0.0),
+            JointKind::Driven { velocity_m_s, from_s, until_s } => {
+                place + velocity_m_s * (self.time.min(until_s) - from_s).max(0.0)
+            }
             JointKind::Fixed => place,
             JointKind::Whale(_) => self.hitches.place(joint).unwrap_or(place),
             _ => self.place[plan.joint_node[joint].unwrap_or(node)],

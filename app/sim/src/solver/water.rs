@@ -41,9 +41,13 @@ impl Solver {
         let shared = Shared::of(model, scheme);
         for (line, nodes) in model.spec.lines.iter().zip(&model.line_nodes) {
             let rope = &model.spec.ropes[line.rope];
-            let (per_metre, pressure) = (PerMetre::of(rope, &model.spec.water), model.spec.water.density_kg_m3 * rope.displaced_m3_m);
+            let (per_metre, pressure) = (
+                PerMetre::of(rope, &model.spec.water),
+                model.spec.water.density_kg_m3 * rope.displaced_m3_m,
+            );
             for node in nodes.clone() {
-                let wet = shared.wet_at(state.rope.position[node].z - self.surface[node]) * self.lengths.node[node];
+                let wet = shared.wet_at(state.rope.position[node].z - self.surface[node])
+                    * self.lengths.node[node];
                 let acceleration = self.flow_acceleration[node];
                 let (tangent, _) = tangent(&state.rope.position, node, nodes);
                 let along = tangent * (per_metre.spared * tangent.dot(acceleration));
@@ -68,8 +72,14 @@ impl Solver {
         let trial = self.trial.bodies[index];
         let height = |offset: DVec3| trial.place.z + (trial.orientation * offset).z - surface_m;
         let axis = trial.orientation * DVec3::Z;
-        let volume: f64 = body.floats.iter().map(|float| float.volume_m3 * float.form.wet(height(float.offset_m), axis).share).sum();
-        let added = trial.orientation * (body.added_mass_kg * wet * (trial.orientation.inverse() * acceleration));
-        self.hubs.force[self.plan.body_block[index]] += acceleration * (model.spec.water.density_kg_m3 * volume) + added;
+        let volume: f64 = body
+            .floats
+            .iter()
+            .map(|float| float.volume_m3 * float.form.wet(height(float.offset_m), axis).share)
+            .sum();
+        let added = trial.orientation
+            * (body.added_mass_kg * wet * (trial.orientation.inverse() * acceleration));
+        self.hubs.force[self.plan.body_block[index]] +=
+            acceleration * (model.spec.water.density_kg_m3 * volume) + added;
     }
 }

@@ -59,7 +59,8 @@ impl Coarse {
         for place in first..=last {
             let share = along / from.segment_length[segment];
             rope.position[place] = from.position[node].lerp(from.position[node + 1], share);
-            rope.seabed_grip[place] = from.seabed_grip[node].lerp(from.seabed_grip[node + 1], share);
+            rope.seabed_grip[place] =
+                from.seabed_grip[node].lerp(from.seabed_grip[node + 1], share);
             if place < last {
                 rope.tension[first_segment + place - first] = from.tension[segment];
                 along += rope.segment_length[first_segment + place - first];
@@ -77,8 +78,15 @@ fn ends_of(segments: usize) -> Vec<usize> {
 /// The line with its segments between those ends joined.
 fn joined(line: &Line, ends: &[usize]) -> Line {
     Line {
-        segments_m: ends.windows(2).map(|pair| line.segments_m[pair[0]..pair[1]].iter().sum()).collect(),
-        start_m: if line.start_m.is_empty() { Vec::new() } else { ends.iter().map(|end| line.start_m[*end]).collect() },
+        segments_m: ends
+            .windows(2)
+            .map(|pair| line.segments_m[pair[0]..pair[1]].iter().sum())
+            .collect(),
+        start_m: if line.start_m.is_empty() {
+            Vec::new()
+        } else {
+            ends.iter().map(|end| line.start_m[*end]).collect()
+        },
         ..line.clone()
     }
 }

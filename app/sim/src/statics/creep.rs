@@ -40,7 +40,8 @@ struct Burdens<'a> {
 impl<'a> Burdens<'a> {
     /// The same for all; the solver's own pseudo-mass is one from here on.
     fn new(model: &'a Model, pseudo_mass: f64, newton: &mut Newton) -> Self {
-        let mut burdens = Self { model, mass: vec![1.0; model.spec.lines.len() + model.spec.bodies.len()] };
+        let mut burdens =
+            Self { model, mass: vec![1.0; model.spec.lines.len() + model.spec.bodies.len()] };
         burdens.change(newton, pseudo_mass, |_| true);
         burdens
     }
@@ -62,13 +63,19 @@ impl<'a> Burdens<'a> {
     fn culprits(&self, newton: &Newton, enough_n: f64) -> Vec<bool> {
         let (spec, solver) = (&self.model.spec, &newton.solver);
         let sharp = |turn: f64| turn > 0.5 * SHARP_TURN;
-        let line = |line| solver.left_in_line(self.model, line) > enough_n || sharp(solver.turn_of_line(self.model, line));
+        let line = |line| {
+            solver.left_in_line(self.model, line) > enough_n
+                || sharp(solver.turn_of_line(self.model, line))
+        };
         let mut culprits: Vec<bool> = (0..spec.lines.len()).map(line).collect();
         culprits.extend((0..spec.bodies.len()).map(|body| sharp(solver.turn_of_body(body))));
         match solver.worst(self.model).filter(|(_, force_n)| *force_n > enough_n) {
             Some((WorstAt::Body(body), _)) => culprits[spec.lines.len() + body] = true,
             Some((WorstAt::Joint(joint), _)) => {
-                spec.lines.iter().zip(&mut culprits).for_each(|(line, is)| *is |= line.from == joint || line.to == joint);
+                spec.lines
+                    .iter()
+                    .zip(&mut culprits)
+                    .for_each(|(line, is)| *is |= line.from == joint || line.to == joint);
             }
             _ => {}
         }
@@ -80,7 +87,12 @@ impl<'a> Burdens<'a> {
 }
 
 /// Finds a state at rest from an attempt's guess.
-pub(super) fn creep(model: &Model, attempt: &Attempt, most_passes: usize, trail: &mut Trail) -> Reached {
+pub(super) fn creep(
+    model: &Model,
+    attempt: &Attempt,
+    most_passes: usize,
+    trail: &mut Trail,
+) -> Reached {
     let mut newton = Newton::new(model, &Attempt { pseudo_mass: 1.0, ..*attempt }).anchored();
     let mut burdens = Burdens::new(model, FAR, &mut newton);
     let last = trail.passes() + most_passes;
@@ -89,7 +101,11 @@ pub(super) fn creep(model: &Model, attempt: &Attempt, most_passes: usize, trail:
         newton.solver.anchor();
         let residual_n = newton.balance_at_rest();
         trail.pass(model, residual_n);
-        if residual_n < TOLERANCE_N || !residual_n.is_finite() || trail.passes() >= last || trail.is_spent() {
+        if residual_n < TOLERANCE_N
+            || !residual_n.is_finite()
+            || trail.passes() >= last
+            || trail.is_spent()
+        {
             return newton.reached(residual_n);
         }
         tension.clear();

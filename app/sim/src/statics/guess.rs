@@ -51,13 +51,23 @@ pub(super) fn first_guess(model: &Model) -> State {
 fn sink(model: &Model, index: usize, state: &mut State) {
     let (Some(seabed), body) = (&model.spec.seabed, &model.spec.bodies[index]) else { return };
     let now = &state.bodies[index];
-    let lowest = body.feet_m.iter().map(|foot| seabed.depth_of(now.position + now.orientation * *foot)).fold(f64::MIN, f64::max);
+    let lowest = body
+        .feet_m
+        .iter()
+        .map(|foot| seabed.depth_of(now.position + now.orientation * *foot))
+        .fold(f64::MIN, f64::max);
     let displaced: f64 = body.floats.iter().map(|float| float.volume_m3).sum();
-    let weight = (body.mass_kg - model.spec.water.density_kg_m3 * displaced) * model.spec.water.gravity_m_s2;
+    let weight =
+        (body.mass_kg - model.spec.water.density_kg_m3 * displaced) * model.spec.water.gravity_m_s2;
     if weight <= 0.0 {
         return;
     }
-    shift(model, index, seabed.normal * (lowest - seabed.depth_under(weight / body.feet_m.len() as f64)), state);
+    shift(
+        model,
+        index,
+        seabed.normal * (lowest - seabed.depth_under(weight / body.feet_m.len() as f64)),
+        state,
+    );
 }
 
 /// Draws the laid bodies at a line's ends together where they are further apart than it is long: gear is laid with its
@@ -65,15 +75,25 @@ fn sink(model: &Model, index: usize, state: &mut State) {
 fn draw_near(model: &Model, line: usize, state: &mut State) {
     let (line, nodes) = (&model.spec.lines[line], &model.line_nodes[line]);
     let movable = |joint: usize| match model.spec.joints[joint].kind {
-        JointKind::Body { body, .. } if is_laid(model, body) => Some((body, model.spec.bodies[body].held_until_s.is_none())),
+        JointKind::Body { body, .. } if is_laid(model, body) => {
+            Some((body, model.spec.bodies[body].held_until_s.is_none()))
+        }
         _ => None,
     };
-    let (Some(seabed), Some((from, from_free)), Some((to, to_free))) = (&model.spec.seabed, movable(line.from), movable(line.to)) else {
+    let (Some(seabed), Some((from, from_free)), Some((to, to_free))) =
+        (&model.spec.seabed, movable(line.from), movable(line.to))
+    else {
         return;
     };
     let chord = state.rope.position[nodes.end - 1] - state.rope.position[nodes.start];
     let excess = chord.length() - LAID_SHARE * line.segments_m.iter().sum::<f64>();
-    let Some(along) = chord.reject_from_normalized(seabed.normal).try_normalize().filter(|_| excess > 0.0 && from != to) else { return };
+    let Some(along) = chord
+        .reject_from_normalized(seabed.normal)
+        .try_normalize()
+        .filter(|_| excess > 0.0 && from != to)
+    else {
+        return;
+    };
     if to_free {
         shift(model, to, along * -excess, state);
     } else if from_free {
@@ -97,7 +117,8 @@ fn shift(model: &Model, index: usize, by: DVec3, state: &mut State) {
     state.bodies[index].position += by;
     for (line, nodes) in model.spec.lines.iter().zip(&model.line_nodes) {
         for (joint, node) in [(line.from, nodes.start), (line.to, nodes.end - 1)] {
-            if matches!(model.spec.joints[joint].kind, JointKind::Body { body, .. } if body == index) {
+            if matches!(model.spec.joints[joint].kind, JointKind::Body { body, .. } if body == index)
+            {
                 state.rope.position[node] += by;
             }
         }
@@ -111,21 +132,27 @@ fn bend(model: &Model, index: usize, state: &mut State) {
     let (from, to) = (state.rope.position[nodes.start], state.rope.position[nodes.end - 1]);
     let (chord, length) = (to - from, line.segments_m.iter().sum::<f64>());
     let span = chord.length();
-    let load = load(model, &model.spec.ropes[line.rope], from.midpoint(to), chord.normalize_or_zero());
+    let load =
+        load(model, &model.spec.ropes[line.rope], from.midpoint(to), chord.normalize_or_zero());
     if span >= length || span < 1e-6 {
-        let pull = (model.spec.ropes[line.rope].axial_stiffness_n * (span / length - 1.0)).max(1e-3 * load.length() * length);
+        let pull = (model.spec.ropes[line.rope].axial_stiffness_n * (span / length - 1.0))
+            .max(1e-3 * load.length() * length);
         state.rope.tension[model.line_segments[index].clone()].fill(pull);
         return;
     }
     let along = chord / span;
-    let out = (load - along * load.dot(along)).try_normalize().unwrap_or_else(|| along.any_orthonormal_vector());
+    let out = (load - along * load.dot(along))
+        .try_normalize()
+        .unwrap_or_else(|| along.any_orthonormal_vector());
     let mut places = arc(line, (from, along), out, span, length);
     let tension = load.length() * 0.5 * length / half_angle(span / length);
     if let Some(seabed) = model.spec.seabed.as_ref().filter(|seabed| lies(seabed, &places)) {
         // It lies in a bight beside its ends, on the side the current takes it to.
         let level = |vector: DVec3| vector - seabed.normal * vector.dot(seabed.normal);
         let ahead = level(along).try_normalize().unwrap_or(along);
-        let side = (level(load) - ahead * load.dot(ahead)).try_normalize().unwrap_or_else(|| seabed.normal.cross(ahead));
+        let side = (level(load) - ahead * load.dot(ahead))
+            .try_normalize()
+            .unwrap_or_else(|| seabed.normal.cross(ahead));
         places = lie(seabed, line, (from, to), (ahead, side));
     }
     if let Some(seabed) = &model.spec.seabed {
@@ -134,12 +161,19 @@ fn bend(model: &Model, index: usize, state: &mut State) {
             *place += seabed.normal * (seabed.depth_of(*place) - LAID_M).max(0.0);
         }
     }
-    state.rope.position[nodes.start + 1..nodes.end - 1].copy_from_slice(&places[1..nodes.len() - 1]);
+    state.rope.position[nodes.start + 1..nodes.end - 1]
+        .copy_from_slice(&places[1..nodes.len() - 1]);
     state.rope.tension[model.line_segments[index].clone()].fill(tension);
 }
 
 /// Nodes of a line along the arc from a place, with its chord along `along` and its bulge along `out`.
-fn arc(line: &Line, (from, along): (DVec3, DVec3), out: DVec3, span: f64, length: f64) -> Vec<DVec3> {
+fn arc(
+    line: &Line,
+    (from, along): (DVec3, DVec3),
+    out: DVec3,
+    span: f64,
+    length: f64,
+) -> Vec<DVec3> {
     let half = half_angle(span / length);
     let radius = 0.5 * length / half;
     let middle = from + along * (0.5 * span) - out * (radius * libm::cos(half));
@@ -147,18 +181,26 @@ fn arc(line: &Line, (from, along): (DVec3, DVec3), out: DVec3, span: f64, length
     let mut places = vec![from];
     for segment in &line.segments_m {
         angle += segment / radius;
-        places.push(middle + along * (radius * libm::sin(angle)) + out * (radius * libm::cos(angle)));
+        places
+            .push(middle + along * (radius * libm::sin(angle)) + out * (radius * libm::cos(angle)));
     }
     places
 }
 
 /// Lays a line on the seabed: down from each end, and between in an arc on the seabed; no segment is stretched.
-fn lie(seabed: &Seabed, line: &Line, (from, to): (DVec3, DVec3), (ahead, side): (DVec3, DVec3)) -> Vec<DVec3> {
+fn lie(
+    seabed: &Seabed,
+    line: &Line,
+    (from, to): (DVec3, DVec3),
+    (ahead, side): (DVec3, DVec3),
+) -> Vec<DVec3> {
     let whole: f64 = line.segments_m.iter().sum();
     let (first, last) = (-seabed.depth_of(from), -seabed.depth_of(to));
-    let height = |along: f64| (first - DESCENT * along).max(last - DESCENT * (whole - along)).max(-LAID_M);
+    let height =
+        |along: f64| (first - DESCENT * along).max(last - DESCENT * (whole - along)).max(-LAID_M);
     // Length of each segment along the seabed.
-    let (mut along, mut before, mut level) = (0.0, first, Vec::with_capacity(line.segments_m.len()));
+    let (mut along, mut before, mut level) =
+        (0.0, first, Vec::with_capacity(line.segments_m.len()));
     for segment in &line.segments_m {
         along += segment;
         let after = height(along);
@@ -173,7 +215,9 @@ fn lie(seabed: &Seabed, line: &Line, (from, to): (DVec3, DVec3), (ahead, side): 
     for (segment, level) in line.segments_m.iter().zip(&level) {
         angle += level / radius;
         along += segment;
-        let on = from + ahead * (0.5 * span + radius * libm::sin(angle)) + side * (radius * (libm::cos(angle) - libm::cos(half)));
+        let on = from
+            + ahead * (0.5 * span + radius * libm::sin(angle))
+            + side * (radius * (libm::cos(angle) - libm::cos(half)));
         places.push(on + seabed.normal * (seabed.depth_of(on) + height(along)));
     }
     places
@@ -201,5 +245,7 @@ fn load(model: &Model, rope: &Rope, place: DVec3, tangent: DVec3) -> DVec3 {
     let weight = (water.density_kg_m3 * rope.displaced_m3_m - rope.mass_kg_m) * water.gravity_m_s2;
     let flow = model.sea.at(place, 0.0).velocity_m_s;
     let across = flow - tangent * flow.dot(tangent);
-    DVec3::Z * weight + across * (0.5 * water.density_kg_m3 * rope.drag_normal * rope.diameter_m * across.length())
+    DVec3::Z * weight
+        + across
+            * (0.5 * water.density_kg_m3 * rope.drag_normal * rope.diameter_m * across.length())
 }

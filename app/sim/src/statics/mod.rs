@@ -58,7 +58,9 @@ impl Settled {
     #[must_use]
     pub fn why(&self) -> String {
         match (&self.outcome, &self.worst) {
-            (Outcome::NotFound(_), Some(worst)) => format!("{}; {:.3e} N is left at {}", self.outcome, worst.force_n, worst.part),
+            (Outcome::NotFound(_), Some(worst)) => {
+                format!("{}; {:.3e} N is left at {}", self.outcome, worst.force_n, worst.part)
+            }
             (outcome, _) => outcome.to_string(),
         }
     }
@@ -95,25 +97,41 @@ fn find(model: &Model, trail: &mut Trail) -> Found {
 
 /// From what was found for coarser gear; nothing where that does not lead there.
 fn refine(model: &Model, coarse: &Coarse, found: &Found, trail: &mut Trail) -> Option<Found> {
-    let [first, held, guess] = [&found.first, &found.held, &found.end.state].map(|state| coarse.carry(model, state));
+    let [first, held, guess] =
+        [&found.first, &found.held, &found.end.state].map(|state| coarse.carry(model, state));
     let (laid, hold) = match found.outcome {
         Outcome::AtRest => (&held, Hold::Released),
         Outcome::Drags(_) => (&first, Hold::Laid),
         Outcome::NotFound(_) => return None,
     };
-    let end = ways::try_all(&REFINED, model, &Attempt { laid, guess: &guess, hold, pseudo_mass: NEAR }, trail);
+    let end = ways::try_all(
+        &REFINED,
+        model,
+        &Attempt { laid, guess: &guess, hold, pseudo_mass: NEAR },
+        trail,
+    );
     if !end.at_rest() {
         return None;
     }
-    let outcome = if hold == Hold::Laid { Outcome::Drags(outcome::drags(model, &end)?) } else { Outcome::AtRest };
+    let outcome = if hold == Hold::Laid {
+        Outcome::Drags(outcome::drags(model, &end)?)
+    } else {
+        Outcome::AtRest
+    };
     Some(Found { first, held, end, outcome })
 }
 
 /// What was found for coarser gear as it is, where it is time to give up.
 fn carry(model: &Model, coarse: &Coarse, found: Found, trail: &mut Trail) -> Found {
-    let [first, held, guess] = [&found.first, &found.held, &found.end.state].map(|state| coarse.carry(model, state));
-    let (laid, hold) = if matches!(found.outcome, Outcome::Drags(_)) { (&first, Hold::Laid) } else { (&held, Hold::Released) };
-    let end = newton::descend(model, &Attempt { laid, guess: &guess, hold, pseudo_mass: NEAR }, 1, trail);
+    let [first, held, guess] =
+        [&found.first, &found.held, &found.end.state].map(|state| coarse.carry(model, state));
+    let (laid, hold) = if matches!(found.outcome, Outcome::Drags(_)) {
+        (&first, Hold::Laid)
+    } else {
+        (&held, Hold::Released)
+    };
+    let end =
+        newton::descend(model, &Attempt { laid, guess: &guess, hold, pseudo_mass: NEAR }, 1, trail);
     let outcome = match found.outcome {
         Outcome::AtRest if !end.at_rest() => Outcome::NotFound(Unfound::Fine),
         outcome => outcome,
@@ -124,11 +142,18 @@ fn carry(model: &Model, coarse: &Coarse, found: Found, trail: &mut Trail) -> Fou
 /// From the first guess.
 fn find_anew(model: &Model, trail: &mut Trail) -> Found {
     let first = guess::first_guess(model);
-    let held = ways::try_all(&HELD, model, &Attempt { laid: &first, guess: &first, hold: Hold::Laid, pseudo_mass: FAR }, trail);
-    let attempt = Attempt { laid: &held.state, guess: &held.state, hold: Hold::Released, pseudo_mass: FAR };
+    let held = ways::try_all(
+        &HELD,
+        model,
+        &Attempt { laid: &first, guess: &first, hold: Hold::Laid, pseudo_mass: FAR },
+        trail,
+    );
+    let attempt =
+        Attempt { laid: &held.state, guess: &held.state, hold: Hold::Released, pseudo_mass: FAR };
     if !held.at_rest() {
         let end = ways::take(Way::Soften, model, &attempt, trail);
-        let outcome = if end.at_rest() { Outcome::AtRest } else { Outcome::NotFound(Unfound::Held) };
+        let outcome =
+            if end.at_rest() { Outcome::AtRest } else { Outcome::NotFound(Unfound::Held) };
         return Found { first, held: held.state, end, outcome };
     }
     let grip = outcome::grip(model, &held);
@@ -158,5 +183,12 @@ fn told(model: &Model, found: Found, trail: Trail) -> Settled {
     let Found { mut end, outcome, .. } = found;
     let (worst, converged) = (outcome::worst(model, &end), outcome == Outcome::AtRest);
     pilot::begin(model, &mut end.state);
-    Settled { state: end.state, outcome, residual_n: end.residual_n, worst, converged, trace_n: trail.residual_n }
+    Settled {
+        state: end.state,
+        outcome,
+        residual_n: end.residual_n,
+        worst,
+        converged,
+        trace_n: trail.residual_n,
+    }
 }

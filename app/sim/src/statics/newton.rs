@@ -118,7 +118,15 @@ impl<'a> Newton<'a> {
             Hold::Released => {}
         }
         solver.start_at(model, attempt.guess);
-        Self { model, laid: attempt.laid.clone(), pseudo_mass: attempt.pseudo_mass, wary: 0, wait: 0, solver, scheme }
+        Self {
+            model,
+            laid: attempt.laid.clone(),
+            pseudo_mass: attempt.pseudo_mass,
+            wary: 0,
+            wait: 0,
+            solver,
+            scheme,
+        }
     }
 
     /// Assembles forces and matrix at the trial places; the residual [N].
@@ -203,9 +211,15 @@ impl<'a> Newton<'a> {
 }
 
 /// Newton, begun with the pseudo-mass of the attempt.
-pub(super) fn descend(model: &Model, attempt: &Attempt, most_passes: usize, trail: &mut Trail) -> Reached {
+pub(super) fn descend(
+    model: &Model,
+    attempt: &Attempt,
+    most_passes: usize,
+    trail: &mut Trail,
+) -> Reached {
     let mut newton = Newton::new(model, attempt);
-    let longest_line = model.spec.lines.iter().map(|line| line.segments_m.iter().sum::<f64>()).fold(1.0, f64::max);
+    let longest_line =
+        model.spec.lines.iter().map(|line| line.segments_m.iter().sum::<f64>()).fold(1.0, f64::max);
     let mut before = Vec::new();
     let mut residual_n = f64::INFINITY;
     for _ in 0..most_passes {
@@ -215,7 +229,9 @@ pub(super) fn descend(model: &Model, attempt: &Attempt, most_passes: usize, trai
             break;
         }
         newton.stiffen_slack();
-        let turn = newton.solve().max(SHARP_TURN * newton.solver.longest() / (LONGEST_MOVE * longest_line));
+        let turn = newton
+            .solve()
+            .max(SHARP_TURN * newton.solver.longest() / (LONGEST_MOVE * longest_line));
         if turn > 2.0 * SHARP_TURN {
             newton.change_mass((turn / SHARP_TURN).min(GREATEST_GROWTH));
         } else {

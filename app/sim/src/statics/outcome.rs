@@ -84,7 +84,9 @@ impl fmt::Display for Outcome {
 impl fmt::Display for Unfound {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Held => f.write_str(", even with all that lies on the seabed held where it was laid"),
+            Self::Held => {
+                f.write_str(", even with all that lies on the seabed held where it was laid")
+            }
             Self::Released(None) => Ok(()),
             Self::Released(Some(Drag { body, pull_n, hold_n })) => {
                 f.write_str(": with all that lies on the seabed held there it is at rest, but not once that is let go, ")?;
@@ -112,7 +114,8 @@ const OVERTURNED: f64 = core::f64::consts::FRAC_1_SQRT_2;
 /// Whether a laid body has turned over from how it was laid.
 pub(super) fn overturned(model: &Model, laid: &State, now: &State) -> bool {
     let up = |state: &State, body: usize| state.bodies[body].orientation * DVec3::Z;
-    (0..model.spec.bodies.len()).any(|body| is_laid(model, body) && up(laid, body).dot(up(now, body)) < OVERTURNED)
+    (0..model.spec.bodies.len())
+        .any(|body| is_laid(model, body) && up(laid, body).dot(up(now, body)) < OVERTURNED)
 }
 
 /// The gear that is pulled hardest for what its laid bodies hold, from the loads on them where they are held.
@@ -121,16 +124,27 @@ pub(super) fn overturned(model: &Model, laid: &State, now: &State) -> bool {
 /// where the sum of the pulls is greater than the sum of the `μN` the gear drags, wherever the bodies lie.
 pub(super) fn grip(model: &Model, held: &Reached) -> Option<Drag> {
     let seabed = model.spec.seabed.as_ref()?;
-    let laid: Vec<usize> = (0..model.spec.bodies.len()).filter(|body| is_laid(model, *body)).collect();
+    let laid: Vec<usize> =
+        (0..model.spec.bodies.len()).filter(|body| is_laid(model, *body)).collect();
     let gear = gear_of_bodies(model);
     let lacks = |one: usize| {
-        let mates: Vec<usize> = (0..laid.len()).filter(|other| gear[laid[*other]] == gear[laid[one]]).collect();
+        let mates: Vec<usize> =
+            (0..laid.len()).filter(|other| gear[laid[*other]] == gear[laid[one]]).collect();
         let along = |index: usize| held.load_n[index].reject_from_normalized(seabed.normal);
-        let hold = |index: usize| model.spec.bodies[laid[index]].start_friction * (-held.load_n[index].dot(seabed.normal)).max(0.0);
+        let hold = |index: usize| {
+            model.spec.bodies[laid[index]].start_friction
+                * (-held.load_n[index].dot(seabed.normal)).max(0.0)
+        };
         let pull_n = mates.iter().map(|mate| along(*mate)).sum::<DVec3>().length();
         let hold_n = mates.iter().map(|mate| hold(*mate)).sum::<f64>();
-        let most = mates.iter().copied().max_by(|a, b| (along(*a).length() - hold(*a)).total_cmp(&(along(*b).length() - hold(*b))));
-        Drag { body: most.map_or_else(String::new, |mate| model.spec.bodies[laid[mate]].id.clone()), pull_n, hold_n }
+        let most = mates.iter().copied().max_by(|a, b| {
+            (along(*a).length() - hold(*a)).total_cmp(&(along(*b).length() - hold(*b)))
+        });
+        Drag {
+            body: most.map_or_else(String::new, |mate| model.spec.bodies[laid[mate]].id.clone()),
+            pull_n,
+            hold_n,
+        }
     };
     let free = (0..laid.len()).filter(|index| gear[laid[*index]] != FIXED);
     free.map(lacks).max_by(|a, b| a.excess_n().total_cmp(&b.excess_n()))
@@ -149,10 +163,13 @@ fn gear_of_bodies(model: &Model) -> Vec<usize> {
     let joints = &model.spec.joints;
     // Joints of one body are one; lines join their ends.
     let mut gear: Vec<usize> = (0..joints.len()).collect();
-    let body_of = |joint: usize| if let JointKind::Body { body, .. } = joints[joint].kind { Some(body) } else { None };
+    let body_of = |joint: usize| {
+        if let JointKind::Body { body, .. } = joints[joint].kind { Some(body) } else { None }
+    };
     let pairs = model.spec.lines.iter().map(|line| (line.from, line.to));
     let same = (0..joints.len()).flat_map(|one| (0..one).map(move |other| (one, other)));
-    let same = same.filter(|(one, other)| body_of(*one).is_some() && body_of(*one) == body_of(*other));
+    let same =
+        same.filter(|(one, other)| body_of(*one).is_some() && body_of(*one) == body_of(*other));
     for (one, other) in pairs.chain(same) {
         let (from, to) = (gear[one], gear[other]);
         gear.iter_mut().filter(|gear| **gear == from).for_each(|gear| *gear = to);
@@ -162,7 +179,8 @@ fn gear_of_bodies(model: &Model) -> Vec<usize> {
         JointKind::Body { body, .. } => model.spec.bodies[body].held_until_s.is_some(),
         JointKind::Free | JointKind::Pulled { .. } => false,
     };
-    let fixed_gear: Vec<usize> = (0..joints.len()).filter(|joint| fixed(*joint)).map(|joint| gear[joint]).collect();
+    let fixed_gear: Vec<usize> =
+        (0..joints.len()).filter(|joint| fixed(*joint)).map(|joint| gear[joint]).collect();
     let of_body = |body: usize| {
         let joint = (0..joints.len()).find(|joint| body_of(*joint) == Some(body));
         match joint {

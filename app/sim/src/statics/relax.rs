@@ -68,7 +68,11 @@ fn stiffen(model: &Model, anew: &Attempt, softest_n: f64, trail: &mut Trail) -> 
             break;
         }
         let (soft, from) = (softened(model, next_n), Attempt { guess: &state, ..*anew });
-        let reached = if factor < NARROW { approach(&soft, &from, trail) } else { attempt(&soft, &from, QUICK, trail) };
+        let reached = if factor < NARROW {
+            approach(&soft, &from, trail)
+        } else {
+            attempt(&soft, &from, QUICK, trail)
+        };
         if reached.at_rest() {
             (state, stiffness_n) = (reached.state, next_n);
             factor = (factor * factor).min(GREATEST_FACTOR);
@@ -101,7 +105,12 @@ fn approach(model: &Model, from: &Attempt, trail: &mut Trail) -> Reached {
 }
 
 /// Newton from a guess in one way.
-fn attempt(model: &Model, from: &Attempt, (way, most_passes): (Way, usize), trail: &mut Trail) -> Reached {
+fn attempt(
+    model: &Model,
+    from: &Attempt,
+    (way, most_passes): (Way, usize),
+    trail: &mut Trail,
+) -> Reached {
     let mut newton = Newton::new(model, from);
     let mut residual_n = newton.balance(way);
     for _ in 0..most_passes {
@@ -114,7 +123,9 @@ fn attempt(model: &Model, from: &Attempt, (way, most_passes): (Way, usize), trai
             break;
         }
         newton.solve();
-        let longest = newton.solver.share_past_solids(LONGEST_MOVE_M / newton.solver.longest().max(LONGEST_MOVE_M));
+        let longest = newton
+            .solver
+            .share_past_solids(LONGEST_MOVE_M / newton.solver.longest().max(LONGEST_MOVE_M));
         let share = if way == Way::Searched { newton.search(longest) } else { longest };
         newton.solver.advance(model, share);
         newton.solver.measure_flow(model);

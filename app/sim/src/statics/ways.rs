@@ -47,7 +47,12 @@ const CREEP_PASSES: usize = 600;
 const POLISH_PASSES: usize = 200;
 
 /// Tries ways in turn until one leads to rest; the best end.
-pub(super) fn try_all(ways: &[Way], model: &Model, attempt: &Attempt, trail: &mut Trail) -> Reached {
+pub(super) fn try_all(
+    ways: &[Way],
+    model: &Model,
+    attempt: &Attempt,
+    trail: &mut Trail,
+) -> Reached {
     let mut best = take(ways[0], model, attempt, trail);
     for way in &ways[1..] {
         if best.at_rest() || trail.is_spent() {
@@ -90,7 +95,12 @@ fn soften(model: &Model, attempt: &Attempt, trail: &mut Trail) -> Reached {
     if relaxed.at_rest() {
         return relaxed;
     }
-    let polished = descend(model, &Attempt { laid: &laid, guess: &relaxed.state, ..*attempt }, POLISH_PASSES, trail);
+    let polished = descend(
+        model,
+        &Attempt { laid: &laid, guess: &relaxed.state, ..*attempt },
+        POLISH_PASSES,
+        trail,
+    );
     if polished.residual_n < relaxed.residual_n { polished } else { relaxed }
 }
 

@@ -23,31 +23,57 @@ impl Water {
             Profile::Uniform => {}
             Profile::Power(exponent) => {
                 let holds = exponent.is_finite() && *exponent > 0.0;
-                need(holds, format!("exponent of the current is {exponent}, expected a number above zero"));
+                need(
+                    holds,
+                    format!("exponent of the current is {exponent}, expected a number above zero"),
+                );
             }
             Profile::Log(roughness) => {
                 let holds = roughness.is_finite() && *roughness > 0.0;
-                need(holds, format!("roughness of the current is {roughness} of the depth, expected a number above zero"));
+                need(
+                    holds,
+                    format!(
+                        "roughness of the current is {roughness} of the depth, expected a number above zero"
+                    ),
+                );
             }
             Profile::Table(rows) => {
-                let sound = rows.iter().all(|row| row.height.is_finite() && row.along.is_finite() && row.left.is_finite());
-                need(sound && !rows.is_empty(), "profile of the current has no rows, or one that is not finite".into());
-                need(rows.windows(2).all(|pair| pair[0].height < pair[1].height), "rows of the current's profile do not rise".into());
+                let sound = rows.iter().all(|row| {
+                    row.height.is_finite() && row.along.is_finite() && row.left.is_finite()
+                });
+                need(
+                    sound && !rows.is_empty(),
+                    "profile of the current has no rows, or one that is not finite".into(),
+                );
+                need(
+                    rows.windows(2).all(|pair| pair[0].height < pair[1].height),
+                    "rows of the current's profile do not rise".into(),
+                );
             }
         }
         match &self.current.tide {
             Tide::Steady => {}
             Tide::Constituent { period_s, peak_s, minor, residual_m_s } => {
-                need(period_s.is_finite() && *period_s > 0.0, format!("period of the tide is {period_s}, expected a number above zero"));
+                need(
+                    period_s.is_finite() && *period_s > 0.0,
+                    format!("period of the tide is {period_s}, expected a number above zero"),
+                );
                 need(
                     peak_s.is_finite() && minor.is_finite() && residual_m_s.is_finite(),
                     "the tide has a figure that is not finite".into(),
                 );
             }
             Tide::Table(rows) => {
-                let sound = rows.iter().all(|(time, velocity)| time.is_finite() && velocity.is_finite());
-                need(sound && !rows.is_empty(), "table of the tide has no rows, or one that is not finite".into());
-                need(rows.windows(2).all(|pair| pair[0].0 < pair[1].0), "times of the tide's table do not rise".into());
+                let sound =
+                    rows.iter().all(|(time, velocity)| time.is_finite() && velocity.is_finite());
+                need(
+                    sound && !rows.is_empty(),
+                    "table of the tide has no rows, or one that is not finite".into(),
+                );
+                need(
+                    rows.windows(2).all(|pair| pair[0].0 < pair[1].0),
+                    "times of the tide's table do not rise".into(),
+                );
             }
         }
         if let Some(waves) = &self.waves {
@@ -62,14 +88,24 @@ impl Water {
         let sound = match waves.kind {
             WaveKind::Regular { phase_rad, .. } => phase_rad.is_finite(),
             WaveKind::Jonswap { spectrum, components } => {
-                (1.0..=20.0).contains(&spectrum.gamma) && (1..=MOST_COMPONENTS).contains(&components)
+                (1.0..=20.0).contains(&spectrum.gamma)
+                    && (1..=MOST_COMPONENTS).contains(&components)
             }
         };
-        if !(level && sound && waves.ramp_s >= 0.0 && waves.ramp_s.is_finite() && height.is_finite() && height >= 0.0) {
+        if !(level
+            && sound
+            && waves.ramp_s >= 0.0
+            && waves.ramp_s.is_finite()
+            && height.is_finite()
+            && height >= 0.0)
+        {
             return Some("waves have a way that is not level, or a height, ramp, phase, gamma or number of components out of range".into());
         }
         if !(period.is_finite() && period > 0.0 && self.gravity_m_s2 > 0.0) {
-            return Some(format!("waves of a period of {period} s under a gravity of {} m/s2: both must be above zero", self.gravity_m_s2));
+            return Some(format!(
+                "waves of a period of {period} s under a gravity of {} m/s2: both must be above zero",
+                self.gravity_m_s2
+            ));
         }
         let greatest = breaking_height(period, self.depth_m, self.gravity_m_s2);
         (height > greatest)

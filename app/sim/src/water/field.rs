@@ -180,10 +180,15 @@ impl Field {
     }
 
     fn told(&self, sums: Sums, (ramp, rate): (f64, f64)) -> WaterAt {
-        let [surface, along, up, along_rate, up_rate] = sums.0.map(|four| (four[0] + four[1]) + (four[2] + four[3]));
+        let [surface, along, up, along_rate, up_rate] =
+            sums.0.map(|four| (four[0] + four[1]) + (four[2] + four[3]));
         let velocity = self.toward * along + DVec3::Z * up;
         let acceleration = self.toward * along_rate + DVec3::Z * up_rate;
-        WaterAt { velocity_m_s: velocity * ramp, acceleration_m_s2: acceleration * ramp + velocity * rate, surface_m: surface * ramp }
+        WaterAt {
+            velocity_m_s: velocity * ramp,
+            acceleration_m_s2: acceleration * ramp + velocity * rate,
+            surface_m: surface * ramp,
+        }
     }
 }
 
@@ -193,7 +198,8 @@ impl Figures {
         let mut stand = Stand::default();
         for lane in 0..LANES {
             let number = self.number[lane];
-            let (sine, cosine) = libm::sincos(number * along - self.frequency[lane] * time_s + self.phase[lane]);
+            let (sine, cosine) =
+                libm::sincos(number * along - self.frequency[lane] * time_s + self.phase[lane]);
             let decay = (number * height).max(DEEPEST);
             stand.cosine[lane] = cosine;
             stand.sine[lane] = sine;
@@ -239,8 +245,13 @@ fn hyperbola(number: f64) -> (f64, f64) {
 /// `Σ qⁱ/(2i)!` and `Σ qⁱ/(2i+1)!`, to 1e-13 for `|q| < 1/4`.
 #[inline]
 fn series(square: f64) -> (f64, f64) {
-    let even = 1.0 + square / 2.0 * (1.0 + square / 12.0 * (1.0 + square / 30.0 * (1.0 + square / 56.0 * (1.0 + square / 90.0))));
-    let odd = 1.0 + square / 6.0 * (1.0 + square / 20.0 * (1.0 + square / 42.0 * (1.0 + square / 72.0)));
+    let even = 1.0
+        + square / 2.0
+            * (1.0
+                + square / 12.0
+                    * (1.0 + square / 30.0 * (1.0 + square / 56.0 * (1.0 + square / 90.0))));
+    let odd =
+        1.0 + square / 6.0 * (1.0 + square / 20.0 * (1.0 + square / 42.0 * (1.0 + square / 72.0)));
     (even, odd)
 }
 
@@ -271,12 +282,20 @@ mod tests {
     use super::*;
 
     fn regular(height_m: f64, period_s: f64, ramp_s: f64) -> Waves {
-        Waves { toward: DVec3::X, ramp_s, kind: WaveKind::Regular { height_m, period_s, phase_rad: 0.0 } }
+        Waves {
+            toward: DVec3::X,
+            ramp_s,
+            kind: WaveKind::Regular { height_m, period_s, phase_rad: 0.0 },
+        }
     }
 
     fn irregular() -> Field {
         let spectrum = Spectrum { significant_height_m: 1.5, peak_period_s: 5.0, gamma: 3.3 };
-        let waves = Waves { toward: DVec3::new(0.6, 0.8, 0.0), ramp_s: 10.0, kind: WaveKind::Jonswap { spectrum, components: 62 } };
+        let waves = Waves {
+            toward: DVec3::new(0.6, 0.8, 0.0),
+            ramp_s: 10.0,
+            kind: WaveKind::Jonswap { spectrum, components: 62 },
+        };
         Field::new(&waves, 25.0, 9.81, 3)
     }
 
@@ -306,18 +325,26 @@ mod tests {
     fn the_flow_is_incompressible_irrotational_and_carries_its_surface() {
         let field = irregular();
         let step = 1e-4;
-        for (place, time) in [(DVec3::new(3.0, -7.0, -2.0), 41.0), (DVec3::new(-20.0, 11.0, -14.0), 7.0)] {
+        for (place, time) in
+            [(DVec3::new(3.0, -7.0, -2.0), 41.0), (DVec3::new(-20.0, 11.0, -14.0), 7.0)]
+        {
             let by = |axis: DVec3| {
-                (field.at(place + axis * step, time).velocity_m_s - field.at(place - axis * step, time).velocity_m_s) / (2.0 * step)
+                (field.at(place + axis * step, time).velocity_m_s
+                    - field.at(place - axis * step, time).velocity_m_s)
+                    / (2.0 * step)
             };
             let (x, y, z) = (by(DVec3::X), by(DVec3::Y), by(DVec3::Z));
             assert!((x.x + y.y + z.z).abs() < 1e-7);
             assert!((z.x - x.z).abs() + (z.y - y.z).abs() + (y.x - x.y).abs() < 1e-7);
-            let rate = (field.at(place, time + step).velocity_m_s - field.at(place, time - step).velocity_m_s) / (2.0 * step);
+            let rate = (field.at(place, time + step).velocity_m_s
+                - field.at(place, time - step).velocity_m_s)
+                / (2.0 * step);
             assert!((rate - field.at(place, time).acceleration_m_s2).length() < 1e-6);
         }
         let surface = DVec3::new(2.0, 3.0, 0.0);
-        let rise = (field.at(surface, 41.0 + step).surface_m - field.at(surface, 41.0 - step).surface_m) / (2.0 * step);
+        let rise = (field.at(surface, 41.0 + step).surface_m
+            - field.at(surface, 41.0 - step).surface_m)
+            / (2.0 * step);
         assert!((rise - field.at(surface, 41.0).velocity_m_s.z).abs() < 1e-6);
     }
 
@@ -326,7 +353,9 @@ mod tests {
     fn water_runs_down_the_slope_of_its_surface() {
         let field = irregular();
         let (place, toward, step) = (DVec3::new(2.0, 3.0, 0.0), DVec3::new(0.6, 0.8, 0.0), 1e-4);
-        let slope = (field.at(place + toward * step, 41.0).surface_m - field.at(place - toward * step, 41.0).surface_m) / (2.0 * step);
+        let slope = (field.at(place + toward * step, 41.0).surface_m
+            - field.at(place - toward * step, 41.0).surface_m)
+            / (2.0 * step);
         assert!((field.at(place, 41.0).acceleration_m_s2.dot(toward) + 9.81 * slope).abs() < 1e-6);
     }
 
@@ -349,7 +378,8 @@ mod tests {
             let (mut place, mut worst) = (DVec3::new(5.0, -3.0, -30.0), 0.0_f64);
             for node in 0..600 {
                 let length = if node % 100 == 99 { 3.0 } else { 0.06 };
-                place += DVec3::new(0.3 * libm::sin(0.05 * f64::from(node)), 0.2, 0.8).normalize() * length;
+                place += DVec3::new(0.3 * libm::sin(0.05 * f64::from(node)), 0.2, 0.8).normalize()
+                    * length;
                 let (walked, alone) = (field.walk_to(&mut walk, place), field.at(place, 123.4));
                 worst = worst.max((walked.velocity_m_s - alone.velocity_m_s).length());
                 worst = worst.max((walked.acceleration_m_s2 - alone.acceleration_m_s2).length());

@@ -34,7 +34,8 @@ fn shape(gamma: f64, ratio: f64) -> f64 {
     let width = if ratio <= 1.0 { 0.07 } else { 0.09 };
     let off = (ratio - 1.0) / width;
     let squared = ratio * ratio;
-    libm::exp(-1.25 / (squared * squared)) * libm::pow(gamma, libm::exp(-0.5 * off * off)) / (squared * squared * ratio)
+    libm::exp(-1.25 / (squared * squared)) * libm::pow(gamma, libm::exp(-0.5 * off * off))
+        / (squared * squared * ratio)
 }
 
 /// The components of a spectrum in rising order of frequency.
@@ -44,7 +45,15 @@ pub fn components(spectrum: &Spectrum, count: usize, seed: u64) -> Vec<Component
     let peak_rad_s = TAU / spectrum.peak_period_s;
     let ratios = ratios(spectrum.gamma, count);
     let phases = (0..count as u64).map(|index| TAU * unit(seed, index));
-    ratios.iter().zip(phases).map(|(ratio, phase_rad)| Component { amplitude_m, frequency_rad_s: ratio * peak_rad_s, phase_rad }).collect()
+    ratios
+        .iter()
+        .zip(phases)
+        .map(|(ratio, phase_rad)| Component {
+            amplitude_m,
+            frequency_rad_s: ratio * peak_rad_s,
+            phase_rad,
+        })
+        .collect()
 }
 
 /// Frequencies of `count` equal shares of energy, over the peak's.
@@ -95,7 +104,11 @@ mod tests {
     const SEA: Spectrum = Spectrum { significant_height_m: 1.2, peak_period_s: 5.0, gamma: 3.3 };
 
     fn moment(sea: &[Component], power: f64) -> f64 {
-        sea.iter().map(|wave| 0.5 * wave.amplitude_m * wave.amplitude_m * libm::pow(wave.frequency_rad_s, power)).sum()
+        sea.iter()
+            .map(|wave| {
+                0.5 * wave.amplitude_m * wave.amplitude_m * libm::pow(wave.frequency_rad_s, power)
+            })
+            .sum()
     }
 
     /// `H_s = 4 √m₀`, and the zero-crossing period against the fit of DNV-RP-C205, 3.5.5.5.
@@ -107,8 +120,11 @@ mod tests {
             let height = 4.0 * moment(&sea, 0.0).sqrt();
             assert!((height / 1.2 - 1.0).abs() < 1e-12, "{height}");
             let crossing = TAU * (moment(&sea, 0.0) / moment(&sea, 2.0)).sqrt() / 5.0;
-            let fit = 0.6673 + 0.05037 * gamma - 0.006230 * gamma * gamma + 0.0003341 * gamma * gamma * gamma;
-            println!("gamma {gamma}, {count} components: crossing period {crossing:.4} of the peak's, fit {fit:.4}");
+            let fit = 0.6673 + 0.05037 * gamma - 0.006230 * gamma * gamma
+                + 0.0003341 * gamma * gamma * gamma;
+            println!(
+                "gamma {gamma}, {count} components: crossing period {crossing:.4} of the peak's, fit {fit:.4}"
+            );
             assert!((crossing / fit - 1.0).abs() < 0.012, "{crossing} for {fit}");
         }
     }
@@ -117,22 +133,35 @@ mod tests {
     #[test]
     fn a_record_has_the_height_and_the_crossings_of_its_spectrum() {
         let sea = components(&SEA, 64, 7);
-        let height =
-            |time: f64| sea.iter().map(|wave| wave.amplitude_m * libm::cos(wave.phase_rad - wave.frequency_rad_s * time)).sum::<f64>();
+        let height = |time: f64| {
+            sea.iter()
+                .map(|wave| {
+                    wave.amplitude_m * libm::cos(wave.phase_rad - wave.frequency_rad_s * time)
+                })
+                .sum::<f64>()
+        };
         let record: Vec<f64> = (0..108_000).map(|sample| height(0.1 * f64::from(sample))).collect();
-        let variance = record.iter().map(|height| height * height).sum::<f64>() / record.len() as f64;
+        let variance =
+            record.iter().map(|height| height * height).sum::<f64>() / record.len() as f64;
         assert!((4.0 * variance.sqrt() / 1.2 - 1.0).abs() < 0.01, "{}", 4.0 * variance.sqrt());
         let crossings = record.windows(2).filter(|pair| pair[0] < 0.0 && pair[1] >= 0.0).count();
         let expected = TAU * (moment(&sea, 0.0) / moment(&sea, 2.0)).sqrt();
-        assert!((10_800.0 / crossings as f64 / expected - 1.0).abs() < 0.03, "{crossings} crossings");
+        assert!(
+            (10_800.0 / crossings as f64 / expected - 1.0).abs() < 0.03,
+            "{crossings} crossings"
+        );
     }
 
     /// The record's correlation with itself, from twenty waves on to three hours, stays far below 1.
     #[test]
     fn a_record_of_three_hours_does_not_repeat() {
         let sea = components(&SEA, 64, 1);
-        let correlation = |lag: f64| sea.iter().map(|wave| libm::cos(wave.frequency_rad_s * lag)).sum::<f64>() / sea.len() as f64;
-        let greatest = (1000..108_000).map(|lag| correlation(0.1 * f64::from(lag))).fold(0.0, f64::max);
+        let correlation = |lag: f64| {
+            sea.iter().map(|wave| libm::cos(wave.frequency_rad_s * lag)).sum::<f64>()
+                / sea.len() as f64
+        };
+        let greatest =
+            (1000..108_000).map(|lag| correlation(0.1 * f64::from(lag))).fold(0.0, f64::max);
         println!("greatest correlation after 100 s: {greatest:.2}");
         assert!(greatest < 0.6, "{greatest}");
     }

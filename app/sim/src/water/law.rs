@@ -55,7 +55,9 @@ impl LawTable {
     fn log(roughness: f64) -> Self {
         let whole = libm::log1p(1.0 / roughness);
         let least = libm::fmin(libm::log2(LEAST_ROUGHNESS * roughness), 0.0);
-        Self::new(least, |height| [libm::log1p(height / roughness) / whole, height / (height + roughness) / whole])
+        Self::new(least, |height| {
+            [libm::log1p(height / roughness) / whole, height / (height + roughness) / whole]
+        })
     }
 
     /// Of a law that answers the share and the height times its slope; `least` is the doubling below which it is straight.
@@ -73,7 +75,8 @@ impl LawTable {
         let bits = height.max(self.least).to_bits();
         let number = ((bits >> SHIFT) - (self.least.to_bits() >> SHIFT)) as usize;
         let place = f64::from_bits(1.0_f64.to_bits() | (bits << (52 - SHIFT) & FRACTION)) - 1.0;
-        let [one, two, three, four] = self.pieces.get(number).copied().unwrap_or([1.0, 0.0, 0.0, 0.0]);
+        let [one, two, three, four] =
+            self.pieces.get(number).copied().unwrap_or([1.0, 0.0, 0.0, 0.0]);
         let share = one + place * (two + place * (three + place * four));
         if height < self.least { share * (height / self.least) } else { share }
     }
@@ -84,7 +87,8 @@ fn piece(law: impl Fn(f64) -> [f64; 2], number: u64) -> [f64; 4] {
     let (low, high) = (f64::from_bits(number << SHIFT), f64::from_bits((number + 1) << SHIFT));
     let ([at_low, slope_low], [at_high, slope_high]) = (law(low), law(high));
     let rise = at_high - at_low;
-    let (rate_low, rate_high) = (slope_low * ((high - low) / low), slope_high * ((high - low) / high));
+    let (rate_low, rate_high) =
+        (slope_low * ((high - low) / low), slope_high * ((high - low) / high));
     [at_low, rate_low, 3.0 * rise - 2.0 * rate_low - rate_high, rate_low + rate_high - 2.0 * rise]
 }
 
@@ -103,8 +107,11 @@ mod tests {
         let mut worst = 0.0_f64;
         for profile in powers.iter().chain(&logs) {
             let table = LawTable::of(profile).unwrap();
-            let heights = (0..1000)
-                .flat_map(|doublings| (0..97).map(move |part| libm::exp2(-f64::from(doublings)) * (1.0 - f64::from(part) / 194.0)));
+            let heights = (0..1000).flat_map(|doublings| {
+                (0..97).map(move |part| {
+                    libm::exp2(-f64::from(doublings)) * (1.0 - f64::from(part) / 194.0)
+                })
+            });
             for height in heights.chain([0.0, f64::MIN_POSITIVE, 5e-324]) {
                 worst = worst.max((table.share(height) - profile.turn(DVec3::X, height).x).abs());
             }
@@ -120,8 +127,11 @@ mod tests {
         for roughness in [1e-5_f64, 1e-4, 1e-3, 0.1] {
             let table = LawTable::log(roughness);
             // Heights that rise as the square of their number are close together near the bed.
-            let heights: Vec<f64> = (0..=20_000).map(|number| f64::from(number) * f64::from(number) / 4e8).collect();
-            let part = |ends: &[f64]| 0.5 * (table.share(ends[0]) + table.share(ends[1])) * (ends[1] - ends[0]);
+            let heights: Vec<f64> =
+                (0..=20_000).map(|number| f64::from(number) * f64::from(number) / 4e8).collect();
+            let part = |ends: &[f64]| {
+                0.5 * (table.share(ends[0]) + table.share(ends[1])) * (ends[1] - ends[0])
+            };
             let mean: f64 = heights.windows(2).map(part).sum();
             let exact = 1.0 + roughness - 1.0 / libm::log1p(1.0 / roughness);
             assert!((mean - exact).abs() < 5e-5, "{roughness}: {mean} for {exact}");

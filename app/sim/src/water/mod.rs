@@ -123,7 +123,11 @@ impl Sea {
             depth_m: water.depth_m,
             inverse_depth: 1.0 / water.depth_m,
             slope: (slope != (0.0, 0.0)).then_some(slope),
-            field: water.waves.as_ref().filter(|_| is_wet).map(|waves| Field::new(waves, water.depth_m, water.gravity_m_s2, seed)),
+            field: water
+                .waves
+                .as_ref()
+                .filter(|_| is_wet)
+                .map(|waves| Field::new(waves, water.depth_m, water.gravity_m_s2, seed)),
         }
     }
 
@@ -137,7 +141,9 @@ impl Sea {
     fn height(&self, place: DVec3) -> f64 {
         let share = match self.slope {
             None => place.z * self.inverse_depth,
-            Some((east, north)) => place.z / (self.depth_m + east * place.x + north * place.y).max(LEAST_DEPTH_M),
+            Some((east, north)) => {
+                place.z / (self.depth_m + east * place.x + north * place.y).max(LEAST_DEPTH_M)
+            }
         };
         (1.0 + share).clamp(0.0, 1.0)
     }
@@ -157,9 +163,13 @@ impl Sea {
         let fastest = self.current.tide.velocity(self.current.surface_m_s, time_s);
         let pairs = out.iter_mut().zip(places);
         match (&self.law, &self.current.profile) {
-            (Some(table), _) => pairs.for_each(|(velocity, place)| *velocity = fastest * table.share(self.height(*place))),
+            (Some(table), _) => pairs.for_each(|(velocity, place)| {
+                *velocity = fastest * table.share(self.height(*place))
+            }),
             (None, Profile::Uniform) => out.fill(fastest),
-            (None, profile) => pairs.for_each(|(velocity, place)| *velocity = profile.turn(fastest, self.height(*place))),
+            (None, profile) => pairs.for_each(|(velocity, place)| {
+                *velocity = profile.turn(fastest, self.height(*place))
+            }),
         }
     }
 
@@ -167,13 +177,20 @@ impl Sea {
     #[must_use]
     pub fn at(&self, place: DVec3, time_s: f64) -> WaterAt {
         let velocity_m_s = self.current(place, time_s);
-        let waves = self.field.as_ref().map_or_else(WaterAt::default, |field| field.at(place, time_s));
+        let waves =
+            self.field.as_ref().map_or_else(WaterAt::default, |field| field.at(place, time_s));
         WaterAt { velocity_m_s: velocity_m_s + waves.velocity_m_s, ..waves }
     }
 
     /// Adds the waves' velocity at many places to `flow`, and writes their acceleration and surface. Both are left empty
     /// where there are no waves: none at all, or not yet.
-    pub fn add_waves(&self, places: &[DVec3], time_s: f64, walk: &mut Walk, out: (&mut [DVec3], &mut Vec<DVec3>, &mut Vec<f64>)) {
+    pub fn add_waves(
+        &self,
+        places: &[DVec3],
+        time_s: f64,
+        walk: &mut Walk,
+        out: (&mut [DVec3], &mut Vec<DVec3>, &mut Vec<f64>),
+    ) {
         let (flow, acceleration, surface) = out;
         acceleration.clear();
         surface.clear();

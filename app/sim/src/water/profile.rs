@@ -51,7 +51,9 @@ impl Profile {
         match self {
             Self::Uniform => fastest,
             Self::Power(exponent) => fastest * libm::pow(height, *exponent),
-            Self::Log(roughness) => fastest * (libm::log1p(height / roughness) / libm::log1p(1.0 / roughness)),
+            Self::Log(roughness) => {
+                fastest * (libm::log1p(height / roughness) / libm::log1p(1.0 / roughness))
+            }
             Self::Table(rows) => {
                 let (along, left) = between(rows, height);
                 fastest * along + DVec3::new(-fastest.y, fastest.x, 0.0) * left
@@ -66,7 +68,10 @@ fn between(rows: &[ProfileRow], height: f64) -> (f64, f64) {
     match (above.checked_sub(1).and_then(|below| rows.get(below)), rows.get(above)) {
         (Some(low), Some(high)) => {
             let share = (height - low.height) / (high.height - low.height);
-            (low.along + (high.along - low.along) * share, low.left + (high.left - low.left) * share)
+            (
+                low.along + (high.along - low.along) * share,
+                low.left + (high.left - low.left) * share,
+            )
         }
         (Some(end), None) | (None, Some(end)) => (end.along, end.left),
         (None, None) => (0.0, 0.0),
@@ -79,7 +84,10 @@ mod tests {
 
     #[test]
     fn rows_are_joined_by_straight_lines_and_hold_beyond_their_ends() {
-        let rows = vec![ProfileRow { height: 0.2, along: 0.4, left: 0.0 }, ProfileRow { height: 0.8, along: 1.0, left: 0.6 }];
+        let rows = vec![
+            ProfileRow { height: 0.2, along: 0.4, left: 0.0 },
+            ProfileRow { height: 0.8, along: 1.0, left: 0.6 },
+        ];
         let at = |height| Profile::Table(rows.clone()).turn(DVec3::new(0.0, 2.0, 0.0), height);
         assert!((at(0.5) - DVec3::new(-0.6, 1.4, 0.0)).length() < 1e-15);
         assert!((at(0.0) - DVec3::new(0.0, 0.8, 0.0)).length() < 1e-15);

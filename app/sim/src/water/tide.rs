@@ -36,7 +36,8 @@ impl Tide {
         match self {
             Self::Steady => own,
             Self::Constituent { period_s, peak_s, minor, residual_m_s } => {
-                let (sine, cosine) = libm::sincos(TAU * libm::fmod(time_s - peak_s, *period_s) / period_s);
+                let (sine, cosine) =
+                    libm::sincos(TAU * libm::fmod(time_s - peak_s, *period_s) / period_s);
                 *residual_m_s + own * cosine + DVec3::new(-own.y, own.x, 0.0) * (minor * sine)
             }
             Self::Table(rows) => between(rows, time_s),
@@ -47,7 +48,9 @@ impl Tide {
 fn between(rows: &[(f64, DVec3)], time_s: f64) -> DVec3 {
     let after = rows.partition_point(|(time, _)| *time <= time_s);
     match (after.checked_sub(1).and_then(|before| rows.get(before)), rows.get(after)) {
-        (Some((from, first)), Some((until, second))) => *first + (*second - *first) * ((time_s - from) / (until - from)),
+        (Some((from, first)), Some((until, second))) => {
+            *first + (*second - *first) * ((time_s - from) / (until - from))
+        }
         (Some((_, end)), None) | (None, Some((_, end))) => *end,
         (None, None) => DVec3::ZERO,
     }
@@ -60,15 +63,25 @@ mod tests {
     #[test]
     fn a_constituent_peaks_turns_and_comes_back() {
         let own = DVec3::new(0.3, 0.4, 0.0);
-        let tide = |minor, residual_m_s| Tide::Constituent { period_s: 44_712.0, peak_s: 1000.0, minor, residual_m_s };
+        let tide = |minor, residual_m_s| Tide::Constituent {
+            period_s: 44_712.0,
+            peak_s: 1000.0,
+            minor,
+            residual_m_s,
+        };
         let straight = tide(0.0, DVec3::ZERO);
         assert!((straight.velocity(own, 1000.0) - own).length() < 1e-15);
         assert!((straight.velocity(own, 1000.0 + 22_356.0) + own).length() < 1e-12);
         assert!(straight.velocity(own, 1000.0 - 11_178.0).length() < 1e-12);
         let ellipse = tide(0.25, DVec3::X);
-        assert!((ellipse.velocity(own, 1000.0 + 11_178.0) - DVec3::new(1.0 - 0.1, 0.075, 0.0)).length() < 1e-12);
+        assert!(
+            (ellipse.velocity(own, 1000.0 + 11_178.0) - DVec3::new(1.0 - 0.1, 0.075, 0.0)).length()
+                < 1e-12
+        );
         // Its mean over a period is the residual.
-        let mean = (0..100).map(|part| ellipse.velocity(own, 447.12 * f64::from(part))).sum::<DVec3>() / 100.0;
+        let mean =
+            (0..100).map(|part| ellipse.velocity(own, 447.12 * f64::from(part))).sum::<DVec3>()
+                / 100.0;
         assert!((mean - DVec3::X).length() < 1e-12);
     }
 

@@ -65,9 +65,15 @@ impl Waves {
     pub fn components(&self, seed: u64) -> Vec<Component> {
         match self.kind {
             WaveKind::Regular { height_m, period_s, phase_rad } => {
-                vec![Component { amplitude_m: 0.5 * height_m, frequency_rad_s: TAU / period_s, phase_rad }]
+                vec![Component {
+                    amplitude_m: 0.5 * height_m,
+                    frequency_rad_s: TAU / period_s,
+                    phase_rad,
+                }]
             }
-            WaveKind::Jonswap { spectrum, components } => jonswap::components(&spectrum, components, seed),
+            WaveKind::Jonswap { spectrum, components } => {
+                jonswap::components(&spectrum, components, seed)
+            }
         }
     }
 
@@ -76,7 +82,9 @@ impl Waves {
     pub fn height_and_period(&self) -> (f64, f64) {
         match self.kind {
             WaveKind::Regular { height_m, period_s, .. } => (height_m, period_s),
-            WaveKind::Jonswap { spectrum, .. } => (spectrum.significant_height_m, spectrum.peak_period_s),
+            WaveKind::Jonswap { spectrum, .. } => {
+                (spectrum.significant_height_m, spectrum.peak_period_s)
+            }
         }
     }
 }
@@ -111,13 +119,16 @@ mod tests {
             for period in [0.5, 1.0, 4.0, 8.0, 16.0, 60.0, 3600.0] {
                 let frequency = TAU / period;
                 let number = wave_number(frequency, depth, 9.81);
-                let error = 9.81 * number * libm::tanh(number * depth) / (frequency * frequency) - 1.0;
+                let error =
+                    9.81 * number * libm::tanh(number * depth) / (frequency * frequency) - 1.0;
                 assert!(error.abs() < 1e-13, "{depth} m, {period} s: {error:e}");
             }
         }
         assert!((wave_number(TAU, 1000.0, 9.81) * 9.81 / (TAU * TAU) - 1.0).abs() < 1e-15);
         let long = TAU / 3600.0;
-        assert!((wave_number(long, 10.0, 9.81) * libm::sqrt(9.81 * 10.0) / long - 1.0).abs() < 1e-5);
+        assert!(
+            (wave_number(long, 10.0, 9.81) * libm::sqrt(9.81 * 10.0) / long - 1.0).abs() < 1e-5
+        );
     }
 
     /// Miche: 0.142 of the length in deep water.

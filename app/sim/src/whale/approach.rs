@@ -41,8 +41,17 @@ pub(crate) struct Approach {
 impl Approach {
     pub fn new(tree: Arc<SkinTree>) -> Self {
         let is_thin_triangle = |triangle: &u32| is_thin(tree.skin().regions[*triangle as usize]);
-        let thin = tree.nodes().iter().map(|node| tree.order()[node.triangles.clone()].iter().any(is_thin_triangle)).collect();
-        Self { thin, boxes: vec![None; tree.nodes().len()], todo: Vec::with_capacity(tree.nodes().len()), tree }
+        let thin = tree
+            .nodes()
+            .iter()
+            .map(|node| tree.order()[node.triangles.clone()].iter().any(is_thin_triangle))
+            .collect();
+        Self {
+            thin,
+            boxes: vec![None; tree.nodes().len()],
+            todo: Vec::with_capacity(tree.nodes().len()),
+            tree,
+        }
     }
 
     /// Begins with the whale in a new pose.
@@ -52,12 +61,19 @@ impl Approach {
 
     /// The least that `size` gives for any cluster, from its gap to `place` [m] and whether it holds a thin edge; `most` where
     /// none gives less. `size` must not fall as the gap grows, nor be less for skin than for thin edges.
-    pub fn least(&mut self, bones: &[DAffine3], place: &Bounds, most: f64, size: impl Fn(f64, bool) -> f64) -> f64 {
+    pub fn least(
+        &mut self,
+        bones: &[DAffine3],
+        place: &Bounds,
+        most: f64,
+        size: impl Fn(f64, bool) -> f64,
+    ) -> f64 {
         let mut least = most;
         self.todo.clear();
         self.todo.extend((!self.boxes.is_empty()).then_some(0));
         while let Some(node) = self.todo.pop() {
-            let bounds = *self.boxes[node].get_or_insert_with(|| self.tree.bound(node, bones, bones));
+            let bounds =
+                *self.boxes[node].get_or_insert_with(|| self.tree.bound(node, bones, bones));
             let here = size(bounds.gap(place), self.thin[node]);
             if here >= least {
                 continue;

@@ -65,13 +65,17 @@ impl Axis {
     /// Least and greatest place of vertices along the axis [m].
     fn reach_of(&self, vertices: &[DVec3]) -> [f64; 2] {
         let reach = vertices.iter().map(|vertex| (*vertex - self.origin).dot(self.along));
-        reach.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], place| [least.min(place), most.max(place)])
+        reach.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], place| {
+            [least.min(place), most.max(place)]
+        })
     }
 
     /// Middle of the cross section at a place along the axis.
     fn middle(&self, along_m: f64) -> [f64; 2] {
         let after = self.sections.partition_point(|section| section.along_m < along_m);
-        let (Some(low), Some(high)) = (self.sections.get(after.saturating_sub(1)), self.sections.get(after)) else {
+        let (Some(low), Some(high)) =
+            (self.sections.get(after.saturating_sub(1)), self.sections.get(after))
+        else {
             return self.sections.last().map_or([0.0; 2], |section| section.middle_m);
         };
         let span = high.along_m - low.along_m;
@@ -112,20 +116,27 @@ fn limb_axis(skin: &Skin, part: BodyPart) -> Option<Axis> {
         root = nearest_the_trunk(&vertices);
     }
     let origin = root.iter().sum::<DVec3>() / root.len().max(1) as f64;
-    let tip = vertices.iter().copied().max_by(|a, b| a.distance_squared(origin).total_cmp(&b.distance_squared(origin)))?;
+    let tip = vertices
+        .iter()
+        .copied()
+        .max_by(|a, b| a.distance_squared(origin).total_cmp(&b.distance_squared(origin)))?;
     let along = (tip - origin).try_normalize()?;
     let (u, v) = along.any_orthonormal_pair();
     let mut axis = sections_along(skin, &own, origin, along, [u, v])?;
     let [least, most] = axis.reach_m;
-    axis.askew = axis.sections.iter().filter(|section| section.along_m < least + ASKEW_SHARE * (most - least)).count();
+    axis.askew = axis
+        .sections
+        .iter()
+        .filter(|section| section.along_m < least + ASKEW_SHARE * (most - least))
+        .count();
     Some(axis)
 }
 
 /// The vertices of a limb nearest to the whale's midplane.
 fn nearest_the_trunk(vertices: &[DVec3]) -> Vec<DVec3> {
-    let (least, most) = vertices
-        .iter()
-        .fold((f64::INFINITY, 0.0_f64), |(least, most), vertex| (least.min(libm::fabs(vertex.y)), most.max(libm::fabs(vertex.y))));
+    let (least, most) = vertices.iter().fold((f64::INFINITY, 0.0_f64), |(least, most), vertex| {
+        (least.min(libm::fabs(vertex.y)), most.max(libm::fabs(vertex.y)))
+    });
     let limit = least + ROOT_SHARE * (most - least);
     vertices.iter().copied().filter(|vertex| libm::fabs(vertex.y) <= limit).collect()
 }
@@ -146,8 +157,15 @@ fn places(skin: &Skin, used: &[bool]) -> Vec<DVec3> {
 }
 
 /// Cross sections of some of a skin's vertices: the boxes of equal slabs along a direction.
-fn sections_along(skin: &Skin, used: &[bool], origin: DVec3, along: DVec3, across: [DVec3; 2]) -> Option<Axis> {
-    let mut axis = Axis { origin, along, across, reach_m: [0.0; 2], askew: 0, sections: Vec::new() };
+fn sections_along(
+    skin: &Skin,
+    used: &[bool],
+    origin: DVec3,
+    along: DVec3,
+    across: [DVec3; 2],
+) -> Option<Axis> {
+    let mut axis =
+        Axis { origin, along, across, reach_m: [0.0; 2], askew: 0, sections: Vec::new() };
     axis.reach_m = axis.reach_of(&places(skin, used));
     let [least, most] = axis.reach_m;
     if most <= least {
@@ -158,7 +176,11 @@ fn sections_along(skin: &Skin, used: &[bool], origin: DVec3, along: DVec3, acros
         let reach = (*vertex - origin).dot(along);
         let share = (reach - least) / (most - least);
         let slab = ((share * SECTIONS as f64) as usize).min(SECTIONS - 1);
-        slabs[slab].take(reach, across.map(|axis| (*vertex - origin).dot(axis)), &skin.weights[index]);
+        slabs[slab].take(
+            reach,
+            across.map(|axis| (*vertex - origin).dot(axis)),
+            &skin.weights[index],
+        );
     }
     axis.sections = slabs.iter().filter_map(Slab::section).collect();
     Some(axis)
@@ -177,7 +199,13 @@ struct Slab {
 impl Slab {
     fn empty(skin: &Skin) -> Self {
         let bones = vec![0.0; skin.bones.len()];
-        Self { count: 0.0, along_sum: 0.0, low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2], bones }
+        Self {
+            count: 0.0,
+            along_sum: 0.0,
+            low: [f64::INFINITY; 2],
+            high: [f64::NEG_INFINITY; 2],
+            bones,
+        }
     }
 
     fn take(&mut self, along: f64, across: [f64; 2], weights: &[(u16, f64)]) {

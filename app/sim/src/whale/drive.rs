@@ -28,7 +28,13 @@ const GRAVITY_M_S2: f64 = 9.81;
 ///
 /// # Errors
 /// With the motion plugin's id, where it fails or gives a number that is not finite.
-pub(crate) fn drive(model: &Model, input: &Input, whale: &WhaleState, time_s: f64, next: &mut WhaleState) -> Result<bool, Stop> {
+pub(crate) fn drive(
+    model: &Model,
+    input: &Input,
+    whale: &WhaleState,
+    time_s: f64,
+    next: &mut WhaleState,
+) -> Result<bool, Stop> {
     next.clone_from(whale);
     let Some(spec) = &model.spec.whale else { return Ok(false) };
     if let Some(kinetic) = spec.kinetic.as_ref().filter(|kinetic| kinetic.dead.is_some()) {
@@ -42,7 +48,12 @@ pub(crate) fn drive(model: &Model, input: &Input, whale: &WhaleState, time_s: f6
     let turn_rate = DVec3::from_array(asked.turn_rate_rad_s);
     match &spec.kinetic {
         Some(kinetic) => {
-            let wish = Wish { from_m_s: told_m_s, speed_m_s: asked.speed_m_s, turn_rate, burst: input.controls.burst };
+            let wish = Wish {
+                from_m_s: told_m_s,
+                speed_m_s: asked.speed_m_s,
+                turn_rate,
+                burst: input.controls.burst,
+            };
             swim(model, kinetic, &wish, (whale, time_s), next);
         }
         None => go(model, (asked.speed_m_s, turn_rate), (whale, time_s), next),
@@ -59,7 +70,8 @@ fn ask(
     whale: &WhaleState,
     (time_s, next): (f64, &mut WhaleState),
 ) -> Result<(MotionOutput, f64), Stop> {
-    let stop = |reason: String| Stop { time_s, part: spec.motion.descriptor().id.to_string(), reason };
+    let stop =
+        |reason: String| Stop { time_s, part: spec.motion.descriptor().id.to_string(), reason };
     let told_m_s = if spec.kinetic.is_some() { swim::told_speed(whale) } else { whale.speed_m_s };
     let seen = MotionInput {
         time_s,
@@ -72,22 +84,36 @@ fn ask(
         contact_force_n: &whale.contact_force_n,
         contact_port_m: &whale.contact_port_m,
     };
-    let asked = spec.motion.step(&spec.motion_attributes, &seen, &mut next.motion).map_err(|error| stop(error.message))?;
-    if !(asked.speed_m_s.is_finite() && DVec3::from_array(asked.turn_rate_rad_s).is_finite() && asked.posture.angles().all(f64::is_finite))
+    let asked = spec
+        .motion
+        .step(&spec.motion_attributes, &seen, &mut next.motion)
+        .map_err(|error| stop(error.message))?;
+    if !(asked.speed_m_s.is_finite()
+        && DVec3::from_array(asked.turn_rate_rad_s).is_finite()
+        && asked.posture.angles().all(f64::is_finite))
     {
-        return Err(stop("gave a speed, turn rate or joint angle that is not a finite number".into()));
+        return Err(stop(
+            "gave a speed, turn rate or joint angle that is not a finite number".into(),
+        ));
     }
     Ok((asked, told_m_s))
 }
 
 /// Kinematic: the whale goes as it is asked to.
-fn go(model: &Model, (speed_m_s, turn_rate): (f64, DVec3), (whale, time_s): (&WhaleState, f64), next: &mut WhaleState) {
+fn go(
+    model: &Model,
+    (speed_m_s, turn_rate): (f64, DVec3),
+    (whale, time_s): (&WhaleState, f64),
+    next: &mut WhaleState,
+) {
     let dt_s = model.spec.settings.step_s;
     next.speed_m_s = speed_m_s;
     next.turn_rate = turn_rate;
     next.orientation = (whale.orientation * DQuat::from_scaled_axis(turn_rate * dt_s)).normalize();
     let ahead = whale.orientation.slerp(next.orientation, 0.5) * DVec3::X;
-    next.position += (ahead * (0.5 * (whale.speed_m_s + next.speed_m_s)) + model.sea.current(whale.position, time_s)) * dt_s;
+    next.position += (ahead * (0.5 * (whale.speed_m_s + next.speed_m_s))
+        + model.sea.current(whale.position, time_s))
+        * dt_s;
 }
 
 /// How high its speed would carry the middle of a whale that leaves the water ahead, against the weight of what is out [m].
@@ -108,7 +134,9 @@ fn carried_m(length_m: f64, whale: &WhaleState) -> f64 {
 /// by its weight, and stops where it is held.
 fn keep_in_water(model: &Model, spec: &Whale, whale: &mut WhaleState) {
     let seabed = model.spec.seabed.as_ref();
-    let floor = seabed.map_or(f64::NEG_INFINITY, |seabed| seabed.height_at(whale.position) + CLEARANCE * spec.length_m);
+    let floor = seabed.map_or(f64::NEG_INFINITY, |seabed| {
+        seabed.height_at(whale.position) + CLEARANCE * spec.length_m
+    });
     let weighs = spec.kinetic.as_ref().is_some_and(|kinetic| kinetic.hull.volume_m3 > 0.0);
     let ceiling = if weighs { f64::INFINITY } else { carried_m(spec.length_m, whale) };
     let held = whale.position.z.max(floor).min(ceiling);
@@ -120,7 +148,13 @@ fn keep_in_water(model: &Model, spec: &Whale, whale: &mut WhaleState) {
 }
 
 /// Bone transforms at a share of the way between two states of the whale.
-pub(crate) fn pose_between(model: &Model, from: &WhaleState, to: &WhaleState, share: f64, out: &mut Vec<DAffine3>) {
+pub(crate) fn pose_between(
+    model: &Model,
+    from: &WhaleState,
+    to: &WhaleState,
+    share: f64,
+    out: &mut Vec<DAffine3>,
+) {
     let Some(spec) = &model.spec.whale else { return };
     let posture = mix(&from.posture, &to.posture, share);
     let orientation = from.orientation.slerp(to.orientation, share);
@@ -156,17 +190,27 @@ mod tests {
     /// Integrated in small steps: along its axis the whale rises until its speed is spent on the weight of what is out.
     #[test]
     fn a_whale_comes_as_far_out_as_its_speed_carries_it() {
-        for (length_m, speed_m_s, climb) in [(13.7, 8.0, 1.2), (10.0, 9.9, 1.5), (4.2, 6.0, 0.7), (13.7, 3.0, 0.02)] {
+        for (length_m, speed_m_s, climb) in
+            [(13.7, 8.0, 1.2), (10.0, 9.9, 1.5), (4.2, 6.0, 0.7), (13.7, 3.0, 0.02)]
+        {
             let (sin, dt) = (libm::sin(climb), 1e-5);
             let (mut out, mut speed) = (0.0, speed_m_s);
             while speed > 0.0 {
                 speed -= 9.81 * sin * f64::min(out / length_m, 1.0) * dt;
                 out += speed * dt;
             }
-            let (found, expected) = (carried_m(length_m, &state(speed_m_s, climb)), (out - 0.5 * length_m) * sin);
-            assert!((found - expected).abs() < 1e-3, "{length_m} m at {speed_m_s} m/s: {found} against {expected} m");
+            let (found, expected) =
+                (carried_m(length_m, &state(speed_m_s, climb)), (out - 0.5 * length_m) * sin);
+            assert!(
+                (found - expected).abs() < 1e-3,
+                "{length_m} m at {speed_m_s} m/s: {found} against {expected} m"
+            );
         }
-        assert_eq!(carried_m(13.7, &state(4.5, 0.9)).to_bits(), 0.0_f64.to_bits(), "at a right whale's burst its middle stays under");
+        assert_eq!(
+            carried_m(13.7, &state(4.5, 0.9)).to_bits(),
+            0.0_f64.to_bits(),
+            "at a right whale's burst its middle stays under"
+        );
         assert_eq!(carried_m(13.7, &state(8.0, -0.9)).to_bits(), 0.0_f64.to_bits());
     }
 }

@@ -26,7 +26,8 @@ impl Hitch {
     /// Its place under the bones' transforms [m].
     #[must_use]
     pub fn place(&self, skin: &Skin, bones: &[DAffine3]) -> DVec3 {
-        let [a, b, c] = skin.triangles[self.triangle].map(|vertex| skin_vertex(skin, bones, vertex as usize));
+        let [a, b, c] =
+            skin.triangles[self.triangle].map(|vertex| skin_vertex(skin, bones, vertex as usize));
         let [of_a, of_b, of_c] = self.barycentric;
         let normal = (b - a).cross(c - a).normalize_or_zero();
         a * of_a + b * of_b + c * of_c + normal * self.stand_off_m
@@ -46,11 +47,19 @@ impl Hitches {
     /// Those of a model, where its whale starts.
     pub fn new(model: &Model) -> Self {
         let joints = model.spec.joints.iter().enumerate();
-        let list = joints.filter(|(_, joint)| matches!(joint.kind, JointKind::Whale(_))).map(|(joint, _)| (joint, [DVec3::ZERO; 2]));
+        let list = joints
+            .filter(|(_, joint)| matches!(joint.kind, JointKind::Whale(_)))
+            .map(|(joint, _)| (joint, [DVec3::ZERO; 2]));
         let mut hitches = Self { list: list.collect(), share: 1.0 };
         if let (Some(whale), false) = (&model.spec.whale, hitches.list.is_empty()) {
             let mut bones = Vec::new();
-            pose(&whale.skin, whale.position_m, whale.orientation, &whale.start_posture(), &mut bones);
+            pose(
+                &whale.skin,
+                whale.position_m,
+                whale.orientation,
+                &whale.start_posture(),
+                &mut bones,
+            );
             hitches.move_to(model, [&bones, &bones]);
         }
         hitches
@@ -76,14 +85,18 @@ impl Hitches {
 /// Force on the whale and place of every line end made fast to it [N, m].
 ///
 /// The tension of the end's segment counts; what bends rope does at its end does not.
-pub(crate) fn pulls<'a>(model: &'a Model, state: &'a State) -> impl Iterator<Item = (DVec3, DVec3)> + 'a {
+pub(crate) fn pulls<'a>(
+    model: &'a Model,
+    state: &'a State,
+) -> impl Iterator<Item = (DVec3, DVec3)> + 'a {
     ends(model).filter_map(|(line, end)| {
         let (nodes, segments) = (&model.line_nodes[line], &model.line_segments[line]);
         let (tip, inner, segment) = match end {
             LineEnd::A => (nodes.start, nodes.start + 1, segments.start),
             LineEnd::B => (nodes.end - 1, nodes.end - 2, segments.end - 1),
         };
-        let tension = if state.rope.cut[segment] { 0.0 } else { state.rope.tension[segment].max(0.0) };
+        let tension =
+            if state.rope.cut[segment] { 0.0 } else { state.rope.tension[segment].max(0.0) };
         let [tip, inner] = [tip, inner].map(|node| state.rope.position[node]);
         Some(((inner - tip).try_normalize()? * tension, tip))
     })

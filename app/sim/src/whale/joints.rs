@@ -27,7 +27,11 @@ impl JointRanges {
     /// No bounds at all.
     #[must_use]
     pub fn unbounded() -> Self {
-        let mut ranges = Self { least: Posture::default(), most: Posture::default(), spine_total: [f64::INFINITY; 3] };
+        let mut ranges = Self {
+            least: Posture::default(),
+            most: Posture::default(),
+            spine_total: [f64::INFINITY; 3],
+        };
         for angle in Angle::all() {
             ranges.set(angle, [f64::NEG_INFINITY, f64::INFINITY]);
         }
@@ -96,7 +100,11 @@ mod tests {
     use super::*;
 
     fn ranges() -> JointRanges {
-        let mut ranges = JointRanges { least: Posture::default(), most: Posture::default(), spine_total: [0.5, 0.6, 0.2] };
+        let mut ranges = JointRanges {
+            least: Posture::default(),
+            most: Posture::default(),
+            spine_total: [0.5, 0.6, 0.2],
+        };
         for (index, angle) in (1..).zip(Angle::all()) {
             ranges.set(angle, [-0.01 * f64::from(index), 0.02 * f64::from(index)]);
         }
@@ -104,10 +112,10 @@ mod tests {
     }
 
     fn inside(ranges: &JointRanges, posture: &Posture) -> bool {
-        let spine = Angle::SPINE
-            .into_iter()
-            .zip(ranges.spine_total)
-            .all(|(axis, total)| (0..SPINE_JOINTS).map(|joint| angle_of(posture, axis(joint))).sum::<f64>().abs() <= total * (1.0 + 1e-12));
+        let spine = Angle::SPINE.into_iter().zip(ranges.spine_total).all(|(axis, total)| {
+            (0..SPINE_JOINTS).map(|joint| angle_of(posture, axis(joint))).sum::<f64>().abs()
+                <= total * (1.0 + 1e-12)
+        });
         let each = Angle::all().all(|angle| {
             let [least, most] = ranges.of(angle);
             (least..=most).contains(&angle_of(posture, angle))
@@ -123,7 +131,11 @@ mod tests {
             *angle_mut(&mut posture, angle).unwrap() = f64::from(index);
             assert_eq!(angle_of(&posture, angle), f64::from(index));
         }
-        assert_eq!(Angle::all().count() * size_of::<f64>(), size_of::<Posture>(), "an angle of the posture has no name");
+        assert_eq!(
+            Angle::all().count() * size_of::<f64>(),
+            size_of::<Posture>(),
+            "an angle of the posture has no name"
+        );
         assert!(angle_mut(&mut posture, Angle::SpineYaw(SPINE_JOINTS)).is_none());
     }
 
@@ -148,12 +160,19 @@ mod tests {
     fn the_whole_spine_has_its_own_bound() {
         let mut ranges = JointRanges::unbounded();
         ranges.spine_total[0] = 0.5;
-        let mut posture = Posture { spine_pitch: [0.1; SPINE_JOINTS], spine_yaw: [0.1; SPINE_JOINTS], ..Posture::default() };
+        let mut posture = Posture {
+            spine_pitch: [0.1; SPINE_JOINTS],
+            spine_yaw: [0.1; SPINE_JOINTS],
+            ..Posture::default()
+        };
         assert!(ranges.hold(&mut posture));
         assert!(posture.spine_pitch.iter().all(|angle| (angle - 0.0625).abs() < 1e-15));
         assert_eq!(posture.spine_yaw, [0.1; SPINE_JOINTS]);
         // A wave bends by far more at each joint and asks for nothing of the whole.
-        let mut wave = Posture { spine_pitch: [0.4, -0.4, 0.4, -0.4, 0.4, -0.4, 0.4, -0.4], ..Posture::default() };
+        let mut wave = Posture {
+            spine_pitch: [0.4, -0.4, 0.4, -0.4, 0.4, -0.4, 0.4, -0.4],
+            ..Posture::default()
+        };
         assert!(!ranges.hold(&mut wave));
     }
 }

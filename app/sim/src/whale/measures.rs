@@ -34,10 +34,15 @@ impl Measures {
     /// Measures of a closed skin filled evenly with a density [kg/m³]; all zero for a skin that holds nothing.
     #[must_use]
     pub fn of(skin: &Skin, density_kg_m3: f64) -> Self {
-        let inside = |vertex: &u32| matches!(skin.marks.get(*vertex as usize), Some(Mark::Mouth | Mark::Baleen));
+        let inside = |vertex: &u32| {
+            matches!(skin.marks.get(*vertex as usize), Some(Mark::Mouth | Mark::Baleen))
+        };
         let outside = skin.triangles.iter().filter(|corners| !corners.iter().all(inside));
         let wetted_area_m2 = outside.map(|corners| area(&skin.vertices, *corners)).sum();
-        Self { wetted_area_m2, ..Self::of_triangles(&skin.vertices, &skin.triangles, density_kg_m3) }
+        Self {
+            wetted_area_m2,
+            ..Self::of_triangles(&skin.vertices, &skin.triangles, density_kg_m3)
+        }
     }
 
     /// Measures of any closed surface, such as a skin in a posture, all of it wetted.
@@ -59,7 +64,13 @@ impl Measures {
         let about = second - square(centre) * volume;
         let trace = about.x_axis.x + about.y_axis.y + about.z_axis.z;
         let inertia = (DMat3::IDENTITY * trace - about) * density_kg_m3;
-        Self { mass_kg: density_kg_m3 * volume, volume_m3: volume, wetted_area_m2: wetted, centre_m: centre, inertia_kg_m2: inertia }
+        Self {
+            mass_kg: density_kg_m3 * volume,
+            volume_m3: volume,
+            wetted_area_m2: wetted,
+            centre_m: centre,
+            inertia_kg_m2: inertia,
+        }
     }
 }
 
@@ -82,15 +93,31 @@ mod tests {
     #[test]
     fn a_box_has_the_inertia_of_the_textbook() {
         let at = DVec3::new(5.0, -2.0, 1.0);
-        let places: Vec<DVec3> =
-            (0..8).map(|n| at + DVec3::new(f64::from(n & 1) * 2.0, f64::from(n >> 1 & 1) * 3.0, f64::from(n >> 2) * 4.0)).collect();
-        let faces = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
-        let triangles: Vec<[u32; 3]> = faces.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+        let places: Vec<DVec3> = (0..8)
+            .map(|n| {
+                at + DVec3::new(
+                    f64::from(n & 1) * 2.0,
+                    f64::from(n >> 1 & 1) * 3.0,
+                    f64::from(n >> 2) * 4.0,
+                )
+            })
+            .collect();
+        let faces =
+            [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+        let triangles: Vec<[u32; 3]> =
+            faces.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
         let found = Measures::of_triangles(&places, &triangles, 10.0);
-        assert!((found.mass_kg - 240.0).abs() < 1e-9 && (found.wetted_area_m2 - 52.0).abs() < 1e-12, "{found:?}");
+        assert!(
+            (found.mass_kg - 240.0).abs() < 1e-9 && (found.wetted_area_m2 - 52.0).abs() < 1e-12,
+            "{found:?}"
+        );
         assert!(found.centre_m.distance(at + DVec3::new(1.0, 1.5, 2.0)) < 1e-12);
         let expected = DMat3::from_diagonal(DVec3::new(25.0, 20.0, 13.0) * 20.0);
-        assert!((found.inertia_kg_m2 - expected).to_cols_array().iter().all(|off| off.abs() < 1e-8), "{}", found.inertia_kg_m2);
+        assert!(
+            (found.inertia_kg_m2 - expected).to_cols_array().iter().all(|off| off.abs() < 1e-8),
+            "{}",
+            found.inertia_kg_m2
+        );
         assert_eq!(Measures::of_triangles(&places, &[], 10.0), Measures::default());
     }
 }

@@ -160,7 +160,10 @@ impl Angle {
     /// Every angle of a posture, once.
     pub fn all() -> impl Iterator<Item = Self> {
         let spine = Self::SPINE.into_iter().flat_map(|axis| (0..SPINE_JOINTS).map(axis));
-        let flippers = [Self::FlipperSweep, Self::FlipperRaise, Self::FlipperTwist, Self::FlipperFlex].into_iter().flat_map(Self::sides);
+        let flippers =
+            [Self::FlipperSweep, Self::FlipperRaise, Self::FlipperTwist, Self::FlipperFlex]
+                .into_iter()
+                .flat_map(Self::sides);
         spine
             .chain([Self::FlukePitch])
             .chain(Self::sides(Self::FlukeFlex))

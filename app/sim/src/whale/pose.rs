@@ -11,7 +11,13 @@ use super::{Angle, Bone, Skin};
 ///
 /// `position` is that of the whale frame's origin [m], `orientation` turns the whale's frame into the world's.
 /// The transforms are rigid. A bone whose parent does not stand before it hangs on the control bone.
-pub fn pose(skin: &Skin, position: DVec3, orientation: DQuat, posture: &Posture, out: &mut Vec<DAffine3>) {
+pub fn pose(
+    skin: &Skin,
+    position: DVec3,
+    orientation: DQuat,
+    posture: &Posture,
+    out: &mut Vec<DAffine3>,
+) {
     let whale = DAffine3::from_rotation_translation(orientation, position);
     out.clear();
     for bone in &skin.bones {
@@ -100,13 +106,26 @@ mod tests {
             name: name.into(),
             parent,
             origin,
-            turns: angle.map(|(angle, axis)| (Channel { angle, share: 1.0 }, axis)).into_iter().collect(),
+            turns: angle
+                .map(|(angle, axis)| (Channel { angle, share: 1.0 }, axis))
+                .into_iter()
+                .collect(),
         };
         Skin {
-            vertices: vec![DVec3::X, DVec3::NEG_X, DVec3::new(-2.0, 0.0, 0.0), DVec3::new(-1.5, 0.0, 0.0)],
+            vertices: vec![
+                DVec3::X,
+                DVec3::NEG_X,
+                DVec3::new(-2.0, 0.0, 0.0),
+                DVec3::new(-1.5, 0.0, 0.0),
+            ],
             triangles: vec![],
             regions: vec![],
-            weights: vec![[(0, 1.0), (0, 0.0), (0, 0.0), (0, 0.0)], only(1), only(2), [(1, 0.5), (2, 0.5), (0, 0.0), (0, 0.0)]],
+            weights: vec![
+                [(0, 1.0), (0, 0.0), (0, 0.0), (0, 0.0)],
+                only(1),
+                only(2),
+                [(1, 0.5), (2, 0.5), (0, 0.0), (0, 0.0)],
+            ],
             marks: vec![],
             bones: vec![
                 bone("control", None, DVec3::ZERO, None),
@@ -130,7 +149,8 @@ mod tests {
         let at = DVec3::new(10.0, 20.0, -5.0);
         pose(&arm(), at, DQuat::from_rotation_z(FRAC_PI_2), &posture, &mut bones);
         skin_all(&arm(), &bones, &mut places);
-        let expected = [DVec3::new(0.0, 1.0, 0.0), DVec3::new(0.0, 0.0, -1.0), DVec3::new(0.0, 1.0, -1.0)];
+        let expected =
+            [DVec3::new(0.0, 1.0, 0.0), DVec3::new(0.0, 0.0, -1.0), DVec3::new(0.0, 1.0, -1.0)];
         for (place, expected) in places.iter().zip(expected) {
             assert!(place.distance(at + expected) < 1e-12, "{place} against {}", at + expected);
         }

@@ -75,7 +75,14 @@ impl Surface {
             triangles: vec![Bounds::EMPTY; tree.order().len()],
             vertices: vec![(0, [DVec3::ZERO; 2]); tree.skin().vertices.len()],
         };
-        let mut surface = Self { depth: tree.depth(), tree, step, rope: Groups::default(), pairs: Vec::new(), nodes: Vec::new() };
+        let mut surface = Self {
+            depth: tree.depth(),
+            tree,
+            step,
+            rope: Groups::default(),
+            pairs: Vec::new(),
+            nodes: Vec::new(),
+        };
         surface.step.number = 1;
         surface
     }
@@ -105,7 +112,9 @@ impl Surface {
             }
             match tree.nodes()[node].children {
                 Some(children) => nodes.extend(children),
-                None if step.cluster(tree, node).iter().any(|triangle| triangle.meets(&bounds)) => return true,
+                None if step.cluster(tree, node).iter().any(|triangle| triangle.meets(&bounds)) => {
+                    return true;
+                }
                 None => {}
             }
         }
@@ -134,7 +143,12 @@ impl Surface {
     }
 
     /// Hands over every segment and leaf of the tree that meet, until told to stop.
-    fn search(&mut self, segments: &[SweptSegment], margin: f64, mut go_on: impl FnMut(&mut Step, &SkinTree, Pair, &Bounds) -> bool) {
+    fn search(
+        &mut self,
+        segments: &[SweptSegment],
+        margin: f64,
+        mut go_on: impl FnMut(&mut Step, &SkinTree, Pair, &Bounds) -> bool,
+    ) {
         let Self { tree, depth, step, rope, pairs, .. } = self;
         pairs.clear();
         if tree.nodes().is_empty() {
@@ -155,7 +169,11 @@ impl Surface {
                     pairs.extend(children.map(|node| Pair { node, ..pair }));
                 }
                 _ if pair.level > 0 => {
-                    pairs.extend(rope.finer(pair.level, pair.group).map(|group| Pair { level: pair.level - 1, group, ..pair }));
+                    pairs.extend(rope.finer(pair.level, pair.group).map(|group| Pair {
+                        level: pair.level - 1,
+                        group,
+                        ..pair
+                    }));
                 }
                 _ if go_on(step, tree, pair, &rope_box) => {}
                 _ => return,
@@ -165,7 +183,8 @@ impl Surface {
 
     /// A triangle's corners at the start and at the end of the step.
     pub fn triangle_sweep(&mut self, triangle: u32) -> SweptTriangle {
-        let corners = self.tree.skin().triangles[triangle as usize].map(|vertex| self.step.vertex(self.tree.as_ref(), vertex as usize));
+        let corners = self.tree.skin().triangles[triangle as usize]
+            .map(|vertex| self.step.vertex(self.tree.as_ref(), vertex as usize));
         [corners.map(|ends| ends[0]), corners.map(|ends| ends[1])]
     }
 
@@ -191,8 +210,9 @@ impl Step {
             self.clusters[node] = self.number;
             for place in range.clone() {
                 let corners = tree.skin().triangles[tree.order()[place] as usize];
-                self.triangles[place] =
-                    corners.iter().fold(Bounds::EMPTY, |bounds, &vertex| bounds.join(Bounds::around(&self.vertex(tree, vertex as usize))));
+                self.triangles[place] = corners.iter().fold(Bounds::EMPTY, |bounds, &vertex| {
+                    bounds.join(Bounds::around(&self.vertex(tree, vertex as usize)))
+                });
             }
         }
         &self.triangles[range]
@@ -201,18 +221,30 @@ impl Step {
     fn vertex(&mut self, tree: &SkinTree, vertex: usize) -> [DVec3; 2] {
         if self.vertices[vertex].0 != self.number {
             let skin = tree.skin();
-            let ends = [skin_vertex(skin, &self.starts, vertex), skin_vertex(skin, &self.ends, vertex)];
+            let ends =
+                [skin_vertex(skin, &self.starts, vertex), skin_vertex(skin, &self.ends, vertex)];
             self.vertices[vertex] = (self.number, ends);
         }
         self.vertices[vertex].1
     }
 
-    fn add_candidates(&mut self, tree: &SkinTree, node: usize, segment: usize, rope_box: &Bounds, out: &mut Vec<Candidate>) {
+    fn add_candidates(
+        &mut self,
+        tree: &SkinTree,
+        node: usize,
+        segment: usize,
+        rope_box: &Bounds,
+        out: &mut Vec<Candidate>,
+    ) {
         let triangles = &tree.order()[tree.nodes()[node].triangles.clone()];
         let segment = u32::try_from(segment).unwrap_or(u32::MAX);
         let boxes = self.cluster(tree, node);
         out.extend(
-            triangles.iter().zip(boxes).filter(|(_, bounds)| bounds.meets(rope_box)).map(|(&triangle, _)| Candidate { segment, triangle }),
+            triangles
+                .iter()
+                .zip(boxes)
+                .filter(|(_, bounds)| bounds.meets(rope_box))
+                .map(|(&triangle, _)| Candidate { segment, triangle }),
         );
     }
 }
@@ -222,7 +254,9 @@ impl Groups {
     fn fill(&mut self, segments: &[SweptSegment], margin: f64) {
         let [ones, eights, all] = &mut self.levels;
         ones.clear();
-        ones.extend(segments.iter().map(|segment| Bounds::around(&[segment.a0, segment.b0, segment.a1, segment.b1]).grown(margin)));
+        ones.extend(segments.iter().map(|segment| {
+            Bounds::around(&[segment.a0, segment.b0, segment.a1, segment.b1]).grown(margin)
+        }));
         coarsen(ones, eights);
         coarsen(eights, all);
     }
@@ -235,7 +269,10 @@ impl Groups {
 
 fn coarsen(fine: &[Bounds], coarse: &mut Vec<Bounds>) {
     coarse.clear();
-    coarse.extend(fine.chunks(GROUP).map(|group| group.iter().fold(Bounds::EMPTY, |bounds, other| bounds.join(*other))));
+    coarse.extend(
+        fine.chunks(GROUP)
+            .map(|group| group.iter().fold(Bounds::EMPTY, |bounds, other| bounds.join(*other))),
+    );
 }
 
 #[cfg(test)]

@@ -11,7 +11,8 @@ struct Dice(u64);
 
 impl Dice {
     fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 
@@ -33,10 +34,13 @@ fn tube() -> Skin {
             let first = (along as u16).min(7);
             let shares: [f64; 4] = std::array::from_fn(|_| dice.next() + 1.0);
             let sum: f64 = shares.iter().sum();
-            skin.weights.push(std::array::from_fn(|place| ((first + place as u16).min(7), shares[place] / sum)));
+            skin.weights.push(std::array::from_fn(|place| {
+                ((first + place as u16).min(7), shares[place] / sum)
+            }));
             if ring > 0 {
                 let (here, next) = (ring * sides + side, ring * sides + (side + 1) % sides);
-                skin.triangles.extend([[here, next, next - sides], [here, next - sides, here - sides]]);
+                skin.triangles
+                    .extend([[here, next, next - sides], [here, next - sides, here - sides]]);
                 skin.regions.extend([Region::Body; 2]);
             }
         }
@@ -50,7 +54,12 @@ fn joint(index: usize) -> Bone {
         (Channel { angle: Angle::SpinePitch(index), share: 1.0 }, DVec3::NEG_Y),
         (Channel { angle: Angle::SpineYaw(index), share: 1.0 }, DVec3::Z),
     ];
-    Bone { name: format!("bone_{index}"), parent: index.checked_sub(1), origin: DVec3::NEG_X * index as f64, turns }
+    Bone {
+        name: format!("bone_{index}"),
+        parent: index.checked_sub(1),
+        origin: DVec3::NEG_X * index as f64,
+        turns,
+    }
 }
 
 fn random_bones(skin: &Skin, dice: &mut Dice) -> Vec<DAffine3> {
@@ -73,7 +82,10 @@ fn random_rope(dice: &mut Dice) -> Vec<SweptSegment> {
         at += dice.point() * 0.3;
         next = at + dice.point() * 0.2;
     }
-    nodes.windows(2).map(|pair| SweptSegment { a0: pair[0][0], b0: pair[1][0], a1: pair[0][1], b1: pair[1][1] }).collect()
+    nodes
+        .windows(2)
+        .map(|pair| SweptSegment { a0: pair[0][0], b0: pair[1][0], a1: pair[0][1], b1: pair[1][1] })
+        .collect()
 }
 
 /// In random postures the candidates are those of a search through all pairs, and no pair that comes
@@ -92,13 +104,20 @@ fn candidates_are_those_of_a_full_search() {
         let expected = full_search(&skin, &starts, &ends, &rope, margin);
         assert_eq!(found, expected);
         all += found.len();
-        let whole = Bounds::around(&rope.iter().flat_map(|s| [s.a0, s.b0, s.a1, s.b1]).collect::<Vec<_>>());
+        let whole =
+            Bounds::around(&rope.iter().flat_map(|s| [s.a0, s.b0, s.a1, s.b1]).collect::<Vec<_>>());
         assert!(found.is_empty() || surface.is_near(&whole, margin));
     }
     assert!(all > 10_000, "{all} candidates are too few to prove anything");
 }
 
-fn full_search(skin: &Skin, starts: &[DAffine3], ends: &[DAffine3], rope: &[SweptSegment], margin: f64) -> Vec<Candidate> {
+fn full_search(
+    skin: &Skin,
+    starts: &[DAffine3],
+    ends: &[DAffine3],
+    rope: &[SweptSegment],
+    margin: f64,
+) -> Vec<Candidate> {
     let (mut from, mut to) = (Vec::new(), Vec::new());
     skin_all(skin, starts, &mut from);
     skin_all(skin, ends, &mut to);
@@ -106,7 +125,8 @@ fn full_search(skin: &Skin, starts: &[DAffine3], ends: &[DAffine3], rope: &[Swep
     for (segment, swept) in (0..).zip(rope) {
         let rope_box = Bounds::around(&[swept.a0, swept.b0, swept.a1, swept.b1]).grown(margin);
         for (triangle, corners) in (0..).zip(&skin.triangles) {
-            let [start, end] = [&from, &to].map(|places| corners.map(|corner| places[corner as usize]));
+            let [start, end] =
+                [&from, &to].map(|places| corners.map(|corner| places[corner as usize]));
             let listed = Bounds::around(&start).join(Bounds::around(&end)).meets(&rope_box);
             if listed {
                 out.push(Candidate { segment, triangle });
@@ -130,7 +150,8 @@ fn bounds_hold_every_vertex() {
             let bounds = tree.bound(index, &starts, &ends);
             for &triangle in &tree.order()[node.triangles.clone()] {
                 for vertex in skin.triangles[triangle as usize] {
-                    let [start, end] = [&starts, &ends].map(|bones| skin_vertex(&skin, bones, vertex as usize));
+                    let [start, end] =
+                        [&starts, &ends].map(|bones| skin_vertex(&skin, bones, vertex as usize));
                     for place in [start, start.lerp(end, 0.3), end] {
                         assert!(place.cmpge(bounds.low).all() && place.cmple(bounds.high).all());
                     }
@@ -153,7 +174,10 @@ fn triangles_move_as_the_skin_does() {
             let start = corners.map(|corner| skin_vertex(&skin, &starts, corner as usize));
             let end = corners.map(|corner| skin_vertex(&skin, &ends, corner as usize));
             assert_eq!(surface.triangle_sweep(triangle), [start, end]);
-            assert!(surface.triangle_at(triangle, 0.25)[1].distance(start[1].lerp(end[1], 0.25)) < 1e-12);
+            assert!(
+                surface.triangle_at(triangle, 0.25)[1].distance(start[1].lerp(end[1], 0.25))
+                    < 1e-12
+            );
         }
     }
 }

@@ -47,13 +47,20 @@ impl SkinTree {
     /// Builds the tree; the same skin gives the same tree.
     #[must_use]
     pub fn new(skin: Arc<Skin>) -> Self {
-        let centres: Vec<DVec3> =
-            skin.triangles.iter().map(|corners| corners.iter().map(|&corner| skin.vertices[corner as usize]).sum()).collect();
+        let centres: Vec<DVec3> = skin
+            .triangles
+            .iter()
+            .map(|corners| corners.iter().map(|&corner| skin.vertices[corner as usize]).sum())
+            .collect();
         let order = (0_u32..).take(skin.triangles.len()).collect();
         let mut tree = Self { skin, nodes: Vec::new(), spheres: Vec::new(), order };
         if !tree.order.is_empty() {
             let bones = tree.skin.bones.len();
-            let mut vertices = Vertices { seen: vec![0; tree.skin.vertices.len()], next: 0, moved: vec![Vec::new(); bones] };
+            let mut vertices = Vertices {
+                seen: vec![0; tree.skin.vertices.len()],
+                next: 0,
+                moved: vec![Vec::new(); bones],
+            };
             tree.grow(0..tree.order.len(), &centres, &mut vertices);
         }
         tree
@@ -100,11 +107,20 @@ impl SkinTree {
     }
 
     /// Adds the node over a range of triangles, and those below it; its index.
-    fn grow(&mut self, triangles: std::ops::Range<usize>, centres: &[DVec3], vertices: &mut Vertices) -> usize {
+    fn grow(
+        &mut self,
+        triangles: std::ops::Range<usize>,
+        centres: &[DVec3],
+        vertices: &mut Vertices,
+    ) -> usize {
         let index = self.nodes.len();
         let from = self.spheres.len();
         self.add_spheres(&triangles, vertices);
-        self.nodes.push(Node { spheres: from..self.spheres.len(), triangles: triangles.clone(), children: None });
+        self.nodes.push(Node {
+            spheres: from..self.spheres.len(),
+            triangles: triangles.clone(),
+            children: None,
+        });
         if triangles.len() > CLUSTER {
             let middle = self.split(&triangles, centres);
             let first = self.grow(triangles.start..middle, centres, vertices);
@@ -117,12 +133,17 @@ impl SkinTree {
     /// Cuts a range across its longest side near the middle, at whole clusters.
     fn split(&mut self, triangles: &std::ops::Range<usize>, centres: &[DVec3]) -> usize {
         let order = &mut self.order[triangles.clone()];
-        let sides = order.iter().fold(Bounds::EMPTY, |bounds, &triangle| bounds.with(centres[triangle as usize]));
+        let sides = order
+            .iter()
+            .fold(Bounds::EMPTY, |bounds, &triangle| bounds.with(centres[triangle as usize]));
         let extent = sides.high - sides.low;
-        let axis = (0..3).fold(0, |best, axis| if extent[axis] > extent[best] { axis } else { best });
+        let axis =
+            (0..3).fold(0, |best, axis| if extent[axis] > extent[best] { axis } else { best });
         let half = triangles.len().div_ceil(2 * CLUSTER) * CLUSTER;
         let place = |triangle: u32| centres[triangle as usize][axis];
-        order.select_nth_unstable_by(half, |left, right| place(*left).total_cmp(&place(*right)).then(left.cmp(right)));
+        order.select_nth_unstable_by(half, |left, right| {
+            place(*left).total_cmp(&place(*right)).then(left.cmp(right))
+        });
         triangles.start + half
     }
 
@@ -130,7 +151,10 @@ impl SkinTree {
     fn add_spheres(&mut self, triangles: &std::ops::Range<usize>, vertices: &mut Vertices) {
         let skin = &self.skin;
         vertices.next += 1;
-        for corner in self.order[triangles.clone()].iter().flat_map(|&triangle| skin.triangles[triangle as usize]) {
+        for corner in self.order[triangles.clone()]
+            .iter()
+            .flat_map(|&triangle| skin.triangles[triangle as usize])
+        {
             let vertex = corner as usize;
             if std::mem::replace(&mut vertices.seen[vertex], vertices.next) == vertices.next {
                 continue;
@@ -141,7 +165,9 @@ impl SkinTree {
                 }
             }
         }
-        for (bone, places) in vertices.moved.iter_mut().enumerate().filter(|(_, places)| !places.is_empty()) {
+        for (bone, places) in
+            vertices.moved.iter_mut().enumerate().filter(|(_, places)| !places.is_empty())
+        {
             self.spheres.push(Sphere::around(bone, places));
             places.clear();
         }

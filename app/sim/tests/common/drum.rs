@@ -1,13 +1,21 @@
 //! A drum of triangles as a whale that stands still, and a rope drawn round it: the capstan on the contact of skin.
 #![allow(dead_code, reason = "each test file uses a part of it")]
-#![allow(clippy::expect_used, clippy::panic, reason = "a test says what it needs, in its helpers too")]
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test says what it needs, in its helpers too"
+)]
 
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 use endline_friction_models::Coulomb;
-use endline_sdk::{Descriptor, FrictionModel, HookError, MotionInput, MotionOutput, Region, WhaleMotion};
-use endline_sim::model::{Friction, Joint, JointKind, Line, Model, ModelSpec, Resolution, Settings, Strength};
+use endline_sdk::{
+    Descriptor, FrictionModel, HookError, MotionInput, MotionOutput, Region, WhaleMotion,
+};
+use endline_sim::model::{
+    Friction, Joint, JointKind, Line, Model, ModelSpec, Resolution, Settings, Strength,
+};
 use endline_sim::whale::{Bone, JointRanges, Measures, PilotProgram, Skin, Whale};
 use endline_sim::{Audit, DQuat, DVec3, Input, State, Workspace, step};
 
@@ -17,7 +25,15 @@ pub struct Still(Descriptor);
 impl Still {
     pub fn shared() -> Arc<Self> {
         let (id, version, name, help) = ("still".into(), "1".into(), "still".into(), "".into());
-        Arc::new(Self(Descriptor { id, version, name, help, attributes: Vec::new(), state_len: 0, acts: Vec::new() }))
+        Arc::new(Self(Descriptor {
+            id,
+            version,
+            name,
+            help,
+            attributes: Vec::new(),
+            state_len: 0,
+            acts: Vec::new(),
+        }))
     }
 }
 
@@ -26,7 +42,12 @@ impl WhaleMotion for Still {
         &self.0
     }
 
-    fn step(&self, _: &[f64], _: &MotionInput<'_>, _: &mut [f64]) -> Result<MotionOutput, HookError> {
+    fn step(
+        &self,
+        _: &[f64],
+        _: &MotionInput<'_>,
+        _: &mut [f64],
+    ) -> Result<MotionOutput, HookError> {
         Ok(MotionOutput::default())
     }
 }
@@ -34,13 +55,16 @@ impl WhaleMotion for Still {
 /// A closed drum along y with so many facets round it.
 pub fn drum(radius: f64, half_length: f64, region: Region, facets: u32) -> Skin {
     let angle = |k: u32| f64::from(k) / f64::from(facets) * TAU;
-    let rim = |k: u32, y: f64| DVec3::new(radius * libm::cos(angle(k)), y, radius * libm::sin(angle(k)));
-    let mut vertices: Vec<DVec3> = (0..facets).flat_map(|k| [rim(k, -half_length), rim(k, half_length)]).collect();
+    let rim =
+        |k: u32, y: f64| DVec3::new(radius * libm::cos(angle(k)), y, radius * libm::sin(angle(k)));
+    let mut vertices: Vec<DVec3> =
+        (0..facets).flat_map(|k| [rim(k, -half_length), rim(k, half_length)]).collect();
     vertices.extend([DVec3::Y * -half_length, DVec3::Y * half_length]);
     let (left, right) = (2 * facets, 2 * facets + 1);
     let triangles: Vec<[u32; 3]> = (0..facets)
         .flat_map(|k| {
-            let (a, b, c, d) = (2 * k, 2 * k + 1, 2 * ((k + 1) % facets), 2 * ((k + 1) % facets) + 1);
+            let (a, b, c, d) =
+                (2 * k, 2 * k + 1, 2 * ((k + 1) % facets), 2 * ((k + 1) % facets) + 1);
             [[a, c, b], [b, c, d], [a, left, c], [b, d, right]]
         })
         .collect();
@@ -48,7 +72,12 @@ pub fn drum(radius: f64, half_length: f64, region: Region, facets: u32) -> Skin 
         weights: vec![[(0, 1.0), (0, 0.0), (0, 0.0), (0, 0.0)]; vertices.len()],
         marks: Vec::new(),
         regions: vec![region; triangles.len()],
-        bones: vec![Bone { name: "control".into(), parent: None, origin: DVec3::ZERO, turns: Vec::new() }],
+        bones: vec![Bone {
+            name: "control".into(),
+            parent: None,
+            origin: DVec3::ZERO,
+            turns: Vec::new(),
+        }],
         vertices,
         triangles,
     }
@@ -76,7 +105,12 @@ pub fn still(skin: Skin) -> Whale {
 /// Coulomb's law with one coefficient for all skin.
 pub fn coulomb(coefficient: f64) -> Friction {
     let model = Coulomb::new();
-    let attributes = model.descriptor().attributes.iter().filter_map(|attribute| attribute.default_value().number()).collect();
+    let attributes = model
+        .descriptor()
+        .attributes
+        .iter()
+        .filter_map(|attribute| attribute.default_value().number())
+        .collect();
     Friction::of_one(Arc::new(model), attributes, vec![[coefficient; Region::ALL.len()]])
 }
 
@@ -172,11 +206,16 @@ impl Capstan {
         let count = (whole / self.segment_m).round() as usize;
         let segments_m = vec![whole / count as f64; count];
         let start_m = (0..=count).map(|k| self.place(whole * k as f64 / count as f64)).collect();
-        let pulled = JointKind::Pulled { force_n: self.direction(0.0) * -self.slack_n, from_s: -1.0 };
+        let pulled =
+            JointKind::Pulled { force_n: self.direction(0.0) * -self.slack_n, from_s: -1.0 };
         let away = self.direction(self.turn);
         let driven = match self.held_n {
             Some(force) => JointKind::Pulled { force_n: away * force, from_s: -1.0 },
-            None => JointKind::Driven { velocity_m_s: away * self.speed_m_s, from_s: SETTLE_S, until_s: f64::INFINITY },
+            None => JointKind::Driven {
+                velocity_m_s: away * self.speed_m_s,
+                from_s: SETTLE_S,
+                until_s: f64::INFINITY,
+            },
         };
         let mut rope = super::rope();
         rope.axial_damping_ratio = 0.5;
@@ -189,7 +228,15 @@ impl Capstan {
                 Joint { id: "slack".into(), kind: pulled, position_m: self.place(0.0) },
                 Joint { id: "hand".into(), kind: driven, position_m: self.place(whole) },
             ],
-            lines: vec![Line { id: "rope".into(), rope: 0, from: 0, to: 1, segments_m, strength: Strength::default(), start_m }],
+            lines: vec![Line {
+                id: "rope".into(),
+                rope: 0,
+                from: 0,
+                to: 1,
+                segments_m,
+                strength: Strength::default(),
+                start_m,
+            }],
             bodies: Vec::new(),
             links: Vec::new(),
             gear: Vec::new(),
@@ -197,7 +244,11 @@ impl Capstan {
             friction: Some(coulomb(self.friction)),
             obstacles: Vec::new(),
             probes: Vec::new(),
-            settings: Settings { step_s: 0.002, resolution: self.resolution, ..Settings::default() },
+            settings: Settings {
+                step_s: 0.002,
+                resolution: self.resolution,
+                ..Settings::default()
+            },
         }
     }
 
@@ -207,13 +258,18 @@ impl Capstan {
         let (mut state, mut workspace) = (State::start(&model), Workspace::new(&model));
         let mut before = Vec::new();
         while state.time_s < until_s {
-            step(&model, &Input::default(), &mut state, &mut workspace).unwrap_or_else(|stop| panic!("{self:?} {stop:?}"));
+            step(&model, &Input::default(), &mut state, &mut workspace)
+                .unwrap_or_else(|stop| panic!("{self:?} {stop:?}"));
             if before.is_empty() && state.time_s >= from_s {
                 before.clone_from(&state.rope.position);
             }
         }
         assert_eq!(workspace.audit.tunnelled, 0);
-        before.iter().zip(&state.rope.position).map(|(from, to)| from.distance(*to)).fold(0.0, f64::max)
+        before
+            .iter()
+            .zip(&state.rope.position)
+            .map(|(from, to)| from.distance(*to))
+            .fold(0.0, f64::max)
     }
 
     /// Draws the rope round and reads the tensions at its ends.
@@ -224,14 +280,21 @@ impl Capstan {
         let from = SETTLE_S + self.drawn_m[0] / self.speed_m_s;
         let until = from + self.drawn_m[1] / self.speed_m_s;
         while state.time_s < until {
-            step(&model, &Input::default(), &mut state, &mut workspace).unwrap_or_else(|stop| panic!("{self:?} {stop:?}"));
+            step(&model, &Input::default(), &mut state, &mut workspace)
+                .unwrap_or_else(|stop| panic!("{self:?} {stop:?}"));
             if state.time_s > from {
                 ratios.push(state.rope.tension[last] / state.rope.tension[0]);
             }
         }
         let law = self.friction * self.turn;
         let mean = ratios.iter().sum::<f64>() / ratios.len() as f64;
-        let square = ratios.iter().map(|ratio| (ratio - mean) * (ratio - mean)).sum::<f64>() / ratios.len() as f64;
-        Reading { ratio: mean / libm::exp(law), ripple: square.sqrt() / mean, friction: libm::log(mean) / law, audit: workspace.audit }
+        let square = ratios.iter().map(|ratio| (ratio - mean) * (ratio - mean)).sum::<f64>()
+            / ratios.len() as f64;
+        Reading {
+            ratio: mean / libm::exp(law),
+            ripple: square.sqrt() / mean,
+            friction: libm::log(mean) / law,
+            audit: workspace.audit,
+        }
     }
 }

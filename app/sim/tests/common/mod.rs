@@ -32,7 +32,14 @@ pub fn rope() -> Rope {
 /// A vacuum or a sea with a uniform current along x.
 pub fn water(density_kg_m3: f64, current_m_s: f64) -> Water {
     let current = Current::uniform(DVec3::X * current_m_s);
-    Water { density_kg_m3, gravity_m_s2: 9.81, depth_m: 30.0, rope_dries: false, current, waves: None }
+    Water {
+        density_kg_m3,
+        gravity_m_s2: 9.81,
+        depth_m: 30.0,
+        rope_dries: false,
+        current,
+        waves: None,
+    }
 }
 
 /// A body without extent.
@@ -65,7 +72,11 @@ pub fn fixed(id: &str, position_m: DVec3) -> Joint {
 }
 
 pub fn on_body(id: &str, body: usize) -> Joint {
-    Joint { id: id.into(), kind: JointKind::Body { body, offset_m: DVec3::ZERO }, position_m: DVec3::ZERO }
+    Joint {
+        id: id.into(),
+        kind: JointKind::Body { body, offset_m: DVec3::ZERO },
+        position_m: DVec3::ZERO,
+    }
 }
 
 /// A line of equal segments.
@@ -82,7 +93,13 @@ pub fn line(id: &str, length_m: f64, segments: usize) -> Line {
 }
 
 /// A model of one line between two joints.
-pub fn model(water: Water, joints: Vec<Joint>, lines: Vec<Line>, bodies: Vec<Body>, settings: Settings) -> Model {
+pub fn model(
+    water: Water,
+    joints: Vec<Joint>,
+    lines: Vec<Line>,
+    bodies: Vec<Body>,
+    settings: Settings,
+) -> Model {
     model_with(water, joints, lines, bodies, settings, Vec::new())
 }
 

@@ -5,7 +5,9 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 use endline_friction_models::Coulomb;
-use endline_sdk::{Controls, Descriptor, FrictionModel, HookError, MotionInput, MotionOutput, Region, WhaleMotion};
+use endline_sdk::{
+    Controls, Descriptor, FrictionModel, HookError, MotionInput, MotionOutput, Region, WhaleMotion,
+};
 use endline_sim::model::{Friction, ModelSpec};
 use endline_sim::whale::kinetic::added::spheroid;
 use endline_sim::whale::kinetic::{AxialDrag, Effort, Hull, Muscle};
@@ -22,7 +24,15 @@ pub struct Steady {
 impl Steady {
     pub fn shared(speed_m_s: f64, turn_rate: [f64; 3]) -> Arc<Self> {
         let (id, name, help) = ("test.steady".into(), "Steady".into(), "Always the same.".into());
-        let descriptor = Descriptor { id, version: "1".into(), name, help, attributes: Vec::new(), state_len: 0, acts: Vec::new() };
+        let descriptor = Descriptor {
+            id,
+            version: "1".into(),
+            name,
+            help,
+            attributes: Vec::new(),
+            state_len: 0,
+            acts: Vec::new(),
+        };
         Arc::new(Self { descriptor, speed_m_s, turn_rate })
     }
 }
@@ -32,7 +42,12 @@ impl WhaleMotion for Steady {
         &self.descriptor
     }
 
-    fn step(&self, _: &[f64], input: &MotionInput<'_>, _: &mut [f64]) -> Result<MotionOutput, HookError> {
+    fn step(
+        &self,
+        _: &[f64],
+        input: &MotionInput<'_>,
+        _: &mut [f64],
+    ) -> Result<MotionOutput, HookError> {
         let speed_m_s = if input.controls.speed > 0.0 { self.speed_m_s } else { 0.0 };
         Ok(MotionOutput { speed_m_s, turn_rate_rad_s: self.turn_rate, ..MotionOutput::default() })
     }
@@ -71,7 +86,11 @@ pub fn kinetic(length_m: f64, mass_kg: f64, diameter_m: f64) -> Kinetic {
             wide_rad: 0.26,
         },
         side_drag_m2: [0.118 * length_m * length_m, 0.144 * length_m * length_m],
-        turn_drag_m5: DVec3::new(20.0, 0.0021 * libm::pow(length_m, 5.0), 0.0017 * libm::pow(length_m, 5.0)),
+        turn_drag_m5: DVec3::new(
+            20.0,
+            0.0021 * libm::pow(length_m, 5.0),
+            0.0017 * libm::pow(length_m, 5.0),
+        ),
         muscle: Muscle {
             sustained_n: strength,
             burst_n: 401.0 * grown,
@@ -99,19 +118,30 @@ pub fn spindle(length_m: f64, diameter_m: f64) -> Skin {
         let ((x, r), angle) = (station(k), TAU * f64::from(j) / f64::from(ROUND));
         DVec3::new(x, r * libm::cos(angle), r * libm::sin(angle))
     };
-    let mut vertices: Vec<DVec3> = (1..ALONG).flat_map(|k| (0..ROUND).map(move |j| rim(k, j))).collect();
+    let mut vertices: Vec<DVec3> =
+        (1..ALONG).flat_map(|k| (0..ROUND).map(move |j| rim(k, j))).collect();
     vertices.extend([DVec3::X * (0.5 * length_m), DVec3::X * (-0.5 * length_m)]);
     let at = |k: u32, j: u32| (k - 1) * ROUND + j % ROUND;
     let (snout, tail) = ((ALONG - 1) * ROUND, (ALONG - 1) * ROUND + 1);
-    let mut triangles: Vec<[u32; 3]> =
-        (0..ROUND).flat_map(|j| [[snout, at(1, j), at(1, j + 1)], [tail, at(ALONG - 1, j + 1), at(ALONG - 1, j)]]).collect();
+    let mut triangles: Vec<[u32; 3]> = (0..ROUND)
+        .flat_map(|j| {
+            [[snout, at(1, j), at(1, j + 1)], [tail, at(ALONG - 1, j + 1), at(ALONG - 1, j)]]
+        })
+        .collect();
     for k in 1..ALONG - 1 {
-        triangles.extend((0..ROUND).flat_map(|j| [[at(k, j), at(k + 1, j), at(k, j + 1)], [at(k, j + 1), at(k + 1, j), at(k + 1, j + 1)]]));
+        triangles.extend((0..ROUND).flat_map(|j| {
+            [[at(k, j), at(k + 1, j), at(k, j + 1)], [at(k, j + 1), at(k + 1, j), at(k + 1, j + 1)]]
+        }));
     }
     Skin {
         weights: vec![[(0, 1.0), (0, 0.0), (0, 0.0), (0, 0.0)]; vertices.len()],
         regions: vec![Region::Body; triangles.len()],
-        bones: vec![Bone { name: "control".into(), parent: None, origin: DVec3::ZERO, turns: Vec::new() }],
+        bones: vec![Bone {
+            name: "control".into(),
+            parent: None,
+            origin: DVec3::ZERO,
+            turns: Vec::new(),
+        }],
         vertices,
         triangles,
         ..Skin::default()
@@ -141,13 +171,22 @@ pub fn whale(kinetic: Kinetic, speed_m_s: f64, motion: Arc<Steady>) -> Whale {
 
 /// A closed box of these half sides about the origin, as a whale's skin.
 pub fn crate_of(half: DVec3) -> Skin {
-    let corner = |k: u32| half * DVec3::from_array([0, 1, 2].map(|bit| if k >> bit & 1 == 0 { -1.0 } else { 1.0 }));
-    let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-    let triangles: Vec<[u32; 3]> = faces.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
+    let corner = |k: u32| {
+        half * DVec3::from_array([0, 1, 2].map(|bit| if k >> bit & 1 == 0 { -1.0 } else { 1.0 }))
+    };
+    let faces =
+        [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let triangles: Vec<[u32; 3]> =
+        faces.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
     Skin {
         weights: vec![[(0, 1.0), (0, 0.0), (0, 0.0), (0, 0.0)]; 8],
         regions: vec![Region::Body; triangles.len()],
-        bones: vec![Bone { name: "control".into(), parent: None, origin: DVec3::ZERO, turns: Vec::new() }],
+        bones: vec![Bone {
+            name: "control".into(),
+            parent: None,
+            origin: DVec3::ZERO,
+            turns: Vec::new(),
+        }],
         vertices: (0..8).map(corner).collect(),
         triangles,
         ..Skin::default()
@@ -157,7 +196,12 @@ pub fn crate_of(half: DVec3) -> Skin {
 /// A sea with a whale and no gear, of one rope.
 pub fn spec(whale: Whale, density_kg_m3: f64) -> ModelSpec {
     let coulomb = Coulomb::new();
-    let attributes = coulomb.descriptor().attributes.iter().filter_map(|attribute| attribute.default_value().number()).collect();
+    let attributes = coulomb
+        .descriptor()
+        .attributes
+        .iter()
+        .filter_map(|attribute| attribute.default_value().number())
+        .collect();
     ModelSpec {
         water: crate::common::water(density_kg_m3, 0.0),
         seabed: None,
@@ -168,7 +212,11 @@ pub fn spec(whale: Whale, density_kg_m3: f64) -> ModelSpec {
         links: Vec::new(),
         gear: Vec::new(),
         whale: Some(whale),
-        friction: Some(Friction::of_one(Arc::new(coulomb), attributes, vec![[0.2; Region::ALL.len()]])),
+        friction: Some(Friction::of_one(
+            Arc::new(coulomb),
+            attributes,
+            vec![[0.2; Region::ALL.len()]],
+        )),
         obstacles: Vec::new(),
         probes: Vec::new(),
         settings: endline_sim::model::Settings::default(),

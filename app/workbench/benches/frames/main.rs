@@ -4,7 +4,11 @@
 //! allowed; `-- typing` and the like measure one part alone. CPU time is that of the drawing thread, so that other work on
 //! the machine counts only by what it takes of caches and clock rate; the middle is the figure, 95 % tells how busy the
 //! machine was.
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a measurement that cannot go on stops, and prints what it found")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a measurement that cannot go on stops, and prints what it found"
+)]
 
 #[path = "../../tests/common/mod.rs"]
 mod common;
@@ -25,7 +29,8 @@ use screen::{Screen, thread_cpu_s};
 type Measure = fn(&Folder);
 
 /// What is measured, by name.
-const PARTS: [(&str, Measure); 4] = [("start", starting), ("typing", typing), ("playing", playing), ("scrubbing", scrubbing)];
+const PARTS: [(&str, Measure); 4] =
+    [("start", starting), ("typing", typing), ("playing", playing), ("scrubbing", scrubbing)];
 
 /// Asks this program for one start alone: a process of its own tells what it cost.
 const ONE_START: &str = "one-start";
@@ -40,7 +45,10 @@ fn main() {
     if told(ONE_START) {
         return one_start();
     }
-    println!("{:<62} {:>8} {:>8} {:>8}      allowed", "CPU time of the window's own thread", "fastest", "middle", "95 %");
+    println!(
+        "{:<62} {:>8} {:>8} {:>8}      allowed",
+        "CPU time of the window's own thread", "fastest", "middle", "95 %"
+    );
     let every = PARTS.iter().all(|(name, _)| !told(name));
     for (name, measure) in PARTS.into_iter().filter(|(name, _)| every || told(name)) {
         measure(&Folder::new(&format!("frames-{name}")));
@@ -88,9 +96,15 @@ fn typing(folder: &Folder) {
     screen.settle(5);
     screen.open_alone(Panel::Library);
     screen.settle(5);
-    let letter = |index: usize| vec![Event::Text(if index.is_multiple_of(2) { "1" } else { "2" }.to_owned())];
+    let letter = |index: usize| {
+        vec![Event::Text(if index.is_multiple_of(2) { "1" } else { "2" }.to_owned())]
+    };
     click(&mut screen, pos2(420.0, 300.0));
-    tell("a letter typed in a cell of a table of 1,000 ropes", (0..60).map(|index| screen.frame(letter(index))).collect(), "16 ms");
+    tell(
+        "a letter typed in a cell of a table of 1,000 ropes",
+        (0..60).map(|index| screen.frame(letter(index))).collect(),
+        "16 ms",
+    );
     screen.frame(vec![key(Key::Escape)]);
     let mut committed = Vec::new();
     for _ in 0..5 {
@@ -121,7 +135,12 @@ fn key(key: Key) -> Event {
 
 /// Clicks into a field.
 fn click(screen: &mut Screen, at: egui::Pos2) {
-    let button = |pressed| Event::PointerButton { pos: at, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE };
+    let button = |pressed| Event::PointerButton {
+        pos: at,
+        button: PointerButton::Primary,
+        pressed,
+        modifiers: Modifiers::NONE,
+    };
     screen.frame(vec![Event::PointerMoved(at)]);
     screen.frame(vec![button(true)]);
     screen.frame(vec![button(false)]);
@@ -143,15 +162,28 @@ fn playing(folder: &Folder) {
     screen.wait(|app| app.desk.assembly.settled());
     screen.app.desk.obey(&Order::Speed(f64::INFINITY));
     screen.app.desk.obey(&Order::Start);
-    screen.wait(|app| app.desk.view.as_ref().is_some_and(|view| view.newest_s > 1.5 && !view.frame.contacts.is_empty()));
+    screen.wait(|app| {
+        app.desk
+            .view
+            .as_ref()
+            .is_some_and(|view| view.newest_s > 1.5 && !view.frame.contacts.is_empty())
+    });
     screen.app.desk.obey(&Order::Speed(1.0));
     screen.settle(5);
     let nodes = screen.app.desk.view.as_ref().unwrap().model.node_count;
     let panels = Panel::ALL.len();
-    tell(&format!("a frame, {nodes} nodes being run, all {panels} panels open"), screen.moments(60), "4 ms");
+    tell(
+        &format!("a frame, {nodes} nodes being run, all {panels} panels open"),
+        screen.moments(60),
+        "4 ms",
+    );
     screen.app.desk.obey(&Order::Pause);
     screen.wait(|app| app.desk.status() == Some(&Status::Paused));
-    tell(&format!("a frame, {nodes} nodes played again, all {panels} panels open"), played(&mut screen, 100), "4 ms");
+    tell(
+        &format!("a frame, {nodes} nodes played again, all {panels} panels open"),
+        played(&mut screen, 100),
+        "4 ms",
+    );
     uploaded(&screen);
     for panel in Panel::ALL {
         screen.open_alone(panel);
@@ -193,7 +225,9 @@ fn uploaded(screen: &Screen) {
 /// Ten minutes of a run, any moment of it, with every panel open.
 fn scrubbing(folder: &Folder) {
     let mut book = folder.book_with("hello-endline");
-    for (field, value) in [("duration", "600 s"), ("rope_nodes", "20"), ("whale.position.0", "400 m")] {
+    for (field, value) in
+        [("duration", "600 s"), ("rope_nodes", "20"), ("whale.position.0", "400 m")]
+    {
         book.set("scenario", field, value).unwrap();
     }
     let mut screen = Screen::new(book);
@@ -227,7 +261,14 @@ impl Jumps {
     /// Asks for a moment as the transport bar does, and draws until it is shown.
     fn to(&mut self, screen: &mut Screen, time_s: f64) {
         // Of ten minutes every eighth of thirty moments a second is kept.
-        let near = |screen: &Screen| screen.app.desk.view.as_ref().is_some_and(|view| (view.frame.time_s - time_s).abs() < 0.14);
+        let near = |screen: &Screen| {
+            screen
+                .app
+                .desk
+                .view
+                .as_ref()
+                .is_some_and(|view| (view.frame.time_s - time_s).abs() < 0.14)
+        };
         let (mut cpu_s, mut frames, start) = (0.0, 0, Instant::now());
         screen.app.desk.orders.push(Order::Seek(time_s));
         while !near(screen) || frames == 0 {
@@ -243,7 +284,11 @@ impl Jumps {
     }
 
     fn tell(self, newest_s: f64) {
-        tell(&format!("a jump in a recording of {newest_s:.0} s, all panels open: CPU time"), self.cpu_s, "50 ms");
+        tell(
+            &format!("a jump in a recording of {newest_s:.0} s, all panels open: CPU time"),
+            self.cpu_s,
+            "50 ms",
+        );
         tell("  the same in real time, the run's thread included", self.real_s, "50 ms");
         println!("  frames drawn for a jump: {} at most", self.frames.iter().max().unwrap());
     }

@@ -40,7 +40,8 @@ impl Screen {
             let woken = Arc::clone(&woken);
             Arc::new(move || woken.store(true, Ordering::Release))
         };
-        let mut app = App::new(&creation, Desk::new(book, linked(), engine::live(), waker, Pilot::default()));
+        let mut app =
+            App::new(&creation, Desk::new(book, linked(), engine::live(), waker, Pilot::default()));
         // With a canvas the view makes its triangles as it does beside a graphics card; nobody draws them.
         app.desk.view3d.drawn[0].canvas = Some(Arc::new(Mutex::new(Canvas::default())));
         Self { context, app, frame: eframe::Frame::_new_kittest(), time_s: 0.0, woken }
@@ -63,7 +64,8 @@ impl Screen {
             app.logic(&ui.ctx().clone(), frame);
             app.ui(ui, frame);
         });
-        let shapes = self.context.tessellate(std::mem::take(&mut output.shapes), output.pixels_per_point);
+        let shapes =
+            self.context.tessellate(std::mem::take(&mut output.shapes), output.pixels_per_point);
         let spent = thread_cpu_s() - start;
         // There is no screen to take them.
         output.textures_delta.clear();
@@ -83,7 +85,12 @@ impl Screen {
     pub fn wait(&mut self, so: impl Fn(&App) -> bool) {
         let patience = Instant::now() + Duration::from_secs(300);
         while !so(&self.app) {
-            assert!(Instant::now() < patience, "waited in vain: {:?} {:?}", self.app.desk.status(), self.app.desk.notice);
+            assert!(
+                Instant::now() < patience,
+                "waited in vain: {:?} {:?}",
+                self.app.desk.status(),
+                self.app.desk.notice
+            );
             std::thread::sleep(Duration::from_millis(25));
             self.frame(Vec::new());
         }
@@ -102,10 +109,20 @@ impl Screen {
         let (mut times, mut shown) = (Vec::new(), std::ptr::null());
         let patience = Instant::now() + Duration::from_secs(120);
         while times.len() < count {
-            assert!(Instant::now() < patience, "{} moments: {:?}", times.len(), self.app.desk.status());
+            assert!(
+                Instant::now() < patience,
+                "{} moments: {:?}",
+                times.len(),
+                self.app.desk.status()
+            );
             self.sleep_until_woken();
             let spent = self.frame(Vec::new());
-            let now = self.app.desk.view.as_ref().map_or(std::ptr::null(), |view| Arc::as_ptr(&view.frame));
+            let now = self
+                .app
+                .desk
+                .view
+                .as_ref()
+                .map_or(std::ptr::null(), |view| Arc::as_ptr(&view.frame));
             if now != shown {
                 times.push(spent);
             }

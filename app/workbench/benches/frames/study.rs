@@ -43,7 +43,11 @@ pub fn run(screen: &mut Screen, folder: &Folder) {
     let (head, rest) = gear.split_once("[resolution]").unwrap();
     let (_, rest) = rest.split_once("[site]").unwrap();
     let rig = format!("{head}[site]{rest}").replace("duration = \"75 s\"", "duration = \"0.5 s\"");
-    std::fs::write(folder.0.join("scenarios/small-rig.toml"), rig.replace("rope_nodes = 80", "rope_nodes = 12")).unwrap();
+    std::fs::write(
+        folder.0.join("scenarios/small-rig.toml"),
+        rig.replace("rope_nodes = 80", "rope_nodes = 12"),
+    )
+    .unwrap();
     std::fs::create_dir_all(folder.0.join("studies")).unwrap();
     std::fs::write(folder.0.join("studies/small.toml"), STUDY).unwrap();
     let studies = &mut screen.app.desk.studies;
@@ -55,5 +59,8 @@ pub fn run(screen: &mut Screen, folder: &Folder) {
     screen.wait(|app| app.desk.studies.jobs.last().is_none_or(|job| ended(&job.progress().state)));
     let state = screen.app.desk.studies.jobs.last().map(|job| job.progress().state);
     assert_eq!(state, Some(State::Done), "{:?}", screen.app.desk.notice);
-    screen.wait(|app| !app.desk.studies.results.busy() && app.desk.studies.results.shown().is_some_and(|shown| shown.whole));
+    screen.wait(|app| {
+        !app.desk.studies.results.busy()
+            && app.desk.studies.results.shown().is_some_and(|shown| shown.whole)
+    });
 }

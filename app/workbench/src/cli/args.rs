@@ -13,7 +13,11 @@ use super::study::args::StudyCommand;
 ///
 /// Without a command the workbench opens.
 #[derive(Debug, Parser)]
-#[command(name = "endline", version, after_help = "Exit codes: 0 done, 1 the run or check failed, 2 wrong use.")]
+#[command(
+    name = "endline",
+    version,
+    after_help = "Exit codes: 0 done, 1 the run or check failed, 2 wrong use."
+)]
 pub struct Args {
     /// What to do.
     #[command(subcommand)]
@@ -333,12 +337,18 @@ impl OverArgs {
 
 fn step(text: &str) -> Result<f64, String> {
     let seconds: f64 = text.parse().map_err(|_| "expected seconds, such as 0.01".to_owned())?;
-    if seconds > 0.0 && seconds <= 1.0 { Ok(seconds) } else { Err("expected seconds above 0 and at most 1".into()) }
+    if seconds > 0.0 && seconds <= 1.0 {
+        Ok(seconds)
+    } else {
+        Err("expected seconds above 0 and at most 1".into())
+    }
 }
 
 fn share(text: &str) -> Result<f64, String> {
     let share: Option<f64> = text.parse().ok();
-    share.filter(|share| (0.0..=1.0).contains(share)).ok_or_else(|| "expected a number from 0 to 1, such as 0.02".into())
+    share
+        .filter(|share| (0.0..=1.0).contains(share))
+        .ok_or_else(|| "expected a number from 0 to 1, such as 0.02".into())
 }
 
 fn force(text: &str) -> Result<f64, String> {
@@ -346,16 +356,25 @@ fn force(text: &str) -> Result<f64, String> {
         Ok(newtons) => newtons,
         Err(_) => units::parse(text, Quantity::Force).map_err(|error| error.to_string())?,
     };
-    if newtons > 0.0 && f64::is_finite(newtons) { Ok(newtons) } else { Err("expected a force above 0".into()) }
+    if newtons > 0.0 && f64::is_finite(newtons) {
+        Ok(newtons)
+    } else {
+        Err("expected a force above 0".into())
+    }
 }
 
 fn body_length(text: &str) -> Result<f64, String> {
     let metres = units::parse(text, Quantity::Length).map_err(|error| error.to_string())?;
-    if (1.0..=35.0).contains(&metres) { Ok(metres) } else { Err("expected a length from 1 m to 35 m".into()) }
+    if (1.0..=35.0).contains(&metres) {
+        Ok(metres)
+    } else {
+        Err("expected a length from 1 m to 35 m".into())
+    }
 }
 
 fn size(text: &str) -> Result<[u32; 2], String> {
     let pixels = |text: &str| text.parse().ok().filter(|pixels| (16..=8192).contains(pixels));
-    let both = text.split_once('x').and_then(|(width, height)| Some([pixels(width)?, pixels(height)?]));
+    let both =
+        text.split_once('x').and_then(|(width, height)| Some([pixels(width)?, pixels(height)?]));
     both.ok_or_else(|| "expected width and height from 16 to 8192, such as 1280x800".into())
 }

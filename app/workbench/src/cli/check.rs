@@ -12,7 +12,11 @@ use super::{Failure, host, output};
 
 pub(super) fn check(args: &CheckArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
     let host = host::load();
-    let paths = if args.paths.is_empty() { vec![locate::library(None, library).map_err(Failure::failed)?] } else { args.paths.clone() };
+    let paths = if args.paths.is_empty() {
+        vec![locate::library(None, library).map_err(Failure::failed)?]
+    } else {
+        args.paths.clone()
+    };
     let (mut files, mut problems) = (0, Vec::new());
     for path in &paths {
         let checked = check_path(path, library, &host);
@@ -21,12 +25,20 @@ pub(super) fn check(args: &CheckArgs, library: Option<&Path>) -> Result<ExitCode
     }
     let errors = problems.iter().filter(|problem| problem.is_error()).count();
     output::print(&told(&paths, files, &problems, errors))?;
-    if errors == 0 { Ok(ExitCode::SUCCESS) } else { Err(Failure::failed(format!("{errors} of the problems are errors"))) }
+    if errors == 0 {
+        Ok(ExitCode::SUCCESS)
+    } else {
+        Err(Failure::failed(format!("{errors} of the problems are errors")))
+    }
 }
 
 fn told(paths: &[PathBuf], files: usize, problems: &[Diagnostic], errors: usize) -> String {
     let mut text: String = problems.iter().map(|problem| format!("{problem}\n\n")).collect();
     let names: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
-    text += &format!("{}: {files} files checked, {errors} errors, {} warnings\n", names.join(", "), problems.len() - errors);
+    text += &format!(
+        "{}: {files} files checked, {errors} errors, {} warnings\n",
+        names.join(", "),
+        problems.len() - errors
+    );
     text
 }

@@ -40,7 +40,9 @@ fn allow_waiting(loader: &mut Loader, problems: &[PluginProblem]) -> bool {
         if let Standing::Waiting(ask) = &problem.standing {
             any = true;
             match loader.choices.allow(&problem.file, &ask.hash) {
-                Ok(()) => output::note(&format!("{}: allowed, hash {}", problem.file.display(), ask.hash)),
+                Ok(()) => {
+                    output::note(&format!("{}: allowed, hash {}", problem.file.display(), ask.hash))
+                }
                 Err(error) => output::note(&error),
             }
         }

@@ -14,7 +14,11 @@ use super::output;
 #[cfg(feature = "scene")]
 pub(super) fn check_view(view: &str) -> Result<(), String> {
     let known = scene::View::named(view).is_some();
-    if known { Ok(()) } else { Err(format!("there is no view `{view}`; expected one of {}", scene::View::names())) }
+    if known {
+        Ok(())
+    } else {
+        Err(format!("there is no view `{view}`; expected one of {}", scene::View::names()))
+    }
 }
 
 /// A build that draws nothing refuses every view.
@@ -27,7 +31,10 @@ pub(super) fn check_view(_view: &str) -> Result<(), String> {
 const NO_SCENE: &str = "this program was built without the feature `scene` and draws no pictures; build it with default features";
 
 /// A picture asked for on the command line.
-#[cfg_attr(not(feature = "scene"), allow(dead_code, reason = "a build that draws nothing only takes it"))]
+#[cfg_attr(
+    not(feature = "scene"),
+    allow(dead_code, reason = "a build that draws nothing only takes it")
+)]
 pub(super) struct Shot<'a> {
     /// Name of the view.
     pub view: &'a str,
@@ -45,7 +52,16 @@ pub(super) struct Shot<'a> {
 #[cfg(feature = "scene")]
 pub(super) fn draw(model: &Model, frame: &Frame, shot: &Shot<'_>) -> Result<(), String> {
     let Shot { view, size, caption, out, fit } = shot;
-    scene::render_png(&scene::RenderRequest { model, frame, size: *size, view, scale_n: None, fit, caption, out })
+    scene::render_png(&scene::RenderRequest {
+        model,
+        frame,
+        size: *size,
+        view,
+        scale_n: None,
+        fit,
+        caption,
+        out,
+    })
 }
 
 /// A build that draws nothing says so.
@@ -56,7 +72,9 @@ pub(super) fn draw(_model: &Model, _frame: &Frame, _shot: &Shot<'_>) -> Result<(
 
 /// What a picture says besides its time: the scenario's name without its folder.
 pub(super) fn caption(scenario: &str) -> String {
-    Path::new(scenario).file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned())
+    Path::new(scenario)
+        .file_stem()
+        .map_or_else(String::new, |stem| stem.to_string_lossy().into_owned())
 }
 
 /// Draws the moment of the greatest tension of any line. A run without its picture is still a
@@ -64,7 +82,10 @@ pub(super) fn caption(scenario: &str) -> String {
 pub(super) fn of_peak(run: &Run, report: &Report, out: &Path) {
     let peak = report.lines.iter().max_by(|a, b| a.peak_tension_N.total_cmp(&b.peak_tension_N));
     let peak_s = peak.map_or(0.0, |line| line.peak_at_s);
-    let nearest = run.frames().iter().min_by(|a, b| (a.time_s - peak_s).abs().total_cmp(&(b.time_s - peak_s).abs()));
+    let nearest = run
+        .frames()
+        .iter()
+        .min_by(|a, b| (a.time_s - peak_s).abs().total_cmp(&(b.time_s - peak_s).abs()));
     let Some(frame) = nearest else { return };
     let caption = caption(&report.scenario);
     let shot = Shot { view: "orbit", size: [1280, 800], caption: &caption, out, fit: Vec::new() };

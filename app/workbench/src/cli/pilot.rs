@@ -15,6 +15,9 @@ pub(super) fn pilot(args: &PilotArgs) -> Result<ExitCode, Failure> {
     endline_session::save::atomically(&args.out, program.scenario.as_bytes())
         .map_err(|error| Failure::failed(format!("{out}: cannot be written: {error}")))?;
     let (entries, steps) = (program.entries, recording.inputs.len());
-    output::print(&format!("{out}: {entries} entries of a pilot for {steps} steps\nrun with: endline run {out}{}\n", program.options))?;
+    output::print(&format!(
+        "{out}: {entries} entries of a pilot for {steps} steps\nrun with: endline run {out}{}\n",
+        program.options
+    ))?;
     Ok(ExitCode::SUCCESS)
 }

@@ -8,7 +8,8 @@ use std::time::Duration;
 use endline_sdk::{Attribute, AttributeKind};
 use endline_session::load_with;
 use endline_session::plugins::{
-    Change, PluginInfo, PluginProblem, Project, Standing, file_hash, report_here, report_of_child, write_project,
+    Change, PluginInfo, PluginProblem, Project, Standing, file_hash, report_here, report_of_child,
+    write_project,
 };
 
 use super::args::{NewPluginArgs, PluginsCommand};
@@ -33,12 +34,17 @@ pub(super) fn plugins(what: &PluginsCommand) -> Result<ExitCode, Failure> {
 /// Every plugin found, and what was left out; why is told on standard error as it is found.
 fn list() -> Result<ExitCode, Failure> {
     let (host, problems) = host::load_told();
-    let folders: Vec<String> = host::folders().iter().map(|folder| folder.display().to_string()).collect();
+    let folders: Vec<String> =
+        host::folders().iter().map(|folder| folder.display().to_string()).collect();
     let mut text: String = host.list().iter().map(told).collect();
     if text.is_empty() {
         text = format!("no plugins found; looked in {}\n", folders.join(", "));
     }
-    text.extend(host.switched_off().iter().map(|info| format!("switched off  {}; endline plugins on {}\n", info.id, info.id)));
+    text.extend(
+        host.switched_off()
+            .iter()
+            .map(|info| format!("switched off  {}; endline plugins on {}\n", info.id, info.id)),
+    );
     text.extend(problems.iter().map(left_out));
     output::print(&text)?;
     Ok(ExitCode::SUCCESS)
@@ -48,7 +54,9 @@ fn list() -> Result<ExitCode, Failure> {
 fn left_out(problem: &PluginProblem) -> String {
     let file = problem.file.display();
     match &problem.standing {
-        Standing::Waiting(ask) if ask.change == Change::New => format!("not allowed   {file}; endline plugins allow {file}\n"),
+        Standing::Waiting(ask) if ask.change == Change::New => {
+            format!("not allowed   {file}; endline plugins allow {file}\n")
+        }
         Standing::Waiting(_) => format!("changed       {file}; endline plugins allow {file}\n"),
         Standing::SetAside => format!("quarantined   {file}; endline plugins check {file}\n"),
         Standing::Unusable => format!("not usable    {file}\n"),
@@ -70,7 +78,11 @@ fn forget(files: &[PathBuf]) -> Result<ExitCode, Failure> {
     let mut loader = host::loader();
     for file in files {
         let known = loader.choices.forget(file).map_err(Failure::failed)?;
-        output::print(&format!("{}: {}\n", file.display(), if known { "no longer allowed" } else { "was not allowed" }))?;
+        output::print(&format!(
+            "{}: {}\n",
+            file.display(),
+            if known { "no longer allowed" } else { "was not allowed" }
+        ))?;
     }
     Ok(ExitCode::SUCCESS)
 }
@@ -81,7 +93,10 @@ fn switch(id: &str, on: bool) -> Result<ExitCode, Failure> {
     let mut known = host.list().iter().chain(host.switched_off());
     if !on && !known.any(|info| info.id == id) {
         let ids = host.ids();
-        return Err(Failure::failed(format!("no plugin `{id}`; {}", endline_gear::hint(id, ids.iter().map(String::as_str)))));
+        return Err(Failure::failed(format!(
+            "no plugin `{id}`; {}",
+            endline_gear::hint(id, ids.iter().map(String::as_str))
+        )));
     }
     loader.choices.switch(id, on).map_err(Failure::failed)?;
     output::print(&format!("{id}: {}\n", if on { "on" } else { "off" }))?;
@@ -90,12 +105,15 @@ fn switch(id: &str, on: bool) -> Result<ExitCode, Failure> {
 
 /// Has a file tried in a child process, and tells what it found.
 fn check(file: &Path) -> Result<ExitCode, Failure> {
-    let program = std::env::current_exe().map_err(|error| Failure::failed(format!("cannot find this program: {error}")))?;
+    let program = std::env::current_exe()
+        .map_err(|error| Failure::failed(format!("cannot find this program: {error}")))?;
     let (report, verdict) = report_of_child(&program, file, PATIENCE);
     output::print(&report)?;
     match verdict {
         Ok(()) => output::print(&format!("{}: sound\n", file.display()))?,
-        Err(fault) if fault.contains(&*file.to_string_lossy()) => return Err(Failure::failed(fault)),
+        Err(fault) if fault.contains(&*file.to_string_lossy()) => {
+            return Err(Failure::failed(fault));
+        }
         Err(fault) => return Err(Failure::failed(format!("{}: {fault}", file.display()))),
     }
     Ok(ExitCode::SUCCESS)
@@ -112,7 +130,8 @@ fn new(args: &NewPluginArgs) -> Result<ExitCode, Failure> {
     let (kind, language) = (args.kind.into(), args.lang.into());
     let usual = || PathBuf::from(format!("my-{}", args.kind.word()));
     let folder = args.folder.clone().unwrap_or_else(usual);
-    let Project { id, build, library } = write_project(&folder, kind, language, args.sdk.as_deref()).map_err(Failure::failed)?;
+    let Project { id, build, library } =
+        write_project(&folder, kind, language, args.sdk.as_deref()).map_err(Failure::failed)?;
     let file = library.display();
     if build.is_empty() {
         output::print(&format!(
@@ -131,8 +150,14 @@ fn new(args: &NewPluginArgs) -> Result<ExitCode, Failure> {
 }
 
 fn told(info: &PluginInfo) -> String {
-    let place = info.file.as_ref().map_or_else(|| "linked in".to_owned(), |file| file.display().to_string());
-    let mut text = format!("{}  {}  {}\n  {} ({place})\n  {}\n", info.id, info.version, info.kind, info.name, info.help);
+    let place = info
+        .file
+        .as_ref()
+        .map_or_else(|| "linked in".to_owned(), |file| file.display().to_string());
+    let mut text = format!(
+        "{}  {}  {}\n  {} ({place})\n  {}\n",
+        info.id, info.version, info.kind, info.name, info.help
+    );
     if !info.about.is_empty() {
         // Writing into a String cannot fail.
         let _ = writeln!(text, "  {}", info.about);
@@ -149,11 +174,21 @@ fn told(info: &PluginInfo) -> String {
 
 fn values(attribute: &Attribute) -> String {
     match &attribute.kind {
-        AttributeKind::Number { min, max, default } if attribute.unit == "1" => format!("{min} to {max}, else {default}"),
-        AttributeKind::Number { min, max, default } => format!("{min} to {max} {}, else {default}", attribute.unit),
-        AttributeKind::Count { min, max, default } => format!("a whole number from {min} to {max}, else {default}"),
-        AttributeKind::Choice { words, default } => format!("{}, else {default}", words.join(" or ")),
-        AttributeKind::Item { library, default } if default.is_empty() => format!("an item of {library}, else none"),
+        AttributeKind::Number { min, max, default } if attribute.unit == "1" => {
+            format!("{min} to {max}, else {default}")
+        }
+        AttributeKind::Number { min, max, default } => {
+            format!("{min} to {max} {}, else {default}", attribute.unit)
+        }
+        AttributeKind::Count { min, max, default } => {
+            format!("a whole number from {min} to {max}, else {default}")
+        }
+        AttributeKind::Choice { words, default } => {
+            format!("{}, else {default}", words.join(" or "))
+        }
+        AttributeKind::Item { library, default } if default.is_empty() => {
+            format!("an item of {library}, else none")
+        }
         AttributeKind::Item { library, default } => format!("an item of {library}, else {default}"),
     }
 }

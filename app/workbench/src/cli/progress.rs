@@ -16,7 +16,9 @@ impl Progress {
             return Self(None);
         }
         let bar = ProgressBar::new(0).with_message(label);
-        if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {percent:>3}%  {eta_precise}") {
+        if let Ok(style) =
+            ProgressStyle::with_template("{msg} {wide_bar} {percent:>3}%  {eta_precise}")
+        {
             bar.set_style(style);
         }
         Self(Some(bar))

@@ -13,8 +13,11 @@ use super::{Failure, host, picture};
 
 pub(super) fn render(args: &RenderArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
     picture::check_view(&args.view).map_err(Failure::usage)?;
-    let moment =
-        if args.file.extension().is_some_and(|extension| extension == "toml") { of_scenario(args, library)? } else { of_recording(args)? };
+    let moment = if args.file.extension().is_some_and(|extension| extension == "toml") {
+        of_scenario(args, library)?
+    } else {
+        of_recording(args)?
+    };
     picture::draw(&moment.model, &moment.frame, &shot(args, &moment)?).map_err(Failure::failed)?;
     Ok(ExitCode::SUCCESS)
 }
@@ -30,7 +33,11 @@ fn of_recording(args: &RenderArgs) -> Result<Moment, Failure> {
     let recording = Recording::load(&args.file)?;
     let options = ReplayOptions { other_plugins: args.other_plugins, frames_hz: 0.0 };
     let (run, frame) = replay::frame_at(&recording, &host::load(), options, args.at)?;
-    Ok(Moment { model: Arc::clone(run.model()), frame, caption: picture::caption(&recording.source.scenario_name) })
+    Ok(Moment {
+        model: Arc::clone(run.model()),
+        frame,
+        caption: picture::caption(&recording.source.scenario_name),
+    })
 }
 
 /// The scenario's gear at rest, or run up to the moment.
@@ -39,8 +46,12 @@ fn of_scenario(args: &RenderArgs, library: Option<&Path>) -> Result<Moment, Fail
     let caption = picture::caption(&prepared.source.scenario_name);
     let mut run = Run::new(prepared, RunOptions::default())?;
     while run.state().time_s < args.at - 0.5 * run.step_s() && !run.finished() {
-        run.step(run.pilot())
-            .map_err(|stop| Failure::failed(format!("the run stopped at {:.3} s, at {}: {}", stop.time_s, stop.part, stop.reason)))?;
+        run.step(run.pilot()).map_err(|stop| {
+            Failure::failed(format!(
+                "the run stopped at {:.3} s, at {}: {}",
+                stop.time_s, stop.part, stop.reason
+            ))
+        })?;
     }
     Ok(Moment { model: Arc::clone(run.model()), frame: run.frame(), caption })
 }
@@ -50,14 +61,33 @@ fn shot<'a>(args: &'a RenderArgs, moment: &'a Moment) -> Result<picture::Shot<'a
     let (model, frame, mut fit) = (&moment.model, &moment.frame, Vec::new());
     for id in &args.fit {
         if let Some(index) = model.spec.bodies.iter().position(|body| body.id == *id) {
-            fit.extend(model.spec.bodies[index].shape.corners().map(|corner| frame.bodies[index].0 + frame.bodies[index].1 * corner));
+            fit.extend(
+                model.spec.bodies[index]
+                    .shape
+                    .corners()
+                    .map(|corner| frame.bodies[index].0 + frame.bodies[index].1 * corner),
+            );
         } else if let Some(index) = model.spec.lines.iter().position(|line| line.id == *id) {
             fit.extend_from_slice(&frame.nodes[model.line_nodes[index].clone()]);
         } else {
-            let known = model.spec.bodies.iter().map(|body| &body.id).chain(model.spec.lines.iter().map(|line| &line.id));
+            let known = model
+                .spec
+                .bodies
+                .iter()
+                .map(|body| &body.id)
+                .chain(model.spec.lines.iter().map(|line| &line.id));
             let known: Vec<&str> = known.map(String::as_str).collect();
-            return Err(Failure::usage(format!("there is no body or line `{id}` to fit; there are {}", known.join(", "))));
+            return Err(Failure::usage(format!(
+                "there is no body or line `{id}` to fit; there are {}",
+                known.join(", ")
+            )));
         }
     }
-    Ok(picture::Shot { view: &args.view, size: args.size, caption: &moment.caption, out: &args.out, fit })
+    Ok(picture::Shot {
+        view: &args.view,
+        size: args.size,
+        caption: &moment.caption,
+        out: &args.out,
+        fit,
+    })
 }

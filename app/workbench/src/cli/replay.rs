@@ -39,7 +39,11 @@ pub(super) fn replay(args: &ReplayArgs) -> Result<ExitCode, Failure> {
         Some(Verdict::Differs { step, time_s, part }) => Some(Difference { step, time_s, part }),
         _ => None,
     };
-    output::print(&if args.json { json(args, &recording, &run, verdict.as_ref(), difference) } else { words(&run, verdict.as_ref()) })?;
+    output::print(&if args.json {
+        json(args, &recording, &run, verdict.as_ref(), difference)
+    } else {
+        words(&run, verdict.as_ref())
+    })?;
     match difference {
         None => Ok(ExitCode::SUCCESS),
         Some(difference) => Err(Failure::failed(told(args, &recording, difference))),
@@ -62,26 +66,40 @@ fn again(args: &ReplayArgs, recording: &Recording) -> Result<(Run, Option<Verdic
 fn tell_version(recording: &Recording) {
     let (recorded, here) = (&recording.header.program, endline_session::VERSION);
     if recorded != here {
-        output::note(&format!("recorded with Endline {recorded}, this is {here}: the bits may differ"));
+        output::note(&format!(
+            "recorded with Endline {recorded}, this is {here}: the bits may differ"
+        ));
     }
 }
 
 fn told(args: &ReplayArgs, recording: &Recording, difference: Difference) -> String {
     let Difference { step, time_s, part } = difference;
-    let damage = recording.damage.as_ref().map(|damage| format!("\n  {damage}")).unwrap_or_default();
-    format!("{}: step {step} ({time_s:.3} s): {part} differs from the recording{damage}", args.recording.display())
+    let damage =
+        recording.damage.as_ref().map(|damage| format!("\n  {damage}")).unwrap_or_default();
+    format!(
+        "{}: step {step} ({time_s:.3} s): {part} differs from the recording{damage}",
+        args.recording.display()
+    )
 }
 
 fn words(run: &Run, verdict: Option<&Verdict>) -> String {
     let compared = match verdict {
         None => String::new(),
-        Some(Verdict::Same { steps }) => format!("verified: {steps} steps gave the recorded bits\n"),
+        Some(Verdict::Same { steps }) => {
+            format!("verified: {steps} steps gave the recorded bits\n")
+        }
         Some(Verdict::Differs { .. }) => return String::new(),
     };
     table::summary(&Report::of(run)) + &compared
 }
 
-fn json(args: &ReplayArgs, recording: &Recording, run: &Run, verdict: Option<&Verdict>, differs: Option<Difference>) -> String {
+fn json(
+    args: &ReplayArgs,
+    recording: &Recording,
+    run: &Run,
+    verdict: Option<&Verdict>,
+    differs: Option<Difference>,
+) -> String {
     let report = ReplayReport {
         schema: "endline.replay/1",
         recording: args.recording.display().to_string(),

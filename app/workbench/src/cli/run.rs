@@ -16,7 +16,10 @@ const FRAMES_HZ: f64 = 10.0;
 pub(super) fn run(args: &RunArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
     let host = host::load();
     let recording = args.from.as_deref().map(Recording::load).transpose()?;
-    let over = args.over.overrides().or(recording.as_ref().map(|recording| recording.source.overrides.clone()).unwrap_or_default());
+    let over = args.over.overrides().or(recording
+        .as_ref()
+        .map(|recording| recording.source.overrides.clone())
+        .unwrap_or_default());
     let prepared = prepare(&args.scenario, library, &host, over)?;
     let mut run = started(args, recording.as_ref(), prepared)?;
     let progress = Progress::new("running");
@@ -35,10 +38,16 @@ pub(super) fn run(args: &RunArgs, library: Option<&Path>) -> Result<ExitCode, Fa
 }
 
 /// The run at its start, or at the moment taken over from a recording.
-fn started(args: &RunArgs, recording: Option<&Recording>, prepared: Prepared) -> Result<Run, Failure> {
+fn started(
+    args: &RunArgs,
+    recording: Option<&Recording>,
+    prepared: Prepared,
+) -> Result<Run, Failure> {
     let frames_hz = if args.out.is_some() { FRAMES_HZ } else { 0.0 };
     let options = RunOptions { unsettled: args.unsettled, frames_hz };
-    let (Some(recording), Some(at)) = (recording, args.at) else { return Ok(Run::new(prepared, options)?) };
+    let (Some(recording), Some(at)) = (recording, args.at) else {
+        return Ok(Run::new(prepared, options)?);
+    };
     let unsettled = args.unsettled || recording.header.unsettled;
     let progress = Progress::new("replaying");
     let tell = |step, steps| progress.at(step, steps);
@@ -47,10 +56,13 @@ fn started(args: &RunArgs, recording: Option<&Recording>, prepared: Prepared) ->
 
 /// Writes `summary.json`, `recording.endline` and, where this build draws, `picture.png`.
 fn save(run: &Run, report: &Report, folder: &Path) -> Result<(), Failure> {
-    std::fs::create_dir_all(folder).map_err(|error| Failure::failed(format!("{}: cannot be made: {error}", folder.display())))?;
+    std::fs::create_dir_all(folder).map_err(|error| {
+        Failure::failed(format!("{}: cannot be made: {error}", folder.display()))
+    })?;
     let summary = folder.join("summary.json");
-    endline_session::save::atomically(&summary, report.json().as_bytes())
-        .map_err(|error| Failure::failed(format!("{}: cannot be written: {error}", summary.display())))?;
+    endline_session::save::atomically(&summary, report.json().as_bytes()).map_err(|error| {
+        Failure::failed(format!("{}: cannot be written: {error}", summary.display()))
+    })?;
     run.recording().save(&folder.join("recording.endline"))?;
     picture::of_peak(run, report, &folder.join("picture.png"));
     Ok(())

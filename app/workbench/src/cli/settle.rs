@@ -20,5 +20,9 @@ pub(super) fn settle(args: &SettleArgs, library: Option<&Path>) -> Result<ExitCo
     if settled.converged {
         return Ok(ExitCode::SUCCESS);
     }
-    Err(Failure::failed(format!("did not come to rest in {} passes: {}", settled.trace_n.len(), settled.why())))
+    Err(Failure::failed(format!(
+        "did not come to rest in {} passes: {}",
+        settled.trace_n.len(),
+        settled.why()
+    )))
 }

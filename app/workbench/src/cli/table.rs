@@ -3,7 +3,9 @@
 use std::fmt::Write;
 
 use endline_session::Report;
-use endline_session::report::{BeatReport, LineReport, LinkReport, PhaseReport, ProbeReport, WhaleReport};
+use endline_session::report::{
+    BeatReport, LineReport, LinkReport, PhaseReport, ProbeReport, WhaleReport,
+};
 use endline_session::settled::SettledShape;
 
 /// Newtons in a pound-force.
@@ -32,7 +34,12 @@ pub(super) fn settled(shape: &SettledShape) -> String {
     ]);
     let mut rows = vec![row(&["line", "length", "tension at end A", "tension at end B"])];
     for line in &shape.lines {
-        rows.push(vec![line.id.clone(), format!("{:.2} m", line.length_m), force(line.end_a_tension_N), force(line.end_b_tension_N)]);
+        rows.push(vec![
+            line.id.clone(),
+            format!("{:.2} m", line.length_m),
+            force(line.end_a_tension_N),
+            force(line.end_b_tension_N),
+        ]);
     }
     text += &columns(&rows);
     let mut rows = vec![row(&["body", "east", "north", "up"])];
@@ -49,14 +56,26 @@ fn head(report: &Report) -> String {
     let state = match &report.stopped {
         Some(stopped) => stopped.clone(),
         None if report.valid => "ran to its end".into(),
-        None => format!("INVALID, ran to its end, but its numbers cannot be trusted: {}", report.invalid_because.join("; ")),
+        None => format!(
+            "INVALID, ran to its end, but its numbers cannot be trusted: {}",
+            report.invalid_because.join("; ")
+        ),
     };
     let audit = &report.audit;
     columns(&[
         vec!["run".into(), state],
-        vec!["simulated".into(), format!("{:.2} s in {} steps of {} s", report.simulated_s, report.steps, report.dt_s)],
+        vec![
+            "simulated".into(),
+            format!("{:.2} s in {} steps of {} s", report.simulated_s, report.steps, report.dt_s),
+        ],
         vec!["speed".into(), speed(report)],
-        vec!["model".into(), format!("{} rope nodes, {} triangles, seed {}", report.nodes, report.triangles, report.seed)],
+        vec![
+            "model".into(),
+            format!(
+                "{} rope nodes, {} triangles, seed {}",
+                report.nodes, report.triangles, report.seed
+            ),
+        ],
         vec![
             "audit".into(),
             format!(
@@ -65,21 +84,29 @@ fn head(report: &Report) -> String {
                 audit.ropes_crossed,
                 audit.non_finite,
                 1e3 * audit.max_penetration_m,
-                audit
-                    .least_distance_m
-                    .map_or_else(|| "never near skin".into(), |least| format!("{:.2} mm off the skin at least", 1e3 * least)),
+                audit.least_distance_m.map_or_else(
+                    || "never near skin".into(),
+                    |least| format!("{:.2} mm off the skin at least", 1e3 * least)
+                ),
                 audit.winding_jumps,
                 audit.unconverged
             ),
         ],
-        vec!["solver steps".into(), format!("{}, mostly limited by {}", audit.solver_steps, audit.steps_mostly_limited_by)],
+        vec![
+            "solver steps".into(),
+            format!("{}, mostly limited by {}", audit.solver_steps, audit.steps_mostly_limited_by),
+        ],
         vec!["state hash".into(), report.state_hash.clone()],
     ])
 }
 
 fn speed(report: &Report) -> String {
     let phase = |name: &str, phase: &PhaseReport| {
-        if phase.simulated_s > 0.0 { format!("{name} {:.1}", phase.times_real_time) } else { format!("{name} none") }
+        if phase.simulated_s > 0.0 {
+            format!("{name} {:.1}", phase.times_real_time)
+        } else {
+            format!("{name} none")
+        }
     };
     format!(
         "{:.1} times real time ({}, {})",
@@ -93,7 +120,13 @@ fn lines(lines: &[LineReport]) -> String {
     let mut rows = vec![row(&["line", "peak tension", "at", "settled", "parted"])];
     for line in lines {
         let peak_at = format!("{:.2} s", line.peak_at_s);
-        rows.push(vec![line.id.clone(), force(line.peak_tension_N), peak_at, force(line.settled_tension_N), moment(line.parted_at_s)]);
+        rows.push(vec![
+            line.id.clone(),
+            force(line.peak_tension_N),
+            peak_at,
+            force(line.settled_tension_N),
+            moment(line.parted_at_s),
+        ]);
     }
     columns(&rows)
 }
@@ -101,7 +134,12 @@ fn lines(lines: &[LineReport]) -> String {
 fn links(links: &[LinkReport]) -> String {
     let mut rows = vec![row(&["weak link", "rating", "peak tension", "parted"])];
     for link in links {
-        rows.push(vec![link.id.clone(), force(link.rating_N), force(link.peak_tension_N), moment(link.parted_at_s)]);
+        rows.push(vec![
+            link.id.clone(),
+            force(link.rating_N),
+            force(link.peak_tension_N),
+            moment(link.parted_at_s),
+        ]);
     }
     columns(&rows)
 }
@@ -120,14 +158,25 @@ fn probes(probes: &[ProbeReport]) -> String {
     let mut rows = vec![row(&["probe", "final", "least", "greatest", "mean"])];
     for probe in probes {
         let value = |number: f64| format!("{number:.4} {}", probe.unit);
-        rows.push(vec![probe.id.clone(), value(probe.last), value(probe.min), value(probe.max), value(probe.mean)]);
+        rows.push(vec![
+            probe.id.clone(),
+            value(probe.last),
+            value(probe.min),
+            value(probe.max),
+            value(probe.mean),
+        ]);
     }
     columns(&rows)
 }
 
 fn beat(beat: &BeatReport) -> String {
-    let strouhal = beat.strouhal.map_or_else(String::new, |strouhal| format!(", Strouhal number {strouhal:.2}"));
-    format!("{:.3} Hz, {:.2} m from top to bottom at {:.2} m/s{strouhal}", beat.frequency_Hz, beat.excursion_m, beat.speed_m_s)
+    let strouhal = beat
+        .strouhal
+        .map_or_else(String::new, |strouhal| format!(", Strouhal number {strouhal:.2}"));
+    format!(
+        "{:.3} Hz, {:.2} m from top to bottom at {:.2} m/s{strouhal}",
+        beat.frequency_Hz, beat.excursion_m, beat.speed_m_s
+    )
 }
 
 fn whale(whale: &WhaleReport, report: &Report) -> String {
@@ -138,20 +187,43 @@ fn whale(whale: &WhaleReport, report: &Report) -> String {
         vec!["rope drag".into(), force(whale.drag_added_N)],
         vec!["hooked".into(), yes_no(whale.hooked)],
         vec!["lodged in the mouth".into(), yes_no(whale.lodged_in_mouth)],
-        vec!["trailing rope".into(), format!("{:.1} m, and {:.1} m to what holds", whale.trailing_m, whale.tethered_m)],
-        vec!["hangs on it".into(), if whale.carried.is_empty() { "nothing".into() } else { whale.carried.join(", ") }],
-        vec!["joints held at their ends".into(), format!("in {} of {} steps", report.audit.postures_held, report.steps)],
+        vec![
+            "trailing rope".into(),
+            format!("{:.1} m, and {:.1} m to what holds", whale.trailing_m, whale.tethered_m),
+        ],
+        vec![
+            "hangs on it".into(),
+            if whale.carried.is_empty() { "nothing".into() } else { whale.carried.join(", ") },
+        ],
+        vec![
+            "joints held at their ends".into(),
+            format!("in {} of {} steps", report.audit.postures_held, report.steps),
+        ],
         vec!["fluke beat".into(), whale.beat.as_ref().map_or_else(|| "none".into(), beat)],
     ]);
     if let Some(kinetic) = &whale.kinetic {
         text += &columns(&[
-            vec!["thrust".into(), format!("{}, at most {}", force(kinetic.thrust_N), force(kinetic.peak_thrust_N))],
+            vec![
+                "thrust".into(),
+                format!("{}, at most {}", force(kinetic.thrust_N), force(kinetic.peak_thrust_N)),
+            ],
             vec!["pull of rope".into(), format!("at most {}", force(kinetic.peak_rope_pull_N))],
             vec!["power".into(), format!("{:.0} W", kinetic.power_W)],
-            vec!["speed".into(), format!("{:.2} m/s, {:.2} m/s lost", kinetic.speed_m_s, kinetic.speed_lost_m_s)],
+            vec![
+                "speed".into(),
+                format!("{:.2} m/s, {:.2} m/s lost", kinetic.speed_m_s, kinetic.speed_lost_m_s),
+            ],
         ]);
     }
-    let mut rows = vec![row(&["region", "wraps", "at most", "touching", "rope in contact", "peak normal force", "friction work"])];
+    let mut rows = vec![row(&[
+        "region",
+        "wraps",
+        "at most",
+        "touching",
+        "rope in contact",
+        "peak normal force",
+        "friction work",
+    ])];
     for region in whale.regions.iter().filter(|region| region.peak_normal_N > 0.0) {
         rows.push(vec![
             region.region.replace('_', " "),
@@ -169,7 +241,14 @@ fn whale(whale: &WhaleReport, report: &Report) -> String {
 
 /// Loads on the patches that rope touched.
 fn patches(whale: &WhaleReport) -> String {
-    let mut rows = vec![row(&["patch", "peak normal force", "peak friction", "peak tension", "peak pressure", "friction work"])];
+    let mut rows = vec![row(&[
+        "patch",
+        "peak normal force",
+        "peak friction",
+        "peak tension",
+        "peak pressure",
+        "friction work",
+    ])];
     for patch in whale.patches.iter().filter(|patch| patch.peak_normal_N > 0.0) {
         rows.push(vec![
             patch.patch.replace('_', " "),
@@ -188,7 +267,12 @@ fn events(report: &Report) -> String {
     let mut rows = vec![row(&["time", "event", "of", "value"])];
     for event in &report.events {
         let value = format!("{:.3} {}", event.value, event.unit);
-        rows.push(vec![format!("{:.3} s", event.time_s), event.kind.replace('_', " "), event.subject.replace('_', " "), value]);
+        rows.push(vec![
+            format!("{:.3} s", event.time_s),
+            event.kind.replace('_', " "),
+            event.subject.replace('_', " "),
+            value,
+        ]);
     }
     columns(&rows)
 }
@@ -199,7 +283,11 @@ fn yes_no(yes: bool) -> String {
 
 /// A force in newtons and pounds-force.
 fn force(newtons: f64) -> String {
-    if newtons.is_finite() { format!("{newtons:.1} N ({:.1} lbf)", newtons / N_PER_LBF) } else { "none".into() }
+    if newtons.is_finite() {
+        format!("{newtons:.1} N ({:.1} lbf)", newtons / N_PER_LBF)
+    } else {
+        "none".into()
+    }
 }
 
 fn moment(time_s: Option<f64>) -> String {
@@ -222,7 +310,13 @@ pub(super) fn columns(rows: &[Vec<String>]) -> String {
         return String::new();
     }
     let count = rows.iter().map(Vec::len).max().unwrap_or_default();
-    let width = |column: usize| rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count()).max().unwrap_or_default();
+    let width = |column: usize| {
+        rows.iter()
+            .filter_map(|row| row.get(column))
+            .map(|cell| cell.chars().count())
+            .max()
+            .unwrap_or_default()
+    };
     let widths: Vec<usize> = (0..count).map(width).collect();
     let mut text = String::new();
     for row in rows {

@@ -14,7 +14,11 @@ pub(super) fn open(library: Option<&Path>) -> Result<ExitCode, Failure> {
         ));
     }
     let plugins = super::host::folders();
-    let options = crate::gui::Options { library: library.map(Path::to_path_buf), plugins, ..Default::default() };
+    let options = crate::gui::Options {
+        library: library.map(Path::to_path_buf),
+        plugins,
+        ..Default::default()
+    };
     crate::gui::open(options).map_err(Failure::failed)?;
     Ok(ExitCode::SUCCESS)
 }
@@ -28,5 +32,7 @@ fn has_display() -> bool {
 /// A build without a screen says so.
 #[cfg(not(feature = "gui"))]
 pub(super) fn open(_library: Option<&Path>) -> Result<ExitCode, Failure> {
-    Err(Failure::failed("this program was built without its workbench; use `endline run SCENARIO`, or see `endline --help`"))
+    Err(Failure::failed(
+        "this program was built without its workbench; use `endline run SCENARIO`, or see `endline --help`",
+    ))
 }

@@ -52,7 +52,9 @@ impl App {
         desk.pilot.invert_pitch = desk.preferences.invert_pitch;
         desk.pilot.mapping = desk.preferences.mapping.clone();
         creation.egui_ctx.set_zoom_factor(desk.preferences.scale.0.clamp(0.5, 4.0));
-        let saved = stored(LAYOUT_KEY).and_then(|text| serde_json::from_str(&text).ok()).and_then(layout::known);
+        let saved = stored(LAYOUT_KEY)
+            .and_then(|text| serde_json::from_str(&text).ok())
+            .and_then(layout::known);
         if let Some(gl) = &creation.gl {
             match Canvas::new(Arc::clone(gl)) {
                 Ok(canvas) => desk.view3d.drawn[0].canvas = Some(Arc::new(Mutex::new(canvas))),
@@ -98,7 +100,9 @@ impl App {
                     self.desk.obey(&order);
                 }
                 // Another text in its place would take the edits with it.
-                Order::Open(path) if self.desk.book.is_unsaved(Book::SCENARIO) => self.opening = Some(path.clone()),
+                Order::Open(path) if self.desk.book.is_unsaved(Book::SCENARIO) => {
+                    self.opening = Some(path.clone())
+                }
                 Order::Show(panel) => layout::open(&mut self.dock, *panel),
                 Order::Table(_) => {
                     layout::open(&mut self.dock, Panel::Library);
@@ -120,7 +124,9 @@ impl App {
                 Order::Commands => self.palette.toggle(context),
                 Order::CopyCommandLine => self.copy_command_line(context),
                 Order::AskExportPlots(ending) => menus::ask_export_plots(self, ending),
-                Order::ExportPlots(path) if is_png(path) => self.desk.plots.picture = Some(path.clone()),
+                Order::ExportPlots(path) if is_png(path) => {
+                    self.desk.plots.picture = Some(path.clone())
+                }
                 Order::AskExportTable => menus::ask_export_table(self),
                 Order::AskImportTable => menus::ask_import_table(self),
                 _ => self.desk.obey(&order),
@@ -131,7 +137,11 @@ impl App {
     fn copy_command_line(&mut self, context: &Context) {
         let (line, unsaved) = self.desk.command_line();
         context.copy_text(line);
-        let notice = if unsaved { "copied; save first: the command reads the files" } else { "command line copied" };
+        let notice = if unsaved {
+            "copied; save first: the command reads the files"
+        } else {
+            "command line copied"
+        };
         self.desk.notice = Some((notice.to_owned(), unsaved));
     }
 
@@ -139,7 +149,11 @@ impl App {
         self.desk.notice = Some(match super::studies::command_line(&self.desk) {
             Some((line, unsaved)) => {
                 context.copy_text(line);
-                let notice = if unsaved { "copied; save first: the commands read the files" } else { "command lines copied" };
+                let notice = if unsaved {
+                    "copied; save first: the commands read the files"
+                } else {
+                    "command lines copied"
+                };
                 (notice.to_owned(), unsaved)
             }
             None => ("open a study first".to_owned(), true),
@@ -168,7 +182,10 @@ impl App {
             }
         }
         let now_s = context.input(|input| input.time);
-        let elapsed_s = self.controls_at_s.replace(now_s).map_or(0.0, |before| (now_s - before).clamp(0.0, 0.25));
+        let elapsed_s = self
+            .controls_at_s
+            .replace(now_s)
+            .map_or(0.0, |before| (now_s - before).clamp(0.0, 0.25));
         let typing = context.egui_wants_keyboard_input();
         let held = if typing { HeldKeys::default() } else { context.input(HeldKeys::of) };
         let controls = self.desk.pilot.controls(&held, self.desk.acts().len(), elapsed_s);
@@ -242,12 +259,19 @@ impl eframe::App for App {
             // This frame was begun in the other one's colours.
             ui.ctx().request_repaint();
         }
-        let bar = Margins::new().fill(theme.palette().ground).inner_margin(egui::Margin::symmetric(8, 4));
-        Bar::top("menus").frame(bar).show_separator_line(false).show(ui, |ui| menus::show(ui, self));
+        let bar =
+            Margins::new().fill(theme.palette().ground).inner_margin(egui::Margin::symmetric(8, 4));
+        Bar::top("menus")
+            .frame(bar)
+            .show_separator_line(false)
+            .show(ui, |ui| menus::show(ui, self));
         if !self.left_behind.is_empty() {
             Bar::top("recovery").frame(bar).show(ui, |ui| questions::recovery(ui, self));
         }
-        Bar::bottom("status").frame(bar).show_separator_line(false).show(ui, |ui| status::show(ui, &mut self.desk));
+        Bar::bottom("status")
+            .frame(bar)
+            .show_separator_line(false)
+            .show(ui, |ui| status::show(ui, &mut self.desk));
         CentralPanel::default().frame(Margins::new().fill(theme.palette().ground)).show(ui, |ui| {
             let style = theme.dock(ui.style());
             let mut tabs = Tabs { desk: &mut self.desk };

@@ -45,19 +45,37 @@ pub struct Bench {
 
 impl Bench {
     /// Asks for trials in the sea of a scenario's text; those under way are dropped.
-    pub fn ask(&mut self, scenario: &str, library: &Arc<Library>, trials: Vec<Trial>, host: &Arc<PluginHost>, waker: &Waker) {
+    pub fn ask(
+        &mut self,
+        scenario: &str,
+        library: &Arc<Library>,
+        trials: Vec<Trial>,
+        host: &Arc<PluginHost>,
+        waker: &Waker,
+    ) {
         self.number += 1;
-        let same = |index: usize| self.trials.get(index).is_some_and(|before| before.assembly == trials[index].assembly);
-        self.before = (0..trials.len()).map(|index| self.answer(index).filter(|_| same(index)).cloned()).collect();
+        let same = |index: usize| {
+            self.trials.get(index).is_some_and(|before| before.assembly == trials[index].assembly)
+        };
+        self.before = (0..trials.len())
+            .map(|index| self.answer(index).filter(|_| same(index)).cloned())
+            .collect();
         (self.answers, self.trials) = (vec![None; trials.len()], trials.clone());
-        let request = Request { number: self.number, scenario: scenario.to_owned(), library: Arc::clone(library), trials };
+        let request = Request {
+            number: self.number,
+            scenario: scenario.to_owned(),
+            library: Arc::clone(library),
+            trials,
+        };
         if self.line.is_none() {
             self.line = open(Arc::clone(host), Arc::clone(waker));
         }
         let sent = self.line.as_ref().is_some_and(|(sender, _)| sender.send(request).is_ok());
         if !sent {
             self.line = None;
-            self.answers.iter_mut().for_each(|answer| *answer = Some(Err("the system gives no thread for the statics".into())));
+            self.answers.iter_mut().for_each(|answer| {
+                *answer = Some(Err("the system gives no thread for the statics".into()))
+            });
         }
     }
 
@@ -66,7 +84,12 @@ impl Bench {
         self.number += 1;
         if let Some((sender, _)) = &self.line {
             // A thread that is gone has nothing left to drop.
-            let nothing = Request { number: self.number, scenario: String::new(), library: Arc::default(), trials: Vec::new() };
+            let nothing = Request {
+                number: self.number,
+                scenario: String::new(),
+                library: Arc::default(),
+                trials: Vec::new(),
+            };
             let _ = sender.send(nothing);
         }
     }
@@ -110,7 +133,12 @@ fn open(host: Arc<PluginHost>, waker: Waker) -> Option<Telephone> {
 }
 
 /// Settles what is asked for until nobody asks any more.
-fn work(requests: &Receiver<Request>, answers: &Sender<(u64, usize, Answer)>, host: &PluginHost, waker: &Waker) {
+fn work(
+    requests: &Receiver<Request>,
+    answers: &Sender<(u64, usize, Answer)>,
+    host: &PluginHost,
+    waker: &Waker,
+) {
     while let Ok(first) = requests.recv() {
         let mut request = requests.try_iter().last().unwrap_or(first);
         let mut next = 0;
@@ -130,9 +158,12 @@ fn work(requests: &Receiver<Request>, answers: &Sender<(u64, usize, Answer)>, ho
 
 fn answer(request: &Request, trial: &Trial, host: &PluginHost) -> Answer {
     let told = |error: Error| match error {
-        Error::Diagnostics(problems) => problems.first().map_or_else(String::new, super::fields::told),
+        Error::Diagnostics(problems) => {
+            problems.first().map_or_else(String::new, super::fields::told)
+        }
         other => other.to_string(),
     };
-    let text = alone(&request.scenario, &trial.assembly, &trial.sea, &request.library).map_err(told)?;
+    let text =
+        alone(&request.scenario, &trial.assembly, &trial.sea, &request.library).map_err(told)?;
     rest(&trial.assembly, &text, &request.library, host).map(Arc::new).map_err(told)
 }

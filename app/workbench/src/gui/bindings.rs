@@ -34,11 +34,23 @@ pub struct Binding {
     pub order: Order,
 }
 
-const fn bind(what: &'static str, modifiers: Modifiers, key: Key, when: When, order: Order) -> Binding {
+const fn bind(
+    what: &'static str,
+    modifiers: Modifiers,
+    key: Key,
+    when: When,
+    order: Order,
+) -> Binding {
     Binding { what, key: KeyboardShortcut::new(modifiers, key), when, pad: "", order }
 }
 
-const fn piloted(what: &'static str, key: Key, when: When, pad: &'static str, order: Order) -> Binding {
+const fn piloted(
+    what: &'static str,
+    key: Key,
+    when: When,
+    pad: &'static str,
+    order: Order,
+) -> Binding {
     Binding { what, key: KeyboardShortcut::new(NONE, key), when, pad, order }
 }
 
@@ -81,8 +93,12 @@ pub static BINDINGS: [Binding; 30] = [
 ];
 
 /// What the mouse does in the 3-D view.
-pub const MOUSE: [(&str, &str); 4] =
-    [("Read a rope, body or the skin", "click"), ("Orbit", "drag"), ("Pan", "right drag, or Shift and drag"), ("Zoom", "wheel")];
+pub const MOUSE: [(&str, &str); 4] = [
+    ("Read a rope, body or the skin", "click"),
+    ("Orbit", "drag"),
+    ("Pan", "right drag, or Shift and drag"),
+    ("Zoom", "wheel"),
+];
 
 /// The key of an order, as menus show it; empty where it has none.
 #[must_use]
@@ -105,11 +121,21 @@ mod tests {
     fn no_key_is_bound_twice() {
         for (index, one) in BINDINGS.iter().enumerate() {
             for other in &BINDINGS[..index] {
-                assert!(one.key != other.key || !together(one.when, other.when), "{} and {}", one.what, other.what);
+                assert!(
+                    one.key != other.key || !together(one.when, other.when),
+                    "{} and {}",
+                    one.what,
+                    other.what
+                );
             }
-            for steer in STEERING.iter().flat_map(|steer| [Some(steer.more), steer.less]).flatten() {
+            for steer in STEERING.iter().flat_map(|steer| [Some(steer.more), steer.less]).flatten()
+            {
                 let plain = one.key.modifiers.is_none() && one.when != When::Looking;
-                assert!(!(plain && one.key.logical_key == steer), "{} is a key that steers", one.what);
+                assert!(
+                    !(plain && one.key.logical_key == steer),
+                    "{} is a key that steers",
+                    one.what
+                );
             }
         }
     }

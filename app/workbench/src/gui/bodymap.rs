@@ -79,7 +79,8 @@ impl BodyMap {
     pub fn of(skin: Arc<Skin>) -> Self {
         let low = skin.vertices.iter().copied().fold(DVec3::INFINITY, DVec3::min);
         let high = skin.vertices.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
-        let mut map = Self { skin, low, high, seen: [const { Vec::new() }; 4], drawn: [const { None }; 4] };
+        let mut map =
+            Self { skin, low, high, seen: [const { Vec::new() }; 4], drawn: [const { None }; 4] };
         map.seen = Face::ALL.map(|face| map.seen_from(face));
         map
     }
@@ -123,9 +124,16 @@ impl BodyMap {
 
     /// A face in a rectangle, each part in its colour, lit from the eye; the same as last where nothing has changed.
     #[must_use]
-    pub fn mesh(&mut self, face: Face, rect: Rect, colour: impl Fn(BodyPart) -> Color32) -> Arc<Mesh> {
+    pub fn mesh(
+        &mut self,
+        face: Face,
+        rect: Rect,
+        colour: impl Fn(BodyPart) -> Color32,
+    ) -> Arc<Mesh> {
         let colours = BodyPart::ALL.map(colour);
-        let drawn = self.drawn[face as usize].as_ref().filter(|(place, of, _)| *place == rect && *of == colours);
+        let drawn = self.drawn[face as usize]
+            .as_ref()
+            .filter(|(place, of, _)| *place == rect && *of == colours);
         if let Some((_, _, mesh)) = drawn {
             return Arc::clone(mesh);
         }
@@ -135,7 +143,11 @@ impl BodyMap {
         mesh.vertices.reserve(3 * seen.len());
         for triangle in seen {
             let color = shade(colours[triangle.part as usize], triangle.light);
-            let vertex = |corner: Vec2| Vertex { pos: rect.center() + corner * rect.width(), uv: WHITE_UV, color };
+            let vertex = |corner: Vec2| Vertex {
+                pos: rect.center() + corner * rect.width(),
+                uv: WHITE_UV,
+                color,
+            };
             mesh.vertices.extend(triangle.corners.map(vertex));
         }
         let mesh = Arc::new(mesh);
@@ -146,9 +158,14 @@ impl BodyMap {
     /// Where a contact lies on a face; `None` where it is on the far side.
     #[must_use]
     pub fn contact(&self, face: Face, rect: Rect, contact: &ContactPoint) -> Option<Pos2> {
-        let corners = self.skin.triangles.get(contact.triangle)?.map(|vertex| self.skin.vertices[vertex as usize]);
+        let corners = self
+            .skin
+            .triangles
+            .get(contact.triangle)?
+            .map(|vertex| self.skin.vertices[vertex as usize]);
         let seen = normal(corners).dot(face.axes()[2]) > 0.0;
-        let point = corners.iter().zip(contact.barycentric).map(|(corner, share)| *corner * share).sum();
+        let point =
+            corners.iter().zip(contact.barycentric).map(|(corner, share)| *corner * share).sum();
         seen.then(|| self.place(face, rect, point))
     }
 }
@@ -156,8 +173,10 @@ impl BodyMap {
 fn sorted(skin: &Skin, face: Face) -> Vec<u32> {
     let eye = face.axes()[2];
     let count = u32::try_from(skin.triangles.len()).unwrap_or(0);
-    let mut seen: Vec<u32> = (0..count).filter(|triangle| normal(corners(skin, *triangle)).dot(eye) > 0.0).collect();
-    let nearness = |triangle: u32| corners(skin, triangle).iter().map(|corner| corner.dot(eye)).sum::<f64>();
+    let mut seen: Vec<u32> =
+        (0..count).filter(|triangle| normal(corners(skin, *triangle)).dot(eye) > 0.0).collect();
+    let nearness =
+        |triangle: u32| corners(skin, triangle).iter().map(|corner| corner.dot(eye)).sum::<f64>();
     seen.sort_by(|a, b| nearness(*a).total_cmp(&nearness(*b)));
     seen
 }

@@ -60,9 +60,12 @@ impl Book {
     /// # Errors
     /// With every file that cannot be read.
     pub fn open(root: &Path, scenario_path: &Path) -> Result<Self, String> {
-        let explain = |all: Vec<Diagnostic>| all.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n");
+        let explain = |all: Vec<Diagnostic>| {
+            all.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+        };
         let sources = Sources::from_folder(root).map_err(explain)?;
-        let mut texts: BTreeMap<String, String> = sources.iter().map(|(path, text)| (path.to_owned(), text.to_owned())).collect();
+        let mut texts: BTreeMap<String, String> =
+            sources.iter().map(|(path, text)| (path.to_owned(), text.to_owned())).collect();
         texts.insert(Self::SCENARIO.to_owned(), read_text(scenario_path)?);
         let mut book = Self {
             root: root.to_owned(),
@@ -160,7 +163,10 @@ impl Book {
 
     /// Files of a folder of the library, by path.
     pub fn files<'a>(&'a self, folder: &'a str) -> impl Iterator<Item = &'a str> {
-        self.texts.keys().map(String::as_str).filter(move |path| path.split_once('/').is_some_and(|(before, _)| before == folder))
+        self.texts
+            .keys()
+            .map(String::as_str)
+            .filter(move |path| path.split_once('/').is_some_and(|(before, _)| before == folder))
     }
 
     /// The present text of a file.
@@ -178,14 +184,22 @@ impl Book {
     /// The library's present texts.
     #[must_use]
     pub fn sources(&self) -> Sources {
-        let library = self.texts.iter().filter(|(path, _)| ![Self::SCENARIO, Self::STUDY].contains(&path.as_str()));
-        Sources::from_map(library.map(|(path, text)| (path.clone(), text.clone())).collect()).with_meshes_of(&self.meshes)
+        let library = self
+            .texts
+            .iter()
+            .filter(|(path, _)| ![Self::SCENARIO, Self::STUDY].contains(&path.as_str()));
+        Sources::from_map(library.map(|(path, text)| (path.clone(), text.clone())).collect())
+            .with_meshes_of(&self.meshes)
     }
 
     /// The texts a single run is made from: all but the study's.
     #[must_use]
     pub fn texts_of_run(&self) -> BTreeMap<String, String> {
-        self.texts.iter().filter(|(path, _)| *path != Self::STUDY).map(|(path, text)| (path.clone(), text.clone())).collect()
+        self.texts
+            .iter()
+            .filter(|(path, _)| *path != Self::STUDY)
+            .map(|(path, text)| (path.clone(), text.clone()))
+            .collect()
     }
 
     /// Whether a single run made from these texts would be made from the present ones.
@@ -225,7 +239,10 @@ impl Book {
             return None;
         }
         let file = self.shown_name(path);
-        let here = |problem: &&Diagnostic| problem.file == file && (problem.field == field || problem.field == format!("{field}.value"));
+        let here = |problem: &&Diagnostic| {
+            problem.file == file
+                && (problem.field == field || problem.field == format!("{field}.value"))
+        };
         self.problems.iter().filter(here).max_by_key(|problem| problem.severity)
     }
 
@@ -254,8 +271,11 @@ impl Book {
     pub fn in_use(&self, path: &str) -> bool {
         let id = path.rsplit('/').next().unwrap_or(path).trim_end_matches(".toml");
         let named = format!("\"{id}\"");
-        let assemblies = (0..).map_while(|index| self.field(Self::SCENARIO, &format!("gear.{index}.assembly")));
-        let files = assemblies.map(|assembly| format!("assemblies/{assembly}.toml")).chain([Self::SCENARIO.to_owned()]);
+        let assemblies =
+            (0..).map_while(|index| self.field(Self::SCENARIO, &format!("gear.{index}.assembly")));
+        let files = assemblies
+            .map(|assembly| format!("assemblies/{assembly}.toml"))
+            .chain([Self::SCENARIO.to_owned()]);
         files.filter_map(|file| self.text(&file)).any(|text| text.contains(&named))
     }
 
@@ -306,7 +326,11 @@ impl Book {
     ///
     /// # Errors
     /// Where the file is not open or not TOML, or what `change` answers.
-    pub fn alter(&mut self, path: &str, change: impl FnOnce(&mut Document) -> Result<(), String>) -> Result<(), String> {
+    pub fn alter(
+        &mut self,
+        path: &str,
+        change: impl FnOnce(&mut Document) -> Result<(), String>,
+    ) -> Result<(), String> {
         let mut document = self.document(path)?;
         change(&mut document)?;
         self.change(vec![(path.to_owned(), Some(document.text()))]);
@@ -344,7 +368,9 @@ impl Book {
         if !self.texts.contains_key(&first) {
             return first;
         }
-        let fresh = (2..).map(|number| format!("{folder}/{stem}-{number}.toml")).find(|candidate| !self.texts.contains_key(candidate));
+        let fresh = (2..)
+            .map(|number| format!("{folder}/{stem}-{number}.toml"))
+            .find(|candidate| !self.texts.contains_key(candidate));
         fresh.unwrap_or(first)
     }
 
@@ -401,7 +427,11 @@ impl Book {
 
     fn compare(&mut self) {
         let all: BTreeSet<&String> = self.texts.keys().chain(self.saved.keys()).collect();
-        self.unsaved = all.into_iter().filter(|path| self.texts.get(*path) != self.saved.get(*path)).cloned().collect();
+        self.unsaved = all
+            .into_iter()
+            .filter(|path| self.texts.get(*path) != self.saved.get(*path))
+            .cloned()
+            .collect();
     }
 
     /// Whether a text differs from its file.
@@ -452,8 +482,13 @@ impl Book {
     }
 
     fn change(&mut self, texts: Vec<(String, Option<String>)>) {
-        let change = |(path, after): (String, Option<String>)| Change { before: self.texts.get(&path).cloned(), path, after };
-        let changes: Vec<Change> = texts.into_iter().map(change).filter(|change| change.before != change.after).collect();
+        let change = |(path, after): (String, Option<String>)| Change {
+            before: self.texts.get(&path).cloned(),
+            path,
+            after,
+        };
+        let changes: Vec<Change> =
+            texts.into_iter().map(change).filter(|change| change.before != change.after).collect();
         if changes.is_empty() {
             return;
         }
@@ -484,7 +519,9 @@ impl Book {
         (self.library, self.problems) = (Arc::new(library), problems);
         self.version += 1;
         let name = self.shown_name(Self::SCENARIO);
-        if let Some(Err(problems)) = self.text(Self::SCENARIO).map(|text| Scenario::read(&name, text)) {
+        if let Some(Err(problems)) =
+            self.text(Self::SCENARIO).map(|text| Scenario::read(&name, text))
+        {
             self.problems.extend(problems);
         }
         let name = self.shown_name(Self::STUDY);
@@ -502,5 +539,6 @@ fn replace(map: &mut BTreeMap<String, String>, path: &str, text: Option<String>)
 }
 
 fn read_text(path: &Path) -> Result<String, String> {
-    std::fs::read_to_string(path).map_err(|error| format!("{}: cannot be read: {error}", path.display()))
+    std::fs::read_to_string(path)
+        .map_err(|error| format!("{}: cannot be read: {error}", path.display()))
 }

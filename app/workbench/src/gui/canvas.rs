@@ -34,7 +34,13 @@ impl Canvas {
     }
 
     /// What egui calls to have a slot of the canvas painted in a rectangle.
-    pub fn callback(canvas: &Arc<Mutex<Self>>, slot: usize, rect: Rect, camera: Camera, water: Water) -> PaintCallback {
+    pub fn callback(
+        canvas: &Arc<Mutex<Self>>,
+        slot: usize,
+        rect: Rect,
+        camera: Camera,
+        water: Water,
+    ) -> PaintCallback {
         let canvas = Arc::clone(canvas);
         let paint = egui_glow::CallbackFn::new(move |info, painter| {
             let mut canvas = canvas.lock().unwrap_or_else(PoisonError::into_inner);
@@ -43,7 +49,14 @@ impl Canvas {
         PaintCallback { rect, callback: Arc::new(paint) }
     }
 
-    fn paint(&mut self, gl: &Arc<three_d::context::Context>, slot: usize, info: &egui::PaintCallbackInfo, camera: &Camera, water: Water) {
+    fn paint(
+        &mut self,
+        gl: &Arc<three_d::context::Context>,
+        slot: usize,
+        info: &egui::PaintCallbackInfo,
+        camera: &Camera,
+        water: Water,
+    ) {
         let (place, clip) = (info.viewport_in_pixels(), info.clip_rect_in_pixels());
         let side = |pixels: i32| u32::try_from(pixels).unwrap_or(0);
         let size = [side(place.width_px), side(place.height_px)];
@@ -67,8 +80,14 @@ impl Canvas {
             drawer.draw(slot, camera, size, water);
             self.drawn[slot] = Some(wanted);
         }
-        let viewport = Viewport { x: place.left_px, y: place.from_bottom_px, width: size[0], height: size[1] };
-        let scissor = ScissorBox { x: clip.left_px, y: clip.from_bottom_px, width: side(clip.width_px), height: side(clip.height_px) };
+        let viewport =
+            Viewport { x: place.left_px, y: place.from_bottom_px, width: size[0], height: size[1] };
+        let scissor = ScissorBox {
+            x: clip.left_px,
+            y: clip.from_bottom_px,
+            width: side(clip.width_px),
+            height: side(clip.height_px),
+        };
         drawer.show(slot, info.screen_size_px, viewport, scissor);
     }
 }

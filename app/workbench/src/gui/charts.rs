@@ -40,7 +40,8 @@ pub enum Kind {
 
 impl Kind {
     /// Every kind, in the order shown.
-    pub const ALL: [Self; 6] = [Self::Tension, Self::Along, Self::Force, Self::Wraps, Self::Depth, Self::Speed];
+    pub const ALL: [Self; 6] =
+        [Self::Tension, Self::Along, Self::Force, Self::Wraps, Self::Depth, Self::Speed];
 
     /// Its title.
     #[must_use]
@@ -140,22 +141,40 @@ impl Chart {
     pub fn of(kind: Kind, view: &LiveView, units: Units) -> Self {
         let duration_s = view.model.spec.settings.duration_s.max(view.newest_s);
         let time = "Time [s]".to_owned();
-        let chart = |y: String, curves| Self { kind, x: time, y, curves, levels: Vec::new(), end_x: duration_s };
+        let chart = |y: String, curves| Self {
+            kind,
+            x: time,
+            y,
+            curves,
+            levels: Vec::new(),
+            end_x: duration_s,
+        };
         let force = units.force();
         let made = match kind {
             Kind::Tension => {
                 let lines = view.model.spec.lines.iter().enumerate();
-                let curves = lines.map(|(index, line)| curve(&line.id, &view.tension, index, |value| force.of_newtons(value))).collect();
+                let curves = lines
+                    .map(|(index, line)| {
+                        curve(&line.id, &view.tension, index, |value| force.of_newtons(value))
+                    })
+                    .collect();
                 Self { levels: levels(view, units), ..chart(force.symbol().to_owned(), curves) }
             }
             Kind::Along => along(view, units),
-            Kind::Force => chart(force.symbol().to_owned(), by_part(view, Channel::Force, |value| force.of_newtons(value))),
+            Kind::Force => chart(
+                force.symbol().to_owned(),
+                by_part(view, Channel::Force, |value| force.of_newtons(value)),
+            ),
             Kind::Wraps => chart("turns".to_owned(), by_part(view, Channel::Wraps, |value| value)),
             // Depth grows downwards.
-            Kind::Depth => {
-                chart(format!("depth, down, {}", units.length_symbol()), whale(view, Channel::Depth, |value| -units.of_metres(value)))
-            }
-            Kind::Speed => chart(units.speed_symbol().to_owned(), whale(view, Channel::Speed, |value| units.of_m_s(value))),
+            Kind::Depth => chart(
+                format!("depth, down, {}", units.length_symbol()),
+                whale(view, Channel::Depth, |value| -units.of_metres(value)),
+            ),
+            Kind::Speed => chart(
+                units.speed_symbol().to_owned(),
+                whale(view, Channel::Speed, |value| units.of_m_s(value)),
+            ),
         };
         if kind == Kind::Along { made } else { made.coloured() }
     }
@@ -172,9 +191,18 @@ impl Chart {
         let mut fresh = self.curves.iter().map(|curve| curve.colour + 1).max().unwrap_or(0);
         let mut theirs = Vec::new();
         for curve in other.curves.into_iter().filter(|curve| curve.style == Style::Solid) {
-            let colour = self.curves.iter().find(|own| own.name == curve.name).map_or(fresh, |own| own.colour);
+            let colour = self
+                .curves
+                .iter()
+                .find(|own| own.name == curve.name)
+                .map_or(fresh, |own| own.colour);
             fresh = fresh.max(colour + 1);
-            theirs.push(Curve { name: format!("{} (B)", curve.name), style: Style::Dashed, colour, ..curve });
+            theirs.push(Curve {
+                name: format!("{} (B)", curve.name),
+                style: Style::Dashed,
+                colour,
+                ..curve
+            });
         }
         self.curves.extend(theirs);
         self.end_x = self.end_x.max(other.end_x);
@@ -184,14 +212,21 @@ impl Chart {
     /// The name that a curve is taken away by: its own, or that of the line whose least or greatest it is.
     #[must_use]
     pub fn line_of<'a>(&'a self, curve: &'a Curve) -> &'a str {
-        let line = self.curves.iter().find(|line| line.style == Style::Solid && line.colour == curve.colour);
+        let line = self
+            .curves
+            .iter()
+            .find(|line| line.style == Style::Solid && line.colour == curve.colour);
         line.filter(|_| curve.style == Style::Edge).map_or(&curve.name, |line| &line.name)
     }
 
     /// Greatest value of any curve.
     #[must_use]
     pub fn top(&self) -> f64 {
-        self.curves.iter().flat_map(|curve| &curve.points).map(|point| point.y).fold(f64::NEG_INFINITY, f64::max)
+        self.curves
+            .iter()
+            .flat_map(|curve| &curve.points)
+            .map(|point| point.y)
+            .fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// As CSV: curve, x, y; one row a point.
@@ -199,12 +234,15 @@ impl Chart {
     pub fn csv(&self) -> String {
         let mut writer = csv::Writer::from_writer(Vec::new());
         let head = [format!("curve of {}", self.kind.title()), self.x.clone(), self.y.clone()];
-        let rows = self
-            .curves
-            .iter()
-            .flat_map(|curve| curve.points.iter().map(|point| [curve.name.clone(), point.x.to_string(), point.y.to_string()]));
+        let rows = self.curves.iter().flat_map(|curve| {
+            curve
+                .points
+                .iter()
+                .map(|point| [curve.name.clone(), point.x.to_string(), point.y.to_string()])
+        });
         // Writing to memory cannot fail.
-        let written = std::iter::once(head).chain(rows).try_for_each(|row| writer.write_record(row));
+        let written =
+            std::iter::once(head).chain(rows).try_for_each(|row| writer.write_record(row));
         let bytes = written.ok().and_then(|()| writer.into_inner().ok()).unwrap_or_default();
         String::from_utf8(bytes).unwrap_or_default()
     }
@@ -216,9 +254,17 @@ fn curve(name: &str, series: &Series, index: usize, unit: impl Fn(f64) -> f64) -
         let [min, max] = [unit(span.min), unit(span.max)];
         let point = |y| PlotPoint::new(span.time_s, y);
         // One sample is one point.
-        if span.min.to_bits() == span.max.to_bits() { vec![point(min)] } else { vec![point(min), point(max)] }
+        if span.min.to_bits() == span.max.to_bits() {
+            vec![point(min)]
+        } else {
+            vec![point(min), point(max)]
+        }
     };
-    Curve { name: name.to_owned(), points: series.spans(index, SPANS).iter().flat_map(ends).collect(), ..Curve::default() }
+    Curve {
+        name: name.to_owned(),
+        points: series.spans(index, SPANS).iter().flat_map(ends).collect(),
+        ..Curve::default()
+    }
 }
 
 fn whale(view: &LiveView, channel: Channel, unit: impl Fn(f64) -> f64) -> Vec<Curve> {
@@ -229,28 +275,52 @@ fn whale(view: &LiveView, channel: Channel, unit: impl Fn(f64) -> f64) -> Vec<Cu
 }
 
 /// A curve for each part that was ever touched.
-fn by_part(view: &LiveView, channel: fn(BodyPart) -> Channel, unit: impl Fn(f64) -> f64) -> Vec<Curve> {
+fn by_part(
+    view: &LiveView,
+    channel: fn(BodyPart) -> Channel,
+    unit: impl Fn(f64) -> f64,
+) -> Vec<Curve> {
     let touched = |part: &BodyPart| {
         let whale = view.summary.as_ref().and_then(|summary| summary.whale.as_ref());
-        whale.is_some_and(|whale| whale.regions.iter().any(|region| region.part == *part && region.peak_contact_length_m > 0.0))
+        whale.is_some_and(|whale| {
+            whale
+                .regions
+                .iter()
+                .any(|region| region.part == *part && region.peak_contact_length_m > 0.0)
+        })
     };
     let parts = BodyPart::ALL.into_iter().filter(touched);
-    parts.map(|part| curve(&part.name().replace('_', " "), &view.history, channel(part).index(), &unit)).collect()
+    parts
+        .map(|part| {
+            curve(&part.name().replace('_', " "), &view.history, channel(part).index(), &unit)
+        })
+        .collect()
 }
 
 /// Strengths of the ropes as a band from the weakest segment to the rope as new, and ratings of weak links.
 fn levels(view: &LiveView, units: Units) -> Vec<Level> {
     let spec = &view.model.spec;
     let force = units.force();
-    let links = spec.links.iter().filter(|link| link.enabled).map(|link| (format!("{} parts", link.id), [link.rating_n; 2]));
+    let links = spec
+        .links
+        .iter()
+        .filter(|link| link.enabled)
+        .map(|link| (format!("{} parts", link.id), [link.rating_n; 2]));
     let rope = |(index, rope): (usize, &endline_sim::model::Rope)| {
-        let segments =
-            view.model.segment_line.iter().zip(&view.model.segment_strength_n).filter(|(line, _)| spec.lines[**line].rope == index);
+        let segments = view
+            .model
+            .segment_line
+            .iter()
+            .zip(&view.model.segment_strength_n)
+            .filter(|(line, _)| spec.lines[**line].rope == index);
         let weakest = segments.map(|(_, strength)| *strength).fold(f64::INFINITY, f64::min);
-        weakest.is_finite().then(|| (format!("{} breaks", rope.id), [weakest, rope.strength_n.max(weakest)]))
+        weakest
+            .is_finite()
+            .then(|| (format!("{} breaks", rope.id), [weakest, rope.strength_n.max(weakest)]))
     };
     let all = links.chain(spec.ropes.iter().enumerate().filter_map(rope));
-    all.map(|(name, band)| Level { name, band: band.map(|value| force.of_newtons(value)) }).collect()
+    all.map(|(name, band)| Level { name, band: band.map(|value| force.of_newtons(value)) })
+        .collect()
 }
 
 /// Tension over the rope's length at the moment shown, and least and greatest so far; lines that go on from one another are
@@ -264,9 +334,16 @@ fn along(view: &LiveView, units: Units) -> Chart {
         let mut at_m = before.map_or(0.0, |before| ends_m[before]);
         let mut points = Vec::new();
         for segment in view.model.line_segments[index].clone() {
-            let (Some(length_m), Some(tension_n)) = (frame.segment_length_m.get(segment), frame.tension_n.get(segment)) else { continue };
+            let (Some(length_m), Some(tension_n)) =
+                (frame.segment_length_m.get(segment), frame.tension_n.get(segment))
+            else {
+                continue;
+            };
             let y = force.of_newtons(*tension_n);
-            points.extend([PlotPoint::new(units.of_metres(at_m), y), PlotPoint::new(units.of_metres(at_m + length_m), y)]);
+            points.extend([
+                PlotPoint::new(units.of_metres(at_m), y),
+                PlotPoint::new(units.of_metres(at_m + length_m), y),
+            ]);
             at_m += length_m;
         }
         ends_m.push(at_m);
@@ -276,7 +353,14 @@ fn along(view: &LiveView, units: Units) -> Chart {
     }
     let end_x = units.of_metres(ends_m.iter().copied().fold(0.0, f64::max));
     let x = format!("Along the rope [{}]", units.length_symbol());
-    Chart { kind: Kind::Along, x, y: force.symbol().to_owned(), curves, levels: levels(view, units), end_x }
+    Chart {
+        kind: Kind::Along,
+        x,
+        y: force.symbol().to_owned(),
+        curves,
+        levels: levels(view, units),
+        end_x,
+    }
 }
 
 /// Least and greatest tension so far along a line that starts at a length of rope.
@@ -289,7 +373,12 @@ fn envelope(view: &LiveView, index: usize, start_m: f64, units: Units) -> Vec<Cu
             value_n.is_finite().then(|| PlotPoint::new(x, units.force().of_newtons(*value_n)))
         };
         let points = values_n.iter().enumerate().filter_map(at).collect();
-        Curve { name: format!("{}, {what} so far", view.model.spec.lines[index].id), points, style: Style::Edge, colour: index }
+        Curve {
+            name: format!("{}, {what} so far", view.model.spec.lines[index].id),
+            points,
+            style: Style::Edge,
+            colour: index,
+        }
     };
     vec![curve("least", &line.least_n), curve("greatest", &line.greatest_n)]
 }
@@ -314,19 +403,50 @@ mod tests {
     fn a_chart_is_written_point_by_point() {
         let points = vec![PlotPoint::new(0.0, 1.0), PlotPoint::new(0.5, 2.0)];
         let curves = vec![Curve { name: "endline, top".into(), points, ..Curve::default() }];
-        let chart = Chart { kind: Kind::Tension, x: "Time [s]".into(), y: "lbf".into(), curves, levels: Vec::new(), end_x: 1.0 };
-        assert_eq!(chart.csv(), "curve of Tension of each line,Time [s],lbf\n\"endline, top\",0,1\n\"endline, top\",0.5,2\n");
+        let chart = Chart {
+            kind: Kind::Tension,
+            x: "Time [s]".into(),
+            y: "lbf".into(),
+            curves,
+            levels: Vec::new(),
+            end_x: 1.0,
+        };
+        assert_eq!(
+            chart.csv(),
+            "curve of Tension of each line,Time [s],lbf\n\"endline, top\",0,1\n\"endline, top\",0.5,2\n"
+        );
         assert!((chart.top() - 2.0).abs() < 1e-12);
     }
 
     #[test]
     fn another_run_is_drawn_dashed_in_the_colours_of_the_first() {
-        let curve = |name: &str, colour| Curve { name: name.into(), points: vec![PlotPoint::new(0.0, 1.0)], style: Style::Solid, colour };
-        let chart = |curves, end_x| Chart { kind: Kind::Tension, x: String::new(), y: String::new(), curves, levels: Vec::new(), end_x };
-        let both = chart(vec![curve("top", 0), curve("bottom", 1)], 5.0).beside(chart(vec![curve("bottom", 0), curve("other", 1)], 9.0));
-        let told: Vec<_> = both.curves.iter().map(|curve| (curve.name.as_str(), curve.style, curve.colour)).collect();
-        let wanted =
-            [("top", Style::Solid, 0), ("bottom", Style::Solid, 1), ("bottom (B)", Style::Dashed, 1), ("other (B)", Style::Dashed, 2)];
+        let curve = |name: &str, colour| Curve {
+            name: name.into(),
+            points: vec![PlotPoint::new(0.0, 1.0)],
+            style: Style::Solid,
+            colour,
+        };
+        let chart = |curves, end_x| Chart {
+            kind: Kind::Tension,
+            x: String::new(),
+            y: String::new(),
+            curves,
+            levels: Vec::new(),
+            end_x,
+        };
+        let both = chart(vec![curve("top", 0), curve("bottom", 1)], 5.0)
+            .beside(chart(vec![curve("bottom", 0), curve("other", 1)], 9.0));
+        let told: Vec<_> = both
+            .curves
+            .iter()
+            .map(|curve| (curve.name.as_str(), curve.style, curve.colour))
+            .collect();
+        let wanted = [
+            ("top", Style::Solid, 0),
+            ("bottom", Style::Solid, 1),
+            ("bottom (B)", Style::Dashed, 1),
+            ("other (B)", Style::Dashed, 2),
+        ];
         assert_eq!(told, wanted);
         assert!((both.end_x - 9.0).abs() < 1e-12);
     }

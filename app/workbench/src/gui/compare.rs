@@ -26,7 +26,11 @@ pub type Group = (&'static str, Vec<Row>);
 /// Every figure of two runs, so far as each was run, in groups.
 #[must_use]
 pub fn groups(a: &LiveView, b: &LiveView, units: Units) -> Vec<Group> {
-    let all = [("Whale", whale(a, b, units)), ("Peak tension of each line", lines(a, b, units)), ("Most on each part", parts(a, b, units))];
+    let all = [
+        ("Whale", whale(a, b, units)),
+        ("Peak tension of each line", lines(a, b, units)),
+        ("Most on each part", parts(a, b, units)),
+    ];
     let now = ("At the moment shown", now(a, b, units));
     all.into_iter().chain([now]).filter(|(_, rows)| !rows.is_empty()).collect()
 }
@@ -48,7 +52,11 @@ fn difference(a: f64, b: f64, text: &impl Fn(f64) -> String) -> String {
     }
     let sign = if by < 0.0 { "−" } else { "+" };
     let share = 100.0 * by.abs() / a.abs();
-    if share.is_finite() && share < 1000.0 { format!("{sign}{unsigned} ({sign}{share:.0} %)") } else { format!("{sign}{unsigned}") }
+    if share.is_finite() && share < 1000.0 {
+        format!("{sign}{unsigned} ({sign}{share:.0} %)")
+    } else {
+        format!("{sign}{unsigned}")
+    }
 }
 
 fn of(view: &LiveView) -> Option<&WhaleSummary> {
@@ -58,29 +66,42 @@ fn of(view: &LiveView) -> Option<&WhaleSummary> {
 fn whale(a: &LiveView, b: &LiveView, units: Units) -> Vec<Row> {
     let pair = [of(a), of(b)];
     let figure =
-        |name: &str, pick: fn(&WhaleSummary) -> Option<f64>, text: &dyn Fn(f64) -> String| row(name, pair.map(|whale| pick(whale?)), text);
+        |name: &str, pick: fn(&WhaleSummary) -> Option<f64>, text: &dyn Fn(f64) -> String| {
+            row(name, pair.map(|whale| pick(whale?)), text)
+        };
     let seconds = |value: f64| format!("{value:.2} s");
-    let [first, second] = pair.map(|whale| whale.map_or_else(|| "–".to_owned(), |whale| spoken(whale.outcome.name())));
+    let [first, second] = pair
+        .map(|whale| whale.map_or_else(|| "–".to_owned(), |whale| spoken(whale.outcome.name())));
     let difference = if first == second { "same" } else { "differs" }.to_owned();
     let mut rows = vec![Row { name: "Outcome".into(), a: first, b: second, difference }];
     rows.push(figure("First contact", |whale| whale.first_contact_s, &seconds));
     rows.push(figure("Time in contact", |whale| Some(whale.contact_time_s), &seconds));
-    rows.push(figure("Added drag, mean of 5 s", |whale| Some(whale.drag_added_n), &|value| units.force().text(value)));
-    rows.push(figure("Trailing rope", |whale| Some(whale.trailing_m), &|value| units.length(value)));
-    rows.push(figure("Tethered rope", |whale| Some(whale.tethered_m), &|value| units.length(value)));
+    rows.push(figure("Added drag, mean of 5 s", |whale| Some(whale.drag_added_n), &|value| {
+        units.force().text(value)
+    }));
+    rows.push(figure("Trailing rope", |whale| Some(whale.trailing_m), &|value| {
+        units.length(value)
+    }));
+    rows.push(figure("Tethered rope", |whale| Some(whale.tethered_m), &|value| {
+        units.length(value)
+    }));
     if pair.iter().all(Option::is_none) { Vec::new() } else { rows }
 }
 
 /// Lines of either run by id, in A's order.
 fn lines(a: &LiveView, b: &LiveView, units: Units) -> Vec<Row> {
-    let ids = |view: &LiveView| view.model.spec.lines.iter().map(|line| line.id.clone()).collect::<Vec<_>>();
+    let ids = |view: &LiveView| {
+        view.model.spec.lines.iter().map(|line| line.id.clone()).collect::<Vec<_>>()
+    };
     let (mut all, others) = (ids(a), ids(b));
     all.extend(others.into_iter().filter(|id| !ids(a).contains(id)));
     let peak = |view: &LiveView, id: &str| {
         let summary = view.summary.as_ref()?;
         Some(summary.lines.iter().find(|line| line.id == id)?.peak_tension_n)
     };
-    all.into_iter().map(|id| row(&id, [peak(a, &id), peak(b, &id)], |value| units.force().text(value))).collect()
+    all.into_iter()
+        .map(|id| row(&id, [peak(a, &id), peak(b, &id)], |value| units.force().text(value)))
+        .collect()
 }
 
 /// Greatest force and most wraps on each part that either run touched.
@@ -96,15 +117,23 @@ fn parts(a: &LiveView, b: &LiveView, units: Units) -> Vec<Row> {
             continue;
         }
         let name = spoken(part.name());
-        let pick = |pick: fn(&RegionSummary) -> f64| both.each_ref().map(|region| region.as_ref().map(pick));
-        rows.push(row(format!("{name}, force"), pick(|region| region.peak_normal_n), |value| units.force().text(value)));
-        rows.push(row(format!("{name}, wraps"), pick(|region| region.peak_wraps), |value| format!("{value:.2}")));
+        let pick = |pick: fn(&RegionSummary) -> f64| {
+            both.each_ref().map(|region| region.as_ref().map(pick))
+        };
+        rows.push(row(format!("{name}, force"), pick(|region| region.peak_normal_n), |value| {
+            units.force().text(value)
+        }));
+        rows.push(row(format!("{name}, wraps"), pick(|region| region.peak_wraps), |value| {
+            format!("{value:.2}")
+        }));
     }
     rows
 }
 
 fn now(a: &LiveView, b: &LiveView, units: Units) -> Vec<Row> {
-    let whale = |pick: fn(&endline_sim::frame::WhaleFrame) -> f64| [a, b].map(|view| view.frame.whale.as_ref().map(pick));
+    let whale = |pick: fn(&endline_sim::frame::WhaleFrame) -> f64| {
+        [a, b].map(|view| view.frame.whale.as_ref().map(pick))
+    };
     let worst = [a, b].map(|view| view.frame.tension_n.iter().copied().reduce(f64::max));
     vec![
         row("Time", [a, b].map(|view| Some(view.frame.time_s)), |value| format!("{value:.2} s")),

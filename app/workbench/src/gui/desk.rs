@@ -128,7 +128,13 @@ pub struct Desk {
 impl Desk {
     /// A desk with its texts; the first model is being made.
     #[must_use]
-    pub fn new(book: Book, host: Arc<PluginHost>, launch: Launch, waker: Waker, pilot: Pilot) -> Self {
+    pub fn new(
+        book: Book,
+        host: Arc<PluginHost>,
+        launch: Launch,
+        waker: Waker,
+        pilot: Pilot,
+    ) -> Self {
         let mut desk = Self {
             book,
             view: None,
@@ -260,7 +266,8 @@ impl Desk {
     pub fn problem_at(&self, path: &str, field: &str) -> Option<&Diagnostic> {
         let file = self.book.shown_name(path);
         let here = |problem: &&Diagnostic| problem.file == file && problem.field == field;
-        let made = || self.make_problems.iter().find(here).filter(|_| self.book.same_run(&self.making));
+        let made =
+            || self.make_problems.iter().find(here).filter(|_| self.book.same_run(&self.making));
         self.book.problem_at(path, field).or_else(made)
     }
 
@@ -286,7 +293,11 @@ impl Desk {
             }
             Order::Pause => self.tell(Command::Pause),
             Order::PlayPause if self.running() => self.tell(Command::Pause),
-            Order::PlayPause if self.replaying() || self.view.as_ref().is_some_and(|view| view.sought) => self.replay(),
+            Order::PlayPause
+                if self.replaying() || self.view.as_ref().is_some_and(|view| view.sought) =>
+            {
+                self.replay()
+            }
             Order::PlayPause => self.start(),
             Order::Step => self.tell(Command::Step),
             Order::Reset => {
@@ -301,12 +312,16 @@ impl Desk {
             }
             Order::HoldRun | Order::CompareWith(_) | Order::EndCompare => self.obey_compare(order),
             Order::Pose => self.posing.on = !self.posing.on,
-            Order::AddEntry | Order::DeleteEntry | Order::EditInputs | Order::Rerun => self.obey_program(order),
+            Order::AddEntry | Order::DeleteEntry | Order::EditInputs | Order::Rerun => {
+                self.obey_program(order)
+            }
             Order::Dress(theme) => self.preferences.theme = *theme,
             Order::Measure(units) => self.preferences.units = *units,
             Order::Apply => self.make(),
             Order::Speed(speed) => self.set_speed(*speed),
-            Order::Seek(_) | Order::Shift(_) | Order::Newest | Order::Replay => self.obey_time(order),
+            Order::Seek(_) | Order::Shift(_) | Order::Newest | Order::Replay => {
+                self.obey_time(order)
+            }
             Order::WeakLinks => self.toggle_weak_links(),
             Order::Fly => self.toggle_fly(),
             Order::NextAct => {
@@ -316,14 +331,24 @@ impl Desk {
             Order::Slower => self.change_speed(false),
             Order::Faster => self.change_speed(true),
             Order::Mouth => self.pilot.toggle_mouth(),
-            Order::Person | Order::Look(_) | Order::Frame | Order::Views(_) | Order::Ruler | Order::LetGo | Order::Read(_) => {
+            Order::Person
+            | Order::Look(_)
+            | Order::Frame
+            | Order::Views(_)
+            | Order::Ruler
+            | Order::LetGo
+            | Order::Read(_) => {
                 self.view3d.obey(order);
             }
             Order::Table(kind) => self.library.turn_to(*kind),
             Order::Duplicate => super::panels::library::duplicate(self),
             Order::ChooseAct(act) => self.pilot.choose_act(*act),
             Order::Save => self.save(),
-            Order::ScenarioAs(_) | Order::ExportTable(_) | Order::ImportTable(_) | Order::ExportPlots(_) | Order::ExportModel(_) => {
+            Order::ScenarioAs(_)
+            | Order::ExportTable(_)
+            | Order::ImportTable(_)
+            | Order::ExportPlots(_)
+            | Order::ExportModel(_) => {
                 self.obey_files(order);
             }
             Order::SaveRecording(path) => self.tell(Command::SaveRecording(path.clone())),
@@ -351,7 +376,11 @@ impl Desk {
     fn change_speed(&mut self, faster: bool) {
         let now = self.view.as_ref().map_or(1.0, |view| view.speed);
         let speeds = super::panels::run::SPEEDS.map(|(speed, _)| speed);
-        let next = if faster { speeds.into_iter().find(|speed| *speed > now) } else { speeds.into_iter().rev().find(|speed| *speed < now) };
+        let next = if faster {
+            speeds.into_iter().find(|speed| *speed > now)
+        } else {
+            speeds.into_iter().rev().find(|speed| *speed < now)
+        };
         next.into_iter().for_each(|speed| self.set_speed(speed));
     }
 
@@ -397,8 +426,14 @@ impl Desk {
     /// The command line that gives the run shown, and whether files must be saved before it does.
     #[must_use]
     pub fn command_line(&self) -> (String, bool) {
-        let quoted = |path: &std::path::Path| format!("'{}'", path.display().to_string().replace('\'', "'\\''"));
-        let line = format!("endline run {} --library {}", quoted(self.book.scenario_path()), quoted(self.book.root()));
+        let quoted = |path: &std::path::Path| {
+            format!("'{}'", path.display().to_string().replace('\'', "'\\''"))
+        };
+        let line = format!(
+            "endline run {} --library {}",
+            quoted(self.book.scenario_path()),
+            quoted(self.book.root())
+        );
         (line, !self.book.unsaved().is_empty())
     }
 
@@ -435,7 +470,9 @@ impl Desk {
         };
         self.making = self.book.texts_of_run();
         self.guest_when_made = None;
-        if let Err(error) = self.maker.start(source, Arc::clone(&self.host), Arc::clone(&self.waker)) {
+        if let Err(error) =
+            self.maker.start(source, Arc::clone(&self.host), Arc::clone(&self.waker))
+        {
             self.notice = Some((format!("the model cannot be made: {error}"), true));
         }
     }
@@ -446,7 +483,9 @@ impl Desk {
         let recorded = self.inputs_when_made.take();
         match made {
             Ok(prepared) => {
-                let other = recorded.as_ref().and_then(|(_, plugins)| check_plugins(plugins, &prepared.plugins).err());
+                let other = recorded
+                    .as_ref()
+                    .and_then(|(_, plugins)| check_plugins(plugins, &prepared.plugins).err());
                 if let Some(error) = other {
                     self.guest_when_made = None;
                     return self.notice = Some((error.to_string(), true));
@@ -540,7 +579,8 @@ impl Desk {
     fn step_back(&mut self, undo: bool) {
         let done = if undo { self.book.undo() } else { self.book.redo() };
         if !done {
-            self.notice = Some((format!("nothing to {}", if undo { "undo" } else { "redo" }), false));
+            self.notice =
+                Some((format!("nothing to {}", if undo { "undo" } else { "redo" }), false));
         }
     }
 }

@@ -37,7 +37,8 @@ pub fn live() -> Launch {
     Box::new(|prepared, host, waker| {
         let options = RunOptions::default();
         let live = Live::open(prepared, host, options, move || waker());
-        let engine: Box<dyn Engine> = Box::new(live.map_err(|error| format!("the run's thread cannot be started: {error}"))?);
+        let engine: Box<dyn Engine> =
+            Box::new(live.map_err(|error| format!("the run's thread cannot be started: {error}"))?);
         Ok(engine)
     })
 }
@@ -53,7 +54,12 @@ impl Maker {
     ///
     /// # Errors
     /// Where the system gives no thread.
-    pub fn start(&mut self, source: Source, host: Arc<PluginHost>, waker: Waker) -> Result<(), String> {
+    pub fn start(
+        &mut self,
+        source: Source,
+        host: Arc<PluginHost>,
+        waker: Waker,
+    ) -> Result<(), String> {
         self.start_with(move || source.prepare(&host), waker)
     }
 
@@ -61,14 +67,21 @@ impl Maker {
     ///
     /// # Errors
     /// Where the system gives no thread.
-    pub fn start_with(&mut self, make: impl FnOnce() -> Result<Prepared, Error> + Send + 'static, waker: Waker) -> Result<(), String> {
+    pub fn start_with(
+        &mut self,
+        make: impl FnOnce() -> Result<Prepared, Error> + Send + 'static,
+        waker: Waker,
+    ) -> Result<(), String> {
         let (sender, receiver) = channel();
         let work = move || {
             // Nobody waits any more where the receiver is gone.
             let _ = sender.send(make());
             waker();
         };
-        std::thread::Builder::new().name("endline-assemble".into()).spawn(work).map_err(|error| error.to_string())?;
+        std::thread::Builder::new()
+            .name("endline-assemble".into())
+            .spawn(work)
+            .map_err(|error| error.to_string())?;
         self.pending = Some(receiver);
         Ok(())
     }
@@ -84,7 +97,9 @@ impl Maker {
         let answer = match self.pending.as_ref()?.try_recv() {
             Ok(answer) => answer,
             Err(TryRecvError::Empty) => return None,
-            Err(TryRecvError::Disconnected) => Err(Error::Replay("making the model ended by a fault inside the program".into())),
+            Err(TryRecvError::Disconnected) => {
+                Err(Error::Replay("making the model ended by a fault inside the program".into()))
+            }
         };
         self.pending = None;
         Some(answer)

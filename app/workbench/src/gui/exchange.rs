@@ -58,7 +58,9 @@ pub fn to_tabs(book: &Book, kind: Kind, paths: &[String]) -> String {
 fn written(book: &Book, kind: Kind, paths: &[String], delimiter: u8) -> String {
     let mut writer = csv::WriterBuilder::new().delimiter(delimiter).from_writer(Vec::new());
     let columns = columns(kind);
-    let cell = |path: &str, key: &str| if key == "id" { id_of(path).to_owned() } else { book.field(path, key).unwrap_or_default() };
+    let cell = |path: &str, key: &str| {
+        if key == "id" { id_of(path).to_owned() } else { book.field(path, key).unwrap_or_default() }
+    };
     let mut rows = vec![columns.iter().map(|key| (*key).to_owned()).collect::<Vec<_>>()];
     rows.extend(paths.iter().map(|path| columns.iter().map(|key| cell(path, key)).collect()));
     // Writing to memory cannot fail.
@@ -79,11 +81,21 @@ pub fn id_of(path: &str) -> &str {
 /// With the line where it is no table.
 pub fn cells(text: &str) -> Result<Vec<Vec<String>>, String> {
     let head = text.lines().next().unwrap_or_default();
-    let delimiter = [b'\t', b',', b';'].into_iter().find(|mark| head.as_bytes().contains(mark)).unwrap_or(b'\t');
-    let mut reader = csv::ReaderBuilder::new().has_headers(false).flexible(true).delimiter(delimiter).from_reader(text.as_bytes());
+    let delimiter = [b'\t', b',', b';']
+        .into_iter()
+        .find(|mark| head.as_bytes().contains(mark))
+        .unwrap_or(b'\t');
+    let mut reader = csv::ReaderBuilder::new()
+        .has_headers(false)
+        .flexible(true)
+        .delimiter(delimiter)
+        .from_reader(text.as_bytes());
     let row = |record: Result<csv::StringRecord, csv::Error>| {
         let record = record.map_err(|error| format!("the table cannot be read: {error}"))?;
-        Ok(record.iter().map(|cell| cell.trim().trim_start_matches('\u{feff}').to_owned()).collect())
+        Ok(record
+            .iter()
+            .map(|cell| cell.trim().trim_start_matches('\u{feff}').to_owned())
+            .collect())
     };
     reader.records().map(row).collect()
 }
@@ -108,7 +120,10 @@ pub fn import(book: &mut Book, kind: Kind, text: &str) -> Result<Taken, String> 
     let rows = cells(text)?;
     let (head, body) = rows.split_first().ok_or("the table is empty")?;
     if !is_head(kind, head) {
-        return Err(format!("the first row must name the columns, such as {}", columns(kind)[..4].join(", ")));
+        return Err(format!(
+            "the first row must name the columns, such as {}",
+            columns(kind)[..4].join(", ")
+        ));
     }
     let keys: Vec<Option<&'static str>> = head.iter().map(|cell| key_of(kind, cell)).collect();
     let mut taken = Taken::default();
@@ -116,9 +131,15 @@ pub fn import(book: &mut Book, kind: Kind, text: &str) -> Result<Taken, String> 
         taken.left_out.push(format!("column `{cell}` is none of {}/", kind.folder()));
     }
     let mut texts: Vec<(String, String)> = Vec::new();
-    for (number, row) in body.iter().enumerate().filter(|(_, row)| row.iter().any(|cell| !cell.is_empty())) {
-        let cells: Vec<(&'static str, &str)> =
-            keys.iter().zip(row).filter_map(|(key, cell)| Some(((*key)?, cell.as_str()))).filter(|(_, cell)| !cell.is_empty()).collect();
+    for (number, row) in
+        body.iter().enumerate().filter(|(_, row)| row.iter().any(|cell| !cell.is_empty()))
+    {
+        let cells: Vec<(&'static str, &str)> = keys
+            .iter()
+            .zip(row)
+            .filter_map(|(key, cell)| Some(((*key)?, cell.as_str())))
+            .filter(|(_, cell)| !cell.is_empty())
+            .collect();
         match of_row(book, kind, &cells, &texts) {
             Ok((path, text, known)) => {
                 taken.changed += usize::from(known && book.text(&path) != Some(text.as_str()));
@@ -133,13 +154,24 @@ pub fn import(book: &mut Book, kind: Kind, text: &str) -> Result<Taken, String> 
 }
 
 /// Path and new text of a row's entry, and whether it was there before.
-fn of_row(book: &Book, kind: Kind, cells: &[(&'static str, &str)], before: &[(String, String)]) -> Result<(String, String, bool), String> {
+fn of_row(
+    book: &Book,
+    kind: Kind,
+    cells: &[(&'static str, &str)],
+    before: &[(String, String)],
+) -> Result<(String, String, bool), String> {
     let cell = |wanted: &str| cells.iter().find(|(key, _)| *key == wanted).map(|(_, cell)| *cell);
     let (id, name) = (cell("id"), cell("name"));
-    let by_name = |name: &str| book.files(kind.folder()).find(|path| book.field(path, "name").as_deref() == Some(name)).map(str::to_owned);
+    let by_name = |name: &str| {
+        book.files(kind.folder())
+            .find(|path| book.field(path, "name").as_deref() == Some(name))
+            .map(str::to_owned)
+    };
     let path = match (id, name) {
         (Some(id), _) => format!("{}/{}.toml", kind.folder(), slug(id)),
-        (None, Some(name)) => by_name(name).unwrap_or_else(|| format!("{}/{}.toml", kind.folder(), slug(name))),
+        (None, Some(name)) => {
+            by_name(name).unwrap_or_else(|| format!("{}/{}.toml", kind.folder(), slug(name)))
+        }
         (None, None) => return Err("it has neither id nor name".into()),
     };
     if before.iter().any(|(taken, _)| *taken == path) {
@@ -157,7 +189,9 @@ fn of_row(book: &Book, kind: Kind, cells: &[(&'static str, &str)], before: &[(St
         let written = match document.has(key) {
             _ if same => Ok(()),
             true => document.set(key, cell),
-            false => document.put(key, &if figure { Setting::plain(cell) } else { Setting::text(cell) }),
+            false => {
+                document.put(key, &if figure { Setting::plain(cell) } else { Setting::text(cell) })
+            }
         };
         written.map_err(|error| format!("{key}: {error}"))?;
     }
@@ -176,7 +210,11 @@ fn fresh(kind: Kind, name: &str) -> String {
 /// A name as a file's: lower case, words joined by dashes.
 #[must_use]
 pub fn slug(name: &str) -> String {
-    let words: String = name.to_lowercase().chars().map(|letter| if letter.is_ascii_alphanumeric() { letter } else { ' ' }).collect();
+    let words: String = name
+        .to_lowercase()
+        .chars()
+        .map(|letter| if letter.is_ascii_alphanumeric() { letter } else { ' ' })
+        .collect();
     let joined = words.split_whitespace().collect::<Vec<_>>().join("-");
     if joined.is_empty() { "entry".to_owned() } else { joined }
 }
@@ -185,7 +223,12 @@ pub fn slug(name: &str) -> String {
 ///
 /// # Errors
 /// Where a cell cannot be set; nothing is then changed.
-pub fn spread(book: &mut Book, paths: &[String], keys: &[&str], cells: &[Vec<String>]) -> Result<Taken, String> {
+pub fn spread(
+    book: &mut Book,
+    paths: &[String],
+    keys: &[&str],
+    cells: &[Vec<String>],
+) -> Result<Taken, String> {
     let mut taken = Taken::default();
     let mut texts = Vec::new();
     for (path, row) in paths.iter().zip(cells) {
@@ -214,14 +257,19 @@ mod tests {
     #[test]
     fn a_spreadsheets_cells_are_read_with_tabs_quotes_and_line_breaks() {
         let rows = cells("id\tname\r\nx\t\"two\nlines\"\r\n").unwrap();
-        assert_eq!(rows, [vec!["id".to_owned(), "name".into()], vec!["x".into(), "two\nlines".into()]]);
+        assert_eq!(
+            rows,
+            [vec!["id".to_owned(), "name".into()], vec!["x".into(), "two\nlines".into()]]
+        );
         assert_eq!(cells("\u{feff}a;b\n1;2").unwrap()[0], ["a", "b"]);
         assert_eq!(cells("\"1,700 lbf\",x").unwrap()[0], ["1,700 lbf", "x"]);
     }
 
     #[test]
     fn heads_are_known_as_keys_and_as_titles() {
-        let head = |cells: &[&str]| is_head(Kind::Rope, &cells.iter().map(|cell| (*cell).to_owned()).collect::<Vec<_>>());
+        let head = |cells: &[&str]| {
+            is_head(Kind::Rope, &cells.iter().map(|cell| (*cell).to_owned()).collect::<Vec<_>>())
+        };
         assert!(head(&["id", "Diameter", "Stretch at break"]));
         assert!(!head(&["3/8 in", "1,700 lbf"]));
         assert_eq!(slug("3/8 in Poly (mill)"), "3-8-in-poly-mill");

@@ -16,23 +16,49 @@ pub struct Said<'a> {
 }
 
 /// Shows a field for typing; answers the new text when it is committed. Escape leaves it as it was.
-pub fn edit(ui: &mut Ui, book: &Book, path: &str, field: &str, width: f32, said: Said<'_>) -> Option<String> {
+pub fn edit(
+    ui: &mut Ui,
+    book: &Book,
+    path: &str,
+    field: &str,
+    width: f32,
+    said: Said<'_>,
+) -> Option<String> {
     edit_as(ui, edit_id(path, field), book, (path, field), width, said)
 }
 
 /// The same in a second place on screen, under an id of its own.
-pub fn edit_in(ui: &mut Ui, place: &str, book: &Book, (path, field): (&str, &str), width: f32, said: Said<'_>) -> Option<String> {
+pub fn edit_in(
+    ui: &mut Ui,
+    place: &str,
+    book: &Book,
+    (path, field): (&str, &str),
+    width: f32,
+    said: Said<'_>,
+) -> Option<String> {
     edit_as(ui, Id::new((place, path, field)), book, (path, field), width, said)
 }
 
-fn edit_as(ui: &mut Ui, edit_id: Id, book: &Book, (path, field): (&str, &str), width: f32, said: Said<'_>) -> Option<String> {
+fn edit_as(
+    ui: &mut Ui,
+    edit_id: Id,
+    book: &Book,
+    (path, field): (&str, &str),
+    width: f32,
+    said: Said<'_>,
+) -> Option<String> {
     let stored = book.field(path, field).unwrap_or_default();
     let problem = book.problem_at(path, field);
     let id = typed_id(edit_id);
     let mut typed = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| stored.clone());
     let palette = Theme::palette_of(ui);
-    let colour = if problem.is_some_and(Diagnostic::is_error) { palette.error } else { palette.text };
-    let editor = TextEdit::singleline(&mut typed).id(edit_id).desired_width(width).text_color(colour).clip_text(true);
+    let colour =
+        if problem.is_some_and(Diagnostic::is_error) { palette.error } else { palette.text };
+    let editor = TextEdit::singleline(&mut typed)
+        .id(edit_id)
+        .desired_width(width)
+        .text_color(colour)
+        .clip_text(true);
     let editor = editor.hint_text(said.hint);
     let response = ui.add(editor);
     outline(ui, &response, problem);
@@ -70,7 +96,12 @@ fn outline(ui: &Ui, response: &Response, problem: Option<&Diagnostic>) {
     if let Some(problem) = problem {
         let palette = Theme::palette_of(ui);
         let colour = if problem.is_error() { palette.error } else { palette.warning };
-        ui.painter().rect_stroke(response.rect, 4.0, Stroke::new(1.5, colour), egui::StrokeKind::Inside);
+        ui.painter().rect_stroke(
+            response.rect,
+            4.0,
+            Stroke::new(1.5, colour),
+            egui::StrokeKind::Inside,
+        );
     }
 }
 
@@ -91,21 +122,42 @@ fn hover(response: Response, problem: Option<&Diagnostic>, help: &str) {
 /// A problem in one or two lines: what is wrong, then how to mend it.
 #[must_use]
 pub fn told(problem: &Diagnostic) -> String {
-    if problem.help.is_empty() { problem.message.clone() } else { format!("{}\n{}", problem.message, problem.help) }
+    if problem.help.is_empty() {
+        problem.message.clone()
+    } else {
+        format!("{}\n{}", problem.message, problem.help)
+    }
 }
 
 /// Where a problem stands: file, and line and column where it has them.
 #[must_use]
 pub fn place(problem: &Diagnostic) -> String {
-    if problem.line == 0 { problem.file.clone() } else { format!("{}:{}:{}", problem.file, problem.line, problem.column) }
+    if problem.line == 0 {
+        problem.file.clone()
+    } else {
+        format!("{}:{}:{}", problem.file, problem.line, problem.column)
+    }
 }
 
 /// A choice among ids for a field; answers the one taken.
-pub fn choose(ui: &mut Ui, book: &Book, path: &str, field: &str, choices: &[(String, String)], width: f32) -> Option<String> {
+pub fn choose(
+    ui: &mut Ui,
+    book: &Book,
+    path: &str,
+    field: &str,
+    choices: &[(String, String)],
+    width: f32,
+) -> Option<String> {
     let stored = book.field(path, field).unwrap_or_default();
-    let shown = choices.iter().find(|(id, _)| *id == stored).map_or(stored.clone(), |(_, name)| name.clone());
+    let shown = choices
+        .iter()
+        .find(|(id, _)| *id == stored)
+        .map_or(stored.clone(), |(_, name)| name.clone());
     let mut taken = None;
-    let combo = egui::ComboBox::from_id_salt(("choice", path, field)).width(width).truncate().selected_text(&shown);
+    let combo = egui::ComboBox::from_id_salt(("choice", path, field))
+        .width(width)
+        .truncate()
+        .selected_text(&shown);
     let response = combo.show_ui(ui, |ui| {
         for (id, name) in choices {
             if ui.selectable_label(*id == stored, name).on_hover_text(id).clicked() {

@@ -22,7 +22,10 @@ pub fn readings(view: &LiveView, units: Units) -> Vec<(String, String)> {
     vec![
         ("SPEED".into(), units.speed(whale.speed_m_s)),
         ("DEPTH".into(), units.depth(-whale.position.z)),
-        ("HEADING".into(), format!("{:03.0}°", bearing_degrees(ahead.x, ahead.y).round().rem_euclid(360.0))),
+        (
+            "HEADING".into(),
+            format!("{:03.0}°", bearing_degrees(ahead.x, ahead.y).round().rem_euclid(360.0)),
+        ),
         (format!("TENSION {worst}").trim_end().to_owned(), units.force().text(tension_n)),
     ]
 }
@@ -31,9 +34,13 @@ pub fn readings(view: &LiveView, units: Units) -> Vec<(String, String)> {
 #[must_use]
 pub fn worst(view: &LiveView) -> (&str, f64) {
     let segments = view.frame.tension_n.iter().copied().enumerate();
-    let most = segments.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, tension_n)| *tension_n > 0.0);
+    let most =
+        segments.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, tension_n)| *tension_n > 0.0);
     let line = most.and_then(|(segment, _)| view.model.segment_line.get(segment));
-    (line.map_or("", |line| view.model.spec.lines[*line].id.as_str()), most.map_or(0.0, |(_, tension_n)| tension_n))
+    (
+        line.map_or("", |line| view.model.spec.lines[*line].id.as_str()),
+        most.map_or(0.0, |(_, tension_n)| tension_n),
+    )
 }
 
 /// Rope that presses on each part now, the hardest first, in one line; empty where none does.
@@ -45,7 +52,9 @@ pub fn touched(view: &LiveView, units: Units) -> String {
     }
     forces.sort_by(|a, b| b.1.total_cmp(&a.1));
     let told = forces.iter().filter(|(_, force_n)| *force_n > 0.0);
-    told.map(|(part, force_n)| format!("{} {}", spoken(part.name()), units.force().text(*force_n))).collect::<Vec<_>>().join(" · ")
+    told.map(|(part, force_n)| format!("{} {}", spoken(part.name()), units.force().text(*force_n)))
+        .collect::<Vec<_>>()
+        .join(" · ")
 }
 
 /// What mouth, flippers and acts are told to do, in one line; `act` is the name of the chosen one.
@@ -54,7 +63,9 @@ pub fn told(controls: &Controls, act: Option<&str>, hands: Hands) -> String {
     match hands {
         Hands::On => {}
         Hands::Holding => return "the pad is gone: its last input holds".to_owned(),
-        Hands::Gliding => return "the pad is gone: the whale glides; any key that steers takes over".to_owned(),
+        Hands::Gliding => {
+            return "the pad is gone: the whale glides; any key that steers takes over".to_owned();
+        }
     }
     let amounts = [
         ("burst", controls.burst),
@@ -63,8 +74,13 @@ pub fn told(controls: &Controls, act: Option<&str>, hands: Hands) -> String {
         ("twisted", controls.flipper_twist),
         ("swept", controls.flipper_sweep),
     ];
-    let moved = amounts.into_iter().filter(|(_, amount)| amount.abs() > 0.005).map(|(name, amount)| format!("{name} {amount:+.2}"));
-    let act = act.map(|name| format!("act {name}{}", if controls.act > 0.0 { ", now" } else { " (G does it, N next)" }));
+    let moved = amounts
+        .into_iter()
+        .filter(|(_, amount)| amount.abs() > 0.005)
+        .map(|(name, amount)| format!("{name} {amount:+.2}"));
+    let act = act.map(|name| {
+        format!("act {name}{}", if controls.act > 0.0 { ", now" } else { " (G does it, N next)" })
+    });
     moved.chain(act).chain(["Esc lets go".to_owned()]).collect::<Vec<_>>().join(" · ")
 }
 
@@ -72,7 +88,10 @@ pub fn told(controls: &Controls, act: Option<&str>, hands: Hands) -> String {
 pub fn paint(painter: &Painter, rect: Rect, view: &LiveView, units: Units, note: &str) {
     let readings = readings(view, units);
     let whole = WIDTH * readings.len() as f32;
-    let plate = Rect::from_min_size(pos2(rect.center().x - whole / 2.0, rect.top() + 12.0), vec2(whole, 50.0));
+    let plate = Rect::from_min_size(
+        pos2(rect.center().x - whole / 2.0, rect.top() + 12.0),
+        vec2(whole, 50.0),
+    );
     painter.rect_filled(plate, 6.0, Color32::from_black_alpha(140));
     for (index, (name, value)) in readings.iter().enumerate() {
         let x = plate.left() + WIDTH * (index as f32 + 0.5);
@@ -81,7 +100,11 @@ pub fn paint(painter: &Painter, rect: Rect, view: &LiveView, units: Units, note:
         let place = Rect::from_center_size(pos2(x, plate.top() + 13.0), vec2(WIDTH - 6.0, 14.0));
         let galley = painter.layout_no_wrap(name.clone(), FontId::proportional(10.5), faint);
         let left = (x - galley.size().x / 2.0).max(place.left());
-        painter.with_clip_rect(place).galley(pos2(left, place.center().y - galley.size().y / 2.0), galley, faint);
+        painter.with_clip_rect(place).galley(
+            pos2(left, place.center().y - galley.size().y / 2.0),
+            galley,
+            faint,
+        );
         painter.text(
             pos2(x, plate.top() + 33.0),
             Align2::CENTER_CENTER,
@@ -92,7 +115,10 @@ pub fn paint(painter: &Painter, rect: Rect, view: &LiveView, units: Units, note:
     }
     let mut below = plate.center_bottom() + vec2(0.0, 13.0);
     let touched = touched(view, units);
-    let lines = [(touched.as_str(), Color32::from_rgb(0xff, 0xc9, 0x7a)), (note, Color32::from_rgb(0xd4, 0xe2, 0xe6))];
+    let lines = [
+        (touched.as_str(), Color32::from_rgb(0xff, 0xc9, 0x7a)),
+        (note, Color32::from_rgb(0xd4, 0xe2, 0xe6)),
+    ];
     for (text, colour) in lines.into_iter().filter(|(text, _)| !text.is_empty()) {
         line(painter, below, text, colour);
         below.y += 20.0;
@@ -113,9 +139,21 @@ mod tests {
 
     #[test]
     fn only_what_is_moved_is_told_beside_the_chosen_act() {
-        let controls = Controls { speed: 1.0, mouth: 1.0, flipper_sweep: -0.5, act: 2.0, ..Controls::default() };
-        assert_eq!(told(&controls, Some("Roll away"), Hands::On), "mouth +1.00 · swept -0.50 · act Roll away, now · Esc lets go");
+        let controls = Controls {
+            speed: 1.0,
+            mouth: 1.0,
+            flipper_sweep: -0.5,
+            act: 2.0,
+            ..Controls::default()
+        };
+        assert_eq!(
+            told(&controls, Some("Roll away"), Hands::On),
+            "mouth +1.00 · swept -0.50 · act Roll away, now · Esc lets go"
+        );
         assert_eq!(told(&Controls::default(), None, Hands::On), "Esc lets go");
-        assert!(told(&controls, None, Hands::Gliding).contains("glides"), "a lost pad is said first");
+        assert!(
+            told(&controls, None, Hands::Gliding).contains("glides"),
+            "a lost pad is said first"
+        );
     }
 }

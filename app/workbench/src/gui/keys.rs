@@ -22,8 +22,14 @@ pub fn orders(context: &Context, desk: &Desk) -> Vec<Order> {
     // The one with more modifiers first: Ctrl+Shift+Z is no Ctrl+Z.
     wanted.sort_by_key(|binding| std::cmp::Reverse(count(binding.key.modifiers)));
     // What comes after Ctrl+P in one slow frame is typed into the list of commands.
-    let commands = BINDINGS.iter().find(|binding| binding.order == Order::Commands).and_then(|binding| place(context, binding));
-    let before = |binding: &&Binding| commands.is_none_or(|commands| place(context, binding).is_none_or(|place| place <= commands));
+    let commands = BINDINGS
+        .iter()
+        .find(|binding| binding.order == Order::Commands)
+        .and_then(|binding| place(context, binding));
+    let before = |binding: &&Binding| {
+        commands
+            .is_none_or(|commands| place(context, binding).is_none_or(|place| place <= commands))
+    };
     wanted
         .into_iter()
         .filter(before)
@@ -39,5 +45,8 @@ fn place(context: &Context, binding: &Binding) -> Option<usize> {
 }
 
 fn count(modifiers: Modifiers) -> u32 {
-    [modifiers.shift, modifiers.command, modifiers.ctrl, modifiers.alt].into_iter().map(u32::from).sum()
+    [modifiers.shift, modifiers.command, modifiers.ctrl, modifiers.alt]
+        .into_iter()
+        .map(u32::from)
+        .sum()
 }

@@ -165,8 +165,8 @@ impl Layout {
     #[must_use]
     pub fn dock(self) -> DockState<String> {
         use Panel::{
-            Assembly, Compare, Entanglement, Events, Library, Pad, Plots, Problems, Program, Recordings, Results, Run, Scenario, Study,
-            Summary, Tension, View,
+            Assembly, Compare, Entanglement, Events, Library, Pad, Plots, Problems, Program,
+            Recordings, Results, Run, Scenario, Study, Summary, Tension, View,
         };
         let first = match self {
             Self::Design => ids(&[View, Assembly]),
@@ -177,23 +177,27 @@ impl Layout {
         let tree = dock.main_surface_mut();
         match self {
             Self::Design => {
-                let [upper, _] = tree.split_below(NodeIndex::root(), 0.66, ids(&[Library, Problems]));
+                let [upper, _] =
+                    tree.split_below(NodeIndex::root(), 0.66, ids(&[Library, Problems]));
                 let [middle, _] = tree.split_left(upper, 0.2, ids(&[Scenario]));
                 let [_, right] = tree.split_right(middle, 0.7, ids(&[Run]));
                 tree.split_below(right, 0.5, ids(&[Tension, Summary, Events]));
             }
             Self::Fly => {
-                let [_, right] = tree.split_right(NodeIndex::root(), 0.78, ids(&[Run, Scenario, Pad]));
+                let [_, right] =
+                    tree.split_right(NodeIndex::root(), 0.78, ids(&[Run, Scenario, Pad]));
                 let [_, below] = tree.split_below(right, 0.42, ids(&[Tension]));
                 tree.split_below(below, 0.5, ids(&[Events, Summary]));
             }
             Self::Review => {
-                let [upper, lower] = tree.split_below(NodeIndex::root(), 0.55, ids(&[Plots, Program]));
+                let [upper, lower] =
+                    tree.split_below(NodeIndex::root(), 0.55, ids(&[Plots, Program]));
                 tree.split_right(upper, 0.6, ids(&[Entanglement, Summary]));
                 tree.split_right(lower, 0.66, ids(&[Events, Run, Recordings, Compare]));
             }
             Self::Study => {
-                let [right, _] = tree.split_left(NodeIndex::root(), 0.36, ids(&[Study, Library, Problems]));
+                let [right, _] =
+                    tree.split_left(NodeIndex::root(), 0.36, ids(&[Study, Library, Problems]));
                 let [_, below] = tree.split_below(right, 0.52, ids(&[View, Plots]));
                 tree.split_right(below, 0.62, ids(&[Summary, Entanglement, Events]));
             }
@@ -267,7 +271,11 @@ mod tests {
                 open(&mut dock, panel);
                 assert!(is_open(&dock, panel), "{layout:?} {panel:?}");
             }
-            assert_eq!(dock.iter_all_tabs().count(), Panel::ALL.len(), "{layout:?}: no panel twice");
+            assert_eq!(
+                dock.iter_all_tabs().count(),
+                Panel::ALL.len(),
+                "{layout:?}: no panel twice"
+            );
         }
     }
 

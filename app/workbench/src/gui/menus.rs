@@ -28,7 +28,8 @@ pub fn show(ui: &mut Ui, app: &mut App) {
         });
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             for units in Units::ALL.into_iter().rev() {
-                ui.selectable_value(&mut app.desk.preferences.units, units, units.name()).on_hover_text(units.help());
+                ui.selectable_value(&mut app.desk.preferences.units, units, units.name())
+                    .on_hover_text(units.help());
             }
             ui.separator();
             for layout in Layout::ALL.into_iter().rev() {
@@ -51,13 +52,22 @@ fn item(ui: &mut Ui, app: &mut App, enabled: bool, text: &str, keys: &str, order
 fn file(ui: &mut Ui, app: &mut App) {
     ui.menu_button("Open scenario", |ui| {
         for path in scenarios(app.desk.book.root()) {
-            let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+            let name = path
+                .file_stem()
+                .map(|stem| stem.to_string_lossy().into_owned())
+                .unwrap_or_default();
             item(ui, app, true, &name, "", Order::Open(path));
         }
         ui.separator();
         if ui.button("Other file …").clicked() {
             let folder = app.desk.book.root().to_owned();
-            ask(app, move || rfd::FileDialog::new().add_filter("scenario", &["toml"]).set_directory(folder).pick_file().map(Order::Open));
+            ask(app, move || {
+                rfd::FileDialog::new()
+                    .add_filter("scenario", &["toml"])
+                    .set_directory(folder)
+                    .pick_file()
+                    .map(Order::Open)
+            });
             ui.close();
         }
     });
@@ -67,7 +77,9 @@ fn file(ui: &mut Ui, app: &mut App) {
     item(ui, app, true, "Open recording …", "", Order::AskRecording);
     if ui.add_enabled(app.desk.view.is_some(), Button::new("Save recording …")).clicked() {
         let name = format!("{}.endline", scenario_name(app));
-        ask(app, move || rfd::FileDialog::new().set_file_name(name).save_file().map(Order::SaveRecording));
+        ask(app, move || {
+            rfd::FileDialog::new().set_file_name(name).save_file().map(Order::SaveRecording)
+        });
         ui.close();
     }
     ui.separator();
@@ -77,7 +89,12 @@ fn file(ui: &mut Ui, app: &mut App) {
 }
 
 fn scenario_name(app: &App) -> String {
-    app.desk.book.scenario_path().file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
+    app.desk
+        .book
+        .scenario_path()
+        .file_stem()
+        .map(|stem| stem.to_string_lossy().into_owned())
+        .unwrap_or_default()
 }
 
 /// Asks by a file dialog on a thread of its own, so that the window stays alive.
@@ -89,29 +106,45 @@ fn ask(app: &mut App, question: impl FnOnce() -> Option<Order> + Send + 'static)
     });
     match asked {
         Ok(_) => app.dialog = Some(receiver),
-        Err(error) => app.desk.notice = Some((format!("the dialog cannot be opened: {error}"), true)),
+        Err(error) => {
+            app.desk.notice = Some((format!("the dialog cannot be opened: {error}"), true))
+        }
     }
 }
 
 /// Asks where to write the library's shown table.
 pub fn ask_export_table(app: &mut App) {
     let name = format!("{}.csv", app.desk.library.kind.folder());
-    ask(app, move || rfd::FileDialog::new().set_file_name(name).add_filter("CSV", &["csv"]).save_file().map(Order::ExportTable));
+    ask(app, move || {
+        rfd::FileDialog::new()
+            .set_file_name(name)
+            .add_filter("CSV", &["csv"])
+            .save_file()
+            .map(Order::ExportTable)
+    });
 }
 
 /// Asks where to write the gear as a 3-D model.
 pub fn ask_export_model(app: &mut App, ending: &'static str) {
     ask(app, move || {
-        rfd::FileDialog::new().set_file_name(format!("gear.{ending}")).add_filter(ending, &[ending]).save_file().map(Order::ExportModel)
+        rfd::FileDialog::new()
+            .set_file_name(format!("gear.{ending}"))
+            .add_filter(ending, &[ending])
+            .save_file()
+            .map(Order::ExportModel)
     });
 }
 
 /// Asks for another file to save the scenario to.
 pub fn ask_scenario_as(app: &mut App) {
-    let folder = app.desk.book.scenario_path().parent().map(std::path::Path::to_owned).unwrap_or_default();
+    let folder =
+        app.desk.book.scenario_path().parent().map(std::path::Path::to_owned).unwrap_or_default();
     let name = format!("{}-2.toml", scenario_name(app));
     ask(app, move || {
-        let dialog = rfd::FileDialog::new().add_filter("scenario", &["toml"]).set_directory(folder).set_file_name(name);
+        let dialog = rfd::FileDialog::new()
+            .add_filter("scenario", &["toml"])
+            .set_directory(folder)
+            .set_file_name(name);
         dialog.save_file().map(Order::ScenarioAs)
     });
 }
@@ -120,31 +153,54 @@ pub fn ask_scenario_as(app: &mut App) {
 pub fn ask_recording(app: &mut App) {
     let folder = app.desk.recordings.clone().unwrap_or_default();
     ask(app, move || {
-        rfd::FileDialog::new().set_directory(folder).add_filter("recording", &["endline"]).pick_file().map(Order::OpenRecording)
+        rfd::FileDialog::new()
+            .set_directory(folder)
+            .add_filter("recording", &["endline"])
+            .pick_file()
+            .map(Order::OpenRecording)
     });
 }
 
 /// Asks for a study's file to open.
 pub fn ask_study(app: &mut App) {
     let folder = app.desk.book.root().join("studies");
-    ask(app, move || rfd::FileDialog::new().set_directory(folder).add_filter("study", &["toml"]).pick_file().map(Order::OpenStudy));
+    ask(app, move || {
+        rfd::FileDialog::new()
+            .set_directory(folder)
+            .add_filter("study", &["toml"])
+            .pick_file()
+            .map(Order::OpenStudy)
+    });
 }
 
 /// Asks for a folder of a study's results.
 pub fn ask_results(app: &mut App) {
     let folder = app.desk.studies.root();
-    ask(app, move || rfd::FileDialog::new().set_directory(folder).pick_folder().map(Order::OpenResults));
+    ask(app, move || {
+        rfd::FileDialog::new().set_directory(folder).pick_folder().map(Order::OpenResults)
+    });
 }
 
 /// Asks where to write the plots.
 pub fn ask_export_plots(app: &mut App, ending: &'static str) {
     let name = format!("{}.{ending}", scenario_name(app));
-    ask(app, move || rfd::FileDialog::new().set_file_name(name).add_filter(ending, &[ending]).save_file().map(Order::ExportPlots));
+    ask(app, move || {
+        rfd::FileDialog::new()
+            .set_file_name(name)
+            .add_filter(ending, &[ending])
+            .save_file()
+            .map(Order::ExportPlots)
+    });
 }
 
 /// Asks for a table to take into the library.
 pub fn ask_import_table(app: &mut App) {
-    ask(app, || rfd::FileDialog::new().add_filter("table", &["csv", "tsv", "txt"]).pick_file().map(Order::ImportTable));
+    ask(app, || {
+        rfd::FileDialog::new()
+            .add_filter("table", &["csv", "tsv", "txt"])
+            .pick_file()
+            .map(Order::ImportTable)
+    });
 }
 
 fn edit(ui: &mut Ui, app: &mut App) {

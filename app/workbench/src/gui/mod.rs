@@ -102,7 +102,8 @@ pub fn open(options: Options) -> Result<(), String> {
         let app: Box<dyn eframe::App> = Box::new(App::new(creation, desk));
         Ok(app)
     };
-    eframe::run_native("endline", native, Box::new(create)).map_err(|error| format!("no window can be opened: {error}"))
+    eframe::run_native("endline", native, Box::new(create))
+        .map_err(|error| format!("no window can be opened: {error}"))
 }
 
 /// The machine's pads; without them the keyboard flies alone.

@@ -21,7 +21,11 @@ fn solid(scene: &Scene) -> impl Iterator<Item = (&'static str, &Mesh)> {
 
 /// Where each vertex is: rope stands out from its centre line.
 fn places(mesh: &Mesh) -> impl Iterator<Item = Vec3> + '_ {
-    mesh.place.iter().zip(&mesh.normal).zip(&mesh.radius_m).map(|((place, normal), radius_m)| *place + *normal * *radius_m)
+    mesh.place
+        .iter()
+        .zip(&mesh.normal)
+        .zip(&mesh.radius_m)
+        .map(|((place, normal), radius_m)| *place + *normal * *radius_m)
 }
 
 /// Binary STL.
@@ -30,7 +34,9 @@ pub fn stl(scene: &Scene) -> Vec<u8> {
     let mut triangles: Vec<[Vec3; 3]> = Vec::new();
     for (_, mesh) in solid(scene) {
         let places: Vec<Vec3> = places(mesh).collect();
-        triangles.extend(mesh.triangles.iter().map(|corners| corners.map(|corner| places[corner as usize])));
+        triangles.extend(
+            mesh.triangles.iter().map(|corners| corners.map(|corner| places[corner as usize])),
+        );
     }
     let mut bytes = b"Endline; metres, z up".to_vec();
     bytes.resize(80, b' ');
@@ -53,7 +59,11 @@ pub fn glb(scene: &Scene) -> Vec<u8> {
     for (name, mesh) in solid(scene) {
         let turned = |place: Vec3| Vec3::new(place.x, place.z, -place.y);
         let places: Vec<[f32; 3]> = places(mesh).map(|place| turned(place).to_array()).collect();
-        let normals: Vec<[f32; 3]> = mesh.normal.iter().map(|normal| turned(*normal).normalize_or(Vec3::Y).to_array()).collect();
+        let normals: Vec<[f32; 3]> = mesh
+            .normal
+            .iter()
+            .map(|normal| turned(*normal).normalize_or(Vec3::Y).to_array())
+            .collect();
         let attributes = json!({
             "POSITION": buffer.rows(&places, "VEC3", true),
             "NORMAL": buffer.rows(&normals, "VEC3", false),
@@ -71,7 +81,12 @@ pub fn glb(scene: &Scene) -> Vec<u8> {
         "materials": [{ "name": "gear", "doubleSided": true, "pbrMetallicRoughness": { "metallicFactor": 0.0, "roughnessFactor": 0.7 } }],
         "buffers": [{ "byteLength": buffer.bytes.len() }],
     });
-    for (key, list) in [("nodes", nodes), ("meshes", meshes), ("bufferViews", buffer.views), ("accessors", buffer.accessors)] {
+    for (key, list) in [
+        ("nodes", nodes),
+        ("meshes", meshes),
+        ("bufferViews", buffer.views),
+        ("accessors", buffer.accessors),
+    ] {
         document[key] = json!(list);
     }
     chunks(document.to_string().into_bytes(), buffer.bytes)
@@ -81,10 +96,12 @@ fn chunks(mut text: Vec<u8>, mut bytes: Vec<u8>) -> Vec<u8> {
     text.resize(text.len().next_multiple_of(4), b' ');
     bytes.resize(bytes.len().next_multiple_of(4), 0);
     let count = |length: usize| u32::try_from(length).unwrap_or(u32::MAX);
-    let words = |words: &[u32]| words.iter().flat_map(|word| word.to_le_bytes()).collect::<Vec<u8>>();
+    let words =
+        |words: &[u32]| words.iter().flat_map(|word| word.to_le_bytes()).collect::<Vec<u8>>();
     let [magic, version, json, binary] = GLB;
     let whole = words(&[magic, version, count(28 + text.len() + bytes.len())]);
-    [whole, words(&[count(text.len()), json]), text, words(&[count(bytes.len()), binary]), bytes].concat()
+    [whole, words(&[count(text.len()), json]), text, words(&[count(bytes.len()), binary]), bytes]
+        .concat()
 }
 
 /// The binary part of a glTF file with what says how to read it.
@@ -98,11 +115,14 @@ struct Buffer {
 impl Buffer {
     /// Adds rows of numbers; answers the index of their accessor. Places need their bounds.
     fn rows<const N: usize>(&mut self, rows: &[[f32; N]], kind: &str, bounded: bool) -> usize {
-        let bytes: Vec<u8> = rows.iter().flatten().flat_map(|number| number.to_le_bytes()).collect();
+        let bytes: Vec<u8> =
+            rows.iter().flatten().flat_map(|number| number.to_le_bytes()).collect();
         let mut accessor = json!({ "bufferView": self.view(&bytes), "componentType": 5126, "count": rows.len(), "type": kind });
         if bounded {
             let bound = |pick: fn(f32, f32) -> f32, first: f32| {
-                (0..N).map(|axis| rows.iter().map(|row| row[axis]).fold(first, pick)).collect::<Vec<f32>>()
+                (0..N)
+                    .map(|axis| rows.iter().map(|row| row[axis]).fold(first, pick))
+                    .collect::<Vec<f32>>()
             };
             accessor["min"] = json!(bound(f32::min, f32::MAX));
             accessor["max"] = json!(bound(f32::max, f32::MIN));
@@ -112,14 +132,17 @@ impl Buffer {
     }
 
     fn indices(&mut self, triangles: &[[u32; 3]]) -> usize {
-        let bytes: Vec<u8> = triangles.iter().flatten().flat_map(|corner| corner.to_le_bytes()).collect();
+        let bytes: Vec<u8> =
+            triangles.iter().flatten().flat_map(|corner| corner.to_le_bytes()).collect();
         let view = self.view(&bytes);
         self.accessors.push(json!({ "bufferView": view, "componentType": 5125, "count": 3 * triangles.len(), "type": "SCALAR" }));
         self.accessors.len() - 1
     }
 
     fn view(&mut self, bytes: &[u8]) -> usize {
-        self.views.push(json!({ "buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len() }));
+        self.views.push(
+            json!({ "buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len() }),
+        );
         self.bytes.extend(bytes);
         self.views.len() - 1
     }
@@ -142,7 +165,13 @@ mod tests {
         mesh.triangles = vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
         let part = |name, mesh| Part { name, look: Look::Solid, least_px: 0.0, mesh };
         let parts = vec![part("bodies", mesh.clone()), part("seabed", mesh)];
-        Scene { parts, bounds: Bounds { low: DVec3::ZERO, high: DVec3::ONE }, scale_n: 1.0, time_s: 0.0, depth_m: 1.0 }
+        Scene {
+            parts,
+            bounds: Bounds { low: DVec3::ZERO, high: DVec3::ONE },
+            scale_n: 1.0,
+            time_s: 0.0,
+            depth_m: 1.0,
+        }
     }
 
     #[test]
@@ -155,7 +184,11 @@ mod tests {
             Vec3::new(number(at), number(at + 4), number(at + 8))
         };
         // Divergence theorem: outward triangles sum to the volume.
-        let volume: f32 = (0..4).map(|triangle| corner(triangle, 0).dot(corner(triangle, 1).cross(corner(triangle, 2))) / 6.0).sum();
+        let volume: f32 = (0..4)
+            .map(|triangle| {
+                corner(triangle, 0).dot(corner(triangle, 1).cross(corner(triangle, 2))) / 6.0
+            })
+            .sum();
         assert!((volume - 1.0).abs() < 1e-6, "{volume}");
     }
 
@@ -167,11 +200,19 @@ mod tests {
         let length = word(12) as usize;
         let document: serde_json::Value = serde_json::from_slice(&bytes[20..20 + length]).unwrap();
         assert_eq!(document["meshes"].as_array().unwrap().len(), 1);
-        let accessor = |index: &serde_json::Value| &document["accessors"][usize::try_from(index.as_u64().unwrap()).unwrap()];
+        let accessor = |index: &serde_json::Value| {
+            &document["accessors"][usize::try_from(index.as_u64().unwrap()).unwrap()]
+        };
         let primitive = &document["meshes"][0]["primitives"][0];
         assert_eq!(accessor(&primitive["indices"])["count"], 12);
         let place = accessor(&primitive["attributes"]["POSITION"]);
-        assert_eq!((place["count"].as_u64(), place["max"][1].as_f64(), place["min"][2].as_f64()), (Some(4), Some(3.0), Some(-2.0)));
-        assert_eq!(u64::from(word(20 + length)), document["buffers"][0]["byteLength"].as_u64().unwrap().next_multiple_of(4));
+        assert_eq!(
+            (place["count"].as_u64(), place["max"][1].as_f64(), place["min"][2].as_f64()),
+            (Some(4), Some(3.0), Some(-2.0))
+        );
+        assert_eq!(
+            u64::from(word(20 + length)),
+            document["buffers"][0]["byteLength"].as_u64().unwrap().next_multiple_of(4)
+        );
     }
 }

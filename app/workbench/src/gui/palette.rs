@@ -82,33 +82,59 @@ static NAMED: [(&str, Order); 51] = [
 /// Every order a user may give by name.
 #[must_use]
 pub fn orders(desk: &Desk) -> Vec<(String, Order)> {
-    let mut all: Vec<(String, Order)> = NAMED.iter().map(|(name, order)| ((*name).to_owned(), order.clone())).collect();
-    all.extend(desk.acts().iter().enumerate().map(|(index, act)| (format!("Act {}", act.name), Order::ChooseAct(index))));
+    let mut all: Vec<(String, Order)> =
+        NAMED.iter().map(|(name, order)| ((*name).to_owned(), order.clone())).collect();
+    all.extend(
+        desk.acts()
+            .iter()
+            .enumerate()
+            .map(|(index, act)| (format!("Act {}", act.name), Order::ChooseAct(index))),
+    );
     all.extend(desk.plugins.waiting().map(|(file, ask)| {
-        let name = file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        let name =
+            file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
         (format!("Allow plugin {name}"), Order::AllowPlugin(file.clone(), ask.hash.clone()))
     }));
     let switches = desk.every_plugin().into_iter();
+    all.extend(switches.map(|(info, on)| {
+        (
+            format!("Switch {} {}", if on { "off" } else { "on" }, info.name),
+            Order::SwitchPlugin(info.id, !on),
+        )
+    }));
     all.extend(
-        switches.map(|(info, on)| (format!("Switch {} {}", if on { "off" } else { "on" }, info.name), Order::SwitchPlugin(info.id, !on))),
+        [0.1, 0.25, 0.5, 1.0, 2.0, 5.0]
+            .map(|speed| (format!("Speed {speed}×"), Order::Speed(speed))),
     );
-    all.extend([0.1, 0.25, 0.5, 1.0, 2.0, 5.0].map(|speed| (format!("Speed {speed}×"), Order::Speed(speed))));
     all.push(("Speed as fast as it goes".to_owned(), Order::Speed(f64::INFINITY)));
     let views = View::WHOLE.into_iter().chain(View::OF_WHALE);
-    all.extend(views.map(|view| (format!("View {}", view.name().replace('-', " ")), Order::Look(view))));
+    all.extend(
+        views.map(|view| (format!("View {}", view.name().replace('-', " ")), Order::Look(view))),
+    );
     all.extend((1..=MOST).map(|count| (format!("Views at once: {count}"), Order::Views(count))));
     all.extend(readable(desk));
     all.extend(Panel::ALL.into_iter().flat_map(of_panel));
-    all.extend(KINDS.map(|(kind, title)| (format!("Table of {}", title.to_lowercase()), Order::Table(kind))));
+    all.extend(
+        KINDS.map(|(kind, title)| {
+            (format!("Table of {}", title.to_lowercase()), Order::Table(kind))
+        }),
+    );
     all.extend(Units::ALL.map(|units| (format!("Units {}", units.name()), Order::Measure(units))));
-    all.extend([1.0, 1.25, 1.5, 2.0].map(|size| (format!("Size {:.0} %", 100.0 * size), Order::Size(size))));
-    all.extend(Layout::ALL.map(|layout| (format!("Layout {}", layout.name()), Order::Arrange(layout))));
+    all.extend(
+        [1.0, 1.25, 1.5, 2.0]
+            .map(|size| (format!("Size {:.0} %", 100.0 * size), Order::Size(size))),
+    );
+    all.extend(
+        Layout::ALL.map(|layout| (format!("Layout {}", layout.name()), Order::Arrange(layout))),
+    );
     all.extend(scenarios(desk.book.root()).into_iter().map(|path| {
-        let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        let name =
+            path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
         (format!("Open {name}"), Order::Open(path))
     }));
     all.extend(studies(desk.book.root()).into_iter().map(|path| {
-        let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        let name =
+            path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
         (format!("Open study {name}"), Order::OpenStudy(path))
     }));
     all
@@ -125,16 +151,25 @@ fn readable(desk: &Desk) -> Vec<(String, Order)> {
     let Some(view) = &desk.view else { return Vec::new() };
     let spec = &view.model.spec;
     let lines = spec.lines.iter().enumerate().map(|(line, of)| {
-        (format!("Read line {}", of.id), Order::Read(Picked::Rope { line, at_m: worst_m(&view.model, &view.frame, line) }))
+        (
+            format!("Read line {}", of.id),
+            Order::Read(Picked::Rope { line, at_m: worst_m(&view.model, &view.frame, line) }),
+        )
     });
-    let bodies = spec.bodies.iter().enumerate().map(|(index, body)| (format!("Read {}", body.id), Order::Read(Picked::Body(index))));
+    let bodies = spec
+        .bodies
+        .iter()
+        .enumerate()
+        .map(|(index, body)| (format!("Read {}", body.id), Order::Read(Picked::Body(index))));
     lines.chain(bodies).collect()
 }
 
 /// The orders whose names hold every typed word, whatever its case.
 fn matching(all: Vec<(String, Order)>, typed: &str) -> Vec<(String, Order)> {
     let words: Vec<String> = typed.to_lowercase().split_whitespace().map(str::to_owned).collect();
-    let holds = |(name, _): &(String, Order)| words.iter().all(|word| name.to_lowercase().contains(word.as_str()));
+    let holds = |(name, _): &(String, Order)| {
+        words.iter().all(|word| name.to_lowercase().contains(word.as_str()))
+    };
     let mut found: Vec<(String, Order)> = all.into_iter().filter(holds).collect();
     // "Speed 1" is also a part of "Speed 0.1×": names whose words begin as typed come first, and no keyboard has a "×".
     let begins = |name: &str, word: &str| name.split_whitespace().any(|own| own.starts_with(word));
@@ -149,8 +184,14 @@ fn matching(all: Vec<(String, Order)>, typed: &str) -> Vec<(String, Order)> {
 impl Palette {
     /// Opens it, or closes it. What was typed before the frame in which it opens was drawn is its text.
     pub fn toggle(&mut self, context: &Context) {
-        let text = |event: &egui::Event| if let egui::Event::Text(text) = event { Some(text.clone()) } else { None };
-        let typed = if self.open { String::new() } else { context.input(|input| input.events.iter().filter_map(text).collect()) };
+        let text = |event: &egui::Event| {
+            if let egui::Event::Text(text) = event { Some(text.clone()) } else { None }
+        };
+        let typed = if self.open {
+            String::new()
+        } else {
+            context.input(|input| input.events.iter().filter_map(text).collect())
+        };
         *self = Self { open: !self.open, typed, ..Self::default() };
     }
 
@@ -177,8 +218,12 @@ impl Palette {
             self.field(ui);
             // What was typed in this frame counts for an Enter in it.
             let found = matching(orders(desk), &self.typed);
-            self.chosen = (self.chosen + usize::from(down)).saturating_sub(usize::from(up)).min(found.len().saturating_sub(1));
-            taken = self.list(ui, &found).or_else(|| enter.then(|| found.get(self.chosen).cloned()).flatten());
+            self.chosen = (self.chosen + usize::from(down))
+                .saturating_sub(usize::from(up))
+                .min(found.len().saturating_sub(1));
+            taken = self
+                .list(ui, &found)
+                .or_else(|| enter.then(|| found.get(self.chosen).cloned()).flatten());
         });
         if taken.is_some() || escape || enter {
             self.open = false;
@@ -187,7 +232,11 @@ impl Palette {
     }
 
     fn field(&mut self, ui: &mut Ui) {
-        let field = ui.add(TextEdit::singleline(&mut self.typed).hint_text("Type a command").desired_width(f32::INFINITY));
+        let field = ui.add(
+            TextEdit::singleline(&mut self.typed)
+                .hint_text("Type a command")
+                .desired_width(f32::INFINITY),
+        );
         field.request_focus();
         if field.changed() {
             self.chosen = 0;
@@ -215,12 +264,22 @@ mod tests {
 
     #[test]
     fn words_narrow_the_list_in_any_order_and_case() {
-        let all = vec![("Show Tension".to_owned(), Order::Step), ("Show Events".to_owned(), Order::Save), ("Undo".to_owned(), Order::Undo)];
-        let names = |typed: &str| matching(all.clone(), typed).into_iter().map(|(name, _)| name).collect::<Vec<_>>();
+        let all = vec![
+            ("Show Tension".to_owned(), Order::Step),
+            ("Show Events".to_owned(), Order::Save),
+            ("Undo".to_owned(), Order::Undo),
+        ];
+        let names = |typed: &str| {
+            matching(all.clone(), typed).into_iter().map(|(name, _)| name).collect::<Vec<_>>()
+        };
         assert_eq!(names("tens SHOW"), ["Show Tension"]);
         let speeds = ["Speed 0.1×", "Speed 1×"].map(|name| (name.to_owned(), Order::Step)).to_vec();
         for typed in ["speed 1×", "speed 1", "1 speed"] {
-            assert_eq!(matching(speeds.clone(), typed)[0].0, "Speed 1×", "{typed}: a word's beginning comes before its middle");
+            assert_eq!(
+                matching(speeds.clone(), typed)[0].0,
+                "Speed 1×",
+                "{typed}: a word's beginning comes before its middle"
+            );
         }
         assert_eq!(names("").len(), 3);
         assert!(names("dance").is_empty());

@@ -1,6 +1,9 @@
 //! What is read in the 3-D view, and the ruler: shown on the picture, told in a card beside it.
 
-use egui::{Align, Align2, Color32, FontId, Frame, Layout, Painter, Pos2, Rect, RichText, Stroke, Ui, UiBuilder, pos2, vec2};
+use egui::{
+    Align, Align2, Color32, FontId, Frame, Layout, Painter, Pos2, Rect, RichText, Stroke, Ui,
+    UiBuilder, pos2, vec2,
+};
 use endline_session::live::LiveView;
 use glam::{DVec2, DVec3};
 
@@ -62,7 +65,8 @@ pub fn paint(painter: &Painter, rect: Rect, camera: &Camera, desk: &Desk, view: 
     if let [from, to] = ends[..] {
         painter.line_segment([from, to], Stroke::new(3.0, Color32::from_black_alpha(150)));
         painter.line_segment([from, to], Stroke::new(1.5, INK));
-        let straight = measured(view, &picks.ends, desk.preferences.units).and_then(|reading| reading.rows.into_iter().next());
+        let straight = measured(view, &picks.ends, desk.preferences.units)
+            .and_then(|reading| reading.rows.into_iter().next());
         if let Some((_, text)) = straight {
             sheet.label(from + (to - from) * 0.5 - vec2(0.0, 14.0), &text);
         }
@@ -103,8 +107,14 @@ impl Sheet<'_> {
     fn outline(&self, picked: Picked, view: &LiveView) {
         match picked {
             Picked::Rope { line, .. } => {
-                let nodes = view.model.line_nodes.get(line).and_then(|nodes| view.frame.nodes.get(nodes.clone())).unwrap_or_default();
-                let segments = view.model.line_segments.get(line).map_or(0, |segments| segments.start);
+                let nodes = view
+                    .model
+                    .line_nodes
+                    .get(line)
+                    .and_then(|nodes| view.frame.nodes.get(nodes.clone()))
+                    .unwrap_or_default();
+                let segments =
+                    view.model.line_segments.get(line).map_or(0, |segments| segments.start);
                 for (order, ends) in nodes.windows(2).enumerate() {
                     let whole = !view.frame.cut.get(segments + order).copied().unwrap_or(false);
                     self.edge([ends[0], ends[1]], whole);
@@ -113,9 +123,14 @@ impl Sheet<'_> {
             Picked::Body(index) => {
                 let pair = view.model.spec.bodies.get(index).zip(view.frame.bodies.get(index));
                 let Some((body, (place, turn))) = pair else { return };
-                let corners = body.shape.corners().map(|corner| *place + *turn * (body.shape_offset_m + corner));
+                let corners = body
+                    .shape
+                    .corners()
+                    .map(|corner| *place + *turn * (body.shape_offset_m + corner));
                 for one in 0..8_usize {
-                    for other in [one | 1, one | 2, one | 4].into_iter().filter(|other| *other != one) {
+                    for other in
+                        [one | 1, one | 2, one | 4].into_iter().filter(|other| *other != one)
+                    {
                         self.edge([corners[one], corners[other]], true);
                     }
                 }
@@ -134,14 +149,22 @@ impl Sheet<'_> {
 /// The card with what is read or measured, at the upper left.
 pub fn card(ui: &mut Ui, rect: Rect, desk: &mut Desk, view: &LiveView) {
     let (picks, units) = (&desk.view3d.picks, desk.preferences.units);
-    let readings = [picks.read.and_then(|picked| read(view, picked, units)), ruler(picks, view, units)];
-    let mut place = Rect::from_min_size(rect.min + vec2(12.0, 46.0), vec2(WIDTH.min(rect.width() - 24.0), rect.height() - 58.0));
+    let readings =
+        [picks.read.and_then(|picked| read(view, picked, units)), ruler(picks, view, units)];
+    let mut place = Rect::from_min_size(
+        rect.min + vec2(12.0, 46.0),
+        vec2(WIDTH.min(rect.width() - 24.0), rect.height() - 58.0),
+    );
     for reading in readings.into_iter().flatten() {
         let fill = Theme::palette_of(ui).panel.gamma_multiply(0.94);
         let line = Theme::palette_of(ui).line;
         let inner = ui.scope_builder(UiBuilder::new().max_rect(place), |ui| {
             ui.set_clip_rect(rect.intersect(ui.clip_rect()));
-            let frame = Frame::new().fill(fill).stroke(Stroke::new(1.0, line)).corner_radius(6.0).inner_margin(8.0);
+            let frame = Frame::new()
+                .fill(fill)
+                .stroke(Stroke::new(1.0, line))
+                .corner_radius(6.0)
+                .inner_margin(8.0);
             frame.show(ui, |ui| told(ui, desk, &reading)).response.rect
         });
         place = Rect::from_min_max(pos2(place.left(), inner.inner.bottom() + 6.0), place.max);
@@ -149,7 +172,8 @@ pub fn card(ui: &mut Ui, rect: Rect, desk: &mut Desk, view: &LiveView) {
 }
 
 fn ruler(picks: &Picks, view: &LiveView, units: super::units::Units) -> Option<Reading> {
-    let waiting = |text: &str| Reading { title: "Ruler".to_owned(), rows: vec![("Next", text.to_owned())] };
+    let waiting =
+        |text: &str| Reading { title: "Ruler".to_owned(), rows: vec![("Next", text.to_owned())] };
     match (picks.ruler, picks.ends.len()) {
         (false, _) => None,
         (true, 0) => Some(waiting("click where to measure from")),

@@ -77,8 +77,13 @@ impl Plugins {
     /// Folders searched.
     #[must_use]
     pub fn folders(&self) -> Vec<PathBuf> {
-        let folders = |loader: &Mutex<Loader>| loader.lock().unwrap_or_else(PoisonError::into_inner).folders.clone();
-        self.loader.as_ref().filter(|_| !self.busy()).map_or_else(Vec::new, |(loader, _)| folders(loader))
+        let folders = |loader: &Mutex<Loader>| {
+            loader.lock().unwrap_or_else(PoisonError::into_inner).folders.clone()
+        };
+        self.loader
+            .as_ref()
+            .filter(|_| !self.busy())
+            .map_or_else(Vec::new, |(loader, _)| folders(loader))
     }
 
     /// Makes a change and loads again what has changed.
@@ -86,7 +91,9 @@ impl Plugins {
     /// # Errors
     /// Where the system gives no thread.
     pub fn reload(&mut self, change: Change, waker: Waker) -> Result<(), String> {
-        let Some((loader, load)) = self.loader.clone() else { return Err("there are no folders of plugins here".into()) };
+        let Some((loader, load)) = self.loader.clone() else {
+            return Err("there are no folders of plugins here".into());
+        };
         self.work(waker, move || {
             let mut loader = loader.lock().unwrap_or_else(PoisonError::into_inner);
             let kept = match change {
@@ -104,24 +111,36 @@ impl Plugins {
     /// # Errors
     /// Where the system gives no thread, or the program cannot find itself.
     pub fn check(&mut self, file: &Path, waker: Waker) -> Result<(), String> {
-        let program = std::env::current_exe().map_err(|error| format!("the program cannot find itself to check it: {error}"))?;
+        let program = std::env::current_exe()
+            .map_err(|error| format!("the program cannot find itself to check it: {error}"))?;
         let file = file.to_path_buf();
         self.work(waker, move || {
             // A plugin without code is checked as the folder that it is.
-            let tried = if file.ends_with(endline_gear::PLUGIN_FILE) { file.parent().unwrap_or(&file) } else { &file };
+            let tried = if file.ends_with(endline_gear::PLUGIN_FILE) {
+                file.parent().unwrap_or(&file)
+            } else {
+                &file
+            };
             let (text, verdict) = report_of_child(&program, tried, PATIENCE);
             Answer::Checked(file, Report { text, fault: verdict.err() })
         })
     }
 
-    fn work(&mut self, waker: Waker, work: impl FnOnce() -> Answer + Send + 'static) -> Result<(), String> {
+    fn work(
+        &mut self,
+        waker: Waker,
+        work: impl FnOnce() -> Answer + Send + 'static,
+    ) -> Result<(), String> {
         let (sender, receiver) = channel();
         let work = move || {
             // Nobody waits any more where the window is gone.
             let _ = sender.send(work());
             waker();
         };
-        std::thread::Builder::new().name("endline-plugins".into()).spawn(work).map_err(|error| error.to_string())?;
+        std::thread::Builder::new()
+            .name("endline-plugins".into())
+            .spawn(work)
+            .map_err(|error| error.to_string())?;
         self.pending.push(receiver);
         Ok(())
     }
@@ -187,5 +206,7 @@ pub fn open_folder(folder: &Path) -> Result<(), String> {
         "xdg-open"
     };
     let opened = std::process::Command::new(program).arg(folder).spawn();
-    opened.map(|_| ()).map_err(|error| format!("{}: {program} cannot show it: {error}", folder.display()))
+    opened
+        .map(|_| ())
+        .map_err(|error| format!("{}: {program} cannot show it: {error}", folder.display()))
 }

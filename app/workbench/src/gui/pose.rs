@@ -1,6 +1,9 @@
 //! The whale's start, dragged in the 3-D view: over the water at its depth, up and down, and its heading.
 
-use egui::{Color32, CursorIcon, FontId, Painter, Pos2, Rect, Sense, Stroke, Ui, Vec2, WidgetInfo, WidgetType, vec2};
+use egui::{
+    Color32, CursorIcon, FontId, Painter, Pos2, Rect, Sense, Stroke, Ui, Vec2, WidgetInfo,
+    WidgetType, vec2,
+};
 use endline_gear::units::{Quantity, find, parse};
 use endline_gear::{Document, Setting};
 use glam::{DVec2, DVec3};
@@ -52,10 +55,17 @@ impl Start {
     pub fn of(book: &Book) -> Option<Self> {
         let field = |key: &str| book.field(Book::SCENARIO, &format!("whale.{key}"));
         let read = |key: &str, quantity| field(key).and_then(|text| parse(&text, quantity).ok());
-        let place =
-            DVec3::new(read("position.0", Quantity::Length)?, read("position.1", Quantity::Length)?, -read("depth", Quantity::Length)?);
+        let place = DVec3::new(
+            read("position.0", Quantity::Length)?,
+            read("position.1", Quantity::Length)?,
+            -read("depth", Quantity::Length)?,
+        );
         let heading = read("heading", Quantity::Angle).unwrap_or(std::f64::consts::FRAC_PI_2);
-        Some(Self { place, heading, length_m: read("length", Quantity::Length).unwrap_or(USUAL_LENGTH_M) })
+        Some(Self {
+            place,
+            heading,
+            length_m: read("length", Quantity::Length).unwrap_or(USUAL_LENGTH_M),
+        })
     }
 
     /// Writes it to the scenario's text, each figure in the unit it is written in.
@@ -65,13 +75,18 @@ impl Start {
     pub fn write(&self, document: &mut Document) -> Result<(), String> {
         let told = |error: endline_gear::EditError| error.to_string();
         let places = [self.place.x, self.place.y].into_iter().enumerate();
-        let places: Vec<String> =
-            places.map(|(axis, at_m)| as_written(document, &format!("position.{axis}"), at_m, Quantity::Length)).collect();
+        let places: Vec<String> = places
+            .map(|(axis, at_m)| {
+                as_written(document, &format!("position.{axis}"), at_m, Quantity::Length)
+            })
+            .collect();
         document.put("whale.position", &Setting::texts(&places)).map_err(told)?;
         let depth = as_written(document, "depth", -self.place.z, Quantity::Length);
         document.put("whale.depth", &Setting::text(&depth)).map_err(told)?;
         let degrees = (self.heading.to_degrees().rem_euclid(360.0) * 10.0).round() / 10.0;
-        document.put("whale.heading", &Setting::text(&format!("{} deg", degrees.rem_euclid(360.0)))).map_err(told)
+        document
+            .put("whale.heading", &Setting::text(&format!("{} deg", degrees.rem_euclid(360.0))))
+            .map_err(told)
     }
 
     fn ahead(&self) -> DVec3 {
@@ -98,7 +113,8 @@ impl Start {
                 Self { place: DVec3::new(self.place.x, self.place.y, up_m.min(0.0)), ..self }
             }
             Handle::Heading => {
-                let to = over_the_water(self.handle(Handle::Heading), eye, along, right) - self.place;
+                let to =
+                    over_the_water(self.handle(Handle::Heading), eye, along, right) - self.place;
                 Self { heading: bearing_degrees(to.x, to.y).to_radians(), ..self }
             }
         }
@@ -109,7 +125,8 @@ impl Start {
 fn as_written(document: &Document, key: &str, value: f64, quantity: Quantity) -> String {
     let text = document.get(&format!("whale.{key}")).unwrap_or_default();
     let name = text.trim_start_matches(|letter: char| !letter.is_alphabetic());
-    let (factor, name) = find(name, quantity).map_or((1.0, "m"), |unit| (unit.factor(), unit.name()));
+    let (factor, name) =
+        find(name, quantity).map_or((1.0, "m"), |unit| (unit.factor(), unit.name()));
     format!("{} {name}", (value / factor * 100.0).round() / 100.0 + 0.0)
 }
 
@@ -125,7 +142,11 @@ fn over_the_water(place: DVec3, eye: DVec3, along: DVec3, right: DVec3) -> DVec3
     // The plane through the place that faces the eye.
     let facing = level.cross(DVec3::Z);
     let away_m = (place - eye).dot(facing) / along.dot(facing);
-    if away_m.is_finite() { place + level * (eye + along * away_m - place).dot(level) } else { place }
+    if away_m.is_finite() {
+        place + level * (eye + along * away_m - place).dot(level)
+    } else {
+        place
+    }
 }
 
 /// Height at which a ray passes nearest to the upright line through a place [m].
@@ -145,14 +166,23 @@ pub fn show(ui: &mut Ui, rect: Rect, camera: &Camera, desk: &mut Desk, slot: usi
     let sheet = Sheet { painter: ui.painter().with_clip_rect(rect), rect, camera };
     sheet.body(&start);
     let mut held = None;
-    for (handle, name) in [(Handle::Place, "Start place"), (Handle::Depth, "Start depth"), (Handle::Heading, "Start heading")] {
+    for (handle, name) in [
+        (Handle::Place, "Start place"),
+        (Handle::Depth, "Start depth"),
+        (Handle::Heading, "Start heading"),
+    ] {
         let Some(at) = sheet.place(start.handle(handle)) else { continue };
         // Seen from above, up and down is no way to drag; the square then stands alone.
-        let hidden = handle != Handle::Place && sheet.place(start.place).is_some_and(|middle| middle.distance(at) < 2.0 * GRIP);
+        let hidden = handle != Handle::Place
+            && sheet.place(start.place).is_some_and(|middle| middle.distance(at) < 2.0 * GRIP);
         if hidden {
             continue;
         }
-        let response = ui.interact(Rect::from_center_size(at, Vec2::splat(2.0 * GRIP)), ui.id().with((name, slot)), Sense::drag());
+        let response = ui.interact(
+            Rect::from_center_size(at, Vec2::splat(2.0 * GRIP)),
+            ui.id().with((name, slot)),
+            Sense::drag(),
+        );
         response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, name));
         let taken = response.hovered() || response.dragged();
         sheet.handle(handle, at, taken);
@@ -216,9 +246,11 @@ impl Sheet<'_> {
     fn body(&self, start: &Start) {
         let (ahead, length_m) = (start.ahead(), start.length_m);
         let port = DVec3::Z.cross(ahead);
-        let outline = [(0.5, 0.0), (0.3, 0.1), (0.0, 0.12), (-0.3, 0.05), (-0.46, 0.0), (-0.5, 0.16)];
+        let outline =
+            [(0.5, 0.0), (0.3, 0.1), (0.0, 0.12), (-0.3, 0.05), (-0.46, 0.0), (-0.5, 0.16)];
         for side in [-1.0, 1.0] {
-            let places = outline.map(|(along, out)| start.place + (ahead * along + port * (side * out)) * length_m);
+            let places = outline
+                .map(|(along, out)| start.place + (ahead * along + port * (side * out)) * length_m);
             places.windows(2).for_each(|pair| self.line(pair[0], pair[1], 1.5));
         }
         self.line(start.place, start.handle(Handle::Heading), 1.0);
@@ -230,9 +262,13 @@ impl Sheet<'_> {
         let size = if taken { 8.0 } else { 6.0 };
         let edge = Stroke::new(1.5, Color32::BLACK);
         match handle {
-            Handle::Place => {
-                self.painter.rect(Rect::from_center_size(at, Vec2::splat(2.0 * size)), 2.0, INK, edge, egui::StrokeKind::Middle)
-            }
+            Handle::Place => self.painter.rect(
+                Rect::from_center_size(at, Vec2::splat(2.0 * size)),
+                2.0,
+                INK,
+                edge,
+                egui::StrokeKind::Middle,
+            ),
             _ => self.painter.circle(at, size, INK, edge),
         };
     }
@@ -240,11 +276,18 @@ impl Sheet<'_> {
     fn told(&self, start: &Start, at: Pos2, units: Units) {
         let DVec3 { x, y, z } = start.place;
         let degrees = start.heading.to_degrees().rem_euclid(360.0);
-        let text = format!("east {}, north {}, depth {}, heading {degrees:.0}°", units.length(x), units.length(y), units.depth(-z));
+        let text = format!(
+            "east {}, north {}, depth {}, heading {degrees:.0}°",
+            units.length(x),
+            units.length(y),
+            units.depth(-z)
+        );
         let galley = self.painter.layout_no_wrap(text, FontId::proportional(12.5), INK);
         let wanted = at + vec2(14.0, 12.0);
-        let left = wanted.x.min(self.rect.right() - galley.size().x - 8.0).max(self.rect.left() + 8.0);
-        let plate = Rect::from_min_size(Pos2::new(left, wanted.y), galley.size()).expand2(vec2(6.0, 3.0));
+        let left =
+            wanted.x.min(self.rect.right() - galley.size().x - 8.0).max(self.rect.left() + 8.0);
+        let plate =
+            Rect::from_min_size(Pos2::new(left, wanted.y), galley.size()).expand2(vec2(6.0, 3.0));
         self.painter.rect_filled(plate, 4.0, Color32::from_black_alpha(180));
         self.painter.galley(Pos2::new(left, wanted.y), galley, INK);
     }
@@ -254,7 +297,8 @@ impl Sheet<'_> {
 mod tests {
     use super::*;
 
-    const START: Start = Start { place: DVec3::new(10.0, -20.0, -12.0), heading: 0.0, length_m: 13.0 };
+    const START: Start =
+        Start { place: DVec3::new(10.0, -20.0, -12.0), heading: 0.0, length_m: 13.0 };
     const SIZE: DVec2 = DVec2::new(800.0, 600.0);
 
     /// A ray through where a place is drawn.
@@ -264,7 +308,8 @@ mod tests {
 
     #[test]
     fn a_handle_goes_where_the_pointer_is() {
-        let camera = Camera { target: START.place, distance_m: 60.0, elevation: 0.5, ..Camera::default() };
+        let camera =
+            Camera { target: START.place, distance_m: 60.0, elevation: 0.5, ..Camera::default() };
         let right = camera.axes().0;
         let to = DVec3::new(16.0, -9.0, -12.0);
         let (eye, along) = through(&camera, to);
@@ -274,13 +319,21 @@ mod tests {
         assert!((START.dragged(Handle::Depth, eye, along, right).place - up).length() < 1e-6);
         let east = START.place + DVec3::X * 4.0;
         let (eye, along) = through(&camera, east);
-        assert!((START.dragged(Handle::Heading, eye, along, right).heading.to_degrees() - 90.0).abs() < 1e-9);
+        assert!(
+            (START.dragged(Handle::Heading, eye, along, right).heading.to_degrees() - 90.0).abs()
+                < 1e-9
+        );
     }
 
     #[test]
     fn a_plane_seen_edge_on_is_dragged_along_to_the_right_and_left_alone() {
-        let camera =
-            Camera { target: START.place, distance_m: 60.0, azimuth: -std::f64::consts::FRAC_PI_2, elevation: 0.0, ..Camera::default() };
+        let camera = Camera {
+            target: START.place,
+            distance_m: 60.0,
+            azimuth: -std::f64::consts::FRAC_PI_2,
+            elevation: 0.0,
+            ..Camera::default()
+        };
         let (eye, along) = through(&camera, START.place + DVec3::new(5.0, 0.0, 1.0));
         let to = START.dragged(Handle::Place, eye, along, camera.axes().0).place;
         assert!((to - DVec3::new(15.0, -20.0, -12.0)).length() < 1e-6, "{to}");
@@ -290,8 +343,13 @@ mod tests {
     fn figures_keep_the_units_they_are_written_in() {
         let text = "[whale]\nposition = [\"30 ft\", \"1 m\"]\ndepth = \"5 fathom\"\n";
         let mut document = Document::parse(text).unwrap();
-        Start { place: DVec3::new(6.096, -2.5, -18.288), heading: 1.0, length_m: 13.0 }.write(&mut document).unwrap();
+        Start { place: DVec3::new(6.096, -2.5, -18.288), heading: 1.0, length_m: 13.0 }
+            .write(&mut document)
+            .unwrap();
         let read = |key: &str| document.get(&format!("whale.{key}")).unwrap();
-        assert_eq!([read("position.0"), read("position.1"), read("depth"), read("heading")], ["20 ft", "-2.5 m", "10 fathom", "57.3 deg"]);
+        assert_eq!(
+            [read("position.0"), read("position.1"), read("depth"), read("heading")],
+            ["20 ft", "-2.5 m", "10 fathom", "57.3 deg"]
+        );
     }
 }

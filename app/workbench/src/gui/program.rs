@@ -43,8 +43,14 @@ impl Entry {
     /// In a few words: what begins it and what it tells.
     #[must_use]
     pub fn words(&self) -> String {
-        let begins = TRIGGERS.iter().find(|(key, ..)| *key == self.trigger).map_or("never", |(_, words, _)| words);
-        let told = self.controls.iter().map(|(control, text)| format!("{} {text}", spoken(Controls::NAMES[*control])));
+        let begins = TRIGGERS
+            .iter()
+            .find(|(key, ..)| *key == self.trigger)
+            .map_or("never", |(_, words, _)| words);
+        let told = self
+            .controls
+            .iter()
+            .map(|(control, text)| format!("{} {text}", spoken(Controls::NAMES[*control])));
         format!("{begins} {}: {}", self.of, told.collect::<Vec<_>>().join(", "))
     }
 
@@ -71,7 +77,9 @@ pub fn path(index: usize, key: &str) -> String {
 #[must_use]
 pub fn entries(book: &Book) -> Vec<Entry> {
     let field = |index: usize, key: &str| book.field(Book::SCENARIO, &path(index, key));
-    let time = |index: usize, key: &str| field(index, key).and_then(|text| parse(&text, Quantity::Time).ok());
+    let time = |index: usize, key: &str| {
+        field(index, key).and_then(|text| parse(&text, Quantity::Time).ok())
+    };
     let mut found: Vec<Entry> = Vec::new();
     let mut ids: Vec<Option<String>> = Vec::new();
     for index in 0..book.count(Book::SCENARIO, LIST) {
@@ -80,13 +88,26 @@ pub fn entries(book: &Book) -> Vec<Entry> {
         let begin_s = match trigger {
             "at" => time(index, "at"),
             "after" => {
-                let before = ids.iter().position(|id| id.as_deref() == Some(of.as_str())).and_then(|before| found[before].begin_s);
+                let before = ids
+                    .iter()
+                    .position(|id| id.as_deref() == Some(of.as_str()))
+                    .and_then(|before| found[before].begin_s);
                 before.map(|before_s| before_s + time(index, "delay").unwrap_or(0.0))
             }
             _ => None,
         };
-        let named = Controls::NAMES.iter().enumerate().filter_map(|(control, name)| Some((control, field(index, name)?)));
-        found.push(Entry { index, trigger, of, begin_s, hold_s: time(index, "hold"), controls: named.collect() });
+        let named = Controls::NAMES
+            .iter()
+            .enumerate()
+            .filter_map(|(control, name)| Some((control, field(index, name)?)));
+        found.push(Entry {
+            index,
+            trigger,
+            of,
+            begin_s,
+            hold_s: time(index, "hold"),
+            controls: named.collect(),
+        });
         ids.push(field(index, "id"));
     }
     found
@@ -97,7 +118,11 @@ pub fn entries(book: &Book) -> Vec<Entry> {
 pub fn until_s(all: &[Entry], entry: &Entry, control: usize, end_s: f64) -> f64 {
     let Some(begin_s) = entry.begin_s else { return end_s };
     let names = |other: &&Entry| other.controls.iter().any(|(known, _)| *known == control);
-    let later = all.iter().filter(names).filter_map(|other| other.begin_s).filter(|other_s| *other_s > begin_s);
+    let later = all
+        .iter()
+        .filter(names)
+        .filter_map(|other| other.begin_s)
+        .filter(|other_s| *other_s > begin_s);
     let next_s = later.fold(end_s.max(begin_s), f64::min);
     entry.hold_s.map_or(next_s, |hold_s| (begin_s + hold_s).min(next_s))
 }
@@ -113,7 +138,9 @@ pub fn seconds(time_s: f64) -> String {
 /// # Errors
 /// Where the scenario has no such entry.
 pub fn move_to(document: &mut Document, index: usize, time_s: f64) -> Result<usize, String> {
-    document.put(&path(index, "at"), &Setting::text(&seconds(time_s))).map_err(|error| error.to_string())?;
+    document
+        .put(&path(index, "at"), &Setting::text(&seconds(time_s)))
+        .map_err(|error| error.to_string())?;
     in_order(document, index)
 }
 
@@ -122,9 +149,12 @@ pub fn move_to(document: &mut Document, index: usize, time_s: f64) -> Result<usi
 /// # Errors
 /// Where the scenario has no such entry.
 pub fn in_order(document: &mut Document, index: usize) -> Result<usize, String> {
-    let at = |document: &Document, index: usize| document.get(&path(index, "at")).and_then(|text| parse(&text, Quantity::Time).ok());
+    let at = |document: &Document, index: usize| {
+        document.get(&path(index, "at")).and_then(|text| parse(&text, Quantity::Time).ok())
+    };
     // Only timed entries change places, with one another; `after` names one above it, which stays above.
-    let timed: Vec<usize> = (0..document.count(LIST)).filter(|index| at(document, *index).is_some()).collect();
+    let timed: Vec<usize> =
+        (0..document.count(LIST)).filter(|index| at(document, *index).is_some()).collect();
     let mut here = index;
     for _ in 0..timed.len() {
         for pair in timed.windows(2) {
@@ -153,7 +183,8 @@ pub fn add(document: &mut Document, time_s: f64) -> Result<usize, String> {
         return Err("this scenario has no whale to pilot".to_owned());
     }
     let fields = [("at", seconds(time_s)), ("hold", "2 s".to_owned()), ("yaw", "0.5".to_owned())];
-    let fields: Vec<(&str, &str)> = fields.iter().map(|(key, text)| (*key, text.as_str())).collect();
+    let fields: Vec<(&str, &str)> =
+        fields.iter().map(|(key, text)| (*key, text.as_str())).collect();
     let index = document.push_table(LIST, &fields).map_err(|error| error.to_string())?;
     in_order(document, index)
 }
@@ -162,8 +193,18 @@ pub fn add(document: &mut Document, time_s: f64) -> Result<usize, String> {
 ///
 /// # Errors
 /// Where the scenario has no such entry.
-pub fn begin_by(document: &mut Document, index: usize, trigger: &str, text: &str) -> Result<(), String> {
-    for key in TRIGGERS.iter().map(|(key, ..)| *key).chain(["of"]).chain((trigger == "at").then_some("delay")) {
+pub fn begin_by(
+    document: &mut Document,
+    index: usize,
+    trigger: &str,
+    text: &str,
+) -> Result<(), String> {
+    for key in TRIGGERS
+        .iter()
+        .map(|(key, ..)| *key)
+        .chain(["of"])
+        .chain((trigger == "at").then_some("delay"))
+    {
         if document.has(&path(index, key)) {
             document.remove(&path(index, key)).map_err(|error| error.to_string())?;
         }
@@ -179,7 +220,11 @@ pub fn set(document: &mut Document, index: usize, key: &str, text: &str) -> Resu
     let path = path(index, key);
     let text = text.trim();
     if text.is_empty() {
-        return if document.has(&path) { document.remove(&path).map_err(|error| error.to_string()) } else { Ok(()) };
+        return if document.has(&path) {
+            document.remove(&path).map_err(|error| error.to_string())
+        } else {
+            Ok(())
+        };
     }
     let plain = Controls::NAMES.contains(&key) && key != "act";
     let value = if plain { Setting::plain(text) } else { Setting::text(text) };
@@ -205,8 +250,16 @@ mod tests {
         assert_eq!(move_to(&mut document, 0, 7.25), Ok(1));
         let text = document.text();
         assert!(text.find("# second").unwrap() < text.find("# first").unwrap(), "{text}");
-        assert!(text.contains("at = \"7.25 s\"") && text.find("# first").unwrap() < text.find("[friction]").unwrap(), "{text}");
-        assert_eq!(document.get("whale.pilot.2.after").as_deref(), Some("turn"), "reactions stay where they are");
+        assert!(
+            text.contains("at = \"7.25 s\"")
+                && text.find("# first").unwrap() < text.find("[friction]").unwrap(),
+            "{text}"
+        );
+        assert_eq!(
+            document.get("whale.pilot.2.after").as_deref(),
+            Some("turn"),
+            "reactions stay where they are"
+        );
         assert_eq!(move_to(&mut document, 1, 0.0), Ok(0));
         let back = document.text();
         assert!(back.find("# first").unwrap() < back.find("# second").unwrap(), "{back}");
@@ -250,7 +303,8 @@ mod tests {
             controls: vec![(control, "1.0".into())],
         };
         let all = [entry(0, 0.0, None, 3), entry(1, 4.0, Some(2.0), 3), entry(2, 5.0, None, 1)];
-        let ends: Vec<f64> = all.iter().map(|entry| until_s(&all, entry, entry.controls[0].0, 20.0)).collect();
+        let ends: Vec<f64> =
+            all.iter().map(|entry| until_s(&all, entry, entry.controls[0].0, 20.0)).collect();
         assert_eq!(ends, [4.0, 6.0, 20.0]);
     }
 }

@@ -18,14 +18,17 @@ pub fn recovery(ui: &mut Ui, app: &mut App) {
         let count = kept.texts.len();
         let files = if count == 1 { "1 file".to_owned() } else { format!("{count} files") };
         let text = format!("Endline was not closed last time. Unsaved edits of {files} were kept.");
-        ui.label(RichText::new(text).color(palette.warning)).on_hover_text(kept.texts.keys().cloned().collect::<Vec<_>>().join("\n"));
+        ui.label(RichText::new(text).color(palette.warning))
+            .on_hover_text(kept.texts.keys().cloned().collect::<Vec<_>>().join("\n"));
         if here {
             if primary(ui, true, "Recover").on_hover_text("Undo takes it back").clicked() {
                 app.desk.recover(&kept);
                 app.drop_left_behind(&file);
             }
         } else {
-            ui.label(RichText::new(format!("They are of {}.", kept.root.display())).color(palette.faint));
+            ui.label(
+                RichText::new(format!("They are of {}.", kept.root.display())).color(palette.faint),
+            );
         }
         if ui.button("Discard").clicked() {
             app.drop_left_behind(&file);
@@ -37,21 +40,42 @@ pub fn recovery(ui: &mut Ui, app: &mut App) {
 pub fn plugin(context: &Context, desk: &mut Desk) {
     let Some((file, ask)) = desk.plugins.asked() else { return };
     let title = if ask.change == Change::New { "A new plugin" } else { "A plugin has changed" };
-    let window = Window::new(title).collapsible(false).resizable(false).anchor(Align2::CENTER_CENTER, vec2(0.0, -60.0)).max_width(460.0);
+    let window = Window::new(title)
+        .collapsible(false)
+        .resizable(false)
+        .anchor(Align2::CENTER_CENTER, vec2(0.0, -60.0))
+        .max_width(460.0);
     window.show(context, |ui| {
         let palette = Theme::palette_of(ui);
-        let name = file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        let name =
+            file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
         let folder = file.parent().map(|folder| folder.display().to_string()).unwrap_or_default();
         ui.label(RichText::new(name).strong());
         ui.add(Label::new(RichText::new(format!("in {folder}")).color(palette.faint)).wrap());
         ui.add_space(4.0);
-        let why =
-            if ask.change == Change::New { "It was never opened here." } else { "It was allowed with other content than it has now." };
-        ui.add(Label::new(format!("{why} A plugin runs with your rights: open it only if you trust who made it.")).wrap());
-        ui.label(RichText::new(format!("hash {}", ask.hash.get(..16).unwrap_or(&ask.hash))).monospace().size(12.0).color(palette.faint))
-            .on_hover_text(&ask.hash);
+        let why = if ask.change == Change::New {
+            "It was never opened here."
+        } else {
+            "It was allowed with other content than it has now."
+        };
+        ui.add(
+            Label::new(format!(
+                "{why} A plugin runs with your rights: open it only if you trust who made it."
+            ))
+            .wrap(),
+        );
+        ui.label(
+            RichText::new(format!("hash {}", ask.hash.get(..16).unwrap_or(&ask.hash)))
+                .monospace()
+                .size(12.0)
+                .color(palette.faint),
+        )
+        .on_hover_text(&ask.hash);
         ui.horizontal(|ui| {
-            if primary(ui, !desk.plugins.busy(), "Allow").on_hover_text("It is checked in a process of its own, then loaded").clicked() {
+            if primary(ui, !desk.plugins.busy(), "Allow")
+                .on_hover_text("It is checked in a process of its own, then loaded")
+                .clicked()
+            {
                 desk.orders.push(Order::AllowPlugin(file.clone(), ask.hash.clone()));
             }
             if ui.button("Not now").clicked() {
@@ -72,9 +96,16 @@ pub fn closing(context: &Context, app: &mut App) {
     if !app.asking {
         return;
     }
-    let window = Window::new("Unsaved edits").collapsible(false).resizable(false).anchor(Align2::CENTER_CENTER, vec2(0.0, -60.0));
+    let window = Window::new("Unsaved edits")
+        .collapsible(false)
+        .resizable(false)
+        .anchor(Align2::CENTER_CENTER, vec2(0.0, -60.0));
     window.show(context, |ui| {
-        ui.label(if unsaved == 1 { "1 file has unsaved edits.".to_owned() } else { format!("{unsaved} files have unsaved edits.") });
+        ui.label(if unsaved == 1 {
+            "1 file has unsaved edits.".to_owned()
+        } else {
+            format!("{unsaved} files have unsaved edits.")
+        });
         ui.horizontal(|ui| {
             if primary(ui, true, "Save and quit").clicked() {
                 app.desk.obey(&Order::Save);
@@ -98,19 +129,30 @@ pub fn closing(context: &Context, app: &mut App) {
 /// Asks before unsaved edits of the scenario are lost with it, as another is opened.
 pub fn opening(context: &Context, app: &mut App) {
     let Some(path) = app.opening.clone() else { return };
-    let stem = |path: &std::path::Path| path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+    let stem = |path: &std::path::Path| {
+        path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
+    };
     let (present, next) = (stem(app.desk.book.scenario_path()), stem(&path));
-    let window = Window::new("Unsaved scenario").collapsible(false).resizable(false).anchor(Align2::CENTER_CENTER, vec2(0.0, -60.0));
+    let window = Window::new("Unsaved scenario")
+        .collapsible(false)
+        .resizable(false)
+        .anchor(Align2::CENTER_CENTER, vec2(0.0, -60.0));
     window.show(context, |ui| {
         ui.label(format!("{present} has edits that are not saved. {next} takes its place."));
         ui.horizontal(|ui| {
             let mut open = false;
-            if primary(ui, true, "Save and open").on_hover_text("Saves every file with edits").clicked() {
+            if primary(ui, true, "Save and open")
+                .on_hover_text("Saves every file with edits")
+                .clicked()
+            {
                 app.desk.obey(&Order::Save);
                 open = !app.desk.book.is_unsaved(Book::SCENARIO);
                 app.opening = None;
             }
-            open |= ui.button("Open without saving").on_hover_text("The edits are lost; Undo does not bring them back").clicked();
+            open |= ui
+                .button("Open without saving")
+                .on_hover_text("The edits are lost; Undo does not bring them back")
+                .clicked();
             if open {
                 app.opening = None;
                 app.desk.obey(&Order::Open(path));

@@ -38,29 +38,65 @@ fn rope(view: &LiveView, line: usize, at_m: f64, units: Units) -> Option<Reading
     let from = &model.spec.joints[spec.from].id;
     let mut rows = vec![
         ("Rope", format!("{}, {}", rope.id, units.diameter(rope.diameter_m))),
-        ("Along it", format!("{} of {}, from {from}", units.length(at_m), units.length(length_m(model, frame, line)))),
+        (
+            "Along it",
+            format!(
+                "{} of {}, from {from}",
+                units.length(at_m),
+                units.length(length_m(model, frame, line))
+            ),
+        ),
         ("Tension here", units.force().text(tension_n)),
     ];
     rows.extend(strength(view, segment, tension_n, units));
     let stretch = (b - a).length() / frame.segment_length_m.get(segment)?.max(1e-12) - 1.0;
     // What is slack is not stretched: its nodes come nearer to one another.
-    rows.push(("Stretch", if stretch < 0.0 { "slack".to_owned() } else { format!("{:.2} %", 100.0 * stretch) }));
+    rows.push((
+        "Stretch",
+        if stretch < 0.0 { "slack".to_owned() } else { format!("{:.2} %", 100.0 * stretch) },
+    ));
     rows.extend(levels(view, place, units));
     rows.push(("On the whale", touching(view, line, segment, units)));
     let peak = view.summary.as_ref().and_then(|summary| summary.lines.get(line));
-    rows.extend(peak.map(|peak| ("Peak of the line", format!("{} at {:.2} s", units.force().text(peak.peak_tension_n), peak.peak_at_s))));
+    rows.extend(peak.map(|peak| {
+        (
+            "Peak of the line",
+            format!("{} at {:.2} s", units.force().text(peak.peak_tension_n), peak.peak_at_s),
+        )
+    }));
     Some(Reading { title: spec.id.clone(), rows })
 }
 
-fn strength(view: &LiveView, segment: usize, tension_n: f64, units: Units) -> Option<(&'static str, String)> {
-    let strength_n = view.model.segment_strength_n.get(segment).copied().filter(|strength| strength.is_finite() && *strength > 0.0)?;
-    Some(("Breaks at", format!("{}; now {:.0} % of it", units.force().text(strength_n), 100.0 * tension_n / strength_n)))
+fn strength(
+    view: &LiveView,
+    segment: usize,
+    tension_n: f64,
+    units: Units,
+) -> Option<(&'static str, String)> {
+    let strength_n = view
+        .model
+        .segment_strength_n
+        .get(segment)
+        .copied()
+        .filter(|strength| strength.is_finite() && *strength > 0.0)?;
+    Some((
+        "Breaks at",
+        format!(
+            "{}; now {:.0} % of it",
+            units.force().text(strength_n),
+            100.0 * tension_n / strength_n
+        ),
+    ))
 }
 
 /// Depth, and height above the seabed where there is one.
 fn levels(view: &LiveView, place: endline_sim::DVec3, units: Units) -> Vec<(&'static str, String)> {
     let above = view.model.spec.seabed.as_ref().map(|seabed| place.z - seabed.height_at(place));
-    let depth = if place.z > 0.0 { format!("{} above the sea", units.length(place.z)) } else { units.depth(-place.z) };
+    let depth = if place.z > 0.0 {
+        format!("{} above the sea", units.length(place.z))
+    } else {
+        units.depth(-place.z)
+    };
     let mut rows = vec![("Depth", depth)];
     rows.extend(above.map(|above_m| ("Above the seabed", units.length(above_m.max(0.0)))));
     rows
@@ -68,11 +104,23 @@ fn levels(view: &LiveView, place: endline_sim::DVec3, units: Units) -> Vec<(&'st
 
 /// Which part the rope presses on at a segment or its neighbours, and how hard.
 fn touching(view: &LiveView, line: usize, segment: usize, units: Units) -> String {
-    let here = view.frame.contacts.iter().filter(|contact| contact.line == line && contact.segment.abs_diff(segment) <= 1);
-    let hardest = here.filter(|contact| contact.normal_force_n > 0.0).max_by(|a, b| a.normal_force_n.total_cmp(&b.normal_force_n));
+    let here = view
+        .frame
+        .contacts
+        .iter()
+        .filter(|contact| contact.line == line && contact.segment.abs_diff(segment) <= 1);
+    let hardest = here
+        .filter(|contact| contact.normal_force_n > 0.0)
+        .max_by(|a, b| a.normal_force_n.total_cmp(&b.normal_force_n));
     hardest.map_or_else(
         || "not here".to_owned(),
-        |contact| format!("{}, {}", spoken(contact.region.name()), units.force().text(contact.normal_force_n)),
+        |contact| {
+            format!(
+                "{}, {}",
+                spoken(contact.region.name()),
+                units.force().text(contact.normal_force_n)
+            )
+        },
     )
 }
 
@@ -84,7 +132,8 @@ fn body(view: &LiveView, index: usize, units: Units) -> Option<Reading> {
         BodyRole::Anchor => "anchor",
         BodyRole::Weight => "weight",
     };
-    let mut rows = vec![("Kind", role.to_owned()), ("Mass in air", format!("{:.1} kg", body.mass_kg))];
+    let mut rows =
+        vec![("Kind", role.to_owned()), ("Mass in air", format!("{:.1} kg", body.mass_kg))];
     rows.extend(levels(view, *place, units));
     let moved = *place - body.position_m;
     rows.push(("Off its first place", units.length(moved.truncate().length())));
@@ -100,9 +149,13 @@ fn pulls(view: &LiveView, index: usize, units: Units) -> Vec<(&'static str, Stri
     let mut rows = Vec::new();
     for (line, spec) in view.model.spec.lines.iter().enumerate() {
         let segments = view.model.line_segments[line].clone();
-        for (joint, segment) in [(spec.from, segments.start), (spec.to, segments.end.saturating_sub(1))] {
+        for (joint, segment) in
+            [(spec.from, segments.start), (spec.to, segments.end.saturating_sub(1))]
+        {
             let tension_n = view.frame.tension_n.get(segment).filter(|_| at(joint));
-            rows.extend(tension_n.map(|tension_n| ("Pull of a line", format!("{}, {}", spec.id, units.force().text(*tension_n)))));
+            rows.extend(tension_n.map(|tension_n| {
+                ("Pull of a line", format!("{}, {}", spec.id, units.force().text(*tension_n)))
+            }));
         }
     }
     rows
@@ -115,7 +168,12 @@ fn skin(view: &LiveView, picked: Picked, triangle: usize, units: Units) -> Optio
     let part = region.part();
     let mut rows = vec![("Patch", spoken(region.name()))];
     rows.extend(levels(view, place, units));
-    let on: Vec<_> = view.frame.contacts.iter().filter(|contact| contact.region.part() == part && contact.normal_force_n > 0.0).collect();
+    let on: Vec<_> = view
+        .frame
+        .contacts
+        .iter()
+        .filter(|contact| contact.region.part() == part && contact.normal_force_n > 0.0)
+        .collect();
     let force_n: f64 = on.iter().map(|contact| contact.normal_force_n).sum();
     let length_m: f64 = on.iter().map(|contact| contact.length_m).sum();
     rows.push(("Rope on the part now", units.length(length_m)));
@@ -130,7 +188,10 @@ fn so_far(part: &RegionSummary, units: Units) -> [(&'static str, String); 3] {
     [
         ("Wraps, most", format!("{:.2}, {:.2} turns", part.wraps, part.peak_wraps)),
         ("Greatest force", units.force().text(part.peak_normal_n)),
-        ("Greatest pressure", super::panels::entanglement::pressure(part.peak_pressure_pa, units.force())),
+        (
+            "Greatest pressure",
+            super::panels::entanglement::pressure(part.peak_pressure_pa, units.force()),
+        ),
     ]
 }
 
@@ -142,11 +203,17 @@ pub fn measured(view: &LiveView, picked: &[Picked], units: Units) -> Option<Read
     let way = b - a;
     let mut rows = vec![
         ("Straight", units.length(way.length())),
-        ("Level, upright", format!("{}, {}", units.length(way.truncate().length()), units.length(way.z))),
+        (
+            "Level, upright",
+            format!("{}, {}", units.length(way.truncate().length()), units.length(way.z)),
+        ),
         ("Bearing", format!("{:.0}°", bearing_degrees(way.x, way.y))),
     ];
     let along = along_m(view, *from, *to);
-    rows.push(("Along the rope", along.map_or_else(|| "no rope joins them".to_owned(), |along_m| units.length(along_m))));
+    rows.push((
+        "Along the rope",
+        along.map_or_else(|| "no rope joins them".to_owned(), |along_m| units.length(along_m)),
+    ));
     Some(Reading { title: "Ruler".to_owned(), rows })
 }
 
@@ -155,7 +222,11 @@ pub fn measured(view: &LiveView, picked: &[Picked], units: Units) -> Option<Read
 pub fn worst_m(model: &Model, frame: &Frame, line: usize) -> f64 {
     let (mut before_m, mut worst) = (0.0, (f64::NEG_INFINITY, 0.0));
     for segment in model.line_segments.get(line).cloned().unwrap_or_default() {
-        let (Some(length_m), Some(tension_n)) = (frame.segment_length_m.get(segment), frame.tension_n.get(segment)) else { break };
+        let (Some(length_m), Some(tension_n)) =
+            (frame.segment_length_m.get(segment), frame.tension_n.get(segment))
+        else {
+            break;
+        };
         if *tension_n > worst.0 {
             worst = (*tension_n, before_m + 0.5 * length_m);
         }
@@ -184,7 +255,9 @@ pub fn along_m(view: &LiveView, from: Picked, to: Picked) -> Option<f64> {
         match picked {
             Picked::Rope { line, at_m } => {
                 let left_m = length_m(&view.model, &view.frame, line) - at_m;
-                spec.lines.get(line).map_or_else(Vec::new, |line| vec![(knot(line.from), at_m), (knot(line.to), left_m)])
+                spec.lines.get(line).map_or_else(Vec::new, |line| {
+                    vec![(knot(line.from), at_m), (knot(line.to), left_m)]
+                })
             }
             Picked::Body(index) => vec![((true, index), 0.0)],
             Picked::Skin { .. } => Vec::new(),
@@ -195,7 +268,9 @@ pub fn along_m(view: &LiveView, from: Picked, to: Picked) -> Option<f64> {
     for _ in 0..spec.lines.len() {
         for (index, line) in spec.lines.iter().enumerate() {
             let length_m = length_m(&view.model, &view.frame, index);
-            for (here, there) in [(knot(line.from), knot(line.to)), (knot(line.to), knot(line.from))] {
+            for (here, there) in
+                [(knot(line.from), knot(line.to)), (knot(line.to), knot(line.from))]
+            {
                 if let Some(so_far_m) = known.get(&here).copied() {
                     let way_m = known.entry(there).or_insert(f64::INFINITY);
                     *way_m = way_m.min(so_far_m + length_m);

@@ -66,7 +66,8 @@ impl Keeper {
             let _ = std::fs::remove_file(file);
             return None;
         }
-        let texts = unsaved.iter().map(|path| (path.clone(), book.text(path).map(str::to_owned))).collect();
+        let texts =
+            unsaved.iter().map(|path| (path.clone(), book.text(path).map(str::to_owned))).collect();
         let kept = Kept {
             root: book.root().to_owned(),
             scenario: book.scenario_path().to_owned(),
@@ -97,11 +98,17 @@ impl Keeper {
     #[must_use]
     pub fn left_behind(&self) -> Vec<(PathBuf, Kept)> {
         let Some(folder) = &self.folder else { return Vec::new() };
-        let files = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
-        let mut left: Vec<PathBuf> = files.filter(|file| pid_of(file).is_some_and(|pid| !runs(pid))).collect();
-        left.sort_by_key(|file| std::cmp::Reverse(std::fs::metadata(file).and_then(|data| data.modified()).ok()));
+        let files =
+            std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+        let mut left: Vec<PathBuf> =
+            files.filter(|file| pid_of(file).is_some_and(|pid| !runs(pid))).collect();
+        left.sort_by_key(|file| {
+            std::cmp::Reverse(std::fs::metadata(file).and_then(|data| data.modified()).ok())
+        });
         let read = |file: PathBuf| {
-            let kept = std::fs::read(&file).ok().and_then(|bytes| serde_json::from_slice::<Kept>(&bytes).ok())?;
+            let kept = std::fs::read(&file)
+                .ok()
+                .and_then(|bytes| serde_json::from_slice::<Kept>(&bytes).ok())?;
             Some((file, kept))
         };
         left.into_iter().filter_map(read).collect()

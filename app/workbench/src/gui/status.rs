@@ -30,9 +30,15 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
         ui.label(text);
         if let Some(view) = &desk.view {
             let duration = view.model.spec.settings.duration_s;
-            ui.label(RichText::new(format!("{:.2} / {duration:.0} s", view.frame.time_s)).color(palette.faint));
+            ui.label(
+                RichText::new(format!("{:.2} / {duration:.0} s", view.frame.time_s))
+                    .color(palette.faint),
+            );
             if view.times_real_time > 0.0 {
-                ui.label(RichText::new(format!("solver {:.1}× real time", view.times_real_time)).color(palette.faint));
+                ui.label(
+                    RichText::new(format!("solver {:.1}× real time", view.times_real_time))
+                        .color(palette.faint),
+                );
             }
             if view.piloted {
                 ui.label(RichText::new("piloted").color(palette.accent));
@@ -58,11 +64,16 @@ fn right(ui: &mut Ui, desk: &mut Desk) {
         if unsaved > 0 {
             ui.label(RichText::new(format!("{unsaved} unsaved")).color(palette.warning));
         }
-        let message = desk.view.as_ref().and_then(|view| view.message.clone()).map(|message| (message, false));
+        let message = desk
+            .view
+            .as_ref()
+            .and_then(|view| view.message.clone())
+            .map(|message| (message, false));
         if let Some((notice, bad)) = desk.notice.clone().or(message) {
             let colour = if bad { palette.error } else { palette.good };
             let first = notice.lines().next().unwrap_or_default();
-            ui.add(egui::Label::new(RichText::new(first).color(colour)).truncate()).on_hover_text(&notice);
+            ui.add(egui::Label::new(RichText::new(first).color(colour)).truncate())
+                .on_hover_text(&notice);
         }
     });
 }

@@ -128,7 +128,13 @@ impl Theme {
     fn dress_widgets(self, visuals: &mut Visuals) {
         let palette = self.palette();
         let widgets = &mut visuals.widgets;
-        for widget in [&mut widgets.noninteractive, &mut widgets.inactive, &mut widgets.hovered, &mut widgets.active, &mut widgets.open] {
+        for widget in [
+            &mut widgets.noninteractive,
+            &mut widgets.inactive,
+            &mut widgets.hovered,
+            &mut widgets.active,
+            &mut widgets.open,
+        ] {
             widget.corner_radius = CornerRadius::same(4);
             widget.fg_stroke = Stroke::new(1.0, palette.text);
             widget.bg_fill = palette.button;
@@ -182,7 +188,8 @@ impl Theme {
             (kind.bg_fill, kind.text_color) = (palette.ground, palette.faint);
         }
         (tab.hovered.bg_fill, tab.hovered.text_color) = (palette.button, palette.text);
-        (tab.focused.text_color, tab.focused_with_kb_focus.text_color) = (palette.accent, palette.accent);
+        (tab.focused.text_color, tab.focused_with_kb_focus.text_color) =
+            (palette.accent, palette.accent);
         style
     }
 }
@@ -201,7 +208,8 @@ fn text_styles() -> std::collections::BTreeMap<TextStyle, FontId> {
 /// A button for the one thing to do next: filled with the accent.
 pub fn primary(ui: &mut egui::Ui, enabled: bool, text: &str) -> egui::Response {
     let palette = Theme::palette_of(ui);
-    let label = egui::RichText::new(text).color(if enabled { palette.on_accent } else { palette.faint });
+    let label =
+        egui::RichText::new(text).color(if enabled { palette.on_accent } else { palette.faint });
     let fill = if enabled { palette.accent } else { palette.button };
     ui.add_enabled(enabled, egui::Button::new(label).fill(fill))
 }
@@ -228,8 +236,19 @@ mod tests {
         for theme in [Theme::Dark, Theme::Light] {
             let palette = theme.palette();
             for ground in [palette.panel, palette.field, palette.ground] {
-                for text in [palette.text, palette.faint, palette.accent, palette.error, palette.warning, palette.good] {
-                    assert!(contrast(text, ground) >= 4.5, "{theme:?}: {text:?} on {ground:?} is {:.2}", contrast(text, ground));
+                for text in [
+                    palette.text,
+                    palette.faint,
+                    palette.accent,
+                    palette.error,
+                    palette.warning,
+                    palette.good,
+                ] {
+                    assert!(
+                        contrast(text, ground) >= 4.5,
+                        "{theme:?}: {text:?} on {ground:?} is {:.2}",
+                        contrast(text, ground)
+                    );
                 }
             }
             assert!(contrast(palette.on_accent, palette.accent) >= 4.5);

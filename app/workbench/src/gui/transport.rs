@@ -33,19 +33,32 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
 fn buttons(ui: &mut Ui, desk: &mut Desk, view: &LiveView) {
     let (running, playing) = (desk.running(), desk.replaying());
     let mut button = |ui: &mut Ui, text: &str, help: &str, enabled: bool, order: Order| {
-        if ui.add_enabled(enabled, Button::new(text).min_size(vec2(26.0, 20.0))).on_hover_text(help).clicked() {
+        if ui
+            .add_enabled(enabled, Button::new(text).min_size(vec2(26.0, 20.0)))
+            .on_hover_text(help)
+            .clicked()
+        {
             desk.orders.push(order);
         }
     };
     let run = view.newest_s > 0.0;
     button(ui, "⏮", "The first moment (Home)", run, Order::Seek(0.0));
     button(ui, "⏴", "One moment back (←)", run, Order::Shift(-1));
-    let (text, help) =
-        if playing { ("⏸ Stop", "Stop playing (Space)") } else { ("▶ Play", "Play what was run, at the chosen speed (P)") };
+    let (text, help) = if playing {
+        ("⏸ Stop", "Stop playing (Space)")
+    } else {
+        ("▶ Play", "Play what was run, at the chosen speed (P)")
+    };
     button(ui, text, help, run && !running, Order::Replay);
     button(ui, "⏵", "One moment on (→)", run && view.sought, Order::Shift(1));
     button(ui, "⏭", "The newest moment (End)", view.sought, Order::Newest);
-    button(ui, "⤴", "Go on from the moment shown: run again up to here, then fly or let the program steer", view.sought, Order::Branch);
+    button(
+        ui,
+        "⤴",
+        "Go on from the moment shown: run again up to here, then fly or let the program steer",
+        view.sought,
+        Order::Branch,
+    );
 }
 
 /// The bar itself: what was run, the moment shown, events.
@@ -53,25 +66,52 @@ fn track(ui: &Ui, rect: Rect, view: &LiveView, end_s: f64) {
     let palette = Theme::palette_of(ui);
     let painter = ui.painter_at(rect);
     let x = |time_s: f64| rect.left() + (time_s / end_s) as f32 * rect.width();
-    let middle = Rect::from_min_max(pos2(rect.left(), rect.center().y - 3.0), pos2(rect.right(), rect.center().y + 3.0));
+    let middle = Rect::from_min_max(
+        pos2(rect.left(), rect.center().y - 3.0),
+        pos2(rect.right(), rect.center().y + 3.0),
+    );
     painter.rect_filled(middle, 3.0, palette.field);
     painter.rect_stroke(middle, 3.0, Stroke::new(1.0, palette.line), egui::StrokeKind::Inside);
-    painter.rect_filled(middle.with_max_x(x(view.newest_s)), 3.0, palette.accent.gamma_multiply(0.45));
+    painter.rect_filled(
+        middle.with_max_x(x(view.newest_s)),
+        3.0,
+        palette.accent.gamma_multiply(0.45),
+    );
     for event in view.events.iter() {
         let at = x(event.time_s);
-        let tall = if matches!(event.kind, EventKind::LinkParted | EventKind::LineParted) { 9.0 } else { 6.0 };
+        let tall = if matches!(event.kind, EventKind::LinkParted | EventKind::LineParted) {
+            9.0
+        } else {
+            6.0
+        };
         let mark = Stroke::new(1.5, colour(event.kind, palette));
-        painter.line_segment([pos2(at, rect.center().y - tall), pos2(at, rect.center().y + tall)], mark);
+        painter.line_segment(
+            [pos2(at, rect.center().y - tall), pos2(at, rect.center().y + tall)],
+            mark,
+        );
     }
-    let now = pos2(x(view.frame.time_s).clamp(rect.left() + 5.0, rect.right() - 5.0), rect.center().y);
+    let now =
+        pos2(x(view.frame.time_s).clamp(rect.left() + 5.0, rect.right() - 5.0), rect.center().y);
     painter.circle_filled(now, 6.0, if view.sought { palette.warning } else { palette.accent });
-    painter.circle_stroke(now, 6.0, Stroke::new(1.5, if ui.visuals().dark_mode { Color32::BLACK } else { Color32::WHITE }));
+    painter.circle_stroke(
+        now,
+        6.0,
+        Stroke::new(1.5, if ui.visuals().dark_mode { Color32::BLACK } else { Color32::WHITE }),
+    );
 }
 
 /// Pressing or dragging shows that moment; over a mark it says what happened.
-fn scrub(ui: &Ui, desk: &mut Desk, rect: Rect, response: &egui::Response, view: &LiveView, end_s: f64) {
+fn scrub(
+    ui: &Ui,
+    desk: &mut Desk,
+    rect: Rect,
+    response: &egui::Response,
+    view: &LiveView,
+    end_s: f64,
+) {
     let Some(pointer) = response.interact_pointer_pos().or(response.hover_pos()) else { return };
-    let time_s = (f64::from((pointer.x - rect.left()) / rect.width()) * end_s).clamp(0.0, view.newest_s);
+    let time_s =
+        (f64::from((pointer.x - rect.left()) / rect.width()) * end_s).clamp(0.0, view.newest_s);
     if (response.dragged() || response.clicked()) && view.newest_s > 0.0 {
         desk.orders.push(Order::Seek(time_s));
         return;
@@ -82,13 +122,23 @@ fn scrub(ui: &Ui, desk: &mut Desk, rect: Rect, response: &egui::Response, view: 
         .iter()
         .filter(|event| (event.time_s - time_s).abs() <= near)
         .take(6)
-        .map(|event| format!("{:.2} s  {}, {}", event.time_s, what(event.kind), event.subject.replace('_', " ")))
+        .map(|event| {
+            format!(
+                "{:.2} s  {}, {}",
+                event.time_s,
+                what(event.kind),
+                event.subject.replace('_', " ")
+            )
+        })
         .collect();
     if !told.is_empty() && !response.dragged() {
         response.clone().on_hover_text(told.join("\n"));
     }
     // A press is answered at once, not when it ends.
-    if response.is_pointer_button_down_on() && view.newest_s > 0.0 && ui.input(|input| input.pointer.primary_pressed()) {
+    if response.is_pointer_button_down_on()
+        && view.newest_s > 0.0
+        && ui.input(|input| input.pointer.primary_pressed())
+    {
         desk.orders.push(Order::Seek(time_s));
     }
 }

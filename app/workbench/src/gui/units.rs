@@ -117,7 +117,11 @@ impl Units {
     /// A depth of water with its unit.
     #[must_use]
     pub fn depth(self, depth_m: f64) -> String {
-        if self.trade() { format!("{:.1} fathom", depth_m / METRES_PER_FATHOM) } else { format!("{depth_m:.1} m") }
+        if self.trade() {
+            format!("{:.1} fathom", depth_m / METRES_PER_FATHOM)
+        } else {
+            format!("{depth_m:.1} m")
+        }
     }
 
     /// Symbol of speeds.
@@ -150,7 +154,8 @@ impl Units {
         if !self.trade() {
             return format!("{:.1} mm", diameter_m * 1000.0);
         }
-        let (mut top, mut bottom) = ((diameter_m / METRES_PER_INCH * 16.0).round().max(1.0) as u32, 16);
+        let (mut top, mut bottom) =
+            ((diameter_m / METRES_PER_INCH * 16.0).round().max(1.0) as u32, 16);
         while top % 2 == 0 && bottom > 1 {
             (top, bottom) = (top / 2, bottom / 2);
         }
@@ -184,12 +189,17 @@ mod tests {
         assert_eq!(units.speed(1.0), "1.94 kn");
         assert_eq!(units.length(18.288), "60.0 ft");
         assert!((units.to_m_s(units.of_m_s(0.7)) - 0.7).abs() < 1e-12);
-        assert_eq!([Units::Si.length(18.288), Units::Si.speed(0.5), Units::Mixed.diameter(0.009_525)], ["18.3 m", "0.50 m/s", "9.5 mm"]);
+        assert_eq!(
+            [Units::Si.length(18.288), Units::Si.speed(0.5), Units::Mixed.diameter(0.009_525)],
+            ["18.3 m", "0.50 m/s", "9.5 mm"]
+        );
     }
 
     #[test]
     fn bearings_run_clockwise_from_north() {
-        for (east, north, bearing) in [(0.0, 1.0, 0.0), (1.0, 0.0, 90.0), (0.0, -1.0, 180.0), (-1.0, 0.0, 270.0)] {
+        for (east, north, bearing) in
+            [(0.0, 1.0, 0.0), (1.0, 0.0, 90.0), (0.0, -1.0, 180.0), (-1.0, 0.0, 270.0)]
+        {
             assert!((bearing_degrees(east, north) - bearing).abs() < 1e-9);
         }
     }

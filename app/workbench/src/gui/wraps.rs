@@ -59,7 +59,11 @@ fn turns(view: &LiveView, part: BodyPart) -> f64 {
 /// When the turns about a part last came to a half, of events up to the moment shown.
 fn since_s(view: &LiveView, part: BodyPart) -> Option<f64> {
     let mut since_s = None;
-    for event in view.events.iter().filter(|event| event.time_s <= view.frame.time_s && event.subject == part.name()) {
+    for event in view
+        .events
+        .iter()
+        .filter(|event| event.time_s <= view.frame.time_s && event.subject == part.name())
+    {
         match event.kind {
             EventKind::Wrap => since_s = since_s.or(Some(event.time_s)),
             EventKind::WrapUndone if event.value <= 0.5 => since_s = None,
@@ -71,11 +75,18 @@ fn since_s(view: &LiveView, part: BodyPart) -> Option<f64> {
 
 fn lines(view: &LiveView, part: BodyPart) -> Vec<(String, f64)> {
     let mut lengths_m = vec![0.0; view.model.spec.lines.len()];
-    for contact in view.frame.contacts.iter().filter(|contact| contact.region.part() == part && contact.normal_force_n > 0.0) {
+    for contact in view
+        .frame
+        .contacts
+        .iter()
+        .filter(|contact| contact.region.part() == part && contact.normal_force_n > 0.0)
+    {
         lengths_m[contact.line] += contact.length_m;
     }
-    let touching = view.model.spec.lines.iter().zip(lengths_m).filter(|(_, length_m)| *length_m > 0.0);
-    let mut lines: Vec<(String, f64)> = touching.map(|(line, length_m)| (line.id.clone(), length_m)).collect();
+    let touching =
+        view.model.spec.lines.iter().zip(lengths_m).filter(|(_, length_m)| *length_m > 0.0);
+    let mut lines: Vec<(String, f64)> =
+        touching.map(|(line, length_m)| (line.id.clone(), length_m)).collect();
     lines.sort_by(|a, b| b.1.total_cmp(&a.1));
     lines
 }

@@ -41,7 +41,12 @@ pub static STEERING: [Steer; 8] = [
     Steer::pair("Turn to port, starboard", Key::A, Key::D, "right stick"),
     Steer::pair("Flippers out, in", Key::E, Key::Q, "left shoulder and right stick"),
     Steer::pair("Flippers pronated, supinated", Key::C, Key::Z, "left shoulder and right stick"),
-    Steer::pair("Flippers swept forward, aft", Key::R, Key::T, "right trigger; aft with left shoulder"),
+    Steer::pair(
+        "Flippers swept forward, aft",
+        Key::R,
+        Key::T,
+        "right trigger; aft with left shoulder",
+    ),
     Steer { what: "Do the chosen act", more: Key::G, less: None, pad: "right stick pressed" },
 ];
 
@@ -75,6 +80,16 @@ impl HeldKeys {
         let [throttle, pitch, roll, yaw, flipper_raise, flipper_twist, flipper_sweep, act] =
             STEERING.each_ref().map(|steer| steer.held(input));
         let burst = input.modifiers.shift;
-        Self { throttle, pitch, roll, yaw, burst, flipper_raise, flipper_twist, flipper_sweep, act: act > 0.0 }
+        Self {
+            throttle,
+            pitch,
+            roll,
+            yaw,
+            burst,
+            flipper_raise,
+            flipper_twist,
+            flipper_sweep,
+            act: act > 0.0,
+        }
     }
 }

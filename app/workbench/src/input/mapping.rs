@@ -29,8 +29,16 @@ pub enum Steered {
 
 impl Steered {
     /// Everything, in the order shown.
-    pub const ALL: [Self; 8] =
-        [Self::Speed, Self::Pitch, Self::Roll, Self::Yaw, Self::FlipperRaise, Self::FlipperTwist, Self::FlipperSweep, Self::Mouth];
+    pub const ALL: [Self; 8] = [
+        Self::Speed,
+        Self::Pitch,
+        Self::Roll,
+        Self::Yaw,
+        Self::FlipperRaise,
+        Self::FlipperTwist,
+        Self::FlipperSweep,
+        Self::Mouth,
+    ];
 
     /// In words.
     #[must_use]
@@ -159,7 +167,9 @@ impl Mapping {
     pub fn of_2012() -> Self {
         use PadAxis::{LeftTrigger, LeftX, LeftY, RightTrigger, RightX, RightY};
         let to = |axis, second, steers, turned| AxisUse { axis, second, steers, turned };
-        let both = |axis, steers, turned| [to(axis, false, steers, turned), to(axis, true, steers, turned)];
+        let both = |axis, steers, turned| {
+            [to(axis, false, steers, turned), to(axis, true, steers, turned)]
+        };
         let mut axes = Vec::new();
         axes.extend(both(LeftTrigger, Steered::Speed, false));
         axes.extend(both(LeftY, Steered::Pitch, false));
@@ -191,7 +201,11 @@ impl Mapping {
     #[must_use]
     pub fn feeding() -> Self {
         let mut mapping = Self::of_2012();
-        for uses in mapping.axes.iter_mut().filter(|uses| uses.axis == PadAxis::RightTrigger && !uses.second) {
+        for uses in mapping
+            .axes
+            .iter_mut()
+            .filter(|uses| uses.axis == PadAxis::RightTrigger && !uses.second)
+        {
             (uses.steers, uses.turned) = (Steered::Mouth, false);
         }
         mapping
@@ -200,11 +214,13 @@ impl Mapping {
     /// What a stick or trigger gives at a place of its way, -1 to 1.
     #[must_use]
     pub fn live(&self, axis: PadAxis, value: f64) -> f64 {
-        let dead = if axis.is_trigger() { self.trigger_dead_zone } else { self.dead_zone }.clamp(0.0, 0.9);
+        let dead =
+            if axis.is_trigger() { self.trigger_dead_zone } else { self.dead_zone }.clamp(0.0, 0.9);
         if value.abs() <= dead {
             return 0.0;
         }
-        ((value.abs() - dead) / (1.0 - dead)).clamp(0.0, 1.0).powf(self.curve.clamp(0.5, 4.0)) * value.signum()
+        ((value.abs() - dead) / (1.0 - dead)).clamp(0.0, 1.0).powf(self.curve.clamp(0.5, 4.0))
+            * value.signum()
     }
 
     /// What a button does.
@@ -222,7 +238,8 @@ impl Mapping {
     /// Gives a stick or trigger to something, as its first or second thing.
     pub fn bind_axis(&mut self, uses: AxisUse) {
         self.axes.retain(|known| {
-            (known.axis, known.second) != (uses.axis, uses.second) && (known.steers, known.second) != (uses.steers, uses.second)
+            (known.axis, known.second) != (uses.axis, uses.second)
+                && (known.steers, known.second) != (uses.steers, uses.second)
         });
         self.axes.push(uses);
     }
@@ -237,8 +254,14 @@ mod tests {
         let mapping = Mapping { dead_zone: 0.2, curve: 2.0, ..Mapping::of_2012() };
         assert!(mapping.live(PadAxis::LeftX, 0.2).abs() < 1e-12);
         assert!((mapping.live(PadAxis::LeftX, -1.0) + 1.0).abs() < 1e-12);
-        assert!((mapping.live(PadAxis::LeftX, 0.6) - 0.25).abs() < 1e-12, "half of the way beyond, squared");
-        assert!(mapping.live(PadAxis::LeftTrigger, 0.2) > 0.0, "triggers have a dead zone of their own");
+        assert!(
+            (mapping.live(PadAxis::LeftX, 0.6) - 0.25).abs() < 1e-12,
+            "half of the way beyond, squared"
+        );
+        assert!(
+            mapping.live(PadAxis::LeftTrigger, 0.2) > 0.0,
+            "triggers have a dead zone of their own"
+        );
     }
 
     #[test]
@@ -247,9 +270,18 @@ mod tests {
         mapping.bind_button(PadButton::South, Pressed::Burst);
         assert_eq!(mapping.of_button(PadButton::South), Some(Pressed::Burst));
         assert_eq!(mapping.of_button(PadButton::RightShoulder), None);
-        let uses = AxisUse { axis: PadAxis::RightTrigger, second: false, steers: Steered::Speed, turned: false };
+        let uses = AxisUse {
+            axis: PadAxis::RightTrigger,
+            second: false,
+            steers: Steered::Speed,
+            turned: false,
+        };
         mapping.bind_axis(uses);
-        let speed: Vec<_> = mapping.axes.iter().filter(|uses| uses.steers == Steered::Speed && !uses.second).collect();
+        let speed: Vec<_> = mapping
+            .axes
+            .iter()
+            .filter(|uses| uses.steers == Steered::Speed && !uses.second)
+            .collect();
         assert_eq!(speed, [&uses]);
     }
 
@@ -257,6 +289,9 @@ mod tests {
     fn a_mapping_survives_its_file() {
         let text = serde_json::to_string(&Mapping::feeding()).unwrap();
         assert_eq!(serde_json::from_str::<Mapping>(&text).unwrap(), Mapping::feeding());
-        assert_eq!(serde_json::from_str::<Mapping>("{\"curve\":2.0}").unwrap(), Mapping { curve: 2.0, ..Mapping::of_2012() });
+        assert_eq!(
+            serde_json::from_str::<Mapping>("{\"curve\":2.0}").unwrap(),
+            Mapping { curve: 2.0, ..Mapping::of_2012() }
+        );
     }
 }

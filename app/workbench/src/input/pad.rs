@@ -24,7 +24,14 @@ pub enum PadAxis {
 
 impl PadAxis {
     /// Every stick and trigger.
-    pub const ALL: [Self; 6] = [Self::LeftX, Self::LeftY, Self::RightX, Self::RightY, Self::LeftTrigger, Self::RightTrigger];
+    pub const ALL: [Self; 6] = [
+        Self::LeftX,
+        Self::LeftY,
+        Self::RightX,
+        Self::RightY,
+        Self::LeftTrigger,
+        Self::RightTrigger,
+    ];
 
     /// In words.
     #[must_use]
@@ -142,7 +149,8 @@ impl GilrsPads {
     /// # Errors
     /// Where the system gives no access to pads at all.
     pub fn new() -> Result<Self, String> {
-        let gilrs = gilrs::Gilrs::new().map_err(|error| format!("gamepads cannot be read: {error}"))?;
+        let gilrs =
+            gilrs::Gilrs::new().map_err(|error| format!("gamepads cannot be read: {error}"))?;
         Ok(Self { gilrs, announced: false, pulse: None })
     }
 }
@@ -151,18 +159,28 @@ impl PadSource for GilrsPads {
     fn poll(&mut self, out: &mut Vec<PadEvent>) {
         if !self.announced {
             self.announced = true;
-            out.extend(self.gilrs.gamepads().map(|(_, pad)| PadEvent::Connected(pad.name().to_owned())));
+            out.extend(
+                self.gilrs.gamepads().map(|(_, pad)| PadEvent::Connected(pad.name().to_owned())),
+            );
         }
         while let Some(event) = self.gilrs.next_event() {
             let translated = match event.event {
-                gilrs::EventType::Connected => Some(PadEvent::Connected(self.gilrs.gamepad(event.id).name().to_owned())),
+                gilrs::EventType::Connected => {
+                    Some(PadEvent::Connected(self.gilrs.gamepad(event.id).name().to_owned()))
+                }
                 gilrs::EventType::Disconnected => Some(PadEvent::Disconnected),
-                gilrs::EventType::AxisChanged(axis, value, _) => axis_of(axis).map(|axis| PadEvent::Moved(axis, f64::from(value))),
+                gilrs::EventType::AxisChanged(axis, value, _) => {
+                    axis_of(axis).map(|axis| PadEvent::Moved(axis, f64::from(value)))
+                }
                 gilrs::EventType::ButtonChanged(gilrs::Button::LeftTrigger2, value, _) => {
                     Some(PadEvent::Moved(PadAxis::LeftTrigger, f64::from(value)))
                 }
-                gilrs::EventType::ButtonPressed(button, _) => button_of(button).map(PadEvent::Pressed),
-                gilrs::EventType::ButtonReleased(button, _) => button_of(button).map(PadEvent::Released),
+                gilrs::EventType::ButtonPressed(button, _) => {
+                    button_of(button).map(PadEvent::Pressed)
+                }
+                gilrs::EventType::ButtonReleased(button, _) => {
+                    button_of(button).map(PadEvent::Released)
+                }
                 gilrs::EventType::ButtonChanged(gilrs::Button::RightTrigger2, value, _) => {
                     Some(PadEvent::Moved(PadAxis::RightTrigger, f64::from(value)))
                 }
@@ -174,16 +192,26 @@ impl PadSource for GilrsPads {
 
     fn rumble(&mut self, strength: f64, long: Duration) {
         use gilrs::ff::{BaseEffect, BaseEffectType, EffectBuilder, Replay, Ticks};
-        let pads: Vec<gilrs::GamepadId> = self.gilrs.gamepads().filter(|(_, pad)| pad.is_ff_supported()).map(|(id, _)| id).collect();
+        let pads: Vec<gilrs::GamepadId> = self
+            .gilrs
+            .gamepads()
+            .filter(|(_, pad)| pad.is_ff_supported())
+            .map(|(id, _)| id)
+            .collect();
         if pads.is_empty() {
             return;
         }
         let magnitude = (strength.clamp(0.0, 1.0) * f64::from(u16::MAX)) as u16;
         let long = u32::try_from(long.as_millis()).unwrap_or(u32::MAX);
         let scheduling = Replay { play_for: Ticks::from_ms(long), ..Replay::default() };
-        let effect = BaseEffect { kind: BaseEffectType::Strong { magnitude }, scheduling, ..BaseEffect::default() };
+        let effect = BaseEffect {
+            kind: BaseEffectType::Strong { magnitude },
+            scheduling,
+            ..BaseEffect::default()
+        };
         // A pad that does not take the effect flies as well without.
-        self.pulse = EffectBuilder::new().add_effect(effect).gamepads(&pads).finish(&mut self.gilrs).ok();
+        self.pulse =
+            EffectBuilder::new().add_effect(effect).gamepads(&pads).finish(&mut self.gilrs).ok();
         let _ = self.pulse.as_ref().map(gilrs::ff::Effect::play);
     }
 }

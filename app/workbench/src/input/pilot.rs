@@ -149,13 +149,16 @@ impl Pilot {
             // What it last gave holds for a moment; `controls` lets go of it.
             PadEvent::Disconnected => (self.pad_name, self.lost_s) = (None, Some(0.0)),
             PadEvent::Moved(axis, value) => {
-                self.stick.axes[axis as usize] = if value.is_finite() { value.clamp(-1.0, 1.0) } else { 0.0 };
+                self.stick.axes[axis as usize] =
+                    if value.is_finite() { value.clamp(-1.0, 1.0) } else { 0.0 };
             }
             PadEvent::Pressed(button) => {
                 self.last_pressed = Some(button);
                 return self.press(self.mapping.of_button(button)?, true);
             }
-            PadEvent::Released(button) => return self.press(self.mapping.of_button(button)?, false),
+            PadEvent::Released(button) => {
+                return self.press(self.mapping.of_button(button)?, false);
+            }
         }
         None
     }
@@ -164,7 +167,9 @@ impl Pilot {
         match does {
             Pressed::Second => self.stick.second = down,
             Pressed::Burst => self.stick.burst = down,
-            Pressed::Act => (self.stick.act, self.stick.act_pressed) = (down, self.stick.act_pressed || down),
+            Pressed::Act => {
+                (self.stick.act, self.stick.act_pressed) = (down, self.stick.act_pressed || down)
+            }
             Pressed::Mouth if down => self.toggle_mouth(),
             Pressed::NextAct if down => return Some(PilotAction::NextAct),
             Pressed::Restart if down => return Some(PilotAction::Restart),
@@ -206,8 +211,15 @@ impl Pilot {
 
     /// What sticks and triggers give to something.
     fn steered(&self, steered: Steered) -> f64 {
-        let uses = self.mapping.axes.iter().filter(|uses| uses.steers == steered && uses.second == self.stick.second);
-        let given = uses.map(|uses| self.mapping.live(uses.axis, self.axis(uses.axis)) * if uses.turned { -1.0 } else { 1.0 });
+        let uses = self
+            .mapping
+            .axes
+            .iter()
+            .filter(|uses| uses.steers == steered && uses.second == self.stick.second);
+        let given = uses.map(|uses| {
+            self.mapping.live(uses.axis, self.axis(uses.axis))
+                * if uses.turned { -1.0 } else { 1.0 }
+        });
         given.sum::<f64>().clamp(-1.0, 1.0)
     }
 
@@ -282,20 +294,53 @@ mod tests {
     #[test]
     fn the_preset_of_2012() {
         let (mut pilot, actions) = flown(vec![
-            vec![PadEvent::Connected("pad".into()), PadEvent::Moved(PadAxis::LeftTrigger, 1.0), PadEvent::Moved(PadAxis::LeftY, 1.0)],
-            vec![PadEvent::Moved(PadAxis::LeftX, -1.0), PadEvent::Moved(PadAxis::RightX, 1.0), PadEvent::Pressed(PadButton::RightShoulder)],
-            vec![PadEvent::Pressed(PadButton::Start), PadEvent::Pressed(PadButton::Back), PadEvent::Pressed(PadButton::East)],
+            vec![
+                PadEvent::Connected("pad".into()),
+                PadEvent::Moved(PadAxis::LeftTrigger, 1.0),
+                PadEvent::Moved(PadAxis::LeftY, 1.0),
+            ],
+            vec![
+                PadEvent::Moved(PadAxis::LeftX, -1.0),
+                PadEvent::Moved(PadAxis::RightX, 1.0),
+                PadEvent::Pressed(PadButton::RightShoulder),
+            ],
+            vec![
+                PadEvent::Pressed(PadButton::Start),
+                PadEvent::Pressed(PadButton::Back),
+                PadEvent::Pressed(PadButton::East),
+            ],
             vec![PadEvent::Pressed(PadButton::North)],
         ]);
-        assert_eq!(actions, [PilotAction::Restart, PilotAction::PlayPause, PilotAction::Person, PilotAction::WeakLinks]);
+        assert_eq!(
+            actions,
+            [
+                PilotAction::Restart,
+                PilotAction::PlayPause,
+                PilotAction::Person,
+                PilotAction::WeakLinks
+            ]
+        );
         let flown = pilot.controls(&HeldKeys::default(), 2, 0.1);
-        let wanted = Controls { speed: 1.0, pitch: 1.0, roll: -1.0, yaw: -1.0, burst: 1.0, ..Controls::default() };
-        assert_eq!(flown, wanted, "trigger speed; stick up nose up, left roll to port; right stick right yaws to starboard");
+        let wanted = Controls {
+            speed: 1.0,
+            pitch: 1.0,
+            roll: -1.0,
+            yaw: -1.0,
+            burst: 1.0,
+            ..Controls::default()
+        };
+        assert_eq!(
+            flown, wanted,
+            "trigger speed; stick up nose up, left roll to port; right stick right yaws to starboard"
+        );
     }
 
     #[test]
     fn a_stick_near_its_middle_is_at_rest() {
-        let (mut pilot, _) = flown(vec![vec![PadEvent::Moved(PadAxis::LeftX, 0.1), PadEvent::Moved(PadAxis::LeftTrigger, 0.8)]]);
+        let (mut pilot, _) = flown(vec![vec![
+            PadEvent::Moved(PadAxis::LeftX, 0.1),
+            PadEvent::Moved(PadAxis::LeftTrigger, 0.8),
+        ]]);
         let controls = pilot.controls(&HeldKeys::default(), 2, 0.1);
         assert!(controls.roll.abs() < 1e-12 && controls.speed > 0.7);
     }
@@ -312,7 +357,10 @@ mod tests {
         };
         let mut pilot = lost();
         let held = pilot.controls(&HeldKeys::default(), 2, 0.1);
-        assert!(held.speed > 0.7 && held.burst > 0.5 && pilot.hands() == Hands::Holding, "{held:?}");
+        assert!(
+            held.speed > 0.7 && held.burst > 0.5 && pilot.hands() == Hands::Holding,
+            "{held:?}"
+        );
         pilot.controls(&HeldKeys::default(), 2, 0.3);
         assert_eq!(pilot.controls(&HeldKeys::default(), 2, 0.2), Controls::default());
         assert_eq!(pilot.hands(), Hands::Gliding);
@@ -320,7 +368,10 @@ mod tests {
         assert_eq!(pilot.hands(), Hands::On, "it is plugged in again");
         let mut pilot = lost();
         let keys = HeldKeys { yaw: 1.0, ..HeldKeys::default() };
-        assert!(pilot.controls(&keys, 2, 0.1).yaw > 0.3 && pilot.hands() == Hands::On, "the keyboard takes over at once");
+        assert!(
+            pilot.controls(&keys, 2, 0.1).yaw > 0.3 && pilot.hands() == Hands::On,
+            "the keyboard takes over at once"
+        );
     }
 
     #[test]
@@ -347,7 +398,10 @@ mod tests {
 
     #[test]
     fn every_control_stays_in_its_range_whatever_the_hands_do() {
-        let (mut pilot, _) = flown(vec![vec![PadEvent::Moved(PadAxis::LeftY, 7.0), PadEvent::Moved(PadAxis::RightX, f64::NAN)]]);
+        let (mut pilot, _) = flown(vec![vec![
+            PadEvent::Moved(PadAxis::LeftY, 7.0),
+            PadEvent::Moved(PadAxis::RightX, f64::NAN),
+        ]]);
         let held = HeldKeys {
             throttle: 1.0,
             pitch: 1.0,
@@ -361,7 +415,8 @@ mod tests {
         };
         for _ in 0..100 {
             let c = pilot.controls(&held, 2, 0.7);
-            for value in [c.pitch, c.roll, c.yaw, c.flipper_raise, c.flipper_twist, c.flipper_sweep] {
+            for value in [c.pitch, c.roll, c.yaw, c.flipper_raise, c.flipper_twist, c.flipper_sweep]
+            {
                 assert!((-1.0..=1.0).contains(&value));
             }
             assert!((0.0..=1.0).contains(&c.speed) && (0.0..=1.0).contains(&c.burst));
@@ -378,12 +433,21 @@ mod tests {
     #[test]
     fn the_left_shoulder_gives_the_right_hand_to_the_flippers() {
         let moved = |axis, value| PadEvent::Moved(axis, value);
-        let (mut pilot, _) =
-            flown(vec![vec![moved(PadAxis::RightX, 1.0), moved(PadAxis::RightY, -1.0), moved(PadAxis::RightTrigger, 1.0)]]);
+        let (mut pilot, _) = flown(vec![vec![
+            moved(PadAxis::RightX, 1.0),
+            moved(PadAxis::RightY, -1.0),
+            moved(PadAxis::RightTrigger, 1.0),
+        ]]);
         let steering = Controls { yaw: -1.0, flipper_sweep: 1.0, ..Controls::default() };
         assert_eq!(pilot.controls(&HeldKeys::default(), 0, 0.1), steering);
         pilot.take(PadEvent::Pressed(PadButton::LeftShoulder));
-        let flippers = Controls { yaw: 0.0, flipper_raise: -1.0, flipper_twist: 1.0, flipper_sweep: -1.0, ..Controls::default() };
+        let flippers = Controls {
+            yaw: 0.0,
+            flipper_raise: -1.0,
+            flipper_twist: 1.0,
+            flipper_sweep: -1.0,
+            ..Controls::default()
+        };
         assert_eq!(pilot.controls(&HeldKeys::default(), 0, 0.1), flippers);
         pilot.take(PadEvent::Released(PadButton::LeftShoulder));
         assert_eq!(pilot.controls(&HeldKeys::default(), 0, 0.1), steering);
@@ -400,10 +464,17 @@ mod tests {
         // A press shorter than a frame counts once.
         pilot.take(PadEvent::Pressed(PadButton::RightStick));
         pilot.take(PadEvent::Released(PadButton::RightStick));
-        assert_eq!([act(&mut pilot, &HeldKeys::default()), act(&mut pilot, &HeldKeys::default())], [2, 0]);
+        assert_eq!(
+            [act(&mut pilot, &HeldKeys::default()), act(&mut pilot, &HeldKeys::default())],
+            [2, 0]
+        );
         pilot.next_act(3);
         pilot.next_act(3);
         assert_eq!(act(&mut pilot, &held), 1, "the first follows the last");
-        assert_eq!(pilot.controls(&held, 0, 0.1).act.to_bits(), 0.0_f64.to_bits(), "a motion without acts");
+        assert_eq!(
+            pilot.controls(&held, 0, 0.1).act.to_bits(),
+            0.0_f64.to_bits(),
+            "a motion without acts"
+        );
     }
 }

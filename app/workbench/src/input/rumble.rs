@@ -48,7 +48,10 @@ impl Rumble {
             self.seen = events.len();
             return None;
         }
-        let strongest = fresh.iter().filter_map(|event| pulse(event.kind)).max_by(|a, b| a.strength.total_cmp(&b.strength));
+        let strongest = fresh
+            .iter()
+            .filter_map(|event| pulse(event.kind))
+            .max_by(|a, b| a.strength.total_cmp(&b.strength));
         if strongest.is_some() && self.last_s.is_some_and(|last_s| now_s - last_s < APART_S) {
             return None;
         }
@@ -90,7 +93,11 @@ mod tests {
         assert_eq!(rumble.feel(&events, 2.0), None);
         let more = [events.as_slice(), &[event(EventKind::Contact)]].concat();
         assert_eq!(rumble.feel(&more, 1.01), None, "too soon after the last");
-        assert_eq!(rumble.feel(&more, 1.1), pulse(EventKind::Contact), "it is felt when it is time");
+        assert_eq!(
+            rumble.feel(&more, 1.1),
+            pulse(EventKind::Contact),
+            "it is felt when it is time"
+        );
         assert_eq!(rumble.feel(&[], 3.0), None, "a run begun anew");
         assert_eq!(rumble.feel(&[event(EventKind::Slip)], 4.0), pulse(EventKind::Slip));
         assert!(rumble.strength(4.05) > 0.0 && rumble.strength(5.0) <= 0.0);

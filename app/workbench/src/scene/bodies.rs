@@ -24,7 +24,9 @@ pub fn bodies(model: &Model, frame: &Frame) -> Mesh {
 
 /// A small block wherever a line ends at a fixture, where that end is now.
 fn fixtures(mesh: &mut Mesh, model: &Model, frame: &Frame) {
-    let held = |joint: usize| matches!(model.spec.joints[joint].kind, JointKind::Fixed | JointKind::Driven { .. });
+    let held = |joint: usize| {
+        matches!(model.spec.joints[joint].kind, JointKind::Fixed | JointKind::Driven { .. })
+    };
     for (line, nodes) in model.spec.lines.iter().zip(&model.line_nodes) {
         for (joint, node) in [(line.from, nodes.start), (line.to, nodes.end - 1)] {
             if let (true, Some(place)) = (held(joint), frame.nodes.get(node)) {
@@ -39,7 +41,9 @@ fn draw(mesh: &mut Mesh, body: &Body, pose: &DAffine3) {
     match (&body.shape, body.role) {
         (Shape::Box(half), BodyRole::Trap) => trap(mesh, pose, half.as_vec3()),
         (Shape::Box(half), role) => mesh.block(pose, half.as_vec3(), colour(role)),
-        (Shape::Sphere(radius), role) => mesh.capsule(pose, *radius as f32, *radius as f32, banded(role), 16),
+        (Shape::Sphere(radius), role) => {
+            mesh.capsule(pose, *radius as f32, *radius as f32, banded(role), 16)
+        }
         (Shape::Capsule { radius_m, half_length_m }, role) => {
             mesh.capsule(pose, *radius_m as f32, *half_length_m as f32, banded(role), 16);
         }
@@ -66,5 +70,7 @@ fn colour(role: BodyRole) -> Colour {
 
 /// A buoy carries a pale band round its middle; other round bodies have one colour.
 fn banded(role: BodyRole) -> impl Fn(f32) -> Colour {
-    move |height| if role == BodyRole::Buoy && height.abs() < 0.2 { BUOY_BAND } else { colour(role) }
+    move |height| {
+        if role == BodyRole::Buoy && height.abs() < 0.2 { BUOY_BAND } else { colour(role) }
+    }
 }

@@ -17,8 +17,15 @@ impl Bounds {
     pub fn of(places: impl IntoIterator<Item = DVec3>) -> Self {
         let empty = Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
         let all = places.into_iter().filter(|place| place.is_finite());
-        let bounds = all.fold(empty, |bounds, place| Self { low: bounds.low.min(place), high: bounds.high.max(place) });
-        if bounds.low.x > bounds.high.x { Self { low: -DVec3::ONE, high: DVec3::ONE } } else { bounds }
+        let bounds = all.fold(empty, |bounds, place| Self {
+            low: bounds.low.min(place),
+            high: bounds.high.max(place),
+        });
+        if bounds.low.x > bounds.high.x {
+            Self { low: -DVec3::ONE, high: DVec3::ONE }
+        } else {
+            bounds
+        }
     }
 
     /// Its middle [m].
@@ -38,7 +45,11 @@ impl Bounds {
     pub fn corners(&self) -> [DVec3; 8] {
         std::array::from_fn(|corner| {
             let pick = |bit: usize, low: f64, high: f64| if corner & bit == 0 { low } else { high };
-            DVec3::new(pick(1, self.low.x, self.high.x), pick(2, self.low.y, self.high.y), pick(4, self.low.z, self.high.z))
+            DVec3::new(
+                pick(1, self.low.x, self.high.x),
+                pick(2, self.low.y, self.high.y),
+                pick(4, self.low.z, self.high.z),
+            )
         })
     }
 }
@@ -50,7 +61,10 @@ mod tests {
     #[test]
     fn places_that_are_not_finite_do_not_stretch_the_box() {
         let bounds = Bounds::of([DVec3::ZERO, DVec3::NAN, DVec3::new(2.0, 4.0, -6.0)]);
-        assert_eq!(bounds, Bounds { low: DVec3::new(0.0, 0.0, -6.0), high: DVec3::new(2.0, 4.0, 0.0) });
+        assert_eq!(
+            bounds,
+            Bounds { low: DVec3::new(0.0, 0.0, -6.0), high: DVec3::new(2.0, 4.0, 0.0) }
+        );
         assert!(bounds.corners().contains(&DVec3::new(2.0, 0.0, -6.0)));
     }
 

@@ -75,7 +75,15 @@ pub struct Show {
 
 impl Default for Show {
     fn default() -> Self {
-        Self { scale_n: None, surface: true, seabed: true, current: true, contacts: true, forces: false, whale: true }
+        Self {
+            scale_n: None,
+            surface: true,
+            seabed: true,
+            current: true,
+            contacts: true,
+            forces: false,
+            whale: true,
+        }
     }
 }
 
@@ -84,7 +92,10 @@ impl Scene {
     #[must_use]
     pub fn of(model: &Model, frame: &Frame, show: &Show) -> Self {
         let bounds = bounds(&Self::places_of(model, frame));
-        let scale_n = show.scale_n.unwrap_or_else(|| frame.tension_n.iter().copied().fold(0.0, f64::max)).max(1.0);
+        let scale_n = show
+            .scale_n
+            .unwrap_or_else(|| frame.tension_n.iter().copied().fold(0.0, f64::max))
+            .max(1.0);
         let mut parts = Vec::new();
         let mut add = |wanted: bool, name, look, least_px, mesh: Mesh| {
             if wanted && !mesh.triangles.is_empty() {
@@ -107,10 +118,21 @@ impl Scene {
     #[must_use]
     pub fn places_of(model: &Model, frame: &Frame) -> Vec<DVec3> {
         let pair = model.spec.whale.as_ref().zip(frame.whale.as_ref());
-        let whale = pair.into_iter().flat_map(|(whale, at)| whale_corners(whale, at.position, at.orientation));
+        let whale = pair
+            .into_iter()
+            .flat_map(|(whale, at)| whale_corners(whale, at.position, at.orientation));
         let shapes = model.spec.bodies.iter().zip(&frame.bodies);
-        let bodies = shapes.flat_map(|(body, (place, turn))| body.shape.corners().map(|corner| *place + *turn * corner));
-        frame.nodes.iter().copied().chain(bodies).chain(whale).filter(|place| place.is_finite()).collect()
+        let bodies = shapes.flat_map(|(body, (place, turn))| {
+            body.shape.corners().map(|corner| *place + *turn * corner)
+        });
+        frame
+            .nodes
+            .iter()
+            .copied()
+            .chain(bodies)
+            .chain(whale)
+            .filter(|place| place.is_finite())
+            .collect()
     }
 
     /// A part by its name.

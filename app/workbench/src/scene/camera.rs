@@ -35,7 +35,8 @@ impl View {
     /// Views of all there is, in the order of menus.
     pub const WHOLE: [Self; 4] = [Self::Orbit, Self::Side, Self::Top, Self::Front];
     /// Views of the whale or from it, in the order of menus.
-    pub const OF_WHALE: [Self; 5] = [Self::Whale, Self::FirstPerson, Self::WhaleSide, Self::WhaleTop, Self::WhaleFront];
+    pub const OF_WHALE: [Self; 5] =
+        [Self::Whale, Self::FirstPerson, Self::WhaleSide, Self::WhaleTop, Self::WhaleFront];
 
     /// Every view.
     pub fn all() -> impl Iterator<Item = Self> {
@@ -111,14 +112,27 @@ const HEAD_ANGLE: f64 = 1.25;
 
 impl Default for Camera {
     fn default() -> Self {
-        Self { target: DVec3::ZERO, distance_m: 100.0, azimuth: -1.1, elevation: 0.12, field_of_view: FREE_ANGLE, roll: 0.0 }
+        Self {
+            target: DVec3::ZERO,
+            distance_m: 100.0,
+            azimuth: -1.1,
+            elevation: 0.12,
+            field_of_view: FREE_ANGLE,
+            roll: 0.0,
+        }
     }
 }
 
 impl Camera {
     /// A camera at a named view with all of `places` in sight; `aspect` is width over height.
     #[must_use]
-    pub fn of_view(view: View, places: &[DVec3], whale: Option<&WhaleFrame>, length_m: f64, aspect: f64) -> Self {
+    pub fn of_view(
+        view: View,
+        places: &[DVec3],
+        whale: Option<&WhaleFrame>,
+        length_m: f64,
+        aspect: f64,
+    ) -> Self {
         let mut camera = Self::default();
         match whale.filter(|_| view.is_of_whale()) {
             Some(whale) => camera.go_with(view, whale, length_m, aspect),
@@ -146,15 +160,24 @@ impl Camera {
         match view {
             View::FirstPerson => self.first_person(whale, length_m),
             View::WhaleSide => self.portrait(whale, [heading - FRAC_PI_2, 0.0], length_m, aspect),
-            View::WhaleTop => self.portrait(whale, [heading - FRAC_PI_2, STEEPEST], length_m, aspect),
+            View::WhaleTop => {
+                self.portrait(whale, [heading - FRAC_PI_2, STEEPEST], length_m, aspect)
+            }
             View::WhaleFront => self.portrait(whale, [heading, 0.0], length_m, aspect),
             _ => self.follow(whale, length_m),
         }
     }
 
     /// The whale alone, from an azimuth and elevation [rad], through a long lens.
-    fn portrait(&mut self, whale: &WhaleFrame, [azimuth, elevation]: [f64; 2], length_m: f64, aspect: f64) {
-        (self.azimuth, self.elevation, self.field_of_view, self.roll) = (azimuth, elevation, FLAT_ANGLE, 0.0);
+    fn portrait(
+        &mut self,
+        whale: &WhaleFrame,
+        [azimuth, elevation]: [f64; 2],
+        length_m: f64,
+        aspect: f64,
+    ) {
+        (self.azimuth, self.elevation, self.field_of_view, self.roll) =
+            (azimuth, elevation, FLAT_ANGLE, 0.0);
         self.target = whale.position;
         self.distance_m = PORTRAIT * length_m / (2.0 * (FLAT_ANGLE / 2.0).tan() * aspect.max(0.1));
     }
@@ -180,7 +203,8 @@ impl Camera {
         let height = (self.field_of_view / 2.0).tan() / MARGIN;
         let needed = |place: &DVec3| {
             let from = *place - self.target;
-            let across = (from.dot(up).abs() / height).max(from.dot(right).abs() / (height * aspect.max(0.1)));
+            let across = (from.dot(up).abs() / height)
+                .max(from.dot(right).abs() / (height * aspect.max(0.1)));
             across - from.dot(ahead)
         };
         places.iter().map(needed).fold(1.0, f64::max)
@@ -193,7 +217,12 @@ impl Camera {
             let from = *place - eye;
             DVec2::new(from.dot(right), from.dot(up)) / from.dot(ahead).max(1e-6)
         };
-        places.iter().map(tangent).fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(least, most), at| (least.min(at), most.max(at)))
+        places
+            .iter()
+            .map(tangent)
+            .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(least, most), at| {
+                (least.min(at), most.max(at))
+            })
     }
 
     /// Third person: behind and above the whale, looking where it looks.
@@ -306,7 +335,12 @@ impl Camera {
     #[must_use]
     pub fn project(&self, place: DVec3, size: DVec2) -> Option<DVec2> {
         let clip = self.matrix(size.x / size.y.max(1.0)) * place.extend(1.0);
-        (clip.w > 0.0).then(|| DVec2::new((clip.x / clip.w + 1.0) * 0.5 * size.x, (1.0 - clip.y / clip.w) * 0.5 * size.y))
+        (clip.w > 0.0).then(|| {
+            DVec2::new(
+                (clip.x / clip.w + 1.0) * 0.5 * size.x,
+                (1.0 - clip.y / clip.w) * 0.5 * size.y,
+            )
+        })
     }
 }
 
@@ -346,30 +380,49 @@ mod tests {
 
     #[test]
     fn what_is_framed_fills_the_picture_and_stands_in_its_middle() {
-        let places =
-            [DVec3::new(0.0, 0.0, -25.0), DVec3::new(17.0, 2.0, 0.0), DVec3::new(8.0, -21.0, -12.0), DVec3::new(8.0, -35.0, -12.0)];
+        let places = [
+            DVec3::new(0.0, 0.0, -25.0),
+            DVec3::new(17.0, 2.0, 0.0),
+            DVec3::new(8.0, -21.0, -12.0),
+            DVec3::new(8.0, -35.0, -12.0),
+        ];
         for view in [View::Orbit, View::Side, View::Top, View::Front] {
             let camera = Camera::of_view(view, &places, None, 13.0, SIZE.x / SIZE.y);
             let at = places.map(|place| camera.project(place, SIZE).unwrap());
-            let (least, most) = at.into_iter().fold((at[0], at[0]), |(least, most), at| (least.min(at), most.max(at)));
+            let (least, most) = at
+                .into_iter()
+                .fold((at[0], at[0]), |(least, most), at| (least.min(at), most.max(at)));
             let share = (most - least) / SIZE;
             assert!(share.max_element() > 0.85 && share.max_element() < 0.97, "{view:?}: {share}");
-            assert!(((least + most) / 2.0 - SIZE / 2.0).length() < 12.0, "{view:?}: {least} to {most}");
+            assert!(
+                ((least + most) / 2.0 - SIZE / 2.0).length() < 12.0,
+                "{view:?}: {least} to {most}"
+            );
         }
     }
 
     #[test]
     fn east_is_right_and_up_is_up_from_the_south_and_north_is_up_from_above() {
         let side = Camera::of_view(View::Side, &gear().corners(), None, 13.0, 1.0);
-        assert!(side.project(DVec3::new(50.0, 0.0, -20.0), SIZE).unwrap().x > side.project(DVec3::new(0.0, 0.0, -20.0), SIZE).unwrap().x);
-        assert!(side.project(DVec3::ZERO, SIZE).unwrap().y < side.project(DVec3::new(0.0, 0.0, -30.0), SIZE).unwrap().y);
+        assert!(
+            side.project(DVec3::new(50.0, 0.0, -20.0), SIZE).unwrap().x
+                > side.project(DVec3::new(0.0, 0.0, -20.0), SIZE).unwrap().x
+        );
+        assert!(
+            side.project(DVec3::ZERO, SIZE).unwrap().y
+                < side.project(DVec3::new(0.0, 0.0, -30.0), SIZE).unwrap().y
+        );
         let top = Camera::of_view(View::Top, &gear().corners(), None, 13.0, 1.0);
-        assert!(top.project(DVec3::new(0.0, 3.0, 0.0), SIZE).unwrap().y < top.project(DVec3::new(0.0, -3.0, 0.0), SIZE).unwrap().y);
+        assert!(
+            top.project(DVec3::new(0.0, 3.0, 0.0), SIZE).unwrap().y
+                < top.project(DVec3::new(0.0, -3.0, 0.0), SIZE).unwrap().y
+        );
     }
 
     #[test]
     fn the_target_is_in_the_middle_and_the_scale_is_that_of_the_projection() {
-        let camera = Camera { target: DVec3::new(3.0, 4.0, -10.0), distance_m: 25.0, ..Camera::default() };
+        let camera =
+            Camera { target: DVec3::new(3.0, 4.0, -10.0), distance_m: 25.0, ..Camera::default() };
         let middle = camera.project(camera.target, SIZE).unwrap();
         assert!((middle - SIZE / 2.0).length() < 1e-9);
         let (right, ..) = camera.axes();
@@ -400,13 +453,18 @@ mod tests {
     #[test]
     fn first_person_rolls_with_the_whale() {
         for roll in [0.0, 0.7, -2.0] {
-            let orientation = DQuat::from_rotation_z(-0.6) * DQuat::from_rotation_y(0.3) * DQuat::from_rotation_x(roll);
+            let orientation = DQuat::from_rotation_z(-0.6)
+                * DQuat::from_rotation_y(0.3)
+                * DQuat::from_rotation_x(roll);
             let whale = swimming(orientation);
             let mut camera = Camera::default();
             camera.first_person(&whale, 13.0);
             let (right, up, _) = camera.axes();
             assert!((up - orientation * DVec3::Z).length() < 1e-9, "roll {roll}: up is {up}");
-            assert!((right - orientation * DVec3::NEG_Y).length() < 1e-9, "roll {roll}: right is {right}");
+            assert!(
+                (right - orientation * DVec3::NEG_Y).length() < 1e-9,
+                "roll {roll}: right is {right}"
+            );
         }
     }
 
@@ -416,8 +474,16 @@ mod tests {
         let whale = swimming(orientation);
         for view in [View::WhaleSide, View::WhaleTop] {
             let camera = Camera::of_view(view, &[], Some(&whale), 13.0, SIZE.x / SIZE.y);
-            let at = |x: f64| camera.project(whale.position + orientation * DVec3::X * x, SIZE).unwrap().x / SIZE.x;
-            assert!((0.85..0.95).contains(&at(6.5)) && (0.05..0.15).contains(&at(-6.5)), "{view:?}: {} to {}", at(-6.5), at(6.5));
+            let at = |x: f64| {
+                camera.project(whale.position + orientation * DVec3::X * x, SIZE).unwrap().x
+                    / SIZE.x
+            };
+            assert!(
+                (0.85..0.95).contains(&at(6.5)) && (0.05..0.15).contains(&at(-6.5)),
+                "{view:?}: {} to {}",
+                at(-6.5),
+                at(6.5)
+            );
         }
     }
 }

@@ -27,7 +27,8 @@ pub fn tension_colour(share: f64) -> Colour {
     let below = (place as usize).min(CIVIDIS.len() - 2);
     let part = (place - below as f64) as f32;
     let mix = |channel: usize| {
-        let (low, high) = (f32::from(CIVIDIS[below][channel]), f32::from(CIVIDIS[below + 1][channel]));
+        let (low, high) =
+            (f32::from(CIVIDIS[below][channel]), f32::from(CIVIDIS[below + 1][channel]));
         (low + (high - low) * part) / 255.0
     };
     [mix(0), mix(1), mix(2), 1.0]
@@ -99,7 +100,8 @@ mod tests {
 
     #[test]
     fn more_tension_is_always_lighter_so_that_no_colour_vision_is_needed() {
-        let lights: Vec<f64> = (0..=100).map(|step| luminance(tension_colour(f64::from(step) / 100.0))).collect();
+        let lights: Vec<f64> =
+            (0..=100).map(|step| luminance(tension_colour(f64::from(step) / 100.0))).collect();
         assert!(lights.windows(2).all(|pair| pair[1] > pair[0]), "{lights:?}");
     }
 

@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use glam::Vec3;
 use three_d::{
-    Blend, Camera as ViewOfPlane, ClearState, ColorTexture, Context, CopyEffect, CoreError, Cull, DepthTest, ElementBuffer, Mat4, Program,
-    RenderStates, RenderTarget, RenderTargetMultisample, ScissorBox, Texture2D, Vec3 as GlVec3, VertexBuffer, Viewport, WriteMask,
+    Blend, Camera as ViewOfPlane, ClearState, ColorTexture, Context, CopyEffect, CoreError, Cull,
+    DepthTest, ElementBuffer, Mat4, Program, RenderStates, RenderTarget, RenderTargetMultisample,
+    ScissorBox, Texture2D, Vec3 as GlVec3, VertexBuffer, Viewport, WriteMask,
 };
 
 use super::build::{Look, Part, Scene};
@@ -29,9 +30,17 @@ pub struct Water {
 
 impl Water {
     /// For the dark theme and for pictures.
-    pub const DARK: Self = Self { low: rgb(0x13, 0x33, 0x42), high: rgb(0x3d, 0x7a, 0x90), sky: rgb(0x6b, 0x8c, 0x99) };
+    pub const DARK: Self = Self {
+        low: rgb(0x13, 0x33, 0x42),
+        high: rgb(0x3d, 0x7a, 0x90),
+        sky: rgb(0x6b, 0x8c, 0x99),
+    };
     /// For the light theme.
-    pub const LIGHT: Self = Self { low: rgb(0x21, 0x46, 0x56), high: rgb(0x5d, 0x97, 0xab), sky: rgb(0xb4, 0xcd, 0xd6) };
+    pub const LIGHT: Self = Self {
+        low: rgb(0x21, 0x46, 0x56),
+        high: rgb(0x5d, 0x97, 0xab),
+        sky: rgb(0xb4, 0xcd, 0xd6),
+    };
 }
 
 /// Draws scenes; owns its programs, buffers and textures on the graphics card.
@@ -96,10 +105,28 @@ impl Drawer {
     pub fn new(gl: Arc<three_d::context::Context>) -> Result<Self, String> {
         let build = || -> Result<Self, CoreError> {
             let context = Context::from_gl_context(gl)?;
-            let part = Program::from_source(&context, shader!("shaders/part.vert"), shader!("shaders/part.frag"))?;
-            let backdrop = Program::from_source(&context, include_str!("shaders/backdrop.vert"), shader!("shaders/backdrop.frag"))?;
-            let corners = VertexBuffer::new_with_data(&context, &[[-1.0, -1.0], [3.0, -1.0], [-1.0, 3.0]]);
-            Ok(Self { context, part, backdrop, corners, loaded: Vec::new(), depth_m: 1.0, time_s: 0.0, pictures: Vec::new() })
+            let part = Program::from_source(
+                &context,
+                shader!("shaders/part.vert"),
+                shader!("shaders/part.frag"),
+            )?;
+            let backdrop = Program::from_source(
+                &context,
+                include_str!("shaders/backdrop.vert"),
+                shader!("shaders/backdrop.frag"),
+            )?;
+            let corners =
+                VertexBuffer::new_with_data(&context, &[[-1.0, -1.0], [3.0, -1.0], [-1.0, 3.0]]);
+            Ok(Self {
+                context,
+                part,
+                backdrop,
+                corners,
+                loaded: Vec::new(),
+                depth_m: 1.0,
+                time_s: 0.0,
+                pictures: Vec::new(),
+            })
         };
         build().map_err(|error| format!("the 3-D view cannot use this OpenGL: {error}"))
     }
@@ -122,8 +149,13 @@ impl Drawer {
         if self.pictures.len() <= slot {
             self.pictures.resize_with(slot + 1, || None);
         }
-        let known = self.pictures[slot].take().filter(|known| [known.target.width(), known.target.height()] == [width, height]);
-        let target = known.map_or_else(|| RenderTargetMultisample::new(&self.context, width, height, SAMPLES), |known| known.target);
+        let known = self.pictures[slot]
+            .take()
+            .filter(|known| [known.target.width(), known.target.height()] == [width, height]);
+        let target = known.map_or_else(
+            || RenderTargetMultisample::new(&self.context, width, height, SAMPLES),
+            |known| known.target,
+        );
         let eye = self.eye(camera, [width, height], water);
         target.clear(ClearState::color_and_depth(0.0, 0.0, 0.0, 1.0, 1.0));
         let drawn = target.write::<CoreError>(|| {
@@ -143,14 +175,23 @@ impl Drawer {
         }
         eye.sea(&self.backdrop);
         self.backdrop.use_vertex_attribute("corner", &self.corners);
-        let states = RenderStates { depth_test: DepthTest::Always, write_mask: WriteMask::COLOR, ..RenderStates::default() };
+        let states = RenderStates {
+            depth_test: DepthTest::Always,
+            write_mask: WriteMask::COLOR,
+            ..RenderStates::default()
+        };
         self.backdrop.draw_arrays(states, eye.viewport, 3);
     }
 
     /// Copies the picture drawn for a slot onto a window of `window` pixels, at `viewport`, inside `clip` (both from the
     /// bottom left).
     pub fn show(&self, slot: usize, window: [u32; 2], viewport: Viewport, clip: ScissorBox) {
-        if let Some(picture) = self.pictures.get(slot).and_then(Option::as_ref).and_then(|drawn| drawn.picture.as_ref()) {
+        if let Some(picture) = self
+            .pictures
+            .get(slot)
+            .and_then(Option::as_ref)
+            .and_then(|drawn| drawn.picture.as_ref())
+        {
             let copy = CopyEffect { write_mask: WriteMask::COLOR, blend: Blend::Disabled };
             let screen = RenderTarget::screen(&self.context, window[0], window[1]);
             screen.apply_screen_effect_partially(
@@ -183,7 +224,8 @@ impl Loaded {
     fn fill(&mut self, part: &Part) {
         let mesh = &part.mesh;
         (self.look, self.least_px) = (part.look, part.least_px);
-        let arrays = |vectors: &[Vec3]| vectors.iter().map(|vector| vector.to_array()).collect::<Vec<_>>();
+        let arrays =
+            |vectors: &[Vec3]| vectors.iter().map(|vector| vector.to_array()).collect::<Vec<_>>();
         self.place.fill(&arrays(&mesh.place));
         self.normal.fill(&arrays(&mesh.normal));
         self.grain.fill(&arrays(mesh.own_grain()));
@@ -216,8 +258,11 @@ impl Loaded {
 }
 
 fn render_states(see_through: bool) -> RenderStates {
-    let (blend, write_mask) =
-        if see_through { (Blend::TRANSPARENCY, WriteMask::COLOR) } else { (Blend::Disabled, WriteMask::COLOR_AND_DEPTH) };
+    let (blend, write_mask) = if see_through {
+        (Blend::TRANSPARENCY, WriteMask::COLOR)
+    } else {
+        (Blend::Disabled, WriteMask::COLOR_AND_DEPTH)
+    };
     RenderStates { depth_test: DepthTest::LessOrEqual, cull: Cull::None, blend, write_mask }
 }
 
@@ -238,7 +283,8 @@ impl Drawer {
             hide_m: 2.5 * seen_m + 30.0,
             depth_m: self.depth_m,
             time_s: self.time_s,
-            water: [water.low, water.high, water.sky].map(|[red, green, blue, _]: Colour| GlVec3::new(red, green, blue)),
+            water: [water.low, water.high, water.sky]
+                .map(|[red, green, blue, _]: Colour| GlVec3::new(red, green, blue)),
             viewport: Viewport::new_at_origo(width, height),
         }
     }

@@ -69,7 +69,9 @@ impl Mesh {
         let mut earlier: Option<u32> = None;
         for (index, centre) in centres.iter().enumerate() {
             let along = direction(centres, index);
-            across = (across - along * across.dot(along)).try_normalize().unwrap_or_else(|| any_across(along));
+            across = (across - along * across.dot(along))
+                .try_normalize()
+                .unwrap_or_else(|| any_across(along));
             let first = self.ring(*centre, along, across, radius_m, colours[index], sides);
             if let Some(before) = earlier {
                 self.band(before, first, sides);
@@ -79,7 +81,15 @@ impl Mesh {
     }
 
     /// One ring of a tube; returns its first vertex.
-    fn ring(&mut self, centre: Vec3, along: Vec3, across: Vec3, radius_m: f32, colour: Colour, sides: usize) -> u32 {
+    fn ring(
+        &mut self,
+        centre: Vec3,
+        along: Vec3,
+        across: Vec3,
+        radius_m: f32,
+        colour: Colour,
+        sides: usize,
+    ) -> u32 {
         let other = along.cross(across);
         let first = u32::try_from(self.place.len()).unwrap_or(u32::MAX);
         for side in 0..sides {
@@ -106,25 +116,49 @@ impl Mesh {
 
     /// A ball; `rings` from pole to pole, at least 2.
     pub fn ball(&mut self, centre: Vec3, radius_m: f32, colour: Colour, rings: usize) {
-        self.capsule(&DAffine3::from_translation(centre.as_dvec3()), radius_m, radius_m, |_| colour, rings);
+        self.capsule(
+            &DAffine3::from_translation(centre.as_dvec3()),
+            radius_m,
+            radius_m,
+            |_| colour,
+            rings,
+        );
     }
 
     /// A capsule along the z axis of `pose`: its half length includes the round ends. `paint` gives a
     /// colour by height along the axis, -1 to 1.
-    pub fn capsule(&mut self, pose: &DAffine3, radius_m: f32, half_length_m: f32, paint: impl Fn(f32) -> Colour, rings: usize) {
+    pub fn capsule(
+        &mut self,
+        pose: &DAffine3,
+        radius_m: f32,
+        half_length_m: f32,
+        paint: impl Fn(f32) -> Colour,
+        rings: usize,
+    ) {
         let straight = (half_length_m - radius_m).max(0.0);
         let sides = 2 * rings;
         let mut earlier: Option<u32> = None;
         for ring in 0..=rings {
             let polar = std::f32::consts::PI * ring as f32 / rings as f32;
             let up = -polar.cos();
-            let middle = pose.transform_point3(DVec3::new(0.0, 0.0, f64::from(straight * if up < 0.0 { -1.0 } else { 1.0 }))).as_vec3();
+            let middle = pose
+                .transform_point3(DVec3::new(
+                    0.0,
+                    0.0,
+                    f64::from(straight * if up < 0.0 { -1.0 } else { 1.0 }),
+                ))
+                .as_vec3();
             let first = u32::try_from(self.place.len()).unwrap_or(u32::MAX);
             let colour = paint(up);
             for side in 0..sides {
                 let angle = std::f32::consts::TAU * side as f32 / sides as f32;
                 let out = Vec3::new(polar.sin() * angle.cos(), polar.sin() * angle.sin(), up);
-                self.vertex(middle, pose.transform_vector3(out.as_dvec3()).as_vec3(), radius_m, colour);
+                self.vertex(
+                    middle,
+                    pose.transform_vector3(out.as_dvec3()).as_vec3(),
+                    radius_m,
+                    colour,
+                );
             }
             if let Some(before) = earlier {
                 self.band(before, first, sides);
@@ -135,7 +169,9 @@ impl Mesh {
 
     /// The twelve edges of a box and wires across its faces about every `mesh_m`.
     pub fn cage(&mut self, pose: &DAffine3, half_m: Vec3, mesh_m: f32, colours: [Colour; 2]) {
-        let place = |x: f32, y: f32, z: f32| pose.transform_point3((Vec3::new(x, y, z) * half_m).as_dvec3()).as_vec3();
+        let place = |x: f32, y: f32, z: f32| {
+            pose.transform_point3((Vec3::new(x, y, z) * half_m).as_dvec3()).as_vec3()
+        };
         let [frame, wire] = colours;
         for axis in 0..3 {
             let (other, third) = ((axis + 1) % 3, (axis + 2) % 3);
@@ -237,13 +273,20 @@ mod tests {
     #[test]
     fn a_block_has_its_volume_and_faces_outward() {
         let mut mesh = Mesh::default();
-        mesh.block(&DAffine3::from_translation(DVec3::new(5.0, 0.0, 0.0)), Vec3::new(0.5, 1.0, 0.25), GREY);
+        mesh.block(
+            &DAffine3::from_translation(DVec3::new(5.0, 0.0, 0.0)),
+            Vec3::new(0.5, 1.0, 0.25),
+            GREY,
+        );
         assert!((volume(&mesh) - 1.0).abs() < 1e-5);
     }
 
     #[test]
     fn a_tube_keeps_its_radius_round_a_bend_and_its_ends() {
-        let centres: Vec<Vec3> = (0..50).map(|step| step as f32 * 0.1).map(|a| Vec3::new(a.cos(), a.sin(), 0.3 * a) * 4.0).collect();
+        let centres: Vec<Vec3> = (0..50)
+            .map(|step| step as f32 * 0.1)
+            .map(|a| Vec3::new(a.cos(), a.sin(), 0.3 * a) * 4.0)
+            .collect();
         let mut mesh = Mesh::default();
         mesh.tube(&centres, 0.25, &vec![GREY; 50], 8);
         assert_eq!(mesh.vertices(), 50 * 8);

@@ -30,11 +30,15 @@ fn draw(mesh: &mut Mesh, obstacle: &Obstacle) {
             let sunk = pose * DAffine3::from_translation(DVec3::Z * -f64::from(PLANE_THICKNESS_M));
             mesh.block(&sunk, Vec3::new(PLANE_M, PLANE_M, PLANE_THICKNESS_M), ROCK);
         }
-        SolidShape::Sphere(radius) => mesh.capsule(&pose, *radius as f32, *radius as f32, |_| ROCK, SIDES / 2),
+        SolidShape::Sphere(radius) => {
+            mesh.capsule(&pose, *radius as f32, *radius as f32, |_| ROCK, SIDES / 2)
+        }
         SolidShape::Capsule { radius_m, half_length_m } => {
             mesh.capsule(&pose, *radius_m as f32, *half_length_m as f32, |_| ROCK, SIDES / 2);
         }
-        SolidShape::Cylinder { radius_m, half_length_m } => cylinder(mesh, &pose, *radius_m, *half_length_m),
+        SolidShape::Cylinder { radius_m, half_length_m } => {
+            cylinder(mesh, &pose, *radius_m, *half_length_m)
+        }
         SolidShape::Box(half) => mesh.block(&pose, half.as_vec3(), ROCK),
     }
 }
@@ -51,7 +55,9 @@ fn cylinder(mesh: &mut Mesh, pose: &DAffine3, radius_m: f64, half_length_m: f64)
             let angle = std::f64::consts::TAU * end * side as f64 / SIDES as f64;
             at(DVec3::new(radius_m * angle.cos(), radius_m * angle.sin(), height))
         };
-        let first: Vec<u32> = (0..SIDES).map(|side| mesh.vertex(rim(side), normal, 0.0, ROCK)).collect();
-        mesh.triangles.extend((0..SIDES).map(|side| [middle, first[side], first[(side + 1) % SIDES]]));
+        let first: Vec<u32> =
+            (0..SIDES).map(|side| mesh.vertex(rim(side), normal, 0.0, ROCK)).collect();
+        mesh.triangles
+            .extend((0..SIDES).map(|side| [middle, first[side], first[(side + 1) % SIDES]]));
     }
 }

@@ -35,7 +35,9 @@ impl Offscreen {
     /// With what was missing and the packages that bring it.
     pub fn new(size: [u32; 2]) -> Result<Self, String> {
         let explain = |reason: String| {
-            format!("no OpenGL to draw with ({reason}); pictures need EGL, on Debian the packages libegl1 and libgl1-mesa-dri")
+            format!(
+                "no OpenGL to draw with ({reason}); pictures need EGL, on Debian the packages libegl1 and libgl1-mesa-dri"
+            )
         };
         let devices = Device::query_devices().map_err(|error| explain(error.to_string()))?;
         let mut reason = "no device".to_string();
@@ -52,22 +54,30 @@ impl Offscreen {
         // SAFETY: no native display handle is passed, so none can dangle.
         let display = unsafe { Display::with_device(device, None) }?;
         let config = first_config(&display)?;
-        let wanted = ContextAttributesBuilder::new().with_context_api(ContextApi::OpenGl(Some(Version::new(3, 3)))).build(None);
+        let wanted = ContextAttributesBuilder::new()
+            .with_context_api(ContextApi::OpenGl(Some(Version::new(3, 3))))
+            .build(None);
         // SAFETY: `config` comes from this display, and no native window handle is passed.
         let context = unsafe { display.create_context(&config, &wanted) }?;
         let side = |pixels: u32| NonZeroU32::new(pixels).unwrap_or(NonZeroU32::MIN);
-        let wanted = SurfaceAttributesBuilder::<PbufferSurface>::new().build(side(size[0]), side(size[1]));
+        let wanted =
+            SurfaceAttributesBuilder::<PbufferSurface>::new().build(side(size[0]), side(size[1]));
         // SAFETY: `config` comes from this display.
         let surface = unsafe { display.create_pbuffer_surface(&config, &wanted) }?;
         let context = context.make_current(&surface)?;
         // SAFETY: the context is current on this thread, and the display answers with its own functions' addresses.
-        let gl = unsafe { Gl::from_loader_function_cstr(|name: &CStr| display.get_proc_address(name)) };
+        let gl =
+            unsafe { Gl::from_loader_function_cstr(|name: &CStr| display.get_proc_address(name)) };
         Ok(Self { gl: Arc::new(gl), _context: context, _surface: surface })
     }
 }
 
 fn first_config(display: &Display) -> Result<Config, glutin::error::Error> {
-    let wanted = ConfigTemplateBuilder::new().with_surface_type(ConfigSurfaceTypes::PBUFFER).with_alpha_size(8).with_depth_size(24).build();
+    let wanted = ConfigTemplateBuilder::new()
+        .with_surface_type(ConfigSurfaceTypes::PBUFFER)
+        .with_alpha_size(8)
+        .with_depth_size(24)
+        .build();
     // SAFETY: the template names no native window, so nothing in it can dangle.
     let mut configs = unsafe { display.find_configs(wanted) }?;
     configs.next().ok_or_else(|| glutin::error::ErrorKind::BadConfig.into())

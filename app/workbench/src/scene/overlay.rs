@@ -40,7 +40,8 @@ pub fn paint(painter: &Painter, rect: Rect, overlay: &Overlay<'_>) {
 
 fn caption(painter: &Painter, rect: Rect, overlay: &Overlay<'_>) {
     let time = format!("{:.2} s", overlay.time_s);
-    let text = if overlay.caption.is_empty() { time } else { format!("{}   {time}", overlay.caption) };
+    let text =
+        if overlay.caption.is_empty() { time } else { format!("{}   {time}", overlay.caption) };
     let at = rect.left_top() + Vec2::splat(MARGIN);
     let galley = painter.layout_no_wrap(text, FontId::proportional(14.0), INK);
     painter.rect_filled(Rect::from_min_size(at, galley.size()).expand2(vec2(7.0, 4.0)), 4.0, PLATE);
@@ -50,22 +51,55 @@ fn caption(painter: &Painter, rect: Rect, overlay: &Overlay<'_>) {
 /// The colour bar: pounds-force to its left, newtons to its right.
 fn legend(painter: &Painter, rect: Rect, scale_n: f64) {
     let height = (rect.height() * 0.35).clamp(120.0, 220.0);
-    let bar = Rect::from_min_size(pos2(rect.right() - 78.0, rect.bottom() - MARGIN - 12.0 - height), vec2(10.0, height));
-    let plate = Rect::from_min_max(bar.min - vec2(60.0, 44.0), pos2(rect.right() - MARGIN + 4.0, bar.max.y + 12.0));
+    let bar = Rect::from_min_size(
+        pos2(rect.right() - 78.0, rect.bottom() - MARGIN - 12.0 - height),
+        vec2(10.0, height),
+    );
+    let plate = Rect::from_min_max(
+        bar.min - vec2(60.0, 44.0),
+        pos2(rect.right() - MARGIN + 4.0, bar.max.y + 12.0),
+    );
     painter.rect_filled(plate, 5.0, PLATE);
     let small = FontId::proportional(11.5);
-    painter.text(pos2(plate.center().x, plate.top() + 13.0), Align2::CENTER_CENTER, "Tension", small.clone(), INK);
-    painter.text(bar.left_top() - vec2(7.0, 14.0), Align2::RIGHT_CENTER, "lbf", small.clone(), FAINT);
-    painter.text(bar.right_top() + vec2(7.0, -14.0), Align2::LEFT_CENTER, "N", small.clone(), FAINT);
+    painter.text(
+        pos2(plate.center().x, plate.top() + 13.0),
+        Align2::CENTER_CENTER,
+        "Tension",
+        small.clone(),
+        INK,
+    );
+    painter.text(
+        bar.left_top() - vec2(7.0, 14.0),
+        Align2::RIGHT_CENTER,
+        "lbf",
+        small.clone(),
+        FAINT,
+    );
+    painter.text(
+        bar.right_top() + vec2(7.0, -14.0),
+        Align2::LEFT_CENTER,
+        "N",
+        small.clone(),
+        FAINT,
+    );
     gradient(painter, bar);
-    for (per_n, side, align) in [(1.0 / N_PER_LBF, -1.0, Align2::RIGHT_CENTER), (1.0, 1.0, Align2::LEFT_CENTER)] {
+    for (per_n, side, align) in
+        [(1.0 / N_PER_LBF, -1.0, Align2::RIGHT_CENTER), (1.0, 1.0, Align2::LEFT_CENTER)]
+    {
         let ticks = ticks(scale_n * per_n, 5);
         let places = ticks.get(1).map_or(0, |step| decimals(*step));
         for tick in ticks {
             let y = bar.bottom() - bar.height() * (tick / (scale_n * per_n)) as f32;
             let edge = if side < 0.0 { bar.left() } else { bar.right() };
-            painter.line_segment([pos2(edge, y), pos2(edge + side * 4.0, y)], Stroke::new(1.0, FAINT));
-            painter.text(pos2(edge + side * 7.0, y), align, thousands(tick, places), small.clone(), INK);
+            painter
+                .line_segment([pos2(edge, y), pos2(edge + side * 4.0, y)], Stroke::new(1.0, FAINT));
+            painter.text(
+                pos2(edge + side * 7.0, y),
+                align,
+                thousands(tick, places),
+                small.clone(),
+                INK,
+            );
         }
     }
 }
@@ -104,8 +138,18 @@ fn scale_bar(painter: &Painter, rect: Rect, metres_a_point: f64) {
         painter.line_segment([end - vec2(0.0, 4.0), end + vec2(0.0, 4.0)], line);
     }
     let middle: Pos2 = left + (right - left) * 0.5;
-    let text = if length_m < 1.0 { format!("{:.0} cm", length_m * 100.0) } else { format!("{} m", thousands(length_m, 0)) };
-    painter.text(middle - vec2(0.0, 13.0), Align2::CENTER_CENTER, text, FontId::proportional(12.0), INK);
+    let text = if length_m < 1.0 {
+        format!("{:.0} cm", length_m * 100.0)
+    } else {
+        format!("{} m", thousands(length_m, 0))
+    };
+    painter.text(
+        middle - vec2(0.0, 13.0),
+        Align2::CENTER_CENTER,
+        text,
+        FontId::proportional(12.0),
+        INK,
+    );
 }
 
 /// A number to so many decimals, a thin space between thousands; zero is only 0.

@@ -44,7 +44,14 @@ struct Ray {
 
 /// What stands at a place of a picture of `size` [points]; `None` in open water. Skin only where the whale is shown.
 #[must_use]
-pub fn pick(model: &Model, frame: &Frame, camera: &Camera, at: DVec2, size: DVec2, whale_is_shown: bool) -> Option<Picked> {
+pub fn pick(
+    model: &Model,
+    frame: &Frame,
+    camera: &Camera,
+    at: DVec2,
+    size: DVec2,
+    whale_is_shown: bool,
+) -> Option<Picked> {
     let (eye, along) = camera.ray(at, size);
     let ray = Ray { eye, along };
     let body = body(model, frame, &ray, camera, size);
@@ -57,7 +64,14 @@ pub fn pick(model: &Model, frame: &Frame, camera: &Camera, at: DVec2, size: DVec
 }
 
 /// The rope nearest to the pointer on screen, of those within reach.
-fn rope(model: &Model, frame: &Frame, ray: &Ray, camera: &Camera, at: DVec2, size: DVec2) -> Option<(f64, Picked)> {
+fn rope(
+    model: &Model,
+    frame: &Frame,
+    ray: &Ray,
+    camera: &Camera,
+    at: DVec2,
+    size: DVec2,
+) -> Option<(f64, Picked)> {
     let mut best: Option<(f64, (f64, Picked))> = None;
     for (line, segments) in model.line_segments.iter().enumerate() {
         let (first, mut before_m) = (model.line_nodes[line].start, 0.0);
@@ -66,11 +80,15 @@ fn rope(model: &Model, frame: &Frame, ray: &Ray, camera: &Camera, at: DVec2, siz
             let ends = [*frame.nodes.get(first + order)?, *frame.nodes.get(first + order + 1)?];
             let whole = !frame.cut.get(segment).copied().unwrap_or(false);
             if let (true, [Some(a), Some(b)]) = (whole, ends.map(|end| camera.project(end, size))) {
-                let share = ((at - a).dot(b - a) / (b - a).length_squared().max(1e-12)).clamp(0.0, 1.0);
+                let share =
+                    ((at - a).dot(b - a) / (b - a).length_squared().max(1e-12)).clamp(0.0, 1.0);
                 let beside = (a + (b - a) * share - at).length();
                 if beside <= NEAR && best.is_none_or(|(least, _)| beside < least) {
                     let away_m = (ends[0].lerp(ends[1], share) - ray.eye).dot(ray.along);
-                    best = Some((beside, (away_m, Picked::Rope { line, at_m: before_m + share * length_m })));
+                    best = Some((
+                        beside,
+                        (away_m, Picked::Rope { line, at_m: before_m + share * length_m }),
+                    ));
                 }
             }
             before_m += length_m;
@@ -80,16 +98,29 @@ fn rope(model: &Model, frame: &Frame, ray: &Ray, camera: &Camera, at: DVec2, siz
 }
 
 /// The nearest body whose box, a little grown, the ray meets.
-fn body(model: &Model, frame: &Frame, ray: &Ray, camera: &Camera, size: DVec2) -> Option<(f64, Picked)> {
-    let hits = model.spec.bodies.iter().zip(&frame.bodies).enumerate().filter_map(|(index, (body, (place, turn)))| {
-        let pose = DAffine3::from_rotation_translation(*turn, *place + *turn * body.shape_offset_m).inverse();
-        let away_m = (*place - ray.eye).dot(ray.along).max(0.0);
-        let half = half(&body.shape) + DVec3::splat(0.5 * NEAR * camera.metres_a_point(size.y) * away_m / camera.distance_m);
-        let (from, along) = (pose.transform_point3(ray.eye), pose.transform_vector3(ray.along));
-        let (one, other) = ((-half - from) / along, (half - from) / along);
-        let (enters, leaves) = (one.min(other).max_element(), one.max(other).min_element());
-        (enters <= leaves && leaves > 0.0).then_some((enters, Picked::Body(index)))
-    });
+fn body(
+    model: &Model,
+    frame: &Frame,
+    ray: &Ray,
+    camera: &Camera,
+    size: DVec2,
+) -> Option<(f64, Picked)> {
+    let hits = model.spec.bodies.iter().zip(&frame.bodies).enumerate().filter_map(
+        |(index, (body, (place, turn)))| {
+            let pose =
+                DAffine3::from_rotation_translation(*turn, *place + *turn * body.shape_offset_m)
+                    .inverse();
+            let away_m = (*place - ray.eye).dot(ray.along).max(0.0);
+            let half = half(&body.shape)
+                + DVec3::splat(
+                    0.5 * NEAR * camera.metres_a_point(size.y) * away_m / camera.distance_m,
+                );
+            let (from, along) = (pose.transform_point3(ray.eye), pose.transform_vector3(ray.along));
+            let (one, other) = ((-half - from) / along, (half - from) / along);
+            let (enters, leaves) = (one.min(other).max_element(), one.max(other).min_element());
+            (enters <= leaves && leaves > 0.0).then_some((enters, Picked::Body(index)))
+        },
+    );
     hits.min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
@@ -144,14 +175,19 @@ pub fn on_line(model: &Model, frame: &Frame, line: usize, at_m: f64) -> Option<(
 /// Both ends of a segment of a line [m].
 #[must_use]
 pub fn ends(model: &Model, frame: &Frame, line: usize, segment: usize) -> Option<[DVec3; 2]> {
-    let first = model.line_nodes.get(line)?.start + segment.checked_sub(model.line_segments.get(line)?.start)?;
+    let first = model.line_nodes.get(line)?.start
+        + segment.checked_sub(model.line_segments.get(line)?.start)?;
     Some([*frame.nodes.get(first)?, *frame.nodes.get(first + 1)?])
 }
 
 /// Unstretched length of a line [m].
 #[must_use]
 pub fn length_m(model: &Model, frame: &Frame, line: usize) -> f64 {
-    model.line_segments.get(line).and_then(|segments| frame.segment_length_m.get(segments.clone())).map_or(0.0, |all| all.iter().sum())
+    model
+        .line_segments
+        .get(line)
+        .and_then(|segments| frame.segment_length_m.get(segments.clone()))
+        .map_or(0.0, |all| all.iter().sum())
 }
 
 impl Picked {
@@ -165,7 +201,8 @@ impl Picked {
                 Some(a.lerp(b, share))
             }
             Self::Body(index) => {
-                let (body, (place, turn)) = (model.spec.bodies.get(index)?, frame.bodies.get(index)?);
+                let (body, (place, turn)) =
+                    (model.spec.bodies.get(index)?, frame.bodies.get(index)?);
                 Some(*place + *turn * body.shape_offset_m)
             }
             Self::Skin { triangle, barycentric } => {
@@ -173,7 +210,13 @@ impl Picked {
                 let corners = skin.triangles.get(triangle)?;
                 let mut bones = Vec::new();
                 pose(skin, at.position, at.orientation, &at.posture, &mut bones);
-                Some(corners.iter().zip(barycentric).map(|(corner, share)| skin_vertex(skin, &bones, *corner as usize) * share).sum())
+                Some(
+                    corners
+                        .iter()
+                        .zip(barycentric)
+                        .map(|(corner, share)| skin_vertex(skin, &bones, *corner as usize) * share)
+                        .sum(),
+                )
             }
         }
     }
@@ -191,19 +234,34 @@ mod tests {
     fn what_is_clicked_where_it_is_drawn_is_what_is_picked() {
         let model = sample::model();
         let frame = sample::frame(&model);
-        let camera = Camera::of_view(View::Side, &Scene::places_of(&model, &frame), None, 13.0, SIZE.x / SIZE.y);
+        let camera = Camera::of_view(
+            View::Side,
+            &Scene::places_of(&model, &frame),
+            None,
+            13.0,
+            SIZE.x / SIZE.y,
+        );
         for at_m in [6.0, 15.3, 30.1] {
             let wanted = Picked::Rope { line: 0, at_m };
             let place = wanted.place(&model, &frame).unwrap();
             let beside = camera.project(place, SIZE).unwrap() + DVec2::new(2.0, 0.0);
-            let Some(Picked::Rope { line: 0, at_m: found_m }) = pick(&model, &frame, &camera, beside, SIZE, false) else {
+            let Some(Picked::Rope { line: 0, at_m: found_m }) =
+                pick(&model, &frame, &camera, beside, SIZE, false)
+            else {
                 panic!("rope at {at_m} m is not found")
             };
-            assert!((found_m - at_m).abs() < 3.0 * camera.metres_a_point(SIZE.y), "{found_m} for {at_m}");
+            assert!(
+                (found_m - at_m).abs() < 3.0 * camera.metres_a_point(SIZE.y),
+                "{found_m} for {at_m}"
+            );
         }
         let buoy = camera.project(frame.bodies[1].0, SIZE).unwrap();
         assert_eq!(pick(&model, &frame, &camera, buoy, SIZE, true), Some(Picked::Body(1)));
-        assert_eq!(pick(&model, &frame, &camera, DVec2::new(5.0, SIZE.y / 2.0), SIZE, true), None, "open water");
+        assert_eq!(
+            pick(&model, &frame, &camera, DVec2::new(5.0, SIZE.y / 2.0), SIZE, true),
+            None,
+            "open water"
+        );
     }
 
     #[test]
@@ -213,13 +271,24 @@ mod tests {
         let at = frame.whale.as_ref().unwrap();
         let camera = Camera::of_view(View::WhaleSide, &[], Some(at), 13.0, SIZE.x / SIZE.y);
         let middle = SIZE / 2.0 + DVec2::new(11.0, -3.0);
-        let Some(picked @ Picked::Skin { .. }) = pick(&model, &frame, &camera, middle, SIZE, true) else {
+        let Some(picked @ Picked::Skin { .. }) = pick(&model, &frame, &camera, middle, SIZE, true)
+        else {
             panic!("the whale fills the picture")
         };
         let place = picked.place(&model, &frame).unwrap();
-        assert!((camera.project(place, SIZE).unwrap() - middle).length() < 1e-6, "under the pointer");
-        assert!((place - camera.eye()).length() < (at.position - camera.eye()).length(), "not on its far side");
-        assert_eq!(pick(&model, &frame, &camera, middle, SIZE, false), None, "a whale that is not shown is not read");
+        assert!(
+            (camera.project(place, SIZE).unwrap() - middle).length() < 1e-6,
+            "under the pointer"
+        );
+        assert!(
+            (place - camera.eye()).length() < (at.position - camera.eye()).length(),
+            "not on its far side"
+        );
+        assert_eq!(
+            pick(&model, &frame, &camera, middle, SIZE, false),
+            None,
+            "a whale that is not shown is not read"
+        );
     }
 
     #[test]

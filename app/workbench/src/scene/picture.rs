@@ -50,13 +50,20 @@ pub fn render_png(request: &RenderRequest<'_>) -> Result<(), String> {
 /// # Errors
 /// As [`render_png`], but for the file.
 pub fn render(request: &RenderRequest<'_>) -> Result<Vec<[u8; 4]>, String> {
-    let view =
-        View::named(request.view).ok_or_else(|| format!("there is no view `{}`; expected one of {}", request.view, View::names()))?;
+    let view = View::named(request.view).ok_or_else(|| {
+        format!("there is no view `{}`; expected one of {}", request.view, View::names())
+    })?;
     if request.size.into_iter().any(|side| !(16..=LARGEST).contains(&side)) {
         let [width, height] = request.size;
-        return Err(format!("a picture of {width} x {height} pixels cannot be drawn; each side may have 16 to {LARGEST}"));
+        return Err(format!(
+            "a picture of {width} x {height} pixels cannot be drawn; each side may have 16 to {LARGEST}"
+        ));
     }
-    let scene = Scene::of(request.model, request.frame, &Show { scale_n: request.scale_n, ..Show::default() });
+    let scene = Scene::of(
+        request.model,
+        request.frame,
+        &Show { scale_n: request.scale_n, ..Show::default() },
+    );
     let aspect = f64::from(request.size[0]) / f64::from(request.size[1]);
     let length_m = request.model.spec.whale.as_ref().map_or(10.0, |whale| whale.length_m);
     let all = Scene::places_of(request.model, request.frame);
@@ -65,13 +72,22 @@ pub fn render(request: &RenderRequest<'_>) -> Result<Vec<[u8; 4]>, String> {
     draw(request, &scene, &camera)
 }
 
-fn draw(request: &RenderRequest<'_>, scene: &Scene, camera: &Camera) -> Result<Vec<[u8; 4]>, String> {
+fn draw(
+    request: &RenderRequest<'_>,
+    scene: &Scene,
+    camera: &Camera,
+) -> Result<Vec<[u8; 4]>, String> {
     let [width, height] = request.size;
     let surface = Offscreen::new(request.size)?;
     let mut drawer = Drawer::new(surface.gl.clone())?;
     drawer.load(scene);
     drawer.draw(0, camera, request.size, Water::DARK);
-    drawer.show(0, request.size, Viewport::new_at_origo(width, height), ScissorBox::new_at_origo(width, height));
+    drawer.show(
+        0,
+        request.size,
+        Viewport::new_at_origo(width, height),
+        ScissorBox::new_at_origo(width, height),
+    );
     let overlay = Overlay {
         caption: request.caption,
         time_s: scene.time_s,
@@ -79,25 +95,34 @@ fn draw(request: &RenderRequest<'_>, scene: &Scene, camera: &Camera) -> Result<V
         metres_a_point: camera.metres_a_point(f64::from(height)),
     };
     write_over(&surface, request.size, &overlay)?;
-    let context = Context::from_gl_context(surface.gl.clone()).map_err(|error| error.to_string())?;
+    let context =
+        Context::from_gl_context(surface.gl.clone()).map_err(|error| error.to_string())?;
     Ok(RenderTarget::screen(&context, width, height).read_color())
 }
 
 /// Paints the overlay onto the surface with egui.
 fn write_over(surface: &Offscreen, size: [u32; 2], overlay: &Overlay<'_>) -> Result<(), String> {
-    let rect = egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(size[0] as f32, size[1] as f32));
+    let rect =
+        egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(size[0] as f32, size[1] as f32));
     let input = egui::RawInput { screen_rect: Some(rect), ..egui::RawInput::default() };
     let context = egui::Context::default();
     let mut output = context.run_ui(input, |ui| overlay::paint(ui.painter(), rect, overlay));
     let shapes = context.tessellate(std::mem::take(&mut output.shapes), output.pixels_per_point);
-    let mut painter = egui_glow::Painter::new(surface.gl.clone(), "", None, false).map_err(|error| error.to_string())?;
-    painter.paint_and_update_textures(size, output.pixels_per_point, &shapes, &mut output.textures_delta);
+    let mut painter = egui_glow::Painter::new(surface.gl.clone(), "", None, false)
+        .map_err(|error| error.to_string())?;
+    painter.paint_and_update_textures(
+        size,
+        output.pixels_per_point,
+        &shapes,
+        &mut output.textures_delta,
+    );
     painter.destroy();
     Ok(())
 }
 
 fn write_png(out: &Path, size: [u32; 2], pixels: &[[u8; 4]]) -> Result<(), String> {
-    let explain = |reason: String| format!("{}: the picture cannot be written: {reason}", out.display());
+    let explain =
+        |reason: String| format!("{}: the picture cannot be written: {reason}", out.display());
     let file = File::create(out).map_err(|error| explain(error.to_string()))?;
     let mut encoder = png::Encoder::new(BufWriter::new(file), size[0], size[1]);
     encoder.set_color(png::ColorType::Rgb);

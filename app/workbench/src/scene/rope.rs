@@ -15,12 +15,19 @@ const SIDES: usize = 6;
 pub fn lines(model: &Model, frame: &Frame, scale_n: f64) -> Mesh {
     let mut mesh = Mesh::default();
     for (index, line) in model.spec.lines.iter().enumerate() {
-        let (nodes, segments) = (model.line_nodes[index].clone(), model.line_segments[index].clone());
-        let whole = frame.nodes.len() >= nodes.end && frame.tension_n.len() >= segments.end && frame.cut.len() >= segments.end;
+        let (nodes, segments) =
+            (model.line_nodes[index].clone(), model.line_segments[index].clone());
+        let whole = frame.nodes.len() >= nodes.end
+            && frame.tension_n.len() >= segments.end
+            && frame.cut.len() >= segments.end;
         if whole {
             let radius = (model.spec.ropes[line.rope].diameter_m * 0.5) as f32;
-            let rope =
-                Rope { nodes: &frame.nodes[nodes], tension_n: &frame.tension_n[segments.clone()], cut: &frame.cut[segments], radius };
+            let rope = Rope {
+                nodes: &frame.nodes[nodes],
+                tension_n: &frame.tension_n[segments.clone()],
+                cut: &frame.cut[segments],
+                radius,
+            };
             rope.draw(&mut mesh, scale_n);
         }
     }
@@ -54,7 +61,8 @@ impl Rope<'_> {
     /// The tube from node `first` to node `last`.
     fn stretch(&self, mesh: &mut Mesh, first: usize, last: usize, scale_n: f64) {
         let centres: Vec<Vec3> = self.nodes[first..=last].iter().copied().map(single).collect();
-        let colours: Vec<Colour> = (first..=last).map(|node| self.colour(node, first, last, scale_n)).collect();
+        let colours: Vec<Colour> =
+            (first..=last).map(|node| self.colour(node, first, last, scale_n)).collect();
         mesh.tube(&centres, self.radius, &colours, SIDES);
     }
 

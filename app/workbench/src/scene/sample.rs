@@ -2,9 +2,15 @@
 
 use std::sync::Arc;
 
-use endline_sdk::{Contacts, Descriptor, FrictionModel, FrictionResponse, HookError, MotionInput, MotionOutput, Region, WhaleMotion};
+use endline_sdk::{
+    Contacts, Descriptor, FrictionModel, FrictionResponse, HookError, MotionInput, MotionOutput,
+    Region, WhaleMotion,
+};
 use endline_sim::contact::ContactPoint;
-use endline_sim::model::{Body, BodyRole, Float, Friction, Joint, JointKind, Line, ModelSpec, Rope, Seabed, Settings, Shape, Strength};
+use endline_sim::model::{
+    Body, BodyRole, Float, Friction, Joint, JointKind, Line, ModelSpec, Rope, Seabed, Settings,
+    Shape, Strength,
+};
 use endline_sim::water::{Current, Water};
 use endline_sim::whale::{Bone, JointRanges, Measures, PilotProgram, Skin, Whale};
 use endline_sim::{DQuat, DVec3, Frame, Model, State};
@@ -15,11 +21,21 @@ pub const DEPTH_M: f64 = 30.0;
 /// A trap on the seabed, one endline in a gentle bow, a buoy at the surface, a whale beside it.
 pub fn model() -> Model {
     let bodies = vec![body("trap", BodyRole::Trap), body("buoy", BodyRole::Buoy)];
-    let joint = |id: &str, body| Joint { id: id.into(), kind: JointKind::Body { body, offset_m: DVec3::ZERO }, position_m: DVec3::ZERO };
+    let joint = |id: &str, body| Joint {
+        id: id.into(),
+        kind: JointKind::Body { body, offset_m: DVec3::ZERO },
+        position_m: DVec3::ZERO,
+    };
     let segments = 60;
     let spec = ModelSpec {
         water: water(),
-        seabed: Some(Seabed { depth_m: DEPTH_M, normal: DVec3::Z, rope_stiffness_n_m2: 1e4, foot_stiffness_n_m: 1e5, rope_friction: 0.3 }),
+        seabed: Some(Seabed {
+            depth_m: DEPTH_M,
+            normal: DVec3::Z,
+            rope_stiffness_n_m2: 1e4,
+            foot_stiffness_n_m: 1e5,
+            rope_friction: 0.3,
+        }),
         ropes: vec![rope()],
         joints: vec![joint("trap-eye", 0), joint("buoy-eye", 1)],
         lines: vec![Line {
@@ -29,7 +45,9 @@ pub fn model() -> Model {
             to: 1,
             segments_m: vec![36.0 / f64::from(segments); segments as usize],
             strength: Strength::default(),
-            start_m: (0..=segments).map(|node| place_on_rope(f64::from(node) / f64::from(segments))).collect(),
+            start_m: (0..=segments)
+                .map(|node| place_on_rope(f64::from(node) / f64::from(segments)))
+                .collect(),
         }],
         bodies,
         links: Vec::new(),
@@ -68,12 +86,23 @@ pub fn frame(model: &Model) -> Frame {
 
 /// The bow of the sample's endline, from trap (0) to buoy (1) [m].
 fn place_on_rope(share: f64) -> DVec3 {
-    DVec3::new(12.0 * share, 3.0 * (share * std::f64::consts::PI).sin(), -DEPTH_M + 0.2 + (DEPTH_M - 0.2) * share)
+    DVec3::new(
+        12.0 * share,
+        3.0 * (share * std::f64::consts::PI).sin(),
+        -DEPTH_M + 0.2 + (DEPTH_M - 0.2) * share,
+    )
 }
 
 fn water() -> Water {
     let current = Current::power(DVec3::new(0.6, 0.0, 0.0), 1.0 / 7.0);
-    Water { density_kg_m3: 1025.0, gravity_m_s2: 9.806_65, depth_m: DEPTH_M, rope_dries: true, current, waves: None }
+    Water {
+        density_kg_m3: 1025.0,
+        gravity_m_s2: 9.806_65,
+        depth_m: DEPTH_M,
+        rope_dries: true,
+        current,
+        waves: None,
+    }
 }
 
 fn rope() -> Rope {
@@ -100,7 +129,11 @@ fn body(id: &str, role: BodyRole) -> Body {
     Body {
         id: id.into(),
         role,
-        shape: if trap { Shape::Box(DVec3::new(0.6, 0.27, 0.2)) } else { Shape::Capsule { radius_m: 0.18, half_length_m: 0.4 } },
+        shape: if trap {
+            Shape::Box(DVec3::new(0.6, 0.27, 0.2))
+        } else {
+            Shape::Capsule { radius_m: 0.18, half_length_m: 0.4 }
+        },
         shape_offset_m: DVec3::ZERO,
         mass_kg: 20.0,
         inertia_kg_m2: DVec3::ONE,
@@ -123,14 +156,34 @@ fn body(id: &str, role: BodyRole) -> Body {
 /// A whale whose skin is a long octahedron on one bone.
 fn whale() -> Whale {
     let tip = |x: f64, y: f64, z: f64| DVec3::new(x, y, z);
-    let vertices =
-        vec![tip(6.5, 0.0, 0.0), tip(-6.5, 0.0, 0.0), tip(0.0, 1.3, 0.0), tip(0.0, -1.3, 0.0), tip(0.0, 0.0, 1.3), tip(0.0, 0.0, -1.3)];
-    let triangles = vec![[0, 2, 4], [0, 4, 3], [0, 3, 5], [0, 5, 2], [1, 4, 2], [1, 3, 4], [1, 5, 3], [1, 2, 5]];
+    let vertices = vec![
+        tip(6.5, 0.0, 0.0),
+        tip(-6.5, 0.0, 0.0),
+        tip(0.0, 1.3, 0.0),
+        tip(0.0, -1.3, 0.0),
+        tip(0.0, 0.0, 1.3),
+        tip(0.0, 0.0, -1.3),
+    ];
+    let triangles = vec![
+        [0, 2, 4],
+        [0, 4, 3],
+        [0, 3, 5],
+        [0, 5, 2],
+        [1, 4, 2],
+        [1, 3, 4],
+        [1, 5, 3],
+        [1, 2, 5],
+    ];
     let skin = Skin {
         regions: vec![Region::Body; triangles.len()],
         weights: vec![[(0, 1.0), (0, 0.0), (0, 0.0), (0, 0.0)]; vertices.len()],
         marks: Vec::new(),
-        bones: vec![Bone { name: "control".into(), parent: None, origin: DVec3::ZERO, turns: Vec::new() }],
+        bones: vec![Bone {
+            name: "control".into(),
+            parent: None,
+            origin: DVec3::ZERO,
+            turns: Vec::new(),
+        }],
         vertices,
         triangles,
     };
@@ -177,12 +230,22 @@ impl FrictionModel for Smooth {
         &self.0
     }
 
-    fn respond(&self, _attributes: &[f64], _contacts: &Contacts<'_>, out: &mut [FrictionResponse]) -> Result<(), HookError> {
+    fn respond(
+        &self,
+        _attributes: &[f64],
+        _contacts: &Contacts<'_>,
+        out: &mut [FrictionResponse],
+    ) -> Result<(), HookError> {
         out.fill(FrictionResponse::default());
         Ok(())
     }
 
-    fn advance(&self, _attributes: &[f64], _contacts: &Contacts<'_>, _out: &mut [f64]) -> Result<(), HookError> {
+    fn advance(
+        &self,
+        _attributes: &[f64],
+        _contacts: &Contacts<'_>,
+        _out: &mut [f64],
+    ) -> Result<(), HookError> {
         Ok(())
     }
 }
@@ -195,7 +258,12 @@ impl WhaleMotion for Still {
         &self.0
     }
 
-    fn step(&self, _attributes: &[f64], _input: &MotionInput<'_>, _state: &mut [f64]) -> Result<MotionOutput, HookError> {
+    fn step(
+        &self,
+        _attributes: &[f64],
+        _input: &MotionInput<'_>,
+        _state: &mut [f64],
+    ) -> Result<MotionOutput, HookError> {
         Ok(MotionOutput::default())
     }
 }

@@ -32,7 +32,9 @@ pub fn seabed(model: &Model, bounds: &Bounds) -> Mesh {
     if normal.z < 0.1 {
         return Mesh::default();
     }
-    sheet(bounds, SEABED, |x, y| DVec3::new(x, y, -seabed.depth_m - (normal.x * x + normal.y * y) / normal.z))
+    sheet(bounds, SEABED, |x, y| {
+        DVec3::new(x, y, -seabed.depth_m - (normal.x * x + normal.y * y) / normal.z)
+    })
 }
 
 /// A wide sheet under or over the gear, in patches so that nothing is lost far off.
@@ -45,7 +47,10 @@ fn sheet(bounds: &Bounds, colour: Colour, place: impl Fn(f64, f64) -> DVec3) -> 
     let mut mesh = Mesh::default();
     for i in 0..PATCHES {
         for j in 0..PATCHES {
-            mesh.quad([corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)], colour);
+            mesh.quad(
+                [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)],
+                colour,
+            );
         }
     }
     mesh
@@ -62,8 +67,14 @@ pub fn current(model: &Model) -> Mesh {
     }
     let across = DVec3::new(-along.y, along.x, 0.0);
     // Beside the gear as it was placed, so that the column stands still while the gear moves.
-    let placed =
-        Bounds::of(model.spec.bodies.iter().map(|body| body.position_m).chain(model.spec.joints.iter().map(|joint| joint.position_m)));
+    let placed = Bounds::of(
+        model
+            .spec
+            .bodies
+            .iter()
+            .map(|body| body.position_m)
+            .chain(model.spec.joints.iter().map(|joint| joint.position_m)),
+    );
     let half = placed.half_size();
     let foot = placed.centre() + across * (half.dot(across.abs()) + 4.0);
     let column = |height: f64| single(DVec3::new(foot.x, foot.y, bottom * (1.0 - height)));

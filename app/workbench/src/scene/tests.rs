@@ -17,8 +17,20 @@ fn every_part_of_the_rig_is_in_the_scene_and_can_be_hidden() {
     let names: Vec<&str> = scene().parts.iter().map(|part| part.name).collect();
     assert_eq!(names, ["seabed", "whale", "ropes", "bodies", "current", "marks", "surface"]);
     let model = sample::model();
-    let bare = Show { scale_n: None, surface: false, seabed: false, current: false, contacts: false, forces: false, whale: false };
-    let names: Vec<&str> = Scene::of(&model, &sample::frame(&model), &bare).parts.iter().map(|part| part.name).collect();
+    let bare = Show {
+        scale_n: None,
+        surface: false,
+        seabed: false,
+        current: false,
+        contacts: false,
+        forces: false,
+        whale: false,
+    };
+    let names: Vec<&str> = Scene::of(&model, &sample::frame(&model), &bare)
+        .parts
+        .iter()
+        .map(|part| part.name)
+        .collect();
     assert_eq!(names, ["ropes", "bodies"]);
 }
 
@@ -27,15 +39,30 @@ fn obstacles_stand_where_they_are_and_as_large() {
     use endline_sim::solids::{Obstacle, ROPE_ON_HARD_N_M2, SolidShape};
     let mut spec = sample::model().spec;
     let drum = SolidShape::Cylinder { radius_m: 0.5, half_length_m: 2.0 };
-    for (shape, half) in [(drum, DVec3::new(2.0, 0.5, 0.5)), (SolidShape::Box(DVec3::new(3.0, 2.0, 1.0)), DVec3::new(1.0, 2.0, 3.0))] {
+    for (shape, half) in [
+        (drum, DVec3::new(2.0, 0.5, 0.5)),
+        (SolidShape::Box(DVec3::new(3.0, 2.0, 1.0)), DVec3::new(1.0, 2.0, 3.0)),
+    ] {
         // Turned so that z leads east.
         let orientation = endline_sim::DQuat::from_rotation_arc(DVec3::Z, DVec3::X);
         let position_m = DVec3::new(4.0, -3.0, -20.0);
-        spec.obstacles =
-            vec![Obstacle { id: "rock".into(), shape, position_m, orientation, friction: 0.3, stiffness_n_m2: ROPE_ON_HARD_N_M2 }];
+        spec.obstacles = vec![Obstacle {
+            id: "rock".into(),
+            shape,
+            position_m,
+            orientation,
+            friction: 0.3,
+            stiffness_n_m2: ROPE_ON_HARD_N_M2,
+        }];
         let model = endline_sim::Model::new(spec.clone()).unwrap();
-        let mesh = Scene::of(&model, &sample::frame(&model), &Show::default()).part("obstacles").unwrap().mesh.clone();
-        let reach = (0..mesh.vertices()).map(|vertex| (mesh.surface(vertex).as_dvec3() - position_m).abs()).fold(DVec3::ZERO, DVec3::max);
+        let mesh = Scene::of(&model, &sample::frame(&model), &Show::default())
+            .part("obstacles")
+            .unwrap()
+            .mesh
+            .clone();
+        let reach = (0..mesh.vertices())
+            .map(|vertex| (mesh.surface(vertex).as_dvec3() - position_m).abs())
+            .fold(DVec3::ZERO, DVec3::max);
         assert!((reach - half).length() < 0.01, "{reach}");
     }
 }
@@ -45,10 +72,28 @@ fn meshes_are_whole_every_index_has_a_vertex_and_every_number_is_finite() {
     for part in scene().parts {
         let mesh = &part.mesh;
         let vertices = mesh.vertices();
-        assert!(mesh.normal.len() == vertices && mesh.radius_m.len() == vertices && mesh.colour.len() == vertices, "{}", part.name);
-        assert!(mesh.triangles.iter().flatten().all(|corner| (*corner as usize) < vertices), "{}", part.name);
-        assert!(mesh.place.iter().chain(&mesh.normal).all(|vector| vector.is_finite()), "{}", part.name);
-        assert!(mesh.normal.iter().all(|normal| (normal.length() - 1.0).abs() < 1e-4), "{}", part.name);
+        assert!(
+            mesh.normal.len() == vertices
+                && mesh.radius_m.len() == vertices
+                && mesh.colour.len() == vertices,
+            "{}",
+            part.name
+        );
+        assert!(
+            mesh.triangles.iter().flatten().all(|corner| (*corner as usize) < vertices),
+            "{}",
+            part.name
+        );
+        assert!(
+            mesh.place.iter().chain(&mesh.normal).all(|vector| vector.is_finite()),
+            "{}",
+            part.name
+        );
+        assert!(
+            mesh.normal.iter().all(|normal| (normal.length() - 1.0).abs() < 1e-4),
+            "{}",
+            part.name
+        );
     }
 }
 
@@ -60,7 +105,8 @@ fn rope_is_coloured_by_its_tension_against_the_scale() {
     assert!(close(ropes.colour[ropes.vertices() - 1], tension_colour(1.0)), "peak at the buoy");
     let model = sample::model();
     let strength = Show { scale_n: Some(6000.0), ..Show::default() };
-    let ropes = Scene::of(&model, &sample::frame(&model), &strength).part("ropes").unwrap().mesh.clone();
+    let ropes =
+        Scene::of(&model, &sample::frame(&model), &strength).part("ropes").unwrap().mesh.clone();
     assert!(close(ropes.colour[ropes.vertices() - 1], tension_colour(0.1)));
 }
 
@@ -77,7 +123,10 @@ fn a_cut_segment_is_a_gap() {
     let spanning = |frame: &endline_sim::Frame| {
         let mesh = Scene::of(&model, frame, &Show::default()).part("ropes").unwrap().mesh.clone();
         let above = |corner: &u32| mesh.place[*corner as usize].z > middle;
-        mesh.triangles.iter().filter(|corners| corners.iter().any(above) && !corners.iter().all(above)).count()
+        mesh.triangles
+            .iter()
+            .filter(|corners| corners.iter().any(above) && !corners.iter().all(above))
+            .count()
     };
     assert_eq!(spanning(&frame), 12, "two triangles a side join the two ends of a whole segment");
     frame.cut[20] = true;
@@ -90,7 +139,10 @@ fn arrows_are_as_long_as_the_current_is_fast_at_their_height() {
     let arrows = &scene.part("current").unwrap().mesh;
     let reach = |low: f64, high: f64| {
         let within = arrows.place.iter().filter(|place| (low..high).contains(&f64::from(place.z)));
-        let (least, most) = within.fold((f32::INFINITY, f32::NEG_INFINITY), |(least, most), place| (least.min(place.x), most.max(place.x)));
+        let (least, most) = within
+            .fold((f32::INFINITY, f32::NEG_INFINITY), |(least, most), place| {
+                (least.min(place.x), most.max(place.x))
+            });
         f64::from(most - least)
     };
     let height = (0.5 / 7.0_f64).powf(1.0 / 7.0);
@@ -104,11 +156,23 @@ fn picture(view: View) -> (Vec<[u8; 4]>, DVec2, Camera) {
     let frame = sample::frame(&model);
     let size = [640, 480];
     let out = std::path::PathBuf::new();
-    let request =
-        RenderRequest { model: &model, frame: &frame, size, view: view.name(), scale_n: None, fit: &[], caption: "sample", out: &out };
+    let request = RenderRequest {
+        model: &model,
+        frame: &frame,
+        size,
+        view: view.name(),
+        scale_n: None,
+        fit: &[],
+        caption: "sample",
+        out: &out,
+    };
     let pixels = render(&request).unwrap();
     let places = Scene::places_of(&model, &frame);
-    (pixels, DVec2::new(640.0, 480.0), Camera::of_view(view, &places, frame.whale.as_ref(), 13.0, 640.0 / 480.0))
+    (
+        pixels,
+        DVec2::new(640.0, 480.0),
+        Camera::of_view(view, &places, frame.whale.as_ref(), 13.0, 640.0 / 480.0),
+    )
 }
 
 /// The pixel of a world place.
@@ -128,13 +192,23 @@ fn the_picture_shows_whale_and_rope_where_the_camera_projects_them() {
     assert_eq!(pixels.len(), 640 * 480);
     let open_water = pixel(&pixels, size, &camera, DVec3::new(9.0, 0.0, -25.0));
     let whale = pixel(&pixels, size, &camera, DVec3::new(-7.0, 2.0, -14.0));
-    let difference = |a: [u8; 4], b: [u8; 4]| (0..3).map(|part| i32::from(a[part].abs_diff(b[part]))).sum::<i32>();
+    let difference = |a: [u8; 4], b: [u8; 4]| {
+        (0..3).map(|part| i32::from(a[part].abs_diff(b[part]))).sum::<i32>()
+    };
     assert!(difference(whale, open_water) > 40, "whale {whale:?} against water {open_water:?}");
     let model = sample::model();
     let near_top = sample::frame(&model).nodes[56];
-    let around: Vec<[u8; 4]> = (-2..=2).map(|step| pixel(&pixels, size, &camera, near_top + DVec3::X * 0.05 * f64::from(step))).collect();
-    let yellowest = around.iter().map(|colour| yellow(colour.map(|part| f32::from(part) / 255.0))).fold(f32::MIN, f32::max);
-    assert!(yellowest > 0.5 * yellow(tension_colour(0.95)), "the taut end of the rope is yellow: {around:?}");
+    let around: Vec<[u8; 4]> = (-2..=2)
+        .map(|step| pixel(&pixels, size, &camera, near_top + DVec3::X * 0.05 * f64::from(step)))
+        .collect();
+    let yellowest = around
+        .iter()
+        .map(|colour| yellow(colour.map(|part| f32::from(part) / 255.0)))
+        .fold(f32::MIN, f32::max);
+    assert!(
+        yellowest > 0.5 * yellow(tension_colour(0.95)),
+        "the taut end of the rope is yellow: {around:?}"
+    );
 }
 
 #[test]
@@ -147,8 +221,21 @@ fn a_wrong_view_or_size_says_what_is_allowed() {
     let model = sample::model();
     let frame = sample::frame(&model);
     let out = std::path::PathBuf::new();
-    let request = |view, size| RenderRequest { model: &model, frame: &frame, size, view, scale_n: None, fit: &[], caption: "", out: &out };
-    assert!(render(&request("behind", [64, 64])).unwrap_err().contains("orbit, side, top, front, whale"));
+    let request = |view, size| RenderRequest {
+        model: &model,
+        frame: &frame,
+        size,
+        view,
+        scale_n: None,
+        fit: &[],
+        caption: "",
+        out: &out,
+    };
+    assert!(
+        render(&request("behind", [64, 64]))
+            .unwrap_err()
+            .contains("orbit, side, top, front, whale")
+    );
     assert!(render(&request("side", [64, 0])).unwrap_err().contains("16 to 8192"));
 }
 

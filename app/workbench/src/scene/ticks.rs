@@ -22,13 +22,20 @@ pub fn ticks(top: f64, count: u32) -> Vec<f64> {
     if wanted / step > 1.6 {
         step = nice_below(step * 2.6);
     }
-    (0..).map(|index| f64::from(index) * step).take_while(|tick| *tick <= top * (1.0 + 1e-9)).collect()
+    (0..)
+        .map(|index| f64::from(index) * step)
+        .take_while(|tick| *tick <= top * (1.0 + 1e-9))
+        .collect()
 }
 
 /// Decimals with which round values this far apart are told apart: none from 1 on, one from 0.1 on, and so on.
 #[must_use]
 pub fn decimals(step: f64) -> usize {
-    if step.is_finite() && step > 0.0 { (-(step.log10() + 1e-9).floor()).clamp(0.0, 9.0) as usize } else { 0 }
+    if step.is_finite() && step > 0.0 {
+        (-(step.log10() + 1e-9).floor()).clamp(0.0, 9.0) as usize
+    } else {
+        0
+    }
 }
 
 #[cfg(test)]
@@ -37,7 +44,15 @@ mod tests {
 
     #[test]
     fn nice_numbers_are_one_two_five() {
-        for (value, nice) in [(150.0, 100.0), (1.0, 1.0), (0.34, 0.2), (7.0, 5.0), (50.0, 50.0), (-1.0, 0.0), (f64::NAN, 0.0)] {
+        for (value, nice) in [
+            (150.0, 100.0),
+            (1.0, 1.0),
+            (0.34, 0.2),
+            (7.0, 5.0),
+            (50.0, 50.0),
+            (-1.0, 0.0),
+            (f64::NAN, 0.0),
+        ] {
             assert!((nice_below(value) - nice).abs() < 1e-12, "{value}");
         }
     }
@@ -57,9 +72,13 @@ mod tests {
         for top in [0.003, 0.04, 0.22, 0.3, 0.7, 1.0, 1.4, 3.3, 12.0, 512.0] {
             let ticks = ticks(top, 5);
             let places = decimals(ticks[1] - ticks[0]);
-            let mut written: Vec<String> = ticks.iter().map(|tick| format!("{tick:.places$}")).collect();
+            let mut written: Vec<String> =
+                ticks.iter().map(|tick| format!("{tick:.places$}")).collect();
             for (tick, text) in ticks.iter().zip(&written) {
-                assert!((text.parse::<f64>().unwrap() - tick).abs() < 1e-9 * top, "{tick} is written {text}");
+                assert!(
+                    (text.parse::<f64>().unwrap() - tick).abs() < 1e-9 * top,
+                    "{tick} is written {text}"
+                );
             }
             written.dedup();
             assert_eq!(written.len(), ticks.len(), "{top}: {written:?}");

@@ -17,7 +17,14 @@ pub fn skin(model: &Model, frame: &Frame) -> Mesh {
     let place: Vec<Vec3> = places.into_iter().map(single).collect();
     let normal = smooth_normals(&place, &whale.skin.triangles);
     let grain = whale.skin.vertices.iter().copied().map(single).collect();
-    Mesh { radius_m: vec![0.0; place.len()], colour: tints(&whale.skin), triangles: whale.skin.triangles.clone(), place, normal, grain }
+    Mesh {
+        radius_m: vec![0.0; place.len()],
+        colour: tints(&whale.skin),
+        triangles: whale.skin.triangles.clone(),
+        place,
+        normal,
+        grain,
+    }
 }
 
 /// Normals at vertices: the mean of the triangles round each, weighted by area.

@@ -1,5 +1,9 @@
 //! The workbench on a fake engine or a real one, with a copy of the shipped library; for every test of the window.
-#![allow(clippy::unwrap_used, dead_code, reason = "a test that cannot go on fails; no test uses all of this")]
+#![allow(
+    clippy::unwrap_used,
+    dead_code,
+    reason = "a test that cannot go on fails; no test uses all of this"
+)]
 
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
@@ -43,7 +47,10 @@ impl Engine for FakeEngine {
             Command::Reset => "reset".to_owned(),
             Command::Speed(speed) => format!("speed {speed}"),
             Command::Controls(controls) => {
-                format!("controls {:.2} {:.2} {:.2} {:.2}", controls.speed, controls.pitch, controls.roll, controls.yaw)
+                format!(
+                    "controls {:.2} {:.2} {:.2} {:.2}",
+                    controls.speed, controls.pitch, controls.roll, controls.yaw
+                )
             }
             Command::Autopilot => "autopilot".to_owned(),
             Command::WeakLinks(on) => format!("weak links {on}"),
@@ -76,11 +83,23 @@ pub struct Folder(pub PathBuf);
 
 impl Folder {
     pub fn new(name: &str) -> Self {
-        let root = std::env::temp_dir().join(format!("endline-workbench-{name}-{}", std::process::id()));
+        let root =
+            std::env::temp_dir().join(format!("endline-workbench-{name}-{}", std::process::id()));
         let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../gear-library");
-        for kind in
-            ["ropes", "traps", "buoys", "weak-links", "knots", "anchors", "sites", "friction", "whales", "acts", "assemblies", "scenarios"]
-        {
+        for kind in [
+            "ropes",
+            "traps",
+            "buoys",
+            "weak-links",
+            "knots",
+            "anchors",
+            "sites",
+            "friction",
+            "whales",
+            "acts",
+            "assemblies",
+            "scenarios",
+        ] {
             std::fs::create_dir_all(root.join(kind)).unwrap();
             for entry in std::fs::read_dir(shipped.join(kind)).unwrap() {
                 let entry = entry.unwrap();
@@ -95,7 +114,8 @@ impl Folder {
     }
 
     pub fn book_with(&self, scenario: &str) -> Book {
-        Book::open(&self.0, &self.0.join("scenarios").join(scenario).with_extension("toml")).unwrap()
+        Book::open(&self.0, &self.0.join("scenarios").join(scenario).with_extension("toml"))
+            .unwrap()
     }
 }
 
@@ -124,9 +144,16 @@ pub fn opened(book: Book, launch: Launch, pilot: Pilot) -> Harness<'static, App>
     opened_with(book, Arc::new(PluginHost::empty()), launch, pilot)
 }
 
-pub fn opened_with(book: Book, host: Arc<PluginHost>, launch: Launch, pilot: Pilot) -> Harness<'static, App> {
+pub fn opened_with(
+    book: Book,
+    host: Arc<PluginHost>,
+    launch: Launch,
+    pilot: Pilot,
+) -> Harness<'static, App> {
     let waker: Waker = Arc::new(|| {});
-    let create = move |creation: &mut eframe::CreationContext<'_>| App::new(creation, Desk::new(book, host, launch, waker, pilot));
+    let create = move |creation: &mut eframe::CreationContext<'_>| {
+        App::new(creation, Desk::new(book, host, launch, waker, pilot))
+    };
     let mut harness = Harness::builder().with_size(egui::vec2(1500.0, 940.0)).build_eframe(create);
     wait(&mut harness, |app| app.desk.view.is_some());
     harness
@@ -137,7 +164,12 @@ pub fn wait(harness: &mut Harness<'static, App>, so: impl Fn(&App) -> bool) {
     let patience = Instant::now() + Duration::from_secs(30);
     while !so(harness.state()) {
         let desk = &harness.state().desk;
-        assert!(Instant::now() < patience, "waited in vain: {:?}, {:?}", desk.status(), desk.notice);
+        assert!(
+            Instant::now() < patience,
+            "waited in vain: {:?}, {:?}",
+            desk.status(),
+            desk.notice
+        );
         std::thread::sleep(Duration::from_millis(5));
         harness.step();
     }
@@ -166,7 +198,9 @@ pub fn linked() -> Arc<PluginHost> {
     let mut host = PluginHost::empty();
     let motion = Hook::Motion(Arc::new(endline_whale_motions::Swim::default()));
     let friction = Hook::Friction(Arc::new(endline_friction_models::Coulomb::default()));
-    for hook in [motion, friction].into_iter().chain(endline_gear_types::all().into_iter().map(Hook::Gear)) {
+    for hook in
+        [motion, friction].into_iter().chain(endline_gear_types::all().into_iter().map(Hook::Gear))
+    {
         host.add(hook).unwrap();
     }
     Arc::new(host)
@@ -175,7 +209,8 @@ pub fn linked() -> Arc<PluginHost> {
 /// A short encounter run to its end, with every panel that reads it.
 pub fn flown(folder: &Folder) -> Harness<'static, App> {
     let mut book = folder.book_with("hello-endline");
-    for (field, value) in [("duration", "2 s"), ("rope_nodes", "120"), ("whale.position.1", "-7 m")] {
+    for (field, value) in [("duration", "2 s"), ("rope_nodes", "120"), ("whale.position.1", "-7 m")]
+    {
         book.set("scenario", field, value).unwrap();
     }
     let mut harness = opened_with(book, linked(), live(), Pilot::default());

@@ -22,10 +22,21 @@ use crate::items::BoxGear;
 const BALLAST_HEIGHT_M: f64 = 0.1;
 
 /// A trap or anchor with its underside at `foot_m`.
-pub fn of_box(id: String, role: BodyRole, item: &BoxGear, density: f64, foot_m: DVec3, orientation: DQuat) -> Body {
+pub fn of_box(
+    id: String,
+    role: BodyRole,
+    item: &BoxGear,
+    density: f64,
+    foot_m: DVec3,
+    orientation: DQuat,
+) -> Body {
     let size = DVec3::from_array(item.size_m);
     let water_kg = density * size.element_product();
-    let share = DVec3::new(item.added_mass_horizontal, item.added_mass_horizontal, item.added_mass_vertical);
+    let share = DVec3::new(
+        item.added_mass_horizontal,
+        item.added_mass_horizontal,
+        item.added_mass_vertical,
+    );
     let middle = middle(item);
     let drag_area_m2 = drag_area(item);
     Body {
@@ -54,7 +65,10 @@ pub fn of_box(id: String, role: BodyRole, item: &BoxGear, density: f64, foot_m: 
 /// Points of a trap or anchor where a line can be made fast, in the body's frame.
 pub fn box_points(item: &BoxGear) -> Vec<(String, DVec3)> {
     let middle = middle(item);
-    item.points().into_iter().map(|point| (point.name, middle + DVec3::from_array(point.at_m))).collect()
+    item.points()
+        .into_iter()
+        .map(|point| (point.name, middle + DVec3::from_array(point.at_m)))
+        .collect()
 }
 
 /// Principal moments of inertia about the centre of mass [kg m²].
@@ -80,9 +94,15 @@ pub fn shell_inertia(mass_kg: f64, size_m: DVec3) -> DVec3 {
     let about = |along: f64, p: (f64, f64), q: (f64, f64)| {
         // p and q: (size, mass of one face across it) of the two other axes.
         let (ps, qs) = (p.0 * p.0, q.0 * q.0);
-        2.0 * (along * (ps + qs) / 12.0 + p.1 * (qs / 12.0 + ps / 4.0) + q.1 * (ps / 12.0 + qs / 4.0))
+        2.0 * (along * (ps + qs) / 12.0
+            + p.1 * (qs / 12.0 + ps / 4.0)
+            + q.1 * (ps / 12.0 + qs / 4.0))
     };
-    DVec3::new(about(mx, (b, my), (c, mz)), about(my, (c, mz), (a, mx)), about(mz, (a, mx), (b, my)))
+    DVec3::new(
+        about(mx, (b, my), (c, mz)),
+        about(my, (c, mz), (a, mx)),
+        about(mz, (a, mx), (b, my)),
+    )
 }
 
 /// Middle of the box in the body's frame: the centre of mass lies below it by what the ballast weighs.
@@ -98,18 +118,27 @@ fn ballast_height(item: &BoxGear) -> f64 {
 /// Drag coefficient times area by axis: both faces across it [m²].
 fn drag_area(item: &BoxGear) -> DVec3 {
     let [a, b, c] = item.size_m;
-    DVec3::new(b * c, a * c, a * b) * DVec3::from_array(item.solidity) * (2.0 * item.drag_coefficient)
+    DVec3::new(b * c, a * c, a * b)
+        * DVec3::from_array(item.solidity)
+        * (2.0 * item.drag_coefficient)
 }
 
 /// Wire, ballast and foam, each where it is. The wire has the drag and stands for the whole box in four parts at
 /// `±a/√12, ±b/√12`, which have its second moments.
 fn floats(item: &BoxGear, middle: DVec3, drag_area_m2: DVec3) -> Vec<Float> {
     let [a, b, _] = item.size_m.map(|size| size / 12.0_f64.sqrt());
-    let (volume_m3, drag_area_m2, form) = (item.wire_m3() / 4.0, drag_area_m2 / 4.0, Form::Level { height_m: item.size_m[2] });
-    let wire = |(x, y): (f64, f64)| Float { offset_m: middle + DVec3::new(x, y, 0.0), volume_m3, form, drag_area_m2 };
+    let (volume_m3, drag_area_m2, form) =
+        (item.wire_m3() / 4.0, drag_area_m2 / 4.0, Form::Level { height_m: item.size_m[2] });
+    let wire = |(x, y): (f64, f64)| Float {
+        offset_m: middle + DVec3::new(x, y, 0.0),
+        volume_m3,
+        form,
+        drag_area_m2,
+    };
     let at = |height: f64| middle + DVec3::Z * height;
     let ballast = Float::level(at(ballast_height(item)), item.ballast_m3(), BALLAST_HEIGHT_M);
-    let foam = Float::level(at(item.foam_height_m - item.size_m[2] / 2.0), item.foam_m3, BALLAST_HEIGHT_M);
+    let foam =
+        Float::level(at(item.foam_height_m - item.size_m[2] / 2.0), item.foam_m3, BALLAST_HEIGHT_M);
     let inside = [ballast, foam].into_iter().filter(|float| float.volume_m3 > 0.0);
     [(a, b), (-a, b), (a, -b), (-a, -b)].map(wire).into_iter().chain(inside).collect()
 }

@@ -31,7 +31,11 @@ pub fn of_buoy(id: String, item: &Buoy, density: f64, middle_m: DVec3, orientati
     let middle = DVec3::Z * -centre_of_mass(item);
     let water_kg = density * item.volume_m3;
     let skin = skin_turn_drag(diameter, length);
-    let strips = if item.shape == BuoyShape::LowDrag { drag_area(item).x * length * length * length / 32.0 } else { 0.0 };
+    let strips = if item.shape == BuoyShape::LowDrag {
+        drag_area(item).x * length * length * length / 32.0
+    } else {
+        0.0
+    };
     let (top, foot) = ends(item);
     Body {
         id,
@@ -43,8 +47,13 @@ pub fn of_buoy(id: String, item: &Buoy, density: f64, middle_m: DVec3, orientati
         shape_offset_m: middle,
         mass_kg: item.whole_mass_kg(),
         inertia_kg_m2: buoy_inertia(item),
-        added_mass_kg: DVec3::new(item.added_mass_across, item.added_mass_across, item.added_mass_along) * water_kg
-            + DVec3::new(1.0, 1.0, 0.0) * item.pieces.iter().map(|piece| density * piece.volume_m3).sum::<f64>(),
+        added_mass_kg: DVec3::new(
+            item.added_mass_across,
+            item.added_mass_across,
+            item.added_mass_along,
+        ) * water_kg
+            + DVec3::new(1.0, 1.0, 0.0)
+                * item.pieces.iter().map(|piece| density * piece.volume_m3).sum::<f64>(),
         added_inertia_kg_m2: added_inertia(item, density),
         drag_area_m2: DVec3::ZERO,
         turn_drag_m5: DVec3::new(skin + strips, skin + strips, skin),
@@ -63,7 +72,10 @@ pub fn of_buoy(id: String, item: &Buoy, density: f64, middle_m: DVec3, orientati
 /// Points of a buoy where a line can be made fast, in the body's frame.
 pub fn buoy_points(item: &Buoy) -> Vec<(String, DVec3)> {
     let middle = DVec3::Z * -centre_of_mass(item);
-    item.points().into_iter().map(|point| (point.name, middle + DVec3::from_array(point.at_m))).collect()
+    item.points()
+        .into_iter()
+        .map(|point| (point.name, middle + DVec3::from_array(point.at_m)))
+        .collect()
 }
 
 /// Principal moments of inertia of float and pieces about the common centre of mass [kg m²].
@@ -79,8 +91,13 @@ pub fn buoy_inertia(item: &Buoy) -> DVec3 {
         }
         BuoyShape::Bullet | BuoyShape::Cylinder => rod_inertia(mass, diameter, length),
     };
-    let moved = |mass: f64, height: f64| DVec3::new(1.0, 1.0, 0.0) * (mass * (height - centre) * (height - centre));
-    let piece = |piece: &BuoyPiece| rod_inertia(piece.mass_kg, piece.diameter_m, piece.length_m) + moved(piece.mass_kg, piece.at_m);
+    let moved = |mass: f64, height: f64| {
+        DVec3::new(1.0, 1.0, 0.0) * (mass * (height - centre) * (height - centre))
+    };
+    let piece = |piece: &BuoyPiece| {
+        rod_inertia(piece.mass_kg, piece.diameter_m, piece.length_m)
+            + moved(piece.mass_kg, piece.at_m)
+    };
     own + moved(mass, item.centre_of_mass_m) + item.pieces.iter().map(piece).sum::<DVec3>()
 }
 
@@ -88,10 +105,19 @@ pub fn buoy_inertia(item: &Buoy) -> DVec3 {
 #[must_use]
 pub fn buoy_floats(item: &Buoy) -> Vec<Float> {
     let middle = DVec3::Z * -centre_of_mass(item);
-    let one = |form: Form| vec![Float { offset_m: middle, volume_m3: item.volume_m3, form, drag_area_m2: drag_area(item) }];
+    let one = |form: Form| {
+        vec![Float {
+            offset_m: middle,
+            volume_m3: item.volume_m3,
+            form,
+            drag_area_m2: drag_area(item),
+        }]
+    };
     let (radius_m, length_m) = (item.diameter_m / 2.0, item.length_m);
     let mut floats = match item.shape {
-        BuoyShape::Sphere | BuoyShape::LowDrag => one(Form::Spheroid { across_m: radius_m, along_m: length_m / 2.0 }),
+        BuoyShape::Sphere | BuoyShape::LowDrag => {
+            one(Form::Spheroid { across_m: radius_m, along_m: length_m / 2.0 })
+        }
         BuoyShape::Cylinder => one(Form::Cylinder { radius_m, length_m }),
         BuoyShape::Bullet => bullet(item, middle),
     };
@@ -106,7 +132,8 @@ fn bullet(item: &Buoy, middle: DVec3) -> Vec<Float> {
     let below = |height: f64| capsule_below(radius, item.length_m, height);
     let whole = below(item.length_m / 2.0);
     let radius_of = |volume: f64| (volume / (PI * thickness)).sqrt();
-    let volumes: Vec<f64> = (0..SLICES).map(|slice| below(edge(slice + 1)) - below(edge(slice))).collect();
+    let volumes: Vec<f64> =
+        (0..SLICES).map(|slice| below(edge(slice + 1)) - below(edge(slice))).collect();
     let side: f64 = volumes.iter().map(|volume| radius_of(*volume)).sum();
     let drag = drag_area(item);
     let slice = |(slice, volume): (usize, &f64)| {
@@ -128,7 +155,11 @@ fn piece_float(piece: &BuoyPiece, middle: DVec3) -> Float {
         offset_m: middle + DVec3::Z * piece.at_m,
         volume_m3: piece.volume_m3,
         form: Form::Cylinder { radius_m: piece.diameter_m / 2.0, length_m: piece.length_m },
-        drag_area_m2: DVec3::new(across, across, piece.drag_along * FRAC_PI_4 * piece.diameter_m * piece.diameter_m),
+        drag_area_m2: DVec3::new(
+            across,
+            across,
+            piece.drag_along * FRAC_PI_4 * piece.diameter_m * piece.diameter_m,
+        ),
     }
 }
 
@@ -142,10 +173,12 @@ fn drag_area(item: &Buoy) -> DVec3 {
 
 fn added_inertia(item: &Buoy, density: f64) -> DVec3 {
     let centre = centre_of_mass(item);
-    let rod = |length: f64, height: f64| length * length / 12.0 + (height - centre) * (height - centre);
+    let rod =
+        |length: f64, height: f64| length * length / 12.0 + (height - centre) * (height - centre);
     let own_length = if item.shape == BuoyShape::Sphere { 0.0 } else { item.length_m };
     let own = item.added_mass_across * item.volume_m3 * rod(own_length, 0.0);
-    let pieces: f64 = item.pieces.iter().map(|piece| piece.volume_m3 * rod(piece.length_m, piece.at_m)).sum();
+    let pieces: f64 =
+        item.pieces.iter().map(|piece| piece.volume_m3 * rod(piece.length_m, piece.at_m)).sum();
     DVec3::new(1.0, 1.0, 0.0) * (density * (own + pieces))
 }
 
@@ -158,8 +191,12 @@ fn centre_of_mass(item: &Buoy) -> f64 {
 /// Highest and lowest point above the middle of the float [m].
 fn ends(item: &Buoy) -> (f64, f64) {
     let half = item.length_m / 2.0;
-    let reach = |piece: &BuoyPiece| (piece.at_m + piece.length_m / 2.0, piece.at_m - piece.length_m / 2.0);
-    item.pieces.iter().map(reach).fold((half, -half), |(top, foot), (high, low)| (top.max(high), foot.min(low)))
+    let reach =
+        |piece: &BuoyPiece| (piece.at_m + piece.length_m / 2.0, piece.at_m - piece.length_m / 2.0);
+    item.pieces
+        .iter()
+        .map(reach)
+        .fold((half, -half), |(top, foot), (high, low)| (top.max(high), foot.min(low)))
 }
 
 fn rod_inertia(mass: f64, diameter: f64, length: f64) -> DVec3 {

@@ -38,7 +38,11 @@ type End = (DVec3, Option<DVec3>);
 ///
 /// # Errors
 /// With the wrap that has no place to lie, and why.
-pub(super) fn azimuths(skin: &mut PosedSkin, helices: &[Helix<'_>], [from, to]: [DVec3; 2]) -> Result<Vec<Vec<f64>>, (usize, String)> {
+pub(super) fn azimuths(
+    skin: &mut PosedSkin,
+    helices: &[Helix<'_>],
+    [from, to]: [DVec3; 2],
+) -> Result<Vec<Vec<f64>>, (usize, String)> {
     let mut lines = vec![Line { azimuths: Vec::new(), end: (from, None), cost_m: 0.0 }];
     for (number, helix) in helices.iter().enumerate() {
         let tried: Vec<f64> = match helix.wrap.azimuth_rad {
@@ -47,10 +51,17 @@ pub(super) fn azimuths(skin: &mut PosedSkin, helices: &[Helix<'_>], [from, to]: 
         };
         let mut longer = Vec::with_capacity(lines.len() * tried.len());
         for azimuth in tried {
-            let [first, last] = helix.ends(skin, azimuth).map_err(|what| (number, what))?.map(|(place, way)| (place, Some(way)));
+            let [first, last] = helix
+                .ends(skin, azimuth)
+                .map_err(|what| (number, what))?
+                .map(|(place, way)| (place, Some(way)));
             for line in &lines {
                 let azimuths = line.azimuths.iter().copied().chain([azimuth]).collect();
-                longer.push(Line { azimuths, end: last, cost_m: line.cost_m + cost_m(skin, [line.end, first]) });
+                longer.push(Line {
+                    azimuths,
+                    end: last,
+                    cost_m: line.cost_m + cost_m(skin, [line.end, first]),
+                });
             }
         }
         lines = best(longer);
@@ -70,6 +81,7 @@ fn cost_m(skin: &mut PosedSkin, ends: [End; 2]) -> f64 {
     let way = leg::way(skin, ends.map(|(place, _)| place), EACH_M);
     let through = skin.goes_through(&way);
     let straight = (ends[1].0 - ends[0].0).normalize_or_zero();
-    let bends: f64 = ends.iter().filter_map(|(_, along)| Some(0.5 * (1.0 - straight.dot((*along)?)))).sum();
+    let bends: f64 =
+        ends.iter().filter_map(|(_, along)| Some(0.5 * (1.0 - straight.dot((*along)?)))).sum();
     length(&way) + BACK_M * bends + if through { THROUGH_M } else { 0.0 }
 }

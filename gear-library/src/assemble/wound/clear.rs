@@ -24,10 +24,17 @@ pub(super) fn clear(skin: &mut PosedSkin, laid: &mut Laid) -> Result<(), &'stati
         let nearest = skin.nearest(&laid.nodes);
         let mut moves = vec![(DVec3::ZERO, 0.0_f64); laid.nodes.len()];
         for (segment, near) in nearest.iter().enumerate() {
-            let Some(near) = near.as_ref().filter(|near| near.distance_m < ENOUGH * skin.off_m) else { continue };
+            let Some(near) = near.as_ref().filter(|near| near.distance_m < ENOUGH * skin.off_m)
+            else {
+                continue;
+            };
             for (node, share) in [(segment, 1.0 - near.fraction), (segment + 1, near.fraction)] {
                 let weight = share.max(0.25);
-                let shift = if near.out == DVec3::ZERO { outward(&laid.nodes, node) } else { near.out * (skin.off_m - near.distance_m) };
+                let shift = if near.out == DVec3::ZERO {
+                    outward(&laid.nodes, node)
+                } else {
+                    near.out * (skin.off_m - near.distance_m)
+                };
                 moves[node].0 += shift * weight;
                 moves[node].1 += weight;
             }
@@ -54,7 +61,9 @@ pub(super) fn clear(skin: &mut PosedSkin, laid: &mut Laid) -> Result<(), &'stati
 
 /// A small move of a node the way the rope bends there; none at an end or where it is straight.
 fn outward(nodes: &[DVec3], node: usize) -> DVec3 {
-    let (Some(before), Some(after)) = (node.checked_sub(1).and_then(|before| nodes.get(before)), nodes.get(node + 1)) else {
+    let (Some(before), Some(after)) =
+        (node.checked_sub(1).and_then(|before| nodes.get(before)), nodes.get(node + 1))
+    else {
         return DVec3::ZERO;
     };
     let bend = nodes[node] - before.midpoint(*after);

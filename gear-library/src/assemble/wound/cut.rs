@@ -31,7 +31,11 @@ pub(super) struct Laid {
 /// With rope needed and had [m] where a stretch would be longer than its rope.
 pub(super) fn share_out(stretches: &mut [Stretch], length_m: f64) -> Result<(), (f64, f64)> {
     let given: f64 = stretches.iter().filter_map(|stretch| stretch.rope_m).sum();
-    let open: f64 = stretches.iter().filter(|stretch| stretch.rope_m.is_none()).map(|stretch| length(&stretch.way)).sum();
+    let open: f64 = stretches
+        .iter()
+        .filter(|stretch| stretch.rope_m.is_none())
+        .map(|stretch| length(&stretch.way))
+        .sum();
     let left = length_m - given;
     let legs = stretches.iter().filter(|stretch| stretch.fine_m.is_none());
     let short: f64 = legs.filter_map(|leg| Some((length(&leg.way) - leg.rope_m?).max(0.0))).sum();
@@ -72,7 +76,8 @@ fn graded(whole: f64, beside: [Option<f64>; 2], coarse: f64) -> Vec<f64> {
         return Vec::new();
     }
     let longest = |at: f64| {
-        let by = |fine: Option<f64>, away: f64| fine.map_or(f64::INFINITY, |fine| fine + GROWTH * away);
+        let by =
+            |fine: Option<f64>, away: f64| fine.map_or(f64::INFINITY, |fine| fine + GROWTH * away);
         coarse.min(by(beside[0], at)).min(by(beside[1], whole - at))
     };
     let (mut lengths, mut at) = (Vec::new(), 0.0);
@@ -91,11 +96,18 @@ mod tests {
 
     #[test]
     fn graded_segments_add_up_and_grow_slowly() {
-        for (whole, beside, coarse) in [(7.3, [Some(0.02), None], 0.5), (2.0, [Some(0.05), Some(0.02)], 0.4), (0.01, [None, None], 0.4)] {
+        for (whole, beside, coarse) in [
+            (7.3, [Some(0.02), None], 0.5),
+            (2.0, [Some(0.05), Some(0.02)], 0.4),
+            (0.01, [None, None], 0.4),
+        ] {
             let lengths = graded(whole, beside, coarse);
             assert!((lengths.iter().sum::<f64>() - whole).abs() < 1e-12);
             assert!(lengths.iter().all(|length| *length <= coarse + 1e-12), "{lengths:?}");
-            assert!(lengths.windows(2).all(|pair| pair[1] / pair[0] < 1.9 && pair[0] / pair[1] < 1.9), "{lengths:?}");
+            assert!(
+                lengths.windows(2).all(|pair| pair[1] / pair[0] < 1.9 && pair[0] / pair[1] < 1.9),
+                "{lengths:?}"
+            );
         }
     }
 }

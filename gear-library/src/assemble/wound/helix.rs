@@ -76,7 +76,10 @@ impl<'a> Helix<'a> {
         let (first, last) = (self.section(skin, 0.0, 0.0)?, self.section(skin, 1.0, 1.0)?);
         let end = |section: &Section, azimuth: f64, sense: f64| {
             let way = section.way(azimuth);
-            (section.place(azimuth, skin.off_m) + way * self.on_m(sense), way * self.wrap.turns.signum())
+            (
+                section.place(azimuth, skin.off_m) + way * self.on_m(sense),
+                way * self.wrap.turns.signum(),
+            )
         };
         Ok([end(&first, azimuth, -1.0), end(&last, azimuth + TAU * self.wrap.turns, 1.0)])
     }
@@ -96,11 +99,16 @@ impl<'a> Helix<'a> {
     fn way(&self, skin: &PosedSkin, start: f64, off_m: f64) -> Result<Vec<DVec3>, String> {
         let off_m = skin.off_m + off_m;
         let count = (EACH_TURN * self.wrap.turns.abs()).ceil().max(2.0);
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most some thousands")]
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "at most some thousands"
+        )]
         let turned: Vec<f64> = (0..=count as u32).map(|number| f64::from(number) / count).collect();
         let azimuth = |turned: f64| start + TAU * self.wrap.turns * turned;
         let middle = self.section(skin, 0.5, 0.5)?;
-        let flat: Vec<DVec3> = turned.iter().map(|turned| middle.place(azimuth(*turned), off_m)).collect();
+        let flat: Vec<DVec3> =
+            turned.iter().map(|turned| middle.place(azimuth(*turned), off_m)).collect();
         let (round_m, mut done_m) = (length(&flat), 0.0);
         let slope = self.pitch_m * self.wrap.turns.abs() / round_m;
         let mut way = Vec::with_capacity(turned.len() + 2);
@@ -108,8 +116,11 @@ impl<'a> Helix<'a> {
             done_m += if number == 0 { 0.0 } else { flat[number].distance(flat[number - 1]) };
             let section = self.section(skin, done_m / round_m, *turned)?;
             let (place, azimuth) = (section.place(azimuth(*turned), off_m), azimuth(*turned));
-            let on =
-                |sense: f64| place + section.way(azimuth) * self.on_m(sense) + section.onward * (slope * sense * STRAIGHT_ON * self.fine_m);
+            let on = |sense: f64| {
+                place
+                    + section.way(azimuth) * self.on_m(sense)
+                    + section.onward * (slope * sense * STRAIGHT_ON * self.fine_m)
+            };
             if number == 0 {
                 way.push(on(-1.0));
             }
@@ -124,8 +135,11 @@ impl<'a> Helix<'a> {
     /// The section where a share of the way round is done, which is so far round.
     fn section(&self, skin: &PosedSkin, done: f64, turned: f64) -> Result<Section, String> {
         let wrap = self.wrap;
-        let (axis, reach) = skin.axis(wrap.part).ok_or_else(|| format!("this whale has no {}", wrap.part.name()))?;
-        let station = wrap.station + self.pitch_m * wrap.turns.abs() * (done - 0.5) / (reach[1] - reach[0]);
+        let (axis, reach) = skin
+            .axis(wrap.part)
+            .ok_or_else(|| format!("this whale has no {}", wrap.part.name()))?;
+        let station =
+            wrap.station + self.pitch_m * wrap.turns.abs() * (done - 0.5) / (reach[1] - reach[0]);
         let found = axis.at(along(*reach, wrap.part, station)).and_then(|spot| {
             let onward = if on_trunk(wrap.part) { -spot.along() } else { spot.along() };
             let back = (skin.up - onward * skin.up.dot(onward)).try_normalize()?;
@@ -133,7 +147,9 @@ impl<'a> Helix<'a> {
             (!outline.is_empty()).then_some(Section { outline, onward, back })
         });
         let turned = wrap.turns * turned;
-        found.ok_or_else(|| format!("there is no skin of the {} to lie on, {turned:.2} turns on", wrap.part.name()))
+        found.ok_or_else(|| {
+            format!("there is no skin of the {} to lie on, {turned:.2} turns on", wrap.part.name())
+        })
     }
 }
 

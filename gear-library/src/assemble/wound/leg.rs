@@ -19,7 +19,11 @@ pub(super) fn lay(skin: &PosedSkin, ends: [DVec3; 2], rope_m: Option<f64>) -> St
 /// The way from one place to another, looked at every `each_m`.
 pub(super) fn way(skin: &PosedSkin, [from, to]: [DVec3; 2], each_m: f64) -> Vec<DVec3> {
     let steps = (from.distance(to) / each_m).ceil().max(1.0);
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a way of metres in steps of centimetres")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a way of metres in steps of centimetres"
+    )]
     let steps = steps as u32;
     let over = |step: u32| {
         let place = from.lerp(to, f64::from(step) / f64::from(steps));
@@ -30,7 +34,9 @@ pub(super) fn way(skin: &PosedSkin, [from, to]: [DVec3; 2], each_m: f64) -> Vec<
 
 /// A place, moved straight out from the trunk's axis where it lies within the trunk.
 fn over_trunk(skin: &PosedSkin, place: DVec3) -> DVec3 {
-    let trunk = [BodyPart::Body, BodyPart::Head, BodyPart::Peduncle].into_iter().find_map(|part| skin.axis(part));
+    let trunk = [BodyPart::Body, BodyPart::Head, BodyPart::Peduncle]
+        .into_iter()
+        .find_map(|part| skin.axis(part));
     let Some(spot) = trunk.and_then(|(axis, _)| axis.see(place)) else { return place };
     let toward = place - spot.middle;
     if toward.length() > WIDEST * libm::hypot(spot.half_m[0], spot.half_m[1]) + skin.off_m {
@@ -40,7 +46,9 @@ fn over_trunk(skin: &PosedSkin, place: DVec3) -> DVec3 {
     let along = spot.along();
     let Some(across) = (along - out * along.dot(out)).try_normalize() else { return place };
     match skin.outline(BodyPart::Body, spot.middle, across).radius(out) {
-        Some(radius) if toward.length() < radius + skin.off_m => spot.middle + out * (radius + skin.off_m),
+        Some(radius) if toward.length() < radius + skin.off_m => {
+            spot.middle + out * (radius + skin.off_m)
+        }
         _ => place,
     }
 }

@@ -32,13 +32,17 @@ impl Builder<'_> {
     pub fn lay_wound(&mut self, index: usize, wraps: &[WrapOf], coarse_m: f64) {
         let place = self.uncut[index].place.clone();
         if !self.spec.settings.as_placed {
-            let help = "write start = \"placed\" at the top of the scenario: statics knows of no whale";
+            let help =
+                "write start = \"placed\" at the top of the scenario: statics knows of no whale";
             return self.problems.push(place.error("a wrapped line starts where it is laid", help));
         }
         let Some(whale) = &self.spec.whale else {
             // A whale that could not be built is told already.
             if self.scenario.whale.is_none() {
-                self.problems.push(place.error("there is no whale to wrap rope about", "write a [whale], or another start"));
+                self.problems.push(place.error(
+                    "there is no whale to wrap rope about",
+                    "write a [whale], or another start",
+                ));
             }
             return;
         };
@@ -70,9 +74,16 @@ pub(super) struct Wrong {
 }
 
 /// Nodes and segments of a line between its ends, through its wraps: the first way found that is free.
-fn wind(skin: &mut PosedSkin, rope: &Rope, ends: [DVec3; 2], wraps: &[WrapOf], lengths_m: (f64, f64)) -> Result<Laid, Wrong> {
+fn wind(
+    skin: &mut PosedSkin,
+    rope: &Rope,
+    ends: [DVec3; 2],
+    wraps: &[WrapOf],
+    lengths_m: (f64, f64),
+) -> Result<Laid, Wrong> {
     let helices: Vec<Helix<'_>> = wraps.iter().map(|wrap| Helix::of(wrap, rope)).collect();
-    let ways = choose::azimuths(skin, &helices, ends).map_err(|(wrap, what)| none_there(wrap, what))?;
+    let ways =
+        choose::azimuths(skin, &helices, ends).map_err(|(wrap, what)| none_there(wrap, what))?;
     let mut first_wrong = None;
     for azimuths in ways {
         match lay(skin, rope, ends, (&helices, &azimuths), lengths_m) {
@@ -95,14 +106,20 @@ fn lay(
     let mut at = ends[0];
     for (number, (helix, azimuth)) in helices.iter().zip(azimuths).enumerate() {
         let way = helix.lay(skin, *azimuth).map_err(|what| none_there(number, what))?;
-        stretches.push(leg::lay(skin, [at, way.first().copied().unwrap_or(at)], helix.wrap.before_m));
+        stretches.push(leg::lay(
+            skin,
+            [at, way.first().copied().unwrap_or(at)],
+            helix.wrap.before_m,
+        ));
         at = way.last().copied().unwrap_or(at);
         stretches.push(helix.stretch(way, rope));
     }
     stretches.push(leg::lay(skin, [at, ends[1]], None));
     cut::share_out(&mut stretches, length_m).map_err(|(needs_m, has_m)| Wrong {
         wrap: None,
-        what: format!("its way round the whale takes {needs_m:.2} m of rope, and it has {has_m:.2} m"),
+        what: format!(
+            "its way round the whale takes {needs_m:.2} m of rope, and it has {has_m:.2} m"
+        ),
         help: "make it longer, bring its ends nearer, or leave `before` out",
     })?;
     let mut laid = cut::cut(&stretches, coarse_m);
@@ -115,5 +132,9 @@ fn lay(
 }
 
 fn none_there(wrap: usize, what: String) -> Wrong {
-    Wrong { wrap: Some(wrap), what, help: "move `station` towards the middle of the part, or make `pitch` or `turns` less" }
+    Wrong {
+        wrap: Some(wrap),
+        what,
+        help: "move `station` towards the middle of the part, or make `pitch` or `turns` less",
+    }
 }

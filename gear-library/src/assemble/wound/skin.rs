@@ -53,10 +53,21 @@ impl PosedSkin {
         let axes = axes_of(&skin).map(|axis| axis.map(posed));
         let surface = Surface::new(Arc::new(SkinTree::new(Arc::clone(&skin))));
         let own = BodyPart::ALL.map(|part| {
-            let wanted = |region: Region| region.part() == part || (on_trunk(part) && on_trunk(region.part()));
+            let wanted = |region: Region| {
+                region.part() == part || (on_trunk(part) && on_trunk(region.part()))
+            };
             (0..skin.triangles.len()).filter(|triangle| wanted(skin.regions[*triangle])).collect()
         });
-        let mut posed = Self { axes, places, own, surface, up: whale.orientation * DVec3::Z, off_m, skin, bones };
+        let mut posed = Self {
+            axes,
+            places,
+            own,
+            surface,
+            up: whale.orientation * DVec3::Z,
+            off_m,
+            skin,
+            bones,
+        };
         posed.surface.begin(&posed.bones, &posed.bones);
         posed
     }
@@ -68,9 +79,16 @@ impl PosedSkin {
 
     /// The outline of a part in the plane across a direction through a place; the trunk counts as one part.
     pub fn outline(&self, part: BodyPart, place: DVec3, along: DVec3) -> Outline {
-        let corners = |triangle: &usize| self.skin.triangles[*triangle].map(|corner| self.places[corner as usize]);
-        let cuts: Vec<[DVec3; 2]> = self.own[part as usize].iter().filter_map(|triangle| cut(corners(triangle), place, along)).collect();
-        let weigh = |(sum, whole): (DVec3, f64), [a, b]: &[DVec3; 2]| (sum + a.midpoint(*b) * a.distance(*b), whole + a.distance(*b));
+        let corners = |triangle: &usize| {
+            self.skin.triangles[*triangle].map(|corner| self.places[corner as usize])
+        };
+        let cuts: Vec<[DVec3; 2]> = self.own[part as usize]
+            .iter()
+            .filter_map(|triangle| cut(corners(triangle), place, along))
+            .collect();
+        let weigh = |(sum, whole): (DVec3, f64), [a, b]: &[DVec3; 2]| {
+            (sum + a.midpoint(*b) * a.distance(*b), whole + a.distance(*b))
+        };
         let (sum, whole) = cuts.iter().fold((DVec3::ZERO, 0.0), weigh);
         // A thin blade bends away from its axis: its outline's own middle is surely within.
         let centre = if on_trunk(part) || whole <= 0.0 { place } else { sum / whole };
@@ -83,7 +101,12 @@ impl PosedSkin {
         self.surface.gather(&still(way), 0.0, &mut pairs);
         let crosses = |pair: &Candidate| {
             let segment = pair.segment as usize;
-            segment_triangle([way[segment], way[segment + 1]], self.surface.triangle_at(pair.triangle, 0.0)).distance <= 0.0
+            segment_triangle(
+                [way[segment], way[segment + 1]],
+                self.surface.triangle_at(pair.triangle, 0.0),
+            )
+            .distance
+                <= 0.0
         };
         pairs.iter().any(crosses)
     }
@@ -96,14 +119,22 @@ impl PosedSkin {
         let mut found: Vec<Option<Nearest>> = segments.iter().map(|_| None).collect();
         for Candidate { segment, triangle } in pairs {
             let segment = segment as usize;
-            let (ends, corners) = ([nodes[segment], nodes[segment + 1]], self.surface.triangle_at(triangle, 0.0));
+            let (ends, corners) =
+                ([nodes[segment], nodes[segment + 1]], self.surface.triangle_at(triangle, 0.0));
             let near = segment_triangle(ends, corners);
             if found[segment].as_ref().is_none_or(|known| near.distance < known.distance_m) {
                 let [i, j, k] = near.barycentric;
                 let on_skin = corners[0] * i + corners[1] * j + corners[2] * k;
-                let out = (ends[0].lerp(ends[1], near.fraction) - on_skin).try_normalize().unwrap_or_default();
+                let out = (ends[0].lerp(ends[1], near.fraction) - on_skin)
+                    .try_normalize()
+                    .unwrap_or_default();
                 let region = self.skin.regions[triangle as usize];
-                found[segment] = Some(Nearest { distance_m: near.distance, fraction: near.fraction, out, region });
+                found[segment] = Some(Nearest {
+                    distance_m: near.distance,
+                    fraction: near.fraction,
+                    out,
+                    region,
+                });
             }
         }
         found
@@ -112,7 +143,9 @@ impl PosedSkin {
 
 /// The segments of a way, at rest.
 fn still(way: &[DVec3]) -> Vec<SweptSegment> {
-    way.windows(2).map(|pair| SweptSegment { a0: pair[0], b0: pair[1], a1: pair[0], b1: pair[1] }).collect()
+    way.windows(2)
+        .map(|pair| SweptSegment { a0: pair[0], b0: pair[1], a1: pair[0], b1: pair[1] })
+        .collect()
 }
 
 /// Where a plane cuts the skin of a part.
@@ -132,14 +165,17 @@ impl Outline {
     /// Its farthest place in a direction: of its hull, a place of taut rope; its centre where there is no skin.
     pub fn farthest(&self, toward: DVec3) -> DVec3 {
         let places = self.cuts.iter().flatten().copied();
-        places.reduce(|most, place| if place.dot(toward) > most.dot(toward) { place } else { most }).unwrap_or(self.centre)
+        places
+            .reduce(|most, place| if place.dot(toward) > most.dot(toward) { place } else { most })
+            .unwrap_or(self.centre)
     }
 
     /// How far out it lies from its centre in a unit direction within the plane; the farthest, where that is crossed often [m].
     pub fn radius(&self, toward: DVec3) -> Option<f64> {
         let aside = self.along.cross(toward);
         let crossed = |[a, b]: &[DVec3; 2]| {
-            let [p, q] = [*a - self.centre, *b - self.centre].map(|place| (place.dot(aside), place.dot(toward)));
+            let [p, q] = [*a - self.centre, *b - self.centre]
+                .map(|place| (place.dot(aside), place.dot(toward)));
             let meets = (p.0 > 0.0) != (q.0 > 0.0);
             meets.then(|| p.1 + (q.1 - p.1) * p.0 / (p.0 - q.0)).filter(|radius| *radius > 0.0)
         };
@@ -150,7 +186,11 @@ impl Outline {
 /// Where a plane through a place cuts a triangle.
 fn cut(corners: [DVec3; 3], place: DVec3, normal: DVec3) -> Option<[DVec3; 2]> {
     let heights = corners.map(|corner| (corner - place).dot(normal));
-    let mut ends = [(0, 1), (1, 2), (2, 0)].into_iter().filter(|(i, j)| (heights[*i] > 0.0) != (heights[*j] > 0.0));
-    let on_edge = |(i, j): (usize, usize)| corners[i].lerp(corners[j], heights[i] / (heights[i] - heights[j]));
+    let mut ends = [(0, 1), (1, 2), (2, 0)]
+        .into_iter()
+        .filter(|(i, j)| (heights[*i] > 0.0) != (heights[*j] > 0.0));
+    let on_edge = |(i, j): (usize, usize)| {
+        corners[i].lerp(corners[j], heights[i] / (heights[i] - heights[j]))
+    };
     Some([on_edge(ends.next()?), on_edge(ends.next()?)])
 }

@@ -42,17 +42,26 @@ const PASSES: usize = 12;
 ///
 /// # Errors
 /// Where the file cannot be read, has not that animation, turns no bone of the whale, or turns one about an axis that it does not have.
-pub fn read_animation(bytes: &[u8], name: Option<&str>, bones: &[Bone]) -> Result<Animation, Fault> {
+pub fn read_animation(
+    bytes: &[u8],
+    name: Option<&str>,
+    bones: &[Bone],
+) -> Result<Animation, Fault> {
     let file = File::open(bytes)?;
     let turnings = turnings(&file, &named(&file.document, name)?)?;
-    let mut times_s: Vec<f64> = turnings.values().flat_map(|turning| turning.times_s.iter().copied()).collect();
+    let mut times_s: Vec<f64> =
+        turnings.values().flat_map(|turning| turning.times_s.iter().copied()).collect();
     times_s.sort_by(f64::total_cmp);
     times_s.dedup_by(|later, earlier| *later - *earlier < 1e-6);
     let rig = Rig::of(&file, bones)?;
     if !rig.nodes.iter().flatten().any(|node| turnings.contains_key(node)) {
-        return Err(Fault::new("turns no bone of the whale", "key the rotations of its bones, such as spine_3 or left_flipper_blade"));
+        return Err(Fault::new(
+            "turns no bone of the whale",
+            "key the rotations of its bones, such as spine_3 or left_flipper_blade",
+        ));
     }
-    let mut angles: Vec<(Angle, Vec<f64>)> = Angle::all().map(|angle| (angle, vec![0.0; times_s.len()])).collect();
+    let mut angles: Vec<(Angle, Vec<f64>)> =
+        Angle::all().map(|angle| (angle, vec![0.0; times_s.len()])).collect();
     for (index, time_s) in times_s.iter().enumerate() {
         for (angle, turned) in rig.angles_at(&turnings, *time_s, bones)? {
             if let Some((_, values)) = angles.iter_mut().find(|(known, _)| *known == angle) {
@@ -66,15 +75,25 @@ pub fn read_animation(bytes: &[u8], name: Option<&str>, bones: &[Bone]) -> Resul
 
 /// The animation of a name, or the only one.
 fn named<'a>(document: &'a Document, name: Option<&str>) -> Result<FileAnimation<'a>, Fault> {
-    let names: Vec<&str> = document.animations().map(|animation| animation.name().unwrap_or("without a name")).collect();
-    let found = document.animations().find(|animation| name.is_none_or(|name| animation.name() == Some(name)));
+    let names: Vec<&str> = document
+        .animations()
+        .map(|animation| animation.name().unwrap_or("without a name"))
+        .collect();
+    let found = document
+        .animations()
+        .find(|animation| name.is_none_or(|name| animation.name() == Some(name)));
     match (found, name) {
-        (Some(_), None) if names.len() > 1 => {
-            Err(Fault::new(format!("has {} animations", names.len()), format!("name one with `clip`: {}", names.join(", "))))
-        }
+        (Some(_), None) if names.len() > 1 => Err(Fault::new(
+            format!("has {} animations", names.len()),
+            format!("name one with `clip`: {}", names.join(", ")),
+        )),
         (Some(found), _) => Ok(found),
-        (None, Some(name)) => Err(Fault::new(format!("has no animation `{name}`"), hint(name, names))),
-        (None, None) => Err(Fault::new("has no animation", "in Blender, export with Animation switched on")),
+        (None, Some(name)) => {
+            Err(Fault::new(format!("has no animation `{name}`"), hint(name, names)))
+        }
+        (None, None) => {
+            Err(Fault::new("has no animation", "in Blender, export with Animation switched on"))
+        }
     }
 }
 
@@ -87,17 +106,26 @@ struct Turning {
 /// The keys of every node that turns.
 fn turnings(file: &File, animation: &FileAnimation<'_>) -> Result<BTreeMap<usize, Turning>, Fault> {
     let mut turnings = BTreeMap::new();
-    for channel in animation.channels().filter(|channel| channel.target().property() == Property::Rotation) {
+    for channel in
+        animation.channels().filter(|channel| channel.target().property() == Property::Rotation)
+    {
         let sampler = channel.sampler();
-        let times_s: Vec<f64> = rows::<1>(file, &sampler.input())?.into_iter().map(|[time_s]| time_s).collect();
-        let mut turns: Vec<DQuat> =
-            rows::<4>(file, &sampler.output())?.into_iter().map(|turn| DQuat::from_array(turn).normalize()).collect();
+        let times_s: Vec<f64> =
+            rows::<1>(file, &sampler.input())?.into_iter().map(|[time_s]| time_s).collect();
+        let mut turns: Vec<DQuat> = rows::<4>(file, &sampler.output())?
+            .into_iter()
+            .map(|turn| DQuat::from_array(turn).normalize())
+            .collect();
         if sampler.interpolation() == Interpolation::CubicSpline {
             turns = turns.chunks(3).filter_map(|key| key.get(1).copied()).collect();
         }
-        let rising = times_s.windows(2).all(|pair| pair[1] > pair[0]) && times_s.first().is_some_and(|first| *first >= 0.0);
+        let rising = times_s.windows(2).all(|pair| pair[1] > pair[0])
+            && times_s.first().is_some_and(|first| *first >= 0.0);
         if !rising || times_s.len() != turns.len() || !turns.iter().all(|turn| turn.is_finite()) {
-            return Err(Fault::new("has keys that are not sound", "write the file anew with a program that keeps to glTF 2.0"));
+            return Err(Fault::new(
+                "has keys that are not sound",
+                "write the file anew with a program that keeps to glTF 2.0",
+            ));
         }
         turnings.insert(channel.target().node().index(), Turning { times_s, turns });
     }
@@ -129,8 +157,14 @@ struct Rig {
 
 impl Rig {
     fn of(file: &File, bones: &[Bone]) -> Result<Self, Fault> {
-        let node = |bone: &Bone| file.document.nodes().find(|node| node.name() == Some(bone.name.as_str())).map(|node| node.index());
-        let rotation = |transform: DAffine3| transform.to_scale_rotation_translation().1.normalize();
+        let node = |bone: &Bone| {
+            file.document
+                .nodes()
+                .find(|node| node.name() == Some(bone.name.as_str()))
+                .map(|node| node.index())
+        };
+        let rotation =
+            |transform: DAffine3| transform.to_scale_rotation_translation().1.normalize();
         Ok(Self {
             nodes: bones.iter().map(node).collect(),
             parents: parents(file),
@@ -140,12 +174,18 @@ impl Rig {
     }
 
     /// What each bone turned about its axes at a time; an angle may come from several bones.
-    fn angles_at(&self, turnings: &BTreeMap<usize, Turning>, time_s: f64, bones: &[Bone]) -> Result<Vec<(Angle, f64)>, Fault> {
+    fn angles_at(
+        &self,
+        turnings: &BTreeMap<usize, Turning>,
+        time_s: f64,
+        bones: &[Bone],
+    ) -> Result<Vec<(Angle, f64)>, Fault> {
         let mut turned = vec![DQuat::IDENTITY; bones.len()];
         let mut angles = Vec::new();
         for (index, bone) in bones.iter().enumerate() {
             let before = bone.parent.map_or(DQuat::IDENTITY, |parent| turned[parent]);
-            turned[index] = self.nodes[index].map_or(before, |node| self.turned(turnings, time_s, node));
+            turned[index] =
+                self.nodes[index].map_or(before, |node| self.turned(turnings, time_s, node));
             if bone.parent.is_none() {
                 continue;
             }
@@ -153,10 +193,18 @@ impl Rig {
             let (own, astray) = about_axes(&axes, before.conjugate() * turned[index]);
             if astray > ASTRAY_RAD {
                 let off = astray.to_degrees();
-                let message = format!("turns `{}` at {time_s:.2} s by {off:.1} deg about an axis that it does not have", bone.name);
-                return Err(Fault::new(message, "turn bones about the axes in their custom property `turns`, and lock the others"));
+                let message = format!(
+                    "turns `{}` at {time_s:.2} s by {off:.1} deg about an axis that it does not have",
+                    bone.name
+                );
+                return Err(Fault::new(
+                    message,
+                    "turn bones about the axes in their custom property `turns`, and lock the others",
+                ));
             }
-            angles.extend(bone.turns.iter().zip(own).map(|((channel, _), angle)| (channel.angle, angle)));
+            angles.extend(
+                bone.turns.iter().zip(own).map(|((channel, _), angle)| (channel.angle, angle)),
+            );
         }
         Ok(angles)
     }
@@ -166,7 +214,8 @@ impl Rig {
         let (mut world, mut at) = (DQuat::IDENTITY, Some(node));
         for _ in 0..self.parents.len() {
             let Some(here) = at else { break };
-            world = turnings.get(&here).map_or(self.locals[here], |turning| turning.at(time_s)) * world;
+            world =
+                turnings.get(&here).map_or(self.locals[here], |turning| turning.at(time_s)) * world;
             at = self.parents[here];
         }
         let to_whale = DQuat::from_rotation_x(std::f64::consts::FRAC_PI_2);

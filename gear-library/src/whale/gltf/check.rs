@@ -12,7 +12,8 @@ const ROOM: f64 = 0.1;
 
 /// Every fault of the whole skin.
 pub(super) fn whole(skin: &Skin, like: &Skin) -> Result<(), Vec<Fault>> {
-    let faults: Vec<Fault> = [scale(skin, like), closed(skin), outside_out(skin)].into_iter().flatten().collect();
+    let faults: Vec<Fault> =
+        [scale(skin, like), closed(skin), outside_out(skin)].into_iter().flatten().collect();
     if faults.is_empty() { Ok(()) } else { Err(faults) }
 }
 
@@ -23,7 +24,10 @@ fn scale(skin: &Skin, like: &Skin) -> Option<Fault> {
     let ratio = long / want;
     if !(ratio - 1.0).abs().is_finite() || (ratio - 1.0).abs() > ROOM {
         let help = "a file is in metres with the whale at its own `length`; in Blender, apply the scale (Ctrl+A) of mesh and armature";
-        return Some(Fault::new(format!("is {long:.3} m long from snout to fluke tips, {want:.2} m was expected"), help));
+        return Some(Fault::new(
+            format!("is {long:.3} m long from snout to fluke tips, {want:.2} m was expected"),
+            help,
+        ));
     }
     let off = (own.low + own.high - wanted.low - wanted.high) / 2.0;
     (off.length() > ROOM * want).then(|| {
@@ -40,7 +44,9 @@ pub(super) fn closed(skin: &Skin) -> Option<Fault> {
             edges.entry(edge).or_insert((0, triangle)).0 += 1;
         }
     }
-    let bad = |&(&(from, to), &(count, _)): &(&(u32, u32), &(u32, usize))| count > 1 || !edges.contains_key(&(to, from));
+    let bad = |&(&(from, to), &(count, _)): &(&(u32, u32), &(u32, usize))| {
+        count > 1 || !edges.contains_key(&(to, from))
+    };
     let open: Vec<_> = edges.iter().filter(bad).collect();
     let &(&(from, _), &(_, triangle)) = open.first()?;
     let message = format!(
@@ -58,7 +64,11 @@ pub(super) fn closed(skin: &Skin) -> Option<Fault> {
 /// The volume inside is above zero.
 fn outside_out(skin: &Skin) -> Option<Fault> {
     let corner = |index: u32| skin.vertices[index as usize];
-    let volume: f64 = skin.triangles.iter().map(|&[a, b, c]| corner(a).dot(corner(b).cross(corner(c))) / 6.0).sum();
+    let volume: f64 = skin
+        .triangles
+        .iter()
+        .map(|&[a, b, c]| corner(a).dot(corner(b).cross(corner(c))) / 6.0)
+        .sum();
     let help = "in Blender, Mesh > Normals > Recalculate Outside";
     (volume <= 0.0).then(|| Fault::new("has no skin, or its skin faces inward", help))
 }

@@ -32,8 +32,14 @@ pub(super) struct Mesh {
 
 /// Reads every primitive of every mesh.
 pub(super) fn read(file: &File, joints: &Joints, like: &Skin) -> Result<Mesh, Vec<Fault>> {
-    let mut reading =
-        Reading { file, joints, mesh: Mesh::default(), read: BTreeMap::new(), strangers: BTreeSet::new(), faults: Vec::new() };
+    let mut reading = Reading {
+        file,
+        joints,
+        mesh: Mesh::default(),
+        read: BTreeMap::new(),
+        strangers: BTreeSet::new(),
+        faults: Vec::new(),
+    };
     for mesh in file.document.nodes().filter_map(|node| node.mesh()) {
         for primitive in mesh.primitives() {
             reading.primitive(&primitive);
@@ -41,7 +47,10 @@ pub(super) fn read(file: &File, joints: &Joints, like: &Skin) -> Result<Mesh, Ve
     }
     for name in &reading.strangers {
         let bones = like.bones.iter().map(|bone| bone.name.as_str());
-        reading.faults.push(Fault::new(format!("has vertices on the bone `{name}`, which the whale does not have"), hint(name, bones)));
+        reading.faults.push(Fault::new(
+            format!("has vertices on the bone `{name}`, which the whale does not have"),
+            hint(name, bones),
+        ));
     }
     if reading.faults.is_empty() { Ok(reading.mesh) } else { Err(reading.faults) }
 }
@@ -60,9 +69,13 @@ struct Reading<'a> {
 impl Reading<'_> {
     fn primitive(&mut self, primitive: &Primitive<'_>) {
         let region = self.region(primitive.material().name());
-        let corners = self.corners(primitive).and_then(|vertices| Ok((indices(self.file, primitive, vertices.len())?, vertices)));
+        let corners = self
+            .corners(primitive)
+            .and_then(|vertices| Ok((indices(self.file, primitive, vertices.len())?, vertices)));
         match (corners, region) {
-            (Ok((indices, vertices)), Some(region)) => self.add_triangles(&indices, &vertices, region),
+            (Ok((indices, vertices)), Some(region)) => {
+                self.add_triangles(&indices, &vertices, region)
+            }
             (Err(fault), _) => self.fault(fault),
             (Ok(_), None) => {}
         }
@@ -79,13 +92,19 @@ impl Reading<'_> {
             ));
             return None;
         };
-        let plain =
-            name.rsplit_once('.').filter(|(_, copy)| copy.bytes().all(|byte| byte.is_ascii_digit())).map_or(name, |(plain, _)| plain);
+        let plain = name
+            .rsplit_once('.')
+            .filter(|(_, copy)| copy.bytes().all(|byte| byte.is_ascii_digit()))
+            .map_or(name, |(plain, _)| plain);
         let found = Region::ALL.into_iter().find(|region| region.name() == plain);
         if found.is_none() {
-            let meant = nearest(plain, regions()).map_or_else(String::new, |meant| format!("did you mean `{meant}`? "));
+            let meant = nearest(plain, regions())
+                .map_or_else(String::new, |meant| format!("did you mean `{meant}`? "));
             let all = regions().collect::<Vec<_>>().join(", ");
-            self.fault(Fault::new(format!("has a material `{name}`, which is no region"), format!("{meant}regions are {all}")));
+            self.fault(Fault::new(
+                format!("has a material `{name}`, which is no region"),
+                format!("{meant}regions are {all}"),
+            ));
         }
         found
     }
@@ -93,11 +112,16 @@ impl Reading<'_> {
     /// The vertices of a primitive, as numbers of the mesh.
     fn corners(&mut self, primitive: &Primitive<'_>) -> Result<Vec<u32>, Fault> {
         if primitive.mode() != Mode::Triangles {
-            return Err(Fault::new("has lines or points among its triangles", "export triangles alone"));
+            return Err(Fault::new(
+                "has lines or points among its triangles",
+                "export triangles alone",
+            ));
         }
         let need = |semantic, what| {
             let help = "in Blender, paint weights for every vertex and tick Data > Armature > Skinning on export";
-            primitive.get(&semantic).ok_or_else(|| Fault::new(format!("has vertices without {what}"), help))
+            primitive
+                .get(&semantic)
+                .ok_or_else(|| Fault::new(format!("has vertices without {what}"), help))
         };
         let places = need(Semantic::Positions, "a place")?;
         let bones = need(Semantic::Joints(0), "bones")?;
@@ -109,13 +133,21 @@ impl Reading<'_> {
         if let Some(known) = self.read.get(&key) {
             return Ok(known.clone());
         }
-        let (places, bones, weights) = (rows::<3>(self.file, &places)?, rows::<4>(self.file, &bones)?, rows::<4>(self.file, &weights)?);
+        let (places, bones, weights) = (
+            rows::<3>(self.file, &places)?,
+            rows::<4>(self.file, &bones)?,
+            rows::<4>(self.file, &weights)?,
+        );
         if places.len() != bones.len() || places.len() != weights.len() {
-            return Err(Fault::new("has vertices with and without bones in one list", "write the file anew"));
+            return Err(Fault::new(
+                "has vertices with and without bones in one list",
+                "write the file anew",
+            ));
         }
         let seen = self.marks(primitive, places.len())?;
         let vertices = places.iter().zip(&bones).zip(&weights).zip(&seen);
-        let vertices = vertices.map(|(((place, bones), weights), mark)| self.vertex(*place, *bones, *weights, *mark));
+        let vertices = vertices
+            .map(|(((place, bones), weights), mark)| self.vertex(*place, *bones, *weights, *mark));
         let vertices = vertices.collect::<Result<Vec<u32>, Fault>>()?;
         self.read.insert(key, vertices.clone());
         Ok(vertices)
@@ -126,16 +158,23 @@ impl Reading<'_> {
         let mut seen: Vec<Mark> = match primitive.get(&Semantic::Colors(0)) {
             None => Vec::new(),
             Some(colours) if colours.dimensions().multiplicity() == 4 => {
-                rows::<4>(self.file, &colours)?.iter().map(|colour| marks::nearest(&colour[..3])).collect()
+                rows::<4>(self.file, &colours)?
+                    .iter()
+                    .map(|colour| marks::nearest(&colour[..3]))
+                    .collect()
             }
-            Some(colours) => rows::<3>(self.file, &colours)?.iter().map(|colour| marks::nearest(colour)).collect(),
+            Some(colours) => rows::<3>(self.file, &colours)?
+                .iter()
+                .map(|colour| marks::nearest(colour))
+                .collect(),
         };
         seen.resize(count, Mark::default());
         Ok(seen)
     }
 
     fn at_most_four(&self, more: &[[f64; 4]]) -> Result<(), Fault> {
-        let count = more.iter().filter(|weights| weights.iter().any(|weight| *weight > NOTHING)).count();
+        let count =
+            more.iter().filter(|weights| weights.iter().any(|weight| *weight > NOTHING)).count();
         if count == 0 {
             return Ok(());
         }
@@ -144,7 +183,13 @@ impl Reading<'_> {
     }
 
     /// Adds a vertex; its number.
-    fn vertex(&mut self, place: [f64; 3], joints: [f64; 4], weights: [f64; 4], mark: Mark) -> Result<u32, Fault> {
+    fn vertex(
+        &mut self,
+        place: [f64; 3],
+        joints: [f64; 4],
+        weights: [f64; 4],
+        mark: Mark,
+    ) -> Result<u32, Fault> {
         let (rest, weights) = self.at_rest(DVec3::from_array(place), joints, weights)?;
         let number = u32::try_from(self.mesh.vertices.len()).unwrap_or(u32::MAX);
         self.mesh.vertices.push(rest);
@@ -154,17 +199,38 @@ impl Reading<'_> {
     }
 
     /// Where the joints at rest put a vertex, in the whale's frame, and its weights by bone.
-    fn at_rest(&mut self, place: DVec3, joints: [f64; 4], weights: [f64; 4]) -> Result<(DVec3, [(u16, f64); 4]), Fault> {
+    fn at_rest(
+        &mut self,
+        place: DVec3,
+        joints: [f64; 4],
+        weights: [f64; 4],
+    ) -> Result<(DVec3, [(u16, f64); 4]), Fault> {
         let sum: f64 = weights.iter().sum();
-        if !(place.is_finite() && (sum - 1.0).abs() <= SUM_OFF && weights.iter().all(|weight| *weight >= 0.0)) {
-            let message = format!("has a vertex at {} whose weights sum to {sum:.3}, not 1", shown(from_gltf(place)));
-            return Err(Fault::new(message, "in Blender, Weights > Normalize All; every vertex needs a bone"));
+        if !(place.is_finite()
+            && (sum - 1.0).abs() <= SUM_OFF
+            && weights.iter().all(|weight| *weight >= 0.0))
+        {
+            let message = format!(
+                "has a vertex at {} whose weights sum to {sum:.3}, not 1",
+                shown(from_gltf(place))
+            );
+            return Err(Fault::new(
+                message,
+                "in Blender, Weights > Normalize All; every vertex needs a bone",
+            ));
         }
         let (mut rest, mut own) = (DVec3::ZERO, [(0, 0.0); 4]);
-        for ((slot, joint), weight) in own.iter_mut().zip(joints).zip(weights).filter(|(_, weight)| *weight > 0.0) {
+        for ((slot, joint), weight) in
+            own.iter_mut().zip(joints).zip(weights).filter(|(_, weight)| *weight > 0.0)
+        {
             let joint = joint as usize;
-            let (Some(bind), Some(bone)) = (self.joints.binds.get(joint), self.joints.bones.get(joint)) else {
-                return Err(Fault::new(format!("has a vertex on joint {joint}, which its skin does not have"), "write the file anew"));
+            let (Some(bind), Some(bone)) =
+                (self.joints.binds.get(joint), self.joints.bones.get(joint))
+            else {
+                return Err(Fault::new(
+                    format!("has a vertex on joint {joint}, which its skin does not have"),
+                    "write the file anew",
+                ));
             };
             rest += weight / sum * bind.transform_point3(place);
             match bone {
@@ -179,7 +245,11 @@ impl Reading<'_> {
 
     fn add_triangles(&mut self, indices: &[usize], vertices: &[u32], region: Region) {
         for corners in indices.chunks_exact(3) {
-            self.mesh.triangles.push([vertices[corners[0]], vertices[corners[1]], vertices[corners[2]]]);
+            self.mesh.triangles.push([
+                vertices[corners[0]],
+                vertices[corners[1]],
+                vertices[corners[2]],
+            ]);
             self.mesh.regions.push(region);
         }
     }
@@ -194,9 +264,13 @@ impl Reading<'_> {
 /// Corners of a primitive's triangles, each below `count`.
 fn indices(file: &File, primitive: &Primitive<'_>, count: usize) -> Result<Vec<usize>, Fault> {
     let Some(accessor) = primitive.indices() else { return Ok((0..count).collect()) };
-    let indices: Vec<usize> = rows::<1>(file, &accessor)?.into_iter().map(|[index]| index as usize).collect();
+    let indices: Vec<usize> =
+        rows::<1>(file, &accessor)?.into_iter().map(|[index]| index as usize).collect();
     if indices.iter().any(|index| *index >= count) {
-        return Err(Fault::new("has a triangle on a vertex that is not there", "write the file anew"));
+        return Err(Fault::new(
+            "has a triangle on a vertex that is not there",
+            "write the file anew",
+        ));
     }
     Ok(indices)
 }

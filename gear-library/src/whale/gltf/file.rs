@@ -19,11 +19,17 @@ pub(super) struct File {
 impl File {
     /// Opens a `.glb` or `.gltf` file.
     pub fn open(bytes: &[u8]) -> Result<Self, Fault> {
-        let (text, binary) = if bytes.starts_with(b"glTF") { chunks(bytes)? } else { (bytes, None) };
-        let not_gltf = |error: &dyn std::fmt::Display| Fault::new(format!("is not sound glTF 2.0: {error}"), SAVE_AS);
+        let (text, binary) =
+            if bytes.starts_with(b"glTF") { chunks(bytes)? } else { (bytes, None) };
+        let not_gltf = |error: &dyn std::fmt::Display| {
+            Fault::new(format!("is not sound glTF 2.0: {error}"), SAVE_AS)
+        };
         let root = gltf::json::deserialize::from_slice(text).map_err(|error| not_gltf(&error))?;
         let document = Document::from_json(root).map_err(|error| not_gltf(&error))?;
-        let buffers = document.buffers().map(|buffer| load(&buffer.source(), binary, buffer.length())).collect::<Result<_, _>>()?;
+        let buffers = document
+            .buffers()
+            .map(|buffer| load(&buffer.source(), binary, buffer.length()))
+            .collect::<Result<_, _>>()?;
         Ok(Self { document, buffers })
     }
 
@@ -36,7 +42,9 @@ impl File {
 /// The text and the numbers of a binary file.
 fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
     let short = || Fault::new("is cut short", "write the file anew");
-    let number = |at: usize| bytes.get(at..at + 4).and_then(|four| four.try_into().ok()).map(u32::from_le_bytes);
+    let number = |at: usize| {
+        bytes.get(at..at + 4).and_then(|four| four.try_into().ok()).map(u32::from_le_bytes)
+    };
     let chunk = |at: usize| {
         let end = at.checked_add(8)?.checked_add(number(at)? as usize)?;
         Some((bytes.get(at + 4..at + 8)?, bytes.get(at + 8..end)?, end))
@@ -57,16 +65,26 @@ fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
 
 fn load(source: &Source<'_>, binary: Option<&[u8]>, length: usize) -> Result<Vec<u8>, Fault> {
     let bytes = match source {
-        Source::Bin => binary.map(<[u8]>::to_vec).ok_or_else(|| Fault::new("has no binary part", SAVE_AS))?,
+        Source::Bin => {
+            binary.map(<[u8]>::to_vec).ok_or_else(|| Fault::new("has no binary part", SAVE_AS))?
+        }
         Source::Uri(uri) => match uri.split_once(";base64,") {
-            Some((head, data)) if head.starts_with("data:") => {
-                STANDARD.decode(data).map_err(|error| Fault::new(format!("has damaged data: {error}"), SAVE_AS))?
+            Some((head, data)) if head.starts_with("data:") => STANDARD
+                .decode(data)
+                .map_err(|error| Fault::new(format!("has damaged data: {error}"), SAVE_AS))?,
+            _ => {
+                return Err(Fault::new(
+                    format!("keeps its numbers in another file, `{uri}`"),
+                    SAVE_AS,
+                ));
             }
-            _ => return Err(Fault::new(format!("keeps its numbers in another file, `{uri}`"), SAVE_AS)),
         },
     };
     if bytes.len() < length {
-        return Err(Fault::new(format!("has {} bytes of data, {length} were announced", bytes.len()), "write the file anew"));
+        return Err(Fault::new(
+            format!("has {} bytes of data, {length} were announced", bytes.len()),
+            "write the file anew",
+        ));
     }
     Ok(bytes)
 }

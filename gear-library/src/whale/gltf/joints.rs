@@ -25,11 +25,19 @@ impl Joints {
     /// Reads the one skin of the file, and finds every bone of `like` in it.
     pub fn read(file: &File, like: &Skin) -> Result<Self, Vec<Fault>> {
         let skin = only_skin(file).map_err(|fault| vec![fault])?;
-        let names: Vec<String> = skin.joints().map(|joint| joint.name().unwrap_or_default().to_owned()).collect();
+        let names: Vec<String> =
+            skin.joints().map(|joint| joint.name().unwrap_or_default().to_owned()).collect();
         missing(&names, like)?;
-        let bone = |name: &String| like.bones.iter().position(|bone| bone.name == *name).and_then(|bone| u16::try_from(bone).ok());
-        let (parents, locals) = (parents(file), file.document.nodes().map(|node| local(&node)).collect::<Vec<_>>());
-        let worlds: Vec<DAffine3> = skin.joints().map(|joint| world(&locals, &parents, joint.index())).collect();
+        let bone = |name: &String| {
+            like.bones
+                .iter()
+                .position(|bone| bone.name == *name)
+                .and_then(|bone| u16::try_from(bone).ok())
+        };
+        let (parents, locals) =
+            (parents(file), file.document.nodes().map(|node| local(&node)).collect::<Vec<_>>());
+        let worlds: Vec<DAffine3> =
+            skin.joints().map(|joint| world(&locals, &parents, joint.index())).collect();
         let inverse = inverse_binds(file, &skin, names.len()).map_err(|fault| vec![fault])?;
         Ok(Self {
             bones: names.iter().map(bone).collect(),
@@ -53,12 +61,17 @@ impl Joints {
 
 /// The skin of every mesh in the file.
 fn only_skin(file: &File) -> Result<FileSkin<'_>, Fault> {
-    let parent_it = "in Blender, parent the mesh to the armature with its vertex groups, and export both";
+    let parent_it =
+        "in Blender, parent the mesh to the armature with its vertex groups, and export both";
     let mut found: Option<FileSkin<'_>> = None;
     for node in file.document.nodes().filter(|node| node.mesh().is_some()) {
         let Some(skin) = node.skin() else {
-            let message = format!("the mesh `{}` has no skin", node.name().unwrap_or("without a name"));
-            return Err(Fault::new(message, format!("{parent_it}; delete what is no part of the whale")));
+            let message =
+                format!("the mesh `{}` has no skin", node.name().unwrap_or("without a name"));
+            return Err(Fault::new(
+                message,
+                format!("{parent_it}; delete what is no part of the whale"),
+            ));
         };
         if found.as_ref().is_some_and(|known| known.index() != skin.index()) {
             return Err(Fault::new("has meshes on different skins", "join the armatures into one"));
@@ -75,8 +88,12 @@ fn missing(names: &[String], like: &Skin) -> Result<(), Vec<Fault>> {
         .iter()
         .filter(|bone| !names.contains(&bone.name))
         .map(|bone| {
-            let strangers = names.iter().filter(|name| like.bones.iter().all(|known| known.name != **name));
-            Fault::new(format!("has no bone `{}`", bone.name), hint(&bone.name, strangers.map(String::as_str)))
+            let strangers =
+                names.iter().filter(|name| like.bones.iter().all(|known| known.name != **name));
+            Fault::new(
+                format!("has no bone `{}`", bone.name),
+                hint(&bone.name, strangers.map(String::as_str)),
+            )
         })
         .collect();
     if faults.is_empty() { Ok(()) } else { Err(faults) }
@@ -95,11 +112,15 @@ pub(super) fn parents(file: &File) -> Vec<Option<usize>> {
 
 /// Transform of each node at rest, to the scene: by what it was bound with, or as the file has it.
 pub(super) fn rests(file: &File) -> Result<Vec<DAffine3>, Fault> {
-    let (parents, locals) = (parents(file), file.document.nodes().map(|node| local(&node)).collect::<Vec<_>>());
-    let mut rests: Vec<DAffine3> = (0..locals.len()).map(|node| world(&locals, &parents, node)).collect();
+    let (parents, locals) =
+        (parents(file), file.document.nodes().map(|node| local(&node)).collect::<Vec<_>>());
+    let mut rests: Vec<DAffine3> =
+        (0..locals.len()).map(|node| world(&locals, &parents, node)).collect();
     for skin in file.document.skins().filter(|skin| skin.inverse_bind_matrices().is_some()) {
         let inverse = inverse_binds(file, &skin, skin.joints().count())?;
-        skin.joints().zip(inverse).for_each(|(joint, inverse)| rests[joint.index()] = inverse.inverse());
+        skin.joints()
+            .zip(inverse)
+            .for_each(|(joint, inverse)| rests[joint.index()] = inverse.inverse());
     }
     Ok(rests)
 }
@@ -125,11 +146,20 @@ fn affine(columns: &[[f64; 4]; 4]) -> DAffine3 {
 }
 
 fn inverse_binds(file: &File, skin: &FileSkin<'_>, count: usize) -> Result<Vec<DAffine3>, Fault> {
-    let Some(accessor) = skin.inverse_bind_matrices() else { return Ok(vec![DAffine3::IDENTITY; count]) };
+    let Some(accessor) = skin.inverse_bind_matrices() else {
+        return Ok(vec![DAffine3::IDENTITY; count]);
+    };
     let matrices = rows::<16>(file, &accessor)?;
     if matrices.len() < count {
         let message = format!("has {} inverse bind matrices for {count} bones", matrices.len());
         return Err(Fault::new(message, "write the file anew"));
     }
-    Ok(matrices.iter().map(|matrix| affine(&std::array::from_fn(|column| std::array::from_fn(|row| matrix[4 * column + row])))).collect())
+    Ok(matrices
+        .iter()
+        .map(|matrix| {
+            affine(&std::array::from_fn(|column| {
+                std::array::from_fn(|row| matrix[4 * column + row])
+            }))
+        })
+        .collect())
 }

@@ -19,7 +19,12 @@ pub(super) fn colour(mark: Mark) -> [f32; 3] {
 
 /// The mark whose colour is nearest.
 pub(super) fn nearest(colour: &[f64]) -> Mark {
-    let off = |own: &[f32; 3]| own.iter().zip(colour).map(|(own, seen)| (f64::from(*own) - seen) * (f64::from(*own) - seen)).sum::<f64>();
+    let off = |own: &[f32; 3]| {
+        own.iter()
+            .zip(colour)
+            .map(|(own, seen)| (f64::from(*own) - seen) * (f64::from(*own) - seen))
+            .sum::<f64>()
+    };
     let near = COLOURS.iter().min_by(|left, right| off(&left.1).total_cmp(&off(&right.1)));
     near.map_or_else(Mark::default, |(mark, _)| *mark)
 }

@@ -30,7 +30,8 @@ impl Pack {
         let index = self.vertices(rows);
         let bound = |pick: fn(f32, f32) -> f32| {
             let start = rows.first().copied().unwrap_or_default();
-            rows.iter().fold(start, |bound, row| std::array::from_fn(|axis| pick(bound[axis], row[axis])))
+            rows.iter()
+                .fold(start, |bound, row| std::array::from_fn(|axis| pick(bound[axis], row[axis])))
         };
         self.accessors[index]["min"] = json!(bound(f32::min));
         self.accessors[index]["max"] = json!(bound(f32::max));
@@ -68,7 +69,9 @@ impl Pack {
 
     fn accessor(&mut self, component: u32, count: usize, kind: &str) -> usize {
         let view = self.views.len() - 1;
-        self.accessors.push(json!({ "bufferView": view, "componentType": component, "count": count, "type": kind }));
+        self.accessors.push(
+            json!({ "bufferView": view, "componentType": component, "count": count, "type": kind }),
+        );
         self.accessors.len() - 1
     }
 }

@@ -73,7 +73,8 @@ pub fn write(skin: &Skin, about: &About<'_>, form: Form) -> Vec<u8> {
             binary(&document.to_string(), pack.bytes)
         }
         Form::Text => {
-            let uri = format!("data:application/octet-stream;base64,{}", STANDARD.encode(&pack.bytes));
+            let uri =
+                format!("data:application/octet-stream;base64,{}", STANDARD.encode(&pack.bytes));
             document["buffers"] = json!([{ "byteLength": pack.bytes.len(), "uri": uri }]);
             format!("{document:#}\n").into_bytes()
         }
@@ -96,9 +97,11 @@ fn nodes(skin: &Skin, about: &About<'_>) -> Vec<Value> {
         json!({ "name": "whale", "rotation": quarter, "children": children(None), "extras": whale_extras(about) }),
     ];
     for (index, bone) in skin.bones.iter().enumerate() {
-        let parent = bone.parent.and_then(|parent| skin.bones.get(parent)).map_or(DVec3::ZERO, |parent| parent.origin);
-        let mut node =
-            json!({ "name": bone.name, "translation": (bone.origin - parent).to_array(), "extras": bone_extras(bone, about.joints) });
+        let parent = bone
+            .parent
+            .and_then(|parent| skin.bones.get(parent))
+            .map_or(DVec3::ZERO, |parent| parent.origin);
+        let mut node = json!({ "name": bone.name, "translation": (bone.origin - parent).to_array(), "extras": bone_extras(bone, about.joints) });
         let below = children(Some(index));
         if !below.is_empty() {
             node["children"] = json!(below);
@@ -126,7 +129,8 @@ fn mesh(skin: &Skin, about: &About<'_>, pack: &mut Pack) -> Value {
         "WEIGHTS_0": pack.vertices(&weights),
     });
     if skin.marks.len() == skin.vertices.len() {
-        attributes["COLOR_0"] = json!(pack.vertices(&skin.marks.iter().map(|&mark| colour(mark)).collect::<Vec<_>>()));
+        attributes["COLOR_0"] =
+            json!(pack.vertices(&skin.marks.iter().map(|&mark| colour(mark)).collect::<Vec<_>>()));
     }
     let primitive = |(material, region): (usize, Region)| {
         let own = skin.triangles.iter().zip(&skin.regions).filter(|(_, own)| **own == region);
@@ -163,8 +167,10 @@ fn normals(skin: &Skin) -> Vec<DVec3> {
         let corners = triangle.map(|corner| skin.vertices[corner as usize]);
         let facing = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or_zero();
         for side in 0..3 {
-            let [to_next, to_last] = [1, 2].map(|step| (corners[(side + step) % 3] - corners[side]).normalize_or_zero());
-            sums[triangle[side] as usize] += facing * libm::acos(to_next.dot(to_last).clamp(-1.0, 1.0));
+            let [to_next, to_last] =
+                [1, 2].map(|step| (corners[(side + step) % 3] - corners[side]).normalize_or_zero());
+            sums[triangle[side] as usize] +=
+                facing * libm::acos(to_next.dot(to_last).clamp(-1.0, 1.0));
         }
     }
     sums.into_iter().map(|sum| sum.try_normalize().unwrap_or(DVec3::Z)).collect()

@@ -1,5 +1,9 @@
 //! One contact asked through a model's own door, and random numbers.
-#![allow(dead_code, clippy::unwrap_used, reason = "each test uses its part of these helpers; where one cannot go on, the test fails there")]
+#![allow(
+    dead_code,
+    clippy::unwrap_used,
+    reason = "each test uses its part of these helpers; where one cannot go on, the test fails there"
+)]
 
 use endline_sdk::{AttributeKind, Contacts, FrictionModel, FrictionResponse};
 
@@ -147,10 +151,15 @@ impl Contact {
 /// A model's default values, with some of them changed.
 pub fn values(model: &dyn FrictionModel, changed: &[(&str, f64)]) -> Vec<f64> {
     let attributes = &model.descriptor().attributes;
-    assert!(changed.iter().all(|(key, _)| attributes.iter().any(|attribute| attribute.key == *key)));
+    assert!(
+        changed.iter().all(|(key, _)| attributes.iter().any(|attribute| attribute.key == *key))
+    );
     let value = |attribute: &endline_sdk::Attribute| {
         let AttributeKind::Number { min, max, default } = attribute.kind else { return f64::NAN };
-        let given = changed.iter().find(|(key, _)| attribute.key == *key).map_or(default, |(_, value)| *value);
+        let given = changed
+            .iter()
+            .find(|(key, _)| attribute.key == *key)
+            .map_or(default, |(_, value)| *value);
         assert!((min..=max).contains(&given));
         given
     };
@@ -162,7 +171,11 @@ pub fn random_values(model: &dyn FrictionModel, random: &mut Random) -> Vec<f64>
     let value = |attribute: &endline_sdk::Attribute| {
         let AttributeKind::Number { min, max, .. } = attribute.kind else { return f64::NAN };
         let wide = min > 0.0 && max > 100.0 * min;
-        if wide { libm::exp10(random.between(libm::log10(min), libm::log10(max))) } else { random.between(min, max) }
+        if wide {
+            libm::exp10(random.between(libm::log10(min), libm::log10(max)))
+        } else {
+            random.between(min, max)
+        }
     };
     model.descriptor().attributes.iter().map(value).collect()
 }
@@ -181,7 +194,13 @@ pub struct Slider<'a> {
 }
 
 impl<'a> Slider<'a> {
-    pub fn new(model: &'a dyn FrictionModel, attributes: Vec<f64>, contact: Contact, spring: f64, mass: f64) -> Self {
+    pub fn new(
+        model: &'a dyn FrictionModel,
+        attributes: Vec<f64>,
+        contact: Contact,
+        spring: f64,
+        mass: f64,
+    ) -> Self {
         Self { model, attributes, contact, spring, mass, place: 0.0, speed: 0.0, hand: 0.0 }
     }
 
@@ -197,7 +216,9 @@ impl<'a> Slider<'a> {
         for pass in 0..200 {
             self.contact.slip = [slip, 0.0, 0.0];
             let answer = self.contact.respond(self.model, &self.attributes);
-            let residual = self.mass * (slip / dt - self.speed) / dt - self.spring * (self.hand - self.place - slip) - answer.force_n[0];
+            let residual = self.mass * (slip / dt - self.speed) / dt
+                - self.spring * (self.hand - self.place - slip)
+                - answer.force_n[0];
             let change = residual / (self.mass / (dt * dt) + self.spring - answer.by_slip[0][0]);
             slip -= change;
             if change.abs() < 1e-15 + 1e-12 * slip.abs() {

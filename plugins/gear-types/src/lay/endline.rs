@@ -52,14 +52,57 @@ impl<'a> Endline<'a> {
     pub fn attributes(buoy: &'static str) -> Vec<Attribute> {
         vec![
             Attribute::item("buoy", "buoys", buoy, "The buoy."),
-            Attribute::item("upper_rope", "ropes", "sink-3-8", "Rope of the endline at the buoy end."),
-            Attribute::item("lower_rope", "ropes", "pp-3-8", "Rope of the endline at the trap end."),
-            Attribute::number("lower_share", "1", [0.01, 0.99], 1.0 / 3.0, "Share of the endline's length that is lower rope."),
-            Attribute::number("scope", "1", [1.0, 5.0], 1.3, "Length of the endline as a multiple of water depth."),
-            Attribute::item("surface_rope", "ropes", "", "Rope of the surface system at the buoy; empty for none of its own."),
-            Attribute::number("surface_length", "m", [0.1, 50.0], 2.0, "Length of the surface system, where it has a rope of its own."),
-            Attribute::item("weak_link", "weak-links", "wl-600", "Weak link at the buoy; empty for none."),
-            Attribute::item("high_flyer", "buoys", "", "Staff buoy with a radar reflector, on a line from the buoy; empty for none."),
+            Attribute::item(
+                "upper_rope",
+                "ropes",
+                "sink-3-8",
+                "Rope of the endline at the buoy end.",
+            ),
+            Attribute::item(
+                "lower_rope",
+                "ropes",
+                "pp-3-8",
+                "Rope of the endline at the trap end.",
+            ),
+            Attribute::number(
+                "lower_share",
+                "1",
+                [0.01, 0.99],
+                1.0 / 3.0,
+                "Share of the endline's length that is lower rope.",
+            ),
+            Attribute::number(
+                "scope",
+                "1",
+                [1.0, 5.0],
+                1.3,
+                "Length of the endline as a multiple of water depth.",
+            ),
+            Attribute::item(
+                "surface_rope",
+                "ropes",
+                "",
+                "Rope of the surface system at the buoy; empty for none of its own.",
+            ),
+            Attribute::number(
+                "surface_length",
+                "m",
+                [0.1, 50.0],
+                2.0,
+                "Length of the surface system, where it has a rope of its own.",
+            ),
+            Attribute::item(
+                "weak_link",
+                "weak-links",
+                "wl-600",
+                "Weak link at the buoy; empty for none.",
+            ),
+            Attribute::item(
+                "high_flyer",
+                "buoys",
+                "",
+                "Staff buoy with a radar reflector, on a line from the buoy; empty for none.",
+            ),
             Attribute::number(
                 "high_flyer_length",
                 "m",
@@ -105,7 +148,13 @@ impl<'a> Endline<'a> {
     ///
     /// # Errors
     /// Where its lengths do not fit together, naming the attribute to mend.
-    pub fn lay(&self, into: &mut Lay, foot: &Foot, site: &Site, prefix: &str) -> Result<(), HookError> {
+    pub fn lay(
+        &self,
+        into: &mut Lay,
+        foot: &Foot,
+        site: &Site,
+        prefix: &str,
+    ) -> Result<(), HookError> {
         let depth_m = depth_of(site)?;
         let lengths = self.lengths(depth_m)?;
         let named = |id: &str| format!("{prefix}{id}");
@@ -113,17 +162,40 @@ impl<'a> Endline<'a> {
         let reach = GUESSED_REACH * (whole * whole - depth_m * depth_m).max(0.0).sqrt();
         let [east, north] = downstream(site.current_m_s);
         let at_buoy = [foot.at_m[0] + reach * east, foot.at_m[1] + reach * north, 0.0];
-        let between = |share: f64| std::array::from_fn(|i| foot.at_m[i] + share * (at_buoy[i] - foot.at_m[i]));
+        let between = |share: f64| {
+            std::array::from_fn(|i| foot.at_m[i] + share * (at_buoy[i] - foot.at_m[i]))
+        };
         let buoy = into.body(&named("buoy"), BodyKind::Buoy, self.buoy, at_buoy);
         let splice = into.joint(&named("splice"), between(lengths.lower / whole));
-        into.line(&named("endline-bottom"), self.lower_rope, [foot.end.clone(), splice.clone()], lengths.lower);
+        into.line(
+            &named("endline-bottom"),
+            self.lower_rope,
+            [foot.end.clone(), splice.clone()],
+            lengths.lower,
+        );
         let topmost = if lengths.surface > 0.0 {
-            let upper = into.joint(&named("surface-splice"), between((lengths.lower + lengths.upper) / whole));
-            into.line(&named("endline-top"), self.upper_rope, [splice, upper.clone()], lengths.upper);
-            into.line(&named("surface-system"), self.surface_rope, [upper, buoy.clone()], lengths.surface);
+            let upper = into
+                .joint(&named("surface-splice"), between((lengths.lower + lengths.upper) / whole));
+            into.line(
+                &named("endline-top"),
+                self.upper_rope,
+                [splice, upper.clone()],
+                lengths.upper,
+            );
+            into.line(
+                &named("surface-system"),
+                self.surface_rope,
+                [upper, buoy.clone()],
+                lengths.surface,
+            );
             named("surface-system")
         } else {
-            into.line(&named("endline-top"), self.upper_rope, [splice, buoy.clone()], lengths.upper);
+            into.line(
+                &named("endline-top"),
+                self.upper_rope,
+                [splice, buoy.clone()],
+                lengths.upper,
+            );
             named("endline-top")
         };
         into.link(&named("buoy-link"), self.weak_link, &topmost, LineEnd::B);
@@ -132,7 +204,14 @@ impl<'a> Endline<'a> {
     }
 
     /// Puts the high-flyer downstream of the buoy, where there is one.
-    fn lay_flyer(&self, into: &mut Lay, buoy: RigEnd, at_buoy: [f64; 3], [east, north]: [f64; 2], prefix: &str) {
+    fn lay_flyer(
+        &self,
+        into: &mut Lay,
+        buoy: RigEnd,
+        at_buoy: [f64; 3],
+        [east, north]: [f64; 2],
+        prefix: &str,
+    ) {
         if self.flyer.is_empty() {
             return;
         }

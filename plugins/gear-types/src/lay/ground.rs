@@ -65,15 +65,37 @@ impl<'a> Ground<'a> {
         let mut all = vec![Attribute::count("traps", [1, 100], traps, "How many traps.")];
         all.extend(Self::attributes_but_count());
         all.extend([
-            Attribute::number("gangion", "m", [0.0, 20.0], gangion_m, "Length of each gangion; 0 puts the traps in the groundline itself."),
-            Attribute::item("gangion_rope", "ropes", "sink-5-16", "Rope of the gangions and bridles."),
+            Attribute::number(
+                "gangion",
+                "m",
+                [0.0, 20.0],
+                gangion_m,
+                "Length of each gangion; 0 puts the traps in the groundline itself.",
+            ),
+            Attribute::item(
+                "gangion_rope",
+                "ropes",
+                "sink-5-16",
+                "Rope of the gangions and bridles.",
+            ),
             Attribute::choice(
                 "side",
                 &["alternate", "left", "right"],
                 "On which side of the groundline the traps lie, seen from the near end.",
             ),
-            Attribute::number("bridle", "m", [0.0, 5.0], 0.0, "Length of each leg of the two-leg bridle on every trap; 0 for none."),
-            Attribute::item("anchor", "anchors", "", "Anchor at each end, under the endline; empty for none."),
+            Attribute::number(
+                "bridle",
+                "m",
+                [0.0, 5.0],
+                0.0,
+                "Length of each leg of the two-leg bridle on every trap; 0 for none.",
+            ),
+            Attribute::item(
+                "anchor",
+                "anchors",
+                "",
+                "Anchor at each end, under the endline; empty for none.",
+            ),
             Attribute::number(
                 "anchor_line",
                 "m",
@@ -90,9 +112,21 @@ impl<'a> Ground<'a> {
     pub fn attributes_but_count() -> Vec<Attribute> {
         vec![
             Attribute::item("trap", "traps", "wire-lobster-3ft", "Each trap."),
-            Attribute::number("spacing", "m", [1.0, 500.0], 21.95, "Groundline from trap to trap; 12 fathoms where not given."),
+            Attribute::number(
+                "spacing",
+                "m",
+                [1.0, 500.0],
+                21.95,
+                "Groundline from trap to trap; 12 fathoms where not given.",
+            ),
             Attribute::item("groundline", "ropes", "sink-3-8", "Rope of the groundline."),
-            Attribute::number("slack", "1", [0.0, 0.5], 0.03, "How much longer the groundline is than what it lies along, as a share."),
+            Attribute::number(
+                "slack",
+                "1",
+                [0.0, 0.5],
+                0.03,
+                "How much longer the groundline is than what it lies along, as a share.",
+            ),
         ]
     }
 
@@ -206,12 +240,21 @@ impl<'a> Ground<'a> {
         let aside = if left { -BESIDE } else { BESIDE } * self.gangion_m;
         let body_at_m = [at_m[0], at_m[1] + aside, at_m[2]];
         let body = into.body(&id, BodyKind::Trap, self.trap, body_at_m);
-        let hung = if self.bridle_m > 0.0 { self.lay_bridle(into, number, &id, body_at_m) } else { body.clone() };
+        let hung = if self.bridle_m > 0.0 {
+            self.lay_bridle(into, number, &id, body_at_m)
+        } else {
+            body.clone()
+        };
         if self.gangion_m == 0.0 {
             return Foot { end: hung, at_m, body, body_at_m };
         }
         let knot = into.joint(&format!("knot-{number}"), at_m);
-        into.line(&format!("gangion-{number}"), self.gangion_rope, [knot.clone(), hung], self.gangion_m);
+        into.line(
+            &format!("gangion-{number}"),
+            self.gangion_rope,
+            [knot.clone(), hung],
+            self.gangion_m,
+        );
         Foot { end: knot, at_m, body, body_at_m }
     }
 
@@ -220,7 +263,12 @@ impl<'a> Ground<'a> {
         let splice = into.joint(&format!("bridle-{number}"), [x + self.bridle_m, y, bed]);
         for side in ["port", "starboard"] {
             let corner = RigEnd::Body(format!("{trap}:bridle-{side}"));
-            into.line(&format!("bridle-{side}-{number}"), self.gangion_rope, [corner, splice.clone()], self.bridle_m);
+            into.line(
+                &format!("bridle-{side}-{number}"),
+                self.gangion_rope,
+                [corner, splice.clone()],
+                self.bridle_m,
+            );
         }
         splice
     }

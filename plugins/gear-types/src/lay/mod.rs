@@ -33,7 +33,10 @@ pub fn depth_of(site: &Site) -> Result<f64, HookError> {
     if site.depth_m > 0.0 && site.depth_m.is_finite() {
         return Ok(site.depth_m);
     }
-    Err(HookError::new(format!("the site's depth is {} m; fixed gear needs water under it", site.depth_m)))
+    Err(HookError::new(format!(
+        "the site's depth is {} m; fixed gear needs water under it",
+        site.depth_m
+    )))
 }
 
 /// Unit direction of the current, along x where there is none.

@@ -28,14 +28,33 @@ impl Lay {
     }
 
     /// Puts in a line that lies along a way at first [m].
-    pub fn line_along(&mut self, id: &str, rope: &str, [from, to]: [RigEnd; 2], length_m: f64, laid_m: Vec<[f64; 3]>) {
-        self.rig.lines.push(RigLine { id: id.into(), rope: rope.into(), from, to, length_m, laid_m });
+    pub fn line_along(
+        &mut self,
+        id: &str,
+        rope: &str,
+        [from, to]: [RigEnd; 2],
+        length_m: f64,
+        laid_m: Vec<[f64; 3]>,
+    ) {
+        self.rig.lines.push(RigLine {
+            id: id.into(),
+            rope: rope.into(),
+            from,
+            to,
+            length_m,
+            laid_m,
+        });
     }
 
     /// Puts in a weak link or release, where an item is named.
     pub fn link(&mut self, id: &str, item: &str, line: &str, end: LineEnd) {
         if !item.is_empty() {
-            self.rig.links.push(RigLink { id: id.into(), item: item.into(), line: line.into(), end });
+            self.rig.links.push(RigLink {
+                id: id.into(),
+                item: item.into(),
+                line: line.into(),
+                end,
+            });
         }
     }
 }

@@ -36,7 +36,11 @@ impl<'a> Values<'a> {
     pub fn count(&self, key: &str) -> Result<u32, HookError> {
         let value = self.number(key)?;
         if value.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&value) {
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "looked at in the line before")]
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "looked at in the line before"
+            )]
             return Ok(value as u32);
         }
         Err(HookError::new(format!("attribute `{key}`: expected a whole number, got {value}")))
@@ -57,7 +61,9 @@ impl<'a> Values<'a> {
     /// Where no id was handed over.
     pub fn item(&self, key: &str) -> Result<&'a str, HookError> {
         let value = self.find(key).and_then(AttributeValue::item);
-        value.ok_or_else(|| HookError::new(format!("attribute `{key}`: expected the id of a library item")))
+        value.ok_or_else(|| {
+            HookError::new(format!("attribute `{key}`: expected the id of a library item"))
+        })
     }
 
     /// The id of a library item that has to be there.
@@ -66,6 +72,10 @@ impl<'a> Values<'a> {
     /// Where it is empty or no id was handed over.
     pub fn needed(&self, key: &str) -> Result<&'a str, HookError> {
         let id = self.item(key)?;
-        if id.is_empty() { Err(HookError::new(format!("attribute `{key}`: name an item of the library"))) } else { Ok(id) }
+        if id.is_empty() {
+            Err(HookError::new(format!("attribute `{key}`: name an item of the library")))
+        } else {
+            Ok(id)
+        }
     }
 }

@@ -8,9 +8,16 @@ pub const SITE: Site = Site { depth_m: 25.0, current_m_s: [0.0, 0.4] };
 /// Defaults, but for these.
 pub fn values(gear: &dyn GearType, changes: &[(&str, AttributeValue)]) -> Vec<AttributeValue> {
     let attributes = &gear.descriptor().attributes;
-    assert!(changes.iter().all(|(key, _)| attributes.iter().any(|attribute| attribute.key == *key)), "{changes:?}");
-    let changed = |key: &str| changes.iter().find(|(known, _)| *known == key).map(|(_, value)| value.clone());
-    attributes.iter().map(|attribute| changed(&attribute.key).unwrap_or_else(|| attribute.default_value())).collect()
+    assert!(
+        changes.iter().all(|(key, _)| attributes.iter().any(|attribute| attribute.key == *key)),
+        "{changes:?}"
+    );
+    let changed =
+        |key: &str| changes.iter().find(|(known, _)| *known == key).map(|(_, value)| value.clone());
+    attributes
+        .iter()
+        .map(|attribute| changed(&attribute.key).unwrap_or_else(|| attribute.default_value()))
+        .collect()
 }
 
 pub fn built(gear: &dyn GearType, changes: &[(&str, AttributeValue)]) -> Rig {

@@ -3,7 +3,10 @@
 //! Everything here runs inside a plugin library. Each function catches a panic and gives it back
 //! as [`STATUS_CRASH`] with its message, so that nothing unwinds into the program; that needs the
 //! plugin to be built with `panic = "unwind"`, Rust's default.
-#![expect(unsafe_code, reason = "one of the two sides of the plugin boundary: raw pointers from the program become slices here")]
+#![expect(
+    unsafe_code,
+    reason = "one of the two sides of the plugin boundary: raw pointers from the program become slices here"
+)]
 
 use std::any::Any;
 use std::ffi::c_void;
@@ -12,7 +15,10 @@ use std::sync::OnceLock;
 
 use super::table::*;
 use crate::friction::{Contacts, FrictionModel, FrictionResponse};
-use crate::gear::{BodyKind, GearAction, GearStep, GearType, Rig, RigBody, RigEnd, RigJoint, RigLine, RigLink, Site};
+use crate::gear::{
+    BodyKind, GearAction, GearStep, GearType, Rig, RigBody, RigEnd, RigJoint, RigLine, RigLink,
+    Site,
+};
 use crate::hook::{Act, Attribute, AttributeKind, AttributeValue, Descriptor, HookError};
 use crate::motion::{MotionInput, MotionOutput, WhaleMotion};
 use crate::whale::BodyPart;
@@ -101,7 +107,12 @@ unsafe impl Send for Factory {}
 unsafe impl Sync for Factory {}
 
 /// Makes the factory; a panic in a plugin's constructor becomes a status with its message.
-pub fn init(store: &OnceLock<Factory>, plugins: impl FnOnce() -> Vec<Exported>, about: &'static str, message: *mut AbiMessage) -> i32 {
+pub fn init(
+    store: &OnceLock<Factory>,
+    plugins: impl FnOnce() -> Vec<Exported>,
+    about: &'static str,
+    message: *mut AbiMessage,
+) -> i32 {
     guarded(message, || {
         store.get_or_init(|| make_factory(plugins(), about));
         Ok(())
@@ -119,7 +130,10 @@ pub fn factory(store: &OnceLock<Factory>, id: AbiText) -> *const c_void {
 }
 
 fn make_factory(plugins: Vec<Exported>, about: &'static str) -> Factory {
-    let pointers: Vec<*const AbiPlugin> = plugins.into_iter().map(|plugin| &raw const *Box::leak(Box::new(make_plugin(plugin)))).collect();
+    let pointers: Vec<*const AbiPlugin> = plugins
+        .into_iter()
+        .map(|plugin| &raw const *Box::leak(Box::new(make_plugin(plugin))))
+        .collect();
     let pointers = Vec::leak(pointers);
     Factory(AbiFactory {
         struct_size: size::<AbiFactory>(),
@@ -133,20 +147,40 @@ fn make_plugin(plugin: Exported) -> AbiPlugin {
     match plugin {
         Exported::Motion(plugin) => {
             let plugin = Box::leak(Box::new(plugin));
-            describe(KIND_MOTION, plugin.descriptor(), (&raw const *plugin).cast(), (&raw const MOTION).cast())
+            describe(
+                KIND_MOTION,
+                plugin.descriptor(),
+                (&raw const *plugin).cast(),
+                (&raw const MOTION).cast(),
+            )
         }
         Exported::Friction(plugin) => {
             let plugin = Box::leak(Box::new(plugin));
-            describe(KIND_FRICTION, plugin.descriptor(), (&raw const *plugin).cast(), (&raw const FRICTION).cast())
+            describe(
+                KIND_FRICTION,
+                plugin.descriptor(),
+                (&raw const *plugin).cast(),
+                (&raw const FRICTION).cast(),
+            )
         }
         Exported::Gear(plugin) => {
             let plugin = Box::leak(Box::new(plugin));
-            describe(KIND_GEAR, plugin.descriptor(), (&raw const *plugin).cast(), (&raw const GEAR).cast())
+            describe(
+                KIND_GEAR,
+                plugin.descriptor(),
+                (&raw const *plugin).cast(),
+                (&raw const GEAR).cast(),
+            )
         }
     }
 }
 
-fn describe(kind: u32, descriptor: &'static Descriptor, context: *const c_void, table: *const c_void) -> AbiPlugin {
+fn describe(
+    kind: u32,
+    descriptor: &'static Descriptor,
+    context: *const c_void,
+    table: *const c_void,
+) -> AbiPlugin {
     let attributes = Vec::leak(descriptor.attributes.iter().map(describe_attribute).collect());
     let acts = Vec::leak(descriptor.acts.iter().map(describe_act).collect());
     AbiPlugin {
@@ -184,29 +218,37 @@ fn describe_attribute(attribute: &'static Attribute) -> AbiAttribute {
     };
     match &attribute.kind {
         AttributeKind::Number { min, max, default } => {
-            (described.least, described.greatest, described.default_number) = (*min, *max, *default);
+            (described.least, described.greatest, described.default_number) =
+                (*min, *max, *default);
         }
         AttributeKind::Count { min, max, default } => {
             described.kind = ATTRIBUTE_COUNT;
-            (described.least, described.greatest, described.default_number) = (f64::from(*min), f64::from(*max), f64::from(*default));
+            (described.least, described.greatest, described.default_number) =
+                (f64::from(*min), f64::from(*max), f64::from(*default));
         }
         AttributeKind::Choice { words, default } => {
             described.kind = ATTRIBUTE_CHOICE;
             let words: &'static str = String::leak(words.join("|"));
-            (described.library, described.default_item) = (AbiText::of(words), AbiText::of(default));
+            (described.library, described.default_item) =
+                (AbiText::of(words), AbiText::of(default));
         }
         AttributeKind::Item { library, default } => {
             described.kind = ATTRIBUTE_ITEM;
-            (described.library, described.default_item) = (AbiText::of(library), AbiText::of(default));
+            (described.library, described.default_item) =
+                (AbiText::of(library), AbiText::of(default));
         }
     }
     described
 }
 
 static MOTION: AbiMotion = AbiMotion { struct_size: size::<AbiMotion>(), step: Some(motion_step) };
-static FRICTION: AbiFriction =
-    AbiFriction { struct_size: size::<AbiFriction>(), respond: Some(friction_respond), advance: Some(friction_advance) };
-static GEAR: AbiGear = AbiGear { struct_size: size::<AbiGear>(), build: Some(gear_build), step: Some(gear_step) };
+static FRICTION: AbiFriction = AbiFriction {
+    struct_size: size::<AbiFriction>(),
+    respond: Some(friction_respond),
+    advance: Some(friction_advance),
+};
+static GEAR: AbiGear =
+    AbiGear { struct_size: size::<AbiGear>(), build: Some(gear_build), step: Some(gear_step) };
 
 /// # Safety
 /// As [`AbiMotion::step`] promises: arrays of the lengths given, `context` from [`make_plugin`].
@@ -226,12 +268,22 @@ unsafe extern "C" fn motion_step(
             let (plugin, raw) = (&*context.cast::<Box<dyn WhaleMotion>>(), known_part(input));
             let parts = |what: &str, of: *const f64| {
                 let given = array(of, raw.body_part_count);
-                <&[f64; BodyPart::ALL.len()]>::try_from(given)
-                    .map_err(|_| HookError::new(format!("expected {what} of {} body parts, got {}", BodyPart::ALL.len(), given.len())))
+                <&[f64; BodyPart::ALL.len()]>::try_from(given).map_err(|_| {
+                    HookError::new(format!(
+                        "expected {what} of {} body parts, got {}",
+                        BodyPart::ALL.len(),
+                        given.len()
+                    ))
+                })
             };
-            let (force, port) = (parts("forces", raw.contact_force_n)?, parts("places", raw.contact_port_m)?);
+            let (force, port) =
+                (parts("forces", raw.contact_force_n)?, parts("places", raw.contact_port_m)?);
             let input = motion_input(&raw, force, port);
-            *out = plugin.step(array(attributes, attribute_count), &input, array_mut(state, state_len))?;
+            *out = plugin.step(
+                array(attributes, attribute_count),
+                &input,
+                array_mut(state, state_len),
+            )?;
         }
         Ok(())
     })
@@ -269,7 +321,11 @@ unsafe extern "C" fn friction_respond(
         // SAFETY: the caller's promise.
         unsafe {
             let (plugin, raw) = (&*context.cast::<Box<dyn FrictionModel>>(), known_part(contacts));
-            plugin.respond(array(attributes, attribute_count), &friction_contacts(&raw), array_mut(out, raw.count))
+            plugin.respond(
+                array(attributes, attribute_count),
+                &friction_contacts(&raw),
+                array_mut(out, raw.count),
+            )
         }
     })
 }
@@ -351,9 +407,18 @@ unsafe extern "C" fn gear_step(
         // SAFETY: the caller's promise.
         unsafe {
             let (plugin, raw) = (&*context.cast::<Box<dyn GearType>>(), known_part(input));
-            let step = GearStep { time_s: raw.time_s, dt_s: raw.dt_s, end_tension_n: array(raw.end_tension_n, raw.line_count) };
+            let step = GearStep {
+                time_s: raw.time_s,
+                dt_s: raw.dt_s,
+                end_tension_n: array(raw.end_tension_n, raw.line_count),
+            };
             let mut wanted = Vec::new();
-            plugin.step(&attribute_values(array(values, value_count)), &step, array_mut(state, state_len), &mut wanted)?;
+            plugin.step(
+                &attribute_values(array(values, value_count)),
+                &step,
+                array_mut(state, state_len),
+                &mut wanted,
+            )?;
             let host = known_part(actions);
             wanted.iter().try_for_each(|action| act(action, &host))
         }
@@ -405,7 +470,11 @@ unsafe fn hand_over(rig: &Rig, host: &AbiRigHost) -> Result<(), HookError> {
             taken(host.add_line.map(|add| add(host.host, &raw_line(line))))?;
             let laid = &line.laid_m;
             if !laid.is_empty() {
-                taken(host.lay_line.map(|lay| lay(host.host, AbiText::of(&line.id), laid.as_ptr(), laid.len())))?;
+                taken(
+                    host.lay_line.map(|lay| {
+                        lay(host.host, AbiText::of(&line.id), laid.as_ptr(), laid.len())
+                    }),
+                )?;
             }
         }
         for link in &rig.links {
@@ -421,14 +490,22 @@ unsafe fn act(action: &GearAction, host: &AbiActionHost) -> Result<(), HookError
     // SAFETY: each function is called as the table says.
     taken(unsafe {
         match *action {
-            GearAction::CutLine { line, end } => host.cut_line.map(|cut| cut(host.host, line, end as u32)),
-            GearAction::ReleaseLink { link } => host.release_link.map(|release| release(host.host, link)),
+            GearAction::CutLine { line, end } => {
+                host.cut_line.map(|cut| cut(host.host, line, end as u32))
+            }
+            GearAction::ReleaseLink { link } => {
+                host.release_link.map(|release| release(host.host, link))
+            }
         }
     })
 }
 
 fn taken(status: Option<i32>) -> Result<(), HookError> {
-    if status == Some(STATUS_OK) { Ok(()) } else { Err(HookError::new("the program did not take what the gear type gave")) }
+    if status == Some(STATUS_OK) {
+        Ok(())
+    } else {
+        Err(HookError::new("the program did not take what the gear type gave"))
+    }
 }
 
 fn raw_body(body: &RigBody) -> AbiBody {
@@ -437,7 +514,12 @@ fn raw_body(body: &RigBody) -> AbiBody {
         BodyKind::Buoy => BODY_BUOY,
         BodyKind::Anchor => BODY_ANCHOR,
     };
-    AbiBody { id: AbiText::of(&body.id), kind, item: AbiText::of(&body.item), position_m: body.position_m }
+    AbiBody {
+        id: AbiText::of(&body.id),
+        kind,
+        item: AbiText::of(&body.item),
+        position_m: body.position_m,
+    }
 }
 
 fn raw_joint(joint: &RigJoint) -> AbiJoint {
@@ -462,7 +544,12 @@ fn raw_end(end: &RigEnd) -> AbiRigEnd {
 }
 
 fn raw_link(link: &RigLink) -> AbiLink {
-    AbiLink { id: AbiText::of(&link.id), item: AbiText::of(&link.item), line: AbiText::of(&link.line), end: link.end as u32 }
+    AbiLink {
+        id: AbiText::of(&link.id),
+        item: AbiText::of(&link.item),
+        line: AbiText::of(&link.line),
+        end: link.end as u32,
+    }
 }
 
 /// Runs a hook: its error or its panic becomes a status with a message.
@@ -482,7 +569,10 @@ fn guarded(message: *mut AbiMessage, work: impl FnOnce() -> Result<(), HookError
 }
 
 fn panic_text(payload: &(dyn Any + Send)) -> &str {
-    let known = payload.downcast_ref::<&str>().copied().or_else(|| payload.downcast_ref::<String>().map(String::as_str));
+    let known = payload
+        .downcast_ref::<&str>()
+        .copied()
+        .or_else(|| payload.downcast_ref::<String>().map(String::as_str));
     known.unwrap_or("a panic without a message")
 }
 
@@ -541,7 +631,8 @@ mod tests {
             add_link: None,
             lay_line: Some(lay),
         };
-        let older = AbiRigHost { struct_size: std::mem::offset_of!(AbiRigHost, lay_line) as u32, ..whole };
+        let older =
+            AbiRigHost { struct_size: std::mem::offset_of!(AbiRigHost, lay_line) as u32, ..whole };
         // SAFETY: both are whole structs; the second says that it is shorter.
         let (whole, older) = unsafe { (known_part(&whole), known_part(&older)) };
         assert!(whole.lay_line.is_some() && older.lay_line.is_none());

@@ -374,7 +374,14 @@ pub struct AbiRigHost {
     /// Adds a weak link.
     pub add_link: Option<unsafe extern "C" fn(host: *mut c_void, link: *const AbiLink) -> i32>,
     /// Gives a line added before the way it lies at first, `count` places from end A to end B [m].
-    pub lay_line: Option<unsafe extern "C" fn(host: *mut c_void, line: AbiText, places_m: *const [f64; 3], count: usize) -> i32>,
+    pub lay_line: Option<
+        unsafe extern "C" fn(
+            host: *mut c_void,
+            line: AbiText,
+            places_m: *const [f64; 3],
+            count: usize,
+        ) -> i32,
+    >,
 }
 
 /// The program's functions by which a gear type acts; indices are in the order built.

@@ -29,10 +29,38 @@ pub(super) struct Floats {
 
 impl Floats {
     pub(super) fn read(state: &[f64]) -> Result<Self, HookError> {
-        let &[phase, effort, speed, pitch, roll, yaw, burst, mouth, flipper_raise, flipper_twist, flipper_sweep] = state else {
-            return Err(HookError::new(format!("expected {LEN} floats of state, got {}", state.len())));
+        let &[
+            phase,
+            effort,
+            speed,
+            pitch,
+            roll,
+            yaw,
+            burst,
+            mouth,
+            flipper_raise,
+            flipper_twist,
+            flipper_sweep,
+        ] = state
+        else {
+            return Err(HookError::new(format!(
+                "expected {LEN} floats of state, got {}",
+                state.len()
+            )));
         };
-        Ok(Self { phase, effort, speed, pitch, roll, yaw, burst, mouth, flipper_raise, flipper_twist, flipper_sweep })
+        Ok(Self {
+            phase,
+            effort,
+            speed,
+            pitch,
+            roll,
+            yaw,
+            burst,
+            mouth,
+            flipper_raise,
+            flipper_twist,
+            flipper_sweep,
+        })
     }
 
     pub(super) fn write(&self, state: &mut [f64]) {

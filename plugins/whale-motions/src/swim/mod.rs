@@ -65,7 +65,12 @@ impl WhaleMotion for Swim {
         &self.descriptor
     }
 
-    fn step(&self, attributes: &[f64], input: &MotionInput<'_>, state: &mut [f64]) -> Result<MotionOutput, HookError> {
+    fn step(
+        &self,
+        attributes: &[f64],
+        input: &MotionInput<'_>,
+        state: &mut [f64],
+    ) -> Result<MotionOutput, HookError> {
         let settings = Settings::read(attributes)?;
         check(input)?;
         let mut floats = Floats::read(state)?;
@@ -112,11 +117,16 @@ fn target_speed(settings: &Settings, floats: &Floats) -> f64 {
 /// Speed at the end of the step: towards the target, within acceleration and braking [m/s].
 fn next_speed(settings: &Settings, target: f64, input: &MotionInput<'_>) -> f64 {
     let change = target - input.speed_m_s;
-    input.speed_m_s + change.clamp(-settings.braking_m_s2 * input.dt_s, settings.acceleration_m_s2 * input.dt_s)
+    input.speed_m_s
+        + change.clamp(-settings.braking_m_s2 * input.dt_s, settings.acceleration_m_s2 * input.dt_s)
 }
 
 /// Turn rates about the whale's x, y and z [rad/s]: roll to starboard is positive about x and yaw to
 /// port about z, as the controls count them; nose up is negative about y.
 fn turn_rates(settings: &Settings, floats: &Floats) -> [f64; 3] {
-    [settings.roll_rate_rad_s * floats.roll, -settings.pitch_rate_rad_s * floats.pitch, settings.yaw_rate_rad_s * floats.yaw]
+    [
+        settings.roll_rate_rad_s * floats.roll,
+        -settings.pitch_rate_rad_s * floats.pitch,
+        settings.yaw_rate_rad_s * floats.yaw,
+    ]
 }

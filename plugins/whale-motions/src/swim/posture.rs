@@ -51,8 +51,14 @@ fn flipper_sweep(settings: &Settings, floats: &Floats) -> [f64; 2] {
     let [inner, outer] = TURN_SWEEP_RAD;
     let (to_port, to_starboard) = (floats.yaw.max(0.0), (-floats.yaw).max(0.0));
     let [forward, back] = SWEEP_RAD;
-    let asked = aft - if floats.flipper_sweep > 0.0 { forward * floats.flipper_sweep } else { back * floats.flipper_sweep };
-    [asked - inner * to_port - outer * to_starboard, asked - inner * to_starboard - outer * to_port].map(|angle| angle.max(-forward))
+    let asked = aft
+        - if floats.flipper_sweep > 0.0 {
+            forward * floats.flipper_sweep
+        } else {
+            back * floats.flipper_sweep
+        };
+    [asked - inner * to_port - outer * to_starboard, asked - inner * to_starboard - outer * to_port]
+        .map(|angle| angle.max(-forward))
 }
 
 fn flipper_raise(control: f64) -> f64 {

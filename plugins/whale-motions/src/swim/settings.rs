@@ -29,7 +29,11 @@ pub(super) struct Settings {
 impl Settings {
     pub(super) fn read(attributes: &[f64]) -> Result<Self, HookError> {
         let mut values = attributes.iter().copied();
-        let mut next = || values.next().ok_or_else(|| HookError::new(format!("expected 17 attribute values, got {}", attributes.len())));
+        let mut next = || {
+            values.next().ok_or_else(|| {
+                HookError::new(format!("expected 17 attribute values, got {}", attributes.len()))
+            })
+        };
         Ok(Self {
             cruise_speed_m_s: next()?,
             burst_speed_m_s: next()?,
@@ -56,8 +60,20 @@ impl Settings {
 pub(super) fn attributes() -> Vec<Attribute> {
     let number = Attribute::number;
     vec![
-        number("cruise_speed", "m/s", [0.1, 5.0], 1.23, "Speed at full speed control; tracked right whales travel at 0.9 to 1.5 m/s."),
-        number("burst_speed", "m/s", [0.1, 10.0], 4.5, "Greatest speed, with the burst control; an estimate from sprints of 4 to 5 m/s."),
+        number(
+            "cruise_speed",
+            "m/s",
+            [0.1, 5.0],
+            1.23,
+            "Speed at full speed control; tracked right whales travel at 0.9 to 1.5 m/s.",
+        ),
+        number(
+            "burst_speed",
+            "m/s",
+            [0.1, 10.0],
+            4.5,
+            "Greatest speed, with the burst control; an estimate from sprints of 4 to 5 m/s.",
+        ),
         number(
             "acceleration",
             "m/s^2",
@@ -65,12 +81,48 @@ pub(super) fn attributes() -> Vec<Attribute> {
             0.3,
             "Greatest gain of speed; an estimate between sustained (0.2) and greatest (0.6) thrust over mass.",
         ),
-        number("braking", "m/s^2", [0.01, 2.0], 0.15, "Greatest loss of speed, flippers and body as brakes; an estimate."),
-        number("beat_amplitude", "1", [0.02, 0.4], 0.2, "Peak-to-peak excursion of the flukes as a share of body length."),
-        number("strouhal", "1", [0.1, 0.6], 0.3, "Beat frequency times excursion over speed; swimmers keep 0.2 to 0.4."),
-        number("least_beat", "Hz", [0.01, 1.0], 0.05, "Slowest beat; below it the flukes move less far instead."),
-        number("greatest_beat", "Hz", [0.02, 3.0], 0.6, "Fastest beat of a whale of 13.7 m; it goes with length to the power -0.53."),
-        number("fluke_attack", "rad", [0.0, 0.6], 0.26, "Angle of attack of the flukes at mid-stroke."),
+        number(
+            "braking",
+            "m/s^2",
+            [0.01, 2.0],
+            0.15,
+            "Greatest loss of speed, flippers and body as brakes; an estimate.",
+        ),
+        number(
+            "beat_amplitude",
+            "1",
+            [0.02, 0.4],
+            0.2,
+            "Peak-to-peak excursion of the flukes as a share of body length.",
+        ),
+        number(
+            "strouhal",
+            "1",
+            [0.1, 0.6],
+            0.3,
+            "Beat frequency times excursion over speed; swimmers keep 0.2 to 0.4.",
+        ),
+        number(
+            "least_beat",
+            "Hz",
+            [0.01, 1.0],
+            0.05,
+            "Slowest beat; below it the flukes move less far instead.",
+        ),
+        number(
+            "greatest_beat",
+            "Hz",
+            [0.02, 3.0],
+            0.6,
+            "Fastest beat of a whale of 13.7 m; it goes with length to the power -0.53.",
+        ),
+        number(
+            "fluke_attack",
+            "rad",
+            [0.0, 0.6],
+            0.26,
+            "Angle of attack of the flukes at mid-stroke.",
+        ),
         number(
             "yaw_rate",
             "rad/s",
@@ -92,10 +144,40 @@ pub(super) fn attributes() -> Vec<Attribute> {
             0.349_065_850_398_865_9,
             "Roll rate at full control (20 degrees a second); humpbacks reach 43.",
         ),
-        number("smoothing", "s", [0.01, 10.0], 0.5, "How slowly the whale follows speed, pitch, roll and yaw controls."),
-        number("flipper_sweep", "rad", [-0.5, 1.2], 0.2, "How far aft the flippers are swept while swimming."),
-        number("flipper_time", "s", [0.05, 20.0], 1.0, "Time a flipper takes from its middle to an end of its range."),
-        number("jaw_open", "rad", [0.0, 0.8], 0.26, "Jaw drop at full mouth control; 10 to 20 degrees when skim feeding."),
-        number("mouth_time", "s", [0.05, 20.0], 2.0, "Time the mouth takes to open or close; 1 to 3 seconds."),
+        number(
+            "smoothing",
+            "s",
+            [0.01, 10.0],
+            0.5,
+            "How slowly the whale follows speed, pitch, roll and yaw controls.",
+        ),
+        number(
+            "flipper_sweep",
+            "rad",
+            [-0.5, 1.2],
+            0.2,
+            "How far aft the flippers are swept while swimming.",
+        ),
+        number(
+            "flipper_time",
+            "s",
+            [0.05, 20.0],
+            1.0,
+            "Time a flipper takes from its middle to an end of its range.",
+        ),
+        number(
+            "jaw_open",
+            "rad",
+            [0.0, 0.8],
+            0.26,
+            "Jaw drop at full mouth control; 10 to 20 degrees when skim feeding.",
+        ),
+        number(
+            "mouth_time",
+            "s",
+            [0.05, 20.0],
+            2.0,
+            "Time the mouth takes to open or close; 1 to 3 seconds.",
+        ),
     ]
 }

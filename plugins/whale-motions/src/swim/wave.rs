@@ -55,13 +55,15 @@ impl Beat {
         let widest_m = settings.beat_amplitude * length_m;
         let quicker = libm::pow(length_m / GROWN_M, QUICKER);
         let greatest = (settings.greatest_beat_hz * quicker).max(settings.least_beat_hz);
-        let frequency_hz = (settings.strouhal * speed_m_s / widest_m).clamp(settings.least_beat_hz, greatest);
+        let frequency_hz =
+            (settings.strouhal * speed_m_s / widest_m).clamp(settings.least_beat_hz, greatest);
         let excursion_m = widest_m.min(settings.strouhal * speed_m_s / frequency_hz).max(0.0);
         let strouhal = if speed_m_s > 0.0 { frequency_hz * excursion_m / speed_m_s } else { 0.0 };
         Self {
             frequency_hz,
             excursion: floats.effort * excursion_m / length_m,
-            fluke_pitch_rad: floats.effort * (libm::atan(PI * strouhal) - settings.fluke_attack_rad).max(0.0),
+            fluke_pitch_rad: floats.effort
+                * (libm::atan(PI * strouhal) - settings.fluke_attack_rad).max(0.0),
             effort: floats.effort,
         }
     }

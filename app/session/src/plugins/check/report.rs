@@ -7,7 +7,8 @@ pub(super) fn lines(tried: &[Tried]) -> Vec<String> {
     let mut lines = Vec::new();
     for Tried { info, findings } in tried {
         lines.push(format!("{}  {}  {}: {}", info.id, info.version, info.kind, info.name));
-        let (attributes, acts) = (counted(info.attributes.len(), "attribute"), counted(info.acts.len(), "act"));
+        let (attributes, acts) =
+            (counted(info.attributes.len(), "attribute"), counted(info.acts.len(), "act"));
         lines.push(format!("  {:<10}  ok     {attributes}, {acts}", "declared"));
         for finding in findings {
             let (word, told) = match &finding.outcome {

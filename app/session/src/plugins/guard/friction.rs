@@ -18,7 +18,8 @@ const ROUNDING: f64 = 1e-9;
 
 /// No number: what a place for an answer holds before the call, and no arithmetic gives.
 const BLANK: f64 = f64::from_bits(0x7ff8_5eed_0e4d_11e5);
-const UNWRITTEN: FrictionResponse = FrictionResponse { force_n: [BLANK; 3], by_slip: [[BLANK; 3]; 3], by_normal_force: [BLANK; 3] };
+const UNWRITTEN: FrictionResponse =
+    FrictionResponse { force_n: [BLANK; 3], by_slip: [[BLANK; 3]; 3], by_normal_force: [BLANK; 3] };
 
 pub(super) struct Guarded(pub Arc<dyn FrictionModel>);
 
@@ -27,33 +28,59 @@ impl FrictionModel for Guarded {
         self.0.descriptor()
     }
 
-    fn respond(&self, attributes: &[f64], contacts: &Contacts<'_>, out: &mut [FrictionResponse]) -> Result<(), HookError> {
+    fn respond(
+        &self,
+        attributes: &[f64],
+        contacts: &Contacts<'_>,
+        out: &mut [FrictionResponse],
+    ) -> Result<(), HookError> {
         self.watched_respond(attributes, contacts, out).map_err(named(&self.descriptor().id))
     }
 
-    fn advance(&self, attributes: &[f64], contacts: &Contacts<'_>, out: &mut [f64]) -> Result<(), HookError> {
+    fn advance(
+        &self,
+        attributes: &[f64],
+        contacts: &Contacts<'_>,
+        out: &mut [f64],
+    ) -> Result<(), HookError> {
         self.watched_advance(attributes, contacts, out).map_err(named(&self.descriptor().id))
     }
 }
 
 impl Guarded {
-    fn watched_respond(&self, attributes: &[f64], contacts: &Contacts<'_>, out: &mut [FrictionResponse]) -> Result<(), HookError> {
+    fn watched_respond(
+        &self,
+        attributes: &[f64],
+        contacts: &Contacts<'_>,
+        out: &mut [FrictionResponse],
+    ) -> Result<(), HookError> {
         self.check_input(attributes, contacts)?;
         expect_len("places for answers", out.len(), contacts.len())?;
         out.fill(UNWRITTEN);
         self.0.respond(attributes, contacts, out)?;
         if out.iter().any(is_unwritten) {
-            return fault(format!("it wrote fewer answers than the {} contacts it was asked about", contacts.len()));
+            return fault(format!(
+                "it wrote fewer answers than the {} contacts it was asked about",
+                contacts.len()
+            ));
         }
         let floats = self.descriptor().state_len;
         for (index, answer) in out.iter().enumerate() {
-            let fresh = contacts.state[floats * index..floats * (index + 1)].iter().all(|float| *float == 0.0);
-            check_answer(answer, contacts, index, fresh).map_err(|error| HookError::new(format!("contact {index}: {}", error.message)))?;
+            let fresh = contacts.state[floats * index..floats * (index + 1)]
+                .iter()
+                .all(|float| *float == 0.0);
+            check_answer(answer, contacts, index, fresh)
+                .map_err(|error| HookError::new(format!("contact {index}: {}", error.message)))?;
         }
         Ok(())
     }
 
-    fn watched_advance(&self, attributes: &[f64], contacts: &Contacts<'_>, out: &mut [f64]) -> Result<(), HookError> {
+    fn watched_advance(
+        &self,
+        attributes: &[f64],
+        contacts: &Contacts<'_>,
+        out: &mut [f64],
+    ) -> Result<(), HookError> {
         self.check_input(attributes, contacts)?;
         expect_len("places for floats", out.len(), contacts.len() * self.descriptor().state_len)?;
         out.fill(BLANK);
@@ -87,7 +114,12 @@ fn is_unwritten(answer: &FrictionResponse) -> bool {
     answer.force_n.iter().all(|force| force.to_bits() == BLANK.to_bits())
 }
 
-fn check_answer(answer: &FrictionResponse, contacts: &Contacts<'_>, index: usize, fresh: bool) -> Result<(), HookError> {
+fn check_answer(
+    answer: &FrictionResponse,
+    contacts: &Contacts<'_>,
+    index: usize,
+    fresh: bool,
+) -> Result<(), HookError> {
     expect_finite("the force", &answer.force_n)?;
     expect_finite("the derivative by slip", answer.by_slip.as_flattened())?;
     expect_finite("the derivative by normal force", &answer.by_normal_force)?;
@@ -95,14 +127,21 @@ fn check_answer(answer: &FrictionResponse, contacts: &Contacts<'_>, index: usize
     let (size, way) = (dot(force, force).sqrt(), dot(slip, slip).sqrt());
     let limit = contacts.coefficient[index] * contacts.normal_force_n[index];
     if dot(force, contacts.normal[index]).abs() > 1e-6 * (size + limit) {
-        return fault(format!("its force {force:?} N does not lie across the normal {:?}", contacts.normal[index]));
+        return fault(format!(
+            "its force {force:?} N does not lie across the normal {:?}",
+            contacts.normal[index]
+        ));
     }
     if fresh && dot(force, slip) > ROUNDING * size * way {
-        return fault(format!("its force {force:?} N pushes the way the rope slips, {slip:?} m: friction may not create energy"));
+        return fault(format!(
+            "its force {force:?} N pushes the way the rope slips, {slip:?} m: friction may not create energy"
+        ));
     }
     let most = GREATEST_RATIO * limit;
     if size > most * (1.0 + ROUNDING) + f64::MIN_POSITIVE {
-        return fault(format!("its force of {size} N is beyond {GREATEST_RATIO} times coefficient times normal force, {most} N"));
+        return fault(format!(
+            "its force of {size} N is beyond {GREATEST_RATIO} times coefficient times normal force, {most} N"
+        ));
     }
     Ok(())
 }

@@ -4,7 +4,8 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use endline_sdk::{
-    Attribute, AttributeKind, AttributeValue, Descriptor, GearAction, GearStep, GearType, HookError, Rig, RigEnd, RigLine, Site,
+    Attribute, AttributeKind, AttributeValue, Descriptor, GearAction, GearStep, GearType,
+    HookError, Rig, RigEnd, RigLine, Site,
 };
 
 use super::{expect_finite, expect_len, fault, named};
@@ -56,7 +57,9 @@ impl Guarded {
             if let GearAction::CutLine { line, .. } = action
                 && *line as usize >= lines
             {
-                return fault(format!("it cuts line {line}, but its rig has {lines} lines, counted from 0"));
+                return fault(format!(
+                    "it cuts line {line}, but its rig has {lines} lines, counted from 0"
+                ));
             }
         }
         Ok(())
@@ -67,14 +70,21 @@ fn check_values(attributes: &[Attribute], values: &[AttributeValue]) -> Result<(
     expect_len("attribute values", values.len(), attributes.len())?;
     for (attribute, value) in attributes.iter().zip(values) {
         match (&attribute.kind, value) {
-            (AttributeKind::Number { .. } | AttributeKind::Count { .. }, AttributeValue::Number(_))
+            (
+                AttributeKind::Number { .. } | AttributeKind::Count { .. },
+                AttributeValue::Number(_),
+            )
             | (AttributeKind::Choice { .. }, AttributeValue::Choice(_))
             | (AttributeKind::Item { .. }, AttributeValue::Item(_)) => {}
-            (AttributeKind::Choice { .. }, _) => return fault(format!("attribute `{}`: expected one of its words", attribute.key)),
+            (AttributeKind::Choice { .. }, _) => {
+                return fault(format!("attribute `{}`: expected one of its words", attribute.key));
+            }
             (AttributeKind::Number { .. } | AttributeKind::Count { .. }, _) => {
                 return fault(format!("attribute `{}`: expected a number", attribute.key));
             }
-            (AttributeKind::Item { .. }, _) => return fault(format!("attribute `{}`: expected a library item", attribute.key)),
+            (AttributeKind::Item { .. }, _) => {
+                return fault(format!("attribute `{}`: expected a library item", attribute.key));
+            }
         }
     }
     Ok(())
@@ -85,25 +95,40 @@ fn check_rig(rig: &Rig) -> Result<(), HookError> {
     let joints = unique("joint", rig.joints.iter().map(|joint| &joint.id))?;
     let lines = unique("line", rig.lines.iter().map(|line| &line.id))?;
     unique("link", rig.links.iter().map(|link| &link.id))?;
-    let places = rig.bodies.iter().map(|body| &body.position_m).chain(rig.joints.iter().map(|joint| &joint.position_m));
+    let places = rig
+        .bodies
+        .iter()
+        .map(|body| &body.position_m)
+        .chain(rig.joints.iter().map(|joint| &joint.position_m));
     places.into_iter().try_for_each(|place| expect_finite("a place in its rig", place))?;
     if let Some(body) = rig.bodies.iter().find(|body| body.item.is_empty()) {
         return fault(format!("body `{}` names no library item", body.id));
     }
     rig.lines.iter().try_for_each(|line| check_line(line, &bodies, &joints))?;
-    match rig.links.iter().find(|link| link.item.is_empty() || !lines.contains(link.line.as_str())) {
-        Some(link) => fault(format!("link `{}` names item `{}` in line `{}`, which its rig lacks", link.id, link.item, link.line)),
+    match rig.links.iter().find(|link| link.item.is_empty() || !lines.contains(link.line.as_str()))
+    {
+        Some(link) => fault(format!(
+            "link `{}` names item `{}` in line `{}`, which its rig lacks",
+            link.id, link.item, link.line
+        )),
         None => Ok(()),
     }
 }
 
-fn check_line(line: &RigLine, bodies: &BTreeSet<&str>, joints: &BTreeSet<&str>) -> Result<(), HookError> {
+fn check_line(
+    line: &RigLine,
+    bodies: &BTreeSet<&str>,
+    joints: &BTreeSet<&str>,
+) -> Result<(), HookError> {
     if !(line.length_m > 0.0 && line.length_m.is_finite()) {
         return fault(format!("line `{}` is {} m long", line.id, line.length_m));
     }
     line.laid_m.iter().try_for_each(|place| expect_finite("a place in its rig", place))?;
     if line.laid_m.len() == 1 {
-        return fault(format!("line `{}` is laid through one place; it takes two or more, or none", line.id));
+        return fault(format!(
+            "line `{}` is laid through one place; it takes two or more, or none",
+            line.id
+        ));
     }
     if line.rope.is_empty() {
         return fault(format!("line `{}` names no rope", line.id));
@@ -121,7 +146,10 @@ fn check_line(line: &RigLine, bodies: &BTreeSet<&str>, joints: &BTreeSet<&str>) 
     Ok(())
 }
 
-fn unique<'a>(what: &str, ids: impl Iterator<Item = &'a String>) -> Result<BTreeSet<&'a str>, HookError> {
+fn unique<'a>(
+    what: &str,
+    ids: impl Iterator<Item = &'a String>,
+) -> Result<BTreeSet<&'a str>, HookError> {
     let mut seen = BTreeSet::new();
     for id in ids {
         if id.is_empty() || !seen.insert(id.as_str()) {

@@ -20,13 +20,23 @@ impl WhaleMotion for Guarded {
         self.0.descriptor()
     }
 
-    fn step(&self, attributes: &[f64], input: &MotionInput<'_>, state: &mut [f64]) -> Result<MotionOutput, HookError> {
+    fn step(
+        &self,
+        attributes: &[f64],
+        input: &MotionInput<'_>,
+        state: &mut [f64],
+    ) -> Result<MotionOutput, HookError> {
         self.watched(attributes, input, state).map_err(named(&self.descriptor().id))
     }
 }
 
 impl Guarded {
-    fn watched(&self, attributes: &[f64], input: &MotionInput<'_>, state: &mut [f64]) -> Result<MotionOutput, HookError> {
+    fn watched(
+        &self,
+        attributes: &[f64],
+        input: &MotionInput<'_>,
+        state: &mut [f64],
+    ) -> Result<MotionOutput, HookError> {
         expect_len("attribute values", attributes.len(), self.descriptor().attributes.len())?;
         expect_len("floats of state", state.len(), self.descriptor().state_len)?;
         let out = self.0.step(attributes, input, state)?;

@@ -41,12 +41,21 @@ struct Written {
 ///
 /// # Errors
 /// Where the folder is there, its name is no name for a plugin, or it cannot be written.
-pub fn write_project(folder: &Path, kind: PluginKind, language: Language, sdk: Option<&Path>) -> Result<Project, String> {
+pub fn write_project(
+    folder: &Path,
+    kind: PluginKind,
+    language: Language,
+    sdk: Option<&Path>,
+) -> Result<Project, String> {
     if folder.exists() {
         return Err(format!("{} is there already; name another folder", folder.display()));
     }
     let name = name_of(folder)?;
-    let kind = if language == Language::Text && kind == PluginKind::Motion { PluginKind::Clips } else { kind };
+    let kind = if language == Language::Text && kind == PluginKind::Motion {
+        PluginKind::Clips
+    } else {
+        kind
+    };
     let id = format!("org.example.{}.{name}", word(kind));
     let files = match language {
         Language::Text => in_text(kind, &name, &id)?,
@@ -55,13 +64,26 @@ pub fn write_project(folder: &Path, kind: PluginKind, language: Language, sdk: O
     };
     for file in &files {
         let path = folder.join(file.path);
-        let written = path.parent().map_or(Ok(()), fs::create_dir_all).and_then(|()| fs::write(&path, &file.text));
+        let written = path
+            .parent()
+            .map_or(Ok(()), fs::create_dir_all)
+            .and_then(|()| fs::write(&path, &file.text));
         written.map_err(|error| format!("{}: {error}", path.display()))?;
     }
-    let library = if language == Language::Text { folder.to_path_buf() } else { folder.join(library(language, &name)) };
+    let library = if language == Language::Text {
+        folder.to_path_buf()
+    } else {
+        folder.join(library(language, &name))
+    };
     let words = |words: &[&str]| words.iter().map(|word| (*word).to_owned()).collect();
     let build = match language {
-        Language::Rust => words(&["cargo", "build", "--release", "--manifest-path", &folder.join("Cargo.toml").to_string_lossy()]),
+        Language::Rust => words(&[
+            "cargo",
+            "build",
+            "--release",
+            "--manifest-path",
+            &folder.join("Cargo.toml").to_string_lossy(),
+        ]),
         Language::C => words(&["make", "-C", &folder.to_string_lossy()]),
         Language::Text => Vec::new(),
     };
@@ -80,24 +102,37 @@ fn word(kind: PluginKind) -> &'static str {
 
 /// Name of crate and plugin: the folder's.
 fn name_of(folder: &Path) -> Result<String, String> {
-    let name = folder.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let name =
+        folder.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let begins = name.starts_with(|c: char| c.is_ascii_lowercase());
     if begins && name.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-') {
         return Ok(name);
     }
-    Err(format!("`{name}` is no name for a plugin; take small letters, digits and hyphens, such as slow-turn"))
+    Err(format!(
+        "`{name}` is no name for a plugin; take small letters, digits and hyphens, such as slow-turn"
+    ))
 }
 
 /// Folder of the crate `endline-sdk`: as given, or that of Endline's source around the program or the working folder.
 fn find_sdk(given: Option<&Path>) -> Result<PathBuf, String> {
-    let is_sdk = |folder: &Path| folder.join("Cargo.toml").is_file() && folder.join("include/endline_plugin.h").is_file();
+    let is_sdk = |folder: &Path| {
+        folder.join("Cargo.toml").is_file() && folder.join("include/endline_plugin.h").is_file()
+    };
     if let Some(folder) = given {
         let whole = fs::canonicalize(folder).unwrap_or_else(|_| folder.to_path_buf());
-        return if is_sdk(&whole) { Ok(whole) } else { Err(format!("{} is not the folder of endline-sdk", folder.display())) };
+        return if is_sdk(&whole) {
+            Ok(whole)
+        } else {
+            Err(format!("{} is not the folder of endline-sdk", folder.display()))
+        };
     }
     let program = env::current_exe().and_then(fs::canonicalize).ok();
     let starts: Vec<PathBuf> = program.into_iter().chain(env::current_dir().ok()).collect();
-    let found = starts.iter().flat_map(|start| start.ancestors()).map(|folder| folder.join("plugins/sdk")).find(|folder| is_sdk(folder));
+    let found = starts
+        .iter()
+        .flat_map(|start| start.ancestors())
+        .map(|folder| folder.join("plugins/sdk"))
+        .find(|folder| is_sdk(folder));
     let help = "no endline-sdk found above the program or the working folder; name it with --sdk FOLDER (plugins/sdk in Endline's source)";
     found.ok_or_else(|| help.to_owned())
 }
@@ -108,7 +143,8 @@ fn in_rust(kind: PluginKind, name: &str, id: &str, sdk: &Path) -> Vec<Written> {
         PluginKind::Friction => include_str!("templates/friction.rs"),
         PluginKind::Gear => include_str!("templates/gear.rs"),
     };
-    let manifest = include_str!("templates/Cargo.toml.txt").replace("@sdk@", &sdk.display().to_string().replace('\\', "/"));
+    let manifest = include_str!("templates/Cargo.toml.txt")
+        .replace("@sdk@", &sdk.display().to_string().replace('\\', "/"));
     vec![
         Written { path: "Cargo.toml", text: manifest.replace("@name@", name) },
         Written { path: "src/lib.rs", text: named(source, name, id) },
@@ -126,19 +162,30 @@ fn in_c(kind: PluginKind, name: &str, id: &str) -> Vec<Written> {
     vec![
         Written { path: "plugin.c", text: named(&whole, name, id) },
         Written { path: "endline_plugin.h", text: HEADER.to_owned() },
-        Written { path: "Makefile", text: include_str!("templates/Makefile.txt").replace("@library@", &library(Language::C, name)) },
+        Written {
+            path: "Makefile",
+            text: include_str!("templates/Makefile.txt")
+                .replace("@library@", &library(Language::C, name)),
+        },
     ]
 }
 
 fn in_text(kind: PluginKind, name: &str, id: &str) -> Result<Vec<Written>, String> {
     let (path, text) = match kind {
         PluginKind::Gear => ("gear-types/simple.toml", include_str!("templates/gear.toml")),
-        PluginKind::Motion | PluginKind::Clips => ("acts/bend.toml", include_str!("templates/act.toml")),
-        PluginKind::Friction => return Err("a law of friction needs code; take --lang rust or --lang c".to_owned()),
+        PluginKind::Motion | PluginKind::Clips => {
+            ("acts/bend.toml", include_str!("templates/act.toml"))
+        }
+        PluginKind::Friction => {
+            return Err("a law of friction needs code; take --lang rust or --lang c".to_owned());
+        }
     };
     // The folder's own id must differ from that of a gear type in it.
     let plugin = include_str!("templates/plugin.toml").replace("@id@", &id.replace(".gear.", "."));
-    Ok(vec![Written { path: "plugin.toml", text: named(&plugin, name, id) }, Written { path, text: named(text, name, id) }])
+    Ok(vec![
+        Written { path: "plugin.toml", text: named(&plugin, name, id) },
+        Written { path, text: named(text, name, id) },
+    ])
 }
 
 /// A source with the plugin's id and its name in menus.
@@ -150,7 +197,12 @@ fn named(source: &str, name: &str, id: &str) -> String {
 /// File of the library within the project.
 fn library(language: Language, name: &str) -> String {
     match language {
-        Language::Rust => format!("target/release/{}{}{}", env::consts::DLL_PREFIX, name.replace('-', "_"), env::consts::DLL_SUFFIX),
+        Language::Rust => format!(
+            "target/release/{}{}{}",
+            env::consts::DLL_PREFIX,
+            name.replace('-', "_"),
+            env::consts::DLL_SUFFIX
+        ),
         Language::C => format!("{name}{}", env::consts::DLL_SUFFIX),
         Language::Text => String::new(),
     }

@@ -22,7 +22,8 @@ pub(super) fn write(opened: &Opened, folder: &Path) -> Result<(), Error> {
     // A library is known by these two folders, whatever is in them.
     for needed in ["ropes", "scenarios"] {
         let path = library.join(needed);
-        fs::create_dir_all(&path).map_err(|error| Error::at(&path, format!("cannot be made: {error}")))?;
+        fs::create_dir_all(&path)
+            .map_err(|error| Error::at(&path, format!("cannot be made: {error}")))?;
     }
     put(&folder.join("study.toml"), opened.text.as_bytes())?;
     put(&scenario, opened.options[opened.baseline].scenario.text().as_bytes())?;
@@ -47,6 +48,7 @@ fn readme(opened: &Opened) -> String {
 
 fn put(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     let parent = path.parent().unwrap_or(Path::new("."));
-    fs::create_dir_all(parent).map_err(|error| Error::at(parent, format!("cannot be made: {error}")))?;
+    fs::create_dir_all(parent)
+        .map_err(|error| Error::at(parent, format!("cannot be made: {error}")))?;
     atomically(path, bytes).map_err(|error| Error::at(path, format!("cannot be written: {error}")))
 }

@@ -8,7 +8,8 @@ use super::words::{outcome_words, percent_interval, rate};
 
 /// The section; nothing where there is only the baseline.
 pub(super) fn section(findings: &Findings) -> String {
-    let others = findings.options.iter().enumerate().filter(|(index, _)| *index != findings.baseline);
+    let others =
+        findings.options.iter().enumerate().filter(|(index, _)| *index != findings.baseline);
     let rows: Vec<Vec<String>> = others.map(|(_, option)| row(option)).collect();
     if rows.is_empty() {
         return String::new();
@@ -29,17 +30,24 @@ pub(super) fn section(findings: &Findings) -> String {
 
 fn row(option: &OptionFinding) -> Vec<String> {
     let changes = &option.changes;
-    let cells = [&changes.all, &changes.touching].into_iter().flat_map(|change| [rate(&change.outcome), tension(change)]);
+    let cells = [&changes.all, &changes.touching]
+        .into_iter()
+        .flat_map(|change| [rate(&change.outcome), tension(change)]);
     let kinds = changes.counts.iter().filter(|(one, other, _)| one != other);
-    let kinds: Vec<String> =
-        kinds.map(|(one, other, count)| format!("{} to {}: {count}", outcome_words(one), outcome_words(other))).collect();
+    let kinds: Vec<String> = kinds
+        .map(|(one, other, count)| {
+            format!("{} to {}: {count}", outcome_words(one), outcome_words(other))
+        })
+        .collect();
     let kinds = if kinds.is_empty() { "the same in all".to_owned() } else { kinds.join("<br>") };
     [escape(&option.name)].into_iter().chain(cells).chain([kinds]).collect()
 }
 
 /// `104 N, +1.3 % [-0.2, 2.8]`.
 fn tension(change: &Change) -> String {
-    let (Some([_, own_n]), Some(more)) = (change.mean_tension_n, change.tension) else { return "none".into() };
+    let (Some([_, own_n]), Some(more)) = (change.mean_tension_n, change.tension) else {
+        return "none".into();
+    };
     let interval = change.tension_interval.map_or_else(String::new, percent_interval);
     format!("{own_n:.0} N, {:+.1} % {interval}", 100.0 * more)
 }

@@ -13,8 +13,14 @@ const NAMED_N: [f64; 8] = [10.0, 30.0, 100.0, 300.0, 1000.0, 3000.0, 10_000.0, 3
 pub(super) fn tensions(findings: &Findings) -> String {
     let groups = alike(&findings.options);
     let (top, bottom, right): (f64, f64, f64) = (20.0, 330.0, WIDE - 230.0);
-    let height = (bottom + 62.0).max(top + 20.0 * groups.iter().map(|(_, names)| names.len() as f64 + 0.4).sum::<f64>() + 10.0);
-    let most = findings.options.iter().filter_map(|option| option.tensions.quantile_n(1.0)).fold(1.0, f64::max);
+    let height = (bottom + 62.0).max(
+        top + 20.0 * groups.iter().map(|(_, names)| names.len() as f64 + 0.4).sum::<f64>() + 10.0,
+    );
+    let most = findings
+        .options
+        .iter()
+        .filter_map(|option| option.tensions.quantile_n(1.0))
+        .fold(1.0, f64::max);
     let mut svg = Svg::new(WIDE, height, "Distribution of the greatest tension, by option");
     let across = Axis { values: [1.0, (1.2 * most).max(100.0).log10()], places: [60.0, right] };
     let up = Axis { values: [0.0, 1.0], places: [bottom, top] };
@@ -36,11 +42,19 @@ pub(super) fn tensions(findings: &Findings) -> String {
     let mut y = top + 6.0;
     for (kind, (option, names)) in groups.into_iter().enumerate() {
         let sorted_n = &option.tensions.sorted_n;
-        let place =
-            |index: usize, tension_n: f64| [across.at(tension_n.max(1e-9).log10()), up.at(index as f64 / sorted_n.len().max(1) as f64)];
-        let steps = sorted_n.iter().enumerate().flat_map(|(index, tension)| [place(index, *tension), place(index + 1, *tension)]);
+        let place = |index: usize, tension_n: f64| {
+            [
+                across.at(tension_n.max(1e-9).log10()),
+                up.at(index as f64 / sorted_n.len().max(1) as f64),
+            ]
+        };
+        let steps = sorted_n
+            .iter()
+            .enumerate()
+            .flat_map(|(index, tension)| [place(index, *tension), place(index + 1, *tension)]);
         svg.path(&steps.collect::<Vec<_>>(), kind);
-        for tenth in (0..10).map(|tenth| tenth * sorted_n.len() / 10 + kind * sorted_n.len() / 100) {
+        for tenth in (0..10).map(|tenth| tenth * sorted_n.len() / 10 + kind * sorted_n.len() / 100)
+        {
             if let Some(tension) = sorted_n.get(tenth) {
                 svg.mark(place(tenth, *tension), kind);
             }
@@ -60,7 +74,10 @@ pub(super) fn tensions(findings: &Findings) -> String {
 fn alike(options: &[OptionFinding]) -> Vec<(&OptionFinding, Vec<&str>)> {
     let mut groups: Vec<(&OptionFinding, Vec<&str>)> = Vec::new();
     for option in options {
-        match groups.iter_mut().find(|(first, _)| first.tensions.sorted_n == option.tensions.sorted_n) {
+        match groups
+            .iter_mut()
+            .find(|(first, _)| first.tensions.sorted_n == option.tensions.sorted_n)
+        {
             Some((_, names)) => names.push(&option.name),
             None => groups.push((option, vec![&option.name])),
         }
@@ -71,7 +88,8 @@ fn alike(options: &[OptionFinding]) -> Vec<(&OptionFinding, Vec<&str>)> {
 /// Rate of parting against the strength an option stands for, a mark for each of its curves; the line is the share of the
 /// baseline's runs that pull harder.
 pub(super) fn break_away(findings: &Findings) -> Option<String> {
-    let rated: Vec<(f64, &OptionFinding)> = findings.options.iter().filter_map(|option| Some((option.strength_n?, option))).collect();
+    let rated: Vec<(f64, &OptionFinding)> =
+        findings.options.iter().filter_map(|option| Some((option.strength_n?, option))).collect();
     if rated.len() < 2 {
         return None;
     }
@@ -79,24 +97,36 @@ pub(super) fn break_away(findings: &Findings) -> Option<String> {
     curves.dedup();
     let (height, top, bottom) = (382.0, 44.0, 310.0);
     let most_n = 1.15 * rated.iter().map(|(strength, _)| *strength).fold(0.0, f64::max);
-    let highest = rated.iter().filter_map(|(_, option)| Some(option.rate("parted")?.interval.high)).fold(0.02, f64::max);
+    let highest = rated
+        .iter()
+        .filter_map(|(_, option)| Some(option.rate("parted")?.interval.high))
+        .fold(0.02, f64::max);
     let mut svg = Svg::new(WIDE, height, "Rate of parting against strength");
     let across = Axis { values: [0.0, most_n / N_PER_LBF], places: [70.0, WIDE - 30.0] };
     let up = Axis { values: [0.0, highest], places: [bottom, top] };
     scales(&mut svg, &across, &up);
     let baseline = &findings.options[findings.baseline].tensions;
-    let places = (1..=400).map(|index| most_n * f64::from(index) / 400.0).filter(|strength| baseline.share_above(*strength) <= highest);
-    let line = places.map(|strength| [across.at(strength / N_PER_LBF), up.at(baseline.share_above(strength))]);
+    let places = (1..=400)
+        .map(|index| most_n * f64::from(index) / 400.0)
+        .filter(|strength| baseline.share_above(*strength) <= highest);
+    let line = places
+        .map(|strength| [across.at(strength / N_PER_LBF), up.at(baseline.share_above(strength))]);
     svg.path(&line.collect::<Vec<_>>(), curves.len());
     for (kind, name) in curves.iter().enumerate() {
         let x = 70.0 + 220.0 * kind as f64;
         svg.mark([x, 16.0], kind);
         svg.text([x + 10.0, 20.0], Side::Start, name);
         let own = rated.iter().filter(|(_, option)| curve(option) == *name);
-        for (strength, rate) in own.filter_map(|(strength, option)| Some((*strength, option.rate("parted")?))) {
+        for (strength, rate) in
+            own.filter_map(|(strength, option)| Some((*strength, option.rate("parted")?)))
+        {
             // Beside each other where two curves have an option of one strength.
             let x = across.at(strength / N_PER_LBF) + 9.0 * kind as f64;
-            svg.post(x, [rate.interval.low, rate.rate, rate.interval.high].map(|rate| up.at(rate)), kind);
+            svg.post(
+                x,
+                [rate.interval.low, rate.rate, rate.interval.high].map(|rate| up.at(rate)),
+                kind,
+            );
         }
     }
     Some(svg.done())
@@ -116,7 +146,11 @@ fn scales(svg: &mut Svg, across: &Axis, up: &Axis) {
     }
     for tick in across.ticks() {
         svg.text([across.at(tick), bottom + 18.0], Side::Middle, &format!("{tick:.0} lbf"));
-        svg.text([across.at(tick), bottom + 34.0], Side::Middle, &format!("{:.1} kN", tick * N_PER_LBF / 1000.0));
+        svg.text(
+            [across.at(tick), bottom + 34.0],
+            Side::Middle,
+            &format!("{:.1} kN", tick * N_PER_LBF / 1000.0),
+        );
     }
     svg.text([0.5 * (left + right), bottom + 54.0], Side::Middle, "strength");
 }

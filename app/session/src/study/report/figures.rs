@@ -27,7 +27,9 @@ pub(super) fn rates(findings: &Findings) -> String {
     for (row, option) in findings.options.iter().enumerate() {
         let y = 46.0 + 1.6 * ROW * row as f64;
         svg.text([NAMES - 10.0, y + 4.0], Side::End, &option.name);
-        for (kind, rate) in events.iter().enumerate().filter_map(|(kind, event)| Some((kind, option.rate(event)?))) {
+        for (kind, rate) in
+            events.iter().enumerate().filter_map(|(kind, event)| Some((kind, option.rate(event)?)))
+        {
             whisker(&mut svg, &axis, y + 8.0 * (kind as f64 - 1.0), rate, kind);
         }
     }
@@ -46,28 +48,39 @@ pub(super) fn forest(findings: &Findings) -> String {
         let paired = option.against(&findings.event)?;
         Some((option.name.clone(), paired.difference, paired.difference_interval))
     };
-    let mut groups: Vec<(String, Vec<Row>)> = vec![("all encounters".into(), findings.options.iter().filter_map(own).collect())];
+    let mut groups: Vec<(String, Vec<Row>)> =
+        vec![("all encounters".into(), findings.options.iter().filter_map(own).collect())];
     for LevelFinding { level, against, .. } in &findings.levels {
-        let rows = findings
-            .options
-            .iter()
-            .zip(against)
-            .map(|(option, paired)| (option.name.clone(), paired.difference, paired.difference_interval));
+        let rows = findings.options.iter().zip(against).map(|(option, paired)| {
+            (option.name.clone(), paired.difference, paired.difference_interval)
+        });
         groups.push((level.clone(), rows.collect()));
     }
     for (_, rows) in &mut groups {
-        *rows = std::mem::take(rows).into_iter().enumerate().filter(|(index, _)| *index != findings.baseline).map(|(_, row)| row).collect();
+        *rows = std::mem::take(rows)
+            .into_iter()
+            .enumerate()
+            .filter(|(index, _)| *index != findings.baseline)
+            .map(|(_, row)| row)
+            .collect();
     }
     let count = groups.iter().map(|(_, rows)| rows.len() + 1).sum::<usize>();
     let height = 80.0 + ROW * count as f64;
-    let widest =
-        groups.iter().flat_map(|(_, rows)| rows).map(|(_, _, interval)| interval.low.abs().max(interval.high.abs())).fold(0.02, f64::max);
+    let widest = groups
+        .iter()
+        .flat_map(|(_, rows)| rows)
+        .map(|(_, _, interval)| interval.low.abs().max(interval.high.abs()))
+        .fold(0.02, f64::max);
     let mut svg = Svg::new(WIDE, height, "Difference of rates from the baseline, with intervals");
     let axis = Axis { values: [-widest, widest], places: [NAMES, WIDE - 20.0] };
     frame(&mut svg, &axis, height, |tick| format!("{:+.1}", 100.0 * tick + 0.0));
     svg.text([axis.at(0.0) - 12.0, 18.0], Side::End, "\u{2190} fewer than the baseline");
     svg.text([axis.at(0.0) + 12.0, 18.0], Side::Start, "more \u{2192}");
-    svg.text([axis.at(0.0), height - 2.0], Side::Middle, "difference of the rates, percentage points");
+    svg.text(
+        [axis.at(0.0), height - 2.0],
+        Side::Middle,
+        "difference of the rates, percentage points",
+    );
     svg.line([axis.at(0.0), 10.0], [axis.at(0.0), height - 34.0], "zero");
     let mut y = 40.0;
     for (kind, (name, rows)) in groups.into_iter().enumerate() {
@@ -97,8 +110,16 @@ pub(super) fn tornado(findings: &Findings) -> Option<String> {
         return None;
     }
     let height = 70.0 + ROW * inputs.len() as f64;
-    let most = inputs.iter().flat_map(|input| &input.parts).map(|part| part.rate.rate).fold(0.02, f64::max);
-    let mut svg = Svg::new(WIDE, height, "Rate with the baseline by parts of each input, greatest effect first");
+    let most = inputs
+        .iter()
+        .flat_map(|input| &input.parts)
+        .map(|part| part.rate.rate)
+        .fold(0.02, f64::max);
+    let mut svg = Svg::new(
+        WIDE,
+        height,
+        "Rate with the baseline by parts of each input, greatest effect first",
+    );
     let axis = Axis { values: [0.0, 1.1 * most], places: [NAMES + 90.0, WIDE - 110.0] };
     frame(&mut svg, &axis, height, |tick| format!("{:.0} %", 100.0 * tick));
     for (row, input) in inputs.iter().enumerate() {

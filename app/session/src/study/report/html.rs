@@ -58,7 +58,8 @@ fn lead(opened: &Opened, findings: &Findings) -> String {
 
 /// A table with a caption.
 pub(super) fn table(caption: &str, heads: &[&str], rows: &[Vec<String>]) -> String {
-    let mut text = format!("<div class=\"wide\"><table><caption>{}</caption><thead><tr>", escape(caption));
+    let mut text =
+        format!("<div class=\"wide\"><table><caption>{}</caption><thead><tr>", escape(caption));
     heads.iter().for_each(|head| {
         let _ = write!(text, "<th scope=\"col\">{}</th>", escape(head));
     });
@@ -85,7 +86,8 @@ fn rates(findings: &Findings) -> String {
         row
     };
     let words: Vec<String> = events.iter().map(|event| event_words(event)).collect();
-    let heads: Vec<&str> = ["option", "invalid runs"].into_iter().chain(words.iter().map(String::as_str)).collect();
+    let heads: Vec<&str> =
+        ["option", "invalid runs"].into_iter().chain(words.iter().map(String::as_str)).collect();
     let rows: Vec<Vec<String>> = findings.options.iter().map(row).collect();
     let caption = "Rates by option, given an encounter: whether rope touched, held at the end, and whether anything parted. Bars are intervals of 95 %.";
     format!(
@@ -109,7 +111,8 @@ fn compared(opened: &Opened, findings: &Findings) -> String {
             format!("{:.0} %", 100.0 * option.best_share),
         ])
     };
-    let others = findings.options.iter().enumerate().filter(|(index, _)| *index != findings.baseline);
+    let others =
+        findings.options.iter().enumerate().filter(|(index, _)| *index != findings.baseline);
     let rows: Vec<Vec<String>> = others.filter_map(|(_, option)| row(option)).collect();
     let baseline = escape(&opened.options[opened.baseline].name);
     let heads = [
@@ -124,8 +127,12 @@ fn compared(opened: &Opened, findings: &Findings) -> String {
     let caption = format!(
         "Rate of \"{event}\" less that of the baseline, in percentage points, on the same encounters. Left of the line is fewer than with the baseline."
     );
-    let mut text = format!("<h2>Compared with {baseline}</h2>{}", figure(&figures::forest(findings), &caption));
-    text += &table(&format!("\"{event}\" against the baseline, on the same encounters"), &heads, &rows);
+    let mut text = format!(
+        "<h2>Compared with {baseline}</h2>{}",
+        figure(&figures::forest(findings), &caption)
+    );
+    text +=
+        &table(&format!("\"{event}\" against the baseline, on the same encounters"), &heads, &rows);
     for level in &findings.levels {
         let rows: Vec<Vec<String>> = findings
             .options
@@ -135,12 +142,19 @@ fn compared(opened: &Opened, findings: &Findings) -> String {
                 vec![
                     escape(&option.name),
                     rate(&level.rates[index]),
-                    points(level.against[index].difference, level.against[index].difference_interval),
+                    points(
+                        level.against[index].difference,
+                        level.against[index].difference_interval,
+                    ),
                     rate(&level.parted[index]),
                 ]
             })
             .collect();
-        text += &table(&format!("Of these, with {}", level.level), &["option", &event, "difference", "something parted"], &rows);
+        text += &table(
+            &format!("Of these, with {}", level.level),
+            &["option", &event, "difference", "something parted"],
+            &rows,
+        );
     }
     text
 }
@@ -148,17 +162,32 @@ fn compared(opened: &Opened, findings: &Findings) -> String {
 fn tensions(findings: &Findings) -> String {
     let row = |option: &OptionFinding| {
         let at = |share| option.tensions.quantile_n(share).map_or_else(|| "none".into(), force);
-        let difference = match (option.tensions.median_difference_n, option.tensions.median_difference_interval_n) {
-            (Some(difference), Some(interval)) => format!("{difference:+.1} N [{:.1}, {:.1}]", interval.low, interval.high),
+        let difference = match (
+            option.tensions.median_difference_n,
+            option.tensions.median_difference_interval_n,
+        ) {
+            (Some(difference), Some(interval)) => {
+                format!("{difference:+.1} N [{:.1}, {:.1}]", interval.low, interval.high)
+            }
             _ => "none".into(),
         };
         vec![escape(&option.name), at(0.05), at(0.5), at(0.95), at(1.0), difference]
     };
     let rows: Vec<Vec<String>> = findings.options.iter().map(row).collect();
-    let heads = ["option", "5 % below", "median", "95 % below", "greatest", "median of differences from the baseline"];
+    let heads = [
+        "option",
+        "5 % below",
+        "median",
+        "95 % below",
+        "greatest",
+        "median of differences from the baseline",
+    ];
     let mut text = format!(
         "<h2>Greatest tension in any line</h2>{}",
-        figure(&curves::tensions(findings), "Share of runs whose greatest tension stays below a value.")
+        figure(
+            &curves::tensions(findings),
+            "Share of runs whose greatest tension stays below a value."
+        )
     );
     text += &table("Greatest tension of a run", &heads, &rows);
     if let Some(svg) = curves::break_away(findings) {
@@ -177,7 +206,12 @@ fn regions(findings: &Findings) -> String {
         let cell = |part: &&str| {
             let one = |kind: &str| {
                 option.rate(&format!("{kind}_{part}")).map_or_else(String::new, |rate| {
-                    format!("{:.1} % [{:.1}, {:.1}]", 100.0 * rate.rate, 100.0 * rate.interval.low, 100.0 * rate.interval.high)
+                    format!(
+                        "{:.1} % [{:.1}, {:.1}]",
+                        100.0 * rate.rate,
+                        100.0 * rate.interval.low,
+                        100.0 * rate.interval.high
+                    )
                 })
             };
             format!("{}<br>{}", one("contact"), one("wrap"))
@@ -188,7 +222,11 @@ fn regions(findings: &Findings) -> String {
     let heads: Vec<&str> = ["option"].into_iter().chain(parts).collect();
     format!(
         "<h2>Where the rope was</h2>{}",
-        table("Upper: rope touched the part. Lower: at least half a turn about it at some time", &heads, &rows)
+        table(
+            "Upper: rope touched the part. Lower: at least half a turn about it at some time",
+            &heads,
+            &rows
+        )
     )
 }
 
@@ -208,15 +246,24 @@ fn claims(findings: &Findings) -> String {
     let rows: Vec<Vec<String>> = findings.claims.iter().map(row).collect();
     format!(
         "<h2>Claims and their signs</h2>{}",
-        table("Whether the sign holds", &["claim", "should be more", "should be less", "difference", "so"], &rows)
+        table(
+            "Whether the sign holds",
+            &["claim", "should be more", "should be less", "difference", "so"],
+            &rows
+        )
     )
 }
 
 fn sensitivity(findings: &Findings) -> String {
     let Some(svg) = figures::tornado(findings) else { return String::new() };
     let row = |input: &crate::study::stats::InputFinding| {
-        let parts: Vec<String> = input.parts.iter().map(|part| format!("{}: {}", escape(&part.name), rate(&part.rate))).collect();
-        let best = if input.same_best { "some option has or shares it throughout" } else { "changes" };
+        let parts: Vec<String> = input
+            .parts
+            .iter()
+            .map(|part| format!("{}: {}", escape(&part.name), rate(&part.rate)))
+            .collect();
+        let best =
+            if input.same_best { "some option has or shares it throughout" } else { "changes" };
         vec![escape(&input.words), parts.join("<br>"), best.to_owned()]
     };
     let rows: Vec<Vec<String>> = findings.inputs.iter().map(row).collect();
@@ -227,15 +274,25 @@ fn sensitivity(findings: &Findings) -> String {
     format!(
         "<h2>What the result hangs on</h2>{}{}",
         figure(&svg, &caption),
-        table("Sensitivity and rank", &["input", "rate by part", "option with the lowest rate"], &rows)
+        table(
+            "Sensitivity and rank",
+            &["input", "rate by part", "option with the lowest rate"],
+            &rows
+        )
     )
 }
 
 fn inputs(opened: &Opened) -> String {
     let tag = |basis: Basis| format!("<span class=\"tag {0}\">{0}</span>", basis.word());
     let law = |prior: &endline_gear::Prior| escape(&prior.law.words());
-    let rows: Vec<Vec<String>> =
-        opened.study.priors.iter().map(|prior| vec![escape(&prior.words()), law(prior), tag(prior.basis), escape(&prior.source)]).collect();
+    let rows: Vec<Vec<String>> = opened
+        .study
+        .priors
+        .iter()
+        .map(|prior| {
+            vec![escape(&prior.words()), law(prior), tag(prior.basis), escape(&prior.source)]
+        })
+        .collect();
     let options: Vec<Vec<String>> = opened
         .study
         .options
@@ -244,7 +301,13 @@ fn inputs(opened: &Opened) -> String {
             let set: Vec<String> = option
                 .settings
                 .iter()
-                .map(|setting| format!("<code>{} = {}</code>", escape(&setting.field.value), escape(&setting.value.written())))
+                .map(|setting| {
+                    format!(
+                        "<code>{} = {}</code>",
+                        escape(&setting.field.value),
+                        escape(&setting.value.written())
+                    )
+                })
                 .collect();
             vec![escape(&option.name), set.join("<br>")]
         })

@@ -30,7 +30,8 @@ pub fn write(opened: &Opened, folder: &Folder, findings: &Findings) -> Result<Pa
         (folder.path.join("findings.json"), findings.json() + "\n"),
     ];
     for (file, text) in files {
-        atomically(&file, text.as_bytes()).map_err(|error| Error::at(&file, format!("cannot be written: {error}")))?;
+        atomically(&file, text.as_bytes())
+            .map_err(|error| Error::at(&file, format!("cannot be written: {error}")))?;
     }
     bundle::write(opened, &folder.path.join("bundle"))?;
     Ok(page)
@@ -56,8 +57,14 @@ fn numbers(findings: &Findings) -> Table {
                 ("difference_low".into(), real(paired.difference_interval.low)),
                 ("difference_high".into(), real(paired.difference_interval.high)),
                 ("ratio".into(), Cell::Real(paired.ratio)),
-                ("ratio_low".into(), Cell::Real(paired.ratio_interval.map(|interval| interval.low))),
-                ("ratio_high".into(), Cell::Real(paired.ratio_interval.map(|interval| interval.high))),
+                (
+                    "ratio_low".into(),
+                    Cell::Real(paired.ratio_interval.map(|interval| interval.low)),
+                ),
+                (
+                    "ratio_high".into(),
+                    Cell::Real(paired.ratio_interval.map(|interval| interval.high)),
+                ),
                 ("probability_fewer".into(), real(paired.fewer)),
                 ("mcnemar".into(), real(paired.mcnemar)),
             ]);

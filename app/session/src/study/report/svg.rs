@@ -3,7 +3,8 @@
 use std::fmt::Write;
 
 /// Colours that people who see fewer colours can tell apart (Okabe and Ito 2008); marks and dashes differ too.
-pub(super) const COLOURS: [&str; 6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#8a6d00", "#56707f"];
+pub(super) const COLOURS: [&str; 6] =
+    ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#8a6d00", "#56707f"];
 
 /// Dashes of lines, in the order of the colours.
 const DASHES: [&str; 6] = ["none", "7 3", "2 3", "10 3 2 3", "4 2", "1 2"];
@@ -30,7 +31,11 @@ impl Svg {
     }
 
     pub(super) fn line(&mut self, from: [f64; 2], to: [f64; 2], class: &str) {
-        let _ = write!(self.body, r#"<line class="{class}" x1="{:.1}" y1="{:.1}" x2="{:.1}" y2="{:.1}"/>"#, from[0], from[1], to[0], to[1]);
+        let _ = write!(
+            self.body,
+            r#"<line class="{class}" x1="{:.1}" y1="{:.1}" x2="{:.1}" y2="{:.1}"/>"#,
+            from[0], from[1], to[0], to[1]
+        );
     }
 
     pub(super) fn text(&mut self, at: [f64; 2], side: Side, text: &str) {
@@ -39,12 +44,24 @@ impl Svg {
             Side::Middle => "middle",
             Side::End => "end",
         };
-        let _ = write!(self.body, r#"<text x="{:.1}" y="{:.1}" text-anchor="{anchor}">{}</text>"#, at[0], at[1], escape(text));
+        let _ = write!(
+            self.body,
+            r#"<text x="{:.1}" y="{:.1}" text-anchor="{anchor}">{}</text>"#,
+            at[0],
+            at[1],
+            escape(text)
+        );
     }
 
     /// Text that heads what follows.
     pub(super) fn heading(&mut self, at: [f64; 2], text: &str) {
-        let _ = write!(self.body, r#"<text x="{:.1}" y="{:.1}" font-weight="600">{}</text>"#, at[0], at[1], escape(text));
+        let _ = write!(
+            self.body,
+            r#"<text x="{:.1}" y="{:.1}" font-weight="600">{}</text>"#,
+            at[0],
+            at[1],
+            escape(text)
+        );
     }
 
     /// A filled box.
@@ -62,9 +79,18 @@ impl Svg {
         let fill = COLOURS[kind % COLOURS.len()];
         let _ = match kind % 4 {
             0 => write!(self.body, r#"<circle cx="{x:.1}" cy="{y:.1}" r="4.5" fill="{fill}"/>"#),
-            1 => write!(self.body, r#"<rect x="{:.1}" y="{:.1}" width="8" height="8" fill="{fill}"/>"#, x - 4.0, y - 4.0),
+            1 => write!(
+                self.body,
+                r#"<rect x="{:.1}" y="{:.1}" width="8" height="8" fill="{fill}"/>"#,
+                x - 4.0,
+                y - 4.0
+            ),
             2 => write!(self.body, r#"<path d="M{x:.1} {:.1}l5 9h-10z" fill="{fill}"/>"#, y - 6.0),
-            _ => write!(self.body, r#"<path d="M{x:.1} {:.1}l5.5 5.5l-5.5 5.5l-5.5-5.5z" fill="{fill}"/>"#, y - 5.5),
+            _ => write!(
+                self.body,
+                r#"<path d="M{x:.1} {:.1}l5.5 5.5l-5.5 5.5l-5.5-5.5z" fill="{fill}"/>"#,
+                y - 5.5
+            ),
         };
     }
 
@@ -99,7 +125,10 @@ impl Svg {
             let _ = write!(data, "{}{x:.1} {y:.1}", if index == 0 { "M" } else { "L" });
         }
         let (stroke, dashes) = (COLOURS[kind % COLOURS.len()], DASHES[kind % DASHES.len()]);
-        let _ = write!(self.body, r#"<path d="{data}" stroke="{stroke}" stroke-dasharray="{dashes}" stroke-width="1.8" fill="none"/>"#);
+        let _ = write!(
+            self.body,
+            r#"<path d="{data}" stroke="{stroke}" stroke-dasharray="{dashes}" stroke-width="1.8" fill="none"/>"#
+        );
     }
 
     /// The picture's text.
@@ -136,9 +165,16 @@ impl Axis {
         let [least, most] = self.values;
         let rough = (most - least) / 5.0;
         let power = 10.0_f64.powf(rough.log10().floor());
-        let step = [1.0, 2.0, 2.5, 5.0, 10.0].into_iter().map(|factor| factor * power).find(|step| *step >= rough).unwrap_or(rough);
+        let step = [1.0, 2.0, 2.5, 5.0, 10.0]
+            .into_iter()
+            .map(|factor| factor * power)
+            .find(|step| *step >= rough)
+            .unwrap_or(rough);
         let first = (least / step).ceil() as i64;
-        (first..).map(|count| count as f64 * step).take_while(|tick| *tick <= most + 1e-9 * step).collect()
+        (first..)
+            .map(|count| count as f64 * step)
+            .take_while(|tick| *tick <= most + 1e-9 * step)
+            .collect()
     }
 }
 
@@ -158,6 +194,11 @@ mod tests {
         let mut svg = Svg::new(10.0, 10.0, "a<b");
         svg.text([0.0, 0.0], Side::Start, "<script>\"&");
         let text = svg.done();
-        assert!(!text.contains("<script>") && text.contains("&lt;script&gt;&quot;&amp;") && text.contains("a&lt;b"), "{text}");
+        assert!(
+            !text.contains("<script>")
+                && text.contains("&lt;script&gt;&quot;&amp;")
+                && text.contains("a&lt;b"),
+            "{text}"
+        );
     }
 }

@@ -9,7 +9,13 @@ pub(super) const N_PER_LBF: f64 = 4.448_221_615_260_5;
 
 /// `12.0 % [8.1, 17.4] (24 of 200)`.
 pub(super) fn rate(rate: &Rate) -> String {
-    format!("{:.1} % {} ({} of {})", 100.0 * rate.rate, percent_interval(rate.interval), rate.hits, rate.runs)
+    format!(
+        "{:.1} % {} ({} of {})",
+        100.0 * rate.rate,
+        percent_interval(rate.interval),
+        rate.hits,
+        rate.runs
+    )
 }
 
 /// `-3.5 points [-6.1, -0.9]`.

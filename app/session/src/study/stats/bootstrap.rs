@@ -13,7 +13,11 @@ pub(super) struct Draws(blake3::OutputReader);
 
 impl Draws {
     pub(super) fn of(label: &str) -> Self {
-        Self(blake3::Hasher::new_derive_key("endline study bootstrap 1").update(label.as_bytes()).finalize_xof())
+        Self(
+            blake3::Hasher::new_derive_key("endline study bootstrap 1")
+                .update(label.as_bytes())
+                .finalize_xof(),
+        )
     }
 
     /// An index below `count`.
@@ -26,7 +30,11 @@ impl Draws {
 }
 
 /// The interval of a statistic of `count` encounters, given their indices; none where it is mostly undefined.
-pub(super) fn interval(label: &str, count: usize, statistic: impl Fn(&[usize]) -> Option<f64>) -> Option<Interval> {
+pub(super) fn interval(
+    label: &str,
+    count: usize,
+    statistic: impl Fn(&[usize]) -> Option<f64>,
+) -> Option<Interval> {
     if count == 0 {
         return None;
     }
@@ -39,6 +47,8 @@ pub(super) fn interval(label: &str, count: usize, statistic: impl Fn(&[usize]) -
         })
         .collect();
     values.sort_by(f64::total_cmp);
-    let at = |share: f64| values.get((share * (values.len().max(1) - 1) as f64).round() as usize).copied();
+    let at = |share: f64| {
+        values.get((share * (values.len().max(1) - 1) as f64).round() as usize).copied()
+    };
     (2 * values.len() > RESAMPLES).then_some(Interval { low: at(0.025)?, high: at(0.975)? })
 }

@@ -51,13 +51,19 @@ impl Changes {
     #[must_use]
     pub fn of(table: &Table, option: &str, baseline: &str) -> Self {
         let (own, other) = (ends(table, option), ends(table, baseline));
-        let pairs: Vec<[End; 2]> = other.iter().zip(&own).filter_map(|(other, own)| Some([(*other)?, (*own)?])).collect();
-        let touching: Vec<[End; 2]> = pairs.iter().filter(|pair| pair.iter().any(|end| end.outcome > 0)).copied().collect();
+        let pairs: Vec<[End; 2]> =
+            other.iter().zip(&own).filter_map(|(other, own)| Some([(*other)?, (*own)?])).collect();
+        let touching: Vec<[End; 2]> =
+            pairs.iter().filter(|pair| pair.iter().any(|end| end.outcome > 0)).copied().collect();
         let cell = |one: usize, other: usize| {
-            let count = pairs.iter().filter(|pair| pair.map(|end| end.outcome) == [one, other]).count() as u64;
+            let count =
+                pairs.iter().filter(|pair| pair.map(|end| end.outcome) == [one, other]).count()
+                    as u64;
             (count > 0).then_some((OUTCOMES[one], OUTCOMES[other], count))
         };
-        let counts = (0..OUTCOMES.len()).flat_map(|one| (0..OUTCOMES.len()).filter_map(move |other| cell(one, other))).collect();
+        let counts = (0..OUTCOMES.len())
+            .flat_map(|one| (0..OUTCOMES.len()).filter_map(move |other| cell(one, other)))
+            .collect();
         Self {
             counts,
             all: Change::of(&format!("change {option}"), &pairs),
@@ -70,8 +76,11 @@ impl Change {
     fn of(label: &str, pairs: &[[End; 2]]) -> Self {
         let changed = pairs.iter().filter(|[one, other]| one.outcome != other.outcome).count();
         let every: Vec<usize> = (0..pairs.len()).collect();
-        let mean_tension_n = sums(pairs, &every).filter(|_| !pairs.is_empty()).map(|sums| sums.map(|sum| sum / pairs.len() as f64));
-        let ratio = |indices: &[usize]| sums(pairs, indices).map(|[baseline, own]| own / baseline - 1.0);
+        let mean_tension_n = sums(pairs, &every)
+            .filter(|_| !pairs.is_empty())
+            .map(|sums| sums.map(|sum| sum / pairs.len() as f64));
+        let ratio =
+            |indices: &[usize]| sums(pairs, indices).map(|[baseline, own]| own / baseline - 1.0);
         Self {
             outcome: Rate::from_counts(changed as u64, pairs.len() as u64),
             mean_tension_n,
@@ -83,18 +92,23 @@ impl Change {
 
 /// Sums of the greatest tensions of some encounters; none where the baseline's is nothing [N].
 fn sums(pairs: &[[End; 2]], indices: &[usize]) -> Option<[f64; 2]> {
-    let sum = |which: usize| indices.iter().map(|index| pairs[*index][which].tension_n).sum::<f64>();
+    let sum =
+        |which: usize| indices.iter().map(|index| pairs[*index][which].tension_n).sum::<f64>();
     (sum(0) > 0.0).then(|| [sum(0), sum(1)])
 }
 
 /// By encounter: the end of an option's run, where it counts.
 fn ends(table: &Table, option: &str) -> Vec<Option<End>> {
     let (options, valid) = (table.texts("option"), table.flags("valid"));
-    let (outcomes, tensions, encounters) = (table.texts("outcome"), table.reals("peak_tension_N"), encounters(table));
+    let (outcomes, tensions, encounters) =
+        (table.texts("outcome"), table.reals("peak_tension_N"), encounters(table));
     let mut found = vec![None; encounters.iter().max().map_or(0, |last| last + 1)];
-    for (row, encounter) in encounters.iter().enumerate().filter(|(row, _)| options[*row] == option && valid[*row]) {
+    for (row, encounter) in
+        encounters.iter().enumerate().filter(|(row, _)| options[*row] == option && valid[*row])
+    {
         let outcome = OUTCOMES.iter().position(|known| *known == outcomes[row]);
-        found[*encounter] = outcome.zip(tensions[row]).map(|(outcome, tension_n)| End { outcome, tension_n });
+        found[*encounter] =
+            outcome.zip(tensions[row]).map(|(outcome, tension_n)| End { outcome, tension_n });
     }
     found
 }
@@ -132,13 +146,22 @@ mod tests {
             (3, "whole", true, "shed", 40.0),
         ]);
         let changes = Changes::of(&table, "half", "whole");
-        assert_eq!(changes.counts, [("no_contact", "no_contact", 1), ("shed", "no_contact", 1), ("shed", "entangled", 1)]);
+        assert_eq!(
+            changes.counts,
+            [("no_contact", "no_contact", 1), ("shed", "no_contact", 1), ("shed", "entangled", 1)]
+        );
         assert_eq!((changes.all.outcome.hits, changes.all.outcome.runs), (2, 3));
         assert_eq!((changes.touching.outcome.hits, changes.touching.outcome.runs), (2, 2));
         assert_eq!(changes.all.mean_tension_n, Some([50.0, 160.0 / 3.0]));
-        assert!((changes.touching.tension.unwrap() - (150.0 / 140.0 - 1.0)).abs() < 1e-12, "{changes:?}");
+        assert!(
+            (changes.touching.tension.unwrap() - (150.0 / 140.0 - 1.0)).abs() < 1e-12,
+            "{changes:?}"
+        );
         let interval = changes.touching.tension_interval.unwrap();
-        assert!((interval.low + 0.5).abs() < 1e-12 && (interval.high - 0.3).abs() < 1e-12, "one of the two drawn twice: {interval:?}");
+        assert!(
+            (interval.low + 0.5).abs() < 1e-12 && (interval.high - 0.3).abs() < 1e-12,
+            "one of the two drawn twice: {interval:?}"
+        );
     }
 
     #[test]

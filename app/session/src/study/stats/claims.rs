@@ -61,7 +61,9 @@ pub struct ClaimFinding {
 
 /// Looks at a claim.
 pub(super) fn look(claim: &Claim, table: &Table) -> ClaimFinding {
-    let marks = |options: &[String], event| options.iter().map(|option| Marks::of(table, option, event)).collect::<Vec<_>>();
+    let marks = |options: &[String], event| {
+        options.iter().map(|option| Marks::of(table, option, event)).collect::<Vec<_>>()
+    };
     let (more, less) = (marks(&claim.more, &claim.event), marks(&claim.less, &claim.less_event));
     let (difference, interval) = match (more.as_slice(), less.as_slice()) {
         ([more], [less]) => {
@@ -75,7 +77,9 @@ pub(super) fn look(claim: &Claim, table: &Table) -> ClaimFinding {
         Interval { high, .. } if high < 0.0 => Verdict::Opposite,
         _ => Verdict::Open,
     };
-    let told = |event: &endline_gear::Event, options: &[String]| format!("{} with {}", event.words(), options.join(", "));
+    let told = |event: &endline_gear::Event, options: &[String]| {
+        format!("{} with {}", event.words(), options.join(", "))
+    };
     ClaimFinding {
         id: claim.id.value.clone(),
         says: claim.says.clone(),
@@ -113,8 +117,10 @@ fn shares(marks: &[Marks]) -> Vec<f64> {
 }
 
 fn share(marks: &[Marks], encounter: usize) -> Option<f64> {
-    let known: Vec<bool> = marks.iter().filter_map(|marks| marks.0.get(encounter).copied().flatten()).collect();
-    (!known.is_empty()).then(|| known.iter().filter(|hit| **hit).count() as f64 / known.len() as f64)
+    let known: Vec<bool> =
+        marks.iter().filter_map(|marks| marks.0.get(encounter).copied().flatten()).collect();
+    (!known.is_empty())
+        .then(|| known.iter().filter(|hit| **hit).count() as f64 / known.len() as f64)
 }
 
 fn mean(values: &[f64], indices: &[usize]) -> Option<f64> {
@@ -124,7 +130,9 @@ fn mean(values: &[f64], indices: &[usize]) -> Option<f64> {
 /// Several options together: the difference of shares within each encounter, encounters drawn again for the interval.
 fn pooled(label: &str, more: &[Marks], less: &[Marks]) -> (f64, Interval) {
     let encounters = more.iter().chain(less).map(|marks| marks.0.len()).max().unwrap_or_default();
-    let differences: Vec<f64> = (0..encounters).filter_map(|encounter| Some(share(more, encounter)? - share(less, encounter)?)).collect();
+    let differences: Vec<f64> = (0..encounters)
+        .filter_map(|encounter| Some(share(more, encounter)? - share(less, encounter)?))
+        .collect();
     let mean = |indices: &[usize]| mean(&differences, indices);
     let all: Vec<usize> = (0..differences.len()).collect();
     let difference = if all.is_empty() { 0.0 } else { mean(&all).unwrap_or_default() };

@@ -38,12 +38,18 @@ fn covered(label: &str, truth: f64, interval: impl Fn([[u64; 2]; 2]) -> Option<I
 
 #[test]
 fn intervals_of_rates_and_paired_differences_and_ratios_cover_the_truth() {
-    let rate = covered("rate", 0.3, |[_, [only, both]]| Some(Rate::from_counts(only + both, ENCOUNTERS as u64).interval));
-    let difference = covered("difference", -0.1, |counts| Some(Paired::from_counts(counts).difference_interval));
+    let rate = covered("rate", 0.3, |[_, [only, both]]| {
+        Some(Rate::from_counts(only + both, ENCOUNTERS as u64).interval)
+    });
+    let difference =
+        covered("difference", -0.1, |counts| Some(Paired::from_counts(counts).difference_interval));
     let ratio = covered("ratio", 0.3 / 0.4, |counts| Paired::from_counts(counts).ratio_interval);
     println!("covered: rate {rate}, difference {difference}, ratio {ratio}");
     for share in [rate, difference, ratio] {
-        assert!((0.93..=0.97).contains(&share), "rate {rate}, difference {difference}, ratio {ratio}");
+        assert!(
+            (0.93..=0.97).contains(&share),
+            "rate {rate}, difference {difference}, ratio {ratio}"
+        );
     }
 }
 
@@ -65,10 +71,15 @@ fn the_bootstrap_covers_the_truth() {
     let mut draws = Draws::of("bootstrap");
     let studies = 200;
     let held = (0..studies).filter(|study| {
-        let values: Vec<f64> = (0..60).map(|_| (0..4).map(|_| draws.below(1000) as f64 / 1000.0).sum::<f64>() + 1.0).collect();
-        let mean = |indices: &[usize]| Some(indices.iter().map(|index| values[*index]).sum::<f64>() / indices.len() as f64);
+        let values: Vec<f64> = (0..60)
+            .map(|_| (0..4).map(|_| draws.below(1000) as f64 / 1000.0).sum::<f64>() + 1.0)
+            .collect();
+        let mean = |indices: &[usize]| {
+            Some(indices.iter().map(|index| values[*index]).sum::<f64>() / indices.len() as f64)
+        };
         let interval = super::bootstrap::interval(&format!("study {study}"), values.len(), mean);
-        interval.is_some_and(|interval| (interval.low..=interval.high).contains(&(1.0 + 4.0 * 0.4995)))
+        interval
+            .is_some_and(|interval| (interval.low..=interval.high).contains(&(1.0 + 4.0 * 0.4995)))
     });
     let share = held.count() as f64 / f64::from(studies);
     assert!((0.90..=0.99).contains(&share), "{share}");

@@ -104,7 +104,8 @@ impl Findings {
         let event = &opened.study.event;
         let marks: Vec<Marks> = ids.iter().map(|id| Marks::of(table, id, event)).collect();
         let best = best_shares(&marks);
-        let mut options: Vec<OptionFinding> = (0..ids.len()).map(|option| found(opened, table, option)).collect();
+        let mut options: Vec<OptionFinding> =
+            (0..ids.len()).map(|option| found(opened, table, option)).collect();
         options.iter_mut().zip(best).for_each(|(option, share)| option.best_share = share);
         Self {
             schema: SCHEMA,
@@ -132,11 +133,18 @@ fn found(opened: &Opened, table: &Table, option: usize) -> OptionFinding {
     let (plan, baseline) = (&opened.options[option], &opened.options[opened.baseline].id);
     let own = |row: &usize| table.texts("option")[*row] == plan.id;
     let rows: Vec<usize> = (0..table.rows()).filter(own).collect();
-    let count = |flag: &str, wanted: bool| rows.iter().filter(|row| table.flags(flag)[**row] == wanted).count() as u64;
+    let count = |flag: &str, wanted: bool| {
+        rows.iter().filter(|row| table.flags(flag)[**row] == wanted).count() as u64
+    };
     let events = Event::all();
     let marks = |event: &Event| Marks::of(table, &plan.id, event);
-    let paired = |event: &Event| (event.name(), Paired::of(&marks(event), &Marks::of(table, baseline, event)));
-    let undecided = rows.iter().filter(|row| table.flags("valid")[**row] && !table.flags("decided")[**row]).count() as u64;
+    let paired = |event: &Event| {
+        (event.name(), Paired::of(&marks(event), &Marks::of(table, baseline, event)))
+    };
+    let undecided = rows
+        .iter()
+        .filter(|row| table.flags("valid")[**row] && !table.flags("decided")[**row])
+        .count() as u64;
     OptionFinding {
         id: plan.id.clone(),
         name: plan.name.clone(),
@@ -159,9 +167,11 @@ fn levels(opened: &Opened, table: &Table, marks: &[Marks]) -> Vec<LevelFinding> 
     let mut levels: Vec<String> = (0..table.rows()).map(|row| level(column, row)).collect();
     levels.sort();
     levels.dedup();
-    let parted: Vec<Marks> = opened.options.iter().map(|option| Marks::of(table, &option.id, &Event::Parted)).collect();
+    let parted: Vec<Marks> =
+        opened.options.iter().map(|option| Marks::of(table, &option.id, &Event::Parted)).collect();
     let finding = |level_name: String| {
-        let mut keep = vec![false; marks.iter().map(|marks| marks.0.len()).max().unwrap_or_default()];
+        let mut keep =
+            vec![false; marks.iter().map(|marks| marks.0.len()).max().unwrap_or_default()];
         encounters
             .iter()
             .enumerate()

@@ -53,8 +53,10 @@ impl Rate {
         let middle = k + 0.5 * z * z;
         let half = z * (k * (n - k) / n + 0.25 * z * z).sqrt();
         let end = |value: f64| (value / (n + z * z)).clamp(0.0, 1.0);
-        let interval =
-            Interval { low: if hits == 0 { 0.0 } else { end(middle - half) }, high: if hits == runs { 1.0 } else { end(middle + half) } };
+        let interval = Interval {
+            low: if hits == 0 { 0.0 } else { end(middle - half) },
+            high: if hits == runs { 1.0 } else { end(middle + half) },
+        };
         Self { hits, runs, rate: k / n, interval }
     }
 }
@@ -67,10 +69,19 @@ mod tests {
     #[test]
     fn wilson_agrees_with_published_figures() {
         let rate = Rate::from_counts(10, 100);
-        assert!((rate.interval.low - 0.0552).abs() < 1e-4 && (rate.interval.high - 0.1744).abs() < 1e-4, "{rate:?}");
+        assert!(
+            (rate.interval.low - 0.0552).abs() < 1e-4 && (rate.interval.high - 0.1744).abs() < 1e-4,
+            "{rate:?}"
+        );
         let none = Rate::from_counts(0, 50);
-        assert!(none.interval.low.abs() < 1e-15 && (none.interval.high - 0.0713).abs() < 1e-4, "{none:?}");
+        assert!(
+            none.interval.low.abs() < 1e-15 && (none.interval.high - 0.0713).abs() < 1e-4,
+            "{none:?}"
+        );
         let all = Rate::from_counts(50, 50);
-        assert!((all.interval.low - 0.9287).abs() < 1e-4 && (all.interval.high - 1.0).abs() < 1e-15, "{all:?}");
+        assert!(
+            (all.interval.low - 0.9287).abs() < 1e-4 && (all.interval.high - 1.0).abs() < 1e-15,
+            "{all:?}"
+        );
     }
 }

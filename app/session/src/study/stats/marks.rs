@@ -18,7 +18,11 @@ impl Marks {
     }
 
     /// Marks of the rows that count, by their encounters.
-    fn by_encounter(table: &Table, counts: impl Fn(usize) -> bool, came: impl Fn(usize) -> bool) -> Self {
+    fn by_encounter(
+        table: &Table,
+        counts: impl Fn(usize) -> bool,
+        came: impl Fn(usize) -> bool,
+    ) -> Self {
         let encounters = encounters(table);
         let mut marks = vec![None; encounters.iter().max().map_or(0, |last| last + 1)];
         for (row, encounter) in encounters.iter().enumerate().filter(|(row, _)| counts(*row)) {
@@ -36,12 +40,18 @@ impl Marks {
 
 /// The encounter of each row.
 pub(super) fn encounters(table: &Table) -> Vec<usize> {
-    table.reals("encounter").into_iter().map(|index| index.map_or(0, |index| index as usize)).collect()
+    table
+        .reals("encounter")
+        .into_iter()
+        .map(|index| index.map_or(0, |index| index as usize))
+        .collect()
 }
 
 /// Whether an event came in each row.
 fn of_rows(table: &Table, event: &Event) -> Vec<bool> {
-    let outcome = |wanted: &[&str]| table.texts("outcome").iter().map(|outcome| wanted.contains(&outcome.as_str())).collect();
+    let outcome = |wanted: &[&str]| {
+        table.texts("outcome").iter().map(|outcome| wanted.contains(&outcome.as_str())).collect()
+    };
     match event {
         Event::Contact => table.reals("first_contact_s").iter().map(Option::is_some).collect(),
         Event::Shed => outcome(&["shed"]),
@@ -61,7 +71,9 @@ fn of_rows(table: &Table, event: &Event) -> Vec<bool> {
             let mut came = vec![false; table.rows()];
             for part in parts {
                 let values = table.reals(&format!("{}_{name}", part.name()));
-                came.iter_mut().zip(values).for_each(|(came, value)| *came |= value.is_some_and(|value| value >= least));
+                came.iter_mut()
+                    .zip(values)
+                    .for_each(|(came, value)| *came |= value.is_some_and(|value| value >= least));
             }
             came
         }

@@ -59,7 +59,8 @@ impl Paired {
         let difference = if encounters == 0 { 0.0 } else { (b - c) / n };
         let (p, q) = ((b + 1.0) / (n + 2.0), (c + 1.0) / (n + 2.0));
         let half = z95() * ((p + q - (p - q) * (p - q)) / (n + 2.0)).sqrt();
-        let difference_interval = Interval { low: (p - q - half).max(-1.0), high: (p - q + half).min(1.0) };
+        let difference_interval =
+            Interval { low: (p - q - half).max(-1.0), high: (p - q + half).min(1.0) };
         let (ratio, ratio_interval) = ratio(both, only_this, only_other);
         Self {
             encounters,
@@ -84,7 +85,13 @@ fn ratio(both: u64, only_this: u64, only_other: u64) -> (Option<f64>, Option<Int
     let (this_half, other_half) = (this + 0.5, other + 0.5);
     let deviation = (((only_this + only_other) as f64 + 1.0) / (this_half * other_half)).sqrt();
     let (middle, factor) = (this_half / other_half, (z95() * deviation).exp());
-    (Some(this / other), Some(Interval { low: if this > 0.0 { middle / factor } else { 0.0 }, high: middle * factor }))
+    (
+        Some(this / other),
+        Some(Interval {
+            low: if this > 0.0 { middle / factor } else { 0.0 },
+            high: middle * factor,
+        }),
+    )
 }
 
 fn mcnemar(only_this: u64, only_other: u64) -> f64 {
@@ -98,7 +105,11 @@ mod tests {
 
     #[test]
     fn an_option_and_itself_differ_by_exactly_nothing() {
-        let marks = Marks((0..300).map(|index| if index % 17 == 0 { None } else { Some(index % 3 == 0) }).collect());
+        let marks = Marks(
+            (0..300)
+                .map(|index| if index % 17 == 0 { None } else { Some(index % 3 == 0) })
+                .collect(),
+        );
         let same = Paired::of(&marks, &marks);
         assert_eq!(same.difference.to_bits(), 0.0_f64.to_bits());
         assert_eq!(same.ratio.map(f64::to_bits), Some(1.0_f64.to_bits()));

@@ -43,31 +43,62 @@ pub struct InputFinding {
 }
 
 /// Every input that varies, that with the greatest span first.
-pub(super) fn look(table: &Table, priors: &[Prior], marks: &[Marks], baseline: usize) -> Vec<InputFinding> {
+pub(super) fn look(
+    table: &Table,
+    priors: &[Prior],
+    marks: &[Marks],
+    baseline: usize,
+) -> Vec<InputFinding> {
     let column = |prior: &Prior| table.column(&format!("drawn_{}", prior.name.value));
-    let of = |prior: &Prior| input(prior, parts(table, column(prior)?, &|number| prior.law.told(number)), marks, baseline);
+    let of = |prior: &Prior| {
+        input(
+            prior,
+            parts(table, column(prior)?, &|number| prior.law.told(number)),
+            marks,
+            baseline,
+        )
+    };
     let mut found: Vec<InputFinding> = priors.iter().filter_map(of).collect();
     found.sort_by(|one, other| other.span.total_cmp(&one.span));
     found
 }
 
-fn input(prior: &Prior, parts: Vec<(String, Vec<bool>)>, marks: &[Marks], baseline: usize) -> Option<InputFinding> {
+fn input(
+    prior: &Prior,
+    parts: Vec<(String, Vec<bool>)>,
+    marks: &[Marks],
+    baseline: usize,
+) -> Option<InputFinding> {
     if parts.len() < 2 {
         return None;
     }
-    let parts: Vec<Part> = parts.into_iter().map(|(name, keep)| part(name, &keep, marks, baseline)).collect();
+    let parts: Vec<Part> =
+        parts.into_iter().map(|(name, keep)| part(name, &keep, marks, baseline)).collect();
     let rates = || parts.iter().filter(|part| part.rate.runs > 0).map(|part| part.rate.rate);
     let span = rates().fold(0.0, f64::max) - rates().fold(1.0, f64::min);
-    let best = |part: &Part, option: usize| part.by_option.iter().all(|other| part.by_option[option].rate <= other.rate);
+    let best = |part: &Part, option: usize| {
+        part.by_option.iter().all(|other| part.by_option[option].rate <= other.rate)
+    };
     let same_best = (0..marks.len()).any(|option| parts.iter().all(|part| best(part, option)));
-    Some(InputFinding { name: prior.name.value.clone(), words: prior.words(), parts, span: span.max(0.0), same_best })
+    Some(InputFinding {
+        name: prior.name.value.clone(),
+        words: prior.words(),
+        parts,
+        span: span.max(0.0),
+        same_best,
+    })
 }
 
 fn part(name: String, keep: &[bool], marks: &[Marks], baseline: usize) -> Part {
     let own: Vec<Marks> = marks.iter().map(|marks| marks.within(keep)).collect();
     let by_option: Vec<Rate> = own.iter().map(Rate::of).collect();
     let rate = by_option[baseline];
-    Part { name, rate, ranking: ranking(&by_option.iter().map(|rate| rate.rate).collect::<Vec<_>>()), by_option }
+    Part {
+        name,
+        rate,
+        ranking: ranking(&by_option.iter().map(|rate| rate.rate).collect::<Vec<_>>()),
+        by_option,
+    }
 }
 
 /// Options by rising rate; the earlier of equal ones first.
@@ -91,7 +122,10 @@ fn parts(table: &Table, column: &Column, told: &dyn Fn(f64) -> String) -> Vec<(S
             let mut levels: Vec<&String> = values.iter().collect();
             levels.sort();
             levels.dedup();
-            levels.into_iter().map(|level| (level.clone(), keep(&|row| values[row] == *level))).collect()
+            levels
+                .into_iter()
+                .map(|level| (level.clone(), keep(&|row| values[row] == *level)))
+                .collect()
         }
         Column::Real(values) => {
             let mut sorted: Vec<f64> = values.iter().flatten().copied().collect();
@@ -101,13 +135,29 @@ fn parts(table: &Table, column: &Column, told: &dyn Fn(f64) -> String) -> Vec<(S
             if (2..=6).contains(&levels.len()) {
                 return levels
                     .into_iter()
-                    .map(|level| (told(level), keep(&|row| values[row].is_some_and(|value| value.total_cmp(&level).is_eq()))))
+                    .map(|level| {
+                        (
+                            told(level),
+                            keep(&|row| {
+                                values[row].is_some_and(|value| value.total_cmp(&level).is_eq())
+                            }),
+                        )
+                    })
                     .collect();
             }
-            let (Some(middle), true) = (sorted.get(sorted.len() / 2).copied(), levels.len() > 6) else { return Vec::new() };
+            let (Some(middle), true) = (sorted.get(sorted.len() / 2).copied(), levels.len() > 6)
+            else {
+                return Vec::new();
+            };
             vec![
-                (format!("below {}", told(middle)), keep(&|row| values[row].is_some_and(|value| value < middle))),
-                (format!("from {} on", told(middle)), keep(&|row| values[row].is_some_and(|value| value >= middle))),
+                (
+                    format!("below {}", told(middle)),
+                    keep(&|row| values[row].is_some_and(|value| value < middle)),
+                ),
+                (
+                    format!("from {} on", told(middle)),
+                    keep(&|row| values[row].is_some_and(|value| value >= middle)),
+                ),
             ]
         }
         _ => Vec::new(),
@@ -124,12 +174,16 @@ pub(super) fn best_shares(marks: &[Marks]) -> Vec<f64> {
         indices.iter_mut().for_each(|index| *index = draws.below(count));
         let rate = |marks: &Marks| {
             let known = indices.iter().filter_map(|index| marks.0.get(*index).copied().flatten());
-            let (hits, runs) = known.fold((0_u32, 0_u32), |(hits, runs), hit| (hits + u32::from(hit), runs + 1));
+            let (hits, runs) =
+                known.fold((0_u32, 0_u32), |(hits, runs), hit| (hits + u32::from(hit), runs + 1));
             f64::from(hits) / f64::from(runs.max(1))
         };
         let rates: Vec<f64> = marks.iter().map(rate).collect();
         let least = rates.iter().copied().fold(f64::INFINITY, f64::min);
-        best.iter_mut().zip(&rates).filter(|(_, rate)| **rate <= least).for_each(|(best, _)| *best += 1);
+        best.iter_mut()
+            .zip(&rates)
+            .filter(|(_, rate)| **rate <= least)
+            .for_each(|(best, _)| *best += 1);
     }
     best.into_iter().map(|count| f64::from(count) / RESAMPLES as f64).collect()
 }

@@ -26,19 +26,27 @@ impl Tensions {
         let (own, other) = (by_encounter(table, option), by_encounter(table, baseline));
         let mut sorted_n: Vec<f64> = own.iter().flatten().copied().collect();
         sorted_n.sort_by(f64::total_cmp);
-        let differences: Vec<f64> = own.iter().zip(&other).filter_map(|(own, other)| Some((*own)? - (*other)?)).collect();
-        let median_of = |indices: &[usize]| median(indices.iter().map(|index| differences[*index]).collect());
+        let differences: Vec<f64> =
+            own.iter().zip(&other).filter_map(|(own, other)| Some((*own)? - (*other)?)).collect();
+        let median_of =
+            |indices: &[usize]| median(indices.iter().map(|index| differences[*index]).collect());
         Self {
             sorted_n,
             median_difference_n: median(differences.clone()),
-            median_difference_interval_n: bootstrap::interval(&format!("tension {option}"), differences.len(), median_of),
+            median_difference_interval_n: bootstrap::interval(
+                &format!("tension {option}"),
+                differences.len(),
+                median_of,
+            ),
         }
     }
 
     /// The tension below which a share of the runs stays [N].
     #[must_use]
     pub fn quantile_n(&self, share: f64) -> Option<f64> {
-        self.sorted_n.get((share * (self.sorted_n.len().max(1) - 1) as f64).round() as usize).copied()
+        self.sorted_n
+            .get((share * (self.sorted_n.len().max(1) - 1) as f64).round() as usize)
+            .copied()
     }
 
     /// Share of runs whose greatest tension is above a strength.
@@ -50,10 +58,13 @@ impl Tensions {
 }
 
 fn by_encounter(table: &Table, option: &str) -> Vec<Option<f64>> {
-    let (options, valid, tensions) = (table.texts("option"), table.flags("valid"), table.reals("peak_tension_N"));
+    let (options, valid, tensions) =
+        (table.texts("option"), table.flags("valid"), table.reals("peak_tension_N"));
     let encounters = encounters(table);
     let mut found = vec![None; encounters.iter().max().map_or(0, |last| last + 1)];
-    for (row, encounter) in encounters.iter().enumerate().filter(|(row, _)| options[*row] == option && valid[*row]) {
+    for (row, encounter) in
+        encounters.iter().enumerate().filter(|(row, _)| options[*row] == option && valid[*row])
+    {
         found[*encounter] = tensions[row];
     }
     found

@@ -51,7 +51,9 @@ impl Broad {
     /// Storage for a model.
     pub fn new(model: &Model) -> Self {
         let mut pieces = Vec::new();
-        for (line, (nodes, segments)) in model.line_nodes.iter().zip(&model.line_segments).enumerate() {
+        for (line, (nodes, segments)) in
+            model.line_nodes.iter().zip(&model.line_segments).enumerate()
+        {
             for start in segments.clone().step_by(IN_A_PIECE) {
                 let end = (start + IN_A_PIECE).min(segments.end);
                 let node = nodes.start + start - segments.start;
@@ -70,16 +72,27 @@ impl Broad {
     }
 
     /// Collects pairs of segments, the first below the second, whose boxes come within `reach` in the step, in rising order.
-    pub fn collect(&mut self, moves: &Moves<'_, impl Fn(usize) -> DVec3>, reach: f64, found: &mut Vec<[usize; 2]>) {
+    pub fn collect(
+        &mut self,
+        moves: &Moves<'_, impl Fn(usize) -> DVec3>,
+        reach: f64,
+        found: &mut Vec<[usize; 2]>,
+    ) {
         found.clear();
         for piece in &mut self.pieces {
             piece.measure(moves, 0.5 * reach);
         }
         let whole = self.pieces.iter().fold(Bounds::EMPTY, |whole, piece| whole.join(piece.bounds));
         let extent = whole.high - whole.low;
-        let axis = if extent.x >= extent.y.max(extent.z) { 0 } else { 1 + usize::from(extent.z > extent.y) };
+        let axis = if extent.x >= extent.y.max(extent.z) {
+            0
+        } else {
+            1 + usize::from(extent.z > extent.y)
+        };
         let pieces = &self.pieces;
-        self.order.sort_unstable_by(|a, b| pieces[*a].bounds.low[axis].total_cmp(&pieces[*b].bounds.low[axis]).then(a.cmp(b)));
+        self.order.sort_unstable_by(|a, b| {
+            pieces[*a].bounds.low[axis].total_cmp(&pieces[*b].bounds.low[axis]).then(a.cmp(b))
+        });
         for place in 0..self.order.len() {
             let one = &self.pieces[self.order[place]];
             if !one.is_straight {
@@ -103,31 +116,44 @@ impl Piece {
     fn measure(&mut self, moves: &Moves<'_, impl Fn(usize) -> DVec3>, margin: f64) {
         let (first, last) = (self.nodes.start, self.nodes.end - 1);
         let (mut from, mut to) = (moves.from[first], (moves.to)(first));
-        let directions = [(moves.from[last] - from).normalize_or_zero(), ((moves.to)(last) - to).normalize_or_zero()];
+        let directions = [
+            (moves.from[last] - from).normalize_or_zero(),
+            ((moves.to)(last) - to).normalize_or_zero(),
+        ];
         let mut bounds = Bounds::around(&[from, to]);
         let mut is_straight = true;
         for (node, segment) in (first + 1..=last).zip(self.segments.clone()) {
             let (next_from, next_to) = (moves.from[node], (moves.to)(node));
             let least = STRAIGHT * moves.lengths[segment];
-            is_straight &= (next_from - from).dot(directions[0]) >= least && (next_to - to).dot(directions[1]) >= least;
+            is_straight &= (next_from - from).dot(directions[0]) >= least
+                && (next_to - to).dot(directions[1]) >= least;
             (from, to) = (next_from, next_to);
             bounds = bounds.with(from).with(to);
         }
-        (self.bounds, self.directions, self.is_straight) = (bounds.grown(margin), directions, is_straight);
+        (self.bounds, self.directions, self.is_straight) =
+            (bounds.grown(margin), directions, is_straight);
     }
 
     /// Whether the two are one straight run of one line.
     fn runs_on(&self, other: &Self) -> bool {
-        let in_a_row = self.segments.end == other.segments.start || other.segments.end == self.segments.start;
+        let in_a_row =
+            self.segments.end == other.segments.start || other.segments.end == self.segments.start;
         let agree = || (0..2).all(|k| self.directions[k].dot(other.directions[k]) >= STRAIGHT);
         self.line == other.line && in_a_row && self.is_straight && other.is_straight && agree()
     }
 
     /// Boxes of its segments that reach into another's box.
-    fn boxes(&self, moves: &Moves<'_, impl Fn(usize) -> DVec3>, margin: f64, into: &Bounds, boxes: &mut Vec<(usize, Bounds)>) {
+    fn boxes(
+        &self,
+        moves: &Moves<'_, impl Fn(usize) -> DVec3>,
+        margin: f64,
+        into: &Bounds,
+        boxes: &mut Vec<(usize, Bounds)>,
+    ) {
         boxes.clear();
         for (node, segment) in (self.nodes.start..).zip(self.segments.clone()) {
-            let corners = [moves.from[node], moves.from[node + 1], (moves.to)(node), (moves.to)(node + 1)];
+            let corners =
+                [moves.from[node], moves.from[node + 1], (moves.to)(node), (moves.to)(node + 1)];
             let bounds = Bounds::around(&corners).grown(margin);
             if bounds.meets(into) {
                 boxes.push((segment, bounds));

@@ -125,7 +125,12 @@ impl RopeWork {
         self.through.clear();
         (self.touching, self.crossings) = (false, 0);
         let rope = &state.rope;
-        self.gather_to(model, state, |node| rope.position[node] + rope.velocity[node] * dt, MARGIN_M);
+        self.gather_to(
+            model,
+            state,
+            |node| rope.position[node] + rope.velocity[node] * dt,
+            MARGIN_M,
+        );
         self.touching
     }
 
@@ -137,19 +142,29 @@ impl RopeWork {
     }
 
     /// Adds pairs, in order.
-    fn gather_to(&mut self, model: &Model, state: &State, to: impl Fn(usize) -> DVec3, margin: f64) {
+    fn gather_to(
+        &mut self,
+        model: &Model,
+        state: &State,
+        to: impl Fn(usize) -> DVec3,
+        margin: f64,
+    ) {
         if self.law.is_none() {
             return;
         }
         self.measure_lengths(model, &state.rope.segment_length);
-        let (from, mut found, known) = (&state.rope.position, std::mem::take(&mut self.found), self.pairs.len());
+        let (from, mut found, known) =
+            (&state.rope.position, std::mem::take(&mut self.found), self.pairs.len());
         let moves = Moves { from, to: &to, lengths: &self.lengths };
         self.broad.collect(&moves, 2.0 * self.widest_m + margin, &mut found);
         for [one, other] in &found {
             if state.rope.cut[*one] || state.rope.cut[*other] || self.is_spared(*one, *other) {
                 continue;
             }
-            if self.pairs[..known].binary_search_by_key(&[*one, *other], |pair| pair.segments).is_err() {
+            if self.pairs[..known]
+                .binary_search_by_key(&[*one, *other], |pair| pair.segments)
+                .is_err()
+            {
                 self.add_pair([*one, *other], from, &to, margin);
             }
         }
@@ -157,7 +172,13 @@ impl RopeWork {
         self.found = found;
     }
 
-    fn add_pair(&mut self, segments: [usize; 2], from: &[DVec3], to: &impl Fn(usize) -> DVec3, margin: f64) {
+    fn add_pair(
+        &mut self,
+        segments: [usize; 2],
+        from: &[DVec3],
+        to: &impl Fn(usize) -> DVec3,
+        margin: f64,
+    ) {
         let [one, other] = segments.map(|segment| self.homes[segment]);
         let (nodes, reach) = ([one.node, other.node], one.radius_m + other.radius_m);
         let [a, b] = nodes.map(|node| sweep_of(node, from, to));
@@ -172,14 +193,24 @@ impl RopeWork {
         }
         self.touching |= least < reach + TOUCH_M;
         let (lines, guard) = ([one.line, other.line], GUARD_SHARE * reach);
-        self.pairs.push(Pair { segments, nodes, lines, reach, guard, clear: first, first, points: Default::default() });
+        self.pairs.push(Pair {
+            segments,
+            nodes,
+            lines,
+            reach,
+            guard,
+            clear: first,
+            first,
+            points: Default::default(),
+        });
     }
 
     /// Whether so little rope lies between two segments, through a joint too, that they do not touch.
     fn is_spared(&self, one: usize, other: usize) -> bool {
         let (a, b) = (self.homes[one], self.homes[other]);
         let little = SPARED_REACHES * (a.radius_m + b.radius_m);
-        if a.line == b.line && self.along_m[other] - self.along_m[one] - self.lengths[one] < little {
+        if a.line == b.line && self.along_m[other] - self.along_m[one] - self.lengths[one] < little
+        {
             return true;
         }
         let to_end = |line: usize, segment: usize, end: usize| match end {
@@ -219,7 +250,9 @@ impl RopeWork {
 
     /// Unstretched length along both lines to a point [m].
     pub fn along_of(&self, pair: &Pair, point: &Point) -> [f64; 2] {
-        [0, 1].map(|k| self.along_m[pair.segments[k]] + point.fractions[k] * self.lengths[pair.segments[k]])
+        [0, 1].map(|k| {
+            self.along_m[pair.segments[k]] + point.fractions[k] * self.lengths[pair.segments[k]]
+        })
     }
 
     /// The grip of a point that has been solved for.
@@ -257,7 +290,9 @@ impl RopeWork {
             let [one, other] = pair.places(|node| places[node]);
             let least = nearest(one, other).distance;
             let known = pair.points.iter().filter(|point| point.length > 0.0);
-            let known = known.map(|point| between(one, other, point.fractions).1).fold(f64::INFINITY, f64::min);
+            let known = known
+                .map(|point| between(one, other, point.fractions).1)
+                .fold(f64::INFINITY, f64::min);
             if least < pair.reach && least < NEARER * known {
                 self.open_pair(index, state, places, true);
                 opened = true;
@@ -315,7 +350,11 @@ impl RopeWork {
 
     /// Move from the drift up to which rope that was not gathered has met nothing [m].
     pub fn unwatched_m(&self) -> f64 {
-        if self.law.is_none() { f64::INFINITY } else { UNWATCHED_M.min(UNWATCHED_SHARE * self.shortest_m) }
+        if self.law.is_none() {
+            f64::INFINITY
+        } else {
+            UNWATCHED_M.min(UNWATCHED_SHARE * self.shortest_m)
+        }
     }
 
     fn met_gathered(&self, from: &[DVec3], to: &[DVec3]) -> bool {
@@ -346,7 +385,9 @@ fn sweep_of(node: usize, from: &[DVec3], to: &impl Fn(usize) -> DVec3) -> SweptS
 
 /// The nearest grip between two lines at these lengths along them, if any is near enough.
 fn grip_at(grips: &[RopeGrip], lines: [usize; 2], along: [f64; 2]) -> Option<&RopeGrip> {
-    let away = |grip: &RopeGrip| (grip.along_m[0] - along[0]).abs().max((grip.along_m[1] - along[1]).abs());
+    let away = |grip: &RopeGrip| {
+        (grip.along_m[0] - along[0]).abs().max((grip.along_m[1] - along[1]).abs())
+    };
     let mine = grips.iter().filter(|grip| grip.lines == lines && away(grip) <= FOLLOWED_M);
     mine.min_by(|a, b| away(a).total_cmp(&away(b)))
 }

@@ -34,14 +34,18 @@ pub(crate) fn points_of(one: [DVec3; 2], other: [DVec3; 2], reach: f64, only: bo
     let near = nearest(one, other);
     let (u, v) = (one[1] - one[0], other[1] - other[0]);
     let (long, sine) = (u.length(), u.cross(v).length() / (u.length() * v.length()).max(1e-30));
-    let share = |place: DVec3| ((place - one[0]).dot(u) / u.length_squared().max(1e-30)).clamp(0.0, 1.0);
+    let share =
+        |place: DVec3| ((place - one[0]).dot(u) / u.length_squared().max(1e-30)).clamp(0.0, 1.0);
     let (from, to) = (share(other[0]), share(other[1]));
     let (low, high) = (from.min(to), from.max(to));
     let stretch = (high - low) * long;
     let point = |s: f64| {
         let place = one[0].lerp(one[1], s);
         let foot = nearest([place, place], other);
-        (foot.distance, Point { fractions: [s, foot.fractions[1]], length: 0.5 * stretch, ..Point::default() })
+        (
+            foot.distance,
+            Point { fractions: [s, foot.fractions[1]], length: 0.5 * stretch, ..Point::default() },
+        )
     };
     if stretch > STRETCH_SHARE * reach && !only {
         let (ends, level) = ([point(low), point(high)], near.distance + LEVEL_SHARE * reach);
@@ -50,7 +54,9 @@ pub(crate) fn points_of(one: [DVec3; 2], other: [DVec3; 2], reach: f64, only: bo
         }
     }
     let whole = reach / sine.max(LEAST_SINE);
-    let length = whole * share_within(near.fractions[0], whole / long) * share_within(near.fractions[1], whole / v.length());
+    let length = whole
+        * share_within(near.fractions[0], whole / long)
+        * share_within(near.fractions[1], whole / v.length());
     let single = Point { fractions: near.fractions, is_nearest: true, length, ..Point::default() };
     [single, Point::default()]
 }
@@ -85,7 +91,10 @@ mod tests {
         let other = [DVec3::new(0.03, -0.05, 0.0), DVec3::new(0.03, 0.02, 0.0)];
         let [point, none] = points_of(along_x(0.1, 0.009), other, 0.01, false);
         assert!(point.is_nearest && none.length == 0.0);
-        assert!((point.fractions[0] - 0.3).abs() < 1e-12 && (point.fractions[1] - 5.0 / 7.0).abs() < 1e-12);
+        assert!(
+            (point.fractions[0] - 0.3).abs() < 1e-12
+                && (point.fractions[1] - 5.0 / 7.0).abs() < 1e-12
+        );
         assert!((point.length - 0.01).abs() < 1e-12);
     }
 
@@ -93,8 +102,14 @@ mod tests {
     fn ropes_side_by_side_bear_at_both_ends_of_what_they_share() {
         let other = [DVec3::new(0.14, 0.0, 0.0), DVec3::new(0.04, 0.0, 0.0005)];
         let points = points_of(along_x(0.1, 0.009), other, 0.01, false);
-        assert!((points[0].fractions[0] - 0.4).abs() < 1e-12 && (points[1].fractions[0] - 1.0).abs() < 1e-12);
-        assert!((points[0].fractions[1] - 1.0).abs() < 1e-3 && (points[1].fractions[1] - 0.4).abs() < 1e-3);
+        assert!(
+            (points[0].fractions[0] - 0.4).abs() < 1e-12
+                && (points[1].fractions[0] - 1.0).abs() < 1e-12
+        );
+        assert!(
+            (points[0].fractions[1] - 1.0).abs() < 1e-3
+                && (points[1].fractions[1] - 0.4).abs() < 1e-3
+        );
         assert!(points.iter().all(|point| (point.length - 0.03).abs() < 1e-12));
     }
 
@@ -105,8 +120,14 @@ mod tests {
         let length = |x: f64| {
             let ahead = along_x(0.1, 0.009);
             let behind = [DVec3::new(-0.1, 0.0, 0.009), ahead[0]];
-            points_of(ahead, other(x), 0.01, false)[0].length + points_of(behind, other(x), 0.01, false)[0].length
+            points_of(ahead, other(x), 0.01, false)[0].length
+                + points_of(behind, other(x), 0.01, false)[0].length
         };
-        assert!((length(0.0) - 0.01).abs() < 1e-12 && (length(0.05) - 0.015).abs() < 1e-12, "{} {}", length(0.0), length(0.05));
+        assert!(
+            (length(0.0) - 0.01).abs() < 1e-12 && (length(0.05) - 0.015).abs() < 1e-12,
+            "{} {}",
+            length(0.0),
+            length(0.05)
+        );
     }
 }

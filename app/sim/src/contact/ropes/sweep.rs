@@ -20,21 +20,33 @@ pub(crate) struct Nearest {
 /// Where two standing segments are nearest.
 pub(crate) fn nearest(one: [DVec3; 2], other: [DVec3; 2]) -> Nearest {
     let (s, t) = segment_segment(one, other);
-    Nearest { fractions: [s, t], distance: one[0].lerp(one[1], s).distance(other[0].lerp(other[1], t)) }
+    Nearest {
+        fractions: [s, t],
+        distance: one[0].lerp(one[1], s).distance(other[0].lerp(other[1], t)),
+    }
 }
 
 /// No distance between the two can shrink by more than this over the move [m].
 pub(crate) fn greatest_approach(one: &SweptSegment, other: &SweptSegment) -> f64 {
     let [a, b, c, d] = [one.a1 - one.a0, one.b1 - one.b0, other.a1 - other.a0, other.b1 - other.b0];
     let shared = (a + b + c + d) / 4.0;
-    let most = |first: DVec3, second: DVec3| (first - shared).length_squared().max((second - shared).length_squared()).sqrt();
+    let most = |first: DVec3, second: DVec3| {
+        (first - shared).length_squared().max((second - shared).length_squared()).sqrt()
+    };
     most(a, b) + most(c, d)
 }
 
 /// The largest proved fraction of the move, 1 for all of it, along which the centre lines stay farther apart than `separation`,
 /// where they are `first` apart to begin with (or more); a pair nearer than twice that is asked for half its first distance.
-pub(crate) fn safe_fraction(one: &SweptSegment, other: &SweptSegment, separation: f64, first: f64) -> f64 {
-    walk(first, separation.min(first / 2.0), greatest_approach(one, other), |at| nearest(one.at(at), other.at(at)).distance)
+pub(crate) fn safe_fraction(
+    one: &SweptSegment,
+    other: &SweptSegment,
+    separation: f64,
+    first: f64,
+) -> f64 {
+    walk(first, separation.min(first / 2.0), greatest_approach(one, other), |at| {
+        nearest(one.at(at), other.at(at)).distance
+    })
 }
 
 #[cfg(test)]

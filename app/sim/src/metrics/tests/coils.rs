@@ -15,9 +15,12 @@ fn wound(turns: f64, r: f64, each_turn: f64, tail: f64) -> Vec<DVec3> {
         let x = -5.0 + 0.3 * share;
         trunk_middle(x) + DVec3::new(0.0, libm::cos(angle), libm::sin(angle)) * r
     };
-    let mut nodes: Vec<DVec3> =
-        (0..=count as u32).map(|k| f64::from(k) / count).map(|share| at(0.3 + TAU * turns * share, share)).collect();
-    let tangent = |angle: f64| DVec3::new(0.0, -libm::sin(angle), libm::cos(angle)) * turns.signum();
+    let mut nodes: Vec<DVec3> = (0..=count as u32)
+        .map(|k| f64::from(k) / count)
+        .map(|share| at(0.3 + TAU * turns * share, share))
+        .collect();
+    let tangent =
+        |angle: f64| DVec3::new(0.0, -libm::sin(angle), libm::cos(angle)) * turns.signum();
     let (first, last) = (nodes[0], nodes[nodes.len() - 1]);
     for k in 1..=20 {
         let away = tail * f64::from(k) / 20.0;
@@ -52,9 +55,13 @@ fn wraps(nodes: &[DVec3]) -> f64 {
 #[test]
 fn turns_by_construction_are_counted_whatever_the_segments() {
     for turns in [0.5, 1.0, 2.25, 3.0, -1.5] {
-        let [coarse, fine] = [24.0, 48.0].map(|each_turn| wraps(&wound(turns, 0.31, each_turn, 2.0)));
+        let [coarse, fine] =
+            [24.0, 48.0].map(|each_turn| wraps(&wound(turns, 0.31, each_turn, 2.0)));
         println!("{turns}: {coarse:.4} and {fine:.4}");
-        assert!((fine - turns.abs()).abs() < 0.02 && (coarse - fine).abs() < 0.01, "{turns}: {coarse}, {fine}");
+        assert!(
+            (fine - turns.abs()).abs() < 0.02 && (coarse - fine).abs() < 0.01,
+            "{turns}: {coarse}, {fine}"
+        );
     }
 }
 
@@ -68,10 +75,17 @@ fn loose_loops_count_as_tight_ones() {
 
 #[test]
 fn rope_that_touches_but_does_not_wrap_counts_nothing() {
-    let straight = |from: DVec3, to: DVec3| -> Vec<DVec3> { (0..=40).map(|k| from.lerp(to, f64::from(k) / 40.0)).collect() };
+    let straight = |from: DVec3, to: DVec3| -> Vec<DVec3> {
+        (0..=40).map(|k| from.lerp(to, f64::from(k) / 40.0)).collect()
+    };
     let beside = trunk_middle(-4.85) + DVec3::Y * 0.305;
     // Along the axis, which sags by a third of the radius on the way, rope goes a little round it.
-    for (way, most) in [(DVec3::Z, 0.02), (DVec3::new(0.3, 0.0, 1.0), 0.02), (DVec3::new(-0.5, 0.0, 1.0), 0.02), (DVec3::X, 0.12)] {
+    for (way, most) in [
+        (DVec3::Z, 0.02),
+        (DVec3::new(0.3, 0.0, 1.0), 0.02),
+        (DVec3::new(-0.5, 0.0, 1.0), 0.02),
+        (DVec3::X, 0.12),
+    ] {
         let way = way.normalize() * 3.0;
         let count = wraps(&straight(beside - way, beside + way));
         assert!(count < most, "along {way}: {count}");
@@ -85,14 +99,16 @@ fn rope_that_touches_but_does_not_wrap_counts_nothing() {
 fn a_rigid_move_of_whale_and_rope_changes_nothing() {
     let nodes = wound(2.25, 0.31, 24.0, 2.0);
     let (model, mut state) = laid(&nodes);
-    let (turn, shift) = (DQuat::from_euler(glam::EulerRot::ZYX, 1.0, -0.4, 2.0), DVec3::new(30.0, -7.0, -12.0));
+    let (turn, shift) =
+        (DQuat::from_euler(glam::EulerRot::ZYX, 1.0, -0.4, 2.0), DVec3::new(30.0, -7.0, -12.0));
     state.rope.position = nodes.iter().map(|node| turn * *node + shift).collect();
     let whale = state.whale.as_mut().unwrap();
     (whale.position, whale.orientation) = (shift, turn);
     let mut metrics = Metrics::new(&model);
     let contacts = [contact(&model, model.segment_count / 2, on_peduncle(&model))];
     advance(&mut metrics, &model, &mut state, &contacts);
-    let moved = metrics.summary(&model, &state).whale.unwrap().regions[BodyPart::Peduncle as usize].wraps;
+    let moved =
+        metrics.summary(&model, &state).whale.unwrap().regions[BodyPart::Peduncle as usize].wraps;
     assert!((moved - wraps(&nodes)).abs() < 1e-9, "{moved}");
 }
 
@@ -118,7 +134,10 @@ fn wraps_grow_and_shrink_without_a_jump() {
         let counts: Vec<f64> = (0..=250).map(|k| count(at(way * (f64::from(k) / 250.0)))).collect();
         let jump = counts.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max);
         let most = counts.iter().copied().fold(0.0, f64::max);
-        println!("{way}: from {:.3} to {:.3}, at most {most:.3}, greatest change in a centimetre {jump:.3}", counts[0], counts[250]);
+        println!(
+            "{way}: from {:.3} to {:.3}, at most {most:.3}, greatest change in a centimetre {jump:.3}",
+            counts[0], counts[250]
+        );
         assert!(counts[0] > 0.45 && counts[250] < 0.02, "{way}: {} to {}", counts[0], counts[250]);
         // The bend leaves the neighbourhood as the root of its depth there: fast at first, but from nothing.
         assert!(way.x < -1.0 || jump < 0.15, "{way}: {jump}");
@@ -131,15 +150,26 @@ fn wraps_outlast_flicker_and_are_told_as_made_and_undone() {
     let (model, mut state) = laid(&wound(1.0, 0.31, 24.0, 2.0));
     let mut metrics = Metrics::new(&model);
     let contacts = [contact(&model, model.segment_count / 2, on_peduncle(&model))];
-    let now = |metrics: &Metrics, state: &State| metrics.summary(&model, state).whale.unwrap().regions[BodyPart::Peduncle as usize].wraps;
-    state.rope.position = wound(1.2, 0.31, 24.0, 2.0).iter().take(model.node_count).map(|node| *node + WHALE).collect();
+    let now = |metrics: &Metrics, state: &State| {
+        metrics.summary(&model, state).whale.unwrap().regions[BodyPart::Peduncle as usize].wraps
+    };
+    state.rope.position = wound(1.2, 0.31, 24.0, 2.0)
+        .iter()
+        .take(model.node_count)
+        .map(|node| *node + WHALE)
+        .collect();
     advance(&mut metrics, &model, &mut state, &contacts);
     (0..90).for_each(|_| advance(&mut metrics, &model, &mut state, &[]));
     assert!(now(&metrics, &state) > 0.9, "{}", now(&metrics, &state));
     (0..20).for_each(|_| advance(&mut metrics, &model, &mut state, &[]));
     assert!(now(&metrics, &state).abs() < 1e-12);
     let told: Vec<_> = metrics.events().iter().map(|event| (event.kind, event.value)).collect();
-    for (kind, value) in [(EventKind::Wrap, 0.5), (EventKind::Wrap, 1.0), (EventKind::WrapUndone, 1.0), (EventKind::WrapUndone, 0.5)] {
+    for (kind, value) in [
+        (EventKind::Wrap, 0.5),
+        (EventKind::Wrap, 1.0),
+        (EventKind::WrapUndone, 1.0),
+        (EventKind::WrapUndone, 0.5),
+    ] {
         assert!(told.contains(&(kind, value)), "{told:?}");
     }
 }

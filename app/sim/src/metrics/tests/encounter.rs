@@ -9,7 +9,8 @@ type Case = (&'static [(f64, bool)], Option<f64>, Outcome, bool);
 /// Plays spells of (seconds, touching) and returns what the whale's summary says of it.
 fn play(spells: &[(f64, bool)], parted_s: Option<f64>) -> (Outcome, bool) {
     let mut spec = spec(vec![0.5; 4]);
-    spec.links = vec![Link { id: "weak".into(), line: 0, end: LineEnd::B, rating_n: 90.0, enabled: true }];
+    spec.links =
+        vec![Link { id: "weak".into(), line: 0, end: LineEnd::B, rating_n: 90.0, enabled: true }];
     let model = model(spec);
     let (mut metrics, mut state) = (Metrics::new(&model), State::start(&model));
     let contacts = touch(&model);
@@ -38,9 +39,19 @@ fn outcomes_follow_their_definition() {
         (&[(6.0, true), (2.5, false)], None, Outcome::Entangled, false),
         (&[(6.0, true), (3.5, false)], None, Outcome::Shed, false),
         // Flutter does not let go.
-        (&[(6.0, true), (0.9, false), (0.1, true), (0.9, false), (0.1, true), (0.9, false)], None, Outcome::Entangled, false),
+        (
+            &[(6.0, true), (0.9, false), (0.1, true), (0.9, false), (0.1, true), (0.9, false)],
+            None,
+            Outcome::Entangled,
+            false,
+        ),
         // Shed, then a graze: judged as an episode of its own.
-        (&[(20.0, true), (12.0, false), (0.1, true), (0.5, false)], None, Outcome::Entangled, false),
+        (
+            &[(20.0, true), (12.0, false), (0.1, true), (0.5, false)],
+            None,
+            Outcome::Entangled,
+            false,
+        ),
         (&[(20.0, true), (12.0, false), (0.1, true), (1.5, false)], None, Outcome::Shed, false),
         (&[(5.0, true), (15.0, true)], Some(3.0), Outcome::PartedEntangled, true),
         (&[(5.0, true), (15.0, false)], Some(3.0), Outcome::PartedFree, true),
@@ -59,12 +70,24 @@ fn a_hooked_rope_needs_the_full_time() {
     let skin = &model.spec.whale.as_ref().unwrap().skin;
     for (turns, outcome) in [(0.3, Outcome::Shed), (0.7, Outcome::Entangled)] {
         let (mut metrics, mut state) = (Metrics::new(&model), State::start(&model));
-        let contacts: Vec<_> = helix(skin, turns, 40).iter().enumerate().map(|(k, place)| contact(&model, k, *place)).collect();
+        let contacts: Vec<_> = helix(skin, turns, 40)
+            .iter()
+            .enumerate()
+            .map(|(k, place)| contact(&model, k, *place))
+            .collect();
         (0..300).for_each(|_| advance(&mut metrics, &model, &mut state, &contacts));
         (0..500).for_each(|_| advance(&mut metrics, &model, &mut state, &[]));
-        assert_eq!(metrics.summary(&model, &state).whale.unwrap().outcome, outcome, "{turns} turns");
+        assert_eq!(
+            metrics.summary(&model, &state).whale.unwrap().outcome,
+            outcome,
+            "{turns} turns"
+        );
         (0..600).for_each(|_| advance(&mut metrics, &model, &mut state, &[]));
-        assert_eq!(metrics.summary(&model, &state).whale.unwrap().outcome, Outcome::Shed, "{turns} turns");
+        assert_eq!(
+            metrics.summary(&model, &state).whale.unwrap().outcome,
+            Outcome::Shed,
+            "{turns} turns"
+        );
     }
 }
 
@@ -78,8 +101,16 @@ fn contact_events_bridge_flicker_and_times_add_up() {
         advance(&mut metrics, &model, &mut state, if touching { &contacts } else { &[] });
     }
     let of_contact = metrics.events().iter().filter(|event| event.kind != EventKind::Shed);
-    let told: Vec<_> = of_contact.map(|event| (event.kind, event.subject.as_str(), event.time_s)).collect();
-    assert_eq!(told, [(EventKind::Contact, "body", 1.0), (EventKind::ContactLost, "body", 3.99), (EventKind::Contact, "body", 9.0)]);
+    let told: Vec<_> =
+        of_contact.map(|event| (event.kind, event.subject.as_str(), event.time_s)).collect();
+    assert_eq!(
+        told,
+        [
+            (EventKind::Contact, "body", 1.0),
+            (EventKind::ContactLost, "body", 3.99),
+            (EventKind::Contact, "body", 9.0)
+        ]
+    );
     let whale = metrics.summary(&model, &state).whale.unwrap();
     assert_eq!((whale.first_contact_s, whale.last_contact_s), (Some(1.0), Some(10.0)));
     assert!((whale.contact_time_s - 2.51).abs() < 1e-9, "{}", whale.contact_time_s);
@@ -103,8 +134,12 @@ fn slip_after_sticking_is_told() {
         contacts[0].slip_m = DVec3::Y * speed * STEP_S;
         advance(&mut metrics, &model, &mut state, &contacts);
     }
-    let slips: Vec<_> =
-        metrics.events().iter().filter(|event| event.kind == EventKind::Slip).map(|event| (event.time_s, event.value)).collect();
+    let slips: Vec<_> = metrics
+        .events()
+        .iter()
+        .filter(|event| event.kind == EventKind::Slip)
+        .map(|event| (event.time_s, event.value))
+        .collect();
     assert_eq!(slips.len(), 1, "{slips:?}");
     assert!((slips[0].0 - 5.0).abs() < 1e-9 && (slips[0].1 - 0.2).abs() < 1e-9, "{slips:?}");
 }
@@ -131,8 +166,11 @@ fn folding_twice_gives_the_same() {
     let run = || {
         let (mut metrics, mut state) = (Metrics::new(&model), State::start(&model));
         for k in 0..50 {
-            let contacts: Vec<_> =
-                helix(skin, 0.03 * f64::from(k), 40).iter().enumerate().map(|(i, place)| contact(&model, i, *place)).collect();
+            let contacts: Vec<_> = helix(skin, 0.03 * f64::from(k), 40)
+                .iter()
+                .enumerate()
+                .map(|(i, place)| contact(&model, i, *place))
+                .collect();
             advance(&mut metrics, &model, &mut state, &contacts);
         }
         (metrics.summary(&model, &state), metrics.events().to_vec())

@@ -12,7 +12,8 @@ fn end_tension_of_a_hanging_line_is_its_whole_weight() {
         let mut state = State::start(&model);
         let wet = (0.1 - 5e-5 * 1025.0) * 9.81;
         for k in 0..segments {
-            state.rope.tension[k as usize] = 5.0 + wet * 20.0 * (f64::from(k) + 0.5) / f64::from(segments);
+            state.rope.tension[k as usize] =
+                5.0 + wet * 20.0 * (f64::from(k) + 0.5) / f64::from(segments);
         }
         assert!((end_tension(&model, &state, 0, LineEnd::A) - 5.0).abs() < 1e-9);
         assert!((end_tension(&model, &state, 0, LineEnd::B) - (5.0 + wet * 20.0)).abs() < 1e-9);
@@ -51,7 +52,8 @@ fn a_slack_or_cut_end_bears_nothing() {
 #[test]
 fn peaks_keep_their_time_and_parting_is_told_once() {
     let mut spec = spec(vec![1.0; 4]);
-    spec.links = vec![Link { id: "weak".into(), line: 0, end: LineEnd::B, rating_n: 90.0, enabled: true }];
+    spec.links =
+        vec![Link { id: "weak".into(), line: 0, end: LineEnd::B, rating_n: 90.0, enabled: true }];
     let model = model(spec);
     let (mut metrics, mut state) = (Metrics::new(&model), State::start(&model));
     for step in 1..=100_u32 {
@@ -67,7 +69,11 @@ fn peaks_keep_their_time_and_parting_is_told_once() {
     assert!((summary.lines[0].peak_at_s - 0.31).abs() < 1e-12);
     assert!((summary.links[0].peak_tension_n - libm::sin(1.55) * 90.0).abs() < 1e-9);
     assert_eq!(summary.links[0].parted_at_s, Some(0.595));
-    let told: Vec<_> = metrics.events().iter().map(|event| (event.kind, event.subject.as_str(), event.time_s)).collect();
+    let told: Vec<_> = metrics
+        .events()
+        .iter()
+        .map(|event| (event.kind, event.subject.as_str(), event.time_s))
+        .collect();
     assert_eq!(told, [(EventKind::LinkParted, "weak", 0.6)]);
 }
 
@@ -75,23 +81,34 @@ fn peaks_keep_their_time_and_parting_is_told_once() {
 #[test]
 fn a_step_peak_outlives_the_parting() {
     let mut spec = spec(vec![1.0; 4]);
-    spec.links = vec![Link { id: "weak".into(), line: 0, end: LineEnd::B, rating_n: 90.0, enabled: true }];
+    spec.links =
+        vec![Link { id: "weak".into(), line: 0, end: LineEnd::B, rating_n: 90.0, enabled: true }];
     let model = model(spec);
-    let (mut metrics, mut state, mut workspace) = (Metrics::new(&model), State::start(&model), crate::Workspace::new(&model));
+    let (mut metrics, mut state, mut workspace) =
+        (Metrics::new(&model), State::start(&model), crate::Workspace::new(&model));
     (state.time_s, state.link_parted_s[0], state.rope.cut[3]) = (0.01, Some(0.007), true);
     workspace.peak_tension_n = vec![60.0, 70.0, 95.0, 91.0];
     metrics.fold_step(&model, &state, &workspace);
     let summary = metrics.summary(&model, &state);
-    let peaks = [summary.links[0].peak_tension_n, summary.lines[0].peak_tension_n, metrics.events()[0].value];
-    assert!(peaks.iter().zip([91.0, 95.0, 91.0]).all(|(got, wanted)| (got - wanted).abs() < 1e-12), "{peaks:?}");
+    let peaks = [
+        summary.links[0].peak_tension_n,
+        summary.lines[0].peak_tension_n,
+        metrics.events()[0].value,
+    ];
+    assert!(
+        peaks.iter().zip([91.0, 95.0, 91.0]).all(|(got, wanted)| (got - wanted).abs() < 1e-12),
+        "{peaks:?}"
+    );
 }
 
 /// A reading of 3 + 2 t has mean 3 + T over T seconds, also with uneven steps.
 #[test]
 fn probe_means_weigh_by_time() {
     let mut spec = spec(vec![1.0; 4]);
-    spec.probes =
-        vec![Probe { id: "z".into(), target: ProbeTarget::LineMiddle(0, 2) }, Probe { id: "end".into(), target: ProbeTarget::Joint(1, 0) }];
+    spec.probes = vec![
+        Probe { id: "z".into(), target: ProbeTarget::LineMiddle(0, 2) },
+        Probe { id: "end".into(), target: ProbeTarget::Joint(1, 0) },
+    ];
     let model = model(spec);
     let (mut metrics, mut state) = (Metrics::new(&model), State::start(&model));
     for time in [0.0, 0.1, 0.15, 0.9, 1.0, 4.0] {
@@ -102,14 +119,20 @@ fn probe_means_weigh_by_time() {
     }
     let probes = metrics.summary(&model, &state).probes;
     assert!((probes[0].mean - 7.0).abs() < 1e-12, "{:?}", probes[0]);
-    assert_eq!((probes[0].last, probes[0].min, probes[0].max, probes[0].unit), (11.0, 3.0, 11.0, "m"));
+    assert_eq!(
+        (probes[0].last, probes[0].min, probes[0].max, probes[0].unit),
+        (11.0, 3.0, 11.0, "m")
+    );
     assert!((probes[1].mean + 2.0).abs() < 1e-12 && probes[1].max.abs() < 1e-12, "{:?}", probes[1]);
 }
 
 #[test]
 fn a_dragged_trap_and_a_sunk_buoy_are_told() {
     let mut spec = spec(vec![1.0; 4]);
-    spec.bodies = vec![body("trap", BodyRole::Trap, DVec3::new(0.0, 0.0, -50.0)), body("buoy", BodyRole::Buoy, DVec3::ZERO)];
+    spec.bodies = vec![
+        body("trap", BodyRole::Trap, DVec3::new(0.0, 0.0, -50.0)),
+        body("buoy", BodyRole::Buoy, DVec3::ZERO),
+    ];
     let model = model(spec);
     let (mut metrics, mut state) = (Metrics::new(&model), State::start(&model));
     for step in 1..=300_u32 {
@@ -119,14 +142,21 @@ fn a_dragged_trap_and_a_sunk_buoy_are_told() {
         state.bodies[1].position.z = -0.4 * libm::sin(std::f64::consts::PI * time);
         advance(&mut metrics, &model, &mut state, &[]);
     }
-    let told: Vec<_> = metrics.events().iter().map(|event| (event.kind, event.subject.as_str())).collect();
+    let told: Vec<_> =
+        metrics.events().iter().map(|event| (event.kind, event.subject.as_str())).collect();
     let under = (EventKind::PulledUnder, "buoy");
     assert_eq!(told, [under, (EventKind::Dragged, "trap"), under]);
     let (sunk, dragged) = (&metrics.events()[0], &metrics.events()[1]);
-    assert!((sunk.time_s - 0.17).abs() < 1e-9, "half its height is under at asin(1/2)/pi = 0.1667 s: {sunk:?}");
+    assert!(
+        (sunk.time_s - 0.17).abs() < 1e-9,
+        "half its height is under at asin(1/2)/pi = 0.1667 s: {sunk:?}"
+    );
     assert!((dragged.time_s - 2.015).abs() < 0.006 && dragged.value > 1.0, "{dragged:?}");
     let bodies = metrics.summary(&model, &state).bodies;
-    assert!((bodies[0].peak_speed_m_s - 0.5).abs() < 1e-12 && (bodies[0].position_m.x - 1.5).abs() < 1e-12);
+    assert!(
+        (bodies[0].peak_speed_m_s - 0.5).abs() < 1e-12
+            && (bodies[0].position_m.x - 1.5).abs() < 1e-12
+    );
 }
 
 /// Four metres of line at 1 kg/m, stretched by a tenth and falling: each form by hand.
@@ -154,7 +184,10 @@ fn energy_has_its_three_forms() {
     }
     state.rope.position[1].x = 0.9;
     let slack = energy(&model, &state, EnergyForm::Stretch);
-    assert!((slack - 500.0 * (0.3 * 0.3 + 2.0 * 0.01)).abs() < 1e-9, "a slack segment holds nothing: {slack} J");
+    assert!(
+        (slack - 500.0 * (0.3 * 0.3 + 2.0 * 0.01)).abs() < 1e-9,
+        "a slack segment holds nothing: {slack} J"
+    );
 }
 
 /// The greatest height is that of the highest node far enough from both ends, above a bed that may slope; the middle's
@@ -170,10 +203,14 @@ fn the_height_of_a_line_leaves_its_ends_out() {
     for (node, height) in [2.0, 7.0, 5.0, 6.0].into_iter().enumerate() {
         state.rope.position[node] = DVec3::Z * (height - depth);
     }
-    let read: Vec<f64> = model.spec.probes.iter().map(|probe| reading(&model, &state, probe.target)).collect();
+    let read: Vec<f64> =
+        model.spec.probes.iter().map(|probe| reading(&model, &state, probe.target)).collect();
     // Within 1.5 m of the ends lie the nodes at 0 m, 1 m and 6 m of 6 m; the middle is two thirds along the second segment.
     let middle = 7.0 - 2.0 * 2.0 / 3.0;
-    assert!(read.iter().zip([7.0, 5.0, middle]).all(|(got, wanted)| (got - wanted).abs() < 1e-12), "{read:?}");
+    assert!(
+        read.iter().zip([7.0, 5.0, middle]).all(|(got, wanted)| (got - wanted).abs() < 1e-12),
+        "{read:?}"
+    );
 }
 
 /// Places are linear between nodes, tensions between the middles of segments.
@@ -181,14 +218,22 @@ fn the_height_of_a_line_leaves_its_ends_out() {
 fn a_line_is_read_at_any_length() {
     let mut spec = spec(vec![1.0, 3.0, 2.0]);
     let at = |target| Probe { id: String::new(), target };
-    spec.probes = vec![at(ProbeTarget::LineAt(0, 2.5, 2)), at(ProbeTarget::TensionAt(0, 1.0)), at(ProbeTarget::TensionAt(0, 5.9))];
+    spec.probes = vec![
+        at(ProbeTarget::LineAt(0, 2.5, 2)),
+        at(ProbeTarget::TensionAt(0, 1.0)),
+        at(ProbeTarget::TensionAt(0, 5.9)),
+    ];
     let model = model(spec);
     let mut state = State::start(&model);
     for (node, height) in [0.0, 1.0, 5.0, 5.0].into_iter().enumerate() {
         state.rope.position[node] = DVec3::Z * height;
     }
     state.rope.tension = vec![10.0, 20.0, 60.0];
-    let read: Vec<f64> = model.spec.probes.iter().map(|probe| reading(&model, &state, probe.target)).collect();
+    let read: Vec<f64> =
+        model.spec.probes.iter().map(|probe| reading(&model, &state, probe.target)).collect();
     // Middles at 0.5 m, 2.5 m and 5 m: a length of 1 m lies a quarter of the way from the first to the second.
-    assert!(read.iter().zip([3.0, 12.5, 60.0]).all(|(got, wanted)| (got - wanted).abs() < 1e-12), "{read:?}");
+    assert!(
+        read.iter().zip([3.0, 12.5, 60.0]).all(|(got, wanted)| (got - wanted).abs() < 1e-12),
+        "{read:?}"
+    );
 }

@@ -34,7 +34,10 @@ fn beyond(contacts: &[(usize, usize)], cuts: &[usize]) -> [f64; 2] {
     let (mut metrics, mut state) = (Metrics::new(&model), State::start(&model));
     cuts.iter().for_each(|segment| state.rope.cut[*segment] = true);
     let one = touch(&model).remove(0);
-    let contacts: Vec<_> = contacts.iter().map(|(line, segment)| ContactPoint { line: *line, segment: *segment, ..one.clone() }).collect();
+    let contacts: Vec<_> = contacts
+        .iter()
+        .map(|(line, segment)| ContactPoint { line: *line, segment: *segment, ..one.clone() })
+        .collect();
     advance(&mut metrics, &model, &mut state, &contacts);
     let whale = metrics.summary(&model, &state).whale.unwrap();
     [whale.trailing_m, whale.tethered_m]
@@ -43,7 +46,10 @@ fn beyond(contacts: &[(usize, usize)], cuts: &[usize]) -> [f64; 2] {
 #[test]
 fn rope_beyond_the_whale_is_trailing_or_tethered() {
     let close = |got: [f64; 2], wanted: [f64; 2]| {
-        assert!((got[0] - wanted[0]).abs() < 1e-9 && (got[1] - wanted[1]).abs() < 1e-9, "{got:?}, wanted {wanted:?}");
+        assert!(
+            (got[0] - wanted[0]).abs() < 1e-9 && (got[1] - wanted[1]).abs() < 1e-9,
+            "{got:?}, wanted {wanted:?}"
+        );
     };
     close(beyond(&[], &[]), [0.0, 0.0]);
     // Touched 2.25 m above the trap: below it the trap holds, above hang 7.75 + 8 + 2 m.

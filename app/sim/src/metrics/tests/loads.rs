@@ -18,7 +18,13 @@ fn friction_work_of_a_steady_slide() {
         let body = &whale.regions[BodyPart::Body as usize];
         assert!((body.friction_work_j - 12.0 * 0.5 * 2.0).abs() < 1e-9, "{body:?}");
         assert!((body.peak_pressure_pa - 30.0 / (0.5 * 0.01)).abs() < 1e-9);
-        assert!(whale.regions.iter().filter(|region| region.part != BodyPart::Body).all(|region| region.friction_work_j.abs() < 1e-12));
+        assert!(
+            whale
+                .regions
+                .iter()
+                .filter(|region| region.part != BodyPart::Body)
+                .all(|region| region.friction_work_j.abs() < 1e-12)
+        );
     }
 }
 
@@ -34,7 +40,8 @@ fn sticking_to_and_fro_does_no_work() {
         contacts[0].slip_m = DVec3::Y * 1e-3 * libm::cos(phase) * std::f64::consts::TAU / 1000.0;
         advance(&mut metrics, &model, &mut state, &contacts);
     }
-    let work = metrics.summary(&model, &state).whale.unwrap().regions[BodyPart::Body as usize].friction_work_j;
+    let work = metrics.summary(&model, &state).whale.unwrap().regions[BodyPart::Body as usize]
+        .friction_work_j;
     assert!(work.abs() < 1e-9, "{work}");
 }
 
@@ -46,7 +53,12 @@ fn peak_normal_force_is_of_the_sum() {
     for force in [5.0, 40.0, 20.0] {
         let one = ContactPoint { normal_force_n: force, ..touch(&model)[0].clone() };
         let idle = ContactPoint { normal_force_n: 0.0, segment: 2, ..one.clone() };
-        advance(&mut metrics, &model, &mut state, &[one.clone(), ContactPoint { segment: 1, ..one }, idle]);
+        advance(
+            &mut metrics,
+            &model,
+            &mut state,
+            &[one.clone(), ContactPoint { segment: 1, ..one }, idle],
+        );
     }
     let body = &metrics.summary(&model, &state).whale.unwrap().regions[BodyPart::Body as usize];
     assert_eq!((body.peak_normal_n, body.contact_length_m), (80.0, 1.0));
@@ -63,7 +75,10 @@ fn added_drag_is_along_the_heading_and_a_mean_of_five_seconds() {
     contacts[0].friction_n = DVec3::new(7.0, 40.0, -30.0);
     (0..400).for_each(|_| advance(&mut metrics, &model, &mut state, &contacts));
     let early = metrics.summary(&model, &state).whale.unwrap();
-    assert!((early.drag_added_n - 100.0).abs() < 1e-9 && (early.drag_added_now_n - 100.0).abs() < 1e-9, "{early:?}");
+    assert!(
+        (early.drag_added_n - 100.0).abs() < 1e-9 && (early.drag_added_now_n - 100.0).abs() < 1e-9,
+        "{early:?}"
+    );
     (0..700).for_each(|_| advance(&mut metrics, &model, &mut state, &[]));
     (0..300).for_each(|_| advance(&mut metrics, &model, &mut state, &contacts));
     let late = metrics.summary(&model, &state).whale.unwrap();

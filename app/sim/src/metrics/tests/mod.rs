@@ -10,15 +10,16 @@ mod winding;
 use std::sync::Arc;
 
 use endline_sdk::{
-    AttributeValue, BodyPart, Contacts, Descriptor, FrictionModel, FrictionResponse, GearType, HookError, LineEnd, MotionInput,
-    MotionOutput, Region, Rig, Site, WhaleMotion,
+    AttributeValue, BodyPart, Contacts, Descriptor, FrictionModel, FrictionResponse, GearType,
+    HookError, LineEnd, MotionInput, MotionOutput, Region, Rig, Site, WhaleMotion,
 };
 use glam::{DQuat, DVec3};
 
 use super::Metrics;
 use crate::contact::ContactPoint;
 use crate::model::{
-    Body, BodyRole, Float, Friction, Joint, JointKind, Line, Link, Model, ModelSpec, Probe, ProbeTarget, Rope, Seabed, Settings, Shape,
+    Body, BodyRole, Float, Friction, Joint, JointKind, Line, Link, Model, ModelSpec, Probe,
+    ProbeTarget, Rope, Seabed, Settings, Shape,
 };
 use crate::state::State;
 use crate::water::{Current, Water};
@@ -36,7 +37,15 @@ struct Idle(Descriptor);
 impl Idle {
     fn shared() -> Arc<Self> {
         let (id, name, help) = ("test.idle".into(), "Idle".into(), "Does nothing.".into());
-        Arc::new(Self(Descriptor { id, version: "0.1.0".into(), name, help, attributes: Vec::new(), state_len: 0, acts: Vec::new() }))
+        Arc::new(Self(Descriptor {
+            id,
+            version: "0.1.0".into(),
+            name,
+            help,
+            attributes: Vec::new(),
+            state_len: 0,
+            acts: Vec::new(),
+        }))
     }
 }
 
@@ -44,7 +53,12 @@ impl WhaleMotion for Idle {
     fn descriptor(&self) -> &Descriptor {
         &self.0
     }
-    fn step(&self, _: &[f64], _: &MotionInput<'_>, _: &mut [f64]) -> Result<MotionOutput, HookError> {
+    fn step(
+        &self,
+        _: &[f64],
+        _: &MotionInput<'_>,
+        _: &mut [f64],
+    ) -> Result<MotionOutput, HookError> {
         Ok(MotionOutput::default())
     }
 }
@@ -53,7 +67,12 @@ impl FrictionModel for Idle {
     fn descriptor(&self) -> &Descriptor {
         &self.0
     }
-    fn respond(&self, _: &[f64], _: &Contacts<'_>, _: &mut [FrictionResponse]) -> Result<(), HookError> {
+    fn respond(
+        &self,
+        _: &[f64],
+        _: &Contacts<'_>,
+        _: &mut [FrictionResponse],
+    ) -> Result<(), HookError> {
         Ok(())
     }
     fn advance(&self, _: &[f64], _: &Contacts<'_>, _: &mut [f64]) -> Result<(), HookError> {
@@ -95,7 +114,15 @@ fn joint(id: &str, kind: JointKind, position_m: DVec3) -> Joint {
 }
 
 fn line(id: &str, from: usize, to: usize, segments_m: Vec<f64>) -> Line {
-    Line { id: id.into(), rope: 0, from, to, segments_m, strength: crate::model::Strength::default(), start_m: Vec::new() }
+    Line {
+        id: id.into(),
+        rope: 0,
+        from,
+        to,
+        segments_m,
+        strength: crate::model::Strength::default(),
+        start_m: Vec::new(),
+    }
 }
 
 fn body(id: &str, role: BodyRole, position_m: DVec3) -> Body {
@@ -134,7 +161,13 @@ pub(crate) fn spec(lengths: Vec<f64>) -> ModelSpec {
             current: Current::uniform(DVec3::ZERO),
             waves: None,
         },
-        seabed: Some(Seabed { depth_m: 50.0, normal: DVec3::Z, rope_stiffness_n_m2: 1e4, foot_stiffness_n_m: 1e5, rope_friction: 0.5 }),
+        seabed: Some(Seabed {
+            depth_m: 50.0,
+            normal: DVec3::Z,
+            rope_stiffness_n_m2: 1e4,
+            foot_stiffness_n_m: 1e5,
+            rope_friction: 0.5,
+        }),
         ropes: vec![rope()],
         joints: vec![
             joint("low", JointKind::Fixed, DVec3::new(0.0, 0.0, -40.0)),
@@ -145,7 +178,11 @@ pub(crate) fn spec(lengths: Vec<f64>) -> ModelSpec {
         links: Vec::new(),
         gear: Vec::new(),
         whale: Some(whale()),
-        friction: Some(Friction::of_one(Idle::shared(), Vec::new(), vec![[0.2; Region::ALL.len()]])),
+        friction: Some(Friction::of_one(
+            Idle::shared(),
+            Vec::new(),
+            vec![[0.2; Region::ALL.len()]],
+        )),
         obstacles: Vec::new(),
         probes: Vec::new(),
         settings: Settings { step_s: STEP_S, ..Settings::default() },
@@ -186,19 +223,43 @@ fn trunk_radius(x: f64) -> f64 {
 
 /// A round trunk 12 m long and two flippers of elliptic section.
 fn skin() -> Skin {
-    let mut skin =
-        Skin { bones: vec![Bone { name: "control".into(), parent: None, origin: DVec3::ZERO, turns: Vec::new() }], ..Skin::default() };
+    let mut skin = Skin {
+        bones: vec![Bone {
+            name: "control".into(),
+            parent: None,
+            origin: DVec3::ZERO,
+            turns: Vec::new(),
+        }],
+        ..Skin::default()
+    };
     let rings = (0..=120).map(|i| -6.0 + 0.1 * f64::from(i));
     let trunk_region = |x: f64| match x {
         _ if x < -3.0 => Region::Peduncle,
         _ if x < 3.5 => Region::Body,
         _ => Region::Head,
     };
-    tube(&mut skin, rings.map(|x| (trunk_middle(x), DVec3::Y * trunk_radius(x), DVec3::Z * trunk_radius(x), trunk_region(x))).collect());
+    tube(
+        &mut skin,
+        rings
+            .map(|x| {
+                (
+                    trunk_middle(x),
+                    DVec3::Y * trunk_radius(x),
+                    DVec3::Z * trunk_radius(x),
+                    trunk_region(x),
+                )
+            })
+            .collect(),
+    );
     for (side, region) in [(1.0, Region::LeftFlipper), (-1.0, Region::RightFlipper)] {
         let mirrored = |place: DVec3| DVec3::new(place.x, side * place.y, place.z);
         let station = |i: i32| FLIPPER_ROOT.lerp(FLIPPER_TIP, f64::from(i) / 20.0);
-        tube(&mut skin, (0..=20).map(|i| (mirrored(station(i)), DVec3::X * 0.4, DVec3::Z * 0.1 * side, region)).collect());
+        tube(
+            &mut skin,
+            (0..=20)
+                .map(|i| (mirrored(station(i)), DVec3::X * 0.4, DVec3::Z * 0.1 * side, region))
+                .collect(),
+        );
     }
     skin
 }
@@ -231,7 +292,9 @@ fn tube(skin: &mut Skin, rings: Vec<(DVec3, DVec3, DVec3, Region)>) {
 
 /// Where a ray leaves a part of the skin: triangle and barycentric place.
 fn ray(skin: &Skin, part: BodyPart, from: DVec3, toward: DVec3) -> (usize, [f64; 3]) {
-    for (index, triangle) in skin.triangles.iter().enumerate().filter(|(index, _)| skin.regions[*index].part() == part) {
+    for (index, triangle) in
+        skin.triangles.iter().enumerate().filter(|(index, _)| skin.regions[*index].part() == part)
+    {
         let [a, b, c] = triangle.map(|vertex| skin.vertices[vertex as usize]);
         let across = toward.cross(c - a);
         let volume = (b - a).dot(across);
@@ -246,7 +309,11 @@ fn ray(skin: &Skin, part: BodyPart, from: DVec3, toward: DVec3) -> (usize, [f64;
 }
 
 /// A contact of 10 N at the middle of segment `segment` of line 0, on a place of the skin.
-fn contact(model: &Model, segment: usize, (triangle, barycentric): (usize, [f64; 3])) -> ContactPoint {
+fn contact(
+    model: &Model,
+    segment: usize,
+    (triangle, barycentric): (usize, [f64; 3]),
+) -> ContactPoint {
     let skin = &model.spec.whale.as_ref().unwrap().skin;
     ContactPoint {
         line: 0,
@@ -271,7 +338,12 @@ fn helix(skin: &Skin, turns: f64, count: usize) -> Vec<(usize, [f64; 3])> {
     let place = |k: usize| {
         let share = (k as f64 + 0.5) / count as f64;
         let (angle, x) = (0.3 + std::f64::consts::TAU * turns * share, -5.5 + 0.4 * share);
-        ray(skin, BodyPart::Peduncle, trunk_middle(x), DVec3::new(0.0, libm::cos(angle), libm::sin(angle)))
+        ray(
+            skin,
+            BodyPart::Peduncle,
+            trunk_middle(x),
+            DVec3::new(0.0, libm::cos(angle), libm::sin(angle)),
+        )
     };
     (0..count).map(place).collect()
 }
@@ -286,5 +358,9 @@ fn advance(metrics: &mut Metrics, model: &Model, state: &mut State, contacts: &[
 /// A contact somewhere on the back.
 fn touch(model: &Model) -> Vec<ContactPoint> {
     let skin = &model.spec.whale.as_ref().unwrap().skin;
-    vec![contact(model, 0, ray(skin, BodyPart::Body, trunk_middle(0.55), DVec3::new(0.0, 0.1, 1.0)))]
+    vec![contact(
+        model,
+        0,
+        ray(skin, BodyPart::Body, trunk_middle(0.55), DVec3::new(0.0, 0.1, 1.0)),
+    )]
 }

@@ -10,7 +10,8 @@ use crate::metrics::summary::{RegionSummary, Summary};
 fn wrapped(model: &Model, places: &[(usize, [f64; 3])], pose: impl Fn(&mut State)) -> Summary {
     let (mut metrics, mut state) = (Metrics::new(model), State::start(model));
     pose(&mut state);
-    let contacts: Vec<_> = places.iter().enumerate().map(|(segment, place)| contact(model, segment, *place)).collect();
+    let contacts: Vec<_> =
+        places.iter().enumerate().map(|(segment, place)| contact(model, segment, *place)).collect();
     advance(&mut metrics, model, &mut state, &contacts);
     metrics.summary(model, &state)
 }
@@ -28,9 +29,16 @@ fn a_helix_about_the_peduncle_counts_its_turns() {
             let places = helix(&model.spec.whale.as_ref().unwrap().skin, turns, count);
             let summary = wrapped(&model, &places, |_| {});
             let wraps = region(&summary, BodyPart::Peduncle).touching_wraps;
-            assert!((wraps - turns.abs()).abs() < 0.02 * turns.abs(), "{length} m, {turns} turns: {wraps}");
+            assert!(
+                (wraps - turns.abs()).abs() < 0.02 * turns.abs(),
+                "{length} m, {turns} turns: {wraps}"
+            );
             assert!(region(&summary, BodyPart::Body).touching_wraps.abs() < 1e-12);
-            assert!((region(&summary, BodyPart::Peduncle).contact_length_m - length * count as f64).abs() < 1e-9);
+            assert!(
+                (region(&summary, BodyPart::Peduncle).contact_length_m - length * count as f64)
+                    .abs()
+                    < 1e-9
+            );
         }
     }
 }
@@ -47,11 +55,17 @@ fn wraps_agree_with_the_gauss_integral() {
         .map(|k| {
             let share = (k as f64 + 0.5) / count as f64;
             let (angle, x) = (TAU * turns * share, -5.5 + share);
-            ray(&straight, BodyPart::Peduncle, DVec3::X * x, DVec3::new(0.0, libm::cos(angle), libm::sin(angle)))
+            ray(
+                &straight,
+                BodyPart::Peduncle,
+                DVec3::X * x,
+                DVec3::new(0.0, libm::cos(angle), libm::sin(angle)),
+            )
         })
         .collect();
     let rest = |(triangle, weights): &(usize, [f64; 3])| {
-        let corners = straight.triangles[*triangle].map(|vertex| straight.vertices[vertex as usize]);
+        let corners =
+            straight.triangles[*triangle].map(|vertex| straight.vertices[vertex as usize]);
         corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2]
     };
     let rope: Vec<DVec3> = places.iter().map(rest).collect();
@@ -59,7 +73,9 @@ fn wraps_agree_with_the_gauss_integral() {
     for pair in rope.windows(2) {
         for step in -25_000..25_000 {
             let apart = pair[0].midpoint(pair[1]) - DVec3::X * (f64::from(step) + 0.5) * 0.002;
-            gauss += apart.dot((pair[1] - pair[0]).cross(DVec3::X * 0.002)) / (apart.length() * apart.length_squared()) / (2.0 * TAU);
+            gauss += apart.dot((pair[1] - pair[0]).cross(DVec3::X * 0.002))
+                / (apart.length() * apart.length_squared())
+                / (2.0 * TAU);
         }
     }
     let whole = gauss.abs() * count as f64 / (count as f64 - 1.0);
@@ -72,17 +88,33 @@ fn wraps_agree_with_the_gauss_integral() {
 fn rope_along_the_back_and_across_it_does_not_wrap() {
     let model = model(spec(vec![0.1; 12]));
     let skin = &model.spec.whale.as_ref().unwrap().skin;
-    let along: Vec<_> =
-        (0..12).map(|k| ray(skin, BodyPart::Body, trunk_middle(0.051 + 0.1 * f64::from(k)), DVec3::Z + DVec3::Y * 0.01)).collect();
+    let along: Vec<_> = (0..12)
+        .map(|k| {
+            ray(
+                skin,
+                BodyPart::Body,
+                trunk_middle(0.051 + 0.1 * f64::from(k)),
+                DVec3::Z + DVec3::Y * 0.01,
+            )
+        })
+        .collect();
     assert!(region(&wrapped(&model, &along, |_| {}), BodyPart::Body).touching_wraps < 0.01);
     let across: Vec<_> = (0..12)
         .map(|k| {
             let angle = (f64::from(k) - 5.5) * 0.1 / 1.2;
-            ray(skin, BodyPart::Body, trunk_middle(1.05), DVec3::new(0.0, libm::sin(angle), libm::cos(angle)))
+            ray(
+                skin,
+                BodyPart::Body,
+                trunk_middle(1.05),
+                DVec3::new(0.0, libm::sin(angle), libm::cos(angle)),
+            )
         })
         .collect();
     let wraps = region(&wrapped(&model, &across, |_| {}), BodyPart::Body).touching_wraps;
-    assert!(wraps > 0.1 && wraps < 0.25, "1.2 m of rope on a radius of 1.2 m turns by one radian: {wraps}");
+    assert!(
+        wraps > 0.1 && wraps < 0.25,
+        "1.2 m of rope on a radius of 1.2 m turns by one radian: {wraps}"
+    );
 }
 
 #[test]
@@ -94,7 +126,8 @@ fn wraps_about_a_flipper_count_about_its_own_axis() {
         let places: Vec<_> = (0..60)
             .map(|k| {
                 let share = (f64::from(k) + 0.5) / 60.0;
-                let (angle, middle) = (TAU * 1.5 * share, FLIPPER_ROOT.lerp(FLIPPER_TIP, 0.4 + 0.2 * share));
+                let (angle, middle) =
+                    (TAU * 1.5 * share, FLIPPER_ROOT.lerp(FLIPPER_TIP, 0.4 + 0.2 * share));
                 let out = DVec3::new(0.4 * libm::cos(angle), 0.0, 0.1 * libm::sin(angle));
                 ray(skin, part, middle * DVec3::new(1.0, side, 1.0), out)
             })
@@ -129,7 +162,8 @@ fn short_gaps_are_bridged_and_long_ones_are_not() {
         let model = model(spec(lengths));
         let places = helix(&model.spec.whale.as_ref().unwrap().skin, 1.0, 40);
         let (mut metrics, mut state) = (Metrics::new(&model), State::start(&model));
-        let contacts: Vec<_> = (0..40).filter(|k| *k != 20).map(|k| contact(&model, k, places[k])).collect();
+        let contacts: Vec<_> =
+            (0..40).filter(|k| *k != 20).map(|k| contact(&model, k, places[k])).collect();
         advance(&mut metrics, &model, &mut state, &contacts);
         let wraps = region(&metrics.summary(&model, &state), BodyPart::Peduncle).touching_wraps;
         assert!((wraps - expected).abs() < 0.03, "{gap} m: {wraps}");
@@ -188,7 +222,8 @@ fn helix_nodes(turns: f64, count: usize) -> Vec<DVec3> {
     let node = |k: usize| {
         let share = k as f64 / count as f64;
         let (angle, x) = (0.3 + TAU * turns * share, -5.5 + 0.4 * share);
-        trunk_middle(x) + DVec3::new(0.0, libm::cos(angle), libm::sin(angle)) * (PEDUNCLE_R + 0.005) - DVec3::Z * 20.0
+        trunk_middle(x) + DVec3::new(0.0, libm::cos(angle), libm::sin(angle)) * (PEDUNCLE_R + 0.005)
+            - DVec3::Z * 20.0
     };
     (0..=count).map(node).collect()
 }
@@ -200,7 +235,11 @@ fn growing_wraps_are_told_and_jumps_alarm() {
     let skin = &model.spec.whale.as_ref().unwrap().skin;
     let (mut metrics, mut state) = (Metrics::new(&model), State::start(&model));
     let mut fold = |metrics: &mut Metrics, turns: f64| {
-        let contacts: Vec<_> = helix(skin, turns, 40).iter().enumerate().map(|(k, place)| contact(&model, k, *place)).collect();
+        let contacts: Vec<_> = helix(skin, turns, 40)
+            .iter()
+            .enumerate()
+            .map(|(k, place)| contact(&model, k, *place))
+            .collect();
         state.rope.position = helix_nodes(turns, 40);
         advance(metrics, &model, &mut state, &contacts);
         metrics.summary(&model, &state).whale.unwrap()
@@ -210,7 +249,16 @@ fn growing_wraps_are_told_and_jumps_alarm() {
     let jumped = fold(&mut metrics, 0.7);
     assert_eq!(jumped.winding_jumps, 1);
     let peduncle = &jumped.regions[BodyPart::Peduncle as usize];
-    assert!((peduncle.touching_wraps - 0.7).abs() < 0.02 && (peduncle.peak_touching_wraps - 1.2).abs() < 0.03, "{peduncle:?}");
-    let levels: Vec<_> = metrics.events().iter().filter(|event| event.kind == EventKind::Wrap).map(|event| event.value).collect();
+    assert!(
+        (peduncle.touching_wraps - 0.7).abs() < 0.02
+            && (peduncle.peak_touching_wraps - 1.2).abs() < 0.03,
+        "{peduncle:?}"
+    );
+    let levels: Vec<_> = metrics
+        .events()
+        .iter()
+        .filter(|event| event.kind == EventKind::Wrap)
+        .map(|event| event.value)
+        .collect();
     assert_eq!(levels, [0.5, 1.0]);
 }

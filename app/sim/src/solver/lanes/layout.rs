@@ -94,10 +94,22 @@ pub(crate) fn groups(pieces: &mut [Piece]) -> Vec<Group> {
         let lengths = lanes.map(|piece| pieces[piece].segments);
         let longest = lengths[0];
         let shortest = lengths.into_iter().fold(longest, usize::min);
-        let live = (shortest..longest).map(|k| Row(lengths.map(|length| if k < length { 1.0 } else { 0.0 }))).collect();
+        let live = (shortest..longest)
+            .map(|k| Row(lengths.map(|length| if k < length { 1.0 } else { 0.0 })))
+            .collect();
         let anchored = lanes.iter().all(|piece| pieces[*piece].anchored);
         let bends = lanes.iter().any(|piece| pieces[*piece].bends);
-        groups.push(Group { node_row, segment_row, longest, shortest, live, pieces: lanes, used: chunk.len(), anchored, bends });
+        groups.push(Group {
+            node_row,
+            segment_row,
+            longest,
+            shortest,
+            live,
+            pieces: lanes,
+            used: chunk.len(),
+            anchored,
+            bends,
+        });
         node_row += longest + 3;
         segment_row += longest;
     }

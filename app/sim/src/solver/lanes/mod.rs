@@ -21,7 +21,9 @@ use super::trial::Trial;
 use crate::model::Model;
 use crate::state::RopeState;
 use layout::{Group, Piece};
-use rows::{EndRows, GroundRow, LANES, MoveRows, NodeRow, Row, Row3, Row6, Row9, SegmentRow, Solved};
+use rows::{
+    EndRows, GroundRow, LANES, MoveRows, NodeRow, Row, Row3, Row6, Row9, SegmentRow, Solved,
+};
 use sweep::{Backward, Forward, GroupRows};
 
 /// Rows of all groups, and the chains of their ends.
@@ -126,20 +128,31 @@ impl Lanes {
     pub fn gather(&mut self, state: &RopeState, scheme: &Scheme, guess: &[DVec3], flow: &[DVec3]) {
         for group in &self.groups {
             let first_nodes = group.pieces.map(|piece| self.pieces[piece].first_node);
-            let last_nodes = group.pieces.map(|piece| self.pieces[piece].first_node + self.pieces[piece].segments);
-            for (k, row) in self.nodes[group.node_row + 1..][..=group.longest].iter_mut().enumerate() {
+            let last_nodes = group
+                .pieces
+                .map(|piece| self.pieces[piece].first_node + self.pieces[piece].segments);
+            for (k, row) in
+                self.nodes[group.node_row + 1..][..=group.longest].iter_mut().enumerate()
+            {
                 for lane in 0..LANES {
                     let node = (first_nodes[lane] + k).min(last_nodes[lane]);
                     row.place.set(lane, guess[node]);
-                    row.place_history.set(lane, scheme.history(state.position[node], state.earlier_position[node]));
-                    row.velocity_history.set(lane, scheme.history(state.velocity[node], state.earlier_velocity[node]));
+                    row.place_history.set(
+                        lane,
+                        scheme.history(state.position[node], state.earlier_position[node]),
+                    );
+                    row.velocity_history.set(
+                        lane,
+                        scheme.history(state.velocity[node], state.earlier_velocity[node]),
+                    );
                     row.flow.set(lane, flow[node]);
                 }
             }
             for lane in 0..group.used {
                 let piece = &self.pieces[group.pieces[lane]];
                 let segments = &mut self.segments[group.segment_row..][..piece.segments];
-                for (row, tension) in segments.iter_mut().zip(&state.tension[piece.first_segment..]) {
+                for (row, tension) in segments.iter_mut().zip(&state.tension[piece.first_segment..])
+                {
                     row.tension.0[lane] = *tension;
                 }
             }
@@ -157,7 +170,10 @@ impl Lanes {
                 let node = piece.first_node + k;
                 // Where two pieces meet, the first carries it.
                 let carried = k > 0 || !piece.follows;
-                row.set(piece.lane, if carried { (force[node], block[node]) } else { (DVec3::ZERO, DMat3::ZERO) });
+                row.set(
+                    piece.lane,
+                    if carried { (force[node], block[node]) } else { (DVec3::ZERO, DMat3::ZERO) },
+                );
             }
         }
     }
@@ -181,7 +197,13 @@ impl Lanes {
     pub fn reduce(&mut self, shared: &Shared<f64>) {
         for (index, group) in self.groups.iter().enumerate() {
             let ground = self.ground.get(group.node_row..).unwrap_or_default();
-            let rows = group_rows(group, (&mut self.nodes, &mut self.segments, &mut self.solved), ground, &self.ropes[index], shared);
+            let rows = group_rows(
+                group,
+                (&mut self.nodes, &mut self.segments, &mut self.solved),
+                ground,
+                &self.ropes[index],
+                shared,
+            );
             self.arch.dispatch(Forward(rows, &mut self.ends[index]));
         }
         self.chain.clear();
@@ -220,7 +242,13 @@ impl Lanes {
                 ends[1].set(lane, self.chain.step[node + 1]);
             }
             let ground = self.ground.get(group.node_row..).unwrap_or_default();
-            let rows = group_rows(group, (&mut self.nodes, &mut self.segments, &mut self.solved), ground, &self.ropes[index], shared);
+            let rows = group_rows(
+                group,
+                (&mut self.nodes, &mut self.segments, &mut self.solved),
+                ground,
+                &self.ropes[index],
+                shared,
+            );
             self.arch.dispatch(Backward(rows, &ends, &mut self.moves[index]));
             for lane in 0..group.used {
                 let moves = &self.moves[index];
@@ -246,9 +274,11 @@ impl Lanes {
     pub fn give_ends(&self, model: &Model, trial: &mut Trial) {
         for (line, pieces) in self.line_pieces.iter().enumerate() {
             let nodes = &model.line_nodes[line];
-            trial.place[nodes.start] = self.node(pieces.start, 0).place.vector(self.pieces[pieces.start].lane);
+            trial.place[nodes.start] =
+                self.node(pieces.start, 0).place.vector(self.pieces[pieces.start].lane);
             let last = &self.pieces[pieces.end - 1];
-            trial.place[nodes.end - 1] = self.node(pieces.end - 1, last.segments).place.vector(last.lane);
+            trial.place[nodes.end - 1] =
+                self.node(pieces.end - 1, last.segments).place.vector(last.lane);
         }
     }
 
@@ -257,7 +287,11 @@ impl Lanes {
         for line in 0..self.line_pieces.len() {
             let (pieces, nodes) = (self.line_pieces[line].clone(), &model.line_nodes[line]);
             self.put_place(pieces.start, 0, trial.place[nodes.start]);
-            self.put_place(pieces.end - 1, self.pieces[pieces.end - 1].segments, trial.place[nodes.end - 1]);
+            self.put_place(
+                pieces.end - 1,
+                self.pieces[pieces.end - 1].segments,
+                trial.place[nodes.end - 1],
+            );
         }
         self.refresh_ghosts();
     }
@@ -303,9 +337,15 @@ impl Lanes {
     fn refresh_ghosts(&mut self) {
         for index in 0..self.pieces.len() {
             let piece = self.pieces[index];
-            let before = if piece.follows { (index - 1, self.pieces[index - 1].segments - 1) } else { (index, 0) };
+            let before = if piece.follows {
+                (index - 1, self.pieces[index - 1].segments - 1)
+            } else {
+                (index, 0)
+            };
             let behind = if piece.goes_on { (index + 1, 1) } else { (index, piece.segments) };
-            let place_of = |(piece, k): (usize, usize)| self.node(piece, k).place.vector(self.pieces[piece].lane);
+            let place_of = |(piece, k): (usize, usize)| {
+                self.node(piece, k).place.vector(self.pieces[piece].lane)
+            };
             let (before, behind) = (place_of(before), place_of(behind));
             let first = self.groups[piece.group].node_row;
             self.nodes[first].place.set(piece.lane, before);
@@ -355,7 +395,13 @@ fn rope_rows(model: &Model, pieces: &[Piece], group: &Group) -> PerMetre<Row> {
     }
 }
 
-fn take_lengths(piece: &Piece, lane: usize, (nodes, segments): (&mut [NodeRow], &mut [SegmentRow]), lengths: &Lengths, cut: &[bool]) {
+fn take_lengths(
+    piece: &Piece,
+    lane: usize,
+    (nodes, segments): (&mut [NodeRow], &mut [SegmentRow]),
+    lengths: &Lengths,
+    cut: &[bool],
+) {
     let mut half_before = 0.0;
     for k in 0..piece.segments {
         let (row, segment) = (&mut segments[k], piece.first_segment + k);

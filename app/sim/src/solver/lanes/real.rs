@@ -10,7 +10,12 @@ use pulp::Simd;
 
 /// A number, or a row of numbers worked on together.
 pub(crate) trait Real:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
 {
     /// This value in every lane.
     fn splat(self, value: f64) -> Self;
@@ -113,7 +118,10 @@ impl<S: Simd> Real for Lane<S> {
     }
     #[inline(always)]
     fn less(self, one: Self, other: Self) -> Self {
-        Self { simd: self.simd, value: self.simd.negate_mul_add_f64s(one.value, other.value, self.value) }
+        Self {
+            simd: self.simd,
+            value: self.simd.negate_mul_add_f64s(one.value, other.value, self.value),
+        }
     }
     #[inline(always)]
     fn sqrt(self) -> Self {

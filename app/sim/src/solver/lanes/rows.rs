@@ -60,7 +60,14 @@ impl<S: Simd> Part<S> {
     #[inline(always)]
     pub fn get6(self, row: &Row6) -> Sym3<Lane<S>> {
         let [xx, xy, xz, yy, yz, zz] = &row.0;
-        Sym3 { xx: self.get(xx), xy: self.get(xy), xz: self.get(xz), yy: self.get(yy), yz: self.get(yz), zz: self.get(zz) }
+        Sym3 {
+            xx: self.get(xx),
+            xy: self.get(xy),
+            xz: self.get(xz),
+            yy: self.get(yy),
+            yz: self.get(yz),
+            zz: self.get(zz),
+        }
     }
     #[inline(always)]
     pub fn put6(self, row: &mut Row6, m: Sym3<Lane<S>>) {

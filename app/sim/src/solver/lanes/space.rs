@@ -37,7 +37,11 @@ pub(crate) struct Sym3<R> {
 
 impl From<Sym3<f64>> for DMat3 {
     fn from(m: Sym3<f64>) -> Self {
-        Self::from_cols(DVec3::new(m.xx, m.xy, m.xz), DVec3::new(m.xy, m.yy, m.yz), DVec3::new(m.xz, m.yz, m.zz))
+        Self::from_cols(
+            DVec3::new(m.xx, m.xy, m.xz),
+            DVec3::new(m.xy, m.yy, m.yz),
+            DVec3::new(m.xz, m.yz, m.zz),
+        )
     }
 }
 
@@ -80,7 +84,11 @@ impl<R: Real> Vec3<R> {
     /// `yes` where `of` is above zero, else `no`.
     #[inline(always)]
     pub fn choose(of: R, yes: Self, no: Self) -> Self {
-        Self { x: of.positive(yes.x, no.x), y: of.positive(yes.y, no.y), z: of.positive(yes.z, no.z) }
+        Self {
+            x: of.positive(yes.x, no.x),
+            y: of.positive(yes.y, no.y),
+            z: of.positive(yes.z, no.z),
+        }
     }
 }
 
@@ -109,15 +117,36 @@ impl<R: Real> Sym3<R> {
     #[inline(always)]
     pub fn round(s: R, v: Vec3<R>, q: R) -> Self {
         let w = v.scale(q);
-        Self { xx: s.plus(w.x, v.x), xy: w.x * v.y, xz: w.x * v.z, yy: s.plus(w.y, v.y), yz: w.y * v.z, zz: s.plus(w.z, v.z) }
+        Self {
+            xx: s.plus(w.x, v.x),
+            xy: w.x * v.y,
+            xz: w.x * v.z,
+            yy: s.plus(w.y, v.y),
+            yz: w.y * v.z,
+            zz: s.plus(w.z, v.z),
+        }
     }
     #[inline(always)]
     pub fn add(self, o: Self) -> Self {
-        Self { xx: self.xx + o.xx, xy: self.xy + o.xy, xz: self.xz + o.xz, yy: self.yy + o.yy, yz: self.yz + o.yz, zz: self.zz + o.zz }
+        Self {
+            xx: self.xx + o.xx,
+            xy: self.xy + o.xy,
+            xz: self.xz + o.xz,
+            yy: self.yy + o.yy,
+            yz: self.yz + o.yz,
+            zz: self.zz + o.zz,
+        }
     }
     #[inline(always)]
     pub fn sub(self, o: Self) -> Self {
-        Self { xx: self.xx - o.xx, xy: self.xy - o.xy, xz: self.xz - o.xz, yy: self.yy - o.yy, yz: self.yz - o.yz, zz: self.zz - o.zz }
+        Self {
+            xx: self.xx - o.xx,
+            xy: self.xy - o.xy,
+            xz: self.xz - o.xz,
+            yy: self.yy - o.yy,
+            yz: self.yz - o.yz,
+            zz: self.zz - o.zz,
+        }
     }
     #[inline(always)]
     pub fn apply(self, v: Vec3<R>) -> Vec3<R> {
@@ -185,7 +214,9 @@ impl<R: Real> Mat3<R> {
     /// `S - Mᵀ N`, where the product is symmetric.
     #[inline(always)]
     pub fn taken_from(self, n: Self, s: Sym3<R>) -> Sym3<R> {
-        let entry = |start: R, one: Vec3<R>, other: Vec3<R>| start.less(one.x, other.x).less(one.y, other.y).less(one.z, other.z);
+        let entry = |start: R, one: Vec3<R>, other: Vec3<R>| {
+            start.less(one.x, other.x).less(one.y, other.y).less(one.z, other.z)
+        };
         Sym3 {
             xx: entry(s.xx, self.x, n.x),
             xy: entry(s.xy, self.x, n.y),
@@ -198,6 +229,10 @@ impl<R: Real> Mat3<R> {
     /// `yes` where `of` is above zero, else `no`.
     #[inline(always)]
     pub fn choose(of: R, yes: Self, no: Self) -> Self {
-        Self { x: Vec3::choose(of, yes.x, no.x), y: Vec3::choose(of, yes.y, no.y), z: Vec3::choose(of, yes.z, no.z) }
+        Self {
+            x: Vec3::choose(of, yes.x, no.x),
+            y: Vec3::choose(of, yes.y, no.y),
+            z: Vec3::choose(of, yes.z, no.z),
+        }
     }
 }

@@ -89,7 +89,9 @@ impl<S: Simd> Inputs<'_, S> {
         let (force, block) = forces::node(&self.rope, &self.shared, &at);
         match self.ground.get(k + 1) {
             None => (force, block),
-            Some(ground) => (force.add(part.get3(&ground.force)), block.add(part.get6(&ground.block))),
+            Some(ground) => {
+                (force.add(part.get3(&ground.force)), block.add(part.get6(&ground.block)))
+            }
         }
     }
 
@@ -102,7 +104,11 @@ impl<S: Simd> Inputs<'_, S> {
             history: part.get3(&to.place_history).sub(part.get3(&from.place_history)),
             length: part.get(&row.length),
             inverse_length: part.get(&row.inverse_length),
-            law: Axial { ea: part.get(&row.ea), ea2: part.get(&row.ea2), damping: part.get(&row.damping) },
+            law: Axial {
+                ea: part.get(&row.ea),
+                ea2: part.get(&row.ea2),
+                damping: part.get(&row.damping),
+            },
             foretold: part.get(&row.tension),
         };
         let pull = forces::pull(&at, self.shared.rate);
@@ -110,7 +116,11 @@ impl<S: Simd> Inputs<'_, S> {
             return pull;
         }
         let shear = self.moment(k + 1).sub(self.moment(k)).scale(at.inverse_length);
-        PullOf { force: pull.force.sub(shear), block: pull.block.add(Sym3::diagonal(part.get(&row.bending))), ..pull }
+        PullOf {
+            force: pull.force.sub(shear),
+            block: pull.block.add(Sym3::diagonal(part.get(&row.bending))),
+            ..pull
+        }
     }
 
     /// Bending moment at node `k`, as a vector along the turn (`bending.rs`).
@@ -119,13 +129,20 @@ impl<S: Simd> Inputs<'_, S> {
         let part = self.part;
         let [before, at, behind] = [0, 1, 2].map(|row| part.get3(&self.nodes[k + row].place));
         let row = &self.nodes[k + 1];
-        let turn = behind.sub(at).scale(part.get(&row.inverse_behind)).less(at.sub(before), part.get(&row.inverse_before));
+        let turn = behind
+            .sub(at)
+            .scale(part.get(&row.inverse_behind))
+            .less(at.sub(before), part.get(&row.inverse_before));
         turn.scale(part.get(&row.hinge))
     }
 }
 
 #[inline(always)]
-fn forward<S: Simd, const FILL: bool>(part: Part<S>, group: &mut GroupRows<'_>, ends: &mut EndRows) {
+fn forward<S: Simd, const FILL: bool>(
+    part: Part<S>,
+    group: &mut GroupRows<'_>,
+    ends: &mut EndRows,
+) {
     let inputs = Inputs {
         part,
         nodes: group.nodes,
@@ -177,7 +194,12 @@ fn begin<S: Simd>(inputs: &Inputs<'_, S>, solved: &mut Solved) -> Carry<Lane<S>>
 
 /// Eliminates node `k`; the carry for node `k + 1`.
 #[inline(always)]
-fn onward<S: Simd, const FILL: bool>(inputs: &Inputs<'_, S>, k: usize, carry: Carry<Lane<S>>, solved: &mut Solved) -> Carry<Lane<S>> {
+fn onward<S: Simd, const FILL: bool>(
+    inputs: &Inputs<'_, S>,
+    k: usize,
+    carry: Carry<Lane<S>>,
+    solved: &mut Solved,
+) -> Carry<Lane<S>> {
     let part = inputs.part;
     let pull = inputs.pull(k);
     keep_pull(part, &pull, solved);
@@ -229,7 +251,12 @@ fn spread_rope<S: Simd>(part: Part<S>, rope: &PerMetre<Row>) -> PerMetre<Lane<S>
 #[inline(always)]
 fn spread_shared<S: Simd>(simd: S, shared: &Shared<f64>) -> Shared<Lane<S>> {
     let spread = |value| Lane::new(simd, value);
-    Shared { rate: spread(shared.rate), inertia: spread(shared.inertia), wet: spread(shared.wet), drying: spread(shared.drying) }
+    Shared {
+        rate: spread(shared.rate),
+        inertia: spread(shared.inertia),
+        wet: spread(shared.wet),
+        drying: spread(shared.drying),
+    }
 }
 
 /// Backward sweep from the moves of the ends A and B.
@@ -259,7 +286,12 @@ struct Moved<R> {
 }
 
 #[inline(always)]
-fn backward<S: Simd, const FILL: bool>(part: Part<S>, group: &mut GroupRows<'_>, ends: &[Row3; 2], moves: &mut MoveRows) {
+fn backward<S: Simd, const FILL: bool>(
+    part: Part<S>,
+    group: &mut GroupRows<'_>,
+    ends: &[Row3; 2],
+    moves: &mut MoveRows,
+) {
     let zero = Lane::new(part.simd, 0.0);
     let (step_a, step_b) = (part.get3(&ends[0]), part.get3(&ends[1]));
     let mut moved = Moved { longest: zero, gap: zero, greatest: zero, finite: zero };
@@ -267,7 +299,8 @@ fn backward<S: Simd, const FILL: bool>(part: Part<S>, group: &mut GroupRows<'_>,
     let count = group.segments.len();
     for k in (group.shortest..count).rev() {
         let live = part.get(&group.live[k - group.shortest]);
-        let step = Vec3::choose(live, inner_step::<S, FILL>(part, &group.solved[k], step_a, next), next);
+        let step =
+            Vec3::choose(live, inner_step::<S, FILL>(part, &group.solved[k], step_a, next), next);
         // A lane whose piece ends before: its last node is moved by its end's own row.
         move_node(part, &mut group.nodes[k + 2], next);
         moved = foretell(part, &group.solved[k], &mut group.segments[k], step, next, moved);
@@ -289,7 +322,12 @@ fn backward<S: Simd, const FILL: bool>(part: Part<S>, group: &mut GroupRows<'_>,
 }
 
 #[inline(always)]
-fn inner_step<S: Simd, const FILL: bool>(part: Part<S>, solved: &Solved, step_a: Vec3<Lane<S>>, next: Vec3<Lane<S>>) -> Vec3<Lane<S>> {
+fn inner_step<S: Simd, const FILL: bool>(
+    part: Part<S>,
+    solved: &Solved,
+    step_a: Vec3<Lane<S>>,
+    next: Vec3<Lane<S>>,
+) -> Vec3<Lane<S>> {
     let (g, x) = (part.get3(&solved.g), part.get9(&solved.x));
     let own = if FILL {
         let w = part.get9(&solved.w);

@@ -45,18 +45,23 @@ mod tests {
     use super::*;
 
     fn pointing(heading: f64, bank: f64, climb: f64) -> DQuat {
-        DQuat::from_rotation_z(heading) * DQuat::from_rotation_y(-climb) * DQuat::from_rotation_x(bank)
+        DQuat::from_rotation_z(heading)
+            * DQuat::from_rotation_y(-climb)
+            * DQuat::from_rotation_x(bank)
     }
 
     #[test]
     fn attitude_is_read_back() {
-        for (heading, bank, climb) in [(0.3, 0.0, 0.0), (-2.0, 1.2, 0.9), (3.0, -3.0, -1.1), (1.0, 0.1, 1.4)] {
+        for (heading, bank, climb) in
+            [(0.3, 0.0, 0.0), (-2.0, 1.2, 0.9), (3.0, -3.0, -1.1), (1.0, 0.1, 1.4)]
+        {
             let read = attitude(pointing(heading, bank, climb));
             for (read, given) in read.into_iter().zip([heading, bank, climb]) {
                 assert!((read - given).abs() < 1e-9, "{read} for {given}");
             }
         }
-        let (port_up, nose_up) = (DQuat::from_rotation_x(0.5) * DVec3::Y, DQuat::from_rotation_y(-0.5) * DVec3::X);
+        let (port_up, nose_up) =
+            (DQuat::from_rotation_x(0.5) * DVec3::Y, DQuat::from_rotation_y(-0.5) * DVec3::X);
         assert!(port_up.z > 0.0 && nose_up.z > 0.0);
     }
 
@@ -79,7 +84,10 @@ mod tests {
             let now = attitude(orientation);
             let off = (now[1] - asked[0].unwrap_or(bank)).rem_euclid(2.0 * PI);
             assert!(off.min(2.0 * PI - off) < 1e-3, "bank {now:?} for {asked:?}");
-            assert!((now[2] - asked[1].unwrap_or(climb)).abs() < 1e-3, "climb {now:?} for {asked:?}");
+            assert!(
+                (now[2] - asked[1].unwrap_or(climb)).abs() < 1e-3,
+                "climb {now:?} for {asked:?}"
+            );
         }
     }
 }

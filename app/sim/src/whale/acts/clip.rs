@@ -157,7 +157,8 @@ impl Clip {
         for track in &self.tracks {
             let Moves::Turn(turn) = track.moves else { continue };
             let sign = if mirror && turn != Turn::Pitch { -1.0 } else { 1.0 };
-            turned[turn as usize] += sign * (self.gone(&track.curve, to_s) - self.gone(&track.curve, from_s));
+            turned[turn as usize] +=
+                sign * (self.gone(&track.curve, to_s) - self.gone(&track.curve, from_s));
         }
         turned
     }
@@ -166,7 +167,9 @@ impl Clip {
     #[must_use]
     pub fn attitude(&self, time_s: f64, mirror: bool) -> [Option<f64>; 2] {
         let at = self.within(time_s);
-        let of = |moves: Moves| self.tracks.iter().find(|track| track.moves == moves).map(|track| track.curve.at(at));
+        let of = |moves: Moves| {
+            self.tracks.iter().find(|track| track.moves == moves).map(|track| track.curve.at(at))
+        };
         [of(Moves::Bank).map(|bank| if mirror { -bank } else { bank }), of(Moves::Climb)]
     }
 
@@ -178,12 +181,20 @@ impl Clip {
 
     /// Time in the curves.
     fn within(&self, time_s: f64) -> f64 {
-        if self.after == After::Repeat && self.length_s > 0.0 { time_s % self.length_s } else { time_s }
+        if self.after == After::Repeat && self.length_s > 0.0 {
+            time_s % self.length_s
+        } else {
+            time_s
+        }
     }
 
     /// Value of a curve that goes on growing where it repeats.
     fn gone(&self, curve: &Curve, time_s: f64) -> f64 {
-        let rounds = if self.after == After::Repeat && self.length_s > 0.0 { libm::floor(time_s / self.length_s) } else { 0.0 };
+        let rounds = if self.after == After::Repeat && self.length_s > 0.0 {
+            libm::floor(time_s / self.length_s)
+        } else {
+            0.0
+        };
         curve.at(time_s - rounds * self.length_s) + rounds * curve.gain()
     }
 }

@@ -42,7 +42,11 @@ impl Curve {
             _ if index == last => 0.0,
             _ => joined(rise(index - 1), rise(index)),
         };
-        let key = |(index, &(time_s, value)): (usize, &(f64, f64))| Key { time_s, value, slope: slope(index) };
+        let key = |(index, &(time_s, value)): (usize, &(f64, f64))| Key {
+            time_s,
+            value,
+            slope: slope(index),
+        };
         Self { keys: points.iter().enumerate().map(key).collect() }
     }
 
@@ -50,7 +54,8 @@ impl Curve {
     #[must_use]
     pub fn at(&self, time_s: f64) -> f64 {
         let after = self.keys.partition_point(|key| key.time_s <= time_s);
-        match (after.checked_sub(1).and_then(|before| self.keys.get(before)), self.keys.get(after)) {
+        match (after.checked_sub(1).and_then(|before| self.keys.get(before)), self.keys.get(after))
+        {
             (Some(from), Some(to)) => between(from, to, time_s),
             (Some(only), None) | (None, Some(only)) => only.value,
             (None, None) => 0.0,
@@ -77,7 +82,10 @@ fn between(from: &Key, to: &Key, time_s: f64) -> f64 {
     let h = to.time_s - from.time_s;
     let s = (time_s - from.time_s) / h;
     let r = 1.0 - s;
-    from.value * (1.0 + 2.0 * s) * r * r + h * from.slope * s * r * r + to.value * s * s * (3.0 - 2.0 * s) - h * to.slope * s * s * r
+    from.value * (1.0 + 2.0 * s) * r * r
+        + h * from.slope * s * r * r
+        + to.value * s * s * (3.0 - 2.0 * s)
+        - h * to.slope * s * s * r
 }
 
 #[cfg(test)]
@@ -93,7 +101,10 @@ mod tests {
             assert!((curve.at(t0) - v0).abs() < 1e-15 && (curve.at(t1) - v1).abs() < 1e-15);
             for part in 0..=100 {
                 let value = curve.at(t0 + (t1 - t0) * f64::from(part) / 100.0);
-                assert!((v0.min(v1) - 1e-12..=v0.max(v1) + 1e-12).contains(&value), "{value} between {v0} and {v1}");
+                assert!(
+                    (v0.min(v1) - 1e-12..=v0.max(v1) + 1e-12).contains(&value),
+                    "{value} between {v0} and {v1}"
+                );
             }
         }
         assert!(curve.at(-1.0).abs() < 1e-15 && (curve.at(99.0) - 7.0).abs() < 1e-15);
@@ -102,7 +113,8 @@ mod tests {
     /// A straight line is reproduced between inner keys, with its slope; a single key is a constant.
     #[test]
     fn straight_lines_stay_straight_inside() {
-        let points: Vec<(f64, f64)> = (0..6).map(|i| (f64::from(i) * 0.7, 3.0 - 2.0 * f64::from(i) * 0.7)).collect();
+        let points: Vec<(f64, f64)> =
+            (0..6).map(|i| (f64::from(i) * 0.7, 3.0 - 2.0 * f64::from(i) * 0.7)).collect();
         let curve = Curve::through(&points, false);
         for part in 0..200 {
             let t = 0.7 + 2.1 * f64::from(part) / 200.0;
@@ -116,7 +128,8 @@ mod tests {
     fn a_curve_that_repeats_closes_smoothly() {
         let points = [(0.0, 0.0), (1.0, 1.0), (2.0, 3.0), (3.0, 4.0)];
         let (open, closed) = (Curve::through(&points, false), Curve::through(&points, true));
-        let slope = |curve: &Curve, from: f64, to: f64| (curve.at(to) - curve.at(from)) / (to - from);
+        let slope =
+            |curve: &Curve, from: f64, to: f64| (curve.at(to) - curve.at(from)) / (to - from);
         assert!(slope(&open, 0.0, 1e-6).abs() < 1e-4, "eases in");
         let (start, end) = (slope(&closed, 0.0, 1e-6), slope(&closed, 3.0 - 1e-6, 3.0));
         assert!(start > 0.5 && (start - end).abs() < 1e-4, "{start} and {end}");

@@ -56,21 +56,55 @@ impl Floats {
     /// # Errors
     /// Where there are not [`LEN`] of them.
     pub fn read(state: &[f64]) -> Result<Self, HookError> {
-        let wrong = || HookError::new(format!("expected {LEN} floats for acts, got {}", state.len()));
+        let wrong =
+            || HookError::new(format!("expected {LEN} floats for acts, got {}", state.len()));
         let (head, rest) = state.split_first_chunk::<9>().ok_or_else(wrong)?;
         let (angles, rest) = rest.split_first_chunk::<ANGLES>().ok_or_else(wrong)?;
         let (rates, rest) = rest.split_first_chunk::<3>().ok_or_else(wrong)?;
         let steer: [f64; 3] = rest.try_into().map_err(|_| wrong())?;
-        let [act, time_s, mirror, asked, touched_s, answered_s, touch_side, faded_s, fade_s] = *head;
+        let [act, time_s, mirror, asked, touched_s, answered_s, touch_side, faded_s, fade_s] =
+            *head;
         let playing = Playing { act: count(act), time_s, mirror: mirror > 0.5 };
-        Ok(Self { playing, asked: count(asked), touched_s, answered_s, steer, touch_side, faded_s, fade_s, angles: *angles, rates: *rates })
+        Ok(Self {
+            playing,
+            asked: count(asked),
+            touched_s,
+            answered_s,
+            steer,
+            touch_side,
+            faded_s,
+            fade_s,
+            angles: *angles,
+            rates: *rates,
+        })
     }
 
     /// To the engine's floats, [`LEN`] of them.
     pub fn write(&self, state: &mut [f64]) {
-        let Self { playing, asked, touched_s, answered_s, steer, touch_side, faded_s, fade_s, angles, rates } = self;
+        let Self {
+            playing,
+            asked,
+            touched_s,
+            answered_s,
+            steer,
+            touch_side,
+            faded_s,
+            fade_s,
+            angles,
+            rates,
+        } = self;
         let mirror = f64::from(u8::from(playing.mirror));
-        let head = [number(playing.act), playing.time_s, mirror, number(*asked), *touched_s, *answered_s, *touch_side, *faded_s, *fade_s];
+        let head = [
+            number(playing.act),
+            playing.time_s,
+            mirror,
+            number(*asked),
+            *touched_s,
+            *answered_s,
+            *touch_side,
+            *faded_s,
+            *fade_s,
+        ];
         let all = head.iter().chain(angles).chain(rates).chain(steer);
         state.iter_mut().zip(all).for_each(|(place, value)| *place = *value);
     }
@@ -130,7 +164,11 @@ impl Floats {
 }
 
 /// A count kept as a float; anything else is 0.
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and a million")]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "between 0 and a million"
+)]
 pub fn count(value: f64) -> usize {
     if (0.5..1e6).contains(&value) { libm::round(value) as usize } else { 0 }
 }

@@ -56,7 +56,11 @@ impl Acting {
     #[must_use]
     pub fn new(beneath: Arc<dyn WhaleMotion>, clips: Vec<Clip>, answer: Option<Answer>) -> Self {
         let mut descriptor = beneath.descriptor().clone();
-        let act = |clip: &Clip| Act { id: clip.id.clone().into(), name: clip.name.clone().into(), help: clip.help.clone().into() };
+        let act = |clip: &Clip| Act {
+            id: clip.id.clone().into(),
+            name: clip.name.clone().into(),
+            help: clip.help.clone().into(),
+        };
         descriptor.acts.extend(clips.iter().map(act));
         descriptor.state_len += floats::LEN;
         Self { beneath, clips, answer, descriptor }
@@ -74,7 +78,12 @@ impl WhaleMotion for Acting {
         &self.descriptor
     }
 
-    fn step(&self, attributes: &[f64], input: &MotionInput<'_>, state: &mut [f64]) -> Result<MotionOutput, HookError> {
+    fn step(
+        &self,
+        attributes: &[f64],
+        input: &MotionInput<'_>,
+        state: &mut [f64],
+    ) -> Result<MotionOutput, HookError> {
         let (own, kept) = state.split_at_mut(self.beneath.descriptor().state_len.min(state.len()));
         let mut now = Floats::read(kept)?;
         let before = now.playing;
@@ -107,8 +116,10 @@ impl Acting {
         let asked = self.asked(&input.controls)?;
         let felt = now.feel(input, self.answer.map_or(FELT_N, |answer| answer.above_n));
         let mut playing = now.playing;
-        let ends =
-            |clip: &Clip| clip.is_over(playing.time_s) || felt.parts.iter().zip(clip.ends_at_touch).any(|(felt, ends)| *felt && ends);
+        let ends = |clip: &Clip| {
+            clip.is_over(playing.time_s)
+                || felt.parts.iter().zip(clip.ends_at_touch).any(|(felt, ends)| *felt && ends)
+        };
         if self.clip(playing.act).is_some_and(ends) {
             playing = Playing::default();
         }
@@ -134,7 +145,9 @@ impl Acting {
         let act = count(controls.act);
         let acts = self.descriptor.acts.len();
         if act > acts {
-            return Err(HookError::new(format!("there is no act {act}: the whale has {acts}, counted from 1")));
+            return Err(HookError::new(format!(
+                "there is no act {act}: the whale has {acts}, counted from 1"
+            )));
         }
         Ok(if self.clip(act).is_some() { act } else { 0 })
     }
@@ -149,7 +162,13 @@ impl Acting {
     }
 
     /// The motion beneath under the controls that the clip leaves to the pilot.
-    fn swim(&self, attributes: &[f64], input: &MotionInput<'_>, own: &mut [f64], playing: &Playing) -> Result<MotionOutput, HookError> {
+    fn swim(
+        &self,
+        attributes: &[f64],
+        input: &MotionInput<'_>,
+        own: &mut [f64],
+        playing: &Playing,
+    ) -> Result<MotionOutput, HookError> {
         let mut controls = input.controls;
         if let Some(clip) = self.clip(playing.act) {
             controls = clip.controls(playing.time_s + input.dt_s, playing.mirror, &controls);
@@ -168,14 +187,21 @@ impl Acting {
     }
 
     /// What swimming and an act ask for at the end of the step.
-    fn target(&self, swimming: &MotionOutput, playing: &Playing, input: &MotionInput<'_>) -> MotionOutput {
+    fn target(
+        &self,
+        swimming: &MotionOutput,
+        playing: &Playing,
+        input: &MotionInput<'_>,
+    ) -> MotionOutput {
         let Some(clip) = self.clip(playing.act) else { return *swimming };
         let (from_s, to_s) = (playing.time_s, playing.time_s + input.dt_s);
         let [roll, pitch, yaw] = clip.turned(from_s, to_s, playing.mirror);
         let turned = [roll, -pitch, yaw].map(|turned| turned / input.dt_s);
         MotionOutput {
             speed_m_s: swimming.speed_m_s,
-            turn_rate_rad_s: std::array::from_fn(|axis| swimming.turn_rate_rad_s[axis] + turned[axis]),
+            turn_rate_rad_s: std::array::from_fn(|axis| {
+                swimming.turn_rate_rad_s[axis] + turned[axis]
+            }),
             posture: clip.posture(to_s, playing.mirror, &swimming.posture),
         }
     }
@@ -185,7 +211,8 @@ impl Acting {
     fn unturned(&self, target: &MotionOutput, playing: &Playing, dt_s: f64) -> MotionOutput {
         let mut target = *target;
         if let Some(clip) = self.clip(playing.act).filter(|clip| clip.after != After::Repeat) {
-            let [roll, pitch, yaw] = clip.turned(playing.time_s, playing.time_s + dt_s, playing.mirror);
+            let [roll, pitch, yaw] =
+                clip.turned(playing.time_s, playing.time_s + dt_s, playing.mirror);
             for (rate, turned) in target.turn_rate_rad_s.iter_mut().zip([roll, -pitch, yaw]) {
                 *rate -= turned / dt_s;
             }

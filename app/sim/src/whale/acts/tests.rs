@@ -1,6 +1,8 @@
 //! Acting over a motion that does nothing but what the test says.
 
-use endline_sdk::{Act, BodyPart, Controls, Descriptor, HookError, MotionInput, MotionOutput, Posture, WhaleMotion};
+use endline_sdk::{
+    Act, BodyPart, Controls, Descriptor, HookError, MotionInput, MotionOutput, Posture, WhaleMotion,
+};
 
 use super::*;
 use crate::whale::Angle;
@@ -13,7 +15,15 @@ impl Wag {
     fn shared() -> Arc<Self> {
         let acts = vec![Act::new("own", "Own", "An act of its own.")];
         let (id, name, help) = ("test.wag".into(), "Wag".into(), "Wags.".into());
-        Arc::new(Self(Descriptor { id, version: "1".into(), name, help, attributes: Vec::new(), state_len: 1, acts }))
+        Arc::new(Self(Descriptor {
+            id,
+            version: "1".into(),
+            name,
+            help,
+            attributes: Vec::new(),
+            state_len: 1,
+            acts,
+        }))
     }
 }
 
@@ -22,11 +32,20 @@ impl WhaleMotion for Wag {
         &self.0
     }
 
-    fn step(&self, _: &[f64], input: &MotionInput<'_>, state: &mut [f64]) -> Result<MotionOutput, HookError> {
+    fn step(
+        &self,
+        _: &[f64],
+        input: &MotionInput<'_>,
+        state: &mut [f64],
+    ) -> Result<MotionOutput, HookError> {
         state[0] += input.dt_s;
         let mut posture = Posture { fluke_pitch: 0.2 * libm::sin(state[0]), ..Posture::default() };
         posture.jaw = 0.1 * input.controls.mouth + input.controls.act;
-        Ok(MotionOutput { speed_m_s: input.controls.speed, turn_rate_rad_s: [0.0, 0.0, input.controls.yaw], posture })
+        Ok(MotionOutput {
+            speed_m_s: input.controls.speed,
+            turn_rate_rad_s: [0.0, 0.0, input.controls.yaw],
+            posture,
+        })
     }
 }
 
@@ -54,14 +73,27 @@ fn clip(id: &str, tracks: Vec<Track>) -> Clip {
 
 /// Acts 2 to 5, behind the one that the motion beneath has of its own.
 fn acting(answer: Option<Answer>) -> Acting {
-    let raise = |side| track(Moves::Angle(Angle::FlipperRaise(side)), &[(0.0, 0.0), (1.0, 0.6), (4.0, 0.0)]);
-    let touched = Clip { side: Side::Touched, ..clip("left", vec![raise(0), track(Moves::Turn(Turn::Roll), &[(0.0, 0.0), (4.0, 2.0)])]) };
+    let raise = |side| {
+        track(Moves::Angle(Angle::FlipperRaise(side)), &[(0.0, 0.0), (1.0, 0.6), (4.0, 0.0)])
+    };
+    let touched = Clip {
+        side: Side::Touched,
+        ..clip("left", vec![raise(0), track(Moves::Turn(Turn::Roll), &[(0.0, 0.0), (4.0, 2.0)])])
+    };
     let mirrored = Clip { id: "right".into(), side: Side::Mirrored, ..touched.clone() };
-    let mut open =
-        clip("open", vec![track(Moves::Control(Control::Mouth), &[(0.0, 1.0)]), track(Moves::Angle(Angle::FlukePitch), &[(0.0, 0.3)])]);
+    let mut open = clip(
+        "open",
+        vec![
+            track(Moves::Control(Control::Mouth), &[(0.0, 1.0)]),
+            track(Moves::Angle(Angle::FlukePitch), &[(0.0, 0.3)]),
+        ],
+    );
     open.after = After::Hold;
     open.ends_at_touch[BodyPart::Head as usize] = true;
-    let round = Clip { after: After::Repeat, ..clip("round", vec![track(Moves::Turn(Turn::Yaw), &[(0.0, 0.0), (4.0, 1.0)])]) };
+    let round = Clip {
+        after: After::Repeat,
+        ..clip("round", vec![track(Moves::Turn(Turn::Yaw), &[(0.0, 0.0), (4.0, 1.0)])])
+    };
     Acting::new(Wag::shared(), vec![touched, mirrored, open, round], answer)
 }
 
@@ -71,7 +103,12 @@ const OPEN: f64 = 4.0;
 const ROUND: f64 = 5.0;
 
 /// Steps for a time; the act and the touched part are given by time.
-fn play(acting: &Acting, seconds: f64, act: impl Fn(f64) -> f64, touch: impl Fn(f64) -> Option<BodyPart>) -> Vec<MotionOutput> {
+fn play(
+    acting: &Acting,
+    seconds: f64,
+    act: impl Fn(f64) -> f64,
+    touch: impl Fn(f64) -> Option<BodyPart>,
+) -> Vec<MotionOutput> {
     let mut state = vec![0.0; acting.descriptor().state_len];
     (0..(seconds / DT_S).round() as usize)
         .map(|step| {
@@ -129,17 +166,25 @@ fn without_an_act_the_motion_beneath_is_passed_on_bit_for_bit() {
 #[test]
 fn an_act_reaches_its_keys_turns_as_far_as_it_says_and_returns() {
     let out = play(&acting(None), 6.0, |_| LEFT, none);
-    assert!((out[99].posture.flipper_raise[0] - 0.6).abs() < 1e-9, "{}", out[99].posture.flipper_raise[0]);
+    assert!(
+        (out[99].posture.flipper_raise[0] - 0.6).abs() < 1e-9,
+        "{}",
+        out[99].posture.flipper_raise[0]
+    );
     assert!(out.iter().all(|out| out.posture.flipper_raise[1].abs() < 1e-15));
     assert!((turned(&out[..400], 0) - 2.0).abs() < 1e-9, "{}", turned(&out, 0));
     assert!((turned(&out, 0) - 2.0).abs() < 1e-9, "{}: and no further", turned(&out, 0));
     assert!((out[250].posture.fluke_pitch - 0.2 * libm::sin(2.51)).abs() < 1e-12);
-    assert!(out[599].posture.flipper_raise[0].abs() < 1e-15, "back, and not begun again while the pilot holds on");
+    assert!(
+        out[599].posture.flipper_raise[0].abs() < 1e-15,
+        "back, and not begun again while the pilot holds on"
+    );
 }
 
 #[test]
 fn the_mirror_image_moves_the_other_side_and_turns_the_other_way() {
-    let (left, right) = (play(&acting(None), 5.0, |_| LEFT, none), play(&acting(None), 5.0, |_| RIGHT, none));
+    let (left, right) =
+        (play(&acting(None), 5.0, |_| LEFT, none), play(&acting(None), 5.0, |_| RIGHT, none));
     for (left, right) in left.iter().zip(&right) {
         assert!((left.posture.flipper_raise[0] - right.posture.flipper_raise[1]).abs() < 1e-15);
         assert!((left.turn_rate_rad_s[0] + right.turn_rate_rad_s[0]).abs() < 1e-15);
@@ -151,13 +196,18 @@ fn letting_go_breaks_it_off_within_the_fade() {
     let out = play(&acting(None), 3.0, |time_s| if time_s < 1.0 { LEFT } else { 0.0 }, none);
     let raised = |index: usize| out[index].posture.flipper_raise[0];
     assert!(raised(99) > 0.59 && raised(124) > 0.1 && raised(124) < raised(99));
-    assert!(out[151].posture.flipper_raise[0].abs() < 1e-15 && out[151].turn_rate_rad_s[0].abs() < 1e-15);
+    assert!(
+        out[151].posture.flipper_raise[0].abs() < 1e-15
+            && out[151].turn_rate_rad_s[0].abs() < 1e-15
+    );
 }
 
 /// Acts that change wildly: no angle jumps by more in one step than the clips' and the fades' rates allow.
 #[test]
 fn nothing_jumps_however_often_the_pilot_changes_its_mind() {
-    let wild = |time_s: f64| [LEFT, OPEN, 0.0, RIGHT, 1.0, ROUND, OPEN, LEFT, 0.0][(time_s / 0.17) as usize % 9];
+    let wild = |time_s: f64| {
+        [LEFT, OPEN, 0.0, RIGHT, 1.0, ROUND, OPEN, LEFT, 0.0][(time_s / 0.17) as usize % 9]
+    };
     let out = play(&acting(None), 20.0, wild, none);
     // The steepest clip rises 0.6 rad in a second, at most 1.5 times as fast; a fade of at most 0.9 rad takes half a second.
     let bound = (1.5 * 0.6 + 1.5 * 0.9 / 0.5 + 0.2) * DT_S;
@@ -177,7 +227,10 @@ fn a_touch_is_answered_on_the_touched_side() {
     for (part, side) in [(BodyPart::LeftFlipper, 0), (BodyPart::RightFluke, 1)] {
         let out = play(&acting(answer), 12.0, |_| 0.0, |time_s| (time_s > 2.0).then_some(part));
         assert!(out[199].posture.flipper_raise[side].abs() < 1e-15, "nothing before the touch");
-        assert!(out[300].posture.flipper_raise[side] > 0.59 && out[300].posture.flipper_raise[1 - side].abs() < 1e-15);
+        assert!(
+            out[300].posture.flipper_raise[side] > 0.59
+                && out[300].posture.flipper_raise[1 - side].abs() < 1e-15
+        );
         let roll = turned(&out, 0);
         assert!((roll.abs() - 2.0).abs() < 1e-2 && (roll > 0.0) == (side == 0), "once, {roll} rad");
     }
@@ -189,7 +242,9 @@ fn a_lasting_touch_is_answered_again_where_asked_and_a_new_one_always() {
     let touch = |_: f64| Some(BodyPart::LeftFlipper);
     assert!((turned(&play(&again(6.0), 17.9, |_| 0.0, touch), 0) / 2.0 - 3.0).abs() < 0.05);
     let twice = |time_s: f64| (!(2.0..6.0).contains(&time_s)).then_some(BodyPart::LeftFlipper);
-    assert!((turned(&play(&again(f64::INFINITY), 15.0, |_| 0.0, twice), 0) / 2.0 - 2.0).abs() < 0.05);
+    assert!(
+        (turned(&play(&again(f64::INFINITY), 15.0, |_| 0.0, twice), 0) / 2.0 - 2.0).abs() < 0.05
+    );
     let weak = acting(Some(Answer { act: 2, above_n: 60.0, again_s: 1.0 }));
     assert!(turned(&play(&weak, 8.0, |_| 0.0, touch), 0).abs() < 1e-15, "50 N are below 60");
 }
@@ -198,16 +253,34 @@ fn a_lasting_touch_is_answered_again_where_asked_and_a_new_one_always() {
 #[test]
 fn an_act_that_minds_rope_ends_at_its_touch() {
     let mouth = |out: &MotionOutput| out.posture.jaw;
-    let flipper = play(&acting(None), 9.0, |_| OPEN, |time_s| (time_s > 2.0).then_some(BodyPart::LeftFlipper));
+    let flipper = play(
+        &acting(None),
+        9.0,
+        |_| OPEN,
+        |time_s| (time_s > 2.0).then_some(BodyPart::LeftFlipper),
+    );
     assert!(flipper.iter().skip(60).all(|out| (mouth(out) - 0.1).abs() < 1e-12));
-    let head = play(&acting(None), 9.0, |_| OPEN, |time_s| (2.0..3.0).contains(&time_s).then_some(BodyPart::Head));
-    assert!((mouth(&head[199]) - 0.1).abs() < 1e-12 && mouth(&head[300]).abs() < 1e-12 && mouth(&head[899]).abs() < 1e-12);
+    let head = play(
+        &acting(None),
+        9.0,
+        |_| OPEN,
+        |time_s| (2.0..3.0).contains(&time_s).then_some(BodyPart::Head),
+    );
+    assert!(
+        (mouth(&head[199]) - 0.1).abs() < 1e-12
+            && mouth(&head[300]).abs() < 1e-12
+            && mouth(&head[899]).abs() < 1e-12
+    );
 }
 
 #[test]
 fn an_act_that_repeats_turns_on_and_on() {
     let out = play(&acting(None), 20.0, |_| ROUND, none);
-    assert!((turned(&out, 2) - 5.0).abs() < 1e-3, "{}: all but what the fade takes from the first step's rate", turned(&out, 2));
+    assert!(
+        (turned(&out, 2) - 5.0).abs() < 1e-3,
+        "{}: all but what the fade takes from the first step's rate",
+        turned(&out, 2)
+    );
 }
 
 #[test]
@@ -216,7 +289,10 @@ fn the_motions_own_acts_stay_its_own_and_unknown_ones_are_told() {
     let ids: Vec<&str> = acting.descriptor().acts.iter().map(|act| act.id.as_ref()).collect();
     assert_eq!(ids, ["own", "left", "right", "open", "round"]);
     let jaw = |act: f64| play(&acting, 0.1, |_| act, none)[9].posture.jaw;
-    assert!((jaw(1.0) - 1.0).abs() < 1e-15 && jaw(LEFT).abs() < 1e-15, "beneath sees its own act alone");
+    assert!(
+        (jaw(1.0) - 1.0).abs() < 1e-15 && jaw(LEFT).abs() < 1e-15,
+        "beneath sees its own act alone"
+    );
     let mut state = vec![0.0; acting.descriptor().state_len];
     let input = MotionInput {
         time_s: 0.0,
@@ -229,5 +305,7 @@ fn the_motions_own_acts_stay_its_own_and_unknown_ones_are_told() {
         contact_force_n: &[0.0; BodyPart::ALL.len()],
         contact_port_m: &[0.0; BodyPart::ALL.len()],
     };
-    assert!(acting.step(&[], &input, &mut state).unwrap_err().message.contains("there is no act 6"));
+    assert!(
+        acting.step(&[], &input, &mut state).unwrap_err().message.contains("there is no act 6")
+    );
 }

@@ -44,13 +44,17 @@ const MIDDLE: f64 = 0.1;
 #[must_use]
 pub fn side(input: &MotionInput<'_>) -> f64 {
     let (mut sided, mut all) = (0.0, 0.0);
-    for (part, (force, port_m)) in BodyPart::ALL.iter().zip(input.contact_force_n.iter().zip(input.contact_port_m)) {
+    for (part, (force, port_m)) in
+        BodyPart::ALL.iter().zip(input.contact_force_n.iter().zip(input.contact_port_m))
+    {
         all += force;
         sided += force
             * match part {
                 BodyPart::LeftFlipper | BodyPart::LeftFluke => 1.0,
                 BodyPart::RightFlipper | BodyPart::RightFluke => -1.0,
-                BodyPart::Head | BodyPart::Body | BodyPart::Peduncle => (port_m / (WHOLE_SIDE * input.length_m)).clamp(-1.0, 1.0),
+                BodyPart::Head | BodyPart::Body | BodyPart::Peduncle => {
+                    (port_m / (WHOLE_SIDE * input.length_m)).clamp(-1.0, 1.0)
+                }
             };
     }
     if sided > MIDDLE * all {

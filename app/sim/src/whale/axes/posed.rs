@@ -44,8 +44,16 @@ impl Axis {
     pub fn pose(&self, bones: &[DAffine3], out: &mut PosedAxis) {
         let carry = |section: &super::Section| {
             let [y, z] = section.middle_m;
-            let rest = self.origin + self.along * section.along_m + self.across[0] * y + self.across[1] * z;
-            let mut station = Station { along_m: section.along_m, middle: DVec3::ZERO, across: [DVec3::ZERO; 2], half_m: section.half_m };
+            let rest = self.origin
+                + self.along * section.along_m
+                + self.across[0] * y
+                + self.across[1] * z;
+            let mut station = Station {
+                along_m: section.along_m,
+                middle: DVec3::ZERO,
+                across: [DVec3::ZERO; 2],
+                half_m: section.half_m,
+            };
             for (bone, weight) in &section.weights {
                 let Some(transform) = bones.get(usize::from(*bone)) else { continue };
                 station.middle += *weight * transform.transform_point3(rest);
@@ -64,8 +72,11 @@ impl PosedAxis {
     /// A ball around the axis, with the widest of its sections [m].
     #[must_use]
     pub fn ball(&self) -> (DVec3, f64) {
-        let middle = self.stations.iter().map(|station| station.middle).sum::<DVec3>() / self.stations.len().max(1) as f64;
-        let reach = |station: &Station| station.middle.distance(middle) + libm::hypot(station.half_m[0], station.half_m[1]);
+        let middle = self.stations.iter().map(|station| station.middle).sum::<DVec3>()
+            / self.stations.len().max(1) as f64;
+        let reach = |station: &Station| {
+            station.middle.distance(middle) + libm::hypot(station.half_m[0], station.half_m[1])
+        };
         (middle, self.stations.iter().map(reach).fold(0.0, f64::max))
     }
 
@@ -105,7 +116,9 @@ impl PosedAxis {
         let along = (other.middle - one.middle).normalize_or(DVec3::X);
         let held = share.clamp(0.0, 1.0);
         let lean = one.across[0].lerp(other.across[0], held);
-        let first = (lean - along * lean.dot(along)).try_normalize().unwrap_or_else(|| along.any_orthonormal_vector());
+        let first = (lean - along * lean.dot(along))
+            .try_normalize()
+            .unwrap_or_else(|| along.any_orthonormal_vector());
         let across = [first, along.cross(first)];
         Spot {
             along_m: one.along_m + share * (other.along_m - one.along_m),
@@ -145,7 +158,8 @@ mod tests {
     #[test]
     fn a_rigid_move_changes_nothing_that_is_seen() {
         let skin = spec(vec![1.0]).whale.expect("a whale").skin;
-        let (turn, shift) = (DQuat::from_euler(glam::EulerRot::ZYX, 1.0, -0.4, 2.0), DVec3::new(30.0, -7.0, -12.0));
+        let (turn, shift) =
+            (DQuat::from_euler(glam::EulerRot::ZYX, 1.0, -0.4, 2.0), DVec3::new(30.0, -7.0, -12.0));
         let (mut still, mut moved) = (Vec::new(), Vec::new());
         pose(&skin, DVec3::ZERO, DQuat::IDENTITY, &Posture::default(), &mut still);
         pose(&skin, shift, turn, &Posture::default(), &mut moved);
@@ -154,8 +168,13 @@ mod tests {
             let Some(axis) = axis else { continue };
             axis.pose(&still, &mut one);
             axis.pose(&moved, &mut other);
-            for place in [DVec3::new(-5.0, 0.4, 0.1), DVec3::new(1.0, 1.5, -0.2), DVec3::new(1.6, 2.5, -0.7)] {
-                let (a, b) = (one.see(place).expect("an axis"), other.see(turn * place + shift).expect("an axis"));
+            for place in
+                [DVec3::new(-5.0, 0.4, 0.1), DVec3::new(1.0, 1.5, -0.2), DVec3::new(1.6, 2.5, -0.7)]
+            {
+                let (a, b) = (
+                    one.see(place).expect("an axis"),
+                    other.see(turn * place + shift).expect("an axis"),
+                );
                 let apart = [a.along_m - b.along_m, a.at_m[0] - b.at_m[0], a.at_m[1] - b.at_m[1]];
                 assert!(apart.iter().all(|apart| apart.abs() < 1e-9), "{}: {apart:?}", part.name());
             }
@@ -173,8 +192,13 @@ mod tests {
             axis.pose(&bones, &mut posed);
             for share in [-0.1, 0.0, 0.37, 0.8, 1.0, 1.1] {
                 let along = axis.reach_m[0] + share * (axis.reach_m[1] - axis.reach_m[0]);
-                let seen = posed.at(along).and_then(|spot| posed.see(spot.middle)).expect("an axis");
-                assert!((seen.along_m - along).abs() < 1e-9 && libm::hypot(seen.at_m[0], seen.at_m[1]) < 1e-9, "{along}: {seen:?}");
+                let seen =
+                    posed.at(along).and_then(|spot| posed.see(spot.middle)).expect("an axis");
+                assert!(
+                    (seen.along_m - along).abs() < 1e-9
+                        && libm::hypot(seen.at_m[0], seen.at_m[1]) < 1e-9,
+                    "{along}: {seen:?}"
+                );
             }
         }
     }

@@ -60,7 +60,9 @@ mod tests {
         ];
         for (slenderness, along, across, turning) in table {
             let shares = spheroid(slenderness);
-            for (ours, lamb) in [(shares.along, along), (shares.across, across), (shares.turning, turning)] {
+            for (ours, lamb) in
+                [(shares.along, along), (shares.across, across), (shares.turning, turning)]
+            {
                 assert!((ours - lamb).abs() < 2.5e-3, "{slenderness}: {ours} against {lamb}");
             }
         }

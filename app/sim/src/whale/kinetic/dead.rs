@@ -24,7 +24,12 @@ pub struct Dead {
 }
 
 /// Moves `next` over a step of length `dt` from `whale`.
-pub(crate) fn drift(model: &Model, kinetic: &Kinetic, (whale, time_s): (&WhaleState, f64), next: &mut WhaleState) {
+pub(crate) fn drift(
+    model: &Model,
+    kinetic: &Kinetic,
+    (whale, time_s): (&WhaleState, f64),
+    next: &mut WhaleState,
+) {
     let (water, dt) = (&model.spec.water, model.spec.settings.step_s);
     let (mass, inertia) = (kinetic.whole_mass_kg(), kinetic.whole_inertia_kg_m2());
     let centre = whale.position + whale.orientation * kinetic.centre_m;
@@ -34,14 +39,16 @@ pub(crate) fn drift(model: &Model, kinetic: &Kinetic, (whale, time_s): (&WhaleSt
     let [east, north] = wet.moment_m4;
     let force = DVec3::Z * (lift * wet.volume_m3 - kinetic.mass_kg * water.gravity_m_s2);
     let moment = DVec3::new(north, -east, 0.0) * lift;
-    let velocity = DVec3::new(whale.speed_m_s, whale.exertion.slip_m_s[0], whale.exertion.slip_m_s[1]);
+    let velocity =
+        DVec3::new(whale.speed_m_s, whale.exertion.slip_m_s[0], whale.exertion.slip_m_s[1]);
     let outward = whale.orientation;
     let momentum = outward * (mass * velocity) + force * dt;
     let carried = (outward * velocity).cross(outward * (mass * velocity));
     let turning = outward * (inertia * whale.turn_rate) + (moment - carried) * dt;
 
     let spin = outward.conjugate() * turning / inertia;
-    next.orientation = (outward * DQuat::from_scaled_axis(spin * dt + whale.exertion.behind_rad)).normalize();
+    next.orientation =
+        (outward * DQuat::from_scaled_axis(spin * dt + whale.exertion.behind_rad)).normalize();
     let inward = next.orientation.conjugate();
     let (velocity, drag) = slowed(model, kinetic, inward * momentum / mass, dt);
     next.turn_rate = slowed_turn(model, kinetic, inward * turning / inertia, dt);
@@ -58,12 +65,17 @@ fn slowed(model: &Model, kinetic: &Kinetic, velocity: DVec3, dt: f64) -> (DVec3,
     let factor = kinetic.drag.factor(density, 0.0) / kinetic.drag.oscillation.max(1.0);
     let [side, plan] = kinetic.side_drag_m2.map(|area| 0.5 * density * area * velocity.length());
     let ahead = coast(velocity.x, factor * dt / mass.x);
-    let after = DVec3::new(ahead, velocity.y / (1.0 + side * dt / mass.y), velocity.z / (1.0 + plan * dt / mass.z));
+    let after = DVec3::new(
+        ahead,
+        velocity.y / (1.0 + side * dt / mass.y),
+        velocity.z / (1.0 + plan * dt / mass.z),
+    );
     (after, DVec3::new(drag_n(factor, after.x), side * after.y, plan * after.z).length())
 }
 
 /// Spin about its own axes after the water's drag over a step.
 fn slowed_turn(model: &Model, kinetic: &Kinetic, spin: DVec3, dt: f64) -> DVec3 {
     let inertia = kinetic.whole_inertia_kg_m2();
-    spin / (DVec3::ONE + kinetic.turn_drag_m5 * spin.abs() * (0.5 * model.spec.water.density_kg_m3 * dt) / inertia)
+    spin / (DVec3::ONE
+        + kinetic.turn_drag_m5 * spin.abs() * (0.5 * model.spec.water.density_kg_m3 * dt) / inertia)
 }

@@ -35,14 +35,22 @@ impl AxialDrag {
     pub fn coefficient(&self, speed_m_s: f64) -> f64 {
         let slenderness = self.diameter_m / self.length_m;
         let friction = 0.072 * libm::pow(speed_m_s * self.length_m / VISCOSITY_M2_S, -0.2);
-        friction * (1.0 + 1.5 * libm::pow(slenderness, 1.5) + 7.0 * slenderness * slenderness * slenderness)
+        friction
+            * (1.0
+                + 1.5 * libm::pow(slenderness, 1.5)
+                + 7.0 * slenderness * slenderness * slenderness)
     }
 
     /// `c` of `D = c U^1.8` in water of a density, with the jaw dropped by an angle [N s^1.8/m^1.8].
     #[must_use]
     pub fn factor(&self, density_kg_m3: f64, jaw_rad: f64) -> f64 {
         let mouth = 1.0 + (self.open_mouth - 1.0) * (jaw_rad / self.wide_rad).clamp(0.0, 1.0);
-        0.5 * density_kg_m3 * self.wetted_area_m2 * self.coefficient(1.0) * self.appendages * self.oscillation * mouth
+        0.5 * density_kg_m3
+            * self.wetted_area_m2
+            * self.coefficient(1.0)
+            * self.appendages
+            * self.oscillation
+            * mouth
     }
 
     /// Drag at a speed, mouth closed [N].
@@ -54,8 +62,8 @@ impl AxialDrag {
     pub(super) fn fault(&self) -> Option<&'static str> {
         let sizes = [self.length_m, self.diameter_m, self.wide_rad];
         let factors = [self.wetted_area_m2, self.appendages, self.oscillation, self.open_mouth];
-        let sound =
-            sizes.iter().all(|size| size.is_finite() && *size > 0.0) && factors.iter().all(|factor| factor.is_finite() && *factor >= 0.0);
+        let sound = sizes.iter().all(|size| size.is_finite() && *size > 0.0)
+            && factors.iter().all(|factor| factor.is_finite() && *factor >= 0.0);
         (!sound).then_some("a figure of its drag is below zero")
     }
 }
@@ -86,7 +94,15 @@ mod tests {
 
     fn whale(length_m: f64, mass_kg: f64, diameter_m: f64) -> AxialDrag {
         let wetted_area_m2 = 0.08 * libm::pow(mass_kg, 0.65);
-        AxialDrag { length_m, diameter_m, wetted_area_m2, appendages: 1.3, oscillation: 1.5, open_mouth: 2.5, wide_rad: 0.26 }
+        AxialDrag {
+            length_m,
+            diameter_m,
+            wetted_area_m2,
+            appendages: 1.3,
+            oscillation: 1.5,
+            open_mouth: 2.5,
+            wide_rad: 0.26,
+        }
     }
 
     #[test]
@@ -100,10 +116,17 @@ mod tests {
             (whale(4.12, 1_230.0, 0.72), 0.00392, [9.2, 31.9, 46.4, 66.3, 111.0, 166.0]),
         ];
         for (whale, coefficient, drags) in table {
-            assert!((whale.coefficient(1.0) / coefficient - 1.0).abs() < 0.01, "{whale:?}: {}", whale.coefficient(1.0));
+            assert!(
+                (whale.coefficient(1.0) / coefficient - 1.0).abs() < 0.01,
+                "{whale:?}: {}",
+                whale.coefficient(1.0)
+            );
             for (speed, drag) in speeds.into_iter().zip(drags) {
                 let ours = whale.drag_n(1025.0, speed);
-                assert!((ours / drag - 1.0).abs() < 0.01, "{whale:?} at {speed} m/s: {ours} against {drag} N");
+                assert!(
+                    (ours / drag - 1.0).abs() < 0.01,
+                    "{whale:?} at {speed} m/s: {ours} against {drag} N"
+                );
             }
         }
     }

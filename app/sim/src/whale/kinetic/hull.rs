@@ -40,7 +40,8 @@ impl Hull {
     pub fn of(skin: &Skin, posture: &Posture) -> Self {
         let mut bones = Vec::new();
         pose(skin, DVec3::ZERO, DQuat::IDENTITY, posture, &mut bones);
-        let places = (0..skin.vertices.len()).map(|vertex| skin_vertex(skin, &bones, vertex)).collect();
+        let places =
+            (0..skin.vertices.len()).map(|vertex| skin_vertex(skin, &bones, vertex)).collect();
         Self::new(places, skin.triangles.clone())
     }
 
@@ -103,9 +104,15 @@ mod tests {
 
     /// A box of these half sides about the origin.
     fn crate_of(half: DVec3) -> Hull {
-        let corner = |k: u32| half * DVec3::from_array([0, 1, 2].map(|bit| if k >> bit & 1 == 0 { -1.0 } else { 1.0 }));
-        let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-        let triangles = faces.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
+        let corner = |k: u32| {
+            half * DVec3::from_array(
+                [0, 1, 2].map(|bit| if k >> bit & 1 == 0 { -1.0 } else { 1.0 }),
+            )
+        };
+        let faces =
+            [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let triangles =
+            faces.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
         Hull::new((0..8).map(corner).collect(), triangles)
     }
 
@@ -113,7 +120,10 @@ mod tests {
     fn a_box_displaces_what_lies_below_the_waterline() {
         let hull = crate_of(DVec3::new(4.0, 1.5, 0.5));
         let level = hull.wetted(DVec3::ZERO, DQuat::IDENTITY, 0.1);
-        assert!((level.volume_m3 - 8.0 * 3.0 * 0.4).abs() < 1e-12 && level.moment_m4.iter().all(|moment| moment.abs() < 1e-12));
+        assert!(
+            (level.volume_m3 - 8.0 * 3.0 * 0.4).abs() < 1e-12
+                && level.moment_m4.iter().all(|moment| moment.abs() < 1e-12)
+        );
         assert!((hull.wetted(DVec3::ZERO, DQuat::IDENTITY, -9.0).volume_m3 - 24.0).abs() < 1e-12);
         assert!(hull.wetted(DVec3::ZERO, DQuat::IDENTITY, 9.0).volume_m3.abs() < 1e-12);
         // Heeled by 0.1 about x with its middle in the surface, the waterline cuts both sides: as much under as over.
@@ -121,8 +131,13 @@ mod tests {
         assert!((heeled.volume_m3 - 12.0).abs() < 1e-12);
         // Its moment about the middle is that of the level half, turned, and of the two wedges: L b³ tan φ/12 (1 + tan²φ/2) along the keel.
         let (sin, cos, tan) = (libm::sin(0.1), libm::cos(0.1), libm::tan(0.1));
-        let (across, down) = (8.0 * 27.0 * tan / 12.0, -(12.0 * 0.25) + 8.0 * 27.0 * tan * tan / 24.0);
+        let (across, down) =
+            (8.0 * 27.0 * tan / 12.0, -(12.0 * 0.25) + 8.0 * 27.0 * tan * tan / 24.0);
         let expected = -across * cos - down * sin;
-        assert!((heeled.moment_m4[1] - expected).abs() < 1e-9, "{} against {expected}", heeled.moment_m4[1]);
+        assert!(
+            (heeled.moment_m4[1] - expected).abs() < 1e-9,
+            "{} against {expected}",
+            heeled.moment_m4[1]
+        );
     }
 }

@@ -88,12 +88,22 @@ impl Kinetic {
     /// What is wrong with it, if anything.
     pub(crate) fn fault(&self) -> Option<&'static str> {
         let sound = |vector: DVec3| vector.is_finite() && vector.min_element() >= 0.0;
-        let vectors = [self.added_mass_kg, self.added_inertia_kg_m2, self.turn_drag_m5, self.steering_n_m];
-        if !(self.mass_kg.is_finite() && self.mass_kg > 0.0 && self.inertia_kg_m2.is_finite() && self.inertia_kg_m2.min_element() > 0.0) {
+        let vectors =
+            [self.added_mass_kg, self.added_inertia_kg_m2, self.turn_drag_m5, self.steering_n_m];
+        if !(self.mass_kg.is_finite()
+            && self.mass_kg > 0.0
+            && self.inertia_kg_m2.is_finite()
+            && self.inertia_kg_m2.min_element() > 0.0)
+        {
             Some("mass and moments of inertia are not all above zero")
-        } else if !(vectors.into_iter().all(sound) && self.side_drag_m2.iter().all(|area| area.is_finite() && *area >= 0.0)) {
+        } else if !(vectors.into_iter().all(sound)
+            && self.side_drag_m2.iter().all(|area| area.is_finite() && *area >= 0.0))
+        {
             Some("an added mass, a drag or a steering moment is below zero")
-        } else if !(self.steering_time_s > 0.0 && self.buoyancy.is_finite() && self.centre_m.is_finite()) {
+        } else if !(self.steering_time_s > 0.0
+            && self.buoyancy.is_finite()
+            && self.centre_m.is_finite())
+        {
             Some("steering time, buoyancy or centre of mass is not sound")
         } else {
             self.drag.fault().or(self.muscle.fault())

@@ -66,7 +66,11 @@ impl Muscle {
     pub fn disk_power_w(&self, density_kg_m3: f64, thrust_n: f64, speed_m_s: f64) -> f64 {
         let speed = speed_m_s.max(0.0);
         let mass_m = density_kg_m3 * self.swept_area_m2;
-        let wash = if mass_m > 0.0 { 0.5 * ((speed * speed + 2.0 * thrust_n.max(0.0) / mass_m).sqrt() - speed) } else { 0.0 };
+        let wash = if mass_m > 0.0 {
+            0.5 * ((speed * speed + 2.0 * thrust_n.max(0.0) / mass_m).sqrt() - speed)
+        } else {
+            0.0
+        };
         thrust_n * (speed + wash)
     }
 
@@ -117,7 +121,10 @@ impl Muscle {
 
     pub(super) fn fault(&self) -> Option<&'static str> {
         let sound = |size: f64| size.is_finite() && size >= 0.0;
-        let all = sound(self.sustained_n) && sound(self.burst_n) && sound(self.swept_area_m2) && self.efficiency.is_finite();
+        let all = sound(self.sustained_n)
+            && sound(self.burst_n)
+            && sound(self.swept_area_m2)
+            && self.efficiency.is_finite();
         (!all || self.efficiency <= 0.0).then_some("a figure of its strength is below zero")
     }
 }
@@ -130,7 +137,13 @@ mod tests {
     use super::*;
 
     fn muscle(effort: Effort) -> Muscle {
-        Muscle { sustained_n: 5_800.0, burst_n: 23_900.0, efficiency: 0.13, swept_area_m2: 14.6, effort }
+        Muscle {
+            sustained_n: 5_800.0,
+            burst_n: 23_900.0,
+            efficiency: 0.13,
+            swept_area_m2: 14.6,
+            effort,
+        }
     }
 
     #[test]
@@ -138,7 +151,8 @@ mod tests {
         let muscle = muscle(Effort::Power);
         for thrust in [1e-3, 10.0, 350.0, 5e4] {
             for speed in [0.0, 1e-6, 0.3, 1.3, 6.0] {
-                let back = muscle.disk_thrust_n(1025.0, muscle.disk_power_w(1025.0, thrust, speed), speed);
+                let back =
+                    muscle.disk_thrust_n(1025.0, muscle.disk_power_w(1025.0, thrust, speed), speed);
                 assert!((back / thrust - 1.0).abs() < 1e-9, "{thrust} N at {speed} m/s: {back}");
             }
         }
@@ -154,6 +168,9 @@ mod tests {
         assert!((muscle(Effort::Power).thrust_n(1025.0, &asked(1.0), 0.0) - 23_900.0).abs() < 1e-9);
         assert!((muscle(Effort::Thrust).thrust_n(1025.0, &asked(0.0), 0.0) - 300.0).abs() < 1e-9);
         let kept = muscle(Effort::Power).thrust_n(1025.0, &asked(0.0), 0.6);
-        assert!(kept > 600.0 && kept < 650.0, "at less than half the speed, nearly as much more thrust: {kept}");
+        assert!(
+            kept > 600.0 && kept < 650.0,
+            "at less than half the speed, nearly as much more thrust: {kept}"
+        );
     }
 }

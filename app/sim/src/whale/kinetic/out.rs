@@ -26,7 +26,12 @@ pub(crate) struct Weight {
 }
 
 /// What the dry part of a whale weighs.
-pub(crate) fn weight_out(model: &Model, kinetic: &Kinetic, whale: &WhaleState, time_s: f64) -> Weight {
+pub(crate) fn weight_out(
+    model: &Model,
+    kinetic: &Kinetic,
+    whale: &WhaleState,
+    time_s: f64,
+) -> Weight {
     let (hull, centre) = (&kinetic.hull, centre_of(kinetic, whale));
     let reach_m = hull.reach_m + kinetic.centre_m.length();
     if hull.volume_m3 <= 0.0 || centre.z + reach_m < -HIGHEST_WAVE_M {

@@ -35,7 +35,11 @@ impl RopeImpulse {
     /// Takes in the contacts of a solver step; moments are about `centre`.
     pub fn add_contacts(&mut self, contacts: &[ContactPoint], centre: DVec3, times: Times) {
         for contact in contacts {
-            self.add(contact.normal * -contact.normal_force_n - contact.friction_n, contact.position - centre, times);
+            self.add(
+                contact.normal * -contact.normal_force_n - contact.friction_n,
+                contact.position - centre,
+                times,
+            );
         }
     }
 

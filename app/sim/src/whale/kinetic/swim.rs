@@ -30,21 +30,35 @@ pub(crate) fn told_speed(whale: &WhaleState) -> f64 {
 }
 
 /// Moves `next`, which has the posture of the step's end and all else as in `whale`, over a step of length `dt`.
-pub(crate) fn swim(model: &Model, kinetic: &Kinetic, wish: &Wish, (whale, time_s): (&WhaleState, f64), next: &mut WhaleState) {
+pub(crate) fn swim(
+    model: &Model,
+    kinetic: &Kinetic,
+    wish: &Wish,
+    (whale, time_s): (&WhaleState, f64),
+    next: &mut WhaleState,
+) {
     let dt = model.spec.settings.step_s;
     let out = weight_out(model, kinetic, whale, time_s);
-    let (thrust_n, speed_m_s) = ahead(model, kinetic, wish, whale, (next.posture.jaw, out.force.x, dt));
+    let (thrust_n, speed_m_s) =
+        ahead(model, kinetic, wish, whale, (next.posture.jaw, out.force.x, dt));
     let turn_rate = turned(kinetic, wish, whale, (&out, model.spec.water.density_kg_m3, dt));
-    next.orientation = (whale.orientation * DQuat::from_scaled_axis(turn_rate * dt + whale.exertion.behind_rad)).normalize();
+    next.orientation = (whale.orientation
+        * DQuat::from_scaled_axis(turn_rate * dt + whale.exertion.behind_rad))
+    .normalize();
     let middle = whale.orientation.slerp(next.orientation, 0.5);
     let slip_m_s = sideways(model, kinetic, whale, (middle, out.force, dt));
     let mean = DVec3::new(0.5 * (whale.speed_m_s + speed_m_s), slip_m_s[0], slip_m_s[1]);
     let centre = whale.position + whale.orientation * kinetic.centre_m;
-    let centre = centre + whale.exertion.behind_m + (middle * mean + model.sea.current(whale.position, time_s)) * dt;
+    let centre = centre
+        + whale.exertion.behind_m
+        + (middle * mean + model.sea.current(whale.position, time_s)) * dt;
     next.position = centre - next.orientation * kinetic.centre_m;
     next.speed_m_s = speed_m_s;
     next.turn_rate = turn_rate;
-    let (density, factor) = (model.spec.water.density_kg_m3, kinetic.drag.factor(model.spec.water.density_kg_m3, next.posture.jaw));
+    let (density, factor) = (
+        model.spec.water.density_kg_m3,
+        kinetic.drag.factor(model.spec.water.density_kg_m3, next.posture.jaw),
+    );
     next.exertion = Exertion {
         slip_m_s,
         asked_speed_m_s: wish.speed_m_s,
@@ -57,7 +71,13 @@ pub(crate) fn swim(model: &Model, kinetic: &Kinetic, wish: &Wish, (whale, time_s
 }
 
 /// Thrust, and the speed ahead at the end of the step: pushed first, then coasting.
-fn ahead(model: &Model, kinetic: &Kinetic, wish: &Wish, whale: &WhaleState, (jaw_rad, weight_n, dt): (f64, f64, f64)) -> (f64, f64) {
+fn ahead(
+    model: &Model,
+    kinetic: &Kinetic,
+    wish: &Wish,
+    whale: &WhaleState,
+    (jaw_rad, weight_n, dt): (f64, f64, f64),
+) -> (f64, f64) {
     let density = model.spec.water.density_kg_m3;
     let mass = kinetic.whole_mass_kg().x;
     let fading = kinetic.drag.factor(density, jaw_rad) * dt / mass;
@@ -74,9 +94,17 @@ fn ahead(model: &Model, kinetic: &Kinetic, wish: &Wish, whale: &WhaleState, (jaw
 }
 
 /// Velocity to port and to the back at the end of the step.
-fn sideways(model: &Model, kinetic: &Kinetic, whale: &WhaleState, (orientation, out, dt): (DQuat, DVec3, f64)) -> [f64; 2] {
+fn sideways(
+    model: &Model,
+    kinetic: &Kinetic,
+    whale: &WhaleState,
+    (orientation, out, dt): (DQuat, DVec3, f64),
+) -> [f64; 2] {
     let water = &model.spec.water;
-    let lift = orientation.conjugate() * DVec3::Z * (kinetic.buoyancy * kinetic.mass_kg * water.gravity_m_s2) + out;
+    let lift = orientation.conjugate()
+        * DVec3::Z
+        * (kinetic.buoyancy * kinetic.mass_kg * water.gravity_m_s2)
+        + out;
     let [port, back] = whale.exertion.slip_m_s;
     let speed = DVec3::new(whale.speed_m_s, port, back).length();
     let mass = kinetic.whole_mass_kg();
@@ -88,14 +116,22 @@ fn sideways(model: &Model, kinetic: &Kinetic, whale: &WhaleState, (orientation, 
 }
 
 /// Turn rates over the step: what is asked for, and what is left of what rope and the weight out of the water added to that.
-fn turned(kinetic: &Kinetic, wish: &Wish, whale: &WhaleState, (out, density, dt): (&Weight, f64, f64)) -> DVec3 {
+fn turned(
+    kinetic: &Kinetic,
+    wish: &Wish,
+    whale: &WhaleState,
+    (out, density, dt): (&Weight, f64, f64),
+) -> DVec3 {
     let inertia = kinetic.whole_inertia_kg_m2();
     let astray = whale.turn_rate - whale.exertion.asked_turn_rate + out.moment / inertia * dt;
     let left = |axis: usize| {
         let strength = kinetic.steering_n_m[axis] * dt / inertia[axis];
         let taken = astray[axis] * dt / (dt + kinetic.steering_time_s);
         let steered = astray[axis] - taken.clamp(-strength, strength);
-        steered / (1.0 + 0.5 * density * kinetic.turn_drag_m5[axis] * libm::fabs(steered) * dt / inertia[axis])
+        steered
+            / (1.0
+                + 0.5 * density * kinetic.turn_drag_m5[axis] * libm::fabs(steered) * dt
+                    / inertia[axis])
     };
     wish.turn_rate + DVec3::new(left(0), left(1), left(2))
 }

@@ -114,7 +114,8 @@ impl PilotProgram {
     pub(crate) fn is_sound(&self) -> bool {
         self.entries.iter().enumerate().all(|(index, entry)| {
             let amounts = entry.controls.iter().flatten().chain([&entry.delay_s, &entry.ramp_s]);
-            let follows = if let Trigger::After(other) = entry.trigger { other < index } else { true };
+            let follows =
+                if let Trigger::After(other) = entry.trigger { other < index } else { true };
             follows && entry.hold_s > 0.0 && amounts.copied().all(f64::is_finite)
         })
     }
@@ -143,7 +144,8 @@ impl PilotProgram {
 impl PilotEntry {
     /// How much its controls count, this long after its beginning [1].
     fn weight(&self, since_s: f64) -> f64 {
-        let ramped = |time_s: f64| if time_s < self.ramp_s { (time_s / self.ramp_s).max(0.0) } else { 1.0 };
+        let ramped =
+            |time_s: f64| if time_s < self.ramp_s { (time_s / self.ramp_s).max(0.0) } else { 1.0 };
         let over_s = since_s - self.hold_s;
         if over_s < -GRACE_S {
             ramped(since_s)
@@ -158,7 +160,8 @@ impl PilotEntry {
 /// Starts the memory of a model's program at a state: nothing seen before it.
 pub(crate) fn begin(model: &Model, state: &mut State) {
     let entries = model.spec.whale.as_ref().map_or(0, |whale| whale.pilot.entries.len());
-    state.pilot = PilotMemory { seen: vec![Seen::default(); entries], begun: Vec::with_capacity(entries) };
+    state.pilot =
+        PilotMemory { seen: vec![Seen::default(); entries], begun: Vec::with_capacity(entries) };
     look(model, state);
 }
 
@@ -168,7 +171,9 @@ pub(crate) fn look(model: &Model, state: &mut State) {
     let mut memory = std::mem::take(&mut state.pilot);
     let known = memory.begun.len();
     for (index, entry) in whale.pilot.entries.iter().enumerate() {
-        let Some(seen) = memory.seen.get(index).copied().filter(|seen| !seen.begun) else { continue };
+        let Some(seen) = memory.seen.get(index).copied().filter(|seen| !seen.begun) else {
+            continue;
+        };
         let mut seen = match entry.trigger {
             Trigger::After(other) => Seen { met_s: began_s(&memory, other), ..seen },
             _ => sense::look(model, state, &entry.trigger, seen),
@@ -180,7 +185,9 @@ pub(crate) fn look(model: &Model, state: &mut State) {
         }
         memory.seen[index] = seen;
     }
-    memory.begun[known..].sort_unstable_by(|one, other| one.at_s.total_cmp(&other.at_s).then(one.entry.cmp(&other.entry)));
+    memory.begun[known..].sort_unstable_by(|one, other| {
+        one.at_s.total_cmp(&other.at_s).then(one.entry.cmp(&other.entry))
+    });
     state.pilot = memory;
 }
 

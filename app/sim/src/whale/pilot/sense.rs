@@ -32,7 +32,9 @@ pub(super) fn look(model: &Model, state: &State, trigger: &Trigger, before: Seen
             Seen { met_s: met.then_some(now), ..before }
         }
         Trigger::Depth(depth_m) => passing(before, -whale.position.z - depth_m, f64::INFINITY, now),
-        Trigger::Heading(bearing_rad) => passing(before, turn(bearing(whale) - bearing_rad), FRAC_PI_2, now),
+        Trigger::Heading(bearing_rad) => {
+            passing(before, turn(bearing(whale) - bearing_rad), FRAC_PI_2, now)
+        }
         Trigger::After(_) => before,
     }
 }
@@ -41,7 +43,9 @@ pub(super) fn look(model: &Model, state: &State, trigger: &Trigger, before: Seen
 /// (a heading turns over behind the whale, too).
 fn passing(before: Seen, difference: f64, most: f64, now: f64) -> Seen {
     let near = |difference: f64| difference.abs() < most;
-    let crossed = before.last.is_some_and(|last| (last < 0.0) != (difference < 0.0) && near(last) && near(difference));
+    let crossed = before
+        .last
+        .is_some_and(|last| (last < 0.0) != (difference < 0.0) && near(last) && near(difference));
     Seen { met_s: (crossed || difference == 0.0).then_some(now), last: Some(difference), ..before }
 }
 
@@ -62,10 +66,17 @@ fn axis(whale: &WhaleState, length_m: f64) -> [DVec3; 2] {
     [whale.position + half, whale.position - half]
 }
 
-fn is_within(model: &Model, state: &State, axis: [DVec3; 2], distance_m: f64, target: &Target) -> bool {
+fn is_within(
+    model: &Model,
+    state: &State,
+    axis: [DVec3; 2],
+    distance_m: f64,
+    target: &Target,
+) -> bool {
     let near = |other: [DVec3; 2]| {
         let (s, t) = segment_segment(axis, other);
-        axis[0].lerp(axis[1], s).distance_squared(other[0].lerp(other[1], t)) <= distance_m * distance_m
+        axis[0].lerp(axis[1], s).distance_squared(other[0].lerp(other[1], t))
+            <= distance_m * distance_m
     };
     let line = |line: usize| {
         let (nodes, segments) = (model.line_nodes[line].clone(), model.line_segments[line].clone());
@@ -76,6 +87,8 @@ fn is_within(model: &Model, state: &State, axis: [DVec3; 2], distance_m: f64, ta
         Target::AnyLine => (0..model.spec.lines.len()).any(line),
         Target::Lines(lines) => lines.clone().any(line),
         Target::Body(body) => state.bodies.get(*body).is_some_and(|body| near([body.position; 2])),
-        Target::Joint(joint) => joint_place(model, state, *joint).is_some_and(|place| near([place; 2])),
+        Target::Joint(joint) => {
+            joint_place(model, state, *joint).is_some_and(|place| near([place; 2]))
+        }
     }
 }

@@ -82,7 +82,10 @@ pub(in crate::cli) struct ReplayArgs {
 }
 
 fn shard(text: &str) -> Result<Shard, String> {
-    let parts = text.split_once('/').and_then(|(part, of)| Some((part.parse::<u32>().ok()?, of.parse::<u32>().ok()?)));
+    let parts = text
+        .split_once('/')
+        .and_then(|(part, of)| Some((part.parse::<u32>().ok()?, of.parse::<u32>().ok()?)));
     let fits = parts.filter(|(part, of)| (1..=*of).contains(part));
-    fits.map(|(part, of)| Shard { part: part - 1, of }).ok_or_else(|| "expected a part such as 2/7: the second of seven".into())
+    fits.map(|(part, of)| Shard { part: part - 1, of })
+        .ok_or_else(|| "expected a part such as 2/7: the second of seven".into())
 }

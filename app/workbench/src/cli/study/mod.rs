@@ -40,7 +40,9 @@ fn run(args: &RunArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
     if !args.eager {
         step_back();
     }
-    let threads = args.threads.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from);
+    let threads = args
+        .threads
+        .map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from);
     let bar = Bar::new();
     let progress = batch::run(&opened, &folder, args.shard, threads, &|progress| bar.at(progress))?;
     drop(bar);
@@ -53,7 +55,11 @@ fn merged(args: &StudyArgs, library: Option<&Path>) -> Result<ExitCode, Failure>
     let folder = Folder::open(&folder_of(args, &opened), &opened)?;
     let table = merge::merge(&opened, &folder)?;
     merge::save(&opened, &folder, &table)?;
-    output::print(&format!("{} rows in {}\n", table.rows(), folder.path.join("table.parquet").display()))?;
+    output::print(&format!(
+        "{} rows in {}\n",
+        table.rows(),
+        folder.path.join("table.parquet").display()
+    ))?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -64,7 +70,11 @@ fn reported(args: &ReportArgs, library: Option<&Path>) -> Result<ExitCode, Failu
     let findings = Findings::of(&opened, &table);
     let page = report::write(&opened, &folder, &findings)?;
     output::note(&format!("the report is {}", page.display()));
-    output::print(&if args.json { findings.json() + "\n" } else { words::findings(&opened, &findings) })?;
+    output::print(&if args.json {
+        findings.json() + "\n"
+    } else {
+        words::findings(&opened, &findings)
+    })?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -72,7 +82,11 @@ fn reported(args: &ReportArgs, library: Option<&Path>) -> Result<ExitCode, Failu
 fn replay(args: &ReplayArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
     let opened = open(&args.at, library)?;
     if u64::from(args.row) >= opened.study.encounters {
-        return Err(Failure::usage(format!("--row {}: the study has encounters 0 to {}", args.row, opened.study.encounters - 1)));
+        return Err(Failure::usage(format!(
+            "--row {}: the study has encounters 0 to {}",
+            args.row,
+            opened.study.encounters - 1
+        )));
     }
     let option = args.option.as_deref().map_or(Ok(opened.baseline), |id| opened.option(id))?;
     let frames_hz = if args.to.is_some() { REPLAY_HZ } else { 0.0 };
@@ -80,32 +94,49 @@ fn replay(args: &ReplayArgs, library: Option<&Path>) -> Result<ExitCode, Failure
     if let Some(to) = &args.to {
         keep(to, &played)?;
     }
-    output::print(&if args.json { played.report.json() + "\n" } else { table::summary(&played.report) })?;
+    output::print(&if args.json {
+        played.report.json() + "\n"
+    } else {
+        table::summary(&played.report)
+    })?;
     compare(args, &opened, option, &played.report.state_hash)
 }
 
 fn keep(to: &Path, played: &endline_session::study::Played) -> Result<(), Failure> {
-    std::fs::create_dir_all(to).map_err(|error| Failure::failed(format!("{}: cannot be made: {error}", to.display())))?;
-    let texts = [("scenario.toml", &played.run.prepared().source.scenario), ("summary.json", &played.report.json())];
+    std::fs::create_dir_all(to)
+        .map_err(|error| Failure::failed(format!("{}: cannot be made: {error}", to.display())))?;
+    let texts = [
+        ("scenario.toml", &played.run.prepared().source.scenario),
+        ("summary.json", &played.report.json()),
+    ];
     for (name, text) in texts {
         let file = to.join(name);
-        save::atomically(&file, text.as_bytes())
-            .map_err(|error| Failure::failed(format!("{}: cannot be written: {error}", file.display())))?;
+        save::atomically(&file, text.as_bytes()).map_err(|error| {
+            Failure::failed(format!("{}: cannot be written: {error}", file.display()))
+        })?;
     }
     played.run.recording().save(&to.join("recording.endline"))?;
     picture::of_peak(&played.run, &played.report, &to.join("picture.png"));
     Ok(())
 }
 
-fn compare(args: &ReplayArgs, opened: &Opened, option: usize, hash: &str) -> Result<ExitCode, Failure> {
+fn compare(
+    args: &ReplayArgs,
+    opened: &Opened,
+    option: usize,
+    hash: &str,
+) -> Result<ExitCode, Failure> {
     let folder = Folder::open(&folder_of(&args.at, opened), opened)?;
     let Ok(table) = merge::load(opened, &folder) else { return Ok(ExitCode::SUCCESS) };
     let encounters = table.reals("encounter");
-    let own = |row: &usize| encounters[*row] == Some(f64::from(args.row)) && table.texts("option")[*row] == opened.options[option].id;
+    let own = |row: &usize| {
+        encounters[*row] == Some(f64::from(args.row))
+            && table.texts("option")[*row] == opened.options[option].id
+    };
     match (0..table.rows()).find(own).map(|row| table.texts("state_hash")[row].as_str()) {
-        Some(recorded) if recorded != hash => {
-            Err(Failure::failed(format!("the run ends in state {hash}, the table has {recorded}: another program ran the study")))
-        }
+        Some(recorded) if recorded != hash => Err(Failure::failed(format!(
+            "the run ends in state {hash}, the table has {recorded}: another program ran the study"
+        ))),
         Some(_) => {
             output::note("the run ends in the state that the table has");
             Ok(ExitCode::SUCCESS)
@@ -117,7 +148,11 @@ fn compare(args: &ReplayArgs, opened: &Opened, option: usize, hash: &str) -> Res
 /// Opens a study by its file or its id in the gear library.
 fn open(args: &StudyArgs, library: Option<&Path>) -> Result<Opened, Failure> {
     let named = Path::new(&args.study);
-    let path = if named.is_file() || args.study.ends_with(".toml") { named.to_path_buf() } else { in_library(&args.study, library)? };
+    let path = if named.is_file() || args.study.ends_with(".toml") {
+        named.to_path_buf()
+    } else {
+        in_library(&args.study, library)?
+    };
     Ok(Opened::open(&path, library, &host::load())?)
 }
 
@@ -128,10 +163,16 @@ fn in_library(id: &str, library: Option<&Path>) -> Result<PathBuf, Failure> {
         return Ok(path);
     }
     let entries = std::fs::read_dir(&studies).into_iter().flatten().flatten();
-    let mut ids: Vec<String> = entries.filter_map(|entry| Some(entry.path().file_stem()?.to_string_lossy().into_owned())).collect();
+    let mut ids: Vec<String> = entries
+        .filter_map(|entry| Some(entry.path().file_stem()?.to_string_lossy().into_owned()))
+        .collect();
     ids.sort();
     let help = endline_gear::hint(id, ids.iter().map(String::as_str));
-    Err(Error::Replay(format!("there is no file `{id}` and no study of that id in {}; {help}", studies.display())).into())
+    Err(Error::Replay(format!(
+        "there is no file `{id}` and no study of that id in {}; {help}",
+        studies.display()
+    ))
+    .into())
 }
 
 fn folder_of(args: &StudyArgs, opened: &Opened) -> PathBuf {

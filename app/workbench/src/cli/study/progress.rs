@@ -24,7 +24,9 @@ impl Bar {
     pub(super) fn new() -> Self {
         let bar = std::io::stderr().is_terminal().then(|| {
             let bar = ProgressBar::new(0).with_message("encounters");
-            if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {percent:>3}%  {eta_precise} left") {
+            if let Ok(style) =
+                ProgressStyle::with_template("{msg} {wide_bar} {percent:>3}%  {eta_precise} left")
+            {
                 bar.set_style(style);
             }
             bar
@@ -48,9 +50,15 @@ impl Bar {
         let left = if fresh == 0 {
             String::new()
         } else {
-            format!(", {} left", words(self.start.elapsed() / fresh * (progress.blocks - progress.done)))
+            format!(
+                ", {} left",
+                words(self.start.elapsed() / fresh * (progress.blocks - progress.done))
+            )
         };
-        output::note(&format!("{} of {} blocks of encounters{left}", progress.done, progress.blocks));
+        output::note(&format!(
+            "{} of {} blocks of encounters{left}",
+            progress.done, progress.blocks
+        ));
     }
 }
 

@@ -52,17 +52,34 @@ pub(super) fn plan(opened: &Opened) -> String {
         vec!["hash".into(), opened.hash.clone()],
         vec!["options".into(), options.join(", ")],
         vec!["baseline".into(), opened.options[opened.baseline].id.clone()],
-        vec!["encounters".into(), format!("{} for every option, the same for all", study.encounters)],
-        vec!["blocks".into(), format!("{} of {BLOCK} encounters", study.encounters.div_ceil(u64::from(BLOCK)))],
+        vec![
+            "encounters".into(),
+            format!("{} for every option, the same for all", study.encounters),
+        ],
+        vec![
+            "blocks".into(),
+            format!("{} of {BLOCK} encounters", study.encounters.div_ceil(u64::from(BLOCK))),
+        ],
     ]);
     let mut rows = vec![vec!["prior".to_owned(), "sureness".into(), "source".into()]];
-    rows.extend(study.priors.iter().map(|prior| vec![prior.name.value.clone(), prior.basis.word().into(), prior.source.clone()]));
+    rows.extend(study.priors.iter().map(|prior| {
+        vec![prior.name.value.clone(), prior.basis.word().into(), prior.source.clone()]
+    }));
     text += &columns(&rows);
-    let mut rows =
-        vec![["encounter".to_owned()].into_iter().chain(study.priors.iter().map(|prior| prior.name.value.clone())).collect::<Vec<_>>()];
+    let mut rows = vec![
+        ["encounter".to_owned()]
+            .into_iter()
+            .chain(study.priors.iter().map(|prior| prior.name.value.clone()))
+            .collect::<Vec<_>>(),
+    ];
     for index in 0..SHOWN.min(u32::try_from(study.encounters).unwrap_or(SHOWN)) {
         let drawn = Encounter::of(opened, index).drawn;
-        rows.push([index.to_string()].into_iter().chain(drawn.iter().map(|drawn| short(&drawn.text))).collect());
+        rows.push(
+            [index.to_string()]
+                .into_iter()
+                .chain(drawn.iter().map(|drawn| short(&drawn.text)))
+                .collect(),
+        );
     }
     text + &columns(&rows)
 }
@@ -70,7 +87,9 @@ pub(super) fn plan(opened: &Opened) -> String {
 /// A drawn value with three figures.
 fn short(text: &str) -> String {
     let (number, unit) = text.split_once(' ').unwrap_or((text, ""));
-    number.parse::<f64>().map_or_else(|_| text.to_owned(), |number| format!("{number:.3} {unit}").trim().to_owned())
+    number
+        .parse::<f64>()
+        .map_or_else(|_| text.to_owned(), |number| format!("{number:.3} {unit}").trim().to_owned())
 }
 
 pub(super) fn ran(opened: &Opened, folder: &Folder, progress: Progress) -> String {
@@ -81,7 +100,12 @@ pub(super) fn ran(opened: &Opened, folder: &Folder, progress: Progress) -> Strin
     } else {
         "the other parts are still to be run; endline study merge tells which\n".to_owned()
     };
-    format!("{} of {} blocks in {at}, {} of them new\n{next}", progress.done, progress.blocks, progress.done - progress.found)
+    format!(
+        "{} of {} blocks in {at}, {} of them new\n{next}",
+        progress.done,
+        progress.blocks,
+        progress.done - progress.found
+    )
 }
 
 pub(super) fn findings(opened: &Opened, findings: &Findings) -> String {
@@ -99,10 +123,21 @@ pub(super) fn findings(opened: &Opened, findings: &Findings) -> String {
 
 fn rates(findings: &Findings) -> String {
     let events = ["contact", "shed", "entangled", "parted", "parted_entangled"];
-    let mut rows = vec![["option", "runs", "invalid", "undecided"].into_iter().chain(events).map(str::to_owned).collect::<Vec<_>>()];
+    let mut rows = vec![
+        ["option", "runs", "invalid", "undecided"]
+            .into_iter()
+            .chain(events)
+            .map(str::to_owned)
+            .collect::<Vec<_>>(),
+    ];
     for option in &findings.options {
         let runs = option.rate("contact").map_or(0, |rate| rate.runs);
-        let mut row = vec![option.id.clone(), runs.to_string(), option.invalid.to_string(), option.undecided.to_string()];
+        let mut row = vec![
+            option.id.clone(),
+            runs.to_string(),
+            option.invalid.to_string(),
+            option.undecided.to_string(),
+        ];
         row.extend(events.iter().map(|event| option.rate(event).map_or_else(String::new, rate)));
         rows.push(row);
     }
@@ -110,11 +145,19 @@ fn rates(findings: &Findings) -> String {
 }
 
 fn compared(findings: &Findings) -> String {
-    let heads = ["against the baseline", &findings.event, "difference", "ratio", "P(fewer)", "McNemar"];
+    let heads =
+        ["against the baseline", &findings.event, "difference", "ratio", "P(fewer)", "McNemar"];
     let mut rows = vec![heads.map(str::to_owned).to_vec()];
     for option in &findings.options {
-        let (Some(own), Some(paired)) = (option.rate(&findings.event), option.against(&findings.event)) else { continue };
-        let ratio = paired.ratio.zip(paired.ratio_interval).map_or_else(|| "none".into(), |(ratio, interval)| with(ratio, interval, 1.0));
+        let (Some(own), Some(paired)) =
+            (option.rate(&findings.event), option.against(&findings.event))
+        else {
+            continue;
+        };
+        let ratio = paired
+            .ratio
+            .zip(paired.ratio_interval)
+            .map_or_else(|| "none".into(), |(ratio, interval)| with(ratio, interval, 1.0));
         rows.push(vec![
             option.id.clone(),
             rate(own),
@@ -129,33 +172,53 @@ fn compared(findings: &Findings) -> String {
 
 /// How many encounters end otherwise than with the baseline, how much the mean greatest tension is off, and which ends they were.
 fn changed(findings: &Findings) -> String {
-    let heads =
-        ["against the baseline", "outcome differs", "mean greatest tension", "of those that touch, it differs", "mean greatest tension"];
+    let heads = [
+        "against the baseline",
+        "outcome differs",
+        "mean greatest tension",
+        "of those that touch, it differs",
+        "mean greatest tension",
+    ];
     let mut rows = vec![heads.map(str::to_owned).to_vec()];
     let mut ends = String::new();
-    for (_, option) in findings.options.iter().enumerate().filter(|(option, _)| *option != findings.baseline) {
+    for (_, option) in
+        findings.options.iter().enumerate().filter(|(option, _)| *option != findings.baseline)
+    {
         let changes = &option.changes;
-        let cells = [&changes.all, &changes.touching].into_iter().flat_map(|change| [rate(&change.outcome), mean_tension(change)]);
+        let cells = [&changes.all, &changes.touching]
+            .into_iter()
+            .flat_map(|change| [rate(&change.outcome), mean_tension(change)]);
         rows.push([option.id.clone()].into_iter().chain(cells).collect());
         let kinds = changes.counts.iter().filter(|(one, other, _)| one != other);
-        let kinds: Vec<String> = kinds.map(|(one, other, count)| format!("{one} to {other} {count}")).collect();
-        ends +=
-            &format!("{}: {}\n", option.id, if kinds.is_empty() { "every outcome is the baseline's".to_owned() } else { kinds.join(", ") });
+        let kinds: Vec<String> =
+            kinds.map(|(one, other, count)| format!("{one} to {other} {count}")).collect();
+        ends += &format!(
+            "{}: {}\n",
+            option.id,
+            if kinds.is_empty() {
+                "every outcome is the baseline's".to_owned()
+            } else {
+                kinds.join(", ")
+            }
+        );
     }
     if rows.len() > 1 { columns(&rows) + &ends + "\n" } else { String::new() }
 }
 
 /// `104.2 N, +1.3 % [-0.2, 2.8]`.
 fn mean_tension(change: &Change) -> String {
-    let (Some([_, own_n]), Some(more)) = (change.mean_tension_n, change.tension) else { return "none".into() };
-    let interval = change
-        .tension_interval
-        .map_or_else(String::new, |interval| format!(" [{:.2}, {:.2}]", 100.0 * interval.low, 100.0 * interval.high));
+    let (Some([_, own_n]), Some(more)) = (change.mean_tension_n, change.tension) else {
+        return "none".into();
+    };
+    let interval = change.tension_interval.map_or_else(String::new, |interval| {
+        format!(" [{:.2}, {:.2}]", 100.0 * interval.low, 100.0 * interval.high)
+    });
     format!("{own_n:.1} N, {:+.2} %{interval}", 100.0 * more)
 }
 
 fn tensions(findings: &Findings) -> String {
-    let mut rows = vec![["greatest tension", "median", "95 % below", "greatest"].map(str::to_owned).to_vec()];
+    let mut rows =
+        vec![["greatest tension", "median", "95 % below", "greatest"].map(str::to_owned).to_vec()];
     for option in &findings.options {
         let at = |share| option.tensions.quantile_n(share).map_or_else(|| "none".into(), force);
         rows.push(vec![option.id.clone(), at(0.5), at(0.95), at(1.0)]);
@@ -167,7 +230,8 @@ fn levels(findings: &Findings) -> String {
     let mut text = String::new();
     for level in &findings.levels {
         let mut rows = vec![vec![level.level.clone(), findings.event.clone(), "parted".into()]];
-        for ((option, own), parted) in findings.options.iter().zip(&level.rates).zip(&level.parted) {
+        for ((option, own), parted) in findings.options.iter().zip(&level.rates).zip(&level.parted)
+        {
             rows.push(vec![option.id.clone(), rate(own), rate(parted)]);
         }
         text += &columns(&rows);
@@ -182,7 +246,11 @@ fn claims(findings: &Findings) -> String {
         text += &columns(&[
             vec!["more".into(), claim.more.clone(), rate(&claim.more_rate)],
             vec!["less".into(), claim.less.clone(), rate(&claim.less_rate)],
-            vec!["difference".into(), with(100.0 * claim.difference, claim.interval, 100.0) + " points", claim.verdict.words().into()],
+            vec![
+                "difference".into(),
+                with(100.0 * claim.difference, claim.interval, 100.0) + " points",
+                claim.verdict.words().into(),
+            ],
         ]);
     }
     text
@@ -190,7 +258,14 @@ fn claims(findings: &Findings) -> String {
 
 /// `12.0 % [8.1, 17.4] of 200`.
 fn rate(rate: &Rate) -> String {
-    format!("{:.1} % [{:.1}, {:.1}] {}/{}", 100.0 * rate.rate, 100.0 * rate.interval.low, 100.0 * rate.interval.high, rate.hits, rate.runs)
+    format!(
+        "{:.1} % [{:.1}, {:.1}] {}/{}",
+        100.0 * rate.rate,
+        100.0 * rate.interval.low,
+        100.0 * rate.interval.high,
+        rate.hits,
+        rate.runs
+    )
 }
 
 fn with(value: f64, interval: Interval, factor: f64) -> String {

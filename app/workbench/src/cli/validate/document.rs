@@ -29,10 +29,12 @@ pub(super) fn write(outcomes: &[Outcome], file: &Path) -> Result<(), String> {
     for outcome in outcomes {
         if let Some(picture) = plot::picture(outcome)? {
             let path = folder.join(format!("{}.svg", outcome.id));
-            save::atomically(&path, picture.as_bytes()).map_err(|error| place(&path, error.to_string()))?;
+            save::atomically(&path, picture.as_bytes())
+                .map_err(|error| place(&path, error.to_string()))?;
         }
     }
-    save::atomically(file, document(outcomes).as_bytes()).map_err(|error| place(file, error.to_string()))
+    save::atomically(file, document(outcomes).as_bytes())
+        .map_err(|error| place(file, error.to_string()))
 }
 
 fn document(outcomes: &[Outcome]) -> String {
@@ -56,11 +58,20 @@ fn document(outcomes: &[Outcome]) -> String {
 }
 
 fn verdict_of_all(outcomes: &[Outcome]) -> String {
-    let missed: Vec<&str> = outcomes.iter().filter(|outcome| !outcome.passed).map(|outcome| outcome.id.as_str()).collect();
+    let missed: Vec<&str> = outcomes
+        .iter()
+        .filter(|outcome| !outcome.passed)
+        .map(|outcome| outcome.id.as_str())
+        .collect();
     if missed.is_empty() {
         return format!("All {} cases pass.", outcomes.len());
     }
-    format!("{} of {} cases pass; not within their tolerance: {}.", outcomes.len() - missed.len(), outcomes.len(), missed.join(", "))
+    format!(
+        "{} of {} cases pass; not within their tolerance: {}.",
+        outcomes.len() - missed.len(),
+        outcomes.len(),
+        missed.join(", ")
+    )
 }
 
 fn verdicts(outcomes: &[&Outcome]) -> String {
@@ -69,12 +80,22 @@ fn verdicts(outcomes: &[&Outcome]) -> String {
         for verdict in &outcome.verdicts {
             let passed = if verdict.passed { "ok" } else { "**missed**" };
             let expected = words::value(verdict.expected, verdict.unit);
-            let (got, error) = (words::value(verdict.got, verdict.unit), words::error(verdict, verdict.error));
+            let (got, error) =
+                (words::value(verdict.got, verdict.unit), words::error(verdict, verdict.error));
             let limit = words::limit(verdict);
-            let _ = writeln!(table, "| {} | {} | {expected} | {got} | {error} | {limit} | {passed} |", outcome.id, verdict.name);
+            let _ = writeln!(
+                table,
+                "| {} | {} | {expected} | {got} | {error} | {limit} | {passed} |",
+                outcome.id, verdict.name
+            );
         }
         if let Some(stopped) = &outcome.stopped {
-            let _ = writeln!(table, "| {} | {} | | | | | **missed** |", outcome.id, stopped.replace('\n', " "));
+            let _ = writeln!(
+                table,
+                "| {} | {} | | | | | **missed** |",
+                outcome.id,
+                stopped.replace('\n', " ")
+            );
         }
     }
     table
@@ -84,12 +105,20 @@ fn verdicts(outcomes: &[&Outcome]) -> String {
 fn convergence(outcomes: &[&Outcome]) -> String {
     let mut rows = String::new();
     for outcome in outcomes {
-        for verdict in outcome.verdicts.iter().filter(|verdict| verdict.step.is_some() || verdict.segment.is_some()) {
+        for verdict in outcome
+            .verdicts
+            .iter()
+            .filter(|verdict| verdict.step.is_some() || verdict.segment.is_some())
+        {
             let (half_step, order_step) = halved(verdict, verdict.step);
             let (half_segment, order_segment) = halved(verdict, verdict.segment);
             let whole = words::error(verdict, verdict.error);
             let name = &verdict.name;
-            let _ = writeln!(rows, "| {} | {name} | {whole} | {half_step} | {order_step} | {half_segment} | {order_segment} |", outcome.id);
+            let _ = writeln!(
+                rows,
+                "| {} | {name} | {whole} | {half_step} | {order_step} | {half_segment} | {order_segment} |",
+                outcome.id
+            );
         }
     }
     if rows.is_empty() {
@@ -100,7 +129,9 @@ fn convergence(outcomes: &[&Outcome]) -> String {
 }
 
 fn halved(verdict: &Verdict, finer: Option<Convergence>) -> (String, String) {
-    finer.map_or_else(Default::default, |finer| (words::error(verdict, finer.error_at_half), text::order(finer)))
+    finer.map_or_else(Default::default, |finer| {
+        (words::error(verdict, finer.error_at_half), text::order(finer))
+    })
 }
 
 fn section(outcome: &Outcome) -> String {
@@ -114,7 +145,11 @@ fn section(outcome: &Outcome) -> String {
         outcome.scenario, outcome.segments, outcome.step_s, outcome.source, outcome.sureness
     );
     if !outcome.curves.is_empty() || !outcome.points.is_empty() {
-        let _ = writeln!(whole, "\n![{}: simulated and expected]({PICTURES}/{}.svg)", outcome.name, outcome.id);
+        let _ = writeln!(
+            whole,
+            "\n![{}: simulated and expected]({PICTURES}/{}.svg)",
+            outcome.name, outcome.id
+        );
     }
     whole
 }

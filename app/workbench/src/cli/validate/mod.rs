@@ -32,7 +32,11 @@ pub(super) fn validate(args: &ValidateArgs, library: Option<&Path>) -> Result<Ex
     if let Some(file) = &args.write {
         document::write(&outcomes, file).map_err(Failure::failed)?;
     }
-    if missed == 0 { Ok(ExitCode::SUCCESS) } else { Err(Failure::failed(format!("{missed} of {} cases have not passed", outcomes.len()))) }
+    if missed == 0 {
+        Ok(ExitCode::SUCCESS)
+    } else {
+        Err(Failure::failed(format!("{missed} of {} cases have not passed", outcomes.len())))
+    }
 }
 
 /// Runs the cases asked for, or all; each is told as it is done.
@@ -52,7 +56,12 @@ fn outcomes(args: &ValidateArgs, cases: &Cases) -> Result<Vec<Outcome>, Failure>
 }
 
 fn json(outcomes: &[Outcome], missed: usize) -> String {
-    let report = Report { schema: "endline.validate/1", version: endline_session::VERSION, passed: missed == 0, cases: outcomes };
+    let report = Report {
+        schema: "endline.validate/1",
+        version: endline_session::VERSION,
+        passed: missed == 0,
+        cases: outcomes,
+    };
     // Structs of numbers and strings always serialise.
     serde_json::to_string(&report).unwrap_or_default() + "\n"
 }

@@ -32,7 +32,8 @@ pub(super) fn picture(outcome: &Outcome) -> Result<Option<String>, String> {
         whole.fill(&WHITE).map_err(|error| error.to_string())?;
         let areas = whole.split_evenly((panels, 1));
         for (unit, area) in units.iter().zip(&areas) {
-            let own: Vec<&Curve> = outcome.curves.iter().filter(|curve| curve.unit == *unit).collect();
+            let own: Vec<&Curve> =
+                outcome.curves.iter().filter(|curve| curve.unit == *unit).collect();
             over_time(area, unit, &own).map_err(|error| error.to_string())?;
         }
         if let (false, Some(area)) = (outcome.points.is_empty(), areas.last()) {
@@ -60,26 +61,57 @@ type Drawn = Result<(), Box<dyn std::error::Error>>;
 fn over_time(area: &Panel<'_>, unit: &str, curves: &[&Curve]) -> Drawn {
     let times = range(curves.iter().flat_map(|curve| curve.times_s.iter().copied()), 0.0);
     let expected = |curve: &&Curve| curve.expected.iter().map(|point| point[1]).collect::<Vec<_>>();
-    let readings = range(curves.iter().flat_map(|curve| curve.got.iter().copied().chain(expected(curve))), 0.05);
-    let mut chart = ChartBuilder::on(area).margin(10).x_label_area_size(45).y_label_area_size(60).build_cartesian_2d(times, readings)?;
-    chart.configure_mesh().light_line_style(TRANSPARENT).x_desc("time [s]").y_desc(format!("[{unit}]")).draw()?;
+    let readings = range(
+        curves.iter().flat_map(|curve| curve.got.iter().copied().chain(expected(curve))),
+        0.05,
+    );
+    let mut chart = ChartBuilder::on(area)
+        .margin(10)
+        .x_label_area_size(45)
+        .y_label_area_size(60)
+        .build_cartesian_2d(times, readings)?;
+    chart
+        .configure_mesh()
+        .light_line_style(TRANSPARENT)
+        .x_desc("time [s]")
+        .y_desc(format!("[{unit}]"))
+        .draw()?;
     for (curve, colour) in curves.iter().zip(COLOURS.iter().cycle()) {
         let line = curve.times_s.iter().copied().zip(curve.got.iter().copied());
         let drawn = chart.draw_series(LineSeries::new(line, colour))?;
-        drawn.label(&curve.probe).legend(move |(x, y)| PathElement::new([(x, y), (x + 16, y)], colour));
-        chart.draw_series(curve.expected.iter().map(|point| Circle::new((point[0], point[1]), 3, colour)))?;
+        drawn
+            .label(&curve.probe)
+            .legend(move |(x, y)| PathElement::new([(x, y), (x + 16, y)], colour));
+        chart.draw_series(
+            curve.expected.iter().map(|point| Circle::new((point[0], point[1]), 3, colour)),
+        )?;
     }
-    chart.configure_series_labels().background_style(WHITE.mix(0.8)).border_style(BLACK.mix(0.3)).draw()?;
+    chart
+        .configure_series_labels()
+        .background_style(WHITE.mix(0.8))
+        .border_style(BLACK.mix(0.3))
+        .draw()?;
     Ok(())
 }
 
 /// Simulated over measured, with the line on which they agree.
 fn measured(area: &Panel<'_>, points: &[Point]) -> Drawn {
     let span = range(points.iter().flat_map(|point| [point.measured, point.got, 0.0]), 0.02);
-    let mut chart =
-        ChartBuilder::on(area).margin(10).x_label_area_size(45).y_label_area_size(60).build_cartesian_2d(span.clone(), span.clone())?;
-    chart.configure_mesh().light_line_style(TRANSPARENT).x_desc("measured [N]").y_desc("simulated [N]").draw()?;
-    chart.draw_series(LineSeries::new([(span.start, span.start), (span.end, span.end)], BLACK.mix(0.4)))?;
+    let mut chart = ChartBuilder::on(area)
+        .margin(10)
+        .x_label_area_size(45)
+        .y_label_area_size(60)
+        .build_cartesian_2d(span.clone(), span.clone())?;
+    chart
+        .configure_mesh()
+        .light_line_style(TRANSPARENT)
+        .x_desc("measured [N]")
+        .y_desc("simulated [N]")
+        .draw()?;
+    chart.draw_series(LineSeries::new(
+        [(span.start, span.start), (span.end, span.end)],
+        BLACK.mix(0.4),
+    ))?;
     let mut groups: Vec<&str> = Vec::new();
     for point in points {
         if !groups.contains(&point.group.as_str()) {
@@ -88,7 +120,9 @@ fn measured(area: &Panel<'_>, points: &[Point]) -> Drawn {
     }
     for (group, colour) in groups.iter().zip(COLOURS.iter().cycle()) {
         let own = points.iter().filter(|point| point.group == *group);
-        let drawn = chart.draw_series(own.map(|point| Circle::new((point.measured, point.got), 3, colour.filled())))?;
+        let drawn = chart.draw_series(
+            own.map(|point| Circle::new((point.measured, point.got), 3, colour.filled())),
+        )?;
         drawn.label(*group).legend(move |(x, y)| Circle::new((x + 8, y), 3, colour.filled()));
     }
     chart
@@ -102,8 +136,9 @@ fn measured(area: &Panel<'_>, points: &[Point]) -> Drawn {
 
 /// From least to greatest, with a margin as a share of it; never empty.
 fn range(values: impl Iterator<Item = f64>, margin: f64) -> std::ops::Range<f64> {
-    let (least, most) =
-        values.filter(|value| value.is_finite()).fold((f64::MAX, f64::MIN), |(least, most), value| (least.min(value), most.max(value)));
+    let (least, most) = values
+        .filter(|value| value.is_finite())
+        .fold((f64::MAX, f64::MIN), |(least, most), value| (least.min(value), most.max(value)));
     if least > most {
         return 0.0..1.0;
     }

@@ -11,14 +11,27 @@ pub(super) fn told(outcome: &Outcome) -> String {
     if let Some(stopped) = &outcome.stopped {
         text += &format!("  {stopped}\n");
     }
-    let heading = ["", "expected", "got", "error", "tolerance", "", "half step", "order", "half segment", "order"];
+    let heading = [
+        "",
+        "expected",
+        "got",
+        "error",
+        "tolerance",
+        "",
+        "half step",
+        "order",
+        "half segment",
+        "order",
+    ];
     let mut rows = vec![heading.map(str::to_owned).to_vec()];
     rows.extend(outcome.verdicts.iter().map(row));
     text + &columns(&rows)
 }
 
 fn row(verdict: &Verdict) -> Vec<String> {
-    let half = |finer: Option<Convergence>| finer.map_or_else(String::new, |finer| words::error(verdict, finer.error_at_half));
+    let half = |finer: Option<Convergence>| {
+        finer.map_or_else(String::new, |finer| words::error(verdict, finer.error_at_half))
+    };
     let order = |finer: Option<Convergence>| finer.map_or_else(String::new, order);
     vec![
         format!("  {}", verdict.name),

@@ -56,16 +56,17 @@ impl Desk {
     pub(super) fn refresh_other(&mut self) {
         let Some(other) = &mut self.other else { return };
         if let Some(made) = other.maker.poll() {
-            let launched = made
-                .map_err(|error| error.to_string())
-                .and_then(|prepared| (self.launch)(prepared, Arc::clone(&self.host), Arc::clone(&self.waker)));
+            let launched = made.map_err(|error| error.to_string()).and_then(|prepared| {
+                (self.launch)(prepared, Arc::clone(&self.host), Arc::clone(&self.waker))
+            });
             match launched {
                 Ok(engine) => {
                     engine.send(Command::Inputs(std::mem::take(&mut other.inputs)));
                     other.engine = Some(engine);
                 }
                 Err(error) => {
-                    self.notice = Some((format!("the run to compare with cannot be made: {error}"), true));
+                    self.notice =
+                        Some((format!("the run to compare with cannot be made: {error}"), true));
                     self.other = None;
                     return;
                 }
@@ -107,11 +108,21 @@ impl Desk {
             Err(error) => return self.notice = Some((error.to_string(), true)),
         };
         let mut maker = Maker::default();
-        if let Err(error) = maker.start(recording.source, Arc::clone(&self.host), Arc::clone(&self.waker)) {
+        if let Err(error) =
+            maker.start(recording.source, Arc::clone(&self.host), Arc::clone(&self.waker))
+        {
             return self.notice = Some((format!("the model cannot be made: {error}"), true));
         }
-        let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-        self.other = Some(Other { name, view: None, engine: None, maker, inputs: recording.inputs, sent_s: None });
+        let name =
+            path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        self.other = Some(Other {
+            name,
+            view: None,
+            engine: None,
+            maker,
+            inputs: recording.inputs,
+            sent_s: None,
+        });
     }
 
     /// Runs compared by one order.
@@ -126,6 +137,10 @@ impl Desk {
     /// The scenario's name without folder and ending.
     #[must_use]
     pub fn scenario_stem(&self) -> String {
-        self.book.scenario_path().file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
+        self.book
+            .scenario_path()
+            .file_stem()
+            .map(|stem| stem.to_string_lossy().into_owned())
+            .unwrap_or_default()
     }
 }

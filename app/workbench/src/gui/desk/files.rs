@@ -20,10 +20,15 @@ impl Desk {
     fn export_plots(&mut self, path: &std::path::Path) {
         let charts = super::super::panels::plots::charts(self);
         let csv = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
-        let text =
-            if csv { Ok(charts.iter().map(super::super::charts::Chart::csv).collect()) } else { super::super::chart_svg::svg(&charts) };
-        let written =
-            text.and_then(|text: String| endline_session::save::atomically(path, text.as_bytes()).map_err(|error| error.to_string()));
+        let text = if csv {
+            Ok(charts.iter().map(super::super::charts::Chart::csv).collect())
+        } else {
+            super::super::chart_svg::svg(&charts)
+        };
+        let written = text.and_then(|text: String| {
+            endline_session::save::atomically(path, text.as_bytes())
+                .map_err(|error| error.to_string())
+        });
         self.notice = Some(match written {
             Ok(()) => (format!("saved {}", path.display()), false),
             Err(error) => (format!("{}: {error}", path.display()), true),
@@ -37,10 +42,19 @@ impl Desk {
             self.notice = Some(("the gear of the assembly panel is not at rest yet".into(), true));
             return;
         };
-        let show = Show { surface: false, seabed: false, current: false, contacts: false, forces: false, whale: false, scale_n: None };
+        let show = Show {
+            surface: false,
+            seabed: false,
+            current: false,
+            contacts: false,
+            forces: false,
+            whale: false,
+            scale_n: None,
+        };
         let scene = Scene::of(&rest.model, &rest.frame, &show);
         let stl = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("stl"));
-        let bytes = if stl { super::super::models::stl(&scene) } else { super::super::models::glb(&scene) };
+        let bytes =
+            if stl { super::super::models::stl(&scene) } else { super::super::models::glb(&scene) };
         self.notice = Some(match endline_session::save::atomically(path, &bytes) {
             Ok(()) => (format!("saved {}", path.display()), false),
             Err(error) => (format!("{}: {error}", path.display()), true),

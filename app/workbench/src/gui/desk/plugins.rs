@@ -13,8 +13,12 @@ impl Desk {
     /// Every plugin, those switched off too, each with whether it is on; by kind and then by name.
     #[must_use]
     pub fn every_plugin(&self) -> Vec<(PluginInfo, bool)> {
-        let (on, off) = (self.host.list().iter().map(|info| (info, true)), self.host.switched_off().iter().map(|info| (info, false)));
-        let mut all: Vec<(PluginInfo, bool)> = on.chain(off).map(|(info, on)| (info.clone(), on)).collect();
+        let (on, off) = (
+            self.host.list().iter().map(|info| (info, true)),
+            self.host.switched_off().iter().map(|info| (info, false)),
+        );
+        let mut all: Vec<(PluginInfo, bool)> =
+            on.chain(off).map(|(info, on)| (info.clone(), on)).collect();
         all.sort_by(|(a, _), (b, _)| (a.kind, &a.name).cmp(&(b.kind, &b.name)));
         all
     }
@@ -23,7 +27,9 @@ impl Desk {
     pub(super) fn obey_plugins(&mut self, order: &Order) {
         match order {
             Order::ReloadPlugins => self.reload_plugins(Change::None),
-            Order::AllowPlugin(file, hash) => self.reload_plugins(Change::Allow(file.clone(), hash.clone())),
+            Order::AllowPlugin(file, hash) => {
+                self.reload_plugins(Change::Allow(file.clone(), hash.clone()))
+            }
             Order::SwitchPlugin(id, on) => self.reload_plugins(Change::Switch(id.clone(), *on)),
             Order::CheckPlugin(file) => self.check_plugin(file),
             Order::UsePlugin(id) => self.use_plugin(id),
@@ -91,13 +97,15 @@ impl Desk {
     /// Whether the scenario names a motion or a law of friction.
     #[must_use]
     pub fn uses_plugin(&self, info: &PluginInfo) -> bool {
-        let named = |(table, key): (&str, &str)| self.book.field(Book::SCENARIO, &format!("{table}.{key}"));
+        let named =
+            |(table, key): (&str, &str)| self.book.field(Book::SCENARIO, &format!("{table}.{key}"));
         Self::place_of(info.kind).and_then(named).is_some_and(|id| id == info.id)
     }
 
     /// Puts a motion or a law of friction into the scenario; attributes of the one before go.
     fn use_plugin(&mut self, id: &str) {
-        let kind = self.every_plugin().iter().find(|(info, _)| info.id == id).map(|(info, _)| info.kind);
+        let kind =
+            self.every_plugin().iter().find(|(info, _)| info.id == id).map(|(info, _)| info.kind);
         let Some((table, key)) = kind.and_then(Self::place_of) else { return };
         let attributes = format!("{table}.attributes");
         let put = self.book.alter(Book::SCENARIO, |document| {

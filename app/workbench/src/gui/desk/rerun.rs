@@ -66,7 +66,13 @@ impl Desk {
                 let text = self.as_long_as_before(&program.scenario);
                 self.book.put_all(vec![(Book::SCENARIO.to_owned(), text)]);
                 self.program.chosen = None;
-                self.notice = Some((format!("the run's inputs are the pilot program now: {} in all", counted(program.entries)), false));
+                self.notice = Some((
+                    format!(
+                        "the run's inputs are the pilot program now: {} in all",
+                        counted(program.entries)
+                    ),
+                    false,
+                ));
                 self.orders.push(Order::Show(Panel::Program));
             }
             Err(error) => self.notice = Some((error.clone(), true)),
@@ -75,10 +81,13 @@ impl Desk {
 
     /// The scenario of a run with its duration as it was, where the run was stopped short of that.
     fn as_long_as_before(&self, scenario: &str) -> String {
-        let seconds = |text: Option<String>| text.and_then(|text| parse(&text, Quantity::Time).ok());
+        let seconds =
+            |text: Option<String>| text.and_then(|text| parse(&text, Quantity::Time).ok());
         let before = self.book.field(Book::SCENARIO, "duration");
         let Ok(mut document) = Document::parse(scenario) else { return scenario.to_owned() };
-        match before.filter(|before| seconds(Some(before.clone())) > seconds(document.get("duration"))) {
+        match before
+            .filter(|before| seconds(Some(before.clone())) > seconds(document.get("duration")))
+        {
             Some(before) if document.set("duration", &before).is_ok() => document.text(),
             _ => scenario.to_owned(),
         }

@@ -15,9 +15,18 @@ impl Desk {
     /// Keeps the run shown in the folder of recordings, once.
     pub(super) fn keep_run(&mut self) {
         let newest_s = self.view.as_ref().map_or(0.0, |view| view.newest_s);
-        let Some(folder) = self.recordings.clone().filter(|_| !self.run_is_kept && newest_s >= WORTH_KEEPING_S) else { return };
+        let Some(folder) =
+            self.recordings.clone().filter(|_| !self.run_is_kept && newest_s >= WORTH_KEEPING_S)
+        else {
+            return;
+        };
         self.run_is_kept = true;
-        let stem = self.book.scenario_path().file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        let stem = self
+            .book
+            .scenario_path()
+            .file_stem()
+            .map(|stem| stem.to_string_lossy().into_owned())
+            .unwrap_or_default();
         let named = |number: u32| folder.join(format!("{stem} {number:04}.endline"));
         let Some(path) = (1..10_000).map(named).find(|path| !path.exists()) else { return };
         // Where there is no folder, saving says so.
@@ -42,7 +51,9 @@ impl Desk {
         self.making.clear();
         self.inputs_when_made = Some((recording.inputs, recording.header.plugins));
         self.guest_when_made = Some(self.book.version());
-        if let Err(error) = self.maker.start(recording.source, Arc::clone(&self.host), Arc::clone(&self.waker)) {
+        if let Err(error) =
+            self.maker.start(recording.source, Arc::clone(&self.host), Arc::clone(&self.waker))
+        {
             self.notice = Some((format!("the model cannot be made: {error}"), true));
         }
     }
@@ -52,7 +63,9 @@ impl Desk {
         let Some(shown) = self.studies.results.shown().cloned() else {
             return self.notice = Some(("no results of a study are shown".into(), true));
         };
-        if option >= shown.opened.options.len() || u64::from(encounter) >= shown.opened.study.encounters {
+        if option >= shown.opened.options.len()
+            || u64::from(encounter) >= shown.opened.study.encounters
+        {
             return self.notice = Some(("the study shown has no such run".into(), true));
         }
         self.studies.results.replayed = Some((option, encounter));
@@ -68,17 +81,21 @@ impl Desk {
 
     /// Takes edits that a crash left; one undo takes them back.
     pub fn recover(&mut self, kept: &Kept) {
-        let elsewhere = kept.scenario != self.book.scenario_path() && kept.texts.contains_key(Book::SCENARIO);
+        let elsewhere =
+            kept.scenario != self.book.scenario_path() && kept.texts.contains_key(Book::SCENARIO);
         if elsewhere && let Err(error) = self.book.open_scenario(&kept.scenario) {
             self.notice = Some((error, true));
             return;
         }
-        let study = kept.study.as_deref().filter(|study| kept.texts.contains_key(Book::STUDY) && Some(*study) != self.book.study_path());
+        let study = kept.study.as_deref().filter(|study| {
+            kept.texts.contains_key(Book::STUDY) && Some(*study) != self.book.study_path()
+        });
         if let Some(Err(error)) = study.map(|study| self.book.open_study(study)) {
             self.notice = Some((error, true));
             return;
         }
-        self.book.restore(kept.texts.iter().map(|(path, text)| (path.clone(), text.clone())).collect());
+        self.book
+            .restore(kept.texts.iter().map(|(path, text)| (path.clone(), text.clone())).collect());
         self.notice = Some(("unsaved edits are back; Save keeps them".into(), false));
     }
 }

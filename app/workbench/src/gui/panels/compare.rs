@@ -21,7 +21,9 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
         ui.label(RichText::new("B").strong());
         ui.label(&other.name);
     });
-    let (Some(a), Some(b)) = (desk.view.clone(), other.view.clone()) else { return super::nothing(ui, "Making the model …") };
+    let (Some(a), Some(b)) = (desk.view.clone(), other.view.clone()) else {
+        return super::nothing(ui, "Making the model …");
+    };
     standing(ui, &a, &b);
     ScrollArea::both().auto_shrink(false).show(ui, |ui| {
         for group in groups(&a, &b, desk.preferences.units) {
@@ -34,10 +36,15 @@ fn buttons(ui: &mut Ui, desk: &mut Desk) {
     ui.horizontal_wrapped(|ui| {
         let ready = desk.view.as_ref().is_some_and(|view| view.newest_s > 0.0) && !desk.making();
         let help = "The run shown stays as B; the gear and scenario as they stand make a new A";
-        if ui.add_enabled(ready, egui::Button::new("Hold this run as B")).on_hover_text(help).clicked() {
+        if ui
+            .add_enabled(ready, egui::Button::new("Hold this run as B"))
+            .on_hover_text(help)
+            .clicked()
+        {
             desk.orders.push(Order::HoldRun);
         }
-        if ui.button("Recordings …").on_hover_text("Choose a kept run to compare with").clicked() {
+        if ui.button("Recordings …").on_hover_text("Choose a kept run to compare with").clicked()
+        {
             desk.orders.push(Order::Show(super::super::layout::Panel::Recordings));
         }
         if ui.add_enabled(desk.other().is_some(), egui::Button::new("End comparison")).clicked() {
@@ -52,8 +59,10 @@ fn standing(ui: &mut Ui, a: &LiveView, b: &LiveView) {
     if b.status == Status::Running {
         ui.label(RichText::new(format!("B runs again: {:.2} s", b.newest_s)).color(palette.faint));
     } else if (a.newest_s - b.newest_s).abs() > 0.011 {
-        let text =
-            format!("A was run for {:.2} s, B for {:.2} s: peaks and times compare only over the same time.", a.newest_s, b.newest_s);
+        let text = format!(
+            "A was run for {:.2} s, B for {:.2} s: peaks and times compare only over the same time.",
+            a.newest_s, b.newest_s
+        );
         ui.add(egui::Label::new(RichText::new(text).color(palette.warning)).wrap());
     }
 }
@@ -61,18 +70,21 @@ fn standing(ui: &mut Ui, a: &LiveView, b: &LiveView) {
 fn table(ui: &mut Ui, (head, rows): &Group) {
     let palette = Theme::palette_of(ui);
     super::caption(ui, head);
-    Grid::new(head).num_columns(4).striped(true).spacing([16.0, 2.0]).min_row_height(17.0).show(ui, |ui| {
-        for text in ["", "A", "B", "B less A"] {
-            ui.label(RichText::new(text).small().color(palette.faint));
-        }
-        ui.end_row();
-        for row in rows {
-            ui.label(RichText::new(&row.name).color(palette.faint));
-            ui.label(&row.a);
-            ui.label(&row.b);
-            let colour = if row.difference == "same" { palette.faint } else { palette.text };
-            ui.label(RichText::new(&row.difference).color(colour));
+    Grid::new(head).num_columns(4).striped(true).spacing([16.0, 2.0]).min_row_height(17.0).show(
+        ui,
+        |ui| {
+            for text in ["", "A", "B", "B less A"] {
+                ui.label(RichText::new(text).small().color(palette.faint));
+            }
             ui.end_row();
-        }
-    });
+            for row in rows {
+                ui.label(RichText::new(&row.name).color(palette.faint));
+                ui.label(&row.a);
+                ui.label(&row.b);
+                let colour = if row.difference == "same" { palette.faint } else { palette.text };
+                ui.label(RichText::new(&row.difference).color(colour));
+                ui.end_row();
+            }
+        },
+    );
 }

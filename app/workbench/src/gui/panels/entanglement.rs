@@ -89,12 +89,19 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
         outcome(ui, whale, units);
         ui.horizontal(|ui| {
             ui.label(RichText::new("Colour").color(Theme::palette_of(ui).faint));
-            let name = |measure: Measure| Measure::ALL.iter().find(|(known, _)| *known == measure).map_or("", |(_, name)| name);
-            egui::ComboBox::from_id_salt("measure").selected_text(name(desk.entanglement.measure)).show_ui(ui, |ui| {
-                for (measure, name) in Measure::ALL {
-                    ui.selectable_value(&mut desk.entanglement.measure, measure, name);
-                }
-            });
+            let name = |measure: Measure| {
+                Measure::ALL
+                    .iter()
+                    .find(|(known, _)| *known == measure)
+                    .map_or("", |(_, name)| name)
+            };
+            egui::ComboBox::from_id_salt("measure")
+                .selected_text(name(desk.entanglement.measure))
+                .show_ui(ui, |ui| {
+                    for (measure, name) in Measure::ALL {
+                        ui.selectable_value(&mut desk.entanglement.measure, measure, name);
+                    }
+                });
         });
         map(ui, desk, &view, whale);
         desk.orders.extend(wrap_list(ui, &view, units).map(Order::Seek));
@@ -112,28 +119,53 @@ fn outcome(ui: &mut Ui, whale: &WhaleSummary, units: Units) {
         ui.label(RichText::new(format!("{standing}{meaning}")).color(palette.faint));
     });
     let rows = [
-        ("First contact", whale.first_contact_s.map_or_else(|| "–".into(), |time| format!("{time:.2} s"))),
+        (
+            "First contact",
+            whale.first_contact_s.map_or_else(|| "–".into(), |time| format!("{time:.2} s")),
+        ),
         ("Time in contact", format!("{:.2} s", whale.contact_time_s)),
         ("Added drag, mean of 5 s", units.force().text(whale.drag_added_n)),
-        ("Trailing, tethered rope", format!("{}, {}", units.length(whale.trailing_m), units.length(whale.tethered_m))),
+        (
+            "Trailing, tethered rope",
+            format!("{}, {}", units.length(whale.trailing_m), units.length(whale.tethered_m)),
+        ),
     ];
     numbers(ui, "entanglement", &rows);
-    ui.label(RichText::new("Relative, given this encounter: it says nothing of how often whales meet gear.").small().color(palette.faint));
+    ui.label(
+        RichText::new(
+            "Relative, given this encounter: it says nothing of how often whales meet gear.",
+        )
+        .small()
+        .color(palette.faint),
+    );
 }
 
 /// An outcome in words, what it means (docs/entanglement.md), and its colour.
 #[must_use]
-pub fn meaning(outcome: Outcome, palette: super::super::theme::Palette) -> (&'static str, &'static str, Color32) {
+pub fn meaning(
+    outcome: Outcome,
+    palette: super::super::theme::Palette,
+) -> (&'static str, &'static str, Color32) {
     match outcome {
         Outcome::NoContact => ("No contact", "rope never touched the whale", palette.faint),
-        Outcome::Shed => {
-            ("Shed", "rope touched, nothing parted, and the whale is free: no contact for 10 s, less after a short touch", palette.good)
+        Outcome::Shed => (
+            "Shed",
+            "rope touched, nothing parted, and the whale is free: no contact for 10 s, less after a short touch",
+            palette.good,
+        ),
+        Outcome::PartedFree => (
+            "Parted, whale free",
+            "a link or line parted after the first contact, and the whale is free",
+            palette.good,
+        ),
+        Outcome::Entangled => {
+            ("Entangled", "rope touches, or did within 10 s, and nothing parted", palette.error)
         }
-        Outcome::PartedFree => ("Parted, whale free", "a link or line parted after the first contact, and the whale is free", palette.good),
-        Outcome::Entangled => ("Entangled", "rope touches, or did within 10 s, and nothing parted", palette.error),
-        Outcome::PartedEntangled => {
-            ("Parted, still entangled", "a link or line parted after the first contact, and rope still holds", palette.error)
-        }
+        Outcome::PartedEntangled => (
+            "Parted, still entangled",
+            "a link or line parted after the first contact, and rope still holds",
+            palette.error,
+        ),
     }
 }
 
@@ -155,10 +187,18 @@ fn map(ui: &mut Ui, desk: &mut Desk, view: &LiveView, whale: &WhaleSummary) {
     let Some(map) = &mut state.map else { return };
     let (measure, units, forces) = (state.measure, desk.preferences.units, forces_n(view));
     let value = |part: BodyPart| {
-        whale.regions.iter().find(|region| region.part == part).map_or(0.0, |region| measure.of(region, forces[part as usize]))
+        whale
+            .regions
+            .iter()
+            .find(|region| region.part == part)
+            .map_or(0.0, |region| measure.of(region, forces[part as usize]))
     };
     let top = BodyPart::ALL.into_iter().map(value).fold(0.0, f64::max);
-    let plain = if ui.visuals().dark_mode { Color32::from_rgb(0x6d, 0x7b, 0x84) } else { Color32::from_rgb(0xb4, 0xc0, 0xc7) };
+    let plain = if ui.visuals().dark_mode {
+        Color32::from_rgb(0x6d, 0x7b, 0x84)
+    } else {
+        Color32::from_rgb(0xb4, 0xc0, 0xc7)
+    };
     let colour = |part: BodyPart| if value(part) > 0.0 { tint(value(part) / top) } else { plain };
     let width = (ui.available_width() - 16.0) / 2.0;
     for faces in Face::ALL.chunks(2) {
@@ -173,16 +213,34 @@ fn map(ui: &mut Ui, desk: &mut Desk, view: &LiveView, whale: &WhaleSummary) {
             }
         });
     }
-    ui.label(RichText::new(format!("brightest: {}", measure.text(top, units))).small().color(Theme::palette_of(ui).faint));
+    ui.label(
+        RichText::new(format!("brightest: {}", measure.text(top, units)))
+            .small()
+            .color(Theme::palette_of(ui).faint),
+    );
 }
 
-fn draw(ui: &Ui, map: &mut BodyMap, face: Face, rect: Rect, view: &LiveView, colour: &impl Fn(BodyPart) -> Color32) {
+fn draw(
+    ui: &Ui,
+    map: &mut BodyMap,
+    face: Face,
+    rect: Rect,
+    view: &LiveView,
+    colour: &impl Fn(BodyPart) -> Color32,
+) {
     let palette = Theme::palette_of(ui);
     let painter = ui.painter_at(rect);
-    painter.text(rect.left_top(), egui::Align2::LEFT_TOP, face.name(), egui::FontId::proportional(11.0), palette.faint);
+    painter.text(
+        rect.left_top(),
+        egui::Align2::LEFT_TOP,
+        face.name(),
+        egui::FontId::proportional(11.0),
+        palette.faint,
+    );
     let below = rect.with_min_y(rect.top() + 16.0).shrink(2.0);
     painter.add(map.mesh(face, below, colour));
-    let strongest = view.frame.contacts.iter().map(|contact| contact.normal_force_n).fold(1.0, f64::max);
+    let strongest =
+        view.frame.contacts.iter().map(|contact| contact.normal_force_n).fold(1.0, f64::max);
     for contact in view.frame.contacts.iter().filter(|contact| contact.normal_force_n > 0.0) {
         if let Some(at) = map.contact(face, below, contact) {
             let size = 1.5 + 3.0 * (contact.normal_force_n / strongest).sqrt() as f32;
@@ -202,60 +260,92 @@ fn wrap_list(ui: &mut Ui, view: &LiveView, units: Units) -> Option<f64> {
     super::caption(ui, "Wraps at this moment");
     let found = wraps(view);
     if found.is_empty() {
-        ui.label(RichText::new("No rope lies a quarter of a turn or more about a part.").color(palette.faint));
+        ui.label(
+            RichText::new("No rope lies a quarter of a turn or more about a part.")
+                .color(palette.faint),
+        );
         return None;
     }
     let mut wanted = None;
-    Grid::new("wraps").num_columns(5).striped(true).spacing([14.0, 2.0]).min_row_height(17.0).show(ui, |ui| {
-        for head in ["Part", "Turns", "Since", "Touching", "Rope"] {
-            ui.label(RichText::new(head).small().color(palette.faint));
-        }
-        ui.end_row();
-        for wrap in &found {
-            ui.label(spoken(wrap.part.name()));
-            ui.label(format!("{:.2}", wrap.turns));
-            match wrap.since_s {
-                Some(since_s) if ui.link(format!("{since_s:.2} s")).on_hover_text("See when it came half round").clicked() => {
-                    wanted = Some(since_s);
-                }
-                Some(_) => {}
-                None => {
-                    ui.label(RichText::new("not yet half round").color(palette.faint));
-                }
+    Grid::new("wraps").num_columns(5).striped(true).spacing([14.0, 2.0]).min_row_height(17.0).show(
+        ui,
+        |ui| {
+            for head in ["Part", "Turns", "Since", "Touching", "Rope"] {
+                ui.label(RichText::new(head).small().color(palette.faint));
             }
-            ui.label(units.length(wrap.touching_m));
-            let lines = wrap.lines.iter().map(|(line, length_m)| format!("{line} {}", units.length(*length_m)));
-            let lines = lines.collect::<Vec<_>>().join(", ");
-            ui.label(if lines.is_empty() { "loose: nothing presses".to_owned() } else { lines });
             ui.end_row();
-        }
-    });
+            for wrap in &found {
+                ui.label(spoken(wrap.part.name()));
+                ui.label(format!("{:.2}", wrap.turns));
+                match wrap.since_s {
+                    Some(since_s)
+                        if ui
+                            .link(format!("{since_s:.2} s"))
+                            .on_hover_text("See when it came half round")
+                            .clicked() =>
+                    {
+                        wanted = Some(since_s);
+                    }
+                    Some(_) => {}
+                    None => {
+                        ui.label(RichText::new("not yet half round").color(palette.faint));
+                    }
+                }
+                ui.label(units.length(wrap.touching_m));
+                let lines = wrap
+                    .lines
+                    .iter()
+                    .map(|(line, length_m)| format!("{line} {}", units.length(*length_m)));
+                let lines = lines.collect::<Vec<_>>().join(", ");
+                ui.label(if lines.is_empty() {
+                    "loose: nothing presses".to_owned()
+                } else {
+                    lines
+                });
+                ui.end_row();
+            }
+        },
+    );
     wanted
 }
 
 fn table(ui: &mut Ui, view: &LiveView, whale: &WhaleSummary, units: Units) {
     let palette = Theme::palette_of(ui);
     let forces = forces_n(view);
-    Grid::new("parts").num_columns(8).striped(true).spacing([12.0, 2.0]).min_row_height(17.0).show(ui, |ui| {
-        for head in ["Part", "Wraps", "most", "Contact", "Force now", "Peak", "Pressure", "Friction work"] {
-            ui.label(RichText::new(head).small().color(palette.faint));
-        }
-        ui.end_row();
-        for region in &whale.regions {
-            let touched = region.peak_contact_length_m > 0.0;
-            let text = |text: String| RichText::new(text).color(if touched { palette.text } else { palette.faint });
-            let force = units.force();
-            ui.label(text(region.part.name().replace('_', " ")));
-            ui.label(text(format!("{:.2}", region.wraps)));
-            ui.label(text(format!("{:.2}", region.peak_wraps)));
-            ui.label(text(units.length(region.contact_length_m)));
-            ui.label(text(force.text(forces[region.part as usize])));
-            ui.label(text(force.text(region.peak_normal_n)));
-            ui.label(text(pressure(region.peak_pressure_pa, force)));
-            ui.label(text(format!("{:.0} J", region.friction_work_j)));
+    Grid::new("parts").num_columns(8).striped(true).spacing([12.0, 2.0]).min_row_height(17.0).show(
+        ui,
+        |ui| {
+            for head in [
+                "Part",
+                "Wraps",
+                "most",
+                "Contact",
+                "Force now",
+                "Peak",
+                "Pressure",
+                "Friction work",
+            ] {
+                ui.label(RichText::new(head).small().color(palette.faint));
+            }
             ui.end_row();
-        }
-    });
+            for region in &whale.regions {
+                let touched = region.peak_contact_length_m > 0.0;
+                let text = |text: String| {
+                    RichText::new(text).color(if touched { palette.text } else { palette.faint })
+                };
+                let force = units.force();
+                ui.label(text(region.part.name().replace('_', " ")));
+                ui.label(text(format!("{:.2}", region.wraps)));
+                ui.label(text(format!("{:.2}", region.peak_wraps)));
+                ui.label(text(units.length(region.contact_length_m)));
+                ui.label(text(force.text(forces[region.part as usize])));
+                ui.label(text(force.text(region.peak_normal_n)));
+                ui.label(text(pressure(region.peak_pressure_pa, force)));
+                ui.label(text(format!("{:.0} J", region.friction_work_j)));
+                ui.end_row();
+            }
+        },
+    );
 }
 
 /// A pressure with its unit.

@@ -11,7 +11,10 @@ use super::super::units::ForceUnit;
 pub fn show(ui: &mut Ui, desk: &mut Desk) {
     let Some(view) = desk.view.clone() else { return super::nothing(ui, "No run yet.") };
     if view.events.is_empty() {
-        return super::nothing(ui, "Nothing has happened yet. Contact, slip, wraps and parted lines will be listed here.");
+        return super::nothing(
+            ui,
+            "Nothing has happened yet. Contact, slip, wraps and parted lines will be listed here.",
+        );
     }
     let unit = desk.preferences.units.force();
     let mut wanted = None;

@@ -30,9 +30,12 @@ pub fn show(ui: &mut Ui) {
 type Row = (String, String, String);
 
 fn flying(ui: &Ui) -> Vec<Row> {
-    let steer = STEERING.iter().map(|steer| (steer.what.to_owned(), steer.keys(), steer.pad.to_owned()));
+    let steer =
+        STEERING.iter().map(|steer| (steer.what.to_owned(), steer.keys(), steer.pad.to_owned()));
     let bound = BINDINGS.iter().filter(|binding| binding.when == When::Flying);
-    let bound = bound.map(|binding| (binding.what.to_owned(), ui.ctx().format_shortcut(&binding.key), binding.pad.to_owned()));
+    let bound = bound.map(|binding| {
+        (binding.what.to_owned(), ui.ctx().format_shortcut(&binding.key), binding.pad.to_owned())
+    });
     steer.chain(bound).collect()
 }
 

@@ -75,8 +75,18 @@ struct Row {
 
 impl Default for LibraryState {
     fn default() -> Self {
-        let (against, uses, compared) = (Against::Saved, Uses::default(), detail::Compared::default());
-        Self { kind: Kind::Rope, search: String::new(), sort: None, chosen: None, against, uses, compared, found: None }
+        let (against, uses, compared) =
+            (Against::Saved, Uses::default(), detail::Compared::default());
+        Self {
+            kind: Kind::Rope,
+            search: String::new(),
+            sort: None,
+            chosen: None,
+            against,
+            uses,
+            compared,
+            found: None,
+        }
     }
 }
 
@@ -95,15 +105,24 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
     let problems = table_problems(desk);
     let mut whole = ui.available_rect_before_wrap();
     let folder = desk.library.kind.folder();
-    let chosen = desk.library.chosen.clone().filter(|path| path.starts_with(folder) && desk.book.text(path).is_some());
+    let chosen = desk
+        .library
+        .chosen
+        .clone()
+        .filter(|path| path.starts_with(folder) && desk.book.text(path).is_some());
     if let Some(path) = chosen {
-        let (table, entry) = whole.split_left_right_at_x(whole.right() - (whole.width() * 0.3).clamp(220.0, 380.0));
-        super::within(ui, entry.with_min_x(entry.left() + 10.0), |ui| detail::show(ui, desk, &path));
+        let (table, entry) =
+            whole.split_left_right_at_x(whole.right() - (whole.width() * 0.3).clamp(220.0, 380.0));
+        super::within(ui, entry.with_min_x(entry.left() + 10.0), |ui| {
+            detail::show(ui, desk, &path)
+        });
         whole = table;
     }
     let strip = if problems.is_empty() { 0.0 } else { 12.0 + 44.0 * problems.len().min(3) as f32 };
     let (above, below) = whole.split_top_bottom_at_y(whole.bottom() - strip);
-    super::within(ui, above, |ui| ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| table(ui, desk)));
+    super::within(ui, above, |ui| {
+        ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| table(ui, desk))
+    });
     if !problems.is_empty() {
         super::within(ui, below, |ui| reasons(ui, &problems));
     }
@@ -117,10 +136,15 @@ fn toolbar(ui: &mut Ui, desk: &mut Desk) {
             }
         }
         ui.separator();
-        ui.add(TextEdit::singleline(&mut desk.library.search).hint_text("Search").desired_width(150.0));
+        ui.add(
+            TextEdit::singleline(&mut desk.library.search).hint_text("Search").desired_width(150.0),
+        );
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let unsaved = desk.book.unsaved().len();
-            if primary(ui, unsaved > 0, "Save").on_hover_text("Ctrl+S: write every changed file; comments stay").clicked() {
+            if primary(ui, unsaved > 0, "Save")
+                .on_hover_text("Ctrl+S: write every changed file; comments stay")
+                .clicked()
+            {
                 desk.orders.push(Order::Save);
             }
             let (undo, redo) = desk.book.can_undo_redo();
@@ -133,7 +157,11 @@ fn toolbar(ui: &mut Ui, desk: &mut Desk) {
             ui.menu_button("Table ⏷", |ui| table_menu(ui, desk));
             let chosen = desk.library.chosen.clone();
             let copy = Button::new("Duplicate");
-            if ui.add_enabled(chosen.is_some(), copy).on_hover_text("Copy the chosen row to a file of its own (Ctrl+D)").clicked() {
+            if ui
+                .add_enabled(chosen.is_some(), copy)
+                .on_hover_text("Copy the chosen row to a file of its own (Ctrl+D)")
+                .clicked()
+            {
                 desk.orders.push(Order::Duplicate);
             }
         });
@@ -163,7 +191,9 @@ fn table_menu(ui: &mut Ui, desk: &mut Desk) {
     }
     if ui
         .button("Take in CSV …")
-        .on_hover_text("Rows of a known id change that entry, others are added; one Undo takes all of it back")
+        .on_hover_text(
+            "Rows of a known id change that entry, others are added; one Undo takes all of it back",
+        )
         .clicked()
     {
         desk.orders.push(Order::AskImportTable);
@@ -190,7 +220,12 @@ fn paste(ui: &Ui, desk: &mut Desk) {
         return;
     }
     let (kind, paths) = (desk.library.kind, rows(desk));
-    let keys: Vec<&'static str> = kind.words().iter().map(|word| word.key).chain(kind.fields().iter().map(|field| field.key)).collect();
+    let keys: Vec<&'static str> = kind
+        .words()
+        .iter()
+        .map(|word| word.key)
+        .chain(kind.fields().iter().map(|field| field.key))
+        .collect();
     let focus = ui.memory(|memory| memory.focused());
     let at = paths.iter().enumerate().find_map(|(row, path)| {
         let column = keys.iter().position(|key| focus == Some(fields::edit_id(path, key)))?;
@@ -209,12 +244,15 @@ fn paste(ui: &Ui, desk: &mut Desk) {
             _ => true,
         });
     });
-    let head = exchange::cells(&text).is_ok_and(|cells| cells.first().is_some_and(|row| exchange::is_head(kind, row)));
+    let head = exchange::cells(&text)
+        .is_ok_and(|cells| cells.first().is_some_and(|row| exchange::is_head(kind, row)));
     let taken = match at {
         _ if head => exchange::import(&mut desk.book, kind, &text),
         Some((row, column)) => {
             fields::forget(ui, &paths[row], keys[column]);
-            exchange::cells(&text).and_then(|cells| exchange::spread(&mut desk.book, &paths[row..], &keys[column..], &cells))
+            exchange::cells(&text).and_then(|cells| {
+                exchange::spread(&mut desk.book, &paths[row..], &keys[column..], &cells)
+            })
         }
         None => Err("click the cell the table begins in, or copy it with its head row".to_owned()),
     };
@@ -236,18 +274,22 @@ pub fn take_in(desk: &mut Desk, text: &str) {
 /// Files of the shown table that the search lets through, in the order chosen.
 fn rows(desk: &Desk) -> Vec<String> {
     let state = &desk.library;
-    let words: Vec<String> = state.search.to_lowercase().split_whitespace().map(str::to_owned).collect();
+    let words: Vec<String> =
+        state.search.to_lowercase().split_whitespace().map(str::to_owned).collect();
     let name = |path: &str| desk.book.field(path, "name").unwrap_or_default();
     let matches = |path: &&str| {
         let text = format!("{path} {}", name(path)).to_lowercase();
         words.iter().all(|word| text.contains(word))
     };
-    let mut rows: Vec<String> = desk.book.files(state.kind.folder()).filter(matches).map(str::to_owned).collect();
+    let mut rows: Vec<String> =
+        desk.book.files(state.kind.folder()).filter(matches).map(str::to_owned).collect();
     // What this scenario is made of comes first.
     rows.sort_by_cached_key(|path| (!desk.book.in_use(path), name(path).to_lowercase()));
     if let Some((key, down)) = state.sort {
         let field = state.kind.fields().iter().find(|field| field.key == key);
-        let value = |path: &String| field.and_then(|field| si_value(desk, path, field)).unwrap_or(f64::INFINITY);
+        let value = |path: &String| {
+            field.and_then(|field| si_value(desk, path, field)).unwrap_or(f64::INFINITY)
+        };
         rows.sort_by(|a, b| value(a).total_cmp(&value(b)));
         if down {
             rows.reverse();
@@ -260,11 +302,21 @@ fn rows(desk: &Desk) -> Vec<String> {
 fn shown_rows(desk: &mut Desk) -> Arc<Vec<Row>> {
     let (state, version) = (&desk.library, desk.book.version());
     let scenario = desk.book.scenario_path().to_owned();
-    let wanted = Wanted { version, scenario, kind: state.kind, search: state.search.clone(), sort: state.sort };
+    let wanted = Wanted {
+        version,
+        scenario,
+        kind: state.kind,
+        search: state.search.clone(),
+        sort: state.sort,
+    };
     if let Some((_, rows)) = desk.library.found.as_ref().filter(|(found, _)| *found == wanted) {
         return Arc::clone(rows);
     }
-    let row = |path: String| Row { problem: cell_problem(desk, &path).is_some(), used: desk.book.in_use(&path), path };
+    let row = |path: String| Row {
+        problem: cell_problem(desk, &path).is_some(),
+        used: desk.book.in_use(&path),
+        path,
+    };
     let rows: Arc<Vec<Row>> = Arc::new(rows(desk).into_iter().map(row).collect());
     desk.library.found = Some((wanted, Arc::clone(&rows)));
     rows
@@ -279,10 +331,16 @@ fn table(ui: &mut Ui, desk: &mut Desk) {
     let kind = desk.library.kind;
     let (words, figures) = (kind.words(), kind.fields());
     let shown = shown_rows(desk);
-    let mut builder =
-        TableBuilder::new(ui).id_salt(kind.folder()).striped(true).resizable(true).cell_layout(Layout::left_to_right(Align::Center));
+    let mut builder = TableBuilder::new(ui)
+        .id_salt(kind.folder())
+        .striped(true)
+        .resizable(true)
+        .cell_layout(Layout::left_to_right(Align::Center));
     builder = builder.column(Column::initial(NAME_WIDTH).at_least(120.0).clip(true));
-    builder = builder.columns(Column::initial(CELL_WIDTH).at_least(60.0).clip(true), words.len() + figures.len());
+    builder = builder.columns(
+        Column::initial(CELL_WIDTH).at_least(60.0).clip(true),
+        words.len() + figures.len(),
+    );
     let mut edits = Vec::new();
     let table = builder.header(24.0, |mut row| header(&mut row, desk, kind));
     let heights = shown.iter().map(|row| if row.problem { ROW_WITH_REASON } else { ROW });
@@ -300,7 +358,12 @@ fn table(ui: &mut Ui, desk: &mut Desk) {
 
 fn header(row: &mut TableRow<'_, '_>, desk: &mut Desk, kind: Kind) {
     row.col(|ui| {
-        if heading(ui, "Name", desk.library.sort.is_none().then_some(false), "name, and the file's id below") {
+        if heading(
+            ui,
+            "Name",
+            desk.library.sort.is_none().then_some(false),
+            "name, and the file's id below",
+        ) {
             desk.library.sort = None;
         }
     });
@@ -324,7 +387,9 @@ fn heading(ui: &mut Ui, text: &str, sorted: Option<bool>, help: &str) -> bool {
     let palette = Theme::palette_of(ui);
     let arrow = sorted.map_or("", |down| if down { " ⏷" } else { " ⏶" });
     let colour = if sorted.is_some() { palette.accent } else { palette.faint };
-    let label = Button::new(RichText::new(format!("{text}{arrow}")).color(colour).size(12.0)).frame(false).truncate();
+    let label = Button::new(RichText::new(format!("{text}{arrow}")).color(colour).size(12.0))
+        .frame(false)
+        .truncate();
     ui.add(label).on_hover_text(help).clicked()
 }
 
@@ -364,7 +429,12 @@ pub(super) fn title(key: &str) -> String {
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
-fn cells(row: &mut TableRow<'_, '_>, desk: &mut Desk, shown: &Row, edits: &mut Vec<(String, &'static str, String)>) {
+fn cells(
+    row: &mut TableRow<'_, '_>,
+    desk: &mut Desk,
+    shown: &Row,
+    edits: &mut Vec<(String, &'static str, String)>,
+) {
     let (kind, path) = (desk.library.kind, shown.path.as_str());
     row.col(|ui| name_cell(ui, desk, shown));
     for word in kind.words() {
@@ -380,7 +450,11 @@ fn cells(row: &mut TableRow<'_, '_>, desk: &mut Desk, shown: &Row, edits: &mut V
                 return;
             }
             let pointed = ui.rect_contains_pointer(ui.max_rect());
-            let help = if pointed { format!("{}{}", field_help(field), provenance(desk, path, field)) } else { String::new() };
+            let help = if pointed {
+                format!("{}{}", field_help(field), provenance(desk, path, field))
+            } else {
+                String::new()
+            };
             edits.extend(cell(ui, desk, path, field.key, &help));
             sureness(ui, desk, path, field);
         });
@@ -403,28 +477,38 @@ fn name_cell(ui: &mut Ui, desk: &mut Desk, row: &Row) {
         (false, true) => palette.accent,
         (false, false) => palette.text,
     };
-    let label = Button::selectable(chosen, RichText::new(format!("{mark}{name}")).color(colour)).truncate();
+    let label =
+        Button::selectable(chosen, RichText::new(format!("{mark}{name}")).color(colour)).truncate();
     let response = ui.add(label);
     if response.clicked() {
         desk.library.chosen = Some(path.to_owned());
     }
     if response.contains_pointer() {
-        let notes = desk.book.field(path, "notes").map_or(String::new(), |notes| format!("\n\n{notes}"));
+        let notes =
+            desk.book.field(path, "notes").map_or(String::new(), |notes| format!("\n\n{notes}"));
         let unsaved = if mark.is_empty() { "" } else { "\nnot saved yet" };
         let used = if used { "\nin use by this scenario" } else { "" };
         response.on_hover_text(format!("{name}\n{path}{used}{unsaved}{notes}"));
     }
 }
 
-fn cell(ui: &mut Ui, desk: &Desk, path: &str, key: &'static str, help: &str) -> Option<(String, &'static str, String)> {
+fn cell(
+    ui: &mut Ui,
+    desk: &Desk,
+    path: &str,
+    key: &'static str,
+    help: &str,
+) -> Option<(String, &'static str, String)> {
     let width = ui.available_width() - 8.0;
     let committed = ui
         .vertical(|ui| {
             ui.spacing_mut().item_spacing.y = 1.0;
             ui.add_space(1.0);
-            let committed = fields::edit(ui, &desk.book, path, key, width, fields::Said { hint: "", help });
+            let committed =
+                fields::edit(ui, &desk.book, path, key, width, fields::Said { hint: "", help });
             if let Some(problem) = desk.book.problem_at(path, key) {
-                let error = RichText::new(&problem.message).size(10.5).color(Theme::palette_of(ui).error);
+                let error =
+                    RichText::new(&problem.message).size(10.5).color(Theme::palette_of(ui).error);
                 ui.add(egui::Label::new(error).truncate());
             }
             committed
@@ -440,7 +524,13 @@ fn sureness(ui: &Ui, desk: &Desk, path: &str, field: &Field) {
     let letter = figure.sureness.word().get(..1).unwrap_or_default();
     let colour = figures::colour(figure.sureness, Theme::palette_of(ui));
     let corner = ui.max_rect().right_top() + egui::vec2(-13.0, 4.0);
-    ui.painter().text(corner, egui::Align2::RIGHT_TOP, letter, egui::FontId::proportional(9.5), colour);
+    ui.painter().text(
+        corner,
+        egui::Align2::RIGHT_TOP,
+        letter,
+        egui::FontId::proportional(9.5),
+        colour,
+    );
 }
 
 /// Source and sureness of a figure, where its file can be read.
@@ -457,14 +547,20 @@ fn provenance(desk: &Desk, path: &str, field: &Field) -> String {
 /// Any problem at a cell of a row.
 fn cell_problem<'a>(desk: &'a Desk, path: &str) -> Option<&'a Diagnostic> {
     let kind = desk.library.kind;
-    let keys = kind.words().iter().map(|word| word.key).chain(kind.fields().iter().map(|field| field.key));
+    let keys =
+        kind.words().iter().map(|word| word.key).chain(kind.fields().iter().map(|field| field.key));
     keys.filter_map(|key| desk.book.problem_at(path, key)).next()
 }
 
 /// Problems of the files of the shown table.
 fn table_problems(desk: &Desk) -> Vec<Diagnostic> {
     let folder = format!("{}/", desk.library.kind.folder());
-    desk.book.problems().iter().filter(|problem| problem.file.starts_with(&folder)).cloned().collect()
+    desk.book
+        .problems()
+        .iter()
+        .filter(|problem| problem.file.starts_with(&folder))
+        .cloned()
+        .collect()
 }
 
 /// What is wrong in the table, below it: place, reason, how to mend it.

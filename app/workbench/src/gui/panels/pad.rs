@@ -71,17 +71,22 @@ fn head(ui: &mut Ui, desk: &mut Desk) {
         let (text, colour) = match (desk.pilot.hands(), desk.pilot.pad_name()) {
             (Hands::Holding | Hands::Gliding, _) => ("the pad is gone".to_owned(), palette.warning),
             (Hands::On, Some(name)) => (name.to_owned(), palette.good),
-            (Hands::On, None) => ("no pad found; the keyboard flies alike (F1)".to_owned(), palette.faint),
+            (Hands::On, None) => {
+                ("no pad found; the keyboard flies alike (F1)".to_owned(), palette.faint)
+            }
         };
         ui.label(RichText::new(text).color(colour));
         ui.end_row();
         ui.label(RichText::new("Preset").color(palette.faint));
         for (name, preset) in Mapping::presets() {
-            let same = desk.pilot.mapping.axes == preset.axes && desk.pilot.mapping.buttons == preset.buttons;
+            let same = desk.pilot.mapping.axes == preset.axes
+                && desk.pilot.mapping.buttons == preset.buttons;
             if ui.selectable_label(same, name).clicked() {
                 let own = &desk.pilot.mapping;
-                let (dead_zone, trigger_dead_zone, curve, rumble) = (own.dead_zone, own.trigger_dead_zone, own.curve, own.rumble);
-                desk.pilot.mapping = Mapping { dead_zone, trigger_dead_zone, curve, rumble, ..preset };
+                let (dead_zone, trigger_dead_zone, curve, rumble) =
+                    (own.dead_zone, own.trigger_dead_zone, own.curve, own.rumble);
+                desk.pilot.mapping =
+                    Mapping { dead_zone, trigger_dead_zone, curve, rumble, ..preset };
             }
         }
         ui.checkbox(&mut desk.pilot.invert_pitch, "Push to put the nose down");
@@ -94,11 +99,29 @@ fn zones(ui: &mut Ui, desk: &mut Desk) {
     ui.spacing_mut().slider_width = (ui.available_width() - 190.0).clamp(40.0, 160.0);
     let mut tried = false;
     Grid::new("pad-zones").num_columns(2).spacing([10.0, 3.0]).show(ui, |ui| {
-        row(ui, "Dead zone, sticks", "How far a stick moves before it counts, as a share", &mut mapping.dead_zone, 0.0..=0.5);
+        row(
+            ui,
+            "Dead zone, sticks",
+            "How far a stick moves before it counts, as a share",
+            &mut mapping.dead_zone,
+            0.0..=0.5,
+        );
         ui.end_row();
-        row(ui, "Dead zone, triggers", "The same of the triggers", &mut mapping.trigger_dead_zone, 0.0..=0.5);
+        row(
+            ui,
+            "Dead zone, triggers",
+            "The same of the triggers",
+            &mut mapping.trigger_dead_zone,
+            0.0..=0.5,
+        );
         ui.end_row();
-        row(ui, "Curve", "1 is even; above, sticks are finer about their middle", &mut mapping.curve, 1.0..=3.0);
+        row(
+            ui,
+            "Curve",
+            "1 is even; above, sticks are finer about their middle",
+            &mut mapping.curve,
+            1.0..=3.0,
+        );
         ui.end_row();
         row(ui, "Rumble", "How hard the pad shakes; 0 not at all", &mut mapping.rumble, 0.0..=1.0);
         ui.end_row();
@@ -114,7 +137,8 @@ fn zones(ui: &mut Ui, desk: &mut Desk) {
 /// A name and a slider that leaves what it shows as it is until it is moved, and takes what is typed to four decimals.
 fn row(ui: &mut Ui, name: &str, help: &str, value: &mut f64, range: RangeInclusive<f64>) {
     ui.label(name).on_hover_text(help);
-    ui.add(Slider::new(value, range).clamping(SliderClamping::Edits).max_decimals(4)).on_hover_text(help);
+    ui.add(Slider::new(value, range).clamping(SliderClamping::Edits).max_decimals(4))
+        .on_hover_text(help);
 }
 
 /// A bar of where something stands, -1 to 1 from its middle.
@@ -124,7 +148,11 @@ fn bar(ui: &mut Ui, value: f64) {
     ui.painter().rect_filled(rect, 2.0, palette.field);
     let middle = rect.center().x;
     let end = middle + value.clamp(-1.0, 1.0) as f32 * rect.width() / 2.0;
-    ui.painter().rect_filled(rect.with_min_x(middle.min(end)).with_max_x(middle.max(end)), 2.0, palette.accent);
+    ui.painter().rect_filled(
+        rect.with_min_x(middle.min(end)).with_max_x(middle.max(end)),
+        2.0,
+        palette.accent,
+    );
     ui.painter().vline(middle, rect.y_range(), egui::Stroke::new(1.0, palette.line));
 }
 
@@ -137,11 +165,18 @@ fn axes(ui: &mut Ui, desk: &mut Desk) {
         ui.end_row();
         for steers in Steered::ALL {
             ui.label(steers.words());
-            let first = desk.pilot.mapping.axes.iter().find(|uses| uses.steers == steers && !uses.second).copied();
+            let first = desk
+                .pilot
+                .mapping
+                .axes
+                .iter()
+                .find(|uses| uses.steers == steers && !uses.second)
+                .copied();
             bar(
                 ui,
                 first.map_or(0.0, |uses| {
-                    desk.pilot.mapping.live(uses.axis, desk.pilot.axis(uses.axis)) * if uses.turned { -1.0 } else { 1.0 }
+                    desk.pilot.mapping.live(uses.axis, desk.pilot.axis(uses.axis))
+                        * if uses.turned { -1.0 } else { 1.0 }
                 }),
             );
             for second in [false, true] {
@@ -154,15 +189,27 @@ fn axes(ui: &mut Ui, desk: &mut Desk) {
 
 fn axis_cell(ui: &mut Ui, desk: &mut Desk, steers: Steered, second: bool) {
     ui.horizontal(|ui| {
-        let uses = desk.pilot.mapping.axes.iter_mut().find(|uses| uses.steers == steers && uses.second == second);
+        let uses = desk
+            .pilot
+            .mapping
+            .axes
+            .iter_mut()
+            .find(|uses| uses.steers == steers && uses.second == second);
         let learning = desk.learning == Learning::Axis(steers, second);
         let text = match &uses {
             _ if learning => "move it all the way …".to_owned(),
-            Some(uses) => format!("{}{}", uses.axis.words(), if uses.turned { ", turned over" } else { "" }),
+            Some(uses) => {
+                format!("{}{}", uses.axis.words(), if uses.turned { ", turned over" } else { "" })
+            }
             None => "–".to_owned(),
         };
-        if ui.selectable_label(learning, text).on_hover_text("Click, then move the stick or trigger that is to do it").clicked() {
-            desk.learning = if learning { Learning::Nothing } else { Learning::Axis(steers, second) };
+        if ui
+            .selectable_label(learning, text)
+            .on_hover_text("Click, then move the stick or trigger that is to do it")
+            .clicked()
+        {
+            desk.learning =
+                if learning { Learning::Nothing } else { Learning::Axis(steers, second) };
         }
         if let Some(uses) = uses
             && ui.small_button("±").on_hover_text("Turn it over").clicked()
@@ -176,14 +223,24 @@ fn buttons(ui: &mut Ui, desk: &mut Desk) {
     Grid::new("pad-buttons").num_columns(2).striped(true).spacing([12.0, 3.0]).show(ui, |ui| {
         for does in Pressed::ALL {
             ui.label(does.words());
-            let button = desk.pilot.mapping.buttons.iter().find(|(_, done)| *done == does).map(|(button, _)| *button);
+            let button = desk
+                .pilot
+                .mapping
+                .buttons
+                .iter()
+                .find(|(_, done)| *done == does)
+                .map(|(button, _)| *button);
             let learning = desk.learning == Learning::Button(does);
             let text = match button {
                 _ if learning => "press it …",
                 Some(button) => button.words(),
                 None => "–",
             };
-            if ui.selectable_label(learning, text).on_hover_text("Click, then press the button that is to do it").clicked() {
+            if ui
+                .selectable_label(learning, text)
+                .on_hover_text("Click, then press the button that is to do it")
+                .clicked()
+            {
                 desk.pilot.take_pressed();
                 desk.learning = if learning { Learning::Nothing } else { Learning::Button(does) };
             }

@@ -7,7 +7,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use egui::{Color32, Id, Rect, Ui};
-use egui_plot::{AxisHints, FilledArea, HLine, Line, LineStyle, Plot, PlotPoint, PlotPoints, Polygon, VLine};
+use egui_plot::{
+    AxisHints, FilledArea, HLine, Line, LineStyle, Plot, PlotPoint, PlotPoints, Polygon, VLine,
+};
 use endline_session::live::LiveView;
 use endline_sim::Model;
 
@@ -62,7 +64,9 @@ impl Part {
 
 impl PartialEq for Part {
     fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.model, &other.model) && self.samples == other.samples && self.shown_s.to_bits() == other.shown_s.to_bits()
+        Arc::ptr_eq(&self.model, &other.model)
+            && self.samples == other.samples
+            && self.shown_s.to_bits() == other.shown_s.to_bits()
     }
 }
 
@@ -74,10 +78,17 @@ impl PlotsState {
     }
 
     /// Makes charts anew where a run has gone on since.
-    fn make(&mut self, kind: Kind, view: &LiveView, other: Option<&LiveView>, units: Units) -> &Chart {
+    fn make(
+        &mut self,
+        kind: Kind,
+        view: &LiveView,
+        other: Option<&LiveView>,
+        units: Units,
+    ) -> &Chart {
         let of = (Part::of(kind, view), other.map(|other| Part::of(kind, other)));
         let place = self.made.iter().position(|(known, _)| *known == kind);
-        let known = place.is_some_and(|place| self.made[place].1.of == of && self.made[place].1.units == units);
+        let known = place
+            .is_some_and(|place| self.made[place].1.of == of && self.made[place].1.units == units);
         if !known {
             let made = (kind, Made { of, units, chart: chart(kind, view, other, units) });
             match place {
@@ -112,7 +123,8 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         for kind in kinds {
             let compared = if desk.other().is_some() { "; A solid, B dashed" } else { "" };
-            let note = if kind == Kind::Along { "; shaded from least to greatest so far" } else { "" };
+            let note =
+                if kind == Kind::Along { "; shaded from least to greatest so far" } else { "" };
             one(ui, desk, &view, kind, &format!("{}{note}{compared}", kind.title()), height);
         }
     });
@@ -131,12 +143,16 @@ fn toolbar(ui: &mut Ui, desk: &mut Desk) {
         for kind in Kind::ALL {
             let mut on = shown.contains(&kind);
             if ui.toggle_value(&mut on, kind.title()).changed() {
-                shown = Kind::ALL.into_iter().filter(|known| if *known == kind { on } else { shown.contains(known) }).collect();
+                shown = Kind::ALL
+                    .into_iter()
+                    .filter(|known| if *known == kind { on } else { shown.contains(known) })
+                    .collect();
                 desk.plots.shown = Some(shown.clone());
             }
         }
         ui.menu_button("Save ⏷", |ui| {
-            for (text, ending) in [("As SVG …", "svg"), ("As PNG …", "png"), ("As CSV …", "csv")] {
+            for (text, ending) in [("As SVG …", "svg"), ("As PNG …", "png"), ("As CSV …", "csv")]
+            {
                 if ui.button(text).clicked() {
                     desk.orders.push(Order::AskExportPlots(ending));
                     ui.close();
@@ -152,11 +168,19 @@ fn photograph(ui: &Ui, desk: &mut Desk) {
         desk.plots.waiting = Some((path, ui.available_rect_before_wrap()));
         ui.ctx().send_viewport_cmd(egui::ViewportCommand::Screenshot(egui::UserData::default()));
     }
-    let shot = |event: &egui::Event| if let egui::Event::Screenshot { image, .. } = event { Some(Arc::clone(image)) } else { None };
+    let shot = |event: &egui::Event| {
+        if let egui::Event::Screenshot { image, .. } = event {
+            Some(Arc::clone(image))
+        } else {
+            None
+        }
+    };
     let Some(image) = ui.input(|input| input.events.iter().find_map(shot)) else { return };
     let Some((path, rect)) = desk.plots.waiting.take() else { return };
     let cut = image.region(&rect, Some(ui.ctx().pixels_per_point()));
-    let written = png_of(&cut).and_then(|bytes| endline_session::save::atomically(&path, &bytes).map_err(|error| error.to_string()));
+    let written = png_of(&cut).and_then(|bytes| {
+        endline_session::save::atomically(&path, &bytes).map_err(|error| error.to_string())
+    });
     desk.notice = Some(match written {
         Ok(()) => (format!("saved {}", path.display()), false),
         Err(error) => (format!("{}: {error}", path.display()), true),
@@ -178,7 +202,11 @@ fn png_of(image: &egui::ColorImage) -> Result<Vec<u8>, String> {
 pub fn charts(desk: &Desk) -> Vec<Chart> {
     let Some(view) = &desk.view else { return Vec::new() };
     let other = desk.other_view();
-    desk.plots.kinds().into_iter().map(|kind| chart(kind, view, other.as_deref(), desk.preferences.units)).collect()
+    desk.plots
+        .kinds()
+        .into_iter()
+        .map(|kind| chart(kind, view, other.as_deref(), desk.preferences.units))
+        .collect()
 }
 
 /// One plot below its title and its key, which never covers a curve.
@@ -192,7 +220,11 @@ fn one(ui: &mut Ui, desk: &mut Desk, view: &LiveView, kind: Kind, title: &str, h
     let clicked = key::show(ui, (title, height), chart, &hidden);
     let height = (height + HEAD - (ui.cursor().top() - head_top)).max(LEAST);
     if chart.curves.iter().all(|curve| curve.points.is_empty()) {
-        let why = if matches!(kind, Kind::Force | Kind::Wraps) { "No rope has touched the whale." } else { "Nothing yet." };
+        let why = if matches!(kind, Kind::Force | Kind::Wraps) {
+            "No rope has touched the whale."
+        } else {
+            "Nothing yet."
+        };
         return super::nothing(ui, why);
     }
     let top = chart.top().max(1e-6);
@@ -201,8 +233,15 @@ fn one(ui: &mut Ui, desk: &mut Desk, view: &LiveView, kind: Kind, title: &str, h
         .include_x(0.0)
         .include_x(chart.end_x)
         .include_y(0.0)
-        .custom_x_axes(vec![AxisHints::new_x().label(chart.x.clone()).label_spacing(egui::Rangef::new(24.0, 48.0))])
-        .custom_y_axes(vec![AxisHints::new_y().label(chart.y.clone()).label_spacing(egui::Rangef::new(14.0, 26.0)).min_thickness(46.0)])
+        .custom_x_axes(vec![
+            AxisHints::new_x().label(chart.x.clone()).label_spacing(egui::Rangef::new(24.0, 48.0)),
+        ])
+        .custom_y_axes(vec![
+            AxisHints::new_y()
+                .label(chart.y.clone())
+                .label_spacing(egui::Rangef::new(14.0, 26.0))
+                .min_thickness(46.0),
+        ])
         .grid_spacing(egui::Rangef::new(14.0, 220.0))
         .grid_color(palette.faint.gamma_multiply(0.5))
         .allow_scroll(false)
@@ -211,10 +250,13 @@ fn one(ui: &mut Ui, desk: &mut Desk, view: &LiveView, kind: Kind, title: &str, h
         plot = plot.include_y(top * 1.1);
     }
     if kind.over_time() {
-        plot = plot.link_cursor(Id::new("time"), [true, false]).link_axis(Id::new("time"), [true, false]);
+        plot = plot
+            .link_cursor(Id::new("time"), [true, false])
+            .link_axis(Id::new("time"), [true, false]);
     }
     let response = plot.show(ui, |plot| {
-        let shown: Vec<&Curve> = chart.curves.iter().filter(|curve| !hidden.contains(chart.line_of(curve))).collect();
+        let shown: Vec<&Curve> =
+            chart.curves.iter().filter(|curve| !hidden.contains(chart.line_of(curve))).collect();
         shade(plot, &shown);
         for curve in shown {
             let [red, green, blue] = curve.rgb();
@@ -222,8 +264,14 @@ fn one(ui: &mut Ui, desk: &mut Desk, view: &LiveView, kind: Kind, title: &str, h
             let line = Line::new(&curve.name, PlotPoints::Borrowed(&curve.points));
             match curve.style {
                 Style::Solid => plot.line(line.color(colour).width(1.5)),
-                Style::Dashed => plot.line(line.color(colour).width(1.5).style(LineStyle::dashed_dense())),
-                Style::Edge => plot.line(Line::new("", PlotPoints::Borrowed(&curve.points)).color(colour.gamma_multiply(0.55)).width(1.0)),
+                Style::Dashed => {
+                    plot.line(line.color(colour).width(1.5).style(LineStyle::dashed_dense()))
+                }
+                Style::Edge => plot.line(
+                    Line::new("", PlotPoints::Borrowed(&curve.points))
+                        .color(colour.gamma_multiply(0.55))
+                        .width(1.0),
+                ),
             }
         }
         for level in chart.levels.iter().filter(|level| level.band[0] < REACH * top) {
@@ -231,13 +279,23 @@ fn one(ui: &mut Ui, desk: &mut Desk, view: &LiveView, kind: Kind, title: &str, h
             if high > low {
                 let corners = [[0.0, low], [chart.end_x, low], [chart.end_x, high], [0.0, high]];
                 let points: Vec<PlotPoint> = corners.map(PlotPoint::from).to_vec();
-                let band = Polygon::new(&level.name, PlotPoints::Owned(points)).fill_color(palette.error.gamma_multiply(0.12));
+                let band = Polygon::new(&level.name, PlotPoints::Owned(points))
+                    .fill_color(palette.error.gamma_multiply(0.12));
                 plot.polygon(band.stroke(egui::Stroke::NONE).allow_hover(false));
             }
-            plot.hline(HLine::new(&level.name, low).color(palette.error).width(1.0).style(LineStyle::dashed_loose()));
+            plot.hline(
+                HLine::new(&level.name, low)
+                    .color(palette.error)
+                    .width(1.0)
+                    .style(LineStyle::dashed_loose()),
+            );
         }
         if kind.over_time() {
-            plot.vline(VLine::new("", view.frame.time_s).color(palette.faint.gamma_multiply(0.7)).width(1.0));
+            plot.vline(
+                VLine::new("", view.frame.time_s)
+                    .color(palette.faint.gamma_multiply(0.7))
+                    .width(1.0),
+            );
         }
         plot.pointer_coordinate()
     });
@@ -246,7 +304,8 @@ fn one(ui: &mut Ui, desk: &mut Desk, view: &LiveView, kind: Kind, title: &str, h
     {
         desk.plots.hidden.insert(name);
     }
-    if let (true, true, Some(at)) = (kind.over_time(), response.response.clicked(), response.inner) {
+    if let (true, true, Some(at)) = (kind.over_time(), response.response.clicked(), response.inner)
+    {
         desk.orders.push(Order::Seek(at.x.clamp(0.0, view.newest_s)));
     }
 }
@@ -255,11 +314,14 @@ fn one(ui: &mut Ui, desk: &mut Desk, view: &LiveView, kind: Kind, title: &str, h
 fn shade(plot: &mut egui_plot::PlotUi<'_>, curves: &[&Curve]) {
     for pair in curves.windows(2) {
         let [least, greatest] = pair else { continue };
-        let edges = least.style == Style::Edge && greatest.style == Style::Edge && least.colour == greatest.colour;
+        let edges = least.style == Style::Edge
+            && greatest.style == Style::Edge
+            && least.colour == greatest.colour;
         if edges && least.points.len() == greatest.points.len() && least.points.len() > 1 {
             let [red, green, blue] = least.rgb();
             let xs: Vec<f64> = least.points.iter().map(|point| point.x).collect();
-            let [low, high] = [least, greatest].map(|curve| curve.points.iter().map(|point| point.y).collect::<Vec<f64>>());
+            let [low, high] = [least, greatest]
+                .map(|curve| curve.points.iter().map(|point| point.y).collect::<Vec<f64>>());
             let fill = Color32::from_rgb(red, green, blue).gamma_multiply(0.16);
             plot.add(FilledArea::new("", &xs, &low, &high).fill_color(fill).allow_hover(false));
         }

@@ -28,12 +28,19 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
     toolbar(ui, desk);
     ui.separator();
     let whole = ui.available_rect_before_wrap();
-    let (left, right) = whole.split_left_right_at_x(whole.left() + (whole.width() * LIST_SHARE).clamp(170.0, 340.0));
+    let (left, right) = whole
+        .split_left_right_at_x(whole.left() + (whole.width() * LIST_SHARE).clamp(170.0, 340.0));
     super::within(ui, left.with_max_x(left.right() - 8.0), |ui| {
-        ScrollArea::vertical().id_salt("list").auto_shrink(false).show(ui, |ui| list(ui, desk, &plugins));
+        ScrollArea::vertical()
+            .id_salt("list")
+            .auto_shrink(false)
+            .show(ui, |ui| list(ui, desk, &plugins));
     });
     super::within(ui, right, |ui| {
-        let chosen = plugins.iter().find(|(info, _)| desk.plugins.chosen.as_ref() == Some(&info.id)).cloned();
+        let chosen = plugins
+            .iter()
+            .find(|(info, _)| desk.plugins.chosen.as_ref() == Some(&info.id))
+            .cloned();
         ScrollArea::vertical().id_salt("chosen").auto_shrink(false).show(ui, |ui| match chosen {
             Some((info, on)) => detail(ui, desk, &info, on),
             None => super::nothing(ui, "No plugins: build them with `cargo xtask plugins`, or write one: `endline plugins new`."),
@@ -44,10 +51,14 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
 fn toolbar(ui: &mut Ui, desk: &mut Desk) {
     ui.horizontal_wrapped(|ui| {
         let busy = desk.plugins.busy();
-        if primary(ui, !busy, "Reload").on_hover_text("Load what was built anew; the next run uses it").clicked() {
+        if primary(ui, !busy, "Reload")
+            .on_hover_text("Load what was built anew; the next run uses it")
+            .clicked()
+        {
             desk.orders.push(Order::ReloadPlugins);
         }
-        let folders: Vec<_> = desk.plugins.folders().into_iter().filter(|folder| folder.is_dir()).collect();
+        let folders: Vec<_> =
+            desk.plugins.folders().into_iter().filter(|folder| folder.is_dir()).collect();
         ui.add_enabled_ui(!folders.is_empty(), |ui| {
             ui.menu_button("Open folder ⏷", |ui| {
                 for folder in folders {
@@ -61,7 +72,8 @@ fn toolbar(ui: &mut Ui, desk: &mut Desk) {
         if busy {
             ui.spinner();
         }
-        let words = "Begin one in a terminal: endline plugins new my-friction --kind friction --lang rust";
+        let words =
+            "Begin one in a terminal: endline plugins new my-friction --kind friction --lang rust";
         ui.add(Label::new(RichText::new(words).color(Theme::palette_of(ui).faint)).truncate());
     });
 }
@@ -106,7 +118,11 @@ fn row(ui: &mut Ui, desk: &mut Desk, info: &PluginInfo, on: bool) {
 /// A file that is not used: why, and what can be done about it.
 fn left_out(ui: &mut Ui, desk: &mut Desk, problem: &PluginProblem) {
     let palette = Theme::palette_of(ui);
-    let name = problem.file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let name = problem
+        .file
+        .file_name()
+        .map(|name| name.to_string_lossy().into_owned())
+        .unwrap_or_default();
     let (word, colour) = match &problem.standing {
         Standing::Waiting(ask) if ask.change == Change::New => ("not allowed yet", palette.warning),
         Standing::Waiting(_) => ("changed since it was allowed", palette.warning),
@@ -133,7 +149,14 @@ fn left_out(ui: &mut Ui, desk: &mut Desk, problem: &PluginProblem) {
 fn detail(ui: &mut Ui, desk: &mut Desk, info: &PluginInfo, on: bool) {
     let palette = Theme::palette_of(ui);
     ui.heading(&info.name);
-    ui.add(Label::new(RichText::new(format!("{}  {}  {}", info.id, info.version, info.kind)).monospace().size(12.0)).wrap());
+    ui.add(
+        Label::new(
+            RichText::new(format!("{}  {}  {}", info.id, info.version, info.kind))
+                .monospace()
+                .size(12.0),
+        )
+        .wrap(),
+    );
     ui.add(Label::new(&info.help).wrap());
     if !info.about.is_empty() {
         ui.add(Label::new(RichText::new(&info.about).color(palette.faint)).wrap());
@@ -157,12 +180,20 @@ fn buttons(ui: &mut Ui, desk: &mut Desk, info: &PluginInfo, on: bool) {
         if on && Desk::place_of(info.kind).is_some() {
             if desk.uses_plugin(info) {
                 ui.label(RichText::new("In this scenario").color(Theme::palette_of(ui).accent));
-            } else if ui.button("Use in this scenario").on_hover_text("Undo takes it back").clicked() {
+            } else if ui
+                .button("Use in this scenario")
+                .on_hover_text("Undo takes it back")
+                .clicked()
+            {
                 desk.orders.push(Order::UsePlugin(info.id.clone()));
             }
         }
         let Some(file) = &info.file else { return };
-        if ui.add_enabled(!desk.plugins.busy(), Button::new("Check")).on_hover_text("Try it in a process of its own").clicked() {
+        if ui
+            .add_enabled(!desk.plugins.busy(), Button::new("Check"))
+            .on_hover_text("Try it in a process of its own")
+            .clicked()
+        {
             desk.orders.push(Order::CheckPlugin(file.clone()));
         }
         if let Some(folder) = file.parent()
@@ -181,13 +212,22 @@ fn origin(ui: &mut Ui, desk: &Desk, info: &PluginInfo) {
         return;
     };
     let place = file.display().to_string();
-    ui.add(Label::new(RichText::new(&place).size(12.0).color(faint)).truncate()).on_hover_text(&place);
+    ui.add(Label::new(RichText::new(&place).size(12.0).color(faint)).truncate())
+        .on_hover_text(&place);
     let hash = info.hash.clone().unwrap_or_default();
-    ui.label(RichText::new(format!("hash {}", hash.get(..16).unwrap_or(&hash))).monospace().size(12.0).color(faint)).on_hover_text(&hash);
+    ui.label(
+        RichText::new(format!("hash {}", hash.get(..16).unwrap_or(&hash)))
+            .monospace()
+            .size(12.0)
+            .color(faint),
+    )
+    .on_hover_text(&hash);
     if desk.plugins.reports.contains_key(file) {
         report(ui, desk, file);
     } else {
-        ui.label(RichText::new("It passed the check before it was loaded.").size(12.0).color(faint));
+        ui.label(
+            RichText::new("It passed the check before it was loaded.").size(12.0).color(faint),
+        );
     }
 }
 
@@ -201,7 +241,9 @@ fn report(ui: &mut Ui, desk: &Desk, file: &Path) {
         ui.add(Label::new(RichText::new(line).monospace().size(11.0).color(colour)).wrap());
     }
     match &report.fault {
-        Some(fault) => ui.add(Label::new(RichText::new(fault).size(12.0).color(palette.error)).wrap()),
+        Some(fault) => {
+            ui.add(Label::new(RichText::new(fault).size(12.0).color(palette.error)).wrap())
+        }
         None => ui.label(RichText::new("sound").color(palette.good)),
     };
 }
@@ -218,11 +260,21 @@ fn attributes(ui: &mut Ui, desk: &mut Desk, info: &PluginInfo) {
             ui.label(super::library::title(&attribute.key)).on_hover_text(&help);
             match form {
                 Some(table) => {
-                    let (field, hint) = (format!("{table}.attributes.{}", attribute.key), format!("{usual} (usual)"));
+                    let (field, hint) = (
+                        format!("{table}.attributes.{}", attribute.key),
+                        format!("{usual} (usual)"),
+                    );
                     let said = fields::Said { hint: &hint, help: &help };
                     let cell = ui.horizontal(|ui| {
                         ui.set_min_width(FIELD_WIDTH);
-                        fields::edit_in(ui, "plugins", &desk.book, (Book::SCENARIO, &field), FIELD_WIDTH - 8.0, said)
+                        fields::edit_in(
+                            ui,
+                            "plugins",
+                            &desk.book,
+                            (Book::SCENARIO, &field),
+                            FIELD_WIDTH - 8.0,
+                            said,
+                        )
                     });
                     let typed = cell.inner;
                     edits.extend(typed.map(|value| (field, value)));
@@ -231,14 +283,17 @@ fn attributes(ui: &mut Ui, desk: &mut Desk, info: &PluginInfo) {
                     ui.label(&usual).on_hover_text(&help);
                 }
             }
-            ui.label(RichText::new(range).size(12.0).color(palette.faint)).on_hover_text(attribute.help.as_ref());
+            ui.label(RichText::new(range).size(12.0).color(palette.faint))
+                .on_hover_text(attribute.help.as_ref());
             ui.end_row();
         }
     });
     for (field, value) in edits {
         // The table of attributes may not be there yet.
         let value = Setting::plain(&value);
-        if let Err(error) = desk.book.alter(Book::SCENARIO, |scenario| scenario.put(&field, &value).map_err(|error| error.to_string())) {
+        if let Err(error) = desk.book.alter(Book::SCENARIO, |scenario| {
+            scenario.put(&field, &value).map_err(|error| error.to_string())
+        }) {
             desk.notice = Some((error, true));
         }
     }
@@ -248,14 +303,22 @@ fn attributes(ui: &mut Ui, desk: &mut Desk, info: &PluginInfo) {
 fn told(attribute: &Attribute) -> (String, String) {
     let in_unit = |value: f64| {
         let value = super::library::rounded(value);
-        Quantity::from_si_unit(&attribute.unit).map_or_else(|| format!("{value} {}", attribute.unit), |quantity| format_si(value, quantity))
+        Quantity::from_si_unit(&attribute.unit).map_or_else(
+            || format!("{value} {}", attribute.unit),
+            |quantity| format_si(value, quantity),
+        )
     };
     match &attribute.kind {
-        AttributeKind::Number { min, max, default } => (in_unit(*default), format!("{} to {}", in_unit(*min), in_unit(*max))),
-        AttributeKind::Count { min, max, default } => (default.to_string(), format!("a whole number from {min} to {max}")),
-        AttributeKind::Choice { words, default } => (default.to_string(), words.join(" or ")),
-        AttributeKind::Item { library, default } => {
-            (if default.is_empty() { "none".to_owned() } else { default.to_string() }, format!("an item of {library}/"))
+        AttributeKind::Number { min, max, default } => {
+            (in_unit(*default), format!("{} to {}", in_unit(*min), in_unit(*max)))
         }
+        AttributeKind::Count { min, max, default } => {
+            (default.to_string(), format!("a whole number from {min} to {max}"))
+        }
+        AttributeKind::Choice { words, default } => (default.to_string(), words.join(" or ")),
+        AttributeKind::Item { library, default } => (
+            if default.is_empty() { "none".to_owned() } else { default.to_string() },
+            format!("an item of {library}/"),
+        ),
     }
 }

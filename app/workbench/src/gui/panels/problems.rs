@@ -32,14 +32,17 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
 /// One problem in two lines; answers whether it was clicked.
 pub fn entry(ui: &mut Ui, problem: &Diagnostic) -> bool {
     let palette = Theme::palette_of(ui);
-    let (mark, colour) = if problem.is_error() { ("✖", palette.error) } else { ("▲", palette.warning) };
+    let (mark, colour) =
+        if problem.is_error() { ("✖", palette.error) } else { ("▲", palette.warning) };
     let row = ui.scope(|ui| {
         ui.spacing_mut().item_spacing.y = 1.0;
         ui.horizontal(|ui| {
             ui.label(RichText::new(mark).color(colour));
             ui.label(RichText::new(place(problem)).monospace().size(12.0).color(palette.faint));
             if !problem.field.is_empty() {
-                ui.label(RichText::new(&problem.field).monospace().size(12.0).color(palette.accent));
+                ui.label(
+                    RichText::new(&problem.field).monospace().size(12.0).color(palette.accent),
+                );
             }
             ui.add(Label::new(RichText::new(&problem.message).color(colour)).truncate());
         });

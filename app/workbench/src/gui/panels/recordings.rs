@@ -24,7 +24,10 @@ struct Recorded {
 /// Draws the list of recordings.
 pub fn show(ui: &mut Ui, desk: &mut Desk) {
     let Some(folder) = desk.recordings.clone() else {
-        return super::nothing(ui, "No folder to keep recordings in: there is no user data folder here.");
+        return super::nothing(
+            ui,
+            "No folder to keep recordings in: there is no user data folder here.",
+        );
     };
     let kept = desk.kept_runs();
     if desk.recorded.files.as_ref().is_none_or(|(seen, _)| *seen != kept) {
@@ -32,7 +35,10 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
     }
     let files = desk.recorded.files.as_ref().map(|(_, files)| files.clone()).unwrap_or_default();
     ui.horizontal_wrapped(|ui| {
-        ui.label(RichText::new("Every run is kept here when it ends or another begins.").color(Theme::palette_of(ui).faint));
+        ui.label(
+            RichText::new("Every run is kept here when it ends or another begins.")
+                .color(Theme::palette_of(ui).faint),
+        );
         if ui.button("Open other …").clicked() {
             desk.orders.push(Order::AskRecording);
         }
@@ -49,11 +55,16 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
 
 fn row(ui: &mut Ui, desk: &mut Desk, file: &Recorded) {
     let faint = Theme::palette_of(ui).faint;
-    let name = file.path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+    let name =
+        file.path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     ui.horizontal_wrapped(|ui| {
         ui.label(name);
         ui.label(RichText::new(format!("{}, {} kB", file.age, file.kilobytes)).color(faint));
-        if ui.button("Open").on_hover_text("Run it again, to the bit, and look at any moment").clicked() {
+        if ui
+            .button("Open")
+            .on_hover_text("Run it again, to the bit, and look at any moment")
+            .clicked()
+        {
             desk.orders.push(Order::OpenRecording(file.path.clone()));
         }
         if ui.button("Compare").on_hover_text("Run it again beside the run shown, as B").clicked() {
@@ -75,7 +86,11 @@ fn list(folder: &std::path::Path) -> Vec<Recorded> {
         })
         .collect();
     found.sort_by(|a, b| b.0.cmp(&a.0).then(b.1.cmp(&a.1)));
-    let recorded = |(at, path, bytes): (SystemTime, PathBuf, u64)| Recorded { path, age: age(at), kilobytes: bytes.div_ceil(1024) };
+    let recorded = |(at, path, bytes): (SystemTime, PathBuf, u64)| Recorded {
+        path,
+        age: age(at),
+        kilobytes: bytes.div_ceil(1024),
+    };
     found.into_iter().map(recorded).collect()
 }
 

@@ -8,7 +8,8 @@ use super::super::theme::{Theme, primary};
 use super::summary::numbers;
 
 /// Speeds offered, simulated over real time; the last is as fast as it goes.
-pub const SPEEDS: [(f64, &str); 6] = [(0.1, "0.1×"), (0.25, "¼×"), (1.0, "1×"), (2.0, "2×"), (5.0, "5×"), (f64::INFINITY, "max")];
+pub const SPEEDS: [(f64, &str); 6] =
+    [(0.1, "0.1×"), (0.25, "¼×"), (1.0, "1×"), (2.0, "2×"), (5.0, "5×"), (f64::INFINITY, "max")];
 
 /// Draws the run panel.
 pub fn show(ui: &mut Ui, desk: &mut Desk) {
@@ -23,7 +24,9 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
         fly(ui, desk);
         if ui
             .button("Copy as command line")
-            .on_hover_text("The command that gives this run, for a terminal or a script (Ctrl+Shift+C)")
+            .on_hover_text(
+                "The command that gives this run, for a terminal or a script (Ctrl+Shift+C)",
+            )
             .clicked()
         {
             desk.orders.push(Order::CopyCommandLine);
@@ -36,14 +39,23 @@ fn buttons(ui: &mut Ui, desk: &mut Desk) {
     let running = desk.running();
     let ready = desk.view.is_some() && !desk.making();
     ui.horizontal(|ui| {
-        let (text, order) = if running { ("⏸ Pause", Order::Pause) } else { ("▶ Run", Order::Start) };
+        let (text, order) =
+            if running { ("⏸ Pause", Order::Pause) } else { ("▶ Run", Order::Start) };
         if primary(ui, ready, text).on_hover_text("Space").clicked() {
             desk.orders.push(order);
         }
-        if ui.add_enabled(ready && !running, Button::new("Step")).on_hover_text("One step (period)").clicked() {
+        if ui
+            .add_enabled(ready && !running, Button::new("Step"))
+            .on_hover_text("One step (period)")
+            .clicked()
+        {
             desk.orders.push(Order::Step);
         }
-        if ui.add_enabled(ready, Button::new("⏮ Reset")).on_hover_text("Back to the settled gear (Backspace)").clicked() {
+        if ui
+            .add_enabled(ready, Button::new("⏮ Reset"))
+            .on_hover_text("Back to the settled gear (Backspace)")
+            .clicked()
+        {
             desk.orders.push(Order::Reset);
         }
     });
@@ -73,9 +85,11 @@ fn stale(ui: &mut Ui, desk: &mut Desk) {
 fn progress(ui: &mut Ui, view: &LiveView) {
     let duration = view.model.spec.settings.duration_s.max(1e-9);
     let text = format!("{:.2} of {duration:.0} s", view.frame.time_s);
-    let bar = ProgressBar::new((view.newest_s / duration) as f32).desired_height(18.0).corner_radius(3.0);
+    let bar =
+        ProgressBar::new((view.newest_s / duration) as f32).desired_height(18.0).corner_radius(3.0);
     ui.add(
-        bar.text(RichText::new(text).size(12.0).color(Theme::palette_of(ui).text)).fill(Theme::palette_of(ui).accent.gamma_multiply(0.45)),
+        bar.text(RichText::new(text).size(12.0).color(Theme::palette_of(ui).text))
+            .fill(Theme::palette_of(ui).accent.gamma_multiply(0.45)),
     );
 }
 
@@ -84,7 +98,11 @@ fn speeds(ui: &mut Ui, desk: &mut Desk, view: &LiveView) {
         ui.label(RichText::new("Speed").color(Theme::palette_of(ui).faint));
         ui.spacing_mut().item_spacing.x = 2.0;
         for (speed, text) in SPEEDS {
-            let chosen = if speed.is_infinite() { view.speed >= 999.0 } else { (view.speed - speed).abs() < 1e-9 };
+            let chosen = if speed.is_infinite() {
+                view.speed >= 999.0
+            } else {
+                (view.speed - speed).abs() < 1e-9
+            };
             if ui.selectable_label(chosen, text).clicked() {
                 desk.orders.push(Order::Speed(speed));
             }
@@ -95,11 +113,17 @@ fn speeds(ui: &mut Ui, desk: &mut Desk, view: &LiveView) {
 fn fly(ui: &mut Ui, desk: &mut Desk) {
     ui.horizontal(|ui| {
         let mut flying = desk.flying;
-        if ui.toggle_value(&mut flying, "Fly the whale").on_hover_text("Ctrl+F; Esc lets go. Keys and pad: F1").clicked() {
+        if ui
+            .toggle_value(&mut flying, "Fly the whale")
+            .on_hover_text("Ctrl+F; Esc lets go. Keys and pad: F1")
+            .clicked()
+        {
             desk.orders.push(Order::Fly);
         }
         let hands = desk.pilot.pad_name().unwrap_or("keyboard; no pad found").to_owned();
-        ui.add(egui::Label::new(RichText::new(hands).color(Theme::palette_of(ui).faint)).truncate());
+        ui.add(
+            egui::Label::new(RichText::new(hands).color(Theme::palette_of(ui).faint)).truncate(),
+        );
     });
 }
 
@@ -107,7 +131,10 @@ fn state(ui: &mut Ui, view: &LiveView) {
     let palette = Theme::palette_of(ui);
     ui.add_space(4.0);
     let (text, bad) = told(&view.status);
-    ui.add(egui::Label::new(RichText::new(text).color(if bad { palette.error } else { palette.text })).wrap());
+    ui.add(
+        egui::Label::new(RichText::new(text).color(if bad { palette.error } else { palette.text }))
+            .wrap(),
+    );
     let audit = &view.audit;
     numbers(
         ui,

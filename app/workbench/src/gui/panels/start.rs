@@ -27,7 +27,8 @@ pub struct StartState {
 
 /// Draws the start page.
 pub fn show(ui: &mut Ui, desk: &mut Desk) {
-    let examples = desk.start.examples.get_or_insert_with(|| examples(desk.book.root()).into()).clone();
+    let examples =
+        desk.start.examples.get_or_insert_with(|| examples(desk.book.root()).into()).clone();
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         ui.heading("Endline");
         ui.label("Fishing gear, and whales that get out of it alive.");
@@ -45,13 +46,15 @@ fn units(ui: &mut Ui, desk: &mut Desk) {
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new("Units on screen").color(Theme::palette_of(ui).faint));
         for units in Units::ALL {
-            ui.radio_value(&mut desk.preferences.units, units, units.name()).on_hover_text(units.help());
+            ui.radio_value(&mut desk.preferences.units, units, units.name())
+                .on_hover_text(units.help());
         }
     });
 }
 
 fn recent(ui: &mut Ui, desk: &mut Desk) {
-    let recent: Vec<PathBuf> = desk.preferences.recent.iter().filter(|path| path.exists()).cloned().collect();
+    let recent: Vec<PathBuf> =
+        desk.preferences.recent.iter().filter(|path| path.exists()).cloned().collect();
     if recent.is_empty() {
         return;
     }
@@ -74,7 +77,9 @@ fn list<'a>(ui: &mut Ui, desk: &mut Desk, examples: impl Iterator<Item = &'a Exa
         if ui.link(&example.name).on_hover_text(example.path.display().to_string()).clicked() {
             open(desk, &example.path);
         }
-        ui.indent(&example.path, |ui| ui.add(egui::Label::new(RichText::new(&example.notes).color(faint)).wrap()));
+        ui.indent(&example.path, |ui| {
+            ui.add(egui::Label::new(RichText::new(&example.notes).color(faint)).wrap())
+        });
     }
 }
 
@@ -82,10 +87,18 @@ fn examples(root: &Path) -> Vec<Example> {
     let read = |path: PathBuf| {
         let document = endline_gear::Document::parse(&std::fs::read_to_string(&path).ok()?).ok()?;
         let text = |field: &str| document.get(field).unwrap_or_default();
-        Some(Example { name: text("name"), notes: text("notes"), whale: document.has("whale"), path })
+        Some(Example {
+            name: text("name"),
+            notes: text("notes"),
+            whale: document.has("whale"),
+            path,
+        })
     };
-    let mut examples: Vec<Example> = super::scenario::scenarios(root).into_iter().filter_map(read).collect();
+    let mut examples: Vec<Example> =
+        super::scenario::scenarios(root).into_iter().filter_map(read).collect();
     // Whoever is new begins with the plainest.
-    examples.sort_by_key(|example| !example.path.file_stem().is_some_and(|stem| stem.to_string_lossy().starts_with("hello-")));
+    examples.sort_by_key(|example| {
+        !example.path.file_stem().is_some_and(|stem| stem.to_string_lossy().starts_with("hello-"))
+    });
     examples
 }

@@ -10,7 +10,9 @@ use super::super::units::{ForceUnit, Units};
 /// Draws the summary.
 pub fn show(ui: &mut Ui, desk: &mut Desk) {
     let Some(view) = desk.view.clone() else { return super::nothing(ui, "No run yet.") };
-    let Some(summary) = &view.summary else { return super::nothing(ui, "The gear is being settled.") };
+    let Some(summary) = &view.summary else {
+        return super::nothing(ui, "The gear is being settled.");
+    };
     let units = desk.preferences.units;
     let unit = units.force();
     ScrollArea::both().auto_shrink(false).show(ui, |ui| {
@@ -29,14 +31,18 @@ fn outcome(ui: &mut Ui, whale: &WhaleSummary, units: Units) {
     ui.horizontal(|ui| {
         ui.label(RichText::new(text).heading().color(colour)).on_hover_text(meaning);
         if !whale.decided {
-            ui.label(RichText::new("so far").color(palette.faint)).on_hover_text("The run is too short for this to stand");
+            ui.label(RichText::new("so far").color(palette.faint))
+                .on_hover_text("The run is too short for this to stand");
         }
     });
     numbers(
         ui,
         "whale",
         &[
-            ("First contact", whale.first_contact_s.map_or_else(|| "–".into(), |time| format!("{time:.2} s"))),
+            (
+                "First contact",
+                whale.first_contact_s.map_or_else(|| "–".into(), |time| format!("{time:.2} s")),
+            ),
             ("Time in contact", format!("{:.2} s", whale.contact_time_s)),
             ("Added drag", units.force().text(whale.drag_added_n)),
             ("Trailing rope", units.length(whale.trailing_m)),
@@ -67,38 +73,60 @@ fn heads(ui: &mut Ui, names: &[&str]) {
 fn regions(ui: &mut Ui, whale: &WhaleSummary, units: Units) {
     super::caption(ui, "Whale by part");
     let faint = Theme::palette_of(ui).faint;
-    Grid::new("regions").num_columns(5).striped(true).spacing([14.0, 2.0]).min_row_height(17.0).show(ui, |ui| {
-        heads(ui, &["Part", "Wraps", "Contact", "Peak force", "Friction work"]);
-        for region in &whale.regions {
-            let touched = region.peak_contact_length_m > 0.0;
-            let text = |text: String| if touched { RichText::new(text) } else { RichText::new(text).color(faint) };
-            ui.label(RichText::new(region.part.name().replace('_', " ")).color(if touched { ui.visuals().text_color() } else { faint }));
-            ui.label(text(format!("{:.2}", region.wraps)));
-            ui.label(text(units.length(region.contact_length_m)));
-            ui.label(text(units.force().text(region.peak_normal_n)));
-            ui.label(text(format!("{:.0} J", region.friction_work_j)));
-            ui.end_row();
-        }
-    });
+    Grid::new("regions")
+        .num_columns(5)
+        .striped(true)
+        .spacing([14.0, 2.0])
+        .min_row_height(17.0)
+        .show(ui, |ui| {
+            heads(ui, &["Part", "Wraps", "Contact", "Peak force", "Friction work"]);
+            for region in &whale.regions {
+                let touched = region.peak_contact_length_m > 0.0;
+                let text = |text: String| {
+                    if touched { RichText::new(text) } else { RichText::new(text).color(faint) }
+                };
+                ui.label(RichText::new(region.part.name().replace('_', " ")).color(if touched {
+                    ui.visuals().text_color()
+                } else {
+                    faint
+                }));
+                ui.label(text(format!("{:.2}", region.wraps)));
+                ui.label(text(units.length(region.contact_length_m)));
+                ui.label(text(units.force().text(region.peak_normal_n)));
+                ui.label(text(format!("{:.0} J", region.friction_work_j)));
+                ui.end_row();
+            }
+        });
 }
 
 /// Peaks of the lines; answers the moment asked for by a click on one.
 fn lines(ui: &mut Ui, summary: &Summary, unit: ForceUnit) -> Option<f64> {
     let mut wanted = None;
     super::caption(ui, "Lines");
-    Grid::new("lines").num_columns(5).striped(true).spacing([14.0, 2.0]).min_row_height(17.0).show(ui, |ui| {
-        heads(ui, &["Line", "Peak", "at", "Ends now", "Parted"]);
-        for line in &summary.lines {
-            ui.label(&line.id);
-            ui.label(unit.text(line.peak_tension_n));
-            if ui.link(format!("{:.2} s", line.peak_at_s)).on_hover_text("See this moment").clicked() {
-                wanted = Some(line.peak_at_s);
+    Grid::new("lines").num_columns(5).striped(true).spacing([14.0, 2.0]).min_row_height(17.0).show(
+        ui,
+        |ui| {
+            heads(ui, &["Line", "Peak", "at", "Ends now", "Parted"]);
+            for line in &summary.lines {
+                ui.label(&line.id);
+                ui.label(unit.text(line.peak_tension_n));
+                if ui
+                    .link(format!("{:.2} s", line.peak_at_s))
+                    .on_hover_text("See this moment")
+                    .clicked()
+                {
+                    wanted = Some(line.peak_at_s);
+                }
+                ui.label(format!(
+                    "{} / {}",
+                    unit.text(line.end_a_tension_n),
+                    unit.text(line.end_b_tension_n)
+                ));
+                parted(ui, line.parted_at_s);
+                ui.end_row();
             }
-            ui.label(format!("{} / {}", unit.text(line.end_a_tension_n), unit.text(line.end_b_tension_n)));
-            parted(ui, line.parted_at_s);
-            ui.end_row();
-        }
-    });
+        },
+    );
     wanted
 }
 
@@ -107,16 +135,19 @@ fn links(ui: &mut Ui, summary: &Summary, unit: ForceUnit) {
         return;
     }
     super::caption(ui, "Weak links");
-    Grid::new("links").num_columns(4).striped(true).spacing([14.0, 2.0]).min_row_height(17.0).show(ui, |ui| {
-        heads(ui, &["Link", "Rating", "Peak", "Parted"]);
-        for link in &summary.links {
-            ui.label(&link.id);
-            ui.label(unit.text(link.rating_n));
-            ui.label(unit.text(link.peak_tension_n));
-            parted(ui, link.parted_at_s);
-            ui.end_row();
-        }
-    });
+    Grid::new("links").num_columns(4).striped(true).spacing([14.0, 2.0]).min_row_height(17.0).show(
+        ui,
+        |ui| {
+            heads(ui, &["Link", "Rating", "Peak", "Parted"]);
+            for link in &summary.links {
+                ui.label(&link.id);
+                ui.label(unit.text(link.rating_n));
+                ui.label(unit.text(link.peak_tension_n));
+                parted(ui, link.parted_at_s);
+                ui.end_row();
+            }
+        },
+    );
 }
 
 fn parted(ui: &mut Ui, at_s: Option<f64>) {

@@ -57,7 +57,9 @@ impl Progress {
     pub fn left(&self) -> Option<Duration> {
         let fresh = self.done.saturating_sub(self.found);
         let worked = self.worked + self.since.map_or(Duration::ZERO, |since| since.elapsed());
-        (fresh > 0).then(|| worked.mul_f64(f64::from(self.total.saturating_sub(self.done)) / f64::from(fresh)))
+        (fresh > 0).then(|| {
+            worked.mul_f64(f64::from(self.total.saturating_sub(self.done)) / f64::from(fresh))
+        })
     }
 
     /// Share done, 0 to 1.
@@ -101,9 +103,21 @@ impl Job {
     /// A study that waits; its results go to a folder of their own under `root`.
     #[must_use]
     pub fn new(file: PathBuf, name: String, library: PathBuf, root: PathBuf) -> Self {
-        let progress = Progress { state: State::Waiting, done: 0, found: 0, total: 0, blocks: 0, worked: Duration::ZERO, since: None };
-        let shared =
-            Shared { wish: Mutex::new(Wish::Run), changed: Condvar::new(), progress: Mutex::new(progress), opened: Mutex::new(None) };
+        let progress = Progress {
+            state: State::Waiting,
+            done: 0,
+            found: 0,
+            total: 0,
+            blocks: 0,
+            worked: Duration::ZERO,
+            since: None,
+        };
+        let shared = Shared {
+            wish: Mutex::new(Wish::Run),
+            changed: Condvar::new(),
+            progress: Mutex::new(progress),
+            opened: Mutex::new(None),
+        };
         Self { file, name, library, root, shared: Arc::new(shared) }
     }
 
@@ -175,7 +189,9 @@ impl Job {
             let state = match worked {
                 Ok(Ok(state)) => state,
                 Ok(Err(error)) => State::Failed(error.to_string()),
-                Err(_) => State::Failed("the study ended by a fault inside the program; report what led to it".into()),
+                Err(_) => State::Failed(
+                    "the study ended by a fault inside the program; report what led to it".into(),
+                ),
             };
             shared.stand(state);
             (work.waker)();
@@ -193,7 +209,9 @@ impl Shared {
         match (wish, &progress.state) {
             (Wish::Pause, State::Running) => progress.stop(State::Paused),
             (Wish::Run, State::Paused) => progress.go(),
-            (Wish::Cancel, State::Waiting | State::Running | State::Paused) => progress.stop(State::Cancelled),
+            (Wish::Cancel, State::Waiting | State::Running | State::Paused) => {
+                progress.stop(State::Cancelled)
+            }
             _ => {}
         }
         self.changed.notify_all();
@@ -259,14 +277,21 @@ fn encounters(shared: &Shared, opened: &Opened, folder: &Folder, work: &Work) ->
         let mut progress = lock(&shared.progress);
         progress.total = (0..folder.blocks()).map(|block| size(&block)).sum();
         progress.found = progress.total - missing.iter().map(size).sum::<u32>();
-        (progress.done, progress.blocks) = (progress.found, folder.blocks() - u32::try_from(missing.len()).unwrap_or_default());
-        if *lock(&shared.wish) == Wish::Pause { progress.stop(State::Paused) } else { progress.go() }
+        (progress.done, progress.blocks) =
+            (progress.found, folder.blocks() - u32::try_from(missing.len()).unwrap_or_default());
+        if *lock(&shared.wish) == Wish::Pause {
+            progress.stop(State::Paused)
+        } else {
+            progress.go()
+        }
     }
     let (next, failure) = (AtomicU32::new(0), Mutex::new(None));
     let turn = || {
         work.step_back();
         while lock(&failure).is_none() {
-            let Some(block) = missing.get(next.fetch_add(1, Ordering::Relaxed) as usize) else { break };
+            let Some(block) = missing.get(next.fetch_add(1, Ordering::Relaxed) as usize) else {
+                break;
+            };
             if merge::is_enough(opened, folder) {
                 break;
             }
@@ -282,7 +307,13 @@ fn encounters(shared: &Shared, opened: &Opened, folder: &Folder, work: &Work) ->
 }
 
 /// Runs a block and writes it; false where the job was given up on the way.
-fn one_block(shared: &Shared, opened: &Opened, folder: &Folder, block: u32, waker: &Waker) -> Result<bool, Error> {
+fn one_block(
+    shared: &Shared,
+    opened: &Opened,
+    folder: &Folder,
+    block: u32,
+    waker: &Waker,
+) -> Result<bool, Error> {
     let mut rows = Vec::new();
     for encounter in folder.encounters_of(block) {
         if !shared.goes_on() {

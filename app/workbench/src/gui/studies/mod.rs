@@ -43,7 +43,10 @@ impl Studies {
     /// The job at work or paused.
     #[must_use]
     pub fn current(&self) -> Option<&Job> {
-        self.jobs.iter().find(|job| job.at_work()).or_else(|| self.jobs.iter().find(|job| job.unfinished()))
+        self.jobs
+            .iter()
+            .find(|job| job.at_work())
+            .or_else(|| self.jobs.iter().find(|job| job.unfinished()))
     }
 }
 
@@ -57,8 +60,10 @@ pub fn folder_of(root: &Path, opened: &Opened) -> PathBuf {
 #[must_use]
 pub fn studies(root: &Path) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(root.join("studies")).into_iter().flatten().flatten();
-    let mut files: Vec<PathBuf> =
-        entries.map(|entry| entry.path()).filter(|path| path.extension().is_some_and(|end| end == "toml")).collect();
+    let mut files: Vec<PathBuf> = entries
+        .map(|entry| entry.path())
+        .filter(|path| path.extension().is_some_and(|end| end == "toml"))
+        .collect();
     files.sort();
     files
 }
@@ -85,7 +90,11 @@ pub fn tick(desk: &mut Desk) {
 fn follow(desk: &mut Desk) {
     let Some(shown) = desk.studies.results.followed() else { return };
     let job = desk.studies.jobs.iter().find(|job| job.folder().as_deref() == Some(shown));
-    let Some((opened, blocks, over)) = job.and_then(|job| Some((job.opened()?, job.progress().blocks, !job.at_work()))) else { return };
+    let Some((opened, blocks, over)) =
+        job.and_then(|job| Some((job.opened()?, job.progress().blocks, !job.at_work())))
+    else {
+        return;
+    };
     if desk.studies.results.is_due(blocks, over) {
         let folder = shown.to_owned();
         ask(desk, Asked { folder: Some(folder), opened: Some(opened), blocks, ..Asked::default() });
@@ -104,15 +113,21 @@ pub fn ask(desk: &mut Desk, asked: Asked) {
 /// Opens a study for editing, and the results it already has.
 pub fn open(desk: &mut Desk, path: &Path) {
     if desk.book.study_path().is_some() && desk.book.is_unsaved(Book::STUDY) {
-        desk.notice = Some(("the open study has unsaved edits; save or undo them first".into(), true));
+        desk.notice =
+            Some(("the open study has unsaved edits; save or undo them first".into(), true));
         return;
     }
     if let Err(error) = desk.book.open_study(path) {
         desk.notice = Some((error, true));
         return;
     }
-    let id = |path: &PathBuf| path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-    desk.studies.scenarios = super::panels::scenario::scenarios(desk.book.root()).iter().map(|path| (id(path), id(path))).collect();
+    let id = |path: &PathBuf| {
+        path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
+    };
+    desk.studies.scenarios = super::panels::scenario::scenarios(desk.book.root())
+        .iter()
+        .map(|path| (id(path), id(path)))
+        .collect();
     ask(desk, Asked { file: Some(path.to_owned()), ..Asked::default() });
 }
 
@@ -181,19 +196,28 @@ pub fn cancel(desk: &mut Desk) {
 
 /// Goes on with a copy of the open study beside those of the library.
 pub fn duplicate(desk: &mut Desk) {
-    let (Some(path), Some(text)) = (desk.book.study_path(), desk.book.text(Book::STUDY).map(str::to_owned)) else {
+    let (Some(path), Some(text)) =
+        (desk.book.study_path(), desk.book.text(Book::STUDY).map(str::to_owned))
+    else {
         desk.notice = Some(("open a study first".into(), true));
         return;
     };
     let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     let folder = desk.book.root().join("studies");
-    let Some(fresh) = (2..1000).map(|number| folder.join(format!("{stem}-{number}.toml"))).find(|path| !path.exists()) else { return };
-    let written = endline_gear::Document::parse(&text).map_err(|error| error.message).and_then(|mut document| {
-        let name = document.get("name").unwrap_or_default();
-        document.set("name", &format!("{name} (copy)")).map_err(|error| error.message)?;
-        std::fs::create_dir_all(&folder).map_err(|error| error.to_string())?;
-        document.save(&fresh).map_err(|error| error.to_string())
-    });
+    let Some(fresh) = (2..1000)
+        .map(|number| folder.join(format!("{stem}-{number}.toml")))
+        .find(|path| !path.exists())
+    else {
+        return;
+    };
+    let written = endline_gear::Document::parse(&text).map_err(|error| error.message).and_then(
+        |mut document| {
+            let name = document.get("name").unwrap_or_default();
+            document.set("name", &format!("{name} (copy)")).map_err(|error| error.message)?;
+            std::fs::create_dir_all(&folder).map_err(|error| error.to_string())?;
+            document.save(&fresh).map_err(|error| error.to_string())
+        },
+    );
     match written.and_then(|()| desk.book.open_study(&fresh)) {
         Ok(()) => desk.notice = Some((format!("a copy: {}", fresh.display()), false)),
         Err(error) => desk.notice = Some((format!("{}: {error}", fresh.display()), true)),
@@ -201,11 +225,18 @@ pub fn duplicate(desk: &mut Desk) {
 }
 
 /// A run of the results shown, made again: it ends where it ended in the study.
-pub fn again(shown: &Shown, option: usize, encounter: u32, host: &PluginHost) -> Result<Prepared, Error> {
+pub fn again(
+    shown: &Shown,
+    option: usize,
+    encounter: u32,
+    host: &PluginHost,
+) -> Result<Prepared, Error> {
     let prepared = shown.opened.prepare(option, &Encounter::of(&shown.opened, encounter))?;
     let (table, id) = (&shown.table, &shown.opened.options[option].id);
-    let (encounters, options, ends) = (table.reals("encounter"), table.texts("option"), table.reals("simulated_s"));
-    let row = (0..table.rows()).find(|row| encounters[*row] == Some(f64::from(encounter)) && options[*row] == *id);
+    let (encounters, options, ends) =
+        (table.reals("encounter"), table.texts("option"), table.reals("simulated_s"));
+    let row = (0..table.rows())
+        .find(|row| encounters[*row] == Some(f64::from(encounter)) && options[*row] == *id);
     let Some(end_s) = row.and_then(|row| ends[row]) else { return Ok(prepared) };
     let mut source = (*prepared.source).clone();
     let fault = |error: endline_gear::EditError| Error::Replay(error.message);
@@ -221,9 +252,15 @@ pub fn command_line(desk: &Desk) -> Option<(String, bool)> {
     let path = desk.book.study_path()?;
     let quoted = |path: &Path| format!("'{}'", path.display().to_string().replace('\'', "'\\''"));
     let job = desk.studies.jobs.iter().find(|job| job.file == path).and_then(Job::folder);
-    let shown = desk.studies.results.shown().filter(|shown| shown.opened.study.place.source.path == path.display().to_string());
+    let shown = desk
+        .studies
+        .results
+        .shown()
+        .filter(|shown| shown.opened.study.place.source.path == path.display().to_string());
     let folder = job.or_else(|| shown.map(|shown| shown.folder.clone()));
     let out = folder.map_or_else(String::new, |folder| format!(" --out {}", quoted(&folder)));
-    let line = |verb: &str| format!("endline study {verb} {} --library {}{out}", quoted(path), quoted(desk.book.root()));
+    let line = |verb: &str| {
+        format!("endline study {verb} {} --library {}{out}", quoted(path), quoted(desk.book.root()))
+    };
     Some((["run", "merge", "report"].map(line).join(" && "), !desk.book.unsaved().is_empty()))
 }

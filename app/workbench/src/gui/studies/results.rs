@@ -104,7 +104,9 @@ impl Results {
     /// Whether it is time to read again, with so many blocks there.
     #[must_use]
     pub fn is_due(&self, blocks: u32, over: bool) -> bool {
-        let fresh = self.read.is_none_or(|(before, at)| before != blocks && (over || at.elapsed() >= AGAIN));
+        let fresh = self
+            .read
+            .is_none_or(|(before, at)| before != blocks && (over || at.elapsed() >= AGAIN));
         !self.busy() && blocks > 0 && fresh
     }
 
@@ -120,7 +122,10 @@ impl Results {
             let _ = sender.send(read(asked, &host).map_err(|error| error.to_string()));
             waker();
         };
-        std::thread::Builder::new().name("endline-results".into()).spawn(work).map_err(|error| error.to_string())?;
+        std::thread::Builder::new()
+            .name("endline-results".into())
+            .spawn(work)
+            .map_err(|error| error.to_string())?;
         self.pending = Some(receiver);
         Ok(())
     }
@@ -130,7 +135,9 @@ impl Results {
         let answer = match self.pending.as_ref()?.try_recv() {
             Ok(answer) => answer,
             Err(TryRecvError::Empty) => return None,
-            Err(TryRecvError::Disconnected) => Err("reading the results ended by a fault inside the program".into()),
+            Err(TryRecvError::Disconnected) => {
+                Err("reading the results ended by a fault inside the program".into())
+            }
         };
         self.pending = None;
         Some(
@@ -138,7 +145,11 @@ impl Results {
                 .map(|shown| {
                     if let Some(shown) = shown {
                         self.folder = Some(shown.folder.clone());
-                        if self.shown.as_ref().is_none_or(|before| before.opened.hash != shown.opened.hash) {
+                        if self
+                            .shown
+                            .as_ref()
+                            .is_none_or(|before| before.opened.hash != shown.opened.hash)
+                        {
                             (self.event, self.only, self.replayed) = (None, None, None);
                         }
                         self.shown = Some(shown);
@@ -188,11 +199,17 @@ fn rows(opened: &Opened, folder: &Folder, at_work: bool) -> Result<(Table, bool)
 /// The study a folder of results belongs to: of the bundle in it, else of the library.
 fn of_folder(folder: &Path, library: &Path, host: &PluginHost) -> Result<Opened, Error> {
     let file = folder.join("study.json");
-    let text = std::fs::read_to_string(&file).map_err(|error| Error::at(&file, format!("no results of a study are here: {error}")))?;
-    let label: Label = serde_json::from_str(&text).map_err(|error| Error::at(&file, format!("is damaged: {error}")))?;
+    let text = std::fs::read_to_string(&file)
+        .map_err(|error| Error::at(&file, format!("no results of a study are here: {error}")))?;
+    let label: Label = serde_json::from_str(&text)
+        .map_err(|error| Error::at(&file, format!("is damaged: {error}")))?;
     let bundle = folder.join("bundle/study.toml");
     if bundle.is_file() {
         return Opened::open(&bundle, Some(&folder.join("bundle/gear-library")), host);
     }
-    Opened::open(&library.join("studies").join(format!("{}.toml", label.study)), Some(library), host)
+    Opened::open(
+        &library.join("studies").join(format!("{}.toml", label.study)),
+        Some(library),
+        host,
+    )
 }

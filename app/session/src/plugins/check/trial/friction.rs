@@ -13,7 +13,9 @@ const CONTACTS: usize = 8;
 const ROUNDING: f64 = 1e-9;
 
 pub(super) fn run(friction: &dyn FrictionModel, trial: &mut Trial<'_>) {
-    if !trial.check("defaults", || once(friction).map(|()| String::new()).map_err(|error| error.message)) {
+    if !trial
+        .check("defaults", || once(friction).map(|()| String::new()).map_err(|error| error.message))
+    {
         return;
     }
     let mut first = None;
@@ -22,10 +24,18 @@ pub(super) fn run(friction: &dyn FrictionModel, trial: &mut Trial<'_>) {
             let play = play(friction, set, None, 1).map_err(|error| error.message)?;
             first.get_or_insert(play);
         }
-        Ok(format!("{} contacts at attributes drawn within their ranges", SETS as usize * STEPS * CONTACTS))
+        Ok(format!(
+            "{} contacts at attributes drawn within their ranges",
+            SETS as usize * STEPS * CONTACTS
+        ))
     });
     let (true, Some(first)) = (tried, first) else { return };
-    plays_again(trial, &first, || play(friction, 0, None, 1), |floats| play(friction, 0, Some(floats), 1));
+    plays_again(
+        trial,
+        &first,
+        || play(friction, 0, None, 1),
+        |floats| play(friction, 0, Some(floats), 1),
+    );
     trial.check("pure", || pure(friction, &first));
     trial.check("energy", || energy(friction));
     trial.check("threads", || on_threads(&first, || play(friction, 0, None, 1)));
@@ -54,14 +64,22 @@ fn once(friction: &dyn FrictionModel) -> Result<(), HookError> {
 }
 
 /// One set of attributes and its steps, `asked` times each; from floats saved half way where some are given.
-fn play(friction: &dyn FrictionModel, set: u64, restored: Option<&[f64]>, asked: usize) -> Result<Play, HookError> {
+fn play(
+    friction: &dyn FrictionModel,
+    set: u64,
+    restored: Option<&[f64]>,
+    asked: usize,
+) -> Result<Play, HookError> {
     let mut random = Random(set);
     let attributes = numbers(&drawn(&friction.descriptor().attributes, &mut random));
     let draws: Vec<_> = (0..STEPS).map(|_| Draw::new(&mut random)).collect();
-    let mut state = restored.map_or_else(|| vec![0.0; CONTACTS * friction.descriptor().state_len], <[f64]>::to_vec);
+    let mut state = restored
+        .map_or_else(|| vec![0.0; CONTACTS * friction.descriptor().state_len], <[f64]>::to_vec);
     let mut half_way = state.clone();
     let mut answers = Vec::with_capacity(STEPS);
-    for (step, draw) in draws.iter().enumerate().skip(if restored.is_some() { STEPS / 2 } else { 0 }) {
+    for (step, draw) in
+        draws.iter().enumerate().skip(if restored.is_some() { STEPS / 2 } else { 0 })
+    {
         if step == STEPS / 2 {
             half_way.clone_from(&state);
         }
@@ -92,8 +110,12 @@ fn ask_watched(
     let mut ends = vec![0.0; floats + 64];
     friction.respond(attributes, contacts, &mut out[..answers])?;
     friction.advance(attributes, contacts, &mut ends[..floats])?;
-    if out[answers..].iter().any(|beyond| *beyond != FrictionResponse::default()) || ends[floats..].iter().any(|beyond| *beyond != 0.0) {
-        return Err(HookError::new(format!("it wrote beyond the {answers} answers and {floats} floats that it has room for")));
+    if out[answers..].iter().any(|beyond| *beyond != FrictionResponse::default())
+        || ends[floats..].iter().any(|beyond| *beyond != 0.0)
+    {
+        return Err(HookError::new(format!(
+            "it wrote beyond the {answers} answers and {floats} floats that it has room for"
+        )));
     }
     out.truncate(answers);
     ends.truncate(floats);
@@ -101,7 +123,9 @@ fn ask_watched(
 }
 
 fn answer_bits(out: &[FrictionResponse], state: &[f64]) -> Bits {
-    let of = |a: &FrictionResponse| a.force_n.into_iter().chain(a.by_slip.into_iter().flatten()).chain(a.by_normal_force);
+    let of = |a: &FrictionResponse| {
+        a.force_n.into_iter().chain(a.by_slip.into_iter().flatten()).chain(a.by_normal_force)
+    };
     bits(out.iter().flat_map(of).chain(state.iter().copied())).collect()
 }
 
@@ -110,7 +134,9 @@ fn pure(friction: &dyn FrictionModel, first: &Play) -> Result<String, String> {
     let often = play(friction, 0, None, 4).map_err(|error| error.message)?;
     match super::first_difference(&first.answers, &often.answers) {
         None => Ok("asked once or four times a step, the same bits".to_owned()),
-        Some(step) => Err(format!("`respond` is not pure: asked four times in a step instead of once, step {step} gave other bits")),
+        Some(step) => Err(format!(
+            "`respond` is not pure: asked four times in a step instead of once, step {step} gave other bits"
+        )),
     }
 }
 
@@ -124,9 +150,15 @@ fn energy(friction: &dyn FrictionModel) -> Result<String, String> {
         let mut state = vec![0.0; CONTACTS * friction.descriptor().state_len];
         let (mut work, mut exchanged) = ([0.0; CONTACTS], [0.0; CONTACTS]);
         for _ in 0..2 * STEPS {
-            let slip_m: [[f64; 3]; CONTACTS] = std::array::from_fn(|i| across(frame.normal[i], random.vector(way)));
-            let normal_force_n: [f64; CONTACTS] = std::array::from_fn(|_| random.between(-50.0, 300.0).max(0.0));
-            let contacts = Contacts { slip_m: &slip_m, normal_force_n: &normal_force_n, ..frame.contacts(&state) };
+            let slip_m: [[f64; 3]; CONTACTS] =
+                std::array::from_fn(|i| across(frame.normal[i], random.vector(way)));
+            let normal_force_n: [f64; CONTACTS] =
+                std::array::from_fn(|_| random.between(-50.0, 300.0).max(0.0));
+            let contacts = Contacts {
+                slip_m: &slip_m,
+                normal_force_n: &normal_force_n,
+                ..frame.contacts(&state)
+            };
             let mut out = [FrictionResponse::default(); CONTACTS];
             friction.respond(&attributes, &contacts, &mut out).map_err(|error| error.message)?;
             let mut ends = vec![0.0; state.len()];
@@ -137,7 +169,10 @@ fn energy(friction: &dyn FrictionModel) -> Result<String, String> {
                 work[i] += step;
                 exchanged[i] += step.abs();
                 if work[i] > ROUNDING * exchanged[i] {
-                    return Err(format!("it adds energy: {:.3e} J more than went in, at attributes {attributes:?}", work[i]));
+                    return Err(format!(
+                        "it adds energy: {:.3e} J more than went in, at attributes {attributes:?}",
+                        work[i]
+                    ));
                 }
             }
         }

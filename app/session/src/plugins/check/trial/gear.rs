@@ -16,8 +16,13 @@ pub(super) fn run(gear: &dyn GearType, trial: &mut Trial<'_>) {
     let mut built = None;
     trial.check("defaults", || {
         let (rig, site) = build_somewhere(gear, &values).map_err(|error| error.message)?;
-        let told =
-            format!("{} bodies, {} lines, {} links in {} m of water", rig.bodies.len(), rig.lines.len(), rig.links.len(), site.depth_m);
+        let told = format!(
+            "{} bodies, {} lines, {} links in {} m of water",
+            rig.bodies.len(),
+            rig.lines.len(),
+            rig.links.len(),
+            site.depth_m
+        );
         act(gear, &values, rig.lines.len(), None).map_err(|error| error.message)?;
         built = Some((rig, site));
         Ok(told)
@@ -31,17 +36,27 @@ pub(super) fn run(gear: &dyn GearType, trial: &mut Trial<'_>) {
     });
     let lines = rig.lines.len();
     let Ok(first) = act(gear, &values, lines, None) else { return };
-    plays_again(trial, &first, || act(gear, &values, lines, None), |floats| act(gear, &values, lines, Some(floats)));
+    plays_again(
+        trial,
+        &first,
+        || act(gear, &values, lines, None),
+        |floats| act(gear, &values, lines, Some(floats)),
+    );
     trial.check("threads", || on_threads(&first, || act(gear, &values, lines, None)));
     trial.time("a step", STEPS, || act(gear, &values, lines, None).map(drop));
 }
 
-fn build_somewhere(gear: &dyn GearType, values: &[AttributeValue]) -> Result<(Rig, Site), HookError> {
+fn build_somewhere(
+    gear: &dyn GearType,
+    values: &[AttributeValue],
+) -> Result<(Rig, Site), HookError> {
     let at = |depth_m: f64| {
         let site = Site { depth_m, current_m_s: [0.3, 0.0] };
         gear.build(values, &site).map(|rig| (rig, site))
     };
-    DEPTHS_M[1..].iter().fold(at(DEPTHS_M[0]), |built, depth| built.or_else(|first| at(*depth).map_err(|_| first)))
+    DEPTHS_M[1..]
+        .iter()
+        .fold(at(DEPTHS_M[0]), |built, depth| built.or_else(|first| at(*depth).map_err(|_| first)))
 }
 
 /// At attributes drawn at random it builds a rig that fits together, or says why not; the guard looks at the rig.
@@ -50,46 +65,78 @@ fn ranges(gear: &dyn GearType) -> Result<String, String> {
     for set in 0..SETS {
         let mut random = Random(set);
         let values = drawn(&gear.descriptor().attributes, &mut random);
-        let site = Site { depth_m: random.between(5.0, 200.0), current_m_s: [random.between(-1.0, 1.0), random.between(-1.0, 1.0)] };
+        let site = Site {
+            depth_m: random.between(5.0, 200.0),
+            current_m_s: [random.between(-1.0, 1.0), random.between(-1.0, 1.0)],
+        };
         match gear.build(&values, &site) {
             Ok(_) => built += 1,
             Err(error) if refuses(&error) => refused += 1,
             Err(error) => return Err(error.message),
         }
     }
-    Ok(format!("{built} rigs built, {refused} refused with a reason, at attributes drawn within their ranges"))
+    Ok(format!(
+        "{built} rigs built, {refused} refused with a reason, at attributes drawn within their ranges"
+    ))
 }
 
 /// Whether an error says what to change, and is no fault of the plugin's own.
 fn refuses(error: &HookError) -> bool {
-    let faults =
-        ["failed inside", "it gave ", "which its rig lacks", "used twice in its rig", "names no ", " m long", "is laid through one place"];
+    let faults = [
+        "failed inside",
+        "it gave ",
+        "which its rig lacks",
+        "used twice in its rig",
+        "names no ",
+        " m long",
+        "is laid through one place",
+    ];
     !faults.iter().any(|fault| error.message.contains(fault))
 }
 
 /// A run of its steps with tensions that come and go; from floats saved half way where some are given.
-fn act(gear: &dyn GearType, values: &[AttributeValue], lines: usize, restored: Option<&[f64]>) -> Result<Play, HookError> {
+fn act(
+    gear: &dyn GearType,
+    values: &[AttributeValue],
+    lines: usize,
+    restored: Option<&[f64]>,
+) -> Result<Play, HookError> {
     let mut random = Random(7);
     let tensions: Vec<Vec<[f64; 2]>> = (0..STEPS)
-        .map(|_| (0..lines).map(|_| [random.between(-2e3, 5e3).max(0.0), random.between(-2e3, 5e3).max(0.0)]).collect())
+        .map(|_| {
+            (0..lines)
+                .map(|_| [random.between(-2e3, 5e3).max(0.0), random.between(-2e3, 5e3).max(0.0)])
+                .collect()
+        })
         .collect();
-    let mut state = restored.map_or_else(|| vec![0.0; gear.descriptor().state_len], <[f64]>::to_vec);
+    let mut state =
+        restored.map_or_else(|| vec![0.0; gear.descriptor().state_len], <[f64]>::to_vec);
     let mut half_way = state.clone();
     let mut answers = Vec::with_capacity(STEPS);
-    for (step, end_tension_n) in tensions.iter().enumerate().skip(if restored.is_some() { STEPS / 2 } else { 0 }) {
+    for (step, end_tension_n) in
+        tensions.iter().enumerate().skip(if restored.is_some() { STEPS / 2 } else { 0 })
+    {
         if step == STEPS / 2 {
             half_way.clone_from(&state);
         }
         let mut actions = Vec::new();
-        gear.step(values, &GearStep { time_s: step as f64, dt_s: 1.0, end_tension_n }, &mut state, &mut actions)?;
-        answers.push(bits(state.iter().copied()).chain(actions.iter().flat_map(numbers_of)).collect());
+        gear.step(
+            values,
+            &GearStep { time_s: step as f64, dt_s: 1.0, end_tension_n },
+            &mut state,
+            &mut actions,
+        )?;
+        answers
+            .push(bits(state.iter().copied()).chain(actions.iter().flat_map(numbers_of)).collect());
     }
     Ok(Play { answers, half_way })
 }
 
 fn numbers_of(action: &GearAction) -> [u64; 3] {
     match action {
-        GearAction::CutLine { line, end } => [1, u64::from(*line), u64::from(matches!(end, LineEnd::B))],
+        GearAction::CutLine { line, end } => {
+            [1, u64::from(*line), u64::from(matches!(end, LineEnd::B))]
+        }
         GearAction::ReleaseLink { link } => [2, u64::from(*link), 0],
     }
 }

@@ -59,7 +59,11 @@ struct Trial<'a> {
 
 impl Trial<'_> {
     /// Makes a check and notes what it found; whether all is well.
-    fn check(&mut self, check: &'static str, work: impl FnOnce() -> Result<String, String>) -> bool {
+    fn check(
+        &mut self,
+        check: &'static str,
+        work: impl FnOnce() -> Result<String, String>,
+    ) -> bool {
         (self.begin)(check);
         let outcome = work();
         let sound = outcome.is_ok();
@@ -77,7 +81,11 @@ impl Trial<'_> {
                 fastest = fastest.min(start.elapsed().as_secs_f64() / calls as f64);
             }
             let told = format!("{:.2} µs {each}", 1e6 * fastest);
-            if fastest <= LONGEST_CALL_S { Ok(told) } else { Err(format!("takes {told}, more than {:.0} ms", 1e3 * LONGEST_CALL_S)) }
+            if fastest <= LONGEST_CALL_S {
+                Ok(told)
+            } else {
+                Err(format!("takes {told}, more than {:.0} ms", 1e3 * LONGEST_CALL_S))
+            }
         });
     }
 }
@@ -127,10 +135,16 @@ fn first_difference(one: &[Bits], other: &[Bits]) -> Option<usize> {
 }
 
 /// The same play on several threads at once.
-fn on_threads(first: &Play, play: impl Fn() -> Result<Play, HookError> + Sync) -> Result<String, String> {
+fn on_threads(
+    first: &Play,
+    play: impl Fn() -> Result<Play, HookError> + Sync,
+) -> Result<String, String> {
     let plays: Vec<_> = std::thread::scope(|scope| {
         let handles: Vec<_> = (0..THREADS).map(|_| scope.spawn(&play)).collect();
-        handles.into_iter().map(|handle| handle.join().map_err(|_| "a thread failed".to_owned())).collect()
+        handles
+            .into_iter()
+            .map(|handle| handle.join().map_err(|_| "a thread failed".to_owned()))
+            .collect()
     });
     for play in plays {
         let play = play?.map_err(|error| error.message)?;
@@ -144,9 +158,13 @@ fn on_threads(first: &Play, play: impl Fn() -> Result<Play, HookError> + Sync) -
 /// Attribute values at random within their ranges; of an item of the library the default.
 fn drawn(attributes: &[Attribute], random: &mut Random) -> Vec<AttributeValue> {
     let value = |attribute: &Attribute| match &attribute.kind {
-        AttributeKind::Number { min, max, .. } => AttributeValue::Number(random.between(*min, *max)),
+        AttributeKind::Number { min, max, .. } => {
+            AttributeValue::Number(random.between(*min, *max))
+        }
         AttributeKind::Count { min, max, .. } => AttributeValue::Number(random.whole(*min, *max)),
-        AttributeKind::Choice { words, .. } => AttributeValue::Choice(words[random.below(words.len())].to_string()),
+        AttributeKind::Choice { words, .. } => {
+            AttributeValue::Choice(words[random.below(words.len())].to_string())
+        }
         AttributeKind::Item { default, .. } => AttributeValue::Item(default.to_string()),
     };
     attributes.iter().map(value).collect()

@@ -10,14 +10,19 @@ const SETS: u64 = 24;
 const STEPS: usize = 40;
 
 pub(super) fn run(motion: &dyn WhaleMotion, trial: &mut Trial<'_>) {
-    if !trial.check("defaults", || once(motion).map(|()| String::new()).map_err(|error| error.message)) {
+    if !trial
+        .check("defaults", || once(motion).map(|()| String::new()).map_err(|error| error.message))
+    {
         return;
     }
     let plays: Result<Vec<_>, _> = {
         let mut took = None;
         trial.check("ranges", || {
-            let plays: Result<Vec<Play>, HookError> = (0..SETS).map(|set| play(motion, set, None)).collect();
-            let told = plays.as_ref().map(|_| format!("{} steps at attributes drawn within their ranges", SETS as usize * STEPS));
+            let plays: Result<Vec<Play>, HookError> =
+                (0..SETS).map(|set| play(motion, set, None)).collect();
+            let told = plays.as_ref().map(|_| {
+                format!("{} steps at attributes drawn within their ranges", SETS as usize * STEPS)
+            });
             let told = told.map_err(|error| error.message.clone());
             took = Some(plays);
             told
@@ -36,7 +41,9 @@ fn once(motion: &dyn WhaleMotion) -> Result<(), HookError> {
     let mut state = vec![0.0; motion.descriptor().state_len];
     let drawing = Drawing::new(&mut Random(1), motion.descriptor().acts.len());
     let controls = Controls { speed: 1.0, yaw: 0.5, ..Controls::default() };
-    motion.step(&attributes, &MotionInput { controls, time_s: 0.0, ..drawing.input(0) }, &mut state).map(drop)
+    motion
+        .step(&attributes, &MotionInput { controls, time_s: 0.0, ..drawing.input(0) }, &mut state)
+        .map(drop)
 }
 
 /// One set of attributes and its steps; from floats saved half way where some are given.
@@ -44,11 +51,14 @@ fn play(motion: &dyn WhaleMotion, set: u64, restored: Option<&[f64]>) -> Result<
     let descriptor = motion.descriptor();
     let mut random = Random(set);
     let attributes = numbers(&drawn(&descriptor.attributes, &mut random));
-    let drawings: Vec<_> = (0..STEPS).map(|_| Drawing::new(&mut random, descriptor.acts.len())).collect();
+    let drawings: Vec<_> =
+        (0..STEPS).map(|_| Drawing::new(&mut random, descriptor.acts.len())).collect();
     let mut state = restored.map_or_else(|| vec![0.0; descriptor.state_len], <[f64]>::to_vec);
     let mut half_way = state.clone();
     let mut answers = Vec::with_capacity(STEPS);
-    for (step, drawing) in drawings.iter().enumerate().skip(if restored.is_some() { STEPS / 2 } else { 0 }) {
+    for (step, drawing) in
+        drawings.iter().enumerate().skip(if restored.is_some() { STEPS / 2 } else { 0 })
+    {
         if step == STEPS / 2 {
             half_way.clone_from(&state);
         }

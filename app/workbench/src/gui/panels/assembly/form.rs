@@ -13,7 +13,8 @@ use super::{inserts, item};
 
 /// Draws the form.
 pub(super) fn show(ui: &mut Ui, desk: &mut Desk, file: &str, id: &str, gear_type: &str) {
-    let Some(gear) = desk.gear_types().into_iter().find(|gear| gear.descriptor().id == gear_type) else {
+    let Some(gear) = desk.gear_types().into_iter().find(|gear| gear.descriptor().id == gear_type)
+    else {
         let text = format!("No gear type `{gear_type}` among the plugins; see Problems.");
         ui.label(RichText::new(text).color(Theme::palette_of(ui).error));
         return;
@@ -27,13 +28,16 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, file: &str, id: &str, gear_type
         inserts::of_placed(ui, desk);
     } else {
         let text = "Weak inserts go into gear that the scenario uses: Use in scenario, above.";
-        ui.add(egui::Label::new(RichText::new(text).small().color(Theme::palette_of(ui).faint)).wrap());
+        ui.add(
+            egui::Label::new(RichText::new(text).small().color(Theme::palette_of(ui).faint)).wrap(),
+        );
     }
     super::super::caption(ui, "Attributes");
     Grid::new("attributes").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
         for attribute in &attributes {
             let name = super::super::library::title(&attribute.key);
-            ui.label(RichText::new(name).color(Theme::palette_of(ui).faint)).on_hover_text(help(attribute));
+            ui.label(RichText::new(name).color(Theme::palette_of(ui).faint))
+                .on_hover_text(help(attribute));
             cell(ui, desk, file, attribute);
             ui.end_row();
         }
@@ -45,8 +49,11 @@ fn scope_slider(ui: &mut Ui, desk: &mut Desk, file: &str, attribute: &Attribute)
     let AttributeKind::Number { min, max, default } = attribute.kind else { return };
     let typed = desk.book.field(file, "attributes.scope").and_then(|text| text.parse::<f64>().ok());
     let mut scope = typed.unwrap_or(default);
-    let slider =
-        Slider::new(&mut scope, min.max(1.0)..=max.min(3.0)).clamping(SliderClamping::Never).min_decimals(2).max_decimals(4).text("scope");
+    let slider = Slider::new(&mut scope, min.max(1.0)..=max.min(3.0))
+        .clamping(SliderClamping::Never)
+        .min_decimals(2)
+        .max_decimals(4)
+        .text("scope");
     ui.spacing_mut().slider_width = 110.0;
     let response = ui.add(slider).on_hover_text("Length of the endline over the depth of water");
     if response.changed()
@@ -68,14 +75,22 @@ fn cell(ui: &mut Ui, desk: &mut Desk, file: &str, attribute: &Attribute) {
             item(ui, desk, file, &field, kind, default.is_empty());
         }
         AttributeKind::Choice { words, .. } => {
-            let choices: Vec<(String, String)> = words.iter().map(|word| (word.to_string(), word.to_string())).collect();
+            let choices: Vec<(String, String)> =
+                words.iter().map(|word| (word.to_string(), word.to_string())).collect();
             if let Some(taken) = fields::choose(ui, &desk.book, file, &field, &choices, width) {
                 desk.set(file, &field, &taken);
             }
         }
         AttributeKind::Number { .. } | AttributeKind::Count { .. } => {
             let (hint, help) = (usual(attribute), help(attribute));
-            if let Some(typed) = fields::edit(ui, &desk.book, file, &field, width, fields::Said { hint: &hint, help: &help }) {
+            if let Some(typed) = fields::edit(
+                ui,
+                &desk.book,
+                file,
+                &field,
+                width,
+                fields::Said { hint: &hint, help: &help },
+            ) {
                 desk.set(file, &field, &typed);
             }
         }
@@ -87,7 +102,9 @@ fn usual(attribute: &Attribute) -> String {
     let text = match &attribute.kind {
         AttributeKind::Number { default, .. } => in_unit(*default, &attribute.unit),
         AttributeKind::Count { default, .. } => default.to_string(),
-        AttributeKind::Choice { default, .. } | AttributeKind::Item { default, .. } => default.to_string(),
+        AttributeKind::Choice { default, .. } | AttributeKind::Item { default, .. } => {
+            default.to_string()
+        }
     };
     format!("{text} (usual)")
 }
@@ -96,7 +113,11 @@ fn usual(attribute: &Attribute) -> String {
 fn help(attribute: &Attribute) -> String {
     let range = match &attribute.kind {
         AttributeKind::Number { min, max, .. } => {
-            format!("\nbetween {} and {}", in_unit(*min, &attribute.unit), in_unit(*max, &attribute.unit))
+            format!(
+                "\nbetween {} and {}",
+                in_unit(*min, &attribute.unit),
+                in_unit(*max, &attribute.unit)
+            )
         }
         AttributeKind::Count { min, max, .. } => format!("\na whole number from {min} to {max}"),
         AttributeKind::Choice { words, .. } => format!("\none of {}", words.join(", ")),
@@ -107,5 +128,6 @@ fn help(attribute: &Attribute) -> String {
 
 fn in_unit(value: f64, unit: &str) -> String {
     let value = super::super::library::rounded(value);
-    Quantity::from_si_unit(unit).map_or_else(|| format!("{value} {unit}"), |quantity| format_si(value, quantity))
+    Quantity::from_si_unit(unit)
+        .map_or_else(|| format!("{value} {unit}"), |quantity| format_si(value, quantity))
 }

@@ -11,8 +11,13 @@ use super::item;
 
 /// What new inserts are: weak rope of 3 ft every 60 ft over the top three quarters, the first 12 ft down
 /// (Massachusetts rules for contrivances; `docs/gear-format.md`).
-const USUAL: [(&str, &str); 5] =
-    [("rope", "weak-1700-3-8"), ("length", "3 ft"), ("first", "12 ft"), ("every", "60 ft"), ("within", "0.75")];
+const USUAL: [(&str, &str); 5] = [
+    ("rope", "weak-1700-3-8"),
+    ("length", "3 ft"),
+    ("first", "12 ft"),
+    ("every", "60 ft"),
+    ("within", "0.75"),
+];
 
 /// Inserts of the lines of gear that a gear type builds: they stand in the scenario, over the assembly.
 pub(super) fn of_placed(ui: &mut Ui, desk: &mut Desk) {
@@ -25,8 +30,13 @@ pub(super) fn of_placed(ui: &mut Ui, desk: &mut Desk) {
 /// Lines of the gear shown, pieces of one line taken together.
 fn built_lines(desk: &Desk) -> Vec<String> {
     let rest = desk.assembly.answers()[0].and_then(|answer| answer.as_ref().ok());
-    let ids = rest.iter().flat_map(|rest| &rest.shape.lines).map(|line| line.id.split(['.', '/']).next().unwrap_or_default().to_owned());
-    let mut lines: Vec<String> = ids.filter(|id| !id.is_empty() && !id.starts_with("gangion") && !id.starts_with("groundline")).collect();
+    let ids = rest
+        .iter()
+        .flat_map(|rest| &rest.shape.lines)
+        .map(|line| line.id.split(['.', '/']).next().unwrap_or_default().to_owned());
+    let mut lines: Vec<String> = ids
+        .filter(|id| !id.is_empty() && !id.starts_with("gangion") && !id.starts_with("groundline"))
+        .collect();
     lines.dedup();
     lines.truncate(12);
     lines
@@ -39,12 +49,24 @@ pub(super) fn one(ui: &mut Ui, desk: &mut Desk, file: &str, field: &str, name: &
     ui.horizontal(|ui| {
         ui.label(name);
         if there {
-            if ui.small_button("Take out").on_hover_text("Take the inserts out of this line").clicked() {
-                alter(desk, file, |document| document.remove(&inserts).map_err(|error| error.to_string()));
+            if ui
+                .small_button("Take out")
+                .on_hover_text("Take the inserts out of this line")
+                .clicked()
+            {
+                alter(desk, file, |document| {
+                    document.remove(&inserts).map_err(|error| error.to_string())
+                });
             }
-        } else if ui.small_button("Put in").on_hover_text("3 ft of weak rope every 60 ft over the top three quarters").clicked() {
+        } else if ui
+            .small_button("Put in")
+            .on_hover_text("3 ft of weak rope every 60 ft over the top three quarters")
+            .clicked()
+        {
             alter(desk, file, |document| {
-                let put = |(key, value): &(&str, &str)| document.put(&format!("{inserts}.{key}"), &Setting::plain(value));
+                let put = |(key, value): &(&str, &str)| {
+                    document.put(&format!("{inserts}.{key}"), &Setting::plain(value))
+                };
                 USUAL.iter().try_for_each(put).map_err(|error| error.to_string())
             });
         }
@@ -54,7 +76,11 @@ pub(super) fn one(ui: &mut Ui, desk: &mut Desk, file: &str, field: &str, name: &
     }
 }
 
-fn alter(desk: &mut Desk, file: &str, change: impl FnOnce(&mut endline_gear::Document) -> Result<(), String>) {
+fn alter(
+    desk: &mut Desk,
+    file: &str,
+    change: impl FnOnce(&mut endline_gear::Document) -> Result<(), String>,
+) {
     if let Err(error) = desk.book.alter(file, change) {
         desk.notice = Some((error, true));
     }
@@ -65,7 +91,11 @@ fn editor(ui: &mut Ui, desk: &mut Desk, file: &str, inserts: &str) {
         ("Length", "length", "Length of each, such as 3 ft"),
         ("First at", "first", "From the buoy's end to the first, such as 12 ft"),
         ("Repeat every", "every", "From one to the next, such as 60 ft"),
-        ("Within top", "within", "Share of the line, from the buoy's end, they lie in: 0.75 for the top 75 %"),
+        (
+            "Within top",
+            "within",
+            "Share of the line, from the buoy's end, they lie in: 0.75 for the top 75 %",
+        ),
     ];
     ui.indent(inserts, |ui| {
         Grid::new(("inserts", inserts)).num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
@@ -73,9 +103,12 @@ fn editor(ui: &mut Ui, desk: &mut Desk, file: &str, inserts: &str) {
             item(ui, desk, file, &format!("{inserts}.rope"), Kind::Rope, false);
             ui.end_row();
             for (name, key, help) in rows {
-                ui.label(RichText::new(name).color(Theme::palette_of(ui).faint)).on_hover_text(help);
+                ui.label(RichText::new(name).color(Theme::palette_of(ui).faint))
+                    .on_hover_text(help);
                 let (field, width) = (format!("{inserts}.{key}"), ui.available_width() - 8.0);
-                if let Some(typed) = fields::edit(ui, &desk.book, file, &field, width, super::said(help)) {
+                if let Some(typed) =
+                    fields::edit(ui, &desk.book, file, &field, width, super::said(help))
+                {
                     desk.set(file, &field, &typed);
                 }
                 ui.end_row();

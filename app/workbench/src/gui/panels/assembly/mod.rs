@@ -73,7 +73,10 @@ impl AssemblyState {
 /// Draws the assembly panel.
 pub fn show(ui: &mut Ui, desk: &mut Desk) {
     let Some(id) = shown(desk) else {
-        return super::nothing(ui, "No assembly here. Take one from a gear type with the New menu, or place one in the scenario.");
+        return super::nothing(
+            ui,
+            "No assembly here. Take one from a gear type with the New menu, or place one in the scenario.",
+        );
     };
     ask(desk, &id);
     toolbar(ui, desk, &id);
@@ -94,10 +97,16 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
         });
     });
     let rest = rest.with_min_x(rest.left() + 8.0);
-    let foot = (if desk.assembly.sweep { 220.0 } else { table::height(desk) }).min(rest.height() * 0.5);
+    let foot =
+        (if desk.assembly.sweep { 220.0 } else { table::height(desk) }).min(rest.height() * 0.5);
     let (above, below) = rest.split_top_bottom_at_y(rest.bottom() - foot);
     super::within(ui, above.with_max_y(above.bottom() - 6.0), |ui| side::show(ui, desk));
-    super::within(ui, below, |ui| ScrollArea::both().id_salt("assembly-table").auto_shrink(false).show(ui, |ui| foot_of(ui, desk, &id)));
+    super::within(ui, below, |ui| {
+        ScrollArea::both()
+            .id_salt("assembly-table")
+            .auto_shrink(false)
+            .show(ui, |ui| foot_of(ui, desk, &id))
+    });
 }
 
 fn foot_of(ui: &mut Ui, desk: &mut Desk, id: &str) {
@@ -113,7 +122,12 @@ fn shown(desk: &Desk) -> Option<String> {
     let there = |id: &String| desk.book.text(&path(id)).is_some();
     let chosen = desk.assembly.shown.clone().filter(there);
     let of_scenario = || desk.book.field(Book::SCENARIO, "gear.0.assembly").filter(there);
-    let first = || desk.book.files("assemblies").next().map(|path| path["assemblies/".len()..].trim_end_matches(".toml").to_owned());
+    let first = || {
+        desk.book
+            .files("assemblies")
+            .next()
+            .map(|path| path["assemblies/".len()..].trim_end_matches(".toml").to_owned())
+    };
     chosen.or_else(of_scenario).or_else(first)
 }
 
@@ -124,7 +138,10 @@ fn path(id: &str) -> String {
 
 /// Asks for statics where gear or sea have changed since.
 fn ask(desk: &mut Desk, id: &str) {
-    let at = |assembly: &str, current_m_s: Option<f64>| Trial { assembly: assembly.to_owned(), sea: TrialSea { depth: None, current_m_s } };
+    let at = |assembly: &str, current_m_s: Option<f64>| Trial {
+        assembly: assembly.to_owned(),
+        sea: TrialSea { depth: None, current_m_s },
+    };
     let running = desk.assembly.running_m_s;
     let mut trials = vec![at(id, Some(0.0)), at(id, running)];
     if let Some(other) = &desk.assembly.other {
@@ -149,32 +166,45 @@ fn toolbar(ui: &mut Ui, desk: &mut Desk, id: &str) {
         }
         ui.label(RichText::new("B").strong().color(side::B.color(ui)));
         let other = desk.assembly.other.clone();
-        if let Some(taken) = pick(ui, "gear-b", &choices, other.as_deref(), Some("compare with …")) {
+        if let Some(taken) = pick(ui, "gear-b", &choices, other.as_deref(), Some("compare with …"))
+        {
             desk.assembly.other = taken;
         }
-        ui.toggle_value(&mut desk.assembly.selecting, "Pictures")
-            .on_hover_text("Choose A by its picture: every assembly at rest in this scenario's sea");
+        ui.toggle_value(&mut desk.assembly.selecting, "Pictures").on_hover_text(
+            "Choose A by its picture: every assembly at rest in this scenario's sea",
+        );
         ui.menu_button("New ⏷", |ui| new(ui, desk));
         if ui.button("Duplicate").on_hover_text("Copy A to a file of its own").clicked() {
             match desk.book.duplicate(&path(id)) {
-                Ok(fresh) => desk.assembly.shown = Some(fresh["assemblies/".len()..].trim_end_matches(".toml").to_owned()),
+                Ok(fresh) => {
+                    desk.assembly.shown =
+                        Some(fresh["assemblies/".len()..].trim_end_matches(".toml").to_owned())
+                }
                 Err(error) => desk.notice = Some((error, true)),
             }
         }
         let placed = desk.book.field(Book::SCENARIO, "gear.0.assembly");
-        if placed.is_some() && placed.as_deref() != Some(id) && primary(ui, true, "Use in scenario").clicked() {
+        if placed.is_some()
+            && placed.as_deref() != Some(id)
+            && primary(ui, true, "Use in scenario").clicked()
+        {
             desk.set(Book::SCENARIO, "gear.0.assembly", id);
         }
         ui.menu_button("Model ⏷", |ui| {
             for (text, ending) in [("Save as STL …", "stl"), ("Save as glTF …", "glb")] {
-                if ui.button(text).on_hover_text("A at rest in running tide, in metres, for CAD and pictures").clicked() {
+                if ui
+                    .button(text)
+                    .on_hover_text("A at rest in running tide, in metres, for CAD and pictures")
+                    .clicked()
+                {
                     desk.orders.push(Order::AskExportModel(ending));
                     ui.close();
                 }
             }
         });
         ui.separator();
-        ui.toggle_value(&mut desk.assembly.sweep, "Depths and tides").on_hover_text("Tension and float height by depth and current");
+        ui.toggle_value(&mut desk.assembly.sweep, "Depths and tides")
+            .on_hover_text("Tension and float height by depth and current");
     });
     tide(ui, desk);
 }
@@ -182,7 +212,9 @@ fn toolbar(ui: &mut Ui, desk: &mut Desk, id: &str) {
 /// The slider of the running tide.
 fn tide(ui: &mut Ui, desk: &mut Desk) {
     let units = desk.preferences.units;
-    let of_scenario_m_s = desk.assembly.answers()[1].and_then(|answer| answer.as_ref().ok()).map(|rest| surface_m_s(rest));
+    let of_scenario_m_s = desk.assembly.answers()[1]
+        .and_then(|answer| answer.as_ref().ok())
+        .map(|rest| surface_m_s(rest));
     ui.horizontal(|ui| {
         ui.label(RichText::new("Running tide").color(Theme::palette_of(ui).faint));
         let mut speed = units.of_m_s(desk.assembly.running_m_s.or(of_scenario_m_s).unwrap_or(0.25));
@@ -192,7 +224,11 @@ fn tide(ui: &mut Ui, desk: &mut Desk) {
             .min_decimals(2)
             .max_decimals(4)
             .suffix(format!(" {}", units.speed_symbol()));
-        if ui.add(slider).on_hover_text("Surface speed of the current; slack tide is drawn beside it").changed() {
+        if ui
+            .add(slider)
+            .on_hover_text("Surface speed of the current; slack tide is drawn beside it")
+            .changed()
+        {
             desk.assembly.running_m_s = Some(units.to_m_s(speed));
         }
         if desk.assembly.running_m_s.is_some() && ui.button("As scenario").clicked() {
@@ -223,20 +259,34 @@ fn assemblies(desk: &Desk) -> Vec<(String, String)> {
 }
 
 /// A choice among assemblies; the outer answer says whether something was taken, the inner one what.
-fn pick(ui: &mut Ui, salt: &str, choices: &[(String, String)], chosen: Option<&str>, none: Option<&str>) -> Option<Option<String>> {
-    let name = |id: &str| choices.iter().find(|(known, _)| known == id).map_or(id.to_owned(), |(_, name)| name.clone());
+fn pick(
+    ui: &mut Ui,
+    salt: &str,
+    choices: &[(String, String)],
+    chosen: Option<&str>,
+    none: Option<&str>,
+) -> Option<Option<String>> {
+    let name = |id: &str| {
+        choices
+            .iter()
+            .find(|(known, _)| known == id)
+            .map_or(id.to_owned(), |(_, name)| name.clone())
+    };
     let shown = chosen.map_or(none.unwrap_or_default().to_owned(), name);
     let mut taken = None;
-    egui::ComboBox::from_id_salt(salt).width(150.0).truncate().selected_text(shown).show_ui(ui, |ui| {
-        if none.is_some() && ui.selectable_label(chosen.is_none(), "nothing").clicked() {
-            taken = Some(None);
-        }
-        for (id, name) in choices {
-            if ui.selectable_label(chosen == Some(id), name).on_hover_text(id).clicked() {
-                taken = Some(Some(id.clone()));
+    egui::ComboBox::from_id_salt(salt).width(150.0).truncate().selected_text(shown).show_ui(
+        ui,
+        |ui| {
+            if none.is_some() && ui.selectable_label(chosen.is_none(), "nothing").clicked() {
+                taken = Some(None);
             }
-        }
-    });
+            for (id, name) in choices {
+                if ui.selectable_label(chosen == Some(id), name).on_hover_text(id).clicked() {
+                    taken = Some(Some(id.clone()));
+                }
+            }
+        },
+    );
     taken
 }
 
@@ -253,7 +303,8 @@ fn new(ui: &mut Ui, desk: &mut Desk) {
                 descriptor.id
             );
             desk.book.put_all(vec![(fresh.clone(), text)]);
-            desk.assembly.shown = Some(fresh["assemblies/".len()..].trim_end_matches(".toml").to_owned());
+            desk.assembly.shown =
+                Some(fresh["assemblies/".len()..].trim_end_matches(".toml").to_owned());
             ui.close();
         }
     }
@@ -262,16 +313,22 @@ fn new(ui: &mut Ui, desk: &mut Desk) {
 /// What the gear is made of: a gear type's attributes, or its parts.
 fn make(ui: &mut Ui, desk: &mut Desk, id: &str) {
     let file = path(id);
-    if let Some(name) =
-        super::super::fields::edit(ui, &desk.book, &file, "name", ui.available_width() - 8.0, said("Name shown to the user"))
-    {
+    if let Some(name) = super::super::fields::edit(
+        ui,
+        &desk.book,
+        &file,
+        "name",
+        ui.available_width() - 8.0,
+        said("Name shown to the user"),
+    ) {
         desk.set(&file, "name", &name);
     }
     match desk.book.field(&file, "gear_type") {
         Some(gear_type) => form::show(ui, desk, &file, id, &gear_type),
         None => parts::show(ui, desk, &file),
     }
-    let problems: Vec<_> = desk.book.problems().iter().filter(|problem| problem.file == file).cloned().collect();
+    let problems: Vec<_> =
+        desk.book.problems().iter().filter(|problem| problem.file == file).cloned().collect();
     for problem in &problems {
         super::problems::entry(ui, problem);
     }
@@ -284,12 +341,14 @@ fn said(help: &str) -> super::super::fields::Said<'_> {
 /// A choice of a library item for a field of a file; with `none` it may be empty.
 fn item(ui: &mut Ui, desk: &mut Desk, file: &str, field: &str, kind: Kind, none: bool) {
     let library = desk.book.library();
-    let mut choices: Vec<(String, String)> = library.entries(kind).iter().map(|entry| (entry.id.clone(), entry.name.clone())).collect();
+    let mut choices: Vec<(String, String)> =
+        library.entries(kind).iter().map(|entry| (entry.id.clone(), entry.name.clone())).collect();
     if none {
         choices.insert(0, (String::new(), "none".to_owned()));
     }
     let width = ui.available_width() - 8.0;
-    if let Some(taken) = super::super::fields::choose(ui, &desk.book, file, field, &choices, width) {
+    if let Some(taken) = super::super::fields::choose(ui, &desk.book, file, field, &choices, width)
+    {
         desk.set(file, field, &taken);
     }
 }

@@ -56,19 +56,40 @@ fn change(desk: &mut Desk, file: &str, change: impl FnOnce(&mut Document) -> Res
 /// An id of a stem that no part has.
 fn fresh(taken: &[String], stem: &str) -> String {
     let numbered = (2..).map(|number| format!("{stem}-{number}"));
-    std::iter::once(stem.to_owned()).chain(numbered).find(|id| !taken.contains(id)).unwrap_or_default()
+    std::iter::once(stem.to_owned())
+        .chain(numbered)
+        .find(|id| !taken.contains(id))
+        .unwrap_or_default()
 }
 
 /// The menu of what can be added.
 fn add(ui: &mut Ui, desk: &mut Desk, file: &str) {
     ui.menu_button("Add ⏷", |ui| {
-        for (word, kind, height) in [("trap", Kind::Trap, "0"), ("buoy", Kind::Buoy, "1"), ("anchor", Kind::Anchor, "0")] {
+        for (word, kind, height) in
+            [("trap", Kind::Trap, "0"), ("buoy", Kind::Buoy, "1"), ("anchor", Kind::Anchor, "0")]
+        {
             if ui.button(super::super::library::title(word)).clicked() {
-                let first = desk.book.library().ids(kind).first().map(|id| (*id).to_owned()).unwrap_or_default();
+                let first = desk
+                    .book
+                    .library()
+                    .ids(kind)
+                    .first()
+                    .map(|id| (*id).to_owned())
+                    .unwrap_or_default();
                 let id = fresh(&ids(desk, file, "body"), word);
-                let fields =
-                    [("id", id.as_str()), ("kind", word), ("item", &first), ("position", "[\"0 m\", \"0 m\"]"), ("height", height)];
-                change(desk, file, |document| document.push_table("body", &fields).map(|_| ()).map_err(|error| error.to_string()));
+                let fields = [
+                    ("id", id.as_str()),
+                    ("kind", word),
+                    ("item", &first),
+                    ("position", "[\"0 m\", \"0 m\"]"),
+                    ("height", height),
+                ];
+                change(desk, file, |document| {
+                    document
+                        .push_table("body", &fields)
+                        .map(|_| ())
+                        .map_err(|error| error.to_string())
+                });
                 ui.close();
             }
         }
@@ -77,8 +98,19 @@ fn add(ui: &mut Ui, desk: &mut Desk, file: &str) {
         if ui.add_enabled(two.is_some(), egui::Button::new("Line")).clicked() {
             if let Some((from, to)) = two {
                 let id = fresh(&ids(desk, file, "line"), "line");
-                let fields = [("id", id.as_str()), ("rope", "sink-3-8"), ("from", from), ("to", to), ("length", "20 fathom")];
-                change(desk, file, |document| document.push_table("line", &fields).map(|_| ()).map_err(|error| error.to_string()));
+                let fields = [
+                    ("id", id.as_str()),
+                    ("rope", "sink-3-8"),
+                    ("from", from),
+                    ("to", to),
+                    ("length", "20 fathom"),
+                ];
+                change(desk, file, |document| {
+                    document
+                        .push_table("line", &fields)
+                        .map(|_| ())
+                        .map_err(|error| error.to_string())
+                });
             }
             ui.close();
         }
@@ -86,15 +118,27 @@ fn add(ui: &mut Ui, desk: &mut Desk, file: &str) {
 }
 
 /// A part's head in the tree; answers whether it is to be taken out.
-fn head(ui: &mut Ui, file: &str, list: &str, index: usize, title: &str, open: bool, show: impl FnOnce(&mut Ui)) -> bool {
+fn head(
+    ui: &mut Ui,
+    file: &str,
+    list: &str,
+    index: usize,
+    title: &str,
+    open: bool,
+    show: impl FnOnce(&mut Ui),
+) -> bool {
     let id = ui.make_persistent_id(("part", file, list, index));
-    let state = egui::collapsing_header::CollapsingState::load_with_default_open(ui.ctx(), id, open);
+    let state =
+        egui::collapsing_header::CollapsingState::load_with_default_open(ui.ctx(), id, open);
     let mut out = false;
     state
         .show_header(ui, |ui| {
             ui.label(title);
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                out = ui.small_button("✖").on_hover_text("Take it out; Undo brings it back").clicked();
+                out = ui
+                    .small_button("✖")
+                    .on_hover_text("Take it out; Undo brings it back")
+                    .clicked();
             });
         })
         .body(show);
@@ -102,7 +146,9 @@ fn head(ui: &mut Ui, file: &str, list: &str, index: usize, title: &str, open: bo
 }
 
 fn take_out(desk: &mut Desk, file: &str, list: &str, index: usize) {
-    change(desk, file, |document| document.remove_table(list, index).map_err(|error| error.to_string()));
+    change(desk, file, |document| {
+        document.remove_table(list, index).map_err(|error| error.to_string())
+    });
 }
 
 fn row(ui: &mut Ui, desk: &mut Desk, file: &str, name: &str, field: &str, help: &str) {
@@ -116,7 +162,8 @@ fn row(ui: &mut Ui, desk: &mut Desk, file: &str, name: &str, field: &str, help: 
 
 fn body(ui: &mut Ui, desk: &mut Desk, file: &str, index: usize) {
     let at = format!("body.{index}");
-    let (id, word) = (text(desk, file, &format!("{at}.id")), text(desk, file, &format!("{at}.kind")));
+    let (id, word) =
+        (text(desk, file, &format!("{at}.id")), text(desk, file, &format!("{at}.kind")));
     let kind = match word.as_str() {
         "buoy" => Kind::Buoy,
         "anchor" => Kind::Anchor,
@@ -127,8 +174,22 @@ fn body(ui: &mut Ui, desk: &mut Desk, file: &str, index: usize) {
             ui.label(RichText::new("Item").color(Theme::palette_of(ui).faint));
             item(ui, desk, file, &format!("{at}.item"), kind, false);
             ui.end_row();
-            row(ui, desk, file, "Along", &format!("{at}.position.0"), "First guess of its place along the gear, such as 20 m");
-            row(ui, desk, file, "Height", &format!("{at}.height"), "First guess of its height: 0 on the seabed, 1 at the surface");
+            row(
+                ui,
+                desk,
+                file,
+                "Along",
+                &format!("{at}.position.0"),
+                "First guess of its place along the gear, such as 20 m",
+            );
+            row(
+                ui,
+                desk,
+                file,
+                "Height",
+                &format!("{at}.height"),
+                "First guess of its height: 0 on the seabed, 1 at the surface",
+            );
         });
     });
     if out {
@@ -141,8 +202,22 @@ fn joint(ui: &mut Ui, desk: &mut Desk, file: &str, index: usize) {
     let id = text(desk, file, &format!("{at}.id"));
     let out = head(ui, file, "joint", index, &id, false, |ui| {
         Grid::new((&at, "grid")).num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
-            row(ui, desk, file, "Along", &format!("{at}.position.0"), "First guess of its place along the gear");
-            row(ui, desk, file, "Height", &format!("{at}.height"), "First guess of its height: 0 on the seabed, 1 at the surface");
+            row(
+                ui,
+                desk,
+                file,
+                "Along",
+                &format!("{at}.position.0"),
+                "First guess of its place along the gear",
+            );
+            row(
+                ui,
+                desk,
+                file,
+                "Height",
+                &format!("{at}.height"),
+                "First guess of its height: 0 on the seabed, 1 at the surface",
+            );
         });
     });
     if out {
@@ -153,7 +228,11 @@ fn joint(ui: &mut Ui, desk: &mut Desk, file: &str, index: usize) {
 fn link(ui: &mut Ui, desk: &mut Desk, file: &str, index: usize) {
     let at = format!("link.{index}");
     let id = text(desk, file, &format!("{at}.id"));
-    let title = format!("{id} at {} of {}", text(desk, file, &format!("{at}.end")), text(desk, file, &format!("{at}.line")));
+    let title = format!(
+        "{id} at {} of {}",
+        text(desk, file, &format!("{at}.end")),
+        text(desk, file, &format!("{at}.line"))
+    );
     let out = head(ui, file, "link", index, &title, false, |ui| {
         item(ui, desk, file, &format!("{at}.item"), Kind::WeakLink, false);
     });
@@ -169,14 +248,25 @@ fn text(desk: &Desk, file: &str, field: &str) -> String {
 fn line(ui: &mut Ui, desk: &mut Desk, file: &str, index: usize) {
     let at = format!("line.{index}");
     let id = text(desk, file, &format!("{at}.id"));
-    let title = format!("{id}: {} of {}", text(desk, file, &format!("{at}.length")), text(desk, file, &format!("{at}.rope")));
+    let title = format!(
+        "{id}: {} of {}",
+        text(desk, file, &format!("{at}.length")),
+        text(desk, file, &format!("{at}.rope"))
+    );
     let out = head(ui, file, "line", index, &title, true, |ui| {
         length_slider(ui, desk, file, &at);
         Grid::new((&at, "grid")).num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
             ui.label(RichText::new("Rope").color(Theme::palette_of(ui).faint));
             item(ui, desk, file, &format!("{at}.rope"), Kind::Rope, false);
             ui.end_row();
-            row(ui, desk, file, "Length", &format!("{at}.length"), "Unstretched length, such as 24 m or 13 fathom");
+            row(
+                ui,
+                desk,
+                file,
+                "Length",
+                &format!("{at}.length"),
+                "Unstretched length, such as 24 m or 13 fathom",
+            );
             row(ui, desk, file, "From", &format!("{at}.from"), "The part at its lower end");
             row(ui, desk, file, "To", &format!("{at}.to"), "The part at its upper end");
         });
@@ -204,9 +294,17 @@ fn line(ui: &mut Ui, desk: &mut Desk, file: &str, index: usize) {
 
 fn add_link(desk: &mut Desk, file: &str, line: &str, end: &str) {
     let id = fresh(&ids(desk, file, "link"), &format!("{line}-link"));
-    let item = desk.book.library().ids(Kind::WeakLink).first().map(|id| (*id).to_owned()).unwrap_or_default();
+    let item = desk
+        .book
+        .library()
+        .ids(Kind::WeakLink)
+        .first()
+        .map(|id| (*id).to_owned())
+        .unwrap_or_default();
     let fields = [("id", id.as_str()), ("item", &item), ("line", line), ("end", end)];
-    change(desk, file, |document| document.push_table("link", &fields).map(|_| ()).map_err(|error| error.to_string()));
+    change(desk, file, |document| {
+        document.push_table("link", &fields).map(|_| ()).map_err(|error| error.to_string())
+    });
 }
 
 /// Length under the hand; the gear follows while it moves.
@@ -219,16 +317,21 @@ fn length_slider(ui: &mut Ui, desk: &mut Desk, file: &str, at: &str) {
     let units = desk.preferences.units;
     let mut shown = units.of_metres(length_m);
     ui.spacing_mut().slider_width = 130.0;
-    let slider = Slider::new(&mut shown, units.of_metres(longest_m * 0.05)..=units.of_metres(longest_m))
-        .clamping(SliderClamping::Never)
-        .min_decimals(1)
-        .max_decimals(4);
+    let slider =
+        Slider::new(&mut shown, units.of_metres(longest_m * 0.05)..=units.of_metres(longest_m))
+            .clamping(SliderClamping::Never)
+            .min_decimals(1)
+            .max_decimals(4);
     let response = ui.add(slider.suffix(format!(" {}", units.length_symbol())));
     if response.drag_started() {
         ui.data_mut(|data| data.insert_temp(scale, longest_m));
     }
     if response.changed()
-        && let Err(error) = desk.book.set_held(file, &field, &format!("{} {}", super::written(shown), units.length_symbol()))
+        && let Err(error) = desk.book.set_held(
+            file,
+            &field,
+            &format!("{} {}", super::written(shown), units.length_symbol()),
+        )
     {
         desk.notice = Some((error, true));
     }
@@ -244,7 +347,10 @@ fn split(desk: &mut Desk, file: &str, index: usize) {
     let field = |key: &str| text(desk, file, &format!("{at}.{key}"));
     let Ok(length_m) = parse(&field("length"), Quantity::Length) else { return };
     let (id, rope, to) = (field("id"), field("rope"), field("to"));
-    let (joint, upper) = (fresh(&ids(desk, file, "joint"), &format!("{id}-splice")), fresh(&ids(desk, file, "line"), &format!("{id}-top")));
+    let (joint, upper) = (
+        fresh(&ids(desk, file, "joint"), &format!("{id}-splice")),
+        fresh(&ids(desk, file, "line"), &format!("{id}-top")),
+    );
     let places = [&field("from"), &to].map(|part| place_of(desk, file, part));
     let middle = |axis: usize| f64::midpoint(places[0][axis], places[1][axis]);
     let half = format!("{:.2} m", length_m / 2.0);
@@ -252,10 +358,18 @@ fn split(desk: &mut Desk, file: &str, index: usize) {
     let height = format!("{:.2}", middle(1));
     change(desk, file, |document| {
         let told = |error: endline_gear::EditError| error.to_string();
-        document.push_table("joint", &[("id", &joint), ("position", &position), ("height", &height)]).map_err(told)?;
+        document
+            .push_table("joint", &[("id", &joint), ("position", &position), ("height", &height)])
+            .map_err(told)?;
         document.set(&format!("{at}.to"), &joint).map_err(told)?;
         document.set(&format!("{at}.length"), &half).map_err(told)?;
-        let fields = [("id", upper.as_str()), ("rope", &rope), ("from", &joint), ("to", &to), ("length", &half)];
+        let fields = [
+            ("id", upper.as_str()),
+            ("rope", &rope),
+            ("from", &joint),
+            ("to", &to),
+            ("length", &half),
+        ];
         document.push_table("line", &fields).map(|_| ()).map_err(told)
     });
 }
@@ -264,8 +378,14 @@ fn split(desk: &mut Desk, file: &str, index: usize) {
 fn place_of(desk: &Desk, file: &str, part: &str) -> [f64; 2] {
     let part = part.split(':').next().unwrap_or(part);
     let lists = ["body", "joint"];
-    let found = lists.iter().find_map(|list| ids(desk, file, list).iter().position(|id| id == part).map(|index| format!("{list}.{index}")));
+    let found = lists.iter().find_map(|list| {
+        ids(desk, file, list)
+            .iter()
+            .position(|id| id == part)
+            .map(|index| format!("{list}.{index}"))
+    });
     let Some(at) = found else { return [0.0; 2] };
-    let along = parse(&text(desk, file, &format!("{at}.position.0")), Quantity::Length).unwrap_or(0.0);
+    let along =
+        parse(&text(desk, file, &format!("{at}.position.0")), Quantity::Length).unwrap_or(0.0);
     [along, parse(&text(desk, file, &format!("{at}.height")), Quantity::Ratio).unwrap_or(0.0)]
 }

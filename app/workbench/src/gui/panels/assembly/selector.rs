@@ -40,7 +40,10 @@ fn ask(desk: &mut Desk, all: &[(String, String)]) {
     if desk.assembly.pictured_for == Some(version) {
         return;
     }
-    let trial = |(id, _): &(String, String)| Trial { assembly: id.clone(), sea: TrialSea { depth: None, current_m_s: None } };
+    let trial = |(id, _): &(String, String)| Trial {
+        assembly: id.clone(),
+        sea: TrialSea { depth: None, current_m_s: None },
+    };
     let trials = all.iter().map(trial).collect();
     let scenario = desk.book.text(Book::SCENARIO).unwrap_or_default().to_owned();
     let (library, (host, waker)) = (desk.book.library().clone(), desk.helpers());
@@ -57,7 +60,13 @@ fn card(ui: &mut Ui, name: &str, answer: Option<&Answer>, chosen: bool) -> bool 
     let painter = ui.painter_at(rect);
     painter.rect_filled(picture, 4.0, palette.field);
     let say = |text: &str| {
-        painter.text(picture.center(), egui::Align2::CENTER_CENTER, text, egui::FontId::proportional(12.0), palette.faint);
+        painter.text(
+            picture.center(),
+            egui::Align2::CENTER_CENTER,
+            text,
+            egui::FontId::proportional(12.0),
+            palette.faint,
+        );
     };
     match answer {
         None => say("…"),
@@ -70,7 +79,12 @@ fn card(ui: &mut Ui, name: &str, answer: Option<&Answer>, chosen: bool) -> bool 
         (false, false) => Stroke::new(1.0, palette.line),
     };
     painter.rect_stroke(picture, 4.0, outline, egui::StrokeKind::Inside);
-    let text = ui.painter().layout(name.to_owned(), egui::FontId::proportional(12.0), palette.text, f32::INFINITY);
+    let text = ui.painter().layout(
+        name.to_owned(),
+        egui::FontId::proportional(12.0),
+        palette.text,
+        f32::INFINITY,
+    );
     painter.with_clip_rect(below).galley(below.left_top() + vec2(2.0, 3.0), text, palette.text);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Button, true, name));
     let told = match answer {
@@ -85,23 +99,36 @@ fn draw(painter: &egui::Painter, room: Rect, rest: &Rest, color: Color32, faint:
     let places = || rest.shape.lines.iter().flat_map(|line| &line.position_m);
     let flat = |place: &[f64; 3]| DVec2::new(place[0], place[1]);
     let Some(first) = places().next().map(flat) else { return };
-    let far = places().map(|place| flat(place) - first).max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
+    let far = places()
+        .map(|place| flat(place) - first)
+        .max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
     let axis = far.and_then(DVec2::try_normalize).unwrap_or(DVec2::X);
     let along = |place: &[f64; 3]| flat(place).dot(axis);
-    let ends = places().map(along).fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
+    let ends = places()
+        .map(along)
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
     let depth_m = rest.model.spec.water.depth_m.max(0.1);
     let middle = f64::midpoint(ends[0], ends[1]);
     // One scale across and up, so that scope shows; a long trawl is pressed together.
     let up = f64::from(room.height()) / depth_m;
     let across = (f64::from(room.width()) / (ends[1] - ends[0]).max(0.1)).min(up);
     let at = |place: &[f64; 3]| -> Pos2 {
-        pos2(room.center().x + ((along(place) - middle) * across) as f32, room.top() + (-place[2] * up) as f32)
+        pos2(
+            room.center().x + ((along(place) - middle) * across) as f32,
+            room.top() + (-place[2] * up) as f32,
+        )
     };
     for y in [room.top(), room.bottom()] {
-        painter.line_segment([pos2(room.left(), y), pos2(room.right(), y)], Stroke::new(1.0, faint.gamma_multiply(0.6)));
+        painter.line_segment(
+            [pos2(room.left(), y), pos2(room.right(), y)],
+            Stroke::new(1.0, faint.gamma_multiply(0.6)),
+        );
     }
     for line in &rest.shape.lines {
-        painter.add(egui::Shape::line(line.position_m.iter().map(at).collect(), Stroke::new(1.4, color)));
+        painter.add(egui::Shape::line(
+            line.position_m.iter().map(at).collect(),
+            Stroke::new(1.4, color),
+        ));
     }
     for (body, shape) in rest.model.spec.bodies.iter().zip(&rest.shape.bodies) {
         let place = at(&shape.position_m);

@@ -1,7 +1,10 @@
 //! The rig from the side, to scale: slack tide beside running tide, A solid, B dashed.
 
 use egui::{Color32, RichText, Ui, vec2};
-use egui_plot::{AxisHints, HLine, Line, LineStyle, MarkerShape, Plot, PlotBounds, PlotPoint, PlotPoints, PlotUi, Points, Text};
+use egui_plot::{
+    AxisHints, HLine, Line, LineStyle, MarkerShape, Plot, PlotBounds, PlotPoint, PlotPoints,
+    PlotUi, Points, Text,
+};
 use endline_session::rest::Rest;
 use endline_sim::model::{Body, BodyRole};
 use glam::{DVec2, DVec3};
@@ -61,23 +64,38 @@ pub(super) fn show(ui: &mut Ui, desk: &Desk) {
 /// The horizontal direction drawn: towards the node of A at running tide that lies farthest from its first.
 fn axis(drawn: &Drawn<'_>) -> DVec2 {
     let rest = drawn.a[1].or(drawn.a[0]).and_then(|answer| answer.as_ref().ok());
-    let places = || rest.iter().flat_map(|rest| rest.shape.lines.iter().flat_map(|line| &line.position_m));
+    let places =
+        || rest.iter().flat_map(|rest| rest.shape.lines.iter().flat_map(|line| &line.position_m));
     let flat = |place: &[f64; 3]| DVec2::new(place[0], place[1]);
     let Some(first) = places().next().map(flat) else { return DVec2::X };
-    let far = places().map(|place| flat(place) - first).max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
+    let far = places()
+        .map(|place| flat(place) - first)
+        .max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
     far.and_then(DVec2::try_normalize).unwrap_or(DVec2::X)
 }
 
 /// The same box for both tides, round all that is drawn and the sea from seabed to surface, as wide for its height as
 /// the picture.
 fn bounds(drawn: &Drawn<'_>, flat: &Flat, aspect: f64) -> PlotBounds {
-    let rests = || drawn.a.iter().chain(&drawn.b).filter_map(|answer| answer.and_then(|answer| answer.as_ref().ok()));
-    let points = rests().flat_map(|rest| rest.shape.lines.iter().flat_map(|line| &line.position_m)).map(|place| flat.point(*place));
-    let floors = rests().map(|rest| [f64::NAN, -flat.units.of_metres(rest.model.spec.water.depth_m)]);
+    let rests = || {
+        drawn
+            .a
+            .iter()
+            .chain(&drawn.b)
+            .filter_map(|answer| answer.and_then(|answer| answer.as_ref().ok()))
+    };
+    let points = rests()
+        .flat_map(|rest| rest.shape.lines.iter().flat_map(|line| &line.position_m))
+        .map(|place| flat.point(*place));
+    let floors =
+        rests().map(|rest| [f64::NAN, -flat.units.of_metres(rest.model.spec.water.depth_m)]);
     let empty = ([f64::INFINITY, 0.0], [f64::NEG_INFINITY, 0.0]);
     // f64::min and max take the number where the other is none.
     let (low, high) = points.chain(floors).fold(empty, |(low, high), point| {
-        (std::array::from_fn(|axis| low[axis].min(point[axis])), std::array::from_fn(|axis| high[axis].max(point[axis])))
+        (
+            std::array::from_fn(|axis| low[axis].min(point[axis])),
+            std::array::from_fn(|axis| high[axis].max(point[axis])),
+        )
     });
     if !low[0].is_finite() {
         return PlotBounds::from_min_max([0.0, -1.0], [1.0, 0.0]);
@@ -87,7 +105,10 @@ fn bounds(drawn: &Drawn<'_>, flat: &Flat, aspect: f64) -> PlotBounds {
     let height = height.max(wide / aspect.max(0.1));
     let middle = [f64::midpoint(low[0], low[0] + wide), f64::midpoint(low[1], high[1])];
     let half = [height * aspect.max(0.1) / 2.0, height / 2.0];
-    PlotBounds::from_min_max([middle[0] - half[0] * 1.02, middle[1] - half[1]], [middle[0] + half[0] * 0.98, middle[1] + half[1]])
+    PlotBounds::from_min_max(
+        [middle[0] - half[0] * 1.02, middle[1] - half[1]],
+        [middle[0] + half[0] * 0.98, middle[1] + half[1]],
+    )
 }
 
 fn one(ui: &mut Ui, drawn: &Drawn<'_>, tide: usize, bounds: PlotBounds, flat: &Flat) {
@@ -103,18 +124,28 @@ fn one(ui: &mut Ui, drawn: &Drawn<'_>, tide: usize, bounds: PlotBounds, flat: &F
         .allow_boxed_zoom(false)
         .allow_double_click_reset(false)
         .custom_x_axes(vec![AxisHints::new_x().label(format!("along [{}]", units.length_symbol()))])
-        .custom_y_axes(vec![AxisHints::new_y().label(format!("height [{}]", units.length_symbol())).min_thickness(42.0)])
+        .custom_y_axes(vec![
+            AxisHints::new_y()
+                .label(format!("height [{}]", units.length_symbol()))
+                .min_thickness(42.0),
+        ])
         .grid_spacing(egui::Rangef::new(18.0, 220.0))
         .grid_color(palette.faint.gamma_multiply(0.5))
         .show_background(false)
         .allow_scroll(false);
     plot.show(ui, |plot| {
         plot.set_plot_bounds(bounds);
-        let depth_m =
-            gears.iter().find_map(|(_, answer)| answer.and_then(|answer| answer.as_ref().ok())).map(|rest| rest.model.spec.water.depth_m);
+        let depth_m = gears
+            .iter()
+            .find_map(|(_, answer)| answer.and_then(|answer| answer.as_ref().ok()))
+            .map(|rest| rest.model.spec.water.depth_m);
         if let Some(depth_m) = depth_m {
-            plot.hline(HLine::new("sea surface", 0.0).color(palette.accent.gamma_multiply(0.8)).width(1.0));
-            plot.hline(HLine::new("seabed", -units.of_metres(depth_m)).color(palette.faint).width(2.0));
+            plot.hline(
+                HLine::new("sea surface", 0.0).color(palette.accent.gamma_multiply(0.8)).width(1.0),
+            );
+            plot.hline(
+                HLine::new("seabed", -units.of_metres(depth_m)).color(palette.faint).width(2.0),
+            );
         }
         for ((gear, answer), color) in gears.into_iter().zip(colors) {
             if let Some(Ok(rest)) = answer {
@@ -165,32 +196,61 @@ impl Flat {
 fn rig(plot: &mut PlotUi<'_>, rest: &Rest, gear: Gear, color: Color32, text: Color32, flat: &Flat) {
     let spec = &rest.model.spec;
     for (index, (line, shape)) in spec.lines.iter().zip(&rest.shape.lines).enumerate() {
-        let points: Vec<[f64; 2]> = shape.position_m.iter().map(|place| flat.point(*place)).collect();
+        let points: Vec<[f64; 2]> =
+            shape.position_m.iter().map(|place| flat.point(*place)).collect();
         let rope = &spec.ropes[line.rope];
         let insert = line.id.contains(".insert-");
-        let (color, width) = if insert { (Color32::from_rgb(0xd5, 0x5e, 0x00), 5.0) } else { (color, 2.0) };
-        let name =
-            format!("{} {}: {}, {}", gear.name, line.id, flat.units.diameter(rope.diameter_m), flat.units.force().text(rope.strength_n));
+        let (color, width) =
+            if insert { (Color32::from_rgb(0xd5, 0x5e, 0x00), 5.0) } else { (color, 2.0) };
+        let name = format!(
+            "{} {}: {}, {}",
+            gear.name,
+            line.id,
+            flat.units.diameter(rope.diameter_m),
+            flat.units.force().text(rope.strength_n)
+        );
         let label_at = points.get(points.len() / 2).copied();
-        plot.line(Line::new(name, PlotPoints::from(points)).color(color).width(width).style(gear.style()));
-        if let (Some(at), true) = (label_at, !gear.dashed && !insert && spec.lines.len() <= LABELLED && speaks(&spec.lines, index)) {
-            let printed = format!("  {}, {}  ", flat.units.diameter(rope.diameter_m), flat.units.force().text(rope.strength_n));
+        plot.line(
+            Line::new(name, PlotPoints::from(points)).color(color).width(width).style(gear.style()),
+        );
+        if let (Some(at), true) = (
+            label_at,
+            !gear.dashed && !insert && spec.lines.len() <= LABELLED && speaks(&spec.lines, index),
+        ) {
+            let printed = format!(
+                "  {}, {}  ",
+                flat.units.diameter(rope.diameter_m),
+                flat.units.force().text(rope.strength_n)
+            );
             let place = PlotPoint::new(at[0], at[1]);
             // On the side where there is room.
             let right = at[0] > plot.plot_bounds().center().x;
             let anchor = if right { egui::Align2::RIGHT_CENTER } else { egui::Align2::LEFT_CENTER };
-            plot.text(Text::new("", place, RichText::new(printed).size(11.0)).color(text).anchor(anchor));
+            plot.text(
+                Text::new("", place, RichText::new(printed).size(11.0)).color(text).anchor(anchor),
+            );
         }
     }
     for (body, at) in spec.bodies.iter().zip(&rest.shape.bodies) {
         mark(plot, body, flat.point(at.position_m), gear, color);
     }
     for link in spec.links.iter().filter(|link| link.enabled) {
-        let end =
-            |points: &Vec<[f64; 3]>| if link.end == endline_sdk::LineEnd::A { points.first().copied() } else { points.last().copied() };
+        let end = |points: &Vec<[f64; 3]>| {
+            if link.end == endline_sdk::LineEnd::A {
+                points.first().copied()
+            } else {
+                points.last().copied()
+            }
+        };
         if let Some(at) = rest.shape.lines.get(link.line).and_then(|line| end(&line.position_m)) {
-            let name = format!("{} {}: parts at {}", gear.name, link.id, flat.units.force().text(link.rating_n));
-            let points = Points::new(name, vec![flat.point(at)]).shape(MarkerShape::Cross).radius(5.0);
+            let name = format!(
+                "{} {}: parts at {}",
+                gear.name,
+                link.id,
+                flat.units.force().text(link.rating_n)
+            );
+            let points =
+                Points::new(name, vec![flat.point(at)]).shape(MarkerShape::Cross).radius(5.0);
             plot.points(points.color(Color32::from_rgb(0xd5, 0x5e, 0x00)));
         }
     }
@@ -198,11 +258,17 @@ fn rig(plot: &mut PlotUi<'_>, rest: &Rest, gear: Gear, color: Color32, text: Col
 
 /// Whether a piece tells the rope for all pieces of its line: the longest of this rope does.
 fn speaks(lines: &[endline_sim::model::Line], index: usize) -> bool {
-    let (of, length) =
-        (|id: &str| id.split('.').next().map(str::to_owned), |line: &endline_sim::model::Line| -> f64 { line.segments_m.iter().sum() });
+    let (of, length) = (
+        |id: &str| id.split('.').next().map(str::to_owned),
+        |line: &endline_sim::model::Line| -> f64 { line.segments_m.iter().sum() },
+    );
     let own = &lines[index];
-    let same = lines.iter().enumerate().filter(|(_, line)| of(&line.id) == of(&own.id) && line.rope == own.rope);
-    same.max_by(|(_, a), (_, b)| length(a).total_cmp(&length(b))).is_some_and(|(longest, _)| longest == index)
+    let same = lines
+        .iter()
+        .enumerate()
+        .filter(|(_, line)| of(&line.id) == of(&own.id) && line.rope == own.rope);
+    same.max_by(|(_, a), (_, b)| length(a).total_cmp(&length(b)))
+        .is_some_and(|(longest, _)| longest == index)
 }
 
 fn mark(plot: &mut PlotUi<'_>, body: &Body, at: [f64; 2], gear: Gear, color: Color32) {
@@ -212,7 +278,13 @@ fn mark(plot: &mut PlotUi<'_>, body: &Body, at: [f64; 2], gear: Gear, color: Col
         BodyRole::Anchor => MarkerShape::Down,
         BodyRole::Weight => MarkerShape::Diamond,
     };
-    plot.points(Points::new(format!("{} {}", gear.name, body.id), vec![at]).shape(shape).radius(5.0).filled(!gear.dashed).color(color));
+    plot.points(
+        Points::new(format!("{} {}", gear.name, body.id), vec![at])
+            .shape(shape)
+            .radius(5.0)
+            .filled(!gear.dashed)
+            .color(color),
+    );
 }
 
 /// Height of a body's highest point above the calm surface [m].

@@ -25,21 +25,34 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, id: &str) {
     ui.horizontal(|ui| {
         let fresh = desk.assembly.swept_for.as_ref() == Some(&wanted);
         if done < all && fresh {
-            ui.add(ProgressBar::new(done as f32 / all as f32).desired_width(160.0).text(format!("{done} of {all}")));
+            ui.add(
+                ProgressBar::new(done as f32 / all as f32)
+                    .desired_width(160.0)
+                    .text(format!("{done} of {all}")),
+            );
             if ui.button("Cancel").clicked() {
                 desk.assembly.swept.cancel();
                 desk.assembly.swept_for = None;
             }
         } else {
             let text = if fresh { "Compute again" } else { "Compute" };
-            if primary(ui, true, text).on_hover_text("Settle the gear in every depth and current").clicked() {
+            if primary(ui, true, text)
+                .on_hover_text("Settle the gear in every depth and current")
+                .clicked()
+            {
                 start(desk, id);
             }
             if !fresh && done > 0 {
-                ui.label(RichText::new("from before the last edits").color(Theme::palette_of(ui).warning));
+                ui.label(
+                    RichText::new("from before the last edits")
+                        .color(Theme::palette_of(ui).warning),
+                );
             }
         }
-        ui.label(RichText::new("greatest tension; floats pulled under are marked ▼").color(Theme::palette_of(ui).faint));
+        ui.label(
+            RichText::new("greatest tension; floats pulled under are marked ▼")
+                .color(Theme::palette_of(ui).faint),
+        );
     });
     if all > 0 {
         table(ui, desk);
@@ -47,9 +60,16 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, id: &str) {
 }
 
 fn start(desk: &mut Desk, id: &str) {
-    let sea = |fathom: u32, knots: f64| TrialSea { depth: Some(format!("{fathom} fathom")), current_m_s: Some(Units::Noaa.to_m_s(knots)) };
-    let trial = |fathom: u32, knots: f64| Trial { assembly: id.to_owned(), sea: sea(fathom, knots) };
-    let trials = DEPTHS.iter().flat_map(|depth| CURRENTS_KN.iter().map(|current| trial(*depth, *current))).collect();
+    let sea = |fathom: u32, knots: f64| TrialSea {
+        depth: Some(format!("{fathom} fathom")),
+        current_m_s: Some(Units::Noaa.to_m_s(knots)),
+    };
+    let trial =
+        |fathom: u32, knots: f64| Trial { assembly: id.to_owned(), sea: sea(fathom, knots) };
+    let trials = DEPTHS
+        .iter()
+        .flat_map(|depth| CURRENTS_KN.iter().map(|current| trial(*depth, *current)))
+        .collect();
     let scenario = desk.book.text(Book::SCENARIO).unwrap_or_default().to_owned();
     let (library, (host, waker)) = (desk.book.library().clone(), desk.helpers());
     desk.assembly.swept.ask(&scenario, &library, trials, &host, &waker);
@@ -59,20 +79,25 @@ fn start(desk: &mut Desk, id: &str) {
 fn table(ui: &mut Ui, desk: &Desk) {
     let units = desk.preferences.units;
     let faint = Theme::palette_of(ui).faint;
-    Grid::new("sweep").num_columns(CURRENTS_KN.len() + 1).striped(true).spacing([20.0, 3.0]).show(ui, |ui| {
-        ui.label(RichText::new("Depth").small().color(faint));
-        for current in CURRENTS_KN {
-            ui.label(RichText::new(units.speed(Units::Noaa.to_m_s(current))).small().color(faint));
-        }
-        ui.end_row();
-        for (row, fathom) in DEPTHS.iter().enumerate() {
-            ui.label(RichText::new(units.depth(f64::from(*fathom) * 1.8288)).color(faint));
-            for column in 0..CURRENTS_KN.len() {
-                cell(ui, desk.assembly.swept.newest(row * CURRENTS_KN.len() + column), units);
+    Grid::new("sweep").num_columns(CURRENTS_KN.len() + 1).striped(true).spacing([20.0, 3.0]).show(
+        ui,
+        |ui| {
+            ui.label(RichText::new("Depth").small().color(faint));
+            for current in CURRENTS_KN {
+                ui.label(
+                    RichText::new(units.speed(Units::Noaa.to_m_s(current))).small().color(faint),
+                );
             }
             ui.end_row();
-        }
-    });
+            for (row, fathom) in DEPTHS.iter().enumerate() {
+                ui.label(RichText::new(units.depth(f64::from(*fathom) * 1.8288)).color(faint));
+                for column in 0..CURRENTS_KN.len() {
+                    cell(ui, desk.assembly.swept.newest(row * CURRENTS_KN.len() + column), units);
+                }
+                ui.end_row();
+            }
+        },
+    );
 }
 
 fn cell(ui: &mut Ui, answer: Option<&Answer>, units: Units) {
@@ -81,7 +106,13 @@ fn cell(ui: &mut Ui, answer: Option<&Answer>, units: Units) {
         None => ui.label(RichText::new("…").color(palette.faint)),
         Some(Err(why)) => ui.label(RichText::new("–").color(palette.faint)).on_hover_text(why),
         Some(Ok(rest)) => {
-            let most = rest.shape.lines.iter().flat_map(|line| &line.tension_N).copied().fold(0.0, f64::max);
+            let most = rest
+                .shape
+                .lines
+                .iter()
+                .flat_map(|line| &line.tension_N)
+                .copied()
+                .fold(0.0, f64::max);
             let under = any_under(rest);
             let color = match (rest.shape.converged, under) {
                 (false, _) => palette.error,
@@ -89,7 +120,8 @@ fn cell(ui: &mut Ui, answer: Option<&Answer>, units: Units) {
                 (true, false) => palette.text,
             };
             let mark = if under { " ▼" } else { "" };
-            ui.label(RichText::new(format!("{}{mark}", units.force().text(most))).color(color)).on_hover_text(&rest.shape.outcome)
+            ui.label(RichText::new(format!("{}{mark}", units.force().text(most))).color(color))
+                .on_hover_text(&rest.shape.outcome)
         }
     };
 }

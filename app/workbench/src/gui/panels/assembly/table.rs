@@ -11,22 +11,36 @@ use super::side::{A, B, top_m};
 use super::{Answer, surface_m_s};
 
 /// What is compared comes first, and is seen in a narrow panel.
-const HEADS: [&str; 8] = ["", "Line", "Slack, low / high end", "Running, low / high end", "Used", "Strength", "Length", "Rope"];
+const HEADS: [&str; 8] = [
+    "",
+    "Line",
+    "Slack, low / high end",
+    "Running, low / high end",
+    "Used",
+    "Strength",
+    "Length",
+    "Rope",
+];
 
 /// Draws the table.
 pub(super) fn show(ui: &mut Ui, desk: &Desk) {
     let (drawn, units) = (desk.assembly.drawn(), desk.preferences.units);
-    Grid::new("statics").num_columns(HEADS.len()).min_col_width(12.0).striped(true).spacing([12.0, 3.0]).show(ui, |ui| {
-        let faint = Theme::palette_of(ui).faint;
-        for head in HEADS {
-            ui.label(RichText::new(head).small().color(faint));
-        }
-        ui.end_row();
-        for (gear, answers) in [(A, drawn.a), (B, drawn.b)] {
-            let color = gear.color(ui);
-            gear_rows(ui, if gear == A { "A" } else { "B" }, color, answers, units);
-        }
-    });
+    Grid::new("statics")
+        .num_columns(HEADS.len())
+        .min_col_width(12.0)
+        .striped(true)
+        .spacing([12.0, 3.0])
+        .show(ui, |ui| {
+            let faint = Theme::palette_of(ui).faint;
+            for head in HEADS {
+                ui.label(RichText::new(head).small().color(faint));
+            }
+            ui.end_row();
+            for (gear, answers) in [(A, drawn.a), (B, drawn.b)] {
+                let color = gear.color(ui);
+                gear_rows(ui, if gear == A { "A" } else { "B" }, color, answers, units);
+            }
+        });
 }
 
 /// Height that all rows need.
@@ -34,7 +48,11 @@ pub(super) fn height(desk: &Desk) -> f32 {
     let drawn = desk.assembly.drawn();
     let rows = |answers: [Option<&Answer>; 2]| {
         let spec = answers.into_iter().find_map(good).map(|rest| &rest.model.spec);
-        spec.map_or(0, |spec| spec.lines.len() + 1 + spec.bodies.iter().filter(|body| body.role == BodyRole::Buoy).count())
+        spec.map_or(0, |spec| {
+            spec.lines.len()
+                + 1
+                + spec.bodies.iter().filter(|body| body.role == BodyRole::Buoy).count()
+        })
     };
     40.0 + 25.0 * (rows(drawn.a) + rows(drawn.b)) as f32
 }
@@ -54,13 +72,17 @@ fn gear_rows(ui: &mut Ui, name: &str, color: Color32, answers: [Option<&Answer>;
             ui.label(ends(rest, index, units));
         }
         let strength_n = line_strength(rope.strength_n, line.strength);
-        ui.label(used(running, index, strength_n)).on_hover_text("Greatest tension at running tide over strength");
-        ui.label(units.force().text(strength_n)).on_hover_text("Breaking strength with wear, knots and splices");
+        ui.label(used(running, index, strength_n))
+            .on_hover_text("Greatest tension at running tide over strength");
+        ui.label(units.force().text(strength_n))
+            .on_hover_text("Breaking strength with wear, knots and splices");
         ui.label(units.length(line.segments_m.iter().sum()));
         ui.label(format!("{}  {}", rope.id, units.diameter(rope.diameter_m)));
         ui.end_row();
     }
-    for (index, body) in model.spec.bodies.iter().enumerate().filter(|(_, body)| body.role == BodyRole::Buoy) {
+    for (index, body) in
+        model.spec.bodies.iter().enumerate().filter(|(_, body)| body.role == BodyRole::Buoy)
+    {
         ui.label(RichText::new(name).color(color));
         ui.label(format!("{}, float height", body.id));
         for rest in [slack, running] {
@@ -76,19 +98,32 @@ fn line_strength(rope_n: f64, keeps: endline_sim::model::Strength) -> f64 {
 }
 
 fn ends(rest: Option<&Rest>, line: usize, units: Units) -> String {
-    let Some(shape) = rest.and_then(|rest| rest.shape.lines.get(line)) else { return "…".to_owned() };
-    format!("{} / {}", units.force().text(shape.end_a_tension_N), units.force().text(shape.end_b_tension_N))
+    let Some(shape) = rest.and_then(|rest| rest.shape.lines.get(line)) else {
+        return "…".to_owned();
+    };
+    format!(
+        "{} / {}",
+        units.force().text(shape.end_a_tension_N),
+        units.force().text(shape.end_b_tension_N)
+    )
 }
 
 fn used(rest: Option<&Rest>, line: usize, strength_n: f64) -> String {
-    let Some(shape) = rest.and_then(|rest| rest.shape.lines.get(line)) else { return String::new() };
+    let Some(shape) = rest.and_then(|rest| rest.shape.lines.get(line)) else {
+        return String::new();
+    };
     let most = shape.tension_N.iter().copied().fold(0.0, f64::max);
-    if strength_n > 0.0 && strength_n.is_finite() { format!("{:.1} %", 100.0 * most / strength_n) } else { String::new() }
+    if strength_n > 0.0 && strength_n.is_finite() {
+        format!("{:.1} %", 100.0 * most / strength_n)
+    } else {
+        String::new()
+    }
 }
 
 fn float(ui: &mut Ui, rest: Option<&Rest>, body: usize, units: Units) {
     // While gear is edited the two tides may be of different parts for a moment.
-    let at = rest.and_then(|rest| rest.model.spec.bodies.get(body).zip(rest.shape.bodies.get(body)));
+    let at =
+        rest.and_then(|rest| rest.model.spec.bodies.get(body).zip(rest.shape.bodies.get(body)));
     let Some((body, at)) = at else {
         ui.label("…");
         return;
@@ -98,23 +133,37 @@ fn float(ui: &mut Ui, rest: Option<&Rest>, body: usize, units: Units) {
     if top >= 0.0 {
         ui.label(format!("{} above water", units.length(top)));
     } else {
-        ui.label(RichText::new(format!("{} under", units.length(-top))).color(palette.warning)).on_hover_text("Pulled under by the tide");
+        ui.label(RichText::new(format!("{} under", units.length(-top))).color(palette.warning))
+            .on_hover_text("Pulled under by the tide");
     }
 }
 
 /// The gear as a whole: endline over depth, and whether it is at rest.
-fn whole(ui: &mut Ui, name: &str, color: Color32, slack: Option<&Rest>, running: Option<&Rest>, units: Units) {
+fn whole(
+    ui: &mut Ui,
+    name: &str,
+    color: Color32,
+    slack: Option<&Rest>,
+    running: Option<&Rest>,
+    units: Units,
+) {
     let palette = Theme::palette_of(ui);
     ui.label(RichText::new(name).color(color));
-    ui.label(slack.map_or_else(|| "whole gear".to_owned(), |rest| format!("in {} of water", units.depth(rest.model.spec.water.depth_m))));
+    ui.label(slack.map_or_else(
+        || "whole gear".to_owned(),
+        |rest| format!("in {} of water", units.depth(rest.model.spec.water.depth_m)),
+    ));
     for rest in [slack, running] {
         let (text, colour) = match rest {
-            Some(rest) if rest.shape.converged => (format!("at rest in {:.0} ms", rest.shape.wall_s * 1000.0), palette.good),
+            Some(rest) if rest.shape.converged => {
+                (format!("at rest in {:.0} ms", rest.shape.wall_s * 1000.0), palette.good)
+            }
             Some(rest) => (rest.shape.outcome.clone(), palette.warning),
             None => ("…".to_owned(), palette.faint),
         };
-        let hover =
-            rest.map_or_else(String::new, |rest| format!("{}; surface current {}", rest.shape.outcome, units.speed(surface_m_s(rest))));
+        let hover = rest.map_or_else(String::new, |rest| {
+            format!("{}; surface current {}", rest.shape.outcome, units.speed(surface_m_s(rest)))
+        });
         ui.label(RichText::new(text).color(colour)).on_hover_text(hover);
     }
     ui.end_row();

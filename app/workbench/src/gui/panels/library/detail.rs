@@ -42,10 +42,18 @@ pub(super) struct Compared {
 
 impl Compared {
     /// Fields that differ; `None` where the other text is no document.
-    fn rows(&mut self, book: &Book, path: &str, other: &str, kind: Kind) -> Option<Arc<[[String; 4]]>> {
+    fn rows(
+        &mut self,
+        book: &Book,
+        path: &str,
+        other: &str,
+        kind: Kind,
+    ) -> Option<Arc<[[String; 4]]>> {
         let own = book.text(path).unwrap_or_default();
         if self.texts.as_ref().is_none_or(|texts| texts[0] != own || texts[1] != other) {
-            self.rows = Document::parse(other).ok().map(|other| differences(book, path, &other, kind).into());
+            self.rows = Document::parse(other)
+                .ok()
+                .map(|other| differences(book, path, &other, kind).into());
             self.texts = Some([own.to_owned(), other.to_owned()]);
         }
         self.rows.clone()
@@ -57,7 +65,8 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, path: &str) {
     ScrollArea::vertical().id_salt("entry").auto_shrink(false).show(ui, |ui| {
         let kind = desk.library.kind;
         if super::picture::has(kind) {
-            super::picture::show(ui, &desk.book, kind, path, egui::vec2(190.0, 120.0)).on_hover_text("From its figures; all to one scale");
+            super::picture::show(ui, &desk.book, kind, path, egui::vec2(190.0, 120.0))
+                .on_hover_text("From its figures; all to one scale");
         }
         words(ui, desk, path);
         used_in(ui, desk, path);
@@ -81,13 +90,19 @@ fn words(ui: &mut Ui, desk: &mut Desk, path: &str) {
         ("Name", "name", "Name shown to the user"),
         ("Remarks", "notes", "What a reader should know"),
         ("Source", "source", "Where the figures come from that name no source of their own"),
-        ("Sureness", "sureness", "measured, derived or estimate; of figures that name none of their own"),
+        (
+            "Sureness",
+            "sureness",
+            "measured, derived or estimate; of figures that name none of their own",
+        ),
     ];
     Grid::new("entry-words").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
         for (name, key, help) in rows {
             ui.label(RichText::new(name).color(faint));
             let width = ui.available_width() - 8.0;
-            if let Some(typed) = fields::edit(ui, &desk.book, path, key, width, fields::Said { hint: "", help }) {
+            if let Some(typed) =
+                fields::edit(ui, &desk.book, path, key, width, fields::Said { hint: "", help })
+            {
                 desk.set(path, key, &typed);
             }
             ui.end_row();
@@ -113,7 +128,10 @@ fn used_in(ui: &mut Ui, desk: &mut Desk, path: &str) {
             }
         }
         for scenario in &uses.scenarios {
-            let name = scenario.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+            let name = scenario
+                .file_name()
+                .map(|name| name.to_string_lossy().into_owned())
+                .unwrap_or_default();
             if ui.link(format!("scenarios/{name}")).on_hover_text("Open this scenario").clicked() {
                 desk.orders.push(Order::Open(scenario.clone()));
             }
@@ -125,10 +143,19 @@ fn used_in(ui: &mut Ui, desk: &mut Desk, path: &str) {
 fn uses(book: &Book, path: &str) -> Uses {
     let named = format!("\"{}\"", id_of(path));
     let names = |text: &str| text.contains(&named);
-    let assemblies = book.files("assemblies").filter(|file| *file != path && book.text(file).is_some_and(names)).map(str::to_owned);
+    let assemblies = book
+        .files("assemblies")
+        .filter(|file| *file != path && book.text(file).is_some_and(names))
+        .map(str::to_owned);
     let scenarios = super::super::scenario::scenarios(book.root()).into_iter();
-    let scenarios = scenarios.filter(|file| std::fs::read_to_string(file).is_ok_and(|text| names(&text)));
-    Uses { path: path.to_owned(), version: 0, assemblies: assemblies.collect(), scenarios: scenarios.collect() }
+    let scenarios =
+        scenarios.filter(|file| std::fs::read_to_string(file).is_ok_and(|text| names(&text)));
+    Uses {
+        path: path.to_owned(),
+        version: 0,
+        assemblies: assemblies.collect(),
+        scenarios: scenarios.collect(),
+    }
 }
 
 fn compare(ui: &mut Ui, desk: &mut Desk, path: &str) {
@@ -171,12 +198,19 @@ fn choose(ui: &mut Ui, desk: &mut Desk, path: &str, kind: Kind) {
         Against::Entry(other) => name(other),
     };
     let width = ui.available_width() - 8.0;
-    egui::ComboBox::from_id_salt("against").width(width).truncate().selected_text(shown).show_ui(ui, |ui| {
-        ui.selectable_value(&mut desk.library.against, Against::Saved, "its file on disk");
-        for other in desk.book.files(kind.folder()).filter(|other| *other != path) {
-            ui.selectable_value(&mut desk.library.against, Against::Entry(other.to_owned()), name(other));
-        }
-    });
+    egui::ComboBox::from_id_salt("against").width(width).truncate().selected_text(shown).show_ui(
+        ui,
+        |ui| {
+            ui.selectable_value(&mut desk.library.against, Against::Saved, "its file on disk");
+            for other in desk.book.files(kind.folder()).filter(|other| *other != path) {
+                ui.selectable_value(
+                    &mut desk.library.against,
+                    Against::Entry(other.to_owned()),
+                    name(other),
+                );
+            }
+        },
+    );
 }
 
 /// Fields that differ: name, here, there, by how much.
@@ -184,8 +218,10 @@ fn differences(book: &Book, path: &str, other: &Document, kind: Kind) -> Vec<[St
     let words = kind.words().iter().map(|word| (word.key, None));
     let figures = kind.fields().iter().map(|field| (field.key, Some(field.quantity)));
     let row = |(key, quantity): (&str, Option<Quantity>)| {
-        let (here, there) = (book.field(path, key).unwrap_or_default(), other.get(key).unwrap_or_default());
-        (here != there).then(|| [title(key), here.clone(), there.clone(), by(&here, &there, quantity)])
+        let (here, there) =
+            (book.field(path, key).unwrap_or_default(), other.get(key).unwrap_or_default());
+        (here != there)
+            .then(|| [title(key), here.clone(), there.clone(), by(&here, &there, quantity)])
     };
     words.chain(figures).filter_map(row).collect()
 }
@@ -194,7 +230,9 @@ fn differences(book: &Book, path: &str, other: &Document, kind: Kind) -> Vec<[St
 fn by(here: &str, there: &str, quantity: Option<Quantity>) -> String {
     let si = |text: &str| quantity.and_then(|quantity| units::parse(text, quantity).ok());
     match (si(here), si(there)) {
-        (Some(here), Some(there)) if there != 0.0 => format!("{:+.1} %", 100.0 * (here / there - 1.0)),
+        (Some(here), Some(there)) if there != 0.0 => {
+            format!("{:+.1} %", 100.0 * (here / there - 1.0))
+        }
         _ => String::new(),
     }
 }

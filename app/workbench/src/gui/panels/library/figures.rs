@@ -27,11 +27,17 @@ pub(super) fn show(ui: &mut Ui, desk: &Desk, path: &str) {
     };
     Grid::new("figures").num_columns(3).striped(true).spacing([10.0, 2.0]).show(ui, |ui| {
         for (field, figure) in &entry.figures {
-            ui.label(RichText::new(title(field.key)).color(palette.faint)).on_hover_text(field.help);
+            ui.label(RichText::new(title(field.key)).color(palette.faint))
+                .on_hover_text(field.help);
             ui.label(units::format_si(figure.value, field.quantity)).on_hover_text(&figure.text);
             ui.horizontal(|ui| {
-                ui.label(RichText::new(figure.sureness.word()).small().color(colour(figure.sureness, palette)));
-                ui.add(egui::Label::new(RichText::new(&figure.source).small()).truncate()).on_hover_text(&figure.source);
+                ui.label(
+                    RichText::new(figure.sureness.word())
+                        .small()
+                        .color(colour(figure.sureness, palette)),
+                );
+                ui.add(egui::Label::new(RichText::new(&figure.source).small()).truncate())
+                    .on_hover_text(&figure.source);
             });
             ui.end_row();
         }

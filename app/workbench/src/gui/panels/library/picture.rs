@@ -16,7 +16,13 @@ pub(in super::super) fn has(kind: Kind) -> bool {
 }
 
 /// Draws an entry in a box of a size.
-pub(in super::super) fn show(ui: &mut Ui, book: &Book, kind: Kind, path: &str, size: egui::Vec2) -> egui::Response {
+pub(in super::super) fn show(
+    ui: &mut Ui,
+    book: &Book,
+    kind: Kind,
+    path: &str,
+    size: egui::Vec2,
+) -> egui::Response {
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     let palette = Theme::palette_of(ui);
     let painter = ui.painter_at(rect);
@@ -37,17 +43,23 @@ fn metres(book: &Book, path: &str, key: &str) -> Option<f32> {
 /// Points on the picture for a metre; smaller where the thing would not fit.
 fn scale(rect: Rect, wide_m: f32, high_m: f32) -> f32 {
     let room = rect.shrink(8.0);
-    (rect.width() / WIDE_M).min(room.width() / wide_m.max(0.01)).min(room.height() / high_m.max(0.01))
+    (rect.width() / WIDE_M)
+        .min(room.width() / wide_m.max(0.01))
+        .min(room.height() / high_m.max(0.01))
 }
 
 /// A trap or anchor: its box seen from a corner, with its mesh.
 fn a_box(painter: &Painter, rect: Rect, palette: Palette, book: &Book, path: &str) {
-    let [length, width, height] = ["length", "width", "height"].map(|key| metres(book, path, key).unwrap_or(0.3));
+    let [length, width, height] =
+        ["length", "width", "height"].map(|key| metres(book, path, key).unwrap_or(0.3));
     // Cabinet projection: the width goes back at 45 degrees, halved.
     let back = width * 0.5 * std::f32::consts::FRAC_1_SQRT_2;
     let scale = scale(rect, length + back, height + back);
-    let low_left = rect.center() + vec2(-(length + back) * scale / 2.0, (height + back) * scale / 2.0);
-    let at = |x: f32, y: f32, z: f32| low_left + vec2(x * length + y * back, -(z * height + y * back)) * scale;
+    let low_left =
+        rect.center() + vec2(-(length + back) * scale / 2.0, (height + back) * scale / 2.0);
+    let at = |x: f32, y: f32, z: f32| {
+        low_left + vec2(x * length + y * back, -(z * height + y * back)) * scale
+    };
     let face = |corners: [Pos2; 4], strength: f32| {
         let fill = palette.accent.gamma_multiply(strength);
         painter.add(Shape::convex_polygon(corners.to_vec(), fill, Stroke::new(1.4, palette.text)));
@@ -72,7 +84,10 @@ fn buoy(painter: &Painter, rect: Rect, palette: Palette, book: &Book, path: &str
     let scale = scale(rect, diameter, length);
     let (half_wide, half_high) = (diameter * scale / 2.0, length * scale / 2.0);
     let centre = rect.center();
-    painter.line_segment([pos2(rect.left(), centre.y), pos2(rect.right(), centre.y)], Stroke::new(1.0, palette.accent));
+    painter.line_segment(
+        [pos2(rect.left(), centre.y), pos2(rect.right(), centre.y)],
+        Stroke::new(1.0, palette.accent),
+    );
     painter.line_segment([centre, pos2(centre.x, rect.bottom())], Stroke::new(1.4, palette.faint));
     let fill = Color32::from_rgb(0xd5, 0x5e, 0x00);
     let outline = Stroke::new(1.2, palette.text);
@@ -82,7 +97,10 @@ fn buoy(painter: &Painter, rect: Rect, palette: Palette, book: &Book, path: &str
         "bullet" => half_wide.min(half_high).min(250.0),
         _ => {
             let turn = |step: i32| f64::from(step) * std::f64::consts::TAU / 48.0;
-            let point = |step: i32| centre + vec2(half_wide * turn(step).cos() as f32, half_high * turn(step).sin() as f32);
+            let point = |step: i32| {
+                centre
+                    + vec2(half_wide * turn(step).cos() as f32, half_high * turn(step).sin() as f32)
+            };
             painter.add(Shape::convex_polygon((0..48).map(point).collect(), fill, outline));
             return;
         }

@@ -21,11 +21,23 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, entry: &Entry) {
     super::super::caption(ui, "Begins");
     Grid::new("begins").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
         trigger(ui, desk, entry);
-        typed.extend(word(ui, desk, entry, entry.trigger, "what begins it, such as 12 s, any, 5 m, 90 deg"));
+        typed.extend(word(
+            ui,
+            desk,
+            entry,
+            entry.trigger,
+            "what begins it, such as 12 s, any, 5 m, 90 deg",
+        ));
         ui.end_row();
         if entry.trigger == "within" {
             ui.label(RichText::new("of").color(Theme::palette_of(ui).faint));
-            typed.extend(word(ui, desk, entry, "of", "a line, body or joint by its id; any line where empty"));
+            typed.extend(word(
+                ui,
+                desk,
+                entry,
+                "of",
+                "a line, body or joint by its id; any line where empty",
+            ));
             ui.end_row();
         }
         for key in times(entry.trigger) {
@@ -37,7 +49,9 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, entry: &Entry) {
     });
     super::super::caption(ui, "Controls; what is empty stays as it was");
     Grid::new("controls").num_columns(4).spacing([8.0, 3.0]).show(ui, |ui| {
-        for (control, name) in Controls::NAMES.iter().enumerate().filter(|(control, _)| *control != Controls::ACT) {
+        for (control, name) in
+            Controls::NAMES.iter().enumerate().filter(|(control, _)| *control != Controls::ACT)
+        {
             ui.label(RichText::new(spoken(name)).color(Theme::palette_of(ui).faint));
             let [least, most] = Controls::RANGES[control];
             typed.extend(number(ui, desk, entry, name, &format!("{least} to {most}")));
@@ -54,15 +68,23 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, entry: &Entry) {
 
 /// What begins the entry, out of all that can.
 fn trigger(ui: &mut Ui, desk: &mut Desk, entry: &Entry) {
-    let words = TRIGGERS.iter().find(|(key, ..)| *key == entry.trigger).map_or("never", |(_, words, _)| words);
+    let words = TRIGGERS
+        .iter()
+        .find(|(key, ..)| *key == entry.trigger)
+        .map_or("never", |(_, words, _)| words);
     let mut taken = None;
-    ComboBox::from_id_salt("trigger").width(132.0).truncate().selected_text(words).show_ui(ui, |ui| {
-        for (key, words, fresh) in TRIGGERS {
-            if ui.selectable_label(key == entry.trigger, words).clicked() && key != entry.trigger {
-                taken = Some((key, fresh));
+    ComboBox::from_id_salt("trigger").width(132.0).truncate().selected_text(words).show_ui(
+        ui,
+        |ui| {
+            for (key, words, fresh) in TRIGGERS {
+                if ui.selectable_label(key == entry.trigger, words).clicked()
+                    && key != entry.trigger
+                {
+                    taken = Some((key, fresh));
+                }
             }
-        }
-    });
+        },
+    );
     let Some((key, fresh)) = taken else { return };
     // An entry with a time keeps its own; two at one time are an error.
     let text = match (key, entry.begin_s) {
@@ -78,14 +100,27 @@ fn above(desk: &Desk, index: usize) -> Option<String> {
     (0..index).rev().find_map(|above| desk.book.field(Book::SCENARIO, &path(above, "id")))
 }
 
-fn word(ui: &mut Ui, desk: &Desk, entry: &Entry, key: &'static str, help: &str) -> Option<(&'static str, String)> {
+fn word(
+    ui: &mut Ui,
+    desk: &Desk,
+    entry: &Entry,
+    key: &'static str,
+    help: &str,
+) -> Option<(&'static str, String)> {
     let field = path(entry.index, key);
     let width = (ui.available_width() - 12.0).max(60.0);
-    let typed = fields::edit(ui, &desk.book, Book::SCENARIO, &field, width, Said { hint: "", help });
+    let typed =
+        fields::edit(ui, &desk.book, Book::SCENARIO, &field, width, Said { hint: "", help });
     typed.map(|text| (key, text))
 }
 
-fn number(ui: &mut Ui, desk: &Desk, entry: &Entry, key: &'static str, hint: &str) -> Option<(&'static str, String)> {
+fn number(
+    ui: &mut Ui,
+    desk: &Desk,
+    entry: &Entry,
+    key: &'static str,
+    hint: &str,
+) -> Option<(&'static str, String)> {
     let field = path(entry.index, key);
     // A grid would squeeze the first of two.
     let typed = ui.scope(|ui| {
@@ -97,18 +132,27 @@ fn number(ui: &mut Ui, desk: &Desk, entry: &Entry, key: &'static str, hint: &str
 
 /// The act asked for, out of the whale's.
 fn act(ui: &mut Ui, desk: &Desk, entry: &Entry, typed: &mut Vec<(&'static str, String)>) {
-    let stored = entry.controls.iter().find(|(control, _)| *control == Controls::ACT).map(|(_, text)| text.clone()).unwrap_or_default();
+    let stored = entry
+        .controls
+        .iter()
+        .find(|(control, _)| *control == Controls::ACT)
+        .map(|(_, text)| text.clone())
+        .unwrap_or_default();
     ui.horizontal(|ui| {
         ui.label(RichText::new("act").color(Theme::palette_of(ui).faint));
         let shown = if stored.is_empty() { "not named".to_owned() } else { stored.clone() };
-        ComboBox::from_id_salt("act").width(180.0).truncate().selected_text(shown).show_ui(ui, |ui| {
-            let others = [("", "not named"), ("none", "none: ends an act")].map(|(id, name)| (id.to_owned(), name.to_owned()));
-            let acts = desk.acts().iter().map(|act| (act.id.to_string(), act.name.to_string()));
-            for (id, name) in others.into_iter().chain(acts) {
-                if ui.selectable_label(id == stored, name).clicked() && id != stored {
-                    typed.push(("act", id));
+        ComboBox::from_id_salt("act").width(180.0).truncate().selected_text(shown).show_ui(
+            ui,
+            |ui| {
+                let others = [("", "not named"), ("none", "none: ends an act")]
+                    .map(|(id, name)| (id.to_owned(), name.to_owned()));
+                let acts = desk.acts().iter().map(|act| (act.id.to_string(), act.name.to_string()));
+                for (id, name) in others.into_iter().chain(acts) {
+                    if ui.selectable_label(id == stored, name).clicked() && id != stored {
+                        typed.push(("act", id));
+                    }
                 }
-            }
-        });
+            },
+        );
     });
 }

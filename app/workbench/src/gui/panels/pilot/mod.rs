@@ -29,7 +29,8 @@ pub struct PilotState {
 impl PilotState {
     /// The entries of the present text; read again where it has changed.
     fn entries(&mut self, book: &Book) -> Arc<Vec<Entry>> {
-        let (version, read) = self.read.get_or_insert_with(|| (book.version(), Arc::new(entries(book))));
+        let (version, read) =
+            self.read.get_or_insert_with(|| (book.version(), Arc::new(entries(book))));
         if *version != book.version() {
             (*version, *read) = (book.version(), Arc::new(entries(book)));
         }
@@ -55,7 +56,10 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
     });
     if let Some(entry) = desk.program.chosen.and_then(|chosen| all.get(chosen)) {
         super::within(ui, whole.with_min_x(whole.right() - beside), |ui| {
-            ScrollArea::vertical().id_salt("form").auto_shrink(false).show(ui, |ui| form::show(ui, desk, entry));
+            ScrollArea::vertical()
+                .id_salt("form")
+                .auto_shrink(false)
+                .show(ui, |ui| form::show(ui, desk, entry));
         });
     }
 }
@@ -112,7 +116,9 @@ fn change(desk: &mut Desk, change: impl FnOnce(&mut Document) -> Result<(), Stri
 pub fn add_entry(desk: &mut Desk) {
     let shown_s = desk.view.as_ref().map_or(0.0, |view| view.frame.time_s);
     // Two entries at one time are an error; a fresh one goes beside.
-    let taken = entries(&desk.book).iter().any(|entry| entry.trigger == "at" && entry.begin_s == Some(shown_s));
+    let taken = entries(&desk.book)
+        .iter()
+        .any(|entry| entry.trigger == "at" && entry.begin_s == Some(shown_s));
     let time_s = if taken { shown_s + 0.5 } else { shown_s };
     let mut chosen = None;
     change(desk, |document| add(document, time_s).map(|index| chosen = Some(index)));
@@ -122,6 +128,8 @@ pub fn add_entry(desk: &mut Desk) {
 /// Takes the chosen entry away.
 pub fn delete_entry(desk: &mut Desk) {
     if let Some(chosen) = desk.program.chosen.take() {
-        change(desk, |document| document.remove_table(LIST, chosen).map_err(|error| error.to_string()));
+        change(desk, |document| {
+            document.remove_table(LIST, chosen).map_err(|error| error.to_string())
+        });
     }
 }

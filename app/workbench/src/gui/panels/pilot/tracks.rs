@@ -1,6 +1,9 @@
 //! A track for each control that the program names: when it is told what, to be dragged.
 
-use egui::{Align2, Color32, CursorIcon, FontId, Painter, Pos2, Rect, Sense, Stroke, StrokeKind, Ui, WidgetInfo, WidgetType, pos2, vec2};
+use egui::{
+    Align2, Color32, CursorIcon, FontId, Painter, Pos2, Rect, Sense, Stroke, StrokeKind, Ui,
+    WidgetInfo, WidgetType, pos2, vec2,
+};
 use endline_gear::units::{Quantity, parse};
 use endline_sdk::Controls;
 
@@ -65,14 +68,22 @@ impl Axis {
 }
 
 pub(super) fn show(ui: &mut Ui, desk: &mut Desk, all: &[Entry]) {
-    let named =
-        |control: &usize| all.iter().any(|entry| entry.begin_s.is_some() && entry.controls.iter().any(|(known, _)| known == control));
+    let named = |control: &usize| {
+        all.iter().any(|entry| {
+            entry.begin_s.is_some() && entry.controls.iter().any(|(known, _)| known == control)
+        })
+    };
     let tracks: Vec<usize> = (0..Controls::COUNT).filter(named).collect();
     let size = vec2(ui.available_width(), AXIS + ROW * tracks.len() as f32);
     let (whole, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, "Timeline"));
-    let rect = Rect::from_min_max(pos2(whole.left() + NAMES, whole.top()), whole.max - vec2(8.0, 0.0));
-    let duration_s = desk.book.field(Book::SCENARIO, "duration").and_then(|text| parse(&text, Quantity::Time).ok()).unwrap_or(60.0);
+    let rect =
+        Rect::from_min_max(pos2(whole.left() + NAMES, whole.top()), whole.max - vec2(8.0, 0.0));
+    let duration_s = desk
+        .book
+        .field(Book::SCENARIO, "duration")
+        .and_then(|text| parse(&text, Quantity::Time).ok())
+        .unwrap_or(60.0);
     let latest_s = all.iter().filter_map(|entry| entry.begin_s).fold(0.0, f64::max);
     let axis = Axis { rect, end_s: duration_s.max(latest_s * 1.02).max(1e-3) };
     let bars = bars(all, &tracks, axis, desk.program.drag);
@@ -83,7 +94,10 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, all: &[Entry]) {
     }
     if let Some(view) = &desk.view {
         let x = axis.x(view.frame.time_s);
-        painter.line_segment([pos2(x, rect.top()), pos2(x, rect.bottom())], Stroke::new(1.5, palette.warning));
+        painter.line_segment(
+            [pos2(x, rect.top()), pos2(x, rect.bottom())],
+            Stroke::new(1.5, palette.warning),
+        );
     }
     hand(ui, desk, all, &bars, axis, &response);
 }
@@ -97,7 +111,11 @@ fn bars(all: &[Entry], tracks: &[usize], axis: Axis, drag: Option<Drag>) -> Vec<
             let mut reach_s = [begin_s, until_s(all, entry, *control, axis.end_s)];
             if let Some(drag) = drag.filter(|drag| drag.index == entry.index) {
                 let by_s = drag.to_s - begin_s;
-                reach_s = if drag.end { [begin_s, drag.to_s.max(begin_s)] } else { [drag.to_s, reach_s[1] + by_s] };
+                reach_s = if drag.end {
+                    [begin_s, drag.to_s.max(begin_s)]
+                } else {
+                    [drag.to_s, reach_s[1] + by_s]
+                };
             }
             let top = axis.rect.top() + AXIS + ROW * track as f32;
             let left = axis.x(reach_s[0]);
@@ -115,17 +133,37 @@ fn grid(painter: &Painter, axis: Axis, tracks: &[usize], palette: Palette) {
     let small = FontId::proportional(11.0);
     for tick in ticks(axis.end_s, 8) {
         let x = axis.x(tick);
-        painter.line_segment([pos2(x, axis.rect.top() + AXIS - 4.0), pos2(x, axis.rect.bottom())], Stroke::new(1.0, palette.line));
-        let align = if x > axis.rect.right() - 20.0 { Align2::RIGHT_CENTER } else { Align2::CENTER_CENTER };
-        painter.text(pos2(x, axis.rect.top() + 8.0), align, format!("{tick} s"), small.clone(), palette.faint);
+        painter.line_segment(
+            [pos2(x, axis.rect.top() + AXIS - 4.0), pos2(x, axis.rect.bottom())],
+            Stroke::new(1.0, palette.line),
+        );
+        let align =
+            if x > axis.rect.right() - 20.0 { Align2::RIGHT_CENTER } else { Align2::CENTER_CENTER };
+        painter.text(
+            pos2(x, axis.rect.top() + 8.0),
+            align,
+            format!("{tick} s"),
+            small.clone(),
+            palette.faint,
+        );
     }
     for (row, control) in tracks.iter().enumerate() {
         let top = axis.rect.top() + AXIS + ROW * row as f32;
         let place = pos2(axis.rect.left() - NAMES, top + ROW / 2.0);
-        painter.text(place, Align2::LEFT_CENTER, spoken(Controls::NAMES[*control]), FontId::proportional(12.5), palette.text);
-        painter.line_segment([pos2(place.x, top + ROW), pos2(axis.rect.right(), top + ROW)], Stroke::new(1.0, palette.line));
+        painter.text(
+            place,
+            Align2::LEFT_CENTER,
+            spoken(Controls::NAMES[*control]),
+            FontId::proportional(12.5),
+            palette.text,
+        );
+        painter.line_segment(
+            [pos2(place.x, top + ROW), pos2(axis.rect.right(), top + ROW)],
+            Stroke::new(1.0, palette.line),
+        );
         if Controls::RANGES[*control][0] < 0.0 {
-            let middle = [pos2(axis.rect.left(), top + ROW / 2.0), pos2(axis.rect.right(), top + ROW / 2.0)];
+            let middle =
+                [pos2(axis.rect.left(), top + ROW / 2.0), pos2(axis.rect.right(), top + ROW / 2.0)];
             painter.line_segment(middle, Stroke::new(1.0, palette.line.gamma_multiply(0.6)));
         }
     }
@@ -146,9 +184,14 @@ fn draw(painter: &Painter, bar: &Bar, chosen: bool, palette: Palette) {
     if rect.width() > 34.0 {
         let shadow = Color32::from_black_alpha(if palette.text.r() > 128 { 120 } else { 0 });
         let painter = painter.with_clip_rect(rect);
-        let galley = painter.layout_no_wrap(bar.text.clone(), FontId::proportional(11.5), palette.text);
+        let galley =
+            painter.layout_no_wrap(bar.text.clone(), FontId::proportional(11.5), palette.text);
         let at = pos2(rect.left() + 5.0, rect.center().y - galley.size().y / 2.0);
-        painter.rect_filled(Rect::from_min_size(at, galley.size()).expand2(vec2(2.0, 0.0)), 2.0, shadow);
+        painter.rect_filled(
+            Rect::from_min_size(at, galley.size()).expand2(vec2(2.0, 0.0)),
+            2.0,
+            shadow,
+        );
         painter.galley(at, galley, palette.text);
     }
 }
@@ -161,7 +204,14 @@ fn hit(bars: &[Bar], at: Pos2) -> Option<(usize, bool)> {
 }
 
 /// A click chooses; a drag moves the beginning or the hold; on the axis it shows that moment.
-fn hand(ui: &Ui, desk: &mut Desk, all: &[Entry], bars: &[Bar], axis: Axis, response: &egui::Response) {
+fn hand(
+    ui: &Ui,
+    desk: &mut Desk,
+    all: &[Entry],
+    bars: &[Bar],
+    axis: Axis,
+    response: &egui::Response,
+) {
     let pointer = response.interact_pointer_pos().or(response.hover_pos());
     let Some(at) = pointer else { return finish(desk, all, response) };
     let under = hit(bars, at);
@@ -174,16 +224,21 @@ fn hand(ui: &Ui, desk: &mut Desk, all: &[Entry], bars: &[Bar], axis: Axis, respo
     if response.clicked() {
         match under {
             Some((index, _)) => desk.program.chosen = Some(index),
-            None if at.y < axis.rect.top() + AXIS => desk.orders.push(Order::Seek(axis.time_s(at.x))),
+            None if at.y < axis.rect.top() + AXIS => {
+                desk.orders.push(Order::Seek(axis.time_s(at.x)))
+            }
             None => desk.program.chosen = None,
         }
     }
     if response.drag_started()
-        && let Some((index, end)) = ui.input(|input| input.pointer.press_origin()).and_then(|origin| hit(bars, origin))
+        && let Some((index, end)) =
+            ui.input(|input| input.pointer.press_origin()).and_then(|origin| hit(bars, origin))
         && let Some(begin_s) = all[index].begin_s
     {
         desk.program.chosen = Some(index);
-        let origin_s = ui.input(|input| input.pointer.press_origin()).map_or(begin_s, |origin| axis.time_s(origin.x));
+        let origin_s = ui
+            .input(|input| input.pointer.press_origin())
+            .map_or(begin_s, |origin| axis.time_s(origin.x));
         let held_s = if end { end_s(bars, index, axis) } else { begin_s };
         desk.program.drag = Some(Drag { index, end, off_s: held_s - origin_s, to_s: held_s });
     }
@@ -195,7 +250,12 @@ fn hand(ui: &Ui, desk: &mut Desk, all: &[Entry], bars: &[Bar], axis: Axis, respo
 
 /// Where the bars of an entry end, as drawn [s].
 fn end_s(bars: &[Bar], index: usize, axis: Axis) -> f64 {
-    axis.time_s(bars.iter().filter(|bar| bar.index == index).map(|bar| bar.rect.right()).fold(0.0, f32::max))
+    axis.time_s(
+        bars.iter()
+            .filter(|bar| bar.index == index)
+            .map(|bar| bar.rect.right())
+            .fold(0.0, f32::max),
+    )
 }
 
 /// Lets the bar go: one edit of the text.

@@ -2,7 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use egui::{Color32, FontId, Rect, RichText, ScrollArea, Sense, Shape, Stroke, Ui, WidgetInfo, WidgetType, vec2};
+use egui::{
+    Color32, FontId, Rect, RichText, ScrollArea, Sense, Shape, Stroke, Ui, WidgetInfo, WidgetType,
+    vec2,
+};
 
 use super::super::super::charts::{Chart, Curve, Kind, Style};
 use super::super::super::theme::Theme;
@@ -24,17 +27,28 @@ const SIZE: f32 = 12.0;
 const HEIGHT: f32 = 18.0;
 
 /// Draws title and key of a plot of a height; answers the name of the curve that was clicked.
-pub(super) fn show(ui: &mut Ui, (title, plot): (&str, f32), chart: &Chart, hidden: &BTreeSet<String>) -> Option<String> {
+pub(super) fn show(
+    ui: &mut Ui,
+    (title, plot): (&str, f32),
+    chart: &Chart,
+    hidden: &BTreeSet<String>,
+) -> Option<String> {
     let faint = Theme::palette_of(ui).faint;
-    let named: Vec<&Curve> = chart.curves.iter().filter(|curve| curve.style != Style::Edge).collect();
+    let named: Vec<&Curve> =
+        chart.curves.iter().filter(|curve| curve.style != Style::Edge).collect();
     let all = |ui: &mut Ui| {
         ui.spacing_mut().item_spacing.y = 2.0;
         if !title.is_empty() {
             ui.label(RichText::new(title).color(faint));
         }
-        named.iter().filter_map(|curve| entry(ui, chart, curve, hidden.contains(&curve.name))).last()
+        named
+            .iter()
+            .filter_map(|curve| entry(ui, chart, curve, hidden.contains(&curve.name)))
+            .last()
     };
-    let letters: usize = named.iter().map(|curve| curve.name.len() + peak(chart, curve).len() + 5).sum::<usize>() + title.len();
+    let letters: usize =
+        named.iter().map(|curve| curve.name.len() + peak(chart, curve).len() + 5).sum::<usize>()
+            + title.len();
     let rows = (letters as f32 * LETTER / ui.available_width()).ceil();
     if rows * HEIGHT <= SHARE * plot {
         return ui
@@ -45,18 +59,30 @@ pub(super) fn show(ui: &mut Ui, (title, plot): (&str, f32), chart: &Chart, hidde
             .inner;
     }
     // A long key must not push its plot away: it is moved along in one row.
-    ScrollArea::horizontal().id_salt(("key", chart.kind.name())).auto_shrink([false, true]).show(ui, |ui| ui.horizontal(all).inner).inner
+    ScrollArea::horizontal()
+        .id_salt(("key", chart.kind.name()))
+        .auto_shrink([false, true])
+        .show(ui, |ui| ui.horizontal(all).inner)
+        .inner
 }
 
 /// A piece of the curve's line, then its name; never on two rows.
 fn entry(ui: &mut Ui, chart: &Chart, curve: &Curve, hidden: bool) -> Option<String> {
     let palette = Theme::palette_of(ui);
     let text = format!("{}{}", curve.name, peak(chart, curve));
-    let galley = ui.painter().layout_no_wrap(text.clone(), FontId::proportional(SIZE), if hidden { palette.faint } else { palette.text });
-    let (rect, response) = ui.allocate_exact_size(vec2(SAMPLE + GAP + galley.size().x, HEIGHT), Sense::click());
+    let galley = ui.painter().layout_no_wrap(
+        text.clone(),
+        FontId::proportional(SIZE),
+        if hidden { palette.faint } else { palette.text },
+    );
+    let (rect, response) =
+        ui.allocate_exact_size(vec2(SAMPLE + GAP + galley.size().x, HEIGHT), Sense::click());
     response.widget_info(|| WidgetInfo::selected(WidgetType::Checkbox, true, !hidden, &text));
     let [red, green, blue] = curve.rgb();
-    let stroke = Stroke::new(2.5, Color32::from_rgb(red, green, blue).gamma_multiply(if hidden { 0.35 } else { 1.0 }));
+    let stroke = Stroke::new(
+        2.5,
+        Color32::from_rgb(red, green, blue).gamma_multiply(if hidden { 0.35 } else { 1.0 }),
+    );
     let ends = [rect.left_center(), rect.left_center() + vec2(SAMPLE, 0.0)];
     match curve.style {
         Style::Dashed => ui.painter().extend(Shape::dashed_line(&ends, stroke, 4.0, 3.0)),
@@ -64,7 +90,10 @@ fn entry(ui: &mut Ui, chart: &Chart, curve: &Curve, hidden: bool) -> Option<Stri
             ui.painter().line_segment(ends, stroke);
         }
     }
-    let words = Rect::from_min_size(rect.left_center() + vec2(SAMPLE + GAP, -galley.size().y / 2.0), galley.size());
+    let words = Rect::from_min_size(
+        rect.left_center() + vec2(SAMPLE + GAP, -galley.size().y / 2.0),
+        galley.size(),
+    );
     ui.painter().galley(words.min, galley, palette.text);
     if hidden {
         ui.painter().hline(words.x_range(), words.center().y, Stroke::new(1.0, palette.faint));
@@ -78,7 +107,9 @@ fn peak(chart: &Chart, curve: &Curve) -> String {
     if !matches!(chart.kind, Kind::Tension | Kind::Force) {
         return String::new();
     }
-    let Some(top) = curve.points.iter().max_by(|a, b| a.y.total_cmp(&b.y)) else { return String::new() };
+    let Some(top) = curve.points.iter().max_by(|a, b| a.y.total_cmp(&b.y)) else {
+        return String::new();
+    };
     let value = if top.y.abs() < 100.0 { format!("{:.1}", top.y) } else { format!("{:.0}", top.y) };
     format!(" peak {value} {} at {:.1} s", chart.y, top.x)
 }

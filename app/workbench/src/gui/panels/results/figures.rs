@@ -47,8 +47,10 @@ impl Figure {
         let font = FontId::proportional(12.5);
         let galley = self.painter.layout(name.to_owned(), font, colour, NAMES - 14.0);
         let first = galley.rows.first().map_or(0.0, |row| row.height());
-        let clipped =
-            self.painter.with_clip_rect(Rect::from_min_size(pos2(self.rect.left(), self.y(row) - first / 2.0), vec2(NAMES, first)));
+        let clipped = self.painter.with_clip_rect(Rect::from_min_size(
+            pos2(self.rect.left(), self.y(row) - first / 2.0),
+            vec2(NAMES, first),
+        ));
         clipped.galley(pos2(self.rect.left() + 2.0, self.y(row) - first / 2.0), galley, colour);
     }
 
@@ -56,14 +58,19 @@ impl Figure {
         let (top, bottom) = (self.rect.top(), self.rect.bottom() - 30.0);
         for tick in ticks(self.values) {
             let x = self.x(tick);
-            self.painter.line_segment([pos2(x, top), pos2(x, bottom)], Stroke::new(1.0, self.palette.line));
+            self.painter
+                .line_segment([pos2(x, top), pos2(x, bottom)], Stroke::new(1.0, self.palette.line));
             self.text(pos2(x, bottom + 6.0), Align2::CENTER_TOP, &words(tick), self.palette.faint);
         }
     }
 
     fn hover(&self, ui: &Ui, row: usize, text: &str) {
-        let strip = Rect::from_min_max(pos2(self.rect.left(), self.y(row) - ROW / 2.0), pos2(self.rect.right(), self.y(row) + ROW / 2.0));
-        ui.interact(strip, ui.id().with(("row", self.rect.top().to_bits(), row)), Sense::hover()).on_hover_text(text);
+        let strip = Rect::from_min_max(
+            pos2(self.rect.left(), self.y(row) - ROW / 2.0),
+            pos2(self.rect.right(), self.y(row) + ROW / 2.0),
+        );
+        ui.interact(strip, ui.id().with(("row", self.rect.top().to_bits(), row)), Sense::hover())
+            .on_hover_text(text);
     }
 }
 
@@ -71,9 +78,16 @@ impl Figure {
 fn ticks([least, most]: [f64; 2]) -> Vec<f64> {
     let rough = (most - least) / 5.0;
     let power = 10.0_f64.powf(rough.log10().floor());
-    let step = [1.0, 2.0, 2.5, 5.0, 10.0].into_iter().map(|factor| factor * power).find(|step| *step >= rough).unwrap_or(rough);
+    let step = [1.0, 2.0, 2.5, 5.0, 10.0]
+        .into_iter()
+        .map(|factor| factor * power)
+        .find(|step| *step >= rough)
+        .unwrap_or(rough);
     let first = (least / step).ceil() as i64;
-    (first..).map(|count| count as f64 * step).take_while(|tick| *tick <= most + 1e-9 * step).collect()
+    (first..)
+        .map(|count| count as f64 * step)
+        .take_while(|tick| *tick <= most + 1e-9 * step)
+        .collect()
 }
 
 /// An option's name, its difference from the baseline, and the interval.
@@ -83,31 +97,48 @@ type Difference = (String, f64, Interval);
 pub(super) fn forest(ui: &mut Ui, shown: &Shown, event: &str) {
     let findings = &shown.findings;
     let others = |index: &usize| *index != findings.baseline;
-    let all = |option: &OptionFinding| option.against(event).map(|paired| (paired.difference, paired.difference_interval));
+    let all = |option: &OptionFinding| {
+        option.against(event).map(|paired| (paired.difference, paired.difference_interval))
+    };
     let mut groups: Vec<(String, Vec<Difference>)> = Vec::new();
     let rows = (0..findings.options.len()).filter(others);
     let own = rows.filter_map(|index| {
-        all(&findings.options[index]).map(|(difference, interval)| (findings.options[index].name.clone(), difference, interval))
+        all(&findings.options[index]).map(|(difference, interval)| {
+            (findings.options[index].name.clone(), difference, interval)
+        })
     });
     groups.push(("all encounters".into(), own.collect()));
     for level in findings.levels.iter().filter(|_| event == findings.event) {
         let rows = (0..findings.options.len()).filter(others).filter_map(|index| {
             let paired = level.against.get(index)?;
-            Some((findings.options[index].name.clone(), paired.difference, paired.difference_interval))
+            Some((
+                findings.options[index].name.clone(),
+                paired.difference,
+                paired.difference_interval,
+            ))
         });
         groups.push((level.level.clone(), rows.collect()));
     }
     let baseline = &findings.options[findings.baseline];
     let words = baseline.rate(event).map_or_else(String::new, rate);
-    ui.label(format!("Difference of rates from {} ({words}), in points of a percent: left is rarer", baseline.name));
-    let ends = groups.iter().flat_map(|(_, rows)| rows).map(|(_, _, interval)| interval.low.abs().max(interval.high.abs()));
+    ui.label(format!(
+        "Difference of rates from {} ({words}), in points of a percent: left is rarer",
+        baseline.name
+    ));
+    let ends = groups
+        .iter()
+        .flat_map(|(_, rows)| rows)
+        .map(|(_, _, interval)| interval.low.abs().max(interval.high.abs()));
     let widest = ends.fold(0.02, f64::max);
     let count = groups.iter().map(|(_, rows)| rows.len() + 1).sum();
     let figure = Figure::new(ui, count, [-widest, widest]);
     figure.axis(|tick| format!("{:+.*}", usize::from(widest < 0.1), 100.0 * tick));
     let zero = figure.x(0.0);
     let strong = Stroke::new(1.0, figure.palette.faint);
-    figure.painter.line_segment([pos2(zero, figure.rect.top()), pos2(zero, figure.rect.bottom() - 30.0)], strong);
+    figure.painter.line_segment(
+        [pos2(zero, figure.rect.top()), pos2(zero, figure.rect.bottom() - 30.0)],
+        strong,
+    );
     let mut row = 0;
     for (kind, (name, rows)) in groups.iter().enumerate() {
         figure.name(row, name, figure.palette.faint);
@@ -115,7 +146,11 @@ pub(super) fn forest(ui: &mut Ui, shown: &Shown, event: &str) {
         for (option, difference, interval) in rows {
             figure.name(row, &format!("   {option}"), figure.palette.text);
             whisker(&figure, row, [interval.low, *difference, interval.high], kind);
-            figure.hover(ui, row, &format!("{option}, {name}: {} points", points(*difference, *interval)));
+            figure.hover(
+                ui,
+                row,
+                &format!("{option}, {name}: {} points", points(*difference, *interval)),
+            );
             row += 1;
         }
     }
@@ -134,7 +169,11 @@ fn whisker(figure: &Figure, row: usize, [low, at, high]: [f64; 3], kind: usize) 
     if kind.is_multiple_of(2) {
         figure.painter.circle_filled(pos2(at, y), 4.5, colour);
     } else {
-        figure.painter.rect_filled(Rect::from_center_size(pos2(at, y), vec2(8.0, 8.0)), 0.0, colour);
+        figure.painter.rect_filled(
+            Rect::from_center_size(pos2(at, y), vec2(8.0, 8.0)),
+            0.0,
+            colour,
+        );
     }
 }
 
@@ -144,8 +183,14 @@ pub(super) fn tornado(ui: &mut Ui, shown: &Shown) {
     if findings.inputs.is_empty() {
         return super::super::nothing(ui, "Nothing was drawn that varies.");
     }
-    let most = findings.inputs.iter().flat_map(|input| &input.parts).map(|part| part.rate.rate).fold(0.02, f64::max);
-    let words = endline_gear::Event::find(&findings.event).map_or_else(|| findings.event.clone(), |event| event.words());
+    let most = findings
+        .inputs
+        .iter()
+        .flat_map(|input| &input.parts)
+        .map(|part| part.rate.rate)
+        .fold(0.02, f64::max);
+    let words = endline_gear::Event::find(&findings.event)
+        .map_or_else(|| findings.event.clone(), |event| event.words());
     ui.label(format!("Rate of \"{words}\" over all options, by parts of each input's range"));
     let figure = Figure::new(ui, 2 * findings.inputs.len(), [0.0, 1.15 * most]);
     figure.axis(|tick| format!("{:.*} %", usize::from(most < 0.1), 100.0 * tick));
@@ -166,10 +211,17 @@ pub(super) fn tornado(ui: &mut Ui, shown: &Shown) {
         let mark = if input.same_best { "" } else { "  (another option is best)" };
         figure.name(row, &input.name.replace('_', " "), figure.palette.text);
         let below = figure.y(row + 1) - 6.0;
-        let left = figure.text(pos2(from, below), Align2::RIGHT_CENTER, &least.name, figure.palette.faint);
+        let left =
+            figure.text(pos2(from, below), Align2::RIGHT_CENTER, &least.name, figure.palette.faint);
         let right = (to).max(left.right() + 8.0);
-        figure.text(pos2(right, below), Align2::LEFT_CENTER, &format!("{}{mark}", most.name), figure.palette.faint);
-        let told: Vec<String> = parts.iter().map(|part| format!("{}: {}", part.name, rate(&part.rate))).collect();
+        figure.text(
+            pos2(right, below),
+            Align2::LEFT_CENTER,
+            &format!("{}{mark}", most.name),
+            figure.palette.faint,
+        );
+        let told: Vec<String> =
+            parts.iter().map(|part| format!("{}: {}", part.name, rate(&part.rate))).collect();
         let best = if input.same_best {
             "The option with the lowest rate is the same in every part."
         } else {

@@ -55,7 +55,9 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
         }
         let why = match &desk.studies.results.problem {
             Some(problem) => problem,
-            None => "No results yet. Choose a study in Study and run it, or open the results of one that was run.",
+            None => {
+                "No results yet. Choose a study in Study and run it, or open the results of one that was run."
+            }
         };
         return super::nothing(ui, why);
     };
@@ -88,8 +90,13 @@ fn head(ui: &mut Ui, desk: &mut Desk, shown: &Arc<Shown>) {
         ui.label(RichText::new(&study.name).strong()).on_hover_text(&study.notes);
         let invalid: u64 = findings.options.iter().map(|option| option.invalid).sum();
         let state = if shown.whole { "" } else { ", so far" };
-        let text = format!("{} encounters{state}; {invalid} invalid runs left out", findings.encounters);
-        ui.label(RichText::new(text).color(if shown.whole { palette.faint } else { palette.warning }));
+        let text =
+            format!("{} encounters{state}; {invalid} invalid runs left out", findings.encounters);
+        ui.label(RichText::new(text).color(if shown.whole {
+            palette.faint
+        } else {
+            palette.warning
+        }));
     });
     let caveat = "Rates are relative, given an encounter, under this study's distribution of encounters; intervals of 95 %.";
     ui.label(RichText::new(caveat).small().color(palette.faint));
@@ -103,7 +110,11 @@ fn head(ui: &mut Ui, desk: &mut Desk, shown: &Arc<Shown>) {
         if matches!(desk.studies.results.part, Part::Rates | Part::Forest) {
             choose_event(ui, desk, shown);
         }
-        if ui.button("Copy command").on_hover_text("endline study report …, for a terminal").clicked() {
+        if ui
+            .button("Copy command")
+            .on_hover_text("endline study report …, for a terminal")
+            .clicked()
+        {
             ui.ctx().copy_text(report_line(desk, shown));
         }
         if shown.folder.join("report.html").is_file() {
@@ -125,14 +136,18 @@ fn report_line(desk: &Desk, shown: &Shown) -> String {
 
 fn choose_event(ui: &mut Ui, desk: &mut Desk, shown: &Shown) {
     let now = event(desk, shown);
-    let words = |name: &str| Event::find(name).map_or_else(|| name.to_owned(), |event| event.words());
-    ComboBox::from_id_salt("event").width(150.0).truncate().selected_text(words(&now)).show_ui(ui, |ui| {
-        for event in Event::all() {
-            if ui.selectable_label(event.name() == now, event.words()).clicked() {
-                desk.studies.results.event = Some(event.name());
+    let words =
+        |name: &str| Event::find(name).map_or_else(|| name.to_owned(), |event| event.words());
+    ComboBox::from_id_salt("event").width(150.0).truncate().selected_text(words(&now)).show_ui(
+        ui,
+        |ui| {
+            for event in Event::all() {
+                if ui.selectable_label(event.name() == now, event.words()).clicked() {
+                    desk.studies.results.event = Some(event.name());
+                }
             }
-        }
-    });
+        },
+    );
 }
 
 /// Shows a run in the 3-D view.

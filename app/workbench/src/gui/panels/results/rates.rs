@@ -27,7 +27,10 @@ pub(super) fn show(ui: &mut Ui, shown: &Shown, event: &str) {
         ("Option", ""),
         ("Runs", "Runs that count, of those made"),
         ("Rate [%]", "Share of runs that came to the event, with its interval"),
-        ("Difference from baseline [points]", "Rate less the baseline's in the same encounters; below zero is rarer"),
+        (
+            "Difference from baseline [points]",
+            "Rate less the baseline's in the same encounters; below zero is rarer",
+        ),
         ("Ratio", "Rate over the baseline's"),
         ("P(rarer)", "Probability that the event is rarer than with the baseline"),
         ("Best", "How often this option has the lowest rate when encounters are drawn again"),
@@ -49,7 +52,8 @@ fn row(ui: &mut Ui, option: &OptionFinding, event: &str, baseline: bool, own_eve
     let palette = Theme::palette_of(ui);
     let (Some(own), Some(paired)) = (option.rate(event), option.against(event)) else { return };
     let name = if baseline { format!("{} (baseline)", option.name) } else { option.name.clone() };
-    ui.label(RichText::new(name).color(if baseline { palette.accent } else { palette.text })).on_hover_text(&option.id);
+    ui.label(RichText::new(name).color(if baseline { palette.accent } else { palette.text }))
+        .on_hover_text(&option.id);
     ui.label(format!("{} of {}", own.runs, own.runs + option.invalid));
     ui.label(rate(own)).on_hover_text(format!("{} of {}", own.hits, own.runs));
     if baseline {
@@ -62,7 +66,9 @@ fn row(ui: &mut Ui, option: &OptionFinding, event: &str, baseline: bool, own_eve
             paired.encounters, paired.both, paired.only_this, paired.only_other, paired.mcnemar
         ));
         ui.label(match (paired.ratio, paired.ratio_interval) {
-            (Some(ratio), Some(Interval { low, high })) => format!("{ratio:.2} [{low:.2}, {high:.2}]"),
+            (Some(ratio), Some(Interval { low, high })) => {
+                format!("{ratio:.2} [{low:.2}, {high:.2}]")
+            }
             _ => "none".into(),
         });
         ui.label(format!("{:.3}", paired.fewer));
@@ -77,20 +83,34 @@ fn levels(ui: &mut Ui, shown: &Shown) {
     let faint = Theme::palette_of(ui).faint;
     for level in &shown.findings.levels {
         super::super::caption(ui, &level.level);
-        Grid::new(("level", &level.level)).num_columns(4).striped(true).spacing([16.0, 3.0]).show(ui, |ui| {
-            for head in ["Option", "Rate of what is asked [%]", "Difference from baseline [points]", "Parted [%]"] {
-                ui.label(RichText::new(head).small().color(faint));
-            }
-            ui.end_row();
-            let rows = shown.findings.options.iter().zip(&level.rates).zip(&level.against).zip(&level.parted);
-            for (((option, own), paired), parted) in rows {
-                ui.label(&option.name);
-                ui.label(rate(own));
-                ui.label(points(paired.difference, paired.difference_interval));
-                ui.label(rate(parted));
+        Grid::new(("level", &level.level)).num_columns(4).striped(true).spacing([16.0, 3.0]).show(
+            ui,
+            |ui| {
+                for head in [
+                    "Option",
+                    "Rate of what is asked [%]",
+                    "Difference from baseline [points]",
+                    "Parted [%]",
+                ] {
+                    ui.label(RichText::new(head).small().color(faint));
+                }
                 ui.end_row();
-            }
-        });
+                let rows = shown
+                    .findings
+                    .options
+                    .iter()
+                    .zip(&level.rates)
+                    .zip(&level.against)
+                    .zip(&level.parted);
+                for (((option, own), paired), parted) in rows {
+                    ui.label(&option.name);
+                    ui.label(rate(own));
+                    ui.label(points(paired.difference, paired.difference_interval));
+                    ui.label(rate(parted));
+                    ui.end_row();
+                }
+            },
+        );
     }
 }
 

@@ -86,7 +86,8 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, shown: &Arc<Shown>) {
                 let row = &rows[line.index()];
                 line.set_selected(replayed == Some((row.option, row.encounter)));
                 cells(&mut line, row, shown, unit);
-                let response = line.response().on_hover_text("Click to see this run in the 3-D view");
+                let response =
+                    line.response().on_hover_text("Click to see this run in the 3-D view");
                 if response.clicked() {
                     wanted = Some((row.option, row.encounter));
                 }
@@ -101,15 +102,24 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, shown: &Arc<Shown>) {
 fn filter(ui: &mut Ui, desk: &mut Desk, shown: &Shown) {
     ui.horizontal(|ui| {
         let only = &mut desk.studies.results.only;
-        let name =
-            |id: &String| shown.findings.options.iter().find(|option| option.id == *id).map_or(id.clone(), |option| option.name.clone());
+        let name = |id: &String| {
+            shown
+                .findings
+                .options
+                .iter()
+                .find(|option| option.id == *id)
+                .map_or(id.clone(), |option| option.name.clone())
+        };
         let text = only.as_ref().map_or_else(|| "every option".to_owned(), name);
-        ComboBox::from_id_salt("only").width(160.0).truncate().selected_text(text).show_ui(ui, |ui| {
-            ui.selectable_value(only, None, "every option");
-            for option in &shown.findings.options {
-                ui.selectable_value(only, Some(option.id.clone()), &option.name);
-            }
-        });
+        ComboBox::from_id_salt("only").width(160.0).truncate().selected_text(text).show_ui(
+            ui,
+            |ui| {
+                ui.selectable_value(only, None, "every option");
+                for option in &shown.findings.options {
+                    ui.selectable_value(only, Some(option.id.clone()), &option.name);
+                }
+            },
+        );
         ui.label(RichText::new("Click a run to see it.").color(Theme::palette_of(ui).faint));
     });
 }
@@ -120,11 +130,20 @@ fn head(ui: &mut Ui, name: &str, by: Option<Sort>, sort: &mut (Sort, bool)) {
         ui.label(RichText::new(name).small().color(palette.faint));
         return;
     };
-    let (colour, arrow) = if sort.0 == by { (palette.accent, if sort.1 { " ⏷" } else { " ⏶" }) } else { (palette.faint, "") };
-    let button = egui::Button::new(RichText::new(format!("{name}{arrow}")).small().color(colour)).frame(false);
+    let (colour, arrow) = if sort.0 == by {
+        (palette.accent, if sort.1 { " ⏷" } else { " ⏶" })
+    } else {
+        (palette.faint, "")
+    };
+    let button = egui::Button::new(RichText::new(format!("{name}{arrow}")).small().color(colour))
+        .frame(false);
     if ui.add(button).clicked() {
         // Numbers are looked at from the top.
-        *sort = if sort.0 == by { (by, !sort.1) } else { (by, matches!(by, Sort::Tension | Sort::Wraps)) };
+        *sort = if sort.0 == by {
+            (by, !sort.1)
+        } else {
+            (by, matches!(by, Sort::Tension | Sort::Wraps))
+        };
     }
 }
 
@@ -139,7 +158,9 @@ fn cells(line: &mut egui_extras::TableRow<'_, '_>, row: &RunRow, shown: &Shown, 
             ui.label(RichText::new("invalid").color(palette.error)).on_hover_text(&row.fault);
         }
     });
-    line.col(|ui| drop(ui.label(row.tension_n.map_or_else(|| "–".into(), |tension| unit.text(tension)))));
+    line.col(|ui| {
+        drop(ui.label(row.tension_n.map_or_else(|| "–".into(), |tension| unit.text(tension))))
+    });
     line.col(|ui| drop(ui.label(format!("{:.2}", row.wraps))));
     line.col(|ui| drop(ui.label(&row.parted)));
 }
@@ -147,19 +168,30 @@ fn cells(line: &mut egui_extras::TableRow<'_, '_>, row: &RunRow, shown: &Shown, 
 /// The rows as they are sorted and filtered now, listed anew where that or the results have changed.
 fn listed(desk: &mut Desk, shown: &Arc<Shown>) -> Arc<Vec<RunRow>> {
     let results = &mut desk.studies.results;
-    let same = |listed: &&Listed| Arc::ptr_eq(&listed.shown, shown) && listed.only == results.only && listed.sort == results.sort;
+    let same = |listed: &&Listed| {
+        Arc::ptr_eq(&listed.shown, shown)
+            && listed.only == results.only
+            && listed.sort == results.sort
+    };
     if let Some(listed) = results.listed.as_ref().filter(same) {
         return Arc::clone(&listed.rows);
     }
     let rows = Arc::new(rows(shown, results.only.as_deref(), results.sort));
-    results.listed = Some(Listed { shown: Arc::clone(shown), only: results.only.clone(), sort: results.sort, rows: Arc::clone(&rows) });
+    results.listed = Some(Listed {
+        shown: Arc::clone(shown),
+        only: results.only.clone(),
+        sort: results.sort,
+        rows: Arc::clone(&rows),
+    });
     rows
 }
 
 fn rows(shown: &Shown, only: Option<&str>, (sort, down): (Sort, bool)) -> Vec<RunRow> {
     let table = &shown.table;
-    let (encounters, tensions, wraps) = (table.reals("encounter"), table.reals("peak_tension_N"), wraps(table));
-    let (options, valid, outcomes) = (table.texts("option"), table.flags("valid"), table.texts("outcome"));
+    let (encounters, tensions, wraps) =
+        (table.reals("encounter"), table.reals("peak_tension_N"), wraps(table));
+    let (options, valid, outcomes) =
+        (table.texts("option"), table.flags("valid"), table.texts("outcome"));
     let (parted, faults) = (table.texts("parted"), table.texts("fault"));
     let row = |row: usize| {
         let option = shown.findings.options.iter().position(|option| option.id == options[row])?;
@@ -174,12 +206,19 @@ fn rows(shown: &Shown, only: Option<&str>, (sort, down): (Sort, bool)) -> Vec<Ru
             fault: faults[row].clone(),
         })
     };
-    let mut rows: Vec<RunRow> = (0..table.rows()).filter(|row| only.is_none_or(|only| options[*row] == only)).filter_map(row).collect();
+    let mut rows: Vec<RunRow> = (0..table.rows())
+        .filter(|row| only.is_none_or(|only| options[*row] == only))
+        .filter_map(row)
+        .collect();
     match sort {
         Sort::Encounter => rows.sort_by_key(|row| (row.encounter, row.option)),
-        Sort::Tension => rows.sort_by(|one, other| one.tension_n.unwrap_or(-1.0).total_cmp(&other.tension_n.unwrap_or(-1.0))),
+        Sort::Tension => rows.sort_by(|one, other| {
+            one.tension_n.unwrap_or(-1.0).total_cmp(&other.tension_n.unwrap_or(-1.0))
+        }),
         Sort::Wraps => rows.sort_by(|one, other| one.wraps.total_cmp(&other.wraps)),
-        Sort::Outcome => rows.sort_by(|one, other| one.outcome.cmp(&other.outcome).then(one.encounter.cmp(&other.encounter))),
+        Sort::Outcome => rows.sort_by(|one, other| {
+            one.outcome.cmp(&other.outcome).then(one.encounter.cmp(&other.encounter))
+        }),
     }
     if down {
         rows.reverse();
@@ -191,7 +230,9 @@ fn rows(shown: &Shown, only: Option<&str>, (sort, down): (Sort, bool)) -> Vec<Ru
 fn wraps(table: &Table) -> Vec<f64> {
     let mut most = vec![0.0_f64; table.rows()];
     for (name, _) in table.columns.iter().filter(|(name, _)| name.ends_with("_peak_wraps")) {
-        most.iter_mut().zip(table.reals(name)).for_each(|(most, value)| *most = most.max(value.unwrap_or_default()));
+        most.iter_mut()
+            .zip(table.reals(name))
+            .for_each(|(most, value)| *most = most.max(value.unwrap_or_default()));
     }
     most
 }

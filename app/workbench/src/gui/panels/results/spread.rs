@@ -54,25 +54,48 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, shown: &Arc<Shown>) {
         .include_y(0.0)
         .include_y(1.0)
         .custom_x_axes(vec![
-            AxisHints::new_x().label(format!("greatest tension [{}]", unit.symbol())).formatter(move |mark, _| words(mark.value)),
+            AxisHints::new_x()
+                .label(format!("greatest tension [{}]", unit.symbol()))
+                .formatter(move |mark, _| words(mark.value)),
         ])
-        .custom_y_axes(vec![AxisHints::new_y().formatter(|mark, _| format!("{:.0} %", 100.0 * mark.value)).min_thickness(46.0)])
+        .custom_y_axes(vec![
+            AxisHints::new_y()
+                .formatter(|mark, _| format!("{:.0} %", 100.0 * mark.value))
+                .min_thickness(46.0),
+        ])
         .allow_scroll(false)
         .show_background(false)
         .show(ui, |plot| {
             for (index, option) in shown.findings.options.iter().enumerate() {
                 let [red, green, blue] = COLOURS[index % COLOURS.len()];
                 let colour = Color32::from_rgb(red, green, blue);
-                let points: Vec<PlotPoint> = dots.iter().filter(|dot| dot.option == index).map(|dot| dot.at.into()).collect();
-                plot.line(Line::new(&option.name, PlotPoints::Owned(points.clone())).color(colour).width(1.3));
-                let shapes = [MarkerShape::Circle, MarkerShape::Square, MarkerShape::Diamond, MarkerShape::Up];
-                let marks = Points::new(&option.name, PlotPoints::Owned(points)).color(colour).radius(2.6);
+                let points: Vec<PlotPoint> = dots
+                    .iter()
+                    .filter(|dot| dot.option == index)
+                    .map(|dot| dot.at.into())
+                    .collect();
+                plot.line(
+                    Line::new(&option.name, PlotPoints::Owned(points.clone()))
+                        .color(colour)
+                        .width(1.3),
+                );
+                let shapes = [
+                    MarkerShape::Circle,
+                    MarkerShape::Square,
+                    MarkerShape::Diamond,
+                    MarkerShape::Up,
+                ];
+                let marks =
+                    Points::new(&option.name, PlotPoints::Owned(points)).color(colour).radius(2.6);
                 plot.points(marks.shape(shapes[index % shapes.len()]).allow_hover(false));
             }
         });
     let Some(at) = response.response.hover_pos() else { return };
     let distance = |dot: &&Dot| response.transform.position_from_point(&dot.at.into()).distance(at);
-    let Some(nearest) = dots.iter().min_by(|one, other| distance(one).total_cmp(&distance(other))).filter(|dot| distance(dot) < REACH)
+    let Some(nearest) = dots
+        .iter()
+        .min_by(|one, other| distance(one).total_cmp(&distance(other)))
+        .filter(|dot| distance(dot) < REACH)
     else {
         return;
     };
@@ -96,7 +119,8 @@ fn placed(desk: &mut Desk, shown: &Arc<Shown>, unit: ForceUnit) -> Arc<Vec<Dot>>
         return Arc::clone(&placed.dots);
     }
     let dots = Arc::new(dots(shown, unit));
-    desk.studies.results.placed = Some(Placed { shown: Arc::clone(shown), unit, dots: Arc::clone(&dots) });
+    desk.studies.results.placed =
+        Some(Placed { shown: Arc::clone(shown), unit, dots: Arc::clone(&dots) });
     dots
 }
 
@@ -104,7 +128,8 @@ fn placed(desk: &mut Desk, shown: &Arc<Shown>, unit: ForceUnit) -> Arc<Vec<Dot>>
 fn dots(shown: &Shown, unit: ForceUnit) -> Vec<Dot> {
     let table = &shown.table;
     let (encounters, tensions) = (table.reals("encounter"), table.reals("peak_tension_N"));
-    let (options, valid, outcomes) = (table.texts("option"), table.flags("valid"), table.texts("outcome"));
+    let (options, valid, outcomes) =
+        (table.texts("option"), table.flags("valid"), table.texts("outcome"));
     let mut all = Vec::new();
     for (index, option) in shown.findings.options.iter().enumerate() {
         let own = (0..table.rows()).filter(|row| valid[*row] && options[*row] == option.id);
@@ -112,12 +137,20 @@ fn dots(shown: &Shown, unit: ForceUnit) -> Vec<Dot> {
             .filter_map(|row| {
                 let (encounter, tension_n) = (encounters[row]? as u32, tensions[row]?);
                 let x = (1.0 + unit.of_newtons(tension_n).max(0.0)).log10();
-                Some(Dot { option: index, encounter, tension_n, outcome: outcomes[row].clone(), at: [x, 0.0] })
+                Some(Dot {
+                    option: index,
+                    encounter,
+                    tension_n,
+                    outcome: outcomes[row].clone(),
+                    at: [x, 0.0],
+                })
             })
             .collect();
         dots.sort_by(|one, other| one.tension_n.total_cmp(&other.tension_n));
         let count = dots.len().max(1) as f64;
-        dots.iter_mut().enumerate().for_each(|(place, dot)| dot.at[1] = (place as f64 + 0.5) / count);
+        dots.iter_mut()
+            .enumerate()
+            .for_each(|(place, dot)| dot.at[1] = (place as f64 + 0.5) / count);
         all.extend(dots);
     }
     all

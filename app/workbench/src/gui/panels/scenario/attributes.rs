@@ -10,7 +10,13 @@ use super::super::super::fields;
 use super::{Edit, name_with_help, problem};
 
 /// Draws the attributes that stand in a table of the scenario, such as `friction.attributes`.
-pub(super) fn show(ui: &mut Ui, desk: &Desk, table: &str, attributes: &[Attribute], edits: &mut Vec<Edit>) {
+pub(super) fn show(
+    ui: &mut Ui,
+    desk: &Desk,
+    table: &str,
+    attributes: &[Attribute],
+    edits: &mut Vec<Edit>,
+) {
     if attributes.is_empty() {
         return;
     }
@@ -28,16 +34,33 @@ pub(super) fn show(ui: &mut Ui, desk: &Desk, table: &str, attributes: &[Attribut
     });
 }
 
-fn cell(ui: &mut Ui, desk: &Desk, field: &str, attribute: &Attribute, help: &str, edits: &mut Vec<Edit>) {
+fn cell(
+    ui: &mut Ui,
+    desk: &Desk,
+    field: &str,
+    attribute: &Attribute,
+    help: &str,
+    edits: &mut Vec<Edit>,
+) {
     let width = ui.available_width() - 12.0;
     let typed = match &attribute.kind {
         AttributeKind::Choice { words, default } => {
             let usual = (String::new(), format!("{default} (usual)"));
-            let words = words.iter().filter(|word| *word != default).map(|word| (word.to_string(), word.to_string()));
+            let words = words
+                .iter()
+                .filter(|word| *word != default)
+                .map(|word| (word.to_string(), word.to_string()));
             let choices: Vec<(String, String)> = std::iter::once(usual).chain(words).collect();
             fields::choose(ui, &desk.book, Book::SCENARIO, field, &choices, width + 4.0)
         }
-        _ => fields::edit(ui, &desk.book, Book::SCENARIO, field, width, fields::Said { hint: &usual(attribute), help }),
+        _ => fields::edit(
+            ui,
+            &desk.book,
+            Book::SCENARIO,
+            field,
+            width,
+            fields::Said { hint: &usual(attribute), help },
+        ),
     };
     edits.extend(typed.map(|value| (field.to_owned(), value)));
 }
@@ -47,13 +70,17 @@ fn usual(attribute: &Attribute) -> String {
     match &attribute.kind {
         AttributeKind::Number { default, .. } => in_unit(*default, &attribute.unit),
         AttributeKind::Count { default, .. } => default.to_string(),
-        AttributeKind::Choice { default, .. } | AttributeKind::Item { default, .. } => default.to_string(),
+        AttributeKind::Choice { default, .. } | AttributeKind::Item { default, .. } => {
+            default.to_string()
+        }
     }
 }
 
 fn help(attribute: &Attribute) -> String {
     let range = match &attribute.kind {
-        AttributeKind::Number { min, max, .. } => format!("\n{} to {}", in_unit(*min, &attribute.unit), in_unit(*max, &attribute.unit)),
+        AttributeKind::Number { min, max, .. } => {
+            format!("\n{} to {}", in_unit(*min, &attribute.unit), in_unit(*max, &attribute.unit))
+        }
         AttributeKind::Count { min, max, .. } => format!("\na whole number from {min} to {max}"),
         AttributeKind::Choice { words, .. } => format!("\n{}", words.join(" or ")),
         AttributeKind::Item { library, .. } => format!("\nan item of {library}/"),
@@ -63,5 +90,8 @@ fn help(attribute: &Attribute) -> String {
 
 fn in_unit(value: f64, unit: &str) -> String {
     let value = super::super::library::rounded(value);
-    Quantity::from_si_unit(unit).map_or_else(|| format!("{value} {unit}").trim().to_owned(), |quantity| format_si(value, quantity))
+    Quantity::from_si_unit(unit).map_or_else(
+        || format!("{value} {unit}").trim().to_owned(),
+        |quantity| format_si(value, quantity),
+    )
 }

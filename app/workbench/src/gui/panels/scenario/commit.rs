@@ -7,15 +7,25 @@ use super::super::super::book::Book;
 use super::super::super::program::{self, LIST};
 
 /// Tables that are nothing without one of their fields.
-const WHOLE: [(&str, &str); 2] = [("waves.height", "waves"), ("current.tide.period", "current.tide")];
+const WHOLE: [(&str, &str); 2] =
+    [("waves.height", "waves"), ("current.tide.period", "current.tide")];
 /// What a fresh field needs beside it.
 const BESIDE: [(&str, &str, &str); 1] = [("waves.height", "waves.period", "6 s")];
 /// Fields that stand for one another.
 const EITHER: [(&str, &str); 2] = [("whale.length", "whale.age"), ("whale.age", "whale.length")];
 /// What a dead whale has not, in the order of the file.
-const ALIVE: [&str; 7] = ["whale.speed", "whale.motion", "whale.dynamics", "whale.acts", "whale.answer_to_touch", "whale.attributes", LIST];
+const ALIVE: [&str; 7] = [
+    "whale.speed",
+    "whale.motion",
+    "whale.dynamics",
+    "whale.acts",
+    "whale.answer_to_touch",
+    "whale.attributes",
+    LIST,
+];
 /// What a living one needs.
-const TO_LIVE: [(&str, &str); 2] = [("whale.speed", "1 m/s"), ("whale.motion", "org.endline.motion.swim")];
+const TO_LIVE: [(&str, &str); 2] =
+    [("whale.speed", "1 m/s"), ("whale.motion", "org.endline.motion.swim")];
 
 /// Puts what is typed into a field; nothing typed takes the field away.
 ///
@@ -24,7 +34,8 @@ const TO_LIVE: [(&str, &str); 2] = [("whale.speed", "1 m/s"), ("whale.motion", "
 pub(super) fn commit(document: &mut Document, field: &str, text: &str) -> Result<(), String> {
     let text = text.trim();
     if text.is_empty() {
-        let whole = WHOLE.iter().find(|(known, _)| *known == field).map_or(field, |(_, table)| table);
+        let whole =
+            WHOLE.iter().find(|(known, _)| *known == field).map_or(field, |(_, table)| table);
         take_away(document, whole)?;
         return if field == "whale.state" { revive(document) } else { Ok(()) };
     }
@@ -51,15 +62,25 @@ pub(super) fn commit(document: &mut Document, field: &str, text: &str) -> Result
 fn put(document: &mut Document, field: &str, text: &str) -> Result<(), String> {
     let told = |error: endline_gear::EditError| error.to_string();
     // The start of the whale that nobody wrote down is an entry of its own.
-    if field.starts_with(LIST) && !document.has(field.rsplit_once('.').map_or(field, |(table, _)| table)) {
+    if field.starts_with(LIST)
+        && !document.has(field.rsplit_once('.').map_or(field, |(table, _)| table))
+    {
         let index = document.push_table(LIST, &[("at", "0 s"), ("mouth", text)]).map_err(told)?;
         return program::in_order(document, index).map(|_| ());
     }
-    if document.has(field) { document.set(field, text).map_err(told) } else { document.put(field, &Setting::plain(text)).map_err(told) }
+    if document.has(field) {
+        document.set(field, text).map_err(told)
+    } else {
+        document.put(field, &Setting::plain(text)).map_err(told)
+    }
 }
 
 fn take_away(document: &mut Document, field: &str) -> Result<(), String> {
-    if document.has(field) { document.remove(field).map_err(|error| error.to_string()) } else { Ok(()) }
+    if document.has(field) {
+        document.remove(field).map_err(|error| error.to_string())
+    } else {
+        Ok(())
+    }
 }
 
 fn revive(document: &mut Document) -> Result<(), String> {
@@ -74,7 +95,10 @@ fn revive(document: &mut Document) -> Result<(), String> {
 /// Where the scenario says how far the mouth is open at the start: in the entry of the pilot at time zero, or a fresh one.
 pub(super) fn mouth(book: &Book) -> String {
     let count = book.count(Book::SCENARIO, LIST);
-    let at = |index: usize| book.field(Book::SCENARIO, &program::path(index, "at")).and_then(|text| parse(&text, Quantity::Time).ok());
+    let at = |index: usize| {
+        book.field(Book::SCENARIO, &program::path(index, "at"))
+            .and_then(|text| parse(&text, Quantity::Time).ok())
+    };
     let first = (0..count).find(|index| at(*index) == Some(0.0)).unwrap_or(count);
     program::path(first, "mouth")
 }
@@ -97,7 +121,8 @@ mod tests {
 
     #[test]
     fn a_length_takes_the_place_of_an_age_and_a_number_stays_a_number() {
-        let mut document = Document::parse("[whale]\nitem = \"right-whale\"\nlength = \"13 m\"\n").unwrap();
+        let mut document =
+            Document::parse("[whale]\nitem = \"right-whale\"\nlength = \"13 m\"\n").unwrap();
         commit(&mut document, "whale.age", "2 yr").unwrap();
         assert!(!document.has("whale.length"));
         commit(&mut document, "whale.condition", "0.9").unwrap();
@@ -110,10 +135,21 @@ mod tests {
         let mut document = Document::parse(text).unwrap();
         commit(&mut document, "friction.attributes.scale", "3").unwrap();
         commit(&mut document, "friction.on.0.model", "c").unwrap();
-        assert!(document.text().contains("scale = 3") && document.text().contains("# law"), "{}", document.text());
-        assert!(!document.has("friction.on.0.attributes") && document.get("friction.on.0.model").as_deref() == Some("c"));
+        assert!(
+            document.text().contains("scale = 3") && document.text().contains("# law"),
+            "{}",
+            document.text()
+        );
+        assert!(
+            !document.has("friction.on.0.attributes")
+                && document.get("friction.on.0.model").as_deref() == Some("c")
+        );
         commit(&mut document, "friction.model", "d").unwrap();
-        assert!(!document.has("friction.attributes") && document.has("friction.on.0"), "{}", document.text());
+        assert!(
+            !document.has("friction.attributes") && document.has("friction.on.0"),
+            "{}",
+            document.text()
+        );
     }
 
     #[test]
@@ -121,7 +157,13 @@ mod tests {
         let text = "[whale]\nitem = \"x\"\nspeed = \"1 m/s\"\nmotion = \"m\"\n[whale.attributes]\ncruise_speed = \"1 m/s\"\n[[whale.pilot]]\nat = \"0 s\"\nspeed = 1.0\n";
         let mut document = Document::parse(text).unwrap();
         commit(&mut document, "whale.state", "dead").unwrap();
-        assert!(["speed", "motion", "attributes", "pilot"].iter().all(|key| !document.has(&format!("whale.{key}"))), "{}", document.text());
+        assert!(
+            ["speed", "motion", "attributes", "pilot"]
+                .iter()
+                .all(|key| !document.has(&format!("whale.{key}"))),
+            "{}",
+            document.text()
+        );
         commit(&mut document, "whale.state", "").unwrap();
         assert_eq!(document.get("whale.motion").as_deref(), Some("org.endline.motion.swim"));
     }

@@ -24,9 +24,14 @@ impl Change {
     fn make(self, document: &mut Document) -> Result<(), String> {
         let made = match self {
             Self::Remove(index) => document.remove_table(ON, index),
-            Self::Add(surface, model) => document
-                .push_table(ON, &[("model", &model)])
-                .and_then(|index| document.put(&format!("{ON}.{index}.surfaces"), &Setting::plain(&format!("[\"{surface}\"]")))),
+            Self::Add(surface, model) => {
+                document.push_table(ON, &[("model", &model)]).and_then(|index| {
+                    document.put(
+                        &format!("{ON}.{index}.surfaces"),
+                        &Setting::plain(&format!("[\"{surface}\"]")),
+                    )
+                })
+            }
         };
         made.map_err(|error| error.to_string())
     }
@@ -44,7 +49,12 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, edits: &mut Vec<Edit>) {
             if ui.small_button("✖").on_hover_text("Take it out; Undo brings it back").clicked() {
                 change = Some(Change::Remove(index));
             }
-            ui.add(Label::new(RichText::new(format!("On {surfaces}")).color(Theme::palette_of(ui).faint)).truncate());
+            ui.add(
+                Label::new(
+                    RichText::new(format!("On {surfaces}")).color(Theme::palette_of(ui).faint),
+                )
+                .truncate(),
+            );
         });
         law(ui, desk, &table, edits);
     }
@@ -69,7 +79,10 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, edits: &mut Vec<Edit>) {
 /// The law named in a table of the scenario, with its attributes.
 fn law(ui: &mut Ui, desk: &Desk, table: &str, edits: &mut Vec<Edit>) {
     let (host, _) = desk.helpers();
-    let laws = host.ids().into_iter().filter_map(|id| host.friction(&id).map(|law| (id, law.descriptor().name.to_string())));
+    let laws = host
+        .ids()
+        .into_iter()
+        .filter_map(|id| host.friction(&id).map(|law| (id, law.descriptor().name.to_string())));
     let laws: Vec<(String, String)> = laws.collect();
     let field = format!("{table}.model");
     Grid::new(("law", table)).num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
@@ -80,12 +93,19 @@ fn law(ui: &mut Ui, desk: &Desk, table: &str, edits: &mut Vec<Edit>) {
         ui.end_row();
     });
     if let Some(law) = desk.book.field(Book::SCENARIO, &field).and_then(|id| host.friction(&id)) {
-        attributes::show(ui, desk, &format!("{table}.attributes"), &law.descriptor().attributes, edits);
+        attributes::show(
+            ui,
+            desk,
+            &format!("{table}.attributes"),
+            &law.descriptor().attributes,
+            edits,
+        );
     }
 }
 
 /// The surfaces of a law, as words in a row.
 fn surfaces(book: &Book, table: &str) -> String {
-    let words = (0..).map_while(|index| book.field(Book::SCENARIO, &format!("{table}.surfaces.{index}")));
+    let words =
+        (0..).map_while(|index| book.field(Book::SCENARIO, &format!("{table}.surfaces.{index}")));
     words.collect::<Vec<_>>().join(", ")
 }

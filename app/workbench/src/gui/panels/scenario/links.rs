@@ -39,11 +39,17 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, edits: &mut Vec<Edit>) {
 
 /// Links that the gear types put in: of the assembly, unless the scenario names another.
 fn of_gear(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
-    let placed = (0..).map_while(|index| desk.book.field(Book::SCENARIO, &format!("gear.{index}.assembly")).map(|id| (index, id)));
+    let placed = (0..).map_while(|index| {
+        desk.book.field(Book::SCENARIO, &format!("gear.{index}.assembly")).map(|id| (index, id))
+    });
     for (index, assembly) in placed {
         let file = format!("assemblies/{assembly}.toml");
         let wanted = desk.book.field(&file, "gear_type");
-        let Some(gear) = desk.gear_types().into_iter().find(|gear| Some(gear.descriptor().id.as_ref()) == wanted.as_deref()) else {
+        let Some(gear) = desk
+            .gear_types()
+            .into_iter()
+            .find(|gear| Some(gear.descriptor().id.as_ref()) == wanted.as_deref())
+        else {
             continue;
         };
         Grid::new(("links of gear", index)).num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
@@ -52,13 +58,18 @@ fn of_gear(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
                 if Kind::in_folder(library) != Some(Kind::WeakLink) {
                     continue;
                 }
-                let own = desk.book.field(&file, &format!("attributes.{}", attribute.key)).unwrap_or_else(|| default.to_string());
+                let own = desk
+                    .book
+                    .field(&file, &format!("attributes.{}", attribute.key))
+                    .unwrap_or_else(|| default.to_string());
                 let own = if own.is_empty() { "none".to_owned() } else { title_of(desk, &own) };
                 name(ui, &super::super::library::title(&attribute.key));
                 let field = format!("gear.{index}.attributes.{}", attribute.key);
                 let width = ui.available_width() - 8.0;
                 let choices: Vec<(String, String)> =
-                    std::iter::once((String::new(), format!("{own} (assembly)"))).chain(items(desk)).collect();
+                    std::iter::once((String::new(), format!("{own} (assembly)")))
+                        .chain(items(desk))
+                        .collect();
                 let taken = fields::choose(ui, &desk.book, Book::SCENARIO, &field, &choices, width);
                 edits.extend(taken.map(|id| (field, id)));
                 ui.end_row();
@@ -70,12 +81,19 @@ fn of_gear(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
 /// A link written into the scenario: which item, or what rating; answers whether it is to go.
 fn one(ui: &mut Ui, desk: &Desk, index: usize, edits: &mut Vec<Edit>) -> bool {
     let at = format!("link.{index}");
-    let text = |key: &str| desk.book.field(Book::SCENARIO, &format!("{at}.{key}")).unwrap_or_default();
+    let text =
+        |key: &str| desk.book.field(Book::SCENARIO, &format!("{at}.{key}")).unwrap_or_default();
     let remove = ui
         .horizontal(|ui| {
-            let words = format!("{}, at the {} of {}", text("id"), word_of(&text("end")), text("line"));
-            let out = ui.small_button("✖").on_hover_text("Take it out; Undo brings it back").clicked();
-            ui.add(egui::Label::new(RichText::new(&words).color(Theme::palette_of(ui).faint)).truncate()).on_hover_text(&words);
+            let words =
+                format!("{}, at the {} of {}", text("id"), word_of(&text("end")), text("line"));
+            let out =
+                ui.small_button("✖").on_hover_text("Take it out; Undo brings it back").clicked();
+            ui.add(
+                egui::Label::new(RichText::new(&words).color(Theme::palette_of(ui).faint))
+                    .truncate(),
+            )
+            .on_hover_text(&words);
             out
         })
         .inner;
@@ -85,10 +103,14 @@ fn one(ui: &mut Ui, desk: &Desk, index: usize, edits: &mut Vec<Edit>) -> bool {
         let none = (String::new(), "none: the rating below".to_owned());
         let choices: Vec<(String, String)> = std::iter::once(none).chain(items(desk)).collect();
         let width = ui.available_width() - 8.0;
-        edits.extend(fields::choose(ui, &desk.book, Book::SCENARIO, &item, &choices, width).map(|id| (item.clone(), id)));
+        edits.extend(
+            fields::choose(ui, &desk.book, Book::SCENARIO, &item, &choices, width)
+                .map(|id| (item.clone(), id)),
+        );
         ui.end_row();
     });
-    let usual = desk.book.field(&format!("weak-links/{}.toml", text("item")), "rating").unwrap_or_default();
+    let usual =
+        desk.book.field(&format!("weak-links/{}.toml", text("item")), "rating").unwrap_or_default();
     let row = [Row {
         label: "Parts above",
         field: &rating,
@@ -104,7 +126,13 @@ fn one(ui: &mut Ui, desk: &Desk, index: usize, edits: &mut Vec<Edit>) -> bool {
 fn add(ui: &mut Ui, desk: &Desk) -> Option<Change> {
     let view = desk.view.as_ref()?;
     // Pieces of a line with inserts are one line in the file.
-    let mut lines: Vec<&str> = view.model.spec.lines.iter().map(|line| line.id.split('.').next().unwrap_or(&line.id)).collect();
+    let mut lines: Vec<&str> = view
+        .model
+        .spec
+        .lines
+        .iter()
+        .map(|line| line.id.split('.').next().unwrap_or(&line.id))
+        .collect();
     lines.dedup();
     let mut change = None;
     ui.menu_button("Add a weak link ⏷", |ui| {
@@ -126,12 +154,17 @@ impl Change {
         match self {
             Self::Remove(index) => document.remove_table("link", index).map_err(told),
             Self::Add(line, end) => {
-                let known: Vec<String> =
-                    (0..document.count("link")).filter_map(|index| document.get(&format!("link.{index}.id"))).collect();
+                let known: Vec<String> = (0..document.count("link"))
+                    .filter_map(|index| document.get(&format!("link.{index}.id")))
+                    .collect();
                 let stem = format!("{}-link", line.replace('/', "-"));
                 let numbered = (2..).map(|number| format!("{stem}-{number}"));
-                let id = std::iter::once(stem.clone()).chain(numbered).find(|id| !known.contains(id)).unwrap_or_default();
-                let fields = [("id", id.as_str()), ("rating", "600 lbf"), ("line", &line), ("end", end)];
+                let id = std::iter::once(stem.clone())
+                    .chain(numbered)
+                    .find(|id| !known.contains(id))
+                    .unwrap_or_default();
+                let fields =
+                    [("id", id.as_str()), ("rating", "600 lbf"), ("line", &line), ("end", end)];
                 document.push_table("link", &fields).map(|_| ()).map_err(told)
             }
         }
@@ -144,9 +177,17 @@ fn word_of(end: &str) -> &'static str {
 }
 
 fn items(desk: &Desk) -> Vec<(String, String)> {
-    desk.book.library().entries(Kind::WeakLink).iter().map(|entry| (entry.id.clone(), entry.name.clone())).collect()
+    desk.book
+        .library()
+        .entries(Kind::WeakLink)
+        .iter()
+        .map(|entry| (entry.id.clone(), entry.name.clone()))
+        .collect()
 }
 
 fn title_of(desk: &Desk, id: &str) -> String {
-    items(desk).into_iter().find(|(known, _)| known == id).map_or_else(|| id.to_owned(), |(_, name)| name)
+    items(desk)
+        .into_iter()
+        .find(|(known, _)| known == id)
+        .map_or_else(|| id.to_owned(), |(_, name)| name)
 }

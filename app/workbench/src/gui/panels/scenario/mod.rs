@@ -25,24 +25,29 @@ const NAME_WIDTH: f32 = 74.0;
 pub fn show(ui: &mut Ui, desk: &mut Desk) {
     pick(ui, desk);
     let foot = 34.0;
-    ScrollArea::vertical().auto_shrink(false).max_height(ui.available_height() - foot).show(ui, |ui| {
-        let mut edits: Vec<Edit> = Vec::new();
-        gear(ui, desk, &mut edits);
-        sea(ui, desk, &mut edits);
-        if desk.book.field(Book::SCENARIO, "whale.item").is_some() {
-            whale(ui, desk, &mut edits);
-        }
-        links::show(ui, desk, &mut edits);
-        super::caption(ui, "Run");
-        rows(ui, desk, "run", RUN, &mut edits);
-        FLAGS.iter().for_each(|of| flag(ui, desk, of, &mut edits));
-        for (field, text) in edits {
-            let changed = desk.book.alter(Book::SCENARIO, |document| commit::commit(document, &field, &text));
-            if let Err(error) = changed {
-                desk.notice = Some((error, true));
+    ScrollArea::vertical().auto_shrink(false).max_height(ui.available_height() - foot).show(
+        ui,
+        |ui| {
+            let mut edits: Vec<Edit> = Vec::new();
+            gear(ui, desk, &mut edits);
+            sea(ui, desk, &mut edits);
+            if desk.book.field(Book::SCENARIO, "whale.item").is_some() {
+                whale(ui, desk, &mut edits);
             }
-        }
-    });
+            links::show(ui, desk, &mut edits);
+            super::caption(ui, "Run");
+            rows(ui, desk, "run", RUN, &mut edits);
+            FLAGS.iter().for_each(|of| flag(ui, desk, of, &mut edits));
+            for (field, text) in edits {
+                let changed = desk
+                    .book
+                    .alter(Book::SCENARIO, |document| commit::commit(document, &field, &text));
+                if let Err(error) = changed {
+                    desk.notice = Some((error, true));
+                }
+            }
+        },
+    );
     ui.separator();
     apply(ui, desk);
 }
@@ -50,17 +55,22 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
 /// The scenario itself, out of those beside it.
 fn pick(ui: &mut Ui, desk: &mut Desk) {
     let path = desk.book.scenario_path().to_owned();
-    let stem = |path: &std::path::Path| path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+    let stem = |path: &std::path::Path| {
+        path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
+    };
     let mark = if desk.book.is_unsaved(Book::SCENARIO) { "• " } else { "" };
     let width = ui.available_width() - 8.0;
     let shown = format!("{mark}{}", stem(&path));
-    ComboBox::from_id_salt("scenario").width(width).truncate().selected_text(shown).show_ui(ui, |ui| {
-        for file in scenarios(desk.book.root()) {
-            if ui.selectable_label(file == path, stem(&file)).clicked() && file != path {
-                desk.orders.push(Order::Open(file));
+    ComboBox::from_id_salt("scenario").width(width).truncate().selected_text(shown).show_ui(
+        ui,
+        |ui| {
+            for file in scenarios(desk.book.root()) {
+                if ui.selectable_label(file == path, stem(&file)).clicked() && file != path {
+                    desk.orders.push(Order::Open(file));
+                }
             }
-        }
-    });
+        },
+    );
     if let Some(name) = desk.book.field(Book::SCENARIO, "name") {
         let notes = desk.book.field(Book::SCENARIO, "notes").unwrap_or_default();
         let label = egui::Label::new(RichText::new(name).color(Theme::palette_of(ui).faint)).wrap();
@@ -72,7 +82,10 @@ fn pick(ui: &mut Ui, desk: &mut Desk) {
 #[must_use]
 pub fn scenarios(root: &std::path::Path) -> Vec<std::path::PathBuf> {
     let entries = std::fs::read_dir(root.join("scenarios")).into_iter().flatten().flatten();
-    let mut files: Vec<_> = entries.map(|entry| entry.path()).filter(|path| path.extension().is_some_and(|end| end == "toml")).collect();
+    let mut files: Vec<_> = entries
+        .map(|entry| entry.path())
+        .filter(|path| path.extension().is_some_and(|end| end == "toml"))
+        .collect();
     files.sort();
     files
 }
@@ -114,7 +127,10 @@ fn sea(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
 fn whale(ui: &mut Ui, desk: &mut Desk, edits: &mut Vec<Edit>) {
     super::caption(ui, "Whale");
     let (host, _) = desk.helpers();
-    let motions = host.ids().into_iter().filter_map(|id| host.motion(&id).map(|motion| (id, motion.descriptor().name.to_string())));
+    let motions = host
+        .ids()
+        .into_iter()
+        .filter_map(|id| host.motion(&id).map(|motion| (id, motion.descriptor().name.to_string())));
     let motions: Vec<(String, String)> = motions.collect();
     let motion = desk.book.field(Book::SCENARIO, "whale.motion").and_then(|id| host.motion(&id));
     let dead = desk.book.field(Book::SCENARIO, "whale.state").as_deref() == Some("dead");
@@ -124,10 +140,18 @@ fn whale(ui: &mut Ui, desk: &mut Desk, edits: &mut Vec<Edit>) {
         ui.end_row();
         words(ui, desk, "State", "whale.state", &[("", "alive"), ("dead", "dead, afloat")], edits);
         if !dead {
-            words(ui, desk, "Feels gear", "whale.dynamics", &[("", "no: goes as it is steered"), ("kinetic", "yes: gear holds it")], edits);
+            words(
+                ui,
+                desk,
+                "Feels gear",
+                "whale.dynamics",
+                &[("", "no: goes as it is steered"), ("kinetic", "yes: gear holds it")],
+                edits,
+            );
             name(ui, "Motion");
             let width = ui.available_width() - 8.0;
-            let taken = fields::choose(ui, &desk.book, Book::SCENARIO, "whale.motion", &motions, width);
+            let taken =
+                fields::choose(ui, &desk.book, Book::SCENARIO, "whale.motion", &motions, width);
             edits.extend(taken.map(|id| ("whale.motion".to_owned(), id)));
             ui.end_row();
         }
@@ -141,7 +165,10 @@ fn whale(ui: &mut Ui, desk: &mut Desk, edits: &mut Vec<Edit>) {
         mouth(ui, desk, edits);
     }
     let mut posing = desk.posing.on;
-    if ui.toggle_value(&mut posing, "Drag the start in the view").on_hover_text("Handles in the 3-D view: place, depth, heading").clicked()
+    if ui
+        .toggle_value(&mut posing, "Drag the start in the view")
+        .on_hover_text("Handles in the 3-D view: place, depth, heading")
+        .clicked()
     {
         desk.orders.extend([Order::Show(super::super::layout::Panel::View), Order::Pose]);
     }
@@ -153,19 +180,36 @@ fn mouth(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
     let field = commit::mouth(&desk.book);
     Grid::new("mouth").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
         name(ui, "Mouth");
-        let said = fields::Said { hint: "0, shut", help: "How far open from the start, 0 to 1; the pilot program may change it" };
+        let said = fields::Said {
+            hint: "0, shut",
+            help: "How far open from the start, 0 to 1; the pilot program may change it",
+        };
         let width = ui.available_width() - 12.0;
-        edits.extend(fields::edit(ui, &desk.book, Book::SCENARIO, &field, width, said).map(|text| (field.clone(), text)));
+        edits.extend(
+            fields::edit(ui, &desk.book, Book::SCENARIO, &field, width, said)
+                .map(|text| (field.clone(), text)),
+        );
         ui.end_row();
     });
 }
 
 /// A choice among words of the format; the empty one takes the field away.
-fn words(ui: &mut Ui, desk: &Desk, label: &str, field: &str, words: &[(&str, &str)], edits: &mut Vec<Edit>) {
+fn words(
+    ui: &mut Ui,
+    desk: &Desk,
+    label: &str,
+    field: &str,
+    words: &[(&str, &str)],
+    edits: &mut Vec<Edit>,
+) {
     name(ui, label);
-    let choices: Vec<(String, String)> = words.iter().map(|(word, text)| ((*word).to_owned(), (*text).to_owned())).collect();
+    let choices: Vec<(String, String)> =
+        words.iter().map(|(word, text)| ((*word).to_owned(), (*text).to_owned())).collect();
     let width = ui.available_width() - 8.0;
-    edits.extend(fields::choose(ui, &desk.book, Book::SCENARIO, field, &choices, width).map(|word| (field.to_owned(), word)));
+    edits.extend(
+        fields::choose(ui, &desk.book, Book::SCENARIO, field, &choices, width)
+            .map(|word| (field.to_owned(), word)),
+    );
     ui.end_row();
 }
 
@@ -177,10 +221,15 @@ fn name(ui: &mut Ui, text: &str) {
 /// A label that goes on in a second line where it is long, told on hover.
 fn name_with_help(ui: &mut Ui, text: &str, help: &str) {
     let colour = Theme::palette_of(ui).faint;
-    let galley = ui.painter().layout(text.to_owned(), egui::FontId::proportional(13.0), colour, NAME_WIDTH);
+    let galley =
+        ui.painter().layout(text.to_owned(), egui::FontId::proportional(13.0), colour, NAME_WIDTH);
     let size = egui::vec2(NAME_WIDTH, galley.size().y.max(20.0));
     let (rect, response) = ui.allocate_exact_size(size, egui::Sense::hover());
-    ui.painter().galley(rect.left_center() - egui::vec2(0.0, galley.size().y / 2.0), galley, colour);
+    ui.painter().galley(
+        rect.left_center() - egui::vec2(0.0, galley.size().y / 2.0),
+        galley,
+        colour,
+    );
     if !help.is_empty() {
         response.on_hover_text(help);
     }
@@ -188,9 +237,13 @@ fn name_with_help(ui: &mut Ui, text: &str, help: &str) {
 
 fn choice(ui: &mut Ui, desk: &Desk, field: &str, kind: Kind, edits: &mut Vec<Edit>) {
     let library = desk.book.library();
-    let choices: Vec<(String, String)> = library.entries(kind).iter().map(|entry| (entry.id.clone(), entry.name.clone())).collect();
+    let choices: Vec<(String, String)> =
+        library.entries(kind).iter().map(|entry| (entry.id.clone(), entry.name.clone())).collect();
     let width = ui.available_width() - 8.0;
-    edits.extend(fields::choose(ui, &desk.book, Book::SCENARIO, field, &choices, width).map(|id| (field.to_owned(), id)));
+    edits.extend(
+        fields::choose(ui, &desk.book, Book::SCENARIO, field, &choices, width)
+            .map(|id| (field.to_owned(), id)),
+    );
 }
 
 fn rows(ui: &mut Ui, desk: &Desk, id: &str, rows: &[Row<'_>], edits: &mut Vec<Edit>) {
@@ -201,7 +254,14 @@ fn rows(ui: &mut Ui, desk: &Desk, id: &str, rows: &[Row<'_>], edits: &mut Vec<Ed
             ui.vertical(|ui| {
                 let site = of_site(&desk.book, row.field);
                 let hint = if site.is_empty() { row.usual } else { &site };
-                let typed = fields::edit(ui, &desk.book, Book::SCENARIO, row.field, width, fields::Said { hint, help: row.help });
+                let typed = fields::edit(
+                    ui,
+                    &desk.book,
+                    Book::SCENARIO,
+                    row.field,
+                    width,
+                    fields::Said { hint, help: row.help },
+                );
                 edits.extend(typed.map(|value| (row.field.to_owned(), value)));
                 problem(ui, desk, row.field);
             });
@@ -213,7 +273,8 @@ fn rows(ui: &mut Ui, desk: &Desk, id: &str, rows: &[Row<'_>], edits: &mut Vec<Ed
 /// What is wrong with a field, in its text or in the model last made of it.
 fn problem(ui: &mut Ui, desk: &Desk, field: &str) {
     if let Some(problem) = desk.problem_at(Book::SCENARIO, field) {
-        let error = RichText::new(fields::told(problem)).size(11.0).color(Theme::palette_of(ui).error);
+        let error =
+            RichText::new(fields::told(problem)).size(11.0).color(Theme::palette_of(ui).error);
         ui.add(egui::Label::new(error).wrap());
     }
 }
@@ -227,12 +288,15 @@ fn of_site(book: &Book, field: &str) -> String {
     };
     let file = |item: String| format!("sites/{item}.toml");
     let site = book.field(Book::SCENARIO, "site.item").map(file);
-    let given = site.and_then(|path| book.field(&path, &format!("{key}.value")).or_else(|| book.field(&path, key)));
+    let given = site.and_then(|path| {
+        book.field(&path, &format!("{key}.value")).or_else(|| book.field(&path, key))
+    });
     given.map_or_else(String::new, |value| format!("{value} (site)"))
 }
 
 fn flag(ui: &mut Ui, desk: &Desk, flag: &Flag, edits: &mut Vec<Edit>) {
-    let mut on = desk.book.field(Book::SCENARIO, flag.field).map_or(flag.usual, |text| text == "true");
+    let mut on =
+        desk.book.field(Book::SCENARIO, flag.field).map_or(flag.usual, |text| text == "true");
     if ui.checkbox(&mut on, flag.label).on_hover_text(flag.help).changed() {
         edits.push((flag.field.to_owned(), on.to_string()));
     }
@@ -241,10 +305,17 @@ fn flag(ui: &mut Ui, desk: &Desk, flag: &Flag, edits: &mut Vec<Edit>) {
 fn apply(ui: &mut Ui, desk: &mut Desk) {
     let wanted = desk.stale() && !desk.making() && !desk.book.any_error();
     ui.horizontal(|ui| {
-        if primary(ui, wanted, "Apply").on_hover_text("Make the model from the present texts (Ctrl+Enter)").clicked() {
+        if primary(ui, wanted, "Apply")
+            .on_hover_text("Make the model from the present texts (Ctrl+Enter)")
+            .clicked()
+        {
             desk.orders.push(Order::Apply);
         }
-        if ui.button("Pilot program …").on_hover_text("What the whale is steered to do, on a timeline").clicked() {
+        if ui
+            .button("Pilot program …")
+            .on_hover_text("What the whale is steered to do, on a timeline")
+            .clicked()
+        {
             desk.orders.push(Order::Show(super::super::layout::Panel::Program));
         }
         if desk.making() {

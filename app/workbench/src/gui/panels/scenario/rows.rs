@@ -24,7 +24,12 @@ pub(super) struct Flag {
     pub(super) help: &'static str,
 }
 
-const fn row(label: &'static str, field: &'static str, usual: &'static str, help: &'static str) -> Row<'static> {
+const fn row(
+    label: &'static str,
+    field: &'static str,
+    usual: &'static str,
+    help: &'static str,
+) -> Row<'static> {
     Row { label, field, usual, help }
 }
 
@@ -35,7 +40,12 @@ const fn flag(label: &'static str, field: &'static str, usual: bool, help: &'sta
 pub(super) const SEA: &[Row<'static>] = &[
     row("Depth", "site.depth", "", "Water depth, over the site's, such as 40 fathom"),
     row("Current", "current.speed", "", "Surface speed of the current, such as 0.5 m/s or 1 kn"),
-    row("Towards", "current.toward", "90 deg", "Compass bearing the current runs towards, such as 90 deg"),
+    row(
+        "Towards",
+        "current.toward",
+        "90 deg",
+        "Compass bearing the current runs towards, such as 90 deg",
+    ),
 ];
 
 pub(super) const TIDE: &[Row<'static>] = &[
@@ -45,21 +55,56 @@ pub(super) const TIDE: &[Row<'static>] = &[
         "steady",
         "Period of the tide, such as 12.42 h; the current above is that at its peak. Empty: a steady current",
     ),
-    row("Peak at", "current.tide.peak", "0 s", "Time of the run at which the current is at its peak"),
-    row("Residual", "current.tide.residual", "none", "Steady current that is left without the tide, such as 0.05 m/s"),
+    row(
+        "Peak at",
+        "current.tide.peak",
+        "0 s",
+        "Time of the run at which the current is at its peak",
+    ),
+    row(
+        "Residual",
+        "current.tide.residual",
+        "none",
+        "Steady current that is left without the tide, such as 0.05 m/s",
+    ),
 ];
 
 pub(super) const WAVES: &[Row<'static>] = &[
-    row("Height", "waves.height", "no waves", "Height from trough to crest, such as 1.2 m; empty for a flat sea"),
+    row(
+        "Height",
+        "waves.height",
+        "no waves",
+        "Height from trough to crest, such as 1.2 m; empty for a flat sea",
+    ),
     row("Period", "waves.period", "", "Period of the waves, such as 6 s"),
     row("Towards", "waves.toward", "90 deg", "Compass bearing towards which they run"),
-    row("Spectrum", "waves.spectrum", "regular", "jonswap for irregular waves, drawn from the seed; height is then the significant one"),
+    row(
+        "Spectrum",
+        "waves.spectrum",
+        "regular",
+        "jonswap for irregular waves, drawn from the seed; height is then the significant one",
+    ),
 ];
 
 pub(super) const WHALE: &[Row<'static>] = &[
-    row("Length", "whale.length", "of its file", "Body length, snout to fluke notch, such as 13 m; or an age"),
-    row("Age", "whale.age", "by length", "Age, such as 2 yr: the length follows by the law of the whale's file"),
-    row("Condition", "whale.condition", "1", "Volume over that of middling condition, 0.65 to 1.5; below 1 is thin"),
+    row(
+        "Length",
+        "whale.length",
+        "of its file",
+        "Body length, snout to fluke notch, such as 13 m; or an age",
+    ),
+    row(
+        "Age",
+        "whale.age",
+        "by length",
+        "Age, such as 2 yr: the length follows by the law of the whale's file",
+    ),
+    row(
+        "Condition",
+        "whale.condition",
+        "1",
+        "Volume over that of middling condition, 0.65 to 1.5; below 1 is thin",
+    ),
     row("Start east", "whale.position.0", "", "Where mid-body starts, east of the origin"),
     row("Start north", "whale.position.1", "", "Where mid-body starts, north of the origin"),
     row("Depth", "whale.depth", "", "Depth of mid-body at the start, such as 12 m"),
@@ -69,15 +114,26 @@ pub(super) const WHALE: &[Row<'static>] = &[
 ];
 
 /// Of a living whale.
-pub(super) const SWIMS: &[Row<'static>] = &[row("Speed", "whale.speed", "", "Speed through the water at the start, such as 1 m/s")];
+pub(super) const SWIMS: &[Row<'static>] =
+    &[row("Speed", "whale.speed", "", "Speed through the water at the start, such as 1 m/s")];
 
 pub(super) const RUN: &[Row<'static>] = &[
     row("Duration", "duration", "", "Length of the run, such as 60 s"),
     row("Seed", "seed", "0", "Seed of everything drawn at random"),
-    row("Rope nodes", "rope_nodes", "", "Nodes of all ropes, shared out by length; more is finer and slower"),
+    row(
+        "Rope nodes",
+        "rope_nodes",
+        "",
+        "Nodes of all ropes, shared out by length; more is finer and slower",
+    ),
 ];
 
-pub(super) const LINKS_PART: Flag = flag("Weak links part", "weak_links", true, "Off: links hold whatever they are rated (K when flying)");
+pub(super) const LINKS_PART: Flag = flag(
+    "Weak links part",
+    "weak_links",
+    true,
+    "Off: links hold whatever they are rated (K when flying)",
+);
 
 pub(super) const FLAGS: &[Flag] = &[
     flag(
@@ -87,5 +143,10 @@ pub(super) const FLAGS: &[Flag] = &[
         "Strengths of ropes and links scatter as their files say, by the seed",
     ),
     flag("Ropes touch each other", "rope_on_rope", false, "Twists and hitches hold; slower"),
-    flag("Ropes touch traps and buoys", "rope_on_bodies", false, "Rope lies on traps, buoys and anchors"),
+    flag(
+        "Ropes touch traps and buoys",
+        "rope_on_bodies",
+        false,
+        "Rope lies on traps, buoys and anchors",
+    ),
 ];

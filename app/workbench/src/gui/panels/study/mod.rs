@@ -62,23 +62,36 @@ fn apply(desk: &mut Desk, edits: Edits) {
 
 fn pick(ui: &mut Ui, desk: &mut Desk) {
     let path = desk.book.study_path().map(Path::to_owned);
-    let stem = |path: &Path| path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+    let stem = |path: &Path| {
+        path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
+    };
     let mark = if path.is_some() && desk.book.is_unsaved(Book::STUDY) { "• " } else { "" };
     ui.horizontal(|ui| {
-        let shown = path.as_deref().map_or_else(|| "Choose a study".to_owned(), |path| format!("{mark}{}", stem(path)));
+        let shown = path
+            .as_deref()
+            .map_or_else(|| "Choose a study".to_owned(), |path| format!("{mark}{}", stem(path)));
         let width = ui.available_width() - 152.0;
-        ComboBox::from_id_salt("study").width(width).truncate().selected_text(shown).show_ui(ui, |ui| {
-            for file in studies(desk.book.root()) {
-                if ui.selectable_label(path.as_ref() == Some(&file), stem(&file)).clicked() && path.as_ref() != Some(&file) {
-                    desk.orders.push(Order::OpenStudy(file));
+        ComboBox::from_id_salt("study").width(width).truncate().selected_text(shown).show_ui(
+            ui,
+            |ui| {
+                for file in studies(desk.book.root()) {
+                    if ui.selectable_label(path.as_ref() == Some(&file), stem(&file)).clicked()
+                        && path.as_ref() != Some(&file)
+                    {
+                        desk.orders.push(Order::OpenStudy(file));
+                    }
                 }
-            }
-        });
+            },
+        );
         if ui.button("Open …").on_hover_text("A study file elsewhere").clicked() {
             desk.orders.push(Order::AskStudy);
         }
         let copy = Button::new("Duplicate");
-        if ui.add_enabled(path.is_some(), copy).on_hover_text("Go on with a copy in the library's folder of studies").clicked() {
+        if ui
+            .add_enabled(path.is_some(), copy)
+            .on_hover_text("Go on with a copy in the library's folder of studies")
+            .clicked()
+        {
             desk.orders.push(Order::DuplicateStudy);
         }
     });
@@ -113,16 +126,26 @@ fn question(ui: &mut Ui, desk: &mut Desk, edits: &mut Edits) {
     super::caption(ui, "Question");
     text(ui, desk, "Name", "name", "Shown in the report");
     choice(ui, desk, ("Scenario", "scenario"), &desk.studies.scenarios, edits);
-    number(ui, desk, ("Encounters", "encounters"), "How many encounters every option meets; the same for all, at most 65,536", edits);
-    let mut events: Vec<(String, String)> = Event::all().iter().map(|event| (event.name(), event.words())).collect();
+    number(
+        ui,
+        desk,
+        ("Encounters", "encounters"),
+        "How many encounters every option meets; the same for all, at most 65,536",
+        edits,
+    );
+    let mut events: Vec<(String, String)> =
+        Event::all().iter().map(|event| (event.name(), event.words())).collect();
     if !desk.book.has(Book::STUDY, "event") {
         events.insert(0, (String::new(), Event::Entangled.words()));
     }
     choice(ui, desk, ("Asks about", "event"), &events, edits);
-    let options: Vec<(String, String)> = option_ids(&desk.book).into_iter().map(|id| (id.clone(), id)).collect();
+    let options: Vec<(String, String)> =
+        option_ids(&desk.book).into_iter().map(|id| (id.clone(), id)).collect();
     choice(ui, desk, ("Baseline", "baseline"), &options, edits);
     let drawn = desk.book.keys(Book::STUDY, "encounter").into_iter();
-    let chosen = drawn.filter(|name| desk.book.has(Book::STUDY, &format!("encounter.{name}.choice"))).map(|name| name.replace('"', ""));
+    let chosen = drawn
+        .filter(|name| desk.book.has(Book::STUDY, &format!("encounter.{name}.choice")))
+        .map(|name| name.replace('"', ""));
     let mut levels: Vec<(String, String)> = chosen.map(|name| (name.clone(), name)).collect();
     levels.insert(0, (String::new(), "nothing".into()));
     choice(ui, desk, ("Told apart by", "split"), &levels, edits);
@@ -140,14 +163,22 @@ fn question(ui: &mut Ui, desk: &mut Desk, edits: &mut Edits) {
 fn label(ui: &mut Ui, text: &str) {
     let (rect, _) = ui.allocate_exact_size(egui::vec2(84.0, 20.0), egui::Sense::hover());
     let colour = Theme::palette_of(ui).faint;
-    ui.painter().text(rect.left_center(), egui::Align2::LEFT_CENTER, text, egui::FontId::proportional(13.0), colour);
+    ui.painter().text(
+        rect.left_center(),
+        egui::Align2::LEFT_CENTER,
+        text,
+        egui::FontId::proportional(13.0),
+        colour,
+    );
 }
 
 fn text(ui: &mut Ui, desk: &mut Desk, name: &str, field: &str, help: &str) {
     ui.horizontal(|ui| {
         label(ui, name);
         let width = ui.available_width() - 12.0;
-        if let Some(typed) = fields::edit(ui, &desk.book, Book::STUDY, field, width, Said { hint: "", help }) {
+        if let Some(typed) =
+            fields::edit(ui, &desk.book, Book::STUDY, field, width, Said { hint: "", help })
+        {
             desk.set(Book::STUDY, field, &typed);
         }
     });
@@ -156,11 +187,14 @@ fn text(ui: &mut Ui, desk: &mut Desk, name: &str, field: &str, help: &str) {
 fn number(ui: &mut Ui, desk: &Desk, (name, field): (&str, &str), help: &str, edits: &mut Edits) {
     ui.horizontal(|ui| {
         label(ui, name);
-        if let Some(typed) = fields::edit(ui, &desk.book, Book::STUDY, field, 90.0, Said { hint: "not set", help }) {
+        if let Some(typed) =
+            fields::edit(ui, &desk.book, Book::STUDY, field, 90.0, Said { hint: "not set", help })
+        {
             let typed = typed.replace(',', "");
             let value = (!typed.trim().is_empty()).then(|| Setting::plain(typed.trim()));
             if field == "enough.narrower" {
-                let event = desk.book.field(Book::STUDY, "event").unwrap_or_else(|| "entangled".into());
+                let event =
+                    desk.book.field(Book::STUDY, "event").unwrap_or_else(|| "entangled".into());
                 match value {
                     Some(_) => edits.push(("enough.event".into(), Some(Setting::text(&event)))),
                     None => return edits.push(("enough".into(), None)),
@@ -171,7 +205,13 @@ fn number(ui: &mut Ui, desk: &Desk, (name, field): (&str, &str), help: &str, edi
     });
 }
 
-fn choice(ui: &mut Ui, desk: &Desk, (name, field): (&str, &str), choices: &[(String, String)], edits: &mut Edits) {
+fn choice(
+    ui: &mut Ui,
+    desk: &Desk,
+    (name, field): (&str, &str),
+    choices: &[(String, String)],
+    edits: &mut Edits,
+) {
     ui.horizontal(|ui| {
         label(ui, name);
         let width = ui.available_width() - 12.0;
@@ -189,7 +229,8 @@ fn option_ids(book: &Book) -> Vec<String> {
 /// What is wrong with the study's text.
 fn problems(ui: &mut Ui, desk: &Desk) {
     let file = desk.book.shown_name(Book::STUDY);
-    let own: Vec<Diagnostic> = desk.book.problems().iter().filter(|problem| problem.file == file).cloned().collect();
+    let own: Vec<Diagnostic> =
+        desk.book.problems().iter().filter(|problem| problem.file == file).cloned().collect();
     for problem in &own {
         super::problems::entry(ui, problem);
     }

@@ -10,7 +10,8 @@ use super::super::super::theme::Theme;
 use super::Edits;
 
 /// What is often set, as a hint where a setting is typed.
-const SUCH_AS: &str = "current.speed, weak_links, link.0.rating, gear.0.assembly, ropes/sink-3-8.strength";
+const SUCH_AS: &str =
+    "current.speed, weak_links, link.0.rating, gear.0.assembly, ropes/sink-3-8.strength";
 
 /// What is done with the list of options.
 enum Act {
@@ -25,10 +26,13 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, edits: &mut Edits) {
     let baseline = desk.book.field(Book::STUDY, "baseline").unwrap_or_default();
     let mut act = None;
     for index in 0..count {
-        Frame::new().fill(Theme::palette_of(ui).field).corner_radius(4.0).inner_margin(6.0).show(ui, |ui| {
-            act = head(ui, desk, index, &baseline, edits).or(act.take());
-            settings(ui, desk, index, edits);
-        });
+        Frame::new().fill(Theme::palette_of(ui).field).corner_radius(4.0).inner_margin(6.0).show(
+            ui,
+            |ui| {
+                act = head(ui, desk, index, &baseline, edits).or(act.take());
+                settings(ui, desk, index, edits);
+            },
+        );
         ui.add_space(4.0);
     }
     if ui.button("Add option").on_hover_text("A copy of the last one, to be changed").clicked() {
@@ -37,9 +41,9 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, edits: &mut Edits) {
     match act {
         Some(Act::Copy(index)) => copy(desk, index),
         Some(Act::Drop(index)) => {
-            if let Err(error) =
-                desk.book.alter(Book::STUDY, |document| document.remove_table("option", index).map_err(|error| error.message))
-            {
+            if let Err(error) = desk.book.alter(Book::STUDY, |document| {
+                document.remove_table("option", index).map_err(|error| error.message)
+            }) {
                 desk.notice = Some((error, true));
             }
         }
@@ -93,7 +97,8 @@ fn settings(ui: &mut Ui, desk: &mut Desk, index: usize, edits: &mut Edits) {
     for path in leaves {
         ui.horizontal(|ui| {
             let shown = path.trim_start_matches(&table).trim_start_matches('.').replace('"', "");
-            ui.label(RichText::new(&shown).monospace()).on_hover_text("A field of the scenario, or of a library item, by its dotted path");
+            ui.label(RichText::new(&shown).monospace())
+                .on_hover_text("A field of the scenario, or of a library item, by its dotted path");
             let width = (ui.available_width() - 40.0).max(60.0);
             if let Some(typed) = fields::edit(
                 ui,
@@ -114,13 +119,20 @@ fn settings(ui: &mut Ui, desk: &mut Desk, index: usize, edits: &mut Edits) {
         let id = ui.id().with(("fresh setting", index));
         let mut typed = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_default();
         let width = ui.available_width() - 70.0;
-        let editor = egui::TextEdit::singleline(&mut typed).desired_width(width).hint_text("field to set, such as current.speed");
+        let editor = egui::TextEdit::singleline(&mut typed)
+            .desired_width(width)
+            .hint_text("field to set, such as current.speed");
         let response = ui.add(editor).on_hover_text(SUCH_AS);
-        let entered = response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
+        let entered =
+            response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
         let wanted = (ui.button("Set").clicked() || entered) && !typed.trim().is_empty();
         if wanted {
             let (field, value) = typed.split_once('=').unwrap_or((&typed, ""));
-            let value = if value.trim().is_empty() { current(desk, field.trim()) } else { value.trim().to_owned() };
+            let value = if value.trim().is_empty() {
+                current(desk, field.trim())
+            } else {
+                value.trim().to_owned()
+            };
             edits.push((format!("{table}.\"{}\"", field.trim()), Some(Setting::plain(&value))));
             typed.clear();
         }
@@ -143,7 +155,11 @@ fn leaves(book: &Book, table: &str) -> Vec<String> {
     let mut found = Vec::new();
     for key in book.keys(Book::STUDY, table) {
         let path = format!("{table}.{key}");
-        if book.field(Book::STUDY, &path).is_some() { found.push(path) } else { found.extend(leaves(book, &path)) }
+        if book.field(Book::STUDY, &path).is_some() {
+            found.push(path)
+        } else {
+            found.extend(leaves(book, &path))
+        }
     }
     found
 }
@@ -152,24 +168,32 @@ fn leaves(book: &Book, table: &str) -> Vec<String> {
 fn copy(desk: &mut Desk, index: usize) {
     let ids = super::option_ids(&desk.book);
     let old = ids.get(index).cloned().unwrap_or_else(|| "option".into());
-    let Some(id) = (2..).map(|number| format!("{old}-{number}")).find(|id| !ids.contains(id)) else { return };
+    let Some(id) = (2..).map(|number| format!("{old}-{number}")).find(|id| !ids.contains(id))
+    else {
+        return;
+    };
     let of = |key: &str| desk.book.field(Book::STUDY, &format!("option.{index}.{key}"));
     let name = of("name").map(|name| format!("{name} (copy)"));
     let strength = of("strength");
     let table = format!("option.{index}.set");
     let settings: Vec<(String, String)> = leaves(&desk.book, &table)
         .into_iter()
-        .filter_map(|path| Some((path.trim_start_matches(&table).to_owned(), desk.book.field(Book::STUDY, &path)?)))
+        .filter_map(|path| {
+            Some((path.trim_start_matches(&table).to_owned(), desk.book.field(Book::STUDY, &path)?))
+        })
         .collect();
     let change = |document: &mut endline_gear::Document| {
         let quoted = |text: &str| format!("{text:?}");
         let mut fields = vec![("id", quoted(&id))];
         fields.extend(name.as_deref().map(|name| ("name", quoted(name))));
         fields.extend(strength.as_deref().map(|strength| ("strength", quoted(strength))));
-        let fields: Vec<(&str, &str)> = fields.iter().map(|(key, text)| (*key, text.as_str())).collect();
+        let fields: Vec<(&str, &str)> =
+            fields.iter().map(|(key, text)| (*key, text.as_str())).collect();
         let place = document.push_table("option", &fields).map_err(|error| error.message)?;
         settings.iter().try_for_each(|(path, value)| {
-            document.put(&format!("option.{place}.set{path}"), &Setting::plain(value)).map_err(|error| error.message)
+            document
+                .put(&format!("option.{place}.set{path}"), &Setting::plain(value))
+                .map_err(|error| error.message)
         })
     };
     if let Err(error) = desk.book.alter(Book::STUDY, change) {

@@ -34,15 +34,30 @@ const KNOWN: [(&str, &str, &str); 17] = [
 const NO_PRIORS: [&str; 3] = ["aim", "aim_by", "gap"];
 
 /// Laws, as a file names them and as people do.
-const LAWS: [(&str, &str); 4] = [("uniform", "even from, to"), ("normal", "normal about, by"), ("choice", "one of"), ("value", "always")];
+const LAWS: [(&str, &str); 4] = [
+    ("uniform", "even from, to"),
+    ("normal", "normal about, by"),
+    ("choice", "one of"),
+    ("value", "always"),
+];
 
 /// Draws where the whale is aimed, and every prior.
 pub(super) fn show(ui: &mut Ui, desk: &mut Desk, edits: &mut Edits) {
     super::super::caption(ui, "Encounters, drawn alike for every option");
     list(ui, desk, ("Aimed at", "encounter.aim"), "Lines of the gear at rest; empty: any", edits);
-    super::text(ui, desk, "Begins", "encounter.gap", "From the snout to the rope at the start, such as 3 m");
-    let names: Vec<String> =
-        desk.book.keys(Book::STUDY, "encounter").into_iter().filter(|name| !NO_PRIORS.contains(&name.as_str())).collect();
+    super::text(
+        ui,
+        desk,
+        "Begins",
+        "encounter.gap",
+        "From the snout to the rope at the start, such as 3 m",
+    );
+    let names: Vec<String> = desk
+        .book
+        .keys(Book::STUDY, "encounter")
+        .into_iter()
+        .filter(|name| !NO_PRIORS.contains(&name.as_str()))
+        .collect();
     for name in &names {
         ui.add_space(3.0);
         prior(ui, desk, name, edits);
@@ -52,7 +67,11 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, edits: &mut Edits) {
 
 fn prior(ui: &mut Ui, desk: &mut Desk, name: &str, edits: &mut Edits) {
     let at = format!("encounter.{name}");
-    let Some((law, _)) = LAWS.iter().find(|(law, _)| desk.book.has(Book::STUDY, &format!("{at}.{law}"))) else { return };
+    let Some((law, _)) =
+        LAWS.iter().find(|(law, _)| desk.book.has(Book::STUDY, &format!("{at}.{law}")))
+    else {
+        return;
+    };
     ui.horizontal(|ui| {
         super::label(ui, &name.replace('_', " ").replace('"', ""));
         laws(ui, &at, law, name, edits);
@@ -66,13 +85,23 @@ fn prior(ui: &mut Ui, desk: &mut Desk, name: &str, edits: &mut Edits) {
             "value" => one(ui, desk, &format!("{at}.value"), 84.0, edits),
             _ => {}
         }
-        if ui.small_button("✖").on_hover_text("As the scenario has it, in every encounter").clicked() {
+        if ui
+            .small_button("✖")
+            .on_hover_text("As the scenario has it, in every encounter")
+            .clicked()
+        {
             edits.push((at.clone(), None));
         }
     });
     if *law == "choice" {
         list(ui, desk, ("", &format!("{at}.choice")), "Values, with commas between", edits);
-        list(ui, desk, ("  weights", &format!("{at}.weights")), "How often each, with commas between; empty: all alike", edits);
+        list(
+            ui,
+            desk,
+            ("  weights", &format!("{at}.weights")),
+            "How often each, with commas between; empty: all alike",
+            edits,
+        );
     }
     sureness(ui, desk, &at, edits);
 }
@@ -95,8 +124,15 @@ fn laws(ui: &mut Ui, at: &str, law: &str, name: &str, edits: &mut Edits) {
 /// A law of a prior with its first values.
 fn begin(at: &str, law: &str, name: &str, edits: &mut Edits) {
     let usual = KNOWN.iter().find(|(known, ..)| *known == name);
-    let pair = usual.filter(|(_, law, _)| ["uniform", "normal"].contains(law)).map_or("[0.0, 1.0]", |(.., values)| values);
-    let single = usual.map_or("1.0", |(.., values)| values).trim_start_matches('[').split([',', ']']).next().unwrap_or("1.0");
+    let pair = usual
+        .filter(|(_, law, _)| ["uniform", "normal"].contains(law))
+        .map_or("[0.0, 1.0]", |(.., values)| values);
+    let single = usual
+        .map_or("1.0", |(.., values)| values)
+        .trim_start_matches('[')
+        .split([',', ']'])
+        .next()
+        .unwrap_or("1.0");
     let values = match law {
         "uniform" | "normal" => pair.to_owned(),
         "choice" => format!("[{single}]"),
@@ -126,11 +162,16 @@ fn list(ui: &mut Ui, desk: &Desk, (name, field): (&str, &str), help: &str, edits
     ui.horizontal(|ui| {
         super::label(ui, name);
         let id = egui::Id::new(("list", field));
-        let values: Vec<String> = (0..).map_while(|index| desk.book.field(Book::STUDY, &format!("{field}.{index}"))).collect();
+        let values: Vec<String> = (0..)
+            .map_while(|index| desk.book.field(Book::STUDY, &format!("{field}.{index}")))
+            .collect();
         let stored = values.join(", ");
-        let mut typed = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| stored.clone());
+        let mut typed =
+            ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| stored.clone());
         let width = ui.available_width() - 12.0;
-        let response = ui.add(egui::TextEdit::singleline(&mut typed).id(id.with("edit")).desired_width(width)).on_hover_text(help);
+        let response = ui
+            .add(egui::TextEdit::singleline(&mut typed).id(id.with("edit")).desired_width(width))
+            .on_hover_text(help);
         if response.changed() {
             ui.data_mut(|data| data.insert_temp(id, typed.clone()));
         }
@@ -146,8 +187,15 @@ fn list(ui: &mut Ui, desk: &Desk, (name, field): (&str, &str), help: &str, edits
 
 /// Values with commas between as a list of a file: numbers bare, all else in quotes.
 fn written(typed: &str) -> Option<Setting> {
-    let value = |text: &str| if text.parse::<f64>().is_ok() { text.to_owned() } else { format!("{:?}", text.trim_matches('"')) };
-    let values: Vec<String> = typed.split(',').map(str::trim).filter(|text| !text.is_empty()).map(value).collect();
+    let value = |text: &str| {
+        if text.parse::<f64>().is_ok() {
+            text.to_owned()
+        } else {
+            format!("{:?}", text.trim_matches('"'))
+        }
+    };
+    let values: Vec<String> =
+        typed.split(',').map(str::trim).filter(|text| !text.is_empty()).map(value).collect();
     (!values.is_empty()).then(|| Setting::plain(&format!("[{}]", values.join(", "))))
 }
 
@@ -169,7 +217,9 @@ fn sureness(ui: &mut Ui, desk: &mut Desk, at: &str, edits: &mut Edits) {
         }
         if !assumed {
             let field = format!("{at}.sureness");
-            let words: Vec<(String, String)> = ["measured", "derived", "assumed"].map(|word| (word.to_owned(), word.to_owned())).to_vec();
+            let words: Vec<(String, String)> = ["measured", "derived", "assumed"]
+                .map(|word| (word.to_owned(), word.to_owned()))
+                .to_vec();
             if let Some(word) = fields::choose(ui, &desk.book, Book::STUDY, &field, &words, 88.0) {
                 edits.push((field, Some(Setting::text(&word))));
             }
@@ -181,12 +231,17 @@ fn add(ui: &mut Ui, names: &[String], edits: &mut Edits) {
     ui.add_space(4.0);
     let faint = Theme::palette_of(ui).faint;
     ui.menu_button("Add what varies ⏷", |ui| {
-        for (name, law, values) in KNOWN.iter().filter(|(name, ..)| !names.iter().any(|known| known == name)) {
+        for (name, law, values) in
+            KNOWN.iter().filter(|(name, ..)| !names.iter().any(|known| known == name))
+        {
             if ui.button(name.replace('_', " ")).clicked() {
                 let at = format!("encounter.{name}");
                 edits.push((format!("{at}.{law}"), Some(Setting::plain(values))));
                 if *law == "normal" {
-                    edits.push((format!("{at}.between"), Some(Setting::plain("[\"9 m\", \"15 m\"]"))));
+                    edits.push((
+                        format!("{at}.between"),
+                        Some(Setting::plain("[\"9 m\", \"15 m\"]")),
+                    ));
                 }
                 edits.push((format!("{at}.source"), Some(Setting::text("assumed"))));
                 ui.close();

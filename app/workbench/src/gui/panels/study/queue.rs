@@ -47,18 +47,26 @@ fn row(ui: &mut Ui, job: &Job, wanted: &mut Option<PathBuf>) -> Option<Act> {
     let (progress, palette) = (job.progress(), Theme::palette_of(ui));
     let mut act = None;
     ui.horizontal(|ui| {
-        ui.add(egui::Label::new(&job.name).truncate()).on_hover_text(job.file.display().to_string());
+        ui.add(egui::Label::new(&job.name).truncate())
+            .on_hover_text(job.file.display().to_string());
     });
     ui.horizontal_wrapped(|ui| {
         let (words, colour) = match &progress.state {
             State::Waiting => ("waiting".to_owned(), palette.faint),
             State::Opening => ("opening".to_owned(), palette.warning),
-            State::Running => (progress.left().map_or_else(|| "running".into(), |left| format!("{} left", time(left))), palette.good),
+            State::Running => (
+                progress
+                    .left()
+                    .map_or_else(|| "running".into(), |left| format!("{} left", time(left))),
+                palette.good,
+            ),
             State::Paused => ("paused".to_owned(), palette.warning),
             State::Reporting => ("writing the report".to_owned(), palette.good),
             State::Done => ("done".to_owned(), palette.good),
             State::Cancelled => ("cancelled; what was run stays".to_owned(), palette.faint),
-            State::Failed(why) => (why.lines().next().unwrap_or_default().to_owned(), palette.error),
+            State::Failed(why) => {
+                (why.lines().next().unwrap_or_default().to_owned(), palette.error)
+            }
         };
         if progress.total > 0 {
             let text = format!("{} of {} encounters", progress.done, progress.total);
@@ -80,7 +88,8 @@ fn row(ui: &mut Ui, job: &Job, wanted: &mut Option<PathBuf>) -> Option<Act> {
         {
             *wanted = Some(folder);
         }
-        let told = if let State::Failed(why) = &progress.state { why.clone() } else { words.clone() };
+        let told =
+            if let State::Failed(why) = &progress.state { why.clone() } else { words.clone() };
         ui.add(egui::Label::new(RichText::new(words).color(colour)).truncate()).on_hover_text(told);
     });
     act
@@ -95,19 +104,23 @@ fn ready(ui: &mut Ui, desk: &mut Desk) {
     let root = desk.studies.root();
     let id = egui::Id::new("ready studies");
     let count = desk.studies.jobs.iter().filter(|job| !job.unfinished()).count();
-    let known = ui.data(|data| data.get_temp::<(usize, Vec<(PathBuf, String)>)>(id)).filter(|(seen, _)| *seen == count);
+    let known = ui
+        .data(|data| data.get_temp::<(usize, Vec<(PathBuf, String)>)>(id))
+        .filter(|(seen, _)| *seen == count);
     let (_, found) = known.unwrap_or_else(|| (count, list(&root)));
     ui.data_mut(|data| data.insert_temp(id, (count, found.clone())));
     if found.is_empty() {
         return;
     }
-    egui::CollapsingHeader::new(format!("Studies that were run ({})", found.len())).id_salt("ready").show(ui, |ui| {
-        for (folder, words) in found {
-            if ui.link(words).on_hover_text(folder.display().to_string()).clicked() {
-                desk.orders.push(Order::OpenResults(folder));
+    egui::CollapsingHeader::new(format!("Studies that were run ({})", found.len()))
+        .id_salt("ready")
+        .show(ui, |ui| {
+            for (folder, words) in found {
+                if ui.link(words).on_hover_text(folder.display().to_string()).clicked() {
+                    desk.orders.push(Order::OpenResults(folder));
+                }
             }
-        }
-    });
+        });
 }
 
 fn list(root: &std::path::Path) -> Vec<(PathBuf, String)> {
@@ -116,7 +129,15 @@ fn list(root: &std::path::Path) -> Vec<(PathBuf, String)> {
         let text = std::fs::read_to_string(folder.join("study.json")).ok()?;
         let label: Label = serde_json::from_str(&text).ok()?;
         let state = if folder.join("report.html").is_file() { "reported" } else { "not done" };
-        Some((folder, format!("{}, {} options, {} encounters, {state}", label.study, label.options.len(), label.encounters)))
+        Some((
+            folder,
+            format!(
+                "{}, {} options, {} encounters, {state}",
+                label.study,
+                label.options.len(),
+                label.encounters
+            ),
+        ))
     };
     let mut found: Vec<(PathBuf, String)> = folders.filter_map(label).collect();
     found.sort();

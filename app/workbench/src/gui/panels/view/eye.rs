@@ -31,7 +31,13 @@ impl Eye {
     /// An eye at a named view.
     #[must_use]
     pub fn at(view: View) -> Self {
-        Self { camera: Camera::default(), follow: view.is_of_whale(), named: view, frame_again: true, turned: [0.0; 3] }
+        Self {
+            camera: Camera::default(),
+            follow: view.is_of_whale(),
+            named: view,
+            frame_again: true,
+            turned: [0.0; 3],
+        }
     }
 
     /// Goes to a named view.
@@ -46,12 +52,23 @@ impl Eye {
 
     /// Drag orbits, right drag or Shift and drag pans, the wheel comes nearer.
     pub fn turn(&mut self, ui: &Ui, response: &Response, flying: bool) {
-        let drag = DVec2::new(f64::from(response.drag_delta().x), f64::from(response.drag_delta().y));
+        let drag =
+            DVec2::new(f64::from(response.drag_delta().x), f64::from(response.drag_delta().y));
         let shift = ui.input(|input| input.modifiers.shift) && !flying;
-        let pan = response.dragged_by(PointerButton::Secondary) || response.dragged_by(PointerButton::Middle) || shift;
-        let notches = if response.hovered() { f64::from(ui.input(|input| input.smooth_scroll_delta().y)) / 50.0 } else { 0.0 };
+        let pan = response.dragged_by(PointerButton::Secondary)
+            || response.dragged_by(PointerButton::Middle)
+            || shift;
+        let notches = if response.hovered() {
+            f64::from(ui.input(|input| input.smooth_scroll_delta().y)) / 50.0
+        } else {
+            0.0
+        };
         if self.follow {
-            self.turned = [self.turned[0] - drag.x * 0.008, self.turned[1] + drag.y * 0.008, self.turned[2] + notches];
+            self.turned = [
+                self.turned[0] - drag.x * 0.008,
+                self.turned[1] + drag.y * 0.008,
+                self.turned[2] + notches,
+            ];
         } else if response.dragged() && pan {
             self.camera.pan(drag, f64::from(response.rect.height()));
         } else if response.dragged() {

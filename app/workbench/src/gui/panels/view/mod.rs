@@ -44,7 +44,8 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
 /// Makes the scenes anew, both to one scale of tension.
 fn load(desk: &mut Desk, views: &[Option<Arc<LiveView>>; 2]) {
     let state = &mut desk.view3d;
-    state.scale_n = views.iter().flatten().map(|view| state::scale_top(view, state.scale)).fold(1.0, f64::max);
+    state.scale_n =
+        views.iter().flatten().map(|view| state::scale_top(view, state.scale)).fold(1.0, f64::max);
     let show = Show { scale_n: Some(state.scale_n), ..state.show };
     let there_is_a_card = state.drawn[0].canvas.is_some();
     for (drawn, view) in state.drawn.iter_mut().zip(views) {
@@ -59,7 +60,8 @@ fn load(desk: &mut Desk, views: &[Option<Arc<LiveView>>; 2]) {
 fn panes(desk: &Desk, compared: bool, rect: Rect) -> Vec<(Pane, Rect)> {
     let (runs, most) = if compared { (2, 2) } else { (1, MOST) };
     let slots = desk.view3d.eyes.len().min(most);
-    let panes: Vec<Pane> = (0..slots).flat_map(|slot| (0..runs).map(move |run| Pane { run, slot })).collect();
+    let panes: Vec<Pane> =
+        (0..slots).flat_map(|slot| (0..runs).map(move |run| Pane { run, slot })).collect();
     let places = places(rect, panes.len());
     panes.into_iter().zip(places).collect()
 }
@@ -69,7 +71,8 @@ fn places(rect: Rect, count: usize) -> Vec<Rect> {
     let middle = rect.center();
     let left = rect.with_max_x(middle.x - GAP / 2.0);
     let right = rect.with_min_x(middle.x + GAP / 2.0);
-    let halves = |side: Rect| [side.with_max_y(middle.y - GAP / 2.0), side.with_min_y(middle.y + GAP / 2.0)];
+    let halves =
+        |side: Rect| [side.with_max_y(middle.y - GAP / 2.0), side.with_min_y(middle.y + GAP / 2.0)];
     match count {
         0 | 1 => vec![rect],
         2 => vec![left, right],
@@ -129,7 +132,8 @@ fn views(ui: &mut Ui, desk: &mut Desk) {
     let several = if count == 1 { "1 view ⏷".to_owned() } else { format!("{count} views ⏷") };
     ui.menu_button(several, |ui| {
         for count in 1..=MOST {
-            let text = if count == 1 { "One view".to_owned() } else { format!("{count} views at once") };
+            let text =
+                if count == 1 { "One view".to_owned() } else { format!("{count} views at once") };
             if ui.button(text).clicked() {
                 desk.orders.push(Order::Views(count));
                 ui.close();
@@ -174,5 +178,11 @@ fn waiting(ui: &Ui, rect: Rect, desk: &Desk) {
     ui.painter().rect_filled(rect, 0.0, palette.ground);
     let text = if desk.making() { "Making the model …" } else { "No model yet; see Problems." };
     let place = pos2(rect.center().x, rect.center().y);
-    ui.painter().text(place, egui::Align2::CENTER_CENTER, text, egui::FontId::proportional(15.0), palette.faint);
+    ui.painter().text(
+        place,
+        egui::Align2::CENTER_CENTER,
+        text,
+        egui::FontId::proportional(15.0),
+        palette.faint,
+    );
 }

@@ -29,7 +29,8 @@ pub(super) struct Pane {
 pub(super) fn show(ui: &mut Ui, desk: &mut Desk, view: &LiveView, pane: Pane, rect: Rect) {
     let Pane { run, slot } = pane;
     let response = ui.interact(rect, ui.id().with(("pane", run, slot)), Sense::click_and_drag());
-    let name = if run == 0 { format!("Pane {}", slot + 1) } else { format!("Pane {} of B", slot + 1) };
+    let name =
+        if run == 0 { format!("Pane {}", slot + 1) } else { format!("Pane {} of B", slot + 1) };
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, &name));
     if response.clicked() || response.dragged() {
         ui.memory_mut(|memory| memory.stop_text_input());
@@ -55,7 +56,10 @@ fn click(desk: &mut Desk, view: &LiveView, camera: &Camera, response: &Response)
     let rect = response.rect;
     let Some(at) = response.interact_pointer_pos().filter(|_| response.clicked()) else { return };
     let at = at - rect.min;
-    let (at, size) = (DVec2::new(f64::from(at.x), f64::from(at.y)), DVec2::new(f64::from(rect.width()), f64::from(rect.height())));
+    let (at, size) = (
+        DVec2::new(f64::from(at.x), f64::from(at.y)),
+        DVec2::new(f64::from(rect.width()), f64::from(rect.height())),
+    );
     let hit = pick(&view.model, &view.frame, camera, at, size, desk.view3d.show.whale);
     desk.view3d.picks.take(hit);
 }
@@ -63,7 +67,8 @@ fn click(desk: &mut Desk, view: &LiveView, camera: &Camera, response: &Response)
 fn paint(ui: &Ui, desk: &Desk, pane: Pane, rect: Rect, camera: &Camera) {
     match &desk.view3d.drawn[pane.run].canvas {
         Some(canvas) => {
-            let water = if desk.preferences.theme == Theme::Dark { Water::DARK } else { Water::LIGHT };
+            let water =
+                if desk.preferences.theme == Theme::Dark { Water::DARK } else { Water::LIGHT };
             ui.painter().add(Canvas::callback(canvas, pane.slot, rect, camera.clone(), water));
         }
         None => {
@@ -82,21 +87,44 @@ fn write_over(ui: &Ui, desk: &Desk, view: &LiveView, pane: Pane, rect: Rect, cam
     let last = slot + 1 == state.eyes.len() && run == usize::from(compared);
     let scale_n = if last { state.scale_n } else { 0.0 };
     let metres_a_point = camera.metres_a_point(f64::from(rect.height()));
-    overlay::paint(&painter, rect, &Overlay { caption: &caption, time_s: view.frame.time_s, scale_n, metres_a_point });
+    overlay::paint(
+        &painter,
+        rect,
+        &Overlay { caption: &caption, time_s: view.frame.time_s, scale_n, metres_a_point },
+    );
     picking::paint(&painter, rect, camera, desk, view);
     if several && slot == state.chosen {
-        painter.rect_stroke(rect, 0.0, Stroke::new(1.5, Theme::palette_of(ui).accent), StrokeKind::Inside);
+        painter.rect_stroke(
+            rect,
+            0.0,
+            Stroke::new(1.5, Theme::palette_of(ui).accent),
+            StrokeKind::Inside,
+        );
     }
     if slot == 0 && run == 0 {
         felt(ui, desk, &painter, rect);
     }
     if desk.flying && slot == state.chosen && run == 0 {
-        let act = desk.pilot.chosen_act(desk.acts().len()).map(|act| desk.acts()[act].name.as_ref());
-        hud::paint(&painter, rect, view, desk.preferences.units, &hud::told(&view.controls, act, desk.pilot.hands()));
+        let act =
+            desk.pilot.chosen_act(desk.acts().len()).map(|act| desk.acts()[act].name.as_ref());
+        hud::paint(
+            &painter,
+            rect,
+            view,
+            desk.preferences.units,
+            &hud::told(&view.controls, act, desk.pilot.hands()),
+        );
     }
 }
 
-fn caption(desk: &Desk, view: &LiveView, pane: Pane, several: bool, compared: bool, roomy: bool) -> String {
+fn caption(
+    desk: &Desk,
+    view: &LiveView,
+    pane: Pane,
+    several: bool,
+    compared: bool,
+    roomy: bool,
+) -> String {
     let eye = &desk.view3d.eyes[pane.slot];
     let run = if compared { ["A", "B"][pane.run] } else { "" };
     let named = if several { spoken(eye.named) } else { String::new() };
@@ -106,9 +134,16 @@ fn caption(desk: &Desk, view: &LiveView, pane: Pane, several: bool, compared: bo
         (false, false) => "",
     };
     let greatest_n = if desk.view3d.show.forces && roomy { greatest_n(&view.frame) } else { 0.0 };
-    let arrows =
-        if greatest_n > 0.0 { format!("longest arrow {}", desk.preferences.units.force().text(greatest_n)) } else { String::new() };
-    [run, named.as_str(), standing, arrows.as_str()].into_iter().filter(|words| !words.is_empty()).collect::<Vec<_>>().join(", ")
+    let arrows = if greatest_n > 0.0 {
+        format!("longest arrow {}", desk.preferences.units.force().text(greatest_n))
+    } else {
+        String::new()
+    };
+    [run, named.as_str(), standing, arrows.as_str()]
+        .into_iter()
+        .filter(|words| !words.is_empty())
+        .collect::<Vec<_>>()
+        .join(", ")
 }
 
 /// The edge flashes with what the pilot feels.
@@ -116,7 +151,12 @@ fn felt(ui: &Ui, desk: &Desk, painter: &egui::Painter, rect: Rect) {
     let felt = desk.rumble.strength(ui.input(|input| input.time));
     if felt > 0.0 {
         let warning = Theme::palette_of(ui).warning.gamma_multiply(felt as f32);
-        painter.rect_stroke(rect, 0.0, Stroke::new(10.0 * felt as f32, warning), StrokeKind::Inside);
+        painter.rect_stroke(
+            rect,
+            0.0,
+            Stroke::new(10.0 * felt as f32, warning),
+            StrokeKind::Inside,
+        );
         ui.ctx().request_repaint();
     }
 }

@@ -76,7 +76,8 @@ impl ViewState {
         const FROM: [View; MOST] = [View::Side, View::Top, View::Front, View::FirstPerson];
         self.eyes.truncate(count.max(1));
         while self.eyes.len() < count.min(MOST) {
-            let fresh = FROM.into_iter().find(|view| self.eyes.iter().all(|eye| eye.named != *view));
+            let fresh =
+                FROM.into_iter().find(|view| self.eyes.iter().all(|eye| eye.named != *view));
             self.eyes.push(Eye::at(fresh.unwrap_or_default()));
         }
         self.chosen = self.chosen.min(self.eyes.len() - 1);
@@ -140,7 +141,11 @@ impl Drawn {
 
     /// Makes the scene anew where the moment or what is shown has changed.
     pub fn load(&mut self, view: &LiveView, show: Show) {
-        if self.shown.as_ref().is_some_and(|(frame, shown)| Arc::ptr_eq(frame, &view.frame) && *shown == show) {
+        if self
+            .shown
+            .as_ref()
+            .is_some_and(|(frame, shown)| Arc::ptr_eq(frame, &view.frame) && *shown == show)
+        {
             return;
         }
         self.shown = Some((Arc::clone(&view.frame), show));
@@ -154,8 +159,21 @@ impl Drawn {
 /// Tension at the top of the colour scale [N].
 #[must_use]
 pub fn scale_top(view: &LiveView, top: ScaleTop) -> f64 {
-    let peak = || view.summary.iter().flat_map(|summary| &summary.lines).map(|line| line.peak_tension_n).fold(0.0, f64::max);
-    let strength = || view.model.segment_strength_n.iter().copied().filter(|strength| strength.is_finite()).fold(f64::INFINITY, f64::min);
+    let peak = || {
+        view.summary
+            .iter()
+            .flat_map(|summary| &summary.lines)
+            .map(|line| line.peak_tension_n)
+            .fold(0.0, f64::max)
+    };
+    let strength = || {
+        view.model
+            .segment_strength_n
+            .iter()
+            .copied()
+            .filter(|strength| strength.is_finite())
+            .fold(f64::INFINITY, f64::min)
+    };
     let value = match top {
         ScaleTop::Peak => peak(),
         ScaleTop::Strength => strength(),
