@@ -5,12 +5,14 @@
 mod packages;
 mod plugins;
 mod run;
+mod shape;
 mod test;
 mod window;
 mod workspace;
 
 use std::process::ExitCode;
 
+use shape::Part;
 use workspace::{Profile, Workspace};
 
 /// What every chore gives: nothing, or a sentence for the user.
@@ -23,34 +25,46 @@ usage: cargo xtask run [-- ARGUMENTS]    install what is missing, build in relea
        cargo xtask test                  install what is missing, then run the whole test suite; where Xvfb, xdotool and
                                          imagemagick are, drive the window too
        cargo xtask window                only drive the window that was built
-       cargo xtask plugins [--release]   build the plugins that ship with Endline and put them beside the program";
+       cargo xtask plugins [--release]   build the plugins that ship with Endline and put them beside the program
+       cargo xtask shape [all | sizes | circles] [PACKAGE]
+                                         print how large files and functions are, and which files name each
+                                         other in circles; PACKAGE is the folder of one, such as sim";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
-    let done = match words.as_slice() {
-        ["run"] => Workspace::find().and_then(|workspace| run::run(&workspace)),
-        ["run", "--", program @ ..] => {
-            Workspace::find().and_then(|workspace| run::run_with(&workspace, program))
-        }
-        ["test"] => Workspace::find().and_then(|workspace| test::test(&workspace)),
-        ["window"] => Workspace::find().and_then(|workspace| window::drive(&workspace)),
-        ["plugins"] => {
-            Workspace::find().and_then(|workspace| plugins::build(&workspace, Profile::Dev))
-        }
-        ["plugins", "--release"] => {
-            Workspace::find().and_then(|workspace| plugins::build(&workspace, Profile::Release))
-        }
-        _ => {
-            eprintln!("{USAGE}");
-            return ExitCode::from(2);
-        }
+    let Some(chore) = chore(&words) else {
+        eprintln!("{USAGE}");
+        return ExitCode::from(2);
     };
-    match done {
+    match Workspace::find().and_then(|workspace| chore(&workspace)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(message) => {
             eprintln!("xtask: {message}");
             ExitCode::FAILURE
         }
     }
+}
+
+/// What is done in the workspace.
+type Chore<'a> = Box<dyn Fn(&Workspace) -> Outcome + 'a>;
+
+/// The chore that these words ask for; `None` where there is no such chore.
+fn chore<'a>(words: &'a [&'a str]) -> Option<Chore<'a>> {
+    Some(match words {
+        ["run"] => Box::new(run::run),
+        ["run", "--", program @ ..] => Box::new(|workspace| run::run_with(workspace, program)),
+        ["test"] => Box::new(test::test),
+        ["window"] => Box::new(window::drive),
+        ["plugins"] => Box::new(|workspace| plugins::build(workspace, Profile::Dev)),
+        ["plugins", "--release"] => {
+            Box::new(|workspace| plugins::build(workspace, Profile::Release))
+        }
+        ["shape"] => Box::new(|workspace| shape::print(workspace, Part::All, None)),
+        ["shape", part, package @ ..] if package.len() < 2 => {
+            let part = Part::named(part)?;
+            Box::new(move |workspace| shape::print(workspace, part, package.first().copied()))
+        }
+        _ => return None,
+    })
 }
