@@ -78,7 +78,9 @@ pub fn open(options: Options) -> Result<(), String> {
         viewport: egui::ViewportBuilder::default()
             .with_title("Endline")
             .with_inner_size([1500.0, 940.0])
-            .with_min_inner_size([900.0, 600.0]),
+            .with_min_inner_size([900.0, 600.0])
+            .with_app_id("endline")
+            .with_icon(icon()),
         renderer: eframe::Renderer::Glow,
         persistence_path: options.settings.clone(),
         ..eframe::NativeOptions::default()
@@ -104,6 +106,15 @@ pub fn open(options: Options) -> Result<(), String> {
     };
     eframe::run_native("endline", native, Box::new(create))
         .map_err(|error| format!("no window can be opened: {error}"))
+}
+
+/// The window's icon; an empty one, which the system replaces by its own, where it cannot be read.
+fn icon() -> egui::IconData {
+    const PNG: &[u8] = include_bytes!(concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../assets/icon/endline.png"
+    ));
+    eframe::icon_data::from_png_bytes(PNG).unwrap_or_default()
 }
 
 /// The machine's pads; without them the keyboard flies alone.

@@ -90,10 +90,17 @@ struct Eye {
     viewport: Viewport,
 }
 
-/// Source of a shader, with what all know of the sea before it.
-macro_rules! shader {
-    ($file:literal) => {
-        concat!(include_str!("shaders/sea.glsl"), include_str!($file))
+/// Source of a shader in `assets/shaders`.
+macro_rules! source {
+    ($name:literal) => {
+        include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/shaders/", $name, ".glsl"))
+    };
+}
+
+/// Source of a shader that needs the light and colour of the sea, which stand before it.
+macro_rules! sea_shader {
+    ($name:literal) => {
+        concat!(source!("sea"), source!($name))
     };
 }
 
@@ -107,13 +114,13 @@ impl Drawer {
             let context = Context::from_gl_context(gl)?;
             let part = Program::from_source(
                 &context,
-                shader!("shaders/part.vert"),
-                shader!("shaders/part.frag"),
+                sea_shader!("part.vertex"),
+                sea_shader!("part.fragment"),
             )?;
             let backdrop = Program::from_source(
                 &context,
-                include_str!("shaders/backdrop.vert"),
-                shader!("shaders/backdrop.frag"),
+                source!("backdrop.vertex"),
+                sea_shader!("backdrop.fragment"),
             )?;
             let corners =
                 VertexBuffer::new_with_data(&context, &[[-1.0, -1.0], [3.0, -1.0], [-1.0, 3.0]]);
