@@ -49,7 +49,19 @@ impl Event {
     /// Every event there is.
     #[must_use]
     pub fn all() -> Vec<Self> {
-        let mut all = vec![
+        let mut all = Self::of_the_whole().to_vec();
+        for kind in [RegionEvent::Contact, RegionEvent::Wrap] {
+            all.extend(BodyPart::ALL.into_iter().map(|part| Self::On(kind, vec![part])));
+            all.extend(GROUPS.into_iter().map(|(_, parts)| Self::On(kind, parts.to_vec())));
+        }
+        all.push(Self::On(RegionEvent::Wrap, BodyPart::ALL.to_vec()));
+        all
+    }
+
+    /// Events that concern the whole whale, in the order in which a report lists them.
+    #[must_use]
+    pub fn of_the_whole() -> [Self; 7] {
+        [
             Self::Contact,
             Self::Shed,
             Self::Entangled,
@@ -57,13 +69,22 @@ impl Event {
             Self::PartedFree,
             Self::PartedEntangled,
             Self::Lodged,
-        ];
-        for kind in [RegionEvent::Contact, RegionEvent::Wrap] {
-            all.extend(BodyPart::ALL.into_iter().map(|part| Self::On(kind, vec![part])));
-            all.extend(GROUPS.into_iter().map(|(_, parts)| Self::On(kind, parts.to_vec())));
-        }
-        all.push(Self::On(RegionEvent::Wrap, BodyPart::ALL.to_vec()));
-        all
+        ]
+    }
+
+    /// Names of the places on the whale that a report lists, as they stand in names of events: each part of the middle
+    /// line, and each pair of parts as one.
+    #[must_use]
+    pub fn places() -> Vec<&'static str> {
+        let pair = |part: &BodyPart| {
+            GROUPS.iter().find(|(_, parts)| parts.len() == 2 && parts.contains(part))
+        };
+        let mut places: Vec<&'static str> = BodyPart::ALL
+            .iter()
+            .map(|part| pair(part).map_or(part.name(), |(name, _)| name))
+            .collect();
+        places.dedup();
+        places
     }
 
     /// Its name in files and tables, such as `entangled`, `contact_head` or `wrap_flipper`.
@@ -84,7 +105,7 @@ impl Event {
         }
     }
 
-    /// The same for people: `rope on the head`, `a wrap on a flipper`.
+    /// Its name in words: `rope on head`, `wrap on flipper`.
     #[must_use]
     pub fn words(&self) -> String {
         match self {

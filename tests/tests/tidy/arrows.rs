@@ -57,11 +57,10 @@ const WALLS: [Wall; 8] = [
 ];
 
 /// Outside crates that only one of ours may use, and why.
-const KEPT_TO: [(&str, &str, &str); 11] = [
+const KEPT_TO: [(&str, &str, &str); 10] = [
     ("toml", "gear-library", "only the gear library knows TOML"),
     ("toml_edit", "gear-library", "only the gear library knows TOML"),
     ("libloading", "app/session", "only the session opens libraries"),
-    ("rayon", "app/session", "only the session runs many at once"),
     ("clap", "app/workbench", "the session has no command line"),
     ("indicatif", "app/workbench", "the session has no terminal"),
     ("eframe", "app/workbench", "the session has no screen"),

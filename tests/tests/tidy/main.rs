@@ -7,6 +7,8 @@
 )]
 
 mod arrows;
+mod assets;
+mod code_mark;
 mod documents;
 mod text;
 

@@ -110,10 +110,8 @@ pub fn open(options: Options) -> Result<(), String> {
 
 /// The window's icon; an empty one, which the system replaces by its own, where it cannot be read.
 fn icon() -> egui::IconData {
-    const PNG: &[u8] = include_bytes!(concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/../../assets/icon/endline.png"
-    ));
+    const PNG: &[u8] =
+        include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/icon/endline.png"));
     eframe::icon_data::from_png_bytes(PNG).unwrap_or_default()
 }
 

@@ -1,46 +1,42 @@
-//! How an option's runs end beside the baseline's in the same encounters, as a section of the report.
+//! The table of changes: how an option's runs end beside the baseline's in the same encounters.
 
 use crate::study::stats::{Change, Findings, OptionFinding};
 
-use super::html::table;
-use super::svg::escape;
+use super::cell::{Cell, Table};
 use super::words::{outcome_words, percent_interval, rate};
 
-/// The section; nothing where there is only the baseline.
-pub(super) fn section(findings: &Findings) -> String {
-    let others =
-        findings.options.iter().enumerate().filter(|(index, _)| *index != findings.baseline);
-    let rows: Vec<Vec<String>> = others.map(|(_, option)| row(option)).collect();
-    if rows.is_empty() {
-        return String::new();
-    }
-    let heads = [
+/// The table; `None` where there is only the baseline.
+pub(super) fn table(findings: &Findings) -> Option<Table> {
+    let headings = [
         "option",
         "another outcome",
         "mean greatest tension",
         "another outcome, of those that touch",
         "mean greatest tension, of those that touch",
-        "outcome with the baseline, and here",
+        "outcome with the baseline, and with the option",
     ];
-    format!(
-        "<h2>What the same encounters come to instead</h2>{}",
-        table("Outcome and tension beside the baseline's, encounter by encounter", &heads, &rows)
-    )
+    let rows: Vec<Vec<Cell>> = findings.others().map(row).collect();
+    let caption = "Outcome and tension beside the baseline's, encounter by encounter";
+    (!rows.is_empty()).then(|| Table::new(caption, &headings, rows))
 }
 
-fn row(option: &OptionFinding) -> Vec<String> {
+fn row(option: &OptionFinding) -> Vec<Cell> {
     let changes = &option.changes;
     let cells = [&changes.all, &changes.touching]
         .into_iter()
-        .flat_map(|change| [rate(&change.outcome), tension(change)]);
-    let kinds = changes.counts.iter().filter(|(one, other, _)| one != other);
-    let kinds: Vec<String> = kinds
+        .flat_map(|change| [rate(&change.outcome).into(), tension(change).into()]);
+    [Cell::from(&option.name)].into_iter().chain(cells).chain([kinds(option)]).collect()
+}
+
+/// `entangled to shed: 4`, a line for each kind of change.
+fn kinds(option: &OptionFinding) -> Cell {
+    let changed = option.changes.counts.iter().filter(|(one, other, _)| one != other);
+    let lines: Vec<String> = changed
         .map(|(one, other, count)| {
             format!("{} to {}: {count}", outcome_words(one), outcome_words(other))
         })
         .collect();
-    let kinds = if kinds.is_empty() { "the same in all".to_owned() } else { kinds.join("<br>") };
-    [escape(&option.name)].into_iter().chain(cells).chain([kinds]).collect()
+    if lines.is_empty() { "equal in all encounters".into() } else { Cell::lines(lines) }
 }
 
 /// `104 N, +1.3 % [-0.2, 2.8]`.

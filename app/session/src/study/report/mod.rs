@@ -1,10 +1,13 @@
 //! The report of a study: one HTML file with its figures inside, the numbers as CSV and JSON, and a bundle that reproduces it.
 
 mod bundle;
+mod cell;
 mod changed;
 mod curves;
 mod figures;
-mod html;
+mod inputs;
+mod page;
+mod results;
 mod svg;
 mod words;
 
@@ -24,8 +27,10 @@ use super::table::{Cell, Row, Table};
 /// Where the folder cannot be written.
 pub fn write(opened: &Opened, folder: &Folder, findings: &Findings) -> Result<PathBuf, Error> {
     let page = folder.path.join("report.html");
+    let html = page::html(opened, findings)
+        .map_err(|error| Error::at(&page, format!("cannot be made: {error}")))?;
     let files = [
-        (page.clone(), html::page(opened, findings)),
+        (page.clone(), html),
         (folder.path.join("report.csv"), numbers(findings).csv()),
         (folder.path.join("findings.json"), findings.json() + "\n"),
     ];

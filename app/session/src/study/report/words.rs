@@ -1,4 +1,4 @@
-//! Numbers and events as a report says them, in HTML.
+//! Numbers and events as a report writes them. No-break spaces keep an interval and a force on one line.
 
 use endline_gear::Event;
 
@@ -9,13 +9,12 @@ pub(super) const N_PER_LBF: f64 = 4.448_221_615_260_5;
 
 /// `12.0 % [8.1, 17.4] (24 of 200)`.
 pub(super) fn rate(rate: &Rate) -> String {
-    format!(
-        "{:.1} % {} ({} of {})",
-        100.0 * rate.rate,
-        percent_interval(rate.interval),
-        rate.hits,
-        rate.runs
-    )
+    format!("{} ({} of {})", short_rate(rate), rate.hits, rate.runs)
+}
+
+/// `12.0 % [8.1, 17.4]`.
+pub(super) fn short_rate(rate: &Rate) -> String {
+    format!("{:.1} % {}", 100.0 * rate.rate, percent_interval(rate.interval))
 }
 
 /// `-3.5 points [-6.1, -0.9]`.
@@ -25,29 +24,30 @@ pub(super) fn points(difference: f64, interval: Interval) -> String {
 
 /// `[-6.1, -0.9]`, in percent.
 pub(super) fn percent_interval(Interval { low, high }: Interval) -> String {
-    // Not to be broken over lines.
-    format!("<span class=\"i\">[{:.1}, {:.1}]</span>", 100.0 * low, 100.0 * high)
+    format!("[{:.1},\u{a0}{:.1}]", 100.0 * low, 100.0 * high)
 }
 
 /// `0.65 [0.41, 1.02]`.
 pub(super) fn ratio(ratio: Option<f64>, interval: Option<Interval>) -> String {
     match (ratio, interval) {
-        (Some(ratio), Some(Interval { low, high })) => format!("{ratio:.2} [{low:.2}, {high:.2}]"),
+        (Some(ratio), Some(Interval { low, high })) => {
+            format!("{ratio:.2} [{low:.2},\u{a0}{high:.2}]")
+        }
         _ => "none: the baseline has no such event".into(),
     }
 }
 
-/// `1,512 N (340 lbf)`.
+/// `1512 N (340 lbf)`.
 pub(super) fn force(newtons: f64) -> String {
-    format!("<span class=\"i\">{newtons:.0} N ({:.0} lbf)</span>", newtons / N_PER_LBF)
+    format!("{newtons:.0}\u{a0}N ({:.0}\u{a0}lbf)", newtons / N_PER_LBF)
 }
 
-/// An event by name, for people.
+/// An event in words, by its name in tables.
 pub(super) fn event_words(name: &str) -> String {
     Event::find(name).map_or_else(|| name.to_owned(), |event| event.words())
 }
 
-/// An outcome by name, for people.
+/// An outcome in words, by its name in tables.
 pub(super) fn outcome_words(name: &str) -> String {
     name.replace('_', " ")
 }

@@ -97,6 +97,12 @@ impl OptionFinding {
 }
 
 impl Findings {
+    /// The options but for the baseline.
+    pub fn others(&self) -> impl Iterator<Item = &OptionFinding> {
+        let options = self.options.iter().enumerate();
+        options.filter(|(index, _)| *index != self.baseline).map(|(_, option)| option)
+    }
+
     /// Everything there is to tell of a study's table.
     #[must_use]
     pub fn of(opened: &Opened, table: &Table) -> Self {

@@ -1,21 +1,22 @@
 //! Marks the program with the code that decides what a run is: `ENDLINE_CODE`, the first eight digits of the BLAKE3 of
 //! every source file of rope, whale, contact and gear, of how a run and a study's encounter are put together, and of the
-//! versions of the libraries that calculate. Builds of the same code have the same mark, wherever they were made.
+//! versions of the libraries that decide a run. Builds of the same code have the same mark, wherever they were made.
+
+mod libraries;
 
 use std::error::Error;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+/// The workspace, from this package.
+const ROOT: &str = "../..";
+
 /// Folders whose sources decide a run, from this package.
 const DECIDING: [&str; 4] =
     ["../sim/src", "../../gear-library/src", "../../plugins/sdk/src", "src"];
 
-/// What of them only tells of runs.
-const TELLING: [&str; 4] = ["src/cases", "src/live", "src/study/report", "src/study/stats"];
-
-/// Libraries whose version may change a bit of a run.
-const CALCULATING: [&str; 8] =
-    ["glam", "glamx", "libm", "nalgebra", "parry3d-f64", "rapier3d-f64", "simba", "sobol_burley"];
+/// Folders among them that only report runs.
+const REPORTING: [&str; 4] = ["src/cases", "src/live", "src/study/report", "src/study/stats"];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut files = Vec::new();
@@ -33,14 +34,15 @@ fn main() -> Result<(), Box<dyn Error>> {
             hasher.update(part.as_bytes());
         }
     }
-    hasher.update(versions("../../Cargo.lock")?.as_bytes());
+    println!("cargo::rerun-if-changed={ROOT}/Cargo.lock");
+    hasher.update(libraries::deciding(Path::new(ROOT))?.join("\n").as_bytes());
     println!("cargo::rustc-env=ENDLINE_CODE={}", &hasher.finalize().to_hex()[..8]);
     Ok(())
 }
 
 /// Every Rust file of a folder and those below it.
 fn sources(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), Box<dyn Error>> {
-    if TELLING.iter().any(|telling| folder == Path::new(telling)) {
+    if REPORTING.iter().any(|reporting| folder == Path::new(reporting)) {
         return Ok(());
     }
     for entry in fs::read_dir(folder)? {
@@ -52,15 +54,4 @@ fn sources(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), Box<dyn Error>
         }
     }
     Ok(())
-}
-
-/// Name and version of each library that calculates, as the lock file has them.
-fn versions(lock: &str) -> Result<String, Box<dyn Error>> {
-    println!("cargo::rerun-if-changed={lock}");
-    let text = fs::read_to_string(lock)?.replace("\r\n", "\n");
-    let packages = text.split("[[package]]\n").skip(1);
-    let named = packages.filter(|package| {
-        CALCULATING.iter().any(|name| package.starts_with(&format!("name = \"{name}\"\n")))
-    });
-    Ok(named.flat_map(|package| package.lines().take(2).chain(["\n"])).collect())
 }

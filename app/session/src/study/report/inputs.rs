@@ -1,0 +1,69 @@
+//! The tables of what went in, and of what the result depends on.
+
+use endline_gear::{Prior, StudyOption};
+
+use crate::study::open::Opened;
+use crate::study::stats::{ClaimFinding, Findings, InputFinding};
+
+use super::cell::{Cell, Line, Table};
+use super::words::{points, rate};
+
+/// Claims and whether their sign holds; `None` where the study makes none.
+pub(super) fn claims(findings: &Findings) -> Option<Table> {
+    let row = |claim: &ClaimFinding| {
+        let says = vec![Line::Plain(claim.says.clone()), Line::Small(claim.source.clone())];
+        vec![
+            Cell { lines: says },
+            Cell::lines([claim.more.clone(), rate(&claim.more_rate)]),
+            Cell::lines([claim.less.clone(), rate(&claim.less_rate)]),
+            points(claim.difference, claim.interval).into(),
+            claim.verdict.words().into(),
+        ]
+    };
+    let headings = ["claim", "should be more", "should be less", "difference", "result"];
+    let rows: Vec<Vec<Cell>> = findings.claims.iter().map(row).collect();
+    (!rows.is_empty()).then(|| Table::new("Whether the sign holds", &headings, rows))
+}
+
+/// Rates by parts of each input.
+pub(super) fn sensitivity(findings: &Findings) -> Table {
+    let row = |input: &InputFinding| {
+        let parts = input.parts.iter().map(|part| format!("{}: {}", part.name, rate(&part.rate)));
+        let best =
+            if input.same_best { "one option has or shares it in every part" } else { "changes" };
+        vec![Cell::from(&input.words), Cell::lines(parts), best.into()]
+    };
+    Table::new(
+        "Sensitivity and rank",
+        &["input", "rate by part", "option with the lowest rate"],
+        findings.inputs.iter().map(row).collect(),
+    )
+}
+
+/// How encounters are drawn.
+pub(super) fn priors(opened: &Opened) -> Table {
+    let row = |prior: &Prior| {
+        let tag = Cell { lines: vec![Line::Tag(prior.basis.word())] };
+        vec![prior.words().into(), prior.law.words().into(), tag, Cell::from(&prior.source)]
+    };
+    Table::new(
+        "How encounters are drawn",
+        &["quantity", "distribution", "confidence", "source"],
+        opened.study.priors.iter().map(row).collect(),
+    )
+}
+
+/// What each option sets in the baseline scenario.
+pub(super) fn settings(opened: &Opened) -> Table {
+    let row = |option: &StudyOption| {
+        let set = option.settings.iter().map(|setting| {
+            Line::Code(format!("{} = {}", setting.field.value, setting.value.written()))
+        });
+        vec![Cell::from(&option.name), Cell { lines: set.collect() }]
+    };
+    Table::new(
+        "Options as differences from the baseline",
+        &["option", "what is set"],
+        opened.study.options.iter().map(row).collect(),
+    )
+}

@@ -1,0 +1,153 @@
+//! The report as one HTML file, its figures inside: the data of `assets/report/study.html`.
+
+use askama::Template;
+
+use crate::study::open::Opened;
+use crate::study::stats::Findings;
+
+use super::cell::{Line, Table};
+use super::words::event_words;
+use super::{bundle, changed, curves, figures, inputs, results};
+
+/// Look of the page.
+const STYLE: &str =
+    include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/report/report.css"));
+
+/// All that the page shows. The template escapes texts; `style` and fields that end in `figure` are markup.
+#[derive(Template)]
+#[template(path = "study.html")]
+struct Page<'a> {
+    style: &'static str,
+    id: &'a str,
+    name: &'a str,
+    notes: &'a str,
+    scenario: &'a str,
+    baseline: &'a str,
+    counts: Counts,
+    rates: Table,
+    rates_figure: String,
+    compared: Vec<Table>,
+    forest_figure: String,
+    forest_caption: String,
+    changes: Option<Table>,
+    tensions: Table,
+    tensions_figure: String,
+    break_away_figure: Option<String>,
+    regions: Table,
+    claims: Option<Table>,
+    sensitivity: Option<Sensitivity>,
+    priors: Table,
+    settings: Table,
+    again: Again<'a>,
+}
+
+/// How many encounters and runs there are.
+struct Counts {
+    options: usize,
+    encounters: u64,
+    runs: u64,
+    invalid: u64,
+    undecided: u64,
+}
+
+/// What the result depends on.
+struct Sensitivity {
+    figure: String,
+    caption: String,
+    table: Table,
+}
+
+/// What reproduces the report.
+struct Again<'a> {
+    version: &'static str,
+    commands: &'static str,
+    hash: &'a str,
+    seed: u64,
+    plugins: String,
+}
+
+/// The page as HTML.
+///
+/// # Errors
+/// Where the template cannot be filled in.
+pub(super) fn html(opened: &Opened, findings: &Findings) -> Result<String, askama::Error> {
+    Page::of(opened, findings).render()
+}
+
+impl<'a> Page<'a> {
+    fn of(opened: &'a Opened, findings: &'a Findings) -> Self {
+        let study = &opened.study;
+        Self {
+            style: STYLE,
+            id: &study.id,
+            name: &study.name,
+            notes: &study.notes,
+            scenario: &study.scenario.value,
+            baseline: &opened.options[opened.baseline].name,
+            counts: Counts::of(findings),
+            rates: results::rates(findings),
+            rates_figure: figures::rates(findings),
+            compared: results::compared(findings),
+            forest_figure: figures::forest(findings),
+            forest_caption: forest_caption(findings),
+            changes: changed::table(findings),
+            tensions: results::tensions(findings),
+            tensions_figure: curves::tensions(findings),
+            break_away_figure: curves::break_away(findings),
+            regions: results::regions(findings),
+            claims: inputs::claims(findings),
+            sensitivity: sensitivity(findings),
+            priors: inputs::priors(opened),
+            settings: inputs::settings(opened),
+            again: Again::of(opened, findings),
+        }
+    }
+}
+
+impl Counts {
+    fn of(findings: &Findings) -> Self {
+        let options = &findings.options;
+        Self {
+            options: options.len(),
+            encounters: findings.encounters,
+            runs: findings.encounters * options.len() as u64,
+            invalid: options.iter().map(|option| option.invalid).sum(),
+            undecided: options.iter().map(|option| option.undecided).sum(),
+        }
+    }
+}
+
+impl<'a> Again<'a> {
+    fn of(opened: &Opened, findings: &'a Findings) -> Self {
+        let plugins = opened.options[opened.baseline].prepared.plugins.iter();
+        let plugins: Vec<String> =
+            plugins.map(|plugin| format!("{} {}", plugin.id, plugin.version)).collect();
+        Self {
+            version: crate::VERSION,
+            commands: bundle::COMMANDS,
+            hash: &findings.hash,
+            seed: opened.study.seed,
+            plugins: plugins.join(", "),
+        }
+    }
+}
+
+fn forest_caption(findings: &Findings) -> String {
+    format!(
+        "Rate of \"{}\" less that of the baseline, in percentage points, on the same encounters. \
+         Left of the line: fewer than with the baseline.",
+        event_words(&findings.event)
+    )
+}
+
+/// `None` where no input has parts to compare.
+fn sensitivity(findings: &Findings) -> Option<Sensitivity> {
+    let caption = format!(
+        "Rate of \"{}\" with the baseline, by the lower and upper half of each input or by its levels. \
+         The words at a bar's ends name the parts with the least and the greatest rate. \
+         The result depends much on an input with a wide bar.",
+        event_words(&findings.event)
+    );
+    let figure = figures::tornado(findings)?;
+    Some(Sensitivity { figure, caption, table: inputs::sensitivity(findings) })
+}

@@ -1,0 +1,118 @@
+//! The tables of what was found: rates, comparisons, tensions, places on the whale.
+
+use endline_gear::Event;
+
+use crate::study::stats::{Findings, LevelFinding, OptionFinding};
+
+use super::cell::{Cell, Table};
+use super::words::{event_words, force, points, rate, ratio, short_rate};
+
+/// Rates of every event that concerns the whole whale.
+pub(super) fn rates(findings: &Findings) -> Table {
+    let events = Event::of_the_whole();
+    let words: Vec<String> = events.iter().map(Event::words).collect();
+    let headings: Vec<&str> =
+        ["option", "invalid runs"].into_iter().chain(words.iter().map(String::as_str)).collect();
+    let row = |option: &OptionFinding| {
+        let mut row = vec![Cell::from(&option.name), option.invalid.to_string().into()];
+        row.extend(
+            events
+                .iter()
+                .map(|event| option.rate(&event.name()).map_or_else(String::new, rate).into()),
+        );
+        row
+    };
+    let rows = findings.options.iter().map(row).collect();
+    Table::new("Rates given an encounter", &headings, rows)
+}
+
+/// The study's event against the baseline: over all encounters, then level by level.
+pub(super) fn compared(findings: &Findings) -> Vec<Table> {
+    let event = event_words(&findings.event);
+    let levels = findings.levels.iter().map(|level| of_level(findings, level, &event));
+    std::iter::once(against(findings, &event)).chain(levels).collect()
+}
+
+fn against(findings: &Findings, event: &str) -> Table {
+    let headings = [
+        "option",
+        "difference",
+        "ratio of rates",
+        "probability of fewer",
+        "only with the option, only with the baseline",
+        "McNemar test, p",
+        "share of resamples in which its rate is lowest",
+    ];
+    let row = |option: &OptionFinding| -> Option<Vec<Cell>> {
+        let paired = option.against(&findings.event)?;
+        Some(vec![
+            Cell::from(&option.name),
+            points(paired.difference, paired.difference_interval).into(),
+            ratio(paired.ratio, paired.ratio_interval).into(),
+            format!("{:.3}", paired.fewer).into(),
+            format!("{} and {} of {}", paired.only_this, paired.only_other, paired.encounters)
+                .into(),
+            format!("{:.3}", paired.mcnemar).into(),
+            format!("{:.0} %", 100.0 * option.best_share).into(),
+        ])
+    };
+    let rows = findings.others().filter_map(row).collect();
+    Table::new(format!("\"{event}\" against the baseline, on the same encounters"), &headings, rows)
+}
+
+fn of_level(findings: &Findings, level: &LevelFinding, event: &str) -> Table {
+    let row = |(index, option): (usize, &OptionFinding)| {
+        let paired = &level.against[index];
+        vec![
+            Cell::from(&option.name),
+            rate(&level.rates[index]).into(),
+            points(paired.difference, paired.difference_interval).into(),
+            rate(&level.parted[index]).into(),
+        ]
+    };
+    let rows = findings.options.iter().enumerate().map(row).collect();
+    let headings = ["option", event, "difference", "something parted"];
+    Table::new(format!("Encounters with {}", level.level), &headings, rows)
+}
+
+/// Quantiles of the greatest tension of a run.
+pub(super) fn tensions(findings: &Findings) -> Table {
+    let row = |option: &OptionFinding| {
+        let own = &option.tensions;
+        let at = |share| Cell::from(own.quantile_n(share).map_or_else(|| "none".into(), force));
+        let difference = match (own.median_difference_n, own.median_difference_interval_n) {
+            (Some(difference), Some(interval)) => {
+                format!("{difference:+.1} N [{:.1},\u{a0}{:.1}]", interval.low, interval.high)
+            }
+            _ => "none".into(),
+        };
+        vec![Cell::from(&option.name), at(0.05), at(0.5), at(0.95), at(1.0), difference.into()]
+    };
+    let headings = [
+        "option",
+        "5th percentile",
+        "median",
+        "95th percentile",
+        "greatest",
+        "median of differences from the baseline",
+    ];
+    Table::new("Greatest tension of a run", &headings, findings.options.iter().map(row).collect())
+}
+
+/// Where rope touched, and where it went round by half a turn.
+pub(super) fn regions(findings: &Findings) -> Table {
+    let places = Event::places();
+    let row = |option: &OptionFinding| {
+        let one = |event: String| option.rate(&event).map_or_else(String::new, short_rate);
+        let cell = |place: &&str| {
+            Cell::lines([one(format!("contact_{place}")), one(format!("wrap_{place}"))])
+        };
+        [Cell::from(&option.name)].into_iter().chain(places.iter().map(cell)).collect()
+    };
+    let headings: Vec<&str> = ["option"].into_iter().chain(places.iter().copied()).collect();
+    Table::new(
+        "Upper line: rope touched the part. Lower line: at least half a turn lay about it at some time",
+        &headings,
+        findings.options.iter().map(row).collect(),
+    )
+}
