@@ -11,6 +11,8 @@
 //! | [`rest`] | one assembly alone at rest, while it is edited |
 //! | [`cases`] | validation cases run and judged |
 //! | [`check`] | every problem of what a user names |
+//! | [`edit`] | open texts with undo, their problems, recovery after a crash |
+//! | [`units`] | display units and number formatting |
 //! | [`live`] | a run on a thread of its own, for the workbench |
 //! | [`plugins`] | plugins found, checked and loaded |
 //! | [`locate`] | where the gear library of a scenario is |
@@ -19,6 +21,7 @@
 
 pub mod cases;
 pub mod check;
+pub mod edit;
 pub mod error;
 pub mod hash;
 mod hooks;
@@ -34,6 +37,7 @@ pub mod settled;
 pub mod source;
 pub mod study;
 pub mod timing;
+pub mod units;
 
 /// Version of Endline and, after the plus sign, the mark of the code that decides what a run is (`build.rs`): the bits of a
 /// run are promised for one mark.

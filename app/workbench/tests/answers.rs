@@ -117,9 +117,9 @@ fn what_steers_reaches_the_run_in_the_frame_of_its_key() {
 #[test]
 fn a_moment_asked_for_on_the_transport_bar_shows_with_the_frame_after_the_press() {
     let folder = Folder::new("answers-seek");
-    let mut book = folder.book_with("hello-endline");
+    let mut documents = folder.book_with("hello-endline");
     for (field, value) in [("duration", "1 s"), ("rope_nodes", "40")] {
-        book.set("scenario", field, value).unwrap();
+        documents.set("scenario", field, value).unwrap();
     }
     let woken = Arc::new(AtomicBool::new(false));
     let ring = Arc::clone(&woken);
@@ -131,7 +131,7 @@ fn a_moment_asked_for_on_the_transport_bar_shows_with_the_frame_after_the_press(
         });
         engine::live()(prepared, host, both)
     });
-    let mut window = opened_with(book, linked(), launch, Pilot::default());
+    let mut window = opened_with(documents, linked(), launch, Pilot::default());
     wait(&mut window, |app| app.desk.status() == Some(&Status::Paused));
     window.state_mut().desk.obey(&Order::Speed(f64::INFINITY));
     window.state_mut().desk.obey(&Order::Start);

@@ -4,61 +4,62 @@
 
 mod common;
 
+use endline_session::edit::Documents;
+
 use common::{Folder, linked, on_disk, opened_with, wait, workbench};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_gear::Kind;
 use endline_workbench::gui::app::App;
-use endline_workbench::gui::book::Book;
 use endline_workbench::gui::desk::Order;
 use endline_workbench::gui::engine;
 use endline_workbench::gui::exchange::{import, to_csv};
 use endline_workbench::gui::layout::Panel;
 use endline_workbench::input::Pilot;
 
-fn paths(book: &Book) -> Vec<String> {
-    book.files("ropes").map(str::to_owned).collect()
+fn paths(documents: &Documents) -> Vec<String> {
+    documents.files("ropes").map(str::to_owned).collect()
 }
 
 #[test]
 fn a_table_written_and_taken_in_again_changes_nothing() {
     let folder = Folder::new("csv-same");
-    let mut book = folder.book();
-    let csv = to_csv(&book, Kind::Rope, &paths(&book));
+    let mut documents = folder.documents();
+    let csv = to_csv(&documents, Kind::Rope, &paths(&documents));
     assert!(csv.lines().count() >= 20 && csv.contains("\"2,700 lbf\""), "{csv}");
-    let taken = import(&mut book, Kind::Rope, &csv).unwrap();
+    let taken = import(&mut documents, Kind::Rope, &csv).unwrap();
     assert_eq!((taken.changed, taken.added, taken.left_out.len()), (0, 0, 0), "{taken:?}");
-    assert!(book.unsaved().is_empty());
+    assert!(documents.unsaved().is_empty());
 }
 
 #[test]
 fn a_table_changes_adds_and_says_what_it_left_out_and_one_undo_takes_it_back() {
     let folder = Folder::new("csv-in");
-    let mut book = folder.book();
-    let before = to_csv(&book, Kind::Rope, &paths(&book));
+    let mut documents = folder.documents();
+    let before = to_csv(&documents, Kind::Rope, &paths(&documents));
     let table = "id,Name,Diameter,Strength,Colour\nsink-3-8,,,\"2,650 lbf\",red\nmill-7,Mill 7,3/8 in,\"1,700 lbf\",\n,,1 in,,\n";
-    let taken = import(&mut book, Kind::Rope, table).unwrap();
+    let taken = import(&mut documents, Kind::Rope, table).unwrap();
     assert_eq!((taken.changed, taken.added), (1, 1));
     assert!(
         taken.left_out[0].contains("Colour") && taken.left_out[1].contains("row 4"),
         "{taken:?}"
     );
-    assert_eq!(book.field("ropes/sink-3-8.toml", "strength").as_deref(), Some("2,650 lbf"));
-    assert_eq!(book.field("ropes/mill-7.toml", "diameter").as_deref(), Some("3/8 in"));
+    assert_eq!(documents.field("ropes/sink-3-8.toml", "strength").as_deref(), Some("2,650 lbf"));
+    assert_eq!(documents.field("ropes/mill-7.toml", "diameter").as_deref(), Some("3/8 in"));
     assert!(
-        book.text("ropes/sink-3-8.toml").unwrap().contains("# Hydrodynamic coefficients"),
+        documents.text("ropes/sink-3-8.toml").unwrap().contains("# Hydrodynamic coefficients"),
         "comments stay"
     );
-    let missing = book
+    let missing = documents
         .problems()
         .iter()
         .filter(|problem| problem.file == "ropes/mill-7.toml" && problem.is_error())
         .count();
     assert!(missing > 3, "figures the table lacks are told: {missing}");
-    assert!(book.undo());
-    assert_eq!(to_csv(&book, Kind::Rope, &paths(&book)), before);
+    assert!(documents.undo());
+    assert_eq!(to_csv(&documents, Kind::Rope, &paths(&documents)), before);
     assert!(
-        import(&mut book, Kind::Rope, "one,two\n1,2\n").is_err(),
+        import(&mut documents, Kind::Rope, "one,two\n1,2\n").is_err(),
         "a table without a head is refused"
     );
 }
@@ -68,7 +69,7 @@ fn cells_pasted_from_a_spreadsheet_spread_from_the_cell_typed_in() {
     let folder = Folder::new("paste");
     let (mut harness, _) = workbench(&folder, Pilot::default());
     let file = |harness: &Harness<'static, App>, path: &str, key: &str| {
-        harness.state().desk.book.field(path, key).unwrap()
+        harness.state().desk.documents.field(path, key).unwrap()
     };
     harness.state_mut().desk.library.search = "polypropylene 5/16".into();
     harness.run_steps(2);
@@ -135,7 +136,7 @@ fn gear_is_settled_at_slack_and_running_tide_as_its_scope_is_moved() {
         harness
             .state_mut()
             .desk
-            .book
+            .documents
             .set_held("assemblies/single.toml", "attributes.scope", scope)
             .unwrap();
     }
@@ -143,7 +144,7 @@ fn gear_is_settled_at_slack_and_running_tide_as_its_scope_is_moved() {
     wait(&mut harness, |app| app.desk.assembly.settled());
     assert!((length(&harness) - 2.0 * 25.0).abs() < 0.1, "{}", length(&harness));
     harness.state_mut().desk.obey(&Order::Undo);
-    let scope = harness.state().desk.book.field("assemblies/single.toml", "attributes.scope");
+    let scope = harness.state().desk.documents.field("assemblies/single.toml", "attributes.scope");
     assert_eq!(scope.as_deref(), Some("1.3"), "the whole way of the slider is one edit");
 }
 
@@ -195,7 +196,7 @@ fn a_line_is_split_with_a_splice_and_the_gear_still_settles() {
     wait(&mut harness, |app| app.desk.assembly.settled());
     assert_eq!(lines(&harness), before + 1);
     let field = |harness: &Harness<'static, App>, field: &str| {
-        harness.state().desk.book.field("assemblies/massachusetts-single.toml", field).unwrap()
+        harness.state().desk.documents.field("assemblies/massachusetts-single.toml", field).unwrap()
     };
     assert_eq!(
         (field(&harness, "line.0.length"), field(&harness, "line.2.length")),
@@ -232,28 +233,29 @@ fn two_gears_are_compared_and_a_gear_type_is_a_starting_point() {
         desk.assembly.answers()[0].unwrap().as_ref().err()
     );
     assert!(
-        desk.book.unsaved().iter().any(|path| path.starts_with("assemblies/my-")),
+        desk.documents.unsaved().iter().any(|path| path.starts_with("assemblies/my-")),
         "{:?}",
-        desk.book.unsaved()
+        desk.documents.unsaved()
     );
 }
 
 #[test]
 fn a_fraction_no_rule_has_is_told_at_its_place_with_the_nearest_size() {
     let folder = Folder::new("fraction");
-    let mut book = folder.book();
+    let mut documents = folder.documents();
     // The 2012 report's impossible size.
-    book.set("ropes/sink-3-8.toml", "diameter", "5/17 in").unwrap();
-    let problem = book.problem_at("ropes/sink-3-8.toml", "diameter").unwrap();
+    documents.set("ropes/sink-3-8.toml", "diameter", "5/17 in").unwrap();
+    let problem = documents.problem_at("ropes/sink-3-8.toml", "diameter").unwrap();
     assert!(
         problem.is_error() && problem.line > 0 && problem.message.contains("5/17 in"),
         "{problem}"
     );
     assert!(problem.help.contains("the nearest is 5/16 in"), "{problem}");
     for size in ["5/16 in", "1 1/2 in", "11/64 in", "0.3 in", "8 mm"] {
-        book.set("ropes/sink-3-8.toml", "diameter", size).unwrap();
+        documents.set("ropes/sink-3-8.toml", "diameter", size).unwrap();
         assert!(
-            book.problem_at("ropes/sink-3-8.toml", "diameter")
+            documents
+                .problem_at("ropes/sink-3-8.toml", "diameter")
                 .is_none_or(|problem| !problem.message.contains("no size")),
             "{size}"
         );
@@ -268,10 +270,10 @@ fn whales_have_a_table_and_every_figure_tells_how_sure_it_is_and_whence() {
     harness.run_steps(2);
     harness.get_by_label("Whales").click();
     harness.run_steps(2);
-    let whale = harness.state().desk.book.files("whales").next().unwrap().to_owned();
+    let whale = harness.state().desk.documents.files("whales").next().unwrap().to_owned();
     harness.state_mut().desk.library.chosen = Some(whale.clone());
     harness.run_steps(3);
-    let library = harness.state().desk.book.library().clone();
+    let library = harness.state().desk.documents.library().clone();
     let entry = library
         .entry(Kind::Whale, whale.trim_start_matches("whales/").trim_end_matches(".toml"))
         .unwrap();
@@ -294,7 +296,7 @@ fn gear_is_chosen_by_its_picture() {
     harness.run_steps(2);
     harness.get_by_label("Pictures").click();
     harness.run_steps(3);
-    let name = harness.state().desk.book.field("assemblies/single.toml", "name").unwrap();
+    let name = harness.state().desk.documents.field("assemblies/single.toml", "name").unwrap();
     harness.get_all_by_label(&name).last().unwrap().click();
     harness.run_steps(3);
     assert_eq!(harness.state().desk.assembly.shown.as_deref(), Some("single"));

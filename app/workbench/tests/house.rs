@@ -6,6 +6,9 @@ mod common;
 
 use std::sync::Arc;
 
+use endline_session::edit::recovery::{Autosave, EVERY_S};
+use endline_session::units::Units;
+
 use common::{Folder, flown, wait, workbench};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
@@ -15,8 +18,6 @@ use endline_workbench::gui::charts::{Chart, Kind};
 use endline_workbench::gui::desk::Order;
 use endline_workbench::gui::layout::{self, Layout, Panel};
 use endline_workbench::gui::palette::orders;
-use endline_workbench::gui::recovery::{EVERY_S, Keeper};
-use endline_workbench::gui::units::Units;
 use endline_workbench::input::{PadButton, PadEvent, Pilot, Pressed, ScriptedPad};
 
 #[test]
@@ -74,7 +75,7 @@ fn edits_of_a_program_that_was_killed_are_offered_back_and_undone_as_one() {
     let data = folder.0.join("data");
     std::fs::create_dir_all(&data).unwrap();
     let (mut harness, _) = workbench(&folder, Pilot::default());
-    harness.state_mut().desk.keeper = Keeper::in_folder(data.clone());
+    harness.state_mut().desk.autosave = Autosave::in_folder(data.clone());
     harness.state_mut().desk.set("ropes/sink-3-8.toml", "strength", "2,600 lbf");
     harness.state_mut().desk.set("ropes/nylon-1-2.toml", "strength", "25 kN");
     let kept = data.join(format!("recovery-{}.json", std::process::id()));
@@ -88,14 +89,14 @@ fn edits_of_a_program_that_was_killed_are_offered_back_and_undone_as_one() {
     std::fs::rename(kept, data.join("recovery-4294967295.json")).unwrap();
 
     let (mut harness, _) = workbench(&folder, Pilot::default());
-    harness.state_mut().desk.keeper = Keeper::in_folder(data.clone());
-    harness.state_mut().left_behind = Keeper::in_folder(data.clone()).left_behind();
+    harness.state_mut().desk.autosave = Autosave::in_folder(data.clone());
+    harness.state_mut().left_behind = Autosave::in_folder(data.clone()).left_behind();
     harness.run_steps(3);
     assert!(harness.query_by_label_contains("Unsaved edits of 2 files").is_some());
     harness.get_by_label("Recover").click();
     harness.run_steps(3);
     let strength = |harness: &Harness<'static, App>, path: &str| {
-        harness.state().desk.book.field(path, "strength").unwrap()
+        harness.state().desk.documents.field(path, "strength").unwrap()
     };
     assert_eq!(strength(&harness, "ropes/sink-3-8.toml"), "2,600 lbf");
     assert_eq!(strength(&harness, "ropes/nylon-1-2.toml"), "25 kN");
@@ -104,7 +105,7 @@ fn edits_of_a_program_that_was_killed_are_offered_back_and_undone_as_one() {
             && !data.join("recovery-4294967295.json").exists()
     );
     harness.state_mut().desk.obey(&Order::Undo);
-    assert!(harness.state().desk.book.unsaved().is_empty(), "one undo takes all of it back");
+    assert!(harness.state().desk.documents.unsaved().is_empty(), "one undo takes all of it back");
 }
 
 #[test]

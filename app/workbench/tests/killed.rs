@@ -10,10 +10,11 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
+use endline_session::edit::Documents;
+use endline_session::edit::recovery::{Autosave, UnsavedEdits};
+
 use common::Folder;
 use endline_gear::Document;
-use endline_workbench::gui::book::Book;
-use endline_workbench::gui::recovery::{Keeper, Kept};
 
 /// Seconds of the script for each real one: what takes half a minute at the desk takes a second and a half here.
 const HASTE: f64 = 20.0;
@@ -42,9 +43,10 @@ fn small_library(folder: &Folder, root: &Path) {
 
 /// The script: an edit, now and then saved, kept as the window keeps them; each told in a log before it is made.
 fn edit_until_killed(root: &Path) {
-    let mut book = Book::open(root, &root.join("scenarios/reference-a-pendulum.toml")).unwrap();
+    let mut documents =
+        Documents::open(root, &root.join("scenarios/reference-a-pendulum.toml")).unwrap();
     // A folder that is not there yet, as on a new user's first day.
-    let mut keeper = Keeper::in_folder(root.join("data"));
+    let mut autosave = Autosave::in_folder(root.join("data"));
     let mut log =
         std::fs::OpenOptions::new().append(true).create(true).open(root.join("log")).unwrap();
     let start = Instant::now();
@@ -52,10 +54,10 @@ fn edit_until_killed(root: &Path) {
     for edit in first.. {
         let file = FILES[edit % 2];
         writeln!(log, "{edit} {:.3}", start.elapsed().as_secs_f64() * HASTE).unwrap();
-        book.set(file, FIELD, &format!("{} lbf", 1000 + edit)).unwrap();
-        keeper.keep(&book, start.elapsed().as_secs_f64() * HASTE);
+        documents.set(file, FIELD, &format!("{} lbf", 1000 + edit)).unwrap();
+        autosave.keep(&documents, start.elapsed().as_secs_f64() * HASTE);
         if edit % 150 == 149 {
-            book.save().unwrap();
+            documents.save().unwrap();
         }
         std::thread::sleep(Duration::from_millis(15));
     }
@@ -98,7 +100,7 @@ fn kill_one(root: &Path, after: Duration) -> String {
     child.kill().unwrap();
     child.wait().unwrap();
     let wrong = looked_at(root, before);
-    for (file, _) in Keeper::in_folder(root.join("data")).left_behind() {
+    for (file, _) in Autosave::in_folder(root.join("data")).left_behind() {
         std::fs::remove_file(file).unwrap();
     }
     wrong
@@ -110,8 +112,8 @@ fn looked_at(root: &Path, first: usize) -> String {
     let log = std::fs::read_to_string(root.join("log")).unwrap();
     let times: Vec<f64> =
         log.lines().skip(first).filter_map(|line| line.split_once(' ')?.1.parse().ok()).collect();
-    let left = Keeper::in_folder(root.join("data")).left_behind();
-    let offered: Option<&Kept> = left.first().map(|(_, kept)| kept);
+    let left = Autosave::in_folder(root.join("data")).left_behind();
+    let offered: Option<&UnsavedEdits> = left.first().map(|(_, kept)| kept);
     let mut newest = None;
     for file in FILES {
         let text = std::fs::read_to_string(root.join(file)).unwrap();
@@ -128,7 +130,7 @@ fn looked_at(root: &Path, first: usize) -> String {
     if lost_s > LOST_S {
         let _ = writeln!(wrong, "edits of {lost_s:.1} s are lost, of {:?} s", times.last());
     }
-    if Book::open(root, &root.join("scenarios/reference-a-pendulum.toml")).is_err() {
+    if Documents::open(root, &root.join("scenarios/reference-a-pendulum.toml")).is_err() {
         let _ = writeln!(wrong, "the library does not open");
     }
     wrong
@@ -181,13 +183,14 @@ fn edits_kept_by_a_killed_program_come_back_whole() {
     }
     child.kill().unwrap();
     child.wait().unwrap();
-    let left = Keeper::in_folder(root.join("data")).left_behind();
+    let left = Autosave::in_folder(root.join("data")).left_behind();
     let (_, offered) = left.first().expect("the edits are offered");
-    let mut book = Book::open(&offered.root, &offered.scenario).unwrap();
-    book.restore(offered.texts.iter().map(|(path, text)| (path.clone(), text.clone())).collect());
+    let mut documents = Documents::open(&offered.root, &offered.scenario).unwrap();
+    documents
+        .restore(offered.texts.iter().map(|(path, text)| (path.clone(), text.clone())).collect());
     assert!(
-        FILES.iter().any(|file| offered.texts.contains_key(*file) && book.is_unsaved(file)),
+        FILES.iter().any(|file| offered.texts.contains_key(*file) && documents.is_unsaved(file)),
         "they are unsaved edits again"
     );
-    assert!(book.undo() && book.unsaved().is_empty(), "one undo takes them back");
+    assert!(documents.undo() && documents.unsaved().is_empty(), "one undo takes them back");
 }

@@ -6,13 +6,14 @@ mod common;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use endline_session::edit::Documents;
+
 use common::{Folder, linked, opened_with, wait};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_gear::{Document, Setting};
 use endline_session::plugins::{Choices, Language, Loader, PluginKind, Standing, write_project};
 use endline_workbench::gui::app::App;
-use endline_workbench::gui::book::Book;
 use endline_workbench::gui::desk::Order;
 use endline_workbench::gui::layout::Panel;
 use endline_workbench::gui::plugins::{Load, Plugins};
@@ -139,43 +140,46 @@ fn a_law_of_friction_is_put_into_the_scenario_and_its_attributes_are_a_form() {
     harness
         .state_mut()
         .desk
-        .book
-        .set(Book::SCENARIO, "friction.model", "org.example.friction.other")
+        .documents
+        .set(Documents::SCENARIO, "friction.model", "org.example.friction.other")
         .unwrap();
     let other = |scenario: &mut Document| {
         scenario
             .put("friction.attributes.slip", &Setting::text("0.1 m"))
             .map_err(|error| error.to_string())
     };
-    harness.state_mut().desk.book.alter(Book::SCENARIO, other).unwrap();
+    harness.state_mut().desk.documents.alter(Documents::SCENARIO, other).unwrap();
     harness.state_mut().desk.plugins.chosen = Some(id.to_owned());
     harness.run_steps(2);
     harness.get_by_label("Use in this scenario").click();
     harness.run_steps(3);
-    let book = &harness.state().desk.book;
-    assert_eq!(book.field(Book::SCENARIO, "friction.model").as_deref(), Some(id));
+    let documents = &harness.state().desk.documents;
+    assert_eq!(documents.field(Documents::SCENARIO, "friction.model").as_deref(), Some(id));
     assert_eq!(
-        book.field(Book::SCENARIO, "friction.attributes.slip"),
+        documents.field(Documents::SCENARIO, "friction.attributes.slip"),
         None,
         "those of the other law are gone"
     );
     assert!(harness.query_by_label("In this scenario").is_some());
 
     // A value typed into the form makes the table of attributes that is not there.
-    let field = fields::edit_id(Book::SCENARIO, "friction.attributes.coefficient_scale");
+    let field = fields::edit_id(Documents::SCENARIO, "friction.attributes.coefficient_scale");
     harness.ctx.memory_mut(|memory| memory.request_focus(field));
     harness.run_steps(2);
     harness.event(egui::Event::Text("1.5".to_owned()));
     harness.run_steps(1);
     harness.key_press(egui::Key::Enter);
     harness.run_steps(3);
-    let scale =
-        harness.state().desk.book.field(Book::SCENARIO, "friction.attributes.coefficient_scale");
+    let scale = harness
+        .state()
+        .desk
+        .documents
+        .field(Documents::SCENARIO, "friction.attributes.coefficient_scale");
     assert_eq!(scale.as_deref(), Some("1.5"));
     harness.state_mut().desk.obey(&Order::Undo);
     harness.state_mut().desk.obey(&Order::Undo);
     assert_eq!(
-        harness.state().desk.book.field(Book::SCENARIO, "friction.model").as_deref(),
+        harness.state().desk.documents.field(Documents::SCENARIO, "friction.model").as_deref(),
         Some("org.example.friction.other")
     );
 }

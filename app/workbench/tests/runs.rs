@@ -6,18 +6,19 @@ mod common;
 
 use std::sync::Arc;
 
+use endline_session::edit::Documents;
+use endline_session::edit::pilot_program::entries;
+use endline_session::units::Units;
+
 use common::{Folder, drag, flown, wait};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_session::live::{LiveView, Status};
 use endline_workbench::gui::app::App;
-use endline_workbench::gui::book::Book;
 use endline_workbench::gui::charts::{Chart, Kind, Style};
 use endline_workbench::gui::compare::groups;
 use endline_workbench::gui::desk::Order;
 use endline_workbench::gui::layout::Panel;
-use endline_workbench::gui::program::entries;
-use endline_workbench::gui::units::Units;
 
 fn view(harness: &Harness<'static, App>) -> Arc<LiveView> {
     harness.state().desk.view.clone().unwrap()
@@ -61,11 +62,15 @@ fn the_inputs_of_a_run_are_edited_as_a_program_and_rerun_from_a_moment() {
     only(&mut harness, Panel::Program);
     harness.get_by_label("Edit inputs of this run").click();
     wait(&mut harness, |app| {
-        app.desk.book.text(Book::SCENARIO).is_some_and(|text| text.contains("# Flown"))
+        app.desk.documents.text(Documents::SCENARIO).is_some_and(|text| text.contains("# Flown"))
     });
-    let program = entries(&harness.state().desk.book);
+    let program = entries(&harness.state().desk.documents);
     assert!(!program.is_empty() && program[0].begin_s == Some(0.0), "{program:?}");
-    assert!(!harness.state().desk.book.any_error(), "{:?}", harness.state().desk.book.problems());
+    assert!(
+        !harness.state().desk.documents.any_error(),
+        "{:?}",
+        harness.state().desk.documents.problems()
+    );
 
     harness.get_by_label_contains("Rerun from").click();
     harness.run_steps(2);
@@ -83,26 +88,26 @@ fn the_inputs_of_a_run_are_edited_as_a_program_and_rerun_from_a_moment() {
     seek(&mut harness, 1.0);
     harness.state_mut().desk.obey(&Order::AddEntry);
     let added = harness.state().desk.program.chosen.unwrap();
-    let program = entries(&harness.state().desk.book);
+    let program = entries(&harness.state().desk.documents);
     assert!((program[added].begin_s.unwrap() - middle.frame.time_s).abs() < 1e-3, "{program:?}");
     let other = rerun(&mut harness);
     assert!(!same(&other, &end), "from there on the edited program steers");
     let before = seek(&mut harness, 1.0);
     assert!(same(&before, &middle), "up to there nothing has changed");
     harness.state_mut().desk.obey(&Order::DeleteEntry);
-    assert_eq!(entries(&harness.state().desk.book).len(), program.len() - 1);
+    assert_eq!(entries(&harness.state().desk.documents).len(), program.len() - 1);
 }
 
 #[test]
 fn a_bar_of_the_timeline_is_dragged_and_one_undo_takes_it_back() {
     let folder = Folder::new("timeline");
     let mut harness = flown(&folder);
-    harness.state_mut().desk.set(Book::SCENARIO, "duration", "20 s");
+    harness.state_mut().desk.set(Documents::SCENARIO, "duration", "20 s");
     only(&mut harness, Panel::Program);
     seek(&mut harness, 1.0);
     harness.get_by_label("Add entry").click();
     harness.run_steps(3);
-    let text = harness.state().desk.book.text(Book::SCENARIO).unwrap().to_owned();
+    let text = harness.state().desk.documents.text(Documents::SCENARIO).unwrap().to_owned();
     let chosen = harness.state().desk.program.chosen.unwrap();
     let rect = harness.get_by_label("Timeline").rect();
     // Names stand to the left of the tracks; speed is the first track, yaw, which the new entry tells, the second.
@@ -110,17 +115,19 @@ fn a_bar_of_the_timeline_is_dragged_and_one_undo_takes_it_back() {
     let x = |time_s: f32| left + width * time_s / 20.0;
     let y = rect.top() + 20.0 + 24.0 * 1.5;
     drag(&mut harness, egui::pos2(x(1.5), y), egui::pos2(x(6.5), y));
-    let moved = &entries(&harness.state().desk.book)[harness.state().desk.program.chosen.unwrap()];
+    let moved =
+        &entries(&harness.state().desk.documents)[harness.state().desk.program.chosen.unwrap()];
     assert!((moved.begin_s.unwrap() - 6.0).abs() < 0.11, "moved by five seconds: {moved:?}");
     assert_eq!(moved.hold_s, Some(2.0));
     drag(&mut harness, egui::pos2(x(8.0) - 2.0, y), egui::pos2(x(10.0) - 2.0, y));
-    let held = &entries(&harness.state().desk.book)[harness.state().desk.program.chosen.unwrap()];
+    let held =
+        &entries(&harness.state().desk.documents)[harness.state().desk.program.chosen.unwrap()];
     assert!((held.hold_s.unwrap() - 4.0).abs() < 0.21, "held two seconds longer: {held:?}");
     for _ in 0..2 {
         harness.state_mut().desk.obey(&Order::Undo);
     }
-    assert_eq!(harness.state().desk.book.text(Book::SCENARIO), Some(text.as_str()));
-    assert_eq!(entries(&harness.state().desk.book)[chosen].hold_s, Some(2.0));
+    assert_eq!(harness.state().desk.documents.text(Documents::SCENARIO), Some(text.as_str()));
+    assert_eq!(entries(&harness.state().desk.documents)[chosen].hold_s, Some(2.0));
 }
 
 #[test]
@@ -156,7 +163,7 @@ fn a_run_held_beside_itself_differs_in_nothing_and_beside_another_in_something()
     only(&mut harness, Panel::View);
     assert!(harness.query_by_label("Pane 1 of B").is_some(), "both are drawn");
 
-    harness.state_mut().desk.set(Book::SCENARIO, "whale.depth", "9 m");
+    harness.state_mut().desk.set(Documents::SCENARIO, "whale.depth", "9 m");
     harness.state_mut().desk.obey(&Order::Start);
     wait(&mut harness, |app| {
         app.desk.view.as_ref().is_some_and(|view| {

@@ -4,12 +4,13 @@
 
 mod common;
 
+use endline_session::edit::Documents;
+
 use common::{Folder, drag, linked, opened_with, retype, wait};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_session::live::Status;
 use endline_workbench::gui::app::App;
-use endline_workbench::gui::book::Book;
 use endline_workbench::gui::desk::Order;
 use endline_workbench::gui::engine;
 use endline_workbench::gui::layout::Panel;
@@ -32,7 +33,8 @@ fn settled(folder: &Folder, scenario: &str, panel: Panel) -> Harness<'static, Ap
 fn the_whale_is_dragged_to_where_it_starts_and_one_undo_brings_it_back() {
     let folder = Folder::new("pose");
     let mut harness = settled(&folder, "hello-endline", Panel::View);
-    let start = |harness: &Harness<'static, App>| Start::of(&harness.state().desk.book).unwrap();
+    let start =
+        |harness: &Harness<'static, App>| Start::of(&harness.state().desk.documents).unwrap();
     let before = start(&harness);
     harness.get_by_label("Start pose").click();
     harness.run_steps(3);
@@ -70,7 +72,7 @@ fn the_whale_is_dragged_to_where_it_starts_and_one_undo_brings_it_back() {
         harness.state_mut().desk.obey(&Order::Undo);
     }
     assert_eq!(start(&harness), before);
-    assert!(harness.state().desk.book.unsaved().is_empty());
+    assert!(harness.state().desk.documents.unsaved().is_empty());
 }
 
 #[test]
@@ -79,7 +81,7 @@ fn fields_choices_and_flags_of_the_panel_reach_the_text() {
     let mut harness = settled(&folder, "hello-endline", Panel::Scenario);
     retype(&mut harness, "12 m", "9 m");
     let field = |harness: &Harness<'static, App>, field: &str| {
-        harness.state().desk.book.field(Book::SCENARIO, field)
+        harness.state().desk.documents.field(Documents::SCENARIO, field)
     };
     assert_eq!(field(&harness, "whale.depth").as_deref(), Some("9 m"));
     harness.get_by_label("Ropes touch each other").scroll_to_me();
@@ -89,7 +91,11 @@ fn fields_choices_and_flags_of_the_panel_reach_the_text() {
     assert_eq!(field(&harness, "rope_on_rope").as_deref(), Some("true"));
     harness.state_mut().desk.obey(&Order::Undo);
     assert_eq!(field(&harness, "rope_on_rope"), None);
-    assert!(!harness.state().desk.book.any_error(), "{:?}", harness.state().desk.book.problems());
+    assert!(
+        !harness.state().desk.documents.any_error(),
+        "{:?}",
+        harness.state().desk.documents.problems()
+    );
     for head in ["SEA", "TIDE THAT TURNS", "WAVES", "WHALE", "FRICTION OF ROPE ON WHALE", "RUN"] {
         assert!(harness.query_by_label(head).is_some(), "{head} is on screen");
     }
@@ -133,15 +139,15 @@ fn wraps_of_a_whale_wound_in_rope_are_told_as_measured() {
 fn a_scenario_saved_as_another_leaves_the_first_as_it_was() {
     let folder = Folder::new("save-as");
     let mut harness = settled(&folder, "reference-a-pendulum", Panel::Scenario);
-    let first = harness.state().desk.book.scenario_path().to_owned();
+    let first = harness.state().desk.documents.scenario_path().to_owned();
     let before = std::fs::read_to_string(&first).unwrap();
-    harness.state_mut().desk.set(Book::SCENARIO, "duration", "7 s");
+    harness.state_mut().desk.set(Documents::SCENARIO, "duration", "7 s");
     let other = folder.0.join("scenarios/my-pendulum.toml");
     harness.state_mut().desk.obey(&Order::ScenarioAs(other.clone()));
     assert_eq!(std::fs::read_to_string(&first).unwrap(), before);
     assert!(std::fs::read_to_string(&other).unwrap().contains("7 s"));
     let desk = &harness.state().desk;
-    assert!(desk.book.scenario_path() == other && desk.book.unsaved().is_empty());
+    assert!(desk.documents.scenario_path() == other && desk.documents.unsaved().is_empty());
     assert_eq!(desk.preferences.recent.first(), Some(&other));
 }
 
@@ -149,9 +155,9 @@ fn a_scenario_saved_as_another_leaves_the_first_as_it_was() {
 fn weak_links_and_friction_are_changed_in_the_panel_comments_kept_and_taken_back() {
     let folder = Folder::new("links-friction");
     let mut harness = settled(&folder, "hello-weak-link", Panel::Scenario);
-    let before = harness.state().desk.book.text(Book::SCENARIO).unwrap().to_owned();
+    let before = harness.state().desk.documents.text(Documents::SCENARIO).unwrap().to_owned();
     let field = |harness: &Harness<'static, App>, field: &str| {
-        harness.state().desk.book.field(Book::SCENARIO, field)
+        harness.state().desk.documents.field(Documents::SCENARIO, field)
     };
     click(&mut harness, "Add a weak link ⏷");
     click(&mut harness, "at the foot of endline");
@@ -165,7 +171,11 @@ fn weak_links_and_friction_are_changed_in_the_panel_comments_kept_and_taken_back
         "what is wrong stands beside the field"
     );
     retype(&mut harness, "1,700 furlong", "1,700 lbf");
-    assert!(!harness.state().desk.book.any_error(), "{:?}", harness.state().desk.book.problems());
+    assert!(
+        !harness.state().desk.documents.any_error(),
+        "{:?}",
+        harness.state().desk.documents.problems()
+    );
     click(&mut harness, "Another law for … ⏷");
     click(&mut harness, "baleen");
     assert_eq!(field(&harness, "friction.on.0.surfaces.0").as_deref(), Some("baleen"));
@@ -173,8 +183,8 @@ fn weak_links_and_friction_are_changed_in_the_panel_comments_kept_and_taken_back
     harness
         .state_mut()
         .desk
-        .book
-        .alter(Book::SCENARIO, |text| {
+        .documents
+        .alter(Documents::SCENARIO, |text| {
             let value = endline_gear::Setting::plain("1.25");
             text.put("friction.attributes.coefficient_scale", &value)
                 .map_err(|error| error.to_string())
@@ -187,7 +197,7 @@ fn weak_links_and_friction_are_changed_in_the_panel_comments_kept_and_taken_back
     let wrong = harness
         .state()
         .desk
-        .problem_at(Book::SCENARIO, "friction.attributes.coefficient_scale")
+        .problem_at(Documents::SCENARIO, "friction.attributes.coefficient_scale")
         .unwrap();
     assert!(wrong.line > 0, "{wrong}");
     retype(&mut harness, "-3", "1.5");
@@ -195,43 +205,40 @@ fn weak_links_and_friction_are_changed_in_the_panel_comments_kept_and_taken_back
     wait(&mut harness, |app| !app.desk.making() && !app.desk.stale());
     let view = harness.state().desk.view.clone().unwrap();
     let ratings: Vec<f64> = view.model.spec.links.iter().map(|link| link.rating_n).collect();
-    assert!(
-        (ratings[1] - 1700.0 * endline_workbench::scene::N_PER_LBF).abs() < 1e-6,
-        "{ratings:?}"
-    );
-    let text = harness.state().desk.book.text(Book::SCENARIO).unwrap();
+    assert!((ratings[1] - 1700.0 * endline_session::units::N_PER_LBF).abs() < 1e-6, "{ratings:?}");
+    let text = harness.state().desk.documents.text(Documents::SCENARIO).unwrap();
     assert!(text.contains("# The snagged trap.") && text.contains("# A poly ball A-5."), "{text}");
-    while harness.state().desk.book.can_undo_redo().0 {
+    while harness.state().desk.documents.can_undo_redo().0 {
         harness.state_mut().desk.obey(&Order::Undo);
     }
-    assert_eq!(harness.state().desk.book.text(Book::SCENARIO), Some(before.as_str()));
+    assert_eq!(harness.state().desk.documents.text(Documents::SCENARIO), Some(before.as_str()));
 }
 
 #[test]
 fn another_scenario_is_opened_over_unsaved_edits_only_when_told_to() {
     let folder = Folder::new("opened-over");
     let mut harness = settled(&folder, "reference-a-pendulum", Panel::Scenario);
-    let first = harness.state().desk.book.scenario_path().to_owned();
+    let first = harness.state().desk.documents.scenario_path().to_owned();
     let other = folder.0.join("scenarios/hello-endline.toml");
-    harness.state_mut().desk.set(Book::SCENARIO, "duration", "7 s");
+    harness.state_mut().desk.set(Documents::SCENARIO, "duration", "7 s");
     for (answer, opened, on_disk) in [("Stay", &first, false), ("Save and open", &other, true)] {
         harness.state_mut().desk.orders.push(Order::Open(other.clone()));
         harness.run_steps(3);
-        assert_eq!(harness.state().desk.book.scenario_path(), first, "it asks first");
+        assert_eq!(harness.state().desk.documents.scenario_path(), first, "it asks first");
         click(&mut harness, answer);
-        assert_eq!(harness.state().desk.book.scenario_path(), opened, "{answer}");
+        assert_eq!(harness.state().desk.documents.scenario_path(), opened, "{answer}");
         assert_eq!(std::fs::read_to_string(&first).unwrap().contains("7 s"), on_disk, "{answer}");
     }
-    harness.state_mut().desk.set(Book::SCENARIO, "duration", "9 s");
+    harness.state_mut().desk.set(Documents::SCENARIO, "duration", "9 s");
     harness.state_mut().desk.orders.push(Order::Open(first.clone()));
     harness.run_steps(3);
     click(&mut harness, "Open without saving");
-    assert_eq!(harness.state().desk.book.scenario_path(), first);
+    assert_eq!(harness.state().desk.documents.scenario_path(), first);
     assert!(!std::fs::read_to_string(&other).unwrap().contains("9 s"));
     // With nothing to lose it does not ask.
     harness.state_mut().desk.orders.push(Order::Open(other.clone()));
     harness.run_steps(3);
-    assert_eq!(harness.state().desk.book.scenario_path(), other);
+    assert_eq!(harness.state().desk.documents.scenario_path(), other);
 }
 
 /// Clicks what has a label, scrolled to.

@@ -6,12 +6,13 @@ mod common;
 
 use std::sync::Arc;
 
+use endline_session::edit::Documents;
+
 use common::{Folder, linked, opened_with, retype};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_session::live::Status;
 use endline_workbench::gui::app::App;
-use endline_workbench::gui::book::Book;
 use endline_workbench::gui::desk::Order;
 use endline_workbench::gui::engine;
 use endline_workbench::gui::layout::{Layout, Panel};
@@ -67,7 +68,7 @@ fn studying(folder: &Folder) -> Harness<'static, App> {
     .unwrap();
     std::fs::create_dir_all(folder.0.join("studies")).unwrap();
     std::fs::write(folder.0.join("studies/small.toml"), STUDY).unwrap();
-    let mut harness = opened_with(folder.book(), linked(), engine::live(), Pilot::default());
+    let mut harness = opened_with(folder.documents(), linked(), engine::live(), Pilot::default());
     harness.state_mut().desk.studies.folder = Some(folder.0.join("results"));
     // Other tests run beside this one.
     harness.state_mut().desk.studies.eager = true;
@@ -119,7 +120,10 @@ fn a_study_is_edited_run_and_any_run_of_it_is_seen_again_to_the_bit() {
     let folder = Folder::new("study");
     let mut harness = studying(&folder);
     retype(&mut harness, "6", "7");
-    assert_eq!(harness.state().desk.book.field(Book::STUDY, "encounters").as_deref(), Some("7"));
+    assert_eq!(
+        harness.state().desk.documents.field(Documents::STUDY, "encounters").as_deref(),
+        Some("7")
+    );
     retype(&mut harness, "5 N", "6 N");
     harness.get_by_label("Run study").click();
     harness.run_steps(2);
@@ -166,7 +170,7 @@ fn a_study_is_edited_run_and_any_run_of_it_is_seen_again_to_the_bit() {
     give(&mut harness, Order::Undo);
     give(&mut harness, Order::Undo);
     assert_eq!(
-        harness.state().desk.book.field(Book::STUDY, "encounters").as_deref(),
+        harness.state().desk.documents.field(Documents::STUDY, "encounters").as_deref(),
         Some("6"),
         "edits of a study are taken back"
     );
@@ -176,7 +180,7 @@ fn a_study_is_edited_run_and_any_run_of_it_is_seen_again_to_the_bit() {
 fn a_study_stands_still_when_paused_keeps_its_blocks_when_cancelled_and_goes_on() {
     let folder = Folder::new("queue");
     let mut harness = studying(&folder);
-    harness.state_mut().desk.set(Book::STUDY, "encounters", "400");
+    harness.state_mut().desk.set(Documents::STUDY, "encounters", "400");
     give(&mut harness, Order::QueueStudy);
     wait(&mut harness, |app| app.desk.studies.jobs[0].progress().blocks >= 2);
     give(&mut harness, Order::PauseStudy);
@@ -196,7 +200,7 @@ fn a_study_stands_still_when_paused_keeps_its_blocks_when_cancelled_and_goes_on(
     wait(&mut harness, |app| state(app) == Some(State::Cancelled));
     std::thread::sleep(std::time::Duration::from_millis(400));
 
-    harness.state_mut().desk.set(Book::STUDY, "encounters", "8");
+    harness.state_mut().desk.set(Documents::STUDY, "encounters", "8");
     give(&mut harness, Order::QueueStudy);
     wait(&mut harness, |app| state(app) == Some(State::Done));
     let progress = harness.state().desk.studies.jobs[0].progress();
@@ -235,7 +239,7 @@ fn options_and_priors_are_added_and_wrong_ones_told_at_their_place() {
     harness.get_by_label("Add option").click();
     harness.run_steps(2);
     let field = |harness: &Harness<'static, App>, field: &str| {
-        harness.state().desk.book.field(Book::STUDY, field)
+        harness.state().desk.documents.field(Documents::STUDY, field)
     };
     assert_eq!(field(&harness, "option.2.id").as_deref(), Some("weak-2"));
     assert_eq!(
@@ -245,15 +249,15 @@ fn options_and_priors_are_added_and_wrong_ones_told_at_their_place() {
     );
     retype(&mut harness, "0.1 m2", "0.4 m2");
     assert!(
-        harness.state().desk.book.file_has_error(Book::STUDY),
+        harness.state().desk.documents.file_has_error(Documents::STUDY),
         "the least is above the greatest"
     );
     assert!(harness.query_by_label_contains("the first value is not below the second").is_some());
-    assert!(!harness.state().desk.book.any_error(), "a single run does not mind the study");
+    assert!(!harness.state().desk.documents.any_error(), "a single run does not mind the study");
     give(&mut harness, Order::QueueStudy);
     assert!(harness.state().desk.studies.jobs.is_empty(), "a study with errors is not queued");
     give(&mut harness, Order::Undo);
-    assert!(!harness.state().desk.book.file_has_error(Book::STUDY));
+    assert!(!harness.state().desk.documents.file_has_error(Documents::STUDY));
     retype(&mut harness, "0.2 m/s, 0.5 m/s", "0.1 m/s, 0.2 m/s, 0.3 m/s");
     assert_eq!(field(&harness, "encounter.tide.choice.2").as_deref(), Some("0.3 m/s"));
 }

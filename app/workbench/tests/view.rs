@@ -4,6 +4,8 @@
 
 mod common;
 
+use endline_session::units::Units;
+
 use common::{Folder, linked, opened_with, wait};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
@@ -14,7 +16,6 @@ use endline_workbench::gui::engine;
 use endline_workbench::gui::layout::Panel;
 use endline_workbench::gui::palette::orders;
 use endline_workbench::gui::reading::{along_m, measured, read};
-use endline_workbench::gui::units::Units;
 use endline_workbench::input::Pilot;
 use endline_workbench::scene::{Picked, View};
 use glam::{DVec2, DVec3};

@@ -6,13 +6,14 @@ mod common;
 
 use std::sync::Arc;
 
+use endline_session::edit::Documents;
+
 use common::{Folder, linked, on_disk, opened, opened_with, retype, wait, workbench};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_session::live::Status;
 use endline_session::{Overrides, Run, RunOptions, prepare};
 use endline_workbench::gui::app::App;
-use endline_workbench::gui::book::Book;
 use endline_workbench::gui::desk::Order;
 use endline_workbench::gui::engine;
 use endline_workbench::gui::layout::{self, Panel};
@@ -23,7 +24,7 @@ fn a_bad_unit_is_red_with_its_place_and_reason_and_undo_mends_it() {
     let folder = Folder::new("bad-unit");
     let (mut harness, _) = workbench(&folder, Pilot::default());
     retype(&mut harness, "2,700 lbf", "2,700 furlong");
-    let problems = harness.state().desk.book.problems().to_vec();
+    let problems = harness.state().desk.documents.problems().to_vec();
     assert_eq!(problems.len(), 1, "{problems:?}");
     assert!(
         problems[0].file.starts_with("ropes/")
@@ -39,8 +40,8 @@ fn a_bad_unit_is_red_with_its_place_and_reason_and_undo_mends_it() {
     assert!(harness.query_all_by_label(&place).next().is_some(), "its place is on screen: {place}");
     harness.get_by_label("Undo").click();
     harness.run_steps(3);
-    assert!(harness.state().desk.book.problems().is_empty());
-    assert_eq!(harness.state().desk.book.unsaved().len(), 0);
+    assert!(harness.state().desk.documents.problems().is_empty());
+    assert_eq!(harness.state().desk.documents.unsaved().len(), 0);
 }
 
 #[test]
@@ -71,7 +72,7 @@ fn run_pause_step_reset_and_speed_reach_the_engine() {
 fn running_after_an_edit_first_takes_the_edited_gear_over() {
     let folder = Folder::new("stale");
     let (mut harness, told) = workbench(&folder, Pilot::default());
-    harness.state_mut().desk.set(Book::SCENARIO, "duration", "7 s");
+    harness.state_mut().desk.set(Documents::SCENARIO, "duration", "7 s");
     harness.run_steps(2);
     assert!(harness.state().desk.stale());
     harness.get_by_label("▶ Run").click();
@@ -198,7 +199,7 @@ fn a_pad_flies_the_encounter_to_the_same_state_each_time() {
 #[test]
 fn a_real_run_swings_the_pendulum_on_a_thread_of_its_own() {
     let folder = Folder::new("real");
-    let mut harness = opened(folder.book(), engine::live(), Pilot::default());
+    let mut harness = opened(folder.documents(), engine::live(), Pilot::default());
     wait(&mut harness, |app| app.desk.status() == Some(&Status::Paused));
     harness.state_mut().desk.obey(&Order::Speed(f64::INFINITY));
     harness.get_by_label("▶ Run").click();
@@ -221,8 +222,8 @@ fn editing_the_endline_in_its_table_and_applying_changes_the_answer() {
     wait(&mut harness, |app| app.desk.status() == Some(&Status::Paused));
     let (before_n, earlier) = (settled_n(&harness), harness.state().desk.view.clone().unwrap());
     let rope = "ropes/sink-3-8.toml";
-    assert!(harness.state().desk.book.in_use(rope), "the single's endline is made of it");
-    let diameter = harness.state().desk.book.field(rope, "diameter").unwrap();
+    assert!(harness.state().desk.documents.in_use(rope), "the single's endline is made of it");
+    let diameter = harness.state().desk.documents.field(rope, "diameter").unwrap();
     harness.state_mut().desk.set(rope, "diameter", "7/16 in");
     harness.run_steps(2);
     harness.get_all_by_label("Apply").next().unwrap().click();

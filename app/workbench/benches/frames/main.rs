@@ -90,7 +90,7 @@ fn typing(folder: &Folder) {
         let text = shipped.replacen("name = \"", &format!("name = \"{index:04} "), 1);
         std::fs::write(folder.0.join(format!("ropes/many-{index:04}.toml")), text).unwrap();
     }
-    let mut screen = Screen::new(folder.book());
+    let mut screen = Screen::new(folder.documents());
     screen.wait(|app| app.desk.view.is_some());
     screen.app.dock = Layout::Design.dock();
     screen.settle(5);
@@ -110,9 +110,9 @@ fn typing(folder: &Folder) {
     for _ in 0..5 {
         click(&mut screen, pos2(420.0, 300.0));
         screen.frame(letter(0));
-        let version = screen.app.desk.book.version();
+        let version = screen.app.desk.documents.version();
         committed.push(screen.frame(vec![key(Key::Enter)]));
-        assert!(screen.app.desk.book.version() > version, "the edit is made");
+        assert!(screen.app.desk.documents.version() > version, "the edit is made");
         screen.app.desk.obey(&Order::Undo);
         screen.settle(3);
     }
@@ -149,11 +149,11 @@ fn click(screen: &mut Screen, at: egui::Pos2) {
 
 /// A run of 500 nodes as it is made and as it is played again, with every panel open and something in each.
 fn playing(folder: &Folder) {
-    let mut book = folder.book_with("hello-endline");
+    let mut documents = folder.book_with("hello-endline");
     for (field, value) in [("rope_nodes", "500"), ("whale.position.1", "-7 m")] {
-        book.set("scenario", field, value).unwrap();
+        documents.set("scenario", field, value).unwrap();
     }
-    let mut screen = Screen::new(book);
+    let mut screen = Screen::new(documents);
     screen.app.desk.recordings = Some(folder.0.join("recordings"));
     study::run(&mut screen, folder);
     screen.wait(|app| app.desk.status() == Some(&Status::Paused));
@@ -224,13 +224,13 @@ fn uploaded(screen: &Screen) {
 
 /// Ten minutes of a run, any moment of it, with every panel open.
 fn scrubbing(folder: &Folder) {
-    let mut book = folder.book_with("hello-endline");
+    let mut documents = folder.book_with("hello-endline");
     for (field, value) in
         [("duration", "600 s"), ("rope_nodes", "20"), ("whale.position.0", "400 m")]
     {
-        book.set("scenario", field, value).unwrap();
+        documents.set("scenario", field, value).unwrap();
     }
-    let mut screen = Screen::new(book);
+    let mut screen = Screen::new(documents);
     screen.wait(|app| app.desk.status() == Some(&Status::Paused));
     screen.app.desk.obey(&Order::Speed(f64::INFINITY));
     screen.app.desk.obey(&Order::Start);

@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 use eframe::App as _;
 use egui::{Event, Pos2, RawInput, Rect, vec2};
 use egui_dock::{DockState, NodeIndex};
+use endline_session::edit::Documents;
 use endline_workbench::gui::app::App;
-use endline_workbench::gui::book::Book;
 use endline_workbench::gui::canvas::Canvas;
 use endline_workbench::gui::desk::Desk;
 use endline_workbench::gui::engine;
@@ -32,7 +32,7 @@ pub struct Screen {
 }
 
 impl Screen {
-    pub fn new(book: Book) -> Self {
+    pub fn new(documents: Documents) -> Self {
         let context = egui::Context::default();
         let creation = eframe::CreationContext::_new_kittest(context.clone());
         let woken = Arc::new(AtomicBool::new(false));
@@ -40,8 +40,10 @@ impl Screen {
             let woken = Arc::clone(&woken);
             Arc::new(move || woken.store(true, Ordering::Release))
         };
-        let mut app =
-            App::new(&creation, Desk::new(book, linked(), engine::live(), waker, Pilot::default()));
+        let mut app = App::new(
+            &creation,
+            Desk::new(documents, linked(), engine::live(), waker, Pilot::default()),
+        );
         // With a canvas the view makes its triangles as it does beside a graphics card; nobody draws them.
         app.desk.view3d.drawn[0].canvas = Some(Arc::new(Mutex::new(Canvas::default())));
         Self { context, app, frame: eframe::Frame::_new_kittest(), time_s: 0.0, woken }

@@ -5,9 +5,10 @@ use std::sync::{Arc, Mutex, mpsc};
 use eframe::{CreationContext, Storage};
 use egui::{CentralPanel, Context, Frame as Margins, Id, Panel as Bar, Ui};
 use egui_dock::{DockArea, DockState, TabViewer};
+use endline_session::edit::Documents;
+use endline_session::edit::recovery::UnsavedEdits;
 use endline_session::live::Command;
 
-use super::book::Book;
 use super::canvas::Canvas;
 use super::desk::{Desk, Order, Preferences};
 use super::layout::{self, Layout, Panel};
@@ -26,7 +27,7 @@ pub struct App {
     /// Answer of a file dialog still open.
     pub dialog: Option<mpsc::Receiver<Option<Order>>>,
     /// Edits that a crash left, with their files.
-    pub left_behind: Vec<(std::path::PathBuf, super::recovery::Kept)>,
+    pub left_behind: Vec<(std::path::PathBuf, UnsavedEdits)>,
     /// Whether it is asked what to do with unsaved edits.
     pub asking: bool,
     /// Whether the window may close as it is.
@@ -66,7 +67,7 @@ impl App {
         if first {
             layout::open_beside(&mut dock, Panel::Start, Panel::View);
         }
-        let left_behind = desk.keeper.left_behind();
+        let left_behind = desk.autosave.left_behind();
         Self {
             desk,
             dock,
@@ -100,7 +101,7 @@ impl App {
                     self.desk.obey(&order);
                 }
                 // Another text in its place would take the edits with it.
-                Order::Open(path) if self.desk.book.is_unsaved(Book::SCENARIO) => {
+                Order::Open(path) if self.desk.documents.is_unsaved(Documents::SCENARIO) => {
                     self.opening = Some(path.clone())
                 }
                 Order::Show(panel) => layout::open(&mut self.dock, *panel),
@@ -211,7 +212,7 @@ impl App {
     /// Keeps unsaved edits where it is time.
     fn keep(&mut self, context: &Context) {
         let now_s = context.input(|input| input.time);
-        if let Some(after_s) = self.desk.keeper.keep(&self.desk.book, now_s) {
+        if let Some(after_s) = self.desk.autosave.keep(&self.desk.documents, now_s) {
             context.request_repaint_after(std::time::Duration::from_secs_f64(after_s));
         }
         self.desk.preferences.scale.0 = context.zoom_factor();

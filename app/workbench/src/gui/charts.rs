@@ -5,7 +5,7 @@ use endline_sdk::BodyPart;
 use endline_session::live::{Channel, LiveView, Series, Span};
 use serde::{Deserialize, Serialize};
 
-use super::units::Units;
+use endline_session::units::Units;
 
 /// Spans a curve is drawn with at most: least and greatest of each, so that no peak is lost.
 pub const SPANS: usize = 900;

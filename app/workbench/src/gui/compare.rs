@@ -2,10 +2,10 @@
 
 use endline_sdk::BodyPart;
 use endline_session::live::LiveView;
+use endline_session::units::Units;
 use endline_sim::metrics::{RegionSummary, WhaleSummary};
 
 use super::reading::spoken;
-use super::units::Units;
 
 /// One figure of both runs.
 #[derive(Clone, Debug, PartialEq)]

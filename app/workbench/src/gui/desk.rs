@@ -12,6 +12,8 @@ use std::sync::Arc;
 
 use endline_gear::Diagnostic;
 use endline_sdk::{Act, GearType};
+use endline_session::edit::Documents;
+use endline_session::edit::recovery::Autosave;
 use endline_session::live::{Command, LiveView, Status};
 use endline_session::recording::PluginUsed;
 use endline_session::recording::replay::check_plugins;
@@ -19,7 +21,6 @@ use endline_session::{Error, Overrides, PluginHost, Prepared, Source};
 
 use compare::Other;
 
-use super::book::Book;
 use super::engine::{Engine, Launch, Maker, Waker};
 pub use super::order::Order;
 use super::panels::assembly::AssemblyState;
@@ -34,7 +35,6 @@ use super::panels::view::ViewState;
 use super::plugins::Plugins;
 use super::pose::Posing;
 pub use super::preferences::{Preferences, Scale};
-use super::recovery::Keeper;
 use super::studies::Studies;
 use crate::input::{Pilot, Rumble};
 use runs::WORTH_KEEPING_S;
@@ -51,7 +51,7 @@ const RECENT: usize = 8;
 /// The shared state of the workbench.
 pub struct Desk {
     /// The texts.
-    pub book: Book,
+    pub documents: Documents,
     /// The newest view of the run.
     pub view: Option<Arc<LiveView>>,
     /// What the user prefers.
@@ -85,7 +85,7 @@ pub struct Desk {
     /// What the pilot feels.
     pub rumble: Rumble,
     /// Keeps unsaved edits.
-    pub keeper: Keeper,
+    pub autosave: Autosave,
     /// Folder that runs are kept in.
     pub recordings: Option<PathBuf>,
     /// Problems found in making the model, beyond those of single files.
@@ -129,14 +129,14 @@ impl Desk {
     /// A desk with its texts; the first model is being made.
     #[must_use]
     pub fn new(
-        book: Book,
+        documents: Documents,
         host: Arc<PluginHost>,
         launch: Launch,
         waker: Waker,
         pilot: Pilot,
     ) -> Self {
         let mut desk = Self {
-            book,
+            documents,
             view: None,
             preferences: Preferences::default(),
             pilot,
@@ -153,7 +153,7 @@ impl Desk {
             recorded: RecordingsState::default(),
             learning: Learning::default(),
             rumble: Rumble::default(),
-            keeper: Keeper::default(),
+            autosave: Autosave::default(),
             recordings: None,
             make_problems: Vec::new(),
             plugins: Plugins::default(),
@@ -215,11 +215,11 @@ impl Desk {
     /// Whether texts have changed since the run's model was made.
     #[must_use]
     pub fn stale(&self) -> bool {
-        let version = self.book.version();
+        let version = self.documents.version();
         if let Some((_, stale)) = self.stale.get().filter(|(known, _)| *known == version) {
             return stale;
         }
-        let stale = !self.applied.as_ref().is_some_and(|applied| self.book.same_run(applied));
+        let stale = !self.applied.as_ref().is_some_and(|applied| self.documents.same_run(applied));
         self.stale.set(Some((version, stale)));
         stale
     }
@@ -257,18 +257,19 @@ impl Desk {
 
     /// Problems of texts and of making the model.
     pub fn problems(&self) -> impl Iterator<Item = &Diagnostic> {
-        let known = self.book.problems();
+        let known = self.documents.problems();
         known.iter().chain(self.make_problems.iter().filter(|problem| !known.contains(problem)))
     }
 
     /// The worst problem at a field of a text, or of the model last made of the texts as they stand.
     #[must_use]
     pub fn problem_at(&self, path: &str, field: &str) -> Option<&Diagnostic> {
-        let file = self.book.shown_name(path);
+        let file = self.documents.shown_name(path);
         let here = |problem: &&Diagnostic| problem.file == file && problem.field == field;
-        let made =
-            || self.make_problems.iter().find(here).filter(|_| self.book.same_run(&self.making));
-        self.book.problem_at(path, field).or_else(made)
+        let made = || {
+            self.make_problems.iter().find(here).filter(|_| self.documents.same_run(&self.making))
+        };
+        self.documents.problem_at(path, field).or_else(made)
     }
 
     /// Sends a command to the run; false where there is none to take it.
@@ -278,7 +279,7 @@ impl Desk {
 
     /// Sets a field of a text and says so where that fails.
     pub fn set(&mut self, path: &str, field: &str, value: &str) {
-        if let Err(error) = self.book.set(path, field, value) {
+        if let Err(error) = self.documents.set(path, field, value) {
             self.notice = Some((error, true));
         }
     }
@@ -431,10 +432,10 @@ impl Desk {
         };
         let line = format!(
             "endline run {} --library {}",
-            quoted(self.book.scenario_path()),
-            quoted(self.book.root())
+            quoted(self.documents.scenario_path()),
+            quoted(self.documents.root())
         );
-        (line, !self.book.unsaved().is_empty())
+        (line, !self.documents.unsaved().is_empty())
     }
 
     fn tell(&mut self, command: Command) {
@@ -444,7 +445,10 @@ impl Desk {
     }
 
     fn start(&mut self) {
-        if self.stale() && self.guest != Some(self.book.version()) && !self.book.any_error() {
+        if self.stale()
+            && self.guest != Some(self.documents.version())
+            && !self.documents.any_error()
+        {
             self.start_when_made = true;
             self.make();
             return;
@@ -457,18 +461,18 @@ impl Desk {
 
     /// Makes a model from the present texts, unless they have errors.
     fn make(&mut self) {
-        if self.book.any_error() {
+        if self.documents.any_error() {
             self.start_when_made = false;
             self.notice = Some(("the gear has errors; see Problems".into(), true));
             return;
         }
         let source = Source {
-            scenario_name: self.book.shown_name(Book::SCENARIO),
-            scenario: self.book.text(Book::SCENARIO).unwrap_or_default().to_owned(),
-            library: self.host.with_clips(self.book.sources()),
+            scenario_name: self.documents.shown_name(Documents::SCENARIO),
+            scenario: self.documents.text(Documents::SCENARIO).unwrap_or_default().to_owned(),
+            library: self.host.with_clips(self.documents.sources()),
             overrides: Overrides::default(),
         };
-        self.making = self.book.texts_of_run();
+        self.making = self.documents.texts_of_run();
         self.guest_when_made = None;
         if let Err(error) =
             self.maker.start(source, Arc::clone(&self.host), Arc::clone(&self.waker))
@@ -533,8 +537,11 @@ impl Desk {
     }
 
     fn toggle_weak_links(&mut self) {
-        let on = self.book.field(Book::SCENARIO, "weak_links").is_none_or(|text| text == "true");
-        self.set(Book::SCENARIO, "weak_links", if on { "false" } else { "true" });
+        let on = self
+            .documents
+            .field(Documents::SCENARIO, "weak_links")
+            .is_none_or(|text| text == "true");
+        self.set(Documents::SCENARIO, "weak_links", if on { "false" } else { "true" });
         self.make();
     }
 
@@ -551,7 +558,7 @@ impl Desk {
     }
 
     fn save(&mut self) {
-        self.notice = Some(match self.book.save() {
+        self.notice = Some(match self.documents.save() {
             Ok(0) => ("nothing to save".into(), false),
             Ok(1) => ("saved 1 file".into(), false),
             Ok(count) => (format!("saved {count} files"), false),
@@ -560,7 +567,7 @@ impl Desk {
     }
 
     fn open(&mut self, path: &std::path::Path) {
-        match self.book.open_scenario(path) {
+        match self.documents.open_scenario(path) {
             Ok(()) => {
                 self.remember(path);
                 self.make();
@@ -577,7 +584,7 @@ impl Desk {
     }
 
     fn step_back(&mut self, undo: bool) {
-        let done = if undo { self.book.undo() } else { self.book.redo() };
+        let done = if undo { self.documents.undo() } else { self.documents.redo() };
         if !done {
             self.notice =
                 Some((format!("nothing to {}", if undo { "undo" } else { "redo" }), false));

@@ -5,7 +5,7 @@
 
 use endline_gear::{Document, Kind, Setting};
 
-use super::book::Book;
+use endline_session::edit::Documents;
 
 /// Columns before the kind's own.
 const FIRST: [&str; 2] = ["id", "name"];
@@ -45,21 +45,25 @@ pub fn columns(kind: Kind) -> Vec<&'static str> {
 
 /// A kind's table as CSV, one row for each of `paths`.
 #[must_use]
-pub fn to_csv(book: &Book, kind: Kind, paths: &[String]) -> String {
-    written(book, kind, paths, b',')
+pub fn to_csv(documents: &Documents, kind: Kind, paths: &[String]) -> String {
+    written(documents, kind, paths, b',')
 }
 
 /// The same with tabs, as spreadsheets take it from the clipboard.
 #[must_use]
-pub fn to_tabs(book: &Book, kind: Kind, paths: &[String]) -> String {
-    written(book, kind, paths, b'\t')
+pub fn to_tabs(documents: &Documents, kind: Kind, paths: &[String]) -> String {
+    written(documents, kind, paths, b'\t')
 }
 
-fn written(book: &Book, kind: Kind, paths: &[String], delimiter: u8) -> String {
+fn written(documents: &Documents, kind: Kind, paths: &[String], delimiter: u8) -> String {
     let mut writer = csv::WriterBuilder::new().delimiter(delimiter).from_writer(Vec::new());
     let columns = columns(kind);
     let cell = |path: &str, key: &str| {
-        if key == "id" { id_of(path).to_owned() } else { book.field(path, key).unwrap_or_default() }
+        if key == "id" {
+            id_of(path).to_owned()
+        } else {
+            documents.field(path, key).unwrap_or_default()
+        }
     };
     let mut rows = vec![columns.iter().map(|key| (*key).to_owned()).collect::<Vec<_>>()];
     rows.extend(paths.iter().map(|path| columns.iter().map(|key| cell(path, key)).collect()));
@@ -116,7 +120,7 @@ fn key_of(kind: Kind, head: &str) -> Option<&'static str> {
 ///
 /// # Errors
 /// Where the text is no table or its first row names no known column.
-pub fn import(book: &mut Book, kind: Kind, text: &str) -> Result<Taken, String> {
+pub fn import(documents: &mut Documents, kind: Kind, text: &str) -> Result<Taken, String> {
     let rows = cells(text)?;
     let (head, body) = rows.split_first().ok_or("the table is empty")?;
     if !is_head(kind, head) {
@@ -140,22 +144,22 @@ pub fn import(book: &mut Book, kind: Kind, text: &str) -> Result<Taken, String> 
             .filter_map(|(key, cell)| Some(((*key)?, cell.as_str())))
             .filter(|(_, cell)| !cell.is_empty())
             .collect();
-        match of_row(book, kind, &cells, &texts) {
+        match of_row(documents, kind, &cells, &texts) {
             Ok((path, text, known)) => {
-                taken.changed += usize::from(known && book.text(&path) != Some(text.as_str()));
+                taken.changed += usize::from(known && documents.text(&path) != Some(text.as_str()));
                 taken.added += usize::from(!known);
                 texts.push((path, text));
             }
             Err(why) => taken.left_out.push(format!("row {}: {why}", number + 2)),
         }
     }
-    book.put_all(texts);
+    documents.put_all(texts);
     Ok(taken)
 }
 
 /// Path and new text of a row's entry, and whether it was there before.
 fn of_row(
-    book: &Book,
+    documents: &Documents,
     kind: Kind,
     cells: &[(&'static str, &str)],
     before: &[(String, String)],
@@ -163,8 +167,9 @@ fn of_row(
     let cell = |wanted: &str| cells.iter().find(|(key, _)| *key == wanted).map(|(_, cell)| *cell);
     let (id, name) = (cell("id"), cell("name"));
     let by_name = |name: &str| {
-        book.files(kind.folder())
-            .find(|path| book.field(path, "name").as_deref() == Some(name))
+        documents
+            .files(kind.folder())
+            .find(|path| documents.field(path, "name").as_deref() == Some(name))
             .map(str::to_owned)
     };
     let path = match (id, name) {
@@ -177,7 +182,7 @@ fn of_row(
     if before.iter().any(|(taken, _)| *taken == path) {
         return Err(format!("`{}` is there twice", id_of(&path)));
     }
-    let known = book.text(&path);
+    let known = documents.text(&path);
     let mut document = match known {
         Some(text) => Document::parse(text),
         None => Document::parse(&fresh(kind, name.or(id).unwrap_or_default())),
@@ -224,7 +229,7 @@ pub fn slug(name: &str) -> String {
 /// # Errors
 /// Where a cell cannot be set; nothing is then changed.
 pub fn spread(
-    book: &mut Book,
+    documents: &mut Documents,
     paths: &[String],
     keys: &[&str],
     cells: &[Vec<String>],
@@ -232,11 +237,11 @@ pub fn spread(
     let mut taken = Taken::default();
     let mut texts = Vec::new();
     for (path, row) in paths.iter().zip(cells) {
-        let mut document = book.document(path)?;
+        let mut document = documents.document(path)?;
         for (key, cell) in keys.iter().zip(row).filter(|(_, cell)| !cell.is_empty()) {
             document.set(key, cell).map_err(|error| format!("{path}: {key}: {error}"))?;
         }
-        taken.changed += usize::from(book.text(path) != Some(document.text().as_str()));
+        taken.changed += usize::from(documents.text(path) != Some(document.text().as_str()));
         texts.push((path.clone(), document.text()));
     }
     if cells.len() > paths.len() {
@@ -246,7 +251,7 @@ pub fn spread(
     if widest > keys.len() {
         taken.left_out.push(format!("{} columns right of the table", widest - keys.len()));
     }
-    book.put_all(texts);
+    documents.put_all(texts);
     Ok(taken)
 }
 

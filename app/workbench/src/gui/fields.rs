@@ -2,8 +2,8 @@
 
 use egui::{Id, Key, Response, Stroke, TextEdit, Ui};
 use endline_gear::Diagnostic;
+use endline_session::edit::Documents;
 
-use super::book::Book;
 use super::theme::Theme;
 
 /// What is said of a field: a hint shown while it is empty, and help on hover.
@@ -18,37 +18,37 @@ pub struct Said<'a> {
 /// Shows a field for typing; answers the new text when it is committed. Escape leaves it as it was.
 pub fn edit(
     ui: &mut Ui,
-    book: &Book,
+    documents: &Documents,
     path: &str,
     field: &str,
     width: f32,
     said: Said<'_>,
 ) -> Option<String> {
-    edit_as(ui, edit_id(path, field), book, (path, field), width, said)
+    edit_as(ui, edit_id(path, field), documents, (path, field), width, said)
 }
 
 /// The same in a second place on screen, under an id of its own.
 pub fn edit_in(
     ui: &mut Ui,
     place: &str,
-    book: &Book,
+    documents: &Documents,
     (path, field): (&str, &str),
     width: f32,
     said: Said<'_>,
 ) -> Option<String> {
-    edit_as(ui, Id::new((place, path, field)), book, (path, field), width, said)
+    edit_as(ui, Id::new((place, path, field)), documents, (path, field), width, said)
 }
 
 fn edit_as(
     ui: &mut Ui,
     edit_id: Id,
-    book: &Book,
+    documents: &Documents,
     (path, field): (&str, &str),
     width: f32,
     said: Said<'_>,
 ) -> Option<String> {
-    let stored = book.field(path, field).unwrap_or_default();
-    let problem = book.problem_at(path, field);
+    let stored = documents.field(path, field).unwrap_or_default();
+    let problem = documents.problem_at(path, field);
     let id = typed_id(edit_id);
     let mut typed = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| stored.clone());
     let palette = Theme::palette_of(ui);
@@ -142,13 +142,13 @@ pub fn place(problem: &Diagnostic) -> String {
 /// A choice among ids for a field; answers the one taken.
 pub fn choose(
     ui: &mut Ui,
-    book: &Book,
+    documents: &Documents,
     path: &str,
     field: &str,
     choices: &[(String, String)],
     width: f32,
 ) -> Option<String> {
-    let stored = book.field(path, field).unwrap_or_default();
+    let stored = documents.field(path, field).unwrap_or_default();
     let shown = choices
         .iter()
         .find(|(id, _)| *id == stored)
@@ -165,7 +165,7 @@ pub fn choose(
             }
         }
     });
-    outline(ui, &response.response, book.problem_at(path, field));
+    outline(ui, &response.response, documents.problem_at(path, field));
     // A long name is cut in a narrow panel.
     if !shown.is_empty() {
         response.response.on_hover_text(shown);

@@ -4,10 +4,10 @@
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, pos2, vec2};
 use endline_sdk::{BodyPart, Controls};
 use endline_session::live::LiveView;
+use endline_session::units::{Units, bearing_degrees};
 use endline_sim::DVec3;
 
 use super::reading::spoken;
-use super::units::{Units, bearing_degrees};
 use crate::input::Hands;
 
 /// Width of a reading [points].

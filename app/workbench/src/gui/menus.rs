@@ -3,13 +3,13 @@
 use std::sync::mpsc;
 
 use egui::{Button, MenuBar, RichText, Ui};
+use endline_session::units::Units;
 
 use super::app::App;
 use super::desk::Order;
 use super::layout::{self, Layout, Panel};
 use super::panels::scenario::scenarios;
 use super::theme::Theme;
-use super::units::Units;
 
 /// Draws the menu bar.
 pub fn show(ui: &mut Ui, app: &mut App) {
@@ -51,7 +51,7 @@ fn item(ui: &mut Ui, app: &mut App, enabled: bool, text: &str, keys: &str, order
 
 fn file(ui: &mut Ui, app: &mut App) {
     ui.menu_button("Open scenario", |ui| {
-        for path in scenarios(app.desk.book.root()) {
+        for path in scenarios(app.desk.documents.root()) {
             let name = path
                 .file_stem()
                 .map(|stem| stem.to_string_lossy().into_owned())
@@ -60,7 +60,7 @@ fn file(ui: &mut Ui, app: &mut App) {
         }
         ui.separator();
         if ui.button("Other file …").clicked() {
-            let folder = app.desk.book.root().to_owned();
+            let folder = app.desk.documents.root().to_owned();
             ask(app, move || {
                 rfd::FileDialog::new()
                     .add_filter("scenario", &["toml"])
@@ -71,7 +71,7 @@ fn file(ui: &mut Ui, app: &mut App) {
             ui.close();
         }
     });
-    let unsaved = !app.desk.book.unsaved().is_empty();
+    let unsaved = !app.desk.documents.unsaved().is_empty();
     item(ui, app, unsaved, "Save all", "Ctrl+S", Order::Save);
     item(ui, app, true, "Save scenario as …", "", Order::AskScenarioAs);
     item(ui, app, true, "Open recording …", "", Order::AskRecording);
@@ -90,7 +90,7 @@ fn file(ui: &mut Ui, app: &mut App) {
 
 fn scenario_name(app: &App) -> String {
     app.desk
-        .book
+        .documents
         .scenario_path()
         .file_stem()
         .map(|stem| stem.to_string_lossy().into_owned())
@@ -137,8 +137,13 @@ pub fn ask_export_model(app: &mut App, ending: &'static str) {
 
 /// Asks for another file to save the scenario to.
 pub fn ask_scenario_as(app: &mut App) {
-    let folder =
-        app.desk.book.scenario_path().parent().map(std::path::Path::to_owned).unwrap_or_default();
+    let folder = app
+        .desk
+        .documents
+        .scenario_path()
+        .parent()
+        .map(std::path::Path::to_owned)
+        .unwrap_or_default();
     let name = format!("{}-2.toml", scenario_name(app));
     ask(app, move || {
         let dialog = rfd::FileDialog::new()
@@ -163,7 +168,7 @@ pub fn ask_recording(app: &mut App) {
 
 /// Asks for a study's file to open.
 pub fn ask_study(app: &mut App) {
-    let folder = app.desk.book.root().join("studies");
+    let folder = app.desk.documents.root().join("studies");
     ask(app, move || {
         rfd::FileDialog::new()
             .set_directory(folder)
@@ -204,7 +209,7 @@ pub fn ask_import_table(app: &mut App) {
 }
 
 fn edit(ui: &mut Ui, app: &mut App) {
-    let (undo, redo) = app.desk.book.can_undo_redo();
+    let (undo, redo) = app.desk.documents.can_undo_redo();
     item(ui, app, undo, "Undo", "Ctrl+Z", Order::Undo);
     item(ui, app, redo, "Redo", "Ctrl+Shift+Z", Order::Redo);
 }
@@ -223,7 +228,7 @@ fn run(ui: &mut Ui, app: &mut App) {
     item(ui, app, back, "Go on from the moment shown", "", Order::Branch);
     item(ui, app, ready, "Copy as command line", "Ctrl+Shift+C", Order::CopyCommandLine);
     ui.separator();
-    let changed = app.desk.stale() && !app.desk.book.any_error();
+    let changed = app.desk.stale() && !app.desk.documents.any_error();
     item(ui, app, changed, "Apply changes", "Ctrl+Enter", Order::Apply);
     item(ui, app, true, "Weak links on or off", "K", Order::WeakLinks);
     let flying = if app.desk.flying { "Stop flying" } else { "Fly the whale" };

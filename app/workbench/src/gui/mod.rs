@@ -7,7 +7,6 @@ pub mod app;
 pub mod bench;
 pub mod bindings;
 pub mod bodymap;
-pub mod book;
 pub mod canvas;
 pub mod chart_svg;
 pub mod charts;
@@ -28,25 +27,23 @@ pub mod picking;
 pub mod plugins;
 pub mod pose;
 pub mod preferences;
-pub mod program;
 pub mod questions;
 pub mod reading;
-pub mod recovery;
 pub mod status;
 pub mod studies;
 pub mod theme;
 pub mod transport;
-pub mod units;
 pub mod wraps;
 
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use endline_session::edit::Documents;
+use endline_session::edit::recovery::Autosave;
 use endline_session::{load_with, locate, plugin_loader};
 
 use crate::input::{GilrsPads, PadSource, Pilot};
 use app::App;
-use book::Book;
 use desk::Desk;
 use engine::Waker;
 use plugins::Plugins;
@@ -71,7 +68,7 @@ pub struct Options {
 pub fn open(options: Options) -> Result<(), String> {
     let root = locate::library(options.scenario.as_deref(), options.library.as_deref())?;
     let scenario = options.scenario.unwrap_or_else(|| root.join("scenarios/hello-endline.toml"));
-    let book = Book::open(&root, &scenario)?;
+    let documents = Documents::open(&root, &scenario)?;
     let mut loader = plugin_loader(&options.plugins);
     let (host, refused) = load_with(&mut loader);
     let native = eframe::NativeOptions {
@@ -94,10 +91,10 @@ pub fn open(options: Options) -> Result<(), String> {
         let host = Arc::new(host);
         let context = creation.egui_ctx.clone();
         let waker: Waker = Arc::new(move || context.request_repaint());
-        let mut desk = Desk::new(book, host, engine::live(), waker, Pilot::new(pads()));
+        let mut desk = Desk::new(documents, host, engine::live(), waker, Pilot::new(pads()));
         desk.plugins = Plugins::new(loader, Arc::new(load_with), refused);
         if let Some(folder) = &data {
-            desk.keeper = recovery::Keeper::in_folder(folder.clone());
+            desk.autosave = Autosave::in_folder(folder.clone());
             desk.recordings = Some(folder.join("recordings"));
             desk.studies.folder = Some(folder.join("studies"));
         }

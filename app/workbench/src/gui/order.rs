@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use endline_gear::Kind;
+use endline_session::units::Units;
 
 use super::layout::{Layout, Panel};
 use super::theme::Theme;
-use super::units::Units;
 use crate::scene::{Picked, View};
 
 /// All that can be asked of the workbench besides editing a text.

@@ -1,6 +1,7 @@
 //! The command palette: every order by its name (Ctrl+P).
 
 use egui::{Align2, Context, Key, RichText, TextEdit, Ui, Window, vec2};
+use endline_session::units::Units;
 
 use super::desk::{Desk, Order};
 use super::layout::{Layout, Panel};
@@ -10,7 +11,6 @@ use super::panels::view::MOST;
 use super::reading::worst_m;
 use super::studies::studies;
 use super::theme::Theme;
-use super::units::Units;
 use crate::scene::{Picked, View};
 
 /// Names shown at once.
@@ -127,12 +127,12 @@ pub fn orders(desk: &Desk) -> Vec<(String, Order)> {
     all.extend(
         Layout::ALL.map(|layout| (format!("Layout {}", layout.name()), Order::Arrange(layout))),
     );
-    all.extend(scenarios(desk.book.root()).into_iter().map(|path| {
+    all.extend(scenarios(desk.documents.root()).into_iter().map(|path| {
         let name =
             path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
         (format!("Open {name}"), Order::Open(path))
     }));
-    all.extend(studies(desk.book.root()).into_iter().map(|path| {
+    all.extend(studies(desk.documents.root()).into_iter().map(|path| {
         let name =
             path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
         (format!("Open study {name}"), Order::OpenStudy(path))

@@ -171,7 +171,7 @@ pub fn card(ui: &mut Ui, rect: Rect, desk: &mut Desk, view: &LiveView) {
     }
 }
 
-fn ruler(picks: &Picks, view: &LiveView, units: super::units::Units) -> Option<Reading> {
+fn ruler(picks: &Picks, view: &LiveView, units: endline_session::units::Units) -> Option<Reading> {
     let waiting =
         |text: &str| Reading { title: "Ruler".to_owned(), rows: vec![("Next", text.to_owned())] };
     match (picks.ruler, picks.ends.len()) {

@@ -6,11 +6,11 @@ use egui::{
 };
 use endline_gear::units::{Quantity, find, parse};
 use endline_gear::{Document, Setting};
+use endline_session::edit::Documents;
+use endline_session::units::{Units, bearing_degrees};
 use glam::{DVec2, DVec3};
 
-use super::book::Book;
 use super::desk::{Desk, Order};
-use super::units::{Units, bearing_degrees};
 use crate::scene::Camera;
 
 /// Half size of a handle as it is taken [points].
@@ -52,8 +52,8 @@ pub struct Posing {
 impl Start {
     /// Of the scenario's text; `None` where it has no whale or its figures do not read.
     #[must_use]
-    pub fn of(book: &Book) -> Option<Self> {
-        let field = |key: &str| book.field(Book::SCENARIO, &format!("whale.{key}"));
+    pub fn of(documents: &Documents) -> Option<Self> {
+        let field = |key: &str| documents.field(Documents::SCENARIO, &format!("whale.{key}"));
         let read = |key: &str, quantity| field(key).and_then(|text| parse(&text, quantity).ok());
         let place = DVec3::new(
             read("position.0", Quantity::Length)?,
@@ -161,7 +161,7 @@ fn upright(place: DVec3, eye: DVec3, along: DVec3) -> f64 {
 
 /// Draws the start with its handles in a pane, and lets them be dragged.
 pub fn show(ui: &mut Ui, rect: Rect, camera: &Camera, desk: &mut Desk, slot: usize) {
-    let Some(written) = Start::of(&desk.book).filter(|_| desk.posing.on) else { return };
+    let Some(written) = Start::of(&desk.documents).filter(|_| desk.posing.on) else { return };
     let start = desk.posing.held.unwrap_or(written);
     let sheet = Sheet { painter: ui.painter().with_clip_rect(rect), rect, camera };
     sheet.body(&start);
@@ -205,7 +205,8 @@ pub fn show(ui: &mut Ui, rect: Rect, camera: &Camera, desk: &mut Desk, slot: usi
 /// One edit of the text; gear that stands ready is taken over at once.
 fn let_go(desk: &mut Desk, start: Start) {
     desk.posing.held = None;
-    if let Err(error) = desk.book.alter(Book::SCENARIO, |document| start.write(document)) {
+    if let Err(error) = desk.documents.alter(Documents::SCENARIO, |document| start.write(document))
+    {
         desk.notice = Some((error, true));
         return;
     }

@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
+use endline_session::units::Units;
 use serde::{Deserialize, Serialize};
 
 use super::theme::Theme;
-use super::units::Units;
 use crate::input::Mapping;
 
 /// What a user prefers; kept between sessions.

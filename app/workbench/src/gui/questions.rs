@@ -2,17 +2,17 @@
 //! plugin it does not know.
 
 use egui::{Align2, Context, Label, RichText, Ui, Window, vec2};
+use endline_session::edit::Documents;
 use endline_session::plugins::Change;
 
 use super::app::App;
-use super::book::Book;
 use super::desk::{Desk, Order};
 use super::theme::{Theme, primary};
 
 /// The bar that offers edits back, where a crash left some.
 pub fn recovery(ui: &mut Ui, app: &mut App) {
     let Some((file, kept)) = app.left_behind.first().cloned() else { return };
-    let here = kept.root == app.desk.book.root();
+    let here = kept.root == app.desk.documents.root();
     let palette = Theme::palette_of(ui);
     ui.horizontal(|ui| {
         let count = kept.texts.len();
@@ -88,7 +88,7 @@ pub fn plugin(context: &Context, desk: &mut Desk) {
 /// Asks before unsaved edits are lost with the window.
 pub fn closing(context: &Context, app: &mut App) {
     let wanted = context.input(|input| input.viewport().close_requested());
-    let unsaved = app.desk.book.unsaved().len();
+    let unsaved = app.desk.documents.unsaved().len();
     if wanted && unsaved > 0 && !app.leave {
         context.send_viewport_cmd(egui::ViewportCommand::CancelClose);
         app.asking = true;
@@ -109,7 +109,7 @@ pub fn closing(context: &Context, app: &mut App) {
         ui.horizontal(|ui| {
             if primary(ui, true, "Save and quit").clicked() {
                 app.desk.obey(&Order::Save);
-                app.leave = app.desk.book.unsaved().is_empty();
+                app.leave = app.desk.documents.unsaved().is_empty();
                 app.asking = false;
             }
             if ui.button("Quit without saving").clicked() {
@@ -121,7 +121,7 @@ pub fn closing(context: &Context, app: &mut App) {
         });
     });
     if app.leave {
-        app.desk.keeper.clear();
+        app.desk.autosave.clear();
         context.send_viewport_cmd(egui::ViewportCommand::Close);
     }
 }
@@ -132,7 +132,7 @@ pub fn opening(context: &Context, app: &mut App) {
     let stem = |path: &std::path::Path| {
         path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
     };
-    let (present, next) = (stem(app.desk.book.scenario_path()), stem(&path));
+    let (present, next) = (stem(app.desk.documents.scenario_path()), stem(&path));
     let window = Window::new("Unsaved scenario")
         .collapsible(false)
         .resizable(false)
@@ -146,7 +146,7 @@ pub fn opening(context: &Context, app: &mut App) {
                 .clicked()
             {
                 app.desk.obey(&Order::Save);
-                open = !app.desk.book.is_unsaved(Book::SCENARIO);
+                open = !app.desk.documents.is_unsaved(Documents::SCENARIO);
                 app.opening = None;
             }
             open |= ui

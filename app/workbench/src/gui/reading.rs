@@ -1,11 +1,11 @@
 //! What is told of a thing picked in the 3-D view, and of the way between two.
 
 use endline_session::live::LiveView;
+use endline_session::units::{Units, bearing_degrees};
 use endline_sim::metrics::RegionSummary;
 use endline_sim::model::{BodyRole, JointKind};
 use endline_sim::{Frame, Model};
 
-use super::units::{Units, bearing_degrees};
 use crate::scene::Picked;
 use crate::scene::pick::{ends, length_m, on_line};
 

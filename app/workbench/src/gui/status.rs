@@ -51,7 +51,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
 fn right(ui: &mut Ui, desk: &mut Desk) {
     let palette = Theme::palette_of(ui);
     let problems = desk.problems().count() + desk.plugins.problems.len();
-    let unsaved = desk.book.unsaved().len();
+    let unsaved = desk.documents.unsaved().len();
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         let (text, colour) = match problems {
             0 => ("no problems".to_owned(), palette.faint),

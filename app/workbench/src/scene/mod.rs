@@ -24,7 +24,7 @@ pub use bounds::Bounds;
 pub use build::{Look, Part, Scene, Show};
 pub use camera::{Camera, View};
 pub use draw::{Drawer, Water};
-pub use overlay::{N_PER_LBF, Overlay};
+pub use overlay::Overlay;
 pub use pick::Picked;
 pub use picture::{RenderRequest, render, render_png};
 

@@ -1,12 +1,10 @@
 //! What is written over a scene: caption and time, the tension scale in lbf and N, a scale bar.
 
 use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Stroke, Vec2, pos2, vec2};
+use endline_session::units::N_PER_LBF;
 
 use super::colour::tension_colour;
 use super::ticks::{decimals, nice_below, ticks};
-
-/// Newtons in a pound-force, exact by definition.
-pub const N_PER_LBF: f64 = 4.448_221_615_260_5;
 
 /// What the overlay says.
 #[derive(Clone, Debug, PartialEq)]

@@ -14,10 +14,10 @@ use std::time::{Duration, Instant};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_session::PluginHost;
+use endline_session::edit::Documents;
 use endline_session::live::{Command, LiveView, Status};
 use endline_session::plugins::Hook;
 use endline_workbench::gui::app::App;
-use endline_workbench::gui::book::Book;
 use endline_workbench::gui::desk::{Desk, Order};
 use endline_workbench::gui::engine::{Engine, Launch, Waker, live};
 use endline_workbench::input::Pilot;
@@ -109,12 +109,12 @@ impl Folder {
         Self(root)
     }
 
-    pub fn book(&self) -> Book {
+    pub fn documents(&self) -> Documents {
         self.book_with("reference-a-pendulum")
     }
 
-    pub fn book_with(&self, scenario: &str) -> Book {
-        Book::open(&self.0, &self.0.join("scenarios").join(scenario).with_extension("toml"))
+    pub fn book_with(&self, scenario: &str) -> Documents {
+        Documents::open(&self.0, &self.0.join("scenarios").join(scenario).with_extension("toml"))
             .unwrap()
     }
 }
@@ -136,23 +136,23 @@ pub fn workbench(folder: &Folder, pilot: Pilot) -> (Harness<'static, App>, Told)
         let engine: Box<dyn Engine> = Box::new(FakeEngine { told, view });
         Ok(engine)
     });
-    let harness = opened(folder.book(), launch, pilot);
+    let harness = opened(folder.documents(), launch, pilot);
     (harness, told)
 }
 
-pub fn opened(book: Book, launch: Launch, pilot: Pilot) -> Harness<'static, App> {
-    opened_with(book, Arc::new(PluginHost::empty()), launch, pilot)
+pub fn opened(documents: Documents, launch: Launch, pilot: Pilot) -> Harness<'static, App> {
+    opened_with(documents, Arc::new(PluginHost::empty()), launch, pilot)
 }
 
 pub fn opened_with(
-    book: Book,
+    documents: Documents,
     host: Arc<PluginHost>,
     launch: Launch,
     pilot: Pilot,
 ) -> Harness<'static, App> {
     let waker: Waker = Arc::new(|| {});
     let create = move |creation: &mut eframe::CreationContext<'_>| {
-        App::new(creation, Desk::new(book, host, launch, waker, pilot))
+        App::new(creation, Desk::new(documents, host, launch, waker, pilot))
     };
     let mut harness = Harness::builder().with_size(egui::vec2(1500.0, 940.0)).build_eframe(create);
     wait(&mut harness, |app| app.desk.view.is_some());
@@ -208,12 +208,12 @@ pub fn linked() -> Arc<PluginHost> {
 
 /// A short encounter run to its end, with every panel that reads it.
 pub fn flown(folder: &Folder) -> Harness<'static, App> {
-    let mut book = folder.book_with("hello-endline");
+    let mut documents = folder.book_with("hello-endline");
     for (field, value) in [("duration", "2 s"), ("rope_nodes", "120"), ("whale.position.1", "-7 m")]
     {
-        book.set("scenario", field, value).unwrap();
+        documents.set("scenario", field, value).unwrap();
     }
-    let mut harness = opened_with(book, linked(), live(), Pilot::default());
+    let mut harness = opened_with(documents, linked(), live(), Pilot::default());
     wait(&mut harness, |app| app.desk.status() == Some(&Status::Paused));
     harness.state_mut().desk.recordings = Some(folder.0.join("recordings"));
     harness.state_mut().desk.obey(&Order::Speed(f64::INFINITY));

@@ -80,7 +80,7 @@ impl Desk {
 
     /// The run shown stays as B; the texts make a new A.
     pub(super) fn hold_run(&mut self) {
-        if self.book.any_error() {
+        if self.documents.any_error() {
             self.notice = Some(("the gear has errors; see Problems".into(), true));
             return;
         }
@@ -137,7 +137,7 @@ impl Desk {
     /// The scenario's name without folder and ending.
     #[must_use]
     pub fn scenario_stem(&self) -> String {
-        self.book
+        self.documents
             .scenario_path()
             .file_stem()
             .map(|stem| stem.to_string_lossy().into_owned())

@@ -62,7 +62,7 @@ impl Desk {
     }
 
     fn save_scenario_as(&mut self, path: &std::path::Path) {
-        self.notice = Some(match self.book.save_scenario_as(path) {
+        self.notice = Some(match self.documents.save_scenario_as(path) {
             Ok(()) => {
                 self.remember(path);
                 (format!("saved {}", path.display()), false)

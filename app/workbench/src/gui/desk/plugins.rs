@@ -3,9 +3,9 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use endline_session::edit::Documents;
 use endline_session::plugins::{PluginInfo, PluginKind};
 
-use super::super::book::Book;
 use super::super::plugins::{Change, open_folder};
 use super::{Desk, Order};
 
@@ -65,7 +65,7 @@ impl Desk {
             self.stale.set(None);
             self.other_plugins = true;
             // While a question stands open, the model would lack what is asked about.
-            if !waiting && !self.book.any_error() && self.plugins.asked().is_none() {
+            if !waiting && !self.documents.any_error() && self.plugins.asked().is_none() {
                 self.make();
             }
         }
@@ -97,8 +97,9 @@ impl Desk {
     /// Whether the scenario names a motion or a law of friction.
     #[must_use]
     pub fn uses_plugin(&self, info: &PluginInfo) -> bool {
-        let named =
-            |(table, key): (&str, &str)| self.book.field(Book::SCENARIO, &format!("{table}.{key}"));
+        let named = |(table, key): (&str, &str)| {
+            self.documents.field(Documents::SCENARIO, &format!("{table}.{key}"))
+        };
         Self::place_of(info.kind).and_then(named).is_some_and(|id| id == info.id)
     }
 
@@ -108,7 +109,7 @@ impl Desk {
             self.every_plugin().iter().find(|(info, _)| info.id == id).map(|(info, _)| info.kind);
         let Some((table, key)) = kind.and_then(Self::place_of) else { return };
         let attributes = format!("{table}.attributes");
-        let put = self.book.alter(Book::SCENARIO, |document| {
+        let put = self.documents.alter(Documents::SCENARIO, |document| {
             if document.has(&attributes) {
                 document.remove(&attributes).map_err(|error| error.to_string())?;
             }

@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use endline_gear::Document;
 use endline_gear::units::{Quantity, parse};
+use endline_session::edit::Documents;
 use endline_session::live::{Command, Made};
 
-use super::super::book::Book;
 use super::{Desk, Order};
 use crate::gui::layout::Panel;
 use crate::gui::panels::pilot;
@@ -64,7 +64,7 @@ impl Desk {
         match made.as_ref() {
             Ok(program) => {
                 let text = self.as_long_as_before(&program.scenario);
-                self.book.put_all(vec![(Book::SCENARIO.to_owned(), text)]);
+                self.documents.put_all(vec![(Documents::SCENARIO.to_owned(), text)]);
                 self.program.chosen = None;
                 self.notice = Some((
                     format!(
@@ -83,7 +83,7 @@ impl Desk {
     fn as_long_as_before(&self, scenario: &str) -> String {
         let seconds =
             |text: Option<String>| text.and_then(|text| parse(&text, Quantity::Time).ok());
-        let before = self.book.field(Book::SCENARIO, "duration");
+        let before = self.documents.field(Documents::SCENARIO, "duration");
         let Ok(mut document) = Document::parse(scenario) else { return scenario.to_owned() };
         match before
             .filter(|before| seconds(Some(before.clone())) > seconds(document.get("duration")))
@@ -95,7 +95,7 @@ impl Desk {
 
     /// Makes the model anew and runs the inputs up to the moment shown in it; then its pilot program steers.
     fn rerun(&mut self) {
-        if self.view.is_none() || self.book.any_error() {
+        if self.view.is_none() || self.documents.any_error() {
             self.notice = Some(("nothing can be run: see Problems".into(), true));
             return;
         }

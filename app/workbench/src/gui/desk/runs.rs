@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
+use endline_session::edit::Documents;
+use endline_session::edit::recovery::UnsavedEdits;
 use endline_session::live::Command;
 
-use super::super::book::Book;
-use super::super::recovery::Kept;
 use super::Desk;
 
 /// Shortest run that is worth keeping [s].
@@ -22,7 +22,7 @@ impl Desk {
         };
         self.run_is_kept = true;
         let stem = self
-            .book
+            .documents
             .scenario_path()
             .file_stem()
             .map(|stem| stem.to_string_lossy().into_owned())
@@ -50,7 +50,7 @@ impl Desk {
         };
         self.making.clear();
         self.inputs_when_made = Some((recording.inputs, recording.header.plugins));
-        self.guest_when_made = Some(self.book.version());
+        self.guest_when_made = Some(self.documents.version());
         if let Err(error) =
             self.maker.start(recording.source, Arc::clone(&self.host), Arc::clone(&self.waker))
         {
@@ -71,7 +71,7 @@ impl Desk {
         self.studies.results.replayed = Some((option, encounter));
         self.keep_run();
         self.making.clear();
-        (self.guest_when_made, self.start_when_made) = (Some(self.book.version()), true);
+        (self.guest_when_made, self.start_when_made) = (Some(self.documents.version()), true);
         let host = Arc::clone(&self.host);
         let work = move || super::super::studies::again(&shown, option, encounter, &host);
         if let Err(error) = self.maker.start_with(work, Arc::clone(&self.waker)) {
@@ -80,21 +80,21 @@ impl Desk {
     }
 
     /// Takes edits that a crash left; one undo takes them back.
-    pub fn recover(&mut self, kept: &Kept) {
-        let elsewhere =
-            kept.scenario != self.book.scenario_path() && kept.texts.contains_key(Book::SCENARIO);
-        if elsewhere && let Err(error) = self.book.open_scenario(&kept.scenario) {
+    pub fn recover(&mut self, kept: &UnsavedEdits) {
+        let elsewhere = kept.scenario != self.documents.scenario_path()
+            && kept.texts.contains_key(Documents::SCENARIO);
+        if elsewhere && let Err(error) = self.documents.open_scenario(&kept.scenario) {
             self.notice = Some((error, true));
             return;
         }
         let study = kept.study.as_deref().filter(|study| {
-            kept.texts.contains_key(Book::STUDY) && Some(*study) != self.book.study_path()
+            kept.texts.contains_key(Documents::STUDY) && Some(*study) != self.documents.study_path()
         });
-        if let Some(Err(error)) = study.map(|study| self.book.open_study(study)) {
+        if let Some(Err(error)) = study.map(|study| self.documents.open_study(study)) {
             self.notice = Some((error, true));
             return;
         }
-        self.book
+        self.documents
             .restore(kept.texts.iter().map(|(path, text)| (path.clone(), text.clone())).collect());
         self.notice = Some(("unsaved edits are back; Save keeps them".into(), false));
     }

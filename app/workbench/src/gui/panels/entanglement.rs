@@ -5,13 +5,13 @@ use std::sync::Arc;
 use egui::{Color32, Grid, Rect, RichText, ScrollArea, Sense, Stroke, Ui, vec2};
 use endline_sdk::BodyPart;
 use endline_session::live::LiveView;
+use endline_session::units::{ForceUnit, Units};
 use endline_sim::metrics::{Outcome, RegionSummary, WhaleSummary};
 
 use super::super::bodymap::{BodyMap, Face};
 use super::super::desk::{Desk, Order};
 use super::super::reading::spoken;
 use super::super::theme::Theme;
-use super::super::units::{ForceUnit, Units};
 use super::super::wraps::wraps;
 use super::summary::numbers;
 use crate::scene::colour::tension_colour;

@@ -1,11 +1,11 @@
 //! What happened when; a click shows that moment.
 
 use egui::{Align, Layout, RichText, ScrollArea, Sense, Ui};
+use endline_session::units::ForceUnit;
 use endline_sim::metrics::{Event, EventKind};
 
 use super::super::desk::{Desk, Order};
 use super::super::theme::{Palette, Theme};
-use super::super::units::ForceUnit;
 
 /// Draws the list of events, the newest last.
 pub fn show(ui: &mut Ui, desk: &mut Desk) {

@@ -109,7 +109,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
         .library
         .chosen
         .clone()
-        .filter(|path| path.starts_with(folder) && desk.book.text(path).is_some());
+        .filter(|path| path.starts_with(folder) && desk.documents.text(path).is_some());
     if let Some(path) = chosen {
         let (table, entry) =
             whole.split_left_right_at_x(whole.right() - (whole.width() * 0.3).clamp(220.0, 380.0));
@@ -140,14 +140,14 @@ fn toolbar(ui: &mut Ui, desk: &mut Desk) {
             TextEdit::singleline(&mut desk.library.search).hint_text("Search").desired_width(150.0),
         );
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let unsaved = desk.book.unsaved().len();
+            let unsaved = desk.documents.unsaved().len();
             if primary(ui, unsaved > 0, "Save")
                 .on_hover_text("Ctrl+S: write every changed file; comments stay")
                 .clicked()
             {
                 desk.orders.push(Order::Save);
             }
-            let (undo, redo) = desk.book.can_undo_redo();
+            let (undo, redo) = desk.documents.can_undo_redo();
             if ui.add_enabled(redo, Button::new("Redo")).on_hover_text("Ctrl+Shift+Z").clicked() {
                 desk.orders.push(Order::Redo);
             }
@@ -174,7 +174,7 @@ pub fn duplicate(desk: &mut Desk) {
         desk.notice = Some(("choose a row of the library first".into(), true));
         return;
     };
-    match desk.book.duplicate(&path) {
+    match desk.documents.duplicate(&path) {
         Ok(fresh) => {
             desk.library.against = Against::Entry(path);
             desk.library.chosen = Some(fresh);
@@ -200,7 +200,7 @@ fn table_menu(ui: &mut Ui, desk: &mut Desk) {
         ui.close();
     }
     if ui.button("Copy for a spreadsheet").clicked() {
-        let text = exchange::to_tabs(&desk.book, desk.library.kind, &rows(desk));
+        let text = exchange::to_tabs(&desk.documents, desk.library.kind, &rows(desk));
         ui.ctx().copy_text(text);
         ui.close();
     }
@@ -210,7 +210,7 @@ fn table_menu(ui: &mut Ui, desk: &mut Desk) {
 /// The CSV of the shown table.
 #[must_use]
 pub fn csv(desk: &Desk) -> String {
-    exchange::to_csv(&desk.book, desk.library.kind, &rows(desk))
+    exchange::to_csv(&desk.documents, desk.library.kind, &rows(desk))
 }
 
 /// Takes cells from the clipboard: from the cell being typed in on, or, with a head row, as entries.
@@ -247,11 +247,11 @@ fn paste(ui: &Ui, desk: &mut Desk) {
     let head = exchange::cells(&text)
         .is_ok_and(|cells| cells.first().is_some_and(|row| exchange::is_head(kind, row)));
     let taken = match at {
-        _ if head => exchange::import(&mut desk.book, kind, &text),
+        _ if head => exchange::import(&mut desk.documents, kind, &text),
         Some((row, column)) => {
             fields::forget(ui, &paths[row], keys[column]);
             exchange::cells(&text).and_then(|cells| {
-                exchange::spread(&mut desk.book, &paths[row..], &keys[column..], &cells)
+                exchange::spread(&mut desk.documents, &paths[row..], &keys[column..], &cells)
             })
         }
         None => Err("click the cell the table begins in, or copy it with its head row".to_owned()),
@@ -264,7 +264,8 @@ fn paste(ui: &Ui, desk: &mut Desk) {
 
 /// Takes a CSV text into the shown table and says what came of it.
 pub fn take_in(desk: &mut Desk, text: &str) {
-    let taken: Result<Taken, String> = exchange::import(&mut desk.book, desk.library.kind, text);
+    let taken: Result<Taken, String> =
+        exchange::import(&mut desk.documents, desk.library.kind, text);
     desk.notice = Some(match taken {
         Ok(taken) => (taken.told(), !taken.left_out.is_empty()),
         Err(why) => (format!("not taken in: {why}"), true),
@@ -276,15 +277,15 @@ fn rows(desk: &Desk) -> Vec<String> {
     let state = &desk.library;
     let words: Vec<String> =
         state.search.to_lowercase().split_whitespace().map(str::to_owned).collect();
-    let name = |path: &str| desk.book.field(path, "name").unwrap_or_default();
+    let name = |path: &str| desk.documents.field(path, "name").unwrap_or_default();
     let matches = |path: &&str| {
         let text = format!("{path} {}", name(path)).to_lowercase();
         words.iter().all(|word| text.contains(word))
     };
     let mut rows: Vec<String> =
-        desk.book.files(state.kind.folder()).filter(matches).map(str::to_owned).collect();
+        desk.documents.files(state.kind.folder()).filter(matches).map(str::to_owned).collect();
     // What this scenario is made of comes first.
-    rows.sort_by_cached_key(|path| (!desk.book.in_use(path), name(path).to_lowercase()));
+    rows.sort_by_cached_key(|path| (!desk.documents.in_use(path), name(path).to_lowercase()));
     if let Some((key, down)) = state.sort {
         let field = state.kind.fields().iter().find(|field| field.key == key);
         let value = |path: &String| {
@@ -300,8 +301,8 @@ fn rows(desk: &Desk) -> Vec<String> {
 
 /// The same as the table shows them, found anew where texts or choices have changed.
 fn shown_rows(desk: &mut Desk) -> Arc<Vec<Row>> {
-    let (state, version) = (&desk.library, desk.book.version());
-    let scenario = desk.book.scenario_path().to_owned();
+    let (state, version) = (&desk.library, desk.documents.version());
+    let scenario = desk.documents.scenario_path().to_owned();
     let wanted = Wanted {
         version,
         scenario,
@@ -314,7 +315,7 @@ fn shown_rows(desk: &mut Desk) -> Arc<Vec<Row>> {
     }
     let row = |path: String| Row {
         problem: cell_problem(desk, &path).is_some(),
-        used: desk.book.in_use(&path),
+        used: desk.documents.in_use(&path),
         path,
     };
     let rows: Arc<Vec<Row>> = Arc::new(rows(desk).into_iter().map(row).collect());
@@ -324,7 +325,7 @@ fn shown_rows(desk: &mut Desk) -> Arc<Vec<Row>> {
 
 /// The SI value of a cell, where it can be read.
 fn si_value(desk: &Desk, path: &str, field: &Field) -> Option<f64> {
-    units::parse(&desk.book.field(path, field.key)?, field.quantity).ok()
+    units::parse(&desk.documents.field(path, field.key)?, field.quantity).ok()
 }
 
 fn table(ui: &mut Ui, desk: &mut Desk) {
@@ -469,10 +470,10 @@ fn near(ui: &Ui) -> bool {
 fn name_cell(ui: &mut Ui, desk: &mut Desk, row: &Row) {
     let (path, used) = (row.path.as_str(), row.used);
     let palette = Theme::palette_of(ui);
-    let name = desk.book.field(path, "name").unwrap_or_else(|| path.to_owned());
-    let mark = if desk.book.is_unsaved(path) { "• " } else { "" };
+    let name = desk.documents.field(path, "name").unwrap_or_else(|| path.to_owned());
+    let mark = if desk.documents.is_unsaved(path) { "• " } else { "" };
     let chosen = desk.library.chosen.as_deref() == Some(path);
-    let colour = match (desk.book.file_has_error(path), used && !chosen) {
+    let colour = match (desk.documents.file_has_error(path), used && !chosen) {
         (true, _) => palette.error,
         (false, true) => palette.accent,
         (false, false) => palette.text,
@@ -484,8 +485,10 @@ fn name_cell(ui: &mut Ui, desk: &mut Desk, row: &Row) {
         desk.library.chosen = Some(path.to_owned());
     }
     if response.contains_pointer() {
-        let notes =
-            desk.book.field(path, "notes").map_or(String::new(), |notes| format!("\n\n{notes}"));
+        let notes = desk
+            .documents
+            .field(path, "notes")
+            .map_or(String::new(), |notes| format!("\n\n{notes}"));
         let unsaved = if mark.is_empty() { "" } else { "\nnot saved yet" };
         let used = if used { "\nin use by this scenario" } else { "" };
         response.on_hover_text(format!("{name}\n{path}{used}{unsaved}{notes}"));
@@ -504,9 +507,15 @@ fn cell(
         .vertical(|ui| {
             ui.spacing_mut().item_spacing.y = 1.0;
             ui.add_space(1.0);
-            let committed =
-                fields::edit(ui, &desk.book, path, key, width, fields::Said { hint: "", help });
-            if let Some(problem) = desk.book.problem_at(path, key) {
+            let committed = fields::edit(
+                ui,
+                &desk.documents,
+                path,
+                key,
+                width,
+                fields::Said { hint: "", help },
+            );
+            if let Some(problem) = desk.documents.problem_at(path, key) {
                 let error =
                     RichText::new(&problem.message).size(10.5).color(Theme::palette_of(ui).error);
                 ui.add(egui::Label::new(error).truncate());
@@ -519,7 +528,7 @@ fn cell(
 
 /// A letter in the cell's corner for how sure its figure is: m measured, d derived, e estimate.
 fn sureness(ui: &Ui, desk: &Desk, path: &str, field: &Field) {
-    let entry = desk.book.library().entry(desk.library.kind, exchange::id_of(path));
+    let entry = desk.documents.library().entry(desk.library.kind, exchange::id_of(path));
     let Some(figure) = entry.and_then(|entry| entry.figure(field.key)) else { return };
     let letter = figure.sureness.word().get(..1).unwrap_or_default();
     let colour = figures::colour(figure.sureness, Theme::palette_of(ui));
@@ -537,7 +546,7 @@ fn sureness(ui: &Ui, desk: &Desk, path: &str, field: &Field) {
 fn provenance(desk: &Desk, path: &str, field: &Field) -> String {
     let kind = desk.library.kind;
     let id = path.rsplit('/').next().unwrap_or(path).trim_end_matches(".toml");
-    let figure = desk.book.library().entry(kind, id).and_then(|entry| entry.figure(field.key));
+    let figure = desk.documents.library().entry(kind, id).and_then(|entry| entry.figure(field.key));
     figure.map_or_else(String::new, |figure| {
         let si = units::format_si(figure.value, field.quantity);
         format!("\n\n= {si}\n{}: {}", figure.sureness.word(), figure.source)
@@ -549,13 +558,13 @@ fn cell_problem<'a>(desk: &'a Desk, path: &str) -> Option<&'a Diagnostic> {
     let kind = desk.library.kind;
     let keys =
         kind.words().iter().map(|word| word.key).chain(kind.fields().iter().map(|field| field.key));
-    keys.filter_map(|key| desk.book.problem_at(path, key)).next()
+    keys.filter_map(|key| desk.documents.problem_at(path, key)).next()
 }
 
 /// Problems of the files of the shown table.
 fn table_problems(desk: &Desk) -> Vec<Diagnostic> {
     let folder = format!("{}/", desk.library.kind.folder());
-    desk.book
+    desk.documents
         .problems()
         .iter()
         .filter(|problem| problem.file.starts_with(&folder))

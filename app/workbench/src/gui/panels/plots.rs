@@ -11,12 +11,12 @@ use egui_plot::{
     AxisHints, FilledArea, HLine, Line, LineStyle, Plot, PlotPoint, PlotPoints, Polygon, VLine,
 };
 use endline_session::live::LiveView;
+use endline_session::units::Units;
 use endline_sim::Model;
 
 use super::super::charts::{Chart, Curve, Kind, Style};
 use super::super::desk::{Desk, Order};
 use super::super::theme::Theme;
-use super::super::units::Units;
 
 /// A strength further above the peak than this share is told, not drawn.
 const REACH: f64 = 3.0;

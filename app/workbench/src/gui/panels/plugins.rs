@@ -6,9 +6,9 @@ use egui::{Button, Grid, Label, RichText, ScrollArea, Ui};
 use endline_gear::Setting;
 use endline_gear::units::{Quantity, format_si};
 use endline_sdk::{Attribute, AttributeKind};
+use endline_session::edit::Documents;
 use endline_session::plugins::{Change, PluginInfo, PluginProblem, Standing};
 
-use super::super::book::Book;
 use super::super::desk::{Desk, Order};
 use super::super::fields;
 use super::super::theme::{Theme, primary};
@@ -270,8 +270,8 @@ fn attributes(ui: &mut Ui, desk: &mut Desk, info: &PluginInfo) {
                         fields::edit_in(
                             ui,
                             "plugins",
-                            &desk.book,
-                            (Book::SCENARIO, &field),
+                            &desk.documents,
+                            (Documents::SCENARIO, &field),
                             FIELD_WIDTH - 8.0,
                             said,
                         )
@@ -291,7 +291,7 @@ fn attributes(ui: &mut Ui, desk: &mut Desk, info: &PluginInfo) {
     for (field, value) in edits {
         // The table of attributes may not be there yet.
         let value = Setting::plain(&value);
-        if let Err(error) = desk.book.alter(Book::SCENARIO, |scenario| {
+        if let Err(error) = desk.documents.alter(Documents::SCENARIO, |scenario| {
             scenario.put(&field, &value).map_err(|error| error.to_string())
         }) {
             desk.notice = Some((error, true));

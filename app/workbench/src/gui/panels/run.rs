@@ -69,7 +69,7 @@ fn stale(ui: &mut Ui, desk: &mut Desk) {
             ui.spinner();
             ui.label(RichText::new("making the model").color(palette.faint));
         });
-    } else if desk.book.any_error() {
+    } else if desk.documents.any_error() {
         let text = "The gear has errors. The run shown is from before them.";
         ui.add(egui::Label::new(RichText::new(text).color(palette.error)).wrap());
     } else {

@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use egui::{RichText, ScrollArea, Ui};
+use endline_session::units::Units;
 
 use super::super::desk::{Desk, Order};
 use super::super::layout::Panel;
 use super::super::theme::Theme;
-use super::super::units::Units;
 
 /// A scenario as the start page shows it.
 #[derive(Clone, Debug)]
@@ -28,7 +28,7 @@ pub struct StartState {
 /// Draws the start page.
 pub fn show(ui: &mut Ui, desk: &mut Desk) {
     let examples =
-        desk.start.examples.get_or_insert_with(|| examples(desk.book.root()).into()).clone();
+        desk.start.examples.get_or_insert_with(|| examples(desk.documents.root()).into()).clone();
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         ui.heading("Endline");
         ui.label("Fishing gear, and whales that get out of it alive.");

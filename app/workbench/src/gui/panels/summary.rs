@@ -1,11 +1,11 @@
 //! How the run came out: outcome, loads by part of the whale, lines and weak links.
 
 use egui::{Grid, RichText, ScrollArea, Ui};
+use endline_session::units::{ForceUnit, Units};
 use endline_sim::metrics::{Summary, WhaleSummary};
 
 use super::super::desk::{Desk, Order};
 use super::super::theme::Theme;
-use super::super::units::{ForceUnit, Units};
 
 /// Draws the summary.
 pub fn show(ui: &mut Ui, desk: &mut Desk) {

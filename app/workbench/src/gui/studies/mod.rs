@@ -9,11 +9,11 @@ mod results;
 
 use std::path::{Path, PathBuf};
 
+use endline_session::edit::Documents;
 use endline_session::study::Opened;
 use endline_session::study::encounter::Encounter;
 use endline_session::{Error, PluginHost, Prepared};
 
-use super::book::Book;
 use super::desk::{Desk, Order};
 use job::Job;
 pub use results::{Asked, Results, Shown};
@@ -104,7 +104,8 @@ fn follow(desk: &mut Desk) {
 /// Asks for results to be read in the background.
 pub fn ask(desk: &mut Desk, asked: Asked) {
     let (host, waker) = desk.helpers();
-    let asked = Asked { library: desk.book.root().to_owned(), root: desk.studies.root(), ..asked };
+    let asked =
+        Asked { library: desk.documents.root().to_owned(), root: desk.studies.root(), ..asked };
     if let Err(error) = desk.studies.results.ask(asked, host, waker) {
         desk.notice = Some((error, true));
     }
@@ -112,19 +113,19 @@ pub fn ask(desk: &mut Desk, asked: Asked) {
 
 /// Opens a study for editing, and the results it already has.
 pub fn open(desk: &mut Desk, path: &Path) {
-    if desk.book.study_path().is_some() && desk.book.is_unsaved(Book::STUDY) {
+    if desk.documents.study_path().is_some() && desk.documents.is_unsaved(Documents::STUDY) {
         desk.notice =
             Some(("the open study has unsaved edits; save or undo them first".into(), true));
         return;
     }
-    if let Err(error) = desk.book.open_study(path) {
+    if let Err(error) = desk.documents.open_study(path) {
         desk.notice = Some((error, true));
         return;
     }
     let id = |path: &PathBuf| {
         path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
     };
-    desk.studies.scenarios = super::panels::scenario::scenarios(desk.book.root())
+    desk.studies.scenarios = super::panels::scenario::scenarios(desk.documents.root())
         .iter()
         .map(|path| (id(path), id(path)))
         .collect();
@@ -138,16 +139,16 @@ pub fn open_results(desk: &mut Desk, folder: &Path) {
 
 /// Queues the open study; its text is saved first, for the study is run from its file.
 pub fn queue(desk: &mut Desk) {
-    let Some(path) = desk.book.study_path().map(Path::to_owned) else {
+    let Some(path) = desk.documents.study_path().map(Path::to_owned) else {
         desk.notice = Some(("open a study first".into(), true));
         return;
     };
-    if desk.book.file_has_error(Book::STUDY) || desk.book.any_error() {
+    if desk.documents.file_has_error(Documents::STUDY) || desk.documents.any_error() {
         desk.notice = Some(("study or gear have errors; see Problems".into(), true));
         return;
     }
-    if !desk.book.unsaved().is_empty()
-        && let Err(error) = desk.book.save()
+    if !desk.documents.unsaved().is_empty()
+        && let Err(error) = desk.documents.save()
     {
         desk.notice = Some((format!("not saved, so not queued: {error}"), true));
         return;
@@ -157,9 +158,12 @@ pub fn queue(desk: &mut Desk) {
         desk.notice = Some(("this study is in the queue already".into(), false));
         return;
     }
-    let name = desk.book.field(Book::STUDY, "name").unwrap_or_else(|| path.display().to_string());
+    let name = desk
+        .documents
+        .field(Documents::STUDY, "name")
+        .unwrap_or_else(|| path.display().to_string());
     desk.studies.jobs.retain(|job| job.file != path);
-    let job = Job::new(path, name, desk.book.root().to_owned(), desk.studies.root());
+    let job = Job::new(path, name, desk.documents.root().to_owned(), desk.studies.root());
     desk.studies.jobs.push(job);
     desk.studies.results.follows_next = true;
 }
@@ -197,13 +201,13 @@ pub fn cancel(desk: &mut Desk) {
 /// Goes on with a copy of the open study beside those of the library.
 pub fn duplicate(desk: &mut Desk) {
     let (Some(path), Some(text)) =
-        (desk.book.study_path(), desk.book.text(Book::STUDY).map(str::to_owned))
+        (desk.documents.study_path(), desk.documents.text(Documents::STUDY).map(str::to_owned))
     else {
         desk.notice = Some(("open a study first".into(), true));
         return;
     };
     let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-    let folder = desk.book.root().join("studies");
+    let folder = desk.documents.root().join("studies");
     let Some(fresh) = (2..1000)
         .map(|number| folder.join(format!("{stem}-{number}.toml")))
         .find(|path| !path.exists())
@@ -218,7 +222,7 @@ pub fn duplicate(desk: &mut Desk) {
             document.save(&fresh).map_err(|error| error.to_string())
         },
     );
-    match written.and_then(|()| desk.book.open_study(&fresh)) {
+    match written.and_then(|()| desk.documents.open_study(&fresh)) {
         Ok(()) => desk.notice = Some((format!("a copy: {}", fresh.display()), false)),
         Err(error) => desk.notice = Some((format!("{}: {error}", fresh.display()), true)),
     }
@@ -249,7 +253,7 @@ pub fn again(
 /// The command lines that run the open study and report it as the window does, and whether files must be saved before.
 #[must_use]
 pub fn command_line(desk: &Desk) -> Option<(String, bool)> {
-    let path = desk.book.study_path()?;
+    let path = desk.documents.study_path()?;
     let quoted = |path: &Path| format!("'{}'", path.display().to_string().replace('\'', "'\\''"));
     let job = desk.studies.jobs.iter().find(|job| job.file == path).and_then(Job::folder);
     let shown = desk
@@ -260,7 +264,11 @@ pub fn command_line(desk: &Desk) -> Option<(String, bool)> {
     let folder = job.or_else(|| shown.map(|shown| shown.folder.clone()));
     let out = folder.map_or_else(String::new, |folder| format!(" --out {}", quoted(&folder)));
     let line = |verb: &str| {
-        format!("endline study {verb} {} --library {}{out}", quoted(path), quoted(desk.book.root()))
+        format!(
+            "endline study {verb} {} --library {}{out}",
+            quoted(path),
+            quoted(desk.documents.root())
+        )
     };
-    Some((["run", "merge", "report"].map(line).join(" && "), !desk.book.unsaved().is_empty()))
+    Some((["run", "merge", "report"].map(line).join(" && "), !desk.documents.unsaved().is_empty()))
 }

@@ -4,8 +4,8 @@ use egui::{Grid, RichText, Slider, SliderClamping, Ui};
 use endline_gear::Kind;
 use endline_gear::units::{Quantity, format_si};
 use endline_sdk::{Attribute, AttributeKind};
+use endline_session::edit::Documents;
 
-use super::super::super::book::Book;
 use super::super::super::desk::Desk;
 use super::super::super::fields;
 use super::super::super::theme::Theme;
@@ -24,7 +24,7 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, file: &str, id: &str, gear_type
     if let Some(scope) = attributes.iter().find(|attribute| attribute.key == "scope") {
         scope_slider(ui, desk, file, scope);
     }
-    if desk.book.field(Book::SCENARIO, "gear.0.assembly").as_deref() == Some(id) {
+    if desk.documents.field(Documents::SCENARIO, "gear.0.assembly").as_deref() == Some(id) {
         inserts::of_placed(ui, desk);
     } else {
         let text = "Weak inserts go into gear that the scenario uses: Use in scenario, above.";
@@ -47,7 +47,8 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, file: &str, id: &str, gear_type
 /// Scope under the hand: rope over depth, the gear follows while it moves.
 fn scope_slider(ui: &mut Ui, desk: &mut Desk, file: &str, attribute: &Attribute) {
     let AttributeKind::Number { min, max, default } = attribute.kind else { return };
-    let typed = desk.book.field(file, "attributes.scope").and_then(|text| text.parse::<f64>().ok());
+    let typed =
+        desk.documents.field(file, "attributes.scope").and_then(|text| text.parse::<f64>().ok());
     let mut scope = typed.unwrap_or(default);
     let slider = Slider::new(&mut scope, min.max(1.0)..=max.min(3.0))
         .clamping(SliderClamping::Never)
@@ -57,12 +58,13 @@ fn scope_slider(ui: &mut Ui, desk: &mut Desk, file: &str, attribute: &Attribute)
     ui.spacing_mut().slider_width = 110.0;
     let response = ui.add(slider).on_hover_text("Length of the endline over the depth of water");
     if response.changed()
-        && let Err(error) = desk.book.set_held(file, "attributes.scope", &super::written(scope))
+        && let Err(error) =
+            desk.documents.set_held(file, "attributes.scope", &super::written(scope))
     {
         desk.notice = Some((error, true));
     }
     if response.drag_stopped() || response.lost_focus() {
-        desk.book.let_go();
+        desk.documents.let_go();
     }
 }
 
@@ -77,7 +79,8 @@ fn cell(ui: &mut Ui, desk: &mut Desk, file: &str, attribute: &Attribute) {
         AttributeKind::Choice { words, .. } => {
             let choices: Vec<(String, String)> =
                 words.iter().map(|word| (word.to_string(), word.to_string())).collect();
-            if let Some(taken) = fields::choose(ui, &desk.book, file, &field, &choices, width) {
+            if let Some(taken) = fields::choose(ui, &desk.documents, file, &field, &choices, width)
+            {
                 desk.set(file, &field, &taken);
             }
         }
@@ -85,7 +88,7 @@ fn cell(ui: &mut Ui, desk: &mut Desk, file: &str, attribute: &Attribute) {
             let (hint, help) = (usual(attribute), help(attribute));
             if let Some(typed) = fields::edit(
                 ui,
-                &desk.book,
+                &desk.documents,
                 file,
                 &field,
                 width,

@@ -2,8 +2,8 @@
 
 use egui::{Grid, RichText, Ui};
 use endline_gear::{Kind, Setting};
+use endline_session::edit::Documents;
 
-use super::super::super::book::Book;
 use super::super::super::desk::Desk;
 use super::super::super::fields;
 use super::super::super::theme::Theme;
@@ -23,7 +23,7 @@ const USUAL: [(&str, &str); 5] = [
 pub(super) fn of_placed(ui: &mut Ui, desk: &mut Desk) {
     super::super::caption(ui, "Weak inserts");
     for line in built_lines(desk) {
-        one(ui, desk, Book::SCENARIO, &format!("gear.0.lines.{line}"), &line);
+        one(ui, desk, Documents::SCENARIO, &format!("gear.0.lines.{line}"), &line);
     }
 }
 
@@ -45,7 +45,7 @@ fn built_lines(desk: &Desk) -> Vec<String> {
 /// Inserts of one line under `field` of a file, such as `line.1`.
 pub(super) fn one(ui: &mut Ui, desk: &mut Desk, file: &str, field: &str, name: &str) {
     let inserts = format!("{field}.inserts");
-    let there = desk.book.document(file).is_ok_and(|document| document.has(&inserts));
+    let there = desk.documents.document(file).is_ok_and(|document| document.has(&inserts));
     ui.horizontal(|ui| {
         ui.label(name);
         if there {
@@ -81,7 +81,7 @@ fn alter(
     file: &str,
     change: impl FnOnce(&mut endline_gear::Document) -> Result<(), String>,
 ) {
-    if let Err(error) = desk.book.alter(file, change) {
+    if let Err(error) = desk.documents.alter(file, change) {
         desk.notice = Some((error, true));
     }
 }
@@ -107,7 +107,7 @@ fn editor(ui: &mut Ui, desk: &mut Desk, file: &str, inserts: &str) {
                     .on_hover_text(help);
                 let (field, width) = (format!("{inserts}.{key}"), ui.available_width() - 8.0);
                 if let Some(typed) =
-                    fields::edit(ui, &desk.book, file, &field, width, super::said(help))
+                    fields::edit(ui, &desk.documents, file, &field, width, super::said(help))
                 {
                     desk.set(file, &field, &typed);
                 }

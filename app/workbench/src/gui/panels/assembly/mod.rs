@@ -11,10 +11,10 @@ mod table;
 
 use egui::{RichText, ScrollArea, Slider, SliderClamping, Ui};
 use endline_gear::Kind;
+use endline_session::edit::Documents;
 use endline_session::rest::TrialSea;
 
 use super::super::bench::{Answer, Bench, Trial};
-use super::super::book::Book;
 use super::super::desk::{Desk, Order};
 use super::super::theme::{Theme, primary};
 
@@ -119,11 +119,11 @@ fn foot_of(ui: &mut Ui, desk: &mut Desk, id: &str) {
 
 /// Id of the assembly shown: the one chosen, or the scenario's.
 fn shown(desk: &Desk) -> Option<String> {
-    let there = |id: &String| desk.book.text(&path(id)).is_some();
+    let there = |id: &String| desk.documents.text(&path(id)).is_some();
     let chosen = desk.assembly.shown.clone().filter(there);
-    let of_scenario = || desk.book.field(Book::SCENARIO, "gear.0.assembly").filter(there);
+    let of_scenario = || desk.documents.field(Documents::SCENARIO, "gear.0.assembly").filter(there);
     let first = || {
-        desk.book
+        desk.documents
             .files("assemblies")
             .next()
             .map(|path| path["assemblies/".len()..].trim_end_matches(".toml").to_owned())
@@ -148,10 +148,10 @@ fn ask(desk: &mut Desk, id: &str) {
         trials.extend([at(other, Some(0.0)), at(other, running)]);
     }
     desk.assembly.bench.poll();
-    let wanted = (desk.book.version(), trials);
+    let wanted = (desk.documents.version(), trials);
     if desk.assembly.asked.as_ref() != Some(&wanted) {
-        let scenario = desk.book.text(Book::SCENARIO).unwrap_or_default().to_owned();
-        let (library, (host, waker)) = (desk.book.library().clone(), desk.helpers());
+        let scenario = desk.documents.text(Documents::SCENARIO).unwrap_or_default().to_owned();
+        let (library, (host, waker)) = (desk.documents.library().clone(), desk.helpers());
         desk.assembly.bench.ask(&scenario, &library, wanted.1.clone(), &host, &waker);
         desk.assembly.asked = Some(wanted);
     }
@@ -175,7 +175,7 @@ fn toolbar(ui: &mut Ui, desk: &mut Desk, id: &str) {
         );
         ui.menu_button("New ⏷", |ui| new(ui, desk));
         if ui.button("Duplicate").on_hover_text("Copy A to a file of its own").clicked() {
-            match desk.book.duplicate(&path(id)) {
+            match desk.documents.duplicate(&path(id)) {
                 Ok(fresh) => {
                     desk.assembly.shown =
                         Some(fresh["assemblies/".len()..].trim_end_matches(".toml").to_owned())
@@ -183,12 +183,12 @@ fn toolbar(ui: &mut Ui, desk: &mut Desk, id: &str) {
                 Err(error) => desk.notice = Some((error, true)),
             }
         }
-        let placed = desk.book.field(Book::SCENARIO, "gear.0.assembly");
+        let placed = desk.documents.field(Documents::SCENARIO, "gear.0.assembly");
         if placed.is_some()
             && placed.as_deref() != Some(id)
             && primary(ui, true, "Use in scenario").clicked()
         {
-            desk.set(Book::SCENARIO, "gear.0.assembly", id);
+            desk.set(Documents::SCENARIO, "gear.0.assembly", id);
         }
         ui.menu_button("Model ⏷", |ui| {
             for (text, ending) in [("Save as STL …", "stl"), ("Save as glTF …", "glb")] {
@@ -254,8 +254,9 @@ fn written(value: f64) -> String {
 /// Every assembly: id and name.
 fn assemblies(desk: &Desk) -> Vec<(String, String)> {
     let id = |path: &str| path["assemblies/".len()..].trim_end_matches(".toml").to_owned();
-    let named = |path: &str| (id(path), desk.book.field(path, "name").unwrap_or_else(|| id(path)));
-    desk.book.files("assemblies").map(named).collect()
+    let named =
+        |path: &str| (id(path), desk.documents.field(path, "name").unwrap_or_else(|| id(path)));
+    desk.documents.files("assemblies").map(named).collect()
 }
 
 /// A choice among assemblies; the outer answer says whether something was taken, the inner one what.
@@ -296,13 +297,13 @@ fn new(ui: &mut Ui, desk: &mut Desk) {
         let descriptor = gear.descriptor();
         if ui.button(descriptor.name.as_ref()).on_hover_text(descriptor.id.as_ref()).clicked() {
             let stem = descriptor.id.rsplit('.').next().unwrap_or("gear").to_owned();
-            let fresh = desk.book.fresh_path("assemblies", &format!("my-{stem}"));
+            let fresh = desk.documents.fresh_path("assemblies", &format!("my-{stem}"));
             let text = format!(
                 "format = 1\nkind = \"assembly\"\nname = \"My {}\"\nnotes = \"\"\n\ngear_type = \"{}\"\n\n[attributes]\n",
                 descriptor.name.to_lowercase(),
                 descriptor.id
             );
-            desk.book.put_all(vec![(fresh.clone(), text)]);
+            desk.documents.put_all(vec![(fresh.clone(), text)]);
             desk.assembly.shown =
                 Some(fresh["assemblies/".len()..].trim_end_matches(".toml").to_owned());
             ui.close();
@@ -315,7 +316,7 @@ fn make(ui: &mut Ui, desk: &mut Desk, id: &str) {
     let file = path(id);
     if let Some(name) = super::super::fields::edit(
         ui,
-        &desk.book,
+        &desk.documents,
         &file,
         "name",
         ui.available_width() - 8.0,
@@ -323,12 +324,12 @@ fn make(ui: &mut Ui, desk: &mut Desk, id: &str) {
     ) {
         desk.set(&file, "name", &name);
     }
-    match desk.book.field(&file, "gear_type") {
+    match desk.documents.field(&file, "gear_type") {
         Some(gear_type) => form::show(ui, desk, &file, id, &gear_type),
         None => parts::show(ui, desk, &file),
     }
     let problems: Vec<_> =
-        desk.book.problems().iter().filter(|problem| problem.file == file).cloned().collect();
+        desk.documents.problems().iter().filter(|problem| problem.file == file).cloned().collect();
     for problem in &problems {
         super::problems::entry(ui, problem);
     }
@@ -340,14 +341,15 @@ fn said(help: &str) -> super::super::fields::Said<'_> {
 
 /// A choice of a library item for a field of a file; with `none` it may be empty.
 fn item(ui: &mut Ui, desk: &mut Desk, file: &str, field: &str, kind: Kind, none: bool) {
-    let library = desk.book.library();
+    let library = desk.documents.library();
     let mut choices: Vec<(String, String)> =
         library.entries(kind).iter().map(|entry| (entry.id.clone(), entry.name.clone())).collect();
     if none {
         choices.insert(0, (String::new(), "none".to_owned()));
     }
     let width = ui.available_width() - 8.0;
-    if let Some(taken) = super::super::fields::choose(ui, &desk.book, file, field, &choices, width)
+    if let Some(taken) =
+        super::super::fields::choose(ui, &desk.documents, file, field, &choices, width)
     {
         desk.set(file, field, &taken);
     }

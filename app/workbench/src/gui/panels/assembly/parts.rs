@@ -39,16 +39,18 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, file: &str) {
 
 /// How many tables of a list there are.
 fn count(desk: &Desk, file: &str, list: &str) -> usize {
-    (0..).take_while(|index| desk.book.field(file, &format!("{list}.{index}.id")).is_some()).count()
+    (0..)
+        .take_while(|index| desk.documents.field(file, &format!("{list}.{index}.id")).is_some())
+        .count()
 }
 
 /// Ids of a list's tables.
 fn ids(desk: &Desk, file: &str, list: &str) -> Vec<String> {
-    (0..).map_while(|index| desk.book.field(file, &format!("{list}.{index}.id"))).collect()
+    (0..).map_while(|index| desk.documents.field(file, &format!("{list}.{index}.id"))).collect()
 }
 
 fn change(desk: &mut Desk, file: &str, change: impl FnOnce(&mut Document) -> Result<(), String>) {
-    if let Err(error) = desk.book.alter(file, change) {
+    if let Err(error) = desk.documents.alter(file, change) {
         desk.notice = Some((error, true));
     }
 }
@@ -70,7 +72,7 @@ fn add(ui: &mut Ui, desk: &mut Desk, file: &str) {
         {
             if ui.button(super::super::library::title(word)).clicked() {
                 let first = desk
-                    .book
+                    .documents
                     .library()
                     .ids(kind)
                     .first()
@@ -154,7 +156,7 @@ fn take_out(desk: &mut Desk, file: &str, list: &str, index: usize) {
 fn row(ui: &mut Ui, desk: &mut Desk, file: &str, name: &str, field: &str, help: &str) {
     ui.label(RichText::new(name).color(Theme::palette_of(ui).faint)).on_hover_text(help);
     let width = ui.available_width() - 8.0;
-    if let Some(typed) = fields::edit(ui, &desk.book, file, field, width, said(help)) {
+    if let Some(typed) = fields::edit(ui, &desk.documents, file, field, width, said(help)) {
         desk.set(file, field, &typed);
     }
     ui.end_row();
@@ -242,7 +244,7 @@ fn link(ui: &mut Ui, desk: &mut Desk, file: &str, index: usize) {
 }
 
 fn text(desk: &Desk, file: &str, field: &str) -> String {
-    desk.book.field(file, field).unwrap_or_default()
+    desk.documents.field(file, field).unwrap_or_default()
 }
 
 fn line(ui: &mut Ui, desk: &mut Desk, file: &str, index: usize) {
@@ -295,7 +297,7 @@ fn line(ui: &mut Ui, desk: &mut Desk, file: &str, index: usize) {
 fn add_link(desk: &mut Desk, file: &str, line: &str, end: &str) {
     let id = fresh(&ids(desk, file, "link"), &format!("{line}-link"));
     let item = desk
-        .book
+        .documents
         .library()
         .ids(Kind::WeakLink)
         .first()
@@ -327,7 +329,7 @@ fn length_slider(ui: &mut Ui, desk: &mut Desk, file: &str, at: &str) {
         ui.data_mut(|data| data.insert_temp(scale, longest_m));
     }
     if response.changed()
-        && let Err(error) = desk.book.set_held(
+        && let Err(error) = desk.documents.set_held(
             file,
             &field,
             &format!("{} {}", super::written(shown), units.length_symbol()),
@@ -337,7 +339,7 @@ fn length_slider(ui: &mut Ui, desk: &mut Desk, file: &str, at: &str) {
     }
     if response.drag_stopped() || response.lost_focus() {
         ui.data_mut(|data| data.remove_temp::<f64>(scale));
-        desk.book.let_go();
+        desk.documents.let_go();
     }
 }
 

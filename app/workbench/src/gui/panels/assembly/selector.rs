@@ -1,12 +1,12 @@
 //! The gear selector: every assembly as a picture of it at rest, beside its name; a click shows it.
 
 use egui::{Color32, Pos2, Rect, RichText, ScrollArea, Sense, Stroke, Ui, pos2, vec2};
+use endline_session::edit::Documents;
 use endline_session::rest::{Rest, TrialSea};
 use endline_sim::model::BodyRole;
 use glam::DVec2;
 
 use super::super::super::bench::{Answer, Trial};
-use super::super::super::book::Book;
 use super::super::super::desk::Desk;
 use super::super::super::theme::Theme;
 use super::side::A;
@@ -36,7 +36,7 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk) -> Option<String> {
 /// Asks for every assembly at rest in the scenario's sea, where texts have changed since.
 fn ask(desk: &mut Desk, all: &[(String, String)]) {
     desk.assembly.pictured.poll();
-    let version = desk.book.version();
+    let version = desk.documents.version();
     if desk.assembly.pictured_for == Some(version) {
         return;
     }
@@ -45,8 +45,8 @@ fn ask(desk: &mut Desk, all: &[(String, String)]) {
         sea: TrialSea { depth: None, current_m_s: None },
     };
     let trials = all.iter().map(trial).collect();
-    let scenario = desk.book.text(Book::SCENARIO).unwrap_or_default().to_owned();
-    let (library, (host, waker)) = (desk.book.library().clone(), desk.helpers());
+    let scenario = desk.documents.text(Documents::SCENARIO).unwrap_or_default().to_owned();
+    let (library, (host, waker)) = (desk.documents.library().clone(), desk.helpers());
     desk.assembly.pictured.ask(&scenario, &library, trials, &host, &waker);
     desk.assembly.pictured_for = Some(version);
 }

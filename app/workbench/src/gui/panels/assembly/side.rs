@@ -6,13 +6,13 @@ use egui_plot::{
     PlotUi, Points, Text,
 };
 use endline_session::rest::Rest;
+use endline_session::units::Units;
 use endline_sim::model::{Body, BodyRole};
 use glam::{DVec2, DVec3};
 
 use super::super::super::bench::Answer;
 use super::super::super::desk::Desk;
 use super::super::super::theme::Theme;
-use super::super::super::units::Units;
 use super::{Drawn, surface_m_s};
 
 /// Width drawn over that of the gear: labels stand to the right of lines.

@@ -1,14 +1,14 @@
 //! Tension and float height of the gear over depths and currents.
 
 use egui::{Grid, ProgressBar, RichText, Ui};
+use endline_session::edit::Documents;
 use endline_session::rest::{Rest, TrialSea};
+use endline_session::units::Units;
 use endline_sim::model::BodyRole;
 
 use super::super::super::bench::Trial;
-use super::super::super::book::Book;
 use super::super::super::desk::Desk;
 use super::super::super::theme::{Theme, primary};
-use super::super::super::units::Units;
 use super::Answer;
 use super::side::top_m;
 
@@ -20,7 +20,7 @@ const CURRENTS_KN: [f64; 5] = [0.0, 0.5, 1.0, 1.5, 2.0];
 /// Draws the table.
 pub(super) fn show(ui: &mut Ui, desk: &mut Desk, id: &str) {
     desk.assembly.swept.poll();
-    let wanted = (desk.book.version(), id.to_owned());
+    let wanted = (desk.documents.version(), id.to_owned());
     let (done, all) = desk.assembly.swept.progress();
     ui.horizontal(|ui| {
         let fresh = desk.assembly.swept_for.as_ref() == Some(&wanted);
@@ -70,10 +70,10 @@ fn start(desk: &mut Desk, id: &str) {
         .iter()
         .flat_map(|depth| CURRENTS_KN.iter().map(|current| trial(*depth, *current)))
         .collect();
-    let scenario = desk.book.text(Book::SCENARIO).unwrap_or_default().to_owned();
-    let (library, (host, waker)) = (desk.book.library().clone(), desk.helpers());
+    let scenario = desk.documents.text(Documents::SCENARIO).unwrap_or_default().to_owned();
+    let (library, (host, waker)) = (desk.documents.library().clone(), desk.helpers());
     desk.assembly.swept.ask(&scenario, &library, trials, &host, &waker);
-    desk.assembly.swept_for = Some((desk.book.version(), id.to_owned()));
+    desk.assembly.swept_for = Some((desk.documents.version(), id.to_owned()));
 }
 
 fn table(ui: &mut Ui, desk: &Desk) {

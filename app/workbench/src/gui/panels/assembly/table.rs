@@ -2,11 +2,11 @@
 
 use egui::{Color32, Grid, RichText, Ui};
 use endline_session::rest::Rest;
+use endline_session::units::Units;
 use endline_sim::model::BodyRole;
 
 use super::super::super::desk::Desk;
 use super::super::super::theme::Theme;
-use super::super::super::units::Units;
 use super::side::{A, B, top_m};
 use super::{Answer, surface_m_s};
 

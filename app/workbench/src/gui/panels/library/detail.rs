@@ -5,8 +5,8 @@ use std::sync::Arc;
 use egui::{Grid, RichText, ScrollArea, Ui};
 use endline_gear::units::{self, Quantity};
 use endline_gear::{Document, Kind};
+use endline_session::edit::Documents;
 
-use super::super::super::book::Book;
 use super::super::super::desk::{Desk, Order};
 use super::super::super::exchange::id_of;
 use super::super::super::fields;
@@ -44,16 +44,16 @@ impl Compared {
     /// Fields that differ; `None` where the other text is no document.
     fn rows(
         &mut self,
-        book: &Book,
+        documents: &Documents,
         path: &str,
         other: &str,
         kind: Kind,
     ) -> Option<Arc<[[String; 4]]>> {
-        let own = book.text(path).unwrap_or_default();
+        let own = documents.text(path).unwrap_or_default();
         if self.texts.as_ref().is_none_or(|texts| texts[0] != own || texts[1] != other) {
             self.rows = Document::parse(other)
                 .ok()
-                .map(|other| differences(book, path, &other, kind).into());
+                .map(|other| differences(documents, path, &other, kind).into());
             self.texts = Some([own.to_owned(), other.to_owned()]);
         }
         self.rows.clone()
@@ -65,7 +65,7 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, path: &str) {
     ScrollArea::vertical().id_salt("entry").auto_shrink(false).show(ui, |ui| {
         let kind = desk.library.kind;
         if super::picture::has(kind) {
-            super::picture::show(ui, &desk.book, kind, path, egui::vec2(190.0, 120.0))
+            super::picture::show(ui, &desk.documents, kind, path, egui::vec2(190.0, 120.0))
                 .on_hover_text("From its figures; all to one scale");
         }
         words(ui, desk, path);
@@ -101,7 +101,7 @@ fn words(ui: &mut Ui, desk: &mut Desk, path: &str) {
             ui.label(RichText::new(name).color(faint));
             let width = ui.available_width() - 8.0;
             if let Some(typed) =
-                fields::edit(ui, &desk.book, path, key, width, fields::Said { hint: "", help })
+                fields::edit(ui, &desk.documents, path, key, width, fields::Said { hint: "", help })
             {
                 desk.set(path, key, &typed);
             }
@@ -111,9 +111,9 @@ fn words(ui: &mut Ui, desk: &mut Desk, path: &str) {
 }
 
 fn used_in(ui: &mut Ui, desk: &mut Desk, path: &str) {
-    let version = desk.book.version();
+    let version = desk.documents.version();
     if desk.library.uses.path != path || desk.library.uses.version != version {
-        desk.library.uses = Uses { version, ..uses(&desk.book, path) };
+        desk.library.uses = Uses { version, ..uses(&desk.documents, path) };
     }
     super::super::caption(ui, "Used in");
     let uses = desk.library.uses.clone();
@@ -140,14 +140,14 @@ fn used_in(ui: &mut Ui, desk: &mut Desk, path: &str) {
 }
 
 /// Assemblies and scenarios whose text names an entry by its id.
-fn uses(book: &Book, path: &str) -> Uses {
+fn uses(documents: &Documents, path: &str) -> Uses {
     let named = format!("\"{}\"", id_of(path));
     let names = |text: &str| text.contains(&named);
-    let assemblies = book
+    let assemblies = documents
         .files("assemblies")
-        .filter(|file| *file != path && book.text(file).is_some_and(names))
+        .filter(|file| *file != path && documents.text(file).is_some_and(names))
         .map(str::to_owned);
-    let scenarios = super::super::scenario::scenarios(book.root()).into_iter();
+    let scenarios = super::super::scenario::scenarios(documents.root()).into_iter();
     let scenarios =
         scenarios.filter(|file| std::fs::read_to_string(file).is_ok_and(|text| names(&text)));
     Uses {
@@ -163,10 +163,11 @@ fn compare(ui: &mut Ui, desk: &mut Desk, path: &str) {
     let kind = desk.library.kind;
     choose(ui, desk, path, kind);
     let other = match &desk.library.against {
-        Against::Saved => desk.book.saved_text(path),
-        Against::Entry(other) => desk.book.text(other),
+        Against::Saved => desk.documents.saved_text(path),
+        Against::Entry(other) => desk.documents.text(other),
     };
-    let rows = other.and_then(|other| desk.library.compared.rows(&desk.book, path, other, kind));
+    let rows =
+        other.and_then(|other| desk.library.compared.rows(&desk.documents, path, other, kind));
     let Some(rows) = rows else {
         ui.label(RichText::new("no file yet: it is new").color(Theme::palette_of(ui).faint));
         return;
@@ -192,7 +193,7 @@ fn compare(ui: &mut Ui, desk: &mut Desk, path: &str) {
 }
 
 fn choose(ui: &mut Ui, desk: &mut Desk, path: &str, kind: Kind) {
-    let name = |path: &str| desk.book.field(path, "name").unwrap_or_else(|| path.to_owned());
+    let name = |path: &str| desk.documents.field(path, "name").unwrap_or_else(|| path.to_owned());
     let shown = match &desk.library.against {
         Against::Saved => "its file on disk".to_owned(),
         Against::Entry(other) => name(other),
@@ -202,7 +203,7 @@ fn choose(ui: &mut Ui, desk: &mut Desk, path: &str, kind: Kind) {
         ui,
         |ui| {
             ui.selectable_value(&mut desk.library.against, Against::Saved, "its file on disk");
-            for other in desk.book.files(kind.folder()).filter(|other| *other != path) {
+            for other in desk.documents.files(kind.folder()).filter(|other| *other != path) {
                 ui.selectable_value(
                     &mut desk.library.against,
                     Against::Entry(other.to_owned()),
@@ -214,12 +215,17 @@ fn choose(ui: &mut Ui, desk: &mut Desk, path: &str, kind: Kind) {
 }
 
 /// Fields that differ: name, here, there, by how much.
-fn differences(book: &Book, path: &str, other: &Document, kind: Kind) -> Vec<[String; 4]> {
+fn differences(
+    documents: &Documents,
+    path: &str,
+    other: &Document,
+    kind: Kind,
+) -> Vec<[String; 4]> {
     let words = kind.words().iter().map(|word| (word.key, None));
     let figures = kind.fields().iter().map(|field| (field.key, Some(field.quantity)));
     let row = |(key, quantity): (&str, Option<Quantity>)| {
         let (here, there) =
-            (book.field(path, key).unwrap_or_default(), other.get(key).unwrap_or_default());
+            (documents.field(path, key).unwrap_or_default(), other.get(key).unwrap_or_default());
         (here != there)
             .then(|| [title(key), here.clone(), there.clone(), by(&here, &there, quantity)])
     };

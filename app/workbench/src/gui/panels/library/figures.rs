@@ -21,7 +21,7 @@ pub(super) fn colour(sureness: Sureness, palette: Palette) -> egui::Color32 {
 pub(super) fn show(ui: &mut Ui, desk: &Desk, path: &str) {
     let palette = Theme::palette_of(ui);
     super::super::caption(ui, "Figures, how sure, and whence");
-    let Some(entry) = desk.book.library().entry(desk.library.kind, id_of(path)) else {
+    let Some(entry) = desk.documents.library().entry(desk.library.kind, id_of(path)) else {
         ui.label(RichText::new("not readable yet; see what is red").color(palette.faint));
         return;
     };

@@ -2,8 +2,8 @@
 
 use egui::{Color32, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
 use endline_gear::{Kind, units};
+use endline_session::edit::Documents;
 
-use super::super::super::book::Book;
 use super::super::super::theme::{Palette, Theme};
 
 /// Length that a picture's width stands for [m].
@@ -18,7 +18,7 @@ pub(in super::super) fn has(kind: Kind) -> bool {
 /// Draws an entry in a box of a size.
 pub(in super::super) fn show(
     ui: &mut Ui,
-    book: &Book,
+    documents: &Documents,
     kind: Kind,
     path: &str,
     size: egui::Vec2,
@@ -28,16 +28,16 @@ pub(in super::super) fn show(
     let painter = ui.painter_at(rect);
     painter.rect_filled(rect, 4.0, palette.field);
     match kind {
-        Kind::Buoy => buoy(&painter, rect, palette, book, path),
-        _ => a_box(&painter, rect, palette, book, path),
+        Kind::Buoy => buoy(&painter, rect, palette, documents, path),
+        _ => a_box(&painter, rect, palette, documents, path),
     }
     response
 }
 
 /// A length of an entry [m].
-fn metres(book: &Book, path: &str, key: &str) -> Option<f32> {
+fn metres(documents: &Documents, path: &str, key: &str) -> Option<f32> {
     let field = Kind::ALL.into_iter().flat_map(Kind::fields).find(|field| field.key == key)?;
-    Some(units::parse(&book.field(path, key)?, field.quantity).ok()? as f32)
+    Some(units::parse(&documents.field(path, key)?, field.quantity).ok()? as f32)
 }
 
 /// Points on the picture for a metre; smaller where the thing would not fit.
@@ -49,9 +49,9 @@ fn scale(rect: Rect, wide_m: f32, high_m: f32) -> f32 {
 }
 
 /// A trap or anchor: its box seen from a corner, with its mesh.
-fn a_box(painter: &Painter, rect: Rect, palette: Palette, book: &Book, path: &str) {
+fn a_box(painter: &Painter, rect: Rect, palette: Palette, documents: &Documents, path: &str) {
     let [length, width, height] =
-        ["length", "width", "height"].map(|key| metres(book, path, key).unwrap_or(0.3));
+        ["length", "width", "height"].map(|key| metres(documents, path, key).unwrap_or(0.3));
     // Cabinet projection: the width goes back at 45 degrees, halved.
     let back = width * 0.5 * std::f32::consts::FRAC_1_SQRT_2;
     let scale = scale(rect, length + back, height + back);
@@ -77,10 +77,11 @@ fn a_box(painter: &Painter, rect: Rect, palette: Palette, book: &Book, path: &st
 }
 
 /// A buoy: its float with water up to its middle, and the line below.
-fn buoy(painter: &Painter, rect: Rect, palette: Palette, book: &Book, path: &str) {
-    let diameter = metres(book, path, "diameter").unwrap_or(0.2);
-    let shape = book.field(path, "shape").unwrap_or_default();
-    let length = metres(book, path, "length").filter(|_| shape != "sphere").unwrap_or(diameter);
+fn buoy(painter: &Painter, rect: Rect, palette: Palette, documents: &Documents, path: &str) {
+    let diameter = metres(documents, path, "diameter").unwrap_or(0.2);
+    let shape = documents.field(path, "shape").unwrap_or_default();
+    let length =
+        metres(documents, path, "length").filter(|_| shape != "sphere").unwrap_or(diameter);
     let scale = scale(rect, diameter, length);
     let (half_wide, half_high) = (diameter * scale / 2.0, length * scale / 2.0);
     let centre = rect.center();

@@ -2,11 +2,11 @@
 
 use egui::{ComboBox, Grid, RichText, Ui};
 use endline_sdk::Controls;
+use endline_session::edit::Documents;
+use endline_session::edit::pilot_program::{Entry, TRIGGERS, begin_by, path, set, spoken, times};
 
-use super::super::super::book::Book;
 use super::super::super::desk::Desk;
 use super::super::super::fields::{self, Said};
-use super::super::super::program::{Entry, TRIGGERS, begin_by, path, set, spoken, times};
 use super::super::super::theme::Theme;
 
 /// What a time of an entry means.
@@ -88,7 +88,7 @@ fn trigger(ui: &mut Ui, desk: &mut Desk, entry: &Entry) {
     let Some((key, fresh)) = taken else { return };
     // An entry with a time keeps its own; two at one time are an error.
     let text = match (key, entry.begin_s) {
-        ("at", Some(begin_s)) => super::super::super::program::seconds(begin_s),
+        ("at", Some(begin_s)) => endline_session::edit::pilot_program::seconds(begin_s),
         ("after", _) => above(desk, entry.index).unwrap_or_default(),
         _ => fresh.to_owned(),
     };
@@ -97,7 +97,7 @@ fn trigger(ui: &mut Ui, desk: &mut Desk, entry: &Entry) {
 
 /// Id of the nearest entry above that has one.
 fn above(desk: &Desk, index: usize) -> Option<String> {
-    (0..index).rev().find_map(|above| desk.book.field(Book::SCENARIO, &path(above, "id")))
+    (0..index).rev().find_map(|above| desk.documents.field(Documents::SCENARIO, &path(above, "id")))
 }
 
 fn word(
@@ -109,8 +109,14 @@ fn word(
 ) -> Option<(&'static str, String)> {
     let field = path(entry.index, key);
     let width = (ui.available_width() - 12.0).max(60.0);
-    let typed =
-        fields::edit(ui, &desk.book, Book::SCENARIO, &field, width, Said { hint: "", help });
+    let typed = fields::edit(
+        ui,
+        &desk.documents,
+        Documents::SCENARIO,
+        &field,
+        width,
+        Said { hint: "", help },
+    );
     typed.map(|text| (key, text))
 }
 
@@ -125,7 +131,14 @@ fn number(
     // A grid would squeeze the first of two.
     let typed = ui.scope(|ui| {
         ui.set_min_width(62.0);
-        fields::edit(ui, &desk.book, Book::SCENARIO, &field, 58.0, Said { hint, help: hint })
+        fields::edit(
+            ui,
+            &desk.documents,
+            Documents::SCENARIO,
+            &field,
+            58.0,
+            Said { hint, help: hint },
+        )
     });
     typed.inner.map(|text| (key, text))
 }

@@ -7,10 +7,10 @@ use std::sync::Arc;
 
 use egui::{Button, RichText, ScrollArea, Ui};
 use endline_gear::Document;
+use endline_session::edit::Documents;
+use endline_session::edit::pilot_program::{Entry, LIST, add, entries};
 
-use super::super::book::Book;
 use super::super::desk::{Desk, Order};
-use super::super::program::{Entry, LIST, add, entries};
 use super::super::theme::Theme;
 
 /// Width of the form [points].
@@ -28,11 +28,11 @@ pub struct PilotState {
 
 impl PilotState {
     /// The entries of the present text; read again where it has changed.
-    fn entries(&mut self, book: &Book) -> Arc<Vec<Entry>> {
+    fn entries(&mut self, documents: &Documents) -> Arc<Vec<Entry>> {
         let (version, read) =
-            self.read.get_or_insert_with(|| (book.version(), Arc::new(entries(book))));
-        if *version != book.version() {
-            (*version, *read) = (book.version(), Arc::new(entries(book)));
+            self.read.get_or_insert_with(|| (documents.version(), Arc::new(entries(documents))));
+        if *version != documents.version() {
+            (*version, *read) = (documents.version(), Arc::new(entries(documents)));
         }
         Arc::clone(read)
     }
@@ -40,10 +40,10 @@ impl PilotState {
 
 /// Draws the pilot panel.
 pub fn show(ui: &mut Ui, desk: &mut Desk) {
-    if desk.book.field(Book::SCENARIO, "whale.item").is_none() {
+    if desk.documents.field(Documents::SCENARIO, "whale.item").is_none() {
         return super::nothing(ui, "This scenario has no whale to pilot.");
     }
-    let all = desk.program.entries(&desk.book);
+    let all = desk.program.entries(&desk.documents);
     desk.program.chosen = desk.program.chosen.filter(|chosen| *chosen < all.len());
     toolbar(ui, desk, &all);
     let whole = ui.available_rect_before_wrap();
@@ -81,7 +81,7 @@ fn toolbar(ui: &mut Ui, desk: &mut Desk, all: &[Entry]) {
         }
         let text = format!("Rerun from {shown_s:.2} s");
         let help = "The same inputs up to the moment shown, then this program as it stands now";
-        if ui.add_enabled(run && !desk.book.any_error(), Button::new(text)).on_hover_text(help).clicked() {
+        if ui.add_enabled(run && !desk.documents.any_error(), Button::new(text)).on_hover_text(help).clicked() {
             desk.orders.push(Order::Rerun);
         }
         let count = if all.len() == 1 { "1 entry".to_owned() } else { format!("{} entries", all.len()) };
@@ -107,7 +107,7 @@ fn reactions(ui: &mut Ui, desk: &mut Desk, all: &[Entry]) {
 
 /// Changes the program; one undo takes it back, and what hinders it is said.
 fn change(desk: &mut Desk, change: impl FnOnce(&mut Document) -> Result<(), String>) {
-    if let Err(error) = desk.book.alter(Book::SCENARIO, change) {
+    if let Err(error) = desk.documents.alter(Documents::SCENARIO, change) {
         desk.notice = Some((error, true));
     }
 }
@@ -116,7 +116,7 @@ fn change(desk: &mut Desk, change: impl FnOnce(&mut Document) -> Result<(), Stri
 pub fn add_entry(desk: &mut Desk) {
     let shown_s = desk.view.as_ref().map_or(0.0, |view| view.frame.time_s);
     // Two entries at one time are an error; a fresh one goes beside.
-    let taken = entries(&desk.book)
+    let taken = entries(&desk.documents)
         .iter()
         .any(|entry| entry.trigger == "at" && entry.begin_s == Some(shown_s));
     let time_s = if taken { shown_s + 0.5 } else { shown_s };

@@ -6,10 +6,10 @@ use egui::{
 };
 use endline_gear::units::{Quantity, parse};
 use endline_sdk::Controls;
+use endline_session::edit::Documents;
+use endline_session::edit::pilot_program::{Entry, move_to, seconds, set, spoken, until_s};
 
-use super::super::super::book::Book;
 use super::super::super::desk::{Desk, Order};
-use super::super::super::program::{Entry, move_to, seconds, set, spoken, until_s};
 use super::super::super::theme::{Palette, Theme};
 use crate::scene::ticks::ticks;
 
@@ -80,8 +80,8 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, all: &[Entry]) {
     let rect =
         Rect::from_min_max(pos2(whole.left() + NAMES, whole.top()), whole.max - vec2(8.0, 0.0));
     let duration_s = desk
-        .book
-        .field(Book::SCENARIO, "duration")
+        .documents
+        .field(Documents::SCENARIO, "duration")
         .and_then(|text| parse(&text, Quantity::Time).ok())
         .unwrap_or(60.0);
     let latest_s = all.iter().filter_map(|entry| entry.begin_s).fold(0.0, f64::max);
@@ -272,7 +272,8 @@ fn finish(desk: &mut Desk, all: &[Entry], response: &egui::Response) {
         (false, "at") => move_to(document, drag.index, drag.to_s).map(|index| chosen = index),
         // An entry after another keeps its place behind it: what is dragged is its delay.
         (false, _) => {
-            let delay_s = document.get(&super::super::super::program::path(drag.index, "delay"));
+            let delay_s =
+                document.get(&endline_session::edit::pilot_program::path(drag.index, "delay"));
             let delay_s = delay_s.and_then(|text| parse(&text, Quantity::Time).ok()).unwrap_or(0.0);
             set(document, drag.index, "delay", &seconds(delay_s + drag.to_s - begin_s))
         }

@@ -129,7 +129,7 @@ fn report_line(desk: &Desk, shown: &Shown) -> String {
     let study = quoted(&shown.opened.study.place.source.path);
     format!(
         "endline study report {study} --library {} --out {}",
-        quoted(&desk.book.root().display().to_string()),
+        quoted(&desk.documents.root().display().to_string()),
         quoted(&shown.folder.display().to_string())
     )
 }

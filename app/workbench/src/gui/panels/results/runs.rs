@@ -5,11 +5,11 @@ use std::sync::Arc;
 use egui::{Align, ComboBox, Layout, RichText, Sense, Ui};
 use egui_extras::{Column, TableBuilder};
 use endline_session::study::Table;
+use endline_session::units::ForceUnit;
 
 use super::super::super::desk::Desk;
 use super::super::super::studies::Shown;
 use super::super::super::theme::Theme;
-use super::super::super::units::ForceUnit;
 
 /// What runs are sorted by.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

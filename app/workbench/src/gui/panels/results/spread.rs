@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use egui::{Color32, RichText, Ui};
 use egui_plot::{AxisHints, Legend, Line, MarkerShape, Plot, PlotPoint, PlotPoints, Points};
+use endline_session::units::ForceUnit;
 
 use super::super::super::charts::COLOURS;
 use super::super::super::desk::Desk;
 use super::super::super::studies::Shown;
 use super::super::super::theme::Theme;
-use super::super::super::units::ForceUnit;
 
 /// Nearest a click must come to a dot [points].
 const REACH: f32 = 14.0;

@@ -3,8 +3,8 @@
 use egui::{Grid, Ui};
 use endline_gear::units::{Quantity, format_si};
 use endline_sdk::{Attribute, AttributeKind};
+use endline_session::edit::Documents;
 
-use super::super::super::book::Book;
 use super::super::super::desk::Desk;
 use super::super::super::fields;
 use super::{Edit, name_with_help, problem};
@@ -51,12 +51,12 @@ fn cell(
                 .filter(|word| *word != default)
                 .map(|word| (word.to_string(), word.to_string()));
             let choices: Vec<(String, String)> = std::iter::once(usual).chain(words).collect();
-            fields::choose(ui, &desk.book, Book::SCENARIO, field, &choices, width + 4.0)
+            fields::choose(ui, &desk.documents, Documents::SCENARIO, field, &choices, width + 4.0)
         }
         _ => fields::edit(
             ui,
-            &desk.book,
-            Book::SCENARIO,
+            &desk.documents,
+            Documents::SCENARIO,
             field,
             width,
             fields::Said { hint: &usual(attribute), help },

@@ -2,8 +2,8 @@
 
 use egui::{Grid, Label, RichText, Ui};
 use endline_gear::{Document, SURFACES, Setting};
+use endline_session::edit::Documents;
 
-use super::super::super::book::Book;
 use super::super::super::desk::Desk;
 use super::super::super::fields;
 use super::super::super::theme::Theme;
@@ -42,9 +42,9 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, edits: &mut Vec<Edit>) {
     super::super::caption(ui, "Friction of rope on whale");
     law(ui, desk, "friction", edits);
     let mut change = None;
-    for index in 0..desk.book.count(Book::SCENARIO, ON) {
+    for index in 0..desk.documents.count(Documents::SCENARIO, ON) {
         let table = format!("{ON}.{index}");
-        let surfaces = surfaces(&desk.book, &table);
+        let surfaces = surfaces(&desk.documents, &table);
         ui.horizontal(|ui| {
             if ui.small_button("✖").on_hover_text("Take it out; Undo brings it back").clicked() {
                 change = Some(Change::Remove(index));
@@ -58,7 +58,7 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, edits: &mut Vec<Edit>) {
         });
         law(ui, desk, &table, edits);
     }
-    let usual = desk.book.field(Book::SCENARIO, "friction.model");
+    let usual = desk.documents.field(Documents::SCENARIO, "friction.model");
     ui.add_enabled_ui(usual.is_some(), |ui| {
         ui.menu_button("Another law for … ⏷", |ui| {
             for word in SURFACES {
@@ -70,7 +70,8 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, edits: &mut Vec<Edit>) {
         });
     });
     if let Some(change) = change
-        && let Err(error) = desk.book.alter(Book::SCENARIO, |document| change.make(document))
+        && let Err(error) =
+            desk.documents.alter(Documents::SCENARIO, |document| change.make(document))
     {
         desk.notice = Some((error, true));
     }
@@ -88,11 +89,13 @@ fn law(ui: &mut Ui, desk: &Desk, table: &str, edits: &mut Vec<Edit>) {
     Grid::new(("law", table)).num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
         name(ui, "Law");
         let width = ui.available_width() - 8.0;
-        let taken = fields::choose(ui, &desk.book, Book::SCENARIO, &field, &laws, width);
+        let taken = fields::choose(ui, &desk.documents, Documents::SCENARIO, &field, &laws, width);
         edits.extend(taken.map(|id| (field.clone(), id)));
         ui.end_row();
     });
-    if let Some(law) = desk.book.field(Book::SCENARIO, &field).and_then(|id| host.friction(&id)) {
+    if let Some(law) =
+        desk.documents.field(Documents::SCENARIO, &field).and_then(|id| host.friction(&id))
+    {
         attributes::show(
             ui,
             desk,
@@ -104,8 +107,9 @@ fn law(ui: &mut Ui, desk: &Desk, table: &str, edits: &mut Vec<Edit>) {
 }
 
 /// The surfaces of a law, as words in a row.
-fn surfaces(book: &Book, table: &str) -> String {
-    let words =
-        (0..).map_while(|index| book.field(Book::SCENARIO, &format!("{table}.surfaces.{index}")));
+fn surfaces(documents: &Documents, table: &str) -> String {
+    let words = (0..).map_while(|index| {
+        documents.field(Documents::SCENARIO, &format!("{table}.surfaces.{index}"))
+    });
     words.collect::<Vec<_>>().join(", ")
 }

@@ -3,8 +3,8 @@
 use egui::{Grid, RichText, Ui};
 use endline_gear::{Document, Kind};
 use endline_sdk::AttributeKind;
+use endline_session::edit::Documents;
 
-use super::super::super::book::Book;
 use super::super::super::desk::Desk;
 use super::super::super::fields;
 use super::super::super::theme::Theme;
@@ -24,14 +24,15 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, edits: &mut Vec<Edit>) {
     super::super::caption(ui, "Weak links");
     of_gear(ui, desk, edits);
     let mut change = None;
-    for index in 0..desk.book.count(Book::SCENARIO, "link") {
+    for index in 0..desk.documents.count(Documents::SCENARIO, "link") {
         let remove = one(ui, desk, index, edits);
         change = change.or(remove.then_some(Change::Remove(index)));
     }
     change = add(ui, desk).or(change);
     flag(ui, desk, &LINKS_PART, edits);
     if let Some(change) = change
-        && let Err(error) = desk.book.alter(Book::SCENARIO, |document| change.make(document))
+        && let Err(error) =
+            desk.documents.alter(Documents::SCENARIO, |document| change.make(document))
     {
         desk.notice = Some((error, true));
     }
@@ -40,11 +41,13 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, edits: &mut Vec<Edit>) {
 /// Links that the gear types put in: of the assembly, unless the scenario names another.
 fn of_gear(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
     let placed = (0..).map_while(|index| {
-        desk.book.field(Book::SCENARIO, &format!("gear.{index}.assembly")).map(|id| (index, id))
+        desk.documents
+            .field(Documents::SCENARIO, &format!("gear.{index}.assembly"))
+            .map(|id| (index, id))
     });
     for (index, assembly) in placed {
         let file = format!("assemblies/{assembly}.toml");
-        let wanted = desk.book.field(&file, "gear_type");
+        let wanted = desk.documents.field(&file, "gear_type");
         let Some(gear) = desk
             .gear_types()
             .into_iter()
@@ -59,7 +62,7 @@ fn of_gear(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
                     continue;
                 }
                 let own = desk
-                    .book
+                    .documents
                     .field(&file, &format!("attributes.{}", attribute.key))
                     .unwrap_or_else(|| default.to_string());
                 let own = if own.is_empty() { "none".to_owned() } else { title_of(desk, &own) };
@@ -70,7 +73,14 @@ fn of_gear(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
                     std::iter::once((String::new(), format!("{own} (assembly)")))
                         .chain(items(desk))
                         .collect();
-                let taken = fields::choose(ui, &desk.book, Book::SCENARIO, &field, &choices, width);
+                let taken = fields::choose(
+                    ui,
+                    &desk.documents,
+                    Documents::SCENARIO,
+                    &field,
+                    &choices,
+                    width,
+                );
                 edits.extend(taken.map(|id| (field, id)));
                 ui.end_row();
             }
@@ -81,8 +91,9 @@ fn of_gear(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
 /// A link written into the scenario: which item, or what rating; answers whether it is to go.
 fn one(ui: &mut Ui, desk: &Desk, index: usize, edits: &mut Vec<Edit>) -> bool {
     let at = format!("link.{index}");
-    let text =
-        |key: &str| desk.book.field(Book::SCENARIO, &format!("{at}.{key}")).unwrap_or_default();
+    let text = |key: &str| {
+        desk.documents.field(Documents::SCENARIO, &format!("{at}.{key}")).unwrap_or_default()
+    };
     let remove = ui
         .horizontal(|ui| {
             let words =
@@ -104,13 +115,15 @@ fn one(ui: &mut Ui, desk: &Desk, index: usize, edits: &mut Vec<Edit>) -> bool {
         let choices: Vec<(String, String)> = std::iter::once(none).chain(items(desk)).collect();
         let width = ui.available_width() - 8.0;
         edits.extend(
-            fields::choose(ui, &desk.book, Book::SCENARIO, &item, &choices, width)
+            fields::choose(ui, &desk.documents, Documents::SCENARIO, &item, &choices, width)
                 .map(|id| (item.clone(), id)),
         );
         ui.end_row();
     });
-    let usual =
-        desk.book.field(&format!("weak-links/{}.toml", text("item")), "rating").unwrap_or_default();
+    let usual = desk
+        .documents
+        .field(&format!("weak-links/{}.toml", text("item")), "rating")
+        .unwrap_or_default();
     let row = [Row {
         label: "Parts above",
         field: &rating,
@@ -177,7 +190,7 @@ fn word_of(end: &str) -> &'static str {
 }
 
 fn items(desk: &Desk) -> Vec<(String, String)> {
-    desk.book
+    desk.documents
         .library()
         .entries(Kind::WeakLink)
         .iter()

@@ -1,15 +1,14 @@
 //! What happens in the run: gear, sea, whale, friction and weak links of the scenario, as typed in its file.
 
 mod attributes;
-mod commit;
 mod friction;
 mod links;
 mod rows;
 
 use egui::{ComboBox, Grid, RichText, ScrollArea, Ui};
 use endline_gear::Kind;
+use endline_session::edit::{Documents, scenario};
 
-use super::super::book::Book;
 use super::super::desk::{Desk, Order};
 use super::super::fields;
 use super::super::theme::{Theme, primary};
@@ -31,7 +30,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
             let mut edits: Vec<Edit> = Vec::new();
             gear(ui, desk, &mut edits);
             sea(ui, desk, &mut edits);
-            if desk.book.field(Book::SCENARIO, "whale.item").is_some() {
+            if desk.documents.field(Documents::SCENARIO, "whale.item").is_some() {
                 whale(ui, desk, &mut edits);
             }
             links::show(ui, desk, &mut edits);
@@ -39,9 +38,9 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
             rows(ui, desk, "run", RUN, &mut edits);
             FLAGS.iter().for_each(|of| flag(ui, desk, of, &mut edits));
             for (field, text) in edits {
-                let changed = desk
-                    .book
-                    .alter(Book::SCENARIO, |document| commit::commit(document, &field, &text));
+                let changed = desk.documents.alter(Documents::SCENARIO, |document| {
+                    scenario::set_field(document, &field, &text)
+                });
                 if let Err(error) = changed {
                     desk.notice = Some((error, true));
                 }
@@ -54,25 +53,25 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
 
 /// The scenario itself, out of those beside it.
 fn pick(ui: &mut Ui, desk: &mut Desk) {
-    let path = desk.book.scenario_path().to_owned();
+    let path = desk.documents.scenario_path().to_owned();
     let stem = |path: &std::path::Path| {
         path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
     };
-    let mark = if desk.book.is_unsaved(Book::SCENARIO) { "• " } else { "" };
+    let mark = if desk.documents.is_unsaved(Documents::SCENARIO) { "• " } else { "" };
     let width = ui.available_width() - 8.0;
     let shown = format!("{mark}{}", stem(&path));
     ComboBox::from_id_salt("scenario").width(width).truncate().selected_text(shown).show_ui(
         ui,
         |ui| {
-            for file in scenarios(desk.book.root()) {
+            for file in scenarios(desk.documents.root()) {
                 if ui.selectable_label(file == path, stem(&file)).clicked() && file != path {
                     desk.orders.push(Order::Open(file));
                 }
             }
         },
     );
-    if let Some(name) = desk.book.field(Book::SCENARIO, "name") {
-        let notes = desk.book.field(Book::SCENARIO, "notes").unwrap_or_default();
+    if let Some(name) = desk.documents.field(Documents::SCENARIO, "name") {
+        let notes = desk.documents.field(Documents::SCENARIO, "notes").unwrap_or_default();
         let label = egui::Label::new(RichText::new(name).color(Theme::palette_of(ui).faint)).wrap();
         ui.add(label).on_hover_text(notes);
     }
@@ -91,14 +90,14 @@ pub fn scenarios(root: &std::path::Path) -> Vec<std::path::PathBuf> {
 }
 
 fn gear(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
-    if desk.book.field(Book::SCENARIO, "gear.0.assembly").is_none() {
+    if desk.documents.field(Documents::SCENARIO, "gear.0.assembly").is_none() {
         return;
     }
     super::caption(ui, "Gear");
     Grid::new("gear").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
         for index in 0..9 {
             let field = format!("gear.{index}.assembly");
-            if desk.book.field(Book::SCENARIO, &field).is_none() {
+            if desk.documents.field(Documents::SCENARIO, &field).is_none() {
                 break;
             }
             name(ui, "Assembly");
@@ -110,7 +109,7 @@ fn gear(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
 
 fn sea(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
     super::caption(ui, "Sea");
-    if desk.book.field(Book::SCENARIO, "site.item").is_some() {
+    if desk.documents.field(Documents::SCENARIO, "site.item").is_some() {
         Grid::new("site").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
             name(ui, "Site");
             choice(ui, desk, "site.item", Kind::Site, edits);
@@ -132,8 +131,9 @@ fn whale(ui: &mut Ui, desk: &mut Desk, edits: &mut Vec<Edit>) {
         .into_iter()
         .filter_map(|id| host.motion(&id).map(|motion| (id, motion.descriptor().name.to_string())));
     let motions: Vec<(String, String)> = motions.collect();
-    let motion = desk.book.field(Book::SCENARIO, "whale.motion").and_then(|id| host.motion(&id));
-    let dead = desk.book.field(Book::SCENARIO, "whale.state").as_deref() == Some("dead");
+    let motion =
+        desk.documents.field(Documents::SCENARIO, "whale.motion").and_then(|id| host.motion(&id));
+    let dead = desk.documents.field(Documents::SCENARIO, "whale.state").as_deref() == Some("dead");
     Grid::new("animal").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
         name(ui, "Animal");
         choice(ui, desk, "whale.item", Kind::Whale, edits);
@@ -150,8 +150,14 @@ fn whale(ui: &mut Ui, desk: &mut Desk, edits: &mut Vec<Edit>) {
             );
             name(ui, "Motion");
             let width = ui.available_width() - 8.0;
-            let taken =
-                fields::choose(ui, &desk.book, Book::SCENARIO, "whale.motion", &motions, width);
+            let taken = fields::choose(
+                ui,
+                &desk.documents,
+                Documents::SCENARIO,
+                "whale.motion",
+                &motions,
+                width,
+            );
             edits.extend(taken.map(|id| ("whale.motion".to_owned(), id)));
             ui.end_row();
         }
@@ -177,7 +183,7 @@ fn whale(ui: &mut Ui, desk: &mut Desk, edits: &mut Vec<Edit>) {
 
 /// How far the mouth is open at the start: the pilot program says so.
 fn mouth(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
-    let field = commit::mouth(&desk.book);
+    let field = scenario::mouth_field(&desk.documents);
     Grid::new("mouth").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
         name(ui, "Mouth");
         let said = fields::Said {
@@ -186,7 +192,7 @@ fn mouth(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
         };
         let width = ui.available_width() - 12.0;
         edits.extend(
-            fields::edit(ui, &desk.book, Book::SCENARIO, &field, width, said)
+            fields::edit(ui, &desk.documents, Documents::SCENARIO, &field, width, said)
                 .map(|text| (field.clone(), text)),
         );
         ui.end_row();
@@ -207,7 +213,7 @@ fn words(
         words.iter().map(|(word, text)| ((*word).to_owned(), (*text).to_owned())).collect();
     let width = ui.available_width() - 8.0;
     edits.extend(
-        fields::choose(ui, &desk.book, Book::SCENARIO, field, &choices, width)
+        fields::choose(ui, &desk.documents, Documents::SCENARIO, field, &choices, width)
             .map(|word| (field.to_owned(), word)),
     );
     ui.end_row();
@@ -236,12 +242,12 @@ fn name_with_help(ui: &mut Ui, text: &str, help: &str) {
 }
 
 fn choice(ui: &mut Ui, desk: &Desk, field: &str, kind: Kind, edits: &mut Vec<Edit>) {
-    let library = desk.book.library();
+    let library = desk.documents.library();
     let choices: Vec<(String, String)> =
         library.entries(kind).iter().map(|entry| (entry.id.clone(), entry.name.clone())).collect();
     let width = ui.available_width() - 8.0;
     edits.extend(
-        fields::choose(ui, &desk.book, Book::SCENARIO, field, &choices, width)
+        fields::choose(ui, &desk.documents, Documents::SCENARIO, field, &choices, width)
             .map(|id| (field.to_owned(), id)),
     );
 }
@@ -252,12 +258,12 @@ fn rows(ui: &mut Ui, desk: &Desk, id: &str, rows: &[Row<'_>], edits: &mut Vec<Ed
             name(ui, row.label);
             let width = ui.available_width() - 12.0;
             ui.vertical(|ui| {
-                let site = of_site(&desk.book, row.field);
+                let site = of_site(&desk.documents, row.field);
                 let hint = if site.is_empty() { row.usual } else { &site };
                 let typed = fields::edit(
                     ui,
-                    &desk.book,
-                    Book::SCENARIO,
+                    &desk.documents,
+                    Documents::SCENARIO,
                     row.field,
                     width,
                     fields::Said { hint, help: row.help },
@@ -272,7 +278,7 @@ fn rows(ui: &mut Ui, desk: &Desk, id: &str, rows: &[Row<'_>], edits: &mut Vec<Ed
 
 /// What is wrong with a field, in its text or in the model last made of it.
 fn problem(ui: &mut Ui, desk: &Desk, field: &str) {
-    if let Some(problem) = desk.problem_at(Book::SCENARIO, field) {
+    if let Some(problem) = desk.problem_at(Documents::SCENARIO, field) {
         let error =
             RichText::new(fields::told(problem)).size(11.0).color(Theme::palette_of(ui).error);
         ui.add(egui::Label::new(error).wrap());
@@ -280,30 +286,32 @@ fn problem(ui: &mut Ui, desk: &Desk, field: &str) {
 }
 
 /// What the site gives where the scenario itself names nothing.
-fn of_site(book: &Book, field: &str) -> String {
+fn of_site(documents: &Documents, field: &str) -> String {
     let key = match field {
         "site.depth" => "depth",
         "current.speed" => "current",
         _ => return String::new(),
     };
     let file = |item: String| format!("sites/{item}.toml");
-    let site = book.field(Book::SCENARIO, "site.item").map(file);
+    let site = documents.field(Documents::SCENARIO, "site.item").map(file);
     let given = site.and_then(|path| {
-        book.field(&path, &format!("{key}.value")).or_else(|| book.field(&path, key))
+        documents.field(&path, &format!("{key}.value")).or_else(|| documents.field(&path, key))
     });
     given.map_or_else(String::new, |value| format!("{value} (site)"))
 }
 
 fn flag(ui: &mut Ui, desk: &Desk, flag: &Flag, edits: &mut Vec<Edit>) {
-    let mut on =
-        desk.book.field(Book::SCENARIO, flag.field).map_or(flag.usual, |text| text == "true");
+    let mut on = desk
+        .documents
+        .field(Documents::SCENARIO, flag.field)
+        .map_or(flag.usual, |text| text == "true");
     if ui.checkbox(&mut on, flag.label).on_hover_text(flag.help).changed() {
         edits.push((flag.field.to_owned(), on.to_string()));
     }
 }
 
 fn apply(ui: &mut Ui, desk: &mut Desk) {
-    let wanted = desk.stale() && !desk.making() && !desk.book.any_error();
+    let wanted = desk.stale() && !desk.making() && !desk.documents.any_error();
     ui.horizontal(|ui| {
         if primary(ui, wanted, "Apply")
             .on_hover_text("Make the model from the present texts (Ctrl+Enter)")

@@ -8,8 +8,8 @@ use std::path::Path;
 
 use egui::{Button, ComboBox, RichText, ScrollArea, Ui};
 use endline_gear::{Diagnostic, Event, Setting};
+use endline_session::edit::Documents;
 
-use super::super::book::Book;
 use super::super::desk::{Desk, Order};
 use super::super::fields::{self, Said};
 use super::super::studies::studies;
@@ -21,7 +21,7 @@ type Edits = Vec<(String, Option<Setting>)>;
 /// Draws the study panel.
 pub fn show(ui: &mut Ui, desk: &mut Desk) {
     pick(ui, desk);
-    if desk.book.text(Book::STUDY).is_none() {
+    if desk.documents.text(Documents::STUDY).is_none() {
         super::nothing(
             ui,
             "Choose a study above. Each meets every option of gear with the same drawn encounters and counts what comes of them.",
@@ -55,17 +55,18 @@ fn apply(desk: &mut Desk, edits: Edits) {
             None => Ok(()),
         })
     };
-    if let Err(error) = desk.book.alter(Book::STUDY, change) {
+    if let Err(error) = desk.documents.alter(Documents::STUDY, change) {
         desk.notice = Some((error, true));
     }
 }
 
 fn pick(ui: &mut Ui, desk: &mut Desk) {
-    let path = desk.book.study_path().map(Path::to_owned);
+    let path = desk.documents.study_path().map(Path::to_owned);
     let stem = |path: &Path| {
         path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
     };
-    let mark = if path.is_some() && desk.book.is_unsaved(Book::STUDY) { "• " } else { "" };
+    let mark =
+        if path.is_some() && desk.documents.is_unsaved(Documents::STUDY) { "• " } else { "" };
     ui.horizontal(|ui| {
         let shown = path
             .as_deref()
@@ -74,7 +75,7 @@ fn pick(ui: &mut Ui, desk: &mut Desk) {
         ComboBox::from_id_salt("study").width(width).truncate().selected_text(shown).show_ui(
             ui,
             |ui| {
-                for file in studies(desk.book.root()) {
+                for file in studies(desk.documents.root()) {
                     if ui.selectable_label(path.as_ref() == Some(&file), stem(&file)).clicked()
                         && path.as_ref() != Some(&file)
                     {
@@ -100,7 +101,7 @@ fn pick(ui: &mut Ui, desk: &mut Desk) {
 /// The one thing to do next, and the same as text.
 fn start(ui: &mut Ui, desk: &mut Desk) {
     let faint = Theme::palette_of(ui).faint;
-    let ready = !desk.book.file_has_error(Book::STUDY) && !desk.book.any_error();
+    let ready = !desk.documents.file_has_error(Documents::STUDY) && !desk.documents.any_error();
     ui.horizontal_wrapped(|ui| {
         if primary(ui, ready, "Run study")
             .on_hover_text("Save, and run what is missing behind everything else; it can be left off and goes on")
@@ -135,16 +136,16 @@ fn question(ui: &mut Ui, desk: &mut Desk, edits: &mut Edits) {
     );
     let mut events: Vec<(String, String)> =
         Event::all().iter().map(|event| (event.name(), event.words())).collect();
-    if !desk.book.has(Book::STUDY, "event") {
+    if !desk.documents.has(Documents::STUDY, "event") {
         events.insert(0, (String::new(), Event::Entangled.words()));
     }
     choice(ui, desk, ("Asks about", "event"), &events, edits);
     let options: Vec<(String, String)> =
-        option_ids(&desk.book).into_iter().map(|id| (id.clone(), id)).collect();
+        option_ids(&desk.documents).into_iter().map(|id| (id.clone(), id)).collect();
     choice(ui, desk, ("Baseline", "baseline"), &options, edits);
-    let drawn = desk.book.keys(Book::STUDY, "encounter").into_iter();
+    let drawn = desk.documents.keys(Documents::STUDY, "encounter").into_iter();
     let chosen = drawn
-        .filter(|name| desk.book.has(Book::STUDY, &format!("encounter.{name}.choice")))
+        .filter(|name| desk.documents.has(Documents::STUDY, &format!("encounter.{name}.choice")))
         .map(|name| name.replace('"', ""));
     let mut levels: Vec<(String, String)> = chosen.map(|name| (name.clone(), name)).collect();
     levels.insert(0, (String::new(), "nothing".into()));
@@ -176,10 +177,15 @@ fn text(ui: &mut Ui, desk: &mut Desk, name: &str, field: &str, help: &str) {
     ui.horizontal(|ui| {
         label(ui, name);
         let width = ui.available_width() - 12.0;
-        if let Some(typed) =
-            fields::edit(ui, &desk.book, Book::STUDY, field, width, Said { hint: "", help })
-        {
-            desk.set(Book::STUDY, field, &typed);
+        if let Some(typed) = fields::edit(
+            ui,
+            &desk.documents,
+            Documents::STUDY,
+            field,
+            width,
+            Said { hint: "", help },
+        ) {
+            desk.set(Documents::STUDY, field, &typed);
         }
     });
 }
@@ -187,14 +193,21 @@ fn text(ui: &mut Ui, desk: &mut Desk, name: &str, field: &str, help: &str) {
 fn number(ui: &mut Ui, desk: &Desk, (name, field): (&str, &str), help: &str, edits: &mut Edits) {
     ui.horizontal(|ui| {
         label(ui, name);
-        if let Some(typed) =
-            fields::edit(ui, &desk.book, Book::STUDY, field, 90.0, Said { hint: "not set", help })
-        {
+        if let Some(typed) = fields::edit(
+            ui,
+            &desk.documents,
+            Documents::STUDY,
+            field,
+            90.0,
+            Said { hint: "not set", help },
+        ) {
             let typed = typed.replace(',', "");
             let value = (!typed.trim().is_empty()).then(|| Setting::plain(typed.trim()));
             if field == "enough.narrower" {
-                let event =
-                    desk.book.field(Book::STUDY, "event").unwrap_or_else(|| "entangled".into());
+                let event = desk
+                    .documents
+                    .field(Documents::STUDY, "event")
+                    .unwrap_or_else(|| "entangled".into());
                 match value {
                     Some(_) => edits.push(("enough.event".into(), Some(Setting::text(&event)))),
                     None => return edits.push(("enough".into(), None)),
@@ -215,22 +228,26 @@ fn choice(
     ui.horizontal(|ui| {
         label(ui, name);
         let width = ui.available_width() - 12.0;
-        if let Some(taken) = fields::choose(ui, &desk.book, Book::STUDY, field, choices, width) {
+        if let Some(taken) =
+            fields::choose(ui, &desk.documents, Documents::STUDY, field, choices, width)
+        {
             edits.push((field.to_owned(), (!taken.is_empty()).then(|| Setting::text(&taken))));
         }
     });
 }
 
 /// Ids of the options in the order of the file.
-fn option_ids(book: &Book) -> Vec<String> {
-    (0..).map_while(|index| book.field(Book::STUDY, &format!("option.{index}.id"))).collect()
+fn option_ids(documents: &Documents) -> Vec<String> {
+    (0..)
+        .map_while(|index| documents.field(Documents::STUDY, &format!("option.{index}.id")))
+        .collect()
 }
 
 /// What is wrong with the study's text.
 fn problems(ui: &mut Ui, desk: &Desk) {
-    let file = desk.book.shown_name(Book::STUDY);
+    let file = desk.documents.shown_name(Documents::STUDY);
     let own: Vec<Diagnostic> =
-        desk.book.problems().iter().filter(|problem| problem.file == file).cloned().collect();
+        desk.documents.problems().iter().filter(|problem| problem.file == file).cloned().collect();
     for problem in &own {
         super::problems::entry(ui, problem);
     }

@@ -2,8 +2,8 @@
 
 use egui::{Frame, RichText, Ui};
 use endline_gear::Setting;
+use endline_session::edit::Documents;
 
-use super::super::super::book::Book;
 use super::super::super::desk::Desk;
 use super::super::super::fields::{self, Said};
 use super::super::super::theme::Theme;
@@ -22,8 +22,8 @@ enum Act {
 /// Draws every option with its settings.
 pub(super) fn show(ui: &mut Ui, desk: &mut Desk, edits: &mut Edits) {
     super::super::caption(ui, "Options");
-    let count = super::option_ids(&desk.book).len();
-    let baseline = desk.book.field(Book::STUDY, "baseline").unwrap_or_default();
+    let count = super::option_ids(&desk.documents).len();
+    let baseline = desk.documents.field(Documents::STUDY, "baseline").unwrap_or_default();
     let mut act = None;
     for index in 0..count {
         Frame::new().fill(Theme::palette_of(ui).field).corner_radius(4.0).inner_margin(6.0).show(
@@ -41,7 +41,7 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, edits: &mut Edits) {
     match act {
         Some(Act::Copy(index)) => copy(desk, index),
         Some(Act::Drop(index)) => {
-            if let Err(error) = desk.book.alter(Book::STUDY, |document| {
+            if let Err(error) = desk.documents.alter(Documents::STUDY, |document| {
                 document.remove_table("option", index).map_err(|error| error.message)
             }) {
                 desk.notice = Some((error, true));
@@ -55,7 +55,7 @@ fn head(ui: &mut Ui, desk: &Desk, index: usize, baseline: &str, edits: &mut Edit
     let mut act = None;
     ui.horizontal(|ui| {
         let id = format!("option.{index}.id");
-        let is_baseline = desk.book.field(Book::STUDY, &id).as_deref() == Some(baseline);
+        let is_baseline = desk.documents.field(Documents::STUDY, &id).as_deref() == Some(baseline);
         let fields = [
             (id, 84.0, "id", "Id, unique among the options"),
             (format!("option.{index}.name"), (ui.available_width() - 292.0).max(90.0), "name", "Name in tables and figures"),
@@ -67,7 +67,7 @@ fn head(ui: &mut Ui, desk: &Desk, index: usize, baseline: &str, edits: &mut Edit
             ),
         ];
         for (field, width, hint, help) in fields {
-            if let Some(typed) = fields::edit(ui, &desk.book, Book::STUDY, &field, width, Said { hint, help }) {
+            if let Some(typed) = fields::edit(ui, &desk.documents, Documents::STUDY, &field, width, Said { hint, help }) {
                 if field.ends_with(".id") && is_baseline {
                     edits.push(("baseline".into(), Some(Setting::text(&typed))));
                 }
@@ -90,7 +90,7 @@ fn head(ui: &mut Ui, desk: &Desk, index: usize, baseline: &str, edits: &mut Edit
 fn settings(ui: &mut Ui, desk: &mut Desk, index: usize, edits: &mut Edits) {
     let faint = Theme::palette_of(ui).faint;
     let table = format!("option.{index}.set");
-    let leaves = leaves(&desk.book, &table);
+    let leaves = leaves(&desk.documents, &table);
     if leaves.is_empty() {
         ui.label(RichText::new("the scenario as it stands").color(faint));
     }
@@ -102,8 +102,8 @@ fn settings(ui: &mut Ui, desk: &mut Desk, index: usize, edits: &mut Edits) {
             let width = (ui.available_width() - 40.0).max(60.0);
             if let Some(typed) = fields::edit(
                 ui,
-                &desk.book,
-                Book::STUDY,
+                &desk.documents,
+                Documents::STUDY,
                 &path,
                 width,
                 Said { hint: "", help: "As it would stand in the file, with its unit" },
@@ -144,21 +144,21 @@ fn settings(ui: &mut Ui, desk: &mut Desk, index: usize, edits: &mut Edits) {
 fn current(desk: &Desk, field: &str) -> String {
     let item = field.split_once('.').filter(|(item, _)| item.contains('/'));
     let found = match item {
-        Some((item, field)) => desk.book.field(&format!("{item}.toml"), field),
-        None => desk.book.field(Book::SCENARIO, field),
+        Some((item, field)) => desk.documents.field(&format!("{item}.toml"), field),
+        None => desk.documents.field(Documents::SCENARIO, field),
     };
     found.unwrap_or_default()
 }
 
 /// Paths of all values under a table.
-fn leaves(book: &Book, table: &str) -> Vec<String> {
+fn leaves(documents: &Documents, table: &str) -> Vec<String> {
     let mut found = Vec::new();
-    for key in book.keys(Book::STUDY, table) {
+    for key in documents.keys(Documents::STUDY, table) {
         let path = format!("{table}.{key}");
-        if book.field(Book::STUDY, &path).is_some() {
+        if documents.field(Documents::STUDY, &path).is_some() {
             found.push(path)
         } else {
-            found.extend(leaves(book, &path))
+            found.extend(leaves(documents, &path))
         }
     }
     found
@@ -166,20 +166,23 @@ fn leaves(book: &Book, table: &str) -> Vec<String> {
 
 /// Adds an option like another, under an id of its own.
 fn copy(desk: &mut Desk, index: usize) {
-    let ids = super::option_ids(&desk.book);
+    let ids = super::option_ids(&desk.documents);
     let old = ids.get(index).cloned().unwrap_or_else(|| "option".into());
     let Some(id) = (2..).map(|number| format!("{old}-{number}")).find(|id| !ids.contains(id))
     else {
         return;
     };
-    let of = |key: &str| desk.book.field(Book::STUDY, &format!("option.{index}.{key}"));
+    let of = |key: &str| desk.documents.field(Documents::STUDY, &format!("option.{index}.{key}"));
     let name = of("name").map(|name| format!("{name} (copy)"));
     let strength = of("strength");
     let table = format!("option.{index}.set");
-    let settings: Vec<(String, String)> = leaves(&desk.book, &table)
+    let settings: Vec<(String, String)> = leaves(&desk.documents, &table)
         .into_iter()
         .filter_map(|path| {
-            Some((path.trim_start_matches(&table).to_owned(), desk.book.field(Book::STUDY, &path)?))
+            Some((
+                path.trim_start_matches(&table).to_owned(),
+                desk.documents.field(Documents::STUDY, &path)?,
+            ))
         })
         .collect();
     let change = |document: &mut endline_gear::Document| {
@@ -196,7 +199,7 @@ fn copy(desk: &mut Desk, index: usize) {
                 .map_err(|error| error.message)
         })
     };
-    if let Err(error) = desk.book.alter(Book::STUDY, change) {
+    if let Err(error) = desk.documents.alter(Documents::STUDY, change) {
         desk.notice = Some((error, true));
     }
 }

@@ -2,8 +2,8 @@
 
 use egui::{ComboBox, RichText, Ui};
 use endline_gear::Setting;
+use endline_session::edit::Documents;
 
-use super::super::super::book::Book;
 use super::super::super::desk::Desk;
 use super::super::super::fields::{self, Said};
 use super::super::super::theme::Theme;
@@ -53,8 +53,8 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, edits: &mut Edits) {
         "From the snout to the rope at the start, such as 3 m",
     );
     let names: Vec<String> = desk
-        .book
-        .keys(Book::STUDY, "encounter")
+        .documents
+        .keys(Documents::STUDY, "encounter")
         .into_iter()
         .filter(|name| !NO_PRIORS.contains(&name.as_str()))
         .collect();
@@ -68,7 +68,7 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, edits: &mut Edits) {
 fn prior(ui: &mut Ui, desk: &mut Desk, name: &str, edits: &mut Edits) {
     let at = format!("encounter.{name}");
     let Some((law, _)) =
-        LAWS.iter().find(|(law, _)| desk.book.has(Book::STUDY, &format!("{at}.{law}")))
+        LAWS.iter().find(|(law, _)| desk.documents.has(Documents::STUDY, &format!("{at}.{law}")))
     else {
         return;
     };
@@ -152,7 +152,7 @@ fn pair(ui: &mut Ui, desk: &Desk, field: &str, edits: &mut Edits) {
 
 fn one(ui: &mut Ui, desk: &Desk, field: &str, width: f32, edits: &mut Edits) {
     let said = Said { hint: "", help: "With its unit, such as 0.6 m/s" };
-    if let Some(typed) = fields::edit(ui, &desk.book, Book::STUDY, field, width, said) {
+    if let Some(typed) = fields::edit(ui, &desk.documents, Documents::STUDY, field, width, said) {
         edits.push((field.to_owned(), Some(Setting::plain(&typed))));
     }
 }
@@ -163,7 +163,7 @@ fn list(ui: &mut Ui, desk: &Desk, (name, field): (&str, &str), help: &str, edits
         super::label(ui, name);
         let id = egui::Id::new(("list", field));
         let values: Vec<String> = (0..)
-            .map_while(|index| desk.book.field(Book::STUDY, &format!("{field}.{index}")))
+            .map_while(|index| desk.documents.field(Documents::STUDY, &format!("{field}.{index}")))
             .collect();
         let stored = values.join(", ");
         let mut typed =
@@ -203,14 +203,16 @@ fn sureness(ui: &mut Ui, desk: &mut Desk, at: &str, edits: &mut Edits) {
     ui.horizontal(|ui| {
         super::label(ui, "  source");
         let field = format!("{at}.source");
-        let assumed = desk.book.field(Book::STUDY, &field).as_deref() == Some("assumed");
+        let assumed = desk.documents.field(Documents::STUDY, &field).as_deref() == Some("assumed");
         let width = ui.available_width() - if assumed { 12.0 } else { 110.0 };
         let said = Said { hint: "assumed", help: "Where the distribution comes from, or assumed" };
-        if let Some(typed) = fields::edit(ui, &desk.book, Book::STUDY, &field, width, said) {
+        if let Some(typed) =
+            fields::edit(ui, &desk.documents, Documents::STUDY, &field, width, said)
+        {
             let typed = if typed.trim().is_empty() { "assumed".to_owned() } else { typed };
             if typed == "assumed" {
                 edits.push((format!("{at}.sureness"), None));
-            } else if desk.book.field(Book::STUDY, &format!("{at}.sureness")).is_none() {
+            } else if desk.documents.field(Documents::STUDY, &format!("{at}.sureness")).is_none() {
                 edits.push((format!("{at}.sureness"), Some(Setting::text("assumed"))));
             }
             edits.push((field, Some(Setting::text(&typed))));
@@ -220,7 +222,9 @@ fn sureness(ui: &mut Ui, desk: &mut Desk, at: &str, edits: &mut Edits) {
             let words: Vec<(String, String)> = ["measured", "derived", "assumed"]
                 .map(|word| (word.to_owned(), word.to_owned()))
                 .to_vec();
-            if let Some(word) = fields::choose(ui, &desk.book, Book::STUDY, &field, &words, 88.0) {
+            if let Some(word) =
+                fields::choose(ui, &desk.documents, Documents::STUDY, &field, &words, 88.0)
+            {
                 edits.push((field, Some(Setting::text(&word))));
             }
         }

@@ -1,8 +1,9 @@
-//! Units of labels by profile, and the compass.
+//! Units that values are displayed in, numbers formatted with them, and compass bearings.
 
 use serde::{Deserialize, Serialize};
 
-use crate::scene::N_PER_LBF;
+/// Newtons in a pound-force, exact by definition.
+pub const N_PER_LBF: f64 = 4.448_221_615_260_5;
 
 /// Unit that forces are shown in.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -48,10 +49,10 @@ const METRES_PER_INCH: f64 = METRES_PER_FOOT / 12.0;
 /// A nautical mile an hour [m/s].
 const M_S_PER_KNOT: f64 = 1852.0 / 3600.0;
 
-/// The units everything is shown in. Files keep theirs, and any unit may be typed.
+/// The units that values are displayed in. Files keep their own units, and any unit may be typed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Units {
-    /// As rules and the trade have it: lbf, feet, fathoms, knots, fractions of an inch.
+    /// As in rules and in the trade: lbf, feet, fathoms, knots, fractions of an inch.
     Noaa,
     /// Forces in lbf, all else metric.
     #[default]

@@ -1,15 +1,16 @@
-//! The pilot program of the scenario's text as it is drawn and edited: entries, when they begin, what they steer.
+//! The pilot program in the scenario's text, to be shown and edited: its entries, when each begins
+//! and what it steers.
 
 use endline_gear::units::{Quantity, parse};
 use endline_gear::{Document, Setting};
 use endline_sdk::Controls;
 
-use super::book::Book;
+use super::documents::Documents;
 
-/// Where the entries stand in the scenario.
+/// Path of the list of entries in the scenario.
 pub const LIST: &str = "whale.pilot";
 
-/// Keys that begin an entry, what they are called, and what a fresh one says.
+/// Keys that begin an entry, each with its name and the value of a new entry.
 pub const TRIGGERS: [(&str, &str, &str); 6] = [
     ("at", "at a time", "0 s"),
     ("touch", "when rope touches", "any"),
@@ -19,7 +20,7 @@ pub const TRIGGERS: [(&str, &str, &str); 6] = [
     ("after", "after an entry", ""),
 ];
 
-/// Keys of an entry that are no controls.
+/// Keys of an entry that are times.
 const TIMES: [&str; 3] = ["delay", "hold", "ramp"];
 
 /// An entry of the pilot program.
@@ -29,39 +30,39 @@ pub struct Entry {
     pub index: usize,
     /// The key that begins it, of [`TRIGGERS`]; empty where it has none.
     pub trigger: &'static str,
-    /// What that key says.
+    /// The value of that key.
     pub of: String,
-    /// When it begins [s]; `None` where that shows only in the run.
+    /// When it begins [s]; `None` where only the run decides.
     pub begin_s: Option<f64>,
     /// How long it holds [s]; `None` for ever.
     pub hold_s: Option<f64>,
-    /// What each control that it names is told, by place in [`Controls::NAMES`], as written.
+    /// The controls that it sets, by place in [`Controls::NAMES`], with their values as written.
     pub controls: Vec<(usize, String)>,
 }
 
 impl Entry {
-    /// In a few words: what begins it and what it tells.
+    /// In a few words: what begins it and what it sets.
     #[must_use]
     pub fn words(&self) -> String {
         let begins = TRIGGERS
             .iter()
             .find(|(key, ..)| *key == self.trigger)
             .map_or("never", |(_, words, _)| words);
-        let told = self
+        let values = self
             .controls
             .iter()
             .map(|(control, text)| format!("{} {text}", spoken(Controls::NAMES[*control])));
-        format!("{begins} {}: {}", self.of, told.collect::<Vec<_>>().join(", "))
+        format!("{begins} {}: {}", self.of, values.collect::<Vec<_>>().join(", "))
     }
 
-    /// The number a control is told; `None` where it is not named, or is an act.
+    /// The number that a control is set to; `None` where it is not set, or is an act.
     #[must_use]
     pub fn number(&self, control: usize) -> Option<f64> {
         self.controls.iter().find(|(known, _)| *known == control)?.1.parse().ok()
     }
 }
 
-/// A control as it is spoken of.
+/// The name of a control in plain words.
 #[must_use]
 pub fn spoken(control: &str) -> String {
     control.replace('_', " ")
@@ -75,14 +76,14 @@ pub fn path(index: usize, key: &str) -> String {
 
 /// Every entry, in the order of the file.
 #[must_use]
-pub fn entries(book: &Book) -> Vec<Entry> {
-    let field = |index: usize, key: &str| book.field(Book::SCENARIO, &path(index, key));
+pub fn entries(documents: &Documents) -> Vec<Entry> {
+    let field = |index: usize, key: &str| documents.field(Documents::SCENARIO, &path(index, key));
     let time = |index: usize, key: &str| {
         field(index, key).and_then(|text| parse(&text, Quantity::Time).ok())
     };
     let mut found: Vec<Entry> = Vec::new();
     let mut ids: Vec<Option<String>> = Vec::new();
-    for index in 0..book.count(Book::SCENARIO, LIST) {
+    for index in 0..documents.count(Documents::SCENARIO, LIST) {
         let given = TRIGGERS.iter().find_map(|(key, ..)| Some((*key, field(index, key)?)));
         let (trigger, of) = given.unwrap_or_default();
         let begin_s = match trigger {
@@ -113,7 +114,8 @@ pub fn entries(book: &Book) -> Vec<Entry> {
     found
 }
 
-/// Until when an entry's word on a control holds: its own hold, or the next that names it, or the end [s].
+/// Until when an entry's value of a control holds [s]: until its hold is over, until the next entry
+/// that sets the control, or until the end.
 #[must_use]
 pub fn until_s(all: &[Entry], entry: &Entry, control: usize, end_s: f64) -> f64 {
     let Some(begin_s) = entry.begin_s else { return end_s };
@@ -127,13 +129,13 @@ pub fn until_s(all: &[Entry], entry: &Entry, control: usize, end_s: f64) -> f64 
     entry.hold_s.map_or(next_s, |hold_s| (begin_s + hold_s).min(next_s))
 }
 
-/// A time as it is written: to the millisecond, without needless digits.
+/// A time as text: to the millisecond, without trailing zeros.
 #[must_use]
 pub fn seconds(time_s: f64) -> String {
     format!("{} s", (time_s.max(0.0) * 1000.0).round() / 1000.0)
 }
 
-/// Moves an entry to another time, and keeps entries in the order of time.
+/// Moves an entry to another time and sorts the entries by time; returns its new place.
 ///
 /// # Errors
 /// Where the scenario has no such entry.
@@ -144,7 +146,7 @@ pub fn move_to(document: &mut Document, index: usize, time_s: f64) -> Result<usi
     in_order(document, index)
 }
 
-/// Entries with a time in the order of time; answers where the entry `index` has gone.
+/// Sorts the entries that begin at a time; returns the new place of the entry `index`.
 ///
 /// # Errors
 /// Where the scenario has no such entry.
@@ -152,7 +154,7 @@ pub fn in_order(document: &mut Document, index: usize) -> Result<usize, String> 
     let at = |document: &Document, index: usize| {
         document.get(&path(index, "at")).and_then(|text| parse(&text, Quantity::Time).ok())
     };
-    // Only timed entries change places, with one another; `after` names one above it, which stays above.
+    // Only timed entries are sorted. An entry named by `after` stays above the one that names it.
     let timed: Vec<usize> =
         (0..document.count(LIST)).filter(|index| at(document, *index).is_some()).collect();
     let mut here = index;
@@ -174,7 +176,7 @@ pub fn in_order(document: &mut Document, index: usize) -> Result<usize, String> 
     Ok(here)
 }
 
-/// Adds an entry that begins at a time; answers its place.
+/// Adds an entry that begins at a time; returns its place.
 ///
 /// # Errors
 /// Where the scenario has no whale to pilot.
@@ -189,7 +191,7 @@ pub fn add(document: &mut Document, time_s: f64) -> Result<usize, String> {
     in_order(document, index)
 }
 
-/// Begins an entry in another way.
+/// Changes what begins an entry.
 ///
 /// # Errors
 /// Where the scenario has no such entry.
@@ -212,7 +214,7 @@ pub fn begin_by(
     document.put(&path(index, trigger), &Setting::text(text)).map_err(|error| error.to_string())
 }
 
-/// Sets a key of an entry; nothing typed takes it away.
+/// Sets a key of an entry to the text typed; an empty text removes it.
 ///
 /// # Errors
 /// Where the scenario has no such entry.
@@ -232,7 +234,7 @@ pub fn set(document: &mut Document, index: usize, key: &str, text: &str) -> Resu
     if key == "at" { in_order(document, index).map(|_| ()) } else { Ok(()) }
 }
 
-/// Keys that the form asks for besides what begins an entry and the controls.
+/// The keys of times that an entry with this trigger may have.
 #[must_use]
 pub fn times(trigger: &str) -> &'static [&'static str] {
     if trigger == "at" { &TIMES[1..] } else { &TIMES }

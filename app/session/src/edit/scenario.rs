@@ -1,19 +1,19 @@
-//! A typed field put into the scenario's text, with what must go with it.
+//! One field of a scenario set as typed, together with the fields that depend on it.
 
 use endline_gear::units::{Quantity, parse};
 use endline_gear::{Document, Setting};
 
-use super::super::super::book::Book;
-use super::super::super::program::{self, LIST};
+use super::documents::Documents;
+use super::pilot_program::{self, LIST};
 
-/// Tables that are nothing without one of their fields.
-const WHOLE: [(&str, &str); 2] =
+/// Fields without which their table means nothing.
+const ESSENTIAL: [(&str, &str); 2] =
     [("waves.height", "waves"), ("current.tide.period", "current.tide")];
-/// What a fresh field needs beside it.
+/// Fields that a new field needs beside it, with the value they begin with.
 const BESIDE: [(&str, &str, &str); 1] = [("waves.height", "waves.period", "6 s")];
-/// Fields that stand for one another.
+/// Pairs of fields of which only one may stand.
 const EITHER: [(&str, &str); 2] = [("whale.length", "whale.age"), ("whale.age", "whale.length")];
-/// What a dead whale has not, in the order of the file.
+/// Fields that a dead whale does not have, in the order of the file.
 const ALIVE: [&str; 7] = [
     "whale.speed",
     "whale.motion",
@@ -23,19 +23,19 @@ const ALIVE: [&str; 7] = [
     "whale.attributes",
     LIST,
 ];
-/// What a living one needs.
+/// Fields that a living whale needs.
 const TO_LIVE: [(&str, &str); 2] =
     [("whale.speed", "1 m/s"), ("whale.motion", "org.endline.motion.swim")];
 
-/// Puts what is typed into a field; nothing typed takes the field away.
+/// Sets a field of a scenario to the text typed; an empty text removes the field.
 ///
 /// # Errors
-/// Where the scenario is so written that the field has no place.
-pub(super) fn commit(document: &mut Document, field: &str, text: &str) -> Result<(), String> {
+/// Where the scenario has no place for the field.
+pub fn set_field(document: &mut Document, field: &str, text: &str) -> Result<(), String> {
     let text = text.trim();
     if text.is_empty() {
         let whole =
-            WHOLE.iter().find(|(known, _)| *known == field).map_or(field, |(_, table)| table);
+            ESSENTIAL.iter().find(|(known, _)| *known == field).map_or(field, |(_, table)| table);
         take_away(document, whole)?;
         return if field == "whale.state" { revive(document) } else { Ok(()) };
     }
@@ -60,18 +60,19 @@ pub(super) fn commit(document: &mut Document, field: &str, text: &str) -> Result
 }
 
 fn put(document: &mut Document, field: &str, text: &str) -> Result<(), String> {
-    let told = |error: endline_gear::EditError| error.to_string();
-    // The start of the whale that nobody wrote down is an entry of its own.
+    let reported = |error: endline_gear::EditError| error.to_string();
+    // A scenario without an entry at the start gets one.
     if field.starts_with(LIST)
         && !document.has(field.rsplit_once('.').map_or(field, |(table, _)| table))
     {
-        let index = document.push_table(LIST, &[("at", "0 s"), ("mouth", text)]).map_err(told)?;
-        return program::in_order(document, index).map(|_| ());
+        let index =
+            document.push_table(LIST, &[("at", "0 s"), ("mouth", text)]).map_err(reported)?;
+        return pilot_program::in_order(document, index).map(|_| ());
     }
     if document.has(field) {
-        document.set(field, text).map_err(told)
+        document.set(field, text).map_err(reported)
     } else {
-        document.put(field, &Setting::plain(text)).map_err(told)
+        document.put(field, &Setting::plain(text)).map_err(reported)
     }
 }
 
@@ -92,15 +93,17 @@ fn revive(document: &mut Document) -> Result<(), String> {
     Ok(())
 }
 
-/// Where the scenario says how far the mouth is open at the start: in the entry of the pilot at time zero, or a fresh one.
-pub(super) fn mouth(book: &Book) -> String {
-    let count = book.count(Book::SCENARIO, LIST);
+/// Path of the field that says how far the mouth is open at the start: in the pilot's entry at time
+/// zero, or in a new entry.
+pub fn mouth_field(documents: &Documents) -> String {
+    let count = documents.count(Documents::SCENARIO, LIST);
     let at = |index: usize| {
-        book.field(Book::SCENARIO, &program::path(index, "at"))
+        documents
+            .field(Documents::SCENARIO, &pilot_program::path(index, "at"))
             .and_then(|text| parse(&text, Quantity::Time).ok())
     };
     let first = (0..count).find(|index| at(*index) == Some(0.0)).unwrap_or(count);
-    program::path(first, "mouth")
+    pilot_program::path(first, "mouth")
 }
 
 #[cfg(test)]
@@ -110,12 +113,12 @@ mod tests {
     #[test]
     fn waves_come_with_a_period_and_go_as_a_whole() {
         let mut document = Document::parse("duration = \"9 s\"\n").unwrap();
-        commit(&mut document, "waves.height", "1.2 m").unwrap();
+        set_field(&mut document, "waves.height", "1.2 m").unwrap();
         assert_eq!(document.get("waves.period").as_deref(), Some("6 s"));
-        commit(&mut document, "waves.period", "8 s").unwrap();
-        commit(&mut document, "waves.height", "1.5 m").unwrap();
+        set_field(&mut document, "waves.period", "8 s").unwrap();
+        set_field(&mut document, "waves.height", "1.5 m").unwrap();
         assert_eq!(document.get("waves.period").as_deref(), Some("8 s"), "what was typed stays");
-        commit(&mut document, "waves.height", " ").unwrap();
+        set_field(&mut document, "waves.height", " ").unwrap();
         assert!(!document.has("waves"), "{}", document.text());
     }
 
@@ -123,9 +126,9 @@ mod tests {
     fn a_length_takes_the_place_of_an_age_and_a_number_stays_a_number() {
         let mut document =
             Document::parse("[whale]\nitem = \"right-whale\"\nlength = \"13 m\"\n").unwrap();
-        commit(&mut document, "whale.age", "2 yr").unwrap();
+        set_field(&mut document, "whale.age", "2 yr").unwrap();
         assert!(!document.has("whale.length"));
-        commit(&mut document, "whale.condition", "0.9").unwrap();
+        set_field(&mut document, "whale.condition", "0.9").unwrap();
         assert!(document.text().contains("condition = 0.9"), "{}", document.text());
     }
 
@@ -133,8 +136,8 @@ mod tests {
     fn another_law_of_friction_begins_without_the_attributes_of_the_one_before() {
         let text = "[friction]\nmodel = \"a\" # law\nattributes = { scale = 2 }\n\n[[friction.on]]\nsurfaces = [\"baleen\"]\nmodel = \"b\"\nattributes = { pull = \"5 N\" }\n";
         let mut document = Document::parse(text).unwrap();
-        commit(&mut document, "friction.attributes.scale", "3").unwrap();
-        commit(&mut document, "friction.on.0.model", "c").unwrap();
+        set_field(&mut document, "friction.attributes.scale", "3").unwrap();
+        set_field(&mut document, "friction.on.0.model", "c").unwrap();
         assert!(
             document.text().contains("scale = 3") && document.text().contains("# law"),
             "{}",
@@ -144,7 +147,7 @@ mod tests {
             !document.has("friction.on.0.attributes")
                 && document.get("friction.on.0.model").as_deref() == Some("c")
         );
-        commit(&mut document, "friction.model", "d").unwrap();
+        set_field(&mut document, "friction.model", "d").unwrap();
         assert!(
             !document.has("friction.attributes") && document.has("friction.on.0"),
             "{}",
@@ -156,7 +159,7 @@ mod tests {
     fn a_dead_whale_neither_swims_nor_is_steered_and_one_alive_swims_again() {
         let text = "[whale]\nitem = \"x\"\nspeed = \"1 m/s\"\nmotion = \"m\"\n[whale.attributes]\ncruise_speed = \"1 m/s\"\n[[whale.pilot]]\nat = \"0 s\"\nspeed = 1.0\n";
         let mut document = Document::parse(text).unwrap();
-        commit(&mut document, "whale.state", "dead").unwrap();
+        set_field(&mut document, "whale.state", "dead").unwrap();
         assert!(
             ["speed", "motion", "attributes", "pilot"]
                 .iter()
@@ -164,7 +167,7 @@ mod tests {
             "{}",
             document.text()
         );
-        commit(&mut document, "whale.state", "").unwrap();
+        set_field(&mut document, "whale.state", "").unwrap();
         assert_eq!(document.get("whale.motion").as_deref(), Some("org.endline.motion.swim"));
     }
 }

@@ -1,0 +1,464 @@
+//! The texts being edited: library files, the scenario and a study, with undo, saving and problems.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use endline_gear::{Diagnostic, Document, Library, Sources, save_text};
+
+use super::history::{Change, History};
+use super::problems::{Named, Problems};
+use super::texts::Texts;
+
+/// All texts that are open. The key of a library file is its path in the library's folder, such as
+/// `ropes/x.toml`; the scenario's is [`SCENARIO`](Self::SCENARIO), the study's
+/// [`STUDY`](Self::STUDY).
+pub struct Documents {
+    root: PathBuf,
+    scenario_path: PathBuf,
+    study_path: Option<PathBuf>,
+    texts: Texts,
+    history: History,
+    problems: Problems,
+    library: Arc<Library>,
+    /// Grows with every change of a text.
+    version: u64,
+    /// Meshes of the library's folder, as they were when it was opened.
+    meshes: Sources,
+}
+
+impl Documents {
+    /// Key of the scenario's text.
+    pub const SCENARIO: &'static str = "scenario";
+
+    /// Key of the study's text, where one is open.
+    pub const STUDY: &'static str = "study";
+
+    /// Opens the library in a folder and a scenario.
+    ///
+    /// # Errors
+    /// With every file that cannot be read.
+    pub fn open(root: &Path, scenario_path: &Path) -> Result<Self, String> {
+        let explain = |all: Vec<Diagnostic>| {
+            all.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+        };
+        let sources = Sources::from_folder(root).map_err(explain)?;
+        let mut texts: BTreeMap<String, String> =
+            sources.iter().map(|(path, text)| (path.to_owned(), text.to_owned())).collect();
+        texts.insert(Self::SCENARIO.to_owned(), read_text(scenario_path)?);
+        let mut documents = Self {
+            root: root.to_owned(),
+            scenario_path: scenario_path.to_owned(),
+            study_path: None,
+            texts: Texts::new(texts),
+            history: History::default(),
+            problems: Problems::default(),
+            library: Arc::default(),
+            version: 0,
+            meshes: Sources::default().with_meshes_of(&sources),
+        };
+        documents.read_all();
+        Ok(documents)
+    }
+
+    /// Opens another scenario in place of the present one.
+    ///
+    /// # Errors
+    /// Where its file cannot be read; the present one then stays.
+    pub fn open_scenario(&mut self, path: &Path) -> Result<(), String> {
+        let text = read_text(path)?;
+        self.scenario_path = path.to_owned();
+        self.begin(Self::SCENARIO, text);
+        Ok(())
+    }
+
+    /// Opens a study in place of the present one.
+    ///
+    /// # Errors
+    /// Where its file cannot be read; the present one then stays.
+    pub fn open_study(&mut self, path: &Path) -> Result<(), String> {
+        let text = read_text(path)?;
+        self.study_path = Some(path.to_owned());
+        self.begin(Self::STUDY, text);
+        Ok(())
+    }
+
+    /// Sets the text of a key as its file has it; earlier edits under this key are forgotten.
+    fn begin(&mut self, key: &str, text: String) {
+        self.history.forget(key);
+        self.texts.put(key, Some(text));
+        self.texts.mark_saved(key);
+        self.read_all();
+    }
+
+    /// The library's folder.
+    #[must_use]
+    pub fn root(&self) -> &Path {
+        &self.root
+    }
+
+    /// The scenario's file.
+    #[must_use]
+    pub fn scenario_path(&self) -> &Path {
+        &self.scenario_path
+    }
+
+    /// The study's file, where one is open.
+    #[must_use]
+    pub fn study_path(&self) -> Option<&Path> {
+        self.study_path.as_deref()
+    }
+
+    /// The library as read from the present texts; items with errors are missing.
+    #[must_use]
+    pub fn library(&self) -> &Arc<Library> {
+        &self.library
+    }
+
+    /// A number that grows with every change of a text.
+    #[must_use]
+    pub fn version(&self) -> u64 {
+        self.version
+    }
+
+    /// Every problem of the present texts, by file and place; the scenario's under its file's name.
+    #[must_use]
+    pub fn problems(&self) -> &[Diagnostic] {
+        self.problems.all()
+    }
+
+    /// Whether any text of gear or scenario has an error; a study has no part in a single run.
+    #[must_use]
+    pub fn any_error(&self) -> bool {
+        self.problems.any_error_outside(&self.shown_name(Self::STUDY))
+    }
+
+    /// The worst problem at a field of a file.
+    #[must_use]
+    pub fn problem_at(&self, path: &str, field: &str) -> Option<&Diagnostic> {
+        if self.problems.is_empty() {
+            return None;
+        }
+        self.problems.at(&self.shown_name(path), field)
+    }
+
+    /// Whether a file has an error anywhere.
+    #[must_use]
+    pub fn file_has_error(&self, path: &str) -> bool {
+        !self.problems.is_empty() && self.problems.any_error_in(&self.shown_name(path))
+    }
+
+    /// The name under which problems of a text are reported.
+    #[must_use]
+    pub fn shown_name(&self, path: &str) -> String {
+        match (path, &self.study_path) {
+            (Self::SCENARIO, _) => self.scenario_path.display().to_string(),
+            (Self::STUDY, Some(study)) => study.display().to_string(),
+            _ => path.to_owned(),
+        }
+    }
+
+    /// Paths of the files in a folder of the library.
+    pub fn files<'a>(&'a self, folder: &'a str) -> impl Iterator<Item = &'a str> {
+        let in_folder =
+            move |path: &&str| path.split_once('/').is_some_and(|(before, _)| before == folder);
+        self.texts.present().keys().map(String::as_str).filter(in_folder)
+    }
+
+    /// The present text of a file.
+    #[must_use]
+    pub fn text(&self, path: &str) -> Option<&str> {
+        self.texts.get(path)
+    }
+
+    /// The text of a file as it is on disk.
+    #[must_use]
+    pub fn saved_text(&self, path: &str) -> Option<&str> {
+        self.texts.saved(path)
+    }
+
+    /// Every present text, by path; the scenario by [`SCENARIO`](Self::SCENARIO).
+    #[must_use]
+    pub fn texts(&self) -> &BTreeMap<String, String> {
+        self.texts.present()
+    }
+
+    /// The library's present texts.
+    #[must_use]
+    pub fn sources(&self) -> Sources {
+        let of_library = |path: &str| ![Self::SCENARIO, Self::STUDY].contains(&path);
+        Sources::from_map(self.copies(of_library)).with_meshes_of(&self.meshes)
+    }
+
+    /// The texts a single run is made from: all but the study's.
+    #[must_use]
+    pub fn texts_of_run(&self) -> BTreeMap<String, String> {
+        self.copies(|path| path != Self::STUDY)
+    }
+
+    fn copies(&self, wanted: impl Fn(&str) -> bool) -> BTreeMap<String, String> {
+        let texts = self.texts.present().iter().filter(|(path, _)| wanted(path));
+        texts.map(|(path, text)| (path.clone(), text.clone())).collect()
+    }
+
+    /// Whether these are the [texts of a run](Self::texts_of_run) as they stand.
+    #[must_use]
+    pub fn same_run(&self, texts: &BTreeMap<String, String>) -> bool {
+        texts.iter().eq(self.texts.present().iter().filter(|(path, _)| *path != Self::STUDY))
+    }
+
+    /// A field as typed; `None` where it is missing.
+    #[must_use]
+    pub fn field(&self, path: &str, field: &str) -> Option<String> {
+        self.texts.parsed(path)?.get(field)
+    }
+
+    /// Whether a text has a field, table or list of this path.
+    #[must_use]
+    pub fn has(&self, path: &str, field: &str) -> bool {
+        self.texts.parsed(path).is_some_and(|document| document.has(field))
+    }
+
+    /// Keys of a table of a text, in the order of its file.
+    #[must_use]
+    pub fn keys(&self, path: &str, table: &str) -> Vec<String> {
+        self.texts.parsed(path).map_or_else(Vec::new, |document| document.keys(table))
+    }
+
+    /// How many tables a list of a file has, such as `whale.pilot` of the scenario.
+    #[must_use]
+    pub fn count(&self, path: &str, list: &str) -> usize {
+        self.texts.parsed(path).map_or(0, |document| document.count(list))
+    }
+
+    /// A text as a document.
+    ///
+    /// # Errors
+    /// Where the file is not open or not TOML.
+    pub fn document(&self, path: &str) -> Result<Document, String> {
+        let text = self.texts.get(path).ok_or_else(|| format!("{path} is not open"))?;
+        Document::parse(text).map_err(|error| format!("{path}: {error}"))
+    }
+
+    /// Whether the scenario or one of its assemblies names a library file by its id.
+    #[must_use]
+    pub fn in_use(&self, path: &str) -> bool {
+        let id = path.rsplit('/').next().unwrap_or(path).trim_end_matches(".toml");
+        let named = format!("\"{id}\"");
+        let assemblies =
+            (0..).map_while(|index| self.field(Self::SCENARIO, &format!("gear.{index}.assembly")));
+        let files = assemblies
+            .map(|assembly| format!("assemblies/{assembly}.toml"))
+            .chain([Self::SCENARIO.to_owned()]);
+        files.filter_map(|file| self.text(&file)).any(|text| text.contains(&named))
+    }
+
+    /// A path in a folder of the library that no file has, from a stem such as `my-rope`.
+    #[must_use]
+    pub fn fresh_path(&self, folder: &str, stem: &str) -> String {
+        let taken = |path: &String| self.texts.present().contains_key(path);
+        let first = format!("{folder}/{stem}.toml");
+        if !taken(&first) {
+            return first;
+        }
+        let mut numbered = (2..).map(|number| format!("{folder}/{stem}-{number}.toml"));
+        numbered.find(|candidate| !taken(candidate)).unwrap_or(first)
+    }
+
+    /// Sets a field; comments and order stay. Setting a value that is already there changes nothing.
+    ///
+    /// # Errors
+    /// Where the file is not TOML or has no such place.
+    pub fn set(&mut self, path: &str, field: &str, value: &str) -> Result<(), String> {
+        if self.field(path, field).as_deref() == Some(value) {
+            return Ok(());
+        }
+        self.alter(path, |document| document.set(field, value).map_err(|error| error.to_string()))
+    }
+
+    /// Sets a field from a control that is still moving: successive values are one edit.
+    ///
+    /// # Errors
+    /// As [`set`](Self::set).
+    pub fn set_held(&mut self, path: &str, field: &str, value: &str) -> Result<(), String> {
+        let held = format!("{path}#{field}");
+        let (joins, before) = (self.history.is_held(&held), self.version);
+        self.set(path, field, value)?;
+        if self.version != before {
+            if joins {
+                self.history.join();
+            }
+            self.history.hold(held);
+        }
+        Ok(())
+    }
+
+    /// A control was released: its next value is an edit of its own.
+    pub fn let_go(&mut self) {
+        self.history.release();
+    }
+
+    /// Changes a text as a document; comments and order stay. A change that fails leaves the text
+    /// as it was.
+    ///
+    /// # Errors
+    /// Where the file is not open or not TOML, or where `change` fails.
+    pub fn alter(
+        &mut self,
+        path: &str,
+        change: impl FnOnce(&mut Document) -> Result<(), String>,
+    ) -> Result<(), String> {
+        let mut document = self.document(path)?;
+        change(&mut document)?;
+        self.change(vec![(path.to_owned(), Some(document.text()))]);
+        Ok(())
+    }
+
+    /// Sets several texts at once, new files among them; one undo takes all of it back.
+    pub fn put_all(&mut self, texts: Vec<(String, String)>) {
+        self.change(texts.into_iter().map(|(path, text)| (path, Some(text))).collect());
+    }
+
+    /// Sets and removes texts at once, such as those kept over a crash; one undo takes all of it
+    /// back.
+    pub fn restore(&mut self, texts: Vec<(String, Option<String>)>) {
+        self.change(texts);
+    }
+
+    /// Removes a file; undo brings it back. Saving deletes it from the disk.
+    pub fn remove(&mut self, path: &str) {
+        self.change(vec![(path.to_owned(), None)]);
+    }
+
+    /// Adds a copy of a library file under a fresh id and returns its path.
+    ///
+    /// # Errors
+    /// Where there is no such file or it is not TOML.
+    pub fn duplicate(&mut self, path: &str) -> Result<String, String> {
+        let mut document = self.document(path)?;
+        let (folder, file) = path.split_once('/').unwrap_or(("", path));
+        let fresh = self.fresh_path(folder, file.trim_end_matches(".toml"));
+        let name = document.get("name").unwrap_or_default();
+        document.set("name", &format!("{name} (copy)")).map_err(|error| error.to_string())?;
+        self.change(vec![(fresh.clone(), Some(document.text()))]);
+        Ok(fresh)
+    }
+
+    fn change(&mut self, texts: Vec<(String, Option<String>)>) {
+        let change = |(path, after): (String, Option<String>)| Change {
+            before: self.texts.get(&path).map(str::to_owned),
+            path,
+            after,
+        };
+        let changes: Vec<Change> =
+            texts.into_iter().map(change).filter(|change| change.before != change.after).collect();
+        if changes.is_empty() {
+            return;
+        }
+        changes.iter().for_each(|change| self.texts.put(&change.path, change.after.clone()));
+        self.history.record(changes);
+        self.read_all();
+    }
+
+    /// Takes the last edit back; false where there is none.
+    pub fn undo(&mut self) -> bool {
+        let Some(changes) = self.history.undo() else { return false };
+        for change in changes.iter().rev() {
+            self.texts.put(&change.path, change.before.clone());
+        }
+        self.read_all();
+        true
+    }
+
+    /// Makes the edit again that was taken back last; false where there is none.
+    pub fn redo(&mut self) -> bool {
+        let Some(changes) = self.history.redo() else { return false };
+        changes.iter().for_each(|change| self.texts.put(&change.path, change.after.clone()));
+        self.read_all();
+        true
+    }
+
+    /// Whether there is an edit to undo, and one to redo.
+    #[must_use]
+    pub fn can_undo_redo(&self) -> (bool, bool) {
+        self.history.can_undo_redo()
+    }
+
+    /// Paths of texts that differ from their files.
+    #[must_use]
+    pub fn unsaved(&self) -> &[String] {
+        self.texts.unsaved()
+    }
+
+    /// Whether a text differs from its file.
+    #[must_use]
+    pub fn is_unsaved(&self, path: &str) -> bool {
+        self.texts.get(path) != self.texts.saved(path)
+    }
+
+    /// Writes every changed text to its file, each whole or not at all; returns how many.
+    ///
+    /// # Errors
+    /// With the files that could not be written; the others are saved.
+    pub fn save(&mut self) -> Result<usize, String> {
+        let (mut count, mut failed) = (0, Vec::new());
+        for path in self.texts.unsaved().to_vec() {
+            let file = self.file_of(&path);
+            let written = match self.texts.get(&path) {
+                Some(text) => save_text(&file, text),
+                None => std::fs::remove_file(&file),
+            };
+            match written {
+                Ok(()) => {
+                    count += 1;
+                    self.texts.mark_saved(&path);
+                }
+                Err(error) => failed.push(format!("{}: {error}", file.display())),
+            }
+        }
+        self.texts.refresh();
+        if failed.is_empty() { Ok(count) } else { Err(failed.join("\n")) }
+    }
+
+    /// The file of a text.
+    fn file_of(&self, path: &str) -> PathBuf {
+        match (path, &self.study_path) {
+            (Self::SCENARIO, _) => self.scenario_path.clone(),
+            (Self::STUDY, Some(study)) => study.clone(),
+            _ => self.root.join(path),
+        }
+    }
+
+    /// Writes the scenario to another file and continues with that file; the earlier file stays as
+    /// it was saved.
+    ///
+    /// # Errors
+    /// Where the file cannot be written.
+    pub fn save_scenario_as(&mut self, path: &Path) -> Result<(), String> {
+        let text = self.texts.get(Self::SCENARIO).unwrap_or_default();
+        save_text(path, text).map_err(|error| format!("{}: {error}", path.display()))?;
+        self.scenario_path = path.to_owned();
+        self.texts.mark_saved(Self::SCENARIO);
+        self.read_all();
+        Ok(())
+    }
+
+    /// Reads all texts again: the library, and every problem.
+    fn read_all(&mut self) {
+        self.texts.refresh();
+        let (scenario, study) = (self.shown_name(Self::SCENARIO), self.shown_name(Self::STUDY));
+        let named = |name, key| self.texts.get(key).map(|text| Named { name, text });
+        let (library, problems) = Problems::of(
+            &self.sources(),
+            named(&scenario, Self::SCENARIO),
+            named(&study, Self::STUDY),
+        );
+        (self.library, self.problems) = (Arc::new(library), problems);
+        self.version += 1;
+    }
+}
+
+fn read_text(path: &Path) -> Result<String, String> {
+    std::fs::read_to_string(path)
+        .map_err(|error| format!("{}: cannot be read: {error}", path.display()))
+}

@@ -1,0 +1,22 @@
+//! Editing without a screen: the open texts with undo, their problems, recovery after a crash, and
+//! edits that change several fields at once.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`documents`] | every open text: library files, the scenario, the study |
+//! | `texts` | texts as they stand and as their files have them |
+//! | `history` | undo and redo |
+//! | `problems` | located problems of the texts |
+//! | [`recovery`] | unsaved edits kept for the case of a crash |
+//! | [`scenario`] | one field of a scenario, with the fields that depend on it |
+//! | [`pilot_program`] | entries of the scenario's pilot program |
+
+pub mod documents;
+mod history;
+pub mod pilot_program;
+mod problems;
+pub mod recovery;
+pub mod scenario;
+mod texts;
+
+pub use documents::Documents;

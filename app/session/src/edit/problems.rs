@@ -1,0 +1,61 @@
+//! Located problems of the open texts.
+
+use endline_gear::{Diagnostic, Library, Scenario, Sources, Study};
+
+/// A text outside the library, with the name under which its problems are reported.
+pub(super) struct Named<'a> {
+    pub(super) name: &'a str,
+    pub(super) text: &'a str,
+}
+
+/// Every problem of the open texts.
+#[derive(Debug, Default)]
+pub(super) struct Problems(Vec<Diagnostic>);
+
+impl Problems {
+    /// Reads the library, the scenario and the study; returns the library without the items that
+    /// have errors, and all problems.
+    pub(super) fn of(
+        library: &Sources,
+        scenario: Option<Named<'_>>,
+        study: Option<Named<'_>>,
+    ) -> (Library, Self) {
+        let (library, mut all) = Library::read(library);
+        if let Some(Err(problems)) = scenario.map(|file| Scenario::read(file.name, file.text)) {
+            all.extend(problems);
+        }
+        if let Some(Err(problems)) = study.map(|file| Study::read(file.name, file.text)) {
+            all.extend(problems);
+        }
+        (library, Self(all))
+    }
+
+    /// All problems, in the order of reading.
+    pub(super) fn all(&self) -> &[Diagnostic] {
+        &self.0
+    }
+
+    /// Whether there is no problem at all.
+    pub(super) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The worst problem at a field of a file, or at its value.
+    pub(super) fn at(&self, file: &str, field: &str) -> Option<&Diagnostic> {
+        let value = format!("{field}.value");
+        let here = |problem: &&Diagnostic| {
+            problem.file == file && (problem.field == field || problem.field == value)
+        };
+        self.0.iter().filter(here).max_by_key(|problem| problem.severity)
+    }
+
+    /// Whether a file has an error.
+    pub(super) fn any_error_in(&self, file: &str) -> bool {
+        self.0.iter().any(|problem| problem.file == file && problem.is_error())
+    }
+
+    /// Whether any file but this one has an error.
+    pub(super) fn any_error_outside(&self, file: &str) -> bool {
+        self.0.iter().any(|problem| problem.file != file && problem.is_error())
+    }
+}
