@@ -1,4 +1,4 @@
-//! What the command line takes.
+//! The arguments of the command line.
 
 use std::path::PathBuf;
 
@@ -9,23 +9,23 @@ use endline_session::plugins::{Language, PluginKind};
 
 use super::study::args::StudyCommand;
 
-/// Design fishing gear that whales get out of alive.
+/// Design fishing gear that entangled whales can escape from.
 ///
-/// Without a command the workbench opens.
+/// Without a command, the workbench opens in a window.
 #[derive(Debug, Parser)]
 #[command(
     name = "endline",
     version,
-    after_help = "Exit codes: 0 done, 1 the run or check failed, 2 wrong use."
+    after_help = "Exit codes: 0 success, 1 the run or check failed, 2 wrong usage."
 )]
 pub struct Args {
-    /// What to do.
+    /// Command to run.
     #[command(subcommand)]
     pub(super) command: Option<Command>,
-    /// Folder of the gear library; found beside the scenario or the program where not given.
+    /// Folder of the gear library [default: found near the scenario or the program].
     #[arg(long, global = true, value_name = "DIR")]
     pub(super) library: Option<PathBuf>,
-    /// Allow the plugin libraries found that are new or have changed, as `plugins allow` does one by one.
+    /// Allow all plugin libraries that are new or have changed; `plugins allow` does so one by one.
     #[arg(long, global = true)]
     pub(super) allow_plugins: bool,
 }
@@ -34,29 +34,29 @@ pub struct Args {
 pub(super) enum Command {
     /// Run a scenario and print its summary.
     Run(RunArgs),
-    /// Find the gear at rest: shape, tensions, residual.
+    /// Compute the gear at rest and print its shape, tensions and residual.
     Settle(SettleArgs),
-    /// Run a recording again; with --verify compare every step.
+    /// Run a recording again; --verify compares every step.
     Replay(ReplayArgs),
-    /// Write a recorded run as a scenario whose pilot program flies it again, to be edited as text.
+    /// Write a recorded run as a scenario with a pilot program that repeats it and can be edited.
     Pilot(PilotArgs),
-    /// Draw a moment of a recording or a scenario; needs no display.
+    /// Draw one moment of a recording or a scenario to a PNG file, without a display.
     Render(RenderArgs),
-    /// Run validation cases and tell what was expected and what was got.
+    /// Run validation cases and compare results with expected values.
     Validate(ValidateArgs),
-    /// Compare options of gear on the same encounters: plan, run, merge, report, replay.
+    /// Compare options of gear on the same encounters.
     Study {
         #[command(subcommand)]
         what: StudyCommand,
     },
-    /// Check files, a gear library or a project, and tell all that is wrong.
+    /// Check files or folders of gear and report every problem.
     Check(CheckArgs),
-    /// Write a whale's mesh as a file for other programs, such as Blender.
+    /// Write a whale's mesh to a file for other programs, such as Blender.
     Whale {
         #[command(subcommand)]
         what: WhaleCommand,
     },
-    /// List plugins, check or allow a library, switch one off, begin a new one.
+    /// List, check, allow, enable, disable or create plugins.
     Plugins {
         #[command(subcommand)]
         what: PluginsCommand,
@@ -67,19 +67,19 @@ pub(super) enum Command {
 pub(super) struct RunArgs {
     /// Scenario file.
     pub(super) scenario: PathBuf,
-    /// Folder for the summary, the recording and a picture; made where it is not there.
+    /// Folder for the summary, the recording and a picture; it is created if missing.
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     pub(super) json: bool,
-    /// Start even where the gear did not come to rest.
+    /// Start the run even if statics finds no rest position of the gear.
     #[arg(long = "allow-unsettled", alias = "unsettled")]
     pub(super) unsettled: bool,
-    /// Take over from a moment of this recording: up to --at its inputs steer, from then on the scenario's pilot.
+    /// Recording to continue from: its inputs steer until --at, then the scenario's pilot.
     #[arg(long, value_name = "RECORDING", requires = "at")]
     pub(super) from: Option<PathBuf>,
-    /// The moment taken over, in seconds of the recording.
+    /// Time at which the scenario's pilot takes over, in seconds of the recording.
     #[arg(long, value_name = "T", requires = "from")]
     pub(super) at: Option<f64>,
     #[command(flatten)]
@@ -93,29 +93,29 @@ pub(super) struct RunArgs {
 pub(super) struct SettleArgs {
     /// Scenario file.
     pub(super) scenario: PathBuf,
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     pub(super) json: bool,
     #[command(flatten)]
     pub(super) over: OverArgs,
 }
 
-/// What may be set over a scenario.
+/// Options that override values of a scenario.
 #[derive(Clone, Copy, Debug, clap::Args)]
 pub(super) struct OverArgs {
-    /// Seed, over the scenario's.
+    /// Seed of the random draws, in place of the scenario's.
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
-    /// Step between inputs in seconds, over the scenario's.
+    /// Step between inputs in seconds, in place of the scenario's.
     #[arg(long, value_name = "S", value_parser = step)]
     dt: Option<f64>,
-    /// Weak links on or off, over the scenario's.
+    /// Whether weak links can part, in place of the scenario's setting.
     #[arg(long, value_name = "on|off")]
     weak_links: Option<Switch>,
-    /// Rating of every weak link: newtons, or with a unit such as 1700lbf.
+    /// Rating of every weak link, in newtons or with a unit, such as 1700lbf.
     #[arg(long, value_name = "FORCE", value_parser = force)]
     rating: Option<f64>,
-    /// Whether the whale feels the gear (kinetic) or goes as it is steered whatever the rope does (kinematic), over the scenario's.
+    /// Whether rope forces move the whale (kinetic) or it follows its pilot regardless (kinematic).
     #[arg(long, value_name = "kinetic|kinematic")]
     whale: Option<Dynamics>,
 }
@@ -136,13 +136,13 @@ enum Dynamics {
 pub(super) struct ReplayArgs {
     /// Recording file.
     pub(super) recording: PathBuf,
-    /// Compare every step with the recording and name the first that differs.
+    /// Compare every step with the recording and report the first that differs.
     #[arg(long)]
     pub(super) verify: bool,
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     pub(super) json: bool,
-    /// Go on with plugins of another version or file than recorded.
+    /// Accept plugins whose version or file differs from the recorded ones.
     #[arg(long)]
     pub(super) other_plugins: bool,
 }
@@ -151,71 +151,71 @@ pub(super) struct ReplayArgs {
 pub(super) struct PilotArgs {
     /// Recording file.
     pub(super) recording: PathBuf,
-    /// Scenario to write.
+    /// Scenario file to write.
     #[arg(long, value_name = "FILE.toml")]
     pub(super) out: PathBuf,
-    /// Leave out changes of a control up to this, from 0 to 1; with 0 the run is the same to the bit.
+    /// Leave out changes of a control up to this size, from 0 to 1; 0 repeats the run bit for bit.
     #[arg(long, value_name = "SHARE", default_value_t = 0.0, value_parser = share)]
     pub(super) thin: f64,
 }
 
 #[derive(Debug, clap::Args)]
 pub(super) struct RenderArgs {
-    /// Recording, or scenario file: its gear at rest, or run up to the moment.
+    /// Recording or scenario file; it is run up to the time --at.
     #[arg(value_name = "RECORDING|SCENARIO")]
     pub(super) file: PathBuf,
-    /// Simulated time of the moment, in seconds.
+    /// Simulated time in seconds; at 0 a scenario shows its gear at rest.
     #[arg(long, value_name = "T", default_value_t = 0.0)]
     pub(super) at: f64,
-    /// Bodies and lines to fit into the picture, such as trap-1,endline-top; all there is where not given.
+    /// Bodies and lines to fit into the picture, such as trap-1,endline-top [default: all].
     #[arg(long, value_name = "ID,...", value_delimiter = ',')]
     pub(super) fit: Vec<String>,
-    /// View: orbit, side, top or front; of the whale: whale, first-person, whale-side, whale-top or whale-front.
+    /// View: orbit, side, top, front, whale, first-person, whale-side, whale-top or whale-front.
     #[arg(long, value_name = "NAME", default_value = "orbit")]
     pub(super) view: String,
-    /// Picture to write.
+    /// PNG file to write.
     #[arg(long, value_name = "FILE.png")]
     pub(super) out: PathBuf,
-    /// Width and height in pixels.
+    /// Width and height in pixels, each from 16 to 8192.
     #[arg(long, value_name = "WxH", default_value = "1280x800", value_parser = size)]
     pub(super) size: [u32; 2],
-    /// Go on with plugins of another version or file than recorded.
+    /// Accept plugins whose version or file differs from the recorded ones.
     #[arg(long)]
     pub(super) other_plugins: bool,
 }
 
 #[derive(Debug, clap::Args)]
 pub(super) struct ValidateArgs {
-    /// Cases by name, such as reference-a-100; all of the gear library where none is given.
+    /// Names of cases, such as reference-a-100 [default: all cases of the gear library].
     pub(super) cases: Vec<String>,
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     pub(super) json: bool,
-    /// Only at each case's own step and segments, without halving them.
+    /// Run each case only at its own step and segments, without the convergence study.
     #[arg(long)]
     pub(super) plain: bool,
-    /// Write the document of these cases, and their plots beside it.
+    /// Write a document of these cases to this file, with plots in a folder beside it.
     #[arg(long, value_name = "FILE.md")]
     pub(super) write: Option<PathBuf>,
 }
 
 #[derive(Debug, clap::Args)]
 pub(super) struct CheckArgs {
-    /// Files, library folders or project folders; the gear library where none is given.
+    /// Files or folders to check [default: the gear library].
     pub(super) paths: Vec<PathBuf>,
 }
 
 #[derive(Debug, Subcommand)]
 pub(super) enum WhaleCommand {
-    /// Write the skinned mesh of a whale of the library as glTF 2.0.
+    /// Write the skinned mesh of a whale in the library as glTF 2.0.
     Build(WhaleBuildArgs),
 }
 
 #[derive(Debug, clap::Args)]
 pub(super) struct WhaleBuildArgs {
-    /// Whale of the library, such as right-whale.
+    /// Id of the whale in the library, such as right-whale.
     pub(super) whale: String,
-    /// Body length, over the library's, such as "13.7 m".
+    /// Body length in place of the library's, such as "13.7 m".
     #[arg(long, value_name = "LENGTH", value_parser = body_length)]
     pub(super) length: Option<f64>,
     /// File to write: .glb (binary) or .gltf (text).
@@ -225,36 +225,36 @@ pub(super) struct WhaleBuildArgs {
 
 #[derive(Debug, Subcommand)]
 pub(super) enum PluginsCommand {
-    /// List the plugins found, with what they take, and those that failed.
+    /// List the plugins found with their attributes, and those that failed to load.
     List,
-    /// Try a plugin file in a child process: its declaration, random inputs, bits, state, energy, threads, time.
+    /// Test a plugin in a child process: declaration, random inputs, repeatability, energy, threads and time.
     Check {
-        /// Plugin file, or folder of a plugin without code.
+        /// Plugin library, or folder of a plugin without code.
         file: PathBuf,
-        /// Try it in this process, which it may crash.
+        /// Test it in this process, which it may crash.
         #[arg(long, hide = true)]
         here: bool,
     },
     /// Write a small plugin project that builds and passes the check.
     New(NewPluginArgs),
-    /// Let the program open these libraries, as they are now: a plugin runs with your rights.
+    /// Allow Endline to load these libraries in their present version; a plugin runs with your rights.
     Allow {
         /// Plugin files.
         #[arg(required = true)]
         files: Vec<PathBuf>,
     },
-    /// Take back that these libraries were allowed.
+    /// Withdraw the permission to load these libraries.
     Forget {
         /// Plugin files.
         #[arg(required = true)]
         files: Vec<PathBuf>,
     },
-    /// Leave a plugin out, until it is switched on again.
+    /// Disable a plugin until it is enabled again.
     Off {
         /// Id of the plugin.
         id: String,
     },
-    /// Use a plugin that was switched off.
+    /// Enable a plugin that was disabled.
     On {
         /// Id of the plugin.
         id: String,
@@ -263,15 +263,15 @@ pub(super) enum PluginsCommand {
 
 #[derive(Debug, clap::Args)]
 pub(super) struct NewPluginArgs {
-    /// Folder to write; its name is the plugin's. Where not given, my-motion, my-friction or my-gear.
+    /// Folder to write; its name becomes the plugin's [default: my-motion, my-friction or my-gear].
     pub(super) folder: Option<PathBuf>,
-    /// What it is.
+    /// Kind of plugin.
     #[arg(long)]
     pub(super) kind: PluginKindArg,
-    /// Language it is written in.
+    /// Language of the plugin.
     #[arg(long, default_value = "rust")]
     pub(super) lang: PluginLanguage,
-    /// Folder of the crate endline-sdk, for Rust; that of Endline's source where not given.
+    /// Folder of the crate endline-sdk, for Rust [default: the one in Endline's source].
     #[arg(long, value_name = "FOLDER")]
     pub(super) sdk: Option<PathBuf>,
 }
@@ -280,14 +280,14 @@ pub(super) struct NewPluginArgs {
 pub(super) enum PluginKindArg {
     /// How a whale moves.
     Motion,
-    /// How rope rubs on a whale.
+    /// Friction of rope on a whale.
     Friction,
-    /// Gear built from attributes.
+    /// Type of gear built from attributes.
     Gear,
 }
 
 impl PluginKindArg {
-    /// Its word in ids and names.
+    /// The word for this kind in ids and names.
     pub(super) fn word(self) -> &'static str {
         match self {
             Self::Motion => "motion",
@@ -319,11 +319,11 @@ impl From<PluginLanguage> for Language {
 
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
 pub(super) enum PluginLanguage {
-    /// Rust, on the crate endline-sdk.
+    /// Rust, with the crate endline-sdk.
     Rust,
-    /// C, on the header alone.
+    /// C, with the header alone.
     C,
-    /// No code: motion clips (for motion) or a gear type (for gear) as text.
+    /// No code: motion clips (for motion) or a gear type (for gear) as text files.
     Text,
 }
 

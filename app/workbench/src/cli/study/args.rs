@@ -1,4 +1,4 @@
-//! What `endline study` takes.
+//! The arguments of `endline study`.
 
 use std::path::PathBuf;
 
@@ -7,25 +7,25 @@ use endline_session::study::batch::Shard;
 
 #[derive(Debug, Subcommand)]
 pub(in crate::cli) enum StudyCommand {
-    /// Check a study and tell what it would run: options, encounters, blocks, and the first encounters drawn.
+    /// Check a study and print its options, encounters, blocks and the first encounters drawn.
     Plan(PlanArgs),
-    /// Run what is missing of a study; killed at any moment, the same command goes on.
+    /// Run the blocks of a study that are missing; after an interruption, run the same command again.
     Run(RunArgs),
-    /// Put all blocks together: table.parquet and table.csv.
+    /// Merge all blocks into table.parquet and table.csv.
     Merge(StudyArgs),
-    /// Tell what a merged study found, and write report.html with its figures, tables and bundle.
+    /// Print the findings of a merged study and write report.html, report.csv and a bundle.
     Report(ReportArgs),
-    /// Run one row of a study again, and compare it with the table.
+    /// Run one row of a study again and compare it with the table.
     Replay(ReplayArgs),
 }
 
 /// A study and its folder.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct StudyArgs {
-    /// Study file, or the id of a study of the gear library.
+    /// Study file, or the id of a study in the gear library.
     #[arg(value_name = "STUDY")]
     pub(super) study: String,
-    /// Folder of results; results/ and the study's id where not given.
+    /// Folder of results [default: results/ followed by the study's id].
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
 }
@@ -34,7 +34,7 @@ pub(in crate::cli) struct StudyArgs {
 pub(in crate::cli) struct PlanArgs {
     #[command(flatten)]
     pub(super) at: StudyArgs,
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     pub(super) json: bool,
 }
@@ -43,13 +43,13 @@ pub(in crate::cli) struct PlanArgs {
 pub(in crate::cli) struct RunArgs {
     #[command(flatten)]
     pub(super) at: StudyArgs,
-    /// Only this part of the study, such as 2/7; the merged table is the same for any number of parts.
+    /// Run only this part of the study, such as 2/7; the merged table does not depend on the parts.
     #[arg(long, value_name = "I/N", default_value = "1/1", value_parser = shard)]
     pub(super) shard: Shard,
-    /// Threads; every core where not given.
+    /// Number of threads [default: one for each core].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(super) threads: Option<u16>,
-    /// Run at ordinary priority, not behind everything else on the machine.
+    /// Run at normal priority instead of low priority.
     #[arg(long)]
     pub(super) eager: bool,
 }
@@ -67,13 +67,13 @@ pub(in crate::cli) struct ReportArgs {
 pub(in crate::cli) struct ReplayArgs {
     #[command(flatten)]
     pub(super) at: StudyArgs,
-    /// Encounter.
+    /// Number of the encounter, from 0.
     #[arg(long, value_name = "I")]
     pub(super) row: u32,
-    /// Option; the baseline where not given.
+    /// Id of the option [default: the baseline].
     #[arg(long, value_name = "ID")]
     pub(super) option: Option<String>,
-    /// Folder for its scenario, recording, summary and picture.
+    /// Folder for the row's scenario, recording, summary and picture.
     #[arg(long, value_name = "DIR")]
     pub(super) to: Option<PathBuf>,
     /// Print the run's summary as one JSON object.
