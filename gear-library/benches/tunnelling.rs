@@ -1,7 +1,7 @@
 //! Encounters of fast, taut rope with the edges of fins, counted: `cargo bench -p endline-gear --bench tunnelling -- 10000`.
 //!
 //! The numbers after `--` are how many encounters, and the first of them (usually 10,000 from 0). The same encounters are run
-//! with tests at the end of each step alone, as many as a tenth of them (`docs/physics.md`, Rope against the whale).
+//! with tests at the end of each step alone, as many as a tenth of them (`docs/lab-notebook.md`, Tunnelling).
 
 #[path = "../tests/fins/mod.rs"]
 mod fins;

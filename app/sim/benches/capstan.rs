@@ -1,4 +1,4 @@
-//! How well the capstan law comes out on triangles, over turns, segment lengths, facets and edges: tables for docs/physics.md.
+//! How well the capstan law comes out on triangles, over turns, segment lengths, facets and edges: tables for docs/lab-notebook.md.
 //!
 //! `cargo bench -p endline-sim --bench capstan`, and after `--` one of `turns`, `lengths`, `edges`, `follows` for that table alone.
 //! A rope is drawn round a drum of skin against a steady pull (`tests/common/drum.rs`); friction and ratio are by how much the

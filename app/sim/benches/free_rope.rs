@@ -1,6 +1,6 @@
 //! What a step of free rope with drag costs, by number of nodes: `cargo bench -p endline-sim --bench free_rope`.
 //!
-//! Throughput is told in nodes stepped a second; its inverse is the time of a node and step (docs/physics.md, Measured).
+//! Throughput is told in nodes stepped a second; its inverse is the time of a node and step (docs/lab-notebook.md, Speed).
 
 #![allow(clippy::expect_used, reason = "a benchmark says what it needs")]
 
