@@ -13,12 +13,13 @@ const PICTURES: &str = "pictures/validation";
 
 const HEAD: &str = "# Validation
 
-What Endline computes, beside what is known: reference problems, measured gear, and what must be kept.
-This page and its plots are written by `endline validate --write docs/validation.md` from the case files in `gear-library/cases`; edit those, not this.
+This page compares what Endline computes with what is known: reference problems, measured gear and conserved quantities.
+`endline validate --write docs/validation.md` writes this page and its plots from the case files in `gear-library/cases`; edit those files, not this page.
 
-`endline validate` runs every case again, `endline validate CASE` one of them; a case is a text file that names a scenario, what is read, what it should read, and its source (docs/gear-format.md).
-\"Expected\" is 0 where what is got is itself a difference (an RMS distance, a share gained or lost).
-The order of convergence is told from the readings at a whole, a half and a quarter of the step or of the segments, and needs no exact answer; a dash says that they do not differ.
+A case is a text file that names a scenario, what is compared, the expected values and their source (docs/gear-format.md).
+`endline validate` runs all cases, and `endline validate CASE` runs one.
+\"Expected\" is 0 where the result itself is a difference: an RMS distance, or a share gained or lost.
+The order of convergence follows from the results at full, half and quarter step or segment length and needs no exact answer; a dash means that they do not differ.
 ";
 
 /// Writes the document and a plot beside it for each case that has curves or points.
@@ -75,7 +76,7 @@ fn verdict_of_all(outcomes: &[Outcome]) -> String {
 }
 
 fn verdicts(outcomes: &[&Outcome]) -> String {
-    let mut table = "| case | compared | expected | got | error | tolerance | |\n|---|---|---|---|---|---|---|\n".to_owned();
+    let mut table = "| case | compared | expected | result | error | tolerance | |\n|---|---|---|---|---|---|---|\n".to_owned();
     for outcome in outcomes {
         for verdict in &outcome.verdicts {
             let passed = if verdict.passed { "ok" } else { "**missed**" };
