@@ -9,7 +9,7 @@
 
 #[path = "encounter/detection.rs"]
 mod detection;
-#[path = "encounter/linked.rs"]
+#[path = "../../tests/tests/linked/mod.rs"]
 mod linked;
 
 use cpu_time::ThreadTime;

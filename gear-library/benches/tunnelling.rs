@@ -3,7 +3,7 @@
 //! The numbers after `--` are how many encounters, and the first of them (usually 10,000 from 0). The same encounters are run
 //! with tests at the end of each step alone, as many as a tenth of them (`docs/lab-notebook.md`, Tunnelling).
 
-#[path = "../tests/fins/mod.rs"]
+#[path = "../tests/all/fins/mod.rs"]
 mod fins;
 
 use cpu_time::ProcessTime;

@@ -13,29 +13,17 @@
 mod linked;
 
 use divan::Bencher;
-use endline_gear::{Options, Scenario, assemble};
-use endline_sim::{Model, settle};
-use linked::{Linked, library, root, told};
+use endline_sim::settle;
+use linked::model;
 
 fn main() {
     divan::main();
 }
 
-/// The model of a shipped scenario.
-fn model(scenario: &str) -> Model {
-    let name = format!("scenarios/{scenario}.toml");
-    let text = std::fs::read_to_string(root().join(&name)).unwrap();
-    let scenario =
-        Scenario::read(&name, &text).unwrap_or_else(|problems| panic!("{}", told(&problems)));
-    let spec = assemble(&scenario, &library(), &Linked, &Options::default())
-        .unwrap_or_else(|problems| panic!("{}", told(&problems)));
-    Model::new(spec).unwrap()
-}
-
 /// A single of 500 nodes at half and slack tide, trawls of 10 and 45 traps (461 and 1,855 nodes), reference problem b.
 #[divan::bench(args = ["hello-endline", "hello-slack-tide", "trawl-10", "trawl-45", "reference-b-static"])]
 fn from_first_guess(bencher: Bencher, scenario: &str) {
-    let model = model(scenario);
+    let model = model(scenario, &[]);
     assert!(settle(&model).converged, "{scenario} does not come to rest");
     bencher.bench_local(|| settle(&model));
 }

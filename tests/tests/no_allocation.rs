@@ -5,10 +5,9 @@
 mod linked;
 
 use allocation_counter::measure;
-use endline_gear::{Options, Scenario, assemble};
 use endline_sim::model::Resolution;
 use endline_sim::{DVec3, Input, Model, State, Workspace, settle, step};
-use linked::{Linked, library, root, told};
+use linked::{built, spec};
 
 /// Steps before counting begins.
 const WARM_STEPS: u64 = 10;
@@ -20,14 +19,9 @@ const GROWTH: u64 = 100;
 
 /// The shipped encounter, with the whale set down here.
 fn encounter(place: DVec3) -> Model {
-    let name = "hello-endline.toml";
-    let text = std::fs::read_to_string(root().join("scenarios").join(name)).unwrap();
-    let scenario =
-        Scenario::read(name, &text).unwrap_or_else(|problems| panic!("{}", told(&problems)));
-    let mut spec = assemble(&scenario, &library(), &Linked, &Options::default())
-        .unwrap_or_else(|problems| panic!("{}", told(&problems)));
+    let mut spec = spec("hello-endline", &[]);
     spec.whale.as_mut().unwrap().position_m = place;
-    Model::new(spec).unwrap_or_else(|errors| panic!("{errors:?}"))
+    built(spec)
 }
 
 /// A run under way.

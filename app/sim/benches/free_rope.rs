@@ -4,7 +4,7 @@
 
 #![allow(clippy::expect_used, reason = "a benchmark says what it needs")]
 
-#[path = "../tests/common/mod.rs"]
+#[path = "../tests/all/common/mod.rs"]
 mod common;
 
 use common::{fixed, line, water};

@@ -12,7 +12,7 @@
     reason = "a program for the terminal that reads its reference"
 )]
 
-#[path = "../tests/common/mod.rs"]
+#[path = "../tests/all/common/mod.rs"]
 mod common;
 
 use common::{fixed, line, model, on_body, water, weight};

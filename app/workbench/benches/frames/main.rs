@@ -10,7 +10,7 @@
     reason = "a measurement that cannot go on stops, and prints what it found"
 )]
 
-#[path = "../../tests/common/mod.rs"]
+#[path = "../../tests/all/common/mod.rs"]
 mod common;
 mod screen;
 mod study;

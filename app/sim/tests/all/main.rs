@@ -1,0 +1,19 @@
+//! Tests of the physics through the crate's own door: known answers, published figures, invariants.
+
+mod capstan;
+mod common;
+mod dead_whale;
+mod edges;
+mod end_tension;
+mod friction_laws;
+mod hitches;
+mod kinetic;
+mod kinetic_rope;
+mod rapier;
+mod reference;
+mod rope_law;
+mod ropes;
+mod solids;
+mod sound;
+mod water;
+mod whale;

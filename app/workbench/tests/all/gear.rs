@@ -1,0 +1,302 @@
+//! The library's tables in and out, and gear settled while it is edited, clicked through without a display.
+#![cfg(feature = "gui")]
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use endline_session::edit::Documents;
+
+use crate::common::{Folder, linked, on_disk, opened_with, wait, workbench};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use endline_gear::Kind;
+use endline_workbench::gui::app::App;
+use endline_workbench::gui::desk::Order;
+use endline_workbench::gui::engine;
+use endline_workbench::gui::exchange::{import, to_csv};
+use endline_workbench::gui::layout::Panel;
+use endline_workbench::input::Pilot;
+
+fn paths(documents: &Documents) -> Vec<String> {
+    documents.files("ropes").map(str::to_owned).collect()
+}
+
+#[test]
+fn a_table_written_and_taken_in_again_changes_nothing() {
+    let folder = Folder::new("csv-same");
+    let mut documents = folder.documents();
+    let csv = to_csv(&documents, Kind::Rope, &paths(&documents));
+    assert!(csv.lines().count() >= 20 && csv.contains("\"2,700 lbf\""), "{csv}");
+    let taken = import(&mut documents, Kind::Rope, &csv).unwrap();
+    assert_eq!((taken.changed, taken.added, taken.left_out.len()), (0, 0, 0), "{taken:?}");
+    assert!(documents.unsaved().is_empty());
+}
+
+#[test]
+fn a_table_changes_adds_and_says_what_it_left_out_and_one_undo_takes_it_back() {
+    let folder = Folder::new("csv-in");
+    let mut documents = folder.documents();
+    let before = to_csv(&documents, Kind::Rope, &paths(&documents));
+    let table = "id,Name,Diameter,Strength,Colour\nsink-3-8,,,\"2,650 lbf\",red\nmill-7,Mill 7,3/8 in,\"1,700 lbf\",\n,,1 in,,\n";
+    let taken = import(&mut documents, Kind::Rope, table).unwrap();
+    assert_eq!((taken.changed, taken.added), (1, 1));
+    assert!(
+        taken.left_out[0].contains("Colour") && taken.left_out[1].contains("row 4"),
+        "{taken:?}"
+    );
+    assert_eq!(documents.field("ropes/sink-3-8.toml", "strength").as_deref(), Some("2,650 lbf"));
+    assert_eq!(documents.field("ropes/mill-7.toml", "diameter").as_deref(), Some("3/8 in"));
+    assert!(
+        documents.text("ropes/sink-3-8.toml").unwrap().contains("# Hydrodynamic coefficients"),
+        "comments stay"
+    );
+    let missing = documents
+        .problems()
+        .iter()
+        .filter(|problem| problem.file == "ropes/mill-7.toml" && problem.is_error())
+        .count();
+    assert!(missing > 3, "figures the table lacks are told: {missing}");
+    assert!(documents.undo());
+    assert_eq!(to_csv(&documents, Kind::Rope, &paths(&documents)), before);
+    assert!(
+        import(&mut documents, Kind::Rope, "one,two\n1,2\n").is_err(),
+        "a table without a head is refused"
+    );
+}
+
+#[test]
+fn cells_pasted_from_a_spreadsheet_spread_from_the_cell_typed_in() {
+    let folder = Folder::new("paste");
+    let (mut harness, _) = workbench(&folder, Pilot::default());
+    let file = |harness: &Harness<'static, App>, path: &str, key: &str| {
+        harness.state().desk.documents.field(path, key).unwrap()
+    };
+    harness.state_mut().desk.library.search = "polypropylene 5/16".into();
+    harness.run_steps(2);
+    harness.get_all_by_value("5/16 in").next().unwrap().click();
+    harness.run_steps(2);
+    harness.event(egui::Event::Paste("8 mm\t0.03 kg/m\n".into()));
+    harness.run_steps(3);
+    assert_eq!(file(&harness, "ropes/pp-5-16.toml", "diameter"), "8 mm");
+    assert_eq!(file(&harness, "ropes/pp-5-16.toml", "mass"), "0.03 kg/m");
+    harness.state_mut().desk.obey(&Order::Undo);
+    assert_eq!(file(&harness, "ropes/pp-5-16.toml", "diameter"), "5/16 in");
+}
+
+#[test]
+fn a_copy_is_compared_with_its_original_and_its_users_are_told() {
+    let folder = Folder::new("compare");
+    let (mut harness, _) = workbench(&folder, Pilot::default());
+    harness.state_mut().desk.library.chosen = Some("ropes/sink-3-8.toml".into());
+    harness.run_steps(3);
+    assert!(harness.query_by_label("assemblies/single.toml").is_some(), "where it is used");
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::D);
+    harness.run_steps(3);
+    let copy = harness.state().desk.library.chosen.clone().unwrap();
+    assert_eq!(copy, "ropes/sink-3-8-2.toml");
+    assert!(harness.query_by_label("no difference").is_some());
+    harness.state_mut().desk.set(&copy, "strength", "1,350 lbf");
+    harness.run_steps(3);
+    assert!(harness.query_by_label("-50.0 %").is_some());
+    assert!(harness.query_by_label("no assembly and no scenario").is_some());
+}
+
+/// The workbench with the assembly panel in front, plugins linked.
+fn assembly(folder: &Folder) -> Harness<'static, App> {
+    let mut harness =
+        opened_with(folder.book_with("hello-endline"), linked(), engine::live(), Pilot::default());
+    harness.state_mut().dock = egui_dock::DockState::new(vec![Panel::Assembly.id().to_owned()]);
+    harness.run_steps(2);
+    wait(&mut harness, |app| app.desk.assembly.settled());
+    harness
+}
+
+/// Greatest tension of the gear shown at slack and at running tide [N].
+fn tensions(harness: &Harness<'static, App>) -> [f64; 2] {
+    harness.state().desk.assembly.answers().map(|answer| {
+        let rest = answer.unwrap().as_ref().unwrap();
+        assert!(rest.shape.converged, "{}", rest.shape.outcome);
+        rest.shape.lines.iter().flat_map(|line| &line.tension_N).copied().fold(0.0, f64::max)
+    })
+}
+
+#[test]
+fn gear_is_settled_at_slack_and_running_tide_as_its_scope_is_moved() {
+    let folder = Folder::new("statics");
+    let mut harness = assembly(&folder);
+    let [slack, running] = tensions(&harness);
+    assert!(running > 2.0 * slack, "the tide pulls: {slack} N, {running} N");
+    let length = |harness: &Harness<'static, App>| {
+        let desk = &harness.state().desk;
+        let rest = desk.assembly.answers()[0].unwrap().as_ref().unwrap().clone();
+        rest.shape.lines.iter().map(|line| line.length_m).sum::<f64>()
+    };
+    assert!((length(&harness) - 1.3 * 25.0).abs() < 0.1, "{}", length(&harness));
+    for scope in ["1.5", "1.8", "2"] {
+        harness
+            .state_mut()
+            .desk
+            .documents
+            .set_held("assemblies/single.toml", "attributes.scope", scope)
+            .unwrap();
+    }
+    harness.run_steps(2);
+    wait(&mut harness, |app| app.desk.assembly.settled());
+    assert!((length(&harness) - 2.0 * 25.0).abs() < 0.1, "{}", length(&harness));
+    harness.state_mut().desk.obey(&Order::Undo);
+    let scope = harness.state().desk.documents.field("assemblies/single.toml", "attributes.scope");
+    assert_eq!(scope.as_deref(), Some("1.3"), "the whole way of the slider is one edit");
+}
+
+#[test]
+fn weak_inserts_are_put_in_every_sixty_feet_and_saved_with_all_else_as_it_was() {
+    let folder = Folder::new("inserts");
+    let mut harness = assembly(&folder);
+    harness.get_all_by_label("Put in").last().unwrap().click();
+    harness.run_steps(2);
+    wait(&mut harness, |app| app.desk.assembly.settled());
+    let rest = harness.state().desk.assembly.answers()[0].unwrap().as_ref().unwrap().clone();
+    let inserts: Vec<&str> = rest
+        .shape
+        .lines
+        .iter()
+        .map(|line| line.id.as_str())
+        .filter(|id| id.contains(".insert-"))
+        .collect();
+    assert_eq!(
+        inserts.len(),
+        1,
+        "21.7 m of rope, 16 m of it in the top three quarters, has room for one: {inserts:?}"
+    );
+    let before = on_disk(&folder, "scenarios/hello-endline.toml");
+    harness.state_mut().desk.obey(&Order::Save);
+    let after = on_disk(&folder, "scenarios/hello-endline.toml");
+    assert!(after.contains("every = \"60 ft\"") && after.contains("within = 0.75"), "{after}");
+    assert!(after.contains("# The tide runs to the east"), "comments stay: {after}");
+    harness.state_mut().desk.obey(&Order::Undo);
+    harness.state_mut().desk.obey(&Order::Save);
+    assert_eq!(on_disk(&folder, "scenarios/hello-endline.toml"), before);
+}
+
+#[test]
+fn a_line_is_split_with_a_splice_and_the_gear_still_settles() {
+    let folder = Folder::new("split");
+    let mut harness = assembly(&folder);
+    harness.state_mut().desk.assembly.shown = Some("massachusetts-single".into());
+    harness.run_steps(2);
+    wait(&mut harness, |app| app.desk.assembly.settled());
+    let lines = |harness: &Harness<'static, App>| {
+        let rest = harness.state().desk.assembly.answers()[0].unwrap().as_ref().unwrap().clone();
+        assert!(rest.shape.converged, "{}", rest.shape.outcome);
+        rest.shape.lines.len()
+    };
+    let before = lines(&harness);
+    harness.get_all_by_label("Split").last().unwrap().click();
+    harness.run_steps(2);
+    wait(&mut harness, |app| app.desk.assembly.settled());
+    assert_eq!(lines(&harness), before + 1);
+    let field = |harness: &Harness<'static, App>, field: &str| {
+        harness.state().desk.documents.field("assemblies/massachusetts-single.toml", field).unwrap()
+    };
+    assert_eq!(
+        (field(&harness, "line.0.length"), field(&harness, "line.2.length")),
+        ("4.05 m".to_owned(), "4.05 m".to_owned())
+    );
+}
+
+#[test]
+fn two_gears_are_compared_and_a_gear_type_is_a_starting_point() {
+    let folder = Folder::new("two-gears");
+    let mut harness = assembly(&folder);
+    harness.state_mut().desk.assembly.other = Some("single-high-flyer".into());
+    harness.run_steps(2);
+    wait(&mut harness, |app| app.desk.assembly.settled());
+    harness.run_steps(2);
+    assert!(
+        harness.query_all_by_label("surface-line").next().is_some(),
+        "the other gear's lines stand in the table"
+    );
+    harness.get_by_label("New ⏷").click();
+    harness.run_steps(3);
+    harness.get_all_by_label_contains("Trawl").last().unwrap().click();
+    harness.run_steps(2);
+    wait(&mut harness, |app| app.desk.assembly.settled());
+    let model = folder.0.join("gear.stl");
+    harness.state_mut().desk.obey(&Order::ExportModel(model.clone()));
+    let bytes = std::fs::read(model).unwrap();
+    let triangles = u32::from_le_bytes(bytes[80..84].try_into().unwrap()) as usize;
+    assert!(triangles > 1000 && bytes.len() == 84 + 50 * triangles, "{triangles} triangles");
+    let desk = &harness.state().desk;
+    assert!(
+        desk.assembly.answers()[0].unwrap().is_ok(),
+        "{:?}",
+        desk.assembly.answers()[0].unwrap().as_ref().err()
+    );
+    assert!(
+        desk.documents.unsaved().iter().any(|path| path.starts_with("assemblies/my-")),
+        "{:?}",
+        desk.documents.unsaved()
+    );
+}
+
+#[test]
+fn a_fraction_no_rule_has_is_told_at_its_place_with_the_nearest_size() {
+    let folder = Folder::new("fraction");
+    let mut documents = folder.documents();
+    // The 2012 report's impossible size.
+    documents.set("ropes/sink-3-8.toml", "diameter", "5/17 in").unwrap();
+    let problem = documents.problem_at("ropes/sink-3-8.toml", "diameter").unwrap();
+    assert!(
+        problem.is_error() && problem.line > 0 && problem.message.contains("5/17 in"),
+        "{problem}"
+    );
+    assert!(problem.help.contains("the nearest is 5/16 in"), "{problem}");
+    for size in ["5/16 in", "1 1/2 in", "11/64 in", "0.3 in", "8 mm"] {
+        documents.set("ropes/sink-3-8.toml", "diameter", size).unwrap();
+        assert!(
+            documents
+                .problem_at("ropes/sink-3-8.toml", "diameter")
+                .is_none_or(|problem| !problem.message.contains("no size")),
+            "{size}"
+        );
+    }
+}
+
+#[test]
+fn whales_have_a_table_and_every_figure_tells_how_sure_it_is_and_whence() {
+    let folder = Folder::new("whales");
+    let (mut harness, _) = workbench(&folder, Pilot::default());
+    harness.state_mut().dock = egui_dock::DockState::new(vec![Panel::Library.id().to_owned()]);
+    harness.run_steps(2);
+    harness.get_by_label("Whales").click();
+    harness.run_steps(2);
+    let whale = harness.state().desk.documents.files("whales").next().unwrap().to_owned();
+    harness.state_mut().desk.library.chosen = Some(whale.clone());
+    harness.run_steps(3);
+    let library = harness.state().desk.documents.library().clone();
+    let entry = library
+        .entry(Kind::Whale, whale.trim_start_matches("whales/").trim_end_matches(".toml"))
+        .unwrap();
+    for (_, figure) in entry.figures.iter().take(3) {
+        assert!(harness.query_all_by_label(&figure.source).next().is_some(), "{}", figure.source);
+        assert!(
+            harness.query_all_by_label(figure.sureness.word()).next().is_some(),
+            "{:?}",
+            figure.sureness
+        );
+    }
+}
+
+#[test]
+fn gear_is_chosen_by_its_picture() {
+    let folder = Folder::new("pictures");
+    let mut harness =
+        opened_with(folder.book_with("hello-endline"), linked(), engine::live(), Pilot::default());
+    harness.state_mut().dock = egui_dock::DockState::new(vec![Panel::Assembly.id().to_owned()]);
+    harness.run_steps(2);
+    harness.get_by_label("Pictures").click();
+    harness.run_steps(3);
+    let name = harness.state().desk.documents.field("assemblies/single.toml", "name").unwrap();
+    harness.get_all_by_label(&name).last().unwrap().click();
+    harness.run_steps(3);
+    assert_eq!(harness.state().desk.assembly.shown.as_deref(), Some("single"));
+    assert!(!harness.state().desk.assembly.selecting, "the picture is taken and the gear shown");
+}

@@ -1,0 +1,14 @@
+//! Tests of the window without a screen: what a user does in it, and what comes of it.
+#![cfg(feature = "gui")]
+
+mod answers;
+mod common;
+mod gear;
+mod house;
+mod killed;
+mod plugins;
+mod runs;
+mod scenario;
+mod study;
+mod view;
+mod workbench;

@@ -1,0 +1,183 @@
+//! The panel of plugins: listed, switched off, built anew and loaded again, asked about, put into the scenario.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use endline_session::edit::Documents;
+
+use crate::common::{Folder, linked, opened_with, wait};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use endline_gear::{Document, Setting};
+use endline_session::plugins::{Choices, Language, Loader, PluginKind, Standing, write_project};
+use endline_workbench::gui::app::App;
+use endline_workbench::gui::desk::Order;
+use endline_workbench::gui::layout::Panel;
+use endline_workbench::gui::plugins::{Load, Plugins};
+use endline_workbench::gui::{engine, fields};
+use endline_workbench::input::Pilot;
+
+/// A folder of plugins, deleted in the end.
+struct Place(PathBuf);
+
+impl Place {
+    fn new(name: &str) -> Self {
+        let folder =
+            std::env::temp_dir().join(format!("endline-plugins-{name}-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        Self(folder)
+    }
+}
+
+impl Drop for Place {
+    fn drop(&mut self) {
+        // A folder left behind is not worth failing a test for.
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+/// The workbench with the panel in front and a loader of a folder.
+fn bench(folder: &Folder, place: &Path, scenario: &str) -> Harness<'static, App> {
+    let mut harness =
+        opened_with(folder.book_with(scenario), linked(), engine::live(), Pilot::default());
+    let load: Load = Arc::new(|loader| loader.load(&|_: &Path| Ok(())));
+    let loader = Loader::new(&[place.to_path_buf()], Choices::kept_in(None, &[]));
+    harness.state_mut().desk.plugins = Plugins::new(loader, load, Vec::new());
+    harness.state_mut().desk.orders.push(Order::Show(Panel::Plugins));
+    harness.run_steps(3);
+    harness
+}
+
+fn reloaded(harness: &mut Harness<'static, App>, times: u64) {
+    wait(harness, |app| app.desk.plugins.reloads == times);
+}
+
+#[test]
+fn a_plugin_is_listed_switched_off_and_taken_in_anew() {
+    let (folder, place) = (Folder::new("plugins"), Place::new("anew"));
+    let project =
+        write_project(&place.0.join("our-gear"), PluginKind::Gear, Language::Text, None).unwrap();
+    let mut harness = bench(&folder, &place.0, "reference-a-pendulum");
+    harness.get_by_label("Reload").click();
+    harness.run_steps(2);
+    reloaded(&mut harness, 1);
+    harness.get_all_by_label("Our gear").next().unwrap().click();
+    harness.run_steps(2);
+    assert!(harness.query_by_label_contains("36.576 m").is_some(), "20 fathoms, with their unit");
+
+    let file = project.library.join("gear-types/simple.toml");
+    std::fs::write(
+        &file,
+        std::fs::read_to_string(&file).unwrap().replace("Our gear", "Their gear"),
+    )
+    .unwrap();
+    harness.get_by_label("Reload").click();
+    harness.run_steps(2);
+    reloaded(&mut harness, 2);
+    assert!(harness.query_all_by_label("Their gear").next().is_some(), "what was changed is there");
+
+    harness.state_mut().desk.orders.push(Order::SwitchPlugin(project.id.clone(), false));
+    harness.run_steps(2);
+    reloaded(&mut harness, 3);
+    assert_eq!(
+        harness.state().desk.every_plugin().iter().map(|(_, on)| *on).collect::<Vec<_>>(),
+        [false]
+    );
+    assert!(harness.state().desk.gear_types().is_empty());
+}
+
+#[test]
+fn an_unknown_library_is_asked_about_before_it_is_opened() {
+    let (folder, place) = (Folder::new("plugins-asked"), Place::new("asked"));
+    let file = place.0.join(format!("lib.{}", std::env::consts::DLL_EXTENSION));
+    std::fs::write(&file, "no library at all").unwrap();
+    let mut harness = bench(&folder, &place.0, "reference-a-pendulum");
+    harness.get_by_label("Reload").click();
+    harness.run_steps(2);
+    reloaded(&mut harness, 1);
+    assert!(matches!(harness.state().desk.plugins.problems[0].standing, Standing::Waiting(_)));
+    assert!(
+        harness.query_by_label_contains("A plugin runs with your rights").is_some(),
+        "the window asks"
+    );
+    harness.get_all_by_label("Allow").last().unwrap().click();
+    harness.run_steps(2);
+    reloaded(&mut harness, 2);
+    let problem = harness.state().desk.plugins.problems[0].clone();
+    assert!(
+        problem.standing == Standing::Unusable && problem.reason.contains("is not a library"),
+        "{problem}"
+    );
+    assert!(harness.query_by_label_contains("A plugin runs with your rights").is_none());
+
+    // Another file, put off: it is not asked about again, and stays left out.
+    std::fs::write(&file, "other content").unwrap();
+    harness.get_by_label("Reload").click();
+    harness.run_steps(2);
+    reloaded(&mut harness, 3);
+    harness.get_by_label("Not now").click();
+    harness.run_steps(2);
+    assert!(harness.query_by_label("Not now").is_none());
+    assert!(matches!(harness.state().desk.plugins.problems[0].standing, Standing::Waiting(_)));
+}
+
+#[test]
+fn a_law_of_friction_is_put_into_the_scenario_and_its_attributes_are_a_form() {
+    let (folder, place) = (Folder::new("plugins-used"), Place::new("used"));
+    let mut harness = bench(&folder, &place.0, "hello-endline");
+    let id = "org.endline.friction.coulomb";
+    let (motion, _) = harness
+        .state()
+        .desk
+        .every_plugin()
+        .into_iter()
+        .find(|(info, _)| info.id == "org.endline.motion.swim")
+        .unwrap();
+    assert!(harness.state().desk.uses_plugin(&motion));
+    harness
+        .state_mut()
+        .desk
+        .documents
+        .set(Documents::SCENARIO, "friction.model", "org.example.friction.other")
+        .unwrap();
+    let other = |scenario: &mut Document| {
+        scenario
+            .put("friction.attributes.slip", &Setting::text("0.1 m"))
+            .map_err(|error| error.to_string())
+    };
+    harness.state_mut().desk.documents.alter(Documents::SCENARIO, other).unwrap();
+    harness.state_mut().desk.plugins.chosen = Some(id.to_owned());
+    harness.run_steps(2);
+    harness.get_by_label("Use in this scenario").click();
+    harness.run_steps(3);
+    let documents = &harness.state().desk.documents;
+    assert_eq!(documents.field(Documents::SCENARIO, "friction.model").as_deref(), Some(id));
+    assert_eq!(
+        documents.field(Documents::SCENARIO, "friction.attributes.slip"),
+        None,
+        "those of the other law are gone"
+    );
+    assert!(harness.query_by_label("In this scenario").is_some());
+
+    // A value typed into the form makes the table of attributes that is not there.
+    let field = fields::edit_id(Documents::SCENARIO, "friction.attributes.coefficient_scale");
+    harness.ctx.memory_mut(|memory| memory.request_focus(field));
+    harness.run_steps(2);
+    harness.event(egui::Event::Text("1.5".to_owned()));
+    harness.run_steps(1);
+    harness.key_press(egui::Key::Enter);
+    harness.run_steps(3);
+    let scale = harness
+        .state()
+        .desk
+        .documents
+        .field(Documents::SCENARIO, "friction.attributes.coefficient_scale");
+    assert_eq!(scale.as_deref(), Some("1.5"));
+    harness.state_mut().desk.obey(&Order::Undo);
+    harness.state_mut().desk.obey(&Order::Undo);
+    assert_eq!(
+        harness.state().desk.documents.field(Documents::SCENARIO, "friction.model").as_deref(),
+        Some("org.example.friction.other")
+    );
+}

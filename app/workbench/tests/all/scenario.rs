@@ -1,0 +1,248 @@
+//! The scenario edited in the window: the whale's start dragged in the view, fields and choices of the panel; wraps told.
+#![cfg(feature = "gui")]
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use endline_session::edit::Documents;
+
+use crate::common::{Folder, drag, linked, opened_with, retype, wait};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use endline_session::live::Status;
+use endline_workbench::gui::app::App;
+use endline_workbench::gui::desk::Order;
+use endline_workbench::gui::engine;
+use endline_workbench::gui::layout::Panel;
+use endline_workbench::gui::pose::Start;
+use endline_workbench::gui::wraps::wraps;
+use endline_workbench::input::Pilot;
+use endline_workbench::scene::View;
+
+/// A scenario settled, with one panel alone.
+fn settled(folder: &Folder, scenario: &str, panel: Panel) -> Harness<'static, App> {
+    let mut harness =
+        opened_with(folder.book_with(scenario), linked(), engine::live(), Pilot::default());
+    wait(&mut harness, |app| app.desk.status() == Some(&Status::Paused));
+    harness.state_mut().dock = egui_dock::DockState::new(vec![panel.id().to_owned()]);
+    harness.run_steps(3);
+    harness
+}
+
+#[test]
+fn the_whale_is_dragged_to_where_it_starts_and_one_undo_brings_it_back() {
+    let folder = Folder::new("pose");
+    let mut harness = settled(&folder, "hello-endline", Panel::View);
+    let start =
+        |harness: &Harness<'static, App>| Start::of(&harness.state().desk.documents).unwrap();
+    let before = start(&harness);
+    harness.get_by_label("Start pose").click();
+    harness.run_steps(3);
+    harness.state_mut().desk.obey(&Order::Look(View::Top));
+    harness.run_steps(3);
+    let middle = harness.get_by_label("Start place").rect().center();
+    drag(&mut harness, middle, middle + egui::vec2(40.0, -25.0));
+    let moved = start(&harness);
+    let metres =
+        f64::from(40.0_f32) * harness.state().desk.view3d.eyes[0].camera.metres_a_point(800.0);
+    assert!(
+        moved.place.x - before.place.x > 0.3 * metres && moved.place.y > before.place.y,
+        "east and north: {moved:?}"
+    );
+    assert!(
+        (moved.place.z - before.place.z).abs() < 1e-9
+            && (moved.heading - before.heading).abs() < 1e-9,
+        "{moved:?}"
+    );
+    wait(&mut harness, |app| {
+        app.desk
+            .view
+            .as_ref()
+            .and_then(|view| view.model.spec.whale.as_ref())
+            .is_some_and(|whale| (whale.position_m - moved.place).length() < 1e-6)
+    });
+
+    let snout = harness.get_by_label("Start heading").rect().center();
+    let middle = harness.get_by_label("Start place").rect().center();
+    // North is up in the view from above: a snout dragged to the right of the middle heads east.
+    drag(&mut harness, snout, middle + egui::vec2((snout - middle).length(), 0.0));
+    let turned = start(&harness);
+    assert!((turned.heading.to_degrees() - 90.0).abs() < 3.0, "{turned:?}");
+    for _ in 0..2 {
+        harness.state_mut().desk.obey(&Order::Undo);
+    }
+    assert_eq!(start(&harness), before);
+    assert!(harness.state().desk.documents.unsaved().is_empty());
+}
+
+#[test]
+fn fields_choices_and_flags_of_the_panel_reach_the_text() {
+    let folder = Folder::new("scenario-fields");
+    let mut harness = settled(&folder, "hello-endline", Panel::Scenario);
+    retype(&mut harness, "12 m", "9 m");
+    let field = |harness: &Harness<'static, App>, field: &str| {
+        harness.state().desk.documents.field(Documents::SCENARIO, field)
+    };
+    assert_eq!(field(&harness, "whale.depth").as_deref(), Some("9 m"));
+    harness.get_by_label("Ropes touch each other").scroll_to_me();
+    harness.run_steps(3);
+    harness.get_by_label("Ropes touch each other").click();
+    harness.run_steps(3);
+    assert_eq!(field(&harness, "rope_on_rope").as_deref(), Some("true"));
+    harness.state_mut().desk.obey(&Order::Undo);
+    assert_eq!(field(&harness, "rope_on_rope"), None);
+    assert!(
+        !harness.state().desk.documents.any_error(),
+        "{:?}",
+        harness.state().desk.documents.problems()
+    );
+    for head in ["SEA", "TIDE THAT TURNS", "WAVES", "WHALE", "FRICTION OF ROPE ON WHALE", "RUN"] {
+        assert!(harness.query_by_label(head).is_some(), "{head} is on screen");
+    }
+    harness.get_by_label("Pilot program …").click();
+    harness.run_steps(3);
+    assert!(harness.query_by_label("Timeline").is_some());
+}
+
+#[test]
+fn wraps_of_a_whale_wound_in_rope_are_told_as_measured() {
+    let folder = Folder::new("wraps");
+    let mut harness = settled(&folder, "dead-whale-wraps", Panel::Entanglement);
+    for step in 1..=3_u64 {
+        harness.state_mut().desk.obey(&Order::Step);
+        wait(&mut harness, |app| {
+            app.desk.view.as_ref().is_some_and(|view| view.frame.step >= step)
+        });
+    }
+    let view = harness.state().desk.view.clone().unwrap();
+    let found = wraps(&view);
+    let whale = view.summary.as_ref().unwrap().whale.as_ref().unwrap();
+    let wound: Vec<_> = whale.regions.iter().filter(|region| region.wraps >= 0.25).collect();
+    assert!(!wound.is_empty() && wound.len() == found.len(), "{found:?}");
+    for region in wound {
+        let wrap = found.iter().find(|wrap| wrap.part == region.part).unwrap();
+        assert!((wrap.turns - region.wraps).abs() < 1e-12, "{wrap:?}");
+        assert!(
+            (wrap.touching_m - region.contact_length_m).abs() < 1e-9,
+            "{wrap:?}, {} m",
+            region.contact_length_m
+        );
+        if region.wraps >= 0.5 {
+            assert!(wrap.since_s.is_some(), "an event has told of it: {wrap:?}");
+        }
+    }
+    assert!(found.windows(2).all(|pair| pair[0].turns >= pair[1].turns), "most turns first");
+    assert!(harness.query_by_label("WRAPS AT THIS MOMENT").is_some());
+}
+
+#[test]
+fn a_scenario_saved_as_another_leaves_the_first_as_it_was() {
+    let folder = Folder::new("save-as");
+    let mut harness = settled(&folder, "reference-a-pendulum", Panel::Scenario);
+    let first = harness.state().desk.documents.scenario_path().to_owned();
+    let before = std::fs::read_to_string(&first).unwrap();
+    harness.state_mut().desk.set(Documents::SCENARIO, "duration", "7 s");
+    let other = folder.0.join("scenarios/my-pendulum.toml");
+    harness.state_mut().desk.obey(&Order::ScenarioAs(other.clone()));
+    assert_eq!(std::fs::read_to_string(&first).unwrap(), before);
+    assert!(std::fs::read_to_string(&other).unwrap().contains("7 s"));
+    let desk = &harness.state().desk;
+    assert!(desk.documents.scenario_path() == other && desk.documents.unsaved().is_empty());
+    assert_eq!(desk.preferences.recent.first(), Some(&other));
+}
+
+#[test]
+fn weak_links_and_friction_are_changed_in_the_panel_comments_kept_and_taken_back() {
+    let folder = Folder::new("links-friction");
+    let mut harness = settled(&folder, "hello-weak-link", Panel::Scenario);
+    let before = harness.state().desk.documents.text(Documents::SCENARIO).unwrap().to_owned();
+    let field = |harness: &Harness<'static, App>, field: &str| {
+        harness.state().desk.documents.field(Documents::SCENARIO, field)
+    };
+    click(&mut harness, "Add a weak link ⏷");
+    click(&mut harness, "at the foot of endline");
+    assert_eq!(
+        ["line", "end", "rating"].map(|key| field(&harness, &format!("link.1.{key}")).unwrap()),
+        ["endline", "from", "600 lbf"]
+    );
+    retype(&mut harness, "600 lbf", "1,700 furlong");
+    assert!(
+        harness.query_by_label_contains("furlong").is_some(),
+        "what is wrong stands beside the field"
+    );
+    retype(&mut harness, "1,700 furlong", "1,700 lbf");
+    assert!(
+        !harness.state().desk.documents.any_error(),
+        "{:?}",
+        harness.state().desk.documents.problems()
+    );
+    click(&mut harness, "Another law for … ⏷");
+    click(&mut harness, "baleen");
+    assert_eq!(field(&harness, "friction.on.0.surfaces.0").as_deref(), Some("baleen"));
+
+    harness
+        .state_mut()
+        .desk
+        .documents
+        .alter(Documents::SCENARIO, |text| {
+            let value = endline_gear::Setting::plain("1.25");
+            text.put("friction.attributes.coefficient_scale", &value)
+                .map_err(|error| error.to_string())
+        })
+        .unwrap();
+    harness.run_steps(3);
+    retype(&mut harness, "1.25", "-3");
+    harness.state_mut().desk.obey(&Order::Apply);
+    wait(&mut harness, |app| !app.desk.making() && !app.desk.make_problems.is_empty());
+    let wrong = harness
+        .state()
+        .desk
+        .problem_at(Documents::SCENARIO, "friction.attributes.coefficient_scale")
+        .unwrap();
+    assert!(wrong.line > 0, "{wrong}");
+    retype(&mut harness, "-3", "1.5");
+    harness.state_mut().desk.obey(&Order::Apply);
+    wait(&mut harness, |app| !app.desk.making() && !app.desk.stale());
+    let view = harness.state().desk.view.clone().unwrap();
+    let ratings: Vec<f64> = view.model.spec.links.iter().map(|link| link.rating_n).collect();
+    assert!((ratings[1] - 1700.0 * endline_session::units::N_PER_LBF).abs() < 1e-6, "{ratings:?}");
+    let text = harness.state().desk.documents.text(Documents::SCENARIO).unwrap();
+    assert!(text.contains("# The snagged trap.") && text.contains("# A poly ball A-5."), "{text}");
+    while harness.state().desk.documents.can_undo_redo().0 {
+        harness.state_mut().desk.obey(&Order::Undo);
+    }
+    assert_eq!(harness.state().desk.documents.text(Documents::SCENARIO), Some(before.as_str()));
+}
+
+#[test]
+fn another_scenario_is_opened_over_unsaved_edits_only_when_told_to() {
+    let folder = Folder::new("opened-over");
+    let mut harness = settled(&folder, "reference-a-pendulum", Panel::Scenario);
+    let first = harness.state().desk.documents.scenario_path().to_owned();
+    let other = folder.0.join("scenarios/hello-endline.toml");
+    harness.state_mut().desk.set(Documents::SCENARIO, "duration", "7 s");
+    for (answer, opened, on_disk) in [("Stay", &first, false), ("Save and open", &other, true)] {
+        harness.state_mut().desk.orders.push(Order::Open(other.clone()));
+        harness.run_steps(3);
+        assert_eq!(harness.state().desk.documents.scenario_path(), first, "it asks first");
+        click(&mut harness, answer);
+        assert_eq!(harness.state().desk.documents.scenario_path(), opened, "{answer}");
+        assert_eq!(std::fs::read_to_string(&first).unwrap().contains("7 s"), on_disk, "{answer}");
+    }
+    harness.state_mut().desk.set(Documents::SCENARIO, "duration", "9 s");
+    harness.state_mut().desk.orders.push(Order::Open(first.clone()));
+    harness.run_steps(3);
+    click(&mut harness, "Open without saving");
+    assert_eq!(harness.state().desk.documents.scenario_path(), first);
+    assert!(!std::fs::read_to_string(&other).unwrap().contains("9 s"));
+    // With nothing to lose it does not ask.
+    harness.state_mut().desk.orders.push(Order::Open(other.clone()));
+    harness.run_steps(3);
+    assert_eq!(harness.state().desk.documents.scenario_path(), other);
+}
+
+/// Clicks what has a label, scrolled to.
+fn click(harness: &mut Harness<'static, App>, label: &str) {
+    harness.get_by_label(label).scroll_to_me();
+    harness.run_steps(3);
+    harness.get_by_label(label).click();
+    harness.run_steps(3);
+}

@@ -1,0 +1,262 @@
+//! The Study layout: a study designed, queued, paused, left off, gone on with, and its runs seen again.
+#![cfg(feature = "gui")]
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use crate::common;
+use std::sync::Arc;
+
+use endline_session::edit::Documents;
+
+use crate::common::{Folder, linked, opened_with, retype};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use endline_session::live::Status;
+use endline_workbench::gui::app::App;
+use endline_workbench::gui::desk::Order;
+use endline_workbench::gui::engine;
+use endline_workbench::gui::layout::{Layout, Panel};
+use endline_workbench::gui::panels::results::Part;
+use endline_workbench::gui::studies::job::State;
+use endline_workbench::input::Pilot;
+
+/// Short draws of a small rig without a whale: what is looked at here is the window, not the physics.
+const STUDY: &str = r#"format = 1
+kind = "study"
+name = "Small"
+scenario = "small-rig"
+encounters = 6
+baseline = "strong"
+
+# Why these two.
+[[option]]
+id = "strong"
+name = "Strong link"
+strength = "600 lbf"
+
+[option.set]
+"link.0.rating" = "600 lbf"
+
+[[option]]
+id = "weak"
+name = "Weak link"
+
+[option.set]
+"link.0.rating" = "5 N"
+
+[encounter."body.0.drag_area"]
+uniform = ["0.1 m2", "0.3 m2"]
+source = "assumed"
+
+[encounter.tide]
+choice = ["0.2 m/s", "0.5 m/s"]
+source = "assumed"
+"#;
+
+/// The workbench with the small study in its library, in the layout Study.
+fn studying(folder: &Folder) -> Harness<'static, App> {
+    let scenario = common::on_disk(folder, "scenarios/study-endline-held.toml");
+    let (gear, _) = scenario.split_once("[whale]").unwrap();
+    // Without a whale there is none for the resolution to follow.
+    let (head, rest) = gear.split_once("[resolution]").unwrap();
+    let (_, rest) = rest.split_once("[site]").unwrap();
+    let gear = format!("{head}[site]{rest}").replace("duration = \"75 s\"", "duration = \"0.5 s\"");
+    std::fs::write(
+        folder.0.join("scenarios/small-rig.toml"),
+        gear.replace("rope_nodes = 80", "rope_nodes = 12"),
+    )
+    .unwrap();
+    std::fs::create_dir_all(folder.0.join("studies")).unwrap();
+    std::fs::write(folder.0.join("studies/small.toml"), STUDY).unwrap();
+    let mut harness = opened_with(folder.documents(), linked(), engine::live(), Pilot::default());
+    harness.state_mut().desk.studies.folder = Some(folder.0.join("results"));
+    // Other tests run beside this one.
+    harness.state_mut().desk.studies.eager = true;
+    give(&mut harness, Order::Arrange(Layout::Study));
+    give(&mut harness, Order::OpenStudy(folder.0.join("studies/small.toml")));
+    harness
+}
+
+/// Draws until something is so; encounters are run meanwhile.
+fn wait(harness: &mut Harness<'static, App>, so: impl Fn(&App) -> bool) {
+    let patience = std::time::Instant::now() + std::time::Duration::from_secs(120);
+    while !so(harness.state()) {
+        let studies = &harness.state().desk.studies;
+        let told = studies.jobs.last().map(|job| job.progress());
+        assert!(
+            std::time::Instant::now() < patience,
+            "waited in vain: {told:?}, {:?}",
+            harness.state().desk.notice
+        );
+        std::thread::sleep(std::time::Duration::from_millis(20));
+        harness.step();
+    }
+    harness.run_steps(2);
+}
+
+fn give(harness: &mut Harness<'static, App>, order: Order) {
+    harness.state_mut().desk.orders.push(order);
+    harness.run_steps(3);
+}
+
+fn state(app: &App) -> Option<State> {
+    app.desk.studies.jobs.last().map(|job| job.progress().state)
+}
+
+/// Runs the open study to its end and waits for its results.
+fn done(harness: &mut Harness<'static, App>, encounters: u64) {
+    wait(harness, |app| state(app) == Some(State::Done));
+    wait(harness, |app| {
+        let results = &app.desk.studies.results;
+        !results.busy()
+            && results
+                .shown()
+                .is_some_and(|shown| shown.whole && shown.findings.encounters == encounters)
+    });
+}
+
+#[test]
+fn a_study_is_edited_run_and_any_run_of_it_is_seen_again_to_the_bit() {
+    let folder = Folder::new("study");
+    let mut harness = studying(&folder);
+    retype(&mut harness, "6", "7");
+    assert_eq!(
+        harness.state().desk.documents.field(Documents::STUDY, "encounters").as_deref(),
+        Some("7")
+    );
+    retype(&mut harness, "5 N", "6 N");
+    harness.get_by_label("Run study").click();
+    harness.run_steps(2);
+    let saved = common::on_disk(&folder, "studies/small.toml");
+    assert!(
+        saved.contains("encounters = 7\n")
+            && saved.contains("# Why these two.")
+            && saved.contains("\"link.0.rating\" = \"6 N\""),
+        "{saved}"
+    );
+    done(&mut harness, 7);
+
+    let shown = Arc::clone(harness.state().desk.studies.results.shown().unwrap());
+    assert_eq!(shown.findings.baseline, 0, "the baseline is the first option by id");
+    let parts = [
+        (Part::Forest, "Difference of rates from Strong link"),
+        (Part::Tensions, "Each dot is a run"),
+        (Part::Sensitivity, "by parts of each input"),
+        (Part::Rates, "Strong link (baseline)"),
+    ];
+    for (part, says) in parts {
+        harness.state_mut().desk.studies.results.part = part;
+        harness.run_steps(2);
+        assert!(harness.query_all_by_label_contains(says).next().is_some(), "{part:?}");
+    }
+    harness.get_all_by_label("Runs").next().unwrap().click();
+    harness.run_steps(2);
+    give(&mut harness, Order::ReplayEncounter(1, 4));
+    wait(&mut harness, |app| app.desk.status() == Some(&Status::Finished));
+    let table = &shown.table;
+    let row = (0..table.rows())
+        .find(|row| {
+            table.reals("encounter")[*row] == Some(4.0) && table.texts("option")[*row] == "weak"
+        })
+        .unwrap();
+    let view = harness.state().desk.view.clone().unwrap();
+    assert_eq!(
+        view.state_hash,
+        table.texts("state_hash")[row],
+        "the run in the window ends in the state the table has"
+    );
+    assert!(!table.texts("parted")[row].is_empty(), "6 N part in this sea");
+
+    give(&mut harness, Order::Undo);
+    give(&mut harness, Order::Undo);
+    assert_eq!(
+        harness.state().desk.documents.field(Documents::STUDY, "encounters").as_deref(),
+        Some("6"),
+        "edits of a study are taken back"
+    );
+}
+
+#[test]
+fn a_study_stands_still_when_paused_keeps_its_blocks_when_cancelled_and_goes_on() {
+    let folder = Folder::new("queue");
+    let mut harness = studying(&folder);
+    harness.state_mut().desk.set(Documents::STUDY, "encounters", "400");
+    give(&mut harness, Order::QueueStudy);
+    wait(&mut harness, |app| app.desk.studies.jobs[0].progress().blocks >= 2);
+    give(&mut harness, Order::PauseStudy);
+    assert_eq!(state(harness.state()), Some(State::Paused));
+    // The encounter under way still comes to its end, later on a busy machine.
+    let done = || harness.state().desk.studies.jobs[0].progress().done;
+    let rests = |_| {
+        std::thread::sleep(std::time::Duration::from_millis(400));
+        let before = done();
+        std::thread::sleep(std::time::Duration::from_millis(300));
+        (done() == before).then_some(before)
+    };
+    let before = (0..3).find_map(rests).expect("paused");
+    give(&mut harness, Order::PauseStudy);
+    wait(&mut harness, |app| app.desk.studies.jobs[0].progress().done > before);
+    give(&mut harness, Order::CancelStudy);
+    wait(&mut harness, |app| state(app) == Some(State::Cancelled));
+    std::thread::sleep(std::time::Duration::from_millis(400));
+
+    harness.state_mut().desk.set(Documents::STUDY, "encounters", "8");
+    give(&mut harness, Order::QueueStudy);
+    wait(&mut harness, |app| state(app) == Some(State::Done));
+    let progress = harness.state().desk.studies.jobs[0].progress();
+    assert_eq!(
+        (progress.found, progress.done, progress.total),
+        (8, 8, 8),
+        "blocks that were done are not run again"
+    );
+    let folder = harness.state().desk.studies.jobs[0].folder().unwrap();
+    for file in ["table.csv", "report.html", "bundle/study.toml"] {
+        assert!(folder.join(file).is_file(), "{file}");
+    }
+    let (line, unsaved) =
+        endline_workbench::gui::studies::command_line(&harness.state().desk).unwrap();
+    assert!(
+        !unsaved
+            && line.contains("endline study run")
+            && line.contains(&folder.display().to_string()),
+        "{line}"
+    );
+    give(&mut harness, Order::OpenResults(folder));
+    wait(&mut harness, |app| !app.desk.studies.results.busy());
+    assert_eq!(
+        harness.state().desk.studies.results.problem,
+        None,
+        "a folder of results is opened by its own bundle"
+    );
+}
+
+#[test]
+fn options_and_priors_are_added_and_wrong_ones_told_at_their_place() {
+    let folder = Folder::new("designer");
+    let mut harness = studying(&folder);
+    harness.state_mut().dock = egui_dock::DockState::new(vec![Panel::Study.id().to_owned()]);
+    harness.run_steps(2);
+    harness.get_by_label("Add option").click();
+    harness.run_steps(2);
+    let field = |harness: &Harness<'static, App>, field: &str| {
+        harness.state().desk.documents.field(Documents::STUDY, field)
+    };
+    assert_eq!(field(&harness, "option.2.id").as_deref(), Some("weak-2"));
+    assert_eq!(
+        field(&harness, "option.2.set.\"link.0.rating\"").as_deref(),
+        Some("5 N"),
+        "an option begins as a copy"
+    );
+    retype(&mut harness, "0.1 m2", "0.4 m2");
+    assert!(
+        harness.state().desk.documents.file_has_error(Documents::STUDY),
+        "the least is above the greatest"
+    );
+    assert!(harness.query_by_label_contains("the first value is not below the second").is_some());
+    assert!(!harness.state().desk.documents.any_error(), "a single run does not mind the study");
+    give(&mut harness, Order::QueueStudy);
+    assert!(harness.state().desk.studies.jobs.is_empty(), "a study with errors is not queued");
+    give(&mut harness, Order::Undo);
+    assert!(!harness.state().desk.documents.file_has_error(Documents::STUDY));
+    retype(&mut harness, "0.2 m/s, 0.5 m/s", "0.1 m/s, 0.2 m/s, 0.3 m/s");
+    assert_eq!(field(&harness, "encounter.tide.choice.2").as_deref(), Some("0.3 m/s"));
+}

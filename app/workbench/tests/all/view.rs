@@ -1,0 +1,202 @@
+//! The 3-D view clicked in: ropes, bodies and skin are read, places measured, several views shown at once.
+#![cfg(feature = "gui")]
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use endline_session::units::Units;
+
+use crate::common::{Folder, linked, opened_with, wait};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use endline_session::live::Status;
+use endline_workbench::gui::app::App;
+use endline_workbench::gui::desk::Order;
+use endline_workbench::gui::engine;
+use endline_workbench::gui::layout::Panel;
+use endline_workbench::gui::palette::orders;
+use endline_workbench::gui::reading::{along_m, measured, read};
+use endline_workbench::input::Pilot;
+use endline_workbench::scene::{Picked, View};
+use glam::{DVec2, DVec3};
+
+/// The single's endline at rest beside its whale, with the 3-D view alone.
+fn settled(folder: &Folder) -> Harness<'static, App> {
+    let mut harness =
+        opened_with(folder.book_with("hello-endline"), linked(), engine::live(), Pilot::default());
+    wait(&mut harness, |app| app.desk.status() == Some(&Status::Paused));
+    harness.state_mut().dock = egui_dock::DockState::new(vec![Panel::View.id().to_owned()]);
+    harness.run_steps(3);
+    harness
+}
+
+/// Clicks where a place is drawn in a pane.
+fn click(harness: &mut Harness<'static, App>, pane: usize, place: DVec3) {
+    let rect = harness.get_by_label(&format!("Pane {}", pane + 1)).rect();
+    let camera = harness.state().desk.view3d.eyes[pane].camera.clone();
+    let at = camera
+        .project(place, DVec2::new(f64::from(rect.width()), f64::from(rect.height())))
+        .unwrap();
+    let at = rect.min + egui::vec2(at.x as f32, at.y as f32);
+    for pressed in [true, false] {
+        harness.event(egui::Event::PointerMoved(at));
+        let (button, modifiers) = (egui::PointerButton::Primary, egui::Modifiers::NONE);
+        harness.event(egui::Event::PointerButton { pos: at, button, pressed, modifiers });
+        harness.run_steps(1);
+    }
+    harness.run_steps(2);
+}
+
+/// Where something picked is now.
+fn place(harness: &Harness<'static, App>, picked: Picked) -> DVec3 {
+    let view = harness.state().desk.view.clone().unwrap();
+    picked.place(&view.model, &view.frame).unwrap()
+}
+
+#[test]
+fn a_click_on_a_rope_reads_its_tension_and_place_and_a_click_beside_lets_go() {
+    let folder = Folder::new("read-rope");
+    let mut harness = settled(&folder);
+    let wanted = Picked::Rope { line: 0, at_m: 9.0 };
+    let there = place(&harness, wanted);
+    click(&mut harness, 0, there);
+    let view = harness.state().desk.view.clone().unwrap();
+    let Some(Picked::Rope { line, at_m }) = harness.state().desk.view3d.picks.read else {
+        panic!("the rope is read")
+    };
+    assert!(line == 0 && (at_m - 9.0).abs() < 1.0, "line {line} at {at_m} m");
+    let reading = read(&view, Picked::Rope { line, at_m }, Units::Si).unwrap();
+    let (segment, _) =
+        endline_workbench::scene::pick::on_line(&view.model, &view.frame, line, at_m).unwrap();
+    assert!(
+        harness.query_by_label(&view.model.spec.lines[line].id).is_some(),
+        "its name is on screen"
+    );
+    let tension = Units::Si.force().text(view.frame.tension_n[segment]);
+    assert!(reading.rows.contains(&("Tension here", tension)), "{reading:?}");
+    harness.get_by_label("×").click();
+    harness.run_steps(3);
+    assert_eq!(harness.state().desk.view3d.picks.read, None);
+}
+
+#[test]
+fn bodies_and_skin_are_read_where_they_are_clicked() {
+    let folder = Folder::new("read-body");
+    let mut harness = settled(&folder);
+    let bodies = harness.state().desk.view.as_ref().unwrap().model.spec.bodies.len();
+    for index in 0..bodies {
+        let there = place(&harness, Picked::Body(index));
+        click(&mut harness, 0, there);
+        assert_eq!(harness.state().desk.view3d.picks.read, Some(Picked::Body(index)));
+    }
+    harness.state_mut().desk.obey(&Order::Look(View::WhaleSide));
+    harness.run_steps(3);
+    let middle = harness.state().desk.view.as_ref().unwrap().frame.whale.as_ref().unwrap().position;
+    click(&mut harness, 0, middle);
+    assert!(
+        matches!(harness.state().desk.view3d.picks.read, Some(Picked::Skin { .. })),
+        "{:?}",
+        harness.state().desk.view3d.picks
+    );
+    assert!(harness.query_by_label("Body").is_some(), "the part's name is on screen");
+    assert!(harness.query_by_label("Greatest pressure").is_some());
+}
+
+#[test]
+fn the_ruler_measures_straight_and_along_the_rope() {
+    let folder = Folder::new("ruler");
+    let mut harness = settled(&folder);
+    harness.get_by_label("Ruler").click();
+    harness.run_steps(3);
+    let ends = [Picked::Rope { line: 0, at_m: 2.0 }, Picked::Rope { line: 0, at_m: 8.0 }];
+    for end in ends {
+        let there = place(&harness, end);
+        click(&mut harness, 0, there);
+    }
+    let view = harness.state().desk.view.clone().unwrap();
+    let picked = harness.state().desk.view3d.picks.ends.clone();
+    assert_eq!(picked.len(), 2, "two clicks, two ends");
+    let along = along_m(&view, picked[0], picked[1]).unwrap();
+    let straight = (place(&harness, picked[0]) - place(&harness, picked[1])).length();
+    assert!((along - 6.0).abs() < 1.0, "{along} m of rope between 2 m and 8 m");
+    // Stretch is far below a thousandth here.
+    assert!(straight <= along * 1.001 && straight > 3.0, "{straight} m straight, {along} m along");
+    assert!(
+        measured(&view, &picked, Units::Si)
+            .unwrap()
+            .rows
+            .contains(&("Along the rope", Units::Si.length(along)))
+    );
+    let through = along_m(&view, Picked::Body(0), Picked::Body(1)).unwrap();
+    let rope_m: f64 = view.frame.segment_length_m.iter().sum();
+    assert!(
+        (through - rope_m).abs() < 1e-9,
+        "from trap to buoy all of the endline: {through} m of {rope_m} m"
+    );
+}
+
+#[test]
+fn four_views_each_look_from_their_own_side_and_only_the_chosen_one_turns() {
+    let folder = Folder::new("four");
+    let mut harness = settled(&folder);
+    harness.state_mut().desk.obey(&Order::Views(4));
+    harness.run_steps(3);
+    let named: Vec<View> = harness.state().desk.view3d.eyes.iter().map(|eye| eye.named).collect();
+    assert_eq!(named, [View::Orbit, View::Side, View::Top, View::Front]);
+    let rects: Vec<egui::Rect> =
+        (1..=4).map(|pane| harness.get_by_label(&format!("Pane {pane}")).rect()).collect();
+    for (index, rect) in rects.iter().enumerate() {
+        assert!(
+            rects[..index].iter().all(|other| !rect.intersect(*other).is_positive()),
+            "panes do not overlap: {rects:?}"
+        );
+    }
+    // Side looks north, top looks down, front looks west: the axes of sight stand square on one another.
+    let ahead: Vec<DVec3> =
+        harness.state().desk.view3d.eyes.iter().map(|eye| eye.camera.axes().2).collect();
+    for (one, other) in [(1, 2), (1, 3), (2, 3)] {
+        assert!(ahead[one].dot(ahead[other]).abs() < 0.01, "{one} and {other}: {ahead:?}");
+    }
+    let there = place(&harness, Picked::Body(0));
+    click(&mut harness, 2, there);
+    assert_eq!(harness.state().desk.view3d.chosen, 2);
+    assert_eq!(
+        harness.state().desk.view3d.picks.read,
+        Some(Picked::Body(0)),
+        "read from above too"
+    );
+    harness.state_mut().desk.obey(&Order::Look(View::FirstPerson));
+    harness.run_steps(2);
+    let named: Vec<View> = harness.state().desk.view3d.eyes.iter().map(|eye| eye.named).collect();
+    assert_eq!(named, [View::Orbit, View::Side, View::FirstPerson, View::Front]);
+    harness.state_mut().desk.obey(&Order::Views(1));
+    harness.run_steps(2);
+    assert!(
+        harness.query_by_label("Pane 2").is_none() && harness.query_by_label("Pane 1").is_some()
+    );
+}
+
+#[test]
+fn the_palette_names_every_line_and_body_to_be_read() {
+    let folder = Folder::new("readable");
+    let harness = settled(&folder);
+    let desk = &harness.state().desk;
+    let view = desk.view.clone().unwrap();
+    let readings: Vec<Picked> = orders(desk)
+        .into_iter()
+        .filter_map(|(_, order)| if let Order::Read(picked) = order { Some(picked) } else { None })
+        .collect();
+    assert_eq!(readings.len(), view.model.spec.lines.len() + view.model.spec.bodies.len());
+    for picked in readings {
+        let reading = read(&view, picked, Units::Noaa).unwrap();
+        assert!(reading.rows.iter().all(|(_, value)| !value.contains("NaN")), "{reading:?}");
+        if let Picked::Rope { line, .. } = picked {
+            let most = view.frame.tension_n[view.model.line_segments[line].clone()]
+                .iter()
+                .copied()
+                .fold(0.0, f64::max);
+            assert!(
+                reading.rows.contains(&("Tension here", Units::Noaa.force().text(most))),
+                "{reading:?}: {most} N"
+            );
+        }
+    }
+}

@@ -1,0 +1,20 @@
+//! Tests of the gear library through the crate's own door: files, assembly, the whale's skin, encounters.
+
+mod animations;
+mod body;
+mod files;
+mod fins;
+mod idle;
+mod joints;
+mod measured;
+mod mesh_files;
+mod mouth;
+mod obstacles;
+mod one_skin;
+mod rig;
+mod right_whale;
+mod tunnelling;
+mod units;
+mod whale_encounters;
+mod wound;
+mod wraps;

@@ -1,0 +1,49 @@
+//! No rope crosses the edge of a fin, however fast and taut; tests at the end of each step alone let most through.
+//!
+//! It takes long because it is a sample of ten thousand; more of the same: `cargo bench -p endline-gear --bench tunnelling -- 100000`.
+
+#![allow(clippy::expect_used, reason = "a test fails by panicking, in its helpers too")]
+
+use std::ops::Range;
+
+use crate::fins::Fins;
+use crate::fins::tally::Tally;
+
+const ENCOUNTERS: u64 = 10_000;
+/// Of these, so many are run with discrete tests too.
+const DISCRETE: u64 = 200;
+/// Parts that run at a time.
+const PARTS: u64 = 2;
+
+#[test]
+fn fast_taut_rope_crosses_no_edge() {
+    let fins = Fins::new();
+    let (swept, discrete) = (run(&fins, 0..ENCOUNTERS, true), run(&fins, 0..DISCRETE, false));
+    println!("{swept:?}\nwith discrete tests: {discrete:?}");
+    assert!(swept.met > ENCOUNTERS * 99 / 100, "rope is met by nearly all: {swept:?}");
+    assert_eq!(swept.crossed, 0, "{swept:?}");
+    // A run in which rope is crushed to nothing ends and says so; that is rare.
+    assert!(swept.ended <= ENCOUNTERS / 500, "{swept:?}");
+    assert!(swept.unconverged < swept.solver_steps / 10, "{swept:?}");
+    assert!(discrete.crossed > DISCRETE * 7 / 10, "what the sweep is for: {discrete:?}");
+}
+
+/// Encounters of these numbers, in parts of which one runs beside the other.
+fn run(fins: &Fins, numbers: Range<u64>, swept: bool) -> Tally {
+    let each = (numbers.end - numbers.start) / PARTS;
+    std::thread::scope(|scope| {
+        let part = |part: u64| {
+            let first = numbers.start + part * each;
+            scope.spawn(move || {
+                let mut tally = Tally::default();
+                (first..first + each)
+                    .for_each(|number| tally.add(number, fins.encounter(number, swept)));
+                tally
+            })
+        };
+        let parts: Vec<_> = (0..PARTS).map(part).collect();
+        parts.into_iter().fold(Tally::default(), |sum, part| {
+            sum.with(part.join().expect("a part ran to its end"))
+        })
+    })
+}

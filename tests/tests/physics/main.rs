@@ -1,0 +1,25 @@
+//! Shipped gear, scenarios and whales in the water, against hand calculation, published figures and what was seen at sea.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test fails by panicking, in its helpers too"
+)]
+
+mod acts;
+mod balance;
+mod bodies;
+mod case_wraps;
+mod drawn;
+mod encounters;
+mod friction;
+mod gear;
+mod gear_types;
+mod groundlines;
+mod kinetic;
+#[path = "../linked/mod.rs"]
+mod linked;
+mod pilot;
+mod rigs;
+mod ropes;
+mod sea;

@@ -1,0 +1,281 @@
+//! The pilot program: each trigger at its place and time by hand, holds and ramps, and what is wrong in a file.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail the test")]
+
+use std::f64::consts::FRAC_PI_2;
+use std::sync::Arc;
+
+use crate::linked::{Linked, library, told};
+use endline_gear::{Hooks, Options, Scenario, assemble};
+use endline_sdk::{
+    Act, Controls, Descriptor, FrictionModel, GearType, HookError, MotionInput, MotionOutput,
+    WhaleMotion,
+};
+use endline_sim::{Input, Model, State, Workspace, settle, step};
+
+/// Speed of the plain motion at full control [m/s], and its turn rates [rad/s].
+const SPEED_M_S: f64 = 2.0;
+const TURN_RAD_S: f64 = 0.1;
+/// The whale starts here, heading east towards a rope at x = 20 [m].
+const DEPTH_M: f64 = 12.0;
+const LENGTH_M: f64 = 10.0;
+const ROPE_M: f64 = 20.0;
+const STEP_S: f64 = 0.01;
+
+/// A motion that does at once what the controls say, and no more; it declares two acts and does neither.
+struct Plain(Descriptor);
+
+impl Plain {
+    fn new() -> Self {
+        let (version, name, help) = ("1".into(), "Plain".into(), "".into());
+        let acts = vec![Act::new("wiggle", "Wiggle", ""), Act::new("spin", "Spin", "")];
+        Self(Descriptor {
+            id: "org.example.plain".into(),
+            version,
+            name,
+            help,
+            attributes: Vec::new(),
+            state_len: 0,
+            acts,
+        })
+    }
+}
+
+impl WhaleMotion for Plain {
+    fn descriptor(&self) -> &Descriptor {
+        &self.0
+    }
+    fn step(
+        &self,
+        _: &[f64],
+        input: &MotionInput<'_>,
+        _: &mut [f64],
+    ) -> Result<MotionOutput, HookError> {
+        let Controls { speed, pitch, yaw, .. } = input.controls;
+        let turn_rate_rad_s = [0.0, -TURN_RAD_S * pitch, TURN_RAD_S * yaw];
+        Ok(MotionOutput {
+            speed_m_s: SPEED_M_S * speed,
+            turn_rate_rad_s,
+            ..MotionOutput::default()
+        })
+    }
+}
+
+struct WithPlain;
+
+impl Hooks for WithPlain {
+    fn motion(&self, _: &str) -> Option<Arc<dyn WhaleMotion>> {
+        Some(Arc::new(Plain::new()))
+    }
+    fn friction(&self, id: &str) -> Option<Arc<dyn FrictionModel>> {
+        Linked.friction(id)
+    }
+    fn gear(&self, id: &str) -> Option<Arc<dyn GearType>> {
+        Linked.gear(id)
+    }
+    fn ids(&self) -> Vec<String> {
+        Linked.ids()
+    }
+}
+
+/// A taut rope from top to bottom at x = 20 m, and a whale that swims east at it; then these entries.
+fn text(pilot: &str) -> String {
+    format!(
+        r#"format = 1
+kind = "scenario"
+name = "A rope to swim into"
+duration = "60 s"
+rope_nodes = 31
+[site]
+depth = "40 m"
+density = "1025 kg/m3"
+seabed = false
+rope_dries = false
+[[fixture]]
+id = "top"
+position = ["{ROPE_M} m", "0 m", "-1 m"]
+[[fixture]]
+id = "bottom"
+position = ["{ROPE_M} m", "0 m", "-31 m"]
+[[line]]
+id = "rope"
+rope = "pp-3-8"
+from = "top"
+to = "bottom"
+length = "29.9 m"
+[friction]
+model = "org.endline.friction.coulomb"
+[whale]
+item = "right-whale"
+length = "{LENGTH_M} m"
+position = ["0 m", "0 m"]
+depth = "{DEPTH_M} m"
+heading = "90 deg"
+speed = "{SPEED_M_S} m/s"
+motion = "org.example.plain"
+[[whale.pilot]]
+at = "0 s"
+id = "start"
+speed = 1.0
+{pilot}"#
+    )
+}
+
+fn read(pilot: &str) -> Result<Model, String> {
+    let scenario =
+        Scenario::read("pilot.toml", &text(pilot)).map_err(|problems| told(&problems))?;
+    let spec = assemble(&scenario, &library(), &WithPlain, &Options::default())
+        .map_err(|problems| told(&problems))?;
+    Model::new(spec).map_err(|errors| format!("{errors:?}"))
+}
+
+fn model(pilot: &str) -> Model {
+    read(pilot).unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+/// Flies by the program until so many entries have begun; the state then, with the controls of every step.
+fn flown(model: &Model, entries: usize) -> (State, Vec<Controls>) {
+    let (mut state, mut workspace, mut controls) =
+        (settle(model).state, Workspace::new(model), Vec::new());
+    let pilot = &model.spec.whale.as_ref().unwrap().pilot;
+    while state.pilot.begun.len() < entries {
+        assert!(state.time_s < 60.0, "never began: {:?}", state.pilot);
+        controls.push(pilot.at(&state));
+        let input = Input { controls: pilot.at(&state) };
+        step(model, &input, &mut state, &mut workspace).unwrap_or_else(|stop| panic!("{stop:?}"));
+    }
+    (state, controls)
+}
+
+/// When the second entry began [s].
+fn second_began_s(pilot: &str) -> f64 {
+    let (state, _) = flown(&model(pilot), 2);
+    assert_eq!(state.pilot.begun[1].entry, 1);
+    state.pilot.begun[1].at_s
+}
+
+/// Within the step in which it comes to that: the first step's end at or after `expected_s`.
+fn is_next_step(began_s: f64, expected_s: f64) {
+    assert!(
+        (-1e-6..STEP_S + 1e-6).contains(&(began_s - expected_s)),
+        "began at {began_s} s, expected {expected_s} s"
+    );
+}
+
+#[test]
+fn a_distance_is_met_where_the_snout_comes_that_near() {
+    for (of, nearest_m) in [("", ROPE_M), ("of = \"rope\"", ROPE_M), ("of = \"bottom\"", ROPE_M)] {
+        // The fixture lies 19 m below the whale's axis; the rope beside it.
+        let below_m: f64 = if of.contains("bottom") { 31.0 - DEPTH_M } else { 0.0 };
+        let within_m: f64 = if of.contains("bottom") { 20.0 } else { 5.0 };
+        let ahead_m = nearest_m - (within_m.powi(2) - below_m.powi(2)).sqrt();
+        let began_s =
+            second_began_s(&format!("[[whale.pilot]]\nwithin = \"{within_m} m\"\n{of}\nyaw = 1.0"));
+        is_next_step(began_s, (ahead_m - 0.5 * LENGTH_M) / SPEED_M_S);
+    }
+}
+
+#[test]
+fn a_depth_and_a_heading_are_met_where_they_are_passed() {
+    // Nose down at a steady rate: z falls as the sine's integral, v/w (1 - cos(w t)).
+    let dive = "[[whale.pilot]]\ndepth = \"14 m\"\nmouth = 1.0\n[[whale.pilot]]\nat = \"1 s\"\npitch = -1.0";
+    let (state, _) = flown(&model(dive), 3);
+    let diving_s = (1.0 - 2.0 * TURN_RAD_S / SPEED_M_S).acos() / TURN_RAD_S;
+    let began = state.pilot.begun.iter().find(|begun| begun.entry == 1).unwrap();
+    is_next_step(began.at_s, 1.0 + diving_s);
+
+    // East to 30 degrees west of north, to port: two thirds of half a turn. It turns through north, not the far side.
+    let turn = "[[whale.pilot]]\nheading = \"-30 deg\"\nmouth = 1.0\n[[whale.pilot]]\nat = \"1 s\"\nspeed = 0.2\nyaw = 1.0";
+    let (state, _) = flown(&model(turn), 3);
+    let began = state.pilot.begun.iter().find(|begun| begun.entry == 1).unwrap();
+    is_next_step(began.at_s, 1.0 + 4.0 / 3.0 * FRAC_PI_2 / TURN_RAD_S);
+}
+
+#[test]
+fn the_first_touch_is_met_when_rope_presses_and_an_entry_follows_another() {
+    let entries = "[[whale.pilot]]\ntouch = \"any\"\nid = \"felt\"\ndelay = \"0.5 s\"\nspeed = 0.0\n\
+        [[whale.pilot]]\nafter = \"felt\"\ndelay = \"0.25 s\"\nyaw = -1.0\n[[whale.pilot]]\ntouch = \"left_fluke\"\nmouth = 1.0";
+    let model = model(entries);
+    let (state, controls) = flown(&model, 3);
+    let [_, felt, after] = state.pilot.begun[..] else { panic!("{:?}", state.pilot) };
+    assert_eq!((felt.entry, after.entry), (1, 2));
+    // The foremost point of the skin meets the rope, or the sides of a head that tapers do a little later.
+    let met_s = felt.at_s - 0.5;
+    let reach_s = (ROPE_M - 0.5 * LENGTH_M) / SPEED_M_S;
+    assert!(
+        (reach_s - 0.05..reach_s + 0.25).contains(&met_s),
+        "touched at {met_s} s, the snout is there at {reach_s} s"
+    );
+    assert!((after.at_s - felt.at_s - 0.25).abs() < 1e-12);
+    let swimming = controls.iter().take_while(|controls| controls.speed > 0.5).count();
+    is_next_step(swimming as f64 * STEP_S, felt.at_s);
+    assert!(state.pilot.seen[3].met_s.is_none(), "the fluke was not touched");
+}
+
+/// Layers by hand: yaw 0.4 from the start; from 1 s for 1 s a yaw of -0.6 with ramps of half a second, and an act.
+#[test]
+fn holds_and_ramps_give_the_written_curve_and_then_let_go() {
+    let model = model(
+        "yaw = 0.4\n[[whale.pilot]]\nat = \"1 s\"\nhold = \"1 s\"\nramp = \"0.5 s\"\nyaw = -0.6\nact = \"spin\"\n[[whale.pilot]]\nat = \"3 s\"\nact = \"none\"",
+    );
+    let (_, controls) = flown(&model, 3);
+    for (index, controls) in controls.iter().enumerate() {
+        let t = index as f64 * STEP_S;
+        let weight = if t < 2.0 {
+            ((t - 1.0) / 0.5).clamp(0.0, 1.0)
+        } else {
+            (1.0 - (t - 2.0) / 0.5).clamp(0.0, 1.0)
+        };
+        assert!((controls.yaw - (0.4 - weight)).abs() < 1e-6, "{t} s: {controls:?}");
+        assert!((controls.speed - 1.0).abs() < 1e-12);
+        let act = if (1.0 - 1e-9..2.0 - 1e-9).contains(&t) { 2.0 } else { 0.0 };
+        assert!((controls.act - act).abs() < 1e-12, "{t} s: {controls:?}");
+    }
+}
+
+#[test]
+fn a_snapshot_goes_on_as_the_run_it_was_taken_from() {
+    let model = model(
+        "[[whale.pilot]]\nheading = \"60 deg\"\nyaw = 0.0\nspeed = 0.1\n[[whale.pilot]]\nat = \"1 s\"\nyaw = 1.0",
+    );
+    let (mut kept, mut workspace) = (settle(&model).state, Workspace::new(&model));
+    let pilot = &model.spec.whale.as_ref().unwrap().pilot;
+    let go = |state: &mut State, workspace: &mut Workspace| {
+        let input = Input { controls: pilot.at(state) };
+        step(&model, &input, state, workspace).unwrap();
+    };
+    (0..300).for_each(|_| go(&mut kept, &mut workspace));
+    let (mut taken, mut fresh) = (kept.clone(), Workspace::new(&model));
+    for _ in 0..400 {
+        go(&mut kept, &mut workspace);
+        go(&mut taken, &mut fresh);
+    }
+    assert_eq!(kept, taken);
+    assert_eq!(kept.pilot.begun.len(), 3);
+}
+
+#[test]
+fn what_is_wrong_is_told_with_its_place() {
+    let entry = |lines: &str| read(&format!("[[whale.pilot]]\n{lines}")).err().unwrap_or_default();
+    for (lines, wanted) in [
+        ("yaw = 1.0", "nothing begins this entry"),
+        ("at = \"1 s\"\ntouch = \"any\"\nyaw = 1.0", "both `at` and `touch` begin this entry"),
+        ("at = \"1 s\"", "the entry sets no control"),
+        ("at = \"1 s\"\nyow = 1.0", "unknown field `yow`"),
+        ("at = \"1 s\"\nyaw = 2.0", "it must be between -1 and 1"),
+        ("at = \"1 s\"\ndelay = \"1 s\"\nyaw = 1.0", "an entry with `at` has no `delay`"),
+        ("at = \"1 s\"\nof = \"rope\"\nyaw = 1.0", "`of` without `within`"),
+        ("at = \"0 s\"\nyaw = 1.0", "not in rising order of `at`"),
+        ("touch = \"left_flippers\"\nyaw = 1.0", "did you mean `left_flipper`?"),
+        ("within = \"5 m\"\nof = \"ropes\"\nyaw = 1.0", "there is no line, body or joint `ropes`"),
+        ("within = \"5 s\"\nyaw = 1.0", "`within`"),
+        ("after = \"begin\"\nyaw = 1.0", "no entry above has the id `begin`"),
+        ("at = \"1 s\"\nid = \"start\"\nyaw = 1.0", "there are two entries with the id `start`"),
+        ("at = \"1 s\"\nact = \"rol-away\"", "has no act `rol-away`"),
+        ("at = \"1 s\"\nact = \"rol-away\"", "did you mean `roll-away`?"),
+        ("at = \"1 s\"\nhold = \"0 s\"\nyaw = 1.0", "it must be above zero"),
+    ] {
+        let said = entry(lines);
+        assert!(said.contains(wanted) && said.contains("pilot.toml:"), "{lines}: {said}");
+    }
+}

@@ -1,0 +1,98 @@
+//! The same run gives the same bits: twice, on any number of threads, and with its scratch memory dropped at any time.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test fails by panicking, in its helpers too"
+)]
+
+use std::sync::Arc;
+
+use crate::common::Place;
+use endline_session::hash::StateHash;
+use endline_session::plugins::PluginHost;
+use endline_session::{Overrides, Prepared, Run, RunOptions, prepare};
+use endline_sim::{Input, Settled, Workspace, settle, step};
+
+/// Steps compared: the rope is touched within them.
+const STEPS: u64 = 250;
+
+/// The shipped encounter, its whale set down just before the rope, made ready with the shipped plugins.
+fn prepared(scenario: &str) -> Prepared {
+    let plugins = endline_tests::products().unwrap().join("plugins");
+    let (host, problems) = PluginHost::discover(&[plugins]);
+    assert!(problems.is_empty(), "{problems:?}");
+    prepare(scenario.as_ref(), None, &host, Overrides::default())
+        .unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Hashes of the states of a run after each step.
+fn hashes(prepared: &Prepared, settled: &Arc<Settled>) -> Vec<StateHash> {
+    let mut run = Run::from_settled(prepared.clone(), RunOptions::default(), Arc::clone(settled));
+    let hash_of_step = |_| {
+        run.step(run.pilot()).unwrap();
+        run.state_hash()
+    };
+    let hashes = (0..STEPS).map(hash_of_step).collect();
+    let whale = run.summary().whale.unwrap();
+    assert!(whale.first_contact_s.is_some(), "the rope was never touched");
+    hashes
+}
+
+/// Runs of one model, which share it and the loaded plugins, as the runs of a study do.
+#[test]
+fn runs_side_by_side_on_any_number_of_threads_have_the_hashes_of_one_alone() {
+    let place = Place::new("threads");
+    let prepared = prepared(&place.encounter());
+    let settled = Arc::new(settle(&prepared.model));
+    let alone = hashes(&prepared, &settled);
+    for threads in [1, 2, 4] {
+        let run = || hashes(&prepared, &settled);
+        let together: Vec<Vec<StateHash>> = std::thread::scope(|scope| {
+            let runs: Vec<_> = (0..threads).map(|_| scope.spawn(run)).collect();
+            runs.into_iter().map(|run| run.join().unwrap()).collect()
+        });
+        for (of, run) in together.iter().enumerate() {
+            let other = run.iter().zip(&alone).position(|(one, other)| one != other);
+            assert_eq!(
+                other, None,
+                "place of the first step that differs, in run {of} of {threads}"
+            );
+        }
+    }
+}
+
+#[test]
+fn dropping_the_workspace_between_steps_changes_no_bit() {
+    let place = Place::new("workspace");
+    let scenario = place.encounter();
+    // Resolution that follows the whale must come from the state alone, too.
+    let text = std::fs::read_to_string(&scenario).unwrap();
+    std::fs::write(&scenario, text.replace("[site]", "[resolution]\n\n[site]")).unwrap();
+    let prepared = prepared(&scenario);
+    let model = &*prepared.model;
+
+    let start = settle(model).state;
+    let (mut kept, mut dropped) = (start.clone(), start);
+    let (mut workspace, mut touched) = (Workspace::new(model), false);
+    for _ in 0..STEPS {
+        let controls = model.spec.whale.as_ref().unwrap().pilot.at(&kept);
+        let input = Input { controls };
+        step(model, &input, &mut kept, &mut workspace).unwrap();
+        let mut fresh = Workspace::new(model);
+        step(model, &input, &mut dropped, &mut fresh).unwrap();
+        touched |= !fresh.contacts.is_empty();
+        let (kept, dropped) = (StateHash::of(&input, &kept), StateHash::of(&input, &dropped));
+        assert_eq!(kept.first_difference(&dropped), None);
+    }
+    assert!(touched, "the rope was never touched");
+    assert!(workspace.audit.splits > 10, "{} splits", workspace.audit.splits);
+
+    // The session's own run walks the same states.
+    let mut run =
+        Run::new(prepared.clone(), RunOptions::default()).unwrap_or_else(|error| panic!("{error}"));
+    while run.state().step < STEPS {
+        run.step(run.pilot()).unwrap();
+    }
+    assert_eq!(StateHash::of(&Input::default(), &kept).parts[1..], run.state_hash().parts[1..]);
+}

@@ -1,0 +1,9 @@
+//! The program as its users call it: the command line, recordings, studies and cases.
+
+mod cases;
+mod cli;
+mod common;
+mod crossing;
+mod determinism;
+mod replay;
+mod studies;

@@ -1,0 +1,481 @@
+//! Studies as their users run them: the same table for any threads, shards and kills, and clear errors that lose nothing.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test fails by panicking, in its helpers too"
+)]
+
+use crate::common;
+use std::fs;
+use std::path::Path;
+use std::process::Stdio;
+use std::time::Instant;
+
+use crate::common::{Place, library};
+
+/// Ten short draws of a small rig without a whale: what is checked here is the running, not the physics.
+const STUDY: &str = r#"
+format = 1
+kind = "study"
+name = "Small"
+scenario = "small.toml"
+encounters = 10
+baseline = "none"
+
+[[option]]
+id = "none"
+set = { weak_links = false }
+
+[[option]]
+id = "same"
+set = { weak_links = false }
+
+[[option]]
+id = "weak"
+strength = "5 N"
+set = { "link.0.rating" = "5 N" }
+
+[[option]]
+id = "strong"
+strength = "600 lbf"
+set = { "link.0.rating" = "600 lbf" }
+
+[encounter."body.0.drag_area"]
+uniform = ["0.1 m2", "0.3 m2"]
+source = "assumed"
+
+[encounter.tide]
+choice = ["0.2 m/s", "0.5 m/s"]
+source = "assumed"
+"#;
+
+/// Folders of the library that the small study looks at; every call of the program reads them all.
+const NEEDED: [&str; 6] = ["friction", "knots", "ropes", "scenarios", "sites", "weak-links"];
+
+/// The shipped study scenario, shorter, coarser, and with no whale; its study in a library of the test's own.
+fn small(place: &Place) -> String {
+    let library_here = place.library();
+    for entry in fs::read_dir(&library_here).unwrap().map(|entry| entry.unwrap()) {
+        if entry.path().is_dir() && !NEEDED.contains(&entry.file_name().to_str().unwrap()) {
+            fs::remove_dir_all(entry.path()).unwrap();
+        }
+    }
+    let folder = library_here.join("studies");
+    fs::create_dir_all(&folder).unwrap();
+    let scenario = fs::read_to_string(library().join("scenarios/study-endline-held.toml")).unwrap();
+    let (gear, _) = scenario.split_once("[whale]").unwrap();
+    let gear = gear
+        .replace("duration = \"75 s\"", "duration = \"0.5 s\"")
+        .replace("rope_nodes = 80", "rope_nodes = 12");
+    let scenario = gear.replace("[resolution]\nnear = \"30 cm\"\nedges = \"10 cm\"\n", "");
+    fs::write(folder.join("small.toml"), scenario).unwrap();
+    let study = folder.join("study.toml");
+    fs::write(&study, STUDY).unwrap();
+    study.display().to_string()
+}
+
+fn table(folder: &Path) -> Vec<u8> {
+    fs::read(folder.join("table.parquet")).unwrap()
+}
+
+#[test]
+fn the_table_is_the_same_for_any_threads_and_shards() {
+    let place = Place::new("study-table");
+    let study = small(&place);
+    let out = |name: &str| place.folder.join(name).display().to_string();
+    place.endline(&["study", "run", &study, "--out", &out("one"), "--threads", "1"]).done();
+    place.endline(&["study", "merge", &study, "--out", &out("one")]).done();
+    let whole = table(&place.folder.join("one"));
+
+    place.endline(&["study", "run", &study, "--out", &out("two"), "--threads", "2"]).done();
+    place.endline(&["study", "merge", &study, "--out", &out("two")]).done();
+    assert_eq!(table(&place.folder.join("two")), whole, "two threads");
+
+    for shards in [3, 7] {
+        let folder = out(&format!("of-{shards}"));
+        for shard in (1..=shards).rev() {
+            if shard == 1 {
+                place
+                    .endline(&["study", "merge", &study, "--out", &folder])
+                    .fails(1, &["lacks", "block", "1/"]);
+            }
+            place
+                .endline(&[
+                    "study",
+                    "run",
+                    &study,
+                    "--out",
+                    &folder,
+                    "--shard",
+                    &format!("{shard}/{shards}"),
+                ])
+                .done();
+        }
+        place.endline(&["study", "merge", &study, "--out", &folder]).done();
+        assert_eq!(table(Path::new(&folder)), whole, "{shards} shards");
+    }
+
+    findings(&place, &study, &out("one"));
+    bundle(&place, &place.folder.join("one"), &whole);
+}
+
+/// Links of four ratings in a rope that is drawn apart.
+const PULL: &str = r#"
+format = 1
+kind = "study"
+name = "Pull"
+scenario = "weak-link-pull"
+encounters = 1
+baseline = "never"
+
+[[option]]
+id = "never"
+set = { weak_links = false }
+
+[[option]]
+id = "late"
+set = { "link.0.rating" = "6 kN" }
+
+[[option]]
+id = "middle"
+set = { "link.0.rating" = "3 kN" }
+
+[[option]]
+id = "rope"
+set = { weak_links = false, "ropes/polysteel-7-16.strength" = "400 lbf" }
+
+[encounter.tide]
+value = "0.1 m/s"
+source = "assumed"
+"#;
+
+/// Options that part ways midway are run from there on only; each ends in the state of its whole run, that of a replay.
+#[test]
+fn a_run_begun_where_options_part_ways_is_the_whole_run() {
+    let place = Place::new("study-branches");
+    small(&place);
+    let study = place.write("gear-library/studies/pull.toml", PULL).display().to_string();
+    let out = place.folder.join("pull").display().to_string();
+    place.endline(&["study", "run", &study, "--out", &out]).done();
+    place.endline(&["study", "merge", &study, "--out", &out]).done();
+    let rows = fs::read_to_string(place.path("pull/table.csv")).unwrap();
+    let heads: Vec<&str> = rows.lines().next().unwrap().split(',').collect();
+    let cell = |option: &str, column: &str| {
+        let place = heads.iter().position(|head| *head == column).unwrap();
+        let row = rows.lines().find(|row| row.split(',').nth(1) == Some(option)).unwrap();
+        row.split(',').nth(place).unwrap().to_owned()
+    };
+    let at: Vec<f64> = ["rope", "middle", "late"]
+        .map(|option| cell(option, "parted_at_s").parse().unwrap())
+        .to_vec();
+    assert!(
+        0.5 < at[0] && at[0] + 0.5 < at[1] && at[1] + 0.5 < at[2],
+        "each parts after a look at the run: {at:?}"
+    );
+    for option in ["middle", "late", "rope"] {
+        let replayed = place
+            .endline(&["study", "replay", &study, "--out", &out, "--row", "0", "--option", option])
+            .done();
+        assert!(
+            replayed.stderr.contains("ends in the state that the table has"),
+            "{option}: {replayed}"
+        );
+    }
+}
+
+/// Moments spread over 0 to 1 by the golden section, as good as random and the same each time.
+fn moments(count: u32) -> impl Iterator<Item = f64> {
+    (1..=count).map(|index| (f64::from(index) * 0.618_033_988_749_895).fract())
+}
+
+#[test]
+fn killed_at_any_moment_it_goes_on_to_the_same_table() {
+    let place = Place::new("study-kills");
+    let study = small(&place);
+    let whole_at = place.folder.join("whole");
+    let start = Instant::now();
+    place
+        .endline(&["study", "run", &study, "--out", whole_at.to_str().unwrap(), "--threads", "1"])
+        .done();
+    let mut takes = start.elapsed();
+    place.endline(&["study", "merge", &study, "--out", whole_at.to_str().unwrap()]).done();
+    let whole = table(&whole_at);
+
+    // A folder that is full before its kills are used up makes room for another.
+    let mut folders = vec![place.folder.join("killed-0")];
+    let (mut killed, mut midway) = (0, 0);
+    for moment in moments(100) {
+        let folder = folders.last().unwrap().clone();
+        let arguments =
+            ["study", "run", &study, "--out", folder.to_str().unwrap(), "--threads", "1"];
+        let mut child =
+            place.command(&arguments).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        std::thread::sleep(takes.mul_f64(moment));
+        if child.try_wait().unwrap().is_some() {
+            // It was quicker this time: the machine does other things too.
+            takes = takes.mul_f64(0.8);
+            folders.push(place.folder.join(format!("killed-{}", folders.len())));
+            continue;
+        }
+        child.kill().unwrap();
+        child.wait().unwrap();
+        killed += 1;
+        midway += usize::from((1..3).contains(&blocks(&folder)));
+        if killed == 20 {
+            break;
+        }
+    }
+    assert_eq!(killed, 20);
+    assert!(midway > 0, "some kill came between blocks");
+    for folder in folders.iter().filter(|folder| folder.exists()) {
+        place.endline(&["study", "run", &study, "--out", folder.to_str().unwrap()]).done();
+        place.endline(&["study", "merge", &study, "--out", folder.to_str().unwrap()]).done();
+        assert_eq!(table(folder), whole, "{}", folder.display());
+    }
+}
+
+/// Blocks that stand in a folder.
+fn blocks(folder: &Path) -> usize {
+    let names = fs::read_dir(folder)
+        .into_iter()
+        .flatten()
+        .flatten()
+        .map(|entry| entry.file_name().into_string().unwrap());
+    names.filter(|name| name.starts_with("block-") && name.ends_with(".parquet")).count()
+}
+
+#[test]
+fn a_study_that_has_seen_enough_ends_there() {
+    let place = Place::new("study-enough");
+    let study = small(&place);
+    // Of 4 encounters none has contact, of which the interval is 0 to 0.49; of 8 it is 0 to 0.32.
+    let asks = |narrower: f64, least: u32| {
+        let enough = format!(
+            "[enough]\nevent = \"contact\"\nnarrower = {narrower}\nleast = {least}\n\n[[option]]\nid = \"none\""
+        );
+        fs::write(&study, STUDY.replacen("[[option]]\nid = \"none\"", &enough, 1)).unwrap();
+    };
+    let rows =
+        |folder: &Path| fs::read_to_string(folder.join("table.csv")).unwrap().lines().count() - 1;
+    for (name, narrower, least, threads, encounters) in [
+        ("at-4", 0.5, 4, "1", 4),
+        ("two", 0.5, 4, "2", 4),
+        ("at-8", 0.4, 4, "1", 8),
+        ("least", 0.5, 8, "1", 8),
+    ] {
+        asks(narrower, least);
+        let folder = place.folder.join(name);
+        place
+            .endline(&[
+                "study",
+                "run",
+                &study,
+                "--out",
+                folder.to_str().unwrap(),
+                "--threads",
+                threads,
+            ])
+            .done();
+        place.endline(&["study", "merge", &study, "--out", folder.to_str().unwrap()]).done();
+        assert_eq!(rows(&folder), 4 * encounters, "{name}: rows of four options");
+    }
+    assert_eq!(
+        table(&place.folder.join("at-4")),
+        table(&place.folder.join("two")),
+        "whichever block a second thread had begun"
+    );
+}
+
+/// What the table says of options that are the same, and of a link that parts at a touch.
+fn findings(place: &Place, study: &str, out: &str) {
+    let found = place.endline(&["study", "report", study, "--out", out, "--json"]).done().json();
+    let option = |id: &str| {
+        found["options"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .find(|option| option["id"] == id)
+            .unwrap()
+            .clone()
+    };
+    for (event, paired) in
+        option("same")["against"].as_array().unwrap().iter().map(|pair| (&pair[0], &pair[1]))
+    {
+        assert_eq!(paired["difference"].as_f64(), Some(0.0), "{event}");
+        assert_eq!(paired["only_this"], 0, "{event}");
+    }
+    assert_eq!(option("same")["tensions"]["sorted_n"], option("none")["tensions"]["sorted_n"]);
+    let rows = fs::read_to_string(Path::new(out).join("table.csv")).unwrap();
+    let parted = |id: &str| {
+        rows.lines()
+            .filter(|row| row.split(',').nth(1) == Some(id) && row.contains(",buoy-link,"))
+            .count()
+    };
+    assert!(parted("weak") > 0, "a link of 5 N bears no buoy in a running tide");
+    assert_eq!([parted("strong"), parted("none")], [0, 0], "one of 600 lbf does");
+
+    let page = fs::read_to_string(Path::new(out).join("report.html")).unwrap();
+    assert!(
+        page.matches("<svg").count() >= 5
+            && page.contains("given an encounter")
+            && page.contains("lbf"),
+        "the figures are inside"
+    );
+    assert!(!page.contains("NaN") && !page.contains("<script"));
+
+    let replayed = place
+        .endline(&["study", "replay", study, "--out", out, "--row", "3", "--option", "weak"])
+        .done();
+    assert!(replayed.stderr.contains("ends in the state that the table has"), "{replayed}");
+    let strong = place
+        .endline(&["study", "replay", study, "--out", out, "--row", "3", "--option", "strong"])
+        .done();
+    assert!(
+        strong.stderr.contains("ends in the state that the table has"),
+        "a shared row is the run it stands for: {strong}"
+    );
+}
+
+/// The bundle makes the same table by the two commands it names, without the library it came from.
+fn bundle(place: &Place, folder: &Path, whole: &[u8]) {
+    fs::remove_dir_all(place.path("gear-library")).unwrap();
+    let readme = fs::read_to_string(folder.join("bundle/README.txt")).unwrap();
+    let commands: Vec<&str> =
+        readme.lines().filter_map(|line| line.strip_prefix("endline ")).collect();
+    assert_eq!(commands.len(), 2, "{readme}");
+    for command in commands {
+        let arguments: Vec<&str> = command.split(' ').collect();
+        let mut call = place.command(&arguments);
+        common::called(call.current_dir(folder)).done();
+    }
+    assert_eq!(table(&folder.join("again")), whole, "rerun from the bundle");
+}
+
+#[test]
+fn mistakes_are_told_at_their_place() {
+    let place = Place::new("study-mistakes");
+    let study = small(&place);
+    let plan = |from: &str, to: &str| {
+        assert!(STUDY.contains(from), "{from}");
+        fs::write(&study, STUDY.replace(from, to)).unwrap();
+        place.endline(&["study", "plan", &study])
+    };
+    plan("encounters = 10", "encountres = 10")
+        .fails(1, &["study.toml:6:1", "unknown field `encountres`", "did you mean `encounters`?"]);
+    plan("\"link.0.rating\" = \"5 N\"", "\"link.0.rating\" = \"0 lbf\"")
+        .fails(1, &["study.toml", "option `weak`", "above zero"]);
+    plan("baseline = \"none\"", "baseline = \"noen\"")
+        .fails(1, &["no option `noen`", "did you mean `none`?"]);
+    plan("[encounter.tide]", "[encounter.tied]").fails(1, &["`tied`", "did you mean `tide`?"]);
+    plan("\"link.0.rating\" = \"5 N\"", "\"link.0.ratign\" = \"5 N\"")
+        .fails(1, &["unknown field `ratign`", "did you mean `rating`?", "study.toml"]);
+    plan("source = \"assumed\"\n\n[encounter.tide]", "\n[encounter.tide]")
+        .fails(1, &["`source` is missing", "assumed"]);
+    plan("scenario = \"small.toml\"", "scenario = \"hello-endlin\"")
+        .fails(1, &["did you mean `hello-endline`?"]);
+
+    fs::write(&study, STUDY).unwrap();
+    place
+        .endline(&["study", "replay", &study, "--row", "3", "--option", "week"])
+        .fails(1, &["no option `week`", "did you mean `weak`?"]);
+    place.endline(&["study", "run", &study, "--shard", "8/7"]).fails(2, &["2/7"]);
+    place
+        .endline(&[
+            "study",
+            "report",
+            &study,
+            "--out",
+            &place.folder.join("no").display().to_string(),
+        ])
+        .fails(1, &["merge"]);
+}
+
+#[test]
+fn a_folder_keeps_to_its_study_and_what_cannot_be_written_loses_nothing() {
+    let place = Place::new("study-folder");
+    let study = small(&place);
+    let out = place.folder.join("out");
+    let arguments = ["study", "run", &study, "--out", &out.display().to_string(), "--shard", "1/3"];
+    place.endline(&arguments).done();
+    fs::write(&study, STUDY.replace("0.3 m2", "0.4 m2")).unwrap();
+    place.endline(&arguments).fails(1, &["belongs to the study", "--out"]);
+    // A study made longer is the same study, and so is one with its tables in another order.
+    fs::write(&study, STUDY.replace("encounters = 10", "encounters = 14")).unwrap();
+    let longer = place.endline(&arguments).done();
+    assert!(
+        longer.stdout.contains("1 of them new") || longer.stdout.contains("0 of them new"),
+        "{longer}"
+    );
+
+    // A name that cannot be written: the block before it stays whole.
+    fs::write(&study, STUDY).unwrap();
+    let before = fs::read(out.join("block-00000.parquet")).unwrap();
+    fs::create_dir(out.join("block-00001.parquet")).unwrap();
+    fs::write(out.join("block-00001.parquet/in-the-way"), "").unwrap();
+    let second = ["study", "run", &study, "--out", &out.display().to_string(), "--shard", "2/3"];
+    place
+        .endline(&second)
+        .fails(1, &["block-00001.parquet", "cannot be written", "goes on from them"]);
+    assert_eq!(fs::read(out.join("block-00000.parquet")).unwrap(), before);
+    fs::remove_dir_all(out.join("block-00001.parquet")).unwrap();
+    place.endline(&second).done();
+
+    // A disk that takes no more bytes in the midst of a block: a limit on the length of files does the same, without being root.
+    #[cfg(unix)]
+    {
+        let before = blocks(&out);
+        let third = place.command(&[
+            "study",
+            "run",
+            &study,
+            "--out",
+            out.to_str().unwrap(),
+            "--shard",
+            "3/3",
+        ]);
+        let mut limited = std::process::Command::new("sh");
+        limited
+            .args(["-c", "trap '' XFSZ; ulimit -f 4; exec \"$0\" \"$@\""])
+            .arg(third.get_program())
+            .args(third.get_args());
+        limited
+            .current_dir(&place.folder)
+            .envs(third.get_envs().filter_map(|(name, value)| Some((name, value?))));
+        common::called(&mut limited)
+            .fails(1, &["block-00002.parquet", "cannot be written", "goes on from them"]);
+        assert_eq!(blocks(&out), before, "nothing half written stands there as a block");
+        place
+            .endline(&["study", "run", &study, "--out", out.to_str().unwrap(), "--shard", "3/3"])
+            .done();
+        place.endline(&["study", "merge", &study, "--out", out.to_str().unwrap()]).done();
+    }
+}
+
+#[test]
+fn every_shipped_study_assembles() {
+    let place = Place::new("study-shipped");
+    let folder = library().join("studies");
+    let mut files: Vec<_> =
+        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.sort();
+    assert!(!files.is_empty());
+    for file in files {
+        let plan =
+            place.endline(&["study", "plan", &file.display().to_string(), "--json"]).done().json();
+        // Only options that differ in strengths alone share runs: all of one study, none of the others.
+        let alone = plan["families"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .all(|family| family.as_array().unwrap().len() == 1);
+        let together = plan["families"].as_array().unwrap().len() == 1;
+        assert_eq!(
+            [alone, together],
+            if plan["study"] == "weak-links" { [false, true] } else { [true, false] },
+            "{}",
+            plan["study"]
+        );
+        assert_eq!(plan["study"], file.file_stem().unwrap().to_string_lossy().as_ref());
+    }
+}
