@@ -7,11 +7,9 @@
 //! against an adversary; files are sealed with BLAKE3.
 
 use endline_sdk::{Controls, Posture};
-use endline_sim::contact::Grips;
-use endline_sim::contact::ropes::RopeGrip;
-use endline_sim::pace::Pace;
-use endline_sim::solids::SolidGrip;
-use endline_sim::state::{BodyState, RopeState, WhaleState};
+use endline_sim::state::{
+    BodyState, FrictionState, RopeGrip, RopeState, SolidGrip, StepControl, WhaleState,
+};
 use endline_sim::whale::Exertion;
 use endline_sim::{DQuat, DVec3, Input, State};
 

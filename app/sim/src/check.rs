@@ -1,7 +1,8 @@
 //! What a model must hold before anything moves: every problem is told at once, with its part.
 
-use crate::model::{Body, Joint, JointKind, Line, Link, ModelError, ModelSpec, Resolution, Rope};
-use crate::solids::Obstacle;
+use crate::model::{
+    Body, Joint, JointKind, Line, Link, ModelError, ModelSpec, Obstacle, Resolution, Rope,
+};
 
 /// Everything wrong with a spec.
 pub(crate) fn check(spec: &ModelSpec) -> Vec<ModelError> {

@@ -5,11 +5,11 @@ use endline_sdk::{GearAction, GearStep, LineEnd};
 use crate::model::Model;
 use crate::parting::{cut, link_segment, note_line};
 use crate::state::State;
-use crate::step::Stop;
+use crate::step::stop::Stop;
 
 /// Scratch of the gear types' calls.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct GearWork {
+pub(crate) struct GearWorkspace {
     tensions: Vec<[f64; 2]>,
     actions: Vec<GearAction>,
 }
@@ -18,8 +18,8 @@ pub(crate) struct GearWork {
 ///
 /// # Errors
 /// With the plugin's id, where it fails or names a line or link it did not build.
-pub(crate) fn act(model: &Model, state: &mut State, work: &mut GearWork) -> Result<(), Stop> {
-    let GearWork { tensions, actions } = work;
+pub(crate) fn act(model: &Model, state: &mut State, work: &mut GearWorkspace) -> Result<(), Stop> {
+    let GearWorkspace { tensions, actions } = work;
     for (index, hook) in model.spec.gear.iter().enumerate() {
         tensions.clear();
         tensions.extend(hook.lines.iter().map(|line| end_tensions(model, state, *line)));

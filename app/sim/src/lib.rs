@@ -6,6 +6,7 @@
 
 #![warn(clippy::print_stdout, clippy::print_stderr)] // results leave as values
 
+mod assembly;
 mod check;
 pub mod contact;
 pub mod float;
@@ -14,16 +15,16 @@ mod gear_hook;
 mod in_place;
 pub mod metrics;
 pub mod model;
-pub mod pace;
 pub mod parting;
-mod regrid;
-mod rope_step;
+mod random;
+mod remesh;
 pub mod solids;
 mod solver;
+mod start;
 pub mod state;
 pub mod statics;
 pub mod step;
-mod substep;
+mod step_control;
 pub mod water;
 pub mod whale;
 

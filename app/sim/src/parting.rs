@@ -10,15 +10,6 @@ use crate::state::State;
 /// How far above its rating something may part before the step is redone shorter.
 const LATE: f64 = 1.005;
 
-/// Whether anything parted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Parting {
-    /// Nothing did.
-    None,
-    /// Something did.
-    Some,
-}
-
 /// The segment a link sits on.
 #[must_use]
 pub fn link_segment(model: &Model, link: &Link) -> usize {
@@ -55,9 +46,9 @@ pub(crate) fn too_late(model: &Model, state: &State, tension: &[f64]) -> bool {
     model.spec.links.iter().any(link_late) || (0..model.segment_count).any(rope_late)
 }
 
-/// Parts what is above its rating or strength.
-pub(crate) fn part(model: &Model, state: &mut State) -> Parting {
-    let mut parted = Parting::None;
+/// Parts what is above its rating or strength; whether anything parted.
+pub(crate) fn part(model: &Model, state: &mut State) -> bool {
+    let mut parted = false;
     if holds(model, &state.rope.tension) {
         return parted;
     }
@@ -66,7 +57,7 @@ pub(crate) fn part(model: &Model, state: &mut State) -> Parting {
         if link.enabled && !state.rope.cut[segment] && state.rope.tension[segment] > link.rating_n {
             state.link_parted_s[index] = Some(state.time_s);
             cut(state, segment);
-            parted = Parting::Some;
+            parted = true;
         }
     }
     for index in 0..model.spec.lines.len() {
@@ -80,7 +71,7 @@ pub(crate) fn part(model: &Model, state: &mut State) -> Parting {
         };
         note_line(model, state, worst);
         cut(state, worst);
-        parted = Parting::Some;
+        parted = true;
     }
     parted
 }

@@ -3,8 +3,8 @@
 //! A spot is the triangle of its regions that lies farthest in a direction near a place along the body, or in the middle of them.
 
 use endline_sdk::Region;
-use endline_sim::model::{Joint, JointKind};
-use endline_sim::whale::{Hitch, Skin};
+use endline_sim::model::{Hitch, Joint, JointKind};
+use endline_sim::whale::Skin;
 use endline_sim::{DAffine3, DVec3};
 
 use crate::diagnostic::At;

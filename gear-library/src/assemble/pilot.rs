@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use endline_sdk::{Controls, Descriptor};
-use endline_sim::whale::pilot::{PilotEntry, PilotProgram, Target, Trigger};
+use endline_sim::model::{PilotEntry, PilotProgram, Target, Trigger};
 
 use crate::diagnostic::At;
 use crate::nearest::hint;

@@ -1,8 +1,7 @@
 //! A rig's parts, put into the spec; fixtures, bodies and lines written in place.
 
 use endline_sdk::{BodyKind, LineEnd, Rig, RigBody, RigEnd, RigLine, RigLink};
-use endline_sim::model::{BodyRole, Joint, JointKind, Link};
-use endline_sim::solids::Obstacle;
+use endline_sim::model::{BodyRole, Joint, JointKind, Link, Obstacle};
 use endline_sim::{DQuat, DVec3};
 
 use crate::diagnostic::{At, Place};

@@ -1,7 +1,8 @@
 //! The whale.
 
 use endline_sim::DQuat;
-use endline_sim::whale::{Measures, PilotProgram, Whale};
+use endline_sim::model::{PilotProgram, Whale};
+use endline_sim::whale::Measures;
 
 use crate::attributes::numbers;
 use crate::items::WhaleItem;

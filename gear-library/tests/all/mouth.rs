@@ -13,8 +13,8 @@ use endline_gear::whale::{WhaleForm, build_skin};
 use endline_sdk::{Descriptor, HookError, MotionInput, MotionOutput, Posture, Region, WhaleMotion};
 use endline_sim::contact::distance::segment_triangle;
 use endline_sim::metrics::Metrics;
-use endline_sim::model::Settings;
-use endline_sim::whale::{Skin, Whale, pose, skin_all};
+use endline_sim::model::{Settings, Whale};
+use endline_sim::whale::{Skin, pose, skin_all};
 use endline_sim::{Audit, DQuat, DVec3, Input, Model, State, Workspace, step};
 
 const LENGTH_M: f64 = 13.7;

@@ -7,9 +7,11 @@ use crate::idle::Still;
 use endline_gear::whale::{WhaleForm, build_skin};
 use endline_sdk::{BodyPart, Region};
 use endline_sim::metrics::Metrics;
-use endline_sim::model::{Friction, Joint, JointKind, Line, Rope, Settings, Strength};
+use endline_sim::model::{
+    Friction, Joint, JointKind, Line, PilotProgram, Rope, Settings, Strength, Whale,
+};
 use endline_sim::water::{Current, Water};
-use endline_sim::whale::{JointRanges, Measures, PilotProgram, Skin, Whale};
+use endline_sim::whale::{JointRanges, Measures, Skin};
 use endline_sim::{ContactPoint, DQuat, DVec3, Model, ModelSpec, State};
 
 /// A line of these segments and the whale.

@@ -5,7 +5,7 @@ use endline_sim::metrics::{
     BeatSummary, BodySummary, Event, KineticSummary, LineSummary, LinkSummary, PatchSummary,
     ProbeSummary, RegionSummary, Summary, WhaleSummary,
 };
-use endline_sim::pace::LimitedBy;
+use endline_sim::state::LimitedBy;
 
 use super::*;
 use crate::error::Error;

@@ -8,8 +8,7 @@
 
 use endline_sdk::AttributeValue;
 use endline_sim::metrics::{LinkSummary, Summary};
-use endline_sim::model::{FrictionLaw, Line, Link, Rope};
-use endline_sim::whale::Whale;
+use endline_sim::model::{FrictionLaw, Line, Link, Rope, Whale};
 use endline_sim::{Model, ModelSpec};
 
 use super::open::OptionPlan;

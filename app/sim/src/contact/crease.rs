@@ -8,7 +8,7 @@
 //! angle of the normals, so that nothing jumps as rope slides into a crease or out of it.
 
 use super::law::Press;
-use super::slots::Touch;
+use super::touch::Touch;
 
 /// Most faces touched at once.
 const MOST_FACES: usize = 3;

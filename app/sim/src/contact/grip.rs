@@ -13,32 +13,13 @@ use super::account::Account;
 use super::crease::Faces;
 use super::grain::grain;
 use super::near::{Near, on_triangle};
-use super::slots::{Slot, Slots, Touch};
-use crate::in_place::clone_in_place;
+use super::slots::{Slot, Slots};
+use super::touch::Touch;
 use crate::model::{Friction, FrictionLaw, Model};
-use crate::state::State;
+use crate::state::{FrictionState, State};
 
 /// Floats of the state ahead of the plugin's own: number of the law, energy taken, energy given.
 const KEPT: usize = 3;
-
-/// Floats of the friction laws for the sites in touch, in rising order of site.
-#[derive(Debug, Default, PartialEq)]
-pub struct Grips {
-    /// Sites in touch.
-    pub sites: Vec<u64>,
-    /// Floats of each, one after the other: number of the law, energy taken and given [J], then the plugin's own.
-    pub floats: Vec<f64>,
-}
-
-clone_in_place!(Grips { sites, floats });
-
-impl Grips {
-    /// Forgets all grips.
-    pub(crate) fn clear(&mut self) {
-        self.sites.clear();
-        self.floats.clear();
-    }
-}
 
 /// Why friction failed, and whose fault it is.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -188,12 +169,12 @@ impl Touching {
         self.coefficient.push(friction.coefficients[rope][region as usize]);
         self.region.push(region as u32);
         self.rope.push(u32::try_from(rope).unwrap_or(u32::MAX));
-        self.put_floats(friction, law, slot.site(face), &state.rope.grips);
+        self.put_floats(friction, law, slot.site(face), &state.rope.friction);
         self.put_in_group(law, place);
     }
 
     /// The plugin's floats and the account as the step began; zero where the contact is new or another law held there.
-    fn put_floats(&mut self, friction: &Friction, law: usize, site: u64, grips: &Grips) {
+    fn put_floats(&mut self, friction: &Friction, law: usize, site: u64, grips: &FrictionState) {
         let (width, stride) =
             (friction.laws[law].model.descriptor().state_len, KEPT + friction.state_len());
         let kept = grips
@@ -255,7 +236,7 @@ impl Touching {
         friction: &Friction,
         dt_s: f64,
         slots: &Slots,
-        grips: &mut Grips,
+        grips: &mut FrictionState,
     ) -> Result<(), Failed> {
         let mut ends = std::mem::take(&mut self.floats_at_end);
         ends.clear();
@@ -292,7 +273,7 @@ impl Touching {
         Ok(())
     }
 
-    fn keep(&self, friction: &Friction, slots: &Slots, grips: &mut Grips) {
+    fn keep(&self, friction: &Friction, slots: &Slots, grips: &mut FrictionState) {
         let stride = KEPT + friction.state_len();
         grips.clear();
         for place in &self.in_order {

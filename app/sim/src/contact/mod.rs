@@ -12,9 +12,8 @@ pub(crate) mod placed;
 pub mod ropes;
 pub(crate) mod slots;
 pub mod sweep;
-pub(crate) mod work;
-
-pub use grip::Grips;
+pub(crate) mod touch;
+pub(crate) mod workspace;
 
 use endline_sdk::Region;
 use glam::DVec3;

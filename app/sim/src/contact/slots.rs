@@ -12,6 +12,7 @@ use glam::DVec3;
 use super::crease::{self, Faces};
 use super::law::Press;
 use super::near::{Near, on_triangle};
+use super::touch::Touch;
 use crate::model::Model;
 
 /// Longest piece of rope one slot stands for [m].
@@ -69,17 +70,6 @@ pub(crate) struct Slot {
     nearest_pair: Option<usize>,
     /// What it touches now.
     pub touches: Faces,
-}
-
-/// A slot in touch with skin.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Touch {
-    pub pair: usize,
-    pub barycentric: [f64; 3],
-    pub place: DVec3,
-    pub normal: DVec3,
-    pub distance: f64,
-    pub press: Press,
 }
 
 /// The nearest place on a triangle: distance, place of the pair, barycentric place.

@@ -37,7 +37,6 @@ pub use flukes::TURN_SHARE;
 pub use lines::end_tension;
 pub use mouth::LODGED_S;
 pub use outcome::{LONG_CONTACT_S, LOST_S, RELEASE_S};
-pub(crate) use probes::joint_place;
 pub use probes::{reading, unit};
 pub use summary::{
     BeatSummary, BodySummary, KineticSummary, LineSummary, LinkSummary, Outcome, PatchSummary,

@@ -4,7 +4,7 @@ use super::along;
 use super::energy::energy;
 use super::lines::end_tension;
 use super::summary::ProbeSummary;
-use crate::model::{JointKind, Model, ProbeTarget};
+use crate::model::{Model, ProbeTarget};
 use crate::state::State;
 
 /// What every probe has read.
@@ -93,25 +93,9 @@ pub fn reading(model: &Model, state: &State, target: ProbeTarget) -> f64 {
         ProbeTarget::Height(line, away_m) => along::height(model, state, line, away_m),
         ProbeTarget::Energy(form) => energy(model, state, form),
         ProbeTarget::LineMiddle(line, axis) => coordinate(along::middle(model, state, line), axis),
-        ProbeTarget::Joint(joint, axis) => coordinate(joint_place(model, state, joint), axis),
+        ProbeTarget::Joint(joint, axis) => coordinate(state.joint_place(model, joint), axis),
         ProbeTarget::Body(body, axis) => {
             coordinate(state.bodies.get(body).map(|body| body.position), axis)
         }
     }
-}
-
-/// Place of a joint [m]: of the line end that meets there, or on its body.
-pub(crate) fn joint_place(model: &Model, state: &State, joint: usize) -> Option<glam::DVec3> {
-    let kind = &model.spec.joints.get(joint)?.kind;
-    if let JointKind::Body { body, offset_m } = kind {
-        let body = state.bodies.get(*body)?;
-        return Some(body.position + body.orientation * *offset_m);
-    }
-    let node =
-        model.spec.lines.iter().zip(&model.line_nodes).find_map(|(line, nodes)| match joint {
-            _ if line.from == joint => Some(nodes.start),
-            _ if line.to == joint => Some(nodes.end - 1),
-            _ => None,
-        });
-    node.map(|node| state.rope.position[node])
 }

@@ -2,43 +2,22 @@
 //!
 //! A solid has a shape with a signed distance in closed form (`shape.rs`). Rope touches it at its nodes and, where an
 //! edge or a shape smaller than a segment lies nearer, at up to two points within a segment (`along.rs`). Rope near
-//! solids is gathered once a step by boxes (`broad.rs`); what touches lives in a list of slots (`work.rs`). The forces
+//! solids is gathered once a step by boxes (`broad.rs`); what touches lives in a list of slots (`workspace.rs`). The forces
 //! stand in `solver/solid.rs`.
 
 pub(crate) mod along;
 pub(crate) mod broad;
-pub(crate) mod shape;
-pub(crate) mod work;
+pub mod shape;
+pub(crate) mod workspace;
 
 use glam::{DQuat, DVec3};
 
-use crate::model::{Body, Model, Shape};
+use crate::model::{Body, Model, Obstacle, ROPE_ON_HARD_N_M2, Shape};
 pub use shape::SolidShape;
-pub use work::SolidGrip;
 
-/// Stiffness of rope pressed on something hard, by length of rope [N/m²]: of the order of the transverse modulus of
-/// laid polypropylene, so that a kilonewton over a hand's breadth sinks in by half a millimetre (estimate).
-pub const ROPE_ON_HARD_N_M2: f64 = 2e7;
 /// Friction of rope on a trap, buoy or anchor: wet synthetic rope on steel is 0.1 to 0.3 (Brown 1977, NUC TP-544, as
 /// known second hand; estimate).
 pub const ROPE_ON_BODY_FRICTION: f64 = 0.25;
-
-/// A solid that stands still: part of a scenario.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Obstacle {
-    /// Id, for reports.
-    pub id: String,
-    /// Its shape, in its own frame.
-    pub shape: SolidShape,
-    /// Where its frame's origin lies [m].
-    pub position_m: DVec3,
-    /// Its frame, to world.
-    pub orientation: DQuat,
-    /// Coulomb friction of rope on it.
-    pub friction: f64,
-    /// Stiffness under rope, by length of rope [N/m²].
-    pub stiffness_n_m2: f64,
-}
 
 /// What carries a solid.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -8,12 +8,13 @@
 //! It is exact, whatever the stiffness. It takes a sweep over the lines with touches, three columns at once, for each touch,
 //! and a dense solve of three rows a touch.
 
-use std::ops::{AddAssign, Range, Sub, SubAssign};
+use std::ops::Range;
 
 use glam::{DMat3, DVec3};
 
 use super::Solver;
 use super::chain::Band;
+use super::columns::Columns;
 use super::hubs::{Hubs, Seat};
 use crate::model::Model;
 
@@ -26,26 +27,6 @@ pub(crate) struct Coupled {
     pub fractions: [f64; 2],
     /// `-d force / d move`, of the first point relative to the second [N/m].
     pub block: DMat3,
-}
-
-/// Right-hand sides that a factored system can be solved for again: one column or three.
-pub(crate) trait Columns: Copy + AddAssign + SubAssign + Sub<Output = Self> {
-    const ZERO: Self;
-    fn by(self, matrix: DMat3) -> Self;
-}
-
-impl Columns for DVec3 {
-    const ZERO: Self = Self::ZERO;
-    fn by(self, matrix: DMat3) -> Self {
-        matrix * self
-    }
-}
-
-impl Columns for DMat3 {
-    const ZERO: Self = Self::ZERO;
-    fn by(self, matrix: DMat3) -> Self {
-        matrix * self
-    }
 }
 
 /// Scratch of a solve again: right-hand side and solution at nodes and hubs.

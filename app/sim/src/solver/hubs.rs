@@ -6,7 +6,7 @@
 
 use glam::{DMat3, DVec3};
 
-use super::coupled::Columns;
+use super::columns::Columns;
 
 /// Where a line's end sits.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -8,7 +8,9 @@
 mod axial;
 mod bending;
 mod body;
+mod carry;
 mod chain;
+mod columns;
 mod coupled;
 mod forces;
 mod free;
@@ -33,9 +35,9 @@ mod water;
 
 use glam::{DMat3, DVec3};
 
-use crate::contact::ropes::near::RopeWork;
+use crate::contact::ropes::near::RopeWorkspace;
 use crate::model::Model;
-use crate::solids::work::SolidWork;
+use crate::solids::workspace::SolidWorkspace;
 use crate::state::State;
 use crate::water::WaterAt;
 use crate::water::field::Walk;
@@ -53,8 +55,8 @@ use rope::Pull;
 pub(crate) use scheme::Scheme;
 use solid::Judged;
 pub(crate) use suction::LOOSE_M;
-pub(crate) use tied::Tied;
-pub(crate) use touch::{CONTACT_WANTED_M, TENSION_GAP_N, TENSION_GAP_SHARE, Touched};
+pub(crate) use tied::RopeContactEnd;
+pub(crate) use touch::{CONTACT_WANTED_M, ContactEnd, TENSION_GAP_N, TENSION_GAP_SHARE};
 pub(crate) use trial::BodyTrial;
 use trial::Trial;
 
@@ -89,9 +91,9 @@ pub(crate) struct Solver {
     pub(crate) drift: Vec<DVec3>,
     pub(crate) drift_bodies: Vec<BodyTrial>,
     /// Rope near obstacles and bodies.
-    pub(crate) solid: SolidWork,
+    pub(crate) solid: SolidWorkspace,
     /// Rope near rope.
-    pub(crate) ropes: RopeWork,
+    pub(crate) ropes: RopeWorkspace,
     coupling: Coupling,
     /// Rope and bodies before a move.
     before: Vec<DVec3>,
@@ -110,7 +112,7 @@ struct Rest {
 
 /// What is fine enough for a small rig or short segments, below the usual tolerances.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Fine {
+pub(crate) struct Tolerance {
     /// Move of the last pass [m].
     pub move_m: f64,
     /// Difference between solved and true tension [N].
@@ -157,8 +159,8 @@ impl Solver {
             wave_walk: Walk::default(),
             drift: Vec::new(),
             drift_bodies: Vec::new(),
-            solid: SolidWork::new(model),
-            ropes: RopeWork::new(model),
+            solid: SolidWorkspace::new(model),
+            ropes: RopeWorkspace::new(model),
             coupling: Coupling::default(),
             before: Vec::new(),
             bodies_before: Vec::new(),
@@ -167,8 +169,8 @@ impl Solver {
     }
 
     /// What is fine enough for the gear at hand.
-    pub(crate) fn fine(&self) -> Fine {
-        Fine {
+    pub(crate) fn fine(&self) -> Tolerance {
+        Tolerance {
             move_m: FINE_MOVE_SHARE * self.lengths.shortest,
             gap_n: FINE_GAP_SHARE * self.plan.weight_n,
         }

@@ -13,10 +13,10 @@ use super::ground::Grip;
 use super::rope::outer;
 use super::scheme::Scheme;
 use crate::contact::law::{CRUSHED_SHARE, PINCHED_SHARE, Press};
+use crate::contact::ropes::RopeTouch;
 use crate::contact::ropes::near::{Pair, between};
 use crate::contact::ropes::points::Point;
-use crate::contact::ropes::{RopeOnRope, RopeTouch};
-use crate::model::Model;
+use crate::model::{Model, RopeOnRope};
 use crate::state::State;
 
 /// Speed at which ropes that lay in each other when the run began are pushed apart [m/s].

@@ -9,7 +9,7 @@
 
 use super::Solver;
 use super::scheme::Scheme;
-use crate::contact::work::ContactWork;
+use crate::contact::workspace::ContactWorkspace;
 use crate::model::Model;
 use crate::state::State;
 
@@ -55,7 +55,7 @@ impl Solver {
         model: &Model,
         state: &State,
         scheme: &Scheme,
-        work: &mut ContactWork,
+        work: &mut ContactWorkspace,
         safe: f64,
     ) -> f64 {
         balance(safe, |share| {
@@ -114,11 +114,11 @@ impl Solver {
         model: &Model,
         state: &State,
         scheme: &Scheme,
-        work: &mut ContactWork,
+        work: &mut ContactWorkspace,
         share: f64,
     ) -> f64 {
         let Some(friction) = &model.spec.friction else { return 0.0 };
-        let ContactWork { near, slots, probe, .. } = work;
+        let ContactWorkspace { near, slots, probe, .. } = work;
         let step_of =
             |slot: &crate::contact::slots::Slot| slot.on_rope(|node| self.band.step[node]);
         probe.collect(model, near, slots, state, |slot| {

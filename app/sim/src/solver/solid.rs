@@ -16,9 +16,9 @@ use super::ground::Grip;
 use super::hubs::Seat;
 use super::rope::outer;
 use super::scheme::Scheme;
-use crate::solids::work::{Pair, Slot, least_distance};
-use crate::solids::{Carrier, Pose, Solid, SolidGrip};
-use crate::state::State;
+use crate::solids::workspace::{Pair, Slot, least_distance};
+use crate::solids::{Carrier, Pose, Solid};
+use crate::state::{SolidGrip, State};
 
 /// Difference between foretold and true normal force at which a step has converged [N].
 const PUSH_GAP_N: f64 = 0.02;

@@ -16,7 +16,7 @@ const SAFE_SHARE: f64 = 0.95;
 
 /// How Newton with rope on rope ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Tied {
+pub(crate) enum RopeContactEnd {
     /// The last move was this long after so many passes [m].
     Ended { last_m: f64, passes: usize },
     /// A number was not finite.
@@ -27,18 +27,23 @@ pub(crate) enum Tied {
 
 impl Solver {
     /// Newton passes until the moves are small.
-    pub(crate) fn solve_tied(&mut self, model: &Model, state: &State, scheme: &Scheme) -> Tied {
+    pub(crate) fn solve_tied(
+        &mut self,
+        model: &Model,
+        state: &State,
+        scheme: &Scheme,
+    ) -> RopeContactEnd {
         let (mut last_m, mut passes) = (f64::INFINITY, 0);
         while passes < MOST_PASSES && last_m > enough(passes) {
             passes += 1;
             self.assemble_searchable(model, state, scheme);
             if let Some(segments) = self.crushed_ropes(false) {
-                return Tied::Crushed(segments);
+                return RopeContactEnd::Crushed(segments);
             }
             self.solve_judged(model, state, scheme, None);
             let longest = self.longest();
             if !longest.is_finite() {
-                return Tied::NotFinite;
+                return RopeContactEnd::NotFinite;
             }
             let safe = self.ropes.safe_share(&self.trial.place, |node| {
                 self.trial.place[node] + self.band.step[node]
@@ -58,7 +63,7 @@ impl Solver {
                 last_m = f64::INFINITY;
             }
         }
-        Tied::Ended { last_m, passes }
+        RopeContactEnd::Ended { last_m, passes }
     }
 
     /// Goes from where ropes were as far along their drift as nothing crosses.

@@ -12,7 +12,7 @@ use super::rope::outer;
 use super::scheme::Scheme;
 use crate::contact::grip::Failed;
 use crate::contact::law::CRUSHED_SHARE;
-use crate::contact::work::ContactWork;
+use crate::contact::workspace::ContactWorkspace;
 use crate::contact::{grip, near};
 use crate::model::Model;
 use crate::state::State;
@@ -44,7 +44,7 @@ pub(super) const LEAST_CUT: f64 = 0.1;
 
 /// How Newton with contact ended.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Touched {
+pub(crate) enum ContactEnd {
     /// The last move was this long after so many passes [m].
     Ended { last_m: f64, passes: usize, crossings: u64 },
     /// A number was not finite.
@@ -66,8 +66,8 @@ impl Solver {
         model: &Model,
         state: &State,
         scheme: &Scheme,
-        work: &mut ContactWork,
-    ) -> Touched {
+        work: &mut ContactWorkspace,
+    ) -> ContactEnd {
         let (mut last_m, mut crossings) = (f64::INFINITY, 0);
         work.open_slots(model, &self.lengths.segment, &self.trial.place);
         let (mut passes, mut stalled) = (0, 0);
@@ -79,7 +79,7 @@ impl Solver {
             self.solve_judged(model, state, scheme, Some(work));
             let longest = self.longest();
             if !longest.is_finite() {
-                return Touched::NotFinite;
+                return ContactEnd::NotFinite;
             }
             let moved = |node: usize| self.trial.place[node] + self.band.step[node];
             let safe = work.near.safe_share(&self.trial.place, moved, work.near.fraction);
@@ -92,7 +92,7 @@ impl Solver {
             let (taken, crossed) = self.move_by(model, work, share);
             crossings += crossed;
             if self.strayed(state, scheme) > near::MARGIN_M - work.greatest_reach {
-                return Touched::TooFar;
+                return ContactEnd::TooFar;
             }
             // What a short share leaves is still to go.
             let moved_before_m = last_m;
@@ -105,7 +105,7 @@ impl Solver {
                 last_m = f64::INFINITY;
             }
         }
-        Touched::Ended { last_m, passes, crossings }
+        ContactEnd::Ended { last_m, passes, crossings }
     }
 
     /// Solves, until the segments that pull in the linear system are those that will be taut after the whole step.
@@ -117,7 +117,7 @@ impl Solver {
         model: &Model,
         state: &State,
         scheme: &Scheme,
-        work: Option<&ContactWork>,
+        work: Option<&ContactWorkspace>,
     ) {
         self.solve(model);
         for _ in 0..MOST_JUDGED {
@@ -139,7 +139,7 @@ impl Solver {
     }
 
     /// Opens slots where rope has come nearer to skin or rope than at those it has; whether there were any.
-    fn open_more(&mut self, state: &State, work: &mut ContactWork) -> bool {
+    fn open_more(&mut self, state: &State, work: &mut ContactWorkspace) -> bool {
         work.slots.measure(&work.near, &self.trial.place);
         let on_rope = self.ropes.open_more(state, &self.trial.place);
         work.slots.open_more(&work.near, &self.trial.place) > 0 || on_rope
@@ -151,17 +151,17 @@ impl Solver {
         model: &Model,
         state: &State,
         scheme: &Scheme,
-        work: &mut ContactWork,
-    ) -> Result<(), Touched> {
+        work: &mut ContactWorkspace,
+    ) -> Result<(), ContactEnd> {
         self.assemble_searchable(model, state, scheme);
         work.slots.measure(&work.near, &self.trial.place);
         if let Some((segment, triangle)) = work.nearer_than(CRUSHED_SHARE) {
-            return Err(Touched::Crushed(segment, triangle));
+            return Err(ContactEnd::Crushed(segment, triangle));
         }
         if let Some(segments) = self.crushed_ropes(false) {
-            return Err(Touched::CrushedRopes(segments));
+            return Err(ContactEnd::CrushedRopes(segments));
         }
-        self.add_contacts(model, state, scheme, work).map_err(Touched::Plugin)
+        self.add_contacts(model, state, scheme, work).map_err(ContactEnd::Plugin)
     }
 
     fn add_contacts(
@@ -169,7 +169,7 @@ impl Solver {
         model: &Model,
         state: &State,
         scheme: &Scheme,
-        work: &mut ContactWork,
+        work: &mut ContactWorkspace,
     ) -> Result<(), Failed> {
         let Some(friction) = &model.spec.friction else { return Ok(()) };
         work.touching.collect(model, &work.near, &work.slots, state, |slot| slot.touches);
@@ -179,7 +179,7 @@ impl Solver {
     }
 
     /// Adds push and friction of every slot in touch, with what the plugin answered.
-    fn add_contact_blocks(&mut self, work: &ContactWork) {
+    fn add_contact_blocks(&mut self, work: &ContactWorkspace) {
         for (place, index) in work.touching.slot.iter().enumerate() {
             let slot = &work.slots.list[*index];
             let Some(touch) = &slot.touches[work.touching.face[place]] else { continue };
@@ -254,7 +254,12 @@ impl Solver {
     ///
     /// Line ends on a body follow its turn, which the linear step only approximates, so the move is
     /// checked as it really comes out and made shorter until nothing crosses.
-    fn move_by(&mut self, model: &Model, work: &mut ContactWork, mut share: f64) -> (f64, u64) {
+    fn move_by(
+        &mut self,
+        model: &Model,
+        work: &mut ContactWorkspace,
+        mut share: f64,
+    ) -> (f64, u64) {
         work.before.clone_from(&self.trial.place);
         work.bodies_before.clone_from(&self.trial.bodies);
         for _ in 0..MOST_CUTS {

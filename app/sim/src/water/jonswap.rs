@@ -11,7 +11,8 @@
 
 use core::f64::consts::TAU;
 
-use super::waves::Component;
+use super::component::Component;
+use crate::random::unit;
 
 /// Range of frequencies, over that of the peak.
 const RANGE: (f64, f64) = (0.5, 10.0);
@@ -87,14 +88,6 @@ fn strips(gamma: f64) -> Vec<(f64, f64)> {
         (energy, energy * ratio * ratio)
     };
     (0..STRIPS).map(strip).filter(|strip| strip.0 > 0.0).collect()
-}
-
-/// A number from 0 to 1 that a seed and an index draw (SplitMix64).
-pub(crate) fn unit(seed: u64, index: u64) -> f64 {
-    let mut mixed = seed.wrapping_add((index + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
-    mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    ((mixed ^ (mixed >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@
 //! bed; above the mean surface it is 1. Current and waves are summed; neither changes the other.
 
 pub mod check;
+pub mod component;
 pub mod field;
 pub mod jonswap;
 pub mod law;
@@ -15,7 +16,7 @@ pub mod waves;
 
 use glam::DVec3;
 
-use crate::model::Seabed;
+use crate::model::seabed::Seabed;
 use field::{Field, Walk};
 use law::LawTable;
 use profile::Profile;

@@ -9,6 +9,7 @@ use core::f64::consts::TAU;
 
 use glam::DVec3;
 
+use super::component::Component;
 use super::jonswap::{self, Spectrum};
 
 /// Passes of Newton; five give all digits from Guo's guess.
@@ -46,17 +47,6 @@ pub enum WaveKind {
         /// How many components.
         components: usize,
     },
-}
-
-/// One linear wave.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Component {
-    /// Amplitude: half of the height [m].
-    pub amplitude_m: f64,
-    /// Angular frequency [rad/s].
-    pub frequency_rad_s: f64,
-    /// Phase at the origin at time zero [rad].
-    pub phase_rad: f64,
 }
 
 impl Waves {

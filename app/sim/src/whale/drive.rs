@@ -5,17 +5,16 @@
 //! decide (`kinetic/mod.rs`). Neither enters the seabed, nor leaves the water further than its speed carries it
 //! (`carried_m`; by its weight, `kinetic/out.rs`). Joints turn no further than their ranges (`joints.rs`). A dead whale floats (`kinetic/dead.rs`).
 
-use glam::{DQuat, DVec3};
+use glam::{DAffine3, DQuat, DVec3};
 
-use super::Whale;
 use super::kinetic::dead::drift;
 use super::kinetic::swim::{self, Wish, swim};
 use super::pose::pose;
-use crate::model::Model;
+use crate::model::{Model, Whale};
 use crate::state::WhaleState;
-use crate::step::{Input, Stop};
+use crate::step::input::Input;
+use crate::step::stop::Stop;
 use endline_sdk::{MotionInput, MotionOutput, Posture};
-use glam::DAffine3;
 
 /// Half height of a right whale as a share of its length, kept above the seabed.
 const CLEARANCE: f64 = 0.11;

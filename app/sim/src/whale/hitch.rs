@@ -7,20 +7,10 @@
 use endline_sdk::LineEnd;
 use glam::{DAffine3, DVec3};
 
-use super::{Skin, pose, skin_vertex};
-use crate::model::{JointKind, Model};
+use super::pose::{pose, skin_vertex};
+use super::skin::Skin;
+use crate::model::{Hitch, JointKind, Model};
 use crate::state::State;
-
-/// A place on the skin to make rope fast at.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hitch {
-    /// Index of the triangle.
-    pub triangle: usize,
-    /// Barycentric place on it.
-    pub barycentric: [f64; 3],
-    /// How far off the skin rope's centre line begins [m].
-    pub stand_off_m: f64,
-}
 
 impl Hitch {
     /// Its place under the bones' transforms [m].

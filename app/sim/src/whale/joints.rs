@@ -10,7 +10,7 @@ use endline_sdk::{Posture, SPINE_JOINTS};
 
 use super::Angle;
 use super::pose::{angle_mut, angle_of};
-use crate::water::jonswap::unit;
+use crate::random::unit;
 
 /// Ranges of all joint angles [rad].
 #[derive(Clone, Copy, Debug, PartialEq)]

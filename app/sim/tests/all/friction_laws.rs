@@ -17,8 +17,10 @@ use endline_friction_models::{Baleen, Coulomb, Stribeck};
 use endline_sdk::{
     AttributeKind, Contacts, Descriptor, FrictionModel, FrictionResponse, HookError, Region,
 };
-use endline_sim::model::{Friction, FrictionLaw, Joint, JointKind, Model, ModelSpec, Settings};
-use endline_sim::whale::{Bone, Skin, Whale};
+use endline_sim::model::{
+    Friction, FrictionLaw, Joint, JointKind, Model, ModelSpec, Settings, Whale,
+};
+use endline_sim::whale::{Bone, Skin};
 use endline_sim::{DQuat, DVec3, Input, State, Stop, Workspace, step};
 
 const RADIUS: f64 = 0.3;
@@ -205,9 +207,9 @@ fn replays_to_the_bit(model: &Model) {
         state
     };
     let (one, other) = (run(usize::MAX), run(7));
-    assert!(!one.rope.grips.sites.is_empty() && one.rope.grips.sites.is_sorted());
+    assert!(!one.rope.friction.sites.is_empty() && one.rope.friction.sites.is_sorted());
     let bits =
-        |state: &State| state.rope.grips.floats.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+        |state: &State| state.rope.friction.floats.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
     assert_eq!(
         (bits(&one), one.rope.position.clone()),
         (bits(&other), other.rope.position.clone())

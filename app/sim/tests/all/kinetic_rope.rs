@@ -6,9 +6,9 @@ use crate::common::{fixed, line, on_body, weight};
 use crate::whale;
 use crate::whale::{Steady, bursts, kinetic, spec, swims};
 use endline_sdk::Controls;
-use endline_sim::model::{Body, Joint, JointKind, ModelSpec};
+use endline_sim::model::{Body, Hitch, Joint, JointKind, ModelSpec, Whale};
+use endline_sim::whale::Kinetic;
 use endline_sim::whale::kinetic::Effort;
-use endline_sim::whale::{Hitch, Kinetic, Whale};
 use endline_sim::{DVec3, Input, Model, State, Workspace, step};
 
 /// Eg 2212: 12.35 m; mass by length, diameter by photogrammetry.

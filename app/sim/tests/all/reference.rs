@@ -3,7 +3,7 @@
 
 use crate::common::{fixed, line, model, on_body, water, weight};
 use endline_sim::model::{Float, Joint, JointKind, Settings};
-use endline_sim::pace::LimitedBy;
+use endline_sim::state::LimitedBy;
 use endline_sim::{DVec3, Input, Model, State, Workspace, settle, step};
 
 /// (t, end x, end z, middle x, middle z, tension at the pin) of the pendulum with axial waves, by RK4 with

@@ -8,10 +8,10 @@ use endline_friction_models::Coulomb;
 use endline_sdk::{
     Controls, Descriptor, FrictionModel, HookError, MotionInput, MotionOutput, Region, WhaleMotion,
 };
-use endline_sim::model::{Friction, ModelSpec};
+use endline_sim::model::{Friction, ModelSpec, PilotProgram, Whale};
 use endline_sim::whale::kinetic::added::spheroid;
 use endline_sim::whale::kinetic::{AxialDrag, Effort, Hull, Muscle};
-use endline_sim::whale::{Bone, JointRanges, Kinetic, Measures, PilotProgram, Skin, Whale};
+use endline_sim::whale::{Bone, JointRanges, Kinetic, Measures, Skin};
 use endline_sim::{DQuat, DVec3};
 
 /// A motion that asks for the same speed and turn rates all along, and for nothing while no speed is wanted.

@@ -1,6 +1,6 @@
 //! From a model and a frame to the parts of a scene.
 
-use endline_sim::whale::Whale;
+use endline_sim::model::Whale;
 use endline_sim::{DAffine3, Frame, Model};
 use glam::{DVec3, Vec3};
 

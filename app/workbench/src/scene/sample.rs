@@ -8,11 +8,11 @@ use endline_sdk::{
 };
 use endline_sim::contact::ContactPoint;
 use endline_sim::model::{
-    Body, BodyRole, Float, Friction, Joint, JointKind, Line, ModelSpec, Rope, Seabed, Settings,
-    Shape, Strength,
+    Body, BodyRole, Float, Friction, Joint, JointKind, Line, ModelSpec, PilotProgram, Rope, Seabed,
+    Settings, Shape, Strength, Whale,
 };
 use endline_sim::water::{Current, Water};
-use endline_sim::whale::{Bone, JointRanges, Measures, PilotProgram, Skin, Whale};
+use endline_sim::whale::{Bone, JointRanges, Measures, Skin};
 use endline_sim::{DQuat, DVec3, Frame, Model, State};
 
 /// Depth of the sample's water [m].

@@ -5,8 +5,9 @@ use std::sync::Arc;
 use endline_sdk::{BodyPart, Region};
 use endline_sim::contact::distance::segment_triangle;
 use endline_sim::contact::sweep::SweptSegment;
+use endline_sim::model::Whale;
 use endline_sim::whale::axes::{PosedAxis, axes_of};
-use endline_sim::whale::{Candidate, Skin, SkinTree, Surface, Whale, pose, skin_all};
+use endline_sim::whale::{Candidate, Skin, SkinTree, Surface, pose, skin_all};
 use endline_sim::{DAffine3, DVec3};
 
 use crate::scenario::on_trunk;

@@ -18,8 +18,8 @@ pub mod tally;
 
 use dice::Dice;
 use endline_gear::whale::{WhaleForm, build_skin};
-use endline_sim::model::Settings;
-use endline_sim::whale::{Skin, Whale};
+use endline_sim::model::{Settings, Whale};
+use endline_sim::whale::Skin;
 use endline_sim::{DQuat, DVec3, ModelSpec};
 use piece::{Strike, is_edge, piece, reach, strike};
 

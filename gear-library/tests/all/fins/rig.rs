@@ -6,9 +6,11 @@ use endline_friction_models::Coulomb;
 use endline_sdk::{
     Descriptor, FrictionModel, HookError, MotionInput, MotionOutput, Region, WhaleMotion,
 };
-use endline_sim::model::{Friction, Joint, JointKind, Line, Rope, Settings, Strength};
+use endline_sim::model::{
+    Friction, Joint, JointKind, Line, PilotProgram, Rope, Settings, Strength, Whale,
+};
 use endline_sim::water::{Current, Water};
-use endline_sim::whale::{JointRanges, Measures, PilotProgram, Skin, Whale};
+use endline_sim::whale::{JointRanges, Measures, Skin};
 use endline_sim::{DQuat, DVec3, ModelSpec};
 
 const EA_N: f64 = 1e5;

@@ -15,40 +15,6 @@ pub(crate) mod sweep;
 
 use glam::DVec3;
 
-use crate::solids::ROPE_ON_HARD_N_M2;
-
-/// Friction of wet synthetic rope on itself: 0.1 to 0.2, the order of wet yarn on yarn of nylon and polyester with a marine finish
-/// (Flory, Hearle and Goksoy 1990, as known second hand; estimate).
-pub const ROPE_ON_ROPE_FRICTION: f64 = 0.15;
-
-/// Friction of rope on rope and how hard ropes are under each other.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RopeOnRope {
-    /// Coulomb friction.
-    pub friction: f64,
-    /// Stiffness, by length over which two ropes bear on each other [N/m²].
-    pub stiffness_n_m2: f64,
-}
-
-impl Default for RopeOnRope {
-    fn default() -> Self {
-        Self { friction: ROPE_ON_ROPE_FRICTION, stiffness_n_m2: ROPE_ON_HARD_N_M2 }
-    }
-}
-
-/// A point at which two ropes touch, as it lasts from step to step.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RopeGrip {
-    /// The two lines.
-    pub lines: [usize; 2],
-    /// Unstretched length along each [m].
-    pub along_m: [f64; 2],
-    /// Tangential stretch of the grip [m].
-    pub stretch: DVec3,
-    /// Depth that is forgiven: ropes that lay in each other when the run began are pushed apart slowly [m].
-    pub forgiven_m: f64,
-}
-
 /// A place where two ropes press on each other, at the end of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RopeTouch {

@@ -5,11 +5,10 @@ use glam::DVec3;
 use super::broad::{Broad, Moves};
 use super::points::{Point, points_of};
 use super::sweep::{greatest_approach, nearest, safe_fraction};
-use super::{RopeGrip, RopeOnRope};
 use crate::contact::crossing::first_crossing;
 use crate::contact::sweep::SweptSegment;
-use crate::model::Model;
-use crate::state::State;
+use crate::model::{Model, RopeOnRope};
+use crate::state::{RopeGrip, State};
 
 /// Ropes that come this near in a step, beyond touching, are gathered [m].
 const MARGIN_M: f64 = 0.03;
@@ -59,7 +58,7 @@ pub(crate) struct Pair {
 
 /// Scratch of rope against rope for one model; it keeps nothing that a step depends on.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct RopeWork {
+pub(crate) struct RopeWorkspace {
     /// `None` where ropes pass through each other.
     pub law: Option<RopeOnRope>,
     pub pairs: Vec<Pair>,
@@ -82,7 +81,7 @@ pub(crate) struct RopeWork {
     passes: usize,
 }
 
-impl RopeWork {
+impl RopeWorkspace {
     /// Storage for a model.
     pub fn new(model: &Model) -> Self {
         let Some(law) = model.spec.settings.rope_on_rope else { return Self::default() };

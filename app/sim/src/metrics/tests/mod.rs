@@ -18,12 +18,12 @@ use glam::{DQuat, DVec3};
 use super::Metrics;
 use crate::contact::ContactPoint;
 use crate::model::{
-    Body, BodyRole, Float, Friction, Joint, JointKind, Line, Link, Model, ModelSpec, Probe,
-    ProbeTarget, Rope, Seabed, Settings, Shape,
+    Body, BodyRole, Float, Friction, Joint, JointKind, Line, Link, Model, ModelSpec, PilotProgram,
+    Probe, ProbeTarget, Rope, Seabed, Settings, Shape, Whale,
 };
 use crate::state::State;
 use crate::water::{Current, Water};
-use crate::whale::{Bone, JointRanges, Measures, PilotProgram, Skin, Whale};
+use crate::whale::{Bone, JointRanges, Measures, Skin};
 
 /// Half widths of the fixture's peduncle and flipper, and the flipper's root and tip.
 const PEDUNCLE_R: f64 = 0.3;

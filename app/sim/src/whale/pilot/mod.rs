@@ -15,111 +15,15 @@
 
 mod sense;
 
-use std::ops::Range;
+use endline_sdk::Controls;
 
-use endline_sdk::{BodyPart, Controls};
-
-use crate::in_place::clone_in_place;
-use crate::model::Model;
-use crate::state::State;
+use crate::model::{Model, PilotEntry, PilotProgram, Trigger};
+use crate::state::{Begun, PilotMemory, Seen, State};
 
 /// A time counts as reached this much before it [s]: `0.3 s` is the step at 0.29999999999999999.
 const GRACE_S: f64 = 1e-7;
 
-/// Controls where no pilot flies.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct PilotProgram {
-    /// Its entries.
-    pub entries: Vec<PilotEntry>,
-}
-
-/// Controls that hold from a beginning on.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PilotEntry {
-    /// What begins it; once.
-    pub trigger: Trigger,
-    /// Time from there to its beginning [s].
-    pub delay_s: f64,
-    /// How long it holds its controls; infinite for ever [s].
-    pub hold_s: f64,
-    /// Time over which controls come to their values, and leave them after the hold [s].
-    pub ramp_s: f64,
-    /// The controls it names, in the order of [`Controls::NAMES`].
-    pub controls: [Option<f64>; Controls::COUNT],
-}
-
-/// What begins an entry.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Trigger {
-    /// A simulated time [s].
-    Time(f64),
-    /// Rope first presses on a body part, or on any.
-    Touch(Option<BodyPart>),
-    /// The whale's axis, the straight line from snout to fluke notch, first comes this near [m].
-    Within(f64, Target),
-    /// Mid-body passes this depth, either way [m].
-    Depth(f64),
-    /// The compass bearing of the whale's x axis passes this one, either way [rad].
-    Heading(f64),
-    /// The entry of this index, above it, begins.
-    After(usize),
-}
-
-/// What a whale may come near.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Target {
-    /// Any line.
-    AnyLine,
-    /// These lines: the pieces of one.
-    Lines(Range<usize>),
-    /// A body's origin.
-    Body(usize),
-    /// A joint.
-    Joint(usize),
-}
-
-/// What a pilot program has seen so far, and which of its entries have begun.
-#[derive(Debug, Default, PartialEq)]
-pub struct PilotMemory {
-    /// What each entry's trigger has seen.
-    pub seen: Vec<Seen>,
-    /// Entries begun, in the order in which they began.
-    pub begun: Vec<Begun>,
-}
-
-clone_in_place!(PilotMemory { seen, begun });
-
-/// What the trigger of an entry has seen.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Seen {
-    /// When it was met [s].
-    pub met_s: Option<f64>,
-    /// How far depth or heading was from its own when last looked at [m or rad].
-    pub last: Option<f64>,
-    /// Whether the entry has begun.
-    pub begun: bool,
-}
-
-/// An entry that has begun.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Begun {
-    /// Which.
-    pub entry: usize,
-    /// When [s].
-    pub at_s: f64,
-}
-
 impl PilotProgram {
-    /// Whether its numbers are finite, where a hold may be without end, and entries follow others above them only.
-    pub(crate) fn is_sound(&self) -> bool {
-        self.entries.iter().enumerate().all(|(index, entry)| {
-            let amounts = entry.controls.iter().flatten().chain([&entry.delay_s, &entry.ramp_s]);
-            let follows =
-                if let Trigger::After(other) = entry.trigger { other < index } else { true };
-            follows && entry.hold_s > 0.0 && amounts.copied().all(f64::is_finite)
-        })
-    }
-
     /// The controls for the step that begins with a state.
     #[must_use]
     pub fn at(&self, state: &State) -> Controls {

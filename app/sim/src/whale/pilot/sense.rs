@@ -4,11 +4,9 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::DVec3;
 
-use super::{Seen, Target, Trigger};
 use crate::contact::distance::segment_segment;
-use crate::metrics::joint_place;
-use crate::model::Model;
-use crate::state::{State, WhaleState};
+use crate::model::{Model, Target, Trigger};
+use crate::state::{Seen, State, WhaleState};
 
 /// What a trigger has seen once it has looked at this state too.
 pub(super) fn look(model: &Model, state: &State, trigger: &Trigger, before: Seen) -> Seen {
@@ -88,7 +86,7 @@ fn is_within(
         Target::Lines(lines) => lines.clone().any(line),
         Target::Body(body) => state.bodies.get(*body).is_some_and(|body| near([body.position; 2])),
         Target::Joint(joint) => {
-            joint_place(model, state, *joint).is_some_and(|place| near([place; 2]))
+            state.joint_place(model, *joint).is_some_and(|place| near([place; 2]))
         }
     }
 }

@@ -14,9 +14,10 @@ use endline_sdk::{
     Descriptor, FrictionModel, HookError, MotionInput, MotionOutput, Region, WhaleMotion,
 };
 use endline_sim::model::{
-    Friction, Joint, JointKind, Line, Model, ModelSpec, Resolution, Settings, Strength,
+    Friction, Joint, JointKind, Line, Model, ModelSpec, PilotProgram, Resolution, Settings,
+    Strength, Whale,
 };
-use endline_sim::whale::{Bone, JointRanges, Measures, PilotProgram, Skin, Whale};
+use endline_sim::whale::{Bone, JointRanges, Measures, Skin};
 use endline_sim::{Audit, DQuat, DVec3, Input, State, Workspace, step};
 
 /// A motion that stays where it is.

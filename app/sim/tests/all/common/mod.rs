@@ -4,8 +4,9 @@
 
 pub mod drum;
 
-use endline_sim::model::{Body, BodyRole, Joint, JointKind, Line, Rope, Settings, Shape, Strength};
-use endline_sim::solids::Obstacle;
+use endline_sim::model::{
+    Body, BodyRole, Joint, JointKind, Line, Obstacle, Rope, Settings, Shape, Strength,
+};
 use endline_sim::water::{Current, Water};
 use endline_sim::{DQuat, DVec3, Model, ModelSpec};
 

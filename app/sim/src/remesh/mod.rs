@@ -2,7 +2,7 @@
 //!
 //! Every segment has a length it should have, by its distance from skin and from the thin edges of fins (`wanted`).
 //! Where one is longer than that, it is split at its middle, and a pair of neighbours elsewhere in the same line that
-//! loses less by it is merged (`judge`), so that the number of nodes, and with it the model's layout, stays (`swap`).
+//! loses less by it is merged (`criteria.rs`), so that the number of nodes, and with it the model's layout, stays (`split_merge.rs`).
 //! Kept to rounding: unstretched length, mass, momentum of the rope's own mass. A split changes no elastic tension (damping
 //! named as a ratio goes with the length), a merge no tension by more than 0.2 N or 0.5 %. Neighbours differ by a factor of
 //! two at most. End segments (which carry links and knots), cut ones and those that touch skin stay as they are, and nothing
@@ -11,15 +11,15 @@
 //! It happens at the start of a step, from the state alone, at every [`EVERY_S`] of simulated time.
 //! Sizes wanted: docs/physics.md, Resolution.
 
-mod judge;
-mod swap;
+mod criteria;
+mod split_merge;
 mod wanted;
 
-use crate::contact::ropes::near::RopeWork;
+use crate::contact::ropes::near::RopeWorkspace;
 use crate::model::{Model, Resolution};
 use crate::state::State;
 use crate::whale::approach::Approach;
-use judge::{Line, best};
+use criteria::{Line, best};
 use wanted::measure;
 
 #[cfg(test)]
@@ -32,17 +32,17 @@ const MOST_SPLITS: usize = 64;
 
 /// Scratch; it keeps nothing that a step depends on.
 #[derive(Clone, Debug)]
-pub(crate) struct RegridWork {
+pub(crate) struct RemeshWorkspace {
     approach: Approach,
     bones: Vec<glam::DAffine3>,
     /// Length each segment should have [m].
     wanted: Vec<f64>,
     /// Whether each segment touches skin, or is near rope that it may touch.
     gripped: Vec<bool>,
-    ropes: RopeWork,
+    ropes: RopeWorkspace,
 }
 
-impl RegridWork {
+impl RemeshWorkspace {
     /// Scratch for a model whose resolution follows its whale.
     pub fn new(model: &Model) -> Option<Self> {
         model.spec.settings.resolution?;
@@ -52,19 +52,19 @@ impl RegridWork {
             approach: Approach::new(tree),
             wanted: vec![0.0; model.segment_count],
             gripped: vec![false; model.segment_count],
-            ropes: RopeWork::new(model),
+            ropes: RopeWorkspace::new(model),
         })
     }
 }
 
 /// Moves resolution to where it is wanted, where it is time to look; how many segments were split.
-pub(crate) fn regrid(model: &Model, state: &mut State, work: &mut Option<RegridWork>) -> u64 {
+pub(crate) fn remesh(model: &Model, state: &mut State, work: &mut Option<RemeshWorkspace>) -> u64 {
     let (Some(work), Some(resolution)) = (work, &model.spec.settings.resolution) else { return 0 };
     if !is_time(model, state) {
         return 0;
     }
     measure(model, state, resolution, work);
-    (0..model.spec.lines.len()).map(|line| regrid_line(model, state, line, work, resolution)).sum()
+    (0..model.spec.lines.len()).map(|line| remesh_line(model, state, line, work, resolution)).sum()
 }
 
 /// Whether lengths are looked at before this step.
@@ -73,17 +73,17 @@ fn is_time(model: &Model, state: &State) -> bool {
     state.step.is_multiple_of(steps)
 }
 
-fn regrid_line(
+fn remesh_line(
     model: &Model,
     state: &mut State,
     line: usize,
-    work: &mut RegridWork,
+    work: &mut RemeshWorkspace,
     resolution: &Resolution,
 ) -> u64 {
     for splits in 0..MOST_SPLITS {
         let view = Line::of(model, state, line, &work.wanted, &work.gripped, resolution);
         let Some((split, merge)) = best(&view) else { return splits as u64 };
-        swap::swap(model, state, line, split, merge, work);
+        split_merge::split_and_merge(model, state, line, split, merge, work);
     }
     MOST_SPLITS as u64
 }

@@ -14,7 +14,7 @@ use crate::whale::Skin;
 
 /// Scratch of contact for one model with a whale; it keeps nothing that a step depends on.
 #[derive(Clone, Debug)]
-pub(crate) struct ContactWork {
+pub(crate) struct ContactWorkspace {
     pub near: Near,
     pub slots: Slots,
     pub touching: Touching,
@@ -32,7 +32,7 @@ pub(crate) struct ContactWork {
     pub greatest_reach: f64,
 }
 
-impl ContactWork {
+impl ContactWorkspace {
     /// Scratch for a model, where it has a whale.
     pub fn new(model: &Model) -> Option<Self> {
         let tree = model.skin_tree.clone()?;
@@ -106,7 +106,7 @@ impl ContactWork {
                 dt_s,
             });
         }
-        self.touching.advance(friction, dt_s, &self.slots, &mut state.rope.grips)
+        self.touching.advance(friction, dt_s, &self.slots, &mut state.rope.friction)
     }
 }
 

@@ -3,23 +3,22 @@
 //! Newton with every move cut where ropes would cross (`solver/tied.rs`). Where rope came near rope that its drift would not
 //! have brought it near to, the step is done again with that looked at too.
 
-use crate::model::Model;
-use crate::solver::{CONTACT_WANTED_M, Scheme, Solver, Tied};
-use crate::state::State;
-use crate::step::Audit;
-use crate::substep::{CONTACT_CONVERGED_M, Refused};
+use super::audit::Audit;
+use super::context::StepContext;
+use super::convergence::CONTACT_CONVERGED_M;
+use super::rejection::Rejection;
+use crate::solver::{CONTACT_WANTED_M, RopeContactEnd, Solver};
 
 /// Most times a step is done again with more rope looked at.
 const MOST_GATHERED: usize = 4;
 
 /// A solver step that the solver has just begun.
-pub(crate) fn rope_step(
-    model: &Model,
-    state: &State,
+pub(super) fn rope_step(
+    context: &StepContext<'_>,
     solver: &mut Solver,
-    scheme: &Scheme,
     audit: &mut Audit,
-) -> Result<(), Refused> {
+) -> Result<(), Rejection> {
+    let StepContext { model, state, scheme } = *context;
     for again in 0..MOST_GATHERED {
         if again > 0 {
             solver.begin(model, state, scheme);
@@ -28,39 +27,38 @@ pub(crate) fn rope_step(
         solver.ropes.begin();
         solver.drift_tied();
         solver.open_ropes(state);
-        balance(model, state, solver, scheme, audit)?;
+        balance(context, solver, audit)?;
         let on_solids = solver.strayed_to_solids(state, scheme.dt);
         if !solver.met_more_ropes(model, state) && !on_solids {
             audit.rope_steps += 1;
             return solver
                 .went_through(state)
-                .map_or(Ok(()), |(segment, solid)| Err(Refused::WentThrough(segment, solid)));
+                .map_or(Ok(()), |(segment, solid)| Err(Rejection::WentThrough(segment, solid)));
         }
     }
-    Err(Refused::NotConverged)
+    Err(Rejection::NotConverged)
 }
 
 /// Newton to the balance of forces.
 fn balance(
-    model: &Model,
-    state: &State,
+    context: &StepContext<'_>,
     solver: &mut Solver,
-    scheme: &Scheme,
     audit: &mut Audit,
-) -> Result<(), Refused> {
+) -> Result<(), Rejection> {
+    let StepContext { model, state, scheme } = *context;
     match solver.solve_tied(model, state, scheme) {
-        Tied::Ended { last_m, passes } => {
+        RopeContactEnd::Ended { last_m, passes } => {
             audit.passes += passes as u64;
             if last_m > CONTACT_CONVERGED_M {
-                return Err(Refused::NotConverged);
+                return Err(Rejection::NotConverged);
             }
             audit.unconverged += u64::from(last_m > CONTACT_WANTED_M);
         }
-        Tied::NotFinite => {
+        RopeContactEnd::NotFinite => {
             audit.non_finite += 1;
-            return Err(Refused::NotFinite);
+            return Err(Rejection::NotFinite);
         }
-        Tied::Crushed(segments) => return Err(Refused::RopesPinched(segments)),
+        RopeContactEnd::Crushed(segments) => return Err(Rejection::RopesPinched(segments)),
     }
-    solver.crushed_ropes(true).map_or(Ok(()), |segments| Err(Refused::RopesPinched(segments)))
+    solver.crushed_ropes(true).map_or(Ok(()), |segments| Err(Rejection::RopesPinched(segments)))
 }

@@ -4,7 +4,7 @@
 //! [`GRADE`] for each metre of distance, up to the far length.
 //! With a grade of at most one, neighbours that have the wanted length differ by a factor of two at most.
 
-use super::RegridWork;
+use super::RemeshWorkspace;
 use crate::model::{Model, Resolution};
 use crate::state::State;
 use crate::whale::{Bounds, pose};
@@ -34,10 +34,10 @@ pub(super) fn measure(
     model: &Model,
     state: &State,
     resolution: &Resolution,
-    work: &mut RegridWork,
+    work: &mut RemeshWorkspace,
 ) {
     work.gripped.fill(false);
-    for site in &state.rope.grips.sites {
+    for site in &state.rope.friction.sites {
         work.gripped[crate::contact::slots::segment_of(*site)] = true;
     }
     // A merge moves rope, and rope near it would be crossed.

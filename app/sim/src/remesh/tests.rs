@@ -1,4 +1,4 @@
-//! What a regrid keeps, and what it gives.
+//! What remeshing keeps, and what it gives.
 
 use glam::DVec3;
 
@@ -41,8 +41,8 @@ fn drawn(model: &Model) -> State {
 
 /// Runs until nothing moves; splits in all.
 fn rest(model: &Model, state: &mut State) -> u64 {
-    let mut work = RegridWork::new(model);
-    (0..20).map(|_| regrid(model, state, &mut work)).sum()
+    let mut work = RemeshWorkspace::new(model);
+    (0..20).map(|_| remesh(model, state, &mut work)).sum()
 }
 
 /// Sum over nodes of hanging length times a vector.
@@ -123,8 +123,8 @@ fn segments_at_ends_cut_and_in_touch_stay_and_keep_what_is_theirs() {
     let mut state = drawn(&model);
     state.rope.cut[150] = true;
     // In touch: a segment beside the whale, and its neighbour.
-    state.rope.grips.sites = vec![(99 << 20) | 24, 100 << 20];
-    state.rope.grips.floats = vec![1.0, 2.0];
+    state.rope.friction.sites = vec![(99 << 20) | 24, 100 << 20];
+    state.rope.friction.floats = vec![1.0, 2.0];
     let place_of = |state: &State, segment: usize| {
         (state.rope.position[segment], state.arc(&model, segment, 0.0))
     };
@@ -135,7 +135,7 @@ fn segments_at_ends_cut_and_in_touch_stay_and_keep_what_is_theirs() {
     assert!([lengths[0], lengths[199]].iter().all(|length| (length - 0.2).abs() < 1e-15));
     let now = state
         .rope
-        .grips
+        .friction
         .sites
         .clone()
         .into_iter()
@@ -193,7 +193,7 @@ fn towed(seed: &mut u64) -> (Model, State) {
 #[test]
 fn taut_rope_under_way_keeps_its_tension_through_random_splits_and_joins() {
     let resolution = Resolution::default();
-    let mut work = RegridWork::new(&beside()).unwrap();
+    let mut work = RemeshWorkspace::new(&beside()).unwrap();
     let mut seed = 7;
     let (mut swaps, mut at_once, mut after) = (0, 0.0_f64, 0.0_f64);
     for _ in 0..12 {
@@ -203,7 +203,7 @@ fn taut_rope_under_way_keeps_its_tension_through_random_splits_and_joins() {
             let view = Line::of(&model, &state, 0, &work.wanted, &work.gripped, &resolution);
             let Some((split, merge)) = best(&view) else { continue };
             let mut other = state.clone();
-            swap::swap(&model, &mut state, 0, split, merge, &mut work);
+            split_merge::split_and_merge(&model, &mut state, 0, split, merge, &mut work);
             swaps += 1;
             let greatest = other.rope.tension.iter().copied().fold(0.0, f64::max);
             let jump = |state: &State, other: &State| {

@@ -10,19 +10,19 @@
 
 use glam::DVec3;
 
-use super::RegridWork;
+use super::RemeshWorkspace;
 use crate::contact::slots::shift_site;
 use crate::model::Model;
 use crate::state::{RopeState, State};
 
 /// Splits segment `split` and merges `merge` with the one after it; both lie in `line`, apart from one another.
-pub(super) fn swap(
+pub(super) fn split_and_merge(
     model: &Model,
     state: &mut State,
     line: usize,
     split: usize,
     merge: usize,
-    work: &mut RegridWork,
+    work: &mut RemeshWorkspace,
 ) {
     let shift = model.line_nodes[line].start - model.line_segments[line].start;
     merge_nodes(&mut state.rope, merge, shift);
@@ -105,11 +105,11 @@ fn move_left(
     merge: usize,
     split: usize,
     shift: usize,
-    work: &mut RegridWork,
+    work: &mut RemeshWorkspace,
 ) {
     for_segments(rope, work, |values| values.rotate(merge + 1..split + 1, false));
     for_nodes(rope, |values| values[merge + 1 + shift..=split + shift].rotate_left(1));
-    for site in &mut rope.grips.sites {
+    for site in &mut rope.friction.sites {
         *site = shift_site(*site, merge + 2..split, -1);
     }
 }
@@ -120,17 +120,17 @@ fn move_right(
     merge: usize,
     split: usize,
     shift: usize,
-    work: &mut RegridWork,
+    work: &mut RemeshWorkspace,
 ) {
     for_segments(rope, work, |values| values.rotate(split + 1..merge + 2, true));
     for_nodes(rope, |values| values[split + 1 + shift..=merge + 1 + shift].rotate_right(1));
-    for site in &mut rope.grips.sites {
+    for site in &mut rope.friction.sites {
         *site = shift_site(*site, split + 1..merge, 1);
     }
 }
 
 /// Makes the two halves of `segment`: in its place and the next, with the node between them.
-fn halve(rope: &mut RopeState, segment: usize, shift: usize, work: &mut RegridWork) {
+fn halve(rope: &mut RopeState, segment: usize, shift: usize, work: &mut RemeshWorkspace) {
     rope.segment_length[segment] *= 0.5;
     for_segments(rope, work, |values| values.copy(segment, segment + 1));
     let node = segment + shift + 1;
@@ -162,7 +162,7 @@ impl Values<'_> {
 }
 
 /// Does the same to all that is kept for each segment.
-fn for_segments(rope: &mut RopeState, work: &mut RegridWork, act: impl Fn(Values<'_>)) {
+fn for_segments(rope: &mut RopeState, work: &mut RemeshWorkspace, act: impl Fn(Values<'_>)) {
     // No `..`: a new field of the state must find its place here or below before this compiles.
     let RopeState {
         segment_length,
@@ -174,7 +174,7 @@ fn for_segments(rope: &mut RopeState, work: &mut RegridWork, act: impl Fn(Values
         earlier_velocity: _,
         earlier_dt_s: _,
         seabed_grip: _,
-        grips: _,
+        friction: _,
         // They lie by length along the line, which stays.
         solid_grips: _,
         rope_grips: _,

@@ -12,7 +12,7 @@ use super::along::{least, nearest_stretch};
 use super::broad::Boxes;
 use super::{Carrier, Pose, Solid, of_model};
 use crate::model::{JointKind, Model};
-use crate::state::State;
+use crate::state::{SolidGrip, State};
 
 /// How far beyond its radius rope is gathered [m].
 pub(crate) const MARGIN_M: f64 = 0.05;
@@ -35,23 +35,6 @@ const FOLLOWED_M: f64 = 0.05;
 const BODY_SHARE: f64 = 0.3;
 /// Passes in which slots within segments follow the nearest point.
 const FOLLOWING_PASSES: usize = 4;
-
-/// A grip of rope on a solid that lasts from step to step.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SolidGrip {
-    /// Solid: obstacles first, then bodies.
-    pub solid: usize,
-    /// Line.
-    pub line: usize,
-    /// Unstretched length along the line [m].
-    pub along_m: f64,
-    /// Whether it is at a node.
-    pub at_node: bool,
-    /// Tangential stretch, in the solid's frame [m].
-    pub stretch: DVec3,
-    /// Normal force at the end of the last step [N].
-    pub push_n: f64,
-}
 
 /// A point of rope that may touch a solid.
 #[derive(Clone, Copy, Debug, Default)]
@@ -115,7 +98,7 @@ struct Spared {
 
 /// Rope near solids in one step.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct SolidWork {
+pub(crate) struct SolidWorkspace {
     pub solids: Vec<Solid>,
     pub pairs: Vec<Pair>,
     pub nodes: Vec<Slot>,
@@ -150,7 +133,7 @@ fn poses_of(solid: &Solid, state: &State, dt: f64) -> [Pose; 2] {
     }
 }
 
-impl SolidWork {
+impl SolidWorkspace {
     /// Storage for a model.
     pub fn new(model: &Model) -> Self {
         let solids = of_model(model);

@@ -8,9 +8,8 @@
 //! With rope near the whale the contact step holds instead: friction makes tension jump at any step.
 //! Reference: Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, section II.4.
 
-use crate::in_place::clone_in_place;
 use crate::model::Model;
-use crate::state::State;
+use crate::state::{BodyState, LimitedBy, State};
 
 /// Error of place wanted in a step [m].
 pub const PLACE_M: f64 = 5e-4;
@@ -30,90 +29,6 @@ const GREATEST_FACTOR: f64 = 1.8;
 /// Times the wanted error at which a step is taken back.
 const MISSED: f64 = 3.0;
 
-/// What kept a solver step from being longer.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum LimitedBy {
-    /// Nothing but the rhythm of inputs.
-    #[default]
-    Inputs,
-    /// Error of place.
-    Accuracy,
-    /// Error of tension: it rises or falls fast.
-    Snap,
-    /// Rope near the whale.
-    Contact,
-    /// Something about to part, or just parted.
-    Parting,
-    /// A balance of forces was found at a shorter step only.
-    Convergence,
-}
-
-impl LimitedBy {
-    /// Every limit, in the order of its number.
-    pub const ALL: [Self; 6] =
-        [Self::Inputs, Self::Accuracy, Self::Snap, Self::Contact, Self::Parting, Self::Convergence];
-
-    /// Its name, as key of the summary.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        ["inputs", "accuracy", "snap", "contact", "parting", "convergence"][self as usize]
-    }
-
-    /// What limited most of the steps counted, and how many of them.
-    #[must_use]
-    pub fn mostly(counts: &[u64; Self::ALL.len()]) -> (Self, u64) {
-        Self::ALL
-            .into_iter()
-            .zip(*counts)
-            .fold((Self::Inputs, 0), |most, next| if next.1 > most.1 { next } else { most })
-    }
-
-    /// The same in plain words.
-    #[must_use]
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::Inputs => "nothing but the step between inputs",
-            Self::Accuracy => "how fast rope and bodies swerve",
-            Self::Snap => "tension that rises or falls fast",
-            Self::Contact => "rope near the whale",
-            Self::Parting => "rope or links that part",
-            Self::Convergence => "forces that balance only in a shorter step",
-        }
-    }
-}
-
-/// Where the choice of steps stands; part of the state, so that a run replays.
-#[derive(Debug, Default, PartialEq)]
-pub struct Pace {
-    /// Length of the next solver step, if nothing else limits it [s]; zero where none is chosen yet.
-    pub step_s: f64,
-    /// What limits it.
-    pub limit: LimitedBy,
-    /// Greatest tension of each line after the last two solver steps, the later one first [N].
-    pub tension_n: Vec<[f64; 2]>,
-    /// How many of the two are known.
-    pub known: u32,
-}
-
-clone_in_place!(Pace { step_s, limit, tension_n, known });
-
-impl Pace {
-    /// Nothing chosen yet.
-    pub(crate) fn new(model: &Model) -> Self {
-        Self {
-            step_s: 0.0,
-            limit: LimitedBy::Inputs,
-            tension_n: vec![[0.0; 2]; model.spec.lines.len()],
-            known: 0,
-        }
-    }
-
-    /// Begins anew with this step.
-    pub(crate) fn restart(&mut self, step_s: f64, limit: LimitedBy) {
-        (self.step_s, self.limit, self.known) = (step_s, limit, 0);
-    }
-}
-
 /// Chooses the next step from the one just taken; whether that one missed and should be taken back.
 pub(crate) fn choose(model: &Model, state: &mut State, dt: f64, earlier_dt: f64) -> bool {
     let place = place_error(model, state, dt) / PLACE_M;
@@ -123,9 +38,9 @@ pub(crate) fn choose(model: &Model, state: &mut State, dt: f64, earlier_dt: f64)
     let by_place = SAFETY / libm::cbrt(place.max(1e-9));
     let by_tension = SAFETY / tension.max(1e-9).sqrt();
     let factor = by_place.min(by_tension).clamp(LEAST_FACTOR, GREATEST_FACTOR);
-    let pace = &mut state.pace;
-    pace.step_s = (dt * factor).clamp(SHORTEST_S.min(longest), longest);
-    pace.limit = if by_tension < by_place { LimitedBy::Snap } else { LimitedBy::Accuracy };
+    let control = &mut state.step_control;
+    control.step_s = (dt * factor).clamp(SHORTEST_S.min(longest), longest);
+    control.limit = if by_tension < by_place { LimitedBy::Snap } else { LimitedBy::Accuracy };
     place.max(tension) > MISSED && dt > 1.5 * SHORTEST_S
 }
 
@@ -136,7 +51,7 @@ fn place_error(model: &Model, state: &State, dt: f64) -> f64 {
         let mean = 0.5 * (rope.velocity[node] + rope.earlier_velocity[node]);
         (rope.position[node] - rope.earlier_position[node] - mean * dt).length_squared()
     };
-    let body = |body: &crate::state::BodyState| {
+    let body = |body: &BodyState| {
         let mean = 0.5 * (body.velocity + body.earlier_velocity);
         (body.position - body.earlier_position - mean * dt).length_squared()
     };
@@ -146,13 +61,13 @@ fn place_error(model: &Model, state: &State, dt: f64) -> f64 {
 
 /// Greatest error of a line's tension, as a share of what is wanted; takes the line's tensions down.
 fn tension_error(model: &Model, state: &mut State, dt: f64, earlier_dt: f64) -> f64 {
-    let State { rope, pace, .. } = state;
+    let State { rope, step_control: control, .. } = state;
     let ratio = if earlier_dt > 0.0 { dt / earlier_dt } else { 0.0 };
     let mut worst = 0.0_f64;
-    for (segments, kept) in model.line_segments.iter().zip(&mut pace.tension_n) {
+    for (segments, kept) in model.line_segments.iter().zip(&mut control.tension_n) {
         let now = rope.tension[segments.clone()].iter().copied().fold(0.0, f64::max);
         let [last, before] = *kept;
-        let foretold = match pace.known {
+        let foretold = match control.known {
             0 => now,
             1 => last,
             _ => last + ratio * (last - before),
@@ -160,6 +75,6 @@ fn tension_error(model: &Model, state: &mut State, dt: f64, earlier_dt: f64) -> 
         worst = worst.max((now - foretold).abs() / TENSION_N.max(TENSION_SHARE * now.max(last)));
         *kept = [now, last];
     }
-    pace.known = (pace.known + 1).min(2);
+    control.known = (control.known + 1).min(2);
     worst
 }

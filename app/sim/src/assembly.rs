@@ -1,0 +1,91 @@
+//! Makes models: checks a spec, and lays out its nodes and segments.
+
+use std::sync::Arc;
+
+use crate::check::check;
+use crate::model::{Line, Model, ModelError, ModelSpec, Settings, Strength};
+use crate::water::Sea;
+use crate::whale::tree::SkinTree;
+
+impl Model {
+    /// Checks a spec and lays out nodes and segments.
+    ///
+    /// # Errors
+    /// Everything wrong with it, all at once.
+    pub fn new(spec: ModelSpec) -> Result<Self, Vec<ModelError>> {
+        let errors = check(&spec);
+        if !errors.is_empty() {
+            return Err(errors);
+        }
+        let skin_tree =
+            spec.whale.as_ref().map(|whale| Arc::new(SkinTree::new(whale.skin.clone())));
+        let sea = Sea::new(&spec.water, spec.seabed.as_ref(), spec.settings.seed);
+        Ok(Self::laid_out(spec, skin_tree, sea))
+    }
+
+    /// Lays out nodes and segments.
+    fn laid_out(spec: ModelSpec, skin_tree: Option<Arc<SkinTree>>, sea: Sea) -> Self {
+        let (mut line_nodes, mut line_segments) = (Vec::new(), Vec::new());
+        let (mut node_count, mut segment_count) = (0, 0);
+        for line in &spec.lines {
+            let segments = line.segments_m.len();
+            line_nodes.push(node_count..node_count + segments + 1);
+            line_segments.push(segment_count..segment_count + segments);
+            node_count += segments + 1;
+            segment_count += segments;
+        }
+        let segment_line = spec
+            .lines
+            .iter()
+            .enumerate()
+            .flat_map(|(index, line)| std::iter::repeat_n(index, line.segments_m.len()))
+            .collect();
+        let segment_strength_n = spec
+            .lines
+            .iter()
+            .flat_map(|line| strengths(line, spec.ropes[line.rope].strength_n))
+            .collect();
+        Self {
+            spec,
+            line_nodes,
+            line_segments,
+            node_count,
+            segment_count,
+            segment_line,
+            segment_strength_n,
+            skin_tree,
+            sea,
+        }
+    }
+
+    /// The same gear in the same sea with its lines as these, alone: without whale, plugins, links and probes.
+    pub(crate) fn with_lines(&self, lines: Vec<Line>) -> Self {
+        let spec = &self.spec;
+        let alone = ModelSpec {
+            water: spec.water.clone(),
+            seabed: spec.seabed.clone(),
+            ropes: spec.ropes.clone(),
+            joints: spec.joints.clone(),
+            lines,
+            bodies: spec.bodies.clone(),
+            links: Vec::new(),
+            gear: Vec::new(),
+            whale: None,
+            friction: None,
+            obstacles: spec.obstacles.clone(),
+            probes: Vec::new(),
+            settings: Settings { resolution: None, ..spec.settings.clone() },
+        };
+        Self::laid_out(alone, None, self.sea.clone())
+    }
+}
+
+/// Strength of each segment of a line: an end's factor weakens the segment at that end.
+fn strengths(line: &Line, rope_n: f64) -> Vec<f64> {
+    let Strength { all, end_a, end_b } = line.strength;
+    let mut strengths = vec![rope_n * all; line.segments_m.len()];
+    let last = strengths.len() - 1;
+    strengths[0] *= end_a;
+    strengths[last] = strengths[last].min(rope_n * all * end_b);
+    strengths
+}

@@ -1,0 +1,104 @@
+//! Rigid bodies: traps, buoys, anchors and other weights.
+
+use glam::{DQuat, DVec3};
+
+use crate::float::Float;
+
+/// Shape of a body, for the picture and for contact.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// Box by half extents [m].
+    Box(DVec3),
+    /// Sphere by radius [m].
+    Sphere(f64),
+    /// Cylinder along the body's z axis with rounded ends [m].
+    Capsule {
+        /// Radius [m].
+        radius_m: f64,
+        /// Half of the whole length, ends included [m].
+        half_length_m: f64,
+    },
+}
+
+impl Shape {
+    /// Corners of the box round it, in the body's frame [m].
+    #[must_use]
+    pub fn corners(&self) -> [DVec3; 8] {
+        let half = match self {
+            Self::Box(half) => *half,
+            Self::Sphere(radius_m) => DVec3::splat(*radius_m),
+            Self::Capsule { radius_m, half_length_m } => {
+                DVec3::new(*radius_m, *radius_m, *half_length_m)
+            }
+        };
+        let sign = |corner: usize, bit: usize| if corner >> bit & 1 == 0 { -1.0 } else { 1.0 };
+        std::array::from_fn(|corner| {
+            half * DVec3::new(sign(corner, 0), sign(corner, 1), sign(corner, 2))
+        })
+    }
+}
+
+/// What a body is, for pictures and reports.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BodyRole {
+    /// Trap.
+    Trap,
+    /// Buoy.
+    Buoy,
+    /// Anchor.
+    Anchor,
+    /// Any other weight.
+    Weight,
+}
+
+/// A rigid body with six degrees of freedom.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Body {
+    /// Id, such as `trap`.
+    pub id: String,
+    /// What it is.
+    pub role: BodyRole,
+    /// Shape.
+    pub shape: Shape,
+    /// Middle of the shape in the body's frame [m].
+    pub shape_offset_m: DVec3,
+    /// Mass in air [kg].
+    pub mass_kg: f64,
+    /// Principal moments of inertia in the body's frame [kg m²].
+    pub inertia_kg_m2: DVec3,
+    /// Added mass when wet, by body axis [kg].
+    pub added_mass_kg: DVec3,
+    /// Added moment of inertia when wet, by body axis [kg m²].
+    pub added_inertia_kg_m2: DVec3,
+    /// Drag coefficient times area of the body as a whole, by body axis at its origin [m²]; a body of several
+    /// parts has that of its floats instead.
+    pub drag_area_m2: DVec3,
+    /// Turning drag: torque = ½ρ·this·ω|ω| when wet, by body axis [m⁵].
+    pub turn_drag_m5: DVec3,
+    /// Displaced volume, split so that it goes under and rights itself part by part.
+    pub floats: Vec<Float>,
+    /// Whether drag and added mass scale with the wet share (else always full).
+    pub wetted_drag: bool,
+    /// Points that touch the seabed, in the body's frame [m].
+    pub feet_m: Vec<DVec3>,
+    /// Friction on the seabed before it starts to move.
+    pub start_friction: f64,
+    /// Friction on the seabed once it slides.
+    pub slide_friction: f64,
+    /// Force that holds each foot back when it is lifted off the seabed, at most [N].
+    pub foot_break_out_n: f64,
+    /// First guess of its place [m].
+    pub position_m: DVec3,
+    /// Start orientation, body to world.
+    pub orientation: DQuat,
+    /// Held in place until this time (through statics, if not below zero); `None` is free.
+    pub held_until_s: Option<f64>,
+}
+
+impl Body {
+    /// Drag coefficient times area when all of it is wet, by body axis [m²].
+    #[must_use]
+    pub fn whole_drag_area_m2(&self) -> DVec3 {
+        self.floats.iter().fold(self.drag_area_m2, |sum, float| sum + float.drag_area_m2)
+    }
+}

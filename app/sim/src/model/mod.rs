@@ -1,0 +1,117 @@
+//! The immutable half of a simulation: what the gear, the sea and the whale are.
+//!
+//! Data only: `assembly.rs` makes a [`Model`] from a [`ModelSpec`] that holds together.
+
+pub mod body;
+pub mod friction;
+pub mod gear;
+pub mod joint;
+pub mod link;
+pub mod obstacle;
+pub mod pilot;
+pub mod probe;
+pub mod rope;
+pub mod seabed;
+pub mod settings;
+pub mod whale;
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use crate::water::{Sea, Water};
+use crate::whale::tree::SkinTree;
+
+pub use crate::float::{Float, Form, Wet};
+pub use body::{Body, BodyRole, Shape};
+pub use friction::{Friction, FrictionLaw};
+pub use gear::GearHook;
+pub use joint::{Hitch, Joint, JointKind};
+pub use link::Link;
+pub use obstacle::{Obstacle, ROPE_ON_HARD_N_M2};
+pub use pilot::{PilotEntry, PilotProgram, Target, Trigger};
+pub use probe::{EnergyForm, Probe, ProbeTarget};
+pub use rope::{Line, ROPE_ON_ROPE_FRICTION, Rope, RopeOnRope, Strength};
+pub use seabed::Seabed;
+pub use settings::{Resolution, Settings};
+pub use whale::Whale;
+
+/// All that a model is made from; [`Model::new`] checks it.
+#[derive(Clone)]
+pub struct ModelSpec {
+    /// The sea.
+    pub water: Water,
+    /// The seabed, if any.
+    pub seabed: Option<Seabed>,
+    /// Rope materials.
+    pub ropes: Vec<Rope>,
+    /// Joints.
+    pub joints: Vec<Joint>,
+    /// Lines.
+    pub lines: Vec<Line>,
+    /// Bodies.
+    pub bodies: Vec<Body>,
+    /// Weak links.
+    pub links: Vec<Link>,
+    /// Gear types at work.
+    pub gear: Vec<GearHook>,
+    /// The whale, if any.
+    pub whale: Option<Whale>,
+    /// Friction of rope on whale; needed where there is a whale.
+    pub friction: Option<Friction>,
+    /// Solid things that stand still.
+    pub obstacles: Vec<Obstacle>,
+    /// Probes.
+    pub probes: Vec<Probe>,
+    /// Steps and tolerances.
+    pub settings: Settings,
+}
+
+/// A checked, immutable model with the indices the solver walks by.
+///
+/// Node layout: every line owns `segments + 1` nodes in a row, both ends included; the nodes of
+/// lines that meet at a joint are copies of the joint's place. Segment `k` of a line lies between
+/// its nodes `k` and `k + 1`.
+#[derive(Clone)]
+pub struct Model {
+    /// What it was made from.
+    pub spec: ModelSpec,
+    /// Nodes of each line.
+    pub line_nodes: Vec<Range<usize>>,
+    /// Segments of each line.
+    pub line_segments: Vec<Range<usize>>,
+    /// Nodes in all.
+    pub node_count: usize,
+    /// Segments in all.
+    pub segment_count: usize,
+    /// Line of each segment.
+    pub segment_line: Vec<usize>,
+    /// Tension at which each segment breaks [N].
+    pub segment_strength_n: Vec<f64>,
+    /// Tree over the whale's skin.
+    pub skin_tree: Option<Arc<SkinTree>>,
+    /// Current and waves made ready.
+    pub sea: Sea,
+}
+
+/// What is wrong with a [`ModelSpec`].
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ModelError {
+    /// Which part, such as `line endline-top`.
+    pub part: String,
+    /// What is wrong and what was expected.
+    pub message: String,
+}
+
+impl Model {
+    /// Whether any rope resists bending.
+    #[must_use]
+    pub fn bends(&self) -> bool {
+        self.spec.ropes.iter().any(|rope| rope.bending_stiffness_n_m2 > 0.0)
+    }
+
+    /// Rope of a segment.
+    #[must_use]
+    pub fn rope_of_segment(&self, segment: usize) -> &Rope {
+        &self.spec.ropes[self.spec.lines[self.segment_line[segment]].rope]
+    }
+}

@@ -1,0 +1,66 @@
+//! Steps, tolerances and switches of a run.
+
+use super::rope::RopeOnRope;
+
+/// Lengths that segments are given as the whale comes and goes; the number of segments of each line stays.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Resolution {
+    /// Near skin [m].
+    pub near_m: f64,
+    /// Near the edges of flippers and flukes [m].
+    pub edge_m: f64,
+    /// Far from the whale [m].
+    pub far_m: f64,
+}
+
+impl Default for Resolution {
+    fn default() -> Self {
+        Self { near_m: 0.05, edge_m: 0.0125, far_m: 1.0 }
+    }
+}
+
+/// Steps and tolerances.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// Step between inputs [s]; the solver divides it where it must.
+    pub step_s: f64,
+    /// Whether the solver step is chosen from the error of each step; else it is the whole step wherever nothing forbids it.
+    pub auto_step: bool,
+    /// Longest step while rope is near the whale [s].
+    pub contact_step_s: f64,
+    /// Shortest step before a run gives up [s].
+    pub least_step_s: f64,
+    /// How segment lengths follow the whale; `None` where they stay as they are.
+    pub resolution: Option<Resolution>,
+    /// Length of the run [s].
+    pub duration_s: f64,
+    /// Seed of everything drawn at random.
+    pub seed: u64,
+    /// Whether the run starts as its parts are placed, without statics before it.
+    pub as_placed: bool,
+    /// Whether rope touches the bodies of the rig too, and not obstacles alone.
+    pub rope_on_bodies: bool,
+    /// How rope touches rope; `None` where ropes pass through each other.
+    pub rope_on_rope: Option<RopeOnRope>,
+    /// Whether every move near skin is cut short where its path would cross: always, but to show what tests at the end of
+    /// each step alone let through.
+    pub swept: bool,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            step_s: 0.01,
+            auto_step: false,
+            contact_step_s: 0.002,
+            least_step_s: 1e-6,
+            resolution: None,
+            duration_s: 60.0,
+            seed: 1,
+            rope_on_bodies: false,
+            rope_on_rope: None,
+            as_placed: false,
+            swept: true,
+        }
+    }
+}

@@ -1,0 +1,54 @@
+//! What friction keeps from step to step: on skin, on solids, and between ropes.
+
+use glam::DVec3;
+
+use crate::in_place::clone_in_place;
+
+/// Floats of the friction laws for the sites in touch, in rising order of site.
+#[derive(Debug, Default, PartialEq)]
+pub struct FrictionState {
+    /// Sites in touch.
+    pub sites: Vec<u64>,
+    /// Floats of each, one after the other: number of the law, energy taken and given [J], then the plugin's own.
+    pub floats: Vec<f64>,
+}
+
+clone_in_place!(FrictionState { sites, floats });
+
+impl FrictionState {
+    /// Forgets all grips.
+    pub(crate) fn clear(&mut self) {
+        self.sites.clear();
+        self.floats.clear();
+    }
+}
+
+/// A grip of rope on a solid that lasts from step to step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SolidGrip {
+    /// Solid: obstacles first, then bodies.
+    pub solid: usize,
+    /// Line.
+    pub line: usize,
+    /// Unstretched length along the line [m].
+    pub along_m: f64,
+    /// Whether it is at a node.
+    pub at_node: bool,
+    /// Tangential stretch, in the solid's frame [m].
+    pub stretch: DVec3,
+    /// Normal force at the end of the last step [N].
+    pub push_n: f64,
+}
+
+/// A point at which two ropes touch, as it lasts from step to step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RopeGrip {
+    /// The two lines.
+    pub lines: [usize; 2],
+    /// Unstretched length along each [m].
+    pub along_m: [f64; 2],
+    /// Tangential stretch of the grip [m].
+    pub stretch: DVec3,
+    /// Depth that is forgiven: ropes that lay in each other when the run began are pushed apart slowly [m].
+    pub forgiven_m: f64,
+}

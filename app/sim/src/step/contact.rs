@@ -1,0 +1,79 @@
+//! A solver step with rope near the whale.
+//!
+//! With contact (docs/physics.md): skin makes its move and rope drifts on, held off the skin; where that would
+//! cross, rope near skin is carried along with it instead, as far as nothing crosses. Then Newton finds the balance
+//! at that pose of the skin; where the skin could not make its whole move at once, both are repeated.
+
+use super::audit::Audit;
+use super::context::StepContext;
+use super::convergence::CONTACT_CONVERGED_M;
+use super::rejection::Rejection;
+use crate::contact::law::PINCHED_SHARE;
+use crate::contact::workspace::ContactWorkspace;
+use crate::solver::{CONTACT_WANTED_M, ContactEnd, Solver};
+
+/// Times the skin may be stopped within a solver step.
+const MOST_STAGES: usize = 8;
+/// Rope that begins a step pinched may end it this much nearer to skin, as a share.
+const STILL_PINCHED: f64 = 0.99;
+
+/// Newton with rope near the whale: the skin is moved as far as nothing crosses, and rope is solved at that pose, until
+/// the skin has made its whole move.
+pub(super) fn contact_step(
+    context: &StepContext<'_>,
+    solver: &mut Solver,
+    work: &mut ContactWorkspace,
+    audit: &mut Audit,
+) -> Result<(), Rejection> {
+    let StepContext { model, state, scheme } = *context;
+    work.slots.list.clear();
+    solver.set_out(state);
+    solver.ropes.begin();
+    let mut pinched = PINCHED_SHARE;
+    for stage in 0..MOST_STAGES {
+        work.near.measure(solver.places());
+        if let Some(pair) = work.near.pairs.iter().find(|pair| pair.clear <= 0.0) {
+            return Err(Rejection::Crossed(pair.segment));
+        }
+        if stage == 0 {
+            // Rope that lies there already may stay, and come out again.
+            pinched = pinched.min(STILL_PINCHED * work.near.least_share());
+        }
+        audit.tunnelled += solver.carry(model, work);
+        solver.open_ropes(state);
+        match solver.solve_touching(model, state, scheme, work) {
+            ContactEnd::Ended { last_m, passes, crossings } => {
+                audit.passes += passes as u64;
+                audit.tunnelled += crossings;
+                if last_m > CONTACT_CONVERGED_M {
+                    return Err(Rejection::NotConverged);
+                }
+                audit.unconverged += u64::from(last_m > CONTACT_WANTED_M);
+            }
+            ContactEnd::NotFinite => {
+                audit.non_finite += 1;
+                return Err(Rejection::NotFinite);
+            }
+            ContactEnd::TooFar => return Err(Rejection::NotConverged),
+            ContactEnd::Crushed(segment, triangle) => {
+                return Err(Rejection::Pinched(segment, triangle));
+            }
+            ContactEnd::CrushedRopes(segments) => return Err(Rejection::RopesPinched(segments)),
+            ContactEnd::Plugin(message) => return Err(Rejection::Plugin(message)),
+        }
+        if let Some((segment, triangle)) = work.nearer_than(pinched) {
+            return Err(Rejection::Pinched(segment, triangle));
+        }
+        if let Some(segments) = solver.crushed_ropes(true) {
+            return Err(Rejection::RopesPinched(segments));
+        }
+        if work.near.fraction >= 1.0 - 1e-12 {
+            return if solver.met_more_ropes(model, state) {
+                Err(Rejection::NotConverged)
+            } else {
+                Ok(())
+            };
+        }
+    }
+    Err(Rejection::NotConverged)
+}

@@ -1,0 +1,95 @@
+//! One step of a run: from inputs to the next state.
+
+pub mod audit;
+mod contact;
+mod context;
+mod convergence;
+mod free;
+pub mod input;
+mod rejection;
+mod rope;
+mod solid;
+mod solver_step;
+pub mod stop;
+mod substeps;
+pub mod workspace;
+
+use crate::contact::workspace::touch_by_part;
+use crate::gear_hook;
+use crate::model::Model;
+use crate::state::{State, WhaleState};
+use crate::whale::drive::drive;
+use crate::whale::pilot;
+
+pub use audit::Audit;
+pub use input::Input;
+pub use stop::Stop;
+pub use workspace::Workspace;
+
+/// Advances `state` by the model's step.
+///
+/// # Errors
+/// With the part and the reason, where the run cannot go on; `state` is then as it was before the step.
+pub fn step(
+    model: &Model,
+    input: &Input,
+    state: &mut State,
+    workspace: &mut Workspace,
+) -> Result<(), Stop> {
+    match &mut workspace.before {
+        Some(before) => before.clone_from(state),
+        none => *none = Some(state.clone()),
+    }
+    let done = try_step(model, input, state, workspace);
+    if let (Err(_), Some(before)) = (&done, &workspace.before) {
+        state.clone_from(before);
+    }
+    done
+}
+
+fn try_step(
+    model: &Model,
+    input: &Input,
+    state: &mut State,
+    workspace: &mut Workspace,
+) -> Result<(), Stop> {
+    let mut whale = workspace.whale.take();
+    let moved = move_whale(model, input, state, &mut whale);
+    let done = moved.and_then(|held| {
+        workspace.audit.postures_held += u64::from(held);
+        substeps::advance(model, state, workspace, whale.as_deref())
+    });
+    if let (Some(now), Some([_, after])) = (&mut state.whale, whale.as_deref_mut()) {
+        if let Some(whale) = &model.spec.whale {
+            [after.contact_force_n, after.contact_port_m] =
+                touch_by_part(&whale.skin, &workspace.contacts);
+            if let Some(kinetic) = &whale.kinetic {
+                workspace.pulled.give(kinetic, model.spec.settings.step_s, after);
+            }
+        }
+        now.clone_from(after);
+    }
+    workspace.whale = whale;
+    done?;
+    state.time_s = model.spec.settings.step_s * (state.step + 1) as f64;
+    state.step += 1;
+    gear_hook::act(model, state, &mut workspace.gear)?;
+    pilot::look(model, state);
+    Ok(())
+}
+
+/// Lets the whale swim through the step: where it starts and where it ends; whether its posture was held.
+fn move_whale(
+    model: &Model,
+    input: &Input,
+    state: &State,
+    whale: &mut Option<Box<[WhaleState; 2]>>,
+) -> Result<bool, Stop> {
+    let Some(now) = &state.whale else {
+        *whale = None;
+        return Ok(false);
+    };
+    let [from, to] = &mut **whale.get_or_insert_with(|| Box::new([now.clone(), now.clone()]));
+    from.clone_from(now);
+    drive(model, input, from, state.time_s, to)
+}

@@ -1,0 +1,194 @@
+//! Divides the model's step into solver steps.
+//!
+//! A step of the model (`settings.step_s`, one input) is one solver step while the rope is free, or several where the model
+//! chooses them by their error (`step_control.rs`). Near the whale a solver step lasts at most `settings.contact_step_s`.
+//! It is halved where it does not converge or where a link would part late. Halving stops at `settings.least_step_s`,
+//! which ends the run.
+
+use super::rejection::{Rejection, StepKind};
+use super::solver_step::solver_step;
+use super::stop::Stop;
+use super::workspace::Workspace;
+use crate::contact::near::MARGIN_M;
+use crate::model::{Model, Settings};
+use crate::remesh::remesh;
+use crate::state::{LimitedBy, State, StepControl, WhaleState};
+use crate::step_control;
+use crate::whale::drive::pose_between;
+use crate::whale::hitch;
+use crate::whale::kinetic::pull::{RopeImpulse, Times, centre_of};
+
+/// Rope this near to the whale's path over a whole step makes the solver steps short [m].
+const NEAR_M: f64 = MARGIN_M + 0.12;
+
+/// Times a model's step may be taken back and begun with shorter solver steps.
+const MOST_TAKEN_BACK: usize = 3;
+
+/// Solver steps to the end of the model's step, all taken back and begun shorter where one misses the wanted error by far.
+pub(super) fn advance(
+    model: &Model,
+    state: &mut State,
+    workspace: &mut Workspace,
+    whale: Option<&[WhaleState; 2]>,
+) -> Result<(), Stop> {
+    if model.node_count == 0 && model.spec.bodies.is_empty() {
+        return Ok(()); // a whale alone: there is nothing to solve
+    }
+    let settings = &model.spec.settings;
+    for taken_back in 0..=MOST_TAKEN_BACK {
+        workspace.peak_tension_n.fill(0.0);
+        workspace.contacts.clear();
+        workspace.pulled = RopeImpulse::default();
+        let splits = remesh(model, state, &mut workspace.remesh);
+        workspace.audit.splits += if taken_back == 0 { splits } else { 0 };
+        let near = near_whale(model, state, workspace, whale);
+        let longest =
+            if near { settings.contact_step_s.min(settings.step_s) } else { settings.step_s };
+        let limits = Limits { longest, may_take_back: taken_back < MOST_TAKEN_BACK };
+        if solver_steps(model, state, workspace, whale, limits)? {
+            break;
+        }
+        workspace.audit.halved += 1;
+        take_back(state, workspace);
+    }
+    Ok(())
+}
+
+/// Goes back to where the model's step began, with the shorter solver step.
+fn take_back(state: &mut State, workspace: &Workspace) {
+    let (step_s, limit) = (state.step_control.step_s, state.step_control.limit);
+    if let Some(before) = &workspace.before {
+        state.clone_from(before);
+    }
+    (state.step_control.step_s, state.step_control.limit) = (step_s, limit);
+}
+
+/// Whether rope may come near the whale in this step.
+fn near_whale(
+    model: &Model,
+    state: &State,
+    workspace: &mut Workspace,
+    whale: Option<&[WhaleState; 2]>,
+) -> bool {
+    let (Some(work), Some([from, to])) = (&mut workspace.contact, whale) else { return false };
+    pose_between(model, from, to, 0.0, &mut work.bones[0]);
+    pose_between(model, from, to, 1.0, &mut work.bones[1]);
+    let step_s = model.spec.settings.step_s;
+    let [start, end] = &work.bones;
+    work.near.any(
+        [start, end],
+        &state.rope.position,
+        |node| state.rope.velocity[node] * step_s,
+        NEAR_M,
+    )
+}
+
+/// What bounds the solver steps of one try.
+#[derive(Clone, Copy, Debug)]
+struct Limits {
+    /// Longest solver step [s].
+    longest: f64,
+    /// Whether a step that misses its wanted error may be taken back.
+    may_take_back: bool,
+}
+
+/// Solver steps to the end of the model's step, halved where one is refused; `false` where a step missed its wanted error
+/// and may be taken back.
+fn solver_steps(
+    model: &Model,
+    state: &mut State,
+    workspace: &mut Workspace,
+    whale: Option<&[WhaleState; 2]>,
+    Limits { mut longest, may_take_back }: Limits,
+) -> Result<bool, Stop> {
+    let settings = &model.spec.settings;
+    let start = settings.step_s * state.step as f64;
+    let end = settings.step_s * (state.step + 1) as f64;
+    let (mut halvings, mut refused) = (0_u32, LimitedBy::Convergence);
+    while end - state.time_s > 1e-9 * settings.step_s {
+        let left = end - state.time_s;
+        let (chosen, limit) = wanted(settings, &state.step_control, longest);
+        let wanted = chosen / f64::from(1_u32 << halvings.min(30));
+        let dt = left / (left / wanted - 1e-9).ceil().max(1.0);
+        if let (Some(work), Some([from, to])) = (&mut workspace.contact, whale) {
+            let share = |time: f64| ((time - start) / settings.step_s).clamp(0.0, 1.0);
+            pose_between(model, from, to, share(state.time_s), &mut work.bones[0]);
+            pose_between(model, from, to, share(state.time_s + dt), &mut work.bones[1]);
+            workspace.solver.trial.hitches.move_to(model, [&work.bones[0], &work.bones[1]]);
+        }
+        let earlier_dt = state.rope.earlier_dt_s;
+        match solver_step(model, state, workspace, dt, halvings > 0) {
+            Ok(kind) => {
+                feel(model, state, workspace, whale, dt);
+                let limit = if halvings > 0 { refused } else { limit };
+                workspace.audit.limited_by[limit as usize] += 1;
+                halvings = halvings.saturating_sub(1);
+                if settings.auto_step
+                    && choose_next(model, state, kind, dt, earlier_dt)
+                    && may_take_back
+                {
+                    return Ok(false);
+                }
+            }
+            Err(Rejection::RopesMeet) => longest = settings.contact_step_s.min(longest),
+            Err(why) if why.may_halve() && 0.5 * dt >= settings.least_step_s => {
+                refused = if why == Rejection::PartsTooLate {
+                    LimitedBy::Parting
+                } else {
+                    LimitedBy::Convergence
+                };
+                halvings += 1;
+                workspace.audit.halved += 1;
+            }
+            Err(why) => return Err(why.stop(model, state, &workspace.solver)),
+        }
+    }
+    Ok(true)
+}
+
+/// Takes in what rope gave a kinetic whale in the solver step that has just ended; a kinematic one has no use for it.
+fn feel(
+    model: &Model,
+    state: &State,
+    workspace: &mut Workspace,
+    whale: Option<&[WhaleState; 2]>,
+    dt: f64,
+) {
+    let Some(kinetic) = model.spec.whale.as_ref().and_then(|whale| whale.kinetic.as_ref()) else {
+        return;
+    };
+    let Some([_, after]) = whale else { return };
+    let centre = centre_of(kinetic, after);
+    let end_s = model.spec.settings.step_s * (state.step + 1) as f64;
+    let times = Times { dt, left: (end_s - state.time_s).max(0.0) };
+    workspace.pulled.add_contacts(&workspace.contacts, centre, times);
+    for (force, place) in hitch::pulls(model, state) {
+        workspace.pulled.add(force, place - centre, times);
+    }
+}
+
+/// The longest solver step to try now, and what limits it.
+fn wanted(settings: &Settings, control: &StepControl, longest: f64) -> (f64, LimitedBy) {
+    if settings.auto_step && control.step_s > 0.0 && control.step_s < longest {
+        (control.step_s, control.limit)
+    } else if longest < settings.step_s {
+        (longest, LimitedBy::Contact)
+    } else {
+        (longest, LimitedBy::Inputs)
+    }
+}
+
+/// Chooses the step after this one; whether this one should be taken back.
+fn choose_next(model: &Model, state: &mut State, kind: StepKind, dt: f64, earlier_dt: f64) -> bool {
+    let settings = &model.spec.settings;
+    match kind {
+        StepKind::Parted => state
+            .step_control
+            .restart(step_control::PARTED_S.min(settings.step_s), LimitedBy::Parting),
+        StepKind::InContact => state
+            .step_control
+            .restart(settings.contact_step_s.min(settings.step_s), LimitedBy::Contact),
+        StepKind::Free => return step_control::choose(model, state, dt, earlier_dt),
+    }
+    false
+}

@@ -1,0 +1,54 @@
+//! Scratch of a run, and what its last step left for readers.
+
+use super::audit::Audit;
+use crate::contact::ContactPoint;
+use crate::contact::ropes::RopeTouch;
+use crate::contact::workspace::ContactWorkspace;
+use crate::gear_hook::GearWorkspace;
+use crate::model::Model;
+use crate::remesh::RemeshWorkspace;
+use crate::solver::Solver;
+use crate::state::{State, WhaleState};
+use crate::whale::kinetic::pull::RopeImpulse;
+
+/// Scratch of the solver and what the last step left for readers; dropping it between two steps changes no bit.
+#[derive(Clone, Debug)]
+pub struct Workspace {
+    /// Places where rope pressed on skin at the end of the last step.
+    pub contacts: Vec<ContactPoint>,
+    /// Greatest tension of each segment over the solver steps of the last step [N].
+    pub peak_tension_n: Vec<f64>,
+    /// Places where rope pressed on rope at the end of the last step.
+    pub rope_touches: Vec<RopeTouch>,
+    /// Counters of the run so far.
+    pub audit: Audit,
+    pub(crate) solver: Solver,
+    pub(crate) contact: Option<ContactWorkspace>,
+    pub(super) before: Option<State>,
+    pub(super) gear: GearWorkspace,
+    pub(super) remesh: Option<RemeshWorkspace>,
+    /// The whale at the start and at the end of the step.
+    pub(super) whale: Option<Box<[WhaleState; 2]>>,
+    /// What rope gave the whale over the solver steps of the step.
+    pub(super) pulled: RopeImpulse,
+}
+
+impl Workspace {
+    /// Scratch for a model.
+    #[must_use]
+    pub fn new(model: &Model) -> Self {
+        Self {
+            contacts: Vec::new(),
+            peak_tension_n: vec![0.0; model.segment_count],
+            rope_touches: Vec::new(),
+            audit: Audit::default(),
+            solver: Solver::new(model),
+            contact: ContactWorkspace::new(model),
+            before: None,
+            gear: GearWorkspace::default(),
+            remesh: RemeshWorkspace::new(model),
+            whale: None,
+            pulled: RopeImpulse::default(),
+        }
+    }
+}
