@@ -42,11 +42,11 @@ impl StateHash {
             link_parted_s,
             line_parted,
             gear,
-            pace,
+            step_control,
             pilot: _,
         } = state;
         let mut parts = [Fold::new(); PARTS];
-        let [_, clock, ropes, rigid, swimmer, contact, links] = &mut parts;
+        let [_, clock, ropes, rigid, animal, contact, links] = &mut parts;
         clock.real(*time_s);
         clock.word(*step);
         fold_rope(rope, ropes, contact, links);
@@ -54,7 +54,7 @@ impl StateHash {
             fold_body(body, rigid);
         }
         if let Some(whale) = whale {
-            fold_whale(whale, swimmer, contact);
+            fold_whale(whale, animal, contact);
         }
         link_parted_s.iter().for_each(|parted| links.maybe(*parted));
         for parted in line_parted {
@@ -62,7 +62,7 @@ impl StateHash {
             links.maybe(parted.map(|(_, along_m)| along_m));
         }
         gear.iter().for_each(|floats| links.reals(floats));
-        fold_pace(pace, clock);
+        fold_step_control(step_control, clock);
         parts[0] = Fold(input_hash(input));
         Self { parts: parts.map(|fold| fold.0) }
     }
@@ -102,7 +102,7 @@ fn fold_rope(rope: &RopeState, ropes: &mut Fold, contact: &mut Fold, links: &mut
         earlier_velocity,
         earlier_dt_s,
         seabed_grip,
-        grips,
+        friction,
         solid_grips,
         rope_grips,
     } = rope;
@@ -113,7 +113,7 @@ fn fold_rope(rope: &RopeState, ropes: &mut Fold, contact: &mut Fold, links: &mut
     ropes.reals(tension);
     ropes.real(*earlier_dt_s);
     contact.vectors(seabed_grip);
-    let Grips { sites, floats } = grips;
+    let FrictionState { sites, floats } = friction;
     sites.iter().for_each(|site| contact.word(*site));
     contact.reals(floats);
     for SolidGrip { solid, line, along_m, at_node, stretch, push_n } in solid_grips {
@@ -132,8 +132,8 @@ fn fold_rope(rope: &RopeState, ropes: &mut Fold, contact: &mut Fold, links: &mut
     cut.iter().for_each(|cut| links.word(u64::from(*cut)));
 }
 
-fn fold_pace(pace: &Pace, clock: &mut Fold) {
-    let Pace { step_s, limit, tension_n, known } = pace;
+fn fold_step_control(control: &StepControl, clock: &mut Fold) {
+    let StepControl { step_s, limit, tension_n, known } = control;
     clock.real(*step_s);
     clock.word(*limit as u64);
     tension_n.iter().for_each(|two| clock.reals(two));

@@ -65,7 +65,7 @@ pub enum Side {
     /// Its mirror image.
     Mirrored,
     /// Written for rope that touches on the left (port) side; its mirror image where it touches on the right.
-    ContactEnd,
+    Touched,
 }
 
 /// One thing that a clip moves.

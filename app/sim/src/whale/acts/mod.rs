@@ -156,7 +156,7 @@ impl Acting {
         let mirror = self.clip(act).is_some_and(|clip| match clip.side {
             Side::AsWritten => false,
             Side::Mirrored => true,
-            Side::ContactEnd => touch_side < 0.0,
+            Side::Touched => touch_side < 0.0,
         });
         Playing { act, time_s: 0.0, mirror }
     }

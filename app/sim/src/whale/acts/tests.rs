@@ -77,7 +77,7 @@ fn acting(answer: Option<Answer>) -> Acting {
         track(Moves::Angle(Angle::FlipperRaise(side)), &[(0.0, 0.0), (1.0, 0.6), (4.0, 0.0)])
     };
     let touched = Clip {
-        side: Side::ContactEnd,
+        side: Side::Touched,
         ..clip("left", vec![raise(0), track(Moves::Turn(Turn::Roll), &[(0.0, 0.0), (4.0, 2.0)])])
     };
     let mirrored = Clip { id: "right".into(), side: Side::Mirrored, ..touched.clone() };
