@@ -248,7 +248,7 @@ fn the_scenario_with_several_laws_runs() {
     let mut touched = 0;
     while state.time_s < 20.0 {
         step(&model, &input, &mut state, &mut workspace).unwrap_or_else(|stop| panic!("{stop:?}"));
-        touched += usize::from(!state.rope.grips.sites.is_empty());
+        touched += usize::from(!state.rope.friction.sites.is_empty());
     }
     assert!(touched > 50, "touched in {touched} steps");
     assert_eq!(workspace.audit.tunnelled, 0);
