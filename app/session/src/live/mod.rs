@@ -1,8 +1,9 @@
 //! A run on a thread of its own, paced to real time, for the workbench.
 //!
-//! The workbench sends [`Command`]s and reads the [`latest`](Live::latest) [`LiveView`]; neither
+//! The workbench sends [`RunCommand`]s and reads the [`latest`](Live::latest) [`LiveView`]; neither
 //! ever waits for the solver.
 
+mod command;
 mod envelope;
 mod film;
 mod history;
@@ -12,7 +13,6 @@ mod series;
 mod tests;
 mod work;
 
-use std::path::PathBuf;
 use std::sync::mpsc::{SyncSender, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
@@ -21,6 +21,7 @@ use endline_sdk::Controls;
 use endline_sim::metrics::{Event, Summary};
 use endline_sim::{Audit, Frame, Model};
 
+pub use command::RunCommand;
 pub use envelope::{Envelope, LineEnvelope};
 pub use history::Channel;
 pub use series::{Series, Span};
@@ -32,43 +33,6 @@ use crate::source::Prepared;
 
 /// Commands that may wait for the thread; more are refused.
 const QUEUE: usize = 256;
-
-/// All that a run can be told.
-#[derive(Clone)]
-pub enum Command {
-    /// Run on, from the newest moment.
-    Start,
-    /// Stand still.
-    Pause,
-    /// Take one step, then stand still.
-    Step,
-    /// Back to the settled gear; what was run is dropped.
-    Reset,
-    /// Simulated seconds wanted for each real one; infinite for as fast as the solver goes.
-    Speed(f64),
-    /// The pilot steers: these controls hold until the next.
-    Controls(Controls),
-    /// The scenario's pilot program steers.
-    Autopilot,
-    /// Weak links on or off: a new model, back at the start.
-    WeakLinks(bool),
-    /// Another model, back at the start.
-    Load(Box<Prepared>),
-    /// Show the moment nearest to a time [s], and stand still; from the newest moment on, that.
-    Seek(f64),
-    /// Show the moment so many kept frames later, or earlier, and stand still.
-    Shift(i64),
-    /// Back to the settled gear, then these inputs as fast as it goes, then stand still.
-    Inputs(Vec<Controls>),
-    /// The inputs of the run up to the moment shown again, then stand still: to go on from there in another way.
-    Branch,
-    /// Another model, in which the inputs of the run up to the moment shown are run again; then its own pilot program steers.
-    Rerun(Box<Prepared>),
-    /// Make the run so far a scenario whose pilot program flies it again; controls may be off by this much [1].
-    Program(f64),
-    /// Save the run so far as a recording.
-    SaveRecording(PathBuf),
-}
 
 /// A run made a scenario with a pilot program, or why it cannot be.
 pub type Made = Result<Program, String>;
@@ -127,7 +91,7 @@ pub struct LiveView {
     pub message: Option<String>,
     /// Least and greatest tension along each line up to the newest moment.
     pub envelope: Arc<Envelope>,
-    /// Answer to the last [`Command::Program`].
+    /// Answer to the last [`RunCommand::Program`].
     pub program: Option<Arc<Made>>,
 }
 
@@ -141,7 +105,7 @@ impl LiveView {
 
 /// A run on a thread of its own.
 pub struct Live {
-    commands: Option<SyncSender<Command>>,
+    commands: Option<SyncSender<RunCommand>>,
     view: Arc<Mutex<Arc<LiveView>>>,
     thread: Option<JoinHandle<()>>,
 }
@@ -168,7 +132,7 @@ impl Live {
     }
 
     /// Sends a command; false where the thread is gone or its queue is full.
-    pub fn send(&self, command: Command) -> bool {
+    pub fn send(&self, command: RunCommand) -> bool {
         self.commands.as_ref().is_some_and(|commands| commands.try_send(command).is_ok())
     }
 

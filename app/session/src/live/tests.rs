@@ -26,30 +26,30 @@ fn open(duration_s: f64) -> Live {
 fn a_run_is_started_stepped_sought_and_reset() {
     let live = open(5.0);
     until(&live, "settled", |view| view.status == Status::Paused);
-    assert!(live.send(Command::Step));
+    assert!(live.send(RunCommand::Step));
     let view = until(&live, "one step", |view| view.frame.step == 1);
     assert_eq!(view.status, Status::Paused);
 
-    assert!(live.send(Command::Speed(f64::INFINITY)) && live.send(Command::Start));
+    assert!(live.send(RunCommand::Speed(f64::INFINITY)) && live.send(RunCommand::Start));
     let view = until(&live, "the end", |view| view.status == Status::Finished);
     assert!((view.newest_s - 5.0).abs() < 1e-6, "{}", view.newest_s);
     assert!(view.tension.len() > 100 && view.summary.is_some());
 
-    assert!(live.send(Command::Seek(2.5)));
+    assert!(live.send(RunCommand::Seek(2.5)));
     let view = until(&live, "the middle", |view| view.sought);
     assert!((view.frame.time_s - 2.5).abs() < 0.02, "{}", view.frame.time_s);
 
-    assert!(live.send(Command::Shift(1)));
+    assert!(live.send(RunCommand::Shift(1)));
     let after = until(&live, "one moment on", |later| later.frame.step > view.frame.step);
-    assert!(live.send(Command::Shift(-1)));
+    assert!(live.send(RunCommand::Shift(-1)));
     until(&live, "and back", |earlier| earlier.frame.step == view.frame.step);
     assert!(after.sought && after.history.len() == after.tension.len());
-    assert!(live.send(Command::Seek(f64::MAX)));
+    assert!(live.send(RunCommand::Seek(f64::MAX)));
     until(&live, "the newest", |view| {
         !view.sought && (view.frame.time_s - view.newest_s).abs() < 1e-12
     });
 
-    assert!(live.send(Command::Reset));
+    assert!(live.send(RunCommand::Reset));
     let view = until(&live, "the start", |view| view.frame.step == 0 && !view.sought);
     assert_eq!(view.status, Status::Paused);
 }
@@ -58,7 +58,7 @@ fn a_run_is_started_stepped_sought_and_reset() {
 fn the_envelope_along_a_line_reaches_its_peak_and_no_further() {
     let live = open(3.0);
     until(&live, "settled", |view| view.status == Status::Paused);
-    assert!(live.send(Command::Speed(f64::INFINITY)) && live.send(Command::Start));
+    assert!(live.send(RunCommand::Speed(f64::INFINITY)) && live.send(RunCommand::Start));
     let view = until(&live, "the end", |view| view.status == Status::Finished);
     let summary = view.summary.as_ref().unwrap();
     for (line, of) in view.envelope.lines.iter().zip(&summary.lines) {
@@ -79,16 +79,16 @@ fn the_envelope_along_a_line_reaches_its_peak_and_no_further() {
 fn a_run_goes_on_from_the_moment_shown_in_another_model_to_the_same_bits() {
     let live = open(2.0);
     until(&live, "settled", |view| view.status == Status::Paused);
-    assert!(live.send(Command::Speed(f64::INFINITY)) && live.send(Command::Start));
+    assert!(live.send(RunCommand::Speed(f64::INFINITY)) && live.send(RunCommand::Start));
     let end = until(&live, "the end", |view| view.status == Status::Finished);
-    assert!(live.send(Command::Seek(1.0)));
+    assert!(live.send(RunCommand::Seek(1.0)));
     until(&live, "the middle", |view| view.sought);
-    assert!(live.send(Command::Rerun(Box::new(hanging_rope(2.0)))));
+    assert!(live.send(RunCommand::Rerun(Box::new(hanging_rope(2.0)))));
     let again = until(&live, "the end again", |view| {
         !Arc::ptr_eq(&view.model, &end.model) && view.status == Status::Finished
     });
     assert_eq!(again.state_hash, end.state_hash);
-    assert!(live.send(Command::Program(0.0)));
+    assert!(live.send(RunCommand::Program(0.0)));
     let view = until(&live, "an answer", |view| view.program.is_some());
     // The sample is no scenario of a library, and has no whale: nothing to fly again, and it says why.
     assert!(view.program.as_ref().unwrap().as_ref().as_ref().is_err_and(|why| !why.is_empty()));
@@ -99,12 +99,12 @@ fn real_time_is_kept() {
     let live = open(60.0);
     until(&live, "settled", |view| view.status == Status::Paused);
     let start = Instant::now();
-    assert!(live.send(Command::Speed(2.0)) && live.send(Command::Start));
+    assert!(live.send(RunCommand::Speed(2.0)) && live.send(RunCommand::Start));
     let view = until(&live, "one simulated second", |view| view.newest_s >= 1.0);
     let wall_s = start.elapsed().as_secs_f64();
     // Never early; how late depends on the machine.
     assert!(wall_s > 0.45 * view.newest_s, "{} s in {wall_s} s", view.newest_s);
-    assert!(live.send(Command::Pause));
+    assert!(live.send(RunCommand::Pause));
     let paused = until(&live, "a pause", |view| view.status == Status::Paused);
     std::thread::sleep(Duration::from_millis(50));
     assert_eq!(live.latest().frame.step, paused.frame.step);
@@ -116,9 +116,9 @@ fn a_recording_is_saved_with_the_pilots_controls() {
     let live = open(60.0);
     until(&live, "settled", |view| view.status == Status::Paused);
     let controls = Controls { speed: 0.5, yaw: -1.0, ..Controls::default() };
-    assert!(live.send(Command::Controls(controls)) && live.send(Command::Step));
-    assert!(live.send(Command::Autopilot) && live.send(Command::Step));
-    assert!(live.send(Command::SaveRecording(path.clone())));
+    assert!(live.send(RunCommand::Controls(controls)) && live.send(RunCommand::Step));
+    assert!(live.send(RunCommand::Autopilot) && live.send(RunCommand::Step));
+    assert!(live.send(RunCommand::SaveRecording(path.clone())));
     until(&live, "a message", |view| {
         view.message.as_ref().is_some_and(|message| message.starts_with("saved"))
     });
@@ -130,7 +130,7 @@ fn a_recording_is_saved_with_the_pilots_controls() {
 #[test]
 fn dropping_a_run_ends_its_thread() {
     let live = open(1e6);
-    assert!(live.send(Command::Speed(f64::INFINITY)) && live.send(Command::Start));
+    assert!(live.send(RunCommand::Speed(f64::INFINITY)) && live.send(RunCommand::Start));
     until(&live, "running", |view| view.status == Status::Running);
     let start = Instant::now();
     drop(live);

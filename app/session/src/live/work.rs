@@ -1,5 +1,7 @@
 //! The thread of a live run: takes commands, steps when due, publishes what there is to see.
 
+#![deny(clippy::wildcard_enum_match_arm, reason = "each command must be dispatched")]
+
 mod again;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -16,7 +18,7 @@ use super::film::Film;
 use super::history::Watch;
 use super::pace::Pace;
 use super::series::Series;
-use super::{Command, LiveView, Made, Status};
+use super::{LiveView, Made, RunCommand, Status};
 use crate::error::Error;
 use crate::plugins::PluginHost;
 use crate::run::{Run, RunOptions, frame_stride};
@@ -78,7 +80,7 @@ pub(super) fn work(
     prepared: Prepared,
     host: &PluginHost,
     options: RunOptions,
-    commands: &Receiver<Command>,
+    commands: &Receiver<RunCommand>,
     screen: &Screen,
 ) {
     // A panic here is a fault of ours or of a plugin's; the workbench stays up and says so.
@@ -151,7 +153,7 @@ impl<'a> Worker<'a> {
     }
 
     /// Waits for commands or for the next step to be due; false when the sender is gone.
-    fn turn(&mut self, commands: &Receiver<Command>) -> bool {
+    fn turn(&mut self, commands: &Receiver<RunCommand>) -> bool {
         let received = match self.wait() {
             Some(wait) => commands.recv_timeout(wait),
             None => commands.recv().map_err(|_| RecvTimeoutError::Disconnected),
@@ -174,34 +176,33 @@ impl<'a> Worker<'a> {
         Some(self.pace.wait(Instant::now(), run.state().time_s + run.step_s()))
     }
 
-    fn obey(&mut self, command: Command) {
+    fn obey(&mut self, command: RunCommand) {
         match command {
-            Command::Start => self.start(),
-            Command::Pause => self.pause(),
-            Command::Step => {
+            RunCommand::Start => self.start(),
+            RunCommand::Pause => self.pause(),
+            RunCommand::Step => {
                 self.pause();
                 self.sought = None;
                 self.step();
             }
-            Command::Reset => self.reset(),
-            Command::Speed(speed) => self.set_speed(speed),
-            Command::Controls(controls) => self.pilot = Some(controls),
-            Command::Autopilot => self.pilot = None,
-            Command::WeakLinks(on) => self.set_weak_links(on),
-            Command::Load(prepared) => self.load(*prepared),
-            Command::Seek(time_s) => {
+            RunCommand::Reset => self.reset(),
+            RunCommand::Speed(speed) => self.set_speed(speed),
+            RunCommand::Controls(controls) => self.pilot = Some(controls),
+            RunCommand::Autopilot => self.pilot = None,
+            RunCommand::Load(prepared) => self.load(*prepared),
+            RunCommand::Seek(time_s) => {
                 self.pause();
                 self.look(|film, _| film.nearest(time_s));
             }
-            Command::Shift(by) => {
+            RunCommand::Shift(by) => {
                 self.pause();
                 self.look(|film, now_s| film.beside(now_s, by));
             }
-            Command::Inputs(inputs) => self.run_again(inputs, false),
-            Command::Rerun(prepared) => self.rerun(*prepared),
-            Command::Program(thin) => self.make_program(thin),
-            Command::Branch => self.branch(),
-            Command::SaveRecording(path) => self.save(&path),
+            RunCommand::Inputs(inputs) => self.run_again(inputs, false),
+            RunCommand::Rerun(prepared) => self.rerun(*prepared),
+            RunCommand::Program(thin) => self.make_program(thin),
+            RunCommand::Branch => self.branch(),
+            RunCommand::SaveRecording(path) => self.save(&path),
         }
     }
 
@@ -237,15 +238,6 @@ impl<'a> Worker<'a> {
             Instant::now(),
             self.run.as_ref().map_or(0.0, |run| run.state().time_s),
         );
-    }
-
-    fn set_weak_links(&mut self, on: bool) {
-        let mut source = (*self.prepared.source).clone();
-        source.overrides.weak_links = Some(on);
-        match source.prepare(self.host) {
-            Ok(prepared) => self.load(prepared),
-            Err(error) => self.message = Some(error.to_string()),
-        }
     }
 
     fn load(&mut self, prepared: Prepared) {

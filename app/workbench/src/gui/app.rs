@@ -7,7 +7,7 @@ use egui::{CentralPanel, Context, Frame as Margins, Id, Panel as Bar, Ui};
 use egui_dock::{DockArea, DockState, TabViewer};
 use endline_session::edit::Documents;
 use endline_session::edit::recovery::UnsavedEdits;
-use endline_session::live::Command;
+use endline_session::live::RunCommand;
 
 use super::canvas::Canvas;
 use super::desk::{Desk, Order, Preferences};
@@ -195,7 +195,7 @@ impl App {
         {
             self.desk.pilot.rumble(pulse.strength, pulse.long_s);
         }
-        self.desk.send(Command::Controls(controls));
+        self.desk.send(RunCommand::Controls(controls));
         context.request_repaint();
     }
 

@@ -14,7 +14,7 @@ use endline_gear::Diagnostic;
 use endline_sdk::{Act, GearType};
 use endline_session::edit::Documents;
 use endline_session::edit::recovery::Autosave;
-use endline_session::live::{Command, LiveView, Status};
+use endline_session::live::{LiveView, RunCommand, Status};
 use endline_session::recording::PluginUsed;
 use endline_session::recording::replay::check_plugins;
 use endline_session::{Error, Overrides, PluginHost, Prepared, Source};
@@ -273,7 +273,7 @@ impl Desk {
     }
 
     /// Sends a command to the run; false where there is none to take it.
-    pub fn send(&mut self, command: Command) -> bool {
+    pub fn send(&mut self, command: RunCommand) -> bool {
         self.engine.as_ref().is_some_and(|engine| engine.send(command))
     }
 
@@ -292,24 +292,24 @@ impl Desk {
                 self.run_is_kept = false;
                 self.start();
             }
-            Order::Pause => self.tell(Command::Pause),
-            Order::PlayPause if self.running() => self.tell(Command::Pause),
+            Order::Pause => self.tell(RunCommand::Pause),
+            Order::PlayPause if self.running() => self.tell(RunCommand::Pause),
             Order::PlayPause
                 if self.replaying() || self.view.as_ref().is_some_and(|view| view.sought) =>
             {
                 self.replay()
             }
             Order::PlayPause => self.start(),
-            Order::Step => self.tell(Command::Step),
+            Order::Step => self.tell(RunCommand::Step),
             Order::Reset => {
                 self.keep_run();
-                self.tell(Command::Reset);
+                self.tell(RunCommand::Reset);
             }
             Order::OpenRecording(path) => self.open_recording(path),
             Order::Branch => {
                 self.keep_run();
                 self.replaying_s = None;
-                self.tell(Command::Branch);
+                self.tell(RunCommand::Branch);
             }
             Order::HoldRun | Order::CompareWith(_) | Order::EndCompare => self.obey_compare(order),
             Order::Pose => self.posing.on = !self.posing.on,
@@ -352,7 +352,7 @@ impl Desk {
             | Order::ExportModel(_) => {
                 self.obey_files(order);
             }
-            Order::SaveRecording(path) => self.tell(Command::SaveRecording(path.clone())),
+            Order::SaveRecording(path) => self.tell(RunCommand::SaveRecording(path.clone())),
             Order::Open(path) => self.open(path),
             Order::ReloadPlugins
             | Order::AllowPlugin(..)
@@ -370,7 +370,7 @@ impl Desk {
 
     fn set_speed(&mut self, speed: f64) {
         self.replay_speed = if speed.is_finite() { speed } else { FASTEST_REPLAY };
-        self.tell(Command::Speed(speed));
+        self.tell(RunCommand::Speed(speed));
     }
 
     /// The next of the speeds offered.
@@ -388,15 +388,15 @@ impl Desk {
     /// Another moment shown by one order.
     fn obey_time(&mut self, order: &Order) {
         match order {
-            Order::Seek(time_s) => self.look(Command::Seek(*time_s)),
-            Order::Shift(by) => self.look(Command::Shift(*by)),
-            Order::Newest => self.look(Command::Seek(f64::MAX)),
+            Order::Seek(time_s) => self.look(RunCommand::Seek(*time_s)),
+            Order::Shift(by) => self.look(RunCommand::Shift(*by)),
+            Order::Newest => self.look(RunCommand::Seek(f64::MAX)),
             _ => self.replay(),
         }
     }
 
     /// Looks at another moment; what was playing stands still.
-    fn look(&mut self, command: Command) {
+    fn look(&mut self, command: RunCommand) {
         self.replaying_s = None;
         self.tell(command);
     }
@@ -412,7 +412,7 @@ impl Desk {
         let Some(view) = self.view.clone() else { return };
         if self.replaying_s.take().is_none() {
             self.replaying_s = Some(if view.sought { view.frame.time_s } else { 0.0 });
-            self.tell(Command::Pause);
+            self.tell(RunCommand::Pause);
         }
     }
 
@@ -421,7 +421,7 @@ impl Desk {
         let Some((shown_s, view)) = self.replaying_s.zip(self.view.clone()) else { return };
         let next_s = shown_s + elapsed_s * self.replay_speed;
         self.replaying_s = (next_s < view.newest_s).then_some(next_s);
-        self.tell(Command::Seek(next_s));
+        self.tell(RunCommand::Seek(next_s));
     }
 
     /// The command line that gives the run shown, and whether files must be saved before it does.
@@ -438,7 +438,7 @@ impl Desk {
         (line, !self.documents.unsaved().is_empty())
     }
 
-    fn tell(&mut self, command: Command) {
+    fn tell(&mut self, command: RunCommand) {
         if !self.send(command) {
             self.notice = Some(("the run does not take commands now".into(), true));
         }
@@ -454,9 +454,9 @@ impl Desk {
             return;
         }
         if matches!(self.status(), Some(Status::Finished | Status::Stopped(_))) {
-            self.tell(Command::Reset);
+            self.tell(RunCommand::Reset);
         }
-        self.tell(Command::Start);
+        self.tell(RunCommand::Start);
     }
 
     /// Makes a model from the present texts, unless they have errors.
@@ -497,11 +497,11 @@ impl Desk {
                 self.notice = None;
                 self.load(prepared);
                 if let Some((inputs, _)) = recorded {
-                    self.tell(Command::Inputs(inputs));
+                    self.tell(RunCommand::Inputs(inputs));
                     self.run_is_kept = true;
                 }
                 if start {
-                    self.tell(Command::Start);
+                    self.tell(RunCommand::Start);
                 }
             }
             Err(Error::Diagnostics(problems)) => {
@@ -526,7 +526,7 @@ impl Desk {
             self.engine = None;
         }
         if self.engine.is_some() {
-            let command = if rerun { Command::Rerun } else { Command::Load };
+            let command = if rerun { RunCommand::Rerun } else { RunCommand::Load };
             self.tell(command(Box::new(prepared)));
             return;
         }
@@ -553,7 +553,7 @@ impl Desk {
             self.view3d.go_with_whale();
         } else {
             self.view3d.leave_whale();
-            self.tell(Command::Autopilot);
+            self.tell(RunCommand::Autopilot);
         }
     }
 

@@ -3,20 +3,20 @@
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
-use endline_session::live::{Command, Live, LiveView};
+use endline_session::live::{Live, LiveView, RunCommand};
 use endline_session::{Error, PluginHost, Prepared, RunOptions, Source};
 
 /// A run that takes commands and shows its newest view; neither waits for the solver.
 pub trait Engine {
     /// Sends a command; false where the run is gone or cannot take more.
-    fn send(&self, command: Command) -> bool;
+    fn send(&self, command: RunCommand) -> bool;
 
     /// The newest view.
     fn latest(&self) -> Arc<LiveView>;
 }
 
 impl Engine for Live {
-    fn send(&self, command: Command) -> bool {
+    fn send(&self, command: RunCommand) -> bool {
         Self::send(self, command)
     }
 

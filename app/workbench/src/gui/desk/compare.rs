@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use endline_sdk::Controls;
 use endline_session::Recording;
-use endline_session::live::{Command, LiveView, Status};
+use endline_session::live::{LiveView, RunCommand, Status};
 
 use super::super::engine::{Engine, Maker};
 use super::{Desk, Order};
@@ -33,7 +33,7 @@ impl Other {
             return;
         }
         let wanted_s = if time_s >= view.newest_s { f64::MAX } else { time_s };
-        if engine.send(Command::Seek(wanted_s)) {
+        if engine.send(RunCommand::Seek(wanted_s)) {
             self.sent_s = Some(time_s);
         }
     }
@@ -61,7 +61,7 @@ impl Desk {
             });
             match launched {
                 Ok(engine) => {
-                    engine.send(Command::Inputs(std::mem::take(&mut other.inputs)));
+                    engine.send(RunCommand::Inputs(std::mem::take(&mut other.inputs)));
                     other.engine = Some(engine);
                 }
                 Err(error) => {
@@ -86,7 +86,7 @@ impl Desk {
         }
         self.keep_run();
         let Some(engine) = self.engine.take() else { return };
-        engine.send(Command::Pause);
+        engine.send(RunCommand::Pause);
         let name = format!("{}, held", self.scenario_stem());
         self.other = Some(Other {
             name,

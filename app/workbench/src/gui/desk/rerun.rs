@@ -5,7 +5,7 @@ use std::sync::Arc;
 use endline_gear::Document;
 use endline_gear::units::{Quantity, parse};
 use endline_session::edit::Documents;
-use endline_session::live::{Command, Made};
+use endline_session::live::{Made, RunCommand};
 
 use super::{Desk, Order};
 use crate::gui::layout::Panel;
@@ -50,7 +50,7 @@ impl Desk {
             return;
         }
         self.again.wanted = true;
-        self.tell(Command::Program(THIN));
+        self.tell(RunCommand::Program(THIN));
     }
 
     /// Takes the program asked for; one undo takes it back.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use endline_session::edit::Documents;
 use endline_session::edit::recovery::UnsavedEdits;
-use endline_session::live::Command;
+use endline_session::live::RunCommand;
 
 use super::Desk;
 
@@ -31,7 +31,7 @@ impl Desk {
         let Some(path) = (1..10_000).map(named).find(|path| !path.exists()) else { return };
         // Where there is no folder, saving says so.
         let _ = std::fs::create_dir_all(&folder);
-        if self.send(Command::SaveRecording(path)) {
+        if self.send(RunCommand::SaveRecording(path)) {
             self.kept_runs += 1;
         }
     }

@@ -15,7 +15,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_session::PluginHost;
 use endline_session::edit::Documents;
-use endline_session::live::{Command, LiveView, Status};
+use endline_session::live::{LiveView, RunCommand, Status};
 use endline_session::plugins::Hook;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::desk::{Desk, Order};
@@ -32,42 +32,41 @@ struct FakeEngine {
 }
 
 impl Engine for FakeEngine {
-    fn send(&self, command: Command) -> bool {
+    fn send(&self, command: RunCommand) -> bool {
         let mut view = self.view.borrow_mut();
         let words = match command {
-            Command::Start => {
+            RunCommand::Start => {
                 view.status = Status::Running;
                 "start".to_owned()
             }
-            Command::Pause => {
+            RunCommand::Pause => {
                 view.status = Status::Paused;
                 "pause".to_owned()
             }
-            Command::Step => "step".to_owned(),
-            Command::Reset => "reset".to_owned(),
-            Command::Speed(speed) => format!("speed {speed}"),
-            Command::Controls(controls) => {
+            RunCommand::Step => "step".to_owned(),
+            RunCommand::Reset => "reset".to_owned(),
+            RunCommand::Speed(speed) => format!("speed {speed}"),
+            RunCommand::Controls(controls) => {
                 format!(
                     "controls {:.2} {:.2} {:.2} {:.2}",
                     controls.speed, controls.pitch, controls.roll, controls.yaw
                 )
             }
-            Command::Autopilot => "autopilot".to_owned(),
-            Command::WeakLinks(on) => format!("weak links {on}"),
-            Command::Load(prepared) => {
+            RunCommand::Autopilot => "autopilot".to_owned(),
+            RunCommand::Load(prepared) => {
                 view.model = Arc::clone(&prepared.model);
                 "load".to_owned()
             }
-            Command::Seek(time_s) => format!("seek {time_s}"),
-            Command::Shift(by) => format!("shift {by}"),
-            Command::Inputs(inputs) => format!("inputs {}", inputs.len()),
-            Command::Branch => "branch".to_owned(),
-            Command::Rerun(prepared) => {
+            RunCommand::Seek(time_s) => format!("seek {time_s}"),
+            RunCommand::Shift(by) => format!("shift {by}"),
+            RunCommand::Inputs(inputs) => format!("inputs {}", inputs.len()),
+            RunCommand::Branch => "branch".to_owned(),
+            RunCommand::Rerun(prepared) => {
                 view.model = Arc::clone(&prepared.model);
                 "rerun".to_owned()
             }
-            Command::Program(thin) => format!("program {thin}"),
-            Command::SaveRecording(path) => format!("save {}", path.display()),
+            RunCommand::Program(thin) => format!("program {thin}"),
+            RunCommand::SaveRecording(path) => format!("save {}", path.display()),
         };
         self.told.borrow_mut().push(words);
         true
