@@ -41,7 +41,19 @@ impl ForceUnit {
         let digits = usize::from(value.abs() < 100.0);
         format!("{value:.digits$} {}", self.symbol())
     }
+
+    /// A pressure given in pascals, as text: in psi beside pounds-force, in kPa beside newtons.
+    #[must_use]
+    pub fn pressure(self, pressure_pa: f64) -> String {
+        match self {
+            Self::Lbf => format!("{:.1} psi", pressure_pa / PA_PER_PSI),
+            Self::Newton => format!("{:.0} kPa", pressure_pa / 1000.0),
+        }
+    }
 }
+
+/// Pascals in a pound-force on a square inch.
+const PA_PER_PSI: f64 = 6_894.757;
 
 const METRES_PER_FOOT: f64 = 0.3048;
 const METRES_PER_FATHOM: f64 = 6.0 * METRES_PER_FOOT;
@@ -179,6 +191,12 @@ mod tests {
         assert_eq!(ForceUnit::Lbf.text(7_561.976_746), "1700 lbf");
         assert_eq!(ForceUnit::Newton.text(7_561.976_746), "7562 N");
         assert_eq!(ForceUnit::Newton.text(12.34), "12.3 N");
+    }
+
+    #[test]
+    fn a_pressure_is_shown_in_the_unit_of_forces() {
+        assert_eq!(ForceUnit::Lbf.pressure(6_894.757), "1.0 psi");
+        assert_eq!(ForceUnit::Newton.pressure(12_000.0), "12 kPa");
     }
 
     #[test]

@@ -21,7 +21,8 @@ use common::Folder;
 use egui::{Event, Key, Modifiers, PointerButton, pos2};
 use endline_session::live::Status;
 use endline_workbench::gui::desk::Order;
-use endline_workbench::gui::layout::{Layout, Panel};
+use endline_workbench::gui::layout::Layout;
+use endline_workbench::gui::panel_id::PanelId;
 use endline_workbench::scene::{Drawer, Scene, offscreen::Offscreen};
 use screen::{Screen, thread_cpu_s};
 
@@ -94,7 +95,7 @@ fn typing(folder: &Folder) {
     screen.wait(|app| app.desk.view.is_some());
     screen.app.dock = Layout::Design.dock();
     screen.settle(5);
-    screen.open_alone(Panel::Library);
+    screen.open_alone(PanelId::LIBRARY);
     screen.settle(5);
     let letter = |index: usize| {
         vec![Event::Text(if index.is_multiple_of(2) { "1" } else { "2" }.to_owned())]
@@ -119,10 +120,10 @@ fn typing(folder: &Folder) {
     tell("  the edit committed: all files read and compared anew", committed, "");
     let mut found = Vec::new();
     for _ in 0..10 {
-        screen.app.desk.library.search.clear();
+        screen.app.panels.library.search.clear();
         screen.frame(Vec::new());
         for _ in 0..4 {
-            screen.app.desk.library.search.push('0');
+            screen.app.panels.library.search.push('0');
             found.push(screen.frame(Vec::new()));
         }
     }
@@ -157,9 +158,9 @@ fn playing(folder: &Folder) {
     screen.app.desk.recordings = Some(folder.0.join("recordings"));
     study::run(&mut screen, folder);
     screen.wait(|app| app.desk.status() == Some(&Status::Paused));
-    screen.app.desk.library.chosen = Some("ropes/sink-3-8.toml".to_owned());
+    screen.app.panels.library.chosen = Some("ropes/sink-3-8.toml".to_owned());
     screen.open_all();
-    screen.wait(|app| app.desk.assembly.settled());
+    screen.wait(|app| app.panels.assembly.settled());
     screen.app.desk.obey(&Order::Speed(f64::INFINITY));
     screen.app.desk.obey(&Order::Start);
     screen.wait(|app| {
@@ -171,7 +172,7 @@ fn playing(folder: &Folder) {
     screen.app.desk.obey(&Order::Speed(1.0));
     screen.settle(5);
     let nodes = screen.app.desk.view.as_ref().unwrap().model.node_count;
-    let panels = Panel::ALL.len();
+    let panels = PanelId::ALL.len();
     tell(
         &format!("a frame, {nodes} nodes being run, all {panels} panels open"),
         screen.moments(60),
@@ -185,7 +186,7 @@ fn playing(folder: &Folder) {
         "4 ms",
     );
     uploaded(&screen);
-    for panel in Panel::ALL {
+    for panel in PanelId::ALL {
         screen.open_alone(panel);
         screen.settle(3);
         tell(&format!("  {} alone", panel.title()), played(&mut screen, 20), "");
@@ -212,7 +213,7 @@ fn uploaded(screen: &Screen) {
     let (desk, mut made, mut handed) = (&screen.app.desk, Vec::new(), Vec::new());
     for _ in 0..40 {
         let (view, start) = (desk.view.as_ref().unwrap(), thread_cpu_s());
-        let scene = Scene::of(&view.model, &view.frame, &desk.view3d.show);
+        let scene = Scene::of(&view.model, &view.frame, &screen.app.panels.view.show);
         made.push(thread_cpu_s() - start);
         let start = thread_cpu_s();
         drawer.load(&scene);
@@ -240,7 +241,7 @@ fn scrubbing(folder: &Folder) {
     println!("a recording of {newest_s:.0} s was made in {:.0} s", start.elapsed().as_secs_f64());
     assert!(newest_s > 599.0, "ten minutes");
     screen.open_all();
-    screen.wait(|app| app.desk.assembly.settled());
+    screen.wait(|app| app.panels.assembly.settled());
     let mut jumps = Jumps::default();
     for jump in 0..60 {
         let time_s = newest_s * (f64::from(jump) * 0.618_034).fract();

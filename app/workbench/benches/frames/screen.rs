@@ -12,7 +12,7 @@ use endline_workbench::gui::app::App;
 use endline_workbench::gui::canvas::Canvas;
 use endline_workbench::gui::desk::Desk;
 use endline_workbench::gui::engine;
-use endline_workbench::gui::layout::Panel;
+use endline_workbench::gui::panel_id::PanelId;
 use endline_workbench::input::Pilot;
 
 use crate::common::linked;
@@ -45,7 +45,7 @@ impl Screen {
             Desk::new(documents, linked(), engine::live(), waker, Pilot::default()),
         );
         // With a canvas the view makes its triangles as it does beside a graphics card; nobody draws them.
-        app.desk.view3d.drawn[0].canvas = Some(Arc::new(Mutex::new(Canvas::default())));
+        app.panels.view.drawn[0].canvas = Some(Arc::new(Mutex::new(Canvas::default())));
         Self { context, app, frame: eframe::Frame::_new_kittest(), time_s: 0.0, woken }
     }
 
@@ -135,7 +135,7 @@ impl Screen {
 
     /// Every panel in a place of its own, four in a row.
     pub fn open_all(&mut self) {
-        let ids: Vec<Vec<String>> = Panel::ALL.map(|panel| vec![panel.id().to_owned()]).to_vec();
+        let ids: Vec<Vec<String>> = PanelId::ALL.map(|panel| vec![panel.id().to_owned()]).to_vec();
         let rows: Vec<&[Vec<String>]> = ids.chunks(4).collect();
         let mut dock = DockState::new(rows[0][0].clone());
         let tree = dock.main_surface_mut();
@@ -157,7 +157,7 @@ impl Screen {
     }
 
     /// One panel alone.
-    pub fn open_alone(&mut self, panel: Panel) {
+    pub fn open_alone(&mut self, panel: PanelId) {
         self.app.dock = DockState::new(vec![panel.id().to_owned()]);
     }
 }

@@ -11,8 +11,10 @@ use endline_session::live::RunCommand;
 
 use super::canvas::Canvas;
 use super::desk::{Desk, Order, Preferences};
-use super::layout::{self, Layout, Panel};
-use super::{keys, menus, panels, questions, status};
+use super::layout::{self, Layout};
+use super::panel_id::PanelId;
+use super::panels::Panels;
+use super::{keys, menus, questions, status};
 use crate::input::{HeldKeys, PilotAction};
 
 const LAYOUT_KEY: &str = "layout";
@@ -22,6 +24,8 @@ const PREFERENCES_KEY: &str = "preferences";
 pub struct App {
     /// What the panels share.
     pub desk: Desk,
+    /// The panels, each with its state.
+    pub panels: Panels,
     /// Panels in place.
     pub dock: DockState<String>,
     /// Answer of a file dialog still open.
@@ -56,20 +60,22 @@ impl App {
         let saved = stored(LAYOUT_KEY)
             .and_then(|text| serde_json::from_str(&text).ok())
             .and_then(layout::known);
+        let mut panels = Panels::default();
         if let Some(gl) = &creation.gl {
             match Canvas::new(Arc::clone(gl)) {
-                Ok(canvas) => desk.view3d.drawn[0].canvas = Some(Arc::new(Mutex::new(canvas))),
+                Ok(canvas) => panels.view.drawn[0].canvas = Some(Arc::new(Mutex::new(canvas))),
                 Err(error) => desk.notice = Some((error, true)),
             }
         }
         let first = saved.is_none() && creation.storage.is_some();
         let mut dock = saved.unwrap_or_else(|| Layout::Design.dock());
         if first {
-            layout::open_beside(&mut dock, Panel::Start, Panel::View);
+            layout::open_beside(&mut dock, PanelId::START, PanelId::VIEW);
         }
         let left_behind = desk.autosave.left_behind();
         Self {
             desk,
+            panels,
             dock,
             left_behind,
             asking: false,
@@ -90,14 +96,14 @@ impl App {
                 now.push(format!("{order:?}"));
             }
             match &order {
-                Order::Start | Order::PlayPause if layout::is_open(&self.dock, Panel::Start) => {
+                Order::Start | Order::PlayPause if layout::is_open(&self.dock, PanelId::START) => {
                     // Whoever runs something wants to see it.
-                    layout::close(&mut self.dock, Panel::Start);
-                    layout::open(&mut self.dock, Panel::View);
+                    layout::close(&mut self.dock, PanelId::START);
+                    layout::open(&mut self.dock, PanelId::VIEW);
                     self.desk.obey(&order);
                 }
                 Order::HoldRun | Order::CompareWith(_) => {
-                    layout::open(&mut self.dock, Panel::Compare);
+                    layout::open(&mut self.dock, PanelId::COMPARE);
                     self.desk.obey(&order);
                 }
                 // Another text in its place would take the edits with it.
@@ -105,10 +111,37 @@ impl App {
                     self.opening = Some(path.clone())
                 }
                 Order::Show(panel) => layout::open(&mut self.dock, *panel),
-                Order::Table(_) => {
-                    layout::open(&mut self.dock, Panel::Library);
+                Order::Table(kind) => {
+                    layout::open(&mut self.dock, PanelId::LIBRARY);
+                    self.panels.library.turn_to(*kind);
+                }
+                Order::Entry(path) => {
+                    layout::open(&mut self.dock, PanelId::LIBRARY);
+                    self.panels.library.choose(path.clone());
+                }
+                Order::Assembly(id) => {
+                    layout::open(&mut self.dock, PanelId::ASSEMBLY);
+                    self.panels.assembly.choose(id.clone());
+                }
+                Order::Duplicate => self.panels.library.duplicate(&mut self.desk),
+                Order::ExportTable(path) => self.panels.library.export(&mut self.desk, path),
+                Order::ImportTable(path) => self.panels.library.import(&mut self.desk, path),
+                Order::ExportPlots(path) => self.panels.plots.export(&mut self.desk, path),
+                Order::ExportModel(path) => self.panels.assembly.export_model(&mut self.desk, path),
+                Order::AddEntry => self.panels.program.add_entry(&mut self.desk),
+                Order::DeleteEntry => self.panels.program.delete_entry(&mut self.desk),
+                Order::EditInputs => {
+                    // The entries of the program that is to come are others.
+                    self.panels.program.chosen = None;
                     self.desk.obey(&order);
                 }
+                Order::Person => self.panels.view.change_person(),
+                Order::Look(view) => self.panels.view.look(*view),
+                Order::Frame => self.panels.view.frame(),
+                Order::Views(count) => self.panels.view.split(*count),
+                Order::Ruler => self.panels.view.picks.toggle_ruler(),
+                Order::LetGo => self.panels.view.picks.let_go(),
+                Order::Read(picked) => self.panels.view.picks.read = Some(*picked),
                 Order::Close(panel) => layout::close(&mut self.dock, *panel),
                 Order::Size(scale) => context.set_zoom_factor(*scale),
                 Order::AskExportModel(ending) => menus::ask_export_model(self, ending),
@@ -117,7 +150,7 @@ impl App {
                 Order::AskResults => menus::ask_results(self),
                 Order::CopyStudyLine => self.copy_study_line(context),
                 Order::ReplayEncounter(..) => {
-                    layout::open(&mut self.dock, Panel::View);
+                    layout::open(&mut self.dock, PanelId::VIEW);
                     self.desk.obey(&order);
                 }
                 Order::AskScenarioAs => menus::ask_scenario_as(self),
@@ -125,9 +158,6 @@ impl App {
                 Order::Commands => self.palette.toggle(context),
                 Order::CopyCommandLine => self.copy_command_line(context),
                 Order::AskExportPlots(ending) => menus::ask_export_plots(self, ending),
-                Order::ExportPlots(path) if is_png(path) => {
-                    self.desk.plots.picture = Some(path.clone())
-                }
                 Order::AskExportTable => menus::ask_export_table(self),
                 Order::AskImportTable => menus::ask_import_table(self),
                 _ => self.desk.obey(&order),
@@ -275,7 +305,7 @@ impl eframe::App for App {
             .show(ui, |ui| status::show(ui, &mut self.desk));
         CentralPanel::default().frame(Margins::new().fill(theme.palette().ground)).show(ui, |ui| {
             let style = theme.dock(ui.style());
-            let mut tabs = Tabs { desk: &mut self.desk };
+            let mut tabs = Tabs { panels: &mut self.panels, desk: &mut self.desk };
             DockArea::new(&mut self.dock)
                 .style(style)
                 .show_leaf_collapse_buttons(false)
@@ -301,10 +331,6 @@ impl eframe::App for App {
     }
 }
 
-fn is_png(path: &std::path::Path) -> bool {
-    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"))
-}
-
 fn save_json<T: serde::Serialize>(storage: &mut dyn Storage, key: &str, value: &T) {
     if let Ok(text) = serde_json::to_string(value) {
         storage.set_string(key, text);
@@ -313,6 +339,7 @@ fn save_json<T: serde::Serialize>(storage: &mut dyn Storage, key: &str, value: &
 
 /// Panels as the dock's tabs.
 struct Tabs<'a> {
+    panels: &'a mut Panels,
     desk: &'a mut Desk,
 }
 
@@ -324,12 +351,12 @@ impl TabViewer for Tabs<'_> {
     }
 
     fn title(&mut self, tab: &mut String) -> egui::WidgetText {
-        Panel::of_id(tab).map_or_else(|| tab.clone(), |panel| panel.title().to_owned()).into()
+        self.panels.find(tab).map_or(tab.as_str(), |panel| panel.title()).into()
     }
 
     fn ui(&mut self, ui: &mut Ui, tab: &mut String) {
-        if let Some(panel) = Panel::of_id(tab) {
-            panels::show(ui, panel, self.desk);
+        if let Some(panel) = self.panels.find(tab) {
+            panel.ui(ui, self.desk);
         }
     }
 
@@ -344,6 +371,6 @@ impl TabViewer for Tabs<'_> {
     }
 
     fn allowed_in_windows(&self, tab: &mut String) -> bool {
-        tab != Panel::View.id()
+        tab != PanelId::VIEW.id()
     }
 }

@@ -3,7 +3,7 @@
 use egui::{Key, KeyboardShortcut, Modifiers};
 
 use super::desk::Order;
-use super::layout::Panel;
+use super::panel_id::PanelId;
 use crate::scene::View;
 
 /// When a key holds.
@@ -60,7 +60,7 @@ const CTRL_SHIFT: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
 
 /// Every key of the window. Keys that steer stand in [`STEERING`](crate::input::keys::STEERING).
 pub static BINDINGS: [Binding; 30] = [
-    bind("This list", NONE, Key::F1, When::Always, Order::Show(Panel::Help)),
+    bind("This list", NONE, Key::F1, When::Always, Order::Show(PanelId::HELP)),
     bind("Every command by name", CTRL, Key::P, When::Always, Order::Commands),
     bind("Save all", CTRL, Key::S, When::Always, Order::Save),
     bind("Undo an edit", CTRL, Key::Z, When::Always, Order::Undo),

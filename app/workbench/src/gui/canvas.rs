@@ -7,6 +7,9 @@ use three_d::{ScissorBox, Viewport};
 
 use crate::scene::{Camera, Drawer, Scene, Water};
 
+/// Panes of the 3-D view at most.
+pub const MOST_PANES: usize = 4;
+
 /// What a slot was drawn with last.
 type Drawn = (Camera, [u32; 2], Water);
 

@@ -3,9 +3,8 @@
 use egui_plot::PlotPoint;
 use endline_sdk::BodyPart;
 use endline_session::live::{Channel, LiveView, Series, Span};
-use serde::{Deserialize, Serialize};
-
 use endline_session::units::Units;
+use serde::{Deserialize, Serialize};
 
 /// Spans a curve is drawn with at most: least and greatest of each, so that no peak is lost.
 pub const SPANS: usize = 900;

@@ -5,7 +5,7 @@ use endline_session::live::LiveView;
 use endline_session::units::Units;
 use endline_sim::metrics::{RegionSummary, WhaleSummary};
 
-use super::reading::spoken;
+use super::widgets::words::spoken;
 
 /// One figure of both runs.
 #[derive(Clone, Debug, PartialEq)]

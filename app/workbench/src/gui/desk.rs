@@ -19,24 +19,14 @@ use endline_session::recording::PluginUsed;
 use endline_session::recording::replay::check_plugins;
 use endline_session::{Error, Overrides, PluginHost, Prepared, Source};
 
-use compare::Other;
+pub use super::order::Order;
+pub use super::preferences::{Preferences, Scale};
 
 use super::engine::{Engine, Launch, Maker, Waker};
-pub use super::order::Order;
-use super::panels::assembly::AssemblyState;
-use super::panels::entanglement::EntanglementState;
-use super::panels::library::LibraryState;
-use super::panels::pad::Learning;
-use super::panels::pilot::PilotState;
-use super::panels::plots::PlotsState;
-use super::panels::recordings::RecordingsState;
-use super::panels::start::StartState;
-use super::panels::view::ViewState;
 use super::plugins::Plugins;
-use super::pose::Posing;
-pub use super::preferences::{Preferences, Scale};
 use super::studies::Studies;
 use crate::input::{Pilot, Rumble};
+use compare::Other;
 use runs::WORTH_KEEPING_S;
 
 /// How fast a run is played again where it was run as fast as it went.
@@ -60,28 +50,10 @@ pub struct Desk {
     pub pilot: Pilot,
     /// Whether they steer.
     pub flying: bool,
-    /// State of the library panel.
-    pub library: LibraryState,
-    /// State of the assembly panel.
-    pub assembly: AssemblyState,
-    /// State of the plots.
-    pub plots: PlotsState,
-    /// State of the entanglement panel.
-    pub entanglement: EntanglementState,
-    /// State of the 3-D view.
-    pub view3d: ViewState,
-    /// State of the pilot program's timeline.
-    pub program: PilotState,
-    /// Handles of the whale's start in the 3-D view.
-    pub posing: Posing,
-    /// State of the start page.
-    pub start: StartState,
+    /// Whether handles in the 3-D view drag the whale's start.
+    pub posing: bool,
     /// Studies at work and their results.
     pub studies: Studies,
-    /// State of the list of recordings.
-    pub recorded: RecordingsState,
-    /// What of the pad waits to be given a button or stick.
-    pub learning: Learning,
     /// What the pilot feels.
     pub rumble: Rumble,
     /// Keeps unsaved edits.
@@ -141,17 +113,8 @@ impl Desk {
             preferences: Preferences::default(),
             pilot,
             flying: false,
-            library: LibraryState::default(),
-            assembly: AssemblyState::default(),
-            plots: PlotsState::default(),
-            entanglement: EntanglementState::default(),
-            view3d: ViewState::default(),
-            program: PilotState::default(),
-            posing: Posing::default(),
-            start: StartState::default(),
+            posing: false,
             studies: Studies::default(),
-            recorded: RecordingsState::default(),
-            learning: Learning::default(),
             rumble: Rumble::default(),
             autosave: Autosave::default(),
             recordings: None,
@@ -190,7 +153,6 @@ impl Desk {
         }
         self.take_plugins();
         super::studies::tick(self);
-        let settling = self.status() == Some(&Status::Settling);
         self.view = self.engine.as_ref().map(|engine| engine.latest());
         if self.view.as_ref().is_some_and(|view| view.newest_s < WORTH_KEEPING_S) {
             self.run_is_kept = false;
@@ -200,10 +162,6 @@ impl Desk {
         }
         self.take_program();
         self.refresh_other();
-        // Gear at rest lies elsewhere than where it was first guessed.
-        if settling && self.status() != Some(&Status::Settling) && !self.posing.on {
-            self.view3d.frame_all();
-        }
     }
 
     /// Whether a model is in the making.
@@ -312,10 +270,9 @@ impl Desk {
                 self.tell(RunCommand::Branch);
             }
             Order::HoldRun | Order::CompareWith(_) | Order::EndCompare => self.obey_compare(order),
-            Order::Pose => self.posing.on = !self.posing.on,
-            Order::AddEntry | Order::DeleteEntry | Order::EditInputs | Order::Rerun => {
-                self.obey_program(order)
-            }
+            Order::Pose => self.posing = !self.posing,
+            Order::EditInputs => self.edit_inputs(),
+            Order::Rerun => self.rerun(),
             Order::Dress(theme) => self.preferences.theme = *theme,
             Order::Measure(units) => self.preferences.units = *units,
             Order::Apply => self.make(),
@@ -332,26 +289,9 @@ impl Desk {
             Order::Slower => self.change_speed(false),
             Order::Faster => self.change_speed(true),
             Order::Mouth => self.pilot.toggle_mouth(),
-            Order::Person
-            | Order::Look(_)
-            | Order::Frame
-            | Order::Views(_)
-            | Order::Ruler
-            | Order::LetGo
-            | Order::Read(_) => {
-                self.view3d.obey(order);
-            }
-            Order::Table(kind) => self.library.turn_to(*kind),
-            Order::Duplicate => super::panels::library::duplicate(self),
             Order::ChooseAct(act) => self.pilot.choose_act(*act),
             Order::Save => self.save(),
-            Order::ScenarioAs(_)
-            | Order::ExportTable(_)
-            | Order::ImportTable(_)
-            | Order::ExportPlots(_)
-            | Order::ExportModel(_) => {
-                self.obey_files(order);
-            }
+            Order::ScenarioAs(path) => self.save_scenario_as(path),
             Order::SaveRecording(path) => self.tell(RunCommand::SaveRecording(path.clone())),
             Order::Open(path) => self.open(path),
             Order::ReloadPlugins
@@ -363,7 +303,7 @@ impl Desk {
             Order::Undo => self.step_back(true),
             Order::Redo => self.step_back(false),
             Order::ReplayEncounter(option, encounter) => self.replay_encounter(*option, *encounter),
-            // What is left is about studies, or about layout and left to the window.
+            // What is left is about studies, or about panels and layout, and obeyed by the window.
             other => super::studies::obey(self, other),
         }
     }
@@ -376,7 +316,7 @@ impl Desk {
     /// The next of the speeds offered.
     fn change_speed(&mut self, faster: bool) {
         let now = self.view.as_ref().map_or(1.0, |view| view.speed);
-        let speeds = super::panels::run::SPEEDS.map(|(speed, _)| speed);
+        let speeds = super::engine::SPEEDS.map(|(speed, _)| speed);
         let next = if faster {
             speeds.into_iter().find(|speed| *speed > now)
         } else {
@@ -517,10 +457,6 @@ impl Desk {
         self.applied = Some(std::mem::take(&mut self.making));
         self.stale.set(None);
         self.guest = self.guest_when_made.take();
-        // Whoever drags the whale's start wants to see it from where they drag it.
-        if !self.posing.on {
-            self.view3d.frame_all();
-        }
         let rerun = self.again.rerun_when_made();
         if std::mem::take(&mut self.other_plugins) {
             self.engine = None;
@@ -550,9 +486,7 @@ impl Desk {
         if self.flying {
             let speed = self.view.as_ref().map_or(0.5, |view| view.controls.speed);
             self.pilot.set_throttle(speed.max(0.3));
-            self.view3d.go_with_whale();
         } else {
-            self.view3d.leave_whale();
             self.tell(RunCommand::Autopilot);
         }
     }

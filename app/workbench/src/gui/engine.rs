@@ -6,6 +6,10 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use endline_session::live::{Live, LiveView, RunCommand};
 use endline_session::{Error, PluginHost, Prepared, RunOptions, Source};
 
+/// Speeds offered, simulated over real time; the last is as fast as it goes.
+pub const SPEEDS: [(f64, &str); 6] =
+    [(0.1, "0.1×"), (0.25, "¼×"), (1.0, "1×"), (2.0, "2×"), (5.0, "5×"), (f64::INFINITY, "max")];
+
 /// A run that takes commands and shows its newest view; neither waits for the solver.
 pub trait Engine {
     /// Sends a command; false where the run is gone or cannot take more.

@@ -4,7 +4,6 @@
 //! as typed, with their unit. What cannot be taken is listed, and nothing is dropped in silence.
 
 use endline_gear::{Document, Kind, Setting};
-
 use endline_session::edit::Documents;
 
 /// Columns before the kind's own.

@@ -1,137 +1,8 @@
-//! Panels, their stable ids, and the named layouts.
+//! The named layouts, and panels opened and closed in them.
 
 use egui_dock::{DockState, NodeIndex};
 
-/// A panel; its id is what a saved layout holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Panel {
-    /// Tables of the gear library.
-    Library,
-    /// A rig's parts, its statics drawn to scale.
-    Assembly,
-    /// What happens: scenario, current, whale, weak links.
-    Scenario,
-    /// The 3-D view.
-    View,
-    /// Start, pause, speed; how the run does.
-    Run,
-    /// Tension over time.
-    Tension,
-    /// Tension, force, wraps, depth and speed.
-    Plots,
-    /// Rope on the whale's body, and the outcome.
-    Entanglement,
-    /// What happened when.
-    Events,
-    /// Outcome and loads by part of the whale.
-    Summary,
-    /// Everything wrong with the files.
-    Problems,
-    /// Keys and pad.
-    Help,
-    /// What was open last, and examples.
-    Start,
-    /// Runs that were kept.
-    Recordings,
-    /// What the pad does.
-    Pad,
-    /// Motions, laws of friction and gear types.
-    Plugins,
-    /// The designer of a study, and the queue.
-    Study,
-    /// What a study found.
-    Results,
-    /// The pilot program on a timeline.
-    Program,
-    /// Two runs beside one another.
-    Compare,
-}
-
-impl Panel {
-    /// Every panel, in the order of the Window menu.
-    pub const ALL: [Self; 20] = [
-        Self::Library,
-        Self::Assembly,
-        Self::Scenario,
-        Self::View,
-        Self::Run,
-        Self::Tension,
-        Self::Plots,
-        Self::Entanglement,
-        Self::Events,
-        Self::Summary,
-        Self::Problems,
-        Self::Help,
-        Self::Start,
-        Self::Recordings,
-        Self::Pad,
-        Self::Plugins,
-        Self::Study,
-        Self::Results,
-        Self::Program,
-        Self::Compare,
-    ];
-
-    /// Its stable id in saved layouts.
-    #[must_use]
-    pub fn id(self) -> &'static str {
-        match self {
-            Self::Library => "library",
-            Self::Assembly => "assembly",
-            Self::Scenario => "scenario",
-            Self::View => "view",
-            Self::Run => "run",
-            Self::Tension => "tension",
-            Self::Plots => "plots",
-            Self::Entanglement => "entanglement",
-            Self::Events => "events",
-            Self::Summary => "summary",
-            Self::Problems => "problems",
-            Self::Help => "help",
-            Self::Start => "start",
-            Self::Recordings => "recordings",
-            Self::Pad => "pad",
-            Self::Plugins => "plugins",
-            Self::Study => "study",
-            Self::Results => "results",
-            Self::Program => "pilot",
-            Self::Compare => "compare",
-        }
-    }
-
-    /// Its title.
-    #[must_use]
-    pub fn title(self) -> &'static str {
-        match self {
-            Self::Library => "Library",
-            Self::Assembly => "Assembly",
-            Self::Scenario => "Scenario",
-            Self::View => "3-D view",
-            Self::Run => "Run",
-            Self::Tension => "Tension",
-            Self::Plots => "Plots",
-            Self::Entanglement => "Entanglement",
-            Self::Events => "Events",
-            Self::Summary => "Summary",
-            Self::Problems => "Problems",
-            Self::Help => "Keys and help",
-            Self::Start => "Start",
-            Self::Recordings => "Recordings",
-            Self::Pad => "Pad",
-            Self::Plugins => "Plugins",
-            Self::Study => "Study",
-            Self::Results => "Results",
-            Self::Program => "Pilot program",
-            Self::Compare => "Compare",
-        }
-    }
-
-    /// The panel of an id.
-    #[must_use]
-    pub fn of_id(id: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|panel| panel.id() == id)
-    }
-}
+use super::panel_id::PanelId;
 
 /// A named arrangement of panels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -164,54 +35,75 @@ impl Layout {
     /// Its panels in place.
     #[must_use]
     pub fn dock(self) -> DockState<String> {
-        use Panel::{
-            Assembly, Compare, Entanglement, Events, Library, Pad, Plots, Problems, Program,
-            Recordings, Results, Run, Scenario, Study, Summary, Tension, View,
-        };
         let first = match self {
-            Self::Design => ids(&[View, Assembly]),
-            Self::Study => ids(&[Results]),
-            Self::Fly | Self::Review => ids(&[View]),
+            Self::Design => ids(&[PanelId::VIEW, PanelId::ASSEMBLY]),
+            Self::Study => ids(&[PanelId::RESULTS]),
+            Self::Fly | Self::Review => ids(&[PanelId::VIEW]),
         };
         let mut dock = DockState::new(first);
         let tree = dock.main_surface_mut();
         match self {
             Self::Design => {
-                let [upper, _] =
-                    tree.split_below(NodeIndex::root(), 0.66, ids(&[Library, Problems]));
-                let [middle, _] = tree.split_left(upper, 0.2, ids(&[Scenario]));
-                let [_, right] = tree.split_right(middle, 0.7, ids(&[Run]));
-                tree.split_below(right, 0.5, ids(&[Tension, Summary, Events]));
+                let [upper, _] = tree.split_below(
+                    NodeIndex::root(),
+                    0.66,
+                    ids(&[PanelId::LIBRARY, PanelId::PROBLEMS]),
+                );
+                let [middle, _] = tree.split_left(upper, 0.2, ids(&[PanelId::SCENARIO]));
+                let [_, right] = tree.split_right(middle, 0.7, ids(&[PanelId::RUN]));
+                tree.split_below(
+                    right,
+                    0.5,
+                    ids(&[PanelId::TENSION, PanelId::SUMMARY, PanelId::EVENTS]),
+                );
             }
             Self::Fly => {
-                let [_, right] =
-                    tree.split_right(NodeIndex::root(), 0.78, ids(&[Run, Scenario, Pad]));
-                let [_, below] = tree.split_below(right, 0.42, ids(&[Tension]));
-                tree.split_below(below, 0.5, ids(&[Events, Summary]));
+                let [_, right] = tree.split_right(
+                    NodeIndex::root(),
+                    0.78,
+                    ids(&[PanelId::RUN, PanelId::SCENARIO, PanelId::PAD]),
+                );
+                let [_, below] = tree.split_below(right, 0.42, ids(&[PanelId::TENSION]));
+                tree.split_below(below, 0.5, ids(&[PanelId::EVENTS, PanelId::SUMMARY]));
             }
             Self::Review => {
-                let [upper, lower] =
-                    tree.split_below(NodeIndex::root(), 0.55, ids(&[Plots, Program]));
-                tree.split_right(upper, 0.6, ids(&[Entanglement, Summary]));
-                tree.split_right(lower, 0.66, ids(&[Events, Run, Recordings, Compare]));
+                let [upper, lower] = tree.split_below(
+                    NodeIndex::root(),
+                    0.55,
+                    ids(&[PanelId::PLOTS, PanelId::PROGRAM]),
+                );
+                tree.split_right(upper, 0.6, ids(&[PanelId::ENTANGLEMENT, PanelId::SUMMARY]));
+                tree.split_right(
+                    lower,
+                    0.66,
+                    ids(&[PanelId::EVENTS, PanelId::RUN, PanelId::RECORDINGS, PanelId::COMPARE]),
+                );
             }
             Self::Study => {
-                let [right, _] =
-                    tree.split_left(NodeIndex::root(), 0.36, ids(&[Study, Library, Problems]));
-                let [_, below] = tree.split_below(right, 0.52, ids(&[View, Plots]));
-                tree.split_right(below, 0.62, ids(&[Summary, Entanglement, Events]));
+                let [right, _] = tree.split_left(
+                    NodeIndex::root(),
+                    0.36,
+                    ids(&[PanelId::STUDY, PanelId::LIBRARY, PanelId::PROBLEMS]),
+                );
+                let [_, below] =
+                    tree.split_below(right, 0.52, ids(&[PanelId::VIEW, PanelId::PLOTS]));
+                tree.split_right(
+                    below,
+                    0.62,
+                    ids(&[PanelId::SUMMARY, PanelId::ENTANGLEMENT, PanelId::EVENTS]),
+                );
             }
         }
         dock
     }
 }
 
-fn ids(panels: &[Panel]) -> Vec<String> {
+fn ids(panels: &[PanelId]) -> Vec<String> {
     panels.iter().map(|panel| panel.id().to_owned()).collect()
 }
 
 /// Brings a panel to the front, adding it where it is closed.
-pub fn open(dock: &mut DockState<String>, panel: Panel) {
+pub fn open(dock: &mut DockState<String>, panel: PanelId) {
     let id = panel.id().to_owned();
     match dock.find_tab(&id) {
         Some(path) => {
@@ -224,7 +116,7 @@ pub fn open(dock: &mut DockState<String>, panel: Panel) {
 }
 
 /// Adds a panel in front of the tabs of another.
-pub fn open_beside(dock: &mut DockState<String>, panel: Panel, other: Panel) {
+pub fn open_beside(dock: &mut DockState<String>, panel: PanelId, other: PanelId) {
     if let Some(path) = dock.find_tab(&other.id().to_owned()) {
         dock.set_focused_node_and_surface(path.node_path());
     }
@@ -232,7 +124,7 @@ pub fn open_beside(dock: &mut DockState<String>, panel: Panel, other: Panel) {
 }
 
 /// Takes a panel away.
-pub fn close(dock: &mut DockState<String>, panel: Panel) {
+pub fn close(dock: &mut DockState<String>, panel: PanelId) {
     if let Some(path) = dock.find_tab(&panel.id().to_owned()) {
         dock.remove_tab(path);
     }
@@ -240,14 +132,14 @@ pub fn close(dock: &mut DockState<String>, panel: Panel) {
 
 /// Whether a panel is open.
 #[must_use]
-pub fn is_open(dock: &DockState<String>, panel: Panel) -> bool {
+pub fn is_open(dock: &DockState<String>, panel: PanelId) -> bool {
     dock.find_tab(&panel.id().to_owned()).is_some()
 }
 
 /// A saved layout without panels this program does not know; `None` where nothing is left.
 #[must_use]
 pub fn known(mut dock: DockState<String>) -> Option<DockState<String>> {
-    dock.retain_tabs(|id| Panel::of_id(id).is_some());
+    dock.retain_tabs(|id| PanelId::find(id).is_some());
     let empty = dock.iter_all_tabs().next().is_none();
     (!empty).then_some(dock)
 }
@@ -257,23 +149,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ids_are_unique_and_lead_back() {
-        for panel in Panel::ALL {
-            assert_eq!(Panel::of_id(panel.id()), Some(panel));
-        }
-    }
-
-    #[test]
     fn a_panel_opens_once_in_every_layout() {
         for layout in Layout::ALL {
             let mut dock = layout.dock();
-            for panel in Panel::ALL.into_iter().chain(Panel::ALL) {
+            for panel in PanelId::ALL.into_iter().chain(PanelId::ALL) {
                 open(&mut dock, panel);
                 assert!(is_open(&dock, panel), "{layout:?} {panel:?}");
             }
             assert_eq!(
                 dock.iter_all_tabs().count(),
-                Panel::ALL.len(),
+                PanelId::ALL.len(),
                 "{layout:?}: no panel twice"
             );
         }

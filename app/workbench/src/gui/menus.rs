@@ -7,8 +7,9 @@ use endline_session::units::Units;
 
 use super::app::App;
 use super::desk::Order;
-use super::layout::{self, Layout, Panel};
-use super::panels::scenario::scenarios;
+use super::files::scenarios;
+use super::layout::{self, Layout};
+use super::panel_id::PanelId;
 use super::theme::Theme;
 
 /// Draws the menu bar.
@@ -22,8 +23,8 @@ pub fn show(ui: &mut Ui, app: &mut App) {
         ui.menu_button("View", |ui| view(ui, app));
         ui.menu_button("Window", |ui| window(ui, app));
         ui.menu_button("Help", |ui| {
-            item(ui, app, true, "Start page", "", Order::Show(Panel::Start));
-            item(ui, app, true, "Keys and help", "F1", Order::Show(Panel::Help));
+            item(ui, app, true, "Start page", "", Order::Show(PanelId::START));
+            item(ui, app, true, "Keys and help", "F1", Order::Show(PanelId::HELP));
             item(ui, app, true, "Commands …", "Ctrl+P", Order::Commands);
         });
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
@@ -114,7 +115,7 @@ fn ask(app: &mut App, question: impl FnOnce() -> Option<Order> + Send + 'static)
 
 /// Asks where to write the library's shown table.
 pub fn ask_export_table(app: &mut App) {
-    let name = format!("{}.csv", app.desk.library.kind.folder());
+    let name = format!("{}.csv", app.panels.library.kind().folder());
     ask(app, move || {
         rfd::FileDialog::new()
             .set_file_name(name)
@@ -253,7 +254,7 @@ fn view(ui: &mut Ui, app: &mut App) {
 }
 
 fn window(ui: &mut Ui, app: &mut App) {
-    for panel in Panel::ALL {
+    for panel in PanelId::ALL {
         let mut open = layout::is_open(&app.dock, panel);
         if ui.checkbox(&mut open, panel.title()).clicked() {
             app.desk.orders.push(if open { Order::Show(panel) } else { Order::Close(panel) });

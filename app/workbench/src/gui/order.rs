@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use endline_gear::Kind;
 use endline_session::units::Units;
 
-use super::layout::{Layout, Panel};
+use super::layout::Layout;
+use super::panel_id::PanelId;
 use super::theme::Theme;
 use crate::scene::{Picked, View};
 
@@ -80,6 +81,10 @@ pub enum Order {
     CopyCommandLine,
     /// Show a table of the library.
     Table(Kind),
+    /// Show an entry of the library in its table, by its file's path.
+    Entry(String),
+    /// Show an assembly by its id.
+    Assembly(String),
     /// Copy the chosen entry of the library to a file of its own.
     Duplicate,
     /// Save every changed text.
@@ -159,9 +164,9 @@ pub enum Order {
     /// Units on screen.
     Measure(Units),
     /// Take a panel away.
-    Close(Panel),
+    Close(PanelId),
     /// Bring a panel to the front.
-    Show(Panel),
+    Show(PanelId),
     /// A named layout.
     Arrange(Layout),
     /// The list of all orders, open or closed.

@@ -3,13 +3,13 @@
 use egui::{Align2, Context, Key, RichText, TextEdit, Ui, Window, vec2};
 use endline_session::units::Units;
 
+use super::canvas::MOST_PANES;
 use super::desk::{Desk, Order};
-use super::layout::{Layout, Panel};
-use super::panels::library::KINDS;
-use super::panels::scenario::scenarios;
-use super::panels::view::MOST;
-use super::reading::worst_m;
-use super::studies::studies;
+use super::files::{scenarios, stem, studies};
+use super::inspector::worst_m;
+use super::layout::Layout;
+use super::panel_id::PanelId;
+use super::tables::KINDS;
 use super::theme::Theme;
 use crate::scene::{Picked, View};
 
@@ -111,9 +111,11 @@ pub fn orders(desk: &Desk) -> Vec<(String, Order)> {
     all.extend(
         views.map(|view| (format!("View {}", view.name().replace('-', " ")), Order::Look(view))),
     );
-    all.extend((1..=MOST).map(|count| (format!("Views at once: {count}"), Order::Views(count))));
+    all.extend(
+        (1..=MOST_PANES).map(|count| (format!("Views at once: {count}"), Order::Views(count))),
+    );
     all.extend(readable(desk));
-    all.extend(Panel::ALL.into_iter().flat_map(of_panel));
+    all.extend(PanelId::ALL.into_iter().flat_map(of_panel));
     all.extend(
         KINDS.map(|(kind, title)| {
             (format!("Table of {}", title.to_lowercase()), Order::Table(kind))
@@ -127,21 +129,21 @@ pub fn orders(desk: &Desk) -> Vec<(String, Order)> {
     all.extend(
         Layout::ALL.map(|layout| (format!("Layout {}", layout.name()), Order::Arrange(layout))),
     );
-    all.extend(scenarios(desk.documents.root()).into_iter().map(|path| {
-        let name =
-            path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-        (format!("Open {name}"), Order::Open(path))
-    }));
-    all.extend(studies(desk.documents.root()).into_iter().map(|path| {
-        let name =
-            path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-        (format!("Open study {name}"), Order::OpenStudy(path))
-    }));
+    all.extend(
+        scenarios(desk.documents.root())
+            .into_iter()
+            .map(|path| (format!("Open {}", stem(&path)), Order::Open(path))),
+    );
+    all.extend(
+        studies(desk.documents.root())
+            .into_iter()
+            .map(|path| (format!("Open study {}", stem(&path)), Order::OpenStudy(path))),
+    );
     all
 }
 
 /// A panel brought to the front, and taken away.
-fn of_panel(panel: Panel) -> [(String, Order); 2] {
+fn of_panel(panel: PanelId) -> [(String, Order); 2] {
     let title = panel.title();
     [(format!("Show {title}"), Order::Show(panel)), (format!("Close {title}"), Order::Close(panel))]
 }

@@ -45,15 +45,13 @@ enum Answer {
     Checked(PathBuf, Report),
 }
 
-/// The plugins' own state of the desk.
+/// What is known of plugins, and what is under way with them.
 #[derive(Default)]
 pub struct Plugins {
     /// Files and plugins that are not used, and why.
     pub problems: Vec<PluginProblem>,
     /// What checks said, by file.
     pub reports: BTreeMap<PathBuf, Report>,
-    /// Id of the plugin shown.
-    pub chosen: Option<String>,
     /// Times that plugins were loaded again.
     pub reloads: u64,
     loader: Option<(Arc<Mutex<Loader>>, Load)>,

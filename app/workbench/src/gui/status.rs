@@ -4,9 +4,9 @@ use egui::{Align, Button, Layout, RichText, Sense, Ui, vec2};
 use endline_session::live::Status;
 
 use super::desk::{Desk, Order};
-use super::layout::Panel;
-use super::panels::run::told;
+use super::panel_id::PanelId;
 use super::theme::Theme;
+use super::widgets::words;
 
 /// Draws the status bar.
 pub fn show(ui: &mut Ui, desk: &mut Desk) {
@@ -22,7 +22,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
                     Status::Paused | Status::Finished => palette.faint,
                     Status::Stopped(_) | Status::Failed(_) => palette.error,
                 };
-                (told(status).0, colour)
+                (words::status(status).0, colour)
             }
         };
         let (dot, _) = ui.allocate_exact_size(vec2(10.0, 10.0), Sense::hover());
@@ -59,7 +59,7 @@ fn right(ui: &mut Ui, desk: &mut Desk) {
             count => (format!("{count} problems"), palette.error),
         };
         if ui.add(Button::new(RichText::new(text).color(colour)).frame(false)).clicked() {
-            desk.orders.push(Order::Show(Panel::Problems));
+            desk.orders.push(Order::Show(PanelId::PROBLEMS));
         }
         if unsaved > 0 {
             ui.label(RichText::new(format!("{unsaved} unsaved")).color(palette.warning));

@@ -79,10 +79,10 @@ fn keys_letters_clicks_and_drags_show_within_two_frames() {
     window.run_steps(2);
 
     let pane = window.get_by_label("Pane 1").rect().center();
-    let before = window.state().desk.view3d.eyes[0].camera.clone();
+    let before = window.state().panels.view.eyes[0].camera.clone();
     press(&mut window, pane);
     let turned = frames(&mut window, Event::PointerMoved(pane + vec2(60.0, 0.0)), |window| {
-        window.state().desk.view3d.eyes[0].camera != before
+        window.state().panels.view.eyes[0].camera != before
     });
     assert!(turned <= 2, "the view turned by the mouse: {turned}");
     window.event(button(pane + vec2(60.0, 0.0), false));

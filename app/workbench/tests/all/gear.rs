@@ -4,7 +4,7 @@
 
 use endline_session::edit::Documents;
 
-use crate::common::{Folder, linked, on_disk, opened_with, wait, workbench};
+use crate::common::{Folder, give, linked, on_disk, opened_with, wait, workbench};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_gear::Kind;
@@ -12,7 +12,7 @@ use endline_workbench::gui::app::App;
 use endline_workbench::gui::desk::Order;
 use endline_workbench::gui::engine;
 use endline_workbench::gui::exchange::{import, to_csv};
-use endline_workbench::gui::layout::Panel;
+use endline_workbench::gui::panel_id::PanelId;
 use endline_workbench::input::Pilot;
 
 fn paths(documents: &Documents) -> Vec<String> {
@@ -69,7 +69,7 @@ fn cells_pasted_from_a_spreadsheet_spread_from_the_cell_typed_in() {
     let file = |harness: &Harness<'static, App>, path: &str, key: &str| {
         harness.state().desk.documents.field(path, key).unwrap()
     };
-    harness.state_mut().desk.library.search = "polypropylene 5/16".into();
+    harness.state_mut().panels.library.search = "polypropylene 5/16".into();
     harness.run_steps(2);
     harness.get_all_by_value("5/16 in").next().unwrap().click();
     harness.run_steps(2);
@@ -85,12 +85,12 @@ fn cells_pasted_from_a_spreadsheet_spread_from_the_cell_typed_in() {
 fn a_copy_is_compared_with_its_original_and_its_users_are_told() {
     let folder = Folder::new("compare");
     let (mut harness, _) = workbench(&folder, Pilot::default());
-    harness.state_mut().desk.library.chosen = Some("ropes/sink-3-8.toml".into());
+    harness.state_mut().panels.library.chosen = Some("ropes/sink-3-8.toml".into());
     harness.run_steps(3);
     assert!(harness.query_by_label("assemblies/single.toml").is_some(), "where it is used");
     harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::D);
     harness.run_steps(3);
-    let copy = harness.state().desk.library.chosen.clone().unwrap();
+    let copy = harness.state().panels.library.chosen.clone().unwrap();
     assert_eq!(copy, "ropes/sink-3-8-2.toml");
     assert!(harness.query_by_label("no difference").is_some());
     harness.state_mut().desk.set(&copy, "strength", "1,350 lbf");
@@ -103,15 +103,15 @@ fn a_copy_is_compared_with_its_original_and_its_users_are_told() {
 fn assembly(folder: &Folder) -> Harness<'static, App> {
     let mut harness =
         opened_with(folder.book_with("hello-endline"), linked(), engine::live(), Pilot::default());
-    harness.state_mut().dock = egui_dock::DockState::new(vec![Panel::Assembly.id().to_owned()]);
+    harness.state_mut().dock = egui_dock::DockState::new(vec![PanelId::ASSEMBLY.id().to_owned()]);
     harness.run_steps(2);
-    wait(&mut harness, |app| app.desk.assembly.settled());
+    wait(&mut harness, |app| app.panels.assembly.settled());
     harness
 }
 
 /// Greatest tension of the gear shown at slack and at running tide [N].
 fn tensions(harness: &Harness<'static, App>) -> [f64; 2] {
-    harness.state().desk.assembly.answers().map(|answer| {
+    harness.state().panels.assembly.answers().map(|answer| {
         let rest = answer.unwrap().as_ref().unwrap();
         assert!(rest.shape.converged, "{}", rest.shape.outcome);
         rest.shape.lines.iter().flat_map(|line| &line.tension_N).copied().fold(0.0, f64::max)
@@ -125,8 +125,7 @@ fn gear_is_settled_at_slack_and_running_tide_as_its_scope_is_moved() {
     let [slack, running] = tensions(&harness);
     assert!(running > 2.0 * slack, "the tide pulls: {slack} N, {running} N");
     let length = |harness: &Harness<'static, App>| {
-        let desk = &harness.state().desk;
-        let rest = desk.assembly.answers()[0].unwrap().as_ref().unwrap().clone();
+        let rest = harness.state().panels.assembly.answers()[0].unwrap().as_ref().unwrap().clone();
         rest.shape.lines.iter().map(|line| line.length_m).sum::<f64>()
     };
     assert!((length(&harness) - 1.3 * 25.0).abs() < 0.1, "{}", length(&harness));
@@ -139,7 +138,7 @@ fn gear_is_settled_at_slack_and_running_tide_as_its_scope_is_moved() {
             .unwrap();
     }
     harness.run_steps(2);
-    wait(&mut harness, |app| app.desk.assembly.settled());
+    wait(&mut harness, |app| app.panels.assembly.settled());
     assert!((length(&harness) - 2.0 * 25.0).abs() < 0.1, "{}", length(&harness));
     harness.state_mut().desk.obey(&Order::Undo);
     let scope = harness.state().desk.documents.field("assemblies/single.toml", "attributes.scope");
@@ -152,8 +151,8 @@ fn weak_inserts_are_put_in_every_sixty_feet_and_saved_with_all_else_as_it_was() 
     let mut harness = assembly(&folder);
     harness.get_all_by_label("Put in").last().unwrap().click();
     harness.run_steps(2);
-    wait(&mut harness, |app| app.desk.assembly.settled());
-    let rest = harness.state().desk.assembly.answers()[0].unwrap().as_ref().unwrap().clone();
+    wait(&mut harness, |app| app.panels.assembly.settled());
+    let rest = harness.state().panels.assembly.answers()[0].unwrap().as_ref().unwrap().clone();
     let inserts: Vec<&str> = rest
         .shape
         .lines
@@ -180,18 +179,18 @@ fn weak_inserts_are_put_in_every_sixty_feet_and_saved_with_all_else_as_it_was() 
 fn a_line_is_split_with_a_splice_and_the_gear_still_settles() {
     let folder = Folder::new("split");
     let mut harness = assembly(&folder);
-    harness.state_mut().desk.assembly.shown = Some("massachusetts-single".into());
+    harness.state_mut().panels.assembly.shown = Some("massachusetts-single".into());
     harness.run_steps(2);
-    wait(&mut harness, |app| app.desk.assembly.settled());
+    wait(&mut harness, |app| app.panels.assembly.settled());
     let lines = |harness: &Harness<'static, App>| {
-        let rest = harness.state().desk.assembly.answers()[0].unwrap().as_ref().unwrap().clone();
+        let rest = harness.state().panels.assembly.answers()[0].unwrap().as_ref().unwrap().clone();
         assert!(rest.shape.converged, "{}", rest.shape.outcome);
         rest.shape.lines.len()
     };
     let before = lines(&harness);
     harness.get_all_by_label("Split").last().unwrap().click();
     harness.run_steps(2);
-    wait(&mut harness, |app| app.desk.assembly.settled());
+    wait(&mut harness, |app| app.panels.assembly.settled());
     assert_eq!(lines(&harness), before + 1);
     let field = |harness: &Harness<'static, App>, field: &str| {
         harness.state().desk.documents.field("assemblies/massachusetts-single.toml", field).unwrap()
@@ -206,9 +205,9 @@ fn a_line_is_split_with_a_splice_and_the_gear_still_settles() {
 fn two_gears_are_compared_and_a_gear_type_is_a_starting_point() {
     let folder = Folder::new("two-gears");
     let mut harness = assembly(&folder);
-    harness.state_mut().desk.assembly.other = Some("single-high-flyer".into());
+    harness.state_mut().panels.assembly.other = Some("single-high-flyer".into());
     harness.run_steps(2);
-    wait(&mut harness, |app| app.desk.assembly.settled());
+    wait(&mut harness, |app| app.panels.assembly.settled());
     harness.run_steps(2);
     assert!(
         harness.query_all_by_label("surface-line").next().is_some(),
@@ -218,17 +217,17 @@ fn two_gears_are_compared_and_a_gear_type_is_a_starting_point() {
     harness.run_steps(3);
     harness.get_all_by_label_contains("Trawl").last().unwrap().click();
     harness.run_steps(2);
-    wait(&mut harness, |app| app.desk.assembly.settled());
+    wait(&mut harness, |app| app.panels.assembly.settled());
     let model = folder.0.join("gear.stl");
-    harness.state_mut().desk.obey(&Order::ExportModel(model.clone()));
+    give(&mut harness, Order::ExportModel(model.clone()));
     let bytes = std::fs::read(model).unwrap();
     let triangles = u32::from_le_bytes(bytes[80..84].try_into().unwrap()) as usize;
     assert!(triangles > 1000 && bytes.len() == 84 + 50 * triangles, "{triangles} triangles");
     let desk = &harness.state().desk;
     assert!(
-        desk.assembly.answers()[0].unwrap().is_ok(),
+        harness.state().panels.assembly.answers()[0].unwrap().is_ok(),
         "{:?}",
-        desk.assembly.answers()[0].unwrap().as_ref().err()
+        harness.state().panels.assembly.answers()[0].unwrap().as_ref().err()
     );
     assert!(
         desk.documents.unsaved().iter().any(|path| path.starts_with("assemblies/my-")),
@@ -264,12 +263,12 @@ fn a_fraction_no_rule_has_is_told_at_its_place_with_the_nearest_size() {
 fn whales_have_a_table_and_every_figure_tells_how_sure_it_is_and_whence() {
     let folder = Folder::new("whales");
     let (mut harness, _) = workbench(&folder, Pilot::default());
-    harness.state_mut().dock = egui_dock::DockState::new(vec![Panel::Library.id().to_owned()]);
+    harness.state_mut().dock = egui_dock::DockState::new(vec![PanelId::LIBRARY.id().to_owned()]);
     harness.run_steps(2);
     harness.get_by_label("Whales").click();
     harness.run_steps(2);
     let whale = harness.state().desk.documents.files("whales").next().unwrap().to_owned();
-    harness.state_mut().desk.library.chosen = Some(whale.clone());
+    harness.state_mut().panels.library.chosen = Some(whale.clone());
     harness.run_steps(3);
     let library = harness.state().desk.documents.library().clone();
     let entry = library
@@ -290,13 +289,13 @@ fn gear_is_chosen_by_its_picture() {
     let folder = Folder::new("pictures");
     let mut harness =
         opened_with(folder.book_with("hello-endline"), linked(), engine::live(), Pilot::default());
-    harness.state_mut().dock = egui_dock::DockState::new(vec![Panel::Assembly.id().to_owned()]);
+    harness.state_mut().dock = egui_dock::DockState::new(vec![PanelId::ASSEMBLY.id().to_owned()]);
     harness.run_steps(2);
     harness.get_by_label("Pictures").click();
     harness.run_steps(3);
     let name = harness.state().desk.documents.field("assemblies/single.toml", "name").unwrap();
     harness.get_all_by_label(&name).last().unwrap().click();
     harness.run_steps(3);
-    assert_eq!(harness.state().desk.assembly.shown.as_deref(), Some("single"));
-    assert!(!harness.state().desk.assembly.selecting, "the picture is taken and the gear shown");
+    assert_eq!(harness.state().panels.assembly.shown.as_deref(), Some("single"));
+    assert!(!harness.state().panels.assembly.selecting, "the picture is taken and the gear shown");
 }

@@ -7,15 +7,16 @@ use std::sync::Arc;
 use endline_session::edit::recovery::{Autosave, EVERY_S};
 use endline_session::units::Units;
 
-use crate::common::{Folder, flown, wait, workbench};
+use crate::common::{Folder, flown, give, wait, workbench};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_session::live::{Channel, Status};
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::charts::{Chart, Kind};
 use endline_workbench::gui::desk::Order;
-use endline_workbench::gui::layout::{self, Layout, Panel};
+use endline_workbench::gui::layout::{self, Layout};
 use endline_workbench::gui::palette::orders;
+use endline_workbench::gui::panel_id::PanelId;
 use endline_workbench::input::{PadButton, PadEvent, Pilot, Pressed, ScriptedPad};
 
 #[test]
@@ -59,12 +60,12 @@ fn every_command_of_the_palette_is_obeyed_in_every_layout() {
 fn the_window_menu_ticks_open_panels_and_takes_them_away() {
     let folder = Folder::new("ticks");
     let (mut harness, _) = workbench(&folder, Pilot::default());
-    assert!(layout::is_open(&harness.state().dock, Panel::Tension));
+    assert!(layout::is_open(&harness.state().dock, PanelId::TENSION));
     harness.get_by_label("Window").click();
     harness.run_steps(3);
     harness.get_all_by_label("Tension").last().unwrap().click();
     harness.run_steps(3);
-    assert!(!layout::is_open(&harness.state().dock, Panel::Tension));
+    assert!(!layout::is_open(&harness.state().dock, PanelId::TENSION));
 }
 
 #[test]
@@ -113,7 +114,7 @@ fn a_button_is_given_to_something_else_by_pressing_it() {
         Pilot::new(Some(Box::new(ScriptedPad { script: vec![vec![], events].into() })))
     };
     let (mut harness, _) = workbench(&folder, Pilot::default());
-    harness.state_mut().dock = egui_dock::DockState::new(vec![Panel::Pad.id().to_owned()]);
+    harness.state_mut().dock = egui_dock::DockState::new(vec![PanelId::PAD.id().to_owned()]);
     harness.run_steps(2);
     harness.get_by_label("right shoulder").click();
     harness.run_steps(2);
@@ -171,7 +172,7 @@ fn plots_of_an_encounter_agree_with_its_summary_and_every_panel_draws_it() {
         harness.state_mut().desk.orders.push(Order::Arrange(layout));
         harness.run_steps(3);
     }
-    for panel in Panel::ALL {
+    for panel in PanelId::ALL {
         harness.state_mut().dock = egui_dock::DockState::new(vec![panel.id().to_owned()]);
         harness.run_steps(2);
     }
@@ -211,9 +212,9 @@ fn plots_of_an_encounter_agree_with_its_summary_and_every_panel_draws_it() {
         along.end_x
     );
     let svg = folder.0.join("plots.svg");
-    harness.state_mut().desk.obey(&Order::ExportPlots(svg.clone()));
+    give(&mut harness, Order::ExportPlots(svg.clone()));
     assert!(std::fs::read_to_string(svg).unwrap().contains("Tension of each line"));
     let csv = folder.0.join("plots.csv");
-    harness.state_mut().desk.obey(&Order::ExportPlots(csv.clone()));
+    give(&mut harness, Order::ExportPlots(csv.clone()));
     assert!(std::fs::read_to_string(csv).unwrap().lines().count() > 100);
 }

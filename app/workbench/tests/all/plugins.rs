@@ -13,7 +13,7 @@ use endline_gear::{Document, Setting};
 use endline_session::plugins::{Choices, Language, Loader, PluginKind, Standing, write_project};
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::desk::Order;
-use endline_workbench::gui::layout::Panel;
+use endline_workbench::gui::panel_id::PanelId;
 use endline_workbench::gui::plugins::{Load, Plugins};
 use endline_workbench::gui::{engine, fields};
 use endline_workbench::input::Pilot;
@@ -44,7 +44,7 @@ fn bench(folder: &Folder, place: &Path, scenario: &str) -> Harness<'static, App>
     let load: Load = Arc::new(|loader| loader.load(&|_: &Path| Ok(())));
     let loader = Loader::new(&[place.to_path_buf()], Choices::kept_in(None, &[]));
     harness.state_mut().desk.plugins = Plugins::new(loader, load, Vec::new());
-    harness.state_mut().desk.orders.push(Order::Show(Panel::Plugins));
+    harness.state_mut().desk.orders.push(Order::Show(PanelId::PLUGINS));
     harness.run_steps(3);
     harness
 }
@@ -147,7 +147,7 @@ fn a_law_of_friction_is_put_into_the_scenario_and_its_attributes_are_a_form() {
             .map_err(|error| error.to_string())
     };
     harness.state_mut().desk.documents.alter(Documents::SCENARIO, other).unwrap();
-    harness.state_mut().desk.plugins.chosen = Some(id.to_owned());
+    harness.state_mut().panels.plugins.chosen = Some(id.to_owned());
     harness.run_steps(2);
     harness.get_by_label("Use in this scenario").click();
     harness.run_steps(3);

@@ -8,7 +8,7 @@ use endline_session::edit::Documents;
 use endline_session::edit::pilot_program::entries;
 use endline_session::units::Units;
 
-use crate::common::{Folder, drag, flown, wait};
+use crate::common::{Folder, drag, flown, give, wait};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_session::live::{LiveView, Status};
@@ -16,7 +16,7 @@ use endline_workbench::gui::app::App;
 use endline_workbench::gui::charts::{Chart, Kind, Style};
 use endline_workbench::gui::compare::groups;
 use endline_workbench::gui::desk::Order;
-use endline_workbench::gui::layout::Panel;
+use endline_workbench::gui::panel_id::PanelId;
 
 fn view(harness: &Harness<'static, App>) -> Arc<LiveView> {
     harness.state().desk.view.clone().unwrap()
@@ -35,7 +35,7 @@ fn same(one: &LiveView, other: &LiveView) -> bool {
 }
 
 /// Shows one panel alone.
-fn only(harness: &mut Harness<'static, App>, panel: Panel) {
+fn only(harness: &mut Harness<'static, App>, panel: PanelId) {
     harness.state_mut().dock = egui_dock::DockState::new(vec![panel.id().to_owned()]);
     harness.run_steps(3);
 }
@@ -57,7 +57,7 @@ fn the_inputs_of_a_run_are_edited_as_a_program_and_rerun_from_a_moment() {
     let folder = Folder::new("edit-inputs");
     let mut harness = flown(&folder);
     let (end, middle) = (view(&harness), seek(&mut harness, 1.0));
-    only(&mut harness, Panel::Program);
+    only(&mut harness, PanelId::PROGRAM);
     harness.get_by_label("Edit inputs of this run").click();
     wait(&mut harness, |app| {
         app.desk.documents.text(Documents::SCENARIO).is_some_and(|text| text.contains("# Flown"))
@@ -84,15 +84,15 @@ fn the_inputs_of_a_run_are_edited_as_a_program_and_rerun_from_a_moment() {
     );
 
     seek(&mut harness, 1.0);
-    harness.state_mut().desk.obey(&Order::AddEntry);
-    let added = harness.state().desk.program.chosen.unwrap();
+    give(&mut harness, Order::AddEntry);
+    let added = harness.state().panels.program.chosen.unwrap();
     let program = entries(&harness.state().desk.documents);
     assert!((program[added].begin_s.unwrap() - middle.frame.time_s).abs() < 1e-3, "{program:?}");
     let other = rerun(&mut harness);
     assert!(!same(&other, &end), "from there on the edited program steers");
     let before = seek(&mut harness, 1.0);
     assert!(same(&before, &middle), "up to there nothing has changed");
-    harness.state_mut().desk.obey(&Order::DeleteEntry);
+    give(&mut harness, Order::DeleteEntry);
     assert_eq!(entries(&harness.state().desk.documents).len(), program.len() - 1);
 }
 
@@ -101,12 +101,12 @@ fn a_bar_of_the_timeline_is_dragged_and_one_undo_takes_it_back() {
     let folder = Folder::new("timeline");
     let mut harness = flown(&folder);
     harness.state_mut().desk.set(Documents::SCENARIO, "duration", "20 s");
-    only(&mut harness, Panel::Program);
+    only(&mut harness, PanelId::PROGRAM);
     seek(&mut harness, 1.0);
     harness.get_by_label("Add entry").click();
     harness.run_steps(3);
     let text = harness.state().desk.documents.text(Documents::SCENARIO).unwrap().to_owned();
-    let chosen = harness.state().desk.program.chosen.unwrap();
+    let chosen = harness.state().panels.program.chosen.unwrap();
     let rect = harness.get_by_label("Timeline").rect();
     // Names stand to the left of the tracks; speed is the first track, yaw, which the new entry tells, the second.
     let (left, width) = (rect.left() + 92.0, rect.width() - 100.0);
@@ -114,12 +114,12 @@ fn a_bar_of_the_timeline_is_dragged_and_one_undo_takes_it_back() {
     let y = rect.top() + 20.0 + 24.0 * 1.5;
     drag(&mut harness, egui::pos2(x(1.5), y), egui::pos2(x(6.5), y));
     let moved =
-        &entries(&harness.state().desk.documents)[harness.state().desk.program.chosen.unwrap()];
+        &entries(&harness.state().desk.documents)[harness.state().panels.program.chosen.unwrap()];
     assert!((moved.begin_s.unwrap() - 6.0).abs() < 0.11, "moved by five seconds: {moved:?}");
     assert_eq!(moved.hold_s, Some(2.0));
     drag(&mut harness, egui::pos2(x(8.0) - 2.0, y), egui::pos2(x(10.0) - 2.0, y));
     let held =
-        &entries(&harness.state().desk.documents)[harness.state().desk.program.chosen.unwrap()];
+        &entries(&harness.state().desk.documents)[harness.state().panels.program.chosen.unwrap()];
     assert!((held.hold_s.unwrap() - 4.0).abs() < 0.21, "held two seconds longer: {held:?}");
     for _ in 0..2 {
         harness.state_mut().desk.obey(&Order::Undo);
@@ -158,7 +158,7 @@ fn a_run_held_beside_itself_differs_in_nothing_and_beside_another_in_something()
     wait(&mut harness, |app| {
         app.desk.other_view().is_some_and(|other| (other.frame.time_s - at_s).abs() < 1e-9)
     });
-    only(&mut harness, Panel::View);
+    only(&mut harness, PanelId::VIEW);
     assert!(harness.query_by_label("Pane 1 of B").is_some(), "both are drawn");
 
     harness.state_mut().desk.set(Documents::SCENARIO, "whale.depth", "9 m");
@@ -174,7 +174,7 @@ fn a_run_held_beside_itself_differs_in_nothing_and_beside_another_in_something()
         all.iter().flat_map(|(_, rows)| rows).any(|row| row.difference.contains('%')),
         "{all:?}"
     );
-    only(&mut harness, Panel::Compare);
+    only(&mut harness, PanelId::COMPARE);
     assert!(harness.query_all_by_label("B less A").next().is_some(), "the table is on screen");
     harness.get_by_label("End comparison").click();
     harness.run_steps(3);

@@ -4,21 +4,21 @@
 
 use endline_session::edit::Documents;
 
-use crate::common::{Folder, drag, linked, opened_with, retype, wait};
+use crate::common::{Folder, drag, give, linked, opened_with, retype, wait};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_session::live::Status;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::desk::Order;
 use endline_workbench::gui::engine;
-use endline_workbench::gui::layout::Panel;
-use endline_workbench::gui::pose::Start;
+use endline_workbench::gui::panel_id::PanelId;
+use endline_workbench::gui::panels::view::pose::Start;
 use endline_workbench::gui::wraps::wraps;
 use endline_workbench::input::Pilot;
 use endline_workbench::scene::View;
 
 /// A scenario settled, with one panel alone.
-fn settled(folder: &Folder, scenario: &str, panel: Panel) -> Harness<'static, App> {
+fn settled(folder: &Folder, scenario: &str, panel: PanelId) -> Harness<'static, App> {
     let mut harness =
         opened_with(folder.book_with(scenario), linked(), engine::live(), Pilot::default());
     wait(&mut harness, |app| app.desk.status() == Some(&Status::Paused));
@@ -30,19 +30,19 @@ fn settled(folder: &Folder, scenario: &str, panel: Panel) -> Harness<'static, Ap
 #[test]
 fn the_whale_is_dragged_to_where_it_starts_and_one_undo_brings_it_back() {
     let folder = Folder::new("pose");
-    let mut harness = settled(&folder, "hello-endline", Panel::View);
+    let mut harness = settled(&folder, "hello-endline", PanelId::VIEW);
     let start =
         |harness: &Harness<'static, App>| Start::of(&harness.state().desk.documents).unwrap();
     let before = start(&harness);
     harness.get_by_label("Start pose").click();
     harness.run_steps(3);
-    harness.state_mut().desk.obey(&Order::Look(View::Top));
+    give(&mut harness, Order::Look(View::Top));
     harness.run_steps(3);
     let middle = harness.get_by_label("Start place").rect().center();
     drag(&mut harness, middle, middle + egui::vec2(40.0, -25.0));
     let moved = start(&harness);
     let metres =
-        f64::from(40.0_f32) * harness.state().desk.view3d.eyes[0].camera.metres_a_point(800.0);
+        f64::from(40.0_f32) * harness.state().panels.view.eyes[0].camera.metres_a_point(800.0);
     assert!(
         moved.place.x - before.place.x > 0.3 * metres && moved.place.y > before.place.y,
         "east and north: {moved:?}"
@@ -76,7 +76,7 @@ fn the_whale_is_dragged_to_where_it_starts_and_one_undo_brings_it_back() {
 #[test]
 fn fields_choices_and_flags_of_the_panel_reach_the_text() {
     let folder = Folder::new("scenario-fields");
-    let mut harness = settled(&folder, "hello-endline", Panel::Scenario);
+    let mut harness = settled(&folder, "hello-endline", PanelId::SCENARIO);
     retype(&mut harness, "12 m", "9 m");
     let field = |harness: &Harness<'static, App>, field: &str| {
         harness.state().desk.documents.field(Documents::SCENARIO, field)
@@ -105,7 +105,7 @@ fn fields_choices_and_flags_of_the_panel_reach_the_text() {
 #[test]
 fn wraps_of_a_whale_wound_in_rope_are_told_as_measured() {
     let folder = Folder::new("wraps");
-    let mut harness = settled(&folder, "dead-whale-wraps", Panel::Entanglement);
+    let mut harness = settled(&folder, "dead-whale-wraps", PanelId::ENTANGLEMENT);
     for step in 1..=3_u64 {
         harness.state_mut().desk.obey(&Order::Step);
         wait(&mut harness, |app| {
@@ -136,7 +136,7 @@ fn wraps_of_a_whale_wound_in_rope_are_told_as_measured() {
 #[test]
 fn a_scenario_saved_as_another_leaves_the_first_as_it_was() {
     let folder = Folder::new("save-as");
-    let mut harness = settled(&folder, "reference-a-pendulum", Panel::Scenario);
+    let mut harness = settled(&folder, "reference-a-pendulum", PanelId::SCENARIO);
     let first = harness.state().desk.documents.scenario_path().to_owned();
     let before = std::fs::read_to_string(&first).unwrap();
     harness.state_mut().desk.set(Documents::SCENARIO, "duration", "7 s");
@@ -152,7 +152,7 @@ fn a_scenario_saved_as_another_leaves_the_first_as_it_was() {
 #[test]
 fn weak_links_and_friction_are_changed_in_the_panel_comments_kept_and_taken_back() {
     let folder = Folder::new("links-friction");
-    let mut harness = settled(&folder, "hello-weak-link", Panel::Scenario);
+    let mut harness = settled(&folder, "hello-weak-link", PanelId::SCENARIO);
     let before = harness.state().desk.documents.text(Documents::SCENARIO).unwrap().to_owned();
     let field = |harness: &Harness<'static, App>, field: &str| {
         harness.state().desk.documents.field(Documents::SCENARIO, field)
@@ -215,7 +215,7 @@ fn weak_links_and_friction_are_changed_in_the_panel_comments_kept_and_taken_back
 #[test]
 fn another_scenario_is_opened_over_unsaved_edits_only_when_told_to() {
     let folder = Folder::new("opened-over");
-    let mut harness = settled(&folder, "reference-a-pendulum", Panel::Scenario);
+    let mut harness = settled(&folder, "reference-a-pendulum", PanelId::SCENARIO);
     let first = harness.state().desk.documents.scenario_path().to_owned();
     let other = folder.0.join("scenarios/hello-endline.toml");
     harness.state_mut().desk.set(Documents::SCENARIO, "duration", "7 s");

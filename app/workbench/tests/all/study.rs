@@ -14,7 +14,8 @@ use endline_session::live::Status;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::desk::Order;
 use endline_workbench::gui::engine;
-use endline_workbench::gui::layout::{Layout, Panel};
+use endline_workbench::gui::layout::Layout;
+use endline_workbench::gui::panel_id::PanelId;
 use endline_workbench::gui::panels::results::Part;
 use endline_workbench::gui::studies::job::State;
 use endline_workbench::input::Pilot;
@@ -144,7 +145,7 @@ fn a_study_is_edited_run_and_any_run_of_it_is_seen_again_to_the_bit() {
         (Part::Rates, "Strong link (baseline)"),
     ];
     for (part, says) in parts {
-        harness.state_mut().desk.studies.results.part = part;
+        harness.state_mut().panels.results.part = part;
         harness.run_steps(2);
         assert!(harness.query_all_by_label_contains(says).next().is_some(), "{part:?}");
     }
@@ -233,7 +234,7 @@ fn a_study_stands_still_when_paused_keeps_its_blocks_when_cancelled_and_goes_on(
 fn options_and_priors_are_added_and_wrong_ones_told_at_their_place() {
     let folder = Folder::new("designer");
     let mut harness = studying(&folder);
-    harness.state_mut().dock = egui_dock::DockState::new(vec![Panel::Study.id().to_owned()]);
+    harness.state_mut().dock = egui_dock::DockState::new(vec![PanelId::STUDY.id().to_owned()]);
     harness.run_steps(2);
     harness.get_by_label("Add option").click();
     harness.run_steps(2);

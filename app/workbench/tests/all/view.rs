@@ -4,16 +4,16 @@
 
 use endline_session::units::Units;
 
-use crate::common::{Folder, linked, opened_with, wait};
+use crate::common::{Folder, give, linked, opened_with, wait};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_session::live::Status;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::desk::Order;
 use endline_workbench::gui::engine;
-use endline_workbench::gui::layout::Panel;
+use endline_workbench::gui::inspector::{along_m, measured, read};
 use endline_workbench::gui::palette::orders;
-use endline_workbench::gui::reading::{along_m, measured, read};
+use endline_workbench::gui::panel_id::PanelId;
 use endline_workbench::input::Pilot;
 use endline_workbench::scene::{Picked, View};
 use glam::{DVec2, DVec3};
@@ -23,7 +23,7 @@ fn settled(folder: &Folder) -> Harness<'static, App> {
     let mut harness =
         opened_with(folder.book_with("hello-endline"), linked(), engine::live(), Pilot::default());
     wait(&mut harness, |app| app.desk.status() == Some(&Status::Paused));
-    harness.state_mut().dock = egui_dock::DockState::new(vec![Panel::View.id().to_owned()]);
+    harness.state_mut().dock = egui_dock::DockState::new(vec![PanelId::VIEW.id().to_owned()]);
     harness.run_steps(3);
     harness
 }
@@ -31,7 +31,7 @@ fn settled(folder: &Folder) -> Harness<'static, App> {
 /// Clicks where a place is drawn in a pane.
 fn click(harness: &mut Harness<'static, App>, pane: usize, place: DVec3) {
     let rect = harness.get_by_label(&format!("Pane {}", pane + 1)).rect();
-    let camera = harness.state().desk.view3d.eyes[pane].camera.clone();
+    let camera = harness.state().panels.view.eyes[pane].camera.clone();
     let at = camera
         .project(place, DVec2::new(f64::from(rect.width()), f64::from(rect.height())))
         .unwrap();
@@ -59,7 +59,7 @@ fn a_click_on_a_rope_reads_its_tension_and_place_and_a_click_beside_lets_go() {
     let there = place(&harness, wanted);
     click(&mut harness, 0, there);
     let view = harness.state().desk.view.clone().unwrap();
-    let Some(Picked::Rope { line, at_m }) = harness.state().desk.view3d.picks.read else {
+    let Some(Picked::Rope { line, at_m }) = harness.state().panels.view.picks.read else {
         panic!("the rope is read")
     };
     assert!(line == 0 && (at_m - 9.0).abs() < 1.0, "line {line} at {at_m} m");
@@ -74,7 +74,7 @@ fn a_click_on_a_rope_reads_its_tension_and_place_and_a_click_beside_lets_go() {
     assert!(reading.rows.contains(&("Tension here", tension)), "{reading:?}");
     harness.get_by_label("×").click();
     harness.run_steps(3);
-    assert_eq!(harness.state().desk.view3d.picks.read, None);
+    assert_eq!(harness.state().panels.view.picks.read, None);
 }
 
 #[test]
@@ -85,16 +85,16 @@ fn bodies_and_skin_are_read_where_they_are_clicked() {
     for index in 0..bodies {
         let there = place(&harness, Picked::Body(index));
         click(&mut harness, 0, there);
-        assert_eq!(harness.state().desk.view3d.picks.read, Some(Picked::Body(index)));
+        assert_eq!(harness.state().panels.view.picks.read, Some(Picked::Body(index)));
     }
-    harness.state_mut().desk.obey(&Order::Look(View::WhaleSide));
+    give(&mut harness, Order::Look(View::WhaleSide));
     harness.run_steps(3);
     let middle = harness.state().desk.view.as_ref().unwrap().frame.whale.as_ref().unwrap().position;
     click(&mut harness, 0, middle);
     assert!(
-        matches!(harness.state().desk.view3d.picks.read, Some(Picked::Skin { .. })),
+        matches!(harness.state().panels.view.picks.read, Some(Picked::Skin { .. })),
         "{:?}",
-        harness.state().desk.view3d.picks
+        harness.state().panels.view.picks
     );
     assert!(harness.query_by_label("Body").is_some(), "the part's name is on screen");
     assert!(harness.query_by_label("Greatest pressure").is_some());
@@ -112,7 +112,7 @@ fn the_ruler_measures_straight_and_along_the_rope() {
         click(&mut harness, 0, there);
     }
     let view = harness.state().desk.view.clone().unwrap();
-    let picked = harness.state().desk.view3d.picks.ends.clone();
+    let picked = harness.state().panels.view.picks.ends.clone();
     assert_eq!(picked.len(), 2, "two clicks, two ends");
     let along = along_m(&view, picked[0], picked[1]).unwrap();
     let straight = (place(&harness, picked[0]) - place(&harness, picked[1])).length();
@@ -137,9 +137,9 @@ fn the_ruler_measures_straight_and_along_the_rope() {
 fn four_views_each_look_from_their_own_side_and_only_the_chosen_one_turns() {
     let folder = Folder::new("four");
     let mut harness = settled(&folder);
-    harness.state_mut().desk.obey(&Order::Views(4));
+    give(&mut harness, Order::Views(4));
     harness.run_steps(3);
-    let named: Vec<View> = harness.state().desk.view3d.eyes.iter().map(|eye| eye.named).collect();
+    let named: Vec<View> = harness.state().panels.view.eyes.iter().map(|eye| eye.named).collect();
     assert_eq!(named, [View::Orbit, View::Side, View::Top, View::Front]);
     let rects: Vec<egui::Rect> =
         (1..=4).map(|pane| harness.get_by_label(&format!("Pane {pane}")).rect()).collect();
@@ -151,23 +151,23 @@ fn four_views_each_look_from_their_own_side_and_only_the_chosen_one_turns() {
     }
     // Side looks north, top looks down, front looks west: the axes of sight stand square on one another.
     let ahead: Vec<DVec3> =
-        harness.state().desk.view3d.eyes.iter().map(|eye| eye.camera.axes().2).collect();
+        harness.state().panels.view.eyes.iter().map(|eye| eye.camera.axes().2).collect();
     for (one, other) in [(1, 2), (1, 3), (2, 3)] {
         assert!(ahead[one].dot(ahead[other]).abs() < 0.01, "{one} and {other}: {ahead:?}");
     }
     let there = place(&harness, Picked::Body(0));
     click(&mut harness, 2, there);
-    assert_eq!(harness.state().desk.view3d.chosen, 2);
+    assert_eq!(harness.state().panels.view.chosen, 2);
     assert_eq!(
-        harness.state().desk.view3d.picks.read,
+        harness.state().panels.view.picks.read,
         Some(Picked::Body(0)),
         "read from above too"
     );
-    harness.state_mut().desk.obey(&Order::Look(View::FirstPerson));
+    give(&mut harness, Order::Look(View::FirstPerson));
     harness.run_steps(2);
-    let named: Vec<View> = harness.state().desk.view3d.eyes.iter().map(|eye| eye.named).collect();
+    let named: Vec<View> = harness.state().panels.view.eyes.iter().map(|eye| eye.named).collect();
     assert_eq!(named, [View::Orbit, View::Side, View::FirstPerson, View::Front]);
-    harness.state_mut().desk.obey(&Order::Views(1));
+    give(&mut harness, Order::Views(1));
     harness.run_steps(2);
     assert!(
         harness.query_by_label("Pane 2").is_none() && harness.query_by_label("Pane 1").is_some()

@@ -14,7 +14,8 @@ use endline_session::{Overrides, Run, RunOptions, prepare};
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::desk::Order;
 use endline_workbench::gui::engine;
-use endline_workbench::gui::layout::{self, Panel};
+use endline_workbench::gui::layout;
+use endline_workbench::gui::panel_id::PanelId;
 use endline_workbench::input::{HeldKeys, PadAxis, PadButton, PadEvent, Pilot, ScriptedPad};
 
 #[test]
@@ -85,8 +86,8 @@ fn running_after_an_edit_first_takes_the_edited_gear_over() {
 fn every_panel_opens_from_the_window_menu_and_the_layout_resets() {
     let folder = Folder::new("panels");
     let (mut harness, _) = workbench(&folder, Pilot::default());
-    for panel in Panel::ALL {
-        harness.state_mut().dock = egui_dock::DockState::new(vec![Panel::Run.id().to_owned()]);
+    for panel in PanelId::ALL {
+        harness.state_mut().dock = egui_dock::DockState::new(vec![PanelId::RUN.id().to_owned()]);
         harness.run_steps(2);
         harness.get_by_label("Window").click();
         harness.run_steps(3);
@@ -97,8 +98,8 @@ fn every_panel_opens_from_the_window_menu_and_the_layout_resets() {
     harness.state_mut().desk.orders.push(Order::Arrange(layout::Layout::Design));
     harness.run_steps(2);
     assert!(
-        layout::is_open(&harness.state().dock, Panel::Library)
-            && layout::is_open(&harness.state().dock, Panel::View)
+        layout::is_open(&harness.state().dock, PanelId::LIBRARY)
+            && layout::is_open(&harness.state().dock, PanelId::VIEW)
     );
 }
 

@@ -8,8 +8,7 @@ use endline_session::edit::Documents;
 use endline_session::live::{Made, RunCommand};
 
 use super::{Desk, Order};
-use crate::gui::layout::Panel;
-use crate::gui::panels::pilot;
+use crate::gui::panel_id::PanelId;
 
 /// How far a control of the program may be off what was flown, so that it has entries to be read and not one a step [1].
 const THIN: f64 = 0.02;
@@ -33,18 +32,8 @@ impl Again {
 }
 
 impl Desk {
-    /// The pilot program edited and run by one order.
-    pub(super) fn obey_program(&mut self, order: &Order) {
-        match order {
-            Order::AddEntry => pilot::add_entry(self),
-            Order::DeleteEntry => pilot::delete_entry(self),
-            Order::EditInputs => self.edit_inputs(),
-            _ => self.rerun(),
-        }
-    }
-
     /// Asks the run for its inputs as a pilot program.
-    fn edit_inputs(&mut self) {
+    pub(super) fn edit_inputs(&mut self) {
         if self.view.as_ref().is_none_or(|view| view.newest_s <= 0.0) {
             self.notice = Some(("nothing was run yet".into(), true));
             return;
@@ -65,7 +54,6 @@ impl Desk {
             Ok(program) => {
                 let text = self.as_long_as_before(&program.scenario);
                 self.documents.put_all(vec![(Documents::SCENARIO.to_owned(), text)]);
-                self.program.chosen = None;
                 self.notice = Some((
                     format!(
                         "the run's inputs are the pilot program now: {} in all",
@@ -73,7 +61,7 @@ impl Desk {
                     ),
                     false,
                 ));
-                self.orders.push(Order::Show(Panel::Program));
+                self.orders.push(Order::Show(PanelId::PROGRAM));
             }
             Err(error) => self.notice = Some((error.clone(), true)),
         }
@@ -94,7 +82,7 @@ impl Desk {
     }
 
     /// Makes the model anew and runs the inputs up to the moment shown in it; then its pilot program steers.
-    fn rerun(&mut self) {
+    pub(super) fn rerun(&mut self) {
         if self.view.is_none() || self.documents.any_error() {
             self.notice = Some(("nothing can be run: see Problems".into(), true));
             return;

@@ -68,7 +68,6 @@ impl Desk {
         {
             return self.notice = Some(("the study shown has no such run".into(), true));
         }
-        self.studies.results.replayed = Some((option, encounter));
         self.keep_run();
         self.making.clear();
         (self.guest_when_made, self.start_when_made) = (Some(self.documents.version()), true);

@@ -3,17 +3,34 @@
 use egui::{Grid, RichText, ScrollArea, Ui};
 use endline_session::live::{LiveView, Status};
 
-use super::super::compare::{Group, groups};
-use super::super::desk::{Desk, Order};
-use super::super::theme::Theme;
+use crate::gui::compare::{Group, groups};
+use crate::gui::desk::{Desk, Order};
+use crate::gui::panel::Panel;
+use crate::gui::panel_id::PanelId;
+use crate::gui::theme::Theme;
+use crate::gui::widgets;
+
+/// Two runs beside one another.
+#[derive(Debug, Default)]
+pub struct ComparePanel;
+
+impl Panel for ComparePanel {
+    fn id(&self) -> PanelId {
+        PanelId::COMPARE
+    }
+
+    fn ui(&mut self, ui: &mut Ui, desk: &mut Desk) {
+        show(ui, desk);
+    }
+}
 
 /// Draws the comparison.
-pub fn show(ui: &mut Ui, desk: &mut Desk) {
+fn show(ui: &mut Ui, desk: &mut Desk) {
     buttons(ui, desk);
     let Some(other) = desk.other() else {
         let text = "Hold a run, change the gear or the pilot, and run again: the 3-D view shows both at one moment, plots draw A \
                     solid and B dashed. Or compare with a run of Recordings.";
-        return super::nothing(ui, text);
+        return widgets::nothing(ui, text);
     };
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new("A").strong());
@@ -22,7 +39,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
         ui.label(&other.name);
     });
     let (Some(a), Some(b)) = (desk.view.clone(), other.view.clone()) else {
-        return super::nothing(ui, "Making the model …");
+        return widgets::nothing(ui, "Making the model …");
     };
     standing(ui, &a, &b);
     ScrollArea::both().auto_shrink(false).show(ui, |ui| {
@@ -45,7 +62,7 @@ fn buttons(ui: &mut Ui, desk: &mut Desk) {
         }
         if ui.button("Recordings …").on_hover_text("Choose a kept run to compare with").clicked()
         {
-            desk.orders.push(Order::Show(super::super::layout::Panel::Recordings));
+            desk.orders.push(Order::Show(PanelId::RECORDINGS));
         }
         if ui.add_enabled(desk.other().is_some(), egui::Button::new("End comparison")).clicked() {
             desk.orders.push(Order::EndCompare);
@@ -69,7 +86,7 @@ fn standing(ui: &mut Ui, a: &LiveView, b: &LiveView) {
 
 fn table(ui: &mut Ui, (head, rows): &Group) {
     let palette = Theme::palette_of(ui);
-    super::caption(ui, head);
+    widgets::caption(ui, head);
     Grid::new(head).num_columns(4).striped(true).spacing([16.0, 2.0]).min_row_height(17.0).show(
         ui,
         |ui| {

@@ -5,20 +5,22 @@ use std::sync::Arc;
 use egui::{Color32, Grid, Rect, RichText, ScrollArea, Sense, Stroke, Ui, vec2};
 use endline_sdk::BodyPart;
 use endline_session::live::LiveView;
-use endline_session::units::{ForceUnit, Units};
-use endline_sim::metrics::{Outcome, RegionSummary, WhaleSummary};
+use endline_session::units::Units;
+use endline_sim::metrics::{RegionSummary, WhaleSummary};
 
-use super::super::bodymap::{BodyMap, Face};
-use super::super::desk::{Desk, Order};
-use super::super::reading::spoken;
-use super::super::theme::Theme;
-use super::super::wraps::wraps;
-use super::summary::numbers;
+use crate::gui::bodymap::{BodyMap, Face};
+use crate::gui::desk::{Desk, Order};
+use crate::gui::panel::Panel;
+use crate::gui::panel_id::PanelId;
+use crate::gui::theme::Theme;
+use crate::gui::widgets::words::spoken;
+use crate::gui::widgets::{self, words};
+use crate::gui::wraps::wraps;
 use crate::scene::colour::tension_colour;
 
 /// What the map is coloured by.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Measure {
+enum Measure {
     /// Wraps now.
     #[default]
     Wraps,
@@ -47,6 +49,10 @@ impl Measure {
         (Self::Work, "friction work"),
     ];
 
+    fn name(self) -> &'static str {
+        Self::ALL.iter().find(|(known, _)| *known == self).map_or("", |(_, name)| name)
+    }
+
     fn of(self, region: &RegionSummary, force_n: f64) -> f64 {
         match self {
             Self::Wraps => region.wraps,
@@ -64,55 +70,103 @@ impl Measure {
             Self::Wraps | Self::PeakWraps => format!("{value:.2} turns"),
             Self::Contact => units.length(value),
             Self::Force | Self::PeakForce => units.force().text(value),
-            Self::Pressure => pressure(value, units.force()),
+            Self::Pressure => units.force().pressure(value),
             Self::Work => format!("{value:.0} J"),
         }
     }
 }
 
-/// What the entanglement panel shows.
+/// Rope on the whale's body, and the outcome.
 #[derive(Default)]
-pub struct EntanglementState {
-    /// What the map is coloured by.
-    pub measure: Measure,
+pub struct EntanglementPanel {
+    measure: Measure,
     map: Option<BodyMap>,
 }
 
-/// Draws the entanglement panel.
-pub fn show(ui: &mut Ui, desk: &mut Desk) {
-    let Some(view) = desk.view.clone() else { return super::nothing(ui, "No run yet.") };
-    let Some(whale) = view.summary.as_ref().and_then(|summary| summary.whale.as_ref()) else {
-        return super::nothing(ui, "No whale in this run.");
-    };
-    let units = desk.preferences.units;
-    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        outcome(ui, whale, units);
+impl Panel for EntanglementPanel {
+    fn id(&self) -> PanelId {
+        PanelId::ENTANGLEMENT
+    }
+
+    fn ui(&mut self, ui: &mut Ui, desk: &mut Desk) {
+        let Some(view) = desk.view.clone() else { return widgets::nothing(ui, "No run yet.") };
+        let Some(whale) = view.summary.as_ref().and_then(|summary| summary.whale.as_ref()) else {
+            return widgets::nothing(ui, "No whale in this run.");
+        };
+        let units = desk.preferences.units;
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            outcome(ui, whale, units);
+            self.choose_measure(ui);
+            self.map(ui, &view, whale, units);
+            desk.orders.extend(wrap_list(ui, &view, units).map(Order::Seek));
+            widgets::caption(ui, "By part");
+            table(ui, &view, whale, units);
+        });
+    }
+}
+
+impl EntanglementPanel {
+    fn choose_measure(&mut self, ui: &mut Ui) {
         ui.horizontal(|ui| {
             ui.label(RichText::new("Colour").color(Theme::palette_of(ui).faint));
-            let name = |measure: Measure| {
-                Measure::ALL
-                    .iter()
-                    .find(|(known, _)| *known == measure)
-                    .map_or("", |(_, name)| name)
-            };
-            egui::ComboBox::from_id_salt("measure")
-                .selected_text(name(desk.entanglement.measure))
-                .show_ui(ui, |ui| {
+            egui::ComboBox::from_id_salt("measure").selected_text(self.measure.name()).show_ui(
+                ui,
+                |ui| {
                     for (measure, name) in Measure::ALL {
-                        ui.selectable_value(&mut desk.entanglement.measure, measure, name);
+                        ui.selectable_value(&mut self.measure, measure, name);
                     }
-                });
+                },
+            );
         });
-        map(ui, desk, &view, whale);
-        desk.orders.extend(wrap_list(ui, &view, units).map(Order::Seek));
-        super::caption(ui, "By part");
-        table(ui, &view, whale, units);
-    });
+    }
+
+    fn map(&mut self, ui: &mut Ui, view: &LiveView, whale: &WhaleSummary, units: Units) {
+        let Some(model) = &view.model.spec.whale else { return };
+        if self.map.as_ref().is_none_or(|map| !map.is_of(&model.skin)) {
+            self.map = Some(BodyMap::of(Arc::clone(&model.skin)));
+        }
+        let Some(map) = &mut self.map else { return };
+        let (measure, forces) = (self.measure, forces_n(view));
+        let value = |part: BodyPart| {
+            whale
+                .regions
+                .iter()
+                .find(|region| region.part == part)
+                .map_or(0.0, |region| measure.of(region, forces[part as usize]))
+        };
+        let top = BodyPart::ALL.into_iter().map(value).fold(0.0, f64::max);
+        let plain = if ui.visuals().dark_mode {
+            Color32::from_rgb(0x6d, 0x7b, 0x84)
+        } else {
+            Color32::from_rgb(0xb4, 0xc0, 0xc7)
+        };
+        let colour =
+            |part: BodyPart| if value(part) > 0.0 { tint(value(part) / top) } else { plain };
+        let width = (ui.available_width() - 16.0) / 2.0;
+        for faces in Face::ALL.chunks(2) {
+            let height =
+                faces.iter().map(|face| width * map.aspect(*face)).fold(0.0, f32::max) + 18.0;
+            ui.horizontal(|ui| {
+                for face in faces {
+                    let (rect, _) = ui.allocate_exact_size(vec2(width, height), Sense::hover());
+                    if !ui.is_rect_visible(rect) {
+                        continue;
+                    }
+                    draw(ui, map, *face, rect, view, &colour);
+                }
+            });
+        }
+        ui.label(
+            RichText::new(format!("brightest: {}", measure.text(top, units)))
+                .small()
+                .color(Theme::palette_of(ui).faint),
+        );
+    }
 }
 
 fn outcome(ui: &mut Ui, whale: &WhaleSummary, units: Units) {
     let palette = Theme::palette_of(ui);
-    let (text, meaning, colour) = meaning(whale.outcome, palette);
+    let (text, meaning, colour) = words::outcome(whale.outcome, palette);
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new(text).heading().color(colour));
         let standing = if whale.decided { "" } else { "so far: " };
@@ -130,7 +184,7 @@ fn outcome(ui: &mut Ui, whale: &WhaleSummary, units: Units) {
             format!("{}, {}", units.length(whale.trailing_m), units.length(whale.tethered_m)),
         ),
     ];
-    numbers(ui, "entanglement", &rows);
+    widgets::numbers(ui, "entanglement", &rows);
     ui.label(
         RichText::new(
             "Relative, given this encounter: it says nothing of how often whales meet gear.",
@@ -140,35 +194,6 @@ fn outcome(ui: &mut Ui, whale: &WhaleSummary, units: Units) {
     );
 }
 
-/// An outcome in words, what it means (docs/entanglement.md), and its colour.
-#[must_use]
-pub fn meaning(
-    outcome: Outcome,
-    palette: super::super::theme::Palette,
-) -> (&'static str, &'static str, Color32) {
-    match outcome {
-        Outcome::NoContact => ("No contact", "rope never touched the whale", palette.faint),
-        Outcome::Shed => (
-            "Shed",
-            "rope touched, nothing parted, and the whale is free: no contact for 10 s, less after a short touch",
-            palette.good,
-        ),
-        Outcome::PartedFree => (
-            "Parted, whale free",
-            "a link or line parted after the first contact, and the whale is free",
-            palette.good,
-        ),
-        Outcome::Entangled => {
-            ("Entangled", "rope touches, or did within 10 s, and nothing parted", palette.error)
-        }
-        Outcome::PartedEntangled => (
-            "Parted, still entangled",
-            "a link or line parted after the first contact, and rope still holds",
-            palette.error,
-        ),
-    }
-}
-
 /// Normal force on each part at the moment shown [N].
 fn forces_n(view: &LiveView) -> [f64; BodyPart::ALL.len()] {
     let mut forces = [0.0; BodyPart::ALL.len()];
@@ -176,48 +201,6 @@ fn forces_n(view: &LiveView) -> [f64; BodyPart::ALL.len()] {
         forces[contact.region.part() as usize] += contact.normal_force_n.max(0.0);
     }
     forces
-}
-
-fn map(ui: &mut Ui, desk: &mut Desk, view: &LiveView, whale: &WhaleSummary) {
-    let Some(model) = &view.model.spec.whale else { return };
-    let state = &mut desk.entanglement;
-    if state.map.as_ref().is_none_or(|map| !map.is_of(&model.skin)) {
-        state.map = Some(BodyMap::of(Arc::clone(&model.skin)));
-    }
-    let Some(map) = &mut state.map else { return };
-    let (measure, units, forces) = (state.measure, desk.preferences.units, forces_n(view));
-    let value = |part: BodyPart| {
-        whale
-            .regions
-            .iter()
-            .find(|region| region.part == part)
-            .map_or(0.0, |region| measure.of(region, forces[part as usize]))
-    };
-    let top = BodyPart::ALL.into_iter().map(value).fold(0.0, f64::max);
-    let plain = if ui.visuals().dark_mode {
-        Color32::from_rgb(0x6d, 0x7b, 0x84)
-    } else {
-        Color32::from_rgb(0xb4, 0xc0, 0xc7)
-    };
-    let colour = |part: BodyPart| if value(part) > 0.0 { tint(value(part) / top) } else { plain };
-    let width = (ui.available_width() - 16.0) / 2.0;
-    for faces in Face::ALL.chunks(2) {
-        let height = faces.iter().map(|face| width * map.aspect(*face)).fold(0.0, f32::max) + 18.0;
-        ui.horizontal(|ui| {
-            for face in faces {
-                let (rect, _) = ui.allocate_exact_size(vec2(width, height), Sense::hover());
-                if !ui.is_rect_visible(rect) {
-                    continue;
-                }
-                draw(ui, map, *face, rect, view, &colour);
-            }
-        });
-    }
-    ui.label(
-        RichText::new(format!("brightest: {}", measure.text(top, units)))
-            .small()
-            .color(Theme::palette_of(ui).faint),
-    );
 }
 
 fn draw(
@@ -257,7 +240,7 @@ fn tint(share: f64) -> Color32 {
 /// Wrap by wrap at the moment shown; answers the moment asked for by a click on one.
 fn wrap_list(ui: &mut Ui, view: &LiveView, units: Units) -> Option<f64> {
     let palette = Theme::palette_of(ui);
-    super::caption(ui, "Wraps at this moment");
+    widgets::caption(ui, "Wraps at this moment");
     let found = wraps(view);
     if found.is_empty() {
         ui.label(
@@ -340,31 +323,10 @@ fn table(ui: &mut Ui, view: &LiveView, whale: &WhaleSummary, units: Units) {
                 ui.label(text(units.length(region.contact_length_m)));
                 ui.label(text(force.text(forces[region.part as usize])));
                 ui.label(text(force.text(region.peak_normal_n)));
-                ui.label(text(pressure(region.peak_pressure_pa, force)));
+                ui.label(text(force.pressure(region.peak_pressure_pa)));
                 ui.label(text(format!("{:.0} J", region.friction_work_j)));
                 ui.end_row();
             }
         },
     );
-}
-
-/// A pressure with its unit.
-pub(in super::super) fn pressure(pa: f64, force: ForceUnit) -> String {
-    /// Pascals in a pound-force on a square inch.
-    const PA_PER_PSI: f64 = 6_894.757;
-    match force {
-        ForceUnit::Lbf => format!("{:.1} psi", pa / PA_PER_PSI),
-        ForceUnit::Newton => format!("{:.0} kPa", pa / 1000.0),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_pressure_is_told_in_the_unit_of_forces() {
-        assert_eq!(pressure(6_894.757, ForceUnit::Lbf), "1.0 psi");
-        assert_eq!(pressure(12_000.0, ForceUnit::Newton), "12 kPa");
-    }
 }

@@ -2,16 +2,33 @@
 
 use egui::{Align, Layout, RichText, ScrollArea, Sense, Ui};
 use endline_session::units::ForceUnit;
-use endline_sim::metrics::{Event, EventKind};
+use endline_sim::metrics::Event;
 
-use super::super::desk::{Desk, Order};
-use super::super::theme::{Palette, Theme};
+use crate::gui::desk::{Desk, Order};
+use crate::gui::panel::Panel;
+use crate::gui::panel_id::PanelId;
+use crate::gui::theme::Theme;
+use crate::gui::widgets::{self, words};
+
+/// The list of events.
+#[derive(Debug, Default)]
+pub struct EventsPanel;
+
+impl Panel for EventsPanel {
+    fn id(&self) -> PanelId {
+        PanelId::EVENTS
+    }
+
+    fn ui(&mut self, ui: &mut Ui, desk: &mut Desk) {
+        show(ui, desk);
+    }
+}
 
 /// Draws the list of events, the newest last.
-pub fn show(ui: &mut Ui, desk: &mut Desk) {
-    let Some(view) = desk.view.clone() else { return super::nothing(ui, "No run yet.") };
+fn show(ui: &mut Ui, desk: &mut Desk) {
+    let Some(view) = desk.view.clone() else { return widgets::nothing(ui, "No run yet.") };
     if view.events.is_empty() {
-        return super::nothing(
+        return widgets::nothing(
             ui,
             "Nothing has happened yet. Contact, slip, wraps and parted lines will be listed here.",
         );
@@ -34,28 +51,13 @@ fn row(ui: &mut Ui, event: &Event, unit: ForceUnit, now: bool) -> bool {
     let line = ui.horizontal(|ui| {
         let time = RichText::new(format!("{:.2} s", event.time_s));
         ui.label(time.color(if now { palette.accent } else { palette.faint }));
-        ui.label(RichText::new(what(event.kind)).color(colour(event.kind, palette)));
+        ui.label(
+            RichText::new(words::event(event.kind)).color(words::event_colour(event.kind, palette)),
+        );
         ui.label(event.subject.replace('_', " "));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| ui.label(value(event, unit)));
     });
     line.response.interact(Sense::click()).on_hover_text("Click to see this moment").clicked()
-}
-
-/// A kind of event in a few words.
-#[must_use]
-pub fn what(kind: EventKind) -> String {
-    let words = kind.name().replace('_', " ");
-    let mut letters = words.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
-}
-
-/// The colour of a kind of event.
-pub(in super::super) fn colour(kind: EventKind, palette: Palette) -> egui::Color32 {
-    match kind {
-        EventKind::LinkParted | EventKind::LineParted => palette.error,
-        EventKind::Wrap | EventKind::Dragged | EventKind::PulledUnder => palette.warning,
-        _ => palette.text,
-    }
 }
 
 /// An event's number with its unit; forces in the unit chosen.

@@ -2,12 +2,30 @@
 
 use egui::{Grid, RichText, ScrollArea, Ui};
 
-use super::super::bindings::{BINDINGS, MOUSE, When};
-use super::super::theme::Theme;
+use crate::gui::bindings::{BINDINGS, MOUSE, When};
+use crate::gui::desk::Desk;
+use crate::gui::panel::Panel;
+use crate::gui::panel_id::PanelId;
+use crate::gui::theme::Theme;
+use crate::gui::widgets;
 use crate::input::keys::STEERING;
 
+/// The list of keys, and of what the pad does.
+#[derive(Debug, Default)]
+pub struct HelpPanel;
+
+impl Panel for HelpPanel {
+    fn id(&self) -> PanelId {
+        PanelId::HELP
+    }
+
+    fn ui(&mut self, ui: &mut Ui, _desk: &mut Desk) {
+        show(ui);
+    }
+}
+
 /// Draws the list of keys.
-pub fn show(ui: &mut Ui) {
+fn show(ui: &mut Ui) {
     ScrollArea::both().auto_shrink(false).show(ui, |ui| {
         let groups = [("Anywhere", &[When::Always][..]), ("Run", &[When::Idle]), ("Looking", &[When::Looking])];
         for (group, when) in groups {
@@ -20,7 +38,7 @@ pub fn show(ui: &mut Ui) {
             table(ui, group, &rows);
         }
         table(ui, "Flying", &flying(ui));
-        super::caption(ui, "Files");
+        widgets::caption(ui, "Files");
         ui.label(
             "Gear is text in the library's folder: one TOML file an item, values with their unit, such as \"3/8 in\" or \"1700 lbf\".",
         );
@@ -41,7 +59,7 @@ fn flying(ui: &Ui) -> Vec<Row> {
 
 fn table(ui: &mut Ui, group: &str, rows: &[Row]) {
     let palette = Theme::palette_of(ui);
-    super::caption(ui, group);
+    widgets::caption(ui, group);
     Grid::new(group).num_columns(3).spacing([22.0, 4.0]).min_col_width(120.0).show(ui, |ui| {
         for (action, keys, pad) in rows {
             ui.label(action);

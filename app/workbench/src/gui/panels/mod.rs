@@ -1,4 +1,4 @@
-//! The panels, one file each: each draws from the desk and leaves orders on it.
+//! The panels, each in a file or folder of its own that owns its state.
 
 pub mod assembly;
 pub mod compare;
@@ -21,56 +21,94 @@ pub mod summary;
 pub mod tension;
 pub mod view;
 
-use egui::{Rect, RichText, Ui, UiBuilder};
+use super::panel::Panel;
+use super::panel_id::PanelId;
 
-use super::desk::Desk;
-use super::layout::Panel;
-use super::theme::Theme;
+/// Every panel of the window.
+#[derive(Default)]
+pub struct Panels {
+    /// Tables of the gear library.
+    pub library: library::LibraryPanel,
+    /// A rig's parts and its statics.
+    pub assembly: assembly::AssemblyPanel,
+    /// The scenario's fields.
+    pub scenario: scenario::ScenarioPanel,
+    /// The 3-D view.
+    pub view: view::ViewPanel,
+    /// Controls of the run.
+    pub run: run::RunPanel,
+    /// Tension over time.
+    pub tension: tension::TensionPanel,
+    /// Plots of the run.
+    pub plots: plots::PlotsPanel,
+    /// Rope on the whale's body.
+    pub entanglement: entanglement::EntanglementPanel,
+    /// What happened when.
+    pub events: events::EventsPanel,
+    /// Outcome and loads.
+    pub summary: summary::SummaryPanel,
+    /// Everything wrong with the files.
+    pub problems: problems::ProblemsPanel,
+    /// Keys and pad.
+    pub help: help::HelpPanel,
+    /// Where a user begins.
+    pub start: start::StartPanel,
+    /// Runs that were kept.
+    pub recordings: recordings::RecordingsPanel,
+    /// What the pad does.
+    pub pad: pad::PadPanel,
+    /// The plugins.
+    pub plugins: plugins::PluginsPanel,
+    /// The designer of a study.
+    pub study: study::StudyPanel,
+    /// What a study found.
+    pub results: results::ResultsPanel,
+    /// The pilot program on a timeline.
+    pub program: pilot::PilotPanel,
+    /// Two runs beside one another.
+    pub compare: compare::ComparePanel,
+}
 
-/// Draws a panel.
-pub fn show(ui: &mut Ui, panel: Panel, desk: &mut Desk) {
-    match panel {
-        Panel::Library => library::show(ui, desk),
-        Panel::Assembly => assembly::show(ui, desk),
-        Panel::Scenario => scenario::show(ui, desk),
-        Panel::View => view::show(ui, desk),
-        Panel::Run => run::show(ui, desk),
-        Panel::Tension => tension::show(ui, desk),
-        Panel::Plots => plots::show(ui, desk),
-        Panel::Entanglement => entanglement::show(ui, desk),
-        Panel::Events => events::show(ui, desk),
-        Panel::Summary => summary::show(ui, desk),
-        Panel::Problems => problems::show(ui, desk),
-        Panel::Help => help::show(ui),
-        Panel::Start => start::show(ui, desk),
-        Panel::Recordings => recordings::show(ui, desk),
-        Panel::Pad => pad::show(ui, desk),
-        Panel::Plugins => plugins::show(ui, desk),
-        Panel::Study => study::show(ui, desk),
-        Panel::Results => results::show(ui, desk),
-        Panel::Program => pilot::show(ui, desk),
-        Panel::Compare => compare::show(ui, desk),
+impl Panels {
+    /// Every panel, in the order of [`PanelId::ALL`].
+    pub fn all(&mut self) -> [&mut dyn Panel; PanelId::ALL.len()] {
+        [
+            &mut self.library,
+            &mut self.assembly,
+            &mut self.scenario,
+            &mut self.view,
+            &mut self.run,
+            &mut self.tension,
+            &mut self.plots,
+            &mut self.entanglement,
+            &mut self.events,
+            &mut self.summary,
+            &mut self.problems,
+            &mut self.help,
+            &mut self.start,
+            &mut self.recordings,
+            &mut self.pad,
+            &mut self.plugins,
+            &mut self.study,
+            &mut self.results,
+            &mut self.program,
+            &mut self.compare,
+        ]
+    }
+
+    /// The panel of an id; `None` where no panel has it.
+    pub fn find(&mut self, id: &str) -> Option<&mut dyn Panel> {
+        self.all().into_iter().find(|panel| panel.id().id() == id)
     }
 }
 
-/// A line of small grey text above a group.
-fn caption(ui: &mut Ui, text: &str) {
-    let faint = Theme::palette_of(ui).faint;
-    ui.add_space(3.0);
-    ui.label(RichText::new(text.to_uppercase()).size(10.5).color(faint).strong());
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-/// A line that says why a panel is empty.
-fn nothing(ui: &mut Ui, text: &str) {
-    let faint = Theme::palette_of(ui).faint;
-    ui.add_space(8.0);
-    ui.vertical_centered(|ui| ui.label(RichText::new(text).color(faint)));
-}
-
-/// Draws in a part of the panel and nowhere else.
-fn within<R>(ui: &mut Ui, rect: Rect, draw: impl FnOnce(&mut Ui) -> R) {
-    ui.scope_builder(UiBuilder::new().max_rect(rect), |ui| {
-        ui.set_clip_rect(rect.intersect(ui.clip_rect()));
-        draw(ui);
-    });
+    #[test]
+    fn every_id_has_its_panel() {
+        let ids: Vec<PanelId> = Panels::default().all().map(|panel| panel.id()).to_vec();
+        assert_eq!(ids, PanelId::ALL);
+    }
 }

@@ -4,13 +4,16 @@ use std::ops::RangeInclusive;
 
 use egui::{Grid, RichText, ScrollArea, Sense, Slider, SliderClamping, Ui, vec2};
 
-use super::super::desk::Desk;
-use super::super::theme::Theme;
+use crate::gui::desk::Desk;
+use crate::gui::panel::Panel;
+use crate::gui::panel_id::PanelId;
+use crate::gui::theme::Theme;
+use crate::gui::widgets;
 use crate::input::{AxisUse, Hands, Mapping, PadAxis, Pressed, Steered};
 
 /// What waits for a button or stick to be given to it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Learning {
+enum Learning {
     /// Nothing.
     #[default]
     Nothing,
@@ -23,45 +26,157 @@ pub enum Learning {
 /// A stick or trigger must go this far to be taken.
 const FAR: f64 = 0.7;
 
-/// Draws the pad panel.
-pub fn show(ui: &mut Ui, desk: &mut Desk) {
-    learn(desk);
-    ScrollArea::both().auto_shrink(false).show(ui, |ui| {
-        // Only the tables may be wider than the panel.
-        ui.set_max_width(ui.clip_rect().width() - 16.0);
-        head(ui, desk);
-        zones(ui, desk);
-        super::caption(ui, "Sticks and triggers");
-        axes(ui, desk);
-        super::caption(ui, "Buttons");
-        buttons(ui, desk);
-    });
-    // Live axes move without any event of the window.
-    if desk.pilot.pad_name().is_some() || desk.learning != Learning::Nothing {
-        ui.ctx().request_repaint_after(std::time::Duration::from_millis(33));
+/// What the pad does.
+#[derive(Debug, Default)]
+pub struct PadPanel {
+    learning: Learning,
+}
+
+impl Panel for PadPanel {
+    fn id(&self) -> PanelId {
+        PanelId::PAD
+    }
+
+    fn ui(&mut self, ui: &mut Ui, desk: &mut Desk) {
+        self.learn(desk);
+        ScrollArea::both().auto_shrink(false).show(ui, |ui| {
+            // Only the tables may be wider than the panel.
+            ui.set_max_width(ui.clip_rect().width() - 16.0);
+            head(ui, desk);
+            zones(ui, desk);
+            widgets::caption(ui, "Sticks and triggers");
+            self.axes(ui, desk);
+            widgets::caption(ui, "Buttons");
+            self.buttons(ui, desk);
+        });
+        // Live axes move without any event of the window.
+        if desk.pilot.pad_name().is_some() || self.learning != Learning::Nothing {
+            ui.ctx().request_repaint_after(std::time::Duration::from_millis(33));
+        }
     }
 }
 
-/// Takes what the pilot pressed or moved for what waits for it.
-fn learn(desk: &mut Desk) {
-    match desk.learning {
-        Learning::Nothing => {
-            desk.pilot.take_pressed();
-        }
-        Learning::Button(does) => {
-            if let Some(button) = desk.pilot.take_pressed() {
-                desk.pilot.mapping.bind_button(button, does);
-                desk.learning = Learning::Nothing;
+impl PadPanel {
+    /// Takes what the pilot pressed or moved for what waits for it.
+    fn learn(&mut self, desk: &mut Desk) {
+        match self.learning {
+            Learning::Nothing => {
+                desk.pilot.take_pressed();
+            }
+            Learning::Button(does) => {
+                if let Some(button) = desk.pilot.take_pressed() {
+                    desk.pilot.mapping.bind_button(button, does);
+                    self.learning = Learning::Nothing;
+                }
+            }
+            Learning::Axis(steers, second) => {
+                let moved =
+                    PadAxis::ALL.into_iter().find(|axis| desk.pilot.axis(*axis).abs() > FAR);
+                if let Some(axis) = moved {
+                    let turned = desk.pilot.axis(axis) < 0.0;
+                    desk.pilot.mapping.bind_axis(AxisUse { axis, second, steers, turned });
+                    self.learning = Learning::Nothing;
+                }
             }
         }
-        Learning::Axis(steers, second) => {
-            let moved = PadAxis::ALL.into_iter().find(|axis| desk.pilot.axis(*axis).abs() > FAR);
-            if let Some(axis) = moved {
-                let turned = desk.pilot.axis(axis) < 0.0;
-                desk.pilot.mapping.bind_axis(AxisUse { axis, second, steers, turned });
-                desk.learning = Learning::Nothing;
+    }
+
+    fn axes(&mut self, ui: &mut Ui, desk: &mut Desk) {
+        let faint = Theme::palette_of(ui).faint;
+        Grid::new("pad-axes").num_columns(5).striped(true).spacing([12.0, 3.0]).show(ui, |ui| {
+            for head in ["", "", "", "with the second button held", ""] {
+                ui.label(RichText::new(head).small().color(faint));
             }
-        }
+            ui.end_row();
+            for steers in Steered::ALL {
+                ui.label(steers.words());
+                let first = desk
+                    .pilot
+                    .mapping
+                    .axes
+                    .iter()
+                    .find(|uses| uses.steers == steers && !uses.second)
+                    .copied();
+                bar(
+                    ui,
+                    first.map_or(0.0, |uses| {
+                        desk.pilot.mapping.live(uses.axis, desk.pilot.axis(uses.axis))
+                            * if uses.turned { -1.0 } else { 1.0 }
+                    }),
+                );
+                for second in [false, true] {
+                    self.axis_cell(ui, desk, steers, second);
+                }
+                ui.end_row();
+            }
+        });
+    }
+
+    fn axis_cell(&mut self, ui: &mut Ui, desk: &mut Desk, steers: Steered, second: bool) {
+        ui.horizontal(|ui| {
+            let uses = desk
+                .pilot
+                .mapping
+                .axes
+                .iter_mut()
+                .find(|uses| uses.steers == steers && uses.second == second);
+            let learning = self.learning == Learning::Axis(steers, second);
+            let text = match &uses {
+                _ if learning => "move it all the way …".to_owned(),
+                Some(uses) => {
+                    format!(
+                        "{}{}",
+                        uses.axis.words(),
+                        if uses.turned { ", turned over" } else { "" }
+                    )
+                }
+                None => "–".to_owned(),
+            };
+            if ui
+                .selectable_label(learning, text)
+                .on_hover_text("Click, then move the stick or trigger that is to do it")
+                .clicked()
+            {
+                self.learning =
+                    if learning { Learning::Nothing } else { Learning::Axis(steers, second) };
+            }
+            if let Some(uses) = uses
+                && ui.small_button("±").on_hover_text("Turn it over").clicked()
+            {
+                uses.turned = !uses.turned;
+            }
+        });
+    }
+
+    fn buttons(&mut self, ui: &mut Ui, desk: &mut Desk) {
+        Grid::new("pad-buttons").num_columns(2).striped(true).spacing([12.0, 3.0]).show(ui, |ui| {
+            for does in Pressed::ALL {
+                ui.label(does.words());
+                let button = desk
+                    .pilot
+                    .mapping
+                    .buttons
+                    .iter()
+                    .find(|(_, done)| *done == does)
+                    .map(|(button, _)| *button);
+                let learning = self.learning == Learning::Button(does);
+                let text = match button {
+                    _ if learning => "press it …",
+                    Some(button) => button.words(),
+                    None => "–",
+                };
+                if ui
+                    .selectable_label(learning, text)
+                    .on_hover_text("Click, then press the button that is to do it")
+                    .clicked()
+                {
+                    desk.pilot.take_pressed();
+                    self.learning =
+                        if learning { Learning::Nothing } else { Learning::Button(does) };
+                }
+                ui.end_row();
+            }
+        });
     }
 }
 
@@ -154,97 +269,4 @@ fn bar(ui: &mut Ui, value: f64) {
         palette.accent,
     );
     ui.painter().vline(middle, rect.y_range(), egui::Stroke::new(1.0, palette.line));
-}
-
-fn axes(ui: &mut Ui, desk: &mut Desk) {
-    let faint = Theme::palette_of(ui).faint;
-    Grid::new("pad-axes").num_columns(5).striped(true).spacing([12.0, 3.0]).show(ui, |ui| {
-        for head in ["", "", "", "with the second button held", ""] {
-            ui.label(RichText::new(head).small().color(faint));
-        }
-        ui.end_row();
-        for steers in Steered::ALL {
-            ui.label(steers.words());
-            let first = desk
-                .pilot
-                .mapping
-                .axes
-                .iter()
-                .find(|uses| uses.steers == steers && !uses.second)
-                .copied();
-            bar(
-                ui,
-                first.map_or(0.0, |uses| {
-                    desk.pilot.mapping.live(uses.axis, desk.pilot.axis(uses.axis))
-                        * if uses.turned { -1.0 } else { 1.0 }
-                }),
-            );
-            for second in [false, true] {
-                axis_cell(ui, desk, steers, second);
-            }
-            ui.end_row();
-        }
-    });
-}
-
-fn axis_cell(ui: &mut Ui, desk: &mut Desk, steers: Steered, second: bool) {
-    ui.horizontal(|ui| {
-        let uses = desk
-            .pilot
-            .mapping
-            .axes
-            .iter_mut()
-            .find(|uses| uses.steers == steers && uses.second == second);
-        let learning = desk.learning == Learning::Axis(steers, second);
-        let text = match &uses {
-            _ if learning => "move it all the way …".to_owned(),
-            Some(uses) => {
-                format!("{}{}", uses.axis.words(), if uses.turned { ", turned over" } else { "" })
-            }
-            None => "–".to_owned(),
-        };
-        if ui
-            .selectable_label(learning, text)
-            .on_hover_text("Click, then move the stick or trigger that is to do it")
-            .clicked()
-        {
-            desk.learning =
-                if learning { Learning::Nothing } else { Learning::Axis(steers, second) };
-        }
-        if let Some(uses) = uses
-            && ui.small_button("±").on_hover_text("Turn it over").clicked()
-        {
-            uses.turned = !uses.turned;
-        }
-    });
-}
-
-fn buttons(ui: &mut Ui, desk: &mut Desk) {
-    Grid::new("pad-buttons").num_columns(2).striped(true).spacing([12.0, 3.0]).show(ui, |ui| {
-        for does in Pressed::ALL {
-            ui.label(does.words());
-            let button = desk
-                .pilot
-                .mapping
-                .buttons
-                .iter()
-                .find(|(_, done)| *done == does)
-                .map(|(button, _)| *button);
-            let learning = desk.learning == Learning::Button(does);
-            let text = match button {
-                _ if learning => "press it …",
-                Some(button) => button.words(),
-                None => "–",
-            };
-            if ui
-                .selectable_label(learning, text)
-                .on_hover_text("Click, then press the button that is to do it")
-                .clicked()
-            {
-                desk.pilot.take_pressed();
-                desk.learning = if learning { Learning::Nothing } else { Learning::Button(does) };
-            }
-            ui.end_row();
-        }
-    });
 }

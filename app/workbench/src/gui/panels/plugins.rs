@@ -9,9 +9,12 @@ use endline_sdk::{Attribute, AttributeKind};
 use endline_session::edit::Documents;
 use endline_session::plugins::{Change, PluginInfo, PluginProblem, Standing};
 
-use super::super::desk::{Desk, Order};
-use super::super::fields;
-use super::super::theme::{Theme, primary};
+use crate::gui::desk::{Desk, Order};
+use crate::gui::fields;
+use crate::gui::panel::Panel;
+use crate::gui::panel_id::PanelId;
+use crate::gui::theme::{Theme, primary};
+use crate::gui::widgets::{self, words};
 
 /// Share of the panel's width that the list takes.
 const LIST_SHARE: f32 = 0.38;
@@ -19,33 +22,85 @@ const LIST_SHARE: f32 = 0.38;
 /// Width of a field of the form.
 const FIELD_WIDTH: f32 = 140.0;
 
-/// Draws the panel.
-pub fn show(ui: &mut Ui, desk: &mut Desk) {
-    let plugins = desk.every_plugin();
-    if !plugins.iter().any(|(info, _)| desk.plugins.chosen.as_ref() == Some(&info.id)) {
-        desk.plugins.chosen = plugins.first().map(|(info, _)| info.id.clone());
+/// The plugins.
+#[derive(Debug, Default)]
+pub struct PluginsPanel {
+    /// Id of the plugin shown.
+    pub chosen: Option<String>,
+}
+
+impl Panel for PluginsPanel {
+    fn id(&self) -> PanelId {
+        PanelId::PLUGINS
     }
-    toolbar(ui, desk);
-    ui.separator();
-    let whole = ui.available_rect_before_wrap();
-    let (left, right) = whole
-        .split_left_right_at_x(whole.left() + (whole.width() * LIST_SHARE).clamp(170.0, 340.0));
-    super::within(ui, left.with_max_x(left.right() - 8.0), |ui| {
-        ScrollArea::vertical()
-            .id_salt("list")
-            .auto_shrink(false)
-            .show(ui, |ui| list(ui, desk, &plugins));
-    });
-    super::within(ui, right, |ui| {
-        let chosen = plugins
-            .iter()
-            .find(|(info, _)| desk.plugins.chosen.as_ref() == Some(&info.id))
-            .cloned();
-        ScrollArea::vertical().id_salt("chosen").auto_shrink(false).show(ui, |ui| match chosen {
-            Some((info, on)) => detail(ui, desk, &info, on),
-            None => super::nothing(ui, "No plugins: build them with `cargo xtask plugins`, or write one: `endline plugins new`."),
+
+    fn ui(&mut self, ui: &mut Ui, desk: &mut Desk) {
+        let plugins = desk.every_plugin();
+        if !plugins.iter().any(|(info, _)| self.chosen.as_ref() == Some(&info.id)) {
+            self.chosen = plugins.first().map(|(info, _)| info.id.clone());
+        }
+        toolbar(ui, desk);
+        ui.separator();
+        let whole = ui.available_rect_before_wrap();
+        let (left, right) = whole
+            .split_left_right_at_x(whole.left() + (whole.width() * LIST_SHARE).clamp(170.0, 340.0));
+        widgets::within(ui, left.with_max_x(left.right() - 8.0), |ui| {
+            ScrollArea::vertical()
+                .id_salt("list")
+                .auto_shrink(false)
+                .show(ui, |ui| self.list(ui, desk, &plugins));
         });
-    });
+        widgets::within(ui, right, |ui| {
+            let chosen =
+                plugins.iter().find(|(info, _)| self.chosen.as_ref() == Some(&info.id)).cloned();
+            ScrollArea::vertical().id_salt("chosen").auto_shrink(false).show(ui, |ui| match chosen {
+                Some((info, on)) => detail(ui, desk, &info, on),
+                None => widgets::nothing(ui, "No plugins: build them with `cargo xtask plugins`, or write one: `endline plugins new`."),
+            });
+        });
+    }
+}
+
+impl PluginsPanel {
+    /// Every plugin under its kind, then what is left out.
+    fn list(&mut self, ui: &mut Ui, desk: &mut Desk, plugins: &[(PluginInfo, bool)]) {
+        let mut kind = None;
+        for (info, on) in plugins {
+            if kind.replace(info.kind) != Some(info.kind) {
+                widgets::caption(ui, &format!("{}s", info.kind.name().trim_end_matches('s')));
+            }
+            self.row(ui, desk, info, *on);
+        }
+        let problems = desk.plugins.problems.clone();
+        if !problems.is_empty() {
+            widgets::caption(ui, "Left out");
+            problems.iter().for_each(|problem| left_out(ui, desk, problem));
+        }
+    }
+
+    fn row(&mut self, ui: &mut Ui, desk: &mut Desk, info: &PluginInfo, on: bool) {
+        let palette = Theme::palette_of(ui);
+        ui.horizontal(|ui| {
+            let mut wanted = on;
+            let help =
+                if on { "In use; click to leave it out" } else { "Left out; click to use it" };
+            if ui.checkbox(&mut wanted, "").on_hover_text(format!("{help}: {}", info.id)).changed()
+            {
+                desk.orders.push(Order::SwitchPlugin(info.id.clone(), wanted));
+            }
+            let colour = match (on, desk.uses_plugin(info)) {
+                (false, _) => palette.faint,
+                (true, true) => palette.accent,
+                (true, false) => palette.text,
+            };
+            let chosen = self.chosen.as_ref() == Some(&info.id);
+            let name =
+                Button::selectable(chosen, RichText::new(&info.name).color(colour)).truncate();
+            if ui.add(name).on_hover_text(format!("{}\n{}", info.id, info.help)).clicked() {
+                self.chosen = Some(info.id.clone());
+            }
+        });
+    }
 }
 
 fn toolbar(ui: &mut Ui, desk: &mut Desk) {
@@ -75,43 +130,6 @@ fn toolbar(ui: &mut Ui, desk: &mut Desk) {
         let words =
             "Begin one in a terminal: endline plugins new my-friction --kind friction --lang rust";
         ui.add(Label::new(RichText::new(words).color(Theme::palette_of(ui).faint)).truncate());
-    });
-}
-
-/// Every plugin under its kind, then what is left out.
-fn list(ui: &mut Ui, desk: &mut Desk, plugins: &[(PluginInfo, bool)]) {
-    let mut kind = None;
-    for (info, on) in plugins {
-        if kind.replace(info.kind) != Some(info.kind) {
-            super::caption(ui, &format!("{}s", info.kind.name().trim_end_matches('s')));
-        }
-        row(ui, desk, info, *on);
-    }
-    let problems = desk.plugins.problems.clone();
-    if !problems.is_empty() {
-        super::caption(ui, "Left out");
-        problems.iter().for_each(|problem| left_out(ui, desk, problem));
-    }
-}
-
-fn row(ui: &mut Ui, desk: &mut Desk, info: &PluginInfo, on: bool) {
-    let palette = Theme::palette_of(ui);
-    ui.horizontal(|ui| {
-        let mut wanted = on;
-        let help = if on { "In use; click to leave it out" } else { "Left out; click to use it" };
-        if ui.checkbox(&mut wanted, "").on_hover_text(format!("{help}: {}", info.id)).changed() {
-            desk.orders.push(Order::SwitchPlugin(info.id.clone(), wanted));
-        }
-        let colour = match (on, desk.uses_plugin(info)) {
-            (false, _) => palette.faint,
-            (true, true) => palette.accent,
-            (true, false) => palette.text,
-        };
-        let chosen = desk.plugins.chosen.as_ref() == Some(&info.id);
-        let name = Button::selectable(chosen, RichText::new(&info.name).color(colour)).truncate();
-        if ui.add(name).on_hover_text(format!("{}\n{}", info.id, info.help)).clicked() {
-            desk.plugins.chosen = Some(info.id.clone());
-        }
     });
 }
 
@@ -164,11 +182,11 @@ fn detail(ui: &mut Ui, desk: &mut Desk, info: &PluginInfo, on: bool) {
     buttons(ui, desk, info, on);
     origin(ui, desk, info);
     if !info.attributes.is_empty() {
-        super::caption(ui, "Attributes");
+        widgets::caption(ui, "Attributes");
         attributes(ui, desk, info);
     }
     if !info.acts.is_empty() {
-        super::caption(ui, "Acts");
+        widgets::caption(ui, "Acts");
         for act in &info.acts {
             ui.add(Label::new(format!("{}: {}", act.name, act.help)).wrap());
         }
@@ -257,7 +275,7 @@ fn attributes(ui: &mut Ui, desk: &mut Desk, info: &PluginInfo) {
         for attribute in &info.attributes {
             let (usual, range) = told(attribute);
             let help = format!("{}\n{range}", attribute.help);
-            ui.label(super::library::title(&attribute.key)).on_hover_text(&help);
+            ui.label(words::title(&attribute.key)).on_hover_text(&help);
             match form {
                 Some(table) => {
                     let (field, hint) = (
@@ -302,7 +320,7 @@ fn attributes(ui: &mut Ui, desk: &mut Desk, info: &PluginInfo) {
 /// What is taken where a file names nothing, and what may be written.
 fn told(attribute: &Attribute) -> (String, String) {
     let in_unit = |value: f64| {
-        let value = super::library::rounded(value);
+        let value = words::rounded(value);
         Quantity::from_si_unit(&attribute.unit).map_or_else(
             || format!("{value} {}", attribute.unit),
             |quantity| format_si(value, quantity),

@@ -1,24 +1,43 @@
-//! Everything wrong with the files, each with its place and how to mend it.
+//! Everything wrong with the files, each with its place and how to fix it.
 
-use egui::{Label, RichText, ScrollArea, Sense, Ui};
+use egui::{Label, RichText, ScrollArea, Ui};
 use endline_gear::Diagnostic;
 use endline_gear::Kind;
 
-use super::super::desk::{Desk, Order};
-use super::super::fields::place;
-use super::super::layout::Panel;
-use super::super::theme::Theme;
+use crate::gui::desk::{Desk, Order};
+use crate::gui::panel::Panel;
+use crate::gui::panel_id::PanelId;
+use crate::gui::tables::KINDS;
+use crate::gui::theme::Theme;
+use crate::gui::widgets::{self, problem};
+
+/// The list of problems.
+#[derive(Debug, Default)]
+pub struct ProblemsPanel;
+
+impl Panel for ProblemsPanel {
+    fn id(&self) -> PanelId {
+        PanelId::PROBLEMS
+    }
+
+    fn ui(&mut self, ui: &mut Ui, desk: &mut Desk) {
+        show(ui, desk);
+    }
+}
 
 /// Draws the list of problems.
-pub fn show(ui: &mut Ui, desk: &mut Desk) {
+fn show(ui: &mut Ui, desk: &mut Desk) {
     let problems: Vec<Diagnostic> = desk.problems().cloned().collect();
     if problems.is_empty() && desk.plugins.problems.is_empty() {
-        super::nothing(ui, "No problems: every file of the library and the scenario can be read.");
+        widgets::nothing(
+            ui,
+            "No problems: every file of the library and the scenario can be read.",
+        );
         return;
     }
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         for problem in &problems {
-            if entry(ui, problem) {
+            if problem::entry(ui, problem) {
                 go_to(desk, problem);
             }
         }
@@ -29,45 +48,11 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
     });
 }
 
-/// One problem in two lines; answers whether it was clicked.
-pub fn entry(ui: &mut Ui, problem: &Diagnostic) -> bool {
-    let palette = Theme::palette_of(ui);
-    let (mark, colour) =
-        if problem.is_error() { ("✖", palette.error) } else { ("▲", palette.warning) };
-    let row = ui.scope(|ui| {
-        ui.spacing_mut().item_spacing.y = 1.0;
-        ui.horizontal(|ui| {
-            ui.label(RichText::new(mark).color(colour));
-            ui.label(RichText::new(place(problem)).monospace().size(12.0).color(palette.faint));
-            if !problem.field.is_empty() {
-                ui.label(
-                    RichText::new(&problem.field).monospace().size(12.0).color(palette.accent),
-                );
-            }
-            ui.add(Label::new(RichText::new(&problem.message).color(colour)).truncate());
-        });
-        if !problem.help.is_empty() {
-            ui.horizontal(|ui| {
-                ui.add_space(20.0);
-                ui.add(Label::new(RichText::new(&problem.help).color(palette.faint)).truncate());
-            });
-        }
-    });
-    ui.add_space(4.0);
-    row.response.interact(Sense::click()).on_hover_text(problem.to_string()).clicked()
-}
-
-/// Opens the panel where a problem can be mended.
+/// Opens the panel where a problem can be fixed.
 fn go_to(desk: &mut Desk, problem: &Diagnostic) {
     let kind = problem.file.split_once('/').and_then(|(folder, _)| Kind::in_folder(folder));
-    let table = kind.filter(|kind| super::library::KINDS.iter().any(|(shown, _)| shown == kind));
-    match table {
-        Some(kind) => {
-            desk.library.kind = kind;
-            desk.library.search.clear();
-            desk.library.chosen = Some(problem.file.clone());
-            desk.orders.push(Order::Show(Panel::Library));
-        }
-        None => desk.orders.push(Order::Show(Panel::Scenario)),
+    match kind.filter(|kind| KINDS.iter().any(|(shown, _)| shown == kind)) {
+        Some(_) => desk.orders.push(Order::Entry(problem.file.clone())),
+        None => desk.orders.push(Order::Show(PanelId::SCENARIO)),
     }
 }

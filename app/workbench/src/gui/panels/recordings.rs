@@ -5,12 +5,16 @@ use std::time::SystemTime;
 
 use egui::{RichText, ScrollArea, Ui};
 
-use super::super::desk::{Desk, Order};
-use super::super::theme::Theme;
+use crate::gui::desk::{Desk, Order};
+use crate::gui::files;
+use crate::gui::panel::Panel;
+use crate::gui::panel_id::PanelId;
+use crate::gui::theme::Theme;
+use crate::gui::widgets;
 
-/// The list, read again when a run was kept.
-#[derive(Clone, Debug, Default)]
-pub struct RecordingsState {
+/// The list of recordings, read again when a run was kept.
+#[derive(Debug, Default)]
+pub struct RecordingsPanel {
     files: Option<(u64, Vec<Recorded>)>,
 }
 
@@ -21,42 +25,46 @@ struct Recorded {
     kilobytes: u64,
 }
 
-/// Draws the list of recordings.
-pub fn show(ui: &mut Ui, desk: &mut Desk) {
-    let Some(folder) = desk.recordings.clone() else {
-        return super::nothing(
-            ui,
-            "No folder to keep recordings in: there is no user data folder here.",
-        );
-    };
-    let kept = desk.kept_runs();
-    if desk.recorded.files.as_ref().is_none_or(|(seen, _)| *seen != kept) {
-        desk.recorded.files = Some((kept, list(&folder)));
+impl Panel for RecordingsPanel {
+    fn id(&self) -> PanelId {
+        PanelId::RECORDINGS
     }
-    let files = desk.recorded.files.as_ref().map(|(_, files)| files.clone()).unwrap_or_default();
-    ui.horizontal_wrapped(|ui| {
-        ui.label(
-            RichText::new("Every run is kept here when it ends or another begins.")
-                .color(Theme::palette_of(ui).faint),
-        );
-        if ui.button("Open other …").clicked() {
-            desk.orders.push(Order::AskRecording);
+
+    fn ui(&mut self, ui: &mut Ui, desk: &mut Desk) {
+        let Some(folder) = desk.recordings.clone() else {
+            return widgets::nothing(
+                ui,
+                "No folder to keep recordings in: there is no user data folder here.",
+            );
+        };
+        let kept = desk.kept_runs();
+        if self.files.as_ref().is_none_or(|(seen, _)| *seen != kept) {
+            self.files = Some((kept, list(&folder)));
         }
-    });
-    if files.is_empty() {
-        return super::nothing(ui, "No runs yet.");
+        let files = self.files.as_ref().map_or(&[][..], |(_, files)| files);
+        ui.horizontal_wrapped(|ui| {
+            ui.label(
+                RichText::new("Every run is kept here when it ends or another begins.")
+                    .color(Theme::palette_of(ui).faint),
+            );
+            if ui.button("Open other …").clicked() {
+                desk.orders.push(Order::AskRecording);
+            }
+        });
+        if files.is_empty() {
+            return widgets::nothing(ui, "No runs yet.");
+        }
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            for file in files {
+                row(ui, desk, file);
+            }
+        });
     }
-    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        for file in files {
-            row(ui, desk, &file);
-        }
-    });
 }
 
 fn row(ui: &mut Ui, desk: &mut Desk, file: &Recorded) {
     let faint = Theme::palette_of(ui).faint;
-    let name =
-        file.path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+    let name = files::stem(&file.path);
     ui.horizontal_wrapped(|ui| {
         ui.label(name);
         ui.label(RichText::new(format!("{}, {} kB", file.age, file.kilobytes)).color(faint));

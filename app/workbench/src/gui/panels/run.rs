@@ -1,18 +1,31 @@
 //! The run's controls and how it does.
 
 use egui::{Button, ProgressBar, RichText, ScrollArea, Ui};
-use endline_session::live::{LiveView, Status};
+use endline_session::live::LiveView;
 
-use super::super::desk::{Desk, Order};
-use super::super::theme::{Theme, primary};
-use super::summary::numbers;
+use crate::gui::desk::{Desk, Order};
+use crate::gui::engine::SPEEDS;
+use crate::gui::panel::Panel;
+use crate::gui::panel_id::PanelId;
+use crate::gui::theme::{Theme, primary};
+use crate::gui::widgets::{self, words};
 
-/// Speeds offered, simulated over real time; the last is as fast as it goes.
-pub const SPEEDS: [(f64, &str); 6] =
-    [(0.1, "0.1×"), (0.25, "¼×"), (1.0, "1×"), (2.0, "2×"), (5.0, "5×"), (f64::INFINITY, "max")];
+/// Controls of the run, and figures of the solver.
+#[derive(Debug, Default)]
+pub struct RunPanel;
+
+impl Panel for RunPanel {
+    fn id(&self) -> PanelId {
+        PanelId::RUN
+    }
+
+    fn ui(&mut self, ui: &mut Ui, desk: &mut Desk) {
+        show(ui, desk);
+    }
+}
 
 /// Draws the run panel.
-pub fn show(ui: &mut Ui, desk: &mut Desk) {
+fn show(ui: &mut Ui, desk: &mut Desk) {
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         buttons(ui, desk);
         if desk.stale() {
@@ -130,13 +143,13 @@ fn fly(ui: &mut Ui, desk: &mut Desk) {
 fn state(ui: &mut Ui, view: &LiveView) {
     let palette = Theme::palette_of(ui);
     ui.add_space(4.0);
-    let (text, bad) = told(&view.status);
+    let (text, bad) = words::status(&view.status);
     ui.add(
         egui::Label::new(RichText::new(text).color(if bad { palette.error } else { palette.text }))
             .wrap(),
     );
     let audit = &view.audit;
-    numbers(
+    widgets::numbers(
         ui,
         "run",
         &[
@@ -155,17 +168,4 @@ fn state(ui: &mut Ui, view: &LiveView) {
 fn size(view: &LiveView) -> String {
     let triangles = view.model.spec.whale.as_ref().map_or(0, |whale| whale.skin.triangles.len());
     format!("{}, {triangles}", view.model.node_count)
-}
-
-/// A status in words, and whether it is bad.
-#[must_use]
-pub fn told(status: &Status) -> (String, bool) {
-    match status {
-        Status::Settling => ("Settling".into(), false),
-        Status::Paused => ("Paused".into(), false),
-        Status::Running => ("Running".into(), false),
-        Status::Finished => ("Finished".into(), false),
-        Status::Stopped(why) => (format!("Stopped: {why}"), true),
-        Status::Failed(why) => (format!("Could not start: {why}"), true),
-    }
 }

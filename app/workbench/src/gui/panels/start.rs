@@ -1,14 +1,16 @@
 //! Where a user begins: what was open last, and the examples in their own words.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use egui::{RichText, ScrollArea, Ui};
 use endline_session::units::Units;
 
-use super::super::desk::{Desk, Order};
-use super::super::layout::Panel;
-use super::super::theme::Theme;
+use crate::gui::desk::{Desk, Order};
+use crate::gui::files;
+use crate::gui::panel::Panel;
+use crate::gui::panel_id::PanelId;
+use crate::gui::theme::Theme;
+use crate::gui::widgets;
 
 /// A scenario as the start page shows it.
 #[derive(Clone, Debug)]
@@ -19,27 +21,31 @@ struct Example {
     whale: bool,
 }
 
-/// The examples of a library, read when the page is first shown.
-#[derive(Clone, Debug, Default)]
-pub struct StartState {
-    examples: Option<Arc<[Example]>>,
+/// Where a user begins; the examples of the library are read when the page is first shown.
+#[derive(Debug, Default)]
+pub struct StartPanel {
+    examples: Option<Vec<Example>>,
 }
 
-/// Draws the start page.
-pub fn show(ui: &mut Ui, desk: &mut Desk) {
-    let examples =
-        desk.start.examples.get_or_insert_with(|| examples(desk.documents.root()).into()).clone();
-    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        ui.heading("Endline");
-        ui.label("Fishing gear, and whales that get out of it alive.");
-        ui.add_space(6.0);
-        units(ui, desk);
-        recent(ui, desk);
-        super::caption(ui, "Whales meeting gear");
-        list(ui, desk, examples.iter().filter(|example| example.whale));
-        super::caption(ui, "Gear alone, and checks of the physics");
-        list(ui, desk, examples.iter().filter(|example| !example.whale));
-    });
+impl Panel for StartPanel {
+    fn id(&self) -> PanelId {
+        PanelId::START
+    }
+
+    fn ui(&mut self, ui: &mut Ui, desk: &mut Desk) {
+        let all = self.examples.get_or_insert_with(|| examples(desk.documents.root()));
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            ui.heading("Endline");
+            ui.label("Fishing gear, and whales that get out of it alive.");
+            ui.add_space(6.0);
+            units(ui, desk);
+            recent(ui, desk);
+            widgets::caption(ui, "Whales meeting gear");
+            list(ui, desk, all.iter().filter(|example| example.whale));
+            widgets::caption(ui, "Gear alone, and checks of the physics");
+            list(ui, desk, all.iter().filter(|example| !example.whale));
+        });
+    }
 }
 
 fn units(ui: &mut Ui, desk: &mut Desk) {
@@ -58,7 +64,7 @@ fn recent(ui: &mut Ui, desk: &mut Desk) {
     if recent.is_empty() {
         return;
     }
-    super::caption(ui, "Last open");
+    widgets::caption(ui, "Last open");
     for path in recent {
         if ui.link(path.display().to_string()).clicked() {
             open(desk, &path);
@@ -68,7 +74,7 @@ fn recent(ui: &mut Ui, desk: &mut Desk) {
 
 fn open(desk: &mut Desk, path: &Path) {
     desk.orders.push(Order::Open(path.to_owned()));
-    desk.orders.push(Order::Show(Panel::View));
+    desk.orders.push(Order::Show(PanelId::VIEW));
 }
 
 fn list<'a>(ui: &mut Ui, desk: &mut Desk, examples: impl Iterator<Item = &'a Example>) {
@@ -94,11 +100,8 @@ fn examples(root: &Path) -> Vec<Example> {
             path,
         })
     };
-    let mut examples: Vec<Example> =
-        super::scenario::scenarios(root).into_iter().filter_map(read).collect();
+    let mut examples: Vec<Example> = files::scenarios(root).into_iter().filter_map(read).collect();
     // Whoever is new begins with the plainest.
-    examples.sort_by_key(|example| {
-        !example.path.file_stem().is_some_and(|stem| stem.to_string_lossy().starts_with("hello-"))
-    });
+    examples.sort_by_key(|example| !files::stem(&example.path).starts_with("hello-"));
     examples
 }

@@ -4,14 +4,31 @@ use egui::{Grid, RichText, ScrollArea, Ui};
 use endline_session::units::{ForceUnit, Units};
 use endline_sim::metrics::{Summary, WhaleSummary};
 
-use super::super::desk::{Desk, Order};
-use super::super::theme::Theme;
+use crate::gui::desk::{Desk, Order};
+use crate::gui::panel::Panel;
+use crate::gui::panel_id::PanelId;
+use crate::gui::theme::Theme;
+use crate::gui::widgets::{self, words};
+
+/// Outcome and loads of the run.
+#[derive(Debug, Default)]
+pub struct SummaryPanel;
+
+impl Panel for SummaryPanel {
+    fn id(&self) -> PanelId {
+        PanelId::SUMMARY
+    }
+
+    fn ui(&mut self, ui: &mut Ui, desk: &mut Desk) {
+        show(ui, desk);
+    }
+}
 
 /// Draws the summary.
-pub fn show(ui: &mut Ui, desk: &mut Desk) {
-    let Some(view) = desk.view.clone() else { return super::nothing(ui, "No run yet.") };
+fn show(ui: &mut Ui, desk: &mut Desk) {
+    let Some(view) = desk.view.clone() else { return widgets::nothing(ui, "No run yet.") };
     let Some(summary) = &view.summary else {
-        return super::nothing(ui, "The gear is being settled.");
+        return widgets::nothing(ui, "The gear is being settled.");
     };
     let units = desk.preferences.units;
     let unit = units.force();
@@ -27,7 +44,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
 
 fn outcome(ui: &mut Ui, whale: &WhaleSummary, units: Units) {
     let palette = Theme::palette_of(ui);
-    let (text, meaning, colour) = super::entanglement::meaning(whale.outcome, palette);
+    let (text, meaning, colour) = words::outcome(whale.outcome, palette);
     ui.horizontal(|ui| {
         ui.label(RichText::new(text).heading().color(colour)).on_hover_text(meaning);
         if !whale.decided {
@@ -71,7 +88,7 @@ fn heads(ui: &mut Ui, names: &[&str]) {
 }
 
 fn regions(ui: &mut Ui, whale: &WhaleSummary, units: Units) {
-    super::caption(ui, "Whale by part");
+    widgets::caption(ui, "Whale by part");
     let faint = Theme::palette_of(ui).faint;
     Grid::new("regions")
         .num_columns(5)
@@ -102,7 +119,7 @@ fn regions(ui: &mut Ui, whale: &WhaleSummary, units: Units) {
 /// Peaks of the lines; answers the moment asked for by a click on one.
 fn lines(ui: &mut Ui, summary: &Summary, unit: ForceUnit) -> Option<f64> {
     let mut wanted = None;
-    super::caption(ui, "Lines");
+    widgets::caption(ui, "Lines");
     Grid::new("lines").num_columns(5).striped(true).spacing([14.0, 2.0]).min_row_height(17.0).show(
         ui,
         |ui| {
@@ -134,7 +151,7 @@ fn links(ui: &mut Ui, summary: &Summary, unit: ForceUnit) {
     if summary.links.is_empty() {
         return;
     }
-    super::caption(ui, "Weak links");
+    widgets::caption(ui, "Weak links");
     Grid::new("links").num_columns(4).striped(true).spacing([14.0, 2.0]).min_row_height(17.0).show(
         ui,
         |ui| {

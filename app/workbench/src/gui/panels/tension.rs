@@ -2,10 +2,25 @@
 
 use egui::Ui;
 
-use super::super::charts::Kind;
-use super::super::desk::Desk;
+use crate::gui::charts::Kind;
+use crate::gui::desk::Desk;
+use crate::gui::panel::Panel;
+use crate::gui::panel_id::PanelId;
+use crate::gui::widgets::plot::{DrawnCharts, HEAD};
 
-/// Draws the plot.
-pub fn show(ui: &mut Ui, desk: &mut Desk) {
-    super::plots::alone(ui, desk, Kind::Tension);
+/// Tension of every line over time.
+#[derive(Default)]
+pub struct TensionPanel {
+    drawn: DrawnCharts,
+}
+
+impl Panel for TensionPanel {
+    fn id(&self) -> PanelId {
+        PanelId::TENSION
+    }
+
+    fn ui(&mut self, ui: &mut Ui, desk: &mut Desk) {
+        let height = ui.available_height() - HEAD;
+        self.drawn.show(ui, desk, Kind::Tension, "", height);
+    }
 }

@@ -14,9 +14,10 @@ use endline_session::study::Opened;
 use endline_session::study::encounter::Encounter;
 use endline_session::{Error, PluginHost, Prepared};
 
+pub use results::{Asked, Results, Shown};
+
 use super::desk::{Desk, Order};
 use job::Job;
-pub use results::{Asked, Results, Shown};
 
 /// What the panels of studies share.
 #[derive(Default)]
@@ -54,18 +55,6 @@ impl Studies {
 #[must_use]
 pub fn folder_of(root: &Path, opened: &Opened) -> PathBuf {
     root.join(format!("{}-{}", opened.study.id, opened.hash.get(..8).unwrap_or(&opened.hash)))
-}
-
-/// The studies of a library, by name.
-#[must_use]
-pub fn studies(root: &Path) -> Vec<PathBuf> {
-    let entries = std::fs::read_dir(root.join("studies")).into_iter().flatten().flatten();
-    let mut files: Vec<PathBuf> = entries
-        .map(|entry| entry.path())
-        .filter(|path| path.extension().is_some_and(|end| end == "toml"))
-        .collect();
-    files.sort();
-    files
 }
 
 /// Once a frame: begins the next study that waits, and takes in results.
@@ -125,7 +114,7 @@ pub fn open(desk: &mut Desk, path: &Path) {
     let id = |path: &PathBuf| {
         path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
     };
-    desk.studies.scenarios = super::panels::scenario::scenarios(desk.documents.root())
+    desk.studies.scenarios = super::files::scenarios(desk.documents.root())
         .iter()
         .map(|path| (id(path), id(path)))
         .collect();

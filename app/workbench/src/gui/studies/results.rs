@@ -61,20 +61,6 @@ pub struct Results {
     pub follows_next: bool,
     /// Why nothing is shown.
     pub problem: Option<String>,
-    /// Name of the event shown; the study's own where `None`.
-    pub event: Option<String>,
-    /// Which picture.
-    pub part: super::super::panels::results::Part,
-    /// Column the runs are sorted by, and whether downwards.
-    pub sort: (super::super::panels::results::Sort, bool),
-    /// Options left out of the list of runs, by id.
-    pub only: Option<String>,
-    /// The list of runs as last shown.
-    pub listed: Option<super::super::panels::results::Listed>,
-    /// The dots of runs as last shown.
-    pub placed: Option<super::super::panels::results::Placed>,
-    /// The run replayed last: option's place, encounter.
-    pub replayed: Option<(usize, u32)>,
 }
 
 impl Results {
@@ -145,13 +131,6 @@ impl Results {
                 .map(|shown| {
                     if let Some(shown) = shown {
                         self.folder = Some(shown.folder.clone());
-                        if self
-                            .shown
-                            .as_ref()
-                            .is_none_or(|before| before.opened.hash != shown.opened.hash)
-                        {
-                            (self.event, self.only, self.replayed) = (None, None, None);
-                        }
                         self.shown = Some(shown);
                     }
                     self.problem = None;

@@ -221,6 +221,12 @@ pub fn flown(folder: &Folder) -> Harness<'static, App> {
     harness
 }
 
+/// Gives an order as a menu does, and draws until it is obeyed.
+pub fn give(harness: &mut Harness<'static, App>, order: Order) {
+    harness.state_mut().desk.orders.push(order);
+    harness.run_steps(1);
+}
+
 /// Drags with the mouse.
 pub fn drag(harness: &mut Harness<'static, App>, from: egui::Pos2, to: egui::Pos2) {
     let button = |pos, pressed| {

@@ -6,13 +6,16 @@ use endline_gear::units::{Quantity, format_si};
 use endline_sdk::{Attribute, AttributeKind};
 use endline_session::edit::Documents;
 
-use super::super::super::desk::Desk;
-use super::super::super::fields;
-use super::super::super::theme::Theme;
+use super::AssemblyPanel;
 use super::{inserts, item};
+use crate::gui::desk::Desk;
+use crate::gui::fields;
+use crate::gui::theme::Theme;
+use crate::gui::widgets::{self, words};
 
 /// Draws the form.
-pub(super) fn show(ui: &mut Ui, desk: &mut Desk, file: &str, id: &str, gear_type: &str) {
+pub(super) fn show(ui: &mut Ui, panel: &AssemblyPanel, desk: &mut Desk, id: &str, gear_type: &str) {
+    let file = &super::path(id);
     let Some(gear) = desk.gear_types().into_iter().find(|gear| gear.descriptor().id == gear_type)
     else {
         let text = format!("No gear type `{gear_type}` among the plugins; see Problems.");
@@ -25,17 +28,17 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, file: &str, id: &str, gear_type
         scope_slider(ui, desk, file, scope);
     }
     if desk.documents.field(Documents::SCENARIO, "gear.0.assembly").as_deref() == Some(id) {
-        inserts::of_placed(ui, desk);
+        inserts::of_placed(ui, panel, desk);
     } else {
         let text = "Weak inserts go into gear that the scenario uses: Use in scenario, above.";
         ui.add(
             egui::Label::new(RichText::new(text).small().color(Theme::palette_of(ui).faint)).wrap(),
         );
     }
-    super::super::caption(ui, "Attributes");
+    widgets::caption(ui, "Attributes");
     Grid::new("attributes").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
         for attribute in &attributes {
-            let name = super::super::library::title(&attribute.key);
+            let name = words::title(&attribute.key);
             ui.label(RichText::new(name).color(Theme::palette_of(ui).faint))
                 .on_hover_text(help(attribute));
             cell(ui, desk, file, attribute);
@@ -130,7 +133,7 @@ fn help(attribute: &Attribute) -> String {
 }
 
 fn in_unit(value: f64, unit: &str) -> String {
-    let value = super::super::library::rounded(value);
+    let value = words::rounded(value);
     Quantity::from_si_unit(unit)
         .map_or_else(|| format!("{value} {unit}"), |quantity| format_si(value, quantity))
 }

@@ -4,10 +4,12 @@ use egui::{Grid, RichText, Ui};
 use endline_gear::{Kind, Setting};
 use endline_session::edit::Documents;
 
-use super::super::super::desk::Desk;
-use super::super::super::fields;
-use super::super::super::theme::Theme;
+use super::AssemblyPanel;
 use super::item;
+use crate::gui::desk::Desk;
+use crate::gui::fields;
+use crate::gui::theme::Theme;
+use crate::gui::widgets;
 
 /// What new inserts are: weak rope of 3 ft every 60 ft over the top three quarters, the first 12 ft down
 /// (Massachusetts rules for contrivances; `docs/gear-format.md`).
@@ -20,16 +22,16 @@ const USUAL: [(&str, &str); 5] = [
 ];
 
 /// Inserts of the lines of gear that a gear type builds: they stand in the scenario, over the assembly.
-pub(super) fn of_placed(ui: &mut Ui, desk: &mut Desk) {
-    super::super::caption(ui, "Weak inserts");
-    for line in built_lines(desk) {
+pub(super) fn of_placed(ui: &mut Ui, panel: &AssemblyPanel, desk: &mut Desk) {
+    widgets::caption(ui, "Weak inserts");
+    for line in built_lines(panel) {
         one(ui, desk, Documents::SCENARIO, &format!("gear.0.lines.{line}"), &line);
     }
 }
 
 /// Lines of the gear shown, pieces of one line taken together.
-fn built_lines(desk: &Desk) -> Vec<String> {
-    let rest = desk.assembly.answers()[0].and_then(|answer| answer.as_ref().ok());
+fn built_lines(panel: &AssemblyPanel) -> Vec<String> {
+    let rest = panel.answers()[0].and_then(|answer| answer.as_ref().ok());
     let ids = rest
         .iter()
         .flat_map(|rest| &rest.shape.lines)

@@ -4,10 +4,11 @@ use egui::{Grid, RichText, Slider, SliderClamping, Ui};
 use endline_gear::units::{Quantity, parse};
 use endline_gear::{Document, Kind};
 
-use super::super::super::desk::Desk;
-use super::super::super::fields;
-use super::super::super::theme::Theme;
 use super::{inserts, item, said};
+use crate::gui::desk::Desk;
+use crate::gui::fields;
+use crate::gui::theme::Theme;
+use crate::gui::widgets::{self, words};
 
 /// Longest a line may be made with the slider, over its length when taken up.
 const LONGEST: f64 = 2.0;
@@ -15,22 +16,22 @@ const LONGEST: f64 = 2.0;
 /// Draws the tree.
 pub(super) fn show(ui: &mut Ui, desk: &mut Desk, file: &str) {
     add(ui, desk, file);
-    super::super::caption(ui, "Bodies");
+    widgets::caption(ui, "Bodies");
     for index in (0..count(desk, file, "body")).rev() {
         body(ui, desk, file, index);
     }
-    super::super::caption(ui, "Lines, from the buoy down");
+    widgets::caption(ui, "Lines, from the buoy down");
     for index in (0..count(desk, file, "line")).rev() {
         line(ui, desk, file, index);
     }
     if count(desk, file, "link") > 0 {
-        super::super::caption(ui, "Weak links");
+        widgets::caption(ui, "Weak links");
     }
     for index in 0..count(desk, file, "link") {
         link(ui, desk, file, index);
     }
     if count(desk, file, "joint") > 0 {
-        super::super::caption(ui, "Splices");
+        widgets::caption(ui, "Splices");
     }
     for index in 0..count(desk, file, "joint") {
         joint(ui, desk, file, index);
@@ -70,7 +71,7 @@ fn add(ui: &mut Ui, desk: &mut Desk, file: &str) {
         for (word, kind, height) in
             [("trap", Kind::Trap, "0"), ("buoy", Kind::Buoy, "1"), ("anchor", Kind::Anchor, "0")]
         {
-            if ui.button(super::super::library::title(word)).clicked() {
+            if ui.button(words::title(word)).clicked() {
                 let first = desk
                     .documents
                     .library()

@@ -6,24 +6,25 @@ use endline_session::rest::{Rest, TrialSea};
 use endline_sim::model::BodyRole;
 use glam::DVec2;
 
-use super::super::super::bench::{Answer, Trial};
-use super::super::super::desk::Desk;
-use super::super::super::theme::Theme;
+use super::AssemblyPanel;
 use super::side::A;
+use crate::gui::bench::{Answer, Trial};
+use crate::gui::desk::Desk;
+use crate::gui::theme::Theme;
 
 /// Size of a picture.
 const CARD: egui::Vec2 = vec2(168.0, 112.0);
 
 /// Draws all assemblies as cards; answers the one clicked.
-pub(super) fn show(ui: &mut Ui, desk: &mut Desk) -> Option<String> {
+pub(super) fn show(ui: &mut Ui, panel: &mut AssemblyPanel, desk: &Desk) -> Option<String> {
     let all = super::assemblies(desk);
-    ask(desk, &all);
-    let chosen = super::shown(desk);
+    ask(panel, desk, &all);
+    let chosen = panel.shown(desk);
     let mut taken = None;
     ScrollArea::vertical().id_salt("selector").auto_shrink(false).show(ui, |ui| {
         ui.horizontal_wrapped(|ui| {
             for (index, (id, name)) in all.iter().enumerate() {
-                let answer = desk.assembly.pictured.newest(index).cloned();
+                let answer = panel.pictured.newest(index).cloned();
                 if card(ui, name, answer.as_ref(), chosen.as_ref() == Some(id)) {
                     taken = Some(id.clone());
                 }
@@ -34,10 +35,10 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk) -> Option<String> {
 }
 
 /// Asks for every assembly at rest in the scenario's sea, where texts have changed since.
-fn ask(desk: &mut Desk, all: &[(String, String)]) {
-    desk.assembly.pictured.poll();
+fn ask(panel: &mut AssemblyPanel, desk: &Desk, all: &[(String, String)]) {
+    panel.pictured.poll();
     let version = desk.documents.version();
-    if desk.assembly.pictured_for == Some(version) {
+    if panel.pictured_for == Some(version) {
         return;
     }
     let trial = |(id, _): &(String, String)| Trial {
@@ -47,8 +48,8 @@ fn ask(desk: &mut Desk, all: &[(String, String)]) {
     let trials = all.iter().map(trial).collect();
     let scenario = desk.documents.text(Documents::SCENARIO).unwrap_or_default().to_owned();
     let (library, (host, waker)) = (desk.documents.library().clone(), desk.helpers());
-    desk.assembly.pictured.ask(&scenario, &library, trials, &host, &waker);
-    desk.assembly.pictured_for = Some(version);
+    panel.pictured.ask(&scenario, &library, trials, &host, &waker);
+    panel.pictured_for = Some(version);
 }
 
 fn card(ui: &mut Ui, name: &str, answer: Option<&Answer>, chosen: bool) -> bool {

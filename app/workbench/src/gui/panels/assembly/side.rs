@@ -10,10 +10,10 @@ use endline_session::units::Units;
 use endline_sim::model::{Body, BodyRole};
 use glam::{DVec2, DVec3};
 
-use super::super::super::bench::Answer;
-use super::super::super::desk::Desk;
-use super::super::super::theme::Theme;
-use super::{Drawn, surface_m_s};
+use super::{AssemblyPanel, Drawn, surface_m_s};
+use crate::gui::bench::Answer;
+use crate::gui::desk::Desk;
+use crate::gui::theme::Theme;
 
 /// Width drawn over that of the gear: labels stand to the right of lines.
 const LABEL_ROOM: f64 = 1.35;
@@ -49,8 +49,8 @@ impl Gear {
 }
 
 /// Draws both tides.
-pub(super) fn show(ui: &mut Ui, desk: &Desk) {
-    let drawn = desk.assembly.drawn();
+pub(super) fn show(ui: &mut Ui, panel: &AssemblyPanel, desk: &Desk) {
+    let drawn = panel.drawn();
     let flat = Flat { axis: axis(&drawn), units: desk.preferences.units };
     let size = vec2((ui.available_width() - 8.0) / 2.0, ui.available_height());
     let bounds = bounds(&drawn, &flat, f64::from((size.x - 60.0) / (size.y - 70.0).max(1.0)));

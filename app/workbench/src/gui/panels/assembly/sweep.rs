@@ -6,11 +6,11 @@ use endline_session::rest::{Rest, TrialSea};
 use endline_session::units::Units;
 use endline_sim::model::BodyRole;
 
-use super::super::super::bench::Trial;
-use super::super::super::desk::Desk;
-use super::super::super::theme::{Theme, primary};
-use super::Answer;
 use super::side::top_m;
+use super::{Answer, AssemblyPanel};
+use crate::gui::bench::Trial;
+use crate::gui::desk::Desk;
+use crate::gui::theme::{Theme, primary};
 
 /// Depths of water [fathom].
 const DEPTHS: [u32; 6] = [5, 10, 20, 40, 60, 100];
@@ -18,12 +18,12 @@ const DEPTHS: [u32; 6] = [5, 10, 20, 40, 60, 100];
 const CURRENTS_KN: [f64; 5] = [0.0, 0.5, 1.0, 1.5, 2.0];
 
 /// Draws the table.
-pub(super) fn show(ui: &mut Ui, desk: &mut Desk, id: &str) {
-    desk.assembly.swept.poll();
+pub(super) fn show(ui: &mut Ui, panel: &mut AssemblyPanel, desk: &Desk, id: &str) {
+    panel.swept.poll();
     let wanted = (desk.documents.version(), id.to_owned());
-    let (done, all) = desk.assembly.swept.progress();
+    let (done, all) = panel.swept.progress();
     ui.horizontal(|ui| {
-        let fresh = desk.assembly.swept_for.as_ref() == Some(&wanted);
+        let fresh = panel.swept_for.as_ref() == Some(&wanted);
         if done < all && fresh {
             ui.add(
                 ProgressBar::new(done as f32 / all as f32)
@@ -31,8 +31,8 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, id: &str) {
                     .text(format!("{done} of {all}")),
             );
             if ui.button("Cancel").clicked() {
-                desk.assembly.swept.cancel();
-                desk.assembly.swept_for = None;
+                panel.swept.cancel();
+                panel.swept_for = None;
             }
         } else {
             let text = if fresh { "Compute again" } else { "Compute" };
@@ -40,7 +40,7 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, id: &str) {
                 .on_hover_text("Settle the gear in every depth and current")
                 .clicked()
             {
-                start(desk, id);
+                start(panel, desk, id);
             }
             if !fresh && done > 0 {
                 ui.label(
@@ -55,11 +55,11 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, id: &str) {
         );
     });
     if all > 0 {
-        table(ui, desk);
+        table(ui, panel, desk.preferences.units);
     }
 }
 
-fn start(desk: &mut Desk, id: &str) {
+fn start(panel: &mut AssemblyPanel, desk: &Desk, id: &str) {
     let sea = |fathom: u32, knots: f64| TrialSea {
         depth: Some(format!("{fathom} fathom")),
         current_m_s: Some(Units::Noaa.to_m_s(knots)),
@@ -72,12 +72,11 @@ fn start(desk: &mut Desk, id: &str) {
         .collect();
     let scenario = desk.documents.text(Documents::SCENARIO).unwrap_or_default().to_owned();
     let (library, (host, waker)) = (desk.documents.library().clone(), desk.helpers());
-    desk.assembly.swept.ask(&scenario, &library, trials, &host, &waker);
-    desk.assembly.swept_for = Some((desk.documents.version(), id.to_owned()));
+    panel.swept.ask(&scenario, &library, trials, &host, &waker);
+    panel.swept_for = Some((desk.documents.version(), id.to_owned()));
 }
 
-fn table(ui: &mut Ui, desk: &Desk) {
-    let units = desk.preferences.units;
+fn table(ui: &mut Ui, panel: &AssemblyPanel, units: Units) {
     let faint = Theme::palette_of(ui).faint;
     Grid::new("sweep").num_columns(CURRENTS_KN.len() + 1).striped(true).spacing([20.0, 3.0]).show(
         ui,
@@ -92,7 +91,7 @@ fn table(ui: &mut Ui, desk: &Desk) {
             for (row, fathom) in DEPTHS.iter().enumerate() {
                 ui.label(RichText::new(units.depth(f64::from(*fathom) * 1.8288)).color(faint));
                 for column in 0..CURRENTS_KN.len() {
-                    cell(ui, desk.assembly.swept.newest(row * CURRENTS_KN.len() + column), units);
+                    cell(ui, panel.swept.newest(row * CURRENTS_KN.len() + column), units);
                 }
                 ui.end_row();
             }

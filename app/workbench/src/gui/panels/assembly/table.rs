@@ -5,10 +5,9 @@ use endline_session::rest::Rest;
 use endline_session::units::Units;
 use endline_sim::model::BodyRole;
 
-use super::super::super::desk::Desk;
-use super::super::super::theme::Theme;
 use super::side::{A, B, top_m};
-use super::{Answer, surface_m_s};
+use super::{Answer, AssemblyPanel, surface_m_s};
+use crate::gui::theme::Theme;
 
 /// What is compared comes first, and is seen in a narrow panel.
 const HEADS: [&str; 8] = [
@@ -23,8 +22,8 @@ const HEADS: [&str; 8] = [
 ];
 
 /// Draws the table.
-pub(super) fn show(ui: &mut Ui, desk: &Desk) {
-    let (drawn, units) = (desk.assembly.drawn(), desk.preferences.units);
+pub(super) fn show(ui: &mut Ui, panel: &AssemblyPanel, units: Units) {
+    let drawn = panel.drawn();
     Grid::new("statics")
         .num_columns(HEADS.len())
         .min_col_width(12.0)
@@ -44,8 +43,8 @@ pub(super) fn show(ui: &mut Ui, desk: &Desk) {
 }
 
 /// Height that all rows need.
-pub(super) fn height(desk: &Desk) -> f32 {
-    let drawn = desk.assembly.drawn();
+pub(super) fn height(panel: &AssemblyPanel) -> f32 {
+    let drawn = panel.drawn();
     let rows = |answers: [Option<&Answer>; 2]| {
         let spec = answers.into_iter().find_map(good).map(|rest| &rest.model.spec);
         spec.map_or(0, |spec| {

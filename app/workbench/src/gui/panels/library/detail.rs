@@ -7,12 +7,13 @@ use endline_gear::units::{self, Quantity};
 use endline_gear::{Document, Kind};
 use endline_session::edit::Documents;
 
-use super::super::super::desk::{Desk, Order};
-use super::super::super::exchange::id_of;
-use super::super::super::fields;
-use super::super::super::layout::Panel;
-use super::super::super::theme::Theme;
-use super::title;
+use super::LibraryPanel;
+use crate::gui::desk::{Desk, Order};
+use crate::gui::exchange::id_of;
+use crate::gui::fields;
+use crate::gui::files;
+use crate::gui::theme::Theme;
+use crate::gui::widgets::{self, words};
 
 /// What the chosen entry is compared with.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -61,28 +62,28 @@ impl Compared {
 }
 
 /// Draws what there is to say of an entry.
-pub(super) fn show(ui: &mut Ui, desk: &mut Desk, path: &str) {
+pub(super) fn show(ui: &mut Ui, panel: &mut LibraryPanel, desk: &mut Desk, path: &str) {
     ScrollArea::vertical().id_salt("entry").auto_shrink(false).show(ui, |ui| {
-        let kind = desk.library.kind;
+        let kind = panel.kind;
         if super::picture::has(kind) {
             super::picture::show(ui, &desk.documents, kind, path, egui::vec2(190.0, 120.0))
                 .on_hover_text("From its figures; all to one scale");
         }
-        words(ui, desk, path);
-        used_in(ui, desk, path);
-        compare(ui, desk, path);
-        super::figures::show(ui, desk, path);
+        naming(ui, panel, desk, path);
+        used_in(ui, panel, desk, path);
+        compare(ui, panel, desk, path);
+        super::figures::show(ui, desk, kind, path);
     });
 }
 
 /// Name, remarks, source and sureness, for editing.
-fn words(ui: &mut Ui, desk: &mut Desk, path: &str) {
+fn naming(ui: &mut Ui, panel: &mut LibraryPanel, desk: &mut Desk, path: &str) {
     let faint = Theme::palette_of(ui).faint;
     ui.horizontal(|ui| {
         ui.label(RichText::new(path).monospace().size(11.5).color(faint));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             if ui.small_button("✖").on_hover_text("Close this list").clicked() {
-                desk.library.chosen = None;
+                panel.chosen = None;
             }
         });
     });
@@ -110,29 +111,29 @@ fn words(ui: &mut Ui, desk: &mut Desk, path: &str) {
     });
 }
 
-fn used_in(ui: &mut Ui, desk: &mut Desk, path: &str) {
+fn used_in(ui: &mut Ui, panel: &mut LibraryPanel, desk: &mut Desk, path: &str) {
     let version = desk.documents.version();
-    if desk.library.uses.path != path || desk.library.uses.version != version {
-        desk.library.uses = Uses { version, ..uses(&desk.documents, path) };
+    if panel.uses.path != path || panel.uses.version != version {
+        panel.uses = Uses { version, ..uses(&desk.documents, path) };
     }
-    super::super::caption(ui, "Used in");
-    let uses = desk.library.uses.clone();
+    widgets::caption(ui, "Used in");
+    let uses = panel.uses.clone();
     if uses.assemblies.is_empty() && uses.scenarios.is_empty() {
         ui.label(RichText::new("no assembly and no scenario").color(Theme::palette_of(ui).faint));
     }
     ui.horizontal_wrapped(|ui| {
         for assembly in &uses.assemblies {
             if ui.link(assembly).on_hover_text("Show this assembly").clicked() {
-                desk.assembly.shown = Some(id_of(assembly).to_owned());
-                desk.orders.push(Order::Show(Panel::Assembly));
+                desk.orders.push(Order::Assembly(id_of(assembly).to_owned()));
             }
         }
         for scenario in &uses.scenarios {
-            let name = scenario
-                .file_name()
-                .map(|name| name.to_string_lossy().into_owned())
-                .unwrap_or_default();
-            if ui.link(format!("scenarios/{name}")).on_hover_text("Open this scenario").clicked() {
+            let stem = files::stem(scenario);
+            if ui
+                .link(format!("scenarios/{stem}.toml"))
+                .on_hover_text("Open this scenario")
+                .clicked()
+            {
                 desk.orders.push(Order::Open(scenario.clone()));
             }
         }
@@ -147,7 +148,7 @@ fn uses(documents: &Documents, path: &str) -> Uses {
         .files("assemblies")
         .filter(|file| *file != path && documents.text(file).is_some_and(names))
         .map(str::to_owned);
-    let scenarios = super::super::scenario::scenarios(documents.root()).into_iter();
+    let scenarios = files::scenarios(documents.root()).into_iter();
     let scenarios =
         scenarios.filter(|file| std::fs::read_to_string(file).is_ok_and(|text| names(&text)));
     Uses {
@@ -158,16 +159,15 @@ fn uses(documents: &Documents, path: &str) -> Uses {
     }
 }
 
-fn compare(ui: &mut Ui, desk: &mut Desk, path: &str) {
-    super::super::caption(ui, "Compared with");
-    let kind = desk.library.kind;
-    choose(ui, desk, path, kind);
-    let other = match &desk.library.against {
+fn compare(ui: &mut Ui, panel: &mut LibraryPanel, desk: &mut Desk, path: &str) {
+    widgets::caption(ui, "Compared with");
+    let kind = panel.kind;
+    choose(ui, panel, desk, path, kind);
+    let other = match &panel.against {
         Against::Saved => desk.documents.saved_text(path),
         Against::Entry(other) => desk.documents.text(other),
     };
-    let rows =
-        other.and_then(|other| desk.library.compared.rows(&desk.documents, path, other, kind));
+    let rows = other.and_then(|other| panel.compared.rows(&desk.documents, path, other, kind));
     let Some(rows) = rows else {
         ui.label(RichText::new("no file yet: it is new").color(Theme::palette_of(ui).faint));
         return;
@@ -192,9 +192,9 @@ fn compare(ui: &mut Ui, desk: &mut Desk, path: &str) {
     });
 }
 
-fn choose(ui: &mut Ui, desk: &mut Desk, path: &str, kind: Kind) {
+fn choose(ui: &mut Ui, panel: &mut LibraryPanel, desk: &mut Desk, path: &str, kind: Kind) {
     let name = |path: &str| desk.documents.field(path, "name").unwrap_or_else(|| path.to_owned());
-    let shown = match &desk.library.against {
+    let shown = match &panel.against {
         Against::Saved => "its file on disk".to_owned(),
         Against::Entry(other) => name(other),
     };
@@ -202,10 +202,10 @@ fn choose(ui: &mut Ui, desk: &mut Desk, path: &str, kind: Kind) {
     egui::ComboBox::from_id_salt("against").width(width).truncate().selected_text(shown).show_ui(
         ui,
         |ui| {
-            ui.selectable_value(&mut desk.library.against, Against::Saved, "its file on disk");
+            ui.selectable_value(&mut panel.against, Against::Saved, "its file on disk");
             for other in desk.documents.files(kind.folder()).filter(|other| *other != path) {
                 ui.selectable_value(
-                    &mut desk.library.against,
+                    &mut panel.against,
                     Against::Entry(other.to_owned()),
                     name(other),
                 );
@@ -227,7 +227,7 @@ fn differences(
         let (here, there) =
             (documents.field(path, key).unwrap_or_default(), other.get(key).unwrap_or_default());
         (here != there)
-            .then(|| [title(key), here.clone(), there.clone(), by(&here, &there, quantity)])
+            .then(|| [words::title(key), here.clone(), there.clone(), by(&here, &there, quantity)])
     };
     words.chain(figures).filter_map(row).collect()
 }

@@ -1,40 +1,31 @@
 //! Every figure of the chosen entry with its SI value, how sure it is, and where it comes from.
 
 use egui::{Grid, RichText, Ui};
-use endline_gear::{Sureness, units};
+use endline_gear::{Kind, units};
 
-use super::super::super::desk::Desk;
-use super::super::super::exchange::id_of;
-use super::super::super::theme::{Palette, Theme};
-use super::title;
-
-/// Colour of a sureness.
-pub(super) fn colour(sureness: Sureness, palette: Palette) -> egui::Color32 {
-    match sureness {
-        Sureness::Measured => palette.good,
-        Sureness::Derived => palette.accent,
-        Sureness::Estimate => palette.warning,
-    }
-}
+use crate::gui::desk::Desk;
+use crate::gui::exchange::id_of;
+use crate::gui::theme::Theme;
+use crate::gui::widgets::{self, words};
 
 /// Draws the list.
-pub(super) fn show(ui: &mut Ui, desk: &Desk, path: &str) {
+pub(super) fn show(ui: &mut Ui, desk: &Desk, kind: Kind, path: &str) {
     let palette = Theme::palette_of(ui);
-    super::super::caption(ui, "Figures, how sure, and whence");
-    let Some(entry) = desk.documents.library().entry(desk.library.kind, id_of(path)) else {
+    widgets::caption(ui, "Figures, how sure, and whence");
+    let Some(entry) = desk.documents.library().entry(kind, id_of(path)) else {
         ui.label(RichText::new("not readable yet; see what is red").color(palette.faint));
         return;
     };
     Grid::new("figures").num_columns(3).striped(true).spacing([10.0, 2.0]).show(ui, |ui| {
         for (field, figure) in &entry.figures {
-            ui.label(RichText::new(title(field.key)).color(palette.faint))
+            ui.label(RichText::new(words::title(field.key)).color(palette.faint))
                 .on_hover_text(field.help);
             ui.label(units::format_si(figure.value, field.quantity)).on_hover_text(&figure.text);
             ui.horizontal(|ui| {
                 ui.label(
                     RichText::new(figure.sureness.word())
                         .small()
-                        .color(colour(figure.sureness, palette)),
+                        .color(words::sureness_colour(figure.sureness, palette)),
                 );
                 ui.add(egui::Label::new(RichText::new(&figure.source).small()).truncate())
                     .on_hover_text(&figure.source);

@@ -4,7 +4,7 @@ use egui::{Color32, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
 use endline_gear::{Kind, units};
 use endline_session::edit::Documents;
 
-use super::super::super::theme::{Palette, Theme};
+use crate::gui::theme::{Palette, Theme};
 
 /// Length that a picture's width stands for [m].
 const WIDE_M: f32 = 1.6;

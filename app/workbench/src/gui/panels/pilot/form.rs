@@ -5,9 +5,10 @@ use endline_sdk::Controls;
 use endline_session::edit::Documents;
 use endline_session::edit::pilot_program::{Entry, TRIGGERS, begin_by, path, set, spoken, times};
 
-use super::super::super::desk::Desk;
-use super::super::super::fields::{self, Said};
-use super::super::super::theme::Theme;
+use crate::gui::desk::Desk;
+use crate::gui::fields::{self, Said};
+use crate::gui::theme::Theme;
+use crate::gui::widgets;
 
 /// What a time of an entry means.
 const HELP: [(&str, &str); 3] = [
@@ -18,7 +19,7 @@ const HELP: [(&str, &str); 3] = [
 
 pub(super) fn show(ui: &mut Ui, desk: &mut Desk, entry: &Entry) {
     let mut typed: Vec<(&'static str, String)> = Vec::new();
-    super::super::caption(ui, "Begins");
+    widgets::caption(ui, "Begins");
     Grid::new("begins").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
         trigger(ui, desk, entry);
         typed.extend(word(
@@ -47,7 +48,7 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, entry: &Entry) {
             ui.end_row();
         }
     });
-    super::super::caption(ui, "Controls; what is empty stays as it was");
+    widgets::caption(ui, "Controls; what is empty stays as it was");
     Grid::new("controls").num_columns(4).spacing([8.0, 3.0]).show(ui, |ui| {
         for (control, name) in
             Controls::NAMES.iter().enumerate().filter(|(control, _)| *control != Controls::ACT)

@@ -1,16 +1,17 @@
 //! A track for each control that the program names: when it is told what, to be dragged.
 
 use egui::{
-    Align2, Color32, CursorIcon, FontId, Painter, Pos2, Rect, Sense, Stroke, StrokeKind, Ui,
-    WidgetInfo, WidgetType, pos2, vec2,
+    Align2, Color32, CursorIcon, FontId, Painter, Pos2, Rect, Response, Sense, Stroke, StrokeKind,
+    Ui, WidgetInfo, WidgetType, pos2, vec2,
 };
 use endline_gear::units::{Quantity, parse};
 use endline_sdk::Controls;
 use endline_session::edit::Documents;
-use endline_session::edit::pilot_program::{Entry, move_to, seconds, set, spoken, until_s};
+use endline_session::edit::pilot_program::{Entry, move_to, path, seconds, set, spoken, until_s};
 
-use super::super::super::desk::{Desk, Order};
-use super::super::super::theme::{Palette, Theme};
+use super::PilotPanel;
+use crate::gui::desk::{Desk, Order};
+use crate::gui::theme::{Palette, Theme};
 use crate::scene::ticks::ticks;
 
 /// Height of a track [points].
@@ -67,7 +68,8 @@ impl Axis {
     }
 }
 
-pub(super) fn show(ui: &mut Ui, desk: &mut Desk, all: &[Entry]) {
+/// Draws the tracks.
+pub(super) fn show(ui: &mut Ui, panel: &mut PilotPanel, desk: &mut Desk, all: &[Entry]) {
     let named = |control: &usize| {
         all.iter().any(|entry| {
             entry.begin_s.is_some() && entry.controls.iter().any(|(known, _)| known == control)
@@ -86,20 +88,18 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, all: &[Entry]) {
         .unwrap_or(60.0);
     let latest_s = all.iter().filter_map(|entry| entry.begin_s).fold(0.0, f64::max);
     let axis = Axis { rect, end_s: duration_s.max(latest_s * 1.02).max(1e-3) };
-    let bars = bars(all, &tracks, axis, desk.program.drag);
+    let timeline = Timeline { all, bars: bars(all, &tracks, axis, panel.drag), axis };
     let (painter, palette) = (ui.painter_at(whole), Theme::palette_of(ui));
     grid(&painter, axis, &tracks, palette);
-    for bar in &bars {
-        draw(&painter, bar, desk.program.chosen == Some(bar.index), palette);
+    for bar in &timeline.bars {
+        draw(&painter, bar, panel.chosen == Some(bar.index), palette);
     }
     if let Some(view) = &desk.view {
         let x = axis.x(view.frame.time_s);
-        painter.line_segment(
-            [pos2(x, rect.top()), pos2(x, rect.bottom())],
-            Stroke::new(1.5, palette.warning),
-        );
+        let now = [pos2(x, rect.top()), pos2(x, rect.bottom())];
+        painter.line_segment(now, Stroke::new(1.5, palette.warning));
     }
-    hand(ui, desk, all, &bars, axis, &response);
+    timeline.hand(ui, panel, desk, &response);
 }
 
 fn bars(all: &[Entry], tracks: &[usize], axis: Axis, drag: Option<Drag>) -> Vec<Bar> {
@@ -196,87 +196,90 @@ fn draw(painter: &Painter, bar: &Bar, chosen: bool, palette: Palette) {
     }
 }
 
-/// The bar under a place, the one drawn last first; and whether its end is.
-fn hit(bars: &[Bar], at: Pos2) -> Option<(usize, bool)> {
-    let bar = bars.iter().rev().find(|bar| bar.rect.expand2(vec2(2.0, 2.0)).contains(at))?;
-    let end = at.x > bar.rect.right() - EDGE && bar.rect.width() > 2.0 * EDGE;
-    Some((bar.index, end))
-}
-
-/// A click chooses; a drag moves the beginning or the hold; on the axis it shows that moment.
-fn hand(
-    ui: &Ui,
-    desk: &mut Desk,
-    all: &[Entry],
-    bars: &[Bar],
+/// The entries as they are drawn, under the hand.
+struct Timeline<'a> {
+    all: &'a [Entry],
+    bars: Vec<Bar>,
     axis: Axis,
-    response: &egui::Response,
-) {
-    let pointer = response.interact_pointer_pos().or(response.hover_pos());
-    let Some(at) = pointer else { return finish(desk, all, response) };
-    let under = hit(bars, at);
-    if let Some((index, end)) = under {
-        ui.ctx().set_cursor_icon(if end { CursorIcon::ResizeHorizontal } else { CursorIcon::Grab });
-        if desk.program.drag.is_none() && !response.dragged() {
-            response.clone().on_hover_text(all[index].words());
-        }
+}
+
+impl Timeline<'_> {
+    /// The bar under a place, the one drawn last first; and whether its end is.
+    fn hit(&self, at: Pos2) -> Option<(usize, bool)> {
+        let under = |bar: &&Bar| bar.rect.expand2(vec2(2.0, 2.0)).contains(at);
+        let bar = self.bars.iter().rev().find(under)?;
+        let end = at.x > bar.rect.right() - EDGE && bar.rect.width() > 2.0 * EDGE;
+        Some((bar.index, end))
     }
-    if response.clicked() {
-        match under {
-            Some((index, _)) => desk.program.chosen = Some(index),
-            None if at.y < axis.rect.top() + AXIS => {
-                desk.orders.push(Order::Seek(axis.time_s(at.x)))
+
+    /// A click chooses; a drag moves the beginning or the hold; on the axis it shows that moment.
+    fn hand(&self, ui: &Ui, panel: &mut PilotPanel, desk: &mut Desk, response: &Response) {
+        let pointer = response.interact_pointer_pos().or(response.hover_pos());
+        let Some(at) = pointer else { return self.finish(panel, desk, response) };
+        let under = self.hit(at);
+        if let Some((index, end)) = under {
+            let cursor = if end { CursorIcon::ResizeHorizontal } else { CursorIcon::Grab };
+            ui.ctx().set_cursor_icon(cursor);
+            if panel.drag.is_none() && !response.dragged() {
+                response.clone().on_hover_text(self.all[index].words());
             }
-            None => desk.program.chosen = None,
         }
-    }
-    if response.drag_started()
-        && let Some((index, end)) =
-            ui.input(|input| input.pointer.press_origin()).and_then(|origin| hit(bars, origin))
-        && let Some(begin_s) = all[index].begin_s
-    {
-        desk.program.chosen = Some(index);
-        let origin_s = ui
-            .input(|input| input.pointer.press_origin())
-            .map_or(begin_s, |origin| axis.time_s(origin.x));
-        let held_s = if end { end_s(bars, index, axis) } else { begin_s };
-        desk.program.drag = Some(Drag { index, end, off_s: held_s - origin_s, to_s: held_s });
-    }
-    if let Some(drag) = &mut desk.program.drag {
-        drag.to_s = axis.snapped_s((axis.time_s(at.x) + drag.off_s).max(0.0));
-    }
-    finish(desk, all, response);
-}
-
-/// Where the bars of an entry end, as drawn [s].
-fn end_s(bars: &[Bar], index: usize, axis: Axis) -> f64 {
-    axis.time_s(
-        bars.iter()
-            .filter(|bar| bar.index == index)
-            .map(|bar| bar.rect.right())
-            .fold(0.0, f32::max),
-    )
-}
-
-/// Lets the bar go: one edit of the text.
-fn finish(desk: &mut Desk, all: &[Entry], response: &egui::Response) {
-    if !response.drag_stopped() {
-        return;
-    }
-    let Some(drag) = desk.program.drag.take() else { return };
-    let Some(entry) = all.get(drag.index) else { return };
-    let begin_s = entry.begin_s.unwrap_or(0.0);
-    let mut chosen = drag.index;
-    super::change(desk, |document| match (drag.end, entry.trigger) {
-        (true, _) => set(document, drag.index, "hold", &seconds((drag.to_s - begin_s).max(0.1))),
-        (false, "at") => move_to(document, drag.index, drag.to_s).map(|index| chosen = index),
-        // An entry after another keeps its place behind it: what is dragged is its delay.
-        (false, _) => {
-            let delay_s =
-                document.get(&endline_session::edit::pilot_program::path(drag.index, "delay"));
-            let delay_s = delay_s.and_then(|text| parse(&text, Quantity::Time).ok()).unwrap_or(0.0);
-            set(document, drag.index, "delay", &seconds(delay_s + drag.to_s - begin_s))
+        if response.clicked() {
+            match under {
+                Some((index, _)) => panel.chosen = Some(index),
+                None if at.y < self.axis.rect.top() + AXIS => {
+                    desk.orders.push(Order::Seek(self.axis.time_s(at.x)))
+                }
+                None => panel.chosen = None,
+            }
         }
-    });
-    desk.program.chosen = Some(chosen);
+        self.take(ui, panel, response);
+        if let Some(drag) = &mut panel.drag {
+            drag.to_s = self.axis.snapped_s((self.axis.time_s(at.x) + drag.off_s).max(0.0));
+        }
+        self.finish(panel, desk, response);
+    }
+
+    /// Takes the bar that a drag begins on.
+    fn take(&self, ui: &Ui, panel: &mut PilotPanel, response: &Response) {
+        let origin = ui.input(|input| input.pointer.press_origin());
+        let Some(origin) = origin.filter(|_| response.drag_started()) else { return };
+        let Some((index, end)) = self.hit(origin) else { return };
+        let Some(begin_s) = self.all[index].begin_s else { return };
+        panel.chosen = Some(index);
+        let held_s = if end { self.end_s(index) } else { begin_s };
+        let off_s = held_s - self.axis.time_s(origin.x);
+        panel.drag = Some(Drag { index, end, off_s, to_s: held_s });
+    }
+
+    /// Where the bars of an entry end, as drawn [s].
+    fn end_s(&self, index: usize) -> f64 {
+        let own = self.bars.iter().filter(|bar| bar.index == index);
+        self.axis.time_s(own.map(|bar| bar.rect.right()).fold(0.0, f32::max))
+    }
+
+    /// Lets the bar go: one edit of the text.
+    fn finish(&self, panel: &mut PilotPanel, desk: &mut Desk, response: &Response) {
+        if !response.drag_stopped() {
+            return;
+        }
+        let Some(drag) = panel.drag.take() else { return };
+        let Some(entry) = self.all.get(drag.index) else { return };
+        let begin_s = entry.begin_s.unwrap_or(0.0);
+        let mut chosen = drag.index;
+        super::change(desk, |document| match (drag.end, entry.trigger) {
+            (true, _) => {
+                set(document, drag.index, "hold", &seconds((drag.to_s - begin_s).max(0.1)))
+            }
+            (false, "at") => move_to(document, drag.index, drag.to_s).map(|index| chosen = index),
+            // An entry after another keeps its place behind it: what is dragged is its delay.
+            (false, _) => {
+                let delay = document.get(&path(drag.index, "delay"));
+                let delay_s = delay.and_then(|text| parse(&text, Quantity::Time).ok());
+                let moved_s = delay_s.unwrap_or(0.0) + drag.to_s - begin_s;
+                set(document, drag.index, "delay", &seconds(moved_s))
+            }
+        });
+        panel.chosen = Some(chosen);
+    }
 }

@@ -3,10 +3,11 @@
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Sense, Stroke, Ui, pos2, vec2};
 use endline_session::study::stats::{Interval, OptionFinding};
 
-use super::super::super::charts::COLOURS;
-use super::super::super::studies::Shown;
-use super::super::super::theme::{Palette, Theme};
 use super::rates::{points, rate};
+use crate::gui::charts::COLOURS;
+use crate::gui::studies::Shown;
+use crate::gui::theme::{Palette, Theme};
+use crate::gui::widgets;
 
 /// Height of a row.
 const ROW: f32 = 26.0;
@@ -181,7 +182,7 @@ fn whisker(figure: &Figure, row: usize, [low, at, high]: [f64; 3], kind: usize) 
 pub(super) fn tornado(ui: &mut Ui, shown: &Shown) {
     let findings = &shown.findings;
     if findings.inputs.is_empty() {
-        return super::super::nothing(ui, "Nothing was drawn that varies.");
+        return widgets::nothing(ui, "Nothing was drawn that varies.");
     }
     let most = findings
         .inputs

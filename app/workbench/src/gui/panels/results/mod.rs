@@ -10,11 +10,14 @@ use std::sync::Arc;
 use egui::{ComboBox, RichText, ScrollArea, Ui};
 use endline_gear::Event;
 
-use super::super::desk::{Desk, Order};
-use super::super::studies::Shown;
-use super::super::theme::Theme;
-pub use runs::{Listed, Sort};
-pub use spread::Placed;
+use crate::gui::desk::{Desk, Order};
+use crate::gui::panel::Panel;
+use crate::gui::panel_id::PanelId;
+use crate::gui::studies::{Results, Shown};
+use crate::gui::theme::Theme;
+use crate::gui::widgets;
+use runs::{Listed, Sort};
+use spread::Placed;
 
 /// Which part of the results is shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -45,83 +48,144 @@ impl Part {
     ];
 }
 
-/// Draws the results panel.
-pub fn show(ui: &mut Ui, desk: &mut Desk) {
-    let Some(shown) = desk.studies.results.shown().cloned() else {
-        // Every option's model is made for it, which takes a while.
-        if desk.studies.results.busy() {
-            ui.vertical_centered(|ui| ui.spinner());
-            return super::nothing(ui, "Reading the study and what it has found …");
-        }
-        let why = match &desk.studies.results.problem {
-            Some(problem) => problem,
-            None => {
-                "No results yet. Choose a study in Study and run it, or open the results of one that was run."
-            }
+/// What a study found.
+#[derive(Default)]
+pub struct ResultsPanel {
+    /// Which part is shown.
+    pub part: Part,
+    /// Name of the event shown; the study's own where `None`.
+    event: Option<String>,
+    /// Column the runs are sorted by, and whether downwards.
+    sort: (Sort, bool),
+    /// Id of the option whose runs are listed; all where `None`.
+    only: Option<String>,
+    /// The run replayed last: option's place, encounter.
+    replayed: Option<(usize, u32)>,
+    listed: Option<Listed>,
+    placed: Option<Placed>,
+    /// Hash of the study shown last: the choices above are of that study.
+    of: Option<String>,
+}
+
+impl Panel for ResultsPanel {
+    fn id(&self) -> PanelId {
+        PanelId::RESULTS
+    }
+
+    fn ui(&mut self, ui: &mut Ui, desk: &mut Desk) {
+        let Some(shown) = desk.studies.results.shown().cloned() else {
+            return missing(ui, &desk.studies.results);
         };
-        return super::nothing(ui, why);
-    };
-    head(ui, desk, &shown);
-    ui.separator();
-    let event = event(desk, &shown);
-    match desk.studies.results.part {
-        Part::Runs => runs::show(ui, desk, &shown),
-        Part::Tensions => spread::show(ui, desk, &shown),
-        part => {
-            ScrollArea::both().id_salt("results").auto_shrink(false).show(ui, |ui| match part {
-                Part::Forest => figures::forest(ui, &shown, &event),
-                Part::Sensitivity => figures::tornado(ui, &shown),
-                Part::Claims => rates::claims(ui, &shown),
-                _ => rates::show(ui, &shown, &event),
-            });
+        self.begin(&shown);
+        self.head(ui, desk, &shown);
+        ui.separator();
+        let event = self.event(&shown);
+        let scrolled = |ui: &mut Ui, draw: &dyn Fn(&mut Ui)| {
+            ScrollArea::both().id_salt("results").auto_shrink(false).show(ui, draw);
+        };
+        match self.part {
+            Part::Runs => runs::show(ui, self, desk, &shown),
+            Part::Tensions => spread::show(ui, self, desk, &shown),
+            Part::Rates => scrolled(ui, &|ui| rates::show(ui, &shown, &event)),
+            Part::Forest => scrolled(ui, &|ui| figures::forest(ui, &shown, &event)),
+            Part::Sensitivity => scrolled(ui, &|ui| figures::tornado(ui, &shown)),
+            Part::Claims => scrolled(ui, &|ui| rates::claims(ui, &shown)),
         }
     }
 }
 
-/// Name of the event shown.
-fn event(desk: &Desk, shown: &Shown) -> String {
-    desk.studies.results.event.clone().unwrap_or_else(|| shown.findings.event.clone())
+/// Says why there are no results.
+fn missing(ui: &mut Ui, results: &Results) {
+    // Every option's model is made for it, which takes a while.
+    if results.busy() {
+        ui.vertical_centered(|ui| ui.spinner());
+        return widgets::nothing(ui, "Reading the study and what it has found …");
+    }
+    let none = "No results yet. Choose a study in Study and run it, or open the results of one that was run.";
+    widgets::nothing(ui, results.problem.as_deref().unwrap_or(none));
 }
 
-fn head(ui: &mut Ui, desk: &mut Desk, shown: &Arc<Shown>) {
-    let palette = Theme::palette_of(ui);
-    let (study, findings) = (&shown.opened.study, &shown.findings);
-    ui.horizontal_wrapped(|ui| {
-        ui.label(RichText::new(&study.name).strong()).on_hover_text(&study.notes);
-        let invalid: u64 = findings.options.iter().map(|option| option.invalid).sum();
-        let state = if shown.whole { "" } else { ", so far" };
-        let text =
-            format!("{} encounters{state}; {invalid} invalid runs left out", findings.encounters);
-        ui.label(RichText::new(text).color(if shown.whole {
-            palette.faint
-        } else {
-            palette.warning
-        }));
-    });
-    let caveat = "Rates are relative, given an encounter, under this study's distribution of encounters; intervals of 95 %.";
-    ui.label(RichText::new(caveat).small().color(palette.faint));
-    ui.horizontal_wrapped(|ui| {
-        for (part, name) in Part::ALL {
-            if part == Part::Claims && findings.claims.is_empty() {
-                continue;
+impl ResultsPanel {
+    /// Drops what was chosen of another study.
+    fn begin(&mut self, shown: &Shown) {
+        let hash = &shown.opened.hash;
+        if self.of.as_ref() != Some(hash) {
+            (self.event, self.only, self.replayed) = (None, None, None);
+            self.of = Some(hash.clone());
+        }
+    }
+
+    /// Name of the event shown.
+    fn event(&self, shown: &Shown) -> String {
+        self.event.clone().unwrap_or_else(|| shown.findings.event.clone())
+    }
+
+    fn head(&mut self, ui: &mut Ui, desk: &Desk, shown: &Arc<Shown>) {
+        let palette = Theme::palette_of(ui);
+        let (study, findings) = (&shown.opened.study, &shown.findings);
+        ui.horizontal_wrapped(|ui| {
+            ui.label(RichText::new(&study.name).strong()).on_hover_text(&study.notes);
+            let invalid: u64 = findings.options.iter().map(|option| option.invalid).sum();
+            let state = if shown.whole { "" } else { ", so far" };
+            let text = format!(
+                "{} encounters{state}; {invalid} invalid runs left out",
+                findings.encounters
+            );
+            ui.label(RichText::new(text).color(if shown.whole {
+                palette.faint
+            } else {
+                palette.warning
+            }));
+        });
+        let caveat = "Rates are relative, given an encounter, under this study's distribution of encounters; intervals of 95 %.";
+        ui.label(RichText::new(caveat).small().color(palette.faint));
+        ui.horizontal_wrapped(|ui| {
+            for (part, name) in Part::ALL {
+                if part == Part::Claims && findings.claims.is_empty() {
+                    continue;
+                }
+                ui.selectable_value(&mut self.part, part, name);
             }
-            ui.selectable_value(&mut desk.studies.results.part, part, name);
-        }
-        if matches!(desk.studies.results.part, Part::Rates | Part::Forest) {
-            choose_event(ui, desk, shown);
-        }
-        if ui
-            .button("Copy command")
-            .on_hover_text("endline study report …, for a terminal")
-            .clicked()
-        {
-            ui.ctx().copy_text(report_line(desk, shown));
-        }
-        if shown.folder.join("report.html").is_file() {
-            ui.label(RichText::new("report.html is in its folder").small().color(palette.faint))
+            if matches!(self.part, Part::Rates | Part::Forest) {
+                self.choose_event(ui, shown);
+            }
+            if ui
+                .button("Copy command")
+                .on_hover_text("endline study report …, for a terminal")
+                .clicked()
+            {
+                ui.ctx().copy_text(report_line(desk, shown));
+            }
+            if shown.folder.join("report.html").is_file() {
+                ui.label(
+                    RichText::new("report.html is in its folder").small().color(palette.faint),
+                )
                 .on_hover_text(shown.folder.display().to_string());
-        }
-    });
+            }
+        });
+    }
+
+    fn choose_event(&mut self, ui: &mut Ui, shown: &Shown) {
+        let now = self.event(shown);
+        let words =
+            |name: &str| Event::find(name).map_or_else(|| name.to_owned(), |event| event.words());
+        ComboBox::from_id_salt("event").width(150.0).truncate().selected_text(words(&now)).show_ui(
+            ui,
+            |ui| {
+                for event in Event::all() {
+                    if ui.selectable_label(event.name() == now, event.words()).clicked() {
+                        self.event = Some(event.name());
+                    }
+                }
+            },
+        );
+    }
+
+    /// Shows a run in the 3-D view.
+    fn replay(&mut self, desk: &mut Desk, option: usize, encounter: u32) {
+        self.replayed = Some((option, encounter));
+        desk.orders.push(Order::ReplayEncounter(option, encounter));
+    }
 }
 
 fn report_line(desk: &Desk, shown: &Shown) -> String {
@@ -132,25 +196,4 @@ fn report_line(desk: &Desk, shown: &Shown) -> String {
         quoted(&desk.documents.root().display().to_string()),
         quoted(&shown.folder.display().to_string())
     )
-}
-
-fn choose_event(ui: &mut Ui, desk: &mut Desk, shown: &Shown) {
-    let now = event(desk, shown);
-    let words =
-        |name: &str| Event::find(name).map_or_else(|| name.to_owned(), |event| event.words());
-    ComboBox::from_id_salt("event").width(150.0).truncate().selected_text(words(&now)).show_ui(
-        ui,
-        |ui| {
-            for event in Event::all() {
-                if ui.selectable_label(event.name() == now, event.words()).clicked() {
-                    desk.studies.results.event = Some(event.name());
-                }
-            }
-        },
-    );
-}
-
-/// Shows a run in the 3-D view.
-fn replay(desk: &mut Desk, option: usize, encounter: u32) {
-    desk.orders.push(Order::ReplayEncounter(option, encounter));
 }

@@ -3,8 +3,9 @@
 use egui::{Grid, RichText, Ui};
 use endline_session::study::stats::{Interval, OptionFinding, Rate, Verdict};
 
-use super::super::super::studies::Shown;
-use super::super::super::theme::Theme;
+use crate::gui::studies::Shown;
+use crate::gui::theme::Theme;
+use crate::gui::widgets;
 
 /// `12.0 % [8.1, 17.4]`.
 pub(super) fn rate(rate: &Rate) -> String {
@@ -82,7 +83,7 @@ fn row(ui: &mut Ui, option: &OptionFinding, event: &str, baseline: bool, own_eve
 fn levels(ui: &mut Ui, shown: &Shown) {
     let faint = Theme::palette_of(ui).faint;
     for level in &shown.findings.levels {
-        super::super::caption(ui, &level.level);
+        widgets::caption(ui, &level.level);
         Grid::new(("level", &level.level)).num_columns(4).striped(true).spacing([16.0, 3.0]).show(
             ui,
             |ui| {

@@ -7,13 +7,14 @@ use egui_extras::{Column, TableBuilder};
 use endline_session::study::Table;
 use endline_session::units::ForceUnit;
 
-use super::super::super::desk::Desk;
-use super::super::super::studies::Shown;
-use super::super::super::theme::Theme;
+use super::ResultsPanel;
+use crate::gui::desk::Desk;
+use crate::gui::studies::Shown;
+use crate::gui::theme::Theme;
 
 /// What runs are sorted by.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Sort {
+pub(super) enum Sort {
     /// Their encounters.
     #[default]
     Encounter,
@@ -40,7 +41,7 @@ struct RunRow {
 
 /// The rows last listed, with what they were listed for.
 #[derive(Clone)]
-pub struct Listed {
+pub(super) struct Listed {
     shown: Arc<Shown>,
     only: Option<String>,
     sort: (Sort, bool),
@@ -57,13 +58,13 @@ const HEADS: [(&str, Option<Sort>); 6] = [
 ];
 
 /// Draws the table of runs.
-pub(super) fn show(ui: &mut Ui, desk: &mut Desk, shown: &Arc<Shown>) {
-    filter(ui, desk, shown);
-    let rows = listed(desk, shown);
+pub(super) fn show(ui: &mut Ui, panel: &mut ResultsPanel, desk: &mut Desk, shown: &Arc<Shown>) {
+    filter(ui, panel, shown);
+    let rows = listed(panel, shown);
     let unit = desk.preferences.units.force();
-    let replayed = desk.studies.results.replayed;
+    let replayed = panel.replayed;
     let mut wanted = None;
-    let mut sort = desk.studies.results.sort;
+    let mut sort = panel.sort;
     let table = TableBuilder::new(ui)
         .id_salt("runs")
         .striped(true)
@@ -93,15 +94,15 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, shown: &Arc<Shown>) {
                 }
             });
         });
-    desk.studies.results.sort = sort;
+    panel.sort = sort;
     if let Some((option, encounter)) = wanted {
-        super::replay(desk, option, encounter);
+        panel.replay(desk, option, encounter);
     }
 }
 
-fn filter(ui: &mut Ui, desk: &mut Desk, shown: &Shown) {
+fn filter(ui: &mut Ui, panel: &mut ResultsPanel, shown: &Shown) {
     ui.horizontal(|ui| {
-        let only = &mut desk.studies.results.only;
+        let only = &mut panel.only;
         let name = |id: &String| {
             shown
                 .findings
@@ -166,21 +167,18 @@ fn cells(line: &mut egui_extras::TableRow<'_, '_>, row: &RunRow, shown: &Shown, 
 }
 
 /// The rows as they are sorted and filtered now, listed anew where that or the results have changed.
-fn listed(desk: &mut Desk, shown: &Arc<Shown>) -> Arc<Vec<RunRow>> {
-    let results = &mut desk.studies.results;
+fn listed(panel: &mut ResultsPanel, shown: &Arc<Shown>) -> Arc<Vec<RunRow>> {
     let same = |listed: &&Listed| {
-        Arc::ptr_eq(&listed.shown, shown)
-            && listed.only == results.only
-            && listed.sort == results.sort
+        Arc::ptr_eq(&listed.shown, shown) && listed.only == panel.only && listed.sort == panel.sort
     };
-    if let Some(listed) = results.listed.as_ref().filter(same) {
+    if let Some(listed) = panel.listed.as_ref().filter(same) {
         return Arc::clone(&listed.rows);
     }
-    let rows = Arc::new(rows(shown, results.only.as_deref(), results.sort));
-    results.listed = Some(Listed {
+    let rows = Arc::new(rows(shown, panel.only.as_deref(), panel.sort));
+    panel.listed = Some(Listed {
         shown: Arc::clone(shown),
-        only: results.only.clone(),
-        sort: results.sort,
+        only: panel.only.clone(),
+        sort: panel.sort,
         rows: Arc::clone(&rows),
     });
     rows

@@ -3,20 +3,24 @@
 use std::sync::Arc;
 
 use egui::{Color32, RichText, Ui};
-use egui_plot::{AxisHints, Legend, Line, MarkerShape, Plot, PlotPoint, PlotPoints, Points};
+use egui_plot::{
+    AxisHints, Legend, Line, MarkerShape, Plot, PlotPoint, PlotPoints, PlotUi, Points,
+};
 use endline_session::units::ForceUnit;
 
-use super::super::super::charts::COLOURS;
-use super::super::super::desk::Desk;
-use super::super::super::studies::Shown;
-use super::super::super::theme::Theme;
+use super::ResultsPanel;
+use crate::gui::charts::COLOURS;
+use crate::gui::desk::Desk;
+use crate::gui::studies::Shown;
+use crate::gui::theme::Theme;
+use crate::gui::widgets;
 
 /// Nearest a click must come to a dot [points].
 const REACH: f32 = 14.0;
 
 /// The dots last placed, with what they were placed for.
 #[derive(Clone)]
-pub struct Placed {
+pub(super) struct Placed {
     shown: Arc<Shown>,
     unit: ForceUnit,
     dots: Arc<Vec<Dot>>,
@@ -33,73 +37,27 @@ struct Dot {
 }
 
 /// Draws the distribution of greatest tensions.
-pub(super) fn show(ui: &mut Ui, desk: &mut Desk, shown: &Arc<Shown>) {
+pub(super) fn show(ui: &mut Ui, panel: &mut ResultsPanel, desk: &mut Desk, shown: &Arc<Shown>) {
     let unit = desk.preferences.units.force();
-    let dots = placed(desk, shown, unit);
+    let dots = placed(panel, shown, unit);
     if dots.is_empty() {
-        return super::super::nothing(ui, "No run has a tension yet.");
+        return widgets::nothing(ui, "No run has a tension yet.");
     }
     ui.label(
         RichText::new("Share of runs whose greatest tension stays below a value. Each dot is a run: click it to see it.")
             .color(Theme::palette_of(ui).faint),
     );
-    let words = move |value: f64| {
-        let tension = 10.0_f64.powf(value) - 1.0;
-        format!("{tension:.*}", usize::from(tension < 10.0))
-    };
-    let response = Plot::new("tensions of runs")
-        .height(ui.available_height())
-        .legend(Legend::default().position(egui_plot::Corner::LeftTop).background_alpha(0.6))
-        .include_x(0.0)
-        .include_y(0.0)
-        .include_y(1.0)
-        .custom_x_axes(vec![
-            AxisHints::new_x()
-                .label(format!("greatest tension [{}]", unit.symbol()))
-                .formatter(move |mark, _| words(mark.value)),
-        ])
-        .custom_y_axes(vec![
-            AxisHints::new_y()
-                .formatter(|mark, _| format!("{:.0} %", 100.0 * mark.value))
-                .min_thickness(46.0),
-        ])
-        .allow_scroll(false)
-        .show_background(false)
-        .show(ui, |plot| {
-            for (index, option) in shown.findings.options.iter().enumerate() {
-                let [red, green, blue] = COLOURS[index % COLOURS.len()];
-                let colour = Color32::from_rgb(red, green, blue);
-                let points: Vec<PlotPoint> = dots
-                    .iter()
-                    .filter(|dot| dot.option == index)
-                    .map(|dot| dot.at.into())
-                    .collect();
-                plot.line(
-                    Line::new(&option.name, PlotPoints::Owned(points.clone()))
-                        .color(colour)
-                        .width(1.3),
-                );
-                let shapes = [
-                    MarkerShape::Circle,
-                    MarkerShape::Square,
-                    MarkerShape::Diamond,
-                    MarkerShape::Up,
-                ];
-                let marks =
-                    Points::new(&option.name, PlotPoints::Owned(points)).color(colour).radius(2.6);
-                plot.points(marks.shape(shapes[index % shapes.len()]).allow_hover(false));
-            }
-        });
+    let response = frame(unit).height(ui.available_height()).show(ui, |plot| {
+        for (index, option) in shown.findings.options.iter().enumerate() {
+            let own = dots.iter().filter(|dot| dot.option == index);
+            curve(plot, index, &option.name, own.map(|dot| dot.at.into()).collect());
+        }
+    });
     let Some(at) = response.response.hover_pos() else { return };
     let distance = |dot: &&Dot| response.transform.position_from_point(&dot.at.into()).distance(at);
-    let Some(nearest) = dots
-        .iter()
-        .min_by(|one, other| distance(one).total_cmp(&distance(other)))
-        .filter(|dot| distance(dot) < REACH)
-    else {
-        return;
-    };
-    let told = format!(
+    let nearest = dots.iter().min_by(|one, other| distance(one).total_cmp(&distance(other)));
+    let Some(nearest) = nearest.filter(|dot| distance(dot) < REACH) else { return };
+    let text = format!(
         "{}, encounter {}: {}, {}\nClick to see it in the 3-D view",
         shown.findings.options[nearest.option].name,
         nearest.encounter,
@@ -107,20 +65,53 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, shown: &Arc<Shown>) {
         nearest.outcome.replace('_', " ")
     );
     if response.response.clicked() {
-        super::replay(desk, nearest.option, nearest.encounter);
+        panel.replay(desk, nearest.option, nearest.encounter);
     }
-    response.response.on_hover_text_at_pointer(told);
+    response.response.on_hover_text_at_pointer(text);
+}
+
+/// Axes: tension on a logarithmic scale, share of runs.
+fn frame(unit: ForceUnit) -> Plot<'static> {
+    let tension = |value: f64| {
+        let tension = 10.0_f64.powf(value) - 1.0;
+        format!("{tension:.*}", usize::from(tension < 10.0))
+    };
+    let x = AxisHints::new_x()
+        .label(format!("greatest tension [{}]", unit.symbol()))
+        .formatter(move |mark, _| tension(mark.value));
+    let y = AxisHints::new_y()
+        .formatter(|mark, _| format!("{:.0} %", 100.0 * mark.value))
+        .min_thickness(46.0);
+    Plot::new("tensions of runs")
+        .legend(Legend::default().position(egui_plot::Corner::LeftTop).background_alpha(0.6))
+        .include_x(0.0)
+        .include_y(0.0)
+        .include_y(1.0)
+        .custom_x_axes(vec![x])
+        .custom_y_axes(vec![y])
+        .allow_scroll(false)
+        .show_background(false)
+}
+
+/// The runs of an option: a line, and a mark for each run in the option's own shape.
+fn curve(plot: &mut PlotUi<'_>, index: usize, name: &str, points: Vec<PlotPoint>) {
+    let [red, green, blue] = COLOURS[index % COLOURS.len()];
+    let colour = Color32::from_rgb(red, green, blue);
+    let line = Line::new(name, PlotPoints::Owned(points.clone()));
+    plot.line(line.color(colour).width(1.3));
+    let shapes = [MarkerShape::Circle, MarkerShape::Square, MarkerShape::Diamond, MarkerShape::Up];
+    let marks = Points::new(name, PlotPoints::Owned(points)).color(colour).radius(2.6);
+    plot.points(marks.shape(shapes[index % shapes.len()]).allow_hover(false));
 }
 
 /// The dots, placed anew where the results or the unit have changed.
-fn placed(desk: &mut Desk, shown: &Arc<Shown>, unit: ForceUnit) -> Arc<Vec<Dot>> {
+fn placed(panel: &mut ResultsPanel, shown: &Arc<Shown>, unit: ForceUnit) -> Arc<Vec<Dot>> {
     let same = |placed: &&Placed| Arc::ptr_eq(&placed.shown, shown) && placed.unit == unit;
-    if let Some(placed) = desk.studies.results.placed.as_ref().filter(same) {
+    if let Some(placed) = panel.placed.as_ref().filter(same) {
         return Arc::clone(&placed.dots);
     }
     let dots = Arc::new(dots(shown, unit));
-    desk.studies.results.placed =
-        Some(Placed { shown: Arc::clone(shown), unit, dots: Arc::clone(&dots) });
+    panel.placed = Some(Placed { shown: Arc::clone(shown), unit, dots: Arc::clone(&dots) });
     dots
 }
 

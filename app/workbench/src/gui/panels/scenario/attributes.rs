@@ -5,9 +5,10 @@ use endline_gear::units::{Quantity, format_si};
 use endline_sdk::{Attribute, AttributeKind};
 use endline_session::edit::Documents;
 
-use super::super::super::desk::Desk;
-use super::super::super::fields;
 use super::{Edit, name_with_help, problem};
+use crate::gui::desk::Desk;
+use crate::gui::fields;
+use crate::gui::widgets::words;
 
 /// Draws the attributes that stand in a table of the scenario, such as `friction.attributes`.
 pub(super) fn show(
@@ -24,7 +25,7 @@ pub(super) fn show(
         for attribute in attributes {
             let field = format!("{table}.{}", attribute.key);
             let help = help(attribute);
-            name_with_help(ui, &super::super::library::title(&attribute.key), &help);
+            name_with_help(ui, &words::title(&attribute.key), &help);
             ui.vertical(|ui| {
                 cell(ui, desk, &field, attribute, &help, edits);
                 problem(ui, desk, &field);
@@ -89,7 +90,7 @@ fn help(attribute: &Attribute) -> String {
 }
 
 fn in_unit(value: f64, unit: &str) -> String {
-    let value = super::super::library::rounded(value);
+    let value = words::rounded(value);
     Quantity::from_si_unit(unit).map_or_else(
         || format!("{value} {unit}").trim().to_owned(),
         |quantity| format_si(value, quantity),

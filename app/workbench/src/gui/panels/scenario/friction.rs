@@ -4,10 +4,11 @@ use egui::{Grid, Label, RichText, Ui};
 use endline_gear::{Document, SURFACES, Setting};
 use endline_session::edit::Documents;
 
-use super::super::super::desk::Desk;
-use super::super::super::fields;
-use super::super::super::theme::Theme;
 use super::{Edit, attributes, name};
+use crate::gui::desk::Desk;
+use crate::gui::fields;
+use crate::gui::theme::Theme;
+use crate::gui::widgets;
 
 /// Laws for single surfaces in the scenario's file.
 const ON: &str = "friction.on";
@@ -39,7 +40,7 @@ impl Change {
 
 /// Draws the laws of friction.
 pub(super) fn show(ui: &mut Ui, desk: &mut Desk, edits: &mut Vec<Edit>) {
-    super::super::caption(ui, "Friction of rope on whale");
+    widgets::caption(ui, "Friction of rope on whale");
     law(ui, desk, "friction", edits);
     let mut change = None;
     for index in 0..desk.documents.count(Documents::SCENARIO, ON) {

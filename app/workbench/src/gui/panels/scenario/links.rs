@@ -5,11 +5,12 @@ use endline_gear::{Document, Kind};
 use endline_sdk::AttributeKind;
 use endline_session::edit::Documents;
 
-use super::super::super::desk::Desk;
-use super::super::super::fields;
-use super::super::super::theme::Theme;
 use super::rows::{LINKS_PART, Row};
 use super::{Edit, flag, name, problem, rows};
+use crate::gui::desk::Desk;
+use crate::gui::fields;
+use crate::gui::theme::Theme;
+use crate::gui::widgets::{self, words};
 
 /// A change of the scenario's list of weak links.
 enum Change {
@@ -21,7 +22,7 @@ enum Change {
 
 /// Draws the weak links.
 pub(super) fn show(ui: &mut Ui, desk: &mut Desk, edits: &mut Vec<Edit>) {
-    super::super::caption(ui, "Weak links");
+    widgets::caption(ui, "Weak links");
     of_gear(ui, desk, edits);
     let mut change = None;
     for index in 0..desk.documents.count(Documents::SCENARIO, "link") {
@@ -66,7 +67,7 @@ fn of_gear(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
                     .field(&file, &format!("attributes.{}", attribute.key))
                     .unwrap_or_else(|| default.to_string());
                 let own = if own.is_empty() { "none".to_owned() } else { title_of(desk, &own) };
-                name(ui, &super::super::library::title(&attribute.key));
+                name(ui, &words::title(&attribute.key));
                 let field = format!("gear.{index}.attributes.{}", attribute.key);
                 let width = ui.available_width() - 8.0;
                 let choices: Vec<(String, String)> =

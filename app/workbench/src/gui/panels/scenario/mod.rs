@@ -9,9 +9,13 @@ use egui::{ComboBox, Grid, RichText, ScrollArea, Ui};
 use endline_gear::Kind;
 use endline_session::edit::{Documents, scenario};
 
-use super::super::desk::{Desk, Order};
-use super::super::fields;
-use super::super::theme::{Theme, primary};
+use crate::gui::desk::{Desk, Order};
+use crate::gui::fields;
+use crate::gui::files;
+use crate::gui::panel::Panel;
+use crate::gui::panel_id::PanelId;
+use crate::gui::theme::{Theme, primary};
+use crate::gui::widgets;
 use rows::{FLAGS, Flag, RUN, Row, SEA, TIDE, WAVES, WHALE};
 
 /// What is typed into a field of the scenario.
@@ -20,8 +24,22 @@ type Edit = (String, String);
 /// Width of the labels.
 const NAME_WIDTH: f32 = 74.0;
 
+/// The fields of the scenario.
+#[derive(Debug, Default)]
+pub struct ScenarioPanel;
+
+impl Panel for ScenarioPanel {
+    fn id(&self) -> PanelId {
+        PanelId::SCENARIO
+    }
+
+    fn ui(&mut self, ui: &mut Ui, desk: &mut Desk) {
+        show(ui, desk);
+    }
+}
+
 /// Draws the scenario panel.
-pub fn show(ui: &mut Ui, desk: &mut Desk) {
+fn show(ui: &mut Ui, desk: &mut Desk) {
     pick(ui, desk);
     let foot = 34.0;
     ScrollArea::vertical().auto_shrink(false).max_height(ui.available_height() - foot).show(
@@ -34,7 +52,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
                 whale(ui, desk, &mut edits);
             }
             links::show(ui, desk, &mut edits);
-            super::caption(ui, "Run");
+            widgets::caption(ui, "Run");
             rows(ui, desk, "run", RUN, &mut edits);
             FLAGS.iter().for_each(|of| flag(ui, desk, of, &mut edits));
             for (field, text) in edits {
@@ -54,17 +72,14 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
 /// The scenario itself, out of those beside it.
 fn pick(ui: &mut Ui, desk: &mut Desk) {
     let path = desk.documents.scenario_path().to_owned();
-    let stem = |path: &std::path::Path| {
-        path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
-    };
     let mark = if desk.documents.is_unsaved(Documents::SCENARIO) { "• " } else { "" };
     let width = ui.available_width() - 8.0;
-    let shown = format!("{mark}{}", stem(&path));
+    let shown = format!("{mark}{}", files::stem(&path));
     ComboBox::from_id_salt("scenario").width(width).truncate().selected_text(shown).show_ui(
         ui,
         |ui| {
-            for file in scenarios(desk.documents.root()) {
-                if ui.selectable_label(file == path, stem(&file)).clicked() && file != path {
+            for file in files::scenarios(desk.documents.root()) {
+                if ui.selectable_label(file == path, files::stem(&file)).clicked() && file != path {
                     desk.orders.push(Order::Open(file));
                 }
             }
@@ -77,23 +92,11 @@ fn pick(ui: &mut Ui, desk: &mut Desk) {
     }
 }
 
-/// The scenarios of a library, by name.
-#[must_use]
-pub fn scenarios(root: &std::path::Path) -> Vec<std::path::PathBuf> {
-    let entries = std::fs::read_dir(root.join("scenarios")).into_iter().flatten().flatten();
-    let mut files: Vec<_> = entries
-        .map(|entry| entry.path())
-        .filter(|path| path.extension().is_some_and(|end| end == "toml"))
-        .collect();
-    files.sort();
-    files
-}
-
 fn gear(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
     if desk.documents.field(Documents::SCENARIO, "gear.0.assembly").is_none() {
         return;
     }
-    super::caption(ui, "Gear");
+    widgets::caption(ui, "Gear");
     Grid::new("gear").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
         for index in 0..9 {
             let field = format!("gear.{index}.assembly");
@@ -108,7 +111,7 @@ fn gear(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
 }
 
 fn sea(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
-    super::caption(ui, "Sea");
+    widgets::caption(ui, "Sea");
     if desk.documents.field(Documents::SCENARIO, "site.item").is_some() {
         Grid::new("site").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
             name(ui, "Site");
@@ -117,14 +120,14 @@ fn sea(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
         });
     }
     rows(ui, desk, "sea", SEA, edits);
-    super::caption(ui, "Tide that turns");
+    widgets::caption(ui, "Tide that turns");
     rows(ui, desk, "tide", TIDE, edits);
-    super::caption(ui, "Waves");
+    widgets::caption(ui, "Waves");
     rows(ui, desk, "waves", WAVES, edits);
 }
 
 fn whale(ui: &mut Ui, desk: &mut Desk, edits: &mut Vec<Edit>) {
-    super::caption(ui, "Whale");
+    widgets::caption(ui, "Whale");
     let (host, _) = desk.helpers();
     let motions = host
         .ids()
@@ -170,13 +173,13 @@ fn whale(ui: &mut Ui, desk: &mut Desk, edits: &mut Vec<Edit>) {
         }
         mouth(ui, desk, edits);
     }
-    let mut posing = desk.posing.on;
+    let mut posing = desk.posing;
     if ui
         .toggle_value(&mut posing, "Drag the start in the view")
         .on_hover_text("Handles in the 3-D view: place, depth, heading")
         .clicked()
     {
-        desk.orders.extend([Order::Show(super::super::layout::Panel::View), Order::Pose]);
+        desk.orders.extend([Order::Show(PanelId::VIEW), Order::Pose]);
     }
     friction::show(ui, desk, edits);
 }
@@ -324,7 +327,7 @@ fn apply(ui: &mut Ui, desk: &mut Desk) {
             .on_hover_text("What the whale is steered to do, on a timeline")
             .clicked()
         {
-            desk.orders.push(Order::Show(super::super::layout::Panel::Program));
+            desk.orders.push(Order::Show(PanelId::PROGRAM));
         }
         if desk.making() {
             ui.spinner();

@@ -10,19 +10,36 @@ use egui::{Button, ComboBox, RichText, ScrollArea, Ui};
 use endline_gear::{Diagnostic, Event, Setting};
 use endline_session::edit::Documents;
 
-use super::super::desk::{Desk, Order};
-use super::super::fields::{self, Said};
-use super::super::studies::studies;
-use super::super::theme::{Theme, primary};
+use crate::gui::desk::{Desk, Order};
+use crate::gui::fields::{self, Said};
+use crate::gui::files;
+use crate::gui::panel::Panel;
+use crate::gui::panel_id::PanelId;
+use crate::gui::theme::{Theme, primary};
+use crate::gui::widgets::{self, problem};
 
 /// An edit of the study's text: a dotted path, and its value as TOML; `None` takes it away.
 type Edits = Vec<(String, Option<Setting>)>;
 
+/// The designer of a study, and the queue.
+#[derive(Debug, Default)]
+pub struct StudyPanel;
+
+impl Panel for StudyPanel {
+    fn id(&self) -> PanelId {
+        PanelId::STUDY
+    }
+
+    fn ui(&mut self, ui: &mut Ui, desk: &mut Desk) {
+        show(ui, desk);
+    }
+}
+
 /// Draws the study panel.
-pub fn show(ui: &mut Ui, desk: &mut Desk) {
+fn show(ui: &mut Ui, desk: &mut Desk) {
     pick(ui, desk);
     if desk.documents.text(Documents::STUDY).is_none() {
-        super::nothing(
+        widgets::nothing(
             ui,
             "Choose a study above. Each meets every option of gear with the same drawn encounters and counts what comes of them.",
         );
@@ -62,21 +79,21 @@ fn apply(desk: &mut Desk, edits: Edits) {
 
 fn pick(ui: &mut Ui, desk: &mut Desk) {
     let path = desk.documents.study_path().map(Path::to_owned);
-    let stem = |path: &Path| {
-        path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
-    };
     let mark =
         if path.is_some() && desk.documents.is_unsaved(Documents::STUDY) { "• " } else { "" };
     ui.horizontal(|ui| {
-        let shown = path
-            .as_deref()
-            .map_or_else(|| "Choose a study".to_owned(), |path| format!("{mark}{}", stem(path)));
+        let shown = path.as_deref().map_or_else(
+            || "Choose a study".to_owned(),
+            |path| format!("{mark}{}", files::stem(path)),
+        );
         let width = ui.available_width() - 152.0;
         ComboBox::from_id_salt("study").width(width).truncate().selected_text(shown).show_ui(
             ui,
             |ui| {
-                for file in studies(desk.documents.root()) {
-                    if ui.selectable_label(path.as_ref() == Some(&file), stem(&file)).clicked()
+                for file in files::studies(desk.documents.root()) {
+                    if ui
+                        .selectable_label(path.as_ref() == Some(&file), files::stem(&file))
+                        .clicked()
                         && path.as_ref() != Some(&file)
                     {
                         desk.orders.push(Order::OpenStudy(file));
@@ -124,7 +141,7 @@ fn start(ui: &mut Ui, desk: &mut Desk) {
 }
 
 fn question(ui: &mut Ui, desk: &mut Desk, edits: &mut Edits) {
-    super::caption(ui, "Question");
+    widgets::caption(ui, "Question");
     text(ui, desk, "Name", "name", "Shown in the report");
     choice(ui, desk, ("Scenario", "scenario"), &desk.studies.scenarios, edits);
     number(
@@ -249,6 +266,6 @@ fn problems(ui: &mut Ui, desk: &Desk) {
     let own: Vec<Diagnostic> =
         desk.documents.problems().iter().filter(|problem| problem.file == file).cloned().collect();
     for problem in &own {
-        super::problems::entry(ui, problem);
+        problem::entry(ui, problem);
     }
 }

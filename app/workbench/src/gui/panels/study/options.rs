@@ -4,10 +4,11 @@ use egui::{Frame, RichText, Ui};
 use endline_gear::Setting;
 use endline_session::edit::Documents;
 
-use super::super::super::desk::Desk;
-use super::super::super::fields::{self, Said};
-use super::super::super::theme::Theme;
 use super::Edits;
+use crate::gui::desk::Desk;
+use crate::gui::fields::{self, Said};
+use crate::gui::theme::Theme;
+use crate::gui::widgets;
 
 /// What is often set, as a hint where a setting is typed.
 const SUCH_AS: &str =
@@ -21,7 +22,7 @@ enum Act {
 
 /// Draws every option with its settings.
 pub(super) fn show(ui: &mut Ui, desk: &mut Desk, edits: &mut Edits) {
-    super::super::caption(ui, "Options");
+    widgets::caption(ui, "Options");
     let count = super::option_ids(&desk.documents).len();
     let baseline = desk.documents.field(Documents::STUDY, "baseline").unwrap_or_default();
     let mut act = None;

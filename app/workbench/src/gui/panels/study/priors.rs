@@ -4,10 +4,11 @@ use egui::{ComboBox, RichText, Ui};
 use endline_gear::Setting;
 use endline_session::edit::Documents;
 
-use super::super::super::desk::Desk;
-use super::super::super::fields::{self, Said};
-use super::super::super::theme::Theme;
 use super::Edits;
+use crate::gui::desk::Desk;
+use crate::gui::fields::{self, Said};
+use crate::gui::theme::Theme;
+use crate::gui::widgets;
 
 /// What an encounter knows, with a first law for each.
 const KNOWN: [(&str, &str, &str); 17] = [
@@ -43,7 +44,7 @@ const LAWS: [(&str, &str); 4] = [
 
 /// Draws where the whale is aimed, and every prior.
 pub(super) fn show(ui: &mut Ui, desk: &mut Desk, edits: &mut Edits) {
-    super::super::caption(ui, "Encounters, drawn alike for every option");
+    widgets::caption(ui, "Encounters, drawn alike for every option");
     list(ui, desk, ("Aimed at", "encounter.aim"), "Lines of the gear at rest; empty: any", edits);
     super::text(
         ui,

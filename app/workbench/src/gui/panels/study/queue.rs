@@ -6,9 +6,9 @@ use std::time::Duration;
 use egui::{ProgressBar, RichText, Ui};
 use endline_session::study::folder::Label;
 
-use super::super::super::desk::{Desk, Order};
-use super::super::super::studies::job::{Job, State};
-use super::super::super::theme::Theme;
+use crate::gui::desk::{Desk, Order};
+use crate::gui::studies::job::{Job, State};
+use crate::gui::theme::Theme;
 
 /// What is done with a job.
 #[derive(Clone, Copy)]

@@ -4,55 +4,61 @@ use egui::{Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, WidgetType
 use endline_session::live::LiveView;
 use glam::DVec2;
 
-use super::super::super::canvas::Canvas;
-use super::super::super::desk::Desk;
-use super::super::super::theme::Theme;
-use super::super::super::{hud, picking, pose};
-use super::spoken;
+use super::{ViewPanel, hud, picking, pose, spoken};
+use crate::gui::canvas::Canvas;
+use crate::gui::desk::Desk;
+use crate::gui::theme::Theme;
 use crate::scene::pick::pick;
 use crate::scene::rope::greatest_n;
 use crate::scene::{Camera, Overlay, Water, overlay};
 
-/// Width from which a pane tells the force of its longest arrow, else only what it is [points].
+/// Width from which a pane names the force of its longest arrow [points].
 const ROOMY: f32 = 480.0;
 
-/// What a pane shows.
+/// A pane and what it shows.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pane {
     /// 0 for the run, 1 for the one it is compared with.
     pub(super) run: usize,
     /// Its eye.
     pub(super) slot: usize,
+    /// Where it lies.
+    pub(super) rect: Rect,
 }
 
 /// Draws a pane in its place.
-pub(super) fn show(ui: &mut Ui, desk: &mut Desk, view: &LiveView, pane: Pane, rect: Rect) {
-    let Pane { run, slot } = pane;
+pub(super) fn show(
+    ui: &mut Ui,
+    panel: &mut ViewPanel,
+    desk: &mut Desk,
+    view: &LiveView,
+    pane: Pane,
+) {
+    let Pane { run, slot, rect } = pane;
     let response = ui.interact(rect, ui.id().with(("pane", run, slot)), Sense::click_and_drag());
     let name =
         if run == 0 { format!("Pane {}", slot + 1) } else { format!("Pane {} of B", slot + 1) };
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, &name));
     if response.clicked() || response.dragged() {
         ui.memory_mut(|memory| memory.stop_text_input());
-        desk.view3d.chosen = slot;
+        panel.chosen = slot;
     }
-    let flying = desk.flying;
-    let eye = &mut desk.view3d.eyes[slot];
-    eye.turn(ui, &response, flying);
+    let eye = &mut panel.eyes[slot];
+    eye.turn(ui, &response, desk.flying);
     let camera = eye.placed(view, rect);
     if run == 0 {
         (eye.camera, eye.frame_again) = (camera.clone(), false);
     }
-    click(desk, view, &camera, &response);
-    paint(ui, desk, pane, rect, &camera);
-    write_over(ui, desk, view, pane, rect, &camera);
+    click(panel, view, &camera, &response);
+    paint(ui, panel, desk, pane, &camera);
+    write_over(ui, panel, desk, view, pane, &camera);
     if run == 0 {
-        pose::show(ui, rect, &camera, desk, slot);
+        pose::show(ui, panel, desk, pane, &camera);
     }
 }
 
 /// A click reads what is there, or measures.
-fn click(desk: &mut Desk, view: &LiveView, camera: &Camera, response: &Response) {
+fn click(panel: &mut ViewPanel, view: &LiveView, camera: &Camera, response: &Response) {
     let rect = response.rect;
     let Some(at) = response.interact_pointer_pos().filter(|_| response.clicked()) else { return };
     let at = at - rect.min;
@@ -60,12 +66,13 @@ fn click(desk: &mut Desk, view: &LiveView, camera: &Camera, response: &Response)
         DVec2::new(f64::from(at.x), f64::from(at.y)),
         DVec2::new(f64::from(rect.width()), f64::from(rect.height())),
     );
-    let hit = pick(&view.model, &view.frame, camera, at, size, desk.view3d.show.whale);
-    desk.view3d.picks.take(hit);
+    let hit = pick(&view.model, &view.frame, camera, at, size, panel.show.whale);
+    panel.picks.take(hit);
 }
 
-fn paint(ui: &Ui, desk: &Desk, pane: Pane, rect: Rect, camera: &Camera) {
-    match &desk.view3d.drawn[pane.run].canvas {
+fn paint(ui: &Ui, panel: &ViewPanel, desk: &Desk, pane: Pane, camera: &Camera) {
+    let rect = pane.rect;
+    match &panel.drawn[pane.run].canvas {
         Some(canvas) => {
             let water =
                 if desk.preferences.theme == Theme::Dark { Water::DARK } else { Water::LIGHT };
@@ -77,23 +84,30 @@ fn paint(ui: &Ui, desk: &Desk, pane: Pane, rect: Rect, camera: &Camera) {
     }
 }
 
-fn write_over(ui: &Ui, desk: &Desk, view: &LiveView, pane: Pane, rect: Rect, camera: &Camera) {
-    let Pane { run, slot } = pane;
-    let (state, painter) = (&desk.view3d, ui.painter().with_clip_rect(rect));
-    let several = state.eyes.len() > 1;
+fn write_over(
+    ui: &Ui,
+    panel: &ViewPanel,
+    desk: &Desk,
+    view: &LiveView,
+    pane: Pane,
+    camera: &Camera,
+) {
+    let Pane { run, slot, rect } = pane;
+    let painter = ui.painter().with_clip_rect(rect);
+    let several = panel.eyes.len() > 1;
     let compared = desk.other().is_some();
-    let caption = caption(desk, view, pane, several, compared, rect.width() > ROOMY);
+    let caption = caption(panel, desk, view, pane);
     // One scale is enough for all panes: in the last, at the foot.
-    let last = slot + 1 == state.eyes.len() && run == usize::from(compared);
-    let scale_n = if last { state.scale_n } else { 0.0 };
+    let last = slot + 1 == panel.eyes.len() && run == usize::from(compared);
+    let scale_n = if last { panel.scale_n } else { 0.0 };
     let metres_a_point = camera.metres_a_point(f64::from(rect.height()));
     overlay::paint(
         &painter,
         rect,
         &Overlay { caption: &caption, time_s: view.frame.time_s, scale_n, metres_a_point },
     );
-    picking::paint(&painter, rect, camera, desk, view);
-    if several && slot == state.chosen {
+    picking::paint(&painter, &panel.picks, pane, camera, view, desk.preferences.units);
+    if several && slot == panel.chosen {
         painter.rect_stroke(
             rect,
             0.0,
@@ -104,7 +118,7 @@ fn write_over(ui: &Ui, desk: &Desk, view: &LiveView, pane: Pane, rect: Rect, cam
     if slot == 0 && run == 0 {
         felt(ui, desk, &painter, rect);
     }
-    if desk.flying && slot == state.chosen && run == 0 {
+    if desk.flying && slot == panel.chosen && run == 0 {
         let act =
             desk.pilot.chosen_act(desk.acts().len()).map(|act| desk.acts()[act].name.as_ref());
         hud::paint(
@@ -117,23 +131,17 @@ fn write_over(ui: &Ui, desk: &Desk, view: &LiveView, pane: Pane, rect: Rect, cam
     }
 }
 
-fn caption(
-    desk: &Desk,
-    view: &LiveView,
-    pane: Pane,
-    several: bool,
-    compared: bool,
-    roomy: bool,
-) -> String {
-    let eye = &desk.view3d.eyes[pane.slot];
-    let run = if compared { ["A", "B"][pane.run] } else { "" };
-    let named = if several { spoken(eye.named) } else { String::new() };
+fn caption(panel: &ViewPanel, desk: &Desk, view: &LiveView, pane: Pane) -> String {
+    let eye = &panel.eyes[pane.slot];
+    let run = if desk.other().is_some() { ["A", "B"][pane.run] } else { "" };
+    let named = if panel.eyes.len() > 1 { spoken(eye.named) } else { String::new() };
+    let roomy = pane.rect.width() > ROOMY;
     let standing = match (view.sought && pane.run == 0, desk.stale() && pane.run == 0) {
         (true, _) => "looking back",
         (false, true) => "before the last edits",
         (false, false) => "",
     };
-    let greatest_n = if desk.view3d.show.forces && roomy { greatest_n(&view.frame) } else { 0.0 };
+    let greatest_n = if panel.show.forces && roomy { greatest_n(&view.frame) } else { 0.0 };
     let arrows = if greatest_n > 0.0 {
         format!("longest arrow {}", desk.preferences.units.force().text(greatest_n))
     } else {

@@ -2,17 +2,15 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use endline_session::live::LiveView;
-use endline_sim::Frame;
+use endline_session::live::{LiveView, Status};
+use endline_sim::{Frame, Model};
 
-use super::super::super::canvas::Canvas;
-use super::super::super::order::Order;
-use super::super::super::picking::Picks;
 use super::eye::Eye;
+use super::picking::Picks;
+use super::pose::Start;
+use crate::gui::canvas::{Canvas, MOST_PANES};
+use crate::gui::desk::Desk;
 use crate::scene::{Scene, Show, View};
-
-/// Panes at most.
-pub const MOST: usize = 4;
 
 /// What the top of the tension scale is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -32,8 +30,8 @@ pub struct Drawn {
     shown: Option<(Arc<Frame>, Show)>,
 }
 
-/// State of the 3-D view.
-pub struct ViewState {
+/// The 3-D view.
+pub struct ViewPanel {
     /// An eye for each pane, at least one.
     pub eyes: Vec<Eye>,
     /// The pane whose eye is turned by menus and keys.
@@ -47,10 +45,22 @@ pub struct ViewState {
     /// The drawings of the run and of the one it is compared with.
     pub drawn: [Drawn; 2],
     /// Tension at the top of the scale as drawn last [N].
-    pub scale_n: f64,
+    pub(super) scale_n: f64,
+    /// The whale's start while it is dragged.
+    pub(super) held: Option<Start>,
+    /// The run as it was seen last.
+    seen: Seen,
 }
 
-impl Default for ViewState {
+/// What of the run changes where the eyes look.
+#[derive(Default)]
+struct Seen {
+    model: Option<Arc<Model>>,
+    settling: bool,
+    flying: bool,
+}
+
+impl Default for ViewPanel {
     fn default() -> Self {
         Self {
             eyes: vec![Eye::default()],
@@ -60,11 +70,13 @@ impl Default for ViewState {
             picks: Picks::default(),
             drawn: <[Drawn; 2]>::default(),
             scale_n: 1.0,
+            held: None,
+            seen: Seen::default(),
         }
     }
 }
 
-impl ViewState {
+impl ViewPanel {
     /// The eye that menus and keys turn.
     pub fn eye(&mut self) -> &mut Eye {
         let last = self.eyes.len() - 1;
@@ -73,9 +85,9 @@ impl ViewState {
 
     /// Shows so many panes; a new one looks from where none looks yet.
     pub fn split(&mut self, count: usize) {
-        const FROM: [View; MOST] = [View::Side, View::Top, View::Front, View::FirstPerson];
+        const FROM: [View; MOST_PANES] = [View::Side, View::Top, View::Front, View::FirstPerson];
         self.eyes.truncate(count.max(1));
-        while self.eyes.len() < count.min(MOST) {
+        while self.eyes.len() < count.min(MOST_PANES) {
             let fresh =
                 FROM.into_iter().find(|view| self.eyes.iter().all(|eye| eye.named != *view));
             self.eyes.push(Eye::at(fresh.unwrap_or_default()));
@@ -84,17 +96,25 @@ impl ViewState {
         self.frame_all();
     }
 
-    /// Looks, reads and measures by one order.
-    pub fn obey(&mut self, order: &Order) {
-        match order {
-            Order::Person => self.change_person(),
-            Order::Look(view) => self.look(*view),
-            Order::Frame => self.frame(),
-            Order::Views(count) => self.split(*count),
-            Order::Ruler => self.picks.toggle_ruler(),
-            Order::LetGo => self.picks.let_go(),
-            Order::Read(picked) => self.picks.read = Some(*picked),
-            _ => {}
+    /// Takes the view anew where the run shows another model or gear come to rest; goes with the whale while it is flown.
+    pub(super) fn follow(&mut self, desk: &Desk) {
+        if std::mem::replace(&mut self.seen.flying, desk.flying) != desk.flying {
+            if desk.flying {
+                self.go_with_whale();
+            } else {
+                self.frame();
+            }
+        }
+        let Some(view) = &desk.view else { return };
+        let known = self.seen.model.as_ref().is_some_and(|model| Arc::ptr_eq(model, &view.model));
+        let settling = view.status == Status::Settling;
+        let settled = std::mem::replace(&mut self.seen.settling, settling) && !settling;
+        if !known {
+            self.seen.model = Some(Arc::clone(&view.model));
+        }
+        // Whoever drags the whale's start wants to see it from where they drag it.
+        if (!known || settled) && !desk.posing {
+            self.frame_all();
         }
     }
 
@@ -109,19 +129,14 @@ impl ViewState {
     }
 
     /// Every eye takes its view anew with the next frame.
-    pub fn frame_all(&mut self) {
+    fn frame_all(&mut self) {
         self.eyes.iter_mut().for_each(|eye| eye.frame_again = true);
     }
 
     /// Goes with the whale: as it last did, or behind it.
-    pub fn go_with_whale(&mut self) {
+    fn go_with_whale(&mut self) {
         let named = self.eye().named;
         self.look(if named.is_of_whale() { named } else { View::Whale });
-    }
-
-    /// Stays where it is, with everything in sight.
-    pub fn leave_whale(&mut self) {
-        self.frame();
     }
 
     /// From third person to first and back.

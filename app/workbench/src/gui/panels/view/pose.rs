@@ -10,7 +10,9 @@ use endline_session::edit::Documents;
 use endline_session::units::{Units, bearing_degrees};
 use glam::{DVec2, DVec3};
 
-use super::desk::{Desk, Order};
+use super::ViewPanel;
+use super::pane::Pane;
+use crate::gui::desk::{Desk, Order};
 use crate::scene::Camera;
 
 /// Half size of a handle as it is taken [points].
@@ -39,14 +41,6 @@ pub enum Handle {
     Depth,
     /// The snout.
     Heading,
-}
-
-/// State of the handles.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Posing {
-    /// Whether they are shown.
-    pub on: bool,
-    held: Option<Start>,
 }
 
 impl Start {
@@ -160,9 +154,16 @@ fn upright(place: DVec3, eye: DVec3, along: DVec3) -> f64 {
 }
 
 /// Draws the start with its handles in a pane, and lets them be dragged.
-pub fn show(ui: &mut Ui, rect: Rect, camera: &Camera, desk: &mut Desk, slot: usize) {
-    let Some(written) = Start::of(&desk.documents).filter(|_| desk.posing.on) else { return };
-    let start = desk.posing.held.unwrap_or(written);
+pub(super) fn show(
+    ui: &mut Ui,
+    panel: &mut ViewPanel,
+    desk: &mut Desk,
+    pane: Pane,
+    camera: &Camera,
+) {
+    let Pane { rect, slot, .. } = pane;
+    let Some(written) = Start::of(&desk.documents).filter(|_| desk.posing) else { return };
+    let start = panel.held.unwrap_or(written);
     let sheet = Sheet { painter: ui.painter().with_clip_rect(rect), rect, camera };
     sheet.body(&start);
     let mut held = None;
@@ -195,16 +196,16 @@ pub fn show(ui: &mut Ui, rect: Rect, camera: &Camera, desk: &mut Desk, slot: usi
             held = Some(start.dragged(handle, eye, along, camera.axes().0));
         }
         if response.drag_stopped() {
-            let_go(desk, start);
+            panel.held = None;
+            let_go(desk, &start);
             return;
         }
     }
-    desk.posing.held = held.or(desk.posing.held);
+    panel.held = held.or(panel.held);
 }
 
 /// One edit of the text; gear that stands ready is taken over at once.
-fn let_go(desk: &mut Desk, start: Start) {
-    desk.posing.held = None;
+fn let_go(desk: &mut Desk, start: &Start) {
     if let Err(error) = desk.documents.alter(Documents::SCENARIO, |document| start.write(document))
     {
         desk.notice = Some((error, true));

@@ -7,7 +7,7 @@ use endline_session::live::LiveView;
 use endline_session::units::{Units, bearing_degrees};
 use endline_sim::DVec3;
 
-use super::reading::spoken;
+use crate::gui::widgets::words::spoken;
 use crate::input::Hands;
 
 /// Width of a reading [points].

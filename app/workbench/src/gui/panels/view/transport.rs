@@ -4,9 +4,9 @@ use egui::{Button, Color32, Rect, RichText, Sense, Stroke, Ui, pos2, vec2};
 use endline_session::live::LiveView;
 use endline_sim::metrics::EventKind;
 
-use super::desk::{Desk, Order};
-use super::panels::events::{colour, what};
-use super::theme::Theme;
+use crate::gui::desk::{Desk, Order};
+use crate::gui::theme::Theme;
+use crate::gui::widgets::words;
 
 /// Height of the bar with the space above it.
 pub const HEIGHT: f32 = 34.0;
@@ -84,7 +84,7 @@ fn track(ui: &Ui, rect: Rect, view: &LiveView, end_s: f64) {
         } else {
             6.0
         };
-        let mark = Stroke::new(1.5, colour(event.kind, palette));
+        let mark = Stroke::new(1.5, words::event_colour(event.kind, palette));
         painter.line_segment(
             [pos2(at, rect.center().y - tall), pos2(at, rect.center().y + tall)],
             mark,
@@ -126,7 +126,7 @@ fn scrub(
             format!(
                 "{:.2} s  {}, {}",
                 event.time_s,
-                what(event.kind),
+                words::event(event.kind),
                 event.subject.replace('_', " ")
             )
         })

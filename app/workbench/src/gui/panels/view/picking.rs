@@ -5,12 +5,14 @@ use egui::{
     UiBuilder, pos2, vec2,
 };
 use endline_session::live::LiveView;
+use endline_session::units::Units;
 use glam::{DVec2, DVec3};
 
-use super::desk::{Desk, Order};
-use super::panels::summary::numbers;
-use super::reading::{Reading, measured, read};
-use super::theme::Theme;
+use super::pane::Pane;
+use crate::gui::desk::{Desk, Order};
+use crate::gui::inspector::{Reading, measured, read};
+use crate::gui::theme::Theme;
+use crate::gui::widgets;
 use crate::scene::{Camera, Picked};
 
 /// Width of the card [points].
@@ -54,9 +56,15 @@ impl Picks {
 }
 
 /// Marks what is read and measured in a pane.
-pub fn paint(painter: &Painter, rect: Rect, camera: &Camera, desk: &Desk, view: &LiveView) {
-    let sheet = Sheet { painter, rect, camera };
-    let picks = &desk.view3d.picks;
+pub(super) fn paint(
+    painter: &Painter,
+    picks: &Picks,
+    pane: Pane,
+    camera: &Camera,
+    view: &LiveView,
+    units: Units,
+) {
+    let sheet = Sheet { painter, rect: pane.rect, camera };
     if let Some(picked) = picks.read {
         sheet.outline(picked, view);
         sheet.ring(picked, view);
@@ -65,8 +73,8 @@ pub fn paint(painter: &Painter, rect: Rect, camera: &Camera, desk: &Desk, view: 
     if let [from, to] = ends[..] {
         painter.line_segment([from, to], Stroke::new(3.0, Color32::from_black_alpha(150)));
         painter.line_segment([from, to], Stroke::new(1.5, INK));
-        let straight = measured(view, &picks.ends, desk.preferences.units)
-            .and_then(|reading| reading.rows.into_iter().next());
+        let straight =
+            measured(view, &picks.ends, units).and_then(|reading| reading.rows.into_iter().next());
         if let Some((_, text)) = straight {
             sheet.label(from + (to - from) * 0.5 - vec2(0.0, 14.0), &text);
         }
@@ -147,8 +155,8 @@ impl Sheet<'_> {
 }
 
 /// The card with what is read or measured, at the upper left.
-pub fn card(ui: &mut Ui, rect: Rect, desk: &mut Desk, view: &LiveView) {
-    let (picks, units) = (&desk.view3d.picks, desk.preferences.units);
+pub(super) fn card(ui: &mut Ui, picks: &Picks, desk: &mut Desk, view: &LiveView, rect: Rect) {
+    let units = desk.preferences.units;
     let readings =
         [picks.read.and_then(|picked| read(view, picked, units)), ruler(picks, view, units)];
     let mut place = Rect::from_min_size(
@@ -171,7 +179,7 @@ pub fn card(ui: &mut Ui, rect: Rect, desk: &mut Desk, view: &LiveView) {
     }
 }
 
-fn ruler(picks: &Picks, view: &LiveView, units: endline_session::units::Units) -> Option<Reading> {
+fn ruler(picks: &Picks, view: &LiveView, units: Units) -> Option<Reading> {
     let waiting =
         |text: &str| Reading { title: "Ruler".to_owned(), rows: vec![("Next", text.to_owned())] };
     match (picks.ruler, picks.ends.len()) {
@@ -192,5 +200,5 @@ fn told(ui: &mut Ui, desk: &mut Desk, reading: &Reading) {
             }
         });
     });
-    numbers(ui, &reading.title, &reading.rows);
+    widgets::numbers(ui, &reading.title, &reading.rows);
 }

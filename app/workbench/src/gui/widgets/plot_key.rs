@@ -7,8 +7,8 @@ use egui::{
     vec2,
 };
 
-use super::super::super::charts::{Chart, Curve, Kind, Style};
-use super::super::super::theme::Theme;
+use crate::gui::charts::{Chart, Curve, Kind, Style};
+use crate::gui::theme::Theme;
 
 /// The key takes as many rows as it needs up to this share of the plot's height.
 const SHARE: f32 = 0.3;
@@ -29,7 +29,8 @@ const HEIGHT: f32 = 18.0;
 /// Draws title and key of a plot of a height; answers the name of the curve that was clicked.
 pub(super) fn show(
     ui: &mut Ui,
-    (title, plot): (&str, f32),
+    title: &str,
+    height: f32,
     chart: &Chart,
     hidden: &BTreeSet<String>,
 ) -> Option<String> {
@@ -50,7 +51,7 @@ pub(super) fn show(
         named.iter().map(|curve| curve.name.len() + peak(chart, curve).len() + 5).sum::<usize>()
             + title.len();
     let rows = (letters as f32 * LETTER / ui.available_width()).ceil();
-    if rows * HEIGHT <= SHARE * plot {
+    if rows * HEIGHT <= SHARE * height {
         return ui
             .scope(|ui| {
                 ui.spacing_mut().interact_size.y = HEIGHT;

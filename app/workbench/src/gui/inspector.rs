@@ -6,6 +6,7 @@ use endline_sim::metrics::RegionSummary;
 use endline_sim::model::{BodyRole, JointKind};
 use endline_sim::{Frame, Model};
 
+use super::widgets::words::{capital, spoken};
 use crate::scene::Picked;
 use crate::scene::pick::{ends, length_m, on_line};
 
@@ -188,10 +189,7 @@ fn so_far(part: &RegionSummary, units: Units) -> [(&'static str, String); 3] {
     [
         ("Wraps, most", format!("{:.2}, {:.2} turns", part.wraps, part.peak_wraps)),
         ("Greatest force", units.force().text(part.peak_normal_n)),
-        (
-            "Greatest pressure",
-            super::panels::entanglement::pressure(part.peak_pressure_pa, units.force()),
-        ),
+        ("Greatest pressure", units.force().pressure(part.peak_pressure_pa)),
     ]
 }
 
@@ -280,15 +278,4 @@ pub fn along_m(view: &LiveView, from: Picked, to: Picked) -> Option<f64> {
     }
     let ways = near(to).into_iter().filter_map(|(knot, rest_m)| Some(known.get(&knot)? + rest_m));
     ways.min_by(f64::total_cmp)
-}
-
-/// A name of a part or outcome as it is spoken of.
-#[must_use]
-pub fn spoken(name: &str) -> String {
-    name.replace('_', " ")
-}
-
-fn capital(words: &str) -> String {
-    let mut letters = words.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }

@@ -1,0 +1,230 @@
+//! The gear library as tables: edit in place with units, located errors, save.
+
+mod detail;
+mod figures;
+mod paste;
+mod picture;
+mod rows;
+mod table;
+
+use std::path::Path;
+use std::sync::Arc;
+
+use egui::{Align, Button, Layout, RichText, ScrollArea, TextEdit, Ui};
+use endline_gear::{Diagnostic, Kind};
+
+pub use detail::{Against, Uses};
+
+use crate::gui::desk::{Desk, Order};
+use crate::gui::exchange;
+use crate::gui::panel::Panel;
+use crate::gui::panel_id::PanelId;
+use crate::gui::tables::KINDS;
+use crate::gui::theme::primary;
+use crate::gui::widgets::{self, problem};
+use rows::{Row, Wanted};
+
+/// Tables of the gear library.
+#[derive(Clone, Debug)]
+pub struct LibraryPanel {
+    /// Which table.
+    kind: Kind,
+    /// Words that a row's id or name must hold.
+    pub search: String,
+    /// Key of the column it is sorted by, and whether downwards; by name where `None`.
+    sort: Option<(&'static str, bool)>,
+    /// The row chosen, by its file's path.
+    pub chosen: Option<String>,
+    /// What the chosen row is compared with.
+    against: Against,
+    uses: Uses,
+    compared: detail::Compared,
+    found: Option<(Wanted, Arc<Vec<Row>>)>,
+}
+
+impl Default for LibraryPanel {
+    fn default() -> Self {
+        Self {
+            kind: Kind::Rope,
+            search: String::new(),
+            sort: None,
+            chosen: None,
+            against: Against::Saved,
+            uses: Uses::default(),
+            compared: detail::Compared::default(),
+            found: None,
+        }
+    }
+}
+
+impl Panel for LibraryPanel {
+    fn id(&self) -> PanelId {
+        PanelId::LIBRARY
+    }
+
+    fn ui(&mut self, ui: &mut Ui, desk: &mut Desk) {
+        self.paste(ui, desk);
+        self.toolbar(ui, desk);
+        ui.add_space(2.0);
+        let problems = self.problems(desk);
+        let mut whole = ui.available_rect_before_wrap();
+        let folder = self.kind.folder();
+        let chosen = self.chosen.clone();
+        let shown = |path: &String| path.starts_with(folder) && desk.documents.text(path).is_some();
+        if let Some(path) = chosen.filter(shown) {
+            let width = (whole.width() * 0.3).clamp(220.0, 380.0);
+            let (table, entry) = whole.split_left_right_at_x(whole.right() - width);
+            widgets::within(ui, entry.with_min_x(entry.left() + 10.0), |ui| {
+                detail::show(ui, self, desk, &path)
+            });
+            whole = table;
+        }
+        let rows = problems.len().min(3) as f32;
+        let strip = if problems.is_empty() { 0.0 } else { 12.0 + 44.0 * rows };
+        let (above, below) = whole.split_top_bottom_at_y(whole.bottom() - strip);
+        widgets::within(ui, above, |ui| {
+            ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| table::show(ui, self, desk))
+        });
+        if !problems.is_empty() {
+            widgets::within(ui, below, |ui| reasons(ui, &problems));
+        }
+    }
+}
+
+impl LibraryPanel {
+    /// The table shown.
+    #[must_use]
+    pub fn kind(&self) -> Kind {
+        self.kind
+    }
+
+    /// Another table; what is searched for stays.
+    pub fn turn_to(&mut self, kind: Kind) {
+        *self = Self { kind, search: std::mem::take(&mut self.search), ..Self::default() };
+    }
+
+    /// The table of an entry, with that entry chosen.
+    pub fn choose(&mut self, path: String) {
+        let folder = path.split_once('/').map_or("", |(folder, _)| folder);
+        if let Some(kind) = Kind::in_folder(folder) {
+            *self = Self { kind, chosen: Some(path), ..Self::default() };
+        }
+    }
+
+    fn toolbar(&mut self, ui: &mut Ui, desk: &mut Desk) {
+        ui.horizontal(|ui| {
+            for (kind, title) in KINDS {
+                if ui.selectable_label(self.kind == kind, title).clicked() {
+                    self.turn_to(kind);
+                }
+            }
+            ui.separator();
+            ui.add(TextEdit::singleline(&mut self.search).hint_text("Search").desired_width(150.0));
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| self.buttons(ui, desk));
+        });
+    }
+
+    /// What is done with the files, from the right.
+    fn buttons(&self, ui: &mut Ui, desk: &mut Desk) {
+        let unsaved = desk.documents.unsaved().len();
+        if primary(ui, unsaved > 0, "Save")
+            .on_hover_text("Ctrl+S: write every changed file; comments stay")
+            .clicked()
+        {
+            desk.orders.push(Order::Save);
+        }
+        let (undo, redo) = desk.documents.can_undo_redo();
+        if ui.add_enabled(redo, Button::new("Redo")).on_hover_text("Ctrl+Shift+Z").clicked() {
+            desk.orders.push(Order::Redo);
+        }
+        if ui.add_enabled(undo, Button::new("Undo")).on_hover_text("Ctrl+Z").clicked() {
+            desk.orders.push(Order::Undo);
+        }
+        ui.menu_button("Table ⏷", |ui| self.table_menu(ui, desk));
+        let copy = Button::new("Duplicate");
+        if ui
+            .add_enabled(self.chosen.is_some(), copy)
+            .on_hover_text("Copy the chosen row to a file of its own (Ctrl+D)")
+            .clicked()
+        {
+            desk.orders.push(Order::Duplicate);
+        }
+    }
+
+    /// Copies the chosen row to a file of its own and compares the two.
+    pub fn duplicate(&mut self, desk: &mut Desk) {
+        let Some(path) = self.chosen.clone() else {
+            desk.notice = Some(("choose a row of the library first".into(), true));
+            return;
+        };
+        match desk.documents.duplicate(&path) {
+            Ok(fresh) => {
+                self.against = Against::Entry(path);
+                self.chosen = Some(fresh);
+            }
+            Err(error) => desk.notice = Some((error, true)),
+        }
+    }
+
+    /// The table as a whole, out and in.
+    fn table_menu(&self, ui: &mut Ui, desk: &mut Desk) {
+        if ui.button("Save as CSV …").clicked() {
+            desk.orders.push(Order::AskExportTable);
+            ui.close();
+        }
+        if ui
+            .button("Take in CSV …")
+            .on_hover_text(
+                "Rows of a known id change that entry, others are added; one Undo takes all of it back",
+            )
+            .clicked()
+        {
+            desk.orders.push(Order::AskImportTable);
+            ui.close();
+        }
+        if ui.button("Copy for a spreadsheet").clicked() {
+            let text = exchange::to_tabs(&desk.documents, self.kind, &self.rows(desk));
+            ui.ctx().copy_text(text);
+            ui.close();
+        }
+        ui.label(RichText::new("Paste cells from a spreadsheet\nwith Ctrl+V in the first cell;\nwith a head row, anywhere here.").small());
+    }
+
+    /// Writes the shown table as CSV.
+    pub fn export(&self, desk: &mut Desk, path: &Path) {
+        let text = exchange::to_csv(&desk.documents, self.kind, &self.rows(desk));
+        let written = endline_session::save::atomically(path, text.as_bytes());
+        desk.notice_saved(path, written.map_err(|error| error.to_string()));
+    }
+
+    /// Takes a CSV file into the shown table and reports what came of it.
+    pub fn import(&self, desk: &mut Desk, path: &Path) {
+        match std::fs::read_to_string(path) {
+            Ok(text) => {
+                let taken = exchange::import(&mut desk.documents, self.kind, &text);
+                desk.notice = Some(match taken {
+                    Ok(taken) => (taken.told(), !taken.left_out.is_empty()),
+                    Err(why) => (format!("not taken in: {why}"), true),
+                });
+            }
+            Err(error) => desk.notice = Some((format!("{}: {error}", path.display()), true)),
+        }
+    }
+
+    /// Problems of the files of the shown table.
+    fn problems(&self, desk: &Desk) -> Vec<Diagnostic> {
+        let folder = format!("{}/", self.kind.folder());
+        let own = |problem: &&Diagnostic| problem.file.starts_with(&folder);
+        desk.documents.problems().iter().filter(own).cloned().collect()
+    }
+}
+
+/// What is wrong in the table, below it: place, reason, how to fix it.
+fn reasons(ui: &mut Ui, problems: &[Diagnostic]) {
+    ui.separator();
+    ScrollArea::vertical().id_salt("reasons").auto_shrink(false).show(ui, |ui| {
+        for problem in problems {
+            problem::entry(ui, problem);
+        }
+    });
+}

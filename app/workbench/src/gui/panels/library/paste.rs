@@ -1,0 +1,66 @@
+//! Cells taken from the clipboard into the table.
+
+use egui::{Event, Ui};
+
+use super::LibraryPanel;
+use crate::gui::desk::Desk;
+use crate::gui::{exchange, fields};
+
+impl LibraryPanel {
+    /// Takes cells from the clipboard: from the cell being typed in on, or, with a head row, as entries.
+    pub(super) fn paste(&self, ui: &Ui, desk: &mut Desk) {
+        let pasted = |event: &Event| matches!(event, Event::Paste(text) if text.trim_end().contains(['\t', '\n']));
+        if !ui.input(|input| input.events.iter().any(pasted)) {
+            return;
+        }
+        let (paths, keys) = (self.rows(desk), self.keys());
+        let focus = ui.memory(|memory| memory.focused());
+        let at = paths.iter().enumerate().find_map(|(row, path)| {
+            let edited = |key: &&str| focus == Some(fields::edit_id(path, key));
+            Some((row, keys.iter().position(edited)?))
+        });
+        if at.is_none() && (focus.is_some() || !ui.rect_contains_pointer(ui.max_rect())) {
+            return;
+        }
+        let text = take_pasted(ui);
+        let head = exchange::cells(&text)
+            .is_ok_and(|cells| cells.first().is_some_and(|row| exchange::is_head(self.kind, row)));
+        let taken = match at {
+            _ if head => exchange::import(&mut desk.documents, self.kind, &text),
+            Some((row, column)) => {
+                fields::forget(ui, &paths[row], keys[column]);
+                exchange::cells(&text).and_then(|cells| {
+                    exchange::spread(&mut desk.documents, &paths[row..], &keys[column..], &cells)
+                })
+            }
+            None => {
+                Err("click the cell the table begins in, or copy it with its head row".to_owned())
+            }
+        };
+        desk.notice = Some(match taken {
+            Ok(taken) => (taken.told(), !taken.left_out.is_empty()),
+            Err(why) => (format!("not pasted: {why}"), true),
+        });
+    }
+
+    /// Keys of the table's columns after the name, in their order.
+    fn keys(&self) -> Vec<&'static str> {
+        let words = self.kind.words().iter().map(|word| word.key);
+        words.chain(self.kind.fields().iter().map(|field| field.key)).collect()
+    }
+}
+
+/// Takes what was pasted out of the events, so that no text field takes it too.
+fn take_pasted(ui: &Ui) -> String {
+    let mut text = String::new();
+    ui.input_mut(|input| {
+        input.events.retain(|event| match event {
+            Event::Paste(pasted) => {
+                text.clone_from(pasted);
+                false
+            }
+            _ => true,
+        });
+    });
+    text
+}

@@ -1,0 +1,92 @@
+//! Which rows the table shows, and in which order.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use endline_gear::{Diagnostic, Field, Kind, units};
+
+use super::LibraryPanel;
+use crate::gui::desk::Desk;
+
+/// What the rows shown were found for.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Wanted {
+    version: u64,
+    scenario: PathBuf,
+    kind: Kind,
+    search: String,
+    sort: Option<(&'static str, bool)>,
+}
+
+/// A row of the table.
+#[derive(Clone, Debug)]
+pub(super) struct Row {
+    /// Path of its file.
+    pub(super) path: String,
+    /// Whether one of its cells has a problem.
+    pub(super) problem: bool,
+    /// Whether the scenario is made of it.
+    pub(super) used: bool,
+}
+
+impl LibraryPanel {
+    /// Files of the shown table that the search lets through, in the order chosen.
+    pub(super) fn rows(&self, desk: &Desk) -> Vec<String> {
+        let words: Vec<String> =
+            self.search.to_lowercase().split_whitespace().map(str::to_owned).collect();
+        let name = |path: &str| desk.documents.field(path, "name").unwrap_or_default();
+        let matches = |path: &&str| {
+            let text = format!("{path} {}", name(path)).to_lowercase();
+            words.iter().all(|word| text.contains(word))
+        };
+        let mut rows: Vec<String> =
+            desk.documents.files(self.kind.folder()).filter(matches).map(str::to_owned).collect();
+        // What this scenario is made of comes first.
+        rows.sort_by_cached_key(|path| (!desk.documents.in_use(path), name(path).to_lowercase()));
+        if let Some((key, down)) = self.sort {
+            let field = self.kind.fields().iter().find(|field| field.key == key);
+            let value = |path: &String| {
+                field.and_then(|field| si_value(desk, path, field)).unwrap_or(f64::INFINITY)
+            };
+            rows.sort_by(|a, b| value(a).total_cmp(&value(b)));
+            if down {
+                rows.reverse();
+            }
+        }
+        rows
+    }
+
+    /// The rows as the table shows them, found anew where texts or choices have changed.
+    pub(super) fn shown_rows(&mut self, desk: &Desk) -> Arc<Vec<Row>> {
+        let wanted = Wanted {
+            version: desk.documents.version(),
+            scenario: desk.documents.scenario_path().to_owned(),
+            kind: self.kind,
+            search: self.search.clone(),
+            sort: self.sort,
+        };
+        if let Some((_, rows)) = self.found.as_ref().filter(|(found, _)| *found == wanted) {
+            return Arc::clone(rows);
+        }
+        let row = |path: String| Row {
+            problem: cell_problem(desk, self.kind, &path).is_some(),
+            used: desk.documents.in_use(&path),
+            path,
+        };
+        let rows: Arc<Vec<Row>> = Arc::new(self.rows(desk).into_iter().map(row).collect());
+        self.found = Some((wanted, Arc::clone(&rows)));
+        rows
+    }
+}
+
+/// The SI value of a cell, where it can be read.
+fn si_value(desk: &Desk, path: &str, field: &Field) -> Option<f64> {
+    units::parse(&desk.documents.field(path, field.key)?, field.quantity).ok()
+}
+
+/// Any problem at a cell of a row.
+fn cell_problem<'a>(desk: &'a Desk, kind: Kind, path: &str) -> Option<&'a Diagnostic> {
+    let keys =
+        kind.words().iter().map(|word| word.key).chain(kind.fields().iter().map(|field| field.key));
+    keys.filter_map(|key| desk.documents.problem_at(path, key)).next()
+}

@@ -1,0 +1,218 @@
+//! The table: a row for each entry, a column for each field.
+
+use egui::{Align, Button, Layout, RichText, Ui};
+use egui_extras::{Column, TableBuilder, TableRow};
+use endline_gear::{Field, Kind, units};
+
+use super::LibraryPanel;
+use super::rows::Row;
+use crate::gui::desk::Desk;
+use crate::gui::theme::Theme;
+use crate::gui::widgets::words;
+use crate::gui::{exchange, fields};
+
+const NAME_WIDTH: f32 = 230.0;
+const CELL_WIDTH: f32 = 112.0;
+const ROW: f32 = 25.0;
+const ROW_WITH_REASON: f32 = 41.0;
+
+/// What was typed into a cell: path of the file, key, text.
+type Edit = (String, &'static str, String);
+
+/// Draws the table.
+pub(super) fn show(ui: &mut Ui, panel: &mut LibraryPanel, desk: &mut Desk) {
+    let kind = panel.kind;
+    let (words, figures) = (kind.words(), kind.fields());
+    let shown = panel.shown_rows(desk);
+    let mut builder = TableBuilder::new(ui)
+        .id_salt(kind.folder())
+        .striped(true)
+        .resizable(true)
+        .cell_layout(Layout::left_to_right(Align::Center));
+    builder = builder.column(Column::initial(NAME_WIDTH).at_least(120.0).clip(true));
+    builder = builder.columns(
+        Column::initial(CELL_WIDTH).at_least(60.0).clip(true),
+        words.len() + figures.len(),
+    );
+    let mut edits = Vec::new();
+    let table = builder.header(24.0, |mut row| header(&mut row, panel, kind));
+    let heights = shown.iter().map(|row| if row.problem { ROW_WITH_REASON } else { ROW });
+    table.body(|body| {
+        body.heterogeneous_rows(heights, |mut row| {
+            let shown = &shown[row.index()];
+            row.set_selected(panel.chosen.as_ref() == Some(&shown.path));
+            cells(&mut row, panel, desk, shown, &mut edits);
+        });
+    });
+    for (path, field, value) in edits {
+        desk.set(&path, field, &value);
+    }
+}
+
+fn header(row: &mut TableRow<'_, '_>, panel: &mut LibraryPanel, kind: Kind) {
+    row.col(|ui| {
+        if heading(
+            ui,
+            "Name",
+            panel.sort.is_none().then_some(false),
+            "name, and the file's id below",
+        ) {
+            panel.sort = None;
+        }
+    });
+    for word in kind.words() {
+        row.col(|ui| {
+            heading(ui, &words::title(word.key), None, word.help);
+        });
+    }
+    for field in kind.fields() {
+        let sorted = panel.sort.filter(|(key, _)| *key == field.key).map(|(_, down)| down);
+        row.col(|ui| {
+            if heading(ui, &words::title(field.key), sorted, &field_help(field)) {
+                panel.sort = Some((field.key, sorted == Some(false)));
+            }
+        });
+    }
+}
+
+/// A column's head; answers whether it was clicked to sort by.
+fn heading(ui: &mut Ui, text: &str, sorted: Option<bool>, help: &str) -> bool {
+    let palette = Theme::palette_of(ui);
+    let arrow = sorted.map_or("", |down| if down { " ⏷" } else { " ⏶" });
+    let colour = if sorted.is_some() { palette.accent } else { palette.faint };
+    let label = Button::new(RichText::new(format!("{text}{arrow}")).color(colour).size(12.0))
+        .frame(false)
+        .truncate();
+    ui.add(label).on_hover_text(help).clicked()
+}
+
+fn field_help(field: &Field) -> String {
+    let needed = if field.needed { "" } else { "\nmay be left out" };
+    format!(
+        "{}\n{}, {}; such as {}{needed}",
+        field.help,
+        field.quantity.noun(),
+        field.range.words(field.quantity),
+        field.quantity.examples()
+    )
+}
+
+fn cells(
+    row: &mut TableRow<'_, '_>,
+    panel: &mut LibraryPanel,
+    desk: &Desk,
+    shown: &Row,
+    edits: &mut Vec<Edit>,
+) {
+    let (kind, path) = (panel.kind, shown.path.as_str());
+    row.col(|ui| name_cell(ui, panel, desk, shown));
+    for word in kind.words() {
+        row.col(|ui| {
+            if near(ui) {
+                edits.extend(cell(ui, desk, path, word.key, word.help));
+            }
+        });
+    }
+    for field in kind.fields() {
+        row.col(|ui| {
+            if !near(ui) {
+                return;
+            }
+            let pointed = ui.rect_contains_pointer(ui.max_rect());
+            let help = if pointed {
+                format!("{}{}", field_help(field), provenance(desk, kind, path, field))
+            } else {
+                String::new()
+            };
+            edits.extend(cell(ui, desk, path, field.key, &help));
+            sureness(ui, desk, kind, path, field);
+        });
+    }
+}
+
+/// Whether a cell is in sight, or next to what is, so that Tab still reaches it; the others are left empty.
+fn near(ui: &Ui) -> bool {
+    ui.clip_rect().expand2(egui::vec2(2.0 * CELL_WIDTH, 0.0)).intersects(ui.max_rect())
+}
+
+fn name_cell(ui: &mut Ui, panel: &mut LibraryPanel, desk: &Desk, row: &Row) {
+    let (path, used) = (row.path.as_str(), row.used);
+    let palette = Theme::palette_of(ui);
+    let name = desk.documents.field(path, "name").unwrap_or_else(|| path.to_owned());
+    let mark = if desk.documents.is_unsaved(path) { "• " } else { "" };
+    let chosen = panel.chosen.as_deref() == Some(path);
+    let colour = match (desk.documents.file_has_error(path), used && !chosen) {
+        (true, _) => palette.error,
+        (false, true) => palette.accent,
+        (false, false) => palette.text,
+    };
+    let label =
+        Button::selectable(chosen, RichText::new(format!("{mark}{name}")).color(colour)).truncate();
+    let response = ui.add(label);
+    if response.clicked() {
+        panel.chosen = Some(path.to_owned());
+    }
+    if response.contains_pointer() {
+        let notes = desk
+            .documents
+            .field(path, "notes")
+            .map_or(String::new(), |notes| format!("\n\n{notes}"));
+        let unsaved = if mark.is_empty() { "" } else { "\nnot saved yet" };
+        let used = if used { "\nin use by this scenario" } else { "" };
+        response.on_hover_text(format!("{name}\n{path}{used}{unsaved}{notes}"));
+    }
+}
+
+fn cell(ui: &mut Ui, desk: &Desk, path: &str, key: &'static str, help: &str) -> Option<Edit> {
+    let width = ui.available_width() - 8.0;
+    let committed = ui
+        .vertical(|ui| {
+            ui.spacing_mut().item_spacing.y = 1.0;
+            ui.add_space(1.0);
+            let committed = fields::edit(
+                ui,
+                &desk.documents,
+                path,
+                key,
+                width,
+                fields::Said { hint: "", help },
+            );
+            if let Some(problem) = desk.documents.problem_at(path, key) {
+                let error =
+                    RichText::new(&problem.message).size(10.5).color(Theme::palette_of(ui).error);
+                ui.add(egui::Label::new(error).truncate());
+            }
+            committed
+        })
+        .inner;
+    committed.map(|value| (path.to_owned(), key, value))
+}
+
+/// A letter in the cell's corner for how sure its figure is: m measured, d derived, e estimate.
+fn sureness(ui: &Ui, desk: &Desk, kind: Kind, path: &str, field: &Field) {
+    let entry = desk.documents.library().entry(kind, exchange::id_of(path));
+    let Some(figure) = entry.and_then(|entry| entry.figure(field.key)) else { return };
+    let letter = figure.sureness.word().get(..1).unwrap_or_default();
+    let colour = words::sureness_colour(figure.sureness, Theme::palette_of(ui));
+    let corner = ui.max_rect().right_top() + egui::vec2(-13.0, 4.0);
+    ui.painter().text(
+        corner,
+        egui::Align2::RIGHT_TOP,
+        letter,
+        egui::FontId::proportional(9.5),
+        colour,
+    );
+}
+
+/// Source and sureness of a figure, where its file can be read.
+fn provenance(desk: &Desk, kind: Kind, path: &str, field: &Field) -> String {
+    let figure = desk
+        .documents
+        .library()
+        .entry(kind, exchange::id_of(path))
+        .and_then(|entry| entry.figure(field.key));
+    figure.map_or_else(String::new, |figure| {
+        let si = units::format_si(figure.value, field.quantity);
+        format!("\n\n= {si}\n{}: {}", figure.sureness.word(), figure.source)
+    })
+}

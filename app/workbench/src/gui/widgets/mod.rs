@@ -1,0 +1,44 @@
+//! Pieces of the screen that several panels draw.
+
+pub mod plot;
+pub mod plot_key;
+pub mod problem;
+pub mod words;
+
+use egui::{Grid, Rect, RichText, Ui, UiBuilder};
+
+use super::theme::Theme;
+
+/// A line of small grey text above a group.
+pub fn caption(ui: &mut Ui, text: &str) {
+    let faint = Theme::palette_of(ui).faint;
+    ui.add_space(3.0);
+    ui.label(RichText::new(text.to_uppercase()).size(10.5).color(faint).strong());
+}
+
+/// A line that says why a panel is empty.
+pub fn nothing(ui: &mut Ui, text: &str) {
+    let faint = Theme::palette_of(ui).faint;
+    ui.add_space(8.0);
+    ui.vertical_centered(|ui| ui.label(RichText::new(text).color(faint)));
+}
+
+/// Draws in a part of the panel and nowhere else.
+pub fn within<R>(ui: &mut Ui, rect: Rect, draw: impl FnOnce(&mut Ui) -> R) {
+    ui.scope_builder(UiBuilder::new().max_rect(rect), |ui| {
+        ui.set_clip_rect(rect.intersect(ui.clip_rect()));
+        draw(ui);
+    });
+}
+
+/// Names and values in two columns.
+pub fn numbers(ui: &mut Ui, id: &str, rows: &[(&str, String)]) {
+    let faint = Theme::palette_of(ui).faint;
+    Grid::new(id).num_columns(2).spacing([16.0, 2.0]).min_row_height(17.0).show(ui, |ui| {
+        for (name, value) in rows {
+            ui.label(RichText::new(*name).color(faint));
+            ui.label(RichText::new(value));
+            ui.end_row();
+        }
+    });
+}

@@ -1,0 +1,222 @@
+//! Charts of a run as they are drawn: each below its title and its key, with one cursor; a click shows that moment.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use egui::{Color32, Id, Rangef, Ui};
+use egui_plot::{
+    AxisHints, FilledArea, HLine, Line, LineStyle, Plot, PlotPoint, PlotPoints, PlotUi, Polygon,
+    VLine,
+};
+use endline_session::live::LiveView;
+use endline_session::units::Units;
+use endline_sim::Model;
+
+use super::plot_key;
+use crate::gui::charts::{Chart, Curve, Kind, Style};
+use crate::gui::desk::{Desk, Order};
+use crate::gui::theme::{Palette, Theme};
+
+/// A strength further above the peak than this factor is not drawn.
+const REACH: f64 = 3.0;
+
+/// Height of a plot's title and key where they take one row [points].
+pub const HEAD: f32 = 34.0;
+
+/// Least height of a plot [points].
+pub const LEAST: f32 = 104.0;
+
+/// The charts drawn last, and which of their curves are hidden.
+#[derive(Default)]
+pub struct DrawnCharts {
+    /// Names of curves that a click in the key took away.
+    hidden: BTreeSet<String>,
+    made: Vec<(Kind, Made)>,
+}
+
+/// A chart with what it was made of.
+struct Made {
+    of: (Part, Option<Part>),
+    units: Units,
+    chart: Chart,
+}
+
+/// As much of a run as a chart shows.
+struct Part {
+    model: Arc<Model>,
+    samples: usize,
+    shown_s: f64,
+}
+
+impl Part {
+    fn of(kind: Kind, view: &LiveView) -> Self {
+        let shown_s = if kind.over_time() { 0.0 } else { view.frame.time_s };
+        Self { model: Arc::clone(&view.model), samples: view.tension.len(), shown_s }
+    }
+}
+
+impl PartialEq for Part {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.model, &other.model)
+            && self.samples == other.samples
+            && self.shown_s.to_bits() == other.shown_s.to_bits()
+    }
+}
+
+/// A chart of a run, with the run it is compared with beside it.
+#[must_use]
+pub fn chart(kind: Kind, view: &LiveView, other: Option<&LiveView>, units: Units) -> Chart {
+    let own = Chart::of(kind, view, units);
+    match other {
+        Some(other) => own.beside(Chart::of(kind, other, units)),
+        None => own,
+    }
+}
+
+impl DrawnCharts {
+    /// Draws a chart of the run shown, in a height that its title and key are part of.
+    pub fn show(&mut self, ui: &mut Ui, desk: &mut Desk, kind: Kind, title: &str, height: f32) {
+        let Some(view) = desk.view.clone() else { return super::nothing(ui, "No run yet.") };
+        let (place, top) = (self.make(kind, &view, desk), ui.cursor().top());
+        let chart = &self.made[place].1.chart;
+        let clicked = plot_key::show(ui, title, height, chart, &self.hidden);
+        let height = (height + HEAD - (ui.cursor().top() - top)).max(LEAST);
+        if chart.curves.iter().all(|curve| curve.points.is_empty()) {
+            return super::nothing(ui, why_empty(kind));
+        }
+        let palette = Theme::palette_of(ui);
+        let response = frame(chart, height, palette).show(ui, |plot| {
+            self.draw(plot, chart, &view, palette);
+            plot.pointer_coordinate()
+        });
+        let at = response.inner.filter(|_| kind.over_time() && response.response.clicked());
+        desk.orders.extend(at.map(|at| Order::Seek(at.x.clamp(0.0, view.newest_s))));
+        if let Some(name) = clicked
+            && !self.hidden.remove(&name)
+        {
+            self.hidden.insert(name);
+        }
+    }
+
+    /// Makes a chart anew where the run has gone on since; answers its place.
+    fn make(&mut self, kind: Kind, view: &LiveView, desk: &Desk) -> usize {
+        let (other, units) = (desk.other_view(), desk.preferences.units);
+        let of = (Part::of(kind, view), other.as_deref().map(|other| Part::of(kind, other)));
+        let place = self.made.iter().position(|(known, _)| *known == kind);
+        let known = place
+            .is_some_and(|place| self.made[place].1.of == of && self.made[place].1.units == units);
+        if !known {
+            let chart = chart(kind, view, other.as_deref(), units);
+            let made = (kind, Made { of, units, chart });
+            match place {
+                Some(place) => self.made[place] = made,
+                None => self.made.push(made),
+            }
+        }
+        place.unwrap_or(self.made.len() - 1)
+    }
+
+    fn draw<'a>(&self, plot: &mut PlotUi<'a>, chart: &'a Chart, view: &LiveView, palette: Palette) {
+        let shown: Vec<&Curve> = chart
+            .curves
+            .iter()
+            .filter(|curve| !self.hidden.contains(chart.line_of(curve)))
+            .collect();
+        shade(plot, &shown);
+        shown.into_iter().for_each(|curve| plot.line(line(curve)));
+        levels(plot, chart, palette);
+        if chart.kind.over_time() {
+            let now = VLine::new("", view.frame.time_s);
+            plot.vline(now.color(palette.faint.gamma_multiply(0.7)).width(1.0));
+        }
+    }
+}
+
+fn why_empty(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Force | Kind::Wraps => "No rope has touched the whale.",
+        Kind::Tension | Kind::Along | Kind::Depth | Kind::Speed => "Nothing yet.",
+    }
+}
+
+/// Axes and grid of a chart.
+fn frame<'a>(chart: &Chart, height: f32, palette: Palette) -> Plot<'a> {
+    let x = AxisHints::new_x().label(chart.x.clone()).label_spacing(Rangef::new(24.0, 48.0));
+    let y = AxisHints::new_y()
+        .label(chart.y.clone())
+        .label_spacing(Rangef::new(14.0, 26.0))
+        .min_thickness(46.0);
+    let plot = Plot::new(("plot", chart.kind.name()))
+        .height(height)
+        .include_x(0.0)
+        .include_x(chart.end_x)
+        .include_y(0.0)
+        .include_y(1.1 * top(chart))
+        .custom_x_axes(vec![x])
+        .custom_y_axes(vec![y])
+        .grid_spacing(Rangef::new(14.0, 220.0))
+        .grid_color(palette.faint.gamma_multiply(0.5))
+        .allow_scroll(false)
+        .show_background(false);
+    if chart.kind.over_time() {
+        let time = Id::new("time");
+        plot.link_cursor(time, [true, false]).link_axis(time, [true, false])
+    } else {
+        plot
+    }
+}
+
+/// Greatest value of a chart, above zero.
+fn top(chart: &Chart) -> f64 {
+    chart.top().max(1e-6)
+}
+
+fn colour(curve: &Curve) -> Color32 {
+    let [red, green, blue] = curve.rgb();
+    Color32::from_rgb(red, green, blue)
+}
+
+fn line(curve: &Curve) -> Line<'_> {
+    // A name would show when the pointer is near.
+    let name = if curve.style == Style::Edge { "" } else { &curve.name };
+    let line = Line::new(name, PlotPoints::Borrowed(&curve.points)).color(colour(curve)).width(1.5);
+    match curve.style {
+        Style::Solid => line,
+        Style::Dashed => line.style(LineStyle::dashed_dense()),
+        Style::Edge => line.color(colour(curve).gamma_multiply(0.55)).width(1.0),
+    }
+}
+
+/// Strengths and ratings near enough to the peak: a line, with a band above it where there are a least and a greatest.
+fn levels(plot: &mut PlotUi<'_>, chart: &Chart, palette: Palette) {
+    let top = top(chart);
+    for level in chart.levels.iter().filter(|level| level.band[0] < REACH * top) {
+        let [low, high] = level.band;
+        if high > low {
+            let corners = [[0.0, low], [chart.end_x, low], [chart.end_x, high], [0.0, high]];
+            let points: Vec<PlotPoint> = corners.map(PlotPoint::from).to_vec();
+            let band = Polygon::new(&level.name, PlotPoints::Owned(points))
+                .fill_color(palette.error.gamma_multiply(0.12));
+            plot.polygon(band.stroke(egui::Stroke::NONE).allow_hover(false));
+        }
+        let line = HLine::new(&level.name, low).color(palette.error).width(1.0);
+        plot.hline(line.style(LineStyle::dashed_loose()));
+    }
+}
+
+/// Fills between least and greatest so far, which stand one after the other.
+fn shade(plot: &mut PlotUi<'_>, curves: &[&Curve]) {
+    for pair in curves.windows(2) {
+        let [least, greatest] = pair else { continue };
+        let edges = least.style == Style::Edge
+            && greatest.style == Style::Edge
+            && least.colour == greatest.colour;
+        if edges && least.points.len() == greatest.points.len() && least.points.len() > 1 {
+            let xs: Vec<f64> = least.points.iter().map(|point| point.x).collect();
+            let [low, high] = [least, greatest]
+                .map(|curve| curve.points.iter().map(|point| point.y).collect::<Vec<f64>>());
+            let fill = colour(least).gamma_multiply(0.16);
+            plot.add(FilledArea::new("", &xs, &low, &high).fill_color(fill).allow_hover(false));
+        }
+    }
+}
