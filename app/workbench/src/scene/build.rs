@@ -2,7 +2,7 @@
 
 use endline_sim::model::Whale;
 use endline_sim::{DAffine3, Frame, Model};
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 
 use super::bounds::Bounds;
 use super::mesh::Mesh;
@@ -158,9 +158,4 @@ fn whale_corners(whale: &Whale, position: DVec3, orientation: endline_sim::DQuat
     let half = DVec3::new(0.52, 0.25, 0.15) * whale.length_m;
     let pose = DAffine3::from_rotation_translation(orientation, position);
     Bounds { low: -half, high: half }.corners().map(|corner| pose.transform_point3(corner))
-}
-
-/// A world place in single precision.
-pub(super) fn single(place: DVec3) -> Vec3 {
-    place.as_vec3()
 }

@@ -224,6 +224,11 @@ impl Mesh {
     }
 }
 
+/// A world place in single precision.
+pub(super) fn single(place: DVec3) -> Vec3 {
+    place.as_vec3()
+}
+
 /// Unit direction of a polyline at a node: the mean of its two neighbours' segments.
 fn direction(centres: &[Vec3], index: usize) -> Vec3 {
     let before = centres[index.saturating_sub(1)];

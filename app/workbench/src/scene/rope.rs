@@ -4,9 +4,8 @@ use endline_sim::contact::ContactPoint;
 use endline_sim::{DVec3, Frame, Model};
 use glam::Vec3;
 
-use super::build::single;
 use super::colour::{CONTACT, FORCE, PARTED, tension_colour};
-use super::mesh::{Colour, Mesh};
+use super::mesh::{Colour, Mesh, single};
 
 /// Sides of a rope's tube.
 const SIDES: usize = 6;

@@ -4,9 +4,8 @@ use endline_sim::Model;
 use glam::{DVec3, Vec3};
 
 use super::bounds::Bounds;
-use super::build::single;
 use super::colour::{CURRENT, SEABED, SURFACE, faded};
-use super::mesh::{Colour, Mesh};
+use super::mesh::{Colour, Mesh, single};
 
 /// How far sea and seabed reach past the gear, against the gear's own size.
 const REACH: f64 = 12.0;

@@ -4,9 +4,8 @@ use endline_sim::whale::{Mark, Skin, pose, skin_all};
 use endline_sim::{Frame, Model};
 use glam::Vec3;
 
-use super::build::single;
 use super::colour::{BALEEN, CALLOSITY, EYE, MOUTH, SKIN, WHITE, faded};
-use super::mesh::{Colour, Mesh};
+use super::mesh::{Colour, Mesh, single};
 
 /// The skin in its pose, smooth-shaded and tinted as it is marked.
 pub fn skin(model: &Model, frame: &Frame) -> Mesh {

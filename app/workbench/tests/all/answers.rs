@@ -6,7 +6,6 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use crate::common::{Folder, linked, opened_with, wait, workbench};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
@@ -15,6 +14,8 @@ use endline_workbench::gui::app::App;
 use endline_workbench::gui::desk::Order;
 use endline_workbench::gui::engine::{self, Launch, Waker};
 use endline_workbench::input::Pilot;
+
+use crate::common::{Folder, linked, opened_with, wait, workbench};
 
 type Window = Harness<'static, App>;
 

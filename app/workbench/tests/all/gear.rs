@@ -2,18 +2,18 @@
 #![cfg(feature = "gui")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use endline_session::edit::Documents;
-
-use crate::common::{Folder, give, linked, on_disk, opened_with, wait, workbench};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_gear::Kind;
+use endline_session::edit::Documents;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::desk::Order;
 use endline_workbench::gui::engine;
 use endline_workbench::gui::exchange::{import, to_csv};
 use endline_workbench::gui::panel_id::PanelId;
 use endline_workbench::input::Pilot;
+
+use crate::common::{Folder, give, linked, on_disk, opened_with, wait, workbench};
 
 fn paths(documents: &Documents) -> Vec<String> {
     documents.files("ropes").map(str::to_owned).collect()

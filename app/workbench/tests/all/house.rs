@@ -4,13 +4,11 @@
 
 use std::sync::Arc;
 
-use endline_session::edit::recovery::{Autosave, EVERY_S};
-use endline_session::units::Units;
-
-use crate::common::{Folder, flown, give, wait, workbench};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
+use endline_session::edit::recovery::{Autosave, EVERY_S};
 use endline_session::live::{Channel, Status};
+use endline_session::units::Units;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::charts::{Chart, Kind};
 use endline_workbench::gui::desk::Order;
@@ -18,6 +16,8 @@ use endline_workbench::gui::layout::{self, Layout};
 use endline_workbench::gui::palette::orders;
 use endline_workbench::gui::panel_id::PanelId;
 use endline_workbench::input::{PadButton, PadEvent, Pilot, Pressed, ScriptedPad};
+
+use crate::common::{Folder, flown, give, wait, workbench};
 
 #[test]
 fn every_command_of_the_palette_is_obeyed_in_every_layout() {

@@ -8,11 +8,11 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
+use endline_gear::Document;
 use endline_session::edit::Documents;
 use endline_session::edit::recovery::{Autosave, UnsavedEdits};
 
 use crate::common::Folder;
-use endline_gear::Document;
 
 /// Seconds of the script for each real one: what takes half a minute at the desk takes a second and a half here.
 const HASTE: f64 = 20.0;

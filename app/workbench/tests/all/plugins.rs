@@ -4,12 +4,10 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use endline_session::edit::Documents;
-
-use crate::common::{Folder, linked, opened_with, wait};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_gear::{Document, Setting};
+use endline_session::edit::Documents;
 use endline_session::plugins::{Choices, Language, Loader, PluginKind, Standing, write_project};
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::desk::Order;
@@ -17,6 +15,8 @@ use endline_workbench::gui::panel_id::PanelId;
 use endline_workbench::gui::plugins::{Load, Plugins};
 use endline_workbench::gui::{engine, fields};
 use endline_workbench::input::Pilot;
+
+use crate::common::{Folder, linked, opened_with, wait};
 
 /// A folder of plugins, deleted in the end.
 struct Place(PathBuf);

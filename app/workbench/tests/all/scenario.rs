@@ -2,11 +2,9 @@
 #![cfg(feature = "gui")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use endline_session::edit::Documents;
-
-use crate::common::{Folder, drag, give, linked, opened_with, retype, wait};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
+use endline_session::edit::Documents;
 use endline_session::live::Status;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::desk::Order;
@@ -16,6 +14,8 @@ use endline_workbench::gui::panels::view::pose::Start;
 use endline_workbench::gui::wraps::wraps;
 use endline_workbench::input::Pilot;
 use endline_workbench::scene::View;
+
+use crate::common::{Folder, drag, give, linked, opened_with, retype, wait};
 
 /// A scenario settled, with one panel alone.
 fn settled(folder: &Folder, scenario: &str, panel: PanelId) -> Harness<'static, App> {

@@ -2,14 +2,11 @@
 #![cfg(feature = "gui")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use crate::common;
 use std::sync::Arc;
 
-use endline_session::edit::Documents;
-
-use crate::common::{Folder, linked, opened_with, retype};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
+use endline_session::edit::Documents;
 use endline_session::live::Status;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::desk::Order;
@@ -19,6 +16,9 @@ use endline_workbench::gui::panel_id::PanelId;
 use endline_workbench::gui::panels::results::Part;
 use endline_workbench::gui::studies::job::State;
 use endline_workbench::input::Pilot;
+
+use crate::common;
+use crate::common::{Folder, linked, opened_with, retype};
 
 /// Short draws of a small rig without a whale: what is looked at here is the window, not the physics.
 const STUDY: &str = r#"format = 1

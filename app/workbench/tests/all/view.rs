@@ -2,12 +2,10 @@
 #![cfg(feature = "gui")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use endline_session::units::Units;
-
-use crate::common::{Folder, give, linked, opened_with, wait};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_session::live::Status;
+use endline_session::units::Units;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::desk::Order;
 use endline_workbench::gui::engine;
@@ -17,6 +15,8 @@ use endline_workbench::gui::panel_id::PanelId;
 use endline_workbench::input::Pilot;
 use endline_workbench::scene::{Picked, View};
 use glam::{DVec2, DVec3};
+
+use crate::common::{Folder, give, linked, opened_with, wait};
 
 /// The single's endline at rest beside its whale, with the 3-D view alone.
 fn settled(folder: &Folder) -> Harness<'static, App> {

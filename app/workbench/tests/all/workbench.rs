@@ -4,11 +4,9 @@
 
 use std::sync::Arc;
 
-use endline_session::edit::Documents;
-
-use crate::common::{Folder, linked, on_disk, opened, opened_with, retype, wait, workbench};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
+use endline_session::edit::Documents;
 use endline_session::live::Status;
 use endline_session::{Overrides, Run, RunOptions, prepare};
 use endline_workbench::gui::app::App;
@@ -17,6 +15,8 @@ use endline_workbench::gui::engine;
 use endline_workbench::gui::layout;
 use endline_workbench::gui::panel_id::PanelId;
 use endline_workbench::input::{HeldKeys, PadAxis, PadButton, PadEvent, Pilot, ScriptedPad};
+
+use crate::common::{Folder, linked, on_disk, opened, opened_with, retype, wait, workbench};
 
 #[test]
 fn a_bad_unit_is_red_with_its_place_and_reason_and_undo_mends_it() {

@@ -5,6 +5,7 @@ pub mod hud;
 mod pane;
 pub mod picking;
 pub mod pose;
+mod split;
 mod state;
 mod transport;
 
@@ -23,10 +24,7 @@ use crate::gui::panel_id::PanelId;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::words::capital;
 use crate::scene::{Show, View};
-use pane::Pane;
-
-/// Between two panes [points].
-const GAP: f32 = 3.0;
+use split::{Pane, places};
 
 impl Panel for ViewPanel {
     fn id(&self) -> PanelId {
@@ -153,24 +151,6 @@ impl ViewPanel {
             ui.radio_value(&mut self.scale, ScaleTop::Peak, "the run's peak");
             ui.radio_value(&mut self.scale, ScaleTop::Strength, "breaking strength");
         });
-    }
-}
-
-/// Where panes lie: beside one another, and one above the other from three on.
-fn places(rect: Rect, count: usize) -> Vec<Rect> {
-    let middle = rect.center();
-    let left = rect.with_max_x(middle.x - GAP / 2.0);
-    let right = rect.with_min_x(middle.x + GAP / 2.0);
-    let halves =
-        |side: Rect| [side.with_max_y(middle.y - GAP / 2.0), side.with_min_y(middle.y + GAP / 2.0)];
-    match count {
-        0 | 1 => vec![rect],
-        2 => vec![left, right],
-        3 => std::iter::once(left).chain(halves(right)).collect(),
-        _ => {
-            let ([a, c], [b, d]) = (halves(left), halves(right));
-            vec![a, b, c, d]
-        }
     }
 }
 

@@ -4,6 +4,7 @@ use egui::{Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, WidgetType
 use endline_session::live::LiveView;
 use glam::DVec2;
 
+use super::split::Pane;
 use super::{ViewPanel, hud, picking, pose, spoken};
 use crate::gui::canvas::Canvas;
 use crate::gui::desk::Desk;
@@ -14,17 +15,6 @@ use crate::scene::{Camera, Overlay, Water, overlay};
 
 /// Width from which a pane names the force of its longest arrow [points].
 const ROOMY: f32 = 480.0;
-
-/// A pane and what it shows.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Pane {
-    /// 0 for the run, 1 for the one it is compared with.
-    pub(super) run: usize,
-    /// Its eye.
-    pub(super) slot: usize,
-    /// Where it lies.
-    pub(super) rect: Rect,
-}
 
 /// Draws a pane in its place.
 pub(super) fn show(

@@ -8,7 +8,7 @@ use endline_session::live::LiveView;
 use endline_session::units::Units;
 use glam::{DVec2, DVec3};
 
-use super::pane::Pane;
+use super::split::Pane;
 use crate::gui::desk::{Desk, Order};
 use crate::gui::inspector::{Reading, measured, read};
 use crate::gui::theme::Theme;

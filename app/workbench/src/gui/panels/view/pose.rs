@@ -11,7 +11,7 @@ use endline_session::units::{Units, bearing_degrees};
 use glam::{DVec2, DVec3};
 
 use super::ViewPanel;
-use super::pane::Pane;
+use super::split::Pane;
 use crate::gui::desk::{Desk, Order};
 use crate::scene::Camera;
 
