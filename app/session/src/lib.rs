@@ -6,7 +6,8 @@
 //! | [`run`] | a model stepped through time, measured and recorded |
 //! | [`hash`] | 64 bits for each part of a state |
 //! | [`recording`] | the file of a run; running it again and comparing every step |
-//! | [`report`] | the summary of a run as JSON |
+//! | [`report`] | the summary of a run |
+//! | [`figures`] | every figure of a run, declared once; comparison of two runs |
 //! | [`settled`] | the gear at rest as JSON |
 //! | [`rest`] | one assembly alone at rest, while it is edited |
 //! | [`cases`] | validation cases run and judged |
@@ -19,10 +20,15 @@
 //!
 //! A run gives the same bits for the same source, inputs and program, whoever watches it.
 
+/// The made-up run of `figures/tests` names this crate as the tests of other crates do.
+#[cfg(test)]
+extern crate self as endline_session;
+
 pub mod cases;
 pub mod check;
 pub mod edit;
 pub mod error;
+pub mod figures;
 pub mod hash;
 mod hooks;
 pub mod live;

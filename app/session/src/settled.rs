@@ -1,10 +1,10 @@
 //! The gear at rest as JSON: schema `endline.settle/1`, with the keys of the run summary where they are the same.
 
-use endline_sim::metrics::Metrics;
+use endline_sim::metrics::{Metrics, ProbeSummary};
 use endline_sim::{Model, Settled, State};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
-use crate::report::ProbeReport;
+use crate::figures::{self, PROBE};
 use crate::source::Prepared;
 
 /// Name of the schema.
@@ -37,7 +37,8 @@ pub struct SettledShape {
     /// One for each body.
     pub bodies: Vec<BodyShape>,
     /// One for each probe.
-    pub probes: Vec<ProbeReport>,
+    #[serde(serialize_with = "as_figures")]
+    pub probes: Vec<ProbeSummary>,
 }
 
 /// A line at rest.
@@ -136,8 +137,12 @@ fn bodies(model: &Model, state: &State) -> Vec<BodyShape> {
 }
 
 /// Probes read by the metrics, so that a probe means the same at rest and in a run.
-fn probes(model: &Model, state: &State) -> Vec<ProbeReport> {
+fn probes(model: &Model, state: &State) -> Vec<ProbeSummary> {
     let mut metrics = Metrics::new(model);
     metrics.fold(model, state, &[]);
-    metrics.summary(model, state).probes.into_iter().map(ProbeReport::from).collect()
+    metrics.summary(model, state).probes
+}
+
+fn as_figures<S: Serializer>(probes: &[ProbeSummary], serializer: S) -> Result<S::Ok, S::Error> {
+    figures::list(PROBE, probes).serialize(serializer)
 }

@@ -14,8 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::locate;
-use crate::plugins::PluginHost;
-use crate::recording::PluginUsed;
+use crate::plugins::{PluginHost, PluginUsed};
 
 /// What a user may set for a run over what the scenario says.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

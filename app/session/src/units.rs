@@ -58,6 +58,8 @@ const PA_PER_PSI: f64 = 6_894.757;
 const METRES_PER_FOOT: f64 = 0.3048;
 const METRES_PER_FATHOM: f64 = 6.0 * METRES_PER_FOOT;
 const METRES_PER_INCH: f64 = METRES_PER_FOOT / 12.0;
+/// Pascals in a pound-force on a square inch.
+const PASCALS_PER_PSI: f64 = 6_894.757;
 /// A nautical mile an hour [m/s].
 const M_S_PER_KNOT: f64 = 1852.0 / 3600.0;
 
@@ -161,6 +163,15 @@ impl Units {
         format!("{:.2} {}", self.of_m_s(speed_m_s), self.speed_symbol())
     }
 
+    /// A pressure with its unit, which follows that of forces.
+    #[must_use]
+    pub fn pressure(self, pressure_pa: f64) -> String {
+        match self.force() {
+            ForceUnit::Lbf => format!("{:.1} psi", pressure_pa / PASCALS_PER_PSI),
+            ForceUnit::Newton => format!("{:.0} kPa", pressure_pa / 1000.0),
+        }
+    }
+
     /// A rope's diameter: to the nearest sixteenth of an inch, or in millimetres.
     #[must_use]
     pub fn diameter(self, diameter_m: f64) -> String {
@@ -212,6 +223,12 @@ mod tests {
             [Units::Si.length(18.288), Units::Si.speed(0.5), Units::Mixed.diameter(0.009_525)],
             ["18.3 m", "0.50 m/s", "9.5 mm"]
         );
+    }
+
+    #[test]
+    fn a_pressure_follows_the_unit_of_forces() {
+        assert_eq!(Units::Mixed.pressure(6_894.757), "1.0 psi");
+        assert_eq!(Units::Si.pressure(12_000.0), "12 kPa");
     }
 
     #[test]

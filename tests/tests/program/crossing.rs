@@ -64,24 +64,24 @@ fn a_forced_crossing_makes_a_run_invalid_and_is_told() {
         .unwrap_or_else(|error| panic!("{error}"));
 
     let forced = run(&prepared, false);
-    let report = Report::of(&forced);
+    let report = Report::from_run(&forced);
     println!("{:?} {:?}", report.audit, report.invalid_because);
     assert!(
         report.audit.tunnelled > 0,
         "the exact test along the paths finds rope that went through"
     );
     assert!(
-        !report.valid
+        !report.is_valid()
             && report.invalid_because.iter().any(|why| why.contains("rope passed through skin")),
         "{:?}",
         report.invalid_because
     );
 
     let sound = run(&prepared, true);
-    let report = Report::of(&sound);
+    let report = Report::from_run(&sound);
     println!("{:?} {:?}", report.audit, report.invalid_because);
     assert!(
-        !is_pierced(&sound) && report.valid && report.audit.tunnelled == 0,
+        !is_pierced(&sound) && report.is_valid() && report.audit.tunnelled == 0,
         "{:?}",
         report.invalid_because
     );

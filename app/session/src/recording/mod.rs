@@ -15,6 +15,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::hash::StateHash;
+use crate::plugins::PluginUsed;
 use crate::source::Source;
 
 /// Ending of recording files.
@@ -53,17 +54,6 @@ pub struct Header {
     pub unsettled: bool,
     /// Why the run stopped before its end, if it did.
     pub stopped: Option<String>,
-}
-
-/// A plugin a model runs on.
-#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub struct PluginUsed {
-    /// Id, such as `org.endline.friction.coulomb`.
-    pub id: String,
-    /// Version.
-    pub version: String,
-    /// BLAKE3 of the file it was loaded from, hexadecimal; empty where it is linked in.
-    pub file_hash: String,
 }
 
 impl Recording {

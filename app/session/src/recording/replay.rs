@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use endline_sim::{Frame, Input};
 
-use super::{PluginUsed, Recording};
+use super::Recording;
 use crate::error::Error;
 use crate::hash::{PART_NAMES, input_hash};
-use crate::plugins::PluginHost;
+use crate::plugins::{PluginHost, PluginUsed};
 use crate::run::{Run, RunOptions};
 
 /// How a recording is run again.

@@ -1,33 +1,35 @@
-//! The row of a run: what was drawn, how it ended, where rope was, what it bore.
+//! The row of a run: the figures that declare a column, and what was drawn for the encounter.
 
 use endline_sdk::BodyPart;
 
-use crate::report::{LineReport, LinkReport, RegionReport, Report, WhaleReport};
+use crate::figures::{ATTEMPT, AUDIT, Attempt, Figure, PART, Quantity, RUN, Value, WHALE, parts};
+use crate::report::Report;
 
 use super::encounter::Encounter;
 use super::open::Opened;
 use super::table::{Cell, Row};
 
-/// The row of an option in an encounter; `Err` tells why there was no run.
+/// Place of the columns of the whale's parts among the others.
+const PARTS: u16 = 200;
+
+/// A column: where it stands, its name and its value. Columns of parts stand part by part.
+type Placed = ([u16; 3], String, Cell);
+
+/// The row of an option in an encounter; `Err` says why there was no run.
 pub(super) fn row(
     opened: &Opened,
     option: usize,
     encounter: &Encounter,
     came_to: Result<&Report, &str>,
 ) -> Row {
-    let plan = &opened.options[option];
-    let mut row: Row = vec![
-        ("encounter".into(), Cell::Whole(i64::from(encounter.index))),
-        ("option".into(), Cell::Text(plan.id.clone())),
-        (
-            "replay_key".into(),
-            Cell::Text(format!("{}/{}/{}", &opened.hash[..16], encounter.index, plan.id)),
-        ),
-    ];
-    verdict(&mut row, came_to);
-    let report = came_to.ok();
-    whale(&mut row, report.and_then(|report| report.whale.as_ref()));
-    gear(&mut row, report);
+    let id = &opened.options[option].id;
+    let attempt = Attempt {
+        encounter: encounter.index,
+        option: id.clone(),
+        replay_key: format!("{}/{}/{id}", &opened.hash[..16], encounter.index),
+        fault: fault(came_to),
+    };
+    let mut row = cells(&attempt, came_to.ok());
     for drawn in &encounter.drawn {
         let cell = drawn
             .number
@@ -37,93 +39,140 @@ pub(super) fn row(
     row
 }
 
-fn verdict(row: &mut Row, came_to: Result<&Report, &str>) {
-    let report = came_to.ok();
-    let fault = match came_to {
-        Err(why) => why.to_owned(),
-        Ok(report) if report.valid => String::new(),
-        Ok(report) => report.stopped.clone().unwrap_or_else(|| fault(report)),
-    };
-    let audit = |of: fn(&Report) -> u64| {
-        Cell::Whole(report.map_or(0, |report| i64::try_from(of(report)).unwrap_or(i64::MAX)))
-    };
-    row.extend([
-        ("valid".into(), Cell::Flag(report.is_some_and(|report| report.valid))),
-        ("fault".into(), Cell::Text(fault)),
-        ("tunnelled".into(), audit(|report| report.audit.tunnelled)),
-        ("unconverged".into(), audit(|report| report.audit.unconverged)),
-        ("simulated_s".into(), Cell::Real(report.map(|report| report.simulated_s))),
-        (
-            "state_hash".into(),
-            Cell::Text(report.map(|report| report.state_hash.clone()).unwrap_or_default()),
-        ),
-    ]);
+/// Every figure with a column, in the order of the columns' places.
+fn cells(attempt: &Attempt, report: Option<&Report>) -> Row {
+    let whale = report.and_then(|report| report.summary.whale.as_ref());
+    let parts = whale.map(|whale| parts(whale, &[])).unwrap_or_default();
+    let mut columns: Vec<Placed> = placed(ATTEMPT, Some(attempt))
+        .chain(placed(RUN, report))
+        .chain(placed(AUDIT, report))
+        .chain(placed(WHALE, whale))
+        .collect();
+    for part in BodyPart::ALL {
+        let own = parts.iter().find(|own| own.summary.part == part);
+        columns.extend(placed(PART, own).map(|([place, ..], name, cell)| {
+            ([PARTS, part as u16, place], format!("{}_{name}", part.name()), cell)
+        }));
+    }
+    columns.sort_by_key(|(place, ..)| *place);
+    columns.into_iter().map(|(_, name, cell)| (name, cell)).collect()
 }
 
-fn fault(report: &Report) -> String {
+/// The figures of a list that have a column.
+fn placed<S>(figures: &'static [Figure<S>], source: Option<&S>) -> impl Iterator<Item = Placed> {
+    let column = move |figure: &Figure<S>| {
+        let column = figure.column?;
+        let value = source.map_or(Value::Absent, |source| (figure.read)(source));
+        Some(([column.place, 0, 0], column.name.to_owned(), cell(figure.quantity, value)))
+    };
+    figures.iter().filter_map(column)
+}
+
+/// A value as a cell. A column has cells of one kind, so that what is absent has a cell too.
+fn cell(quantity: Quantity, value: Value) -> Cell {
+    match (value, quantity) {
+        (Value::Number(number), _) => Cell::Real(Some(number)),
+        (Value::Whole(count), _) => Cell::Whole(i64::try_from(count).unwrap_or(i64::MAX)),
+        (Value::Flag(flag), _) => Cell::Flag(flag),
+        (Value::Text(text), _) => Cell::Text(text),
+        (_, Quantity::Count) => Cell::Whole(0),
+        (_, Quantity::Flag) => Cell::Flag(false),
+        (_, Quantity::Name) => Cell::Text("none".to_owned()),
+        (_, Quantity::Id) => Cell::Text(String::new()),
+        _ => Cell::Real(None),
+    }
+}
+
+/// Why there is no run or why it is not valid; empty where it is.
+fn fault(came_to: Result<&Report, &str>) -> String {
+    match came_to {
+        Err(why) => why.to_owned(),
+        Ok(report) if report.is_valid() => String::new(),
+        Ok(report) => report.stopped.clone().unwrap_or_else(|| crossings(report)),
+    }
+}
+
+fn crossings(report: &Report) -> String {
     format!(
         "{} crossings of rope and skin, {} numbers not finite",
         report.audit.tunnelled, report.audit.non_finite
     )
 }
 
-fn whale(row: &mut Row, whale: Option<&WhaleReport>) {
-    let real = |of: fn(&WhaleReport) -> Option<f64>| Cell::Real(whale.and_then(of));
-    row.extend([
-        ("outcome".into(), Cell::Text(whale.map_or("none", |whale| whale.outcome).to_owned())),
-        ("decided".into(), Cell::Flag(whale.is_some_and(|whale| whale.decided))),
-        ("first_contact_s".into(), real(|whale| whale.first_contact_s)),
-        ("last_contact_s".into(), real(|whale| whale.last_contact_s)),
-        ("contact_time_s".into(), real(|whale| Some(whale.contact_time_s))),
-        ("drag_added_N".into(), real(|whale| Some(whale.drag_added_N))),
-        ("trailing_m".into(), real(|whale| Some(whale.trailing_m))),
-        ("tethered_m".into(), real(|whale| Some(whale.tethered_m))),
-        (
-            "was_lodged_in_mouth".into(),
-            Cell::Flag(whale.is_some_and(|whale| whale.was_lodged_in_mouth)),
-        ),
-    ]);
-    for part in BodyPart::ALL {
-        let name = part.name();
-        let region =
-            whale.and_then(|whale| whale.regions.iter().find(|region| region.region == name));
-        let real = |of: fn(&RegionReport) -> f64| Cell::Real(region.map(of));
-        row.extend([
-            (format!("{name}_wraps"), real(|region| region.wraps)),
-            (format!("{name}_peak_wraps"), real(|region| region.peak_wraps)),
-            (format!("{name}_contact_m"), real(|region| region.contact_length_m)),
-            (format!("{name}_peak_contact_m"), real(|region| region.peak_contact_length_m)),
-            (format!("{name}_peak_normal_N"), real(|region| region.peak_normal_N)),
-        ]);
-    }
-}
+#[cfg(test)]
+mod tests {
+    use std::mem::discriminant;
 
-fn gear(row: &mut Row, report: Option<&Report>) {
-    let lines: &[LineReport] = report.map_or(&[], |report| &report.lines);
-    let links: &[LinkReport] = report.map_or(&[], |report| &report.links);
-    let tautest = lines.iter().fold(None, |most: Option<&LineReport>, line| match most {
-        Some(most) if most.peak_tension_N >= line.peak_tension_N => Some(most),
-        _ => Some(line),
-    });
-    let first = |times: &mut dyn Iterator<Item = (f64, &str)>| {
-        times.fold(None, |least: Option<(f64, String)>, (time, id)| match least {
-            Some(least) if least.0 <= time => Some(least),
-            _ => Some((time, id.to_owned())),
-        })
-    };
-    let parted_lines = lines.iter().filter_map(|line| Some((line.parted_at_s?, line.id.as_str())));
-    let parted_links = links.iter().filter_map(|link| Some((link.parted_at_s?, link.id.as_str())));
-    let parted = first(&mut parted_links.chain(parted_lines));
-    let at_links = links.iter().map(|link| link.peak_tension_N).reduce(f64::max);
-    row.extend([
-        ("peak_tension_N".into(), Cell::Real(tautest.map(|line| line.peak_tension_N))),
-        ("peak_line".into(), Cell::Text(tautest.map(|line| line.id.clone()).unwrap_or_default())),
-        ("peak_at_s".into(), Cell::Real(tautest.map(|line| line.peak_at_s))),
-        ("link_peak_N".into(), Cell::Real(at_links)),
-        (
-            "parted".into(),
-            Cell::Text(parted.as_ref().map(|(_, id)| id.clone()).unwrap_or_default()),
-        ),
-        ("parted_at_s".into(), Cell::Real(parted.map(|(time, _)| time))),
-    ]);
+    use super::*;
+    use crate::figures::tests::made_up;
+
+    /// The columns of `table.parquet` before those of what was drawn; scripts depend on them.
+    const COLUMNS: &str = "encounter option replay_key valid fault tunnelled unconverged simulated_s \
+        state_hash outcome decided first_contact_s last_contact_s contact_time_s drag_added_N \
+        trailing_m tethered_m was_lodged_in_mouth PARTS peak_tension_N peak_line peak_at_s \
+        link_peak_N parted parted_at_s";
+
+    /// The columns of each part of the whale.
+    const OF_PART: [&str; 5] =
+        ["wraps", "peak_wraps", "contact_m", "peak_contact_m", "peak_normal_N"];
+
+    fn attempt() -> Attempt {
+        Attempt {
+            encounter: 7,
+            option: "link-0600".into(),
+            replay_key: "0123/7/link-0600".into(),
+            fault: "a fault".into(),
+        }
+    }
+
+    fn names() -> Vec<String> {
+        let part = |part: BodyPart| OF_PART.map(|name| format!("{}_{name}", part.name()));
+        let column = |name: &str| match name {
+            "PARTS" => BodyPart::ALL.into_iter().flat_map(part).collect(),
+            name => vec![name.to_owned()],
+        };
+        COLUMNS.split_whitespace().flat_map(column).collect()
+    }
+
+    /// Every figure of a list with a column stands in a row under the column's name.
+    fn stands<S>(row: &Row, figures: &[Figure<S>], source: &S, before: &str) -> usize {
+        let with_column = figures.iter().filter_map(|figure| Some((figure, figure.column?)));
+        let check = |(figure, column): (&Figure<S>, crate::figures::Column)| {
+            let name = format!("{before}{}", column.name);
+            let found = row.iter().find(|(known, _)| *known == name).map(|(_, cell)| cell);
+            assert_eq!(found, Some(&cell(figure.quantity, (figure.read)(source))), "{name}");
+        };
+        with_column.map(check).count()
+    }
+
+    #[test]
+    fn a_row_has_every_column_in_order_with_the_value_of_its_figure() {
+        let report = made_up::report();
+        let whale = report.summary.whale.as_ref().unwrap();
+        let row = cells(&attempt(), Some(&report));
+        assert_eq!(row.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>(), names());
+        let mut count = stands(&row, ATTEMPT, &attempt(), "");
+        count += stands(&row, RUN, &report, "");
+        count += stands(&row, AUDIT, &report, "");
+        count += stands(&row, WHALE, whale, "");
+        for part in parts(whale, &[]) {
+            count += stands(&row, PART, &part, &format!("{}_", part.summary.part.name()));
+        }
+        assert_eq!(count, row.len(), "no column comes from elsewhere");
+    }
+
+    #[test]
+    fn a_row_without_a_run_has_the_same_columns_of_the_same_kinds() {
+        let whole = cells(&attempt(), Some(&made_up::report()));
+        let empty = cells(&attempt(), None);
+        assert_eq!(whole.len(), empty.len());
+        for ((name, whole), (other, empty)) in whole.iter().zip(&empty) {
+            assert_eq!((name, discriminant(whole)), (other, discriminant(empty)), "{name}");
+        }
+        let cell = |wanted: &str| &empty.iter().find(|(name, _)| name == wanted).unwrap().1;
+        assert_eq!(*cell("outcome"), Cell::Text("none".into()));
+        assert_eq!(*cell("valid"), Cell::Flag(false));
+        assert_eq!(*cell("peak_line"), Cell::Text(String::new()));
+        assert_eq!(*cell("head_wraps"), Cell::Real(None));
+    }
 }

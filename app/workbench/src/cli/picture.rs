@@ -80,8 +80,7 @@ pub(super) fn caption(scenario: &str) -> String {
 /// Draws the moment of the greatest tension of any line. A run without its picture is still a
 /// run: where it cannot be drawn, a note says why.
 pub(super) fn of_peak(run: &Run, report: &Report, out: &Path) {
-    let peak = report.lines.iter().max_by(|a, b| a.peak_tension_N.total_cmp(&b.peak_tension_N));
-    let peak_s = peak.map_or(0.0, |line| line.peak_at_s);
+    let peak_s = report.greatest().map_or(0.0, |line| line.peak_at_s);
     let nearest = run
         .frames()
         .iter()

@@ -90,7 +90,7 @@ fn words(run: &Run, verdict: Option<&Verdict>) -> String {
         }
         Some(Verdict::Differs { .. }) => return String::new(),
     };
-    table::summary(&Report::of(run)) + &compared
+    table::summary(&Report::from_run(run)) + &compared
 }
 
 fn json(
@@ -108,7 +108,7 @@ fn json(
         verified: verdict.map(|verdict| matches!(verdict, Verdict::Same { .. })),
         differs,
         damage: recording.damage.clone(),
-        run: Report::of(run),
+        run: Report::from_run(run),
     };
     // Structs of numbers and strings always serialise.
     serde_json::to_string(&report).unwrap_or_default() + "\n"

@@ -26,7 +26,7 @@ pub(super) fn run(args: &RunArgs, library: Option<&Path>) -> Result<ExitCode, Fa
     run.to_end(|step, steps| progress.at(step, steps));
     drop(progress);
 
-    let report = Report::of(&run);
+    let report = Report::from_run(&run);
     if let Some(folder) = &args.out {
         save(&run, &report, folder)?;
     }

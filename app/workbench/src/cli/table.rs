@@ -1,26 +1,29 @@
 //! Summaries for people: aligned columns, forces in newtons and pounds-force.
+//!
+//! Which figures are shown, and under which labels, is declared in [`endline_session::figures`].
 
 use std::fmt::Write;
 
 use endline_session::Report;
-use endline_session::report::{
-    BeatReport, LineReport, LinkReport, PhaseReport, ProbeReport, WhaleReport,
+use endline_session::figures::{
+    AUDIT, BEAT, BODY, EVENT, Figure, KINETIC, LINE, LINK, PART, PATCH, PHASE, PROBE, Quantity,
+    RUN, Value, View, WHALE, lines, parts, shown,
 };
 use endline_session::settled::SettledShape;
-
-/// Newtons in a pound-force.
-const N_PER_LBF: f64 = 4.448_221_615_260_5;
+use endline_session::units::{N_PER_LBF, Units};
+use endline_sim::metrics::WhaleSummary;
 
 /// The summary of a run.
 pub(super) fn summary(report: &Report) -> String {
+    let measured = &report.summary;
     let mut text = format!("{}\n\n", report.scenario);
     text += &head(report);
-    text += &lines(&report.lines);
-    text += &links(&report.links);
-    text += &bodies(report);
-    text += &probes(&report.probes);
-    text += &report.whale.as_ref().map(|own| whale(own, report)).unwrap_or_default();
-    text + &events(report)
+    text += &grid(LINE, &lines(measured, &report.settled_tension_n));
+    text += &grid(LINK, &measured.links);
+    text += &grid(BODY, &measured.bodies);
+    text += &grid(PROBE, &measured.probes);
+    text += &measured.whale.as_ref().map(whale).unwrap_or_default();
+    text + &grid(EVENT, &report.events)
 }
 
 /// The gear at rest.
@@ -44,7 +47,7 @@ pub(super) fn settled(shape: &SettledShape) -> String {
     text += &columns(&rows);
     let mut rows = vec![row(&["body", "east", "north", "up"])];
     rows.extend(shape.bodies.iter().map(|body| place(&body.id, body.position_m)));
-    text + &columns(&rows) + &probes(&shape.probes)
+    text + &columns(&rows) + &grid(PROBE, &shape.probes)
 }
 
 fn out_of_balance(shape: &SettledShape) -> String {
@@ -53,232 +56,74 @@ fn out_of_balance(shape: &SettledShape) -> String {
 }
 
 fn head(report: &Report) -> String {
-    let state = match &report.stopped {
+    let mut rows = vec![vec!["run".to_owned(), verdict(report)]];
+    rows.extend(pairs(RUN, report));
+    rows.extend(pairs(AUDIT, report));
+    let phases = [("approach", &report.timing.approach), ("contact", &report.timing.contact)];
+    let mut table = vec![titles("phase", PHASE)];
+    table.extend(phases.map(|(name, phase)| {
+        [name.to_owned()].into_iter().chain(cells(PHASE, phase)).collect::<Vec<_>>()
+    }));
+    columns(&rows) + &columns(&table)
+}
+
+/// How the run ended, and whether its numbers can be trusted.
+fn verdict(report: &Report) -> String {
+    match &report.stopped {
         Some(stopped) => stopped.clone(),
-        None if report.valid => "ran to its end".into(),
+        None if report.is_valid() => "ran to its end".into(),
         None => format!(
             "INVALID, ran to its end, but its numbers cannot be trusted: {}",
             report.invalid_because.join("; ")
         ),
+    }
+}
+
+fn whale(whale: &WhaleSummary) -> String {
+    let mut rows = vec![vec!["whale".to_owned()]];
+    rows.extend(pairs(WHALE, whale));
+    rows.extend(whale.beat.iter().flat_map(|beat| pairs(BEAT, beat)));
+    rows.extend(whale.kinetic.iter().flat_map(|kinetic| pairs(KINETIC, kinetic)));
+    let parts: Vec<_> =
+        parts(whale, &[]).into_iter().filter(|part| part.summary.peak_normal_n > 0.0).collect();
+    let patches: Vec<_> =
+        whale.patches.iter().filter(|patch| patch.peak_normal_n > 0.0).cloned().collect();
+    columns(&rows) + &grid(PART, &parts) + &grid(PATCH, &patches)
+}
+
+/// Labels and values of one source, a row for each figure.
+fn pairs<S>(figures: &[Figure<S>], source: &S) -> Vec<Vec<String>> {
+    let pair = |figure: &Figure<S>| {
+        vec![figure.label.to_owned(), text(figure.quantity, &(figure.read)(source))]
     };
-    let audit = &report.audit;
-    columns(&[
-        vec!["run".into(), state],
-        vec![
-            "simulated".into(),
-            format!("{:.2} s in {} steps of {} s", report.simulated_s, report.steps, report.dt_s),
-        ],
-        vec!["speed".into(), speed(report)],
-        vec![
-            "model".into(),
-            format!(
-                "{} rope nodes, {} triangles, seed {}",
-                report.nodes, report.triangles, report.seed
-            ),
-        ],
-        vec![
-            "audit".into(),
-            format!(
-                "{} tunnelled, {} ropes crossed, {} not finite, {:.2} mm deepest, {}, {} winding jumps, {} steps not converged",
-                audit.tunnelled,
-                audit.ropes_crossed,
-                audit.non_finite,
-                1e3 * audit.max_penetration_m,
-                audit.least_distance_m.map_or_else(
-                    || "never near skin".into(),
-                    |least| format!("{:.2} mm off the skin at least", 1e3 * least)
-                ),
-                audit.winding_jumps,
-                audit.unconverged
-            ),
-        ],
-        vec![
-            "solver steps".into(),
-            format!("{}, mostly limited by {}", audit.solver_steps, audit.steps_mostly_limited_by),
-        ],
-        vec!["state hash".into(), report.state_hash.clone()],
-    ])
+    shown(figures, View::Table).map(pair).collect()
 }
 
-fn speed(report: &Report) -> String {
-    let phase = |name: &str, phase: &PhaseReport| {
-        if phase.simulated_s > 0.0 {
-            format!("{name} {:.1}", phase.times_real_time)
-        } else {
-            format!("{name} none")
-        }
-    };
-    format!(
-        "{:.1} times real time ({}, {})",
-        report.times_real_time,
-        phase("approach", &report.approach),
-        phase("contact", &report.contact)
-    )
+/// A table with a row for each source and a column for each figure; nothing without sources.
+fn grid<S>(figures: &[Figure<S>], sources: &[S]) -> String {
+    let head = shown(figures, View::Table).map(|figure| figure.label.to_owned()).collect();
+    let rows = sources.iter().map(|source| cells(figures, source));
+    columns(&[head].into_iter().chain(rows).collect::<Vec<_>>())
 }
 
-fn lines(lines: &[LineReport]) -> String {
-    let mut rows = vec![row(&["line", "peak tension", "at", "settled", "parted"])];
-    for line in lines {
-        let peak_at = format!("{:.2} s", line.peak_at_s);
-        rows.push(vec![
-            line.id.clone(),
-            force(line.peak_tension_N),
-            peak_at,
-            force(line.settled_tension_N),
-            moment(line.parted_at_s),
-        ]);
+fn titles<S>(first: &str, figures: &[Figure<S>]) -> Vec<String> {
+    let labels = shown(figures, View::Table).map(|figure| figure.label.to_owned());
+    [first.to_owned()].into_iter().chain(labels).collect()
+}
+
+fn cells<S>(figures: &[Figure<S>], source: &S) -> Vec<String> {
+    let cell = |figure: &Figure<S>| text(figure.quantity, &(figure.read)(source));
+    shown(figures, View::Table).map(cell).collect()
+}
+
+/// A value in SI units; a force in pounds-force too.
+fn text(quantity: Quantity, value: &Value) -> String {
+    match (quantity, value) {
+        (_, Value::Absent) => "none".to_owned(),
+        (Quantity::Force, Value::Number(newtons)) => force(*newtons),
+        (_, Value::Measured { value, unit }) => format!("{value:.4} {unit}"),
+        _ => quantity.text(value, Units::Si),
     }
-    columns(&rows)
-}
-
-fn links(links: &[LinkReport]) -> String {
-    let mut rows = vec![row(&["weak link", "rating", "peak tension", "parted"])];
-    for link in links {
-        rows.push(vec![
-            link.id.clone(),
-            force(link.rating_N),
-            force(link.peak_tension_N),
-            moment(link.parted_at_s),
-        ]);
-    }
-    columns(&rows)
-}
-
-fn bodies(report: &Report) -> String {
-    let mut rows = vec![row(&["body", "east", "north", "up", "peak speed"])];
-    for body in &report.bodies {
-        let mut row = place(&body.id, body.position_m);
-        row.push(format!("{:.2} m/s", body.peak_speed_m_s));
-        rows.push(row);
-    }
-    columns(&rows)
-}
-
-fn probes(probes: &[ProbeReport]) -> String {
-    let mut rows = vec![row(&["probe", "final", "least", "greatest", "mean"])];
-    for probe in probes {
-        let value = |number: f64| format!("{number:.4} {}", probe.unit);
-        rows.push(vec![
-            probe.id.clone(),
-            value(probe.last),
-            value(probe.min),
-            value(probe.max),
-            value(probe.mean),
-        ]);
-    }
-    columns(&rows)
-}
-
-fn beat(beat: &BeatReport) -> String {
-    let strouhal = beat
-        .strouhal
-        .map_or_else(String::new, |strouhal| format!(", Strouhal number {strouhal:.2}"));
-    format!(
-        "{:.3} Hz, {:.2} m from top to bottom at {:.2} m/s{strouhal}",
-        beat.frequency_Hz, beat.excursion_m, beat.speed_m_s
-    )
-}
-
-fn whale(whale: &WhaleReport, report: &Report) -> String {
-    let undecided = if whale.decided { "" } else { " (undecided: the run is too short to tell)" };
-    let mut text = columns(&[
-        vec!["whale".into(), whale.outcome.replace('_', " ") + undecided],
-        vec!["first touched".into(), moment(whale.first_contact_s)],
-        vec!["rope drag".into(), force(whale.drag_added_N)],
-        vec!["hooked".into(), yes_no(whale.hooked)],
-        vec!["lodged in the mouth".into(), yes_no(whale.lodged_in_mouth)],
-        vec![
-            "trailing rope".into(),
-            format!("{:.1} m, and {:.1} m to what holds", whale.trailing_m, whale.tethered_m),
-        ],
-        vec![
-            "hangs on it".into(),
-            if whale.carried.is_empty() { "nothing".into() } else { whale.carried.join(", ") },
-        ],
-        vec![
-            "joints held at their ends".into(),
-            format!("in {} of {} steps", report.audit.postures_held, report.steps),
-        ],
-        vec!["fluke beat".into(), whale.beat.as_ref().map_or_else(|| "none".into(), beat)],
-    ]);
-    if let Some(kinetic) = &whale.kinetic {
-        text += &columns(&[
-            vec![
-                "thrust".into(),
-                format!("{}, at most {}", force(kinetic.thrust_N), force(kinetic.peak_thrust_N)),
-            ],
-            vec!["pull of rope".into(), format!("at most {}", force(kinetic.peak_rope_pull_N))],
-            vec!["power".into(), format!("{:.0} W", kinetic.power_W)],
-            vec![
-                "speed".into(),
-                format!("{:.2} m/s, {:.2} m/s lost", kinetic.speed_m_s, kinetic.speed_lost_m_s),
-            ],
-        ]);
-    }
-    let mut rows = vec![row(&[
-        "region",
-        "wraps",
-        "at most",
-        "touching",
-        "rope in contact",
-        "peak normal force",
-        "friction work",
-    ])];
-    for region in whale.regions.iter().filter(|region| region.peak_normal_N > 0.0) {
-        rows.push(vec![
-            region.region.replace('_', " "),
-            format!("{:.2}", region.wraps),
-            format!("{:.2}", region.peak_wraps),
-            format!("{:.2}", region.touching_wraps),
-            format!("{:.2} m", region.contact_length_m),
-            force(region.peak_normal_N),
-            format!("{:.1} J", region.friction_work_J),
-        ]);
-    }
-    text += &columns(&rows);
-    text + &patches(whale)
-}
-
-/// Loads on the patches that rope touched.
-fn patches(whale: &WhaleReport) -> String {
-    let mut rows = vec![row(&[
-        "patch",
-        "peak normal force",
-        "peak friction",
-        "peak tension",
-        "peak pressure",
-        "friction work",
-    ])];
-    for patch in whale.patches.iter().filter(|patch| patch.peak_normal_N > 0.0) {
-        rows.push(vec![
-            patch.patch.replace('_', " "),
-            force(patch.peak_normal_N),
-            force(patch.peak_friction_N),
-            force(patch.peak_tension_N),
-            format!("{:.3} MPa", 1e-6 * patch.peak_pressure_Pa),
-            format!("{:.1} J", patch.friction_work_J),
-        ]);
-    }
-    columns(&rows)
-}
-
-/// Everything that happened, in order.
-fn events(report: &Report) -> String {
-    let mut rows = vec![row(&["time", "event", "of", "value"])];
-    for event in &report.events {
-        let value = format!("{:.3} {}", event.value, event.unit);
-        rows.push(vec![
-            format!("{:.3} s", event.time_s),
-            event.kind.replace('_', " "),
-            event.subject.replace('_', " "),
-            value,
-        ]);
-    }
-    columns(&rows)
-}
-
-fn yes_no(yes: bool) -> String {
-    if yes { "yes" } else { "no" }.into()
 }
 
 /// A force in newtons and pounds-force.
@@ -288,10 +133,6 @@ fn force(newtons: f64) -> String {
     } else {
         "none".into()
     }
-}
-
-fn moment(time_s: Option<f64>) -> String {
-    time_s.map_or_else(|| "no".into(), |time_s| format!("{time_s:.3} s"))
 }
 
 fn place(id: &str, position_m: [f64; 3]) -> Vec<String> {
@@ -332,8 +173,48 @@ pub(super) fn columns(rows: &[Vec<String>]) -> String {
 }
 
 #[cfg(test)]
+#[path = "../../../session/src/figures/tests/made_up.rs"]
+mod made_up;
+
+#[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Each figure that the tables show stands in the text with its label and its value.
+    fn stands<S>(text: &str, figures: &[Figure<S>], source: &S) -> usize {
+        let check = |figure: &Figure<S>| {
+            assert!(text.contains(figure.label), "no `{}` in\n{text}", figure.label);
+            let value = super::text(figure.quantity, &(figure.read)(source));
+            assert!(text.contains(&value), "no `{value}` of `{}` in\n{text}", figure.key);
+        };
+        shown(figures, View::Table).map(check).count()
+    }
+
+    #[test]
+    fn every_figure_that_is_declared_for_the_tables_stands_there() {
+        let report = made_up::report();
+        let (text, measured) = (summary(&report), &report.summary);
+        let whale = measured.whale.as_ref().unwrap();
+        let mut count = stands(&text, RUN, &report) + stands(&text, AUDIT, &report);
+        for phase in [&report.timing.approach, &report.timing.contact] {
+            count += stands(&text, PHASE, phase);
+        }
+        for line in lines(measured, &report.settled_tension_n) {
+            count += stands(&text, LINE, &line);
+        }
+        measured.links.iter().for_each(|link| count += stands(&text, LINK, link));
+        measured.bodies.iter().for_each(|body| count += stands(&text, BODY, body));
+        measured.probes.iter().for_each(|probe| count += stands(&text, PROBE, probe));
+        count += stands(&text, WHALE, whale);
+        count += stands(&text, BEAT, whale.beat.as_ref().unwrap());
+        count += stands(&text, KINETIC, whale.kinetic.as_ref().unwrap());
+        for part in parts(whale, &[]) {
+            count += stands(&text, PART, &part);
+        }
+        whale.patches.iter().for_each(|patch| count += stands(&text, PATCH, patch));
+        report.events.iter().for_each(|event| count += stands(&text, EVENT, event));
+        assert!(count > 200, "{count} figures");
+    }
 
     #[test]
     fn columns_line_up_and_headings_alone_are_left_out() {

@@ -15,7 +15,7 @@ use endline_sdk::{Act, GearType};
 use endline_session::edit::Documents;
 use endline_session::edit::recovery::Autosave;
 use endline_session::live::{LiveView, RunCommand, Status};
-use endline_session::recording::PluginUsed;
+use endline_session::plugins::PluginUsed;
 use endline_session::recording::replay::check_plugins;
 use endline_session::{Error, Overrides, PluginHost, Prepared, Source};
 

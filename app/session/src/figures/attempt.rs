@@ -1,0 +1,52 @@
+//! Figures that a study adds to a run.
+
+use super::{Figure, Quantity};
+
+/// A run that a study asked for, whether or not there is one.
+#[derive(Clone, Debug)]
+pub struct Attempt {
+    /// Index of the encounter.
+    pub encounter: u32,
+    /// Id of the option.
+    pub option: String,
+    /// Key by which `endline study replay` finds it.
+    pub replay_key: String,
+    /// Why there is no run, or why it is not valid; empty where it is.
+    pub fault: String,
+}
+
+/// Figures of a run that a study asked for.
+pub static ATTEMPT: &[Figure<Attempt>] = &[
+    Figure::new(
+        "encounter",
+        "encounter",
+        "Index of the encounter.",
+        Quantity::Count,
+        |attempt: &Attempt| attempt.encounter.into(),
+    )
+    .not_in_json()
+    .column(0),
+    Figure::new("option", "option", "Id of the option.", Quantity::Id, |attempt: &Attempt| {
+        (&attempt.option).into()
+    })
+    .not_in_json()
+    .column(1),
+    Figure::new(
+        "replay_key",
+        "replay key",
+        "Study hash, encounter and option, which define the run.",
+        Quantity::Id,
+        |attempt: &Attempt| (&attempt.replay_key).into(),
+    )
+    .not_in_json()
+    .column(2),
+    Figure::new(
+        "fault",
+        "fault",
+        "Why there is no run, or why it is not valid; empty where it is.",
+        Quantity::Id,
+        |attempt: &Attempt| (&attempt.fault).into(),
+    )
+    .not_in_json()
+    .column(11),
+];

@@ -1,0 +1,151 @@
+//! The figures of two runs side by side, with their differences, as plain data.
+
+use super::View::Compare;
+use super::{
+    Figure, LINE, Line, MOMENT, PART, Part, Value, WHALE, lines as lines_of, parts as parts_of,
+    shown,
+};
+use crate::live::LiveView;
+use crate::units::Units;
+
+/// What stands in place of the difference where both runs have the same.
+pub const SAME: &str = "same";
+
+/// One figure of both runs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// What it is.
+    pub name: String,
+    /// What it means, in a sentence.
+    pub help: &'static str,
+    /// Of the run shown.
+    pub a: String,
+    /// Of the run it is compared with.
+    pub b: String,
+    /// B less A; empty where one of them has no value.
+    pub difference: String,
+}
+
+/// Rows under a head.
+pub type Group = (&'static str, Vec<Row>);
+
+/// Every figure that is compared of two runs, so far as each was run, in groups.
+#[must_use]
+pub fn groups(a: &LiveView, b: &LiveView, units: Units) -> Vec<Group> {
+    let whales = [a, b].map(|view| view.summary.as_ref()?.whale.as_ref());
+    let whale = shown(WHALE, Compare).map(|figure| row(figure, whales, units, ""));
+    let moment = shown(MOMENT, Compare).map(|figure| row(figure, [Some(a), Some(b)], units, ""));
+    let whale = if whales == [None, None] { Vec::new() } else { whale.collect() };
+    let all = [
+        ("Whale", whale),
+        ("Lines", lines([a, b], units)),
+        ("Parts of the whale", parts([a, b], units)),
+        ("At the moment shown", moment.collect()),
+    ];
+    all.into_iter().filter(|(_, rows)| !rows.is_empty()).collect()
+}
+
+/// Lines of either run by id, in the order of the first.
+fn lines(views: [&LiveView; 2], units: Units) -> Vec<Row> {
+    let own = views.map(|view| {
+        view.summary.as_ref().map(|summary| lines_of(summary, &[])).unwrap_or_default()
+    });
+    let mut ids: Vec<&String> = own[0].iter().map(|line| &line.summary.id).collect();
+    for line in &own[1] {
+        if !ids.contains(&&line.summary.id) {
+            ids.push(&line.summary.id);
+        }
+    }
+    let of_id = |lines: &'_ [Line], id: &str| lines.iter().position(|line| line.summary.id == id);
+    let rows = |id: &String| {
+        let pair = own.each_ref().map(|lines| of_id(lines, id).map(|index| &lines[index]));
+        shown(LINE, Compare).map(|figure| row(figure, pair, units, id)).collect::<Vec<_>>()
+    };
+    ids.into_iter().flat_map(rows).collect()
+}
+
+/// Parts that rope touched in either run.
+fn parts(views: [&LiveView; 2], units: Units) -> Vec<Row> {
+    let own: [Vec<Part>; 2] = views.map(|view| {
+        let whale = view.summary.as_ref().and_then(|summary| summary.whale.as_ref());
+        whale.map(|whale| parts_of(whale, &view.frame.contacts)).unwrap_or_default()
+    });
+    let count = own.iter().map(Vec::len).max().unwrap_or_default();
+    let rows = |index: usize| {
+        let pair = own.each_ref().map(|parts| parts.get(index));
+        let touched = |part: &&Part| part.summary.peak_contact_length_m > 0.0;
+        let name = pair
+            .iter()
+            .flatten()
+            .find(|part| touched(part))
+            .map(|part| part.summary.part.name().replace('_', " "));
+        let rows = |name: String| {
+            let rows = shown(PART, Compare).map(|figure| row(figure, pair, units, &name));
+            rows.collect::<Vec<_>>()
+        };
+        name.map(rows).unwrap_or_default()
+    };
+    (0..count).flat_map(rows).collect()
+}
+
+/// A figure of both runs; one of them may lack its source. `of` names the source where there are several.
+fn row<S>(figure: &Figure<S>, sources: [Option<&S>; 2], units: Units, of: &str) -> Row {
+    let [a, b] = sources.map(|source| source.map_or(Value::Absent, |source| (figure.read)(source)));
+    let comma = if of.is_empty() { "" } else { ", " };
+    let text = |value: &Value| figure.quantity.text(value, units);
+    Row {
+        name: format!("{of}{comma}{}", figure.label),
+        help: figure.help,
+        difference: difference(&a, &b, &text),
+        a: text(&a),
+        b: text(&b),
+    }
+}
+
+/// With its sign, and as a share of A where that means something.
+fn difference(a: &Value, b: &Value, text: &impl Fn(&Value) -> String) -> String {
+    let (Some(first), Some(second)) = (a.number(), b.number()) else {
+        return match (a, b) {
+            (Value::Absent, _) | (_, Value::Absent) => String::new(),
+            _ if a == b => SAME.to_owned(),
+            _ => "differs".to_owned(),
+        };
+    };
+    let by = second - first;
+    let unsigned = text(&Value::Number(by.abs()));
+    if unsigned == text(&Value::Number(0.0)) {
+        return SAME.to_owned();
+    }
+    let sign = if by < 0.0 { "−" } else { "+" };
+    let share = 100.0 * by.abs() / first.abs();
+    if share.is_finite() && share < 1000.0 {
+        format!("{sign}{unsigned} ({sign}{share:.0} %)")
+    } else {
+        format!("{sign}{unsigned}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figures::Quantity;
+
+    #[test]
+    fn differences_carry_their_sign_and_what_reads_alike_is_the_same() {
+        let text = |value: &Value| Quantity::Force.text(value, Units::Si);
+        let written = |a: Option<f64>, b: Option<f64>| difference(&a.into(), &b.into(), &text);
+        assert_eq!(written(Some(200.0), Some(250.0)), "+50.0 N (+25 %)");
+        assert_eq!(written(Some(100.0), Some(60.0)), "−40.0 N (−40 %)");
+        assert_eq!(written(Some(100.0), Some(100.03)), SAME);
+        assert_eq!(written(Some(0.0), Some(5.0)), "+5.0 N");
+        assert_eq!(written(None, Some(5.0)), "", "there is nothing to subtract from");
+        assert_eq!(text(&Value::Absent), "–");
+    }
+
+    #[test]
+    fn names_are_the_same_or_differ() {
+        let text = |value: &Value| Quantity::Name.text(value, Units::Si);
+        assert_eq!(difference(&"shed".into(), &"shed".into(), &text), SAME);
+        assert_eq!(difference(&"shed".into(), &"entangled".into(), &text), "differs");
+    }
+}

@@ -1,0 +1,132 @@
+//! What is declared of a figure.
+
+use super::{Quantity, Value};
+
+/// A view that shows some of the figures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum View {
+    /// The tables of the command line.
+    Table,
+    /// The panel Summary.
+    Summary,
+    /// The panel Entanglement.
+    Entanglement,
+    /// The comparison of two runs.
+    Compare,
+}
+
+/// The column of a figure in a study's table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Column {
+    /// Columns stand in the order of these numbers; those of parts stand together, part by part.
+    pub place: u16,
+    /// Name of the column; that of a part stands behind the part's name.
+    pub name: &'static str,
+}
+
+/// A figure of a source such as a line, a part of the whale or a run.
+#[derive(Clone, Copy, Debug)]
+pub struct Figure<S> {
+    /// Key in JSON; ends in the unit where there is one.
+    pub key: &'static str,
+    /// Label on screen and in printed tables, in lower case.
+    pub label: &'static str,
+    /// What it is, in a sentence.
+    pub help: &'static str,
+    /// What kind of quantity it is, which decides unit and format.
+    pub quantity: Quantity,
+    /// Whether the JSON summary has it.
+    pub in_json: bool,
+    /// The other views that show it.
+    pub views: &'static [View],
+    /// Its column in a study's table.
+    pub column: Option<Column>,
+    /// Whether a value other than none, zero or no asks for attention.
+    pub alarm: bool,
+    /// Reads its value.
+    pub read: fn(&S) -> Value,
+}
+
+impl<S> Figure<S> {
+    /// A figure that stands in the JSON summary alone.
+    pub(crate) const fn new(
+        key: &'static str,
+        label: &'static str,
+        help: &'static str,
+        quantity: Quantity,
+        read: fn(&S) -> Value,
+    ) -> Self {
+        Self {
+            key,
+            label,
+            help,
+            quantity,
+            in_json: true,
+            views: &[],
+            column: None,
+            alarm: false,
+            read,
+        }
+    }
+
+    /// Shown by these views too.
+    pub(crate) const fn shown(self, views: &'static [View]) -> Self {
+        Self { views, ..self }
+    }
+
+    /// In a study's table under its own key.
+    pub(crate) const fn column(self, place: u16) -> Self {
+        let name = self.key;
+        self.column_named(place, name)
+    }
+
+    /// In a study's table under another name.
+    pub(crate) const fn column_named(self, place: u16, name: &'static str) -> Self {
+        Self { column: Some(Column { place, name }), ..self }
+    }
+
+    /// Not in the JSON summary.
+    pub(crate) const fn not_in_json(self) -> Self {
+        Self { in_json: false, ..self }
+    }
+
+    /// Asks for attention where it is not none, zero or no.
+    pub(crate) const fn alarming(self) -> Self {
+        Self { alarm: true, ..self }
+    }
+
+    /// Whether a view shows it.
+    #[must_use]
+    pub fn is_in(&self, view: View) -> bool {
+        self.views.contains(&view)
+    }
+
+    /// Whether its value asks for attention.
+    #[must_use]
+    pub fn alarms(&self, source: &S) -> bool {
+        let quiet = match (self.read)(source) {
+            Value::Absent | Value::Flag(false) | Value::Whole(0) => true,
+            Value::Number(number) => number <= 0.0,
+            _ => false,
+        };
+        self.alarm && !quiet
+    }
+}
+
+/// The figures of a list that a view shows, in order.
+pub fn shown<S>(figures: &[Figure<S>], view: View) -> impl Iterator<Item = &Figure<S>> + Clone {
+    figures.iter().filter(move |figure| figure.is_in(view))
+}
+
+/// The figures of a source that stand in JSON, by key.
+#[must_use]
+pub fn object<S>(figures: &[Figure<S>], source: &S) -> Value {
+    let own = figures.iter().filter(|figure| figure.in_json);
+    Value::Group(own.map(|figure| (figure.key, (figure.read)(source))).collect())
+}
+
+/// The figures of several sources that stand in JSON.
+#[must_use]
+pub fn list<S>(figures: &[Figure<S>], sources: &[S]) -> Value {
+    Value::List(sources.iter().map(|source| object(figures, source)).collect())
+}

@@ -1,0 +1,210 @@
+//! Figures of lines, weak links, bodies and probes.
+
+use endline_sim::metrics::{BodySummary, LineSummary, LinkSummary, ProbeSummary, Summary};
+
+use super::View::{Compare, Summary as InSummary, Table};
+use super::{Figure, Quantity, Value};
+
+/// A line of a run.
+#[derive(Clone, Debug)]
+pub struct Line {
+    /// What was measured.
+    pub summary: LineSummary,
+    /// Greatest tension of any segment in the settled state [N]; `None` where it is not at hand.
+    pub settled_tension_n: Option<f64>,
+}
+
+/// The lines of a summary, with their settled tensions so far as they are given [N].
+#[must_use]
+pub fn lines(summary: &Summary, settled_tension_n: &[f64]) -> Vec<Line> {
+    let line = |(index, summary): (usize, &LineSummary)| Line {
+        summary: summary.clone(),
+        settled_tension_n: settled_tension_n.get(index).copied(),
+    };
+    summary.lines.iter().enumerate().map(line).collect()
+}
+
+/// Figures of a line.
+pub static LINE: &[Figure<Line>] = &[
+    Figure::new("id", "line", "Id of the line.", Quantity::Id, |line: &Line| {
+        (&line.summary.id).into()
+    })
+    .shown(&[Table, InSummary]),
+    Figure::new(
+        "peak_tension_N",
+        "peak tension",
+        "Greatest tension of any of its segments in any solver step.",
+        Quantity::Force,
+        |line: &Line| line.summary.peak_tension_n.into(),
+    )
+    .shown(&[Table, InSummary, Compare]),
+    Figure::new(
+        "peak_at_s",
+        "peak at",
+        "Time of the greatest tension: the end of that step.",
+        Quantity::Moment,
+        |line: &Line| line.summary.peak_at_s.into(),
+    )
+    .shown(&[Table, InSummary]),
+    Figure::new(
+        "end_a_tension_N",
+        "end A now",
+        "Tension at end A, at the joint.",
+        Quantity::Force,
+        |line: &Line| line.summary.end_a_tension_n.into(),
+    )
+    .shown(&[InSummary]),
+    Figure::new(
+        "end_b_tension_N",
+        "end B now",
+        "Tension at end B, at the joint.",
+        Quantity::Force,
+        |line: &Line| line.summary.end_b_tension_n.into(),
+    )
+    .shown(&[InSummary]),
+    Figure::new(
+        "settled_tension_N",
+        "settled",
+        "Greatest tension of any of its segments in the settled state.",
+        Quantity::Force,
+        |line: &Line| line.settled_tension_n.into(),
+    )
+    .shown(&[Table]),
+    Figure::new(
+        "parted_at_s",
+        "parted",
+        "Time at which it parted; none where it holds.",
+        Quantity::Moment,
+        |line: &Line| line.summary.parted_at_s.into(),
+    )
+    .shown(&[Table, InSummary])
+    .alarming(),
+    Figure::new(
+        "drag_N",
+        "drag of the water",
+        "Drag of the water on its rope at the end.",
+        Quantity::ForceVector,
+        |line: &Line| line.summary.drag_n.into(),
+    ),
+    Figure::new(
+        "whale_normal_N",
+        "normal force on the whale",
+        "Sum of the normal forces between it and the whale at the end.",
+        Quantity::Force,
+        |line: &Line| line.summary.whale_normal_n.into(),
+    ),
+    Figure::new(
+        "whale_friction_N",
+        "friction on the whale",
+        "Sum of the friction forces between it and the whale at the end.",
+        Quantity::Force,
+        |line: &Line| line.summary.whale_friction_n.into(),
+    ),
+];
+
+/// Figures of a weak link.
+pub static LINK: &[Figure<LinkSummary>] = &[
+    Figure::new("id", "weak link", "Id of the weak link.", Quantity::Id, |link: &LinkSummary| {
+        (&link.id).into()
+    })
+    .shown(&[Table, InSummary]),
+    Figure::new(
+        "rating_N",
+        "rating",
+        "Tension above which it parts.",
+        Quantity::Force,
+        |link: &LinkSummary| link.rating_n.into(),
+    )
+    .shown(&[Table, InSummary]),
+    Figure::new(
+        "peak_tension_N",
+        "peak tension",
+        "Greatest tension of the segment it sits in.",
+        Quantity::Force,
+        |link: &LinkSummary| link.peak_tension_n.into(),
+    )
+    .shown(&[Table, InSummary]),
+    Figure::new(
+        "parted_at_s",
+        "parted",
+        "Time at which it parted; none where it holds.",
+        Quantity::Moment,
+        |link: &LinkSummary| link.parted_at_s.into(),
+    )
+    .shown(&[Table, InSummary])
+    .alarming(),
+];
+
+/// Figures of a trap, buoy, anchor or weight.
+pub static BODY: &[Figure<BodySummary>] = &[
+    Figure::new("id", "body", "Id of the body.", Quantity::Id, |body: &BodySummary| {
+        (&body.id).into()
+    })
+    .shown(&[Table]),
+    Figure::new(
+        "position_m",
+        "place east, north, up",
+        "Place of its origin at the end.",
+        Quantity::Place,
+        |body: &BodySummary| body.position_m.into(),
+    )
+    .shown(&[Table]),
+    Figure::new(
+        "peak_speed_m_s",
+        "peak speed",
+        "Greatest speed over ground.",
+        Quantity::Speed,
+        |body: &BodySummary| body.peak_speed_m_s.into(),
+    )
+    .shown(&[Table]),
+    Figure::new(
+        "drag_N",
+        "drag of the water",
+        "Drag of the water on it at the end.",
+        Quantity::ForceVector,
+        |body: &BodySummary| body.drag_n.into(),
+    ),
+];
+
+fn measured(probe: &ProbeSummary, value: f64) -> Value {
+    Value::Measured { value, unit: probe.unit }
+}
+
+/// Figures of a probe.
+pub static PROBE: &[Figure<ProbeSummary>] = &[
+    Figure::new("id", "probe", "Id of the probe.", Quantity::Id, |probe: &ProbeSummary| {
+        (&probe.id).into()
+    })
+    .shown(&[Table]),
+    Figure::new("unit", "unit", "Unit of its readings.", Quantity::Id, |probe: &ProbeSummary| {
+        probe.unit.into()
+    }),
+    Figure::new(
+        "final",
+        "final",
+        "Reading at the end.",
+        Quantity::Measured,
+        |probe: &ProbeSummary| measured(probe, probe.last),
+    )
+    .shown(&[Table]),
+    Figure::new("min", "least", "Least reading.", Quantity::Measured, |probe: &ProbeSummary| {
+        measured(probe, probe.min)
+    })
+    .shown(&[Table]),
+    Figure::new(
+        "max",
+        "greatest",
+        "Greatest reading.",
+        Quantity::Measured,
+        |probe: &ProbeSummary| measured(probe, probe.max),
+    )
+    .shown(&[Table]),
+    Figure::new(
+        "mean",
+        "mean",
+        "Mean over time, by the trapezium rule.",
+        Quantity::Measured,
+        |probe: &ProbeSummary| measured(probe, probe.mean),
+    )
+    .shown(&[Table]),
+];

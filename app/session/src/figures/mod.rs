@@ -1,0 +1,48 @@
+//! Every figure that Endline reports of a run, declared once.
+//!
+//! A [`Figure`] has a key, a label, an explanation, a quantity, and a plain function that reads its
+//! value. Everything that shows results iterates these lists: the JSON summary, the rows of a
+//! study, the tables of the command line, the panels of the workbench, the comparison of two runs
+//! and the tables of the documents. Which of them show a figure is declared with the figure.
+//!
+//! | list | source | one for each |
+//! |---|---|---|
+//! | [`ATTEMPT`] | [`Attempt`] | run that a study asked for |
+//! | [`RUN`], [`AUDIT`], [`SETTLED`] | [`Report`](crate::Report) | run |
+//! | [`PHASE`] | [`Phase`](crate::timing::Phase) | phase of a run |
+//! | [`EVENT`] | [`Event`](endline_sim::metrics::Event) | event |
+//! | [`PLUGIN`] | [`PluginUsed`](crate::plugins::PluginUsed) | plugin of the model |
+//! | [`LINE`] | [`Line`] | line |
+//! | [`LINK`], [`BODY`], [`PROBE`] | summaries of [`endline_sim::metrics`] | weak link, body, probe |
+//! | [`WHALE`], [`BEAT`], [`KINETIC`] | summaries of [`endline_sim::metrics`] | whale |
+//! | [`PART`] | [`Part`] | part of the whale's body |
+//! | [`PATCH`] | [`PatchSummary`](endline_sim::metrics::PatchSummary) | patch of skin |
+//! | [`MOMENT`] | [`LiveView`](crate::live::LiveView) | moment shown |
+//!
+//! To add a figure: a field of the summary in `app/sim/src/metrics`, and one entry here.
+
+mod attempt;
+pub mod compare;
+mod events;
+mod figure;
+mod gear;
+mod json;
+mod moment;
+mod quantity;
+mod run;
+mod skin;
+#[cfg(test)]
+pub(crate) mod tests;
+mod value;
+mod whale;
+
+pub use attempt::{ATTEMPT, Attempt};
+pub use events::EVENT;
+pub use figure::{Column, Figure, View, list, object, shown};
+pub use gear::{BODY, LINE, LINK, Line, PROBE, lines};
+pub use moment::MOMENT;
+pub use quantity::Quantity;
+pub use run::{AUDIT, PHASE, PLUGIN, RUN, SETTLED};
+pub use skin::{PART, PATCH, Part, parts};
+pub use value::Value;
+pub use whale::{BEAT, KINETIC, WHALE};

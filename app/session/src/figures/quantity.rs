@@ -1,0 +1,136 @@
+//! Kinds of quantities: their SI units, and how a value is written for people.
+
+use super::Value;
+use crate::units::{ForceUnit, Units};
+
+/// Kind of a quantity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// A force [N].
+    Force,
+    /// A force as a vector: east, north, up [N].
+    ForceVector,
+    /// A length [m].
+    Length,
+    /// A length of millimetres [m].
+    SmallLength,
+    /// A depth of water [m].
+    Depth,
+    /// A place: east, north, up [m].
+    Place,
+    /// A moment of the run [s].
+    Moment,
+    /// A time from one moment to another [s].
+    Duration,
+    /// A step of time [s].
+    Step,
+    /// A speed [m/s].
+    Speed,
+    /// A power [W].
+    Power,
+    /// Turns of rope [turns].
+    Turns,
+    /// A pressure [Pa].
+    Pressure,
+    /// A force by length of rope [N/m].
+    LineLoad,
+    /// A work [J].
+    Work,
+    /// A frequency [Hz].
+    Frequency,
+    /// A number without a unit.
+    Number,
+    /// A number in a unit that its source declares.
+    Measured,
+    /// A whole number.
+    Count,
+    /// Yes or no.
+    Flag,
+    /// A name of the program, such as a part of the whale or an outcome, its words joined by `_`.
+    Name,
+    /// A text written as it stands, such as an id.
+    Id,
+    /// Several of those.
+    Ids,
+    /// Figures of what belongs to the source.
+    Group,
+}
+
+impl Quantity {
+    /// Its unit in JSON and in the tables of a study, or what stands there.
+    #[must_use]
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Force | Self::ForceVector => "N",
+            Self::Length | Self::SmallLength | Self::Depth | Self::Place => "m",
+            Self::Moment | Self::Duration | Self::Step => "s",
+            Self::Speed => "m/s",
+            Self::Power => "W",
+            Self::Turns => "turns",
+            Self::Pressure => "Pa",
+            Self::LineLoad => "N/m",
+            Self::Work => "J",
+            Self::Frequency => "Hz",
+            Self::Number => "1",
+            Self::Measured => "its own unit",
+            Self::Count => "count",
+            Self::Flag => "yes or no",
+            Self::Name => "name",
+            Self::Id => "text",
+            Self::Ids => "texts",
+            Self::Group => "object",
+        }
+    }
+
+    /// A value of this kind for people, in their units; a dash where there is none.
+    #[must_use]
+    pub fn text(self, value: &Value, units: Units) -> String {
+        match value {
+            Value::Absent => "–".to_owned(),
+            Value::Number(number) if !number.is_finite() => "–".to_owned(),
+            Value::Number(number) => self.number(*number, units),
+            Value::Whole(count) => count.to_string(),
+            Value::Flag(flag) => if *flag { "yes" } else { "no" }.to_owned(),
+            Value::Text(text) if self == Self::Name => text.replace('_', " "),
+            Value::Text(text) => text.clone(),
+            Value::Texts(texts) if texts.is_empty() => "none".to_owned(),
+            Value::Texts(texts) => texts.join(", "),
+            Value::Vector(vector) => vector.map(|along| self.number(along, units)).join(", "),
+            Value::Counts(counts) => {
+                let written = counts.iter().map(|(name, count)| format!("{name} {count}"));
+                written.collect::<Vec<_>>().join(", ")
+            }
+            Value::Measured { value, unit: "N" } => units.force().text(*value),
+            Value::Measured { value, unit } => format!("{value:.2} {unit}"),
+            Value::Group(_) | Value::List(_) => String::new(),
+        }
+    }
+
+    fn number(self, value: f64, units: Units) -> String {
+        match self {
+            Self::Force | Self::ForceVector => units.force().text(value),
+            Self::Length | Self::Place => units.length(value),
+            Self::SmallLength => format!("{:.2} mm", 1e3 * value),
+            Self::Depth => units.depth(value),
+            Self::Moment | Self::Duration => format!("{value:.2} s"),
+            Self::Step => format!("{value} s"),
+            Self::Speed => units.speed(value),
+            Self::Power => format!("{value:.0} W"),
+            Self::Pressure => units.pressure(value),
+            Self::LineLoad => line_load(value, units.force()),
+            Self::Work => format!("{value:.*} J", usize::from(value.abs() < 100.0)),
+            Self::Frequency => format!("{value:.3} Hz"),
+            _ => format!("{value:.2}"),
+        }
+    }
+}
+
+/// A force by length with its unit.
+fn line_load(n_per_m: f64, force: ForceUnit) -> String {
+    /// Newtons by metre in a pound-force by foot.
+    const N_M_PER_LBF_FT: f64 = 14.593_903;
+    match force {
+        ForceUnit::Lbf => format!("{:.1} lbf/ft", n_per_m / N_M_PER_LBF_FT),
+        ForceUnit::Newton => format!("{n_per_m:.0} N/m"),
+    }
+}

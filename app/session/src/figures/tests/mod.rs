@@ -1,0 +1,208 @@
+//! Each figure reads the field of its name, and stands in JSON under its key.
+//!
+//! In the made-up summary no two numbers are the same, so that a figure that reads another's field
+//! is found out.
+
+pub mod made_up;
+
+use std::fmt::Debug;
+
+use endline_sim::metrics::Summary;
+
+use super::*;
+use crate::report::Report;
+
+/// Keys whose field has another name.
+const FIELDS: [(&str, &str); 2] = [("final", "last"), ("settled", "converged")];
+
+/// Keys of a run that are not fields of its summary; tested one by one below.
+const COMPUTED: [&str; 12] = [
+    "schema",
+    "version",
+    "valid",
+    "wall_s",
+    "times_real_time",
+    "steps_mostly_limited_by",
+    "peak_tension_N",
+    "peak_line",
+    "peak_at_s",
+    "link_peak_N",
+    "parted",
+    "parted_at_s",
+];
+
+/// How Rust writes a value as a field of a structure.
+fn written(value: &Value) -> String {
+    match value {
+        Value::Number(number) | Value::Measured { value: number, .. } => format!("{number:?}"),
+        Value::Whole(count) => count.to_string(),
+        Value::Flag(flag) => flag.to_string(),
+        Value::Text(text) => format!("{text:?}"),
+        Value::Texts(texts) => format!("{texts:?}"),
+        Value::Vector([x, y, z]) => format!("DVec3({x:?}, {y:?}, {z:?})"),
+        other => format!("{other:?}"),
+    }
+}
+
+/// Each figure of a list has the value of the field of its key, and stands in JSON under that key.
+fn reads<S, D: Debug>(figures: &[Figure<S>], source: &S, data: &D, elsewhere: &[&str]) -> usize {
+    let (data, json) =
+        (format!("{data:?}"), serde_json::to_value(object(figures, source)).unwrap());
+    let mut tried = 0;
+    for figure in figures {
+        let value = (figure.read)(source);
+        assert_eq!(json.get(figure.key).is_some(), figure.in_json, "{} in JSON", figure.key);
+        if figure.in_json {
+            assert_eq!(json[figure.key], serde_json::to_value(&value).unwrap(), "{}", figure.key);
+        }
+        if figure.quantity == Quantity::Group || elsewhere.contains(&figure.key) {
+            continue;
+        }
+        let own = figure.key.to_lowercase();
+        let field =
+            FIELDS.iter().find(|(key, _)| *key == own).map_or(own.as_str(), |named| named.1);
+        let value = written(&value);
+        let found = [format!(" {field}: {value}"), format!(" {field}: Some({value})")]
+            .iter()
+            .any(|text| data.contains(text.as_str()));
+        assert!(found, "{} reads {value}, which is not `{field}` of {data}", figure.key);
+        tried += 1;
+    }
+    tried
+}
+
+#[test]
+fn every_figure_reads_the_field_of_its_key() {
+    let report = made_up::report();
+    let whale = report.summary.whale.as_ref().unwrap();
+    let (lines, parts) = (lines(&report.summary, &report.settled_tension_n), parts(whale, &[]));
+    let tried = [
+        reads(RUN, &report, &report, &COMPUTED),
+        reads(AUDIT, &report, &(&report.audit, whale), &COMPUTED),
+        reads(SETTLED, &report, &report.settled, &["wall_s"]),
+        reads(PHASE, &report.timing.contact, &report.timing.contact, &["times_real_time"]),
+        reads(LINE, &lines[1], &lines[1].summary, &["settled_tension_N"]),
+        reads(LINK, &report.summary.links[1], &report.summary.links[1], &[]),
+        reads(BODY, &report.summary.bodies[1], &report.summary.bodies[1], &[]),
+        reads(PROBE, &report.summary.probes[0], &report.summary.probes[0], &[]),
+        reads(WHALE, whale, whale, &["outcome"]),
+        reads(BEAT, whale.beat.as_ref().unwrap(), &whale.beat, &[]),
+        reads(KINETIC, whale.kinetic.as_ref().unwrap(), &whale.kinetic, &[]),
+        reads(PART, &parts[3], &parts[3].summary, &["region", "normal_now_N"]),
+        reads(PATCH, &whale.patches[5], &whale.patches[5], &["patch"]),
+        reads(EVENT, &report.events[0], &report.events[0], &["kind", "unit"]),
+        reads(PLUGIN, &report.plugins[0], &report.plugins[0], &[]),
+    ];
+    assert!(tried.iter().all(|count| *count > 0), "{tried:?}");
+    assert!(tried.iter().sum::<usize>() > 100, "{tried:?}");
+}
+
+/// The value of a key.
+fn value<S>(figures: &[Figure<S>], key: &str, source: &S) -> Value {
+    (figures.iter().find(|figure| figure.key == key).unwrap().read)(source)
+}
+
+#[test]
+fn figures_of_a_run_that_are_computed() {
+    let report = made_up::report();
+    let run = |key| value(RUN, key, &report);
+    let whole = report.timing.whole();
+    assert_eq!(run("schema"), "endline.run/1".into());
+    assert_eq!(run("version"), crate::VERSION.into());
+    assert_eq!(run("valid"), false.into());
+    assert_eq!(run("wall_s"), whole.wall_s.into());
+    assert_eq!(run("times_real_time"), whole.times_real_time().into());
+    // Numbers rise from field to field: the last line and the last link bore most, the first line parted first.
+    let (lines, links) = (&report.summary.lines, &report.summary.links);
+    assert_eq!(run("peak_tension_N"), lines[1].peak_tension_n.into());
+    assert_eq!(run("peak_line"), "endline-foot".into());
+    assert_eq!(run("peak_at_s"), lines[1].peak_at_s.into());
+    assert_eq!(run("link_peak_N"), links[1].peak_tension_n.into());
+    assert_eq!(run("parted"), "endline-top".into());
+    assert_eq!(run("parted_at_s"), lines[0].parted_at_s.into());
+    let Value::Counts(counts) = value(AUDIT, "steps_limited_by", &report) else {
+        panic!("counts by name")
+    };
+    assert_eq!(counts["snap"], report.audit.limited_by[2]);
+    let mostly = value(AUDIT, "steps_mostly_limited_by", &report);
+    assert!(matches!(mostly, Value::Text(text) if text.starts_with("forces that balance")));
+    assert_eq!(value(SETTLED, "wall_s", &report), report.timing.settle_wall_s.into());
+}
+
+#[test]
+fn figures_of_a_part_of_a_run_that_are_computed() {
+    let report = made_up::report();
+    let whale = report.summary.whale.as_ref().unwrap();
+    let lines = lines(&report.summary, &report.settled_tension_n);
+    assert_eq!(value(LINE, "settled_tension_N", &lines[1]), report.settled_tension_n[1].into());
+    assert_eq!(value(PHASE, "times_real_time", &report.timing.contact), {
+        report.timing.contact.times_real_time().into()
+    });
+    assert_eq!(value(WHALE, "outcome", whale), "parted_entangled".into());
+    assert_eq!(value(PART, "region", &parts(whale, &[])[3]), "right_flipper".into());
+    let region = whale.patches[5].region;
+    assert_eq!(value(PATCH, "patch", &whale.patches[5]), region.name().into());
+    assert_eq!(value(EVENT, "kind", &report.events[0]), "link_parted".into());
+    assert_eq!(value(EVENT, "unit", &report.events[0]), "N".into());
+}
+
+#[test]
+fn the_summary_nests_the_lists() {
+    let report = made_up::report();
+    let whale = report.summary.whale.as_ref().unwrap();
+    let json: serde_json::Value = serde_json::from_str(&report.json()).unwrap();
+    assert_eq!(json["audit"]["passes"], report.audit.passes);
+    assert_eq!(json["lines"][1]["drag_N"][2], report.summary.lines[1].drag_n.z);
+    assert_eq!(json["links"][0]["rating_N"], report.summary.links[0].rating_n);
+    assert_eq!(json["bodies"][1]["position_m"][0], report.summary.bodies[1].position_m.x);
+    assert_eq!(json["probes"][0]["final"], report.summary.probes[0].last);
+    assert_eq!(json["whale"]["regions"][6]["wraps"], whale.regions[6].wraps);
+    assert_eq!(json["whale"]["patches"][19]["friction_N"], whale.patches[19].friction_n);
+    assert_eq!(json["whale"]["beat"]["beats"], whale.beat.unwrap().beats);
+    assert_eq!(json["whale"]["kinetic"]["power_W"], whale.kinetic.unwrap().power_w);
+    assert_eq!(json["approach"]["wall_s"], report.timing.approach.wall_s);
+    assert_eq!(json["contact"]["simulated_s"], report.timing.contact.simulated_s);
+    assert_eq!(json["settled"]["residual_N"], report.settled.residual_n);
+    assert_eq!(json["events"][1]["kind"], "wrap");
+    assert_eq!(json["plugins"][0]["file_hash"], "00ff");
+    let none = Report { summary: Summary { whale: None, ..report.summary.clone() }, ..report };
+    let json: serde_json::Value = serde_json::from_str(&none.json()).unwrap();
+    assert!(json["whale"].is_null() && json["audit"]["winding_jumps"] == 0);
+}
+
+#[test]
+fn keys_are_unique_and_labels_are_lower_case() {
+    fn look<S>(figures: &[Figure<S>]) {
+        for (index, figure) in figures.iter().enumerate() {
+            let same =
+                |other: &&Figure<S>| other.key == figure.key && other.in_json == figure.in_json;
+            assert_eq!(figures[..index].iter().find(same).map(|other| other.key), None);
+            let first = figure.label.chars().next().unwrap();
+            assert!(
+                first.is_lowercase()
+                    || figure.label == "Strouhal number"
+                    || figure.label == "Newton passes",
+                "{}",
+                figure.label
+            );
+            assert!(figure.help.ends_with('.'), "{}", figure.help);
+        }
+    }
+    look(ATTEMPT);
+    look(RUN);
+    look(AUDIT);
+    look(SETTLED);
+    look(PHASE);
+    look(EVENT);
+    look(PLUGIN);
+    look(LINE);
+    look(LINK);
+    look(BODY);
+    look(PROBE);
+    look(WHALE);
+    look(BEAT);
+    look(KINETIC);
+    look(PART);
+    look(PATCH);
+    look(MOMENT);
+}

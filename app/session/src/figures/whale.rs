@@ -1,0 +1,248 @@
+//! Figures of the whale, of its fluke beat and of what a kinetic whale did.
+
+use endline_sim::metrics::{BeatSummary, KineticSummary, WhaleSummary};
+
+use super::View::{Compare, Entanglement, Summary, Table};
+use super::{Figure, PART, PATCH, Quantity, list, object, parts};
+
+/// Figures of the whale.
+pub static WHALE: &[Figure<WhaleSummary>] = &[
+    Figure::new(
+        "outcome",
+        "outcome",
+        "How the encounter ended: `no_contact`, `shed`, `entangled`, `parted_free` or \
+         `parted_entangled`.",
+        Quantity::Name,
+        |whale: &WhaleSummary| whale.outcome.name().into(),
+    )
+    .shown(&[Table, Compare])
+    .column(100),
+    Figure::new(
+        "decided",
+        "outcome is decided",
+        "Whether the run was long enough for the outcome to stand.",
+        Quantity::Flag,
+        |whale: &WhaleSummary| whale.decided.into(),
+    )
+    .shown(&[Table])
+    .column(101),
+    Figure::new(
+        "first_contact_s",
+        "first contact",
+        "Time at which rope first touched; none where it never did.",
+        Quantity::Moment,
+        |whale: &WhaleSummary| whale.first_contact_s.into(),
+    )
+    .shown(&[Table, Summary, Entanglement, Compare])
+    .column(102),
+    Figure::new(
+        "last_contact_s",
+        "last contact",
+        "Time at which rope last touched; none where it never did.",
+        Quantity::Moment,
+        |whale: &WhaleSummary| whale.last_contact_s.into(),
+    )
+    .column(103),
+    Figure::new(
+        "contact_time_s",
+        "time in contact",
+        "Time with any rope touching, in all.",
+        Quantity::Duration,
+        |whale: &WhaleSummary| whale.contact_time_s.into(),
+    )
+    .shown(&[Table, Summary, Entanglement, Compare])
+    .column(104),
+    Figure::new(
+        "regions",
+        "parts",
+        "One object for each part of the body.",
+        Quantity::Group,
+        |whale: &WhaleSummary| list(PART, &parts(whale, &[])),
+    ),
+    Figure::new(
+        "patches",
+        "patches",
+        "One object for each labelled patch of skin.",
+        Quantity::Group,
+        |whale: &WhaleSummary| list(PATCH, &whale.patches),
+    ),
+    Figure::new(
+        "hooked",
+        "hooked",
+        "Whether rope touches, and has gone half a turn or more about some part since the whale \
+         was last free.",
+        Quantity::Flag,
+        |whale: &WhaleSummary| whale.hooked.into(),
+    )
+    .shown(&[Table]),
+    Figure::new(
+        "lodged_in_mouth",
+        "lodged in the mouth",
+        "Whether rope is lodged in the mouth at the end.",
+        Quantity::Flag,
+        |whale: &WhaleSummary| whale.lodged_in_mouth.into(),
+    )
+    .shown(&[Table]),
+    Figure::new(
+        "was_lodged_in_mouth",
+        "was lodged in the mouth",
+        "Whether rope was lodged in the mouth at any time.",
+        Quantity::Flag,
+        |whale: &WhaleSummary| whale.was_lodged_in_mouth.into(),
+    )
+    .column(108),
+    Figure::new(
+        "drag_added_N",
+        "added drag",
+        "Drag of rope and gear that the whale carries, mean of the last 5 s.",
+        Quantity::Force,
+        |whale: &WhaleSummary| whale.drag_added_n.into(),
+    )
+    .shown(&[Table, Summary, Entanglement, Compare])
+    .column(105),
+    Figure::new(
+        "trailing_m",
+        "trailing rope",
+        "Length of rope from the whale to loose ends.",
+        Quantity::Length,
+        |whale: &WhaleSummary| whale.trailing_m.into(),
+    )
+    .shown(&[Table, Summary, Entanglement, Compare])
+    .column(106),
+    Figure::new(
+        "tethered_m",
+        "tethered rope",
+        "Length of rope from the whale to traps, anchors and fixtures.",
+        Quantity::Length,
+        |whale: &WhaleSummary| whale.tethered_m.into(),
+    )
+    .shown(&[Table, Entanglement, Compare])
+    .column(107),
+    Figure::new(
+        "carried",
+        "carried bodies",
+        "Ids of the traps, buoys and other bodies that hang on the whale by that rope.",
+        Quantity::Ids,
+        |whale: &WhaleSummary| (&whale.carried).into(),
+    )
+    .shown(&[Table]),
+    Figure::new(
+        "beat",
+        "fluke beat",
+        "The fluke beat, mean over all whole beats; none before a whole beat.",
+        Quantity::Group,
+        |whale: &WhaleSummary| whale.beat.as_ref().map(|beat| object(BEAT, beat)).into(),
+    ),
+    Figure::new(
+        "kinetic",
+        "kinetic whale",
+        "What a kinetic whale did; none for a kinematic one.",
+        Quantity::Group,
+        |whale: &WhaleSummary| {
+            whale.kinetic.as_ref().map(|kinetic| object(KINETIC, kinetic)).into()
+        },
+    ),
+];
+
+/// Figures of the fluke beat.
+pub static BEAT: &[Figure<BeatSummary>] = &[
+    Figure::new(
+        "beats",
+        "fluke beats",
+        "Number of whole beats.",
+        Quantity::Count,
+        |beat: &BeatSummary| beat.beats.into(),
+    )
+    .shown(&[Table]),
+    Figure::new(
+        "frequency_Hz",
+        "beat frequency",
+        "Beats divided by their time.",
+        Quantity::Frequency,
+        |beat: &BeatSummary| beat.frequency_hz.into(),
+    )
+    .shown(&[Table]),
+    Figure::new(
+        "excursion_m",
+        "beat excursion",
+        "Distance of the fluke tips from top to bottom.",
+        Quantity::Length,
+        |beat: &BeatSummary| beat.excursion_m.into(),
+    )
+    .shown(&[Table]),
+    Figure::new(
+        "speed_m_s",
+        "speed while beating",
+        "Speed through the water during the beats.",
+        Quantity::Speed,
+        |beat: &BeatSummary| beat.speed_m_s.into(),
+    )
+    .shown(&[Table]),
+    Figure::new(
+        "strouhal",
+        "Strouhal number",
+        "Frequency times excursion divided by speed; none at rest.",
+        Quantity::Number,
+        |beat: &BeatSummary| beat.strouhal.into(),
+    )
+    .shown(&[Table]),
+];
+
+/// Figures of a kinetic whale; all but the peaks are means of the last 5 s.
+pub static KINETIC: &[Figure<KineticSummary>] = &[
+    Figure::new(
+        "thrust_N",
+        "thrust",
+        "Thrust of the flukes.",
+        Quantity::Force,
+        |kinetic: &KineticSummary| kinetic.thrust_n.into(),
+    )
+    .shown(&[Table]),
+    Figure::new(
+        "power_W",
+        "power",
+        "Power put in: that of the thrust divided by the efficiency.",
+        Quantity::Power,
+        |kinetic: &KineticSummary| kinetic.power_w.into(),
+    )
+    .shown(&[Table]),
+    Figure::new(
+        "body_drag_N",
+        "drag of its own body",
+        "Drag of the whale's own body.",
+        Quantity::Force,
+        |kinetic: &KineticSummary| kinetic.body_drag_n.into(),
+    ),
+    Figure::new(
+        "speed_m_s",
+        "speed",
+        "Speed through the water.",
+        Quantity::Speed,
+        |kinetic: &KineticSummary| kinetic.speed_m_s.into(),
+    )
+    .shown(&[Table]),
+    Figure::new(
+        "speed_lost_m_s",
+        "speed lost",
+        "Speed that its motion asks for, less the speed it has.",
+        Quantity::Speed,
+        |kinetic: &KineticSummary| kinetic.speed_lost_m_s.into(),
+    )
+    .shown(&[Table]),
+    Figure::new(
+        "peak_thrust_N",
+        "peak thrust",
+        "Greatest thrust of any step.",
+        Quantity::Force,
+        |kinetic: &KineticSummary| kinetic.peak_thrust_n.into(),
+    )
+    .shown(&[Table]),
+    Figure::new(
+        "peak_rope_pull_N",
+        "peak pull of rope",
+        "Greatest pull of all rope on the whale, mean over any step.",
+        Quantity::Force,
+        |kinetic: &KineticSummary| kinetic.peak_rope_pull_n.into(),
+    )
+    .shown(&[Table]),
+];
