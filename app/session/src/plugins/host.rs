@@ -1,17 +1,15 @@
 //! The plugins of this program run, by id.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use endline_gear::{PLUGIN_FILE, Sources, TextPlugin};
 use endline_sdk::{Descriptor, FrictionModel, GearType, WhaleMotion};
 
-use super::check::Checker;
 use super::choices::Choices;
 use super::info::{Hook, Origin, PluginInfo, PluginKind, PluginProblem, Refusal};
-use super::load::Opened;
-use super::loader::Loader;
+use super::library::Opened;
 use super::{declared, guard};
 
 /// All usable plugins; each is guarded, so that bad output ends a run with the plugin's id.
@@ -28,23 +26,6 @@ impl PluginHost {
     #[must_use]
     pub fn empty() -> Self {
         Self::default()
-    }
-
-    /// Loads every library in the folders, trusting them not to crash when opened.
-    ///
-    /// A folder that does not exist is passed over. Libraries stay mapped for the life of the program.
-    #[must_use]
-    pub fn discover(folders: &[PathBuf]) -> (Self, Vec<PluginProblem>) {
-        Self::discover_checked(folders, &|_: &Path| Ok(()))
-    }
-
-    /// Loads every library in the folders that the checker lets pass.
-    #[must_use]
-    pub fn discover_checked(
-        folders: &[PathBuf],
-        checker: &Checker<'_>,
-    ) -> (Self, Vec<PluginProblem>) {
-        Loader::new(folders, Choices::everything()).load(checker)
     }
 
     /// Adds a plugin that is linked into the program.

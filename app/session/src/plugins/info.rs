@@ -1,13 +1,16 @@
 //! What is known of a plugin, and what is wrong with a file that is none.
 
 use std::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use endline_gear::TextPlugin;
 use endline_sdk::{Act, Attribute, Descriptor, FrictionModel, GearType, WhaleMotion};
 
 use super::choices::Ask;
+
+/// Lets a plugin file pass, or says why not.
+pub type Checker<'a> = dyn Fn(&Path) -> Result<(), String> + 'a;
 
 /// Which hook a plugin serves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -10,14 +10,13 @@ use std::path::{Path, PathBuf};
 
 use endline_gear::{Diagnostic, TextPlugin};
 
-use super::check::Checker;
 use super::choices::{Change, Choices};
 use super::copy::with_copy;
 use super::cut_short;
 use super::folders::copies_folder;
 use super::host::PluginHost;
-use super::info::{PluginProblem, Refusal, Standing};
-use super::load::{self, Opened};
+use super::info::{Checker, PluginProblem, Refusal, Standing};
+use super::library::{self, Opened};
 
 /// Finds, asks about, checks and opens plugins.
 pub struct Loader {
@@ -90,6 +89,25 @@ impl Loader {
     }
 }
 
+impl PluginHost {
+    /// Loads every library in the folders, trusting them not to crash when opened.
+    ///
+    /// A folder that does not exist is passed over. Libraries stay mapped for the life of the program.
+    #[must_use]
+    pub fn discover(folders: &[PathBuf]) -> (Self, Vec<PluginProblem>) {
+        Self::discover_checked(folders, &|_: &Path| Ok(()))
+    }
+
+    /// Loads every library in the folders that the checker lets pass.
+    #[must_use]
+    pub fn discover_checked(
+        folders: &[PathBuf],
+        checker: &Checker<'_>,
+    ) -> (Self, Vec<PluginProblem>) {
+        Loader::new(folders, Choices::everything()).load(checker)
+    }
+}
+
 /// The hash of a library file and its bytes, all of them.
 fn read(file: &Path) -> Result<(String, Vec<u8>), Refusal> {
     let bytes = fs::read(file).map_err(|error| {
@@ -103,7 +121,7 @@ fn read(file: &Path) -> Result<(String, Vec<u8>), Refusal> {
 }
 
 fn open_copy(file: &Path, bytes: &[u8]) -> Result<Opened, Refusal> {
-    with_copy(file, bytes, &copies_folder(), |copy| load::open(copy, file))
+    with_copy(file, bytes, &copies_folder(), |copy| library::open(copy, file))
 }
 
 /// Opens one file unasked and unchecked: the child process does.

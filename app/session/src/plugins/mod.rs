@@ -1,7 +1,7 @@
 //! Plugins: found in folders, checked in a child process, loaded, and guarded while they run.
 //!
 //! ```text
-//! folders -> files -> choices (allowed by its user) -> checker (child process) -> load (C table, from a copy)
+//! folders -> files -> choices (allowed by its user) -> checker (child process) -> library (C table, from a copy)
 //!         -> guard (finite, passive) -> PluginHost
 //! ```
 //!
@@ -17,17 +17,17 @@ mod folders;
 mod guard;
 mod host;
 mod info;
-mod load;
+mod library;
 mod loader;
 mod new;
+mod used;
 
 pub use check::trial::Finding;
-pub use check::{
-    Checker, Tried, by_child, check_here, remembering, report_here, report_of_child, try_here,
-};
+pub use check::{Tried, by_child, check_here, remembering, report_here, report_of_child, try_here};
 pub use choices::{Ask, Change, Choices};
 pub use folders::{chosen_file, default_folders, known_file, program_folder};
 pub use host::PluginHost;
-pub use info::{Hook, PluginInfo, PluginKind, PluginProblem, Standing};
+pub use info::{Checker, Hook, PluginInfo, PluginKind, PluginProblem, Standing};
 pub use loader::{Loader, file_hash};
 pub use new::{Language, Project, write_project};
+pub use used::PluginUsed;

@@ -1,8 +1,5 @@
-//! The program's side of the C table: from a library file to the traits.
-//!
-//! What can be checked of a library is checked here: ABI version, sizes, null pointers, UTF-8,
-//! counts. What cannot is whether its pointers lead where they say; that is why a new file is first
-//! opened in a child process.
+//! All unsafe code on the program's side of the plugin boundary: a library's pointers become safe
+//! values here, and its functions are called.
 #![expect(
     unsafe_code,
     reason = "one of the two sides of the plugin boundary: a library's pointers become safe values here"
@@ -15,14 +12,16 @@ use std::sync::Arc;
 
 use endline_sdk::abi::table::*;
 use endline_sdk::{
-    Act, Attribute, AttributeKind, AttributeValue, BodyKind, Contacts, Descriptor, FrictionModel,
-    FrictionResponse, GearAction, GearStep, GearType, HookError, LineEnd, MotionInput,
-    MotionOutput, Rig, RigBody, RigEnd, RigJoint, RigLine, RigLink, Site, WhaleMotion,
+    AttributeValue, Contacts, Descriptor, FrictionModel, FrictionResponse, GearAction, GearStep,
+    GearType, HookError, MotionInput, MotionOutput, Rig, Site, WhaleMotion,
 };
 use libloading::Library;
 
-use super::declared::{MOST_ACTS, MOST_ATTRIBUTES};
-use super::info::{Hook, Refusal};
+use super::super::info::{Hook, Refusal};
+use super::arguments::{raw_contacts, raw_gear_step, raw_motion_input, raw_values};
+use super::handed_over::HandedOver;
+use super::rig::{self, ReadText};
+use super::{REBUILD, TELL_AUTHOR};
 
 /// Most plugins that one library may hold; more is taken for a lie.
 const MOST_PLUGINS: u32 = 1000;
@@ -36,28 +35,19 @@ const MESSAGE_ROOM: usize = 1024;
 /// Most places along one line; more is taken for a lie.
 const MOST_PLACES: usize = 1_000_000;
 
-const REBUILD: &str = "rebuild the plugin against this version of endline-sdk or endline_plugin.h";
 const NOT_A_PLUGIN: &str = "only plugin libraries belong in this folder";
 
-/// What a library holds.
-#[derive(Clone)]
-pub(super) struct Opened {
-    /// What it says of itself: who made it, where its laws and figures come from; may be empty.
-    pub about: String,
-    /// Its plugins, and why each is not used that cannot be.
-    pub hooks: Vec<Result<Hook, Refusal>>,
-}
+/// What a library says of itself, and the descriptor of each of its plugins.
+type Contents = (String, Vec<Result<AbiPlugin, Refusal>>);
 
-/// Opens a library, which stays mapped from then on, and gives its plugins. `named` is the file that it is told as its own place,
-/// where `file` is a copy.
-pub(super) fn open(file: &Path, named: &Path) -> Result<Opened, Refusal> {
+/// Opens a library, which stays mapped from then on; `named` is the file that it is told as its own place.
+pub(super) fn open(file: &Path, named: &Path) -> Result<Contents, Refusal> {
     let entry = read_entry(find_entry(file)?)?;
     initialise(&entry, named)?;
     let (factory, plugins) = plugins_of(&entry)?;
-    Ok(Opened {
-        about: text(factory.about)?.into_owned(),
-        hooks: plugins.iter().map(|plugin| read_plugin(*plugin)).collect(),
-    })
+    // SAFETY: a descriptor begins with its size and lives as long as the library.
+    let read = |plugin: &*const AbiPlugin| unsafe { known(*plugin, "descriptor of a plugin") };
+    Ok((text(factory.about)?.into_owned(), plugins.iter().map(read).collect()))
 }
 
 fn find_entry(file: &Path) -> Result<*const AbiEntry, Refusal> {
@@ -88,37 +78,6 @@ fn read_entry(entry: *const AbiEntry) -> Result<AbiEntry, Refusal> {
     }
     // SAFETY: of this major version, so it is as long as it says.
     unsafe { known_part(entry, size, "entry") }
-}
-
-/// A struct that a library hands over. A later minor version of the ABI may have made it longer.
-trait HandedOver {
-    /// The bytes of it that every plugin of this major version has: those of its first minor version.
-    const LEAST: usize;
-}
-
-impl HandedOver for AbiEntry {
-    const LEAST: usize = size_of::<Self>();
-}
-
-impl HandedOver for AbiFactory {
-    // `about` came with 3.1.
-    const LEAST: usize = std::mem::offset_of!(Self, about);
-}
-
-impl HandedOver for AbiPlugin {
-    const LEAST: usize = size_of::<Self>();
-}
-
-impl HandedOver for AbiMotion {
-    const LEAST: usize = size_of::<Self>();
-}
-
-impl HandedOver for AbiFriction {
-    const LEAST: usize = size_of::<Self>();
-}
-
-impl HandedOver for AbiGear {
-    const LEAST: usize = size_of::<Self>();
 }
 
 /// What this program knows of a struct of a library: zero, and for a function none, where an older one lacks it.
@@ -165,9 +124,8 @@ fn initialise(entry: &AbiEntry, file: &Path) -> Result<(), Refusal> {
     let init = entry.init.ok_or_else(|| missing("function `init`"))?;
     let path = file.to_string_lossy();
     // SAFETY: called as the table says.
-    call(|message| unsafe { init(AbiText::of(&path), message) }).map_err(|error| {
-        Refusal::new(format!("does not start: {error}"), "tell the plugin's author")
-    })
+    call(|message| unsafe { init(AbiText::of(&path), message) })
+        .map_err(|error| Refusal::new(format!("does not start: {error}"), TELL_AUTHOR))
 }
 
 fn plugins_of(entry: &AbiEntry) -> Result<(AbiFactory, &'static [*const AbiPlugin]), Refusal> {
@@ -180,24 +138,14 @@ fn plugins_of(entry: &AbiEntry) -> Result<(AbiFactory, &'static [*const AbiPlugi
         )?;
         let (count, plugins) = (factory.plugin_count, factory.plugins);
         if count == 0 || count > MOST_PLUGINS || plugins.is_null() {
-            return Err(Refusal::new(
-                format!("its factory lists {count} plugins"),
-                "tell the plugin's author",
-            ));
+            return Err(Refusal::new(format!("its factory lists {count} plugins"), TELL_AUTHOR));
         }
         Ok((factory, std::slice::from_raw_parts(plugins, count as usize)))
     }
 }
 
-fn read_plugin(plugin: *const AbiPlugin) -> Result<Hook, Refusal> {
-    // SAFETY: a descriptor begins with its size and lives as long as the library.
-    let plugin = unsafe { known(plugin, "descriptor of a plugin")? };
-    let descriptor = read_descriptor(&plugin)?;
-    let id = descriptor.id.to_string();
-    read_hook(&plugin, descriptor).map_err(|refusal| Refusal { id: Some(id), ..refusal })
-}
-
-fn read_hook(plugin: &AbiPlugin, descriptor: Descriptor) -> Result<Hook, Refusal> {
+/// A plugin as its trait, by its table of functions.
+pub(super) fn hook(plugin: &AbiPlugin, descriptor: Descriptor) -> Result<Hook, Refusal> {
     Ok(match plugin.kind {
         KIND_MOTION => {
             let table: AbiMotion = read_table(plugin)?;
@@ -236,95 +184,26 @@ fn needed<F>(function: Option<F>) -> Result<F, Refusal> {
     function.ok_or_else(|| missing("table's function"))
 }
 
-fn read_descriptor(plugin: &AbiPlugin) -> Result<Descriptor, Refusal> {
-    if plugin.attribute_count > MOST_ATTRIBUTES {
-        return Err(Refusal::new(
-            format!("it declares {} attributes", plugin.attribute_count),
-            "tell the plugin's author",
-        ));
-    }
-    if plugin.act_count > MOST_ACTS {
-        return Err(Refusal::new(
-            format!("it declares {} acts", plugin.act_count),
-            "tell the plugin's author",
-        ));
-    }
+/// Attributes and acts that a plugin declares.
+pub(super) fn declarations(plugin: &AbiPlugin) -> (&[AbiAttribute], &[AbiAct]) {
     // SAFETY: attributes and acts live as long as the library.
-    let (attributes, acts) = unsafe {
+    unsafe {
         (array(plugin.attributes, plugin.attribute_count), array(plugin.acts, plugin.act_count))
-    };
-    Ok(Descriptor {
-        id: text(plugin.id)?,
-        version: text(plugin.version)?,
-        name: text(plugin.name)?,
-        help: text(plugin.help)?,
-        attributes: attributes.iter().map(read_attribute).collect::<Result<_, _>>()?,
-        state_len: plugin.state_len,
-        acts: acts.iter().map(read_act).collect::<Result<_, _>>()?,
-    })
+    }
 }
 
-fn read_act(raw: &AbiAct) -> Result<Act, Refusal> {
-    Ok(Act { id: text(raw.id)?, name: text(raw.name)?, help: text(raw.help)? })
-}
-
-fn read_attribute(raw: &AbiAttribute) -> Result<Attribute, Refusal> {
-    let kind = match raw.kind {
-        ATTRIBUTE_NUMBER => {
-            AttributeKind::Number { min: raw.least, max: raw.greatest, default: raw.default_number }
-        }
-        ATTRIBUTE_COUNT => read_count(raw)?,
-        ATTRIBUTE_CHOICE => {
-            let words =
-                text(raw.library)?.split('|').map(|word| Cow::Owned(word.to_owned())).collect();
-            AttributeKind::Choice { words, default: text(raw.default_item)? }
-        }
-        ATTRIBUTE_ITEM => {
-            AttributeKind::Item { library: text(raw.library)?, default: text(raw.default_item)? }
-        }
-        other => {
-            return Err(Refusal::new(
-                format!("it declares an attribute of unknown kind {other}"),
-                REBUILD,
-            ));
-        }
-    };
-    Ok(Attribute { key: text(raw.key)?, unit: text(raw.unit)?, help: text(raw.help)?, kind })
-}
-
-fn read_count(raw: &AbiAttribute) -> Result<AttributeKind, Refusal> {
-    let whole = |number: f64| {
-        if number.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&number) {
-            #[expect(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                reason = "looked at in the line before"
-            )]
-            return Ok(number as u32);
-        }
-        Err(Refusal::new(
-            format!("it declares a count with the figure {number}, which is no whole number"),
-            "tell the plugin's author",
-        ))
-    };
-    Ok(AttributeKind::Count {
-        min: whole(raw.least)?,
-        max: whole(raw.greatest)?,
-        default: whole(raw.default_number)?,
-    })
-}
-
-fn text(raw: AbiText) -> Result<Cow<'static, str>, Refusal> {
+/// A text of a library, copied.
+pub(super) fn text(raw: AbiText) -> Result<Cow<'static, str>, Refusal> {
     if raw.length > LONGEST_TEXT {
         return Err(Refusal::new(
             format!("one of its texts claims {} bytes", raw.length),
-            "tell the plugin's author",
+            TELL_AUTHOR,
         ));
     }
     // SAFETY: text of a descriptor lives as long as the library; it is copied all the same.
     let bytes = unsafe { array(raw.text.cast::<u8>(), raw.length) };
     let text = std::str::from_utf8(bytes)
-        .map_err(|_| Refusal::new("one of its texts is not UTF-8", "tell the plugin's author"))?;
+        .map_err(|_| Refusal::new("one of its texts is not UTF-8", TELL_AUTHOR))?;
     Ok(Cow::Owned(text.to_owned()))
 }
 
@@ -378,19 +257,7 @@ impl WhaleMotion for Loaded<Motion> {
         input: &MotionInput<'_>,
         state: &mut [f64],
     ) -> Result<MotionOutput, HookError> {
-        let raw = AbiMotionInput {
-            struct_size: size_of::<AbiMotionInput>() as u32,
-            time_s: input.time_s,
-            dt_s: input.dt_s,
-            length_m: input.length_m,
-            speed_m_s: input.speed_m_s,
-            position_m: input.position_m,
-            orientation: input.orientation,
-            controls: input.controls,
-            contact_force_n: input.contact_force_n.as_ptr(),
-            body_part_count: input.contact_force_n.len(),
-            contact_port_m: input.contact_port_m.as_ptr(),
-        };
+        let raw = raw_motion_input(input);
         let (count, floats) = (attributes.len(), state.len());
         let mut out = MotionOutput::default();
         // SAFETY: pointers and lengths of live slices.
@@ -445,46 +312,6 @@ impl FrictionModel for Loaded<Friction> {
     }
 }
 
-/// The contacts as C sees them; an error where array lengths do not agree, for C would read past them.
-fn raw_contacts(
-    contacts: &Contacts<'_>,
-    state_len: usize,
-    room: usize,
-    needed: usize,
-) -> Result<AbiContacts, HookError> {
-    let count = contacts.len();
-    let vectors =
-        [contacts.normal.len(), contacts.grain.len(), contacts.along.len(), contacts.slip_m.len()];
-    let numbers = [
-        contacts.length_m.len(),
-        contacts.coefficient.len(),
-        contacts.region.len(),
-        contacts.rope.len(),
-    ];
-    if vectors.iter().chain(&numbers).any(|length| *length != count)
-        || contacts.state.len() != count * state_len
-        || room != needed
-    {
-        return Err(HookError::new("the arrays of contacts differ in length"));
-    }
-    Ok(AbiContacts {
-        struct_size: size_of::<AbiContacts>() as u32,
-        count,
-        dt_s: contacts.dt_s,
-        normal_force_n: contacts.normal_force_n.as_ptr(),
-        normal: contacts.normal.as_ptr(),
-        grain: contacts.grain.as_ptr(),
-        along: contacts.along.as_ptr(),
-        slip_m: contacts.slip_m.as_ptr(),
-        length_m: contacts.length_m.as_ptr(),
-        coefficient: contacts.coefficient.as_ptr(),
-        region: contacts.region.as_ptr(),
-        rope: contacts.rope.as_ptr(),
-        state: contacts.state.as_ptr(),
-        state_len,
-    })
-}
-
 impl GearType for Loaded<Gear> {
     fn descriptor(&self) -> &Descriptor {
         &self.descriptor
@@ -518,15 +345,8 @@ impl GearType for Loaded<Gear> {
         actions: &mut Vec<GearAction>,
     ) -> Result<(), HookError> {
         let Some(step) = self.calls.step else { return Ok(()) };
-        let (values, floats, tensions) =
-            (raw_values(&self.descriptor, attributes), state.len(), input.end_tension_n);
-        let raw = AbiGearStep {
-            struct_size: size_of::<AbiGearStep>() as u32,
-            time_s: input.time_s,
-            dt_s: input.dt_s,
-            line_count: tensions.len(),
-            end_tension_n: tensions.as_ptr(),
-        };
+        let (values, floats) = (raw_values(&self.descriptor, attributes), state.len());
+        let raw = raw_gear_step(input);
         let host = AbiActionHost {
             struct_size: size_of::<AbiActionHost>() as u32,
             host: (&raw mut *actions).cast(),
@@ -549,28 +369,6 @@ impl GearType for Loaded<Gear> {
     }
 }
 
-fn raw_values(descriptor: &Descriptor, values: &[AttributeValue]) -> Vec<AbiValue> {
-    let is_count = |index: usize| {
-        descriptor
-            .attributes
-            .get(index)
-            .is_some_and(|known| matches!(known.kind, AttributeKind::Count { .. }))
-    };
-    let raw = |(index, value): (usize, &AttributeValue)| match value {
-        AttributeValue::Number(number) => {
-            let kind = if is_count(index) { ATTRIBUTE_COUNT } else { ATTRIBUTE_NUMBER };
-            AbiValue { kind, number: *number, item: AbiText::of("") }
-        }
-        AttributeValue::Choice(word) => {
-            AbiValue { kind: ATTRIBUTE_CHOICE, number: 0.0, item: AbiText::of(word) }
-        }
-        AttributeValue::Item(id) => {
-            AbiValue { kind: ATTRIBUTE_ITEM, number: 0.0, item: AbiText::of(id) }
-        }
-    };
-    values.iter().enumerate().map(raw).collect()
-}
-
 /// Adds a part that a plugin hands over to the rig behind `host`.
 ///
 /// # Safety
@@ -578,55 +376,32 @@ fn raw_values(descriptor: &Descriptor, values: &[AttributeValue]) -> Vec<AbiValu
 unsafe fn add<T>(
     host: *mut c_void,
     part: *const T,
-    put: impl FnOnce(&mut Rig, &T) -> Option<()>,
+    put: fn(&mut Rig, &T, ReadText) -> Option<()>,
 ) -> i32 {
     // SAFETY: the caller's promise.
     let taken = unsafe { host.cast::<Rig>().as_mut().zip(part.as_ref()) }
-        .and_then(|(rig, part)| put(rig, part));
+        .and_then(|(rig, part)| put(rig, part, owned));
     if taken.is_some() { STATUS_OK } else { STATUS_ERROR }
 }
 
 unsafe extern "C" fn add_body(host: *mut c_void, body: *const AbiBody) -> i32 {
-    let put = |rig: &mut Rig, body: &AbiBody| {
-        let kind = [BodyKind::Trap, BodyKind::Buoy, BodyKind::Anchor]
-            .into_iter()
-            .find(|kind| *kind as u32 == body.kind)?;
-        rig.bodies.push(RigBody {
-            id: owned(body.id)?,
-            kind,
-            item: owned(body.item)?,
-            position_m: body.position_m,
-        });
-        Some(())
-    };
     // SAFETY: `host` is what the table's user was handed.
-    unsafe { add(host, body, put) }
+    unsafe { add(host, body, rig::body) }
 }
 
 unsafe extern "C" fn add_joint(host: *mut c_void, joint: *const AbiJoint) -> i32 {
-    let put = |rig: &mut Rig, joint: &AbiJoint| {
-        rig.joints.push(RigJoint { id: owned(joint.id)?, position_m: joint.position_m });
-        Some(())
-    };
     // SAFETY: as in `add_body`.
-    unsafe { add(host, joint, put) }
+    unsafe { add(host, joint, rig::joint) }
 }
 
 unsafe extern "C" fn add_line(host: *mut c_void, line: *const AbiLine) -> i32 {
-    let put = |rig: &mut Rig, line: &AbiLine| {
-        let (from, to) = (rig_end(line.from)?, rig_end(line.to)?);
-        rig.lines.push(RigLine {
-            id: owned(line.id)?,
-            rope: owned(line.rope)?,
-            from,
-            to,
-            length_m: line.length_m,
-            laid_m: Vec::new(),
-        });
-        Some(())
-    };
     // SAFETY: as in `add_body`.
-    unsafe { add(host, line, put) }
+    unsafe { add(host, line, rig::line) }
+}
+
+unsafe extern "C" fn add_link(host: *mut c_void, link: *const AbiLink) -> i32 {
+    // SAFETY: as in `add_body`.
+    unsafe { add(host, link, rig::link) }
 }
 
 /// # Safety
@@ -652,24 +427,10 @@ unsafe extern "C" fn lay_line(
     }
 }
 
-unsafe extern "C" fn add_link(host: *mut c_void, link: *const AbiLink) -> i32 {
-    let put = |rig: &mut Rig, link: &AbiLink| {
-        rig.links.push(RigLink {
-            id: owned(link.id)?,
-            item: owned(link.item)?,
-            line: owned(link.line)?,
-            end: line_end(link.end)?,
-        });
-        Some(())
-    };
-    // SAFETY: as in `add_body`.
-    unsafe { add(host, link, put) }
-}
-
 /// # Safety
 /// `host` is the list of actions of [`Loaded::step`].
 unsafe extern "C" fn cut_line(host: *mut c_void, line: u32, end: u32) -> i32 {
-    let action = line_end(end).map(|end| GearAction::CutLine { line, end });
+    let action = rig::line_end(end).map(|end| GearAction::CutLine { line, end });
     // SAFETY: the caller's promise.
     unsafe { push_action(host, action) }
 }
@@ -695,18 +456,6 @@ unsafe fn push_action(host: *mut c_void, action: Option<GearAction>) -> i32 {
 
 fn owned(raw: AbiText) -> Option<String> {
     text(raw).ok().map(Cow::into_owned)
-}
-
-fn rig_end(end: AbiRigEnd) -> Option<RigEnd> {
-    match end.at {
-        AT_BODY => owned(end.id).map(RigEnd::Body),
-        AT_JOINT => owned(end.id).map(RigEnd::Joint),
-        _ => None,
-    }
-}
-
-fn line_end(end: u32) -> Option<LineEnd> {
-    [LineEnd::A, LineEnd::B].into_iter().find(|known| *known as u32 == end)
 }
 
 /// Calls a plugin with room for a message; a status other than [`STATUS_OK`] becomes an error with it.

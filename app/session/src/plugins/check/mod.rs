@@ -16,15 +16,12 @@ use endline_sdk::abi::table::{ABI_MAJOR, ABI_MINOR};
 
 use super::choices::Choices;
 use super::host::PluginHost;
-use super::info::PluginInfo;
+use super::info::{Checker, PluginInfo};
 use super::loader::{open_folder, open_here};
 use trial::Finding;
 
 mod report;
 pub mod trial;
-
-/// Lets a file pass, or says why not.
-pub type Checker<'a> = dyn Fn(&Path) -> Result<(), String> + 'a;
 
 /// How much of what a child says is kept [bytes]; the verdict is the last line of its standard error.
 const MOST_SAID: u64 = 65_536;
