@@ -4,12 +4,16 @@ use endline_gear::{Case, Check, Measure};
 
 use crate::error::Error;
 
-use super::judge::{Scale, begin, of_table, probes};
 use super::observe::Observed;
 use super::outcome::Curve;
+use super::reference::{Reference, begin, of_table, probes};
 
 /// The probes that the checks compare, over time, each once; none of gear at rest.
-pub(super) fn of(scale: &Scale<'_>, case: &Case, base: &Observed) -> Result<Vec<Curve>, Error> {
+pub(super) fn of(
+    reference: &Reference<'_>,
+    case: &Case,
+    base: &Observed,
+) -> Result<Vec<Curve>, Error> {
     let mut curves: Vec<Curve> = Vec::new();
     if base.trace.0.is_empty() {
         return Ok(curves);
@@ -19,11 +23,11 @@ pub(super) fn of(scale: &Scale<'_>, case: &Case, base: &Observed) -> Result<Vec<
             if curves.iter().any(|curve| curve.probe == name.value) {
                 continue;
             }
-            let probe = scale.probe(&name.value);
+            let probe = reference.probe(&name.value);
             let expected = if of_table(&check.measure) {
                 base.times_s
                     .iter()
-                    .zip(scale.column(&name.value)?)
+                    .zip(reference.column(&name.value)?)
                     .map(|(time, reading)| [*time, reading])
                     .collect()
             } else {
@@ -31,7 +35,7 @@ pub(super) fn of(scale: &Scale<'_>, case: &Case, base: &Observed) -> Result<Vec<
             };
             curves.push(Curve {
                 probe: name.value.clone(),
-                unit: scale.unit(&name.value),
+                unit: reference.unit(&name.value),
                 times_s: base.trace.0.clone(),
                 got: base.trace.1[probe].clone(),
                 expected,

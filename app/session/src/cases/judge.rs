@@ -2,7 +2,6 @@
 
 use endline_gear::{At, Case, Check, Diagnostic, Measure, Samples, Table};
 use endline_sim::Model;
-use endline_sim::metrics::unit;
 
 use crate::error::Error;
 
@@ -10,6 +9,7 @@ use super::Finer;
 use super::curves;
 use super::observe::Observed;
 use super::outcome::{Convergence, Outcome, Verdict, error};
+use super::reference::{Reference, begin, of_table, probes};
 use super::setup::Setup;
 
 /// Readings nearer than this share of their size are the same: no order can be told from them.
@@ -47,28 +47,6 @@ pub(super) fn check_names(case: &Case, model: &Model, table: Option<&Table>) -> 
     if problems.is_empty() { Ok(()) } else { Err(Error::Diagnostics(problems)) }
 }
 
-/// The probes a measure reads.
-pub(super) fn probes(measure: &Measure) -> Vec<&At<String>> {
-    match measure {
-        Measure::Distance(points) => points.iter().flatten().collect(),
-        Measure::Series(probes) => probes.iter().collect(),
-        Measure::Peak(of)
-        | Measure::Value(of, _)
-        | Measure::Greatest(of, _)
-        | Measure::Mean { of, .. }
-        | Measure::Rate { of, .. } => {
-            vec![of]
-        }
-        Measure::Gain(of, over) | Measure::Loss(of, over) => vec![of, over],
-        Measure::Sums | Measure::Slope(..) | Measure::Fall { .. } => Vec::new(),
-    }
-}
-
-/// Whether a measure compares with the table's columns.
-pub(super) fn of_table(measure: &Measure) -> bool {
-    matches!(measure, Measure::Distance(_) | Measure::Series(_) | Measure::Peak(_))
-}
-
 /// The verdicts of a case, with what halving came to.
 pub(super) fn outcome(
     case: &Case,
@@ -77,10 +55,10 @@ pub(super) fn outcome(
     base: &Observed,
     finer: &Finer,
 ) -> Result<Outcome, Error> {
-    let scale = Scale { model: &setup.model, table };
+    let reference = Reference { model: &setup.model, table };
     let mut verdicts = Vec::new();
     for check in &case.checks {
-        let measured = scale.measure(check, base)?;
+        let measured = reference.measure(check, base)?;
         let mut verdict = Verdict::new(
             check.name.clone(),
             measured.unit,
@@ -88,18 +66,12 @@ pub(super) fn outcome(
             measured.got,
             check.limit,
         );
-        verdict.step = scale.convergence(check, base, finer.step.as_ref())?;
-        verdict.segment = scale.convergence(check, base, finer.segment.as_ref())?;
+        verdict.step = reference.convergence(check, base, finer.step.as_ref())?;
+        verdict.segment = reference.convergence(check, base, finer.segment.as_ref())?;
         verdicts.push(verdict);
     }
-    let curves = curves::of(&scale, case, base)?;
+    let curves = curves::of(&reference, case, base)?;
     Ok(Outcome { curves, ..Outcome::begin(case, setup) }.judged(verdicts))
-}
-
-/// What readings are held against.
-pub(super) struct Scale<'a> {
-    model: &'a Model,
-    table: Option<&'a Table>,
 }
 
 /// A measure taken.
@@ -111,20 +83,7 @@ struct Measured {
     readings: Vec<f64>,
 }
 
-impl Scale<'_> {
-    pub fn probe(&self, name: &str) -> usize {
-        // Names were checked before the run.
-        self.model.spec.probes.iter().position(|probe| probe.id == name).unwrap_or_default()
-    }
-
-    pub fn unit(&self, name: &str) -> &'static str {
-        self.model.spec.probes.get(self.probe(name)).map_or("", |probe| unit(probe.target))
-    }
-
-    pub fn column(&self, name: &str) -> Result<Vec<f64>, Error> {
-        self.table.map_or(Ok(Vec::new()), |table| table.column(name).map_err(Error::from))
-    }
-
+impl Reference<'_> {
     fn measure(&self, check: &Check, observed: &Observed) -> Result<Measured, Error> {
         let readings = |name: &At<String>| &observed.samples[self.probe(&name.value)];
         let scalar = |unit, expected, got| Measured { unit, expected, got, readings: vec![got] };
@@ -239,11 +198,6 @@ fn rate(times_s: &[f64], readings: &[f64], from_s: f64) -> f64 {
     let (times_s, readings) =
         (times_s.get(begin..).unwrap_or_default(), readings.get(begin..).unwrap_or_default());
     (last(readings) - first(readings)) / (last(times_s) - first(times_s))
-}
-
-/// Number of the first sample at or after a time.
-pub(super) fn begin(times_s: &[f64], from_s: f64) -> usize {
-    times_s.iter().position(|time| *time >= from_s - 1e-9).unwrap_or(times_s.len())
 }
 
 /// Unit of a rate.

@@ -9,6 +9,7 @@ mod curves;
 mod judge;
 mod observe;
 mod outcome;
+mod reference;
 mod rows;
 mod setup;
 pub mod words;

@@ -5,13 +5,13 @@
 
 mod command;
 mod envelope;
-mod film;
+mod frame_history;
 mod history;
 mod pace;
 mod series;
 #[cfg(test)]
 mod tests;
-mod work;
+mod worker;
 
 use std::sync::mpsc::{SyncSender, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -99,7 +99,7 @@ impl LiveView {
     /// What is to see before anything is settled: the gear as first guessed.
     #[must_use]
     pub fn before(prepared: &Prepared) -> Self {
-        work::first_view(prepared)
+        worker::first_view(prepared)
     }
 }
 
@@ -123,11 +123,11 @@ impl Live {
         on_view: impl Fn() + Send + 'static,
     ) -> std::io::Result<Self> {
         let (sender, receiver) = sync_channel(QUEUE);
-        let view = Arc::new(Mutex::new(Arc::new(work::first_view(&prepared))));
-        let screen = work::Screen { view: Arc::clone(&view), on_view: Box::new(on_view) };
+        let view = Arc::new(Mutex::new(Arc::new(worker::first_view(&prepared))));
+        let screen = worker::Screen { view: Arc::clone(&view), on_view: Box::new(on_view) };
         let thread = std::thread::Builder::new()
             .name("endline-run".into())
-            .spawn(move || work::work(prepared, &host, options, &receiver, &screen))?;
+            .spawn(move || worker::work(prepared, &host, options, &receiver, &screen))?;
         Ok(Self { commands: Some(sender), view, thread: Some(thread) })
     }
 

@@ -1,6 +1,6 @@
 //! Runs begun midway: options that differ in strengths alone part ways only when the first of their strengths is passed.
 //!
-//! While a run goes on, it is seen whether the options that wait for it would still have the same one (`same.rs`). Where one
+//! While a run goes on, it is seen whether the options that wait for it would still have the same one (`equivalence.rs`). Where one
 //! would no longer, the moment of the look before is kept for it: its own run goes on from there.
 
 use std::cell::OnceCell;
@@ -10,9 +10,9 @@ use endline_sim::metrics::Summary;
 use crate::run::{Moment, Run};
 use crate::source::Prepared;
 
+use super::equivalence::{same_so_far, same_until_parting, surely_same_run};
 use super::open::Opened;
 use super::ready::Ready;
-use super::same::{same_so_far, same_until_parting, surely_same_run};
 
 /// The options that wait for a run, and where each of them parts ways with it.
 pub(super) struct Watch<'a> {

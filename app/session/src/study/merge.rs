@@ -3,10 +3,10 @@
 use crate::error::Error;
 use crate::save;
 
-use super::batch::Shard;
 use super::folder::Folder;
 use super::open::Opened;
 use super::parquet;
+use super::shard::Shard;
 use super::stats::is_narrow;
 use super::table::Table;
 

@@ -3,27 +3,46 @@
 //! ```text
 //! study file -> options (edited scenarios) x encounters (draws) -> runs -> rows -> blocks on disk -> table -> statistics -> report
 //! ```
+//! An option of the study's file goes through these files:
+//!
+//! | file | what |
+//! |---|---|
+//! | `open` | the study read, each option planned and checked |
+//! | `plan` | an option as an edited scenario and library |
+//! | `draw`, `priors` | what is drawn for an encounter, and the fields that it sets |
+//! | `aim`, `equilibria` | gear at rest in the sea of an encounter, and the rope that the whale is aimed at |
+//! | `prepare` | plan, draws and aim together, assembled |
+//! | `play`, `equivalence`, `branch` | the run, or the run that another option has already |
+//! | `row` | the run's figures |
+//!
 //! Run `i` of an option is defined by the study's hash and `i`. Blocks of encounters are written whole or not at all, so
 //! a study that was killed goes on where it stood, on one machine or on many, and the merged table has the same bytes.
 //! How to use it and what its numbers do not say: `docs/studies.md`.
 
+mod aim;
 pub mod batch;
 mod branch;
 pub mod draw;
 pub mod encounter;
+mod equilibria;
+mod equivalence;
 pub mod folder;
 pub mod merge;
 mod open;
 mod parquet;
+mod plan;
 mod play;
+mod prepare;
+mod priors;
 mod ready;
 pub mod report;
-mod rest;
 mod row;
-mod same;
+mod shard;
 pub mod stats;
 pub mod table;
 
-pub use open::{Opened, OptionPlan};
+pub use open::Opened;
+pub use plan::OptionPlan;
 pub use play::{Played, REPLAY_HZ};
+pub use shard::Shard;
 pub use table::{Cell, Column, Row, Table};

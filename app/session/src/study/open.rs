@@ -1,19 +1,17 @@
-//! A study opened: its file, the baseline scenario and library, and each option as an edited copy of them.
+//! A study opened: its file, the baseline scenario and library, and the plan of each option.
 
 use std::path::{Path, PathBuf};
 
-use endline_gear::{
-    Diagnostic, Document, EditError, Library, OptionSetting, Sources, Study, StudyOption, hint,
-};
+use endline_gear::{Library, Sources, Study, hint};
 
 use crate::error::Error;
 use crate::locate;
 use crate::plugins::PluginHost;
-use crate::source::{Overrides, Prepared, Source};
 
-use super::draw;
-use super::rest::Rests;
-use super::same;
+use super::equilibria::Equilibria;
+use super::equivalence;
+use super::plan::{Base, OptionPlan};
+use super::priors::field_of;
 
 /// A study ready to run.
 pub struct Opened {
@@ -31,33 +29,9 @@ pub struct Opened {
     pub(super) library: Library,
     /// The library's files, before anything is set.
     pub(super) sources: Sources,
-    pub(super) rests: Rests,
+    pub(super) equilibria: Equilibria,
     /// By option: the first option it differs from in strengths alone.
     pub(super) families: Vec<usize>,
-}
-
-/// An option as a scenario and a library.
-pub struct OptionPlan {
-    /// Id.
-    pub id: String,
-    /// Name shown to the user.
-    pub name: String,
-    /// Strength it stands for [N].
-    pub strength_n: Option<f64>,
-    /// Which curve of break-away against strength it belongs to.
-    pub curve: Option<String>,
-    /// Paths of all it sets, of scenario and library.
-    pub(super) own: Vec<String>,
-    /// The same with what they are set to, as a file has it.
-    pub(super) sets: Vec<(String, String)>,
-    pub(super) settings: Vec<OptionSetting>,
-    pub(super) removes: Vec<String>,
-    /// The baseline scenario, before anything is set.
-    pub(super) scenario: Document,
-    pub(super) scenario_name: String,
-    pub(super) sources: Sources,
-    /// The option as it stands, for its library files and its plugins.
-    pub prepared: Prepared,
 }
 
 impl Opened {
@@ -108,7 +82,7 @@ impl Opened {
             host: host.clone(),
             library: Library::read(&sources).0,
             sources,
-            rests: Rests::default(),
+            equilibria: Equilibria::default(),
             families,
             study,
         })
@@ -145,17 +119,12 @@ impl Opened {
     }
 }
 
-/// Paths of all an option sets.
-fn own(option: &StudyOption) -> Vec<String> {
-    option.settings.iter().map(|setting| setting.field.value.clone()).collect()
-}
-
 /// By option: the first that it differs from in strengths alone, most often itself.
 fn families(study: &Study, options: &[OptionPlan]) -> Vec<usize> {
-    let drawn: Vec<&str> = study.priors.iter().map(super::encounter::field_of).collect();
+    let drawn: Vec<&str> = study.priors.iter().map(field_of).collect();
     let first = |option: usize| {
         (0..option)
-            .find(|other| same::family(&options[option], &options[*other], &drawn))
+            .find(|other| equivalence::family(&options[option], &options[*other], &drawn))
             .unwrap_or(option)
     };
     (0..options.len()).map(first).collect()
@@ -184,146 +153,6 @@ fn scenario(study: &Study, path: &Path, root: &Path) -> Result<(PathBuf, String)
         ])
     })?;
     Ok((file, text))
-}
-
-/// What options are differences from.
-struct Base<'a> {
-    study: &'a Study,
-    name: String,
-    text: String,
-    sources: &'a Sources,
-    host: &'a PluginHost,
-}
-
-impl Base<'_> {
-    fn option(&self, option: &StudyOption) -> Result<OptionPlan, Error> {
-        let scenario = Document::parse(&self.text)
-            .map_err(|error| Error::Replay(format!("{}: {}", self.name, error.message)))?;
-        let mut sources = self.sources.clone();
-        let mut edited = scenario.clone();
-        self.put(option, &mut edited, &mut sources)?;
-        let prepared = self.prepare(option, &edited, &sources)?;
-        let settings = option
-            .settings
-            .iter()
-            .filter(|setting| setting.library_field().is_none())
-            .cloned()
-            .collect();
-        Ok(OptionPlan {
-            id: option.id.value.clone(),
-            name: option.name.clone(),
-            strength_n: option.strength_n,
-            curve: option.curve.clone(),
-            own: own(option),
-            sets: option
-                .settings
-                .iter()
-                .map(|setting| (setting.field.value.clone(), setting.value.written()))
-                .collect(),
-            settings,
-            removes: option.removes.iter().map(|field| field.value.clone()).collect(),
-            scenario,
-            scenario_name: self.name.clone(),
-            sources,
-            prepared,
-        })
-    }
-
-    fn put(
-        &self,
-        option: &StudyOption,
-        scenario: &mut Document,
-        sources: &mut Sources,
-    ) -> Result<(), Error> {
-        let told = |field: &endline_gear::At<String>, error: EditError, help: &str| {
-            Error::Diagnostics(vec![field.place.error(error.message, help)])
-        };
-        for field in &option.removes {
-            scenario
-                .remove(&field.value)
-                .map_err(|error| told(field, error, "name a field of the baseline scenario"))?;
-        }
-        for setting in &option.settings {
-            let Some((file, field)) = setting.library_field() else {
-                let help = "name a field of the scenario by its dotted path, such as gear.0.attributes.buoy";
-                scenario
-                    .put(&setting.field.value, &setting.value)
-                    .map_err(|error| told(&setting.field, error, help))?;
-                continue;
-            };
-            let Some(text) = sources.get(&file) else {
-                let known: Vec<&str> = sources.iter().map(|(path, _)| path).collect();
-                return Err(Error::Diagnostics(vec![
-                    setting
-                        .field
-                        .place
-                        .error(format!("the library has no file {file}"), hint(&file, known)),
-                ]));
-            };
-            let mut item =
-                Document::parse(text).map_err(|error| told(&setting.field, error, ""))?;
-            item.put(field, &setting.value)
-                .map_err(|error| told(&setting.field, error, "name a field of the item"))?;
-            let text = item.text();
-            sources.set(file, text);
-        }
-        Ok(())
-    }
-
-    /// The option assembled as it stands; a fault that one of its settings brought in is told at that setting.
-    fn prepare(
-        &self,
-        option: &StudyOption,
-        scenario: &Document,
-        sources: &Sources,
-    ) -> Result<Prepared, Error> {
-        // What is drawn stands in the place of what the option leaves open, so that drawn values are checked too.
-        let mut text = scenario.clone();
-        let drawn = draw::draw(&self.study.priors, self.study.seed, 0);
-        let mut sources = sources.clone();
-        super::encounter::put_drawn(
-            &mut text,
-            &mut sources,
-            &self.study.priors,
-            &drawn,
-            &own(option),
-        )?;
-        let source = Source {
-            scenario_name: self.name.clone(),
-            scenario: text.text(),
-            library: sources,
-            overrides: Overrides::default(),
-        };
-        source.prepare(self.host).map_err(|error| match error {
-            Error::Diagnostics(problems) => Error::Diagnostics(
-                problems.into_iter().map(|problem| self.relocate(option, problem)).collect(),
-            ),
-            error => error,
-        })
-    }
-
-    fn relocate(&self, option: &StudyOption, problem: Diagnostic) -> Diagnostic {
-        let leads_to = |field: &str| {
-            !problem.field.is_empty()
-                && (field == problem.field || field.starts_with(&format!("{}.", problem.field)))
-        };
-        let by_option = option.settings.iter().find(|setting| {
-            let field =
-                setting.library_field().map_or(setting.field.value.as_str(), |(_, field)| field);
-            leads_to(field)
-        });
-        let by_prior =
-            self.study.priors.iter().find(|prior| leads_to(super::encounter::field_of(prior)));
-        let place = by_option
-            .map(|setting| &setting.field.place)
-            .or(by_prior.map(|prior| &prior.name.place));
-        place.map_or(problem.clone(), |place| {
-            place.error(
-                format!("option `{}`: {}", option.id.value, problem.message),
-                problem.help.clone(),
-            )
-        })
-    }
 }
 
 /// BLAKE3 of what defines the runs.

@@ -11,11 +11,11 @@ use crate::source::Prepared;
 
 use super::branch::{self, Watch};
 use super::encounter::Encounter;
+use super::equilibria::fitted;
+use super::equivalence::{least_strength_n, same_run};
 use super::open::Opened;
 use super::ready::Ready;
-use super::rest::fitted;
 use super::row::row;
-use super::same::{least_strength_n, same_run};
 use super::table::Row;
 
 /// How often a run is asked whether it is over [Hz].
@@ -91,7 +91,7 @@ impl Opened {
         Ok(Came {
             option,
             summary: run.summary(),
-            report: Report::of(&run),
+            report: Report::from_run(&run),
             parted: watch.parted,
             run,
         })
@@ -120,7 +120,7 @@ impl Opened {
     ) -> Result<Played, Error> {
         let mut run = self.begin(option, encounter, self.prepare(option, encounter)?, frames_hz)?;
         self.to_its_end(&mut run, |_| {});
-        let report = Report::of(&run);
+        let report = Report::from_run(&run);
         Ok(Played { run, report })
     }
 
@@ -132,8 +132,8 @@ impl Opened {
         prepared: Prepared,
         frames_hz: f64,
     ) -> Result<Run, Error> {
-        let rest = self.rest(option, encounter)?;
-        let settled = fitted(&rest, &prepared.model);
+        let equilibrium = self.equilibrium(option, encounter)?;
+        let settled = fitted(&equilibrium, &prepared.model);
         if !settled.converged {
             return Err(Error::Unsettled { why: settled.why(), passes: settled.trace_n.len() });
         }

@@ -29,7 +29,7 @@ pub use tensions::Tensions;
 
 use endline_gear::Event;
 
-use super::open::OptionPlan;
+use super::plan::OptionPlan;
 use super::table::Table;
 
 /// Whether the interval of an event's rate is narrower than `width` in every option.

@@ -11,12 +11,12 @@ use endline_sim::metrics::{LinkSummary, Summary};
 use endline_sim::model::{FrictionLaw, Line, Link, Rope, Whale};
 use endline_sim::{Model, ModelSpec};
 
-use super::open::OptionPlan;
+use super::plan::OptionPlan;
 
 /// Share of a strength up to which tensions count as below it, with fixed steps.
 const MARGIN: f64 = 0.99;
 
-/// The same with steps that follow their error.
+/// Share of a strength up to which tensions count as below it, with steps that follow their error.
 const PACED_MARGIN: f64 = 0.7;
 
 fn margin(spec: &ModelSpec) -> f64 {
@@ -28,7 +28,7 @@ pub(super) fn same_run(model: &Model, other: &Model, summary: &Summary) -> bool 
     same_so_far(model, summary) && same_until_parting(model, other)
 }
 
-/// The same where it is known that the two differ in strengths alone.
+/// Whether two models that are known to differ in strengths alone have the same run, which came to `summary`.
 pub(super) fn same_so_far(model: &Model, summary: &Summary) -> bool {
     nothing_parted(summary) && holds(&model.spec, summary, margin(&model.spec))
 }

@@ -2,7 +2,7 @@
 
 #![deny(clippy::wildcard_enum_match_arm, reason = "each command must be dispatched")]
 
-mod again;
+mod rerun;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -14,7 +14,7 @@ use endline_sdk::Controls;
 use endline_sim::{Audit, Frame, State};
 
 use super::envelope::Envelope;
-use super::film::Film;
+use super::frame_history::FrameHistory;
 use super::history::Watch;
 use super::pace::Pace;
 use super::series::Series;
@@ -23,7 +23,7 @@ use crate::error::Error;
 use crate::plugins::PluginHost;
 use crate::run::{Run, RunOptions, frame_stride};
 use crate::source::Prepared;
-use again::Script;
+use rerun::Script;
 
 /// Views published for each real second, at most.
 const VIEWS_HZ: f64 = 60.0;
@@ -103,7 +103,7 @@ struct Worker<'a> {
     pace: Pace,
     pilot: Option<Controls>,
     controls: Controls,
-    film: Film,
+    frames: FrameHistory,
     tension: Series,
     history: Series,
     watch: Watch,
@@ -127,7 +127,7 @@ impl<'a> Worker<'a> {
         let now = Instant::now();
         let mut worker = Self {
             host,
-            // The film is kept here; the run's own frames would double it.
+            // The history of frames is kept here; the run's own frames would double it.
             options: RunOptions { frames_hz: 0.0, ..options },
             screen,
             prepared,
@@ -136,7 +136,7 @@ impl<'a> Worker<'a> {
             pace: Pace::new(1.0, now, 0.0),
             pilot: None,
             controls: Controls::default(),
-            film: Film::new(1),
+            frames: FrameHistory::new(1),
             tension: Series::default(),
             history: Series::default(),
             watch: Watch::default(),
@@ -192,11 +192,11 @@ impl<'a> Worker<'a> {
             RunCommand::Load(prepared) => self.load(*prepared),
             RunCommand::Seek(time_s) => {
                 self.pause();
-                self.look(|film, _| film.nearest(time_s));
+                self.look(|frames, _| frames.nearest(time_s));
             }
             RunCommand::Shift(by) => {
                 self.pause();
-                self.look(|film, now_s| film.beside(now_s, by));
+                self.look(|frames, now_s| frames.beside(now_s, by));
             }
             RunCommand::Inputs(inputs) => self.run_again(inputs, false),
             RunCommand::Rerun(prepared) => self.rerun(*prepared),
@@ -207,12 +207,12 @@ impl<'a> Worker<'a> {
     }
 
     /// Looks at a kept frame, given the time shown; at the newest moment where that is reached.
-    fn look(&mut self, find: impl FnOnce(&Film, f64) -> Option<Arc<Frame>>) {
+    fn look(&mut self, find: impl FnOnce(&FrameHistory, f64) -> Option<Arc<Frame>>) {
         let newest_s = self.run.as_ref().map_or(0.0, |run| run.state().time_s);
         let shown_s = self.sought.as_ref().map_or(newest_s, |frame| frame.time_s);
-        let found = find(&self.film, shown_s);
+        let found = find(&self.frames, shown_s);
         // The newest moment lies at most a stride after the last kept frame.
-        let last = self.film.nearest(f64::MAX).map(|frame| frame.step);
+        let last = self.frames.nearest(f64::MAX).map(|frame| frame.step);
         self.sought = found.filter(|frame| Some(frame.step) != last);
     }
 
@@ -267,7 +267,7 @@ impl<'a> Worker<'a> {
 
     /// Stands ready at the start of a run.
     fn begin(&mut self, run: Run) {
-        self.film = Film::new(frame_stride(KEPT_HZ, run.step_s()));
+        self.frames = FrameHistory::new(frame_stride(KEPT_HZ, run.step_s()));
         (self.tension, self.history) = (Series::default(), Series::default());
         self.watch = Watch::default();
         self.peak_n.clear();
@@ -309,9 +309,9 @@ impl<'a> Worker<'a> {
         self.peak_n.iter_mut().zip(now_n).for_each(|(peak, now)| *peak = peak.max(now));
         self.watch.fold(run.contacts());
         self.envelope.fold(run.model(), run.state(), run.segment_peaks_n());
-        if self.film.wants(run.state().step) {
+        if self.frames.wants(run.state().step) {
             self.history.push(run.state().time_s, self.watch.sample(run));
-            self.film.keep(run.frame());
+            self.frames.keep(run.frame());
             self.tension.push(run.state().time_s, std::mem::take(&mut self.peak_n));
         }
     }

@@ -8,13 +8,13 @@ use endline_sim::Frame;
 const MOST: usize = 3600;
 
 /// Frames of a run at an even stride of steps.
-pub(super) struct Film {
+pub(super) struct FrameHistory {
     frames: Vec<Arc<Frame>>,
     stride: u64,
 }
 
-impl Film {
-    /// An empty film that keeps every `stride`-th step to begin with.
+impl FrameHistory {
+    /// An empty history that keeps every `stride`-th step to begin with.
     pub(super) fn new(stride: u64) -> Self {
         Self { frames: Vec::new(), stride: stride.max(1) }
     }
@@ -24,7 +24,7 @@ impl Film {
         step.is_multiple_of(self.stride)
     }
 
-    /// Keeps a frame; where the film is full, every other one goes and the stride doubles.
+    /// Keeps a frame; where the history is full, every other one goes and the stride doubles.
     pub(super) fn keep(&mut self, frame: Arc<Frame>) {
         if self.frames.len() >= MOST {
             self.stride *= 2;
@@ -46,7 +46,7 @@ impl Film {
     }
 }
 
-impl Film {
+impl FrameHistory {
     /// The frame so many kept frames after the one nearest to a time, or before it; the first or last where there are
     /// no more.
     pub(super) fn beside(&self, time_s: f64, by: i64) -> Option<Arc<Frame>> {
@@ -64,45 +64,49 @@ mod tests {
     use super::*;
 
     #[test]
-    fn frames_beside_one_another_are_found_however_thin_the_film() {
-        let mut film = Film::new(3);
+    fn frames_beside_one_another_are_found_however_thin_the_history() {
+        let mut history = FrameHistory::new(3);
         for step in 0..60_000_u32 {
-            if film.wants(u64::from(step)) {
-                film.keep(Arc::new(Frame {
+            if history.wants(u64::from(step)) {
+                history.keep(Arc::new(Frame {
                     step: u64::from(step),
                     time_s: f64::from(step) * 0.01,
                     ..Frame::default()
                 }));
             }
         }
-        let middle = film.nearest(300.0).unwrap();
-        let (after, before) = (film.beside(300.0, 1).unwrap(), film.beside(300.0, -1).unwrap());
-        assert_eq!([after.step - middle.step, middle.step - before.step], [film.stride; 2]);
-        assert_eq!(film.beside(300.0, -100_000).unwrap().step, 0);
-        assert_eq!(film.beside(300.0, 100_000).unwrap().step, film.frames.last().unwrap().step);
+        let middle = history.nearest(300.0).unwrap();
+        let (after, before) =
+            (history.beside(300.0, 1).unwrap(), history.beside(300.0, -1).unwrap());
+        assert_eq!([after.step - middle.step, middle.step - before.step], [history.stride; 2]);
+        assert_eq!(history.beside(300.0, -100_000).unwrap().step, 0);
+        assert_eq!(
+            history.beside(300.0, 100_000).unwrap().step,
+            history.frames.last().unwrap().step
+        );
     }
 
     #[test]
     fn a_long_run_stays_bounded_and_whole() {
-        let mut film = Film::new(3);
+        let mut history = FrameHistory::new(3);
         for step in 0..100_000_u32 {
-            if film.wants(u64::from(step)) {
-                film.keep(Arc::new(Frame {
+            if history.wants(u64::from(step)) {
+                history.keep(Arc::new(Frame {
                     step: u64::from(step),
                     time_s: f64::from(step) * 0.01,
                     ..Frame::default()
                 }));
             }
         }
-        assert!(film.frames.len() <= MOST);
+        assert!(history.frames.len() <= MOST);
         for time_s in [0.0, 123.4, 567.8, 999.0] {
-            let near = film.nearest(time_s).unwrap();
+            let near = history.nearest(time_s).unwrap();
             assert!(
-                (near.time_s - time_s).abs() <= 0.5 * 0.01 * film.stride as f64 + 1e-9,
+                (near.time_s - time_s).abs() <= 0.5 * 0.01 * history.stride as f64 + 1e-9,
                 "{time_s}: {}",
                 near.time_s
             );
         }
-        assert_eq!(film.nearest(1e9).unwrap().step, film.frames.last().unwrap().step);
+        assert_eq!(history.nearest(1e9).unwrap().step, history.frames.last().unwrap().step);
     }
 }

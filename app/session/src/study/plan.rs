@@ -1,0 +1,204 @@
+//! An option of a study as a plan: what it sets and removes, and the scenario and library that come of it.
+
+use endline_gear::{
+    Diagnostic, Document, EditError, OptionSetting, Prior, Sources, Study, StudyOption, hint,
+};
+
+use crate::error::Error;
+use crate::plugins::PluginHost;
+use crate::source::{Overrides, Prepared, Source};
+
+use super::draw::{self, Drawn};
+use super::priors::{field_of, put_drawn};
+
+/// An option as a scenario and a library.
+pub struct OptionPlan {
+    /// Id.
+    pub id: String,
+    /// Name shown to the user.
+    pub name: String,
+    /// Strength it stands for [N].
+    pub strength_n: Option<f64>,
+    /// Which curve of break-away against strength it belongs to.
+    pub curve: Option<String>,
+    /// Paths of all it sets, of scenario and library.
+    pub(super) own: Vec<String>,
+    /// Those paths with what they are set to, as a file has it.
+    pub(super) sets: Vec<(String, String)>,
+    pub(super) settings: Vec<OptionSetting>,
+    pub(super) removes: Vec<String>,
+    /// The baseline scenario, before anything is set.
+    pub(super) scenario: Document,
+    pub(super) scenario_name: String,
+    pub(super) sources: Sources,
+    /// The option as it stands, for its library files and its plugins.
+    pub prepared: Prepared,
+}
+
+impl OptionPlan {
+    /// The baseline scenario and the library with what was drawn, and with what the option sets and removes of the fields asked for.
+    ///
+    /// # Errors
+    /// A field that cannot be set or removed.
+    pub(super) fn edited<'a>(
+        &self,
+        drawn: impl Iterator<Item = (&'a Prior, &'a Drawn)>,
+        is_wanted: impl Fn(&str) -> bool,
+    ) -> Result<(Document, Sources), Error> {
+        let (mut scenario, mut sources) = (self.scenario.clone(), self.sources.clone());
+        put_drawn(&mut scenario, &mut sources, drawn, &self.own)?;
+        let fault =
+            |error: EditError| Error::Replay(format!("option `{}`: {}", self.id, error.message));
+        for field in self.removes.iter().filter(|field| is_wanted(field)) {
+            scenario.remove(field).map_err(fault)?;
+        }
+        for setting in self.settings.iter().filter(|setting| is_wanted(&setting.field.value)) {
+            scenario.put(&setting.field.value, &setting.value).map_err(fault)?;
+        }
+        Ok((scenario, sources))
+    }
+}
+
+/// Paths of all an option sets.
+fn own(option: &StudyOption) -> Vec<String> {
+    option.settings.iter().map(|setting| setting.field.value.clone()).collect()
+}
+
+/// What options are differences from.
+pub(super) struct Base<'a> {
+    /// The study that has the options.
+    pub study: &'a Study,
+    /// File of the baseline scenario.
+    pub name: String,
+    /// Text of the baseline scenario.
+    pub text: String,
+    /// Files of the library.
+    pub sources: &'a Sources,
+    /// The plugins.
+    pub host: &'a PluginHost,
+}
+
+impl Base<'_> {
+    /// The plan of an option, checked by assembling it as it stands.
+    pub fn option(&self, option: &StudyOption) -> Result<OptionPlan, Error> {
+        let scenario = Document::parse(&self.text)
+            .map_err(|error| Error::Replay(format!("{}: {}", self.name, error.message)))?;
+        let mut sources = self.sources.clone();
+        let mut edited = scenario.clone();
+        self.put(option, &mut edited, &mut sources)?;
+        let prepared = self.prepare(option, &edited, &sources)?;
+        let settings = option
+            .settings
+            .iter()
+            .filter(|setting| setting.library_field().is_none())
+            .cloned()
+            .collect();
+        Ok(OptionPlan {
+            id: option.id.value.clone(),
+            name: option.name.clone(),
+            strength_n: option.strength_n,
+            curve: option.curve.clone(),
+            own: own(option),
+            sets: option
+                .settings
+                .iter()
+                .map(|setting| (setting.field.value.clone(), setting.value.written()))
+                .collect(),
+            settings,
+            removes: option.removes.iter().map(|field| field.value.clone()).collect(),
+            scenario,
+            scenario_name: self.name.clone(),
+            sources,
+            prepared,
+        })
+    }
+
+    fn put(
+        &self,
+        option: &StudyOption,
+        scenario: &mut Document,
+        sources: &mut Sources,
+    ) -> Result<(), Error> {
+        let located = |field: &endline_gear::At<String>, error: EditError, help: &str| {
+            Error::Diagnostics(vec![field.place.error(error.message, help)])
+        };
+        for field in &option.removes {
+            scenario
+                .remove(&field.value)
+                .map_err(|error| located(field, error, "name a field of the baseline scenario"))?;
+        }
+        for setting in &option.settings {
+            let Some((file, field)) = setting.library_field() else {
+                let help = "name a field of the scenario by its dotted path, such as gear.0.attributes.buoy";
+                scenario
+                    .put(&setting.field.value, &setting.value)
+                    .map_err(|error| located(&setting.field, error, help))?;
+                continue;
+            };
+            let Some(text) = sources.get(&file) else {
+                let known: Vec<&str> = sources.iter().map(|(path, _)| path).collect();
+                return Err(Error::Diagnostics(vec![
+                    setting
+                        .field
+                        .place
+                        .error(format!("the library has no file {file}"), hint(&file, known)),
+                ]));
+            };
+            let mut item =
+                Document::parse(text).map_err(|error| located(&setting.field, error, ""))?;
+            item.put(field, &setting.value)
+                .map_err(|error| located(&setting.field, error, "name a field of the item"))?;
+            let text = item.text();
+            sources.set(file, text);
+        }
+        Ok(())
+    }
+
+    /// The option assembled as it stands; a fault that one of its settings brought in is located at that setting.
+    fn prepare(
+        &self,
+        option: &StudyOption,
+        scenario: &Document,
+        sources: &Sources,
+    ) -> Result<Prepared, Error> {
+        // What is drawn stands in the place of what the option leaves open, so that drawn values are checked too.
+        let mut text = scenario.clone();
+        let drawn = draw::draw(&self.study.priors, self.study.seed, 0);
+        let mut sources = sources.clone();
+        put_drawn(&mut text, &mut sources, self.study.priors.iter().zip(&drawn), &own(option))?;
+        let source = Source {
+            scenario_name: self.name.clone(),
+            scenario: text.text(),
+            library: sources,
+            overrides: Overrides::default(),
+        };
+        source.prepare(self.host).map_err(|error| match error {
+            Error::Diagnostics(problems) => Error::Diagnostics(
+                problems.into_iter().map(|problem| self.relocate(option, problem)).collect(),
+            ),
+            error => error,
+        })
+    }
+
+    fn relocate(&self, option: &StudyOption, problem: Diagnostic) -> Diagnostic {
+        let leads_to = |field: &str| {
+            !problem.field.is_empty()
+                && (field == problem.field || field.starts_with(&format!("{}.", problem.field)))
+        };
+        let by_option = option.settings.iter().find(|setting| {
+            let field =
+                setting.library_field().map_or(setting.field.value.as_str(), |(_, field)| field);
+            leads_to(field)
+        });
+        let by_prior = self.study.priors.iter().find(|prior| leads_to(field_of(prior)));
+        let place = by_option
+            .map(|setting| &setting.field.place)
+            .or(by_prior.map(|prior| &prior.name.place));
+        place.map_or(problem.clone(), |place| {
+            place.error(
+                format!("option `{}`: {}", option.id.value, problem.message),
+                problem.help.clone(),
+            )
+        })
+    }
+}
