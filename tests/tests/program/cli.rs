@@ -126,8 +126,7 @@ fn wrong_use_ends_with_2() {
     for arguments in [
         &["run"][..],
         &["fly"],
-        &["run", "a.toml", "--threads", "0"],
-        &["run", "a.toml", "--threads", "two"],
+        &["run", "a.toml", "--threads", "2"],
         &["run", "a.toml", "--dt", "-0.01"],
         &["run", "a.toml", "--dt", "nan"],
         &["run", "a.toml", "--weak-links", "maybe"],

@@ -84,9 +84,6 @@ pub(super) struct RunArgs {
     pub(super) at: Option<f64>,
     #[command(flatten)]
     pub(super) over: OverArgs,
-    /// Threads to use; one run takes one thread, and the result is the same for any number.
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub(super) threads: u16,
 }
 
 #[derive(Debug, clap::Args)]
