@@ -34,6 +34,15 @@ impl ForceUnit {
         }
     }
 
+    /// A pressure given in pascals, as text with the unit that goes with this unit of forces.
+    #[must_use]
+    pub fn pressure(self, pressure_pa: f64) -> String {
+        match self {
+            Self::Lbf => format!("{:.1} psi", pressure_pa / PASCALS_PER_PSI),
+            Self::Newton => format!("{:.0} kPa", pressure_pa / 1000.0),
+        }
+    }
+
     /// A force given in newtons, as text with its unit.
     #[must_use]
     pub fn text(self, force_n: f64) -> String {
@@ -163,15 +172,6 @@ impl Units {
         format!("{:.2} {}", self.of_m_s(speed_m_s), self.speed_symbol())
     }
 
-    /// A pressure with its unit, which follows that of forces.
-    #[must_use]
-    pub fn pressure(self, pressure_pa: f64) -> String {
-        match self.force() {
-            ForceUnit::Lbf => format!("{:.1} psi", pressure_pa / PASCALS_PER_PSI),
-            ForceUnit::Newton => format!("{:.0} kPa", pressure_pa / 1000.0),
-        }
-    }
-
     /// A rope's diameter: to the nearest sixteenth of an inch, or in millimetres.
     #[must_use]
     pub fn diameter(self, diameter_m: f64) -> String {
@@ -227,8 +227,8 @@ mod tests {
 
     #[test]
     fn a_pressure_follows_the_unit_of_forces() {
-        assert_eq!(Units::Mixed.pressure(6_894.757), "1.0 psi");
-        assert_eq!(Units::Si.pressure(12_000.0), "12 kPa");
+        assert_eq!(ForceUnit::Lbf.pressure(6_894.757), "1.0 psi");
+        assert_eq!(ForceUnit::Newton.pressure(12_000.0), "12 kPa");
     }
 
     #[test]

@@ -116,7 +116,7 @@ impl Quantity {
             Self::Step => format!("{value} s"),
             Self::Speed => units.speed(value),
             Self::Power => format!("{value:.0} W"),
-            Self::Pressure => units.pressure(value),
+            Self::Pressure => units.force().pressure(value),
             Self::LineLoad => line_load(value, units.force()),
             Self::Work => format!("{value:.*} J", usize::from(value.abs() < 100.0)),
             Self::Frequency => format!("{value:.3} Hz"),
