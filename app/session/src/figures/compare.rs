@@ -73,11 +73,10 @@ fn parts(views: [&LiveView; 2], units: Units) -> Vec<Row> {
     let count = own.iter().map(Vec::len).max().unwrap_or_default();
     let rows = |index: usize| {
         let pair = own.each_ref().map(|parts| parts.get(index));
-        let touched = |part: &&Part| part.summary.peak_contact_length_m > 0.0;
         let name = pair
             .iter()
             .flatten()
-            .find(|part| touched(part))
+            .find(|part| !part.is_untouched())
             .map(|part| part.summary.part.name().replace('_', " "));
         let rows = |name: String| {
             let rows = shown(PART, Compare).map(|figure| row(figure, pair, units, &name));

@@ -16,6 +16,14 @@ pub struct Part {
     pub normal_now_n: f64,
 }
 
+impl Part {
+    /// Whether rope never touched it.
+    #[must_use]
+    pub fn is_untouched(&self) -> bool {
+        self.summary.peak_contact_length_m <= 0.0
+    }
+}
+
 /// The parts of a whale, with the contacts of the moment shown; of a finished run none are needed.
 #[must_use]
 pub fn parts(whale: &WhaleSummary, contacts: &[ContactPoint]) -> Vec<Part> {
