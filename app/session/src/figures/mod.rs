@@ -22,12 +22,15 @@
 //! To add a figure: a field of the summary in `app/sim/src/metrics`, and one entry here.
 
 mod attempt;
+mod audit;
 pub mod compare;
 mod events;
 mod figure;
 mod gear;
 mod json;
 mod moment;
+mod phases;
+mod plugin;
 mod quantity;
 mod run;
 mod skin;
@@ -37,12 +40,15 @@ mod value;
 mod whale;
 
 pub use attempt::{ATTEMPT, Attempt};
+pub use audit::AUDIT;
 pub use events::EVENT;
 pub use figure::{Column, Figure, View, list, object, shown};
 pub use gear::{BODY, LINE, LINK, Line, PROBE, lines};
 pub use moment::MOMENT;
+pub use phases::{PHASE, SETTLED};
+pub use plugin::PLUGIN;
 pub use quantity::Quantity;
-pub use run::{AUDIT, PHASE, PLUGIN, RUN, SETTLED};
+pub use run::RUN;
 pub use skin::{PART, PATCH, Part, parts};
 pub use value::Value;
 pub use whale::{BEAT, KINETIC, WHALE};
