@@ -10,6 +10,7 @@ mod arrows;
 mod assets;
 mod code_mark;
 mod documents;
+mod figure_docs;
 mod gear_docs;
 mod text;
 

@@ -1,6 +1,6 @@
 //! docs/figures.md says of every figure what its declaration says.
 //!
-//! `ENDLINE_WRITE_DOCS=1 cargo test -p endline-tests --test figures` writes the page anew.
+//! `ENDLINE_WRITE_DOCS=1 cargo test -p endline-tests --test tidy figure_docs` writes the page anew.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail the test")]
 
@@ -18,7 +18,7 @@ const DOCUMENT: &str = "docs/figures.md";
 const HEAD: &str = "# Figures
 
 This page lists every figure that Endline reports of a run.
-It is written from the declarations in `app/session/src/figures`; the head of `tests/tests/figures.rs` says how to write it anew.
+It is written from the declarations in `app/session/src/figures`; the head of `tests/tests/tidy/figure_docs.rs` says how to write it anew.
 How the figures are measured stands in [entanglement.md](entanglement.md).
 
 *Key* is the key in the JSON of `endline run --json`, schema `endline.run/1`; a figure in brackets is not in the JSON.
@@ -97,6 +97,6 @@ fn the_document_has_every_figure_as_it_is_declared() {
     let first = document.lines().zip(fresh.lines()).find(|(old, new)| old != new);
     assert_eq!(
         document, fresh,
-        "{DOCUMENT} is out of date, first at {first:?}; the head of tests/tests/figures.rs says how to write it anew"
+        "{DOCUMENT} is out of date, first at {first:?}; the head of tests/tests/tidy/figure_docs.rs says how to write it anew"
     );
 }
