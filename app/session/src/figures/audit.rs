@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use endline_sim::pace::LimitedBy;
+use endline_sim::state::LimitedBy;
 
 use super::View::Table;
 use super::{Figure, Quantity, Value};
