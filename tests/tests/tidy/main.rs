@@ -12,6 +12,7 @@ mod code_mark;
 mod documents;
 mod figure_docs;
 mod gear_docs;
+mod headings;
 mod text;
 
 use std::path::Path;
