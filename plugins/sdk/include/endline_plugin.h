@@ -1,4 +1,4 @@
-/* Endline's plugin ABI. Made from plugins/sdk/src/abi/table.rs; do not edit by hand:
+/* Endline's plugin ABI. Made from plugins/sdk/src/abi/table/; do not edit by hand:
  * ENDLINE_WRITE_HEADER=1 cargo test -p endline-tests --test plugins header
  *
  * A plugin library exports one constant of type endline_entry_t named endline_plugin_entry.

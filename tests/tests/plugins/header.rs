@@ -9,7 +9,7 @@ use endline_tests::root;
 const HEADER: &str = "plugins/sdk/include/endline_plugin.h";
 
 const PREAMBLE: &str = "\
-/* Endline's plugin ABI. Made from plugins/sdk/src/abi/table.rs; do not edit by hand:
+/* Endline's plugin ABI. Made from plugins/sdk/src/abi/table/; do not edit by hand:
  * ENDLINE_WRITE_HEADER=1 cargo test -p endline-tests --test plugins header
  *
  * A plugin library exports one constant of type endline_entry_t named endline_plugin_entry.
@@ -112,7 +112,10 @@ fn config() -> Config {
 
 fn generated() -> String {
     let mut builder = Builder::new().with_config(config());
-    for file in ["whale.rs", "motion.rs", "friction.rs", "gear.rs", "abi/table.rs"] {
+    let hooks = ["whale.rs", "motion.rs", "friction.rs", "gear.rs"];
+    let tables =
+        ["mod.rs", "motion.rs", "friction.rs", "gear.rs"].map(|file| format!("abi/table/{file}"));
+    for file in hooks.iter().copied().chain(tables.iter().map(String::as_str)) {
         builder = builder.with_src(root().join("plugins/sdk/src").join(file));
     }
     let mut bytes = Vec::new();

@@ -28,8 +28,9 @@ const TOP: [&str; 16] = [
     "tests",
 ];
 
-/// Where unsafe code may stand, in one file each: the two sides of the boundary to plugins, and the
-/// place where the system is asked for OpenGL without a display (its EGL is a C library).
+/// Where unsafe code may stand: the two sides of the boundary to plugins, and the place where the
+/// system is asked for OpenGL without a display (its EGL is a C library). Each allows it in one file;
+/// where that file is a folder's `mod.rs`, its exception covers the files of the folder.
 const UNSAFE: [&str; 3] =
     ["app/session/src/plugins/", "plugins/sdk/src/abi/", "app/workbench/src/scene/offscreen.rs"];
 
