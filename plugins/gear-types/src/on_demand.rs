@@ -99,61 +99,9 @@ struct Stow<'a> {
 
 impl<'a> Stow<'a> {
     fn attributes() -> Vec<Attribute> {
-        vec![
-            Attribute::count(
-                "endlines",
-                [1, 2],
-                1,
-                "How many stowed endlines: 1 at the near end, 2 at both.",
-            ),
-            Attribute::item(
-                "buoy",
-                "buoys",
-                "bullet-7x16",
-                "The buoy; its lift must be less than the trap's weight in water.",
-            ),
-            Attribute::item(
-                "rope",
-                "ropes",
-                "sink-3-8",
-                "Rope of the stowed endline; sinking rope, or it floats out of the stow.",
-            ),
-            Attribute::number(
-                "scope",
-                "1",
-                [1.0, 5.0],
-                1.3,
-                "Length of the endline as a multiple of water depth.",
-            ),
-            Attribute::count("flakes", [2, 60], 8, "In how many flakes the endline is stowed."),
-            Attribute::number(
-                "hold_length",
-                "m",
-                [0.6, 5.0],
-                1.0,
-                "Length of the line that holds the buoy down, and of the flakes' ties.",
-            ),
-            Attribute::item(
-                "release",
-                "weak-links",
-                "acoustic-release",
-                "The acoustic release; above its rating it parts by itself.",
-            ),
-            Attribute::number(
-                "release_at",
-                "s",
-                [0.0, 1e7],
-                60.0,
-                "When the near endline's release is called.",
-            ),
-            Attribute::number(
-                "far_release_at",
-                "s",
-                [0.0, 1e7],
-                1e7,
-                "When the far endline's release is called, where there is one.",
-            ),
-        ]
+        let mut attributes = stowed_attributes();
+        attributes.extend(release_attributes());
+        attributes
     }
 
     fn read(values: &Values<'a>) -> Result<Self, HookError> {
@@ -214,6 +162,71 @@ impl<'a> Stow<'a> {
         into.line(&format!("{id}-line"), self.rope, ends, self.hold_m);
         into.link(id, self.release, &format!("{id}-line"), LineEnd::B);
     }
+}
+
+/// The stowed endline and its buoy.
+fn stowed_attributes() -> Vec<Attribute> {
+    vec![
+        Attribute::count(
+            "endlines",
+            [1, 2],
+            1,
+            "How many stowed endlines: 1 at the near end, 2 at both.",
+        ),
+        Attribute::item(
+            "buoy",
+            "buoys",
+            "bullet-7x16",
+            "The buoy; its lift must be less than the trap's weight in water.",
+        ),
+        Attribute::item(
+            "rope",
+            "ropes",
+            "sink-3-8",
+            "Rope of the stowed endline; sinking rope, or it floats out of the stow.",
+        ),
+        Attribute::number(
+            "scope",
+            "1",
+            [1.0, 5.0],
+            1.3,
+            "Length of the endline as a multiple of water depth.",
+        ),
+        Attribute::count("flakes", [2, 60], 8, "In how many flakes the endline is stowed."),
+        Attribute::number(
+            "hold_length",
+            "m",
+            [0.6, 5.0],
+            1.0,
+            "Length of the line that holds the buoy down, and of the flakes' ties.",
+        ),
+    ]
+}
+
+/// The acoustic release and the times at which it is called.
+fn release_attributes() -> Vec<Attribute> {
+    vec![
+        Attribute::item(
+            "release",
+            "weak-links",
+            "acoustic-release",
+            "The acoustic release; above its rating it parts by itself.",
+        ),
+        Attribute::number(
+            "release_at",
+            "s",
+            [0.0, 1e7],
+            60.0,
+            "When the near endline's release is called.",
+        ),
+        Attribute::number(
+            "far_release_at",
+            "s",
+            [0.0, 1e7],
+            1e7,
+            "When the far endline's release is called, where there is one.",
+        ),
+    ]
 }
 
 fn descriptor() -> Descriptor {

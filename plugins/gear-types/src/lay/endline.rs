@@ -50,67 +50,9 @@ impl<'a> Endline<'a> {
     /// The attributes of an endline with the buoy that is usual for the gear.
     #[must_use]
     pub fn attributes(buoy: &'static str) -> Vec<Attribute> {
-        vec![
-            Attribute::item("buoy", "buoys", buoy, "The buoy."),
-            Attribute::item(
-                "upper_rope",
-                "ropes",
-                "sink-3-8",
-                "Rope of the endline at the buoy end.",
-            ),
-            Attribute::item(
-                "lower_rope",
-                "ropes",
-                "pp-3-8",
-                "Rope of the endline at the trap end.",
-            ),
-            Attribute::number(
-                "lower_share",
-                "1",
-                [0.01, 0.99],
-                1.0 / 3.0,
-                "Share of the endline's length that is lower rope.",
-            ),
-            Attribute::number(
-                "scope",
-                "1",
-                [1.0, 5.0],
-                1.3,
-                "Length of the endline as a multiple of water depth.",
-            ),
-            Attribute::item(
-                "surface_rope",
-                "ropes",
-                "",
-                "Rope of the surface system at the buoy; empty for none of its own.",
-            ),
-            Attribute::number(
-                "surface_length",
-                "m",
-                [0.1, 50.0],
-                2.0,
-                "Length of the surface system, where it has a rope of its own.",
-            ),
-            Attribute::item(
-                "weak_link",
-                "weak-links",
-                "wl-600",
-                "Weak link at the buoy; empty for none.",
-            ),
-            Attribute::item(
-                "high_flyer",
-                "buoys",
-                "",
-                "Staff buoy with a radar reflector, on a line from the buoy; empty for none.",
-            ),
-            Attribute::number(
-                "high_flyer_length",
-                "m",
-                [0.5, 50.0],
-                3.66,
-                "Length of the high-flyer's line, of the surface system's rope.",
-            ),
-        ]
+        let mut attributes = rope_attributes(buoy);
+        attributes.extend(surface_attributes());
+        attributes
     }
 
     /// The endline that the values ask for.
@@ -173,34 +115,33 @@ impl<'a> Endline<'a> {
             [foot.end.clone(), splice.clone()],
             lengths.lower,
         );
-        let topmost = if lengths.surface > 0.0 {
-            let upper = into
-                .joint(&named("surface-splice"), between((lengths.lower + lengths.upper) / whole));
-            into.line(
-                &named("endline-top"),
-                self.upper_rope,
-                [splice, upper.clone()],
-                lengths.upper,
-            );
-            into.line(
-                &named("surface-system"),
-                self.surface_rope,
-                [upper, buoy.clone()],
-                lengths.surface,
-            );
-            named("surface-system")
-        } else {
-            into.line(
-                &named("endline-top"),
-                self.upper_rope,
-                [splice, buoy.clone()],
-                lengths.upper,
-            );
-            named("endline-top")
-        };
+        let upper_from = between((lengths.lower + lengths.upper) / whole);
+        let topmost = self.lay_upper(into, [splice, buoy.clone()], upper_from, &lengths, prefix);
         into.link(&named("buoy-link"), self.weak_link, &topmost, LineEnd::B);
         self.lay_flyer(into, buoy, at_buoy, [east, north], prefix);
         Ok(())
+    }
+
+    /// Puts the rope between splice and buoy: the upper rope, and the surface system beyond
+    /// `surface_splice_m` where it has a rope of its own. Answers the id of the line at the buoy.
+    fn lay_upper(
+        &self,
+        into: &mut Lay,
+        [splice, buoy]: [RigEnd; 2],
+        surface_splice_m: [f64; 3],
+        lengths: &Lengths,
+        prefix: &str,
+    ) -> String {
+        let top = format!("{prefix}endline-top");
+        if lengths.surface <= 0.0 {
+            into.line(&top, self.upper_rope, [splice, buoy], lengths.upper);
+            return top;
+        }
+        let upper = into.joint(&format!("{prefix}surface-splice"), surface_splice_m);
+        into.line(&top, self.upper_rope, [splice, upper.clone()], lengths.upper);
+        let surface = format!("{prefix}surface-system");
+        into.line(&surface, self.surface_rope, [upper, buoy], lengths.surface);
+        surface
     }
 
     /// Puts the high-flyer downstream of the buoy, where there is one.
@@ -235,4 +176,65 @@ impl<'a> Endline<'a> {
              lower rope; shorten it, or raise `scope`, or lower `lower_share`"
         )))
     }
+}
+
+/// Buoy, ropes and scope.
+fn rope_attributes(buoy: &'static str) -> Vec<Attribute> {
+    vec![
+        Attribute::item("buoy", "buoys", buoy, "The buoy."),
+        Attribute::item("upper_rope", "ropes", "sink-3-8", "Rope of the endline at the buoy end."),
+        Attribute::item("lower_rope", "ropes", "pp-3-8", "Rope of the endline at the trap end."),
+        Attribute::number(
+            "lower_share",
+            "1",
+            [0.01, 0.99],
+            1.0 / 3.0,
+            "Share of the endline's length that is lower rope.",
+        ),
+        Attribute::number(
+            "scope",
+            "1",
+            [1.0, 5.0],
+            1.3,
+            "Length of the endline as a multiple of water depth.",
+        ),
+    ]
+}
+
+/// Surface system, weak link and high-flyer.
+fn surface_attributes() -> Vec<Attribute> {
+    vec![
+        Attribute::item(
+            "surface_rope",
+            "ropes",
+            "",
+            "Rope of the surface system at the buoy; empty for none of its own.",
+        ),
+        Attribute::number(
+            "surface_length",
+            "m",
+            [0.1, 50.0],
+            2.0,
+            "Length of the surface system, where it has a rope of its own.",
+        ),
+        Attribute::item(
+            "weak_link",
+            "weak-links",
+            "wl-600",
+            "Weak link at the buoy; empty for none.",
+        ),
+        Attribute::item(
+            "high_flyer",
+            "buoys",
+            "",
+            "Staff buoy with a radar reflector, on a line from the buoy; empty for none.",
+        ),
+        Attribute::number(
+            "high_flyer_length",
+            "m",
+            [0.5, 50.0],
+            3.66,
+            "Length of the high-flyer's line, of the surface system's rope.",
+        ),
+    ]
 }

@@ -18,12 +18,15 @@
 //!
 //! Panels, anchors of 22 lb and weak links of 1,100 lbf in the headline: practice and rules of the northeast United States.
 
+mod net;
+
 use endline_sdk::{
     Attribute, AttributeValue, BodyKind, Descriptor, GearType, HookError, LineEnd, Rig, RigEnd,
     Site,
 };
 
 use crate::lay::{Endline, FAR, Foot, Lay, Values, depth_of};
+use net::Net;
 
 /// The gear type of an anchored string of gillnet panels.
 #[derive(Clone, Debug)]
@@ -63,127 +66,7 @@ impl GearType for Gillnet {
     }
 }
 
-/// The string without its endlines.
-struct Net<'a> {
-    panels: u32,
-    panel_m: f64,
-    height_m: f64,
-    headline: &'a str,
-    leadline: &'a str,
-    netting: &'a str,
-    lines_a_panel: u32,
-    slack: f64,
-    panel_link: &'a str,
-    bridle_m: f64,
-    bridle_rope: &'a str,
-    anchor: &'a str,
-    anchor_line_m: f64,
-}
-
-impl<'a> Net<'a> {
-    fn attributes() -> Vec<Attribute> {
-        vec![
-            Attribute::count("panels", [1, 40], 3, "How many panels of netting."),
-            Attribute::number(
-                "panel_length",
-                "m",
-                [5.0, 500.0],
-                91.44,
-                "Length of a panel's headline; 300 ft where not given.",
-            ),
-            Attribute::number(
-                "net_height",
-                "m",
-                [0.5, 30.0],
-                3.0,
-                "Height of the net from leadline to headline, the netting taut.",
-            ),
-            Attribute::item(
-                "headline",
-                "ropes",
-                "gillnet-headline",
-                "Headline with its floats and half of the netting.",
-            ),
-            Attribute::item(
-                "leadline",
-                "ropes",
-                "gillnet-leadline",
-                "Leadline with the other half of the netting.",
-            ),
-            Attribute::item(
-                "netting",
-                "ropes",
-                "gillnet-netting",
-                "The twine of a stretch of net, gathered in one line.",
-            ),
-            Attribute::count(
-                "netting_lines",
-                [1, 100],
-                6,
-                "How many netting lines stand for a panel.",
-            ),
-            Attribute::number(
-                "slack",
-                "1",
-                [0.0, 0.5],
-                0.01,
-                "How much longer headline and leadline are than what they lie along.",
-            ),
-            Attribute::item(
-                "panel_link",
-                "weak-links",
-                "wl-1100",
-                "Weak link in the headline at each panel; empty for none.",
-            ),
-            Attribute::number(
-                "bridle",
-                "m",
-                [1.0, 50.0],
-                4.0,
-                "Length of each bridle leg from headline and leadline to the anchor line.",
-            ),
-            Attribute::item(
-                "bridle_rope",
-                "ropes",
-                "sink-7-16",
-                "Rope of bridles and anchor lines.",
-            ),
-            Attribute::item("anchor", "anchors", "danforth-22lb", "Anchor at each end."),
-            Attribute::number(
-                "anchor_line",
-                "m",
-                [1.0, 500.0],
-                20.0,
-                "Length of each anchor line.",
-            ),
-        ]
-    }
-
-    fn read(values: &Values<'a>) -> Result<Self, HookError> {
-        let net = Self {
-            panels: values.count("panels")?,
-            panel_m: values.number("panel_length")?,
-            height_m: values.number("net_height")?,
-            headline: values.needed("headline")?,
-            leadline: values.needed("leadline")?,
-            netting: values.needed("netting")?,
-            lines_a_panel: values.count("netting_lines")?,
-            slack: values.number("slack")?,
-            panel_link: values.item("panel_link")?,
-            bridle_m: values.number("bridle")?,
-            bridle_rope: values.needed("bridle_rope")?,
-            anchor: values.needed("anchor")?,
-            anchor_line_m: values.number("anchor_line")?,
-        };
-        if net.bridle_m < 0.6 * net.height_m {
-            let (bridle, height) = (net.bridle_m, net.height_m);
-            return Err(HookError::new(format!(
-                "attribute `bridle`: legs of {bridle} m do not reach up a net of {height} m; give them 0.6 times `net_height` or more"
-            )));
-        }
-        Ok(net)
-    }
-
+impl Net<'_> {
     /// Puts the string on the seabed; answers its anchors, near and far.
     fn lay(&self, into: &mut Lay, site: &Site) -> Result<[Foot; 2], HookError> {
         let bed_m = -depth_of(site)?;
