@@ -10,6 +10,8 @@ mod assemble;
 mod assembly;
 mod attributes;
 mod case;
+mod compass;
+mod confidence;
 mod diagnostic;
 mod document;
 mod entry;
@@ -34,10 +36,11 @@ pub use assemble::{
 pub use assembly::{Assembly, Make, PartBody, PartJoint, PartLine, PartLink, Parts, Start};
 pub use attributes::Attributes;
 pub use case::{Case, Check, Limit, Measure, Rows, Samples, Table};
+pub use confidence::Confidence;
 pub use diagnostic::{At, Diagnostic, Place, Severity, SourceText};
 pub use document::{Document, EditError, Setting, save_text};
 pub use entry::{Entry, FORMAT};
-pub use fields::{Figure, Range, Sureness};
+pub use fields::{Figure, Range};
 pub use items::{
     ActAnimation, ActItem, AgeLaw, BoxGear, Buoy, BuoyPiece, BuoyShape, CHANNELS, Channel,
     Condition, Growth, Joints, Knot, MassLaw, ModelFigures, Point, Rope, RopeFriction, SURFACES,
@@ -49,11 +52,11 @@ pub use nearest::hint;
 pub use plugin::{PLUGIN_FILE, TextGear, TextPlugin};
 pub use scenario::{
     AnswerToTouch, Bed, CurrentOf, CurrentRow, Fixture, FreeBody, FrictionChoice, FrictionOn,
-    LineStart, ObstacleOf, PlacedGear, ProbeOf, ProbePart, RowHeight, Scenario, Sea, Swimmer,
+    LineStart, ObstacleOf, PlacedGear, PlacedWhale, ProbeOf, ProbePart, RowHeight, Scenario, Sea,
 };
 pub use schema::{Field, Kind, Word};
 pub use sources::Sources;
 pub use study::{
-    Aim, Basis, Claim, Enough, Event, HOOKED_TURNS, Law, Level, MOST_ENCOUNTERS, Prior,
-    RegionEvent, RunRule, Setting as OptionSetting, Study, StudyOption, Target,
+    Aim, Claim, Enough, Event, HOOKED_TURNS, Law, Level, MOST_ENCOUNTERS, Prior, RegionEvent,
+    RunRule, Setting as OptionSetting, Study, StudyOption, Target,
 };

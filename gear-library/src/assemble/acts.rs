@@ -7,7 +7,7 @@ use endline_sim::whale::acts::{Acting, Answer, Clip};
 
 use crate::items::{ActItem, WhaleItem};
 use crate::nearest::hint;
-use crate::scenario::Swimmer;
+use crate::scenario::PlacedWhale;
 
 use super::builder::Builder;
 
@@ -16,13 +16,13 @@ impl Builder<'_> {
     pub fn with_acts(
         &mut self,
         motion: Arc<dyn WhaleMotion>,
-        swimmer: &Swimmer,
+        placed: &PlacedWhale,
         whale: &WhaleItem,
     ) -> Arc<dyn WhaleMotion> {
-        let clips = self.clips(swimmer, whale);
-        self.check_ids(motion.as_ref(), &clips, swimmer);
+        let clips = self.clips(placed, whale);
+        self.check_ids(motion.as_ref(), &clips, placed);
         let own = motion.descriptor().acts.len();
-        let answer = swimmer.answer.as_ref().and_then(|answer| {
+        let answer = placed.answer.as_ref().and_then(|answer| {
             let ids = || clips.iter().map(|clip| clip.id.as_str());
             let Some(at) = ids().position(|id| id == answer.act.value) else {
                 let message =
@@ -36,9 +36,9 @@ impl Builder<'_> {
     }
 
     /// Clips of the acts the scenario names, or of all.
-    fn clips(&mut self, swimmer: &Swimmer, whale: &WhaleItem) -> Vec<Clip> {
+    fn clips(&mut self, placed: &PlacedWhale, whale: &WhaleItem) -> Vec<Clip> {
         let library = self.library;
-        let Some(named) = &swimmer.acts else {
+        let Some(named) = &placed.acts else {
             self.used.extend(library.acts.iter().flat_map(ActItem::files).map(str::to_owned));
             return library.acts.iter().flat_map(|act| act.clips.iter().cloned()).collect();
         };
@@ -80,13 +80,13 @@ impl Builder<'_> {
     }
 
     /// Every act has an id of its own, by which a pilot asks for it.
-    fn check_ids(&self, motion: &dyn WhaleMotion, clips: &[Clip], swimmer: &Swimmer) {
+    fn check_ids(&self, motion: &dyn WhaleMotion, clips: &[Clip], placed: &PlacedWhale) {
         let own = motion.descriptor().acts.iter().map(|act| act.id.as_ref());
         let ids: Vec<&str> = own.chain(clips.iter().map(|clip| clip.id.as_str())).collect();
         for (index, id) in ids.iter().enumerate() {
             if ids[..index].contains(id) {
-                let named = swimmer.acts.iter().flatten().rfind(|named| named.value == *id);
-                let place = named.map_or(&swimmer.motion.place, |named| &named.place);
+                let named = placed.acts.iter().flatten().rfind(|named| named.value == *id);
+                let place = named.map_or(&placed.motion.place, |named| &named.place);
                 let help = "name each act once in `acts`, and give files of acts/ ids that the motion's own acts do not have";
                 self.problems.push(place.error(format!("two acts are called `{id}`"), help));
             }

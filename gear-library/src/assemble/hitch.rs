@@ -95,9 +95,9 @@ impl Builder<'_> {
         if let Some(joint) = self.spec.joints.iter().position(|joint| joint.id == id) {
             return Some(joint);
         }
-        let swimmer = self.scenario.whale.as_ref()?;
+        let placed = self.scenario.whale.as_ref()?;
         let form =
-            &self.library.whales.iter().find(|item| item.entry.id == swimmer.item.value)?.form;
+            &self.library.whales.iter().find(|item| item.entry.id == placed.item.value)?.form;
         let Some(triangle) = found.on(&whale.skin, form, whale.length_m) else {
             let message = format!("this whale's skin has nothing at its `{name}`");
             self.problems

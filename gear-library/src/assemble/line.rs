@@ -15,8 +15,8 @@ use crate::line::{Insert, Inserts, LineMake};
 use crate::scenario::LineStart;
 
 use super::builder::{Builder, Part, Uncut};
-use super::scatter;
-use super::segments::along;
+use super::strength_variation;
+use super::way::{along, part_of};
 
 /// Least length of a piece [m].
 const LEAST_PIECE_M: f64 = 0.01;
@@ -188,7 +188,7 @@ impl Builder<'_> {
         make.condition.clone().unwrap_or_else(usual)
     }
 
-    /// What a piece keeps of its rope's strength: wear and scatter all along, a knot or splice at each end.
+    /// What a piece keeps of its rope's strength: wear and variation all along, a knot or splice at each end.
     fn strength(
         &self,
         rope: usize,
@@ -199,15 +199,15 @@ impl Builder<'_> {
         let item = &self.stock[rope];
         let worn = if condition == Condition::New { 1.0 } else { item.wear_factor };
         let wear = if piece.own { make.wear_factor.unwrap_or(worn) } else { worn };
-        let drawn = self.scatter(item.strength_cv, &piece.id);
+        let drawn = self.strength_factor(item.strength_cv, &piece.id);
         let left = |end: usize| piece.left[end].unwrap_or(item.knot_factor);
         Strength { all: wear * drawn, end_a: left(0), end_b: left(1) }
     }
 
     /// The drawn factor on the strength of a part; 1 where the scenario takes strengths as they are named.
-    pub fn scatter(&self, variation: f64, id: &str) -> f64 {
-        if self.scenario.strength_scatter {
-            scatter::factor(self.spec.settings.seed, id, variation)
+    pub fn strength_factor(&self, variation: f64, id: &str) -> f64 {
+        if self.scenario.strength_variation {
+            strength_variation::factor(self.spec.settings.seed, id, variation)
         } else {
             1.0
         }
@@ -222,21 +222,6 @@ impl Builder<'_> {
         self.uses(&knot.entry.path);
         Some(knot.strength_left)
     }
-}
-
-/// A part of a way between two shares of its length.
-fn part_of(way: &[DVec3], [from, to]: [f64; 2]) -> Vec<DVec3> {
-    let whole: f64 = way.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
-    let mut part = vec![along(way, from)];
-    let mut passed = 0.0;
-    for pair in way.windows(2) {
-        passed += pair[0].distance(pair[1]) / whole.max(f64::MIN_POSITIVE);
-        if passed > from && passed < to {
-            part.push(pair[1]);
-        }
-    }
-    part.push(along(way, to));
-    part
 }
 
 /// Where inserts begin, from end A, in order [m].

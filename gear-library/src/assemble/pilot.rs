@@ -17,8 +17,8 @@ impl Builder<'_> {
         let Some(motion) = self.spec.whale.as_ref().map(|whale| Arc::clone(&whale.motion)) else {
             return;
         };
-        let Some(swimmer) = &self.scenario.whale else { return };
-        let program = self.pilot(&swimmer.pilot, motion.descriptor());
+        let Some(placed) = &self.scenario.whale else { return };
+        let program = self.pilot(&placed.pilot, motion.descriptor());
         if let Some(whale) = &mut self.spec.whale {
             whale.pilot = program;
         }

@@ -184,7 +184,7 @@ impl Builder<'_> {
             return None;
         };
         self.uses(&found.entry.path);
-        Some(found.rating_n * self.scatter(found.spread, id))
+        Some(found.rating_n * self.strength_factor(found.spread, id))
     }
 
     fn add_link(

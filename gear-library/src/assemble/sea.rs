@@ -6,6 +6,7 @@ use endline_sim::water::profile::{Profile, ProfileRow};
 use endline_sim::water::waves::breaking_height;
 use endline_sim::water::{Current, Water};
 
+use crate::compass::direction;
 use crate::items::SeaSite;
 use crate::scenario::{Bed, CurrentOf};
 use crate::schema::Kind;
@@ -18,12 +19,6 @@ const ROPE_STIFFNESS_N_M2: f64 = 5e3;
 const FOOT_STIFFNESS_N_M: f64 = 2e4;
 /// How far a row of a current's profile may stand out of the water, as a share of the depth: what rounding makes.
 const ROUNDING: f64 = 1e-9;
-
-/// East and north of a compass bearing.
-pub(crate) fn bearing(bearing_rad: f64) -> DVec3 {
-    let clean = |share: f64| if share.abs() < 1e-15 { 0.0 } else { share };
-    DVec3::new(clean(libm::sin(bearing_rad)), clean(libm::cos(bearing_rad)), 0.0)
-}
 
 impl Builder<'_> {
     /// Water and seabed from the scenario over its site.
@@ -76,7 +71,7 @@ impl Builder<'_> {
         let share =
             height_m.map_or(1.0, |height| profile.turn(DVec3::X, (height / depth_m).min(1.0)).x);
         Current {
-            surface_m_s: bearing(current.toward_rad) * (speed / share),
+            surface_m_s: direction(current.toward_rad) * (speed / share),
             profile,
             tide: current.tide.clone(),
         }
@@ -165,7 +160,7 @@ fn seabed(bed: &Bed, depth_m: f64, site: Option<&SeaSite>) -> Seabed {
         own.unwrap_or_else(|| site.map_or(usual, of))
     };
     let slope = from_site(bed.slope_rad, |site| site.slope_rad, 0.0);
-    let toward = bearing(from_site(bed.toward_rad, |site| site.slope_toward_rad, 0.0));
+    let toward = direction(from_site(bed.toward_rad, |site| site.slope_toward_rad, 0.0));
     Seabed {
         depth_m,
         normal: toward * libm::sin(slope) + DVec3::Z * libm::cos(slope),

@@ -11,6 +11,7 @@ use super::around::Around;
 use super::builder::{Builder, Part};
 use super::catenary::Catenary;
 use super::half_hitches::hitched;
+use super::way::{along, length};
 
 /// Rope nodes in all where a scenario asks for none.
 const USUAL_NODES: u64 = 500;
@@ -65,7 +66,7 @@ impl Builder<'_> {
             LineStart::Wrapped(wraps) => {
                 let longest =
                     self.spec.lines[index].segments_m.first().copied().unwrap_or(f64::INFINITY);
-                self.lay_wound(index, &wraps, longest);
+                self.lay_wrapped(index, &wraps, longest);
             }
         }
     }
@@ -83,7 +84,7 @@ impl Builder<'_> {
             let message = format!("there is no catenary for line `{}` between its ends", line.id);
             self.problems.push(self.uncut[index].place.error(
                 message,
-                "mend its length or the places of its ends, or write start = \"straight\"",
+                "fix its length or the places of its ends, or write start = \"straight\"",
             ));
             return;
         };
@@ -118,13 +119,10 @@ impl Builder<'_> {
 
     /// Lays a line along a way that it must be as long as, for it crosses itself there.
     fn lay_way(&mut self, index: usize, way: &[DVec3]) {
-        let (long, length) = (
-            way.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>(),
-            self.uncut[index].length_m,
-        );
-        if (length / long - 1.0).abs() > MISFIT {
+        let (long, given) = (length(way), self.uncut[index].length_m);
+        if (given / long - 1.0).abs() > MISFIT {
             let message = format!(
-                "line `{}` is {length:.4} m long, its way round with two half hitches {long:.4} m",
+                "line `{}` is {given:.4} m long, its way round with two half hitches {long:.4} m",
                 self.spec.lines[index].id
             );
             self.problems.push(
@@ -173,20 +171,6 @@ impl Builder<'_> {
             _ => joint.position_m,
         }
     }
-}
-
-/// The place at a share of the length of a way through two places or more.
-pub(super) fn along(way: &[DVec3], share: f64) -> DVec3 {
-    let whole: f64 = way.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
-    let mut left = share * whole;
-    for pair in way.windows(2) {
-        let length = pair[0].distance(pair[1]);
-        if left <= length && length > 0.0 {
-            return pair[0].lerp(pair[1], left / length);
-        }
-        left -= length;
-    }
-    way.last().copied().unwrap_or_default()
 }
 
 #[expect(

@@ -2,8 +2,9 @@
 
 use endline_sim::whale::acts::{After, Curve, Moves, Track};
 
+use crate::confidence::Confidence;
 use crate::diagnostic::At;
-use crate::fields::{Fields, Figure, Problems, Provenance, Sureness};
+use crate::fields::{Fields, Figure, Problems, Provenance};
 use crate::nearest::hint;
 use crate::sources::Sources;
 use crate::whale::WhaleForm;
@@ -22,7 +23,7 @@ pub struct ActAnimation {
     pub clip: Option<At<String>>,
     /// Where its angles come from.
     source: Option<String>,
-    sureness: Option<Sureness>,
+    confidence: Option<Confidence>,
 }
 
 /// How far an act that repeats may end from where it begins [rad].
@@ -53,7 +54,7 @@ impl ActAnimation {
             file: At { value: format!("{folder}/{}", name.value), place: name.place.clone() },
             clip,
             source: file.source.clone(),
-            sureness: file.sureness,
+            confidence: file.confidence,
         })
     }
 }
@@ -117,7 +118,7 @@ impl ActItem {
             value,
             text: format!("{:.1} deg", value.to_degrees()),
             source: asked.source.clone().unwrap_or_default(),
-            sureness: asked.sureness.unwrap_or(Sureness::Estimate),
+            confidence: asked.confidence.unwrap_or(Confidence::Estimate),
             place: asked.file.place.clone(),
         };
         let ends = |values: &[f64]| {

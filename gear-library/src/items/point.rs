@@ -42,7 +42,7 @@ fn point(node: &Node, file: &Provenance, problems: &Problems) -> Option<(At<Stri
         );
     }
     let at = fields.values("at", Quantity::Length, &[3]);
-    if row.source.is_none() || row.sureness.is_none() {
+    if row.source.is_none() || row.confidence.is_none() {
         let message = format!("`{}` has no source or no sureness", node.place.field);
         problems.push(node.place.error(
             message,

@@ -1,6 +1,6 @@
 //! Surfaces of a whale by the words that files use: what friction tells apart.
 
-use endline_sdk::{BodyPart, Region};
+use endline_sdk::{Limb, Region};
 
 use crate::diagnostic::At;
 use crate::fields::Fields;
@@ -33,8 +33,8 @@ fn holds(word: &str, region: Region) -> bool {
     match word {
         "body" => region == Region::Body,
         "peduncle" => region == Region::Peduncle,
-        "flippers" => matches!(region.part(), BodyPart::LeftFlipper | BodyPart::RightFlipper),
-        "flukes" => matches!(region.part(), BodyPart::LeftFluke | BodyPart::RightFluke),
+        "flippers" => region.part().limb() == Limb::Flipper,
+        "flukes" => region.part().limb() == Limb::Fluke,
         "edges" => is_edge(region),
         of => surface_of(region) == of,
     }

@@ -5,13 +5,13 @@ use std::f64::consts::FRAC_PI_2;
 use endline_sim::DVec3;
 use endline_sim::water::tide::Tide;
 
-use crate::assemble::bearing as unit;
+use crate::compass::direction;
 use crate::diagnostic::{At, Place};
 use crate::fields::{Fields, Problems, Range};
 use crate::tree::Node;
 use crate::units::Quantity;
 
-use super::sea::bearing;
+use super::bearing::bearing;
 
 /// Speeds a current may have [m/s].
 const SPEED: Range = Range::Between(0.0, 10.0);
@@ -210,7 +210,7 @@ fn velocity(fields: &Fields<'_>, usual_rad: f64) -> Option<DVec3> {
     let toward = fields
         .value("toward", Quantity::Angle, Range::Any)
         .map_or(usual_rad, |toward| toward.value);
-    Some(unit(toward) * speed?.value)
+    Some(direction(toward) * speed?.value)
 }
 
 /// `[current.tide]`: one tidal constituent about a residual.
@@ -236,7 +236,7 @@ fn constituent(fields: &Fields<'_>) -> Option<(Tide, Place)> {
         period_s,
         peak_s,
         minor: minor.map_or(0.0, |minor| minor.value),
-        residual_m_s: unit(residual_toward) * residual.map_or(0.0, |residual| residual.value),
+        residual_m_s: direction(residual_toward) * residual.map_or(0.0, |residual| residual.value),
     };
     Some((tide, fields.place.clone()))
 }

@@ -1,7 +1,5 @@
 //! The sea of a scenario: site, seabed, current and waves.
 
-use std::f64::consts::FRAC_PI_2;
-
 use endline_sim::water::waves::Waves;
 
 use crate::diagnostic::{At, Place};
@@ -97,9 +95,4 @@ fn read_site(site: &Fields<'_>, sea: &mut Sea) {
         site.missing("density", "name a site of the library as `item`, or give a density such as 1025 kg/m3; 0 kg/m3 is a vacuum");
     }
     site.finish();
-}
-
-/// A compass bearing; east where there is none.
-pub(super) fn bearing<'a>(fields: &Fields<'a>, key: &'a str) -> f64 {
-    fields.value(key, Quantity::Angle, Range::Any).map_or(FRAC_PI_2, |angle| angle.value)
 }

@@ -4,12 +4,12 @@ use endline_sim::water::check::MOST_COMPONENTS;
 use endline_sim::water::jonswap::Spectrum;
 use endline_sim::water::waves::{WaveKind, Waves};
 
-use crate::assemble::bearing as unit;
+use crate::compass::direction;
 use crate::diagnostic::At;
 use crate::fields::{Fields, Range};
 use crate::units::Quantity;
 
-use super::sea::bearing;
+use super::bearing::bearing;
 
 /// Peak enhancement where none is given: the mean of JONSWAP.
 const USUAL_GAMMA: f64 = 3.3;
@@ -76,5 +76,5 @@ pub(super) fn read(fields: &Fields<'_>) -> Option<At<Waves>> {
         },
     };
     let ramp_s = ramp.map_or(USUAL_RAMP * period_s, |ramp| ramp.value);
-    Some(At { value: Waves { toward: unit(toward), ramp_s, kind }, place: height.place })
+    Some(At { value: Waves { toward: direction(toward), ramp_s, kind }, place: height.place })
 }

@@ -35,11 +35,6 @@ pub struct WrapOf {
     pub place: Place,
 }
 
-/// Whether a part is one of the trunk's.
-pub(crate) fn on_trunk(part: BodyPart) -> bool {
-    matches!(part, BodyPart::Head | BodyPart::Body | BodyPart::Peduncle)
-}
-
 impl WrapOf {
     /// Reads one; `None` where something needed is missing, which is a problem already told.
     pub(super) fn read(node: &Node, problems: &Problems) -> Option<Self> {
@@ -79,7 +74,7 @@ impl WrapOf {
         Some(Self {
             part,
             turns: turns?.value,
-            station: value(station).unwrap_or(if on_trunk(part) { 0.5 } else { USUAL_ON_FINS }),
+            station: value(station).unwrap_or(if part.on_trunk() { 0.5 } else { USUAL_ON_FINS }),
             pitch_m: value(pitch),
             azimuth_rad: value(azimuth),
             slack: value(slack).unwrap_or(0.0),

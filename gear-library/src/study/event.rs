@@ -1,6 +1,6 @@
 //! Events a study counts: an outcome, or rope on a part of the whale.
 
-use endline_sdk::BodyPart;
+use endline_sdk::{BodyPart, Limb};
 
 use crate::fields::Fields;
 use crate::nearest::hint;
@@ -39,11 +39,14 @@ pub enum RegionEvent {
 }
 
 /// Groups of parts that have a name of their own.
-const GROUPS: [(&str, &[BodyPart]); 3] = [
-    ("flipper", &[BodyPart::LeftFlipper, BodyPart::RightFlipper]),
-    ("fluke", &[BodyPart::LeftFluke, BodyPart::RightFluke]),
-    ("tailstock", &[BodyPart::Peduncle, BodyPart::LeftFluke, BodyPart::RightFluke]),
-];
+fn groups() -> [(&'static str, Vec<BodyPart>); 3] {
+    let tailstock = std::iter::once(BodyPart::Peduncle).chain(Limb::Fluke.parts());
+    [
+        (Limb::Flipper.name(), Limb::Flipper.parts().collect()),
+        (Limb::Fluke.name(), Limb::Fluke.parts().collect()),
+        ("tailstock", tailstock.collect()),
+    ]
+}
 
 impl Event {
     /// Every event there is.
@@ -52,7 +55,7 @@ impl Event {
         let mut all = Self::of_the_whole().to_vec();
         for kind in [RegionEvent::Contact, RegionEvent::Wrap] {
             all.extend(BodyPart::ALL.into_iter().map(|part| Self::On(kind, vec![part])));
-            all.extend(GROUPS.into_iter().map(|(_, parts)| Self::On(kind, parts.to_vec())));
+            all.extend(groups().into_iter().map(|(_, parts)| Self::On(kind, parts)));
         }
         all.push(Self::On(RegionEvent::Wrap, BodyPart::ALL.to_vec()));
         all
@@ -72,17 +75,15 @@ impl Event {
         ]
     }
 
-    /// Names of the places on the whale that a report lists, as they stand in names of events: each part of the middle
-    /// line, and each pair of parts as one.
+    /// Names of the places on the whale that a report lists, as they stand in names of events: each part of the trunk,
+    /// and each pair of limbs as one.
     #[must_use]
     pub fn places() -> Vec<&'static str> {
-        let pair = |part: &BodyPart| {
-            GROUPS.iter().find(|(_, parts)| parts.len() == 2 && parts.contains(part))
+        let place = |part: BodyPart| match part.limb() {
+            Limb::Trunk => part.name(),
+            limb => limb.name(),
         };
-        let mut places: Vec<&'static str> = BodyPart::ALL
-            .iter()
-            .map(|part| pair(part).map_or(part.name(), |(name, _)| name))
-            .collect();
+        let mut places: Vec<&'static str> = BodyPart::ALL.into_iter().map(place).collect();
         places.dedup();
         places
     }
@@ -105,7 +106,7 @@ impl Event {
         }
     }
 
-    /// Its name in words: `rope on head`, `wrap on flipper`.
+    /// Its name as shown to the user, such as `rope on head` or `wrap on flipper`.
     #[must_use]
     pub fn words(&self) -> String {
         match self {
@@ -136,7 +137,7 @@ fn place(parts: &[BodyPart]) -> String {
     if let [part] = parts {
         return part.name().to_owned();
     }
-    GROUPS.iter().find(|(_, group)| *group == parts).map_or("any", |(name, _)| name).to_owned()
+    groups().iter().find(|(_, group)| group == parts).map_or("any", |(name, _)| name).to_owned()
 }
 
 /// An event that must be named under a key.

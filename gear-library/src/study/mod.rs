@@ -19,7 +19,7 @@ use crate::units::Quantity;
 pub use claim::Claim;
 pub use event::{Event, HOOKED_TURNS, RegionEvent};
 pub use option::{Setting, StudyOption};
-pub use prior::{Basis, Law, Level, Prior, Target};
+pub use prior::{Law, Level, Prior, Target};
 
 /// Most encounters: the Sobol sequence used has this many points.
 pub const MOST_ENCOUNTERS: u64 = 65_536;

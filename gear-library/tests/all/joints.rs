@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use endline_gear::{Library, Sources, Sureness};
+use endline_gear::{Confidence, Library, Sources};
 use endline_sim::whale::{Angle, JointRanges};
 
 const FILE: &str = "whales/right-whale.toml";
@@ -27,11 +27,9 @@ fn the_right_whale_has_ranges_with_sources() {
             assert!(least <= 0.0 && most >= 0.0 && least < most, "{angle:?} of {}", whale.entry.id);
         }
         assert!(joints.ranges.spine_total.iter().all(|total| *total > 0.0));
-        assert!(
-            joints.figures.iter().all(
-                |(_, figure)| figure.sureness == Sureness::Estimate && figure.source.len() > 10
-            )
-        );
+        assert!(joints.figures.iter().all(
+            |(_, figure)| figure.confidence == Confidence::Estimate && figure.source.len() > 10
+        ));
         assert_eq!(joints.ranges.random(7), joints.ranges.random(7));
     }
 }

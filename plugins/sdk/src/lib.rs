@@ -28,4 +28,6 @@ pub use gear::{
 };
 pub use hook::{Act, Attribute, AttributeKind, AttributeValue, Descriptor, HookError};
 pub use motion::{Controls, MotionInput, MotionOutput, WhaleMotion};
-pub use whale::{BodyPart, FLUKE_STATION, Posture, Region, SPINE_JOINTS, SPINE_STATIONS};
+pub use whale::{
+    BodyPart, FLUKE_STATION, Limb, Posture, Region, SPINE_JOINTS, SPINE_STATIONS, Side,
+};

@@ -237,17 +237,106 @@ impl BodyPart {
         Self::RightFluke,
     ];
 
+    /// What is declared of each part: name, limb and side. Lists, groups and names elsewhere follow
+    /// from it.
+    const fn declared(self) -> (&'static str, Limb, Option<Side>) {
+        match self {
+            Self::Head => ("head", Limb::Trunk, None),
+            Self::Body => ("body", Limb::Trunk, None),
+            Self::LeftFlipper => ("left_flipper", Limb::Flipper, Some(Side::Left)),
+            Self::RightFlipper => ("right_flipper", Limb::Flipper, Some(Side::Right)),
+            Self::Peduncle => ("peduncle", Limb::Trunk, None),
+            Self::LeftFluke => ("left_fluke", Limb::Fluke, Some(Side::Left)),
+            Self::RightFluke => ("right_fluke", Limb::Fluke, Some(Side::Right)),
+        }
+    }
+
     /// Its name in files and results, such as `left_flipper`.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
+        self.declared().0
+    }
+
+    /// The limb it is, or the trunk.
+    #[must_use]
+    pub const fn limb(self) -> Limb {
+        self.declared().1
+    }
+
+    /// The side it is on; `None` for a part of the trunk.
+    #[must_use]
+    pub const fn side(self) -> Option<Side> {
+        self.declared().2
+    }
+
+    /// Whether rope winds round it about the axis of the trunk.
+    #[must_use]
+    pub const fn on_trunk(self) -> bool {
+        matches!(self.limb(), Limb::Trunk)
+    }
+}
+
+/// Trunk, or a kind of limb; limbs come in pairs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Limb {
+    /// Head, body and peduncle: parts along the spine.
+    Trunk,
+    /// A flipper.
+    Flipper,
+    /// A fluke.
+    Fluke,
+}
+
+impl Limb {
+    /// Its name in files and results: both flippers are `flipper`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
         match self {
-            Self::Head => "head",
-            Self::Body => "body",
-            Self::LeftFlipper => "left_flipper",
-            Self::RightFlipper => "right_flipper",
-            Self::Peduncle => "peduncle",
-            Self::LeftFluke => "left_fluke",
-            Self::RightFluke => "right_fluke",
+            Self::Trunk => "trunk",
+            Self::Flipper => "flipper",
+            Self::Fluke => "fluke",
+        }
+    }
+
+    /// Its parts, in the order of their numbers.
+    pub fn parts(self) -> impl Iterator<Item = BodyPart> {
+        BodyPart::ALL.into_iter().filter(move |part| part.limb() == self)
+    }
+}
+
+/// A side of the whale.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// Left (port): y above zero in the whale's frame.
+    Left,
+    /// Right (starboard): y below zero in the whale's frame.
+    Right,
+}
+
+impl Side {
+    /// Sign of y on this side in the whale's frame: 1 to port, -1 to starboard.
+    #[must_use]
+    pub const fn sign(self) -> f64 {
+        match self {
+            Self::Left => 1.0,
+            Self::Right => -1.0,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_lists_hold_every_part_and_region_at_its_number_under_its_own_name() {
+        for (number, part) in BodyPart::ALL.into_iter().enumerate() {
+            assert_eq!(part as usize, number);
+            assert_eq!(BodyPart::ALL.iter().filter(|other| other.name() == part.name()).count(), 1);
+            assert!(Region::ALL.iter().any(|region| region.part() == part), "{}", part.name());
+        }
+        for (number, region) in Region::ALL.into_iter().enumerate() {
+            assert_eq!(region as usize, number);
         }
     }
 }

@@ -110,7 +110,7 @@ impl Outcome {
             group: case.group.clone(),
             scenario: case.scenario.value.clone(),
             source: case.source.clone(),
-            sureness: case.sureness.word(),
+            sureness: case.confidence.word(),
             step_s: setup.model.spec.settings.step_s,
             segments: setup.model.segment_count,
             passed: false,

@@ -89,7 +89,7 @@ impl Axis {
 pub fn axes_of(skin: &Skin) -> [Option<Axis>; BodyPart::ALL.len()] {
     let trunk = trunk_axis(skin);
     BodyPart::ALL.map(|part| {
-        let axis = if on_trunk(part) { trunk.clone() } else { limb_axis(skin, part) }?;
+        let axis = if part.on_trunk() { trunk.clone() } else { limb_axis(skin, part) }?;
         let own = places(skin, &used_by(skin, |other| other == part));
         (!own.is_empty()).then(|| Axis { reach_m: axis.reach_of(&own), ..axis })
     })
@@ -97,12 +97,13 @@ pub fn axes_of(skin: &Skin) -> [Option<Axis>; BodyPart::ALL.len()] {
 
 /// The axis of head, body and peduncle.
 pub(crate) fn trunk_axis(skin: &Skin) -> Option<Axis> {
-    sections_along(skin, &used_by(skin, on_trunk), DVec3::ZERO, DVec3::X, [DVec3::Y, DVec3::Z])
-}
-
-/// Whether a part counts its wraps about the trunk.
-fn on_trunk(part: BodyPart) -> bool {
-    matches!(part, BodyPart::Head | BodyPart::Body | BodyPart::Peduncle)
+    sections_along(
+        skin,
+        &used_by(skin, BodyPart::on_trunk),
+        DVec3::ZERO,
+        DVec3::X,
+        [DVec3::Y, DVec3::Z],
+    )
 }
 
 /// The axis of a flipper or fluke, from the middle of its root to its farthest vertex.

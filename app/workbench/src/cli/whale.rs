@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use endline_gear::whale::edges::smallest_radius;
 use endline_gear::whale::gltf::{About, Form, write};
 use endline_gear::{Diagnostic, Library, Sources};
-use endline_sdk::BodyPart;
+use endline_sdk::Limb;
 use endline_session::{locate, save};
 
 use super::args::{WhaleBuildArgs, WhaleCommand};
@@ -57,8 +57,8 @@ fn build(args: &WhaleBuildArgs, library: Option<&Path>) -> Result<ExitCode, Fail
         .map_err(|error| Failure::failed(format!("{name}: cannot be written: {error}")))?;
     let (vertices, triangles, bones) =
         (skin.vertices.len(), skin.triangles.len(), skin.bones.len());
-    let edge = |of: [BodyPart; 2]| {
-        let least = smallest_radius(&skin, |region| of.contains(&region.part()));
+    let edge = |of: Limb| {
+        let least = smallest_radius(&skin, |region| region.part().limb() == of);
         least.map_or_else(
             || "none".to_owned(),
             |(radius_m, _)| format!("{:.1} mm", 1000.0 * radius_m),
@@ -67,8 +67,8 @@ fn build(args: &WhaleBuildArgs, library: Option<&Path>) -> Result<ExitCode, Fail
     output::print(&format!(
         "{name}: {length_m} m, {triangles} triangles, {vertices} vertices, {bones} bones, {} bytes\nsmallest edge radius: flippers {}, flukes {}\n",
         bytes.len(),
-        edge([BodyPart::LeftFlipper, BodyPart::RightFlipper]),
-        edge([BodyPart::LeftFluke, BodyPart::RightFluke])
+        edge(Limb::Flipper),
+        edge(Limb::Fluke)
     ))?;
     Ok(ExitCode::SUCCESS)
 }

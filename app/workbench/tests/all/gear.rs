@@ -277,9 +277,9 @@ fn whales_have_a_table_and_every_figure_tells_how_sure_it_is_and_whence() {
     for (_, figure) in entry.figures.iter().take(3) {
         assert!(harness.query_all_by_label(&figure.source).next().is_some(), "{}", figure.source);
         assert!(
-            harness.query_all_by_label(figure.sureness.word()).next().is_some(),
+            harness.query_all_by_label(figure.confidence.word()).next().is_some(),
             "{:?}",
-            figure.sureness
+            figure.confidence
         );
     }
 }

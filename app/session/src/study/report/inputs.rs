@@ -43,7 +43,7 @@ pub(super) fn sensitivity(findings: &Findings) -> Table {
 /// How encounters are drawn.
 pub(super) fn priors(opened: &Opened) -> Table {
     let row = |prior: &Prior| {
-        let tag = Cell { lines: vec![Line::Tag(prior.basis.word())] };
+        let tag = Cell { lines: vec![Line::Tag(prior.confidence.word())] };
         vec![prior.words().into(), prior.law.words().into(), tag, Cell::from(&prior.source)]
     };
     Table::new(

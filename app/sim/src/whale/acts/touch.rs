@@ -1,6 +1,6 @@
 //! Where rope touches the whale, and which act answers it.
 
-use endline_sdk::{BodyPart, MotionInput};
+use endline_sdk::{BodyPart, MotionInput, Side};
 
 /// Rope must stay away this long for the next touch to count as a new one [s].
 pub const NEW_TOUCH_S: f64 = 1.0;
@@ -49,13 +49,10 @@ pub fn side(input: &MotionInput<'_>) -> f64 {
     {
         all += force;
         sided += force
-            * match part {
-                BodyPart::LeftFlipper | BodyPart::LeftFluke => 1.0,
-                BodyPart::RightFlipper | BodyPart::RightFluke => -1.0,
-                BodyPart::Head | BodyPart::Body | BodyPart::Peduncle => {
-                    (port_m / (WHOLE_SIDE * input.length_m)).clamp(-1.0, 1.0)
-                }
-            };
+            * part.side().map_or_else(
+                || (port_m / (WHOLE_SIDE * input.length_m)).clamp(-1.0, 1.0),
+                Side::sign,
+            );
     }
     if sided > MIDDLE * all {
         1.0

@@ -63,7 +63,7 @@ pub(super) fn plan(opened: &Opened) -> String {
     ]);
     let mut rows = vec![vec!["prior".to_owned(), "sureness".into(), "source".into()]];
     rows.extend(study.priors.iter().map(|prior| {
-        vec![prior.name.value.clone(), prior.basis.word().into(), prior.source.clone()]
+        vec![prior.name.value.clone(), prior.confidence.word().into(), prior.source.clone()]
     }));
     text += &columns(&rows);
     let mut rows = vec![

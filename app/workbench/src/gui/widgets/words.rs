@@ -1,7 +1,7 @@
 //! Words and colours for what a run reports: its status, events and outcome; names of the format as titles.
 
 use egui::Color32;
-use endline_gear::Sureness;
+use endline_gear::Confidence;
 use endline_session::live::Status;
 use endline_sim::metrics::{EventKind, Outcome};
 
@@ -63,11 +63,11 @@ pub fn outcome(outcome: Outcome, palette: Palette) -> (&'static str, &'static st
 
 /// Colour of a sureness.
 #[must_use]
-pub fn sureness_colour(sureness: Sureness, palette: Palette) -> Color32 {
-    match sureness {
-        Sureness::Measured => palette.good,
-        Sureness::Derived => palette.accent,
-        Sureness::Estimate => palette.warning,
+pub fn confidence_colour(confidence: Confidence, palette: Palette) -> Color32 {
+    match confidence {
+        Confidence::Measured => palette.good,
+        Confidence::Derived => palette.accent,
+        Confidence::Estimate | Confidence::Assumed => palette.warning,
     }
 }
 

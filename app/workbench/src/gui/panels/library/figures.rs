@@ -23,9 +23,9 @@ pub(super) fn show(ui: &mut Ui, desk: &Desk, kind: Kind, path: &str) {
             ui.label(units::format_si(figure.value, field.quantity)).on_hover_text(&figure.text);
             ui.horizontal(|ui| {
                 ui.label(
-                    RichText::new(figure.sureness.word())
+                    RichText::new(figure.confidence.word())
                         .small()
-                        .color(words::sureness_colour(figure.sureness, palette)),
+                        .color(words::confidence_colour(figure.confidence, palette)),
                 );
                 ui.add(egui::Label::new(RichText::new(&figure.source).small()).truncate())
                     .on_hover_text(&figure.source);

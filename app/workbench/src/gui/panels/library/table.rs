@@ -192,8 +192,8 @@ fn cell(ui: &mut Ui, desk: &Desk, path: &str, key: &'static str, help: &str) -> 
 fn sureness(ui: &Ui, desk: &Desk, kind: Kind, path: &str, field: &Field) {
     let entry = desk.documents.library().entry(kind, exchange::id_of(path));
     let Some(figure) = entry.and_then(|entry| entry.figure(field.key)) else { return };
-    let letter = figure.sureness.word().get(..1).unwrap_or_default();
-    let colour = words::sureness_colour(figure.sureness, Theme::palette_of(ui));
+    let letter = figure.confidence.word().get(..1).unwrap_or_default();
+    let colour = words::confidence_colour(figure.confidence, Theme::palette_of(ui));
     let corner = ui.max_rect().right_top() + egui::vec2(-13.0, 4.0);
     ui.painter().text(
         corner,
@@ -213,6 +213,6 @@ fn provenance(desk: &Desk, kind: Kind, path: &str, field: &Field) -> String {
         .and_then(|entry| entry.figure(field.key));
     figure.map_or_else(String::new, |figure| {
         let si = units::format_si(figure.value, field.quantity);
-        format!("\n\n= {si}\n{}: {}", figure.sureness.word(), figure.source)
+        format!("\n\n= {si}\n{}: {}", figure.confidence.word(), figure.source)
     })
 }

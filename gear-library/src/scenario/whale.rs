@@ -17,7 +17,7 @@ const FELT_N: f64 = 1.0;
 
 /// A whale in a scenario.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Swimmer {
+pub struct PlacedWhale {
     /// Id of the library's whale.
     pub item: At<String>,
     /// Body length, over the library's [m].
@@ -72,7 +72,7 @@ pub struct AnswerToTouch {
 /// Stands for the motion of a dead whale.
 const NO_MOTION: &str = "org.endline.motion.swim";
 
-impl Swimmer {
+impl PlacedWhale {
     /// Reads `[whale]`; `None` where something needed is missing, which is a problem already told.
     pub(super) fn read(fields: &Fields<'_>) -> Option<Self> {
         let item = fields

@@ -10,8 +10,6 @@ use endline_sim::whale::axes::{PosedAxis, axes_of};
 use endline_sim::whale::{Candidate, Skin, SkinTree, Surface, pose, skin_all};
 use endline_sim::{DAffine3, DVec3};
 
-use crate::scenario::on_trunk;
-
 /// Rope within this distance of skin is measured [m].
 const MARGIN_M: f64 = 0.05;
 
@@ -55,7 +53,7 @@ impl PosedSkin {
         let surface = Surface::new(Arc::new(SkinTree::new(Arc::clone(&skin))));
         let own = BodyPart::ALL.map(|part| {
             let wanted = |region: Region| {
-                region.part() == part || (on_trunk(part) && on_trunk(region.part()))
+                region.part() == part || (part.on_trunk() && region.part().on_trunk())
             };
             (0..skin.triangles.len()).filter(|triangle| wanted(skin.regions[*triangle])).collect()
         });
@@ -92,7 +90,7 @@ impl PosedSkin {
         };
         let (sum, whole) = cuts.iter().fold((DVec3::ZERO, 0.0), weigh);
         // A thin blade bends away from its axis: its outline's own middle is surely within.
-        let centre = if on_trunk(part) || whole <= 0.0 { place } else { sum / whole };
+        let centre = if part.on_trunk() || whole <= 0.0 { place } else { sum / whole };
         Outline { cuts, centre, along }
     }
 

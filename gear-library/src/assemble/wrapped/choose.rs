@@ -8,7 +8,9 @@ use std::f64::consts::TAU;
 
 use endline_sim::DVec3;
 
-use super::helix::{Helix, length};
+use crate::assemble::way::length;
+
+use super::helix::Helix;
 use super::leg;
 use super::skin::PosedSkin;
 

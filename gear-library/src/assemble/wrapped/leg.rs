@@ -1,10 +1,10 @@
 //! Rope between wraps and ends: straight, and over the trunk where straight would go through it.
 
-use endline_sdk::BodyPart;
+use endline_sdk::{BodyPart, Limb};
 use endline_sim::DVec3;
 
-use super::cut::Stretch;
 use super::skin::PosedSkin;
+use super::stretch::Stretch;
 
 /// Distance of places looked at [m].
 const EACH_M: f64 = 0.05;
@@ -34,9 +34,7 @@ pub(super) fn way(skin: &PosedSkin, [from, to]: [DVec3; 2], each_m: f64) -> Vec<
 
 /// A place, moved straight out from the trunk's axis where it lies within the trunk.
 fn over_trunk(skin: &PosedSkin, place: DVec3) -> DVec3 {
-    let trunk = [BodyPart::Body, BodyPart::Head, BodyPart::Peduncle]
-        .into_iter()
-        .find_map(|part| skin.axis(part));
+    let trunk = Limb::Trunk.parts().find_map(|part| skin.axis(part));
     let Some(spot) = trunk.and_then(|(axis, _)| axis.see(place)) else { return place };
     let toward = place - spot.middle;
     if toward.length() > WIDEST * libm::hypot(spot.half_m[0], spot.half_m[1]) + skin.off_m {

@@ -1,38 +1,39 @@
 //! The scenario document: sea, gear, whale, fixtures and probes of one run.
 
+mod bearing;
 mod current;
 mod friction;
-mod motion;
+mod gear;
+mod lines;
 mod obstacle;
 mod parts;
 mod pilot;
 mod resolution;
 mod sea;
 mod waves;
+mod whale;
 mod wrap;
 
 use endline_sim::DVec3;
 use endline_sim::model::Resolution;
 
-use crate::assembly::{PartLine, PartLink, line_fields, link};
-use crate::attributes::Attributes;
+use crate::assembly::{PartLine, PartLink, link};
 use crate::diagnostic::{At, Diagnostic, Place};
 use crate::entry::{self, Entry};
 use crate::fields::{Fields, Problems, Range};
 use crate::items::Condition;
-use crate::line::LineMake;
 use crate::tree::{self, Node};
 use crate::units::Quantity;
 
 pub use current::{CurrentOf, CurrentRow, RowHeight};
 pub use friction::{FrictionChoice, FrictionOn};
-pub use motion::{AnswerToTouch, Swimmer};
+pub use gear::PlacedGear;
 pub use obstacle::ObstacleOf;
 pub use parts::{Fixture, FreeBody, LineStart, ProbeOf, ProbePart};
 pub use pilot::{PilotOf, TriggerOf};
 pub use sea::{Bed, Sea};
+pub use whale::{AnswerToTouch, PlacedWhale};
 pub use wrap::WrapOf;
-pub(crate) use wrap::on_trunk;
 
 /// A scenario as read; ids are looked up by [`assemble`](crate::assemble).
 #[derive(Clone, Debug, PartialEq)]
@@ -73,14 +74,14 @@ pub struct Scenario {
     pub rope_condition: Condition,
     /// Whether rope resists bending.
     pub rope_bending: bool,
-    /// Whether strengths of ropes and weak links scatter by the seed.
-    pub strength_scatter: bool,
+    /// Whether strengths of ropes and weak links vary at random, by the seed: `strength_scatter`.
+    pub strength_variation: bool,
     /// The sea.
     pub sea: Sea,
     /// Gear from the library.
     pub gear: Vec<PlacedGear>,
     /// The whale, if any.
-    pub whale: Option<Swimmer>,
+    pub whale: Option<PlacedWhale>,
     /// Friction of rope on whale.
     pub friction: Option<FrictionChoice>,
     /// Ropes written in place.
@@ -99,25 +100,6 @@ pub struct Scenario {
     pub links: Vec<PartLink>,
     /// Probes.
     pub probes: Vec<ProbeOf>,
-}
-
-/// An assembly of the library, placed.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PlacedGear {
-    /// Prefix of its parts' ids; needed where several are placed.
-    pub id: Option<At<String>>,
-    /// Id of the assembly.
-    pub assembly: At<String>,
-    /// Where its origin lies, east and north [m].
-    pub position_m: [f64; 2],
-    /// Compass bearing of its x axis [rad].
-    pub heading_rad: f64,
-    /// Attributes over the assembly's.
-    pub attributes: Attributes,
-    /// Ropes over the assembly's: id of the line, id of the rope.
-    pub ropes: Vec<(At<String>, At<String>)>,
-    /// How lines are made up, over the assembly's: id of the line.
-    pub lines: Vec<(At<String>, LineMake)>,
 }
 
 impl Scenario {
@@ -139,46 +121,37 @@ impl Scenario {
         let fields = Fields::of(node, problems);
         let (name, notes, file) = entry::header(&fields, "scenario", problems);
         let duration = fields.need_value("duration", Quantity::Time, Range::Between(1e-6, 1e6));
-        let seed = fields.count("seed", 0);
-        let step = step(&fields);
-        let contact_step = fields.value("contact_step", Quantity::Time, Range::Between(1e-6, 1.0));
-        let rope_nodes = fields.count("rope_nodes", 2);
-        let segment = fields.value("segment", Quantity::Length, Range::Between(1e-3, 1000.0));
-        let weak_links = fields.flag("weak_links");
-        let rope_on_bodies = fields.flag("rope_on_bodies");
-        let rope_on_rope = fields.flag("rope_on_rope");
-        let rope_friction =
-            fields.value("rope_friction", Quantity::Ratio, Range::Between(0.0, 2.0));
         let whale = fields.table("whale");
-        let follow = fields.table("resolution");
+        let resolution = fields.table("resolution");
         let start = fields.word("start", &["rest", "placed"]);
         let rope_condition = fields.word("rope_condition", &Condition::WORDS);
+        let flag = |key, usual| fields.flag(key).unwrap_or(usual);
         let each = |key: &'static str| fields.tables(key).iter();
         let scenario = Self {
             name,
             notes,
             place: node.place.clone(),
-            duration_s: duration.as_ref().map_or(60.0, |duration| duration.value),
-            seed: seed.map_or(1, |seed| seed.value),
-            step_s: step,
+            duration_s: duration.map_or(60.0, |duration| duration.value),
+            seed: fields.count("seed", 0).map_or(1, |seed| seed.value),
+            step_s: step(&fields),
             auto_step: is_auto(&fields),
-            contact_step_s: contact_step.map(|step| step.value),
-            rope_nodes,
-            segment_m: segment.map(|segment| segment.value),
-            weak_links: weak_links.unwrap_or(true),
-            rope_on_bodies: rope_on_bodies.unwrap_or(false),
-            rope_on_rope: rope_on_rope.unwrap_or(false),
-            rope_friction,
+            contact_step_s: seconds(&fields, "contact_step"),
+            rope_nodes: fields.count("rope_nodes", 2),
+            segment_m: segment(&fields),
+            weak_links: flag("weak_links", true),
+            rope_on_bodies: flag("rope_on_bodies", false),
+            rope_on_rope: flag("rope_on_rope", false),
+            rope_friction: rope_friction(&fields),
             as_placed: start.is_some_and(|start| start.value == "placed"),
             rope_condition: rope_condition
                 .and_then(|word| Condition::from_word(&word.value))
                 .unwrap_or_default(),
-            rope_bending: fields.flag("rope_bending").unwrap_or(false),
-            strength_scatter: fields.flag("strength_scatter").unwrap_or(true),
+            rope_bending: flag("rope_bending", false),
+            strength_variation: flag("strength_scatter", true),
             sea: sea::read(&fields),
-            gear: each("gear").filter_map(|node| placed_gear(node, problems)).collect(),
-            resolution: follow.as_ref().map(|follow| resolution::read(follow, whale.is_some())),
-            whale: whale.as_ref().and_then(Swimmer::read),
+            gear: each("gear").filter_map(|node| gear::placed_gear(node, problems)).collect(),
+            resolution: resolution.map(|table| resolution::read(&table, whale.is_some())),
+            whale: whale.as_ref().and_then(PlacedWhale::read),
             friction: fields.table("friction").as_ref().and_then(friction::read),
             ropes: parts::ropes(&fields, &file),
             fixtures: each("fixture").filter_map(|node| parts::fixture(node, problems)).collect(),
@@ -187,7 +160,7 @@ impl Scenario {
                 .filter_map(|node| obstacle::obstacle(node, &file, problems))
                 .collect(),
             bodies: each("body").filter_map(|node| parts::body(node, &file, problems)).collect(),
-            lines: each("line").filter_map(|node| free_line(node, problems)).collect(),
+            lines: each("line").filter_map(|node| lines::free_line(node, problems)).collect(),
             links: each("link").filter_map(|node| link(node, problems, true)).collect(),
             probes: each("probe").filter_map(|node| parts::probe(node, problems)).collect(),
         };
@@ -229,98 +202,23 @@ fn step(fields: &Fields<'_>) -> Option<f64> {
     if is_auto(fields) {
         return None;
     }
-    fields.value("step", Quantity::Time, Range::Between(1e-6, 1.0)).map(|step| step.value)
+    seconds(fields, "step")
 }
 
-fn placed_gear(node: &Node, problems: &Problems) -> Option<PlacedGear> {
-    let fields = Fields::of(node, problems);
-    let id = fields.text("id");
-    let assembly = fields.need_text("assembly", "write the id of an assembly, such as \"single\"");
-    let position = fields.values("position", Quantity::Length, &[2]);
-    let heading = fields.value("heading", Quantity::Angle, Range::Any);
-    let attributes = Attributes::read(&fields, "attributes");
-    let ropes = rope_choices(&fields);
-    let lines = line_choices(&fields);
-    fields.finish();
-    Some(PlacedGear {
-        id,
-        assembly: assembly?,
-        position_m: position.map_or([0.0; 2], |xy| [xy.value[0], xy.value[1]]),
-        heading_rad: heading.map_or(std::f64::consts::FRAC_PI_2, |heading| heading.value),
-        attributes,
-        ropes,
-        lines,
-    })
+/// A step of time of at most a second [s].
+fn seconds<'a>(fields: &Fields<'a>, key: &'a str) -> Option<f64> {
+    fields.value(key, Quantity::Time, Range::Between(1e-6, 1.0)).map(|step| step.value)
 }
 
-/// `[gear.ropes]`: a rope for a line, by id.
-fn rope_choices(fields: &Fields<'_>) -> Vec<(At<String>, At<String>)> {
-    let Some(table) = fields.table("ropes") else { return Vec::new() };
-    let mut choices = Vec::new();
-    for (line, key, node) in table.rest() {
-        match &node.content {
-            tree::Content::Text(rope) => choices.push((
-                At { value: line.clone(), place: key.clone() },
-                At { value: rope.clone(), place: node.place.clone() },
-            )),
-            other => {
-                let message = format!("`{line}` is {}, not the id of a rope", other.noun());
-                fields.problems().push(node.place.error(message, "write the rope's id in quotes"));
-            }
-        }
-    }
-    choices
+/// `segment`: the longest segment [m].
+fn segment(fields: &Fields<'_>) -> Option<f64> {
+    let longest = fields.value("segment", Quantity::Length, Range::Between(1e-3, 1000.0));
+    longest.map(|longest| longest.value)
 }
 
-/// `[gear.lines.<line>]`: how a line is made up, by id.
-fn line_choices(fields: &Fields<'_>) -> Vec<(At<String>, LineMake)> {
-    let Some(table) = fields.table("lines") else { return Vec::new() };
-    let choice = |(line, key, node): &(String, Place, Node)| {
-        let inner = Fields::of(node, fields.problems());
-        let make = LineMake::read(&inner);
-        inner.finish();
-        (At { value: line.clone(), place: key.clone() }, make)
-    };
-    table.rest().into_iter().map(choice).collect()
-}
-
-fn free_line(node: &Node, problems: &Problems) -> Option<(PartLine, LineStart)> {
-    let fields = Fields::of(node, problems);
-    let line = line_fields(&fields);
-    let start = fields.word("start", &["straight", "catenary", "around", "wrapped"]);
-    let start = match start.as_ref().map_or("straight", |start| start.value.as_str()) {
-        "catenary" => Some(LineStart::Catenary),
-        "around" => around(&fields),
-        "wrapped" => wrapped(&fields),
-        _ => Some(LineStart::Straight),
-    };
-    fields.finish();
-    Some((line?, start?))
-}
-
-fn around(fields: &Fields<'_>) -> Option<LineStart> {
-    let obstacle = fields.need_text("around", "write the id of a cylinder among the obstacles");
-    let turns = fields.need_value("turns", Quantity::Ratio, Range::Between(-100.0, 100.0));
-    let (turns, hitched) = (turns?.value, fields.flag("hitched").unwrap_or(false));
-    if let (Some(node), true) = (fields.get("hitched"), hitched && (turns.abs() - 2.0).abs() > 0.3)
-    {
-        let message = format!("two half hitches are two turns, not {turns}");
-        fields
-            .problems()
-            .push(node.place.error(message, "write turns = 2 or -2, or take hitched out"));
-    }
-    Some(LineStart::Around { obstacle: obstacle?, turns, hitched })
-}
-
-fn wrapped(fields: &Fields<'_>) -> Option<LineStart> {
-    let wraps = fields.tables("wrap");
-    if wraps.is_empty() && fields.get("wrap").is_none() {
-        fields.missing("wrap", "write each wrap under [[line.wrap]], with `part` and `turns`");
-        return None;
-    }
-    let wraps: Vec<Option<WrapOf>> =
-        wraps.iter().map(|node| WrapOf::read(node, fields.problems())).collect();
-    wraps.into_iter().collect::<Option<Vec<_>>>().map(LineStart::Wrapped)
+/// `rope_friction`: the coefficient of rope on rope.
+fn rope_friction(fields: &Fields<'_>) -> Option<At<f64>> {
+    fields.value("rope_friction", Quantity::Ratio, Range::Between(0.0, 2.0))
 }
 
 /// A place as east, north, up [m].

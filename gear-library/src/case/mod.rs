@@ -7,9 +7,10 @@ mod check;
 mod rows;
 mod table;
 
+use crate::confidence::Confidence;
 use crate::diagnostic::{At, Diagnostic, Place};
 use crate::entry;
-use crate::fields::{Fields, Problems, Range, Sureness, read_value};
+use crate::fields::{Fields, Problems, Range, read_value};
 use crate::tree::{self, Content, Node};
 use crate::units::Quantity;
 
@@ -30,8 +31,8 @@ pub struct Case {
     pub group: String,
     /// Where the expected values come from.
     pub source: String,
-    /// How sure they are.
-    pub sureness: Sureness,
+    /// How well they are known.
+    pub confidence: Confidence,
     /// The file itself.
     pub place: Place,
     /// Id of its scenario: a file of `scenarios/`.
@@ -84,7 +85,7 @@ impl Case {
         let fields = Fields::of(node, problems);
         let (name, notes, file) = entry::header(&fields, "case", problems);
         for (missing, key) in
-            [(file.source.is_none(), "source"), (file.sureness.is_none(), "sureness")]
+            [(file.source.is_none(), "source"), (file.confidence.is_none(), "sureness")]
         {
             if missing {
                 fields.missing(key, "say where the expected values come from, and whether they are measured, derived or estimate");
@@ -121,7 +122,7 @@ impl Case {
             notes,
             group: group?.value,
             source: file.source?,
-            sureness: file.sureness?,
+            confidence: file.confidence?,
             place: node.place.clone(),
             scenario: scenario?,
             set,

@@ -1,14 +1,16 @@
 //! Assembly: scenario, library and plugins become a model's spec.
 //!
 //! Order: sea, whale, gear of the library, obstacles, parts written in place, lines cut into segments, weak links,
-//! friction, probes. Every problem is collected and told with its place.
+//! friction, probes. Every problem is collected and reported with its place.
 
 mod acts;
 mod around;
+mod attributes;
 mod body;
 mod builder;
 mod catenary;
 mod ends;
+mod friction_laws;
 mod gear;
 mod half_hitches;
 mod hitch;
@@ -17,12 +19,12 @@ mod line;
 mod pilot;
 mod probes;
 mod rig;
-mod rub;
-mod scatter;
 mod sea;
 mod segments;
-mod swimmer;
-mod wound;
+mod strength_variation;
+mod way;
+mod whale;
+mod wrapped;
 
 use std::sync::Arc;
 
@@ -34,8 +36,6 @@ use crate::diagnostic::Diagnostic;
 use crate::library::Library;
 use crate::scenario::Scenario;
 use builder::Builder;
-
-pub(crate) use sea::bearing;
 
 pub use body::{box_inertia, buoy_floats, buoy_inertia, shell_inertia};
 

@@ -4,53 +4,53 @@ use endline_sim::DQuat;
 use endline_sim::model::{PilotProgram, Whale};
 use endline_sim::whale::Measures;
 
-use crate::attributes::numbers;
 use crate::items::WhaleItem;
 use crate::nearest::hint;
-use crate::scenario::Swimmer;
+use crate::scenario::PlacedWhale;
 use crate::schema::Kind;
 
+use super::attributes::numbers;
 use super::builder::Builder;
 
 impl Builder<'_> {
     /// The scenario's whale with its motion; `kinetic` over the scenario's own choice.
     pub fn add_whale(&mut self, kinetic: Option<bool>) {
-        let Some(swimmer) = &self.scenario.whale else {
+        let Some(placed) = &self.scenario.whale else {
             return;
         };
         let Some(item) =
-            self.library.whales.iter().find(|whale| whale.entry.id == swimmer.item.value)
+            self.library.whales.iter().find(|whale| whale.entry.id == placed.item.value)
         else {
-            self.no_item(Kind::Whale, &swimmer.item.value, &swimmer.item.place);
+            self.no_item(Kind::Whale, &placed.item.value, &placed.item.place);
             return;
         };
         self.uses(&item.entry.path);
         item.mesh.iter().for_each(|mesh| self.uses(&mesh.file.value));
-        let Some(motion) = self.hooks.motion(&swimmer.motion.value) else {
+        let Some(motion) = self.hooks.motion(&placed.motion.value) else {
             let ids = self.hooks.ids();
-            let message = format!("no whale motion `{}` among the plugins", swimmer.motion.value);
+            let message = format!("no whale motion `{}` among the plugins", placed.motion.value);
             self.problems.push(
-                swimmer
+                placed
                     .motion
                     .place
-                    .error(message, hint(&swimmer.motion.value, ids.iter().map(String::as_str))),
+                    .error(message, hint(&placed.motion.value, ids.iter().map(String::as_str))),
             );
             return;
         };
-        let motion = self.with_acts(motion, swimmer, item);
-        let attributes = swimmer.attributes.resolve(
+        let motion = self.with_acts(motion, placed, item);
+        let attributes = placed.attributes.resolve(
             motion.descriptor(),
             self.library,
             &mut self.used,
             &self.problems,
         );
-        let Some(length_m) = self.length(swimmer, item) else { return };
-        let skin = item.skin_for(length_m, swimmer.condition, swimmer.pregnant);
+        let Some(length_m) = self.length(placed, item) else { return };
+        let skin = item.skin_for(length_m, placed.condition, placed.pregnant);
         let measures = Measures::of(&skin, item.density_kg_m3);
         let density_kg_m3 = self.spec.water.density_kg_m3;
-        let feels = (swimmer.dead || kinetic.unwrap_or(swimmer.kinetic)).then(|| {
-            let alive = item.kinetic(length_m, &skin, density_kg_m3, swimmer.effort)?;
-            if swimmer.dead {
+        let feels = (placed.dead || kinetic.unwrap_or(placed.kinetic)).then(|| {
+            let alive = item.kinetic(length_m, &skin, density_kg_m3, placed.effort)?;
+            if placed.dead {
                 item.dead(&skin, alive, &measures, density_kg_m3)
             } else {
                 Some(alive)
@@ -63,13 +63,13 @@ impl Builder<'_> {
             joints: item.joints.ranges,
             length_m,
             burst_speed_m_s: item.burst_speed_m_s,
-            position_m: swimmer.position_m,
-            orientation: orientation(swimmer),
-            speed_m_s: swimmer.speed_m_s,
+            position_m: placed.position_m,
+            orientation: orientation(placed),
+            speed_m_s: placed.speed_m_s,
             motion,
             motion_attributes: numbers(&attributes),
             pilot: PilotProgram::default(),
-            contact_stiffness_n_m2: swimmer
+            contact_stiffness_n_m2: placed
                 .contact_stiffness_n_m2
                 .unwrap_or(item.contact_stiffness_n_m2),
             kinetic: feels,
@@ -77,17 +77,17 @@ impl Builder<'_> {
     }
 
     /// The whale's length: its own, by its age, or that of the file.
-    fn length(&self, swimmer: &Swimmer, item: &WhaleItem) -> Option<f64> {
-        if item.mesh.is_some() && (swimmer.pregnant || (swimmer.condition - 1.0).abs() > 0.0) {
+    fn length(&self, placed: &PlacedWhale, item: &WhaleItem) -> Option<f64> {
+        if item.mesh.is_some() && (placed.pregnant || (placed.condition - 1.0).abs() > 0.0) {
             let help =
                 "leave out `condition` and `pregnant`, or take the mesh out of the whale's file";
-            self.problems.push(swimmer.item.place.error(
+            self.problems.push(placed.item.place.error(
                 format!("{} brings its own mesh, whose girth does not change", item.entry.path),
                 help,
             ));
         }
-        let Some(age) = &swimmer.age_s else {
-            return Some(swimmer.length_m.unwrap_or(item.form.length_m));
+        let Some(age) = &placed.age_s else {
+            return Some(placed.length_m.unwrap_or(item.form.length_m));
         };
         let law = item.growth.age;
         if law.is_none() {
@@ -102,8 +102,8 @@ impl Builder<'_> {
 }
 
 /// Heading by compass, then nose up, then roll to starboard.
-fn orientation(swimmer: &Swimmer) -> DQuat {
-    DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2 - swimmer.heading_rad)
-        * DQuat::from_rotation_y(-swimmer.pitch_rad)
-        * DQuat::from_rotation_x(swimmer.roll_rad)
+fn orientation(placed: &PlacedWhale) -> DQuat {
+    DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2 - placed.heading_rad)
+        * DQuat::from_rotation_y(-placed.pitch_rad)
+        * DQuat::from_rotation_x(placed.roll_rad)
 }

@@ -20,10 +20,12 @@ use endline_sdk::BodyPart;
 use endline_sim::DVec3;
 use endline_sim::model::Rope;
 
-use crate::scenario::{WrapOf, on_trunk};
+use crate::scenario::WrapOf;
 
-use super::cut::Stretch;
+use crate::assemble::way::length;
+
 use super::skin::{Outline, PosedSkin};
+use super::stretch::Stretch;
 
 /// Places on each turn of a wrap.
 const EACH_TURN: f64 = 240.0;
@@ -51,7 +53,7 @@ struct Section {
 
 impl<'a> Helix<'a> {
     pub fn of(wrap: &'a WrapOf, rope: &Rope) -> Self {
-        let fine_m = wrap.segment_m.unwrap_or(USUAL_SEGMENTS_M[usize::from(!on_trunk(wrap.part))]);
+        let fine_m = wrap.segment_m.unwrap_or(USUAL_SEGMENTS_M[usize::from(!wrap.part.on_trunk())]);
         Self { wrap, pitch_m: wrap.pitch_m.unwrap_or(USUAL_PITCH * rope.diameter_m), fine_m }
     }
 
@@ -141,7 +143,7 @@ impl<'a> Helix<'a> {
         let station =
             wrap.station + self.pitch_m * wrap.turns.abs() * (done - 0.5) / (reach[1] - reach[0]);
         let found = axis.at(along(*reach, wrap.part, station)).and_then(|spot| {
-            let onward = if on_trunk(wrap.part) { -spot.along() } else { spot.along() };
+            let onward = if wrap.part.on_trunk() { -spot.along() } else { spot.along() };
             let back = (skin.up - onward * skin.up.dot(onward)).try_normalize()?;
             let outline = skin.outline(wrap.part, spot.middle, onward);
             (!outline.is_empty()).then_some(Section { outline, onward, back })
@@ -179,10 +181,5 @@ fn strain(rope: &Rope, tension_n: f64) -> f64 {
 
 /// Place along the sim's axis, which on the trunk runs to the snout.
 fn along([least, most]: [f64; 2], part: BodyPart, station: f64) -> f64 {
-    if on_trunk(part) { most + station * (least - most) } else { least + station * (most - least) }
-}
-
-/// Length of a way [m].
-pub(super) fn length(way: &[DVec3]) -> f64 {
-    way.windows(2).map(|pair| pair[0].distance(pair[1])).sum()
+    if part.on_trunk() { most + station * (least - most) } else { least + station * (most - least) }
 }

@@ -1,4 +1,4 @@
-//! What rubs on the whale: the laws of friction by rope and region.
+//! The laws of friction on the whale, by rope and region.
 //!
 //! For each rope and region the scenario names a model: that of `[friction]`, or of the last `[[friction.on]]` whose surfaces hold it.
 //! Its attributes are the model's own defaults, over them what the file of the rope's material says, over that the scenario.
@@ -6,13 +6,14 @@
 use endline_sdk::Region;
 use endline_sim::model::{Friction, FrictionLaw};
 
-use crate::attributes::{Attributes, numbers};
+use crate::attributes::Attributes;
 use crate::diagnostic::At;
 use crate::items::{RopeFriction, any_holds};
 use crate::nearest::hint;
 use crate::scenario::FrictionChoice;
 use crate::schema::Kind;
 
+use super::attributes::numbers;
 use super::builder::Builder;
 
 impl Builder<'_> {
@@ -81,11 +82,11 @@ impl Builder<'_> {
             on.map_or((&choice.model, &choice.attributes), |on| (&on.model, &on.attributes));
         let attributes = over.over(&file.attributes(&model.value, region));
         let Some(law) = self.resolved(&model.value, &attributes) else { return 0 };
-        let same = |known: &FrictionLaw| {
+        let is_equal = |known: &FrictionLaw| {
             known.model.descriptor().id == law.model.descriptor().id
                 && known.attributes == law.attributes
         };
-        laws.iter().position(same).unwrap_or_else(|| {
+        laws.iter().position(is_equal).unwrap_or_else(|| {
             laws.push(law);
             laws.len() - 1
         })

@@ -1,23 +1,14 @@
-//! Stretches of a wound line: rope shared out to them, cut into segments, laid evenly along.
+//! Stretches of a wrapped line: rope shared out to them, cut into segments, laid evenly along.
 
 use endline_sim::DVec3;
 
-use crate::assemble::segments::along;
+use crate::assemble::way::{along, length};
 
 use super::TAUT;
-use super::helix::length;
+use super::stretch::Stretch;
 
 /// Segments may grow by this share of the distance from a fine stretch.
 const GROWTH: f64 = 0.4;
-
-/// A wrap, or the way between two.
-pub(super) struct Stretch {
-    pub way: Vec<DVec3>,
-    /// Unstretched rope along it [m]; `None` until shared out.
-    pub rope_m: Option<f64>,
-    /// Longest segment of a wrap [m]; `None` for the way between.
-    pub fine_m: Option<f64>,
-}
 
 /// Nodes of a line and the unstretched lengths between them.
 pub(super) struct Laid {

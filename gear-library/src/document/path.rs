@@ -1,0 +1,51 @@
+//! Dotted paths through a file, such as `line.0.length`.
+
+use toml_edit::{ArrayOfTables, Item, Table};
+
+/// The parts of a dotted path; one in double quotes may hold dots itself.
+pub(super) fn parts(field: &str) -> Vec<&str> {
+    let mut quoted = false;
+    let between = |letter: char| {
+        quoted ^= letter == '"';
+        letter == '.' && !quoted
+    };
+    field
+        .split(between)
+        .filter(|part| !part.is_empty())
+        .map(|part| part.trim_matches('"'))
+        .collect()
+}
+
+/// The tables on the way to a field, and its own key or index.
+pub(super) fn way_to(field: &str) -> (Vec<&str>, &str) {
+    let mut parents = parts(field);
+    let last = parents.pop().unwrap_or_default();
+    (parents, last)
+}
+
+/// A step along a path, made where there is nothing yet.
+pub(super) fn way<'a>(item: &'a mut Item, part: &str, to_list: bool) -> Option<&'a mut Item> {
+    if let Ok(index) = part.parse::<usize>() {
+        if let Some(tables) = item.as_array_of_tables_mut().filter(|tables| tables.len() == index) {
+            tables.push(Table::new());
+        }
+        return item.get_mut(index);
+    }
+    let table = item.as_table_like_mut()?;
+    if !table.contains_key(part) {
+        let fresh = if to_list {
+            Item::ArrayOfTables(ArrayOfTables::new())
+        } else {
+            Item::Table(Table::new())
+        };
+        table.insert(part, fresh);
+    }
+    table.get_mut(part)
+}
+
+pub(super) fn child<'a>(item: &'a mut Item, part: &str) -> Option<&'a mut Item> {
+    match part.parse::<usize>() {
+        Ok(index) => item.get_mut(index),
+        Err(_) => item.get_mut(part),
+    }
+}

@@ -1,0 +1,16 @@
+//! The figures of a weak link.
+
+use super::{Field, may, need};
+use crate::fields::Range::{Between, Positive};
+use crate::units::Quantity as Q;
+
+/// Every figure, in the order shown.
+pub(super) const FIELDS: &[Field] = &[
+    need("rating", Q::Force, Positive, "tension above which it parts"),
+    may(
+        "spread",
+        Q::Ratio,
+        Between(0.0, 0.5),
+        "coefficient of variation of that tension between links; drawn for each link",
+    ),
+];
