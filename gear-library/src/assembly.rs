@@ -111,7 +111,7 @@ pub struct PartLink {
 }
 
 impl Assembly {
-    /// Reads an assembly's file; `None` where something needed is missing, which is a problem already told.
+    /// Reads an assembly's file; `None` where something needed is missing, which is reported.
     pub(crate) fn read(node: &Node, id: &str, problems: &Problems) -> Option<Self> {
         let fields = Fields::of(node, problems);
         let head = entry::header(&fields, Kind::Assembly.word(), problems);

@@ -1,4 +1,4 @@
-//! Problems in files: where, what, and how to mend them.
+//! Problems in files: where, what, and how to fix them.
 
 use std::fmt;
 use std::ops::Range;
@@ -26,7 +26,7 @@ pub struct Diagnostic {
     pub field: String,
     /// What is wrong.
     pub message: String,
-    /// What was expected and how to mend it; may be empty.
+    /// What was expected and how to fix it; may be empty.
     pub help: String,
     /// How bad it is.
     pub severity: Severity,

@@ -1,4 +1,4 @@
-//! A library file as read: id, name, texts and figures; the same for every kind.
+//! A library file of any kind as read: id, name, texts and figures.
 
 use crate::diagnostic::{At, Place};
 use crate::fields::{Fields, Figure, Problems, Provenance, provenance};

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! text -> tree (values that know their place) -> fields -> items, assemblies, scenario -> assemble -> ModelSpec
-//!                                                    \-> every problem, with file, line, column and how to mend it
+//!                                                    \-> every problem, with file, line, column and how to fix it
 //! ```
 //! The format is described in `docs/gear-format.md`. Nothing else in Endline reads TOML.
 

@@ -40,7 +40,7 @@ pub struct Library {
 }
 
 impl Library {
-    /// Reads every file; a file with errors is left out, and all its problems are told.
+    /// Reads every file; a file with errors is left out, and all its problems are reported.
     #[must_use]
     pub fn read(sources: &Sources) -> (Self, Vec<Diagnostic>) {
         let mut library = Self::default();

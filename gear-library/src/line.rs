@@ -1,6 +1,6 @@
 //! How a line is made up: the condition of its rope, what holds its ends, weak inserts or sleeves along it.
 //!
-//! The same keys stand in a `[[line]]` of an assembly or scenario and, for gear that a gear type builds, in
+//! These keys stand in a `[[line]]` of an assembly or scenario and, for gear that a gear type builds, in
 //! `[gear.lines.<line>]` of a scenario, where they go over those of the assembly.
 
 use endline_sdk::LineEnd;

@@ -78,7 +78,7 @@ impl Sources {
         Self { files: kept(&self.files, folder), meshes: kept(&self.meshes, folder) }
     }
 
-    /// The same with a folder put before every path.
+    /// These files with a folder put before every path.
     #[must_use]
     pub fn under(&self, folder: &str) -> Self {
         fn moved<T: Clone>(all: &BTreeMap<String, T>, folder: &str) -> BTreeMap<String, T> {

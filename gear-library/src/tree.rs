@@ -55,7 +55,7 @@ pub fn read(path: &str, text: &str) -> Result<Node, Box<Diagnostic>> {
     let file = Place { source: Arc::clone(&source), span: 0..0, field: String::new() };
     let document = Document::parse(text).map_err(|error| {
         let place = Place { span: error.span().unwrap_or(0..0), ..file.clone() };
-        let help = "mend the TOML here; text needs quotes, as in \"3/8 in\"";
+        let help = "fix the TOML here; text needs quotes, as in \"3/8 in\"";
         Box::new(place.error(error.message().trim().replace('\n', ", "), help))
     })?;
     Ok(Node { content: table(document.as_table(), &file), place: file })

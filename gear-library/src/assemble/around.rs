@@ -78,7 +78,7 @@ impl Around {
         self.shifted(share, 0.0, 0.0)
     }
 
-    /// The same, so far out from the axis and so far up along it.
+    /// Place at a share of the whole, moved outward from the axis and up along it [m].
     pub fn shifted(&self, share: f64, out: f64, up: f64) -> DVec3 {
         let along = share * self.length();
         let angle = self.first + self.sense * self.angle(share);

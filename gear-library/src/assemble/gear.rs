@@ -95,7 +95,7 @@ impl Builder<'_> {
             Err(error) => {
                 let message = format!("`{}` cannot build this gear: {error}", id.value);
                 self.problems
-                    .push(gear.assembly.place.error(message, "mend the attribute it names"));
+                    .push(gear.assembly.place.error(message, "fix the attribute it names"));
                 self.incomplete = true;
                 return;
             }

@@ -74,7 +74,7 @@ impl Builder<'_> {
     /// The joint at a spot of the whale; one for all lines made fast there.
     pub fn whale_joint(&mut self, spot: Option<&str>, end: &At<String>) -> Option<usize> {
         let Some(whale) = &self.spec.whale else {
-            // A whale that could not be built is told already.
+            // A whale that could not be built is reported already.
             if self.scenario.whale.is_some() {
                 return None;
             }

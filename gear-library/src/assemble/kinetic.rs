@@ -20,8 +20,8 @@ use crate::whale::WhaleForm;
 const TURNING: f64 = 4.0 / (60.0 * PI);
 
 impl WhaleItem {
-    /// A whale of this length that feels the gear, in water of a density; `None` where a figure is missing, which is a problem
-    /// already told.
+    /// A whale of this length that feels the gear, in water of a density; `None` where a figure is missing, which is
+    /// reported.
     #[must_use]
     pub fn kinetic(
         &self,
@@ -32,23 +32,19 @@ impl WhaleItem {
     ) -> Option<Kinetic> {
         let measures = Measures::of(skin, self.density_kg_m3);
         let value = |key| self.entry.value(key);
-        let (length, form) = (length_m, self.form_at(length_m));
-        let mass_kg = measures.mass_kg;
-        let diameter_m = value("drag.diameter_offset")? + value("drag.diameter")? * length;
-        let inertia = measures.inertia_kg_m2;
+        let form = self.form_at(length_m);
+        let (mass_kg, inertia) = (measures.mass_kg, measures.inertia_kg_m2);
         let inertia_kg_m2 = DVec3::new(inertia.x_axis.x, inertia.y_axis.y, inertia.z_axis.z);
-        let shares = spheroid(length / diameter_m);
+        let drag = self.axial_drag(length_m, mass_kg)?;
+        let shares = spheroid(length_m / drag.diameter_m);
         let fins = [flukes(&form), flippers(&form)];
-        let (area, cross) = (length * length, value("drag.cross")?);
-        let [side, plan] = [value("drag.side_area")? * area, value("drag.plan_area")? * area];
-        let rolling =
-            fins.map(|[span, chord]| 0.5 * chord * span * span * span * span).iter().sum::<f64>();
         let muscle = self.muscle(&form, effort)?;
         let arm = DVec3::new(
             value("strength.rolling_arm")?,
             value("strength.steering_arm")?,
             value("strength.steering_arm")?,
         );
+        let (side_drag_m2, turn_drag_m5) = self.cross_drag(length_m, &fins)?;
         Some(Kinetic {
             mass_kg,
             centre_m: measures.centre_m,
@@ -59,23 +55,10 @@ impl WhaleItem {
                 shares.turning * inertia_kg_m2.y,
                 shares.turning * inertia_kg_m2.z,
             ),
-            drag: AxialDrag {
-                length_m: length,
-                diameter_m,
-                wetted_area_m2: value("drag.wetted_area")?
-                    * mass_kg.powf(value("drag.wetted_area_exponent")?),
-                appendages: value("drag.appendages")?,
-                oscillation: value("drag.oscillation")?,
-                open_mouth: value("drag.open_mouth")?,
-                wide_rad: value("drag.wide_mouth")?,
-            },
-            side_drag_m2: [cross * side, cross * plan],
-            turn_drag_m5: DVec3::new(
-                cross * rolling,
-                TURNING * cross * plan * area * length,
-                TURNING * cross * side * area * length,
-            ),
-            steering_n_m: arm * (length * muscle.sustained_n),
+            drag,
+            side_drag_m2,
+            turn_drag_m5,
+            steering_n_m: arm * (length_m * muscle.sustained_n),
             muscle,
             steering_time_s: value("strength.steering_time")?,
             buoyancy: value("dynamics.buoyancy")?,
@@ -84,15 +67,42 @@ impl WhaleItem {
         })
     }
 
-    /// The same, dead and afloat: as heavy as what it displaces at rest, with gas in the belly.
+    /// Drag along the axis of a whale of this length and mass.
+    fn axial_drag(&self, length_m: f64, mass_kg: f64) -> Option<AxialDrag> {
+        let value = |key| self.entry.value(key);
+        Some(AxialDrag {
+            length_m,
+            diameter_m: value("drag.diameter_offset")? + value("drag.diameter")? * length_m,
+            wetted_area_m2: value("drag.wetted_area")?
+                * mass_kg.powf(value("drag.wetted_area_exponent")?),
+            appendages: value("drag.appendages")?,
+            oscillation: value("drag.oscillation")?,
+            open_mouth: value("drag.open_mouth")?,
+            wide_rad: value("drag.wide_mouth")?,
+        })
+    }
+
+    /// Drag crossways, from the side and from above [m²], and of turning about each axis [m⁵], for
+    /// fins of half span and mean chord [m].
+    fn cross_drag(&self, length_m: f64, fins: &[[f64; 2]; 2]) -> Option<([f64; 2], DVec3)> {
+        let value = |key| self.entry.value(key);
+        let (area, cross) = (length_m * length_m, value("drag.cross")?);
+        let [side, plan] = [value("drag.side_area")? * area, value("drag.plan_area")? * area];
+        let rolling =
+            fins.map(|[span, chord]| 0.5 * chord * span * span * span * span).iter().sum::<f64>();
+        let turning = DVec3::new(
+            cross * rolling,
+            TURNING * cross * plan * area * length_m,
+            TURNING * cross * side * area * length_m,
+        );
+        Some(([cross * side, cross * plan], turning))
+    }
+
+    /// A dead whale afloat, made from the living one: as heavy as what it displaces at rest, with gas
+    /// in the belly. `None` where a figure is missing, which is reported.
     #[must_use]
-    pub fn dead(
-        &self,
-        skin: &Skin,
-        alive: Kinetic,
-        measures: &Measures,
-        density_kg_m3: f64,
-    ) -> Option<Kinetic> {
+    pub fn dead(&self, skin: &Skin, alive: Kinetic, density_kg_m3: f64) -> Option<Kinetic> {
+        let measures = Measures::of(skin, self.density_kg_m3);
         let value = |key| self.entry.value(key);
         let mass_kg = density_kg_m3 * measures.volume_m3 * (1.0 - value("dead.afloat")?);
         let posture = Posture { jaw: value("dead.jaw")?, ..Posture::default() };

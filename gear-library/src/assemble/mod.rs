@@ -14,6 +14,8 @@ mod friction_laws;
 mod gear;
 mod half_hitches;
 mod hitch;
+mod in_place;
+mod inserts;
 mod kinetic;
 mod line;
 mod pilot;

@@ -1,14 +1,14 @@
-//! A rig's parts, put into the spec; fixtures, bodies and lines written in place.
+//! A rig's parts, put into the spec.
 
 use endline_sdk::{BodyKind, LineEnd, Rig, RigBody, RigEnd, RigLine, RigLink};
-use endline_sim::model::{BodyRole, Joint, JointKind, Link, Obstacle};
+use endline_sim::model::{BodyRole, Joint, JointKind, Link};
 use endline_sim::{DQuat, DVec3};
 
 use crate::diagnostic::{At, Place};
 use crate::items::BoxGear;
 use crate::library::Library;
 use crate::line::LineMake;
-use crate::scenario::{LineStart, ObstacleOf};
+use crate::scenario::LineStart;
 use crate::schema::Kind;
 
 use super::body;
@@ -27,7 +27,7 @@ pub(super) struct Setting<'a> {
     pub ropes: &'a [(At<String>, At<String>)],
     /// How lines are made up, by line: the scenario's over the assembly's.
     pub makes: Vec<(At<String>, LineMake)>,
-    /// Where problems of it are told.
+    /// Where problems of it are reported.
     pub usual_place: Place,
     /// Better places, by id of a part or item.
     pub places: Vec<(String, Place)>,
@@ -187,7 +187,8 @@ impl Builder<'_> {
         Some(found.rating_n * self.strength_factor(found.spread, id))
     }
 
-    fn add_link(
+    /// Puts a weak link at an end of a line, by the line's id.
+    pub fn add_link(
         &mut self,
         id: &At<String>,
         rating_n: Option<f64>,
@@ -217,94 +218,6 @@ impl Builder<'_> {
             rating_n: rating_n.unwrap_or(0.0),
             enabled: true,
         });
-    }
-
-    /// Obstacles of the scenario.
-    pub fn add_obstacles(&mut self) {
-        for obstacle in &self.scenario.obstacles {
-            let ObstacleOf { id, shape, position_m, orientation, friction, stiffness_n_m2 } =
-                obstacle.clone();
-            self.name(id.value.clone(), Part::Obstacle(self.spec.obstacles.len()), &id.place);
-            self.spec.obstacles.push(Obstacle {
-                id: id.value,
-                shape,
-                position_m,
-                orientation,
-                friction,
-                stiffness_n_m2,
-            });
-        }
-    }
-
-    /// Fixed, driven and pulled points of the scenario.
-    pub fn add_fixtures(&mut self) {
-        for fixture in &self.scenario.fixtures {
-            let kind = match (fixture.drive, fixture.pull) {
-                (Some((velocity_m_s, from_s, until_s)), _) => {
-                    JointKind::Driven { velocity_m_s, from_s, until_s }
-                }
-                (None, Some((force_n, from_s))) => JointKind::Pulled { force_n, from_s },
-                (None, None) => JointKind::Fixed,
-            };
-            self.name(
-                fixture.id.value.clone(),
-                Part::Joint(self.spec.joints.len()),
-                &fixture.id.place,
-            );
-            self.spec.joints.push(Joint {
-                id: fixture.id.value.clone(),
-                kind,
-                position_m: fixture.position_m,
-            });
-        }
-    }
-
-    /// Free joints written into the scenario.
-    pub fn add_free_joints(&mut self) {
-        for (id, position_m) in &self.scenario.joints {
-            self.name(id.value.clone(), Part::Joint(self.spec.joints.len()), &id.place);
-            self.spec.joints.push(Joint {
-                id: id.value.clone(),
-                kind: JointKind::Free,
-                position_m: *position_m,
-            });
-        }
-    }
-
-    /// Bodies written into the scenario.
-    pub fn add_free_bodies(&mut self) {
-        for free in &self.scenario.bodies {
-            self.name(free.id.value.clone(), Part::Body(self.spec.bodies.len()), &free.id.place);
-            self.spec.bodies.push(body::of_free(free, self.spec.water.density_kg_m3));
-            self.points.push(vec![("middle".to_owned(), DVec3::ZERO)]);
-        }
-    }
-
-    /// Lines written into the scenario.
-    pub fn add_free_lines(&mut self) {
-        for (line, start) in &self.scenario.lines {
-            let ends = (self.end(&line.from), self.end(&line.to));
-            let (id, rope) = (line.id.clone(), line.rope.clone());
-            self.add_line(&NewLine {
-                id,
-                rope,
-                ends,
-                length_m: line.length_m,
-                start: start.clone(),
-                laid_m: Vec::new(),
-                make: &line.make,
-            });
-        }
-    }
-
-    /// Weak links written into the scenario.
-    pub fn add_free_links(&mut self) {
-        for link in &self.scenario.links {
-            let rating = link
-                .rating_n
-                .or_else(|| link.item.as_ref().and_then(|item| self.rating(item, &link.id.value)));
-            self.add_link(&link.id, rating, &link.line, link.end);
-        }
     }
 
     /// Weak links on or off.

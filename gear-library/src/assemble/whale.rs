@@ -1,9 +1,14 @@
 //! The whale.
 
+use std::sync::Arc;
+
+use endline_sdk::WhaleMotion;
 use endline_sim::DQuat;
 use endline_sim::model::{PilotProgram, Whale};
-use endline_sim::whale::Measures;
+use endline_sim::whale::kinetic::Kinetic;
+use endline_sim::whale::{Measures, Skin};
 
+use crate::diagnostic::At;
 use crate::items::WhaleItem;
 use crate::nearest::hint;
 use crate::scenario::PlacedWhale;
@@ -26,17 +31,7 @@ impl Builder<'_> {
         };
         self.uses(&item.entry.path);
         item.mesh.iter().for_each(|mesh| self.uses(&mesh.file.value));
-        let Some(motion) = self.hooks.motion(&placed.motion.value) else {
-            let ids = self.hooks.ids();
-            let message = format!("no whale motion `{}` among the plugins", placed.motion.value);
-            self.problems.push(
-                placed
-                    .motion
-                    .place
-                    .error(message, hint(&placed.motion.value, ids.iter().map(String::as_str))),
-            );
-            return;
-        };
+        let Some(motion) = self.motion(&placed.motion) else { return };
         let motion = self.with_acts(motion, placed, item);
         let attributes = placed.attributes.resolve(
             motion.descriptor(),
@@ -47,16 +42,11 @@ impl Builder<'_> {
         let Some(length_m) = self.length(placed, item) else { return };
         let skin = item.skin_for(length_m, placed.condition, placed.pregnant);
         let measures = Measures::of(&skin, item.density_kg_m3);
-        let density_kg_m3 = self.spec.water.density_kg_m3;
-        let feels = (placed.dead || kinetic.unwrap_or(placed.kinetic)).then(|| {
-            let alive = item.kinetic(length_m, &skin, density_kg_m3, placed.effort)?;
-            if placed.dead {
-                item.dead(&skin, alive, &measures, density_kg_m3)
-            } else {
-                Some(alive)
-            }
-        });
-        let feels = feels.flatten();
+        let kinetic = if placed.dead || kinetic.unwrap_or(placed.kinetic) {
+            kinetic_whale(placed, item, &skin, [length_m, self.spec.water.density_kg_m3])
+        } else {
+            None
+        };
         self.spec.whale = Some(Whale {
             measures,
             skin,
@@ -72,8 +62,20 @@ impl Builder<'_> {
             contact_stiffness_n_m2: placed
                 .contact_stiffness_n_m2
                 .unwrap_or(item.contact_stiffness_n_m2),
-            kinetic: feels,
+            kinetic,
         });
+    }
+
+    /// The motion plugin of an id; one that is not there is reported.
+    fn motion(&self, id: &At<String>) -> Option<Arc<dyn WhaleMotion>> {
+        let motion = self.hooks.motion(&id.value);
+        if motion.is_none() {
+            let ids = self.hooks.ids();
+            let message = format!("no whale motion `{}` among the plugins", id.value);
+            let help = hint(&id.value, ids.iter().map(String::as_str));
+            self.problems.push(id.place.error(message, help));
+        }
+        motion
     }
 
     /// The whale's length: its own, by its age, or that of the file.
@@ -106,4 +108,15 @@ fn orientation(placed: &PlacedWhale) -> DQuat {
     DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2 - placed.heading_rad)
         * DQuat::from_rotation_y(-placed.pitch_rad)
         * DQuat::from_rotation_x(placed.roll_rad)
+}
+
+/// What makes the whale kinetic, at its length [m] in water of a density [kg/m³], alive or dead.
+fn kinetic_whale(
+    placed: &PlacedWhale,
+    item: &WhaleItem,
+    skin: &Skin,
+    [length_m, density_kg_m3]: [f64; 2],
+) -> Option<Kinetic> {
+    let alive = item.kinetic(length_m, skin, density_kg_m3, placed.effort)?;
+    if placed.dead { item.dead(skin, alive, density_kg_m3) } else { Some(alive) }
 }

@@ -82,14 +82,14 @@ pub enum Limit {
     Between(f64, f64),
 }
 
-/// Reads `[[check]]`; `None` where something needed is missing or wrong, which is a problem already told.
+/// Reads `[[check]]`; `None` where something needed is missing or wrong, which is reported.
 pub(super) fn read(node: &Node, problems: &Problems) -> Option<Check> {
     let fields = Fields::of(node, problems);
     let name = fields.need_text("name", "write what is compared, such as \"anchor tension\"");
     let measure = measure(&fields);
     let limit = limit(&fields);
     if measure.is_none() {
-        // Which fields it would have asked for is not known; its fault is told.
+        // Which fields it would have asked for is not known; its fault is reported.
         fields.rest();
     }
     fields.finish();

@@ -10,7 +10,7 @@ mod table;
 use crate::confidence::Confidence;
 use crate::diagnostic::{At, Diagnostic, Place};
 use crate::entry;
-use crate::fields::{Fields, Problems, Range, read_value};
+use crate::fields::{Fields, Problems, Provenance, Range, read_value};
 use crate::tree::{self, Content, Node};
 use crate::units::Quantity;
 
@@ -84,13 +84,7 @@ impl Case {
     fn from_node(path: &str, node: &Node, problems: &Problems) -> Option<Self> {
         let fields = Fields::of(node, problems);
         let (name, notes, file) = entry::header(&fields, "case", problems);
-        for (missing, key) in
-            [(file.source.is_none(), "source"), (file.confidence.is_none(), "sureness")]
-        {
-            if missing {
-                fields.missing(key, "say where the expected values come from, and whether they are measured, derived or estimate");
-            }
-        }
+        check_provenance(&fields, &file);
         let group = fields.need_text(
             "group",
             "write the heading it belongs under, such as \"Reference problems\"",
@@ -102,13 +96,7 @@ impl Case {
         let quick = fields.flag("quick").unwrap_or(false);
         let table = fields.text("table");
         let samples = samples(&fields, table.is_some());
-        if let (Some(Samples::Rows(rows)), [knob, ..]) = (&samples, halve.as_slice()) {
-            let message = format!("`{}` cannot be halved with [rows]", knob.value);
-            problems.push(
-                knob.place
-                    .error(message, format!("take `halve` out, or [rows] by `{}`", rows.by.value)),
-            );
-        }
+        check_halving(samples.as_ref(), &halve, problems);
         let checks: Vec<Check> =
             fields.tables("check").iter().filter_map(|node| check::read(node, problems)).collect();
         if fields.tables("check").is_empty() {
@@ -133,6 +121,26 @@ impl Case {
             table,
             checks,
         })
+    }
+}
+
+/// Expected values have a source and a confidence.
+fn check_provenance(fields: &Fields<'_>, file: &Provenance) {
+    let help = "say where the expected values come from, and whether they are measured, derived or estimate";
+    if file.source.is_none() {
+        fields.missing("source", help);
+    }
+    if file.confidence.is_none() {
+        fields.missing("sureness", help);
+    }
+}
+
+/// With `[rows]` neither step nor segment is halved.
+fn check_halving(samples: Option<&Samples>, halve: &[At<String>], problems: &Problems) {
+    if let (Some(Samples::Rows(rows)), [knob, ..]) = (samples, halve) {
+        let message = format!("`{}` cannot be halved with [rows]", knob.value);
+        let help = format!("take `halve` out, or [rows] by `{}`", rows.by.value);
+        problems.push(knob.place.error(message, help));
     }
 }
 

@@ -27,7 +27,7 @@ pub struct Rows {
     pub set: Vec<(At<String>, String)>,
 }
 
-/// Reads `[rows]`; `None` where something needed is missing, which is a problem already told.
+/// Reads `[rows]`; `None` where something needed is missing, which is reported.
 pub(super) fn read(fields: &Fields<'_>) -> Option<Rows> {
     let by = fields.need_text("by", "write the column that names the set of gear");
     let groups = groups(fields);

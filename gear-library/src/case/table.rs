@@ -113,10 +113,10 @@ mod tests {
     #[test]
     fn faults_are_told_by_row_and_column() {
         let table = Table::read("a.csv", TEXT).unwrap();
-        let told = table.column("end x").unwrap_err().to_string();
+        let message = table.column("end x").unwrap_err().to_string();
         assert!(
-            told.contains("a.csv") && told.contains("row 2") && told.contains("`four`"),
-            "{told}"
+            message.contains("a.csv") && message.contains("row 2") && message.contains("`four`"),
+            "{message}"
         );
         assert!(table.column("end y").unwrap_err().help.contains("end x"));
         assert!(

@@ -35,7 +35,7 @@ struct Keyed {
 }
 
 impl ActItem {
-    /// Reads an act's file; `None` where something needed is missing, which is a problem already told.
+    /// Reads an act's file; `None` where something needed is missing, which is reported.
     pub(crate) fn read(node: &Node, id: &str, problems: &Problems) -> Option<Self> {
         let fields = Fields::of(node, problems);
         let head = entry::header(&fields, Kind::Act.word(), problems);

@@ -47,7 +47,7 @@ pub struct BoxGear {
 }
 
 impl BoxGear {
-    /// From a file's figures; `None` where one is missing, which is a problem already told.
+    /// From a file's figures; `None` where one is missing, which is reported.
     pub(crate) fn from_entry(entry: Entry, problems: &Problems) -> Option<Self> {
         let (mass_kg, wet_weight) = (entry.value("mass")?, entry.figure("wet_weight")?);
         if wet_weight.value >= mass_kg * GRAVITY_M_S2 {
@@ -58,7 +58,7 @@ impl BoxGear {
             );
             problems.push(wet_weight.place.error(
                 message,
-                "what is in the water weighs less there; mend the wet weight or the mass",
+                "what is in the water weighs less there; fix the wet weight or the mass",
             ));
         }
         let (start, slide) = (entry.value("start_friction")?, entry.figure("slide_friction")?);
@@ -100,12 +100,12 @@ impl BoxGear {
 
     /// What weighs and floats inside must fit into what the whole weighs in air and in water, and lie in the box.
     fn check(&self, problems: &Problems) {
-        let told = |key: &str, message: String, help: &str| {
+        let report = |key: &str, message: String, help: &str| {
             let place = self.entry.figure(key).map_or(&self.entry.place, |figure| &figure.place);
             problems.push(place.error(message, help));
         };
         if self.ballast_kg >= self.mass_kg {
-            told(
+            report(
                 "ballast",
                 format!("`ballast` {} kg is not below the `mass`", self.ballast_kg),
                 "the mass has the ballast in it",
@@ -117,17 +117,17 @@ impl BoxGear {
                 1e3 * self.displaced_m3()
             );
             let key = if self.foam_m3 > 0.0 { "foam" } else { "ballast" };
-            told(
+            report(
                 key,
                 message,
-                "the whole displaces what it weighs less in water; mend the ballast, its density, the foam or `wet_weight`",
+                "the whole displaces what it weighs less in water; fix the ballast, its density, the foam or `wet_weight`",
             );
         }
         for (key, height) in
             [("ballast_height", self.ballast_height_m), ("foam_height", self.foam_height_m)]
         {
             if height > self.size_m[2] {
-                told(
+                report(
                     key,
                     format!("`{key}` {height} m is above the box"),
                     "it is measured from the underside up to the `height`",

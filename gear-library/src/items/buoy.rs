@@ -52,7 +52,7 @@ pub struct Buoy {
 }
 
 impl Buoy {
-    /// From a file's figures; `None` where one is missing, which is a problem already told.
+    /// From a file's figures; `None` where one is missing, which is reported.
     pub(crate) fn from_entry(entry: Entry, problems: &Problems) -> Option<Self> {
         let shape = match entry.word("shape")?.value.as_str() {
             "sphere" => BuoyShape::Sphere,
@@ -155,10 +155,10 @@ fn check_volume(entry: &Entry, length_m: f64, problems: &Problems) {
             diameter * 1e3,
             length_m * 1e3
         );
-        problems.push(volume.place.error(message, "mend the volume, the diameter or the length"));
+        problems.push(volume.place.error(message, "fix the volume, the diameter or the length"));
     }
     if whole * SEA_WATER_KG_M3 <= mass {
         let message = format!("`volume` {} does not carry its own mass of {mass} kg", volume.text);
-        problems.push(volume.place.error(message, "a buoy floats: mend the volume or the mass"));
+        problems.push(volume.place.error(message, "a buoy floats: fix the volume or the mass"));
     }
 }

@@ -33,7 +33,7 @@ pub struct ModelFigures {
 }
 
 impl RopeFriction {
-    /// From a file; `None` where a figure is missing, which is a problem already told.
+    /// From a file; `None` where a figure is missing, which is reported.
     pub(crate) fn read(node: &Node, id: &str, problems: &Problems) -> Option<Self> {
         let fields = Fields::of(node, problems);
         let head = entry::header(&fields, Kind::Friction.word(), problems);

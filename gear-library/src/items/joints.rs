@@ -37,7 +37,7 @@ pub struct Joints {
 }
 
 impl Joints {
-    /// Reads `[joints]`; `None` where a figure is missing or wrong, which is a problem already told.
+    /// Reads `[joints]`; `None` where a figure is missing or wrong, which is reported.
     pub(super) fn read(fields: &Fields<'_>, file: &Provenance) -> Option<Self> {
         let Some(table) = fields.table("joints") else {
             fields.missing(

@@ -12,7 +12,7 @@ pub struct Knot {
 }
 
 impl Knot {
-    /// From a file's figures; `None` where one is missing, which is a problem already told.
+    /// From a file's figures; `None` where one is missing, which is reported.
     pub(crate) fn from_entry(entry: Entry) -> Option<Self> {
         Some(Self { strength_left: entry.value("strength_left")?, entry })
     }

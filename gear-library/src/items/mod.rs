@@ -1,6 +1,7 @@
 //! Library items with their figures by name, ready for assembly.
 
 mod act;
+mod animated_act;
 mod animation;
 mod box_gear;
 mod buoy;
@@ -17,6 +18,7 @@ mod site;
 mod surface;
 mod weak_link;
 mod whale;
+mod whale_skin;
 
 pub use act::ActItem;
 pub use animation::ActAnimation;

@@ -72,5 +72,5 @@ fn check_volume(volume: Option<&Figure>, solid: f64, problems: &Problems) {
     let Some(volume) = volume.filter(|volume| volume.value > 1.02 * solid) else { return };
     let message =
         format!("`volume` {} is more than the whole cylinder's {:.2} L", volume.text, 1e3 * solid);
-    problems.push(volume.place.error(message, "mend the volume, the diameter or the length"));
+    problems.push(volume.place.error(message, "fix the volume, the diameter or the length"));
 }

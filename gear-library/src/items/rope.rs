@@ -93,7 +93,7 @@ pub struct Rope {
 }
 
 impl Rope {
-    /// From a file's figures; `None` where one is missing, which is a problem already told.
+    /// From a file's figures; `None` where one is missing, which is reported.
     pub(crate) fn from_entry(entry: Entry, problems: &Problems) -> Option<Self> {
         check_wet_weight(&entry, problems);
         check_stretch(&entry, problems);
@@ -156,7 +156,8 @@ impl Rope {
         }
     }
 
-    /// The same in a condition: its id then carries the condition's word, as `pp-3-8 (worked)`.
+    /// The rope as the simulation takes it in a condition; its id then carries the condition's word, such
+    /// as `pp-3-8 (worked)`.
     ///
     /// New: `T = E ε (toe + (1 - toe) ε/ε_b)`, with `E` the stiffness and `ε_b` the stretch at break.
     ///
@@ -224,7 +225,7 @@ fn check_wet_weight(entry: &Entry, problems: &Problems) {
     let message = format!("`wet_weight` is {}, but mass and density give {shown}", stated.text);
     problems.push(stated.place.error(
         message,
-        "mend the wet weight, the mass or the density of the fibre; or leave the wet weight out",
+        "fix the wet weight, the mass or the density of the fibre; or leave the wet weight out",
     ));
 }
 
@@ -245,6 +246,6 @@ fn check_stretch(entry: &Entry, problems: &Problems) {
         format_si(strength.round(), Quantity::Force)
     );
     let help =
-        "the three belong together: strength ≈ stiffness × stretch; mend the one that is wrong";
+        "the three belong together: strength ≈ stiffness × stretch; fix the one that is wrong";
     problems.push(stiffness.place.warning(message, help));
 }

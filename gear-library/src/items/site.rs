@@ -37,7 +37,7 @@ pub struct SeaSite {
 }
 
 impl SeaSite {
-    /// From a file's figures; `None` where one is missing, which is a problem already told.
+    /// From a file's figures; `None` where one is missing, which is reported.
     pub(crate) fn from_entry(entry: Entry, problems: &Problems) -> Option<Self> {
         check_law(&entry, problems);
         Some(Self {

@@ -14,7 +14,7 @@ pub struct WeakLink {
 }
 
 impl WeakLink {
-    /// From a file's figures; `None` where one is missing, which is a problem already told.
+    /// From a file's figures; `None` where one is missing, which is reported.
     pub(crate) fn from_entry(entry: Entry) -> Option<Self> {
         Some(Self {
             rating_n: entry.value("rating")?,

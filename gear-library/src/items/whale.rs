@@ -40,7 +40,7 @@ pub struct WhaleItem {
 }
 
 impl WhaleItem {
-    /// Reads a whale's file; `None` where a figure is missing, which is a problem already told.
+    /// Reads a whale's file; `None` where a figure is missing, which is reported.
     pub(crate) fn read(node: &Node, id: &str, problems: &Problems) -> Option<Self> {
         let fields = Fields::of(node, problems);
         let head = entry::header(&fields, Kind::Whale.word(), problems);

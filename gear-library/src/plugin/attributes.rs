@@ -12,7 +12,7 @@ use crate::units::Quantity;
 /// Names that an attribute may not have: those of the depth and of the count in a row of parts.
 pub(super) const TAKEN: [&str; 5] = ["depth", "i", "min", "max", "sqrt"];
 
-/// Reads an attribute; `None` where something needed is missing or wrong, which is a problem already told.
+/// Reads an attribute; `None` where something needed is missing or wrong, which is reported.
 pub(super) fn read(node: &Node, problems: &Problems) -> Option<Attribute> {
     let fields = Fields::of(node, problems);
     let key = fields.need_text("key", "write a key such as \"scope\"");
@@ -75,14 +75,21 @@ fn kind(fields: &Fields<'_>) -> Option<(&'static str, AttributeKind)> {
         ));
         return None;
     }
-    if !is_count {
-        return Some((
-            if quantity == Quantity::Length { "m" } else { "1" },
-            AttributeKind::Number { min, max, default },
-        ));
+    if is_count {
+        return count(node, [min, max, default], fields);
     }
+    let unit = if quantity == Quantity::Length { "m" } else { "1" };
+    Some((unit, AttributeKind::Number { min, max, default }))
+}
+
+/// A count, from its least and greatest value and its default.
+fn count(
+    node: &Node,
+    numbers: [f64; 3],
+    fields: &Fields<'_>,
+) -> Option<(&'static str, AttributeKind)> {
     let whole = |value: f64| value.fract() == 0.0 && (0.0..=1000.0).contains(&value);
-    if ![min, max, default].into_iter().all(whole) {
+    if !numbers.into_iter().all(whole) {
         fields.problems().push(node.place.error(
             "a count is a whole number from 0 to 1000",
             "write whole numbers for default and range",
@@ -94,7 +101,7 @@ fn kind(fields: &Fields<'_>) -> Option<(&'static str, AttributeKind)> {
         clippy::cast_sign_loss,
         reason = "looked at in the lines before"
     )]
-    let [min, max, default] = [min, max, default].map(|value| value as u32);
+    let [min, max, default] = numbers.map(|value| value as u32);
     Some(("1", AttributeKind::Count { min, max, default }))
 }
 

@@ -56,7 +56,7 @@ impl Expression {
         Self { code: vec![Code::Push(value)], power: 0 }
     }
 
-    /// Reads an expression; the error says what is wrong and how to mend it.
+    /// Reads an expression; the error says what is wrong and how to fix it.
     pub fn read(text: &str, names: &[Name]) -> Result<Self, (String, String)> {
         let mut reader = Reader { rest: text, names, code: Vec::new(), depth: 0 };
         let power = reader.sum()?;
@@ -338,7 +338,7 @@ mod tests {
     #[test]
     fn what_makes_no_sense_is_told() {
         let long = "(".repeat(500);
-        for (text, told) in [
+        for (text, expected) in [
             ("depth + 2", "a length and a pure number do not add"),
             ("dept + 2 m", "nothing is called `dept`"),
             ("rope * 2", "names an item"),
@@ -351,7 +351,7 @@ mod tests {
             (&long, "nested too deeply"),
         ] {
             let (message, help) = Expression::read(text, &names()).unwrap_err();
-            assert!(message.contains(told) && !help.is_empty(), "{text}: {message}; {help}");
+            assert!(message.contains(expected) && !help.is_empty(), "{text}: {message}; {help}");
         }
     }
 }

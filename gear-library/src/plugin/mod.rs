@@ -122,7 +122,7 @@ fn head(node: &Node, problems: &Problems) -> Option<Head> {
     })
 }
 
-/// Reads a text of the folder; what is wrong with it is told under its path there.
+/// Reads a text of the folder; what is wrong with it is reported under its path there.
 fn text(folder: &Path, path: &str, bytes: &mut Vec<u8>, problems: &Problems) -> Option<Node> {
     let text = match fs::read_to_string(folder.join(path)) {
         Ok(text) => text,

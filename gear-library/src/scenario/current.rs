@@ -98,7 +98,7 @@ pub(super) fn read(fields: &Fields<'_>) -> CurrentOf {
     let tide = fields.table("tide").as_ref().and_then(constituent);
     check_law(fields, [&speed, &speed_height, &exponent, &roughness], !rows.is_empty());
     if let (false, Some(lone)) = (table.is_empty(), &speed) {
-        let help = "the rows of [[current.at]] tell the speed at every time: take this out, or take them out";
+        let help = "the rows of [[current.at]] give the speed at every time: take this out, or take them out";
         fields.problems().push(lone.place.error("a `speed` beside a tide in rows", help));
     }
     if let (false, Some((_, place))) = (table.is_empty(), &tide) {
@@ -128,23 +128,23 @@ fn check_law(
     [speed, speed_height, exponent, roughness]: [&Option<At<f64>>; 4],
     has_rows: bool,
 ) {
-    let told = |lone: &At<f64>, message: &str, help: &str| {
+    let report = |lone: &At<f64>, message: &str, help: &str| {
         fields.problems().push(lone.place.error(message, help))
     };
     let law = exponent.as_ref().or(roughness.as_ref());
     if let (true, Some(lone)) = (has_rows, speed.as_ref().or(speed_height.as_ref()).or(law)) {
-        let help = "the rows of [[current.profile]] tell the speed at every height: take this out, or take them out";
-        told(lone, "a speed or exponent beside a profile in rows", help);
+        let help = "the rows of [[current.profile]] give the speed at every height: take this out, or take them out";
+        report(lone, "a speed or exponent beside a profile in rows", help);
     }
     if let (Some(_), Some(roughness)) = (exponent, roughness) {
-        told(
+        report(
             roughness,
             "both `exponent` and `roughness` are given",
             "keep the exponent of a power law or the roughness of a logarithmic one",
         );
     }
     if let (None, Some(height)) = (speed, speed_height) {
-        told(
+        report(
             height,
             "a `speed_height` without a `speed`",
             "write the speed that the current has at this height, or take this out",

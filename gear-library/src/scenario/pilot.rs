@@ -19,7 +19,7 @@ pub struct PilotOf {
     pub hold_s: f64,
     /// Time over which controls come to their values and leave them [s].
     pub ramp_s: f64,
-    /// The controls it names, in the order of [`Controls::NAMES`]; `act` is told apart.
+    /// The controls it names, in the order of [`Controls::NAMES`]; `act` is given apart.
     pub controls: [Option<f64>; Controls::COUNT],
     /// Id of the act it asks for.
     pub act: Option<At<String>>,
@@ -55,7 +55,7 @@ const TRIGGERS: [(&str, &str); 6] = [
 /// The ids of entries read so far.
 type Ids = Vec<Option<At<String>>>;
 
-/// Reads every entry; those with a problem, already told, are left out.
+/// Reads every entry; those with a problem, which is reported, are left out.
 pub(super) fn pilot(fields: &Fields<'_>) -> Vec<PilotOf> {
     let (mut entries, mut ids, mut latest_s) = (Vec::new(), Ids::new(), f64::NEG_INFINITY);
     for node in fields.tables("pilot") {

@@ -5,7 +5,7 @@ use endline_sim::water::jonswap::Spectrum;
 use endline_sim::water::waves::{WaveKind, Waves};
 
 use crate::compass::direction;
-use crate::diagnostic::At;
+use crate::diagnostic::{At, Place};
 use crate::fields::{Fields, Range};
 use crate::units::Quantity;
 
@@ -18,7 +18,7 @@ const USUAL_COMPONENTS: usize = 64;
 /// Periods over which waves grow where no ramp is given.
 const USUAL_RAMP: f64 = 2.0;
 
-/// `[waves]`, with the place of their height; `None` where something needed is missing, which is a problem already told.
+/// `[waves]`, with the place of their height; `None` where something needed is missing, which is reported.
 pub(super) fn read(fields: &Fields<'_>) -> Option<At<Waves>> {
     let spectrum = fields.word("spectrum", &["jonswap"]);
     let height = fields.need_value("height", Quantity::Length, Range::Between(0.0, 40.0));
@@ -28,28 +28,12 @@ pub(super) fn read(fields: &Fields<'_>) -> Option<At<Waves>> {
     let phase = fields.value("phase", Quantity::Angle, Range::Any);
     let gamma = fields.value("gamma", Quantity::Ratio, Range::Between(1.0, 20.0));
     let components = fields.count("components", 1);
-    let misplaced = match (&spectrum, &phase) {
-        (Some(_), Some(phase)) => Some((
-            &phase.place,
-            "a `phase` with a spectrum",
-            "phases of irregular waves are drawn from the seed",
-        )),
-        (Some(_), None) => None,
-        (None, _) => gamma
-            .as_ref()
-            .map(|gamma| &gamma.place)
-            .or(components.as_ref().map(|components| &components.place))
-            .map(|place| {
-                (
-                    place,
-                    "a figure of a spectrum with regular waves",
-                    "write spectrum = \"jonswap\" for irregular waves, or take it out",
-                )
-            }),
-    };
-    if let Some((place, message, help)) = misplaced {
-        fields.problems().push(place.error(message, help));
-    }
+    check_shape(
+        fields,
+        spectrum.is_some(),
+        phase.as_ref(),
+        gamma_or_components(&gamma, &components),
+    );
     let most = MOST_COMPONENTS as u64;
     if let Some(components) = components.as_ref().filter(|components| components.value > most) {
         let message = format!("`components` is {}", components.value);
@@ -77,4 +61,34 @@ pub(super) fn read(fields: &Fields<'_>) -> Option<At<Waves>> {
     };
     let ramp_s = ramp.map_or(USUAL_RAMP * period_s, |ramp| ramp.value);
     Some(At { value: Waves { toward: direction(toward), ramp_s, kind }, place: height.place })
+}
+
+/// Place of the first figure that only a spectrum has.
+fn gamma_or_components<'a>(
+    gamma: &'a Option<At<f64>>,
+    components: &'a Option<At<u64>>,
+) -> Option<&'a Place> {
+    let components = || components.as_ref().map(|components| &components.place);
+    gamma.as_ref().map(|gamma| &gamma.place).or_else(components)
+}
+
+/// Reports a phase beside a spectrum, and a figure of a spectrum without one.
+fn check_shape(
+    fields: &Fields<'_>,
+    irregular: bool,
+    phase: Option<&At<f64>>,
+    of_spectrum: Option<&Place>,
+) {
+    if let (true, Some(phase)) = (irregular, phase) {
+        fields.problems().push(phase.place.error(
+            "a `phase` with a spectrum",
+            "phases of irregular waves are drawn from the seed",
+        ));
+    }
+    if let (false, Some(place)) = (irregular, of_spectrum) {
+        fields.problems().push(place.error(
+            "a figure of a spectrum with regular waves",
+            "write spectrum = \"jonswap\" for irregular waves, or take it out",
+        ));
+    }
 }

@@ -73,34 +73,21 @@ pub struct AnswerToTouch {
 const NO_MOTION: &str = "org.endline.motion.swim";
 
 impl PlacedWhale {
-    /// Reads `[whale]`; `None` where something needed is missing, which is a problem already told.
+    /// Reads `[whale]`; `None` where something needed is missing, which is reported.
     pub(super) fn read(fields: &Fields<'_>) -> Option<Self> {
         let item = fields
             .need_text("item", "write the id of a whale of the library, such as \"right-whale\"");
         let length = fields.value("length", Quantity::Length, Range::Between(1.0, 35.0));
         let age = fields.value("age", Quantity::Time, Range::Between(0.0, 120.0 * YEAR_S));
-        if let (Some(_), Some(age)) = (&length, &age) {
-            let help = "leave one of them out: the length follows from the age by the law of the whale's file";
-            fields.problems().push(age.place.error("both `length` and `age` are given", help));
-        }
+        check_age(fields, length.as_ref(), age.as_ref());
         let condition = fields.value("condition", Quantity::Ratio, Range::Between(0.65, 1.5));
         let pregnant = fields.flag("pregnant").unwrap_or(false);
-        let position = fields.values("position", Quantity::Length, &[2]);
-        if position.is_none() && fields.get("position").is_none() {
-            fields.missing(
-                "position",
-                "write where mid-body starts, east and north, as [\"-20 m\", \"0 m\"]",
-            );
-        }
-        let depth = fields.need_value("depth", Quantity::Length, Range::Between(-10.0, 6000.0));
+        let position_m = mid_body(fields);
         let angle = |key, default| {
             fields.value(key, Quantity::Angle, Range::Any).map_or(default, |angle| angle.value)
         };
-        let (heading_rad, pitch_rad, roll_rad) = (
-            angle("heading", std::f64::consts::FRAC_PI_2),
-            angle("pitch", 0.0),
-            angle("roll", 0.0),
-        );
+        let heading_rad = angle("heading", std::f64::consts::FRAC_PI_2);
+        let (pitch_rad, roll_rad) = (angle("pitch", 0.0), angle("roll", 0.0));
         let stiffness = fields.value("contact_stiffness", Quantity::Pressure, Range::Positive);
         let state = fields.word("state", &["alive", "dead"]);
         let dead = state.is_some_and(|word| word.value == "dead");
@@ -112,14 +99,13 @@ impl PlacedWhale {
         let answer = answer(fields);
         let pilot = pilot::pilot(fields);
         fields.finish();
-        let (position, depth) = (position?, depth?);
         Some(Self {
             item: item?,
             length_m: length.map(|length| length.value),
             age_s: age,
             condition: condition.map_or(1.0, |condition| condition.value),
             pregnant,
-            position_m: DVec3::new(position.value[0], position.value[1], -depth.value),
+            position_m: position_m?,
             heading_rad,
             pitch_rad,
             roll_rad,
@@ -135,6 +121,29 @@ impl PlacedWhale {
             pilot,
         })
     }
+}
+
+/// The length is given, or follows from the age.
+fn check_age(fields: &Fields<'_>, length: Option<&At<f64>>, age: Option<&At<f64>>) {
+    if let (Some(_), Some(age)) = (length, age) {
+        let help =
+            "leave one of them out: the length follows from the age by the law of the whale's file";
+        fields.problems().push(age.place.error("both `length` and `age` are given", help));
+    }
+}
+
+/// `position` and `depth`: start of mid-body, east, north and up [m].
+fn mid_body(fields: &Fields<'_>) -> Option<DVec3> {
+    let position = fields.values("position", Quantity::Length, &[2]);
+    if position.is_none() && fields.get("position").is_none() {
+        fields.missing(
+            "position",
+            "write where mid-body starts, east and north, as [\"-20 m\", \"0 m\"]",
+        );
+    }
+    let depth = fields.need_value("depth", Quantity::Length, Range::Between(-10.0, 6000.0));
+    let (position, depth) = (position?, depth?);
+    Some(DVec3::new(position.value[0], position.value[1], -depth.value))
 }
 
 /// `acts`: a list of ids.

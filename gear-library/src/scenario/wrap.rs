@@ -36,7 +36,7 @@ pub struct WrapOf {
 }
 
 impl WrapOf {
-    /// Reads one; `None` where something needed is missing, which is a problem already told.
+    /// Reads one; `None` where something needed is missing, which is reported.
     pub(super) fn read(node: &Node, problems: &Problems) -> Option<Self> {
         let fields = Fields::of(node, problems);
         let names = BodyPart::ALL.map(BodyPart::name);

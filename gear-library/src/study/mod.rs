@@ -45,7 +45,7 @@ pub struct Study {
     pub baseline: At<String>,
     /// What options are ranked by.
     pub event: Event,
-    /// Prior by whose levels results are also told apart.
+    /// Prior by whose levels results are also listed apart.
     pub split: Option<At<String>>,
     /// When a run ends.
     pub run: RunRule,

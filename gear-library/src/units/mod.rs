@@ -60,7 +60,7 @@ pub enum Quantity {
 pub struct UnitError {
     /// What is wrong.
     pub message: String,
-    /// What was expected and how to mend it.
+    /// What was expected and how to fix it.
     pub help: String,
 }
 

@@ -7,8 +7,10 @@ use glam::{DQuat, DVec2, DVec3};
 use super::curve::smooth_step;
 use super::form::WhaleForm;
 use super::layout::{CORNER_ANGLE, corner_at};
-use super::mesh::Weights;
 use super::section::Sections;
+
+/// Bones that move a vertex, with weights that sum to 1.
+pub type Weights = [(u16, f64); 4];
 
 /// Bones and where to find them. The middle of the body, where the whale's frame has its origin, is
 /// the control bone; the spine bends from there both ways.
@@ -245,7 +247,7 @@ impl Skeleton {
         if weights[1].1 > weights[0].1 { weights[1].0 } else { weights[0].0 }
     }
 
-    /// The same bone on the other side.
+    /// The bone of the other side that mirrors a bone.
     #[must_use]
     pub fn other_side(&self, bone: u16) -> u16 {
         if bone == self.lip {

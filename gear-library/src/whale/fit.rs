@@ -21,7 +21,7 @@ const PREGNANCY: [[f64; 2]; 7] =
 const PLACES: u32 = 40;
 
 impl WhaleForm {
-    /// The same body made wider or narrower so that its skin holds a volume [m³].
+    /// This body made wider or narrower, so that its skin holds a volume [m³].
     ///
     /// A volume that is no positive number changes nothing.
     #[must_use]
@@ -36,7 +36,8 @@ impl WhaleForm {
         self
     }
 
-    /// The same whale leaner (below 1) or more robust (above 1): `condition` is its volume over that of this body.
+    /// This whale made leaner (below 1) or more robust (above 1): `condition` is its volume over that of
+    /// this body [1].
     ///
     /// The girth changes most at 60 % of length; head and flukes stay as they are.
     #[must_use]
@@ -59,7 +60,7 @@ impl WhaleForm {
         fuller(girth)
     }
 
-    /// The same whale late in pregnancy.
+    /// This whale late in pregnancy.
     #[must_use]
     pub fn pregnant(self) -> Self {
         self.with_girth(&PREGNANCY, 1.0)

@@ -5,12 +5,12 @@ use endline_sim::whale::Mark;
 use glam::{DQuat, DVec3};
 
 use super::Builder;
-use super::bones::{FLIPPER_BENDS, Skeleton};
+use super::bones::{FLIPPER_BENDS, Skeleton, Weights};
 use super::curve::{MonotoneCubic, smooth_step};
 use super::fin::{Section, fillet, spans, tip_bluntness, tip_rounding};
 use super::form::WhaleForm;
 use super::layout::HOLE;
-use super::mesh::{Corner, Weights};
+use super::mesh::Corner;
 use super::weights::SHOULDER_RIM;
 
 /// Rings between root and tip.

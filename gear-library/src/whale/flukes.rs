@@ -10,13 +10,13 @@ use endline_sim::whale::Mark;
 use glam::{DVec2, DVec3};
 
 use super::Builder;
-use super::bones::{FLUKE_BENDS, Skeleton};
+use super::bones::{FLUKE_BENDS, Skeleton, Weights};
 use super::curve::smooth_step;
 use super::fin::{Section, fillet, spans, tip_bluntness, tip_rounding};
 use super::flipper::EDGE;
 use super::form::WhaleForm;
 use super::layout::{HALF_AROUND, flukes_at};
-use super::mesh::{Corner, Weights};
+use super::mesh::Corner;
 
 /// Rings between midline and tip.
 const RINGS: usize = 18;

@@ -171,7 +171,7 @@ impl Jaw {
         build: &Builder,
         at: f64,
         place: Option<(f64, usize)>,
-    ) -> super::mesh::Weights {
+    ) -> super::bones::Weights {
         match place {
             _ if self.upper => build.skeleton.along_body(at),
             Some((angle, inside)) => build.lower_jaw_weights(at, angle, inside),

@@ -6,10 +6,7 @@ use endline_sdk::Region;
 use endline_sim::whale::{Mark, Skin};
 use glam::DVec3;
 
-use super::bones::Skeleton;
-
-/// Bones that move a vertex, with weights that sum to 1.
-pub type Weights = [(u16, f64); 4];
+use super::bones::{Skeleton, Weights};
 
 /// A vertex before it joins a skin: place in the whale's frame [m], weights, looks.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -15,6 +15,7 @@ pub mod kept;
 pub mod layout;
 pub mod marks;
 pub mod mesh;
+mod right_whale;
 pub mod section;
 pub mod trunk;
 pub mod weights;
@@ -43,7 +44,7 @@ pub struct Builder<'a> {
 /// The skin of a whale: one closed surface, in which flippers and flukes grow out of the body and the mouth is a pocket.
 ///
 /// The whale's frame has its origin in mid-body at the height of the snout's tip, x to the snout, y to
-/// port, z to the back. The same form gives the same skin, bit for bit.
+/// port, z to the back. Equal forms give equal skins, bit for bit.
 #[must_use]
 pub fn build_skin(form: &WhaleForm) -> Skin {
     let sections = section::Sections::of(form);

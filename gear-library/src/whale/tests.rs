@@ -305,7 +305,7 @@ fn odd_forms_stay_finite() {
                 "change {index} to {value}"
             );
             let sum =
-                |weights: &mesh::Weights| weights.iter().map(|(_, weight)| weight).sum::<f64>();
+                |weights: &bones::Weights| weights.iter().map(|(_, weight)| weight).sum::<f64>();
             assert!(
                 skin.weights.iter().all(|weights| (sum(weights) - 1.0).abs() < 1e-9),
                 "weights of change {index} to {value}"

@@ -5,11 +5,10 @@ use std::f64::consts::PI;
 use glam::DVec3;
 
 use super::Builder;
-use super::bones::Skeleton;
+use super::bones::{Skeleton, Weights};
 use super::curve::smooth_step;
 use super::jaws::Jaws;
 use super::layout::{CORNER_ANGLE, corner_at};
-use super::mesh::Weights;
 
 /// How far the shoulder draws the skin of the trunk along [share of length].
 const SHOULDER_REACH: f64 = 0.1;

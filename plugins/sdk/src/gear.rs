@@ -146,7 +146,7 @@ pub trait GearType: Send + Sync {
     /// Parts and connections from attributes in the declared order.
     ///
     /// # Errors
-    /// With a message for the user, naming the attribute to mend.
+    /// With a message for the user, naming the attribute to fix.
     fn build(&self, attributes: &[AttributeValue], site: &Site) -> Result<Rig, HookError>;
 
     /// Once a step: actions appended to `actions`; floats may advance.

@@ -40,13 +40,13 @@ impl Descriptor {
         }
     }
 
-    /// The same with these attributes.
+    /// This descriptor with other attributes.
     #[must_use]
     pub fn with_attributes(self, attributes: Vec<Attribute>) -> Self {
         Self { attributes, ..self }
     }
 
-    /// The same with so many floats of state.
+    /// This descriptor with a count of floats of state.
     #[must_use]
     pub fn with_state(self, state_len: usize) -> Self {
         Self { state_len, ..self }

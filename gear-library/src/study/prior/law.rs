@@ -34,7 +34,7 @@ pub enum Law {
 impl Law {
     /// A drawn number [SI] as the file would have it, to three figures: `1.18 m/s`; a level by its own text.
     #[must_use]
-    pub fn told(&self, number: f64) -> String {
+    pub fn written(&self, number: f64) -> String {
         let rounded: f64 = format!("{number:.2e}").parse().unwrap_or(number);
         match self {
             Self::Uniform { quantity, .. } | Self::Normal { quantity, .. } => {

@@ -5,7 +5,18 @@ use endline_sim::whale::{Bone, Channel, JointRanges};
 use glam::DVec3;
 use serde_json::{Value, json};
 
-use super::About;
+/// What a file says of its whale besides the skin.
+#[derive(Clone, Copy, Debug)]
+pub struct About<'a> {
+    /// Id of the library's whale.
+    pub id: &'a str,
+    /// Its name.
+    pub name: &'a str,
+    /// Body length [m].
+    pub length_m: f64,
+    /// How far its joints turn.
+    pub joints: &'a JointRanges,
+}
 
 /// On a bone: each angle of the posture that turns it, its share, its axis in the bone's own axes (those of the whale's frame),
 /// and the angle's whole range.

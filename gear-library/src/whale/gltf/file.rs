@@ -7,7 +7,7 @@ use gltf::buffer::Source;
 
 use super::Fault;
 
-/// How Blender should be told to save.
+/// How Blender should save.
 const SAVE_AS: &str = "save it as glTF Binary (.glb), or as .gltf with its data embedded";
 
 /// An opened file.

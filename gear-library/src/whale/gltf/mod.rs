@@ -23,14 +23,15 @@ use endline_sim::whale::Skin;
 use glam::DVec3;
 
 pub use animation::{Animation, read_animation};
-pub use write::{About, Form, write};
+pub use extras::About;
+pub use write::{Form, write};
 
-/// What is wrong with a glTF file, and how to mend it.
+/// What is wrong with a glTF file, and how to fix it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
     /// What is wrong.
     pub message: String,
-    /// What was expected and how to mend it.
+    /// What was expected and how to fix it.
     pub help: String,
 }
 

@@ -5,11 +5,11 @@ use std::f64::consts::FRAC_1_SQRT_2;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use endline_sdk::Region;
-use endline_sim::whale::{Bone, JointRanges, Skin};
+use endline_sim::whale::{Bone, Skin};
 use glam::DVec3;
 use serde_json::{Value, json};
 
-use super::extras::{bone_extras, whale_extras};
+use super::extras::{About, bone_extras, whale_extras};
 use super::marks::colour;
 use super::pack::Pack;
 use super::to_gltf;
@@ -35,20 +35,7 @@ impl Form {
     }
 }
 
-/// What a file tells of its whale besides the skin.
-#[derive(Clone, Copy, Debug)]
-pub struct About<'a> {
-    /// Id of the library's whale.
-    pub id: &'a str,
-    /// Its name.
-    pub name: &'a str,
-    /// Body length [m].
-    pub length_m: f64,
-    /// How far its joints turn.
-    pub joints: &'a JointRanges,
-}
-
-/// The bytes of a glTF file; the same skin gives the same bytes.
+/// The bytes of a glTF file; equal skins give equal bytes.
 #[must_use]
 pub fn write(skin: &Skin, about: &About<'_>, form: Form) -> Vec<u8> {
     let mut pack = Pack::default();

@@ -58,7 +58,7 @@ impl<'a> Endline<'a> {
     /// The endline that the values ask for.
     ///
     /// # Errors
-    /// Naming the attribute to mend.
+    /// Naming the attribute to fix.
     pub fn read(values: &Values<'a>) -> Result<Self, HookError> {
         Ok(Self {
             buoy: values.needed("buoy")?,
@@ -89,7 +89,7 @@ impl<'a> Endline<'a> {
     /// Puts the endline on its foot; `prefix` goes before its ids.
     ///
     /// # Errors
-    /// Where its lengths do not fit together, naming the attribute to mend.
+    /// Where its lengths do not fit together, naming the attribute to fix.
     pub fn lay(
         &self,
         into: &mut Lay,

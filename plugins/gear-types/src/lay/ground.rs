@@ -133,7 +133,7 @@ impl<'a> Ground<'a> {
     /// The set that the values ask for.
     ///
     /// # Errors
-    /// Naming the attribute to mend.
+    /// Naming the attribute to fix.
     pub fn read(values: &Values<'a>) -> Result<Self, HookError> {
         let ground = Self {
             traps: values.count("traps")?,
@@ -165,7 +165,7 @@ impl<'a> Ground<'a> {
     /// So many traps in the groundline itself, without anchors.
     ///
     /// # Errors
-    /// Naming the attribute to mend.
+    /// Naming the attribute to fix.
     pub fn in_line(values: &Values<'a>, traps: u32) -> Result<Self, HookError> {
         Ok(Self {
             traps,

@@ -9,7 +9,7 @@
 //!
 //! In Rust nobody needs this module: implement a trait and name it in
 //! [`export_plugin!`](crate::export_plugin). In C, include `endline_plugin.h`, which is generated
-//! from [`table`]. `docs/plugin-abi.md` tells the rules in one page.
+//! from [`table`]. `docs/plugin-abi.md` has the rules in one page.
 
 pub mod export;
 pub mod table;

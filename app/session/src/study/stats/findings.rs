@@ -198,7 +198,7 @@ fn levels(opened: &Opened, table: &Table, marks: &[Marks]) -> Vec<LevelFinding> 
 fn told(opened: &Opened, prior: &str, level: &str) -> String {
     let prior = opened.study.priors.iter().find(|known| known.name.value == prior);
     let (Some(prior), Ok(number)) = (prior, level.parse()) else { return level.to_owned() };
-    format!("{} {}", prior.words(), prior.law.told(number))
+    format!("{} {}", prior.words(), prior.law.written(number))
 }
 
 fn level(column: &Column, row: usize) -> String {

@@ -53,7 +53,7 @@ pub(super) fn look(
     let of = |prior: &Prior| {
         input(
             prior,
-            parts(table, column(prior)?, &|number| prior.law.told(number)),
+            parts(table, column(prior)?, &|number| prior.law.written(number)),
             marks,
             baseline,
         )

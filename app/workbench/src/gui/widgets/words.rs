@@ -61,7 +61,7 @@ pub fn outcome(outcome: Outcome, palette: Palette) -> (&'static str, &'static st
     }
 }
 
-/// Colour of a sureness.
+/// Colour of a confidence.
 #[must_use]
 pub fn confidence_colour(confidence: Confidence, palette: Palette) -> Color32 {
     match confidence {
