@@ -9,12 +9,13 @@
 //! | [`report`] | the summary of a run |
 //! | [`figures`] | every figure of a run, declared once; comparison of two runs |
 //! | [`settled`] | the gear at rest as JSON |
-//! | [`rest`] | one assembly alone at rest, while it is edited |
+//! | [`statics`] | one assembly alone at rest, while it is edited |
 //! | [`cases`] | validation cases run and judged |
 //! | [`check`] | every problem of what a user names |
 //! | [`edit`] | open texts with undo, their problems, recovery after a crash |
 //! | [`units`] | display units and number formatting |
 //! | [`live`] | a run on a thread of its own, for the workbench |
+//! | [`task`] | work on a thread of its own, taken in without waiting |
 //! | [`plugins`] | plugins found, checked and loaded |
 //! | [`locate`] | where the gear library of a scenario is |
 //!
@@ -36,12 +37,13 @@ pub mod locate;
 pub mod plugins;
 pub mod recording;
 pub mod report;
-pub mod rest;
 pub mod run;
 pub mod save;
 pub mod settled;
 pub mod source;
+pub mod statics;
 pub mod study;
+pub mod task;
 pub mod timing;
 pub mod units;
 

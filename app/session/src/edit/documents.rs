@@ -344,6 +344,26 @@ impl Documents {
         Ok(fresh)
     }
 
+    /// Writes a copy of the open study to a fresh file in the library and opens it; returns its path.
+    ///
+    /// # Errors
+    /// Where no study is open, or the copy cannot be written.
+    pub fn duplicate_study(&mut self) -> Result<PathBuf, String> {
+        let path = self.study_path.as_deref().ok_or("open a study first")?;
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let folder = self.root.join("studies");
+        let mut copies = (2..1000).map(|number| folder.join(format!("{stem}-{number}.toml")));
+        let fresh = copies.find(|path| !path.exists()).ok_or("there are 1000 copies already")?;
+        let failed = |message: String| format!("{}: {message}", fresh.display());
+        let mut document = self.document(Self::STUDY)?;
+        let name = document.get("name").unwrap_or_default();
+        document.set("name", &format!("{name} (copy)")).map_err(|error| failed(error.message))?;
+        std::fs::create_dir_all(&folder).map_err(|error| failed(error.to_string()))?;
+        document.save(&fresh).map_err(|error| failed(error.to_string()))?;
+        self.open_study(&fresh)?;
+        Ok(fresh)
+    }
+
     fn change(&mut self, texts: Vec<(String, Option<String>)>) {
         let change = |(path, after): (String, Option<String>)| Change {
             before: self.texts.get(&path).map(str::to_owned),

@@ -6,7 +6,7 @@
 //! | [`documents`] | every open text: library files, the scenario, the study |
 //! | `texts` | texts as they stand and as their files have them |
 //! | `history` | undo and redo |
-//! | `problems` | located problems of the texts |
+//! | [`problems`] | located problems of the texts |
 //! | [`recovery`] | unsaved edits kept for the case of a crash |
 //! | [`scenario`] | one field of a scenario, with the fields that depend on it |
 //! | [`pilot_program`] | entries of the scenario's pilot program |
@@ -14,7 +14,7 @@
 pub mod documents;
 mod history;
 pub mod pilot_program;
-mod problems;
+pub mod problems;
 pub mod recovery;
 pub mod scenario;
 mod texts;

@@ -2,6 +2,26 @@
 
 use endline_gear::{Diagnostic, Library, Scenario, Sources, Study};
 
+/// A problem in one or two lines: what is wrong, then how to fix it.
+#[must_use]
+pub fn message(problem: &Diagnostic) -> String {
+    if problem.help.is_empty() {
+        problem.message.clone()
+    } else {
+        format!("{}\n{}", problem.message, problem.help)
+    }
+}
+
+/// Where a problem is: its file, and line and column where they are known.
+#[must_use]
+pub fn place(problem: &Diagnostic) -> String {
+    if problem.line == 0 {
+        problem.file.clone()
+    } else {
+        format!("{}:{}:{}", problem.file, problem.line, problem.column)
+    }
+}
+
 /// A text outside the library, with the name under which its problems are reported.
 pub(super) struct Named<'a> {
     pub(super) name: &'a str,

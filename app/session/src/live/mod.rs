@@ -4,9 +4,11 @@
 //! ever waits for the solver.
 
 mod command;
+pub mod engine;
 mod envelope;
 mod frame_history;
 mod history;
+mod maker;
 mod pace;
 mod series;
 #[cfg(test)]
@@ -22,8 +24,10 @@ use endline_sim::metrics::{Event, Summary};
 use endline_sim::{Audit, Frame, Model};
 
 pub use command::RunCommand;
+pub use engine::{Engine, Launch};
 pub use envelope::{Envelope, LineEnvelope};
 pub use history::Channel;
+pub use maker::Maker;
 pub use series::{Series, Span};
 
 use crate::plugins::PluginHost;

@@ -67,6 +67,12 @@ pub struct Folder {
 }
 
 impl Folder {
+    /// Where the folder of a study's results is under a root: its id and the head of its hash.
+    #[must_use]
+    pub fn path_under(root: &Path, opened: &Opened) -> PathBuf {
+        root.join(format!("{}-{}", opened.study.id, opened.hash.get(..8).unwrap_or(&opened.hash)))
+    }
+
     /// Opens a folder for a study, made where it is not there.
     ///
     /// # Errors

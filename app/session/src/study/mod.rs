@@ -22,6 +22,7 @@
 mod aim;
 pub mod batch;
 mod branch;
+pub mod control;
 pub mod draw;
 pub mod encounter;
 mod equilibria;
@@ -33,16 +34,25 @@ mod parquet;
 mod plan;
 mod play;
 mod prepare;
+pub mod priority;
 mod priors;
+pub mod queue;
+mod reader;
 mod ready;
 pub mod report;
+pub mod results;
 mod row;
 mod shard;
 pub mod stats;
 pub mod table;
+#[cfg(test)]
+mod tests;
 
+pub use control::Control;
 pub use open::Opened;
 pub use plan::OptionPlan;
 pub use play::{Played, REPLAY_HZ};
+pub use reader::ResultsReader;
+pub use results::{ResultsRequest, StudyResults};
 pub use shard::Shard;
 pub use table::{Cell, Column, Row, Table};

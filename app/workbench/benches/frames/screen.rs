@@ -8,10 +8,10 @@ use eframe::App as _;
 use egui::{Event, Pos2, RawInput, Rect, vec2};
 use egui_dock::{DockState, NodeIndex};
 use endline_session::edit::Documents;
+use endline_session::live::engine;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::canvas::Canvas;
 use endline_workbench::gui::desk::Desk;
-use endline_workbench::gui::engine;
 use endline_workbench::gui::panel_id::PanelId;
 use endline_workbench::input::Pilot;
 

@@ -1,8 +1,8 @@
 //! A study that was run, so that its panels have something to show.
 
+use endline_session::study::queue::{Job, State};
 use endline_workbench::gui::desk::Order;
 use endline_workbench::gui::layout::Layout;
-use endline_workbench::gui::studies::job::State;
 
 use crate::common::{Folder, on_disk};
 use crate::screen::Screen;
@@ -51,13 +51,13 @@ pub fn run(screen: &mut Screen, folder: &Folder) {
     std::fs::create_dir_all(folder.0.join("studies")).unwrap();
     std::fs::write(folder.0.join("studies/small.toml"), STUDY).unwrap();
     let studies = &mut screen.app.desk.studies;
-    (studies.folder, studies.eager) = (Some(folder.0.join("results")), true);
+    (studies.folder, studies.queue.eager) = (Some(folder.0.join("results")), true);
     screen.app.dock = Layout::Study.dock();
     screen.app.desk.obey(&Order::OpenStudy(folder.0.join("studies/small.toml")));
     screen.app.desk.obey(&Order::QueueStudy);
     let ended = |state: &State| matches!(state, State::Done | State::Failed(_));
-    screen.wait(|app| app.desk.studies.jobs.last().is_none_or(|job| ended(&job.progress().state)));
-    let state = screen.app.desk.studies.jobs.last().map(|job| job.progress().state);
+    screen.wait(|app| app.desk.studies.queue.jobs.last().is_none_or(|job| ended(&job.state())));
+    let state = screen.app.desk.studies.queue.jobs.last().map(Job::state);
     assert_eq!(state, Some(State::Done), "{:?}", screen.app.desk.notice);
     screen.wait(|app| {
         !app.desk.studies.results.busy()

@@ -14,15 +14,16 @@ use endline_gear::Diagnostic;
 use endline_sdk::{Act, GearType};
 use endline_session::edit::Documents;
 use endline_session::edit::recovery::Autosave;
+use endline_session::live::{Engine, Launch, Maker};
 use endline_session::live::{LiveView, RunCommand, Status};
 use endline_session::plugins::PluginUsed;
 use endline_session::recording::replay::check_plugins;
+use endline_session::task::Waker;
 use endline_session::{Error, Overrides, PluginHost, Prepared, Source};
 
 pub use super::order::Order;
 pub use super::preferences::{Preferences, Scale};
 
-use super::engine::{Engine, Launch, Maker, Waker};
 use super::plugins::Plugins;
 use super::studies::Studies;
 use crate::input::{Pilot, Rumble};
@@ -316,7 +317,7 @@ impl Desk {
     /// The next of the speeds offered.
     fn change_speed(&mut self, faster: bool) {
         let now = self.view.as_ref().map_or(1.0, |view| view.speed);
-        let speeds = super::engine::SPEEDS.map(|(speed, _)| speed);
+        let speeds = endline_session::live::engine::SPEEDS.map(|(speed, _)| speed);
         let next = if faster {
             speeds.into_iter().find(|speed| *speed > now)
         } else {

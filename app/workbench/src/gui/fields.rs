@@ -3,6 +3,7 @@
 use egui::{Id, Key, Response, Stroke, TextEdit, Ui};
 use endline_gear::Diagnostic;
 use endline_session::edit::Documents;
+use endline_session::edit::problems::message;
 
 use super::theme::Theme;
 
@@ -111,31 +112,11 @@ fn hover(response: Response, problem: Option<&Diagnostic>, help: &str) {
         return;
     }
     let text = match problem {
-        Some(problem) => told(problem),
+        Some(problem) => message(problem),
         None => help.to_owned(),
     };
     if !text.is_empty() {
         response.on_hover_text(text);
-    }
-}
-
-/// A problem in one or two lines: what is wrong, then how to mend it.
-#[must_use]
-pub fn told(problem: &Diagnostic) -> String {
-    if problem.help.is_empty() {
-        problem.message.clone()
-    } else {
-        format!("{}\n{}", problem.message, problem.help)
-    }
-}
-
-/// Where a problem stands: file, and line and column where it has them.
-#[must_use]
-pub fn place(problem: &Diagnostic) -> String {
-    if problem.line == 0 {
-        problem.file.clone()
-    } else {
-        format!("{}:{}:{}", problem.file, problem.line, problem.column)
     }
 }
 

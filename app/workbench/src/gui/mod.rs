@@ -4,7 +4,6 @@
 //! and sends commands. Panels draw from the [`Desk`](desk::Desk) and leave [`Order`](desk::Order)s on it.
 
 pub mod app;
-pub mod bench;
 pub mod bindings;
 pub mod bodymap;
 pub mod canvas;
@@ -12,7 +11,6 @@ pub mod chart_svg;
 pub mod charts;
 pub mod compare;
 pub mod desk;
-pub mod engine;
 pub mod exchange;
 pub mod fields;
 pub mod files;
@@ -41,12 +39,12 @@ use std::sync::Arc;
 
 use endline_session::edit::Documents;
 use endline_session::edit::recovery::Autosave;
-use endline_session::{load_with, locate, plugin_loader};
+use endline_session::task::Waker;
+use endline_session::{live, load_with, locate, plugin_loader};
 
 use crate::input::{GilrsPads, PadSource, Pilot};
 use app::App;
 use desk::Desk;
-use engine::Waker;
 use plugins::Plugins;
 
 /// How the workbench starts.
@@ -92,7 +90,7 @@ pub fn open(options: Options) -> Result<(), String> {
         let host = Arc::new(host);
         let context = creation.egui_ctx.clone();
         let waker: Waker = Arc::new(move || context.request_repaint());
-        let mut desk = Desk::new(documents, host, engine::live(), waker, Pilot::new(pads()));
+        let mut desk = Desk::new(documents, host, live::engine::live(), waker, Pilot::new(pads()));
         desk.plugins = Plugins::new(loader, Arc::new(load_with), refused);
         if let Some(folder) = &data {
             desk.autosave = Autosave::in_folder(folder.clone());

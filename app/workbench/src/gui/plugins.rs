@@ -11,7 +11,7 @@ use std::time::Duration;
 use endline_session::PluginHost;
 use endline_session::plugins::{Ask, Loader, PluginProblem, Standing, report_of_child};
 
-use super::engine::Waker;
+use endline_session::task::Waker;
 
 /// How long a file may take to be tried.
 const PATIENCE: Duration = Duration::from_secs(30);

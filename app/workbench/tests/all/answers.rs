@@ -10,9 +10,10 @@ use egui::{Event, Key, Modifiers, PointerButton, Pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_session::live::Status;
+use endline_session::live::engine::{self, Launch};
+use endline_session::task::Waker;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::desk::Order;
-use endline_workbench::gui::engine::{self, Launch, Waker};
 use endline_workbench::input::Pilot;
 
 use crate::common::{Folder, linked, opened_with, wait, workbench};

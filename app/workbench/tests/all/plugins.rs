@@ -8,12 +8,13 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_gear::{Document, Setting};
 use endline_session::edit::Documents;
+use endline_session::live::engine;
 use endline_session::plugins::{Choices, Language, Loader, PluginKind, Standing, write_project};
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::desk::Order;
+use endline_workbench::gui::fields;
 use endline_workbench::gui::panel_id::PanelId;
 use endline_workbench::gui::plugins::{Load, Plugins};
-use endline_workbench::gui::{engine, fields};
 use endline_workbench::input::Pilot;
 
 use crate::common::{Folder, linked, opened_with, wait};

@@ -8,13 +8,13 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_session::edit::Documents;
 use endline_session::live::Status;
+use endline_session::live::engine;
+use endline_session::study::queue::{Job, State};
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::desk::Order;
-use endline_workbench::gui::engine;
 use endline_workbench::gui::layout::Layout;
 use endline_workbench::gui::panel_id::PanelId;
 use endline_workbench::gui::panels::results::Part;
-use endline_workbench::gui::studies::job::State;
 use endline_workbench::input::Pilot;
 
 use crate::common;
@@ -71,7 +71,7 @@ fn studying(folder: &Folder) -> Harness<'static, App> {
     let mut harness = opened_with(folder.documents(), linked(), engine::live(), Pilot::default());
     harness.state_mut().desk.studies.folder = Some(folder.0.join("results"));
     // Other tests run beside this one.
-    harness.state_mut().desk.studies.eager = true;
+    harness.state_mut().desk.studies.queue.eager = true;
     give(&mut harness, Order::Arrange(Layout::Study));
     give(&mut harness, Order::OpenStudy(folder.0.join("studies/small.toml")));
     harness
@@ -82,7 +82,7 @@ fn wait(harness: &mut Harness<'static, App>, so: impl Fn(&App) -> bool) {
     let patience = std::time::Instant::now() + std::time::Duration::from_secs(120);
     while !so(harness.state()) {
         let studies = &harness.state().desk.studies;
-        let told = studies.jobs.last().map(|job| job.progress());
+        let told = studies.queue.jobs.last().map(|job| (job.state(), job.progress()));
         assert!(
             std::time::Instant::now() < patience,
             "waited in vain: {told:?}, {:?}",
@@ -100,7 +100,7 @@ fn give(harness: &mut Harness<'static, App>, order: Order) {
 }
 
 fn state(app: &App) -> Option<State> {
-    app.desk.studies.jobs.last().map(|job| job.progress().state)
+    app.desk.studies.queue.jobs.last().map(Job::state)
 }
 
 /// Runs the open study to its end and waits for its results.
@@ -182,11 +182,11 @@ fn a_study_stands_still_when_paused_keeps_its_blocks_when_cancelled_and_goes_on(
     let mut harness = studying(&folder);
     harness.state_mut().desk.set(Documents::STUDY, "encounters", "400");
     give(&mut harness, Order::QueueStudy);
-    wait(&mut harness, |app| app.desk.studies.jobs[0].progress().blocks >= 2);
+    wait(&mut harness, |app| app.desk.studies.queue.jobs[0].progress().blocks.done >= 2);
     give(&mut harness, Order::PauseStudy);
     assert_eq!(state(harness.state()), Some(State::Paused));
     // The encounter under way still comes to its end, later on a busy machine.
-    let done = || harness.state().desk.studies.jobs[0].progress().done;
+    let done = || harness.state().desk.studies.queue.jobs[0].progress().encounters.done;
     let rests = |_| {
         std::thread::sleep(std::time::Duration::from_millis(400));
         let before = done();
@@ -195,7 +195,7 @@ fn a_study_stands_still_when_paused_keeps_its_blocks_when_cancelled_and_goes_on(
     };
     let before = (0..3).find_map(rests).expect("paused");
     give(&mut harness, Order::PauseStudy);
-    wait(&mut harness, |app| app.desk.studies.jobs[0].progress().done > before);
+    wait(&mut harness, |app| app.desk.studies.queue.jobs[0].progress().encounters.done > before);
     give(&mut harness, Order::CancelStudy);
     wait(&mut harness, |app| state(app) == Some(State::Cancelled));
     std::thread::sleep(std::time::Duration::from_millis(400));
@@ -203,13 +203,13 @@ fn a_study_stands_still_when_paused_keeps_its_blocks_when_cancelled_and_goes_on(
     harness.state_mut().desk.set(Documents::STUDY, "encounters", "8");
     give(&mut harness, Order::QueueStudy);
     wait(&mut harness, |app| state(app) == Some(State::Done));
-    let progress = harness.state().desk.studies.jobs[0].progress();
+    let progress = harness.state().desk.studies.queue.jobs[0].progress().encounters;
     assert_eq!(
         (progress.found, progress.done, progress.total),
         (8, 8, 8),
         "blocks that were done are not run again"
     );
-    let folder = harness.state().desk.studies.jobs[0].folder().unwrap();
+    let folder = harness.state().desk.studies.queue.jobs[0].folder().unwrap();
     for file in ["table.csv", "report.html", "bundle/study.toml"] {
         assert!(folder.join(file).is_file(), "{file}");
     }
@@ -255,7 +255,10 @@ fn options_and_priors_are_added_and_wrong_ones_told_at_their_place() {
     assert!(harness.query_by_label_contains("the first value is not below the second").is_some());
     assert!(!harness.state().desk.documents.any_error(), "a single run does not mind the study");
     give(&mut harness, Order::QueueStudy);
-    assert!(harness.state().desk.studies.jobs.is_empty(), "a study with errors is not queued");
+    assert!(
+        harness.state().desk.studies.queue.jobs.is_empty(),
+        "a study with errors is not queued"
+    );
     give(&mut harness, Order::Undo);
     assert!(!harness.state().desk.documents.file_has_error(Documents::STUDY));
     retype(&mut harness, "0.2 m/s, 0.5 m/s", "0.1 m/s, 0.2 m/s, 0.3 m/s");

@@ -5,10 +5,10 @@
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_session::live::Status;
+use endline_session::live::engine;
 use endline_session::units::Units;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::desk::Order;
-use endline_workbench::gui::engine;
 use endline_workbench::gui::inspector::{along_m, measured, read};
 use endline_workbench::gui::palette::orders;
 use endline_workbench::gui::panel_id::PanelId;

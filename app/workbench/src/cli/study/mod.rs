@@ -10,7 +10,7 @@ use std::process::ExitCode;
 use endline_session::study::encounter::Encounter;
 use endline_session::study::folder::Folder;
 use endline_session::study::stats::Findings;
-use endline_session::study::{Opened, REPLAY_HZ, batch, merge, report};
+use endline_session::study::{Control, Opened, REPLAY_HZ, batch, merge, priority, report};
 use endline_session::{Error, locate, save};
 
 use self::args::{PlanArgs, ReplayArgs, ReportArgs, RunArgs, StudyArgs, StudyCommand};
@@ -38,15 +38,17 @@ fn run(args: &RunArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
     let opened = open(&args.at, library)?;
     let folder = Folder::open(&folder_of(&args.at, &opened), &opened)?;
     if !args.eager {
-        step_back();
+        lower_priority();
     }
     let threads = args
         .threads
         .map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from);
     let bar = Bar::new();
-    let progress = batch::run(&opened, &folder, args.shard, threads, &|progress| bar.at(progress))?;
-    drop(bar);
-    output::print(&words::ran(&opened, &folder, progress))?;
+    let control = Control::new(move |progress| bar.at(progress));
+    let progress = batch::run(&opened, &folder, args.shard, threads, &control)?;
+    // The bar disappears with its control.
+    drop(control);
+    output::print(&words::ran(&opened, &folder, progress.blocks))?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -180,9 +182,8 @@ fn folder_of(args: &StudyArgs, opened: &Opened) -> PathBuf {
 }
 
 /// Lets everything else on the machine go first.
-fn step_back() {
-    #[cfg(unix)]
-    if let Err(error) = rustix::process::nice(19) {
+fn lower_priority() {
+    if let Err(error) = priority::lower() {
         output::note(&format!("runs at ordinary priority: {error}"));
     }
 }

@@ -5,7 +5,7 @@ use std::sync::Mutex;
 use std::sync::PoisonError;
 use std::time::{Duration, Instant};
 
-use endline_session::study::batch::Progress;
+use endline_session::study::control::{Count, Progress};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::super::output;
@@ -35,30 +35,25 @@ impl Bar {
         Self { bar, start: now, told: Mutex::new(now) }
     }
 
-    pub(super) fn at(&self, progress: Progress) {
+    pub(super) fn at(&self, progress: &Progress) {
+        let Count { done, found, total } = progress.blocks;
         if let Some(bar) = &self.bar {
-            bar.set_length(u64::from(progress.blocks));
-            bar.set_position(u64::from(progress.done));
+            bar.set_length(u64::from(total));
+            bar.set_position(u64::from(done));
             return;
         }
         let mut told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
-        if told.elapsed() < BETWEEN && progress.done < progress.blocks {
+        if told.elapsed() < BETWEEN && done < total {
             return;
         }
         *told = Instant::now();
-        let fresh = progress.done - progress.found;
+        let fresh = done - found;
         let left = if fresh == 0 {
             String::new()
         } else {
-            format!(
-                ", {} left",
-                words(self.start.elapsed() / fresh * (progress.blocks - progress.done))
-            )
+            format!(", {} left", words(self.start.elapsed() / fresh * (total - done)))
         };
-        output::note(&format!(
-            "{} of {} blocks of encounters{left}",
-            progress.done, progress.blocks
-        ));
+        output::note(&format!("{done} of {total} blocks of encounters{left}"));
     }
 }
 

@@ -1,16 +1,14 @@
 //! What the study commands print.
 
 use endline_session::study::Opened;
-use endline_session::study::batch::Progress;
+use endline_session::study::control::Count;
 use endline_session::study::encounter::Encounter;
 use endline_session::study::folder::{BLOCK, Folder};
 use endline_session::study::stats::{Change, Findings, Interval, Rate};
+use endline_session::units::N_PER_LBF;
 use serde::Serialize;
 
 use super::super::table::columns;
-
-/// Newtons in a pound-force.
-const N_PER_LBF: f64 = 4.448_221_615_260_5;
 
 /// Encounters shown by a plan.
 const SHOWN: u32 = 5;
@@ -92,7 +90,7 @@ fn short(text: &str) -> String {
         .map_or_else(|_| text.to_owned(), |number| format!("{number:.3} {unit}").trim().to_owned())
 }
 
-pub(super) fn ran(opened: &Opened, folder: &Folder, progress: Progress) -> String {
+pub(super) fn ran(opened: &Opened, folder: &Folder, blocks: Count) -> String {
     let at = folder.path.display();
     let whole = (0..folder.blocks()).all(|block| folder.file_of(block).is_file());
     let next = if whole {
@@ -102,9 +100,9 @@ pub(super) fn ran(opened: &Opened, folder: &Folder, progress: Progress) -> Strin
     };
     format!(
         "{} of {} blocks in {at}, {} of them new\n{next}",
-        progress.done,
-        progress.blocks,
-        progress.done - progress.found
+        blocks.done,
+        blocks.total,
+        blocks.done - blocks.found
     )
 }
 

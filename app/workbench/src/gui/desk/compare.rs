@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use endline_sdk::Controls;
 use endline_session::Recording;
+use endline_session::live::{Engine, Maker};
 use endline_session::live::{LiveView, RunCommand, Status};
 
-use super::super::engine::{Engine, Maker};
 use super::{Desk, Order};
 
 /// The run that the one shown is compared with.

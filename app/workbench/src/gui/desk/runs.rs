@@ -72,7 +72,7 @@ impl Desk {
         self.making.clear();
         (self.guest_when_made, self.start_when_made) = (Some(self.documents.version()), true);
         let host = Arc::clone(&self.host);
-        let work = move || super::super::studies::again(&shown, option, encounter, &host);
+        let work = move || shown.prepare(option, encounter, &host);
         if let Err(error) = self.maker.start_with(work, Arc::clone(&self.waker)) {
             self.notice = Some((format!("the run cannot be made again: {error}"), true));
         }

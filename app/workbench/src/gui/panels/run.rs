@@ -2,9 +2,9 @@
 
 use egui::{Button, ProgressBar, RichText, ScrollArea, Ui};
 use endline_session::live::LiveView;
+use endline_session::live::engine::SPEEDS;
 
 use crate::gui::desk::{Desk, Order};
-use crate::gui::engine::SPEEDS;
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
 use crate::gui::theme::{Theme, primary};

@@ -2,8 +2,8 @@
 
 use egui::{Label, RichText, Sense, Ui};
 use endline_gear::Diagnostic;
+use endline_session::edit::problems::place;
 
-use super::super::fields::place;
 use super::super::theme::Theme;
 
 /// One problem in two lines; answers whether it was clicked.

@@ -15,11 +15,12 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_session::PluginHost;
 use endline_session::edit::Documents;
+use endline_session::live::engine::{Engine, Launch, live};
 use endline_session::live::{LiveView, RunCommand, Status};
 use endline_session::plugins::Hook;
+use endline_session::task::Waker;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::desk::{Desk, Order};
-use endline_workbench::gui::engine::{Engine, Launch, Waker, live};
 use endline_workbench::input::Pilot;
 
 /// What a test's engine was told, in words.

@@ -14,9 +14,10 @@ use std::path::Path;
 use egui::{RichText, ScrollArea, Slider, SliderClamping, Ui};
 use endline_gear::Kind;
 use endline_session::edit::Documents;
-use endline_session::rest::TrialSea;
+use endline_session::statics::TrialSea;
+use endline_session::statics::worker::Answer;
+use endline_session::statics::{StaticsWorker, Trial};
 
-use crate::gui::bench::{Answer, Bench, Trial};
 use crate::gui::desk::{Desk, Order};
 use crate::gui::exchange::id_of;
 use crate::gui::panel::Panel;
@@ -42,13 +43,13 @@ pub struct AssemblyPanel {
     pub line: usize,
     /// Whether the table of depths and currents is shown.
     pub sweep: bool,
-    bench: Bench,
+    bench: StaticsWorker,
     asked: Option<(u64, Vec<Trial>)>,
     /// Whether the gear selector is shown.
     pub selecting: bool,
-    pictured: Bench,
+    pictured: StaticsWorker,
     pictured_for: Option<u64>,
-    swept: Bench,
+    swept: StaticsWorker,
     swept_for: Option<(u64, String)>,
 }
 
@@ -310,7 +311,7 @@ fn path(id: &str) -> String {
 }
 
 /// Surface speed of the current of a model at the start [m/s].
-fn surface_m_s(rest: &endline_session::rest::Rest) -> f64 {
+fn surface_m_s(rest: &endline_session::statics::RigAtRest) -> f64 {
     rest.model.spec.water.current.at(1.0, 0.0).length()
 }
 

@@ -2,13 +2,14 @@
 
 use egui::{Color32, Pos2, Rect, RichText, ScrollArea, Sense, Stroke, Ui, pos2, vec2};
 use endline_session::edit::Documents;
-use endline_session::rest::{Rest, TrialSea};
+use endline_session::statics::Trial;
+use endline_session::statics::worker::Answer;
+use endline_session::statics::{RigAtRest, TrialSea};
 use endline_sim::model::BodyRole;
 use glam::DVec2;
 
 use super::AssemblyPanel;
 use super::side::A;
-use crate::gui::bench::{Answer, Trial};
 use crate::gui::desk::Desk;
 use crate::gui::theme::Theme;
 
@@ -96,7 +97,7 @@ fn card(ui: &mut Ui, name: &str, answer: Option<&Answer>, chosen: bool) -> bool 
 }
 
 /// Lines and bodies from the side, as large as they fit.
-fn draw(painter: &egui::Painter, room: Rect, rest: &Rest, color: Color32, faint: Color32) {
+fn draw(painter: &egui::Painter, room: Rect, rest: &RigAtRest, color: Color32, faint: Color32) {
     let places = || rest.shape.lines.iter().flat_map(|line| &line.position_m);
     let flat = |place: &[f64; 3]| DVec2::new(place[0], place[1]);
     let Some(first) = places().next().map(flat) else { return };

@@ -5,13 +5,13 @@ use egui_plot::{
     AxisHints, HLine, Line, LineStyle, MarkerShape, Plot, PlotBounds, PlotPoint, PlotPoints,
     PlotUi, Points, Text,
 };
-use endline_session::rest::Rest;
+use endline_session::statics::RigAtRest;
+use endline_session::statics::worker::Answer;
 use endline_session::units::Units;
 use endline_sim::model::{Body, BodyRole};
 use glam::{DVec2, DVec3};
 
 use super::{AssemblyPanel, Drawn, surface_m_s};
-use crate::gui::bench::Answer;
 use crate::gui::desk::Desk;
 use crate::gui::theme::Theme;
 
@@ -193,7 +193,14 @@ impl Flat {
     }
 }
 
-fn rig(plot: &mut PlotUi<'_>, rest: &Rest, gear: Gear, color: Color32, text: Color32, flat: &Flat) {
+fn rig(
+    plot: &mut PlotUi<'_>,
+    rest: &RigAtRest,
+    gear: Gear,
+    color: Color32,
+    text: Color32,
+    flat: &Flat,
+) {
     let spec = &rest.model.spec;
     for (index, (line, shape)) in spec.lines.iter().zip(&rest.shape.lines).enumerate() {
         let points: Vec<[f64; 2]> =

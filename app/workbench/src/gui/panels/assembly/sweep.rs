@@ -2,13 +2,13 @@
 
 use egui::{Grid, ProgressBar, RichText, Ui};
 use endline_session::edit::Documents;
-use endline_session::rest::{Rest, TrialSea};
+use endline_session::statics::Trial;
+use endline_session::statics::{RigAtRest, TrialSea};
 use endline_session::units::Units;
 use endline_sim::model::BodyRole;
 
 use super::side::top_m;
 use super::{Answer, AssemblyPanel};
-use crate::gui::bench::Trial;
 use crate::gui::desk::Desk;
 use crate::gui::theme::{Theme, primary};
 
@@ -125,7 +125,7 @@ fn cell(ui: &mut Ui, answer: Option<&Answer>, units: Units) {
     };
 }
 
-fn any_under(rest: &Rest) -> bool {
+fn any_under(rest: &RigAtRest) -> bool {
     let bodies = rest.model.spec.bodies.iter().zip(&rest.shape.bodies);
     bodies.filter(|(body, _)| body.role == BodyRole::Buoy).any(|(body, at)| top_m(body, at) < 0.0)
 }

@@ -1,7 +1,7 @@
 //! Tensions of every line and heights of every float, at slack and at running tide.
 
 use egui::{Color32, Grid, RichText, Ui};
-use endline_session::rest::Rest;
+use endline_session::statics::RigAtRest;
 use endline_session::units::Units;
 use endline_sim::model::BodyRole;
 
@@ -56,7 +56,7 @@ pub(super) fn height(panel: &AssemblyPanel) -> f32 {
     40.0 + 25.0 * (rows(drawn.a) + rows(drawn.b)) as f32
 }
 
-fn good(answer: Option<&Answer>) -> Option<&Rest> {
+fn good(answer: Option<&Answer>) -> Option<&RigAtRest> {
     answer.and_then(|answer| answer.as_deref().ok())
 }
 
@@ -96,7 +96,7 @@ fn line_strength(rope_n: f64, keeps: endline_sim::model::Strength) -> f64 {
     rope_n * keeps.all * keeps.end_a.min(keeps.end_b)
 }
 
-fn ends(rest: Option<&Rest>, line: usize, units: Units) -> String {
+fn ends(rest: Option<&RigAtRest>, line: usize, units: Units) -> String {
     let Some(shape) = rest.and_then(|rest| rest.shape.lines.get(line)) else {
         return "…".to_owned();
     };
@@ -107,7 +107,7 @@ fn ends(rest: Option<&Rest>, line: usize, units: Units) -> String {
     )
 }
 
-fn used(rest: Option<&Rest>, line: usize, strength_n: f64) -> String {
+fn used(rest: Option<&RigAtRest>, line: usize, strength_n: f64) -> String {
     let Some(shape) = rest.and_then(|rest| rest.shape.lines.get(line)) else {
         return String::new();
     };
@@ -119,7 +119,7 @@ fn used(rest: Option<&Rest>, line: usize, strength_n: f64) -> String {
     }
 }
 
-fn float(ui: &mut Ui, rest: Option<&Rest>, body: usize, units: Units) {
+fn float(ui: &mut Ui, rest: Option<&RigAtRest>, body: usize, units: Units) {
     // While gear is edited the two tides may be of different parts for a moment.
     let at =
         rest.and_then(|rest| rest.model.spec.bodies.get(body).zip(rest.shape.bodies.get(body)));
@@ -142,8 +142,8 @@ fn whole(
     ui: &mut Ui,
     name: &str,
     color: Color32,
-    slack: Option<&Rest>,
-    running: Option<&Rest>,
+    slack: Option<&RigAtRest>,
+    running: Option<&RigAtRest>,
     units: Units,
 ) {
     let palette = Theme::palette_of(ui);

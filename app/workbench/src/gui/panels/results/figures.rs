@@ -1,11 +1,11 @@
 //! Differences from the baseline as a forest of intervals, and the effect of each input as a tornado.
 
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Sense, Stroke, Ui, pos2, vec2};
+use endline_session::study::StudyResults;
 use endline_session::study::stats::{Interval, OptionFinding};
 
 use super::rates::{points, rate};
 use crate::gui::charts::COLOURS;
-use crate::gui::studies::Shown;
 use crate::gui::theme::{Palette, Theme};
 use crate::gui::widgets;
 
@@ -95,7 +95,7 @@ fn ticks([least, most]: [f64; 2]) -> Vec<f64> {
 type Difference = (String, f64, Interval);
 
 /// Differences from the baseline: of all encounters, then by level.
-pub(super) fn forest(ui: &mut Ui, shown: &Shown, event: &str) {
+pub(super) fn forest(ui: &mut Ui, shown: &StudyResults, event: &str) {
     let findings = &shown.findings;
     let others = |index: &usize| *index != findings.baseline;
     let all = |option: &OptionFinding| {
@@ -179,7 +179,7 @@ fn whisker(figure: &Figure, row: usize, [low, at, high]: [f64; 3], kind: usize) 
 }
 
 /// Least and greatest rate over the parts of each input, the greatest effect first.
-pub(super) fn tornado(ui: &mut Ui, shown: &Shown) {
+pub(super) fn tornado(ui: &mut Ui, shown: &StudyResults) {
     let findings = &shown.findings;
     if findings.inputs.is_empty() {
         return widgets::nothing(ui, "Nothing was drawn that varies.");

@@ -9,11 +9,12 @@ use std::sync::Arc;
 
 use egui::{ComboBox, RichText, ScrollArea, Ui};
 use endline_gear::Event;
+use endline_session::study::ResultsReader;
+use endline_session::study::StudyResults;
 
 use crate::gui::desk::{Desk, Order};
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
-use crate::gui::studies::{Results, Shown};
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
 use runs::{Listed, Sort};
@@ -95,7 +96,7 @@ impl Panel for ResultsPanel {
 }
 
 /// Says why there are no results.
-fn missing(ui: &mut Ui, results: &Results) {
+fn missing(ui: &mut Ui, results: &ResultsReader) {
     // Every option's model is made for it, which takes a while.
     if results.busy() {
         ui.vertical_centered(|ui| ui.spinner());
@@ -107,7 +108,7 @@ fn missing(ui: &mut Ui, results: &Results) {
 
 impl ResultsPanel {
     /// Drops what was chosen of another study.
-    fn begin(&mut self, shown: &Shown) {
+    fn begin(&mut self, shown: &StudyResults) {
         let hash = &shown.opened.hash;
         if self.of.as_ref() != Some(hash) {
             (self.event, self.only, self.replayed) = (None, None, None);
@@ -116,11 +117,11 @@ impl ResultsPanel {
     }
 
     /// Name of the event shown.
-    fn event(&self, shown: &Shown) -> String {
+    fn event(&self, shown: &StudyResults) -> String {
         self.event.clone().unwrap_or_else(|| shown.findings.event.clone())
     }
 
-    fn head(&mut self, ui: &mut Ui, desk: &Desk, shown: &Arc<Shown>) {
+    fn head(&mut self, ui: &mut Ui, desk: &Desk, shown: &Arc<StudyResults>) {
         let palette = Theme::palette_of(ui);
         let (study, findings) = (&shown.opened.study, &shown.findings);
         ui.horizontal_wrapped(|ui| {
@@ -165,7 +166,7 @@ impl ResultsPanel {
         });
     }
 
-    fn choose_event(&mut self, ui: &mut Ui, shown: &Shown) {
+    fn choose_event(&mut self, ui: &mut Ui, shown: &StudyResults) {
         let now = self.event(shown);
         let words =
             |name: &str| Event::find(name).map_or_else(|| name.to_owned(), |event| event.words());
@@ -188,7 +189,7 @@ impl ResultsPanel {
     }
 }
 
-fn report_line(desk: &Desk, shown: &Shown) -> String {
+fn report_line(desk: &Desk, shown: &StudyResults) -> String {
     let quoted = |path: &str| format!("'{}'", path.replace('\'', "'\\''"));
     let study = quoted(&shown.opened.study.place.source.path);
     format!(

@@ -1,9 +1,9 @@
 //! Rates and comparisons in numbers, each with its interval.
 
 use egui::{Grid, RichText, Ui};
+use endline_session::study::StudyResults;
 use endline_session::study::stats::{Interval, OptionFinding, Rate, Verdict};
 
-use crate::gui::studies::Shown;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
 
@@ -22,7 +22,7 @@ fn percent(Interval { low, high }: Interval) -> String {
 }
 
 /// Draws the table of options.
-pub(super) fn show(ui: &mut Ui, shown: &Shown, event: &str) {
+pub(super) fn show(ui: &mut Ui, shown: &StudyResults, event: &str) {
     let faint = Theme::palette_of(ui).faint;
     let heads = [
         ("Option", ""),
@@ -80,7 +80,7 @@ fn row(ui: &mut Ui, option: &OptionFinding, event: &str, baseline: bool, own_eve
 }
 
 /// Rates by levels of the prior by which results are told apart.
-fn levels(ui: &mut Ui, shown: &Shown) {
+fn levels(ui: &mut Ui, shown: &StudyResults) {
     let faint = Theme::palette_of(ui).faint;
     for level in &shown.findings.levels {
         widgets::caption(ui, &level.level);
@@ -116,7 +116,7 @@ fn levels(ui: &mut Ui, shown: &Shown) {
 }
 
 /// Draws the claims.
-pub(super) fn claims(ui: &mut Ui, shown: &Shown) {
+pub(super) fn claims(ui: &mut Ui, shown: &StudyResults) {
     let palette = Theme::palette_of(ui);
     for claim in &shown.findings.claims {
         let colour = match claim.verdict {

@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use egui::{Align, ComboBox, Layout, RichText, Sense, Ui};
 use egui_extras::{Column, TableBuilder};
+use endline_session::study::StudyResults;
 use endline_session::study::Table;
 use endline_session::units::ForceUnit;
 
 use super::ResultsPanel;
 use crate::gui::desk::Desk;
-use crate::gui::studies::Shown;
 use crate::gui::theme::Theme;
 
 /// What runs are sorted by.
@@ -42,7 +42,7 @@ struct RunRow {
 /// The rows last listed, with what they were listed for.
 #[derive(Clone)]
 pub(super) struct Listed {
-    shown: Arc<Shown>,
+    shown: Arc<StudyResults>,
     only: Option<String>,
     sort: (Sort, bool),
     rows: Arc<Vec<RunRow>>,
@@ -58,7 +58,12 @@ const HEADS: [(&str, Option<Sort>); 6] = [
 ];
 
 /// Draws the table of runs.
-pub(super) fn show(ui: &mut Ui, panel: &mut ResultsPanel, desk: &mut Desk, shown: &Arc<Shown>) {
+pub(super) fn show(
+    ui: &mut Ui,
+    panel: &mut ResultsPanel,
+    desk: &mut Desk,
+    shown: &Arc<StudyResults>,
+) {
     filter(ui, panel, shown);
     let rows = listed(panel, shown);
     let unit = desk.preferences.units.force();
@@ -100,7 +105,7 @@ pub(super) fn show(ui: &mut Ui, panel: &mut ResultsPanel, desk: &mut Desk, shown
     }
 }
 
-fn filter(ui: &mut Ui, panel: &mut ResultsPanel, shown: &Shown) {
+fn filter(ui: &mut Ui, panel: &mut ResultsPanel, shown: &StudyResults) {
     ui.horizontal(|ui| {
         let only = &mut panel.only;
         let name = |id: &String| {
@@ -148,7 +153,12 @@ fn head(ui: &mut Ui, name: &str, by: Option<Sort>, sort: &mut (Sort, bool)) {
     }
 }
 
-fn cells(line: &mut egui_extras::TableRow<'_, '_>, row: &RunRow, shown: &Shown, unit: ForceUnit) {
+fn cells(
+    line: &mut egui_extras::TableRow<'_, '_>,
+    row: &RunRow,
+    shown: &StudyResults,
+    unit: ForceUnit,
+) {
     line.col(|ui| drop(ui.label(row.encounter.to_string())));
     line.col(|ui| drop(ui.label(&shown.findings.options[row.option].name)));
     line.col(|ui| {
@@ -167,7 +177,7 @@ fn cells(line: &mut egui_extras::TableRow<'_, '_>, row: &RunRow, shown: &Shown, 
 }
 
 /// The rows as they are sorted and filtered now, listed anew where that or the results have changed.
-fn listed(panel: &mut ResultsPanel, shown: &Arc<Shown>) -> Arc<Vec<RunRow>> {
+fn listed(panel: &mut ResultsPanel, shown: &Arc<StudyResults>) -> Arc<Vec<RunRow>> {
     let same = |listed: &&Listed| {
         Arc::ptr_eq(&listed.shown, shown) && listed.only == panel.only && listed.sort == panel.sort
     };
@@ -184,7 +194,7 @@ fn listed(panel: &mut ResultsPanel, shown: &Arc<Shown>) -> Arc<Vec<RunRow>> {
     rows
 }
 
-fn rows(shown: &Shown, only: Option<&str>, (sort, down): (Sort, bool)) -> Vec<RunRow> {
+fn rows(shown: &StudyResults, only: Option<&str>, (sort, down): (Sort, bool)) -> Vec<RunRow> {
     let table = &shown.table;
     let (encounters, tensions, wraps) =
         (table.reals("encounter"), table.reals("peak_tension_N"), wraps(table));

@@ -6,12 +6,12 @@ use egui::{Color32, RichText, Ui};
 use egui_plot::{
     AxisHints, Legend, Line, MarkerShape, Plot, PlotPoint, PlotPoints, PlotUi, Points,
 };
+use endline_session::study::StudyResults;
 use endline_session::units::ForceUnit;
 
 use super::ResultsPanel;
 use crate::gui::charts::COLOURS;
 use crate::gui::desk::Desk;
-use crate::gui::studies::Shown;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
 
@@ -21,7 +21,7 @@ const REACH: f32 = 14.0;
 /// The dots last placed, with what they were placed for.
 #[derive(Clone)]
 pub(super) struct Placed {
-    shown: Arc<Shown>,
+    shown: Arc<StudyResults>,
     unit: ForceUnit,
     dots: Arc<Vec<Dot>>,
 }
@@ -37,7 +37,12 @@ struct Dot {
 }
 
 /// Draws the distribution of greatest tensions.
-pub(super) fn show(ui: &mut Ui, panel: &mut ResultsPanel, desk: &mut Desk, shown: &Arc<Shown>) {
+pub(super) fn show(
+    ui: &mut Ui,
+    panel: &mut ResultsPanel,
+    desk: &mut Desk,
+    shown: &Arc<StudyResults>,
+) {
     let unit = desk.preferences.units.force();
     let dots = placed(panel, shown, unit);
     if dots.is_empty() {
@@ -105,7 +110,7 @@ fn curve(plot: &mut PlotUi<'_>, index: usize, name: &str, points: Vec<PlotPoint>
 }
 
 /// The dots, placed anew where the results or the unit have changed.
-fn placed(panel: &mut ResultsPanel, shown: &Arc<Shown>, unit: ForceUnit) -> Arc<Vec<Dot>> {
+fn placed(panel: &mut ResultsPanel, shown: &Arc<StudyResults>, unit: ForceUnit) -> Arc<Vec<Dot>> {
     let same = |placed: &&Placed| Arc::ptr_eq(&placed.shown, shown) && placed.unit == unit;
     if let Some(placed) = panel.placed.as_ref().filter(same) {
         return Arc::clone(&placed.dots);
@@ -116,7 +121,7 @@ fn placed(panel: &mut ResultsPanel, shown: &Arc<Shown>, unit: ForceUnit) -> Arc<
 }
 
 /// Every run that counts, by option and rising tension.
-fn dots(shown: &Shown, unit: ForceUnit) -> Vec<Dot> {
+fn dots(shown: &StudyResults, unit: ForceUnit) -> Vec<Dot> {
     let table = &shown.table;
     let (encounters, tensions) = (table.reals("encounter"), table.reals("peak_tension_N"));
     let (options, valid, outcomes) =

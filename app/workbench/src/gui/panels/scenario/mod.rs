@@ -7,6 +7,7 @@ mod rows;
 
 use egui::{ComboBox, Grid, RichText, ScrollArea, Ui};
 use endline_gear::Kind;
+use endline_session::edit::problems::message;
 use endline_session::edit::{Documents, scenario};
 
 use crate::gui::desk::{Desk, Order};
@@ -282,8 +283,7 @@ fn rows(ui: &mut Ui, desk: &Desk, id: &str, rows: &[Row<'_>], edits: &mut Vec<Ed
 /// What is wrong with a field, in its text or in the model last made of it.
 fn problem(ui: &mut Ui, desk: &Desk, field: &str) {
     if let Some(problem) = desk.problem_at(Documents::SCENARIO, field) {
-        let error =
-            RichText::new(fields::told(problem)).size(11.0).color(Theme::palette_of(ui).error);
+        let error = RichText::new(message(problem)).size(11.0).color(Theme::palette_of(ui).error);
         ui.add(egui::Label::new(error).wrap());
     }
 }

@@ -133,7 +133,7 @@ fn start(ui: &mut Ui, desk: &mut Desk) {
             desk.orders.push(Order::AskResults);
         }
         let help = "At ordinary priority, not behind everything else on the machine; the window may draw more slowly";
-        ui.checkbox(&mut desk.studies.eager, "Full speed").on_hover_text(help);
+        ui.checkbox(&mut desk.studies.queue.eager, "Full speed").on_hover_text(help);
         if !ready {
             ui.label(RichText::new("errors below, or in Problems").color(faint));
         }

@@ -4,10 +4,10 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use egui::{ProgressBar, RichText, Ui};
-use endline_session::study::folder::Label;
+use endline_session::study::queue::{Job, State};
+use endline_session::study::results;
 
 use crate::gui::desk::{Desk, Order};
-use crate::gui::studies::job::{Job, State};
 use crate::gui::theme::Theme;
 
 /// What is done with a job.
@@ -23,20 +23,20 @@ enum Act {
 pub(super) fn show(ui: &mut Ui, desk: &mut Desk) {
     let mut act = None;
     let mut wanted = None;
-    for (index, job) in desk.studies.jobs.iter().enumerate() {
+    for (index, job) in desk.studies.queue.jobs.iter().enumerate() {
         ui.add_space(3.0);
         if let Some(done) = row(ui, job, &mut wanted) {
             act = Some((index, done));
         }
     }
-    if desk.studies.jobs.iter().any(Job::at_work) {
+    if desk.studies.queue.jobs.iter().any(Job::at_work) {
         ui.ctx().request_repaint_after(Duration::from_millis(500));
     }
     match act {
-        Some((index, Act::Pause)) => desk.studies.jobs[index].pause(),
-        Some((index, Act::Resume)) => desk.studies.jobs[index].resume(),
-        Some((index, Act::Cancel)) => desk.studies.jobs[index].cancel(),
-        Some((index, Act::Forget)) => drop(desk.studies.jobs.remove(index)),
+        Some((index, Act::Pause)) => desk.studies.queue.jobs[index].pause(),
+        Some((index, Act::Resume)) => desk.studies.queue.jobs[index].resume(),
+        Some((index, Act::Cancel)) => desk.studies.queue.jobs[index].cancel(),
+        Some((index, Act::Forget)) => drop(desk.studies.queue.jobs.remove(index)),
         None => {}
     }
     ready(ui, desk);
@@ -44,14 +44,14 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk) {
 }
 
 fn row(ui: &mut Ui, job: &Job, wanted: &mut Option<PathBuf>) -> Option<Act> {
-    let (progress, palette) = (job.progress(), Theme::palette_of(ui));
+    let (state, progress, palette) = (job.state(), job.progress(), Theme::palette_of(ui));
     let mut act = None;
     ui.horizontal(|ui| {
         ui.add(egui::Label::new(&job.name).truncate())
             .on_hover_text(job.file.display().to_string());
     });
     ui.horizontal_wrapped(|ui| {
-        let (words, colour) = match &progress.state {
+        let (words, colour) = match &state {
             State::Waiting => ("waiting".to_owned(), palette.faint),
             State::Opening => ("opening".to_owned(), palette.warning),
             State::Running => (
@@ -68,11 +68,12 @@ fn row(ui: &mut Ui, job: &Job, wanted: &mut Option<PathBuf>) -> Option<Act> {
                 (why.lines().next().unwrap_or_default().to_owned(), palette.error)
             }
         };
-        if progress.total > 0 {
-            let text = format!("{} of {} encounters", progress.done, progress.total);
+        let encounters = progress.encounters;
+        if encounters.total > 0 {
+            let text = format!("{} of {} encounters", encounters.done, encounters.total);
             ui.add(ProgressBar::new(progress.share()).desired_width(170.0).text(text));
         }
-        match progress.state {
+        match state {
             State::Running | State::Opening => act = button(ui, "Pause", Act::Pause).or(act),
             State::Paused => act = button(ui, "Resume", Act::Resume).or(act),
             _ => {}
@@ -82,14 +83,13 @@ fn row(ui: &mut Ui, job: &Job, wanted: &mut Option<PathBuf>) -> Option<Act> {
         } else {
             act = button(ui, "✖", Act::Forget).or(act);
         }
-        if progress.blocks > 0
+        if progress.blocks.done > 0
             && let Some(folder) = job.folder()
             && ui.small_button("Results").clicked()
         {
             *wanted = Some(folder);
         }
-        let told =
-            if let State::Failed(why) = &progress.state { why.clone() } else { words.clone() };
+        let told = if let State::Failed(why) = &state { why.clone() } else { words.clone() };
         ui.add(egui::Label::new(RichText::new(words).color(colour)).truncate()).on_hover_text(told);
     });
     act
@@ -103,7 +103,7 @@ fn button(ui: &mut Ui, text: &str, act: Act) -> Option<Act> {
 fn ready(ui: &mut Ui, desk: &mut Desk) {
     let root = desk.studies.root();
     let id = egui::Id::new("ready studies");
-    let count = desk.studies.jobs.iter().filter(|job| !job.unfinished()).count();
+    let count = desk.studies.queue.jobs.iter().filter(|job| !job.unfinished()).count();
     let known = ui
         .data(|data| data.get_temp::<(usize, Vec<(PathBuf, String)>)>(id))
         .filter(|(seen, _)| *seen == count);
@@ -124,24 +124,13 @@ fn ready(ui: &mut Ui, desk: &mut Desk) {
 }
 
 fn list(root: &std::path::Path) -> Vec<(PathBuf, String)> {
-    let folders = std::fs::read_dir(root).into_iter().flatten().flatten().map(|entry| entry.path());
-    let label = |folder: PathBuf| {
-        let text = std::fs::read_to_string(folder.join("study.json")).ok()?;
-        let label: Label = serde_json::from_str(&text).ok()?;
-        let state = if folder.join("report.html").is_file() { "reported" } else { "not done" };
-        Some((
-            folder,
-            format!(
-                "{}, {} options, {} encounters, {state}",
-                label.study,
-                label.options.len(),
-                label.encounters
-            ),
-        ))
+    let words = |found: results::ResultsFolder| {
+        let (label, state) = (found.label, if found.reported { "reported" } else { "not done" });
+        let (options, encounters) = (label.options.len(), label.encounters);
+        let words = format!("{}, {options} options, {encounters} encounters, {state}", label.study);
+        (found.folder, words)
     };
-    let mut found: Vec<(PathBuf, String)> = folders.filter_map(label).collect();
-    found.sort();
-    found
+    results::list(root).into_iter().map(words).collect()
 }
 
 /// A time in the largest fitting units.

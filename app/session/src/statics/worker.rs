@@ -1,13 +1,17 @@
-//! Statics on a thread of its own while gear is edited: what is asked last is answered, what it replaces is dropped.
+//! Previews of rigs on a thread of their own: the newest request is answered, earlier ones are
+//! dropped.
 
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
 use endline_gear::Library;
-use endline_session::rest::{Rest, TrialSea, alone, rest};
-use endline_session::{Error, PluginHost};
 
-use super::engine::Waker;
+use crate::edit::problems;
+use crate::error::Error;
+use crate::plugins::PluginHost;
+use crate::task::Waker;
+
+use super::preview::{RigAtRest, TrialSea, alone, settled};
 
 /// One rig in one sea.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,13 +22,25 @@ pub struct Trial {
     pub sea: TrialSea,
 }
 
-/// What came of a trial: gear at rest, or why there is none.
-pub type Answer = Result<Arc<Rest>, String>;
+/// The result of a trial: the rig at rest, or why there is none.
+pub type Answer = Result<Arc<RigAtRest>, String>;
 
-/// Requests to the thread, and its answers: number of the request, index of the trial, what came of it.
-type Telephone = (Sender<Request>, Receiver<(u64, usize, Answer)>);
+/// The result of one trial of a request.
+struct Answered {
+    /// Number of the request.
+    number: u64,
+    /// Place of the trial in it.
+    index: usize,
+    answer: Answer,
+}
 
-/// Trials asked for together.
+/// The thread: requests go in, answers come out.
+struct Channels {
+    requests: Sender<Request>,
+    answers: Receiver<Answered>,
+}
+
+/// Trials requested together.
 struct Request {
     number: u64,
     scenario: String,
@@ -32,19 +48,19 @@ struct Request {
     trials: Vec<Trial>,
 }
 
-/// Rigs settled in the background. A new request takes the place of one under way.
+/// Settles rigs in the background. A new request replaces the one under way.
 #[derive(Default)]
-pub struct Bench {
-    line: Option<Telephone>,
+pub struct StaticsWorker {
+    channels: Option<Channels>,
     number: u64,
     trials: Vec<Trial>,
     answers: Vec<Option<Answer>>,
-    /// Answers of requests before for the same gear, shown until the new ones are there.
+    /// Answers of the request before for the same gear, shown until the new ones are there.
     before: Vec<Option<Answer>>,
 }
 
-impl Bench {
-    /// Asks for trials in the sea of a scenario's text; those under way are dropped.
+impl StaticsWorker {
+    /// Requests trials in the sea of a scenario's text; those under way are dropped.
     pub fn ask(
         &mut self,
         scenario: &str,
@@ -67,44 +83,45 @@ impl Bench {
             library: Arc::clone(library),
             trials,
         };
-        if self.line.is_none() {
-            self.line = open(Arc::clone(host), Arc::clone(waker));
+        if self.channels.is_none() {
+            self.channels = open(Arc::clone(host), Arc::clone(waker));
         }
-        let sent = self.line.as_ref().is_some_and(|(sender, _)| sender.send(request).is_ok());
+        let sent =
+            self.channels.as_ref().is_some_and(|channels| channels.requests.send(request).is_ok());
         if !sent {
-            self.line = None;
+            self.channels = None;
             self.answers.iter_mut().for_each(|answer| {
                 *answer = Some(Err("the system gives no thread for the statics".into()))
             });
         }
     }
 
-    /// Drops what is under way; answers that are there stay.
+    /// Drops the request under way; answers that are there stay.
     pub fn cancel(&mut self) {
         self.number += 1;
-        if let Some((sender, _)) = &self.line {
-            // A thread that is gone has nothing left to drop.
+        if let Some(channels) = &self.channels {
+            // A thread that has ended has nothing left to drop.
             let nothing = Request {
                 number: self.number,
                 scenario: String::new(),
                 library: Arc::default(),
                 trials: Vec::new(),
             };
-            let _ = sender.send(nothing);
+            let _ = channels.requests.send(nothing);
         }
     }
 
-    /// Takes in answers; once a frame.
+    /// Takes in answers; called regularly.
     pub fn poll(&mut self) {
-        let Some((_, answers)) = &self.line else { return };
-        for (number, index, answer) in answers.try_iter() {
+        let Some(channels) = &self.channels else { return };
+        for Answered { number, index, answer } in channels.answers.try_iter() {
             if let (true, Some(slot)) = (number == self.number, self.answers.get_mut(index)) {
                 *slot = Some(answer);
             }
         }
     }
 
-    /// Answer of a trial: of the newest request, or of the one before while that is under way.
+    /// Answer of a trial: of the newest request, or of the request before while that is under way.
     #[must_use]
     pub fn answer(&self, index: usize) -> Option<&Answer> {
         let now = self.answers.get(index).and_then(Option::as_ref);
@@ -117,25 +134,25 @@ impl Bench {
         self.answers.get(index).and_then(Option::as_ref)
     }
 
-    /// Trials answered, and asked for.
+    /// How many trials are answered, and how many were requested.
     #[must_use]
     pub fn progress(&self) -> (usize, usize) {
         (self.answers.iter().flatten().count(), self.answers.len())
     }
 }
 
-fn open(host: Arc<PluginHost>, waker: Waker) -> Option<Telephone> {
+fn open(host: Arc<PluginHost>, waker: Waker) -> Option<Channels> {
     let (sender, requests) = channel();
     let (answering, answers) = channel();
     let work = move || work(&requests, &answering, &host, &waker);
     std::thread::Builder::new().name("endline-statics".into()).spawn(work).ok()?;
-    Some((sender, answers))
+    Some(Channels { requests: sender, answers })
 }
 
-/// Settles what is asked for until nobody asks any more.
+/// Settles what is requested until the worker is dropped.
 fn work(
     requests: &Receiver<Request>,
-    answers: &Sender<(u64, usize, Answer)>,
+    answers: &Sender<Answered>,
     host: &PluginHost,
     waker: &Waker,
 ) {
@@ -144,7 +161,8 @@ fn work(
         let mut next = 0;
         while let Some(trial) = request.trials.get(next) {
             let answer = answer(&request, trial, host);
-            if answers.send((request.number, next, answer)).is_err() {
+            let answered = Answered { number: request.number, index: next, answer };
+            if answers.send(answered).is_err() {
                 return;
             }
             waker();
@@ -157,13 +175,11 @@ fn work(
 }
 
 fn answer(request: &Request, trial: &Trial, host: &PluginHost) -> Answer {
-    let told = |error: Error| match error {
-        Error::Diagnostics(problems) => {
-            problems.first().map_or_else(String::new, super::fields::told)
-        }
+    let reason = |error: Error| match error {
+        Error::Diagnostics(all) => all.first().map_or_else(String::new, problems::message),
         other => other.to_string(),
     };
     let text =
-        alone(&request.scenario, &trial.assembly, &trial.sea, &request.library).map_err(told)?;
-    rest(&trial.assembly, &text, &request.library, host).map(Arc::new).map_err(told)
+        alone(&request.scenario, &trial.assembly, &trial.sea, &request.library).map_err(reason)?;
+    settled(&trial.assembly, &text, &request.library, host).map(Arc::new).map_err(reason)
 }

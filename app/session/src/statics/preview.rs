@@ -1,7 +1,8 @@
-//! Gear at rest while it is edited: one assembly alone in a chosen sea, quick enough to follow a hand on a slider.
+//! One assembly alone in a chosen sea, settled: a preview of gear while it is edited.
 //!
-//! The sea is that of a scenario; its whale, and lines and bodies written in place, are left out. Gear that the
-//! scenario places alone keeps what the scenario says over the assembly.
+//! The sea is a scenario's. The whale of the scenario is left out, as are lines and bodies that
+//! belong to no assembly. Where the assembly is the scenario's only gear, it keeps the scenario's
+//! settings of it.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -14,7 +15,7 @@ use crate::error::Error;
 use crate::plugins::PluginHost;
 use crate::settled::SettledShape;
 
-/// Tables of a scenario that a rig alone has no use for.
+/// Tables of a scenario that a preview does not use.
 const LEFT_OUT: [&str; 17] = [
     "whale",
     "friction",
@@ -35,7 +36,7 @@ const LEFT_OUT: [&str; 17] = [
     "step",
 ];
 
-/// The sea a rig is tried in.
+/// The sea of a preview, where it differs from the scenario's.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TrialSea {
     /// Depth in place of the scenario's, with its unit.
@@ -44,18 +45,18 @@ pub struct TrialSea {
     pub current_m_s: Option<f64>,
 }
 
-/// A rig at rest, with the model it is of.
+/// A rig at rest, with its model.
 #[derive(Clone)]
-pub struct Rest {
+pub struct RigAtRest {
     /// Shape, tensions, residual.
     pub shape: SettledShape,
     /// Ropes, bodies and links of the rig.
     pub model: Arc<Model>,
-    /// The rig as it stands, for drawing.
+    /// The rig at rest, for drawing.
     pub frame: Arc<Frame>,
 }
 
-/// Text of a scenario that holds one assembly alone, in the sea of `scenario` with what `sea` says over it.
+/// The text of a scenario that holds one assembly alone, in the sea of `scenario` changed by `sea`.
 ///
 /// # Errors
 /// Where `scenario` is not TOML.
@@ -65,14 +66,14 @@ pub fn alone(
     sea: &TrialSea,
     library: &Library,
 ) -> Result<String, Error> {
-    let told =
+    let failed =
         |message: String| Error::Diagnostics(vec![Diagnostic::of_file("scenario", message, "")]);
-    let mut document = Document::parse(scenario).map_err(|error| told(error.to_string()))?;
+    let mut document = Document::parse(scenario).map_err(|error| failed(error.to_string()))?;
     let only =
         document.get("gear.0.assembly").as_deref() == Some(assembly) && !document.has("gear.1");
     let toward = document.get("current.toward").unwrap_or_else(|| "90 deg".to_owned());
     let strip = |document: &mut Document, key: &str| {
-        // What is not there need not be taken out.
+        // A key that is missing needs no removing.
         let _ = document.remove(key);
     };
     LEFT_OUT.iter().for_each(|key| strip(&mut document, key));
@@ -88,7 +89,7 @@ pub fn alone(
             added += &format!("depth = \"{depth}\"\n");
         }
     } else if let Some(depth) = &sea.depth {
-        document.set("site.depth", depth).map_err(|error| told(error.to_string()))?;
+        document.set("site.depth", depth).map_err(|error| failed(error.to_string()))?;
     }
     if !only {
         strip(&mut document, "gear");
@@ -97,24 +98,29 @@ pub fn alone(
     Ok(format!("segment = \"1 m\"\n{}{added}", document.text()))
 }
 
-/// Assembles the gear of such a text and settles it.
+/// Assembles the gear of a scenario's text and settles it.
 ///
 /// # Errors
-/// Every located error of the texts. Gear that finds no rest is no error: its shape says so.
-pub fn rest(name: &str, text: &str, library: &Library, host: &PluginHost) -> Result<Rest, Error> {
+/// Every located error of the texts. Gear that finds no equilibrium is no error: its shape says so.
+pub fn settled(
+    name: &str,
+    text: &str,
+    library: &Library,
+    host: &PluginHost,
+) -> Result<RigAtRest, Error> {
     let scenario = Scenario::read(name, text).map_err(Error::Diagnostics)?;
     let Assembled { spec, .. } = assemble_traced(&scenario, library, host, &Options::default())
         .map_err(Error::Diagnostics)?;
-    let told = |error: ModelError| {
+    let located = |error: ModelError| {
         Diagnostic::of_file(name, format!("{}: {}", error.part, error.message), "")
     };
     let model = Model::new(spec)
-        .map_err(|errors| Error::Diagnostics(errors.into_iter().map(told).collect()))?;
+        .map_err(|errors| Error::Diagnostics(errors.into_iter().map(located).collect()))?;
     let start = Instant::now();
     let settled = settle(&model);
     let shape = SettledShape::named(name, &model, &settled, start.elapsed().as_secs_f64());
     let frame = Arc::new(Frame::of(&model, &settled.state, &[]));
-    Ok(Rest { shape, model: Arc::new(model), frame })
+    Ok(RigAtRest { shape, model: Arc::new(model), frame })
 }
 
 #[cfg(test)]

@@ -1,0 +1,196 @@
+//! Pausing, cancelling and watching a study at work, from any thread.
+
+use std::fmt;
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+/// How many of something are done.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Count {
+    /// Those done, those found at the start among them.
+    pub done: u32,
+    /// Those that were done before the start.
+    pub found: u32,
+    /// All of them.
+    pub total: u32,
+}
+
+/// How far a study is.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Progress {
+    /// Encounters of the shard.
+    pub encounters: Count,
+    /// Blocks of encounters of the shard; a block counts when it is written.
+    pub blocks: Count,
+    /// Time at work until the last pause.
+    worked: Duration,
+    /// When work began or was resumed; `None` while it stands still.
+    since: Option<Instant>,
+}
+
+impl Progress {
+    /// Time left at the pace so far; `None` before the first encounter is done.
+    #[must_use]
+    pub fn left(&self) -> Option<Duration> {
+        let Count { done, found, total } = self.encounters;
+        let fresh = done.saturating_sub(found);
+        let worked = self.worked + self.since.map_or(Duration::ZERO, |since| since.elapsed());
+        (fresh > 0)
+            .then(|| worked.mul_f64(f64::from(total.saturating_sub(done)) / f64::from(fresh)))
+    }
+
+    /// Share of the encounters that are done, 0 to 1.
+    #[must_use]
+    pub fn share(&self) -> f32 {
+        let Count { done, total, .. } = self.encounters;
+        if total == 0 { 0.0 } else { done as f32 / total as f32 }
+    }
+
+    fn stop_clock(&mut self) {
+        self.worked += self.since.take().map_or(Duration::ZERO, |since| since.elapsed());
+    }
+}
+
+/// What the study is asked to do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Wish {
+    Run,
+    Pause,
+    Cancel,
+}
+
+/// Called with each progress.
+type Watcher = Box<dyn Fn(&Progress) + Send + Sync>;
+
+/// Controls one study at work.
+pub struct Control {
+    wish: Mutex<Wish>,
+    changed: Condvar,
+    progress: Mutex<Progress>,
+    /// Locked while it is called, so that it sees progress in order.
+    watcher: Mutex<Watcher>,
+}
+
+impl Default for Control {
+    fn default() -> Self {
+        Self::new(|_| {})
+    }
+}
+
+impl fmt::Debug for Control {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter
+            .debug_struct("Control")
+            .field("wish", &self.wish)
+            .field("progress", &self.progress)
+            .finish_non_exhaustive()
+    }
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Control {
+    /// A control whose study may run. `watcher` is called at the start, after each encounter and
+    /// after each block, from the threads that run them.
+    #[must_use]
+    pub fn new(watcher: impl Fn(&Progress) + Send + Sync + 'static) -> Self {
+        Self {
+            wish: Mutex::new(Wish::Run),
+            changed: Condvar::new(),
+            progress: Mutex::default(),
+            watcher: Mutex::new(Box::new(watcher)),
+        }
+    }
+
+    /// Holds the study after the encounters under way. A cancelled study stays cancelled.
+    pub fn pause(&self) {
+        self.ask(Wish::Pause);
+        lock(&self.progress).stop_clock();
+    }
+
+    /// Continues a paused study.
+    pub fn resume(&self) {
+        self.ask(Wish::Run);
+        let mut progress = lock(&self.progress);
+        if progress.encounters.total > 0 && progress.since.is_none() {
+            progress.since = Some(Instant::now());
+        }
+    }
+
+    /// Ends the study after the encounters under way. Blocks that are written stay.
+    pub fn cancel(&self) {
+        self.ask(Wish::Cancel);
+        lock(&self.progress).stop_clock();
+    }
+
+    fn ask(&self, wish: Wish) {
+        let mut now = lock(&self.wish);
+        if *now != Wish::Cancel {
+            *now = wish;
+        }
+        self.changed.notify_all();
+    }
+
+    /// Whether the study is paused.
+    #[must_use]
+    pub fn is_paused(&self) -> bool {
+        *lock(&self.wish) == Wish::Pause
+    }
+
+    /// Whether the study is cancelled.
+    #[must_use]
+    pub fn is_cancelled(&self) -> bool {
+        *lock(&self.wish) == Wish::Cancel
+    }
+
+    /// How far the study is.
+    #[must_use]
+    pub fn progress(&self) -> Progress {
+        *lock(&self.progress)
+    }
+
+    /// Waits while the study is paused; false where it is cancelled.
+    pub(super) fn goes_on(&self) -> bool {
+        let mut wish = lock(&self.wish);
+        while *wish == Wish::Pause {
+            wish = self.changed.wait(wish).unwrap_or_else(PoisonError::into_inner);
+        }
+        *wish == Wish::Run
+    }
+
+    /// Begins to count; the clock runs unless the study is paused or cancelled.
+    pub(super) fn begin(&self, encounters: Count, blocks: Count) {
+        let runs = *lock(&self.wish) == Wish::Run;
+        let since = runs.then(Instant::now);
+        self.note(|progress| {
+            *progress = Progress { encounters, blocks, worked: Duration::ZERO, since };
+        });
+    }
+
+    /// Counts an encounter.
+    pub(super) fn encounter_done(&self) {
+        self.note(|progress| progress.encounters.done += 1);
+    }
+
+    /// Counts a block.
+    pub(super) fn block_done(&self) {
+        self.note(|progress| progress.blocks.done += 1);
+    }
+
+    /// Stops the clock.
+    pub(super) fn end(&self) {
+        lock(&self.progress).stop_clock();
+    }
+
+    fn note(&self, change: impl FnOnce(&mut Progress)) {
+        let watcher = lock(&self.watcher);
+        let progress = {
+            let mut progress = lock(&self.progress);
+            change(&mut progress);
+            *progress
+        };
+        watcher(&progress);
+    }
+}

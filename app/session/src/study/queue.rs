@@ -1,0 +1,253 @@
+//! A queue of studies: each is opened, run, merged and reported on threads of its own, one after
+//! the other.
+//!
+//! Blocks of encounters lie in a folder named after the study and the hash of what defines its
+//! runs. An edited study therefore begins a folder of its own, and an unfinished one is continued.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use crate::error::Error;
+use crate::plugins::PluginHost;
+use crate::task::Waker;
+
+use super::batch;
+use super::control::{Control, Progress};
+use super::folder::Folder;
+use super::merge;
+use super::open::Opened;
+use super::priority;
+use super::report;
+use super::shard::Shard;
+use super::stats::Findings;
+
+/// How a study of the queue stands.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum State {
+    /// Other studies come first.
+    Waiting,
+    /// Options are assembled and checked.
+    Opening,
+    /// Encounters run.
+    Running,
+    /// The encounters wait to be resumed.
+    Paused,
+    /// All encounters are done; the report is written.
+    Reporting,
+    /// The report is there.
+    Done,
+    /// Ended by the user; blocks that were run stay.
+    Cancelled,
+    /// Ended by an error, with its message.
+    Failed(String),
+}
+
+/// The studies waiting, at work and done, in the order they were queued.
+#[derive(Default)]
+pub struct Queue {
+    /// The studies.
+    pub jobs: Vec<Job>,
+    /// Whether studies run at ordinary priority rather than the lowest.
+    pub eager: bool,
+}
+
+impl Queue {
+    /// Adds a study; a finished job of the same file is removed.
+    pub fn add(&mut self, job: Job) {
+        self.jobs.retain(|other| other.file != job.file);
+        self.jobs.push(job);
+    }
+
+    /// The study at work, else the first that is paused or waits.
+    #[must_use]
+    pub fn current(&self) -> Option<&Job> {
+        let at_work = self.jobs.iter().find(|job| job.at_work());
+        at_work.or_else(|| self.jobs.iter().find(|job| job.unfinished()))
+    }
+
+    /// The unfinished job of a study's file.
+    #[must_use]
+    pub fn unfinished(&self, file: &Path) -> Option<&Job> {
+        self.jobs.iter().find(|job| job.file == file && job.unfinished())
+    }
+
+    /// Begins the next study that waits, unless one is at work.
+    pub fn begin_next(&mut self, host: &Arc<PluginHost>) {
+        if !self.jobs.iter().any(Job::at_work)
+            && let Some(next) = self.jobs.iter().find(|job| job.state() == State::Waiting)
+        {
+            next.begin(host, self.eager);
+        }
+    }
+}
+
+/// A study of the queue.
+pub struct Job {
+    /// The study's file.
+    pub file: PathBuf,
+    /// The study's name.
+    pub name: String,
+    library: PathBuf,
+    root: PathBuf,
+    waker: Waker,
+    shared: Arc<Shared>,
+}
+
+/// What a job shares with its threads.
+struct Shared {
+    control: Control,
+    state: Mutex<State>,
+    /// The study once it is opened, and the folder of its results.
+    opened: Mutex<Option<(Arc<Opened>, PathBuf)>>,
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Job {
+    /// A study that waits, with the library's folder. Its results go to a folder of their own under
+    /// `root`. The waker is called whenever there is progress.
+    #[must_use]
+    pub fn new(file: PathBuf, name: String, library: PathBuf, root: PathBuf, waker: Waker) -> Self {
+        let progressed = Arc::clone(&waker);
+        let shared = Shared {
+            control: Control::new(move |_| progressed()),
+            state: Mutex::new(State::Waiting),
+            opened: Mutex::new(None),
+        };
+        Self { file, name, library, root, waker, shared: Arc::new(shared) }
+    }
+
+    /// How it stands.
+    #[must_use]
+    pub fn state(&self) -> State {
+        let state = lock(&self.shared.state).clone();
+        let control = &self.shared.control;
+        match state {
+            State::Waiting | State::Running if control.is_cancelled() => State::Cancelled,
+            State::Running if control.is_paused() => State::Paused,
+            other => other,
+        }
+    }
+
+    /// How far it is.
+    #[must_use]
+    pub fn progress(&self) -> Progress {
+        self.shared.control.progress()
+    }
+
+    /// The study as it was opened to be run.
+    #[must_use]
+    pub fn opened(&self) -> Option<Arc<Opened>> {
+        lock(&self.shared.opened).as_ref().map(|(opened, _)| Arc::clone(opened))
+    }
+
+    /// The folder of its results, once it is opened.
+    #[must_use]
+    pub fn folder(&self) -> Option<PathBuf> {
+        lock(&self.shared.opened).as_ref().map(|(_, folder)| folder.clone())
+    }
+
+    /// Whether its threads have work.
+    #[must_use]
+    pub fn at_work(&self) -> bool {
+        matches!(self.state(), State::Opening | State::Running | State::Reporting)
+    }
+
+    /// Whether there is something left to do that was not given up.
+    #[must_use]
+    pub fn unfinished(&self) -> bool {
+        !matches!(self.state(), State::Done | State::Cancelled | State::Failed(_))
+    }
+
+    /// Holds the study after the encounters under way.
+    pub fn pause(&self) {
+        self.shared.control.pause();
+    }
+
+    /// Continues a paused study.
+    pub fn resume(&self) {
+        self.shared.control.resume();
+    }
+
+    /// Ends the study after the encounters under way. Blocks that are done stay, and the study
+    /// continues from them when it is queued again.
+    pub fn cancel(&self) {
+        self.shared.control.cancel();
+    }
+
+    /// Begins on a thread of its own, at the lowest priority unless it is eager.
+    fn begin(&self, host: &Arc<PluginHost>, eager: bool) {
+        let (shared, host) = (Arc::clone(&self.shared), Arc::clone(host));
+        let (file, library, root) = (self.file.clone(), self.library.clone(), self.root.clone());
+        let waker = Arc::clone(&self.waker);
+        *lock(&shared.state) = State::Opening;
+        let work = move || {
+            if !eager {
+                step_back();
+            }
+            let worked =
+                catch_unwind(AssertUnwindSafe(|| run(&shared, &file, &library, &root, &host)));
+            let state = match worked {
+                Ok(Ok(state)) => state,
+                Ok(Err(error)) => State::Failed(error.to_string()),
+                Err(_) => State::Failed(
+                    "the study ended by a fault inside the program; report what led to it".into(),
+                ),
+            };
+            *lock(&shared.state) = state;
+            waker();
+        };
+        if let Err(error) = std::thread::Builder::new().name("endline-study".into()).spawn(work) {
+            let failed = State::Failed(format!("the system gives no thread: {error}"));
+            *lock(&self.shared.state) = failed;
+        }
+    }
+}
+
+/// Lowers this thread's priority on Linux. On other systems that would slow the whole program.
+fn step_back() {
+    #[cfg(target_os = "linux")]
+    // A thread whose priority cannot be lowered runs at the ordinary one.
+    let _ = priority::lower();
+}
+
+/// Opens a study, runs the missing encounters, and writes its table and report.
+fn run(
+    shared: &Shared,
+    file: &Path,
+    library: &Path,
+    root: &Path,
+    host: &PluginHost,
+) -> Result<State, Error> {
+    let opened = Arc::new(Opened::open(file, Some(library), host)?);
+    let folder = Folder::open(&Folder::path_under(root, &opened), &opened)?;
+    *lock(&shared.opened) = Some((Arc::clone(&opened), folder.path.clone()));
+    *lock(&shared.state) = State::Running;
+    batch::run(&opened, &folder, Shard::WHOLE, threads(), &shared.control)?;
+    if !shared.control.goes_on() {
+        return Ok(State::Cancelled);
+    }
+    *lock(&shared.state) = State::Reporting;
+    let table = merge::merge(&opened, &folder)?;
+    merge::save(&opened, &folder, &table)?;
+    report::write(&opened, &folder, &Findings::of(&opened, &table))?;
+    Ok(State::Done)
+}
+
+/// Threads for encounters: one core is left to whatever shows the queue.
+fn threads() -> usize {
+    std::thread::available_parallelism().map_or(1, |cores| cores.get().saturating_sub(1).max(1))
+}
+
+/// The command lines that run, merge and report a study as the queue does.
+#[must_use]
+pub fn command_line(study: &Path, library: &Path, results: Option<&Path>) -> String {
+    let quoted = |path: &Path| format!("'{}'", path.display().to_string().replace('\'', "'\\''"));
+    let out = results.map_or_else(String::new, |folder| format!(" --out {}", quoted(folder)));
+    let (study, library) = (quoted(study), quoted(library));
+    let line = |verb: &str| format!("endline study {verb} {study} --library {library}{out}");
+    ["run", "merge", "report"].map(line).join(" && ")
+}

@@ -1,0 +1,160 @@
+//! The results of a study read from its folder, whole or while the study is at work.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use endline_gear::{Document, EditError, Setting};
+
+use crate::error::Error;
+use crate::plugins::PluginHost;
+use crate::source::Prepared;
+
+use super::encounter::Encounter;
+use super::folder::{Folder, Label};
+use super::merge;
+use super::open::Opened;
+use super::stats::Findings;
+use super::table::Table;
+
+/// What is to be read.
+#[derive(Clone, Default)]
+pub struct ResultsRequest {
+    /// The study's file; found by the label of the folder where `None`.
+    pub file: Option<PathBuf>,
+    /// The study, where it is open already because it is at work.
+    pub opened: Option<Arc<Opened>>,
+    /// Folder of results; the study's own under `root` where `None`.
+    pub folder: Option<PathBuf>,
+    /// Folder of the gear library.
+    pub library: PathBuf,
+    /// Folder that holds the folders of results.
+    pub root: PathBuf,
+    /// Number of blocks known to be written.
+    pub blocks: u32,
+}
+
+/// The results of a study as they stood when they were read.
+pub struct StudyResults {
+    /// The study.
+    pub opened: Arc<Opened>,
+    /// Its folder.
+    pub folder: PathBuf,
+    /// Rows of the blocks before the first missing one.
+    pub table: Table,
+    /// Statistics of these rows.
+    pub findings: Findings,
+    /// Whether these are all rows of the study.
+    pub whole: bool,
+}
+
+impl StudyResults {
+    /// Reads the results; `None` where the study has none yet.
+    ///
+    /// # Errors
+    /// A study that cannot be opened, or a folder that is damaged or belongs to another study.
+    pub fn read(request: ResultsRequest, host: &PluginHost) -> Result<Option<Self>, Error> {
+        let at_work = request.opened.is_some();
+        let opened = match (request.opened, &request.file, &request.folder) {
+            (Some(opened), _, _) => opened,
+            (None, Some(file), _) => Arc::new(Opened::open(file, Some(&request.library), host)?),
+            (None, None, Some(folder)) => Arc::new(study_of(folder, &request.library, host)?),
+            (None, None, None) => return Ok(None),
+        };
+        let path = request.folder.unwrap_or_else(|| Folder::path_under(&request.root, &opened));
+        // A study that was never run has no folder, and reading must not make one.
+        if !path.join("study.json").is_file() {
+            return Ok(None);
+        }
+        let folder = Folder::open(&path, &opened)?;
+        let (table, whole) = rows(&opened, &folder, at_work)?;
+        if table.rows() == 0 {
+            return Ok(None);
+        }
+        let findings = Findings::of(&opened, &table);
+        Ok(Some(Self { opened, folder: path, table, findings, whole }))
+    }
+
+    /// The model of one run of the study, with the duration at which the run ended in the study.
+    ///
+    /// # Errors
+    /// Where the scenario cannot be assembled.
+    pub fn prepare(
+        &self,
+        option: usize,
+        encounter: u32,
+        host: &PluginHost,
+    ) -> Result<Prepared, Error> {
+        let prepared = self.opened.prepare(option, &Encounter::of(&self.opened, encounter))?;
+        let Some(end_s) = self.end_s(option, encounter) else { return Ok(prepared) };
+        let mut source = (*prepared.source).clone();
+        let failed = |error: EditError| Error::Replay(error.message);
+        let mut scenario = Document::parse(&source.scenario).map_err(failed)?;
+        scenario.put("duration", &Setting::text(&format!("{end_s} s"))).map_err(failed)?;
+        source.scenario = scenario.text();
+        source.prepare(host)
+    }
+
+    /// When a run ended in the study [s].
+    fn end_s(&self, option: usize, encounter: u32) -> Option<f64> {
+        let (table, id) = (&self.table, &self.opened.options[option].id);
+        let (encounters, options) = (table.reals("encounter"), table.texts("option"));
+        let row = (0..table.rows())
+            .find(|row| encounters[*row] == Some(f64::from(encounter)) && options[*row] == *id)?;
+        table.reals("simulated_s")[row]
+    }
+}
+
+/// The merged table, else the rows of the blocks before the first missing one; and whether they are
+/// all rows of the study.
+fn rows(opened: &Opened, folder: &Folder, at_work: bool) -> Result<(Table, bool), Error> {
+    if let (Ok(table), false) = (merge::load(opened, folder), at_work) {
+        return Ok((table, true));
+    }
+    let mut table = Table::default();
+    let there = (0..folder.blocks()).take_while(|block| folder.file_of(*block).is_file()).count();
+    for block in 0..u32::try_from(there).unwrap_or_default() {
+        table.append(folder.read(block)?);
+    }
+    Ok((table, there == folder.blocks() as usize))
+}
+
+/// The study of a folder of results: from the bundle in it, else from the library.
+fn study_of(folder: &Path, library: &Path, host: &PluginHost) -> Result<Opened, Error> {
+    let file = folder.join("study.json");
+    let text = std::fs::read_to_string(&file)
+        .map_err(|error| Error::at(&file, format!("no results of a study are here: {error}")))?;
+    let label: Label = serde_json::from_str(&text)
+        .map_err(|error| Error::at(&file, format!("is damaged: {error}")))?;
+    let bundle = folder.join("bundle/study.toml");
+    if bundle.is_file() {
+        return Opened::open(&bundle, Some(&folder.join("bundle/gear-library")), host);
+    }
+    let file = library.join("studies").join(format!("{}.toml", label.study));
+    Opened::open(&file, Some(library), host)
+}
+
+/// A folder of results of a study.
+#[derive(Clone, Debug)]
+pub struct ResultsFolder {
+    /// Where.
+    pub folder: PathBuf,
+    /// Which study.
+    pub label: Label,
+    /// Whether the report is written.
+    pub reported: bool,
+}
+
+/// The folders of results under a root, by path.
+#[must_use]
+pub fn list(root: &Path) -> Vec<ResultsFolder> {
+    let folders = std::fs::read_dir(root).into_iter().flatten().flatten().map(|entry| entry.path());
+    let read = |folder: PathBuf| {
+        let text = std::fs::read_to_string(folder.join("study.json")).ok()?;
+        let label = serde_json::from_str(&text).ok()?;
+        let reported = folder.join("report.html").is_file();
+        Some(ResultsFolder { folder, label, reported })
+    };
+    let mut found: Vec<ResultsFolder> = folders.filter_map(read).collect();
+    found.sort_by(|one, other| one.folder.cmp(&other.folder));
+    found
+}

@@ -1,0 +1,268 @@
+//! Studies paused, cancelled, watched and queued, as the command line and the window run them.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+
+use super::batch;
+use super::control::{Control, Count, Progress};
+use super::folder::Folder;
+use super::merge;
+use super::open::Opened;
+use super::queue::{Job, Queue, State};
+use super::results;
+use super::shard::Shard;
+use super::{ResultsRequest, StudyResults};
+use crate::plugins::PluginHost;
+
+const STUDY: &str = r#"format = 1
+kind = "study"
+name = "Small"
+scenario = "small.toml"
+encounters = 24
+baseline = "none"
+
+[[option]]
+id = "none"
+set = { weak_links = false }
+
+[[option]]
+id = "weak"
+set = { "link.0.rating" = "5 N" }
+
+[encounter."body.0.drag_area"]
+uniform = ["0.1 m2", "0.3 m2"]
+source = "assumed"
+"#;
+
+/// A small rig without a whale: these tests are about running, not about physics.
+const SCENARIO: &str = r#"format = 1
+kind = "scenario"
+name = "Small rig"
+duration = "0.2 s"
+rope_nodes = 8
+weak_links = true
+
+[site]
+item = "cape-cod-bay"
+
+[[fixture]]
+id = "foot"
+position = ["0 m", "0 m", "-24.6 m"]
+
+[[body]]
+id = "buoy"
+role = "buoy"
+position = ["2 m", "0 m", "0.2 m"]
+radius = "0.345 m"
+mass = "6 kg"
+volume = "172 L"
+float_height = "0.46 m"
+drag_area = "0.187 m2"
+added_mass = 0.5
+
+[[line]]
+id = "endline"
+rope = "pp-3-8"
+from = "foot"
+to = "buoy"
+length = "30 m"
+
+[[link]]
+id = "buoy-link"
+rating = "600 lbf"
+line = "endline"
+end = "to"
+"#;
+
+/// Folders of the shipped library that the small rig needs.
+const NEEDED: [&str; 5] = ["friction", "knots", "ropes", "sites", "weak-links"];
+
+/// A folder with the study and a library of its own, removed at the end.
+struct Place(PathBuf);
+
+impl Place {
+    fn new(name: &str) -> Self {
+        let root = std::env::temp_dir().join(format!("endline-{name}-{}", std::process::id()));
+        let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../gear-library");
+        for folder in NEEDED {
+            let own = root.join("gear-library").join(folder);
+            fs::create_dir_all(&own).unwrap();
+            for file in fs::read_dir(shipped.join(folder)).unwrap().map(Result::unwrap) {
+                if file.path().is_file() {
+                    fs::copy(file.path(), own.join(file.file_name())).unwrap();
+                }
+            }
+        }
+        let studies = root.join("gear-library/studies");
+        fs::create_dir_all(&studies).unwrap();
+        fs::write(studies.join("small.toml"), SCENARIO).unwrap();
+        fs::write(studies.join("study.toml"), STUDY).unwrap();
+        Self(root)
+    }
+
+    fn library(&self) -> PathBuf {
+        self.0.join("gear-library")
+    }
+
+    fn study(&self) -> PathBuf {
+        self.library().join("studies/study.toml")
+    }
+
+    fn open(&self) -> Opened {
+        Opened::open(&self.study(), Some(&self.library()), &PluginHost::empty()).unwrap()
+    }
+}
+
+impl Drop for Place {
+    fn drop(&mut self) {
+        // A folder that stays behind does no harm.
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+/// Waits until something is so.
+fn wait(what: &str, so: impl Fn() -> bool) {
+    let start = Instant::now();
+    while !so() {
+        assert!(start.elapsed() < Duration::from_secs(60), "never came: {what}");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+}
+
+fn blocks_written(folder: &Folder) -> u32 {
+    (0..folder.blocks()).map(|block| u32::from(folder.has(block))).sum()
+}
+
+#[test]
+fn a_paused_study_stands_still_and_its_table_is_that_of_one_never_paused() {
+    let place = Place::new("paused");
+    let opened = place.open();
+    let whole = Folder::open(&place.0.join("whole"), &opened).unwrap();
+    batch::run(&opened, &whole, Shard::WHOLE, 2, &Control::default()).unwrap();
+
+    let folder = Folder::open(&place.0.join("paused"), &opened).unwrap();
+    let control = Control::default();
+    std::thread::scope(|scope| {
+        let run =
+            scope.spawn(|| batch::run(&opened, &folder, Shard::WHOLE, 2, &control).map(|_| ()));
+        wait("the first encounter", || control.progress().encounters.done > 0);
+        control.pause();
+        // Encounters under way, one on each thread, still come to their end.
+        std::thread::sleep(Duration::from_millis(500));
+        let done = control.progress().encounters.done;
+        std::thread::sleep(Duration::from_millis(300));
+        assert!(control.is_paused() && !run.is_finished());
+        assert_eq!(control.progress().encounters.done, done, "a paused study stands still");
+        assert!(done < 24, "the study was over before it was paused");
+        control.resume();
+        run.join().unwrap().unwrap();
+    });
+    assert_eq!(control.progress().encounters, Count { done: 24, found: 0, total: 24 });
+    let [one, other] = [&whole, &folder].map(|folder| merge::merge(&opened, folder).unwrap().csv());
+    assert_eq!(one, other);
+}
+
+#[test]
+fn a_cancelled_study_keeps_whole_blocks_and_a_second_call_continues_from_them() {
+    let place = Place::new("cancelled");
+    let opened = place.open();
+    let folder = Folder::open(&place.0.join("results"), &opened).unwrap();
+    let control = Control::default();
+    std::thread::scope(|scope| {
+        let run = scope.spawn(|| batch::run(&opened, &folder, Shard::WHOLE, 1, &control));
+        wait("the first block", || control.progress().blocks.done > 0);
+        control.cancel();
+        let progress = run.join().unwrap().unwrap();
+        assert!(control.is_cancelled() && progress.blocks.done < progress.blocks.total);
+    });
+    let written = blocks_written(&folder);
+    assert_eq!(written, control.progress().blocks.done, "blocks are whole or not there");
+
+    let second = Control::default();
+    let progress = batch::run(&opened, &folder, Shard::WHOLE, 1, &second).unwrap();
+    assert_eq!(progress.blocks, Count { done: 6, found: written, total: 6 });
+    assert_eq!(progress.encounters, Count { done: 24, found: 4 * written, total: 24 });
+    assert_eq!(merge::merge(&opened, &folder).unwrap().rows(), 48);
+}
+
+#[test]
+fn progress_counts_each_encounter_and_block_once_and_tells_the_time_left() {
+    let place = Place::new("progress");
+    let opened = place.open();
+    let folder = Folder::open(&place.0.join("results"), &opened).unwrap();
+    let seen: Arc<Mutex<Vec<Progress>>> = Arc::default();
+    let watched = Arc::clone(&seen);
+    let control = Control::new(move |progress| watched.lock().unwrap().push(*progress));
+    // The second of three parts: blocks 1 and 4.
+    batch::run(&opened, &folder, Shard { part: 1, of: 3 }, 2, &control).unwrap();
+    let seen = seen.lock().unwrap();
+    assert_eq!(seen.len(), 1 + 8 + 2);
+    assert_eq!(seen[0].encounters, Count { done: 0, found: 0, total: 8 });
+    assert_eq!(seen[0].left(), None, "there is no pace yet");
+    for pair in seen.windows(2) {
+        let steps = [pair[1].encounters, pair[1].blocks]
+            .iter()
+            .zip([pair[0].encounters, pair[0].blocks])
+            .map(|(after, before)| after.done - before.done)
+            .sum::<u32>();
+        assert_eq!(steps, 1, "one encounter or one block at a time");
+    }
+    let half = seen.iter().find(|progress| progress.encounters.done == 4).unwrap();
+    assert!(half.left().unwrap() > Duration::ZERO && (half.share() - 0.5).abs() < 1e-6);
+    let last = control.progress();
+    assert_eq!((last.blocks.done, last.left()), (2, Some(Duration::ZERO)));
+}
+
+#[test]
+fn a_cancelled_control_stays_cancelled() {
+    let control = Control::default();
+    control.pause();
+    assert!(control.is_paused());
+    control.cancel();
+    control.resume();
+    control.pause();
+    assert!(control.is_cancelled() && !control.is_paused() && !control.goes_on());
+}
+
+#[test]
+fn queued_studies_are_run_one_after_the_other_and_their_results_can_be_read() {
+    let place = Place::new("queued");
+    let second = place.library().join("studies/second.toml");
+    fs::write(&second, STUDY.replace("encounters = 24", "encounters = 4")).unwrap();
+    let (host, root) = (Arc::new(PluginHost::empty()), place.0.join("results"));
+    let job = |file: PathBuf| {
+        Job::new(file, "Small".into(), place.library(), root.clone(), Arc::new(|| {}))
+    };
+    let mut queue = Queue { eager: true, ..Queue::default() };
+    queue.add(job(place.study()));
+    queue.add(job(second.clone()));
+    queue.add(job(second.clone()));
+    assert_eq!(queue.jobs.len(), 2, "a study stands in the queue once");
+    queue.begin_next(&host);
+    queue.begin_next(&host);
+    assert_eq!(queue.jobs[1].state(), State::Waiting, "one study at a time");
+    queue.jobs[0].pause();
+    wait("the pause", || queue.jobs[0].state() == State::Paused);
+    queue.jobs[0].cancel();
+    wait("the end of its threads", || !queue.jobs[0].unfinished());
+    assert_eq!(queue.jobs[0].state(), State::Cancelled);
+    queue.begin_next(&host);
+    wait("the second study", || !queue.jobs[1].unfinished());
+    assert_eq!(queue.jobs[1].state(), State::Done);
+    let folder = queue.jobs[1].folder().unwrap();
+    for file in ["table.parquet", "report.html"] {
+        assert!(folder.join(file).is_file(), "{file}");
+    }
+    let request = ResultsRequest {
+        file: Some(second),
+        library: place.library(),
+        root: root.clone(),
+        ..ResultsRequest::default()
+    };
+    let read = StudyResults::read(request, &host).unwrap().unwrap();
+    assert!(read.whole && read.table.rows() == 8 && read.folder == folder);
+    let reported: Vec<bool> = results::list(&root).iter().map(|found| found.reported).collect();
+    assert!(reported.contains(&true) && reported.contains(&false), "{reported:?}");
+}
