@@ -50,19 +50,7 @@ impl ForceUnit {
         let digits = usize::from(value.abs() < 100.0);
         format!("{value:.digits$} {}", self.symbol())
     }
-
-    /// A pressure given in pascals, as text: in psi beside pounds-force, in kPa beside newtons.
-    #[must_use]
-    pub fn pressure(self, pressure_pa: f64) -> String {
-        match self {
-            Self::Lbf => format!("{:.1} psi", pressure_pa / PA_PER_PSI),
-            Self::Newton => format!("{:.0} kPa", pressure_pa / 1000.0),
-        }
-    }
 }
-
-/// Pascals in a pound-force on a square inch.
-const PA_PER_PSI: f64 = 6_894.757;
 
 const METRES_PER_FOOT: f64 = 0.3048;
 const METRES_PER_FATHOM: f64 = 6.0 * METRES_PER_FOOT;
