@@ -11,18 +11,7 @@ cp -r "$ROOT/gear-library" "$WORK/library"
 export XDG_DATA_HOME="$WORK/data" LIBGL_ALWAYS_SOFTWARE=1 ENDLINE_TELL_ORDERS=1
 DATA="$WORK/data/endline"
 
-# Waits until something is so, at most so many seconds.
-within() { local end=$((SECONDS + $1)); until eval "$2"; do [ $SECONDS -lt $end ] || return 1; sleep "${3:-0.1}"; done; }
-
-SCREENS=$(seq $((100 + $$ % 400)) $((600 + $$ % 400)))
-for NUMBER in $SCREENS; do
-    [ -e "/tmp/.X$NUMBER-lock" ] && continue
-    export DISPLAY=":$NUMBER"
-    Xvfb "$DISPLAY" -screen 0 "${SIZE}x24" >/dev/null 2>&1 &
-    SCREEN=$!
-    within 30 "[ -e '/tmp/.X11-unix/X$NUMBER' ] || ! kill -0 $SCREEN 2>/dev/null"
-    kill -0 $SCREEN 2>/dev/null && break
-done
+. "$ROOT/tests/window/screen.sh"
 trap 'kill $WINDOW $SCREEN 2>/dev/null; rm -rf "$WORK"' EXIT
 
 screen() { import -window root -depth 8 rgb:- 2>/dev/null | md5sum; }

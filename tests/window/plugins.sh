@@ -12,11 +12,9 @@ FAILED=0
 mkdir -p "$PICTURES" "$WORK/plugins" "$WORK/data"
 cp -r "$ROOT/gear-library" "$WORK/library"
 export XDG_DATA_HOME="$WORK/data" XDG_CACHE_HOME="$WORK/cache" ENDLINE_PLUGINS="$WORK/plugins" LIBGL_ALWAYS_SOFTWARE=1
-export DISPLAY=":$((100 + $$ % 500))"
-Xvfb "$DISPLAY" -screen 0 1280x720x24 >/dev/null 2>&1 &
-SCREEN=$!
+SIZE=1280x720
+. "$ROOT/tests/window/screen.sh"
 trap 'kill $SCREEN 2>/dev/null; rm -rf "$WORK"' EXIT
-sleep 1
 
 picture() { import -window root "$PICTURES/$1.png"; }
 keys() { xdotool key --delay 150 "$@"; sleep 1; }

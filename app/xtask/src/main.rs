@@ -22,8 +22,12 @@ const USAGE: &str = "\
 usage: cargo xtask run [-- ARGUMENTS]    install what is missing, build in release, open the workbench
                                          (with no display: simulate the bundled encounter and draw it);
                                          ARGUMENTS, where given, go to the program instead
-       cargo xtask test                  install what is missing, then run the whole test suite; where Xvfb, xdotool and
-                                         imagemagick are, drive the window too
+       cargo xtask test                  install what is missing, then run the whole test suite; where Xvfb,
+                                         xdotool and imagemagick are, drive the window too
+       cargo xtask test --quick          only formatting, lints, the tests inside the crates, the rules of the
+                                         workspace, the golden states and calls of the program
+       cargo xtask golden                write the table of golden states anew, after the physics was changed
+                                         on purpose
        cargo xtask window                only drive the window that was built
        cargo xtask plugins [--release]   build the plugins that ship with Endline and put them beside the program
        cargo xtask shape [all | sizes | circles] [PACKAGE]
@@ -55,6 +59,8 @@ fn chore<'a>(words: &'a [&'a str]) -> Option<Chore<'a>> {
         ["run"] => Box::new(run::run),
         ["run", "--", program @ ..] => Box::new(|workspace| run::run_with(workspace, program)),
         ["test"] => Box::new(test::test),
+        ["test", "--quick"] => Box::new(test::quick),
+        ["golden"] => Box::new(test::write_golden),
         ["window"] => Box::new(window::drive),
         ["plugins"] => Box::new(|workspace| plugins::build(workspace, Profile::Dev)),
         ["plugins", "--release"] => {

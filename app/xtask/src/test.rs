@@ -1,26 +1,61 @@
-//! `cargo xtask test`: from a bare machine to the whole test suite.
+//! `cargo xtask test`: from a bare machine to the whole test suite; `--quick` to a part of it.
 
 use std::process::{Command, Stdio};
 
 use crate::workspace::{Profile, Workspace, announce};
 use crate::{Outcome, packages, plugins, run, window};
 
+/// Programs of the quick tier: the rules of the workspace and the golden states.
+const QUICK_PROGRAMS: [&str; 4] = ["--test", "tidy", "--test", "golden"];
+
+/// Tests of the quick tier that call the program, by the start of their names.
+const QUICK_CALLS: [&str; 2] = ["determinism::", "cli::"];
+
 /// Formatting, lints, every test of the workspace, the bundled encounter from start to picture, and the window in use.
 ///
 /// # Errors
 /// When any of them fails; the first failure ends it.
 pub fn test(workspace: &Workspace) -> Outcome {
+    check_sources(workspace)?;
+    // `--tests` leaves out benches, which clippy has compiled, and examples in documentation, of which there are none.
+    // The program is among what it builds: the tests of the command line call it.
+    workspace.cargo(&["test", "--workspace", "--tests", "--no-run"])?;
+    plugins::build(workspace, Profile::Dev)?;
+    workspace.cargo(&["test", "--workspace", "--tests", "--no-fail-fast"])?;
+    run::show_encounter(workspace, Profile::Dev)?;
+    window::drive(workspace)
+}
+
+/// What everyday work runs: formatting, lints, the tests inside the crates, the rules of the workspace, the golden states,
+/// and the program called as a user calls it.
+///
+/// # Errors
+/// When any of them fails; the first failure ends it.
+pub fn quick(workspace: &Workspace) -> Outcome {
+    check_sources(workspace)?;
+    let inside = ["test", "--workspace", "--lib", "--bins"];
+    workspace.cargo(&[inside.as_slice(), &QUICK_PROGRAMS].concat())?;
+    // The whole workspace each time: a choice of packages would compile the outside crates with other features.
+    workspace.cargo(&["build", "--workspace", "--bins"])?;
+    plugins::build(workspace, Profile::Dev)?;
+    let calls = ["test", "--workspace", "--test", "program", "--"];
+    workspace.cargo(&[calls.as_slice(), &QUICK_CALLS].concat())
+}
+
+/// Writes the table of golden states anew, after a change of the physics that was meant.
+///
+/// # Errors
+/// When a scenario of the table no longer shows what it is there for.
+pub fn write_golden(workspace: &Workspace) -> Outcome {
+    let arguments = ["test", "--workspace", "--test", "golden", "--", "--nocapture"];
+    workspace.cargo_with(&arguments, &[("ENDLINE_WRITE_GOLDEN", "1")])
+}
+
+fn check_sources(workspace: &Workspace) -> Outcome {
     packages::ensure_for_test()?;
     ensure_components(workspace)?;
     workspace.cargo(&["fmt", "--all", "--check"])?;
-    workspace.cargo(&["clippy", "--workspace", "--all-targets", "--", "--deny", "warnings"])?;
-    // The same selection and targets as the tests, so that nothing is compiled twice with other features;
-    // the tests of the command line call the program that this makes.
-    workspace.cargo(&["build", "--workspace", "--all-targets"])?;
-    plugins::build(workspace, Profile::Dev)?;
-    workspace.cargo(&["test", "--workspace", "--no-fail-fast"])?;
-    run::show_encounter(workspace, Profile::Dev)?;
-    window::drive(workspace)
+    workspace.cargo(&["clippy", "--workspace", "--all-targets", "--", "--deny", "warnings"])
 }
 
 /// A minimal Rust toolchain comes without its formatter and linter; rustup can add them.

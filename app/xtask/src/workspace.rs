@@ -93,9 +93,18 @@ impl Workspace {
     /// # Errors
     /// When cargo fails; it has said why itself.
     pub fn cargo(&self, arguments: &[&str]) -> Outcome {
+        self.cargo_with(arguments, &[])
+    }
+
+    /// Runs cargo with these variables in its environment, and insists that it succeeds.
+    ///
+    /// # Errors
+    /// When cargo fails; it has said why itself.
+    pub fn cargo_with(&self, arguments: &[&str], variables: &[(&str, &str)]) -> Outcome {
         announce("cargo", arguments);
         let status = self
             .cargo_command(arguments)
+            .envs(variables.iter().copied())
             .status()
             .map_err(|error| format!("cannot start cargo: {error}"))?;
         if status.success() {

@@ -16,6 +16,7 @@ mod friction;
 mod gear;
 mod gear_types;
 mod groundlines;
+mod items;
 mod kinetic;
 #[path = "../linked/mod.rs"]
 mod linked;

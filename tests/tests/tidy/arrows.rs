@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::{none, toml_file};
+use crate::{none, sources, toml_file};
 
 /// What one crate may depend on.
 struct Wall {
@@ -147,6 +147,27 @@ fn outside_crates_stay_where_they_belong() {
         }
     }
     none(&complaints, "each outside crate that brings the world in has one home");
+}
+
+/// The window's toolkit, in code, not in comments. Whoever drives Endline without a window, from a script or the command
+/// line, calls the same session.
+#[test]
+fn session_sim_and_gear_never_name_egui() {
+    let floors = ["app/session/", "app/sim/", "gear-library/"];
+    let mut complaints = Vec::new();
+    for source in sources(&[".rs", "Cargo.toml"]) {
+        if !floors.iter().any(|floor| source.path.starts_with(floor)) {
+            continue;
+        }
+        for (number, line) in source.text.lines().enumerate() {
+            let comment = if source.path.ends_with(".rs") { "//" } else { "#" };
+            let code = line.split(comment).next();
+            if code.is_some_and(|code| code.contains("egui") || code.contains("eframe")) {
+                complaints.push(format!("{}:{}: {}", source.path, number + 1, line.trim()));
+            }
+        }
+    }
+    none(&complaints, "only the window knows egui");
 }
 
 #[test]

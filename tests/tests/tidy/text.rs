@@ -142,6 +142,23 @@ fn gear_files_are_whole_text_files() {
     none(&complaints, "gear files");
 }
 
+/// The suite leaves out doc tests, which cost a pass of rustdoc over each crate: an example in documentation would
+/// look tested and would not be.
+#[test]
+fn documentation_of_items_holds_no_code_to_run() {
+    let mut complaints = Vec::new();
+    for source in sources(&[".rs"]) {
+        let documentation = source.text.lines().enumerate().filter_map(|(number, line)| {
+            let line = line.trim_start();
+            let text = line.strip_prefix("///").or_else(|| line.strip_prefix("//!"))?;
+            text.trim_start().strip_prefix("```").map(|language| (number, language))
+        });
+        let opening = documentation.step_by(2).filter(|(_, language)| *language != "text");
+        complaints.extend(opening.map(|(number, _)| format!("{}:{}", source.path, number + 1)));
+    }
+    none(&complaints, "a block in documentation begins with ```text");
+}
+
 /// Whether a line holds this word by itself, not inside a longer one.
 fn has_word(line: &str, word: &str) -> bool {
     let is_inside = |letter: char| letter.is_alphanumeric() || letter == '_';

@@ -74,7 +74,7 @@ fn edit_in(text: &str) -> Option<usize> {
 
 fn began(root: &Path) -> Child {
     let program = std::env::current_exe().unwrap();
-    let exact = ["the_script_as_a_program_of_its_own", "--exact", "--nocapture"];
+    let exact = ["killed::the_script_as_a_program_of_its_own", "--exact", "--nocapture"];
     Command::new(program)
         .args(exact)
         .env(ROLE, root)
