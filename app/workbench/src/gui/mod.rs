@@ -9,7 +9,6 @@ pub mod bodymap;
 pub mod canvas;
 pub mod chart_svg;
 pub mod charts;
-pub mod compare;
 pub mod desk;
 pub mod exchange;
 pub mod fields;

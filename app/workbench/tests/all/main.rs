@@ -3,6 +3,7 @@
 
 mod answers;
 mod common;
+mod figures;
 mod gear;
 mod house;
 mod killed;

@@ -8,11 +8,11 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_session::edit::Documents;
 use endline_session::edit::pilot_program::entries;
+use endline_session::figures::compare::groups;
 use endline_session::live::{LiveView, Status};
 use endline_session::units::Units;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::charts::{Chart, Kind, Style};
-use endline_workbench::gui::compare::groups;
 use endline_workbench::gui::desk::Order;
 use endline_workbench::gui::panel_id::PanelId;
 

@@ -1,14 +1,15 @@
 //! Two runs beside one another: A as shown, B held or opened; their key figures and what differs.
 
 use egui::{Grid, RichText, ScrollArea, Ui};
+use endline_session::figures::compare::{Group, SAME, groups};
 use endline_session::live::{LiveView, Status};
 
-use crate::gui::compare::{Group, groups};
 use crate::gui::desk::{Desk, Order};
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
+use crate::gui::widgets::words::capital;
 
 /// Two runs beside one another.
 #[derive(Debug, Default)]
@@ -95,10 +96,11 @@ fn table(ui: &mut Ui, (head, rows): &Group) {
             }
             ui.end_row();
             for row in rows {
-                ui.label(RichText::new(&row.name).color(palette.faint));
+                let name = RichText::new(capital(&row.name)).color(palette.faint);
+                ui.label(name).on_hover_text(row.help);
                 ui.label(&row.a);
                 ui.label(&row.b);
-                let colour = if row.difference == "same" { palette.faint } else { palette.text };
+                let colour = if row.difference == SAME { palette.faint } else { palette.text };
                 ui.label(RichText::new(&row.difference).color(colour));
                 ui.end_row();
             }

@@ -4,83 +4,34 @@ use std::sync::Arc;
 
 use egui::{Color32, Grid, Rect, RichText, ScrollArea, Sense, Stroke, Ui, vec2};
 use endline_sdk::BodyPart;
+use endline_session::figures::{Figure, PART, Part, Quantity, View, WHALE, parts, shown};
 use endline_session::live::LiveView;
 use endline_session::units::Units;
-use endline_sim::metrics::{RegionSummary, WhaleSummary};
+use endline_sim::metrics::WhaleSummary;
 
 use crate::gui::bodymap::{BodyMap, Face};
 use crate::gui::desk::{Desk, Order};
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
 use crate::gui::theme::Theme;
+use crate::gui::widgets::figures::{Style, list, table};
 use crate::gui::widgets::words::spoken;
 use crate::gui::widgets::{self, words};
 use crate::gui::wraps::wraps;
 use crate::scene::colour::tension_colour;
 
-/// What the map is coloured by.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-enum Measure {
-    /// Wraps now.
-    #[default]
-    Wraps,
-    /// Most wraps so far.
-    PeakWraps,
-    /// Rope in contact now.
-    Contact,
-    /// Normal force at the moment shown.
-    Force,
-    /// Greatest normal force so far.
-    PeakForce,
-    /// Greatest pressure so far.
-    Pressure,
-    /// Work of friction so far.
-    Work,
-}
-
-impl Measure {
-    const ALL: [(Self, &'static str); 7] = [
-        (Self::Wraps, "wraps"),
-        (Self::PeakWraps, "most wraps"),
-        (Self::Contact, "rope in contact"),
-        (Self::Force, "force at this moment"),
-        (Self::PeakForce, "greatest force"),
-        (Self::Pressure, "greatest pressure"),
-        (Self::Work, "friction work"),
-    ];
-
-    fn name(self) -> &'static str {
-        Self::ALL.iter().find(|(known, _)| *known == self).map_or("", |(_, name)| name)
-    }
-
-    fn of(self, region: &RegionSummary, force_n: f64) -> f64 {
-        match self {
-            Self::Wraps => region.wraps,
-            Self::PeakWraps => region.peak_wraps,
-            Self::Contact => region.contact_length_m,
-            Self::Force => force_n,
-            Self::PeakForce => region.peak_normal_n,
-            Self::Pressure => region.peak_pressure_pa,
-            Self::Work => region.friction_work_j,
-        }
-    }
-
-    fn text(self, value: f64, units: Units) -> String {
-        match self {
-            Self::Wraps | Self::PeakWraps => format!("{value:.2} turns"),
-            Self::Contact => units.length(value),
-            Self::Force | Self::PeakForce => units.force().text(value),
-            Self::Pressure => units.force().pressure(value),
-            Self::Work => format!("{value:.0} J"),
-        }
-    }
-}
-
 /// Rope on the whale's body, and the outcome.
-#[derive(Default)]
 pub struct EntanglementPanel {
-    measure: Measure,
+    /// The figure of the parts by which the map is coloured.
+    measure: &'static Figure<Part>,
     map: Option<BodyMap>,
+}
+
+impl Default for EntanglementPanel {
+    fn default() -> Self {
+        // The first figure of a part is its name.
+        Self { measure: &PART[1], map: None }
+    }
 }
 
 impl Panel for EntanglementPanel {
@@ -93,14 +44,16 @@ impl Panel for EntanglementPanel {
         let Some(whale) = view.summary.as_ref().and_then(|summary| summary.whale.as_ref()) else {
             return widgets::nothing(ui, "No whale in this run.");
         };
-        let units = desk.preferences.units;
+        let style = Style { view: View::Entanglement, units: desk.preferences.units };
+        let parts = parts(whale, &view.frame.contacts);
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            outcome(ui, whale, units);
+            let first = outcome(ui, whale, style);
             self.choose_measure(ui);
-            self.map(ui, &view, whale, units);
-            desk.orders.extend(wrap_list(ui, &view, units).map(Order::Seek));
+            self.map(ui, &view, &parts, style.units);
+            let wrap = wrap_list(ui, &view, style.units);
+            desk.orders.extend(first.or(wrap).map(Order::Seek));
             widgets::caption(ui, "By part");
-            table(ui, &view, whale, units);
+            table(ui, PART, &parts, style, Part::is_untouched);
         });
     }
 }
@@ -109,30 +62,29 @@ impl EntanglementPanel {
     fn choose_measure(&mut self, ui: &mut Ui) {
         ui.horizontal(|ui| {
             ui.label(RichText::new("Colour").color(Theme::palette_of(ui).faint));
-            egui::ComboBox::from_id_salt("measure").selected_text(self.measure.name()).show_ui(
-                ui,
-                |ui| {
-                    for (measure, name) in Measure::ALL {
-                        ui.selectable_value(&mut self.measure, measure, name);
+            let combo = egui::ComboBox::from_id_salt("measure").selected_text(self.measure.label);
+            combo.show_ui(ui, |ui| {
+                let is_number = |figure: &&Figure<Part>| figure.quantity != Quantity::Name;
+                for figure in shown(PART, View::Entanglement).filter(is_number) {
+                    let is_chosen = figure.key == self.measure.key;
+                    if ui.selectable_label(is_chosen, figure.label).clicked() {
+                        self.measure = figure;
                     }
-                },
-            );
+                }
+            });
         });
     }
 
-    fn map(&mut self, ui: &mut Ui, view: &LiveView, whale: &WhaleSummary, units: Units) {
+    fn map(&mut self, ui: &mut Ui, view: &LiveView, parts: &[Part], units: Units) {
         let Some(model) = &view.model.spec.whale else { return };
         if self.map.as_ref().is_none_or(|map| !map.is_of(&model.skin)) {
             self.map = Some(BodyMap::of(Arc::clone(&model.skin)));
         }
         let Some(map) = &mut self.map else { return };
-        let (measure, forces) = (self.measure, forces_n(view));
+        let measure = self.measure;
         let value = |part: BodyPart| {
-            whale
-                .regions
-                .iter()
-                .find(|region| region.part == part)
-                .map_or(0.0, |region| measure.of(region, forces[part as usize]))
+            let own = parts.iter().find(|own| own.summary.part == part);
+            own.and_then(|own| (measure.read)(own).number()).unwrap_or_default()
         };
         let top = BodyPart::ALL.into_iter().map(value).fold(0.0, f64::max);
         let plain = if ui.visuals().dark_mode {
@@ -157,14 +109,15 @@ impl EntanglementPanel {
             });
         }
         ui.label(
-            RichText::new(format!("brightest: {}", measure.text(top, units)))
+            RichText::new(format!("brightest: {}", measure.quantity.text(&top.into(), units)))
                 .small()
                 .color(Theme::palette_of(ui).faint),
         );
     }
 }
 
-fn outcome(ui: &mut Ui, whale: &WhaleSummary, units: Units) {
+/// The outcome and the figures of the whale; answers the moment that was clicked [s].
+fn outcome(ui: &mut Ui, whale: &WhaleSummary, style: Style) -> Option<f64> {
     let palette = Theme::palette_of(ui);
     let (text, meaning, colour) = words::outcome(whale.outcome, palette);
     ui.horizontal_wrapped(|ui| {
@@ -172,19 +125,7 @@ fn outcome(ui: &mut Ui, whale: &WhaleSummary, units: Units) {
         let standing = if whale.decided { "" } else { "so far: " };
         ui.label(RichText::new(format!("{standing}{meaning}")).color(palette.faint));
     });
-    let rows = [
-        (
-            "First contact",
-            whale.first_contact_s.map_or_else(|| "–".into(), |time| format!("{time:.2} s")),
-        ),
-        ("Time in contact", format!("{:.2} s", whale.contact_time_s)),
-        ("Added drag, mean of 5 s", units.force().text(whale.drag_added_n)),
-        (
-            "Trailing, tethered rope",
-            format!("{}, {}", units.length(whale.trailing_m), units.length(whale.tethered_m)),
-        ),
-    ];
-    widgets::numbers(ui, "entanglement", &rows);
+    let wanted = list(ui, WHALE, whale, style);
     ui.label(
         RichText::new(
             "Relative, given this encounter: it says nothing of how often whales meet gear.",
@@ -192,15 +133,7 @@ fn outcome(ui: &mut Ui, whale: &WhaleSummary, units: Units) {
         .small()
         .color(palette.faint),
     );
-}
-
-/// Normal force on each part at the moment shown [N].
-fn forces_n(view: &LiveView) -> [f64; BodyPart::ALL.len()] {
-    let mut forces = [0.0; BodyPart::ALL.len()];
-    for contact in &view.frame.contacts {
-        forces[contact.region.part() as usize] += contact.normal_force_n.max(0.0);
-    }
-    forces
+    wanted
 }
 
 fn draw(
@@ -290,43 +223,4 @@ fn wrap_list(ui: &mut Ui, view: &LiveView, units: Units) -> Option<f64> {
         },
     );
     wanted
-}
-
-fn table(ui: &mut Ui, view: &LiveView, whale: &WhaleSummary, units: Units) {
-    let palette = Theme::palette_of(ui);
-    let forces = forces_n(view);
-    Grid::new("parts").num_columns(8).striped(true).spacing([12.0, 2.0]).min_row_height(17.0).show(
-        ui,
-        |ui| {
-            for head in [
-                "Part",
-                "Wraps",
-                "most",
-                "Contact",
-                "Force now",
-                "Peak",
-                "Pressure",
-                "Friction work",
-            ] {
-                ui.label(RichText::new(head).small().color(palette.faint));
-            }
-            ui.end_row();
-            for region in &whale.regions {
-                let touched = region.peak_contact_length_m > 0.0;
-                let text = |text: String| {
-                    RichText::new(text).color(if touched { palette.text } else { palette.faint })
-                };
-                let force = units.force();
-                ui.label(text(region.part.name().replace('_', " ")));
-                ui.label(text(format!("{:.2}", region.wraps)));
-                ui.label(text(format!("{:.2}", region.peak_wraps)));
-                ui.label(text(units.length(region.contact_length_m)));
-                ui.label(text(force.text(forces[region.part as usize])));
-                ui.label(text(force.text(region.peak_normal_n)));
-                ui.label(text(force.pressure(region.peak_pressure_pa)));
-                ui.label(text(format!("{:.0} J", region.friction_work_j)));
-                ui.end_row();
-            }
-        },
-    );
 }
