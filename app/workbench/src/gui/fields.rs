@@ -16,6 +16,17 @@ pub struct Said<'a> {
     pub help: &'a str,
 }
 
+/// A field of a text.
+#[derive(Clone, Copy)]
+pub struct Field<'a> {
+    /// The open texts.
+    pub documents: &'a Documents,
+    /// The text, by its path.
+    pub path: &'a str,
+    /// The field, by its dotted path.
+    pub field: &'a str,
+}
+
 /// Shows a field for typing; answers the new text when it is committed. Escape leaves it as it was.
 pub fn edit(
     ui: &mut Ui,
@@ -25,29 +36,28 @@ pub fn edit(
     width: f32,
     said: Said<'_>,
 ) -> Option<String> {
-    edit_as(ui, edit_id(path, field), documents, (path, field), width, said)
+    edit_as(ui, edit_id(path, field), Field { documents, path, field }, width, said)
 }
 
-/// The same in a second place on screen, under an id of its own.
+/// Shows a field for typing in a second place on screen, under an id of its own.
 pub fn edit_in(
     ui: &mut Ui,
     place: &str,
-    documents: &Documents,
-    (path, field): (&str, &str),
+    field: Field<'_>,
     width: f32,
     said: Said<'_>,
 ) -> Option<String> {
-    edit_as(ui, Id::new((place, path, field)), documents, (path, field), width, said)
+    edit_as(ui, Id::new((place, field.path, field.field)), field, width, said)
 }
 
 fn edit_as(
     ui: &mut Ui,
     edit_id: Id,
-    documents: &Documents,
-    (path, field): (&str, &str),
+    field: Field<'_>,
     width: f32,
     said: Said<'_>,
 ) -> Option<String> {
+    let Field { documents, path, field } = field;
     let stored = documents.field(path, field).unwrap_or_default();
     let problem = documents.problem_at(path, field);
     let id = typed_id(edit_id);

@@ -35,67 +35,64 @@ impl Layout {
     /// Its panels in place.
     #[must_use]
     pub fn dock(self) -> DockState<String> {
-        let first = match self {
-            Self::Design => ids(&[PanelId::VIEW, PanelId::ASSEMBLY]),
-            Self::Study => ids(&[PanelId::RESULTS]),
-            Self::Fly | Self::Review => ids(&[PanelId::VIEW]),
-        };
-        let mut dock = DockState::new(first);
-        let tree = dock.main_surface_mut();
         match self {
-            Self::Design => {
-                let [upper, _] = tree.split_below(
-                    NodeIndex::root(),
-                    0.66,
-                    ids(&[PanelId::LIBRARY, PanelId::PROBLEMS]),
-                );
-                let [middle, _] = tree.split_left(upper, 0.2, ids(&[PanelId::SCENARIO]));
-                let [_, right] = tree.split_right(middle, 0.7, ids(&[PanelId::RUN]));
-                tree.split_below(
-                    right,
-                    0.5,
-                    ids(&[PanelId::TENSION, PanelId::SUMMARY, PanelId::EVENTS]),
-                );
-            }
-            Self::Fly => {
-                let [_, right] = tree.split_right(
-                    NodeIndex::root(),
-                    0.78,
-                    ids(&[PanelId::RUN, PanelId::SCENARIO, PanelId::PAD]),
-                );
-                let [_, below] = tree.split_below(right, 0.42, ids(&[PanelId::TENSION]));
-                tree.split_below(below, 0.5, ids(&[PanelId::EVENTS, PanelId::SUMMARY]));
-            }
-            Self::Review => {
-                let [upper, lower] = tree.split_below(
-                    NodeIndex::root(),
-                    0.55,
-                    ids(&[PanelId::PLOTS, PanelId::PROGRAM]),
-                );
-                tree.split_right(upper, 0.6, ids(&[PanelId::ENTANGLEMENT, PanelId::SUMMARY]));
-                tree.split_right(
-                    lower,
-                    0.66,
-                    ids(&[PanelId::EVENTS, PanelId::RUN, PanelId::RECORDINGS, PanelId::COMPARE]),
-                );
-            }
-            Self::Study => {
-                let [right, _] = tree.split_left(
-                    NodeIndex::root(),
-                    0.36,
-                    ids(&[PanelId::STUDY, PanelId::LIBRARY, PanelId::PROBLEMS]),
-                );
-                let [_, below] =
-                    tree.split_below(right, 0.52, ids(&[PanelId::VIEW, PanelId::PLOTS]));
-                tree.split_right(
-                    below,
-                    0.62,
-                    ids(&[PanelId::SUMMARY, PanelId::ENTANGLEMENT, PanelId::EVENTS]),
-                );
-            }
+            Self::Design => design(),
+            Self::Fly => fly(),
+            Self::Review => review(),
+            Self::Study => study(),
         }
-        dock
     }
+}
+
+fn design() -> DockState<String> {
+    let mut dock = DockState::new(ids(&[PanelId::VIEW, PanelId::ASSEMBLY]));
+    let tree = dock.main_surface_mut();
+    let [upper, _] =
+        tree.split_below(NodeIndex::root(), 0.66, ids(&[PanelId::LIBRARY, PanelId::PROBLEMS]));
+    let [middle, _] = tree.split_left(upper, 0.2, ids(&[PanelId::SCENARIO]));
+    let [_, right] = tree.split_right(middle, 0.7, ids(&[PanelId::RUN]));
+    tree.split_below(right, 0.5, ids(&[PanelId::TENSION, PanelId::SUMMARY, PanelId::EVENTS]));
+    dock
+}
+
+fn fly() -> DockState<String> {
+    let mut dock = DockState::new(ids(&[PanelId::VIEW]));
+    let tree = dock.main_surface_mut();
+    let [_, right] = tree.split_right(
+        NodeIndex::root(),
+        0.78,
+        ids(&[PanelId::RUN, PanelId::SCENARIO, PanelId::PAD]),
+    );
+    let [_, below] = tree.split_below(right, 0.42, ids(&[PanelId::TENSION]));
+    tree.split_below(below, 0.5, ids(&[PanelId::EVENTS, PanelId::SUMMARY]));
+    dock
+}
+
+fn review() -> DockState<String> {
+    let mut dock = DockState::new(ids(&[PanelId::VIEW]));
+    let tree = dock.main_surface_mut();
+    let [upper, lower] =
+        tree.split_below(NodeIndex::root(), 0.55, ids(&[PanelId::PLOTS, PanelId::PROGRAM]));
+    tree.split_right(upper, 0.6, ids(&[PanelId::ENTANGLEMENT, PanelId::SUMMARY]));
+    tree.split_right(
+        lower,
+        0.66,
+        ids(&[PanelId::EVENTS, PanelId::RUN, PanelId::RECORDINGS, PanelId::COMPARE]),
+    );
+    dock
+}
+
+fn study() -> DockState<String> {
+    let mut dock = DockState::new(ids(&[PanelId::RESULTS]));
+    let tree = dock.main_surface_mut();
+    let [right, _] = tree.split_left(
+        NodeIndex::root(),
+        0.36,
+        ids(&[PanelId::STUDY, PanelId::LIBRARY, PanelId::PROBLEMS]),
+    );
+    let [_, below] = tree.split_below(right, 0.52, ids(&[PanelId::VIEW, PanelId::PLOTS]));
+    tree.split_right(below, 0.62, ids(&[PanelId::SUMMARY, PanelId::ENTANGLEMENT, PanelId::EVENTS]));
+    dock
 }
 
 fn ids(panels: &[PanelId]) -> Vec<String> {

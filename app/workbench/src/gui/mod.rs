@@ -10,6 +10,7 @@ pub mod canvas;
 pub mod chart_svg;
 pub mod charts;
 pub mod desk;
+pub mod dialogs;
 pub mod exchange;
 pub mod fields;
 pub mod files;

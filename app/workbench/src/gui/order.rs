@@ -10,6 +10,31 @@ use super::panel_id::PanelId;
 use super::theme::Theme;
 use crate::scene::{Picked, View};
 
+/// A file dialog.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dialog {
+    /// A scenario to open.
+    Scenario,
+    /// Another file to save the scenario to.
+    ScenarioAs,
+    /// A recording to open.
+    Recording,
+    /// A file to save the run so far to.
+    SaveRecording,
+    /// A study to open.
+    Study,
+    /// A folder of results to show.
+    Results,
+    /// A file to write the gear shown to as a 3-D model: `stl` or `glb`.
+    ExportModel(&'static str),
+    /// A file to write the plots shown to: `svg`, `png` or `csv`.
+    ExportPlots(&'static str),
+    /// A file to write the shown table of the library to.
+    ExportTable,
+    /// A table to take into the library.
+    ImportTable,
+}
+
 /// All that can be asked of the workbench besides editing a text.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Order {
@@ -39,14 +64,10 @@ pub enum Order {
     Newest,
     /// Play what was run from the moment shown on, or stop.
     Replay,
-    /// Ask for a file and write the shown table of the library to it.
-    AskExportTable,
-    /// Ask for a file and write the plots shown to it: `svg`, `png` or `csv`.
-    AskExportPlots(&'static str),
+    /// Open a file dialog; its answer gives the order that follows from it.
+    Ask(Dialog),
     /// Write the plots shown, in the format of the file's ending.
     ExportPlots(PathBuf),
-    /// Ask for a file and take its table into the library.
-    AskImportTable,
     /// Write the shown table of the library.
     ExportTable(PathBuf),
     /// Take a table into the library.
@@ -89,8 +110,6 @@ pub enum Order {
     Duplicate,
     /// Save every changed text.
     Save,
-    /// Ask for a file and save the scenario to it.
-    AskScenarioAs,
     /// Save the scenario to another file and go on with that.
     ScenarioAs(PathBuf),
     /// Save the run so far.
@@ -113,20 +132,14 @@ pub enum Order {
     Undo,
     /// Do it again.
     Redo,
-    /// Ask for a file and write the gear shown as a 3-D model to it: `stl` or `glb`.
-    AskExportModel(&'static str),
     /// Write the gear shown as a 3-D model, in the format of the file's ending.
     ExportModel(PathBuf),
-    /// Ask for a recording and open it.
-    AskRecording,
     /// Run a recording again and look at it.
     OpenRecording(PathBuf),
     /// Run again up to the moment shown, to go on from there in another way.
     Branch,
     /// Open a study.
     OpenStudy(PathBuf),
-    /// Ask for a study's file and open it.
-    AskStudy,
     /// Go on with a copy of the open study.
     DuplicateStudy,
     /// Run the open study, or go on with it.
@@ -137,8 +150,6 @@ pub enum Order {
     CancelStudy,
     /// Put the command lines that run the open study into the clipboard.
     CopyStudyLine,
-    /// Ask for a folder of results and show them.
-    AskResults,
     /// Show the results in a folder.
     OpenResults(PathBuf),
     /// Run an encounter of the results shown again: place of the option, index of the encounter.

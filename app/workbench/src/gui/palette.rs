@@ -8,6 +8,7 @@ use super::desk::{Desk, Order};
 use super::files::{scenarios, stem, studies};
 use super::inspector::worst_m;
 use super::layout::Layout;
+use super::order::Dialog;
 use super::panel_id::PanelId;
 use super::tables::KINDS;
 use super::theme::Theme;
@@ -54,26 +55,26 @@ static NAMED: [(&str, Order); 51] = [
     ("Rerun from the moment shown", Order::Rerun),
     ("Copy as command line", Order::CopyCommandLine),
     ("Go on from the moment shown", Order::Branch),
-    ("Open a recording", Order::AskRecording),
-    ("Save the scenario as", Order::AskScenarioAs),
-    ("Save the gear as STL", Order::AskExportModel("stl")),
-    ("Save the gear as glTF", Order::AskExportModel("glb")),
-    ("Save the plots as SVG", Order::AskExportPlots("svg")),
-    ("Save the plots as PNG", Order::AskExportPlots("png")),
-    ("Save the plots as CSV", Order::AskExportPlots("csv")),
+    ("Open a recording", Order::Ask(Dialog::Recording)),
+    ("Save the scenario as", Order::Ask(Dialog::ScenarioAs)),
+    ("Save the gear as STL", Order::Ask(Dialog::ExportModel("stl"))),
+    ("Save the gear as glTF", Order::Ask(Dialog::ExportModel("glb"))),
+    ("Save the plots as SVG", Order::Ask(Dialog::ExportPlots("svg"))),
+    ("Save the plots as PNG", Order::Ask(Dialog::ExportPlots("png"))),
+    ("Save the plots as CSV", Order::Ask(Dialog::ExportPlots("csv"))),
     ("Dark", Order::Dress(Theme::Dark)),
     ("Light", Order::Dress(Theme::Light)),
     ("Duplicate the chosen entry", Order::Duplicate),
-    ("Save the library's table as CSV", Order::AskExportTable),
-    ("Take a CSV into the library", Order::AskImportTable),
+    ("Save the library's table as CSV", Order::Ask(Dialog::ExportTable)),
+    ("Take a CSV into the library", Order::Ask(Dialog::ImportTable)),
     ("Reload plugins", Order::ReloadPlugins),
     ("Run the study", Order::QueueStudy),
     ("Pause the study, or go on", Order::PauseStudy),
     ("Cancel the study", Order::CancelStudy),
     ("Duplicate the study", Order::DuplicateStudy),
     ("Copy the study as command line", Order::CopyStudyLine),
-    ("Open a study's file", Order::AskStudy),
-    ("Open a study's results", Order::AskResults),
+    ("Open a study's file", Order::Ask(Dialog::Study)),
+    ("Open a study's results", Order::Ask(Dialog::Results)),
     ("Save all", Order::Save),
     ("Undo", Order::Undo),
     ("Redo", Order::Redo),

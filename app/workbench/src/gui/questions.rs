@@ -1,39 +1,148 @@
 //! What the window asks: what to do with edits a crash left, with unsaved ones as it closes or another scenario is opened, and with a
 //! plugin it does not know.
 
+use std::path::{Path, PathBuf};
+
 use egui::{Align2, Context, Label, RichText, Ui, Window, vec2};
 use endline_session::edit::Documents;
+use endline_session::edit::recovery::UnsavedEdits;
 use endline_session::plugins::Change;
 
-use super::app::App;
 use super::desk::{Desk, Order};
+use super::files::stem;
 use super::theme::{Theme, primary};
 
-/// The bar that offers edits back, where a crash left some.
-pub fn recovery(ui: &mut Ui, app: &mut App) {
-    let Some((file, kept)) = app.left_behind.first().cloned() else { return };
-    let here = kept.root == app.desk.documents.root();
-    let palette = Theme::palette_of(ui);
-    ui.horizontal(|ui| {
-        let count = kept.texts.len();
-        let files = if count == 1 { "1 file".to_owned() } else { format!("{count} files") };
-        let text = format!("Endline was not closed last time. Unsaved edits of {files} were kept.");
-        ui.label(RichText::new(text).color(palette.warning))
-            .on_hover_text(kept.texts.keys().cloned().collect::<Vec<_>>().join("\n"));
-        if here {
-            if primary(ui, true, "Recover").on_hover_text("Undo takes it back").clicked() {
-                app.desk.recover(&kept);
-                app.drop_left_behind(&file);
+/// What is asked, and what was answered.
+#[derive(Default)]
+pub struct Questions {
+    /// Edits that a crash left, with their files.
+    pub left_behind: Vec<(PathBuf, UnsavedEdits)>,
+    /// The scenario to be opened, while it is asked what to do with unsaved edits of the present one.
+    pub opening: Option<PathBuf>,
+    /// Whether it is asked what to do with unsaved edits.
+    closing: bool,
+    /// Whether the window may close as it is.
+    leave: bool,
+}
+
+impl Questions {
+    /// Offers back edits that a crash left.
+    #[must_use]
+    pub fn new(left_behind: Vec<(PathBuf, UnsavedEdits)>) -> Self {
+        Self { left_behind, ..Self::default() }
+    }
+
+    /// The bar that offers edits back, where a crash left some.
+    pub fn recovery(&mut self, ui: &mut Ui, desk: &mut Desk) {
+        let Some((file, kept)) = self.left_behind.first().cloned() else { return };
+        let here = kept.root == desk.documents.root();
+        let palette = Theme::palette_of(ui);
+        ui.horizontal(|ui| {
+            let count = kept.texts.len();
+            let files = if count == 1 { "1 file".to_owned() } else { format!("{count} files") };
+            let text =
+                format!("Endline was not closed last time. Unsaved edits of {files} were kept.");
+            ui.label(RichText::new(text).color(palette.warning))
+                .on_hover_text(kept.texts.keys().cloned().collect::<Vec<_>>().join("\n"));
+            if here {
+                if primary(ui, true, "Recover").on_hover_text("Undo takes it back").clicked() {
+                    desk.recover(&kept);
+                    self.drop_left_behind(&file);
+                }
+            } else {
+                ui.label(
+                    RichText::new(format!("They are of {}.", kept.root.display()))
+                        .color(palette.faint),
+                );
             }
-        } else {
-            ui.label(
-                RichText::new(format!("They are of {}.", kept.root.display())).color(palette.faint),
-            );
+            if ui.button("Discard").clicked() {
+                self.drop_left_behind(&file);
+            }
+        });
+    }
+
+    /// Drops edits that a crash left.
+    fn drop_left_behind(&mut self, file: &Path) {
+        // A file that cannot be removed is offered again next time.
+        let _ = std::fs::remove_file(file);
+        self.left_behind.retain(|(known, _)| known != file);
+    }
+
+    /// Asks before unsaved edits are lost with the window.
+    pub fn before_closing(&mut self, context: &Context, desk: &mut Desk) {
+        let wanted = context.input(|input| input.viewport().close_requested());
+        let unsaved = desk.documents.unsaved().len();
+        if wanted && unsaved > 0 && !self.leave {
+            context.send_viewport_cmd(egui::ViewportCommand::CancelClose);
+            self.closing = true;
         }
-        if ui.button("Discard").clicked() {
-            app.drop_left_behind(&file);
+        if !self.closing {
+            return;
         }
-    });
+        let window = Window::new("Unsaved edits")
+            .collapsible(false)
+            .resizable(false)
+            .anchor(Align2::CENTER_CENTER, vec2(0.0, -60.0));
+        window.show(context, |ui| {
+            ui.label(if unsaved == 1 {
+                "1 file has unsaved edits.".to_owned()
+            } else {
+                format!("{unsaved} files have unsaved edits.")
+            });
+            ui.horizontal(|ui| {
+                if primary(ui, true, "Save and quit").clicked() {
+                    desk.obey(&Order::Save);
+                    self.leave = desk.documents.unsaved().is_empty();
+                    self.closing = false;
+                }
+                if ui.button("Quit without saving").clicked() {
+                    (self.leave, self.closing) = (true, false);
+                }
+                if ui.button("Stay").clicked() {
+                    self.closing = false;
+                }
+            });
+        });
+        if self.leave {
+            desk.autosave.clear();
+            context.send_viewport_cmd(egui::ViewportCommand::Close);
+        }
+    }
+
+    /// Asks before unsaved edits of the scenario are lost with it, as another is opened.
+    pub fn before_opening(&mut self, context: &Context, desk: &mut Desk) {
+        let Some(path) = self.opening.clone() else { return };
+        let (present, next) = (stem(desk.documents.scenario_path()), stem(&path));
+        let window = Window::new("Unsaved scenario")
+            .collapsible(false)
+            .resizable(false)
+            .anchor(Align2::CENTER_CENTER, vec2(0.0, -60.0));
+        window.show(context, |ui| {
+            ui.label(format!("{present} has edits that are not saved. {next} takes its place."));
+            ui.horizontal(|ui| {
+                let mut open = false;
+                if primary(ui, true, "Save and open")
+                    .on_hover_text("Saves every file with edits")
+                    .clicked()
+                {
+                    desk.obey(&Order::Save);
+                    open = !desk.documents.is_unsaved(Documents::SCENARIO);
+                    self.opening = None;
+                }
+                open |= ui
+                    .button("Open without saving")
+                    .on_hover_text("The edits are lost; Undo does not bring them back")
+                    .clicked();
+                if open {
+                    self.opening = None;
+                    desk.obey(&Order::Open(path));
+                }
+                if ui.button("Stay").clicked() {
+                    self.opening = None;
+                }
+            });
+        });
+    }
 }
 
 /// Asks before a plugin library is opened that is new, or has changed since it was allowed.
@@ -80,85 +189,6 @@ pub fn plugin(context: &Context, desk: &mut Desk) {
             }
             if ui.button("Not now").clicked() {
                 desk.plugins.put_off(&ask);
-            }
-        });
-    });
-}
-
-/// Asks before unsaved edits are lost with the window.
-pub fn closing(context: &Context, app: &mut App) {
-    let wanted = context.input(|input| input.viewport().close_requested());
-    let unsaved = app.desk.documents.unsaved().len();
-    if wanted && unsaved > 0 && !app.leave {
-        context.send_viewport_cmd(egui::ViewportCommand::CancelClose);
-        app.asking = true;
-    }
-    if !app.asking {
-        return;
-    }
-    let window = Window::new("Unsaved edits")
-        .collapsible(false)
-        .resizable(false)
-        .anchor(Align2::CENTER_CENTER, vec2(0.0, -60.0));
-    window.show(context, |ui| {
-        ui.label(if unsaved == 1 {
-            "1 file has unsaved edits.".to_owned()
-        } else {
-            format!("{unsaved} files have unsaved edits.")
-        });
-        ui.horizontal(|ui| {
-            if primary(ui, true, "Save and quit").clicked() {
-                app.desk.obey(&Order::Save);
-                app.leave = app.desk.documents.unsaved().is_empty();
-                app.asking = false;
-            }
-            if ui.button("Quit without saving").clicked() {
-                (app.leave, app.asking) = (true, false);
-            }
-            if ui.button("Stay").clicked() {
-                app.asking = false;
-            }
-        });
-    });
-    if app.leave {
-        app.desk.autosave.clear();
-        context.send_viewport_cmd(egui::ViewportCommand::Close);
-    }
-}
-
-/// Asks before unsaved edits of the scenario are lost with it, as another is opened.
-pub fn opening(context: &Context, app: &mut App) {
-    let Some(path) = app.opening.clone() else { return };
-    let stem = |path: &std::path::Path| {
-        path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
-    };
-    let (present, next) = (stem(app.desk.documents.scenario_path()), stem(&path));
-    let window = Window::new("Unsaved scenario")
-        .collapsible(false)
-        .resizable(false)
-        .anchor(Align2::CENTER_CENTER, vec2(0.0, -60.0));
-    window.show(context, |ui| {
-        ui.label(format!("{present} has edits that are not saved. {next} takes its place."));
-        ui.horizontal(|ui| {
-            let mut open = false;
-            if primary(ui, true, "Save and open")
-                .on_hover_text("Saves every file with edits")
-                .clicked()
-            {
-                app.desk.obey(&Order::Save);
-                open = !app.desk.documents.is_unsaved(Documents::SCENARIO);
-                app.opening = None;
-            }
-            open |= ui
-                .button("Open without saving")
-                .on_hover_text("The edits are lost; Undo does not bring them back")
-                .clicked();
-            if open {
-                app.opening = None;
-                app.desk.obey(&Order::Open(path));
-            }
-            if ui.button("Stay").clicked() {
-                app.opening = None;
             }
         });
     });

@@ -28,17 +28,7 @@ fn every_command_of_the_palette_is_obeyed_in_every_layout() {
         harness.run_steps(2);
         for (name, order) in orders(&harness.state().desk) {
             // A file dialog needs a display; other scenarios are opened by other tests.
-            let asks = matches!(
-                order,
-                Order::AskExportPlots(_)
-                    | Order::AskExportTable
-                    | Order::AskImportTable
-                    | Order::AskRecording
-                    | Order::AskStudy
-                    | Order::AskResults
-                    | Order::AskExportModel(_)
-                    | Order::AskScenarioAs
-            );
+            let asks = matches!(order, Order::Ask(_));
             if asks || matches!(order, Order::Open(_)) {
                 continue;
             }
@@ -89,7 +79,7 @@ fn edits_of_a_program_that_was_killed_are_offered_back_and_undone_as_one() {
 
     let (mut harness, _) = workbench(&folder, Pilot::default());
     harness.state_mut().desk.autosave = Autosave::in_folder(data.clone());
-    harness.state_mut().left_behind = Autosave::in_folder(data.clone()).left_behind();
+    harness.state_mut().questions.left_behind = Autosave::in_folder(data.clone()).left_behind();
     harness.run_steps(3);
     assert!(harness.query_by_label_contains("Unsaved edits of 2 files").is_some());
     harness.get_by_label("Recover").click();

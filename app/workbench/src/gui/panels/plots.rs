@@ -7,6 +7,7 @@ use egui::{Rect, ScrollArea, Ui};
 
 use crate::gui::charts::{Chart, Kind};
 use crate::gui::desk::{Desk, Order};
+use crate::gui::order::Dialog;
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
 use crate::gui::widgets::plot::{DrawnCharts, HEAD, LEAST, chart};
@@ -78,7 +79,7 @@ impl PlotsPanel {
                     [("As SVG …", "svg"), ("As PNG …", "png"), ("As CSV …", "csv")]
                 {
                     if ui.button(text).clicked() {
-                        desk.orders.push(Order::AskExportPlots(ending));
+                        desk.orders.push(Order::Ask(Dialog::ExportPlots(ending)));
                         ui.close();
                     }
                 }

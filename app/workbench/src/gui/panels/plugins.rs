@@ -283,16 +283,14 @@ fn attributes(ui: &mut Ui, desk: &mut Desk, info: &PluginInfo) {
                         format!("{usual} (usual)"),
                     );
                     let said = fields::Said { hint: &hint, help: &help };
+                    let place = fields::Field {
+                        documents: &desk.documents,
+                        path: Documents::SCENARIO,
+                        field: &field,
+                    };
                     let cell = ui.horizontal(|ui| {
                         ui.set_min_width(FIELD_WIDTH);
-                        fields::edit_in(
-                            ui,
-                            "plugins",
-                            &desk.documents,
-                            (Documents::SCENARIO, &field),
-                            FIELD_WIDTH - 8.0,
-                            said,
-                        )
+                        fields::edit_in(ui, "plugins", place, FIELD_WIDTH - 8.0, said)
                     });
                     let typed = cell.inner;
                     edits.extend(typed.map(|value| (field, value)));

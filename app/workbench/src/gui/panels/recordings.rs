@@ -7,6 +7,7 @@ use egui::{RichText, ScrollArea, Ui};
 
 use crate::gui::desk::{Desk, Order};
 use crate::gui::files;
+use crate::gui::order::Dialog;
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
 use crate::gui::theme::Theme;
@@ -48,7 +49,7 @@ impl Panel for RecordingsPanel {
                     .color(Theme::palette_of(ui).faint),
             );
             if ui.button("Open other …").clicked() {
-                desk.orders.push(Order::AskRecording);
+                desk.orders.push(Order::Ask(Dialog::Recording));
             }
         });
         if files.is_empty() {

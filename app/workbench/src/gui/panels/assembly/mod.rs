@@ -20,6 +20,7 @@ use endline_session::statics::{StaticsWorker, Trial};
 
 use crate::gui::desk::{Desk, Order};
 use crate::gui::exchange::id_of;
+use crate::gui::order::Dialog;
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
 use crate::gui::theme::{Theme, primary};
@@ -336,7 +337,7 @@ fn model_menu(ui: &mut Ui, desk: &mut Desk) {
     for (text, ending) in [("Save as STL …", "stl"), ("Save as glTF …", "glb")] {
         let help = "A at rest in running tide, in metres, for CAD and pictures";
         if ui.button(text).on_hover_text(help).clicked() {
-            desk.orders.push(Order::AskExportModel(ending));
+            desk.orders.push(Order::Ask(Dialog::ExportModel(ending)));
             ui.close();
         }
     }

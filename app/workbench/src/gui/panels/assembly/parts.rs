@@ -72,27 +72,7 @@ fn add(ui: &mut Ui, desk: &mut Desk, file: &str) {
             [("trap", Kind::Trap, "0"), ("buoy", Kind::Buoy, "1"), ("anchor", Kind::Anchor, "0")]
         {
             if ui.button(words::title(word)).clicked() {
-                let first = desk
-                    .documents
-                    .library()
-                    .ids(kind)
-                    .first()
-                    .map(|id| (*id).to_owned())
-                    .unwrap_or_default();
-                let id = fresh(&ids(desk, file, "body"), word);
-                let fields = [
-                    ("id", id.as_str()),
-                    ("kind", word),
-                    ("item", &first),
-                    ("position", "[\"0 m\", \"0 m\"]"),
-                    ("height", height),
-                ];
-                change(desk, file, |document| {
-                    document
-                        .push_table("body", &fields)
-                        .map(|_| ())
-                        .map_err(|error| error.to_string())
-                });
+                add_body(desk, file, word, kind, height);
                 ui.close();
             }
         }
@@ -100,37 +80,66 @@ fn add(ui: &mut Ui, desk: &mut Desk, file: &str) {
         let two = bodies.first().zip(bodies.last()).filter(|(first, last)| first != last);
         if ui.add_enabled(two.is_some(), egui::Button::new("Line")).clicked() {
             if let Some((from, to)) = two {
-                let id = fresh(&ids(desk, file, "line"), "line");
-                let fields = [
-                    ("id", id.as_str()),
-                    ("rope", "sink-3-8"),
-                    ("from", from),
-                    ("to", to),
-                    ("length", "20 fathom"),
-                ];
-                change(desk, file, |document| {
-                    document
-                        .push_table("line", &fields)
-                        .map(|_| ())
-                        .map_err(|error| error.to_string())
-                });
+                add_line(desk, file, from, to);
             }
             ui.close();
         }
     });
 }
 
-/// A part's head in the tree; answers whether it is to be taken out.
-fn head(
-    ui: &mut Ui,
-    file: &str,
-    list: &str,
+/// Adds a body of the first item of its kind; `height` is the first guess of its height, as a share of the depth.
+fn add_body(desk: &mut Desk, file: &str, word: &str, kind: Kind, height: &str) {
+    let item = first_item(desk, kind);
+    let id = fresh(&ids(desk, file, "body"), word);
+    let fields = [
+        ("id", id.as_str()),
+        ("kind", word),
+        ("item", &item),
+        ("position", "[\"0 m\", \"0 m\"]"),
+        ("height", height),
+    ];
+    push(desk, file, "body", &fields);
+}
+
+/// Adds a line between two bodies.
+fn add_line(desk: &mut Desk, file: &str, from: &str, to: &str) {
+    let id = fresh(&ids(desk, file, "line"), "line");
+    let fields = [
+        ("id", id.as_str()),
+        ("rope", "sink-3-8"),
+        ("from", from),
+        ("to", to),
+        ("length", "20 fathom"),
+    ];
+    push(desk, file, "line", &fields);
+}
+
+/// Adds a table to a list.
+fn push(desk: &mut Desk, file: &str, list: &str, fields: &[(&str, &str)]) {
+    change(desk, file, |document| {
+        document.push_table(list, fields).map(|_| ()).map_err(|error| error.to_string())
+    });
+}
+
+/// Id of the library's first item of a kind.
+fn first_item(desk: &Desk, kind: Kind) -> String {
+    let ids = desk.documents.library().ids(kind);
+    ids.first().map(|id| (*id).to_owned()).unwrap_or_default()
+}
+
+/// A part's place in its file.
+#[derive(Clone, Copy)]
+struct Part<'a> {
+    file: &'a str,
+    /// `body`, `line`, `link` or `joint`.
+    list: &'a str,
     index: usize,
-    title: &str,
-    open: bool,
-    show: impl FnOnce(&mut Ui),
-) -> bool {
-    let id = ui.make_persistent_id(("part", file, list, index));
+}
+
+/// A part's head in the tree; answers whether it is to be taken out. Lines are unfolded at first.
+fn head(ui: &mut Ui, part: Part<'_>, title: &str, show: impl FnOnce(&mut Ui)) -> bool {
+    let id = ui.make_persistent_id(("part", part.file, part.list, part.index));
+    let open = part.list == "line";
     let state =
         egui::collapsing_header::CollapsingState::load_with_default_open(ui.ctx(), id, open);
     let mut out = false;
@@ -148,9 +157,9 @@ fn head(
     out
 }
 
-fn take_out(desk: &mut Desk, file: &str, list: &str, index: usize) {
-    change(desk, file, |document| {
-        document.remove_table(list, index).map_err(|error| error.to_string())
+fn take_out(desk: &mut Desk, part: Part<'_>) {
+    change(desk, part.file, |document| {
+        document.remove_table(part.list, part.index).map_err(|error| error.to_string())
     });
 }
 
@@ -172,7 +181,8 @@ fn body(ui: &mut Ui, desk: &mut Desk, file: &str, index: usize) {
         "anchor" => Kind::Anchor,
         _ => Kind::Trap,
     };
-    let out = head(ui, file, "body", index, &format!("{id} ({word})"), false, |ui| {
+    let part = Part { file, list: "body", index };
+    let out = head(ui, part, &format!("{id} ({word})"), |ui| {
         Grid::new((&at, "grid")).num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
             ui.label(RichText::new("Item").color(Theme::palette_of(ui).faint));
             item(ui, desk, file, &format!("{at}.item"), kind, false);
@@ -196,14 +206,15 @@ fn body(ui: &mut Ui, desk: &mut Desk, file: &str, index: usize) {
         });
     });
     if out {
-        take_out(desk, file, "body", index);
+        take_out(desk, part);
     }
 }
 
 fn joint(ui: &mut Ui, desk: &mut Desk, file: &str, index: usize) {
     let at = format!("joint.{index}");
     let id = text(desk, file, &format!("{at}.id"));
-    let out = head(ui, file, "joint", index, &id, false, |ui| {
+    let part = Part { file, list: "joint", index };
+    let out = head(ui, part, &id, |ui| {
         Grid::new((&at, "grid")).num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
             row(
                 ui,
@@ -224,7 +235,7 @@ fn joint(ui: &mut Ui, desk: &mut Desk, file: &str, index: usize) {
         });
     });
     if out {
-        take_out(desk, file, "joint", index);
+        take_out(desk, part);
     }
 }
 
@@ -236,11 +247,12 @@ fn link(ui: &mut Ui, desk: &mut Desk, file: &str, index: usize) {
         text(desk, file, &format!("{at}.end")),
         text(desk, file, &format!("{at}.line"))
     );
-    let out = head(ui, file, "link", index, &title, false, |ui| {
+    let part = Part { file, list: "link", index };
+    let out = head(ui, part, &title, |ui| {
         item(ui, desk, file, &format!("{at}.item"), Kind::WeakLink, false);
     });
     if out {
-        take_out(desk, file, "link", index);
+        take_out(desk, part);
     }
 }
 
@@ -256,7 +268,8 @@ fn line(ui: &mut Ui, desk: &mut Desk, file: &str, index: usize) {
         text(desk, file, &format!("{at}.length")),
         text(desk, file, &format!("{at}.rope"))
     );
-    let out = head(ui, file, "line", index, &title, true, |ui| {
+    let part = Part { file, list: "line", index };
+    let out = head(ui, part, &title, |ui| {
         length_slider(ui, desk, file, &at);
         Grid::new((&at, "grid")).num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
             ui.label(RichText::new("Rope").color(Theme::palette_of(ui).faint));
@@ -291,23 +304,15 @@ fn line(ui: &mut Ui, desk: &mut Desk, file: &str, index: usize) {
         });
     });
     if out {
-        take_out(desk, file, "line", index);
+        take_out(desk, part);
     }
 }
 
 fn add_link(desk: &mut Desk, file: &str, line: &str, end: &str) {
     let id = fresh(&ids(desk, file, "link"), &format!("{line}-link"));
-    let item = desk
-        .documents
-        .library()
-        .ids(Kind::WeakLink)
-        .first()
-        .map(|id| (*id).to_owned())
-        .unwrap_or_default();
+    let item = first_item(desk, Kind::WeakLink);
     let fields = [("id", id.as_str()), ("item", &item), ("line", line), ("end", end)];
-    change(desk, file, |document| {
-        document.push_table("link", &fields).map(|_| ()).map_err(|error| error.to_string())
-    });
+    push(desk, file, "link", &fields);
 }
 
 /// Length under the hand; the gear follows while it moves.

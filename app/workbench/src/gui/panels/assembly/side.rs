@@ -5,10 +5,11 @@ use egui_plot::{
     AxisHints, HLine, Line, LineStyle, MarkerShape, Plot, PlotBounds, PlotPoint, PlotPoints,
     PlotUi, Points, Text,
 };
+use endline_sdk::LineEnd;
 use endline_session::statics::RigAtRest;
 use endline_session::statics::worker::Answer;
 use endline_session::units::Units;
-use endline_sim::model::{Body, BodyRole};
+use endline_sim::model::{Body, BodyRole, Rope};
 use glam::{DVec2, DVec3};
 
 use super::{AssemblyPanel, Drawn, surface_m_s};
@@ -191,7 +192,16 @@ impl Flat {
         let along = DVec2::new(place[0], place[1]).dot(self.axis);
         [self.units.of_metres(along), self.units.of_metres(place[2])]
     }
+
+    /// Diameter and strength of a rope.
+    fn rope(&self, rope: &Rope) -> String {
+        let strength = self.units.force().text(rope.strength_n);
+        format!("{}, {strength}", self.units.diameter(rope.diameter_m))
+    }
 }
+
+/// Colour of what parts: weak inserts and links.
+const PARTS: Color32 = Color32::from_rgb(0xd5, 0x5e, 0x00);
 
 fn rig(
     plot: &mut PlotUi<'_>,
@@ -205,65 +215,44 @@ fn rig(
     for (index, (line, shape)) in spec.lines.iter().zip(&rest.shape.lines).enumerate() {
         let points: Vec<[f64; 2]> =
             shape.position_m.iter().map(|place| flat.point(*place)).collect();
-        let rope = &spec.ropes[line.rope];
         let insert = line.id.contains(".insert-");
-        let (color, width) =
-            if insert { (Color32::from_rgb(0xd5, 0x5e, 0x00), 5.0) } else { (color, 2.0) };
-        let name = format!(
-            "{} {}: {}, {}",
-            gear.name,
-            line.id,
-            flat.units.diameter(rope.diameter_m),
-            flat.units.force().text(rope.strength_n)
-        );
-        let label_at = points.get(points.len() / 2).copied();
-        plot.line(
-            Line::new(name, PlotPoints::from(points)).color(color).width(width).style(gear.style()),
-        );
-        if let (Some(at), true) = (
-            label_at,
-            !gear.dashed && !insert && spec.lines.len() <= LABELLED && speaks(&spec.lines, index),
-        ) {
-            let printed = format!(
-                "  {}, {}  ",
-                flat.units.diameter(rope.diameter_m),
-                flat.units.force().text(rope.strength_n)
-            );
-            let place = PlotPoint::new(at[0], at[1]);
-            // On the side where there is room.
-            let right = at[0] > plot.plot_bounds().center().x;
-            let anchor = if right { egui::Align2::RIGHT_CENTER } else { egui::Align2::LEFT_CENTER };
-            plot.text(
-                Text::new("", place, RichText::new(printed).size(11.0)).color(text).anchor(anchor),
-            );
+        let (color, width) = if insert { (PARTS, 5.0) } else { (color, 2.0) };
+        let rope = flat.rope(&spec.ropes[line.rope]);
+        let middle = points.get(points.len() / 2).copied();
+        let name = format!("{} {}: {rope}", gear.name, line.id);
+        let drawn = Line::new(name, PlotPoints::from(points));
+        plot.line(drawn.color(color).width(width).style(gear.style()));
+        let labelled = !gear.dashed && !insert && spec.lines.len() <= LABELLED;
+        if let Some(at) = middle.filter(|_| labelled && speaks(&spec.lines, index)) {
+            label(plot, at, &rope, text);
         }
     }
     for (body, at) in spec.bodies.iter().zip(&rest.shape.bodies) {
         mark(plot, body, flat.point(at.position_m), gear, color);
     }
     for link in spec.links.iter().filter(|link| link.enabled) {
-        let end = |points: &Vec<[f64; 3]>| {
-            if link.end == endline_sdk::LineEnd::A {
-                points.first().copied()
-            } else {
-                points.last().copied()
-            }
+        let Some(line) = rest.shape.lines.get(link.line) else { continue };
+        let end = match link.end {
+            LineEnd::A => line.position_m.first(),
+            LineEnd::B => line.position_m.last(),
         };
-        if let Some(at) = rest.shape.lines.get(link.line).and_then(|line| end(&line.position_m)) {
-            let name = format!(
-                "{} {}: parts at {}",
-                gear.name,
-                link.id,
-                flat.units.force().text(link.rating_n)
-            );
-            let points =
-                Points::new(name, vec![flat.point(at)]).shape(MarkerShape::Cross).radius(5.0);
-            plot.points(points.color(Color32::from_rgb(0xd5, 0x5e, 0x00)));
-        }
+        let Some(at) = end else { continue };
+        let rating = flat.units.force().text(link.rating_n);
+        let name = format!("{} {}: parts at {rating}", gear.name, link.id);
+        let points = Points::new(name, vec![flat.point(*at)]);
+        plot.points(points.shape(MarkerShape::Cross).radius(5.0).color(PARTS));
     }
 }
 
-/// Whether a piece tells the rope for all pieces of its line: the longest of this rope does.
+/// A rope's diameter and strength beside its line, on the side where there is room.
+fn label(plot: &mut PlotUi<'_>, at: [f64; 2], rope: &str, color: Color32) {
+    let right = at[0] > plot.plot_bounds().center().x;
+    let anchor = if right { egui::Align2::RIGHT_CENTER } else { egui::Align2::LEFT_CENTER };
+    let words = RichText::new(format!("  {rope}  ")).size(11.0);
+    plot.text(Text::new("", PlotPoint::new(at[0], at[1]), words).color(color).anchor(anchor));
+}
+
+/// Whether a piece is labelled for all pieces of its line: the longest piece of its rope is.
 fn speaks(lines: &[endline_sim::model::Line], index: usize) -> bool {
     let (of, length) = (
         |id: &str| id.split('.').next().map(str::to_owned),

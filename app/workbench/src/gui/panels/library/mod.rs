@@ -17,6 +17,7 @@ pub use detail::{Against, Uses};
 
 use crate::gui::desk::{Desk, Order};
 use crate::gui::exchange;
+use crate::gui::order::Dialog;
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
 use crate::gui::tables::KINDS;
@@ -169,7 +170,7 @@ impl LibraryPanel {
     /// The table as a whole, out and in.
     fn table_menu(&self, ui: &mut Ui, desk: &mut Desk) {
         if ui.button("Save as CSV …").clicked() {
-            desk.orders.push(Order::AskExportTable);
+            desk.orders.push(Order::Ask(Dialog::ExportTable));
             ui.close();
         }
         if ui
@@ -179,7 +180,7 @@ impl LibraryPanel {
             )
             .clicked()
         {
-            desk.orders.push(Order::AskImportTable);
+            desk.orders.push(Order::Ask(Dialog::ImportTable));
             ui.close();
         }
         if ui.button("Copy for a spreadsheet").clicked() {

@@ -2,7 +2,7 @@
 
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Sense, Stroke, Ui, pos2, vec2};
 use endline_session::study::StudyResults;
-use endline_session::study::stats::{Interval, OptionFinding};
+use endline_session::study::stats::{Findings, Interval, Paired};
 
 use super::rates::{points, rate};
 use crate::gui::charts::COLOURS;
@@ -65,6 +65,13 @@ impl Figure {
         }
     }
 
+    /// A line where there is no difference.
+    fn zero(&self) {
+        let (x, bottom) = (self.x(0.0), self.rect.bottom() - 30.0);
+        let line = [pos2(x, self.rect.top()), pos2(x, bottom)];
+        self.painter.line_segment(line, Stroke::new(1.0, self.palette.faint));
+    }
+
     fn hover(&self, ui: &Ui, row: usize, text: &str) {
         let strip = Rect::from_min_max(
             pos2(self.rect.left(), self.y(row) - ROW / 2.0),
@@ -94,52 +101,26 @@ fn ticks([least, most]: [f64; 2]) -> Vec<f64> {
 /// An option's name, its difference from the baseline, and the interval.
 type Difference = (String, f64, Interval);
 
+/// Rows under a name: of all encounters, or of those of one level.
+type Group = (String, Vec<Difference>);
+
 /// Differences from the baseline: of all encounters, then by level.
 pub(super) fn forest(ui: &mut Ui, shown: &StudyResults, event: &str) {
     let findings = &shown.findings;
-    let others = |index: &usize| *index != findings.baseline;
-    let all = |option: &OptionFinding| {
-        option.against(event).map(|paired| (paired.difference, paired.difference_interval))
-    };
-    let mut groups: Vec<(String, Vec<Difference>)> = Vec::new();
-    let rows = (0..findings.options.len()).filter(others);
-    let own = rows.filter_map(|index| {
-        all(&findings.options[index]).map(|(difference, interval)| {
-            (findings.options[index].name.clone(), difference, interval)
-        })
-    });
-    groups.push(("all encounters".into(), own.collect()));
-    for level in findings.levels.iter().filter(|_| event == findings.event) {
-        let rows = (0..findings.options.len()).filter(others).filter_map(|index| {
-            let paired = level.against.get(index)?;
-            Some((
-                findings.options[index].name.clone(),
-                paired.difference,
-                paired.difference_interval,
-            ))
-        });
-        groups.push((level.level.clone(), rows.collect()));
-    }
+    let groups = groups(findings, event);
     let baseline = &findings.options[findings.baseline];
     let words = baseline.rate(event).map_or_else(String::new, rate);
     ui.label(format!(
         "Difference of rates from {} ({words}), in points of a percent: left is rarer",
         baseline.name
     ));
-    let ends = groups
-        .iter()
-        .flat_map(|(_, rows)| rows)
-        .map(|(_, _, interval)| interval.low.abs().max(interval.high.abs()));
+    let ends = groups.iter().flat_map(|(_, rows)| rows);
+    let ends = ends.map(|(_, _, interval)| interval.low.abs().max(interval.high.abs()));
     let widest = ends.fold(0.02, f64::max);
     let count = groups.iter().map(|(_, rows)| rows.len() + 1).sum();
     let figure = Figure::new(ui, count, [-widest, widest]);
     figure.axis(|tick| format!("{:+.*}", usize::from(widest < 0.1), 100.0 * tick));
-    let zero = figure.x(0.0);
-    let strong = Stroke::new(1.0, figure.palette.faint);
-    figure.painter.line_segment(
-        [pos2(zero, figure.rect.top()), pos2(zero, figure.rect.bottom() - 30.0)],
-        strong,
-    );
+    figure.zero();
     let mut row = 0;
     for (kind, (name, rows)) in groups.iter().enumerate() {
         figure.name(row, name, figure.palette.faint);
@@ -147,14 +128,29 @@ pub(super) fn forest(ui: &mut Ui, shown: &StudyResults, event: &str) {
         for (option, difference, interval) in rows {
             figure.name(row, &format!("   {option}"), figure.palette.text);
             whisker(&figure, row, [interval.low, *difference, interval.high], kind);
-            figure.hover(
-                ui,
-                row,
-                &format!("{option}, {name}: {} points", points(*difference, *interval)),
-            );
+            let points = points(*difference, *interval);
+            figure.hover(ui, row, &format!("{option}, {name}: {points} points"));
             row += 1;
         }
     }
+}
+
+/// The options other than the baseline: in all encounters, then by level where the event is the study's own.
+fn groups(findings: &Findings, event: &str) -> Vec<Group> {
+    let others = || (0..findings.options.len()).filter(|index| *index != findings.baseline);
+    let row = |index: usize, paired: &Paired| {
+        let name = findings.options[index].name.clone();
+        (name, paired.difference, paired.difference_interval)
+    };
+    let all = others()
+        .filter_map(|index| Some(row(index, findings.options[index].against(event)?)))
+        .collect();
+    let levels = findings.levels.iter().filter(|_| event == findings.event);
+    let levels = levels.map(|level| {
+        let rows = others().filter_map(|index| Some(row(index, level.against.get(index)?)));
+        (level.level.clone(), rows.collect())
+    });
+    std::iter::once(("all encounters".to_owned(), all)).chain(levels).collect()
 }
 
 /// An interval with its value; the marks of each group have a shape of their own.

@@ -13,6 +13,7 @@ use endline_session::edit::Documents;
 use crate::gui::desk::{Desk, Order};
 use crate::gui::fields::{self, Said};
 use crate::gui::files;
+use crate::gui::order::Dialog;
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
 use crate::gui::theme::{Theme, primary};
@@ -102,7 +103,7 @@ fn pick(ui: &mut Ui, desk: &mut Desk) {
             },
         );
         if ui.button("Open …").on_hover_text("A study file elsewhere").clicked() {
-            desk.orders.push(Order::AskStudy);
+            desk.orders.push(Order::Ask(Dialog::Study));
         }
         let copy = Button::new("Duplicate");
         if ui
@@ -130,7 +131,7 @@ fn start(ui: &mut Ui, desk: &mut Desk) {
             desk.orders.push(Order::CopyStudyLine);
         }
         if ui.button("Open results …").on_hover_text("The folder of a study that was run, here or elsewhere").clicked() {
-            desk.orders.push(Order::AskResults);
+            desk.orders.push(Order::Ask(Dialog::Results));
         }
         let help = "At ordinary priority, not behind everything else on the machine; the window may draw more slowly";
         ui.checkbox(&mut desk.studies.queue.eager, "Full speed").on_hover_text(help);

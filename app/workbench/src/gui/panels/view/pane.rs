@@ -43,7 +43,7 @@ pub(super) fn show(
     paint(ui, panel, desk, pane, &camera);
     write_over(ui, panel, desk, view, pane, &camera);
     if run == 0 {
-        pose::show(ui, panel, desk, pane, &camera);
+        pose::show(ui, &mut panel.held, desk, pane, &camera);
     }
 }
 

@@ -10,7 +10,6 @@ use endline_session::edit::Documents;
 use endline_session::units::{Units, bearing_degrees};
 use glam::{DVec2, DVec3};
 
-use super::ViewPanel;
 use super::split::Pane;
 use crate::gui::desk::{Desk, Order};
 use crate::scene::Camera;
@@ -156,17 +155,17 @@ fn upright(place: DVec3, eye: DVec3, along: DVec3) -> f64 {
 /// Draws the start with its handles in a pane, and lets them be dragged.
 pub(super) fn show(
     ui: &mut Ui,
-    panel: &mut ViewPanel,
+    held: &mut Option<Start>,
     desk: &mut Desk,
     pane: Pane,
     camera: &Camera,
 ) {
     let Pane { rect, slot, .. } = pane;
     let Some(written) = Start::of(&desk.documents).filter(|_| desk.posing) else { return };
-    let start = panel.held.unwrap_or(written);
+    let start = held.unwrap_or(written);
     let sheet = Sheet { painter: ui.painter().with_clip_rect(rect), rect, camera };
     sheet.body(&start);
-    let mut held = None;
+    let mut moved = None;
     for (handle, name) in [
         (Handle::Place, "Start place"),
         (Handle::Depth, "Start depth"),
@@ -193,15 +192,15 @@ pub(super) fn show(
         }
         if let Some(pointer) = response.interact_pointer_pos().filter(|_| response.dragged()) {
             let (eye, along) = sheet.ray(pointer);
-            held = Some(start.dragged(handle, eye, along, camera.axes().0));
+            moved = Some(start.dragged(handle, eye, along, camera.axes().0));
         }
         if response.drag_stopped() {
-            panel.held = None;
+            *held = None;
             let_go(desk, &start);
             return;
         }
     }
-    panel.held = held.or(panel.held);
+    *held = moved.or(*held);
 }
 
 /// One edit of the text; gear that stands ready is taken over at once.
