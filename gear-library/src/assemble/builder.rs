@@ -26,20 +26,29 @@ pub(super) enum Part {
 
 /// A line before it is cut into segments.
 pub(super) struct Uncut {
+    /// Unstretched length [m].
     pub length_m: f64,
+    /// The shape it starts in.
     pub start: LineStart,
     /// The way it lies at first, where its gear type says [m].
     pub laid_m: Vec<DVec3>,
+    /// Where it is written, for messages.
     pub place: Place,
 }
 
 /// Assembly in progress.
 pub(super) struct Builder<'a> {
+    /// The scenario.
     pub scenario: &'a Scenario,
+    /// The gear library.
     pub library: &'a Library,
+    /// The plugins.
     pub hooks: &'a dyn Hooks,
+    /// Problems found so far.
     pub problems: Problems,
+    /// Paths of library files used so far.
     pub used: Vec<String>,
+    /// The spec so far.
     pub spec: ModelSpec,
     /// Library items of the spec's ropes.
     pub stock: Vec<Rope>,
@@ -56,6 +65,7 @@ pub(super) struct Builder<'a> {
 }
 
 impl<'a> Builder<'a> {
+    /// An empty spec with these settings.
     pub fn new(
         scenario: &'a Scenario,
         library: &'a Library,

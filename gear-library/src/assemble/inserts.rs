@@ -10,8 +10,11 @@ const LEAST_PIECE_M: f64 = 0.01;
 
 /// A stretch of a line between ends, inserts and sleeves.
 pub(super) struct Piece<'a> {
+    /// Id in the spec.
     pub id: String,
+    /// Id of its rope.
     pub rope: &'a At<String>,
+    /// Unstretched length [m].
     pub length_m: f64,
     /// Share of strength left at each end; `None` where the rope's usual one holds.
     pub left: [Option<f64>; 2],

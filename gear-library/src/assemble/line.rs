@@ -21,14 +21,19 @@ use super::way::{along, part_of};
 
 /// A line to be put into the spec.
 pub(super) struct NewLine<'a> {
+    /// Id.
     pub id: At<String>,
+    /// Id of its rope.
     pub rope: At<String>,
     /// Joints at its ends; `None` where one is missing, which is reported.
     pub ends: (Option<usize>, Option<usize>),
+    /// Unstretched length [m].
     pub length_m: f64,
+    /// The shape it starts in.
     pub start: LineStart,
     /// The way it starts along, ends included; empty for a straight line [m].
     pub laid_m: Vec<DVec3>,
+    /// How it is made up.
     pub make: &'a LineMake,
 }
 

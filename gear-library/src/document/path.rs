@@ -43,6 +43,7 @@ pub(super) fn way<'a>(item: &'a mut Item, part: &str, to_list: bool) -> Option<&
     table.get_mut(part)
 }
 
+/// A step along a path, where there is something.
 pub(super) fn child<'a>(item: &'a mut Item, part: &str) -> Option<&'a mut Item> {
     match part.parse::<usize>() {
         Ok(index) => item.get_mut(index),

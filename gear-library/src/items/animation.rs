@@ -14,6 +14,7 @@ pub struct ActAnimation {
     pub clip: Option<At<String>>,
     /// Where its angles come from.
     pub(super) source: Option<String>,
+    /// How well its angles are known.
     pub(super) confidence: Option<Confidence>,
 }
 

@@ -115,6 +115,7 @@ pub(super) fn ropes(fields: &Fields<'_>, file: &Provenance) -> Vec<Entry> {
     fields.tables("rope").iter().filter_map(read).collect()
 }
 
+/// Reads a `[[fixture]]`; `None` where something needed is missing, which is reported.
 pub(super) fn fixture(node: &Node, problems: &Problems) -> Option<Fixture> {
     let fields = Fields::of(node, problems);
     let id = fields.need_text("id", "write an id such as \"anchor\"");
@@ -159,6 +160,7 @@ pub(super) fn joint(node: &Node, problems: &Problems) -> Option<(At<String>, DVe
     Some((id?, position?))
 }
 
+/// Reads a `[[body]]`; `None` where something needed is missing, which is reported.
 pub(super) fn body(node: &Node, file: &Provenance, problems: &Problems) -> Option<FreeBody> {
     let fields = Fields::of(node, problems);
     let id = fields.need_text("id", "write an id such as \"bob\"");
@@ -195,6 +197,7 @@ pub(super) fn body(node: &Node, file: &Provenance, problems: &Problems) -> Optio
     })
 }
 
+/// Reads a `[[probe]]`; `None` where something needed is missing, which is reported.
 pub(super) fn probe(node: &Node, problems: &Problems) -> Option<ProbeOf> {
     let fields = Fields::of(node, problems);
     let id = fields.need_text("id", "write an id such as \"anchor tension\"");
@@ -255,6 +258,7 @@ fn coordinate<'a>(fields: &Fields<'a>, key: &'a str) -> Option<(At<String>, usiz
     Some((part?, ["x", "y", "z"].iter().position(|name| *name == axis.value)?))
 }
 
+/// `position`: east, north and up [m]; `None` where it is missing, which is reported.
 pub(super) fn position(fields: &Fields<'_>) -> Option<DVec3> {
     let position = fields.values("position", Quantity::Length, &[3]);
     if fields.get("position").is_none() {

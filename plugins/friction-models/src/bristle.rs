@@ -29,6 +29,7 @@ pub(crate) struct Limit {
 
 /// A trial bristle at one contact.
 pub(crate) struct Bristle {
+    /// Unit normal, from skin to rope.
     pub normal: Vec3,
     /// `z*` [m].
     pub stretch_m: Vec3,
@@ -39,10 +40,12 @@ pub(crate) struct Bristle {
 }
 
 impl Bristle {
+    /// A bristle across a normal, with its stretch [m] and stiffness [N/m].
     pub fn new(normal: Vec3, stretch_m: Vec3, stiffness_n_m: f64) -> Self {
         Self { normal, stretch_m, length_m: dot(stretch_m, stretch_m).sqrt(), stiffness_n_m }
     }
 
+    /// Whether its force is within the limit.
     pub fn sticks(&self, limit: &Limit) -> bool {
         self.stiffness_n_m * self.length_m <= limit.force_n
     }
@@ -52,6 +55,7 @@ impl Bristle {
         self.stretch_m.map(|component| component / self.length_m)
     }
 
+    /// Force and derivatives: of a sticking bristle, or of one that slips at the limit.
     pub fn response(&self, limit: &Limit) -> FrictionResponse {
         if self.sticks(limit) { self.stuck() } else { self.slipping(limit) }
     }
@@ -65,6 +69,7 @@ impl Bristle {
         }
     }
 
+    /// Force and derivatives of a bristle that slips at the limit.
     pub fn slipping(&self, limit: &Limit) -> FrictionResponse {
         let t = self.direction();
         let rate = limit.force_n / self.length_m;
@@ -92,6 +97,7 @@ pub(crate) fn projector(normal: Vec3, i: usize, j: usize) -> f64 {
     f64::from(u8::from(i == j)) - normal[i] * normal[j]
 }
 
+/// A matrix by its entries, row by row.
 pub(crate) fn matrix(entry: impl Fn(usize, usize) -> f64) -> [[f64; 3]; 3] {
     std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)))
 }

@@ -2,6 +2,7 @@
 
 use endline_sdk::{Contacts, HookError};
 
+/// A vector in the world frame.
 pub(crate) type Vec3 = [f64; 3];
 
 /// One contact of a pass.
@@ -63,6 +64,7 @@ impl<'a> Contact<'a> {
     }
 }
 
+/// Scalar product.
 pub(crate) fn dot(a: Vec3, b: Vec3) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

@@ -57,11 +57,19 @@ impl<'a> Set<'a> {
         attributes
     }
 
+    /// The set that the values ask for.
+    ///
+    /// # Errors
+    /// With a message that names the attribute to fix.
     pub fn read(values: &Values<'a>) -> Result<Self, HookError> {
         let ground = Ground::read(values)?;
         Ok(Self { endlines: endlines(values, &ground)?, ground, endline: Endline::read(values)? })
     }
 
+    /// The rig of the set.
+    ///
+    /// # Errors
+    /// With a message that names the attribute to fix.
     pub fn build(&self, site: &Site) -> Result<Rig, HookError> {
         let mut rig = Lay::default();
         let feet = self.ground.lay(&mut rig, site)?;

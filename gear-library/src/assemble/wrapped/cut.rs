@@ -12,7 +12,9 @@ const GROWTH: f64 = 0.4;
 
 /// Nodes of a line and the unstretched lengths between them.
 pub(super) struct Laid {
+    /// Places of the nodes, one more than segments [m].
     pub nodes: Vec<DVec3>,
+    /// Unstretched length of each segment [m].
     pub segments_m: Vec<f64>,
 }
 

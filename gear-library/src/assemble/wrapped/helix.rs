@@ -38,6 +38,7 @@ const STRAIGHT_ON: f64 = 2.0;
 
 /// A wrap as it is laid.
 pub(super) struct Helix<'a> {
+    /// The wrap as written.
     pub wrap: &'a WrapOf,
     pitch_m: f64,
     fine_m: f64,
@@ -52,6 +53,7 @@ struct Section {
 }
 
 impl<'a> Helix<'a> {
+    /// The wrap with the pitch and segments that it names, or the usual ones.
     pub fn of(wrap: &'a WrapOf, rope: &Rope) -> Self {
         let fine_m = wrap.segment_m.unwrap_or(USUAL_SEGMENTS_M[usize::from(!wrap.part.on_trunk())]);
         Self { wrap, pitch_m: wrap.pitch_m.unwrap_or(USUAL_PITCH * rope.diameter_m), fine_m }

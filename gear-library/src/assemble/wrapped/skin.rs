@@ -31,14 +31,18 @@ pub(super) struct PosedSkin {
 
 /// The nearest skin to a segment.
 pub(super) struct Nearest {
+    /// Distance from the centre line of the rope [m].
     pub distance_m: f64,
+    /// Where on the segment, from 0 to 1.
     pub fraction: f64,
     /// From skin to rope; zero where they cross.
     pub out: DVec3,
+    /// The region of skin.
     pub region: Region,
 }
 
 impl PosedSkin {
+    /// The skin of a whale in its start pose; rope is laid `off_m` off it.
     pub fn of(whale: &Whale, off_m: f64) -> Self {
         let skin = Arc::clone(&whale.skin);
         let (mut bones, mut places) = (Vec::new(), Vec::new());

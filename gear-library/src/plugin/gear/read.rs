@@ -93,6 +93,7 @@ impl Reader<'_> {
         Some(Place([x?, y?, height?]))
     }
 
+    /// Reads a `[[body]]`; `None` where something needed is missing or wrong, which is reported.
     pub(super) fn body(&self, node: &Node) -> Option<Body> {
         let fields = Fields::of(node, self.problems);
         let part = self.part(&fields);
@@ -113,6 +114,7 @@ impl Reader<'_> {
         Some(Body { part: part?, kind, item: item?, place: place? })
     }
 
+    /// Reads a `[[joint]]`; `None` where something needed is missing or wrong, which is reported.
     pub(super) fn joint(&self, node: &Node) -> Option<Joint> {
         let fields = Fields::of(node, self.problems);
         let (part, place) = (self.part(&fields), self.place(&fields));
@@ -120,6 +122,7 @@ impl Reader<'_> {
         Some(Joint { part: part?, place: place? })
     }
 
+    /// Reads a `[[line]]`; `None` where something needed is missing or wrong, which is reported.
     pub(super) fn line(&self, node: &Node) -> Option<Line> {
         let fields = Fields::of(node, self.problems);
         let part = self.part(&fields);
@@ -136,6 +139,7 @@ impl Reader<'_> {
         Some(Line { part: part?, rope: rope?, ends: [from?, to?], length: length? })
     }
 
+    /// Reads a `[[link]]`; `None` where something needed is missing or wrong, which is reported.
     pub(super) fn link(&self, node: &Node) -> Option<Link> {
         let fields = Fields::of(node, self.problems);
         let part = self.part(&fields);

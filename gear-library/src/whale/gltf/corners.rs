@@ -23,10 +23,15 @@ const NOTHING: f64 = 1e-6;
 /// Vertices, triangles and what belongs to each.
 #[derive(Default)]
 pub(super) struct Mesh {
+    /// Places in the whale's frame [m].
     pub vertices: Vec<DVec3>,
+    /// Bones of each vertex, with weights that sum to 1.
     pub weights: Vec<[(u16, f64); 4]>,
+    /// What is seen at each vertex.
     pub marks: Vec<Mark>,
+    /// Corners of each triangle.
     pub triangles: Vec<[u32; 3]>,
+    /// Region of each triangle.
     pub regions: Vec<Region>,
 }
 

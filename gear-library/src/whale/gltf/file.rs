@@ -12,6 +12,7 @@ const SAVE_AS: &str = "save it as glTF Binary (.glb), or as .gltf with its data 
 
 /// An opened file.
 pub(super) struct File {
+    /// The file without its buffers.
     pub document: Document,
     buffers: Vec<Vec<u8>>,
 }

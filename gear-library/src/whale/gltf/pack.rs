@@ -13,8 +13,11 @@ const F32: u32 = 5126;
 /// The buffer with its views and accessors so far.
 #[derive(Default)]
 pub(super) struct Pack {
+    /// The buffer so far.
     pub bytes: Vec<u8>,
+    /// Its `bufferViews`.
     pub views: Vec<Value>,
+    /// Its `accessors`.
     pub accessors: Vec<Value>,
 }
 

@@ -6,18 +6,31 @@ use crate::lay::Values;
 
 /// The string without its endlines.
 pub(super) struct Net<'a> {
+    /// How many panels.
     pub(super) panels: u32,
+    /// Length of a panel's headline [m].
     pub(super) panel_m: f64,
+    /// Height of the net, taut [m].
     pub(super) height_m: f64,
+    /// Rope of the headline.
     pub(super) headline: &'a str,
+    /// Rope of the leadline.
     pub(super) leadline: &'a str,
+    /// Rope that stands for a stretch of netting.
     pub(super) netting: &'a str,
+    /// How many netting lines stand for a panel.
     pub(super) lines_a_panel: u32,
+    /// How much longer headline and leadline are than what they lie along [1].
     pub(super) slack: f64,
+    /// Weak link at each panel; empty for none.
     pub(super) panel_link: &'a str,
+    /// Length of each bridle leg [m].
     pub(super) bridle_m: f64,
+    /// Rope of bridles and anchor lines.
     pub(super) bridle_rope: &'a str,
+    /// Anchor at each end.
     pub(super) anchor: &'a str,
+    /// Length of each anchor line [m].
     pub(super) anchor_line_m: f64,
 }
 

@@ -15,19 +15,31 @@ pub(super) struct Floats {
     pub phase: f64,
     /// How much the whale beats: 0 gliding, 1 swimming.
     pub effort: f64,
-    /// Smoothed controls, in the ranges of [`Controls`].
+    /// Smoothed speed control, 0 to 1.
     pub speed: f64,
+    /// Smoothed pitch, -1 to 1.
     pub pitch: f64,
+    /// Smoothed roll, -1 to 1.
     pub roll: f64,
+    /// Smoothed yaw, -1 to 1.
     pub yaw: f64,
+    /// Smoothed burst, 0 to 1.
     pub burst: f64,
+    /// Opening of the mouth, 0 to 1.
     pub mouth: f64,
+    /// Raise of the flippers, -1 to 1.
     pub flipper_raise: f64,
+    /// Twist of the flippers, -1 to 1.
     pub flipper_twist: f64,
+    /// Sweep of the flippers, -1 to 1.
     pub flipper_sweep: f64,
 }
 
 impl Floats {
+    /// The floats as the engine hands them over.
+    ///
+    /// # Errors
+    /// Where there are more or fewer than [`LEN`].
     pub(super) fn read(state: &[f64]) -> Result<Self, HookError> {
         let &[
             phase,
@@ -63,6 +75,7 @@ impl Floats {
         })
     }
 
+    /// Writes the floats back.
     pub(super) fn write(&self, state: &mut [f64]) {
         let all = [
             self.phase,
@@ -101,6 +114,7 @@ impl Floats {
         approach(&mut self.flipper_sweep, controls.flipper_sweep.clamp(-1.0, 1.0), flipper);
     }
 
+    /// Moves the phase of the beat on over one step.
     pub(super) fn advance_phase(&mut self, frequency_hz: f64, dt_s: f64) {
         self.phase = (self.phase + TAU * frequency_hz * dt_s) % TAU;
     }

@@ -28,6 +28,7 @@ const RAISE_RAD: [f64; 2] = [0.436, 1.047];
 /// Range of a flipper's twist either way [rad]; an estimate.
 const TWIST_RAD: f64 = 0.52;
 
+/// The posture at the end of the step.
 pub(super) fn of(settings: &Settings, floats: &Floats, beat: &Beat) -> Posture {
     let (wave, peduncle) = beat.spine_pitch(floats.phase);
     let arch = -PITCH_BEND_RAD * floats.pitch / SPINE_JOINTS as f64;

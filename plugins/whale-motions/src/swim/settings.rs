@@ -4,29 +4,47 @@ use endline_sdk::{Attribute, HookError};
 
 /// Attribute values of a call, in the declared order; units as their names say.
 pub(super) struct Settings {
+    /// Speed at full speed control [m/s].
     pub cruise_speed_m_s: f64,
+    /// Greatest speed, with the burst control [m/s].
     pub burst_speed_m_s: f64,
+    /// Greatest gain of speed [m/s²].
     pub acceleration_m_s2: f64,
+    /// Greatest loss of speed [m/s²].
     pub braking_m_s2: f64,
     /// Peak-to-peak excursion of the flukes as a share of body length [1].
     pub beat_amplitude: f64,
+    /// Strouhal number of the beat [1].
     pub strouhal: f64,
+    /// Slowest beat [Hz].
     pub least_beat_hz: f64,
+    /// Fastest beat of a whale of 13.7 m [Hz].
     pub greatest_beat_hz: f64,
+    /// Angle of attack of the flukes at mid-stroke [rad].
     pub fluke_attack_rad: f64,
+    /// Yaw rate at full control [rad/s].
     pub yaw_rate_rad_s: f64,
+    /// Pitch rate at full control [rad/s].
     pub pitch_rate_rad_s: f64,
+    /// Roll rate at full control [rad/s].
     pub roll_rate_rad_s: f64,
+    /// Smoothing time of speed, pitch, roll and yaw [s].
     pub smoothing_s: f64,
+    /// How far aft the flippers are swept while swimming [rad].
     pub flipper_sweep_rad: f64,
     /// Time a flipper takes from its middle to an end of its range [s].
     pub flipper_time_s: f64,
+    /// Jaw drop at full mouth control [rad].
     pub jaw_open_rad: f64,
     /// Time the mouth takes to open or close [s].
     pub mouth_time_s: f64,
 }
 
 impl Settings {
+    /// The settings from the values of a call.
+    ///
+    /// # Errors
+    /// Where there are fewer values than attributes.
     pub(super) fn read(attributes: &[f64]) -> Result<Self, HookError> {
         let mut values = attributes.iter().copied();
         let mut next = || {
