@@ -1,8 +1,9 @@
 //! Rope laid round a cylinder: straight to it, round it in a helix, straight away from it.
 //!
-//! Seen along the axis, with the centre as origin and `ρ` the radius of the rope's centre line, the end `p` is
-//! `√(|p|² - ρ²)` of straight rope away from where it touches, which is `acos(ρ/|p|)` further round. Along the axis the
-//! rope rises evenly with its length: unrolled, it is a straight line, and so lies still without friction.
+//! Seen along the axis, let the centre be the origin and `ρ` the radius of the rope's centre line. The
+//! straight rope from an end `p` to where it touches is `√(|p|² - ρ²)` long, and it touches
+//! `acos(ρ/|p|)` further round. Along the axis the rope rises evenly with its length. Unrolled, it is a
+//! straight line, and so it lies still without friction.
 
 use std::f64::consts::TAU;
 

@@ -1,7 +1,8 @@
-//! Two half hitches on a cylinder (a clove hitch): a turn to one side of the rope's beginning, across over it to a turn on the
-//! other side, and the end out under what crosses.
+//! Two half hitches on a cylinder (a clove hitch).
 //!
-//! It is the way of two turns (`around.rs`), shifted along the cylinder and, where it crosses, off it by one thickness of the rope.
+//! The rope makes a turn to one side of its beginning, crosses over itself to a turn on the other side,
+//! and leaves under the crossing. The way is that of two turns (`around.rs`), shifted along the
+//! cylinder, and lifted by one thickness of the rope where it crosses.
 
 use endline_sim::DVec3;
 

@@ -1,4 +1,4 @@
-//! How a rope material rubs on a whale: a coefficient for each surface, and what the models of friction take besides.
+//! Friction of a rope material on a whale: a coefficient for each surface, and figures for the models of friction.
 
 use endline_sdk::Region;
 

@@ -52,7 +52,7 @@ impl Condition {
 pub struct Rope {
     /// Its file.
     pub entry: Entry,
-    /// Material: the item of `friction/` that says how it rubs.
+    /// Material: the item of `friction/` that gives its friction.
     pub material: String,
     /// Nominal diameter [m].
     pub diameter_m: f64,

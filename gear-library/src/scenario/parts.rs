@@ -69,7 +69,7 @@ pub enum LineStart {
         /// Whether two turns cross over themselves to two half hitches.
         hitched: bool,
     },
-    /// Wound about the whale, wrap by wrap from its `from` end.
+    /// Wrapped about the whale, wrap by wrap from its `from` end.
     Wrapped(Vec<WrapOf>),
 }
 

@@ -4,8 +4,9 @@
 //! r = (h₁ + h₂)/2 / (2 sin(θ/2))
 //! ```
 //!
-//! `θ` is the angle by which two triangles turn away from one another at the side they share, `h` how far each reaches from it: on a prism
-//! round a circle of radius `r` the very radius, whatever the number of its sides. Hollow sides count for nothing.
+//! `θ` is the angle between the planes of two triangles at the side they share. `h` is how far each
+//! triangle reaches from that side. On a prism round a circle of radius `r` the formula gives that
+//! radius, whatever the number of sides. Hollow (concave) sides are left out.
 
 use std::collections::BTreeMap;
 

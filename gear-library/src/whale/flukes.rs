@@ -57,8 +57,8 @@ pub fn add(build: &mut Builder, back: &[u32]) {
     build.half.fan_in(&before, tip, |_| Region::LeftFluke);
 }
 
-/// A share of the way round from the leading edge over the upper side, for a vertex of the root: the middle of the
-/// half row lies at the leading edge, the notch at the trailing edge.
+/// How far round from the leading edge over the upper side a vertex of the root lies, as a share of
+/// the whole. The middle of the half row is the leading edge, the notch the trailing edge.
 fn share(vertex: f64) -> f64 {
     (HALF_AROUND as f64 / 2.0 - vertex) / AROUND as f64
 }

@@ -1,8 +1,9 @@
 //! Sections of the two jaws: the arched rostrum with its racks of baleen, and the lower jaw with lips and tongue.
 //!
-//! Ahead of the corner of the mouth a section of the head falls into two closed curves, here the port half of each.
-//! Both share the outline of the whole head. Inside, the lower jaw follows the upper at a small distance, so that the closed mouth
-//! holds a thin sheet of water, and the lip stands off from the baleen in a groove (the orolabial sulcus).
+//! Ahead of the corner of the mouth a section of the head is two closed curves, here the port half of
+//! each. Both share the outline of the whole head. Inside the mouth the lower jaw follows the upper at a
+//! small distance, so that the closed mouth holds a thin sheet of water. The lip stands off from the
+//! baleen in a groove (the orolabial sulcus).
 
 use glam::DVec2;
 

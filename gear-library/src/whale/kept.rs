@@ -1,8 +1,9 @@
-//! Skins and volumes once worked out, kept for the next time the same form is asked for in this program.
+//! A cache of skins and of their volumes, by form.
 //!
-//! A skin is grown five times over to find how wide it must be to displace its mass, and each option of a study, each scenario
-//! of a check and each file of a library asks for the same few whales again. Both are functions of the form alone, so what
-//! is kept is, bit for bit, what would be worked out anew; the oldest goes first where there is no room.
+//! To displace a given mass, a skin is built five times with different widths. Options of a study,
+//! scenarios of a check and files of a library ask for the same few whales again and again. Skin and
+//! volume are functions of the form alone, so a cached result is equal to a fresh one, bit for bit.
+//! Where the cache is full, the oldest entry goes.
 
 use std::sync::{Arc, Mutex, PoisonError};
 

@@ -10,9 +10,11 @@
 //! v          = (r - L/k) / dt                               slip beyond the stretch of the bristle
 //! ```
 //!
-//! The film is kept from step to step, so that within a step the force only rises with slip: a law that falls with the speed of the
-//! same step has several balances, and no solver finds the right one. The lag is seen in measurements (Hess and Soom), and steady
-//! slip has the plain Stribeck curve. In a bristle's own terms the viscous part is implicit: with `a = mu/(v_v dt)`,
+//! The film is kept from step to step, so that within a step the force only rises with slip. A law that
+//! falls with the speed of the same step has several solutions, and a solver may find any of them. The
+//! lag is seen in measurements (Hess and Soom); steady slip has the plain Stribeck curve.
+//!
+//! In a bristle's own terms the viscous part is implicit: with `a = mu/(v_v dt)`,
 //! `L = (mu_film + a r) N / (1 + a N/k)`, `L_r = a N / (1 + a N/k)`, `L_N = (mu_film + a r) / (1 + a N/k)²`.
 //!
 //! References: Stribeck, Z. VDI 46 (1902) 1341-1348; Hess and Soom, "Friction at a lubricated line contact operating at oscillating

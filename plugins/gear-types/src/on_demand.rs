@@ -1,5 +1,7 @@
-//! On-demand gear: no rope stands in the water until the gear is called. The endline lies stowed at the trap, its buoy held
-//! down by an acoustic release; at the commanded time the release opens, and the buoy rises and pays the rope out.
+//! On-demand gear: no rope stands in the water until the gear is called.
+//!
+//! The endline lies stowed at the trap, and an acoustic release holds its buoy down. At the commanded
+//! time the release opens, and the buoy rises and pays the rope out.
 //!
 //! ```text
 //!         buoy                            ~~~ buoy ~~~
@@ -8,11 +10,12 @@
 //!   ====  trap  ====                         trap
 //! ```
 //!
-//! The stowage (bag, spool or cage) is modelled by what it does: the endline lies beside the trap in flakes, and where one
-//! flake meets the next a tie holds it to the trap. Release and ties open together, once, at the commanded time. Rope in
-//! flakes lies on the seabed, so it is sinking rope; floating rope would stand above the trap in bights.
+//! The stowage (bag, spool or cage) is modelled by what it does. The endline lies beside the trap in
+//! flakes, and a tie holds it to the trap where one flake meets the next. Release and ties open
+//! together, once, at the commanded time. Rope in flakes lies on the seabed, so it is sinking rope;
+//! floating rope would stand above the trap in bights.
 //!
-//! Floats: for each endline 1 once it has been released.
+//! Floats: one for each endline, 1 once it has been released.
 
 use endline_sdk::{
     Attribute, AttributeValue, BodyKind, Descriptor, GearAction, GearStep, GearType, HookError,

@@ -1,8 +1,10 @@
-//! Where wraps begin that name no azimuth: so that the ways to them, between them and on from them are short and free, and bend
-//! little where they leave a wrap, for such a bend adds to its turns or takes from them.
+//! The azimuth at which a wrap begins, where the file names none.
 //!
-//! A way that goes through skin counts [`THROUGH_M`] more, one that turns back at a wrap [`BACK_M`]. The best beginnings of the first wraps are kept and gone on
-//! from, wrap by wrap; what is left are whole lines, the best first.
+//! The ways to the wraps, between them and on from them should be short and clear of the skin. They
+//! should also bend little where they leave a wrap, because such a bend changes the wrap's turns.
+//! A way is scored by its length: [`THROUGH_M`] is added where it goes through skin, and up to
+//! [`BACK_M`] where it turns back at a wrap. The search goes wrap by wrap and keeps the lines with the
+//! lowest scores (a beam search); what is left are whole lines, the best first.
 
 use std::f64::consts::TAU;
 

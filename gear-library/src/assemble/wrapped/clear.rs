@@ -1,8 +1,9 @@
 //! Nodes moved outward until every segment of a laid line is clear of the skin.
 //!
-//! Between two nodes rope is straight and cuts a bend short by up to `l^2/8R`; at a fin's edge that is more than rope
-//! stands off. A segment nearer than it should be moves its nodes along the direction from skin to rope; one that cuts
-//! through an edge moves them the way the rope bends, away from the middle between their neighbours.
+//! Between two nodes rope is straight and cuts a bend short by up to `l^2/8R`. At a fin's edge that is
+//! more than the rope's distance from the skin. A segment that is too near moves its nodes along the
+//! direction from skin to rope. A segment that cuts through an edge moves them to the outside of the
+//! rope's own bend: away from the middle between their neighbours.
 
 use endline_sim::DVec3;
 

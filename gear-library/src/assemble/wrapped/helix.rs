@@ -1,18 +1,19 @@
 //! A wrap: rope taut about the sections of a part, going along it as it goes round.
 //!
-//! A section is the cut of the skin by the plane across the part's axis. Taut rope lies on the section's hull, standing off
-//! by `h`: where the skin faces along the unit vector `o(phi)`, it is at `x(phi) = argmax_x (x . o) + h o`, `x` over the cut.
-//! `phi`, the *azimuth*, is the direction in which the skin faces, counted from the whale's back about the axis from snout
-//! or root on; the rope's own direction there is square to `o`. So with turns `n` (below zero left-handed)
+//! A section is the cut of the skin by the plane across the part's axis. Taut rope lies on the convex
+//! hull of the section, at a distance `h`. Where the skin faces along the unit vector `o(phi)`, the rope
+//! is at `x(phi) = argmax_x (x . o) + h o`, with `x` over the cut. The *azimuth* `phi` is the direction
+//! in which the skin faces. It is counted from the whale's back, about the axis from the snout or the
+//! root on; the rope's own direction is square to `o`. With turns `n` (below zero left-handed)
 //!
 //! ```text
 //! phi(t) = phi_0 + 2 pi n t,    t from 0 to 1
 //! ```
 //!
-//! turns rope by exactly `n` on a drum and on a thin blade alike, whose edges take half a turn each and whose faces none.
-//! At both ends rope goes straight on for a little, so that it leaves as a tangent. The place along the axis is
-//! `s = s_m + p |n| (c - 1/2)`, with the pitch `p` and `c` the share of the way round that is done. Slack `e` adds so much
-//! to `h` that the way is `1 + e` times the tight one.
+//! rope turns by exactly `n` on a drum and on a thin blade: the edges of a blade take half a turn each,
+//! its faces none. At both ends rope goes straight on for a little, so that it leaves as a tangent. The
+//! place along the axis is `s = s_m + p |n| (c - 1/2)`, where `p` is the pitch and `c` the share of the
+//! way round that is done. Slack `e` adds to `h`, so that the way is `1 + e` times the tight one.
 
 use std::f64::consts::TAU;
 

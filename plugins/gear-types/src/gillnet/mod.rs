@@ -10,13 +10,15 @@
 //!  anchor                                                   far-anchor
 //! ```
 //!
-//! The netting is not modelled mesh by mesh. Its drag, weight and water are shared half and half by headline and leadline,
-//! as the figures of those ropes say (`gear-library/ropes/gillnet-headline.toml`): right for a current across the string,
-//! and the small drag along it is that of the ropes. Between them stand netting lines, each the twine of its stretch of net
-//! gathered in one line, which hold headline and leadline no further apart than the net is high. So the net leans, sinks and
-//! bags in the current and pulls on its anchors as a whole; a whale meets headline, leadline and netting lines, not meshes.
+//! The netting is not modelled mesh by mesh. Headline and leadline each carry half of its drag, weight
+//! and water, as the figures of those ropes say (`gear-library/ropes/gillnet-headline.toml`). That is
+//! right for a current across the string; the small drag along it is that of the ropes. Netting lines
+//! stand between the two, each for a stretch of net, and hold them no further apart than the net is
+//! high. So the net leans, sinks and bags in the current and pulls on its anchors as a whole. A whale
+//! meets headline, leadline and netting lines, not meshes.
 //!
-//! Panels, anchors of 22 lb and weak links of 1,100 lbf in the headline: practice and rules of the northeast United States.
+//! Panels, anchors of 22 lb and weak links of 1,100 lbf in the headline follow practice and rules of the
+//! northeast United States.
 
 mod net;
 

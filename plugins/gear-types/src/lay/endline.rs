@@ -1,5 +1,7 @@
-//! The endline: floating rope at the seabed end (it stays off the bottom), sinking rope at the buoy end (it does not lie on
-//! the surface, where propellers are), a surface system, a buoy, and where wanted a high-flyer beyond it.
+//! The endline: two ropes, a surface system, a buoy and, where wanted, a high-flyer beyond it.
+//!
+//! The rope at the seabed end floats, so that it stays off the bottom. The rope at the buoy end sinks,
+//! so that it does not lie on the surface, where propellers are.
 //!
 //! ```text
 //!  ~~~~~~ buoy ~ high-flyer-line ~ high-flyer ~~~
@@ -11,10 +13,11 @@
 //!  ________foot________
 //! ```
 //!
-//! Make-up: lobster practice in Maine and the Massachusetts rule that an endline be sinking rope but for its bottom third;
-//! scope 1.2 to 1.5 inshore, up to 2 in strong tide.
+//! Make-up: lobster practice in Maine, and the Massachusetts rule that an endline be sinking rope but
+//! for its bottom third. Scope is 1.2 to 1.5 inshore, up to 2 in strong tide.
 //!
-//! First guess: the buoy downstream of the foot, as far as nine tenths of what the rope spans, splices on the straight line.
+//! First guess: the buoy lies downstream of the foot, at nine tenths of what the rope spans; splices lie
+//! on the straight line.
 
 use endline_sdk::{Attribute, BodyKind, HookError, LineEnd, RigEnd, Site};
 
