@@ -13,6 +13,9 @@
 //! | [`cases`] | validation cases run and judged |
 //! | [`check`] | every problem of what a user names |
 //! | [`edit`] | open texts with undo, their problems, recovery after a crash |
+//! | [`scene`] | what a frame looks like, as triangles |
+//! | [`export`] | charts and 3-D models written to files |
+//! | [`scales`] | round values for axes, colours of series |
 //! | [`units`] | display units and number formatting |
 //! | [`live`] | a run on a thread of its own, for the workbench |
 //! | [`task`] | work on a thread of its own, taken in without waiting |
@@ -29,6 +32,7 @@ pub mod cases;
 pub mod check;
 pub mod edit;
 pub mod error;
+pub mod export;
 pub mod figures;
 pub mod hash;
 mod hooks;
@@ -39,6 +43,8 @@ pub mod recording;
 pub mod report;
 pub mod run;
 pub mod save;
+pub mod scales;
+pub mod scene;
 pub mod settled;
 pub mod source;
 pub mod statics;

@@ -8,11 +8,13 @@
 //! | `history` | undo and redo |
 //! | [`problems`] | located problems of the texts |
 //! | [`recovery`] | unsaved edits kept for the case of a crash |
+//! | [`library_table`] | tables of the library as CSV and from a spreadsheet |
 //! | [`scenario`] | one field of a scenario, with the fields that depend on it |
 //! | [`pilot_program`] | entries of the scenario's pilot program |
 
 pub mod documents;
 mod history;
+pub mod library_table;
 pub mod pilot_program;
 pub mod problems;
 pub mod recovery;

@@ -17,13 +17,15 @@ mod study;
 
 use std::time::Instant;
 
+use endline_session::live::Status;
+use endline_session::scene::Scene;
+
 use common::Folder;
 use egui::{Event, Key, Modifiers, PointerButton, pos2};
-use endline_session::live::Status;
 use endline_workbench::gui::desk::Order;
 use endline_workbench::gui::layout::Layout;
 use endline_workbench::gui::panel_id::PanelId;
-use endline_workbench::scene::{Drawer, Scene, offscreen::Offscreen};
+use endline_workbench::scene::{Drawer, offscreen::Offscreen};
 use screen::{Screen, thread_cpu_s};
 
 /// A measurement, in a copy of the library.

@@ -3,9 +3,10 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use egui::{PaintCallback, Rect};
+use endline_session::scene::Scene;
 use three_d::{ScissorBox, Viewport};
 
-use crate::scene::{Camera, Drawer, Scene, Water};
+use crate::scene::{Camera, Drawer, Water};
 
 /// Panes of the 3-D view at most.
 pub const MOST_PANES: usize = 4;

@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use endline_sim::frame::WhaleFrame;
 use glam::{DMat4, DVec2, DVec3, DVec4};
 
-use super::bounds::Bounds;
+use endline_session::scene::Bounds;
 
 /// Named views.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -2,6 +2,9 @@
 
 use std::sync::Arc;
 
+use endline_session::scene::colour::rgb;
+use endline_session::scene::mesh::Colour;
+use endline_session::scene::{Look, Part, Scene};
 use glam::Vec3;
 use three_d::{
     Blend, Camera as ViewOfPlane, ClearState, ColorTexture, Context, CopyEffect, CoreError, Cull,
@@ -9,10 +12,7 @@ use three_d::{
     ScissorBox, Texture2D, Vec3 as GlVec3, VertexBuffer, Viewport, WriteMask,
 };
 
-use super::build::{Look, Part, Scene};
 use super::camera::Camera;
-use super::colour::rgb;
-use super::mesh::Colour;
 
 /// Samples a pixel for smooth edges.
 const SAMPLES: u32 = 4;

@@ -3,8 +3,8 @@
 use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Stroke, Vec2, pos2, vec2};
 use endline_session::units::N_PER_LBF;
 
-use super::colour::tension_colour;
-use super::ticks::{decimals, nice_below, ticks};
+use endline_session::scales::{decimals, nice_below, ticks};
+use endline_session::scene::colour::tension_colour;
 
 /// What the overlay says.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,7 +84,7 @@ fn legend(painter: &Painter, rect: Rect, scale_n: f64) {
     for (per_n, side, align) in
         [(1.0 / N_PER_LBF, -1.0, Align2::RIGHT_CENTER), (1.0, 1.0, Align2::LEFT_CENTER)]
     {
-        let ticks = ticks(scale_n * per_n, 5);
+        let ticks = ticks(0.0, scale_n * per_n, 5);
         let places = ticks.get(1).map_or(0, |step| decimals(*step));
         for tick in ticks {
             let y = bar.bottom() - bar.height() * (tick / (scale_n * per_n)) as f32;
@@ -165,7 +165,7 @@ fn thousands(value: f64, places: usize) -> String {
 }
 
 /// A scene colour for egui.
-fn ink(colour: super::mesh::Colour) -> Color32 {
+fn ink(colour: endline_session::scene::mesh::Colour) -> Color32 {
     let [red, green, blue, _] = colour.map(|part| (part * 255.0).round() as u8);
     Color32::from_rgb(red, green, blue)
 }

@@ -225,8 +225,9 @@ impl Picked {
 #[cfg(test)]
 mod tests {
     use super::super::camera::View;
-    use super::super::{Scene, sample};
+    use super::super::sample;
     use super::*;
+    use endline_session::scene::Scene;
 
     const SIZE: DVec2 = DVec2::new(900.0, 700.0);
 

@@ -4,10 +4,10 @@ use std::fs::File;
 use std::io::BufWriter;
 use std::path::Path;
 
+use endline_session::scene::{Scene, Show};
 use endline_sim::{DVec3, Frame, Model};
 use three_d::{Context, RenderTarget, ScissorBox, Viewport};
 
-use super::build::{Scene, Show};
 use super::camera::{Camera, View};
 use super::draw::{Drawer, Water};
 use super::offscreen::Offscreen;

@@ -6,10 +6,10 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_gear::Kind;
 use endline_session::edit::Documents;
+use endline_session::edit::library_table::{import, to_csv};
 use endline_session::live::engine;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::desk::Order;
-use endline_workbench::gui::exchange::{import, to_csv};
 use endline_workbench::gui::panel_id::PanelId;
 use endline_workbench::input::Pilot;
 

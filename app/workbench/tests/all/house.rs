@@ -7,10 +7,10 @@ use std::sync::Arc;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_session::edit::recovery::{Autosave, EVERY_S};
+use endline_session::export::chart::{Chart, Kind};
 use endline_session::live::{Channel, Status};
 use endline_session::units::Units;
 use endline_workbench::gui::app::App;
-use endline_workbench::gui::charts::{Chart, Kind};
 use endline_workbench::gui::desk::Order;
 use endline_workbench::gui::layout::{self, Layout};
 use endline_workbench::gui::palette::orders;
@@ -170,7 +170,7 @@ fn plots_of_an_encounter_agree_with_its_summary_and_every_panel_draws_it() {
     let summary = view.summary.as_ref().unwrap();
     let tension = Chart::of(Kind::Tension, &view, Units::Si);
     for (curve, line) in tension.curves.iter().zip(&summary.lines) {
-        let top = curve.points.iter().map(|point| point.y).fold(0.0, f64::max);
+        let top = curve.points.iter().map(|[_, y]| *y).fold(0.0, f64::max);
         assert!(
             (top - line.peak_tension_n).abs() < 1e-6 * line.peak_tension_n.max(1.0),
             "{}: {top}, {}",
@@ -193,7 +193,7 @@ fn plots_of_an_encounter_agree_with_its_summary_and_every_panel_draws_it() {
         );
     }
     let depth = Chart::of(Kind::Depth, &view, Units::Si);
-    assert!((depth.curves[0].points[0].y + 12.0).abs() < 0.05, "the whale begins at 12 m");
+    assert!((depth.curves[0].points[0][1] + 12.0).abs() < 0.05, "the whale begins at 12 m");
     let along = Chart::of(Kind::Along, &view, Units::Si);
     let rope_m: f64 = view.frame.segment_length_m.iter().sum();
     assert!(

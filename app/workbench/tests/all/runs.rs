@@ -8,11 +8,11 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_session::edit::Documents;
 use endline_session::edit::pilot_program::entries;
+use endline_session::export::chart::{Chart, Kind, Style};
 use endline_session::figures::compare::groups;
 use endline_session::live::{LiveView, Status};
 use endline_session::units::Units;
 use endline_workbench::gui::app::App;
-use endline_workbench::gui::charts::{Chart, Kind, Style};
 use endline_workbench::gui::desk::Order;
 use endline_workbench::gui::panel_id::PanelId;
 
@@ -225,7 +225,7 @@ fn drawn_alike(a: &LiveView, b: &LiveView) {
             .iter()
             .find(|curve| curve.name == format!("{}, greatest so far", line.id))
             .unwrap();
-        let top = greatest.points.iter().map(|point| point.y).fold(0.0, f64::max);
+        let top = greatest.points.iter().map(|[_, y]| *y).fold(0.0, f64::max);
         assert!(
             (top - line.peak_tension_n).abs() < 1e-6 * line.peak_tension_n.max(1.0),
             "{}: {top} N, {} N",

@@ -15,7 +15,7 @@ mod extras;
 mod file;
 mod joints;
 mod marks;
-mod pack;
+pub mod pack;
 mod weld;
 mod write;
 

@@ -1,4 +1,4 @@
-//! Numbers into the binary part of a glTF file.
+//! The binary part of a glTF file, and the binary container: for every glTF file that is written.
 
 use serde_json::{Value, json};
 
@@ -10,19 +10,20 @@ const U16: u32 = 5123;
 const U32: u32 = 5125;
 const F32: u32 = 5126;
 
-/// The buffer with its views and accessors so far.
+/// The buffer with its views and accessors so far. Each method returns the number of the accessor
+/// that it adds.
 #[derive(Default)]
-pub(super) struct Pack {
-    /// The buffer so far.
+pub struct Pack {
+    /// The buffer.
     pub bytes: Vec<u8>,
-    /// Its `bufferViews`.
+    /// The list `bufferViews` of the file.
     pub views: Vec<Value>,
-    /// Its `accessors`.
+    /// The list `accessors` of the file.
     pub accessors: Vec<Value>,
 }
 
 impl Pack {
-    /// Adds rows of floats for vertices; the accessor's number.
+    /// Adds rows of floats for vertices.
     pub fn vertices<const N: usize>(&mut self, rows: &[[f32; N]]) -> usize {
         self.add(le(rows.iter().flatten().map(|number| number.to_le_bytes())), Some(VERTICES));
         self.accessor(F32, rows.len(), kind(N))
@@ -90,4 +91,25 @@ fn kind(columns: usize) -> &'static str {
 
 fn le<const N: usize>(numbers: impl Iterator<Item = [u8; N]>) -> Vec<u8> {
     numbers.flatten().collect()
+}
+
+/// A binary glTF file: the document, to which the buffer is added, and the numbers. Both chunks are
+/// padded to a multiple of four bytes.
+#[must_use]
+pub fn binary(mut document: Value, mut bytes: Vec<u8>) -> Vec<u8> {
+    document["buffers"] = json!([{ "byteLength": bytes.len() }]);
+    let mut text = document.to_string().into_bytes();
+    text.resize(text.len().next_multiple_of(4), b' ');
+    bytes.resize(bytes.len().next_multiple_of(4), 0);
+    let number = |size: usize| u32::try_from(size).unwrap_or(u32::MAX).to_le_bytes();
+    let mut out = Vec::with_capacity(28 + text.len() + bytes.len());
+    out.extend(b"glTF");
+    out.extend(number(2));
+    out.extend(number(28 + text.len() + bytes.len()));
+    for (kind, chunk) in [(b"JSON", text), (b"BIN\0", bytes)] {
+        out.extend(number(chunk.len()));
+        out.extend(kind);
+        out.extend(chunk);
+    }
+    out
 }

@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 
 use super::extras::{About, bone_extras, whale_extras};
 use super::marks::colour;
-use super::pack::Pack;
+use super::pack::{Pack, binary};
 use super::to_gltf;
 
 /// Which of the two forms of glTF.
@@ -55,10 +55,7 @@ pub fn write(skin: &Skin, about: &About<'_>, form: Form) -> Vec<u8> {
         "bufferViews": pack.views,
     });
     match form {
-        Form::Binary => {
-            document["buffers"] = json!([{ "byteLength": pack.bytes.len() }]);
-            binary(&document.to_string(), pack.bytes)
-        }
+        Form::Binary => binary(document, pack.bytes),
         Form::Text => {
             let uri =
                 format!("data:application/octet-stream;base64,{}", STANDARD.encode(&pack.bytes));
@@ -181,22 +178,4 @@ fn packed(weights: &[(u16, f64); 4]) -> ([u16; 4], [f32; 4]) {
     }
     own.resize(4, (0, 0.0));
     (std::array::from_fn(|place| own[place].0), std::array::from_fn(|place| own[place].1))
-}
-
-/// The binary container: a header, the text padded with spaces, the numbers padded with zeros.
-fn binary(text: &str, mut bytes: Vec<u8>) -> Vec<u8> {
-    let mut text = text.as_bytes().to_vec();
-    text.resize(text.len().next_multiple_of(4), b' ');
-    bytes.resize(bytes.len().next_multiple_of(4), 0);
-    let number = |size: usize| u32::try_from(size).unwrap_or(u32::MAX).to_le_bytes();
-    let mut out = Vec::with_capacity(28 + text.len() + bytes.len());
-    out.extend(b"glTF");
-    out.extend(number(2));
-    out.extend(number(28 + text.len() + bytes.len()));
-    for (kind, chunk) in [(b"JSON", text), (b"BIN\0", bytes)] {
-        out.extend(number(chunk.len()));
-        out.extend(kind);
-        out.extend(chunk);
-    }
-    out
 }

@@ -2,9 +2,7 @@
 
 use std::fmt::Write;
 
-/// Colours that people who see fewer colours can tell apart (Okabe and Ito 2008); marks and dashes differ too.
-pub(super) const COLOURS: [&str; 6] =
-    ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#8a6d00", "#56707f"];
+use crate::scales::{self, SERIES_ON_WHITE};
 
 /// Dashes of lines, in the order of the colours.
 const DASHES: [&str; 6] = ["none", "7 3", "2 3", "10 3 2 3", "4 2", "1 2"];
@@ -66,7 +64,7 @@ impl Svg {
 
     /// A filled box.
     pub(super) fn bar(&mut self, from: [f64; 2], size: [f64; 2], colour: usize) {
-        let fill = COLOURS[colour % COLOURS.len()];
+        let fill = colour_of(colour);
         let _ = write!(
             self.body,
             r#"<rect x="{:.1}" y="{:.1}" width="{:.1}" height="{:.1}" fill="{fill}" fill-opacity="0.35" stroke="{fill}"/>"#,
@@ -76,7 +74,7 @@ impl Svg {
 
     /// A mark whose shape and colour go by a number: disc, square, triangle, diamond.
     pub(super) fn mark(&mut self, [x, y]: [f64; 2], kind: usize) {
-        let fill = COLOURS[kind % COLOURS.len()];
+        let fill = colour_of(kind);
         let _ = match kind % 4 {
             0 => write!(self.body, r#"<circle cx="{x:.1}" cy="{y:.1}" r="4.5" fill="{fill}"/>"#),
             1 => write!(
@@ -96,7 +94,7 @@ impl Svg {
 
     /// An interval with its value.
     pub(super) fn whisker(&mut self, y: f64, [low, at, high]: [f64; 3], kind: usize) {
-        let stroke = COLOURS[kind % COLOURS.len()];
+        let stroke = colour_of(kind);
         let _ = write!(
             self.body,
             r#"<path d="M{low:.1} {y:.1}H{high:.1}M{low:.1} {:.1}v6M{high:.1} {:.1}v6" stroke="{stroke}" stroke-width="1.6" fill="none"/>"#,
@@ -108,7 +106,7 @@ impl Svg {
 
     /// An interval that stands upright, with its value.
     pub(super) fn post(&mut self, x: f64, [low, at, high]: [f64; 3], kind: usize) {
-        let stroke = COLOURS[kind % COLOURS.len()];
+        let stroke = colour_of(kind);
         let _ = write!(
             self.body,
             r#"<path d="M{x:.1} {low:.1}V{high:.1}M{:.1} {low:.1}h6M{:.1} {high:.1}h6" stroke="{stroke}" stroke-width="1.6" fill="none"/>"#,
@@ -124,7 +122,7 @@ impl Svg {
         for (index, [x, y]) in points.iter().enumerate() {
             let _ = write!(data, "{}{x:.1} {y:.1}", if index == 0 { "M" } else { "L" });
         }
-        let (stroke, dashes) = (COLOURS[kind % COLOURS.len()], DASHES[kind % DASHES.len()]);
+        let (stroke, dashes) = (colour_of(kind), DASHES[kind % DASHES.len()]);
         let _ = write!(
             self.body,
             r#"<path d="{data}" stroke="{stroke}" stroke-dasharray="{dashes}" stroke-width="1.8" fill="none"/>"#
@@ -138,6 +136,11 @@ impl Svg {
             r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" role="img" aria-label="{title}"><title>{title}</title>{body}</svg>"#
         )
     }
+}
+
+/// The colour of a series by its number.
+fn colour_of(series: usize) -> String {
+    scales::hex(SERIES_ON_WHITE[series % SERIES_ON_WHITE.len()])
 }
 
 /// Text as HTML and SVG want it.
@@ -163,31 +166,13 @@ impl Axis {
     /// Round values along it, about five.
     pub(super) fn ticks(&self) -> Vec<f64> {
         let [least, most] = self.values;
-        let rough = (most - least) / 5.0;
-        let power = 10.0_f64.powf(rough.log10().floor());
-        let step = [1.0, 2.0, 2.5, 5.0, 10.0]
-            .into_iter()
-            .map(|factor| factor * power)
-            .find(|step| *step >= rough)
-            .unwrap_or(rough);
-        let first = (least / step).ceil() as i64;
-        (first..)
-            .map(|count| count as f64 * step)
-            .take_while(|tick| *tick <= most + 1e-9 * step)
-            .collect()
+        scales::ticks(least, most, 5)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn ticks_are_round_and_within() {
-        let ticks = Axis { values: [-0.13, 0.41], places: [0.0, 1.0] }.ticks();
-        assert_eq!(ticks.len(), 3, "{ticks:?}");
-        assert!(ticks.iter().all(|tick| (-0.13..=0.41).contains(tick)));
-    }
 
     #[test]
     fn a_name_cannot_break_the_page() {

@@ -1,20 +1,16 @@
 //! Plots of a case as SVG: readings over time beside what is expected, or simulated over measured.
 
 use endline_session::cases::{Curve, Outcome, Point};
+use endline_session::scales::SERIES_ON_WHITE;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
 /// Size of one panel [px].
 const PANEL: (u32, u32) = (720, 300);
-/// Colours that people who see fewer colours can tell apart (Okabe and Ito 2008).
-const COLOURS: [RGBColor; 6] = [
-    RGBColor(0, 114, 178),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 158, 115),
-    RGBColor(204, 121, 167),
-    RGBColor(230, 159, 0),
-    RGBColor(86, 180, 233),
-];
+/// Colours of series, again and again.
+fn colours() -> impl Iterator<Item = RGBColor> {
+    SERIES_ON_WHITE.into_iter().cycle().map(|[red, green, blue]| RGBColor(red, green, blue))
+}
 
 type Panel<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
@@ -76,7 +72,7 @@ fn over_time(area: &Panel<'_>, unit: &str, curves: &[&Curve]) -> Drawn {
         .x_desc("time [s]")
         .y_desc(format!("[{unit}]"))
         .draw()?;
-    for (curve, colour) in curves.iter().zip(COLOURS.iter().cycle()) {
+    for (curve, colour) in curves.iter().zip(colours()) {
         let line = curve.times_s.iter().copied().zip(curve.got.iter().copied());
         let drawn = chart.draw_series(LineSeries::new(line, colour))?;
         drawn
@@ -118,7 +114,7 @@ fn measured(area: &Panel<'_>, points: &[Point]) -> Drawn {
             groups.push(&point.group);
         }
     }
-    for (group, colour) in groups.iter().zip(COLOURS.iter().cycle()) {
+    for (group, colour) in groups.iter().zip(colours()) {
         let own = points.iter().filter(|point| point.group == *group);
         let drawn = chart.draw_series(
             own.map(|point| Circle::new((point.measured, point.got), 3, colour.filled())),

@@ -6,6 +6,7 @@ use egui::{Color32, Grid, Rect, RichText, ScrollArea, Sense, Stroke, Ui, vec2};
 use endline_sdk::BodyPart;
 use endline_session::figures::{Figure, PART, Part, Quantity, View, WHALE, parts, shown};
 use endline_session::live::LiveView;
+use endline_session::scene::colour::tension_colour;
 use endline_session::units::Units;
 use endline_sim::metrics::WhaleSummary;
 
@@ -18,7 +19,6 @@ use crate::gui::widgets::figures::{Style, list, table};
 use crate::gui::widgets::words::spoken;
 use crate::gui::widgets::{self, words};
 use crate::gui::wraps::wraps;
-use crate::scene::colour::tension_colour;
 
 /// Rope on the whale's body, and the outcome.
 pub struct EntanglementPanel {

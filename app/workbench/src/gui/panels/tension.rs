@@ -1,8 +1,8 @@
 //! Tension of every line over time, with the ratings of weak links and ropes.
 
 use egui::Ui;
+use endline_session::export::chart::Kind;
 
-use crate::gui::charts::Kind;
 use crate::gui::desk::Desk;
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;

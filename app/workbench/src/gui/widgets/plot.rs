@@ -8,12 +8,12 @@ use egui_plot::{
     AxisHints, FilledArea, HLine, Line, LineStyle, Plot, PlotPoint, PlotPoints, PlotUi, Polygon,
     VLine,
 };
+use endline_session::export::chart::{Chart, Curve, Kind, Style};
 use endline_session::live::LiveView;
 use endline_session::units::Units;
 use endline_sim::Model;
 
 use super::plot_key;
-use crate::gui::charts::{Chart, Curve, Kind, Style};
 use crate::gui::desk::{Desk, Order};
 use crate::gui::theme::{Palette, Theme};
 
@@ -39,6 +39,8 @@ struct Made {
     of: (Part, Option<Part>),
     units: Units,
     chart: Chart,
+    /// Points of each curve, as they are drawn.
+    points: Vec<Vec<PlotPoint>>,
 }
 
 /// As much of a run as a chart shows.
@@ -78,7 +80,8 @@ impl DrawnCharts {
     pub fn show(&mut self, ui: &mut Ui, desk: &mut Desk, kind: Kind, title: &str, height: f32) {
         let Some(view) = desk.view.clone() else { return super::nothing(ui, "No run yet.") };
         let (place, top) = (self.make(kind, &view, desk), ui.cursor().top());
-        let chart = &self.made[place].1.chart;
+        let made = &self.made[place].1;
+        let chart = &made.chart;
         let clicked = plot_key::show(ui, title, height, chart, &self.hidden);
         let height = (height + HEAD - (ui.cursor().top() - top)).max(LEAST);
         if chart.curves.iter().all(|curve| curve.points.is_empty()) {
@@ -86,7 +89,7 @@ impl DrawnCharts {
         }
         let palette = Theme::palette_of(ui);
         let response = frame(chart, height, palette).show(ui, |plot| {
-            self.draw(plot, chart, &view, palette);
+            self.draw(plot, made, &view, palette);
             plot.pointer_coordinate()
         });
         let at = response.inner.filter(|_| kind.over_time() && response.response.clicked());
@@ -107,7 +110,10 @@ impl DrawnCharts {
             .is_some_and(|place| self.made[place].1.of == of && self.made[place].1.units == units);
         if !known {
             let chart = chart(kind, view, other.as_deref(), units);
-            let made = (kind, Made { of, units, chart });
+            let drawn =
+                |curve: &Curve| curve.points.iter().map(|at| PlotPoint::from(*at)).collect();
+            let points = chart.curves.iter().map(drawn).collect();
+            let made = (kind, Made { of, units, chart, points });
             match place {
                 Some(place) => self.made[place] = made,
                 None => self.made.push(made),
@@ -116,14 +122,13 @@ impl DrawnCharts {
         place.unwrap_or(self.made.len() - 1)
     }
 
-    fn draw<'a>(&self, plot: &mut PlotUi<'a>, chart: &'a Chart, view: &LiveView, palette: Palette) {
-        let shown: Vec<&Curve> = chart
-            .curves
-            .iter()
-            .filter(|curve| !self.hidden.contains(chart.line_of(curve)))
-            .collect();
-        shade(plot, &shown);
-        shown.into_iter().for_each(|curve| plot.line(line(curve)));
+    fn draw<'a>(&self, plot: &mut PlotUi<'a>, made: &'a Made, view: &LiveView, palette: Palette) {
+        let chart = &made.chart;
+        let curves = chart.curves.iter().zip(&made.points);
+        let shown: Vec<(&Curve, &Vec<PlotPoint>)> =
+            curves.filter(|(curve, _)| !self.hidden.contains(chart.line_of(curve))).collect();
+        shade(plot, &shown.iter().map(|(curve, _)| *curve).collect::<Vec<_>>());
+        shown.into_iter().for_each(|(curve, points)| plot.line(line(curve, points)));
         levels(plot, chart, palette);
         if chart.kind.over_time() {
             let now = VLine::new("", view.frame.time_s);
@@ -176,10 +181,10 @@ fn colour(curve: &Curve) -> Color32 {
     Color32::from_rgb(red, green, blue)
 }
 
-fn line(curve: &Curve) -> Line<'_> {
+fn line<'a>(curve: &'a Curve, points: &'a [PlotPoint]) -> Line<'a> {
     // A name would show when the pointer is near.
     let name = if curve.style == Style::Edge { "" } else { &curve.name };
-    let line = Line::new(name, PlotPoints::Borrowed(&curve.points)).color(colour(curve)).width(1.5);
+    let line = Line::new(name, PlotPoints::Borrowed(points)).color(colour(curve)).width(1.5);
     match curve.style {
         Style::Solid => line,
         Style::Dashed => line.style(LineStyle::dashed_dense()),
@@ -212,9 +217,9 @@ fn shade(plot: &mut PlotUi<'_>, curves: &[&Curve]) {
             && greatest.style == Style::Edge
             && least.colour == greatest.colour;
         if edges && least.points.len() == greatest.points.len() && least.points.len() > 1 {
-            let xs: Vec<f64> = least.points.iter().map(|point| point.x).collect();
+            let xs: Vec<f64> = least.points.iter().map(|[x, _]| *x).collect();
             let [low, high] = [least, greatest]
-                .map(|curve| curve.points.iter().map(|point| point.y).collect::<Vec<f64>>());
+                .map(|curve| curve.points.iter().map(|[_, y]| *y).collect::<Vec<f64>>());
             let fill = colour(least).gamma_multiply(0.16);
             plot.add(FilledArea::new("", &xs, &low, &high).fill_color(fill).allow_hover(false));
         }

@@ -6,8 +6,8 @@ use egui::{
     Color32, FontId, Rect, RichText, ScrollArea, Sense, Shape, Stroke, Ui, WidgetInfo, WidgetType,
     vec2,
 };
+use endline_session::export::chart::{Chart, Curve, Kind, Style};
 
-use crate::gui::charts::{Chart, Curve, Kind, Style};
 use crate::gui::theme::Theme;
 
 /// The key takes as many rows as it needs up to this share of the plot's height.
@@ -108,9 +108,9 @@ fn peak(chart: &Chart, curve: &Curve) -> String {
     if !matches!(chart.kind, Kind::Tension | Kind::Force) {
         return String::new();
     }
-    let Some(top) = curve.points.iter().max_by(|a, b| a.y.total_cmp(&b.y)) else {
+    let Some([top_x, top]) = curve.points.iter().max_by(|[_, a], [_, b]| a.total_cmp(b)) else {
         return String::new();
     };
-    let value = if top.y.abs() < 100.0 { format!("{:.1}", top.y) } else { format!("{:.0}", top.y) };
-    format!(" peak {value} {} at {:.1} s", chart.y, top.x)
+    let value = if top.abs() < 100.0 { format!("{top:.1}") } else { format!("{top:.0}") };
+    format!(" peak {value} {} at {top_x:.1} s", chart.y)
 }

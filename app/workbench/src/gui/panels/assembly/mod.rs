@@ -14,19 +14,20 @@ use std::path::Path;
 use egui::{RichText, ScrollArea, Slider, SliderClamping, Ui};
 use endline_gear::Kind;
 use endline_session::edit::Documents;
+use endline_session::edit::library_table::id_of;
+use endline_session::export;
+use endline_session::scene::{Scene, Show};
 use endline_session::statics::TrialSea;
 use endline_session::statics::worker::Answer;
 use endline_session::statics::{StaticsWorker, Trial};
 
 use crate::gui::desk::{Desk, Order};
-use crate::gui::exchange::id_of;
+use crate::gui::fields;
 use crate::gui::order::Dialog;
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
 use crate::gui::theme::{Theme, primary};
 use crate::gui::widgets::{self, problem};
-use crate::gui::{fields, models};
-use crate::scene::{Scene, Show};
 
 /// Fastest current of the slider [m/s]: 2 knots.
 const FASTEST_M_S: f64 = 1.03;
@@ -139,10 +140,7 @@ impl AssemblyPanel {
             return;
         };
         let scene = Scene::of(&rest.model, &rest.frame, &GEAR_ALONE);
-        let stl = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("stl"));
-        let bytes = if stl { models::stl(&scene) } else { models::glb(&scene) };
-        let written = endline_session::save::atomically(path, &bytes);
-        desk.notice_saved(path, written.map_err(|error| error.to_string()));
+        desk.notice_saved(path, export::model(path, &scene));
     }
 
     /// Below the drawings: the table of tensions, or of depths and currents.

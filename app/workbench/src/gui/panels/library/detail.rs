@@ -6,10 +6,10 @@ use egui::{Grid, RichText, ScrollArea, Ui};
 use endline_gear::units::{self, Quantity};
 use endline_gear::{Document, Kind};
 use endline_session::edit::Documents;
+use endline_session::edit::library_table::id_of;
 
 use super::LibraryPanel;
 use crate::gui::desk::{Desk, Order};
-use crate::gui::exchange::id_of;
 use crate::gui::fields;
 use crate::gui::files;
 use crate::gui::theme::Theme;

@@ -2,9 +2,9 @@
 
 use egui::{Grid, RichText, Ui};
 use endline_gear::{Kind, units};
+use endline_session::edit::library_table::id_of;
 
 use crate::gui::desk::Desk;
-use crate::gui::exchange::id_of;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::{self, words};
 

@@ -12,11 +12,11 @@ use std::sync::Arc;
 
 use egui::{Align, Button, Layout, RichText, ScrollArea, TextEdit, Ui};
 use endline_gear::{Diagnostic, Kind};
+use endline_session::edit::library_table;
 
 pub use detail::{Against, Uses};
 
 use crate::gui::desk::{Desk, Order};
-use crate::gui::exchange;
 use crate::gui::order::Dialog;
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
@@ -184,7 +184,7 @@ impl LibraryPanel {
             ui.close();
         }
         if ui.button("Copy for a spreadsheet").clicked() {
-            let text = exchange::to_tabs(&desk.documents, self.kind, &self.rows(desk));
+            let text = library_table::to_tabs(&desk.documents, self.kind, &self.rows(desk));
             ui.ctx().copy_text(text);
             ui.close();
         }
@@ -193,7 +193,7 @@ impl LibraryPanel {
 
     /// Writes the shown table as CSV.
     pub fn export(&self, desk: &mut Desk, path: &Path) {
-        let text = exchange::to_csv(&desk.documents, self.kind, &self.rows(desk));
+        let text = library_table::to_csv(&desk.documents, self.kind, &self.rows(desk));
         let written = endline_session::save::atomically(path, text.as_bytes());
         desk.notice_saved(path, written.map_err(|error| error.to_string()));
     }
@@ -202,9 +202,9 @@ impl LibraryPanel {
     pub fn import(&self, desk: &mut Desk, path: &Path) {
         match std::fs::read_to_string(path) {
             Ok(text) => {
-                let taken = exchange::import(&mut desk.documents, self.kind, &text);
+                let taken = library_table::import(&mut desk.documents, self.kind, &text);
                 desk.notice = Some(match taken {
-                    Ok(taken) => (taken.told(), !taken.left_out.is_empty()),
+                    Ok(taken) => (taken.sentence(), !taken.left_out.is_empty()),
                     Err(why) => (format!("not taken in: {why}"), true),
                 });
             }

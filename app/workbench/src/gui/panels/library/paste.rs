@@ -1,10 +1,11 @@
 //! Cells taken from the clipboard into the table.
 
 use egui::{Event, Ui};
+use endline_session::edit::library_table;
 
 use super::LibraryPanel;
 use crate::gui::desk::Desk;
-use crate::gui::{exchange, fields};
+use crate::gui::fields;
 
 impl LibraryPanel {
     /// Takes cells from the clipboard: from the cell being typed in on, or, with a head row, as entries.
@@ -23,14 +24,20 @@ impl LibraryPanel {
             return;
         }
         let text = take_pasted(ui);
-        let head = exchange::cells(&text)
-            .is_ok_and(|cells| cells.first().is_some_and(|row| exchange::is_head(self.kind, row)));
+        let head = library_table::cells(&text).is_ok_and(|cells| {
+            cells.first().is_some_and(|row| library_table::is_head(self.kind, row))
+        });
         let taken = match at {
-            _ if head => exchange::import(&mut desk.documents, self.kind, &text),
+            _ if head => library_table::import(&mut desk.documents, self.kind, &text),
             Some((row, column)) => {
                 fields::forget(ui, &paths[row], keys[column]);
-                exchange::cells(&text).and_then(|cells| {
-                    exchange::spread(&mut desk.documents, &paths[row..], &keys[column..], &cells)
+                library_table::cells(&text).and_then(|cells| {
+                    library_table::spread(
+                        &mut desk.documents,
+                        &paths[row..],
+                        &keys[column..],
+                        &cells,
+                    )
                 })
             }
             None => {
@@ -38,7 +45,7 @@ impl LibraryPanel {
             }
         };
         desk.notice = Some(match taken {
-            Ok(taken) => (taken.told(), !taken.left_out.is_empty()),
+            Ok(taken) => (taken.sentence(), !taken.left_out.is_empty()),
             Err(why) => (format!("not pasted: {why}"), true),
         });
     }

@@ -3,13 +3,14 @@
 use egui::{Align, Button, Layout, RichText, Ui};
 use egui_extras::{Column, TableBuilder, TableRow};
 use endline_gear::{Field, Kind, units};
+use endline_session::edit::library_table;
 
 use super::LibraryPanel;
 use super::rows::Row;
 use crate::gui::desk::Desk;
+use crate::gui::fields;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::words;
-use crate::gui::{exchange, fields};
 
 const NAME_WIDTH: f32 = 230.0;
 const CELL_WIDTH: f32 = 112.0;
@@ -190,7 +191,7 @@ fn cell(ui: &mut Ui, desk: &Desk, path: &str, key: &'static str, help: &str) -> 
 
 /// A letter in the cell's corner for how sure its figure is: m measured, d derived, e estimate.
 fn sureness(ui: &Ui, desk: &Desk, kind: Kind, path: &str, field: &Field) {
-    let entry = desk.documents.library().entry(kind, exchange::id_of(path));
+    let entry = desk.documents.library().entry(kind, library_table::id_of(path));
     let Some(figure) = entry.and_then(|entry| entry.figure(field.key)) else { return };
     let letter = figure.confidence.word().get(..1).unwrap_or_default();
     let colour = words::confidence_colour(figure.confidence, Theme::palette_of(ui));
@@ -209,7 +210,7 @@ fn provenance(desk: &Desk, kind: Kind, path: &str, field: &Field) -> String {
     let figure = desk
         .documents
         .library()
-        .entry(kind, exchange::id_of(path))
+        .entry(kind, library_table::id_of(path))
         .and_then(|entry| entry.figure(field.key));
     figure.map_or_else(String::new, |figure| {
         let si = units::format_si(figure.value, field.quantity);

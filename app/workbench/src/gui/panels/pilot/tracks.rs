@@ -8,11 +8,11 @@ use endline_gear::units::{Quantity, parse};
 use endline_sdk::Controls;
 use endline_session::edit::Documents;
 use endline_session::edit::pilot_program::{Entry, move_to, path, seconds, set, spoken, until_s};
+use endline_session::scales::ticks;
 
 use super::PilotPanel;
 use crate::gui::desk::{Desk, Order};
 use crate::gui::theme::{Palette, Theme};
-use crate::scene::ticks::ticks;
 
 /// Height of a track [points].
 const ROW: f32 = 24.0;
@@ -131,7 +131,7 @@ fn bars(all: &[Entry], tracks: &[usize], axis: Axis, drag: Option<Drag>) -> Vec<
 
 fn grid(painter: &Painter, axis: Axis, tracks: &[usize], palette: Palette) {
     let small = FontId::proportional(11.0);
-    for tick in ticks(axis.end_s, 8) {
+    for tick in ticks(0.0, axis.end_s, 8) {
         let x = axis.x(tick);
         painter.line_segment(
             [pos2(x, axis.rect.top() + AXIS - 4.0), pos2(x, axis.rect.bottom())],

@@ -1,11 +1,11 @@
 //! Differences from the baseline as a forest of intervals, and the effect of each input as a tornado.
 
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Sense, Stroke, Ui, pos2, vec2};
+use endline_session::scales::{SERIES, ticks};
 use endline_session::study::StudyResults;
 use endline_session::study::stats::{Findings, Interval, Paired};
 
 use super::rates::{points, rate};
-use crate::gui::charts::COLOURS;
 use crate::gui::theme::{Palette, Theme};
 use crate::gui::widgets;
 
@@ -57,7 +57,8 @@ impl Figure {
 
     fn axis(&self, words: impl Fn(f64) -> String) {
         let (top, bottom) = (self.rect.top(), self.rect.bottom() - 30.0);
-        for tick in ticks(self.values) {
+        let [least, most] = self.values;
+        for tick in ticks(least, most, 5) {
             let x = self.x(tick);
             self.painter
                 .line_segment([pos2(x, top), pos2(x, bottom)], Stroke::new(1.0, self.palette.line));
@@ -80,22 +81,6 @@ impl Figure {
         ui.interact(strip, ui.id().with(("row", self.rect.top().to_bits(), row)), Sense::hover())
             .on_hover_text(text);
     }
-}
-
-/// Round values within a range, about five.
-fn ticks([least, most]: [f64; 2]) -> Vec<f64> {
-    let rough = (most - least) / 5.0;
-    let power = 10.0_f64.powf(rough.log10().floor());
-    let step = [1.0, 2.0, 2.5, 5.0, 10.0]
-        .into_iter()
-        .map(|factor| factor * power)
-        .find(|step| *step >= rough)
-        .unwrap_or(rough);
-    let first = (least / step).ceil() as i64;
-    (first..)
-        .map(|count| count as f64 * step)
-        .take_while(|tick| *tick <= most + 1e-9 * step)
-        .collect()
 }
 
 /// An option's name, its difference from the baseline, and the interval.
@@ -155,7 +140,7 @@ fn groups(findings: &Findings, event: &str) -> Vec<Group> {
 
 /// An interval with its value; the marks of each group have a shape of their own.
 fn whisker(figure: &Figure, row: usize, [low, at, high]: [f64; 3], kind: usize) {
-    let [red, green, blue] = COLOURS[kind % COLOURS.len()];
+    let [red, green, blue] = SERIES[kind % SERIES.len()];
     let colour = Color32::from_rgb(red, green, blue);
     let (y, stroke) = (figure.y(row), Stroke::new(1.6, colour));
     let [low, at, high] = [low, at, high].map(|value| figure.x(value));
@@ -195,7 +180,7 @@ pub(super) fn tornado(ui: &mut Ui, shown: &StudyResults) {
         let mut parts: Vec<_> = input.parts.iter().filter(|part| part.rate.runs > 0).collect();
         parts.sort_by(|one, other| one.rate.rate.total_cmp(&other.rate.rate));
         let (Some(least), Some(most)) = (parts.first(), parts.last()) else { continue };
-        let (row, [red, green, blue]) = (2 * index, COLOURS[0]);
+        let (row, [red, green, blue]) = (2 * index, SERIES[0]);
         let (from, to, y) = (figure.x(least.rate.rate), figure.x(most.rate.rate), figure.y(row));
         let bar = Rect::from_min_max(pos2(from, y - 7.0), pos2(to.max(from + 1.0), y + 7.0));
         figure.painter.rect(
@@ -225,16 +210,5 @@ pub(super) fn tornado(ui: &mut Ui, shown: &StudyResults) {
             "Which option has the lowest rate hangs on this input."
         };
         figure.hover(ui, row, &format!("{}\n{best}", told.join("\n")));
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::ticks;
-
-    #[test]
-    fn ticks_are_round_and_few() {
-        assert_eq!(ticks([0.0, 1.0]).len(), 6);
-        assert!(ticks([-0.13, 0.13]).iter().any(|tick| tick.abs() < 1e-12), "zero is one of them");
     }
 }

@@ -6,11 +6,11 @@ use egui::{Color32, RichText, Ui};
 use egui_plot::{
     AxisHints, Legend, Line, MarkerShape, Plot, PlotPoint, PlotPoints, PlotUi, Points,
 };
+use endline_session::scales::SERIES;
 use endline_session::study::StudyResults;
 use endline_session::units::ForceUnit;
 
 use super::ResultsPanel;
-use crate::gui::charts::COLOURS;
 use crate::gui::desk::Desk;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
@@ -100,7 +100,7 @@ fn frame(unit: ForceUnit) -> Plot<'static> {
 
 /// The runs of an option: a line, and a mark for each run in the option's own shape.
 fn curve(plot: &mut PlotUi<'_>, index: usize, name: &str, points: Vec<PlotPoint>) {
-    let [red, green, blue] = COLOURS[index % COLOURS.len()];
+    let [red, green, blue] = SERIES[index % SERIES.len()];
     let colour = Color32::from_rgb(red, green, blue);
     let line = Line::new(name, PlotPoints::Owned(points.clone()));
     plot.line(line.color(colour).width(1.3));

@@ -2,9 +2,10 @@
 
 use egui::{PointerButton, Rect, Response, Ui};
 use endline_session::live::LiveView;
+use endline_session::scene::Scene;
 use glam::DVec2;
 
-use crate::scene::{Camera, Scene, View};
+use crate::scene::{Camera, View};
 
 /// An eye; each pane of the 3-D view has one.
 #[derive(Clone, Debug)]

@@ -13,6 +13,7 @@ use std::sync::Arc;
 
 use egui::{Rect, Ui, pos2};
 use endline_session::live::LiveView;
+use endline_session::scene::Show;
 
 pub use eye::Eye;
 pub use state::{Drawn, ScaleTop, ViewPanel};
@@ -23,7 +24,7 @@ use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::words::capital;
-use crate::scene::{Show, View};
+use crate::scene::View;
 use split::{Pane, places};
 
 impl Panel for ViewPanel {

@@ -2,6 +2,7 @@
 
 use egui::{Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, WidgetType};
 use endline_session::live::LiveView;
+use endline_session::scene::rope::greatest_n;
 use glam::DVec2;
 
 use super::split::Pane;
@@ -10,7 +11,6 @@ use crate::gui::canvas::Canvas;
 use crate::gui::desk::Desk;
 use crate::gui::theme::Theme;
 use crate::scene::pick::pick;
-use crate::scene::rope::greatest_n;
 use crate::scene::{Camera, Overlay, Water, overlay};
 
 /// Width from which a pane names the force of its longest arrow [points].

@@ -3,6 +3,7 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use endline_session::live::{LiveView, Status};
+use endline_session::scene::{Scene, Show};
 use endline_sim::{Frame, Model};
 
 use super::eye::Eye;
@@ -10,7 +11,7 @@ use super::picking::Picks;
 use super::pose::Start;
 use crate::gui::canvas::{Canvas, MOST_PANES};
 use crate::gui::desk::Desk;
-use crate::scene::{Scene, Show, View};
+use crate::scene::View;
 
 /// What the top of the tension scale is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

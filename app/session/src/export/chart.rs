@@ -1,24 +1,15 @@
-//! What is plotted of a run, as plain data: drawn in the window, exported as CSV and SVG.
+//! What is plotted of a run, as plain data: drawn in the window, written as CSV, SVG or PNG.
 
-use egui_plot::PlotPoint;
 use endline_sdk::BodyPart;
-use endline_session::live::{Channel, LiveView, Series, Span};
-use endline_session::units::Units;
+
 use serde::{Deserialize, Serialize};
 
-/// Spans a curve is drawn with at most: least and greatest of each, so that no peak is lost.
-pub const SPANS: usize = 900;
+use crate::live::{Channel, LiveView, Series, Span};
+use crate::scales::SERIES;
+use crate::units::Units;
 
-/// Colours that stay apart for every colour vision (Okabe and Ito 2008, without yellow and black).
-pub const COLOURS: [[u8; 3]; 7] = [
-    [0x56, 0xb4, 0xe9],
-    [0xe6, 0x9f, 0x00],
-    [0x00, 0x9e, 0x73],
-    [0xcc, 0x79, 0xa7],
-    [0xd5, 0x5e, 0x00],
-    [0x4f, 0x8f, 0xd0],
-    [0x99, 0x99, 0x99],
-];
+/// Most time spans of a curve: each gives its least and its greatest value, so that no peak is lost.
+pub const SPANS: usize = 900;
 
 /// A kind of plot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -90,13 +81,13 @@ pub enum Style {
 /// A curve.
 #[derive(Clone, Debug, Default)]
 pub struct Curve {
-    /// What it is of.
+    /// Its name: the line, or the part of the whale.
     pub name: String,
     /// Its points, in the chart's units.
-    pub points: Vec<PlotPoint>,
+    pub points: Vec<[f64; 2]>,
     /// How it is drawn.
     pub style: Style,
-    /// Its colour, counted through [`COLOURS`].
+    /// Its colour, counted through [`SERIES`].
     pub colour: usize,
 }
 
@@ -104,7 +95,7 @@ impl Curve {
     /// Its colour.
     #[must_use]
     pub fn rgb(&self) -> [u8; 3] {
-        COLOURS[self.colour % COLOURS.len()]
+        SERIES[self.colour % SERIES.len()]
     }
 }
 
@@ -113,18 +104,18 @@ impl Curve {
 pub struct Level {
     /// What it is.
     pub name: String,
-    /// Least and greatest; the same for a sharp level.
+    /// Least and greatest value; equal for a single value.
     pub band: [f64; 2],
 }
 
 /// A plot.
 #[derive(Clone, Debug)]
 pub struct Chart {
-    /// Which.
+    /// Its kind.
     pub kind: Kind,
-    /// What its x axis is, with the unit.
+    /// Label of the x axis, with the unit.
     pub x: String,
-    /// What its y axis is, with the unit.
+    /// Label of the y axis, with the unit.
     pub y: String,
     /// Its curves.
     pub curves: Vec<Curve>,
@@ -208,7 +199,8 @@ impl Chart {
         self
     }
 
-    /// The name that a curve is taken away by: its own, or that of the line whose least or greatest it is.
+    /// The name by which a curve is hidden: its own, or that of the line whose least or greatest
+    /// value it is.
     #[must_use]
     pub fn line_of<'a>(&'a self, curve: &'a Curve) -> &'a str {
         let line = self
@@ -224,7 +216,7 @@ impl Chart {
         self.curves
             .iter()
             .flat_map(|curve| &curve.points)
-            .map(|point| point.y)
+            .map(|[_, y]| *y)
             .fold(f64::NEG_INFINITY, f64::max)
     }
 
@@ -234,10 +226,7 @@ impl Chart {
         let mut writer = csv::Writer::from_writer(Vec::new());
         let head = [format!("curve of {}", self.kind.title()), self.x.clone(), self.y.clone()];
         let rows = self.curves.iter().flat_map(|curve| {
-            curve
-                .points
-                .iter()
-                .map(|point| [curve.name.clone(), point.x.to_string(), point.y.to_string()])
+            curve.points.iter().map(|[x, y]| [curve.name.clone(), x.to_string(), y.to_string()])
         });
         // Writing to memory cannot fail.
         let written =
@@ -251,7 +240,7 @@ impl Chart {
 fn curve(name: &str, series: &Series, index: usize, unit: impl Fn(f64) -> f64) -> Curve {
     let ends = |span: &Span| {
         let [min, max] = [unit(span.min), unit(span.max)];
-        let point = |y| PlotPoint::new(span.time_s, y);
+        let point = |y| [span.time_s, y];
         // One sample is one point.
         if span.min.to_bits() == span.max.to_bits() {
             vec![point(min)]
@@ -339,10 +328,7 @@ fn along(view: &LiveView, units: Units) -> Chart {
                 continue;
             };
             let y = force.of_newtons(*tension_n);
-            points.extend([
-                PlotPoint::new(units.of_metres(at_m), y),
-                PlotPoint::new(units.of_metres(at_m + length_m), y),
-            ]);
+            points.extend([[units.of_metres(at_m), y], [units.of_metres(at_m + length_m), y]]);
             at_m += length_m;
         }
         ends_m.push(at_m);
@@ -369,7 +355,7 @@ fn envelope(view: &LiveView, index: usize, start_m: f64, units: Units) -> Vec<Cu
     let curve = |what: &str, values_n: &[f64]| {
         let at = |(stretch, value_n): (usize, &f64)| {
             let x = units.of_metres(start_m + stretch_m * (stretch as f64 + 0.5));
-            value_n.is_finite().then(|| PlotPoint::new(x, units.force().of_newtons(*value_n)))
+            value_n.is_finite().then(|| [x, units.force().of_newtons(*value_n)])
         };
         let points = values_n.iter().enumerate().filter_map(at).collect();
         Curve {
@@ -394,13 +380,13 @@ mod tests {
         }
         let points = curve("line", &series, 0, |value| value).points;
         assert!(points.len() <= 2 * SPANS);
-        let top = points.iter().map(|point| point.y).fold(0.0, f64::max);
+        let top = points.iter().map(|[_, y]| *y).fold(0.0, f64::max);
         assert!((top - 1000.0).abs() < 1e-6, "{top}");
     }
 
     #[test]
     fn a_chart_is_written_point_by_point() {
-        let points = vec![PlotPoint::new(0.0, 1.0), PlotPoint::new(0.5, 2.0)];
+        let points = vec![[0.0, 1.0], [0.5, 2.0]];
         let curves = vec![Curve { name: "endline, top".into(), points, ..Curve::default() }];
         let chart = Chart {
             kind: Kind::Tension,
@@ -421,7 +407,7 @@ mod tests {
     fn another_run_is_drawn_dashed_in_the_colours_of_the_first() {
         let curve = |name: &str, colour| Curve {
             name: name.into(),
-            points: vec![PlotPoint::new(0.0, 1.0)],
+            points: vec![[0.0, 1.0]],
             style: Style::Solid,
             colour,
         };

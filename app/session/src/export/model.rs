@@ -1,25 +1,23 @@
-//! A scene's solid parts as 3-D models for CAD and for pictures: STL, and glTF 2.0 in one file.
+//! The solid parts of a scene as 3-D models for CAD and for pictures: STL and binary glTF 2.0.
 //!
-//! STL has no unit and no axes of its own: coordinates are metres, z up. glTF is in metres with y up, so a place
-//! (x, y, z) is written (x, z, -y), and carries the colours.
+//! STL has no unit and no axes of its own: coordinates are metres, z up. glTF is in metres with y
+//! up, so a place (x, y, z) is written (x, z, -y). Only glTF carries colours.
 
+use endline_gear::whale::gltf::pack::{self, Pack};
 use glam::Vec3;
 use serde_json::json;
 
 use crate::scene::Scene;
 use crate::scene::mesh::Mesh;
 
-/// Parts that are things, not the sea or marks on it.
+/// Parts that are solid things, unlike the sea and marks.
 const SOLID: [&str; 4] = ["obstacles", "whale", "ropes", "bodies"];
-
-/// Magic number, version and kinds of chunk of a binary glTF file.
-const GLB: [u32; 4] = [0x4654_6C67, 2, 0x4E4F_534A, 0x004E_4942];
 
 fn solid(scene: &Scene) -> impl Iterator<Item = (&'static str, &Mesh)> {
     scene.parts.iter().filter(|part| SOLID.contains(&part.name)).map(|part| (part.name, &part.mesh))
 }
 
-/// Where each vertex is: rope stands out from its centre line.
+/// Where each vertex is: the skin of rope lies a radius off its centre line.
 fn places(mesh: &Mesh) -> impl Iterator<Item = Vec3> + '_ {
     mesh.place
         .iter()
@@ -54,98 +52,40 @@ pub fn stl(scene: &Scene) -> Vec<u8> {
 /// Binary glTF 2.0: one node and mesh a part.
 #[must_use]
 pub fn glb(scene: &Scene) -> Vec<u8> {
-    let mut buffer = Buffer::default();
+    let mut pack = Pack::default();
     let (mut meshes, mut nodes) = (Vec::new(), Vec::new());
     for (name, mesh) in solid(scene) {
         let turned = |place: Vec3| Vec3::new(place.x, place.z, -place.y);
         let places: Vec<[f32; 3]> = places(mesh).map(|place| turned(place).to_array()).collect();
-        let normals: Vec<[f32; 3]> = mesh
-            .normal
-            .iter()
-            .map(|normal| turned(*normal).normalize_or(Vec3::Y).to_array())
-            .collect();
+        let unit = |normal: &Vec3| turned(*normal).normalize_or(Vec3::Y).to_array();
+        let normals: Vec<[f32; 3]> = mesh.normal.iter().map(unit).collect();
         let attributes = json!({
-            "POSITION": buffer.rows(&places, "VEC3", true),
-            "NORMAL": buffer.rows(&normals, "VEC3", false),
-            "COLOR_0": buffer.rows(&mesh.colour, "VEC4", false),
+            "POSITION": pack.places(&places),
+            "NORMAL": pack.vertices(&normals),
+            "COLOR_0": pack.vertices(&mesh.colour),
         });
-        let indices = buffer.indices(&mesh.triangles);
+        let indices = pack.indices(mesh.triangles.as_flattened());
         nodes.push(json!({ "name": name, "mesh": meshes.len() }));
-        meshes.push(json!({ "name": name, "primitives": [{ "attributes": attributes, "indices": indices, "material": 0 }] }));
+        let primitive = json!({ "attributes": attributes, "indices": indices, "material": 0 });
+        meshes.push(json!({ "name": name, "primitives": [primitive] }));
     }
     let of_scene: Vec<usize> = (0..nodes.len()).collect();
-    let mut document = json!({
+    let material = json!({
+        "name": "gear",
+        "doubleSided": true,
+        "pbrMetallicRoughness": { "metallicFactor": 0.0, "roughnessFactor": 0.7 },
+    });
+    let document = json!({
         "asset": { "version": "2.0", "generator": "Endline" },
         "scene": 0,
         "scenes": [{ "nodes": of_scene }],
-        "materials": [{ "name": "gear", "doubleSided": true, "pbrMetallicRoughness": { "metallicFactor": 0.0, "roughnessFactor": 0.7 } }],
-        "buffers": [{ "byteLength": buffer.bytes.len() }],
+        "nodes": nodes,
+        "meshes": meshes,
+        "materials": [material],
+        "accessors": pack.accessors,
+        "bufferViews": pack.views,
     });
-    for (key, list) in [
-        ("nodes", nodes),
-        ("meshes", meshes),
-        ("bufferViews", buffer.views),
-        ("accessors", buffer.accessors),
-    ] {
-        document[key] = json!(list);
-    }
-    chunks(document.to_string().into_bytes(), buffer.bytes)
-}
-
-fn chunks(mut text: Vec<u8>, mut bytes: Vec<u8>) -> Vec<u8> {
-    text.resize(text.len().next_multiple_of(4), b' ');
-    bytes.resize(bytes.len().next_multiple_of(4), 0);
-    let count = |length: usize| u32::try_from(length).unwrap_or(u32::MAX);
-    let words =
-        |words: &[u32]| words.iter().flat_map(|word| word.to_le_bytes()).collect::<Vec<u8>>();
-    let [magic, version, json, binary] = GLB;
-    let whole = words(&[magic, version, count(28 + text.len() + bytes.len())]);
-    [whole, words(&[count(text.len()), json]), text, words(&[count(bytes.len()), binary]), bytes]
-        .concat()
-}
-
-/// The binary part of a glTF file with what says how to read it.
-#[derive(Default)]
-struct Buffer {
-    bytes: Vec<u8>,
-    views: Vec<serde_json::Value>,
-    accessors: Vec<serde_json::Value>,
-}
-
-impl Buffer {
-    /// Adds rows of numbers; answers the index of their accessor. Places need their bounds.
-    fn rows<const N: usize>(&mut self, rows: &[[f32; N]], kind: &str, bounded: bool) -> usize {
-        let bytes: Vec<u8> =
-            rows.iter().flatten().flat_map(|number| number.to_le_bytes()).collect();
-        let mut accessor = json!({ "bufferView": self.view(&bytes), "componentType": 5126, "count": rows.len(), "type": kind });
-        if bounded {
-            let bound = |pick: fn(f32, f32) -> f32, first: f32| {
-                (0..N)
-                    .map(|axis| rows.iter().map(|row| row[axis]).fold(first, pick))
-                    .collect::<Vec<f32>>()
-            };
-            accessor["min"] = json!(bound(f32::min, f32::MAX));
-            accessor["max"] = json!(bound(f32::max, f32::MIN));
-        }
-        self.accessors.push(accessor);
-        self.accessors.len() - 1
-    }
-
-    fn indices(&mut self, triangles: &[[u32; 3]]) -> usize {
-        let bytes: Vec<u8> =
-            triangles.iter().flatten().flat_map(|corner| corner.to_le_bytes()).collect();
-        let view = self.view(&bytes);
-        self.accessors.push(json!({ "bufferView": view, "componentType": 5125, "count": 3 * triangles.len(), "type": "SCALAR" }));
-        self.accessors.len() - 1
-    }
-
-    fn view(&mut self, bytes: &[u8]) -> usize {
-        self.views.push(
-            json!({ "buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len() }),
-        );
-        self.bytes.extend(bytes);
-        self.views.len() - 1
-    }
+    pack::binary(document, pack.bytes)
 }
 
 #[cfg(test)]
@@ -196,7 +136,10 @@ mod tests {
     fn a_gltf_reader_finds_every_triangle_with_y_up() {
         let bytes = glb(&scene());
         let word = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap());
-        assert_eq!([word(0), word(4), word(8)], [GLB[0], 2, u32::try_from(bytes.len()).unwrap()]);
+        assert_eq!(
+            [word(0), word(4), word(8)],
+            [0x4654_6C67, 2, u32::try_from(bytes.len()).unwrap()]
+        );
         let length = word(12) as usize;
         let document: serde_json::Value = serde_json::from_slice(&bytes[20..20 + length]).unwrap();
         assert_eq!(document["meshes"].as_array().unwrap().len(), 1);

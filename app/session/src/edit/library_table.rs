@@ -1,31 +1,32 @@
-//! Tables of the library as text: CSV out and in, and cells pasted from a spreadsheet.
+//! Tables of the library as text: CSV written and read, and cells pasted from a spreadsheet.
 //!
-//! A column goes by its field's key (`diameter`) or by its head on screen (`Diameter`), a row by its `id`. Values are
-//! as typed, with their unit. What cannot be taken is listed, and nothing is dropped in silence.
+//! A column is named by its field's key (`diameter`) or by its heading on screen (`Diameter`), a row
+//! by its `id`. Values are as typed, with their unit. Rows and columns that cannot be used are
+//! listed in [`Taken::left_out`].
 
+use super::documents::Documents;
 use endline_gear::{Document, Kind, Setting};
-use endline_session::edit::Documents;
 
 /// Columns before the kind's own.
 const FIRST: [&str; 2] = ["id", "name"];
 /// Text columns after them.
 const LAST: [&str; 3] = ["notes", "source", "sureness"];
 
-/// What a table came to.
+/// The result of reading a table.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Taken {
     /// Entries changed.
     pub changed: usize,
     /// Entries added.
     pub added: usize,
-    /// What was left out, and why: row or column.
+    /// Rows and columns that were left out, each with the reason.
     pub left_out: Vec<String>,
 }
 
 impl Taken {
-    /// In a sentence.
+    /// The result in a sentence.
     #[must_use]
-    pub fn told(&self) -> String {
+    pub fn sentence(&self) -> String {
         let mut text = format!("{} changed, {} added", self.changed, self.added);
         if !self.left_out.is_empty() {
             text += &format!("; left out: {}", self.left_out.join("; "));
@@ -48,7 +49,7 @@ pub fn to_csv(documents: &Documents, kind: Kind, paths: &[String]) -> String {
     written(documents, kind, paths, b',')
 }
 
-/// The same with tabs, as spreadsheets take it from the clipboard.
+/// A kind's table with tabs between cells, as spreadsheets paste it from the clipboard.
 #[must_use]
 pub fn to_tabs(documents: &Documents, kind: Kind, paths: &[String]) -> String {
     written(documents, kind, paths, b'\t')
@@ -115,7 +116,8 @@ fn key_of(kind: Kind, head: &str) -> Option<&'static str> {
     columns(kind).into_iter().find(|key| plain(key) == plain(head.trim()))
 }
 
-/// Takes a table with a head into the library: rows of a known id (or name) change that entry, others are added.
+/// Reads a table with a heading row into the library: a row of a known id (or name) changes that
+/// entry, any other row adds one.
 ///
 /// # Errors
 /// Where the text is no table or its first row names no known column.
@@ -156,7 +158,7 @@ pub fn import(documents: &mut Documents, kind: Kind, text: &str) -> Result<Taken
     Ok(taken)
 }
 
-/// Path and new text of a row's entry, and whether it was there before.
+/// Path and new text of a row's entry, and whether the entry existed.
 fn of_row(
     documents: &Documents,
     kind: Kind,
@@ -202,7 +204,7 @@ fn of_row(
     Ok((path.clone(), document.text(), known.is_some()))
 }
 
-/// A new entry before its figures: their source is the table they came from until somebody writes a better one.
+/// The text of a new entry without its figures. Its source is the table, until a better one is given.
 fn fresh(kind: Kind, name: &str) -> String {
     let name = name.replace(['"', '\\'], "'");
     format!(
@@ -211,7 +213,7 @@ fn fresh(kind: Kind, name: &str) -> String {
     )
 }
 
-/// A name as a file's: lower case, words joined by dashes.
+/// A name as the stem of a file: lower case, words joined by dashes.
 #[must_use]
 pub fn slug(name: &str) -> String {
     let words: String = name
@@ -223,7 +225,8 @@ pub fn slug(name: &str) -> String {
     if joined.is_empty() { "entry".to_owned() } else { joined }
 }
 
-/// Spreads cells over a table from one cell on: right over `keys`, down over `paths`. Cells beyond its edges are told.
+/// Writes cells into a table from one cell on: to the right over `keys`, downwards over `paths`.
+/// Cells beyond the edges are listed as left out.
 ///
 /// # Errors
 /// Where a cell cannot be set; nothing is then changed.
