@@ -5,6 +5,7 @@ mod files;
 mod plugins;
 mod rerun;
 mod runs;
+mod studies;
 
 use std::cell::Cell;
 use std::path::PathBuf;
@@ -153,7 +154,7 @@ impl Desk {
             self.take_made(made);
         }
         self.take_plugins();
-        super::studies::tick(self);
+        self.tick_studies();
         self.view = self.engine.as_ref().map(|engine| engine.latest());
         if self.view.as_ref().is_some_and(|view| view.newest_s < WORTH_KEEPING_S) {
             self.run_is_kept = false;
@@ -305,7 +306,7 @@ impl Desk {
             Order::Redo => self.step_back(false),
             Order::ReplayEncounter(option, encounter) => self.replay_encounter(*option, *encounter),
             // What is left is about studies, or about panels and layout, and obeyed by the window.
-            other => super::studies::obey(self, other),
+            other => self.obey_study(other),
         }
     }
 

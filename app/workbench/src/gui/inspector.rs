@@ -10,7 +10,7 @@ use super::widgets::words::{capital, spoken};
 use crate::scene::Picked;
 use crate::scene::pick::{ends, length_m, on_line};
 
-/// A name and what there is to tell of it.
+/// The name of a thing and its properties.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reading {
     /// What it is.

@@ -94,7 +94,7 @@ pub enum Order {
     Pose,
     /// Clicks in the 3-D view measure, or read again.
     Ruler,
-    /// Tell what there is to tell of a thing in the 3-D view.
+    /// Show the properties of a thing in the 3-D view.
     Read(Picked),
     /// Tell and measure nothing any more.
     LetGo,

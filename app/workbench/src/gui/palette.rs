@@ -46,7 +46,7 @@ static NAMED: [(&str, Order); 51] = [
     ("See everything", Order::Frame),
     ("Drag the whale's start", Order::Pose),
     ("Ruler", Order::Ruler),
-    ("Let go of what is read or measured", Order::LetGo),
+    ("Clear the inspector and the ruler", Order::LetGo),
     ("Hold this run to compare with", Order::HoldRun),
     ("End the comparison", Order::EndCompare),
     ("Add an entry to the pilot program", Order::AddEntry),

@@ -213,8 +213,7 @@ fn a_study_stands_still_when_paused_keeps_its_blocks_when_cancelled_and_goes_on(
     for file in ["table.csv", "report.html", "bundle/study.toml"] {
         assert!(folder.join(file).is_file(), "{file}");
     }
-    let (line, unsaved) =
-        endline_workbench::gui::studies::command_line(&harness.state().desk).unwrap();
+    let (line, unsaved) = harness.state().desk.study_line().unwrap();
     assert!(
         !unsaved
             && line.contains("endline study run")

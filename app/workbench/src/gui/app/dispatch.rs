@@ -6,9 +6,9 @@ use endline_session::edit::Documents;
 use super::App;
 use crate::gui::dialogs::{self, Question};
 use crate::gui::files::stem;
+use crate::gui::layout;
 use crate::gui::order::{Dialog, Order};
 use crate::gui::panel_id::PanelId;
-use crate::gui::{layout, studies};
 
 impl App {
     /// Obeys orders, one after the other.
@@ -137,7 +137,7 @@ impl App {
     }
 
     fn copy_study_line(&mut self, context: &Context) {
-        self.desk.notice = Some(match studies::command_line(&self.desk) {
+        self.desk.notice = Some(match self.desk.study_line() {
             Some((line, unsaved)) => {
                 context.copy_text(line);
                 let notice = if unsaved {

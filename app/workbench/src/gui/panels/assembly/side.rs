@@ -75,7 +75,7 @@ fn axis(drawn: &Drawn<'_>) -> DVec2 {
     far.and_then(DVec2::try_normalize).unwrap_or(DVec2::X)
 }
 
-/// The same box for both tides, round all that is drawn and the sea from seabed to surface, as wide for its height as
+/// One box for both tides, round all that is drawn and the sea from seabed to surface, as wide for its height as
 /// the picture.
 fn bounds(drawn: &Drawn<'_>, flat: &Flat, aspect: f64) -> PlotBounds {
     let rests = || {

@@ -76,7 +76,7 @@ pub(super) fn show(ui: &mut Ui, panel: &mut LibraryPanel, desk: &mut Desk, path:
     });
 }
 
-/// Name, remarks, source and sureness, for editing.
+/// Name, remarks, source and confidence, for editing.
 fn naming(ui: &mut Ui, panel: &mut LibraryPanel, desk: &mut Desk, path: &str) {
     let faint = Theme::palette_of(ui).faint;
     ui.horizontal(|ui| {
@@ -92,7 +92,7 @@ fn naming(ui: &mut Ui, panel: &mut LibraryPanel, desk: &mut Desk, path: &str) {
         ("Remarks", "notes", "What a reader should know"),
         ("Source", "source", "Where the figures come from that name no source of their own"),
         (
-            "Sureness",
+            "Confidence",
             "sureness",
             "measured, derived or estimate; of figures that name none of their own",
         ),

@@ -11,7 +11,7 @@ use crate::gui::widgets::{self, words};
 /// Draws the list.
 pub(super) fn show(ui: &mut Ui, desk: &Desk, kind: Kind, path: &str) {
     let palette = Theme::palette_of(ui);
-    widgets::caption(ui, "Figures, how sure, and whence");
+    widgets::caption(ui, "Figures, with confidence and source");
     let Some(entry) = desk.documents.library().entry(kind, id_of(path)) else {
         ui.label(RichText::new("not readable yet; see what is red").color(palette.faint));
         return;

@@ -205,7 +205,7 @@ fn sureness(ui: &Ui, desk: &Desk, kind: Kind, path: &str, field: &Field) {
     );
 }
 
-/// Source and sureness of a figure, where its file can be read.
+/// Source and confidence of a figure, where its file can be read.
 fn provenance(desk: &Desk, kind: Kind, path: &str, field: &Field) -> String {
     let figure = desk
         .documents

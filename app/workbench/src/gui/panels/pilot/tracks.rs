@@ -35,7 +35,7 @@ pub(super) struct Drag {
     to_s: f64,
 }
 
-/// What an entry tells one control, as drawn.
+/// What an entry commands of one control, as drawn.
 struct Bar {
     index: usize,
     rect: Rect,

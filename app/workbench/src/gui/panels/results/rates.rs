@@ -79,7 +79,7 @@ fn row(ui: &mut Ui, option: &OptionFinding, event: &str, baseline: bool, own_eve
     ui.end_row();
 }
 
-/// Rates by levels of the prior by which results are told apart.
+/// Rates by levels of the prior by which results are split.
 fn levels(ui: &mut Ui, shown: &StudyResults) {
     let faint = Theme::palette_of(ui).faint;
     for level in &shown.findings.levels {

@@ -228,7 +228,7 @@ fn name(ui: &mut Ui, text: &str) {
     name_with_help(ui, text, "");
 }
 
-/// A label that goes on in a second line where it is long, told on hover.
+/// A label that is wrapped where it is long, with help on hover.
 fn name_with_help(ui: &mut Ui, text: &str, help: &str) {
     let colour = Theme::palette_of(ui).faint;
     let galley =

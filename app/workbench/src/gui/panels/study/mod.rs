@@ -167,7 +167,7 @@ fn question(ui: &mut Ui, desk: &mut Desk, edits: &mut Edits) {
         .map(|name| name.replace('"', ""));
     let mut levels: Vec<(String, String)> = chosen.map(|name| (name.clone(), name)).collect();
     levels.insert(0, (String::new(), "nothing".into()));
-    choice(ui, desk, ("Told apart by", "split"), &levels, edits);
+    choice(ui, desk, ("Results split by", "split"), &levels, edits);
     number(ui, desk, ("Seed", "seed"), "Another seed draws other encounters", edits);
     number(
         ui,

@@ -57,7 +57,7 @@ pub fn touched(view: &LiveView, units: Units) -> String {
         .join(" · ")
 }
 
-/// What mouth, flippers and acts are told to do, in one line; `act` is the name of the chosen one.
+/// The commands to mouth, flippers and acts, in one line; `act` is the name of the chosen one.
 #[must_use]
 pub fn told(controls: &Controls, act: Option<&str>, hands: Hands) -> String {
     match hands {

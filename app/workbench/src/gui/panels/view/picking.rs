@@ -195,7 +195,7 @@ fn told(ui: &mut Ui, desk: &mut Desk, reading: &Reading) {
     ui.horizontal(|ui| {
         ui.label(RichText::new(&reading.title).strong().color(Theme::palette_of(ui).accent));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            if ui.add(egui::Button::new("×").frame(false)).on_hover_text("Let go").clicked() {
+            if ui.add(egui::Button::new("×").frame(false)).on_hover_text("Close").clicked() {
                 desk.orders.push(Order::LetGo);
             }
         });
