@@ -5,6 +5,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::names::modules;
+use super::resolve::Modules;
 use super::tree::Crate;
 
 /// What ties two files: the paths by which the first names items of the second.
@@ -52,7 +53,7 @@ fn shown(names: &BTreeSet<String>) -> Vec<String> {
 
 /// Which file names an item of which other, but for a file and the files of its modules.
 fn edges(of: &Crate) -> Edges {
-    let modules = modules(of);
+    let modules = Modules(modules(of));
     let mut edges = Edges::new();
     for (place, module) in &modules {
         for named in &module.named {

@@ -4,7 +4,6 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::code::{Place, group_length};
 use super::functions::parts;
-use super::resolve::Modules;
 use super::tokens::{Kind, Token};
 use super::tree::Crate;
 
@@ -26,8 +25,8 @@ pub struct Module {
     pub named: BTreeSet<Path>,
 }
 
-/// Reads what each module of a crate declares, imports and names.
-pub fn modules(of: &Crate) -> Modules {
+/// Reads what each module of a crate declares, imports and names, by path from its root.
+pub fn modules(of: &Crate) -> BTreeMap<Path, Module> {
     let mut modules = BTreeMap::<Path, Module>::new();
     for (index, file) in of.files.iter().enumerate() {
         let (tokens, mut place, mut at) = (&file.code.tokens, Place::default(), 0);
@@ -46,7 +45,7 @@ pub fn modules(of: &Crate) -> Modules {
         }
         modules.entry(file.module.clone()).or_default().file = index;
     }
-    Modules(modules)
+    modules
 }
 
 const ITEMS: [&str; 9] =
