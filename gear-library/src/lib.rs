@@ -57,6 +57,6 @@ pub use scenario::{
 pub use schema::{Field, Kind, Word};
 pub use sources::Sources;
 pub use study::{
-    Aim, Claim, Enough, Event, HOOKED_TURNS, Law, Level, MOST_ENCOUNTERS, Prior, RegionEvent,
-    RunRule, Setting as OptionSetting, Study, StudyOption, Target,
+    Aim, Claim, Counted, Enough, HOOKED_TURNS, Law, Level, MOST_ENCOUNTERS, Prior, RegionEvent,
+    RunRule, Setting as OptionSetting, Study, StudyEvent, StudyOption, Target,
 };

@@ -129,7 +129,7 @@ impl Checked {
     /// A study is checked by assembling every option with what is drawn first.
     fn study(&mut self, path: &Path, library: Option<&Path>, host: &PluginHost) {
         self.files += 1;
-        self.told(path, Opened::open(path, library, host).map(|_| ()));
+        self.note(path, Opened::open(path, library, host).map(|_| ()));
     }
 
     /// A case is checked with its table and its scenario: a file in the folder `cases` of a library.
@@ -139,17 +139,17 @@ impl Checked {
         let id =
             path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
         let checked = Cases::open(around.or(library)).and_then(|cases| cases.check(&id, host));
-        self.told(path, checked);
+        self.note(path, checked);
     }
 
     /// A scenario is checked by assembling it: references, plugins and the model itself are then checked too.
     fn scenario(&mut self, path: &Path, library: Option<&Path>, host: &PluginHost) {
         self.files += 1;
-        self.told(path, prepare(path, library, host, Overrides::default()).map(|_| ()));
+        self.note(path, prepare(path, library, host, Overrides::default()).map(|_| ()));
     }
 
     /// Keeps what is wrong with a file, each problem once.
-    fn told(&mut self, path: &Path, checked: Result<(), Error>) {
+    fn note(&mut self, path: &Path, checked: Result<(), Error>) {
         match checked {
             Ok(()) => {}
             Err(Error::Diagnostics(problems)) => {

@@ -5,7 +5,7 @@ use crate::fields::{Fields, Problems};
 use crate::nearest::hint;
 use crate::tree::Node;
 
-use super::event::{self, Event};
+use super::event::{self, StudyEvent};
 use super::option::{StudyOption, texts};
 
 /// A statement with a sign.
@@ -18,11 +18,11 @@ pub struct Claim {
     /// Who says so.
     pub source: String,
     /// What should happen more often.
-    pub event: Event,
+    pub event: StudyEvent,
     /// In these options, pooled.
     pub more: Vec<String>,
     /// Than this event; mostly the same one.
-    pub less_event: Event,
+    pub less_event: StudyEvent,
     /// In these options, pooled.
     pub less: Vec<String>,
 }

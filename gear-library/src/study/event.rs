@@ -10,7 +10,7 @@ pub const HOOKED_TURNS: f64 = 0.5;
 
 /// Something an encounter did or did not come to.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Event {
+pub enum StudyEvent {
     /// Rope touched the whale.
     Contact,
     /// Rope touched and let go, nothing parted.
@@ -38,6 +38,84 @@ pub enum RegionEvent {
     Wrap,
 }
 
+/// How an event is counted in the table of a study.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Counted<'a> {
+    /// By the outcome, which is one of these.
+    Outcome(&'a [&'a str]),
+    /// By a column that has a number where the event came.
+    Present(&'a str),
+    /// By a column that says yes.
+    Flag(&'a str),
+    /// By a column of any of these parts, whose number is at least so much.
+    AtLeast(&'a str, &'a [BodyPart], f64),
+}
+
+/// What is declared of an event that concerns the whole whale.
+struct Declared {
+    event: StudyEvent,
+    /// Name in files and tables.
+    name: &'static str,
+    /// Name as shown to the user.
+    words: &'static str,
+    counted: Counted<'static>,
+    /// Whether the chart at the head of a report has it.
+    in_chart: bool,
+}
+
+/// Every event that concerns the whole whale, in the order in which a report lists them.
+static WHOLE: [Declared; 7] = [
+    Declared {
+        event: StudyEvent::Contact,
+        name: "contact",
+        words: "rope touches",
+        counted: Counted::Present("first_contact_s"),
+        in_chart: true,
+    },
+    Declared {
+        event: StudyEvent::Shed,
+        name: "shed",
+        words: "shed",
+        counted: Counted::Outcome(&["shed"]),
+        in_chart: false,
+    },
+    Declared {
+        event: StudyEvent::Entangled,
+        name: "entangled",
+        words: "entangled at the end",
+        counted: Counted::Outcome(&["entangled", "parted_entangled"]),
+        in_chart: true,
+    },
+    Declared {
+        event: StudyEvent::Parted,
+        name: "parted",
+        words: "something parted",
+        counted: Counted::Outcome(&["parted_free", "parted_entangled"]),
+        in_chart: true,
+    },
+    Declared {
+        event: StudyEvent::PartedFree,
+        name: "parted_free",
+        words: "parted and free",
+        counted: Counted::Outcome(&["parted_free"]),
+        in_chart: false,
+    },
+    Declared {
+        event: StudyEvent::PartedEntangled,
+        name: "parted_entangled",
+        words: "parted, still entangled",
+        counted: Counted::Outcome(&["parted_entangled"]),
+        in_chart: false,
+    },
+    Declared {
+        event: StudyEvent::Lodged,
+        name: "lodged",
+        words: "lodged in the mouth",
+        counted: Counted::Flag("was_lodged_in_mouth"),
+        in_chart: false,
+    },
+];
+
 /// Groups of parts that have a name of their own.
 fn groups() -> [(&'static str, Vec<BodyPart>); 3] {
     let tailstock = std::iter::once(BodyPart::Peduncle).chain(Limb::Fluke.parts());
@@ -48,11 +126,11 @@ fn groups() -> [(&'static str, Vec<BodyPart>); 3] {
     ]
 }
 
-impl Event {
+impl StudyEvent {
     /// Every event there is.
     #[must_use]
     pub fn all() -> Vec<Self> {
-        let mut all = Self::of_the_whole().to_vec();
+        let mut all = Self::of_the_whole();
         for kind in [RegionEvent::Contact, RegionEvent::Wrap] {
             all.extend(BodyPart::ALL.into_iter().map(|part| Self::On(kind, vec![part])));
             all.extend(groups().into_iter().map(|(_, parts)| Self::On(kind, parts)));
@@ -63,16 +141,15 @@ impl Event {
 
     /// Events that concern the whole whale, in the order in which a report lists them.
     #[must_use]
-    pub fn of_the_whole() -> [Self; 7] {
-        [
-            Self::Contact,
-            Self::Shed,
-            Self::Entangled,
-            Self::Parted,
-            Self::PartedFree,
-            Self::PartedEntangled,
-            Self::Lodged,
-        ]
+    pub fn of_the_whole() -> Vec<Self> {
+        WHOLE.iter().map(|declared| declared.event.clone()).collect()
+    }
+
+    /// Events of the chart at the head of a report.
+    #[must_use]
+    pub fn of_the_chart() -> Vec<Self> {
+        let charted = WHOLE.iter().filter(|declared| declared.in_chart);
+        charted.map(|declared| declared.event.clone()).collect()
     }
 
     /// Names of the places on the whale that a report lists, as they stand in names of events: each part of the trunk,
@@ -92,17 +169,9 @@ impl Event {
     #[must_use]
     pub fn name(&self) -> String {
         match self {
-            Self::Contact => "contact".into(),
-            Self::Shed => "shed".into(),
-            Self::Entangled => "entangled".into(),
-            Self::Parted => "parted".into(),
-            Self::PartedFree => "parted_free".into(),
-            Self::PartedEntangled => "parted_entangled".into(),
-            Self::Lodged => "lodged".into(),
-            Self::On(kind, parts) => {
-                let kind = if *kind == RegionEvent::Contact { "contact" } else { "wrap" };
-                format!("{kind}_{}", place(parts))
-            }
+            Self::On(RegionEvent::Contact, parts) => format!("contact_{}", place(parts)),
+            Self::On(RegionEvent::Wrap, parts) => format!("wrap_{}", place(parts)),
+            whole => whole.declared().map_or("", |declared| declared.name).to_owned(),
         }
     }
 
@@ -110,20 +179,32 @@ impl Event {
     #[must_use]
     pub fn words(&self) -> String {
         match self {
-            Self::Contact => "rope touches".into(),
-            Self::Shed => "shed".into(),
-            Self::Entangled => "entangled at the end".into(),
-            Self::Parted => "something parted".into(),
-            Self::PartedFree => "parted and free".into(),
-            Self::PartedEntangled => "parted, still entangled".into(),
-            Self::Lodged => "lodged in the mouth".into(),
             Self::On(RegionEvent::Contact, parts) => {
                 format!("rope on {}", place(parts).replace('_', " "))
             }
             Self::On(RegionEvent::Wrap, parts) => {
                 format!("wrap on {}", place(parts).replace('_', " "))
             }
+            whole => whole.declared().map_or("", |declared| declared.words).to_owned(),
         }
+    }
+
+    /// How it is counted in the table of a study.
+    #[must_use]
+    pub fn counted(&self) -> Counted<'_> {
+        match self {
+            Self::On(RegionEvent::Contact, parts) => {
+                Counted::AtLeast("peak_normal_N", parts, f64::MIN_POSITIVE)
+            }
+            Self::On(RegionEvent::Wrap, parts) => {
+                Counted::AtLeast("peak_wraps", parts, HOOKED_TURNS)
+            }
+            whole => whole.declared().map_or(Counted::Outcome(&[]), |declared| declared.counted),
+        }
+    }
+
+    fn declared(&self) -> Option<&'static Declared> {
+        WHOLE.iter().find(|declared| declared.event == *self)
     }
 
     /// The event of a name.
@@ -141,18 +222,18 @@ fn place(parts: &[BodyPart]) -> String {
 }
 
 /// An event that must be named under a key.
-pub(super) fn need(fields: &Fields<'_>, key: &'static str) -> Option<Event> {
+pub(super) fn need(fields: &Fields<'_>, key: &'static str) -> Option<StudyEvent> {
     fields
         .need_text(key, "write an event such as \"entangled\", \"parted\" or \"wrap_flipper\"")?;
     maybe(fields, key)
 }
 
 /// An event under a key, if it is there.
-pub(super) fn maybe(fields: &Fields<'_>, key: &'static str) -> Option<Event> {
+pub(super) fn maybe(fields: &Fields<'_>, key: &'static str) -> Option<StudyEvent> {
     let word = fields.text(key)?;
-    let found = Event::find(&word.value);
+    let found = StudyEvent::find(&word.value);
     if found.is_none() {
-        let names: Vec<String> = Event::all().iter().map(Event::name).collect();
+        let names: Vec<String> = StudyEvent::all().iter().map(StudyEvent::name).collect();
         fields.problems().push(word.place.error(
             format!("there is no event `{}`", word.value),
             hint(&word.value, names.iter().map(String::as_str)),

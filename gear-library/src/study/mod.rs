@@ -17,7 +17,7 @@ use crate::tree::{self, Node};
 use crate::units::Quantity;
 
 pub use claim::Claim;
-pub use event::{Event, HOOKED_TURNS, RegionEvent};
+pub use event::{Counted, HOOKED_TURNS, RegionEvent, StudyEvent};
 pub use option::{Setting, StudyOption};
 pub use prior::{Law, Level, Prior, Target};
 
@@ -44,7 +44,7 @@ pub struct Study {
     /// Id of the option that others are compared with.
     pub baseline: At<String>,
     /// What options are ranked by.
-    pub event: Event,
+    pub event: StudyEvent,
     /// Prior by whose levels results are also listed apart.
     pub split: Option<At<String>>,
     /// When a run ends.
@@ -76,7 +76,7 @@ pub struct RunRule {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Enough {
     /// The rate that counts.
-    pub event: Event,
+    pub event: StudyEvent,
     /// Width of its 95 % interval below which the study ends, in every option.
     pub width: f64,
     /// Encounters that are run in any case.
@@ -136,7 +136,7 @@ impl Study {
             seed: seed.map_or(1, |seed| seed.value),
             encounters: encounters?,
             baseline: baseline?,
-            event: event.unwrap_or(Event::Entangled),
+            event: event.unwrap_or(StudyEvent::Entangled),
             split,
             run,
             enough,

@@ -12,7 +12,7 @@ use super::outcome::{Convergence, Outcome, Verdict, error};
 use super::reference::{Reference, begin, of_table, probes};
 use super::setup::Setup;
 
-/// Readings nearer than this share of their size are the same: no order can be told from them.
+/// Readings nearer than this share of their size are the same: they show no order of convergence.
 const SAME: f64 = 1e-10;
 
 /// Refuses a case that names a probe its scenario does not have, or a column its table does not have.

@@ -58,7 +58,7 @@ pub(super) fn run(
         groups.push(Group { name: name.clone(), pairs });
     }
     let Some(setup) = last else {
-        let help = "mend `groups`, `by` or `least`";
+        let help = "correct `groups`, `by` or `least`";
         return Err(Error::Diagnostics(vec![
             rows.by.place.error("no row of the table belongs to these groups", help),
         ]));
@@ -91,7 +91,7 @@ pub(super) fn check(
         let Some(row) = rows.of_group(table, name)?.first().copied() else {
             let message = format!("no row of the table has {} {name}", rows.by.value);
             return Err(Error::Diagnostics(vec![
-                rows.by.place.error(message, "mend `groups`, `by` or `least`"),
+                rows.by.place.error(message, "correct `groups`, `by` or `least`"),
             ]));
         };
         let setup = Setup::new(cases, case, &rows.fields(table, row)?, host)?;

@@ -38,12 +38,12 @@ impl Setup {
         let fault = |message: String| Error::at(&path, format!("cannot be set: {message}"));
         let mut document = Document::parse(&text).map_err(|error| fault(error.message))?;
         for (field, value) in &case.set {
-            let told = |error: endline_gear::EditError| {
+            let as_error = |error: endline_gear::EditError| {
                 Error::Diagnostics(vec![
                     field.place.error(error.message, "name a field of the scenario"),
                 ])
             };
-            document.set(&field.value, value).map_err(told)?;
+            document.set(&field.value, value).map_err(as_error)?;
         }
         for (field, value) in more {
             document.set(field, value).map_err(|error| fault(error.message))?;
@@ -65,7 +65,7 @@ impl Setup {
         spec.settings.step_s /= f64::from(step);
         spec.settings.contact_step_s /= f64::from(step);
         spec.lines.iter_mut().for_each(|line| divide(line, segment as usize));
-        let told = |error: ModelError| {
+        let as_error = |error: ModelError| {
             endline_gear::Diagnostic::of_file(
                 &self.prepared.source.scenario_name,
                 error.message,
@@ -73,7 +73,7 @@ impl Setup {
             )
         };
         let model = Model::new(spec)
-            .map_err(|errors| Error::Diagnostics(errors.into_iter().map(told).collect()))?;
+            .map_err(|errors| Error::Diagnostics(errors.into_iter().map(as_error).collect()))?;
         Ok(Prepared { model: Arc::new(model), ..self.prepared.clone() })
     }
 }

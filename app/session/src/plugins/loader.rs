@@ -49,7 +49,7 @@ impl Loader {
         for folder in text_plugins(&self.folders) {
             match TextPlugin::from_folder(&folder) {
                 Ok(plugin) => host.add_text(&folder, &plugin, &self.choices, &mut problems),
-                Err(found) => problems.push(told(&found).at(folder)),
+                Err(found) => problems.push(refusal(&found).at(folder)),
             }
         }
         (host, problems)
@@ -80,7 +80,7 @@ impl Loader {
             let reason = format!("set aside, because it failed the check before loading: {reason}");
             Refusal {
                 standing: Standing::SetAside,
-                ..Refusal::new(reason, "remove the file or mend the plugin")
+                ..Refusal::new(reason, "remove the file or fix the plugin")
             }
         })?;
         let opened = open_copy(file, &bytes)?;
@@ -134,16 +134,16 @@ pub(super) fn open_here(file: &Path) -> Result<(String, Opened), Refusal> {
 pub(super) fn open_folder(folder: &Path, host: &mut PluginHost, problems: &mut Vec<PluginProblem>) {
     match TextPlugin::from_folder(folder) {
         Ok(plugin) => host.add_text(folder, &plugin, &Choices::everything(), problems),
-        Err(found) => problems.push(told(&found).at(folder)),
+        Err(found) => problems.push(refusal(&found).at(folder)),
     }
 }
 
 /// Every problem of a folder's files, as one.
-fn told(problems: &[Diagnostic]) -> Refusal {
-    let told: Vec<String> = problems.iter().map(ToString::to_string).collect();
+fn refusal(problems: &[Diagnostic]) -> Refusal {
+    let problems: Vec<String> = problems.iter().map(ToString::to_string).collect();
     Refusal::new(
-        format!("this plugin without code cannot be used:\n{}", told.join("\n")),
-        "mend the files",
+        format!("this plugin without code cannot be used:\n{}", problems.join("\n")),
+        "fix the files",
     )
 }
 

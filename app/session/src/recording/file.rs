@@ -226,7 +226,7 @@ mod tests {
         for place in 0..whole.len() {
             let mut changed = whole.clone();
             changed[place] ^= 0x10;
-            // Refused, or taken with the damage told: never read as if nothing had happened.
+            // Refused, or taken with the damage reported: never read as if nothing had happened.
             assert!(
                 read(&changed).map_or(true, |recording| recording.damage.is_some()),
                 "byte {place}"

@@ -1,7 +1,7 @@
 //! A recording: all that went into a run, and the hash of every state that came out.
 //!
 //! It holds no states but their hashes; a moment is seen again by running again, which gives the
-//! same bits ([`replay`]). The file format is told in `docs/recording.md`.
+//! same bits ([`replay`]). The file format is described in `docs/recording.md`.
 
 mod file;
 pub mod program;
@@ -79,7 +79,7 @@ impl Recording {
             .map_err(|error| Error::at(path, format!("cannot be written: {error}")))
     }
 
-    /// Loads a recording. Changed inputs do not hinder it: they are told in `damage`, and
+    /// Loads a recording. Changed inputs do not hinder it: they are reported in `damage`, and
     /// [`replay::verify`] names the first step they change.
     ///
     /// # Errors

@@ -83,15 +83,15 @@ fn changes(inputs: &[Controls], thin: f64) -> Vec<Change> {
 
 /// The recorded scenario, as long as the recording, without its own pilot program.
 fn without_pilot(recording: &Recording) -> Result<String, Error> {
-    let told = |error: EditError| {
+    let as_error = |error: EditError| {
         Error::Replay(format!("the recorded scenario cannot be edited: {error}"))
     };
-    let mut document = Document::parse(&recording.source.scenario).map_err(told)?;
+    let mut document = Document::parse(&recording.source.scenario).map_err(as_error)?;
     if document.has("whale.pilot") {
-        document.remove("whale.pilot").map_err(told)?;
+        document.remove("whale.pilot").map_err(as_error)?;
     }
     let duration_s = seconds(recording.inputs.len(), recording.header.dt_s);
-    document.set("duration", &format!("{duration_s} s")).map_err(told)?;
+    document.set("duration", &format!("{duration_s} s")).map_err(as_error)?;
     Ok(document.text())
 }
 

@@ -73,7 +73,7 @@ impl Opened {
         self.families[one] == self.families[other]
     }
 
-    /// Whether an option has the same run as another of its family that came to `summary`, told without assembling it.
+    /// Whether an option has the same run as another of its family that came to `summary`, decided without assembling it.
     pub(super) fn surely(&self, option: usize, other: usize, run: &Run, summary: &Summary) -> bool {
         let bare = |option: usize| &self.options[option].prepared.model.spec;
         surely_same_run([bare(option), bare(other)], run.model(), summary)

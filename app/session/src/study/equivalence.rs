@@ -42,7 +42,7 @@ pub(super) fn same_until_parting(one: &Model, other: &Model) -> bool {
     alike(&one.spec, &other.spec)
 }
 
-/// Whether an option has the same run as another that came to `summary`, told without assembling it: by the two options'
+/// Whether an option has the same run as another that came to `summary`, decided without assembling it: by the two options'
 /// models of whatever encounter, first its own, where they are of one [`family`].
 pub(super) fn surely_same_run(
     [bare, other_bare]: [&ModelSpec; 2],

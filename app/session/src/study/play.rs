@@ -58,14 +58,14 @@ impl Opened {
                 rows[option] = row(self, option, &ready.encounter, Ok(&twin.report));
                 continue;
             }
-            let told = self.came(&ready, option, &order[place + 1..], &came);
+            let ended = self.came(&ready, option, &order[place + 1..], &came);
             rows[option] = row(
                 self,
                 option,
                 &ready.encounter,
-                told.as_ref().map(|came| &came.report).map_err(String::as_str),
+                ended.as_ref().map(|came| &came.report).map_err(String::as_str),
             );
-            came.extend(told.ok());
+            came.extend(ended.ok());
         }
         rows
     }

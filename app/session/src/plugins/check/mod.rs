@@ -38,7 +38,7 @@ pub struct Tried {
     pub findings: Vec<Finding>,
 }
 
-/// Opens a file, or the folder of a plugin without code, in this process and tries each of its plugins; `begin` is told a plugin's id and a check before each begins.
+/// Opens a file, or the folder of a plugin without code, in this process and tries each of its plugins; `begin` is called with a plugin's id and a check before each begins.
 ///
 /// # Errors
 /// Where the file or a plugin's declaration cannot be used. A file that crashes takes this process with it: that is what the child is for.

@@ -8,7 +8,7 @@ use endline_sdk::{
     AttributeKind, AttributeValue, Contacts, Descriptor, GearStep, HookError, MotionInput,
 };
 
-/// What a motion is told each step, as C sees it; the arrays stay with their owner.
+/// What a motion is given each step, as C sees it; the arrays stay with their owner.
 pub(super) fn raw_motion_input(input: &MotionInput<'_>) -> AbiMotionInput {
     AbiMotionInput {
         struct_size: size_of::<AbiMotionInput>() as u32,
@@ -25,7 +25,7 @@ pub(super) fn raw_motion_input(input: &MotionInput<'_>) -> AbiMotionInput {
     }
 }
 
-/// What a gear type is told each step, as C sees it; the tensions stay with their owner.
+/// What a gear type is given each step, as C sees it; the tensions stay with their owner.
 pub(super) fn raw_gear_step(input: &GearStep<'_>) -> AbiGearStep {
     AbiGearStep {
         struct_size: size_of::<AbiGearStep>() as u32,

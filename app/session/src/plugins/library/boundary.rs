@@ -40,7 +40,7 @@ const NOT_A_PLUGIN: &str = "only plugin libraries belong in this folder";
 /// What a library says of itself, and the descriptor of each of its plugins.
 type Contents = (String, Vec<Result<AbiPlugin, Refusal>>);
 
-/// Opens a library, which stays mapped from then on; `named` is the file that it is told as its own place.
+/// Opens a library, which stays mapped from then on; `named` is the file that it is given as its own place.
 pub(super) fn open(file: &Path, named: &Path) -> Result<Contents, Refusal> {
     let entry = read_entry(find_entry(file)?)?;
     initialise(&entry, named)?;

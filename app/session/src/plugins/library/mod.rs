@@ -36,7 +36,7 @@ pub(super) struct Opened {
     pub hooks: Vec<Result<Hook, Refusal>>,
 }
 
-/// Opens a library, which stays mapped from then on, and gives its plugins. `named` is the file that the library is told as its
+/// Opens a library, which stays mapped from then on, and gives its plugins. `named` is the file that the library is given as its
 /// own place, where `file` is a copy.
 pub(super) fn open(file: &Path, named: &Path) -> Result<Opened, Refusal> {
     let (about, plugins) = boundary::open(file, named)?;

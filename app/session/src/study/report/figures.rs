@@ -1,9 +1,10 @@
 //! The figures of a report that set rates in rows: by option, against the baseline, by input.
 
+use endline_gear::StudyEvent;
+
 use crate::study::stats::{Findings, Interval, LevelFinding, OptionFinding, Rate};
 
 use super::svg::{Axis, Side, Svg};
-use super::words::event_words;
 
 /// Width of a figure.
 pub(super) const WIDE: f64 = 760.0;
@@ -14,7 +15,7 @@ const ROW: f64 = 26.0;
 
 /// Rates of a few events by option, each with its interval.
 pub(super) fn rates(findings: &Findings) -> String {
-    let events = ["contact", "entangled", "parted"];
+    let events = StudyEvent::of_the_chart();
     let height = 74.0 + ROW * 1.6 * findings.options.len() as f64;
     let mut svg = Svg::new(WIDE, height, "Rates by option, given an encounter");
     let axis = Axis { values: [0.0, 1.0], places: [NAMES, WIDE - 20.0] };
@@ -22,14 +23,13 @@ pub(super) fn rates(findings: &Findings) -> String {
     for (kind, event) in events.iter().enumerate() {
         let x = NAMES + 150.0 * kind as f64;
         svg.mark([x, 14.0], kind);
-        svg.text([x + 10.0, 18.0], Side::Start, &event_words(event));
+        svg.text([x + 10.0, 18.0], Side::Start, &event.words());
     }
     for (row, option) in findings.options.iter().enumerate() {
         let y = 46.0 + 1.6 * ROW * row as f64;
         svg.text([NAMES - 10.0, y + 4.0], Side::End, &option.name);
-        for (kind, rate) in
-            events.iter().enumerate().filter_map(|(kind, event)| Some((kind, option.rate(event)?)))
-        {
+        let rate = |(kind, event): (usize, &StudyEvent)| Some((kind, option.rate(&event.name())?));
+        for (kind, rate) in events.iter().enumerate().filter_map(rate) {
             whisker(&mut svg, &axis, y + 8.0 * (kind as f64 - 1.0), rate, kind);
         }
     }

@@ -1,6 +1,6 @@
 //! The tables of what was found: rates, comparisons, tensions, places on the whale.
 
-use endline_gear::Event;
+use endline_gear::StudyEvent;
 
 use crate::study::stats::{Findings, LevelFinding, OptionFinding};
 
@@ -9,8 +9,8 @@ use super::words::{event_words, force, points, rate, ratio, short_rate};
 
 /// Rates of every event that concerns the whole whale.
 pub(super) fn rates(findings: &Findings) -> Table {
-    let events = Event::of_the_whole();
-    let words: Vec<String> = events.iter().map(Event::words).collect();
+    let events = StudyEvent::of_the_whole();
+    let words: Vec<String> = events.iter().map(StudyEvent::words).collect();
     let headings: Vec<&str> =
         ["option", "invalid runs"].into_iter().chain(words.iter().map(String::as_str)).collect();
     let row = |option: &OptionFinding| {
@@ -101,7 +101,7 @@ pub(super) fn tensions(findings: &Findings) -> Table {
 
 /// Where rope touched, and where it went round by half a turn.
 pub(super) fn regions(findings: &Findings) -> Table {
-    let places = Event::places();
+    let places = StudyEvent::places();
     let row = |option: &OptionFinding| {
         let one = |event: String| option.rate(&event).map_or_else(String::new, short_rate);
         let cell = |place: &&str| {

@@ -1,6 +1,6 @@
 //! Numbers and events as a report writes them. No-break spaces keep an interval and a force on one line.
 
-use endline_gear::Event;
+use endline_gear::StudyEvent;
 
 use crate::study::stats::{Interval, Rate};
 
@@ -44,7 +44,7 @@ pub(super) fn force(newtons: f64) -> String {
 
 /// An event in words, by its name in tables.
 pub(super) fn event_words(name: &str) -> String {
-    Event::find(name).map_or_else(|| name.to_owned(), |event| event.words())
+    StudyEvent::find(name).map_or_else(|| name.to_owned(), |event| event.words())
 }
 
 /// An outcome in words, by its name in tables.

@@ -1,7 +1,7 @@
 //! How an option's runs differ from the baseline's in the same encounters: outcome against outcome, and mean greatest tension.
 //!
 //! Of the encounters in which both runs count, *changed* are those with another outcome. Those in which rope touched in
-//! either run are told apart, for an encounter in which nothing touches has little to change. With `P` the greatest
+//! either run are counted apart, for an encounter in which nothing touches has little to change. With `P` the greatest
 //! tension of a run, the change of tension is `sum P / sum P_baseline - 1` over the same encounters.
 
 use serde::Serialize;

@@ -77,15 +77,15 @@ pub(super) fn look(claim: &Claim, table: &Table) -> ClaimFinding {
         Interval { high, .. } if high < 0.0 => Verdict::Opposite,
         _ => Verdict::Open,
     };
-    let told = |event: &endline_gear::Event, options: &[String]| {
+    let words = |event: &endline_gear::StudyEvent, options: &[String]| {
         format!("{} with {}", event.words(), options.join(", "))
     };
     ClaimFinding {
         id: claim.id.value.clone(),
         says: claim.says.clone(),
         source: claim.source.clone(),
-        more: told(&claim.event, &claim.more),
-        less: told(&claim.less_event, &claim.less),
+        more: words(&claim.event, &claim.more),
+        less: words(&claim.less_event, &claim.less),
         more_rate: rate(&format!("more {}", claim.id.value), &more),
         less_rate: rate(&format!("less {}", claim.id.value), &less),
         difference,

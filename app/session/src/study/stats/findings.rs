@@ -1,6 +1,6 @@
 //! All that a report tells of a merged table.
 
-use endline_gear::Event;
+use endline_gear::StudyEvent;
 use serde::Serialize;
 
 use crate::study::open::Opened;
@@ -34,7 +34,7 @@ pub struct Findings {
     pub baseline: usize,
     /// The options.
     pub options: Vec<OptionFinding>,
-    /// Levels of the prior by which results are told apart.
+    /// Levels of the prior by which results are separated.
     pub levels: Vec<LevelFinding>,
     /// Claims.
     pub claims: Vec<ClaimFinding>,
@@ -69,7 +69,7 @@ pub struct OptionFinding {
     pub best_share: f64,
 }
 
-/// Rates within a level of the prior by which results are told apart.
+/// Rates within a level of the prior by which results are separated.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LevelFinding {
     /// The level.
@@ -142,9 +142,9 @@ fn found(opened: &Opened, table: &Table, option: usize) -> OptionFinding {
     let count = |flag: &str, wanted: bool| {
         rows.iter().filter(|row| table.flags(flag)[**row] == wanted).count() as u64
     };
-    let events = Event::all();
-    let marks = |event: &Event| Marks::of(table, &plan.id, event);
-    let paired = |event: &Event| {
+    let events = StudyEvent::all();
+    let marks = |event: &StudyEvent| Marks::of(table, &plan.id, event);
+    let paired = |event: &StudyEvent| {
         (event.name(), Paired::of(&marks(event), &Marks::of(table, baseline, event)))
     };
     let undecided = rows
@@ -173,8 +173,11 @@ fn levels(opened: &Opened, table: &Table, marks: &[Marks]) -> Vec<LevelFinding> 
     let mut levels: Vec<String> = (0..table.rows()).map(|row| level(column, row)).collect();
     levels.sort();
     levels.dedup();
-    let parted: Vec<Marks> =
-        opened.options.iter().map(|option| Marks::of(table, &option.id, &Event::Parted)).collect();
+    let parted: Vec<Marks> = opened
+        .options
+        .iter()
+        .map(|option| Marks::of(table, &option.id, &StudyEvent::Parted))
+        .collect();
     let finding = |level_name: String| {
         let mut keep =
             vec![false; marks.iter().map(|marks| marks.0.len()).max().unwrap_or_default()];
@@ -188,14 +191,14 @@ fn levels(opened: &Opened, table: &Table, marks: &[Marks]) -> Vec<LevelFinding> 
             rates: own.iter().map(Rate::of).collect(),
             against: own.iter().map(|marks| Paired::of(marks, &own[opened.baseline])).collect(),
             parted: parted.iter().map(|marks| Rate::of(&marks.within(&keep))).collect(),
-            level: told(opened, &split.value, &level_name),
+            level: level_words(opened, &split.value, &level_name),
         }
     };
     levels.into_iter().map(finding).collect()
 }
 
 /// A level as the study's file has it, such as `15 yr` for its seconds.
-fn told(opened: &Opened, prior: &str, level: &str) -> String {
+fn level_words(opened: &Opened, prior: &str, level: &str) -> String {
     let prior = opened.study.priors.iter().find(|known| known.name.value == prior);
     let (Some(prior), Ok(number)) = (prior, level.parse()) else { return level.to_owned() };
     format!("{} {}", prior.words(), prior.law.written(number))

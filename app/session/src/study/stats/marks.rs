@@ -1,6 +1,6 @@
 //! Whether an event came, encounter by encounter.
 
-use endline_gear::{Event, HOOKED_TURNS, RegionEvent};
+use endline_gear::{Counted, StudyEvent};
 
 use crate::study::table::Table;
 
@@ -11,7 +11,7 @@ pub struct Marks(pub Vec<Option<bool>>);
 impl Marks {
     /// The marks of an event in the runs of an option.
     #[must_use]
-    pub fn of(table: &Table, option: &str, event: &Event) -> Self {
+    pub fn of(table: &Table, option: &str, event: &StudyEvent) -> Self {
         let (options, valid) = (table.texts("option"), table.flags("valid"));
         let came = of_rows(table, event);
         Self::by_encounter(table, |row| options[row] == option && valid[row], |row| came[row])
@@ -48,26 +48,18 @@ pub(super) fn encounters(table: &Table) -> Vec<usize> {
 }
 
 /// Whether an event came in each row.
-fn of_rows(table: &Table, event: &Event) -> Vec<bool> {
+fn of_rows(table: &Table, event: &StudyEvent) -> Vec<bool> {
     let outcome = |wanted: &[&str]| {
         table.texts("outcome").iter().map(|outcome| wanted.contains(&outcome.as_str())).collect()
     };
-    match event {
-        Event::Contact => table.reals("first_contact_s").iter().map(Option::is_some).collect(),
-        Event::Shed => outcome(&["shed"]),
-        Event::Entangled => outcome(&["entangled", "parted_entangled"]),
-        Event::Parted => outcome(&["parted_free", "parted_entangled"]),
-        Event::PartedFree => outcome(&["parted_free"]),
-        Event::PartedEntangled => outcome(&["parted_entangled"]),
-        Event::Lodged => {
-            let lodged = table.flags("was_lodged_in_mouth");
-            (0..table.rows()).map(|row| lodged.get(row) == Some(&true)).collect()
+    match event.counted() {
+        Counted::Outcome(wanted) => outcome(wanted),
+        Counted::Present(column) => table.reals(column).iter().map(Option::is_some).collect(),
+        Counted::Flag(column) => {
+            let flags = table.flags(column);
+            (0..table.rows()).map(|row| flags.get(row) == Some(&true)).collect()
         }
-        Event::On(kind, parts) => {
-            let (name, least) = match kind {
-                RegionEvent::Contact => ("peak_normal_N", f64::MIN_POSITIVE),
-                RegionEvent::Wrap => ("peak_wraps", HOOKED_TURNS),
-            };
+        Counted::AtLeast(name, parts, least) => {
             let mut came = vec![false; table.rows()];
             for part in parts {
                 let values = table.reals(&format!("{}_{name}", part.name()));

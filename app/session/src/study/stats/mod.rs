@@ -27,14 +27,14 @@ pub use paired::Paired;
 pub use sensitivity::{InputFinding, Part};
 pub use tensions::Tensions;
 
-use endline_gear::Event;
+use endline_gear::StudyEvent;
 
 use super::plan::OptionPlan;
 use super::table::Table;
 
 /// Whether the interval of an event's rate is narrower than `width` in every option.
 #[must_use]
-pub fn is_narrow(table: &Table, options: &[OptionPlan], event: &Event, width: f64) -> bool {
+pub fn is_narrow(table: &Table, options: &[OptionPlan], event: &StudyEvent, width: f64) -> bool {
     options.iter().all(|option| {
         let rate = Rate::of(&Marks::of(table, &option.id, event));
         rate.runs > 0 && rate.interval.high - rate.interval.low < width

@@ -1,6 +1,6 @@
 //! Sensitivity: how a rate and the ranking of options change with each input that was drawn.
 //!
-//! No run is made for it: the encounters of a study are told apart by the lower and upper half of an input, or by its
+//! No run is made for it: the encounters of a study are divided by the lower and upper half of an input, or by its
 //! levels. Inputs are drawn independently of one another, so that parts differ in that input alone but for chance. Rates
 //! are the baseline's: options meet the same encounters, so that their runs together would count each encounter many times.
 
@@ -108,8 +108,12 @@ fn ranking(rates: &[f64]) -> Vec<usize> {
     order
 }
 
-/// The encounters of each part of an input, whose numbers `told` puts in words.
-fn parts(table: &Table, column: &Column, told: &dyn Fn(f64) -> String) -> Vec<(String, Vec<bool>)> {
+/// The encounters of each part of an input, whose numbers `words` puts in words.
+fn parts(
+    table: &Table,
+    column: &Column,
+    words: &dyn Fn(f64) -> String,
+) -> Vec<(String, Vec<bool>)> {
     let encounters = encounters(table);
     let count = encounters.iter().max().map_or(0, |last| last + 1);
     let keep = |belongs: &dyn Fn(usize) -> bool| {
@@ -137,7 +141,7 @@ fn parts(table: &Table, column: &Column, told: &dyn Fn(f64) -> String) -> Vec<(S
                     .into_iter()
                     .map(|level| {
                         (
-                            told(level),
+                            words(level),
                             keep(&|row| {
                                 values[row].is_some_and(|value| value.total_cmp(&level).is_eq())
                             }),
@@ -151,11 +155,11 @@ fn parts(table: &Table, column: &Column, told: &dyn Fn(f64) -> String) -> Vec<(S
             };
             vec![
                 (
-                    format!("below {}", told(middle)),
+                    format!("below {}", words(middle)),
                     keep(&|row| values[row].is_some_and(|value| value < middle)),
                 ),
                 (
-                    format!("from {} on", told(middle)),
+                    format!("from {} on", words(middle)),
                     keep(&|row| values[row].is_some_and(|value| value >= middle)),
                 ),
             ]

@@ -1,5 +1,6 @@
 //! What the study commands print.
 
+use endline_gear::StudyEvent;
 use endline_session::study::Opened;
 use endline_session::study::control::Count;
 use endline_session::study::encounter::Encounter;
@@ -120,12 +121,12 @@ pub(super) fn findings(opened: &Opened, findings: &Findings) -> String {
 }
 
 fn rates(findings: &Findings) -> String {
-    let events = ["contact", "shed", "entangled", "parted", "parted_entangled"];
+    let events: Vec<String> = StudyEvent::of_the_whole().iter().map(StudyEvent::name).collect();
     let mut rows = vec![
         ["option", "runs", "invalid", "undecided"]
             .into_iter()
-            .chain(events)
             .map(str::to_owned)
+            .chain(events.iter().map(|event| event.replace('_', " ")))
             .collect::<Vec<_>>(),
     ];
     for option in &findings.options {

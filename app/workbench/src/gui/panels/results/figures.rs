@@ -171,7 +171,7 @@ pub(super) fn tornado(ui: &mut Ui, shown: &StudyResults) {
         .flat_map(|input| &input.parts)
         .map(|part| part.rate.rate)
         .fold(0.02, f64::max);
-    let words = endline_gear::Event::find(&findings.event)
+    let words = endline_gear::StudyEvent::find(&findings.event)
         .map_or_else(|| findings.event.clone(), |event| event.words());
     ui.label(format!("Rate of \"{words}\" over all options, by parts of each input's range"));
     let figure = Figure::new(ui, 2 * findings.inputs.len(), [0.0, 1.15 * most]);

@@ -8,7 +8,7 @@ mod spread;
 use std::sync::Arc;
 
 use egui::{ComboBox, RichText, ScrollArea, Ui};
-use endline_gear::Event;
+use endline_gear::StudyEvent;
 use endline_session::study::ResultsReader;
 use endline_session::study::StudyResults;
 
@@ -168,12 +168,13 @@ impl ResultsPanel {
 
     fn choose_event(&mut self, ui: &mut Ui, shown: &StudyResults) {
         let now = self.event(shown);
-        let words =
-            |name: &str| Event::find(name).map_or_else(|| name.to_owned(), |event| event.words());
+        let words = |name: &str| {
+            StudyEvent::find(name).map_or_else(|| name.to_owned(), |event| event.words())
+        };
         ComboBox::from_id_salt("event").width(150.0).truncate().selected_text(words(&now)).show_ui(
             ui,
             |ui| {
-                for event in Event::all() {
+                for event in StudyEvent::all() {
                     if ui.selectable_label(event.name() == now, event.words()).clicked() {
                         self.event = Some(event.name());
                     }

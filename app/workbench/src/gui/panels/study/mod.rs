@@ -7,7 +7,7 @@ mod queue;
 use std::path::Path;
 
 use egui::{Button, ComboBox, RichText, ScrollArea, Ui};
-use endline_gear::{Diagnostic, Event, Setting};
+use endline_gear::{Diagnostic, Setting, StudyEvent};
 use endline_session::edit::Documents;
 
 use crate::gui::desk::{Desk, Order};
@@ -153,9 +153,9 @@ fn question(ui: &mut Ui, desk: &mut Desk, edits: &mut Edits) {
         edits,
     );
     let mut events: Vec<(String, String)> =
-        Event::all().iter().map(|event| (event.name(), event.words())).collect();
+        StudyEvent::all().iter().map(|event| (event.name(), event.words())).collect();
     if !desk.documents.has(Documents::STUDY, "event") {
-        events.insert(0, (String::new(), Event::Entangled.words()));
+        events.insert(0, (String::new(), StudyEvent::Entangled.words()));
     }
     choice(ui, desk, ("Asks about", "event"), &events, edits);
     let options: Vec<(String, String)> =

@@ -159,10 +159,10 @@ impl Source {
             spec.links.iter_mut().for_each(|link| link.rating_n = rating_n);
         }
         let model = Model::new(spec).map_err(|errors| {
-            let told = |error: ModelError| {
+            let as_error = |error: ModelError| {
                 Diagnostic::of_file(name, format!("{}: {}", error.part, error.message), "")
             };
-            Error::Diagnostics(errors.into_iter().map(told).collect())
+            Error::Diagnostics(errors.into_iter().map(as_error).collect())
         })?;
         Ok((model, files))
     }
