@@ -106,110 +106,113 @@ fn a_logarithmic_current_has_its_speed_at_its_height() {
     assert!((assembled(&slow).water.current.at(0.01, 0.0).x - 0.2).abs() < 1e-12);
 }
 
-/// Each mistake is told at its line, with how to mend it.
+/// Mistakes: lines of `[site]`, tables after it, how the line at fault begins, and what the message says.
+const MISTAKES: [(&str, &str, &str, [&str; 2]); 19] = [
+    ("slope = \"80 deg\"", "", "slope", ["`slope` is 1.39", "between 0 rad and 1 rad"]),
+    (
+        "",
+        "[current]\nspeed = \"1 m/s\"\n[[current.at]]\ntime = \"0 s\"\nspeed = \"1 m/s\"",
+        "speed",
+        ["beside a tide in rows", "take this out"],
+    ),
+    (
+        "",
+        "[current]\nexponent = 0.1\n[[current.profile]]\nheight = \"0 m\"\nspeed = \"1 m/s\"",
+        "exponent",
+        ["beside a profile in rows", "take this out"],
+    ),
+    (
+        "",
+        "[current]\nexponent = 0.1\nroughness = \"3 mm\"",
+        "roughness",
+        ["both `exponent` and `roughness`", "keep"],
+    ),
+    ("", "[current]\nroughness = \"3 m\"", "roughness", ["`roughness` is 3 m", "1 m"]),
+    (
+        "",
+        "[current]\nspeed_height = \"2 m\"",
+        "speed_height",
+        ["without a `speed`", "take this out"],
+    ),
+    (
+        "",
+        "[current]\nspeed = \"1 m/s\"\nspeed_height = \"26 m\"",
+        "speed_height",
+        ["out of the water", "25 m deep"],
+    ),
+    (
+        "",
+        "[current]\nroughness = \"3 mm\"\n[[current.profile]]\nheight = \"0 m\"\nspeed = \"1 m/s\"",
+        "roughness",
+        ["beside a profile", "take"],
+    ),
+    (
+        "",
+        "[[current.profile]]\nspeed = \"1 m/s\"",
+        "[[current.profile]]",
+        ["`height` is missing", "above the seabed"],
+    ),
+    (
+        "",
+        "[[current.profile]]\nheight = \"1 m\"\ndepth = \"1 m\"\nspeed = \"1 m/s\"",
+        "depth",
+        ["both `height` and `depth`", "keep"],
+    ),
+    (
+        "",
+        "[[current.profile]]\nheight = \"26 m\"\nspeed = \"1 m/s\"",
+        "height",
+        ["out of the water", "25 m deep"],
+    ),
+    (
+        "",
+        "[current.tide]\npeak = \"0 s\"",
+        "[current.tide]",
+        ["`period` is missing", "expected a time"],
+    ),
+    (
+        "",
+        "[current.tide]\nperiod = \"12 h\"\npeak = \"0 s\"\nslack = \"0 s\"",
+        "slack",
+        ["both `peak` and `slack`", "keep"],
+    ),
+    (
+        "",
+        "[[current.at]]\ntime = \"9 s\"\nspeed = \"1 m/s\"\n[[current.at]]\ntime = \"8 s\"\nspeed = \"1 m/s\"",
+        "time = \"8 s\"",
+        ["rising order", "order of time"],
+    ),
+    ("", "[waves]\nheight = \"1 m\"", "[waves]", ["`period` is missing", "expected a time"]),
+    (
+        "",
+        "[waves]\nheight = \"8 m\"\nperiod = \"5 s\"",
+        "height",
+        ["waves of 8 m and 5 s break", "at most"],
+    ),
+    (
+        "",
+        "[waves]\nheight = \"1 m\"\nperiod = \"5 s\"\ngamma = 2.0",
+        "gamma",
+        ["figure of a spectrum", "spectrum = \"jonswap\""],
+    ),
+    (
+        "",
+        "[waves]\nspectrum = \"jonswop\"\nheight = \"1 m\"\nperiod = \"5 s\"",
+        "spectrum",
+        ["no value of `spectrum`", "did you mean `jonswap`?"],
+    ),
+    (
+        "",
+        "[waves]\nspectrum = \"jonswap\"\nheight = \"1 m\"\nperiod = \"5 s\"\ncomponents = 5000",
+        "components",
+        ["`components` is 5000", "64 is usual"],
+    ),
+];
+
+/// Each mistake is reported at its line, with how to fix it.
 #[test]
 fn mistakes_in_the_sea_are_told_with_their_place() {
-    for (site, tables, line, parts) in [
-        ("slope = \"80 deg\"", "", "slope", ["`slope` is 1.39", "between 0 rad and 1 rad"]),
-        (
-            "",
-            "[current]\nspeed = \"1 m/s\"\n[[current.at]]\ntime = \"0 s\"\nspeed = \"1 m/s\"",
-            "speed",
-            ["beside a tide in rows", "take this out"],
-        ),
-        (
-            "",
-            "[current]\nexponent = 0.1\n[[current.profile]]\nheight = \"0 m\"\nspeed = \"1 m/s\"",
-            "exponent",
-            ["beside a profile in rows", "take this out"],
-        ),
-        (
-            "",
-            "[current]\nexponent = 0.1\nroughness = \"3 mm\"",
-            "roughness",
-            ["both `exponent` and `roughness`", "keep"],
-        ),
-        ("", "[current]\nroughness = \"3 m\"", "roughness", ["`roughness` is 3 m", "1 m"]),
-        (
-            "",
-            "[current]\nspeed_height = \"2 m\"",
-            "speed_height",
-            ["without a `speed`", "take this out"],
-        ),
-        (
-            "",
-            "[current]\nspeed = \"1 m/s\"\nspeed_height = \"26 m\"",
-            "speed_height",
-            ["out of the water", "25 m deep"],
-        ),
-        (
-            "",
-            "[current]\nroughness = \"3 mm\"\n[[current.profile]]\nheight = \"0 m\"\nspeed = \"1 m/s\"",
-            "roughness",
-            ["beside a profile", "take"],
-        ),
-        (
-            "",
-            "[[current.profile]]\nspeed = \"1 m/s\"",
-            "[[current.profile]]",
-            ["`height` is missing", "above the seabed"],
-        ),
-        (
-            "",
-            "[[current.profile]]\nheight = \"1 m\"\ndepth = \"1 m\"\nspeed = \"1 m/s\"",
-            "depth",
-            ["both `height` and `depth`", "keep"],
-        ),
-        (
-            "",
-            "[[current.profile]]\nheight = \"26 m\"\nspeed = \"1 m/s\"",
-            "height",
-            ["out of the water", "25 m deep"],
-        ),
-        (
-            "",
-            "[current.tide]\npeak = \"0 s\"",
-            "[current.tide]",
-            ["`period` is missing", "expected a time"],
-        ),
-        (
-            "",
-            "[current.tide]\nperiod = \"12 h\"\npeak = \"0 s\"\nslack = \"0 s\"",
-            "slack",
-            ["both `peak` and `slack`", "keep"],
-        ),
-        (
-            "",
-            "[[current.at]]\ntime = \"9 s\"\nspeed = \"1 m/s\"\n[[current.at]]\ntime = \"8 s\"\nspeed = \"1 m/s\"",
-            "time = \"8 s\"",
-            ["rising order", "order of time"],
-        ),
-        ("", "[waves]\nheight = \"1 m\"", "[waves]", ["`period` is missing", "expected a time"]),
-        (
-            "",
-            "[waves]\nheight = \"8 m\"\nperiod = \"5 s\"",
-            "height",
-            ["waves of 8 m and 5 s break", "at most"],
-        ),
-        (
-            "",
-            "[waves]\nheight = \"1 m\"\nperiod = \"5 s\"\ngamma = 2.0",
-            "gamma",
-            ["figure of a spectrum", "spectrum = \"jonswap\""],
-        ),
-        (
-            "",
-            "[waves]\nspectrum = \"jonswop\"\nheight = \"1 m\"\nperiod = \"5 s\"",
-            "spectrum",
-            ["no value of `spectrum`", "did you mean `jonswap`?"],
-        ),
-        (
-            "",
-            "[waves]\nspectrum = \"jonswap\"\nheight = \"1 m\"\nperiod = \"5 s\"\ncomponents = 5000",
-            "components",
-            ["`components` is 5000", "64 is usual"],
-        ),
-    ] {
+    for (site, tables, line, parts) in MISTAKES {
         let whole = single(site, tables);
         let problems = match Scenario::read("test.toml", &whole) {
             Err(problems) => problems,

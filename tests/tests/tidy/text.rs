@@ -142,6 +142,30 @@ fn gear_files_are_whole_text_files() {
     none(&complaints, "gear files");
 }
 
+/// Where commands are handed to what carries them out.
+const DISPATCH: [&str; 3] =
+    ["app/session/src/command/", "app/session/src/live/worker/", "app/workbench/src/gui/command/"];
+
+/// A command that ends in `_ => {}` would do nothing and say nothing; the lint makes each of them have its arm.
+#[test]
+fn commands_are_dispatched_without_wildcard_arms() {
+    let dispatches =
+        |text: &str| text.contains("match action {") || text.contains("match command {");
+    let files: Vec<_> = sources(&[".rs"])
+        .into_iter()
+        .filter(|file| DISPATCH.iter().any(|folder| file.path.starts_with(folder)))
+        .filter(|file| dispatches(&file.text))
+        .collect();
+    assert!(!files.is_empty(), "commands are dispatched somewhere in {DISPATCH:?}");
+    let without = files
+        .into_iter()
+        .filter(|file| !file.text.contains("#![deny(clippy::wildcard_enum_match_arm"));
+    none(
+        &without.map(|file| file.path).collect::<Vec<_>>(),
+        "these dispatch commands and do not deny clippy::wildcard_enum_match_arm",
+    );
+}
+
 /// The suite leaves out doc tests, which cost a pass of rustdoc over each crate: an example in documentation would
 /// look tested and would not be.
 #[test]
