@@ -9,9 +9,11 @@
 //! | [`problems`] | located problems of the texts |
 //! | [`recovery`] | unsaved edits kept for the case of a crash |
 //! | [`library_table`] | tables of the library as CSV and from a spreadsheet |
+//! | [`assembly`] | parts of an assembly added, split and joined |
 //! | [`scenario`] | one field of a scenario, with the fields that depend on it |
 //! | [`pilot_program`] | entries of the scenario's pilot program |
 
+pub mod assembly;
 pub mod documents;
 mod history;
 pub mod library_table;

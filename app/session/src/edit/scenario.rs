@@ -59,6 +59,20 @@ pub fn set_field(document: &mut Document, field: &str, text: &str) -> Result<(),
     Ok(())
 }
 
+/// Path of the list of friction laws for single surfaces.
+pub const FRICTION_LAWS: &str = "friction.on";
+
+/// Adds a friction law, by its plugin's id, for one surface.
+///
+/// # Errors
+/// Where `friction.on` is no list of tables.
+pub fn add_friction_law(document: &mut Document, surface: &str, law: &str) -> Result<(), String> {
+    let failed = |error: endline_gear::EditError| error.to_string();
+    let index = document.push_table(FRICTION_LAWS, &[("model", law)]).map_err(failed)?;
+    let surfaces = Setting::texts(&[surface.to_owned()]);
+    document.put(&format!("{FRICTION_LAWS}.{index}.surfaces"), &surfaces).map_err(failed)
+}
+
 fn put(document: &mut Document, field: &str, text: &str) -> Result<(), String> {
     let reported = |error: endline_gear::EditError| error.to_string();
     // A scenario without an entry at the start gets one.
@@ -130,6 +144,14 @@ mod tests {
         assert!(!document.has("whale.length"));
         set_field(&mut document, "whale.condition", "0.9").unwrap();
         assert!(document.text().contains("condition = 0.9"), "{}", document.text());
+    }
+
+    #[test]
+    fn a_law_for_one_surface_stands_in_the_list() {
+        let mut document = Document::parse("[friction]\nmodel = \"a\"\n").unwrap();
+        add_friction_law(&mut document, "baleen", "b").unwrap();
+        let read = |field: &str| document.get(&format!("{FRICTION_LAWS}.0.{field}")).unwrap();
+        assert_eq!([read("model"), read("surfaces.0")], ["b", "baleen"]);
     }
 
     #[test]

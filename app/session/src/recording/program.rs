@@ -1,10 +1,8 @@
 //! A recorded run as a scenario whose pilot program flies it again, to be edited as text.
 //!
-//! The program has an entry wherever a recorded control changes, with the very numbers recorded: run with the same
-//! gear library, it gives the same bits. Thinned, a control changes only where it would be off by more than a
-//! tolerance, or comes to rest.
-
-use std::fmt::Write;
+//! The program has an entry wherever a recorded control changes, with exactly the recorded numbers:
+//! with the same gear library, the run has the same bits. A thinned program changes a control only
+//! where the control would be off by more than a tolerance, or where it becomes zero.
 
 use endline_gear::{Document, EditError};
 use endline_sdk::{Act, Controls};
@@ -40,18 +38,13 @@ pub fn program(recording: &Recording, host: &PluginHost, thin: f64) -> Result<Pr
         ));
     };
     let changes = changes(&recording.inputs, thin);
-    let mut scenario = without_pilot(recording)?;
     let options = options(&recording.source.overrides, recording.header.unsettled);
-    let _ = write!(
-        scenario,
-        "\n# Flown: {} steps of {} s; run with: endline run FILE{options}\n",
-        recording.inputs.len(),
-        recording.header.dt_s
-    );
+    let mut scenario = without_pilot(recording, &options).map_err(not_edited)?;
+    let (dt_s, acts) = (recording.header.dt_s, &whale.motion.descriptor().acts);
     for change in &changes {
-        scenario.push_str(&entry(change, recording.header.dt_s, &whale.motion.descriptor().acts));
+        add_entry(&mut scenario, change, dt_s, acts).map_err(not_edited)?;
     }
-    Ok(Program { scenario, entries: changes.len(), options })
+    Ok(Program { scenario: scenario.text(), entries: changes.len(), options })
 }
 
 /// Controls that change at a step.
@@ -81,18 +74,27 @@ fn changes(inputs: &[Controls], thin: f64) -> Vec<Change> {
     changes
 }
 
-/// The recorded scenario, as long as the recording, without its own pilot program.
-fn without_pilot(recording: &Recording) -> Result<String, Error> {
-    let as_error = |error: EditError| {
-        Error::Replay(format!("the recorded scenario cannot be edited: {error}"))
+fn not_edited(error: EditError) -> Error {
+    Error::Replay(format!("the recorded scenario cannot be edited: {error}"))
+}
+
+/// The recorded scenario, as long as the recording, without its own pilot program. A comment at its
+/// head says what was flown and how to run it.
+fn without_pilot(recording: &Recording, options: &str) -> Result<Document, EditError> {
+    let (steps, dt_s) = (recording.inputs.len(), recording.header.dt_s);
+    let head = format!("# Flown: {steps} steps of {dt_s} s; run with: endline run FILE{options}");
+    // A scenario that was itself made of a recording has such a comment already.
+    let before = &recording.source.scenario;
+    let rest = match before.split_once('\n') {
+        Some((first, rest)) if first.starts_with("# Flown:") => rest,
+        _ => before,
     };
-    let mut document = Document::parse(&recording.source.scenario).map_err(as_error)?;
+    let mut document = Document::parse(&format!("{head}\n{rest}"))?;
     if document.has("whale.pilot") {
-        document.remove("whale.pilot").map_err(as_error)?;
+        document.remove("whale.pilot")?;
     }
-    let duration_s = seconds(recording.inputs.len(), recording.header.dt_s);
-    document.set("duration", &format!("{duration_s} s")).map_err(as_error)?;
-    Ok(document.text())
+    document.set("duration", &format!("{} s", seconds(steps, dt_s)))?;
+    Ok(document)
 }
 
 /// Time of a step's start, without the last bits of the product [s]; the program meets times to a tenth of a microsecond.
@@ -100,17 +102,23 @@ fn seconds(step: usize, dt_s: f64) -> f64 {
     (step as f64 * dt_s * 1e9).round() / 1e9
 }
 
-fn entry(change: &Change, dt_s: f64, acts: &[Act]) -> String {
-    let mut text = format!("\n[[whale.pilot]]\nat = \"{} s\"\n", seconds(change.step, dt_s));
-    for (index, number) in &change.to {
-        let name = Controls::NAMES[*index];
-        // Writing into a String cannot fail. A float is written with its point, so that -0.0 keeps its sign.
-        let _ = match act_id(*index, *number, acts) {
-            Some(id) => writeln!(text, "{name} = \"{id}\""),
-            None => writeln!(text, "{name} = {number:?}"),
-        };
-    }
-    text
+/// Adds the entry of a change to the pilot program.
+fn add_entry(
+    scenario: &mut Document,
+    change: &Change,
+    dt_s: f64,
+    acts: &[Act],
+) -> Result<(), EditError> {
+    let mut fields = vec![("at", format!("{} s", seconds(change.step, dt_s)))];
+    fields.extend(change.to.iter().map(|(index, number)| {
+        // A float is written with its point, so that -0.0 keeps its sign.
+        let value =
+            act_id(*index, *number, acts).map_or_else(|| format!("{number:?}"), str::to_owned);
+        (Controls::NAMES[*index], value)
+    }));
+    let fields: Vec<(&str, &str)> =
+        fields.iter().map(|(key, text)| (*key, text.as_str())).collect();
+    scenario.push_table("whale.pilot", &fields).map(|_| ())
 }
 
 /// Id of an act by its number; `None` for the other controls.

@@ -7,7 +7,9 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use endline_gear::{Assembled, Diagnostic, Document, Library, Options, Scenario, assemble_traced};
+use endline_gear::{
+    Assembled, Diagnostic, Document, Library, Options, Scenario, Setting, assemble_traced,
+};
 use endline_sim::model::ModelError;
 use endline_sim::{Frame, Model, settle};
 
@@ -77,25 +79,27 @@ pub fn alone(
         let _ = document.remove(key);
     };
     LEFT_OUT.iter().for_each(|key| strip(&mut document, key));
-    let mut added = String::new();
+    let mut settings = vec![("segment", "1 m".to_owned())];
     if let Some(speed) = sea.current_m_s {
         strip(&mut document, "current");
-        added += &format!("\n[current]\nspeed = \"{speed} m/s\"\ntoward = \"{toward}\"\n");
+        settings.push(("current.speed", format!("{speed} m/s")));
+        settings.push(("current.toward", toward.clone()));
     }
     if !document.has("site") {
         let site = library.sites.first().map_or("", |site| site.entry.id.as_str());
-        added += &format!("\n[site]\nitem = \"{site}\"\n");
-        if let Some(depth) = &sea.depth {
-            added += &format!("depth = \"{depth}\"\n");
-        }
-    } else if let Some(depth) = &sea.depth {
-        document.set("site.depth", depth).map_err(|error| failed(error.to_string()))?;
+        settings.push(("site.item", site.to_owned()));
     }
+    settings.extend(sea.depth.iter().map(|depth| ("site.depth", depth.clone())));
     if !only {
         strip(&mut document, "gear");
-        added += &format!("\n[[gear]]\nassembly = \"{assembly}\"\nheading = \"{toward}\"\n");
+        settings.push(("gear.0.assembly", assembly.to_owned()));
+        settings.push(("gear.0.heading", toward));
     }
-    Ok(format!("segment = \"1 m\"\n{}{added}", document.text()))
+    for (field, text) in settings {
+        let put = document.put(field, &Setting::text(&text));
+        put.map_err(|error| failed(error.to_string()))?;
+    }
+    Ok(document.text())
 }
 
 /// Assembles the gear of a scenario's text and settles it.

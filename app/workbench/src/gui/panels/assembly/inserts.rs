@@ -1,8 +1,9 @@
 //! Weak inserts and sleeves along a line: put in every so many feet, moved, taken out.
 
 use egui::{Grid, RichText, Ui};
-use endline_gear::{Kind, Setting};
+use endline_gear::Kind;
 use endline_session::edit::Documents;
+use endline_session::edit::assembly;
 
 use super::AssemblyPanel;
 use super::item;
@@ -10,16 +11,6 @@ use crate::gui::desk::Desk;
 use crate::gui::fields;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
-
-/// What new inserts are: weak rope of 3 ft every 60 ft over the top three quarters, the first 12 ft down
-/// (Massachusetts rules for contrivances; `docs/gear-format.md`).
-const USUAL: [(&str, &str); 5] = [
-    ("rope", "weak-1700-3-8"),
-    ("length", "3 ft"),
-    ("first", "12 ft"),
-    ("every", "60 ft"),
-    ("within", "0.75"),
-];
 
 /// Inserts of the lines of gear that a gear type builds: they stand in the scenario, over the assembly.
 pub(super) fn of_placed(ui: &mut Ui, panel: &AssemblyPanel, desk: &mut Desk) {
@@ -65,12 +56,7 @@ pub(super) fn one(ui: &mut Ui, desk: &mut Desk, file: &str, field: &str, name: &
             .on_hover_text("3 ft of weak rope every 60 ft over the top three quarters")
             .clicked()
         {
-            alter(desk, file, |document| {
-                let put = |(key, value): &(&str, &str)| {
-                    document.put(&format!("{inserts}.{key}"), &Setting::plain(value))
-                };
-                USUAL.iter().try_for_each(put).map_err(|error| error.to_string())
-            });
+            alter(desk, file, |document| assembly::add_inserts(document, field));
         }
     });
     if there {

@@ -3,6 +3,7 @@
 use egui::{Grid, RichText, Slider, SliderClamping, Ui};
 use endline_gear::units::{Quantity, parse};
 use endline_gear::{Document, Kind};
+use endline_session::edit::assembly;
 
 use super::{inserts, item, said};
 use crate::gui::desk::Desk;
@@ -56,15 +57,6 @@ fn change(desk: &mut Desk, file: &str, change: impl FnOnce(&mut Document) -> Res
     }
 }
 
-/// An id of a stem that no part has.
-fn fresh(taken: &[String], stem: &str) -> String {
-    let numbered = (2..).map(|number| format!("{stem}-{number}"));
-    std::iter::once(stem.to_owned())
-        .chain(numbered)
-        .find(|id| !taken.contains(id))
-        .unwrap_or_default()
-}
-
 /// The menu of what can be added.
 fn add(ui: &mut Ui, desk: &mut Desk, file: &str) {
     ui.menu_button("Add ⏷", |ui| {
@@ -72,7 +64,8 @@ fn add(ui: &mut Ui, desk: &mut Desk, file: &str) {
             [("trap", Kind::Trap, "0"), ("buoy", Kind::Buoy, "1"), ("anchor", Kind::Anchor, "0")]
         {
             if ui.button(words::title(word)).clicked() {
-                add_body(desk, file, word, kind, height);
+                let item = first_item(desk, kind);
+                change(desk, file, |document| assembly::add_body(document, word, &item, height));
                 ui.close();
             }
         }
@@ -80,44 +73,10 @@ fn add(ui: &mut Ui, desk: &mut Desk, file: &str) {
         let two = bodies.first().zip(bodies.last()).filter(|(first, last)| first != last);
         if ui.add_enabled(two.is_some(), egui::Button::new("Line")).clicked() {
             if let Some((from, to)) = two {
-                add_line(desk, file, from, to);
+                change(desk, file, |document| assembly::add_line(document, from, to));
             }
             ui.close();
         }
-    });
-}
-
-/// Adds a body of the first item of its kind; `height` is the first guess of its height, as a share of the depth.
-fn add_body(desk: &mut Desk, file: &str, word: &str, kind: Kind, height: &str) {
-    let item = first_item(desk, kind);
-    let id = fresh(&ids(desk, file, "body"), word);
-    let fields = [
-        ("id", id.as_str()),
-        ("kind", word),
-        ("item", &item),
-        ("position", "[\"0 m\", \"0 m\"]"),
-        ("height", height),
-    ];
-    push(desk, file, "body", &fields);
-}
-
-/// Adds a line between two bodies.
-fn add_line(desk: &mut Desk, file: &str, from: &str, to: &str) {
-    let id = fresh(&ids(desk, file, "line"), "line");
-    let fields = [
-        ("id", id.as_str()),
-        ("rope", "sink-3-8"),
-        ("from", from),
-        ("to", to),
-        ("length", "20 fathom"),
-    ];
-    push(desk, file, "line", &fields);
-}
-
-/// Adds a table to a list.
-fn push(desk: &mut Desk, file: &str, list: &str, fields: &[(&str, &str)]) {
-    change(desk, file, |document| {
-        document.push_table(list, fields).map(|_| ()).map_err(|error| error.to_string())
     });
 }
 
@@ -293,12 +252,15 @@ fn line(ui: &mut Ui, desk: &mut Desk, file: &str, index: usize) {
                 .on_hover_text("Two lines of half the length with a splice between, to give them ropes of their own")
                 .clicked()
             {
-                split(desk, file, index);
+                change(desk, file, |document| assembly::split_line(document, index));
             }
             let ends = [("top", "to"), ("foot", "from")];
             for (word, end) in ends {
                 if ui.small_button(format!("Link at the {word}")).on_hover_text("Put a weak link here").clicked() {
-                    add_link(desk, file, &id, end);
+                    let item = first_item(desk, Kind::WeakLink);
+                    change(desk, file, |document| {
+                        assembly::add_link(document, &id, end, ("item", &item))
+                    });
                 }
             }
         });
@@ -306,13 +268,6 @@ fn line(ui: &mut Ui, desk: &mut Desk, file: &str, index: usize) {
     if out {
         take_out(desk, part);
     }
-}
-
-fn add_link(desk: &mut Desk, file: &str, line: &str, end: &str) {
-    let id = fresh(&ids(desk, file, "link"), &format!("{line}-link"));
-    let item = first_item(desk, Kind::WeakLink);
-    let fields = [("id", id.as_str()), ("item", &item), ("line", line), ("end", end)];
-    push(desk, file, "link", &fields);
 }
 
 /// Length under the hand; the gear follows while it moves.
@@ -347,53 +302,4 @@ fn length_slider(ui: &mut Ui, desk: &mut Desk, file: &str, at: &str) {
         ui.data_mut(|data| data.remove_temp::<f64>(scale));
         desk.documents.let_go();
     }
-}
-
-/// Two lines of half the length in place of one, a splice between them.
-fn split(desk: &mut Desk, file: &str, index: usize) {
-    let at = format!("line.{index}");
-    let field = |key: &str| text(desk, file, &format!("{at}.{key}"));
-    let Ok(length_m) = parse(&field("length"), Quantity::Length) else { return };
-    let (id, rope, to) = (field("id"), field("rope"), field("to"));
-    let (joint, upper) = (
-        fresh(&ids(desk, file, "joint"), &format!("{id}-splice")),
-        fresh(&ids(desk, file, "line"), &format!("{id}-top")),
-    );
-    let places = [&field("from"), &to].map(|part| place_of(desk, file, part));
-    let middle = |axis: usize| f64::midpoint(places[0][axis], places[1][axis]);
-    let half = format!("{:.2} m", length_m / 2.0);
-    let position = format!("[\"{:.1} m\", \"0 m\"]", middle(0));
-    let height = format!("{:.2}", middle(1));
-    change(desk, file, |document| {
-        let told = |error: endline_gear::EditError| error.to_string();
-        document
-            .push_table("joint", &[("id", &joint), ("position", &position), ("height", &height)])
-            .map_err(told)?;
-        document.set(&format!("{at}.to"), &joint).map_err(told)?;
-        document.set(&format!("{at}.length"), &half).map_err(told)?;
-        let fields = [
-            ("id", upper.as_str()),
-            ("rope", &rope),
-            ("from", &joint),
-            ("to", &to),
-            ("length", &half),
-        ];
-        document.push_table("line", &fields).map(|_| ()).map_err(told)
-    });
-}
-
-/// First guess of a part's place along the gear [m] and its height as a share of depth.
-fn place_of(desk: &Desk, file: &str, part: &str) -> [f64; 2] {
-    let part = part.split(':').next().unwrap_or(part);
-    let lists = ["body", "joint"];
-    let found = lists.iter().find_map(|list| {
-        ids(desk, file, list)
-            .iter()
-            .position(|id| id == part)
-            .map(|index| format!("{list}.{index}"))
-    });
-    let Some(at) = found else { return [0.0; 2] };
-    let along =
-        parse(&text(desk, file, &format!("{at}.position.0")), Quantity::Length).unwrap_or(0.0);
-    [along, parse(&text(desk, file, &format!("{at}.height")), Quantity::Ratio).unwrap_or(0.0)]
 }

@@ -1,17 +1,15 @@
 //! Friction of rope on whale: the law, its attributes, and laws of their own for single surfaces.
 
 use egui::{Grid, Label, RichText, Ui};
-use endline_gear::{Document, SURFACES, Setting};
+use endline_gear::{Document, SURFACES};
 use endline_session::edit::Documents;
+use endline_session::edit::scenario::{self, FRICTION_LAWS as ON};
 
 use super::{Edit, attributes, name};
 use crate::gui::desk::Desk;
 use crate::gui::fields;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
-
-/// Laws for single surfaces in the scenario's file.
-const ON: &str = "friction.on";
 
 /// A change of the laws for single surfaces.
 enum Change {
@@ -23,18 +21,12 @@ enum Change {
 
 impl Change {
     fn make(self, document: &mut Document) -> Result<(), String> {
-        let made = match self {
-            Self::Remove(index) => document.remove_table(ON, index),
-            Self::Add(surface, model) => {
-                document.push_table(ON, &[("model", &model)]).and_then(|index| {
-                    document.put(
-                        &format!("{ON}.{index}.surfaces"),
-                        &Setting::plain(&format!("[\"{surface}\"]")),
-                    )
-                })
+        match self {
+            Self::Remove(index) => {
+                document.remove_table(ON, index).map_err(|error| error.to_string())
             }
-        };
-        made.map_err(|error| error.to_string())
+            Self::Add(surface, model) => scenario::add_friction_law(document, surface, &model),
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 use egui::{Grid, RichText, Ui};
 use endline_gear::{Document, Kind};
 use endline_sdk::AttributeKind;
-use endline_session::edit::Documents;
+use endline_session::edit::{Documents, assembly};
 
 use super::rows::{LINKS_PART, Row};
 use super::{Edit, flag, name, problem, rows};
@@ -164,23 +164,11 @@ fn add(ui: &mut Ui, desk: &Desk) -> Option<Change> {
 
 impl Change {
     fn make(self, document: &mut Document) -> Result<(), String> {
-        let told = |error: endline_gear::EditError| error.to_string();
         match self {
-            Self::Remove(index) => document.remove_table("link", index).map_err(told),
-            Self::Add(line, end) => {
-                let known: Vec<String> = (0..document.count("link"))
-                    .filter_map(|index| document.get(&format!("link.{index}.id")))
-                    .collect();
-                let stem = format!("{}-link", line.replace('/', "-"));
-                let numbered = (2..).map(|number| format!("{stem}-{number}"));
-                let id = std::iter::once(stem.clone())
-                    .chain(numbered)
-                    .find(|id| !known.contains(id))
-                    .unwrap_or_default();
-                let fields =
-                    [("id", id.as_str()), ("rating", "600 lbf"), ("line", &line), ("end", end)];
-                document.push_table("link", &fields).map(|_| ()).map_err(told)
+            Self::Remove(index) => {
+                document.remove_table("link", index).map_err(|error| error.to_string())
             }
+            Self::Add(line, end) => assembly::add_link(document, &line, end, ("rating", "600 lbf")),
         }
     }
 }
