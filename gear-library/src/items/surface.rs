@@ -35,26 +35,9 @@ fn holds(word: &str, region: Region) -> bool {
         "peduncle" => region == Region::Peduncle,
         "flippers" => region.part().limb() == Limb::Flipper,
         "flukes" => region.part().limb() == Limb::Fluke,
-        "edges" => is_edge(region),
+        "edges" => region.is_edge(),
         of => surface_of(region) == of,
     }
-}
-
-/// Edges and tips of flippers and flukes.
-fn is_edge(region: Region) -> bool {
-    matches!(
-        region,
-        Region::LeftFlipperLeading
-            | Region::LeftFlipperTrailing
-            | Region::LeftFlipperTip
-            | Region::RightFlipperLeading
-            | Region::RightFlipperTrailing
-            | Region::RightFlipperTip
-            | Region::LeftFlukeLeading
-            | Region::LeftFlukeTrailing
-            | Region::RightFlukeLeading
-            | Region::RightFlukeTrailing
-    )
 }
 
 /// Reads a list of surfaces; those it does not know are problems.

@@ -128,7 +128,7 @@ impl Half {
         }
         for triangle in 0..self.triangles.len() {
             let [a, b, c] = self.triangles[triangle].map(|corner| other[&corner]);
-            self.triangle([a, c, b], other_side(self.regions[triangle]));
+            self.triangle([a, c, b], self.regions[triangle].mirrored());
         }
         Skin {
             vertices: self.corners.iter().map(|corner| corner.place).collect(),
@@ -147,20 +147,6 @@ fn mirrored(corner: &Corner, skeleton: &Skeleton) -> Corner {
         place: corner.place * DVec3::new(1.0, -1.0, 1.0),
         weights: corner.weights.map(|(mover, weight)| (skeleton.other_side(mover), weight)),
         mark: corner.mark,
-    }
-}
-
-/// The region of the other side.
-fn other_side(region: Region) -> Region {
-    match region {
-        Region::LeftFlipper => Region::RightFlipper,
-        Region::LeftFlipperLeading => Region::RightFlipperLeading,
-        Region::LeftFlipperTrailing => Region::RightFlipperTrailing,
-        Region::LeftFlipperTip => Region::RightFlipperTip,
-        Region::LeftFluke => Region::RightFluke,
-        Region::LeftFlukeLeading => Region::RightFlukeLeading,
-        Region::LeftFlukeTrailing => Region::RightFlukeTrailing,
-        own => own,
     }
 }
 

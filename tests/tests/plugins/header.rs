@@ -112,7 +112,7 @@ fn config() -> Config {
 
 fn generated() -> String {
     let mut builder = Builder::new().with_config(config());
-    let hooks = ["whale.rs", "motion.rs", "friction.rs", "gear.rs"];
+    let hooks = ["whale/posture.rs", "whale/skin.rs", "motion.rs", "friction.rs", "gear.rs"];
     let tables =
         ["mod.rs", "motion.rs", "friction.rs", "gear.rs"].map(|file| format!("abi/table/{file}"));
     for file in hooks.iter().copied().chain(tables.iter().map(String::as_str)) {
