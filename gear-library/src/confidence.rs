@@ -1,5 +1,8 @@
 //! How well a figure or a distribution is known.
 
+/// The key by which older files give a confidence; it is still read.
+pub(crate) const FORMER_CONFIDENCE: &str = "sureness";
+
 /// How well something is known, from the best to the least.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Confidence {
@@ -21,7 +24,7 @@ impl Confidence {
     pub(crate) const OF_FIGURES: [&'static str; 3] = ["measured", "derived", "estimate"];
 
     /// The words a study may use for a distribution.
-    pub(crate) const OF_PRIORS: [&'static str; 3] = ["measured", "derived", "assumed"];
+    pub(crate) const OF_PRIORS: [&'static str; 4] = ["measured", "derived", "estimate", "assumed"];
 
     /// The word a file uses for it.
     #[must_use]

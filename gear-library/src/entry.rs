@@ -54,7 +54,7 @@ impl Entry {
     }
 }
 
-/// Reads what every library file holds: format, kind, name, notes; answers the file's source and sureness.
+/// Reads what every library file holds: format, kind, name, notes; answers the file's source and confidence.
 pub fn header(
     fields: &Fields<'_>,
     word: &str,

@@ -131,7 +131,7 @@ fn check_provenance(fields: &Fields<'_>, file: &Provenance) {
         fields.missing("source", help);
     }
     if file.confidence.is_none() {
-        fields.missing("sureness", help);
+        fields.missing("confidence", help);
     }
 }
 

@@ -11,7 +11,7 @@ use std::str::FromStr;
 
 use toml_edit::{DocumentMut, Item};
 
-use path::{child, parts, way, way_to};
+use path::{child, key_in, parts, way, way_to};
 use setting::{replace, set_in};
 
 pub use save::save_text;
@@ -84,14 +84,14 @@ impl Document {
         parts(field).into_iter().try_fold(self.document.as_item(), |item, part| {
             match part.parse::<usize>() {
                 Ok(index) => item.get(index),
-                Err(_) => item.get(part),
+                Err(_) => item.get(item.as_table_like().map_or(part, |table| key_in(table, part))),
             }
         })
     }
 
     /// Sets a field by its dotted path, such as `diameter` or `line.0.length`.
     ///
-    /// A figure written as a table keeps its source and sureness: its `value` changes. Text that
+    /// A figure written as a table keeps its source and confidence: its `value` changes. Text that
     /// reads as a plain number, `true` or `false` is written as such where the field held one.
     ///
     /// # Errors
@@ -110,12 +110,14 @@ impl Document {
             replace(slot, text);
             return Ok(());
         }
-        set_in(item.as_table_like_mut().ok_or_else(|| no_way(last))?, last, text);
+        let table = item.as_table_like_mut().ok_or_else(|| no_way(last))?;
+        let key = key_in(table, last);
+        set_in(table, key, text);
         Ok(())
     }
 
     /// Puts a value at a dotted path, whatever stood there; tables on the way that are not there are made, and an item
-    /// after the last of a list of tables. A figure written as a table keeps its source and sureness.
+    /// after the last of a list of tables. A figure written as a table keeps its source and confidence.
     ///
     /// # Errors
     /// Where the path leads through something that is no table or list, or past the end of a list.
@@ -136,13 +138,14 @@ impl Document {
             return Ok(());
         }
         let table = item.as_table_like_mut().ok_or_else(|| no_way(last))?;
+        let key = key_in(table, last);
         match table
-            .get_mut(last)
+            .get_mut(key)
             .and_then(Item::as_table_like_mut)
             .filter(|figure| figure.contains_key("value"))
         {
             Some(figure) => figure.insert("value", Item::Value(value.0.clone())),
-            None => table.insert(last, Item::Value(value.0.clone())),
+            None => table.insert(key, Item::Value(value.0.clone())),
         };
         Ok(())
     }
@@ -159,7 +162,7 @@ impl Document {
             item = child(item, part).ok_or_else(missing)?;
         }
         item.as_table_like_mut()
-            .and_then(|table| table.remove(last))
+            .and_then(|table| table.remove(key_in(table, last)))
             .map(|_| ())
             .ok_or_else(missing)
     }

@@ -1,6 +1,8 @@
 //! Dotted paths through a file, such as `line.0.length`.
 
-use toml_edit::{ArrayOfTables, Item, Table};
+use toml_edit::{ArrayOfTables, Item, Table, TableLike};
+
+use crate::confidence::FORMER_CONFIDENCE;
 
 /// The parts of a dotted path; one in double quotes may hold dots itself.
 pub(super) fn parts(field: &str) -> Vec<&str> {
@@ -49,4 +51,12 @@ pub(super) fn child<'a>(item: &'a mut Item, part: &str) -> Option<&'a mut Item> 
         Ok(index) => item.get_mut(index),
         Err(_) => item.get_mut(part),
     }
+}
+
+/// The key under which a table holds what a path calls `key`: an older file gives its confidence as
+/// `sureness`.
+pub(super) fn key_in<'a>(table: &dyn TableLike, key: &'a str) -> &'a str {
+    let is_former =
+        key == "confidence" && !table.contains_key(key) && table.contains_key(FORMER_CONFIDENCE);
+    if is_former { FORMER_CONFIDENCE } else { key }
 }

@@ -66,7 +66,7 @@ impl PartialEq for Setting {
     }
 }
 
-/// Sets a key of a table; a figure's table keeps its source and sureness.
+/// Sets a key of a table; a figure's table keeps its source and confidence.
 pub(super) fn set_in(table: &mut dyn TableLike, key: &str, text: &str) {
     match table.get_mut(key) {
         Some(Item::Value(Value::InlineTable(figure))) if figure.contains_key("value") => {

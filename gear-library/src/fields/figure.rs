@@ -1,15 +1,15 @@
-//! Figures: values with source and sureness.
+//! Figures: values with source and confidence.
 
 use super::Fields;
 use super::problems::Problems;
 use super::range::Range;
 use super::value::read_value;
-use crate::confidence::Confidence;
+use crate::confidence::{Confidence, FORMER_CONFIDENCE};
 use crate::diagnostic::Place;
 use crate::tree::{Content, Node};
 use crate::units::{Quantity, format_si};
 
-/// A number that enters physics: value, as written, source, sureness.
+/// A number that enters physics: value, as written, source, confidence.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
     /// Value [SI].
@@ -24,21 +24,21 @@ pub struct Figure {
     pub place: Place,
 }
 
-/// Source and sureness of figures that name none of their own.
+/// Source and confidence of figures that name none of their own.
 #[derive(Clone, Debug, Default)]
 pub struct Provenance {
     /// The file's source.
     pub source: Option<String>,
-    /// The file's sureness.
+    /// The file's confidence.
     pub confidence: Option<Confidence>,
 }
 
 impl Provenance {
-    /// Reports a figure that has no source or no sureness.
+    /// Reports a figure that has no source or no confidence.
     fn check(&self, figure: &Node, problems: &Problems) {
         let has_source = self.source.as_ref().is_some_and(|source| !source.trim().is_empty());
         let lacks = match self.confidence {
-            None => "sureness",
+            None => "confidence",
             Some(_) if has_source => return,
             Some(_) => "source",
         };
@@ -49,9 +49,9 @@ impl Provenance {
 
 /// How a figure is given its source.
 const HOW_TO_SOURCE: &str =
-    "write { value = …, source = \"…\", sureness = \"measured\" }, or one for the whole file";
+    "write { value = …, source = \"…\", confidence = \"measured\" }, or one for the whole file";
 
-/// Reads a figure: `"3/8 in"` with the file's source and sureness, or a table with its own.
+/// Reads a figure: `"3/8 in"` with the file's source and confidence, or a table with its own.
 /// `None` where something is missing or wrong, which is reported.
 pub fn read_figure(
     node: &Node,
@@ -78,7 +78,7 @@ pub fn read_figure(
 }
 
 /// The value of a figure whose quantity is not known yet: `"3/8 in"` with the file's source and
-/// sureness, or a table with its own. `None` where it is missing, which is reported.
+/// confidence, or a table with its own. `None` where it is missing, which is reported.
 pub fn sourced(node: &Node, file: &Provenance, problems: &Problems) -> Option<Node> {
     let (value, own) = value_of(node, file, "write the value here", problems)?;
     own.check(node, problems);
@@ -112,13 +112,13 @@ fn named_as(figure: &Node, value: &Node) -> Node {
     named
 }
 
-/// Reads the file's own source and sureness.
+/// Reads the file's own source and confidence.
 pub fn provenance(fields: &Fields<'_>) -> Provenance {
     let source = fields.text("source").map(|text| text.value);
     Provenance { source, confidence: confidence(fields, &Confidence::OF_FIGURES) }
 }
 
-/// Reads a table's own source and sureness over those of the file.
+/// Reads a table's own source and confidence over those of the file.
 pub fn provenance_over(fields: &Fields<'_>, file: &Provenance) -> Provenance {
     let own = provenance(fields);
     Provenance {
@@ -127,7 +127,9 @@ pub fn provenance_over(fields: &Fields<'_>, file: &Provenance) -> Provenance {
     }
 }
 
-/// Reads how well something is known, in one of the words allowed, where it is given.
+/// Reads how well something is known, in one of the words allowed, where it is given: `confidence`,
+/// or `sureness` in older files.
 pub fn confidence(fields: &Fields<'_>, words: &[&str]) -> Option<Confidence> {
-    fields.word("sureness", words).and_then(|word| Confidence::from_word(&word.value))
+    let key = if fields.get("confidence").is_some() { "confidence" } else { FORMER_CONFIDENCE };
+    fields.word(key, words).and_then(|word| Confidence::from_word(&word.value))
 }

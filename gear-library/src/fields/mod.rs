@@ -202,7 +202,7 @@ impl<'a> Fields<'a> {
         Some(At { value, place: node.place.clone() })
     }
 
-    /// A figure with source and sureness, if it is there.
+    /// A figure with source and confidence, if it is there.
     pub fn figure(
         &self,
         key: &'a str,

@@ -28,7 +28,7 @@ pub struct ModelFigures {
     pub model: At<String>,
     /// Surfaces it holds for; every one where empty.
     pub surfaces: Vec<At<String>>,
-    /// Values; each has a source and a sureness in its file.
+    /// Values; each has a source and a confidence in its file.
     pub(crate) attributes: Attributes,
 }
 

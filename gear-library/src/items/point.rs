@@ -43,10 +43,10 @@ fn point(node: &Node, file: &Provenance, problems: &Problems) -> Option<(At<Stri
     }
     let at = fields.values("at", Quantity::Length, &[3]);
     if row.source.is_none() || row.confidence.is_none() {
-        let message = format!("`{}` has no source or no sureness", node.place.field);
+        let message = format!("`{}` has no source or no confidence", node.place.field);
         problems.push(node.place.error(
             message,
-            "write source = \"…\" and sureness = \"measured\" here, or for the whole file",
+            "write source = \"…\" and confidence = \"measured\" here, or for the whole file",
         ));
     }
     fields.finish();

@@ -15,7 +15,7 @@ use super::{Joints, WhaleMesh};
 /// Density of a whale that neither sinks nor rises [kg/m³].
 const SEA_WATER_KG_M3: f64 = 1025.0;
 
-/// A whale: its measures, with source and sureness, and its form.
+/// A whale: its measures, with source and confidence, and its form.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WhaleItem {
     /// Its file.
@@ -146,10 +146,10 @@ fn section(node: &Node, file: &Provenance, problems: &Problems) -> Option<[Figur
     Some([at?, width?, dorsal?, ventral?])
 }
 
-/// The places of the spine joints: a list as `value`, with source and sureness.
+/// The places of the spine joints: a list as `value`, with source and confidence.
 fn spine(fields: &Fields<'_>, file: &Provenance) -> Option<[f64; SPINE_JOINTS]> {
     let help = format!(
-        "write [spine] with `joints`, {SPINE_JOINTS} shares of length from the neck aft, and their source and sureness"
+        "write [spine] with `joints`, {SPINE_JOINTS} shares of length from the neck aft, and their source and confidence"
     );
     let Some(spine) = fields.table("spine") else {
         fields.missing("spine", help);

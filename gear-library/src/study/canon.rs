@@ -2,13 +2,14 @@
 
 use std::fmt::Write;
 
+use crate::confidence::FORMER_CONFIDENCE;
 use crate::tree::{Content, Node};
 
 /// Top-level tables and keys that decide what a run is.
 const DEFINING: [&str; 5] = ["scenario", "seed", "run", "option", "encounter"];
 
 /// Keys that only explain.
-const EXPLAINING: [&str; 5] = ["curve", "name", "notes", "source", "sureness"];
+const EXPLAINING: [&str; 6] = ["confidence", "curve", "name", "notes", "source", FORMER_CONFIDENCE];
 
 /// The text a study is hashed by.
 pub(super) fn of(study: &Node) -> String {

@@ -15,7 +15,7 @@ use endline_sim::whale::{Angle, Bone, Skin};
 use glam::DQuat;
 use serde_json::{Value, json};
 
-const ACT: &str = "format = 1\nkind = \"act\"\nname = \"Wave\"\nsource = \"test\"\nsureness = \"estimate\"\nfade = \"1 s\"\nanimation = \"wave.gltf\"\n";
+const ACT: &str = "format = 1\nkind = \"act\"\nname = \"Wave\"\nsource = \"test\"\nconfidence = \"estimate\"\nfade = \"1 s\"\nanimation = \"wave.gltf\"\n";
 
 fn sources() -> Sources {
     Sources::from_folder(Path::new(env!("CARGO_MANIFEST_DIR"))).unwrap()

@@ -11,12 +11,12 @@ format = 1
 kind = "rope"
 name = "Test rope"
 source = "mill sheet 7"
-sureness = "measured"
+confidence = "measured"
 material = "pp"
 
 diameter = "3/8 in"   # nominal
 mass = "0.0417 kg/m"
-density = { value = "910 kg/m3", source = "supplier", sureness = "estimate" }
+density = { value = "910 kg/m3", source = "supplier", confidence = "estimate" }
 wet_weight = "-0.052 N/m"
 strength = "2,440 lbf"
 stretch_at_break = 0.22
@@ -106,7 +106,7 @@ fn a_number_without_unit_is_refused() {
 }
 
 #[test]
-fn a_figure_needs_source_and_sureness() {
+fn a_figure_needs_source_and_confidence() {
     let text =
         ROPE.replace("source = \"mill sheet 7\"\n", "").replace("3/8 in\"   # nominal", "3/8 in\"");
     let told: Vec<String> = problems_of(&text).iter().map(ToString::to_string).collect();
@@ -115,10 +115,25 @@ fn a_figure_needs_source_and_sureness() {
     only(
         &ROPE.replace("\"estimate\"", "\"hearsay\""),
         11,
-        66,
-        "density.sureness",
+        68,
+        "density.confidence",
         &["expected one of measured, derived, estimate"],
     );
+}
+
+/// Files of users, and recordings, from before the key was called `confidence`.
+#[test]
+fn the_former_key_of_confidence_is_still_read_and_edited() {
+    let former = ROPE.replace("confidence = ", "sureness = ");
+    assert_ne!(former, ROPE);
+    assert!(problems_of(&former).is_empty());
+    let mut document = Document::parse(&former).expect("a TOML text");
+    assert_eq!(document.get("confidence").as_deref(), Some("measured"));
+    document.set("confidence", "derived").expect("a field of the file");
+    assert_eq!(document.text(), former.replace("\"measured\"", "\"derived\""));
+    let both = ROPE.replacen("confidence = ", "sureness = \"derived\"\nconfidence = ", 1);
+    let problems = problems_of(&both);
+    assert!(problems.iter().any(|problem| problem.message.contains("unknown field `sureness`")));
 }
 
 #[test]

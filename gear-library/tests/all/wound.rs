@@ -22,7 +22,7 @@ fn scenario(ends: [DVec3; 2], length_m: f64, wraps: &str) -> String {
         )
     };
     format!(
-        "format = 1\nkind = \"scenario\"\nname = \"wound\"\nsource = \"test\"\nsureness = \"estimate\"\nduration = \"1 s\"\n\
+        "format = 1\nkind = \"scenario\"\nname = \"wound\"\nsource = \"test\"\nconfidence = \"estimate\"\nduration = \"1 s\"\n\
          segment = \"0.5 m\"\nstart = \"placed\"\n[site]\nitem = \"cape-cod-bay\"\n[current]\nspeed = \"0 m/s\"\n\
          [whale]\nitem = \"right-whale\"\nlength = \"13 m\"\nposition = [\"0 m\", \"0 m\"]\ndepth = \"20 m\"\nheading = \"0 deg\"\n\
          speed = \"0 m/s\"\nmotion = \"test.idle\"\n[friction]\nmodel = \"test.idle\"\n{}{}\

@@ -184,14 +184,14 @@ fn mistakes_in_a_materials_file_are_told_in_that_file() {
         assert!(problems[0].to_string().contains(part), "{}", told(&problems));
     }
     // A figure without a source of its own has that of the file; without either it is refused.
-    let bare = good.replace(", sureness = \"estimate\" }", " }").replacen(
-        "sureness = \"estimate\"\n",
+    let bare = good.replace(", confidence = \"estimate\" }", " }").replacen(
+        "confidence = \"estimate\"\n",
         "",
         1,
     );
     let problems = Library::check_file("friction/pp.toml", &bare);
     assert!(
-        problems.iter().any(|problem| problem.to_string().contains("has no sureness")),
+        problems.iter().any(|problem| problem.to_string().contains("has no confidence")),
         "{}",
         told(&problems)
     );

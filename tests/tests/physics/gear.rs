@@ -54,9 +54,9 @@ fn refused(text: &str) -> Vec<Diagnostic> {
     }
 }
 
-/// Figures stand as `key = "3/8 in"` under a file's source and sureness, or as a table with their own.
+/// Figures stand as `key = "3/8 in"` under a file's source and confidence, or as a table with their own.
 #[test]
-fn every_shipped_figure_has_source_and_sureness() {
+fn every_shipped_figure_has_source_and_confidence() {
     let sources = Sources::from_folder(&root()).unwrap();
     let mut figures = 0;
     for (path, text) in sources.iter().filter(|(path, _)| !path.starts_with("assemblies/")) {
@@ -66,29 +66,30 @@ fn every_shipped_figure_has_source_and_sureness() {
     assert!(figures > 600, "{figures}");
 }
 
-/// Counts the figures of a table; fails where one has no source or sureness of its own or above it.
-fn walk(path: &str, table: &toml::Table, above_source: bool, above_sureness: bool) -> usize {
+/// Counts the figures of a table; fails where one has no source or confidence of its own or above it.
+fn walk(path: &str, table: &toml::Table, above_source: bool, above_confidence: bool) -> usize {
     let text = |key: &str| {
         table.get(key).and_then(toml::Value::as_str).is_some_and(|text| !text.trim().is_empty())
     };
-    let (source, sureness) = (above_source || text("source"), above_sureness || text("sureness"));
+    let (source, confidence) =
+        (above_source || text("source"), above_confidence || text("confidence"));
     if table.contains_key("value") {
-        assert!(source && sureness, "{path}: {table:?}");
+        assert!(source && confidence, "{path}: {table:?}");
         return 1;
     }
-    let words = ["format", "kind", "name", "notes", "source", "sureness", "material", "shape"];
+    let words = ["format", "kind", "name", "notes", "source", "confidence", "material", "shape"];
     let values = table.iter().filter(|(key, _)| !words.contains(&key.as_str()));
-    values.map(|(key, value)| count(path, key, value, source, sureness)).sum()
+    values.map(|(key, value)| count(path, key, value, source, confidence)).sum()
 }
 
-fn count(path: &str, key: &str, value: &toml::Value, source: bool, sureness: bool) -> usize {
+fn count(path: &str, key: &str, value: &toml::Value, source: bool, confidence: bool) -> usize {
     match value {
-        toml::Value::Table(inner) => walk(path, inner, source, sureness),
+        toml::Value::Table(inner) => walk(path, inner, source, confidence),
         toml::Value::Array(items) => {
-            items.iter().map(|item| count(path, key, item, source, sureness)).sum()
+            items.iter().map(|item| count(path, key, item, source, confidence)).sum()
         }
         _ => {
-            assert!(source && sureness, "{path}: {key}");
+            assert!(source && confidence, "{path}: {key}");
             1
         }
     }

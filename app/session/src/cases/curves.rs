@@ -77,7 +77,7 @@ mod tests {
 
     #[test]
     fn expected_readings_stand_where_they_are_compared() {
-        let case = "format = 1\nkind = \"case\"\nname = \"x\"\nsource = \"x\"\nsureness = \"derived\"\ngroup = \"x\"\nscenario = \"x\"\n\
+        let case = "format = 1\nkind = \"case\"\nname = \"x\"\nsource = \"x\"\nconfidence = \"derived\"\ngroup = \"x\"\nscenario = \"x\"\n\
                     every = \"1 s\"\n[[check]]\nname = \"a\"\nmeasure = \"rate\"\nof = \"z\"\nfrom = \"1 s\"\nexpected = \"2 m/s\"\n\
                     tolerance = 0.1\n[[check]]\nname = \"b\"\nmeasure = \"greatest\"\nof = \"z\"\nexpected = \"9 m\"\ntolerance = 0.1\n";
         let case = Case::read("x.toml", case).unwrap();

@@ -20,8 +20,9 @@ pub struct Outcome {
     pub scenario: String,
     /// Where the expected values come from.
     pub source: String,
-    /// How sure they are: `measured`, `derived` or `estimate`.
-    pub sureness: &'static str,
+    /// How well they are known: `measured`, `derived` or `estimate`. The schema calls it `sureness`.
+    #[serde(rename = "sureness")]
+    pub confidence: &'static str,
     /// Step between inputs [s].
     pub step_s: f64,
     /// Rope segments.
@@ -110,7 +111,7 @@ impl Outcome {
             group: case.group.clone(),
             scenario: case.scenario.value.clone(),
             source: case.source.clone(),
-            sureness: case.confidence.word(),
+            confidence: case.confidence.word(),
             step_s: setup.model.spec.settings.step_s,
             segments: setup.model.segment_count,
             passed: false,

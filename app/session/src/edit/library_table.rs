@@ -10,7 +10,7 @@ use endline_gear::{Document, Kind, Setting};
 /// Columns before the kind's own.
 const FIRST: [&str; 2] = ["id", "name"];
 /// Text columns after them.
-const LAST: [&str; 3] = ["notes", "source", "sureness"];
+const LAST: [&str; 3] = ["notes", "source", "confidence"];
 
 /// The result of reading a table.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -113,7 +113,9 @@ pub fn is_head(kind: Kind, row: &[String]) -> bool {
 /// The key that a column's head means.
 fn key_of(kind: Kind, head: &str) -> Option<&'static str> {
     let plain = |text: &str| text.to_lowercase().replace([' ', '.', '-'], "_");
-    columns(kind).into_iter().find(|key| plain(key) == plain(head.trim()))
+    // Older tables call the column `sureness`.
+    let head = if plain(head.trim()) == "sureness" { "confidence" } else { head.trim() };
+    columns(kind).into_iter().find(|key| plain(key) == plain(head))
 }
 
 /// Reads a table with a heading row into the library: a row of a known id (or name) changes that
@@ -208,7 +210,7 @@ fn of_row(
 fn fresh(kind: Kind, name: &str) -> String {
     let name = name.replace(['"', '\\'], "'");
     format!(
-        "format = 1\nkind = \"{}\"\nname = \"{name}\"\nnotes = \"\"\nsource = \"taken from a table\"\nsureness = \"estimate\"\n",
+        "format = 1\nkind = \"{}\"\nname = \"{name}\"\nnotes = \"\"\nsource = \"taken from a table\"\nconfidence = \"estimate\"\n",
         kind.word()
     )
 }

@@ -89,8 +89,8 @@ fn read(name: &str, key: &Place, node: &Node, outer: &Fields<'_>) -> Option<Prio
     let source = source?;
     if given.is_none() && source.value != "assumed" {
         problems.push(source.place.error(
-            format!("`{name}` has a source but no sureness"),
-            "write sureness = \"measured\", \"derived\" or \"assumed\" beside it",
+            format!("`{name}` has a source but no confidence"),
+            "write confidence = \"measured\", \"derived\", \"estimate\" or \"assumed\" beside it",
         ));
     }
     let name = At { value: name.to_owned(), place: key.clone() };

@@ -122,7 +122,7 @@ fn ramp(time_s: f64, from_s: f64, to_s: f64) -> f64 {
 /// A whale 20 m down that heads north, in still water; what follows adds lines to it.
 fn scenario(more: &str) -> String {
     format!(
-        "format = 1\nkind = \"scenario\"\nname = \"measured\"\nsource = \"test\"\nsureness = \"estimate\"\nduration = \"60 s\"\n\
+        "format = 1\nkind = \"scenario\"\nname = \"measured\"\nsource = \"test\"\nconfidence = \"estimate\"\nduration = \"60 s\"\n\
          segment = \"0.1 m\"\nstart = \"placed\"\n[site]\ndepth = \"60 m\"\ndensity = \"1025 kg/m3\"\nseabed = false\n\
          [current]\nspeed = \"0 m/s\"\ntoward = \"90 deg\"\n\
          [whale]\nitem = \"right-whale\"\nlength = \"13 m\"\nposition = [\"0 m\", \"0 m\"]\ndepth = \"20 m\"\nheading = \"0 deg\"\n\

@@ -99,7 +99,7 @@ fn a_mistake_in_an_act_is_told_with_its_place_and_how_to_mend_it() {
 
 #[test]
 fn an_act_that_repeats_must_close() {
-    let closed = "format = 1\nkind = \"act\"\nname = \"Wave\"\nsource = \"test\"\nsureness = \"estimate\"\nfade = \"1 s\"\nafter = \"repeat\"\n\
+    let closed = "format = 1\nkind = \"act\"\nname = \"Wave\"\nsource = \"test\"\nconfidence = \"estimate\"\nfade = \"1 s\"\nafter = \"repeat\"\n\
                   [[key]]\nat = \"0 s\"\njaw = \"0 deg\"\nroll = \"0 deg\"\n[[key]]\nat = \"2 s\"\njaw = \"9 deg\"\n[[key]]\nat = \"4 s\"\njaw = \"0 deg\"\nroll = \"1 turn\"\n";
     let problems = |text: &str| told(&Library::check_file("acts/wave.toml", text));
     assert_eq!(problems(closed), "", "a turn may go on growing");

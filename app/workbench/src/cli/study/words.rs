@@ -60,7 +60,7 @@ pub(super) fn plan(opened: &Opened) -> String {
             format!("{} of {BLOCK} encounters", study.encounters.div_ceil(u64::from(BLOCK))),
         ],
     ]);
-    let mut rows = vec![vec!["prior".to_owned(), "sureness".into(), "source".into()]];
+    let mut rows = vec![vec!["prior".to_owned(), "confidence".into(), "source".into()]];
     rows.extend(study.priors.iter().map(|prior| {
         vec![prior.name.value.clone(), prior.confidence.word().into(), prior.source.clone()]
     }));

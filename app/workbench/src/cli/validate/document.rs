@@ -143,7 +143,7 @@ fn section(outcome: &Outcome) -> String {
     let _ = writeln!(
         whole,
         "Scenario `gear-library/scenarios/{}.toml`, {} segments, step {} s. Expected values: {} ({}).",
-        outcome.scenario, outcome.segments, outcome.step_s, outcome.source, outcome.sureness
+        outcome.scenario, outcome.segments, outcome.step_s, outcome.source, outcome.confidence
     );
     if !outcome.curves.is_empty() || !outcome.points.is_empty() {
         let _ = writeln!(

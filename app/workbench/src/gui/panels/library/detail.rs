@@ -93,7 +93,7 @@ fn naming(ui: &mut Ui, panel: &mut LibraryPanel, desk: &mut Desk, path: &str) {
         ("Source", "source", "Where the figures come from that name no source of their own"),
         (
             "Confidence",
-            "sureness",
+            "confidence",
             "measured, derived or estimate; of figures that name none of their own",
         ),
     ];

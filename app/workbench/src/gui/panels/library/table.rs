@@ -126,7 +126,7 @@ fn cells(
                 String::new()
             };
             edits.extend(cell(ui, desk, path, field.key, &help));
-            sureness(ui, desk, kind, path, field);
+            confidence(ui, desk, kind, path, field);
         });
     }
 }
@@ -190,7 +190,7 @@ fn cell(ui: &mut Ui, desk: &Desk, path: &str, key: &'static str, help: &str) -> 
 }
 
 /// A letter in the cell's corner for how sure its figure is: m measured, d derived, e estimate.
-fn sureness(ui: &Ui, desk: &Desk, kind: Kind, path: &str, field: &Field) {
+fn confidence(ui: &Ui, desk: &Desk, kind: Kind, path: &str, field: &Field) {
     let entry = desk.documents.library().entry(kind, library_table::id_of(path));
     let Some(figure) = entry.and_then(|entry| entry.figure(field.key)) else { return };
     let letter = figure.confidence.word().get(..1).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! How encounters are drawn: one prior for each thing that varies, with its law, source and sureness.
+//! How encounters are drawn: one prior for each thing that varies, with its law, source and confidence.
 
 use egui::{ComboBox, RichText, Ui};
 use endline_gear::Setting;
@@ -104,7 +104,7 @@ fn prior(ui: &mut Ui, desk: &mut Desk, name: &str, edits: &mut Edits) {
             edits,
         );
     }
-    sureness(ui, desk, &at, edits);
+    confidence(ui, desk, &at, edits);
 }
 
 /// The law of a prior; another one begins with what is usual.
@@ -200,7 +200,7 @@ fn written(typed: &str) -> Option<Setting> {
     (!values.is_empty()).then(|| Setting::plain(&format!("[{}]", values.join(", "))))
 }
 
-fn sureness(ui: &mut Ui, desk: &mut Desk, at: &str, edits: &mut Edits) {
+fn confidence(ui: &mut Ui, desk: &mut Desk, at: &str, edits: &mut Edits) {
     ui.horizontal(|ui| {
         super::label(ui, "  source");
         let field = format!("{at}.source");
@@ -212,15 +212,16 @@ fn sureness(ui: &mut Ui, desk: &mut Desk, at: &str, edits: &mut Edits) {
         {
             let typed = if typed.trim().is_empty() { "assumed".to_owned() } else { typed };
             if typed == "assumed" {
-                edits.push((format!("{at}.sureness"), None));
-            } else if desk.documents.field(Documents::STUDY, &format!("{at}.sureness")).is_none() {
-                edits.push((format!("{at}.sureness"), Some(Setting::text("assumed"))));
+                edits.push((format!("{at}.confidence"), None));
+            } else if desk.documents.field(Documents::STUDY, &format!("{at}.confidence")).is_none()
+            {
+                edits.push((format!("{at}.confidence"), Some(Setting::text("assumed"))));
             }
             edits.push((field, Some(Setting::text(&typed))));
         }
         if !assumed {
-            let field = format!("{at}.sureness");
-            let words: Vec<(String, String)> = ["measured", "derived", "assumed"]
+            let field = format!("{at}.confidence");
+            let words: Vec<(String, String)> = ["measured", "derived", "estimate", "assumed"]
                 .map(|word| (word.to_owned(), word.to_owned()))
                 .to_vec();
             if let Some(word) =
