@@ -133,7 +133,7 @@ fn carry(model: &Model, coarse: &Coarse, found: Found, trail: &mut Trail) -> Fou
     let end =
         newton::descend(model, &Attempt { laid, guess: &guess, hold, pseudo_mass: NEAR }, 1, trail);
     let outcome = match found.outcome {
-        Outcome::AtRest if !end.at_rest() => Outcome::NotFound(Unfound::Tolerance),
+        Outcome::AtRest if !end.at_rest() => Outcome::NotFound(Unfound::Fine),
         outcome => outcome,
     };
     Found { first, held, end, outcome }

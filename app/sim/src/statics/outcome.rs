@@ -29,7 +29,7 @@ pub enum Unfound {
     /// dragging, where some lies on a seabed.
     Released(Option<Drag>),
     /// At rest with coarser segments, but not with these.
-    Tolerance,
+    Fine,
 }
 
 /// What pulls gear along the seabed and what holds it.
@@ -92,9 +92,7 @@ impl fmt::Display for Unfound {
                 f.write_str(": with all that lies on the seabed held there it is at rest, but not once that is let go, ")?;
                 write!(f, "with {pull_n:.1} N of pull for {hold_n:.1} N of hold, most at `{body}`")
             }
-            Self::Tolerance => {
-                f.write_str(": it is at rest with coarser segments, but not with these")
-            }
+            Self::Fine => f.write_str(": it is at rest with coarser segments, but not with these"),
         }
     }
 }

@@ -52,9 +52,9 @@ fn rope_beyond_the_whale_is_trailing_or_tethered() {
         );
     };
     close(beyond(&[], &[]), [0.0, 0.0]);
-    // ContactEnd 2.25 m above the trap: below it the trap holds, above hang 7.75 + 8 + 2 m.
+    // Touched 2.25 m above the trap: below it the trap holds, above hang 7.75 + 8 + 2 m.
     close(beyond(&[(0, 4)], &[]), [17.75, 2.25]);
-    // ContactEnd twice: rope between is carried; it neither trails nor is held.
+    // Touched twice: rope between is carried; it neither trails nor is held.
     close(beyond(&[(0, 4), (0, 10)], &[]), [14.75, 2.25]);
     close(beyond(&[(0, 4), (1, 21)], &[]), [7.25 + 2.0, 2.25]);
     // Cut at the trap's end: the lower part is loose too.
