@@ -67,12 +67,12 @@ fn tension_error(model: &Model, state: &mut State, dt: f64, earlier_dt: f64) -> 
     for (segments, kept) in model.line_segments.iter().zip(&mut control.tension_n) {
         let now = rope.tension[segments.clone()].iter().copied().fold(0.0, f64::max);
         let [last, before] = *kept;
-        let foretold = match control.known {
+        let predicted = match control.known {
             0 => now,
             1 => last,
             _ => last + ratio * (last - before),
         };
-        worst = worst.max((now - foretold).abs() / TENSION_N.max(TENSION_SHARE * now.max(last)));
+        worst = worst.max((now - predicted).abs() / TENSION_N.max(TENSION_SHARE * now.max(last)));
         *kept = [now, last];
     }
     control.known = (control.known + 1).min(2);

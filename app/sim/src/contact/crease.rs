@@ -7,7 +7,7 @@
 //! `d (1 - n·n')` at most, where skin is concave between them. The second pushes by a share that grows with that height and with the
 //! angle of the normals, so that nothing jumps as rope slides into a crease or out of it.
 
-use super::law::Press;
+use super::barrier::BarrierForce;
 use super::touch::Touch;
 
 /// Most faces touched at once.
@@ -47,10 +47,13 @@ pub(crate) fn faces(nearest: Touch, others: impl Iterator<Item = Touch>) -> Face
             break;
         };
         let part = beside(&next);
-        let Press { energy, force, stiffness } = next.press;
-        let press =
-            Press { energy: energy * part, force: force * part, stiffness: stiffness * part };
-        (whole[face], faces[face]) = (Some(next), Some(Touch { press, ..next }));
+        let BarrierForce { energy, force, stiffness } = next.barrier;
+        let barrier = BarrierForce {
+            energy: energy * part,
+            force: force * part,
+            stiffness: stiffness * part,
+        };
+        (whole[face], faces[face]) = (Some(next), Some(Touch { barrier, ..next }));
     }
     if count > 0 {
         faces.sort_unstable_by_key(|touch| touch.map_or(usize::MAX, |touch| touch.pair));
@@ -81,14 +84,14 @@ mod tests {
     /// A place's touch on the nearest point of a wall.
     fn touch(pair: usize, place: DVec3, foot: DVec3) -> Touch {
         let distance = place.distance(foot);
-        let press = Press::new(distance, REACH_M, 1e4);
+        let barrier = BarrierForce::new(distance, REACH_M, 1e4);
         Touch {
             pair,
             barycentric: [1.0, 0.0, 0.0],
             place,
             normal: (place - foot) / distance,
             distance,
-            press,
+            barrier,
         }
     }
 
@@ -100,7 +103,7 @@ mod tests {
         faces(near, std::iter::once(far))
             .iter()
             .flatten()
-            .map(|touch| touch.normal * touch.press.force)
+            .map(|touch| touch.normal * touch.barrier.force)
             .sum()
     }
 
@@ -108,7 +111,7 @@ mod tests {
     fn a_square_corner_pushes_from_both_walls_and_jumps_nowhere() {
         let place = |angle: f64| DVec3::new(libm::cos(angle), 0.0, libm::sin(angle)) * 0.003;
         let even = force_in_corner(place(core::f64::consts::FRAC_PI_4));
-        let alone = Press::new(0.003 * core::f64::consts::FRAC_1_SQRT_2, REACH_M, 1e4).force;
+        let alone = BarrierForce::new(0.003 * core::f64::consts::FRAC_1_SQRT_2, REACH_M, 1e4).force;
         assert!((even - DVec3::new(alone, 0.0, alone)).length() < 1e-9 * alone, "{even}");
         let mut before = force_in_corner(place(0.635));
         for step in 1..=1000 {

@@ -1,16 +1,16 @@
 //! Rope against the skinned whale: detection that cannot miss, response inside the rope solve.
 
 mod account;
+pub(crate) mod barrier;
 mod crease;
 pub mod crossing;
 pub mod distance;
+pub(crate) mod friction;
 mod grain;
-pub(crate) mod grip;
-pub(crate) mod law;
 pub(crate) mod near;
 pub(crate) mod placed;
+pub(crate) mod points;
 pub mod ropes;
-pub(crate) mod slots;
 pub mod sweep;
 pub(crate) mod touch;
 pub(crate) mod workspace;

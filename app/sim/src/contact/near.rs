@@ -26,7 +26,7 @@ const CARRIED_M: (f64, f64) = (0.02, 0.06);
 /// Pairs farther apart than this are known by a lower bound of their distance [m].
 const EXACT_M: f64 = 0.001;
 /// Least separation kept, as a share of the rope's radius.
-const GUARD_SHARE: f64 = 0.08;
+const MIN_SEPARATION_SHARE: f64 = 0.08;
 /// A triangle that stays where it is.
 const STILL: SweptTriangle = [[DVec3::ZERO; 3]; 2];
 
@@ -39,11 +39,11 @@ pub(crate) struct Pair {
     /// Place of the triangle in [`Near::skin`].
     skin: usize,
     /// Lower bound of their distance now [m].
-    pub clear: f64,
+    pub gap_bound: f64,
     /// Whether it is their distance.
     exact: bool,
     /// Separation kept [m].
-    guard: f64,
+    min_separation: f64,
 }
 
 /// All pairs of a solver step, in rising order of segment, with the surface they come from.
@@ -129,10 +129,18 @@ impl Near {
                 continue;
             }
             let skin = self.place_of(triangle);
-            let guard = GUARD_SHARE * 0.5 * model.rope_of_segment(segment).diameter_m;
+            let min_separation =
+                MIN_SEPARATION_SHARE * 0.5 * model.rope_of_segment(segment).diameter_m;
             let node = self.segment_node[segment];
             let index = self.pairs.len();
-            self.pairs.push(Pair { segment, node, skin, clear: 0.0, exact: false, guard });
+            self.pairs.push(Pair {
+                segment,
+                node,
+                skin,
+                gap_bound: 0.0,
+                exact: false,
+                min_separation,
+            });
             match self.groups.last_mut() {
                 Some((last, range)) if *last == segment => range.end = index + 1,
                 _ => self.groups.push((segment, index..index + 1)),
@@ -166,14 +174,17 @@ impl Near {
                 let skin = &self.skin[pair.skin];
                 let gap = rope_box.gap(&Bounds::around(&skin.now)).max(skin.gap(segment));
                 pair.exact = gap <= EXACT_M;
-                pair.clear = if pair.exact { skin.nearest_to(segment).distance } else { gap };
+                pair.gap_bound = if pair.exact { skin.nearest_to(segment).distance } else { gap };
             }
         }
     }
 
     /// Least distance of any pair as last measured, as a share of the rope's radius; 1 or more where none is nearer.
     pub fn least_share(&self) -> f64 {
-        self.pairs.iter().map(|pair| GUARD_SHARE * pair.clear / pair.guard).fold(1.0, f64::min)
+        self.pairs
+            .iter()
+            .map(|pair| MIN_SEPARATION_SHARE * pair.gap_bound / pair.min_separation)
+            .fold(1.0, f64::min)
     }
 
     /// Where rope goes as the skin makes the rest of its move: on to `target`, held back from coming nearer to skin
@@ -191,7 +202,8 @@ impl Near {
             let from = between(places);
             let normal = (from - foot) / nearest.distance.max(1e-12);
             let approach = normal.dot(skin_move - (between(target) - from));
-            let too_near = approach - (nearest.distance - pair.guard / GUARD_SHARE).max(0.0);
+            let too_near =
+                approach - (nearest.distance - pair.min_separation / MIN_SEPARATION_SHARE).max(0.0);
             if too_near > 0.0 {
                 target[pair.node] += normal * too_near;
                 target[pair.node + 1] += normal * too_near;
@@ -218,7 +230,7 @@ impl Near {
     fn nearest(&self, places: &[DVec3], range: Range<usize>) -> Option<(&Pair, Nearest)> {
         let mut best: Option<(&Pair, Nearest)> = None;
         for pair in &self.pairs[range] {
-            if best.is_some_and(|(_, nearest)| pair.clear >= nearest.distance) {
+            if best.is_some_and(|(_, nearest)| pair.gap_bound >= nearest.distance) {
                 continue;
             }
             let nearest =
@@ -248,7 +260,7 @@ impl Near {
             let (moved, alone) = (greatest_move(&segment), greatest_approach(&segment, &STILL));
             for pair in &mut self.pairs[range.clone()] {
                 let skin = &self.skin[pair.skin];
-                if pair.clear - pair.guard > moved + skin.longest_move * skin_share {
+                if pair.gap_bound - pair.min_separation > moved + skin.longest_move * skin_share {
                     continue;
                 }
                 let triangle = [
@@ -257,13 +269,19 @@ impl Near {
                 ];
                 let approach =
                     if skin_share > 0.0 { greatest_approach(&segment, &triangle) } else { alone };
-                if pair.clear - pair.guard > approach {
+                if pair.gap_bound - pair.min_separation > approach {
                     continue;
                 }
                 if !pair.exact {
-                    (pair.clear, pair.exact) = (skin.nearest_to(segment.at(0.0)).distance, true);
+                    (pair.gap_bound, pair.exact) =
+                        (skin.nearest_to(segment.at(0.0)).distance, true);
                 }
-                share = share.min(safe_fraction_from(&segment, &triangle, pair.guard, pair.clear));
+                share = share.min(safe_fraction_from(
+                    &segment,
+                    &triangle,
+                    pair.min_separation,
+                    pair.gap_bound,
+                ));
             }
         }
         share
@@ -288,18 +306,18 @@ impl Near {
             for pair in &mut self.pairs[range.clone()] {
                 let skin = &self.skin[pair.skin];
                 let most = moved + skin.longest_move * skin_share;
-                if pair.clear > most + EXACT_M {
-                    (pair.clear, pair.exact) = (pair.clear - most, false);
+                if pair.gap_bound > most + EXACT_M {
+                    (pair.gap_bound, pair.exact) = (pair.gap_bound - most, false);
                     continue;
                 }
                 let triangle = [skin.before, skin.now];
                 let approach =
                     if skin_share > 0.0 { greatest_approach(&segment, &triangle) } else { alone };
-                if pair.clear > approach {
-                    (pair.clear, pair.exact) = (pair.clear - approach, false);
+                if pair.gap_bound > approach {
+                    (pair.gap_bound, pair.exact) = (pair.gap_bound - approach, false);
                     continue;
                 }
-                (pair.clear, pair.exact) = (skin.nearest_to(segment.at(1.0)).distance, true);
+                (pair.gap_bound, pair.exact) = (skin.nearest_to(segment.at(1.0)).distance, true);
                 crossings += u64::from(first_meeting(&segment, &triangle).is_some());
             }
         }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::law::Press;
+use super::barrier::BarrierForce;
 
 /// A contact point in touch with one face of skin.
 #[derive(Clone, Copy, Debug)]
@@ -12,5 +12,5 @@ pub(crate) struct Touch {
     pub place: DVec3,
     pub normal: DVec3,
     pub distance: f64,
-    pub press: Press,
+    pub barrier: BarrierForce,
 }

@@ -4,9 +4,9 @@ use endline_sdk::BodyPart;
 use glam::{DAffine3, DVec3};
 
 use super::ContactPoint;
-use super::grip::{Failed, Touching};
+use super::friction::{Failed, Touching};
 use super::near::Near;
-use super::slots::Slots;
+use super::points::SkinContactPoints;
 use crate::model::{Friction, Model};
 use crate::solver::BodyTrial;
 use crate::state::State;
@@ -16,7 +16,7 @@ use crate::whale::Skin;
 #[derive(Clone, Debug)]
 pub(crate) struct ContactWorkspace {
     pub near: Near,
-    pub slots: Slots,
+    pub points: SkinContactPoints,
     pub touching: Touching,
     /// The same at a trial along a step.
     pub probe: Touching,
@@ -29,7 +29,7 @@ pub(crate) struct ContactWorkspace {
     /// Places a sub-move aims at.
     pub target: Vec<DVec3>,
     /// Greatest contact distance of any rope [m].
-    pub greatest_reach: f64,
+    pub greatest_contact_distance: f64,
 }
 
 impl ContactWorkspace {
@@ -38,14 +38,14 @@ impl ContactWorkspace {
         let tree = model.skin_tree.clone()?;
         Some(Self {
             near: Near::new(model, tree),
-            slots: Slots::default(),
+            points: SkinContactPoints::default(),
             touching: Touching::default(),
             probe: Touching::default(),
             bones: [Vec::new(), Vec::new()],
             before: Vec::new(),
             bodies_before: Vec::new(),
             target: Vec::new(),
-            greatest_reach: model
+            greatest_contact_distance: model
                 .spec
                 .ropes
                 .iter()
@@ -54,23 +54,26 @@ impl ContactWorkspace {
         })
     }
 
-    /// Opens the slots of a stage, or keeps those there are for skin that has moved on.
-    pub fn open_slots(&mut self, model: &Model, segment_length: &[f64], places: &[DVec3]) {
+    /// Opens the contact points of a stage, or keeps those there are for skin that has moved on.
+    pub fn open_points(&mut self, model: &Model, segment_length: &[f64], places: &[DVec3]) {
         let Some(whale) = &model.spec.whale else { return };
-        if self.slots.list.is_empty() {
-            self.slots.open(model, &self.near, segment_length, whale.contact_stiffness_n_m2);
+        if self.points.list.is_empty() {
+            self.points.open(model, &self.near, segment_length, whale.contact_stiffness_n_m2);
         }
-        self.slots.forget();
-        self.slots.measure(&self.near, places);
-        self.slots.open_more(&self.near, places);
+        self.points.forget();
+        self.points.measure(&self.near, places);
+        self.points.open_more(&self.near, places);
     }
 
     /// A segment and triangle nearer than this share of the contact distance, if any.
     pub fn nearer_than(&self, share: f64) -> Option<(usize, usize)> {
-        self.slots.list.iter().find_map(|slot| {
-            let touch =
-                slot.touches.iter().flatten().find(|touch| touch.distance < share * slot.reach)?;
-            Some((slot.segment, self.near.skin_of(touch.pair).triangle as usize))
+        self.points.list.iter().find_map(|point| {
+            let touch = point
+                .touches
+                .iter()
+                .flatten()
+                .find(|touch| touch.distance < share * point.contact_distance)?;
+            Some((point.segment, self.near.skin_of(touch.pair).triangle as usize))
         })
     }
 
@@ -86,27 +89,27 @@ impl ContactWorkspace {
         contacts.clear();
         let Some(whale) = &model.spec.whale else { return Ok(()) };
         for place in self.touching.in_order.iter().copied() {
-            let slot = &self.slots.list[self.touching.slot[place]];
-            let Some(touch) = &slot.touches[self.touching.face[place]] else { continue };
+            let point = &self.points.list[self.touching.point[place]];
+            let Some(touch) = &point.touches[self.touching.face[place]] else { continue };
             let triangle = self.near.skin_of(touch.pair).triangle as usize;
             contacts.push(ContactPoint {
-                line: model.segment_line[slot.segment],
-                segment: slot.segment,
-                fraction: slot.fraction,
+                line: model.segment_line[point.segment],
+                segment: point.segment,
+                fraction: point.fraction,
                 triangle,
                 barycentric: touch.barycentric,
                 region: whale.skin.regions[triangle],
                 position: touch.place,
                 normal: touch.normal,
                 distance_m: touch.distance,
-                length_m: slot.length,
-                normal_force_n: touch.press.force,
+                length_m: point.length,
+                normal_force_n: touch.barrier.force,
                 friction_n: DVec3::from_array(self.touching.response[place].force_n),
                 slip_m: self.touching.slip_of(place),
                 dt_s,
             });
         }
-        self.touching.advance(friction, dt_s, &self.slots, &mut state.rope.friction)
+        self.touching.advance(friction, dt_s, &self.points, &mut state.rope.friction)
     }
 }
 

@@ -1,6 +1,6 @@
-//! Rope near solids in one step: pairs of segment and solid, and the slots at which they may touch.
+//! Rope near solids in one step: pairs of segment and solid, and the contact points at which they may touch.
 //!
-//! A node of rope near a solid is a slot. A segment has up to two more, where an edge, or a surface bent more sharply
+//! A node of rope near a solid is a contact point. A segment has up to two more, where an edge, or a surface bent more sharply
 //! than the segment is long, lies nearer than its nodes; they follow the nearest point in the first passes of a step
 //! and then stay, so that Newton can finish. On a smooth drum nodes alone touch, which gives the polygon's capstan law.
 
@@ -33,12 +33,12 @@ const FOLLOWED_M: f64 = 0.05;
 /// Greatest stiffness of all that touches a body, as a share of its mass over the step squared: rope and body answer each
 /// other from pass to pass, which closes in on the balance the faster the softer the contact is.
 const BODY_SHARE: f64 = 0.3;
-/// Passes in which slots within segments follow the nearest point.
+/// Passes in which contact points within segments follow the nearest point.
 const FOLLOWING_PASSES: usize = 4;
 
 /// A point of rope that may touch a solid.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Slot {
+pub(crate) struct SolidContactPoint {
     pub solid: usize,
     pub line: usize,
     pub segment: usize,
@@ -56,15 +56,15 @@ pub(crate) struct Slot {
     pub forgiven_m: f64,
     /// Stiffness [N/m].
     pub stiffness: f64,
-    /// Normal force that the last solve foretold [N].
-    pub foretold_n: f64,
+    /// Normal force that the last solve predicted [N].
+    pub predicted_n: f64,
     /// Normal force at the places of the last assembly, below zero where there is a gap [N].
     pub push_n: f64,
     /// Direction out of the solid there.
     pub normal: DVec3,
 }
 
-impl Slot {
+impl SolidContactPoint {
     /// A quantity given at nodes, at this point of the rope.
     pub fn on_rope(&self, at: impl Fn(usize) -> DVec3) -> DVec3 {
         match self.fraction {
@@ -83,7 +83,7 @@ pub(crate) struct Pair {
     pub node: usize,
     /// Fractions between which it may touch.
     range: (f64, f64),
-    pub inner: [Slot; 2],
+    pub inner: [SolidContactPoint; 2],
 }
 
 /// A line's end made fast to a body, and the length of it that does not touch that body.
@@ -101,7 +101,7 @@ struct Spared {
 pub(crate) struct SolidWorkspace {
     pub solids: Vec<Solid>,
     pub pairs: Vec<Pair>,
-    pub nodes: Vec<Slot>,
+    pub nodes: Vec<SolidContactPoint>,
     /// Whether rope may touch a solid in this step.
     pub touching: bool,
     boxes: Boxes,
@@ -115,8 +115,8 @@ pub(crate) struct SolidWorkspace {
     /// Half the diameter of the rope of each line [m].
     radius_m: Vec<f64>,
     passes: usize,
-    /// What the last pass of statics foretold: solid and node, normal force [N].
-    foretold: Vec<((usize, usize), f64)>,
+    /// What the last pass of statics predicted: solid and node, normal force [N].
+    predicted: Vec<((usize, usize), f64)>,
     /// Length of the step [s].
     dt: f64,
 }
@@ -180,19 +180,20 @@ impl SolidWorkspace {
         self.along_m[node + 1] - self.along_m[node]
     }
 
-    /// Unstretched length from the line's start to a slot [m].
-    pub fn along_of(&self, slot: &Slot) -> f64 {
-        self.along_m[slot.node]
-            + slot.fraction.map_or(0.0, |fraction| fraction * self.length_of(slot.node))
+    /// Unstretched length from the line's start to a contact point [m].
+    pub fn along_of(&self, point: &SolidContactPoint) -> f64 {
+        self.along_m[point.node]
+            + point.fraction.map_or(0.0, |fraction| fraction * self.length_of(point.node))
     }
 
     /// Gathers rope near solids for a step of length `dt` (zero in statics) that starts at `from`.
     pub fn gather(&mut self, state: &State, from: &[DVec3], dt: f64) {
-        // Statics gathers anew in every pass, and goes on with what the last solve foretold.
-        self.foretold.clear();
+        // Statics gathers anew in every pass, and goes on with what the last solve predicted.
+        self.predicted.clear();
         if dt <= 0.0 {
-            self.foretold
-                .extend(self.nodes.iter().map(|slot| ((slot.solid, slot.node), slot.foretold_n)));
+            self.predicted.extend(
+                self.nodes.iter().map(|point| ((point.solid, point.node), point.predicted_n)),
+            );
         }
         self.pairs.clear();
         self.nodes.clear();
@@ -279,71 +280,92 @@ impl SolidWorkspace {
         for (end, node) in [(0, node), (1, node + 1)] {
             let there = (end == 0 && follows)
                 || (again
-                    && self.nodes.iter().any(|slot| slot.solid == solid && slot.node == node));
+                    && self.nodes.iter().any(|point| point.solid == solid && point.node == node));
             if there || self.is_spared(solid, line, self.along_m[node]) {
                 continue;
             }
-            let slot = Slot { solid, line, segment, node, radius_m, open: true, ..Slot::default() };
-            let slot = self.begin_slot(state, thing, slot, [places[end], places[2 + end]], poses);
-            self.nodes.push(slot);
+            let point = SolidContactPoint {
+                solid,
+                line,
+                segment,
+                node,
+                radius_m,
+                open: true,
+                ..SolidContactPoint::default()
+            };
+            let point =
+                self.begin_point(state, thing, point, [places[end], places[2 + end]], poses);
+            self.nodes.push(point);
         }
-        let inner = [Slot { solid, line, segment, node, radius_m, ..Slot::default() }; 2];
+        let inner = [SolidContactPoint {
+            solid,
+            line,
+            segment,
+            node,
+            radius_m,
+            ..SolidContactPoint::default()
+        }; 2];
         let mut pair = Pair { solid, segment, line, node, range, inner };
         for (places, pose) in [(&places[..2], &poses[0]), (&places[2..], &poses[1])] {
             self.follow(state, thing, &mut pair, [places[0], places[1]], pose);
         }
-        for slot in pair.inner.iter_mut().filter(|slot| slot.open) {
-            let at = |ends: &[DVec3]| ends[0].lerp(ends[1], slot.fraction.unwrap_or(0.0));
-            *slot =
-                self.begin_slot(state, thing, *slot, [at(&places[..2]), at(&places[2..])], poses);
+        for point in pair.inner.iter_mut().filter(|point| point.open) {
+            let at = |ends: &[DVec3]| ends[0].lerp(ends[1], point.fraction.unwrap_or(0.0));
+            *point =
+                self.begin_point(state, thing, *point, [at(&places[..2]), at(&places[2..])], poses);
         }
         self.pairs.push(pair);
     }
 
-    /// Stiffness, grip and first normal force of a slot whose rope goes from one place to another.
-    fn begin_slot(
+    /// Stiffness, grip and first normal force of a contact point whose rope goes from one place to another.
+    fn begin_point(
         &mut self,
         state: &State,
         solid: &Solid,
-        slot: Slot,
+        point: SolidContactPoint,
         places: [DVec3; 2],
         poses: &[Pose; 2],
-    ) -> Slot {
-        let radius = slot.radius_m;
+    ) -> SolidContactPoint {
+        let radius = point.radius_m;
         let depths = [0, 1].map(|k| radius - solid.shape.distance(poses[k].inward(places[k])));
         self.touching |= depths[0].max(depths[1]) > -TOUCH_M;
         let forgiven_m = (depths[0] - radius).max(0.0);
-        let slot = Slot { forgiven_m, ..self.regrip(state, solid, slot) };
-        let here_n = slot.stiffness * (depths[1] - forgiven_m);
+        let point = SolidContactPoint { forgiven_m, ..self.regrip(state, solid, point) };
+        let here_n = point.stiffness * (depths[1] - forgiven_m);
         let known =
-            self.foretold.binary_search_by_key(&(slot.solid, slot.node), |(key, _)| *key).ok();
-        let foretold_n = match known.filter(|_| slot.fraction.is_none()) {
-            Some(known) => self.foretold[known].1,
-            None if slot.foretold_n > 0.0 => slot.foretold_n,
+            self.predicted.binary_search_by_key(&(point.solid, point.node), |(key, _)| *key).ok();
+        let predicted_n = match known.filter(|_| point.fraction.is_none()) {
+            Some(known) => self.predicted[known].1,
+            None if point.predicted_n > 0.0 => point.predicted_n,
             None => here_n,
         };
-        Slot { foretold_n, ..slot }
+        SolidContactPoint { predicted_n, ..point }
     }
 
-    /// Stiffness of a slot, and the grip that it continues.
-    fn regrip(&self, state: &State, solid: &Solid, mut slot: Slot) -> Slot {
-        let along_m = self.along_of(&slot);
-        let length = match slot.fraction {
-            None => self.node_length(slot.node),
-            Some(_) => self.length_of(slot.node).min(EDGE_M),
+    /// Stiffness of a contact point, and the grip that it continues.
+    fn regrip(
+        &self,
+        state: &State,
+        solid: &Solid,
+        mut point: SolidContactPoint,
+    ) -> SolidContactPoint {
+        let along_m = self.along_of(&point);
+        let length = match point.fraction {
+            None => self.node_length(point.node),
+            Some(_) => self.length_of(point.node).min(EDGE_M),
         };
-        slot.stiffness = solid.stiffness_n_m2 * length;
+        point.stiffness = solid.stiffness_n_m2 * length;
         if solid.mass_kg.is_finite() {
             let held =
-                state.rope.solid_grips.iter().filter(|grip| grip.solid == slot.solid).count();
+                state.rope.solid_grips.iter().filter(|grip| grip.solid == point.solid).count();
             let most = BODY_SHARE * solid.mass_kg / (self.dt * self.dt * (held + 1) as f64);
-            slot.stiffness = slot.stiffness.min(most);
+            point.stiffness = point.stiffness.min(most);
         }
-        let farthest = if slot.fraction.is_some() { FOLLOWED_M } else { 1e-9 };
+        let farthest = if point.fraction.is_some() { FOLLOWED_M } else { 1e-9 };
         let mine = |grip: &&SolidGrip| {
-            grip.solid == slot.solid
-                && grip.line == slot.line
-                && grip.at_node == slot.fraction.is_none()
+            grip.solid == point.solid
+                && grip.line == point.line
+                && grip.at_node == point.fraction.is_none()
                 && (grip.along_m - along_m).abs() <= farthest
         };
         let nearest = state
@@ -353,9 +375,9 @@ impl SolidWorkspace {
             .filter(mine)
             .min_by(|a, b| (a.along_m - along_m).abs().total_cmp(&(b.along_m - along_m).abs()));
         if let Some(grip) = nearest {
-            (slot.kept, slot.foretold_n) = (grip.stretch, grip.push_n);
+            (point.kept, point.predicted_n) = (grip.stretch, grip.push_n);
         }
-        slot
+        point
     }
 
     /// Unstretched length that hangs on a node [m].
@@ -400,7 +422,7 @@ impl SolidWorkspace {
         if spared.at_start { spared.length_m } else { self.along_m[last] - spared.length_m }
     }
 
-    /// Lets the slots within segments follow the nearest points, in the first passes of a step.
+    /// Lets the contact points within segments follow the nearest points, in the first passes of a step.
     pub fn follow_all(&mut self, state: &State, places: &[DVec3], pose: impl Fn(&Carrier) -> Pose) {
         self.passes += 1;
         if self.passes > FOLLOWING_PASSES {
@@ -429,15 +451,18 @@ impl SolidWorkspace {
         pose: &Pose,
     ) {
         let fractions = self.inner_points(solid, pair, places, pose);
-        for (slot, fraction) in pair.inner.iter_mut().zip(fractions) {
-            let was_open = slot.open;
-            slot.open = fraction.is_some();
+        for (point, fraction) in pair.inner.iter_mut().zip(fractions) {
+            let was_open = point.open;
+            point.open = fraction.is_some();
             if fraction.is_some() {
-                slot.fraction = fraction;
+                point.fraction = fraction;
             }
-            if slot.open && !was_open {
-                *slot =
-                    self.regrip(state, solid, Slot { foretold_n: 0.0, kept: DVec3::ZERO, ..*slot });
+            if point.open && !was_open {
+                *point = self.regrip(
+                    state,
+                    solid,
+                    SolidContactPoint { predicted_n: 0.0, kept: DVec3::ZERO, ..*point },
+                );
             }
         }
     }
@@ -473,19 +498,23 @@ impl SolidWorkspace {
         }
     }
 
-    /// Every slot that is open.
-    pub fn open_slots(&self) -> impl Iterator<Item = &Slot> {
+    /// Every contact point that is open.
+    pub fn open_points(&self) -> impl Iterator<Item = &SolidContactPoint> {
         self.nodes
             .iter()
             .chain(self.pairs.iter().flat_map(|pair| &pair.inner))
-            .filter(|slot| slot.open)
+            .filter(|point| point.open)
     }
 
-    /// Every slot that is open, to be changed.
-    pub fn open_slots_mut(&mut self) -> impl Iterator<Item = (&[Solid], &mut Slot)> {
+    /// Every contact point that is open, to be changed.
+    pub fn open_points_mut(&mut self) -> impl Iterator<Item = (&[Solid], &mut SolidContactPoint)> {
         let solids = &self.solids[..];
         let inner = self.pairs.iter_mut().flat_map(|pair| &mut pair.inner);
-        self.nodes.iter_mut().chain(inner).filter(|slot| slot.open).map(move |slot| (solids, slot))
+        self.nodes
+            .iter_mut()
+            .chain(inner)
+            .filter(|point| point.open)
+            .map(move |point| (solids, point))
     }
 }
 

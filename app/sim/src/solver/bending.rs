@@ -42,21 +42,21 @@ impl Hinge {
 impl Solver {
     /// Adds the force of every hinge and its blocks.
     pub(super) fn add_bending(&mut self, model: &Model) {
-        let Self { cut, lengths, trial, band, .. } = self;
+        let Self { cut, lengths, trial, tridiagonal, .. } = self;
         each_hinge(model, cut, lengths, |hinge| {
             let pull = hinge.turn(&trial.place) * hinge.stiffness;
             let [before, after] = hinge.inverse;
-            band.force[hinge.node - 1] -= pull * before;
-            band.force[hinge.node] += pull * (before + after);
-            band.force[hinge.node + 1] -= pull * after;
+            tridiagonal.force[hinge.node - 1] -= pull * before;
+            tridiagonal.force[hinge.node] += pull * (before + after);
+            tridiagonal.force[hinge.node + 1] -= pull * after;
             for (segment, node, inverse) in
                 [(hinge.before, hinge.node, before), (hinge.before + 1, hinge.node + 1, after)]
             {
                 let block = DMat3::from_diagonal(DVec3::splat(hinge.stiffness * inverse * inverse));
-                band.diagonal[node - 1] += block;
-                band.diagonal[node] += block;
-                band.up[segment] -= block;
-                band.low[segment] -= block;
+                tridiagonal.diagonal[node - 1] += block;
+                tridiagonal.diagonal[node] += block;
+                tridiagonal.up[segment] -= block;
+                tridiagonal.low[segment] -= block;
             }
         });
     }
@@ -65,7 +65,7 @@ impl Solver {
     pub(super) fn bending_slope(&self, model: &Model, share: f64) -> f64 {
         let mut slope = 0.0;
         each_hinge(model, &self.cut, &self.lengths, |hinge| {
-            let change = hinge.turn(&self.band.step);
+            let change = hinge.turn(&self.tridiagonal.step);
             slope += hinge.stiffness * (hinge.turn(&self.trial.place) + change * share).dot(change);
         });
         slope

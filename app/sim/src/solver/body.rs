@@ -6,12 +6,12 @@
 //! whole, `u` the water's velocity relative to that place: `F_k = ½ρ (C_d A)_k |u| u_k`; turning drag `τ_k = -½ρ D_k |ω_k| ω_k`.
 //! In waves heights are those above the surface over the body's middle, and the water's acceleration acts (`water.rs`).
 //! The place follows the step's scheme; the rotation follows backward Euler:
-//! `ω = log(q qₙ⁻¹)/dt`. Rope ends pull on the body inside the same linear solve (`hubs.rs`).
+//! `ω = log(q qₙ⁻¹)/dt`. Rope ends pull on the body inside the same linear solve (`interface.rs`).
 
 use glam::{DMat3, DVec3};
 
 use super::Solver;
-use super::hubs::Seat;
+use super::interface::Attachment;
 use super::rope::outer;
 use super::scheme::Scheme;
 use crate::model::{Body, Float, Model};
@@ -24,7 +24,7 @@ impl Solver {
     /// Adds inertia, weight, floats, drag and seabed of every body.
     pub(super) fn add_bodies(&mut self, model: &Model, state: &State, scheme: &Scheme) {
         for (index, body) in model.spec.bodies.iter().enumerate() {
-            self.hubs.force[self.plan.body_block[index]].z -=
+            self.interface.force[self.plan.body_block[index]].z -=
                 body.mass_kg * model.spec.water.gravity_m_s2;
             let wet = self.add_floats(model, state, (index, body), scheme);
             self.add_body_inertia(state, (index, body, wet), scheme);
@@ -77,15 +77,15 @@ impl Solver {
             trial.orientation * DVec3::Z,
         );
         let lift = water.density_kg_m3 * water.gravity_m_s2 * float.volume_m3;
-        let seat = Seat::Body { block, body: index, offset: float.offset_m };
+        let attachment = Attachment::Body { block, body: index, offset: float.offset_m };
         let (up, force) = (outer(DVec3::Z, DVec3::Z), DVec3::Z * (lift * wet.share));
-        self.hubs.push(seat, arm, force);
-        self.hubs.force[block + 1] += wet.moment.cross(DVec3::Z * lift);
+        self.interface.push(attachment, arm, force);
+        self.interface.force[block + 1] += wet.moment.cross(DVec3::Z * lift);
         if scheme.exact {
             return wet.share;
         }
-        self.hubs.add(seat, arm, seat, arm, up * (lift * wet.slope));
-        *self.hubs.at(block + 1, block + 1) +=
+        self.interface.add(attachment, arm, attachment, arm, up * (lift * wet.slope));
+        *self.interface.at(block + 1, block + 1) +=
             turn_stiffness(arm, force) + (DMat3::IDENTITY - up) * (lift * wet.turn);
         wet.share
     }
@@ -103,29 +103,30 @@ impl Solver {
         let mass =
             DMat3::from_diagonal(DVec3::splat(body.mass_kg)) + turned(body.added_mass_kg * wet);
         let inertia = turned(body.inertia_kg_m2 + body.added_inertia_kg_m2 * wet);
-        let share = scheme.inertia * trial.burden;
-        *self.hubs.at(block, block) += mass * share;
+        let share = scheme.inertia * trial.pseudo_mass_scale;
+        *self.interface.at(block, block) += mass * share;
         if scheme.is_static() {
-            *self.hubs.at(block + 1, block + 1) += inertia * share;
+            *self.interface.at(block + 1, block + 1) += inertia * share;
             if scheme.anchored {
-                self.hubs.force[block] -= mass * ((trial.place - trial.place_history) * share);
-                self.hubs.force[block + 1] -=
+                self.interface.force[block] -= mass * ((trial.place - trial.place_history) * share);
+                self.interface.force[block + 1] -=
                     inertia * (spin(trial.orientation, trial.anchor, 1.0) * share);
             }
         } else {
             let velocity = (trial.place - trial.place_history) * scheme.rate;
             let turn_rate = 1.0 / scheme.dt;
             let spin = spin(trial.orientation, now.orientation, scheme.dt);
-            self.hubs.force[block] -= mass * ((velocity - trial.velocity_history) * scheme.rate);
-            self.hubs.force[block + 1] -=
+            self.interface.force[block] -=
+                mass * ((velocity - trial.velocity_history) * scheme.rate);
+            self.interface.force[block + 1] -=
                 inertia * ((spin - now.spin) * turn_rate) + spin.cross(inertia * spin);
-            *self.hubs.at(block + 1, block + 1) += inertia * (turn_rate * turn_rate);
+            *self.interface.at(block + 1, block + 1) += inertia * (turn_rate * turn_rate);
         }
         if trial.held {
-            *self.hubs.at(block, block) += DMat3::IDENTITY * HELD;
+            *self.interface.at(block, block) += DMat3::IDENTITY * HELD;
         }
         if trial.held || trial.upright {
-            *self.hubs.at(block + 1, block + 1) += DMat3::IDENTITY * HELD;
+            *self.interface.at(block + 1, block + 1) += DMat3::IDENTITY * HELD;
         }
     }
 
@@ -150,14 +151,14 @@ impl Solver {
         }
         let relative = axes.transpose() * (self.flow_bodies[index].velocity_m_s - velocity);
         let speed = relative.length();
-        let seat = Seat::Body { block, body: index, offset };
-        self.hubs.push(seat, arm, axes * (area * relative * (half_density * speed)));
+        let attachment = Attachment::Body { block, body: index, offset };
+        self.interface.push(attachment, arm, axes * (area * relative * (half_density * speed)));
         if !scheme.is_static() {
             let slope =
                 area * (DVec3::splat(speed) + relative * relative / speed.max(1e-9)) * half_density;
             let slope = axes * DMat3::from_diagonal(slope * scheme.rate) * axes.transpose();
             // Place and rotation move by different schemes.
-            self.hubs.add(seat, arm, seat, arm / (scheme.dt * scheme.rate), slope);
+            self.interface.add(attachment, arm, attachment, arm / (scheme.dt * scheme.rate), slope);
         }
     }
 
@@ -177,9 +178,10 @@ impl Solver {
         let axes = DMat3::from_quat(trial.orientation);
         let half_density = 0.5 * model.spec.water.density_kg_m3 * wet;
         let spin = axes.transpose() * spin(trial.orientation, now.orientation, scheme.dt);
-        self.hubs.force[block + 1] -= axes * (body.turn_drag_m5 * spin * spin.abs() * half_density);
+        self.interface.force[block + 1] -=
+            axes * (body.turn_drag_m5 * spin * spin.abs() * half_density);
         let slope = body.turn_drag_m5 * spin.abs() * (2.0 * half_density / scheme.dt);
-        *self.hubs.at(block + 1, block + 1) +=
+        *self.interface.at(block + 1, block + 1) +=
             axes * DMat3::from_diagonal(slope) * axes.transpose();
     }
 }

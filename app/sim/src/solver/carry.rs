@@ -72,7 +72,7 @@ impl Solver {
         }
         let skin_to = work.near.fraction + (1.0 - work.near.fraction) * share;
         self.trial.hitches.share = skin_to;
-        self.trial.seat_ends(model, &self.plan);
+        self.trial.place_ends(model, &self.plan);
         let safe = work.near.safe_share(&work.before, |node| self.trial.place[node], skin_to);
         let safe = safe.min(self.safe_of_ropes_from(&work.before));
         if safe < 1.0 {

@@ -5,7 +5,7 @@
 //! `M = L [m 1 + ρ (π d²/4)(C_a (1 - t tᵀ) + C_at t tᵀ)]`, `v = (x - x̂)/h` and `A_m` the volume of fibre per metre.
 //! Segment of unstretched length `l` along `t`, strain `ε = |x_b - x_a|/l - 1`, strain rate `ε̇ = t·(v_b - v_a)/l`:
 //! `T = T(ε, ε̇)` (`axial.rs`), pulling only while taut. It is judged taut, and stiffened across, by the tension that the last
-//! linear solve foretold rather than by that at the guess: one or two solves a step then suffice (docs/physics.md).
+//! linear solve predicted rather than by that at the guess: one or two solves a step then suffice (docs/physics.md).
 //! Blocks are `-dF/dx`, symmetric, without the turning of the tangent.
 //! Reference: Morison et al. 1950 (doi:10.2118/950149-G); drag coefficients from the gear library.
 
@@ -161,7 +161,7 @@ pub(crate) struct SegmentAt<R> {
     /// All zero where it is cut.
     pub law: Axial<R>,
     /// Tension by the last solve: taut above zero.
-    pub foretold: R,
+    pub predicted: R,
 }
 
 /// The pull of a segment.
@@ -189,7 +189,7 @@ pub(crate) fn pull<R: Real>(at: &SegmentAt<R>, rate: R) -> PullOf<R> {
     let strain = (chord - at.length) * inverse_length;
     let tension = at.law.tension(strain, strain_rate);
     let stiffness = at.law.slope(strain, rate) * inverse_length;
-    let across = at.foretold.max(zero) * inverse_chord;
+    let across = at.predicted.max(zero) * inverse_chord;
     let block = Sym3::round(across, direction, stiffness - across);
     let none = Vec3 { x: zero, y: zero, z: zero };
     PullOf {
@@ -197,7 +197,7 @@ pub(crate) fn pull<R: Real>(at: &SegmentAt<R>, rate: R) -> PullOf<R> {
         inverse_chord,
         tension,
         stiffness,
-        force: Vec3::choose(at.foretold, direction.scale(tension), none),
-        block: Sym3::choose(at.foretold, block, Sym3::diagonal(zero)),
+        force: Vec3::choose(at.predicted, direction.scale(tension), none),
+        block: Sym3::choose(at.predicted, block, Sym3::diagonal(zero)),
     }
 }

@@ -5,7 +5,7 @@ use glam::{DMat3, DQuat, DVec3};
 use super::Solver;
 use super::body;
 use super::forces::Shared;
-use super::hubs::Seat;
+use super::interface::Attachment;
 use super::plan::Plan;
 use super::scheme::Scheme;
 use crate::model::Model;
@@ -59,30 +59,32 @@ impl Solver {
     /// One Newton pass.
     pub(crate) fn pass_free(&mut self, model: &Model, state: &State, scheme: &Scheme) -> FreePass {
         let shared = Shared::of(model, scheme);
-        self.hubs.clear();
+        self.interface.clear();
         if self.near_seabed {
             self.measure_ground(model, state, scheme);
         }
         self.lanes.reduce(&shared);
         for (index, line) in model.spec.lines.iter().enumerate() {
-            let (seat_a, seat_b) = (self.plan.seats[line.from], self.plan.seats[line.to]);
-            let ends = self.lanes.line_ends(index, seat_a != Seat::Fixed);
-            self.join(seat_a, seat_b, &ends);
+            let (attachment_a, attachment_b) =
+                (self.plan.attachments[line.from], self.plan.attachments[line.to]);
+            let ends = self.lanes.line_ends(index, attachment_a != Attachment::Fixed);
+            self.join(attachment_a, attachment_b, &ends);
         }
         self.add_bodies(model, state, scheme);
         self.add_pulled(model, scheme);
         self.add_end_turns_free(model);
-        self.hubs.solve();
+        self.interface.solve();
         for (index, line) in model.spec.lines.iter().enumerate() {
-            let (seat_a, seat_b) = (self.plan.seats[line.from], self.plan.seats[line.to]);
-            let step_a = self.hubs.step_of(seat_a, self.arm(seat_a));
-            let step_b = self.hubs.step_of(seat_b, self.arm(seat_b));
-            self.lanes.move_ends(index, seat_a != Seat::Fixed, step_a, step_b);
+            let (attachment_a, attachment_b) =
+                (self.plan.attachments[line.from], self.plan.attachments[line.to]);
+            let step_a = self.interface.step_of(attachment_a, self.arm(attachment_a));
+            let step_b = self.interface.step_of(attachment_b, self.arm(attachment_b));
+            self.lanes.move_ends(index, attachment_a != Attachment::Fixed, step_a, step_b);
         }
         let rope = self.lanes.advance(&shared);
         let (bodies_m, finite) = self.advance_bodies(1.0);
         self.lanes.give_ends(model, &mut self.trial);
-        self.trial.seat_ends(model, &self.plan);
+        self.trial.place_ends(model, &self.plan);
         self.lanes.take_ends(model, &self.trial);
         FreePass {
             longest_m: rope.longest_m.max(bodies_m),
@@ -96,10 +98,10 @@ impl Solver {
     /// Hands the seabed's forces and blocks to the lanes.
     fn measure_ground(&mut self, model: &Model, state: &State, scheme: &Scheme) {
         self.lanes.give_places(&mut self.trial.place);
-        self.band.force.fill(DVec3::ZERO);
-        self.band.diagonal.fill(DMat3::ZERO);
+        self.tridiagonal.force.fill(DVec3::ZERO);
+        self.tridiagonal.diagonal.fill(DMat3::ZERO);
         self.add_seabed(model, state, scheme);
-        self.lanes.take_ground(&self.band.force, &self.band.diagonal);
+        self.lanes.take_ground(&self.tridiagonal.force, &self.tridiagonal.diagonal);
     }
 
     /// Writes the solved step into the state.
@@ -130,7 +132,7 @@ impl Solver {
         for (index, body) in self.trial.bodies.iter_mut().enumerate().filter(|(_, body)| !body.held)
         {
             let block = self.plan.body_block[index];
-            let (step, turn) = (self.hubs.step[block], self.hubs.step[block + 1]);
+            let (step, turn) = (self.interface.step[block], self.interface.step[block + 1]);
             body.place += step * share;
             body.orientation =
                 (DQuat::from_scaled_axis(turn * share) * body.orientation).normalize();
@@ -144,11 +146,11 @@ impl Solver {
     fn add_end_turns_free(&mut self, model: &Model) {
         for (index, line) in model.spec.lines.iter().enumerate() {
             for (joint, at_b, sign) in [(line.from, false, 1.0), (line.to, true, -1.0)] {
-                let seat = self.plan.seats[joint];
-                let Seat::Body { block, .. } = seat else { continue };
+                let attachment = self.plan.attachments[joint];
+                let Attachment::Body { block, .. } = attachment else { continue };
                 let (direction, tension) = self.lanes.end_pull(index, at_b);
-                let arm = Plan::arm(seat, |body| self.trial.bodies[body].orientation);
-                *self.hubs.at(block + 1, block + 1) +=
+                let arm = Plan::arm(attachment, |body| self.trial.bodies[body].orientation);
+                *self.interface.at(block + 1, block + 1) +=
                     body::turn_stiffness(arm, direction * (sign * tension.max(0.0)));
             }
         }

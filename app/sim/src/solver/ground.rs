@@ -9,7 +9,7 @@
 use glam::{DMat3, DVec3};
 
 use super::Solver;
-use super::hubs::Seat;
+use super::interface::Attachment;
 use super::rope::outer;
 use super::scheme::Scheme;
 use super::suction;
@@ -138,12 +138,12 @@ impl Solver {
             }
             let stiffness = seabed.rope_stiffness_n_m2 * self.lengths.node[node];
             let (push, push_rate) = press(depth, stiffness);
-            self.band.force[node] += seabed.normal * push;
-            self.band.diagonal[node] += outer(seabed.normal, seabed.normal) * push_rate;
+            self.tridiagonal.force[node] += seabed.normal * push;
+            self.tridiagonal.diagonal[node] += outer(seabed.normal, seabed.normal) * push_rate;
             if grips_rope(seabed, state, node, scheme) {
                 let grip = self.rope_grip(seabed, state, scheme, node, stiffness);
-                self.band.force[node] += grip.force;
-                self.band.diagonal[node] += grip.block;
+                self.tridiagonal.force[node] += grip.force;
+                self.tridiagonal.diagonal[node] += grip.block;
             }
         }
     }
@@ -179,7 +179,7 @@ impl Solver {
             let arm = self.trial.bodies[index].orientation * body.feet_m[foot];
             let place = self.trial.bodies[index].place + arm;
             let depth = seabed.depth_of(place);
-            let seat = Seat::Body {
+            let attachment = Attachment::Body {
                 block: self.plan.body_block[index],
                 body: index,
                 offset: body.feet_m[foot],
@@ -188,8 +188,14 @@ impl Solver {
                 let (pull, rate) =
                     suction::pull(body.foot_break_out_n, -depth, state.bodies[index].lift_m[foot]);
                 if pull > 0.0 && !scheme.is_static() {
-                    self.hubs.push(seat, arm, seabed.normal * -pull);
-                    self.hubs.add(seat, arm, seat, arm, outer(seabed.normal, seabed.normal) * rate);
+                    self.interface.push(attachment, arm, seabed.normal * -pull);
+                    self.interface.add(
+                        attachment,
+                        arm,
+                        attachment,
+                        arm,
+                        outer(seabed.normal, seabed.normal) * rate,
+                    );
                 }
                 continue;
             }
@@ -204,11 +210,11 @@ impl Solver {
             let push_rate = push_rate + damping;
             let grip =
                 foot_grip(seabed, state, scheme, (index, body, foot), place, (push, push_rate));
-            self.hubs.push(seat, arm, seabed.normal * push + grip.force);
-            self.hubs.add(
-                seat,
+            self.interface.push(attachment, arm, seabed.normal * push + grip.force);
+            self.interface.add(
+                attachment,
                 arm,
-                seat,
+                attachment,
                 arm,
                 outer(seabed.normal, seabed.normal) * push_rate + grip.block,
             );

@@ -2,36 +2,36 @@
 //!
 //! Newton on `M (v - v̂)/h = F(x, v)` with `v = (x - x̂)/h` (`scheme.rs`): each `pass`
 //! assembles forces and their derivatives at the trial places, eliminates every line down to its ends
-//! (`chain.rs`), solves the hubs (`hubs.rs`) and moves the trial. Cost is linear in the number of nodes;
+//! (`block_tridiagonal.rs`), solves the interface system (`interface.rs`) and moves the trial. Cost is linear in the number of nodes;
 //! no stiffness or mass ratio limits the step.
 
 mod axial;
 mod bending;
+mod block_tridiagonal;
 mod body;
 mod carry;
-mod chain;
 mod columns;
-mod coupled;
+mod contact_newton;
 mod forces;
 mod free;
 mod ground;
-mod hubs;
+mod interface;
 mod lanes;
 mod lengths;
+mod line_search;
 mod plan;
 mod pulled;
 mod rest;
 mod rope;
+mod rope_contact_newton;
 mod rope_on_rope;
 mod scheme;
-mod search;
 mod solid;
 mod suction;
-mod tied;
 mod tilt;
-mod touch;
 mod trial;
 mod water;
+mod woodbury;
 
 use glam::{DMat3, DVec3};
 
@@ -43,22 +43,22 @@ use crate::water::WaterAt;
 use crate::water::field::Walk;
 use crate::whale::hitch::Hitches;
 pub(crate) use axial::Axial;
-use chain::{Band, Ends};
-use coupled::Coupling;
+use block_tridiagonal::{BlockTridiagonal, Ends};
+pub(crate) use contact_newton::{CONTACT_WANTED_M, ContactEnd, TENSION_GAP_N, TENSION_GAP_SHARE};
 pub(crate) use free::FreePass;
-use hubs::{Hubs, Seat};
+use interface::{Attachment, InterfaceSystem};
 use lanes::Lanes;
 use lengths::Lengths;
 use plan::Plan;
 pub(crate) use rest::{WorstAt, is_laid};
 use rope::Pull;
+pub(crate) use rope_contact_newton::RopeContactEnd;
 pub(crate) use scheme::Scheme;
-use solid::Judged;
+use solid::ActiveSet;
 pub(crate) use suction::LOOSE_M;
-pub(crate) use tied::RopeContactEnd;
-pub(crate) use touch::{CONTACT_WANTED_M, ContactEnd, TENSION_GAP_N, TENSION_GAP_SHARE};
 pub(crate) use trial::BodyTrial;
 use trial::Trial;
+use woodbury::Woodbury;
 
 /// Scratch of the solver for one model; it keeps nothing that a step depends on.
 #[derive(Clone, Debug)]
@@ -66,16 +66,16 @@ pub(crate) struct Solver {
     pub(crate) plan: Plan,
     pub(crate) trial: Trial,
     lengths: Lengths,
-    band: Band,
+    tridiagonal: BlockTridiagonal,
     lanes: Lanes,
     /// Whether rope may touch the seabed in a step of free rope.
     near_seabed: bool,
-    hubs: Hubs,
+    interface: InterfaceSystem,
     pull: Vec<Pull>,
     cut: Vec<bool>,
     /// What the pseudo-mass of each line is multiplied by in anchored passes of statics.
-    burden: Vec<f64>,
-    rest: Rest,
+    pseudo_mass_scale: Vec<f64>,
+    linear_part: LinearPart,
     /// Velocity of the water at each node: current and waves [m/s].
     flow: Vec<DVec3>,
     /// Acceleration of the water at each node; empty where there are no waves [m/s²].
@@ -94,20 +94,20 @@ pub(crate) struct Solver {
     pub(crate) solid: SolidWorkspace,
     /// Rope near rope.
     pub(crate) ropes: RopeWorkspace,
-    coupling: Coupling,
+    woodbury: Woodbury,
     /// Rope and bodies before a move.
     before: Vec<DVec3>,
     bodies_before: Vec<BodyTrial>,
-    /// Seat and arm of each joint, for a solve again.
-    seats: Vec<(Seat, DVec3)>,
+    /// Attachment and arm of each joint, for a solve again.
+    attachments: Vec<(Attachment, DVec3)>,
 }
 
 /// Forces and blocks that the search along a step holds linear.
 #[derive(Clone, Debug, Default)]
-struct Rest {
+struct LinearPart {
     diagonal: Vec<DMat3>,
     force: Vec<DVec3>,
-    hubs: Hubs,
+    interface: InterfaceSystem,
 }
 
 /// What is fine enough for a small rig or short segments, below the usual tolerances.
@@ -138,19 +138,19 @@ impl Solver {
     #[must_use]
     pub fn new(model: &Model) -> Self {
         let plan = Plan::new(model);
-        let hubs = plan.hubs(model);
+        let interface = plan.interface(model);
         Self {
-            rest: Rest { hubs: hubs.clone(), ..Rest::default() },
-            hubs,
+            linear_part: LinearPart { interface: interface.clone(), ..LinearPart::default() },
+            interface,
             plan,
             trial: Trial { hitches: Hitches::new(model), ..Trial::default() },
             lengths: Lengths::default(),
-            band: Band::new(model.node_count, model.segment_count),
+            tridiagonal: BlockTridiagonal::new(model.node_count, model.segment_count),
             lanes: Lanes::new(model),
             near_seabed: false,
             pull: vec![Pull::default(); model.segment_count],
             cut: vec![false; model.segment_count],
-            burden: vec![1.0; model.spec.lines.len()],
+            pseudo_mass_scale: vec![1.0; model.spec.lines.len()],
             flow: vec![DVec3::ZERO; model.node_count],
             flow_acceleration: Vec::new(),
             surface: Vec::new(),
@@ -161,15 +161,15 @@ impl Solver {
             drift_bodies: Vec::new(),
             solid: SolidWorkspace::new(model),
             ropes: RopeWorkspace::new(model),
-            coupling: Coupling::default(),
+            woodbury: Woodbury::default(),
             before: Vec::new(),
             bodies_before: Vec::new(),
-            seats: Vec::new(),
+            attachments: Vec::new(),
         }
     }
 
     /// What is fine enough for the gear at hand.
-    pub(crate) fn fine(&self) -> Tolerance {
+    pub(crate) fn tolerance(&self) -> Tolerance {
         Tolerance {
             move_m: FINE_MOVE_SHARE * self.lengths.shortest,
             gap_n: FINE_GAP_SHARE * self.plan.weight_n,
@@ -187,13 +187,13 @@ impl Solver {
 
     /// Assembles forces and matrix at the trial places.
     pub(crate) fn assemble(&mut self, model: &Model, state: &State, scheme: &Scheme) {
-        self.band.clear();
-        self.hubs.clear();
-        self.coupling.touches.clear();
+        self.tridiagonal.clear();
+        self.interface.clear();
+        self.woodbury.touches.clear();
         self.add_nodes(model, scheme);
         self.add_push();
         self.add_seabed(model, state, scheme);
-        self.add_solids(state, scheme, Judged::Foretold);
+        self.add_solids(state, scheme, ActiveSet::Predicted);
         self.add_pulled(model, scheme);
         self.add_tension(model, scheme);
         self.add_bending(model);
@@ -203,16 +203,16 @@ impl Solver {
 
     /// The same with every segment judged by its tension where it is, and what is linear in a search kept apart.
     pub(crate) fn assemble_searchable(&mut self, model: &Model, state: &State, scheme: &Scheme) {
-        self.band.clear();
-        self.hubs.clear();
+        self.tridiagonal.clear();
+        self.interface.clear();
         self.add_nodes(model, scheme);
         self.add_push();
         self.add_seabed(model, state, scheme);
         self.add_pulled(model, scheme);
         self.add_bodies(model, state, scheme);
-        self.rest.diagonal.clone_from(&self.band.diagonal);
-        self.rest.force.clone_from(&self.band.force);
-        self.rest.hubs.copy_values(&self.hubs);
+        self.linear_part.diagonal.clone_from(&self.tridiagonal.diagonal);
+        self.linear_part.force.clone_from(&self.tridiagonal.force);
+        self.linear_part.interface.copy_values(&self.interface);
         self.measure_tension(model, scheme);
         self.ropes.follow(&self.trial.place);
         self.add_taut(model, state, scheme);
@@ -220,54 +220,58 @@ impl Solver {
 
     /// The same again at the same places, with every segment judged by the tension it has in `trial`.
     fn assemble_again(&mut self, model: &Model, state: &State, scheme: &Scheme) {
-        self.band.clear();
-        self.band.diagonal.clone_from(&self.rest.diagonal);
-        self.band.force.clone_from(&self.rest.force);
-        self.hubs.copy_values(&self.rest.hubs);
+        self.tridiagonal.clear();
+        self.tridiagonal.diagonal.clone_from(&self.linear_part.diagonal);
+        self.tridiagonal.force.clone_from(&self.linear_part.force);
+        self.interface.copy_values(&self.linear_part.interface);
         self.add_taut(model, state, scheme);
     }
 
     /// Adds what a search along a step takes anew, but for contact with skin.
     fn add_taut(&mut self, model: &Model, state: &State, scheme: &Scheme) {
-        self.add_solids(state, scheme, Judged::AsItIs);
+        self.add_solids(state, scheme, ActiveSet::AtTrial);
         self.add_ropes(state);
         self.add_tension(model, scheme);
         self.add_bending(model);
         self.add_end_turns(model, scheme);
     }
 
-    /// Solves the assembled system; the moves lie in `band.step` and `hubs.step`.
+    /// Solves the assembled system; the moves lie in `tridiagonal.step` and `interface.step`.
     pub(crate) fn solve(&mut self, model: &Model) {
         for (index, line) in model.spec.lines.iter().enumerate() {
-            let (seat_a, seat_b) = (self.plan.seats[line.from], self.plan.seats[line.to]);
+            let (attachment_a, attachment_b) =
+                (self.plan.attachments[line.from], self.plan.attachments[line.to]);
             let (nodes, segments) = (&model.line_nodes[index], &model.line_segments[index]);
-            let ends = self.band.eliminate(nodes, segments, seat_a != Seat::Fixed);
-            self.join(seat_a, seat_b, &ends);
+            let ends =
+                self.tridiagonal.eliminate(nodes, segments, attachment_a != Attachment::Fixed);
+            self.join(attachment_a, attachment_b, &ends);
         }
-        self.hubs.solve();
+        self.interface.solve();
         for (index, line) in model.spec.lines.iter().enumerate() {
-            let (seat_a, seat_b) = (self.plan.seats[line.from], self.plan.seats[line.to]);
-            let step_a = self.hubs.step_of(seat_a, self.arm(seat_a));
-            let step_b = self.hubs.step_of(seat_b, self.arm(seat_b));
-            self.band.substitute(
+            let (attachment_a, attachment_b) =
+                (self.plan.attachments[line.from], self.plan.attachments[line.to]);
+            let step_a = self.interface.step_of(attachment_a, self.arm(attachment_a));
+            let step_b = self.interface.step_of(attachment_b, self.arm(attachment_b));
+            self.tridiagonal.substitute(
                 &model.line_nodes[index],
                 &model.line_segments[index],
-                seat_a != Seat::Fixed,
+                attachment_a != Attachment::Fixed,
                 step_a,
                 step_b,
             );
         }
-        self.solve_coupled(model);
+        self.correct_for_rope_contact(model);
     }
 
     /// Longest solved move of any node or body [m].
     pub(crate) fn longest(&self) -> f64 {
-        let nodes = self.band.step.iter().map(|step| step.length_squared()).fold(0.0, f64::max);
+        let nodes =
+            self.tridiagonal.step.iter().map(|step| step.length_squared()).fold(0.0, f64::max);
         let bodies = self
             .plan
             .body_block
             .iter()
-            .map(|block| self.hubs.step[*block].length_squared())
+            .map(|block| self.interface.step[*block].length_squared())
             .fold(nodes, f64::max);
         bodies.sqrt()
     }
@@ -275,14 +279,14 @@ impl Solver {
     /// Moves the trial by a share of the solved step.
     pub(crate) fn advance(&mut self, model: &Model, share: f64) -> Passed {
         let mut finite = true;
-        self.foretell_tension(model, share);
-        self.foretell_pushes(share);
-        for (place, step) in self.trial.place.iter_mut().zip(&self.band.step) {
+        self.predict_tension(model, share);
+        self.predict_pushes(share);
+        for (place, step) in self.trial.place.iter_mut().zip(&self.tridiagonal.step) {
             *place += *step * share;
             finite &= step.is_finite();
         }
         finite &= self.advance_bodies(share).1;
-        self.trial.seat_ends(model, &self.plan);
+        self.trial.place_ends(model, &self.plan);
         Passed { longest_m: self.longest() * share, finite }
     }
 
@@ -294,7 +298,7 @@ impl Solver {
     }
 
     /// One Newton pass that goes along the step as far as the forces balance.
-    pub(crate) fn searched_pass(
+    pub(crate) fn line_searched_pass(
         &mut self,
         model: &Model,
         state: &State,
@@ -302,28 +306,29 @@ impl Solver {
     ) -> Passed {
         self.assemble_searchable(model, state, scheme);
         self.solve(model);
-        let share = self.search_free(model, state, scheme, 1.0);
+        let share = self.line_search_free(model, state, scheme, 1.0);
         // What a short share leaves is still to go.
         Passed { longest_m: self.longest(), ..self.advance(model, share) }
     }
 
-    /// Greatest force out of balance at any node or hub, as last assembled (before [`solve`](Self::solve)) [N].
+    /// Greatest force out of balance at any node or interface block, as last assembled (before [`solve`](Self::solve)) [N].
     pub(crate) fn residual(&self, model: &Model) -> f64 {
-        let mut hubs = self.hubs.force.clone();
+        let mut interface = self.interface.force.clone();
         let mut greatest = 0.0_f64;
         for (index, line) in model.spec.lines.iter().enumerate() {
             let nodes = &model.line_nodes[index];
             for node in nodes.start + 1..nodes.end - 1 {
-                greatest = greatest.max(self.band.force[node].length());
+                greatest = greatest.max(self.tridiagonal.force[node].length());
             }
             for (joint, node) in [(line.from, nodes.start), (line.to, nodes.end - 1)] {
-                match self.plan.seats[joint] {
-                    Seat::Fixed => {}
-                    Seat::Free(block) => hubs[block] += self.band.force[node],
-                    Seat::Body { block, .. } => {
-                        hubs[block] += self.band.force[node];
-                        hubs[block + 1] +=
-                            self.arm(self.plan.seats[joint]).cross(self.band.force[node]);
+                match self.plan.attachments[joint] {
+                    Attachment::Fixed => {}
+                    Attachment::Free(block) => interface[block] += self.tridiagonal.force[node],
+                    Attachment::Body { block, .. } => {
+                        interface[block] += self.tridiagonal.force[node];
+                        interface[block + 1] += self
+                            .arm(self.plan.attachments[joint])
+                            .cross(self.tridiagonal.force[node]);
                     }
                 }
             }
@@ -331,21 +336,22 @@ impl Solver {
         for (index, block) in self.plan.body_block.iter().enumerate() {
             let body = &self.trial.bodies[index];
             if body.held {
-                hubs[*block] = DVec3::ZERO;
+                interface[*block] = DVec3::ZERO;
             }
             if body.held || body.upright {
-                hubs[block + 1] = DVec3::ZERO;
+                interface[block + 1] = DVec3::ZERO;
             }
         }
-        for (joint, seat) in model.spec.joints.iter().zip(&self.plan.seats) {
-            if let (Seat::Free(block), true) = (seat, self.is_held(&joint.kind, true)) {
-                hubs[*block] = DVec3::ZERO;
+        for (joint, attachment) in model.spec.joints.iter().zip(&self.plan.attachments) {
+            if let (Attachment::Free(block), true) = (attachment, self.is_held(&joint.kind, true)) {
+                interface[*block] = DVec3::ZERO;
             }
         }
         // A maximum would pass over what is not a number.
-        let all_finite = hubs.iter().chain(&self.band.force).all(|force| force.is_finite());
+        let all_finite =
+            interface.iter().chain(&self.tridiagonal.force).all(|force| force.is_finite());
         if all_finite {
-            hubs.iter().map(|force| force.length()).fold(greatest, f64::max)
+            interface.iter().map(|force| force.length()).fold(greatest, f64::max)
         } else {
             f64::INFINITY
         }
@@ -359,7 +365,7 @@ impl Solver {
     /// The line with the longest or a not finite move in the last solve.
     pub(crate) fn worst_line(&self, model: &Model) -> Option<usize> {
         let size = |line: &usize| {
-            let steps = &self.band.step[model.line_nodes[*line].clone()];
+            let steps = &self.tridiagonal.step[model.line_nodes[*line].clone()];
             steps
                 .iter()
                 .map(|step| if step.is_finite() { step.length() } else { f64::INFINITY })
@@ -368,19 +374,19 @@ impl Solver {
         (0..model.spec.lines.len()).max_by(|one, other| size(one).total_cmp(&size(other)))
     }
 
-    fn arm(&self, seat: Seat) -> DVec3 {
-        Plan::arm(seat, |body| self.trial.bodies[body].orientation)
+    fn arm(&self, attachment: Attachment) -> DVec3 {
+        Plan::arm(attachment, |body| self.trial.bodies[body].orientation)
     }
 
-    /// Adds what a line leaves on its ends to the hubs.
-    fn join(&mut self, seat_a: Seat, seat_b: Seat, ends: &Ends) {
-        let (arm_a, arm_b) = (self.arm(seat_a), self.arm(seat_b));
-        self.hubs.push(seat_a, arm_a, ends.force_a);
-        self.hubs.push(seat_b, arm_b, ends.force_b);
-        self.hubs.add(seat_a, arm_a, seat_a, arm_a, ends.aa);
-        self.hubs.add(seat_a, arm_a, seat_b, arm_b, ends.ab);
-        self.hubs.add(seat_b, arm_b, seat_a, arm_a, ends.ba);
-        self.hubs.add(seat_b, arm_b, seat_b, arm_b, ends.bb);
+    /// Adds what a line leaves on its ends to the interface system.
+    fn join(&mut self, attachment_a: Attachment, attachment_b: Attachment, ends: &Ends) {
+        let (arm_a, arm_b) = (self.arm(attachment_a), self.arm(attachment_b));
+        self.interface.push(attachment_a, arm_a, ends.force_a);
+        self.interface.push(attachment_b, arm_b, ends.force_b);
+        self.interface.add(attachment_a, arm_a, attachment_a, arm_a, ends.aa);
+        self.interface.add(attachment_a, arm_a, attachment_b, arm_b, ends.ab);
+        self.interface.add(attachment_b, arm_b, attachment_a, arm_a, ends.ba);
+        self.interface.add(attachment_b, arm_b, attachment_b, arm_b, ends.bb);
     }
 
     /// Keeps the turning stiffness of rope pulling on bodies (see [`body::turn_stiffness`]).
@@ -390,13 +396,13 @@ impl Solver {
             for (joint, segment, sign) in
                 [(line.from, segments.start, 1.0), (line.to, segments.end - 1, -1.0)]
             {
-                let seat = self.plan.seats[joint];
-                let Seat::Body { block, .. } = seat else { continue };
+                let attachment = self.plan.attachments[joint];
+                let Attachment::Body { block, .. } = attachment else { continue };
                 let force =
                     self.pull[segment].direction * (sign * self.trial.tension[segment].max(0.0));
                 let turning = if scheme.exact { tilt::turning } else { body::turn_stiffness };
-                let stiffness = turning(self.arm(seat), force);
-                *self.hubs.at(block + 1, block + 1) += stiffness;
+                let stiffness = turning(self.arm(attachment), force);
+                *self.interface.at(block + 1, block + 1) += stiffness;
             }
         }
     }

@@ -2,15 +2,15 @@
 
 use glam::DVec3;
 
-use super::hubs::{Hubs, Seat};
+use super::interface::{Attachment, InterfaceSystem};
 use crate::model::{JointKind, Model};
 
 /// Fixed look-ups of the solver.
 #[derive(Clone, Debug)]
 pub(crate) struct Plan {
-    /// Seat of each joint.
-    pub seats: Vec<Seat>,
-    /// First hub block of each body.
+    /// Attachment of each joint.
+    pub attachments: Vec<Attachment>,
+    /// First block of each body.
     pub body_block: Vec<usize>,
     /// First node of each segment.
     pub segment_node: Vec<usize>,
@@ -24,12 +24,13 @@ impl Plan {
     /// Derives the look-ups of a model.
     pub fn new(model: &Model) -> Self {
         let mut blocks = 0;
-        let seats = seats(model, &mut blocks);
+        let attachments = attachments(model, &mut blocks);
         let body_block =
             (0..model.spec.bodies.len()).map(|body| blocks + 2 * body).collect::<Vec<_>>();
-        let seats = seats.into_iter().map(|seat| shift_body(seat, &body_block)).collect();
+        let attachments =
+            attachments.into_iter().map(|attachment| shift_body(attachment, &body_block)).collect();
         let mut plan = Self {
-            seats,
+            attachments,
             body_block,
             segment_node: Vec::with_capacity(model.segment_count),
             joint_node: vec![None; model.spec.joints.len()],
@@ -44,12 +45,12 @@ impl Plan {
         plan
     }
 
-    /// The empty hub matrix of a model.
-    pub fn hubs(&self, model: &Model) -> Hubs {
-        let blocks_of = |joint: usize| match self.seats[joint] {
-            Seat::Fixed => [None, None],
-            Seat::Free(block) => [Some(block), None],
-            Seat::Body { block, .. } => [Some(block), Some(block + 1)],
+    /// The empty interface matrix of a model.
+    pub fn interface(&self, model: &Model) -> InterfaceSystem {
+        let blocks_of = |joint: usize| match self.attachments[joint] {
+            Attachment::Fixed => [None, None],
+            Attachment::Free(block) => [Some(block), None],
+            Attachment::Body { block, .. } => [Some(block), Some(block + 1)],
         };
         let mut pairs: Vec<(usize, usize)> =
             self.body_block.iter().map(|block| (*block, block + 1)).collect();
@@ -60,14 +61,18 @@ impl Plan {
                 }
             }
         }
-        let free = self.seats.iter().filter(|seat| matches!(seat, Seat::Free(_))).count();
-        Hubs::new(free + 2 * self.body_block.len(), &pairs)
+        let free = self
+            .attachments
+            .iter()
+            .filter(|attachment| matches!(attachment, Attachment::Free(_)))
+            .count();
+        InterfaceSystem::new(free + 2 * self.body_block.len(), &pairs)
     }
 
-    /// Lever arm of a seat in the world frame, from the orientations of the bodies.
-    pub fn arm(seat: Seat, orientation: impl Fn(usize) -> glam::DQuat) -> DVec3 {
-        match seat {
-            Seat::Body { body, offset, .. } => orientation(body) * offset,
+    /// Lever arm of an attachment in the world frame, from the orientations of the bodies.
+    pub fn arm(attachment: Attachment, orientation: impl Fn(usize) -> glam::DQuat) -> DVec3 {
+        match attachment {
+            Attachment::Body { body, offset, .. } => orientation(body) * offset,
             _ => DVec3::ZERO,
         }
     }
@@ -83,23 +88,25 @@ fn weight_n(model: &Model) -> f64 {
     9.81 * (rope + bodies)
 }
 
-/// Seats of all joints; blocks of free joints are counted first, bodies follow.
-fn seats(model: &Model, blocks: &mut usize) -> Vec<Seat> {
+/// Attachments of all joints; blocks of free joints are counted first, bodies follow.
+fn attachments(model: &Model, blocks: &mut usize) -> Vec<Attachment> {
     let mut next = || {
         *blocks += 1;
         *blocks - 1
     };
-    let seat = |joint: &crate::model::Joint| match joint.kind {
-        JointKind::Free | JointKind::Pulled { .. } => Seat::Free(next()),
-        JointKind::Fixed | JointKind::Driven { .. } | JointKind::Whale(_) => Seat::Fixed,
-        JointKind::Body { body, offset_m } => Seat::Body { block: 0, body, offset: offset_m },
+    let attachment = |joint: &crate::model::Joint| match joint.kind {
+        JointKind::Free | JointKind::Pulled { .. } => Attachment::Free(next()),
+        JointKind::Fixed | JointKind::Driven { .. } | JointKind::Whale(_) => Attachment::Fixed,
+        JointKind::Body { body, offset_m } => Attachment::Body { block: 0, body, offset: offset_m },
     };
-    model.spec.joints.iter().map(seat).collect()
+    model.spec.joints.iter().map(attachment).collect()
 }
 
-fn shift_body(seat: Seat, body_block: &[usize]) -> Seat {
-    match seat {
-        Seat::Body { body, offset, .. } => Seat::Body { block: body_block[body], body, offset },
+fn shift_body(attachment: Attachment, body_block: &[usize]) -> Attachment {
+    match attachment {
+        Attachment::Body { body, offset, .. } => {
+            Attachment::Body { block: body_block[body], body, offset }
+        }
         other => other,
     }
 }

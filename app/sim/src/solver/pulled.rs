@@ -4,21 +4,23 @@ use glam::DMat3;
 
 use super::Solver;
 use super::body::HELD;
-use super::hubs::Seat;
+use super::interface::Attachment;
 use super::scheme::Scheme;
 use crate::model::{JointKind, Model};
 
 impl Solver {
     /// Adds steady forces on free ends.
     pub(super) fn add_pulled(&mut self, model: &Model, scheme: &Scheme) {
-        for (joint, seat) in model.spec.joints.iter().zip(&self.plan.seats) {
-            let (JointKind::Pulled { force_n, .. }, Seat::Free(block)) = (&joint.kind, seat) else {
+        for (joint, attachment) in model.spec.joints.iter().zip(&self.plan.attachments) {
+            let (JointKind::Pulled { force_n, .. }, Attachment::Free(block)) =
+                (&joint.kind, attachment)
+            else {
                 continue;
             };
             if self.is_held(&joint.kind, scheme.is_static()) {
-                *self.hubs.at(*block, *block) += DMat3::IDENTITY * HELD;
+                *self.interface.at(*block, *block) += DMat3::IDENTITY * HELD;
             } else {
-                self.hubs.force[*block] += *force_n;
+                self.interface.force[*block] += *force_n;
             }
         }
     }

@@ -4,7 +4,7 @@
 use glam::DVec3;
 
 use super::Solver;
-use super::hubs::Seat;
+use super::interface::Attachment;
 use super::rope::outer;
 use crate::model::{BodyRole, Model};
 use crate::state::State;
@@ -51,7 +51,7 @@ impl Solver {
         {
             (trial.place, trial.orientation) = (body.position, body.orientation);
         }
-        self.trial.seat_ends(model, &self.plan);
+        self.trial.place_ends(model, &self.plan);
         self.measure_flow(model);
     }
 
@@ -74,12 +74,12 @@ impl Solver {
     }
 
     /// Moves the trial by a share of the solved step, tension as a multiplier of its own: a share of the way from what
-    /// it was to what the solve foretold, whatever the strain.
+    /// it was to what the solve predicted, whatever the strain.
     pub(crate) fn advance_at_rest(&mut self, model: &Model, share: f64, before: &mut Vec<f64>) {
         before.clone_from(&self.trial.tension);
-        self.foretell_tension(model, 1.0);
-        for (before, foretold) in before.iter_mut().zip(&self.trial.tension) {
-            *before += share * (foretold - *before);
+        self.predict_tension(model, 1.0);
+        for (before, predicted) in before.iter_mut().zip(&self.trial.tension) {
+            *before += share * (predicted - *before);
         }
         self.advance(model, share);
         self.trial.tension.clone_from(before);
@@ -97,20 +97,20 @@ impl Solver {
                     continue;
                 }
                 let block = outer(pull.direction, pull.direction) * (pull.stiffness * share);
-                self.band.diagonal[node] += block;
-                self.band.diagonal[node + 1] += block;
-                self.band.up[segment] -= block;
-                self.band.low[segment] -= block;
+                self.tridiagonal.diagonal[node] += block;
+                self.tridiagonal.diagonal[node + 1] += block;
+                self.tridiagonal.up[segment] -= block;
+                self.tridiagonal.low[segment] -= block;
             }
         }
     }
 
     /// Force on a laid body besides its feet's push, as last assembled with the body held [N].
     pub(crate) fn load_on(&self, model: &Model, index: usize) -> DVec3 {
-        let mut hubs = self.hubs.force.clone();
+        let mut interface = self.interface.force.clone();
         for (line, nodes) in model.spec.lines.iter().zip(&model.line_nodes) {
             for (joint, node) in [(line.from, nodes.start), (line.to, nodes.end - 1)] {
-                self.hubs_push(&mut hubs, joint, self.band.force[node]);
+                self.hubs_push(&mut interface, joint, self.tridiagonal.force[node]);
             }
         }
         let (body, now) = (&model.spec.bodies[index], &self.trial.bodies[index]);
@@ -121,7 +121,7 @@ impl Solver {
                 .map(|foot| seabed.push_on_foot(now.place + now.orientation * *foot));
             seabed.normal * feet.sum::<f64>()
         });
-        hubs[self.plan.body_block[index]] - push
+        interface[self.plan.body_block[index]] - push
     }
 
     /// Greatest turn of any segment or body in the last solve, turned or stretched as one [rad].
@@ -136,7 +136,7 @@ impl Solver {
     pub(crate) fn turn_of_line(&self, model: &Model, line: usize) -> f64 {
         let (first_node, mut greatest) = (model.line_nodes[line].start, 0.0_f64);
         for (node, segment) in (first_node..).zip(model.line_segments[line].clone()) {
-            let step = self.band.step[node + 1] - self.band.step[node];
+            let step = self.tridiagonal.step[node + 1] - self.tridiagonal.step[node];
             let step = step.reject_from_normalized(self.pull[segment].direction);
             greatest = greatest.max(
                 step.length_squared()
@@ -148,13 +148,13 @@ impl Solver {
 
     /// Turn of a body in the last solve, counted fourfold [rad].
     pub(crate) fn turn_of_body(&self, body: usize) -> f64 {
-        4.0 * self.hubs.step[self.plan.body_block[body] + 1].length()
+        4.0 * self.interface.step[self.plan.body_block[body] + 1].length()
     }
 
     /// Greatest force out of balance within a line, as last assembled [N].
     pub(crate) fn left_in_line(&self, model: &Model, line: usize) -> f64 {
         let nodes = &model.line_nodes[line];
-        self.band.force[nodes.start + 1..nodes.end - 1]
+        self.tridiagonal.force[nodes.start + 1..nodes.end - 1]
             .iter()
             .map(|force| force.length())
             .fold(0.0, f64::max)
@@ -162,17 +162,17 @@ impl Solver {
 
     /// Multiplies the pseudo-mass of a line from here on.
     pub(crate) fn burden_line(&mut self, line: usize, factor: f64) {
-        self.burden[line] *= factor;
+        self.pseudo_mass_scale[line] *= factor;
     }
 
     /// Multiplies the pseudo-mass of a body from here on.
     pub(crate) fn burden_body(&mut self, body: usize, factor: f64) {
-        self.trial.bodies[body].burden *= factor;
+        self.trial.bodies[body].pseudo_mass_scale *= factor;
     }
 
     /// Where the force out of balance is greatest, as last assembled (before [`solve`](Self::solve)), and how great [N].
     pub(crate) fn worst(&self, model: &Model) -> Option<(WorstAt, f64)> {
-        let mut hubs = self.hubs.force.clone();
+        let mut interface = self.interface.force.clone();
         let mut worst: Option<(WorstAt, f64)> = None;
         let mut offer = |at: WorstAt, force: f64| {
             if worst.is_none_or(|(_, most)| force > most || force.is_nan()) {
@@ -181,18 +181,18 @@ impl Solver {
         };
         for (index, line) in model.spec.lines.iter().enumerate() {
             let nodes = &model.line_nodes[index];
-            let inner = self.band.force[nodes.start + 1..nodes.end - 1]
+            let inner = self.tridiagonal.force[nodes.start + 1..nodes.end - 1]
                 .iter()
                 .map(|force| force.length())
                 .fold(0.0, f64::max);
             offer(WorstAt::Line(index), inner);
             for (joint, node) in [(line.from, nodes.start), (line.to, nodes.end - 1)] {
-                self.hubs_push(&mut hubs, joint, self.band.force[node]);
+                self.hubs_push(&mut interface, joint, self.tridiagonal.force[node]);
             }
         }
-        for (joint, seat) in self.plan.seats.iter().enumerate() {
-            if let Seat::Free(block) = seat {
-                offer(WorstAt::Joint(joint), hubs[*block].length());
+        for (joint, attachment) in self.plan.attachments.iter().enumerate() {
+            if let Attachment::Free(block) = attachment {
+                offer(WorstAt::Joint(joint), interface[*block].length());
             }
         }
         for (index, block) in self
@@ -203,19 +203,19 @@ impl Solver {
             .filter(|(index, _)| !self.trial.bodies[*index].held)
         {
             let torque =
-                if self.trial.bodies[index].upright { 0.0 } else { hubs[block + 1].length() };
-            offer(WorstAt::Body(index), hubs[*block].length().max(torque));
+                if self.trial.bodies[index].upright { 0.0 } else { interface[block + 1].length() };
+            offer(WorstAt::Body(index), interface[*block].length().max(torque));
         }
         worst
     }
 
-    fn hubs_push(&self, hubs: &mut [DVec3], joint: usize, force: DVec3) {
-        match self.plan.seats[joint] {
-            Seat::Fixed => {}
-            Seat::Free(block) => hubs[block] += force,
-            Seat::Body { block, .. } => {
-                hubs[block] += force;
-                hubs[block + 1] += self.arm(self.plan.seats[joint]).cross(force);
+    fn hubs_push(&self, interface: &mut [DVec3], joint: usize, force: DVec3) {
+        match self.plan.attachments[joint] {
+            Attachment::Fixed => {}
+            Attachment::Free(block) => interface[block] += force,
+            Attachment::Body { block, .. } => {
+                interface[block] += force;
+                interface[block + 1] += self.arm(self.plan.attachments[joint]).cross(force);
             }
         }
     }

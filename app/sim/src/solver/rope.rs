@@ -29,8 +29,8 @@ impl Solver {
             for node in nodes.clone() {
                 let at = self.node_at(node, nodes);
                 let (force, block) = forces::node(&rope, &shared, &at);
-                self.band.force[node] += DVec3::from(force);
-                self.band.diagonal[node] += DMat3::from(block);
+                self.tridiagonal.force[node] += DVec3::from(force);
+                self.tridiagonal.diagonal[node] += DMat3::from(block);
                 if scheme.is_static() {
                     self.add_drag_turn((node, nodes), node - index, (&rope, &shared));
                 }
@@ -38,7 +38,7 @@ impl Solver {
             if scheme.anchored {
                 self.add_anchors(
                     nodes,
-                    (rope.mass + rope.added) * scheme.inertia * self.burden[index],
+                    (rope.mass + rope.added) * scheme.inertia * self.pseudo_mass_scale[index],
                 );
             }
         }
@@ -48,9 +48,9 @@ impl Solver {
     fn add_anchors(&mut self, nodes: &Range<usize>, pull: f64) {
         for node in nodes.clone() {
             let stiffness = pull * self.lengths.node[node];
-            self.band.force[node] -=
+            self.tridiagonal.force[node] -=
                 (self.trial.place[node] - self.trial.place_history[node]) * stiffness;
-            self.band.diagonal[node] += DMat3::from_diagonal(DVec3::splat(stiffness));
+            self.tridiagonal.diagonal[node] += DMat3::from_diagonal(DVec3::splat(stiffness));
         }
     }
 
@@ -81,14 +81,14 @@ impl Solver {
         let turn = drag_by_tangent(self.flow[node], tangent, rope.across * wet, rope.along * wet)
             * inverse_chord;
         if node + 1 < nodes.end {
-            self.band.up[segment] -= turn;
+            self.tridiagonal.up[segment] -= turn;
         } else {
-            self.band.diagonal[node] -= turn;
+            self.tridiagonal.diagonal[node] -= turn;
         }
         if node > nodes.start {
-            self.band.low[segment - 1] += turn;
+            self.tridiagonal.low[segment - 1] += turn;
         } else {
-            self.band.diagonal[node] += turn;
+            self.tridiagonal.diagonal[node] += turn;
         }
     }
 
@@ -119,12 +119,12 @@ impl Solver {
             return;
         }
         let (force, block) = (DVec3::from(pull.force), DMat3::from(pull.block));
-        self.band.force[node] += force;
-        self.band.force[node + 1] -= force;
-        self.band.diagonal[node] += block;
-        self.band.diagonal[node + 1] += block;
-        self.band.up[segment] -= block;
-        self.band.low[segment] -= block;
+        self.tridiagonal.force[node] += force;
+        self.tridiagonal.force[node + 1] -= force;
+        self.tridiagonal.diagonal[node] += block;
+        self.tridiagonal.diagonal[node + 1] += block;
+        self.tridiagonal.up[segment] -= block;
+        self.tridiagonal.low[segment] -= block;
     }
 
     /// Tension of a segment at the trial places, before it is judged taut or slack.
@@ -142,7 +142,7 @@ impl Solver {
         share: f64,
     ) -> Pull {
         let between = self.trial.place[node + 1] - self.trial.place[node];
-        let moved = (self.band.step[node + 1] - self.band.step[node]) * share;
+        let moved = (self.tridiagonal.step[node + 1] - self.tridiagonal.step[node]) * share;
         Pull::of(&self.law_between(segment, node, scheme, between + moved))
     }
 
@@ -160,19 +160,19 @@ impl Solver {
             length,
             inverse_length: 1.0 / length,
             law: self.lengths.axial[segment],
-            foretold: self.trial.tension[segment],
+            predicted: self.trial.tension[segment],
         };
         forces::pull(&at, scheme.rate)
     }
 
     /// After a solve: the tension each segment will have by the linear solution.
-    pub(super) fn foretell_tension(&mut self, model: &Model, share: f64) {
+    pub(super) fn predict_tension(&mut self, model: &Model, share: f64) {
         for (index, _) in model.spec.lines.iter().enumerate() {
             let first_node = model.line_nodes[index].start;
             for (k, segment) in model.line_segments[index].clone().enumerate() {
                 let pull = &self.pull[segment];
                 self.trial.tension[segment] = pull.tension
-                    + pull.stiffness * pull.stretch(&self.band.step, first_node + k) * share;
+                    + pull.stiffness * pull.stretch(&self.tridiagonal.step, first_node + k) * share;
             }
         }
     }

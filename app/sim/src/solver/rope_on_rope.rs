@@ -1,21 +1,21 @@
 //! Rope pressed on rope.
 //!
 //! At a point (`contact/ropes/points.rs`) with distance `d` of the centre lines, contact distance `h` (the sum of the radii),
-//! bearing length `l` and stiffness `K` per metre: `N` by the law of `contact/law.rs`, along the line between the two. Friction
+//! bearing length `l` and stiffness `K` per metre: `N` by the law of `contact/barrier.rs`, along the line between the two. Friction
 //! is the elastic grip that slips at `μN` (`ground.rs`), stretched by how the two points of the ropes moved past each other. Both
-//! act on the four nodes, in opposite senses; the block joins the linear system as `coupled.rs` tells.
+//! act on the four nodes, in opposite senses; the block joins the linear system as `woodbury.rs` tells.
 
 use glam::{DMat3, DVec3};
 
 use super::Solver;
-use super::coupled::Coupled;
 use super::ground::Grip;
 use super::rope::outer;
 use super::scheme::Scheme;
-use crate::contact::law::{CRUSHED_SHARE, PINCHED_SHARE, Press};
+use super::woodbury::ContactBlock;
+use crate::contact::barrier::{BarrierForce, CRUSHED_SHARE, PINCHED_SHARE};
 use crate::contact::ropes::RopeTouch;
 use crate::contact::ropes::near::{Pair, between};
-use crate::contact::ropes::points::Point;
+use crate::contact::ropes::points::RopeContactPoint;
 use crate::model::{Model, RopeOnRope};
 use crate::state::State;
 
@@ -27,18 +27,18 @@ struct Touch {
     fractions: [f64; 2],
     normal: DVec3,
     distance: f64,
-    press: Press,
+    barrier: BarrierForce,
     grip: Grip,
 }
 
 impl Touch {
     /// Force on the first rope [N].
     fn force(&self) -> DVec3 {
-        self.normal * self.press.force + self.grip.force
+        self.normal * self.barrier.force + self.grip.force
     }
 
     fn block(&self) -> DMat3 {
-        outer(self.normal, self.normal) * self.press.stiffness + self.grip.block
+        outer(self.normal, self.normal) * self.barrier.stiffness + self.grip.block
     }
 }
 
@@ -47,7 +47,7 @@ fn touch_at(
     law: &RopeOnRope,
     state: &State,
     pair: &Pair,
-    point: &Point,
+    point: &RopeContactPoint,
     fractions: [f64; 2],
     place: impl Fn(usize) -> DVec3,
 ) -> Option<Touch> {
@@ -57,21 +57,22 @@ fn touch_at(
     let [one, other] = pair.places(place);
     let (gap, distance) = between(one, other, fractions);
     let stiffness = law.stiffness_n_m2 * point.length;
-    let press = Press::new(distance + point.forgiven_m, pair.reach, stiffness);
-    if press.force <= 0.0 {
+    let barrier = BarrierForce::new(distance + point.forgiven_m, pair.contact_distance, stiffness);
+    if barrier.force <= 0.0 {
         return None;
     }
     let normal = gap / distance.max(1e-12);
     let [one, other] = pair.places(|node| state.rope.position[node]);
     let stretch = point.kept + gap - between(one, other, fractions).0;
-    let grip = Grip::new(stretch, normal, stiffness, law.friction, (press.force, press.stiffness));
-    Some(Touch { fractions, normal, distance, press, grip })
+    let grip =
+        Grip::new(stretch, normal, stiffness, law.friction, (barrier.force, barrier.stiffness));
+    Some(Touch { fractions, normal, distance, barrier, grip })
 }
 
 impl Solver {
-    /// Adds push and friction of rope on rope: forces to the bands, blocks to the touches of the linear system.
+    /// Adds push and friction of rope on rope: forces to the block-tridiagonal systems, blocks to the touches of the linear system.
     pub(super) fn add_ropes(&mut self, state: &State) {
-        self.coupling.touches.clear();
+        self.woodbury.touches.clear();
         let Some(law) = self.ropes.law else { return };
         for pair in &self.ropes.pairs {
             for point in &pair.points {
@@ -83,10 +84,10 @@ impl Solver {
                 let force = touch.force();
                 for (k, sign) in [(0, 1.0), (1, -1.0)] {
                     let (node, fraction) = (pair.nodes[k], touch.fractions[k]);
-                    self.band.force[node] += force * (sign * (1.0 - fraction));
-                    self.band.force[node + 1] += force * (sign * fraction);
+                    self.tridiagonal.force[node] += force * (sign * (1.0 - fraction));
+                    self.tridiagonal.force[node + 1] += force * (sign * fraction);
                 }
-                self.coupling.touches.push(Coupled {
+                self.woodbury.touches.push(ContactBlock {
                     nodes: pair.nodes,
                     fractions: touch.fractions,
                     block: touch.block(),
@@ -98,11 +99,11 @@ impl Solver {
     /// Slope of push and friction of rope on rope at a share of the solved step.
     pub(super) fn ropes_slope(&self, state: &State, share: f64) -> f64 {
         let Some(law) = self.ropes.law else { return 0.0 };
-        let moved = |node: usize| self.trial.place[node] + self.band.step[node] * share;
+        let moved = |node: usize| self.trial.place[node] + self.tridiagonal.step[node] * share;
         let mut slope = 0.0;
         for pair in &self.ropes.pairs {
             let [one, other] = pair.places(moved);
-            let [step_one, step_other] = pair.places(|node| self.band.step[node]);
+            let [step_one, step_other] = pair.places(|node| self.tridiagonal.step[node]);
             for point in pair.points.iter().filter(|point| point.length > 0.0) {
                 let fractions =
                     if self.ropes.follows() { point.followed(one, other) } else { point.fractions };
@@ -120,8 +121,9 @@ impl Solver {
         let share = if at_end { PINCHED_SHARE } else { CRUSHED_SHARE };
         let crushed = |pair: &&Pair| {
             let [one, other] = pair.places(|node| self.trial.place[node]);
-            let here = |point: &Point| {
-                between(one, other, point.fractions).1 + point.forgiven_m < share * pair.reach
+            let here = |point: &RopeContactPoint| {
+                between(one, other, point.fractions).1 + point.forgiven_m
+                    < share * pair.contact_distance
             };
             pair.points.iter().any(|point| point.length > 0.0 && here(point))
         };
@@ -136,7 +138,7 @@ impl Solver {
             self.each_touch(state, |pair, point, touch| {
                 let less_m = (point.forgiven_m - RECOVERY_M_S * scheme.dt).max(0.0);
                 if let Some(touch) = touch {
-                    let forgiven_m = less_m.min((pair.reach - touch.distance).max(0.0));
+                    let forgiven_m = less_m.min((pair.contact_distance - touch.distance).max(0.0));
                     grips.push(self.ropes.grip_of(pair, point, touch.grip.kept, forgiven_m));
                 } else if less_m > 0.0 {
                     grips.push(self.ropes.grip_of(pair, point, DVec3::ZERO, less_m));
@@ -147,7 +149,7 @@ impl Solver {
     }
 
     /// Tells where rope presses on rope, from a state that still holds the places of the step's begin.
-    pub(crate) fn tell_ropes(&self, state: &State, touches: &mut Vec<RopeTouch>) {
+    pub(crate) fn report_ropes(&self, state: &State, touches: &mut Vec<RopeTouch>) {
         touches.clear();
         self.each_touch(state, |pair, _, touch| {
             touches.extend(touch.map(|touch| {
@@ -158,7 +160,7 @@ impl Solver {
                         .lerp(self.trial.place[pair.nodes[0] + 1], touch.fractions[0]),
                     normal: touch.normal,
                     distance_m: touch.distance,
-                    normal_force_n: touch.press.force,
+                    normal_force_n: touch.barrier.force,
                     friction_n: touch.grip.force,
                 }
             }));
@@ -166,7 +168,11 @@ impl Solver {
     }
 
     /// Does something with every point and what happens there at the trial places.
-    fn each_touch(&self, state: &State, mut act: impl FnMut(&Pair, &Point, Option<Touch>)) {
+    fn each_touch(
+        &self,
+        state: &State,
+        mut act: impl FnMut(&Pair, &RopeContactPoint, Option<Touch>),
+    ) {
         let Some(law) = self.ropes.law else { return };
         for pair in &self.ropes.pairs {
             for point in pair.points.iter().filter(|point| point.length > 0.0) {

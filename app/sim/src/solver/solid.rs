@@ -1,7 +1,7 @@
 //! Rope pressed on obstacles and on the bodies of the rig.
 //!
-//! At a slot (`solids/workspace.rs`) with depth `p` of the rope's surface below the solid's and stiffness `k`: `N = k p` while
-//! it pushes, block `k n nᵀ`. Whether it pushes is judged by the normal force that the last solve foretold, as for
+//! At a contact point (`solids/workspace.rs`) with depth `p` of the rope's surface below the solid's and stiffness `k`: `N = k p` while
+//! it pushes, block `k n nᵀ`. Whether it pushes is judged by the normal force that the last solve predicted, as for
 //! tension: Newton then ends in a few passes. Friction is the elastic grip that slips at `μN` (`ground.rs`), its block
 //! not symmetric, so that it follows the normal force within the solve.
 //! A solid that stands still only acts on the rope. On a body of the rig the reaction acts at the same point, with its
@@ -13,14 +13,14 @@ use glam::{DQuat, DVec3};
 
 use super::Solver;
 use super::ground::Grip;
-use super::hubs::Seat;
+use super::interface::Attachment;
 use super::rope::outer;
 use super::scheme::Scheme;
-use crate::solids::workspace::{Pair, Slot, least_distance};
+use crate::solids::workspace::{Pair, SolidContactPoint, least_distance};
 use crate::solids::{Carrier, Pose, Solid};
 use crate::state::{SolidGrip, State};
 
-/// Difference between foretold and true normal force at which a step has converged [N].
+/// Difference between predicted and true normal force at which a step has converged [N].
 const PUSH_GAP_N: f64 = 0.02;
 /// The same as a share of the greatest.
 const PUSH_GAP_SHARE: f64 = 0.02;
@@ -39,16 +39,16 @@ const MOST_LOOKS: f64 = 64.0;
 /// Share of a solid's thickness below its surface at which rope has gone into it.
 const INSIDE_SHARE: f64 = 0.25;
 
-/// How a slot is judged to push.
+/// How a contact point is judged to push.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Judged {
-    /// By the normal force that the last solve foretold.
-    Foretold,
+pub(super) enum ActiveSet {
+    /// By the normal force that the last solve predicted.
+    Predicted,
     /// By its depth where it is.
-    AsItIs,
+    AtTrial,
 }
 
-/// A slot at the trial places.
+/// A contact point at the trial places.
 struct Touch {
     normal: DVec3,
     /// Depth of the rope's surface below the solid's; below zero there is a gap [m].
@@ -61,24 +61,24 @@ struct Touch {
 
 impl Solver {
     /// Adds push and friction of obstacles and bodies on rope near them.
-    pub(super) fn add_solids(&mut self, state: &State, scheme: &Scheme, judged: Judged) {
+    pub(super) fn add_solids(&mut self, state: &State, scheme: &Scheme, active_set: ActiveSet) {
         let mut work = std::mem::take(&mut self.solid);
         if scheme.is_static() {
             work.gather(state, &self.trial.place, 0.0);
         } else if !work.pairs.is_empty() {
             work.follow_all(state, &self.trial.place, |carrier| self.pose_of(carrier));
         }
-        for (solids, slot) in work.open_slots_mut() {
-            let solid = &solids[slot.solid];
-            let touch = self.touch_of(solid, slot);
-            slot.normal = touch.normal;
-            slot.push_n = slot.stiffness * touch.depth;
-            let pushes = match judged {
-                Judged::Foretold => slot.foretold_n > 0.0 && touch.depth > -slot.radius_m,
-                Judged::AsItIs => slot.push_n > 0.0,
+        for (solids, point) in work.open_points_mut() {
+            let solid = &solids[point.solid];
+            let touch = self.touch_of(solid, point);
+            point.normal = touch.normal;
+            point.push_n = point.stiffness * touch.depth;
+            let pushes = match active_set {
+                ActiveSet::Predicted => point.predicted_n > 0.0 && touch.depth > -point.radius_m,
+                ActiveSet::AtTrial => point.push_n > 0.0,
             };
             if pushes {
-                self.add_slot(state, scheme, solid, slot, &touch);
+                self.add_slot(state, scheme, solid, point, &touch);
             }
         }
         self.solid = work;
@@ -89,45 +89,46 @@ impl Solver {
         state: &State,
         scheme: &Scheme,
         solid: &Solid,
-        slot: &Slot,
+        point: &SolidContactPoint,
         touch: &Touch,
     ) {
         let grip =
-            if scheme.is_static() { Grip::none() } else { grip_of(state, solid, slot, touch) };
-        let force = touch.normal * slot.push_n + grip.force;
-        let block = outer(touch.normal, touch.normal) * slot.stiffness + grip.block;
-        match slot.fraction {
-            Some(fraction) => self.add_at(slot.segment, slot.node, fraction, force, &block),
+            if scheme.is_static() { Grip::none() } else { grip_of(state, solid, point, touch) };
+        let force = touch.normal * point.push_n + grip.force;
+        let block = outer(touch.normal, touch.normal) * point.stiffness + grip.block;
+        match point.fraction {
+            Some(fraction) => self.add_at(point.segment, point.node, fraction, force, &block),
             None => {
-                self.band.force[slot.node] += force;
-                self.band.diagonal[slot.node] += block;
+                self.tridiagonal.force[point.node] += force;
+                self.tridiagonal.diagonal[point.node] += block;
             }
         }
         if let Carrier::Body(body) = solid.carrier {
             let arm = touch.place - touch.pose.place;
-            let seat = Seat::Body { block: self.plan.body_block[body], body, offset: DVec3::ZERO };
-            self.hubs.push(seat, arm, -force);
-            self.hubs.add(seat, arm, seat, arm, block);
+            let attachment =
+                Attachment::Body { block: self.plan.body_block[body], body, offset: DVec3::ZERO };
+            self.interface.push(attachment, arm, -force);
+            self.interface.add(attachment, arm, attachment, arm, block);
         }
     }
 
     /// Slope of the push and friction of solids at a share of the solved step.
     pub(super) fn solid_slope(&self, state: &State, scheme: &Scheme, share: f64) -> f64 {
-        let slope_of = |slot: &Slot| {
-            let solid = &self.solid.solids[slot.solid];
-            let touch = self.touch_moved(solid, slot, share);
-            let slot = Slot { push_n: slot.stiffness * touch.depth, ..*slot };
-            if slot.push_n <= 0.0 {
+        let slope_of = |point: &SolidContactPoint| {
+            let solid = &self.solid.solids[point.solid];
+            let touch = self.touch_moved(solid, point, share);
+            let point = SolidContactPoint { push_n: point.stiffness * touch.depth, ..*point };
+            if point.push_n <= 0.0 {
                 return 0.0;
             }
             let grip = if scheme.is_static() {
                 Grip::none()
             } else {
-                grip_of(state, solid, &slot, &touch)
+                grip_of(state, solid, &point, &touch)
             };
-            -(touch.normal * slot.push_n + grip.force).dot(self.step_on(solid, &slot))
+            -(touch.normal * point.push_n + grip.force).dot(self.step_on(solid, &point))
         };
-        self.solid.open_slots().map(slope_of).sum()
+        self.solid.open_points().map(slope_of).sum()
     }
 
     /// Where a solid is at a share of the solved step.
@@ -139,9 +140,9 @@ impl Solver {
                 if share == 0.0 || body.held {
                     return Pose { place: body.place, orientation: body.orientation };
                 }
-                let turn = DQuat::from_scaled_axis(self.hubs.step[block + 1] * share);
+                let turn = DQuat::from_scaled_axis(self.interface.step[block + 1] * share);
                 Pose {
-                    place: body.place + self.hubs.step[block] * share,
+                    place: body.place + self.interface.step[block] * share,
                     orientation: (turn * body.orientation).normalize(),
                 }
             }
@@ -152,59 +153,61 @@ impl Solver {
         self.pose_moved(carrier, 0.0)
     }
 
-    fn touch_of(&self, solid: &Solid, slot: &Slot) -> Touch {
-        self.touch_moved(solid, slot, 0.0)
+    fn touch_of(&self, solid: &Solid, point: &SolidContactPoint) -> Touch {
+        self.touch_moved(solid, point, 0.0)
     }
 
-    fn touch_moved(&self, solid: &Solid, slot: &Slot, share: f64) -> Touch {
+    fn touch_moved(&self, solid: &Solid, point: &SolidContactPoint, share: f64) -> Touch {
         let pose = self.pose_moved(&solid.carrier, share);
-        let place = slot.on_rope(|node| self.trial.place[node] + self.band.step[node] * share);
+        let place =
+            point.on_rope(|node| self.trial.place[node] + self.tridiagonal.step[node] * share);
         let near = solid.shape.nearest(pose.inward(place));
         Touch {
             normal: pose.orientation * near.normal,
-            depth: slot.radius_m - near.distance - slot.forgiven_m,
+            depth: point.radius_m - near.distance - point.forgiven_m,
             place,
             pose,
         }
     }
 
-    /// The solved step of the rope at a slot, as seen from the solid.
-    fn step_on(&self, solid: &Solid, slot: &Slot) -> DVec3 {
-        let step = slot.on_rope(|node| self.band.step[node]);
+    /// The solved step of the rope at a contact point, as seen from the solid.
+    fn step_on(&self, solid: &Solid, point: &SolidContactPoint) -> DVec3 {
+        let step = point.on_rope(|node| self.tridiagonal.step[node]);
         match solid.carrier {
             Carrier::World(_) => step,
             Carrier::Body(body) => {
                 let block = self.plan.body_block[body];
                 let arm =
-                    slot.on_rope(|node| self.trial.place[node]) - self.trial.bodies[body].place;
-                step - self.hubs.step[block] - self.hubs.step[block + 1].cross(arm)
+                    point.on_rope(|node| self.trial.place[node]) - self.trial.bodies[body].place;
+                step - self.interface.step[block] - self.interface.step[block + 1].cross(arm)
             }
         }
     }
 
-    /// After a solve: the normal force each slot will have by the linear solution.
-    pub(super) fn foretell_pushes(&mut self, share: f64) {
+    /// After a solve: the normal force each contact point will have by the linear solution.
+    pub(super) fn predict_pushes(&mut self, share: f64) {
         let mut work = std::mem::take(&mut self.solid);
-        for (solids, slot) in work.open_slots_mut() {
-            let step = self.step_on(&solids[slot.solid], slot);
-            slot.foretold_n = slot.push_n - slot.stiffness * slot.normal.dot(step) * share;
+        for (solids, point) in work.open_points_mut() {
+            let step = self.step_on(&solids[point.solid], point);
+            point.predicted_n = point.push_n - point.stiffness * point.normal.dot(step) * share;
         }
         self.solid = work;
     }
 
-    /// Whether the normal force of every slot in the last solve is the one at its place, a gap as zero.
+    /// Whether the normal force of every contact point in the last solve is the one at its place, a gap as zero.
     pub(crate) fn pushes_are_settled(&self) -> bool {
         let (mut gap, mut answer, mut greatest) = (0.0_f64, 0.0_f64, 0.0_f64);
-        for slot in self.solid.open_slots() {
-            let solid = &self.solid.solids[slot.solid];
-            let there = (slot.stiffness * self.touch_of(solid, slot).depth).max(0.0);
-            gap = gap.max((slot.foretold_n.max(0.0) - there).abs());
+        for point in self.solid.open_points() {
+            let solid = &self.solid.solids[point.solid];
+            let there = (point.stiffness * self.touch_of(solid, point).depth).max(0.0);
+            gap = gap.max((point.predicted_n.max(0.0) - there).abs());
             greatest = greatest.max(there);
-            if matches!(solid.carrier, Carrier::Body(_)) && there.max(slot.foretold_n) > 0.0 {
+            if matches!(solid.carrier, Carrier::Body(_)) && there.max(point.predicted_n) > 0.0 {
                 // What rope and body did not know of each other's last move.
-                let rope = slot.on_rope(|node| self.band.step[node]);
+                let rope = point.on_rope(|node| self.tridiagonal.step[node]);
                 answer = answer.max(
-                    slot.stiffness * rope.length().max((rope - self.step_on(solid, slot)).length()),
+                    point.stiffness
+                        * rope.length().max((rope - self.step_on(solid, point)).length()),
                 );
             }
         }
@@ -222,7 +225,10 @@ impl Solver {
             let [a, b] = ends.map(|node| self.trial.place[node]);
             let room = least_distance(solid, &pose, a, b).max(0.0)
                 + STATIC_SHARE * solid.shape.thickness();
-            room / ends.map(|node| self.band.step[node].length()).into_iter().fold(1e-12, f64::max)
+            room / ends
+                .map(|node| self.tridiagonal.step[node].length())
+                .into_iter()
+                .fold(1e-12, f64::max)
         };
         self.solid.pairs.iter().map(share_of).fold(longest, f64::min)
     }
@@ -274,43 +280,43 @@ impl Solver {
         let mut grips = std::mem::take(&mut state.rope.solid_grips);
         grips.clear();
         if !scheme.is_static() {
-            for slot in self.solid.open_slots() {
-                let solid = &self.solid.solids[slot.solid];
-                let touch = self.touch_of(solid, slot);
-                let slot = Slot { push_n: slot.stiffness * touch.depth, ..*slot };
-                if slot.push_n > 0.0 {
-                    let grip = grip_of(state, solid, &slot, &touch);
-                    grips.push(self.kept(&slot, touch.pose.orientation.inverse() * grip.kept));
+            for point in self.solid.open_points() {
+                let solid = &self.solid.solids[point.solid];
+                let touch = self.touch_of(solid, point);
+                let point = SolidContactPoint { push_n: point.stiffness * touch.depth, ..*point };
+                if point.push_n > 0.0 {
+                    let grip = grip_of(state, solid, &point, &touch);
+                    grips.push(self.kept(&point, touch.pose.orientation.inverse() * grip.kept));
                 }
             }
         }
         state.rope.solid_grips = grips;
     }
 
-    fn kept(&self, slot: &Slot, stretch: DVec3) -> SolidGrip {
-        let (along_m, at_node) = (self.solid.along_of(slot), slot.fraction.is_none());
+    fn kept(&self, point: &SolidContactPoint, stretch: DVec3) -> SolidGrip {
+        let (along_m, at_node) = (self.solid.along_of(point), point.fraction.is_none());
         SolidGrip {
-            solid: slot.solid,
-            line: slot.line,
+            solid: point.solid,
+            line: point.line,
             along_m,
             at_node,
             stretch,
-            push_n: slot.push_n,
+            push_n: point.push_n,
         }
     }
 }
 
-/// Friction at a slot: the grip, carried along with the solid, stretched by how the rope moved on it.
-fn grip_of(state: &State, solid: &Solid, slot: &Slot, touch: &Touch) -> Grip {
-    let before = slot.on_rope(|node| state.rope.position[node]);
+/// Friction at a contact point: the grip, carried along with the solid, stretched by how the rope moved on it.
+fn grip_of(state: &State, solid: &Solid, point: &SolidContactPoint, touch: &Touch) -> Grip {
+    let before = point.on_rope(|node| state.rope.position[node]);
     let carried = touch.pose.outward(pose_before(state, solid).inward(before));
-    let stretch = touch.pose.orientation * slot.kept + touch.place - carried;
+    let stretch = touch.pose.orientation * point.kept + touch.place - carried;
     Grip::new(
         stretch,
         touch.normal,
-        slot.stiffness,
+        point.stiffness,
         solid.friction,
-        (slot.push_n.max(0.0), slot.stiffness),
+        (point.push_n.max(0.0), point.stiffness),
     )
 }
 

@@ -48,8 +48,8 @@ impl Solver {
         let by_place = DVec3::AXES.map(|axis| moved(self, axis));
         let by_turn = DVec3::AXES.map(|axis| turned(self, axis));
         for (column, by) in [(block, by_place), (block + 1, by_turn)] {
-            *self.hubs.at(block, column) -= DMat3::from_cols(by[0].0, by[1].0, by[2].0);
-            *self.hubs.at(block + 1, column) -= DMat3::from_cols(by[0].1, by[1].1, by[2].1);
+            *self.interface.at(block, column) -= DMat3::from_cols(by[0].0, by[1].0, by[2].0);
+            *self.interface.at(block + 1, column) -= DMat3::from_cols(by[0].1, by[1].1, by[2].1);
         }
     }
 

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::hubs::Seat;
+use super::interface::Attachment;
 use super::plan::Plan;
 use super::scheme::Scheme;
 use crate::model::{JointKind, Model};
@@ -20,7 +20,7 @@ pub(crate) struct Trial {
     pub place_history: Vec<DVec3>,
     /// `v̂` of each node.
     pub velocity_history: Vec<DVec3>,
-    /// Tension of each segment as the last solve foretold it; below zero it is slack.
+    /// Tension of each segment as the last solve predicted it; below zero it is slack.
     pub tension: Vec<f64>,
     /// Bodies.
     pub bodies: Vec<BodyTrial>,
@@ -38,7 +38,7 @@ pub(crate) struct BodyTrial {
     pub place_history: DVec3,
     pub velocity_history: DVec3,
     /// What its pseudo-mass in statics is multiplied by.
-    pub burden: f64,
+    pub pseudo_mass_scale: f64,
     /// Whether it is held in place.
     pub held: bool,
     /// Whether it may move but not turn.
@@ -64,7 +64,7 @@ impl Trial {
         }
         self.tension.clone_from(&rope.tension);
         self.begin_bodies(model, state, scheme);
-        self.seat_ends(model, plan);
+        self.place_ends(model, plan);
     }
 
     /// Starts a step of free rope: the same, but for the rope's history, which the lanes take from the state.
@@ -80,7 +80,7 @@ impl Trial {
                 .map(|(place, velocity)| *place + *velocity * scheme.dt),
         );
         self.begin_bodies(model, state, scheme);
-        self.seat_ends(model, plan);
+        self.place_ends(model, plan);
     }
 
     fn begin_bodies(&mut self, model: &Model, state: &State, scheme: &Scheme) {
@@ -93,7 +93,7 @@ impl Trial {
             self.bodies.push(BodyTrial {
                 place: now.position + move_of,
                 anchor: now.orientation,
-                burden: 1.0,
+                pseudo_mass_scale: 1.0,
                 orientation: (DQuat::from_scaled_axis(turn) * now.orientation).normalize(),
                 place_history: scheme.history(now.position, now.earlier_position),
                 velocity_history: scheme.history(now.velocity, now.earlier_velocity),
@@ -104,7 +104,7 @@ impl Trial {
     }
 
     /// Puts line ends where their fixture or body is; free joints keep the place of their first line end.
-    pub fn seat_ends(&mut self, model: &Model, plan: &Plan) {
+    pub fn place_ends(&mut self, model: &Model, plan: &Plan) {
         for (index, line) in model.spec.lines.iter().enumerate() {
             let nodes = &model.line_nodes[index];
             for (joint, node) in [(line.from, nodes.start), (line.to, nodes.end - 1)] {
@@ -114,7 +114,7 @@ impl Trial {
     }
 
     fn joint_place(&self, model: &Model, plan: &Plan, joint: usize, node: usize) -> DVec3 {
-        if let Seat::Body { body, offset, .. } = plan.seats[joint] {
+        if let Attachment::Body { body, offset, .. } = plan.attachments[joint] {
             let body = &self.bodies[body];
             return body.place + body.orientation * offset;
         }

@@ -58,7 +58,7 @@ impl Solver {
 
     /// Adds the push of accelerating water on rope.
     pub(super) fn add_push(&mut self) {
-        for (force, push) in self.band.force.iter_mut().zip(&self.push) {
+        for (force, push) in self.tridiagonal.force.iter_mut().zip(&self.push) {
             *force += *push;
         }
     }
@@ -79,7 +79,7 @@ impl Solver {
             .sum();
         let added = trial.orientation
             * (body.added_mass_kg * wet * (trial.orientation.inverse() * acceleration));
-        self.hubs.force[self.plan.body_block[index]] +=
+        self.interface.force[self.plan.body_block[index]] +=
             acceleration * (model.spec.water.density_kg_m3 * volume) + added;
     }
 }

@@ -40,8 +40,8 @@ impl Coarse {
     }
 
     /// A state of the coarse gear carried over to the finer one.
-    pub fn carry(&self, fine: &Model, state: &State) -> State {
-        let mut carried = State::start(fine);
+    pub fn carry(&self, tolerance: &Model, state: &State) -> State {
+        let mut carried = State::start(tolerance);
         for (nodes, segments) in self.model.line_nodes.iter().zip(&self.model.line_segments) {
             for (node, segment) in (nodes.start..).zip(segments.clone()) {
                 self.carry_segment(state, (node, segment), &mut carried);

@@ -136,7 +136,7 @@ fn stride(newton: &mut Newton, model: &Model, enough_n: f64, trail: &mut Trail) 
         let share = newton.solver.share_past_solids(1.0);
         newton.solver.advance(model, share);
         newton.solver.measure_flow(model);
-        let residual_n = newton.balance(Way::Foretold);
+        let residual_n = newton.balance(Way::Predicted);
         trail.pass(model, residual_n);
         if residual_n < enough_n {
             return Stride::Balanced(pass);

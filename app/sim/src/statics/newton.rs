@@ -2,7 +2,7 @@
 //!
 //! The matrix carries a pseudo-mass `σM`: a pass is then a backward Euler step of length `1/σ` along the way that
 //! forces push. Tension is a multiplier of its own: a segment is judged taut, and stiffened across, by what the last
-//! linear solve foretold, so the strain of a rope far from its shape does not count. What limits a pass is how
+//! linear solve predicted, so the strain of a rope far from its shape does not count. What limits a pass is how
 //! far it turns any segment: a pass that turns one too far is made again with a greater `σ`, one that turns little lets
 //! `σ` fall. While `σ` is great slack rope resists a pass too: rope that lies slack would else go taut and slack by turns.
 //! Reference: Kelley and Keyes 1998, Convergence analysis of pseudo-transient continuation
@@ -72,7 +72,7 @@ pub(super) struct Attempt<'a> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Way {
     /// Rope is judged taut or slack by the last solve, and whole steps are taken.
-    Foretold,
+    Predicted,
     /// Rope is judged where it lies, and each step is searched for balance.
     Searched,
 }
@@ -132,16 +132,16 @@ impl<'a> Newton<'a> {
     /// Assembles forces and matrix at the trial places; the residual [N].
     pub fn balance(&mut self, way: Way) -> f64 {
         match way {
-            Way::Foretold => self.solver.assemble(self.model, &self.laid, &self.scheme),
+            Way::Predicted => self.solver.assemble(self.model, &self.laid, &self.scheme),
             Way::Searched => self.solver.assemble_searchable(self.model, &self.laid, &self.scheme),
         }
         self.solver.residual(self.model)
     }
 
-    /// The same, judged by the last solve, and as it is where that says the gear is at rest; what was foretold may call a
+    /// The same, judged by the last solve, and as it is where that says the gear is at rest; what was predicted may call a
     /// segment slack that is not.
     pub fn balance_at_rest(&mut self) -> f64 {
-        let residual_n = self.balance(Way::Foretold);
+        let residual_n = self.balance(Way::Predicted);
         if residual_n < TOLERANCE_N { self.balance(Way::Searched) } else { residual_n }
     }
 
@@ -166,8 +166,8 @@ impl<'a> Newton<'a> {
     }
 
     /// Share of the solved step to take, at most `longest`.
-    pub fn search(&self, longest: f64) -> f64 {
-        self.solver.search_free(self.model, &self.laid, &self.scheme, longest)
+    pub fn line_search(&self, longest: f64) -> f64 {
+        self.solver.line_search_free(self.model, &self.laid, &self.scheme, longest)
     }
 
     /// Lets slack rope resist while the pseudo-mass is great.

@@ -1,6 +1,6 @@
 //! Relaxing: the slow and sure way to rest, for gear whose shape is far from the first guess.
 //!
-//! Two ways of passes. *Foretold*: rope is judged taut or slack by the last linear solve, whole steps are taken, the
+//! Two ways of passes. *Predicted*: rope is judged taut or slack by the last linear solve, whole steps are taken, the
 //! pseudo-mass `σ` follows the ratio of residuals. *Searched*: rope is judged where it lies and each step is searched for
 //! balance; slower, and sure where much rope lies slack. Where neither gets there, rope is softened until the gear comes
 //! to rest and then stiffened stage by stage, each from the last that came to rest.
@@ -11,10 +11,10 @@ use crate::model::Model;
 use crate::state::State;
 
 /// The quick way with its passes before it gives up.
-const QUICK: (Way, usize) = (Way::Foretold, 150);
+const QUICK: (Way, usize) = (Way::Predicted, 150);
 /// The sure way with its passes.
 const SURE: (Way, usize) = (Way::Searched, 1000);
-/// Range of its change in a pass, foretold.
+/// Range of its change in a pass, predicted.
 const CHANGE: (f64, f64) = (0.3, 2.0);
 /// Share of a step below which it grows, searched, by the first factor; else it shrinks by the second.
 const SHORT: f64 = 0.3;
@@ -115,7 +115,7 @@ fn attempt(
     let mut residual_n = newton.balance(way);
     for _ in 0..most_passes {
         if residual_n < TOLERANCE_N {
-            // What was foretold may call a segment slack that is not.
+            // What was predicted may call a segment slack that is not.
             residual_n = newton.balance(Way::Searched);
         }
         trail.pass(model, residual_n);
@@ -126,12 +126,12 @@ fn attempt(
         let longest = newton
             .solver
             .share_past_solids(LONGEST_MOVE_M / newton.solver.longest().max(LONGEST_MOVE_M));
-        let share = if way == Way::Searched { newton.search(longest) } else { longest };
+        let share = if way == Way::Searched { newton.line_search(longest) } else { longest };
         newton.solver.advance(model, share);
         newton.solver.measure_flow(model);
         let next_n = newton.balance(way);
         let change = match way {
-            Way::Foretold => (next_n / residual_n).clamp(CHANGE.0, CHANGE.1),
+            Way::Predicted => (next_n / residual_n).clamp(CHANGE.0, CHANGE.1),
             Way::Searched if share < SHORT => GROWTH,
             Way::Searched => SHRINKAGE,
         };

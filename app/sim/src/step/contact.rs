@@ -8,7 +8,7 @@ use super::audit::Audit;
 use super::context::StepContext;
 use super::convergence::CONTACT_CONVERGED_M;
 use super::rejection::Rejection;
-use crate::contact::law::PINCHED_SHARE;
+use crate::contact::barrier::PINCHED_SHARE;
 use crate::contact::workspace::ContactWorkspace;
 use crate::solver::{CONTACT_WANTED_M, ContactEnd, Solver};
 
@@ -26,13 +26,13 @@ pub(super) fn contact_step(
     audit: &mut Audit,
 ) -> Result<(), Rejection> {
     let StepContext { model, state, scheme } = *context;
-    work.slots.list.clear();
+    work.points.list.clear();
     solver.set_out(state);
     solver.ropes.begin();
     let mut pinched = PINCHED_SHARE;
     for stage in 0..MOST_STAGES {
         work.near.measure(solver.places());
-        if let Some(pair) = work.near.pairs.iter().find(|pair| pair.clear <= 0.0) {
+        if let Some(pair) = work.near.pairs.iter().find(|pair| pair.gap_bound <= 0.0) {
             return Err(Rejection::Crossed(pair.segment));
         }
         if stage == 0 {
@@ -41,7 +41,7 @@ pub(super) fn contact_step(
         }
         audit.tunnelled += solver.carry(model, work);
         solver.open_ropes(state);
-        match solver.solve_touching(model, state, scheme, work) {
+        match solver.solve_contact(model, state, scheme, work) {
             ContactEnd::Ended { last_m, passes, crossings } => {
                 audit.passes += passes as u64;
                 audit.tunnelled += crossings;

@@ -28,11 +28,11 @@ pub(super) struct Convergence {
 
 impl Convergence {
     /// The tolerance of a model at its present resolution.
-    pub fn new(model: &Model, fine: &Tolerance) -> Self {
+    pub fn new(model: &Model, tolerance: &Tolerance) -> Self {
         let bends = model.bends();
         let (most_passes, converged_m) =
             if bends { (BENT_MOST_PASSES, BENT_CONVERGED_M) } else { (MOST_PASSES, CONVERGED_M) };
-        let converged_m = converged_m.min(fine.move_m);
+        let converged_m = converged_m.min(tolerance.move_m);
         Self { bends, most_passes, converged_m, moved_before_m: f64::INFINITY }
     }
 

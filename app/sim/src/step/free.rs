@@ -31,8 +31,8 @@ pub(super) fn free_step(
 ) -> Result<FreeOutcome, Rejection> {
     let StepContext { model, state, scheme } = *context;
     solver.begin_free(model, state, scheme);
-    let fine = solver.fine();
-    let (mut convergence, at_once) = (Convergence::new(model, &fine), !model.bends());
+    let tolerance = solver.tolerance();
+    let (mut convergence, at_once) = (Convergence::new(model, &tolerance), !model.bends());
     let mut moved_m = 0.0;
     for pass in 1..=convergence.most_passes {
         let passed = solver.pass_free(model, state, scheme);
@@ -44,8 +44,8 @@ pub(super) fn free_step(
         }
         let rests = convergence.is_reached(pass, passed.longest_m);
         let settled = passed.gap_n
-            <= TENSION_GAP_N.min(fine.gap_n).max(TENSION_GAP_SHARE * passed.greatest_n);
-        if (rests && settled) || (at_once && is_exact(&passed, &fine)) {
+            <= TENSION_GAP_N.min(tolerance.gap_n).max(TENSION_GAP_SHARE * passed.greatest_n);
+        if (rests && settled) || (at_once && is_exact(&passed, &tolerance)) {
             // Rope that kept to its drift has met nothing but what was gathered.
             let strayed = moved_m > workspace::MARGIN_M && solver.strayed_free(state, scheme.dt);
             let met = strayed || solver.met_ropes_free(model, state, moved_m);
@@ -56,9 +56,11 @@ pub(super) fn free_step(
 }
 
 /// Whether another pass would change nothing of note.
-fn is_exact(passed: &FreePass, fine: &Tolerance) -> bool {
-    let gap_n = ONE_PASS_GAP_N.min(fine.gap_n).max(ONE_PASS_GAP_SHARE * passed.greatest_n);
-    !passed.near_seabed && passed.longest_m < ONE_PASS_M.min(fine.move_m) && passed.gap_n < gap_n
+fn is_exact(passed: &FreePass, tolerance: &Tolerance) -> bool {
+    let gap_n = ONE_PASS_GAP_N.min(tolerance.gap_n).max(ONE_PASS_GAP_SHARE * passed.greatest_n);
+    !passed.near_seabed
+        && passed.longest_m < ONE_PASS_M.min(tolerance.move_m)
+        && passed.gap_n < gap_n
 }
 
 /// Newton line by line, where ropes, bodies or obstacles are near but nothing touches.
@@ -68,7 +70,7 @@ pub(super) fn lines_step(
     audit: &mut Audit,
 ) -> Result<(), Rejection> {
     let StepContext { model, state, scheme } = *context;
-    let mut convergence = Convergence::new(model, &solver.fine());
+    let mut convergence = Convergence::new(model, &solver.tolerance());
     for pass in 1..=convergence.most_passes {
         let passed = solver.pass(model, state, scheme);
         audit.passes += 1;

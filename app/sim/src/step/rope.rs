@@ -1,6 +1,6 @@
 //! A solver step with rope on rope, away from the whale.
 //!
-//! Newton with every move cut where ropes would cross (`solver/tied.rs`). Where rope came near rope that its drift would not
+//! Newton with every move cut where ropes would cross (`solver/rope_contact_newton.rs`). Where rope came near rope that its drift would not
 //! have brought it near to, the step is done again with that looked at too.
 
 use super::audit::Audit;
@@ -25,7 +25,7 @@ pub(super) fn rope_step(
         }
         solver.set_out(state);
         solver.ropes.begin();
-        solver.drift_tied();
+        solver.drift_in_rope_contact();
         solver.open_ropes(state);
         balance(context, solver, audit)?;
         let on_solids = solver.strayed_to_solids(state, scheme.dt);
@@ -46,7 +46,7 @@ fn balance(
     audit: &mut Audit,
 ) -> Result<(), Rejection> {
     let StepContext { model, state, scheme } = *context;
-    match solver.solve_tied(model, state, scheme) {
+    match solver.solve_rope_contact(model, state, scheme) {
         RopeContactEnd::Ended { last_m, passes } => {
             audit.passes += passes as u64;
             if last_m > CONTACT_CONVERGED_M {

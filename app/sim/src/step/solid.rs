@@ -28,7 +28,7 @@ pub(super) fn solid_step(
         let passed = if pass <= PREDICTED_PASSES {
             solver.pass(model, state, scheme)
         } else {
-            solver.searched_pass(model, state, scheme)
+            solver.line_searched_pass(model, state, scheme)
         };
         audit.passes += 1;
         if !passed.finite {

@@ -59,7 +59,7 @@ pub(super) fn solver_step(
             return Err(Rejection::PartsTooLate);
         }
         keep_contacts(model, state, touching, dt, Reports { contacts, audit })?;
-        solver.tell_ropes(state, rope_touches);
+        solver.report_ropes(state, rope_touches);
         solver.keep(model, &scheme, state);
     }
     audit.ropes_crossed += solver.ropes.crossings;

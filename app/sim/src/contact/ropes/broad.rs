@@ -71,16 +71,16 @@ impl Broad {
         Self { order: (0..pieces.len()).collect(), pieces, boxes }
     }
 
-    /// Collects pairs of segments, the first below the second, whose boxes come within `reach` in the step, in rising order.
+    /// Collects pairs of segments, the first below the second, whose boxes come within `search_distance` in the step, in rising order.
     pub fn collect(
         &mut self,
         moves: &Moves<'_, impl Fn(usize) -> DVec3>,
-        reach: f64,
+        search_distance: f64,
         found: &mut Vec<[usize; 2]>,
     ) {
         found.clear();
         for piece in &mut self.pieces {
-            piece.measure(moves, 0.5 * reach);
+            piece.measure(moves, 0.5 * search_distance);
         }
         let whole = self.pieces.iter().fold(Bounds::EMPTY, |whole, piece| whole.join(piece.bounds));
         let extent = whole.high - whole.low;
@@ -96,7 +96,7 @@ impl Broad {
         for place in 0..self.order.len() {
             let one = &self.pieces[self.order[place]];
             if !one.is_straight {
-                pairs_within(one, moves, reach, &mut self.boxes[0], found);
+                pairs_within(one, moves, search_distance, &mut self.boxes[0], found);
             }
             for other in &self.order[place + 1..] {
                 let other = &self.pieces[*other];
@@ -104,7 +104,7 @@ impl Broad {
                     break;
                 }
                 if one.bounds.meets(&other.bounds) && !one.runs_on(other) {
-                    pairs_between(one, other, moves, reach, &mut self.boxes, found);
+                    pairs_between(one, other, moves, search_distance, &mut self.boxes, found);
                 }
             }
         }
@@ -165,11 +165,11 @@ impl Piece {
 fn pairs_within(
     piece: &Piece,
     moves: &Moves<'_, impl Fn(usize) -> DVec3>,
-    reach: f64,
+    search_distance: f64,
     boxes: &mut Vec<(usize, Bounds)>,
     found: &mut Vec<[usize; 2]>,
 ) {
-    piece.boxes(moves, 0.5 * reach, &piece.bounds, boxes);
+    piece.boxes(moves, 0.5 * search_distance, &piece.bounds, boxes);
     for (place, (segment, bounds)) in boxes.iter().enumerate() {
         let later = boxes[place + 1..].iter().filter(|(_, other)| bounds.meets(other));
         found.extend(later.map(|(other, _)| [*segment, *other]));
@@ -180,13 +180,13 @@ fn pairs_between(
     one: &Piece,
     other: &Piece,
     moves: &Moves<'_, impl Fn(usize) -> DVec3>,
-    reach: f64,
+    search_distance: f64,
     boxes: &mut [Vec<(usize, Bounds)>; 2],
     found: &mut Vec<[usize; 2]>,
 ) {
     let [first, second] = boxes;
-    one.boxes(moves, 0.5 * reach, &other.bounds, first);
-    other.boxes(moves, 0.5 * reach, &one.bounds, second);
+    one.boxes(moves, 0.5 * search_distance, &other.bounds, first);
+    other.boxes(moves, 0.5 * search_distance, &one.bounds, second);
     for (segment, bounds) in first.iter() {
         let near = second.iter().filter(|(_, other)| bounds.meets(other));
         found.extend(near.map(|(other, _)| [*segment.min(other), *segment.max(other)]));

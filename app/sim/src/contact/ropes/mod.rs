@@ -1,7 +1,7 @@
 //! Rope against rope: other lines, and the same line where it comes back to itself.
 //!
 //! Two segments touch where their centre lines come nearer than the sum `h` of their radii. What presses is a *point*: at
-//! fractions `s`, `t` of the two, pushed apart along the line between them by the law of `law.rs`, held by an elastic grip
+//! fractions `s`, `t` of the two, pushed apart along the line between them by the law of `barrier.rs`, held by an elastic grip
 //! that slips at `μN` (`solver/ground.rs`). Where ropes cross there is one point, at which they are nearest; where they run
 //! along each other, one at each end of the stretch they share (`points.rs`).
 //!

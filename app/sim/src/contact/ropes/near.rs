@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::broad::{Broad, Moves};
-use super::points::{Point, points_of};
+use super::points::{RopeContactPoint, points_of};
 use super::sweep::{greatest_approach, nearest, safe_fraction};
 use crate::contact::crossing::first_crossing;
 use crate::contact::sweep::SweptSegment;
@@ -19,11 +19,11 @@ const UNWATCHED_M: f64 = 0.014;
 /// The same as a share of the shortest segment, so that a straight piece stayed straight.
 const UNWATCHED_SHARE: f64 = 0.125;
 /// Least separation kept, as a share of the contact distance.
-const GUARD_SHARE: f64 = 0.08;
+const MIN_SEPARATION_SHARE: f64 = 0.08;
 /// Ropes nearer than this share of the contact distance when a step begins run through each other, and are left alone.
 const THROUGH_SHARE: f64 = 0.01;
 /// Rope between two of its points, in contact distances, below which they do not touch: it cannot bend back so sharply.
-const SPARED_REACHES: f64 = 3.0;
+const SPARED_CONTACT_DISTANCES: f64 = 3.0;
 /// How far a point may have moved along either rope in a step and be the same grip [m].
 const FOLLOWED_M: f64 = 0.05;
 /// Passes in which points follow the ropes; then they stay, so that Newton can finish.
@@ -47,13 +47,13 @@ pub(crate) struct Pair {
     pub nodes: [usize; 2],
     lines: [usize; 2],
     /// Sum of the radii [m].
-    pub reach: f64,
-    guard: f64,
+    pub contact_distance: f64,
+    min_separation: f64,
     /// Lower bound of the distance now [m].
-    clear: f64,
+    gap_bound: f64,
     /// Distance when the step began [m].
     first: f64,
-    pub points: [Point; 2],
+    pub points: [RopeContactPoint; 2],
 }
 
 /// Scratch of rope against rope for one model; it keeps nothing that a step depends on.
@@ -179,26 +179,27 @@ impl RopeWorkspace {
         margin: f64,
     ) {
         let [one, other] = segments.map(|segment| self.homes[segment]);
-        let (nodes, reach) = ([one.node, other.node], one.radius_m + other.radius_m);
+        let (nodes, contact_distance) = ([one.node, other.node], one.radius_m + other.radius_m);
         let [a, b] = nodes.map(|node| sweep_of(node, from, to));
         let first = nearest(a.at(0.0), b.at(0.0)).distance;
         let least = first - greatest_approach(&a, &b);
-        if least > reach + margin {
+        if least > contact_distance + margin {
             return;
         }
-        if first < THROUGH_SHARE * reach {
+        if first < THROUGH_SHARE * contact_distance {
             self.through.push(segments);
             return;
         }
-        self.touching |= least < reach + TOUCH_M;
-        let (lines, guard) = ([one.line, other.line], GUARD_SHARE * reach);
+        self.touching |= least < contact_distance + TOUCH_M;
+        let (lines, min_separation) =
+            ([one.line, other.line], MIN_SEPARATION_SHARE * contact_distance);
         self.pairs.push(Pair {
             segments,
             nodes,
             lines,
-            reach,
-            guard,
-            clear: first,
+            contact_distance,
+            min_separation,
+            gap_bound: first,
             first,
             points: Default::default(),
         });
@@ -207,7 +208,7 @@ impl RopeWorkspace {
     /// Whether so little rope lies between two segments, through a joint too, that they do not touch.
     fn is_spared(&self, one: usize, other: usize) -> bool {
         let (a, b) = (self.homes[one], self.homes[other]);
-        let little = SPARED_REACHES * (a.radius_m + b.radius_m);
+        let little = SPARED_CONTACT_DISTANCES * (a.radius_m + b.radius_m);
         if a.line == b.line && self.along_m[other] - self.along_m[one] - self.lengths[one] < little
         {
             return true;
@@ -235,27 +236,33 @@ impl RopeWorkspace {
     fn open_pair(&mut self, index: usize, state: &State, places: &[DVec3], only: bool) {
         let pair = &self.pairs[index];
         let [one, other] = pair.places(|node| places[node]);
-        let mut points = points_of(one, other, pair.reach, only);
+        let mut points = points_of(one, other, pair.contact_distance, only);
         for point in points.iter_mut().filter(|point| point.length > 0.0) {
             let along = self.along_of(pair, point);
             match grip_at(&state.rope.rope_grips, pair.lines, along) {
                 Some(grip) => (point.kept, point.forgiven_m) = (grip.stretch, grip.forgiven_m),
                 // What touches already and holds no grip lay so when the run began.
-                None => point.forgiven_m = (pair.reach - pair.first).max(0.0),
+                None => point.forgiven_m = (pair.contact_distance - pair.first).max(0.0),
             }
         }
         self.pairs[index].points = points;
     }
 
     /// Unstretched length along both lines to a point [m].
-    pub fn along_of(&self, pair: &Pair, point: &Point) -> [f64; 2] {
+    pub fn along_of(&self, pair: &Pair, point: &RopeContactPoint) -> [f64; 2] {
         [0, 1].map(|k| {
             self.along_m[pair.segments[k]] + point.fractions[k] * self.lengths[pair.segments[k]]
         })
     }
 
     /// The grip of a point that has been solved for.
-    pub fn grip_of(&self, pair: &Pair, point: &Point, stretch: DVec3, forgiven_m: f64) -> RopeGrip {
+    pub fn grip_of(
+        &self,
+        pair: &Pair,
+        point: &RopeContactPoint,
+        stretch: DVec3,
+        forgiven_m: f64,
+    ) -> RopeGrip {
         RopeGrip { lines: pair.lines, along_m: self.along_of(pair, point), stretch, forgiven_m }
     }
 
@@ -283,7 +290,7 @@ impl RopeWorkspace {
         let mut opened = false;
         for index in 0..self.pairs.len() {
             let pair = &self.pairs[index];
-            if pair.clear >= pair.reach {
+            if pair.gap_bound >= pair.contact_distance {
                 continue;
             }
             let [one, other] = pair.places(|node| places[node]);
@@ -292,7 +299,7 @@ impl RopeWorkspace {
             let known = known
                 .map(|point| between(one, other, point.fractions).1)
                 .fold(f64::INFINITY, f64::min);
-            if least < pair.reach && least < NEARER * known {
+            if least < pair.contact_distance && least < NEARER * known {
                 self.open_pair(index, state, places, true);
                 opened = true;
             }
@@ -304,10 +311,15 @@ impl RopeWorkspace {
     pub fn safe_share(&self, places: &[DVec3], target: impl Fn(usize) -> DVec3) -> f64 {
         let share_of = |pair: &Pair| {
             let [one, other] = pair.nodes.map(|node| sweep_of(node, places, &target));
-            if pair.clear - pair.guard > greatest_approach(&one, &other) {
+            if pair.gap_bound - pair.min_separation > greatest_approach(&one, &other) {
                 return 1.0;
             }
-            safe_fraction(&one, &other, pair.guard, nearest(one.at(0.0), other.at(0.0)).distance)
+            safe_fraction(
+                &one,
+                &other,
+                pair.min_separation,
+                nearest(one.at(0.0), other.at(0.0)).distance,
+            )
         };
         self.pairs.iter().map(share_of).fold(1.0, f64::min)
     }
@@ -317,11 +329,11 @@ impl RopeWorkspace {
         for pair in &mut self.pairs {
             let [one, other] = pair.nodes.map(|node| sweep_of(node, places, &target));
             let approach = greatest_approach(&one, &other);
-            if pair.clear - approach > pair.reach {
-                pair.clear -= approach;
+            if pair.gap_bound - approach > pair.contact_distance {
+                pair.gap_bound -= approach;
                 continue;
             }
-            pair.clear = nearest(one.at(1.0), other.at(1.0)).distance;
+            pair.gap_bound = nearest(one.at(1.0), other.at(1.0)).distance;
             self.crossings += u64::from(first_crossing(&one, &other).is_some());
         }
     }
@@ -336,7 +348,7 @@ impl RopeWorkspace {
     /// Goes back to where the step began.
     pub fn begin(&mut self) {
         for pair in &mut self.pairs {
-            pair.clear = pair.first;
+            pair.gap_bound = pair.first;
         }
     }
 
@@ -359,7 +371,7 @@ impl RopeWorkspace {
     fn met_gathered(&self, from: &[DVec3], to: &[DVec3]) -> bool {
         let near = |pair: &Pair| {
             let [one, other] = pair.nodes.map(|node| sweep_of(node, from, &|node| to[node]));
-            pair.first - greatest_approach(&one, &other) < pair.reach
+            pair.first - greatest_approach(&one, &other) < pair.contact_distance
         };
         self.pairs.iter().any(near)
     }

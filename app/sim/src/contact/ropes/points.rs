@@ -13,7 +13,7 @@ const LEAST_SINE: f64 = 0.25;
 
 /// A point of a pair of segments.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Point {
+pub(crate) struct RopeContactPoint {
     /// Fraction along each segment.
     pub fractions: [f64; 2],
     /// Whether it is where the two are nearest, and not at a fixed place of the first.
@@ -26,11 +26,16 @@ pub(crate) struct Point {
     pub forgiven_m: f64,
 }
 
-/// The one or two points of a pair at these places, for a contact distance `reach`; the second has no length where there is one,
+/// The one or two points of a pair at these places, for a contact distance `contact_distance`; the second has no length where there is one,
 /// as there always is for an `only` point.
 ///
 /// Near the end of a segment the neighbour bears part of what crosses there: each has as much of the bearing length as lies on it.
-pub(crate) fn points_of(one: [DVec3; 2], other: [DVec3; 2], reach: f64, only: bool) -> [Point; 2] {
+pub(crate) fn points_of(
+    one: [DVec3; 2],
+    other: [DVec3; 2],
+    contact_distance: f64,
+    only: bool,
+) -> [RopeContactPoint; 2] {
     let near = nearest(one, other);
     let (u, v) = (one[1] - one[0], other[1] - other[0]);
     let (long, sine) = (u.length(), u.cross(v).length() / (u.length() * v.length()).max(1e-30));
@@ -44,21 +49,31 @@ pub(crate) fn points_of(one: [DVec3; 2], other: [DVec3; 2], reach: f64, only: bo
         let foot = nearest([place, place], other);
         (
             foot.distance,
-            Point { fractions: [s, foot.fractions[1]], length: 0.5 * stretch, ..Point::default() },
+            RopeContactPoint {
+                fractions: [s, foot.fractions[1]],
+                length: 0.5 * stretch,
+                ..RopeContactPoint::default()
+            },
         )
     };
-    if stretch > STRETCH_SHARE * reach && !only {
-        let (ends, level) = ([point(low), point(high)], near.distance + LEVEL_SHARE * reach);
+    if stretch > STRETCH_SHARE * contact_distance && !only {
+        let (ends, level) =
+            ([point(low), point(high)], near.distance + LEVEL_SHARE * contact_distance);
         if ends.iter().all(|(distance, _)| *distance < level) {
             return ends.map(|(_, point)| point);
         }
     }
-    let whole = reach / sine.max(LEAST_SINE);
+    let whole = contact_distance / sine.max(LEAST_SINE);
     let length = whole
         * share_within(near.fractions[0], whole / long)
         * share_within(near.fractions[1], whole / v.length());
-    let single = Point { fractions: near.fractions, is_nearest: true, length, ..Point::default() };
-    [single, Point::default()]
+    let single = RopeContactPoint {
+        fractions: near.fractions,
+        is_nearest: true,
+        length,
+        ..RopeContactPoint::default()
+    };
+    [single, RopeContactPoint::default()]
 }
 
 /// How much of a stretch about a fraction of a segment lies within the segment, both as shares of its length.
@@ -67,7 +82,7 @@ fn share_within(at: f64, stretch: f64) -> f64 {
     ((at + half).min(1.0) - (at - half).max(0.0)) / (2.0 * half)
 }
 
-impl Point {
+impl RopeContactPoint {
     /// Its fractions with the segments at other places, where it follows them.
     pub fn followed(&self, one: [DVec3; 2], other: [DVec3; 2]) -> [f64; 2] {
         if self.is_nearest {

@@ -1,7 +1,7 @@
 //! Free rope eight pieces at a time: the quick way through a solver step, in the lanes of the processor.
 //!
 //! A rig's lines are cut into pieces (`layout.rs`) that are worked on side by side (`sweep.rs`), each reduced to its ends;
-//! the ends of a line's pieces are a short chain of their own (`chain.rs`), and the line's ends join the hubs as ever.
+//! the ends of a line's pieces are a short chain of their own (`block_tridiagonal.rs`), and the line's ends join the interface system as ever.
 //! The law is the one of `forces.rs`; eight lanes do what one would do eight times, to the bit.
 
 mod layout;
@@ -13,7 +13,7 @@ mod sweep;
 use glam::{DMat3, DVec3};
 use pulp::Arch;
 
-use super::chain::{Band, Ends};
+use super::block_tridiagonal::{BlockTridiagonal, Ends};
 use super::forces::{PerMetre, Shared};
 use super::lengths::Lengths;
 use super::scheme::Scheme;
@@ -46,7 +46,7 @@ pub(crate) struct Lanes {
     lengths: Vec<f64>,
     cut: Vec<bool>,
     /// Ends of pieces in a row: a line's pieces are the segments of a chain.
-    chain: Band,
+    chain: BlockTridiagonal,
 }
 
 /// What a pass did to the rope.
@@ -87,7 +87,7 @@ impl Lanes {
             moves: vec![MoveRows::default(); groups.len()],
             lengths: Vec::new(),
             cut: Vec::new(),
-            chain: Band::new(pieces.len() + model.spec.lines.len(), pieces.len()),
+            chain: BlockTridiagonal::new(pieces.len() + model.spec.lines.len(), pieces.len()),
             pieces,
             groups,
         }
@@ -231,7 +231,7 @@ impl Lanes {
         self.chain.substitute(&chain_nodes(line, &pieces), &pieces, a_moves, step_a, step_b);
     }
 
-    /// Moves every node by the solved step and foretells tensions.
+    /// Moves every node by the solved step and predicts tensions.
     pub fn advance(&mut self, shared: &Shared<f64>) -> RopeMoved {
         let mut moved = RopeMoved { finite: true, ..RopeMoved::default() };
         for (index, group) in self.groups.iter().enumerate() {
@@ -262,7 +262,7 @@ impl Lanes {
         moved
     }
 
-    /// Pull at an end of a line in the last solve: direction from its first node to its second, and tension foretold [N].
+    /// Pull at an end of a line in the last solve: direction from its first node to its second, and tension predicted [N].
     pub fn end_pull(&self, line: usize, at_b: bool) -> (DVec3, f64) {
         let pieces = &self.line_pieces[line];
         let piece = &self.pieces[if at_b { pieces.end - 1 } else { pieces.start }];
@@ -312,7 +312,7 @@ impl Lanes {
         self.give_tension(&mut state.tension);
     }
 
-    /// Hands tensions over as the last solve foretold them.
+    /// Hands tensions over as the last solve predicted them.
     pub fn give_tension(&self, tension: &mut [f64]) {
         for piece in &self.pieces {
             let rows = &self.segments[self.groups[piece.group].segment_row..][..piece.segments];

@@ -108,7 +108,7 @@ pub(crate) struct GroundRow {
     pub block: Row6,
 }
 
-/// What a sweep reads at a segment, and the tension it foretells.
+/// What a sweep reads at a segment, and the tension it predicts.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SegmentRow {
     pub length: Row,

@@ -3,7 +3,7 @@
 //! Forward, node `k` is met with its block `D`, force `f` and its coupling `F` to the piece's end A:
 //! `step_k = g - W step_A + X step_(k+1)` with `X = D⁻¹B`, `g = D⁻¹f`, `W = D⁻¹F` and `B` the block of segment `k`;
 //! node `k + 1` then has `D' = D - B X`, `f' = f + B g`, `F' = B W`. What is left couples the piece's ends (`rows::EndRows`).
-//! All is symmetric: rope whose blocks are not goes through `chain.rs`.
+//! All is symmetric: rope whose blocks are not goes through `block_tridiagonal.rs`.
 
 use pulp::{Simd, WithSimd};
 
@@ -109,7 +109,7 @@ impl<S: Simd> Inputs<'_, S> {
                 ea2: part.get(&row.ea2),
                 damping: part.get(&row.damping),
             },
-            foretold: part.get(&row.tension),
+            predicted: part.get(&row.tension),
         };
         let pull = forces::pull(&at, self.shared.rate);
         if !self.bends {
@@ -303,18 +303,18 @@ fn backward<S: Simd, const FILL: bool>(
             Vec3::choose(live, inner_step::<S, FILL>(part, &group.solved[k], step_a, next), next);
         // A lane whose piece ends before: its last node is moved by its end's own row.
         move_node(part, &mut group.nodes[k + 2], next);
-        moved = foretell(part, &group.solved[k], &mut group.segments[k], step, next, moved);
+        moved = predict(part, &group.solved[k], &mut group.segments[k], step, next, moved);
         next = step;
     }
     for k in (1..group.shortest).rev() {
         let step = inner_step::<S, FILL>(part, &group.solved[k], step_a, next);
         move_node(part, &mut group.nodes[k + 2], next);
-        moved = foretell(part, &group.solved[k], &mut group.segments[k], step, next, moved);
+        moved = predict(part, &group.solved[k], &mut group.segments[k], step, next, moved);
         next = step;
     }
     move_node(part, &mut group.nodes[2], next);
     move_node(part, &mut group.nodes[1], step_a);
-    moved = foretell(part, &group.solved[0], &mut group.segments[0], step_a, next, moved);
+    moved = predict(part, &group.solved[0], &mut group.segments[0], step_a, next, moved);
     part.put(&mut moves.longest, moved.longest);
     part.put(&mut moves.gap, moved.gap);
     part.put(&mut moves.greatest, moved.greatest);
@@ -346,7 +346,7 @@ fn move_node<S: Simd>(part: Part<S>, row: &mut NodeRow, step: Vec3<Lane<S>>) {
 
 /// Tension of a segment by the linear solution, and how far that is from the tension at its place.
 #[inline(always)]
-fn foretell<S: Simd>(
+fn predict<S: Simd>(
     part: Part<S>,
     solved: &Solved,
     row: &mut SegmentRow,

@@ -1,13 +1,13 @@
 //! Newton with rope on rope, away from the whale: every move is cut where ropes would cross, then searched along.
 //!
-//! As in `touch.rs`: the step begins where ropes were, goes as far along their drift as nothing crosses, and from there to the
+//! As in `contact_newton.rs`: the step begins where ropes were, goes as far along their drift as nothing crosses, and from there to the
 //! balance of all forces. What lies on obstacles and bodies is judged by where it is.
 
 use glam::DVec3;
 
 use super::Solver;
+use super::contact_newton::{LEAST_CUT, MOST_CUTS, MOST_PASSES, UNSEARCHED_M, enough, left_to_go};
 use super::scheme::Scheme;
-use super::touch::{LEAST_CUT, MOST_CUTS, MOST_PASSES, UNSEARCHED_M, enough, left_to_go};
 use crate::model::Model;
 use crate::state::State;
 
@@ -27,7 +27,7 @@ pub(crate) enum RopeContactEnd {
 
 impl Solver {
     /// Newton passes until the moves are small.
-    pub(crate) fn solve_tied(
+    pub(crate) fn solve_rope_contact(
         &mut self,
         model: &Model,
         state: &State,
@@ -40,20 +40,20 @@ impl Solver {
             if let Some(segments) = self.crushed_ropes(false) {
                 return RopeContactEnd::Crushed(segments);
             }
-            self.solve_judged(model, state, scheme, None);
+            self.solve_active_set(model, state, scheme, None);
             let longest = self.longest();
             if !longest.is_finite() {
                 return RopeContactEnd::NotFinite;
             }
             let safe = self.ropes.safe_share(&self.trial.place, |node| {
-                self.trial.place[node] + self.band.step[node]
+                self.trial.place[node] + self.tridiagonal.step[node]
             });
             let share = if longest * safe > UNSEARCHED_M {
-                self.search_free(model, state, scheme, safe)
+                self.line_search_free(model, state, scheme, safe)
             } else {
                 safe
             };
-            let taken = self.move_tied(model, share);
+            let taken = self.move_in_rope_contact(model, share);
             // What a short share leaves is still to go.
             let moved_before_m = last_m;
             last_m = if taken >= 1.0 { left_to_go(longest, moved_before_m) } else { longest };
@@ -67,7 +67,7 @@ impl Solver {
     }
 
     /// Goes from where ropes were as far along their drift as nothing crosses.
-    pub(crate) fn drift_tied(&mut self) {
+    pub(crate) fn drift_in_rope_contact(&mut self) {
         self.remember();
         let mut share = 1.0;
         for _ in 0..MOST_CUTS {
@@ -92,7 +92,7 @@ impl Solver {
 
     /// Moves the trial by at most this share of the step; the share taken. As the move comes out, with ends on bodies that turn,
     /// it is made shorter until nothing crosses.
-    fn move_tied(&mut self, model: &Model, mut share: f64) -> f64 {
+    fn move_in_rope_contact(&mut self, model: &Model, mut share: f64) -> f64 {
         self.remember();
         for _ in 0..MOST_CUTS {
             self.advance(model, share);

@@ -1,21 +1,21 @@
-//! Contact slots: places on the rope where push and friction act.
+//! Contact points: places on the rope where push and friction act.
 //!
 //! A segment near skin is cut into sub-segments of at most [`PIECE_M`], so that stiffness does not depend on
-//! the length of segments. Each piece has a slot at its middle, and more where another of its points
-//! comes clearly nearer (a thin edge). A slot touches one face of skin, or several in a crease (`crease.rs`). Slots keep their place on the rope within a solver step: letting
+//! the length of segments. Each piece has a contact point at its middle, and more where another of its points
+//! comes clearly nearer (a thin edge). A contact point touches one face of skin, or several in a crease (`crease.rs`). Contact points keep their place on the rope within a solver step: letting
 //! them hop to the closest point in every pass is what keeps Newton from converging (docs/physics.md).
 
 use std::ops::Range;
 
 use glam::DVec3;
 
+use super::barrier::BarrierForce;
 use super::crease::{self, Faces};
-use super::law::Press;
 use super::near::{Near, on_triangle};
 use super::touch::Touch;
 use crate::model::Model;
 
-/// Longest piece of rope one slot stands for [m].
+/// Longest piece of rope one contact point stands for [m].
 const PIECE_M: f64 = 0.025;
 /// Pieces a segment is cut into at least.
 const LEAST_PIECES: f64 = 2.0;
@@ -23,15 +23,15 @@ const LEAST_PIECES: f64 = 2.0;
 const SEGMENT_BITS: u32 = 20;
 /// Bits of a site's number that name the face of skin.
 const FACE_BITS: u32 = 2;
-/// Bits of a site's number that name the slot within its piece, and the face.
+/// Bits of a site's number that name the contact point within its piece, and the face.
 const PIECE_BITS: u32 = 3 + FACE_BITS;
-/// Most slots of a piece.
-const MOST_SLOTS: usize = 1 << (PIECE_BITS - FACE_BITS);
-/// A further slot is opened where its distance is below this share of those there are.
+/// Most contact points of a piece.
+const MOST_POINTS: usize = 1 << (PIECE_BITS - FACE_BITS);
+/// A further contact point is opened where its distance is below this share of those there are.
 const NEARER: f64 = 0.8;
-/// Further slots are looked for only within this many contact distances.
+/// Further contact points are looked for only within this many contact distances.
 const LOOK_WITHIN: f64 = 3.0;
-/// How far a slot is measured: contact distances, and besides [`LOOK_WITHIN`] lengths of its piece. Beyond, no point of the
+/// How far a contact point is measured: contact distances, and besides [`LOOK_WITHIN`] lengths of its piece. Beyond, no point of the
 /// piece is looked at.
 const MEASURED_WITHIN: (f64, f64) = (4.0, 1.2);
 
@@ -51,8 +51,8 @@ pub(crate) fn shift_site(site: u64, segments: Range<usize>, by: i64) -> u64 {
 
 /// One place on the rope.
 #[derive(Clone, Debug)]
-pub(crate) struct Slot {
-    /// Number that names it from step to step: segment, piece, which of the piece's slots; that of its first face.
+pub(crate) struct SkinContactPoint {
+    /// Number that names it from step to step: segment, piece, which of the piece's contact points; that of its first face.
     site: u64,
     pub segment: usize,
     pub node: usize,
@@ -62,7 +62,7 @@ pub(crate) struct Slot {
     /// Its pairs in `Near::pairs`.
     pairs: Range<usize>,
     /// Contact distance: the rope's radius [m].
-    pub reach: f64,
+    pub contact_distance: f64,
     stiffness: f64,
     /// Where it was last measured, and the distance found there.
     seen: Option<(DVec3, f64)>,
@@ -75,14 +75,14 @@ pub(crate) struct Slot {
 /// The nearest place on a triangle: distance, place of the pair, barycentric place.
 type Foot = (f64, usize, [f64; 3]);
 
-/// All slots of a solver step.
+/// All contact points of a solver step.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Slots {
-    pub list: Vec<Slot>,
+pub(crate) struct SkinContactPoints {
+    pub list: Vec<SkinContactPoint>,
 }
 
-impl Slots {
-    /// Opens the middle slots of every segment that has pairs.
+impl SkinContactPoints {
+    /// Opens the middle contact points of every segment that has pairs.
     pub fn open(
         &mut self,
         model: &Model,
@@ -94,9 +94,9 @@ impl Slots {
         for (segment, range) in &near.groups {
             let length = segment_length[*segment];
             let pieces = (length / PIECE_M).ceil().max(LEAST_PIECES);
-            let reach = 0.5 * model.rope_of_segment(*segment).diameter_m;
+            let contact_distance = 0.5 * model.rope_of_segment(*segment).diameter_m;
             for piece in 0..pieces as u64 {
-                self.list.push(Slot {
+                self.list.push(SkinContactPoint {
                     site: ((*segment as u64) << SEGMENT_BITS) | (piece << PIECE_BITS),
                     segment: *segment,
                     node: near.pairs[range.start].node,
@@ -104,7 +104,7 @@ impl Slots {
                     length: length / pieces,
                     segment_length: length,
                     pairs: range.clone(),
-                    reach,
+                    contact_distance,
                     stiffness: stiffness_n_m2 * length / pieces,
                     seen: None,
                     nearest_pair: None,
@@ -114,7 +114,7 @@ impl Slots {
         }
     }
 
-    /// Opens further slots where a piece of rope is clearly nearer to skin than at those it has; how many.
+    /// Opens further contact points where a piece of rope is clearly nearer to skin than at those it has; how many.
     pub fn open_more(&mut self, near: &Near, places: &[DVec3]) -> usize {
         let count = self.list.len();
         let mut from = 0;
@@ -125,13 +125,13 @@ impl Slots {
                 .unwrap_or(count);
             let least = self.list[from..to]
                 .iter()
-                .map(|slot| slot.at_least(places))
+                .map(|point| point.at_least(places))
                 .fold(f64::INFINITY, f64::min);
-            if to - from < MOST_SLOTS
+            if to - from < MOST_POINTS
                 && let Some(fraction) = self.list[from].nearer_fraction(near, places, least)
             {
                 let site = self.list[to - 1].site + (1 << FACE_BITS);
-                self.list.push(Slot {
+                self.list.push(SkinContactPoint {
                     site,
                     fraction,
                     seen: None,
@@ -143,27 +143,27 @@ impl Slots {
         }
         let opened = self.list.len() - count;
         if opened > 0 {
-            self.list.sort_unstable_by_key(|slot| slot.site);
+            self.list.sort_unstable_by_key(|point| point.site);
         }
         opened
     }
 
-    /// Measures every slot at the places given.
+    /// Measures every contact point at the places given.
     pub fn measure(&mut self, near: &Near, places: &[DVec3]) {
-        for slot in &mut self.list {
-            slot.measure(near, places);
+        for point in &mut self.list {
+            point.measure(near, places);
         }
     }
 
     /// Forgets what was seen, for skin that has moved.
     pub fn forget(&mut self) {
-        for slot in &mut self.list {
-            slot.seen = None;
+        for point in &mut self.list {
+            point.seen = None;
         }
     }
 }
 
-impl Slot {
+impl SkinContactPoint {
     /// Its place on the rope.
     pub fn on_rope(&self, place: impl Fn(usize) -> DVec3) -> DVec3 {
         place(self.node).lerp(place(self.node + 1), self.fraction)
@@ -178,8 +178,8 @@ impl Slot {
         if self.out_of_reach(place) {
             return;
         }
-        let within = (MEASURED_WITHIN.0 * self.reach)
-            .max(LOOK_WITHIN * self.reach + MEASURED_WITHIN.1 * self.length);
+        let within = (MEASURED_WITHIN.0 * self.contact_distance)
+            .max(LOOK_WITHIN * self.contact_distance + MEASURED_WITHIN.1 * self.length);
         self.seen = Some((place, within));
         if let Some(nearest) = self.nearest(near, place, 0.0, within) {
             self.seen = Some((place, nearest.0));
@@ -199,7 +199,7 @@ impl Slot {
         if self.out_of_reach(place) {
             return Faces::default();
         }
-        self.nearest(near, place, moved, self.reach)
+        self.nearest(near, place, moved, self.contact_distance)
             .map_or_else(Faces::default, |nearest| self.faces(near, place, moved, nearest))
     }
 
@@ -207,11 +207,12 @@ impl Slot {
     fn faces(&self, near: &Near, place: DVec3, moved: f64, nearest: Foot) -> Faces {
         let Some(nearest) = self.touch_of(near, place, nearest) else { return Faces::default() };
         let others = self.pairs.clone().filter_map(|index| {
-            if index == nearest.pair || near.pairs[index].clear - moved >= self.reach {
+            if index == nearest.pair || near.pairs[index].gap_bound - moved >= self.contact_distance
+            {
                 return None;
             }
             let (distance, barycentric) =
-                near.skin_of(index).nearest_to_point(place, self.reach)?;
+                near.skin_of(index).nearest_to_point(place, self.contact_distance)?;
             self.touch_of(near, place, (distance, index, barycentric))
         });
         crease::faces(nearest, others)
@@ -223,17 +224,18 @@ impl Slot {
         place: DVec3,
         (distance, pair, barycentric): Foot,
     ) -> Option<Touch> {
-        let press = Press::new(distance, self.reach, self.stiffness);
-        (press.force > 0.0).then(|| {
+        let barrier = BarrierForce::new(distance, self.contact_distance, self.stiffness);
+        (barrier.force > 0.0).then(|| {
             let foot = on_triangle(near.skin_of(pair).now, barycentric);
             let normal = (place - foot) / distance.max(1e-12);
-            Touch { pair, barycentric, place, normal, distance, press }
+            Touch { pair, barycentric, place, normal, distance, barrier }
         })
     }
 
     /// Whether it cannot touch, from where it was last measured.
     fn out_of_reach(&self, place: DVec3) -> bool {
-        self.seen.is_some_and(|(seen, distance)| distance - seen.distance(place) > self.reach)
+        self.seen
+            .is_some_and(|(seen, distance)| distance - seen.distance(place) > self.contact_distance)
     }
 
     /// The nearest triangle within `most`, with the rope moved by at most `moved` since pairs were bounded. The one it was nearest to
@@ -242,7 +244,7 @@ impl Slot {
         let mut best: Option<Foot> = None;
         let mut least = most;
         for index in self.nearest_pair.into_iter().chain(self.pairs.clone()) {
-            if near.pairs[index].clear - moved >= least {
+            if near.pairs[index].gap_bound - moved >= least {
                 continue;
             }
             let Some((distance, barycentric)) = near.skin_of(index).nearest_to_point(place, least)
@@ -264,19 +266,19 @@ impl Slot {
     }
 
     /// Where along the segment its piece is clearly nearer to skin than `least`, if anywhere. Asked of the
-    /// middle slot.
+    /// middle contact point.
     fn nearer_fraction(&self, near: &Near, places: &[DVec3], least: f64) -> Option<f64> {
         let share = 0.5 * self.length / self.segment_length;
         let (from, to) = (self.fraction - share, self.fraction + share);
         let ends =
             [from, to].map(|fraction| places[self.node].lerp(places[self.node + 1], fraction));
-        if least - ends[0].distance(ends[1]) > LOOK_WITHIN * self.reach {
+        if least - ends[0].distance(ends[1]) > LOOK_WITHIN * self.contact_distance {
             return None;
         }
-        let mut least = (NEARER * least).min(LOOK_WITHIN * self.reach);
+        let mut least = (NEARER * least).min(LOOK_WITHIN * self.contact_distance);
         let mut along = None;
         for index in self.pairs.clone() {
-            if near.pairs[index].clear >= least || near.skin_of(index).gap(ends) >= least {
+            if near.pairs[index].gap_bound >= least || near.skin_of(index).gap(ends) >= least {
                 continue;
             }
             let nearest = near.skin_of(index).nearest_to(ends);

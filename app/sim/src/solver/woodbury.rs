@@ -1,7 +1,7 @@
-//! Ropes that touch, in the linear system: a correction of low rank to the bands of the lines.
+//! Ropes that touch, in the linear system: a correction of low rank to the block-tridiagonal systems of the lines.
 //!
 //! A touch of two ropes acts on the relative move `W δ` of its two points (four nodes) by a block `B`, not symmetric because of
-//! friction. It couples nodes far apart, which the bands cannot hold. With `A` the system of lines and hubs without touches, `r`
+//! friction. It couples nodes far apart, which the block-tridiagonal systems cannot hold. With `A` the system of lines and interface blocks without touches, `r`
 //! its right-hand side, `W` and `B` of all touches:
 //! `(A + Wᵀ B W) δ = r`, so `δ = A⁻¹ r - A⁻¹ Wᵀ λ`, `(1 + B S) λ = B W A⁻¹ r`, `S = W A⁻¹ Wᵀ`
 //! (Sherman, Morrison and Woodbury; Golub and Van Loan 2013, Matrix Computations, section 2.1.4).
@@ -13,14 +13,14 @@ use std::ops::Range;
 use glam::{DMat3, DVec3};
 
 use super::Solver;
-use super::chain::Band;
+use super::block_tridiagonal::BlockTridiagonal;
 use super::columns::Columns;
-use super::hubs::{Hubs, Seat};
+use super::interface::{Attachment, InterfaceSystem};
 use crate::model::Model;
 
 /// A touch as the linear system sees it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Coupled {
+pub(crate) struct ContactBlock {
     /// First nodes of the two segments.
     pub nodes: [usize; 2],
     /// Fractions along them.
@@ -29,19 +29,19 @@ pub(crate) struct Coupled {
     pub block: DMat3,
 }
 
-/// Scratch of a solve again: right-hand side and solution at nodes and hubs.
+/// Scratch of a solve again: right-hand side and solution at nodes and interface blocks.
 #[derive(Clone, Debug, Default)]
 struct Again<T> {
     right: Vec<T>,
     step: Vec<T>,
-    hub_right: Vec<T>,
-    hub_step: Vec<T>,
+    interface_right: Vec<T>,
+    interface_step: Vec<T>,
 }
 
 /// All touches of the linear system, with scratch.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Coupling {
-    pub touches: Vec<Coupled>,
+pub(crate) struct Woodbury {
+    pub touches: Vec<ContactBlock>,
     /// Whether each line has a touch.
     lines: Vec<bool>,
     three: Again<DMat3>,
@@ -51,7 +51,7 @@ pub(crate) struct Coupling {
     lambda: Vec<f64>,
 }
 
-impl Coupled {
+impl ContactBlock {
     /// Weights of its four nodes.
     fn weights(&self) -> [(usize, f64); 4] {
         let ([a, b], [s, t]) = (self.nodes, self.fractions);
@@ -69,43 +69,56 @@ impl Coupled {
 }
 
 impl<T: Columns> Again<T> {
-    fn begin(&mut self, nodes: usize, hubs: usize) {
+    fn begin(&mut self, nodes: usize, interface: usize) {
         self.right.resize(nodes, T::ZERO);
         self.step.resize(nodes, T::ZERO);
-        self.hub_right.clear();
-        self.hub_right.resize(hubs, T::ZERO);
-        self.hub_step.resize(hubs, T::ZERO);
+        self.interface_right.clear();
+        self.interface_right.resize(interface, T::ZERO);
+        self.interface_step.resize(interface, T::ZERO);
     }
 
     /// Solves the factored system for the right-hand side, on some lines alone.
     fn solve(
         &mut self,
         model: &Model,
-        band: &Band,
-        hubs: &Hubs,
-        seats: &[(Seat, DVec3)],
+        tridiagonal: &BlockTridiagonal,
+        interface: &InterfaceSystem,
+        attachments: &[(Attachment, DVec3)],
         wanted: impl Fn(usize) -> bool,
     ) {
         let lines = || model.spec.lines.iter().enumerate().filter(|(index, _)| wanted(*index));
         for (index, line) in lines() {
-            let ((seat_a, arm_a), (seat_b, arm_b)) = (seats[line.from], seats[line.to]);
+            let ((attachment_a, arm_a), (attachment_b, arm_b)) =
+                (attachments[line.from], attachments[line.to]);
             let (nodes, segments) = (&model.line_nodes[index], &model.line_segments[index]);
-            let ends = band.reduce_again(nodes, segments, seat_a != Seat::Fixed, &mut self.right);
-            hubs.push_again(seat_a, arm_a, ends[0], &mut self.hub_right);
-            hubs.push_again(seat_b, arm_b, ends[1], &mut self.hub_right);
+            let ends = tridiagonal.reduce_again(
+                nodes,
+                segments,
+                attachment_a != Attachment::Fixed,
+                &mut self.right,
+            );
+            interface.push_again(attachment_a, arm_a, ends[0], &mut self.interface_right);
+            interface.push_again(attachment_b, arm_b, ends[1], &mut self.interface_right);
         }
-        hubs.solve_again(&mut self.hub_right, &mut self.hub_step);
+        interface.solve_again(&mut self.interface_right, &mut self.interface_step);
         for (index, line) in lines() {
-            let ends = [seats[line.from], seats[line.to]]
-                .map(|(seat, arm)| hubs.step_again(seat, arm, &self.hub_step));
+            let ends = [attachments[line.from], attachments[line.to]].map(|(attachment, arm)| {
+                interface.step_again(attachment, arm, &self.interface_step)
+            });
             let (nodes, segments) = (&model.line_nodes[index], &model.line_segments[index]);
-            let a_moves = seats[line.from].0 != Seat::Fixed;
-            band.substitute_again((nodes, segments), a_moves, ends, &self.right, &mut self.step);
+            let a_moves = attachments[line.from].0 != Attachment::Fixed;
+            tridiagonal.substitute_again(
+                (nodes, segments),
+                a_moves,
+                ends,
+                &self.right,
+                &mut self.step,
+            );
         }
     }
 }
 
-impl Band {
+impl BlockTridiagonal {
     /// Eliminates the inner nodes from another right-hand side, after [`eliminate`](Self::eliminate); what is left on both ends.
     fn reduce_again<T: Columns>(
         &self,
@@ -148,40 +161,48 @@ impl Band {
 
 impl Solver {
     /// Corrects the solved step for the touches of ropes.
-    pub(super) fn solve_coupled(&mut self, model: &Model) {
-        if self.coupling.touches.is_empty() {
+    pub(super) fn correct_for_rope_contact(&mut self, model: &Model) {
+        if self.woodbury.touches.is_empty() {
             return;
         }
-        let mut coupling = std::mem::take(&mut self.coupling);
-        let mut seats = std::mem::take(&mut self.seats);
-        seats.clear();
-        seats.extend(self.plan.seats.iter().map(|seat| (*seat, self.arm(*seat))));
-        coupling.measure(model, &self.band, &self.hubs, &seats);
-        coupling.solve_dense(&self.band.step);
-        coupling.correct(model, &self.band, &self.hubs, &seats);
-        for (step, less) in self.band.step.iter_mut().zip(&coupling.one.step) {
+        let mut woodbury = std::mem::take(&mut self.woodbury);
+        let mut attachments = std::mem::take(&mut self.attachments);
+        attachments.clear();
+        attachments.extend(
+            self.plan.attachments.iter().map(|attachment| (*attachment, self.arm(*attachment))),
+        );
+        woodbury.measure(model, &self.tridiagonal, &self.interface, &attachments);
+        woodbury.solve_dense(&self.tridiagonal.step);
+        woodbury.correct(model, &self.tridiagonal, &self.interface, &attachments);
+        for (step, less) in self.tridiagonal.step.iter_mut().zip(&woodbury.one.step) {
             *step -= *less;
         }
-        for (step, less) in self.hubs.step.iter_mut().zip(&coupling.one.hub_step) {
+        for (step, less) in self.interface.step.iter_mut().zip(&woodbury.one.interface_step) {
             *step -= *less;
         }
-        (self.coupling, self.seats) = (coupling, seats);
+        (self.woodbury, self.attachments) = (woodbury, attachments);
     }
 }
 
-impl Coupling {
+impl Woodbury {
     /// Writes `1 + B S`, three columns a touch.
-    fn measure(&mut self, model: &Model, band: &Band, hubs: &Hubs, seats: &[(Seat, DVec3)]) {
+    fn measure(
+        &mut self,
+        model: &Model,
+        tridiagonal: &BlockTridiagonal,
+        interface: &InterfaceSystem,
+        attachments: &[(Attachment, DVec3)],
+    ) {
         let rows = 3 * self.touches.len();
         self.matrix.clear();
         self.matrix.resize(rows * rows, 0.0);
         self.lines.clear();
         self.lines.extend(model.line_nodes.iter().map(|nodes| {
-            let here = |touch: &Coupled| touch.nodes.iter().any(|node| nodes.contains(node));
+            let here = |touch: &ContactBlock| touch.nodes.iter().any(|node| nodes.contains(node));
             self.touches.iter().any(here)
         }));
         for column in 0..self.touches.len() {
-            self.three.begin(model.node_count, hubs.step.len());
+            self.three.begin(model.node_count, interface.step.len());
             for (nodes, _) in model.line_nodes.iter().zip(&self.lines).filter(|(_, there)| **there)
             {
                 self.three.right[nodes.clone()].fill(DMat3::ZERO);
@@ -189,7 +210,7 @@ impl Coupling {
             for (node, weight) in self.touches[column].weights() {
                 self.three.right[node] += DMat3::from_diagonal(DVec3::splat(weight));
             }
-            self.three.solve(model, band, hubs, seats, |line| self.lines[line]);
+            self.three.solve(model, tridiagonal, interface, attachments, |line| self.lines[line]);
             for (row, touch) in self.touches.iter().enumerate() {
                 let block = touch.block * touch.relative(&self.three.step);
                 for (k, values) in block.to_cols_array_2d().iter().enumerate() {
@@ -214,15 +235,21 @@ impl Coupling {
     }
 
     /// `A⁻¹ Wᵀ λ`, into `one`.
-    fn correct(&mut self, model: &Model, band: &Band, hubs: &Hubs, seats: &[(Seat, DVec3)]) {
-        self.one.begin(model.node_count, hubs.step.len());
+    fn correct(
+        &mut self,
+        model: &Model,
+        tridiagonal: &BlockTridiagonal,
+        interface: &InterfaceSystem,
+        attachments: &[(Attachment, DVec3)],
+    ) {
+        self.one.begin(model.node_count, interface.step.len());
         self.one.right.fill(DVec3::ZERO);
         for (touch, force) in self.touches.iter().zip(self.lambda.chunks_exact(3)) {
             for (node, weight) in touch.weights() {
                 self.one.right[node] += DVec3::from_slice(force) * weight;
             }
         }
-        self.one.solve(model, band, hubs, seats, |_| true);
+        self.one.solve(model, tridiagonal, interface, attachments, |_| true);
     }
 }
 

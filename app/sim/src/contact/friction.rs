@@ -13,7 +13,7 @@ use super::account::Account;
 use super::crease::Faces;
 use super::grain::grain;
 use super::near::{Near, on_triangle};
-use super::slots::{Slot, Slots};
+use super::points::{SkinContactPoint, SkinContactPoints};
 use super::touch::Touch;
 use crate::model::{Friction, FrictionLaw, Model};
 use crate::state::{FrictionState, State};
@@ -38,23 +38,23 @@ struct Group {
     floats: Range<usize>,
 }
 
-/// A slot in touch, and the law that holds there.
+/// A contact point in touch, and the law that holds there.
 #[derive(Clone, Copy, Debug)]
 struct Found {
     law: usize,
-    slot: usize,
+    point: usize,
     face: usize,
     touch: Touch,
 }
 
-/// Arrays handed to the friction plugins in a pass, one entry for each slot in touch, law by law.
+/// Arrays handed to the friction plugins in a pass, one entry for each contact point in touch, law by law.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Touching {
-    /// Index of the slot.
-    pub slot: Vec<usize>,
-    /// Which of the faces that the slot touches.
+    /// Index of the contact point.
+    pub point: Vec<usize>,
+    /// Which of the faces that the contact point touches.
     pub face: Vec<usize>,
-    /// Places in these arrays, in rising order of slot.
+    /// Places in these arrays, in rising order of contact point.
     pub in_order: Vec<usize>,
     found: Vec<Found>,
     groups: Vec<Group>,
@@ -75,47 +75,47 @@ pub(crate) struct Touching {
 }
 
 impl Touching {
-    /// Collects the slots in touch, as `touches_of` tells it.
+    /// Collects the contact points in touch, as `touches_of` tells it.
     pub fn collect(
         &mut self,
         model: &Model,
         near: &Near,
-        slots: &Slots,
+        points: &SkinContactPoints,
         state: &State,
-        touches_of: impl Fn(&Slot) -> Faces,
+        touches_of: impl Fn(&SkinContactPoint) -> Faces,
     ) {
         self.clear();
         let (Some(whale), Some(friction)) = (&model.spec.whale, &model.spec.friction) else {
             return;
         };
-        for (slot, at) in slots.list.iter().enumerate() {
+        for (point, at) in points.list.iter().enumerate() {
             for (face, touch) in touches_of(at).into_iter().enumerate() {
                 let Some(touch) = touch else { continue };
                 let region = whale.skin.regions[near.skin_of(touch.pair).triangle as usize];
                 let rope = model.spec.lines[model.segment_line[at.segment]].rope;
                 self.found.push(Found {
                     law: friction.law_of[rope][region as usize],
-                    slot,
+                    point,
                     face,
                     touch,
                 });
             }
         }
         if friction.laws.len() > 1 {
-            self.found.sort_unstable_by_key(|found| (found.law, found.slot, found.face));
+            self.found.sort_unstable_by_key(|found| (found.law, found.point, found.face));
         }
         for place in 0..self.found.len() {
-            self.put(model, friction, near, slots, state, place);
+            self.put(model, friction, near, points, state, place);
         }
-        self.in_order.extend(0..self.slot.len());
+        self.in_order.extend(0..self.point.len());
         if friction.laws.len() > 1 {
-            self.in_order.sort_unstable_by_key(|place| (self.slot[*place], self.face[*place]));
+            self.in_order.sort_unstable_by_key(|place| (self.point[*place], self.face[*place]));
         }
-        self.response.resize(self.slot.len(), FrictionResponse::default());
+        self.response.resize(self.point.len(), FrictionResponse::default());
     }
 
     fn clear(&mut self) {
-        self.slot.clear();
+        self.point.clear();
         self.face.clear();
         self.in_order.clear();
         self.found.clear();
@@ -140,36 +140,36 @@ impl Touching {
         model: &Model,
         friction: &Friction,
         near: &Near,
-        slots: &Slots,
+        points: &SkinContactPoints,
         state: &State,
         place: usize,
     ) {
         let Some(whale) = &model.spec.whale else { return };
-        let Found { law, slot: index, face, touch } = self.found[place];
-        let (slot, pair) = (&slots.list[index], near.skin_of(touch.pair));
+        let Found { law, point: index, face, touch } = self.found[place];
+        let (point, pair) = (&points.list[index], near.skin_of(touch.pair));
         let region = whale.skin.regions[pair.triangle as usize];
-        let rope = model.spec.lines[model.segment_line[slot.segment]].rope;
-        let rope_move = touch.place - slot.on_rope(|node| state.rope.position[node]);
+        let rope = model.spec.lines[model.segment_line[point.segment]].rope;
+        let rope_move = touch.place - point.on_rope(|node| state.rope.position[node]);
         let skin_move = on_triangle(pair.now, touch.barycentric)
             - on_triangle(pair.sweep[0], touch.barycentric);
         let slip = rope_move - skin_move;
-        self.slot.push(index);
+        self.point.push(index);
         self.face.push(face);
-        self.normal_force.push(touch.press.force);
+        self.normal_force.push(touch.barrier.force);
         self.normal.push(touch.normal.to_array());
         self.grain
             .push(grain(&whale.skin, pair.triangle as usize, pair.now, touch.normal).to_array());
         self.along.push(
-            (state.rope.position[slot.node + 1] - state.rope.position[slot.node])
+            (state.rope.position[point.node + 1] - state.rope.position[point.node])
                 .normalize_or(touch.normal)
                 .to_array(),
         );
         self.slip.push((slip - touch.normal * slip.dot(touch.normal)).to_array());
-        self.length.push(slot.length);
+        self.length.push(point.length);
         self.coefficient.push(friction.coefficients[rope][region as usize]);
         self.region.push(region as u32);
         self.rope.push(u32::try_from(rope).unwrap_or(u32::MAX));
-        self.put_floats(friction, law, slot.site(face), &state.rope.friction);
+        self.put_floats(friction, law, point.site(face), &state.rope.friction);
         self.put_in_group(law, place);
     }
 
@@ -235,7 +235,7 @@ impl Touching {
         &mut self,
         friction: &Friction,
         dt_s: f64,
-        slots: &Slots,
+        points: &SkinContactPoints,
         grips: &mut FrictionState,
     ) -> Result<(), Failed> {
         let mut ends = std::mem::take(&mut self.floats_at_end);
@@ -255,7 +255,7 @@ impl Touching {
         self.floats_at_end = ends;
         advanced?;
         self.settle_accounts(friction)?;
-        self.keep(friction, slots, grips);
+        self.keep(friction, points, grips);
         Ok(())
     }
 
@@ -273,7 +273,7 @@ impl Touching {
         Ok(())
     }
 
-    fn keep(&self, friction: &Friction, slots: &Slots, grips: &mut FrictionState) {
+    fn keep(&self, friction: &Friction, points: &SkinContactPoints, grips: &mut FrictionState) {
         let stride = KEPT + friction.state_len();
         grips.clear();
         for place in &self.in_order {
@@ -284,7 +284,7 @@ impl Touching {
             let width = friction.laws[group.law].model.descriptor().state_len;
             let from = group.floats.start + (place - group.contacts.start) * width;
             let Account { taken_j, given_j } = self.account[*place];
-            grips.sites.push(slots.list[self.slot[*place]].site(self.face[*place]));
+            grips.sites.push(points.list[self.point[*place]].site(self.face[*place]));
             grips.floats.extend_from_slice(&[group.law as f64, taken_j, given_j]);
             grips.floats.extend_from_slice(&self.floats_at_end[from..from + width]);
             grips.floats.resize(grips.sites.len() * stride, 0.0);

@@ -50,7 +50,7 @@ fn balance(longest: f64, mut slope: impl FnMut(f64) -> f64) -> f64 {
 
 impl Solver {
     /// Share of the solved step to take with contact, at most `safe`.
-    pub(super) fn search(
+    pub(super) fn line_search(
         &self,
         model: &Model,
         state: &State,
@@ -65,7 +65,7 @@ impl Solver {
     }
 
     /// Share of the solved step to take without a whale, at most `longest`.
-    pub(crate) fn search_free(
+    pub(crate) fn line_search_free(
         &self,
         model: &Model,
         state: &State,
@@ -76,7 +76,7 @@ impl Solver {
     }
 
     fn free_slope(&self, model: &Model, state: &State, scheme: &Scheme, share: f64) -> f64 {
-        self.rest_slope(share)
+        self.linear_slope(share)
             + self.rope_slope(model, scheme, share)
             + self.bending_slope(model, share)
             + self.solid_slope(state, scheme, share)
@@ -84,11 +84,16 @@ impl Solver {
     }
 
     /// Slope of what is linear along the step: inertia, weight, drag, seabed, bodies.
-    fn rest_slope(&self, share: f64) -> f64 {
-        let nodes: f64 = (self.rest.force.iter().zip(&self.rest.diagonal).zip(&self.band.step))
-            .map(|((force, diagonal), step)| step.dot(*diagonal * *step) * share - force.dot(*step))
-            .sum();
-        nodes + self.rest.hubs.slope(&self.hubs.step, &self.plan.body_block, share)
+    fn linear_slope(&self, share: f64) -> f64 {
+        let nodes: f64 = (self
+            .linear_part
+            .force
+            .iter()
+            .zip(&self.linear_part.diagonal)
+            .zip(&self.tridiagonal.step))
+        .map(|((force, diagonal), step)| step.dot(*diagonal * *step) * share - force.dot(*step))
+        .sum();
+        nodes + self.linear_part.interface.slope(&self.interface.step, &self.plan.body_block, share)
     }
 
     /// Slope of the energy of stretched rope.
@@ -102,7 +107,8 @@ impl Solver {
                 .filter(|(_, segment)| !self.cut[*segment])
             {
                 let pull = self.pull_moved(segment, first_node + k, scheme, share);
-                slope += pull.tension.max(0.0) * pull.stretch(&self.band.step, first_node + k);
+                slope +=
+                    pull.tension.max(0.0) * pull.stretch(&self.tridiagonal.step, first_node + k);
             }
         }
         slope
@@ -118,21 +124,22 @@ impl Solver {
         share: f64,
     ) -> f64 {
         let Some(friction) = &model.spec.friction else { return 0.0 };
-        let ContactWorkspace { near, slots, probe, .. } = work;
-        let step_of =
-            |slot: &crate::contact::slots::Slot| slot.on_rope(|node| self.band.step[node]);
-        probe.collect(model, near, slots, state, |slot| {
-            slot.touches_moved(
+        let ContactWorkspace { near, points, probe, .. } = work;
+        let step_of = |point: &crate::contact::points::SkinContactPoint| {
+            point.on_rope(|node| self.tridiagonal.step[node])
+        };
+        probe.collect(model, near, points, state, |point| {
+            point.touches_moved(
                 near,
-                slot.on_rope(|node| self.trial.place[node]),
-                step_of(slot) * share,
+                point.on_rope(|node| self.trial.place[node]),
+                step_of(point) * share,
             )
         });
         if probe.respond(friction, scheme.dt).is_err() {
             return f64::INFINITY;
         }
-        -(0..probe.slot.len())
-            .map(|place| probe.force_of(place).dot(step_of(&slots.list[probe.slot[place]])))
+        -(0..probe.point.len())
+            .map(|place| probe.force_of(place).dot(step_of(&points.list[probe.point[place]])))
             .sum::<f64>()
     }
 }

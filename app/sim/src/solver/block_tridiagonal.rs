@@ -1,7 +1,7 @@
 //! Direct solve of one line: elimination of its inner nodes down to its two ends.
 //!
 //! The matrix of a line of nodes 0..=n is block-tridiagonal (3×3 blocks). Eliminating nodes
-//! 1..n-1 in turn leaves a 2×2 block system on the ends, which joins the hubs (`hubs.rs`);
+//! 1..n-1 in turn leaves a 2×2 block system on the ends, which joins the interface system (`interface.rs`);
 //! back-substitution then gives the inner nodes. Cost is linear in n, with no limit from stiffness.
 //! While node k is eliminated its row couples to k+1 and, by fill, to end A.
 
@@ -11,7 +11,7 @@ use glam::{DMat3, DVec3};
 
 /// Matrix and right-hand side of all lines, in the model's node and segment layout.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Band {
+pub(crate) struct BlockTridiagonal {
     /// Diagonal block of each node.
     pub diagonal: Vec<DMat3>,
     /// Block of each segment: row of its first node, column of its second.
@@ -40,7 +40,7 @@ pub(crate) struct Ends {
     pub force_b: DVec3,
 }
 
-impl Band {
+impl BlockTridiagonal {
     /// Storage for so many nodes and segments.
     pub fn new(nodes: usize, segments: usize) -> Self {
         Self {

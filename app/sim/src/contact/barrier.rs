@@ -21,7 +21,7 @@ pub(crate) const CRUSHED_SHARE: f64 = 0.02;
 
 /// Push of the skin at one distance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Press {
+pub(crate) struct BarrierForce {
     /// Energy stored [J].
     pub energy: f64,
     /// Normal force [N].
@@ -30,15 +30,15 @@ pub(crate) struct Press {
     pub stiffness: f64,
 }
 
-impl Press {
-    /// Push at distance `distance` for a contact distance `reach` and stiffness `stiffness` (per metre
+impl BarrierForce {
+    /// Push at distance `distance` for a contact distance `contact_distance` and stiffness `stiffness` (per metre
     /// of rope, times the length of rope) [N/m].
-    pub fn new(distance: f64, reach: f64, stiffness: f64) -> Self {
-        let depth = reach - distance;
+    pub fn new(distance: f64, contact_distance: f64, stiffness: f64) -> Self {
+        let depth = contact_distance - distance;
         if depth <= 0.0 {
             return Self::default();
         }
-        let room = reach * (1.0 - LEAST_SHARE);
+        let room = contact_distance * (1.0 - LEAST_SHARE);
         let u = depth / room;
         let at = |u: f64| Self {
             energy: stiffness * room * room * (-libm::log1p(-u) - u),
@@ -64,12 +64,12 @@ mod tests {
     #[test]
     fn force_and_stiffness_are_derivatives_of_the_energy() {
         for distance in [0.0059, 0.004, 0.002, 0.001_502, 0.001] {
-            let (reach, stiffness, step) = (0.006, 5e4, 1e-9);
+            let (contact_distance, stiffness, step) = (0.006, 5e4, 1e-9);
             let (ahead, behind) = (
-                Press::new(distance - step, reach, stiffness),
-                Press::new(distance + step, reach, stiffness),
+                BarrierForce::new(distance - step, contact_distance, stiffness),
+                BarrierForce::new(distance + step, contact_distance, stiffness),
             );
-            let here = Press::new(distance, reach, stiffness);
+            let here = BarrierForce::new(distance, contact_distance, stiffness);
             assert!(
                 ((ahead.energy - behind.energy) / (2.0 * step) / here.force - 1.0).abs() < 1e-4,
                 "{distance}"
@@ -79,6 +79,6 @@ mod tests {
                 "{distance}"
             );
         }
-        assert_eq!(Press::new(0.006, 0.006, 5e4), Press::default());
+        assert_eq!(BarrierForce::new(0.006, 0.006, 5e4), BarrierForce::default());
     }
 }

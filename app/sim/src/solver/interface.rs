@@ -1,6 +1,6 @@
-//! Direct solve of the hubs: free joints (one 3×3 block) and bodies (place and rotation, two blocks).
+//! Direct solve of the interface system: free joints (one 3×3 block) and bodies (place and rotation, two blocks).
 //!
-//! Lines reduced to their ends couple hubs pairwise. The block matrix is factored without pivoting
+//! Lines reduced to their ends couple interface blocks pairwise. The block matrix is factored without pivoting
 //! (inertia keeps its diagonal dominant) along an order of least degree found once per model, with
 //! the fill it causes laid out beforehand: trees of gear have none, a loop a few blocks.
 
@@ -10,7 +10,7 @@ use super::columns::Columns;
 
 /// Where a line's end sits.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Seat {
+pub(crate) enum Attachment {
     /// On a fixture: no freedom.
     Fixed,
     /// On a free joint with this block.
@@ -19,12 +19,12 @@ pub(crate) enum Seat {
     Body { block: usize, body: usize, offset: DVec3 },
 }
 
-/// Pattern, order and storage of the hub matrix.
+/// Pattern, order and storage of the interface matrix.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Hubs {
+pub(crate) struct InterfaceSystem {
     blocks: usize,
     /// Storage place of block (row, column), or `NONE`.
-    slot: Vec<u32>,
+    storage: Vec<u32>,
     order: Vec<usize>,
     /// For each block in `order`: the later blocks its row couples to.
     later: Vec<Vec<usize>>,
@@ -37,7 +37,7 @@ pub(crate) struct Hubs {
 
 const NONE: u32 = u32::MAX;
 
-impl Hubs {
+impl InterfaceSystem {
     /// Lays out the matrix for `blocks` blocks coupled in these pairs.
     pub fn new(blocks: usize, pairs: &[(usize, usize)]) -> Self {
         let mut coupled = vec![false; blocks * blocks];
@@ -49,15 +49,15 @@ impl Hubs {
             coupled[other * blocks + one] = true;
         }
         let (order, later) = order_of_least_degree(blocks, &mut coupled);
-        let mut slot = vec![NONE; blocks * blocks];
+        let mut storage = vec![NONE; blocks * blocks];
         let mut count = 0;
         for (place, _) in coupled.iter().enumerate().filter(|(_, there)| **there) {
-            slot[place] = count;
+            storage[place] = count;
             count += 1;
         }
         Self {
             blocks,
-            slot,
+            storage,
             order,
             later,
             value: vec![DMat3::ZERO; count as usize],
@@ -72,7 +72,7 @@ impl Hubs {
         self.force.fill(DVec3::ZERO);
     }
 
-    /// Takes over matrix and forces of hubs of the same layout.
+    /// Takes over matrix and forces of a system of the same layout.
     pub fn copy_values(&mut self, from: &Self) {
         self.value.clone_from(&from.value);
         self.force.clone_from(&from.force);
@@ -80,18 +80,18 @@ impl Hubs {
 
     /// The block at (row, column), which the layout must hold.
     pub fn at(&mut self, row: usize, column: usize) -> &mut DMat3 {
-        let slot = self.slot[row * self.blocks + column];
-        debug_assert!(slot != NONE, "hub block ({row}, {column}) is not in the layout");
-        &mut self.value[slot as usize]
+        let storage = self.storage[row * self.blocks + column];
+        debug_assert!(storage != NONE, "hub block ({row}, {column}) is not in the layout");
+        &mut self.value[storage as usize]
     }
 
-    /// Adds a block that acts between the points of two seats; `row_arm` and `column_arm` lead from a
+    /// Adds a block that acts between the points of two attachments; `row_arm` and `column_arm` lead from a
     /// body's origin to its point in the world frame.
     pub fn add(
         &mut self,
-        row: Seat,
+        row: Attachment,
         row_arm: DVec3,
-        column: Seat,
+        column: Attachment,
         column_arm: DVec3,
         value: DMat3,
     ) {
@@ -102,19 +102,19 @@ impl Hubs {
         }
     }
 
-    /// Adds a force at the point of a seat.
-    pub fn push(&mut self, seat: Seat, arm: DVec3, force: DVec3) {
-        for (block, part) in parts(seat, arm) {
+    /// Adds a force at the point of an attachment.
+    pub fn push(&mut self, attachment: Attachment, arm: DVec3, force: DVec3) {
+        for (block, part) in parts(attachment, arm) {
             self.force[block] += part.transpose() * force;
         }
     }
 
-    /// Move of the point of a seat.
-    pub fn step_of(&self, seat: Seat, arm: DVec3) -> DVec3 {
-        parts(seat, arm).map(|(block, part)| part * self.step[block]).sum()
+    /// Move of the point of an attachment.
+    pub fn step_of(&self, attachment: Attachment, arm: DVec3) -> DVec3 {
+        parts(attachment, arm).map(|(block, part)| part * self.step[block]).sum()
     }
 
-    /// Slope of `½ xᵀAx - f·x` at a share of a step, for two-block hubs (bodies) as assembled.
+    /// Slope of `½ xᵀAx - f·x` at a share of a step, for bodies (two blocks each) as assembled.
     pub fn slope(&self, step: &[DVec3], body_block: &[usize], share: f64) -> f64 {
         let mut slope = 0.0;
         for block in body_block {
@@ -122,7 +122,7 @@ impl Hubs {
                 let columns = [*block, block + 1];
                 let bent: DVec3 = columns
                     .map(|column| {
-                        self.value[self.slot[row * self.blocks + column] as usize] * step[column]
+                        self.value[self.storage[row * self.blocks + column] as usize] * step[column]
                     })
                     .into_iter()
                     .sum();
@@ -141,25 +141,33 @@ impl Hubs {
             let block = self.order[place];
             let mut right = self.force[block];
             for &other in &self.later[place] {
-                right -=
-                    self.value[self.slot[block * self.blocks + other] as usize] * self.step[other];
+                right -= self.value[self.storage[block * self.blocks + other] as usize]
+                    * self.step[other];
             }
             // The diagonal was replaced by its inverse in `eliminate`.
-            self.step[block] = self.value[self.slot[block * self.blocks + block] as usize] * right;
+            self.step[block] =
+                self.value[self.storage[block * self.blocks + block] as usize] * right;
         }
     }
 
-    /// Adds a force, or several, at the point of a seat to another right-hand side.
-    pub fn push_again<T: Columns>(&self, seat: Seat, arm: DVec3, force: T, right: &mut [T]) {
-        for (block, part) in parts(seat, arm) {
+    /// Adds a force, or several, at the point of an attachment to another right-hand side.
+    pub fn push_again<T: Columns>(
+        &self,
+        attachment: Attachment,
+        arm: DVec3,
+        force: T,
+        right: &mut [T],
+    ) {
+        for (block, part) in parts(attachment, arm) {
             right[block] += force.by(part.transpose());
         }
     }
 
     /// Solves for another right-hand side, after [`solve`](Self::solve).
     pub fn solve_again<T: Columns>(&self, right: &mut [T], step: &mut [T]) {
-        let at =
-            |row: usize, column: usize| self.value[self.slot[row * self.blocks + column] as usize];
+        let at = |row: usize, column: usize| {
+            self.value[self.storage[row * self.blocks + column] as usize]
+        };
         for (place, &block) in self.order.iter().enumerate() {
             let moved = right[block].by(at(block, block));
             for &row in &self.later[place] {
@@ -175,10 +183,10 @@ impl Hubs {
         }
     }
 
-    /// Move of the point of a seat in such a solution.
-    pub fn step_again<T: Columns>(&self, seat: Seat, arm: DVec3, step: &[T]) -> T {
+    /// Move of the point of an attachment in such a solution.
+    pub fn step_again<T: Columns>(&self, attachment: Attachment, arm: DVec3, step: &[T]) -> T {
         let mut sum = T::ZERO;
-        for (block, part) in parts(seat, arm) {
+        for (block, part) in parts(attachment, arm) {
             sum += step[block].by(part);
         }
         sum
@@ -186,16 +194,17 @@ impl Hubs {
 
     fn eliminate(&mut self, place: usize) {
         let block = self.order[place];
-        let diagonal = self.slot[block * self.blocks + block] as usize;
+        let diagonal = self.storage[block * self.blocks + block] as usize;
         let inverse = self.value[diagonal].inverse();
         self.value[diagonal] = inverse;
         for row_place in 0..self.later[place].len() {
             let row = self.later[place][row_place];
-            let across = self.value[self.slot[row * self.blocks + block] as usize] * inverse;
+            let across = self.value[self.storage[row * self.blocks + block] as usize] * inverse;
             for column_place in 0..self.later[place].len() {
                 let column = self.later[place][column_place];
-                let taken = across * self.value[self.slot[block * self.blocks + column] as usize];
-                self.value[self.slot[row * self.blocks + column] as usize] -= taken;
+                let taken =
+                    across * self.value[self.storage[block * self.blocks + column] as usize];
+                self.value[self.storage[row * self.blocks + column] as usize] -= taken;
             }
             let taken = across * self.force[block];
             self.force[row] -= taken;
@@ -203,12 +212,12 @@ impl Hubs {
     }
 }
 
-/// Blocks of a seat with the 3×3 map from the block's move to the move of the point.
-fn parts(seat: Seat, arm: DVec3) -> impl Iterator<Item = (usize, DMat3)> {
-    let list = match seat {
-        Seat::Fixed => [None, None],
-        Seat::Free(block) => [Some((block, DMat3::IDENTITY)), None],
-        Seat::Body { block, .. } => {
+/// Blocks of an attachment with the 3×3 map from the block's move to the move of the point.
+fn parts(attachment: Attachment, arm: DVec3) -> impl Iterator<Item = (usize, DMat3)> {
+    let list = match attachment {
+        Attachment::Fixed => [None, None],
+        Attachment::Free(block) => [Some((block, DMat3::IDENTITY)), None],
+        Attachment::Body { block, .. } => {
             [Some((block, DMat3::IDENTITY)), Some((block + 1, -cross_matrix(arm)))]
         }
     };
@@ -250,13 +259,13 @@ fn order_of_least_degree(blocks: usize, coupled: &mut [bool]) -> (Vec<usize>, Ve
 mod tests {
     use super::*;
 
-    /// Solves a loop of hubs and checks the product with the matrix as it was.
+    /// Solves a loop of interface blocks and checks the product with the matrix as it was.
     #[test]
     fn a_loop_of_hubs_is_solved_exactly() {
         let blocks = 5;
         let pairs: Vec<(usize, usize)> =
             (0..blocks).map(|block| (block, (block + 1) % blocks)).collect();
-        let mut hubs = Hubs::new(blocks, &pairs);
+        let mut interface = InterfaceSystem::new(blocks, &pairs);
         let mut dense = vec![DMat3::ZERO; blocks * blocks];
         for (index, &(one, other)) in pairs.iter().enumerate() {
             let size = 1.0 + index as f64;
@@ -270,17 +279,18 @@ mod tests {
                 (other, one, block.transpose()),
                 (one, one, DMat3::from_diagonal(DVec3::splat(9.0 + size))),
             ] {
-                *hubs.at(row, column) += value;
+                *interface.at(row, column) += value;
                 dense[row * blocks + column] += value;
             }
         }
         let right: Vec<DVec3> =
             (0..blocks).map(|block| DVec3::new(1.0, block as f64, -2.0)).collect();
-        hubs.force.copy_from_slice(&right);
-        hubs.solve();
+        interface.force.copy_from_slice(&right);
+        interface.solve();
         for row in 0..blocks {
-            let product: DVec3 =
-                (0..blocks).map(|column| dense[row * blocks + column] * hubs.step[column]).sum();
+            let product: DVec3 = (0..blocks)
+                .map(|column| dense[row * blocks + column] * interface.step[column])
+                .sum();
             assert!((product - right[row]).length() < 1e-12);
         }
     }

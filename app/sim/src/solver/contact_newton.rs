@@ -1,19 +1,19 @@
 //! Newton with contact: push and friction inside the rope solve, every move filtered and searched.
 //!
-//! A contact slot at fraction `α` of a segment acts on its two nodes with weights `1 - α` and `α`, so the
+//! A contact point at fraction `α` of a segment acts on its two nodes with weights `1 - α` and `α`, so the
 //! matrix stays block-tridiagonal. Push: `N n`, block `N' n nᵀ`. Friction `f(s, N)` from the plugin:
 //! block `-∂f/∂s + (∂f/∂N)(N' n)ᵀ`, not symmetric, with the normal force coupled in.
-//! Each move is cut by the sweep filter (`contact/near.rs`), then searched along for balance (`search.rs`).
+//! Each move is cut by the sweep filter (`contact/near.rs`), then searched along for balance (`line_search.rs`).
 
 use glam::{DMat3, DVec3};
 
 use super::Solver;
 use super::rope::outer;
 use super::scheme::Scheme;
-use crate::contact::grip::Failed;
-use crate::contact::law::CRUSHED_SHARE;
+use crate::contact::barrier::CRUSHED_SHARE;
+use crate::contact::friction::Failed;
 use crate::contact::workspace::ContactWorkspace;
-use crate::contact::{grip, near};
+use crate::contact::{friction, near};
 use crate::model::Model;
 use crate::state::State;
 
@@ -36,7 +36,7 @@ pub(crate) const TENSION_GAP_N: f64 = 2.0;
 /// The same as a share of the greatest tension.
 pub(crate) const TENSION_GAP_SHARE: f64 = 0.02;
 /// Most times taut and slack are judged anew in a pass.
-const MOST_JUDGED: usize = 30;
+const MOST_ACTIVE_SETS: usize = 30;
 /// Most times a move is cut because bodies turn.
 pub(super) const MOST_CUTS: usize = 12;
 /// Least share a cut leaves.
@@ -61,7 +61,7 @@ pub(crate) enum ContactEnd {
 
 impl Solver {
     /// Newton passes at the skin's present place until the moves are small.
-    pub(crate) fn solve_touching(
+    pub(crate) fn solve_contact(
         &mut self,
         model: &Model,
         state: &State,
@@ -69,29 +69,29 @@ impl Solver {
         work: &mut ContactWorkspace,
     ) -> ContactEnd {
         let (mut last_m, mut crossings) = (f64::INFINITY, 0);
-        work.open_slots(model, &self.lengths.segment, &self.trial.place);
+        work.open_points(model, &self.lengths.segment, &self.trial.place);
         let (mut passes, mut stalled) = (0, 0);
         while passes < MOST_PASSES && stalled < MOST_STALLED && last_m > enough(passes) {
             passes += 1;
             if let Err(ended) = self.assemble_touching(model, state, scheme, work) {
                 return ended;
             }
-            self.solve_judged(model, state, scheme, Some(work));
+            self.solve_active_set(model, state, scheme, Some(work));
             let longest = self.longest();
             if !longest.is_finite() {
                 return ContactEnd::NotFinite;
             }
-            let moved = |node: usize| self.trial.place[node] + self.band.step[node];
+            let moved = |node: usize| self.trial.place[node] + self.tridiagonal.step[node];
             let safe = work.near.safe_share(&self.trial.place, moved, work.near.fraction);
             let safe = safe.min(self.ropes.safe_share(&self.trial.place, moved));
             let share = if longest * safe > UNSEARCHED_M {
-                self.search(model, state, scheme, work, safe)
+                self.line_search(model, state, scheme, work, safe)
             } else {
                 safe
             };
             let (taken, crossed) = self.move_by(model, work, share);
             crossings += crossed;
-            if self.strayed(state, scheme) > near::MARGIN_M - work.greatest_reach {
+            if self.strayed(state, scheme) > near::MARGIN_M - work.greatest_contact_distance {
                 return ContactEnd::TooFar;
             }
             // What a short share leaves is still to go.
@@ -112,7 +112,7 @@ impl Solver {
     ///
     /// Judged by where they are alone, slack rope that the step would draw taut stops the search along it after a small share,
     /// pass after pass: with segments of a centimetre the passes ran out before anything balanced.
-    pub(super) fn solve_judged(
+    pub(super) fn solve_active_set(
         &mut self,
         model: &Model,
         state: &State,
@@ -120,8 +120,8 @@ impl Solver {
         work: Option<&ContactWorkspace>,
     ) {
         self.solve(model);
-        for _ in 0..MOST_JUDGED {
-            self.foretell_tension(model, 1.0);
+        for _ in 0..MOST_ACTIVE_SETS {
+            self.predict_tension(model, 1.0);
             if self
                 .pull
                 .iter()
@@ -138,11 +138,11 @@ impl Solver {
         }
     }
 
-    /// Opens slots where rope has come nearer to skin or rope than at those it has; whether there were any.
+    /// Opens contact points where rope has come nearer to skin or rope than at those it has; whether there were any.
     fn open_more(&mut self, state: &State, work: &mut ContactWorkspace) -> bool {
-        work.slots.measure(&work.near, &self.trial.place);
+        work.points.measure(&work.near, &self.trial.place);
         let on_rope = self.ropes.open_more(state, &self.trial.place);
-        work.slots.open_more(&work.near, &self.trial.place) > 0 || on_rope
+        work.points.open_more(&work.near, &self.trial.place) > 0 || on_rope
     }
 
     /// Forces and matrix with contact at the trial places; what is linear in the search is kept apart.
@@ -154,7 +154,7 @@ impl Solver {
         work: &mut ContactWorkspace,
     ) -> Result<(), ContactEnd> {
         self.assemble_searchable(model, state, scheme);
-        work.slots.measure(&work.near, &self.trial.place);
+        work.points.measure(&work.near, &self.trial.place);
         if let Some((segment, triangle)) = work.nearer_than(CRUSHED_SHARE) {
             return Err(ContactEnd::Crushed(segment, triangle));
         }
@@ -172,25 +172,25 @@ impl Solver {
         work: &mut ContactWorkspace,
     ) -> Result<(), Failed> {
         let Some(friction) = &model.spec.friction else { return Ok(()) };
-        work.touching.collect(model, &work.near, &work.slots, state, |slot| slot.touches);
+        work.touching.collect(model, &work.near, &work.points, state, |point| point.touches);
         work.touching.respond(friction, scheme.dt)?;
         self.add_contact_blocks(work);
         Ok(())
     }
 
-    /// Adds push and friction of every slot in touch, with what the plugin answered.
+    /// Adds push and friction of every contact point in touch, with what the plugin answered.
     fn add_contact_blocks(&mut self, work: &ContactWorkspace) {
-        for (place, index) in work.touching.slot.iter().enumerate() {
-            let slot = &work.slots.list[*index];
-            let Some(touch) = &slot.touches[work.touching.face[place]] else { continue };
+        for (place, index) in work.touching.point.iter().enumerate() {
+            let point = &work.points.list[*index];
+            let Some(touch) = &point.touches[work.touching.face[place]] else { continue };
             let response = &work.touching.response[place];
-            let push = touch.normal * touch.press.stiffness;
-            let block = outer(push, touch.normal) - grip::matrix(&response.by_slip)
+            let push = touch.normal * touch.barrier.stiffness;
+            let block = outer(push, touch.normal) - friction::matrix(&response.by_slip)
                 + outer(DVec3::from_array(response.by_normal_force), push);
             self.add_at(
-                slot.segment,
-                slot.node,
-                slot.fraction,
+                point.segment,
+                point.node,
+                point.fraction,
                 work.touching.force_of(place),
                 &block,
             );
@@ -207,12 +207,12 @@ impl Solver {
         block: &DMat3,
     ) {
         let (first, second) = (1.0 - fraction, fraction);
-        self.band.force[node] += force * first;
-        self.band.force[node + 1] += force * second;
-        self.band.diagonal[node] += *block * (first * first);
-        self.band.diagonal[node + 1] += *block * (second * second);
-        self.band.up[segment] += *block * (first * second);
-        self.band.low[segment] += *block * (first * second);
+        self.tridiagonal.force[node] += force * first;
+        self.tridiagonal.force[node + 1] += force * second;
+        self.tridiagonal.diagonal[node] += *block * (first * first);
+        self.tridiagonal.diagonal[node + 1] += *block * (second * second);
+        self.tridiagonal.up[segment] += *block * (first * second);
+        self.tridiagonal.low[segment] += *block * (first * second);
     }
 
     /// Takes the tension of every segment at the trial places as it is.
@@ -238,7 +238,7 @@ impl Solver {
                 greatest = greatest.max(solved);
             }
         });
-        gap <= TENSION_GAP_N.min(self.fine().gap_n).max(TENSION_GAP_SHARE * greatest)
+        gap <= TENSION_GAP_N.min(self.tolerance().gap_n).max(TENSION_GAP_SHARE * greatest)
     }
 
     fn each_segment(&mut self, model: &Model, mut act: impl FnMut(&mut Self, usize, usize)) {
