@@ -25,16 +25,16 @@ impl Bounds {
         self.high = self.high.max(place);
     }
 
-    /// Whether a solid that goes from one pose to another may come this near.
-    fn meets(&self, solid: &Solid, [from, to]: &[Pose; 2], reach: f64) -> bool {
+    /// Whether a solid that goes from one pose to another may come within `search_distance`.
+    fn meets(&self, solid: &Solid, [from, to]: &[Pose; 2], search_distance: f64) -> bool {
         if solid.radius_m.is_finite() {
-            let low = from.place.min(to.place) - DVec3::splat(solid.radius_m + reach);
-            let high = from.place.max(to.place) + DVec3::splat(solid.radius_m + reach);
+            let low = from.place.min(to.place) - DVec3::splat(solid.radius_m + search_distance);
+            let high = from.place.max(to.place) + DVec3::splat(solid.radius_m + search_distance);
             return self.low.cmple(high).all() && low.cmple(self.high).all();
         }
         let normal = from.orientation * DVec3::Z;
         let (middle, half) = (0.5 * (self.low + self.high), 0.5 * (self.high - self.low));
-        normal.dot(middle - from.place) - normal.abs().dot(half) <= reach
+        normal.dot(middle - from.place) - normal.abs().dot(half) <= search_distance
     }
 }
 
@@ -51,6 +51,15 @@ struct Piece {
     segments: Range<usize>,
     nodes: Range<usize>,
     bounds: Bounds,
+}
+
+/// A segment whose box comes near a solid.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct NearSegment {
+    pub segment: usize,
+    /// First node of the segment.
+    pub node: usize,
+    pub line: usize,
 }
 
 impl Boxes {
@@ -90,28 +99,28 @@ impl Boxes {
         }
     }
 
-    /// Segments, with the first node and the line of each, whose box comes within reach of a solid.
+    /// Segments whose box comes within `search_distance` of a solid.
     pub fn near<'a>(
         &'a self,
         solid: &'a Solid,
         poses: &'a [Pose; 2],
-        reach: f64,
-    ) -> impl Iterator<Item = (usize, usize, usize)> + 'a {
+        search_distance: f64,
+    ) -> impl Iterator<Item = NearSegment> + 'a {
         let lines = self
             .lines
             .iter()
             .enumerate()
-            .filter(move |(_, (_, bounds))| bounds.meets(solid, poses, reach));
+            .filter(move |(_, (_, bounds))| bounds.meets(solid, poses, search_distance));
         lines.flat_map(move |(line, (pieces, _))| {
             let pieces = self.pieces[pieces.clone()]
                 .iter()
-                .filter(move |piece| piece.bounds.meets(solid, poses, reach));
+                .filter(move |piece| piece.bounds.meets(solid, poses, search_distance));
             pieces.flat_map(move |piece| {
                 piece
                     .segments
                     .clone()
                     .zip(piece.nodes.clone())
-                    .map(move |(segment, node)| (segment, node, line))
+                    .map(move |(segment, node)| NearSegment { segment, node, line })
             })
         })
     }

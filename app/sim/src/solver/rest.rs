@@ -110,7 +110,7 @@ impl Solver {
         let mut interface = self.interface.force.clone();
         for (line, nodes) in model.spec.lines.iter().zip(&model.line_nodes) {
             for (joint, node) in [(line.from, nodes.start), (line.to, nodes.end - 1)] {
-                self.hubs_push(&mut interface, joint, self.tridiagonal.force[node]);
+                self.push_interface(&mut interface, joint, self.tridiagonal.force[node]);
             }
         }
         let (body, now) = (&model.spec.bodies[index], &self.trial.bodies[index]);
@@ -161,12 +161,12 @@ impl Solver {
     }
 
     /// Multiplies the pseudo-mass of a line from here on.
-    pub(crate) fn burden_line(&mut self, line: usize, factor: f64) {
+    pub(crate) fn scale_pseudo_mass_of_line(&mut self, line: usize, factor: f64) {
         self.pseudo_mass_scale[line] *= factor;
     }
 
     /// Multiplies the pseudo-mass of a body from here on.
-    pub(crate) fn burden_body(&mut self, body: usize, factor: f64) {
+    pub(crate) fn scale_pseudo_mass_of_body(&mut self, body: usize, factor: f64) {
         self.trial.bodies[body].pseudo_mass_scale *= factor;
     }
 
@@ -187,7 +187,7 @@ impl Solver {
                 .fold(0.0, f64::max);
             offer(WorstAt::Line(index), inner);
             for (joint, node) in [(line.from, nodes.start), (line.to, nodes.end - 1)] {
-                self.hubs_push(&mut interface, joint, self.tridiagonal.force[node]);
+                self.push_interface(&mut interface, joint, self.tridiagonal.force[node]);
             }
         }
         for (joint, attachment) in self.plan.attachments.iter().enumerate() {
@@ -209,7 +209,7 @@ impl Solver {
         worst
     }
 
-    fn hubs_push(&self, interface: &mut [DVec3], joint: usize, force: DVec3) {
+    fn push_interface(&self, interface: &mut [DVec3], joint: usize, force: DVec3) {
         match self.plan.attachments[joint] {
             Attachment::Fixed => {}
             Attachment::Free(block) => interface[block] += force,

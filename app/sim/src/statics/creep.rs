@@ -52,8 +52,8 @@ impl<'a> Burdens<'a> {
         for (part, mass) in self.mass.iter_mut().enumerate().filter(|(part, _)| of(*part)) {
             let next = (*mass * factor).clamp(PSEUDO_MASS.0, PSEUDO_MASS.1);
             match part.checked_sub(lines) {
-                None => newton.solver.burden_line(part, next / *mass),
-                Some(body) => newton.solver.burden_body(body, next / *mass),
+                None => newton.solver.scale_pseudo_mass_of_line(part, next / *mass),
+                Some(body) => newton.solver.scale_pseudo_mass_of_body(body, next / *mass),
             }
             *mass = next;
         }

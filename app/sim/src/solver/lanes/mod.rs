@@ -1,29 +1,26 @@
 //! Free rope eight pieces at a time: the quick way through a solver step, in the lanes of the processor.
 //!
-//! A rig's lines are cut into pieces (`layout.rs`) that are worked on side by side (`sweep.rs`), each reduced to its ends;
+//! A rig's lines are cut into pieces (`layout.rs`) that are worked on side by side (`sweep.rs`), each reduced to its ends; rope is copied in
+//! (`input.rs`) and out (`output.rs`);
 //! the ends of a line's pieces are a short chain of their own (`block_tridiagonal.rs`), and the line's ends join the interface system as ever.
 //! The law is the one of `forces.rs`; eight lanes do what one would do eight times, to the bit.
 
+mod input;
 mod layout;
+mod output;
 pub(super) mod real;
 mod rows;
 pub(super) mod space;
 mod sweep;
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 use pulp::Arch;
 
 use super::block_tridiagonal::{BlockTridiagonal, Ends};
 use super::forces::{PerMetre, Shared};
-use super::lengths::Lengths;
-use super::scheme::Scheme;
-use super::trial::Trial;
 use crate::model::Model;
-use crate::state::RopeState;
 use layout::{Group, Piece};
-use rows::{
-    EndRows, GroundRow, LANES, MoveRows, NodeRow, Row, Row3, Row6, Row9, SegmentRow, Solved,
-};
+use rows::{EndRows, GroundRow, LANES, MoveRows, NodeRow, Row, Row3, SegmentRow, Solved};
 use sweep::{Backward, Forward, GroupRows};
 
 /// Rows of all groups, and the chains of their ends.
@@ -104,102 +101,17 @@ impl Lanes {
         model.sea.field().is_none()
     }
 
-    /// Takes over lengths, laws and what is cut, where they are not those there are.
-    pub fn take_lengths(&mut self, model: &Model, lengths: &Lengths, cut: &[bool]) {
-        if self.lengths == lengths.segment && self.cut == cut {
-            return;
-        }
-        self.lengths.clone_from(&lengths.segment);
-        cut.clone_into(&mut self.cut);
-        for group in &self.groups {
-            for (lane, piece) in group.pieces.iter().enumerate() {
-                let segments = &mut self.segments[group.segment_row..][..group.longest];
-                let nodes = &mut self.nodes[group.node_row..][..group.longest + 3];
-                let piece = &self.pieces[*piece];
-                take_lengths(piece, lane, (&mut *nodes, &mut *segments), lengths, cut);
-                if group.bends {
-                    take_hinges(model, piece, lane, (nodes, segments), (&lengths.segment, cut));
-                }
-            }
-        }
-    }
-
-    /// Takes over the rope as a step begins: `guess` of its places, and the water's velocity there.
-    pub fn gather(&mut self, state: &RopeState, scheme: &Scheme, guess: &[DVec3], flow: &[DVec3]) {
-        for group in &self.groups {
-            let first_nodes = group.pieces.map(|piece| self.pieces[piece].first_node);
-            let last_nodes = group
-                .pieces
-                .map(|piece| self.pieces[piece].first_node + self.pieces[piece].segments);
-            for (k, row) in
-                self.nodes[group.node_row + 1..][..=group.longest].iter_mut().enumerate()
-            {
-                for lane in 0..LANES {
-                    let node = (first_nodes[lane] + k).min(last_nodes[lane]);
-                    row.place.set(lane, guess[node]);
-                    row.place_history.set(
-                        lane,
-                        scheme.history(state.position[node], state.earlier_position[node]),
-                    );
-                    row.velocity_history.set(
-                        lane,
-                        scheme.history(state.velocity[node], state.earlier_velocity[node]),
-                    );
-                    row.flow.set(lane, flow[node]);
-                }
-            }
-            for lane in 0..group.used {
-                let piece = &self.pieces[group.pieces[lane]];
-                let segments = &mut self.segments[group.segment_row..][..piece.segments];
-                for (row, tension) in segments.iter_mut().zip(&state.tension[piece.first_segment..])
-                {
-                    row.tension.0[lane] = *tension;
-                }
-            }
-        }
-        self.refresh_ghosts();
-    }
-
-    /// Takes what the seabed does to nodes: forces and blocks, of which the symmetric part is kept (Newton then comes to the
-    /// same balance, a little slower where rope slides).
-    pub fn take_ground(&mut self, force: &[DVec3], block: &[DMat3]) {
-        self.ground.resize(self.nodes.len(), GroundRow::default());
-        for piece in &self.pieces {
-            let rows = &mut self.ground[self.groups[piece.group].node_row + 1..][..=piece.segments];
-            for (k, row) in rows.iter_mut().enumerate() {
-                let node = piece.first_node + k;
-                // Where two pieces meet, the first carries it.
-                let carried = k > 0 || !piece.follows;
-                row.set(
-                    piece.lane,
-                    if carried { (force[node], block[node]) } else { (DVec3::ZERO, DMat3::ZERO) },
-                );
-            }
-        }
-    }
-
-    /// Forgets the seabed.
-    pub fn leave_ground(&mut self) {
-        self.ground.clear();
-    }
-
-    /// Places of all nodes.
-    pub fn give_places(&self, place: &mut [DVec3]) {
-        for piece in &self.pieces {
-            let rows = &self.nodes[self.groups[piece.group].node_row + 1..][..=piece.segments];
-            for (place, row) in place[piece.first_node..].iter_mut().zip(rows) {
-                *place = row.place.vector(piece.lane);
-            }
-        }
-    }
-
     /// Forces, matrix and elimination of every piece, and of the chains of their ends.
     pub fn reduce(&mut self, shared: &Shared<f64>) {
         for (index, group) in self.groups.iter().enumerate() {
             let ground = self.ground.get(group.node_row..).unwrap_or_default();
             let rows = group_rows(
                 group,
-                (&mut self.nodes, &mut self.segments, &mut self.solved),
+                Rows {
+                    nodes: &mut self.nodes,
+                    segments: &mut self.segments,
+                    solved: &mut self.solved,
+                },
                 ground,
                 &self.ropes[index],
                 shared,
@@ -244,7 +156,11 @@ impl Lanes {
             let ground = self.ground.get(group.node_row..).unwrap_or_default();
             let rows = group_rows(
                 group,
-                (&mut self.nodes, &mut self.segments, &mut self.solved),
+                Rows {
+                    nodes: &mut self.nodes,
+                    segments: &mut self.segments,
+                    solved: &mut self.solved,
+                },
                 ground,
                 &self.ropes[index],
                 shared,
@@ -262,95 +178,9 @@ impl Lanes {
         moved
     }
 
-    /// Pull at an end of a line in the last solve: direction from its first node to its second, and tension predicted [N].
-    pub fn end_pull(&self, line: usize, at_b: bool) -> (DVec3, f64) {
-        let pieces = &self.line_pieces[line];
-        let piece = &self.pieces[if at_b { pieces.end - 1 } else { pieces.start }];
-        let row = self.groups[piece.group].segment_row + if at_b { piece.segments - 1 } else { 0 };
-        (self.solved[row].direction.vector(piece.lane), self.segments[row].tension.0[piece.lane])
-    }
-
-    /// Hands the places of all line ends to the trial.
-    pub fn give_ends(&self, model: &Model, trial: &mut Trial) {
-        for (line, pieces) in self.line_pieces.iter().enumerate() {
-            let nodes = &model.line_nodes[line];
-            trial.place[nodes.start] =
-                self.node(pieces.start, 0).place.vector(self.pieces[pieces.start].lane);
-            let last = &self.pieces[pieces.end - 1];
-            trial.place[nodes.end - 1] =
-                self.node(pieces.end - 1, last.segments).place.vector(last.lane);
-        }
-    }
-
-    /// Takes the places of all line ends from the trial, where joints and bodies have put them.
-    pub fn take_ends(&mut self, model: &Model, trial: &Trial) {
-        for line in 0..self.line_pieces.len() {
-            let (pieces, nodes) = (self.line_pieces[line].clone(), &model.line_nodes[line]);
-            self.put_place(pieces.start, 0, trial.place[nodes.start]);
-            self.put_place(
-                pieces.end - 1,
-                self.pieces[pieces.end - 1].segments,
-                trial.place[nodes.end - 1],
-            );
-        }
-        self.refresh_ghosts();
-    }
-
-    /// Hands the rope to the state as a step ends.
-    pub fn keep(&self, scheme: &Scheme, state: &mut RopeState) {
-        core::mem::swap(&mut state.earlier_position, &mut state.position);
-        core::mem::swap(&mut state.earlier_velocity, &mut state.velocity);
-        for piece in &self.pieces {
-            let group = &self.groups[piece.group];
-            let rows = &self.nodes[group.node_row + 1..][..=piece.segments];
-            for (row, node) in rows.iter().zip(piece.first_node..) {
-                let place = row.place.vector(piece.lane);
-                state.position[node] = place;
-                state.velocity[node] = (place - row.place_history.vector(piece.lane)) * scheme.rate;
-            }
-        }
-        self.give_tension(&mut state.tension);
-    }
-
-    /// Hands tensions over as the last solve predicted them.
-    pub fn give_tension(&self, tension: &mut [f64]) {
-        for piece in &self.pieces {
-            let rows = &self.segments[self.groups[piece.group].segment_row..][..piece.segments];
-            for (tension, row) in tension[piece.first_segment..].iter_mut().zip(rows) {
-                *tension = row.tension.0[piece.lane];
-            }
-        }
-    }
-
     /// Node `k` of a piece.
     fn node(&self, piece: usize, k: usize) -> &NodeRow {
         &self.nodes[self.groups[self.pieces[piece].group].node_row + 1 + k]
-    }
-
-    fn put_place(&mut self, piece: usize, k: usize, place: DVec3) {
-        let Piece { group, lane, .. } = self.pieces[piece];
-        let row = self.groups[group].node_row + 1 + k;
-        self.nodes[row].place.set(lane, place);
-    }
-
-    /// Puts before and behind each piece the node that the line has there, or at a line's end that end again.
-    fn refresh_ghosts(&mut self) {
-        for index in 0..self.pieces.len() {
-            let piece = self.pieces[index];
-            let before = if piece.follows {
-                (index - 1, self.pieces[index - 1].segments - 1)
-            } else {
-                (index, 0)
-            };
-            let behind = if piece.goes_on { (index + 1, 1) } else { (index, piece.segments) };
-            let place_of = |(piece, k): (usize, usize)| {
-                self.node(piece, k).place.vector(self.pieces[piece].lane)
-            };
-            let (before, behind) = (place_of(before), place_of(behind));
-            let first = self.groups[piece.group].node_row;
-            self.nodes[first].place.set(piece.lane, before);
-            self.nodes[first + piece.segments + 2].place.set(piece.lane, behind);
-        }
     }
 }
 
@@ -359,9 +189,17 @@ fn chain_nodes(line: usize, pieces: &core::ops::Range<usize>) -> core::ops::Rang
     pieces.start + line..pieces.end + line + 1
 }
 
+/// Rows of all groups.
+struct Rows<'a> {
+    nodes: &'a mut [NodeRow],
+    segments: &'a mut [SegmentRow],
+    solved: &'a mut [Solved],
+}
+
+/// The rows of one group, for a sweep.
 fn group_rows<'a>(
     group: &'a Group,
-    (nodes, segments, solved): (&'a mut [NodeRow], &'a mut [SegmentRow], &'a mut [Solved]),
+    Rows { nodes, segments, solved }: Rows<'a>,
     ground: &'a [GroundRow],
     rope: &'a PerMetre<Row>,
     shared: &'a Shared<f64>,
@@ -392,87 +230,6 @@ fn rope_rows(model: &Model, pieces: &[Piece], group: &Group) -> PerMetre<Row> {
         lift: row(|rope| rope.lift),
         across: row(|rope| rope.across),
         along: row(|rope| rope.along),
-    }
-}
-
-fn take_lengths(
-    piece: &Piece,
-    lane: usize,
-    (nodes, segments): (&mut [NodeRow], &mut [SegmentRow]),
-    lengths: &Lengths,
-    cut: &[bool],
-) {
-    let mut half_before = 0.0;
-    for k in 0..piece.segments {
-        let (row, segment) = (&mut segments[k], piece.first_segment + k);
-        let (length, law) = (lengths.segment[segment], &lengths.axial[segment]);
-        let whole = if cut[segment] { 0.0 } else { 1.0 };
-        row.length.0[lane] = length;
-        row.inverse_length.0[lane] = 1.0 / length;
-        row.ea.0[lane] = law.ea * whole;
-        row.ea2.0[lane] = law.ea2 * whole;
-        row.damping.0[lane] = law.damping * whole;
-        nodes[k + 1].length.0[lane] = half_before + 0.5 * length;
-        half_before = 0.5 * length;
-    }
-    nodes[piece.segments + 1].length.0[lane] = half_before;
-}
-
-/// Hinges of a piece, those where it meets the next included: `c = EI/L` at a node that is neither a line's end nor at a cut.
-fn take_hinges(
-    model: &Model,
-    piece: &Piece,
-    lane: usize,
-    (nodes, segments): (&mut [NodeRow], &mut [SegmentRow]),
-    (length, cut): (&[f64], &[bool]),
-) {
-    let bending = model.spec.ropes[model.spec.lines[piece.line].rope].bending_stiffness_n_m2;
-    for (k, row) in nodes[1..][..=piece.segments].iter_mut().enumerate() {
-        let behind = piece.first_segment + k;
-        let is_inner = (k > 0 || piece.follows) && (k < piece.segments || piece.goes_on);
-        let bends = is_inner && !cut[behind - 1] && !cut[behind];
-        let [one, other] = if bends { [length[behind - 1], length[behind]] } else { [1.0, 1.0] };
-        row.hinge.0[lane] = if bends { 2.0 * bending / (one + other) } else { 0.0 };
-        (row.inverse_before.0[lane], row.inverse_behind.0[lane]) = (1.0 / one, 1.0 / other);
-    }
-    for (k, row) in segments[..piece.segments].iter_mut().enumerate() {
-        let hinges = nodes[k + 1].hinge.0[lane] + nodes[k + 2].hinge.0[lane];
-        row.bending.0[lane] = hinges * row.inverse_length.0[lane] * row.inverse_length.0[lane];
-    }
-}
-
-impl Row3 {
-    fn set(&mut self, lane: usize, v: DVec3) {
-        for (row, value) in self.0.iter_mut().zip(v.to_array()) {
-            row.0[lane] = value;
-        }
-    }
-    fn vector(&self, lane: usize) -> DVec3 {
-        DVec3::from_array([self.0[0].0[lane], self.0[1].0[lane], self.0[2].0[lane]])
-    }
-}
-
-impl GroundRow {
-    fn set(&mut self, lane: usize, (force, block): (DVec3, DMat3)) {
-        self.force.set(lane, force);
-        let [x, y, z] = [block.x_axis, block.y_axis, block.z_axis];
-        let half = [x.x, 0.5 * (x.y + y.x), 0.5 * (x.z + z.x), y.y, 0.5 * (y.z + z.y), z.z];
-        for (row, value) in self.block.0.iter_mut().zip(half) {
-            row.0[lane] = value;
-        }
-    }
-}
-
-impl Row6 {
-    fn matrix(&self, lane: usize) -> DMat3 {
-        let [xx, xy, xz, yy, yz, zz] = [0, 1, 2, 3, 4, 5].map(|entry: usize| self.0[entry].0[lane]);
-        DMat3::from_cols(DVec3::new(xx, xy, xz), DVec3::new(xy, yy, yz), DVec3::new(xz, yz, zz))
-    }
-}
-
-impl Row9 {
-    fn matrix(&self, lane: usize) -> DMat3 {
-        DMat3::from_cols(self.0[0].vector(lane), self.0[1].vector(lane), self.0[2].vector(lane))
     }
 }
 

@@ -3,6 +3,7 @@
 //! A lane holds a *piece* of rope: so many nodes in a row of one line. Row `k` holds node `k` of every piece, and segment
 //! `k` behind it. Pieces of unlike length share a group: rows beyond a piece's end hold copies of its last node.
 
+use glam::{DMat3, DVec3};
 use pulp::Simd;
 
 use super::real::Lane;
@@ -168,5 +169,50 @@ impl Default for SegmentRow {
             bending: none,
             tension: none,
         }
+    }
+}
+
+impl Row3 {
+    /// Writes a vector into one lane.
+    #[inline]
+    pub(super) fn set(&mut self, lane: usize, v: DVec3) {
+        for (row, value) in self.0.iter_mut().zip(v.to_array()) {
+            row.0[lane] = value;
+        }
+    }
+    /// The vector of one lane.
+    #[inline]
+    pub(super) fn vector(&self, lane: usize) -> DVec3 {
+        DVec3::from_array([self.0[0].0[lane], self.0[1].0[lane], self.0[2].0[lane]])
+    }
+}
+
+impl GroundRow {
+    /// Writes a force and the symmetric part of its block into one lane.
+    #[inline]
+    pub(super) fn set(&mut self, lane: usize, (force, block): (DVec3, DMat3)) {
+        self.force.set(lane, force);
+        let [x, y, z] = [block.x_axis, block.y_axis, block.z_axis];
+        let half = [x.x, 0.5 * (x.y + y.x), 0.5 * (x.z + z.x), y.y, 0.5 * (y.z + z.y), z.z];
+        for (row, value) in self.block.0.iter_mut().zip(half) {
+            row.0[lane] = value;
+        }
+    }
+}
+
+impl Row6 {
+    /// The matrix of one lane.
+    #[inline]
+    pub(super) fn matrix(&self, lane: usize) -> DMat3 {
+        let [xx, xy, xz, yy, yz, zz] = [0, 1, 2, 3, 4, 5].map(|entry: usize| self.0[entry].0[lane]);
+        DMat3::from_cols(DVec3::new(xx, xy, xz), DVec3::new(xy, yy, yz), DVec3::new(xz, yz, zz))
+    }
+}
+
+impl Row9 {
+    /// The matrix of one lane.
+    #[inline]
+    pub(super) fn matrix(&self, lane: usize) -> DMat3 {
+        DMat3::from_cols(self.0[0].vector(lane), self.0[1].vector(lane), self.0[2].vector(lane))
     }
 }

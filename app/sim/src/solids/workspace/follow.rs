@@ -1,0 +1,92 @@
+//! Contact points within a segment follow the nearest points of a solid in the first passes of a step.
+
+use glam::DVec3;
+
+use super::points::{SolidContactPoint, TOUCH_M};
+use super::{Pair, SolidWorkspace};
+use crate::solids::along::nearest_stretch;
+use crate::solids::{Carrier, Pose, Solid};
+use crate::state::State;
+
+/// Stretch along a flat face from which on rope bears at both of its ends [m].
+const TWO_POINTS_M: f64 = 0.02;
+/// Passes in which contact points within segments follow the nearest point.
+const FOLLOWING_PASSES: usize = 4;
+
+impl SolidWorkspace {
+    /// Lets the contact points within segments follow the nearest points, in the first passes of a step.
+    pub fn follow_all(&mut self, state: &State, places: &[DVec3], pose: impl Fn(&Carrier) -> Pose) {
+        self.passes += 1;
+        if self.passes > FOLLOWING_PASSES {
+            return;
+        }
+        let mut pairs = std::mem::take(&mut self.pairs);
+        for pair in &mut pairs {
+            let solid = &self.solids[pair.solid];
+            let pose = pose(&solid.carrier);
+            self.follow(state, solid, pair, [places[pair.node], places[pair.node + 1]], &pose);
+        }
+        self.pairs = pairs;
+    }
+
+    /// Lets them follow once more.
+    pub fn follow_again(&mut self) {
+        self.passes = 0;
+    }
+
+    pub(super) fn follow(
+        &self,
+        state: &State,
+        solid: &Solid,
+        pair: &mut Pair,
+        places: [DVec3; 2],
+        pose: &Pose,
+    ) {
+        let fractions = self.inner_points(solid, pair, places, pose);
+        for (point, fraction) in pair.inner.iter_mut().zip(fractions) {
+            let was_open = point.open;
+            point.open = fraction.is_some();
+            if fraction.is_some() {
+                point.fraction = fraction;
+            }
+            if point.open && !was_open {
+                *point = self.regrip(
+                    state,
+                    solid,
+                    SolidContactPoint { predicted_n: 0.0, kept: DVec3::ZERO, ..*point },
+                );
+            }
+        }
+    }
+
+    /// Fractions of a segment at which it touches a solid between its nodes.
+    fn inner_points(
+        &self,
+        solid: &Solid,
+        pair: &Pair,
+        [a, b]: [DVec3; 2],
+        pose: &Pose,
+    ) -> [Option<f64>; 2] {
+        let length = self.length_of(pair.node);
+        let (low, high) = pair.range;
+        if low >= high || solid.radius_m.is_infinite() {
+            return [None; 2];
+        }
+        let (a, b) = (pose.inward(a), pose.inward(b));
+        let (at_a, at_b) = (solid.shape.distance(a), solid.shape.distance(b));
+        if 0.5 * (at_a + at_b - (b - a).length()) > self.radius_m[pair.line] + TOUCH_M {
+            return [None; 2];
+        }
+        let stretch = nearest_stretch(|at| solid.shape.distance(a.lerp(b, at)), pair.range);
+        if solid.shape.bend_radius(a.lerp(b, stretch.at)) >= length {
+            return [None; 2];
+        }
+        let within = |at: f64| (at > low + 1e-6 && at < high - 1e-6).then_some(at);
+        let (first, last) = stretch.ends;
+        if (last - first) * length > TWO_POINTS_M {
+            [within(first), within(last)]
+        } else {
+            [within(stretch.at), None]
+        }
+    }
+}

@@ -1,0 +1,173 @@
+//! Gathers the segments of rope that may touch a solid in a step.
+
+use glam::DVec3;
+
+use super::points::SolidContactPoint;
+use super::{MARGIN_M, Pair, SolidWorkspace};
+use crate::solids::broad::NearSegment;
+use crate::solids::shape::SolidShape;
+use crate::solids::{Carrier, Pose, Solid};
+use crate::state::State;
+
+/// How far beyond its radius rope is gathered in statics, where a pass moves rope far [m].
+const STATIC_MARGIN_M: f64 = 2.0;
+
+/// How a segment and a solid move over a step.
+struct Motion {
+    /// Places of the segment's ends when the step begins, then when it ends [m].
+    places: [DVec3; 4],
+    /// Where the solid is when the step begins and when it ends.
+    poses: [Pose; 2],
+}
+
+impl Motion {
+    /// Whether a segment that goes from two places to two others may come within reach of a shape.
+    fn may_reach(&self, shape: &SolidShape, reach: f64) -> bool {
+        let Self { places, poses } = self;
+        let middles = [0.5 * (places[0] + places[1]), 0.5 * (places[2] + places[3])];
+        let half = 0.5 * (places[1] - places[0]).length().max((places[3] - places[2]).length());
+        let (from, to) = (poses[0].inward(middles[0]), poses[1].inward(middles[1]));
+        let nearest = shape.distance(from).min(shape.distance(to));
+        nearest - half - 0.5 * (to - from).length() <= reach
+    }
+}
+
+/// Where solids are over a step: when it begins and by their drift.
+fn poses_of(solid: &Solid, state: &State, dt: f64) -> [Pose; 2] {
+    match solid.carrier {
+        Carrier::World(pose) => [pose, pose],
+        Carrier::Body(body) => {
+            let body = &state.bodies[body];
+            let from = Pose { place: body.position, orientation: body.orientation };
+            [from, Pose { place: body.position + body.velocity * dt, ..from }]
+        }
+    }
+}
+
+impl SolidWorkspace {
+    /// Gathers rope near solids for a step of length `dt` (zero in statics) that starts at `from`.
+    pub fn gather(&mut self, state: &State, from: &[DVec3], dt: f64) {
+        // Statics gathers anew in every pass, and goes on with what the last solve predicted.
+        self.predicted.clear();
+        if dt <= 0.0 {
+            self.predicted.extend(
+                self.nodes.iter().map(|point| ((point.solid, point.node), point.predicted_n)),
+            );
+        }
+        self.pairs.clear();
+        self.nodes.clear();
+        self.touching = false;
+        (self.passes, self.dt) = (0, dt);
+        // Obstacles come first.
+        let any = if dt > 0.0 {
+            !self.solids.is_empty()
+        } else {
+            self.solids.first().is_some_and(|solid| solid.mass_kg.is_infinite())
+        };
+        if !any {
+            return;
+        }
+        self.measure_lengths(&state.rope.segment_length);
+        let drift = |node: usize| from[node] + state.rope.velocity[node] * dt;
+        let margin = if dt > 0.0 { MARGIN_M } else { STATIC_MARGIN_M };
+        self.add_pairs(state, from, drift, dt, margin, false);
+    }
+
+    /// Adds pairs that rope has come near to beyond what was gathered; whether there are any.
+    pub fn gather_more(&mut self, state: &State, to: &[DVec3], dt: f64) -> bool {
+        if self.solids.is_empty() {
+            return false;
+        }
+        let before = self.pairs.len();
+        self.add_pairs(state, &state.rope.position, |node| to[node], dt, 0.0, true);
+        self.pairs.len() > before
+    }
+
+    fn add_pairs(
+        &mut self,
+        state: &State,
+        from: &[DVec3],
+        to: impl Fn(usize) -> DVec3,
+        dt: f64,
+        margin: f64,
+        again: bool,
+    ) {
+        let (mut boxes, solids) =
+            (std::mem::take(&mut self.boxes), std::mem::take(&mut self.solids));
+        boxes.measure(from, &to);
+        let widest = self.radius_m.iter().copied().fold(0.0, f64::max);
+        // Statics has no friction and moves far: there bodies do not push rope.
+        for (index, solid) in solids
+            .iter()
+            .enumerate()
+            .filter(|(_, solid)| dt > 0.0 || matches!(solid.carrier, Carrier::World(_)))
+        {
+            let poses = poses_of(solid, state, dt);
+            for near in boxes.near(solid, &poses, widest + margin) {
+                let NearSegment { segment, node, line } = near;
+                let places = [from[node], from[node + 1], to(node), to(node + 1)];
+                let reach = self.radius_m[line] + margin;
+                let known = again
+                    && self.pairs.iter().any(|pair| pair.solid == index && pair.segment == segment);
+                let motion = Motion { places, poses };
+                if !known && motion.may_reach(&solid.shape, reach) {
+                    self.add_pair(state, index, solid, near, &motion, again);
+                }
+            }
+        }
+        (self.boxes, self.solids) = (boxes, solids);
+    }
+
+    fn add_pair(
+        &mut self,
+        state: &State,
+        solid: usize,
+        thing: &Solid,
+        NearSegment { segment, node, line }: NearSegment,
+        Motion { places, poses }: &Motion,
+        again: bool,
+    ) {
+        let (range, radius_m) = (self.range_of(solid, line, node), self.radius_m[line]);
+        let follows = self.pairs.last().is_some_and(|last| {
+            last.solid == solid && last.segment + 1 == segment && last.line == line
+        });
+        for (end, node) in [(0, node), (1, node + 1)] {
+            let there = (end == 0 && follows)
+                || (again
+                    && self.nodes.iter().any(|point| point.solid == solid && point.node == node));
+            if there || self.is_spared(solid, line, self.along_m[node]) {
+                continue;
+            }
+            let point = SolidContactPoint {
+                solid,
+                line,
+                segment,
+                node,
+                radius_m,
+                open: true,
+                ..SolidContactPoint::default()
+            };
+            let point =
+                self.begin_point(state, thing, point, [places[end], places[2 + end]], poses);
+            self.nodes.push(point);
+        }
+        let inner = [SolidContactPoint {
+            solid,
+            line,
+            segment,
+            node,
+            radius_m,
+            ..SolidContactPoint::default()
+        }; 2];
+        let mut pair = Pair { solid, segment, line, node, range, inner };
+        for (places, pose) in [(&places[..2], &poses[0]), (&places[2..], &poses[1])] {
+            self.follow(state, thing, &mut pair, [places[0], places[1]], pose);
+        }
+        for point in pair.inner.iter_mut().filter(|point| point.open) {
+            let at = |ends: &[DVec3]| ends[0].lerp(ends[1], point.fraction.unwrap_or(0.0));
+            *point =
+                self.begin_point(state, thing, *point, [at(&places[..2]), at(&places[2..])], poses);
+        }
+        self.pairs.push(pair);
+    }
+}

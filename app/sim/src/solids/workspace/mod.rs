@@ -1,0 +1,142 @@
+//! Rope near solids in one step: pairs of segment and solid, and the contact points at which they may touch.
+//!
+//! A node of rope near a solid is a contact point. A segment has up to two more, where an edge, or a surface bent more sharply
+//! than the segment is long, lies nearer than its nodes; they follow the nearest point in the first passes of a step
+//! and then stay, so that Newton can finish. On a smooth drum nodes alone touch, which gives the polygon's capstan law.
+
+mod follow;
+mod gather;
+mod points;
+mod spared;
+
+use std::ops::Range;
+
+use glam::DVec3;
+
+use super::along::least;
+use super::broad::Boxes;
+use super::{Pose, Solid, of_model};
+use crate::model::Model;
+pub(crate) use points::SolidContactPoint;
+use spared::{Spared, spared};
+
+/// How far beyond its radius rope is gathered [m].
+pub(crate) const MARGIN_M: f64 = 0.05;
+
+/// A segment near a solid.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pair {
+    pub solid: usize,
+    pub segment: usize,
+    pub line: usize,
+    pub node: usize,
+    /// Fractions between which it may touch.
+    range: (f64, f64),
+    pub inner: [SolidContactPoint; 2],
+}
+
+/// Rope near solids in one step.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct SolidWorkspace {
+    pub solids: Vec<Solid>,
+    pub pairs: Vec<Pair>,
+    pub nodes: Vec<SolidContactPoint>,
+    /// Whether rope may touch a solid in this step.
+    pub touching: bool,
+    boxes: Boxes,
+    spared: Vec<Spared>,
+    /// Nodes and segments of each line.
+    lines: Vec<(Range<usize>, Range<usize>)>,
+    /// Unstretched length of each segment [m].
+    lengths: Vec<f64>,
+    /// Unstretched length from the line's start to each node [m].
+    along_m: Vec<f64>,
+    /// Half the diameter of the rope of each line [m].
+    radius_m: Vec<f64>,
+    passes: usize,
+    /// What the last pass of statics predicted: solid and node, normal force [N].
+    predicted: Vec<((usize, usize), f64)>,
+    /// Length of the step [s].
+    dt: f64,
+}
+
+impl SolidWorkspace {
+    /// Storage for a model.
+    pub fn new(model: &Model) -> Self {
+        let solids = of_model(model);
+        let spared = spared(model, &solids);
+        let radius_m = model
+            .spec
+            .lines
+            .iter()
+            .map(|line| 0.5 * model.spec.ropes[line.rope].diameter_m)
+            .collect();
+        let lines =
+            model.line_nodes.iter().cloned().zip(model.line_segments.iter().cloned()).collect();
+        let along_m = vec![0.0; model.node_count];
+        Self {
+            boxes: Boxes::new(model),
+            solids,
+            spared,
+            lines,
+            along_m,
+            radius_m,
+            ..Self::default()
+        }
+    }
+
+    /// Takes over the lengths of segments, where they are not those there are.
+    fn measure_lengths(&mut self, segment_length: &[f64]) {
+        if self.lengths == segment_length {
+            return;
+        }
+        self.lengths.clear();
+        self.lengths.extend_from_slice(segment_length);
+        for (nodes, segments) in &self.lines {
+            let mut along = 0.0;
+            for (node, length) in (nodes.start..).zip(&segment_length[segments.clone()]) {
+                self.along_m[node] = along;
+                along += length;
+            }
+            self.along_m[nodes.end - 1] = along;
+        }
+    }
+
+    /// Unstretched length of a segment [m].
+    fn length_of(&self, node: usize) -> f64 {
+        self.along_m[node + 1] - self.along_m[node]
+    }
+
+    /// Unstretched length from the line's start to a contact point [m].
+    pub fn along_of(&self, point: &SolidContactPoint) -> f64 {
+        self.along_m[point.node]
+            + point.fraction.map_or(0.0, |fraction| fraction * self.length_of(point.node))
+    }
+
+    /// Every contact point that is open.
+    pub fn open_points(&self) -> impl Iterator<Item = &SolidContactPoint> {
+        self.nodes
+            .iter()
+            .chain(self.pairs.iter().flat_map(|pair| &pair.inner))
+            .filter(|point| point.open)
+    }
+
+    /// Every contact point that is open, to be changed.
+    pub fn open_points_mut(&mut self) -> impl Iterator<Item = (&[Solid], &mut SolidContactPoint)> {
+        let solids = &self.solids[..];
+        let inner = self.pairs.iter_mut().flat_map(|pair| &mut pair.inner);
+        self.nodes
+            .iter_mut()
+            .chain(inner)
+            .filter(|point| point.open)
+            .map(move |point| (solids, point))
+    }
+}
+
+/// The least distance of a segment from a solid, ends included.
+pub(crate) fn least_distance(solid: &Solid, pose: &Pose, a: DVec3, b: DVec3) -> f64 {
+    let (a, b) = (pose.inward(a), pose.inward(b));
+    least(|at| solid.shape.distance(a.lerp(b, at)), (0.0, 1.0))
+        .min(solid.shape.distance(a))
+        .min(solid.shape.distance(b))
+}
