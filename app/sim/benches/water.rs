@@ -10,7 +10,7 @@ use endline_sim::DVec3;
 use endline_sim::water::field::Walk;
 use endline_sim::water::jonswap::Spectrum;
 use endline_sim::water::waves::{WaveKind, Waves};
-use endline_sim::water::{Current, Sea, Water};
+use endline_sim::water::{Current, Sea, Water, WavesOut};
 
 /// Nodes of the rope.
 const NODES: usize = 500;
@@ -62,7 +62,7 @@ fn waves(bencher: Bencher, components: usize) {
             divan::black_box(&rope),
             20.0,
             &mut walk,
-            (&mut flow, &mut acceleration, &mut surface),
+            WavesOut { flow: &mut flow, acceleration: &mut acceleration, surface: &mut surface },
         );
     });
 }

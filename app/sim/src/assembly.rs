@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use crate::check::check;
 use crate::model::{Line, Model, ModelError, ModelSpec, Settings, Strength};
+use crate::model_check::check;
 use crate::water::Sea;
 use crate::whale::tree::SkinTree;
 

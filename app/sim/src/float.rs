@@ -94,7 +94,7 @@ impl Form {
         match *self {
             Self::Level { height_m: whole } => Wet::plain(0.5 - height_m / whole, 1.0 / whole),
             Self::Spheroid { across_m, along_m } => {
-                spheroid(height_m, axis, (across_m, along_m), reach)
+                spheroid(height_m, axis, across_m, along_m, reach)
             }
             Self::Cylinder { radius_m, length_m } => cylinder(height_m, axis, radius_m, length_m),
         }
@@ -127,7 +127,7 @@ impl Form {
 }
 
 /// The wet cap of a ball, stretched: `E[p 1] = -3/16 (1 - x²)² u` for a unit ball cut at `x` along `u`.
-fn spheroid(height: f64, axis: DVec3, (across, along): (f64, f64), reach: f64) -> Wet {
+fn spheroid(height: f64, axis: DVec3, across: f64, along: f64, reach: f64) -> Wet {
     let x = height / reach;
     let t = 0.5 * (1.0 - x);
     let cap = 3.0 / 16.0 * (1.0 - x * x) * (1.0 - x * x) / reach;

@@ -7,7 +7,6 @@
 #![warn(clippy::print_stdout, clippy::print_stderr)] // results leave as values
 
 mod assembly;
-mod check;
 pub mod contact;
 pub mod float;
 pub mod frame;
@@ -15,6 +14,7 @@ mod gear_hook;
 mod in_place;
 pub mod metrics;
 pub mod model;
+mod model_check;
 pub mod parting;
 mod random;
 mod remesh;

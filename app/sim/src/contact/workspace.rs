@@ -4,9 +4,9 @@ use endline_sdk::BodyPart;
 use glam::{DAffine3, DVec3};
 
 use super::ContactPoint;
-use super::friction::{Failed, Touching};
 use super::near::Near;
 use super::points::SkinContactPoints;
+use super::skin_friction::{Failed, Touching};
 use crate::model::{Friction, Model};
 use crate::solver::BodyTrial;
 use crate::state::State;

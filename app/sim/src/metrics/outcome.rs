@@ -39,7 +39,8 @@ impl Encounter {
         &mut self,
         time_s: f64,
         dt_s: f64,
-        (touching, turns): (bool, f64),
+        touching: bool,
+        turns: f64,
         log: &mut Log,
     ) {
         if touching {

@@ -95,7 +95,7 @@ impl WhaleMeter {
         self.flukes.fold(whale, state.time_s, dt_s);
         self.tell_wraps(state.time_s, log);
         let most = self.winding.most().max(self.coils.most());
-        self.encounter.fold(state.time_s, dt_s, (touching, most), log);
+        self.encounter.fold(state.time_s, dt_s, touching, most, log);
     }
 
     /// Normal and friction forces on each line now [N].

@@ -26,11 +26,11 @@ impl Solver {
         for (index, body) in model.spec.bodies.iter().enumerate() {
             self.interface.force[self.plan.body_block[index]].z -=
                 body.mass_kg * model.spec.water.gravity_m_s2;
-            let wet = self.add_floats(model, state, (index, body), scheme);
-            self.add_body_inertia(state, (index, body, wet), scheme);
-            self.add_part_drag(model, state, (index, DVec3::ZERO, body.drag_area_m2 * wet), scheme);
-            self.add_turn_drag(model, state, (index, body, wet), scheme);
-            self.add_body_push(model, (index, body, wet));
+            let wet = self.add_floats(model, state, index, body, scheme);
+            self.add_body_inertia(state, index, body, wet, scheme);
+            self.add_part_drag(model, state, index, DVec3::ZERO, body.drag_area_m2 * wet, scheme);
+            self.add_turn_drag(model, state, index, body, wet, scheme);
+            self.add_body_push(model, index, body, wet);
             if scheme.exact {
                 self.add_slopes(model, index, body);
             }
@@ -43,16 +43,19 @@ impl Solver {
         &mut self,
         model: &Model,
         state: &State,
-        (index, body): (usize, &Body),
+        index: usize,
+        body: &Body,
         scheme: &Scheme,
     ) -> f64 {
         let (mut wet, mut whole) = (0.0, 0.0);
         for float in &body.floats {
-            let share = self.add_float(model, (index, float), scheme);
+            let share = self.add_float(model, index, float, scheme);
             self.add_part_drag(
                 model,
                 state,
-                (index, float.offset_m, float.drag_area_m2 * share),
+                index,
+                float.offset_m,
+                float.drag_area_m2 * share,
                 scheme,
             );
             wet += share * float.volume_m3;
@@ -62,12 +65,7 @@ impl Solver {
     }
 
     /// Buoyancy of a float; gives its wet share.
-    fn add_float(
-        &mut self,
-        model: &Model,
-        (index, float): (usize, &Float),
-        scheme: &Scheme,
-    ) -> f64 {
+    fn add_float(&mut self, model: &Model, index: usize, float: &Float, scheme: &Scheme) -> f64 {
         let water = &model.spec.water;
         let trial = self.trial.bodies[index];
         let block = self.plan.body_block[index];
@@ -93,7 +91,9 @@ impl Solver {
     fn add_body_inertia(
         &mut self,
         state: &State,
-        (index, body, wet): (usize, &Body, f64),
+        index: usize,
+        body: &Body,
+        wet: f64,
         scheme: &Scheme,
     ) {
         let (trial, now) = (self.trial.bodies[index], &state.bodies[index]);
@@ -135,7 +135,9 @@ impl Solver {
         &mut self,
         model: &Model,
         state: &State,
-        (index, offset, area): (usize, DVec3, DVec3),
+        index: usize,
+        offset: DVec3,
+        area: DVec3,
         scheme: &Scheme,
     ) {
         if area == DVec3::ZERO {
@@ -167,7 +169,9 @@ impl Solver {
         &mut self,
         model: &Model,
         state: &State,
-        (index, body, wet): (usize, &Body, f64),
+        index: usize,
+        body: &Body,
+        wet: f64,
         scheme: &Scheme,
     ) {
         if scheme.is_static() {

@@ -11,9 +11,9 @@ use super::Solver;
 use super::rope::outer;
 use super::scheme::Scheme;
 use crate::contact::barrier::CRUSHED_SHARE;
-use crate::contact::friction::Failed;
+use crate::contact::skin_friction::Failed;
 use crate::contact::workspace::ContactWorkspace;
-use crate::contact::{friction, near};
+use crate::contact::{near, skin_friction};
 use crate::model::Model;
 use crate::state::State;
 
@@ -185,7 +185,7 @@ impl Solver {
             let Some(touch) = &point.touches[work.touching.face[place]] else { continue };
             let response = &work.touching.response[place];
             let push = touch.normal * touch.barrier.stiffness;
-            let block = outer(push, touch.normal) - friction::matrix(&response.by_slip)
+            let block = outer(push, touch.normal) - skin_friction::matrix(&response.by_slip)
                 + outer(DVec3::from_array(response.by_normal_force), push);
             self.add_at(
                 point.segment,

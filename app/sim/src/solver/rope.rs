@@ -32,7 +32,7 @@ impl Solver {
                 self.tridiagonal.force[node] += DVec3::from(force);
                 self.tridiagonal.diagonal[node] += DMat3::from(block);
                 if scheme.is_static() {
-                    self.add_drag_turn((node, nodes), node - index, (&rope, &shared));
+                    self.add_drag_turn(node, nodes, node - index, &rope, &shared);
                 }
             }
             if scheme.anchored {
@@ -71,9 +71,11 @@ impl Solver {
     /// Adds the change of a node's drag at rest as its neighbours turn it.
     fn add_drag_turn(
         &mut self,
-        (node, nodes): (usize, &Range<usize>),
+        node: usize,
+        nodes: &Range<usize>,
         segment: usize,
-        (rope, shared): (&PerMetre<f64>, &Shared<f64>),
+        rope: &PerMetre<f64>,
+        shared: &Shared<f64>,
     ) {
         let wet = shared.wet_at(self.trial.place[node].z - self.surface_at(node))
             * self.lengths.node[node];

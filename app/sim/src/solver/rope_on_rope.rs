@@ -2,13 +2,13 @@
 //!
 //! At a point (`contact/ropes/points.rs`) with distance `d` of the centre lines, contact distance `h` (the sum of the radii),
 //! bearing length `l` and stiffness `K` per metre: `N` by the law of `contact/barrier.rs`, along the line between the two. Friction
-//! is the elastic grip that slips at `μN` (`ground.rs`), stretched by how the two points of the ropes moved past each other. Both
+//! is the elastic grip that slips at `μN` (`elastic_grip.rs`), stretched by how the two points of the ropes moved past each other. Both
 //! act on the four nodes, in opposite senses; the block joins the linear system as `woodbury.rs` tells.
 
 use glam::{DMat3, DVec3};
 
 use super::Solver;
-use super::ground::Grip;
+use super::elastic_grip::{Grip, Push};
 use super::rope::outer;
 use super::scheme::Scheme;
 use super::woodbury::ContactBlock;
@@ -64,8 +64,13 @@ fn touch_at(
     let normal = gap / distance.max(1e-12);
     let [one, other] = pair.places(|node| state.rope.position[node]);
     let stretch = point.kept + gap - between(one, other, fractions).0;
-    let grip =
-        Grip::new(stretch, normal, stiffness, law.friction, (barrier.force, barrier.stiffness));
+    let grip = Grip::new(
+        stretch,
+        normal,
+        stiffness,
+        law.friction,
+        Push { force: barrier.force, rate: barrier.stiffness },
+    );
     Some(Touch { fractions, normal, distance, barrier, grip })
 }
 

@@ -2,7 +2,7 @@
 //!
 //! At a contact point (`solids/workspace.rs`) with depth `p` of the rope's surface below the solid's and stiffness `k`: `N = k p` while
 //! it pushes, block `k n nᵀ`. Whether it pushes is judged by the normal force that the last solve predicted, as for
-//! tension: Newton then ends in a few passes. Friction is the elastic grip that slips at `μN` (`ground.rs`), its block
+//! tension: Newton then ends in a few passes. Friction is the elastic grip that slips at `μN` (`elastic_grip.rs`), its block
 //! not symmetric, so that it follows the normal force within the solve.
 //! A solid that stands still only acts on the rope. On a body of the rig the reaction acts at the same point, with its
 //! own block; what the one's move does to the other is left to the next pass (block Jacobi), which closes in on the
@@ -12,7 +12,7 @@
 use glam::{DQuat, DVec3};
 
 use super::Solver;
-use super::ground::Grip;
+use super::elastic_grip::{Grip, Push};
 use super::interface::Attachment;
 use super::rope::outer;
 use super::scheme::Scheme;
@@ -316,7 +316,7 @@ fn grip_of(state: &State, solid: &Solid, point: &SolidContactPoint, touch: &Touc
         touch.normal,
         point.stiffness,
         solid.friction,
-        (point.push_n.max(0.0), point.stiffness),
+        Push { force: point.push_n.max(0.0), rate: point.stiffness },
     )
 }
 

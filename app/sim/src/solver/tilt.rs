@@ -31,14 +31,15 @@ impl Solver {
         let block = self.plan.body_block[index];
         let moved = |solver: &Self, axis: DVec3| {
             let at =
-                |step: f64| solver.wrench(model, (index, body), place + axis * step, orientation);
+                |step: f64| solver.wrench(model, index, body, place + axis * step, orientation);
             slope(at(-STEP), at(STEP))
         };
         let turned = |solver: &Self, axis: DVec3| {
             let at = |step: f64| {
                 solver.wrench(
                     model,
-                    (index, body),
+                    index,
+                    body,
                     place,
                     (DQuat::from_scaled_axis(axis * step) * orientation).normalize(),
                 )
@@ -57,7 +58,8 @@ impl Solver {
     fn wrench(
         &self,
         model: &Model,
-        (index, body): (usize, &Body),
+        index: usize,
+        body: &Body,
         place: DVec3,
         orientation: DQuat,
     ) -> Wrench {

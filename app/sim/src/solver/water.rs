@@ -14,14 +14,18 @@ use super::rope::tangent;
 use super::scheme::Scheme;
 use crate::model::{Body, Model};
 use crate::state::State;
-use crate::water::WaterAt;
+use crate::water::{WaterAt, WavesOut};
 
 impl Solver {
     /// Takes the water's velocity, acceleration and surface at every node and body where the trial stands.
     pub(crate) fn measure_flow(&mut self, model: &Model) {
         let (sea, time_s) = (&model.sea, self.trial.time);
         sea.current_at(&self.trial.place, time_s, &mut self.flow);
-        let out = (self.flow.as_mut_slice(), &mut self.flow_acceleration, &mut self.surface);
+        let out = WavesOut {
+            flow: &mut self.flow,
+            acceleration: &mut self.flow_acceleration,
+            surface: &mut self.surface,
+        };
         sea.add_waves(&self.trial.place, time_s, &mut self.wave_walk, out);
         self.flow_bodies.clear();
         self.flow_bodies.extend(self.trial.bodies.iter().map(|body| sea.at(body.place, time_s)));
@@ -64,7 +68,7 @@ impl Solver {
     }
 
     /// Adds the push of accelerating water on a body of a wet share.
-    pub(super) fn add_body_push(&mut self, model: &Model, (index, body, wet): (usize, &Body, f64)) {
+    pub(super) fn add_body_push(&mut self, model: &Model, index: usize, body: &Body, wet: f64) {
         let WaterAt { acceleration_m_s2: acceleration, surface_m, .. } = self.flow_bodies[index];
         if acceleration == DVec3::ZERO {
             return;

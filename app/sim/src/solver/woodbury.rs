@@ -108,7 +108,8 @@ impl<T: Columns> Again<T> {
             let (nodes, segments) = (&model.line_nodes[index], &model.line_segments[index]);
             let a_moves = attachments[line.from].0 != Attachment::Fixed;
             tridiagonal.substitute_again(
-                (nodes, segments),
+                nodes,
+                segments,
                 a_moves,
                 ends,
                 &self.right,
@@ -141,7 +142,8 @@ impl BlockTridiagonal {
 
     fn substitute_again<T: Columns>(
         &self,
-        (nodes, segments): (&Range<usize>, &Range<usize>),
+        nodes: &Range<usize>,
+        segments: &Range<usize>,
         a_moves: bool,
         [step_a, step_b]: [T; 2],
         right: &[T],

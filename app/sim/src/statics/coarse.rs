@@ -44,14 +44,14 @@ impl Coarse {
         let mut carried = State::start(tolerance);
         for (nodes, segments) in self.model.line_nodes.iter().zip(&self.model.line_segments) {
             for (node, segment) in (nodes.start..).zip(segments.clone()) {
-                self.carry_segment(state, (node, segment), &mut carried);
+                self.carry_segment(state, node, segment, &mut carried);
             }
         }
         carried.bodies.clone_from(&state.bodies);
         carried
     }
 
-    fn carry_segment(&self, state: &State, (node, segment): (usize, usize), carried: &mut State) {
+    fn carry_segment(&self, state: &State, node: usize, segment: usize, carried: &mut State) {
         let (first, last) = (self.kept[node], self.kept[node + 1]);
         let first_segment = first - self.model.segment_line[segment];
         let (rope, from) = (&mut carried.rope, &state.rope);

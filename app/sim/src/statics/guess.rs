@@ -144,7 +144,7 @@ fn bend(model: &Model, index: usize, state: &mut State) {
     let out = (load - along * load.dot(along))
         .try_normalize()
         .unwrap_or_else(|| along.any_orthonormal_vector());
-    let mut places = arc(line, (from, along), out, span, length);
+    let mut places = arc(line, from, along, out, span, length);
     let tension = load.length() * 0.5 * length / half_angle(span / length);
     if let Some(seabed) = model.spec.seabed.as_ref().filter(|seabed| lies(seabed, &places)) {
         // It lies in a bight beside its ends, on the side the current takes it to.
@@ -153,7 +153,7 @@ fn bend(model: &Model, index: usize, state: &mut State) {
         let side = (level(load) - ahead * load.dot(ahead))
             .try_normalize()
             .unwrap_or_else(|| seabed.normal.cross(ahead));
-        places = lie(seabed, line, (from, to), (ahead, side));
+        places = lie(seabed, line, from, to, ahead, side);
     }
     if let Some(seabed) = &model.spec.seabed {
         // Rope that would hang into the seabed lies slack on it.
@@ -167,13 +167,7 @@ fn bend(model: &Model, index: usize, state: &mut State) {
 }
 
 /// Nodes of a line along the arc from a place, with its chord along `along` and its bulge along `out`.
-fn arc(
-    line: &Line,
-    (from, along): (DVec3, DVec3),
-    out: DVec3,
-    span: f64,
-    length: f64,
-) -> Vec<DVec3> {
+fn arc(line: &Line, from: DVec3, along: DVec3, out: DVec3, span: f64, length: f64) -> Vec<DVec3> {
     let half = half_angle(span / length);
     let radius = 0.5 * length / half;
     let middle = from + along * (0.5 * span) - out * (radius * libm::cos(half));
@@ -191,8 +185,10 @@ fn arc(
 fn lie(
     seabed: &Seabed,
     line: &Line,
-    (from, to): (DVec3, DVec3),
-    (ahead, side): (DVec3, DVec3),
+    from: DVec3,
+    to: DVec3,
+    ahead: DVec3,
+    side: DVec3,
 ) -> Vec<DVec3> {
     let whole: f64 = line.segments_m.iter().sum();
     let (first, last) = (-seabed.depth_of(from), -seabed.depth_of(to));

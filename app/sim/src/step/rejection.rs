@@ -1,7 +1,7 @@
 //! What a solver step was, or why it was rejected.
 
 use super::stop::Stop;
-use crate::contact::friction::Failed;
+use crate::contact::skin_friction::Failed;
 use crate::model::Model;
 use crate::solver::Solver;
 use crate::state::State;

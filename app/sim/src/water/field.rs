@@ -64,11 +64,18 @@ pub struct Field {
     groups: Vec<Figures>,
 }
 
+/// Share of the waves that has grown, and its rate.
+#[derive(Clone, Copy, Debug, Default)]
+struct Ramp {
+    share: f64,
+    /// [1/s]
+    rate: f64,
+}
+
 /// Where a walk along a rope stands; keeps nothing between two beginnings.
 #[derive(Clone, Debug, Default)]
 pub struct Walk {
-    ramp: f64,
-    ramp_rate: f64,
+    ramp: Ramp,
     time_s: f64,
     /// Distance along the waves' way and height of the last place; not a number before the first.
     at: (f64, f64),
@@ -118,13 +125,16 @@ impl Field {
         time_s > 0.0
     }
 
-    /// The ramp and its rate [-, 1/s].
-    fn ramp(&self, time_s: f64) -> (f64, f64) {
+    /// The ramp at a time.
+    fn ramp(&self, time_s: f64) -> Ramp {
         if time_s >= self.ramp_s {
-            return (1.0, 0.0);
+            return Ramp { share: 1.0, rate: 0.0 };
         }
         let share = time_s / self.ramp_s;
-        (share * share * (3.0 - 2.0 * share), 6.0 * share * (1.0 - share) / self.ramp_s)
+        Ramp {
+            share: share * share * (3.0 - 2.0 * share),
+            rate: 6.0 * share * (1.0 - share) / self.ramp_s,
+        }
     }
 
     /// What the waves do at one place; nothing at time zero and before.
@@ -138,12 +148,12 @@ impl Field {
         for group in &self.groups {
             sums.add(group, &group.stand(along, height, time_s));
         }
-        self.told(sums, self.ramp(time_s))
+        self.water_at(sums, self.ramp(time_s))
     }
 
     /// Begins a walk at a time; allocates only the first time.
     pub fn begin(&self, walk: &mut Walk, time_s: f64) {
-        (walk.ramp, walk.ramp_rate) = self.ramp(time_s);
+        walk.ramp = self.ramp(time_s);
         walk.time_s = time_s;
         walk.at = (f64::NAN, f64::NAN);
         walk.groups.resize(self.groups.len(), Stand::default());
@@ -160,7 +170,7 @@ impl Field {
             for (group, stand) in self.groups.iter().zip(&mut walk.groups) {
                 for part in 0..times as u32 {
                     let from = walk.at.1 + up * (f64::from(part) / times);
-                    stand.advance(group, by / times, (from, from + up / times));
+                    stand.advance(group, by / times, from, from + up / times);
                 }
                 sums.add(group, stand);
             }
@@ -171,7 +181,7 @@ impl Field {
             }
         }
         walk.at = (along, height);
-        self.told(sums, (walk.ramp, walk.ramp_rate))
+        self.water_at(sums, walk.ramp)
     }
 
     /// Distance along the waves' way, and height held between bed and mean surface.
@@ -179,7 +189,7 @@ impl Field {
         (place.dot(self.toward), place.z.clamp(-self.depth_m, 0.0))
     }
 
-    fn told(&self, sums: Sums, (ramp, rate): (f64, f64)) -> WaterAt {
+    fn water_at(&self, sums: Sums, Ramp { share: ramp, rate }: Ramp) -> WaterAt {
         let [surface, along, up, along_rate, up_rate] =
             sums.0.map(|four| (four[0] + four[1]) + (four[2] + four[3]));
         let velocity = self.toward * along + DVec3::Z * up;
@@ -213,7 +223,7 @@ impl Figures {
 impl Stand {
     /// Moves on along the waves and from one height to another, by no more than the series reach.
     #[inline]
-    fn advance(&mut self, figures: &Figures, by: f64, (from, to): (f64, f64)) {
+    fn advance(&mut self, figures: &Figures, by: f64, from: f64, to: f64) {
         for lane in 0..LANES {
             let number = figures.number[lane];
             let (cosine, sine) = circle(number * by);

@@ -99,6 +99,17 @@ pub struct WaterAt {
     pub surface_m: f64,
 }
 
+/// Where [`Sea::add_waves`] writes, one entry for each place.
+#[derive(Debug)]
+pub struct WavesOut<'a> {
+    /// Velocity, to which that of the waves is added [m/s].
+    pub flow: &'a mut [DVec3],
+    /// Acceleration [m/s²].
+    pub acceleration: &'a mut Vec<DVec3>,
+    /// Height of the surface above z = 0 [m].
+    pub surface: &'a mut Vec<f64>,
+}
+
 /// The sea made ready for the solver: tables of the profile, components of the waves.
 #[derive(Clone, Debug)]
 pub struct Sea {
@@ -159,7 +170,7 @@ impl Sea {
         }
     }
 
-    /// The same at many places, into `out` of the same length.
+    /// Velocity of the current at many places, into `out` of the same length [m/s].
     pub fn current_at(&self, places: &[DVec3], time_s: f64, out: &mut [DVec3]) {
         let fastest = self.current.tide.velocity(self.current.surface_m_s, time_s);
         let pairs = out.iter_mut().zip(places);
@@ -185,14 +196,8 @@ impl Sea {
 
     /// Adds the waves' velocity at many places to `flow`, and writes their acceleration and surface. Both are left empty
     /// where there are no waves: none at all, or not yet.
-    pub fn add_waves(
-        &self,
-        places: &[DVec3],
-        time_s: f64,
-        walk: &mut Walk,
-        out: (&mut [DVec3], &mut Vec<DVec3>, &mut Vec<f64>),
-    ) {
-        let (flow, acceleration, surface) = out;
+    pub fn add_waves(&self, places: &[DVec3], time_s: f64, walk: &mut Walk, out: WavesOut<'_>) {
+        let WavesOut { flow, acceleration, surface } = out;
         acceleration.clear();
         surface.clear();
         let Some(field) = self.field.as_ref().filter(|field| field.runs_at(time_s)) else { return };

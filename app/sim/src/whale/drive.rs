@@ -37,46 +37,48 @@ pub(crate) fn drive(
     next.clone_from(whale);
     let Some(spec) = &model.spec.whale else { return Ok(false) };
     if let Some(kinetic) = spec.kinetic.as_ref().filter(|kinetic| kinetic.dead.is_some()) {
-        drift(model, kinetic, (whale, time_s), next);
+        drift(model, kinetic, whale, time_s, next);
         keep_in_water(model, spec, next);
         return Ok(false);
     }
-    let (asked, told_m_s) = ask(model, spec, input, whale, (time_s, next))?;
+    let (asked, reported_m_s) = ask(model, spec, input, whale, time_s, next)?;
     next.posture = asked.posture;
     let held = spec.joints.hold(&mut next.posture);
     let turn_rate = DVec3::from_array(asked.turn_rate_rad_s);
     match &spec.kinetic {
         Some(kinetic) => {
             let wish = Wish {
-                from_m_s: told_m_s,
+                from_m_s: reported_m_s,
                 speed_m_s: asked.speed_m_s,
                 turn_rate,
                 burst: input.controls.burst,
             };
-            swim(model, kinetic, &wish, (whale, time_s), next);
+            swim(model, kinetic, &wish, whale, time_s, next);
         }
-        None => go(model, (asked.speed_m_s, turn_rate), (whale, time_s), next),
+        None => go(model, &asked, whale, time_s, next),
     }
     keep_in_water(model, spec, next);
     Ok(held)
 }
 
-/// What the motion plugin asks for, and the speed it was told.
+/// What the motion plugin asks for, and the speed that was reported to it.
 fn ask(
     model: &Model,
     spec: &Whale,
     input: &Input,
     whale: &WhaleState,
-    (time_s, next): (f64, &mut WhaleState),
+    time_s: f64,
+    next: &mut WhaleState,
 ) -> Result<(MotionOutput, f64), Stop> {
     let stop =
         |reason: String| Stop { time_s, part: spec.motion.descriptor().id.to_string(), reason };
-    let told_m_s = if spec.kinetic.is_some() { swim::told_speed(whale) } else { whale.speed_m_s };
+    let reported_m_s =
+        if spec.kinetic.is_some() { swim::reported_speed(whale) } else { whale.speed_m_s };
     let seen = MotionInput {
         time_s,
         dt_s: model.spec.settings.step_s,
         length_m: spec.length_m,
-        speed_m_s: told_m_s,
+        speed_m_s: reported_m_s,
         position_m: whale.position.to_array(),
         orientation: whale.orientation.to_array(),
         controls: input.controls,
@@ -95,18 +97,14 @@ fn ask(
             "gave a speed, turn rate or joint angle that is not a finite number".into(),
         ));
     }
-    Ok((asked, told_m_s))
+    Ok((asked, reported_m_s))
 }
 
 /// Kinematic: the whale goes as it is asked to.
-fn go(
-    model: &Model,
-    (speed_m_s, turn_rate): (f64, DVec3),
-    (whale, time_s): (&WhaleState, f64),
-    next: &mut WhaleState,
-) {
+fn go(model: &Model, asked: &MotionOutput, whale: &WhaleState, time_s: f64, next: &mut WhaleState) {
     let dt_s = model.spec.settings.step_s;
-    next.speed_m_s = speed_m_s;
+    let turn_rate = DVec3::from_array(asked.turn_rate_rad_s);
+    next.speed_m_s = asked.speed_m_s;
     next.turn_rate = turn_rate;
     next.orientation = (whale.orientation * DQuat::from_scaled_axis(turn_rate * dt_s)).normalize();
     let ahead = whale.orientation.slerp(next.orientation, 0.5) * DVec3::X;

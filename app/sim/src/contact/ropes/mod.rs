@@ -2,7 +2,7 @@
 //!
 //! Two segments touch where their centre lines come nearer than the sum `h` of their radii. What presses is a *point*: at
 //! fractions `s`, `t` of the two, pushed apart along the line between them by the law of `barrier.rs`, held by an elastic grip
-//! that slips at `μN` (`solver/ground.rs`). Where ropes cross there is one point, at which they are nearest; where they run
+//! that slips at `μN` (`solver/elastic_grip.rs`). Where ropes cross there is one point, at which they are nearest; where they run
 //! along each other, one at each end of the stretch they share (`points.rs`).
 //!
 //! Nothing crosses: every move is cut short by additive continuous collision detection (`sweep.rs`) and checked again by the

@@ -96,7 +96,7 @@ impl PosedAxis {
                 (nearest, found) = (apart, (index, share));
             }
         }
-        Some(self.spot(found, place))
+        Some(self.spot(found.0, found.1, place))
     }
 
     /// The point of the axis at a place along it, and the frame there; `None` for an axis of fewer than two sections.
@@ -107,10 +107,10 @@ impl PosedAxis {
         let (one, other) = (self.stations[index], self.stations[index + 1]);
         let span = (other.along_m - one.along_m).max(f64::MIN_POSITIVE);
         let share = (along_m - one.along_m) / span;
-        Some(self.spot((index, share), one.middle.lerp(other.middle, share)))
+        Some(self.spot(index, share, one.middle.lerp(other.middle, share)))
     }
 
-    fn spot(&self, (index, share): (usize, f64), place: DVec3) -> Spot {
+    fn spot(&self, index: usize, share: f64, place: DVec3) -> Spot {
         let (one, other) = (&self.stations[index], &self.stations[index + 1]);
         let middle = one.middle.lerp(other.middle, share);
         let along = (other.middle - one.middle).normalize_or(DVec3::X);

@@ -27,7 +27,8 @@ pub struct Dead {
 pub(crate) fn drift(
     model: &Model,
     kinetic: &Kinetic,
-    (whale, time_s): (&WhaleState, f64),
+    whale: &WhaleState,
+    time_s: f64,
     next: &mut WhaleState,
 ) {
     let (water, dt) = (&model.spec.water, model.spec.settings.step_s);

@@ -12,7 +12,7 @@ use crate::state::WhaleState;
 /// What the motion asks for over a step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Wish {
-    /// Speed at its begin, as the motion was told [m/s].
+    /// Speed at its begin, as reported to the motion [m/s].
     pub from_m_s: f64,
     /// Speed at its end [m/s].
     pub speed_m_s: f64,
@@ -22,10 +22,10 @@ pub(crate) struct Wish {
     pub burst: f64,
 }
 
-/// The speed that a motion is told: what it asked for, or what the whale has where that is more.
+/// The speed that is reported to a motion: what it asked for, or what the whale has where that is more.
 ///
-/// What gear takes off is not told: it would be asked back at once, whatever the effort.
-pub(crate) fn told_speed(whale: &WhaleState) -> f64 {
+/// What gear takes off is not reported: it would be asked back at once, whatever the effort.
+pub(crate) fn reported_speed(whale: &WhaleState) -> f64 {
     whale.speed_m_s.max(whale.exertion.asked_speed_m_s)
 }
 
@@ -34,19 +34,19 @@ pub(crate) fn swim(
     model: &Model,
     kinetic: &Kinetic,
     wish: &Wish,
-    (whale, time_s): (&WhaleState, f64),
+    whale: &WhaleState,
+    time_s: f64,
     next: &mut WhaleState,
 ) {
     let dt = model.spec.settings.step_s;
     let out = weight_out(model, kinetic, whale, time_s);
-    let (thrust_n, speed_m_s) =
-        ahead(model, kinetic, wish, whale, (next.posture.jaw, out.force.x, dt));
-    let turn_rate = turned(kinetic, wish, whale, (&out, model.spec.water.density_kg_m3, dt));
+    let (thrust_n, speed_m_s) = ahead(model, kinetic, wish, whale, next.posture.jaw, out.force.x);
+    let turn_rate = turned(model, kinetic, wish, whale, &out);
     next.orientation = (whale.orientation
         * DQuat::from_scaled_axis(turn_rate * dt + whale.exertion.behind_rad))
     .normalize();
     let middle = whale.orientation.slerp(next.orientation, 0.5);
-    let slip_m_s = sideways(model, kinetic, whale, (middle, out.force, dt));
+    let slip_m_s = sideways(model, kinetic, whale, middle, out.force);
     let mean = DVec3::new(0.5 * (whale.speed_m_s + speed_m_s), slip_m_s[0], slip_m_s[1]);
     let centre = whale.position + whale.orientation * kinetic.centre_m;
     let centre = centre
@@ -76,8 +76,10 @@ fn ahead(
     kinetic: &Kinetic,
     wish: &Wish,
     whale: &WhaleState,
-    (jaw_rad, weight_n, dt): (f64, f64, f64),
+    jaw_rad: f64,
+    weight_n: f64,
 ) -> (f64, f64) {
+    let dt = model.spec.settings.step_s;
     let density = model.spec.water.density_kg_m3;
     let mass = kinetic.whole_mass_kg().x;
     let fading = kinetic.drag.factor(density, jaw_rad) * dt / mass;
@@ -98,8 +100,10 @@ fn sideways(
     model: &Model,
     kinetic: &Kinetic,
     whale: &WhaleState,
-    (orientation, out, dt): (DQuat, DVec3, f64),
+    orientation: DQuat,
+    out: DVec3,
 ) -> [f64; 2] {
+    let dt = model.spec.settings.step_s;
     let water = &model.spec.water;
     let lift = orientation.conjugate()
         * DVec3::Z
@@ -117,11 +121,13 @@ fn sideways(
 
 /// Turn rates over the step: what is asked for, and what is left of what rope and the weight out of the water added to that.
 fn turned(
+    model: &Model,
     kinetic: &Kinetic,
     wish: &Wish,
     whale: &WhaleState,
-    (out, density, dt): (&Weight, f64, f64),
+    out: &Weight,
 ) -> DVec3 {
+    let (density, dt) = (model.spec.water.density_kg_m3, model.spec.settings.step_s);
     let inertia = kinetic.whole_inertia_kg_m2();
     let astray = whale.turn_rate - whale.exertion.asked_turn_rate + out.moment / inertia * dt;
     let left = |axis: usize| {

@@ -1,4 +1,4 @@
-//! What a model must hold before anything moves: every problem is told at once, with its part.
+//! What a model must hold before anything moves: every problem is reported at once, with its part.
 
 use crate::model::{
     Body, Joint, JointKind, Line, Link, ModelError, ModelSpec, Obstacle, Resolution, Rope,
