@@ -58,7 +58,7 @@ impl Model {
         }
     }
 
-    /// The same gear in the same sea with its lines as these, alone: without whale, plugins, links and probes.
+    /// This gear in this sea with other lines, and without whale, plugins, links and probes.
     pub(crate) fn with_lines(&self, lines: Vec<Line>) -> Self {
         let spec = &self.spec;
         let alone = ModelSpec {

@@ -16,7 +16,7 @@ const U_LINEAR: f64 = 0.995;
 /// Share of the contact distance below which rope is pinched when a step ends: the barrier was overrun, the force
 /// means nothing.
 pub(crate) const PINCHED_SHARE: f64 = 0.8 * LEAST_SHARE;
-/// The same on the way to a balance, which a step does not come back from.
+/// Share of the contact distance below which rope is crushed during Newton's passes; a step does not recover from it.
 pub(crate) const CRUSHED_SHARE: f64 = 0.02;
 
 /// Push of the skin at one distance.

@@ -3,7 +3,7 @@
 //! Rope in a crease, where skin is concave, is pressed by both walls. Were it pressed by the nearer alone, the push would jump from
 //! wall to wall where they are equally near, which is just where rope comes to rest: no balance is there to be found, and rope is
 //! driven into the fold until it is crushed. Seen from a place at distances `d ≤ d'` along normals `n`, `n'` from two triangles,
-//! the foot on the second lies `d - d' n·n'` above the plane of the first: nothing where both are one flat or one convex face,
+//! the closest point of the second lies `d - d' n·n'` above the plane of the first: nothing where both are one flat or one convex face,
 //! `d (1 - n·n')` at most, where skin is concave between them. The second pushes by a share that grows with that height and with the
 //! angle of the normals, so that nothing jumps as rope slides into a crease or out of it.
 
@@ -16,7 +16,7 @@ const MOST_FACES: usize = 3;
 const MOST_LOOKED_AT: usize = 8;
 /// Cosine of the angle of two normals above which they are of one face, and below which they are of two.
 const ALIKE: (f64, f64) = (0.95, 0.7);
-/// Height of a foot over the plane of the other face up to which it does not count, and from which it counts wholly, as a share of
+/// Height of a closest point over the plane of the other face up to which it does not count, and from which it counts wholly, as a share of
 /// the greatest. The feet on two facets of one convex face are at nothing but for rounding.
 const RISEN: (f64, f64) = (0.05, 0.3);
 

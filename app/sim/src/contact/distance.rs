@@ -34,7 +34,7 @@ pub fn segment_triangle(segment: [DVec3; 2], triangle: [DVec3; 3]) -> Nearest {
     segment_triangle_in(Plane::of(triangle).as_ref(), segment, triangle)
 }
 
-/// The same with the triangle's plane made ready.
+/// The nearest places of a segment and a triangle whose plane is precomputed.
 pub(crate) fn segment_triangle_in(
     plane: Option<&Plane>,
     segment: [DVec3; 2],
@@ -65,7 +65,8 @@ pub fn point_triangle(point: DVec3, triangle: [DVec3; 3]) -> (f64, [f64; 3]) {
         .unwrap_or((f64::INFINITY, [1.0, 0.0, 0.0]))
 }
 
-/// The same with the triangle's plane made ready; `None` where the distance is `most` or more for certain.
+/// Distance of a point from a triangle whose plane is precomputed, and the barycentric place nearest to it; `None`
+/// where the distance is certainly `most` or more.
 pub(crate) fn point_triangle_in(
     plane: Option<&Plane>,
     point: DVec3,

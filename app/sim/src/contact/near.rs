@@ -197,10 +197,10 @@ impl Near {
             let Some((pair, nearest)) = self.nearest(places, range.clone()) else { continue };
             let skin = &self.skin[pair.skin];
             let between = |at: &[DVec3]| at[pair.node].lerp(at[pair.node + 1], nearest.fraction);
-            let foot = on_triangle(skin.now, nearest.barycentric);
-            let skin_move = on_triangle(skin.sweep[1], nearest.barycentric) - foot;
+            let closest = on_triangle(skin.now, nearest.barycentric);
+            let skin_move = on_triangle(skin.sweep[1], nearest.barycentric) - closest;
             let from = between(places);
-            let normal = (from - foot) / nearest.distance.max(1e-12);
+            let normal = (from - closest) / nearest.distance.max(1e-12);
             let approach = normal.dot(skin_move - (between(target) - from));
             let too_near =
                 approach - (nearest.distance - pair.min_separation / MIN_SEPARATION_SHARE).max(0.0);

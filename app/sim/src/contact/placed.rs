@@ -1,6 +1,6 @@
 //! A triangle of skin near rope, as it stands within a solver step, ready to be measured from.
 //!
-//! A ball around it and its plane tell of most rope that it is too far; both are made once for each place of the skin and
+//! A ball around it and its plane show for most rope that it is too far; both are made once for each place of the skin and
 //! serve every segment that is near.
 
 use glam::DVec3;
@@ -76,7 +76,7 @@ impl Placed {
         point_triangle_in(self.plane.as_ref(), point, self.now, most)
     }
 
-    /// No more than a segment's distance from it, below zero where that tells nothing [m].
+    /// No more than a segment's distance from it, below zero where that bounds nothing [m].
     pub fn gap(&self, segment: [DVec3; 2]) -> f64 {
         let [from, to] = segment;
         let (along, centre) = (to - from, self.ball.centre - from);

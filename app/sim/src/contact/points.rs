@@ -72,8 +72,16 @@ pub(crate) struct SkinContactPoint {
     pub touches: Faces,
 }
 
-/// The nearest place on a triangle: distance, place of the pair, barycentric place.
-type Foot = (f64, usize, [f64; 3]);
+/// The closest point of a triangle.
+#[derive(Clone, Copy, Debug)]
+struct ClosestPoint {
+    /// Distance [m].
+    distance: f64,
+    /// Index of the pair.
+    pair: usize,
+    /// Barycentric place on the triangle.
+    barycentric: [f64; 3],
+}
 
 /// All contact points of a solver step.
 #[derive(Clone, Debug, Default)]
@@ -182,8 +190,8 @@ impl SkinContactPoint {
             .max(LOOK_WITHIN * self.contact_distance + MEASURED_WITHIN.1 * self.length);
         self.seen = Some((place, within));
         if let Some(nearest) = self.nearest(near, place, 0.0, within) {
-            self.seen = Some((place, nearest.0));
-            self.nearest_pair = Some(nearest.1);
+            self.seen = Some((place, nearest.distance));
+            self.nearest_pair = Some(nearest.pair);
             self.touches = self.faces(near, place, 0.0, nearest);
         }
     }
@@ -204,7 +212,7 @@ impl SkinContactPoint {
     }
 
     /// What it touches, from the nearest triangle.
-    fn faces(&self, near: &Near, place: DVec3, moved: f64, nearest: Foot) -> Faces {
+    fn faces(&self, near: &Near, place: DVec3, moved: f64, nearest: ClosestPoint) -> Faces {
         let Some(nearest) = self.touch_of(near, place, nearest) else { return Faces::default() };
         let others = self.pairs.clone().filter_map(|index| {
             if index == nearest.pair || near.pairs[index].gap_bound - moved >= self.contact_distance
@@ -213,7 +221,7 @@ impl SkinContactPoint {
             }
             let (distance, barycentric) =
                 near.skin_of(index).nearest_to_point(place, self.contact_distance)?;
-            self.touch_of(near, place, (distance, index, barycentric))
+            self.touch_of(near, place, ClosestPoint { distance, pair: index, barycentric })
         });
         crease::faces(nearest, others)
     }
@@ -222,12 +230,12 @@ impl SkinContactPoint {
         &self,
         near: &Near,
         place: DVec3,
-        (distance, pair, barycentric): Foot,
+        ClosestPoint { distance, pair, barycentric }: ClosestPoint,
     ) -> Option<Touch> {
         let barrier = BarrierForce::new(distance, self.contact_distance, self.stiffness);
         (barrier.force > 0.0).then(|| {
-            let foot = on_triangle(near.skin_of(pair).now, barycentric);
-            let normal = (place - foot) / distance.max(1e-12);
+            let closest = on_triangle(near.skin_of(pair).now, barycentric);
+            let normal = (place - closest) / distance.max(1e-12);
             Touch { pair, barycentric, place, normal, distance, barrier }
         })
     }
@@ -239,9 +247,9 @@ impl SkinContactPoint {
     }
 
     /// The nearest triangle within `most`, with the rope moved by at most `moved` since pairs were bounded. The one it was nearest to
-    /// when measured last is asked first, for the others are then told too far without much ado.
-    fn nearest(&self, near: &Near, place: DVec3, moved: f64, most: f64) -> Option<Foot> {
-        let mut best: Option<Foot> = None;
+    /// when measured last is measured first: most others then prove too far by their bounds.
+    fn nearest(&self, near: &Near, place: DVec3, moved: f64, most: f64) -> Option<ClosestPoint> {
+        let mut best: Option<ClosestPoint> = None;
         let mut least = most;
         for index in self.nearest_pair.into_iter().chain(self.pairs.clone()) {
             if near.pairs[index].gap_bound - moved >= least {
@@ -253,7 +261,7 @@ impl SkinContactPoint {
             };
             if distance < least {
                 least = distance;
-                best = Some((distance, index, barycentric));
+                best = Some(ClosestPoint { distance, pair: index, barycentric });
             }
         }
         best

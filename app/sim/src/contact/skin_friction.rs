@@ -75,7 +75,7 @@ pub(crate) struct Touching {
 }
 
 impl Touching {
-    /// Collects the contact points in touch, as `touches_of` tells it.
+    /// Collects the contact points in touch that `touches_of` gives.
     pub fn collect(
         &mut self,
         model: &Model,

@@ -18,7 +18,7 @@ pub(crate) struct ContactWorkspace {
     pub near: Near,
     pub points: SkinContactPoints,
     pub touching: Touching,
-    /// The same at a trial along a step.
+    /// Contacts at a trial of the line search.
     pub probe: Touching,
     /// Bones at the start and the end of the solver step.
     pub bones: [Vec<DAffine3>; 2],

@@ -8,7 +8,7 @@ use crate::state::WhaleState;
 use crate::whale::Skin;
 use crate::whale::axes::trunk_axis;
 
-/// How far the whale must move off before another touch is told [m]; estimate.
+/// How far the whale must move off before another touch is reported [m]; estimate.
 const REARM_M: f64 = 0.5;
 
 /// The trunk as ellipses across its axis, in the whale's frame and rest posture.
@@ -59,7 +59,7 @@ impl Extent {
     }
 }
 
-/// Whether a reach has just passed zero; told again only after a way back of [`REARM_M`].
+/// Whether a reach has just passed zero; reported again only after a way back of [`REARM_M`].
 fn passes(beyond: &mut bool, reach: f64) -> bool {
     let passed = !*beyond && reach >= 0.0;
     *beyond = if *beyond { reach > -REARM_M } else { passed };

@@ -37,7 +37,7 @@ pub(super) struct FlukeMeter {
     swum_m: f64,
     /// The first top: time [s] and way swum [m].
     first: Option<[f64; 2]>,
-    /// The same of the last top.
+    /// The last top: time [s] and way swum [m].
     last: [f64; 2],
     /// Height of the last top and bottom [m].
     ends: [f64; 2],

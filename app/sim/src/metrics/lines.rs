@@ -16,7 +16,7 @@ pub(super) struct LineMeter {
     links: Vec<Peak>,
 }
 
-/// A peak, its time, and whether parting has been told.
+/// A peak, its time, and whether parting has been reported.
 #[derive(Clone, Copy, Debug, Default)]
 struct Peak {
     tension_n: f64,

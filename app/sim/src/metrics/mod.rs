@@ -6,7 +6,6 @@
 
 mod along;
 mod bodies;
-mod coils;
 mod drag;
 mod energy;
 mod event;
@@ -25,12 +24,12 @@ mod trailing;
 mod whale;
 mod winding;
 mod window;
+mod wraps;
 
 #[cfg(test)]
 pub(crate) mod tests;
 
 pub use bodies::DRAGGED_M;
-pub use coils::LOOSE_M;
 pub use energy::energy;
 pub use event::{Event, EventKind};
 pub use flukes::TURN_SHARE;
@@ -44,6 +43,7 @@ pub use summary::{
 };
 pub use winding::{BRIDGED_GAP_M, WINDING_JUMP};
 pub use window::DRAG_WINDOW_S;
+pub use wraps::LOOSE_M;
 
 use crate::contact::ContactPoint;
 use crate::model::Model;

@@ -40,7 +40,7 @@ pub(super) struct Load {
     pub(super) work_j: f64,
     pub(super) peak_wraps: f64,
     pub(super) peak_touching_wraps: f64,
-    /// Level of wraps last told of [turns].
+    /// Level of wraps last reported [turns].
     pub(super) told_wraps: f64,
 }
 

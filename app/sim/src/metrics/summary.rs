@@ -112,7 +112,7 @@ pub struct WhaleSummary {
     pub was_lodged_in_mouth: bool,
     /// Drag of rope and gear that the whale carries, mean of the last 5 s [N].
     pub drag_added_n: f64,
-    /// The same now [N].
+    /// Drag of rope and gear that the whale carries at this moment [N].
     pub drag_added_now_n: f64,
     /// Rope from the whale to loose ends [m].
     pub trailing_m: f64,
@@ -212,7 +212,7 @@ pub struct PatchSummary {
     pub peak_tension_n: f64,
     /// Greatest normal force of any contact by its length [N/m].
     pub peak_line_load_n_m: f64,
-    /// The same by the rope's diameter: pressure [Pa].
+    /// Greatest normal force of any contact by its length and the rope's diameter: pressure [Pa].
     pub peak_pressure_pa: f64,
     /// Work of friction [J].
     pub friction_work_j: f64,

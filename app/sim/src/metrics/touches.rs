@@ -12,7 +12,7 @@ const STICK_M_S: f64 = 0.01;
 /// Faster than this, rope slips [m/s]; estimate.
 const SLIP_M_S: f64 = 0.05;
 
-/// Rope must have stuck this long before its slip is told [s]; estimate.
+/// Rope must have stuck this long before its slip is reported [s]; estimate.
 const STUCK_S: f64 = 1.0;
 
 /// Whether and how rope touches each part.

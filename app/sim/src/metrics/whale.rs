@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use endline_sdk::BodyPart;
 
-use super::coils::Coils;
 use super::drag::{EffortMeter, added_drag};
 use super::event::{EventKind, Log};
 use super::extent::Extent;
@@ -19,12 +18,13 @@ use super::touches::Touches;
 use super::trailing::Reach;
 use super::winding::Winding;
 use super::window::Window;
+use super::wraps::WrapMeter;
 use crate::contact::ContactPoint;
 use crate::model::Model;
 use crate::state::{State, WhaleState};
 use crate::whale::Skin;
 
-/// Wraps must fall this far below a level to be told as undone [turns]; estimate.
+/// Wraps must fall this far below a level to be reported as undone [turns]; estimate.
 const UNDONE_TURNS: f64 = 0.15;
 
 /// All measures of the whale.
@@ -32,7 +32,7 @@ const UNDONE_TURNS: f64 = 0.15;
 pub(super) struct WhaleMeter {
     skin: Arc<Skin>,
     winding: Winding,
-    coils: Coils,
+    wraps: WrapMeter,
     mouth: Mouth,
     /// Normal and friction forces on each line now [N].
     on_lines: Vec<[f64; 2]>,
@@ -52,7 +52,7 @@ impl WhaleMeter {
         let skin = Arc::clone(&whale.skin);
         let strands = Strands::new(model);
         Some(Self {
-            coils: Coils::new(&skin, &strands),
+            wraps: WrapMeter::new(&skin, &strands),
             mouth: Mouth::new(&skin),
             on_lines: vec![[0.0; 2]; model.spec.lines.len()],
             winding: Winding::new(&skin, strands),
@@ -80,7 +80,7 @@ impl WhaleMeter {
         let touching = contacts.iter().any(|contact| contact.normal_force_n > 0.0);
         self.loads.fold(model, state, contacts, dt_s);
         self.winding.fold(&self.skin, contacts, &state.rope);
-        self.coils.fold(model, state, whale, &self.winding.strands, contacts);
+        self.wraps.fold(model, state, whale, &self.winding.strands, contacts);
         self.mouth.fold(&self.skin, contacts, state.time_s, log);
         for (line, sums) in self.on_lines.iter_mut().enumerate() {
             *sums = on_line(contacts, line);
@@ -94,7 +94,7 @@ impl WhaleMeter {
         self.touches.fold(&self.loads, state.time_s, log);
         self.flukes.fold(whale, state.time_s, dt_s);
         self.tell_wraps(state.time_s, log);
-        let most = self.winding.most().max(self.coils.most());
+        let most = self.winding.most().max(self.wraps.most());
         self.encounter.fold(state.time_s, dt_s, touching, most, log);
     }
 
@@ -124,7 +124,7 @@ impl WhaleMeter {
             carried: beyond.bodies.iter().map(|body| model.spec.bodies[*body].id.clone()).collect(),
             beat: self.flukes.summary(),
             kinetic: self.effort.as_ref().map(EffortMeter::summary),
-            winding_jumps: self.winding.jumps.max(self.coils.jumps),
+            winding_jumps: self.winding.jumps.max(self.wraps.jumps),
         }
     }
 
@@ -132,7 +132,7 @@ impl WhaleMeter {
         let load = self.loads.parts[part as usize];
         RegionSummary {
             part,
-            wraps: libm::fabs(self.coils.turns[part as usize]),
+            wraps: libm::fabs(self.wraps.turns[part as usize]),
             peak_wraps: load.peak_wraps,
             touching_wraps: libm::fabs(self.winding.turns[part as usize]),
             peak_touching_wraps: load.peak_touching_wraps,
@@ -147,7 +147,7 @@ impl WhaleMeter {
     /// Tells of every level that wraps pass, a half, then whole turns, and of every one they fall below again.
     fn tell_wraps(&mut self, time_s: f64, log: &mut Log) {
         for (index, (part, load)) in BodyPart::ALL.iter().zip(&mut self.loads.parts).enumerate() {
-            let wraps = libm::fabs(self.coils.turns[index]);
+            let wraps = libm::fabs(self.wraps.turns[index]);
             load.peak_wraps = load.peak_wraps.max(wraps);
             load.peak_touching_wraps =
                 load.peak_touching_wraps.max(libm::fabs(self.winding.turns[index]));

@@ -13,7 +13,7 @@ pub struct FrictionLaw {
     pub attributes: Vec<f64>,
 }
 
-/// How ropes rub on the whale: the laws, which of them holds where, and the table of coefficients.
+/// Friction of ropes on the whale: the laws, which of them holds where, and the table of coefficients.
 #[derive(Clone)]
 pub struct Friction {
     /// The laws; at least one.

@@ -41,10 +41,33 @@ pub struct Rope {
     pub strength_n: f64,
 }
 
+impl Default for Rope {
+    /// A rope of which nothing is known: it has no damping, no stiffening, no bending stiffness, and cannot break. Its
+    /// diameter, mass and stiffness are zero, which [`Model::new`](crate::Model::new) refuses, so that none is forgotten.
+    fn default() -> Self {
+        Self {
+            id: String::new(),
+            diameter_m: 0.0,
+            mass_kg_m: 0.0,
+            displaced_m3_m: 0.0,
+            axial_stiffness_n: 0.0,
+            axial_stiffening_n: 0.0,
+            axial_damping_n_s: 0.0,
+            axial_damping_ratio: 0.0,
+            bending_stiffness_n_m2: 0.0,
+            drag_normal: 0.0,
+            drag_tangential: 0.0,
+            added_mass_normal: 0.0,
+            added_mass_tangential: 0.0,
+            strength_n: f64::INFINITY,
+        }
+    }
+}
+
 /// What a line keeps of its rope's breaking strength, as shares of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Strength {
-    /// All along: wear and scatter.
+    /// All along: wear and variation of strength.
     pub all: f64,
     /// At end A besides, in the first segment: a knot or splice.
     pub end_a: f64,

@@ -114,7 +114,7 @@ fn move_left(
     }
 }
 
-/// The same where the merge lies behind the split, which stays in its place.
+/// Moves what lies between a split and a merge behind it; the split stays in its place.
 fn move_right(
     rope: &mut RopeState,
     merge: usize,

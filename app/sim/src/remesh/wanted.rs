@@ -24,7 +24,7 @@ fn size(resolution: &Resolution, gap_m: f64, thin: bool) -> f64 {
     if thin { near.min(at(resolution.edge_m, EDGE_M)) } else { near }
 }
 
-/// Distance from skin beyond which a wanted length tells that rope is [m].
+/// Distance from skin that a wanted length implies [m].
 pub(super) fn is_far(resolution: &Resolution, wanted_m: f64) -> bool {
     wanted_m > resolution.near_m
 }

@@ -1,6 +1,6 @@
 //! Signed distance of a place from a solid shape, with the direction out of it.
 //!
-//! Below zero inside. All shapes but a mesh are convex, so their distance along a straight line is a convex function.
+//! Below zero inside. All shapes are convex, so the distance along a straight line is a convex function.
 //! Sphere `|p| - R`; capsule and cylinder about z; box by `q = |p| - half`: `|max(q, 0)| + min(max(q), 0)`.
 //! Reference: Quilez, Distance functions (iquilezles.org/articles/distfunctions).
 

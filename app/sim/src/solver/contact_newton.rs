@@ -33,9 +33,9 @@ pub(crate) const CONTACT_WANTED_M: f64 = 1e-5;
 pub(super) const UNSEARCHED_M: f64 = 1e-5;
 /// Difference between solved and true tension at which a step has converged [N].
 pub(crate) const TENSION_GAP_N: f64 = 2.0;
-/// The same as a share of the greatest tension.
+/// Difference between solved and true tension at which a step has converged, as a share of the greatest tension.
 pub(crate) const TENSION_GAP_SHARE: f64 = 0.02;
-/// Most times taut and slack are judged anew in a pass.
+/// Most active sets of taut segments that are tried in a pass.
 const MOST_ACTIVE_SETS: usize = 30;
 /// Most times a move is cut because bodies turn.
 pub(super) const MOST_CUTS: usize = 12;
@@ -110,7 +110,7 @@ impl Solver {
 
     /// Solves, until the segments that pull in the linear system are those that will be taut after the whole step.
     ///
-    /// Judged by where they are alone, slack rope that the step would draw taut stops the search along it after a small share,
+    /// If segments were classified by where they are alone, slack rope that the step would draw taut stops the search along it after a small share,
     /// pass after pass: with segments of a centimetre the passes ran out before anything balanced.
     pub(super) fn solve_active_set(
         &mut self,

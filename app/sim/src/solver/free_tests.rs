@@ -21,13 +21,10 @@ fn rope(id: &str, mass_kg_m: f64, bending_stiffness_n_m2: f64) -> Rope {
         axial_stiffness_n: 5e4,
         axial_stiffening_n: 2e5,
         axial_damping_n_s: 4.0,
-        axial_damping_ratio: 0.0,
         bending_stiffness_n_m2,
         drag_normal: 1.2,
         drag_tangential: 0.015,
-        added_mass_normal: 0.0,
-        added_mass_tangential: 0.0,
-        strength_n: f64::INFINITY,
+        ..Rope::default()
     }
 }
 

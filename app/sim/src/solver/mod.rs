@@ -202,7 +202,8 @@ impl Solver {
         self.add_end_turns(model, scheme);
     }
 
-    /// The same with every segment judged by its tension where it is, and what is linear in a search kept apart.
+    /// Assembles forces and matrix with every segment taut or slack by its tension where it is. What is linear along the
+    /// step is kept apart for the line search.
     pub(crate) fn assemble_searchable(&mut self, model: &Model, state: &State, scheme: &Scheme) {
         self.tridiagonal.clear();
         self.interface.clear();
@@ -219,7 +220,8 @@ impl Solver {
         self.add_taut(model, state, scheme);
     }
 
-    /// The same again at the same places, with every segment judged by the tension it has in `trial`.
+    /// Assembles again at the places of [`assemble_searchable`](Self::assemble_searchable), with every segment taut or
+    /// slack by the tension it has in `trial`.
     fn assemble_again(&mut self, model: &Model, state: &State, scheme: &Scheme) {
         self.tridiagonal.clear();
         self.tridiagonal.diagonal.clone_from(&self.linear_part.diagonal);

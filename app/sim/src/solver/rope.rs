@@ -135,7 +135,7 @@ impl Solver {
         Pull::of(&self.law_between(segment, node, scheme, between))
     }
 
-    /// The same with the trial moved by a share of the solved step.
+    /// Tension of a segment with the trial moved by a share of the solved step.
     pub(super) fn pull_moved(
         &self,
         segment: usize,

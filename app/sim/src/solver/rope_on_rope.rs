@@ -3,7 +3,7 @@
 //! At a point (`contact/ropes/points.rs`) with distance `d` of the centre lines, contact distance `h` (the sum of the radii),
 //! bearing length `l` and stiffness `K` per metre: `N` by the law of `contact/barrier.rs`, along the line between the two. Friction
 //! is the elastic grip that slips at `μN` (`elastic_grip.rs`), stretched by how the two points of the ropes moved past each other. Both
-//! act on the four nodes, in opposite senses; the block joins the linear system as `woodbury.rs` tells.
+//! act on the four nodes, in opposite senses; the block joins the linear system (`woodbury.rs`).
 
 use glam::{DMat3, DVec3};
 
@@ -207,7 +207,7 @@ impl Solver {
         self.ropes.law.is_some() && self.ropes.met(model, state, &self.trial.place)
     }
 
-    /// The same after a step in the lanes that moved rope by this much from its drift [m].
+    /// Whether rope met rope after a step in the lanes that moved rope by `moved_m` from its drift [m].
     pub(crate) fn met_ropes_free(&mut self, model: &Model, state: &State, moved_m: f64) -> bool {
         if self.ropes.pairs.is_empty() && moved_m <= self.ropes.unwatched_m() {
             return false;

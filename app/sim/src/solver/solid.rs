@@ -22,11 +22,11 @@ use crate::state::{SolidGrip, State};
 
 /// Difference between predicted and true normal force at which a step has converged [N].
 const PUSH_GAP_N: f64 = 0.02;
-/// The same as a share of the greatest.
+/// Difference between predicted and true normal force at which a step has converged, as a share of the greatest.
 const PUSH_GAP_SHARE: f64 = 0.02;
 /// Force by which rope and body may differ in what they do to each other when a step has converged [N].
 const ANSWER_GAP_N: f64 = 1e-3;
-/// The same as a share of the greatest normal force.
+/// Force by which rope and body may differ when a step has converged, as a share of the greatest normal force.
 const ANSWER_GAP_SHARE: f64 = 1e-3;
 /// Share of a solid's thickness that rope may move in a step without its path being looked at.
 const UNWATCHED_SHARE: f64 = 0.4;
@@ -244,7 +244,7 @@ impl Solver {
         self.solid.gather_more(state, &self.trial.place, dt)
     }
 
-    /// The same after a step in the lanes.
+    /// Whether rope that was solved in the lanes went near a solid beyond what was gathered.
     pub(crate) fn strayed_free(&mut self, state: &State, dt: f64) -> bool {
         self.lanes.give_places(&mut self.trial.place);
         self.strayed_to_solids(state, dt)

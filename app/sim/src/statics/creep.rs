@@ -38,7 +38,7 @@ struct Burdens<'a> {
 }
 
 impl<'a> Burdens<'a> {
-    /// The same for all; the solver's own pseudo-mass is one from here on.
+    /// One pseudo-mass for all parts; the solver's own pseudo-mass is one from here on.
     fn new(model: &'a Model, pseudo_mass: f64, newton: &mut Newton) -> Self {
         let mut burdens =
             Self { model, mass: vec![1.0; model.spec.lines.len() + model.spec.bodies.len()] };

@@ -43,7 +43,7 @@ pub struct Settled {
 }
 
 impl Settled {
-    /// The same gear at rest with another whale: that of a model whose gear, water and seabed are the same, up to the
+    /// This gear at rest with another whale: that of a model whose gear, water and seabed are the same, up to the
     /// strengths of ropes and links. Statics do not look at the whale, unless a line is made fast to it.
     #[must_use]
     pub fn with_whale_of(&self, model: &Model) -> Self {

@@ -19,7 +19,7 @@ use crate::state::State;
 pub(super) const TOLERANCE_N: f64 = 1e-4;
 /// First pseudo-mass where the guess may be far from rest [1/s²].
 pub(super) const FAR: f64 = 10.0;
-/// The same where it is near [1/s²].
+/// First pseudo-mass where the guess is near rest [1/s²].
 pub(super) const NEAR: f64 = 0.01;
 /// Range of the pseudo-mass [1/s²].
 pub(super) const PSEUDO_MASS: (f64, f64) = (1e-9, 1e6);
@@ -138,8 +138,8 @@ impl<'a> Newton<'a> {
         self.solver.residual(self.model)
     }
 
-    /// The same, judged by the last solve, and as it is where that says the gear is at rest; what was predicted may call a
-    /// segment slack that is not.
+    /// Residual with the active set that the last solve predicted. Where that residual says the gear is at rest, it is
+    /// computed again with the tensions as they are, for a prediction may call a segment slack that is not [N].
     pub fn balance_at_rest(&mut self) -> f64 {
         let residual_n = self.balance(Way::Predicted);
         if residual_n < TOLERANCE_N { self.balance(Way::Searched) } else { residual_n }

@@ -17,7 +17,7 @@ pub(super) enum Way {
     Turn(usize),
     /// Newton, by how the residual falls.
     Fall,
-    /// The same from straight lines.
+    /// Newton from straight lines, by how the residual falls.
     FallAnew,
     /// Creeping.
     Creep,

@@ -17,7 +17,7 @@ use glam::DVec3;
 /// How the current changes with height, as a share of its velocity where it is fastest.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Profile {
-    /// The same at every height.
+    /// Equal at every height.
     Uniform,
     /// Power law with this exponent, above zero.
     Power(f64),

@@ -1,4 +1,4 @@
-//! Axes of the whale's parts, about which rope is wound: at rest, and carried along by the bones.
+//! Axes of the whale's parts, about which rope is wrapped: at rest, and carried along by the bones.
 //!
 //! Head, body and peduncle share the trunk's axis: along x through the middles of its cross
 //! sections. A flipper or fluke has its own: from root to tip, through the middles of its sections.

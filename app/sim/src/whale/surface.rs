@@ -142,7 +142,7 @@ impl Surface {
         !none
     }
 
-    /// Hands over every segment and leaf of the tree that meet, until told to stop.
+    /// Hands over every segment and leaf of the tree that meet, until asked to stop.
     fn search(
         &mut self,
         segments: &[SweptSegment],

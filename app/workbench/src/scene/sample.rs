@@ -112,15 +112,11 @@ fn rope() -> Rope {
         mass_kg_m: 0.045,
         displaced_m3_m: 5e-5,
         axial_stiffness_n: 6e4,
-        axial_stiffening_n: 0.0,
-        axial_damping_n_s: 0.0,
-        axial_damping_ratio: 0.0,
-        bending_stiffness_n_m2: 0.0,
         drag_normal: 1.2,
         drag_tangential: 0.02,
         added_mass_normal: 1.0,
-        added_mass_tangential: 0.0,
         strength_n: 7560.0,
+        ..Rope::default()
     }
 }
 

@@ -146,14 +146,10 @@ fn rope(diameter_m: f64) -> Rope {
         mass_kg_m: 600.0 * diameter_m * diameter_m,
         displaced_m3_m: 0.6 * diameter_m * diameter_m,
         axial_stiffness_n: EA_N,
-        axial_stiffening_n: 0.0,
         axial_damping_n_s: 5.0,
-        axial_damping_ratio: 0.0,
-        bending_stiffness_n_m2: 0.0,
         drag_normal: 1.2,
         drag_tangential: 0.015,
         added_mass_normal: 1.0,
-        added_mass_tangential: 0.0,
-        strength_n: f64::INFINITY,
+        ..Rope::default()
     }
 }

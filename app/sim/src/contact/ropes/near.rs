@@ -16,7 +16,7 @@ const MARGIN_M: f64 = 0.03;
 const TOUCH_M: f64 = 2e-3;
 /// Rope that moved less than this from its drift has met nothing but what was gathered: two ropes less than the margin [m].
 const UNWATCHED_M: f64 = 0.014;
-/// The same as a share of the shortest segment, so that a straight piece stayed straight.
+/// That move as a share of the shortest segment, so that a straight piece stayed straight.
 const UNWATCHED_SHARE: f64 = 0.125;
 /// Least separation kept, as a share of the contact distance.
 const MIN_SEPARATION_SHARE: f64 = 0.08;

@@ -46,11 +46,11 @@ pub(crate) fn points_of(
     let stretch = (high - low) * long;
     let point = |s: f64| {
         let place = one[0].lerp(one[1], s);
-        let foot = nearest([place, place], other);
+        let closest = nearest([place, place], other);
         (
-            foot.distance,
+            closest.distance,
             RopeContactPoint {
-                fractions: [s, foot.fractions[1]],
+                fractions: [s, closest.fractions[1]],
                 length: 0.5 * stretch,
                 ..RopeContactPoint::default()
             },

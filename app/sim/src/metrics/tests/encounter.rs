@@ -116,7 +116,7 @@ fn contact_events_bridge_flicker_and_times_add_up() {
     assert!((whale.contact_time_s - 2.51).abs() < 1e-9, "{}", whale.contact_time_s);
 }
 
-/// Slip is told once after a second of sticking, not at a creep, and not where rope never stuck.
+/// Slip is reported once after a second of sticking, not at a creep, and not where rope never stuck.
 #[test]
 fn slip_after_sticking_is_told() {
     let model = model(spec(vec![0.5; 4]));

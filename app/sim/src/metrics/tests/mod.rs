@@ -1,11 +1,11 @@
 //! Scripted states and contacts, on a small whale of known shape.
 
-mod coils;
 mod encounter;
 mod gear;
 mod leaving;
 mod loads;
 mod winding;
+mod wraps;
 
 use std::sync::Arc;
 
@@ -97,15 +97,11 @@ fn rope() -> Rope {
         mass_kg_m: 0.1,
         displaced_m3_m: 5e-5,
         axial_stiffness_n: 1e5,
-        axial_stiffening_n: 0.0,
         axial_damping_n_s: 10.0,
-        axial_damping_ratio: 0.0,
-        bending_stiffness_n_m2: 0.0,
         drag_normal: 1.2,
         drag_tangential: 0.01,
         added_mass_normal: 1.0,
-        added_mass_tangential: 0.0,
-        strength_n: f64::INFINITY,
+        ..Rope::default()
     }
 }
 

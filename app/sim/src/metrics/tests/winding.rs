@@ -228,7 +228,7 @@ fn helix_nodes(turns: f64, count: usize) -> Vec<DVec3> {
     (0..=count).map(node).collect()
 }
 
-/// Winding up to 1.2 turns in small steps raises no alarm and tells of 0.5 and 1; a jump by 0.5 raises one.
+/// Winding up to 1.2 turns in small steps raises no alarm and reports 0.5 and 1; a jump by 0.5 raises one.
 #[test]
 fn growing_wraps_are_told_and_jumps_alarm() {
     let model = model(spec(vec![0.05; 40]));

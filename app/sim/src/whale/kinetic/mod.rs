@@ -134,6 +134,6 @@ pub struct Exertion {
     pub rope_moment_n_m: DVec3,
     /// How far the pull over the step still has to move its centre, in the world's frame [m].
     pub behind_m: DVec3,
-    /// The same in turning, about its own axes [rad].
+    /// How far the moment over the step still has to turn it, about its own axes [rad].
     pub behind_rad: DVec3,
 }

@@ -19,7 +19,7 @@ use crate::state::WhaleState;
 pub(crate) struct RopeImpulse {
     force: DVec3,
     moment: DVec3,
-    /// The same times what was left of the step.
+    /// Impulse and turning impulse times what was left of the step.
     force_left: DVec3,
     moment_left: DVec3,
 }

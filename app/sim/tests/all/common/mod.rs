@@ -18,15 +18,11 @@ pub fn rope() -> Rope {
         mass_kg_m: 0.06,
         displaced_m3_m: std::f64::consts::PI * 0.010 * 0.010 / 4.0,
         axial_stiffness_n: 1e5,
-        axial_stiffening_n: 0.0,
         axial_damping_n_s: 5.0,
-        axial_damping_ratio: 0.0,
-        bending_stiffness_n_m2: 0.0,
         drag_normal: 1.2,
         drag_tangential: 0.02,
         added_mass_normal: 1.0,
-        added_mass_tangential: 0.0,
-        strength_n: f64::INFINITY,
+        ..Rope::default()
     }
 }
 

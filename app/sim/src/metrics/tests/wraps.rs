@@ -9,7 +9,7 @@ use crate::metrics::EventKind;
 const WHALE: DVec3 = DVec3::new(0.0, 0.0, -20.0);
 
 /// Places round the peduncle: `turns` at radius `r`, straight on at both ends for `tail` metres.
-fn wound(turns: f64, r: f64, each_turn: f64, tail: f64) -> Vec<DVec3> {
+fn wrapped(turns: f64, r: f64, each_turn: f64, tail: f64) -> Vec<DVec3> {
     let count = (each_turn * turns.abs()).ceil();
     let at = |angle: f64, share: f64| {
         let x = -5.0 + 0.3 * share;
@@ -56,7 +56,7 @@ fn wraps(nodes: &[DVec3]) -> f64 {
 fn turns_by_construction_are_counted_whatever_the_segments() {
     for turns in [0.5, 1.0, 2.25, 3.0, -1.5] {
         let [coarse, fine] =
-            [24.0, 48.0].map(|each_turn| wraps(&wound(turns, 0.31, each_turn, 2.0)));
+            [24.0, 48.0].map(|each_turn| wraps(&wrapped(turns, 0.31, each_turn, 2.0)));
         println!("{turns}: {coarse:.4} and {fine:.4}");
         assert!(
             (fine - turns.abs()).abs() < 0.02 && (coarse - fine).abs() < 0.01,
@@ -68,7 +68,7 @@ fn turns_by_construction_are_counted_whatever_the_segments() {
 #[test]
 fn loose_loops_count_as_tight_ones() {
     for turns in [1.0, 2.0] {
-        let loose = wraps(&wound(turns, 0.6, 24.0, 2.0));
+        let loose = wraps(&wrapped(turns, 0.6, 24.0, 2.0));
         assert!((loose - turns).abs() < 0.03, "{turns}: {loose}");
     }
 }
@@ -91,13 +91,13 @@ fn rope_that_touches_but_does_not_wrap_counts_nothing() {
         assert!(count < most, "along {way}: {count}");
     }
     // Bent round by a right angle.
-    let quarter = wraps(&wound(0.25, 0.31, 48.0, 2.0));
+    let quarter = wraps(&wrapped(0.25, 0.31, 48.0, 2.0));
     assert!((quarter - 0.25).abs() < 0.02, "{quarter}");
 }
 
 #[test]
 fn a_rigid_move_of_whale_and_rope_changes_nothing() {
-    let nodes = wound(2.25, 0.31, 24.0, 2.0);
+    let nodes = wrapped(2.25, 0.31, 24.0, 2.0);
     let (model, mut state) = laid(&nodes);
     let (turn, shift) =
         (DQuat::from_euler(glam::EulerRot::ZYX, 1.0, -0.4, 2.0), DVec3::new(30.0, -7.0, -12.0));
@@ -116,7 +116,7 @@ fn a_rigid_move_of_whale_and_rope_changes_nothing() {
 /// slid off over the end of the part.
 #[test]
 fn wraps_grow_and_shrink_without_a_jump() {
-    let nodes = wound(0.5, 0.4, 48.0, 3.0);
+    let nodes = wrapped(0.5, 0.4, 48.0, 3.0);
     let turned = DQuat::from_rotation_x(-0.3 - std::f64::consts::PI);
     let at = |shift: DVec3| -> Vec<DVec3> {
         let middle = trunk_middle(-4.85);
@@ -144,16 +144,16 @@ fn wraps_grow_and_shrink_without_a_jump() {
     }
 }
 
-/// Contact lost for less than a second leaves the wraps, a longer loss ends them; levels are told up and down.
+/// Contact lost for less than a second leaves the wraps, a longer loss ends them; levels are reported up and down.
 #[test]
 fn wraps_outlast_flicker_and_are_told_as_made_and_undone() {
-    let (model, mut state) = laid(&wound(1.0, 0.31, 24.0, 2.0));
+    let (model, mut state) = laid(&wrapped(1.0, 0.31, 24.0, 2.0));
     let mut metrics = Metrics::new(&model);
     let contacts = [contact(&model, model.segment_count / 2, on_peduncle(&model))];
     let now = |metrics: &Metrics, state: &State| {
         metrics.summary(&model, state).whale.unwrap().regions[BodyPart::Peduncle as usize].wraps
     };
-    state.rope.position = wound(1.2, 0.31, 24.0, 2.0)
+    state.rope.position = wrapped(1.2, 0.31, 24.0, 2.0)
         .iter()
         .take(model.node_count)
         .map(|node| *node + WHALE)

@@ -1,6 +1,6 @@
 //! Wraps: how far the centre line of rope turns about the axis of a part, loose loops included.
 //!
-//! A *coil* is a stretch of whole rope within a part's neighbourhood: between the planes across its axis at the part's two
+//! A *wrap* is a stretch of whole rope within a part's neighbourhood: between the planes across its axis at the part's two
 //! ends, and within `hypot(u / (a + c), v / (b + c)) <= 1` of it, `u, v` the place across the posed axis, `a, b` the half
 //! widths of the section there, `c` [`LOOSE_M`]. With `S` the angle that the rope sweeps about the axis from where it comes
 //! in to where it leaves (straight lines between nodes), and at both ends the straight ray in which it would go on,
@@ -38,9 +38,9 @@ const HALVINGS: usize = 30;
 
 const PARTS: usize = BodyPart::ALL.len();
 
-/// Coils of rope about every part.
+/// Wraps of rope about every part.
 #[derive(Clone, Debug)]
-pub(super) struct Coils {
+pub(super) struct WrapMeter {
     axes: [Option<Axis>; PARTS],
     posed: PosedAxis,
     bones: Vec<DAffine3>,
@@ -48,22 +48,22 @@ pub(super) struct Coils {
     last_s: Vec<[Option<f64>; PARTS]>,
     /// Turns about each part now, with their sign: those of the strand that has most [turns].
     pub(super) turns: [f64; PARTS],
-    /// How many coils each part has.
+    /// How many wraps each part has.
     counts: [usize; PARTS],
-    /// Steps in which turns jumped though the number of coils stayed.
+    /// Steps in which turns jumped though the number of wraps stayed.
     pub(super) jumps: u64,
 }
 
-/// A coil as far as it has been walked.
+/// A wrap as far as it has been walked.
 #[derive(Clone, Copy, Debug)]
-struct Coil {
+struct Wrap {
     swept: f64,
     at: f64,
     begin: End,
     end: End,
 }
 
-/// Where a coil begins or ends: `asin(q)`, in the sense of growing azimuth [rad], and `w`.
+/// Where a wrap begins or ends: `asin(q)`, in the sense of growing azimuth [rad], and `w`.
 #[derive(Clone, Copy, Debug)]
 struct End {
     lead: f64,
@@ -77,7 +77,7 @@ struct Neighbourhood<'a> {
     ball: (DVec3, f64),
 }
 
-impl Coils {
+impl WrapMeter {
     pub(super) fn new(skin: &Skin, strands: &Strands) -> Self {
         Self {
             axes: axes_of(skin),
@@ -90,7 +90,7 @@ impl Coils {
         }
     }
 
-    /// Measures the coils of all strands that press on a part, or did less than [`LOST_S`] ago.
+    /// Measures the wraps of all strands that press on a part, or did less than [`LOST_S`] ago.
     pub(super) fn fold(
         &mut self,
         model: &Model,
@@ -132,7 +132,7 @@ impl Coils {
         }
     }
 
-    /// The coils about one part: those of a strand that turn the same way add up, and the strand that has most counts.
+    /// The wraps about one part: those of a strand that turn the same way add up, and the strand that has most counts.
     fn measure(&mut self, model: &Model, state: &State, strands: &Strands, part: usize) {
         let Some(axis) = &self.axes[part] else { return };
         axis.pose(&self.bones, &mut self.posed);
@@ -142,10 +142,10 @@ impl Coils {
             if self.last_s[strand][part].is_none_or(|last| state.time_s - last >= LOST_S) {
                 continue;
             }
-            let coils = near.coils(model, state, strands, segments);
-            self.counts[part] += coils.len();
+            let wraps = near.wraps(model, state, strands, segments);
+            self.counts[part] += wraps.len();
             let sum =
-                |sense: f64| coils.iter().map(|coil| (sense * coil.turns()).max(0.0)).sum::<f64>();
+                |sense: f64| wraps.iter().map(|wrap| (sense * wrap.turns()).max(0.0)).sum::<f64>();
             let (one, other) = (sum(1.0), sum(-1.0));
             let turns = if one >= other { one } else { -other };
             if libm::fabs(turns) > libm::fabs(self.turns[part]) {
@@ -156,19 +156,19 @@ impl Coils {
 }
 
 impl Neighbourhood<'_> {
-    /// All coils of a strand, in its order.
-    fn coils(
+    /// All wraps of a strand, in its order.
+    fn wraps(
         &self,
         model: &Model,
         state: &State,
         strands: &Strands,
         segments: &[usize],
-    ) -> Vec<Coil> {
-        let (mut coils, mut open) = (Vec::new(), None::<Coil>);
+    ) -> Vec<Wrap> {
+        let (mut wraps, mut open) = (Vec::new(), None::<Wrap>);
         let mut known: Option<(DVec3, Option<Spot>)> = None;
         for &segment in segments {
             if state.rope.cut[segment] {
-                coils.extend(open.take());
+                wraps.extend(open.take());
                 continue;
             }
             let [from, to] = ends_of(model, state, strands, segment);
@@ -185,15 +185,15 @@ impl Neighbourhood<'_> {
             let (enters, leaves) =
                 (starts.or_else(|| self.edge(to, from)), stops.or_else(|| self.edge(from, to)));
             let (Some(enters), Some(leaves)) = (enters, leaves) else { continue };
-            let mut coil = open
+            let mut wrap = open
                 .take()
                 .filter(|_| starts.is_some())
-                .unwrap_or_else(|| Coil::begin(&enters, way));
-            coil.go(&leaves, way);
-            if stops.is_some() { open = Some(coil) } else { coils.push(coil) }
+                .unwrap_or_else(|| Wrap::begin(&enters, way));
+            wrap.go(&leaves, way);
+            if stops.is_some() { open = Some(wrap) } else { wraps.push(wrap) }
         }
-        coils.extend(open);
-        coils
+        wraps.extend(open);
+        wraps
     }
 
     /// A place as seen from the axis, where it is in the neighbourhood.
@@ -225,7 +225,7 @@ impl Neighbourhood<'_> {
     }
 }
 
-impl Coil {
+impl Wrap {
     fn begin(spot: &Spot, way: DVec3) -> Self {
         let end = End::of(spot, way);
         Self { swept: 0.0, at: spot.azimuth(), begin: end, end }
