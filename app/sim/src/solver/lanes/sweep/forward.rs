@@ -1,37 +1,13 @@
-//! The two sweeps over a group of eight pieces: forces, matrix and elimination in one go forward, moves backward.
-//!
-//! Forward, node `k` is met with its block `D`, force `f` and its coupling `F` to the piece's end A:
-//! `step_k = g - W step_A + X step_(k+1)` with `X = D⁻¹B`, `g = D⁻¹f`, `W = D⁻¹F` and `B` the block of segment `k`;
-//! node `k + 1` then has `D' = D - B X`, `f' = f + B g`, `F' = B W`. What is left couples the piece's ends (`rows::EndRows`).
-//! All is symmetric: rope whose blocks are not goes through `block_tridiagonal.rs`.
+//! Forward sweep: forces, matrix and elimination, node after node.
 
 use pulp::{Simd, WithSimd};
 
-use super::real::{Lane, Real};
-use super::rows::{EndRows, GroundRow, MoveRows, NodeRow, Part, Row, Row3, SegmentRow, Solved};
-use super::space::{Mat3, Sym3, Vec3};
+use super::GroupRows;
 use crate::solver::axial::Axial;
 use crate::solver::forces::{self, NodeAt, PerMetre, PullOf, SegmentAt, Shared};
-
-/// What a group is made of.
-pub(crate) struct GroupRows<'a> {
-    /// Node rows with one ghost row before and one behind.
-    pub nodes: &'a mut [NodeRow],
-    pub segments: &'a mut [SegmentRow],
-    pub solved: &'a mut [Solved],
-    /// Seabed, in the layout of `nodes`, or empty.
-    pub ground: &'a [GroundRow],
-    /// Segments of the shortest piece.
-    pub shortest: usize,
-    /// For each segment from `shortest` on: 1 in lanes whose piece has it.
-    pub live: &'a [Row],
-    /// Whether end A of every piece stands still: nothing couples to it then.
-    pub anchored: bool,
-    /// Whether any of it resists bending.
-    pub bends: bool,
-    pub rope: &'a PerMetre<Row>,
-    pub shared: &'a Shared<f64>,
-}
+use crate::solver::lanes::real::{Lane, Real};
+use crate::solver::lanes::rows::{EndRows, GroundRow, NodeRow, Part, Row, SegmentRow, Solved};
+use crate::solver::lanes::space::{Mat3, Sym3, Vec3};
 
 /// Forward sweep.
 pub(crate) struct Forward<'a>(pub GroupRows<'a>, pub &'a mut EndRows);
@@ -256,119 +232,5 @@ fn spread_shared<S: Simd>(simd: S, shared: &Shared<f64>) -> Shared<Lane<S>> {
         inertia: spread(shared.inertia),
         wet: spread(shared.wet),
         drying: spread(shared.drying),
-    }
-}
-
-/// Backward sweep from the moves of the ends A and B.
-pub(crate) struct Backward<'a>(pub GroupRows<'a>, pub &'a [Row3; 2], pub &'a mut MoveRows);
-
-impl WithSimd for Backward<'_> {
-    type Output = ();
-    #[inline(always)]
-    fn with_simd<S: Simd>(mut self, simd: S) {
-        for part in 0..Part::<S>::COUNT {
-            if self.0.anchored {
-                backward::<S, false>(Part { simd, part }, &mut self.0, self.1, self.2);
-            } else {
-                backward::<S, true>(Part { simd, part }, &mut self.0, self.1, self.2);
-            }
-        }
-    }
-}
-
-/// What is gathered on the way.
-#[derive(Clone, Copy)]
-struct Moved<R> {
-    longest: R,
-    gap: R,
-    greatest: R,
-    finite: R,
-}
-
-#[inline(always)]
-fn backward<S: Simd, const FILL: bool>(
-    part: Part<S>,
-    group: &mut GroupRows<'_>,
-    ends: &[Row3; 2],
-    moves: &mut MoveRows,
-) {
-    let zero = Lane::new(part.simd, 0.0);
-    let (step_a, step_b) = (part.get3(&ends[0]), part.get3(&ends[1]));
-    let mut moved = Moved { longest: zero, gap: zero, greatest: zero, finite: zero };
-    let mut next = step_b;
-    let count = group.segments.len();
-    for k in (group.shortest..count).rev() {
-        let live = part.get(&group.live[k - group.shortest]);
-        let step =
-            Vec3::choose(live, inner_step::<S, FILL>(part, &group.solved[k], step_a, next), next);
-        // A lane whose piece ends before: its last node is moved by its end's own row.
-        move_node(part, &mut group.nodes[k + 2], next);
-        moved = predict(part, &group.solved[k], &mut group.segments[k], step, next, moved);
-        next = step;
-    }
-    for k in (1..group.shortest).rev() {
-        let step = inner_step::<S, FILL>(part, &group.solved[k], step_a, next);
-        move_node(part, &mut group.nodes[k + 2], next);
-        moved = predict(part, &group.solved[k], &mut group.segments[k], step, next, moved);
-        next = step;
-    }
-    move_node(part, &mut group.nodes[2], next);
-    move_node(part, &mut group.nodes[1], step_a);
-    moved = predict(part, &group.solved[0], &mut group.segments[0], step_a, next, moved);
-    part.put(&mut moves.longest, moved.longest);
-    part.put(&mut moves.gap, moved.gap);
-    part.put(&mut moves.greatest, moved.greatest);
-    part.put(&mut moves.finite, moved.finite);
-}
-
-#[inline(always)]
-fn inner_step<S: Simd, const FILL: bool>(
-    part: Part<S>,
-    solved: &Solved,
-    step_a: Vec3<Lane<S>>,
-    next: Vec3<Lane<S>>,
-) -> Vec3<Lane<S>> {
-    let (g, x) = (part.get3(&solved.g), part.get9(&solved.x));
-    let own = if FILL {
-        let w = part.get9(&solved.w);
-        g.less(w.x, step_a.x).less(w.y, step_a.y).less(w.z, step_a.z)
-    } else {
-        g
-    };
-    own.plus(x.x, next.x).plus(x.y, next.y).plus(x.z, next.z)
-}
-
-#[inline(always)]
-fn move_node<S: Simd>(part: Part<S>, row: &mut NodeRow, step: Vec3<Lane<S>>) {
-    let place = part.get3(&row.place).add(step);
-    part.put3(&mut row.place, place);
-}
-
-/// Tension of a segment by the linear solution, and how far that is from the tension at its place.
-#[inline(always)]
-fn predict<S: Simd>(
-    part: Part<S>,
-    solved: &Solved,
-    row: &mut SegmentRow,
-    step: Vec3<Lane<S>>,
-    next: Vec3<Lane<S>>,
-    moved: Moved<Lane<S>>,
-) -> Moved<Lane<S>> {
-    let zero = Lane::new(part.simd, 0.0);
-    let apart = next.sub(step);
-    let stretch = part.get3(&solved.direction).dot(apart);
-    let stiffness = part.get(&solved.stiffness);
-    let tension = part.get(&solved.tension) + stiffness * stretch;
-    let turned = apart.dot(apart) - stretch * stretch;
-    let missed = stiffness * part.get(&solved.inverse_chord) * turned * zero.splat(0.5);
-    // What was solved as taut and comes out slack, or the reverse, is off by its whole tension.
-    let was_taut = part.get(&row.tension);
-    let flipped = was_taut.positive((-tension).max(zero), tension.max(zero));
-    part.put(&mut row.tension, tension);
-    Moved {
-        longest: moved.longest.max(step.dot(step)).max(next.dot(next)),
-        gap: moved.gap.max(missed.max(flipped)),
-        greatest: moved.greatest.max(tension),
-        finite: moved.finite + (tension + step.x + step.y + step.z) * zero,
     }
 }

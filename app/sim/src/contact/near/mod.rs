@@ -1,0 +1,189 @@
+//! Rope near skin: pairs of segment and triangle that may touch within a solver step, and how far
+//! rope may move without crossing.
+//!
+//! The invariant is that the rope's centre line never crosses the skin: every sub-move, of rope alone or
+//! of rope and skin together, is cut short by additive continuous collision detection (`sweep.rs`), and
+//! checked again by an independent exact test (`crossing.rs`).
+
+mod moves;
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use glam::{DAffine3, DVec3};
+
+use super::placed::Placed;
+use super::sweep::SweptSegment;
+use crate::model::Model;
+use crate::whale::{Bounds, Candidate, SkinTree, Surface};
+
+/// Rope within this distance of the path of skin is looked at [m].
+pub(crate) const MARGIN_M: f64 = 0.08;
+
+/// Pairs farther apart than this are known by a lower bound of their distance [m].
+const EXACT_M: f64 = 0.001;
+/// Least separation kept, as a share of the rope's radius.
+const MIN_SEPARATION_SHARE: f64 = 0.08;
+
+/// A segment and a triangle that may touch.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pair {
+    pub segment: usize,
+    /// First node of the segment.
+    pub node: usize,
+    /// Place of the triangle in [`Near::skin`].
+    skin: usize,
+    /// Lower bound of their distance now [m].
+    pub gap_bound: f64,
+    /// Whether it is their distance.
+    exact: bool,
+    /// Separation kept [m].
+    min_separation: f64,
+}
+
+/// All pairs of a solver step, in rising order of segment, with the surface they come from.
+#[derive(Clone, Debug)]
+pub(crate) struct Near {
+    surface: Surface,
+    sweeps: Vec<SweptSegment>,
+    candidates: Vec<Candidate>,
+    /// Triangles that have pairs.
+    skin: Vec<Placed>,
+    /// Where each triangle of the skin lies among them, with the number of the step for which that holds.
+    placed_at: Vec<(u64, usize)>,
+    number: u64,
+    pub pairs: Vec<Pair>,
+    /// Pairs of each segment that has any.
+    pub groups: Vec<(usize, Range<usize>)>,
+    /// First node of each segment.
+    segment_node: Vec<usize>,
+    /// Share of the solver step at which the skin stands now.
+    pub fraction: f64,
+    /// Whether paths are filtered ([`Settings::swept`](crate::model::Settings::swept)).
+    swept: bool,
+}
+
+impl Near {
+    pub fn new(model: &Model, tree: Arc<SkinTree>) -> Self {
+        let nodes = model.line_nodes.iter().flat_map(|nodes| nodes.start..nodes.end - 1);
+        Self {
+            skin: Vec::new(),
+            placed_at: vec![(0, 0); tree.skin().triangles.len()],
+            number: 0,
+            surface: Surface::new(tree),
+            sweeps: vec![SweptSegment::default(); model.segment_count],
+            candidates: Vec::new(),
+            pairs: Vec::new(),
+            groups: Vec::new(),
+            segment_node: nodes.collect(),
+            fraction: 0.0,
+            swept: model.spec.settings.swept,
+        }
+    }
+
+    /// Whether rope that moves from `places` by `moves` may come near skin between two poses.
+    pub fn any(
+        &mut self,
+        bones: [&[DAffine3]; 2],
+        places: &[DVec3],
+        moves: impl Fn(usize) -> DVec3,
+        margin: f64,
+    ) -> bool {
+        self.sweep(bones, places, moves);
+        self.surface.is_any_near(&self.sweeps, margin)
+    }
+
+    fn sweep(&mut self, bones: [&[DAffine3]; 2], places: &[DVec3], moves: impl Fn(usize) -> DVec3) {
+        self.surface.begin(bones[0], bones[1]);
+        for (sweep, &node) in self.sweeps.iter_mut().zip(&self.segment_node) {
+            let (a0, b0) = (places[node], places[node + 1]);
+            *sweep = SweptSegment { a0, b0, a1: a0 + moves(node), b1: b0 + moves(node + 1) };
+        }
+    }
+
+    /// Begins a solver step: gathers the pairs of uncut rope near skin; whether there are any.
+    pub fn begin(
+        &mut self,
+        model: &Model,
+        bones: [&[DAffine3]; 2],
+        places: &[DVec3],
+        moves: impl Fn(usize) -> DVec3,
+        cut: &[bool],
+    ) -> bool {
+        self.sweep(bones, places, moves);
+        self.surface.gather(&self.sweeps, MARGIN_M, &mut self.candidates);
+        self.fraction = 0.0;
+        self.number += 1;
+        self.skin.clear();
+        self.pairs.clear();
+        self.groups.clear();
+        for place in 0..self.candidates.len() {
+            let Candidate { segment, triangle } = self.candidates[place];
+            let segment = segment as usize;
+            if cut[segment] {
+                continue;
+            }
+            let skin = self.place_of(triangle);
+            let min_separation =
+                MIN_SEPARATION_SHARE * 0.5 * model.rope_of_segment(segment).diameter_m;
+            let node = self.segment_node[segment];
+            let index = self.pairs.len();
+            self.pairs.push(Pair {
+                segment,
+                node,
+                skin,
+                gap_bound: 0.0,
+                exact: false,
+                min_separation,
+            });
+            match self.groups.last_mut() {
+                Some((last, range)) if *last == segment => range.end = index + 1,
+                _ => self.groups.push((segment, index..index + 1)),
+            }
+        }
+        !self.pairs.is_empty()
+    }
+
+    /// Where a triangle lies among those that have pairs; put there where it is new.
+    fn place_of(&mut self, triangle: u32) -> usize {
+        let at = &mut self.placed_at[triangle as usize];
+        if at.0 != self.number {
+            *at = (self.number, self.skin.len());
+            self.skin.push(Placed::new(triangle, self.surface.triangle_sweep(triangle)));
+        }
+        at.1
+    }
+
+    /// The triangle of a pair, by the place of the pair.
+    pub fn skin_of(&self, pair: usize) -> &Placed {
+        &self.skin[self.pairs[pair].skin]
+    }
+
+    /// Measures every pair at the places given: near ones exactly, others by a lower bound.
+    pub fn measure(&mut self, places: &[DVec3]) {
+        for (_, range) in &self.groups {
+            let node = self.pairs[range.start].node;
+            let segment = [places[node], places[node + 1]];
+            let rope_box = Bounds::around(&segment);
+            for pair in &mut self.pairs[range.clone()] {
+                let skin = &self.skin[pair.skin];
+                let gap = rope_box.gap(&Bounds::around(&skin.now)).max(skin.gap(segment));
+                pair.exact = gap <= EXACT_M;
+                pair.gap_bound = if pair.exact { skin.nearest_to(segment).distance } else { gap };
+            }
+        }
+    }
+
+    /// Least distance of any pair as last measured, as a share of the rope's radius; 1 or more where none is nearer.
+    pub fn least_share(&self) -> f64 {
+        self.pairs
+            .iter()
+            .map(|pair| MIN_SEPARATION_SHARE * pair.gap_bound / pair.min_separation)
+            .fold(1.0, f64::min)
+    }
+}
+
+/// A barycentric place on a triangle.
+pub(crate) fn on_triangle(corners: [DVec3; 3], barycentric: [f64; 3]) -> DVec3 {
+    corners[0] * barycentric[0] + corners[1] * barycentric[1] + corners[2] * barycentric[2]
+}

@@ -1,0 +1,147 @@
+//! Gathers pairs of segments that may touch in a step.
+
+use glam::DVec3;
+
+use super::{Pair, RopeWorkspace, TOUCH_M, sweep_of};
+use crate::contact::ropes::broad::Moves;
+use crate::contact::ropes::sweep::{greatest_approach, nearest};
+use crate::model::Model;
+use crate::state::State;
+
+/// Ropes that come this near in a step, beyond touching, are gathered [m].
+const MARGIN_M: f64 = 0.03;
+
+/// Ropes nearer than this share of the contact distance when a step begins run through each other, and are left alone.
+const THROUGH_SHARE: f64 = 0.01;
+
+/// Rope between two of its points, in contact distances, below which they do not touch: it cannot bend back so sharply.
+const SPARED_CONTACT_DISTANCES: f64 = 3.0;
+
+/// Least separation kept, as a share of the contact distance.
+const MIN_SEPARATION_SHARE: f64 = 0.08;
+
+impl RopeWorkspace {
+    /// Takes over the lengths of segments, where they are not those there are.
+    fn measure_lengths(&mut self, model: &Model, lengths: &[f64]) {
+        if self.lengths == lengths {
+            return;
+        }
+        self.lengths.clear();
+        self.lengths.extend_from_slice(lengths);
+        self.shortest_m = lengths.iter().copied().fold(f64::INFINITY, f64::min);
+        for (segments, (_, whole)) in model.line_segments.iter().zip(&mut self.ends) {
+            *whole = 0.0;
+            for segment in segments.clone() {
+                self.along_m[segment] = *whole;
+                *whole += lengths[segment];
+            }
+        }
+    }
+
+    /// Gathers rope near rope for a step from the state by its velocities; whether any may touch.
+    pub fn gather(&mut self, model: &Model, state: &State, dt: f64) -> bool {
+        self.pairs.clear();
+        self.through.clear();
+        (self.touching, self.crossings) = (false, 0);
+        let rope = &state.rope;
+        self.gather_to(
+            model,
+            state,
+            |node| rope.position[node] + rope.velocity[node] * dt,
+            MARGIN_M,
+        );
+        self.touching
+    }
+
+    /// Gathers rope that came near rope on its way to these places besides; whether there is any.
+    pub fn gather_more(&mut self, model: &Model, state: &State, to: &[DVec3]) -> bool {
+        let before = self.pairs.len();
+        self.gather_to(model, state, |node| to[node], TOUCH_M);
+        self.pairs.len() > before
+    }
+
+    /// Adds pairs, in order.
+    pub(super) fn gather_to(
+        &mut self,
+        model: &Model,
+        state: &State,
+        to: impl Fn(usize) -> DVec3,
+        margin: f64,
+    ) {
+        if self.law.is_none() {
+            return;
+        }
+        self.measure_lengths(model, &state.rope.segment_length);
+        let (from, mut found, known) =
+            (&state.rope.position, std::mem::take(&mut self.found), self.pairs.len());
+        let moves = Moves { from, to: &to, lengths: &self.lengths };
+        self.broad.collect(&moves, 2.0 * self.widest_m + margin, &mut found);
+        for [one, other] in &found {
+            if state.rope.cut[*one] || state.rope.cut[*other] || self.is_spared(*one, *other) {
+                continue;
+            }
+            if self.pairs[..known]
+                .binary_search_by_key(&[*one, *other], |pair| pair.segments)
+                .is_err()
+            {
+                self.add_pair([*one, *other], from, &to, margin);
+            }
+        }
+        self.pairs.sort_unstable_by_key(|pair| pair.segments);
+        self.found = found;
+    }
+
+    fn add_pair(
+        &mut self,
+        segments: [usize; 2],
+        from: &[DVec3],
+        to: &impl Fn(usize) -> DVec3,
+        margin: f64,
+    ) {
+        let [one, other] = segments.map(|segment| self.homes[segment]);
+        let (nodes, contact_distance) = ([one.node, other.node], one.radius_m + other.radius_m);
+        let [a, b] = nodes.map(|node| sweep_of(node, from, to));
+        let first = nearest(a.at(0.0), b.at(0.0)).distance;
+        let least = first - greatest_approach(&a, &b);
+        if least > contact_distance + margin {
+            return;
+        }
+        if first < THROUGH_SHARE * contact_distance {
+            self.through.push(segments);
+            return;
+        }
+        self.touching |= least < contact_distance + TOUCH_M;
+        let (lines, min_separation) =
+            ([one.line, other.line], MIN_SEPARATION_SHARE * contact_distance);
+        self.pairs.push(Pair {
+            segments,
+            nodes,
+            lines,
+            contact_distance,
+            min_separation,
+            gap_bound: first,
+            first,
+            points: Default::default(),
+        });
+    }
+
+    /// Whether so little rope lies between two segments, through a joint too, that they do not touch.
+    fn is_spared(&self, one: usize, other: usize) -> bool {
+        let (a, b) = (self.homes[one], self.homes[other]);
+        let little = SPARED_CONTACT_DISTANCES * (a.radius_m + b.radius_m);
+        if a.line == b.line && self.along_m[other] - self.along_m[one] - self.lengths[one] < little
+        {
+            return true;
+        }
+        let to_end = |line: usize, segment: usize, end: usize| match end {
+            0 => self.along_m[segment],
+            _ => self.ends[line].1 - self.along_m[segment] - self.lengths[segment],
+        };
+        let meets = |(end, other_end): (usize, usize)| {
+            self.ends[a.line].0[end] == self.ends[b.line].0[other_end]
+                && (a.line != b.line || end != other_end)
+                && to_end(a.line, one, end) + to_end(b.line, other, other_end) < little
+        };
+        [(0, 0), (0, 1), (1, 0), (1, 1)].into_iter().any(meets)
+    }
+}

@@ -1,0 +1,117 @@
+//! Rope near rope in one step: pairs of segments, the points at which they may press, and how far rope may move without crossing.
+
+mod gather;
+mod moves;
+mod open;
+
+use glam::DVec3;
+
+use super::broad::Broad;
+use super::points::RopeContactPoint;
+use crate::contact::sweep::SweptSegment;
+use crate::model::{Model, RopeOnRope};
+
+/// Ropes that come this near in a step, beyond touching, may touch [m].
+const TOUCH_M: f64 = 2e-3;
+
+/// Where a segment belongs.
+#[derive(Clone, Copy, Debug)]
+struct Home {
+    line: usize,
+    node: usize,
+    radius_m: f64,
+}
+
+/// Two segments that may touch, the first below the second.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pair {
+    pub segments: [usize; 2],
+    /// First node of each.
+    pub nodes: [usize; 2],
+    lines: [usize; 2],
+    /// Sum of the radii [m].
+    pub contact_distance: f64,
+    min_separation: f64,
+    /// Lower bound of the distance now [m].
+    gap_bound: f64,
+    /// Distance when the step began [m].
+    first: f64,
+    pub points: [RopeContactPoint; 2],
+}
+
+/// Scratch of rope against rope for one model; it keeps nothing that a step depends on.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct RopeWorkspace {
+    /// `None` where ropes pass through each other.
+    pub law: Option<RopeOnRope>,
+    pub pairs: Vec<Pair>,
+    /// Whether ropes may touch in this step.
+    pub touching: bool,
+    /// Pairs that run through each other; some may stand here twice.
+    through: Vec<[usize; 2]>,
+    /// Crossings found in the step by the exact test.
+    pub crossings: u64,
+    homes: Vec<Home>,
+    /// Joints at the ends of each line, and its unstretched length [m].
+    ends: Vec<([usize; 2], f64)>,
+    /// Unstretched length of each segment, and from its line's start to it [m].
+    lengths: Vec<f64>,
+    along_m: Vec<f64>,
+    widest_m: f64,
+    shortest_m: f64,
+    broad: Broad,
+    found: Vec<[usize; 2]>,
+    passes: usize,
+}
+
+impl RopeWorkspace {
+    /// Storage for a model.
+    pub fn new(model: &Model) -> Self {
+        let Some(law) = model.spec.settings.rope_on_rope else { return Self::default() };
+        let mut homes = Vec::with_capacity(model.segment_count);
+        for (line, nodes) in model.line_nodes.iter().enumerate() {
+            let radius_m = 0.5 * model.spec.ropes[model.spec.lines[line].rope].diameter_m;
+            homes.extend((nodes.start..nodes.end - 1).map(|node| Home { line, node, radius_m }));
+        }
+        Self {
+            law: Some(law),
+            widest_m: homes.iter().map(|home| home.radius_m).fold(0.0, f64::max),
+            homes,
+            ends: model.spec.lines.iter().map(|line| ([line.from, line.to], 0.0)).collect(),
+            along_m: vec![0.0; model.segment_count],
+            broad: Broad::new(model),
+            ..Self::default()
+        }
+    }
+
+    /// How many pairs run through each other.
+    pub fn count_through(&mut self) -> u64 {
+        self.through.sort_unstable();
+        self.through.dedup();
+        self.through.len() as u64
+    }
+
+    /// Goes back to where the step began.
+    pub fn begin(&mut self) {
+        for pair in &mut self.pairs {
+            pair.gap_bound = pair.first;
+        }
+    }
+}
+
+impl Pair {
+    /// Ends of both segments by a quantity given at nodes.
+    pub fn places(&self, at: impl Fn(usize) -> DVec3) -> [[DVec3; 2]; 2] {
+        self.nodes.map(|node| [at(node), at(node + 1)])
+    }
+}
+
+/// From the point of the second segment to that of the first, and how long that is.
+pub(crate) fn between(one: [DVec3; 2], other: [DVec3; 2], [s, t]: [f64; 2]) -> (DVec3, f64) {
+    let gap = one[0].lerp(one[1], s) - other[0].lerp(other[1], t);
+    (gap, gap.length())
+}
+
+fn sweep_of(node: usize, from: &[DVec3], to: &impl Fn(usize) -> DVec3) -> SweptSegment {
+    SweptSegment { a0: from[node], b0: from[node + 1], a1: to(node), b1: to(node + 1) }
+}
