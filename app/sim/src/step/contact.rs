@@ -41,26 +41,7 @@ pub(super) fn contact_step(
         }
         audit.tunnelled += solver.carry(model, work);
         solver.open_ropes(state);
-        match solver.solve_contact(model, state, scheme, work) {
-            ContactEnd::Ended { last_m, passes, crossings } => {
-                audit.passes += passes as u64;
-                audit.tunnelled += crossings;
-                if last_m > CONTACT_CONVERGED_M {
-                    return Err(Rejection::NotConverged);
-                }
-                audit.unconverged += u64::from(last_m > CONTACT_WANTED_M);
-            }
-            ContactEnd::NotFinite => {
-                audit.non_finite += 1;
-                return Err(Rejection::NotFinite);
-            }
-            ContactEnd::TooFar => return Err(Rejection::NotConverged),
-            ContactEnd::Crushed(segment, triangle) => {
-                return Err(Rejection::Pinched(segment, triangle));
-            }
-            ContactEnd::CrushedRopes(segments) => return Err(Rejection::RopesPinched(segments)),
-            ContactEnd::Plugin(message) => return Err(Rejection::Plugin(message)),
-        }
+        accept(solver.solve_contact(model, state, scheme, work), audit)?;
         if let Some((segment, triangle)) = work.nearer_than(pinched) {
             return Err(Rejection::Pinched(segment, triangle));
         }
@@ -76,4 +57,27 @@ pub(super) fn contact_step(
         }
     }
     Err(Rejection::NotConverged)
+}
+
+/// Counts what Newton at one pose of the skin did, or rejects the step.
+fn accept(end: ContactEnd, audit: &mut Audit) -> Result<(), Rejection> {
+    match end {
+        ContactEnd::Ended { last_m, passes, crossings } => {
+            audit.passes += passes as u64;
+            audit.tunnelled += crossings;
+            if last_m > CONTACT_CONVERGED_M {
+                return Err(Rejection::NotConverged);
+            }
+            audit.unconverged += u64::from(last_m > CONTACT_WANTED_M);
+            Ok(())
+        }
+        ContactEnd::NotFinite => {
+            audit.non_finite += 1;
+            Err(Rejection::NotFinite)
+        }
+        ContactEnd::TooFar => Err(Rejection::NotConverged),
+        ContactEnd::Crushed(segment, triangle) => Err(Rejection::Pinched(segment, triangle)),
+        ContactEnd::CrushedRopes(segments) => Err(Rejection::RopesPinched(segments)),
+        ContactEnd::Plugin(failed) => Err(Rejection::Plugin(failed)),
+    }
 }

@@ -12,70 +12,12 @@ impl Water {
     /// Everything wrong with current and waves, in words.
     #[must_use]
     pub fn problems(&self) -> Vec<String> {
-        let mut found = Vec::new();
-        let mut need = |holds: bool, message: String| {
-            if !holds {
-                found.push(message);
-            }
-        };
-        need(self.current.surface_m_s.is_finite(), "current is not a finite number".into());
-        match &self.current.profile {
-            Profile::Uniform => {}
-            Profile::Power(exponent) => {
-                let holds = exponent.is_finite() && *exponent > 0.0;
-                need(
-                    holds,
-                    format!("exponent of the current is {exponent}, expected a number above zero"),
-                );
-            }
-            Profile::Log(roughness) => {
-                let holds = roughness.is_finite() && *roughness > 0.0;
-                need(
-                    holds,
-                    format!(
-                        "roughness of the current is {roughness} of the depth, expected a number above zero"
-                    ),
-                );
-            }
-            Profile::Table(rows) => {
-                let sound = rows.iter().all(|row| {
-                    row.height.is_finite() && row.along.is_finite() && row.left.is_finite()
-                });
-                need(
-                    sound && !rows.is_empty(),
-                    "profile of the current has no rows, or one that is not finite".into(),
-                );
-                need(
-                    rows.windows(2).all(|pair| pair[0].height < pair[1].height),
-                    "rows of the current's profile do not rise".into(),
-                );
-            }
-        }
-        match &self.current.tide {
-            Tide::Steady => {}
-            Tide::Constituent { period_s, peak_s, minor, residual_m_s } => {
-                need(
-                    period_s.is_finite() && *period_s > 0.0,
-                    format!("period of the tide is {period_s}, expected a number above zero"),
-                );
-                need(
-                    peak_s.is_finite() && minor.is_finite() && residual_m_s.is_finite(),
-                    "the tide has a figure that is not finite".into(),
-                );
-            }
-            Tide::Table(rows) => {
-                let sound =
-                    rows.iter().all(|(time, velocity)| time.is_finite() && velocity.is_finite());
-                need(
-                    sound && !rows.is_empty(),
-                    "table of the tide has no rows, or one that is not finite".into(),
-                );
-                need(
-                    rows.windows(2).all(|pair| pair[0].0 < pair[1].0),
-                    "times of the tide's table do not rise".into(),
-                );
-            }
-        }
+        let mut found = Problems(Vec::new());
+        found
+            .need(self.current.surface_m_s.is_finite(), || "current is not a finite number".into());
+        found.check_profile(&self.current.profile);
+        found.check_tide(&self.current.tide);
+        let Problems(mut found) = found;
         if let Some(waves) = &self.waves {
             found.extend(self.problems_of_waves(waves));
         }
@@ -110,5 +52,73 @@ impl Water {
         let greatest = breaking_height(period, self.depth_m, self.gravity_m_s2);
         (height > greatest)
             .then(|| format!("waves of {height} m and {period} s break: they are {greatest:.2} m high at most in this depth"))
+    }
+}
+
+/// Problems found so far, in words.
+struct Problems(Vec<String>);
+
+impl Problems {
+    fn need(&mut self, holds: bool, message: impl FnOnce() -> String) {
+        if !holds {
+            self.0.push(message());
+        }
+    }
+
+    fn check_profile(&mut self, profile: &Profile) {
+        match profile {
+            Profile::Uniform => {}
+            Profile::Power(exponent) => {
+                let holds = exponent.is_finite() && *exponent > 0.0;
+                self.need(holds, || {
+                    format!("exponent of the current is {exponent}, expected a number above zero")
+                });
+            }
+            Profile::Log(roughness) => {
+                let holds = roughness.is_finite() && *roughness > 0.0;
+                self.need(
+                    holds,
+                    || format!(
+                        "roughness of the current is {roughness} of the depth, expected a number above zero"
+                    ),
+                );
+            }
+            Profile::Table(rows) => {
+                let sound = rows.iter().all(|row| {
+                    row.height.is_finite() && row.along.is_finite() && row.left.is_finite()
+                });
+                self.need(sound && !rows.is_empty(), || {
+                    "profile of the current has no rows, or one that is not finite".into()
+                });
+                self.need(rows.windows(2).all(|pair| pair[0].height < pair[1].height), || {
+                    "rows of the current's profile do not rise".into()
+                });
+            }
+        }
+    }
+
+    fn check_tide(&mut self, tide: &Tide) {
+        match tide {
+            Tide::Steady => {}
+            Tide::Constituent { period_s, peak_s, minor, residual_m_s } => {
+                self.need(period_s.is_finite() && *period_s > 0.0, || {
+                    format!("period of the tide is {period_s}, expected a number above zero")
+                });
+                self.need(
+                    peak_s.is_finite() && minor.is_finite() && residual_m_s.is_finite(),
+                    || "the tide has a figure that is not finite".into(),
+                );
+            }
+            Tide::Table(rows) => {
+                let sound =
+                    rows.iter().all(|(time, velocity)| time.is_finite() && velocity.is_finite());
+                self.need(sound && !rows.is_empty(), || {
+                    "table of the tide has no rows, or one that is not finite".into()
+                });
+                self.need(rows.windows(2).all(|pair| pair[0].0 < pair[1].0), || {
+                    "times of the tide's table do not rise".into()
+                });
+            }
+        }
     }
 }

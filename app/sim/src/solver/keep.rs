@@ -1,0 +1,45 @@
+//! Writes the solved step into the state.
+
+use glam::DVec3;
+
+use super::scheme::Scheme;
+use super::{Solver, body};
+use crate::model::Model;
+use crate::state::State;
+
+impl Solver {
+    /// Writes the solved step into the state.
+    pub(crate) fn keep(&self, model: &Model, scheme: &Scheme, state: &mut State) {
+        self.keep_grips(model, scheme, state);
+        self.keep_solid_grips(scheme, state);
+        self.keep_rope_grips(scheme, state);
+        let rope = &mut state.rope;
+        rope.earlier_position.clone_from(&rope.position);
+        rope.earlier_velocity.clone_from(&rope.velocity);
+        rope.earlier_dt_s = scheme.dt;
+        rope.tension.clone_from(&self.trial.tension);
+        for node in 0..model.node_count {
+            rope.position[node] = self.trial.place[node];
+            rope.velocity[node] =
+                (self.trial.place[node] - self.trial.place_history[node]) * scheme.rate;
+        }
+        self.keep_bodies(scheme, state);
+    }
+
+    /// Writes bodies and time into the state.
+    pub(super) fn keep_bodies(&self, scheme: &Scheme, state: &mut State) {
+        for (trial, body) in self.trial.bodies.iter().zip(&mut state.bodies) {
+            body.earlier_position = body.position;
+            body.earlier_velocity = body.velocity;
+            body.position = trial.place;
+            body.velocity = (trial.place - trial.place_history) * scheme.rate;
+            body.spin = if scheme.is_static() {
+                DVec3::ZERO
+            } else {
+                body::spin(trial.orientation, body.orientation, scheme.dt)
+            };
+            body.orientation = trial.orientation;
+        }
+        state.time_s = self.trial.time;
+    }
+}
