@@ -1,7 +1,7 @@
 //! Which segment of a line to split, and which two neighbours to merge for it.
 //!
 //! With `r` a segment's length over the wanted one, the allowed split of greatest `r` is paid for by the allowed merge of
-//! least `r`, where the split gains more than the merge loses; so no swap is ever undone while the whale stands still.
+//! least `r`, where the split gains more than the merge loses; so no change is ever undone while the whale stands still.
 
 use std::ops::Range;
 
@@ -28,7 +28,7 @@ fn jump_n(tension_n: f64) -> f64 {
     JUMP_N.max(JUMP_SHARE * tension_n)
 }
 
-/// A line as the judge sees it.
+/// A line as the criteria of splitting and merging see it.
 pub(super) struct Line<'a> {
     rope: &'a Rope,
     state: &'a RopeState,
@@ -141,7 +141,7 @@ fn tension(rope: &Rope, chord: DVec3, velocity: DVec3, length: f64) -> f64 {
     Axial::of(rope, length).tension(stretched / length - 1.0, along / length).max(0.0)
 }
 
-/// The swap that gains most: the segment to split, and the first of the two to merge.
+/// The pair of split and merge that gains most: the segment to split, and the first of the two to merge.
 pub(super) fn best(line: &Line<'_>) -> Option<(usize, usize)> {
     let inner = line.inner();
     let mut split = None;

@@ -27,7 +27,7 @@ pub(crate) struct Scheme {
     pub rate: f64,
     /// Weight of the mass in the matrix: `1/h²`, or the pseudo-mass of statics [1/s²].
     pub inertia: f64,
-    /// Whether the pseudo-mass of statics pulls back to where a pass began (`rest.rs`).
+    /// Whether the pseudo-mass of statics pulls back to where a pass began (`statics.rs`).
     pub anchored: bool,
     /// Whether forces on bodies are differentiated as they are, and not so that the matrix stays definite while a body
     /// is far from its balance.

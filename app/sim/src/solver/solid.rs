@@ -78,13 +78,13 @@ impl Solver {
                 ActiveSet::AtTrial => point.push_n > 0.0,
             };
             if pushes {
-                self.add_slot(state, scheme, solid, point, &touch);
+                self.add_point(state, scheme, solid, point, &touch);
             }
         }
         self.solid = work;
     }
 
-    fn add_slot(
+    fn add_point(
         &mut self,
         state: &State,
         scheme: &Scheme,
