@@ -3,7 +3,7 @@
 //! A contact point at fraction `α` of a segment acts on its two nodes with weights `1 - α` and `α`, so the
 //! matrix stays block-tridiagonal. Push: `N n`, block `N' n nᵀ`. Friction `f(s, N)` from the plugin:
 //! block `-∂f/∂s + (∂f/∂N)(N' n)ᵀ`, not symmetric, with the normal force coupled in.
-//! Each move is cut by the sweep filter (`contact/near.rs`), then searched along for balance (`line_search.rs`).
+//! Each move is cut by the sweep filter (`contact/near/mod.rs`), then searched along for balance (`line_search.rs`).
 
 use glam::{DMat3, DVec3};
 

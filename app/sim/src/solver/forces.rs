@@ -1,4 +1,4 @@
-//! The laws of a rope's nodes and segments, written once for one number (`rope.rs`) and for a row of lanes (`lanes/sweep.rs`).
+//! The laws of a rope's nodes and segments, written once for one number (`rope.rs`) and for a row of lanes (`lanes/sweep/mod.rs`).
 //!
 //! Node with hanging length `L`, tangent `t`, water velocity relative to it `u = U - v`, `u_t = u·t`, `u_n = u - u_t t`
 //! (Morison): `F = L [½ρ C_n d |u_n| u_n + ½ρ C_t π d |u_t| u_t t - (m - ρ A_m) g ẑ] - M (v - v̂)/h`, with

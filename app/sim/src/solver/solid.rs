@@ -1,6 +1,6 @@
 //! Rope pressed on obstacles and on the bodies of the rig.
 //!
-//! At a contact point (`solids/workspace.rs`) with depth `p` of the rope's surface below the solid's and stiffness `k`: `N = k p` while
+//! At a contact point (`solids/workspace/mod.rs`) with depth `p` of the rope's surface below the solid's and stiffness `k`: `N = k p` while
 //! it pushes, block `k n nᵀ`. Whether it pushes is judged by the normal force that the last solve predicted, as for
 //! tension: Newton then ends in a few passes. Friction is the elastic grip that slips at `μN` (`elastic_grip.rs`), its block
 //! not symmetric, so that it follows the normal force within the solve.

@@ -6,7 +6,7 @@
 //! along each other, one at each end of the stretch they share (`points.rs`).
 //!
 //! Nothing crosses: every move is cut short by additive continuous collision detection (`sweep.rs`) and checked again by the
-//! exact test of `crossing.rs`. The forces stand in `solver/rope_on_rope.rs`, the linear algebra in `solver/coupled.rs`.
+//! exact test of `crossing.rs`. The forces stand in `solver/rope_on_rope.rs`, the linear algebra in `solver/woodbury.rs`.
 
 pub(crate) mod broad;
 pub(crate) mod near;
