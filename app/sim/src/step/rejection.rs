@@ -34,41 +34,64 @@ impl Rejection {
 
     /// The reason a run ends where even the shortest step is rejected.
     pub fn stop(self, model: &Model, state: &State, solver: &Solver) -> Stop {
-        let line = || {
-            solver.worst_line(model).map_or_else(
+        let line_of =
+            |segment: usize| format!("line {}", model.spec.lines[model.segment_line[segment]].id);
+        let worst = || {
+            let line = solver.worst_line(model);
+            line.map_or_else(
                 || "model".into(),
                 |line| format!("line {}", model.spec.lines[line].id),
             )
         };
         let (part, reason) = match self {
-            Self::NotFinite => {
-                (line(), "its numbers are no longer finite at the shortest step; check stiffness, mass and current of this part".into())
+            Self::NotFinite => (
+                worst(),
+                "its numbers are no longer finite at the shortest step; check stiffness, mass and \
+                 current of this part"
+                    .into(),
+            ),
+            Self::NotConverged => (
+                worst(),
+                "no balance of forces was found at the shortest step; check strength and stiffness \
+                 of this part"
+                    .into(),
+            ),
+            Self::PartsTooLate => {
+                (worst(), "it parts faster than the shortest step can follow".into())
             }
-            Self::NotConverged => {
-                (line(), "no balance of forces was found at the shortest step; check strength and stiffness of this part".into())
-            }
-            Self::PartsTooLate => (line(), "it parts faster than the shortest step can follow".into()),
-            Self::Crossed(segment) => {
-                let line = &model.spec.lines[model.segment_line[segment]].id;
-                (format!("line {line}"), "rope crosses the whale's skin where the run starts; move the whale or the gear apart".into())
-            }
+            Self::Crossed(segment) => (
+                line_of(segment),
+                "rope crosses the whale's skin where the run starts; move the whale or the gear apart"
+                    .into(),
+            ),
             Self::Pinched(segment, triangle) => {
-                let line = &model.spec.lines[model.segment_line[segment]].id;
-                let region = model.spec.whale.as_ref().map_or("skin", |whale| whale.skin.regions[triangle].part().name());
-                let reason = format!("rope is pinched at the whale's {region} by parts of the skin that close on it harder than rope can bear");
-                (format!("line {line}"), reason)
+                let whale = model.spec.whale.as_ref();
+                let region =
+                    whale.map_or("skin", |whale| whale.skin.regions[triangle].part().name());
+                let reason = format!(
+                    "rope is pinched at the whale's {region} by parts of the skin that close on it \
+                     harder than rope can bear"
+                );
+                (line_of(segment), reason)
             }
             Self::WentThrough(segment, solid) => {
-                let line = &model.spec.lines[model.segment_line[segment]].id;
                 let solid = crate::solids::name_of(model, solid);
-                (format!("line {line}"), format!("rope goes through {solid} even at the shortest step; use shorter segments or a slower start"))
+                let reason = format!(
+                    "rope goes through {solid} even at the shortest step; use shorter segments or a \
+                     slower start"
+                );
+                (line_of(segment), reason)
             }
             Self::RopesPinched([segment, other]) => {
-                let line = |segment: usize| &model.spec.lines[model.segment_line[segment]].id;
-                let reason = format!("it is pressed into line {} harder than rope can bear; check what pulls on both", line(other));
-                (format!("line {}", line(segment)), reason)
+                let reason = format!(
+                    "it is pressed into {} harder than rope can bear; check what pulls on both",
+                    line_of(other)
+                );
+                (line_of(segment), reason)
             }
-            Self::RopesMeet => (line(), "rope meets rope in a step that cannot be made shorter".into()),
+            Self::RopesMeet => {
+                (worst(), "rope meets rope in a step that cannot be made shorter".into())
+            }
             Self::Plugin(failed) => (failed.id, failed.message),
         };
         Stop { time_s: state.time_s, part, reason }
