@@ -81,7 +81,7 @@ impl InterfaceSystem {
     /// The block at (row, column), which the layout must hold.
     pub fn at(&mut self, row: usize, column: usize) -> &mut DMat3 {
         let storage = self.storage[row * self.blocks + column];
-        debug_assert!(storage != NONE, "hub block ({row}, {column}) is not in the layout");
+        debug_assert!(storage != NONE, "interface block ({row}, {column}) is not in the layout");
         &mut self.value[storage as usize]
     }
 
