@@ -8,29 +8,24 @@ mod selector;
 mod side;
 mod sweep;
 mod table;
+mod toolbar;
 
 use std::path::Path;
 
-use egui::{RichText, ScrollArea, Slider, SliderClamping, Ui};
+use egui::{ScrollArea, Ui};
 use endline_gear::Kind;
 use endline_session::edit::Documents;
 use endline_session::edit::library_table::id_of;
 use endline_session::export;
 use endline_session::scene::{Scene, Show};
-use endline_session::statics::TrialSea;
 use endline_session::statics::worker::Answer;
-use endline_session::statics::{StaticsWorker, Trial};
+use endline_session::statics::{StaticsWorker, Trial, TrialSea};
 
-use crate::gui::desk::{Desk, Order};
+use crate::gui::desk::Desk;
 use crate::gui::fields;
-use crate::gui::order::Dialog;
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
-use crate::gui::theme::{Theme, primary};
 use crate::gui::widgets::{self, problem};
-
-/// Fastest current of the slider [m/s]: 2 knots.
-const FASTEST_M_S: f64 = 1.03;
 
 /// Gear from buoy to trap, at rest.
 #[derive(Default)]
@@ -41,11 +36,9 @@ pub struct AssemblyPanel {
     pub other: Option<String>,
     /// Surface speed at running tide [m/s]; the scenario's where `None`.
     pub running_m_s: Option<f64>,
-    /// The line chosen, by its index among the parts.
-    pub line: usize,
     /// Whether the table of depths and currents is shown.
     pub sweep: bool,
-    bench: StaticsWorker,
+    statics: StaticsWorker,
     asked: Option<(u64, Vec<Trial>)>,
     /// Whether the gear selector is shown.
     pub selecting: bool,
@@ -63,21 +56,21 @@ struct Drawn<'a> {
 
 impl AssemblyPanel {
     fn drawn(&self) -> Drawn<'_> {
-        let pair = |first: usize| [self.bench.answer(first), self.bench.answer(first + 1)];
+        let pair = |first: usize| [self.statics.answer(first), self.statics.answer(first + 1)];
         Drawn { a: pair(0), b: if self.other.is_some() { pair(2) } else { [None, None] } }
     }
 
     /// Whether every rig asked for is there.
     #[must_use]
     pub fn settled(&self) -> bool {
-        let (done, all) = self.bench.progress();
+        let (done, all) = self.statics.progress();
         all > 0 && done == all
     }
 
     /// What came of the gear shown: at slack tide, then at running tide.
     #[must_use]
     pub fn answers(&self) -> [Option<&Answer>; 2] {
-        [self.bench.newest(0), self.bench.newest(1)]
+        [self.statics.newest(0), self.statics.newest(1)]
     }
 }
 
@@ -173,104 +166,13 @@ impl AssemblyPanel {
         if let Some(other) = &self.other {
             trials.extend([at(other, Some(0.0)), at(other, running)]);
         }
-        self.bench.poll();
+        self.statics.poll();
         let wanted = (desk.documents.version(), trials);
         if self.asked.as_ref() != Some(&wanted) {
             let scenario = desk.documents.text(Documents::SCENARIO).unwrap_or_default().to_owned();
             let (library, (host, waker)) = (desk.documents.library().clone(), desk.helpers());
-            self.bench.ask(&scenario, &library, wanted.1.clone(), &host, &waker);
+            self.statics.ask(&scenario, &library, wanted.1.clone(), &host, &waker);
             self.asked = Some(wanted);
-        }
-    }
-
-    /// Which gear is shown, and what can be done with it.
-    fn toolbar(&mut self, ui: &mut Ui, desk: &mut Desk, id: &str) {
-        ui.horizontal_wrapped(|ui| {
-            self.choose_gear(ui, desk, id);
-            ui.menu_button("New ⏷", |ui| self.new_gear(ui, desk));
-            if ui.button("Duplicate").on_hover_text("Copy A to a file of its own").clicked() {
-                match desk.documents.duplicate(&path(id)) {
-                    Ok(fresh) => self.shown = Some(id_of(&fresh).to_owned()),
-                    Err(error) => desk.notice = Some((error, true)),
-                }
-            }
-            let placed = desk.documents.field(Documents::SCENARIO, "gear.0.assembly");
-            let other = placed.is_some_and(|placed| placed != id);
-            if other && primary(ui, true, "Use in scenario").clicked() {
-                desk.set(Documents::SCENARIO, "gear.0.assembly", id);
-            }
-            ui.menu_button("Model ⏷", |ui| model_menu(ui, desk));
-            ui.separator();
-            ui.toggle_value(&mut self.sweep, "Depths and tides")
-                .on_hover_text("Tension and float height by depth and current");
-        });
-        self.tide(ui, desk);
-    }
-
-    /// The gear shown, A, and the gear it is compared with, B.
-    fn choose_gear(&mut self, ui: &mut Ui, desk: &Desk, id: &str) {
-        let choices = assemblies(desk);
-        ui.label(RichText::new("A").strong().color(side::A.color(ui)));
-        if let Some(Some(taken)) = pick(ui, "gear-a", &choices, Some(id), None) {
-            self.shown = Some(taken);
-        }
-        ui.label(RichText::new("B").strong().color(side::B.color(ui)));
-        let other = self.other.clone();
-        if let Some(taken) = pick(ui, "gear-b", &choices, other.as_deref(), Some("compare with …"))
-        {
-            self.other = taken;
-        }
-        ui.toggle_value(&mut self.selecting, "Pictures").on_hover_text(
-            "Choose A by its picture: every assembly at rest in this scenario's sea",
-        );
-    }
-
-    /// The slider of the running tide.
-    fn tide(&mut self, ui: &mut Ui, desk: &Desk) {
-        let units = desk.preferences.units;
-        let of_scenario_m_s =
-            self.answers()[1].and_then(|answer| answer.as_ref().ok()).map(|rest| surface_m_s(rest));
-        ui.horizontal(|ui| {
-            ui.label(RichText::new("Running tide").color(Theme::palette_of(ui).faint));
-            let mut speed = units.of_m_s(self.running_m_s.or(of_scenario_m_s).unwrap_or(0.25));
-            ui.spacing_mut().slider_width = 180.0;
-            let slider = Slider::new(&mut speed, 0.0..=units.of_m_s(FASTEST_M_S))
-                .clamping(SliderClamping::Never)
-                .min_decimals(2)
-                .max_decimals(4)
-                .suffix(format!(" {}", units.speed_symbol()));
-            if ui
-                .add(slider)
-                .on_hover_text("Surface speed of the current; slack tide is drawn beside it")
-                .changed()
-            {
-                self.running_m_s = Some(units.to_m_s(speed));
-            }
-            if self.running_m_s.is_some() && ui.button("As scenario").clicked() {
-                self.running_m_s = None;
-            }
-            if !self.settled() {
-                ui.spinner();
-            }
-        });
-    }
-
-    /// Gear types as starting points.
-    fn new_gear(&mut self, ui: &mut Ui, desk: &mut Desk) {
-        for gear in desk.gear_types() {
-            let descriptor = gear.descriptor();
-            if ui.button(descriptor.name.as_ref()).on_hover_text(descriptor.id.as_ref()).clicked() {
-                let stem = descriptor.id.rsplit('.').next().unwrap_or("gear").to_owned();
-                let fresh = desk.documents.fresh_path("assemblies", &format!("my-{stem}"));
-                let text = format!(
-                    "format = 1\nkind = \"assembly\"\nname = \"My {}\"\nnotes = \"\"\n\ngear_type = \"{}\"\n\n[attributes]\n",
-                    descriptor.name.to_lowercase(),
-                    descriptor.id
-                );
-                desk.documents.put_all(vec![(fresh.clone(), text)]);
-                self.shown = Some(id_of(&fresh).to_owned());
-                ui.close();
-            }
         }
     }
 
@@ -331,54 +233,12 @@ const GEAR_ALONE: Show = Show {
     scale_n: None,
 };
 
-fn model_menu(ui: &mut Ui, desk: &mut Desk) {
-    for (text, ending) in [("Save as STL …", "stl"), ("Save as glTF …", "glb")] {
-        let help = "A at rest in running tide, in metres, for CAD and pictures";
-        if ui.button(text).on_hover_text(help).clicked() {
-            desk.orders.push(Order::Ask(Dialog::ExportModel(ending)));
-            ui.close();
-        }
-    }
-}
-
 /// Every assembly: id and name.
 fn assemblies(desk: &Desk) -> Vec<(String, String)> {
     let id = |path: &str| id_of(path).to_owned();
     let named =
         |path: &str| (id(path), desk.documents.field(path, "name").unwrap_or_else(|| id(path)));
     desk.documents.files("assemblies").map(named).collect()
-}
-
-/// A choice among assemblies; the outer answer says whether something was taken, the inner one what.
-fn pick(
-    ui: &mut Ui,
-    salt: &str,
-    choices: &[(String, String)],
-    chosen: Option<&str>,
-    none: Option<&str>,
-) -> Option<Option<String>> {
-    let name = |id: &str| {
-        choices
-            .iter()
-            .find(|(known, _)| known == id)
-            .map_or(id.to_owned(), |(_, name)| name.clone())
-    };
-    let shown = chosen.map_or(none.unwrap_or_default().to_owned(), name);
-    let mut taken = None;
-    egui::ComboBox::from_id_salt(salt).width(150.0).truncate().selected_text(shown).show_ui(
-        ui,
-        |ui| {
-            if none.is_some() && ui.selectable_label(chosen.is_none(), "nothing").clicked() {
-                taken = Some(None);
-            }
-            for (id, name) in choices {
-                if ui.selectable_label(chosen == Some(id), name).on_hover_text(id).clicked() {
-                    taken = Some(Some(id.clone()));
-                }
-            }
-        },
-    );
-    taken
 }
 
 fn said(help: &str) -> fields::Said<'_> {

@@ -129,43 +129,10 @@ fn sea(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
 
 fn whale(ui: &mut Ui, desk: &mut Desk, edits: &mut Vec<Edit>) {
     widgets::caption(ui, "Whale");
-    let (host, _) = desk.helpers();
-    let motions = host
-        .ids()
-        .into_iter()
-        .filter_map(|id| host.motion(&id).map(|motion| (id, motion.descriptor().name.to_string())));
-    let motions: Vec<(String, String)> = motions.collect();
-    let motion =
-        desk.documents.field(Documents::SCENARIO, "whale.motion").and_then(|id| host.motion(&id));
-    let dead = desk.documents.field(Documents::SCENARIO, "whale.state").as_deref() == Some("dead");
-    Grid::new("animal").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
-        name(ui, "Animal");
-        choice(ui, desk, "whale.item", Kind::Whale, edits);
-        ui.end_row();
-        words(ui, desk, "State", "whale.state", &[("", "alive"), ("dead", "dead, afloat")], edits);
-        if !dead {
-            words(
-                ui,
-                desk,
-                "Feels gear",
-                "whale.dynamics",
-                &[("", "no: goes as it is steered"), ("kinetic", "yes: gear holds it")],
-                edits,
-            );
-            name(ui, "Motion");
-            let width = ui.available_width() - 8.0;
-            let taken = fields::choose(
-                ui,
-                &desk.documents,
-                Documents::SCENARIO,
-                "whale.motion",
-                &motions,
-                width,
-            );
-            edits.extend(taken.map(|id| ("whale.motion".to_owned(), id)));
-            ui.end_row();
-        }
-    });
+    let field = |field: &str| desk.documents.field(Documents::SCENARIO, field);
+    let dead = field("whale.state").as_deref() == Some("dead");
+    let motion = field("whale.motion").and_then(|id| desk.helpers().0.motion(&id));
+    animal(ui, desk, dead, edits);
     rows(ui, desk, "whale", WHALE, edits);
     if !dead {
         rows(ui, desk, "swims", rows::SWIMS, edits);
@@ -183,6 +150,37 @@ fn whale(ui: &mut Ui, desk: &mut Desk, edits: &mut Vec<Edit>) {
         desk.orders.extend([Order::Show(PanelId::VIEW), Order::Pose]);
     }
     friction::show(ui, desk, edits);
+}
+
+/// Which animal, whether it lives, and how a living one moves.
+fn animal(ui: &mut Ui, desk: &Desk, dead: bool, edits: &mut Vec<Edit>) {
+    const FEELS: [(&str, &str); 2] =
+        [("", "no: goes as it is steered"), ("kinetic", "yes: gear holds it")];
+    Grid::new("animal").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
+        name(ui, "Animal");
+        choice(ui, desk, "whale.item", Kind::Whale, edits);
+        ui.end_row();
+        words(ui, desk, "State", "whale.state", &[("", "alive"), ("dead", "dead, afloat")], edits);
+        if !dead {
+            words(ui, desk, "Feels gear", "whale.dynamics", &FEELS, edits);
+            name(ui, "Motion");
+            motion(ui, desk, edits);
+            ui.end_row();
+        }
+    });
+}
+
+/// The motion, out of those of the plugins.
+fn motion(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
+    let (host, _) = desk.helpers();
+    let named = |id: String| {
+        let name = host.motion(&id)?.descriptor().name.to_string();
+        Some((id, name))
+    };
+    let motions: Vec<(String, String)> = host.ids().into_iter().filter_map(named).collect();
+    let (field, width) = ("whale.motion", ui.available_width() - 8.0);
+    let taken = fields::choose(ui, &desk.documents, Documents::SCENARIO, field, &motions, width);
+    edits.extend(taken.map(|id| (field.to_owned(), id)));
 }
 
 /// How far the mouth is open at the start: the pilot program says so.

@@ -1,0 +1,148 @@
+//! Which gear is shown, which it is compared with, and the tide it stands in.
+
+use egui::{RichText, Slider, SliderClamping, Ui};
+use endline_session::edit::Documents;
+use endline_session::edit::library_table::id_of;
+
+use super::{AssemblyPanel, assemblies, path, side, surface_m_s};
+use crate::gui::desk::{Desk, Order};
+use crate::gui::order::Dialog;
+use crate::gui::theme::{Theme, primary};
+
+/// Fastest current of the slider [m/s]: 2 knots.
+const FASTEST_M_S: f64 = 1.03;
+
+impl AssemblyPanel {
+    /// Which gear is shown, and what can be done with it.
+    pub(super) fn toolbar(&mut self, ui: &mut Ui, desk: &mut Desk, id: &str) {
+        ui.horizontal_wrapped(|ui| {
+            self.choose_gear(ui, desk, id);
+            ui.menu_button("New ⏷", |ui| self.new_gear(ui, desk));
+            if ui.button("Duplicate").on_hover_text("Copy A to a file of its own").clicked() {
+                match desk.documents.duplicate(&path(id)) {
+                    Ok(fresh) => self.shown = Some(id_of(&fresh).to_owned()),
+                    Err(error) => desk.notice = Some((error, true)),
+                }
+            }
+            let placed = desk.documents.field(Documents::SCENARIO, "gear.0.assembly");
+            let other = placed.is_some_and(|placed| placed != id);
+            if other && primary(ui, true, "Use in scenario").clicked() {
+                desk.set(Documents::SCENARIO, "gear.0.assembly", id);
+            }
+            ui.menu_button("Model ⏷", |ui| model_menu(ui, desk));
+            ui.separator();
+            ui.toggle_value(&mut self.sweep, "Depths and tides")
+                .on_hover_text("Tension and float height by depth and current");
+        });
+        self.tide(ui, desk);
+    }
+
+    /// The gear shown, A, and the gear it is compared with, B.
+    fn choose_gear(&mut self, ui: &mut Ui, desk: &Desk, id: &str) {
+        let choices = assemblies(desk);
+        ui.label(RichText::new("A").strong().color(side::A.color(ui)));
+        if let Some(Some(taken)) = pick(ui, "gear-a", &choices, Some(id), None) {
+            self.shown = Some(taken);
+        }
+        ui.label(RichText::new("B").strong().color(side::B.color(ui)));
+        let other = self.other.clone();
+        if let Some(taken) = pick(ui, "gear-b", &choices, other.as_deref(), Some("compare with …"))
+        {
+            self.other = taken;
+        }
+        ui.toggle_value(&mut self.selecting, "Pictures").on_hover_text(
+            "Choose A by its picture: every assembly at rest in this scenario's sea",
+        );
+    }
+
+    /// The slider of the running tide.
+    fn tide(&mut self, ui: &mut Ui, desk: &Desk) {
+        let units = desk.preferences.units;
+        let of_scenario_m_s =
+            self.answers()[1].and_then(|answer| answer.as_ref().ok()).map(|rest| surface_m_s(rest));
+        ui.horizontal(|ui| {
+            ui.label(RichText::new("Running tide").color(Theme::palette_of(ui).faint));
+            let mut speed = units.of_m_s(self.running_m_s.or(of_scenario_m_s).unwrap_or(0.25));
+            ui.spacing_mut().slider_width = 180.0;
+            let slider = Slider::new(&mut speed, 0.0..=units.of_m_s(FASTEST_M_S))
+                .clamping(SliderClamping::Never)
+                .min_decimals(2)
+                .max_decimals(4)
+                .suffix(format!(" {}", units.speed_symbol()));
+            if ui
+                .add(slider)
+                .on_hover_text("Surface speed of the current; slack tide is drawn beside it")
+                .changed()
+            {
+                self.running_m_s = Some(units.to_m_s(speed));
+            }
+            if self.running_m_s.is_some() && ui.button("As scenario").clicked() {
+                self.running_m_s = None;
+            }
+            if !self.settled() {
+                ui.spinner();
+            }
+        });
+    }
+
+    /// Gear types as starting points.
+    fn new_gear(&mut self, ui: &mut Ui, desk: &mut Desk) {
+        for gear in desk.gear_types() {
+            let descriptor = gear.descriptor();
+            if ui.button(descriptor.name.as_ref()).on_hover_text(descriptor.id.as_ref()).clicked() {
+                let stem = descriptor.id.rsplit('.').next().unwrap_or("gear").to_owned();
+                let fresh = desk.documents.fresh_path("assemblies", &format!("my-{stem}"));
+                let text = format!(
+                    "format = 1\nkind = \"assembly\"\nname = \"My {}\"\nnotes = \"\"\n\ngear_type = \"{}\"\n\n[attributes]\n",
+                    descriptor.name.to_lowercase(),
+                    descriptor.id
+                );
+                desk.documents.put_all(vec![(fresh.clone(), text)]);
+                self.shown = Some(id_of(&fresh).to_owned());
+                ui.close();
+            }
+        }
+    }
+}
+
+fn model_menu(ui: &mut Ui, desk: &mut Desk) {
+    for (text, ending) in [("Save as STL …", "stl"), ("Save as glTF …", "glb")] {
+        let help = "A at rest in running tide, in metres, for CAD and pictures";
+        if ui.button(text).on_hover_text(help).clicked() {
+            desk.orders.push(Order::Ask(Dialog::ExportModel(ending)));
+            ui.close();
+        }
+    }
+}
+
+/// A choice among assemblies; the outer answer says whether something was taken, the inner one what.
+fn pick(
+    ui: &mut Ui,
+    salt: &str,
+    choices: &[(String, String)],
+    chosen: Option<&str>,
+    none: Option<&str>,
+) -> Option<Option<String>> {
+    let name = |id: &str| {
+        choices
+            .iter()
+            .find(|(known, _)| known == id)
+            .map_or(id.to_owned(), |(_, name)| name.clone())
+    };
+    let shown = chosen.map_or(none.unwrap_or_default().to_owned(), name);
+    let mut taken = None;
+    egui::ComboBox::from_id_salt(salt).width(150.0).truncate().selected_text(shown).show_ui(
+        ui,
+        |ui| {
+            if none.is_some() && ui.selectable_label(chosen.is_none(), "nothing").clicked() {
+                taken = Some(None);
+            }
+            for (id, name) in choices {
+                if ui.selectable_label(chosen == Some(id), name).on_hover_text(id).clicked() {
+                    taken = Some(Some(id.clone()));
+                }
+            }
+        },
+    );
+    taken
+}
