@@ -13,7 +13,7 @@ fn the_mark_covers_what_calculates_and_nothing_that_only_tests_or_draws() {
         libraries::deciding(endline_tests::root()).expect("the dependency tree can be read");
     let names: BTreeSet<&str> =
         found.iter().filter_map(|package| package.split(' ').next()).collect();
-    for decides in ["glam", "libm", "pulp", "sobol_burley", "statrs", "toml", "gltf"] {
+    for decides in ["glam", "libm", "pulp", "sobol_burley", "statrs", "toml_edit", "gltf"] {
         assert!(names.contains(decides), "{decides} decides a run: {names:?}");
     }
     for other in ["askama", "egui", "eframe", "parquet", "three-d", "divan"] {
