@@ -95,6 +95,8 @@ impl Place {
                 }
             }
         }
+        // A library is known by its folders of ropes and scenarios.
+        fs::create_dir_all(root.join("gear-library/scenarios")).unwrap();
         let studies = root.join("gear-library/studies");
         fs::create_dir_all(&studies).unwrap();
         fs::write(studies.join("small.toml"), SCENARIO).unwrap();
