@@ -40,6 +40,8 @@ source = "assumed"
 const SCENARIO: &str = r#"format = 1
 kind = "scenario"
 name = "Small rig"
+source = "poly ball A-5: buoys/polyball-a5"
+confidence = "derived"
 duration = "0.2 s"
 rope_nodes = 8
 weak_links = true
