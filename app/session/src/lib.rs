@@ -12,6 +12,8 @@
 //! | [`statics`] | one assembly alone at rest, while it is edited |
 //! | [`cases`] | validation cases run and judged |
 //! | [`check`] | every problem of what a user names |
+//! | [`command`] | what a user can ask for, declared once |
+//! | [`workbench`] | what a user has open and does, driven by commands |
 //! | [`edit`] | open texts with undo, their problems, recovery after a crash |
 //! | [`scene`] | what a frame looks like, as triangles |
 //! | [`export`] | charts and 3-D models written to files |
@@ -30,6 +32,7 @@ extern crate self as endline_session;
 
 pub mod cases;
 pub mod check;
+pub mod command;
 pub mod edit;
 pub mod error;
 pub mod export;
@@ -52,6 +55,7 @@ pub mod study;
 pub mod task;
 pub mod timing;
 pub mod units;
+pub mod workbench;
 
 /// Version of Endline and, after the plus sign, the mark of the code that decides what a run is (`build.rs`): the bits of a
 /// run are promised for one mark.

@@ -1,0 +1,150 @@
+//! When commands are enabled; each condition gives the reason where it does not hold.
+
+use crate::workbench::{Direction, Workbench};
+
+type Condition = Result<(), String>;
+
+/// A reason where something is not so.
+fn require(so: bool, reason: &str) -> Condition {
+    if so { Ok(()) } else { Err(reason.to_owned()) }
+}
+
+/// A run is there.
+pub(super) fn ready(workbench: &Workbench) -> Condition {
+    require(workbench.view().is_some(), "no run is there yet")
+}
+
+/// The run goes on.
+pub(super) fn running(workbench: &Workbench) -> Condition {
+    require(workbench.running(), "the run is not going on")
+}
+
+/// A run is there and does not go on.
+pub(super) fn is_still(workbench: &Workbench) -> Condition {
+    ready(workbench)?;
+    require(!workbench.running(), "pause the run first")
+}
+
+/// The run has taken steps.
+pub(super) fn has_moments(workbench: &Workbench) -> Condition {
+    let moments = workbench.view().is_some_and(|view| view.newest_s > 0.0);
+    require(moments, "nothing was run yet")
+}
+
+/// A moment before the newest is shown.
+pub(super) fn earlier_moment(workbench: &Workbench) -> Condition {
+    has_moments(workbench)?;
+    let sought = workbench.view().is_some_and(|view| view.sought);
+    require(sought, "the newest moment is shown already")
+}
+
+/// What was run can be played.
+pub(super) fn can_replay(workbench: &Workbench) -> Condition {
+    has_moments(workbench)?;
+    require(workbench.replaying() || !workbench.running(), "pause the run first")
+}
+
+/// No text has an error.
+pub(super) fn no_errors(workbench: &Workbench) -> Condition {
+    let fine = !workbench.project.documents.any_error();
+    require(fine, "the gear has errors; see Problems")
+}
+
+/// Texts have changed since the model was made, and have no errors.
+pub(super) fn can_apply(workbench: &Workbench) -> Condition {
+    no_errors(workbench)?;
+    require(workbench.stale(), "nothing has changed since the model was made")
+}
+
+/// The inputs of the run can be run in a new model.
+pub(super) fn can_rerun(workbench: &Workbench) -> Condition {
+    ready(workbench)?;
+    no_errors(workbench)
+}
+
+/// A slower speed is there.
+pub(super) fn slower(workbench: &Workbench) -> Condition {
+    ready(workbench)?;
+    let next = workbench.next_speed(Direction::Slower);
+    require(next.is_some(), "this is the slowest speed")
+}
+
+/// A faster speed is there.
+pub(super) fn faster(workbench: &Workbench) -> Condition {
+    ready(workbench)?;
+    let next = workbench.next_speed(Direction::Faster);
+    require(next.is_some(), "this is the fastest speed")
+}
+
+/// Two runs are compared.
+pub(super) fn compares(workbench: &Workbench) -> Condition {
+    require(workbench.comparison().is_some(), "no run is compared with the one shown")
+}
+
+/// An edit can be taken back.
+pub(super) fn can_undo(workbench: &Workbench) -> Condition {
+    let (undo, _) = workbench.project.documents.can_undo_redo();
+    require(undo, "nothing to undo")
+}
+
+/// An edit that was taken back can be done again.
+pub(super) fn can_redo(workbench: &Workbench) -> Condition {
+    let (_, redo) = workbench.project.documents.can_undo_redo();
+    require(redo, "nothing to redo")
+}
+
+/// A file differs from its text.
+pub(super) fn unsaved(workbench: &Workbench) -> Condition {
+    require(!workbench.project.documents.unsaved().is_empty(), "nothing to save")
+}
+
+/// The scenario has a whale.
+pub(super) fn has_whale(workbench: &Workbench) -> Condition {
+    require(workbench.project.has_whale(), "this scenario has no whale to pilot")
+}
+
+/// A study is open.
+pub(super) fn study_opened(workbench: &Workbench) -> Condition {
+    let opened = workbench.project.documents.study_path().is_some();
+    require(opened, "open a study first")
+}
+
+/// The open study and the gear have no errors.
+pub(super) fn study_runs(workbench: &Workbench) -> Condition {
+    study_opened(workbench)?;
+    require(workbench.study_is_sound(), "study or gear have errors; see Problems")
+}
+
+/// A study is at work or paused.
+pub(super) fn study_at_work(workbench: &Workbench) -> Condition {
+    require(workbench.studies.queue.current().is_some(), "no study is at work")
+}
+
+/// Results of a study are shown.
+pub(super) fn has_results(workbench: &Workbench) -> Condition {
+    let shown = workbench.studies.results.shown().is_some();
+    require(shown, "no results of a study are shown")
+}
+
+/// Plugins can be loaded again.
+pub(super) fn loads_plugins(workbench: &Workbench) -> Condition {
+    require(workbench.plugins.has_loader(), "there are no folders of plugins here")
+}
+
+/// A plugin library waits to be allowed.
+pub(super) fn plugins_waiting(workbench: &Workbench) -> Condition {
+    let waiting = workbench.plugins.waiting().next().is_some();
+    require(waiting, "no plugin waits to be allowed")
+}
+
+/// A plugin can be switched on or off.
+pub(super) fn plugins_to_switch(workbench: &Workbench) -> Condition {
+    loads_plugins(workbench)?;
+    require(!workbench.plugins.every().is_empty(), "there are no plugins")
+}
+
+/// A plugin can be put into the scenario.
+pub(super) fn plugins_to_use(workbench: &Workbench) -> Condition {
+    let usable = !workbench.usable_plugins().is_empty();
+    require(usable, "no plugin that the scenario does not use already")
+}

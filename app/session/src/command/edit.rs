@@ -1,0 +1,209 @@
+//! Commands that change, open and save texts.
+
+#![deny(clippy::wildcard_enum_match_arm, reason = "each action is dispatched")]
+
+use std::path::PathBuf;
+
+use super::condition::{can_redo, can_undo, has_moments, has_whale, unsaved};
+use super::info::{Choice, FileQuestion, Make, Shortcut, When};
+use super::{Command, Info};
+use crate::edit::recovery::UnsavedEdits;
+use crate::locate;
+use crate::workbench::Workbench;
+
+/// An action on texts.
+#[derive(Clone, Debug, PartialEq)]
+pub enum EditAction {
+    /// Set a field of a text.
+    Set {
+        /// The text: a path in the library such as `ropes/x.toml`, or the scenario's key.
+        path: String,
+        /// The field, such as `whale.position.1`.
+        field: String,
+        /// Its value as it is typed, with its unit.
+        value: String,
+    },
+    /// Take the last edit back.
+    Undo,
+    /// Do it again.
+    Redo,
+    /// Save every changed text.
+    Save,
+    /// Save the scenario to another file and go on with that.
+    SaveScenarioAs(PathBuf),
+    /// Open a scenario.
+    OpenScenario(PathBuf),
+    /// Take edits back that a crash left.
+    Recover(UnsavedEdits),
+    /// Weak links on or off, in the scenario.
+    ToggleWeakLinks,
+    /// Copy an entry of the library, by its path, to a file of its own.
+    Duplicate(String),
+    /// Add an entry to the pilot program at the moment shown.
+    AddEntry,
+    /// Take an entry out of the pilot program, by its place.
+    DeleteEntry(usize),
+    /// Make the inputs of the run shown the scenario's pilot program.
+    EditInputs,
+}
+
+impl EditAction {
+    /// The identity it is declared by.
+    #[must_use]
+    pub fn id(&self) -> &'static str {
+        match self {
+            Self::Set { .. } => "edit.set",
+            Self::Undo => "edit.undo",
+            Self::Redo => "edit.redo",
+            Self::Save => "edit.save",
+            Self::SaveScenarioAs(_) => "edit.save-scenario-as",
+            Self::OpenScenario(_) => "edit.open",
+            Self::Recover(_) => "edit.recover",
+            Self::ToggleWeakLinks => "edit.weak-links",
+            Self::Duplicate(_) => "edit.duplicate",
+            Self::AddEntry => "edit.add-entry",
+            Self::DeleteEntry(_) => "edit.delete-entry",
+            Self::EditInputs => "edit.inputs",
+        }
+    }
+}
+
+/// The actions on texts, declared.
+pub static COMMANDS: &[Info] = &[
+    Info::new(
+        "edit.undo",
+        "Undo",
+        "Takes the last edit back.",
+        Make::Plain(|| Command::Edit(EditAction::Undo)),
+    )
+    // A text being typed has an undo of its own.
+    .with_keys(&[Shortcut::new("Ctrl+Z", When::Idle)])
+    .only_if(can_undo),
+    Info::new(
+        "edit.redo",
+        "Redo",
+        "Does again what was taken back last.",
+        Make::Plain(|| Command::Edit(EditAction::Redo)),
+    )
+    .with_keys(&[Shortcut::new("Ctrl+Shift+Z", When::Idle)])
+    .only_if(can_redo),
+    Info::new(
+        "edit.save",
+        "Save all",
+        "Writes every changed file. Comments stay.",
+        Make::Plain(|| Command::Edit(EditAction::Save)),
+    )
+    .with_keys(&[Shortcut::new("Ctrl+S", When::Always)])
+    .only_if(unsaved),
+    Info::new(
+        "edit.save-scenario-as",
+        "Save the scenario as",
+        "Writes the scenario to another file and goes on with that.",
+        Make::File {
+            question: |workbench| {
+                let path = workbench.project.documents.scenario_path();
+                let name = format!("{}-2.toml", workbench.scenario_stem());
+                let question = FileQuestion::write("scenario", &["toml"], name);
+                path.parent().map_or(question.clone(), |folder| question.within(folder))
+            },
+            command: |_, file| Command::Edit(EditAction::SaveScenarioAs(file)),
+        },
+    ),
+    Info::new(
+        "edit.open",
+        "Open",
+        "Opens a scenario of the library.",
+        Make::Choices(|workbench| {
+            locate::scenarios(workbench.project.documents.root())
+                .into_iter()
+                .map(|path| Choice::new(stem(&path), open(path)))
+                .collect()
+        }),
+    ),
+    Info::new(
+        "edit.open-file",
+        "Open another scenario",
+        "Opens a scenario from any folder.",
+        Make::File {
+            question: |workbench| {
+                FileQuestion::read("scenario", &["toml"]).within(workbench.project.documents.root())
+            },
+            command: |_, file| open(file),
+        },
+    ),
+    Info::new(
+        "edit.weak-links",
+        "Weak links on or off",
+        "Changes the scenario so that weak links part, or do not, and makes the model anew.",
+        Make::Plain(|| Command::Edit(EditAction::ToggleWeakLinks)),
+    )
+    .with_keys(&[Shortcut::with_pad("K", When::Idle, "Y")]),
+    Info::new(
+        "edit.add-entry",
+        "Add an entry to the pilot program",
+        "Adds an entry that begins at the moment shown.",
+        Make::Plain(|| Command::Edit(EditAction::AddEntry)),
+    )
+    .only_if(has_whale),
+    Info::new(
+        "edit.inputs",
+        "Edit the inputs of this run",
+        "Makes what was flown or steered in the run shown the scenario's pilot program.",
+        Make::Plain(|| Command::Edit(EditAction::EditInputs)),
+    )
+    .only_if(has_moments),
+    Info::new(
+        "edit.set",
+        "Set a field",
+        "Sets a field of a file or of the scenario to a value with its unit.",
+        Make::Values("path, field, value"),
+    ),
+    Info::new(
+        "edit.recover",
+        "Recover unsaved edits",
+        "Takes up the edits that a program which ended by a fault had not saved.",
+        Make::Values("the edits kept"),
+    ),
+    Info::new(
+        "edit.duplicate",
+        "Duplicate an entry",
+        "Copies an entry of the library to a file of its own.",
+        Make::Values("path"),
+    ),
+    Info::new(
+        "edit.delete-entry",
+        "Delete an entry of the pilot program",
+        "Takes an entry out of the pilot program.",
+        Make::Values("its place"),
+    )
+    .only_if(has_whale),
+];
+
+fn open(path: PathBuf) -> Command {
+    Command::Edit(EditAction::OpenScenario(path))
+}
+
+/// A file's name without folder and extension.
+pub(super) fn stem(path: &std::path::Path) -> String {
+    path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
+}
+
+/// Dispatches an action.
+pub(super) fn perform(workbench: &mut Workbench, action: EditAction) -> Result<(), String> {
+    match action {
+        EditAction::Set { path, field, value } => {
+            workbench.project.documents.set(&path, &field, &value)
+        }
+        EditAction::Undo => workbench.undo(),
+        EditAction::Redo => workbench.redo(),
+        EditAction::Save => workbench.save(),
+        EditAction::SaveScenarioAs(path) => workbench.save_scenario_as(&path),
+        EditAction::OpenScenario(path) => workbench.open_scenario(&path),
+        EditAction::Recover(edits) => workbench.recover(&edits),
+        EditAction::ToggleWeakLinks => workbench.toggle_weak_links(),
+        EditAction::Duplicate(path) => workbench.duplicate(path),
+        EditAction::AddEntry => workbench.add_entry(),
+        EditAction::DeleteEntry(index) => workbench.delete_entry(index),
+        EditAction::EditInputs => workbench.edit_inputs(),
+    }
+}

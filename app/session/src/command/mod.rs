@@ -1,0 +1,113 @@
+//! All that a user can ask of the workbench and that needs no screen, declared once.
+//!
+//! A window, a script and a test give the same [`Command`]s to [`Workbench::perform`]. Menus, the command palette, the
+//! list of keys and `docs/workbench.md` read [`COMMANDS`]. Commands that only a window has are declared in the same way,
+//! as [`CommandInfo`], by the window itself.
+//!
+//! Each group has a file with its actions, their declarations, and the dispatch to the workbench.
+
+mod condition;
+pub mod edit;
+pub mod export;
+pub mod info;
+pub mod plugin;
+pub mod run;
+pub mod study;
+#[cfg(test)]
+mod tests;
+pub mod time;
+
+use crate::workbench::{Notice, Workbench};
+pub use edit::EditAction;
+pub use export::ExportAction;
+pub use info::{Choice, CommandInfo, FileQuestion, FileUse, Make, Shortcut, When};
+pub use plugin::PluginAction;
+pub use run::RunAction;
+pub use study::StudyAction;
+pub use time::TimeAction;
+
+/// What a user asks for.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Command {
+    /// Make, start, pause and compare runs.
+    Run(RunAction),
+    /// Show another moment of the run.
+    Time(TimeAction),
+    /// Change, open and save texts.
+    Edit(EditAction),
+    /// Open and run studies.
+    Study(StudyAction),
+    /// Write files that others read.
+    Export(ExportAction),
+    /// Load and use plugins.
+    Plugin(PluginAction),
+}
+
+/// Declaration of a command of the workbench.
+pub type Info = CommandInfo<Workbench, Command>;
+
+/// A group of commands, in the order of the documents.
+pub struct Group {
+    /// Its title.
+    pub title: &'static str,
+    /// Its commands.
+    pub commands: &'static [Info],
+}
+
+/// Every command, by group.
+pub static COMMANDS: [Group; 6] = [
+    Group { title: "Run", commands: run::COMMANDS },
+    Group { title: "Time", commands: time::COMMANDS },
+    Group { title: "Edit", commands: edit::COMMANDS },
+    Group { title: "Study", commands: study::COMMANDS },
+    Group { title: "Export", commands: export::COMMANDS },
+    Group { title: "Plugins", commands: plugin::COMMANDS },
+];
+
+/// Every declared command.
+pub fn declared() -> impl Iterator<Item = &'static Info> {
+    COMMANDS.iter().flat_map(|group| group.commands)
+}
+
+/// The declaration of an identity such as `run.start`.
+#[must_use]
+pub fn find(id: &str) -> Option<&'static Info> {
+    declared().find(|info| info.id == id)
+}
+
+impl Command {
+    /// The identity it is declared by, such as `run.start`.
+    #[must_use]
+    pub fn id(&self) -> &'static str {
+        match self {
+            Self::Run(action) => action.id(),
+            Self::Time(action) => action.id(),
+            Self::Edit(action) => action.id(),
+            Self::Study(action) => action.id(),
+            Self::Export(action) => action.id(),
+            Self::Plugin(action) => action.id(),
+        }
+    }
+}
+
+impl Workbench {
+    /// Does what is asked for. What comes of it at once or later stands in the workbench; the notice says it in words.
+    ///
+    /// # Errors
+    /// With the reason, where nothing could be done.
+    pub fn perform(&mut self, command: Command) -> Result<(), String> {
+        if let Err(reason) = find(command.id()).map_or(Ok(()), |info| (info.enabled)(self)) {
+            self.notice = Some(Notice::hint(&reason));
+            return Err(reason);
+        }
+        let done = match command {
+            Command::Run(action) => run::perform(self, action),
+            Command::Time(action) => time::perform(self, action),
+            Command::Edit(action) => edit::perform(self, action),
+            Command::Study(action) => study::perform(self, action),
+            Command::Export(action) => export::perform(self, action),
+            Command::Plugin(action) => plugin::perform(self, action),
+        };
+        done.inspect_err(|reason| self.notice = Some(Notice::fault(reason)))
+    }
+}

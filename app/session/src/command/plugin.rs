@@ -1,0 +1,118 @@
+//! Commands that load, check and use plugins.
+
+#![deny(clippy::wildcard_enum_match_arm, reason = "each action is dispatched")]
+
+use std::path::PathBuf;
+
+use super::condition::{loads_plugins, plugins_to_switch, plugins_to_use, plugins_waiting};
+use super::info::{Choice, Make};
+use super::{Command, Info};
+use crate::workbench::Workbench;
+
+/// An action on plugins.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PluginAction {
+    /// Load the plugins again: what was built anew counts from the next run on.
+    Reload,
+    /// Let a library be opened that has the bytes of a hash.
+    Allow {
+        /// The library.
+        file: PathBuf,
+        /// The hash, hexadecimal.
+        hash: String,
+    },
+    /// Switch a plugin on or off.
+    Switch {
+        /// Its id.
+        id: String,
+        /// Whether it is on from now.
+        on: bool,
+    },
+    /// Try a plugin file in a child process.
+    Check(PathBuf),
+    /// Put a motion or a law of friction, by its id, into the scenario.
+    Use(String),
+}
+
+impl PluginAction {
+    /// The identity it is declared by.
+    #[must_use]
+    pub fn id(&self) -> &'static str {
+        match self {
+            Self::Reload => "plugin.reload",
+            Self::Allow { .. } => "plugin.allow",
+            Self::Switch { .. } => "plugin.switch",
+            Self::Check(_) => "plugin.check",
+            Self::Use(_) => "plugin.use",
+        }
+    }
+}
+
+/// The actions on plugins, declared.
+pub static COMMANDS: &[Info] = &[
+    Info::new(
+        "plugin.reload",
+        "Reload plugins",
+        "Loads the plugins again. A plugin that was built anew counts from the next run on.",
+        Make::Plain(|| Command::Plugin(PluginAction::Reload)),
+    )
+    .only_if(loads_plugins),
+    Info::new(
+        "plugin.allow",
+        "Allow plugin",
+        "Lets a plugin library be opened that is new, or has changed since it was allowed.",
+        Make::Choices(waiting),
+    )
+    .only_if(plugins_waiting),
+    Info::new("plugin.switch", "Switch", "Switches a plugin on or off.", Make::Choices(switches))
+        .only_if(plugins_to_switch),
+    Info::new(
+        "plugin.use",
+        "Use plugin",
+        "Puts a motion or a law of friction into the scenario.",
+        Make::Choices(usable),
+    )
+    .only_if(plugins_to_use),
+    Info::new(
+        "plugin.check",
+        "Check a plugin file",
+        "Tries a plugin file in a process of its own and reports what is wrong with it.",
+        Make::Values("file"),
+    ),
+];
+
+fn waiting(workbench: &Workbench) -> Vec<Choice<Command>> {
+    let choice = |(file, ask): (&PathBuf, &crate::plugins::Ask)| {
+        let name = file.file_name().map(|name| name.to_string_lossy().into_owned());
+        let action = PluginAction::Allow { file: file.clone(), hash: ask.hash.clone() };
+        Choice::new(name.unwrap_or_default(), Command::Plugin(action))
+    };
+    workbench.plugins.waiting().map(choice).collect()
+}
+
+fn switches(workbench: &Workbench) -> Vec<Choice<Command>> {
+    let every = workbench.plugins.every().into_iter();
+    every
+        .map(|plugin| {
+            let name = format!("{} {}", if plugin.on { "off" } else { "on" }, plugin.info.name);
+            let action = PluginAction::Switch { id: plugin.info.id, on: !plugin.on };
+            Choice::new(name, Command::Plugin(action))
+        })
+        .collect()
+}
+
+fn usable(workbench: &Workbench) -> Vec<Choice<Command>> {
+    let usable = workbench.usable_plugins().into_iter();
+    usable.map(|info| Choice::new(info.name, Command::Plugin(PluginAction::Use(info.id)))).collect()
+}
+
+/// Dispatches an action.
+pub(super) fn perform(workbench: &mut Workbench, action: PluginAction) -> Result<(), String> {
+    match action {
+        PluginAction::Reload => workbench.reload_plugins(),
+        PluginAction::Allow { file, hash } => workbench.allow_plugin(file, hash),
+        PluginAction::Switch { id, on } => workbench.switch_plugin(id, on),
+        PluginAction::Check(file) => workbench.check_plugin(&file),
+        PluginAction::Use(id) => workbench.use_plugin(&id),
+    }
+}

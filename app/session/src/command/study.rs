@@ -1,0 +1,142 @@
+//! Commands that open, run and look into studies.
+
+#![deny(clippy::wildcard_enum_match_arm, reason = "each action is dispatched")]
+
+use std::path::PathBuf;
+
+use super::condition::{has_results, study_at_work, study_opened, study_runs};
+use super::edit::stem;
+use super::info::{Choice, FileQuestion, Make};
+use super::{Command, Info};
+use crate::locate;
+use crate::workbench::Workbench;
+
+/// An action on studies.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum StudyAction {
+    /// Open a study and the results it already has.
+    Open(PathBuf),
+    /// Go on with a copy of the open study.
+    Duplicate,
+    /// Run the open study, or go on with it.
+    Run,
+    /// Pause the study at work, or go on with it.
+    Pause,
+    /// Take the study at work out of the queue.
+    Cancel,
+    /// Show the results in a folder.
+    ShowResults(PathBuf),
+    /// Run an encounter of the results shown again.
+    Replay {
+        /// Place of the option.
+        option: usize,
+        /// Index of the encounter.
+        encounter: u32,
+    },
+}
+
+impl StudyAction {
+    /// The identity it is declared by.
+    #[must_use]
+    pub fn id(&self) -> &'static str {
+        match self {
+            Self::Open(_) => "study.open",
+            Self::Duplicate => "study.duplicate",
+            Self::Run => "study.run",
+            Self::Pause => "study.pause",
+            Self::Cancel => "study.cancel",
+            Self::ShowResults(_) => "study.results",
+            Self::Replay { .. } => "study.replay",
+        }
+    }
+}
+
+/// The actions on studies, declared.
+pub static COMMANDS: &[Info] = &[
+    Info::new(
+        "study.open",
+        "Open study",
+        "Opens a study of the library for editing, and the results it already has.",
+        Make::Choices(|workbench| {
+            locate::studies(workbench.project.documents.root())
+                .into_iter()
+                .map(|path| Choice::new(stem(&path), open(path)))
+                .collect()
+        }),
+    ),
+    Info::new(
+        "study.open-file",
+        "Open a study's file",
+        "Opens a study from any folder.",
+        Make::File {
+            question: |workbench| {
+                let folder = workbench.project.documents.root().join("studies");
+                FileQuestion::read("study", &["toml"]).within(&folder)
+            },
+            command: |_, file| open(file),
+        },
+    ),
+    Info::new(
+        "study.duplicate",
+        "Duplicate the study",
+        "Copies the open study to a file of its own and opens the copy.",
+        Make::Plain(|| Command::Study(StudyAction::Duplicate)),
+    )
+    .only_if(study_opened),
+    Info::new(
+        "study.run",
+        "Run the study",
+        "Saves the open study and runs what is missing of it behind everything else on the machine.",
+        Make::Plain(|| Command::Study(StudyAction::Run)),
+    )
+    .only_if(study_runs),
+    Info::new(
+        "study.pause",
+        "Pause the study, or go on",
+        "Pauses the study at work after the encounters under way, or goes on with it.",
+        Make::Plain(|| Command::Study(StudyAction::Pause)),
+    )
+    .only_if(study_at_work),
+    Info::new(
+        "study.cancel",
+        "Cancel the study",
+        "Takes the study at work out of the queue. Encounters that were run stay.",
+        Make::Plain(|| Command::Study(StudyAction::Cancel)),
+    )
+    .only_if(study_at_work),
+    Info::new(
+        "study.results",
+        "Open a study's results",
+        "Shows the results in a folder.",
+        Make::File {
+            question: |workbench| {
+                FileQuestion::folder("results of a study").within(&workbench.studies.root())
+            },
+            command: |_, folder| Command::Study(StudyAction::ShowResults(folder)),
+        },
+    ),
+    Info::new(
+        "study.replay",
+        "Run an encounter again",
+        "Runs an encounter of the results shown again, up to where it ended in the study.",
+        Make::Values("option, encounter"),
+    )
+    .only_if(has_results),
+];
+
+fn open(path: PathBuf) -> Command {
+    Command::Study(StudyAction::Open(path))
+}
+
+/// Dispatches an action.
+pub(super) fn perform(workbench: &mut Workbench, action: StudyAction) -> Result<(), String> {
+    match action {
+        StudyAction::Open(path) => workbench.open_study(&path),
+        StudyAction::Duplicate => workbench.duplicate_study(),
+        StudyAction::Run => workbench.queue_study(),
+        StudyAction::Pause => workbench.pause_study(),
+        StudyAction::Cancel => workbench.cancel_study(),
+        StudyAction::ShowResults(folder) => workbench.show_results(&folder),
+        StudyAction::Replay { option, encounter } => workbench.replay_encounter(option, encounter),
+    }
+}

@@ -1,0 +1,159 @@
+//! The texts of a user: opened, edited, saved, taken back.
+
+use std::path::Path;
+
+use endline_gear::Diagnostic;
+
+use super::Workbench;
+use super::model::Texts;
+use super::notice::{Event, Notice};
+use crate::edit::recovery::{Autosave, UnsavedEdits};
+use crate::edit::{Documents, pilot_program};
+
+/// The texts, and what is wrong with them.
+pub struct Project {
+    /// Every open text.
+    pub documents: Documents,
+    /// Keeps unsaved edits for the case of a crash.
+    pub autosave: Autosave,
+    /// Problems found in making the model last.
+    pub(super) model_problems: Vec<Diagnostic>,
+    /// The texts they were found in.
+    pub(super) model_texts: Texts,
+}
+
+impl Project {
+    /// The project of open texts.
+    #[must_use]
+    pub fn new(documents: Documents) -> Self {
+        let (model_problems, model_texts) = (Vec::new(), Texts::new());
+        Self { documents, autosave: Autosave::default(), model_problems, model_texts }
+    }
+
+    /// Problems of the texts and of making the model.
+    pub fn problems(&self) -> impl Iterator<Item = &Diagnostic> {
+        let known = self.documents.problems();
+        known.iter().chain(self.model_problems.iter().filter(|problem| !known.contains(problem)))
+    }
+
+    /// The worst problem at a field of a text, or of the model made last of the texts as they stand.
+    #[must_use]
+    pub fn problem_at(&self, path: &str, field: &str) -> Option<&Diagnostic> {
+        let file = self.documents.shown_name(path);
+        let here = |problem: &&Diagnostic| problem.file == file && problem.field == field;
+        let of_model = || {
+            let problem = self.model_problems.iter().find(here);
+            problem.filter(|_| self.documents.same_run(&self.model_texts))
+        };
+        self.documents.problem_at(path, field).or_else(of_model)
+    }
+
+    /// The scenario's name without folder and extension.
+    #[must_use]
+    pub fn scenario_stem(&self) -> String {
+        let stem = self.documents.scenario_path().file_stem();
+        stem.map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
+    }
+
+    /// Whether the scenario has a whale.
+    #[must_use]
+    pub fn has_whale(&self) -> bool {
+        self.documents.has(Documents::SCENARIO, "whale")
+    }
+}
+
+impl Workbench {
+    /// Sets a field of a text; the notice says so where that fails.
+    pub fn set(&mut self, path: &str, field: &str, value: &str) {
+        if let Err(reason) = self.project.documents.set(path, field, value) {
+            self.notice = Some(Notice::fault(reason));
+        }
+    }
+
+    pub(crate) fn undo(&mut self) -> Result<(), String> {
+        let done = self.project.documents.undo();
+        if done { Ok(()) } else { Err("nothing to undo".to_owned()) }
+    }
+
+    pub(crate) fn redo(&mut self) -> Result<(), String> {
+        let done = self.project.documents.redo();
+        if done { Ok(()) } else { Err("nothing to redo".to_owned()) }
+    }
+
+    pub(crate) fn save(&mut self) -> Result<(), String> {
+        let count = self.project.documents.save().map_err(|error| format!("not saved: {error}"))?;
+        self.notice = Some(Notice::done(match count {
+            1 => "saved 1 file".to_owned(),
+            count => format!("saved {count} files"),
+        }));
+        Ok(())
+    }
+
+    pub(crate) fn save_scenario_as(&mut self, path: &Path) -> Result<(), String> {
+        self.project.documents.save_scenario_as(path)?;
+        self.preferences.remember(path);
+        self.notice = Some(Notice::done(format!("saved {}", path.display())));
+        Ok(())
+    }
+
+    pub(crate) fn open_scenario(&mut self, path: &Path) -> Result<(), String> {
+        self.project.documents.open_scenario(path)?;
+        self.preferences.remember(path);
+        self.make_model()
+    }
+
+    /// Takes up edits that a crash left; one undo takes them back.
+    pub(crate) fn recover(&mut self, edits: &UnsavedEdits) -> Result<(), String> {
+        let documents = &mut self.project.documents;
+        let elsewhere = edits.scenario != documents.scenario_path()
+            && edits.texts.contains_key(Documents::SCENARIO);
+        if elsewhere {
+            documents.open_scenario(&edits.scenario)?;
+        }
+        let study = edits.study.as_deref().filter(|study| {
+            edits.texts.contains_key(Documents::STUDY) && Some(*study) != documents.study_path()
+        });
+        study.map_or(Ok(()), |study| documents.open_study(study))?;
+        let texts = edits.texts.iter().map(|(path, text)| (path.clone(), text.clone()));
+        documents.restore(texts.collect());
+        self.notice = Some(Notice::done("unsaved edits are back; Save all writes them"));
+        Ok(())
+    }
+
+    pub(crate) fn toggle_weak_links(&mut self) -> Result<(), String> {
+        let documents = &mut self.project.documents;
+        let field = documents.field(Documents::SCENARIO, "weak_links");
+        let on = field.is_none_or(|text| text == "true");
+        documents.set(Documents::SCENARIO, "weak_links", if on { "false" } else { "true" })?;
+        self.make_model()
+    }
+
+    pub(crate) fn duplicate(&mut self, from: String) -> Result<(), String> {
+        let to = self.project.documents.duplicate(&from)?;
+        self.events.push(Event::Duplicated { from, to });
+        Ok(())
+    }
+
+    /// Adds an entry at the moment shown to the pilot program.
+    pub(crate) fn add_entry(&mut self) -> Result<(), String> {
+        let shown_s = self.view().map_or(0.0, |view| view.frame.time_s);
+        // Two entries at one time are an error; a new one goes beside.
+        let taken = pilot_program::entries(&self.project.documents)
+            .iter()
+            .any(|entry| entry.trigger == "at" && entry.begin_s == Some(shown_s));
+        let time_s = if taken { shown_s + 0.5 } else { shown_s };
+        let mut added = None;
+        self.project.documents.alter(Documents::SCENARIO, |document| {
+            added = Some(pilot_program::add(document, time_s)?);
+            Ok(())
+        })?;
+        self.events.extend(added.map(Event::EntryAdded));
+        Ok(())
+    }
+
+    pub(crate) fn delete_entry(&mut self, index: usize) -> Result<(), String> {
+        self.project.documents.alter(Documents::SCENARIO, |document| {
+            document.remove_table(pilot_program::LIST, index).map_err(|error| error.to_string())
+        })
+    }
+}

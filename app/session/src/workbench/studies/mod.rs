@@ -1,0 +1,198 @@
+//! Studies of a user: the queue of those at work, and the results shown.
+
+mod results;
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::Workbench;
+use super::model::Then;
+use super::notice::Notice;
+use crate::edit::Documents;
+use crate::locate;
+use crate::study::queue::{self, Job, Queue, State};
+use crate::study::{ResultsRequest, StudyResults};
+pub use results::Results;
+
+/// Studies in the queue, and results.
+#[derive(Default)]
+pub struct Studies {
+    /// Studies waiting, at work, and done.
+    pub queue: Queue,
+    /// The results shown.
+    pub results: Results,
+    /// Folder that results are kept in; `results` where the program was started, without one.
+    pub folder: Option<PathBuf>,
+    /// Ids of the library's scenarios when the study was opened.
+    pub scenarios: Vec<String>,
+}
+
+impl Studies {
+    /// Folder that results are kept in.
+    #[must_use]
+    pub fn root(&self) -> PathBuf {
+        self.folder.clone().unwrap_or_else(|| PathBuf::from("results"))
+    }
+}
+
+impl Workbench {
+    /// Begins the next study that waits, and takes in results.
+    pub(super) fn refresh_studies(&mut self) {
+        let (host, _) = self.helpers();
+        let studies = &mut self.studies;
+        studies.queue.begin_next(&host);
+        if let Some(Err(error)) = studies.results.take() {
+            self.notice = Some(Notice::fault(error));
+        }
+        if studies.results.follows_next
+            && let Some(folder) = studies.queue.jobs.last().and_then(Job::folder)
+        {
+            studies.results.follow(folder);
+        }
+        self.follow_job();
+    }
+
+    /// Results of the job shown are read again as it goes on.
+    fn follow_job(&mut self) {
+        let studies = &self.studies;
+        let Some(shown) = studies.results.followed() else { return };
+        let job = studies.queue.jobs.iter().find(|job| job.folder().as_deref() == Some(shown));
+        let Some((job, opened)) = job.and_then(|job| Some((job, job.opened()?))) else { return };
+        let blocks = job.progress().blocks.done;
+        if studies.results.is_due(blocks, !job.at_work()) {
+            let (folder, opened) = (Some(shown.to_owned()), Some(opened));
+            let asked = self.ask_for_results(ResultsRequest {
+                folder,
+                opened,
+                blocks,
+                ..ResultsRequest::default()
+            });
+            if let Err(reason) = asked {
+                self.notice = Some(Notice::fault(reason));
+            }
+        }
+    }
+
+    /// Asks for results to be read in the background.
+    fn ask_for_results(&mut self, request: ResultsRequest) -> Result<(), String> {
+        let (host, waker) = self.helpers();
+        let library = self.project.documents.root().to_owned();
+        let request = ResultsRequest { library, root: self.studies.root(), ..request };
+        self.studies.results.ask(request, host, waker)
+    }
+
+    /// Opens a study for editing, and the results it already has.
+    pub(crate) fn open_study(&mut self, path: &Path) -> Result<(), String> {
+        let documents = &mut self.project.documents;
+        if documents.study_path().is_some() && documents.is_unsaved(Documents::STUDY) {
+            let reason = "the open study has unsaved edits; save or undo them first";
+            return Err(reason.to_owned());
+        }
+        documents.open_study(path)?;
+        let id = |path: &PathBuf| path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+        self.studies.scenarios =
+            locate::scenarios(documents.root()).iter().filter_map(id).collect();
+        self.ask_for_results(ResultsRequest {
+            file: Some(path.to_owned()),
+            ..ResultsRequest::default()
+        })
+    }
+
+    /// Shows the results in a folder.
+    pub(crate) fn show_results(&mut self, folder: &Path) -> Result<(), String> {
+        self.ask_for_results(ResultsRequest {
+            folder: Some(folder.to_owned()),
+            ..ResultsRequest::default()
+        })
+    }
+
+    /// Whether neither the open study nor the gear has an error.
+    #[must_use]
+    pub fn study_is_sound(&self) -> bool {
+        let documents = &self.project.documents;
+        !documents.file_has_error(Documents::STUDY) && !documents.any_error()
+    }
+
+    /// Queues the open study; its text is saved first, for the study is run from its file.
+    pub(crate) fn queue_study(&mut self) -> Result<(), String> {
+        let documents = &mut self.project.documents;
+        let Some(path) = documents.study_path().map(Path::to_owned) else {
+            return Err("open a study first".to_owned());
+        };
+        if !documents.unsaved().is_empty() {
+            documents.save().map_err(|error| format!("not saved, so not queued: {error}"))?;
+        }
+        let named = documents.field(Documents::STUDY, "name");
+        let name = named.unwrap_or_else(|| path.display().to_string());
+        let library = documents.root().to_owned();
+        let (_, waker) = self.helpers();
+        let studies = &mut self.studies;
+        if let Some(job) = studies.queue.unfinished(&path) {
+            job.resume();
+            self.notice = Some(Notice::hint("this study is in the queue already"));
+            return Ok(());
+        }
+        studies.queue.add(Job::new(path, name, library, studies.root(), waker));
+        studies.results.follows_next = true;
+        Ok(())
+    }
+
+    /// Pauses the study at work, or goes on with it.
+    pub(crate) fn pause_study(&mut self) -> Result<(), String> {
+        let Some(job) = self.studies.queue.current() else {
+            return Err("no study is at work".into());
+        };
+        if job.state() == State::Paused {
+            job.resume()
+        } else {
+            job.pause()
+        }
+        Ok(())
+    }
+
+    /// Takes the study at work out of the queue.
+    pub(crate) fn cancel_study(&mut self) -> Result<(), String> {
+        let Some(job) = self.studies.queue.current() else {
+            return Err("no study is at work".into());
+        };
+        job.cancel();
+        Ok(())
+    }
+
+    /// Goes on with a copy of the open study beside those of the library.
+    pub(crate) fn duplicate_study(&mut self) -> Result<(), String> {
+        let copy = self.project.documents.duplicate_study()?;
+        self.notice = Some(Notice::done(format!("a copy: {}", copy.display())));
+        Ok(())
+    }
+
+    /// Runs an encounter of the study shown again, up to where it ended in the study.
+    pub(crate) fn replay_encounter(&mut self, option: usize, encounter: u32) -> Result<(), String> {
+        let Some(shown) = self.studies.results.shown().cloned() else {
+            return Err("no results of a study are shown".to_owned());
+        };
+        let encounters = shown.opened.study.encounters;
+        if option >= shown.opened.options.len() || u64::from(encounter) >= encounters {
+            return Err("the study shown has no such run".to_owned());
+        }
+        self.studies.results.replayed = Some((option, encounter));
+        self.keep_run();
+        let host = Arc::clone(&self.plugins.host);
+        self.make_guest(Then::Start, move || shown.prepare(option, encounter, &host))
+    }
+
+    /// The command lines that run the open study and report it; `None` where none is open.
+    #[must_use]
+    pub fn study_command_line(&self) -> Option<String> {
+        let (documents, studies) = (&self.project.documents, &self.studies);
+        let path = documents.study_path()?;
+        let mut jobs = studies.queue.jobs.iter();
+        let job = jobs.find(|job| job.file == path).and_then(Job::folder);
+        let of_study = |shown: &&Arc<StudyResults>| {
+            shown.opened.study.place.source.path == path.display().to_string()
+        };
+        let shown = studies.results.shown().filter(of_study);
+        let folder = job.or_else(|| shown.map(|shown| shown.folder.clone()));
+        Some(queue::command_line(path, documents.root(), folder.as_deref()))
+    }
+}

@@ -1,0 +1,145 @@
+//! What a user does in a session, driven by commands alone: no window, no screen.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use endline_session::command::{
+    Command, EditAction, ExportAction, RunAction, StudyAction, TimeAction, declared,
+};
+use endline_session::edit::Documents;
+use endline_session::live::Status;
+use endline_session::live::engine::live;
+use endline_session::workbench::{NoticeKind, Workbench};
+use endline_session::{PluginHost, Recording};
+
+/// A copy of the shipped library in a folder of the test's own, deleted in the end.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let root =
+            std::env::temp_dir().join(format!("endline-commands-{name}-{}", std::process::id()));
+        let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../gear-library");
+        for kind in ["ropes", "weak-links", "buoys", "sites", "scenarios"] {
+            std::fs::create_dir_all(root.join(kind)).unwrap();
+            for entry in std::fs::read_dir(shipped.join(kind)).unwrap() {
+                let entry = entry.unwrap();
+                std::fs::copy(entry.path(), root.join(kind).join(entry.file_name())).unwrap();
+            }
+        }
+        Self(root)
+    }
+
+    fn workbench(&self) -> Workbench {
+        let scenario = self.0.join("scenarios/reference-a-pendulum.toml");
+        let documents = Documents::open(&self.0, &scenario).unwrap();
+        Workbench::new(documents, Arc::new(PluginHost::empty()), live(), Arc::new(|| {}))
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        // A folder left behind is not worth failing a test for.
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+/// Takes in what threads have ready until something is so.
+fn wait(workbench: &mut Workbench, what: &str, so: impl Fn(&Workbench) -> bool) {
+    let patience = Instant::now() + Duration::from_secs(120);
+    while !so(workbench) {
+        let stands = workbench.status();
+        assert!(Instant::now() < patience, "{what}: {stands:?}, {:?}", workbench.notice);
+        std::thread::sleep(Duration::from_millis(2));
+        workbench.refresh();
+    }
+}
+
+fn status(workbench: &mut Workbench, wanted: &Status) {
+    wait(workbench, &format!("{wanted:?}"), |workbench| {
+        !workbench.making() && workbench.status() == Some(wanted)
+    });
+}
+
+fn set(field: &str, value: &str) -> Command {
+    let path = Documents::SCENARIO.to_owned();
+    Command::Edit(EditAction::Set { path, field: field.into(), value: value.into() })
+}
+
+#[test]
+fn a_library_is_opened_edited_run_sought_recorded_and_the_edit_undone_by_commands() {
+    let folder = Folder::new("whole");
+    let mut workbench = folder.workbench();
+    status(&mut workbench, &Status::Paused);
+
+    // Edited gear counts once it is applied.
+    assert!(workbench.perform(Command::Run(RunAction::Apply)).is_err(), "nothing has changed yet");
+    workbench.perform(set("duration", "1 s")).unwrap();
+    workbench.perform(set("rope_nodes", "21")).unwrap();
+    assert!(workbench.stale());
+    workbench.perform(Command::Run(RunAction::Apply)).unwrap();
+    wait(&mut workbench, "the edited model", |workbench| {
+        let nodes = workbench.view().map(|view| view.model.node_count);
+        !workbench.making() && nodes == Some(21) && workbench.status() == Some(&Status::Paused)
+    });
+    assert!(!workbench.stale());
+
+    workbench.perform(Command::Run(RunAction::Speed(f64::INFINITY))).unwrap();
+    workbench.perform(Command::Run(RunAction::Start)).unwrap();
+    status(&mut workbench, &Status::Finished);
+    let end = workbench.view().cloned().unwrap();
+    assert!((end.newest_s - 1.0).abs() < 1e-6, "{}", end.newest_s);
+
+    workbench.perform(Command::Time(TimeAction::Seek(0.5))).unwrap();
+    wait(&mut workbench, "the middle", |workbench| workbench.view().unwrap().sought);
+    let shown_s = workbench.view().unwrap().frame.time_s;
+    assert!((shown_s - 0.5).abs() < 0.05, "{shown_s}");
+    workbench.perform(Command::Time(TimeAction::Newest)).unwrap();
+    wait(&mut workbench, "the newest moment", |workbench| !workbench.view().unwrap().sought);
+
+    let file = folder.0.join("run.endline");
+    workbench.perform(Command::Export(ExportAction::Recording(file.clone()))).unwrap();
+    wait(&mut workbench, "the recording", |_| file.exists());
+    assert_eq!(Recording::load(&file).unwrap().inputs.len() as u64, end.frame.step);
+
+    // The recording runs again to the same bits, in a model of its own.
+    workbench.perform(Command::Run(RunAction::OpenRecording(file))).unwrap();
+    wait(&mut workbench, "the same end", |workbench| {
+        let view = workbench.view().unwrap();
+        !Arc::ptr_eq(&view.model, &end.model)
+            && view.frame.step == end.frame.step
+            && view.status != Status::Running
+    });
+    assert_eq!(workbench.view().unwrap().state_hash, end.state_hash);
+
+    workbench.perform(Command::Edit(EditAction::Undo)).unwrap();
+    workbench.perform(Command::Edit(EditAction::Undo)).unwrap();
+    let documents = &workbench.project.documents;
+    assert_eq!(documents.field(Documents::SCENARIO, "duration").unwrap(), "10 s");
+    assert!(documents.unsaved().is_empty());
+    assert!(workbench.perform(Command::Edit(EditAction::Undo)).is_err());
+}
+
+#[test]
+fn a_command_that_does_nothing_gives_the_reason_it_is_declared_with() {
+    let folder = Folder::new("reasons");
+    let mut workbench = folder.workbench();
+    status(&mut workbench, &Status::Paused);
+    let mut refused = 0;
+    for info in declared() {
+        let (Err(reason), endline_session::command::Make::Plain(make)) =
+            ((info.enabled)(&workbench), &info.make)
+        else {
+            continue;
+        };
+        assert_eq!(workbench.perform(make()), Err(reason.clone()), "{}", info.id);
+        let notice = workbench.notice.as_ref().unwrap();
+        assert_eq!((&notice.text, notice.kind), (&reason, NoticeKind::Hint), "{}", info.id);
+        refused += 1;
+    }
+    assert!(refused > 10, "little can be done before a run: {refused}");
+    let replay = StudyAction::Replay { option: 0, encounter: 0 };
+    assert!(workbench.perform(Command::Study(replay)).is_err());
+}
