@@ -143,7 +143,7 @@ scientist() {
     command "read buoy"
     picture scientist-5-four-views-and-a-reading
     command "views at once: 1"
-    command "let go of what is read"
+    command "clear the inspector"
 }
 
 # Killed amid edits: nothing on disk is touched, and the edits are offered back.

@@ -1,14 +1,14 @@
 # What drives the workbench's window: a screen of its own (Xvfb), real mouse and keys (xdotool), pictures (imagemagick).
 # Sourced by the scripts beside it, after PROGRAM, PICTURES and SIZE are set. Nothing waits for a time where there is something
-# to wait for: a command until the program has told that it obeyed it, a picture until the window stands still.
+# to wait for: a command until the program has reported that it performed it, a picture until the window stands still.
 ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 WORK=$(mktemp -d)
 FAILED=0
 WINDOW=
 mkdir -p "$PICTURES"
 cp -r "$ROOT/gear-library" "$WORK/library"
-# Each order that the program obeys is a line of its log.
-export XDG_DATA_HOME="$WORK/data" LIBGL_ALWAYS_SOFTWARE=1 ENDLINE_TELL_ORDERS=1
+# Each command that the program performs is a line of its log.
+export XDG_DATA_HOME="$WORK/data" LIBGL_ALWAYS_SOFTWARE=1 ENDLINE_TELL_COMMANDS=1
 DATA="$WORK/data/endline"
 
 . "$ROOT/tests/window/screen.sh"
@@ -30,17 +30,17 @@ picture() { still "${2:-10}"; import -window root "$PICTURES/$1.png"; }
 click() { xdotool mousemove "$1" "$2"; still 5; xdotool click 1; still 5; }
 keys() { xdotool key --delay 30 "$@"; }
 typed() { xdotool type --delay 5 "$1"; }
-orders() { grep -c "^order: ${1:-}" "$WORK/log"; }
-# An order by its name in the palette.
+performed() { grep -c "^command: ${1:-}" "$WORK/log"; }
+# A command by its name in the palette.
 command() {
     local before
-    before=$(orders Commands)
+    before=$(performed window.palette)
     keys ctrl+p
-    within 30 "[ \$(orders Commands) -gt $before ]"
-    before=$(orders)
+    within 30 "[ \$(performed window.palette) -gt $before ]"
+    before=$(performed)
     typed "$1"
     keys Return
-    within 30 "[ \$(orders) -gt $before ]" || { echo "WRONG no such command: $1"; FAILED=1; keys Escape; }
+    within 30 "[ \$(performed) -gt $before ]" || { echo "WRONG no such command: $1"; FAILED=1; keys Escape; }
 }
 check() { if eval "$2"; then echo "ok    $1"; else echo "WRONG $1"; FAILED=1; picture "wrong-$(echo "$1" | tr -c 'a-z\n' -)"; fi; }
 

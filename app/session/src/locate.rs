@@ -52,6 +52,26 @@ fn no_library(looked: &[PathBuf]) -> String {
     )
 }
 
+/// Files of the scenarios of a library, by name.
+#[must_use]
+pub fn scenarios(root: &Path) -> Vec<PathBuf> {
+    toml_files(&root.join("scenarios"))
+}
+
+/// Files of the studies of a library, by name.
+#[must_use]
+pub fn studies(root: &Path) -> Vec<PathBuf> {
+    toml_files(&root.join("studies"))
+}
+
+fn toml_files(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let toml = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "toml");
+    let mut files: Vec<PathBuf> = entries.map(|entry| entry.path()).filter(toml).collect();
+    files.sort();
+    files
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -5,14 +5,32 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use endline_gear::Kind;
 use endline_session::command::{
     Command, EditAction, ExportAction, RunAction, StudyAction, TimeAction, declared,
 };
 use endline_session::edit::Documents;
+use endline_session::export::chart;
 use endline_session::live::Status;
 use endline_session::live::engine::live;
 use endline_session::workbench::{NoticeKind, Workbench};
 use endline_session::{PluginHost, Recording};
+
+/// Folders of the library.
+const KINDS: [&str; 12] = [
+    "ropes",
+    "traps",
+    "buoys",
+    "weak-links",
+    "knots",
+    "anchors",
+    "sites",
+    "friction",
+    "whales",
+    "acts",
+    "assemblies",
+    "scenarios",
+];
 
 /// A copy of the shipped library in a folder of the test's own, deleted in the end.
 struct Folder(PathBuf);
@@ -22,7 +40,7 @@ impl Folder {
         let root =
             std::env::temp_dir().join(format!("endline-commands-{name}-{}", std::process::id()));
         let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../gear-library");
-        for kind in ["ropes", "weak-links", "buoys", "sites", "scenarios"] {
+        for kind in KINDS {
             std::fs::create_dir_all(root.join(kind)).unwrap();
             for entry in std::fs::read_dir(shipped.join(kind)).unwrap() {
                 let entry = entry.unwrap();
@@ -113,6 +131,16 @@ fn a_library_is_opened_edited_run_sought_recorded_and_the_edit_undone_by_command
             && view.status != Status::Running
     });
     assert_eq!(workbench.view().unwrap().state_hash, end.state_hash);
+
+    let table = folder.0.join("ropes.csv");
+    let export = ExportAction::Table { kind: Kind::Rope, rows: None, file: table.clone() };
+    workbench.perform(export.into()).unwrap();
+    let rows = std::fs::read_to_string(table).unwrap().lines().count();
+    assert_eq!(rows, 1 + workbench.project.documents.files("ropes").count());
+    let plots = folder.0.join("tension.csv");
+    let export = ExportAction::Plots { kinds: vec![chart::Kind::Tension], file: plots.clone() };
+    workbench.perform(export.into()).unwrap();
+    assert!(std::fs::read_to_string(plots).unwrap().lines().count() > 20);
 
     workbench.perform(Command::Edit(EditAction::Undo)).unwrap();
     workbench.perform(Command::Edit(EditAction::Undo)).unwrap();

@@ -4,6 +4,8 @@
 
 use std::path::PathBuf;
 
+use endline_gear::Kind;
+
 use super::condition::{can_redo, can_undo, has_moments, has_whale, unsaved};
 use super::info::{Choice, FileQuestion, Make, Shortcut, When};
 use super::{Command, Info};
@@ -39,6 +41,13 @@ pub enum EditAction {
     ToggleWeakLinks,
     /// Copy an entry of the library, by its path, to a file of its own.
     Duplicate(String),
+    /// Take a table of a kind into the library.
+    ImportTable {
+        /// The kind of its rows.
+        kind: Kind,
+        /// The file: CSV, or text with tabs.
+        file: PathBuf,
+    },
     /// Add an entry to the pilot program at the moment shown.
     AddEntry,
     /// Take an entry out of the pilot program, by its place.
@@ -61,6 +70,7 @@ impl EditAction {
             Self::Recover(_) => "edit.recover",
             Self::ToggleWeakLinks => "edit.weak-links",
             Self::Duplicate(_) => "edit.duplicate",
+            Self::ImportTable { .. } => "edit.import-table",
             Self::AddEntry => "edit.add-entry",
             Self::DeleteEntry(_) => "edit.delete-entry",
             Self::EditInputs => "edit.inputs",
@@ -171,6 +181,12 @@ pub static COMMANDS: &[Info] = &[
         Make::Values("path"),
     ),
     Info::new(
+        "edit.import-table",
+        "Import a table",
+        "Changes the entries of a library table that a CSV file names, and adds those that it does not know.",
+        Make::Values("kind, file"),
+    ),
+    Info::new(
         "edit.delete-entry",
         "Delete an entry of the pilot program",
         "Takes an entry out of the pilot program.",
@@ -202,6 +218,7 @@ pub(super) fn perform(workbench: &mut Workbench, action: EditAction) -> Result<(
         EditAction::Recover(edits) => workbench.recover(&edits),
         EditAction::ToggleWeakLinks => workbench.toggle_weak_links(),
         EditAction::Duplicate(path) => workbench.duplicate(path),
+        EditAction::ImportTable { kind, file } => workbench.import_table(kind, &file),
         EditAction::AddEntry => workbench.add_entry(),
         EditAction::DeleteEntry(index) => workbench.delete_entry(index),
         EditAction::EditInputs => workbench.edit_inputs(),

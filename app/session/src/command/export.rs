@@ -4,9 +4,12 @@
 
 use std::path::PathBuf;
 
+use endline_gear::Kind;
+
 use super::condition::ready;
 use super::info::{FileQuestion, Make};
 use super::{Command, Info};
+use crate::export::chart;
 use crate::workbench::Workbench;
 
 /// A file to be written.
@@ -14,6 +17,22 @@ use crate::workbench::Workbench;
 pub enum ExportAction {
     /// The run so far as a recording.
     Recording(PathBuf),
+    /// A table of the library as CSV.
+    Table {
+        /// The kind of its rows.
+        kind: Kind,
+        /// Its rows by path, in their order; all of the kind where `None`.
+        rows: Option<Vec<String>>,
+        /// The file.
+        file: PathBuf,
+    },
+    /// Plots of the run: SVG, PNG or CSV by the file's extension.
+    Plots {
+        /// Which, in their order.
+        kinds: Vec<chart::Kind>,
+        /// The file.
+        file: PathBuf,
+    },
 }
 
 impl ExportAction {
@@ -22,6 +41,8 @@ impl ExportAction {
     pub fn id(&self) -> &'static str {
         match self {
             Self::Recording(_) => "export.recording",
+            Self::Table { .. } => "export.table",
+            Self::Plots { .. } => "export.plots",
         }
     }
 }
@@ -45,5 +66,7 @@ pub static COMMANDS: &[Info] = &[Info::new(
 pub(super) fn perform(workbench: &mut Workbench, action: ExportAction) -> Result<(), String> {
     match action {
         ExportAction::Recording(file) => workbench.save_recording(file),
+        ExportAction::Table { kind, rows, file } => workbench.export_table(kind, rows, &file),
+        ExportAction::Plots { kinds, file } => workbench.export_plots(&kinds, &file),
     }
 }

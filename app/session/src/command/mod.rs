@@ -43,6 +43,25 @@ pub enum Command {
     Plugin(PluginAction),
 }
 
+macro_rules! into_command {
+    ($($action:ident => $group:ident),*) => {$(
+        impl From<$action> for Command {
+            fn from(action: $action) -> Self {
+                Self::$group(action)
+            }
+        }
+    )*};
+}
+
+into_command!(
+    RunAction => Run,
+    TimeAction => Time,
+    EditAction => Edit,
+    StudyAction => Study,
+    ExportAction => Export,
+    PluginAction => Plugin
+);
+
 /// Declaration of a command of the workbench.
 pub type Info = CommandInfo<Workbench, Command>;
 

@@ -9,11 +9,6 @@ use crate::task::Waker;
 
 use super::{Live, LiveView, RunCommand};
 
-/// Speeds offered, as simulated time over real time, with their names; the last is as fast as the
-/// solver runs.
-pub const SPEEDS: [(f64, &str); 6] =
-    [(0.1, "0.1×"), (0.25, "¼×"), (1.0, "1×"), (2.0, "2×"), (5.0, "5×"), (f64::INFINITY, "max")];
-
 /// A run that takes commands and shows its newest view; neither waits for the solver.
 pub trait Engine {
     /// Sends a command; false where the run has ended or cannot take more.

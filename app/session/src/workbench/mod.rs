@@ -13,6 +13,7 @@
 //! | [`preferences`] | what is kept between sessions |
 
 pub mod comparison;
+mod export;
 mod model;
 mod notice;
 pub mod plugins;

@@ -10,7 +10,7 @@ use super::notice::Notice;
 use crate::edit::Documents;
 use crate::error::Error;
 use crate::live::RunCommand;
-use crate::recording::PluginUsed;
+use crate::plugins::PluginUsed;
 use crate::recording::replay::check_plugins;
 use crate::source::{Overrides, Prepared, Source};
 

@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use endline_gear::Diagnostic;
+use endline_gear::{Diagnostic, Kind};
 
 use super::Workbench;
 use super::model::Texts;
 use super::notice::{Event, Notice};
 use crate::edit::recovery::{Autosave, UnsavedEdits};
-use crate::edit::{Documents, pilot_program};
+use crate::edit::{Documents, library_table, pilot_program};
 
 /// The texts, and what is wrong with them.
 pub struct Project {
@@ -34,6 +34,12 @@ impl Project {
     pub fn problems(&self) -> impl Iterator<Item = &Diagnostic> {
         let known = self.documents.problems();
         known.iter().chain(self.model_problems.iter().filter(|problem| !known.contains(problem)))
+    }
+
+    /// Problems found in making the model last.
+    #[must_use]
+    pub fn model_problems(&self) -> &[Diagnostic] {
+        &self.model_problems
     }
 
     /// The worst problem at a field of a text, or of the model made last of the texts as they stand.
@@ -131,6 +137,16 @@ impl Workbench {
     pub(crate) fn duplicate(&mut self, from: String) -> Result<(), String> {
         let to = self.project.documents.duplicate(&from)?;
         self.events.push(Event::Duplicated { from, to });
+        Ok(())
+    }
+
+    pub(crate) fn import_table(&mut self, kind: Kind, file: &Path) -> Result<(), String> {
+        let text = std::fs::read_to_string(file)
+            .map_err(|error| format!("{}: {error}", file.display()))?;
+        let taken = library_table::import(&mut self.project.documents, kind, &text)
+            .map_err(|reason| format!("not taken in: {reason}"))?;
+        let notice = if taken.left_out.is_empty() { Notice::done } else { Notice::hint };
+        self.notice = Some(notice(taken.sentence()));
         Ok(())
     }
 

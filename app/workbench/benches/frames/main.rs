@@ -15,6 +15,7 @@ mod common;
 mod screen;
 mod study;
 
+use endline_session::command::{EditAction, RunAction, TimeAction};
 use std::time::Instant;
 
 use endline_session::live::Status;
@@ -22,7 +23,6 @@ use endline_session::scene::Scene;
 
 use common::Folder;
 use egui::{Event, Key, Modifiers, PointerButton, pos2};
-use endline_workbench::gui::desk::Order;
 use endline_workbench::gui::layout::Layout;
 use endline_workbench::gui::panel_id::PanelId;
 use endline_workbench::scene::{Drawer, offscreen::Offscreen};
@@ -94,7 +94,7 @@ fn typing(folder: &Folder) {
         std::fs::write(folder.0.join(format!("ropes/many-{index:04}.toml")), text).unwrap();
     }
     let mut screen = Screen::new(folder.documents());
-    screen.wait(|app| app.desk.view.is_some());
+    screen.wait(|app| app.shared.workbench.view().is_some());
     screen.app.dock = Layout::Design.dock();
     screen.settle(5);
     screen.open_alone(PanelId::LIBRARY);
@@ -113,10 +113,13 @@ fn typing(folder: &Folder) {
     for _ in 0..5 {
         click(&mut screen, pos2(420.0, 300.0));
         screen.frame(letter(0));
-        let version = screen.app.desk.documents.version();
+        let version = screen.app.shared.workbench.project.documents.version();
         committed.push(screen.frame(vec![key(Key::Enter)]));
-        assert!(screen.app.desk.documents.version() > version, "the edit is made");
-        screen.app.desk.obey(&Order::Undo);
+        assert!(
+            screen.app.shared.workbench.project.documents.version() > version,
+            "the edit is made"
+        );
+        screen.app.shared.perform(EditAction::Undo);
         screen.settle(3);
     }
     tell("  the edit committed: all files read and compared anew", committed, "");
@@ -157,31 +160,31 @@ fn playing(folder: &Folder) {
         documents.set("scenario", field, value).unwrap();
     }
     let mut screen = Screen::new(documents);
-    screen.app.desk.recordings = Some(folder.0.join("recordings"));
+    screen.app.shared.workbench.recordings = Some(folder.0.join("recordings"));
     study::run(&mut screen, folder);
-    screen.wait(|app| app.desk.status() == Some(&Status::Paused));
+    screen.wait(|app| app.shared.workbench.status() == Some(&Status::Paused));
     screen.app.panels.library.chosen = Some("ropes/sink-3-8.toml".to_owned());
     screen.open_all();
     screen.wait(|app| app.panels.assembly.settled());
-    screen.app.desk.obey(&Order::Speed(f64::INFINITY));
-    screen.app.desk.obey(&Order::Start);
+    screen.app.shared.perform(RunAction::Speed(f64::INFINITY));
+    screen.app.shared.perform(RunAction::Start);
     screen.wait(|app| {
-        app.desk
-            .view
-            .as_ref()
+        app.shared
+            .workbench
+            .view()
             .is_some_and(|view| view.newest_s > 1.5 && !view.frame.contacts.is_empty())
     });
-    screen.app.desk.obey(&Order::Speed(1.0));
+    screen.app.shared.perform(RunAction::Speed(1.0));
     screen.settle(5);
-    let nodes = screen.app.desk.view.as_ref().unwrap().model.node_count;
+    let nodes = screen.app.shared.workbench.view().unwrap().model.node_count;
     let panels = PanelId::ALL.len();
     tell(
         &format!("a frame, {nodes} nodes being run, all {panels} panels open"),
         screen.moments(60),
         "4 ms",
     );
-    screen.app.desk.obey(&Order::Pause);
-    screen.wait(|app| app.desk.status() == Some(&Status::Paused));
+    screen.app.shared.perform(RunAction::Pause);
+    screen.wait(|app| app.shared.workbench.status() == Some(&Status::Paused));
     tell(
         &format!("a frame, {nodes} nodes played again, all {panels} panels open"),
         played(&mut screen, 100),
@@ -197,9 +200,9 @@ fn playing(folder: &Folder) {
 
 /// Times of so many frames of the run played again, each of another moment [s].
 fn played(screen: &mut Screen, count: usize) -> Vec<f64> {
-    let newest_s = screen.app.desk.view.as_ref().unwrap().newest_s;
+    let newest_s = screen.app.shared.workbench.view().unwrap().newest_s;
     let times = (1..=count).map(|index| {
-        screen.app.desk.obey(&Order::Seek((index as f64 / 30.0) % newest_s));
+        screen.app.shared.perform(TimeAction::Seek((index as f64 / 30.0) % newest_s));
         screen.sleep_until_woken();
         screen.frame(Vec::new())
     });
@@ -212,9 +215,9 @@ fn uploaded(screen: &Screen) {
         return println!("no OpenGL here: what it takes to hand it a scene is not measured");
     };
     let mut drawer = Drawer::new(offscreen.gl.clone()).unwrap();
-    let (desk, mut made, mut handed) = (&screen.app.desk, Vec::new(), Vec::new());
+    let (shared, mut made, mut handed) = (&screen.app.shared, Vec::new(), Vec::new());
     for _ in 0..40 {
-        let (view, start) = (desk.view.as_ref().unwrap(), thread_cpu_s());
+        let (view, start) = (shared.workbench.view().unwrap(), thread_cpu_s());
         let scene = Scene::of(&view.model, &view.frame, &screen.app.panels.view.show);
         made.push(thread_cpu_s() - start);
         let start = thread_cpu_s();
@@ -234,12 +237,14 @@ fn scrubbing(folder: &Folder) {
         documents.set("scenario", field, value).unwrap();
     }
     let mut screen = Screen::new(documents);
-    screen.wait(|app| app.desk.status() == Some(&Status::Paused));
-    screen.app.desk.obey(&Order::Speed(f64::INFINITY));
-    screen.app.desk.obey(&Order::Start);
+    screen.wait(|app| app.shared.workbench.status() == Some(&Status::Paused));
+    screen.app.shared.perform(RunAction::Speed(f64::INFINITY));
+    screen.app.shared.perform(RunAction::Start);
     let start = Instant::now();
-    screen.wait(|app| matches!(app.desk.status(), Some(Status::Finished | Status::Stopped(_))));
-    let newest_s = screen.app.desk.view.as_ref().unwrap().newest_s;
+    screen.wait(|app| {
+        matches!(app.shared.workbench.status(), Some(Status::Finished | Status::Stopped(_)))
+    });
+    let newest_s = screen.app.shared.workbench.view().unwrap().newest_s;
     println!("a recording of {newest_s:.0} s was made in {:.0} s", start.elapsed().as_secs_f64());
     assert!(newest_s > 599.0, "ten minutes");
     screen.open_all();
@@ -267,13 +272,13 @@ impl Jumps {
         let near = |screen: &Screen| {
             screen
                 .app
-                .desk
-                .view
-                .as_ref()
+                .shared
+                .workbench
+                .view()
                 .is_some_and(|view| (view.frame.time_s - time_s).abs() < 0.14)
         };
         let (mut cpu_s, mut frames, start) = (0.0, 0, Instant::now());
-        screen.app.desk.orders.push(Order::Seek(time_s));
+        screen.app.shared.give(TimeAction::Seek(time_s));
         while !near(screen) || frames == 0 {
             cpu_s += screen.frame(Vec::new());
             frames += 1;

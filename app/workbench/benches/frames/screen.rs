@@ -11,8 +11,8 @@ use endline_session::edit::Documents;
 use endline_session::live::engine;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::canvas::Canvas;
-use endline_workbench::gui::desk::Desk;
 use endline_workbench::gui::panel_id::PanelId;
+use endline_workbench::gui::shared::Shared;
 use endline_workbench::input::Pilot;
 
 use crate::common::linked;
@@ -42,7 +42,7 @@ impl Screen {
         };
         let mut app = App::new(
             &creation,
-            Desk::new(documents, linked(), engine::live(), waker, Pilot::default()),
+            Shared::new(documents, linked(), engine::live(), waker, Pilot::default()),
         );
         // With a canvas the view makes its triangles as it does beside a graphics card; nobody draws them.
         app.panels.view.drawn[0].canvas = Some(Arc::new(Mutex::new(Canvas::default())));
@@ -90,8 +90,8 @@ impl Screen {
             assert!(
                 Instant::now() < patience,
                 "waited in vain: {:?} {:?}",
-                self.app.desk.status(),
-                self.app.desk.notice
+                self.app.shared.workbench.status(),
+                self.app.shared.workbench.notice
             );
             std::thread::sleep(Duration::from_millis(25));
             self.frame(Vec::new());
@@ -115,15 +115,15 @@ impl Screen {
                 Instant::now() < patience,
                 "{} moments: {:?}",
                 times.len(),
-                self.app.desk.status()
+                self.app.shared.workbench.status()
             );
             self.sleep_until_woken();
             let spent = self.frame(Vec::new());
             let now = self
                 .app
-                .desk
-                .view
-                .as_ref()
+                .shared
+                .workbench
+                .view()
                 .map_or(std::ptr::null(), |view| Arc::as_ptr(&view.frame));
             if now != shown {
                 times.push(spent);

@@ -1,7 +1,7 @@
 //! A study that was run, so that its panels have something to show.
 
+use endline_session::command::StudyAction;
 use endline_session::study::queue::{Job, State};
-use endline_workbench::gui::desk::Order;
 use endline_workbench::gui::layout::Layout;
 
 use crate::common::{Folder, on_disk};
@@ -50,17 +50,19 @@ pub fn run(screen: &mut Screen, folder: &Folder) {
     .unwrap();
     std::fs::create_dir_all(folder.0.join("studies")).unwrap();
     std::fs::write(folder.0.join("studies/small.toml"), STUDY).unwrap();
-    let studies = &mut screen.app.desk.studies;
+    let studies = &mut screen.app.shared.workbench.studies;
     (studies.folder, studies.queue.eager) = (Some(folder.0.join("results")), true);
     screen.app.dock = Layout::Study.dock();
-    screen.app.desk.obey(&Order::OpenStudy(folder.0.join("studies/small.toml")));
-    screen.app.desk.obey(&Order::QueueStudy);
+    screen.app.shared.perform(StudyAction::Open(folder.0.join("studies/small.toml")));
+    screen.app.shared.perform(StudyAction::Run);
     let ended = |state: &State| matches!(state, State::Done | State::Failed(_));
-    screen.wait(|app| app.desk.studies.queue.jobs.last().is_none_or(|job| ended(&job.state())));
-    let state = screen.app.desk.studies.queue.jobs.last().map(Job::state);
-    assert_eq!(state, Some(State::Done), "{:?}", screen.app.desk.notice);
     screen.wait(|app| {
-        !app.desk.studies.results.busy()
-            && app.desk.studies.results.shown().is_some_and(|shown| shown.whole)
+        app.shared.workbench.studies.queue.jobs.last().is_none_or(|job| ended(&job.state()))
+    });
+    let state = screen.app.shared.workbench.studies.queue.jobs.last().map(Job::state);
+    assert_eq!(state, Some(State::Done), "{:?}", screen.app.shared.workbench.notice);
+    screen.wait(|app| {
+        !app.shared.workbench.studies.results.busy()
+            && app.shared.workbench.studies.results.shown().is_some_and(|shown| shown.whole)
     });
 }

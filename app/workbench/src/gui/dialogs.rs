@@ -1,101 +1,62 @@
-//! File dialogs. Each runs on a thread of its own, so that the window stays alive, and answers with an order.
+//! File dialogs. Each runs on a thread of its own, so that the window stays alive.
 
-use std::path::{Path, PathBuf};
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::path::PathBuf;
+use std::sync::Arc;
 
-use super::order::Order;
+use endline_session::command::{FileQuestion, FileUse};
+use endline_session::task::{Task, Waker};
 
-/// What a dialog asks; `None` where the user cancels it.
-pub type Question = Box<dyn FnOnce() -> Option<Order> + Send>;
+use super::command::Declared;
 
 /// The dialog that is open, if any.
 #[derive(Default)]
 pub struct Dialogs {
-    answer: Option<Receiver<Option<Order>>>,
+    task: Task<Option<PathBuf>>,
+    /// The command that waits for its file.
+    waiting: Option<Declared>,
 }
 
 impl Dialogs {
-    /// Opens a dialog.
+    /// Asks for the file of a command.
     ///
     /// # Errors
     /// Where the system gives no thread.
-    pub fn ask(&mut self, question: Question) -> Result<(), String> {
-        let (sender, receiver) = channel();
-        let asked = std::thread::Builder::new().name("endline-dialog".into()).spawn(move || {
-            // Nobody waits any more where the window is gone.
-            let _ = sender.send(question());
-        });
+    pub fn ask(
+        &mut self,
+        command: Declared,
+        question: FileQuestion,
+        waker: &Waker,
+    ) -> Result<(), String> {
+        let asked = self.task.start("endline-dialog", move || answer(question), Arc::clone(waker));
         asked.map_err(|error| format!("the dialog cannot be opened: {error}"))?;
-        self.answer = Some(receiver);
+        self.waiting = Some(command);
         Ok(())
     }
 
-    /// The order that a dialog answered with, once.
-    pub fn take(&mut self) -> Option<Order> {
-        match self.answer.as_ref()?.try_recv() {
-            Ok(order) => {
-                self.answer = None;
-                order
-            }
-            Err(TryRecvError::Disconnected) => {
-                self.answer = None;
-                None
-            }
-            Err(TryRecvError::Empty) => None,
-        }
+    /// The command and the file that a dialog answered with, once.
+    pub fn take(&mut self) -> Option<(Declared, PathBuf)> {
+        let answer = self.task.poll()?;
+        let command = self.waiting.take()?;
+        // A dialog that was cancelled, or broke, gives no file.
+        answer.ok().flatten().map(|file| (command, file))
     }
 }
 
-/// Which files a dialog offers: their name in words, and their endings.
-#[derive(Clone, Copy)]
-pub struct Files {
-    name: &'static str,
-    endings: &'static [&'static str],
-}
-
-/// Scenarios.
-pub const SCENARIOS: Files = Files { name: "scenario", endings: &["toml"] };
-/// Studies.
-pub const STUDIES: Files = Files { name: "study", endings: &["toml"] };
-/// Recordings.
-pub const RECORDINGS: Files = Files { name: "recording", endings: &["endline"] };
-/// Tables of a spreadsheet.
-pub const TABLES: Files = Files { name: "table", endings: &["csv", "tsv", "txt"] };
-
-/// Asks for a file to open.
-#[must_use]
-pub fn open(folder: &Path, files: Files, order: fn(PathBuf) -> Order) -> Question {
-    let folder = folder.to_owned();
-    Box::new(move || {
-        let dialog = rfd::FileDialog::new().set_directory(folder);
-        dialog.add_filter(files.name, files.endings).pick_file().map(order)
-    })
-}
-
-/// Asks for a folder.
-#[must_use]
-pub fn open_folder(folder: &Path, order: fn(PathBuf) -> Order) -> Question {
-    let folder = folder.to_owned();
-    Box::new(move || rfd::FileDialog::new().set_directory(folder).pick_folder().map(order))
-}
-
-/// Asks where to write a file of an ending; `name` is offered without it.
-#[must_use]
-pub fn save(name: &str, ending: &'static str, order: fn(PathBuf) -> Order) -> Question {
-    let name = format!("{name}.{ending}");
-    Box::new(move || {
-        let dialog = rfd::FileDialog::new().set_file_name(name);
-        dialog.add_filter(ending, &[ending]).save_file().map(order)
-    })
-}
-
-/// Asks where to write a copy of a file; a name beside it is offered.
-#[must_use]
-pub fn save_beside(path: &Path, files: Files, order: fn(PathBuf) -> Order) -> Question {
-    let folder = path.parent().map(Path::to_owned).unwrap_or_default();
-    let name = format!("{}-2.toml", super::files::stem(path));
-    Box::new(move || {
-        let dialog = rfd::FileDialog::new().set_directory(folder).set_file_name(name);
-        dialog.add_filter(files.name, files.endings).save_file().map(order)
-    })
+/// Shows a dialog and waits for its answer; `None` where the user cancels it.
+fn answer(question: FileQuestion) -> Option<PathBuf> {
+    let mut dialog = rfd::FileDialog::new();
+    if let Some(folder) = &question.folder {
+        dialog = dialog.set_directory(folder);
+    }
+    if !question.file_name.is_empty() {
+        dialog = dialog.set_file_name(&question.file_name);
+    }
+    if !question.extensions.is_empty() {
+        dialog = dialog.add_filter(question.sort, question.extensions);
+    }
+    match question.purpose {
+        FileUse::Read => dialog.pick_file(),
+        FileUse::Write => dialog.save_file(),
+        FileUse::Folder => dialog.pick_folder(),
+    }
 }

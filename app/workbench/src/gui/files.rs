@@ -1,18 +1,8 @@
 //! Files of a library that a user chooses among.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-/// The scenarios of a library, by name.
-#[must_use]
-pub fn scenarios(root: &Path) -> Vec<PathBuf> {
-    toml_files(&root.join("scenarios"))
-}
-
-/// The studies of a library, by name.
-#[must_use]
-pub fn studies(root: &Path) -> Vec<PathBuf> {
-    toml_files(&root.join("studies"))
-}
+pub use endline_session::locate::{scenarios, studies};
 
 /// The name of a file without folder and ending.
 #[must_use]
@@ -20,12 +10,20 @@ pub fn stem(path: &Path) -> String {
     path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
-fn toml_files(folder: &Path) -> Vec<PathBuf> {
-    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-    let mut files: Vec<PathBuf> = entries
-        .map(|entry| entry.path())
-        .filter(|path| path.extension().is_some_and(|end| end == "toml"))
-        .collect();
-    files.sort();
-    files
+/// Shows a folder in the system's file manager.
+///
+/// # Errors
+/// Where there is no program that does.
+pub fn open_folder(folder: &Path) -> Result<(), String> {
+    let program = if cfg!(target_os = "macos") {
+        "open"
+    } else if cfg!(windows) {
+        "explorer"
+    } else {
+        "xdg-open"
+    };
+    let opened = std::process::Command::new(program).arg(folder).spawn();
+    opened
+        .map(|_| ())
+        .map_err(|error| format!("{}: {program} cannot show it: {error}", folder.display()))
 }

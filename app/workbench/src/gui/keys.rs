@@ -1,46 +1,63 @@
-//! Keys of the window, given as orders by the table of [`bindings`](super::bindings).
+//! Keys of the window, given as commands by the declared shortcuts.
 
-use egui::{Context, Event, Modifiers};
+use egui::{Context, Event, KeyboardShortcut, Modifiers};
+use endline_session::command::When;
 
-use super::bindings::{BINDINGS, Binding, When};
-use super::desk::{Desk, Order};
+use super::command::action::{WindowAction, WindowCommand};
+use super::command::{declared, to_egui};
+use super::shared::Shared;
 
-/// Orders given by keys since the last frame.
-pub fn orders(context: &Context, desk: &Desk) -> Vec<Order> {
+/// A key and the command it gives.
+struct Bound {
+    key: KeyboardShortcut,
+    when: When,
+    command: WindowCommand,
+}
+
+/// Every key with its command.
+fn bound() -> impl Iterator<Item = Bound> {
+    declared().filter_map(|info| Some((info, info.plain()?))).flat_map(|(info, command)| {
+        info.keys().iter().filter_map(move |shortcut| {
+            let (key, when) = (to_egui(shortcut.keys)?, shortcut.when);
+            Some(Bound { key, when, command: command.clone() })
+        })
+    })
+}
+
+/// Commands given by keys since the last frame.
+pub fn commands(context: &Context, shared: &Shared) -> Vec<WindowCommand> {
     if !context.input(|input| input.events.iter().any(|event| matches!(event, Event::Key { .. }))) {
         return Vec::new();
     }
     let typing = context.egui_wants_keyboard_input();
-    let holds = |binding: &&Binding| match binding.when {
-        // A text being typed has an undo of its own.
-        When::Always => !(typing && matches!(binding.order, Order::Undo | Order::Redo)),
+    let holds = |bound: &Bound| match bound.when {
+        When::Always => true,
         When::Idle => !typing,
-        When::Looking => !typing && !desk.flying,
-        When::Flying => !typing && desk.flying,
+        When::Looking => !typing && !shared.flying,
+        When::Flying => !typing && shared.flying,
     };
-    let mut wanted: Vec<&Binding> = BINDINGS.iter().filter(holds).collect();
-    // The one with more modifiers first: Ctrl+Shift+Z is no Ctrl+Z.
-    wanted.sort_by_key(|binding| std::cmp::Reverse(count(binding.key.modifiers)));
+    let mut wanted: Vec<Bound> = bound().filter(holds).collect();
+    // The one with more modifiers first: Ctrl+Shift+Z is not Ctrl+Z.
+    wanted.sort_by_key(|bound| std::cmp::Reverse(count(bound.key.modifiers)));
     // What comes after Ctrl+P in one slow frame is typed into the list of commands.
-    let commands = BINDINGS
-        .iter()
-        .find(|binding| binding.order == Order::Commands)
-        .and_then(|binding| place(context, binding));
-    let before = |binding: &&Binding| {
-        commands
-            .is_none_or(|commands| place(context, binding).is_none_or(|place| place <= commands))
+    let palette = WindowCommand::Window(WindowAction::Palette);
+    let palette = wanted.iter().find(|bound| bound.command == palette);
+    let palette = palette.and_then(|bound| place(context, bound.key));
+    let before = |bound: &Bound| {
+        let place = place(context, bound.key);
+        palette.is_none_or(|palette| place.is_none_or(|place| place <= palette))
     };
+    let wanted: Vec<Bound> = wanted.into_iter().filter(before).collect();
     wanted
         .into_iter()
-        .filter(before)
-        .filter(|binding| context.input_mut(|input| input.consume_shortcut(&binding.key)))
-        .map(|binding| binding.order.clone())
+        .filter(|bound| context.input_mut(|input| input.consume_shortcut(&bound.key)))
+        .map(|bound| bound.command)
         .collect()
 }
 
-/// Where among the events of this frame a binding's key was first pressed.
-fn place(context: &Context, binding: &Binding) -> Option<usize> {
-    let pressed = |event: &Event| matches!(event, Event::Key { key, pressed: true, .. } if *key == binding.key.logical_key);
+/// Where among the events of this frame a key was first pressed.
+fn place(context: &Context, shortcut: KeyboardShortcut) -> Option<usize> {
+    let pressed = |event: &Event| matches!(event, Event::Key { key, pressed: true, .. } if *key == shortcut.logical_key);
     context.input(|input| input.events.iter().position(pressed))
 }
 
@@ -49,4 +66,29 @@ fn count(modifiers: Modifiers) -> u32 {
         .into_iter()
         .map(u32::from)
         .sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::input::keys::STEERING;
+
+    #[test]
+    fn every_shortcut_is_a_key_of_a_plain_command_and_none_is_given_twice() {
+        let declared: usize = declared().map(|info| info.keys().len()).sum();
+        let all: Vec<Bound> = bound().collect();
+        assert_eq!(all.len(), declared, "each shortcut is understood, and gives a command");
+        for (index, one) in all.iter().enumerate() {
+            for other in &all[..index] {
+                let twice = one.key == other.key && one.when.overlaps(other.when);
+                assert!(!twice, "{} and {}", one.command.id(), other.command.id());
+            }
+            for steer in STEERING.iter().flat_map(|steer| [Some(steer.more), steer.less]).flatten()
+            {
+                let plain = one.key.modifiers.is_none() && one.when != When::Looking;
+                let steers = plain && one.key.logical_key == steer;
+                assert!(!steers, "the key of {} steers", one.command.id());
+            }
+        }
+    }
 }

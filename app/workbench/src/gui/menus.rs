@@ -1,124 +1,186 @@
-//! The menu bar.
+//! The menu bar, from the declared commands.
 
 use egui::{Button, MenuBar, RichText, Ui};
 use egui_dock::DockState;
 use endline_session::units::Units;
 
-use super::desk::{Desk, Order};
-use super::files::{scenarios, stem};
+use super::command::action::PanelAction;
+use super::command::{Offer, find};
 use super::layout::{self, Layout};
-use super::order::Dialog;
 use super::panel_id::PanelId;
+use super::shared::Shared;
 use super::theme::Theme;
 
+/// What a menu holds.
+#[derive(Clone, Copy, Debug)]
+pub enum Item {
+    /// A command, or each of its choices.
+    Command(&'static str),
+    /// A menu of the choices of a command, then further commands.
+    Submenu(&'static str, &'static str, &'static [&'static str]),
+    /// A line.
+    Separator,
+}
+
+use Item::{Command, Separator, Submenu};
+
+/// The menus by title, each with the commands it holds.
+pub static MENUS: [(&str, &[Item]); 4] = [
+    (
+        "File",
+        &[
+            Submenu("Open scenario", "edit.open", &["edit.open-file"]),
+            Command("edit.save"),
+            Command("edit.save-scenario-as"),
+            Command("run.open-recording"),
+            Command("export.recording"),
+            Separator,
+            Command("window.quit"),
+        ],
+    ),
+    ("Edit", &[Command("edit.undo"), Command("edit.redo")]),
+    (
+        "Run",
+        &[
+            Command("run.toggle"),
+            Command("run.step"),
+            Command("run.reset"),
+            Command("edit.inputs"),
+            Command("run.rerun"),
+            Command("run.hold"),
+            Command("run.branch"),
+            Command("window.copy-run"),
+            Separator,
+            Command("run.apply"),
+            Command("edit.weak-links"),
+            Command("flight.toggle"),
+        ],
+    ),
+    (
+        "View",
+        &[
+            Command("window.dark"),
+            Command("window.light"),
+            Separator,
+            Command("window.size"),
+            Separator,
+            Command("panel.layout"),
+        ],
+    ),
+];
+
+/// Commands of the Help menu, after the start page.
+pub static HELP: [&str; 2] = ["panel.help", "window.palette"];
+
 /// Draws the menu bar.
-pub fn show(ui: &mut Ui, desk: &mut Desk, dock: &DockState<String>) {
+pub fn show(ui: &mut Ui, shared: &mut Shared, dock: &DockState<String>) {
     MenuBar::new().ui(ui, |ui| {
         ui.label(RichText::new("Endline").strong().color(Theme::palette_of(ui).accent));
         ui.add_space(6.0);
-        ui.menu_button("File", |ui| file(ui, desk));
-        ui.menu_button("Edit", |ui| edit(ui, desk));
-        ui.menu_button("Run", |ui| run(ui, desk));
-        ui.menu_button("View", |ui| view(ui, desk));
-        ui.menu_button("Window", |ui| window(ui, desk, dock));
-        ui.menu_button("Help", |ui| {
-            item(ui, desk, true, "Start page", "", Order::Show(PanelId::START));
-            item(ui, desk, true, "Keys and help", "F1", Order::Show(PanelId::HELP));
-            item(ui, desk, true, "Commands …", "Ctrl+P", Order::Commands);
-        });
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            for units in Units::ALL.into_iter().rev() {
-                ui.selectable_value(&mut desk.preferences.units, units, units.name())
-                    .on_hover_text(units.help());
-            }
-            ui.separator();
-            for layout in Layout::ALL.into_iter().rev() {
-                if ui.button(layout.name()).on_hover_text("Arrange the panels").clicked() {
-                    desk.orders.push(Order::Arrange(layout));
+        for (title, items) in MENUS {
+            ui.menu_button(title, |ui| {
+                items.iter().for_each(|item| show_item(ui, shared, *item));
+                if title == "Run" {
+                    ui.checkbox(&mut shared.pilot.invert_pitch, "Push to put the nose down");
                 }
+            });
+        }
+        ui.menu_button("Window", |ui| window(ui, shared, dock));
+        ui.menu_button("Help", |ui| {
+            if ui.button("Start page").clicked() {
+                shared.give(PanelAction::Show(PanelId::START));
+                ui.close();
             }
+            HELP.iter().for_each(|id| command(ui, shared, id));
         });
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| at_right(ui, shared));
     });
 }
 
-/// A menu item that gives an order.
-fn item(ui: &mut Ui, desk: &mut Desk, enabled: bool, text: &str, keys: &str, order: Order) {
-    if ui.add_enabled(enabled, Button::new(text).shortcut_text(keys)).clicked() {
-        desk.orders.push(order);
+/// Units and layouts, at the right.
+fn at_right(ui: &mut Ui, shared: &mut Shared) {
+    for units in Units::ALL.into_iter().rev() {
+        ui.selectable_value(&mut shared.workbench.preferences.units, units, units.name())
+            .on_hover_text(units.help());
+    }
+    ui.separator();
+    for layout in Layout::ALL.into_iter().rev() {
+        if ui.button(layout.name()).on_hover_text("Arrange the panels").clicked() {
+            shared.give(PanelAction::Arrange(layout));
+        }
+    }
+}
+
+fn show_item(ui: &mut Ui, shared: &mut Shared, item: Item) {
+    match item {
+        Command(id) => command(ui, shared, id),
+        Submenu(title, id, further) => {
+            ui.menu_button(title, |ui| {
+                for offer in find(id).map(|command| command.offers(shared)).unwrap_or_default() {
+                    let of = find(id).map_or("", |command| command.name());
+                    let name = offer.name.strip_prefix(of).unwrap_or(&offer.name).trim().to_owned();
+                    show_offer(ui, shared, Offer { name, ..offer });
+                }
+                ui.separator();
+                further.iter().for_each(|id| command(ui, shared, id));
+            });
+        }
+        Separator => {
+            ui.separator();
+        }
+    }
+}
+
+/// A command, or each of its choices.
+fn command(ui: &mut Ui, shared: &mut Shared, id: &str) {
+    let Some(command) = find(id) else { return };
+    let asks = command.question(shared).is_some();
+    for mut offer in command.offers(shared) {
+        if asks {
+            offer.name += " …";
+        }
+        show_offer(ui, shared, offer);
+    }
+}
+
+/// A menu item: greyed with the reason where it does nothing now.
+fn show_offer(ui: &mut Ui, shared: &mut Shared, offer: Offer) {
+    let button = Button::new(&offer.name).shortcut_text(&offer.keys);
+    let response = ui.add_enabled(offer.enabled.is_ok(), button);
+    let response = match &offer.enabled {
+        Ok(()) => response.on_hover_text(offer.help),
+        Err(reason) => response.on_disabled_hover_text(reason),
+    };
+    if response.clicked() {
+        shared.give(offer.command);
         ui.close();
     }
 }
 
-fn file(ui: &mut Ui, desk: &mut Desk) {
-    ui.menu_button("Open scenario", |ui| {
-        for path in scenarios(desk.documents.root()) {
-            item(ui, desk, true, &stem(&path), "", Order::Open(path));
-        }
-        ui.separator();
-        item(ui, desk, true, "Other file …", "", Order::Ask(Dialog::Scenario));
-    });
-    let unsaved = !desk.documents.unsaved().is_empty();
-    item(ui, desk, unsaved, "Save all", "Ctrl+S", Order::Save);
-    item(ui, desk, true, "Save scenario as …", "", Order::Ask(Dialog::ScenarioAs));
-    item(ui, desk, true, "Open recording …", "", Order::Ask(Dialog::Recording));
-    let run = desk.view.is_some();
-    item(ui, desk, run, "Save recording …", "", Order::Ask(Dialog::SaveRecording));
-    ui.separator();
-    if ui.button("Quit").clicked() {
-        ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
-    }
-}
-
-fn edit(ui: &mut Ui, desk: &mut Desk) {
-    let (undo, redo) = desk.documents.can_undo_redo();
-    item(ui, desk, undo, "Undo", "Ctrl+Z", Order::Undo);
-    item(ui, desk, redo, "Redo", "Ctrl+Shift+Z", Order::Redo);
-}
-
-fn run(ui: &mut Ui, desk: &mut Desk) {
-    let ready = desk.view.is_some();
-    let running = desk.running();
-    item(ui, desk, ready, if running { "Pause" } else { "Run" }, "Space", Order::PlayPause);
-    item(ui, desk, ready && !running, "Step", ".", Order::Step);
-    item(ui, desk, ready, "Reset", "Backspace", Order::Reset);
-    let run = desk.view.as_ref().is_some_and(|view| view.newest_s > 0.0);
-    item(ui, desk, run, "Edit the inputs of this run", "", Order::EditInputs);
-    item(ui, desk, run, "Rerun from the moment shown", "", Order::Rerun);
-    item(ui, desk, run, "Hold this run to compare with", "", Order::HoldRun);
-    let back = desk.view.as_ref().is_some_and(|view| view.sought);
-    item(ui, desk, back, "Go on from the moment shown", "", Order::Branch);
-    item(ui, desk, ready, "Copy as command line", "Ctrl+Shift+C", Order::CopyCommandLine);
-    ui.separator();
-    let changed = desk.stale() && !desk.documents.any_error();
-    item(ui, desk, changed, "Apply changes", "Ctrl+Enter", Order::Apply);
-    item(ui, desk, true, "Weak links on or off", "K", Order::WeakLinks);
-    let flying = if desk.flying { "Stop flying" } else { "Fly the whale" };
-    item(ui, desk, ready, flying, "Ctrl+F", Order::Fly);
-    ui.checkbox(&mut desk.pilot.invert_pitch, "Push to put the nose down");
-}
-
-fn view(ui: &mut Ui, desk: &mut Desk) {
-    for (theme, name) in [(Theme::Dark, "Dark"), (Theme::Light, "Light")] {
-        ui.radio_value(&mut desk.preferences.theme, theme, name);
-    }
-    ui.separator();
-    for size in [1.0, 1.25, 1.5, 2.0] {
-        let text = format!("Size {:.0} %", 100.0 * size);
-        item(ui, desk, true, &text, "", Order::Size(size));
-    }
-    ui.separator();
-    for layout in Layout::ALL {
-        item(ui, desk, true, &format!("Layout: {}", layout.name()), "", Order::Arrange(layout));
-    }
-    item(ui, desk, true, "Reset layout", "", Order::Arrange(Layout::Design));
-}
-
-fn window(ui: &mut Ui, desk: &mut Desk, dock: &DockState<String>) {
+fn window(ui: &mut Ui, shared: &mut Shared, dock: &DockState<String>) {
     for panel in PanelId::ALL {
         let mut open = layout::is_open(dock, panel);
         if ui.checkbox(&mut open, panel.title()).clicked() {
-            desk.orders.push(if open { Order::Show(panel) } else { Order::Close(panel) });
+            shared.give(if open { PanelAction::Show(panel) } else { PanelAction::Close(panel) });
             ui.close();
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_command_of_a_menu_is_declared() {
+        for item in MENUS.iter().flat_map(|(_, items)| *items) {
+            let ids: Vec<&str> = match item {
+                Command(id) => vec![id],
+                Submenu(_, id, further) => [id].into_iter().chain(*further).copied().collect(),
+                Separator => Vec::new(),
+            };
+            ids.iter().for_each(|id| assert!(find(id).is_some(), "{id}"));
+        }
+        HELP.iter().for_each(|id| assert!(find(id).is_some(), "{id}"));
     }
 }

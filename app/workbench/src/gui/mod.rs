@@ -1,13 +1,13 @@
 //! The workbench: an egui window over a session.
 //!
 //! The window holds no state of a simulation: it reads the newest [`LiveView`](endline_session::live::LiveView)
-//! and sends commands. Panels draw from the [`Desk`](desk::Desk) and leave [`Order`](desk::Order)s on it.
+//! and sends commands. Panels draw from what they [share](shared::Shared) and give
+//! [commands](command).
 
 pub mod app;
-pub mod bindings;
 pub mod bodymap;
 pub mod canvas;
-pub mod desk;
+pub mod command;
 pub mod dialogs;
 pub mod fields;
 pub mod files;
@@ -15,16 +15,14 @@ pub mod inspector;
 pub mod keys;
 pub mod layout;
 pub mod menus;
-pub mod order;
 pub mod palette;
 pub mod panel;
 pub mod panel_id;
 pub mod panels;
-pub mod plugins;
 pub mod preferences;
 pub mod questions;
+pub mod shared;
 pub mod status;
-pub mod studies;
 pub mod tables;
 pub mod theme;
 pub mod widgets;
@@ -40,8 +38,7 @@ use endline_session::{live, load_with, locate, plugin_loader};
 
 use crate::input::{GilrsPads, PadSource, Pilot};
 use app::App;
-use desk::Desk;
-use plugins::Plugins;
+use shared::Shared;
 
 /// How the workbench starts.
 #[derive(Clone, Debug, Default)]
@@ -86,14 +83,15 @@ pub fn open(options: Options) -> Result<(), String> {
         let host = Arc::new(host);
         let context = creation.egui_ctx.clone();
         let waker: Waker = Arc::new(move || context.request_repaint());
-        let mut desk = Desk::new(documents, host, live::engine::live(), waker, Pilot::new(pads()));
-        desk.plugins = Plugins::new(loader, Arc::new(load_with), refused);
+        let mut shared =
+            Shared::new(documents, host, live::engine::live(), waker, Pilot::new(pads()));
+        shared.workbench.plugins.load_with(loader, Arc::new(load_with), refused);
         if let Some(folder) = &data {
-            desk.autosave = Autosave::in_folder(folder.clone());
-            desk.recordings = Some(folder.join("recordings"));
-            desk.studies.folder = Some(folder.join("studies"));
+            shared.workbench.project.autosave = Autosave::in_folder(folder.clone());
+            shared.workbench.recordings = Some(folder.join("recordings"));
+            shared.workbench.studies.folder = Some(folder.join("studies"));
         }
-        let app: Box<dyn eframe::App> = Box::new(App::new(creation, desk));
+        let app: Box<dyn eframe::App> = Box::new(App::new(creation, shared));
         Ok(app)
     };
     eframe::run_native("endline", native, Box::new(create))

@@ -1,18 +1,11 @@
-//! The command palette: every order by its name (Ctrl+P).
+//! The command palette: every command by its name (Ctrl+P).
 
-use egui::{Align2, Context, Key, RichText, TextEdit, Ui, Window, vec2};
-use endline_session::units::Units;
+use egui::{Align2, Button, Context, Key, RichText, TextEdit, Ui, Window, vec2};
 
-use super::canvas::MOST_PANES;
-use super::desk::{Desk, Order};
-use super::files::{scenarios, stem, studies};
-use super::inspector::worst_m;
-use super::layout::Layout;
-use super::order::Dialog;
-use super::panel_id::PanelId;
-use super::tables::KINDS;
+use super::command::action::WindowCommand;
+use super::command::{Offer, declared};
+use super::shared::Shared;
 use super::theme::Theme;
-use crate::scene::{Picked, View};
 
 /// Names shown at once.
 const SHOWN: usize = 10;
@@ -25,166 +18,35 @@ pub struct Palette {
     chosen: usize,
 }
 
-/// Orders that are always there, by name.
-static NAMED: [(&str, Order); 51] = [
-    ("Run or pause", Order::PlayPause),
-    ("Step", Order::Step),
-    ("Reset", Order::Reset),
-    ("Apply changes", Order::Apply),
-    ("Fly the whale, or stop", Order::Fly),
-    ("First or third person", Order::Person),
-    ("Next act of the whale", Order::NextAct),
-    ("Weak links on or off", Order::WeakLinks),
-    ("Open or close the mouth", Order::Mouth),
-    ("Play what was run", Order::Replay),
-    ("First moment", Order::Seek(0.0)),
-    ("Newest moment", Order::Newest),
-    ("One moment back", Order::Shift(-1)),
-    ("One moment on", Order::Shift(1)),
-    ("Slower", Order::Slower),
-    ("Faster", Order::Faster),
-    ("See everything", Order::Frame),
-    ("Drag the whale's start", Order::Pose),
-    ("Ruler", Order::Ruler),
-    ("Clear the inspector and the ruler", Order::LetGo),
-    ("Hold this run to compare with", Order::HoldRun),
-    ("End the comparison", Order::EndCompare),
-    ("Add an entry to the pilot program", Order::AddEntry),
-    ("Delete the chosen entry of the pilot program", Order::DeleteEntry),
-    ("Edit the inputs of this run", Order::EditInputs),
-    ("Rerun from the moment shown", Order::Rerun),
-    ("Copy as command line", Order::CopyCommandLine),
-    ("Go on from the moment shown", Order::Branch),
-    ("Open a recording", Order::Ask(Dialog::Recording)),
-    ("Save the scenario as", Order::Ask(Dialog::ScenarioAs)),
-    ("Save the gear as STL", Order::Ask(Dialog::ExportModel("stl"))),
-    ("Save the gear as glTF", Order::Ask(Dialog::ExportModel("glb"))),
-    ("Save the plots as SVG", Order::Ask(Dialog::ExportPlots("svg"))),
-    ("Save the plots as PNG", Order::Ask(Dialog::ExportPlots("png"))),
-    ("Save the plots as CSV", Order::Ask(Dialog::ExportPlots("csv"))),
-    ("Dark", Order::Dress(Theme::Dark)),
-    ("Light", Order::Dress(Theme::Light)),
-    ("Duplicate the chosen entry", Order::Duplicate),
-    ("Save the library's table as CSV", Order::Ask(Dialog::ExportTable)),
-    ("Take a CSV into the library", Order::Ask(Dialog::ImportTable)),
-    ("Reload plugins", Order::ReloadPlugins),
-    ("Run the study", Order::QueueStudy),
-    ("Pause the study, or go on", Order::PauseStudy),
-    ("Cancel the study", Order::CancelStudy),
-    ("Duplicate the study", Order::DuplicateStudy),
-    ("Copy the study as command line", Order::CopyStudyLine),
-    ("Open a study's file", Order::Ask(Dialog::Study)),
-    ("Open a study's results", Order::Ask(Dialog::Results)),
-    ("Save all", Order::Save),
-    ("Undo", Order::Undo),
-    ("Redo", Order::Redo),
-];
-
-/// Every order a user may give by name.
+/// Every command that can be given by name, whether it is enabled now or not.
 #[must_use]
-pub fn orders(desk: &Desk) -> Vec<(String, Order)> {
-    let mut all: Vec<(String, Order)> =
-        NAMED.iter().map(|(name, order)| ((*name).to_owned(), order.clone())).collect();
-    all.extend(
-        desk.acts()
-            .iter()
-            .enumerate()
-            .map(|(index, act)| (format!("Act {}", act.name), Order::ChooseAct(index))),
-    );
-    all.extend(desk.plugins.waiting().map(|(file, ask)| {
-        let name =
-            file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-        (format!("Allow plugin {name}"), Order::AllowPlugin(file.clone(), ask.hash.clone()))
-    }));
-    let switches = desk.every_plugin().into_iter();
-    all.extend(switches.map(|(info, on)| {
-        (
-            format!("Switch {} {}", if on { "off" } else { "on" }, info.name),
-            Order::SwitchPlugin(info.id, !on),
-        )
-    }));
-    all.extend(
-        [0.1, 0.25, 0.5, 1.0, 2.0, 5.0]
-            .map(|speed| (format!("Speed {speed}×"), Order::Speed(speed))),
-    );
-    all.push(("Speed as fast as it goes".to_owned(), Order::Speed(f64::INFINITY)));
-    let views = View::WHOLE.into_iter().chain(View::OF_WHALE);
-    all.extend(
-        views.map(|view| (format!("View {}", view.name().replace('-', " ")), Order::Look(view))),
-    );
-    all.extend(
-        (1..=MOST_PANES).map(|count| (format!("Views at once: {count}"), Order::Views(count))),
-    );
-    all.extend(readable(desk));
-    all.extend(PanelId::ALL.into_iter().flat_map(of_panel));
-    all.extend(
-        KINDS.map(|(kind, title)| {
-            (format!("Table of {}", title.to_lowercase()), Order::Table(kind))
-        }),
-    );
-    all.extend(Units::ALL.map(|units| (format!("Units {}", units.name()), Order::Measure(units))));
-    all.extend(
-        [1.0, 1.25, 1.5, 2.0]
-            .map(|size| (format!("Size {:.0} %", 100.0 * size), Order::Size(size))),
-    );
-    all.extend(
-        Layout::ALL.map(|layout| (format!("Layout {}", layout.name()), Order::Arrange(layout))),
-    );
-    all.extend(
-        scenarios(desk.documents.root())
-            .into_iter()
-            .map(|path| (format!("Open {}", stem(&path)), Order::Open(path))),
-    );
-    all.extend(
-        studies(desk.documents.root())
-            .into_iter()
-            .map(|path| (format!("Open study {}", stem(&path)), Order::OpenStudy(path))),
-    );
-    all
+pub fn offers(shared: &Shared) -> Vec<Offer> {
+    declared().flat_map(|command| command.offers(shared)).collect()
 }
 
-/// A panel brought to the front, and taken away.
-fn of_panel(panel: PanelId) -> [(String, Order); 2] {
-    let title = panel.title();
-    [(format!("Show {title}"), Order::Show(panel)), (format!("Close {title}"), Order::Close(panel))]
-}
-
-/// The things in the 3-D view that can be read: each line where its tension is greatest now, each body.
-fn readable(desk: &Desk) -> Vec<(String, Order)> {
-    let Some(view) = &desk.view else { return Vec::new() };
-    let spec = &view.model.spec;
-    let lines = spec.lines.iter().enumerate().map(|(line, of)| {
-        (
-            format!("Read line {}", of.id),
-            Order::Read(Picked::Rope { line, at_m: worst_m(&view.model, &view.frame, line) }),
-        )
-    });
-    let bodies = spec
-        .bodies
-        .iter()
-        .enumerate()
-        .map(|(index, body)| (format!("Read {}", body.id), Order::Read(Picked::Body(index))));
-    lines.chain(bodies).collect()
-}
-
-/// The orders whose names hold every typed word, whatever its case.
-fn matching(all: Vec<(String, Order)>, typed: &str) -> Vec<(String, Order)> {
+/// The commands whose names hold every typed word, whatever its case.
+fn matching(all: Vec<Offer>, typed: &str) -> Vec<Offer> {
     let words: Vec<String> = typed.to_lowercase().split_whitespace().map(str::to_owned).collect();
-    let holds = |(name, _): &(String, Order)| {
-        words.iter().all(|word| name.to_lowercase().contains(word.as_str()))
-    };
-    let mut found: Vec<(String, Order)> = all.into_iter().filter(holds).collect();
+    let holds =
+        |offer: &Offer| words.iter().all(|word| offer.name.to_lowercase().contains(word.as_str()));
+    let mut found: Vec<Offer> = all.into_iter().filter(holds).collect();
     // "Speed 1" is also a part of "Speed 0.1×": names whose words begin as typed come first, and no keyboard has a "×".
     let begins = |name: &str, word: &str| name.split_whitespace().any(|own| own.starts_with(word));
     let whole = words.join(" ");
-    found.sort_by_cached_key(|(name, _)| {
-        let name = name.to_lowercase();
+    found.sort_by_cached_key(|offer| {
+        let name = offer.name.to_lowercase();
         (words.iter().filter(|word| !begins(&name, word)).count(), name != whole)
     });
     found
 }
 
 impl Palette {
+    /// Whether it is open.
+    #[must_use]
+    pub fn is_open(&self) -> bool {
+        self.open
+    }
+
     /// Opens it, or closes it. What was typed before the frame in which it opens was drawn is its text.
     pub fn toggle(&mut self, context: &Context) {
         let text = |event: &egui::Event| {
@@ -198,40 +60,33 @@ impl Palette {
         *self = Self { open: !self.open, typed, ..Self::default() };
     }
 
-    /// Draws it where open; leaves the chosen order on the desk.
-    pub fn show(&mut self, context: &Context, desk: &mut Desk) {
+    /// Draws it where open; gives the command chosen.
+    pub fn show(&mut self, context: &Context, shared: &mut Shared) {
         if !self.open {
             return;
         }
-        let (down, up, enter, escape) = context.input(|input| {
-            (
-                input.key_pressed(Key::ArrowDown),
-                input.key_pressed(Key::ArrowUp),
-                input.key_pressed(Key::Enter),
-                input.key_pressed(Key::Escape),
-            )
-        });
+        let [down, up, enter, escape] = [Key::ArrowDown, Key::ArrowUp, Key::Enter, Key::Escape]
+            .map(|key| context.input(|input| input.key_pressed(key)));
         let window = Window::new("Commands")
             .title_bar(false)
             .resizable(false)
             .anchor(Align2::CENTER_TOP, vec2(0.0, 70.0))
             .fixed_size(vec2(380.0, 300.0));
-        let mut taken = None;
+        let mut taken: Option<WindowCommand> = None;
         window.show(context, |ui| {
             self.field(ui);
             // What was typed in this frame counts for an Enter in it.
-            let found = matching(orders(desk), &self.typed);
+            let found = matching(offers(shared), &self.typed);
             self.chosen = (self.chosen + usize::from(down))
                 .saturating_sub(usize::from(up))
                 .min(found.len().saturating_sub(1));
-            taken = self
-                .list(ui, &found)
-                .or_else(|| enter.then(|| found.get(self.chosen).cloned()).flatten());
+            let chosen = || found.get(self.chosen).map(|offer| offer.command.clone());
+            taken = self.list(ui, &found).or_else(|| enter.then(chosen).flatten());
         });
         if taken.is_some() || escape || enter {
             self.open = false;
         }
-        desk.orders.extend(taken.map(|(_, order)| order));
+        shared.commands.extend(taken);
     }
 
     fn field(&mut self, ui: &mut Ui) {
@@ -246,16 +101,22 @@ impl Palette {
         }
     }
 
-    fn list(&self, ui: &mut Ui, found: &[(String, Order)]) -> Option<(String, Order)> {
+    /// The commands found; a disabled one is grey, and hovering it gives the reason.
+    fn list(&self, ui: &mut Ui, found: &[Offer]) -> Option<WindowCommand> {
+        let faint = Theme::palette_of(ui).faint;
         let first = self.chosen.saturating_sub(SHOWN - 1);
         let mut taken = None;
-        for (index, (name, order)) in found.iter().enumerate().skip(first).take(SHOWN) {
-            if ui.selectable_label(index == self.chosen, name).clicked() {
-                taken = Some((name.clone(), order.clone()));
+        for (index, offer) in found.iter().enumerate().skip(first).take(SHOWN) {
+            let name = RichText::new(&offer.name);
+            let name = if offer.enabled.is_ok() { name } else { name.color(faint) };
+            let row = Button::selectable(index == self.chosen, name).shortcut_text(&offer.keys);
+            let hint = offer.enabled.as_ref().err().map_or(offer.help, String::as_str);
+            if ui.add(row).on_hover_text(hint).clicked() {
+                taken = Some(offer.command.clone());
             }
         }
         if found.is_empty() {
-            ui.label(RichText::new("no such command").color(Theme::palette_of(ui).faint));
+            ui.label(RichText::new("no such command").color(faint));
         }
         taken
     }
@@ -263,23 +124,31 @@ impl Palette {
 
 #[cfg(test)]
 mod tests {
+    use endline_session::command::RunAction;
+
     use super::*;
+
+    fn offer(name: &str) -> Offer {
+        Offer {
+            name: name.to_owned(),
+            help: "",
+            keys: String::new(),
+            enabled: Ok(()),
+            command: RunAction::Step.into(),
+        }
+    }
 
     #[test]
     fn words_narrow_the_list_in_any_order_and_case() {
-        let all = vec![
-            ("Show Tension".to_owned(), Order::Step),
-            ("Show Events".to_owned(), Order::Save),
-            ("Undo".to_owned(), Order::Undo),
-        ];
+        let all = || ["Show Tension", "Show Events", "Undo"].map(offer).to_vec();
         let names = |typed: &str| {
-            matching(all.clone(), typed).into_iter().map(|(name, _)| name).collect::<Vec<_>>()
+            matching(all(), typed).into_iter().map(|offer| offer.name).collect::<Vec<_>>()
         };
         assert_eq!(names("tens SHOW"), ["Show Tension"]);
-        let speeds = ["Speed 0.1×", "Speed 1×"].map(|name| (name.to_owned(), Order::Step)).to_vec();
+        let speeds = || ["Speed 0.1×", "Speed 1×"].map(offer).to_vec();
         for typed in ["speed 1×", "speed 1", "1 speed"] {
             assert_eq!(
-                matching(speeds.clone(), typed)[0].0,
+                matching(speeds(), typed)[0].name,
                 "Speed 1×",
                 "{typed}: a word's beginning comes before its middle"
             );

@@ -2,12 +2,12 @@
 
 use egui::Ui;
 
-use super::desk::Desk;
 use super::panel_id::PanelId;
+use super::shared::Shared;
 
-/// A panel of the window. It owns its state and reads what all panels share from the desk.
+/// A panel of the window. It owns its state and reads what all panels share from the shared.
 ///
-/// A panel never names another one. Where it wants something of another, it leaves an order on the desk, and the window
+/// A panel never names another one. Where it wants something of another, it leaves an order on the shared, and the window
 /// hands that order to the panel it concerns.
 pub trait Panel {
     /// Which panel it is.
@@ -19,5 +19,5 @@ pub trait Panel {
     }
 
     /// Draws it.
-    fn ui(&mut self, ui: &mut Ui, desk: &mut Desk);
+    fn ui(&mut self, ui: &mut Ui, shared: &mut Shared);
 }

@@ -1,6 +1,7 @@
 //! What the window asks: what to do with edits a crash left, with unsaved ones as it closes or another scenario is opened, and with a
 //! plugin it does not know.
 
+use endline_session::command::{EditAction, PluginAction};
 use std::path::{Path, PathBuf};
 
 use egui::{Align2, Context, Label, RichText, Ui, Window, vec2};
@@ -8,8 +9,8 @@ use endline_session::edit::Documents;
 use endline_session::edit::recovery::UnsavedEdits;
 use endline_session::plugins::Change;
 
-use super::desk::{Desk, Order};
 use super::files::stem;
+use super::shared::Shared;
 use super::theme::{Theme, primary};
 
 /// What is asked, and what was answered.
@@ -33,9 +34,9 @@ impl Questions {
     }
 
     /// The bar that offers edits back, where a crash left some.
-    pub fn recovery(&mut self, ui: &mut Ui, desk: &mut Desk) {
+    pub fn recovery(&mut self, ui: &mut Ui, shared: &mut Shared) {
         let Some((file, kept)) = self.left_behind.first().cloned() else { return };
-        let here = kept.root == desk.documents.root();
+        let here = kept.root == shared.workbench.project.documents.root();
         let palette = Theme::palette_of(ui);
         ui.horizontal(|ui| {
             let count = kept.texts.len();
@@ -46,7 +47,7 @@ impl Questions {
                 .on_hover_text(kept.texts.keys().cloned().collect::<Vec<_>>().join("\n"));
             if here {
                 if primary(ui, true, "Recover").on_hover_text("Undo takes it back").clicked() {
-                    desk.recover(&kept);
+                    shared.perform(EditAction::Recover(kept));
                     self.drop_left_behind(&file);
                 }
             } else {
@@ -69,9 +70,9 @@ impl Questions {
     }
 
     /// Asks before unsaved edits are lost with the window.
-    pub fn before_closing(&mut self, context: &Context, desk: &mut Desk) {
+    pub fn before_closing(&mut self, context: &Context, shared: &mut Shared) {
         let wanted = context.input(|input| input.viewport().close_requested());
-        let unsaved = desk.documents.unsaved().len();
+        let unsaved = shared.workbench.project.documents.unsaved().len();
         if wanted && unsaved > 0 && !self.leave {
             context.send_viewport_cmd(egui::ViewportCommand::CancelClose);
             self.closing = true;
@@ -91,8 +92,8 @@ impl Questions {
             });
             ui.horizontal(|ui| {
                 if primary(ui, true, "Save and quit").clicked() {
-                    desk.obey(&Order::Save);
-                    self.leave = desk.documents.unsaved().is_empty();
+                    shared.perform(EditAction::Save);
+                    self.leave = shared.workbench.project.documents.unsaved().is_empty();
                     self.closing = false;
                 }
                 if ui.button("Quit without saving").clicked() {
@@ -104,15 +105,16 @@ impl Questions {
             });
         });
         if self.leave {
-            desk.autosave.clear();
+            shared.workbench.project.autosave.clear();
             context.send_viewport_cmd(egui::ViewportCommand::Close);
         }
     }
 
     /// Asks before unsaved edits of the scenario are lost with it, as another is opened.
-    pub fn before_opening(&mut self, context: &Context, desk: &mut Desk) {
+    pub fn before_opening(&mut self, context: &Context, shared: &mut Shared) {
         let Some(path) = self.opening.clone() else { return };
-        let (present, next) = (stem(desk.documents.scenario_path()), stem(&path));
+        let (present, next) =
+            (stem(shared.workbench.project.documents.scenario_path()), stem(&path));
         let window = Window::new("Unsaved scenario")
             .collapsible(false)
             .resizable(false)
@@ -125,8 +127,8 @@ impl Questions {
                     .on_hover_text("Saves every file with edits")
                     .clicked()
                 {
-                    desk.obey(&Order::Save);
-                    open = !desk.documents.is_unsaved(Documents::SCENARIO);
+                    shared.perform(EditAction::Save);
+                    open = !shared.workbench.project.documents.is_unsaved(Documents::SCENARIO);
                     self.opening = None;
                 }
                 open |= ui
@@ -135,7 +137,7 @@ impl Questions {
                     .clicked();
                 if open {
                     self.opening = None;
-                    desk.obey(&Order::Open(path));
+                    shared.perform(EditAction::OpenScenario(path));
                 }
                 if ui.button("Stay").clicked() {
                     self.opening = None;
@@ -146,8 +148,8 @@ impl Questions {
 }
 
 /// Asks before a plugin library is opened that is new, or has changed since it was allowed.
-pub fn plugin(context: &Context, desk: &mut Desk) {
-    let Some((file, ask)) = desk.plugins.asked() else { return };
+pub fn plugin(context: &Context, shared: &mut Shared) {
+    let Some((file, ask)) = shared.workbench.plugins.asked() else { return };
     let title = if ask.change == Change::New { "A new plugin" } else { "A plugin has changed" };
     let window = Window::new(title)
         .collapsible(false)
@@ -181,14 +183,14 @@ pub fn plugin(context: &Context, desk: &mut Desk) {
         )
         .on_hover_text(&ask.hash);
         ui.horizontal(|ui| {
-            if primary(ui, !desk.plugins.busy(), "Allow")
+            if primary(ui, !shared.workbench.plugins.busy(), "Allow")
                 .on_hover_text("It is checked in a process of its own, then loaded")
                 .clicked()
             {
-                desk.orders.push(Order::AllowPlugin(file.clone(), ask.hash.clone()));
+                shared.give(PluginAction::Allow { file: file.clone(), hash: ask.hash.clone() });
             }
             if ui.button("Not now").clicked() {
-                desk.plugins.put_off(&ask);
+                shared.workbench.plugins.put_off(&ask);
             }
         });
     });

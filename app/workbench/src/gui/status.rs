@@ -1,19 +1,21 @@
 //! The bar at the foot of the window.
 
+use crate::gui::command::action::PanelAction;
 use egui::{Align, Button, Layout, RichText, Sense, Ui, vec2};
 use endline_session::live::Status;
+use endline_session::workbench::{Notice, NoticeKind};
 
-use super::desk::{Desk, Order};
 use super::panel_id::PanelId;
+use super::shared::Shared;
 use super::theme::Theme;
 use super::widgets::words;
 
 /// Draws the status bar.
-pub fn show(ui: &mut Ui, desk: &mut Desk) {
+pub fn show(ui: &mut Ui, shared: &mut Shared) {
     let palette = Theme::palette_of(ui);
     ui.horizontal(|ui| {
-        let (text, colour) = match desk.status() {
-            None if desk.making() => ("Making the model".to_owned(), palette.warning),
+        let (text, colour) = match shared.workbench.status() {
+            None if shared.workbench.making() => ("Making the model".to_owned(), palette.warning),
             None => ("No model".to_owned(), palette.error),
             Some(status) => {
                 let colour = match status {
@@ -28,7 +30,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
         let (dot, _) = ui.allocate_exact_size(vec2(10.0, 10.0), Sense::hover());
         ui.painter().circle_filled(dot.center(), 4.0, colour);
         ui.label(text);
-        if let Some(view) = &desk.view {
+        if let Some(view) = shared.workbench.view() {
             let duration = view.model.spec.settings.duration_s;
             ui.label(
                 RichText::new(format!("{:.2} / {duration:.0} s", view.frame.time_s))
@@ -44,14 +46,15 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
                 ui.label(RichText::new("piloted").color(palette.accent));
             }
         }
-        right(ui, desk);
+        right(ui, shared);
     });
 }
 
-fn right(ui: &mut Ui, desk: &mut Desk) {
+fn right(ui: &mut Ui, shared: &mut Shared) {
     let palette = Theme::palette_of(ui);
-    let problems = desk.problems().count() + desk.plugins.problems.len();
-    let unsaved = desk.documents.unsaved().len();
+    let problems =
+        shared.workbench.project.problems().count() + shared.workbench.plugins.problems.len();
+    let unsaved = shared.workbench.project.documents.unsaved().len();
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         let (text, colour) = match problems {
             0 => ("no problems".to_owned(), palette.faint),
@@ -59,18 +62,19 @@ fn right(ui: &mut Ui, desk: &mut Desk) {
             count => (format!("{count} problems"), palette.error),
         };
         if ui.add(Button::new(RichText::new(text).color(colour)).frame(false)).clicked() {
-            desk.orders.push(Order::Show(PanelId::PROBLEMS));
+            shared.give(PanelAction::Show(PanelId::PROBLEMS));
         }
         if unsaved > 0 {
             ui.label(RichText::new(format!("{unsaved} unsaved")).color(palette.warning));
         }
-        let message = desk
-            .view
-            .as_ref()
-            .and_then(|view| view.message.clone())
-            .map(|message| (message, false));
-        if let Some((notice, bad)) = desk.notice.clone().or(message) {
-            let colour = if bad { palette.error } else { palette.good };
+        let message = shared.workbench.view().and_then(|view| view.message.clone());
+        let notice = shared.workbench.notice.clone().or(message.map(Notice::done));
+        if let Some(Notice { text: notice, kind }) = notice {
+            let colour = match kind {
+                NoticeKind::Done => palette.good,
+                NoticeKind::Hint => palette.warning,
+                NoticeKind::Fault => palette.error,
+            };
             let first = notice.lines().next().unwrap_or_default();
             ui.add(egui::Label::new(RichText::new(first).color(colour)).truncate())
                 .on_hover_text(&notice);

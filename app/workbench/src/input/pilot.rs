@@ -183,6 +183,18 @@ impl Pilot {
         None
     }
 
+    /// The index of the act chosen.
+    #[must_use]
+    pub fn act(&self) -> usize {
+        self.act
+    }
+
+    /// Whether the mouth is opened.
+    #[must_use]
+    pub fn mouth_open(&self) -> bool {
+        self.mouth_open
+    }
+
     /// Opens or closes the mouth.
     pub fn toggle_mouth(&mut self) {
         self.mouth_open = !self.mouth_open;

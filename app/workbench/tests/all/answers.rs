@@ -2,6 +2,8 @@
 #![cfg(feature = "gui")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+use endline_session::command::RunAction;
+use endline_workbench::gui::command::action::FlightAction;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -13,7 +15,6 @@ use endline_session::live::Status;
 use endline_session::live::engine::{self, Launch};
 use endline_session::task::Waker;
 use endline_workbench::gui::app::App;
-use endline_workbench::gui::desk::Order;
 use endline_workbench::input::Pilot;
 
 use crate::common::{Folder, linked, opened_with, wait, workbench};
@@ -103,7 +104,7 @@ fn keys_letters_clicks_and_drags_show_within_two_frames() {
 fn what_steers_reaches_the_run_in_the_frame_of_its_key() {
     let folder = Folder::new("answers-flying");
     let (mut window, told) = workbench(&folder, Pilot::default());
-    window.state_mut().desk.orders.push(Order::Fly);
+    window.state_mut().shared.give(FlightAction::Toggle);
     window.run_steps(3);
     // Speed, pitch, roll, yaw, as the run was told them last.
     let yaw = || {
@@ -132,10 +133,10 @@ fn a_moment_asked_for_on_the_transport_bar_shows_with_the_frame_after_the_press(
         engine::live()(prepared, host, both)
     });
     let mut window = opened_with(documents, linked(), launch, Pilot::default());
-    wait(&mut window, |app| app.desk.status() == Some(&Status::Paused));
-    window.state_mut().desk.obey(&Order::Speed(f64::INFINITY));
-    window.state_mut().desk.obey(&Order::Start);
-    wait(&mut window, |app| app.desk.status() == Some(&Status::Finished));
+    wait(&mut window, |app| app.shared.workbench.status() == Some(&Status::Paused));
+    window.state_mut().shared.perform(RunAction::Speed(f64::INFINITY));
+    window.state_mut().shared.perform(RunAction::Start);
+    wait(&mut window, |app| app.shared.workbench.status() == Some(&Status::Finished));
 
     let bar = window.get_by_label("Time").rect();
     let at = bar.left_center() + vec2(0.25 * bar.width(), 0.0);
@@ -150,7 +151,7 @@ fn a_moment_asked_for_on_the_transport_bar_shows_with_the_frame_after_the_press(
         std::thread::sleep(Duration::from_millis(1));
     }
     window.step();
-    let view = window.state().desk.view.clone().unwrap();
+    let view = window.state().shared.workbench.view().cloned().unwrap();
     assert!(view.sought && (view.frame.time_s - 0.25).abs() < 0.02, "{} s", view.frame.time_s);
     assert!(
         window.query_all_by_label_contains(&format!("{:.2} s", view.frame.time_s)).next().is_some(),

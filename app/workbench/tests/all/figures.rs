@@ -2,6 +2,7 @@
 #![cfg(feature = "gui")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+use endline_session::command::RunAction;
 use std::sync::Arc;
 
 use egui_kittest::Harness;
@@ -10,7 +11,6 @@ use endline_session::figures::compare::groups;
 use endline_session::figures::{Figure, LINE, LINK, PART, View, WHALE, lines, parts, shown};
 use endline_session::live::{LiveView, Status};
 use endline_workbench::gui::app::App;
-use endline_workbench::gui::desk::Order;
 use endline_workbench::gui::panel_id::PanelId;
 use endline_workbench::gui::widgets::words::capital;
 
@@ -23,7 +23,7 @@ fn only(harness: &mut Harness<'static, App>, panel: PanelId) {
 }
 
 fn view(harness: &Harness<'static, App>) -> Arc<LiveView> {
-    harness.state().desk.view.clone().unwrap()
+    harness.state().shared.workbench.view().cloned().unwrap()
 }
 
 /// How many figures of a list stand on screen; each that the view shows must.
@@ -33,7 +33,7 @@ fn stands<S>(
     source: &S,
     view: View,
 ) -> usize {
-    let units = harness.state().desk.preferences.units;
+    let units = harness.state().shared.workbench.preferences.units;
     let check = |figure: &Figure<S>| {
         let value = figure.quantity.text(&(figure.read)(source), units);
         for text in [capital(figure.label), value] {
@@ -71,14 +71,14 @@ fn summary_and_entanglement_have_every_figure_that_is_declared_for_them() {
 fn the_comparison_has_every_figure_that_is_declared_for_it() {
     let folder = Folder::new("figures-compared");
     let mut harness = flown(&folder);
-    harness.state_mut().desk.orders.push(Order::HoldRun);
+    harness.state_mut().shared.give(RunAction::Hold);
     harness.run_steps(2);
-    wait(&mut harness, |app| app.desk.status() == Some(&Status::Paused));
-    harness.state_mut().desk.obey(&Order::Start);
-    wait(&mut harness, |app| app.desk.status() == Some(&Status::Finished));
+    wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Paused));
+    harness.state_mut().shared.perform(RunAction::Start);
+    wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Finished));
     only(&mut harness, PanelId::COMPARE);
-    let (a, b) = (view(&harness), harness.state().desk.other_view().unwrap());
-    let all = groups(&a, &b, harness.state().desk.preferences.units);
+    let (a, b) = (view(&harness), harness.state().shared.workbench.compared_view().unwrap());
+    let all = groups(&a, &b, harness.state().shared.workbench.preferences.units);
     let whale = &all.iter().find(|(head, _)| *head == "Whale").unwrap().1;
     assert_eq!(whale.len(), shown(WHALE, View::Compare).count());
     let lines = &all.iter().find(|(head, _)| *head == "Lines").unwrap().1;

@@ -5,11 +5,12 @@
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_gear::Kind;
+use endline_session::command::EditAction;
 use endline_session::edit::Documents;
 use endline_session::edit::library_table::{import, to_csv};
 use endline_session::live::engine;
 use endline_workbench::gui::app::App;
-use endline_workbench::gui::desk::Order;
+use endline_workbench::gui::command::action::PanelAction;
 use endline_workbench::gui::panel_id::PanelId;
 use endline_workbench::input::Pilot;
 
@@ -67,7 +68,7 @@ fn cells_pasted_from_a_spreadsheet_spread_from_the_cell_typed_in() {
     let folder = Folder::new("paste");
     let (mut harness, _) = workbench(&folder, Pilot::default());
     let file = |harness: &Harness<'static, App>, path: &str, key: &str| {
-        harness.state().desk.documents.field(path, key).unwrap()
+        harness.state().shared.workbench.project.documents.field(path, key).unwrap()
     };
     harness.state_mut().panels.library.search = "polypropylene 5/16".into();
     harness.run_steps(2);
@@ -77,7 +78,7 @@ fn cells_pasted_from_a_spreadsheet_spread_from_the_cell_typed_in() {
     harness.run_steps(3);
     assert_eq!(file(&harness, "ropes/pp-5-16.toml", "diameter"), "8 mm");
     assert_eq!(file(&harness, "ropes/pp-5-16.toml", "mass"), "0.03 kg/m");
-    harness.state_mut().desk.obey(&Order::Undo);
+    harness.state_mut().shared.perform(EditAction::Undo);
     assert_eq!(file(&harness, "ropes/pp-5-16.toml", "diameter"), "5/16 in");
 }
 
@@ -93,7 +94,7 @@ fn a_copy_is_compared_with_its_original_and_its_users_are_told() {
     let copy = harness.state().panels.library.chosen.clone().unwrap();
     assert_eq!(copy, "ropes/sink-3-8-2.toml");
     assert!(harness.query_by_label("no difference").is_some());
-    harness.state_mut().desk.set(&copy, "strength", "1,350 lbf");
+    harness.state_mut().shared.workbench.set(&copy, "strength", "1,350 lbf");
     harness.run_steps(3);
     assert!(harness.query_by_label("-50.0 %").is_some());
     assert!(harness.query_by_label("no assembly and no scenario").is_some());
@@ -132,7 +133,9 @@ fn gear_is_settled_at_slack_and_running_tide_as_its_scope_is_moved() {
     for scope in ["1.5", "1.8", "2"] {
         harness
             .state_mut()
-            .desk
+            .shared
+            .workbench
+            .project
             .documents
             .set_held("assemblies/single.toml", "attributes.scope", scope)
             .unwrap();
@@ -140,8 +143,14 @@ fn gear_is_settled_at_slack_and_running_tide_as_its_scope_is_moved() {
     harness.run_steps(2);
     wait(&mut harness, |app| app.panels.assembly.settled());
     assert!((length(&harness) - 2.0 * 25.0).abs() < 0.1, "{}", length(&harness));
-    harness.state_mut().desk.obey(&Order::Undo);
-    let scope = harness.state().desk.documents.field("assemblies/single.toml", "attributes.scope");
+    harness.state_mut().shared.perform(EditAction::Undo);
+    let scope = harness
+        .state()
+        .shared
+        .workbench
+        .project
+        .documents
+        .field("assemblies/single.toml", "attributes.scope");
     assert_eq!(scope.as_deref(), Some("1.3"), "the whole way of the slider is one edit");
 }
 
@@ -166,12 +175,12 @@ fn weak_inserts_are_put_in_every_sixty_feet_and_saved_with_all_else_as_it_was() 
         "21.7 m of rope, 16 m of it in the top three quarters, has room for one: {inserts:?}"
     );
     let before = on_disk(&folder, "scenarios/hello-endline.toml");
-    harness.state_mut().desk.obey(&Order::Save);
+    harness.state_mut().shared.perform(EditAction::Save);
     let after = on_disk(&folder, "scenarios/hello-endline.toml");
     assert!(after.contains("every = \"60 ft\"") && after.contains("within = 0.75"), "{after}");
     assert!(after.contains("# The tide runs to the east"), "comments stay: {after}");
-    harness.state_mut().desk.obey(&Order::Undo);
-    harness.state_mut().desk.obey(&Order::Save);
+    harness.state_mut().shared.perform(EditAction::Undo);
+    harness.state_mut().shared.perform(EditAction::Save);
     assert_eq!(on_disk(&folder, "scenarios/hello-endline.toml"), before);
 }
 
@@ -193,7 +202,14 @@ fn a_line_is_split_with_a_splice_and_the_gear_still_settles() {
     wait(&mut harness, |app| app.panels.assembly.settled());
     assert_eq!(lines(&harness), before + 1);
     let field = |harness: &Harness<'static, App>, field: &str| {
-        harness.state().desk.documents.field("assemblies/massachusetts-single.toml", field).unwrap()
+        harness
+            .state()
+            .shared
+            .workbench
+            .project
+            .documents
+            .field("assemblies/massachusetts-single.toml", field)
+            .unwrap()
     };
     assert_eq!(
         (field(&harness, "line.0.length"), field(&harness, "line.2.length")),
@@ -219,20 +235,26 @@ fn two_gears_are_compared_and_a_gear_type_is_a_starting_point() {
     harness.run_steps(2);
     wait(&mut harness, |app| app.panels.assembly.settled());
     let model = folder.0.join("gear.stl");
-    give(&mut harness, Order::ExportModel(model.clone()));
+    give(&mut harness, PanelAction::ExportModel(model.clone()));
     let bytes = std::fs::read(model).unwrap();
     let triangles = u32::from_le_bytes(bytes[80..84].try_into().unwrap()) as usize;
     assert!(triangles > 1000 && bytes.len() == 84 + 50 * triangles, "{triangles} triangles");
-    let desk = &harness.state().desk;
+    let shared = &harness.state().shared;
     assert!(
         harness.state().panels.assembly.answers()[0].unwrap().is_ok(),
         "{:?}",
         harness.state().panels.assembly.answers()[0].unwrap().as_ref().err()
     );
     assert!(
-        desk.documents.unsaved().iter().any(|path| path.starts_with("assemblies/my-")),
+        shared
+            .workbench
+            .project
+            .documents
+            .unsaved()
+            .iter()
+            .any(|path| path.starts_with("assemblies/my-")),
         "{:?}",
-        desk.documents.unsaved()
+        shared.workbench.project.documents.unsaved()
     );
 }
 
@@ -267,10 +289,19 @@ fn whales_have_a_table_and_every_figure_tells_how_sure_it_is_and_whence() {
     harness.run_steps(2);
     harness.get_by_label("Whales").click();
     harness.run_steps(2);
-    let whale = harness.state().desk.documents.files("whales").next().unwrap().to_owned();
+    let whale = harness
+        .state()
+        .shared
+        .workbench
+        .project
+        .documents
+        .files("whales")
+        .next()
+        .unwrap()
+        .to_owned();
     harness.state_mut().panels.library.chosen = Some(whale.clone());
     harness.run_steps(3);
-    let library = harness.state().desk.documents.library().clone();
+    let library = harness.state().shared.workbench.project.documents.library().clone();
     let entry = library
         .entry(Kind::Whale, whale.trim_start_matches("whales/").trim_end_matches(".toml"))
         .unwrap();
@@ -293,7 +324,14 @@ fn gear_is_chosen_by_its_picture() {
     harness.run_steps(2);
     harness.get_by_label("Pictures").click();
     harness.run_steps(3);
-    let name = harness.state().desk.documents.field("assemblies/single.toml", "name").unwrap();
+    let name = harness
+        .state()
+        .shared
+        .workbench
+        .project
+        .documents
+        .field("assemblies/single.toml", "name")
+        .unwrap();
     harness.get_all_by_label(&name).last().unwrap().click();
     harness.run_steps(3);
     assert_eq!(harness.state().panels.assembly.shown.as_deref(), Some("single"));

@@ -2,6 +2,8 @@
 #![cfg(feature = "gui")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+use endline_session::command::{EditAction, RunAction, TimeAction};
+use endline_workbench::gui::command::action::PanelAction;
 use std::sync::Arc;
 
 use egui_kittest::Harness;
@@ -11,40 +13,11 @@ use endline_session::export::chart::{Chart, Kind};
 use endline_session::live::{Channel, Status};
 use endline_session::units::Units;
 use endline_workbench::gui::app::App;
-use endline_workbench::gui::desk::Order;
 use endline_workbench::gui::layout::{self, Layout};
-use endline_workbench::gui::palette::orders;
 use endline_workbench::gui::panel_id::PanelId;
 use endline_workbench::input::{PadButton, PadEvent, Pilot, Pressed, ScriptedPad};
 
 use crate::common::{Folder, flown, give, wait, workbench};
-
-#[test]
-fn every_command_of_the_palette_is_obeyed_in_every_layout() {
-    let folder = Folder::new("commands");
-    let (mut harness, _) = workbench(&folder, Pilot::default());
-    for layout in Layout::ALL {
-        harness.state_mut().desk.orders.push(Order::Arrange(layout));
-        harness.run_steps(2);
-        for (name, order) in orders(&harness.state().desk) {
-            // A file dialog needs a display; other scenarios are opened by other tests.
-            let asks = matches!(order, Order::Ask(_));
-            if asks || matches!(order, Order::Open(_)) {
-                continue;
-            }
-            harness.state_mut().desk.orders.push(order.clone());
-            harness.run_steps(2);
-            assert!(harness.state().desk.orders.is_empty(), "{name} is obeyed");
-        }
-        harness.state_mut().desk.flying = false;
-    }
-    let names: Vec<String> =
-        orders(&harness.state().desk).into_iter().map(|(name, _)| name).collect();
-    let mut unique = names.clone();
-    unique.sort();
-    unique.dedup();
-    assert_eq!(unique.len(), names.len(), "no two commands of one name");
-}
 
 #[test]
 fn the_window_menu_ticks_open_panels_and_takes_them_away() {
@@ -64,9 +37,9 @@ fn edits_of_a_program_that_was_killed_are_offered_back_and_undone_as_one() {
     let data = folder.0.join("data");
     std::fs::create_dir_all(&data).unwrap();
     let (mut harness, _) = workbench(&folder, Pilot::default());
-    harness.state_mut().desk.autosave = Autosave::in_folder(data.clone());
-    harness.state_mut().desk.set("ropes/sink-3-8.toml", "strength", "2,600 lbf");
-    harness.state_mut().desk.set("ropes/nylon-1-2.toml", "strength", "25 kN");
+    harness.state_mut().shared.workbench.project.autosave = Autosave::in_folder(data.clone());
+    harness.state_mut().shared.workbench.set("ropes/sink-3-8.toml", "strength", "2,600 lbf");
+    harness.state_mut().shared.workbench.set("ropes/nylon-1-2.toml", "strength", "25 kN");
     let kept = data.join(format!("recovery-{}.json", std::process::id()));
     // The harness's own clock goes on a quarter of a second a step.
     for _ in 0..(8.0 * EVERY_S) as usize {
@@ -78,14 +51,14 @@ fn edits_of_a_program_that_was_killed_are_offered_back_and_undone_as_one() {
     std::fs::rename(kept, data.join("recovery-4294967295.json")).unwrap();
 
     let (mut harness, _) = workbench(&folder, Pilot::default());
-    harness.state_mut().desk.autosave = Autosave::in_folder(data.clone());
+    harness.state_mut().shared.workbench.project.autosave = Autosave::in_folder(data.clone());
     harness.state_mut().questions.left_behind = Autosave::in_folder(data.clone()).left_behind();
     harness.run_steps(3);
     assert!(harness.query_by_label_contains("Unsaved edits of 2 files").is_some());
     harness.get_by_label("Recover").click();
     harness.run_steps(3);
     let strength = |harness: &Harness<'static, App>, path: &str| {
-        harness.state().desk.documents.field(path, "strength").unwrap()
+        harness.state().shared.workbench.project.documents.field(path, "strength").unwrap()
     };
     assert_eq!(strength(&harness, "ropes/sink-3-8.toml"), "2,600 lbf");
     assert_eq!(strength(&harness, "ropes/nylon-1-2.toml"), "25 kN");
@@ -93,8 +66,11 @@ fn edits_of_a_program_that_was_killed_are_offered_back_and_undone_as_one() {
         harness.query_by_label("Recover").is_none()
             && !data.join("recovery-4294967295.json").exists()
     );
-    harness.state_mut().desk.obey(&Order::Undo);
-    assert!(harness.state().desk.documents.unsaved().is_empty(), "one undo takes all of it back");
+    harness.state_mut().shared.perform(EditAction::Undo);
+    assert!(
+        harness.state().shared.workbench.project.documents.unsaved().is_empty(),
+        "one undo takes all of it back"
+    );
 }
 
 #[test]
@@ -109,14 +85,17 @@ fn a_button_is_given_to_something_else_by_pressing_it() {
     harness.get_by_label("right shoulder").click();
     harness.run_steps(2);
     harness.get_by_label("press it …");
-    harness.state_mut().desk.pilot = pad(vec![PadEvent::Pressed(PadButton::West)]);
+    harness.state_mut().shared.pilot = pad(vec![PadEvent::Pressed(PadButton::West)]);
     harness.run_steps(5);
-    assert_eq!(harness.state().desk.pilot.mapping.of_button(PadButton::West), Some(Pressed::Burst));
+    assert_eq!(
+        harness.state().shared.pilot.mapping.of_button(PadButton::West),
+        Some(Pressed::Burst)
+    );
     harness.get_by_label("X");
     harness.get_by_label("VWES 2012").click();
     harness.run_steps(2);
     assert_eq!(
-        harness.state().desk.pilot.mapping.of_button(PadButton::RightShoulder),
+        harness.state().shared.pilot.mapping.of_button(PadButton::RightShoulder),
         Some(Pressed::Burst)
     );
 }
@@ -125,32 +104,32 @@ fn a_button_is_given_to_something_else_by_pressing_it() {
 fn a_run_is_kept_by_itself_opened_again_to_the_bit_and_branched() {
     let folder = Folder::new("kept-run");
     let mut harness = flown(&folder);
-    let end = harness.state().desk.view.clone().unwrap();
+    let end = harness.state().shared.workbench.view().cloned().unwrap();
     let kept = folder.0.join("recordings/hello-endline 0001.endline");
     wait(&mut harness, |_| kept.exists());
 
-    harness.state_mut().desk.obey(&Order::OpenRecording(kept));
+    harness.state_mut().shared.perform(RunAction::OpenRecording(kept));
     wait(&mut harness, |app| {
-        let view = app.desk.view.as_ref().unwrap();
+        let view = app.shared.workbench.view().unwrap();
         !Arc::ptr_eq(&view.model, &end.model)
             && view.frame.step == end.frame.step
             && view.status != Status::Running
     });
     assert_eq!(
-        harness.state().desk.view.as_ref().unwrap().state_hash,
+        harness.state().shared.workbench.view().unwrap().state_hash,
         end.state_hash,
         "the recording runs to the same bits"
     );
 
-    harness.state_mut().desk.obey(&Order::Seek(1.0));
-    wait(&mut harness, |app| app.desk.view.as_ref().is_some_and(|view| view.sought));
-    let step = harness.state().desk.view.as_ref().unwrap().frame.step;
-    harness.state_mut().desk.obey(&Order::Branch);
+    harness.state_mut().shared.perform(TimeAction::Seek(1.0));
+    wait(&mut harness, |app| app.shared.workbench.view().is_some_and(|view| view.sought));
+    let step = harness.state().shared.workbench.view().unwrap().frame.step;
+    harness.state_mut().shared.perform(RunAction::Branch);
     wait(&mut harness, |app| {
-        let view = app.desk.view.as_ref().unwrap();
+        let view = app.shared.workbench.view().unwrap();
         view.status == Status::Paused && !view.sought && view.frame.step == step
     });
-    let again = harness.state().desk.view.clone().unwrap();
+    let again = harness.state().shared.workbench.view().cloned().unwrap();
     assert!((again.newest_s - again.frame.time_s).abs() < 1e-9, "what came after is gone");
 }
 
@@ -159,14 +138,14 @@ fn plots_of_an_encounter_agree_with_its_summary_and_every_panel_draws_it() {
     let folder = Folder::new("plots");
     let mut harness = flown(&folder);
     for layout in Layout::ALL {
-        harness.state_mut().desk.orders.push(Order::Arrange(layout));
+        harness.state_mut().shared.give(PanelAction::Arrange(layout));
         harness.run_steps(3);
     }
     for panel in PanelId::ALL {
         harness.state_mut().dock = egui_dock::DockState::new(vec![panel.id().to_owned()]);
         harness.run_steps(2);
     }
-    let view = harness.state().desk.view.clone().unwrap();
+    let view = harness.state().shared.workbench.view().cloned().unwrap();
     let summary = view.summary.as_ref().unwrap();
     let tension = Chart::of(Kind::Tension, &view, Units::Si);
     for (curve, line) in tension.curves.iter().zip(&summary.lines) {
@@ -202,9 +181,9 @@ fn plots_of_an_encounter_agree_with_its_summary_and_every_panel_draws_it() {
         along.end_x
     );
     let svg = folder.0.join("plots.svg");
-    give(&mut harness, Order::ExportPlots(svg.clone()));
+    give(&mut harness, PanelAction::ExportPlots(svg.clone()));
     assert!(std::fs::read_to_string(svg).unwrap().contains("Tension of each line"));
     let csv = folder.0.join("plots.csv");
-    give(&mut harness, Order::ExportPlots(csv.clone()));
+    give(&mut harness, PanelAction::ExportPlots(csv.clone()));
     assert!(std::fs::read_to_string(csv).unwrap().lines().count() > 100);
 }

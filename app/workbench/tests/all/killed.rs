@@ -14,7 +14,7 @@ use endline_session::edit::recovery::{Autosave, UnsavedEdits};
 
 use crate::common::Folder;
 
-/// Seconds of the script for each real one: what takes half a minute at the desk takes a second and a half here.
+/// Seconds of the script for each real one: what takes half a minute at the shared takes a second and a half here.
 const HASTE: f64 = 20.0;
 /// Edits lost at most [s of the script].
 const LOST_S: f64 = 30.0;

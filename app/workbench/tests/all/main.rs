@@ -2,6 +2,7 @@
 #![cfg(feature = "gui")]
 
 mod answers;
+mod commands;
 mod common;
 mod figures;
 mod gear;

@@ -1,6 +1,8 @@
 //! The panel of plugins: listed, switched off, built anew and loaded again, asked about, put into the scenario.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+use endline_session::command::{EditAction, PluginAction};
+use endline_workbench::gui::command::action::PanelAction;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -10,11 +12,10 @@ use endline_gear::{Document, Setting};
 use endline_session::edit::Documents;
 use endline_session::live::engine;
 use endline_session::plugins::{Choices, Language, Loader, PluginKind, Standing, write_project};
+use endline_session::workbench::plugins::Load;
 use endline_workbench::gui::app::App;
-use endline_workbench::gui::desk::Order;
 use endline_workbench::gui::fields;
 use endline_workbench::gui::panel_id::PanelId;
-use endline_workbench::gui::plugins::{Load, Plugins};
 use endline_workbench::input::Pilot;
 
 use crate::common::{Folder, linked, opened_with, wait};
@@ -44,14 +45,14 @@ fn bench(folder: &Folder, place: &Path, scenario: &str) -> Harness<'static, App>
         opened_with(folder.book_with(scenario), linked(), engine::live(), Pilot::default());
     let load: Load = Arc::new(|loader| loader.load(&|_: &Path| Ok(())));
     let loader = Loader::new(&[place.to_path_buf()], Choices::kept_in(None, &[]));
-    harness.state_mut().desk.plugins = Plugins::new(loader, load, Vec::new());
-    harness.state_mut().desk.orders.push(Order::Show(PanelId::PLUGINS));
+    harness.state_mut().shared.workbench.plugins.load_with(loader, load, Vec::new());
+    harness.state_mut().shared.give(PanelAction::Show(PanelId::PLUGINS));
     harness.run_steps(3);
     harness
 }
 
 fn reloaded(harness: &mut Harness<'static, App>, times: u64) {
-    wait(harness, |app| app.desk.plugins.reloads == times);
+    wait(harness, |app| app.shared.workbench.plugins.reloads == times);
 }
 
 #[test]
@@ -78,14 +79,22 @@ fn a_plugin_is_listed_switched_off_and_taken_in_anew() {
     reloaded(&mut harness, 2);
     assert!(harness.query_all_by_label("Their gear").next().is_some(), "what was changed is there");
 
-    harness.state_mut().desk.orders.push(Order::SwitchPlugin(project.id.clone(), false));
+    harness.state_mut().shared.give(PluginAction::Switch { id: project.id.clone(), on: false });
     harness.run_steps(2);
     reloaded(&mut harness, 3);
     assert_eq!(
-        harness.state().desk.every_plugin().iter().map(|(_, on)| *on).collect::<Vec<_>>(),
+        harness
+            .state()
+            .shared
+            .workbench
+            .plugins
+            .every()
+            .iter()
+            .map(|plugin| plugin.on)
+            .collect::<Vec<_>>(),
         [false]
     );
-    assert!(harness.state().desk.gear_types().is_empty());
+    assert!(harness.state().shared.workbench.gear_types().is_empty());
 }
 
 #[test]
@@ -97,7 +106,10 @@ fn an_unknown_library_is_asked_about_before_it_is_opened() {
     harness.get_by_label("Reload").click();
     harness.run_steps(2);
     reloaded(&mut harness, 1);
-    assert!(matches!(harness.state().desk.plugins.problems[0].standing, Standing::Waiting(_)));
+    assert!(matches!(
+        harness.state().shared.workbench.plugins.problems[0].standing,
+        Standing::Waiting(_)
+    ));
     assert!(
         harness.query_by_label_contains("A plugin runs with your rights").is_some(),
         "the window asks"
@@ -105,7 +117,7 @@ fn an_unknown_library_is_asked_about_before_it_is_opened() {
     harness.get_all_by_label("Allow").last().unwrap().click();
     harness.run_steps(2);
     reloaded(&mut harness, 2);
-    let problem = harness.state().desk.plugins.problems[0].clone();
+    let problem = harness.state().shared.workbench.plugins.problems[0].clone();
     assert!(
         problem.standing == Standing::Unusable && problem.reason.contains("is not a library"),
         "{problem}"
@@ -120,7 +132,10 @@ fn an_unknown_library_is_asked_about_before_it_is_opened() {
     harness.get_by_label("Not now").click();
     harness.run_steps(2);
     assert!(harness.query_by_label("Not now").is_none());
-    assert!(matches!(harness.state().desk.plugins.problems[0].standing, Standing::Waiting(_)));
+    assert!(matches!(
+        harness.state().shared.workbench.plugins.problems[0].standing,
+        Standing::Waiting(_)
+    ));
 }
 
 #[test]
@@ -128,17 +143,22 @@ fn a_law_of_friction_is_put_into_the_scenario_and_its_attributes_are_a_form() {
     let (folder, place) = (Folder::new("plugins-used"), Place::new("used"));
     let mut harness = bench(&folder, &place.0, "hello-endline");
     let id = "org.endline.friction.coulomb";
-    let (motion, _) = harness
+    let motion = harness
         .state()
-        .desk
-        .every_plugin()
+        .shared
+        .workbench
+        .plugins
+        .every()
         .into_iter()
-        .find(|(info, _)| info.id == "org.endline.motion.swim")
-        .unwrap();
-    assert!(harness.state().desk.uses_plugin(&motion));
+        .find(|plugin| plugin.info.id == "org.endline.motion.swim")
+        .unwrap()
+        .info;
+    assert!(harness.state().shared.workbench.uses_plugin(&motion));
     harness
         .state_mut()
-        .desk
+        .shared
+        .workbench
+        .project
         .documents
         .set(Documents::SCENARIO, "friction.model", "org.example.friction.other")
         .unwrap();
@@ -147,12 +167,19 @@ fn a_law_of_friction_is_put_into_the_scenario_and_its_attributes_are_a_form() {
             .put("friction.attributes.slip", &Setting::text("0.1 m"))
             .map_err(|error| error.to_string())
     };
-    harness.state_mut().desk.documents.alter(Documents::SCENARIO, other).unwrap();
+    harness
+        .state_mut()
+        .shared
+        .workbench
+        .project
+        .documents
+        .alter(Documents::SCENARIO, other)
+        .unwrap();
     harness.state_mut().panels.plugins.chosen = Some(id.to_owned());
     harness.run_steps(2);
     harness.get_by_label("Use in this scenario").click();
     harness.run_steps(3);
-    let documents = &harness.state().desk.documents;
+    let documents = &harness.state().shared.workbench.project.documents;
     assert_eq!(documents.field(Documents::SCENARIO, "friction.model").as_deref(), Some(id));
     assert_eq!(
         documents.field(Documents::SCENARIO, "friction.attributes.slip"),
@@ -171,14 +198,23 @@ fn a_law_of_friction_is_put_into_the_scenario_and_its_attributes_are_a_form() {
     harness.run_steps(3);
     let scale = harness
         .state()
-        .desk
+        .shared
+        .workbench
+        .project
         .documents
         .field(Documents::SCENARIO, "friction.attributes.coefficient_scale");
     assert_eq!(scale.as_deref(), Some("1.5"));
-    harness.state_mut().desk.obey(&Order::Undo);
-    harness.state_mut().desk.obey(&Order::Undo);
+    harness.state_mut().shared.perform(EditAction::Undo);
+    harness.state_mut().shared.perform(EditAction::Undo);
     assert_eq!(
-        harness.state().desk.documents.field(Documents::SCENARIO, "friction.model").as_deref(),
+        harness
+            .state()
+            .shared
+            .workbench
+            .project
+            .documents
+            .field(Documents::SCENARIO, "friction.model")
+            .as_deref(),
         Some("org.example.friction.other")
     );
 }

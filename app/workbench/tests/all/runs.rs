@@ -2,6 +2,8 @@
 #![cfg(feature = "gui")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+use endline_session::command::{EditAction, RunAction, TimeAction};
+use endline_workbench::gui::command::action::PanelAction;
 use std::sync::Arc;
 
 use egui_kittest::Harness;
@@ -13,19 +15,18 @@ use endline_session::figures::compare::groups;
 use endline_session::live::{LiveView, Status};
 use endline_session::units::Units;
 use endline_workbench::gui::app::App;
-use endline_workbench::gui::desk::Order;
 use endline_workbench::gui::panel_id::PanelId;
 
 use crate::common::{Folder, drag, flown, give, wait};
 
 fn view(harness: &Harness<'static, App>) -> Arc<LiveView> {
-    harness.state().desk.view.clone().unwrap()
+    harness.state().shared.workbench.view().cloned().unwrap()
 }
 
 /// Looks at a moment and waits until it is shown.
 fn seek(harness: &mut Harness<'static, App>, time_s: f64) -> Arc<LiveView> {
-    harness.state_mut().desk.obey(&Order::Seek(time_s));
-    wait(harness, |app| app.desk.view.as_ref().is_some_and(|view| view.sought));
+    harness.state_mut().shared.perform(TimeAction::Seek(time_s));
+    wait(harness, |app| app.shared.workbench.view().is_some_and(|view| view.sought));
     view(harness)
 }
 
@@ -43,9 +44,9 @@ fn only(harness: &mut Harness<'static, App>, panel: PanelId) {
 /// Runs again from the moment shown, to the end.
 fn rerun(harness: &mut Harness<'static, App>) -> Arc<LiveView> {
     let before = view(harness);
-    harness.state_mut().desk.obey(&Order::Rerun);
+    harness.state_mut().shared.perform(RunAction::Rerun);
     wait(harness, |app| {
-        app.desk.view.as_ref().is_some_and(|view| {
+        app.shared.workbench.view().is_some_and(|view| {
             !Arc::ptr_eq(&view.model, &before.model) && view.status == Status::Finished
         })
     });
@@ -60,20 +61,25 @@ fn the_inputs_of_a_run_are_edited_as_a_program_and_rerun_from_a_moment() {
     only(&mut harness, PanelId::PROGRAM);
     harness.get_by_label("Edit inputs of this run").click();
     wait(&mut harness, |app| {
-        app.desk.documents.text(Documents::SCENARIO).is_some_and(|text| text.contains("# Flown"))
+        app.shared
+            .workbench
+            .project
+            .documents
+            .text(Documents::SCENARIO)
+            .is_some_and(|text| text.contains("# Flown"))
     });
-    let program = entries(&harness.state().desk.documents);
+    let program = entries(&harness.state().shared.workbench.project.documents);
     assert!(!program.is_empty() && program[0].begin_s == Some(0.0), "{program:?}");
     assert!(
-        !harness.state().desk.documents.any_error(),
+        !harness.state().shared.workbench.project.documents.any_error(),
         "{:?}",
-        harness.state().desk.documents.problems()
+        harness.state().shared.workbench.project.documents.problems()
     );
 
     harness.get_by_label_contains("Rerun from").click();
     harness.run_steps(2);
     wait(&mut harness, |app| {
-        app.desk.view.as_ref().is_some_and(|view| {
+        app.shared.workbench.view().is_some_and(|view| {
             !Arc::ptr_eq(&view.model, &end.model) && view.status == Status::Finished
         })
     });
@@ -84,28 +90,39 @@ fn the_inputs_of_a_run_are_edited_as_a_program_and_rerun_from_a_moment() {
     );
 
     seek(&mut harness, 1.0);
-    give(&mut harness, Order::AddEntry);
+    give(&mut harness, EditAction::AddEntry);
     let added = harness.state().panels.program.chosen.unwrap();
-    let program = entries(&harness.state().desk.documents);
+    let program = entries(&harness.state().shared.workbench.project.documents);
     assert!((program[added].begin_s.unwrap() - middle.frame.time_s).abs() < 1e-3, "{program:?}");
     let other = rerun(&mut harness);
     assert!(!same(&other, &end), "from there on the edited program steers");
     let before = seek(&mut harness, 1.0);
     assert!(same(&before, &middle), "up to there nothing has changed");
-    give(&mut harness, Order::DeleteEntry);
-    assert_eq!(entries(&harness.state().desk.documents).len(), program.len() - 1);
+    give(&mut harness, PanelAction::DeleteEntry);
+    assert_eq!(
+        entries(&harness.state().shared.workbench.project.documents).len(),
+        program.len() - 1
+    );
 }
 
 #[test]
 fn a_bar_of_the_timeline_is_dragged_and_one_undo_takes_it_back() {
     let folder = Folder::new("timeline");
     let mut harness = flown(&folder);
-    harness.state_mut().desk.set(Documents::SCENARIO, "duration", "20 s");
+    harness.state_mut().shared.workbench.set(Documents::SCENARIO, "duration", "20 s");
     only(&mut harness, PanelId::PROGRAM);
     seek(&mut harness, 1.0);
     harness.get_by_label("Add entry").click();
     harness.run_steps(3);
-    let text = harness.state().desk.documents.text(Documents::SCENARIO).unwrap().to_owned();
+    let text = harness
+        .state()
+        .shared
+        .workbench
+        .project
+        .documents
+        .text(Documents::SCENARIO)
+        .unwrap()
+        .to_owned();
     let chosen = harness.state().panels.program.chosen.unwrap();
     let rect = harness.get_by_label("Timeline").rect();
     // Names stand to the left of the tracks; speed is the first track, yaw, which the new entry tells, the second.
@@ -113,19 +130,25 @@ fn a_bar_of_the_timeline_is_dragged_and_one_undo_takes_it_back() {
     let x = |time_s: f32| left + width * time_s / 20.0;
     let y = rect.top() + 20.0 + 24.0 * 1.5;
     drag(&mut harness, egui::pos2(x(1.5), y), egui::pos2(x(6.5), y));
-    let moved =
-        &entries(&harness.state().desk.documents)[harness.state().panels.program.chosen.unwrap()];
+    let moved = &entries(&harness.state().shared.workbench.project.documents)
+        [harness.state().panels.program.chosen.unwrap()];
     assert!((moved.begin_s.unwrap() - 6.0).abs() < 0.11, "moved by five seconds: {moved:?}");
     assert_eq!(moved.hold_s, Some(2.0));
     drag(&mut harness, egui::pos2(x(8.0) - 2.0, y), egui::pos2(x(10.0) - 2.0, y));
-    let held =
-        &entries(&harness.state().desk.documents)[harness.state().panels.program.chosen.unwrap()];
+    let held = &entries(&harness.state().shared.workbench.project.documents)
+        [harness.state().panels.program.chosen.unwrap()];
     assert!((held.hold_s.unwrap() - 4.0).abs() < 0.21, "held two seconds longer: {held:?}");
     for _ in 0..2 {
-        harness.state_mut().desk.obey(&Order::Undo);
+        harness.state_mut().shared.perform(EditAction::Undo);
     }
-    assert_eq!(harness.state().desk.documents.text(Documents::SCENARIO), Some(text.as_str()));
-    assert_eq!(entries(&harness.state().desk.documents)[chosen].hold_s, Some(2.0));
+    assert_eq!(
+        harness.state().shared.workbench.project.documents.text(Documents::SCENARIO),
+        Some(text.as_str())
+    );
+    assert_eq!(
+        entries(&harness.state().shared.workbench.project.documents)[chosen].hold_s,
+        Some(2.0)
+    );
 }
 
 #[test]
@@ -133,13 +156,13 @@ fn a_run_held_beside_itself_differs_in_nothing_and_beside_another_in_something()
     let folder = Folder::new("compare");
     let mut harness = flown(&folder);
     let first = view(&harness);
-    harness.state_mut().desk.orders.push(Order::HoldRun);
+    harness.state_mut().shared.give(RunAction::Hold);
     harness.run_steps(2);
-    wait(&mut harness, |app| app.desk.status() == Some(&Status::Paused));
-    harness.state_mut().desk.obey(&Order::Speed(f64::INFINITY));
-    harness.state_mut().desk.obey(&Order::Start);
-    wait(&mut harness, |app| app.desk.status() == Some(&Status::Finished));
-    let (a, b) = (view(&harness), harness.state().desk.other_view().unwrap());
+    wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Paused));
+    harness.state_mut().shared.perform(RunAction::Speed(f64::INFINITY));
+    harness.state_mut().shared.perform(RunAction::Start);
+    wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Finished));
+    let (a, b) = (view(&harness), harness.state().shared.workbench.compared_view().unwrap());
     assert!(
         Arc::ptr_eq(&b.model, &first.model) && !Arc::ptr_eq(&a.model, &b.model),
         "B is the run held, A a new one"
@@ -156,19 +179,22 @@ fn a_run_held_beside_itself_differs_in_nothing_and_beside_another_in_something()
     seek(&mut harness, 1.0);
     let at_s = view(&harness).frame.time_s;
     wait(&mut harness, |app| {
-        app.desk.other_view().is_some_and(|other| (other.frame.time_s - at_s).abs() < 1e-9)
+        app.shared
+            .workbench
+            .compared_view()
+            .is_some_and(|other| (other.frame.time_s - at_s).abs() < 1e-9)
     });
     only(&mut harness, PanelId::VIEW);
     assert!(harness.query_by_label("Pane 1 of B").is_some(), "both are drawn");
 
-    harness.state_mut().desk.set(Documents::SCENARIO, "whale.depth", "9 m");
-    harness.state_mut().desk.obey(&Order::Start);
+    harness.state_mut().shared.workbench.set(Documents::SCENARIO, "whale.depth", "9 m");
+    harness.state_mut().shared.perform(RunAction::Start);
     wait(&mut harness, |app| {
-        app.desk.view.as_ref().is_some_and(|view| {
+        app.shared.workbench.view().is_some_and(|view| {
             !Arc::ptr_eq(&view.model, &a.model) && view.status == Status::Finished
         })
     });
-    let (a, b) = (view(&harness), harness.state().desk.other_view().unwrap());
+    let (a, b) = (view(&harness), harness.state().shared.workbench.compared_view().unwrap());
     let all = groups(&a, &b, Units::Si);
     assert!(
         all.iter().flat_map(|(_, rows)| rows).any(|row| row.difference.contains('%')),
@@ -178,7 +204,7 @@ fn a_run_held_beside_itself_differs_in_nothing_and_beside_another_in_something()
     assert!(harness.query_all_by_label("B less A").next().is_some(), "the table is on screen");
     harness.get_by_label("End comparison").click();
     harness.run_steps(3);
-    assert!(harness.state().desk.other().is_none());
+    assert!(harness.state().shared.workbench.comparison().is_none());
 }
 
 #[test]
@@ -187,22 +213,28 @@ fn a_kept_run_is_opened_beside_the_one_shown_and_follows_its_clock() {
     let mut harness = flown(&folder);
     let kept = folder.0.join("recordings/hello-endline 0001.endline");
     wait(&mut harness, |_| kept.exists());
-    harness.state_mut().desk.orders.push(Order::CompareWith(kept));
+    harness.state_mut().shared.give(RunAction::CompareWith(kept));
     harness.run_steps(2);
     let end = view(&harness);
     wait(&mut harness, |app| {
-        app.desk.other_view().is_some_and(|other| other.frame.step == end.frame.step)
+        app.shared.workbench.compared_view().is_some_and(|other| other.frame.step == end.frame.step)
     });
     assert_eq!(
-        harness.state().desk.other_view().unwrap().state_hash,
+        harness.state().shared.workbench.compared_view().unwrap().state_hash,
         end.state_hash,
         "run again to the bit"
     );
     let middle = seek(&mut harness, 0.5);
     wait(&mut harness, |app| {
-        app.desk.other_view().is_some_and(|other| other.frame.step == middle.frame.step)
+        app.shared
+            .workbench
+            .compared_view()
+            .is_some_and(|other| other.frame.step == middle.frame.step)
     });
-    assert_eq!(harness.state().desk.other_view().unwrap().frame.nodes, middle.frame.nodes);
+    assert_eq!(
+        harness.state().shared.workbench.compared_view().unwrap().frame.nodes,
+        middle.frame.nodes
+    );
 }
 
 /// Plots of a run beside itself: dashed lies on solid; along a line the greatest so far is the line's peak.

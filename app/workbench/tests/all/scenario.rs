@@ -4,11 +4,12 @@
 
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
+use endline_session::command::{EditAction, RunAction};
 use endline_session::edit::Documents;
 use endline_session::live::Status;
 use endline_session::live::engine;
 use endline_workbench::gui::app::App;
-use endline_workbench::gui::desk::Order;
+use endline_workbench::gui::command::action::ViewAction;
 use endline_workbench::gui::panel_id::PanelId;
 use endline_workbench::gui::panels::view::pose::Start;
 use endline_workbench::gui::wraps::wraps;
@@ -21,7 +22,7 @@ use crate::common::{Folder, drag, give, linked, opened_with, retype, wait};
 fn settled(folder: &Folder, scenario: &str, panel: PanelId) -> Harness<'static, App> {
     let mut harness =
         opened_with(folder.book_with(scenario), linked(), engine::live(), Pilot::default());
-    wait(&mut harness, |app| app.desk.status() == Some(&Status::Paused));
+    wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Paused));
     harness.state_mut().dock = egui_dock::DockState::new(vec![panel.id().to_owned()]);
     harness.run_steps(3);
     harness
@@ -31,12 +32,13 @@ fn settled(folder: &Folder, scenario: &str, panel: PanelId) -> Harness<'static, 
 fn the_whale_is_dragged_to_where_it_starts_and_one_undo_brings_it_back() {
     let folder = Folder::new("pose");
     let mut harness = settled(&folder, "hello-endline", PanelId::VIEW);
-    let start =
-        |harness: &Harness<'static, App>| Start::of(&harness.state().desk.documents).unwrap();
+    let start = |harness: &Harness<'static, App>| {
+        Start::of(&harness.state().shared.workbench.project.documents).unwrap()
+    };
     let before = start(&harness);
     harness.get_by_label("Start pose").click();
     harness.run_steps(3);
-    give(&mut harness, Order::Look(View::Top));
+    give(&mut harness, ViewAction::Look(View::Top));
     harness.run_steps(3);
     let middle = harness.get_by_label("Start place").rect().center();
     drag(&mut harness, middle, middle + egui::vec2(40.0, -25.0));
@@ -53,9 +55,9 @@ fn the_whale_is_dragged_to_where_it_starts_and_one_undo_brings_it_back() {
         "{moved:?}"
     );
     wait(&mut harness, |app| {
-        app.desk
-            .view
-            .as_ref()
+        app.shared
+            .workbench
+            .view()
             .and_then(|view| view.model.spec.whale.as_ref())
             .is_some_and(|whale| (whale.position_m - moved.place).length() < 1e-6)
     });
@@ -67,10 +69,10 @@ fn the_whale_is_dragged_to_where_it_starts_and_one_undo_brings_it_back() {
     let turned = start(&harness);
     assert!((turned.heading.to_degrees() - 90.0).abs() < 3.0, "{turned:?}");
     for _ in 0..2 {
-        harness.state_mut().desk.obey(&Order::Undo);
+        harness.state_mut().shared.perform(EditAction::Undo);
     }
     assert_eq!(start(&harness), before);
-    assert!(harness.state().desk.documents.unsaved().is_empty());
+    assert!(harness.state().shared.workbench.project.documents.unsaved().is_empty());
 }
 
 #[test]
@@ -79,7 +81,7 @@ fn fields_choices_and_flags_of_the_panel_reach_the_text() {
     let mut harness = settled(&folder, "hello-endline", PanelId::SCENARIO);
     retype(&mut harness, "12 m", "9 m");
     let field = |harness: &Harness<'static, App>, field: &str| {
-        harness.state().desk.documents.field(Documents::SCENARIO, field)
+        harness.state().shared.workbench.project.documents.field(Documents::SCENARIO, field)
     };
     assert_eq!(field(&harness, "whale.depth").as_deref(), Some("9 m"));
     harness.get_by_label("Ropes touch each other").scroll_to_me();
@@ -87,12 +89,12 @@ fn fields_choices_and_flags_of_the_panel_reach_the_text() {
     harness.get_by_label("Ropes touch each other").click();
     harness.run_steps(3);
     assert_eq!(field(&harness, "rope_on_rope").as_deref(), Some("true"));
-    harness.state_mut().desk.obey(&Order::Undo);
+    harness.state_mut().shared.perform(EditAction::Undo);
     assert_eq!(field(&harness, "rope_on_rope"), None);
     assert!(
-        !harness.state().desk.documents.any_error(),
+        !harness.state().shared.workbench.project.documents.any_error(),
         "{:?}",
-        harness.state().desk.documents.problems()
+        harness.state().shared.workbench.project.documents.problems()
     );
     for head in ["SEA", "TIDE THAT TURNS", "WAVES", "WHALE", "FRICTION OF ROPE ON WHALE", "RUN"] {
         assert!(harness.query_by_label(head).is_some(), "{head} is on screen");
@@ -107,12 +109,12 @@ fn wraps_of_a_whale_wound_in_rope_are_told_as_measured() {
     let folder = Folder::new("wraps");
     let mut harness = settled(&folder, "dead-whale-wraps", PanelId::ENTANGLEMENT);
     for step in 1..=3_u64 {
-        harness.state_mut().desk.obey(&Order::Step);
+        harness.state_mut().shared.perform(RunAction::Step);
         wait(&mut harness, |app| {
-            app.desk.view.as_ref().is_some_and(|view| view.frame.step >= step)
+            app.shared.workbench.view().is_some_and(|view| view.frame.step >= step)
         });
     }
-    let view = harness.state().desk.view.clone().unwrap();
+    let view = harness.state().shared.workbench.view().cloned().unwrap();
     let found = wraps(&view);
     let whale = view.summary.as_ref().unwrap().whale.as_ref().unwrap();
     let wound: Vec<_> = whale.regions.iter().filter(|region| region.wraps >= 0.25).collect();
@@ -137,25 +139,36 @@ fn wraps_of_a_whale_wound_in_rope_are_told_as_measured() {
 fn a_scenario_saved_as_another_leaves_the_first_as_it_was() {
     let folder = Folder::new("save-as");
     let mut harness = settled(&folder, "reference-a-pendulum", PanelId::SCENARIO);
-    let first = harness.state().desk.documents.scenario_path().to_owned();
+    let first = harness.state().shared.workbench.project.documents.scenario_path().to_owned();
     let before = std::fs::read_to_string(&first).unwrap();
-    harness.state_mut().desk.set(Documents::SCENARIO, "duration", "7 s");
+    harness.state_mut().shared.workbench.set(Documents::SCENARIO, "duration", "7 s");
     let other = folder.0.join("scenarios/my-pendulum.toml");
-    harness.state_mut().desk.obey(&Order::ScenarioAs(other.clone()));
+    harness.state_mut().shared.perform(EditAction::SaveScenarioAs(other.clone()));
     assert_eq!(std::fs::read_to_string(&first).unwrap(), before);
     assert!(std::fs::read_to_string(&other).unwrap().contains("7 s"));
-    let desk = &harness.state().desk;
-    assert!(desk.documents.scenario_path() == other && desk.documents.unsaved().is_empty());
-    assert_eq!(desk.preferences.recent.first(), Some(&other));
+    let shared = &harness.state().shared;
+    assert!(
+        shared.workbench.project.documents.scenario_path() == other
+            && shared.workbench.project.documents.unsaved().is_empty()
+    );
+    assert_eq!(shared.workbench.preferences.recent.first(), Some(&other));
 }
 
 #[test]
 fn weak_links_and_friction_are_changed_in_the_panel_comments_kept_and_taken_back() {
     let folder = Folder::new("links-friction");
     let mut harness = settled(&folder, "hello-weak-link", PanelId::SCENARIO);
-    let before = harness.state().desk.documents.text(Documents::SCENARIO).unwrap().to_owned();
+    let before = harness
+        .state()
+        .shared
+        .workbench
+        .project
+        .documents
+        .text(Documents::SCENARIO)
+        .unwrap()
+        .to_owned();
     let field = |harness: &Harness<'static, App>, field: &str| {
-        harness.state().desk.documents.field(Documents::SCENARIO, field)
+        harness.state().shared.workbench.project.documents.field(Documents::SCENARIO, field)
     };
     click(&mut harness, "Add a weak link ⏷");
     click(&mut harness, "at the foot of endline");
@@ -170,9 +183,9 @@ fn weak_links_and_friction_are_changed_in_the_panel_comments_kept_and_taken_back
     );
     retype(&mut harness, "1,700 furlong", "1,700 lbf");
     assert!(
-        !harness.state().desk.documents.any_error(),
+        !harness.state().shared.workbench.project.documents.any_error(),
         "{:?}",
-        harness.state().desk.documents.problems()
+        harness.state().shared.workbench.project.documents.problems()
     );
     click(&mut harness, "Another law for … ⏷");
     click(&mut harness, "baleen");
@@ -180,7 +193,9 @@ fn weak_links_and_friction_are_changed_in_the_panel_comments_kept_and_taken_back
 
     harness
         .state_mut()
-        .desk
+        .shared
+        .workbench
+        .project
         .documents
         .alter(Documents::SCENARIO, |text| {
             let value = endline_gear::Setting::plain("1.25");
@@ -190,53 +205,69 @@ fn weak_links_and_friction_are_changed_in_the_panel_comments_kept_and_taken_back
         .unwrap();
     harness.run_steps(3);
     retype(&mut harness, "1.25", "-3");
-    harness.state_mut().desk.obey(&Order::Apply);
-    wait(&mut harness, |app| !app.desk.making() && !app.desk.make_problems.is_empty());
+    harness.state_mut().shared.perform(RunAction::Apply);
+    wait(&mut harness, |app| {
+        !app.shared.workbench.making() && !app.shared.workbench.project.model_problems().is_empty()
+    });
     let wrong = harness
         .state()
-        .desk
+        .shared
+        .workbench
+        .project
         .problem_at(Documents::SCENARIO, "friction.attributes.coefficient_scale")
         .unwrap();
     assert!(wrong.line > 0, "{wrong}");
     retype(&mut harness, "-3", "1.5");
-    harness.state_mut().desk.obey(&Order::Apply);
-    wait(&mut harness, |app| !app.desk.making() && !app.desk.stale());
-    let view = harness.state().desk.view.clone().unwrap();
+    harness.state_mut().shared.perform(RunAction::Apply);
+    wait(&mut harness, |app| !app.shared.workbench.making() && !app.shared.workbench.stale());
+    let view = harness.state().shared.workbench.view().cloned().unwrap();
     let ratings: Vec<f64> = view.model.spec.links.iter().map(|link| link.rating_n).collect();
     assert!((ratings[1] - 1700.0 * endline_session::units::N_PER_LBF).abs() < 1e-6, "{ratings:?}");
-    let text = harness.state().desk.documents.text(Documents::SCENARIO).unwrap();
+    let text =
+        harness.state().shared.workbench.project.documents.text(Documents::SCENARIO).unwrap();
     assert!(text.contains("# The snagged trap.") && text.contains("# A poly ball A-5."), "{text}");
-    while harness.state().desk.documents.can_undo_redo().0 {
-        harness.state_mut().desk.obey(&Order::Undo);
+    while harness.state().shared.workbench.project.documents.can_undo_redo().0 {
+        harness.state_mut().shared.perform(EditAction::Undo);
     }
-    assert_eq!(harness.state().desk.documents.text(Documents::SCENARIO), Some(before.as_str()));
+    assert_eq!(
+        harness.state().shared.workbench.project.documents.text(Documents::SCENARIO),
+        Some(before.as_str())
+    );
 }
 
 #[test]
 fn another_scenario_is_opened_over_unsaved_edits_only_when_told_to() {
     let folder = Folder::new("opened-over");
     let mut harness = settled(&folder, "reference-a-pendulum", PanelId::SCENARIO);
-    let first = harness.state().desk.documents.scenario_path().to_owned();
+    let first = harness.state().shared.workbench.project.documents.scenario_path().to_owned();
     let other = folder.0.join("scenarios/hello-endline.toml");
-    harness.state_mut().desk.set(Documents::SCENARIO, "duration", "7 s");
+    harness.state_mut().shared.workbench.set(Documents::SCENARIO, "duration", "7 s");
     for (answer, opened, on_disk) in [("Stay", &first, false), ("Save and open", &other, true)] {
-        harness.state_mut().desk.orders.push(Order::Open(other.clone()));
+        harness.state_mut().shared.give(EditAction::OpenScenario(other.clone()));
         harness.run_steps(3);
-        assert_eq!(harness.state().desk.documents.scenario_path(), first, "it asks first");
+        assert_eq!(
+            harness.state().shared.workbench.project.documents.scenario_path(),
+            first,
+            "it asks first"
+        );
         click(&mut harness, answer);
-        assert_eq!(harness.state().desk.documents.scenario_path(), opened, "{answer}");
+        assert_eq!(
+            harness.state().shared.workbench.project.documents.scenario_path(),
+            opened,
+            "{answer}"
+        );
         assert_eq!(std::fs::read_to_string(&first).unwrap().contains("7 s"), on_disk, "{answer}");
     }
-    harness.state_mut().desk.set(Documents::SCENARIO, "duration", "9 s");
-    harness.state_mut().desk.orders.push(Order::Open(first.clone()));
+    harness.state_mut().shared.workbench.set(Documents::SCENARIO, "duration", "9 s");
+    harness.state_mut().shared.give(EditAction::OpenScenario(first.clone()));
     harness.run_steps(3);
     click(&mut harness, "Open without saving");
-    assert_eq!(harness.state().desk.documents.scenario_path(), first);
+    assert_eq!(harness.state().shared.workbench.project.documents.scenario_path(), first);
     assert!(!std::fs::read_to_string(&other).unwrap().contains("9 s"));
     // With nothing to lose it does not ask.
-    harness.state_mut().desk.orders.push(Order::Open(other.clone()));
+    harness.state_mut().shared.give(EditAction::OpenScenario(other.clone()));
     harness.run_steps(3);
-    assert_eq!(harness.state().desk.documents.scenario_path(), other);
+    assert_eq!(harness.state().shared.workbench.project.documents.scenario_path(), other);
 }
 
 /// Clicks what has a label, scrolled to.

@@ -2,6 +2,9 @@
 #![cfg(feature = "gui")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+use endline_session::command::{EditAction, StudyAction};
+use endline_workbench::gui::command::action::PanelAction;
+use endline_workbench::gui::command::action::WindowCommand;
 use std::sync::Arc;
 
 use egui_kittest::Harness;
@@ -11,7 +14,6 @@ use endline_session::live::Status;
 use endline_session::live::engine;
 use endline_session::study::queue::{Job, State};
 use endline_workbench::gui::app::App;
-use endline_workbench::gui::desk::Order;
 use endline_workbench::gui::layout::Layout;
 use endline_workbench::gui::panel_id::PanelId;
 use endline_workbench::gui::panels::results::Part;
@@ -69,11 +71,11 @@ fn studying(folder: &Folder) -> Harness<'static, App> {
     std::fs::create_dir_all(folder.0.join("studies")).unwrap();
     std::fs::write(folder.0.join("studies/small.toml"), STUDY).unwrap();
     let mut harness = opened_with(folder.documents(), linked(), engine::live(), Pilot::default());
-    harness.state_mut().desk.studies.folder = Some(folder.0.join("results"));
+    harness.state_mut().shared.workbench.studies.folder = Some(folder.0.join("results"));
     // Other tests run beside this one.
-    harness.state_mut().desk.studies.queue.eager = true;
-    give(&mut harness, Order::Arrange(Layout::Study));
-    give(&mut harness, Order::OpenStudy(folder.0.join("studies/small.toml")));
+    harness.state_mut().shared.workbench.studies.queue.eager = true;
+    give(&mut harness, PanelAction::Arrange(Layout::Study));
+    give(&mut harness, StudyAction::Open(folder.0.join("studies/small.toml")));
     harness
 }
 
@@ -81,12 +83,12 @@ fn studying(folder: &Folder) -> Harness<'static, App> {
 fn wait(harness: &mut Harness<'static, App>, so: impl Fn(&App) -> bool) {
     let patience = std::time::Instant::now() + std::time::Duration::from_secs(120);
     while !so(harness.state()) {
-        let studies = &harness.state().desk.studies;
+        let studies = &harness.state().shared.workbench.studies;
         let told = studies.queue.jobs.last().map(|job| (job.state(), job.progress()));
         assert!(
             std::time::Instant::now() < patience,
             "waited in vain: {told:?}, {:?}",
-            harness.state().desk.notice
+            harness.state().shared.workbench.notice
         );
         std::thread::sleep(std::time::Duration::from_millis(20));
         harness.step();
@@ -94,20 +96,20 @@ fn wait(harness: &mut Harness<'static, App>, so: impl Fn(&App) -> bool) {
     harness.run_steps(2);
 }
 
-fn give(harness: &mut Harness<'static, App>, order: Order) {
-    harness.state_mut().desk.orders.push(order);
+fn give(harness: &mut Harness<'static, App>, command: impl Into<WindowCommand>) {
+    harness.state_mut().shared.give(command);
     harness.run_steps(3);
 }
 
 fn state(app: &App) -> Option<State> {
-    app.desk.studies.queue.jobs.last().map(Job::state)
+    app.shared.workbench.studies.queue.jobs.last().map(Job::state)
 }
 
 /// Runs the open study to its end and waits for its results.
 fn done(harness: &mut Harness<'static, App>, encounters: u64) {
     wait(harness, |app| state(app) == Some(State::Done));
     wait(harness, |app| {
-        let results = &app.desk.studies.results;
+        let results = &app.shared.workbench.studies.results;
         !results.busy()
             && results
                 .shown()
@@ -121,7 +123,14 @@ fn a_study_is_edited_run_and_any_run_of_it_is_seen_again_to_the_bit() {
     let mut harness = studying(&folder);
     retype(&mut harness, "6", "7");
     assert_eq!(
-        harness.state().desk.documents.field(Documents::STUDY, "encounters").as_deref(),
+        harness
+            .state()
+            .shared
+            .workbench
+            .project
+            .documents
+            .field(Documents::STUDY, "encounters")
+            .as_deref(),
         Some("7")
     );
     retype(&mut harness, "5 N", "6 N");
@@ -136,7 +145,7 @@ fn a_study_is_edited_run_and_any_run_of_it_is_seen_again_to_the_bit() {
     );
     done(&mut harness, 7);
 
-    let shown = Arc::clone(harness.state().desk.studies.results.shown().unwrap());
+    let shown = Arc::clone(harness.state().shared.workbench.studies.results.shown().unwrap());
     assert_eq!(shown.findings.baseline, 0, "the baseline is the first option by id");
     let parts = [
         (Part::Forest, "Difference of rates from Strong link"),
@@ -151,15 +160,15 @@ fn a_study_is_edited_run_and_any_run_of_it_is_seen_again_to_the_bit() {
     }
     harness.get_all_by_label("Runs").next().unwrap().click();
     harness.run_steps(2);
-    give(&mut harness, Order::ReplayEncounter(1, 4));
-    wait(&mut harness, |app| app.desk.status() == Some(&Status::Finished));
+    give(&mut harness, StudyAction::Replay { option: 1, encounter: 4 });
+    wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Finished));
     let table = &shown.table;
     let row = (0..table.rows())
         .find(|row| {
             table.reals("encounter")[*row] == Some(4.0) && table.texts("option")[*row] == "weak"
         })
         .unwrap();
-    let view = harness.state().desk.view.clone().unwrap();
+    let view = harness.state().shared.workbench.view().cloned().unwrap();
     assert_eq!(
         view.state_hash,
         table.texts("state_hash")[row],
@@ -167,10 +176,17 @@ fn a_study_is_edited_run_and_any_run_of_it_is_seen_again_to_the_bit() {
     );
     assert!(!table.texts("parted")[row].is_empty(), "6 N part in this sea");
 
-    give(&mut harness, Order::Undo);
-    give(&mut harness, Order::Undo);
+    give(&mut harness, EditAction::Undo);
+    give(&mut harness, EditAction::Undo);
     assert_eq!(
-        harness.state().desk.documents.field(Documents::STUDY, "encounters").as_deref(),
+        harness
+            .state()
+            .shared
+            .workbench
+            .project
+            .documents
+            .field(Documents::STUDY, "encounters")
+            .as_deref(),
         Some("6"),
         "edits of a study are taken back"
     );
@@ -180,13 +196,15 @@ fn a_study_is_edited_run_and_any_run_of_it_is_seen_again_to_the_bit() {
 fn a_study_stands_still_when_paused_keeps_its_blocks_when_cancelled_and_goes_on() {
     let folder = Folder::new("queue");
     let mut harness = studying(&folder);
-    harness.state_mut().desk.set(Documents::STUDY, "encounters", "400");
-    give(&mut harness, Order::QueueStudy);
-    wait(&mut harness, |app| app.desk.studies.queue.jobs[0].progress().blocks.done >= 2);
-    give(&mut harness, Order::PauseStudy);
+    harness.state_mut().shared.workbench.set(Documents::STUDY, "encounters", "400");
+    give(&mut harness, StudyAction::Run);
+    wait(&mut harness, |app| {
+        app.shared.workbench.studies.queue.jobs[0].progress().blocks.done >= 2
+    });
+    give(&mut harness, StudyAction::Pause);
     assert_eq!(state(harness.state()), Some(State::Paused));
     // The encounter under way still comes to its end, later on a busy machine.
-    let done = || harness.state().desk.studies.queue.jobs[0].progress().encounters.done;
+    let done = || harness.state().shared.workbench.studies.queue.jobs[0].progress().encounters.done;
     let rests = |_| {
         std::thread::sleep(std::time::Duration::from_millis(400));
         let before = done();
@@ -194,36 +212,39 @@ fn a_study_stands_still_when_paused_keeps_its_blocks_when_cancelled_and_goes_on(
         (done() == before).then_some(before)
     };
     let before = (0..3).find_map(rests).expect("paused");
-    give(&mut harness, Order::PauseStudy);
-    wait(&mut harness, |app| app.desk.studies.queue.jobs[0].progress().encounters.done > before);
-    give(&mut harness, Order::CancelStudy);
+    give(&mut harness, StudyAction::Pause);
+    wait(&mut harness, |app| {
+        app.shared.workbench.studies.queue.jobs[0].progress().encounters.done > before
+    });
+    give(&mut harness, StudyAction::Cancel);
     wait(&mut harness, |app| state(app) == Some(State::Cancelled));
     std::thread::sleep(std::time::Duration::from_millis(400));
 
-    harness.state_mut().desk.set(Documents::STUDY, "encounters", "8");
-    give(&mut harness, Order::QueueStudy);
+    harness.state_mut().shared.workbench.set(Documents::STUDY, "encounters", "8");
+    give(&mut harness, StudyAction::Run);
     wait(&mut harness, |app| state(app) == Some(State::Done));
-    let progress = harness.state().desk.studies.queue.jobs[0].progress().encounters;
+    let progress = harness.state().shared.workbench.studies.queue.jobs[0].progress().encounters;
     assert_eq!(
         (progress.found, progress.done, progress.total),
         (8, 8, 8),
         "blocks that were done are not run again"
     );
-    let folder = harness.state().desk.studies.queue.jobs[0].folder().unwrap();
+    let folder = harness.state().shared.workbench.studies.queue.jobs[0].folder().unwrap();
     for file in ["table.csv", "report.html", "bundle/study.toml"] {
         assert!(folder.join(file).is_file(), "{file}");
     }
-    let (line, unsaved) = harness.state().desk.study_line().unwrap();
+    let workbench = &harness.state().shared.workbench;
+    let line = workbench.study_command_line().unwrap();
     assert!(
-        !unsaved
+        workbench.project.documents.unsaved().is_empty()
             && line.contains("endline study run")
             && line.contains(&folder.display().to_string()),
         "{line}"
     );
-    give(&mut harness, Order::OpenResults(folder));
-    wait(&mut harness, |app| !app.desk.studies.results.busy());
+    give(&mut harness, StudyAction::ShowResults(folder));
+    wait(&mut harness, |app| !app.shared.workbench.studies.results.busy());
     assert_eq!(
-        harness.state().desk.studies.results.problem,
+        harness.state().shared.workbench.studies.results.problem,
         None,
         "a folder of results is opened by its own bundle"
     );
@@ -238,7 +259,7 @@ fn options_and_priors_are_added_and_wrong_ones_told_at_their_place() {
     harness.get_by_label("Add option").click();
     harness.run_steps(2);
     let field = |harness: &Harness<'static, App>, field: &str| {
-        harness.state().desk.documents.field(Documents::STUDY, field)
+        harness.state().shared.workbench.project.documents.field(Documents::STUDY, field)
     };
     assert_eq!(field(&harness, "option.2.id").as_deref(), Some("weak-2"));
     assert_eq!(
@@ -248,18 +269,21 @@ fn options_and_priors_are_added_and_wrong_ones_told_at_their_place() {
     );
     retype(&mut harness, "0.1 m2", "0.4 m2");
     assert!(
-        harness.state().desk.documents.file_has_error(Documents::STUDY),
+        harness.state().shared.workbench.project.documents.file_has_error(Documents::STUDY),
         "the least is above the greatest"
     );
     assert!(harness.query_by_label_contains("the first value is not below the second").is_some());
-    assert!(!harness.state().desk.documents.any_error(), "a single run does not mind the study");
-    give(&mut harness, Order::QueueStudy);
     assert!(
-        harness.state().desk.studies.queue.jobs.is_empty(),
+        !harness.state().shared.workbench.project.documents.any_error(),
+        "a single run does not mind the study"
+    );
+    give(&mut harness, StudyAction::Run);
+    assert!(
+        harness.state().shared.workbench.studies.queue.jobs.is_empty(),
         "a study with errors is not queued"
     );
-    give(&mut harness, Order::Undo);
-    assert!(!harness.state().desk.documents.file_has_error(Documents::STUDY));
+    give(&mut harness, EditAction::Undo);
+    assert!(!harness.state().shared.workbench.project.documents.file_has_error(Documents::STUDY));
     retype(&mut harness, "0.2 m/s, 0.5 m/s", "0.1 m/s, 0.2 m/s, 0.3 m/s");
     assert_eq!(field(&harness, "encounter.tide.choice.2").as_deref(), Some("0.3 m/s"));
 }

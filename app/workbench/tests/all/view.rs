@@ -8,9 +8,10 @@ use endline_session::live::Status;
 use endline_session::live::engine;
 use endline_session::units::Units;
 use endline_workbench::gui::app::App;
-use endline_workbench::gui::desk::Order;
+use endline_workbench::gui::command::action::ViewAction;
+use endline_workbench::gui::command::action::WindowCommand;
 use endline_workbench::gui::inspector::{along_m, measured, read};
-use endline_workbench::gui::palette::orders;
+use endline_workbench::gui::palette::offers;
 use endline_workbench::gui::panel_id::PanelId;
 use endline_workbench::input::Pilot;
 use endline_workbench::scene::{Picked, View};
@@ -22,7 +23,7 @@ use crate::common::{Folder, give, linked, opened_with, wait};
 fn settled(folder: &Folder) -> Harness<'static, App> {
     let mut harness =
         opened_with(folder.book_with("hello-endline"), linked(), engine::live(), Pilot::default());
-    wait(&mut harness, |app| app.desk.status() == Some(&Status::Paused));
+    wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Paused));
     harness.state_mut().dock = egui_dock::DockState::new(vec![PanelId::VIEW.id().to_owned()]);
     harness.run_steps(3);
     harness
@@ -47,7 +48,7 @@ fn click(harness: &mut Harness<'static, App>, pane: usize, place: DVec3) {
 
 /// Where something picked is now.
 fn place(harness: &Harness<'static, App>, picked: Picked) -> DVec3 {
-    let view = harness.state().desk.view.clone().unwrap();
+    let view = harness.state().shared.workbench.view().cloned().unwrap();
     picked.place(&view.model, &view.frame).unwrap()
 }
 
@@ -58,7 +59,7 @@ fn a_click_on_a_rope_reads_its_tension_and_place_and_a_click_beside_lets_go() {
     let wanted = Picked::Rope { line: 0, at_m: 9.0 };
     let there = place(&harness, wanted);
     click(&mut harness, 0, there);
-    let view = harness.state().desk.view.clone().unwrap();
+    let view = harness.state().shared.workbench.view().cloned().unwrap();
     let Some(Picked::Rope { line, at_m }) = harness.state().panels.view.picks.read else {
         panic!("the rope is read")
     };
@@ -81,15 +82,16 @@ fn a_click_on_a_rope_reads_its_tension_and_place_and_a_click_beside_lets_go() {
 fn bodies_and_skin_are_read_where_they_are_clicked() {
     let folder = Folder::new("read-body");
     let mut harness = settled(&folder);
-    let bodies = harness.state().desk.view.as_ref().unwrap().model.spec.bodies.len();
+    let bodies = harness.state().shared.workbench.view().unwrap().model.spec.bodies.len();
     for index in 0..bodies {
         let there = place(&harness, Picked::Body(index));
         click(&mut harness, 0, there);
         assert_eq!(harness.state().panels.view.picks.read, Some(Picked::Body(index)));
     }
-    give(&mut harness, Order::Look(View::WhaleSide));
+    give(&mut harness, ViewAction::Look(View::WhaleSide));
     harness.run_steps(3);
-    let middle = harness.state().desk.view.as_ref().unwrap().frame.whale.as_ref().unwrap().position;
+    let middle =
+        harness.state().shared.workbench.view().unwrap().frame.whale.as_ref().unwrap().position;
     click(&mut harness, 0, middle);
     assert!(
         matches!(harness.state().panels.view.picks.read, Some(Picked::Skin { .. })),
@@ -111,7 +113,7 @@ fn the_ruler_measures_straight_and_along_the_rope() {
         let there = place(&harness, end);
         click(&mut harness, 0, there);
     }
-    let view = harness.state().desk.view.clone().unwrap();
+    let view = harness.state().shared.workbench.view().cloned().unwrap();
     let picked = harness.state().panels.view.picks.ends.clone();
     assert_eq!(picked.len(), 2, "two clicks, two ends");
     let along = along_m(&view, picked[0], picked[1]).unwrap();
@@ -137,7 +139,7 @@ fn the_ruler_measures_straight_and_along_the_rope() {
 fn four_views_each_look_from_their_own_side_and_only_the_chosen_one_turns() {
     let folder = Folder::new("four");
     let mut harness = settled(&folder);
-    give(&mut harness, Order::Views(4));
+    give(&mut harness, ViewAction::Split(4));
     harness.run_steps(3);
     let named: Vec<View> = harness.state().panels.view.eyes.iter().map(|eye| eye.named).collect();
     assert_eq!(named, [View::Orbit, View::Side, View::Top, View::Front]);
@@ -163,11 +165,11 @@ fn four_views_each_look_from_their_own_side_and_only_the_chosen_one_turns() {
         Some(Picked::Body(0)),
         "read from above too"
     );
-    give(&mut harness, Order::Look(View::FirstPerson));
+    give(&mut harness, ViewAction::Look(View::FirstPerson));
     harness.run_steps(2);
     let named: Vec<View> = harness.state().panels.view.eyes.iter().map(|eye| eye.named).collect();
     assert_eq!(named, [View::Orbit, View::Side, View::FirstPerson, View::Front]);
-    give(&mut harness, Order::Views(1));
+    give(&mut harness, ViewAction::Split(1));
     harness.run_steps(2);
     assert!(
         harness.query_by_label("Pane 2").is_none() && harness.query_by_label("Pane 1").is_some()
@@ -178,11 +180,14 @@ fn four_views_each_look_from_their_own_side_and_only_the_chosen_one_turns() {
 fn the_palette_names_every_line_and_body_to_be_read() {
     let folder = Folder::new("readable");
     let harness = settled(&folder);
-    let desk = &harness.state().desk;
-    let view = desk.view.clone().unwrap();
-    let readings: Vec<Picked> = orders(desk)
+    let shared = &harness.state().shared;
+    let view = shared.workbench.view().cloned().unwrap();
+    let readings: Vec<Picked> = offers(shared)
         .into_iter()
-        .filter_map(|(_, order)| if let Order::Read(picked) = order { Some(picked) } else { None })
+        .filter_map(|offer| match offer.command {
+            WindowCommand::View(ViewAction::Inspect(picked)) => Some(picked),
+            _ => None,
+        })
         .collect();
     assert_eq!(readings.len(), view.model.spec.lines.len() + view.model.spec.bodies.len());
     for picked in readings {

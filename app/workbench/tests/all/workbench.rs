@@ -2,6 +2,9 @@
 #![cfg(feature = "gui")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+use endline_session::command::{EditAction, RunAction};
+use endline_session::workbench::Notice;
+use endline_workbench::gui::command::action::{FlightAction, PanelAction};
 use std::sync::Arc;
 
 use egui_kittest::Harness;
@@ -11,7 +14,6 @@ use endline_session::live::Status;
 use endline_session::live::engine;
 use endline_session::{Overrides, Run, RunOptions, prepare};
 use endline_workbench::gui::app::App;
-use endline_workbench::gui::desk::Order;
 use endline_workbench::gui::layout;
 use endline_workbench::gui::panel_id::PanelId;
 use endline_workbench::input::{HeldKeys, PadAxis, PadButton, PadEvent, Pilot, ScriptedPad};
@@ -23,7 +25,7 @@ fn a_bad_unit_is_red_with_its_place_and_reason_and_undo_mends_it() {
     let folder = Folder::new("bad-unit");
     let (mut harness, _) = workbench(&folder, Pilot::default());
     retype(&mut harness, "2,700 lbf", "2,700 furlong");
-    let problems = harness.state().desk.documents.problems().to_vec();
+    let problems = harness.state().shared.workbench.project.documents.problems().to_vec();
     assert_eq!(problems.len(), 1, "{problems:?}");
     assert!(
         problems[0].file.starts_with("ropes/")
@@ -39,8 +41,8 @@ fn a_bad_unit_is_red_with_its_place_and_reason_and_undo_mends_it() {
     assert!(harness.query_all_by_label(&place).next().is_some(), "its place is on screen: {place}");
     harness.get_by_label("Undo").click();
     harness.run_steps(3);
-    assert!(harness.state().desk.documents.problems().is_empty());
-    assert_eq!(harness.state().desk.documents.unsaved().len(), 0);
+    assert!(harness.state().shared.workbench.project.documents.problems().is_empty());
+    assert_eq!(harness.state().shared.workbench.project.documents.unsaved().len(), 0);
 }
 
 #[test]
@@ -53,7 +55,7 @@ fn an_edit_is_saved_with_comments_and_everything_else_as_it_was() {
     harness.get_by_label("Save").click();
     harness.run_steps(3);
     assert_eq!(on_disk(&folder, "ropes/nylon-1-2.toml"), before.replace("5,750 lbf", "25 kN"));
-    assert_eq!(harness.state().desk.notice, Some(("saved 1 file".to_owned(), false)));
+    assert_eq!(harness.state().shared.workbench.notice, Some(Notice::done("saved 1 file")));
 }
 
 #[test]
@@ -71,14 +73,15 @@ fn run_pause_step_reset_and_speed_reach_the_engine() {
 fn running_after_an_edit_first_takes_the_edited_gear_over() {
     let folder = Folder::new("stale");
     let (mut harness, told) = workbench(&folder, Pilot::default());
-    harness.state_mut().desk.set(Documents::SCENARIO, "duration", "7 s");
+    harness.state_mut().shared.workbench.set(Documents::SCENARIO, "duration", "7 s");
     harness.run_steps(2);
-    assert!(harness.state().desk.stale());
+    assert!(harness.state().shared.workbench.stale());
     harness.get_by_label("▶ Run").click();
     harness.run_steps(2);
-    wait(&mut harness, |app| !app.desk.stale());
+    wait(&mut harness, |app| !app.shared.workbench.stale());
     assert_eq!(*told.borrow(), ["load", "start"]);
-    let duration_s = harness.state().desk.view.as_ref().unwrap().model.spec.settings.duration_s;
+    let duration_s =
+        harness.state().shared.workbench.view().unwrap().model.spec.settings.duration_s;
     assert!((duration_s - 7.0).abs() < 1e-12);
 }
 
@@ -95,7 +98,7 @@ fn every_panel_opens_from_the_window_menu_and_the_layout_resets() {
         harness.run_steps(3);
         assert!(layout::is_open(&harness.state().dock, panel), "{panel:?}");
     }
-    harness.state_mut().desk.orders.push(Order::Arrange(layout::Layout::Design));
+    harness.state_mut().shared.give(PanelAction::Arrange(layout::Layout::Design));
     harness.run_steps(2);
     assert!(
         layout::is_open(&harness.state().dock, PanelId::LIBRARY)
@@ -109,11 +112,11 @@ fn the_unit_switch_changes_what_the_plot_is_labelled_in() {
     let (mut harness, _) = workbench(&folder, Pilot::default());
     harness.get_by_label("SI").click();
     harness.run_steps(3);
-    assert_eq!(harness.state().desk.preferences.units.force().symbol(), "N");
-    assert_eq!(harness.state().desk.preferences.units.length_symbol(), "m");
+    assert_eq!(harness.state().shared.workbench.preferences.units.force().symbol(), "N");
+    assert_eq!(harness.state().shared.workbench.preferences.units.length_symbol(), "m");
     harness.get_by_label("NOAA").click();
     harness.run_steps(3);
-    assert_eq!(harness.state().desk.preferences.units.speed(1.0), "1.94 kn");
+    assert_eq!(harness.state().shared.workbench.preferences.units.speed(1.0), "1.94 kn");
 }
 
 #[test]
@@ -145,7 +148,7 @@ fn start_on_the_pad_restarts_the_run_while_flying() {
     let folder = Folder::new("pad-start");
     let pilot = Pilot::new(Some(Box::new(LateStart(0))));
     let (mut harness, told) = workbench(&folder, pilot);
-    harness.state_mut().desk.obey(&Order::Fly);
+    harness.state_mut().shared.give(FlightAction::Toggle);
     harness.run_steps(30);
     let told = told.borrow();
     let reset = told.iter().position(|words| words == "reset").expect("reset");
@@ -199,12 +202,14 @@ fn a_pad_flies_the_encounter_to_the_same_state_each_time() {
 fn a_real_run_swings_the_pendulum_on_a_thread_of_its_own() {
     let folder = Folder::new("real");
     let mut harness = opened(folder.documents(), engine::live(), Pilot::default());
-    wait(&mut harness, |app| app.desk.status() == Some(&Status::Paused));
-    harness.state_mut().desk.obey(&Order::Speed(f64::INFINITY));
+    wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Paused));
+    harness.state_mut().shared.perform(RunAction::Speed(f64::INFINITY));
     harness.get_by_label("▶ Run").click();
     harness.run_steps(2);
-    wait(&mut harness, |app| app.desk.view.as_ref().is_some_and(|view| view.frame.time_s > 0.2));
-    let view = harness.state().desk.view.clone().unwrap();
+    wait(&mut harness, |app| {
+        app.shared.workbench.view().is_some_and(|view| view.frame.time_s > 0.2)
+    });
+    let view = harness.state().shared.workbench.view().cloned().unwrap();
     assert!(view.audit.solver_steps > 0 && view.audit.non_finite == 0);
     assert_eq!(view.state_hash.len(), 16, "{}", view.state_hash);
 }
@@ -215,20 +220,25 @@ fn editing_the_endline_in_its_table_and_applying_changes_the_answer() {
     let mut harness =
         opened_with(folder.book_with("hello-endline"), linked(), engine::live(), Pilot::default());
     let settled_n = |harness: &Harness<'static, App>| {
-        let view = harness.state().desk.view.clone().unwrap();
+        let view = harness.state().shared.workbench.view().cloned().unwrap();
         view.frame.tension_n.iter().copied().fold(0.0, f64::max)
     };
-    wait(&mut harness, |app| app.desk.status() == Some(&Status::Paused));
-    let (before_n, earlier) = (settled_n(&harness), harness.state().desk.view.clone().unwrap());
+    wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Paused));
+    let (before_n, earlier) =
+        (settled_n(&harness), harness.state().shared.workbench.view().cloned().unwrap());
     let rope = "ropes/sink-3-8.toml";
-    assert!(harness.state().desk.documents.in_use(rope), "the single's endline is made of it");
-    let diameter = harness.state().desk.documents.field(rope, "diameter").unwrap();
-    harness.state_mut().desk.set(rope, "diameter", "7/16 in");
+    assert!(
+        harness.state().shared.workbench.project.documents.in_use(rope),
+        "the single's endline is made of it"
+    );
+    let diameter =
+        harness.state().shared.workbench.project.documents.field(rope, "diameter").unwrap();
+    harness.state_mut().shared.workbench.set(rope, "diameter", "7/16 in");
     harness.run_steps(2);
     harness.get_all_by_label("Apply").next().unwrap().click();
     harness.run_steps(2);
     wait(&mut harness, |app| {
-        app.desk.view.as_ref().is_some_and(|view| {
+        app.shared.workbench.view().is_some_and(|view| {
             !Arc::ptr_eq(&view.model, &earlier.model) && view.status == Status::Paused
         })
     });
@@ -263,10 +273,19 @@ fn a_duplicated_rope_is_a_file_of_its_own_once_saved() {
 fn a_model_that_cannot_be_made_says_why_in_problems() {
     let folder = Folder::new("unmade");
     let (mut harness, _) = workbench(&folder, Pilot::default());
-    harness.state_mut().desk.obey(&Order::Open(folder.0.join("scenarios/hello-endline.toml")));
-    wait(&mut harness, |app| !app.desk.making());
-    let problems: Vec<String> =
-        harness.state().desk.problems().map(|problem| problem.message.clone()).collect();
+    harness
+        .state_mut()
+        .shared
+        .perform(EditAction::OpenScenario(folder.0.join("scenarios/hello-endline.toml")));
+    wait(&mut harness, |app| !app.shared.workbench.making());
+    let problems: Vec<String> = harness
+        .state()
+        .shared
+        .workbench
+        .project
+        .problems()
+        .map(|problem| problem.message.clone())
+        .collect();
     assert!(
         problems.iter().any(|message| message.contains("org.endline.")),
         "no plugin is there, and that is told: {problems:?}"

@@ -1,153 +1,248 @@
-//! Orders handed to what they concern.
+//! Commands handed to what they concern: the workbench, a panel, or the window.
 
-use egui::Context;
+#![deny(clippy::wildcard_enum_match_arm, reason = "each action is dispatched")]
+
+use std::path::PathBuf;
+
+use egui::{Context, ViewportCommand};
+use endline_session::command::{Command, EditAction, FileQuestion, RunAction, StudyAction};
 use endline_session::edit::Documents;
+use endline_session::workbench::{Event, Notice};
 
 use super::App;
-use crate::gui::dialogs::{self, Question};
-use crate::gui::files::stem;
+use crate::gui::command::action::{
+    FlightAction, PanelAction, ViewAction, WindowAction, WindowCommand,
+};
+use crate::gui::command::{Declared, find};
+use crate::gui::files::open_folder;
 use crate::gui::layout;
-use crate::gui::order::{Dialog, Order};
 use crate::gui::panel_id::PanelId;
+use crate::gui::shared::Selection;
 
 impl App {
-    /// Obeys orders, one after the other.
-    pub(super) fn obey(&mut self, context: &Context, orders: Vec<Order>) {
-        for order in orders {
+    /// Performs commands, one after the other.
+    pub fn perform(&mut self, context: &Context, commands: Vec<WindowCommand>) {
+        for command in commands {
             if let Some([now, _]) = &mut self.told {
-                now.push(format!("{order:?}"));
+                now.push(command.id().to_owned());
             }
-            self.obey_one(context, &order);
+            self.select();
+            let refused = find(command.id()).map_or(Ok(()), |info| info.enabled(&self.shared));
+            if let Err(reason) = refused {
+                self.shared.workbench.notice = Some(Notice::hint(reason));
+                continue;
+            }
+            if let Err(reason) = self.dispatch(context, command) {
+                self.shared.fault(reason);
+            }
+            self.take_events();
         }
     }
 
-    /// Hands an order to what it concerns: layout, dialogs, a panel, or the desk.
-    fn obey_one(&mut self, context: &Context, order: &Order) {
-        match order {
-            Order::Start | Order::PlayPause if layout::is_open(&self.dock, PanelId::START) => {
-                // Whoever runs something wants to see it.
-                layout::close(&mut self.dock, PanelId::START);
-                layout::open(&mut self.dock, PanelId::VIEW);
-                self.desk.obey(order);
+    fn dispatch(&mut self, context: &Context, command: WindowCommand) -> Result<(), String> {
+        match command {
+            WindowCommand::Workbench(command) => self.work(command),
+            WindowCommand::View(action) => {
+                self.look(action);
+                Ok(())
             }
-            Order::HoldRun | Order::CompareWith(_) => {
-                layout::open(&mut self.dock, PanelId::COMPARE);
-                self.desk.obey(order);
-            }
+            WindowCommand::Flight(action) => self.pilot(action),
+            WindowCommand::Panel(action) => self.arrange(action),
+            WindowCommand::Window(action) => self.manage(context, action),
+        }
+    }
+
+    /// A command of the workbench, with what the window does for it.
+    fn work(&mut self, command: Command) -> Result<(), String> {
+        if let Command::Edit(EditAction::OpenScenario(path)) = &command
+            && self.shared.workbench.project.documents.is_unsaved(Documents::SCENARIO)
+        {
             // Another text in its place would take the edits with it.
-            Order::Open(path) if self.desk.documents.is_unsaved(Documents::SCENARIO) => {
-                self.questions.opening = Some(path.clone())
-            }
-            Order::Show(panel) => layout::open(&mut self.dock, *panel),
-            Order::Table(kind) => {
-                layout::open(&mut self.dock, PanelId::LIBRARY);
-                self.panels.library.turn_to(*kind);
-            }
-            Order::Entry(path) => {
-                layout::open(&mut self.dock, PanelId::LIBRARY);
-                self.panels.library.choose(path.clone());
-            }
-            Order::Assembly(id) => {
-                layout::open(&mut self.dock, PanelId::ASSEMBLY);
-                self.panels.assembly.choose(id.clone());
-            }
-            Order::Duplicate => self.panels.library.duplicate(&mut self.desk),
-            Order::ExportTable(path) => self.panels.library.export(&mut self.desk, path),
-            Order::ImportTable(path) => self.panels.library.import(&mut self.desk, path),
-            Order::ExportPlots(path) => self.panels.plots.export(&mut self.desk, path),
-            Order::ExportModel(path) => self.panels.assembly.export_model(&mut self.desk, path),
-            Order::AddEntry => self.panels.program.add_entry(&mut self.desk),
-            Order::DeleteEntry => self.panels.program.delete_entry(&mut self.desk),
-            Order::EditInputs => {
-                // The entries of the program that is to come are others.
-                self.panels.program.chosen = None;
-                self.desk.obey(order);
-            }
-            Order::Person => self.panels.view.change_person(),
-            Order::Look(view) => self.panels.view.look(*view),
-            Order::Frame => self.panels.view.frame(),
-            Order::Views(count) => self.panels.view.split(*count),
-            Order::Ruler => self.panels.view.picks.toggle_ruler(),
-            Order::LetGo => self.panels.view.picks.let_go(),
-            Order::Read(picked) => self.panels.view.picks.read = Some(*picked),
-            Order::Close(panel) => layout::close(&mut self.dock, *panel),
-            Order::Size(scale) => context.set_zoom_factor(*scale),
-            Order::CopyStudyLine => self.copy_study_line(context),
-            Order::ReplayEncounter(..) => {
-                layout::open(&mut self.dock, PanelId::VIEW);
-                self.desk.obey(order);
-            }
-            Order::Arrange(layout) => self.dock = layout.dock(),
-            Order::Commands => self.palette.toggle(context),
-            Order::CopyCommandLine => self.copy_command_line(context),
-            Order::Ask(dialog) => self.ask(*dialog),
-            _ => self.desk.obey(order),
+            self.questions.opening = Some(path.clone());
+            return Ok(());
+        }
+        if command == Command::Run(RunAction::Rerun) && self.shared.flying {
+            self.stop_flying()?;
+        }
+        let shown = self.shown_by(&command);
+        self.shared.workbench.perform(command)?;
+        if let Some(panel) = shown {
+            layout::open(&mut self.dock, panel);
+        }
+        Ok(())
+    }
+
+    /// The panel that shows what comes of a command.
+    fn shown_by(&mut self, command: &Command) -> Option<PanelId> {
+        let starts = matches!(command, Command::Run(RunAction::Start | RunAction::Toggle));
+        if starts && layout::is_open(&self.dock, PanelId::START) {
+            // Whoever runs something wants to see it.
+            layout::close(&mut self.dock, PanelId::START);
+            return Some(PanelId::VIEW);
+        }
+        if matches!(command, Command::Run(RunAction::Hold | RunAction::CompareWith(_))) {
+            return Some(PanelId::COMPARE);
+        }
+        let replays = matches!(command, Command::Study(StudyAction::Replay { .. }));
+        replays.then_some(PanelId::VIEW)
+    }
+
+    fn look(&mut self, action: ViewAction) {
+        let view = &mut self.panels.view;
+        match action {
+            ViewAction::Look(from) => view.look(from),
+            ViewAction::Frame => view.frame(),
+            ViewAction::Split(count) => view.split(count),
+            ViewAction::Pose => self.shared.posing = !self.shared.posing,
+            ViewAction::Ruler => view.picks.toggle_ruler(),
+            ViewAction::Inspect(picked) => view.picks.read = Some(picked),
+            ViewAction::LetGo => view.picks.let_go(),
         }
     }
 
-    /// Opens a file dialog.
-    fn ask(&mut self, dialog: Dialog) {
-        let question = self.question(dialog);
-        if let Err(error) = self.dialogs.ask(question) {
-            self.desk.notice = Some((error, true));
+    fn pilot(&mut self, action: FlightAction) -> Result<(), String> {
+        match action {
+            FlightAction::Toggle if self.shared.flying => return self.stop_flying(),
+            FlightAction::Toggle => {
+                self.shared.flying = true;
+                let view = self.shared.workbench.view();
+                let speed = view.map_or(0.5, |view| view.controls.speed);
+                self.shared.pilot.set_throttle(speed.max(0.3));
+            }
+            FlightAction::Person => self.panels.view.change_person(),
+            FlightAction::NextAct => {
+                let acts = self.shared.workbench.acts().len();
+                self.shared.pilot.next_act(acts);
+            }
+            FlightAction::ChooseAct(act) => self.shared.pilot.choose_act(act),
+            FlightAction::Mouth => self.shared.pilot.toggle_mouth(),
         }
+        Ok(())
     }
 
-    /// What a dialog asks: with the folder it begins in, the files it offers, and the order that its answer gives.
-    fn question(&self, dialog: Dialog) -> Question {
-        let library = self.desk.documents.root();
-        let scenario = self.desk.documents.scenario_path();
-        match dialog {
-            Dialog::Scenario => dialogs::open(library, dialogs::SCENARIOS, Order::Open),
-            Dialog::ScenarioAs => {
-                dialogs::save_beside(scenario, dialogs::SCENARIOS, Order::ScenarioAs)
-            }
-            Dialog::Recording => {
-                let folder = self.desk.recordings.clone().unwrap_or_default();
-                dialogs::open(&folder, dialogs::RECORDINGS, Order::OpenRecording)
-            }
-            Dialog::SaveRecording => {
-                dialogs::save(&stem(scenario), "endline", Order::SaveRecording)
-            }
-            Dialog::Study => {
-                dialogs::open(&library.join("studies"), dialogs::STUDIES, Order::OpenStudy)
-            }
-            Dialog::Results => dialogs::open_folder(&self.desk.studies.root(), Order::OpenResults),
-            Dialog::ExportModel(ending) => dialogs::save("gear", ending, Order::ExportModel),
-            Dialog::ExportPlots(ending) => {
-                dialogs::save(&stem(scenario), ending, Order::ExportPlots)
-            }
-            Dialog::ExportTable => {
-                let name = self.panels.library.kind().folder();
-                dialogs::save(name, "csv", Order::ExportTable)
-            }
-            Dialog::ImportTable => dialogs::open(library, dialogs::TABLES, Order::ImportTable),
-        }
+    /// Leaves the controls to the pilot program.
+    fn stop_flying(&mut self) -> Result<(), String> {
+        self.shared.flying = false;
+        self.shared.workbench.perform(Command::Run(RunAction::Autopilot))
     }
 
-    fn copy_command_line(&mut self, context: &Context) {
-        let (line, unsaved) = self.desk.command_line();
+    fn arrange(&mut self, action: PanelAction) -> Result<(), String> {
+        let Self { shared, panels, dock, .. } = self;
+        match action {
+            PanelAction::Show(panel) => layout::open(dock, panel),
+            PanelAction::Close(panel) => layout::close(dock, panel),
+            PanelAction::Arrange(layout) => *dock = layout.dock(),
+            PanelAction::Table(kind) => {
+                layout::open(dock, PanelId::LIBRARY);
+                panels.library.turn_to(kind);
+            }
+            PanelAction::Entry(path) => {
+                layout::open(dock, PanelId::LIBRARY);
+                panels.library.choose(path);
+            }
+            PanelAction::Assembly(id) => {
+                layout::open(dock, PanelId::ASSEMBLY);
+                panels.assembly.choose(id);
+            }
+            PanelAction::Duplicate => {
+                let path = shared.selection.entry.clone();
+                let duplicate = path.map(|path| Command::Edit(EditAction::Duplicate(path)));
+                return duplicate.map_or(Ok(()), |command| self.work(command));
+            }
+            PanelAction::DeleteEntry => {
+                let entry = panels.program.chosen.take();
+                let delete = entry.map(|entry| Command::Edit(EditAction::DeleteEntry(entry)));
+                return delete.map_or(Ok(()), |command| self.work(command));
+            }
+            PanelAction::ExportTable(file) => {
+                let export = panels.library.export(shared, file);
+                return self.work(export.into());
+            }
+            PanelAction::ImportTable(file) => {
+                let kind = panels.library.kind();
+                return self.work(EditAction::ImportTable { kind, file }.into());
+            }
+            PanelAction::ExportPlots(file) => {
+                let export = panels.plots.export(file);
+                return self.work(export.into());
+            }
+            PanelAction::ExportModel(path) => panels.assembly.export_model(shared, &path),
+        }
+        Ok(())
+    }
+
+    fn manage(&mut self, context: &Context, action: WindowAction) -> Result<(), String> {
+        match action {
+            WindowAction::Palette => self.palette.toggle(context),
+            WindowAction::Theme(theme) => self.shared.preferences.theme = theme,
+            WindowAction::Units(units) => self.shared.workbench.preferences.units = units,
+            WindowAction::Size(size) => context.set_zoom_factor(size),
+            WindowAction::CopyCommandLine => {
+                let line = self.shared.workbench.command_line();
+                self.copy(context, line, "command line");
+            }
+            WindowAction::CopyStudyLine => {
+                if let Some(line) = self.shared.workbench.study_command_line() {
+                    self.copy(context, line, "command lines");
+                }
+            }
+            WindowAction::OpenFolder(folder) => open_folder(&folder)?,
+            WindowAction::Ask(id) => self.ask(id)?,
+            WindowAction::Quit => context.send_viewport_cmd(ViewportCommand::Close),
+        }
+        Ok(())
+    }
+
+    fn copy(&mut self, context: &Context, line: String, what: &str) {
         context.copy_text(line);
-        let notice = if unsaved {
-            "copied; save first: the command reads the files"
+        let unsaved = !self.shared.workbench.project.documents.unsaved().is_empty();
+        self.shared.workbench.notice = Some(if unsaved {
+            Notice::hint("copied; save first: the command reads the files")
         } else {
-            "command line copied"
-        };
-        self.desk.notice = Some((notice.to_owned(), unsaved));
+            Notice::done(format!("{what} copied"))
+        });
     }
 
-    fn copy_study_line(&mut self, context: &Context) {
-        self.desk.notice = Some(match self.desk.study_line() {
-            Some((line, unsaved)) => {
-                context.copy_text(line);
-                let notice = if unsaved {
-                    "copied; save first: the commands read the files"
-                } else {
-                    "command lines copied"
-                };
-                (notice.to_owned(), unsaved)
+    /// Opens the file dialog of a command.
+    fn ask(&mut self, id: &str) -> Result<(), String> {
+        let Some(command) = find(id) else { return Ok(()) };
+        let question: Option<FileQuestion> = command.question(&self.shared);
+        let (_, waker) = self.shared.workbench.helpers();
+        question.map_or(Ok(()), |question| self.dialogs.ask(command, question, &waker))
+    }
+
+    /// The command for the file that a dialog answered with.
+    pub(super) fn answered(&mut self) -> Option<WindowCommand> {
+        let (command, file): (Declared, PathBuf) = self.dialogs.take()?;
+        command.with_file(&self.shared, file)
+    }
+
+    /// Notes what is chosen in the panels.
+    pub(super) fn select(&mut self) {
+        let Self { panels, dock, .. } = self;
+        let [_, running] = panels.assembly.answers();
+        self.shared.selection = Selection {
+            entry: panels.library.chosen.clone(),
+            table: panels.library.kind(),
+            program_entry: panels.program.chosen,
+            gear_at_rest: running.is_some_and(|answer| answer.is_ok()),
+            inspects: panels.view.picks.holds(),
+            open: PanelId::ALL.into_iter().filter(|panel| layout::is_open(dock, *panel)).collect(),
+        };
+    }
+
+    /// Shows what came about in the workbench.
+    pub(super) fn take_events(&mut self) {
+        for event in self.shared.workbench.take_events() {
+            match event {
+                Event::ProgramWritten => {
+                    // The entries are others than before.
+                    self.panels.program.chosen = None;
+                    layout::open(&mut self.dock, PanelId::PROGRAM);
+                }
+                Event::EntryAdded(index) => self.panels.program.chosen = Some(index),
+                Event::Duplicated { from, to } => self.panels.library.compare(from, to),
             }
-            None => ("open a study first".to_owned(), true),
-        });
+        }
     }
 }

@@ -3,20 +3,22 @@
 mod dispatch;
 mod tabs;
 
+use crate::gui::command::action::FlightAction;
+use endline_session::command::{EditAction, RunAction};
 use std::sync::{Arc, Mutex};
 
 use eframe::{CreationContext, Storage};
 use egui::{CentralPanel, Context, Frame as Margins, Panel as Bar, Ui};
 use egui_dock::{DockArea, DockState};
-use endline_session::live::RunCommand;
 
 use crate::gui::canvas::Canvas;
-use crate::gui::desk::{Desk, Order, Preferences};
 use crate::gui::dialogs::Dialogs;
 use crate::gui::layout::{self, Layout};
 use crate::gui::panel_id::PanelId;
 use crate::gui::panels::Panels;
+use crate::gui::preferences::Kept;
 use crate::gui::questions::{self, Questions};
+use crate::gui::shared::Shared;
 use crate::gui::{keys, menus, status};
 use crate::input::{HeldKeys, PilotAction};
 use tabs::Tabs;
@@ -27,7 +29,7 @@ const PREFERENCES_KEY: &str = "preferences";
 /// The workbench as eframe runs it.
 pub struct App {
     /// What the panels share.
-    pub desk: Desk,
+    pub shared: Shared,
     /// The panels, each with its state.
     pub panels: Panels,
     /// Panels in place.
@@ -35,25 +37,27 @@ pub struct App {
     dialogs: Dialogs,
     /// What the window asks.
     pub questions: Questions,
-    palette: crate::gui::palette::Palette,
+    /// The list of commands.
+    pub palette: crate::gui::palette::Palette,
     dressed: Option<crate::gui::theme::Theme>,
     controls_at_s: Option<f64>,
-    /// Orders obeyed in this frame and in the one before, told on standard error once a frame after them was drawn; `None` where
-    /// nobody asked.
+    /// Commands performed in this frame and in the one before, reported on standard error once a frame after them was drawn;
+    /// `None` where nobody asked.
     told: Option<[Vec<String>; 2]>,
 }
 
 impl App {
-    /// A workbench on a desk; layout and preferences are taken from eframe's storage.
+    /// A window on a workbench; layout and preferences are taken from eframe's storage.
     #[must_use]
-    pub fn new(creation: &CreationContext<'_>, mut desk: Desk) -> Self {
+    pub fn new(creation: &CreationContext<'_>, mut shared: Shared) -> Self {
         let stored = |key: &str| creation.storage.and_then(|storage| storage.get_string(key));
         if let Some(text) = stored(PREFERENCES_KEY) {
-            desk.preferences = serde_json::from_str(&text).unwrap_or_default();
+            let kept: Kept = serde_json::from_str(&text).unwrap_or_default();
+            (shared.preferences, shared.workbench.preferences) = (kept.window, kept.workbench);
         }
-        desk.pilot.invert_pitch = desk.preferences.invert_pitch;
-        desk.pilot.mapping = desk.preferences.mapping.clone();
-        creation.egui_ctx.set_zoom_factor(desk.preferences.scale.0.clamp(0.5, 4.0));
+        shared.pilot.invert_pitch = shared.preferences.invert_pitch;
+        shared.pilot.mapping = shared.preferences.mapping.clone();
+        creation.egui_ctx.set_zoom_factor(shared.preferences.scale.0.clamp(0.5, 4.0));
         let saved = stored(LAYOUT_KEY)
             .and_then(|text| serde_json::from_str(&text).ok())
             .and_then(layout::known);
@@ -61,7 +65,7 @@ impl App {
         if let Some(gl) = &creation.gl {
             match Canvas::new(Arc::clone(gl)) {
                 Ok(canvas) => panels.view.drawn[0].canvas = Some(Arc::new(Mutex::new(canvas))),
-                Err(error) => desk.notice = Some((error, true)),
+                Err(error) => shared.fault(error),
             }
         }
         let first = saved.is_none() && creation.storage.is_some();
@@ -69,9 +73,9 @@ impl App {
         if first {
             layout::open_beside(&mut dock, PanelId::START, PanelId::VIEW);
         }
-        let left_behind = desk.autosave.left_behind();
+        let left_behind = shared.workbench.project.autosave.left_behind();
         Self {
-            desk,
+            shared,
             panels,
             dock,
             dialogs: Dialogs::default(),
@@ -79,30 +83,31 @@ impl App {
             palette: crate::gui::palette::Palette::default(),
             dressed: None,
             controls_at_s: None,
-            told: std::env::var_os("ENDLINE_TELL_ORDERS").map(|_| Default::default()),
+            told: std::env::var_os("ENDLINE_TELL_COMMANDS").map(|_| Default::default()),
         }
     }
 
     /// Steers the whale with pad and keys, while flying.
     fn fly(&mut self, context: &Context) {
-        let actions = self.desk.pilot.poll_pad();
-        if !self.desk.flying {
+        let actions = self.shared.pilot.poll_pad();
+        if !self.shared.flying {
             self.controls_at_s = None;
-            if let Some(view) = self.desk.view.clone() {
-                self.desk.rumble.skip(&view.events);
+            if let Some(view) = self.shared.workbench.view().cloned() {
+                self.shared.rumble.skip(&view.events);
             }
             return;
         }
         for action in actions {
-            match action {
-                PilotAction::Restart => self.obey(context, vec![Order::Reset, Order::Start]),
-                PilotAction::PlayPause => self.obey(context, vec![Order::PlayPause]),
-                PilotAction::Person => self.obey(context, vec![Order::Person]),
-                PilotAction::WeakLinks => self.obey(context, vec![Order::WeakLinks]),
-                PilotAction::Slower => self.obey(context, vec![Order::Slower]),
-                PilotAction::Faster => self.obey(context, vec![Order::Faster]),
-                PilotAction::NextAct => self.obey(context, vec![Order::NextAct]),
-            }
+            let commands = match action {
+                PilotAction::Restart => vec![RunAction::Reset.into(), RunAction::Start.into()],
+                PilotAction::PlayPause => vec![RunAction::Toggle.into()],
+                PilotAction::Person => vec![FlightAction::Person.into()],
+                PilotAction::WeakLinks => vec![EditAction::ToggleWeakLinks.into()],
+                PilotAction::Slower => vec![RunAction::Slower.into()],
+                PilotAction::Faster => vec![RunAction::Faster.into()],
+                PilotAction::NextAct => vec![FlightAction::NextAct.into()],
+            };
+            self.perform(context, commands);
         }
         let now_s = context.input(|input| input.time);
         let elapsed_s = self
@@ -111,20 +116,21 @@ impl App {
             .map_or(0.0, |before| (now_s - before).clamp(0.0, 0.25));
         let typing = context.egui_wants_keyboard_input();
         let held = if typing { HeldKeys::default() } else { context.input(HeldKeys::of) };
-        let controls = self.desk.pilot.controls(&held, self.desk.acts().len(), elapsed_s);
-        if let Some(view) = self.desk.view.clone()
-            && let Some(pulse) = self.desk.rumble.feel(&view.events, now_s)
+        let controls =
+            self.shared.pilot.controls(&held, self.shared.workbench.acts().len(), elapsed_s);
+        if let Some(view) = self.shared.workbench.view().cloned()
+            && let Some(pulse) = self.shared.rumble.feel(&view.events, now_s)
         {
-            self.desk.pilot.rumble(pulse.strength, pulse.long_s);
+            self.shared.pilot.rumble(pulse.strength, pulse.long_s);
         }
-        self.desk.send(RunCommand::Controls(controls));
+        self.shared.perform(RunAction::Steer(controls));
         context.request_repaint();
     }
 
-    /// Tells the orders whose effect is on the screen by now; for whoever drives the window and must know what it has taken in.
+    /// Reports the commands whose effect is on the screen by now; for whoever drives the window and must know what it has taken in.
     fn tell(&mut self, context: &Context) {
         let Some([now, drawn]) = &mut self.told else { return };
-        drawn.drain(..).for_each(|order| eprintln!("order: {order}"));
+        drawn.drain(..).for_each(|command| eprintln!("command: {command}"));
         std::mem::swap(now, drawn);
         if !drawn.is_empty() {
             context.request_repaint();
@@ -134,30 +140,39 @@ impl App {
     /// Keeps unsaved edits where it is time.
     fn keep(&mut self, context: &Context) {
         let now_s = context.input(|input| input.time);
-        if let Some(after_s) = self.desk.autosave.keep(&self.desk.documents, now_s) {
+        if let Some(after_s) = self
+            .shared
+            .workbench
+            .project
+            .autosave
+            .keep(&self.shared.workbench.project.documents, now_s)
+        {
             context.request_repaint_after(std::time::Duration::from_secs_f64(after_s));
         }
-        self.desk.preferences.scale.0 = context.zoom_factor();
+        self.shared.preferences.scale.0 = context.zoom_factor();
     }
 }
 
 impl eframe::App for App {
     fn logic(&mut self, context: &Context, _frame: &mut eframe::Frame) {
         self.tell(context);
-        self.desk.refresh();
-        self.desk.orders.extend(self.dialogs.take());
+        self.shared.workbench.refresh();
+        self.take_events();
+        let answered = self.answered();
+        self.shared.commands.extend(answered);
         self.keep(context);
-        if self.desk.replaying() {
-            self.desk.play(f64::from(context.input(|input| input.stable_dt)).min(0.1));
+        if self.shared.workbench.replaying() {
+            self.shared.workbench.play(f64::from(context.input(|input| input.stable_dt)).min(0.1));
             context.request_repaint();
         }
         self.fly(context);
-        let orders = keys::orders(context, &self.desk);
-        self.obey(context, orders);
+        self.select();
+        let commands = keys::commands(context, &self.shared);
+        self.perform(context, commands);
     }
 
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
-        let theme = self.desk.preferences.theme;
+        let theme = self.shared.preferences.theme;
         if self.dressed.replace(theme) != Some(theme) {
             theme.apply(ui.ctx());
             // This frame was begun in the other one's colours.
@@ -168,41 +183,43 @@ impl eframe::App for App {
         Bar::top("menus")
             .frame(bar)
             .show_separator_line(false)
-            .show(ui, |ui| menus::show(ui, &mut self.desk, &self.dock));
+            .show(ui, |ui| menus::show(ui, &mut self.shared, &self.dock));
         if !self.questions.left_behind.is_empty() {
             Bar::top("recovery")
                 .frame(bar)
-                .show(ui, |ui| self.questions.recovery(ui, &mut self.desk));
+                .show(ui, |ui| self.questions.recovery(ui, &mut self.shared));
         }
         Bar::bottom("status")
             .frame(bar)
             .show_separator_line(false)
-            .show(ui, |ui| status::show(ui, &mut self.desk));
+            .show(ui, |ui| status::show(ui, &mut self.shared));
         CentralPanel::default().frame(Margins::new().fill(theme.palette().ground)).show(ui, |ui| {
             let style = theme.dock(ui.style());
-            let mut tabs = Tabs { panels: &mut self.panels, desk: &mut self.desk };
+            let mut tabs = Tabs { panels: &mut self.panels, shared: &mut self.shared };
             DockArea::new(&mut self.dock)
                 .style(style)
                 .show_leaf_collapse_buttons(false)
                 .show_leaf_close_all_buttons(false)
                 .show_inside(ui, &mut tabs);
         });
-        self.palette.show(ui.ctx(), &mut self.desk);
-        questions::plugin(ui.ctx(), &mut self.desk);
-        self.questions.before_closing(ui.ctx(), &mut self.desk);
-        self.questions.before_opening(ui.ctx(), &mut self.desk);
-        let orders = std::mem::take(&mut self.desk.orders);
-        if !orders.is_empty() {
-            self.obey(&ui.ctx().clone(), orders);
+        self.palette.show(ui.ctx(), &mut self.shared);
+        questions::plugin(ui.ctx(), &mut self.shared);
+        self.questions.before_closing(ui.ctx(), &mut self.shared);
+        self.questions.before_opening(ui.ctx(), &mut self.shared);
+        let commands = std::mem::take(&mut self.shared.commands);
+        if !commands.is_empty() {
+            self.perform(&ui.ctx().clone(), commands);
             ui.ctx().request_repaint();
         }
     }
 
     fn save(&mut self, storage: &mut dyn Storage) {
-        self.desk.preferences.invert_pitch = self.desk.pilot.invert_pitch;
-        self.desk.preferences.mapping = self.desk.pilot.mapping.clone();
+        self.shared.preferences.invert_pitch = self.shared.pilot.invert_pitch;
+        self.shared.preferences.mapping = self.shared.pilot.mapping.clone();
         save_json(storage, LAYOUT_KEY, &self.dock);
-        save_json::<Preferences>(storage, PREFERENCES_KEY, &self.desk.preferences);
+        let Shared { preferences, workbench, .. } = &self.shared;
+        let kept = Kept { window: preferences.clone(), workbench: workbench.preferences.clone() };
+        save_json(storage, PREFERENCES_KEY, &kept);
     }
 }
 

@@ -3,14 +3,14 @@
 use egui::{Id, Ui};
 use egui_dock::TabViewer;
 
-use crate::gui::desk::Desk;
 use crate::gui::panel_id::PanelId;
 use crate::gui::panels::Panels;
+use crate::gui::shared::Shared;
 
 /// Panels as the dock's tabs.
 pub(super) struct Tabs<'a> {
     pub(super) panels: &'a mut Panels,
-    pub(super) desk: &'a mut Desk,
+    pub(super) shared: &'a mut Shared,
 }
 
 impl TabViewer for Tabs<'_> {
@@ -26,7 +26,7 @@ impl TabViewer for Tabs<'_> {
 
     fn ui(&mut self, ui: &mut Ui, tab: &mut String) {
         if let Some(panel) = self.panels.find(tab) {
-            panel.ui(ui, self.desk);
+            panel.ui(ui, self.shared);
         }
     }
 

@@ -1,12 +1,15 @@
 //! Two runs beside one another: A as shown, B held or opened; their key figures and what differs.
 
+use crate::gui::command::action::PanelAction;
+use crate::gui::widgets::command::command;
 use egui::{Grid, RichText, ScrollArea, Ui};
+use endline_session::command::RunAction;
 use endline_session::figures::compare::{Group, SAME, groups};
 use endline_session::live::{LiveView, Status};
 
-use crate::gui::desk::{Desk, Order};
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
+use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
 use crate::gui::widgets::words::capital;
@@ -20,54 +23,44 @@ impl Panel for ComparePanel {
         PanelId::COMPARE
     }
 
-    fn ui(&mut self, ui: &mut Ui, desk: &mut Desk) {
-        show(ui, desk);
+    fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
+        show(ui, shared);
     }
 }
 
 /// Draws the comparison.
-fn show(ui: &mut Ui, desk: &mut Desk) {
-    buttons(ui, desk);
-    let Some(other) = desk.other() else {
+fn show(ui: &mut Ui, shared: &mut Shared) {
+    buttons(ui, shared);
+    let Some(other) = shared.workbench.comparison() else {
         let text = "Hold a run, change the gear or the pilot, and run again: the 3-D view shows both at one moment, plots draw A \
                     solid and B dashed. Or compare with a run of Recordings.";
         return widgets::nothing(ui, text);
     };
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new("A").strong());
-        ui.label(desk.scenario_stem());
+        ui.label(shared.workbench.scenario_stem());
         ui.label(RichText::new("B").strong());
         ui.label(&other.name);
     });
-    let (Some(a), Some(b)) = (desk.view.clone(), other.view.clone()) else {
+    let (Some(a), Some(b)) = (shared.workbench.view().cloned(), other.view.clone()) else {
         return widgets::nothing(ui, "Making the model …");
     };
     standing(ui, &a, &b);
     ScrollArea::both().auto_shrink(false).show(ui, |ui| {
-        for group in groups(&a, &b, desk.preferences.units) {
+        for group in groups(&a, &b, shared.workbench.preferences.units) {
             table(ui, &group);
         }
     });
 }
 
-fn buttons(ui: &mut Ui, desk: &mut Desk) {
+fn buttons(ui: &mut Ui, shared: &mut Shared) {
     ui.horizontal_wrapped(|ui| {
-        let ready = desk.view.as_ref().is_some_and(|view| view.newest_s > 0.0) && !desk.making();
-        let help = "The run shown stays as B; the gear and scenario as they stand make a new A";
-        if ui
-            .add_enabled(ready, egui::Button::new("Hold this run as B"))
-            .on_hover_text(help)
-            .clicked()
-        {
-            desk.orders.push(Order::HoldRun);
-        }
+        command(ui, shared, "Hold this run as B", RunAction::Hold);
         if ui.button("Recordings …").on_hover_text("Choose a kept run to compare with").clicked()
         {
-            desk.orders.push(Order::Show(PanelId::RECORDINGS));
+            shared.give(PanelAction::Show(PanelId::RECORDINGS));
         }
-        if ui.add_enabled(desk.other().is_some(), egui::Button::new("End comparison")).clicked() {
-            desk.orders.push(Order::EndCompare);
-        }
+        command(ui, shared, "End comparison", RunAction::EndComparison);
     });
 }
 

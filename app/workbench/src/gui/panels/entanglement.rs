@@ -1,5 +1,6 @@
 //! How rope lies on the whale: a map of the body, numbers by part, the outcome and what it means.
 
+use endline_session::command::TimeAction;
 use std::sync::Arc;
 
 use egui::{Color32, Grid, Rect, RichText, ScrollArea, Sense, Stroke, Ui, vec2};
@@ -11,9 +12,9 @@ use endline_session::units::Units;
 use endline_sim::metrics::WhaleSummary;
 
 use crate::gui::bodymap::{BodyMap, Face};
-use crate::gui::desk::{Desk, Order};
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
+use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::figures::{Style, list, table};
 use crate::gui::widgets::words::spoken;
@@ -39,19 +40,21 @@ impl Panel for EntanglementPanel {
         PanelId::ENTANGLEMENT
     }
 
-    fn ui(&mut self, ui: &mut Ui, desk: &mut Desk) {
-        let Some(view) = desk.view.clone() else { return widgets::nothing(ui, "No run yet.") };
+    fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
+        let Some(view) = shared.workbench.view().cloned() else {
+            return widgets::nothing(ui, "No run yet.");
+        };
         let Some(whale) = view.summary.as_ref().and_then(|summary| summary.whale.as_ref()) else {
             return widgets::nothing(ui, "No whale in this run.");
         };
-        let style = Style { view: View::Entanglement, units: desk.preferences.units };
+        let style = Style { view: View::Entanglement, units: shared.workbench.preferences.units };
         let parts = parts(whale, &view.frame.contacts);
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             let first = outcome(ui, whale, style);
             self.choose_measure(ui);
             self.map(ui, &view, &parts, style.units);
             let wrap = wrap_list(ui, &view, style.units);
-            desk.orders.extend(first.or(wrap).map(Order::Seek));
+            shared.commands.extend(first.or(wrap).map(|chosen| TimeAction::Seek(chosen).into()));
             widgets::caption(ui, "By part");
             table(ui, PART, &parts, style, Part::is_untouched);
         });

@@ -1,12 +1,13 @@
 //! What happened when; a click shows that moment.
 
 use egui::{Align, Layout, RichText, ScrollArea, Sense, Ui};
+use endline_session::command::TimeAction;
 use endline_session::units::ForceUnit;
 use endline_sim::metrics::Event;
 
-use crate::gui::desk::{Desk, Order};
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
+use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::{self, words};
 
@@ -19,21 +20,23 @@ impl Panel for EventsPanel {
         PanelId::EVENTS
     }
 
-    fn ui(&mut self, ui: &mut Ui, desk: &mut Desk) {
-        show(ui, desk);
+    fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
+        show(ui, shared);
     }
 }
 
 /// Draws the list of events, the newest last.
-fn show(ui: &mut Ui, desk: &mut Desk) {
-    let Some(view) = desk.view.clone() else { return widgets::nothing(ui, "No run yet.") };
+fn show(ui: &mut Ui, shared: &mut Shared) {
+    let Some(view) = shared.workbench.view().cloned() else {
+        return widgets::nothing(ui, "No run yet.");
+    };
     if view.events.is_empty() {
         return widgets::nothing(
             ui,
             "Nothing has happened yet. Contact, slip, wraps and parted lines will be listed here.",
         );
     }
-    let unit = desk.preferences.units.force();
+    let unit = shared.workbench.preferences.units.force();
     let mut wanted = None;
     ScrollArea::vertical().auto_shrink(false).stick_to_bottom(true).show(ui, |ui| {
         for event in view.events.iter() {
@@ -43,7 +46,7 @@ fn show(ui: &mut Ui, desk: &mut Desk) {
             }
         }
     });
-    desk.orders.extend(wanted.map(Order::Seek));
+    shared.commands.extend(wanted.map(|chosen| TimeAction::Seek(chosen).into()));
 }
 
 fn row(ui: &mut Ui, event: &Event, unit: ForceUnit, now: bool) -> bool {

@@ -4,9 +4,9 @@ use std::ops::RangeInclusive;
 
 use egui::{Grid, RichText, ScrollArea, Sense, Slider, SliderClamping, Ui, vec2};
 
-use crate::gui::desk::Desk;
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
+use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
 use crate::input::{AxisUse, Hands, Mapping, PadAxis, Pressed, Steered};
@@ -37,20 +37,20 @@ impl Panel for PadPanel {
         PanelId::PAD
     }
 
-    fn ui(&mut self, ui: &mut Ui, desk: &mut Desk) {
-        self.learn(desk);
+    fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
+        self.learn(shared);
         ScrollArea::both().auto_shrink(false).show(ui, |ui| {
             // Only the tables may be wider than the panel.
             ui.set_max_width(ui.clip_rect().width() - 16.0);
-            head(ui, desk);
-            zones(ui, desk);
+            head(ui, shared);
+            zones(ui, shared);
             widgets::caption(ui, "Sticks and triggers");
-            self.axes(ui, desk);
+            self.axes(ui, shared);
             widgets::caption(ui, "Buttons");
-            self.buttons(ui, desk);
+            self.buttons(ui, shared);
         });
         // Live axes move without any event of the window.
-        if desk.pilot.pad_name().is_some() || self.learning != Learning::Nothing {
+        if shared.pilot.pad_name().is_some() || self.learning != Learning::Nothing {
             ui.ctx().request_repaint_after(std::time::Duration::from_millis(33));
         }
     }
@@ -58,30 +58,30 @@ impl Panel for PadPanel {
 
 impl PadPanel {
     /// Takes what the pilot pressed or moved for what waits for it.
-    fn learn(&mut self, desk: &mut Desk) {
+    fn learn(&mut self, shared: &mut Shared) {
         match self.learning {
             Learning::Nothing => {
-                desk.pilot.take_pressed();
+                shared.pilot.take_pressed();
             }
             Learning::Button(does) => {
-                if let Some(button) = desk.pilot.take_pressed() {
-                    desk.pilot.mapping.bind_button(button, does);
+                if let Some(button) = shared.pilot.take_pressed() {
+                    shared.pilot.mapping.bind_button(button, does);
                     self.learning = Learning::Nothing;
                 }
             }
             Learning::Axis(steers, second) => {
                 let moved =
-                    PadAxis::ALL.into_iter().find(|axis| desk.pilot.axis(*axis).abs() > FAR);
+                    PadAxis::ALL.into_iter().find(|axis| shared.pilot.axis(*axis).abs() > FAR);
                 if let Some(axis) = moved {
-                    let turned = desk.pilot.axis(axis) < 0.0;
-                    desk.pilot.mapping.bind_axis(AxisUse { axis, second, steers, turned });
+                    let turned = shared.pilot.axis(axis) < 0.0;
+                    shared.pilot.mapping.bind_axis(AxisUse { axis, second, steers, turned });
                     self.learning = Learning::Nothing;
                 }
             }
         }
     }
 
-    fn axes(&mut self, ui: &mut Ui, desk: &mut Desk) {
+    fn axes(&mut self, ui: &mut Ui, shared: &mut Shared) {
         let faint = Theme::palette_of(ui).faint;
         Grid::new("pad-axes").num_columns(5).striped(true).spacing([12.0, 3.0]).show(ui, |ui| {
             for head in ["", "", "", "with the second button held", ""] {
@@ -90,7 +90,7 @@ impl PadPanel {
             ui.end_row();
             for steers in Steered::ALL {
                 ui.label(steers.words());
-                let first = desk
+                let first = shared
                     .pilot
                     .mapping
                     .axes
@@ -100,21 +100,21 @@ impl PadPanel {
                 bar(
                     ui,
                     first.map_or(0.0, |uses| {
-                        desk.pilot.mapping.live(uses.axis, desk.pilot.axis(uses.axis))
+                        shared.pilot.mapping.live(uses.axis, shared.pilot.axis(uses.axis))
                             * if uses.turned { -1.0 } else { 1.0 }
                     }),
                 );
                 for second in [false, true] {
-                    self.axis_cell(ui, desk, steers, second);
+                    self.axis_cell(ui, shared, steers, second);
                 }
                 ui.end_row();
             }
         });
     }
 
-    fn axis_cell(&mut self, ui: &mut Ui, desk: &mut Desk, steers: Steered, second: bool) {
+    fn axis_cell(&mut self, ui: &mut Ui, shared: &mut Shared, steers: Steered, second: bool) {
         ui.horizontal(|ui| {
-            let uses = desk
+            let uses = shared
                 .pilot
                 .mapping
                 .axes
@@ -148,11 +148,11 @@ impl PadPanel {
         });
     }
 
-    fn buttons(&mut self, ui: &mut Ui, desk: &mut Desk) {
+    fn buttons(&mut self, ui: &mut Ui, shared: &mut Shared) {
         Grid::new("pad-buttons").num_columns(2).striped(true).spacing([12.0, 3.0]).show(ui, |ui| {
             for does in Pressed::ALL {
                 ui.label(does.words());
-                let button = desk
+                let button = shared
                     .pilot
                     .mapping
                     .buttons
@@ -170,7 +170,7 @@ impl PadPanel {
                     .on_hover_text("Click, then press the button that is to do it")
                     .clicked()
                 {
-                    desk.pilot.take_pressed();
+                    shared.pilot.take_pressed();
                     self.learning =
                         if learning { Learning::Nothing } else { Learning::Button(does) };
                 }
@@ -180,10 +180,10 @@ impl PadPanel {
     }
 }
 
-fn head(ui: &mut Ui, desk: &mut Desk) {
+fn head(ui: &mut Ui, shared: &mut Shared) {
     let palette = Theme::palette_of(ui);
     ui.horizontal_wrapped(|ui| {
-        let (text, colour) = match (desk.pilot.hands(), desk.pilot.pad_name()) {
+        let (text, colour) = match (shared.pilot.hands(), shared.pilot.pad_name()) {
             (Hands::Holding | Hands::Gliding, _) => ("the pad is gone".to_owned(), palette.warning),
             (Hands::On, Some(name)) => (name.to_owned(), palette.good),
             (Hands::On, None) => {
@@ -194,22 +194,22 @@ fn head(ui: &mut Ui, desk: &mut Desk) {
         ui.end_row();
         ui.label(RichText::new("Preset").color(palette.faint));
         for (name, preset) in Mapping::presets() {
-            let same = desk.pilot.mapping.axes == preset.axes
-                && desk.pilot.mapping.buttons == preset.buttons;
+            let same = shared.pilot.mapping.axes == preset.axes
+                && shared.pilot.mapping.buttons == preset.buttons;
             if ui.selectable_label(same, name).clicked() {
-                let own = &desk.pilot.mapping;
+                let own = &shared.pilot.mapping;
                 let (dead_zone, trigger_dead_zone, curve, rumble) =
                     (own.dead_zone, own.trigger_dead_zone, own.curve, own.rumble);
-                desk.pilot.mapping =
+                shared.pilot.mapping =
                     Mapping { dead_zone, trigger_dead_zone, curve, rumble, ..preset };
             }
         }
-        ui.checkbox(&mut desk.pilot.invert_pitch, "Push to put the nose down");
+        ui.checkbox(&mut shared.pilot.invert_pitch, "Push to put the nose down");
     });
 }
 
-fn zones(ui: &mut Ui, desk: &mut Desk) {
-    let mapping = &mut desk.pilot.mapping;
+fn zones(ui: &mut Ui, shared: &mut Shared) {
+    let mapping = &mut shared.pilot.mapping;
     // Name and value take their room first.
     ui.spacing_mut().slider_width = (ui.available_width() - 190.0).clamp(40.0, 160.0);
     let mut tried = false;
@@ -245,7 +245,7 @@ fn zones(ui: &mut Ui, desk: &mut Desk) {
         ui.end_row();
     });
     if tried {
-        desk.pilot.rumble(1.0, 0.3);
+        shared.pilot.rumble(1.0, 0.3);
     }
 }
 

@@ -1,17 +1,18 @@
 //! Plots of the run, one below the other; written to files as pictures and tables.
 
-use std::path::Path;
+use crate::gui::command::action::WindowAction;
+use crate::gui::widgets::command::command;
+use endline_session::command::ExportAction;
+use std::path::PathBuf;
 
 use egui::{ScrollArea, Ui};
-use endline_session::export;
-use endline_session::export::chart::{Chart, Kind};
+use endline_session::export::chart::Kind;
 
-use crate::gui::desk::{Desk, Order};
-use crate::gui::order::Dialog;
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
+use crate::gui::shared::Shared;
 use crate::gui::widgets;
-use crate::gui::widgets::plot::{DrawnCharts, HEAD, LEAST, chart};
+use crate::gui::widgets::plot::{DrawnCharts, HEAD, LEAST};
 
 /// Plots of the run.
 pub struct PlotsPanel {
@@ -31,29 +32,30 @@ impl Panel for PlotsPanel {
         PanelId::PLOTS
     }
 
-    fn ui(&mut self, ui: &mut Ui, desk: &mut Desk) {
-        if desk.view.is_none() {
+    fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
+        if shared.workbench.view().is_none() {
             return widgets::nothing(ui, "No run yet.");
         }
-        self.toolbar(ui, desk);
+        self.toolbar(ui, shared);
         if self.kinds.is_empty() {
             return widgets::nothing(ui, "Choose what to plot above.");
         }
         let height = (ui.available_height() / self.kinds.len() as f32 - HEAD).max(LEAST);
-        let compared = if desk.other().is_some() { "; A solid, B dashed" } else { "" };
+        let compared =
+            if shared.workbench.comparison().is_some() { "; A solid, B dashed" } else { "" };
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             for kind in self.kinds.clone() {
                 let along = kind == Kind::Along;
                 let note = if along { "; shaded from least to greatest so far" } else { "" };
                 let title = format!("{}{note}{compared}", kind.title());
-                self.drawn.show(ui, desk, kind, &title, height);
+                self.drawn.show(ui, shared, kind, &title, height);
             }
         });
     }
 }
 
 impl PlotsPanel {
-    fn toolbar(&mut self, ui: &mut Ui, desk: &mut Desk) {
+    fn toolbar(&mut self, ui: &mut Ui, shared: &mut Shared) {
         ui.horizontal_wrapped(|ui| {
             for kind in Kind::ALL {
                 let mut on = self.kinds.contains(&kind);
@@ -65,10 +67,12 @@ impl PlotsPanel {
                 }
             }
             ui.menu_button("Save ⏷", |ui| {
-                for ending in export::CHART_ENDINGS {
-                    let text = format!("As {} …", ending.to_uppercase());
-                    if ui.button(text).clicked() {
-                        desk.orders.push(Order::Ask(Dialog::ExportPlots(ending)));
+                for (text, id) in [
+                    ("As SVG …", "panel.plots-svg"),
+                    ("As PNG …", "panel.plots-png"),
+                    ("As CSV …", "panel.plots-csv"),
+                ] {
+                    if command(ui, shared, text, WindowAction::Ask(id)).clicked() {
                         ui.close();
                     }
                 }
@@ -76,16 +80,9 @@ impl PlotsPanel {
         });
     }
 
-    /// Writes the plots shown in the format of the file's ending.
-    pub fn export(&mut self, desk: &mut Desk, path: &Path) {
-        let written = export::charts(path, &self.charts(desk));
-        desk.notice_saved(path, written);
-    }
-
-    /// The charts shown, for writing.
-    fn charts(&self, desk: &Desk) -> Vec<Chart> {
-        let Some(view) = &desk.view else { return Vec::new() };
-        let (other, units) = (desk.other_view(), desk.preferences.units);
-        self.kinds.iter().map(|kind| chart(*kind, view, other.as_deref(), units)).collect()
+    /// The command that writes the plots shown.
+    #[must_use]
+    pub fn export(&self, file: PathBuf) -> ExportAction {
+        ExportAction::Plots { kinds: self.kinds.clone(), file }
     }
 }

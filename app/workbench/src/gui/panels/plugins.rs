@@ -1,5 +1,7 @@
 //! The plugins: a list by kind, and of the chosen one what it takes, where it comes from and how it was checked.
 
+use crate::gui::command::action::WindowAction;
+use endline_session::command::PluginAction;
 use std::path::Path;
 
 use egui::{Button, Grid, Label, RichText, ScrollArea, Ui};
@@ -8,11 +10,12 @@ use endline_gear::units::{Quantity, format_si};
 use endline_sdk::{Attribute, AttributeKind};
 use endline_session::edit::Documents;
 use endline_session::plugins::{Change, PluginInfo, PluginProblem, Standing};
+use endline_session::workbench::plugins::{Switchable, place_of};
 
-use crate::gui::desk::{Desk, Order};
 use crate::gui::fields;
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
+use crate::gui::shared::Shared;
 use crate::gui::theme::{Theme, primary};
 use crate::gui::widgets::{self, words};
 
@@ -34,12 +37,12 @@ impl Panel for PluginsPanel {
         PanelId::PLUGINS
     }
 
-    fn ui(&mut self, ui: &mut Ui, desk: &mut Desk) {
-        let plugins = desk.every_plugin();
-        if !plugins.iter().any(|(info, _)| self.chosen.as_ref() == Some(&info.id)) {
-            self.chosen = plugins.first().map(|(info, _)| info.id.clone());
+    fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
+        let plugins = shared.workbench.plugins.every();
+        if !plugins.iter().any(|plugin| self.chosen.as_ref() == Some(&plugin.info.id)) {
+            self.chosen = plugins.first().map(|plugin| plugin.info.id.clone());
         }
-        toolbar(ui, desk);
+        toolbar(ui, shared);
         ui.separator();
         let whole = ui.available_rect_before_wrap();
         let (left, right) = whole
@@ -48,13 +51,15 @@ impl Panel for PluginsPanel {
             ScrollArea::vertical()
                 .id_salt("list")
                 .auto_shrink(false)
-                .show(ui, |ui| self.list(ui, desk, &plugins));
+                .show(ui, |ui| self.list(ui, shared, &plugins));
         });
         widgets::within(ui, right, |ui| {
-            let chosen =
-                plugins.iter().find(|(info, _)| self.chosen.as_ref() == Some(&info.id)).cloned();
+            let chosen = plugins
+                .iter()
+                .find(|plugin| self.chosen.as_ref() == Some(&plugin.info.id))
+                .cloned();
             ScrollArea::vertical().id_salt("chosen").auto_shrink(false).show(ui, |ui| match chosen {
-                Some((info, on)) => detail(ui, desk, &info, on),
+                Some(plugin) => detail(ui, shared, &plugin.info, plugin.on),
                 None => widgets::nothing(ui, "No plugins: build them with `cargo xtask plugins`, or write one: `endline plugins new`."),
             });
         });
@@ -63,22 +68,22 @@ impl Panel for PluginsPanel {
 
 impl PluginsPanel {
     /// Every plugin under its kind, then what is left out.
-    fn list(&mut self, ui: &mut Ui, desk: &mut Desk, plugins: &[(PluginInfo, bool)]) {
+    fn list(&mut self, ui: &mut Ui, shared: &mut Shared, plugins: &[Switchable]) {
         let mut kind = None;
-        for (info, on) in plugins {
+        for Switchable { info, on } in plugins {
             if kind.replace(info.kind) != Some(info.kind) {
                 widgets::caption(ui, &format!("{}s", info.kind.name().trim_end_matches('s')));
             }
-            self.row(ui, desk, info, *on);
+            self.row(ui, shared, info, *on);
         }
-        let problems = desk.plugins.problems.clone();
+        let problems = shared.workbench.plugins.problems.clone();
         if !problems.is_empty() {
             widgets::caption(ui, "Left out");
-            problems.iter().for_each(|problem| left_out(ui, desk, problem));
+            problems.iter().for_each(|problem| left_out(ui, shared, problem));
         }
     }
 
-    fn row(&mut self, ui: &mut Ui, desk: &mut Desk, info: &PluginInfo, on: bool) {
+    fn row(&mut self, ui: &mut Ui, shared: &mut Shared, info: &PluginInfo, on: bool) {
         let palette = Theme::palette_of(ui);
         ui.horizontal(|ui| {
             let mut wanted = on;
@@ -86,9 +91,9 @@ impl PluginsPanel {
                 if on { "In use; click to leave it out" } else { "Left out; click to use it" };
             if ui.checkbox(&mut wanted, "").on_hover_text(format!("{help}: {}", info.id)).changed()
             {
-                desk.orders.push(Order::SwitchPlugin(info.id.clone(), wanted));
+                shared.give(PluginAction::Switch { id: info.id.clone(), on: wanted });
             }
-            let colour = match (on, desk.uses_plugin(info)) {
+            let colour = match (on, shared.workbench.uses_plugin(info)) {
                 (false, _) => palette.faint,
                 (true, true) => palette.accent,
                 (true, false) => palette.text,
@@ -103,22 +108,27 @@ impl PluginsPanel {
     }
 }
 
-fn toolbar(ui: &mut Ui, desk: &mut Desk) {
+fn toolbar(ui: &mut Ui, shared: &mut Shared) {
     ui.horizontal_wrapped(|ui| {
-        let busy = desk.plugins.busy();
+        let busy = shared.workbench.plugins.busy();
         if primary(ui, !busy, "Reload")
             .on_hover_text("Load what was built anew; the next run uses it")
             .clicked()
         {
-            desk.orders.push(Order::ReloadPlugins);
+            shared.give(PluginAction::Reload);
         }
-        let folders: Vec<_> =
-            desk.plugins.folders().into_iter().filter(|folder| folder.is_dir()).collect();
+        let folders: Vec<_> = shared
+            .workbench
+            .plugins
+            .folders()
+            .into_iter()
+            .filter(|folder| folder.is_dir())
+            .collect();
         ui.add_enabled_ui(!folders.is_empty(), |ui| {
             ui.menu_button("Open folder ⏷", |ui| {
                 for folder in folders {
                     if ui.button(folder.display().to_string()).clicked() {
-                        desk.orders.push(Order::OpenFolder(folder));
+                        shared.give(WindowAction::OpenFolder(folder));
                         ui.close();
                     }
                 }
@@ -134,7 +144,7 @@ fn toolbar(ui: &mut Ui, desk: &mut Desk) {
 }
 
 /// A file that is not used: why, and what can be done about it.
-fn left_out(ui: &mut Ui, desk: &mut Desk, problem: &PluginProblem) {
+fn left_out(ui: &mut Ui, shared: &mut Shared, problem: &PluginProblem) {
     let palette = Theme::palette_of(ui);
     let name = problem
         .file
@@ -154,17 +164,17 @@ fn left_out(ui: &mut Ui, desk: &mut Desk, problem: &PluginProblem) {
         if let Standing::Waiting(ask) = &problem.standing
             && ui.small_button("Allow").on_hover_text("A plugin runs with your rights").clicked()
         {
-            desk.orders.push(Order::AllowPlugin(problem.file.clone(), ask.hash.clone()));
+            shared.give(PluginAction::Allow { file: problem.file.clone(), hash: ask.hash.clone() });
         }
         if problem.standing == Standing::SetAside && ui.small_button("Check again").clicked() {
-            desk.orders.push(Order::CheckPlugin(problem.file.clone()));
+            shared.give(PluginAction::Check(problem.file.clone()));
         }
     });
-    report(ui, desk, &problem.file);
+    report(ui, shared, &problem.file);
 }
 
 /// What the chosen plugin is, does and takes.
-fn detail(ui: &mut Ui, desk: &mut Desk, info: &PluginInfo, on: bool) {
+fn detail(ui: &mut Ui, shared: &mut Shared, info: &PluginInfo, on: bool) {
     let palette = Theme::palette_of(ui);
     ui.heading(&info.name);
     ui.add(
@@ -179,11 +189,11 @@ fn detail(ui: &mut Ui, desk: &mut Desk, info: &PluginInfo, on: bool) {
     if !info.about.is_empty() {
         ui.add(Label::new(RichText::new(&info.about).color(palette.faint)).wrap());
     }
-    buttons(ui, desk, info, on);
-    origin(ui, desk, info);
+    buttons(ui, shared, info, on);
+    origin(ui, shared, info);
     if !info.attributes.is_empty() {
         widgets::caption(ui, "Attributes");
-        attributes(ui, desk, info);
+        attributes(ui, shared, info);
     }
     if !info.acts.is_empty() {
         widgets::caption(ui, "Acts");
@@ -193,37 +203,37 @@ fn detail(ui: &mut Ui, desk: &mut Desk, info: &PluginInfo, on: bool) {
     }
 }
 
-fn buttons(ui: &mut Ui, desk: &mut Desk, info: &PluginInfo, on: bool) {
+fn buttons(ui: &mut Ui, shared: &mut Shared, info: &PluginInfo, on: bool) {
     ui.horizontal_wrapped(|ui| {
-        if on && Desk::place_of(info.kind).is_some() {
-            if desk.uses_plugin(info) {
+        if on && place_of(info.kind).is_some() {
+            if shared.workbench.uses_plugin(info) {
                 ui.label(RichText::new("In this scenario").color(Theme::palette_of(ui).accent));
             } else if ui
                 .button("Use in this scenario")
                 .on_hover_text("Undo takes it back")
                 .clicked()
             {
-                desk.orders.push(Order::UsePlugin(info.id.clone()));
+                shared.give(PluginAction::Use(info.id.clone()));
             }
         }
         let Some(file) = &info.file else { return };
         if ui
-            .add_enabled(!desk.plugins.busy(), Button::new("Check"))
+            .add_enabled(!shared.workbench.plugins.busy(), Button::new("Check"))
             .on_hover_text("Try it in a process of its own")
             .clicked()
         {
-            desk.orders.push(Order::CheckPlugin(file.clone()));
+            shared.give(PluginAction::Check(file.clone()));
         }
         if let Some(folder) = file.parent()
             && ui.button("Open its folder").clicked()
         {
-            desk.orders.push(Order::OpenFolder(folder.to_path_buf()));
+            shared.give(WindowAction::OpenFolder(folder.to_path_buf()));
         }
     });
 }
 
 /// File, hash, and what the check said.
-fn origin(ui: &mut Ui, desk: &Desk, info: &PluginInfo) {
+fn origin(ui: &mut Ui, shared: &Shared, info: &PluginInfo) {
     let faint = Theme::palette_of(ui).faint;
     let Some(file) = &info.file else {
         ui.label(RichText::new("Part of the program.").color(faint));
@@ -240,8 +250,8 @@ fn origin(ui: &mut Ui, desk: &Desk, info: &PluginInfo) {
             .color(faint),
     )
     .on_hover_text(&hash);
-    if desk.plugins.reports.contains_key(file) {
-        report(ui, desk, file);
+    if shared.workbench.plugins.reports.contains_key(file) {
+        report(ui, shared, file);
     } else {
         ui.label(
             RichText::new("It passed the check before it was loaded.").size(12.0).color(faint),
@@ -250,9 +260,9 @@ fn origin(ui: &mut Ui, desk: &Desk, info: &PluginInfo) {
 }
 
 /// What the last check of a file said, line by line.
-fn report(ui: &mut Ui, desk: &Desk, file: &Path) {
+fn report(ui: &mut Ui, shared: &Shared, file: &Path) {
     let palette = Theme::palette_of(ui);
-    let Some(report) = desk.plugins.reports.get(file) else { return };
+    let Some(report) = shared.workbench.plugins.reports.get(file) else { return };
     for line in report.text.lines() {
         let fault = line.contains("  FAULT  ");
         let colour = if fault { palette.error } else { palette.faint };
@@ -267,9 +277,10 @@ fn report(ui: &mut Ui, desk: &Desk, file: &Path) {
 }
 
 /// A form where the scenario uses the plugin, else a table of what it takes.
-fn attributes(ui: &mut Ui, desk: &mut Desk, info: &PluginInfo) {
+fn attributes(ui: &mut Ui, shared: &mut Shared, info: &PluginInfo) {
     let palette = Theme::palette_of(ui);
-    let form = Desk::place_of(info.kind).filter(|_| desk.uses_plugin(info)).map(|(table, _)| table);
+    let form =
+        place_of(info.kind).filter(|_| shared.workbench.uses_plugin(info)).map(|(table, _)| table);
     let mut edits = Vec::new();
     Grid::new(("attributes", &info.id)).num_columns(3).spacing([10.0, 3.0]).show(ui, |ui| {
         for attribute in &info.attributes {
@@ -284,7 +295,7 @@ fn attributes(ui: &mut Ui, desk: &mut Desk, info: &PluginInfo) {
                     );
                     let said = fields::Said { hint: &hint, help: &help };
                     let place = fields::Field {
-                        documents: &desk.documents,
+                        documents: &shared.workbench.project.documents,
                         path: Documents::SCENARIO,
                         field: &field,
                     };
@@ -307,10 +318,12 @@ fn attributes(ui: &mut Ui, desk: &mut Desk, info: &PluginInfo) {
     for (field, value) in edits {
         // The table of attributes may not be there yet.
         let value = Setting::plain(&value);
-        if let Err(error) = desk.documents.alter(Documents::SCENARIO, |scenario| {
-            scenario.put(&field, &value).map_err(|error| error.to_string())
-        }) {
-            desk.notice = Some((error, true));
+        if let Err(error) =
+            shared.workbench.project.documents.alter(Documents::SCENARIO, |scenario| {
+                scenario.put(&field, &value).map_err(|error| error.to_string())
+            })
+        {
+            shared.fault(error);
         }
     }
 }

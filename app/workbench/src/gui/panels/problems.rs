@@ -1,12 +1,13 @@
 //! Everything wrong with the files, each with its place and how to fix it.
 
+use crate::gui::command::action::PanelAction;
 use egui::{Label, RichText, ScrollArea, Ui};
 use endline_gear::Diagnostic;
 use endline_gear::Kind;
 
-use crate::gui::desk::{Desk, Order};
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
+use crate::gui::shared::Shared;
 use crate::gui::tables::KINDS;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::{self, problem};
@@ -20,15 +21,15 @@ impl Panel for ProblemsPanel {
         PanelId::PROBLEMS
     }
 
-    fn ui(&mut self, ui: &mut Ui, desk: &mut Desk) {
-        show(ui, desk);
+    fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
+        show(ui, shared);
     }
 }
 
 /// Draws the list of problems.
-fn show(ui: &mut Ui, desk: &mut Desk) {
-    let problems: Vec<Diagnostic> = desk.problems().cloned().collect();
-    if problems.is_empty() && desk.plugins.problems.is_empty() {
+fn show(ui: &mut Ui, shared: &mut Shared) {
+    let problems: Vec<Diagnostic> = shared.workbench.project.problems().cloned().collect();
+    if problems.is_empty() && shared.workbench.plugins.problems.is_empty() {
         widgets::nothing(
             ui,
             "No problems: every file of the library and the scenario can be read.",
@@ -38,10 +39,10 @@ fn show(ui: &mut Ui, desk: &mut Desk) {
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         for problem in &problems {
             if problem::entry(ui, problem) {
-                go_to(desk, problem);
+                go_to(shared, problem);
             }
         }
-        for problem in &desk.plugins.problems {
+        for problem in &shared.workbench.plugins.problems {
             let warning = Theme::palette_of(ui).warning;
             ui.add(Label::new(RichText::new(format!("plugin: {problem}")).color(warning)).wrap());
         }
@@ -49,10 +50,10 @@ fn show(ui: &mut Ui, desk: &mut Desk) {
 }
 
 /// Opens the panel where a problem can be fixed.
-fn go_to(desk: &mut Desk, problem: &Diagnostic) {
+fn go_to(shared: &mut Shared, problem: &Diagnostic) {
     let kind = problem.file.split_once('/').and_then(|(folder, _)| Kind::in_folder(folder));
     match kind.filter(|kind| KINDS.iter().any(|(shown, _)| shown == kind)) {
-        Some(_) => desk.orders.push(Order::Entry(problem.file.clone())),
-        None => desk.orders.push(Order::Show(PanelId::SCENARIO)),
+        Some(_) => shared.give(PanelAction::Entry(problem.file.clone())),
+        None => shared.give(PanelAction::Show(PanelId::SCENARIO)),
     }
 }

@@ -1,15 +1,17 @@
 //! Runs that were kept by themselves, to be opened and seen again.
 
+use crate::gui::command::action::WindowAction;
+use crate::gui::widgets::command::command;
+use endline_session::command::RunAction;
 use std::path::PathBuf;
 use std::time::SystemTime;
 
 use egui::{RichText, ScrollArea, Ui};
 
-use crate::gui::desk::{Desk, Order};
 use crate::gui::files;
-use crate::gui::order::Dialog;
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
+use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
 
@@ -31,14 +33,14 @@ impl Panel for RecordingsPanel {
         PanelId::RECORDINGS
     }
 
-    fn ui(&mut self, ui: &mut Ui, desk: &mut Desk) {
-        let Some(folder) = desk.recordings.clone() else {
+    fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
+        let Some(folder) = shared.workbench.recordings.clone() else {
             return widgets::nothing(
                 ui,
                 "No folder to keep recordings in: there is no user data folder here.",
             );
         };
-        let kept = desk.kept_runs();
+        let kept = shared.workbench.kept_runs();
         if self.files.as_ref().is_none_or(|(seen, _)| *seen != kept) {
             self.files = Some((kept, list(&folder)));
         }
@@ -48,22 +50,20 @@ impl Panel for RecordingsPanel {
                 RichText::new("Every run is kept here when it ends or another begins.")
                     .color(Theme::palette_of(ui).faint),
             );
-            if ui.button("Open other …").clicked() {
-                desk.orders.push(Order::Ask(Dialog::Recording));
-            }
+            command(ui, shared, "Open other …", WindowAction::Ask("run.open-recording"));
         });
         if files.is_empty() {
             return widgets::nothing(ui, "No runs yet.");
         }
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             for file in files {
-                row(ui, desk, file);
+                row(ui, shared, file);
             }
         });
     }
 }
 
-fn row(ui: &mut Ui, desk: &mut Desk, file: &Recorded) {
+fn row(ui: &mut Ui, shared: &mut Shared, file: &Recorded) {
     let faint = Theme::palette_of(ui).faint;
     let name = files::stem(&file.path);
     ui.horizontal_wrapped(|ui| {
@@ -74,10 +74,10 @@ fn row(ui: &mut Ui, desk: &mut Desk, file: &Recorded) {
             .on_hover_text("Run it again, to the bit, and look at any moment")
             .clicked()
         {
-            desk.orders.push(Order::OpenRecording(file.path.clone()));
+            shared.give(RunAction::OpenRecording(file.path.clone()));
         }
         if ui.button("Compare").on_hover_text("Run it again beside the run shown, as B").clicked() {
-            desk.orders.push(Order::CompareWith(file.path.clone()));
+            shared.give(RunAction::CompareWith(file.path.clone()));
         }
         if ui.button("Copy command").on_hover_text("endline replay …, for a terminal").clicked() {
             ui.ctx().copy_text(format!("endline replay '{}'", file.path.display()));

@@ -1,12 +1,15 @@
 //! The run's controls and how it does.
 
-use egui::{Button, ProgressBar, RichText, ScrollArea, Ui};
+use crate::gui::command::action::{FlightAction, WindowAction};
+use crate::gui::widgets::command::command;
+use egui::{ProgressBar, RichText, ScrollArea, Ui};
+use endline_session::command::RunAction;
 use endline_session::live::LiveView;
-use endline_session::live::engine::SPEEDS;
+use endline_session::workbench::SPEEDS;
 
-use crate::gui::desk::{Desk, Order};
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
+use crate::gui::shared::Shared;
 use crate::gui::theme::{Theme, primary};
 use crate::gui::widgets::{self, words};
 
@@ -19,78 +22,56 @@ impl Panel for RunPanel {
         PanelId::RUN
     }
 
-    fn ui(&mut self, ui: &mut Ui, desk: &mut Desk) {
-        show(ui, desk);
+    fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
+        show(ui, shared);
     }
 }
 
 /// Draws the run panel.
-fn show(ui: &mut Ui, desk: &mut Desk) {
+fn show(ui: &mut Ui, shared: &mut Shared) {
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        buttons(ui, desk);
-        if desk.stale() {
-            stale(ui, desk);
+        buttons(ui, shared);
+        if shared.workbench.stale() {
+            stale(ui, shared);
         }
-        let Some(view) = desk.view.clone() else { return };
+        let Some(view) = shared.workbench.view().cloned() else { return };
         progress(ui, &view);
-        speeds(ui, desk, &view);
-        fly(ui, desk);
-        if ui
-            .button("Copy as command line")
-            .on_hover_text(
-                "The command that gives this run, for a terminal or a script (Ctrl+Shift+C)",
-            )
-            .clicked()
-        {
-            desk.orders.push(Order::CopyCommandLine);
-        }
+        speeds(ui, shared, &view);
+        fly(ui, shared);
+        command(ui, shared, "Copy as command line", WindowAction::CopyCommandLine);
         state(ui, &view);
     });
 }
 
-fn buttons(ui: &mut Ui, desk: &mut Desk) {
-    let running = desk.running();
-    let ready = desk.view.is_some() && !desk.making();
+fn buttons(ui: &mut Ui, shared: &mut Shared) {
+    let running = shared.workbench.running();
+    let ready = shared.workbench.view().is_some() && !shared.workbench.making();
     ui.horizontal(|ui| {
-        let (text, order) =
-            if running { ("⏸ Pause", Order::Pause) } else { ("▶ Run", Order::Start) };
+        let (text, action) =
+            if running { ("⏸ Pause", RunAction::Pause) } else { ("▶ Run", RunAction::Start) };
         if primary(ui, ready, text).on_hover_text("Space").clicked() {
-            desk.orders.push(order);
+            shared.give(action);
         }
-        if ui
-            .add_enabled(ready && !running, Button::new("Step"))
-            .on_hover_text("One step (period)")
-            .clicked()
-        {
-            desk.orders.push(Order::Step);
-        }
-        if ui
-            .add_enabled(ready, Button::new("⏮ Reset"))
-            .on_hover_text("Back to the settled gear (Backspace)")
-            .clicked()
-        {
-            desk.orders.push(Order::Reset);
-        }
+        command(ui, shared, "Step", RunAction::Step);
+        command(ui, shared, "⏮ Reset", RunAction::Reset);
     });
 }
 
 /// Says that the run shows gear from before the last edits.
-fn stale(ui: &mut Ui, desk: &mut Desk) {
+fn stale(ui: &mut Ui, shared: &mut Shared) {
     let palette = Theme::palette_of(ui);
-    if desk.making() {
+    if shared.workbench.making() {
         ui.horizontal(|ui| {
             ui.spinner();
             ui.label(RichText::new("making the model").color(palette.faint));
         });
-    } else if desk.documents.any_error() {
+    } else if shared.workbench.project.documents.any_error() {
         let text = "The gear has errors. The run shown is from before them.";
         ui.add(egui::Label::new(RichText::new(text).color(palette.error)).wrap());
     } else {
         ui.horizontal(|ui| {
             ui.label(RichText::new("Gear or scenario changed.").color(palette.warning));
-            if ui.button("Apply").on_hover_text("Make the model anew (Ctrl+Enter)").clicked() {
-                desk.orders.push(Order::Apply);
-            }
+            command(ui, shared, "Apply", RunAction::Apply);
         });
     }
 }
@@ -106,34 +87,29 @@ fn progress(ui: &mut Ui, view: &LiveView) {
     );
 }
 
-fn speeds(ui: &mut Ui, desk: &mut Desk, view: &LiveView) {
+fn speeds(ui: &mut Ui, shared: &mut Shared, view: &LiveView) {
     ui.horizontal(|ui| {
         ui.label(RichText::new("Speed").color(Theme::palette_of(ui).faint));
         ui.spacing_mut().item_spacing.x = 2.0;
-        for (speed, text) in SPEEDS {
-            let chosen = if speed.is_infinite() {
-                view.speed >= 999.0
-            } else {
-                (view.speed - speed).abs() < 1e-9
-            };
-            if ui.selectable_label(chosen, text).clicked() {
-                desk.orders.push(Order::Speed(speed));
+        for speed in SPEEDS {
+            if ui.selectable_label(speed.is(view.speed), speed.short).clicked() {
+                shared.give(RunAction::Speed(speed.factor));
             }
         }
     });
 }
 
-fn fly(ui: &mut Ui, desk: &mut Desk) {
+fn fly(ui: &mut Ui, shared: &mut Shared) {
     ui.horizontal(|ui| {
-        let mut flying = desk.flying;
+        let mut flying = shared.flying;
         if ui
             .toggle_value(&mut flying, "Fly the whale")
             .on_hover_text("Ctrl+F; Esc lets go. Keys and pad: F1")
             .clicked()
         {
-            desk.orders.push(Order::Fly);
+            shared.give(FlightAction::Toggle);
         }
-        let hands = desk.pilot.pad_name().unwrap_or("keyboard; no pad found").to_owned();
+        let hands = shared.pilot.pad_name().unwrap_or("keyboard; no pad found").to_owned();
         ui.add(
             egui::Label::new(RichText::new(hands).color(Theme::palette_of(ui).faint)).truncate(),
         );

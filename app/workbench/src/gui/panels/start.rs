@@ -1,14 +1,16 @@
 //! Where a user begins: what was open last, and the examples in their own words.
 
+use crate::gui::command::action::PanelAction;
+use endline_session::command::EditAction;
 use std::path::{Path, PathBuf};
 
 use egui::{RichText, ScrollArea, Ui};
 use endline_session::units::Units;
 
-use crate::gui::desk::{Desk, Order};
 use crate::gui::files;
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
+use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
 
@@ -32,56 +34,58 @@ impl Panel for StartPanel {
         PanelId::START
     }
 
-    fn ui(&mut self, ui: &mut Ui, desk: &mut Desk) {
-        let all = self.examples.get_or_insert_with(|| examples(desk.documents.root()));
+    fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
+        let all = self
+            .examples
+            .get_or_insert_with(|| examples(shared.workbench.project.documents.root()));
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.heading("Endline");
             ui.label("Fishing gear, and whales that get out of it alive.");
             ui.add_space(6.0);
-            units(ui, desk);
-            recent(ui, desk);
+            units(ui, shared);
+            recent(ui, shared);
             widgets::caption(ui, "Whales meeting gear");
-            list(ui, desk, all.iter().filter(|example| example.whale));
+            list(ui, shared, all.iter().filter(|example| example.whale));
             widgets::caption(ui, "Gear alone, and checks of the physics");
-            list(ui, desk, all.iter().filter(|example| !example.whale));
+            list(ui, shared, all.iter().filter(|example| !example.whale));
         });
     }
 }
 
-fn units(ui: &mut Ui, desk: &mut Desk) {
+fn units(ui: &mut Ui, shared: &mut Shared) {
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new("Units on screen").color(Theme::palette_of(ui).faint));
         for units in Units::ALL {
-            ui.radio_value(&mut desk.preferences.units, units, units.name())
+            ui.radio_value(&mut shared.workbench.preferences.units, units, units.name())
                 .on_hover_text(units.help());
         }
     });
 }
 
-fn recent(ui: &mut Ui, desk: &mut Desk) {
+fn recent(ui: &mut Ui, shared: &mut Shared) {
     let recent: Vec<PathBuf> =
-        desk.preferences.recent.iter().filter(|path| path.exists()).cloned().collect();
+        shared.workbench.preferences.recent.iter().filter(|path| path.exists()).cloned().collect();
     if recent.is_empty() {
         return;
     }
     widgets::caption(ui, "Last open");
     for path in recent {
         if ui.link(path.display().to_string()).clicked() {
-            open(desk, &path);
+            open(shared, &path);
         }
     }
 }
 
-fn open(desk: &mut Desk, path: &Path) {
-    desk.orders.push(Order::Open(path.to_owned()));
-    desk.orders.push(Order::Show(PanelId::VIEW));
+fn open(shared: &mut Shared, path: &Path) {
+    shared.give(EditAction::OpenScenario(path.to_owned()));
+    shared.give(PanelAction::Show(PanelId::VIEW));
 }
 
-fn list<'a>(ui: &mut Ui, desk: &mut Desk, examples: impl Iterator<Item = &'a Example>) {
+fn list<'a>(ui: &mut Ui, shared: &mut Shared, examples: impl Iterator<Item = &'a Example>) {
     let faint = Theme::palette_of(ui).faint;
     for example in examples {
         if ui.link(&example.name).on_hover_text(example.path.display().to_string()).clicked() {
-            open(desk, &example.path);
+            open(shared, &example.path);
         }
         ui.indent(&example.path, |ui| {
             ui.add(egui::Label::new(RichText::new(&example.notes).color(faint)).wrap())

@@ -1,13 +1,14 @@
 //! How the run came out: outcome, loads by part of the whale, lines and weak links.
 
 use egui::{RichText, ScrollArea, Ui};
+use endline_session::command::TimeAction;
 use endline_session::figures::{LINE, LINK, PART, Part, View, WHALE, lines, parts};
 use endline_session::live::LiveView;
 use endline_sim::metrics::{Summary, WhaleSummary};
 
-use crate::gui::desk::{Desk, Order};
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
+use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::figures::{Style, list, table};
 use crate::gui::widgets::{self, words};
@@ -21,21 +22,25 @@ impl Panel for SummaryPanel {
         PanelId::SUMMARY
     }
 
-    fn ui(&mut self, ui: &mut Ui, desk: &mut Desk) {
-        show(ui, desk);
+    fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
+        show(ui, shared);
     }
 }
 
 /// Draws the summary.
-fn show(ui: &mut Ui, desk: &mut Desk) {
-    let Some(view) = desk.view.clone() else { return widgets::nothing(ui, "No run yet.") };
+fn show(ui: &mut Ui, shared: &mut Shared) {
+    let Some(view) = shared.workbench.view().cloned() else {
+        return widgets::nothing(ui, "No run yet.");
+    };
     let Some(summary) = &view.summary else {
         return widgets::nothing(ui, "The gear is being settled.");
     };
-    let style = Style { view: View::Summary, units: desk.preferences.units };
+    let style = Style { view: View::Summary, units: shared.workbench.preferences.units };
     ScrollArea::both().auto_shrink(false).show(ui, |ui| {
         let of_whale = summary.whale.as_ref().and_then(|whale| of_whale(ui, &view, whale, style));
-        desk.orders.extend(of_whale.or(of_gear(ui, summary, style)).map(Order::Seek));
+        shared.commands.extend(
+            of_whale.or(of_gear(ui, summary, style)).map(|chosen| TimeAction::Seek(chosen).into()),
+        );
     });
 }
 

@@ -3,9 +3,9 @@
 use egui::Ui;
 use endline_session::export::chart::Kind;
 
-use crate::gui::desk::Desk;
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
+use crate::gui::shared::Shared;
 use crate::gui::widgets::plot::{DrawnCharts, HEAD};
 
 /// Tension of every line over time.
@@ -19,8 +19,8 @@ impl Panel for TensionPanel {
         PanelId::TENSION
     }
 
-    fn ui(&mut self, ui: &mut Ui, desk: &mut Desk) {
+    fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
         let height = ui.available_height() - HEAD;
-        self.drawn.show(ui, desk, Kind::Tension, "", height);
+        self.drawn.show(ui, shared, Kind::Tension, "", height);
     }
 }

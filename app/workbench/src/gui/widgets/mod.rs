@@ -1,5 +1,6 @@
 //! Pieces of the screen that several panels draw.
 
+pub mod command;
 pub mod figures;
 pub mod plot;
 pub mod plot_key;

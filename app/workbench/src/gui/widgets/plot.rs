@@ -1,5 +1,6 @@
 //! Charts of a run as they are drawn: each below its title and its key, with one cursor; a click shows that moment.
 
+use endline_session::command::TimeAction;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -14,7 +15,7 @@ use endline_session::units::Units;
 use endline_sim::Model;
 
 use super::plot_key;
-use crate::gui::desk::{Desk, Order};
+use crate::gui::shared::Shared;
 use crate::gui::theme::{Palette, Theme};
 
 /// A strength further above the peak than this factor is not drawn.
@@ -77,9 +78,11 @@ pub fn chart(kind: Kind, view: &LiveView, other: Option<&LiveView>, units: Units
 
 impl DrawnCharts {
     /// Draws a chart of the run shown, in a height that its title and key are part of.
-    pub fn show(&mut self, ui: &mut Ui, desk: &mut Desk, kind: Kind, title: &str, height: f32) {
-        let Some(view) = desk.view.clone() else { return super::nothing(ui, "No run yet.") };
-        let (place, top) = (self.make(kind, &view, desk), ui.cursor().top());
+    pub fn show(&mut self, ui: &mut Ui, shared: &mut Shared, kind: Kind, title: &str, height: f32) {
+        let Some(view) = shared.workbench.view().cloned() else {
+            return super::nothing(ui, "No run yet.");
+        };
+        let (place, top) = (self.make(kind, &view, shared), ui.cursor().top());
         let made = &self.made[place].1;
         let chart = &made.chart;
         let clicked = plot_key::show(ui, title, height, chart, &self.hidden);
@@ -93,7 +96,9 @@ impl DrawnCharts {
             plot.pointer_coordinate()
         });
         let at = response.inner.filter(|_| kind.over_time() && response.response.clicked());
-        desk.orders.extend(at.map(|at| Order::Seek(at.x.clamp(0.0, view.newest_s))));
+        shared
+            .commands
+            .extend(at.map(|at| TimeAction::Seek(at.x.clamp(0.0, view.newest_s)).into()));
         if let Some(name) = clicked
             && !self.hidden.remove(&name)
         {
@@ -102,8 +107,8 @@ impl DrawnCharts {
     }
 
     /// Makes a chart anew where the run has gone on since; answers its place.
-    fn make(&mut self, kind: Kind, view: &LiveView, desk: &Desk) -> usize {
-        let (other, units) = (desk.other_view(), desk.preferences.units);
+    fn make(&mut self, kind: Kind, view: &LiveView, shared: &Shared) -> usize {
+        let (other, units) = (shared.workbench.compared_view(), shared.workbench.preferences.units);
         let of = (Part::of(kind, view), other.as_deref().map(|other| Part::of(kind, other)));
         let place = self.made.iter().position(|(known, _)| *known == kind);
         let known = place

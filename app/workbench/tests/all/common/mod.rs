@@ -5,6 +5,8 @@
     reason = "a test that cannot go on fails; no test uses all of this"
 )]
 
+use endline_session::command::RunAction;
+use endline_workbench::gui::command::action::WindowCommand;
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
@@ -20,7 +22,7 @@ use endline_session::live::{LiveView, RunCommand, Status};
 use endline_session::plugins::Hook;
 use endline_session::task::Waker;
 use endline_workbench::gui::app::App;
-use endline_workbench::gui::desk::{Desk, Order};
+use endline_workbench::gui::shared::Shared;
 use endline_workbench::input::Pilot;
 
 /// What a test's engine was told, in words.
@@ -152,10 +154,10 @@ pub fn opened_with(
 ) -> Harness<'static, App> {
     let waker: Waker = Arc::new(|| {});
     let create = move |creation: &mut eframe::CreationContext<'_>| {
-        App::new(creation, Desk::new(documents, host, launch, waker, pilot))
+        App::new(creation, Shared::new(documents, host, launch, waker, pilot))
     };
     let mut harness = Harness::builder().with_size(egui::vec2(1500.0, 940.0)).build_eframe(create);
-    wait(&mut harness, |app| app.desk.view.is_some());
+    wait(&mut harness, |app| app.shared.workbench.view().is_some());
     harness
 }
 
@@ -163,12 +165,12 @@ pub fn opened_with(
 pub fn wait(harness: &mut Harness<'static, App>, so: impl Fn(&App) -> bool) {
     let patience = Instant::now() + Duration::from_secs(30);
     while !so(harness.state()) {
-        let desk = &harness.state().desk;
+        let shared = &harness.state().shared;
         assert!(
             Instant::now() < patience,
             "waited in vain: {:?}, {:?}",
-            desk.status(),
-            desk.notice
+            shared.workbench.status(),
+            shared.workbench.notice
         );
         std::thread::sleep(Duration::from_millis(5));
         harness.step();
@@ -214,17 +216,17 @@ pub fn flown(folder: &Folder) -> Harness<'static, App> {
         documents.set("scenario", field, value).unwrap();
     }
     let mut harness = opened_with(documents, linked(), live(), Pilot::default());
-    wait(&mut harness, |app| app.desk.status() == Some(&Status::Paused));
-    harness.state_mut().desk.recordings = Some(folder.0.join("recordings"));
-    harness.state_mut().desk.obey(&Order::Speed(f64::INFINITY));
-    harness.state_mut().desk.obey(&Order::Start);
-    wait(&mut harness, |app| app.desk.status() == Some(&Status::Finished));
+    wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Paused));
+    harness.state_mut().shared.workbench.recordings = Some(folder.0.join("recordings"));
+    harness.state_mut().shared.perform(RunAction::Speed(f64::INFINITY));
+    harness.state_mut().shared.perform(RunAction::Start);
+    wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Finished));
     harness
 }
 
-/// Gives an order as a menu does, and draws until it is obeyed.
-pub fn give(harness: &mut Harness<'static, App>, order: Order) {
-    harness.state_mut().desk.orders.push(order);
+/// Gives a command as a menu does, and draws until it is performed.
+pub fn give(harness: &mut Harness<'static, App>, command: impl Into<WindowCommand>) {
+    harness.state_mut().shared.give(command);
     harness.run_steps(1);
 }
 

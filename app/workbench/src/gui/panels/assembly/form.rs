@@ -8,15 +8,22 @@ use endline_session::edit::Documents;
 
 use super::AssemblyPanel;
 use super::{inserts, item};
-use crate::gui::desk::Desk;
 use crate::gui::fields;
+use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::{self, words};
 
 /// Draws the form.
-pub(super) fn show(ui: &mut Ui, panel: &AssemblyPanel, desk: &mut Desk, id: &str, gear_type: &str) {
+pub(super) fn show(
+    ui: &mut Ui,
+    panel: &AssemblyPanel,
+    shared: &mut Shared,
+    id: &str,
+    gear_type: &str,
+) {
     let file = &super::path(id);
-    let Some(gear) = desk.gear_types().into_iter().find(|gear| gear.descriptor().id == gear_type)
+    let Some(gear) =
+        shared.workbench.gear_types().into_iter().find(|gear| gear.descriptor().id == gear_type)
     else {
         let text = format!("No gear type `{gear_type}` among the plugins; see Problems.");
         ui.label(RichText::new(text).color(Theme::palette_of(ui).error));
@@ -25,10 +32,12 @@ pub(super) fn show(ui: &mut Ui, panel: &AssemblyPanel, desk: &mut Desk, id: &str
     ui.label(RichText::new(gear.descriptor().name.as_ref()).color(Theme::palette_of(ui).faint));
     let attributes = gear.descriptor().attributes.clone();
     if let Some(scope) = attributes.iter().find(|attribute| attribute.key == "scope") {
-        scope_slider(ui, desk, file, scope);
+        scope_slider(ui, shared, file, scope);
     }
-    if desk.documents.field(Documents::SCENARIO, "gear.0.assembly").as_deref() == Some(id) {
-        inserts::of_placed(ui, panel, desk);
+    if shared.workbench.project.documents.field(Documents::SCENARIO, "gear.0.assembly").as_deref()
+        == Some(id)
+    {
+        inserts::of_placed(ui, panel, shared);
     } else {
         let text = "Weak inserts go into gear that the scenario uses: Use in scenario, above.";
         ui.add(
@@ -41,17 +50,21 @@ pub(super) fn show(ui: &mut Ui, panel: &AssemblyPanel, desk: &mut Desk, id: &str
             let name = words::title(&attribute.key);
             ui.label(RichText::new(name).color(Theme::palette_of(ui).faint))
                 .on_hover_text(help(attribute));
-            cell(ui, desk, file, attribute);
+            cell(ui, shared, file, attribute);
             ui.end_row();
         }
     });
 }
 
 /// Scope under the hand: rope over depth, the gear follows while it moves.
-fn scope_slider(ui: &mut Ui, desk: &mut Desk, file: &str, attribute: &Attribute) {
+fn scope_slider(ui: &mut Ui, shared: &mut Shared, file: &str, attribute: &Attribute) {
     let AttributeKind::Number { min, max, default } = attribute.kind else { return };
-    let typed =
-        desk.documents.field(file, "attributes.scope").and_then(|text| text.parse::<f64>().ok());
+    let typed = shared
+        .workbench
+        .project
+        .documents
+        .field(file, "attributes.scope")
+        .and_then(|text| text.parse::<f64>().ok());
     let mut scope = typed.unwrap_or(default);
     let slider = Slider::new(&mut scope, min.max(1.0)..=max.min(3.0))
         .clamping(SliderClamping::Never)
@@ -61,43 +74,52 @@ fn scope_slider(ui: &mut Ui, desk: &mut Desk, file: &str, attribute: &Attribute)
     ui.spacing_mut().slider_width = 110.0;
     let response = ui.add(slider).on_hover_text("Length of the endline over the depth of water");
     if response.changed()
-        && let Err(error) =
-            desk.documents.set_held(file, "attributes.scope", &super::written(scope))
+        && let Err(error) = shared.workbench.project.documents.set_held(
+            file,
+            "attributes.scope",
+            &super::written(scope),
+        )
     {
-        desk.notice = Some((error, true));
+        shared.fault(error);
     }
     if response.drag_stopped() || response.lost_focus() {
-        desk.documents.let_go();
+        shared.workbench.project.documents.let_go();
     }
 }
 
-fn cell(ui: &mut Ui, desk: &mut Desk, file: &str, attribute: &Attribute) {
+fn cell(ui: &mut Ui, shared: &mut Shared, file: &str, attribute: &Attribute) {
     let field = format!("attributes.{}", attribute.key);
     let width = ui.available_width() - 8.0;
     match &attribute.kind {
         AttributeKind::Item { library, default } => {
             let Some(kind) = Kind::in_folder(library) else { return };
-            item(ui, desk, file, &field, kind, default.is_empty());
+            item(ui, shared, file, &field, kind, default.is_empty());
         }
         AttributeKind::Choice { words, .. } => {
             let choices: Vec<(String, String)> =
                 words.iter().map(|word| (word.to_string(), word.to_string())).collect();
-            if let Some(taken) = fields::choose(ui, &desk.documents, file, &field, &choices, width)
-            {
-                desk.set(file, &field, &taken);
+            if let Some(taken) = fields::choose(
+                ui,
+                &shared.workbench.project.documents,
+                file,
+                &field,
+                &choices,
+                width,
+            ) {
+                shared.workbench.set(file, &field, &taken);
             }
         }
         AttributeKind::Number { .. } | AttributeKind::Count { .. } => {
             let (hint, help) = (usual(attribute), help(attribute));
             if let Some(typed) = fields::edit(
                 ui,
-                &desk.documents,
+                &shared.workbench.project.documents,
                 file,
                 &field,
                 width,
                 fields::Said { hint: &hint, help: &help },
             ) {
-                desk.set(file, &field, &typed);
+                shared.workbench.set(file, &field, &typed);
             }
         }
     }

@@ -7,16 +7,16 @@ use endline_session::edit::assembly;
 
 use super::AssemblyPanel;
 use super::item;
-use crate::gui::desk::Desk;
 use crate::gui::fields;
+use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
 
 /// Inserts of the lines of gear that a gear type builds: they stand in the scenario, over the assembly.
-pub(super) fn of_placed(ui: &mut Ui, panel: &AssemblyPanel, desk: &mut Desk) {
+pub(super) fn of_placed(ui: &mut Ui, panel: &AssemblyPanel, shared: &mut Shared) {
     widgets::caption(ui, "Weak inserts");
     for line in built_lines(panel) {
-        one(ui, desk, Documents::SCENARIO, &format!("gear.0.lines.{line}"), &line);
+        one(ui, shared, Documents::SCENARIO, &format!("gear.0.lines.{line}"), &line);
     }
 }
 
@@ -36,9 +36,14 @@ fn built_lines(panel: &AssemblyPanel) -> Vec<String> {
 }
 
 /// Inserts of one line under `field` of a file, such as `line.1`.
-pub(super) fn one(ui: &mut Ui, desk: &mut Desk, file: &str, field: &str, name: &str) {
+pub(super) fn one(ui: &mut Ui, shared: &mut Shared, file: &str, field: &str, name: &str) {
     let inserts = format!("{field}.inserts");
-    let there = desk.documents.document(file).is_ok_and(|document| document.has(&inserts));
+    let there = shared
+        .workbench
+        .project
+        .documents
+        .document(file)
+        .is_ok_and(|document| document.has(&inserts));
     ui.horizontal(|ui| {
         ui.label(name);
         if there {
@@ -47,7 +52,7 @@ pub(super) fn one(ui: &mut Ui, desk: &mut Desk, file: &str, field: &str, name: &
                 .on_hover_text("Take the inserts out of this line")
                 .clicked()
             {
-                alter(desk, file, |document| {
+                alter(shared, file, |document| {
                     document.remove(&inserts).map_err(|error| error.to_string())
                 });
             }
@@ -56,25 +61,25 @@ pub(super) fn one(ui: &mut Ui, desk: &mut Desk, file: &str, field: &str, name: &
             .on_hover_text("3 ft of weak rope every 60 ft over the top three quarters")
             .clicked()
         {
-            alter(desk, file, |document| assembly::add_inserts(document, field));
+            alter(shared, file, |document| assembly::add_inserts(document, field));
         }
     });
     if there {
-        editor(ui, desk, file, &inserts);
+        editor(ui, shared, file, &inserts);
     }
 }
 
 fn alter(
-    desk: &mut Desk,
+    shared: &mut Shared,
     file: &str,
     change: impl FnOnce(&mut endline_gear::Document) -> Result<(), String>,
 ) {
-    if let Err(error) = desk.documents.alter(file, change) {
-        desk.notice = Some((error, true));
+    if let Err(error) = shared.workbench.project.documents.alter(file, change) {
+        shared.fault(error);
     }
 }
 
-fn editor(ui: &mut Ui, desk: &mut Desk, file: &str, inserts: &str) {
+fn editor(ui: &mut Ui, shared: &mut Shared, file: &str, inserts: &str) {
     let rows = [
         ("Length", "length", "Length of each, such as 3 ft"),
         ("First at", "first", "From the buoy's end to the first, such as 12 ft"),
@@ -88,16 +93,21 @@ fn editor(ui: &mut Ui, desk: &mut Desk, file: &str, inserts: &str) {
     ui.indent(inserts, |ui| {
         Grid::new(("inserts", inserts)).num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
             ui.label(RichText::new("Rope").color(Theme::palette_of(ui).faint));
-            item(ui, desk, file, &format!("{inserts}.rope"), Kind::Rope, false);
+            item(ui, shared, file, &format!("{inserts}.rope"), Kind::Rope, false);
             ui.end_row();
             for (name, key, help) in rows {
                 ui.label(RichText::new(name).color(Theme::palette_of(ui).faint))
                     .on_hover_text(help);
                 let (field, width) = (format!("{inserts}.{key}"), ui.available_width() - 8.0);
-                if let Some(typed) =
-                    fields::edit(ui, &desk.documents, file, &field, width, super::said(help))
-                {
-                    desk.set(file, &field, &typed);
+                if let Some(typed) = fields::edit(
+                    ui,
+                    &shared.workbench.project.documents,
+                    file,
+                    &field,
+                    width,
+                    super::said(help),
+                ) {
+                    shared.workbench.set(file, &field, &typed);
                 }
                 ui.end_row();
             }

@@ -21,10 +21,10 @@ use endline_session::scene::{Scene, Show};
 use endline_session::statics::worker::Answer;
 use endline_session::statics::{StaticsWorker, Trial, TrialSea};
 
-use crate::gui::desk::Desk;
 use crate::gui::fields;
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
+use crate::gui::shared::Shared;
 use crate::gui::widgets::{self, problem};
 
 /// Gear from buoy to trap, at rest.
@@ -79,18 +79,18 @@ impl Panel for AssemblyPanel {
         PanelId::ASSEMBLY
     }
 
-    fn ui(&mut self, ui: &mut Ui, desk: &mut Desk) {
-        let Some(id) = self.shown(desk) else {
+    fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
+        let Some(id) = self.shown(shared) else {
             return widgets::nothing(
                 ui,
                 "No assembly here. Take one from a gear type with the New menu, or place one in the scenario.",
             );
         };
-        self.ask(desk, &id);
-        self.toolbar(ui, desk, &id);
+        self.ask(shared, &id);
+        self.toolbar(ui, shared, &id);
         ui.separator();
         if self.selecting {
-            if let Some(taken) = selector::show(ui, self, desk) {
+            if let Some(taken) = selector::show(ui, self, shared) {
                 self.choose(taken);
             }
             return;
@@ -101,20 +101,20 @@ impl Panel for AssemblyPanel {
         widgets::within(ui, at_left, |ui| {
             ScrollArea::vertical().id_salt("assembly-form").auto_shrink(false).show(ui, |ui| {
                 ui.set_width(left - 16.0);
-                self.make(ui, desk, &id);
+                self.make(ui, shared, &id);
             });
         });
         let rest = rest.with_min_x(rest.left() + 8.0);
         let foot = (if self.sweep { 220.0 } else { table::height(self) }).min(rest.height() * 0.5);
         let (above, below) = rest.split_top_bottom_at_y(rest.bottom() - foot);
         widgets::within(ui, above.with_max_y(above.bottom() - 6.0), |ui| {
-            side::show(ui, self, desk)
+            side::show(ui, self, shared)
         });
         widgets::within(ui, below, |ui| {
             ScrollArea::both()
                 .id_salt("assembly-table")
                 .auto_shrink(false)
-                .show(ui, |ui| self.foot(ui, desk, &id))
+                .show(ui, |ui| self.foot(ui, shared, &id))
         });
     }
 }
@@ -126,37 +126,51 @@ impl AssemblyPanel {
     }
 
     /// Writes the gear shown, at rest in running tide, as a 3-D model in the format of the file's ending.
-    pub fn export_model(&self, desk: &mut Desk, path: &Path) {
+    pub fn export_model(&self, shared: &mut Shared, path: &Path) {
         let rest = self.answers()[1].and_then(|answer| answer.as_ref().ok());
         let Some(rest) = rest else {
-            desk.notice = Some(("the gear of the assembly panel is not at rest yet".into(), true));
+            shared.fault("the gear of the assembly panel is not at rest yet");
             return;
         };
         let scene = Scene::of(&rest.model, &rest.frame, &GEAR_ALONE);
-        desk.notice_saved(path, export::model(path, &scene));
+        shared.notice_saved(path, export::model(path, &scene));
     }
 
     /// Below the drawings: the table of tensions, or of depths and currents.
-    fn foot(&mut self, ui: &mut Ui, desk: &Desk, id: &str) {
+    fn foot(&mut self, ui: &mut Ui, shared: &Shared, id: &str) {
         if self.sweep {
-            sweep::show(ui, self, desk, id);
+            sweep::show(ui, self, shared, id);
         } else {
-            table::show(ui, self, desk.preferences.units);
+            table::show(ui, self, shared.workbench.preferences.units);
         }
     }
 
     /// Id of the assembly shown: the one chosen, or the scenario's.
-    fn shown(&self, desk: &Desk) -> Option<String> {
-        let there = |id: &String| desk.documents.text(&path(id)).is_some();
+    fn shown(&self, shared: &Shared) -> Option<String> {
+        let there = |id: &String| shared.workbench.project.documents.text(&path(id)).is_some();
         let chosen = self.shown.clone().filter(there);
-        let of_scenario =
-            || desk.documents.field(Documents::SCENARIO, "gear.0.assembly").filter(there);
-        let first = || desk.documents.files("assemblies").next().map(|path| id_of(path).to_owned());
+        let of_scenario = || {
+            shared
+                .workbench
+                .project
+                .documents
+                .field(Documents::SCENARIO, "gear.0.assembly")
+                .filter(there)
+        };
+        let first = || {
+            shared
+                .workbench
+                .project
+                .documents
+                .files("assemblies")
+                .next()
+                .map(|path| id_of(path).to_owned())
+        };
         chosen.or_else(of_scenario).or_else(first)
     }
 
     /// Asks for statics where gear or sea have changed since.
-    fn ask(&mut self, desk: &Desk, id: &str) {
+    fn ask(&mut self, shared: &Shared, id: &str) {
         let at = |assembly: &str, current_m_s: Option<f64>| Trial {
             assembly: assembly.to_owned(),
             sea: TrialSea { depth: None, current_m_s },
@@ -167,33 +181,42 @@ impl AssemblyPanel {
             trials.extend([at(other, Some(0.0)), at(other, running)]);
         }
         self.statics.poll();
-        let wanted = (desk.documents.version(), trials);
+        let wanted = (shared.workbench.project.documents.version(), trials);
         if self.asked.as_ref() != Some(&wanted) {
-            let scenario = desk.documents.text(Documents::SCENARIO).unwrap_or_default().to_owned();
-            let (library, (host, waker)) = (desk.documents.library().clone(), desk.helpers());
+            let scenario = shared
+                .workbench
+                .project
+                .documents
+                .text(Documents::SCENARIO)
+                .unwrap_or_default()
+                .to_owned();
+            let (library, (host, waker)) =
+                (shared.workbench.project.documents.library().clone(), shared.workbench.helpers());
             self.statics.ask(&scenario, &library, wanted.1.clone(), &host, &waker);
             self.asked = Some(wanted);
         }
     }
 
     /// What the gear is made of: a gear type's attributes, or its parts.
-    fn make(&self, ui: &mut Ui, desk: &mut Desk, id: &str) {
+    fn make(&self, ui: &mut Ui, shared: &mut Shared, id: &str) {
         let file = path(id);
         if let Some(name) = fields::edit(
             ui,
-            &desk.documents,
+            &shared.workbench.project.documents,
             &file,
             "name",
             ui.available_width() - 8.0,
             said("Name shown to the user"),
         ) {
-            desk.set(&file, "name", &name);
+            shared.workbench.set(&file, "name", &name);
         }
-        match desk.documents.field(&file, "gear_type") {
-            Some(gear_type) => form::show(ui, self, desk, id, &gear_type),
-            None => parts::show(ui, desk, &file),
+        match shared.workbench.project.documents.field(&file, "gear_type") {
+            Some(gear_type) => form::show(ui, self, shared, id, &gear_type),
+            None => parts::show(ui, shared, &file),
         }
-        let problems: Vec<_> = desk
+        let problems: Vec<_> = shared
+            .workbench
+            .project
             .documents
             .problems()
             .iter()
@@ -234,11 +257,15 @@ const GEAR_ALONE: Show = Show {
 };
 
 /// Every assembly: id and name.
-fn assemblies(desk: &Desk) -> Vec<(String, String)> {
+fn assemblies(shared: &Shared) -> Vec<(String, String)> {
     let id = |path: &str| id_of(path).to_owned();
-    let named =
-        |path: &str| (id(path), desk.documents.field(path, "name").unwrap_or_else(|| id(path)));
-    desk.documents.files("assemblies").map(named).collect()
+    let named = |path: &str| {
+        (
+            id(path),
+            shared.workbench.project.documents.field(path, "name").unwrap_or_else(|| id(path)),
+        )
+    };
+    shared.workbench.project.documents.files("assemblies").map(named).collect()
 }
 
 fn said(help: &str) -> fields::Said<'_> {
@@ -246,15 +273,17 @@ fn said(help: &str) -> fields::Said<'_> {
 }
 
 /// A choice of a library item for a field of a file; with `none` it may be empty.
-fn item(ui: &mut Ui, desk: &mut Desk, file: &str, field: &str, kind: Kind, none: bool) {
-    let library = desk.documents.library();
+fn item(ui: &mut Ui, shared: &mut Shared, file: &str, field: &str, kind: Kind, none: bool) {
+    let library = shared.workbench.project.documents.library();
     let mut choices: Vec<(String, String)> =
         library.entries(kind).iter().map(|entry| (entry.id.clone(), entry.name.clone())).collect();
     if none {
         choices.insert(0, (String::new(), "none".to_owned()));
     }
     let width = ui.available_width() - 8.0;
-    if let Some(taken) = fields::choose(ui, &desk.documents, file, field, &choices, width) {
-        desk.set(file, field, &taken);
+    if let Some(taken) =
+        fields::choose(ui, &shared.workbench.project.documents, file, field, &choices, width)
+    {
+        shared.workbench.set(file, field, &taken);
     }
 }

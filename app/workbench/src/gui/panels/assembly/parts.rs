@@ -6,8 +6,8 @@ use endline_gear::{Document, Kind};
 use endline_session::edit::assembly;
 
 use super::{inserts, item, said};
-use crate::gui::desk::Desk;
 use crate::gui::fields;
+use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::{self, words};
 
@@ -15,65 +15,75 @@ use crate::gui::widgets::{self, words};
 const LONGEST: f64 = 2.0;
 
 /// Draws the tree.
-pub(super) fn show(ui: &mut Ui, desk: &mut Desk, file: &str) {
-    add(ui, desk, file);
+pub(super) fn show(ui: &mut Ui, shared: &mut Shared, file: &str) {
+    add(ui, shared, file);
     widgets::caption(ui, "Bodies");
-    for index in (0..count(desk, file, "body")).rev() {
-        body(ui, desk, file, index);
+    for index in (0..count(shared, file, "body")).rev() {
+        body(ui, shared, file, index);
     }
     widgets::caption(ui, "Lines, from the buoy down");
-    for index in (0..count(desk, file, "line")).rev() {
-        line(ui, desk, file, index);
+    for index in (0..count(shared, file, "line")).rev() {
+        line(ui, shared, file, index);
     }
-    if count(desk, file, "link") > 0 {
+    if count(shared, file, "link") > 0 {
         widgets::caption(ui, "Weak links");
     }
-    for index in 0..count(desk, file, "link") {
-        link(ui, desk, file, index);
+    for index in 0..count(shared, file, "link") {
+        link(ui, shared, file, index);
     }
-    if count(desk, file, "joint") > 0 {
+    if count(shared, file, "joint") > 0 {
         widgets::caption(ui, "Splices");
     }
-    for index in 0..count(desk, file, "joint") {
-        joint(ui, desk, file, index);
+    for index in 0..count(shared, file, "joint") {
+        joint(ui, shared, file, index);
     }
 }
 
 /// How many tables of a list there are.
-fn count(desk: &Desk, file: &str, list: &str) -> usize {
+fn count(shared: &Shared, file: &str, list: &str) -> usize {
     (0..)
-        .take_while(|index| desk.documents.field(file, &format!("{list}.{index}.id")).is_some())
+        .take_while(|index| {
+            shared.workbench.project.documents.field(file, &format!("{list}.{index}.id")).is_some()
+        })
         .count()
 }
 
 /// Ids of a list's tables.
-fn ids(desk: &Desk, file: &str, list: &str) -> Vec<String> {
-    (0..).map_while(|index| desk.documents.field(file, &format!("{list}.{index}.id"))).collect()
+fn ids(shared: &Shared, file: &str, list: &str) -> Vec<String> {
+    (0..)
+        .map_while(|index| {
+            shared.workbench.project.documents.field(file, &format!("{list}.{index}.id"))
+        })
+        .collect()
 }
 
-fn change(desk: &mut Desk, file: &str, change: impl FnOnce(&mut Document) -> Result<(), String>) {
-    if let Err(error) = desk.documents.alter(file, change) {
-        desk.notice = Some((error, true));
+fn change(
+    shared: &mut Shared,
+    file: &str,
+    change: impl FnOnce(&mut Document) -> Result<(), String>,
+) {
+    if let Err(error) = shared.workbench.project.documents.alter(file, change) {
+        shared.fault(error);
     }
 }
 
 /// The menu of what can be added.
-fn add(ui: &mut Ui, desk: &mut Desk, file: &str) {
+fn add(ui: &mut Ui, shared: &mut Shared, file: &str) {
     ui.menu_button("Add ⏷", |ui| {
         for (word, kind, height) in
             [("trap", Kind::Trap, "0"), ("buoy", Kind::Buoy, "1"), ("anchor", Kind::Anchor, "0")]
         {
             if ui.button(words::title(word)).clicked() {
-                let item = first_item(desk, kind);
-                change(desk, file, |document| assembly::add_body(document, word, &item, height));
+                let item = first_item(shared, kind);
+                change(shared, file, |document| assembly::add_body(document, word, &item, height));
                 ui.close();
             }
         }
-        let bodies = ids(desk, file, "body");
+        let bodies = ids(shared, file, "body");
         let two = bodies.first().zip(bodies.last()).filter(|(first, last)| first != last);
         if ui.add_enabled(two.is_some(), egui::Button::new("Line")).clicked() {
             if let Some((from, to)) = two {
-                change(desk, file, |document| assembly::add_line(document, from, to));
+                change(shared, file, |document| assembly::add_line(document, from, to));
             }
             ui.close();
         }
@@ -81,8 +91,8 @@ fn add(ui: &mut Ui, desk: &mut Desk, file: &str) {
 }
 
 /// Id of the library's first item of a kind.
-fn first_item(desk: &Desk, kind: Kind) -> String {
-    let ids = desk.documents.library().ids(kind);
+fn first_item(shared: &Shared, kind: Kind) -> String {
+    let ids = shared.workbench.project.documents.library().ids(kind);
     ids.first().map(|id| (*id).to_owned()).unwrap_or_default()
 }
 
@@ -116,25 +126,27 @@ fn head(ui: &mut Ui, part: Part<'_>, title: &str, show: impl FnOnce(&mut Ui)) ->
     out
 }
 
-fn take_out(desk: &mut Desk, part: Part<'_>) {
-    change(desk, part.file, |document| {
+fn take_out(shared: &mut Shared, part: Part<'_>) {
+    change(shared, part.file, |document| {
         document.remove_table(part.list, part.index).map_err(|error| error.to_string())
     });
 }
 
-fn row(ui: &mut Ui, desk: &mut Desk, file: &str, name: &str, field: &str, help: &str) {
+fn row(ui: &mut Ui, shared: &mut Shared, file: &str, name: &str, field: &str, help: &str) {
     ui.label(RichText::new(name).color(Theme::palette_of(ui).faint)).on_hover_text(help);
     let width = ui.available_width() - 8.0;
-    if let Some(typed) = fields::edit(ui, &desk.documents, file, field, width, said(help)) {
-        desk.set(file, field, &typed);
+    if let Some(typed) =
+        fields::edit(ui, &shared.workbench.project.documents, file, field, width, said(help))
+    {
+        shared.workbench.set(file, field, &typed);
     }
     ui.end_row();
 }
 
-fn body(ui: &mut Ui, desk: &mut Desk, file: &str, index: usize) {
+fn body(ui: &mut Ui, shared: &mut Shared, file: &str, index: usize) {
     let at = format!("body.{index}");
     let (id, word) =
-        (text(desk, file, &format!("{at}.id")), text(desk, file, &format!("{at}.kind")));
+        (text(shared, file, &format!("{at}.id")), text(shared, file, &format!("{at}.kind")));
     let kind = match word.as_str() {
         "buoy" => Kind::Buoy,
         "anchor" => Kind::Anchor,
@@ -144,11 +156,11 @@ fn body(ui: &mut Ui, desk: &mut Desk, file: &str, index: usize) {
     let out = head(ui, part, &format!("{id} ({word})"), |ui| {
         Grid::new((&at, "grid")).num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
             ui.label(RichText::new("Item").color(Theme::palette_of(ui).faint));
-            item(ui, desk, file, &format!("{at}.item"), kind, false);
+            item(ui, shared, file, &format!("{at}.item"), kind, false);
             ui.end_row();
             row(
                 ui,
-                desk,
+                shared,
                 file,
                 "Along",
                 &format!("{at}.position.0"),
@@ -156,7 +168,7 @@ fn body(ui: &mut Ui, desk: &mut Desk, file: &str, index: usize) {
             );
             row(
                 ui,
-                desk,
+                shared,
                 file,
                 "Height",
                 &format!("{at}.height"),
@@ -165,19 +177,19 @@ fn body(ui: &mut Ui, desk: &mut Desk, file: &str, index: usize) {
         });
     });
     if out {
-        take_out(desk, part);
+        take_out(shared, part);
     }
 }
 
-fn joint(ui: &mut Ui, desk: &mut Desk, file: &str, index: usize) {
+fn joint(ui: &mut Ui, shared: &mut Shared, file: &str, index: usize) {
     let at = format!("joint.{index}");
-    let id = text(desk, file, &format!("{at}.id"));
+    let id = text(shared, file, &format!("{at}.id"));
     let part = Part { file, list: "joint", index };
     let out = head(ui, part, &id, |ui| {
         Grid::new((&at, "grid")).num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
             row(
                 ui,
-                desk,
+                shared,
                 file,
                 "Along",
                 &format!("{at}.position.0"),
@@ -185,7 +197,7 @@ fn joint(ui: &mut Ui, desk: &mut Desk, file: &str, index: usize) {
             );
             row(
                 ui,
-                desk,
+                shared,
                 file,
                 "Height",
                 &format!("{at}.height"),
@@ -194,71 +206,71 @@ fn joint(ui: &mut Ui, desk: &mut Desk, file: &str, index: usize) {
         });
     });
     if out {
-        take_out(desk, part);
+        take_out(shared, part);
     }
 }
 
-fn link(ui: &mut Ui, desk: &mut Desk, file: &str, index: usize) {
+fn link(ui: &mut Ui, shared: &mut Shared, file: &str, index: usize) {
     let at = format!("link.{index}");
-    let id = text(desk, file, &format!("{at}.id"));
+    let id = text(shared, file, &format!("{at}.id"));
     let title = format!(
         "{id} at {} of {}",
-        text(desk, file, &format!("{at}.end")),
-        text(desk, file, &format!("{at}.line"))
+        text(shared, file, &format!("{at}.end")),
+        text(shared, file, &format!("{at}.line"))
     );
     let part = Part { file, list: "link", index };
     let out = head(ui, part, &title, |ui| {
-        item(ui, desk, file, &format!("{at}.item"), Kind::WeakLink, false);
+        item(ui, shared, file, &format!("{at}.item"), Kind::WeakLink, false);
     });
     if out {
-        take_out(desk, part);
+        take_out(shared, part);
     }
 }
 
-fn text(desk: &Desk, file: &str, field: &str) -> String {
-    desk.documents.field(file, field).unwrap_or_default()
+fn text(shared: &Shared, file: &str, field: &str) -> String {
+    shared.workbench.project.documents.field(file, field).unwrap_or_default()
 }
 
-fn line(ui: &mut Ui, desk: &mut Desk, file: &str, index: usize) {
+fn line(ui: &mut Ui, shared: &mut Shared, file: &str, index: usize) {
     let at = format!("line.{index}");
-    let id = text(desk, file, &format!("{at}.id"));
+    let id = text(shared, file, &format!("{at}.id"));
     let title = format!(
         "{id}: {} of {}",
-        text(desk, file, &format!("{at}.length")),
-        text(desk, file, &format!("{at}.rope"))
+        text(shared, file, &format!("{at}.length")),
+        text(shared, file, &format!("{at}.rope"))
     );
     let part = Part { file, list: "line", index };
     let out = head(ui, part, &title, |ui| {
-        length_slider(ui, desk, file, &at);
+        length_slider(ui, shared, file, &at);
         Grid::new((&at, "grid")).num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
             ui.label(RichText::new("Rope").color(Theme::palette_of(ui).faint));
-            item(ui, desk, file, &format!("{at}.rope"), Kind::Rope, false);
+            item(ui, shared, file, &format!("{at}.rope"), Kind::Rope, false);
             ui.end_row();
             row(
                 ui,
-                desk,
+                shared,
                 file,
                 "Length",
                 &format!("{at}.length"),
                 "Unstretched length, such as 24 m or 13 fathom",
             );
-            row(ui, desk, file, "From", &format!("{at}.from"), "The part at its lower end");
-            row(ui, desk, file, "To", &format!("{at}.to"), "The part at its upper end");
+            row(ui, shared, file, "From", &format!("{at}.from"), "The part at its lower end");
+            row(ui, shared, file, "To", &format!("{at}.to"), "The part at its upper end");
         });
-        inserts::one(ui, desk, file, &at, "Weak inserts");
+        inserts::one(ui, shared, file, &at, "Weak inserts");
         ui.horizontal(|ui| {
             if ui
                 .small_button("Split")
                 .on_hover_text("Two lines of half the length with a splice between, to give them ropes of their own")
                 .clicked()
             {
-                change(desk, file, |document| assembly::split_line(document, index));
+                change(shared, file, |document| assembly::split_line(document, index));
             }
             let ends = [("top", "to"), ("foot", "from")];
             for (word, end) in ends {
                 if ui.small_button(format!("Link at the {word}")).on_hover_text("Put a weak link here").clicked() {
-                    let item = first_item(desk, Kind::WeakLink);
-                    change(desk, file, |document| {
+                    let item = first_item(shared, Kind::WeakLink);
+                    change(shared, file, |document| {
                         assembly::add_link(document, &id, end, ("item", &item))
                     });
                 }
@@ -266,18 +278,18 @@ fn line(ui: &mut Ui, desk: &mut Desk, file: &str, index: usize) {
         });
     });
     if out {
-        take_out(desk, part);
+        take_out(shared, part);
     }
 }
 
 /// Length under the hand; the gear follows while it moves.
-fn length_slider(ui: &mut Ui, desk: &mut Desk, file: &str, at: &str) {
+fn length_slider(ui: &mut Ui, shared: &mut Shared, file: &str, at: &str) {
     let field = format!("{at}.length");
-    let Ok(length_m) = parse(&text(desk, file, &field), Quantity::Length) else { return };
+    let Ok(length_m) = parse(&text(shared, file, &field), Quantity::Length) else { return };
     // The end of the scale stays while the slider is held.
     let scale = ui.make_persistent_id(("longest", file, at));
     let longest_m = ui.data(|data| data.get_temp::<f64>(scale)).unwrap_or(length_m * LONGEST);
-    let units = desk.preferences.units;
+    let units = shared.workbench.preferences.units;
     let mut shown = units.of_metres(length_m);
     ui.spacing_mut().slider_width = 130.0;
     let slider =
@@ -290,16 +302,16 @@ fn length_slider(ui: &mut Ui, desk: &mut Desk, file: &str, at: &str) {
         ui.data_mut(|data| data.insert_temp(scale, longest_m));
     }
     if response.changed()
-        && let Err(error) = desk.documents.set_held(
+        && let Err(error) = shared.workbench.project.documents.set_held(
             file,
             &field,
             &format!("{} {}", super::written(shown), units.length_symbol()),
         )
     {
-        desk.notice = Some((error, true));
+        shared.fault(error);
     }
     if response.drag_stopped() || response.lost_focus() {
         ui.data_mut(|data| data.remove_temp::<f64>(scale));
-        desk.documents.let_go();
+        shared.workbench.project.documents.let_go();
     }
 }

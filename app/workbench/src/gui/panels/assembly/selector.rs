@@ -10,17 +10,17 @@ use glam::DVec2;
 
 use super::AssemblyPanel;
 use super::side::A;
-use crate::gui::desk::Desk;
+use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 
 /// Size of a picture.
 const CARD: egui::Vec2 = vec2(168.0, 112.0);
 
 /// Draws all assemblies as cards; answers the one clicked.
-pub(super) fn show(ui: &mut Ui, panel: &mut AssemblyPanel, desk: &Desk) -> Option<String> {
-    let all = super::assemblies(desk);
-    ask(panel, desk, &all);
-    let chosen = panel.shown(desk);
+pub(super) fn show(ui: &mut Ui, panel: &mut AssemblyPanel, shared: &Shared) -> Option<String> {
+    let all = super::assemblies(shared);
+    ask(panel, shared, &all);
+    let chosen = panel.shown(shared);
     let mut taken = None;
     ScrollArea::vertical().id_salt("selector").auto_shrink(false).show(ui, |ui| {
         ui.horizontal_wrapped(|ui| {
@@ -36,9 +36,9 @@ pub(super) fn show(ui: &mut Ui, panel: &mut AssemblyPanel, desk: &Desk) -> Optio
 }
 
 /// Asks for every assembly at rest in the scenario's sea, where texts have changed since.
-fn ask(panel: &mut AssemblyPanel, desk: &Desk, all: &[(String, String)]) {
+fn ask(panel: &mut AssemblyPanel, shared: &Shared, all: &[(String, String)]) {
     panel.pictured.poll();
-    let version = desk.documents.version();
+    let version = shared.workbench.project.documents.version();
     if panel.pictured_for == Some(version) {
         return;
     }
@@ -47,8 +47,10 @@ fn ask(panel: &mut AssemblyPanel, desk: &Desk, all: &[(String, String)]) {
         sea: TrialSea { depth: None, current_m_s: None },
     };
     let trials = all.iter().map(trial).collect();
-    let scenario = desk.documents.text(Documents::SCENARIO).unwrap_or_default().to_owned();
-    let (library, (host, waker)) = (desk.documents.library().clone(), desk.helpers());
+    let scenario =
+        shared.workbench.project.documents.text(Documents::SCENARIO).unwrap_or_default().to_owned();
+    let (library, (host, waker)) =
+        (shared.workbench.project.documents.library().clone(), shared.workbench.helpers());
     panel.pictured.ask(&scenario, &library, trials, &host, &waker);
     panel.pictured_for = Some(version);
 }

@@ -13,7 +13,7 @@ use endline_sim::model::{Body, BodyRole, Rope};
 use glam::{DVec2, DVec3};
 
 use super::{AssemblyPanel, Drawn, surface_m_s};
-use crate::gui::desk::Desk;
+use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 
 /// Width drawn over that of the gear: labels stand to the right of lines.
@@ -50,9 +50,9 @@ impl Gear {
 }
 
 /// Draws both tides.
-pub(super) fn show(ui: &mut Ui, panel: &AssemblyPanel, desk: &Desk) {
+pub(super) fn show(ui: &mut Ui, panel: &AssemblyPanel, shared: &Shared) {
     let drawn = panel.drawn();
-    let flat = Flat { axis: axis(&drawn), units: desk.preferences.units };
+    let flat = Flat { axis: axis(&drawn), units: shared.workbench.preferences.units };
     let size = vec2((ui.available_width() - 8.0) / 2.0, ui.available_height());
     let bounds = bounds(&drawn, &flat, f64::from((size.x - 60.0) / (size.y - 70.0).max(1.0)));
     ui.horizontal_top(|ui| {

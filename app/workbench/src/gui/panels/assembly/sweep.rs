@@ -9,7 +9,7 @@ use endline_sim::model::BodyRole;
 
 use super::side::top_m;
 use super::{Answer, AssemblyPanel};
-use crate::gui::desk::Desk;
+use crate::gui::shared::Shared;
 use crate::gui::theme::{Theme, primary};
 
 /// Depths of water [fathom].
@@ -18,9 +18,9 @@ const DEPTHS: [u32; 6] = [5, 10, 20, 40, 60, 100];
 const CURRENTS_KN: [f64; 5] = [0.0, 0.5, 1.0, 1.5, 2.0];
 
 /// Draws the table.
-pub(super) fn show(ui: &mut Ui, panel: &mut AssemblyPanel, desk: &Desk, id: &str) {
+pub(super) fn show(ui: &mut Ui, panel: &mut AssemblyPanel, shared: &Shared, id: &str) {
     panel.swept.poll();
-    let wanted = (desk.documents.version(), id.to_owned());
+    let wanted = (shared.workbench.project.documents.version(), id.to_owned());
     let (done, all) = panel.swept.progress();
     ui.horizontal(|ui| {
         let fresh = panel.swept_for.as_ref() == Some(&wanted);
@@ -40,7 +40,7 @@ pub(super) fn show(ui: &mut Ui, panel: &mut AssemblyPanel, desk: &Desk, id: &str
                 .on_hover_text("Settle the gear in every depth and current")
                 .clicked()
             {
-                start(panel, desk, id);
+                start(panel, shared, id);
             }
             if !fresh && done > 0 {
                 ui.label(
@@ -55,11 +55,11 @@ pub(super) fn show(ui: &mut Ui, panel: &mut AssemblyPanel, desk: &Desk, id: &str
         );
     });
     if all > 0 {
-        table(ui, panel, desk.preferences.units);
+        table(ui, panel, shared.workbench.preferences.units);
     }
 }
 
-fn start(panel: &mut AssemblyPanel, desk: &Desk, id: &str) {
+fn start(panel: &mut AssemblyPanel, shared: &Shared, id: &str) {
     let sea = |fathom: u32, knots: f64| TrialSea {
         depth: Some(format!("{fathom} fathom")),
         current_m_s: Some(Units::Noaa.to_m_s(knots)),
@@ -70,10 +70,12 @@ fn start(panel: &mut AssemblyPanel, desk: &Desk, id: &str) {
         .iter()
         .flat_map(|depth| CURRENTS_KN.iter().map(|current| trial(*depth, *current)))
         .collect();
-    let scenario = desk.documents.text(Documents::SCENARIO).unwrap_or_default().to_owned();
-    let (library, (host, waker)) = (desk.documents.library().clone(), desk.helpers());
+    let scenario =
+        shared.workbench.project.documents.text(Documents::SCENARIO).unwrap_or_default().to_owned();
+    let (library, (host, waker)) =
+        (shared.workbench.project.documents.library().clone(), shared.workbench.helpers());
     panel.swept.ask(&scenario, &library, trials, &host, &waker);
-    panel.swept_for = Some((desk.documents.version(), id.to_owned()));
+    panel.swept_for = Some((shared.workbench.project.documents.version(), id.to_owned()));
 }
 
 fn table(ui: &mut Ui, panel: &AssemblyPanel, units: Units) {

@@ -1,12 +1,13 @@
 //! Which gear is shown, which it is compared with, and the tide it stands in.
 
+use crate::gui::command::action::WindowAction;
+use crate::gui::widgets::command::command;
 use egui::{RichText, Slider, SliderClamping, Ui};
 use endline_session::edit::Documents;
 use endline_session::edit::library_table::id_of;
 
 use super::{AssemblyPanel, assemblies, path, side, surface_m_s};
-use crate::gui::desk::{Desk, Order};
-use crate::gui::order::Dialog;
+use crate::gui::shared::Shared;
 use crate::gui::theme::{Theme, primary};
 
 /// Fastest current of the slider [m/s]: 2 knots.
@@ -14,32 +15,33 @@ const FASTEST_M_S: f64 = 1.03;
 
 impl AssemblyPanel {
     /// Which gear is shown, and what can be done with it.
-    pub(super) fn toolbar(&mut self, ui: &mut Ui, desk: &mut Desk, id: &str) {
+    pub(super) fn toolbar(&mut self, ui: &mut Ui, shared: &mut Shared, id: &str) {
         ui.horizontal_wrapped(|ui| {
-            self.choose_gear(ui, desk, id);
-            ui.menu_button("New ⏷", |ui| self.new_gear(ui, desk));
+            self.choose_gear(ui, shared, id);
+            ui.menu_button("New ⏷", |ui| self.new_gear(ui, shared));
             if ui.button("Duplicate").on_hover_text("Copy A to a file of its own").clicked() {
-                match desk.documents.duplicate(&path(id)) {
+                match shared.workbench.project.documents.duplicate(&path(id)) {
                     Ok(fresh) => self.shown = Some(id_of(&fresh).to_owned()),
-                    Err(error) => desk.notice = Some((error, true)),
+                    Err(error) => shared.fault(error),
                 }
             }
-            let placed = desk.documents.field(Documents::SCENARIO, "gear.0.assembly");
+            let placed =
+                shared.workbench.project.documents.field(Documents::SCENARIO, "gear.0.assembly");
             let other = placed.is_some_and(|placed| placed != id);
             if other && primary(ui, true, "Use in scenario").clicked() {
-                desk.set(Documents::SCENARIO, "gear.0.assembly", id);
+                shared.workbench.set(Documents::SCENARIO, "gear.0.assembly", id);
             }
-            ui.menu_button("Model ⏷", |ui| model_menu(ui, desk));
+            ui.menu_button("Model ⏷", |ui| model_menu(ui, shared));
             ui.separator();
             ui.toggle_value(&mut self.sweep, "Depths and tides")
                 .on_hover_text("Tension and float height by depth and current");
         });
-        self.tide(ui, desk);
+        self.tide(ui, shared);
     }
 
     /// The gear shown, A, and the gear it is compared with, B.
-    fn choose_gear(&mut self, ui: &mut Ui, desk: &Desk, id: &str) {
-        let choices = assemblies(desk);
+    fn choose_gear(&mut self, ui: &mut Ui, shared: &Shared, id: &str) {
+        let choices = assemblies(shared);
         ui.label(RichText::new("A").strong().color(side::A.color(ui)));
         if let Some(Some(taken)) = pick(ui, "gear-a", &choices, Some(id), None) {
             self.shown = Some(taken);
@@ -56,8 +58,8 @@ impl AssemblyPanel {
     }
 
     /// The slider of the running tide.
-    fn tide(&mut self, ui: &mut Ui, desk: &Desk) {
-        let units = desk.preferences.units;
+    fn tide(&mut self, ui: &mut Ui, shared: &Shared) {
+        let units = shared.workbench.preferences.units;
         let of_scenario_m_s =
             self.answers()[1].and_then(|answer| answer.as_ref().ok()).map(|rest| surface_m_s(rest));
         ui.horizontal(|ui| {
@@ -86,18 +88,22 @@ impl AssemblyPanel {
     }
 
     /// Gear types as starting points.
-    fn new_gear(&mut self, ui: &mut Ui, desk: &mut Desk) {
-        for gear in desk.gear_types() {
+    fn new_gear(&mut self, ui: &mut Ui, shared: &mut Shared) {
+        for gear in shared.workbench.gear_types() {
             let descriptor = gear.descriptor();
             if ui.button(descriptor.name.as_ref()).on_hover_text(descriptor.id.as_ref()).clicked() {
                 let stem = descriptor.id.rsplit('.').next().unwrap_or("gear").to_owned();
-                let fresh = desk.documents.fresh_path("assemblies", &format!("my-{stem}"));
+                let fresh = shared
+                    .workbench
+                    .project
+                    .documents
+                    .fresh_path("assemblies", &format!("my-{stem}"));
                 let text = format!(
                     "format = 1\nkind = \"assembly\"\nname = \"My {}\"\nnotes = \"\"\n\ngear_type = \"{}\"\n\n[attributes]\n",
                     descriptor.name.to_lowercase(),
                     descriptor.id
                 );
-                desk.documents.put_all(vec![(fresh.clone(), text)]);
+                shared.workbench.project.documents.put_all(vec![(fresh.clone(), text)]);
                 self.shown = Some(id_of(&fresh).to_owned());
                 ui.close();
             }
@@ -105,11 +111,10 @@ impl AssemblyPanel {
     }
 }
 
-fn model_menu(ui: &mut Ui, desk: &mut Desk) {
-    for (text, ending) in [("Save as STL …", "stl"), ("Save as glTF …", "glb")] {
-        let help = "A at rest in running tide, in metres, for CAD and pictures";
-        if ui.button(text).on_hover_text(help).clicked() {
-            desk.orders.push(Order::Ask(Dialog::ExportModel(ending)));
+fn model_menu(ui: &mut Ui, shared: &mut Shared) {
+    for (text, id) in [("Save as STL …", "panel.model-stl"), ("Save as glTF …", "panel.model-gltf")]
+    {
+        if command(ui, shared, text, WindowAction::Ask(id)).clicked() {
             ui.close();
         }
     }

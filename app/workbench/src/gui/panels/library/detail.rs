@@ -1,5 +1,7 @@
 //! The chosen entry beside its table: what it is, where it is used, how it differs from another.
 
+use crate::gui::command::action::PanelAction;
+use endline_session::command::EditAction;
 use std::sync::Arc;
 
 use egui::{Grid, RichText, ScrollArea, Ui};
@@ -9,9 +11,9 @@ use endline_session::edit::Documents;
 use endline_session::edit::library_table::id_of;
 
 use super::LibraryPanel;
-use crate::gui::desk::{Desk, Order};
 use crate::gui::fields;
 use crate::gui::files;
+use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::{self, words};
 
@@ -62,22 +64,28 @@ impl Compared {
 }
 
 /// Draws what there is to say of an entry.
-pub(super) fn show(ui: &mut Ui, panel: &mut LibraryPanel, desk: &mut Desk, path: &str) {
+pub(super) fn show(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, path: &str) {
     ScrollArea::vertical().id_salt("entry").auto_shrink(false).show(ui, |ui| {
         let kind = panel.kind;
         if super::picture::has(kind) {
-            super::picture::show(ui, &desk.documents, kind, path, egui::vec2(190.0, 120.0))
-                .on_hover_text("From its figures; all to one scale");
+            super::picture::show(
+                ui,
+                &shared.workbench.project.documents,
+                kind,
+                path,
+                egui::vec2(190.0, 120.0),
+            )
+            .on_hover_text("From its figures; all to one scale");
         }
-        naming(ui, panel, desk, path);
-        used_in(ui, panel, desk, path);
-        compare(ui, panel, desk, path);
-        super::figures::show(ui, desk, kind, path);
+        naming(ui, panel, shared, path);
+        used_in(ui, panel, shared, path);
+        compare(ui, panel, shared, path);
+        super::figures::show(ui, shared, kind, path);
     });
 }
 
 /// Name, remarks, source and confidence, for editing.
-fn naming(ui: &mut Ui, panel: &mut LibraryPanel, desk: &mut Desk, path: &str) {
+fn naming(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, path: &str) {
     let faint = Theme::palette_of(ui).faint;
     ui.horizontal(|ui| {
         ui.label(RichText::new(path).monospace().size(11.5).color(faint));
@@ -101,20 +109,25 @@ fn naming(ui: &mut Ui, panel: &mut LibraryPanel, desk: &mut Desk, path: &str) {
         for (name, key, help) in rows {
             ui.label(RichText::new(name).color(faint));
             let width = ui.available_width() - 8.0;
-            if let Some(typed) =
-                fields::edit(ui, &desk.documents, path, key, width, fields::Said { hint: "", help })
-            {
-                desk.set(path, key, &typed);
+            if let Some(typed) = fields::edit(
+                ui,
+                &shared.workbench.project.documents,
+                path,
+                key,
+                width,
+                fields::Said { hint: "", help },
+            ) {
+                shared.workbench.set(path, key, &typed);
             }
             ui.end_row();
         }
     });
 }
 
-fn used_in(ui: &mut Ui, panel: &mut LibraryPanel, desk: &mut Desk, path: &str) {
-    let version = desk.documents.version();
+fn used_in(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, path: &str) {
+    let version = shared.workbench.project.documents.version();
     if panel.uses.path != path || panel.uses.version != version {
-        panel.uses = Uses { version, ..uses(&desk.documents, path) };
+        panel.uses = Uses { version, ..uses(&shared.workbench.project.documents, path) };
     }
     widgets::caption(ui, "Used in");
     let uses = panel.uses.clone();
@@ -124,7 +137,7 @@ fn used_in(ui: &mut Ui, panel: &mut LibraryPanel, desk: &mut Desk, path: &str) {
     ui.horizontal_wrapped(|ui| {
         for assembly in &uses.assemblies {
             if ui.link(assembly).on_hover_text("Show this assembly").clicked() {
-                desk.orders.push(Order::Assembly(id_of(assembly).to_owned()));
+                shared.give(PanelAction::Assembly(id_of(assembly).to_owned()));
             }
         }
         for scenario in &uses.scenarios {
@@ -134,7 +147,7 @@ fn used_in(ui: &mut Ui, panel: &mut LibraryPanel, desk: &mut Desk, path: &str) {
                 .on_hover_text("Open this scenario")
                 .clicked()
             {
-                desk.orders.push(Order::Open(scenario.clone()));
+                shared.give(EditAction::OpenScenario(scenario.clone()));
             }
         }
     });
@@ -159,15 +172,17 @@ fn uses(documents: &Documents, path: &str) -> Uses {
     }
 }
 
-fn compare(ui: &mut Ui, panel: &mut LibraryPanel, desk: &mut Desk, path: &str) {
+fn compare(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, path: &str) {
     widgets::caption(ui, "Compared with");
     let kind = panel.kind;
-    choose(ui, panel, desk, path, kind);
+    choose(ui, panel, shared, path, kind);
     let other = match &panel.against {
-        Against::Saved => desk.documents.saved_text(path),
-        Against::Entry(other) => desk.documents.text(other),
+        Against::Saved => shared.workbench.project.documents.saved_text(path),
+        Against::Entry(other) => shared.workbench.project.documents.text(other),
     };
-    let rows = other.and_then(|other| panel.compared.rows(&desk.documents, path, other, kind));
+    let rows = other.and_then(|other| {
+        panel.compared.rows(&shared.workbench.project.documents, path, other, kind)
+    });
     let Some(rows) = rows else {
         ui.label(RichText::new("no file yet: it is new").color(Theme::palette_of(ui).faint));
         return;
@@ -192,8 +207,10 @@ fn compare(ui: &mut Ui, panel: &mut LibraryPanel, desk: &mut Desk, path: &str) {
     });
 }
 
-fn choose(ui: &mut Ui, panel: &mut LibraryPanel, desk: &mut Desk, path: &str, kind: Kind) {
-    let name = |path: &str| desk.documents.field(path, "name").unwrap_or_else(|| path.to_owned());
+fn choose(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared, path: &str, kind: Kind) {
+    let name = |path: &str| {
+        shared.workbench.project.documents.field(path, "name").unwrap_or_else(|| path.to_owned())
+    };
     let shown = match &panel.against {
         Against::Saved => "its file on disk".to_owned(),
         Against::Entry(other) => name(other),
@@ -203,7 +220,13 @@ fn choose(ui: &mut Ui, panel: &mut LibraryPanel, desk: &mut Desk, path: &str, ki
         ui,
         |ui| {
             ui.selectable_value(&mut panel.against, Against::Saved, "its file on disk");
-            for other in desk.documents.files(kind.folder()).filter(|other| *other != path) {
+            for other in shared
+                .workbench
+                .project
+                .documents
+                .files(kind.folder())
+                .filter(|other| *other != path)
+            {
                 ui.selectable_value(
                     &mut panel.against,
                     Against::Entry(other.to_owned()),

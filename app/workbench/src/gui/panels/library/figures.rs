@@ -4,15 +4,15 @@ use egui::{Grid, RichText, Ui};
 use endline_gear::{Kind, units};
 use endline_session::edit::library_table::id_of;
 
-use crate::gui::desk::Desk;
+use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::{self, words};
 
 /// Draws the list.
-pub(super) fn show(ui: &mut Ui, desk: &Desk, kind: Kind, path: &str) {
+pub(super) fn show(ui: &mut Ui, shared: &Shared, kind: Kind, path: &str) {
     let palette = Theme::palette_of(ui);
     widgets::caption(ui, "Figures, with confidence and source");
-    let Some(entry) = desk.documents.library().entry(kind, id_of(path)) else {
+    let Some(entry) = shared.workbench.project.documents.library().entry(kind, id_of(path)) else {
         ui.label(RichText::new("not readable yet; see what is red").color(palette.faint));
         return;
     };

@@ -7,19 +7,21 @@ mod picture;
 mod rows;
 mod table;
 
-use std::path::Path;
+use crate::gui::command::action::{PanelAction, WindowAction};
+use crate::gui::widgets::command::command;
+use endline_session::command::{EditAction, ExportAction};
+use std::path::PathBuf;
 use std::sync::Arc;
 
-use egui::{Align, Button, Layout, RichText, ScrollArea, TextEdit, Ui};
+use egui::{Align, Layout, RichText, ScrollArea, TextEdit, Ui};
 use endline_gear::{Diagnostic, Kind};
 use endline_session::edit::library_table;
 
 pub use detail::{Against, Uses};
 
-use crate::gui::desk::{Desk, Order};
-use crate::gui::order::Dialog;
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
+use crate::gui::shared::Shared;
 use crate::gui::tables::KINDS;
 use crate::gui::theme::primary;
 use crate::gui::widgets::{self, problem};
@@ -63,20 +65,22 @@ impl Panel for LibraryPanel {
         PanelId::LIBRARY
     }
 
-    fn ui(&mut self, ui: &mut Ui, desk: &mut Desk) {
-        self.paste(ui, desk);
-        self.toolbar(ui, desk);
+    fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
+        self.paste(ui, shared);
+        self.toolbar(ui, shared);
         ui.add_space(2.0);
-        let problems = self.problems(desk);
+        let problems = self.problems(shared);
         let mut whole = ui.available_rect_before_wrap();
         let folder = self.kind.folder();
         let chosen = self.chosen.clone();
-        let shown = |path: &String| path.starts_with(folder) && desk.documents.text(path).is_some();
+        let shown = |path: &String| {
+            path.starts_with(folder) && shared.workbench.project.documents.text(path).is_some()
+        };
         if let Some(path) = chosen.filter(shown) {
             let width = (whole.width() * 0.3).clamp(220.0, 380.0);
             let (table, entry) = whole.split_left_right_at_x(whole.right() - width);
             widgets::within(ui, entry.with_min_x(entry.left() + 10.0), |ui| {
-                detail::show(ui, self, desk, &path)
+                detail::show(ui, self, shared, &path)
             });
             whole = table;
         }
@@ -84,7 +88,7 @@ impl Panel for LibraryPanel {
         let strip = if problems.is_empty() { 0.0 } else { 12.0 + 44.0 * rows };
         let (above, below) = whole.split_top_bottom_at_y(whole.bottom() - strip);
         widgets::within(ui, above, |ui| {
-            ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| table::show(ui, self, desk))
+            ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| table::show(ui, self, shared))
         });
         if !problems.is_empty() {
             widgets::within(ui, below, |ui| reasons(ui, &problems));
@@ -112,7 +116,7 @@ impl LibraryPanel {
         }
     }
 
-    fn toolbar(&mut self, ui: &mut Ui, desk: &mut Desk) {
+    fn toolbar(&mut self, ui: &mut Ui, shared: &mut Shared) {
         ui.horizontal(|ui| {
             for (kind, title) in KINDS {
                 if ui.selectable_label(self.kind == kind, title).clicked() {
@@ -121,102 +125,62 @@ impl LibraryPanel {
             }
             ui.separator();
             ui.add(TextEdit::singleline(&mut self.search).hint_text("Search").desired_width(150.0));
-            ui.with_layout(Layout::right_to_left(Align::Center), |ui| self.buttons(ui, desk));
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| self.buttons(ui, shared));
         });
     }
 
     /// What is done with the files, from the right.
-    fn buttons(&self, ui: &mut Ui, desk: &mut Desk) {
-        let unsaved = desk.documents.unsaved().len();
+    fn buttons(&self, ui: &mut Ui, shared: &mut Shared) {
+        let unsaved = shared.workbench.project.documents.unsaved().len();
         if primary(ui, unsaved > 0, "Save")
             .on_hover_text("Ctrl+S: write every changed file; comments stay")
             .clicked()
         {
-            desk.orders.push(Order::Save);
+            shared.give(EditAction::Save);
         }
-        let (undo, redo) = desk.documents.can_undo_redo();
-        if ui.add_enabled(redo, Button::new("Redo")).on_hover_text("Ctrl+Shift+Z").clicked() {
-            desk.orders.push(Order::Redo);
-        }
-        if ui.add_enabled(undo, Button::new("Undo")).on_hover_text("Ctrl+Z").clicked() {
-            desk.orders.push(Order::Undo);
-        }
-        ui.menu_button("Table ⏷", |ui| self.table_menu(ui, desk));
-        let copy = Button::new("Duplicate");
-        if ui
-            .add_enabled(self.chosen.is_some(), copy)
-            .on_hover_text("Copy the chosen row to a file of its own (Ctrl+D)")
-            .clicked()
-        {
-            desk.orders.push(Order::Duplicate);
-        }
+        command(ui, shared, "Redo", EditAction::Redo);
+        command(ui, shared, "Undo", EditAction::Undo);
+        ui.menu_button("Table ⏷", |ui| self.table_menu(ui, shared));
+        command(ui, shared, "Duplicate", PanelAction::Duplicate);
     }
 
-    /// Copies the chosen row to a file of its own and compares the two.
-    pub fn duplicate(&mut self, desk: &mut Desk) {
-        let Some(path) = self.chosen.clone() else {
-            desk.notice = Some(("choose a row of the library first".into(), true));
-            return;
-        };
-        match desk.documents.duplicate(&path) {
-            Ok(fresh) => {
-                self.against = Against::Entry(path);
-                self.chosen = Some(fresh);
-            }
-            Err(error) => desk.notice = Some((error, true)),
-        }
+    /// Chooses the copy of an entry and compares the two.
+    pub fn compare(&mut self, entry: String, copy: String) {
+        (self.against, self.chosen) = (Against::Entry(entry), Some(copy));
     }
 
     /// The table as a whole, out and in.
-    fn table_menu(&self, ui: &mut Ui, desk: &mut Desk) {
-        if ui.button("Save as CSV …").clicked() {
-            desk.orders.push(Order::Ask(Dialog::ExportTable));
-            ui.close();
-        }
-        if ui
-            .button("Take in CSV …")
-            .on_hover_text(
-                "Rows of a known id change that entry, others are added; one Undo takes all of it back",
-            )
-            .clicked()
+    fn table_menu(&self, ui: &mut Ui, shared: &mut Shared) {
+        for (text, id) in
+            [("Save as CSV …", "panel.export-table"), ("Take in CSV …", "panel.import-table")]
         {
-            desk.orders.push(Order::Ask(Dialog::ImportTable));
-            ui.close();
+            if command(ui, shared, text, WindowAction::Ask(id)).clicked() {
+                ui.close();
+            }
         }
         if ui.button("Copy for a spreadsheet").clicked() {
-            let text = library_table::to_tabs(&desk.documents, self.kind, &self.rows(desk));
+            let text = library_table::to_tabs(
+                &shared.workbench.project.documents,
+                self.kind,
+                &self.rows(shared),
+            );
             ui.ctx().copy_text(text);
             ui.close();
         }
         ui.label(RichText::new("Paste cells from a spreadsheet\nwith Ctrl+V in the first cell;\nwith a head row, anywhere here.").small());
     }
 
-    /// Writes the shown table as CSV.
-    pub fn export(&self, desk: &mut Desk, path: &Path) {
-        let text = library_table::to_csv(&desk.documents, self.kind, &self.rows(desk));
-        let written = endline_session::save::atomically(path, text.as_bytes());
-        desk.notice_saved(path, written.map_err(|error| error.to_string()));
-    }
-
-    /// Takes a CSV file into the shown table and reports what came of it.
-    pub fn import(&self, desk: &mut Desk, path: &Path) {
-        match std::fs::read_to_string(path) {
-            Ok(text) => {
-                let taken = library_table::import(&mut desk.documents, self.kind, &text);
-                desk.notice = Some(match taken {
-                    Ok(taken) => (taken.sentence(), !taken.left_out.is_empty()),
-                    Err(why) => (format!("not taken in: {why}"), true),
-                });
-            }
-            Err(error) => desk.notice = Some((format!("{}: {error}", path.display()), true)),
-        }
+    /// The command that writes the table as it is shown.
+    #[must_use]
+    pub fn export(&self, shared: &Shared, file: PathBuf) -> ExportAction {
+        ExportAction::Table { kind: self.kind, rows: Some(self.rows(shared).to_vec()), file }
     }
 
     /// Problems of the files of the shown table.
-    fn problems(&self, desk: &Desk) -> Vec<Diagnostic> {
+    fn problems(&self, shared: &Shared) -> Vec<Diagnostic> {
         let folder = format!("{}/", self.kind.folder());
         let own = |problem: &&Diagnostic| problem.file.starts_with(&folder);
-        desk.documents.problems().iter().filter(own).cloned().collect()
+        shared.workbench.project.documents.problems().iter().filter(own).cloned().collect()
     }
 }
 

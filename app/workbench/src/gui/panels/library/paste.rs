@@ -3,18 +3,20 @@
 use egui::{Event, Ui};
 use endline_session::edit::library_table;
 
+use endline_session::workbench::Notice;
+
 use super::LibraryPanel;
-use crate::gui::desk::Desk;
 use crate::gui::fields;
+use crate::gui::shared::Shared;
 
 impl LibraryPanel {
     /// Takes cells from the clipboard: from the cell being typed in on, or, with a head row, as entries.
-    pub(super) fn paste(&self, ui: &Ui, desk: &mut Desk) {
+    pub(super) fn paste(&self, ui: &Ui, shared: &mut Shared) {
         let pasted = |event: &Event| matches!(event, Event::Paste(text) if text.trim_end().contains(['\t', '\n']));
         if !ui.input(|input| input.events.iter().any(pasted)) {
             return;
         }
-        let (paths, keys) = (self.rows(desk), self.keys());
+        let (paths, keys) = (self.rows(shared), self.keys());
         let focus = ui.memory(|memory| memory.focused());
         let at = paths.iter().enumerate().find_map(|(row, path)| {
             let edited = |key: &&str| focus == Some(fields::edit_id(path, key));
@@ -28,12 +30,14 @@ impl LibraryPanel {
             cells.first().is_some_and(|row| library_table::is_head(self.kind, row))
         });
         let taken = match at {
-            _ if head => library_table::import(&mut desk.documents, self.kind, &text),
+            _ if head => {
+                library_table::import(&mut shared.workbench.project.documents, self.kind, &text)
+            }
             Some((row, column)) => {
                 fields::forget(ui, &paths[row], keys[column]);
                 library_table::cells(&text).and_then(|cells| {
                     library_table::spread(
-                        &mut desk.documents,
+                        &mut shared.workbench.project.documents,
                         &paths[row..],
                         &keys[column..],
                         &cells,
@@ -44,9 +48,10 @@ impl LibraryPanel {
                 Err("click the cell the table begins in, or copy it with its head row".to_owned())
             }
         };
-        desk.notice = Some(match taken {
-            Ok(taken) => (taken.sentence(), !taken.left_out.is_empty()),
-            Err(why) => (format!("not pasted: {why}"), true),
+        shared.workbench.notice = Some(match taken {
+            Ok(taken) if taken.left_out.is_empty() => Notice::done(taken.sentence()),
+            Ok(taken) => Notice::hint(taken.sentence()),
+            Err(why) => Notice::fault(format!("not pasted: {why}")),
         });
     }
 

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use endline_gear::{Diagnostic, Field, Kind, units};
 
 use super::LibraryPanel;
-use crate::gui::desk::Desk;
+use crate::gui::shared::Shared;
 
 /// What the rows shown were found for.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,22 +31,31 @@ pub(super) struct Row {
 
 impl LibraryPanel {
     /// Files of the shown table that the search lets through, in the order chosen.
-    pub(super) fn rows(&self, desk: &Desk) -> Vec<String> {
+    pub(super) fn rows(&self, shared: &Shared) -> Vec<String> {
         let words: Vec<String> =
             self.search.to_lowercase().split_whitespace().map(str::to_owned).collect();
-        let name = |path: &str| desk.documents.field(path, "name").unwrap_or_default();
+        let name =
+            |path: &str| shared.workbench.project.documents.field(path, "name").unwrap_or_default();
         let matches = |path: &&str| {
             let text = format!("{path} {}", name(path)).to_lowercase();
             words.iter().all(|word| text.contains(word))
         };
-        let mut rows: Vec<String> =
-            desk.documents.files(self.kind.folder()).filter(matches).map(str::to_owned).collect();
+        let mut rows: Vec<String> = shared
+            .workbench
+            .project
+            .documents
+            .files(self.kind.folder())
+            .filter(matches)
+            .map(str::to_owned)
+            .collect();
         // What this scenario is made of comes first.
-        rows.sort_by_cached_key(|path| (!desk.documents.in_use(path), name(path).to_lowercase()));
+        rows.sort_by_cached_key(|path| {
+            (!shared.workbench.project.documents.in_use(path), name(path).to_lowercase())
+        });
         if let Some((key, down)) = self.sort {
             let field = self.kind.fields().iter().find(|field| field.key == key);
             let value = |path: &String| {
-                field.and_then(|field| si_value(desk, path, field)).unwrap_or(f64::INFINITY)
+                field.and_then(|field| si_value(shared, path, field)).unwrap_or(f64::INFINITY)
             };
             rows.sort_by(|a, b| value(a).total_cmp(&value(b)));
             if down {
@@ -57,10 +66,10 @@ impl LibraryPanel {
     }
 
     /// The rows as the table shows them, found anew where texts or choices have changed.
-    pub(super) fn shown_rows(&mut self, desk: &Desk) -> Arc<Vec<Row>> {
+    pub(super) fn shown_rows(&mut self, shared: &Shared) -> Arc<Vec<Row>> {
         let wanted = Wanted {
-            version: desk.documents.version(),
-            scenario: desk.documents.scenario_path().to_owned(),
+            version: shared.workbench.project.documents.version(),
+            scenario: shared.workbench.project.documents.scenario_path().to_owned(),
             kind: self.kind,
             search: self.search.clone(),
             sort: self.sort,
@@ -69,24 +78,24 @@ impl LibraryPanel {
             return Arc::clone(rows);
         }
         let row = |path: String| Row {
-            problem: cell_problem(desk, self.kind, &path).is_some(),
-            used: desk.documents.in_use(&path),
+            problem: cell_problem(shared, self.kind, &path).is_some(),
+            used: shared.workbench.project.documents.in_use(&path),
             path,
         };
-        let rows: Arc<Vec<Row>> = Arc::new(self.rows(desk).into_iter().map(row).collect());
+        let rows: Arc<Vec<Row>> = Arc::new(self.rows(shared).into_iter().map(row).collect());
         self.found = Some((wanted, Arc::clone(&rows)));
         rows
     }
 }
 
 /// The SI value of a cell, where it can be read.
-fn si_value(desk: &Desk, path: &str, field: &Field) -> Option<f64> {
-    units::parse(&desk.documents.field(path, field.key)?, field.quantity).ok()
+fn si_value(shared: &Shared, path: &str, field: &Field) -> Option<f64> {
+    units::parse(&shared.workbench.project.documents.field(path, field.key)?, field.quantity).ok()
 }
 
 /// Any problem at a cell of a row.
-fn cell_problem<'a>(desk: &'a Desk, kind: Kind, path: &str) -> Option<&'a Diagnostic> {
+fn cell_problem<'a>(shared: &'a Shared, kind: Kind, path: &str) -> Option<&'a Diagnostic> {
     let keys =
         kind.words().iter().map(|word| word.key).chain(kind.fields().iter().map(|field| field.key));
-    keys.filter_map(|key| desk.documents.problem_at(path, key)).next()
+    keys.filter_map(|key| shared.workbench.project.documents.problem_at(path, key)).next()
 }

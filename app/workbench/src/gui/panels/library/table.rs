@@ -7,8 +7,8 @@ use endline_session::edit::library_table;
 
 use super::LibraryPanel;
 use super::rows::Row;
-use crate::gui::desk::Desk;
 use crate::gui::fields;
+use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::words;
 
@@ -21,10 +21,10 @@ const ROW_WITH_REASON: f32 = 41.0;
 type Edit = (String, &'static str, String);
 
 /// Draws the table.
-pub(super) fn show(ui: &mut Ui, panel: &mut LibraryPanel, desk: &mut Desk) {
+pub(super) fn show(ui: &mut Ui, panel: &mut LibraryPanel, shared: &mut Shared) {
     let kind = panel.kind;
     let (words, figures) = (kind.words(), kind.fields());
-    let shown = panel.shown_rows(desk);
+    let shown = panel.shown_rows(shared);
     let mut builder = TableBuilder::new(ui)
         .id_salt(kind.folder())
         .striped(true)
@@ -42,11 +42,11 @@ pub(super) fn show(ui: &mut Ui, panel: &mut LibraryPanel, desk: &mut Desk) {
         body.heterogeneous_rows(heights, |mut row| {
             let shown = &shown[row.index()];
             row.set_selected(panel.chosen.as_ref() == Some(&shown.path));
-            cells(&mut row, panel, desk, shown, &mut edits);
+            cells(&mut row, panel, shared, shown, &mut edits);
         });
     });
     for (path, field, value) in edits {
-        desk.set(&path, field, &value);
+        shared.workbench.set(&path, field, &value);
     }
 }
 
@@ -101,16 +101,16 @@ fn field_help(field: &Field) -> String {
 fn cells(
     row: &mut TableRow<'_, '_>,
     panel: &mut LibraryPanel,
-    desk: &Desk,
+    shared: &Shared,
     shown: &Row,
     edits: &mut Vec<Edit>,
 ) {
     let (kind, path) = (panel.kind, shown.path.as_str());
-    row.col(|ui| name_cell(ui, panel, desk, shown));
+    row.col(|ui| name_cell(ui, panel, shared, shown));
     for word in kind.words() {
         row.col(|ui| {
             if near(ui) {
-                edits.extend(cell(ui, desk, path, word.key, word.help));
+                edits.extend(cell(ui, shared, path, word.key, word.help));
             }
         });
     }
@@ -121,12 +121,12 @@ fn cells(
             }
             let pointed = ui.rect_contains_pointer(ui.max_rect());
             let help = if pointed {
-                format!("{}{}", field_help(field), provenance(desk, kind, path, field))
+                format!("{}{}", field_help(field), provenance(shared, kind, path, field))
             } else {
                 String::new()
             };
-            edits.extend(cell(ui, desk, path, field.key, &help));
-            confidence(ui, desk, kind, path, field);
+            edits.extend(cell(ui, shared, path, field.key, &help));
+            confidence(ui, shared, kind, path, field);
         });
     }
 }
@@ -136,13 +136,14 @@ fn near(ui: &Ui) -> bool {
     ui.clip_rect().expand2(egui::vec2(2.0 * CELL_WIDTH, 0.0)).intersects(ui.max_rect())
 }
 
-fn name_cell(ui: &mut Ui, panel: &mut LibraryPanel, desk: &Desk, row: &Row) {
+fn name_cell(ui: &mut Ui, panel: &mut LibraryPanel, shared: &Shared, row: &Row) {
     let (path, used) = (row.path.as_str(), row.used);
     let palette = Theme::palette_of(ui);
-    let name = desk.documents.field(path, "name").unwrap_or_else(|| path.to_owned());
-    let mark = if desk.documents.is_unsaved(path) { "• " } else { "" };
+    let name =
+        shared.workbench.project.documents.field(path, "name").unwrap_or_else(|| path.to_owned());
+    let mark = if shared.workbench.project.documents.is_unsaved(path) { "• " } else { "" };
     let chosen = panel.chosen.as_deref() == Some(path);
-    let colour = match (desk.documents.file_has_error(path), used && !chosen) {
+    let colour = match (shared.workbench.project.documents.file_has_error(path), used && !chosen) {
         (true, _) => palette.error,
         (false, true) => palette.accent,
         (false, false) => palette.text,
@@ -154,7 +155,9 @@ fn name_cell(ui: &mut Ui, panel: &mut LibraryPanel, desk: &Desk, row: &Row) {
         panel.chosen = Some(path.to_owned());
     }
     if response.contains_pointer() {
-        let notes = desk
+        let notes = shared
+            .workbench
+            .project
             .documents
             .field(path, "notes")
             .map_or(String::new(), |notes| format!("\n\n{notes}"));
@@ -164,7 +167,7 @@ fn name_cell(ui: &mut Ui, panel: &mut LibraryPanel, desk: &Desk, row: &Row) {
     }
 }
 
-fn cell(ui: &mut Ui, desk: &Desk, path: &str, key: &'static str, help: &str) -> Option<Edit> {
+fn cell(ui: &mut Ui, shared: &Shared, path: &str, key: &'static str, help: &str) -> Option<Edit> {
     let width = ui.available_width() - 8.0;
     let committed = ui
         .vertical(|ui| {
@@ -172,13 +175,13 @@ fn cell(ui: &mut Ui, desk: &Desk, path: &str, key: &'static str, help: &str) -> 
             ui.add_space(1.0);
             let committed = fields::edit(
                 ui,
-                &desk.documents,
+                &shared.workbench.project.documents,
                 path,
                 key,
                 width,
                 fields::Said { hint: "", help },
             );
-            if let Some(problem) = desk.documents.problem_at(path, key) {
+            if let Some(problem) = shared.workbench.project.documents.problem_at(path, key) {
                 let error =
                     RichText::new(&problem.message).size(10.5).color(Theme::palette_of(ui).error);
                 ui.add(egui::Label::new(error).truncate());
@@ -190,8 +193,9 @@ fn cell(ui: &mut Ui, desk: &Desk, path: &str, key: &'static str, help: &str) -> 
 }
 
 /// A letter in the cell's corner for how sure its figure is: m measured, d derived, e estimate.
-fn confidence(ui: &Ui, desk: &Desk, kind: Kind, path: &str, field: &Field) {
-    let entry = desk.documents.library().entry(kind, library_table::id_of(path));
+fn confidence(ui: &Ui, shared: &Shared, kind: Kind, path: &str, field: &Field) {
+    let entry =
+        shared.workbench.project.documents.library().entry(kind, library_table::id_of(path));
     let Some(figure) = entry.and_then(|entry| entry.figure(field.key)) else { return };
     let letter = figure.confidence.word().get(..1).unwrap_or_default();
     let colour = words::confidence_colour(figure.confidence, Theme::palette_of(ui));
@@ -206,8 +210,10 @@ fn confidence(ui: &Ui, desk: &Desk, kind: Kind, path: &str, field: &Field) {
 }
 
 /// Source and confidence of a figure, where its file can be read.
-fn provenance(desk: &Desk, kind: Kind, path: &str, field: &Field) -> String {
-    let figure = desk
+fn provenance(shared: &Shared, kind: Kind, path: &str, field: &Field) -> String {
+    let figure = shared
+        .workbench
+        .project
         .documents
         .library()
         .entry(kind, library_table::id_of(path))

@@ -5,8 +5,8 @@ use endline_sdk::Controls;
 use endline_session::edit::Documents;
 use endline_session::edit::pilot_program::{Entry, TRIGGERS, begin_by, path, set, spoken, times};
 
-use crate::gui::desk::Desk;
 use crate::gui::fields::{self, Said};
+use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
 
@@ -17,14 +17,14 @@ const HELP: [(&str, &str); 3] = [
     ("ramp", "Time over which controls come to their values, and leave them after the hold"),
 ];
 
-pub(super) fn show(ui: &mut Ui, desk: &mut Desk, entry: &Entry) {
+pub(super) fn show(ui: &mut Ui, shared: &mut Shared, entry: &Entry) {
     let mut typed: Vec<(&'static str, String)> = Vec::new();
     widgets::caption(ui, "Begins");
     Grid::new("begins").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
-        trigger(ui, desk, entry);
+        trigger(ui, shared, entry);
         typed.extend(word(
             ui,
-            desk,
+            shared,
             entry,
             entry.trigger,
             "what begins it, such as 12 s, any, 5 m, 90 deg",
@@ -34,7 +34,7 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, entry: &Entry) {
             ui.label(RichText::new("of").color(Theme::palette_of(ui).faint));
             typed.extend(word(
                 ui,
-                desk,
+                shared,
                 entry,
                 "of",
                 "a line, body or joint by its id; any line where empty",
@@ -44,7 +44,7 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, entry: &Entry) {
         for key in times(entry.trigger) {
             ui.label(RichText::new(*key).color(Theme::palette_of(ui).faint));
             let help = HELP.iter().find(|(known, _)| known == key).map_or("", |(_, help)| help);
-            typed.extend(word(ui, desk, entry, key, help));
+            typed.extend(word(ui, shared, entry, key, help));
             ui.end_row();
         }
     });
@@ -55,20 +55,20 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, entry: &Entry) {
         {
             ui.label(RichText::new(spoken(name)).color(Theme::palette_of(ui).faint));
             let [least, most] = Controls::RANGES[control];
-            typed.extend(number(ui, desk, entry, name, &format!("{least} to {most}")));
+            typed.extend(number(ui, shared, entry, name, &format!("{least} to {most}")));
             if control % 2 == 1 {
                 ui.end_row();
             }
         }
     });
-    act(ui, desk, entry, &mut typed);
+    act(ui, shared, entry, &mut typed);
     for (key, text) in typed {
-        super::change(desk, |document| set(document, entry.index, key, &text));
+        super::change(shared, |document| set(document, entry.index, key, &text));
     }
 }
 
 /// What begins the entry, out of all that can.
-fn trigger(ui: &mut Ui, desk: &mut Desk, entry: &Entry) {
+fn trigger(ui: &mut Ui, shared: &mut Shared, entry: &Entry) {
     let words = TRIGGERS
         .iter()
         .find(|(key, ..)| *key == entry.trigger)
@@ -90,20 +90,22 @@ fn trigger(ui: &mut Ui, desk: &mut Desk, entry: &Entry) {
     // An entry with a time keeps its own; two at one time are an error.
     let text = match (key, entry.begin_s) {
         ("at", Some(begin_s)) => endline_session::edit::pilot_program::seconds(begin_s),
-        ("after", _) => above(desk, entry.index).unwrap_or_default(),
+        ("after", _) => above(shared, entry.index).unwrap_or_default(),
         _ => fresh.to_owned(),
     };
-    super::change(desk, |document| begin_by(document, entry.index, key, &text));
+    super::change(shared, |document| begin_by(document, entry.index, key, &text));
 }
 
 /// Id of the nearest entry above that has one.
-fn above(desk: &Desk, index: usize) -> Option<String> {
-    (0..index).rev().find_map(|above| desk.documents.field(Documents::SCENARIO, &path(above, "id")))
+fn above(shared: &Shared, index: usize) -> Option<String> {
+    (0..index).rev().find_map(|above| {
+        shared.workbench.project.documents.field(Documents::SCENARIO, &path(above, "id"))
+    })
 }
 
 fn word(
     ui: &mut Ui,
-    desk: &Desk,
+    shared: &Shared,
     entry: &Entry,
     key: &'static str,
     help: &str,
@@ -112,7 +114,7 @@ fn word(
     let width = (ui.available_width() - 12.0).max(60.0);
     let typed = fields::edit(
         ui,
-        &desk.documents,
+        &shared.workbench.project.documents,
         Documents::SCENARIO,
         &field,
         width,
@@ -123,7 +125,7 @@ fn word(
 
 fn number(
     ui: &mut Ui,
-    desk: &Desk,
+    shared: &Shared,
     entry: &Entry,
     key: &'static str,
     hint: &str,
@@ -134,7 +136,7 @@ fn number(
         ui.set_min_width(62.0);
         fields::edit(
             ui,
-            &desk.documents,
+            &shared.workbench.project.documents,
             Documents::SCENARIO,
             &field,
             58.0,
@@ -145,7 +147,7 @@ fn number(
 }
 
 /// The act asked for, out of the whale's.
-fn act(ui: &mut Ui, desk: &Desk, entry: &Entry, typed: &mut Vec<(&'static str, String)>) {
+fn act(ui: &mut Ui, shared: &Shared, entry: &Entry, typed: &mut Vec<(&'static str, String)>) {
     let stored = entry
         .controls
         .iter()
@@ -160,7 +162,11 @@ fn act(ui: &mut Ui, desk: &Desk, entry: &Entry, typed: &mut Vec<(&'static str, S
             |ui| {
                 let others = [("", "not named"), ("none", "none: ends an act")]
                     .map(|(id, name)| (id.to_owned(), name.to_owned()));
-                let acts = desk.acts().iter().map(|act| (act.id.to_string(), act.name.to_string()));
+                let acts = shared
+                    .workbench
+                    .acts()
+                    .iter()
+                    .map(|act| (act.id.to_string(), act.name.to_string()));
                 for (id, name) in others.into_iter().chain(acts) {
                     if ui.selectable_label(id == stored, name).clicked() && id != stored {
                         typed.push(("act", id));

@@ -3,16 +3,18 @@
 mod form;
 mod tracks;
 
+use crate::gui::command::action::PanelAction;
+use endline_session::command::{EditAction, RunAction};
 use std::sync::Arc;
 
 use egui::{Button, RichText, ScrollArea, Ui};
 use endline_gear::Document;
 use endline_session::edit::Documents;
-use endline_session::edit::pilot_program::{Entry, LIST, add, entries};
+use endline_session::edit::pilot_program::{Entry, entries};
 
-use crate::gui::desk::{Desk, Order};
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
+use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
 
@@ -40,25 +42,25 @@ impl PilotPanel {
         Arc::clone(read)
     }
 
-    fn toolbar(&self, ui: &mut Ui, desk: &mut Desk, all: &[Entry]) {
-        let run = desk.view.as_ref().is_some_and(|view| view.newest_s > 0.0);
-        let shown_s = desk.view.as_ref().map_or(0.0, |view| view.frame.time_s);
+    fn toolbar(&self, ui: &mut Ui, shared: &mut Shared, all: &[Entry]) {
+        let run = shared.workbench.view().is_some_and(|view| view.newest_s > 0.0);
+        let shown_s = shared.workbench.view().map_or(0.0, |view| view.frame.time_s);
         ui.horizontal_wrapped(|ui| {
             let help = "An entry at the moment shown";
             if ui.button("Add entry").on_hover_text(help).clicked() {
-                desk.orders.push(Order::AddEntry);
+                shared.give(EditAction::AddEntry);
             }
             if ui.add_enabled(self.chosen.is_some(), Button::new("Delete entry")).clicked() {
-                desk.orders.push(Order::DeleteEntry);
+                shared.give(PanelAction::DeleteEntry);
             }
             let help = "What was flown or steered in the run shown becomes this program, entry by entry; one Undo takes it back";
             if ui.add_enabled(run, Button::new("Edit inputs of this run")).on_hover_text(help).clicked() {
-                desk.orders.push(Order::EditInputs);
+                shared.give(EditAction::EditInputs);
             }
             let text = format!("Rerun from {shown_s:.2} s");
             let help = "The same inputs up to the moment shown, then this program as it stands now";
-            if ui.add_enabled(run && !desk.documents.any_error(), Button::new(text)).on_hover_text(help).clicked() {
-                desk.orders.push(Order::Rerun);
+            if ui.add_enabled(run && !shared.workbench.project.documents.any_error(), Button::new(text)).on_hover_text(help).clicked() {
+                shared.give(RunAction::Rerun);
             }
             let count = if all.len() == 1 { "1 entry".to_owned() } else { format!("{} entries", all.len()) };
             ui.label(RichText::new(count).color(Theme::palette_of(ui).faint));
@@ -80,28 +82,6 @@ impl PilotPanel {
             }
         }
     }
-
-    /// Adds an entry at the moment shown, and chooses it.
-    pub fn add_entry(&mut self, desk: &mut Desk) {
-        let shown_s = desk.view.as_ref().map_or(0.0, |view| view.frame.time_s);
-        // Two entries at one time are an error; a fresh one goes beside.
-        let taken = entries(&desk.documents)
-            .iter()
-            .any(|entry| entry.trigger == "at" && entry.begin_s == Some(shown_s));
-        let time_s = if taken { shown_s + 0.5 } else { shown_s };
-        let mut chosen = None;
-        change(desk, |document| add(document, time_s).map(|index| chosen = Some(index)));
-        self.chosen = chosen.or(self.chosen);
-    }
-
-    /// Takes the chosen entry away.
-    pub fn delete_entry(&mut self, desk: &mut Desk) {
-        if let Some(chosen) = self.chosen.take() {
-            change(desk, |document| {
-                document.remove_table(LIST, chosen).map_err(|error| error.to_string())
-            });
-        }
-    }
 }
 
 impl Panel for PilotPanel {
@@ -109,18 +89,18 @@ impl Panel for PilotPanel {
         PanelId::PROGRAM
     }
 
-    fn ui(&mut self, ui: &mut Ui, desk: &mut Desk) {
-        if desk.documents.field(Documents::SCENARIO, "whale.item").is_none() {
+    fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
+        if shared.workbench.project.documents.field(Documents::SCENARIO, "whale.item").is_none() {
             return widgets::nothing(ui, "This scenario has no whale to pilot.");
         }
-        let all = self.entries(&desk.documents);
+        let all = self.entries(&shared.workbench.project.documents);
         self.chosen = self.chosen.filter(|chosen| *chosen < all.len());
-        self.toolbar(ui, desk, &all);
+        self.toolbar(ui, shared, &all);
         let whole = ui.available_rect_before_wrap();
         let beside = if self.chosen.is_some() { FORM.min(0.5 * whole.width()) } else { 0.0 };
         widgets::within(ui, whole.with_max_x(whole.right() - beside - 8.0), |ui| {
             ScrollArea::vertical().id_salt("tracks").auto_shrink(false).show(ui, |ui| {
-                tracks::show(ui, self, desk, &all);
+                tracks::show(ui, self, shared, &all);
                 self.reactions(ui, &all);
             });
         });
@@ -129,15 +109,15 @@ impl Panel for PilotPanel {
                 ScrollArea::vertical()
                     .id_salt("form")
                     .auto_shrink(false)
-                    .show(ui, |ui| form::show(ui, desk, entry));
+                    .show(ui, |ui| form::show(ui, shared, entry));
             });
         }
     }
 }
 
 /// Changes the program; one undo takes it back; what prevents it is shown in the status bar.
-fn change(desk: &mut Desk, change: impl FnOnce(&mut Document) -> Result<(), String>) {
-    if let Err(error) = desk.documents.alter(Documents::SCENARIO, change) {
-        desk.notice = Some((error, true));
+fn change(shared: &mut Shared, change: impl FnOnce(&mut Document) -> Result<(), String>) {
+    if let Err(error) = shared.workbench.project.documents.alter(Documents::SCENARIO, change) {
+        shared.fault(error);
     }
 }

@@ -6,12 +6,13 @@ use egui::{
 };
 use endline_gear::units::{Quantity, parse};
 use endline_sdk::Controls;
+use endline_session::command::TimeAction;
 use endline_session::edit::Documents;
 use endline_session::edit::pilot_program::{Entry, move_to, path, seconds, set, spoken, until_s};
 use endline_session::scales::ticks;
 
 use super::PilotPanel;
-use crate::gui::desk::{Desk, Order};
+use crate::gui::shared::Shared;
 use crate::gui::theme::{Palette, Theme};
 
 /// Height of a track [points].
@@ -69,7 +70,7 @@ impl Axis {
 }
 
 /// Draws the tracks.
-pub(super) fn show(ui: &mut Ui, panel: &mut PilotPanel, desk: &mut Desk, all: &[Entry]) {
+pub(super) fn show(ui: &mut Ui, panel: &mut PilotPanel, shared: &mut Shared, all: &[Entry]) {
     let named = |control: &usize| {
         all.iter().any(|entry| {
             entry.begin_s.is_some() && entry.controls.iter().any(|(known, _)| known == control)
@@ -81,7 +82,9 @@ pub(super) fn show(ui: &mut Ui, panel: &mut PilotPanel, desk: &mut Desk, all: &[
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, "Timeline"));
     let rect =
         Rect::from_min_max(pos2(whole.left() + NAMES, whole.top()), whole.max - vec2(8.0, 0.0));
-    let duration_s = desk
+    let duration_s = shared
+        .workbench
+        .project
         .documents
         .field(Documents::SCENARIO, "duration")
         .and_then(|text| parse(&text, Quantity::Time).ok())
@@ -94,12 +97,12 @@ pub(super) fn show(ui: &mut Ui, panel: &mut PilotPanel, desk: &mut Desk, all: &[
     for bar in &timeline.bars {
         draw(&painter, bar, panel.chosen == Some(bar.index), palette);
     }
-    if let Some(view) = &desk.view {
+    if let Some(view) = shared.workbench.view() {
         let x = axis.x(view.frame.time_s);
         let now = [pos2(x, rect.top()), pos2(x, rect.bottom())];
         painter.line_segment(now, Stroke::new(1.5, palette.warning));
     }
-    timeline.hand(ui, panel, desk, &response);
+    timeline.hand(ui, panel, shared, &response);
 }
 
 fn bars(all: &[Entry], tracks: &[usize], axis: Axis, drag: Option<Drag>) -> Vec<Bar> {
@@ -213,9 +216,9 @@ impl Timeline<'_> {
     }
 
     /// A click chooses; a drag moves the beginning or the hold; on the axis it shows that moment.
-    fn hand(&self, ui: &Ui, panel: &mut PilotPanel, desk: &mut Desk, response: &Response) {
+    fn hand(&self, ui: &Ui, panel: &mut PilotPanel, shared: &mut Shared, response: &Response) {
         let pointer = response.interact_pointer_pos().or(response.hover_pos());
-        let Some(at) = pointer else { return self.finish(panel, desk, response) };
+        let Some(at) = pointer else { return self.finish(panel, shared, response) };
         let under = self.hit(at);
         if let Some((index, end)) = under {
             let cursor = if end { CursorIcon::ResizeHorizontal } else { CursorIcon::Grab };
@@ -228,7 +231,7 @@ impl Timeline<'_> {
             match under {
                 Some((index, _)) => panel.chosen = Some(index),
                 None if at.y < self.axis.rect.top() + AXIS => {
-                    desk.orders.push(Order::Seek(self.axis.time_s(at.x)))
+                    shared.give(TimeAction::Seek(self.axis.time_s(at.x)))
                 }
                 None => panel.chosen = None,
             }
@@ -237,7 +240,7 @@ impl Timeline<'_> {
         if let Some(drag) = &mut panel.drag {
             drag.to_s = self.axis.snapped_s((self.axis.time_s(at.x) + drag.off_s).max(0.0));
         }
-        self.finish(panel, desk, response);
+        self.finish(panel, shared, response);
     }
 
     /// Takes the bar that a drag begins on.
@@ -259,7 +262,7 @@ impl Timeline<'_> {
     }
 
     /// Lets the bar go: one edit of the text.
-    fn finish(&self, panel: &mut PilotPanel, desk: &mut Desk, response: &Response) {
+    fn finish(&self, panel: &mut PilotPanel, shared: &mut Shared, response: &Response) {
         if !response.drag_stopped() {
             return;
         }
@@ -267,7 +270,7 @@ impl Timeline<'_> {
         let Some(entry) = self.all.get(drag.index) else { return };
         let begin_s = entry.begin_s.unwrap_or(0.0);
         let mut chosen = drag.index;
-        super::change(desk, |document| match (drag.end, entry.trigger) {
+        super::change(shared, |document| match (drag.end, entry.trigger) {
             (true, _) => {
                 set(document, drag.index, "hold", &seconds((drag.to_s - begin_s).max(0.1)))
             }

@@ -5,6 +5,7 @@ mod rates;
 mod runs;
 mod spread;
 
+use endline_session::command::StudyAction;
 use std::sync::Arc;
 
 use egui::{ComboBox, RichText, ScrollArea, Ui};
@@ -12,9 +13,9 @@ use endline_gear::StudyEvent;
 use endline_session::study::ResultsReader;
 use endline_session::study::StudyResults;
 
-use crate::gui::desk::{Desk, Order};
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
+use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
 use runs::{Listed, Sort};
@@ -73,20 +74,20 @@ impl Panel for ResultsPanel {
         PanelId::RESULTS
     }
 
-    fn ui(&mut self, ui: &mut Ui, desk: &mut Desk) {
-        let Some(shown) = desk.studies.results.shown().cloned() else {
-            return missing(ui, &desk.studies.results);
+    fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
+        let Some(shown) = shared.workbench.studies.results.shown().cloned() else {
+            return missing(ui, &shared.workbench.studies.results);
         };
         self.begin(&shown);
-        self.head(ui, desk, &shown);
+        self.head(ui, shared, &shown);
         ui.separator();
         let event = self.event(&shown);
         let scrolled = |ui: &mut Ui, draw: &dyn Fn(&mut Ui)| {
             ScrollArea::both().id_salt("results").auto_shrink(false).show(ui, draw);
         };
         match self.part {
-            Part::Runs => runs::show(ui, self, desk, &shown),
-            Part::Tensions => spread::show(ui, self, desk, &shown),
+            Part::Runs => runs::show(ui, self, shared, &shown),
+            Part::Tensions => spread::show(ui, self, shared, &shown),
             Part::Rates => scrolled(ui, &|ui| rates::show(ui, &shown, &event)),
             Part::Forest => scrolled(ui, &|ui| figures::forest(ui, &shown, &event)),
             Part::Sensitivity => scrolled(ui, &|ui| figures::tornado(ui, &shown)),
@@ -121,7 +122,7 @@ impl ResultsPanel {
         self.event.clone().unwrap_or_else(|| shown.findings.event.clone())
     }
 
-    fn head(&mut self, ui: &mut Ui, desk: &Desk, shown: &Arc<StudyResults>) {
+    fn head(&mut self, ui: &mut Ui, shared: &Shared, shown: &Arc<StudyResults>) {
         let palette = Theme::palette_of(ui);
         let (study, findings) = (&shown.opened.study, &shown.findings);
         ui.horizontal_wrapped(|ui| {
@@ -155,7 +156,7 @@ impl ResultsPanel {
                 .on_hover_text("endline study report …, for a terminal")
                 .clicked()
             {
-                ui.ctx().copy_text(report_line(desk, shown));
+                ui.ctx().copy_text(report_line(shared, shown));
             }
             if shown.folder.join("report.html").is_file() {
                 ui.label(
@@ -184,18 +185,18 @@ impl ResultsPanel {
     }
 
     /// Shows a run in the 3-D view.
-    fn replay(&mut self, desk: &mut Desk, option: usize, encounter: u32) {
+    fn replay(&mut self, shared: &mut Shared, option: usize, encounter: u32) {
         self.replayed = Some((option, encounter));
-        desk.orders.push(Order::ReplayEncounter(option, encounter));
+        shared.give(StudyAction::Replay { option, encounter });
     }
 }
 
-fn report_line(desk: &Desk, shown: &StudyResults) -> String {
+fn report_line(shared: &Shared, shown: &StudyResults) -> String {
     let quoted = |path: &str| format!("'{}'", path.replace('\'', "'\\''"));
     let study = quoted(&shown.opened.study.place.source.path);
     format!(
         "endline study report {study} --library {} --out {}",
-        quoted(&desk.documents.root().display().to_string()),
+        quoted(&shared.workbench.project.documents.root().display().to_string()),
         quoted(&shown.folder.display().to_string())
     )
 }

@@ -9,7 +9,7 @@ use endline_session::study::Table;
 use endline_session::units::ForceUnit;
 
 use super::ResultsPanel;
-use crate::gui::desk::Desk;
+use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 
 /// What runs are sorted by.
@@ -61,12 +61,12 @@ const HEADS: [(&str, Option<Sort>); 6] = [
 pub(super) fn show(
     ui: &mut Ui,
     panel: &mut ResultsPanel,
-    desk: &mut Desk,
+    shared: &mut Shared,
     shown: &Arc<StudyResults>,
 ) {
     filter(ui, panel, shown);
     let rows = listed(panel, shown);
-    let unit = desk.preferences.units.force();
+    let unit = shared.workbench.preferences.units.force();
     let replayed = panel.replayed;
     let mut wanted = None;
     let mut sort = panel.sort;
@@ -101,7 +101,7 @@ pub(super) fn show(
         });
     panel.sort = sort;
     if let Some((option, encounter)) = wanted {
-        panel.replay(desk, option, encounter);
+        panel.replay(shared, option, encounter);
     }
 }
 

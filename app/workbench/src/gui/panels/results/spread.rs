@@ -11,7 +11,7 @@ use endline_session::study::StudyResults;
 use endline_session::units::ForceUnit;
 
 use super::ResultsPanel;
-use crate::gui::desk::Desk;
+use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
 
@@ -40,10 +40,10 @@ struct Dot {
 pub(super) fn show(
     ui: &mut Ui,
     panel: &mut ResultsPanel,
-    desk: &mut Desk,
+    shared: &mut Shared,
     shown: &Arc<StudyResults>,
 ) {
-    let unit = desk.preferences.units.force();
+    let unit = shared.workbench.preferences.units.force();
     let dots = placed(panel, shown, unit);
     if dots.is_empty() {
         return widgets::nothing(ui, "No run has a tension yet.");
@@ -70,7 +70,7 @@ pub(super) fn show(
         nearest.outcome.replace('_', " ")
     );
     if response.response.clicked() {
-        panel.replay(desk, nearest.option, nearest.encounter);
+        panel.replay(shared, nearest.option, nearest.encounter);
     }
     response.response.on_hover_text_at_pointer(text);
 }

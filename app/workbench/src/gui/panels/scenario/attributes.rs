@@ -6,14 +6,14 @@ use endline_sdk::{Attribute, AttributeKind};
 use endline_session::edit::Documents;
 
 use super::{Edit, name_with_help, problem};
-use crate::gui::desk::Desk;
 use crate::gui::fields;
+use crate::gui::shared::Shared;
 use crate::gui::widgets::words;
 
 /// Draws the attributes that stand in a table of the scenario, such as `friction.attributes`.
 pub(super) fn show(
     ui: &mut Ui,
-    desk: &Desk,
+    shared: &Shared,
     table: &str,
     attributes: &[Attribute],
     edits: &mut Vec<Edit>,
@@ -27,8 +27,8 @@ pub(super) fn show(
             let help = help(attribute);
             name_with_help(ui, &words::title(&attribute.key), &help);
             ui.vertical(|ui| {
-                cell(ui, desk, &field, attribute, &help, edits);
-                problem(ui, desk, &field);
+                cell(ui, shared, &field, attribute, &help, edits);
+                problem(ui, shared, &field);
             });
             ui.end_row();
         }
@@ -37,7 +37,7 @@ pub(super) fn show(
 
 fn cell(
     ui: &mut Ui,
-    desk: &Desk,
+    shared: &Shared,
     field: &str,
     attribute: &Attribute,
     help: &str,
@@ -52,11 +52,18 @@ fn cell(
                 .filter(|word| *word != default)
                 .map(|word| (word.to_string(), word.to_string()));
             let choices: Vec<(String, String)> = std::iter::once(usual).chain(words).collect();
-            fields::choose(ui, &desk.documents, Documents::SCENARIO, field, &choices, width + 4.0)
+            fields::choose(
+                ui,
+                &shared.workbench.project.documents,
+                Documents::SCENARIO,
+                field,
+                &choices,
+                width + 4.0,
+            )
         }
         _ => fields::edit(
             ui,
-            &desk.documents,
+            &shared.workbench.project.documents,
             Documents::SCENARIO,
             field,
             width,

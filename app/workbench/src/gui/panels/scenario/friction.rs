@@ -6,8 +6,8 @@ use endline_session::edit::Documents;
 use endline_session::edit::scenario::{self, FRICTION_LAWS as ON};
 
 use super::{Edit, attributes, name};
-use crate::gui::desk::Desk;
 use crate::gui::fields;
+use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
 
@@ -31,13 +31,13 @@ impl Change {
 }
 
 /// Draws the laws of friction.
-pub(super) fn show(ui: &mut Ui, desk: &mut Desk, edits: &mut Vec<Edit>) {
+pub(super) fn show(ui: &mut Ui, shared: &mut Shared, edits: &mut Vec<Edit>) {
     widgets::caption(ui, "Friction of rope on whale");
-    law(ui, desk, "friction", edits);
+    law(ui, shared, "friction", edits);
     let mut change = None;
-    for index in 0..desk.documents.count(Documents::SCENARIO, ON) {
+    for index in 0..shared.workbench.project.documents.count(Documents::SCENARIO, ON) {
         let table = format!("{ON}.{index}");
-        let surfaces = surfaces(&desk.documents, &table);
+        let surfaces = surfaces(&shared.workbench.project.documents, &table);
         ui.horizontal(|ui| {
             if ui.small_button("✖").on_hover_text("Take it out; Undo brings it back").clicked() {
                 change = Some(Change::Remove(index));
@@ -49,9 +49,9 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, edits: &mut Vec<Edit>) {
                 .truncate(),
             );
         });
-        law(ui, desk, &table, edits);
+        law(ui, shared, &table, edits);
     }
-    let usual = desk.documents.field(Documents::SCENARIO, "friction.model");
+    let usual = shared.workbench.project.documents.field(Documents::SCENARIO, "friction.model");
     ui.add_enabled_ui(usual.is_some(), |ui| {
         ui.menu_button("Another law for … ⏷", |ui| {
             for word in SURFACES {
@@ -63,16 +63,19 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, edits: &mut Vec<Edit>) {
         });
     });
     if let Some(change) = change
-        && let Err(error) =
-            desk.documents.alter(Documents::SCENARIO, |document| change.make(document))
+        && let Err(error) = shared
+            .workbench
+            .project
+            .documents
+            .alter(Documents::SCENARIO, |document| change.make(document))
     {
-        desk.notice = Some((error, true));
+        shared.fault(error);
     }
 }
 
 /// The law named in a table of the scenario, with its attributes.
-fn law(ui: &mut Ui, desk: &Desk, table: &str, edits: &mut Vec<Edit>) {
-    let (host, _) = desk.helpers();
+fn law(ui: &mut Ui, shared: &Shared, table: &str, edits: &mut Vec<Edit>) {
+    let (host, _) = shared.workbench.helpers();
     let laws = host
         .ids()
         .into_iter()
@@ -82,16 +85,27 @@ fn law(ui: &mut Ui, desk: &Desk, table: &str, edits: &mut Vec<Edit>) {
     Grid::new(("law", table)).num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
         name(ui, "Law");
         let width = ui.available_width() - 8.0;
-        let taken = fields::choose(ui, &desk.documents, Documents::SCENARIO, &field, &laws, width);
+        let taken = fields::choose(
+            ui,
+            &shared.workbench.project.documents,
+            Documents::SCENARIO,
+            &field,
+            &laws,
+            width,
+        );
         edits.extend(taken.map(|id| (field.clone(), id)));
         ui.end_row();
     });
-    if let Some(law) =
-        desk.documents.field(Documents::SCENARIO, &field).and_then(|id| host.friction(&id))
+    if let Some(law) = shared
+        .workbench
+        .project
+        .documents
+        .field(Documents::SCENARIO, &field)
+        .and_then(|id| host.friction(&id))
     {
         attributes::show(
             ui,
-            desk,
+            shared,
             &format!("{table}.attributes"),
             &law.descriptor().attributes,
             edits,

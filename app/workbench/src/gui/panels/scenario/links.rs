@@ -7,8 +7,8 @@ use endline_session::edit::{Documents, assembly};
 
 use super::rows::{LINKS_PART, Row};
 use super::{Edit, flag, name, problem, rows};
-use crate::gui::desk::Desk;
 use crate::gui::fields;
+use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::{self, words};
 
@@ -21,35 +21,42 @@ enum Change {
 }
 
 /// Draws the weak links.
-pub(super) fn show(ui: &mut Ui, desk: &mut Desk, edits: &mut Vec<Edit>) {
+pub(super) fn show(ui: &mut Ui, shared: &mut Shared, edits: &mut Vec<Edit>) {
     widgets::caption(ui, "Weak links");
-    of_gear(ui, desk, edits);
+    of_gear(ui, shared, edits);
     let mut change = None;
-    for index in 0..desk.documents.count(Documents::SCENARIO, "link") {
-        let remove = one(ui, desk, index, edits);
+    for index in 0..shared.workbench.project.documents.count(Documents::SCENARIO, "link") {
+        let remove = one(ui, shared, index, edits);
         change = change.or(remove.then_some(Change::Remove(index)));
     }
-    change = add(ui, desk).or(change);
-    flag(ui, desk, &LINKS_PART, edits);
+    change = add(ui, shared).or(change);
+    flag(ui, shared, &LINKS_PART, edits);
     if let Some(change) = change
-        && let Err(error) =
-            desk.documents.alter(Documents::SCENARIO, |document| change.make(document))
+        && let Err(error) = shared
+            .workbench
+            .project
+            .documents
+            .alter(Documents::SCENARIO, |document| change.make(document))
     {
-        desk.notice = Some((error, true));
+        shared.fault(error);
     }
 }
 
 /// Links that the gear types put in: of the assembly, unless the scenario names another.
-fn of_gear(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
+fn of_gear(ui: &mut Ui, shared: &Shared, edits: &mut Vec<Edit>) {
     let placed = (0..).map_while(|index| {
-        desk.documents
+        shared
+            .workbench
+            .project
+            .documents
             .field(Documents::SCENARIO, &format!("gear.{index}.assembly"))
             .map(|id| (index, id))
     });
     for (index, assembly) in placed {
         let file = format!("assemblies/{assembly}.toml");
-        let wanted = desk.documents.field(&file, "gear_type");
-        let Some(gear) = desk
+        let wanted = shared.workbench.project.documents.field(&file, "gear_type");
+        let Some(gear) = shared
+            .workbench
             .gear_types()
             .into_iter()
             .find(|gear| Some(gear.descriptor().id.as_ref()) == wanted.as_deref())
@@ -62,21 +69,23 @@ fn of_gear(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
                 if Kind::in_folder(library) != Some(Kind::WeakLink) {
                     continue;
                 }
-                let own = desk
+                let own = shared
+                    .workbench
+                    .project
                     .documents
                     .field(&file, &format!("attributes.{}", attribute.key))
                     .unwrap_or_else(|| default.to_string());
-                let own = if own.is_empty() { "none".to_owned() } else { title_of(desk, &own) };
+                let own = if own.is_empty() { "none".to_owned() } else { title_of(shared, &own) };
                 name(ui, &words::title(&attribute.key));
                 let field = format!("gear.{index}.attributes.{}", attribute.key);
                 let width = ui.available_width() - 8.0;
                 let choices: Vec<(String, String)> =
                     std::iter::once((String::new(), format!("{own} (assembly)")))
-                        .chain(items(desk))
+                        .chain(items(shared))
                         .collect();
                 let taken = fields::choose(
                     ui,
-                    &desk.documents,
+                    &shared.workbench.project.documents,
                     Documents::SCENARIO,
                     &field,
                     &choices,
@@ -90,10 +99,15 @@ fn of_gear(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
 }
 
 /// A link written into the scenario: which item, or what rating; answers whether it is to go.
-fn one(ui: &mut Ui, desk: &Desk, index: usize, edits: &mut Vec<Edit>) -> bool {
+fn one(ui: &mut Ui, shared: &Shared, index: usize, edits: &mut Vec<Edit>) -> bool {
     let at = format!("link.{index}");
     let text = |key: &str| {
-        desk.documents.field(Documents::SCENARIO, &format!("{at}.{key}")).unwrap_or_default()
+        shared
+            .workbench
+            .project
+            .documents
+            .field(Documents::SCENARIO, &format!("{at}.{key}"))
+            .unwrap_or_default()
     };
     let remove = ui
         .horizontal(|ui| {
@@ -113,15 +127,24 @@ fn one(ui: &mut Ui, desk: &Desk, index: usize, edits: &mut Vec<Edit>) -> bool {
     Grid::new(("link", index)).num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
         name(ui, "Link");
         let none = (String::new(), "none: the rating below".to_owned());
-        let choices: Vec<(String, String)> = std::iter::once(none).chain(items(desk)).collect();
+        let choices: Vec<(String, String)> = std::iter::once(none).chain(items(shared)).collect();
         let width = ui.available_width() - 8.0;
         edits.extend(
-            fields::choose(ui, &desk.documents, Documents::SCENARIO, &item, &choices, width)
-                .map(|id| (item.clone(), id)),
+            fields::choose(
+                ui,
+                &shared.workbench.project.documents,
+                Documents::SCENARIO,
+                &item,
+                &choices,
+                width,
+            )
+            .map(|id| (item.clone(), id)),
         );
         ui.end_row();
     });
-    let usual = desk
+    let usual = shared
+        .workbench
+        .project
         .documents
         .field(&format!("weak-links/{}.toml", text("item")), "rating")
         .unwrap_or_default();
@@ -131,14 +154,14 @@ fn one(ui: &mut Ui, desk: &Desk, index: usize, edits: &mut Vec<Edit>) -> bool {
         usual: &usual,
         help: "Tension above which it parts, such as 600 lbf; over the link's own",
     }];
-    problem(ui, desk, &item);
-    rows(ui, desk, &rating, &row, edits);
+    problem(ui, shared, &item);
+    rows(ui, shared, &rating, &row, edits);
     remove
 }
 
 /// The menu of places where a link can be put.
-fn add(ui: &mut Ui, desk: &Desk) -> Option<Change> {
-    let view = desk.view.as_ref()?;
+fn add(ui: &mut Ui, shared: &Shared) -> Option<Change> {
+    let view = shared.workbench.view()?;
     // Pieces of a line with inserts are one line in the file.
     let mut lines: Vec<&str> = view
         .model
@@ -178,8 +201,11 @@ fn word_of(end: &str) -> &'static str {
     if end == "from" { "foot" } else { "top" }
 }
 
-fn items(desk: &Desk) -> Vec<(String, String)> {
-    desk.documents
+fn items(shared: &Shared) -> Vec<(String, String)> {
+    shared
+        .workbench
+        .project
+        .documents
         .library()
         .entries(Kind::WeakLink)
         .iter()
@@ -187,8 +213,8 @@ fn items(desk: &Desk) -> Vec<(String, String)> {
         .collect()
 }
 
-fn title_of(desk: &Desk, id: &str) -> String {
-    items(desk)
+fn title_of(shared: &Shared, id: &str) -> String {
+    items(shared)
         .into_iter()
         .find(|(known, _)| known == id)
         .map_or_else(|| id.to_owned(), |(_, name)| name)

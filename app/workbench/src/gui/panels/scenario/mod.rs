@@ -5,16 +5,18 @@ mod friction;
 mod links;
 mod rows;
 
+use crate::gui::command::action::{PanelAction, ViewAction};
 use egui::{ComboBox, Grid, RichText, ScrollArea, Ui};
 use endline_gear::Kind;
+use endline_session::command::{EditAction, RunAction};
 use endline_session::edit::problems::message;
 use endline_session::edit::{Documents, scenario};
 
-use crate::gui::desk::{Desk, Order};
 use crate::gui::fields;
 use crate::gui::files;
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
+use crate::gui::shared::Shared;
 use crate::gui::theme::{Theme, primary};
 use crate::gui::widgets;
 use rows::{FLAGS, Flag, RUN, Row, SEA, TIDE, WAVES, WHALE};
@@ -34,158 +36,190 @@ impl Panel for ScenarioPanel {
         PanelId::SCENARIO
     }
 
-    fn ui(&mut self, ui: &mut Ui, desk: &mut Desk) {
-        show(ui, desk);
+    fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
+        show(ui, shared);
     }
 }
 
 /// Draws the scenario panel.
-fn show(ui: &mut Ui, desk: &mut Desk) {
-    pick(ui, desk);
+fn show(ui: &mut Ui, shared: &mut Shared) {
+    pick(ui, shared);
     let foot = 34.0;
     ScrollArea::vertical().auto_shrink(false).max_height(ui.available_height() - foot).show(
         ui,
         |ui| {
             let mut edits: Vec<Edit> = Vec::new();
-            gear(ui, desk, &mut edits);
-            sea(ui, desk, &mut edits);
-            if desk.documents.field(Documents::SCENARIO, "whale.item").is_some() {
-                whale(ui, desk, &mut edits);
+            gear(ui, shared, &mut edits);
+            sea(ui, shared, &mut edits);
+            if shared.workbench.project.documents.field(Documents::SCENARIO, "whale.item").is_some()
+            {
+                whale(ui, shared, &mut edits);
             }
-            links::show(ui, desk, &mut edits);
+            links::show(ui, shared, &mut edits);
             widgets::caption(ui, "Run");
-            rows(ui, desk, "run", RUN, &mut edits);
-            FLAGS.iter().for_each(|of| flag(ui, desk, of, &mut edits));
+            rows(ui, shared, "run", RUN, &mut edits);
+            FLAGS.iter().for_each(|of| flag(ui, shared, of, &mut edits));
             for (field, text) in edits {
-                let changed = desk.documents.alter(Documents::SCENARIO, |document| {
-                    scenario::set_field(document, &field, &text)
-                });
+                let changed =
+                    shared.workbench.project.documents.alter(Documents::SCENARIO, |document| {
+                        scenario::set_field(document, &field, &text)
+                    });
                 if let Err(error) = changed {
-                    desk.notice = Some((error, true));
+                    shared.fault(error);
                 }
             }
         },
     );
     ui.separator();
-    apply(ui, desk);
+    apply(ui, shared);
 }
 
 /// The scenario itself, out of those beside it.
-fn pick(ui: &mut Ui, desk: &mut Desk) {
-    let path = desk.documents.scenario_path().to_owned();
-    let mark = if desk.documents.is_unsaved(Documents::SCENARIO) { "• " } else { "" };
+fn pick(ui: &mut Ui, shared: &mut Shared) {
+    let path = shared.workbench.project.documents.scenario_path().to_owned();
+    let mark = if shared.workbench.project.documents.is_unsaved(Documents::SCENARIO) {
+        "• "
+    } else {
+        ""
+    };
     let width = ui.available_width() - 8.0;
     let shown = format!("{mark}{}", files::stem(&path));
     ComboBox::from_id_salt("scenario").width(width).truncate().selected_text(shown).show_ui(
         ui,
         |ui| {
-            for file in files::scenarios(desk.documents.root()) {
+            for file in files::scenarios(shared.workbench.project.documents.root()) {
                 if ui.selectable_label(file == path, files::stem(&file)).clicked() && file != path {
-                    desk.orders.push(Order::Open(file));
+                    shared.give(EditAction::OpenScenario(file));
                 }
             }
         },
     );
-    if let Some(name) = desk.documents.field(Documents::SCENARIO, "name") {
-        let notes = desk.documents.field(Documents::SCENARIO, "notes").unwrap_or_default();
+    if let Some(name) = shared.workbench.project.documents.field(Documents::SCENARIO, "name") {
+        let notes = shared
+            .workbench
+            .project
+            .documents
+            .field(Documents::SCENARIO, "notes")
+            .unwrap_or_default();
         let label = egui::Label::new(RichText::new(name).color(Theme::palette_of(ui).faint)).wrap();
         ui.add(label).on_hover_text(notes);
     }
 }
 
-fn gear(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
-    if desk.documents.field(Documents::SCENARIO, "gear.0.assembly").is_none() {
+fn gear(ui: &mut Ui, shared: &Shared, edits: &mut Vec<Edit>) {
+    if shared.workbench.project.documents.field(Documents::SCENARIO, "gear.0.assembly").is_none() {
         return;
     }
     widgets::caption(ui, "Gear");
     Grid::new("gear").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
         for index in 0..9 {
             let field = format!("gear.{index}.assembly");
-            if desk.documents.field(Documents::SCENARIO, &field).is_none() {
+            if shared.workbench.project.documents.field(Documents::SCENARIO, &field).is_none() {
                 break;
             }
             name(ui, "Assembly");
-            choice(ui, desk, &field, Kind::Assembly, edits);
+            choice(ui, shared, &field, Kind::Assembly, edits);
             ui.end_row();
         }
     });
 }
 
-fn sea(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
+fn sea(ui: &mut Ui, shared: &Shared, edits: &mut Vec<Edit>) {
     widgets::caption(ui, "Sea");
-    if desk.documents.field(Documents::SCENARIO, "site.item").is_some() {
+    if shared.workbench.project.documents.field(Documents::SCENARIO, "site.item").is_some() {
         Grid::new("site").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
             name(ui, "Site");
-            choice(ui, desk, "site.item", Kind::Site, edits);
+            choice(ui, shared, "site.item", Kind::Site, edits);
             ui.end_row();
         });
     }
-    rows(ui, desk, "sea", SEA, edits);
+    rows(ui, shared, "sea", SEA, edits);
     widgets::caption(ui, "Tide that turns");
-    rows(ui, desk, "tide", TIDE, edits);
+    rows(ui, shared, "tide", TIDE, edits);
     widgets::caption(ui, "Waves");
-    rows(ui, desk, "waves", WAVES, edits);
+    rows(ui, shared, "waves", WAVES, edits);
 }
 
-fn whale(ui: &mut Ui, desk: &mut Desk, edits: &mut Vec<Edit>) {
+fn whale(ui: &mut Ui, shared: &mut Shared, edits: &mut Vec<Edit>) {
     widgets::caption(ui, "Whale");
-    let field = |field: &str| desk.documents.field(Documents::SCENARIO, field);
+    let field = |field: &str| shared.workbench.project.documents.field(Documents::SCENARIO, field);
     let dead = field("whale.state").as_deref() == Some("dead");
-    let motion = field("whale.motion").and_then(|id| desk.helpers().0.motion(&id));
-    animal(ui, desk, dead, edits);
-    rows(ui, desk, "whale", WHALE, edits);
+    let motion = field("whale.motion").and_then(|id| shared.workbench.helpers().0.motion(&id));
+    animal(ui, shared, dead, edits);
+    rows(ui, shared, "whale", WHALE, edits);
     if !dead {
-        rows(ui, desk, "swims", rows::SWIMS, edits);
+        rows(ui, shared, "swims", rows::SWIMS, edits);
         if let Some(motion) = motion {
-            attributes::show(ui, desk, "whale.attributes", &motion.descriptor().attributes, edits);
+            attributes::show(
+                ui,
+                shared,
+                "whale.attributes",
+                &motion.descriptor().attributes,
+                edits,
+            );
         }
-        mouth(ui, desk, edits);
+        mouth(ui, shared, edits);
     }
-    let mut posing = desk.posing;
+    let mut posing = shared.posing;
     if ui
         .toggle_value(&mut posing, "Drag the start in the view")
         .on_hover_text("Handles in the 3-D view: place, depth, heading")
         .clicked()
     {
-        desk.orders.extend([Order::Show(PanelId::VIEW), Order::Pose]);
+        shared.give(PanelAction::Show(PanelId::VIEW));
+        shared.give(ViewAction::Pose);
     }
-    friction::show(ui, desk, edits);
+    friction::show(ui, shared, edits);
 }
 
 /// Which animal, whether it lives, and how a living one moves.
-fn animal(ui: &mut Ui, desk: &Desk, dead: bool, edits: &mut Vec<Edit>) {
+fn animal(ui: &mut Ui, shared: &Shared, dead: bool, edits: &mut Vec<Edit>) {
     const FEELS: [(&str, &str); 2] =
         [("", "no: goes as it is steered"), ("kinetic", "yes: gear holds it")];
     Grid::new("animal").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
         name(ui, "Animal");
-        choice(ui, desk, "whale.item", Kind::Whale, edits);
+        choice(ui, shared, "whale.item", Kind::Whale, edits);
         ui.end_row();
-        words(ui, desk, "State", "whale.state", &[("", "alive"), ("dead", "dead, afloat")], edits);
+        words(
+            ui,
+            shared,
+            "State",
+            "whale.state",
+            &[("", "alive"), ("dead", "dead, afloat")],
+            edits,
+        );
         if !dead {
-            words(ui, desk, "Feels gear", "whale.dynamics", &FEELS, edits);
+            words(ui, shared, "Feels gear", "whale.dynamics", &FEELS, edits);
             name(ui, "Motion");
-            motion(ui, desk, edits);
+            motion(ui, shared, edits);
             ui.end_row();
         }
     });
 }
 
 /// The motion, out of those of the plugins.
-fn motion(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
-    let (host, _) = desk.helpers();
+fn motion(ui: &mut Ui, shared: &Shared, edits: &mut Vec<Edit>) {
+    let (host, _) = shared.workbench.helpers();
     let named = |id: String| {
         let name = host.motion(&id)?.descriptor().name.to_string();
         Some((id, name))
     };
     let motions: Vec<(String, String)> = host.ids().into_iter().filter_map(named).collect();
     let (field, width) = ("whale.motion", ui.available_width() - 8.0);
-    let taken = fields::choose(ui, &desk.documents, Documents::SCENARIO, field, &motions, width);
+    let taken = fields::choose(
+        ui,
+        &shared.workbench.project.documents,
+        Documents::SCENARIO,
+        field,
+        &motions,
+        width,
+    );
     edits.extend(taken.map(|id| (field.to_owned(), id)));
 }
 
 /// How far the mouth is open at the start: the pilot program says so.
-fn mouth(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
-    let field = scenario::mouth_field(&desk.documents);
+fn mouth(ui: &mut Ui, shared: &Shared, edits: &mut Vec<Edit>) {
+    let field = scenario::mouth_field(&shared.workbench.project.documents);
     Grid::new("mouth").num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
         name(ui, "Mouth");
         let said = fields::Said {
@@ -194,8 +228,15 @@ fn mouth(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
         };
         let width = ui.available_width() - 12.0;
         edits.extend(
-            fields::edit(ui, &desk.documents, Documents::SCENARIO, &field, width, said)
-                .map(|text| (field.clone(), text)),
+            fields::edit(
+                ui,
+                &shared.workbench.project.documents,
+                Documents::SCENARIO,
+                &field,
+                width,
+                said,
+            )
+            .map(|text| (field.clone(), text)),
         );
         ui.end_row();
     });
@@ -204,7 +245,7 @@ fn mouth(ui: &mut Ui, desk: &Desk, edits: &mut Vec<Edit>) {
 /// A choice among words of the format; the empty one takes the field away.
 fn words(
     ui: &mut Ui,
-    desk: &Desk,
+    shared: &Shared,
     label: &str,
     field: &str,
     words: &[(&str, &str)],
@@ -215,8 +256,15 @@ fn words(
         words.iter().map(|(word, text)| ((*word).to_owned(), (*text).to_owned())).collect();
     let width = ui.available_width() - 8.0;
     edits.extend(
-        fields::choose(ui, &desk.documents, Documents::SCENARIO, field, &choices, width)
-            .map(|word| (field.to_owned(), word)),
+        fields::choose(
+            ui,
+            &shared.workbench.project.documents,
+            Documents::SCENARIO,
+            field,
+            &choices,
+            width,
+        )
+        .map(|word| (field.to_owned(), word)),
     );
     ui.end_row();
 }
@@ -243,35 +291,42 @@ fn name_with_help(ui: &mut Ui, text: &str, help: &str) {
     }
 }
 
-fn choice(ui: &mut Ui, desk: &Desk, field: &str, kind: Kind, edits: &mut Vec<Edit>) {
-    let library = desk.documents.library();
+fn choice(ui: &mut Ui, shared: &Shared, field: &str, kind: Kind, edits: &mut Vec<Edit>) {
+    let library = shared.workbench.project.documents.library();
     let choices: Vec<(String, String)> =
         library.entries(kind).iter().map(|entry| (entry.id.clone(), entry.name.clone())).collect();
     let width = ui.available_width() - 8.0;
     edits.extend(
-        fields::choose(ui, &desk.documents, Documents::SCENARIO, field, &choices, width)
-            .map(|id| (field.to_owned(), id)),
+        fields::choose(
+            ui,
+            &shared.workbench.project.documents,
+            Documents::SCENARIO,
+            field,
+            &choices,
+            width,
+        )
+        .map(|id| (field.to_owned(), id)),
     );
 }
 
-fn rows(ui: &mut Ui, desk: &Desk, id: &str, rows: &[Row<'_>], edits: &mut Vec<Edit>) {
+fn rows(ui: &mut Ui, shared: &Shared, id: &str, rows: &[Row<'_>], edits: &mut Vec<Edit>) {
     Grid::new(id).num_columns(2).spacing([8.0, 3.0]).show(ui, |ui| {
         for row in rows {
             name(ui, row.label);
             let width = ui.available_width() - 12.0;
             ui.vertical(|ui| {
-                let site = of_site(&desk.documents, row.field);
+                let site = of_site(&shared.workbench.project.documents, row.field);
                 let hint = if site.is_empty() { row.usual } else { &site };
                 let typed = fields::edit(
                     ui,
-                    &desk.documents,
+                    &shared.workbench.project.documents,
                     Documents::SCENARIO,
                     row.field,
                     width,
                     fields::Said { hint, help: row.help },
                 );
                 edits.extend(typed.map(|value| (row.field.to_owned(), value)));
-                problem(ui, desk, row.field);
+                problem(ui, shared, row.field);
             });
             ui.end_row();
         }
@@ -279,8 +334,8 @@ fn rows(ui: &mut Ui, desk: &Desk, id: &str, rows: &[Row<'_>], edits: &mut Vec<Ed
 }
 
 /// What is wrong with a field, in its text or in the model last made of it.
-fn problem(ui: &mut Ui, desk: &Desk, field: &str) {
-    if let Some(problem) = desk.problem_at(Documents::SCENARIO, field) {
+fn problem(ui: &mut Ui, shared: &Shared, field: &str) {
+    if let Some(problem) = shared.workbench.project.problem_at(Documents::SCENARIO, field) {
         let error = RichText::new(message(problem)).size(11.0).color(Theme::palette_of(ui).error);
         ui.add(egui::Label::new(error).wrap());
     }
@@ -301,8 +356,10 @@ fn of_site(documents: &Documents, field: &str) -> String {
     given.map_or_else(String::new, |value| format!("{value} (site)"))
 }
 
-fn flag(ui: &mut Ui, desk: &Desk, flag: &Flag, edits: &mut Vec<Edit>) {
-    let mut on = desk
+fn flag(ui: &mut Ui, shared: &Shared, flag: &Flag, edits: &mut Vec<Edit>) {
+    let mut on = shared
+        .workbench
+        .project
         .documents
         .field(Documents::SCENARIO, flag.field)
         .map_or(flag.usual, |text| text == "true");
@@ -311,23 +368,25 @@ fn flag(ui: &mut Ui, desk: &Desk, flag: &Flag, edits: &mut Vec<Edit>) {
     }
 }
 
-fn apply(ui: &mut Ui, desk: &mut Desk) {
-    let wanted = desk.stale() && !desk.making() && !desk.documents.any_error();
+fn apply(ui: &mut Ui, shared: &mut Shared) {
+    let wanted = shared.workbench.stale()
+        && !shared.workbench.making()
+        && !shared.workbench.project.documents.any_error();
     ui.horizontal(|ui| {
         if primary(ui, wanted, "Apply")
             .on_hover_text("Make the model from the present texts (Ctrl+Enter)")
             .clicked()
         {
-            desk.orders.push(Order::Apply);
+            shared.give(RunAction::Apply);
         }
         if ui
             .button("Pilot program …")
             .on_hover_text("What the whale is steered to do, on a timeline")
             .clicked()
         {
-            desk.orders.push(Order::Show(PanelId::PROGRAM));
+            shared.give(PanelAction::Show(PanelId::PROGRAM));
         }
-        if desk.making() {
+        if shared.workbench.making() {
             ui.spinner();
         }
     });

@@ -4,18 +4,20 @@ mod options;
 mod priors;
 mod queue;
 
+use crate::gui::command::action::WindowAction;
+use crate::gui::widgets::command::command;
+use endline_session::command::StudyAction;
 use std::path::Path;
 
-use egui::{Button, ComboBox, RichText, ScrollArea, Ui};
+use egui::{ComboBox, RichText, ScrollArea, Ui};
 use endline_gear::{Diagnostic, Setting, StudyEvent};
 use endline_session::edit::Documents;
 
-use crate::gui::desk::{Desk, Order};
 use crate::gui::fields::{self, Said};
 use crate::gui::files;
-use crate::gui::order::Dialog;
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
+use crate::gui::shared::Shared;
 use crate::gui::theme::{Theme, primary};
 use crate::gui::widgets::{self, problem};
 
@@ -31,37 +33,37 @@ impl Panel for StudyPanel {
         PanelId::STUDY
     }
 
-    fn ui(&mut self, ui: &mut Ui, desk: &mut Desk) {
-        show(ui, desk);
+    fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
+        show(ui, shared);
     }
 }
 
 /// Draws the study panel.
-fn show(ui: &mut Ui, desk: &mut Desk) {
-    pick(ui, desk);
-    if desk.documents.text(Documents::STUDY).is_none() {
+fn show(ui: &mut Ui, shared: &mut Shared) {
+    pick(ui, shared);
+    if shared.workbench.project.documents.text(Documents::STUDY).is_none() {
         widgets::nothing(
             ui,
             "Choose a study above. Each meets every option of gear with the same drawn encounters and counts what comes of them.",
         );
-        queue::show(ui, desk);
+        queue::show(ui, shared);
         return;
     }
-    start(ui, desk);
-    queue::show(ui, desk);
+    start(ui, shared);
+    queue::show(ui, shared);
     ui.separator();
     ScrollArea::vertical().id_salt("designer").auto_shrink(false).show(ui, |ui| {
         let mut edits = Edits::new();
-        question(ui, desk, &mut edits);
-        options::show(ui, desk, &mut edits);
-        priors::show(ui, desk, &mut edits);
-        problems(ui, desk);
-        apply(desk, edits);
+        question(ui, shared, &mut edits);
+        options::show(ui, shared, &mut edits);
+        priors::show(ui, shared, &mut edits);
+        problems(ui, shared);
+        apply(shared, edits);
     });
 }
 
 /// Puts edits into the study's text, together.
-fn apply(desk: &mut Desk, edits: Edits) {
+fn apply(shared: &mut Shared, edits: Edits) {
     if edits.is_empty() {
         return;
     }
@@ -73,15 +75,19 @@ fn apply(desk: &mut Desk, edits: Edits) {
             None => Ok(()),
         })
     };
-    if let Err(error) = desk.documents.alter(Documents::STUDY, change) {
-        desk.notice = Some((error, true));
+    if let Err(error) = shared.workbench.project.documents.alter(Documents::STUDY, change) {
+        shared.fault(error);
     }
 }
 
-fn pick(ui: &mut Ui, desk: &mut Desk) {
-    let path = desk.documents.study_path().map(Path::to_owned);
-    let mark =
-        if path.is_some() && desk.documents.is_unsaved(Documents::STUDY) { "• " } else { "" };
+fn pick(ui: &mut Ui, shared: &mut Shared) {
+    let path = shared.workbench.project.documents.study_path().map(Path::to_owned);
+    let mark = if path.is_some() && shared.workbench.project.documents.is_unsaved(Documents::STUDY)
+    {
+        "• "
+    } else {
+        ""
+    };
     ui.horizontal(|ui| {
         let shown = path.as_deref().map_or_else(
             || "Choose a study".to_owned(),
@@ -91,87 +97,84 @@ fn pick(ui: &mut Ui, desk: &mut Desk) {
         ComboBox::from_id_salt("study").width(width).truncate().selected_text(shown).show_ui(
             ui,
             |ui| {
-                for file in files::studies(desk.documents.root()) {
+                for file in files::studies(shared.workbench.project.documents.root()) {
                     if ui
                         .selectable_label(path.as_ref() == Some(&file), files::stem(&file))
                         .clicked()
                         && path.as_ref() != Some(&file)
                     {
-                        desk.orders.push(Order::OpenStudy(file));
+                        shared.give(StudyAction::Open(file));
                     }
                 }
             },
         );
-        if ui.button("Open …").on_hover_text("A study file elsewhere").clicked() {
-            desk.orders.push(Order::Ask(Dialog::Study));
-        }
-        let copy = Button::new("Duplicate");
-        if ui
-            .add_enabled(path.is_some(), copy)
-            .on_hover_text("Go on with a copy in the library's folder of studies")
-            .clicked()
-        {
-            desk.orders.push(Order::DuplicateStudy);
-        }
+        command(ui, shared, "Open …", WindowAction::Ask("study.open-file"));
+        command(ui, shared, "Duplicate", StudyAction::Duplicate);
     });
 }
 
 /// The one thing to do next, and the same as text.
-fn start(ui: &mut Ui, desk: &mut Desk) {
+fn start(ui: &mut Ui, shared: &mut Shared) {
     let faint = Theme::palette_of(ui).faint;
-    let ready = !desk.documents.file_has_error(Documents::STUDY) && !desk.documents.any_error();
+    let ready = shared.workbench.study_is_sound();
     ui.horizontal_wrapped(|ui| {
         if primary(ui, ready, "Run study")
             .on_hover_text("Save, and run what is missing behind everything else; it can be left off and goes on")
             .clicked()
         {
-            desk.orders.push(Order::QueueStudy);
+            shared.give(StudyAction::Run);
         }
-        if ui.button("Copy as command line").on_hover_text("The commands that run, merge and report this study in a terminal").clicked() {
-            desk.orders.push(Order::CopyStudyLine);
-        }
-        if ui.button("Open results …").on_hover_text("The folder of a study that was run, here or elsewhere").clicked() {
-            desk.orders.push(Order::Ask(Dialog::Results));
-        }
+        command(ui, shared, "Copy as command line", WindowAction::CopyStudyLine);
+        command(ui, shared, "Open results …", WindowAction::Ask("study.results"));
         let help = "At ordinary priority, not behind everything else on the machine; the window may draw more slowly";
-        ui.checkbox(&mut desk.studies.queue.eager, "Full speed").on_hover_text(help);
+        ui.checkbox(&mut shared.workbench.studies.queue.eager, "Full speed").on_hover_text(help);
         if !ready {
             ui.label(RichText::new("errors below, or in Problems").color(faint));
         }
     });
 }
 
-fn question(ui: &mut Ui, desk: &mut Desk, edits: &mut Edits) {
+fn question(ui: &mut Ui, shared: &mut Shared, edits: &mut Edits) {
     widgets::caption(ui, "Question");
-    text(ui, desk, "Name", "name", "Shown in the report");
-    choice(ui, desk, ("Scenario", "scenario"), &desk.studies.scenarios, edits);
+    text(ui, shared, "Name", "name", "Shown in the report");
+    let scenarios = shared.workbench.studies.scenarios.iter();
+    let scenarios: Vec<_> = scenarios.map(|id| (id.clone(), id.clone())).collect();
+    choice(ui, shared, ("Scenario", "scenario"), &scenarios, edits);
     number(
         ui,
-        desk,
+        shared,
         ("Encounters", "encounters"),
         "How many encounters every option meets; the same for all, at most 65,536",
         edits,
     );
     let mut events: Vec<(String, String)> =
         StudyEvent::all().iter().map(|event| (event.name(), event.words())).collect();
-    if !desk.documents.has(Documents::STUDY, "event") {
+    if !shared.workbench.project.documents.has(Documents::STUDY, "event") {
         events.insert(0, (String::new(), StudyEvent::Entangled.words()));
     }
-    choice(ui, desk, ("Asks about", "event"), &events, edits);
-    let options: Vec<(String, String)> =
-        option_ids(&desk.documents).into_iter().map(|id| (id.clone(), id)).collect();
-    choice(ui, desk, ("Baseline", "baseline"), &options, edits);
-    let drawn = desk.documents.keys(Documents::STUDY, "encounter").into_iter();
+    choice(ui, shared, ("Asks about", "event"), &events, edits);
+    let options: Vec<(String, String)> = option_ids(&shared.workbench.project.documents)
+        .into_iter()
+        .map(|id| (id.clone(), id))
+        .collect();
+    choice(ui, shared, ("Baseline", "baseline"), &options, edits);
+    let drawn = shared.workbench.project.documents.keys(Documents::STUDY, "encounter").into_iter();
     let chosen = drawn
-        .filter(|name| desk.documents.has(Documents::STUDY, &format!("encounter.{name}.choice")))
+        .filter(|name| {
+            shared
+                .workbench
+                .project
+                .documents
+                .has(Documents::STUDY, &format!("encounter.{name}.choice"))
+        })
         .map(|name| name.replace('"', ""));
     let mut levels: Vec<(String, String)> = chosen.map(|name| (name.clone(), name)).collect();
     levels.insert(0, (String::new(), "nothing".into()));
-    choice(ui, desk, ("Results split by", "split"), &levels, edits);
-    number(ui, desk, ("Seed", "seed"), "Another seed draws other encounters", edits);
+    choice(ui, shared, ("Results split by", "split"), &levels, edits);
+    number(ui, shared, ("Seed", "seed"), "Another seed draws other encounters", edits);
     number(
         ui,
-        desk,
+        shared,
         ("Enough below", "enough.narrower"),
         "Stop once the interval of every option's rate is narrower than this, such as 0.05; empty: run all encounters",
         edits,
@@ -191,29 +194,35 @@ fn label(ui: &mut Ui, text: &str) {
     );
 }
 
-fn text(ui: &mut Ui, desk: &mut Desk, name: &str, field: &str, help: &str) {
+fn text(ui: &mut Ui, shared: &mut Shared, name: &str, field: &str, help: &str) {
     ui.horizontal(|ui| {
         label(ui, name);
         let width = ui.available_width() - 12.0;
         if let Some(typed) = fields::edit(
             ui,
-            &desk.documents,
+            &shared.workbench.project.documents,
             Documents::STUDY,
             field,
             width,
             Said { hint: "", help },
         ) {
-            desk.set(Documents::STUDY, field, &typed);
+            shared.workbench.set(Documents::STUDY, field, &typed);
         }
     });
 }
 
-fn number(ui: &mut Ui, desk: &Desk, (name, field): (&str, &str), help: &str, edits: &mut Edits) {
+fn number(
+    ui: &mut Ui,
+    shared: &Shared,
+    (name, field): (&str, &str),
+    help: &str,
+    edits: &mut Edits,
+) {
     ui.horizontal(|ui| {
         label(ui, name);
         if let Some(typed) = fields::edit(
             ui,
-            &desk.documents,
+            &shared.workbench.project.documents,
             Documents::STUDY,
             field,
             90.0,
@@ -222,7 +231,9 @@ fn number(ui: &mut Ui, desk: &Desk, (name, field): (&str, &str), help: &str, edi
             let typed = typed.replace(',', "");
             let value = (!typed.trim().is_empty()).then(|| Setting::plain(typed.trim()));
             if field == "enough.narrower" {
-                let event = desk
+                let event = shared
+                    .workbench
+                    .project
                     .documents
                     .field(Documents::STUDY, "event")
                     .unwrap_or_else(|| "entangled".into());
@@ -238,7 +249,7 @@ fn number(ui: &mut Ui, desk: &Desk, (name, field): (&str, &str), help: &str, edi
 
 fn choice(
     ui: &mut Ui,
-    desk: &Desk,
+    shared: &Shared,
     (name, field): (&str, &str),
     choices: &[(String, String)],
     edits: &mut Edits,
@@ -246,9 +257,14 @@ fn choice(
     ui.horizontal(|ui| {
         label(ui, name);
         let width = ui.available_width() - 12.0;
-        if let Some(taken) =
-            fields::choose(ui, &desk.documents, Documents::STUDY, field, choices, width)
-        {
+        if let Some(taken) = fields::choose(
+            ui,
+            &shared.workbench.project.documents,
+            Documents::STUDY,
+            field,
+            choices,
+            width,
+        ) {
             edits.push((field.to_owned(), (!taken.is_empty()).then(|| Setting::text(&taken))));
         }
     });
@@ -262,10 +278,17 @@ fn option_ids(documents: &Documents) -> Vec<String> {
 }
 
 /// What is wrong with the study's text.
-fn problems(ui: &mut Ui, desk: &Desk) {
-    let file = desk.documents.shown_name(Documents::STUDY);
-    let own: Vec<Diagnostic> =
-        desk.documents.problems().iter().filter(|problem| problem.file == file).cloned().collect();
+fn problems(ui: &mut Ui, shared: &Shared) {
+    let file = shared.workbench.project.documents.shown_name(Documents::STUDY);
+    let own: Vec<Diagnostic> = shared
+        .workbench
+        .project
+        .documents
+        .problems()
+        .iter()
+        .filter(|problem| problem.file == file)
+        .cloned()
+        .collect();
     for problem in &own {
         problem::entry(ui, problem);
     }

@@ -5,8 +5,8 @@ use endline_gear::Setting;
 use endline_session::edit::Documents;
 
 use super::Edits;
-use crate::gui::desk::Desk;
 use crate::gui::fields::{self, Said};
+use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
 
@@ -21,17 +21,18 @@ enum Act {
 }
 
 /// Draws every option with its settings.
-pub(super) fn show(ui: &mut Ui, desk: &mut Desk, edits: &mut Edits) {
+pub(super) fn show(ui: &mut Ui, shared: &mut Shared, edits: &mut Edits) {
     widgets::caption(ui, "Options");
-    let count = super::option_ids(&desk.documents).len();
-    let baseline = desk.documents.field(Documents::STUDY, "baseline").unwrap_or_default();
+    let count = super::option_ids(&shared.workbench.project.documents).len();
+    let baseline =
+        shared.workbench.project.documents.field(Documents::STUDY, "baseline").unwrap_or_default();
     let mut act = None;
     for index in 0..count {
         Frame::new().fill(Theme::palette_of(ui).field).corner_radius(4.0).inner_margin(6.0).show(
             ui,
             |ui| {
-                act = head(ui, desk, index, &baseline, edits).or(act.take());
-                settings(ui, desk, index, edits);
+                act = head(ui, shared, index, &baseline, edits).or(act.take());
+                settings(ui, shared, index, edits);
             },
         );
         ui.add_space(4.0);
@@ -40,23 +41,31 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, edits: &mut Edits) {
         act = Some(Act::Copy(count.saturating_sub(1)));
     }
     match act {
-        Some(Act::Copy(index)) => copy(desk, index),
+        Some(Act::Copy(index)) => copy(shared, index),
         Some(Act::Drop(index)) => {
-            if let Err(error) = desk.documents.alter(Documents::STUDY, |document| {
-                document.remove_table("option", index).map_err(|error| error.message)
-            }) {
-                desk.notice = Some((error, true));
+            if let Err(error) =
+                shared.workbench.project.documents.alter(Documents::STUDY, |document| {
+                    document.remove_table("option", index).map_err(|error| error.message)
+                })
+            {
+                shared.fault(error);
             }
         }
         None => {}
     }
 }
 
-fn head(ui: &mut Ui, desk: &Desk, index: usize, baseline: &str, edits: &mut Edits) -> Option<Act> {
+fn head(
+    ui: &mut Ui,
+    shared: &Shared,
+    index: usize,
+    baseline: &str,
+    edits: &mut Edits,
+) -> Option<Act> {
     let mut act = None;
     ui.horizontal(|ui| {
         let id = format!("option.{index}.id");
-        let is_baseline = desk.documents.field(Documents::STUDY, &id).as_deref() == Some(baseline);
+        let is_baseline = shared.workbench.project.documents.field(Documents::STUDY, &id).as_deref() == Some(baseline);
         let fields = [
             (id, 84.0, "id", "Id, unique among the options"),
             (format!("option.{index}.name"), (ui.available_width() - 292.0).max(90.0), "name", "Name in tables and figures"),
@@ -68,7 +77,7 @@ fn head(ui: &mut Ui, desk: &Desk, index: usize, baseline: &str, edits: &mut Edit
             ),
         ];
         for (field, width, hint, help) in fields {
-            if let Some(typed) = fields::edit(ui, &desk.documents, Documents::STUDY, &field, width, Said { hint, help }) {
+            if let Some(typed) = fields::edit(ui, &shared.workbench.project.documents, Documents::STUDY, &field, width, Said { hint, help }) {
                 if field.ends_with(".id") && is_baseline {
                     edits.push(("baseline".into(), Some(Setting::text(&typed))));
                 }
@@ -88,10 +97,10 @@ fn head(ui: &mut Ui, desk: &Desk, index: usize, baseline: &str, edits: &mut Edit
     act
 }
 
-fn settings(ui: &mut Ui, desk: &mut Desk, index: usize, edits: &mut Edits) {
+fn settings(ui: &mut Ui, shared: &mut Shared, index: usize, edits: &mut Edits) {
     let faint = Theme::palette_of(ui).faint;
     let table = format!("option.{index}.set");
-    let leaves = leaves(&desk.documents, &table);
+    let leaves = leaves(&shared.workbench.project.documents, &table);
     if leaves.is_empty() {
         ui.label(RichText::new("the scenario as it stands").color(faint));
     }
@@ -103,7 +112,7 @@ fn settings(ui: &mut Ui, desk: &mut Desk, index: usize, edits: &mut Edits) {
             let width = (ui.available_width() - 40.0).max(60.0);
             if let Some(typed) = fields::edit(
                 ui,
-                &desk.documents,
+                &shared.workbench.project.documents,
                 Documents::STUDY,
                 &path,
                 width,
@@ -130,7 +139,7 @@ fn settings(ui: &mut Ui, desk: &mut Desk, index: usize, edits: &mut Edits) {
         if wanted {
             let (field, value) = typed.split_once('=').unwrap_or((&typed, ""));
             let value = if value.trim().is_empty() {
-                current(desk, field.trim())
+                current(shared, field.trim())
             } else {
                 value.trim().to_owned()
             };
@@ -142,11 +151,13 @@ fn settings(ui: &mut Ui, desk: &mut Desk, index: usize, edits: &mut Edits) {
 }
 
 /// A field as the library has it, so that a setting begins with what it changes.
-fn current(desk: &Desk, field: &str) -> String {
+fn current(shared: &Shared, field: &str) -> String {
     let item = field.split_once('.').filter(|(item, _)| item.contains('/'));
     let found = match item {
-        Some((item, field)) => desk.documents.field(&format!("{item}.toml"), field),
-        None => desk.documents.field(Documents::SCENARIO, field),
+        Some((item, field)) => {
+            shared.workbench.project.documents.field(&format!("{item}.toml"), field)
+        }
+        None => shared.workbench.project.documents.field(Documents::SCENARIO, field),
     };
     found.unwrap_or_default()
 }
@@ -166,23 +177,25 @@ fn leaves(documents: &Documents, table: &str) -> Vec<String> {
 }
 
 /// Adds an option like another, under an id of its own.
-fn copy(desk: &mut Desk, index: usize) {
-    let ids = super::option_ids(&desk.documents);
+fn copy(shared: &mut Shared, index: usize) {
+    let ids = super::option_ids(&shared.workbench.project.documents);
     let old = ids.get(index).cloned().unwrap_or_else(|| "option".into());
     let Some(id) = (2..).map(|number| format!("{old}-{number}")).find(|id| !ids.contains(id))
     else {
         return;
     };
-    let of = |key: &str| desk.documents.field(Documents::STUDY, &format!("option.{index}.{key}"));
+    let of = |key: &str| {
+        shared.workbench.project.documents.field(Documents::STUDY, &format!("option.{index}.{key}"))
+    };
     let name = of("name").map(|name| format!("{name} (copy)"));
     let strength = of("strength");
     let table = format!("option.{index}.set");
-    let settings: Vec<(String, String)> = leaves(&desk.documents, &table)
+    let settings: Vec<(String, String)> = leaves(&shared.workbench.project.documents, &table)
         .into_iter()
         .filter_map(|path| {
             Some((
                 path.trim_start_matches(&table).to_owned(),
-                desk.documents.field(Documents::STUDY, &path)?,
+                shared.workbench.project.documents.field(Documents::STUDY, &path)?,
             ))
         })
         .collect();
@@ -200,7 +213,7 @@ fn copy(desk: &mut Desk, index: usize) {
                 .map_err(|error| error.message)
         })
     };
-    if let Err(error) = desk.documents.alter(Documents::STUDY, change) {
-        desk.notice = Some((error, true));
+    if let Err(error) = shared.workbench.project.documents.alter(Documents::STUDY, change) {
+        shared.fault(error);
     }
 }

@@ -5,8 +5,8 @@ use endline_gear::Setting;
 use endline_session::edit::Documents;
 
 use super::Edits;
-use crate::gui::desk::Desk;
 use crate::gui::fields::{self, Said};
+use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
 
@@ -43,17 +43,19 @@ const LAWS: [(&str, &str); 4] = [
 ];
 
 /// Draws where the whale is aimed, and every prior.
-pub(super) fn show(ui: &mut Ui, desk: &mut Desk, edits: &mut Edits) {
+pub(super) fn show(ui: &mut Ui, shared: &mut Shared, edits: &mut Edits) {
     widgets::caption(ui, "Encounters, drawn alike for every option");
-    list(ui, desk, ("Aimed at", "encounter.aim"), "Lines of the gear at rest; empty: any", edits);
+    list(ui, shared, ("Aimed at", "encounter.aim"), "Lines of the gear at rest; empty: any", edits);
     super::text(
         ui,
-        desk,
+        shared,
         "Begins",
         "encounter.gap",
         "From the snout to the rope at the start, such as 3 m",
     );
-    let names: Vec<String> = desk
+    let names: Vec<String> = shared
+        .workbench
+        .project
         .documents
         .keys(Documents::STUDY, "encounter")
         .into_iter()
@@ -61,29 +63,29 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, edits: &mut Edits) {
         .collect();
     for name in &names {
         ui.add_space(3.0);
-        prior(ui, desk, name, edits);
+        prior(ui, shared, name, edits);
     }
     add(ui, &names, edits);
 }
 
-fn prior(ui: &mut Ui, desk: &mut Desk, name: &str, edits: &mut Edits) {
+fn prior(ui: &mut Ui, shared: &mut Shared, name: &str, edits: &mut Edits) {
     let at = format!("encounter.{name}");
-    let Some((law, _)) =
-        LAWS.iter().find(|(law, _)| desk.documents.has(Documents::STUDY, &format!("{at}.{law}")))
-    else {
+    let Some((law, _)) = LAWS.iter().find(|(law, _)| {
+        shared.workbench.project.documents.has(Documents::STUDY, &format!("{at}.{law}"))
+    }) else {
         return;
     };
     ui.horizontal(|ui| {
         super::label(ui, &name.replace('_', " ").replace('"', ""));
         laws(ui, &at, law, name, edits);
         match *law {
-            "uniform" => pair(ui, desk, &format!("{at}.uniform"), edits),
+            "uniform" => pair(ui, shared, &format!("{at}.uniform"), edits),
             "normal" => {
-                pair(ui, desk, &format!("{at}.normal"), edits);
+                pair(ui, shared, &format!("{at}.normal"), edits);
                 ui.label("within");
-                pair(ui, desk, &format!("{at}.between"), edits);
+                pair(ui, shared, &format!("{at}.between"), edits);
             }
-            "value" => one(ui, desk, &format!("{at}.value"), 84.0, edits),
+            "value" => one(ui, shared, &format!("{at}.value"), 84.0, edits),
             _ => {}
         }
         if ui
@@ -95,16 +97,16 @@ fn prior(ui: &mut Ui, desk: &mut Desk, name: &str, edits: &mut Edits) {
         }
     });
     if *law == "choice" {
-        list(ui, desk, ("", &format!("{at}.choice")), "Values, with commas between", edits);
+        list(ui, shared, ("", &format!("{at}.choice")), "Values, with commas between", edits);
         list(
             ui,
-            desk,
+            shared,
             ("  weights", &format!("{at}.weights")),
             "How often each, with commas between; empty: all alike",
             edits,
         );
     }
-    confidence(ui, desk, &at, edits);
+    confidence(ui, shared, &at, edits);
 }
 
 /// The law of a prior; another one begins with what is usual.
@@ -145,26 +147,34 @@ fn begin(at: &str, law: &str, name: &str, edits: &mut Edits) {
     }
 }
 
-fn pair(ui: &mut Ui, desk: &Desk, field: &str, edits: &mut Edits) {
+fn pair(ui: &mut Ui, shared: &Shared, field: &str, edits: &mut Edits) {
     for index in 0..2 {
-        one(ui, desk, &format!("{field}.{index}"), 62.0, edits);
+        one(ui, shared, &format!("{field}.{index}"), 62.0, edits);
     }
 }
 
-fn one(ui: &mut Ui, desk: &Desk, field: &str, width: f32, edits: &mut Edits) {
+fn one(ui: &mut Ui, shared: &Shared, field: &str, width: f32, edits: &mut Edits) {
     let said = Said { hint: "", help: "With its unit, such as 0.6 m/s" };
-    if let Some(typed) = fields::edit(ui, &desk.documents, Documents::STUDY, field, width, said) {
+    if let Some(typed) =
+        fields::edit(ui, &shared.workbench.project.documents, Documents::STUDY, field, width, said)
+    {
         edits.push((field.to_owned(), Some(Setting::plain(&typed))));
     }
 }
 
 /// A list of values as one line with commas.
-fn list(ui: &mut Ui, desk: &Desk, (name, field): (&str, &str), help: &str, edits: &mut Edits) {
+fn list(ui: &mut Ui, shared: &Shared, (name, field): (&str, &str), help: &str, edits: &mut Edits) {
     ui.horizontal(|ui| {
         super::label(ui, name);
         let id = egui::Id::new(("list", field));
         let values: Vec<String> = (0..)
-            .map_while(|index| desk.documents.field(Documents::STUDY, &format!("{field}.{index}")))
+            .map_while(|index| {
+                shared
+                    .workbench
+                    .project
+                    .documents
+                    .field(Documents::STUDY, &format!("{field}.{index}"))
+            })
             .collect();
         let stored = values.join(", ");
         let mut typed =
@@ -200,20 +210,31 @@ fn written(typed: &str) -> Option<Setting> {
     (!values.is_empty()).then(|| Setting::plain(&format!("[{}]", values.join(", "))))
 }
 
-fn confidence(ui: &mut Ui, desk: &mut Desk, at: &str, edits: &mut Edits) {
+fn confidence(ui: &mut Ui, shared: &mut Shared, at: &str, edits: &mut Edits) {
     ui.horizontal(|ui| {
         super::label(ui, "  source");
         let field = format!("{at}.source");
-        let assumed = desk.documents.field(Documents::STUDY, &field).as_deref() == Some("assumed");
+        let assumed = shared.workbench.project.documents.field(Documents::STUDY, &field).as_deref()
+            == Some("assumed");
         let width = ui.available_width() - if assumed { 12.0 } else { 110.0 };
         let said = Said { hint: "assumed", help: "Where the distribution comes from, or assumed" };
-        if let Some(typed) =
-            fields::edit(ui, &desk.documents, Documents::STUDY, &field, width, said)
-        {
+        if let Some(typed) = fields::edit(
+            ui,
+            &shared.workbench.project.documents,
+            Documents::STUDY,
+            &field,
+            width,
+            said,
+        ) {
             let typed = if typed.trim().is_empty() { "assumed".to_owned() } else { typed };
             if typed == "assumed" {
                 edits.push((format!("{at}.confidence"), None));
-            } else if desk.documents.field(Documents::STUDY, &format!("{at}.confidence")).is_none()
+            } else if shared
+                .workbench
+                .project
+                .documents
+                .field(Documents::STUDY, &format!("{at}.confidence"))
+                .is_none()
             {
                 edits.push((format!("{at}.confidence"), Some(Setting::text("assumed"))));
             }
@@ -224,9 +245,14 @@ fn confidence(ui: &mut Ui, desk: &mut Desk, at: &str, edits: &mut Edits) {
             let words: Vec<(String, String)> = ["measured", "derived", "estimate", "assumed"]
                 .map(|word| (word.to_owned(), word.to_owned()))
                 .to_vec();
-            if let Some(word) =
-                fields::choose(ui, &desk.documents, Documents::STUDY, &field, &words, 88.0)
-            {
+            if let Some(word) = fields::choose(
+                ui,
+                &shared.workbench.project.documents,
+                Documents::STUDY,
+                &field,
+                &words,
+                88.0,
+            ) {
                 edits.push((field, Some(Setting::text(&word))));
             }
         }

@@ -1,5 +1,6 @@
 //! The queue of studies: how far each is, what can be done with it, and studies that are ready.
 
+use endline_session::command::StudyAction;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -7,7 +8,7 @@ use egui::{ProgressBar, RichText, Ui};
 use endline_session::study::queue::{Job, State};
 use endline_session::study::results;
 
-use crate::gui::desk::{Desk, Order};
+use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 
 /// What is done with a job.
@@ -20,27 +21,27 @@ enum Act {
 }
 
 /// Draws the queue.
-pub(super) fn show(ui: &mut Ui, desk: &mut Desk) {
+pub(super) fn show(ui: &mut Ui, shared: &mut Shared) {
     let mut act = None;
     let mut wanted = None;
-    for (index, job) in desk.studies.queue.jobs.iter().enumerate() {
+    for (index, job) in shared.workbench.studies.queue.jobs.iter().enumerate() {
         ui.add_space(3.0);
         if let Some(done) = row(ui, job, &mut wanted) {
             act = Some((index, done));
         }
     }
-    if desk.studies.queue.jobs.iter().any(Job::at_work) {
+    if shared.workbench.studies.queue.jobs.iter().any(Job::at_work) {
         ui.ctx().request_repaint_after(Duration::from_millis(500));
     }
     match act {
-        Some((index, Act::Pause)) => desk.studies.queue.jobs[index].pause(),
-        Some((index, Act::Resume)) => desk.studies.queue.jobs[index].resume(),
-        Some((index, Act::Cancel)) => desk.studies.queue.jobs[index].cancel(),
-        Some((index, Act::Forget)) => drop(desk.studies.queue.jobs.remove(index)),
+        Some((index, Act::Pause)) => shared.workbench.studies.queue.jobs[index].pause(),
+        Some((index, Act::Resume)) => shared.workbench.studies.queue.jobs[index].resume(),
+        Some((index, Act::Cancel)) => shared.workbench.studies.queue.jobs[index].cancel(),
+        Some((index, Act::Forget)) => drop(shared.workbench.studies.queue.jobs.remove(index)),
         None => {}
     }
-    ready(ui, desk);
-    desk.orders.extend(wanted.map(Order::OpenResults));
+    ready(ui, shared);
+    shared.commands.extend(wanted.map(|chosen| StudyAction::ShowResults(chosen).into()));
 }
 
 fn row(ui: &mut Ui, job: &Job, wanted: &mut Option<PathBuf>) -> Option<Act> {
@@ -100,10 +101,10 @@ fn button(ui: &mut Ui, text: &str, act: Act) -> Option<Act> {
 }
 
 /// Results that lie ready, of studies run before.
-fn ready(ui: &mut Ui, desk: &mut Desk) {
-    let root = desk.studies.root();
+fn ready(ui: &mut Ui, shared: &mut Shared) {
+    let root = shared.workbench.studies.root();
     let id = egui::Id::new("ready studies");
-    let count = desk.studies.queue.jobs.iter().filter(|job| !job.unfinished()).count();
+    let count = shared.workbench.studies.queue.jobs.iter().filter(|job| !job.unfinished()).count();
     let known = ui
         .data(|data| data.get_temp::<(usize, Vec<(PathBuf, String)>)>(id))
         .filter(|(seen, _)| *seen == count);
@@ -117,7 +118,7 @@ fn ready(ui: &mut Ui, desk: &mut Desk) {
         .show(ui, |ui| {
             for (folder, words) in found {
                 if ui.link(words).on_hover_text(folder.display().to_string()).clicked() {
-                    desk.orders.push(Order::OpenResults(folder));
+                    shared.give(StudyAction::ShowResults(folder));
                 }
             }
         });

@@ -9,6 +9,7 @@ mod split;
 mod state;
 mod transport;
 
+use crate::gui::command::action::{FlightAction, ViewAction};
 use std::sync::Arc;
 
 use egui::{Rect, Ui, pos2};
@@ -19,9 +20,9 @@ pub use eye::Eye;
 pub use state::{Drawn, ScaleTop, ViewPanel};
 
 use crate::gui::canvas::MOST_PANES;
-use crate::gui::desk::{Desk, Order};
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
+use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::words::capital;
 use crate::scene::View;
@@ -32,23 +33,23 @@ impl Panel for ViewPanel {
         PanelId::VIEW
     }
 
-    fn ui(&mut self, ui: &mut Ui, desk: &mut Desk) {
-        self.follow(desk);
-        self.toolbar(ui, desk);
+    fn ui(&mut self, ui: &mut Ui, shared: &mut Shared) {
+        self.follow(shared);
+        self.toolbar(ui, shared);
         let size = ui.available_size() - egui::vec2(0.0, transport::HEIGHT);
         let (rect, _) = ui.allocate_exact_size(size.max(egui::Vec2::ZERO), egui::Sense::hover());
-        transport::show(ui, desk);
-        let Some(view) = desk.view.clone() else { return waiting(ui, rect, desk) };
-        let views = [Some(view), desk.other_view()];
+        transport::show(ui, shared);
+        let Some(view) = shared.workbench.view().cloned() else { return waiting(ui, rect, shared) };
+        let views = [Some(view), shared.workbench.compared_view()];
         self.load(&views);
         for pane in self.panes(views[1].is_some(), rect) {
             if let Some(view) = &views[pane.run] {
-                pane::show(ui, self, desk, view, pane);
+                pane::show(ui, self, shared, view, pane);
             }
         }
         let halves = places(rect, if views[1].is_some() { 2 } else { 1 });
         for (view, half) in views.iter().flatten().zip(halves) {
-            picking::card(ui, &self.picks, desk, view, half);
+            picking::card(ui, &self.picks, shared, view, half);
         }
     }
 }
@@ -77,31 +78,31 @@ impl ViewPanel {
         all.zip(places).map(|((run, slot), rect)| Pane { run, slot, rect }).collect()
     }
 
-    fn toolbar(&mut self, ui: &mut Ui, desk: &mut Desk) {
+    fn toolbar(&mut self, ui: &mut Ui, shared: &mut Shared) {
         ui.horizontal_wrapped(|ui| {
-            self.views(ui, desk);
+            self.views(ui, shared);
             ui.separator();
             self.shown(ui);
             ui.separator();
             let mut ruler = self.picks.ruler;
             let help = "Click two places to measure between them, straight and along the rope (R).\nWithout it a click reads what is there.";
             if ui.toggle_value(&mut ruler, "Ruler").on_hover_text(help).clicked() {
-                desk.orders.push(Order::Ruler);
+                shared.give(ViewAction::Ruler);
             }
-            let mut posing = desk.posing;
+            let mut posing = shared.posing;
             let help = "Handles in the view: drag where the whale starts, how deep, and where it heads";
             if ui.toggle_value(&mut posing, "Start pose").on_hover_text(help).clicked() {
-                desk.orders.push(Order::Pose);
+                shared.give(ViewAction::Pose);
             }
-            let mut flying = desk.flying;
+            let mut flying = shared.flying;
             if ui.toggle_value(&mut flying, "Fly").on_hover_text("Steer the whale (Ctrl+F); Esc lets go").clicked() {
-                desk.orders.push(Order::Fly);
+                shared.give(FlightAction::Toggle);
             }
         });
     }
 
     /// From where the chosen pane looks, and how many there are.
-    fn views(&mut self, ui: &mut Ui, desk: &mut Desk) {
+    fn views(&mut self, ui: &mut Ui, shared: &mut Shared) {
         let count = self.eyes.len();
         let eye = self.eye();
         let (follow, named) = (eye.follow, eye.named);
@@ -132,7 +133,7 @@ impl ViewPanel {
                     format!("{count} views at once")
                 };
                 if ui.button(text).clicked() {
-                    desk.orders.push(Order::Views(count));
+                    shared.give(ViewAction::Split(count));
                     ui.close();
                 }
             }
@@ -164,10 +165,14 @@ fn spoken(view: View) -> String {
     }
 }
 
-fn waiting(ui: &Ui, rect: Rect, desk: &Desk) {
+fn waiting(ui: &Ui, rect: Rect, shared: &Shared) {
     let palette = Theme::palette_of(ui);
     ui.painter().rect_filled(rect, 0.0, palette.ground);
-    let text = if desk.making() { "Making the model …" } else { "No model yet; see Problems." };
+    let text = if shared.workbench.making() {
+        "Making the model …"
+    } else {
+        "No model yet; see Problems."
+    };
     let place = pos2(rect.center().x, rect.center().y);
     ui.painter().text(
         place,

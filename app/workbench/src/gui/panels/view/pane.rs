@@ -8,7 +8,7 @@ use glam::DVec2;
 use super::split::Pane;
 use super::{ViewPanel, hud, picking, pose, spoken};
 use crate::gui::canvas::Canvas;
-use crate::gui::desk::Desk;
+use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::scene::pick::pick;
 use crate::scene::{Camera, Overlay, Water, overlay};
@@ -20,7 +20,7 @@ const ROOMY: f32 = 480.0;
 pub(super) fn show(
     ui: &mut Ui,
     panel: &mut ViewPanel,
-    desk: &mut Desk,
+    shared: &mut Shared,
     view: &LiveView,
     pane: Pane,
 ) {
@@ -34,16 +34,16 @@ pub(super) fn show(
         panel.chosen = slot;
     }
     let eye = &mut panel.eyes[slot];
-    eye.turn(ui, &response, desk.flying);
+    eye.turn(ui, &response, shared.flying);
     let camera = eye.placed(view, rect);
     if run == 0 {
         (eye.camera, eye.frame_again) = (camera.clone(), false);
     }
     click(panel, view, &camera, &response);
-    paint(ui, panel, desk, pane, &camera);
-    write_over(ui, panel, desk, view, pane, &camera);
+    paint(ui, panel, shared, pane, &camera);
+    write_over(ui, panel, shared, view, pane, &camera);
     if run == 0 {
-        pose::show(ui, &mut panel.held, desk, pane, &camera);
+        pose::show(ui, &mut panel.held, shared, pane, &camera);
     }
 }
 
@@ -60,12 +60,12 @@ fn click(panel: &mut ViewPanel, view: &LiveView, camera: &Camera, response: &Res
     panel.picks.take(hit);
 }
 
-fn paint(ui: &Ui, panel: &ViewPanel, desk: &Desk, pane: Pane, camera: &Camera) {
+fn paint(ui: &Ui, panel: &ViewPanel, shared: &Shared, pane: Pane, camera: &Camera) {
     let rect = pane.rect;
     match &panel.drawn[pane.run].canvas {
         Some(canvas) => {
             let water =
-                if desk.preferences.theme == Theme::Dark { Water::DARK } else { Water::LIGHT };
+                if shared.preferences.theme == Theme::Dark { Water::DARK } else { Water::LIGHT };
             ui.painter().add(Canvas::callback(canvas, pane.slot, rect, camera.clone(), water));
         }
         None => {
@@ -77,7 +77,7 @@ fn paint(ui: &Ui, panel: &ViewPanel, desk: &Desk, pane: Pane, camera: &Camera) {
 fn write_over(
     ui: &Ui,
     panel: &ViewPanel,
-    desk: &Desk,
+    shared: &Shared,
     view: &LiveView,
     pane: Pane,
     camera: &Camera,
@@ -85,8 +85,8 @@ fn write_over(
     let Pane { run, slot, rect } = pane;
     let painter = ui.painter().with_clip_rect(rect);
     let several = panel.eyes.len() > 1;
-    let compared = desk.other().is_some();
-    let caption = caption(panel, desk, view, pane);
+    let compared = shared.workbench.comparison().is_some();
+    let caption = caption(panel, shared, view, pane);
     // One scale is enough for all panes: in the last, at the foot.
     let last = slot + 1 == panel.eyes.len() && run == usize::from(compared);
     let scale_n = if last { panel.scale_n } else { 0.0 };
@@ -96,7 +96,7 @@ fn write_over(
         rect,
         &Overlay { caption: &caption, time_s: view.frame.time_s, scale_n, metres_a_point },
     );
-    picking::paint(&painter, &panel.picks, pane, camera, view, desk.preferences.units);
+    picking::paint(&painter, &panel.picks, pane, camera, view, shared.workbench.preferences.units);
     if several && slot == panel.chosen {
         painter.rect_stroke(
             rect,
@@ -106,34 +106,36 @@ fn write_over(
         );
     }
     if slot == 0 && run == 0 {
-        felt(ui, desk, &painter, rect);
+        felt(ui, shared, &painter, rect);
     }
-    if desk.flying && slot == panel.chosen && run == 0 {
-        let act =
-            desk.pilot.chosen_act(desk.acts().len()).map(|act| desk.acts()[act].name.as_ref());
+    if shared.flying && slot == panel.chosen && run == 0 {
+        let act = shared
+            .pilot
+            .chosen_act(shared.workbench.acts().len())
+            .map(|act| shared.workbench.acts()[act].name.as_ref());
         hud::paint(
             &painter,
             rect,
             view,
-            desk.preferences.units,
-            &hud::told(&view.controls, act, desk.pilot.hands()),
+            shared.workbench.preferences.units,
+            &hud::told(&view.controls, act, shared.pilot.hands()),
         );
     }
 }
 
-fn caption(panel: &ViewPanel, desk: &Desk, view: &LiveView, pane: Pane) -> String {
+fn caption(panel: &ViewPanel, shared: &Shared, view: &LiveView, pane: Pane) -> String {
     let eye = &panel.eyes[pane.slot];
-    let run = if desk.other().is_some() { ["A", "B"][pane.run] } else { "" };
+    let run = if shared.workbench.comparison().is_some() { ["A", "B"][pane.run] } else { "" };
     let named = if panel.eyes.len() > 1 { spoken(eye.named) } else { String::new() };
     let roomy = pane.rect.width() > ROOMY;
-    let standing = match (view.sought && pane.run == 0, desk.stale() && pane.run == 0) {
+    let standing = match (view.sought && pane.run == 0, shared.workbench.stale() && pane.run == 0) {
         (true, _) => "looking back",
         (false, true) => "before the last edits",
         (false, false) => "",
     };
     let greatest_n = if panel.show.forces && roomy { greatest_n(&view.frame) } else { 0.0 };
     let arrows = if greatest_n > 0.0 {
-        format!("longest arrow {}", desk.preferences.units.force().text(greatest_n))
+        format!("longest arrow {}", shared.workbench.preferences.units.force().text(greatest_n))
     } else {
         String::new()
     };
@@ -145,8 +147,8 @@ fn caption(panel: &ViewPanel, desk: &Desk, view: &LiveView, pane: Pane) -> Strin
 }
 
 /// The edge flashes with what the pilot feels.
-fn felt(ui: &Ui, desk: &Desk, painter: &egui::Painter, rect: Rect) {
-    let felt = desk.rumble.strength(ui.input(|input| input.time));
+fn felt(ui: &Ui, shared: &Shared, painter: &egui::Painter, rect: Rect) {
+    let felt = shared.rumble.strength(ui.input(|input| input.time));
     if felt > 0.0 {
         let warning = Theme::palette_of(ui).warning.gamma_multiply(felt as f32);
         painter.rect_stroke(

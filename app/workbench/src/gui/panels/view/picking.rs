@@ -1,5 +1,6 @@
 //! What is read in the 3-D view, and the ruler: shown on the picture, told in a card beside it.
 
+use crate::gui::command::action::ViewAction;
 use egui::{
     Align, Align2, Color32, FontId, Frame, Layout, Painter, Pos2, Rect, RichText, Stroke, Ui,
     UiBuilder, pos2, vec2,
@@ -9,8 +10,8 @@ use endline_session::units::Units;
 use glam::{DVec2, DVec3};
 
 use super::split::Pane;
-use crate::gui::desk::{Desk, Order};
 use crate::gui::inspector::{Reading, measured, read};
+use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets;
 use crate::scene::{Camera, Picked};
@@ -46,6 +47,12 @@ impl Picks {
     pub fn toggle_ruler(&mut self) {
         self.ruler = !self.ruler;
         self.ends.clear();
+    }
+
+    /// Whether something is read or measured.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        self.read.is_some() || self.ruler
     }
 
     /// Nothing is read or measured.
@@ -155,8 +162,8 @@ impl Sheet<'_> {
 }
 
 /// The card with what is read or measured, at the upper left.
-pub(super) fn card(ui: &mut Ui, picks: &Picks, desk: &mut Desk, view: &LiveView, rect: Rect) {
-    let units = desk.preferences.units;
+pub(super) fn card(ui: &mut Ui, picks: &Picks, shared: &mut Shared, view: &LiveView, rect: Rect) {
+    let units = shared.workbench.preferences.units;
     let readings =
         [picks.read.and_then(|picked| read(view, picked, units)), ruler(picks, view, units)];
     let mut place = Rect::from_min_size(
@@ -173,7 +180,7 @@ pub(super) fn card(ui: &mut Ui, picks: &Picks, desk: &mut Desk, view: &LiveView,
                 .stroke(Stroke::new(1.0, line))
                 .corner_radius(6.0)
                 .inner_margin(8.0);
-            frame.show(ui, |ui| told(ui, desk, &reading)).response.rect
+            frame.show(ui, |ui| told(ui, shared, &reading)).response.rect
         });
         place = Rect::from_min_max(pos2(place.left(), inner.inner.bottom() + 6.0), place.max);
     }
@@ -190,13 +197,13 @@ fn ruler(picks: &Picks, view: &LiveView, units: Units) -> Option<Reading> {
     }
 }
 
-fn told(ui: &mut Ui, desk: &mut Desk, reading: &Reading) {
+fn told(ui: &mut Ui, shared: &mut Shared, reading: &Reading) {
     ui.set_width(ui.available_width());
     ui.horizontal(|ui| {
         ui.label(RichText::new(&reading.title).strong().color(Theme::palette_of(ui).accent));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if ui.add(egui::Button::new("×").frame(false)).on_hover_text("Close").clicked() {
-                desk.orders.push(Order::LetGo);
+                shared.give(ViewAction::LetGo);
             }
         });
     });

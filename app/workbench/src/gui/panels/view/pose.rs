@@ -6,12 +6,13 @@ use egui::{
 };
 use endline_gear::units::{Quantity, find, parse};
 use endline_gear::{Document, Setting};
+use endline_session::command::RunAction;
 use endline_session::edit::Documents;
 use endline_session::units::{Units, bearing_degrees};
 use glam::{DVec2, DVec3};
 
 use super::split::Pane;
-use crate::gui::desk::{Desk, Order};
+use crate::gui::shared::Shared;
 use crate::scene::Camera;
 
 /// Half size of a handle as it is taken [points].
@@ -156,12 +157,15 @@ fn upright(place: DVec3, eye: DVec3, along: DVec3) -> f64 {
 pub(super) fn show(
     ui: &mut Ui,
     held: &mut Option<Start>,
-    desk: &mut Desk,
+    shared: &mut Shared,
     pane: Pane,
     camera: &Camera,
 ) {
     let Pane { rect, slot, .. } = pane;
-    let Some(written) = Start::of(&desk.documents).filter(|_| desk.posing) else { return };
+    let Some(written) = Start::of(&shared.workbench.project.documents).filter(|_| shared.posing)
+    else {
+        return;
+    };
     let start = held.unwrap_or(written);
     let sheet = Sheet { painter: ui.painter().with_clip_rect(rect), rect, camera };
     sheet.body(&start);
@@ -188,7 +192,7 @@ pub(super) fn show(
         sheet.handle(handle, at, taken);
         if taken {
             ui.ctx().set_cursor_icon(CursorIcon::Grab);
-            sheet.told(&start, at, desk.preferences.units);
+            sheet.told(&start, at, shared.workbench.preferences.units);
         }
         if let Some(pointer) = response.interact_pointer_pos().filter(|_| response.dragged()) {
             let (eye, along) = sheet.ray(pointer);
@@ -196,7 +200,7 @@ pub(super) fn show(
         }
         if response.drag_stopped() {
             *held = None;
-            let_go(desk, &start);
+            let_go(shared, &start);
             return;
         }
     }
@@ -204,14 +208,18 @@ pub(super) fn show(
 }
 
 /// One edit of the text; gear that stands ready is taken over at once.
-fn let_go(desk: &mut Desk, start: &Start) {
-    if let Err(error) = desk.documents.alter(Documents::SCENARIO, |document| start.write(document))
+fn let_go(shared: &mut Shared, start: &Start) {
+    if let Err(error) = shared
+        .workbench
+        .project
+        .documents
+        .alter(Documents::SCENARIO, |document| start.write(document))
     {
-        desk.notice = Some((error, true));
+        shared.fault(error);
         return;
     }
-    if desk.view.as_ref().is_some_and(|view| view.newest_s <= 0.0) {
-        desk.orders.push(Order::Apply);
+    if shared.workbench.view().is_some_and(|view| view.newest_s <= 0.0) {
+        shared.give(RunAction::Apply);
     }
 }
 

@@ -10,7 +10,7 @@ use super::eye::Eye;
 use super::picking::Picks;
 use super::pose::Start;
 use crate::gui::canvas::{Canvas, MOST_PANES};
-use crate::gui::desk::Desk;
+use crate::gui::shared::Shared;
 use crate::scene::View;
 
 /// What the top of the tension scale is.
@@ -98,15 +98,15 @@ impl ViewPanel {
     }
 
     /// Takes the view anew where the run shows another model or gear come to rest; goes with the whale while it is flown.
-    pub(super) fn follow(&mut self, desk: &Desk) {
-        if std::mem::replace(&mut self.seen.flying, desk.flying) != desk.flying {
-            if desk.flying {
+    pub(super) fn follow(&mut self, shared: &Shared) {
+        if std::mem::replace(&mut self.seen.flying, shared.flying) != shared.flying {
+            if shared.flying {
                 self.go_with_whale();
             } else {
                 self.frame();
             }
         }
-        let Some(view) = &desk.view else { return };
+        let Some(view) = shared.workbench.view() else { return };
         let known = self.seen.model.as_ref().is_some_and(|model| Arc::ptr_eq(model, &view.model));
         let settling = view.status == Status::Settling;
         let settled = std::mem::replace(&mut self.seen.settling, settling) && !settling;
@@ -114,7 +114,7 @@ impl ViewPanel {
             self.seen.model = Some(Arc::clone(&view.model));
         }
         // Whoever drags the whale's start wants to see it from where they drag it.
-        if (!known || settled) && !desk.posing {
+        if (!known || settled) && !shared.posing {
             self.frame_all();
         }
     }

@@ -1,11 +1,14 @@
 //! The transport bar: the run's time under the hand, with what happened marked on it.
 
 use egui::{Button, Color32, Rect, RichText, Sense, Stroke, Ui, pos2, vec2};
+use endline_session::command::{RunAction, TimeAction};
 use endline_session::live::LiveView;
 use endline_sim::metrics::EventKind;
 
-use crate::gui::desk::{Desk, Order};
+use crate::gui::command::action::WindowCommand;
+use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
+use crate::gui::widgets::command::styled;
 use crate::gui::widgets::words;
 
 /// Height of the bar with the space above it.
@@ -14,51 +17,35 @@ pub const HEIGHT: f32 = 34.0;
 const NEAR: f32 = 5.0;
 
 /// Draws the bar.
-pub fn show(ui: &mut Ui, desk: &mut Desk) {
-    let Some(view) = desk.view.clone() else { return };
+pub fn show(ui: &mut Ui, shared: &mut Shared) {
+    let Some(view) = shared.workbench.view().cloned() else { return };
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 3.0;
-        buttons(ui, desk, &view);
+        buttons(ui, shared);
         let text = format!("{:.2} s", view.frame.time_s);
         let width = (ui.available_width() - 70.0).max(40.0);
         let (rect, response) = ui.allocate_exact_size(vec2(width, 20.0), Sense::click_and_drag());
         response.widget_info(|| egui::WidgetInfo::slider(true, view.frame.time_s, "Time"));
         let end_s = view.model.spec.settings.duration_s.max(view.newest_s).max(1e-9);
         track(ui, rect, &view, end_s);
-        scrub(ui, desk, rect, &response, &view, end_s);
+        scrub(ui, shared, rect, &response, &view, end_s);
         ui.label(RichText::new(text).monospace());
     });
 }
 
-fn buttons(ui: &mut Ui, desk: &mut Desk, view: &LiveView) {
-    let (running, playing) = (desk.running(), desk.replaying());
-    let mut button = |ui: &mut Ui, text: &str, help: &str, enabled: bool, order: Order| {
-        if ui
-            .add_enabled(enabled, Button::new(text).min_size(vec2(26.0, 20.0)))
-            .on_hover_text(help)
-            .clicked()
-        {
-            desk.orders.push(order);
-        }
-    };
-    let run = view.newest_s > 0.0;
-    button(ui, "⏮", "The first moment (Home)", run, Order::Seek(0.0));
-    button(ui, "⏴", "One moment back (←)", run, Order::Shift(-1));
-    let (text, help) = if playing {
-        ("⏸ Stop", "Stop playing (Space)")
-    } else {
-        ("▶ Play", "Play what was run, at the chosen speed (P)")
-    };
-    button(ui, text, help, run && !running, Order::Replay);
-    button(ui, "⏵", "One moment on (→)", run && view.sought, Order::Shift(1));
-    button(ui, "⏭", "The newest moment (End)", view.sought, Order::Newest);
-    button(
-        ui,
-        "⤴",
-        "Go on from the moment shown: run again up to here, then fly or let the program steer",
-        view.sought,
-        Order::Branch,
-    );
+fn buttons(ui: &mut Ui, shared: &mut Shared) {
+    let play = if shared.workbench.replaying() { "⏸ Stop" } else { "▶ Play" };
+    let all: [(&str, WindowCommand); 6] = [
+        ("⏮", TimeAction::First.into()),
+        ("⏴", TimeAction::Back.into()),
+        (play, TimeAction::Replay.into()),
+        ("⏵", TimeAction::Forward.into()),
+        ("⏭", TimeAction::Newest.into()),
+        ("⤴", RunAction::Branch.into()),
+    ];
+    for (text, command) in all {
+        styled(ui, shared, Button::new(text).min_size(vec2(26.0, 20.0)), command);
+    }
 }
 
 /// The bar itself: what was run, the moment shown, events.
@@ -103,7 +90,7 @@ fn track(ui: &Ui, rect: Rect, view: &LiveView, end_s: f64) {
 /// Pressing or dragging shows that moment; over a mark it says what happened.
 fn scrub(
     ui: &Ui,
-    desk: &mut Desk,
+    shared: &mut Shared,
     rect: Rect,
     response: &egui::Response,
     view: &LiveView,
@@ -113,7 +100,7 @@ fn scrub(
     let time_s =
         (f64::from((pointer.x - rect.left()) / rect.width()) * end_s).clamp(0.0, view.newest_s);
     if (response.dragged() || response.clicked()) && view.newest_s > 0.0 {
-        desk.orders.push(Order::Seek(time_s));
+        shared.give(TimeAction::Seek(time_s));
         return;
     }
     let near = f64::from(NEAR / rect.width()) * end_s;
@@ -139,6 +126,6 @@ fn scrub(
         && view.newest_s > 0.0
         && ui.input(|input| input.pointer.primary_pressed())
     {
-        desk.orders.push(Order::Seek(time_s));
+        shared.give(TimeAction::Seek(time_s));
     }
 }

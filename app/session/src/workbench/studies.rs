@@ -1,7 +1,5 @@
 //! Studies of a user: the queue of those at work, and the results shown.
 
-mod results;
-
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -11,8 +9,7 @@ use super::notice::Notice;
 use crate::edit::Documents;
 use crate::locate;
 use crate::study::queue::{self, Job, Queue, State};
-use crate::study::{ResultsRequest, StudyResults};
-pub use results::Results;
+use crate::study::{ResultsReader, ResultsRequest, StudyResults};
 
 /// Studies in the queue, and results.
 #[derive(Default)]
@@ -20,7 +17,7 @@ pub struct Studies {
     /// Studies waiting, at work, and done.
     pub queue: Queue,
     /// The results shown.
-    pub results: Results,
+    pub results: ResultsReader,
     /// Folder that results are kept in; `results` where the program was started, without one.
     pub folder: Option<PathBuf>,
     /// Ids of the library's scenarios when the study was opened.
@@ -175,7 +172,6 @@ impl Workbench {
         if option >= shown.opened.options.len() || u64::from(encounter) >= encounters {
             return Err("the study shown has no such run".to_owned());
         }
-        self.studies.results.replayed = Some((option, encounter));
         self.keep_run();
         let host = Arc::clone(&self.plugins.host);
         self.make_guest(Then::Start, move || shown.prepare(option, encounter, &host))

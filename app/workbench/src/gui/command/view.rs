@@ -1,0 +1,120 @@
+//! Commands in the 3-D view.
+
+use endline_session::command::{Choice, Make, Shortcut, When};
+
+use super::WindowInfo;
+use super::action::{ViewAction, WindowCommand};
+use crate::gui::canvas::MOST_PANES;
+use crate::gui::inspector::worst_m;
+use crate::gui::shared::Shared;
+use crate::scene::{Picked, View};
+
+/// The actions in the 3-D view, declared.
+pub static COMMANDS: &[WindowInfo] = &[
+    WindowInfo::new(
+        "view.frame",
+        "See everything",
+        "Brings the gear and the whale into sight.",
+        Make::Plain(|| ViewAction::Frame.into()),
+    )
+    .with_keys(&[Shortcut::new("F", When::Looking)])
+    .only_if(shown),
+    WindowInfo::new(
+        "view.side",
+        "View side",
+        "Looks from the side.",
+        Make::Plain(|| ViewAction::Look(View::Side).into()),
+    )
+    .with_keys(&[Shortcut::new("1", When::Looking)]),
+    WindowInfo::new(
+        "view.top",
+        "View top",
+        "Looks from above.",
+        Make::Plain(|| ViewAction::Look(View::Top).into()),
+    )
+    .with_keys(&[Shortcut::new("7", When::Looking)]),
+    WindowInfo::new(
+        "view.front",
+        "View front",
+        "Looks from the front.",
+        Make::Plain(|| ViewAction::Look(View::Front).into()),
+    )
+    .with_keys(&[Shortcut::new("3", When::Looking)]),
+    WindowInfo::new(
+        "view.orbit",
+        "View orbit",
+        "Looks from where the view was turned to.",
+        Make::Plain(|| ViewAction::Look(View::Orbit).into()),
+    )
+    .with_keys(&[Shortcut::new("5", When::Looking)]),
+    WindowInfo::new(
+        "view.look",
+        "View",
+        "Looks at the whale, or from it, and goes with it.",
+        Make::Choices(|_| {
+            let choice = |view: View| {
+                Choice::new(view.name().replace('-', " "), ViewAction::Look(view).into())
+            };
+            View::OF_WHALE.into_iter().map(choice).collect()
+        }),
+    ),
+    WindowInfo::new(
+        "view.split",
+        "Views at once:",
+        "Shows so many views of the same moment beside one another.",
+        Make::Choices(|_| {
+            (1..=MOST_PANES)
+                .map(|count| Choice::new(count.to_string(), ViewAction::Split(count).into()))
+                .collect()
+        }),
+    ),
+    WindowInfo::new(
+        "view.pose",
+        "Drag the whale's start",
+        "Shows handles that move where the whale starts, how deep, and where it heads; or hides them.",
+        Make::Plain(|| ViewAction::Pose.into()),
+    ),
+    WindowInfo::new(
+        "view.ruler",
+        "Ruler",
+        "Lets two clicks measure between two places, straight and along the rope; or lets a click inspect again.",
+        Make::Plain(|| ViewAction::Ruler.into()),
+    )
+    .with_keys(&[Shortcut::new("R", When::Looking)]),
+    WindowInfo::new(
+        "view.inspect",
+        "Read",
+        "Shows the properties of a body, or of a line where its tension is greatest.",
+        Make::Choices(inspected),
+    )
+    .only_if(shown),
+    WindowInfo::new(
+        "view.let-go",
+        "Clear the inspector and the ruler",
+        "Takes the properties and the measure away.",
+        Make::Plain(|| ViewAction::LetGo.into()),
+    )
+    .only_if(|shared| match shared.selection.inspects {
+        true => Ok(()),
+        false => Err("nothing is inspected or measured".to_owned()),
+    }),
+];
+
+/// Whether there is something to see.
+pub(super) fn shown(shared: &Shared) -> Result<(), String> {
+    shared.workbench.view().map(|_| ()).ok_or_else(|| "no run is there yet".to_owned())
+}
+
+/// Each line where its tension is greatest now, and each body.
+fn inspected(shared: &Shared) -> Vec<Choice<WindowCommand>> {
+    let Some(view) = shared.workbench.view() else { return Vec::new() };
+    let spec = &view.model.spec;
+    let lines = spec.lines.iter().enumerate().map(|(line, of)| {
+        let picked = Picked::Rope { line, at_m: worst_m(&view.model, &view.frame, line) };
+        Choice::new(format!("line {}", of.id), ViewAction::Inspect(picked).into())
+    });
+    let bodies = spec.bodies.iter().enumerate().map(|(index, body)| {
+        Choice::new(body.id.clone(), ViewAction::Inspect(Picked::Body(index)).into())
+    });
+    lines.chain(bodies).collect()
+}

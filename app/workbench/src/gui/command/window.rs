@@ -1,0 +1,89 @@
+//! Commands on the window as a whole.
+
+use endline_session::command::{Choice, Make, Shortcut, When};
+use endline_session::units::Units;
+
+use super::WindowInfo;
+use super::action::WindowAction;
+use super::view::shown;
+use crate::gui::shared::Shared;
+use crate::gui::theme::Theme;
+
+/// Sizes offered, 1 for usual.
+const SIZES: [f32; 4] = [1.0, 1.25, 1.5, 2.0];
+
+/// The actions on the window, declared.
+pub static COMMANDS: &[WindowInfo] = &[
+    WindowInfo::new(
+        "window.palette",
+        "Commands",
+        "Lists every command by its name.",
+        Make::Plain(|| WindowAction::Palette.into()),
+    )
+    .with_keys(&[Shortcut::new("Ctrl+P", When::Always)]),
+    WindowInfo::new(
+        "window.dark",
+        "Dark",
+        "Light text on dark ground.",
+        Make::Plain(|| WindowAction::Theme(Theme::Dark).into()),
+    ),
+    WindowInfo::new(
+        "window.light",
+        "Light",
+        "Dark text on light ground.",
+        Make::Plain(|| WindowAction::Theme(Theme::Light).into()),
+    ),
+    WindowInfo::new(
+        "window.units",
+        "Units",
+        "Chooses the units on screen; files keep theirs.",
+        Make::Choices(|_| {
+            let choice =
+                |units: Units| Choice::new(units.name(), WindowAction::Units(units).into());
+            Units::ALL.into_iter().map(choice).collect()
+        }),
+    ),
+    WindowInfo::new(
+        "window.size",
+        "Size",
+        "Makes everything on screen larger or smaller.",
+        Make::Choices(|_| {
+            let choice = |size: f32| {
+                Choice::new(format!("{:.0} %", 100.0 * size), WindowAction::Size(size).into())
+            };
+            SIZES.into_iter().map(choice).collect()
+        }),
+    ),
+    WindowInfo::new(
+        "window.copy-run",
+        "Copy as command line",
+        "Copies the command that gives this run, for a terminal or a script.",
+        Make::Plain(|| WindowAction::CopyCommandLine.into()),
+    )
+    .with_keys(&[Shortcut::new("Ctrl+Shift+C", When::Always)])
+    .only_if(shown),
+    WindowInfo::new(
+        "window.copy-study",
+        "Copy the study as command line",
+        "Copies the commands that run the open study and report it.",
+        Make::Plain(|| WindowAction::CopyStudyLine.into()),
+    )
+    .only_if(study_opened),
+    WindowInfo::new(
+        "window.open-folder",
+        "Open a folder",
+        "Shows a folder in the system's file manager.",
+        Make::Values("folder"),
+    ),
+    WindowInfo::new(
+        "window.quit",
+        "Quit",
+        "Closes the window; unsaved edits are asked about first.",
+        Make::Plain(|| WindowAction::Quit.into()),
+    ),
+];
+
+fn study_opened(shared: &Shared) -> Result<(), String> {
+    let opened = shared.workbench.project.documents.study_path();
+    opened.map(|_| ()).ok_or_else(|| "open a study first".to_owned())
+}

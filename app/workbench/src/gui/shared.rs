@@ -1,0 +1,113 @@
+//! What all panels share: the workbench, the pilot's hands, what is chosen, and the commands they give.
+
+use std::sync::Arc;
+
+use endline_gear::Kind;
+use endline_session::PluginHost;
+use endline_session::command::Command;
+use endline_session::edit::Documents;
+use endline_session::live::engine::Launch;
+use endline_session::task::Waker;
+use endline_session::workbench::{Notice, Workbench};
+
+use super::command::action::WindowCommand;
+use super::panel_id::PanelId;
+use super::preferences::Preferences;
+use crate::input::{Pilot, Rumble};
+
+/// What all panels share.
+pub struct Shared {
+    /// What the user has open and does, without a screen.
+    pub workbench: Workbench,
+    /// What the user prefers of the window.
+    pub preferences: Preferences,
+    /// The pilot's hands.
+    pub pilot: Pilot,
+    /// Whether they steer.
+    pub flying: bool,
+    /// What the pilot feels.
+    pub rumble: Rumble,
+    /// Whether handles in the 3-D view drag the whale's start.
+    pub posing: bool,
+    /// What is chosen in the panels.
+    pub selection: Selection,
+    /// Commands given by panels, performed after drawing.
+    pub commands: Vec<WindowCommand>,
+}
+
+/// What is chosen in the panels, for commands to be judged on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Selection {
+    /// The entry chosen in the library, by its path.
+    pub entry: Option<String>,
+    /// The table of the library that is shown.
+    pub table: Kind,
+    /// The entry chosen in the pilot program, by its place.
+    pub program_entry: Option<usize>,
+    /// Whether the gear of the assembly panel is at rest.
+    pub gear_at_rest: bool,
+    /// Whether something is inspected or measured in the 3-D view.
+    pub inspects: bool,
+    /// Panels that are open.
+    pub open: Vec<PanelId>,
+}
+
+impl Default for Selection {
+    fn default() -> Self {
+        Self {
+            entry: None,
+            table: Kind::Rope,
+            program_entry: None,
+            gear_at_rest: false,
+            inspects: false,
+            open: Vec::new(),
+        }
+    }
+}
+
+impl Shared {
+    /// With its texts; the first model is being made.
+    #[must_use]
+    pub fn new(
+        documents: Documents,
+        host: Arc<PluginHost>,
+        launch: Launch,
+        waker: Waker,
+        pilot: Pilot,
+    ) -> Self {
+        Self {
+            workbench: Workbench::new(documents, host, launch, waker),
+            preferences: Preferences::default(),
+            pilot,
+            flying: false,
+            rumble: Rumble::default(),
+            posing: false,
+            selection: Selection::default(),
+            commands: Vec::new(),
+        }
+    }
+
+    /// Gives a command, to be performed after drawing.
+    pub fn give(&mut self, command: impl Into<WindowCommand>) {
+        self.commands.push(command.into());
+    }
+
+    /// Performs a command of the workbench at once; the notice says where nothing came of it.
+    pub fn perform(&mut self, command: impl Into<Command>) {
+        // The reason stands in the notice.
+        let _ = self.workbench.perform(command.into());
+    }
+
+    /// Says that something failed, and why.
+    pub fn fault(&mut self, text: impl Into<String>) {
+        self.workbench.notice = Some(Notice::fault(text));
+    }
+
+    /// Says that a file was written, or why it was not.
+    pub fn notice_saved(&mut self, path: &std::path::Path, written: Result<(), String>) {
+        self.workbench.notice = Some(match written {
+            Ok(()) => Notice::done(format!("saved {}", path.display())),
+            Err(error) => Notice::fault(format!("{}: {error}", path.display())),
+        });
+    }
+}

@@ -1,0 +1,184 @@
+//! Every declared command has an effect that can be observed, or says why it has none.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use egui_kittest::Harness;
+use endline_session::command::{EditAction, Make, RunAction};
+use endline_session::live::Status;
+use endline_workbench::gui::app::App;
+use endline_workbench::gui::command::action::{PanelAction, WindowAction, WindowCommand};
+use endline_workbench::gui::command::{Declared, declared};
+use endline_workbench::gui::panel_id::PanelId;
+use endline_workbench::gui::panels::help::markdown;
+use endline_workbench::input::Pilot;
+
+use crate::common::{Folder, Told, give, linked, opened_with, wait, workbench};
+
+/// All that a command may change, as text.
+fn fingerprint(harness: &Harness<'static, App>, told: &Told) -> String {
+    let app = harness.state();
+    let (shared, panels) = (&app.shared, &app.panels);
+    let (workbench, documents) = (&shared.workbench, &shared.workbench.project.documents);
+    let view = workbench.view().map(|view| (view.status.clone(), view.frame.step, view.speed));
+    let jobs = workbench.studies.queue.jobs.iter().map(|job| job.state()).collect::<Vec<_>>();
+    let texts = (documents.version(), documents.scenario_path(), documents.study_path());
+    let work = (workbench.making(), workbench.plugins.busy(), workbench.studies.results.busy());
+    let eyes: Vec<_> = panels.view.eyes.iter().map(|eye| (eye.named, eye.follow)).collect();
+    let picks = (&panels.view.picks, panels.view.eyes.iter().any(|eye| eye.frame_again));
+    let flight = (shared.flying, shared.posing, shared.pilot.act(), shared.pilot.mouth_open());
+    let chosen = (panels.library.kind(), &panels.library.chosen, panels.program.chosen);
+    let dock = serde_json::to_string(&app.dock).unwrap();
+    let settings = serde_json::to_string(&(&shared.preferences, &workbench.preferences)).unwrap();
+    let window = (harness.ctx.zoom_factor(), app.palette.is_open(), &app.questions.opening);
+    format!(
+        "{told:?} {view:?} {jobs:?} {texts:?} {work:?} {eyes:?} {picks:?} {flight:?} {chosen:?} \
+         {:?} {} {dock} {settings} {window:?}",
+        workbench.notice,
+        workbench.comparison().is_some()
+    )
+}
+
+/// Gives every command that can be given by name; notes which changed something and which gave a reason.
+fn every_command(
+    harness: &mut Harness<'static, App>,
+    told: &Told,
+    effects: &mut BTreeMap<&'static str, BTreeSet<&'static str>>,
+) {
+    for info in declared() {
+        for offer in info.offers(&harness.state().shared) {
+            // A file dialog needs a display; the window must stay.
+            let asks = matches!(offer.command, WindowCommand::Window(WindowAction::Ask(_)));
+            if asks || info.id() == "window.quit" {
+                continue;
+            }
+            harness.state_mut().shared.workbench.notice = None;
+            harness.run_steps(1);
+            let enabled = info.enabled(&harness.state().shared);
+            let before = fingerprint(harness, told);
+            give(harness, offer.command.clone());
+            let notice = harness.state().shared.workbench.notice.clone();
+            let effect = effects.entry(info.id()).or_default();
+            match enabled {
+                Ok(()) if fingerprint(harness, told) != before => {
+                    effect.insert("effect");
+                }
+                Ok(()) => {}
+                Err(reason) => {
+                    assert!(!reason.is_empty(), "{} says why it does nothing", offer.name);
+                    assert_eq!(notice.map(|notice| notice.text), Some(reason), "{}", offer.name);
+                    effect.insert("reason");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn every_declared_command_has_an_effect_or_a_reason() {
+    let folder = Folder::new("commands");
+    let (mut harness, told) = workbench(&folder, Pilot::default());
+    let mut effects = BTreeMap::new();
+    every_command(&mut harness, &told, &mut effects);
+    // Once more while the whale is flown, with an entry chosen and an edit to be taken back.
+    let path = folder.0.join("scenarios/hello-endline.toml");
+    harness.state_mut().shared.perform(EditAction::Save);
+    harness.state_mut().shared.perform(EditAction::OpenScenario(path));
+    wait(&mut harness, |app| !app.shared.workbench.making());
+    give(&mut harness, PanelAction::Entry("ropes/sink-3-8.toml".to_owned()));
+    harness.state_mut().shared.workbench.set("ropes/sink-3-8.toml", "strength", "2,600 lbf");
+    harness.state_mut().shared.flying = true;
+    every_command(&mut harness, &told, &mut effects);
+
+    for info in declared() {
+        let [named, needs_file] = [
+            matches!(info, Declared::Workbench(info) if !matches!(info.make, Make::Values(_)))
+                || matches!(info, Declared::Window(info) if !matches!(info.make, Make::Values(_))),
+            info.question(&harness.state().shared).is_some(),
+        ];
+        if !named || needs_file || info.id() == "window.quit" {
+            continue;
+        }
+        let effect = effects.get(info.id());
+        assert!(effect.is_some_and(|effect| !effect.is_empty()), "{} does nothing", info.id());
+    }
+}
+
+#[test]
+fn commands_of_a_run_that_was_flown_have_their_effect() {
+    let folder = Folder::new("commands-flown");
+    let documents = folder.book_with("reference-a-pendulum");
+    let launch = endline_session::live::engine::live();
+    let mut harness = opened_with(documents, linked(), launch, Pilot::default());
+    wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Paused));
+    harness.state_mut().shared.perform(RunAction::Speed(f64::INFINITY));
+    harness.state_mut().shared.perform(RunAction::Start);
+    wait(&mut harness, |app| app.shared.workbench.view().is_some_and(|view| view.newest_s > 0.3));
+    harness.state_mut().shared.perform(RunAction::Pause);
+    wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Paused));
+    let command = |id: &str| declared().find(|info| info.id() == id).unwrap();
+    let given = |harness: &mut Harness<'static, App>, id: &str| {
+        let command = command(id);
+        assert_eq!(command.enabled(&harness.state().shared), Ok(()), "{id}");
+        give(harness, command.plain().unwrap());
+    };
+    let shown_s = |app: &App| app.shared.workbench.view().unwrap().frame.time_s;
+    given(&mut harness, "time.first");
+    wait(&mut harness, |app| shown_s(app) < 1e-9);
+    given(&mut harness, "time.forward");
+    wait(&mut harness, |app| shown_s(app) > 0.0);
+    given(&mut harness, "time.newest");
+    wait(&mut harness, |app| shown_s(app) > 0.3);
+    assert!(command("time.newest").enabled(&harness.state().shared).is_err());
+    given(&mut harness, "time.back");
+    wait(&mut harness, |app| app.shared.workbench.view().unwrap().sought);
+    given(&mut harness, "run.branch");
+    wait(&mut harness, |app| !app.shared.workbench.view().unwrap().sought);
+    wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Paused));
+    given(&mut harness, "run.hold");
+    wait(&mut harness, |app| app.shared.workbench.comparison().is_some());
+    given(&mut harness, "run.end-comparison");
+    assert!(harness.state().shared.workbench.comparison().is_none());
+}
+
+#[test]
+fn identities_and_names_are_unique() {
+    let folder = Folder::new("names");
+    let (harness, _) = workbench(&folder, Pilot::default());
+    let mut ids = BTreeSet::new();
+    let mut names = BTreeSet::new();
+    for info in declared() {
+        assert!(ids.insert(info.id()), "{} is declared twice", info.id());
+        for offer in info.offers(&harness.state().shared) {
+            assert!(names.insert(offer.name.clone()), "two commands are called {}", offer.name);
+            let asks = matches!(offer.command, WindowCommand::Window(WindowAction::Ask(_)));
+            assert!(
+                asks || offer.command.id() == info.id(),
+                "{} makes {}",
+                info.id(),
+                offer.command.id()
+            );
+        }
+    }
+    assert!(PanelId::ALL.iter().all(|panel| names.contains(&format!("Show {}", panel.title()))));
+}
+
+#[test]
+fn the_document_lists_the_commands_and_keys_as_they_are_declared() {
+    const START: &str = "<!-- commands -->\n";
+    const END: &str = "<!-- end of commands -->";
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/workbench.md");
+    let document = std::fs::read_to_string(&path).unwrap();
+    let (before, rest) = document.split_once(START).unwrap();
+    let (_, after) = rest.split_once(END).unwrap();
+    let fresh = format!("{before}{START}{}\n{END}{after}", markdown());
+    if std::env::var_os("ENDLINE_WRITE_DOCS").is_some() {
+        std::fs::write(&path, &fresh).unwrap();
+        return;
+    }
+    let first = document.lines().zip(fresh.lines()).find(|(old, new)| old != new);
+    assert!(
+        document == fresh,
+        "docs/workbench.md is out of date, first at {first:?}: ENDLINE_WRITE_DOCS=1 with this test writes it"
+    );
+}
