@@ -17,10 +17,12 @@ const QUICK_CALLS: [&str; 2] = ["determinism::", "cli::"];
 /// When any of them fails; the first failure ends it.
 pub fn test(workspace: &Workspace) -> Outcome {
     check_sources(workspace)?;
+    // Before the tests: built after them, the plugins would replace libraries that the tests link, which would then be
+    // compiled twice.
+    plugins::build(workspace, Profile::Dev)?;
     // `--tests` leaves out benches, which clippy has compiled, and examples in documentation, of which there are none.
     // The program is among what it builds: the tests of the command line call it.
     workspace.cargo(&["test", "--workspace", "--tests", "--no-run"])?;
-    plugins::build(workspace, Profile::Dev)?;
     workspace.cargo(&["test", "--workspace", "--tests", "--no-fail-fast"])?;
     run::show_encounter(workspace, Profile::Dev)?;
     window::drive(workspace)
@@ -33,11 +35,11 @@ pub fn test(workspace: &Workspace) -> Outcome {
 /// When any of them fails; the first failure ends it.
 pub fn quick(workspace: &Workspace) -> Outcome {
     check_sources(workspace)?;
+    plugins::build(workspace, Profile::Dev)?;
     let inside = ["test", "--workspace", "--lib", "--bins"];
     workspace.cargo(&[inside.as_slice(), &QUICK_PROGRAMS].concat())?;
     // The whole workspace each time: a choice of packages would compile the outside crates with other features.
     workspace.cargo(&["build", "--workspace", "--bins"])?;
-    plugins::build(workspace, Profile::Dev)?;
     let calls = ["test", "--workspace", "--test", "program", "--"];
     workspace.cargo(&[calls.as_slice(), &QUICK_CALLS].concat())
 }
