@@ -127,7 +127,8 @@ impl Job {
         let control = &self.shared.control;
         match state {
             State::Waiting | State::Running if control.is_cancelled() => State::Cancelled,
-            State::Running if control.is_paused() => State::Paused,
+            // A study that is paused while it is opened stands still before its first encounter.
+            State::Opening | State::Running if control.is_paused() => State::Paused,
             other => other,
         }
     }

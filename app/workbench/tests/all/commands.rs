@@ -14,6 +14,7 @@ use endline_workbench::gui::panels::help::markdown;
 use endline_workbench::input::Pilot;
 
 use crate::common::{Folder, Told, give, linked, opened_with, wait, workbench};
+use crate::study::add_study;
 
 /// All that a command may change, as text.
 fn fingerprint(harness: &Harness<'static, App>, told: &Told) -> String {
@@ -46,7 +47,13 @@ fn every_command(
     effects: &mut BTreeMap<&'static str, BTreeSet<&'static str>>,
 ) {
     for info in declared() {
-        for offer in info.offers(&harness.state().shared) {
+        let offers = info.offers(&harness.state().shared);
+        // Where there is nothing to choose from, the declaration says so.
+        if let (true, Err(reason)) = (offers.is_empty(), info.enabled(&harness.state().shared)) {
+            assert!(!reason.is_empty(), "{} says why there is nothing to choose", info.id());
+            effects.entry(info.id()).or_default().insert("reason");
+        }
+        for offer in offers {
             // A file dialog needs a display; the window must stay.
             let asks = matches!(offer.command, WindowCommand::Window(WindowAction::Ask(_)));
             if asks || info.id() == "window.quit" {
@@ -77,7 +84,10 @@ fn every_command(
 #[test]
 fn every_declared_command_has_an_effect_or_a_reason() {
     let folder = Folder::new("commands");
+    // Commands that open a study need one.
+    add_study(&folder);
     let (mut harness, told) = workbench(&folder, Pilot::default());
+    harness.state_mut().shared.workbench.studies.folder = Some(folder.0.join("results"));
     let mut effects = BTreeMap::new();
     every_command(&mut harness, &told, &mut effects);
     // Once more while the whale is flown, with an entry chosen and an edit to be taken back.
@@ -114,8 +124,11 @@ fn commands_of_a_run_that_was_flown_have_their_effect() {
     harness.state_mut().shared.perform(RunAction::Speed(f64::INFINITY));
     harness.state_mut().shared.perform(RunAction::Start);
     wait(&mut harness, |app| app.shared.workbench.view().is_some_and(|view| view.newest_s > 0.3));
+    // A short run may be over before it can be paused.
     harness.state_mut().shared.perform(RunAction::Pause);
-    wait(&mut harness, |app| app.shared.workbench.status() == Some(&Status::Paused));
+    wait(&mut harness, |app| {
+        matches!(app.shared.workbench.status(), Some(Status::Paused | Status::Finished))
+    });
     let command = |id: &str| declared().find(|info| info.id() == id).unwrap();
     let given = |harness: &mut Harness<'static, App>, id: &str| {
         let command = command(id);

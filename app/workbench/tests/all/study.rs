@@ -55,8 +55,8 @@ choice = ["0.2 m/s", "0.5 m/s"]
 source = "assumed"
 "#;
 
-/// The workbench with the small study in its library, in the layout Study.
-fn studying(folder: &Folder) -> Harness<'static, App> {
+/// Puts the small study and its scenario into the library.
+pub fn add_study(folder: &Folder) {
     let scenario = common::on_disk(folder, "scenarios/study-endline-held.toml");
     let (gear, _) = scenario.split_once("[whale]").unwrap();
     // Without a whale there is none for the resolution to follow.
@@ -70,6 +70,11 @@ fn studying(folder: &Folder) -> Harness<'static, App> {
     .unwrap();
     std::fs::create_dir_all(folder.0.join("studies")).unwrap();
     std::fs::write(folder.0.join("studies/small.toml"), STUDY).unwrap();
+}
+
+/// The workbench with the small study in its library, in the layout Study.
+fn studying(folder: &Folder) -> Harness<'static, App> {
+    add_study(folder);
     let mut harness = opened_with(folder.documents(), linked(), engine::live(), Pilot::default());
     harness.state_mut().shared.workbench.studies.folder = Some(folder.0.join("results"));
     // Other tests run beside this one.
