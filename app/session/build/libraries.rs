@@ -18,8 +18,20 @@ pub const DECIDING: [&str; 3] = ["libm", "sobol_burley", "statrs"];
 /// Libraries of the session that only store, show or load.
 /// A new dependency of the session belongs here or in [`DECIDING`]; a test asks for it.
 #[allow(dead_code, reason = "the build script needs only the list above; a test reads both")]
-pub const REPORTING: &[&str] =
-    &["askama", "blake3", "bytes", "libloading", "parquet", "postcard", "serde", "serde_json"];
+pub const REPORTING: &[&str] = &[
+    "askama",
+    "blake3",
+    "bytes",
+    "csv",
+    "glam",
+    "libloading",
+    "parquet",
+    "plotters",
+    "png",
+    "postcard",
+    "serde",
+    "serde_json",
+];
 
 /// Name and version of each library that decides a run, in order of name.
 ///

@@ -6,6 +6,8 @@
 //!
 //! Each group has a file with its actions, their declarations, and the dispatch to the workbench.
 
+#![deny(clippy::wildcard_enum_match_arm, reason = "each group is dispatched")]
+
 mod condition;
 pub mod edit;
 pub mod export;
