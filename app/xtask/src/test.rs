@@ -38,8 +38,9 @@ pub fn quick(workspace: &Workspace) -> Outcome {
     plugins::build(workspace, Profile::Dev)?;
     let inside = ["test", "--workspace", "--lib", "--bins"];
     workspace.cargo(&[inside.as_slice(), &QUICK_PROGRAMS].concat())?;
-    // The whole workspace each time: a choice of packages would compile the outside crates with other features.
-    workspace.cargo(&["build", "--workspace", "--bins"])?;
+    // The program is built for the tests of its window. `cargo build` would compile the outside crates once more, without
+    // the features that tests ask for; so would a choice of packages.
+    workspace.cargo(&["test", "--workspace", "--test", "all", "--no-run"])?;
     let calls = ["test", "--workspace", "--test", "program", "--"];
     workspace.cargo(&[calls.as_slice(), &QUICK_CALLS].concat())
 }

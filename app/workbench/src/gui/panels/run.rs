@@ -88,7 +88,7 @@ fn progress(ui: &mut Ui, view: &LiveView) {
 }
 
 fn speeds(ui: &mut Ui, shared: &mut Shared, view: &LiveView) {
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new("Speed").color(Theme::palette_of(ui).faint));
         ui.spacing_mut().item_spacing.x = 2.0;
         for speed in SPEEDS {
