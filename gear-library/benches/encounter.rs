@@ -3,7 +3,9 @@
 //! Five hundred nodes far from the whale, near it without touch, sliding over it, wound about it, and wound tight with 150
 //! segments in touch. Of each: solver steps and Newton passes, CPU time a solver step, how much of it is finding what is near
 //! (the same search, distances and sweeps made once more outside the step), and how many seconds of the run a second gives.
-//! A name after `--` runs those whose names hold it.
+//! A name after `--` runs those whose names hold it; `contact_step=0.5` sets the contact step in milliseconds, `from=17 to=18` the stretch of
+//! the run; `detection=0` leaves that measurement out. Also of each stretch: peak tension, mean and ripple of the tension at the top of the first line, work against friction.
+//! Ripple is the mean departure from a running mean over 0.25 s, as a share of the whole mean.
 
 #![allow(clippy::expect_used, clippy::panic, reason = "a benchmark says what it needs")]
 
@@ -16,6 +18,9 @@ use cpu_time::ThreadTime;
 use detection::Detection;
 use endline_sim::{Audit, Input, Model, State, Workspace, settle, step};
 use linked::model;
+
+/// Steps of the model in the running mean of a tension.
+const RIPPLE_STEPS: usize = 25;
 
 /// A stretch of a scenario's run.
 struct Stretch {
@@ -49,16 +54,38 @@ const TIGHT: &[(&str, &str)] = &[
     ("length = \"38 m\"", "length = \"60 m\""),
 ];
 
+/// What the command line changes of every stretch.
+#[derive(Default)]
+struct Changes {
+    contact_step_s: Option<f64>,
+    from_s: Option<f64>,
+    to_s: Option<f64>,
+    /// Whether detection is measured besides.
+    detects: bool,
+}
+
 fn main() {
-    let asked: Vec<String> =
-        std::env::args().skip(1).filter(|word| !word.starts_with('-')).collect();
+    let (set, asked): (Vec<String>, Vec<String>) = std::env::args()
+        .skip(1)
+        .filter(|word| !word.starts_with('-'))
+        .partition(|word| word.contains('='));
+    let value = |key: &str| {
+        let word = set.iter().find_map(|word| word.strip_prefix(key)?.strip_prefix('='))?;
+        Some(word.parse::<f64>().expect("a number after ="))
+    };
+    let changes = Changes {
+        contact_step_s: value("contact_step").map(|ms| 1e-3 * ms),
+        from_s: value("from"),
+        to_s: value("to"),
+        detects: value("detection") != Some(0.0),
+    };
     println!(
         "stretch      run s   steps  passes  touches  pairs  us a step  detection us  times real time"
     );
     for stretch in STRETCHES.iter().filter(|stretch| {
         asked.is_empty() || asked.iter().any(|word| stretch.name.contains(word.as_str()))
     }) {
-        run(stretch);
+        run(stretch, &changes);
     }
 }
 
@@ -68,10 +95,23 @@ struct Taken {
     seconds: f64,
     touches: u64,
     model_steps: u64,
+    peak_n: f64,
+    top_n: Vec<f64>,
+    friction_j: f64,
 }
 
-fn run(stretch: &Stretch) {
-    let model = model(stretch.scenario, stretch.changes);
+fn run(stretch: &Stretch, changes: &Changes) {
+    let mut model = model(stretch.scenario, stretch.changes);
+    if let Some(contact_step_s) = changes.contact_step_s {
+        let mut spec = model.spec.clone();
+        spec.settings.contact_step_s = contact_step_s;
+        model = Model::new(spec).expect("a model with another contact step");
+    }
+    let stretch = &Stretch {
+        from_s: changes.from_s.unwrap_or(stretch.from_s),
+        to_s: changes.to_s.unwrap_or(stretch.to_s),
+        ..*stretch
+    };
     let start =
         if model.spec.settings.as_placed { State::start(&model) } else { settle(&model).state };
     let (mut state, mut workspace) = (start, Workspace::new(&model));
@@ -87,7 +127,12 @@ fn run(stretch: &Stretch) {
         taken.seconds += start.elapsed().as_secs_f64();
         taken.touches += workspace.contacts.len() as u64;
         taken.model_steps += 1;
-        detection.measure(&model, &earlier, &state);
+        taken.peak_n = workspace.peak_tension_n.iter().copied().fold(taken.peak_n, f64::max);
+        taken.top_n.push(state.rope.tension[model.line_segments[0].end - 1].max(0.0));
+        taken.friction_j += workspace.sums.friction_work_j();
+        if changes.detects {
+            detection.measure(&model, &earlier, &state);
+        }
     }
     tell(stretch, (&before, &workspace.audit), &taken, &detection);
 }
@@ -117,7 +162,7 @@ fn tell(
         touches,
         pairs,
         1e6 * taken.seconds / steps,
-        1e6 * detection.seconds / detection.steps as f64,
+        1e6 * detection.seconds / detection.steps.max(1) as f64,
         (stretch.to_s - stretch.from_s) / taken.seconds
     );
     let [tunnelled, unconverged, halved] = [
@@ -128,4 +173,23 @@ fn tell(
     println!(
         "             {tunnelled} crossed, {unconverged} not converged, {halved} redone shorter"
     );
+    let (mean_n, ripple) = ripple(&taken.top_n);
+    println!(
+        "             peak {:.2} N, top {mean_n:.2} N, ripple {:.2} %, friction {:.4} J",
+        taken.peak_n,
+        100.0 * ripple,
+        taken.friction_j
+    );
+}
+
+/// Mean of tensions at the model's steps, and their mean departure from a running mean as a share of it.
+fn ripple(tension_n: &[f64]) -> (f64, f64) {
+    let mean = |of: &[f64]| of.iter().sum::<f64>() / of.len().max(1) as f64;
+    let around = |at: usize| {
+        let span = at.saturating_sub(RIPPLE_STEPS / 2)..(at + RIPPLE_STEPS / 2 + 1);
+        mean(&tension_n[span.start..span.end.min(tension_n.len())])
+    };
+    let departures: Vec<f64> =
+        tension_n.iter().enumerate().map(|(at, tension)| (tension - around(at)).abs()).collect();
+    (mean(tension_n), mean(&departures) / mean(tension_n).max(1e-9))
 }

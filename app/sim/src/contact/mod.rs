@@ -11,6 +11,7 @@ pub(crate) mod placed;
 pub(crate) mod points;
 pub mod ropes;
 pub(crate) mod skin_friction;
+pub mod step_sums;
 pub mod sweep;
 pub(crate) mod touch;
 pub(crate) mod workspace;

@@ -1,4 +1,4 @@
-//! A triangle of skin near rope, as it stands within a solver step, ready to be measured from.
+//! A triangle of skin near rope, as it stands within a step of the model, ready to be measured from.
 //!
 //! A ball around it and its plane show for most rope that it is too far; both are made once for each place of the skin and
 //! serve every segment that is near.
@@ -6,7 +6,8 @@
 use glam::DVec3;
 
 use super::distance::{Nearest, Plane, point_triangle_in, segment_triangle_in};
-use super::sweep::SweptTriangle;
+use super::near::on_triangle;
+use super::sweep::{SweptTriangle, triangle_at};
 
 /// Growth of balls over rounding: a factor, and a length [m].
 const GROWN: f64 = 1.0 + 1e-12;
@@ -17,8 +18,10 @@ const ROUNDING_M: f64 = 1e-9;
 pub(crate) struct Placed {
     /// Its index in the skin.
     pub triangle: u32,
-    /// Corners at the start and the end of the solver step.
+    /// Corners at the start and the end of the model's step.
     pub sweep: SweptTriangle,
+    /// Share of that step at which it stands.
+    pub stands: f64,
     /// Corners now.
     pub now: [DVec3; 3],
     /// Corners before the last move.
@@ -26,7 +29,7 @@ pub(crate) struct Placed {
     ball: Ball,
     /// `None` for a needle.
     plane: Option<Plane>,
-    /// Longest move of a corner over the solver step [m].
+    /// Longest move of a corner over the model's step [m].
     pub longest_move: f64,
 }
 
@@ -38,14 +41,16 @@ struct Ball {
 }
 
 impl Placed {
-    /// A triangle of the skin at the start of a solver step.
-    pub fn new(triangle: u32, sweep: SweptTriangle) -> Self {
-        let [now, end] = sweep;
+    /// A triangle of the skin at a share of the model's step.
+    pub fn new(triangle: u32, sweep: SweptTriangle, share: f64) -> Self {
+        let [start, end] = sweep;
         let square =
-            (0..3).map(|corner| now[corner].distance_squared(end[corner])).fold(0.0, f64::max);
+            (0..3).map(|corner| start[corner].distance_squared(end[corner])).fold(0.0, f64::max);
+        let now = triangle_at(&sweep, share);
         Self {
             triangle,
             sweep,
+            stands: share,
             now,
             before: now,
             ball: Ball::around(now),
@@ -54,12 +59,31 @@ impl Placed {
         }
     }
 
-    /// Moves it on.
-    pub fn go(&mut self, to: [DVec3; 3]) {
-        self.before = self.now;
-        if self.now != to {
-            (self.now, self.ball, self.plane) = (to, Ball::around(to), Plane::of(to));
+    /// Stands at a share of the model's step.
+    #[expect(clippy::float_cmp, reason = "the same share, to the bit, is the same place")]
+    pub fn stand(&mut self, share: f64) {
+        if self.stands != share {
+            self.stands = share;
+            self.now = triangle_at(&self.sweep, share);
+            (self.ball, self.plane) = (Ball::around(self.now), Plane::of(self.now));
         }
+    }
+
+    /// Moves it on to a share of the model's step.
+    pub fn go(&mut self, share: f64) {
+        self.before = self.now;
+        self.stand(share);
+    }
+
+    /// Moves of its corners over the model's step [m].
+    pub fn corner_moves(&self) -> [DVec3; 3] {
+        let [start, end] = self.sweep;
+        [0, 1, 2].map(|corner| end[corner] - start[corner])
+    }
+
+    /// Move of a place on it over the model's step [m].
+    pub fn move_of(&self, barycentric: [f64; 3]) -> DVec3 {
+        on_triangle(self.corner_moves(), barycentric)
     }
 
     /// Nearest places of a segment and the triangle as it stands.

@@ -13,7 +13,6 @@ use super::barrier::BarrierForce;
 use super::crease::{self, Faces};
 use super::near::{Near, on_triangle};
 use super::touch::Touch;
-use crate::model::Model;
 
 /// Longest piece of rope one contact point stands for [m].
 const PIECE_M: f64 = 0.025;
@@ -59,7 +58,8 @@ pub(crate) struct SkinContactPoint {
     pub fraction: f64,
     pub length: f64,
     segment_length: f64,
-    /// Its pairs in `Near::pairs`.
+    /// Its segment in `Near::groups`, and the pairs of that which may touch, in `Near::active`.
+    group: usize,
     pairs: Range<usize>,
     /// Contact distance: the rope's radius [m].
     pub contact_distance: f64,
@@ -70,6 +70,8 @@ pub(crate) struct SkinContactPoint {
     nearest_pair: Option<usize>,
     /// What it touches now.
     pub touches: Faces,
+    /// Push and friction on it as the last solve predicted them, less what they are where the trial stands [N].
+    pub missed: DVec3,
 }
 
 /// The closest point of a triangle.
@@ -91,32 +93,30 @@ pub(crate) struct SkinContactPoints {
 
 impl SkinContactPoints {
     /// Opens the middle contact points of every segment that has pairs.
-    pub fn open(
-        &mut self,
-        model: &Model,
-        near: &Near,
-        segment_length: &[f64],
-        stiffness_n_m2: f64,
-    ) {
+    pub fn open(&mut self, near: &Near, segment_length: &[f64], stiffness_n_m2: f64) {
         self.list.clear();
-        for (segment, range) in &near.groups {
-            let length = segment_length[*segment];
+        for (index, group) in near.groups.iter().enumerate() {
+            if group.active.is_empty() {
+                continue;
+            }
+            let (segment, length) = (group.segment, segment_length[group.segment]);
             let pieces = (length / PIECE_M).ceil().max(LEAST_PIECES);
-            let contact_distance = 0.5 * model.rope_of_segment(*segment).diameter_m;
             for piece in 0..pieces as u64 {
                 self.list.push(SkinContactPoint {
-                    site: ((*segment as u64) << SEGMENT_BITS) | (piece << PIECE_BITS),
-                    segment: *segment,
-                    node: near.pairs[range.start].node,
+                    site: ((segment as u64) << SEGMENT_BITS) | (piece << PIECE_BITS),
+                    segment,
+                    node: group.node,
                     fraction: (piece as f64 + 0.5) / pieces,
                     length: length / pieces,
                     segment_length: length,
-                    pairs: range.clone(),
-                    contact_distance,
+                    group: index,
+                    pairs: group.active.clone(),
+                    contact_distance: group.reach,
                     stiffness: stiffness_n_m2 * length / pieces,
                     seen: None,
                     nearest_pair: None,
                     touches: Faces::default(),
+                    missed: DVec3::ZERO,
                 });
             }
         }
@@ -144,6 +144,7 @@ impl SkinContactPoints {
                     fraction,
                     seen: None,
                     touches: Faces::default(),
+                    missed: DVec3::ZERO,
                     ..self.list[from].clone()
                 });
             }
@@ -214,9 +215,10 @@ impl SkinContactPoint {
     /// What it touches, from the nearest triangle.
     fn faces(&self, near: &Near, place: DVec3, moved: f64, nearest: ClosestPoint) -> Faces {
         let Some(nearest) = self.touch_of(near, place, nearest) else { return Faces::default() };
-        let others = self.pairs.clone().filter_map(|index| {
-            if index == nearest.pair || near.pairs[index].gap_bound - moved >= self.contact_distance
-            {
+        let group = &near.groups[self.group];
+        let others = near.active[self.pairs.clone()].iter().filter_map(|index| {
+            let index = *index;
+            if index == nearest.pair || near.bound(index, group) - moved >= self.contact_distance {
                 return None;
             }
             let (distance, barycentric) =
@@ -251,8 +253,10 @@ impl SkinContactPoint {
     fn nearest(&self, near: &Near, place: DVec3, moved: f64, most: f64) -> Option<ClosestPoint> {
         let mut best: Option<ClosestPoint> = None;
         let mut least = most;
-        for index in self.nearest_pair.into_iter().chain(self.pairs.clone()) {
-            if near.pairs[index].gap_bound - moved >= least {
+        let group = &near.groups[self.group];
+        let active = near.active[self.pairs.clone()].iter().copied();
+        for index in self.nearest_pair.into_iter().chain(active) {
+            if near.bound(index, group) - moved >= least {
                 continue;
             }
             let Some((distance, barycentric)) = near.skin_of(index).nearest_to_point(place, least)
@@ -285,8 +289,9 @@ impl SkinContactPoint {
         }
         let mut least = (NEARER * least).min(LOOK_WITHIN * self.contact_distance);
         let mut along = None;
-        for index in self.pairs.clone() {
-            if near.pairs[index].gap_bound >= least || near.skin_of(index).gap(ends) >= least {
+        let group = &near.groups[self.group];
+        for index in near.active[self.pairs.clone()].iter().copied() {
+            if near.bound(index, group) >= least || near.skin_of(index).gap(ends) >= least {
                 continue;
             }
             let nearest = near.skin_of(index).nearest_to(ends);

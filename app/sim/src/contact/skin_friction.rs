@@ -12,10 +12,11 @@ use glam::{DMat3, DVec3};
 use super::account::Account;
 use super::crease::Faces;
 use super::grain::grain;
-use super::near::{Near, on_triangle};
+use super::near::Near;
 use super::points::{SkinContactPoint, SkinContactPoints};
 use super::touch::Touch;
 use crate::model::{Friction, FrictionLaw, Model};
+use crate::solver::outer;
 use crate::state::{FrictionState, State};
 
 /// Floats of the state ahead of the plugin's own: number of the law, energy taken, energy given.
@@ -72,6 +73,8 @@ pub(crate) struct Touching {
     account: Vec<Account>,
     /// What the plugins answered.
     pub response: Vec<FrictionResponse>,
+    /// `-d force / d place` of each contact as it went into the last solve [N/m].
+    pub block: Vec<DMat3>,
 }
 
 impl Touching {
@@ -150,8 +153,7 @@ impl Touching {
         let region = whale.skin.regions[pair.triangle as usize];
         let rope = model.spec.lines[model.segment_line[point.segment]].rope;
         let rope_move = touch.place - point.on_rope(|node| state.rope.position[node]);
-        let skin_move = on_triangle(pair.now, touch.barycentric)
-            - on_triangle(pair.sweep[0], touch.barycentric);
+        let skin_move = pair.move_of(touch.barycentric) * (pair.stands - near.start);
         let slip = rope_move - skin_move;
         self.point.push(index);
         self.face.push(face);
@@ -291,6 +293,14 @@ impl Touching {
         }
     }
 
+    /// `-d force / d place` of a contact with what it touches [N/m].
+    pub fn block_of(&self, place: usize, touch: &Touch) -> DMat3 {
+        let response = &self.response[place];
+        let push = touch.normal * touch.barrier.stiffness;
+        outer(push, touch.normal) - matrix(&response.by_slip)
+            + outer(DVec3::from_array(response.by_normal_force), push)
+    }
+
     /// Push and friction of a contact together [N].
     pub fn force_of(&self, place: usize) -> DVec3 {
         DVec3::from_array(self.normal[place]) * self.normal_force[place]
@@ -334,6 +344,6 @@ fn is_finite(answer: &FrictionResponse) -> bool {
 }
 
 /// Rows of a plugin's answer as a matrix.
-pub(crate) fn matrix(rows: &[[f64; 3]; 3]) -> DMat3 {
+fn matrix(rows: &[[f64; 3]; 3]) -> DMat3 {
     DMat3::from_cols_array_2d(rows).transpose()
 }

@@ -1,16 +1,14 @@
 //! Scratch of a solver step with contact, and what such a step leaves behind.
 
-use endline_sdk::BodyPart;
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DMat3, DVec3};
 
 use super::ContactPoint;
 use super::near::Near;
-use super::points::SkinContactPoints;
+use super::points::{SkinContactPoint, SkinContactPoints};
 use super::skin_friction::{Failed, Touching};
 use crate::model::{Friction, Model};
 use crate::solver::BodyTrial;
 use crate::state::State;
-use crate::whale::Skin;
 
 /// Scratch of contact for one model with a whale; it keeps nothing that a step depends on.
 #[derive(Clone, Debug)]
@@ -54,11 +52,32 @@ impl ContactWorkspace {
         })
     }
 
+    /// Hands over push and friction of every contact with the block `-dF/dx`, which is noted.
+    pub fn add_contacts(&mut self, mut add: impl FnMut(&SkinContactPoint, DVec3, &DMat3)) {
+        let Self { points, touching, .. } = self;
+        touching.block.clear();
+        for (place, index) in touching.point.iter().enumerate() {
+            let point = &points.list[*index];
+            let block = point.touches[touching.face[place]]
+                .map_or(DMat3::ZERO, |touch| touching.block_of(place, &touch));
+            touching.block.push(block);
+            add(point, touching.force_of(place), &block);
+        }
+    }
+
+    /// Opens the contact points of rope that may touch, as its predicted places lie.
+    pub fn open_active_points(&mut self, model: &Model, lengths: &[f64], places: &[DVec3]) {
+        let Some(whale) = &model.spec.whale else { return };
+        self.points.open(&self.near, lengths, whale.contact_stiffness_n_m2);
+        self.points.measure(&self.near, places);
+        self.points.open_more(&self.near, places);
+    }
+
     /// Opens the contact points of a stage, or keeps those there are for skin that has moved on.
     pub fn open_points(&mut self, model: &Model, segment_length: &[f64], places: &[DVec3]) {
         let Some(whale) = &model.spec.whale else { return };
         if self.points.list.is_empty() {
-            self.points.open(model, &self.near, segment_length, whale.contact_stiffness_n_m2);
+            self.points.open(&self.near, segment_length, whale.contact_stiffness_n_m2);
         }
         self.points.forget();
         self.points.measure(&self.near, places);
@@ -111,25 +130,4 @@ impl ContactWorkspace {
         }
         self.touching.advance(friction, dt_s, &self.points, &mut state.rope.friction)
     }
-}
-
-/// Sum of normal forces on each body part [N], and their mean place to port of the midplane on the body at rest [m].
-pub(crate) fn touch_by_part(
-    skin: &Skin,
-    contacts: &[ContactPoint],
-) -> [[f64; BodyPart::ALL.len()]; 2] {
-    let [mut forces, mut port] = [[0.0; BodyPart::ALL.len()]; 2];
-    for contact in contacts {
-        let part = contact.region.part() as usize;
-        let corners =
-            skin.triangles[contact.triangle].map(|corner| skin.vertices[corner as usize].y);
-        let place: f64 = corners.iter().zip(contact.barycentric).map(|(y, share)| y * share).sum();
-        forces[part] += contact.normal_force_n;
-        port[part] += contact.normal_force_n * place;
-    }
-    port.iter_mut()
-        .zip(forces)
-        .filter(|(_, force)| *force > 0.0)
-        .for_each(|(port, force)| *port /= force);
-    [forces, port]
 }

@@ -4,24 +4,19 @@ use glam::DVec3;
 
 use super::summary::KineticSummary;
 use super::window::Window;
-use crate::contact::ContactPoint;
 use crate::model::Model;
 use crate::state::{State, WhaleState};
 use crate::whale::hitch;
 
-/// How hard rope that touches it or is made fast to it holds the whale back along its x axis [N].
+/// How hard rope that touches it, with this force on its skin, or is made fast to it holds the whale back along its x axis [N].
 pub(super) fn added_drag(
     model: &Model,
     state: &State,
     whale: &WhaleState,
-    contacts: &[ContactPoint],
+    on_skin_n: DVec3,
 ) -> f64 {
-    let on_rope: DVec3 = contacts
-        .iter()
-        .map(|contact| contact.normal * contact.normal_force_n + contact.friction_n)
-        .sum();
     let made_fast: DVec3 = hitch::pulls(model, state).map(|(force, _)| force).sum();
-    (on_rope - made_fast).dot(whale.orientation * DVec3::X)
+    -(on_skin_n + made_fast).dot(whale.orientation * DVec3::X)
 }
 
 /// Effort of a kinetic whale.

@@ -46,6 +46,7 @@ pub use window::DRAG_WINDOW_S;
 pub use wraps::LOOSE_M;
 
 use crate::contact::ContactPoint;
+use crate::contact::step_sums::StepSums;
 use crate::model::Model;
 use crate::state::State;
 use crate::step::Workspace;
@@ -78,7 +79,8 @@ impl Metrics {
     /// Takes in the step that `workspace` has just taken to `state`: its contacts, and the greatest
     /// tensions of its solver steps, so that a peak between two states or at a parting is not lost.
     pub fn fold_step(&mut self, model: &Model, state: &State, workspace: &Workspace) {
-        self.take(model, state, &workspace.contacts, &workspace.peak_tension_n);
+        let Workspace { contacts, peak_tension_n, sums, .. } = workspace;
+        self.take(model, state, (contacts, sums), peak_tension_n);
     }
 
     /// Takes in a state and its contacts, where there is no step: tensions are those of the state.
@@ -86,14 +88,17 @@ impl Metrics {
     /// `state` has the model's layout; the time since the fold before (since 0 at the first) is
     /// what the step weighs in means and works.
     pub fn fold(&mut self, model: &Model, state: &State, contacts: &[ContactPoint]) {
-        self.take(model, state, contacts, &state.rope.tension);
+        let step_s = (state.time_s - self.time_s).max(0.0);
+        let sums =
+            model.spec.whale.as_ref().map(|whale| StepSums::of(&whale.skin, contacts, step_s));
+        self.take(model, state, (contacts, &sums.unwrap_or_default()), &state.rope.tension);
     }
 
     fn take(
         &mut self,
         model: &Model,
         state: &State,
-        contacts: &[ContactPoint],
+        (contacts, sums): (&[ContactPoint], &StepSums),
         peak_tension_n: &[f64],
     ) {
         let dt_s = (state.time_s - self.time_s).max(0.0);
@@ -102,7 +107,7 @@ impl Metrics {
         self.bodies.fold(model, state, &mut self.log);
         self.probes.fold(model, state, dt_s);
         if let (Some(meter), Some(whale)) = (&mut self.whale, &state.whale) {
-            meter.fold(model, state, whale, contacts, dt_s, &mut self.log);
+            meter.fold(model, state, whale, (contacts, sums), dt_s, &mut self.log);
         }
     }
 

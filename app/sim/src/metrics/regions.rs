@@ -5,6 +5,7 @@ use glam::DVec3;
 
 use super::summary::PatchSummary;
 use crate::contact::ContactPoint;
+use crate::contact::step_sums::{RegionMean, StepSums};
 use crate::model::Model;
 use crate::state::State;
 
@@ -18,7 +19,7 @@ pub(super) struct Loads {
     pub(super) patches: [Load; PATCHES],
 }
 
-/// Load of one part or patch, now and at its greatest.
+/// Load of one part or patch, now and at its greatest; forces are means over a step.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Load {
     pub(super) length_m: f64,
@@ -45,13 +46,13 @@ pub(super) struct Load {
 }
 
 impl Loads {
-    /// Takes in the contacts of a step of `dt_s`.
+    /// Takes in the contacts at the end of a step, and what they did over all of it.
     pub(super) fn fold(
         &mut self,
         model: &Model,
         state: &State,
         contacts: &[ContactPoint],
-        dt_s: f64,
+        sums: &StepSums,
     ) {
         let Self { parts, patches } = self;
         parts.iter_mut().chain(patches.iter_mut()).for_each(Load::begin);
@@ -60,7 +61,13 @@ impl Loads {
             for load in
                 [&mut parts[contact.region.part() as usize], &mut patches[contact.region as usize]]
             {
-                load.take(model, contact, tension_n, dt_s);
+                load.take(model, contact, tension_n);
+            }
+        }
+        for region in Region::ALL {
+            let mean = sums.of_region(region);
+            for load in [&mut parts[region.part() as usize], &mut patches[region as usize]] {
+                load.bear(&mean);
             }
         }
         parts.iter_mut().chain(patches.iter_mut()).for_each(Load::end);
@@ -93,14 +100,10 @@ impl Load {
         (self.force_n, self.friction_n, self.tension_n) = (DVec3::ZERO, 0.0, 0.0);
     }
 
-    fn take(&mut self, model: &Model, contact: &ContactPoint, tension_n: f64, dt_s: f64) {
+    fn take(&mut self, model: &Model, contact: &ContactPoint, tension_n: f64) {
         self.length_m += contact.length_m;
-        self.normal_n += contact.normal_force_n;
-        self.force_n -= contact.normal * contact.normal_force_n + contact.friction_n;
-        self.friction_n += contact.friction_n.length();
         self.tension_n = self.tension_n.max(tension_n);
         self.slip_m_s = self.slip_m_s.max(slip_speed(contact));
-        self.work_j += work(contact, dt_s);
         let line_load =
             if contact.length_m > 0.0 { contact.normal_force_n / contact.length_m } else { 0.0 };
         let width = model.spec.ropes[model.spec.lines[contact.line].rope].diameter_m;
@@ -109,19 +112,20 @@ impl Load {
             self.peak_pressure_pa.max(if width > 0.0 { line_load / width } else { 0.0 });
     }
 
+    /// Takes in mean forces and work over a step.
+    fn bear(&mut self, mean: &RegionMean) {
+        self.normal_n += mean.normal_n;
+        self.force_n += mean.force_n;
+        self.friction_n += mean.friction_n;
+        self.work_j += mean.work_j;
+    }
+
     fn end(&mut self) {
         self.peak_length_m = self.peak_length_m.max(self.length_m);
         self.peak_normal_n = self.peak_normal_n.max(self.normal_n);
         self.peak_friction_n = self.peak_friction_n.max(self.friction_n);
         self.peak_tension_n = self.peak_tension_n.max(self.tension_n);
     }
-}
-
-/// Work done against friction at a contact over a step [J]: its power in the last solver step,
-/// `-f·s/dt`, held for the whole step.
-fn work(contact: &ContactPoint, step_s: f64) -> f64 {
-    let solver_steps = if contact.dt_s > 0.0 { step_s / contact.dt_s } else { 1.0 };
-    -contact.friction_n.dot(contact.slip_m) * solver_steps
 }
 
 /// Speed of rope over skin in the last solver step [m/s].

@@ -20,6 +20,7 @@ use super::winding::Winding;
 use super::window::Window;
 use super::wraps::WrapMeter;
 use crate::contact::ContactPoint;
+use crate::contact::step_sums::StepSums;
 use crate::model::Model;
 use crate::state::{State, WhaleState};
 use crate::whale::Skin;
@@ -73,19 +74,19 @@ impl WhaleMeter {
         model: &Model,
         state: &State,
         whale: &WhaleState,
-        contacts: &[ContactPoint],
+        (contacts, sums): (&[ContactPoint], &StepSums),
         dt_s: f64,
         log: &mut Log,
     ) {
         let touching = contacts.iter().any(|contact| contact.normal_force_n > 0.0);
-        self.loads.fold(model, state, contacts, dt_s);
+        self.loads.fold(model, state, contacts, sums);
         self.winding.fold(&self.skin, contacts, &state.rope);
         self.wraps.fold(model, state, whale, &self.winding.strands, contacts);
         self.mouth.fold(&self.skin, contacts, state.time_s, log);
         for (line, sums) in self.on_lines.iter_mut().enumerate() {
             *sums = on_line(contacts, line);
         }
-        self.drag.fold([added_drag(model, state, whale, contacts)], dt_s);
+        self.drag.fold([added_drag(model, state, whale, sums.force_n())], dt_s);
         if let Some(effort) = &mut self.effort {
             effort.fold(whale, dt_s);
         }

@@ -18,12 +18,13 @@ pub(crate) struct BlockTridiagonal {
     pub up: Vec<DMat3>,
     /// Block of each segment: row of its second node, column of its first.
     pub low: Vec<DMat3>,
-    /// Force out of balance at each node; after [`eliminate`](Self::eliminate) changed in place.
+    /// Force out of balance at each node.
     pub force: Vec<DVec3>,
     /// Solution: move of each node.
     pub step: Vec<DVec3>,
-    /// After [`eliminate`](Self::eliminate): inverse of each inner node's diagonal, and what couples its row to end A and end A's row
-    /// to it.
+    /// After [`eliminate`](Self::eliminate): force of each inner node, inverse of its diagonal, and what couples its row to end A
+    /// and end A's row to it.
+    reduced: Vec<DVec3>,
     pub inverse: Vec<DMat3>,
     pub fill: Vec<DMat3>,
     pub back: Vec<DMat3>,
@@ -49,6 +50,7 @@ impl BlockTridiagonal {
             low: vec![DMat3::ZERO; segments],
             force: vec![DVec3::ZERO; nodes],
             step: vec![DVec3::ZERO; nodes],
+            reduced: vec![DVec3::ZERO; nodes],
             inverse: vec![DMat3::ZERO; nodes],
             fill: vec![DMat3::ZERO; nodes],
             back: vec![DMat3::ZERO; nodes],
@@ -63,7 +65,8 @@ impl BlockTridiagonal {
         self.force.fill(DVec3::ZERO);
     }
 
-    /// Eliminates the inner nodes of a line; `a_moves` says whether end A has freedom at all.
+    /// Eliminates the inner nodes of a line; `a_moves` says whether end A has freedom at all. Matrix and forces stay as they
+    /// are.
     pub fn eliminate(
         &mut self,
         nodes: &Range<usize>,
@@ -73,13 +76,12 @@ impl BlockTridiagonal {
         let (a, b) = (nodes.start, nodes.end - 1);
         let (mut fill, mut gill) = (self.low[segments.start], self.up[segments.start]);
         let (mut aa, mut force_a) = (self.diagonal[a], self.force[a]);
+        let (mut diagonal, mut force) = (self.diagonal[a + 1], self.force[a + 1]);
         for (node, segment) in (a + 1..b).zip(segments.start + 1..segments.end) {
-            let inverse = self.diagonal[node].inverse();
-            let (up, force) = (self.up[segment], self.force[node]);
+            let inverse = diagonal.inverse();
+            let up = self.up[segment];
             let across = self.low[segment] * inverse;
-            self.diagonal[node + 1] -= across * up;
-            self.force[node + 1] -= across * force;
-            self.inverse[node] = inverse;
+            (self.inverse[node], self.reduced[node]) = (inverse, force);
             if a_moves {
                 let back = gill * inverse;
                 aa -= back * fill;
@@ -89,8 +91,10 @@ impl BlockTridiagonal {
                 self.fill[node] = fill;
                 fill = -(across * fill);
             }
+            diagonal = self.diagonal[node + 1] - across * up;
+            force = self.force[node + 1] - across * force;
         }
-        Ends { aa, ab: gill, ba: fill, bb: self.diagonal[b], force_a, force_b: self.force[b] }
+        Ends { aa, ab: gill, ba: fill, bb: diagonal, force_a, force_b: force }
     }
 
     /// Moves of the inner nodes from the moves of the ends.
@@ -106,7 +110,7 @@ impl BlockTridiagonal {
         self.step[a] = step_a;
         self.step[b] = step_b;
         for (node, segment) in (a + 1..b).zip(segments.start + 1..segments.end).rev() {
-            let mut right = self.force[node] - self.up[segment] * self.step[node + 1];
+            let mut right = self.reduced[node] - self.up[segment] * self.step[node + 1];
             if a_moves {
                 right -= self.fill[node] * step_a;
             }

@@ -16,10 +16,17 @@ impl Solver {
         self.drift.clone_from(&self.trial.place);
         self.drift_bodies.clone_from(&self.trial.bodies);
         self.trial.place.clone_from(&state.rope.position);
-        self.trial.hitches.share = 0.0;
+        self.trial.hitches.share = self.trial.hitches.span[0];
         for (trial, body) in self.trial.bodies.iter_mut().zip(&state.bodies) {
             (trial.place, trial.orientation) = (body.position, body.orientation);
         }
+    }
+
+    /// Holds the guess of a short step off the skin.
+    pub(crate) fn hold_off(&mut self, model: &Model, state: &State, work: &mut ContactWorkspace) {
+        work.near.hold_off_active(&state.rope.position, &mut self.trial.place);
+        self.trial.place_ends(model, &self.plan);
+        work.near.follow(&state.rope.position, &self.trial.place);
     }
 
     /// Places of the nodes now.
@@ -27,12 +34,12 @@ impl Solver {
         &self.trial.place
     }
 
-    /// Moves skin to the end of its step, and rope and bodies along with it, as far as nothing crosses; the
+    /// Moves skin to the end of the solver step, and rope and bodies along with it, as far as nothing crosses; the
     /// number of crossings an exact test finds.
     pub(crate) fn carry(&mut self, model: &Model, work: &mut ContactWorkspace) -> u64 {
         work.before.clone_from(&self.trial.place);
         work.bodies_before.clone_from(&self.trial.bodies);
-        let first = work.near.fraction <= 0.0;
+        let first = work.near.fraction <= work.near.start;
         if first {
             work.target.clone_from(&self.drift);
             work.near.hold_off(&work.before, &mut work.target);
@@ -70,7 +77,7 @@ impl Solver {
         if with_bodies {
             self.blend_bodies(&work.bodies_before, share);
         }
-        let skin_to = work.near.fraction + (1.0 - work.near.fraction) * share;
+        let skin_to = work.near.fraction + (work.near.goal - work.near.fraction) * share;
         self.trial.hitches.share = skin_to;
         self.trial.place_ends(model, &self.plan);
         let safe = work.near.safe_share(&work.before, |node| self.trial.place[node], skin_to);

@@ -8,12 +8,11 @@
 use glam::{DMat3, DVec3};
 
 use super::Solver;
-use super::rope::outer;
 use super::scheme::Scheme;
 use crate::contact::barrier::CRUSHED_SHARE;
+use crate::contact::near;
 use crate::contact::skin_friction::Failed;
 use crate::contact::workspace::ContactWorkspace;
-use crate::contact::{near, skin_friction};
 use crate::model::Model;
 use crate::state::State;
 
@@ -91,7 +90,9 @@ impl Solver {
             };
             let (taken, crossed) = self.move_by(model, work, share);
             crossings += crossed;
-            if self.strayed(state, scheme) > near::MARGIN_M - work.greatest_contact_distance {
+            if work.near.strayed(&self.trial.place)
+                > near::MARGIN_M - work.greatest_contact_distance
+            {
                 return ContactEnd::TooFar;
             }
             // What a short share leaves is still to go.
@@ -117,7 +118,7 @@ impl Solver {
         model: &Model,
         state: &State,
         scheme: &Scheme,
-        work: Option<&ContactWorkspace>,
+        mut work: Option<&mut ContactWorkspace>,
     ) {
         self.solve(model);
         for _ in 0..MOST_ACTIVE_SETS {
@@ -131,7 +132,7 @@ impl Solver {
                 return;
             }
             self.assemble_again(model, state, scheme);
-            if let Some(work) = work {
+            if let Some(work) = &mut work {
                 self.add_contact_blocks(work);
             }
             self.solve(model);
@@ -178,23 +179,11 @@ impl Solver {
         Ok(())
     }
 
-    /// Adds push and friction of every contact point in touch, with what the plugin answered.
-    fn add_contact_blocks(&mut self, work: &ContactWorkspace) {
-        for (place, index) in work.touching.point.iter().enumerate() {
-            let point = &work.points.list[*index];
-            let Some(touch) = &point.touches[work.touching.face[place]] else { continue };
-            let response = &work.touching.response[place];
-            let push = touch.normal * touch.barrier.stiffness;
-            let block = outer(push, touch.normal) - skin_friction::matrix(&response.by_slip)
-                + outer(DVec3::from_array(response.by_normal_force), push);
-            self.add_at(
-                point.segment,
-                point.node,
-                point.fraction,
-                work.touching.force_of(place),
-                &block,
-            );
-        }
+    /// Adds push and friction of every contact point in touch.
+    pub(super) fn add_contact_blocks(&mut self, work: &mut ContactWorkspace) {
+        work.add_contacts(|point, force, block| {
+            self.add_at(point.segment, point.node, point.fraction, force, block);
+        });
     }
 
     /// Adds a force and its block at a fraction of a segment.
@@ -228,6 +217,12 @@ impl Solver {
 
     /// Whether the pull of every segment in the last solve is the tension at its place, slack as zero.
     pub(crate) fn pull_is_settled(&mut self, model: &Model, scheme: &Scheme) -> bool {
+        self.tension_missed(model, scheme) <= 1.0
+    }
+
+    /// Greatest difference between the pull of a segment in the last solve and the tension at its place, slack as zero, as a share
+    /// of what is allowed.
+    pub(super) fn tension_missed(&mut self, model: &Model, scheme: &Scheme) -> f64 {
         let (mut gap, mut greatest) = (0.0_f64, 0.0_f64);
         self.each_segment(model, |solver, segment, node| {
             if !solver.cut[segment] {
@@ -238,7 +233,7 @@ impl Solver {
                 greatest = greatest.max(solved);
             }
         });
-        gap <= TENSION_GAP_N.min(self.tolerance().gap_n).max(TENSION_GAP_SHARE * greatest)
+        gap / TENSION_GAP_N.min(self.tolerance().gap_n).max(TENSION_GAP_SHARE * greatest)
     }
 
     fn each_segment(&mut self, model: &Model, mut act: impl FnMut(&mut Self, usize, usize)) {
@@ -286,18 +281,6 @@ impl Solver {
             share *= (0.9 * safe).max(LEAST_CUT);
         }
         (0.0, 0)
-    }
-
-    /// How far any node lies from the straight path by which its pairs were gathered [m].
-    fn strayed(&self, state: &State, scheme: &Scheme) -> f64 {
-        let away = |node: usize| {
-            let (from, path) = (state.rope.position[node], state.rope.velocity[node] * scheme.dt);
-            let along = ((self.trial.place[node] - from).dot(path)
-                / path.length_squared().max(1e-30))
-            .clamp(0.0, 1.0);
-            (self.trial.place[node] - from - path * along).length_squared()
-        };
-        (0..self.trial.place.len()).map(away).fold(0.0, f64::max).sqrt()
     }
 }
 

@@ -21,6 +21,8 @@ pub(crate) struct FreePass {
     pub longest_m: f64,
     /// Greatest difference between the pull solved for and the tension at its place, to second order [N].
     pub gap_n: f64,
+    /// Greatest tension of a segment that was solved as taut and comes out slack, or the reverse [N].
+    pub flipped_n: f64,
     /// Greatest tension [N].
     pub greatest_n: f64,
     /// Whether all moves are finite.
@@ -47,17 +49,37 @@ impl Solver {
 
     /// Begins a step of free rope.
     pub(crate) fn begin_free(&mut self, model: &Model, state: &State, scheme: &Scheme) {
+        self.begin_in_lanes(model, state, scheme, |_| ());
+    }
+
+    /// Begins a step in the lanes, from a guess that may be changed.
+    pub(super) fn begin_in_lanes(
+        &mut self,
+        model: &Model,
+        state: &State,
+        scheme: &Scheme,
+        change: impl FnOnce(&mut Self),
+    ) {
+        self.in_lanes = true;
         self.lengths.take(model, &state.rope.segment_length);
         self.trial.begin_free(model, &self.plan, state, scheme);
+        change(self);
         self.measure_flow(model);
         self.lanes.take_lengths(model, &self.lengths, &state.rope.cut);
         self.lanes.gather(&state.rope, scheme, &self.trial.place, &self.flow);
         self.near_seabed = self.nears_seabed(model, state, scheme.dt);
         self.lanes.leave_ground();
+        self.lanes.leave_contact();
     }
 
-    /// One Newton pass.
-    pub(crate) fn pass_free(&mut self, model: &Model, state: &State, scheme: &Scheme) -> FreePass {
+    /// One Newton pass that moves the trial by a share of what it solves.
+    pub(crate) fn pass_free(
+        &mut self,
+        model: &Model,
+        state: &State,
+        scheme: &Scheme,
+        share: f64,
+    ) -> FreePass {
         let shared = Shared::of(model, scheme);
         self.interface.clear();
         if self.near_seabed {
@@ -81,14 +103,15 @@ impl Solver {
             let step_b = self.interface.step_of(attachment_b, self.arm(attachment_b));
             self.lanes.move_ends(index, attachment_a != Attachment::Fixed, step_a, step_b);
         }
-        let rope = self.lanes.advance(&shared);
-        let (bodies_m, finite) = self.advance_bodies(1.0);
+        let rope = self.lanes.advance(&shared, share);
+        let (bodies_m, finite) = self.advance_bodies(share);
         self.lanes.give_ends(model, &mut self.trial);
         self.trial.place_ends(model, &self.plan);
         self.lanes.take_ends(model, &self.trial);
         FreePass {
             longest_m: rope.longest_m.max(bodies_m),
             gap_n: rope.gap_n,
+            flipped_n: rope.flipped_n,
             greatest_n: rope.greatest_n,
             finite: finite && rope.finite,
             near_seabed: self.near_seabed,
@@ -105,7 +128,7 @@ impl Solver {
     }
 
     /// Writes the solved step into the state.
-    pub(crate) fn keep_free(&mut self, model: &Model, scheme: &Scheme, state: &mut State) {
+    pub(super) fn keep_free(&mut self, model: &Model, scheme: &Scheme, state: &mut State) {
         if self.near_seabed {
             self.lanes.give_places(&mut self.trial.place);
             self.keep_grips(model, scheme, state);
@@ -119,11 +142,11 @@ impl Solver {
         self.keep_bodies(scheme, state);
     }
 
-    /// Tension of each segment at the end of the step being solved.
-    pub(crate) fn tension_free(&mut self) -> &[f64] {
-        self.trial.tension.resize(self.lengths.segment.len(), 0.0);
-        self.lanes.give_tension(&mut self.trial.tension);
-        &self.trial.tension
+    /// Takes the places of rope out of the lanes, where the step was solved there.
+    pub(crate) fn take_places(&mut self) {
+        if self.in_lanes {
+            self.lanes.give_places(&mut self.trial.place);
+        }
     }
 
     /// Moves the bodies by a share of the solved step; the longest solved move and whether all are finite.

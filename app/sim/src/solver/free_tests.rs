@@ -7,6 +7,7 @@ use super::*;
 use crate::model::{
     Body, BodyRole, Joint, JointKind, Line, ModelSpec, Rope, Seabed, Settings, Shape, Strength,
 };
+use crate::solver::outer;
 use crate::water::{Current, Water};
 
 /// Passes after which Newton has long come to rest, though bending is solved for only roughly in each.
@@ -124,7 +125,7 @@ fn in_lanes(
     }
     solver.begin_free(model, state, scheme);
     for _ in 0..passes {
-        assert!(solver.pass_free(model, state, scheme).finite);
+        assert!(solver.pass_free(model, state, scheme, 1.0).finite);
     }
     let mut after = state.clone();
     solver.keep_free(model, scheme, &mut after);
@@ -199,6 +200,57 @@ fn lanes_solve_what_the_lines_solve() {
             "{} nodes: {apart} m apart after a move of {moved} m",
             model.node_count
         );
+    }
+}
+
+/// Forces and unsymmetric blocks, as friction has them, on every third segment: piece ends and line ends are among them.
+fn contacts(model: &Model) -> Vec<(usize, f64, DVec3, DMat3)> {
+    let contact = |segment: usize| {
+        let phase = segment as f64;
+        let (sin, cos) = (libm::sin(phase), libm::cos(1.7 * phase));
+        let normal = DVec3::new(sin, cos, 0.4).normalize();
+        let across = normal.any_orthonormal_vector();
+        let block = outer(normal, normal) * (2e4 + 1e4 * sin) + outer(across, normal) * (6e3 * cos);
+        (segment, 0.5 + 0.45 * sin, (normal + across * 0.3) * (20.0 * cos), block)
+    };
+    (0..model.segment_count).step_by(3).chain([1, 0]).map(contact).collect()
+}
+
+/// One pass with contact, line by line and in lanes of two widths.
+#[test]
+fn lanes_solve_contact_as_the_lines_do() {
+    let one = model(60.0, 0.7);
+    for model in [eight(&one), one] {
+        let (state, scheme) = (moving(&model), Scheme::backward_euler(0.002));
+        let mut lines = Solver::new(&model);
+        lines.begin(&model, &state, &scheme);
+        lines.assemble(&model, &state, &scheme);
+        for (segment, fraction, force, block) in contacts(&model) {
+            let node = segment + model.segment_line[segment];
+            lines.add_at(segment, node, fraction, force, &block);
+        }
+        lines.solve(&model);
+        lines.advance(&model, 1.0);
+        let in_lanes = |arch: Option<Arch>| {
+            let mut solver = Solver::new(&model);
+            if let Some(arch) = arch {
+                solver.lanes.set_arch(arch);
+            }
+            solver.begin_free(&model, &state, &scheme);
+            for (segment, fraction, force, block) in contacts(&model) {
+                solver.lanes.add_contact(segment, fraction, force, &block);
+            }
+            assert!(solver.pass_free(&model, &state, &scheme, 1.0).finite);
+            solver.take_places();
+            solver.trial.place
+        };
+        let (wide, narrow) = (in_lanes(None), in_lanes(Some(Arch::Scalar)));
+        let greatest =
+            |of: &dyn Fn(usize) -> f64| (0..model.node_count).map(of).fold(0.0, f64::max);
+        let apart = greatest(&|node| lines.trial.place[node].distance(wide[node]));
+        let moved = greatest(&|node| state.rope.position[node].distance(wide[node]));
+        assert!(moved > 1e-3 && apart < 1e-9, "{apart} m apart after a move of {moved} m");
+        assert_eq!(wide, narrow);
     }
 }
 

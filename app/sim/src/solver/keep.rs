@@ -9,7 +9,10 @@ use crate::state::State;
 
 impl Solver {
     /// Writes the solved step into the state.
-    pub(crate) fn keep(&self, model: &Model, scheme: &Scheme, state: &mut State) {
+    pub(crate) fn keep(&mut self, model: &Model, scheme: &Scheme, state: &mut State) {
+        if self.in_lanes {
+            return self.keep_free(model, scheme, state);
+        }
         self.keep_grips(model, scheme, state);
         self.keep_solid_grips(scheme, state);
         self.keep_rope_grips(scheme, state);

@@ -21,6 +21,7 @@ mod keep;
 mod lanes;
 mod lengths;
 mod line_search;
+mod newton;
 mod plan;
 mod pulled;
 mod residual;
@@ -56,6 +57,7 @@ use lanes::Lanes;
 use lengths::Lengths;
 use plan::Plan;
 use rope::Pull;
+pub(crate) use rope::outer;
 pub(crate) use rope_contact_newton::RopeContactEnd;
 pub(crate) use scheme::Scheme;
 pub(crate) use statics::{WorstAt, is_laid};
@@ -72,6 +74,8 @@ pub(crate) struct Solver {
     lengths: Lengths,
     tridiagonal: BlockTridiagonal,
     lanes: Lanes,
+    /// Whether the step is solved in the lanes.
+    in_lanes: bool,
     /// Whether rope may touch the seabed in a step of free rope.
     near_seabed: bool,
     interface: InterfaceSystem,
@@ -151,6 +155,7 @@ impl Solver {
             lengths: Lengths::default(),
             tridiagonal: BlockTridiagonal::new(model.node_count, model.segment_count),
             lanes: Lanes::new(model),
+            in_lanes: false,
             near_seabed: false,
             pull: vec![Pull::default(); model.segment_count],
             cut: vec![false; model.segment_count],
@@ -182,6 +187,7 @@ impl Solver {
 
     /// Begins a step from a state.
     pub(crate) fn begin(&mut self, model: &Model, state: &State, scheme: &Scheme) {
+        self.in_lanes = false;
         self.lengths.take(model, &state.rope.segment_length);
         self.trial.begin(model, &self.plan, state, scheme);
         self.cut.clone_from(&state.rope.cut);
@@ -225,7 +231,11 @@ impl Solver {
     }
 
     /// Tension of each segment at the end of the step being solved; below zero it is slack [N].
-    pub(crate) fn tension(&self) -> &[f64] {
+    pub(crate) fn tension(&mut self) -> &[f64] {
+        if self.in_lanes {
+            self.trial.tension.resize(self.lengths.segment.len(), 0.0);
+            self.lanes.give_tension(&mut self.trial.tension);
+        }
         &self.trial.tension
     }
 }

@@ -9,8 +9,12 @@ use glam::{DMat3, DVec3};
 
 use super::Solver;
 use super::forces::{self, NodeAt, PerMetre, PullOf, SegmentAt, Shared};
+use super::lanes::space::Sym3;
 use super::scheme::Scheme;
 use crate::model::Model;
+
+/// Least chord that is divided by [m].
+const TINY_M: f64 = 1e-9;
 
 /// The matrix `v wᵀ`.
 pub(crate) fn outer(one: DVec3, other: DVec3) -> DMat3 {
@@ -116,17 +120,52 @@ impl Solver {
             self.trial.place[node + 1] - self.trial.place[node],
         );
         let taut = self.trial.tension[segment] > 0.0;
-        self.pull[segment] = Pull { taut, ..Pull::of(&pull) };
-        if !taut {
-            return;
+        let across = self.trial.tension[segment].max(0.0) * pull.inverse_chord;
+        self.pull[segment] = Pull { taut, across, ..Pull::of(&pull) };
+        if taut {
+            self.add_pull(segment, node, 1.0);
         }
-        let (force, block) = (DVec3::from(pull.force), DMat3::from(pull.block));
+    }
+
+    /// Adds the pull of a segment and its block, or takes them away with a sign below zero.
+    fn add_pull(&mut self, segment: usize, node: usize, sign: f64) {
+        let Pull { direction, tension, stiffness, across, .. } = self.pull[segment];
+        let force = direction * (sign * tension);
+        let block =
+            DMat3::from(Sym3::round(sign * across, direction.into(), sign * (stiffness - across)));
         self.tridiagonal.force[node] += force;
         self.tridiagonal.force[node + 1] -= force;
         self.tridiagonal.diagonal[node] += block;
         self.tridiagonal.diagonal[node + 1] += block;
         self.tridiagonal.up[segment] -= block;
         self.tridiagonal.low[segment] -= block;
+    }
+
+    /// After a solve: lets those segments pull, and those alone, that are taut by the linear solution; how many that changes.
+    pub(super) fn change_taut(&mut self, model: &Model) -> usize {
+        let mut changed = 0;
+        for (index, segments) in model.line_segments.iter().enumerate() {
+            let first_node = model.line_nodes[index].start;
+            for (k, segment) in segments.clone().enumerate() {
+                let tension = self.trial.tension[segment];
+                let pull = self.pull[segment];
+                if pull.taut == (tension > 0.0) || self.cut[segment] {
+                    continue;
+                }
+                changed += 1;
+                if pull.taut {
+                    self.add_pull(segment, first_node + k, -1.0);
+                    self.pull[segment].taut = false;
+                } else {
+                    let chord = self.trial.place[first_node + k + 1]
+                        .distance(self.trial.place[first_node + k]);
+                    self.pull[segment].across = tension / chord.max(TINY_M);
+                    self.pull[segment].taut = true;
+                    self.add_pull(segment, first_node + k, 1.0);
+                }
+            }
+        }
+        changed
     }
 
     /// Tension of a segment at the trial places, before it is judged taut or slack.
@@ -186,6 +225,8 @@ pub(crate) struct Pull {
     pub direction: DVec3,
     pub tension: f64,
     pub stiffness: f64,
+    /// Stiffness across: predicted tension over length [N/m].
+    pub across: f64,
     /// Whether the last solve let it pull.
     pub taut: bool,
 }
@@ -196,6 +237,7 @@ impl Pull {
             direction: pull.direction.into(),
             tension: pull.tension,
             stiffness: pull.stiffness,
+            across: 0.0,
             taut: false,
         }
     }

@@ -49,7 +49,7 @@ impl Trial {
     /// Starts a step: history from the state, a first guess by its velocities, fixtures at their new place.
     pub fn begin(&mut self, model: &Model, plan: &Plan, state: &State, scheme: &Scheme) {
         self.time = state.time_s + scheme.dt;
-        self.hitches.share = 1.0;
+        self.hitches.share = self.hitches.span[1];
         let rope = &state.rope;
         let count = model.node_count;
         self.place.resize(count, DVec3::ZERO);
@@ -70,7 +70,7 @@ impl Trial {
     /// Starts a step of free rope: the same, but for the rope's history, which the lanes take from the state.
     pub fn begin_free(&mut self, model: &Model, plan: &Plan, state: &State, scheme: &Scheme) {
         self.time = state.time_s + scheme.dt;
-        self.hitches.share = 1.0;
+        self.hitches.share = self.hitches.span[1];
         self.place.clear();
         let rope = &state.rope;
         self.place.extend(

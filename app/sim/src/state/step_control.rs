@@ -61,18 +61,26 @@ pub struct StepControl {
     pub step_s: f64,
     /// What limits it.
     pub limit: LimitedBy,
+    /// Length of the next solver step where rope may touch the whale [s]; zero where none is chosen yet.
+    pub contact_step_s: f64,
     /// Greatest tension of each line after the last two solver steps, the later one first [N].
     pub tension_n: Vec<[f64; 2]>,
     /// How many of the two are known.
     pub known: u32,
 }
 
-clone_in_place!(StepControl { step_s, limit, tension_n, known });
+clone_in_place!(StepControl { step_s, limit, contact_step_s, tension_n, known });
 
 impl StepControl {
     /// Nothing chosen yet, for a model of so many lines.
     pub(crate) fn new(lines: usize) -> Self {
-        Self { step_s: 0.0, limit: LimitedBy::Inputs, tension_n: vec![[0.0; 2]; lines], known: 0 }
+        Self {
+            step_s: 0.0,
+            limit: LimitedBy::Inputs,
+            contact_step_s: 0.0,
+            tension_n: vec![[0.0; 2]; lines],
+            known: 0,
+        }
     }
 
     /// Begins anew with this step.

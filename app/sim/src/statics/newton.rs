@@ -197,7 +197,7 @@ impl<'a> Newton<'a> {
     }
 
     /// Ends the attempt where it was last assembled.
-    pub fn reached(self, residual_n: f64) -> Reached {
+    pub fn reached(mut self, residual_n: f64) -> Reached {
         let worst = self.solver.worst(self.model);
         let laid = (0..self.model.spec.bodies.len()).filter(|body| is_laid(self.model, *body));
         let load_n = laid.map(|body| self.solver.load_on(self.model, body)).collect();

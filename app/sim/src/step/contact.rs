@@ -9,6 +9,7 @@ use super::context::StepContext;
 use super::convergence::CONTACT_CONVERGED_M;
 use super::rejection::Rejection;
 use crate::contact::barrier::PINCHED_SHARE;
+use crate::contact::near::{MARGIN_M, Refused};
 use crate::contact::workspace::ContactWorkspace;
 use crate::solver::{CONTACT_WANTED_M, ContactEnd, Solver};
 
@@ -16,6 +17,36 @@ use crate::solver::{CONTACT_WANTED_M, ContactEnd, Solver};
 const MOST_STAGES: usize = 8;
 /// Rope that begins a step pinched may end it this much nearer to skin, as a share.
 const STILL_PINCHED: f64 = 0.99;
+
+/// A short solver step with rope near the whale, solved by whole passes; how much of what Newton is allowed it missed by.
+pub(super) fn short_contact_step(
+    context: &StepContext<'_>,
+    solver: &mut Solver,
+    work: &mut ContactWorkspace,
+    audit: &mut Audit,
+) -> Result<f64, Rejection> {
+    let StepContext { model, state, scheme } = *context;
+    solver.begin_short(model, state, scheme, work);
+    let converged = match solver.solve_short(model, state, scheme, work) {
+        Ok(converged) => converged,
+        Err(end) => {
+            accept(end, audit)?;
+            return Err(Rejection::NotConverged);
+        }
+    };
+    audit.passes += converged.passes as u64;
+    if work.near.strayed(solver.places()) > MARGIN_M - work.greatest_contact_distance {
+        return Err(Rejection::Strayed);
+    }
+    if work.nearer_than(PINCHED_SHARE).is_some() {
+        return Err(Rejection::NotConverged);
+    }
+    match work.near.end(&state.rope.position, solver.places()) {
+        Ok(crossings) => audit.tunnelled += crossings,
+        Err(Refused::Strayed | Refused::Unsafe) => return Err(Rejection::NotConverged),
+    }
+    Ok(converged.missed)
+}
 
 /// Newton with rope near the whale: the skin is moved as far as nothing crosses, and rope is solved at that pose, until
 /// the skin has made its whole move.
@@ -32,8 +63,8 @@ pub(super) fn contact_step(
     let mut pinched = PINCHED_SHARE;
     for stage in 0..MOST_STAGES {
         work.near.measure(solver.places());
-        if let Some(pair) = work.near.pairs.iter().find(|pair| pair.gap_bound <= 0.0) {
-            return Err(Rejection::Crossed(pair.segment));
+        if let Some(segment) = work.near.crossed() {
+            return Err(Rejection::Crossed(segment));
         }
         if stage == 0 {
             // Rope that lies there already may stay, and come out again.
@@ -48,7 +79,7 @@ pub(super) fn contact_step(
         if let Some(segments) = solver.crushed_ropes(true) {
             return Err(Rejection::RopesPinched(segments));
         }
-        if work.near.fraction >= 1.0 - 1e-12 {
+        if work.near.fraction >= work.near.goal - 1e-12 {
             return if solver.met_more_ropes(model, state) {
                 Err(Rejection::NotConverged)
             } else {
@@ -75,7 +106,7 @@ fn accept(end: ContactEnd, audit: &mut Audit) -> Result<(), Rejection> {
             audit.non_finite += 1;
             Err(Rejection::NotFinite)
         }
-        ContactEnd::TooFar => Err(Rejection::NotConverged),
+        ContactEnd::TooFar => Err(Rejection::Strayed),
         ContactEnd::Crushed(segment, triangle) => Err(Rejection::Pinched(segment, triangle)),
         ContactEnd::CrushedRopes(segments) => Err(Rejection::RopesPinched(segments)),
         ContactEnd::Plugin(failed) => Err(Rejection::Plugin(failed)),

@@ -35,7 +35,7 @@ pub(super) fn free_step(
     let (mut convergence, at_once) = (Convergence::new(model, &tolerance), !model.bends());
     let mut moved_m = 0.0;
     for pass in 1..=convergence.most_passes {
-        let passed = solver.pass_free(model, state, scheme);
+        let passed = solver.pass_free(model, state, scheme, 1.0);
         audit.passes += 1;
         moved_m += passed.longest_m;
         if !passed.finite {
@@ -43,7 +43,7 @@ pub(super) fn free_step(
             return Err(Rejection::NotFinite);
         }
         let rests = convergence.is_reached(pass, passed.longest_m);
-        let settled = passed.gap_n
+        let settled = passed.gap_n.max(passed.flipped_n)
             <= TENSION_GAP_N.min(tolerance.gap_n).max(TENSION_GAP_SHARE * passed.greatest_n);
         if (rests && settled) || (at_once && is_exact(&passed, &tolerance)) {
             // Rope that kept to its drift has met nothing but what was gathered.
@@ -60,7 +60,7 @@ fn is_exact(passed: &FreePass, tolerance: &Tolerance) -> bool {
     let gap_n = ONE_PASS_GAP_N.min(tolerance.gap_n).max(ONE_PASS_GAP_SHARE * passed.greatest_n);
     !passed.near_seabed
         && passed.longest_m < ONE_PASS_M.min(tolerance.move_m)
-        && passed.gap_n < gap_n
+        && passed.gap_n.max(passed.flipped_n) < gap_n
 }
 
 /// Newton line by line, where ropes, bodies or obstacles are near but nothing touches.

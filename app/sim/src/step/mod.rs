@@ -14,7 +14,6 @@ pub mod stop;
 mod substeps;
 pub mod workspace;
 
-use crate::contact::workspace::touch_by_part;
 use crate::gear_hook;
 use crate::model::Model;
 use crate::state::{State, WhaleState};
@@ -61,8 +60,7 @@ fn try_step(
     });
     if let (Some(now), Some([_, after])) = (&mut state.whale, whale.as_deref_mut()) {
         if let Some(whale) = &model.spec.whale {
-            [after.contact_force_n, after.contact_port_m] =
-                touch_by_part(&whale.skin, &workspace.contacts);
+            [after.contact_force_n, after.contact_port_m] = workspace.sums.by_part();
             if let Some(kinetic) = &whale.kinetic {
                 workspace.pulled.give(kinetic, model.spec.settings.step_s, after);
             }

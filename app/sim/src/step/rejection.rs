@@ -12,6 +12,8 @@ pub(crate) enum Rejection {
     NotFinite,
     NotConverged,
     PartsTooLate,
+    /// Rope left the margin in which skin was looked for.
+    Strayed,
     /// This segment crosses skin before the step begins.
     Crossed(usize),
     /// This segment is pinched at this triangle by skin that closes on it.
@@ -50,7 +52,7 @@ impl Rejection {
                  current of this part"
                     .into(),
             ),
-            Self::NotConverged => (
+            Self::NotConverged | Self::Strayed => (
                 worst(),
                 "no balance of forces was found at the shortest step; check strength and stiffness \
                  of this part"
@@ -99,12 +101,15 @@ impl Rejection {
 }
 
 /// What a solver step was.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum StepKind {
     /// No rope near skin.
     Free,
-    /// Rope near skin.
-    InContact,
+    /// Rope near skin, rope, obstacles or bodies; how much of what Newton is allowed it missed by.
+    InContact {
+        /// As a share.
+        missed: f64,
+    },
     /// Something parted at its end.
     Parted,
 }

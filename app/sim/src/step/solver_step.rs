@@ -1,7 +1,7 @@
 //! One solver step: free rope in two linear solves, rope in contact by Newton.
 
 use super::audit::Audit;
-use super::contact::contact_step;
+use super::contact::{contact_step, short_contact_step};
 use super::context::StepContext;
 use super::free::{FreeOutcome, free_step, lines_step};
 use super::rejection::{Rejection, StepKind};
@@ -9,11 +9,17 @@ use super::rope::rope_step;
 use super::solid::solid_step;
 use super::workspace::Workspace;
 use crate::contact::ContactPoint;
+use crate::contact::near::MARGIN_M;
 use crate::contact::workspace::ContactWorkspace;
 use crate::model::Model;
 use crate::parting;
 use crate::solver::{Scheme, Solver};
 use crate::state::State;
+
+/// Step up to which Newton with contact searches along every pass [s].
+const SHORT_S: f64 = 1.3e-4;
+/// What such a step counts as having missed of what is allowed.
+const SEARCHED_MISSED: f64 = 0.2;
 
 /// One solver step of length `dt`: kept in `state` where it converges and parts nothing late.
 ///
@@ -27,10 +33,9 @@ pub(super) fn solver_step(
 ) -> Result<StepKind, Rejection> {
     let Workspace { solver, contact, audit, contacts, rope_touches, peak_tension_n, .. } =
         workspace;
-    let mut touching = contact.as_mut();
-    if touching.as_mut().is_none_or(|work| !gather(model, state, work, dt)) {
-        touching = None;
-    }
+    let mut near = contact.as_mut().filter(|work| !work.near.pairs.is_empty());
+    let may_touch =
+        near.as_mut().is_some_and(|work| look(state, work, solver.trial.hitches.span[1], dt));
     contacts.clear();
     rope_touches.clear();
     let on_solid = solver.gather_solids(state, dt);
@@ -38,8 +43,9 @@ pub(super) fn solver_step(
     if on_rope && is_long(model, dt) {
         return Err(Rejection::RopesMeet);
     }
-    let untouched = touching.is_none() && !on_solid && !on_rope;
-    let scheme = if was_halved || !untouched {
+    let untouched = !may_touch && !on_solid && !on_rope;
+    let feels = model.spec.whale.as_ref().is_some_and(|whale| whale.kinetic.is_some());
+    let scheme = if was_halved || !untouched || (near.is_some() && feels) {
         Scheme::backward_euler(dt)
     } else {
         Scheme::bdf2(dt, state.rope.earlier_dt_s)
@@ -47,21 +53,21 @@ pub(super) fn solver_step(
     let is_shortest = dt * 0.5 < model.spec.settings.least_step_s;
     let free = untouched && solver.suits_lanes(model);
     let context = StepContext { model, state, scheme: &scheme };
+    let mut missed = 0.0;
     if free && free_step(&context, solver, audit)? == FreeOutcome::Clear {
-        if !is_shortest && parting::too_late(model, state, solver.tension_free()) {
-            return Err(Rejection::PartsTooLate);
+        if let Some(work) = near.as_deref_mut() {
+            solver.take_places();
+            stay_clear(state, solver, work)?;
         }
-        state.rope.friction.clear();
-        solver.keep_free(model, &scheme, state);
     } else {
-        solve_by_lines(&context, solver, touching.as_deref_mut(), audit)?;
-        if !is_shortest && parting::too_late(model, state, solver.tension()) {
-            return Err(Rejection::PartsTooLate);
-        }
-        keep_contacts(model, state, touching, dt, Reports { contacts, audit })?;
-        solver.report_ropes(state, rope_touches);
-        solver.keep(model, &scheme, state);
+        missed = solve_by_lines(&context, solver, (near.as_deref_mut(), may_touch), audit)?;
     }
+    if !is_shortest && parting::too_late(model, state, solver.tension()) {
+        return Err(Rejection::PartsTooLate);
+    }
+    keep_contacts(model, state, near.filter(|_| may_touch), dt, Reports { contacts, audit })?;
+    solver.report_ropes(state, rope_touches);
+    solver.keep(model, &scheme, state);
     audit.ropes_crossed += solver.ropes.crossings;
     audit.ropes_through = audit.ropes_through.max(solver.ropes.count_through());
     audit.solver_steps += 1;
@@ -72,19 +78,32 @@ pub(super) fn solver_step(
         state.rope.earlier_dt_s = 0.0;
         return Ok(StepKind::Parted);
     }
-    Ok(if untouched { StepKind::Free } else { StepKind::InContact })
+    Ok(if untouched { StepKind::Free } else { StepKind::InContact { missed } })
 }
 
-/// Gathers rope near the whale for a solver step; whether there is any.
-fn gather(model: &Model, state: &State, work: &mut ContactWorkspace, dt: f64) -> bool {
-    let [start, end] = &work.bones;
-    work.near.begin(
-        model,
-        [start, end],
-        &state.rope.position,
-        |node| state.rope.velocity[node] * dt,
-        &state.rope.cut,
-    )
+/// Looks for what may touch skin in a solver step that ends at a share of the model's step, by the velocities of rope; whether
+/// anything may.
+pub(super) fn look(state: &State, work: &mut ContactWorkspace, goal: f64, dt: f64) -> bool {
+    let rope = &state.rope;
+    work.target.clear();
+    work.target.extend(
+        rope.position.iter().zip(&rope.velocity).map(|(place, velocity)| *place + *velocity * dt),
+    );
+    work.near.look(&rope.position, &work.target, goal);
+    work.near.may_touch()
+}
+
+/// Ends a step in which nothing was to touch skin, where nothing came near it.
+fn stay_clear(
+    state: &State,
+    solver: &Solver,
+    work: &mut ContactWorkspace,
+) -> Result<(), Rejection> {
+    if work.near.strayed(solver.places()) > MARGIN_M - work.greatest_contact_distance {
+        return Err(Rejection::Strayed);
+    }
+    let ended = work.near.end(&state.rope.position, solver.places());
+    ended.map(|_| ()).map_err(|_| Rejection::NotConverged)
 }
 
 /// Whether a step is longer than contact allows.
@@ -92,18 +111,40 @@ fn is_long(model: &Model, dt: f64) -> bool {
     dt > model.spec.settings.contact_step_s * (1.0 + 1e-9)
 }
 
-/// Solves a step with rope near the whale, rope, obstacles or bodies, line after line.
+/// Solves a step with rope near the whale, rope, obstacles or bodies, line after line; how much of what Newton is allowed in a
+/// short step it missed by.
 fn solve_by_lines(
     context: &StepContext<'_>,
     solver: &mut Solver,
-    touching: Option<&mut ContactWorkspace>,
+    (near, may_touch): (Option<&mut ContactWorkspace>, bool),
+    audit: &mut Audit,
+) -> Result<f64, Rejection> {
+    let StepContext { model, state, scheme } = *context;
+    match near {
+        Some(work) if may_touch => {
+            if scheme.dt > SHORT_S && model.spec.settings.swept && !solver.ropes.touching {
+                return short_contact_step(context, solver, work, audit);
+            }
+            solver.begin(model, state, scheme);
+            contact_step(context, solver, work, audit).map(|()| SEARCHED_MISSED)
+        }
+        Some(work) => {
+            solve_untouched(context, solver, audit)?;
+            stay_clear(state, solver, work)?;
+            Ok(0.0)
+        }
+        None => solve_untouched(context, solver, audit).map(|()| 0.0),
+    }
+}
+
+/// Solves a step with rope near rope, obstacles or bodies, and none on skin.
+fn solve_untouched(
+    context: &StepContext<'_>,
+    solver: &mut Solver,
     audit: &mut Audit,
 ) -> Result<(), Rejection> {
     let StepContext { model, state, scheme } = *context;
     solver.begin(model, state, scheme);
-    if let Some(work) = touching {
-        return contact_step(context, solver, work, audit);
-    }
     if solver.ropes.touching {
         return rope_step(context, solver, audit);
     }

@@ -6,10 +6,11 @@
 //! which ends the run.
 
 use super::rejection::{Rejection, StepKind};
-use super::solver_step::solver_step;
+use super::solver_step::{look, solver_step};
 use super::stop::Stop;
 use super::workspace::Workspace;
-use crate::contact::near::MARGIN_M;
+use crate::contact::step_sums::StepSums;
+use crate::contact::workspace::ContactWorkspace;
 use crate::model::{Model, Settings};
 use crate::remesh::remesh;
 use crate::state::{LimitedBy, State, StepControl, WhaleState};
@@ -19,7 +20,13 @@ use crate::whale::hitch;
 use crate::whale::kinetic::pull::{RopeImpulse, Times, centre_of};
 
 /// Rope this near to the whale's path over a whole step makes the solver steps short [m].
-const NEAR_M: f64 = MARGIN_M + 0.12;
+const NEAR_M: f64 = 0.2;
+
+/// Share of what Newton is allowed to miss below which the next step near the whale is longer, and by how much.
+const LITTLE_MISSED: f64 = 0.3;
+const GROWTH: f64 = 1.4;
+/// Least step that is chosen near the whale; a step that does not converge at it is halved for itself [s].
+const LEAST_CHOSEN_S: f64 = 1e-4;
 
 /// Times a model's step may be taken back and begun with shorter solver steps.
 const MOST_TAKEN_BACK: usize = 3;
@@ -38,13 +45,14 @@ pub(super) fn advance(
     for taken_back in 0..=MOST_TAKEN_BACK {
         workspace.peak_tension_n.fill(0.0);
         workspace.contacts.clear();
+        workspace.sums = StepSums::default();
         workspace.pulled = RopeImpulse::default();
         let splits = remesh(model, state, &mut workspace.remesh);
         workspace.audit.splits += if taken_back == 0 { splits } else { 0 };
         let near = near_whale(model, state, workspace, whale);
         let longest =
             if near { settings.contact_step_s.min(settings.step_s) } else { settings.step_s };
-        let limits = Limits { longest, may_take_back: taken_back < MOST_TAKEN_BACK };
+        let limits = Limits { longest, near, may_take_back: taken_back < MOST_TAKEN_BACK };
         if solver_steps(model, state, workspace, whale, limits)? {
             break;
         }
@@ -73,21 +81,42 @@ fn near_whale(
     let (Some(work), Some([from, to])) = (&mut workspace.contact, whale) else { return false };
     pose_between(model, from, to, 0.0, &mut work.bones[0]);
     pose_between(model, from, to, 1.0, &mut work.bones[1]);
+    workspace.solver.trial.hitches.move_to(model, [&work.bones[0], &work.bones[1]]);
     let step_s = model.spec.settings.step_s;
     let [start, end] = &work.bones;
-    work.near.any(
+    let near = work.near.any(
         [start, end],
         &state.rope.position,
         |node| state.rope.velocity[node] * step_s,
         NEAR_M,
-    )
+    );
+    work.near.pairs.clear();
+    if near {
+        gather(model, state, work, 0.0);
+    }
+    near
+}
+
+/// Gathers rope near skin for the rest of a step of the model, of which a share has passed.
+fn gather(model: &Model, state: &State, work: &mut ContactWorkspace, passed: f64) {
+    let left_s = model.spec.settings.step_s * (1.0 - passed);
+    let [start, end] = &work.bones;
+    work.near.gather(
+        model,
+        [start, end],
+        &state.rope.position,
+        |node| state.rope.velocity[node] * left_s,
+        (&state.rope.cut, passed),
+    );
 }
 
 /// What bounds the solver steps of one try.
 #[derive(Clone, Copy, Debug)]
 struct Limits {
-    /// Longest solver step [s].
+    /// Longest solver step where rope may touch something [s].
     longest: f64,
+    /// Whether rope may be near the whale.
+    near: bool,
     /// Whether a step that misses its wanted error may be taken back.
     may_take_back: bool,
 }
@@ -99,27 +128,43 @@ fn solver_steps(
     state: &mut State,
     workspace: &mut Workspace,
     whale: Option<&[WhaleState; 2]>,
-    Limits { mut longest, may_take_back }: Limits,
+    Limits { mut longest, near, may_take_back }: Limits,
 ) -> Result<bool, Stop> {
     let settings = &model.spec.settings;
     let start = settings.step_s * state.step as f64;
     let end = settings.step_s * (state.step + 1) as f64;
     let (mut halvings, mut refused) = (0_u32, LimitedBy::Convergence);
+    let mut untroubled = true;
+    // Momentum goes from rope to a whale that feels it by backward Euler alone, as with contact.
+    let feels = model.spec.whale.as_ref().is_some_and(|whale| whale.kinetic.is_some());
     while end - state.time_s > 1e-9 * settings.step_s {
         let left = end - state.time_s;
-        let (chosen, limit) = wanted(settings, &state.step_control, longest);
+        let share = |time: f64| ((time - start) / settings.step_s).clamp(0.0, 1.0);
+        let clear = near && untroubled && !feels && stays_clear(state, workspace, left);
+        let most = if clear { settings.step_s } else { longest };
+        let (chosen, limit) = wanted(settings, &state.step_control, most);
+        let chosen = if near && !clear {
+            chosen.min(contact_step(settings, &state.step_control))
+        } else {
+            chosen
+        };
         let wanted = chosen / f64::from(1_u32 << halvings.min(30));
         let dt = left / (left / wanted - 1e-9).ceil().max(1.0);
-        if let (Some(work), Some([from, to])) = (&mut workspace.contact, whale) {
-            let share = |time: f64| ((time - start) / settings.step_s).clamp(0.0, 1.0);
-            pose_between(model, from, to, share(state.time_s), &mut work.bones[0]);
-            pose_between(model, from, to, share(state.time_s + dt), &mut work.bones[1]);
-            workspace.solver.trial.hitches.move_to(model, [&work.bones[0], &work.bones[1]]);
-        }
+        workspace.solver.trial.hitches.span = [share(state.time_s), share(state.time_s + dt)];
         let earlier_dt = state.rope.earlier_dt_s;
-        match solver_step(model, state, workspace, dt, halvings > 0) {
+        let done = solver_step(model, state, workspace, dt, halvings > 0);
+        if let (Err(_), Some(work)) = (&done, &mut workspace.contact) {
+            work.near.go_back();
+        }
+        match done {
             Ok(kind) => {
+                if let Some(whale) = &model.spec.whale {
+                    workspace.sums.take(&whale.skin, &workspace.contacts, dt);
+                }
                 feel(model, state, workspace, whale, dt);
+                if let (true, StepKind::InContact { missed }) = (near, kind) {
+                    lengthen(settings, &mut state.step_control, dt, missed);
+                }
                 let limit = if halvings > 0 { refused } else { limit };
                 workspace.audit.limited_by[limit as usize] += 1;
                 halvings = halvings.saturating_sub(1);
@@ -130,20 +175,41 @@ fn solver_steps(
                     return Ok(false);
                 }
             }
-            Err(Rejection::RopesMeet) => longest = settings.contact_step_s.min(longest),
+            Err(Rejection::RopesMeet) => {
+                untroubled = false;
+                longest = settings.contact_step_s.min(longest);
+            }
             Err(why) if why.may_halve() && 0.5 * dt >= settings.least_step_s => {
                 refused = if why == Rejection::PartsTooLate {
                     LimitedBy::Parting
                 } else {
                     LimitedBy::Convergence
                 };
-                halvings += 1;
+                untroubled = false;
+                if why == Rejection::Strayed
+                    && let Some(work) = &mut workspace.contact
+                {
+                    gather(model, state, work, share(state.time_s));
+                }
+                if near && why != Rejection::PartsTooLate && dt > LEAST_CHOSEN_S {
+                    state.step_control.contact_step_s = 0.5 * dt;
+                } else {
+                    halvings += 1;
+                }
                 workspace.audit.halved += 1;
             }
             Err(why) => return Err(why.stop(model, state, &workspace.solver)),
         }
     }
     Ok(true)
+}
+
+/// Whether rope that goes on with its velocities touches no skin for the rest of the model's step.
+fn stays_clear(state: &State, workspace: &mut Workspace, left_s: f64) -> bool {
+    workspace
+        .contact
+        .as_mut()
+        .is_none_or(|work| work.near.pairs.is_empty() || !look(state, work, 1.0, left_s))
 }
 
 /// Takes in what rope gave a kinetic whale in the solver step that has just ended; a kinematic one has no use for it.
@@ -167,6 +233,18 @@ fn feel(
     }
 }
 
+/// The solver step near the whale, by how nearly linear the last ones were.
+fn contact_step(settings: &Settings, control: &StepControl) -> f64 {
+    let longest = settings.contact_step_s.min(settings.step_s);
+    if control.contact_step_s > 0.0 { control.contact_step_s.min(longest) } else { longest }
+}
+
+/// Lengthens the solver step near the whale where the one just taken missed little of what Newton is allowed.
+fn lengthen(settings: &Settings, control: &mut StepControl, dt: f64, missed: f64) {
+    let step = contact_step(settings, control);
+    control.contact_step_s = if missed < LITTLE_MISSED { step.max(GROWTH * dt) } else { step };
+}
+
 /// The longest solver step to try now, and what limits it.
 fn wanted(settings: &Settings, control: &StepControl, longest: f64) -> (f64, LimitedBy) {
     if settings.auto_step && control.step_s > 0.0 && control.step_s < longest {
@@ -185,7 +263,7 @@ fn choose_next(model: &Model, state: &mut State, kind: StepKind, dt: f64, earlie
         StepKind::Parted => state
             .step_control
             .restart(step_control::PARTED_S.min(settings.step_s), LimitedBy::Parting),
-        StepKind::InContact => state
+        StepKind::InContact { .. } => state
             .step_control
             .restart(settings.contact_step_s.min(settings.step_s), LimitedBy::Contact),
         StepKind::Free => return step_control::choose(model, state, dt, earlier_dt),

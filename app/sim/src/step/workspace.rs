@@ -3,6 +3,7 @@
 use super::audit::Audit;
 use crate::contact::ContactPoint;
 use crate::contact::ropes::RopeTouch;
+use crate::contact::step_sums::StepSums;
 use crate::contact::workspace::ContactWorkspace;
 use crate::gear_hook::GearWorkspace;
 use crate::model::Model;
@@ -18,6 +19,8 @@ pub struct Workspace {
     pub contacts: Vec<ContactPoint>,
     /// Greatest tension of each segment over the solver steps of the last step [N].
     pub peak_tension_n: Vec<f64>,
+    /// What rope did to skin over the solver steps of the last step.
+    pub sums: StepSums,
     /// Places where rope pressed on rope at the end of the last step.
     pub rope_touches: Vec<RopeTouch>,
     /// Counters of the run so far.
@@ -39,6 +42,7 @@ impl Workspace {
     pub fn new(model: &Model) -> Self {
         Self {
             contacts: Vec::new(),
+            sums: StepSums::default(),
             peak_tension_n: vec![0.0; model.segment_count],
             rope_touches: Vec::new(),
             audit: Audit::default(),

@@ -1,6 +1,6 @@
 //! Rope made fast to the whale: where such an end is, and how it pulls.
 //!
-//! A hitch is a place on a triangle of the skin, a little off it, and goes where the skin goes: within a solver step straight
+//! A hitch is a place on a triangle of the skin, a little off it, and goes where the skin goes: within a step of the model straight
 //! from where the bones put it at the start to where they put it at the end, as the skin does. To the rope it is a fixture that
 //! moves; what its end segment pulls is the force on the whale.
 
@@ -24,12 +24,14 @@ impl Hitch {
     }
 }
 
-/// Where the hitches of a model are in a solver step.
+/// Where the hitches of a model are in one of its steps.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Hitches {
-    /// Joint, with its place at the start and at the end of the step.
+    /// Joint, with its place at the start and at the end of the model's step.
     list: Vec<(usize, [DVec3; 2])>,
-    /// How far the skin has gone.
+    /// Shares of the model's step at which the solver step begins and ends.
+    pub span: [f64; 2],
+    /// Share of the model's step that the skin has gone.
     pub share: f64,
 }
 
@@ -40,7 +42,7 @@ impl Hitches {
         let list = joints
             .filter(|(_, joint)| matches!(joint.kind, JointKind::Whale(_)))
             .map(|(joint, _)| (joint, [DVec3::ZERO; 2]));
-        let mut hitches = Self { list: list.collect(), share: 1.0 };
+        let mut hitches = Self { list: list.collect(), span: [0.0, 1.0], share: 1.0 };
         if let (Some(whale), false) = (&model.spec.whale, hitches.list.is_empty()) {
             let mut bones = Vec::new();
             pose(
@@ -55,7 +57,7 @@ impl Hitches {
         hitches
     }
 
-    /// Takes the bones at the start and the end of a solver step.
+    /// Takes the bones at the start and the end of a step of the model.
     pub fn move_to(&mut self, model: &Model, bones: [&[DAffine3]; 2]) {
         let Some(whale) = &model.spec.whale else { return };
         for (joint, places) in &mut self.list {

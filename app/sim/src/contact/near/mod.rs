@@ -5,9 +5,10 @@
 //! of rope and skin together, is cut short by additive continuous collision detection (`sweep.rs`), and
 //! checked again by an independent exact test (`crossing.rs`).
 
+mod group;
 mod moves;
+mod substep;
 
-use std::ops::Range;
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
@@ -16,9 +17,11 @@ use super::placed::Placed;
 use super::sweep::SweptSegment;
 use crate::model::Model;
 use crate::whale::{Bounds, Candidate, SkinTree, Surface};
+pub(crate) use group::Group;
+pub(crate) use substep::Refused;
 
 /// Rope within this distance of the path of skin is looked at [m].
-pub(crate) const MARGIN_M: f64 = 0.08;
+pub(crate) const MARGIN_M: f64 = 0.04;
 
 /// Pairs farther apart than this are known by a lower bound of their distance [m].
 const EXACT_M: f64 = 0.001;
@@ -33,15 +36,19 @@ pub(crate) struct Pair {
     pub node: usize,
     /// Place of the triangle in [`Near::skin`].
     skin: usize,
-    /// Lower bound of their distance now [m].
-    pub gap_bound: f64,
-    /// Whether it is their distance.
+    /// Lower bound of their distance when it was measured [m].
+    gap_bound: f64,
+    /// Whether it was their distance.
     exact: bool,
+    /// How far the group had moved relative to its skin by then [m].
+    measured_at: f64,
     /// Separation kept [m].
     min_separation: f64,
 }
 
-/// All pairs of a solver step, in rising order of segment, with the surface they come from.
+/// All pairs of a step of the model, in rising order of segment, with the surface they come from.
+///
+/// Skin goes straight from where the model's step begins to where it ends; a solver step takes it from `start` to `goal`.
 #[derive(Clone, Debug)]
 pub(crate) struct Near {
     surface: Surface,
@@ -54,11 +61,19 @@ pub(crate) struct Near {
     number: u64,
     pub pairs: Vec<Pair>,
     /// Pairs of each segment that has any.
-    pub groups: Vec<(usize, Range<usize>)>,
+    pub groups: Vec<Group>,
+    /// Pairs that may touch in this solver step, group after group.
+    pub active: Vec<usize>,
     /// First node of each segment.
     segment_node: Vec<usize>,
-    /// Share of the solver step at which the skin stands now.
+    /// Share of the model's step at which the solver step begins.
+    pub start: f64,
+    /// Share of the model's step at which the solver step ends.
+    pub goal: f64,
+    /// Share of the model's step up to which rope and skin have been moved.
     pub fraction: f64,
+    /// Whether bounds of distance hold where the trial stands, which Newton has searched its way to, and not where the step began.
+    searched: bool,
     /// Whether paths are filtered ([`Settings::swept`](crate::model::Settings::swept)).
     swept: bool,
 }
@@ -75,8 +90,12 @@ impl Near {
             candidates: Vec::new(),
             pairs: Vec::new(),
             groups: Vec::new(),
+            active: Vec::new(),
             segment_node: nodes.collect(),
+            start: 0.0,
+            goal: 1.0,
             fraction: 0.0,
+            searched: false,
             swept: model.spec.settings.swept,
         }
     }
@@ -101,22 +120,24 @@ impl Near {
         }
     }
 
-    /// Begins a solver step: gathers the pairs of uncut rope near skin; whether there are any.
-    pub fn begin(
+    /// Gathers the pairs of uncut rope near skin over a step of the model, of which a share has passed; whether there are any.
+    pub fn gather(
         &mut self,
         model: &Model,
         bones: [&[DAffine3]; 2],
         places: &[DVec3],
         moves: impl Fn(usize) -> DVec3,
-        cut: &[bool],
+        (cut, passed): (&[bool], f64),
     ) -> bool {
         self.sweep(bones, places, moves);
         self.surface.gather(&self.sweeps, MARGIN_M, &mut self.candidates);
-        self.fraction = 0.0;
+        (self.start, self.goal, self.fraction) = (passed, 1.0, passed);
+        self.searched = false;
         self.number += 1;
         self.skin.clear();
         self.pairs.clear();
         self.groups.clear();
+        self.active.clear();
         for place in 0..self.candidates.len() {
             let Candidate { segment, triangle } = self.candidates[place];
             let segment = segment as usize;
@@ -124,8 +145,8 @@ impl Near {
                 continue;
             }
             let skin = self.place_of(triangle);
-            let min_separation =
-                MIN_SEPARATION_SHARE * 0.5 * model.rope_of_segment(segment).diameter_m;
+            let radius = 0.5 * model.rope_of_segment(segment).diameter_m;
+            let min_separation = MIN_SEPARATION_SHARE * radius;
             let node = self.segment_node[segment];
             let index = self.pairs.len();
             self.pairs.push(Pair {
@@ -134,12 +155,17 @@ impl Near {
                 skin,
                 gap_bound: 0.0,
                 exact: false,
+                measured_at: 0.0,
                 min_separation,
             });
             match self.groups.last_mut() {
-                Some((last, range)) if *last == segment => range.end = index + 1,
-                _ => self.groups.push((segment, index..index + 1)),
+                Some(group) if group.segment == segment => group.pairs.end = index + 1,
+                _ => self.groups.push(Group::new(segment, node, radius, index)),
             }
+        }
+        for group in &mut self.groups {
+            let moves = self.pairs[group.pairs.clone()].iter().map(|pair| &self.skin[pair.skin]);
+            group.follow_skin(moves);
         }
         !self.pairs.is_empty()
     }
@@ -149,7 +175,8 @@ impl Near {
         let at = &mut self.placed_at[triangle as usize];
         if at.0 != self.number {
             *at = (self.number, self.skin.len());
-            self.skin.push(Placed::new(triangle, self.surface.triangle_sweep(triangle)));
+            let sweep = self.surface.triangle_sweep(triangle);
+            self.skin.push(Placed::new(triangle, sweep, self.fraction));
         }
         at.1
     }
@@ -159,19 +186,51 @@ impl Near {
         &self.skin[self.pairs[pair].skin]
     }
 
-    /// Measures every pair at the places given: near ones exactly, others by a lower bound.
+    /// Lower bound of the distance of a group's pair where the trial stands [m].
+    pub fn bound(&self, pair: usize, group: &Group) -> f64 {
+        let pair = &self.pairs[pair];
+        pair.gap_bound - (group.moved - pair.measured_at) - group.moving
+    }
+
+    /// Measures every pair at the places given: near ones exactly, others by a lower bound; all of them count as near.
     pub fn measure(&mut self, places: &[DVec3]) {
-        for (_, range) in &self.groups {
-            let node = self.pairs[range.start].node;
-            let segment = [places[node], places[node + 1]];
+        self.searched = true;
+        self.skin.iter_mut().for_each(|skin| skin.stand(self.fraction));
+        for group in &mut self.groups {
+            let segment = [places[group.node], places[group.node + 1]];
             let rope_box = Bounds::around(&segment);
-            for pair in &mut self.pairs[range.clone()] {
+            (group.moved, group.moving, group.active) = (0.0, 0.0, group.pairs.clone());
+            group.clear = 0.0;
+            for pair in &mut self.pairs[group.pairs.clone()] {
                 let skin = &self.skin[pair.skin];
                 let gap = rope_box.gap(&Bounds::around(&skin.now)).max(skin.gap(segment));
                 pair.exact = gap <= EXACT_M;
                 pair.gap_bound = if pair.exact { skin.nearest_to(segment).distance } else { gap };
+                pair.measured_at = 0.0;
             }
         }
+        self.active.clear();
+        self.active.extend(0..self.pairs.len());
+    }
+
+    /// Goes back to where a refused solver step began; where it had moved skin, everything is to be measured anew.
+    #[expect(clippy::float_cmp, reason = "the same share, to the bit, is the same place")]
+    pub fn go_back(&mut self) {
+        if self.fraction == self.start && !self.searched {
+            return;
+        }
+        (self.fraction, self.searched) = (self.start, false);
+        for pair in &mut self.pairs {
+            (pair.gap_bound, pair.exact, pair.measured_at) = (0.0, false, 0.0);
+        }
+        for group in &mut self.groups {
+            (group.clear, group.moved, group.moving) = (0.0, 0.0, 0.0);
+        }
+    }
+
+    /// A segment that crosses skin where it was measured last, if any.
+    pub fn crossed(&self) -> Option<usize> {
+        self.pairs.iter().find(|pair| pair.exact && pair.gap_bound <= 0.0).map(|pair| pair.segment)
     }
 
     /// Least distance of any pair as last measured, as a share of the rope's radius; 1 or more where none is nearer.

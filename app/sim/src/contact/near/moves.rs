@@ -12,7 +12,7 @@ use crate::contact::sweep::{
 };
 
 /// Rope is carried along with skin nearer than this wholly, beyond the next not at all [m].
-const CARRIED_M: (f64, f64) = (0.02, 0.06);
+const CARRIED_M: (f64, f64) = (0.015, 0.04);
 
 /// A triangle that stays where it is.
 const STILL: SweptTriangle = [[DVec3::ZERO; 3]; 2];
@@ -24,12 +24,12 @@ impl Near {
         if !self.swept {
             return;
         }
-        for (_, range) in &self.groups {
-            let Some((pair, nearest)) = self.nearest(places, range.clone()) else { continue };
+        for group in &self.groups {
+            let Some((pair, nearest)) = self.nearest(places, group.pairs.clone()) else { continue };
             let skin = &self.skin[pair.skin];
             let between = |at: &[DVec3]| at[pair.node].lerp(at[pair.node + 1], nearest.fraction);
             let closest = on_triangle(skin.now, nearest.barycentric);
-            let skin_move = on_triangle(skin.sweep[1], nearest.barycentric) - closest;
+            let skin_move = skin.move_of(nearest.barycentric) * (self.goal - self.fraction);
             let from = between(places);
             let normal = (from - closest) / nearest.distance.max(1e-12);
             let approach = normal.dot(skin_move - (between(target) - from));
@@ -44,13 +44,12 @@ impl Near {
 
     /// Where rope goes when it is carried along as the skin makes the rest of its move: written into `target`.
     pub fn carry(&self, places: &[DVec3], target: &mut [DVec3]) {
-        for (_, range) in &self.groups {
-            let Some((pair, nearest)) = self.nearest(places, range.clone()) else { continue };
+        for group in &self.groups {
+            let Some((pair, nearest)) = self.nearest(places, group.pairs.clone()) else { continue };
             let share =
                 ((CARRIED_M.1 - nearest.distance) / (CARRIED_M.1 - CARRIED_M.0)).clamp(0.0, 1.0);
             let skin = &self.skin[pair.skin];
-            let end = on_triangle(skin.sweep[1], nearest.barycentric);
-            let skin_move = end - on_triangle(skin.now, nearest.barycentric);
+            let skin_move = skin.move_of(nearest.barycentric) * (self.goal - self.fraction);
             for node in [pair.node, pair.node + 1] {
                 let carried = places[node] + skin_move;
                 target[node] = target[node].lerp(carried, share);
@@ -86,10 +85,10 @@ impl Near {
             return share;
         }
         let skin_share = skin_to - self.fraction;
-        for (_, range) in &self.groups {
-            let segment = self.pairs[range.start].sweep_of(places, &target);
+        for group in &self.groups {
+            let segment = self.pairs[group.pairs.start].sweep_of(places, &target);
             let (moved, alone) = (greatest_move(&segment), greatest_approach(&segment, &STILL));
-            for pair in &mut self.pairs[range.clone()] {
+            for pair in &mut self.pairs[group.pairs.clone()] {
                 let skin = &self.skin[pair.skin];
                 if pair.gap_bound - pair.min_separation > moved + skin.longest_move * skin_share {
                     continue;
@@ -127,14 +126,12 @@ impl Near {
         skin_to: f64,
     ) -> u64 {
         let skin_share = skin_to - self.fraction;
-        self.skin.iter_mut().for_each(|skin| {
-            skin.go(if skin_share > 0.0 { triangle_at(&skin.sweep, skin_to) } else { skin.now })
-        });
+        self.skin.iter_mut().for_each(|skin| skin.go(skin_to));
         let mut crossings = 0;
-        for (_, range) in &self.groups {
-            let segment = self.pairs[range.start].sweep_of(places, &target);
+        for group in &self.groups {
+            let segment = self.pairs[group.pairs.start].sweep_of(places, &target);
             let (moved, alone) = (greatest_move(&segment), greatest_approach(&segment, &STILL));
-            for pair in &mut self.pairs[range.clone()] {
+            for pair in &mut self.pairs[group.pairs.clone()] {
                 let skin = &self.skin[pair.skin];
                 let most = moved + skin.longest_move * skin_share;
                 if pair.gap_bound > most + EXACT_M {

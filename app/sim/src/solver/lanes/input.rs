@@ -69,6 +69,20 @@ impl Lanes {
         self.refresh_ghosts();
     }
 
+    /// Takes over other places of all nodes.
+    pub fn take_places(&mut self, place: &[DVec3]) {
+        for group in &self.groups {
+            for (lane, piece) in group.pieces.iter().enumerate() {
+                let Piece { first_node, segments, .. } = self.pieces[*piece];
+                for k in 0..=group.longest {
+                    let row = &mut self.nodes[group.node_row + 1 + k];
+                    row.place.set(lane, place[first_node + k.min(segments)]);
+                }
+            }
+        }
+        self.refresh_ghosts();
+    }
+
     /// Takes what the seabed does to nodes: forces and blocks, of which the symmetric part is kept (Newton then comes to the
     /// same balance, a little slower where rope slides).
     pub fn take_ground(&mut self, force: &[DVec3], block: &[DMat3]) {

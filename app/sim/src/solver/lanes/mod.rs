@@ -5,6 +5,7 @@
 //! the ends of a line's pieces are a short chain of their own (`block_tridiagonal.rs`), and the line's ends join the interface system as ever.
 //! The law is the one of `forces.rs`; eight lanes do what one would do eight times, to the bit.
 
+mod contact;
 mod input;
 mod layout;
 mod output;
@@ -20,8 +21,10 @@ use super::block_tridiagonal::{BlockTridiagonal, Ends};
 use super::forces::{PerMetre, Shared};
 use crate::model::Model;
 use layout::{Group, Piece};
-use rows::{EndRows, GroundRow, LANES, MoveRows, NodeRow, Row, Row3, SegmentRow, Solved};
-use sweep::{Backward, Forward, GroupRows};
+use rows::{
+    ContactRow, EndRows, GroundRow, LANES, MoveRows, NodeRow, Row, Row3, SegmentRow, Solved,
+};
+use sweep::{Backward, Forward, ForwardContact, GroupRows};
 
 /// Rows of all groups, and the chains of their ends.
 #[derive(Clone, Debug)]
@@ -36,6 +39,12 @@ pub(crate) struct Lanes {
     solved: Vec<Solved>,
     /// What the seabed does to nodes, in the layout of `nodes`; empty where no rope is near it.
     ground: Vec<GroundRow>,
+    /// What skin does to nodes, in the layout of `nodes`; the rows of it in use, and whether there are any.
+    contact: Vec<ContactRow>,
+    contact_rows: Vec<usize>,
+    touches: bool,
+    /// Piece of each segment.
+    piece_of: Vec<usize>,
     ropes: Vec<PerMetre<Row>>,
     ends: Vec<EndRows>,
     moves: Vec<MoveRows>,
@@ -53,6 +62,8 @@ pub(crate) struct RopeMoved {
     pub longest_m: f64,
     /// Greatest difference between the pull solved for and the tension there, to second order [N].
     pub gap_n: f64,
+    /// Greatest tension of a segment that was solved as taut and comes out slack, or the reverse [N].
+    pub flipped_n: f64,
     /// Greatest tension [N].
     pub greatest_n: f64,
     /// Whether all moves are finite.
@@ -79,6 +90,14 @@ impl Lanes {
             segments: vec![SegmentRow::default(); rows(|group| group.longest)],
             solved: vec![Solved::default(); rows(|group| group.longest)],
             ground: Vec::new(),
+            contact: Vec::new(),
+            contact_rows: Vec::new(),
+            touches: false,
+            piece_of: pieces
+                .iter()
+                .enumerate()
+                .flat_map(|(index, piece)| std::iter::repeat_n(index, piece.segments))
+                .collect(),
             ropes,
             ends: vec![EndRows::default(); groups.len()],
             moves: vec![MoveRows::default(); groups.len()],
@@ -116,7 +135,13 @@ impl Lanes {
                 &self.ropes[index],
                 shared,
             );
-            self.arch.dispatch(Forward(rows, &mut self.ends[index]));
+            let ends = &mut self.ends[index];
+            if self.touches {
+                let contact = &self.contact[group.node_row..];
+                self.arch.dispatch(ForwardContact(rows, contact, ends));
+            } else {
+                self.arch.dispatch(Forward(rows, ends));
+            }
         }
         self.chain.clear();
         for (index, piece) in self.pieces.iter().enumerate() {
@@ -125,9 +150,8 @@ impl Lanes {
             self.chain.diagonal[node + 1] += ends.bb.matrix(lane);
             self.chain.force[node] += ends.force_a.vector(lane);
             self.chain.force[node + 1] += ends.force_b.vector(lane);
-            let low = ends.ba.matrix(lane);
-            self.chain.low[index] = low;
-            self.chain.up[index] = low.transpose();
+            self.chain.low[index] = ends.ba.matrix(lane);
+            self.chain.up[index] = ends.ab.matrix(lane);
         }
     }
 
@@ -143,8 +167,8 @@ impl Lanes {
         self.chain.substitute(&chain_nodes(line, &pieces), &pieces, a_moves, step_a, step_b);
     }
 
-    /// Moves every node by the solved step and predicts tensions.
-    pub fn advance(&mut self, shared: &Shared<f64>) -> RopeMoved {
+    /// Moves every node by a share of the solved step and predicts tensions.
+    pub fn advance(&mut self, shared: &Shared<f64>, share: f64) -> RopeMoved {
         let mut moved = RopeMoved { finite: true, ..RopeMoved::default() };
         for (index, group) in self.groups.iter().enumerate() {
             let mut ends = [Row3::default(); 2];
@@ -165,11 +189,13 @@ impl Lanes {
                 &self.ropes[index],
                 shared,
             );
-            self.arch.dispatch(Backward(rows, &ends, &mut self.moves[index]));
+            let moves = &mut self.moves[index];
+            self.arch.dispatch(Backward { group: rows, ends: &ends, share, moves });
             for lane in 0..group.used {
                 let moves = &self.moves[index];
                 moved.longest_m = moved.longest_m.max(moves.longest.0[lane]);
                 moved.gap_n = moved.gap_n.max(moves.gap.0[lane]);
+                moved.flipped_n = moved.flipped_n.max(moves.flipped.0[lane]);
                 moved.greatest_n = moved.greatest_n.max(moves.greatest.0[lane]);
                 moved.finite &= moves.finite.0[lane].is_finite();
             }

@@ -71,12 +71,6 @@ impl<S: Simd> Part<S> {
         }
     }
     #[inline(always)]
-    pub fn put6(self, row: &mut Row6, m: Sym3<Lane<S>>) {
-        for (row, value) in row.0.iter_mut().zip([m.xx, m.xy, m.xz, m.yy, m.yz, m.zz]) {
-            self.put(row, value);
-        }
-    }
-    #[inline(always)]
     pub fn get9(self, row: &Row9) -> Mat3<Lane<S>> {
         Mat3 { x: self.get3(&row.0[0]), y: self.get3(&row.0[1]), z: self.get3(&row.0[2]) }
     }
@@ -109,6 +103,14 @@ pub(crate) struct GroundRow {
     pub block: Row6,
 }
 
+/// What contact with skin does to a node, and to its coupling with the next.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct ContactRow {
+    pub force: Row3,
+    pub block: Row9,
+    pub coupling: Row9,
+}
+
 /// What a sweep reads at a segment, and the tension it predicts.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SegmentRow {
@@ -134,12 +136,13 @@ pub(crate) struct Solved {
     pub inverse_chord: Row,
 }
 
-/// What pieces leave on their ends A and B; the block at row A and column B is `ba` transposed.
+/// What pieces leave on their ends A and B.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct EndRows {
-    pub aa: Row6,
+    pub aa: Row9,
+    pub ab: Row9,
     pub ba: Row9,
-    pub bb: Row6,
+    pub bb: Row9,
     pub force_a: Row3,
     pub force_b: Row3,
 }
@@ -149,8 +152,10 @@ pub(crate) struct EndRows {
 pub(crate) struct MoveRows {
     /// Square of the longest move.
     pub longest: Row,
-    /// Greatest difference between the pull solved for and the tension there.
+    /// Greatest difference between the pull solved for and the tension there, where a segment stays taut or slack.
     pub gap: Row,
+    /// Greatest tension of a segment that was solved as taut and comes out slack, or the reverse.
+    pub flipped: Row,
     /// Greatest tension.
     pub greatest: Row,
     /// Zero, or not a number where a move was not finite.
@@ -180,6 +185,13 @@ impl Row3 {
             row.0[lane] = value;
         }
     }
+    /// Adds a vector in one lane.
+    #[inline]
+    pub(super) fn add(&mut self, lane: usize, v: DVec3) {
+        for (row, value) in self.0.iter_mut().zip(v.to_array()) {
+            row.0[lane] += value;
+        }
+    }
     /// The vector of one lane.
     #[inline]
     pub(super) fn vector(&self, lane: usize) -> DVec3 {
@@ -200,16 +212,14 @@ impl GroundRow {
     }
 }
 
-impl Row6 {
-    /// The matrix of one lane.
-    #[inline]
-    pub(super) fn matrix(&self, lane: usize) -> DMat3 {
-        let [xx, xy, xz, yy, yz, zz] = [0, 1, 2, 3, 4, 5].map(|entry: usize| self.0[entry].0[lane]);
-        DMat3::from_cols(DVec3::new(xx, xy, xz), DVec3::new(xy, yy, yz), DVec3::new(xz, yz, zz))
-    }
-}
-
 impl Row9 {
+    /// Adds a matrix in one lane.
+    #[inline]
+    pub(super) fn add(&mut self, lane: usize, m: &DMat3) {
+        for (column, value) in self.0.iter_mut().zip([m.x_axis, m.y_axis, m.z_axis]) {
+            column.add(lane, value);
+        }
+    }
     /// The matrix of one lane.
     #[inline]
     pub(super) fn matrix(&self, lane: usize) -> DMat3 {

@@ -71,6 +71,14 @@ impl<R: Real> Vec3<R> {
     pub fn dot(self, o: Self) -> R {
         (self.x * o.x).plus(self.y, o.y).plus(self.z, o.z)
     }
+    #[inline(always)]
+    pub fn cross(self, o: Self) -> Self {
+        Self {
+            x: (self.y * o.z).less(self.z, o.y),
+            y: (self.z * o.x).less(self.x, o.z),
+            z: (self.x * o.y).less(self.y, o.x),
+        }
+    }
     /// `self + v s`.
     #[inline(always)]
     pub fn plus(self, v: Self, s: R) -> Self {
@@ -206,6 +214,38 @@ impl<R: Real> Sym3<R> {
 
 #[allow(clippy::should_implement_trait, reason = "named methods keep the generic bounds short")]
 impl<R: Real> Mat3<R> {
+    #[inline(always)]
+    pub fn add(self, o: Self) -> Self {
+        Self { x: self.x.add(o.x), y: self.y.add(o.y), z: self.z.add(o.z) }
+    }
+    #[inline(always)]
+    pub fn sub(self, o: Self) -> Self {
+        Self { x: self.x.sub(o.x), y: self.y.sub(o.y), z: self.z.sub(o.z) }
+    }
+    #[inline(always)]
+    pub fn apply(self, v: Vec3<R>) -> Vec3<R> {
+        self.x.scale(v.x).plus(self.y, v.y).plus(self.z, v.z)
+    }
+    #[inline(always)]
+    pub fn times(self, m: Self) -> Self {
+        Self { x: self.apply(m.x), y: self.apply(m.y), z: self.apply(m.z) }
+    }
+    #[inline(always)]
+    pub fn transposed(self) -> Self {
+        let (x, y, z) = (self.x, self.y, self.z);
+        Self {
+            x: Vec3 { x: x.x, y: y.x, z: z.x },
+            y: Vec3 { x: x.y, y: y.y, z: z.y },
+            z: Vec3 { x: x.z, y: y.z, z: z.z },
+        }
+    }
+    /// The inverse, by cofactors.
+    #[inline(always)]
+    pub fn inverse(self) -> Self {
+        let (one, two, three) = (self.y.cross(self.z), self.z.cross(self.x), self.x.cross(self.y));
+        let over = self.x.x.splat(1.0) / self.x.dot(one);
+        Self { x: one.scale(over), y: two.scale(over), z: three.scale(over) }.transposed()
+    }
     /// `Mᵀ v`.
     #[inline(always)]
     pub fn apply_transposed(self, v: Vec3<R>) -> Vec3<R> {

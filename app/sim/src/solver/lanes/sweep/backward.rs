@@ -8,17 +8,26 @@ use crate::solver::lanes::rows::{MoveRows, NodeRow, Part, Row3, SegmentRow, Solv
 use crate::solver::lanes::space::Vec3;
 
 /// Backward sweep from the moves of the ends A and B.
-pub(crate) struct Backward<'a>(pub GroupRows<'a>, pub &'a [Row3; 2], pub &'a mut MoveRows);
+pub(crate) struct Backward<'a> {
+    pub group: GroupRows<'a>,
+    /// Moves of the ends A and B.
+    pub ends: &'a [Row3; 2],
+    /// Share of the solved step that is made.
+    pub share: f64,
+    pub moves: &'a mut MoveRows,
+}
 
 impl WithSimd for Backward<'_> {
     type Output = ();
     #[inline(always)]
     fn with_simd<S: Simd>(mut self, simd: S) {
         for part in 0..Part::<S>::COUNT {
-            if self.0.anchored {
-                backward::<S, false>(Part { simd, part }, &mut self.0, self.1, self.2);
+            let part = Part { simd, part };
+            let share = Lane::new(simd, self.share);
+            if self.group.anchored {
+                backward::<S, false>(part, &mut self.group, self.ends, share, self.moves);
             } else {
-                backward::<S, true>(Part { simd, part }, &mut self.0, self.1, self.2);
+                backward::<S, true>(part, &mut self.group, self.ends, share, self.moves);
             }
         }
     }
@@ -29,6 +38,7 @@ impl WithSimd for Backward<'_> {
 struct Moved<R> {
     longest: R,
     gap: R,
+    flipped: R,
     greatest: R,
     finite: R,
 }
@@ -38,11 +48,12 @@ fn backward<S: Simd, const FILL: bool>(
     part: Part<S>,
     group: &mut GroupRows<'_>,
     ends: &[Row3; 2],
+    share: Lane<S>,
     moves: &mut MoveRows,
 ) {
     let zero = Lane::new(part.simd, 0.0);
     let (step_a, step_b) = (part.get3(&ends[0]), part.get3(&ends[1]));
-    let mut moved = Moved { longest: zero, gap: zero, greatest: zero, finite: zero };
+    let mut moved = Moved { longest: zero, gap: zero, flipped: zero, greatest: zero, finite: zero };
     let mut next = step_b;
     let count = group.segments.len();
     for k in (group.shortest..count).rev() {
@@ -50,21 +61,40 @@ fn backward<S: Simd, const FILL: bool>(
         let step =
             Vec3::choose(live, inner_step::<S, FILL>(part, &group.solved[k], step_a, next), next);
         // A lane whose piece ends before: its last node is moved by its end's own row.
-        move_node(part, &mut group.nodes[k + 2], next);
-        moved = predict(part, &group.solved[k], &mut group.segments[k], step, next, moved);
+        move_node(part, &mut group.nodes[k + 2], next.scale(share));
+        moved = predict(
+            part,
+            &group.solved[k],
+            &mut group.segments[k],
+            [step, next, next.scale(share).sub(step.scale(share))],
+            moved,
+        );
         next = step;
     }
     for k in (1..group.shortest).rev() {
         let step = inner_step::<S, FILL>(part, &group.solved[k], step_a, next);
-        move_node(part, &mut group.nodes[k + 2], next);
-        moved = predict(part, &group.solved[k], &mut group.segments[k], step, next, moved);
+        move_node(part, &mut group.nodes[k + 2], next.scale(share));
+        moved = predict(
+            part,
+            &group.solved[k],
+            &mut group.segments[k],
+            [step, next, next.scale(share).sub(step.scale(share))],
+            moved,
+        );
         next = step;
     }
-    move_node(part, &mut group.nodes[2], next);
-    move_node(part, &mut group.nodes[1], step_a);
-    moved = predict(part, &group.solved[0], &mut group.segments[0], step_a, next, moved);
+    move_node(part, &mut group.nodes[2], next.scale(share));
+    move_node(part, &mut group.nodes[1], step_a.scale(share));
+    moved = predict(
+        part,
+        &group.solved[0],
+        &mut group.segments[0],
+        [step_a, next, next.scale(share).sub(step_a.scale(share))],
+        moved,
+    );
     part.put(&mut moves.longest, moved.longest);
     part.put(&mut moves.gap, moved.gap);
+    part.put(&mut moves.flipped, moved.flipped);
     part.put(&mut moves.greatest, moved.greatest);
     part.put(&mut moves.finite, moved.finite);
 }
@@ -98,12 +128,10 @@ fn predict<S: Simd>(
     part: Part<S>,
     solved: &Solved,
     row: &mut SegmentRow,
-    step: Vec3<Lane<S>>,
-    next: Vec3<Lane<S>>,
+    [step, next, apart]: [Vec3<Lane<S>>; 3],
     moved: Moved<Lane<S>>,
 ) -> Moved<Lane<S>> {
     let zero = Lane::new(part.simd, 0.0);
-    let apart = next.sub(step);
     let stretch = part.get3(&solved.direction).dot(apart);
     let stiffness = part.get(&solved.stiffness);
     let tension = part.get(&solved.tension) + stiffness * stretch;
@@ -115,7 +143,8 @@ fn predict<S: Simd>(
     part.put(&mut row.tension, tension);
     Moved {
         longest: moved.longest.max(step.dot(step)).max(next.dot(next)),
-        gap: moved.gap.max(missed.max(flipped)),
+        gap: moved.gap.max(missed),
+        flipped: moved.flipped.max(flipped),
         greatest: moved.greatest.max(tension),
         finite: moved.finite + (tension + step.x + step.y + step.z) * zero,
     }

@@ -37,8 +37,8 @@ struct Carry<R> {
 }
 
 /// Inputs of a part of the lanes, spread over its registers.
-struct Inputs<'a, S: Simd> {
-    part: Part<S>,
+pub(super) struct Inputs<'a, S: Simd> {
+    pub part: Part<S>,
     nodes: &'a [NodeRow],
     segments: &'a [SegmentRow],
     ground: &'a [GroundRow],
@@ -47,9 +47,27 @@ struct Inputs<'a, S: Simd> {
     shared: Shared<Lane<S>>,
 }
 
-impl<S: Simd> Inputs<'_, S> {
+/// Inputs of a part of a group, where its solution goes, and from where on which lanes live.
+pub(super) type Spread<'a, S> = (Inputs<'a, S>, &'a mut [Solved], (usize, &'a [Row]));
+
+impl<'a, S: Simd> Inputs<'a, S> {
+    /// Spreads a part of a group.
     #[inline(always)]
-    fn node(&self, k: usize) -> (Vec3<Lane<S>>, Sym3<Lane<S>>) {
+    pub fn of(part: Part<S>, group: &'a mut GroupRows<'_>) -> Spread<'a, S> {
+        let inputs = Self {
+            part,
+            nodes: group.nodes,
+            segments: group.segments,
+            ground: group.ground,
+            bends: group.bends,
+            rope: spread_rope(part, group.rope),
+            shared: spread_shared(part.simd, group.shared),
+        };
+        (inputs, group.solved, (group.shortest, group.live))
+    }
+
+    #[inline(always)]
+    pub fn node(&self, k: usize) -> (Vec3<Lane<S>>, Sym3<Lane<S>>) {
         let part = self.part;
         let row = &self.nodes[k + 1];
         let at = NodeAt {
@@ -72,7 +90,7 @@ impl<S: Simd> Inputs<'_, S> {
     }
 
     #[inline(always)]
-    fn pull(&self, k: usize) -> PullOf<Lane<S>> {
+    pub fn pull(&self, k: usize) -> PullOf<Lane<S>> {
         let (part, from, to) = (self.part, &self.nodes[k + 1], &self.nodes[k + 2]);
         let row = &self.segments[k];
         let at = SegmentAt {
@@ -119,23 +137,15 @@ fn forward<S: Simd, const FILL: bool>(
     group: &mut GroupRows<'_>,
     ends: &mut EndRows,
 ) {
-    let inputs = Inputs {
-        part,
-        nodes: group.nodes,
-        segments: group.segments,
-        ground: group.ground,
-        bends: group.bends,
-        rope: spread_rope(part, group.rope),
-        shared: spread_shared(part.simd, group.shared),
-    };
-    let mut carry = begin(&inputs, &mut group.solved[0]);
-    let count = group.segments.len();
-    for k in 1..group.shortest {
-        carry = onward::<S, FILL>(&inputs, k, carry, &mut group.solved[k]);
+    let (inputs, solved, (shortest, live)) = Inputs::of(part, group);
+    let mut carry = begin(&inputs, &mut solved[0]);
+    let (first, rest) = solved.split_at_mut(shortest);
+    for (k, solved) in first.iter_mut().enumerate().skip(1) {
+        carry = onward::<S, FILL>(&inputs, k, carry, solved);
     }
-    for k in group.shortest..count {
-        let live = part.get(&group.live[k - group.shortest]);
-        let next = onward::<S, FILL>(&inputs, k, carry, &mut group.solved[k]);
+    for (k, (live, solved)) in (shortest..).zip(live.iter().zip(rest)) {
+        let live = part.get(live);
+        let next = onward::<S, FILL>(&inputs, k, carry, solved);
         carry = Carry {
             block: Sym3::choose(live, next.block, carry.block),
             force: Vec3::choose(live, next.force, carry.force),
@@ -144,9 +154,10 @@ fn forward<S: Simd, const FILL: bool>(
             force_a: Vec3::choose(live, next.force_a, carry.force_a),
         };
     }
-    part.put6(&mut ends.aa, carry.aa);
+    part.put9(&mut ends.aa, carry.aa.matrix());
+    part.put9(&mut ends.ab, carry.fill.transposed());
     part.put9(&mut ends.ba, carry.fill);
-    part.put6(&mut ends.bb, carry.block);
+    part.put9(&mut ends.bb, carry.block.matrix());
     part.put3(&mut ends.force_a, carry.force_a);
     part.put3(&mut ends.force_b, carry.force);
 }
@@ -204,7 +215,7 @@ fn onward<S: Simd, const FILL: bool>(
 }
 
 #[inline(always)]
-fn keep_pull<S: Simd>(part: Part<S>, pull: &PullOf<Lane<S>>, solved: &mut Solved) {
+pub(super) fn keep_pull<S: Simd>(part: Part<S>, pull: &PullOf<Lane<S>>, solved: &mut Solved) {
     part.put3(&mut solved.direction, pull.direction);
     part.put(&mut solved.tension, pull.tension);
     part.put(&mut solved.stiffness, pull.stiffness);

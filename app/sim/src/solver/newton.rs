@@ -1,0 +1,225 @@
+//! Newton's method for a short solver step with rope near skin: few passes, each of them whole.
+//!
+//! In a step short enough the balance is nearly linear: from the guess `x + h v` one solve or two reach it. A pass solves the linear
+//! system with push and friction of every contact point in it, until the segments that pull are those that are taut by its solution, and
+//! moves the trial by all of it. The step has converged when what the last solve took for granted is so where the trial now stands:
+//!
+//! | quantity | allowed difference between the linear solution and the law at its place |
+//! |---|---|
+//! | tension of a segment | 2 N, or 2 % of the greatest tension |
+//! | push and friction on a contact point | 0.5 N, or 5 % of the greatest |
+//! | move of the last pass | 1 mm; of a body 0.1 mm |
+//!
+//! A step that has not converged after [`MOST_PASSES`] is made shorter (`step/substeps.rs`). No path is looked at here: whether the step leads
+//! through skin is judged by where it ends (`contact/near/substep.rs`).
+
+use glam::DVec3;
+
+use super::Solver;
+use super::contact_newton::{ContactEnd, TENSION_GAP_N, TENSION_GAP_SHARE};
+use super::scheme::Scheme;
+use crate::contact::barrier::CRUSHED_SHARE;
+use crate::contact::workspace::ContactWorkspace;
+use crate::model::Model;
+use crate::state::State;
+
+/// Most passes.
+const MOST_PASSES: usize = 6;
+/// Most times a pass is solved again for other taut segments.
+const MOST_ACTIVE_SETS: usize = 6;
+/// Passes that go half of the way, where whole ones go to and fro.
+const HALF_PASSES: [usize; 2] = [3, 5];
+/// Push and friction that a contact point may miss by [N].
+const CONTACT_N: f64 = 0.1;
+/// Push and friction that a contact point may miss by, as a share of the greatest.
+const CONTACT_SHARE: f64 = 0.05;
+/// Move of the last pass [m].
+const MOVE_M: f64 = 1e-3;
+/// Move of a body in the last pass [m].
+const BODY_MOVE_M: f64 = 1e-4;
+
+/// A short step that has converged.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Converged {
+    /// Passes that it took.
+    pub passes: usize,
+    /// How much of what is allowed the linear solution missed by, at most 1.
+    pub missed: f64,
+}
+
+/// What a pass did.
+#[derive(Clone, Copy, Debug)]
+struct PassDone {
+    /// Longest move of a node or body that it solved for [m].
+    longest_m: f64,
+    /// What the tension it solved for misses, as a share of what is allowed.
+    tension_missed: f64,
+}
+
+impl Solver {
+    /// Begins a short step: in the lanes of the processor where they know all that touches the rope, else line by line.
+    pub(crate) fn begin_short(
+        &mut self,
+        model: &Model,
+        state: &State,
+        scheme: &Scheme,
+        work: &mut ContactWorkspace,
+    ) {
+        if self.suits_lanes(model) && self.solid.pairs.is_empty() {
+            self.begin_in_lanes(model, state, scheme, |solver| solver.hold_off(model, state, work));
+        } else {
+            self.begin(model, state, scheme);
+            self.hold_off(model, state, work);
+        }
+    }
+
+    /// Solves a short step that has begun, with skin at its end.
+    pub(crate) fn solve_short(
+        &mut self,
+        model: &Model,
+        state: &State,
+        scheme: &Scheme,
+        work: &mut ContactWorkspace,
+    ) -> Result<Converged, ContactEnd> {
+        work.open_active_points(model, &self.lengths.segment, &self.trial.place);
+        let mut opened = false;
+        self.measure_contacts(model, state, scheme, work)?;
+        for pass in 1..=MOST_PASSES {
+            let share = if HALF_PASSES.contains(&pass) { 0.5 } else { 1.0 };
+            let done = self.whole_pass(model, state, scheme, work, share);
+            if !done.longest_m.is_finite() {
+                return Err(ContactEnd::NotFinite);
+            }
+            work.near.follow(&state.rope.position, &self.trial.place);
+            self.measure_contacts(model, state, scheme, work)?;
+            let missed = self.missed(&done, work);
+            if share < 1.0 || missed > 1.0 || missed.is_nan() {
+                continue;
+            }
+            if !opened && work.points.open_more(&work.near, &self.trial.place) > 0 {
+                opened = true;
+                self.measure_contacts(model, state, scheme, work)?;
+                continue;
+            }
+            return Ok(Converged { passes: pass, missed });
+        }
+        Err(ContactEnd::Ended { last_m: f64::INFINITY, passes: MOST_PASSES, crossings: 0 })
+    }
+
+    /// One pass with the contacts measured last; the trial moves by a share of it, and contacts are predicted there.
+    fn whole_pass(
+        &mut self,
+        model: &Model,
+        state: &State,
+        scheme: &Scheme,
+        work: &mut ContactWorkspace,
+        share: f64,
+    ) -> PassDone {
+        work.before.clone_from(&self.trial.place);
+        let done = if self.in_lanes {
+            self.pass_in_lanes(model, state, scheme, work, share)
+        } else {
+            self.assemble(model, state, scheme);
+            self.add_contact_blocks(work);
+            self.solve_taut(model);
+            self.advance(model, share);
+            let tension_missed = self.tension_missed(model, scheme);
+            PassDone { longest_m: self.longest(), tension_missed }
+        };
+        self.predict_contacts(work);
+        done
+    }
+
+    /// A pass in the lanes.
+    fn pass_in_lanes(
+        &mut self,
+        model: &Model,
+        state: &State,
+        scheme: &Scheme,
+        work: &mut ContactWorkspace,
+        share: f64,
+    ) -> PassDone {
+        self.lanes.leave_contact();
+        work.add_contacts(|point, force, block| {
+            self.lanes.add_contact(point.segment, point.fraction, force, block);
+        });
+        work.bodies_before.clone_from(&self.trial.bodies);
+        let least_n = TENSION_GAP_N.min(self.tolerance().gap_n);
+        for solved in 0..=MOST_ACTIVE_SETS {
+            let passed = self.pass_free(model, state, scheme, share);
+            let allowed_n = least_n.max(TENSION_GAP_SHARE * passed.greatest_n);
+            if passed.flipped_n <= allowed_n || !passed.finite || solved == MOST_ACTIVE_SETS {
+                self.lanes.give_places(&mut self.trial.place);
+                let longest_m = if passed.finite { passed.longest_m } else { f64::NAN };
+                let tension_missed = passed.gap_n.max(passed.flipped_n) / allowed_n;
+                return PassDone { longest_m, tension_missed };
+            }
+            // Again from the same places, with the segments taut that are so by the solution.
+            self.trial.place.clone_from(&work.before);
+            self.trial.bodies.clone_from(&work.bodies_before);
+            self.lanes.take_places(&self.trial.place);
+        }
+        PassDone { longest_m: f64::NAN, tension_missed: f64::NAN }
+    }
+
+    /// Measures every contact point where the trial stands, and asks for its friction.
+    fn measure_contacts(
+        &self,
+        model: &Model,
+        state: &State,
+        scheme: &Scheme,
+        work: &mut ContactWorkspace,
+    ) -> Result<(), ContactEnd> {
+        work.points.measure(&work.near, &self.trial.place);
+        if let Some((segment, triangle)) = work.nearer_than(CRUSHED_SHARE) {
+            return Err(ContactEnd::Crushed(segment, triangle));
+        }
+        let Some(friction) = &model.spec.friction else { return Ok(()) };
+        work.touching.collect(model, &work.near, &work.points, state, |point| point.touches);
+        work.touching.respond(friction, scheme.dt).map_err(ContactEnd::Plugin)
+    }
+
+    /// Solves, until the segments that pull are those that are taut by the linear solution.
+    fn solve_taut(&mut self, model: &Model) {
+        self.linear_part.interface.copy_values(&self.interface);
+        self.solve(model);
+        for _ in 0..MOST_ACTIVE_SETS {
+            self.predict_tension(model, 1.0);
+            if self.change_taut(model) == 0 {
+                return;
+            }
+            self.interface.copy_values(&self.linear_part.interface);
+            self.solve(model);
+        }
+    }
+
+    /// After a pass: push and friction of every contact point by the linear solution.
+    fn predict_contacts(&self, work: &mut ContactWorkspace) {
+        let ContactWorkspace { points, touching, before, .. } = work;
+        points.list.iter_mut().for_each(|point| point.missed = DVec3::ZERO);
+        for (place, index) in touching.point.iter().enumerate() {
+            let point = &mut points.list[*index];
+            let step = point.on_rope(|node| self.trial.place[node] - before[node]);
+            point.missed += touching.force_of(place) - touching.block[place] * step;
+        }
+    }
+
+    /// What the linear solution missed by where the trial now stands, as a share of what is allowed.
+    fn missed(&self, done: &PassDone, work: &mut ContactWorkspace) -> f64 {
+        let ContactWorkspace { points, touching, .. } = work;
+        let mut greatest = 0.0_f64;
+        for (place, index) in touching.point.iter().enumerate() {
+            let force = touching.force_of(place);
+            points.list[*index].missed -= force;
+            greatest = greatest.max(force.length_squared());
+        }
+        let contact =
+            points.list.iter().map(|point| point.missed.length_squared()).fold(0.0, f64::max);
+        let contact = contact.sqrt() / CONTACT_N.max(CONTACT_SHARE * greatest.sqrt());
+        let body = self.plan.body_block.iter().map(|block| self.interface.step[*block].length());
+        let body = body.fold(0.0, f64::max) / BODY_MOVE_M;
+        let solids =
+            if self.solid.pairs.is_empty() || self.pushes_are_settled() { 0.0 } else { 2.0 };
+        contact.max(done.tension_missed).max(done.longest_m / MOVE_M).max(body).max(solids)
+    }
+}
