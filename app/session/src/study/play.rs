@@ -23,7 +23,7 @@ const LOOKS_HZ: f64 = 2.0;
 
 /// A run has stuck where its solver tried this many times the steps of its whole duration in contact: in the few that do,
 /// rope is wedged so that only steps of a millionth of a second go through.
-const STUCK: f64 = 3.0;
+const STUCK: f64 = 10.0;
 
 /// Frames kept for each second of a run that is replayed.
 pub const REPLAY_HZ: f64 = 10.0;

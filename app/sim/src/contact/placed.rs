@@ -6,7 +6,6 @@
 use glam::DVec3;
 
 use super::distance::{Nearest, Plane, point_triangle_in, segment_triangle_in};
-use super::near::on_triangle;
 use super::sweep::{SweptTriangle, triangle_at};
 
 /// Growth of balls over rounding: a factor, and a length [m].
@@ -109,6 +108,11 @@ impl Placed {
         let round = centre.distance(along * fraction) - self.ball.radius;
         self.plane.as_ref().map_or(round, |plane| round.max(plane.gap(segment)))
     }
+}
+
+/// A barycentric place on a triangle.
+pub(crate) fn on_triangle(corners: [DVec3; 3], barycentric: [f64; 3]) -> DVec3 {
+    corners[0] * barycentric[0] + corners[1] * barycentric[1] + corners[2] * barycentric[2]
 }
 
 impl Ball {

@@ -11,7 +11,8 @@ use glam::DVec3;
 
 use super::barrier::BarrierForce;
 use super::crease::{self, Faces};
-use super::near::{Near, on_triangle};
+use super::near::Near;
+use super::placed::on_triangle;
 use super::touch::Touch;
 
 /// Longest piece of rope one contact point stands for [m].

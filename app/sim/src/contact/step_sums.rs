@@ -34,6 +34,13 @@ pub struct StepSums {
     span_s: f64,
 }
 
+/// What a step of the model left of contact with skin: where rope pressed at its end, and the sums over it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SkinContact<'a> {
+    pub contacts: &'a [ContactPoint],
+    pub sums: &'a StepSums,
+}
+
 /// Mean forces of rope on a region of skin over a step, and the work done against friction there.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct RegionMean {

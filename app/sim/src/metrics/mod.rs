@@ -46,7 +46,7 @@ pub use window::DRAG_WINDOW_S;
 pub use wraps::LOOSE_M;
 
 use crate::contact::ContactPoint;
-use crate::contact::step_sums::StepSums;
+use crate::contact::step_sums::{SkinContact, StepSums};
 use crate::model::Model;
 use crate::state::State;
 use crate::step::Workspace;
@@ -80,7 +80,7 @@ impl Metrics {
     /// tensions of its solver steps, so that a peak between two states or at a parting is not lost.
     pub fn fold_step(&mut self, model: &Model, state: &State, workspace: &Workspace) {
         let Workspace { contacts, peak_tension_n, sums, .. } = workspace;
-        self.take(model, state, (contacts, sums), peak_tension_n);
+        self.take(model, state, SkinContact { contacts, sums }, peak_tension_n);
     }
 
     /// Takes in a state and its contacts, where there is no step: tensions are those of the state.
@@ -91,14 +91,15 @@ impl Metrics {
         let step_s = (state.time_s - self.time_s).max(0.0);
         let sums =
             model.spec.whale.as_ref().map(|whale| StepSums::of(&whale.skin, contacts, step_s));
-        self.take(model, state, (contacts, &sums.unwrap_or_default()), &state.rope.tension);
+        let sums = sums.unwrap_or_default();
+        self.take(model, state, SkinContact { contacts, sums: &sums }, &state.rope.tension);
     }
 
     fn take(
         &mut self,
         model: &Model,
         state: &State,
-        (contacts, sums): (&[ContactPoint], &StepSums),
+        contact: SkinContact<'_>,
         peak_tension_n: &[f64],
     ) {
         let dt_s = (state.time_s - self.time_s).max(0.0);
@@ -106,8 +107,8 @@ impl Metrics {
         self.lines.fold(model, state, peak_tension_n, &mut self.log);
         self.bodies.fold(model, state, &mut self.log);
         self.probes.fold(model, state, dt_s);
-        if let (Some(meter), Some(whale)) = (&mut self.whale, &state.whale) {
-            meter.fold(model, state, whale, (contacts, sums), dt_s, &mut self.log);
+        if let Some(meter) = &mut self.whale {
+            meter.fold(model, state, contact, dt_s, &mut self.log);
         }
     }
 

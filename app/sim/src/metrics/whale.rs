@@ -19,10 +19,9 @@ use super::trailing::Reach;
 use super::winding::Winding;
 use super::window::Window;
 use super::wraps::WrapMeter;
-use crate::contact::ContactPoint;
-use crate::contact::step_sums::StepSums;
+use crate::contact::step_sums::SkinContact;
 use crate::model::Model;
-use crate::state::{State, WhaleState};
+use crate::state::State;
 use crate::whale::Skin;
 
 /// Wraps must fall this far below a level to be reported as undone [turns]; estimate.
@@ -73,11 +72,11 @@ impl WhaleMeter {
         &mut self,
         model: &Model,
         state: &State,
-        whale: &WhaleState,
-        (contacts, sums): (&[ContactPoint], &StepSums),
+        SkinContact { contacts, sums }: SkinContact<'_>,
         dt_s: f64,
         log: &mut Log,
     ) {
+        let Some(whale) = &state.whale else { return };
         let touching = contacts.iter().any(|contact| contact.normal_force_n > 0.0);
         self.loads.fold(model, state, contacts, sums);
         self.winding.fold(&self.skin, contacts, &state.rope);

@@ -109,6 +109,12 @@ impl Model {
         self.spec.ropes.iter().any(|rope| rope.bending_stiffness_n_m2 > 0.0)
     }
 
+    /// Whether rope moves the whale.
+    #[must_use]
+    pub fn whale_is_kinetic(&self) -> bool {
+        self.spec.whale.as_ref().is_some_and(|whale| whale.kinetic.is_some())
+    }
+
     /// Rope of a segment.
     #[must_use]
     pub fn rope_of_segment(&self, segment: usize) -> &Rope {

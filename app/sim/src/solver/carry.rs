@@ -24,7 +24,7 @@ impl Solver {
 
     /// Holds the guess of a short step off the skin.
     pub(crate) fn hold_off(&mut self, model: &Model, state: &State, work: &mut ContactWorkspace) {
-        work.near.hold_off_active(&state.rope.position, &mut self.trial.place);
+        work.near.hold_off(&state.rope.position, &mut self.trial.place);
         self.trial.place_ends(model, &self.plan);
         work.near.follow(&state.rope.position, &self.trial.place);
     }

@@ -44,8 +44,8 @@ pub(super) fn solver_step(
         return Err(Rejection::RopesMeet);
     }
     let untouched = !may_touch && !on_solid && !on_rope;
-    let feels = model.spec.whale.as_ref().is_some_and(|whale| whale.kinetic.is_some());
-    let scheme = if was_halved || !untouched || (near.is_some() && feels) {
+    let gives_momentum = near.is_some() && model.whale_is_kinetic();
+    let scheme = if was_halved || !untouched || gives_momentum {
         Scheme::backward_euler(dt)
     } else {
         Scheme::bdf2(dt, state.rope.earlier_dt_s)

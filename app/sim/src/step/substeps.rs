@@ -135,12 +135,12 @@ fn solver_steps(
     let end = settings.step_s * (state.step + 1) as f64;
     let (mut halvings, mut refused) = (0_u32, LimitedBy::Convergence);
     let mut untroubled = true;
-    // Momentum goes from rope to a whale that feels it by backward Euler alone, as with contact.
-    let feels = model.spec.whale.as_ref().is_some_and(|whale| whale.kinetic.is_some());
     while end - state.time_s > 1e-9 * settings.step_s {
         let left = end - state.time_s;
         let share = |time: f64| ((time - start) / settings.step_s).clamp(0.0, 1.0);
-        let clear = near && untroubled && !feels && stays_clear(state, workspace, left);
+        // Momentum goes from rope to a kinetic whale by backward Euler, in steps as short as with contact.
+        let clear =
+            near && untroubled && !model.whale_is_kinetic() && stays_clear(state, workspace, left);
         let most = if clear { settings.step_s } else { longest };
         let (chosen, limit) = wanted(settings, &state.step_control, most);
         let chosen = if near && !clear {

@@ -241,8 +241,3 @@ impl Near {
             .fold(1.0, f64::min)
     }
 }
-
-/// A barycentric place on a triangle.
-pub(crate) fn on_triangle(corners: [DVec3; 3], barycentric: [f64; 3]) -> DVec3 {
-    corners[0] * barycentric[0] + corners[1] * barycentric[1] + corners[2] * barycentric[2]
-}

@@ -1,10 +1,10 @@
-//! Moves of rope near skin: held off, carried along, cut short where they would cross, and made.
+//! Moves of rope near skin in the passes of a searching Newton: carried along, cut short where they would cross, and made.
 
 use std::ops::Range;
 
 use glam::DVec3;
 
-use super::{EXACT_M, MIN_SEPARATION_SHARE, Near, Pair, on_triangle};
+use super::{EXACT_M, Near, Pair};
 use crate::contact::crossing::first_meeting;
 use crate::contact::distance::Nearest;
 use crate::contact::sweep::{
@@ -18,30 +18,6 @@ const CARRIED_M: (f64, f64) = (0.015, 0.04);
 const STILL: SweptTriangle = [[DVec3::ZERO; 3]; 2];
 
 impl Near {
-    /// Where rope goes as the skin makes the rest of its move: on to `target`, held back from coming nearer to skin
-    /// than it is, or than its radius; written over `target`.
-    pub fn hold_off(&self, places: &[DVec3], target: &mut [DVec3]) {
-        if !self.swept {
-            return;
-        }
-        for group in &self.groups {
-            let Some((pair, nearest)) = self.nearest(places, group.pairs.clone()) else { continue };
-            let skin = &self.skin[pair.skin];
-            let between = |at: &[DVec3]| at[pair.node].lerp(at[pair.node + 1], nearest.fraction);
-            let closest = on_triangle(skin.now, nearest.barycentric);
-            let skin_move = skin.move_of(nearest.barycentric) * (self.goal - self.fraction);
-            let from = between(places);
-            let normal = (from - closest) / nearest.distance.max(1e-12);
-            let approach = normal.dot(skin_move - (between(target) - from));
-            let too_near =
-                approach - (nearest.distance - pair.min_separation / MIN_SEPARATION_SHARE).max(0.0);
-            if too_near > 0.0 {
-                target[pair.node] += normal * too_near;
-                target[pair.node + 1] += normal * too_near;
-            }
-        }
-    }
-
     /// Where rope goes when it is carried along as the skin makes the rest of its move: written into `target`.
     pub fn carry(&self, places: &[DVec3], target: &mut [DVec3]) {
         for group in &self.groups {

@@ -6,9 +6,10 @@
 
 use glam::DVec3;
 
-use super::Near;
+use super::{Group, Near};
 use crate::contact::crossing::first_meeting;
-use crate::contact::distance::segment_triangle;
+use crate::contact::distance::{Nearest, segment_triangle};
+use crate::contact::placed::on_triangle;
 use crate::contact::sweep::{SweptSegment, safe_fraction_from, triangle_at};
 
 /// How far beyond its reach and its move rope looks for skin [m].
@@ -151,19 +152,19 @@ impl Near {
         self.sweeps.iter().zip(&self.segment_node).map(of_segment).fold(0.0, f64::max).sqrt()
     }
 
-    /// Takes from the predicted path of rope what brings it nearer to skin than its radius, or than it is.
-    pub fn hold_off_active(&self, from: &[DVec3], target: &mut [DVec3]) {
+    /// Takes from the move `from` → `target` of a solver step what brings rope nearer to skin than its radius, or than it is.
+    pub fn hold_off(&self, from: &[DVec3], target: &mut [DVec3]) {
         if !self.swept {
             return;
         }
         let share = self.goal - self.start;
-        let near = |group: &&super::Group| {
+        let near = |group: &&Group| {
             !group.active.is_empty()
                 && group.clear - group.moved - group.moving < HELD_OFF_SHARE * group.reach
         };
         for group in self.groups.iter().filter(near) {
             let segment = [from[group.node], from[group.node + 1]];
-            let mut best: Option<(usize, crate::contact::distance::Nearest)> = None;
+            let mut best: Option<(usize, Nearest)> = None;
             for index in &self.active[group.active.clone()] {
                 let skin = self.skin_of(*index);
                 let nearest = segment_triangle(segment, triangle_at(&skin.sweep, self.start));
@@ -174,8 +175,7 @@ impl Near {
             let Some((index, nearest)) = best else { continue };
             let skin = self.skin_of(index);
             let between = |at: &[DVec3]| at[group.node].lerp(at[group.node + 1], nearest.fraction);
-            let closest =
-                super::on_triangle(triangle_at(&skin.sweep, self.start), nearest.barycentric);
+            let closest = on_triangle(triangle_at(&skin.sweep, self.start), nearest.barycentric);
             let normal = (between(from) - closest) / nearest.distance.max(1e-12);
             let skin_move = skin.move_of(nearest.barycentric) * share;
             let approach = normal.dot(skin_move - (between(target) - between(from)));
