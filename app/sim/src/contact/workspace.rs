@@ -3,7 +3,7 @@
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::ContactPoint;
-use super::near::Near;
+use super::near::{MARGIN_M, Near};
 use super::points::{SkinContactPoint, SkinContactPoints};
 use super::skin_friction::{Failed, Touching};
 use crate::model::{Friction, Model};
@@ -82,6 +82,11 @@ impl ContactWorkspace {
         self.points.forget();
         self.points.measure(&self.near, places);
         self.points.open_more(&self.near, places);
+    }
+
+    /// Whether rope has left the margin in which skin near it was gathered.
+    pub fn strayed(&self, places: &[DVec3]) -> bool {
+        self.near.strayed(places) > MARGIN_M - self.greatest_contact_distance
     }
 
     /// A segment and triangle nearer than this share of the contact distance, if any.

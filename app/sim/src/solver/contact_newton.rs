@@ -10,7 +10,6 @@ use glam::{DMat3, DVec3};
 use super::Solver;
 use super::scheme::Scheme;
 use crate::contact::barrier::CRUSHED_SHARE;
-use crate::contact::near;
 use crate::contact::skin_friction::Failed;
 use crate::contact::workspace::ContactWorkspace;
 use crate::model::Model;
@@ -90,9 +89,7 @@ impl Solver {
             };
             let (taken, crossed) = self.move_by(model, work, share);
             crossings += crossed;
-            if work.near.strayed(&self.trial.place)
-                > near::MARGIN_M - work.greatest_contact_distance
-            {
+            if work.strayed(&self.trial.place) {
                 return ContactEnd::TooFar;
             }
             // What a short share leaves is still to go.

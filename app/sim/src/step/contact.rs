@@ -9,9 +9,9 @@ use super::context::StepContext;
 use super::convergence::CONTACT_CONVERGED_M;
 use super::rejection::Rejection;
 use crate::contact::barrier::PINCHED_SHARE;
-use crate::contact::near::{MARGIN_M, Refused};
 use crate::contact::workspace::ContactWorkspace;
 use crate::solver::{CONTACT_WANTED_M, ContactEnd, Solver};
+use crate::state::State;
 
 /// Times the skin may be stopped within a solver step.
 const MOST_STAGES: usize = 8;
@@ -35,17 +35,26 @@ pub(super) fn short_contact_step(
         }
     };
     audit.passes += converged.passes as u64;
-    if work.near.strayed(solver.places()) > MARGIN_M - work.greatest_contact_distance {
-        return Err(Rejection::Strayed);
-    }
     if work.nearer_than(PINCHED_SHARE).is_some() {
         return Err(Rejection::NotConverged);
     }
-    match work.near.end(&state.rope.position, solver.places()) {
-        Ok(crossings) => audit.tunnelled += crossings,
-        Err(Refused::Strayed | Refused::Unsafe) => return Err(Rejection::NotConverged),
-    }
+    end_path(state, solver, work, audit)?;
     Ok(converged.missed)
+}
+
+/// Ends a step on the straight path from where it began, where that is free.
+pub(super) fn end_path(
+    state: &State,
+    solver: &Solver,
+    work: &mut ContactWorkspace,
+    audit: &mut Audit,
+) -> Result<(), Rejection> {
+    if work.strayed(solver.places()) {
+        return Err(Rejection::Strayed);
+    }
+    let crossings = work.near.end(&state.rope.position, solver.places());
+    audit.tunnelled += crossings.ok_or(Rejection::NotConverged)?;
+    Ok(())
 }
 
 /// Newton with rope near the whale: the skin is moved as far as nothing crosses, and rope is solved at that pose, until

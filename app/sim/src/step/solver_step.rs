@@ -1,7 +1,7 @@
 //! One solver step: free rope in two linear solves, rope in contact by Newton.
 
 use super::audit::Audit;
-use super::contact::{contact_step, short_contact_step};
+use super::contact::{contact_step, end_path, short_contact_step};
 use super::context::StepContext;
 use super::free::{FreeOutcome, free_step, lines_step};
 use super::rejection::{Rejection, StepKind};
@@ -9,7 +9,6 @@ use super::rope::rope_step;
 use super::solid::solid_step;
 use super::workspace::Workspace;
 use crate::contact::ContactPoint;
-use crate::contact::near::MARGIN_M;
 use crate::contact::workspace::ContactWorkspace;
 use crate::model::Model;
 use crate::parting;
@@ -57,7 +56,7 @@ pub(super) fn solver_step(
     if free && free_step(&context, solver, audit)? == FreeOutcome::Clear {
         if let Some(work) = near.as_deref_mut() {
             solver.take_places();
-            stay_clear(state, solver, work)?;
+            end_path(state, solver, work, audit)?;
         }
     } else {
         missed = solve_by_lines(&context, solver, (near.as_deref_mut(), may_touch), audit)?;
@@ -93,19 +92,6 @@ pub(super) fn look(state: &State, work: &mut ContactWorkspace, goal: f64, dt: f6
     work.near.may_touch()
 }
 
-/// Ends a step in which nothing was to touch skin, where nothing came near it.
-fn stay_clear(
-    state: &State,
-    solver: &Solver,
-    work: &mut ContactWorkspace,
-) -> Result<(), Rejection> {
-    if work.near.strayed(solver.places()) > MARGIN_M - work.greatest_contact_distance {
-        return Err(Rejection::Strayed);
-    }
-    let ended = work.near.end(&state.rope.position, solver.places());
-    ended.map(|_| ()).map_err(|_| Rejection::NotConverged)
-}
-
 /// Whether a step is longer than contact allows.
 fn is_long(model: &Model, dt: f64) -> bool {
     dt > model.spec.settings.contact_step_s * (1.0 + 1e-9)
@@ -130,7 +116,7 @@ fn solve_by_lines(
         }
         Some(work) => {
             solve_untouched(context, solver, audit)?;
-            stay_clear(state, solver, work)?;
+            end_path(state, solver, work, audit)?;
             Ok(0.0)
         }
         None => solve_untouched(context, solver, audit).map(|()| 0.0),

@@ -1,7 +1,8 @@
 //! Divides the model's step into solver steps.
 //!
 //! A step of the model (`settings.step_s`, one input) is one solver step while the rope is free, or several where the model
-//! chooses them by their error (`step_control.rs`). Near the whale a solver step lasts at most `settings.contact_step_s`.
+//! chooses them by their error (`step_control.rs`). Where rope may touch the whale a solver step is as long as keeps it nearly linear,
+//! at most `settings.contact_step_s`.
 //! It is halved where it does not converge or where a link would part late. Halving stops at `settings.least_step_s`,
 //! which ends the run.
 
@@ -134,13 +135,12 @@ fn solver_steps(
     let start = settings.step_s * state.step as f64;
     let end = settings.step_s * (state.step + 1) as f64;
     let (mut halvings, mut refused) = (0_u32, LimitedBy::Convergence);
-    let mut untroubled = true;
+    // Momentum goes from rope to a kinetic whale by backward Euler, in steps as short as with contact.
+    let mut may_stay_clear = near && !model.whale_is_kinetic();
     while end - state.time_s > 1e-9 * settings.step_s {
         let left = end - state.time_s;
         let share = |time: f64| ((time - start) / settings.step_s).clamp(0.0, 1.0);
-        // Momentum goes from rope to a kinetic whale by backward Euler, in steps as short as with contact.
-        let clear =
-            near && untroubled && !model.whale_is_kinetic() && stays_clear(state, workspace, left);
+        let clear = may_stay_clear && stays_clear(state, workspace, left);
         let most = if clear { settings.step_s } else { longest };
         let (chosen, limit) = wanted(settings, &state.step_control, most);
         let chosen = if near && !clear {
@@ -176,7 +176,7 @@ fn solver_steps(
                 }
             }
             Err(Rejection::RopesMeet) => {
-                untroubled = false;
+                may_stay_clear = false;
                 longest = settings.contact_step_s.min(longest);
             }
             Err(why) if why.may_halve() && 0.5 * dt >= settings.least_step_s => {
@@ -185,7 +185,7 @@ fn solver_steps(
                 } else {
                     LimitedBy::Convergence
                 };
-                untroubled = false;
+                may_stay_clear = false;
                 if why == Rejection::Strayed
                     && let Some(work) = &mut workspace.contact
                 {

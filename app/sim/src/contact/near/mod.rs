@@ -18,10 +18,9 @@ use super::sweep::SweptSegment;
 use crate::model::Model;
 use crate::whale::{Bounds, Candidate, SkinTree, Surface};
 pub(crate) use group::Group;
-pub(crate) use substep::Refused;
 
 /// Rope within this distance of the path of skin is looked at [m].
-pub(crate) const MARGIN_M: f64 = 0.04;
+pub(super) const MARGIN_M: f64 = 0.04;
 
 /// Pairs farther apart than this are known by a lower bound of their distance [m].
 const EXACT_M: f64 = 0.001;
@@ -120,7 +119,7 @@ impl Near {
         }
     }
 
-    /// Gathers the pairs of uncut rope near skin over a step of the model, of which a share has passed; whether there are any.
+    /// Gathers the pairs of uncut rope near skin over a step of the model, of which a share has passed.
     pub fn gather(
         &mut self,
         model: &Model,
@@ -128,7 +127,7 @@ impl Near {
         places: &[DVec3],
         moves: impl Fn(usize) -> DVec3,
         (cut, passed): (&[bool], f64),
-    ) -> bool {
+    ) {
         self.sweep(bones, places, moves);
         self.surface.gather(&self.sweeps, MARGIN_M, &mut self.candidates);
         (self.start, self.goal, self.fraction) = (passed, 1.0, passed);
@@ -167,7 +166,6 @@ impl Near {
             let moves = self.pairs[group.pairs.clone()].iter().map(|pair| &self.skin[pair.skin]);
             group.follow_skin(moves);
         }
-        !self.pairs.is_empty()
     }
 
     /// Where a triangle lies among those that have pairs; put there where it is new.

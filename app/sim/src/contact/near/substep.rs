@@ -24,15 +24,6 @@ const STALE_M: f64 = 5e-4;
 /// Share of its radius to which rope may come to skin by its velocity before its guess is held off.
 const HELD_OFF_SHARE: f64 = 0.3;
 
-/// Why the path of a solver step is refused.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Refused {
-    /// It may lead through skin.
-    Unsafe,
-    /// It came near skin that was not looked at.
-    Strayed,
-}
-
 impl Near {
     /// Takes skin to the end of a solver step, and finds what may touch on the way from where rope is to where it is guessed to go.
     pub fn look(&mut self, from: &[DVec3], to: &[DVec3], goal: f64) {
@@ -90,8 +81,9 @@ impl Near {
         }
     }
 
-    /// Ends the solver step where its path is free; gives the number of crossings that an exact test finds on it.
-    pub fn end(&mut self, from: &[DVec3], to: &[DVec3]) -> Result<u64, Refused> {
+    /// Ends the solver step where its path is free; gives the number of crossings that an exact test finds on it. `None` where it
+    /// may lead through skin, or came near skin that was not looked at.
+    pub fn end(&mut self, from: &[DVec3], to: &[DVec3]) -> Option<u64> {
         let share = self.goal - self.start;
         let mut crossings = 0;
         for index in 0..self.groups.len() {
@@ -99,7 +91,7 @@ impl Near {
             let group = &mut self.groups[index];
             group.moving = moving;
             if group.far - moving < group.reach {
-                return Err(Refused::Strayed);
+                return None;
             }
             for place in self.groups[index].active.clone() {
                 crossings += self.check(index, self.active[place], (from, to))?;
@@ -110,20 +102,20 @@ impl Near {
             group.moving = 0.0;
         }
         self.fraction = self.goal;
-        Ok(crossings)
+        Some(crossings)
     }
 
-    /// Whether the path of a pair is free; crossings found on it.
+    /// Crossings found on the path of a pair; `None` where it is not free.
     fn check(
         &mut self,
         group: usize,
         index: usize,
         (from, to): (&[DVec3], &[DVec3]),
-    ) -> Result<u64, Refused> {
+    ) -> Option<u64> {
         let group = &self.groups[group];
         let pair = &mut self.pairs[index];
         if pair.gap_bound - (group.moved - pair.measured_at) - pair.min_separation > group.moving {
-            return Ok(0);
+            return Some(0);
         }
         let skin = &self.skin[pair.skin];
         let triangle = [triangle_at(&skin.sweep, self.start), triangle_at(&skin.sweep, self.goal)];
@@ -133,9 +125,9 @@ impl Near {
         let gap = segment_triangle(segment.at(0.0), triangle[0]).distance;
         (pair.gap_bound, pair.exact, pair.measured_at) = (gap, true, group.moved);
         if self.swept && safe_fraction_from(&segment, &triangle, pair.min_separation, gap) < 1.0 {
-            return Err(Refused::Unsafe);
+            return None;
         }
-        Ok(u64::from(first_meeting(&segment, &triangle).is_some()))
+        Some(u64::from(first_meeting(&segment, &triangle).is_some()))
     }
 
     /// How far any segment's end lies from the straight path by which its pairs were gathered [m].
