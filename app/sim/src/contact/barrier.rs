@@ -22,8 +22,6 @@ pub(crate) const CRUSHED_SHARE: f64 = 0.02;
 /// Push of the skin at one distance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct BarrierForce {
-    /// Energy stored [J].
-    pub energy: f64,
     /// Normal force [N].
     pub force: f64,
     /// Its growth with depth [N/m].
@@ -41,7 +39,6 @@ impl BarrierForce {
         let room = contact_distance * (1.0 - LEAST_SHARE);
         let u = depth / room;
         let at = |u: f64| Self {
-            energy: stiffness * room * room * (-libm::log1p(-u) - u),
             force: stiffness * room * u / (1.0 - u),
             stiffness: stiffness / ((1.0 - u) * (1.0 - u)),
         };
@@ -49,11 +46,12 @@ impl BarrierForce {
             return at(u);
         }
         let (end, beyond) = (at(U_LINEAR), (u - U_LINEAR) * room);
-        Self {
-            energy: end.energy + beyond * (end.force + 0.5 * beyond * end.stiffness),
-            force: end.force + beyond * end.stiffness,
-            stiffness: end.stiffness,
-        }
+        Self { force: end.force + beyond * end.stiffness, stiffness: end.stiffness }
+    }
+
+    /// A share of this push.
+    pub fn share(self, share: f64) -> Self {
+        Self { force: self.force * share, stiffness: self.stiffness * share }
     }
 }
 
@@ -61,23 +59,29 @@ impl BarrierForce {
 mod tests {
     use super::*;
 
+    /// Energy that the push stores, up to where the barrier goes over into a straight line [J].
+    fn energy(distance: f64, contact_distance: f64, stiffness: f64) -> f64 {
+        let room = contact_distance * (1.0 - LEAST_SHARE);
+        let u = (contact_distance - distance) / room;
+        stiffness * room * room * (-libm::log1p(-u) - u)
+    }
+
     #[test]
     fn force_and_stiffness_are_derivatives_of_the_energy() {
+        for distance in [0.0059, 0.004, 0.002, 0.001_6] {
+            let (contact_distance, stiffness, step) = (0.006, 5e4, 1e-7);
+            let energy = |by: f64| energy(distance + by, contact_distance, stiffness);
+            let here = BarrierForce::new(distance, contact_distance, stiffness);
+            let force = (energy(-step) - energy(step)) / (2.0 * step);
+            assert!((force / here.force - 1.0).abs() < 1e-5, "{distance}");
+        }
         for distance in [0.0059, 0.004, 0.002, 0.001_502, 0.001] {
             let (contact_distance, stiffness, step) = (0.006, 5e4, 1e-9);
-            let (ahead, behind) = (
-                BarrierForce::new(distance - step, contact_distance, stiffness),
-                BarrierForce::new(distance + step, contact_distance, stiffness),
-            );
+            let force =
+                |by: f64| BarrierForce::new(distance + by, contact_distance, stiffness).force;
             let here = BarrierForce::new(distance, contact_distance, stiffness);
-            assert!(
-                ((ahead.energy - behind.energy) / (2.0 * step) / here.force - 1.0).abs() < 1e-4,
-                "{distance}"
-            );
-            assert!(
-                ((ahead.force - behind.force) / (2.0 * step) / here.stiffness - 1.0).abs() < 1e-4,
-                "{distance}"
-            );
+            let growth = (force(-step) - force(step)) / (2.0 * step);
+            assert!((growth / here.stiffness - 1.0).abs() < 1e-4, "{distance}");
         }
         assert_eq!(BarrierForce::new(0.006, 0.006, 5e4), BarrierForce::default());
     }

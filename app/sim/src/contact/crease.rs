@@ -7,7 +7,6 @@
 //! `d (1 - n·n')` at most, where skin is concave between them. The second pushes by a share that grows with that height and with the
 //! angle of the normals, so that nothing jumps as rope slides into a crease or out of it.
 
-use super::barrier::BarrierForce;
 use super::touch::Touch;
 
 /// Most faces touched at once.
@@ -20,45 +19,33 @@ const ALIKE: (f64, f64) = (0.95, 0.7);
 /// the greatest. The feet on two facets of one convex face are at nothing but for rounding.
 const RISEN: (f64, f64) = (0.05, 0.3);
 
-/// What a place on rope touches, in rising order of the pair, so that a face keeps its place in the row as another comes nearer.
-pub(crate) type Faces = [Option<Touch>; MOST_FACES];
-
-/// The faces touched: the nearest triangle's, and those of others that rise from it.
-pub(crate) fn faces(nearest: Touch, others: impl Iterator<Item = Touch>) -> Faces {
-    let mut risen = [None; MOST_LOOKED_AT];
-    let mut count = 0;
-    for other in others {
-        if count < MOST_LOOKED_AT && share(&nearest, &other) > 0.0 {
-            risen[count] = Some(other);
-            count += 1;
-        }
-    }
-    let mut faces = Faces::default();
-    faces[0] = Some(nearest);
-    let mut whole = faces;
-    for face in 1..MOST_FACES {
-        let beside = |other: &Touch| {
-            whole.iter().flatten().map(|touch| share(touch, other)).product::<f64>()
-        };
-        let rising = risen[..count].iter().flatten().filter(|other| beside(other) > 0.0);
-        let Some(next) =
-            rising.min_by(|one, other| one.distance.total_cmp(&other.distance)).copied()
+/// Adds the faces touched to `touches`, in rising order of the pair, so that a face keeps its place in the row as another comes nearer: the
+/// nearest triangle's, and those of others that rise from it.
+pub(crate) fn add_faces(
+    nearest: Touch,
+    others: impl Iterator<Item = Touch>,
+    touches: &mut Vec<Touch>,
+) {
+    let first = touches.len();
+    touches.push(nearest);
+    touches.extend(others.filter(|other| share(&nearest, other) > 0.0).take(MOST_LOOKED_AT));
+    let risen = &mut touches[first..];
+    let mut faces = 1;
+    while faces < MOST_FACES.min(risen.len()) {
+        let (taken, left) = risen.split_at(faces);
+        let beside = |other: &Touch| taken.iter().map(|touch| share(touch, other)).product::<f64>();
+        let parts = left.iter().map(beside).enumerate().filter(|(_, part)| *part > 0.0);
+        let Some((next, part)) = parts
+            .min_by(|(one, _), (other, _)| left[*one].distance.total_cmp(&left[*other].distance))
         else {
             break;
         };
-        let part = beside(&next);
-        let BarrierForce { energy, force, stiffness } = next.barrier;
-        let barrier = BarrierForce {
-            energy: energy * part,
-            force: force * part,
-            stiffness: stiffness * part,
-        };
-        (whole[face], faces[face]) = (Some(next), Some(Touch { barrier, ..next }));
+        risen.swap(faces, faces + next);
+        risen[faces].barrier = risen[faces].barrier.share(part);
+        faces += 1;
     }
-    if count > 0 {
-        faces.sort_unstable_by_key(|touch| touch.map_or(usize::MAX, |touch| touch.pair));
-    }
-    faces
+    touches.truncate(first + faces);
+    touches[first..].sort_unstable_by_key(|touch| touch.pair);
 }
 
 /// Share of its push that a face has beside a nearer one, 0 where both are one.
@@ -78,6 +65,7 @@ mod tests {
     use glam::DVec3;
 
     use super::*;
+    use crate::contact::barrier::BarrierForce;
 
     const REACH_M: f64 = 0.005;
 
@@ -100,11 +88,9 @@ mod tests {
         let (floor, wall) =
             (touch(7, place, place.with_z(0.0)), touch(3, place, place.with_x(0.0)));
         let (near, far) = if place.z < place.x { (floor, wall) } else { (wall, floor) };
-        faces(near, std::iter::once(far))
-            .iter()
-            .flatten()
-            .map(|touch| touch.normal * touch.barrier.force)
-            .sum()
+        let mut faces = Vec::new();
+        add_faces(near, std::iter::once(far), &mut faces);
+        faces.iter().map(|touch| touch.normal * touch.barrier.force).sum()
     }
 
     #[test]
@@ -130,15 +116,13 @@ mod tests {
     fn convex_skin_is_one_face() {
         for share in [0.01, 0.1, 0.5, 0.9] {
             let place = DVec3::new(0.004 * share, 0.0, 0.003);
-            let faces = faces(
+            let mut faces = Vec::new();
+            add_faces(
                 touch(7, place, place.with_z(0.0)),
                 std::iter::once(touch(3, place, DVec3::ZERO)),
+                &mut faces,
             );
-            assert!(
-                faces[0].is_some_and(|touch| touch.pair == 7)
-                    && faces[1..].iter().all(Option::is_none),
-                "{share}"
-            );
+            assert!(faces.len() == 1 && faces[0].pair == 7, "{share}");
         }
     }
 }

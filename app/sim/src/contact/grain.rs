@@ -13,19 +13,39 @@ use crate::whale::Skin;
 /// Least part of the fore-and-aft axis that lies in a triangle for it to be taken.
 const LEAST_SHARE: f64 = 0.2;
 
-/// Unit vector across `normal` that is fixed to the skin of a triangle whose corners now stand at `now`.
-pub(crate) fn grain(skin: &Skin, triangle: usize, now: [DVec3; 3], normal: DVec3) -> DVec3 {
-    let corners = skin.triangles[triangle].map(|corner| skin.vertices[corner as usize]);
-    let carried = |axis: DVec3| {
-        carry(corners, now, axis).map(|along| normal.cross(along)).and_then(DVec3::try_normalize)
-    };
-    carried(DVec3::X)
-        .or_else(|| carried(DVec3::Z))
-        .unwrap_or_else(|| normal.any_orthonormal_vector())
+/// The fore-and-aft direction of every triangle of a skin at rest, in shares of two of its edges.
+#[derive(Clone, Debug)]
+pub(crate) struct Grains(Vec<[Option<Along>; 2]>);
+
+/// A direction within a triangle, as shares of its edges from the first corner to the second and to the third.
+type Along = [f64; 2];
+
+impl Grains {
+    /// Looks at every triangle of a skin.
+    pub fn new(skin: &Skin) -> Self {
+        let along = |corners: &[u32; 3]| {
+            let rest = corners.map(|corner| skin.vertices[corner as usize]);
+            [within(rest, DVec3::X), within(rest, DVec3::Z)]
+        };
+        Self(skin.triangles.iter().map(along).collect())
+    }
+
+    /// Unit vector across `normal` that is fixed to the skin of a triangle whose corners now stand at `now`.
+    pub fn at(&self, triangle: usize, now: &[DVec3; 3], normal: DVec3) -> DVec3 {
+        let carried = |along: &Option<Along>| {
+            let [alpha, beta] = (*along)?;
+            let along = (now[1] - now[0]) * alpha + (now[2] - now[0]) * beta;
+            normal.cross(along).try_normalize()
+        };
+        let [fore_and_aft, dorsal] = &self.0[triangle];
+        carried(fore_and_aft)
+            .or_else(|| carried(dorsal))
+            .unwrap_or_else(|| normal.any_orthonormal_vector())
+    }
 }
 
-/// The part of an axis within the rest triangle, carried to where the triangle is now; none where the axis stands across it.
-fn carry(rest: [DVec3; 3], now: [DVec3; 3], axis: DVec3) -> Option<DVec3> {
+/// The part of an axis within the rest triangle; none where the axis stands across it.
+fn within(rest: [DVec3; 3], axis: DVec3) -> Option<Along> {
     let (a, b) = (rest[1] - rest[0], rest[2] - rest[0]);
     let (aa, ab, bb) = (a.dot(a), a.dot(b), b.dot(b));
     let area_squared = aa * bb - ab * ab;
@@ -36,7 +56,7 @@ fn carry(rest: [DVec3; 3], now: [DVec3; 3], axis: DVec3) -> Option<DVec3> {
     let (alpha, beta) =
         ((bb * on_a - ab * on_b) / area_squared, (aa * on_b - ab * on_a) / area_squared);
     let within = (a * alpha + b * beta).length();
-    (within > LEAST_SHARE).then(|| (now[1] - now[0]) * alpha + (now[2] - now[0]) * beta)
+    (within > LEAST_SHARE).then_some([alpha, beta])
 }
 
 #[cfg(test)]
@@ -61,9 +81,9 @@ mod tests {
     fn grain_is_athwart_at_rest_and_goes_with_the_skin() {
         let rest =
             [DVec3::new(0.1, 0.2, 0.3), DVec3::new(0.5, 0.3, 0.2), DVec3::new(0.2, 0.9, 0.4)];
-        let skin = skin(rest);
+        let grains = Grains::new(&skin(rest));
         let normal = |at: [DVec3; 3]| (at[1] - at[0]).cross(at[2] - at[0]).normalize();
-        let still = grain(&skin, 0, rest, normal(rest));
+        let still = grains.at(0, &rest, normal(rest));
         assert!(
             still.dot(DVec3::X).abs() < 1e-12
                 && still.dot(normal(rest)).abs() < 1e-12
@@ -73,21 +93,23 @@ mod tests {
         let turn = DMat3::from_quat(DQuat::from_rotation_z(0.7) * DQuat::from_rotation_x(1.1));
         let turned = rest.map(|place| turn * place + DVec3::Y);
         assert!(
-            (grain(&skin, 0, turned, normal(turned)) - turn * still).length() < 1e-12,
+            (grains.at(0, &turned, normal(turned)) - turn * still).length() < 1e-12,
             "turned with the whale"
         );
         // Stretched fore and aft the direction stays; a contact normal that leans keeps it across.
         let leaning = (normal(rest) + DVec3::new(0.2, 0.1, -0.1)).normalize();
-        assert!(grain(&skin, 0, rest, leaning).dot(leaning).abs() < 1e-12);
+        assert!(grains.at(0, &rest, leaning).dot(leaning).abs() < 1e-12);
     }
 
     #[test]
     fn a_triangle_that_faces_forward_has_a_grain_too() {
         let rest = [DVec3::ZERO, DVec3::Y, DVec3::Z];
-        let at = grain(&skin(rest), 0, rest, DVec3::X);
+        let at = Grains::new(&skin(rest)).at(0, &rest, DVec3::X);
         assert!((at.abs() - DVec3::Y).length() < 1e-12, "{at}");
         assert!(
-            (grain(&skin([DVec3::ZERO; 3]), 0, [DVec3::ZERO; 3], DVec3::X).length() - 1.0).abs()
+            (Grains::new(&skin([DVec3::ZERO; 3])).at(0, &[DVec3::ZERO; 3], DVec3::X).length()
+                - 1.0)
+                .abs()
                 < 1e-12
         );
     }

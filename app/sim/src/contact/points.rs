@@ -10,7 +10,7 @@ use std::ops::Range;
 use glam::DVec3;
 
 use super::barrier::BarrierForce;
-use super::crease::{self, Faces};
+use super::crease;
 use super::near::Near;
 use super::placed::on_triangle;
 use super::touch::Touch;
@@ -69,8 +69,8 @@ pub(crate) struct SkinContactPoint {
     seen: Option<(DVec3, f64)>,
     /// The pair it was nearest to then.
     nearest_pair: Option<usize>,
-    /// What it touches now.
-    pub touches: Faces,
+    /// What it touches, in `SkinContactPoints::touches`.
+    touches: Range<usize>,
     /// Push and friction on it as the last solve predicted them, less what they are where the trial stands [N].
     pub missed: DVec3,
 }
@@ -90,6 +90,10 @@ struct ClosestPoint {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SkinContactPoints {
     pub list: Vec<SkinContactPoint>,
+    /// What they touch, point after point.
+    touches: Vec<Touch>,
+    /// The same as measured before.
+    touched: Vec<Touch>,
 }
 
 impl SkinContactPoints {
@@ -116,7 +120,7 @@ impl SkinContactPoints {
                     stiffness: stiffness_n_m2 * length / pieces,
                     seen: None,
                     nearest_pair: None,
-                    touches: Faces::default(),
+                    touches: 0..0,
                     missed: DVec3::ZERO,
                 });
             }
@@ -144,7 +148,7 @@ impl SkinContactPoints {
                     site,
                     fraction,
                     seen: None,
-                    touches: Faces::default(),
+                    touches: 0..0,
                     missed: DVec3::ZERO,
                     ..self.list[from].clone()
                 });
@@ -160,9 +164,18 @@ impl SkinContactPoints {
 
     /// Measures every contact point at the places given.
     pub fn measure(&mut self, near: &Near, places: &[DVec3]) {
+        std::mem::swap(&mut self.touches, &mut self.touched);
+        self.touches.clear();
         for point in &mut self.list {
-            point.measure(near, places);
+            let first = self.touches.len();
+            point.measure(near, places, &self.touched, &mut self.touches);
+            point.touches = first..self.touches.len();
         }
+    }
+
+    /// What a contact point touches, as measured last.
+    pub fn touches(&self, point: &SkinContactPoint) -> &[Touch] {
+        &self.touches[point.touches.clone()]
     }
 
     /// Forgets what was seen, for skin that has moved.
@@ -179,12 +192,19 @@ impl SkinContactPoint {
         place(self.node).lerp(place(self.node + 1), self.fraction)
     }
 
-    fn measure(&mut self, near: &Near, places: &[DVec3]) {
+    /// Adds what it touches at the places given to `touches`; where it has not moved, from what it touched before.
+    fn measure(
+        &mut self,
+        near: &Near,
+        places: &[DVec3],
+        touched: &[Touch],
+        touches: &mut Vec<Touch>,
+    ) {
         let place = self.on_rope(|node| places[node]);
         if self.seen.is_some_and(|(seen, _)| seen == place) {
+            touches.extend_from_slice(&touched[self.touches.clone()]);
             return;
         }
-        self.touches = Faces::default();
         if self.out_of_reach(place) {
             return;
         }
@@ -194,7 +214,7 @@ impl SkinContactPoint {
         if let Some(nearest) = self.nearest(near, place, 0.0, within) {
             self.seen = Some((place, nearest.distance));
             self.nearest_pair = Some(nearest.pair);
-            self.touches = self.faces(near, place, 0.0, nearest);
+            self.add_faces(near, place, 0.0, nearest, touches);
         }
     }
 
@@ -203,19 +223,33 @@ impl SkinContactPoint {
         self.site | face as u64
     }
 
-    /// What it touches with the rope moved by `step` from the places measured last.
-    pub fn touches_moved(&self, near: &Near, place: DVec3, step: DVec3) -> Faces {
+    /// Adds what it touches, with the rope moved by `step` from the places measured last.
+    pub fn add_touches_moved(
+        &self,
+        near: &Near,
+        place: DVec3,
+        step: DVec3,
+        touches: &mut Vec<Touch>,
+    ) {
         let (place, moved) = (place + step, step.length());
         if self.out_of_reach(place) {
-            return Faces::default();
+            return;
         }
-        self.nearest(near, place, moved, self.contact_distance)
-            .map_or_else(Faces::default, |nearest| self.faces(near, place, moved, nearest))
+        if let Some(nearest) = self.nearest(near, place, moved, self.contact_distance) {
+            self.add_faces(near, place, moved, nearest, touches);
+        }
     }
 
-    /// What it touches, from the nearest triangle.
-    fn faces(&self, near: &Near, place: DVec3, moved: f64, nearest: ClosestPoint) -> Faces {
-        let Some(nearest) = self.touch_of(near, place, nearest) else { return Faces::default() };
+    /// Adds what it touches, from the nearest triangle.
+    fn add_faces(
+        &self,
+        near: &Near,
+        place: DVec3,
+        moved: f64,
+        nearest: ClosestPoint,
+        touches: &mut Vec<Touch>,
+    ) {
+        let Some(nearest) = self.touch_of(near, place, nearest) else { return };
         let group = &near.groups[self.group];
         let others = near.active[self.pairs.clone()].iter().filter_map(|index| {
             let index = *index;
@@ -226,7 +260,7 @@ impl SkinContactPoint {
                 near.skin_of(index).nearest_to_point(place, self.contact_distance)?;
             self.touch_of(near, place, ClosestPoint { distance, pair: index, barycentric })
         });
-        crease::faces(nearest, others)
+        crease::add_faces(nearest, others, touches);
     }
 
     fn touch_of(

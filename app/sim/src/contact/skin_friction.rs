@@ -5,13 +5,13 @@
 //! given to it there (`account.rs`).
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use endline_sdk::{Contacts, FrictionResponse};
 use glam::{DMat3, DVec3};
 
 use super::account::Account;
-use super::crease::Faces;
-use super::grain::grain;
+use super::grain::Grains;
 use super::near::Near;
 use super::points::{SkinContactPoint, SkinContactPoints};
 use super::touch::Touch;
@@ -49,8 +49,9 @@ struct Found {
 }
 
 /// Arrays handed to the friction plugins in a pass, one entry for each contact point in touch, law by law.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(crate) struct Touching {
+    grains: Arc<Grains>,
     /// Index of the contact point.
     pub point: Vec<usize>,
     /// Which of the faces that the contact point touches.
@@ -58,6 +59,8 @@ pub(crate) struct Touching {
     /// Places in these arrays, in rising order of contact point.
     pub in_order: Vec<usize>,
     found: Vec<Found>,
+    /// What one contact point touches.
+    touches: Vec<Touch>,
     groups: Vec<Group>,
     normal_force: Vec<f64>,
     normal: Vec<[f64; 3]>,
@@ -78,22 +81,63 @@ pub(crate) struct Touching {
 }
 
 impl Touching {
-    /// Collects the contact points in touch that `touches_of` gives.
+    /// No contacts yet, on a skin of these grains.
+    pub fn new(grains: Arc<Grains>) -> Self {
+        Self {
+            grains,
+            point: Vec::new(),
+            face: Vec::new(),
+            in_order: Vec::new(),
+            found: Vec::new(),
+            touches: Vec::new(),
+            groups: Vec::new(),
+            normal_force: Vec::new(),
+            normal: Vec::new(),
+            grain: Vec::new(),
+            along: Vec::new(),
+            slip: Vec::new(),
+            length: Vec::new(),
+            coefficient: Vec::new(),
+            region: Vec::new(),
+            rope: Vec::new(),
+            floats: Vec::new(),
+            floats_at_end: Vec::new(),
+            account: Vec::new(),
+            response: Vec::new(),
+            block: Vec::new(),
+        }
+    }
+
+    /// Collects what contact points touch, as measured last.
     pub fn collect(
         &mut self,
         model: &Model,
         near: &Near,
         points: &SkinContactPoints,
         state: &State,
-        touches_of: impl Fn(&SkinContactPoint) -> Faces,
+    ) {
+        self.collect_with(model, near, points, state, |point, touches| {
+            touches.extend_from_slice(points.touches(point));
+        });
+    }
+
+    /// Collects what contact points touch, which `add_touches` adds for each.
+    pub fn collect_with(
+        &mut self,
+        model: &Model,
+        near: &Near,
+        points: &SkinContactPoints,
+        state: &State,
+        add_touches: impl Fn(&SkinContactPoint, &mut Vec<Touch>),
     ) {
         self.clear();
         let (Some(whale), Some(friction)) = (&model.spec.whale, &model.spec.friction) else {
             return;
         };
         for (point, at) in points.list.iter().enumerate() {
-            for (face, touch) in touches_of(at).into_iter().enumerate() {
-                let Some(touch) = touch else { continue };
+            self.touches.clear();
+            add_touches(at, &mut self.touches);
+            for (face, touch) in self.touches.iter().copied().enumerate() {
                 let region = whale.skin.regions[near.skin_of(touch.pair).triangle as usize];
                 let rope = model.spec.lines[model.segment_line[at.segment]].rope;
                 self.found.push(Found {
@@ -159,8 +203,8 @@ impl Touching {
         self.face.push(face);
         self.normal_force.push(touch.barrier.force);
         self.normal.push(touch.normal.to_array());
-        self.grain
-            .push(grain(&whale.skin, pair.triangle as usize, pair.now, touch.normal).to_array());
+        let grain = self.grains.at(pair.triangle as usize, &pair.now, touch.normal);
+        self.grain.push(grain.to_array());
         self.along.push(
             (state.rope.position[point.node + 1] - state.rope.position[point.node])
                 .normalize_or(touch.normal)

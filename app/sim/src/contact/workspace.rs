@@ -1,8 +1,11 @@
 //! Scratch of a solver step with contact, and what such a step leaves behind.
 
+use std::sync::Arc;
+
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::ContactPoint;
+use super::grain::Grains;
 use super::near::{MARGIN_M, Near};
 use super::points::{SkinContactPoint, SkinContactPoints};
 use super::skin_friction::{Failed, Touching};
@@ -34,11 +37,12 @@ impl ContactWorkspace {
     /// Scratch for a model, where it has a whale.
     pub fn new(model: &Model) -> Option<Self> {
         let tree = model.skin_tree.clone()?;
+        let touching = Touching::new(Arc::new(Grains::new(tree.skin())));
         Some(Self {
             near: Near::new(model, tree),
             points: SkinContactPoints::default(),
-            touching: Touching::default(),
-            probe: Touching::default(),
+            probe: touching.clone(),
+            touching,
             bones: [Vec::new(), Vec::new()],
             before: Vec::new(),
             bodies_before: Vec::new(),
@@ -52,16 +56,35 @@ impl ContactWorkspace {
         })
     }
 
-    /// Hands over push and friction of every contact with the block `-dF/dx`, which is noted.
-    pub fn add_contacts(&mut self, mut add: impl FnMut(&SkinContactPoint, DVec3, &DMat3)) {
+    /// Notes the block `-dF/dx` of every contact as measured last.
+    pub fn note_blocks(&mut self) {
         let Self { points, touching, .. } = self;
         touching.block.clear();
         for (place, index) in touching.point.iter().enumerate() {
+            let touch = &points.touches(&points.list[*index])[touching.face[place]];
+            touching.block.push(touching.block_of(place, touch));
+        }
+    }
+
+    /// Push and friction of every contact with its block, linear about where it was measured (`before`), with the rope at other places.
+    pub fn contacts_at<'a>(
+        &'a self,
+        places: &'a [DVec3],
+    ) -> impl Iterator<Item = (&'a SkinContactPoint, DVec3, &'a DMat3)> {
+        let Self { points, touching, before, .. } = self;
+        touching.point.iter().zip(&touching.block).enumerate().map(|(place, (index, block))| {
             let point = &points.list[*index];
-            let block = point.touches[touching.face[place]]
-                .map_or(DMat3::ZERO, |touch| touching.block_of(place, &touch));
-            touching.block.push(block);
-            add(point, touching.force_of(place), &block);
+            let step = point.on_rope(|node| places[node] - before[node]);
+            (point, touching.force_of(place) - *block * step, block)
+        })
+    }
+
+    /// Hands over push and friction of every contact with the block `-dF/dx`, which is noted.
+    pub fn add_contacts(&mut self, mut add: impl FnMut(&SkinContactPoint, DVec3, &DMat3)) {
+        self.note_blocks();
+        let Self { points, touching, .. } = self;
+        for (place, index) in touching.point.iter().enumerate() {
+            add(&points.list[*index], touching.force_of(place), &touching.block[place]);
         }
     }
 
@@ -92,10 +115,10 @@ impl ContactWorkspace {
     /// A segment and triangle nearer than this share of the contact distance, if any.
     pub fn nearer_than(&self, share: f64) -> Option<(usize, usize)> {
         self.points.list.iter().find_map(|point| {
-            let touch = point
-                .touches
+            let touch = self
+                .points
+                .touches(point)
                 .iter()
-                .flatten()
                 .find(|touch| touch.distance < share * point.contact_distance)?;
             Some((point.segment, self.near.skin_of(touch.pair).triangle as usize))
         })
@@ -114,7 +137,7 @@ impl ContactWorkspace {
         let Some(whale) = &model.spec.whale else { return Ok(()) };
         for place in self.touching.in_order.iter().copied() {
             let point = &self.points.list[self.touching.point[place]];
-            let Some(touch) = &point.touches[self.touching.face[place]] else { continue };
+            let touch = &self.points.touches(point)[self.touching.face[place]];
             let triangle = self.near.skin_of(touch.pair).triangle as usize;
             contacts.push(ContactPoint {
                 line: model.segment_line[point.segment],

@@ -65,6 +65,24 @@ impl BlockTridiagonal {
         self.force.fill(DVec3::ZERO);
     }
 
+    /// Adds a force and its block at a fraction of a segment.
+    pub fn add_at(
+        &mut self,
+        segment: usize,
+        node: usize,
+        fraction: f64,
+        force: DVec3,
+        block: &DMat3,
+    ) {
+        let (first, second) = (1.0 - fraction, fraction);
+        self.force[node] += force * first;
+        self.force[node + 1] += force * second;
+        self.diagonal[node] += *block * (first * first);
+        self.diagonal[node + 1] += *block * (second * second);
+        self.up[segment] += *block * (first * second);
+        self.low[segment] += *block * (first * second);
+    }
+
     /// Eliminates the inner nodes of a line; `a_moves` says whether end A has freedom at all. Matrix and forces stay as they
     /// are.
     pub fn eliminate(

@@ -5,8 +5,6 @@
 //! block `-∂f/∂s + (∂f/∂N)(N' n)ᵀ`, not symmetric, with the normal force coupled in.
 //! Each move is cut by the sweep filter (`contact/near/mod.rs`), then searched along for balance (`line_search.rs`).
 
-use glam::{DMat3, DVec3};
-
 use super::Solver;
 use super::scheme::Scheme;
 use crate::contact::barrier::CRUSHED_SHARE;
@@ -170,7 +168,7 @@ impl Solver {
         work: &mut ContactWorkspace,
     ) -> Result<(), Failed> {
         let Some(friction) = &model.spec.friction else { return Ok(()) };
-        work.touching.collect(model, &work.near, &work.points, state, |point| point.touches);
+        work.touching.collect(model, &work.near, &work.points, state);
         work.touching.respond(friction, scheme.dt)?;
         self.add_contact_blocks(work);
         Ok(())
@@ -179,26 +177,8 @@ impl Solver {
     /// Adds push and friction of every contact point in touch.
     pub(super) fn add_contact_blocks(&mut self, work: &mut ContactWorkspace) {
         work.add_contacts(|point, force, block| {
-            self.add_at(point.segment, point.node, point.fraction, force, block);
+            self.tridiagonal.add_at(point.segment, point.node, point.fraction, force, block);
         });
-    }
-
-    /// Adds a force and its block at a fraction of a segment.
-    pub(super) fn add_at(
-        &mut self,
-        segment: usize,
-        node: usize,
-        fraction: f64,
-        force: DVec3,
-        block: &DMat3,
-    ) {
-        let (first, second) = (1.0 - fraction, fraction);
-        self.tridiagonal.force[node] += force * first;
-        self.tridiagonal.force[node + 1] += force * second;
-        self.tridiagonal.diagonal[node] += *block * (first * first);
-        self.tridiagonal.diagonal[node + 1] += *block * (second * second);
-        self.tridiagonal.up[segment] += *block * (first * second);
-        self.tridiagonal.low[segment] += *block * (first * second);
     }
 
     /// Takes the tension of every segment at the trial places as it is.

@@ -227,7 +227,7 @@ fn lanes_solve_contact_as_the_lines_do() {
         lines.assemble(&model, &state, &scheme);
         for (segment, fraction, force, block) in contacts(&model) {
             let node = segment + model.segment_line[segment];
-            lines.add_at(segment, node, fraction, force, &block);
+            lines.tridiagonal.add_at(segment, node, fraction, force, &block);
         }
         lines.solve(&model);
         lines.advance(&model, 1.0);

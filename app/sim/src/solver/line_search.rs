@@ -128,12 +128,9 @@ impl Solver {
         let step_of = |point: &crate::contact::points::SkinContactPoint| {
             point.on_rope(|node| self.tridiagonal.step[node])
         };
-        probe.collect(model, near, points, state, |point| {
-            point.touches_moved(
-                near,
-                point.on_rope(|node| self.trial.place[node]),
-                step_of(point) * share,
-            )
+        probe.collect_with(model, near, points, state, |point, touches| {
+            let place = point.on_rope(|node| self.trial.place[node]);
+            point.add_touches_moved(near, place, step_of(point) * share, touches);
         });
         if probe.respond(friction, scheme.dt).is_err() {
             return f64::INFINITY;

@@ -25,7 +25,9 @@ use crate::state::State;
 
 /// Most passes.
 const MOST_PASSES: usize = 6;
-/// Most times a pass is solved again for other taut segments.
+/// Most solutions for rope in a pass, with contact linear.
+const MOST_ROPE_SOLUTIONS: usize = 4;
+/// Most times a solution is sought again for other taut segments.
 const MOST_ACTIVE_SETS: usize = 6;
 /// Passes that go half of the way, where whole ones go to and fro.
 const HALF_PASSES: [usize; 2] = [3, 5];
@@ -106,7 +108,8 @@ impl Solver {
         Err(ContactEnd::Ended { last_m: f64::INFINITY, passes: MOST_PASSES, crossings: 0 })
     }
 
-    /// One pass with the contacts measured last; the trial moves by a share of it, and contacts are predicted there.
+    /// One pass with the contacts measured last: rope is solved, with contact linear, until its tension is what the solve took for granted.
+    /// A half pass moves the trial by half of its one solution.
     fn whole_pass(
         &mut self,
         model: &Model,
@@ -116,22 +119,44 @@ impl Solver {
         share: f64,
     ) -> PassDone {
         work.before.clone_from(&self.trial.place);
-        let done = if self.in_lanes {
-            self.pass_in_lanes(model, state, scheme, work, share)
-        } else {
-            self.assemble(model, state, scheme);
-            self.add_contact_blocks(work);
-            self.solve_taut(model);
-            self.advance(model, share);
-            let tension_missed = self.tension_missed(model, scheme);
-            PassDone { longest_m: self.longest(), tension_missed }
-        };
+        work.note_blocks();
+        let mut done = PassDone { longest_m: 0.0, tension_missed: f64::INFINITY };
+        for _ in 0..MOST_ROPE_SOLUTIONS {
+            done = if self.in_lanes {
+                self.solve_in_lanes(model, state, scheme, work, share)
+            } else {
+                self.solve_lines(model, state, scheme, work, share)
+            };
+            if share < 1.0 || done.tension_missed <= 1.0 || !done.longest_m.is_finite() {
+                break;
+            }
+        }
         self.predict_contacts(work);
         done
     }
 
-    /// A pass in the lanes.
-    fn pass_in_lanes(
+    /// Solves rope with linear contact line by line, and moves the trial by a share of the solution.
+    fn solve_lines(
+        &mut self,
+        model: &Model,
+        state: &State,
+        scheme: &Scheme,
+        work: &ContactWorkspace,
+        share: f64,
+    ) -> PassDone {
+        self.assemble(model, state, scheme);
+        let Self { tridiagonal, trial, .. } = self;
+        for (point, force, block) in work.contacts_at(&trial.place) {
+            tridiagonal.add_at(point.segment, point.node, point.fraction, force, block);
+        }
+        self.solve_taut(model);
+        self.advance(model, share);
+        let tension_missed = self.tension_missed(model, scheme);
+        PassDone { longest_m: self.longest(), tension_missed }
+    }
+
+    /// Solves rope with linear contact in the lanes, and moves the trial by a share of the solution.
+    fn solve_in_lanes(
         &mut self,
         model: &Model,
         state: &State,
@@ -140,9 +165,11 @@ impl Solver {
         share: f64,
     ) -> PassDone {
         self.lanes.leave_contact();
-        work.add_contacts(|point, force, block| {
-            self.lanes.add_contact(point.segment, point.fraction, force, block);
-        });
+        let Self { lanes, trial, .. } = self;
+        for (point, force, block) in work.contacts_at(&trial.place) {
+            lanes.add_contact(point.segment, point.fraction, force, block);
+        }
+        self.before.clone_from(&self.trial.place);
         work.bodies_before.clone_from(&self.trial.bodies);
         let least_n = TENSION_GAP_N.min(self.tolerance().gap_n);
         for solved in 0..=MOST_ACTIVE_SETS {
@@ -155,7 +182,7 @@ impl Solver {
                 return PassDone { longest_m, tension_missed };
             }
             // Again from the same places, with the segments taut that are so by the solution.
-            self.trial.place.clone_from(&work.before);
+            self.trial.place.clone_from(&self.before);
             self.trial.bodies.clone_from(&work.bodies_before);
             self.lanes.take_places(&self.trial.place);
         }
@@ -175,7 +202,7 @@ impl Solver {
             return Err(ContactEnd::Crushed(segment, triangle));
         }
         let Some(friction) = &model.spec.friction else { return Ok(()) };
-        work.touching.collect(model, &work.near, &work.points, state, |point| point.touches);
+        work.touching.collect(model, &work.near, &work.points, state);
         work.touching.respond(friction, scheme.dt).map_err(ContactEnd::Plugin)
     }
 

@@ -97,7 +97,9 @@ impl Solver {
         let force = touch.normal * point.push_n + grip.force;
         let block = outer(touch.normal, touch.normal) * point.stiffness + grip.block;
         match point.fraction {
-            Some(fraction) => self.add_at(point.segment, point.node, fraction, force, &block),
+            Some(fraction) => {
+                self.tridiagonal.add_at(point.segment, point.node, fraction, force, &block)
+            }
             None => {
                 self.tridiagonal.force[point.node] += force;
                 self.tridiagonal.diagonal[point.node] += block;

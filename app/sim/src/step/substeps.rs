@@ -93,7 +93,7 @@ fn near_whale(
     );
     work.near.pairs.clear();
     if near {
-        gather(model, state, work, 0.0);
+        work.near.gather_swept(model, (&state.rope.cut, 0.0));
     }
     near
 }
@@ -141,6 +141,7 @@ fn solver_steps(
         let left = end - state.time_s;
         let share = |time: f64| ((time - start) / settings.step_s).clamp(0.0, 1.0);
         let clear = may_stay_clear && stays_clear(state, workspace, left);
+        may_stay_clear = clear;
         let most = if clear { settings.step_s } else { longest };
         let (chosen, limit) = wanted(settings, &state.step_control, most);
         let chosen = if near && !clear {

@@ -129,6 +129,11 @@ impl Near {
         (cut, passed): (&[bool], f64),
     ) {
         self.sweep(bones, places, moves);
+        self.gather_swept(model, (cut, passed));
+    }
+
+    /// Gathers the pairs of uncut rope near skin for the moves that were swept last.
+    pub fn gather_swept(&mut self, model: &Model, (cut, passed): (&[bool], f64)) {
         self.surface.gather(&self.sweeps, MARGIN_M, &mut self.candidates);
         (self.start, self.goal, self.fraction) = (passed, 1.0, passed);
         self.searched = false;
