@@ -3,8 +3,8 @@
 //! Five hundred nodes far from the whale, near it without touch, sliding over it, wound about it, and wound tight with 150
 //! segments in touch. Of each: solver steps and Newton passes, CPU time a solver step, how much of it is finding what is near
 //! (the same search, distances and sweeps made once more outside the step), and how many seconds of the run a second gives.
-//! A name after `--` runs those whose names hold it; `contact_step=0.5` sets the contact step in milliseconds, `from=17 to=18` the stretch of
-//! the run; `detection=0` leaves that measurement out. Also of each stretch: peak tension, mean and ripple of the tension at the top of the first line, work against friction.
+//! A name after `--` runs those whose names hold it; `contact_step=0.5` sets the contact step in milliseconds, `tolerance=0.01` the contact
+//! tolerance, `from=17 to=18` the stretch of the run; `detection=0` leaves that measurement out. Also of each stretch: peak tension, mean and ripple of the tension at the top of the first line, work against friction.
 //! Ripple is the mean departure from a running mean over 0.25 s, as a share of the whole mean.
 
 #![allow(clippy::expect_used, clippy::panic, reason = "a benchmark says what it needs")]
@@ -58,6 +58,7 @@ const TIGHT: &[(&str, &str)] = &[
 #[derive(Default)]
 struct Changes {
     contact_step_s: Option<f64>,
+    tolerance: Option<f64>,
     from_s: Option<f64>,
     to_s: Option<f64>,
     /// Whether detection is measured besides.
@@ -75,6 +76,7 @@ fn main() {
     };
     let changes = Changes {
         contact_step_s: value("contact_step").map(|ms| 1e-3 * ms),
+        tolerance: value("tolerance"),
         from_s: value("from"),
         to_s: value("to"),
         detects: value("detection") != Some(0.0),
@@ -102,11 +104,11 @@ struct Taken {
 
 fn run(stretch: &Stretch, changes: &Changes) {
     let mut model = model(stretch.scenario, stretch.changes);
-    if let Some(contact_step_s) = changes.contact_step_s {
-        let mut spec = model.spec.clone();
-        spec.settings.contact_step_s = contact_step_s;
-        model = Model::new(spec).expect("a model with another contact step");
-    }
+    let mut spec = model.spec.clone();
+    let settings = &mut spec.settings;
+    settings.contact_step_s = changes.contact_step_s.unwrap_or(settings.contact_step_s);
+    settings.contact_tolerance = changes.tolerance.unwrap_or(settings.contact_tolerance);
+    model = Model::new(spec).expect("a model with other steps near the whale");
     let stretch = &Stretch {
         from_s: changes.from_s.unwrap_or(stretch.from_s),
         to_s: changes.to_s.unwrap_or(stretch.to_s),

@@ -82,6 +82,7 @@ fn check_water(spec: &ModelSpec, found: &mut Found) {
     let found = found.of("settings", "");
     found.above_zero("step", spec.settings.step_s);
     found.above_zero("contact step", spec.settings.contact_step_s);
+    found.above_zero("contact tolerance", spec.settings.contact_tolerance);
     found.above_zero("least step", spec.settings.least_step_s);
     found.above_zero("duration", spec.settings.duration_s);
     if let Some(Resolution { near_m, edge_m, far_m }) = spec.settings.resolution {

@@ -139,6 +139,7 @@ fn settings(scenario: &Scenario, options: &Options) -> Settings {
             .contact_step_s
             .or(scenario.contact_step_s)
             .unwrap_or(usual.contact_step_s),
+        contact_tolerance: scenario.contact_tolerance.unwrap_or(usual.contact_tolerance),
         duration_s: options.duration_s.unwrap_or(scenario.duration_s),
         resolution: scenario.resolution,
         seed: options.seed.unwrap_or(scenario.seed),

@@ -54,6 +54,8 @@ pub struct Scenario {
     pub step_s: Option<f64>,
     /// Longest step while rope is near the whale [s], where the scenario chooses one.
     pub contact_step_s: Option<f64>,
+    /// What push and friction may miss by in a step near the whale, as a share of the greatest, where the scenario says.
+    pub contact_tolerance: Option<f64>,
     /// How many rope nodes there are in all.
     pub rope_nodes: Option<At<u64>>,
     /// Longest segment [m], where no node count is given.
@@ -136,6 +138,7 @@ impl Scenario {
             step_s: step(&fields),
             auto_step: is_auto(&fields),
             contact_step_s: seconds(&fields, "contact_step"),
+            contact_tolerance: contact_tolerance(&fields),
             rope_nodes: fields.count("rope_nodes", 2),
             segment_m: segment(&fields),
             weak_links: flag("weak_links", true),
@@ -208,6 +211,12 @@ fn step(fields: &Fields<'_>) -> Option<f64> {
 /// A step of time of at most a second [s].
 fn seconds<'a>(fields: &Fields<'a>, key: &'a str) -> Option<f64> {
     fields.value(key, Quantity::Time, Range::Between(1e-6, 1.0)).map(|step| step.value)
+}
+
+/// `contact_tolerance`: what push and friction may miss by in a step near the whale, as a share of the greatest.
+fn contact_tolerance(fields: &Fields<'_>) -> Option<f64> {
+    let tolerance = fields.value("contact_tolerance", Quantity::Ratio, Range::Between(1e-4, 0.2));
+    tolerance.map(|tolerance| tolerance.value)
 }
 
 /// `segment`: the longest segment [m].

@@ -137,7 +137,8 @@ impl ContactWorkspace {
         let Some(whale) = &model.spec.whale else { return Ok(()) };
         for place in self.touching.in_order.iter().copied() {
             let point = &self.points.list[self.touching.point[place]];
-            let touch = &self.points.touches(point)[self.touching.face[place]];
+            let touch = self.points.touches(point).get(self.touching.face[place]);
+            let Some(touch) = touch else { continue };
             let triangle = self.near.skin_of(touch.pair).triangle as usize;
             contacts.push(ContactPoint {
                 line: model.segment_line[point.segment],

@@ -32,7 +32,7 @@ pub use pilot::{PilotEntry, PilotProgram, Target, Trigger};
 pub use probe::{EnergyForm, Probe, ProbeTarget};
 pub use rope::{Line, ROPE_ON_ROPE_FRICTION, Rope, RopeOnRope, Strength};
 pub use seabed::Seabed;
-pub use settings::{Resolution, Settings};
+pub use settings::{CONTACT_TOLERANCE, Resolution, Settings};
 pub use whale::Whale;
 
 /// All that a model is made from; [`Model::new`] checks it.

@@ -19,6 +19,9 @@ impl Default for Resolution {
     }
 }
 
+/// What push and friction may miss by unless a run says otherwise, as a share of the greatest.
+pub const CONTACT_TOLERANCE: f64 = 0.02;
+
 /// Steps and tolerances.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
@@ -28,6 +31,9 @@ pub struct Settings {
     pub auto_step: bool,
     /// Longest step while rope is near the whale [s].
     pub contact_step_s: f64,
+    /// What push and friction may miss by in a solver step near the whale, as a share of the greatest; all that such a step may miss by
+    /// is in proportion to it (`solver/newton.rs`).
+    pub contact_tolerance: f64,
     /// Shortest step before a run gives up [s].
     pub least_step_s: f64,
     /// How segment lengths follow the whale; `None` where they stay as they are.
@@ -53,6 +59,7 @@ impl Default for Settings {
             step_s: 0.01,
             auto_step: false,
             contact_step_s: 0.002,
+            contact_tolerance: CONTACT_TOLERANCE,
             least_step_s: 1e-6,
             resolution: None,
             duration_s: 60.0,

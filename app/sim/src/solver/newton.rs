@@ -1,15 +1,18 @@
 //! Newton's method for a short solver step with rope near skin: few passes, each of them whole.
 //!
-//! In a step short enough the balance is nearly linear: from the guess `x + h v` one solve or two reach it. A pass solves the linear
-//! system with push and friction of every contact point in it, until the segments that pull are those that are taut by its solution, and
-//! moves the trial by all of it. The step has converged when what the last solve took for granted is so where the trial now stands:
+//! In a step short enough the balance is nearly linear: from the guess `x + h v` one pass or two reach it. A pass measures push and friction of
+//! every contact point and takes them as linear. With them in it, rope is solved until the segments that pull are those that are taut by the
+//! solution and their tension is the law's where the trial then stands; a turn of a short slack segment stretches it to second order, which
+//! the next solution mends without measuring contact anew. The step has converged when what the last pass took for granted is so where the trial
+//! now stands:
 //!
 //! | quantity | allowed difference between the linear solution and the law at its place |
 //! |---|---|
-//! | tension of a segment | 2 N, or 2 % of the greatest tension |
-//! | push and friction on a contact point | 0.5 N, or 5 % of the greatest |
-//! | move of the last pass | 1 mm; of a body 0.1 mm |
+//! | tension of a segment | 2 N or 2 % of the weight of all gear, if that is less; or 2 % of the greatest tension |
+//! | push and friction on a contact point | 0.1 N, or 2 % of the greatest |
+//! | move of the last solution | 1 mm; of a body 0.1 mm |
 //!
+//! The share of the greatest push and friction is `contact_tolerance`, here the usual one; the other figures are in proportion to it.
 //! A step that has not converged after [`MOST_PASSES`] is made shorter (`step/substeps.rs`). No path is looked at here: whether the step leads
 //! through skin is judged by where it ends (`contact/near/substep.rs`).
 
@@ -20,7 +23,7 @@ use super::contact_newton::{ContactEnd, TENSION_GAP_N, TENSION_GAP_SHARE};
 use super::scheme::Scheme;
 use crate::contact::barrier::CRUSHED_SHARE;
 use crate::contact::workspace::ContactWorkspace;
-use crate::model::Model;
+use crate::model::{CONTACT_TOLERANCE, Model};
 use crate::state::State;
 
 /// Most passes.
@@ -31,13 +34,11 @@ const MOST_ROPE_SOLUTIONS: usize = 4;
 const MOST_ACTIVE_SETS: usize = 6;
 /// Passes that go half of the way, where whole ones go to and fro.
 const HALF_PASSES: [usize; 2] = [3, 5];
-/// Push and friction that a contact point may miss by [N].
+/// Push and friction that a contact point may miss by, where `contact_tolerance` is the usual one [N].
 const CONTACT_N: f64 = 0.1;
-/// Push and friction that a contact point may miss by, as a share of the greatest.
-const CONTACT_SHARE: f64 = 0.05;
-/// Move of the last pass [m].
+/// Move of the last solution, where `contact_tolerance` is the usual one [m].
 const MOVE_M: f64 = 1e-3;
-/// Move of a body in the last pass [m].
+/// Move of a body in the last solution, likewise [m].
 const BODY_MOVE_M: f64 = 1e-4;
 
 /// A short step that has converged.
@@ -94,7 +95,7 @@ impl Solver {
             }
             work.near.follow(&state.rope.position, &self.trial.place);
             self.measure_contacts(model, state, scheme, work)?;
-            let missed = self.missed(&done, work);
+            let missed = self.missed(&done, model, work);
             if share < 1.0 || missed > 1.0 || missed.is_nan() {
                 continue;
             }
@@ -151,7 +152,7 @@ impl Solver {
         }
         self.solve_taut(model);
         self.advance(model, share);
-        let tension_missed = self.tension_missed(model, scheme);
+        let tension_missed = self.tension_missed(model, scheme) / leniency(model);
         PassDone { longest_m: self.longest(), tension_missed }
     }
 
@@ -174,7 +175,7 @@ impl Solver {
         let least_n = TENSION_GAP_N.min(self.tolerance().gap_n);
         for solved in 0..=MOST_ACTIVE_SETS {
             let passed = self.pass_free(model, state, scheme, share);
-            let allowed_n = least_n.max(TENSION_GAP_SHARE * passed.greatest_n);
+            let allowed_n = leniency(model) * least_n.max(TENSION_GAP_SHARE * passed.greatest_n);
             if passed.flipped_n <= allowed_n || !passed.finite || solved == MOST_ACTIVE_SETS {
                 self.lanes.give_places(&mut self.trial.place);
                 let longest_m = if passed.finite { passed.longest_m } else { f64::NAN };
@@ -232,7 +233,8 @@ impl Solver {
     }
 
     /// What the linear solution missed by where the trial now stands, as a share of what is allowed.
-    fn missed(&self, done: &PassDone, work: &mut ContactWorkspace) -> f64 {
+    fn missed(&self, done: &PassDone, model: &Model, work: &mut ContactWorkspace) -> f64 {
+        let leniency = leniency(model);
         let ContactWorkspace { points, touching, .. } = work;
         let mut greatest = 0.0_f64;
         for (place, index) in touching.point.iter().enumerate() {
@@ -242,11 +244,18 @@ impl Solver {
         }
         let contact =
             points.list.iter().map(|point| point.missed.length_squared()).fold(0.0, f64::max);
-        let contact = contact.sqrt() / CONTACT_N.max(CONTACT_SHARE * greatest.sqrt());
+        let contact = contact.sqrt()
+            / (leniency * CONTACT_N).max(model.spec.settings.contact_tolerance * greatest.sqrt());
         let body = self.plan.body_block.iter().map(|block| self.interface.step[*block].length());
-        let body = body.fold(0.0, f64::max) / BODY_MOVE_M;
+        let body = body.fold(0.0, f64::max) / (leniency * BODY_MOVE_M);
         let solids =
             if self.solid.pairs.is_empty() || self.pushes_are_settled() { 0.0 } else { 2.0 };
-        contact.max(done.tension_missed).max(done.longest_m / MOVE_M).max(body).max(solids)
+        let moved = done.longest_m / (leniency * MOVE_M);
+        contact.max(done.tension_missed).max(moved).max(body).max(solids)
     }
+}
+
+/// What a step may miss by, as a multiple of what is usual.
+fn leniency(model: &Model) -> f64 {
+    model.spec.settings.contact_tolerance / CONTACT_TOLERANCE
 }
