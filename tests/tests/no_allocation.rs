@@ -4,6 +4,9 @@
 
 mod linked;
 
+use std::sync::LazyLock;
+use std::time::Instant;
+
 use allocation_counter::measure;
 use endline_sim::model::Resolution;
 use endline_sim::{DVec3, Input, Model, State, Workspace, settle, step};
@@ -24,6 +27,12 @@ fn encounter(place: DVec3) -> Model {
     built(spec)
 }
 
+/// A clock for the costs, as the session lends it.
+fn clock_ns() -> u64 {
+    static BEGAN: LazyLock<Instant> = LazyLock::new(Instant::now);
+    BEGAN.elapsed().as_nanos() as u64
+}
+
 /// A run under way.
 struct Run {
     model: Model,
@@ -33,7 +42,9 @@ struct Run {
 
 impl Run {
     fn new(model: Model) -> Self {
-        Self { state: settle(&model).state, workspace: Workspace::new(&model), model }
+        let mut workspace = Workspace::new(&model);
+        workspace.lend_clock(clock_ns);
+        Self { state: settle(&model).state, workspace, model }
     }
 
     fn steps(&mut self, count: u64) {

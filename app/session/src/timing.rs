@@ -1,6 +1,15 @@
 //! How long a run takes: settling, the approach, and the time with rope near the whale apart.
 
-use std::time::Duration;
+use std::sync::LazyLock;
+use std::time::{Duration, Instant};
+
+use endline_sim::{Cost, CostPart};
+
+/// Time since it was first asked for: the clock that steps tell their costs by [ns].
+pub(crate) fn clock_ns() -> u64 {
+    static BEGAN: LazyLock<Instant> = LazyLock::new(Instant::now);
+    BEGAN.elapsed().as_nanos() as u64
+}
 
 /// Real time spent and simulated time gained.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -20,6 +29,8 @@ pub struct Timing {
     pub approach: Phase,
     /// That step and all after it.
     pub contact: Phase,
+    /// What the time of the steps, and of what is measured after them, went to.
+    pub cost: Cost,
     near: bool,
 }
 
@@ -44,6 +55,12 @@ impl Timing {
         let phase = if self.near { &mut self.contact } else { &mut self.approach };
         phase.simulated_s += simulated_s;
         phase.wall_s += wall.as_secs_f64();
+    }
+
+    /// Adds what a step went to, and the time taken after it to measure it.
+    pub fn add_cost(&mut self, step: &Cost, measured_in: Duration) {
+        self.cost.add(step);
+        self.cost.add_ns(CostPart::Metrics, measured_in.as_nanos() as u64);
     }
 
     /// Both phases together, without the statics.

@@ -1,13 +1,14 @@
 //! The physics of Endline: rope, bodies, water, whale, contact.
 //!
 //! A [`Model`] never changes once made; a [`State`] walks through time under it by [`step`].
-//! Nothing here reads a file, a clock or a thread, logs, or keeps a global.
+//! Nothing here reads a file or a thread, logs, or keeps a global; a clock is read only where the caller lends one to tell costs.
 //! SI units, f64, radians; z up, z = 0 the mean sea surface, x east, y north.
 
 #![warn(clippy::print_stdout, clippy::print_stderr)] // results leave as values
 
 mod assembly;
 pub mod contact;
+pub mod cost;
 pub mod float;
 pub mod frame;
 mod gear_hook;
@@ -29,6 +30,7 @@ pub mod water;
 pub mod whale;
 
 pub use contact::ContactPoint;
+pub use cost::{Cost, CostPart};
 pub use frame::Frame;
 pub use glam::{DAffine3, DMat3, DQuat, DVec3, EulerRot};
 pub use model::{Model, ModelSpec};

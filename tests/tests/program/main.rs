@@ -3,6 +3,7 @@
 mod cases;
 mod cli;
 mod common;
+mod cost;
 mod crossing;
 mod determinism;
 mod replay;

@@ -8,8 +8,8 @@ use std::fmt::Write;
 use std::fs;
 
 use endline_session::figures::{
-    ATTEMPT, AUDIT, BEAT, BODY, EVENT, Figure, KINETIC, LINE, LINK, MOMENT, PART, PATCH, PHASE,
-    PLUGIN, PROBE, RUN, SETTLED, View, WHALE,
+    ATTEMPT, AUDIT, BEAT, BODY, COST, EVENT, Figure, KINETIC, LINE, LINK, MOMENT, PART, PATCH,
+    PHASE, PLUGIN, PROBE, RUN, SETTLED, View, WHALE,
 };
 use endline_tests::root;
 
@@ -69,6 +69,7 @@ fn page() -> String {
     section(&mut page, "`audit`: the solver", AUDIT);
     section(&mut page, "`approach` and `contact`: phases of the run", PHASE);
     section(&mut page, "`settled`: the statics before the run", SETTLED);
+    section(&mut page, "`cost`: what the computing time went to", COST);
     section(&mut page, "`lines`: each line", LINE);
     section(&mut page, "`links`: each weak link", LINK);
     section(&mut page, "`bodies`: each trap, buoy, anchor and weight", BODY);

@@ -10,6 +10,7 @@
 //! | [`ATTEMPT`] | [`Attempt`] | run that a study asked for |
 //! | [`RUN`], [`AUDIT`], [`SETTLED`] | [`Report`](crate::Report) | run |
 //! | [`PHASE`] | [`Phase`](crate::timing::Phase) | phase of a run |
+//! | [`COST`] | [`Cost`](endline_sim::Cost) | run |
 //! | [`EVENT`] | [`Event`](endline_sim::metrics::Event) | event |
 //! | [`PLUGIN`] | [`PluginUsed`](crate::plugins::PluginUsed) | plugin of the model |
 //! | [`LINE`] | [`Line`] | line |
@@ -24,6 +25,7 @@
 mod attempt;
 mod audit;
 pub mod compare;
+mod cost;
 mod events;
 mod figure;
 mod gear;
@@ -41,6 +43,7 @@ mod whale;
 
 pub use attempt::{ATTEMPT, Attempt};
 pub use audit::AUDIT;
+pub use cost::{COST, shares};
 pub use events::EVENT;
 pub use figure::{Column, Figure, View, list, object, shown};
 pub use gear::{BODY, LINE, LINK, Line, PROBE, lines};

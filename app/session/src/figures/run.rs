@@ -2,8 +2,8 @@
 
 use super::View::Table;
 use super::{
-    AUDIT, BODY, EVENT, Figure, LINE, LINK, PHASE, PLUGIN, PROBE, Quantity, SETTLED, WHALE, lines,
-    list, object,
+    AUDIT, BODY, COST, EVENT, Figure, LINE, LINK, PHASE, PLUGIN, PROBE, Quantity, SETTLED, WHALE,
+    lines, list, object,
 };
 use crate::report::{Report, SCHEMA};
 
@@ -159,6 +159,13 @@ pub static RUN: &[Figure<Report>] = &[
         "The statics before the run.",
         Quantity::Group,
         |run: &Report| object(SETTLED, run),
+    ),
+    Figure::new(
+        "cost",
+        "cost",
+        "What the computing time went to.",
+        Quantity::Group,
+        |run: &Report| object(COST, &run.timing.cost),
     ),
     Figure::new(
         "events",

@@ -21,7 +21,7 @@ use std::thread::JoinHandle;
 
 use endline_sdk::Controls;
 use endline_sim::metrics::{Event, Summary};
-use endline_sim::{Audit, Frame, Model};
+use endline_sim::{Audit, Cost, Frame, Model};
 
 pub use command::RunCommand;
 pub use engine::{Engine, Launch};
@@ -87,6 +87,8 @@ pub struct LiveView {
     pub speed: f64,
     /// Simulated seconds the solver makes in a real one when it does not wait.
     pub times_real_time: f64,
+    /// What the computing time of the run so far went to.
+    pub cost: Cost,
     /// Whether a pilot steers and not the scenario's program.
     pub piloted: bool,
     /// The controls of the last step.

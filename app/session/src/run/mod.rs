@@ -17,7 +17,7 @@ use crate::error::Error;
 use crate::hash::StateHash;
 use crate::recording::{Header, Recording};
 use crate::source::Prepared;
-use crate::timing::Timing;
+use crate::timing::{Timing, clock_ns};
 
 pub use moment::Moment;
 
@@ -96,6 +96,7 @@ impl Run {
             prepared,
             options,
         };
+        run.workspace.lend_clock(clock_ns);
         run.metrics.fold(&run.prepared.model, &run.state, &[]);
         run.keep_frame();
         run
@@ -121,12 +122,15 @@ impl Run {
         let stepped = step(&self.prepared.model, &input, &mut self.state, &mut self.workspace);
         self.timing.add(start.elapsed(), self.step_s(), self.workspace.audit.contact_steps > near);
         if let Err(stop) = stepped {
+            self.timing.add_cost(self.workspace.cost(), Duration::ZERO);
             self.stopped = Some(stop.clone());
             return Err(stop);
         }
+        let stepped_at = Instant::now();
         self.hashes.push(StateHash::of(&input, &self.state));
         self.metrics.fold_step(&self.prepared.model, &self.state, &self.workspace);
         self.keep_frame();
+        self.timing.add_cost(self.workspace.cost(), stepped_at.elapsed());
         Ok(())
     }
 

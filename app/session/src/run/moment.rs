@@ -6,6 +6,7 @@ use endline_sim::metrics::Metrics;
 use endline_sim::{Audit, State, Workspace};
 
 use crate::source::Prepared;
+use crate::timing::clock_ns;
 
 use super::Run;
 
@@ -42,6 +43,7 @@ impl Run {
         // A workspace is scratch: a new one changes no bit.
         let mut workspace = Workspace::new(&prepared.model);
         workspace.audit = moment.audit;
+        workspace.lend_clock(clock_ns);
         Self {
             workspace,
             metrics: moment.metrics.clone(),

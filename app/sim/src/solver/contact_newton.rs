@@ -10,6 +10,7 @@ use super::scheme::Scheme;
 use crate::contact::barrier::CRUSHED_SHARE;
 use crate::contact::skin_friction::Failed;
 use crate::contact::workspace::ContactWorkspace;
+use crate::cost::CostPart;
 use crate::model::Model;
 use crate::state::State;
 
@@ -78,13 +79,16 @@ impl Solver {
                 return ContactEnd::NotFinite;
             }
             let moved = |node: usize| self.trial.place[node] + self.tridiagonal.step[node];
+            self.cost.enter(CostPart::Detection);
             let safe = work.near.safe_share(&self.trial.place, moved, work.near.fraction);
             let safe = safe.min(self.ropes.safe_share(&self.trial.place, moved));
+            self.cost.enter(CostPart::Contact);
             let share = if longest * safe > UNSEARCHED_M {
                 self.line_search(model, state, scheme, work, safe)
             } else {
                 safe
             };
+            self.cost.enter(CostPart::Detection);
             let (taken, crossed) = self.move_by(model, work, share);
             crossings += crossed;
             if work.strayed(&self.trial.place) {
@@ -100,6 +104,7 @@ impl Solver {
             if (taken < 1.0 || last_m <= enough(passes)) && self.open_more(state, work) {
                 last_m = f64::INFINITY;
             }
+            self.cost.enter(CostPart::Contact);
         }
         ContactEnd::Ended { last_m, passes, crossings }
     }
@@ -150,7 +155,9 @@ impl Solver {
         work: &mut ContactWorkspace,
     ) -> Result<(), ContactEnd> {
         self.assemble_searchable(model, state, scheme);
+        self.cost.enter(CostPart::Detection);
         work.points.measure(&work.near, &self.trial.place);
+        self.cost.enter(CostPart::Contact);
         if let Some((segment, triangle)) = work.nearer_than(CRUSHED_SHARE) {
             return Err(ContactEnd::Crushed(segment, triangle));
         }

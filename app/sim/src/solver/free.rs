@@ -8,6 +8,7 @@ use super::forces::Shared;
 use super::interface::Attachment;
 use super::plan::Plan;
 use super::scheme::Scheme;
+use crate::cost::CostPart;
 use crate::model::Model;
 use crate::state::State;
 
@@ -64,7 +65,9 @@ impl Solver {
         self.lengths.take(model, &state.rope.segment_length);
         self.trial.begin_free(model, &self.plan, state, scheme);
         change(self);
+        let outer = self.cost.enter(CostPart::Water);
         self.measure_flow(model);
+        self.cost.enter(outer);
         self.lanes.take_lengths(model, &self.lengths, &state.rope.cut);
         self.lanes.gather(&state.rope, scheme, &self.trial.place, &self.flow);
         self.near_seabed = self.nears_seabed(model, state, scheme.dt);

@@ -42,6 +42,7 @@ mod woodbury;
 use glam::{DMat3, DVec3};
 
 use crate::contact::ropes::near::RopeWorkspace;
+use crate::cost::{CostClock, CostPart};
 use crate::model::Model;
 use crate::solids::workspace::SolidWorkspace;
 use crate::state::State;
@@ -108,6 +109,8 @@ pub(crate) struct Solver {
     bodies_before: Vec<BodyTrial>,
     /// Attachment and arm of each joint, for a solve again.
     attachments: Vec<(Attachment, DVec3)>,
+    /// What the time of the step goes to.
+    pub(crate) cost: CostClock,
 }
 
 /// Forces and blocks that the search along a step holds linear.
@@ -174,6 +177,7 @@ impl Solver {
             before: Vec::new(),
             bodies_before: Vec::new(),
             attachments: Vec::new(),
+            cost: CostClock::default(),
         }
     }
 
@@ -191,8 +195,10 @@ impl Solver {
         self.lengths.take(model, &state.rope.segment_length);
         self.trial.begin(model, &self.plan, state, scheme);
         self.cut.clone_from(&state.rope.cut);
+        let outer = self.cost.enter(CostPart::Water);
         self.measure_flow(model);
         self.measure_push(model, state, scheme);
+        self.cost.enter(outer);
     }
 
     /// Moves the trial by a share of the solved step.

@@ -23,6 +23,7 @@ use super::contact_newton::{ContactEnd, TENSION_GAP_N, TENSION_GAP_SHARE};
 use super::scheme::Scheme;
 use crate::contact::barrier::CRUSHED_SHARE;
 use crate::contact::workspace::ContactWorkspace;
+use crate::cost::CostPart;
 use crate::model::{CONTACT_TOLERANCE, Model};
 use crate::state::State;
 
@@ -84,6 +85,7 @@ impl Solver {
         scheme: &Scheme,
         work: &mut ContactWorkspace,
     ) -> Result<Converged, ContactEnd> {
+        self.cost.enter(CostPart::Detection);
         work.open_active_points(model, &self.lengths.segment, &self.trial.place);
         let mut opened = false;
         self.measure_contacts(model, state, scheme, work)?;
@@ -93,12 +95,14 @@ impl Solver {
             if !done.longest_m.is_finite() {
                 return Err(ContactEnd::NotFinite);
             }
+            self.cost.enter(CostPart::Detection);
             work.near.follow(&state.rope.position, &self.trial.place);
             self.measure_contacts(model, state, scheme, work)?;
             let missed = self.missed(&done, model, work);
             if share < 1.0 || missed > 1.0 || missed.is_nan() {
                 continue;
             }
+            self.cost.enter(CostPart::Detection);
             if !opened && work.points.open_more(&work.near, &self.trial.place) > 0 {
                 opened = true;
                 self.measure_contacts(model, state, scheme, work)?;
@@ -192,13 +196,15 @@ impl Solver {
 
     /// Measures every contact point where the trial stands, and asks for its friction.
     fn measure_contacts(
-        &self,
+        &mut self,
         model: &Model,
         state: &State,
         scheme: &Scheme,
         work: &mut ContactWorkspace,
     ) -> Result<(), ContactEnd> {
+        self.cost.enter(CostPart::Detection);
         work.points.measure(&work.near, &self.trial.place);
+        self.cost.enter(CostPart::Contact);
         if let Some((segment, triangle)) = work.nearer_than(CRUSHED_SHARE) {
             return Err(ContactEnd::Crushed(segment, triangle));
         }

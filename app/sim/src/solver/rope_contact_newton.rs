@@ -8,6 +8,7 @@ use glam::DVec3;
 use super::Solver;
 use super::contact_newton::{LEAST_CUT, MOST_CUTS, MOST_PASSES, UNSEARCHED_M, enough, left_to_go};
 use super::scheme::Scheme;
+use crate::cost::CostPart;
 use crate::model::Model;
 use crate::state::State;
 
@@ -45,14 +46,17 @@ impl Solver {
             if !longest.is_finite() {
                 return RopeContactEnd::NotFinite;
             }
+            self.cost.enter(CostPart::Detection);
             let safe = self.ropes.safe_share(&self.trial.place, |node| {
                 self.trial.place[node] + self.tridiagonal.step[node]
             });
+            self.cost.enter(CostPart::Contact);
             let share = if longest * safe > UNSEARCHED_M {
                 self.line_search_free(model, state, scheme, safe)
             } else {
                 safe
             };
+            self.cost.enter(CostPart::Detection);
             let taken = self.move_in_rope_contact(model, share);
             // What a short share leaves is still to go.
             let moved_before_m = last_m;
@@ -62,6 +66,7 @@ impl Solver {
             {
                 last_m = f64::INFINITY;
             }
+            self.cost.enter(CostPart::Contact);
         }
         RopeContactEnd::Ended { last_m, passes }
     }

@@ -10,6 +10,7 @@ use super::convergence::CONTACT_CONVERGED_M;
 use super::rejection::Rejection;
 use crate::contact::barrier::PINCHED_SHARE;
 use crate::contact::workspace::ContactWorkspace;
+use crate::cost::CostPart;
 use crate::solver::{CONTACT_WANTED_M, ContactEnd, Solver};
 use crate::state::State;
 
@@ -45,15 +46,17 @@ pub(super) fn short_contact_step(
 /// Ends a step on the straight path from where it began, where that is free.
 pub(super) fn end_path(
     state: &State,
-    solver: &Solver,
+    solver: &mut Solver,
     work: &mut ContactWorkspace,
     audit: &mut Audit,
 ) -> Result<(), Rejection> {
+    let outer = solver.cost.enter(CostPart::Detection);
     if work.strayed(solver.places()) {
         return Err(Rejection::Strayed);
     }
     let crossings = work.near.end(&state.rope.position, solver.places());
     audit.tunnelled += crossings.ok_or(Rejection::NotConverged)?;
+    solver.cost.enter(outer);
     Ok(())
 }
 
@@ -71,6 +74,7 @@ pub(super) fn contact_step(
     solver.ropes.begin();
     let mut pinched = PINCHED_SHARE;
     for stage in 0..MOST_STAGES {
+        solver.cost.enter(CostPart::Detection);
         work.near.measure(solver.places());
         if let Some(segment) = work.near.crossed() {
             return Err(Rejection::Crossed(segment));
@@ -80,6 +84,7 @@ pub(super) fn contact_step(
             pinched = pinched.min(STILL_PINCHED * work.near.least_share());
         }
         audit.tunnelled += solver.carry(model, work);
+        solver.cost.enter(CostPart::Contact);
         solver.open_ropes(state);
         accept(solver.solve_contact(model, state, scheme, work), audit)?;
         if let Some((segment, triangle)) = work.nearer_than(pinched) {

@@ -14,6 +14,7 @@ pub mod stop;
 mod substeps;
 pub mod workspace;
 
+use crate::cost::CostPart;
 use crate::gear_hook;
 use crate::model::Model;
 use crate::state::{State, WhaleState};
@@ -35,6 +36,7 @@ pub fn step(
     state: &mut State,
     workspace: &mut Workspace,
 ) -> Result<(), Stop> {
+    workspace.solver.cost.begin();
     match &mut workspace.before {
         Some(before) => before.clone_from(state),
         none => *none = Some(state.clone()),
@@ -43,6 +45,7 @@ pub fn step(
     if let (Err(_), Some(before)) = (&done, &workspace.before) {
         state.clone_from(before);
     }
+    workspace.solver.cost.end();
     done
 }
 
@@ -53,11 +56,14 @@ fn try_step(
     workspace: &mut Workspace,
 ) -> Result<(), Stop> {
     let mut whale = workspace.whale.take();
+    workspace.solver.cost.enter(CostPart::Whale);
     let moved = move_whale(model, input, state, &mut whale);
+    workspace.solver.cost.enter(CostPart::Other);
     let done = moved.and_then(|held| {
         workspace.audit.postures_held += u64::from(held);
         substeps::advance(model, state, workspace, whale.as_deref())
     });
+    workspace.solver.cost.enter(CostPart::Other);
     if let (Some(now), Some([_, after])) = (&mut state.whale, whale.as_deref_mut()) {
         if let Some(whale) = &model.spec.whale {
             [after.contact_force_n, after.contact_port_m] = workspace.sums.by_part();
@@ -72,6 +78,7 @@ fn try_step(
     state.time_s = model.spec.settings.step_s * (state.step + 1) as f64;
     state.step += 1;
     gear_hook::act(model, state, &mut workspace.gear)?;
+    workspace.solver.cost.enter(CostPart::Whale);
     pilot::look(model, state);
     Ok(())
 }

@@ -7,6 +7,7 @@ use super::audit::Audit;
 use super::context::StepContext;
 use super::convergence::CONTACT_CONVERGED_M;
 use super::rejection::Rejection;
+use crate::cost::CostPart;
 use crate::solver::{CONTACT_WANTED_M, RopeContactEnd, Solver};
 
 /// Most times a step is done again with more rope looked at.
@@ -23,10 +24,12 @@ pub(super) fn rope_step(
         if again > 0 {
             solver.begin(model, state, scheme);
         }
+        solver.cost.enter(CostPart::Detection);
         solver.set_out(state);
         solver.ropes.begin();
         solver.drift_in_rope_contact();
         solver.open_ropes(state);
+        solver.cost.enter(CostPart::Contact);
         balance(context, solver, audit)?;
         let on_solids = solver.strayed_to_solids(state, scheme.dt);
         if !solver.met_more_ropes(model, state) && !on_solids {

@@ -10,6 +10,7 @@ use super::solid::solid_step;
 use super::workspace::Workspace;
 use crate::contact::ContactPoint;
 use crate::contact::workspace::ContactWorkspace;
+use crate::cost::CostPart;
 use crate::model::Model;
 use crate::parting;
 use crate::solver::{Scheme, Solver};
@@ -32,6 +33,7 @@ pub(super) fn solver_step(
 ) -> Result<StepKind, Rejection> {
     let Workspace { solver, contact, audit, contacts, rope_touches, peak_tension_n, .. } =
         workspace;
+    solver.cost.enter(CostPart::Detection);
     let mut near = contact.as_mut().filter(|work| !work.near.pairs.is_empty());
     let may_touch =
         near.as_mut().is_some_and(|work| look(state, work, solver.trial.hitches.span[1], dt));
@@ -53,14 +55,19 @@ pub(super) fn solver_step(
     let free = untouched && solver.suits_lanes(model);
     let context = StepContext { model, state, scheme: &scheme };
     let mut missed = 0.0;
+    let solve = if untouched { CostPart::FreeRope } else { CostPart::Contact };
+    solver.cost.enter(solve);
     if free && free_step(&context, solver, audit)? == FreeOutcome::Clear {
         if let Some(work) = near.as_deref_mut() {
             solver.take_places();
             end_path(state, solver, work, audit)?;
         }
     } else {
+        // Rope that met something on its way is solved again with that.
+        solver.cost.enter(if free { CostPart::Contact } else { solve });
         missed = solve_by_lines(&context, solver, (near.as_deref_mut(), may_touch), audit)?;
     }
+    solver.cost.enter(solve);
     if !is_shortest && parting::too_late(model, state, solver.tension()) {
         return Err(Rejection::PartsTooLate);
     }

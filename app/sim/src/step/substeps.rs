@@ -12,6 +12,7 @@ use super::stop::Stop;
 use super::workspace::Workspace;
 use crate::contact::step_sums::StepSums;
 use crate::contact::workspace::ContactWorkspace;
+use crate::cost::CostPart;
 use crate::model::{Model, Settings};
 use crate::remesh::remesh;
 use crate::state::{LimitedBy, State, StepControl, WhaleState};
@@ -80,9 +81,11 @@ fn near_whale(
     whale: Option<&[WhaleState; 2]>,
 ) -> bool {
     let (Some(work), Some([from, to])) = (&mut workspace.contact, whale) else { return false };
+    workspace.solver.cost.enter(CostPart::Whale);
     pose_between(model, from, to, 0.0, &mut work.bones[0]);
     pose_between(model, from, to, 1.0, &mut work.bones[1]);
     workspace.solver.trial.hitches.move_to(model, [&work.bones[0], &work.bones[1]]);
+    workspace.solver.cost.enter(CostPart::Detection);
     let step_s = model.spec.settings.step_s;
     let [start, end] = &work.bones;
     let near = work.near.any(
@@ -95,6 +98,7 @@ fn near_whale(
     if near {
         work.near.gather_swept(model, (&state.rope.cut, 0.0));
     }
+    workspace.solver.cost.enter(CostPart::Other);
     near
 }
 
@@ -190,6 +194,7 @@ fn solver_steps(
                 if why == Rejection::Strayed
                     && let Some(work) = &mut workspace.contact
                 {
+                    workspace.solver.cost.enter(CostPart::Detection);
                     gather(model, state, work, share(state.time_s));
                 }
                 if near && why != Rejection::PartsTooLate && dt > LEAST_CHOSEN_S {
@@ -207,6 +212,7 @@ fn solver_steps(
 
 /// Whether rope that goes on with its velocities touches no skin for the rest of the model's step.
 fn stays_clear(state: &State, workspace: &mut Workspace, left_s: f64) -> bool {
+    workspace.solver.cost.enter(CostPart::Detection);
     workspace
         .contact
         .as_mut()

@@ -5,6 +5,7 @@ use crate::contact::ContactPoint;
 use crate::contact::ropes::RopeTouch;
 use crate::contact::step_sums::StepSums;
 use crate::contact::workspace::ContactWorkspace;
+use crate::cost::{Clock, Cost};
 use crate::gear_hook::GearWorkspace;
 use crate::model::Model;
 use crate::remesh::RemeshWorkspace;
@@ -54,5 +55,16 @@ impl Workspace {
             whale: None,
             pulled: RopeImpulse::default(),
         }
+    }
+
+    /// Lends a clock by which steps tell what their time goes to; none of their numbers depends on it.
+    pub fn lend_clock(&mut self, clock: Clock) {
+        self.solver.cost.clock = Some(clock);
+    }
+
+    /// What the computing time of the last step went to; nothing without a clock.
+    #[must_use]
+    pub fn cost(&self) -> &Cost {
+        &self.solver.cost.cost
     }
 }

@@ -6,8 +6,8 @@ use std::fmt::Write;
 
 use endline_session::Report;
 use endline_session::figures::{
-    AUDIT, BEAT, BODY, EVENT, Figure, KINETIC, LINE, LINK, PART, PATCH, PHASE, PROBE, Quantity,
-    RUN, Value, View, WHALE, lines, parts, shown,
+    AUDIT, BEAT, BODY, COST, EVENT, Figure, KINETIC, LINE, LINK, PART, PATCH, PHASE, PROBE,
+    Quantity, RUN, Value, View, WHALE, lines, parts, shown,
 };
 use endline_session::settled::SettledShape;
 use endline_session::units::{N_PER_LBF, Units};
@@ -64,7 +64,7 @@ fn head(report: &Report) -> String {
     table.extend(phases.map(|(name, phase)| {
         [name.to_owned()].into_iter().chain(cells(PHASE, phase)).collect::<Vec<_>>()
     }));
-    columns(&rows) + &columns(&table)
+    columns(&rows) + &columns(&table) + &grid(COST, &[report.timing.cost])
 }
 
 /// How the run ended, and whether its numbers can be trusted.
@@ -199,6 +199,7 @@ mod tests {
         for phase in [&report.timing.approach, &report.timing.contact] {
             count += stands(&text, PHASE, phase);
         }
+        count += stands(&text, COST, &report.timing.cost);
         for line in lines(measured, &report.settled_tension_n) {
             count += stands(&text, LINE, &line);
         }

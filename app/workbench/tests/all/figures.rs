@@ -8,7 +8,9 @@ use std::sync::Arc;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use endline_session::figures::compare::groups;
-use endline_session::figures::{Figure, LINE, LINK, PART, View, WHALE, lines, parts, shown};
+use endline_session::figures::{
+    Figure, LINE, LINK, PART, View, WHALE, lines, parts, shares, shown,
+};
 use endline_session::live::{LiveView, Status};
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::panel_id::PanelId;
@@ -65,6 +67,17 @@ fn summary_and_entanglement_have_every_figure_that_is_declared_for_them() {
     let mut count = stands(&harness, WHALE, whale, View::Entanglement);
     parts.iter().for_each(|part| count += stands(&harness, PART, part, View::Entanglement));
     assert!(count > 50, "{count} figures");
+}
+
+#[test]
+fn the_run_panel_tells_what_the_computing_time_goes_to() {
+    let folder = Folder::new("figures-cost");
+    let mut harness = flown(&folder);
+    only(&mut harness, PanelId::RUN);
+    let shown = view(&harness);
+    let (greatest, share) = shares(&shown.cost)[0];
+    let told = format!("Time goes to {} {:.0} %", greatest.label, 100.0 * share);
+    harness.get_by_label_contains(&told);
 }
 
 #[test]

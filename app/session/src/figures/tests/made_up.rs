@@ -11,7 +11,7 @@ use endline_sim::metrics::{
     BeatSummary, BodySummary, Event, EventKind, KineticSummary, LineSummary, LinkSummary, Outcome,
     PatchSummary, ProbeSummary, RegionSummary, Summary, WhaleSummary,
 };
-use endline_sim::{Audit, DVec3};
+use endline_sim::{Audit, CostPart, DVec3};
 
 /// Numbers that never come twice.
 struct Numbers(u64);
@@ -68,6 +68,9 @@ fn timing(next: &mut Numbers) -> Timing {
     let mut timing = Timing::settled_in(Duration::from_secs_f64(next.real()));
     for phase in [&mut timing.approach, &mut timing.contact] {
         (phase.simulated_s, phase.wall_s) = (next.real(), next.real());
+    }
+    for part in CostPart::ALL {
+        timing.cost.add_ns(part, next.whole() * 1_000_000_000);
     }
     timing
 }

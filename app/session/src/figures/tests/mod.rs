@@ -7,6 +7,7 @@ pub mod made_up;
 
 use std::fmt::Debug;
 
+use endline_sim::CostPart;
 use endline_sim::metrics::Summary;
 
 use super::*;
@@ -162,6 +163,11 @@ fn the_summary_nests_the_lists() {
     assert_eq!(json["whale"]["kinetic"]["power_W"], whale.kinetic.unwrap().power_w);
     assert_eq!(json["approach"]["wall_s"], report.timing.approach.wall_s);
     assert_eq!(json["contact"]["simulated_s"], report.timing.contact.simulated_s);
+    let cost = &report.timing.cost;
+    assert_eq!(json["cost"]["whole_s"], cost.whole_s());
+    for (figure, part) in COST[1..].iter().zip(CostPart::ALL) {
+        assert_eq!(json["cost"][figure.key], cost.of_s(part), "{}", figure.key);
+    }
     assert_eq!(json["settled"]["residual_N"], report.settled.residual_n);
     assert_eq!(json["events"][1]["kind"], "wrap");
     assert_eq!(json["plugins"][0]["file_hash"], "00ff");
@@ -193,6 +199,7 @@ fn keys_are_unique_and_labels_are_lower_case() {
     look(AUDIT);
     look(SETTLED);
     look(PHASE);
+    look(COST);
     look(EVENT);
     look(PLUGIN);
     look(LINE);

@@ -11,7 +11,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use endline_sdk::Controls;
-use endline_sim::{Audit, Frame, State};
+use endline_sim::{Audit, Cost, Frame, State};
 
 use super::envelope::Envelope;
 use super::frame_history::FrameHistory;
@@ -67,6 +67,7 @@ pub(super) fn first_view(prepared: &Prepared) -> LiveView {
         status: Status::Settling,
         speed: 1.0,
         times_real_time: 0.0,
+        cost: Cost::default(),
         piloted: false,
         controls: Controls::default(),
         message: None,
@@ -350,6 +351,7 @@ impl<'a> Worker<'a> {
             status: self.status.clone(),
             speed: self.pace.speed(),
             times_real_time: run.timing().whole().times_real_time(),
+            cost: run.timing().cost,
             piloted: self.pilot.is_some(),
             controls: self.controls,
             message: self.message.clone(),

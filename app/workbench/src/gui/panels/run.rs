@@ -4,14 +4,20 @@ use crate::gui::command::action::{FlightAction, WindowAction};
 use crate::gui::widgets::command::command;
 use egui::{ProgressBar, RichText, ScrollArea, Ui};
 use endline_session::command::RunAction;
+use endline_session::figures::{Figure, shares};
 use endline_session::live::LiveView;
+use endline_session::units::Units;
 use endline_session::workbench::SPEEDS;
+use endline_sim::Cost;
 
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
 use crate::gui::shared::Shared;
 use crate::gui::theme::{Theme, primary};
 use crate::gui::widgets::{self, words};
+
+/// Share of the computing time from which a part is told without hovering.
+const LEAST_TOLD: f64 = 0.05;
 
 /// Controls of the run, and figures of the solver.
 #[derive(Debug, Default)]
@@ -124,6 +130,7 @@ fn state(ui: &mut Ui, view: &LiveView) {
         egui::Label::new(RichText::new(text).color(if bad { palette.error } else { palette.text }))
             .wrap(),
     );
+    cost(ui, view);
     let audit = &view.audit;
     widgets::numbers(
         ui,
@@ -139,6 +146,24 @@ fn state(ui: &mut Ui, view: &LiveView) {
             ("State hash", view.state_hash.clone()),
         ],
     );
+}
+
+/// What the computing time went to, the greatest share first; what each part is, on hover.
+fn cost(ui: &mut Ui, view: &LiveView) {
+    let shares = shares(&view.cost);
+    if shares.is_empty() {
+        return;
+    }
+    let told = shares.iter().filter(|(_, share)| *share >= LEAST_TOLD);
+    let told = told.map(|(figure, share)| format!("{} {:.0} %", figure.label, 100.0 * share));
+    let text = format!("Time goes to {}", told.collect::<Vec<_>>().join(", "));
+    let part = |(figure, _): &(&Figure<Cost>, f64)| {
+        let spent = figure.quantity.text(&(figure.read)(&view.cost), Units::Si);
+        format!("{}: {spent}. {}", figure.label, figure.help)
+    };
+    let parts = shares.iter().map(part).collect::<Vec<_>>().join("\n");
+    ui.add(egui::Label::new(RichText::new(text).color(Theme::palette_of(ui).faint)).wrap())
+        .on_hover_text(parts);
 }
 
 fn size(view: &LiveView) -> String {
