@@ -77,6 +77,40 @@ fn out_holds_summary_and_recording() {
     assert!(place.path("deep/er/recording.endline").is_file());
 }
 
+/// Forty nodes in all cannot be 5 cm apart along a whale; a run with equal segments wishes for none.
+#[test]
+fn a_resolution_that_cannot_be_kept_is_told_and_counts_agree() {
+    let place = Place::new("resolution");
+    let scenario = place.encounter();
+    let audit = || {
+        let summary = place.endline(&["run", &scenario, "--json"]).done().json();
+        assert_eq!(
+            (&summary["valid"], &summary["invalid_because"]),
+            (&true.into(), &Value::Array(vec![]))
+        );
+        summary["audit"].clone()
+    };
+    let count = |audit: &Value, key: &str| audit[key].as_u64().unwrap();
+    let equal = audit();
+    assert_eq!(count(&equal, "resolution_looks"), 0);
+    let text = fs::read_to_string(&scenario).unwrap();
+    fs::write(&scenario, text.replace("[site]", "[resolution]\n\n[site]")).unwrap();
+    edit(scenario.as_ref(), "rope_nodes", "rope_nodes = 40");
+    let few = audit();
+    assert!(
+        count(&few, "resolution_missed") > 0 && few["resolution_ratio"].as_f64().unwrap() > 4.0
+    );
+    assert!(count(&few, "resolution_missed") <= count(&few, "resolution_looks"));
+    let table = place.endline(&["run", &scenario]).done().stdout;
+    assert!(table.contains("looks at which resolution was missed"), "{table}");
+    for audit in [equal, few] {
+        let [contact, touching, all] =
+            ["contact_steps", "touching_steps", "solver_steps"].map(|key| count(&audit, key));
+        assert!(0 < contact && contact <= touching && touching < all, "{audit}");
+        assert!(count(&audit, "unconverged") <= touching, "{audit}");
+    }
+}
+
 #[test]
 fn people_get_pounds_force_beside_newtons() {
     let place = Place::new("table");

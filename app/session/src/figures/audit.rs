@@ -95,6 +95,13 @@ pub static AUDIT: &[Figure<Report>] = &[
         |run: &Report| run.audit.contact_steps.into(),
     ),
     Figure::new(
+        "touching_steps",
+        "solver steps in touch",
+        "Solver steps with rope on skin, rope, obstacles or bodies.",
+        Quantity::Count,
+        |run: &Report| run.audit.touching_steps.into(),
+    ),
+    Figure::new(
         "halved",
         "solver steps redone",
         "Solver steps that were redone shorter.",
@@ -111,6 +118,35 @@ pub static AUDIT: &[Figure<Report>] = &[
     .shown(&[Table])
     .column(13),
     Figure::new(
+        "unconverged_parted",
+        "partings in steps not converged",
+        "Solver steps accepted above the wanted residual at whose end something parted.",
+        Quantity::Count,
+        |run: &Report| run.audit.unconverged_parted.into(),
+    )
+    .alarming(),
+    Figure::new(
+        "spikes",
+        "tension spikes",
+        "Tensions of a line that last a single solver step: three times those before and after, \
+         and 50 N above both.",
+        Quantity::Count,
+        |run: &Report| run.audit.spikes.into(),
+    )
+    .shown(&[Table])
+    .alarming(),
+    Figure::new(
+        "beyond_rope_share",
+        "normal force beyond what rope can press",
+        "Share of the normal force on the whale, over time, above T (θ + 2) + R for each stretch \
+         of rope in touch: greatest tension T, turn θ in radians, resultant R of its contact \
+         forces.",
+        Quantity::Number,
+        |run: &Report| run.summary.whale.as_ref().map(|whale| whale.beyond_rope_share).into(),
+    )
+    .shown(&[Table])
+    .alarming(),
+    Figure::new(
         "passes",
         "Newton passes",
         "Newton passes in all.",
@@ -123,6 +159,32 @@ pub static AUDIT: &[Figure<Report>] = &[
         "Segments split, each together with a merge, as resolution followed the whale.",
         Quantity::Count,
         |run: &Report| run.audit.splits.into(),
+    ),
+    Figure::new(
+        "resolution_looks",
+        "looks at lengths near the whale",
+        "Times at which segment lengths were looked at with rope near the whale; 0 without \
+         `[resolution]`.",
+        Quantity::Count,
+        |run: &Report| run.audit.resolution_looks.into(),
+    ),
+    Figure::new(
+        "resolution_missed",
+        "looks at which resolution was missed",
+        "Those of them that left a segment near the whale longer than `near` or `edges` by a \
+         quarter or more: nodes ran out, or rope in touch could not be split.",
+        Quantity::Count,
+        |run: &Report| run.audit.resolution_missed.into(),
+    )
+    .shown(&[Table])
+    .alarming(),
+    Figure::new(
+        "resolution_ratio",
+        "longest segment near the whale over wanted",
+        "Greatest ratio of a segment's length near the whale to the length wanted there; 0 without \
+         `[resolution]`.",
+        Quantity::Number,
+        |run: &Report| run.audit.resolution_ratio.into(),
     ),
     Figure::new(
         "postures_held",

@@ -33,7 +33,7 @@ pub static LINE: &[Figure<Line>] = &[
     Figure::new(
         "peak_tension_N",
         "peak tension",
-        "Greatest tension of any of its segments in any solver step.",
+        "Greatest tension of any of its segments in any solver step that converged.",
         Quantity::Force,
         |line: &Line| line.summary.peak_tension_n.into(),
     )
@@ -46,6 +46,13 @@ pub static LINE: &[Figure<Line>] = &[
         |line: &Line| line.summary.peak_at_s.into(),
     )
     .shown(&[Table, InSummary]),
+    Figure::new(
+        "unconverged_peak_N",
+        "peak in steps not converged",
+        "Greatest tension of any of its segments in any solver step that did not converge.",
+        Quantity::Force,
+        |line: &Line| line.summary.unconverged_peak_n.into(),
+    ),
     Figure::new(
         "end_a_tension_N",
         "end A now",
@@ -119,11 +126,18 @@ pub static LINK: &[Figure<LinkSummary>] = &[
     Figure::new(
         "peak_tension_N",
         "peak tension",
-        "Greatest tension of the segment it sits in.",
+        "Greatest tension of the segment it sits in, in any solver step that converged.",
         Quantity::Force,
         |link: &LinkSummary| link.peak_tension_n.into(),
     )
     .shown(&[Table, InSummary]),
+    Figure::new(
+        "unconverged_peak_N",
+        "peak in steps not converged",
+        "The same, in any solver step that did not converge.",
+        Quantity::Force,
+        |link: &LinkSummary| link.unconverged_peak_n.into(),
+    ),
     Figure::new(
         "parted_at_s",
         "parted",

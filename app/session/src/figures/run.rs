@@ -85,7 +85,8 @@ pub static RUN: &[Figure<Report>] = &[
         "valid",
         "valid",
         "Whether the numbers can be trusted: the run reached its end, rope passed through nothing, \
-         every number is finite.",
+         every number is finite, and solver steps not converged, spikes and normal force beyond \
+         what rope can press stay within their bounds.",
         Quantity::Flag,
         |run: &Report| run.is_valid().into(),
     )

@@ -11,6 +11,7 @@ impl Report {
         let model = run.model();
         let settings = &model.spec.settings;
         let (audit, prepared) = (run.audit(), run.prepared());
+        let summary = run.summary();
         let stopped = run.stopped().map(|stop| Error::Stopped(stop.clone()).to_string());
         Self {
             scenario: prepared.source.scenario_name.clone(),
@@ -22,10 +23,10 @@ impl Report {
             nodes: model.node_count,
             triangles: model.spec.whale.as_ref().map_or(0, |whale| whale.skin.triangles.len()),
             state_hash: run.state_hash().hex(),
-            invalid_because: validity::reasons(stopped.as_deref(), &audit),
+            invalid_because: validity::reasons(stopped.as_deref(), &audit, summary.whale.as_ref()),
             stopped,
             audit,
-            summary: run.summary(),
+            summary,
             settled_tension_n: by_line(model, &run.settled().state.rope.tension),
             settled: settled(run),
             events: run.metrics().events().to_vec(),

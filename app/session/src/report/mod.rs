@@ -4,7 +4,7 @@
 //! there are, what they mean and how they are read is declared in [`figures`](crate::figures).
 
 mod from_run;
-mod validity;
+pub mod validity;
 
 use endline_sim::Audit;
 use endline_sim::metrics::{Event, LineSummary, Summary};
@@ -68,7 +68,7 @@ pub struct SettledReport {
 }
 
 impl Report {
-    /// Whether the numbers can be trusted: not stopped, nothing passed through, all finite.
+    /// Whether the numbers can be trusted, within the bounds of [`validity`].
     #[must_use]
     pub fn is_valid(&self) -> bool {
         self.invalid_because.is_empty()

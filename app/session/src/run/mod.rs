@@ -263,10 +263,12 @@ impl Run {
     /// Greatest tension of each line within the last step, or at rest before the first [N].
     #[must_use]
     pub fn peak_tensions_n(&self) -> Vec<f64> {
-        by_line(self.model(), self.segment_peaks_n())
+        let peaks_n = by_line(self.model(), self.segment_peaks_n());
+        let unconverged_n = by_line(self.model(), &self.workspace.unconverged_peak_n);
+        peaks_n.iter().zip(unconverged_n).map(|(peak, other)| peak.max(other)).collect()
     }
 
-    /// The same of each segment, in the model's layout [N].
+    /// Greatest tension of each segment in the solver steps of the last step that converged, in the model's layout [N].
     #[must_use]
     pub fn segment_peaks_n(&self) -> &[f64] {
         if self.state.step == 0 { &self.state.rope.tension } else { &self.workspace.peak_tension_n }

@@ -57,13 +57,12 @@ pub(super) fn surely_same_run(
 /// Whether every tension of another model's run stays below a share of what bears it: of the rope's strength along a line, of
 /// its rating at a link. The other has the same lines and links.
 fn holds(spec: &ModelSpec, summary: &Summary, share: f64) -> bool {
-    let lines = summary
-        .lines
-        .iter()
-        .zip(ropes(spec))
-        .all(|(line, strength_n)| line.peak_tension_n < share * strength_n);
+    let lines = summary.lines.iter().zip(ropes(spec)).all(|(line, strength_n)| {
+        line.peak_tension_n.max(line.unconverged_peak_n) < share * strength_n
+    });
     let at_link = |(link, borne): (&Link, &LinkSummary)| {
-        !link.enabled || borne.peak_tension_n < share * link.rating_n
+        let greatest_n = borne.peak_tension_n.max(borne.unconverged_peak_n);
+        !link.enabled || greatest_n < share * link.rating_n
     };
     lines && spec.links.iter().zip(&summary.links).all(at_link)
 }

@@ -88,15 +88,8 @@ fn fault(came_to: Result<&Report, &str>) -> String {
     match came_to {
         Err(why) => why.to_owned(),
         Ok(report) if report.is_valid() => String::new(),
-        Ok(report) => report.stopped.clone().unwrap_or_else(|| crossings(report)),
+        Ok(report) => report.stopped.clone().unwrap_or_else(|| report.invalid_because.join("; ")),
     }
-}
-
-fn crossings(report: &Report) -> String {
-    format!(
-        "{} crossings of rope and skin, {} numbers not finite",
-        report.audit.tunnelled, report.audit.non_finite
-    )
 }
 
 #[cfg(test)]

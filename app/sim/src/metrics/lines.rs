@@ -1,5 +1,7 @@
 //! Tension of lines and weak links.
 
+use std::ops::Range;
+
 use endline_sdk::LineEnd;
 use glam::DVec3;
 
@@ -21,14 +23,41 @@ pub(super) struct LineMeter {
 struct Peak {
     tension_n: f64,
     at_s: f64,
+    /// Greatest tension in solver steps that did not converge [N].
+    unconverged_n: f64,
     told: bool,
 }
 
+/// Greatest tensions of the segments over the solver steps of a step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Peaks<'a> {
+    /// Over those that converged; zero where none did [N].
+    pub converged_n: &'a [f64],
+    /// Over those that did not; zero or empty where all did [N].
+    pub unconverged_n: &'a [f64],
+}
+
+impl Peaks<'_> {
+    /// Greatest tension of some segments, in solver steps that converged and in those that did not [N].
+    fn of(&self, segments: Range<usize>) -> [f64; 2] {
+        [self.converged_n, self.unconverged_n].map(|peaks| {
+            let own = peaks.get(segments.clone()).unwrap_or_default();
+            own.iter().copied().fold(0.0, f64::max)
+        })
+    }
+}
+
 impl Peak {
-    fn take(&mut self, tension_n: f64, time_s: f64) {
+    fn take(&mut self, [tension_n, unconverged_n]: [f64; 2], time_s: f64) {
         if tension_n > self.tension_n {
             (self.tension_n, self.at_s) = (tension_n, time_s);
         }
+        self.unconverged_n = self.unconverged_n.max(unconverged_n);
+    }
+
+    /// Greatest tension at all [N].
+    fn greatest_n(&self) -> f64 {
+        self.tension_n.max(self.unconverged_n)
     }
 }
 
@@ -40,36 +69,27 @@ impl LineMeter {
         }
     }
 
-    /// Takes in a step; `peak_tension_n` is the greatest tension of each segment during it.
-    pub(super) fn fold(
-        &mut self,
-        model: &Model,
-        state: &State,
-        peak_tension_n: &[f64],
-        log: &mut Log,
-    ) {
+    /// Takes in a step with the greatest tension of each segment during it.
+    pub(super) fn fold(&mut self, model: &Model, state: &State, peaks: &Peaks<'_>, log: &mut Log) {
         for (line, peak) in self.lines.iter_mut().enumerate() {
-            let most = peak_tension_n[model.line_segments[line].clone()]
-                .iter()
-                .fold(0.0_f64, |most, tension| most.max(*tension));
-            peak.take(most, state.time_s);
+            peak.take(peaks.of(model.line_segments[line].clone()), state.time_s);
             if state.line_parted[line].is_some() && !peak.told {
                 peak.told = true;
                 log.note(
                     state.time_s,
                     EventKind::LineParted,
                     &model.spec.lines[line].id,
-                    peak.tension_n,
+                    peak.greatest_n(),
                 );
             }
         }
         for (index, (link, peak)) in model.spec.links.iter().zip(&mut self.links).enumerate() {
             let borne = end_segment(model, link.line, link.end)
-                .map_or(0.0, |(segment, ..)| peak_tension_n[segment]);
+                .map_or([0.0; 2], |(segment, ..)| peaks.of(segment..segment + 1));
             peak.take(borne, state.time_s);
             if state.link_parted_s[index].is_some() && !peak.told {
                 peak.told = true;
-                log.note(state.time_s, EventKind::LinkParted, &link.id, peak.tension_n);
+                log.note(state.time_s, EventKind::LinkParted, &link.id, peak.greatest_n());
             }
         }
     }
@@ -88,6 +108,7 @@ impl LineMeter {
             id: model.spec.lines[index].id.clone(),
             peak_tension_n: peak.tension_n,
             peak_at_s: peak.at_s,
+            unconverged_peak_n: peak.unconverged_n,
             end_a_tension_n: end_tension(model, state, index, LineEnd::A),
             end_b_tension_n: end_tension(model, state, index, LineEnd::B),
             parted_at_s: state.line_parted[index].map(|(time, _)| time),
@@ -100,6 +121,7 @@ impl LineMeter {
             id: model.spec.links[index].id.clone(),
             rating_n: model.spec.links[index].rating_n,
             peak_tension_n: peak.tension_n,
+            unconverged_peak_n: peak.unconverged_n,
             parted_at_s: state.link_parted_s[index],
         };
         self.links.iter().enumerate().map(summary).collect()

@@ -15,6 +15,7 @@ mod gear_loads;
 mod lines;
 mod mouth;
 mod outcome;
+mod press;
 mod probes;
 mod regions;
 mod strands;
@@ -50,6 +51,7 @@ use crate::contact::step_sums::{SkinContact, StepSums};
 use crate::model::Model;
 use crate::state::State;
 use crate::step::Workspace;
+use lines::Peaks;
 
 /// The measures of a run, folded step by step.
 #[derive(Clone, Debug)]
@@ -79,8 +81,9 @@ impl Metrics {
     /// Takes in the step that `workspace` has just taken to `state`: its contacts, and the greatest
     /// tensions of its solver steps, so that a peak between two states or at a parting is not lost.
     pub fn fold_step(&mut self, model: &Model, state: &State, workspace: &Workspace) {
-        let Workspace { contacts, peak_tension_n, sums, .. } = workspace;
-        self.take(model, state, SkinContact { contacts, sums }, peak_tension_n);
+        let Workspace { contacts, peak_tension_n, unconverged_peak_n, sums, .. } = workspace;
+        let peaks = Peaks { converged_n: peak_tension_n, unconverged_n: unconverged_peak_n };
+        self.take(model, state, SkinContact { contacts, sums }, &peaks);
     }
 
     /// Takes in a state and its contacts, where there is no step: tensions are those of the state.
@@ -92,19 +95,14 @@ impl Metrics {
         let sums =
             model.spec.whale.as_ref().map(|whale| StepSums::of(&whale.skin, contacts, step_s));
         let sums = sums.unwrap_or_default();
-        self.take(model, state, SkinContact { contacts, sums: &sums }, &state.rope.tension);
+        let peaks = Peaks { converged_n: &state.rope.tension, unconverged_n: &[] };
+        self.take(model, state, SkinContact { contacts, sums: &sums }, &peaks);
     }
 
-    fn take(
-        &mut self,
-        model: &Model,
-        state: &State,
-        contact: SkinContact<'_>,
-        peak_tension_n: &[f64],
-    ) {
+    fn take(&mut self, model: &Model, state: &State, contact: SkinContact<'_>, peaks: &Peaks<'_>) {
         let dt_s = (state.time_s - self.time_s).max(0.0);
         self.time_s = state.time_s;
-        self.lines.fold(model, state, peak_tension_n, &mut self.log);
+        self.lines.fold(model, state, peaks, &mut self.log);
         self.bodies.fold(model, state, &mut self.log);
         self.probes.fold(model, state, dt_s);
         if let Some(meter) = &mut self.whale {

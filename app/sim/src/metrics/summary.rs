@@ -26,10 +26,12 @@ pub struct Summary {
 pub struct LineSummary {
     /// Id of the line.
     pub id: String,
-    /// Greatest tension of any segment at any time [N].
+    /// Greatest tension of any segment in any solver step that converged [N].
     pub peak_tension_n: f64,
     /// When that was [s].
     pub peak_at_s: f64,
+    /// Greatest tension of any segment in any solver step that did not converge [N].
+    pub unconverged_peak_n: f64,
     /// Tension at end A now [N].
     pub end_a_tension_n: f64,
     /// Tension at end B now [N].
@@ -51,8 +53,10 @@ pub struct LinkSummary {
     pub id: String,
     /// Tension above which it parts [N].
     pub rating_n: f64,
-    /// Greatest tension of the segment it sits in [N].
+    /// Greatest tension of the segment it sits in, in any solver step that converged [N].
     pub peak_tension_n: f64,
+    /// The same, in any solver step that did not converge [N].
+    pub unconverged_peak_n: f64,
     /// When it parted [s].
     pub parted_at_s: Option<f64>,
 }
@@ -126,6 +130,8 @@ pub struct WhaleSummary {
     pub kinetic: Option<KineticSummary>,
     /// Alarm: steps in which a winding jumped by more than 0.3 turns along unbroken contact.
     pub winding_jumps: u64,
+    /// Share of the normal force on it, over time, that is beyond what rope can press.
+    pub beyond_rope_share: f64,
 }
 
 /// The fluke beat as swum, mean over all whole beats.

@@ -11,6 +11,7 @@ use super::flukes::FlukeMeter;
 use super::gear_loads::on_line;
 use super::mouth::Mouth;
 use super::outcome::Encounter;
+use super::press::PressMeter;
 use super::regions::Loads;
 use super::strands::Strands;
 use super::summary::{RegionSummary, WhaleSummary};
@@ -37,6 +38,7 @@ pub(super) struct WhaleMeter {
     /// Normal and friction forces on each line now [N].
     on_lines: Vec<[f64; 2]>,
     loads: Loads,
+    press: PressMeter,
     drag: Window<1>,
     effort: Option<EffortMeter>,
     encounter: Encounter,
@@ -57,6 +59,7 @@ impl WhaleMeter {
             on_lines: vec![[0.0; 2]; model.spec.lines.len()],
             winding: Winding::new(&skin, strands),
             loads: Loads::default(),
+            press: PressMeter::default(),
             drag: Window::new(model),
             effort: EffortMeter::new(model),
             encounter: Encounter::default(),
@@ -79,6 +82,7 @@ impl WhaleMeter {
         let Some(whale) = &state.whale else { return };
         let touching = contacts.iter().any(|contact| contact.normal_force_n > 0.0);
         self.loads.fold(model, state, contacts, sums);
+        self.press.fold(model, state, contacts, dt_s);
         self.winding.fold(&self.skin, contacts, &state.rope);
         self.wraps.fold(model, state, whale, &self.winding.strands, contacts);
         self.mouth.fold(&self.skin, contacts, state.time_s, log);
@@ -125,6 +129,7 @@ impl WhaleMeter {
             beat: self.flukes.summary(),
             kinetic: self.effort.as_ref().map(EffortMeter::summary),
             winding_jumps: self.winding.jumps.max(self.wraps.jumps),
+            beyond_rope_share: self.press.beyond_share(),
         }
     }
 

@@ -57,14 +57,39 @@ impl RemeshWorkspace {
     }
 }
 
-/// Moves resolution to where it is wanted, where it is time to look; how many segments were split.
-pub(crate) fn remesh(model: &Model, state: &mut State, work: &mut Option<RemeshWorkspace>) -> u64 {
-    let (Some(work), Some(resolution)) = (work, &model.spec.settings.resolution) else { return 0 };
+/// What a look at the lengths of segments did.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Remeshed {
+    /// Segments split.
+    pub splits: u64,
+    /// Greatest ratio of a segment's length near the whale to the one wanted; `None` where no rope is near it.
+    pub near_ratio: Option<f64>,
+}
+
+/// Moves resolution to where it is wanted, where it is time to look.
+pub(crate) fn remesh(
+    model: &Model,
+    state: &mut State,
+    work: &mut Option<RemeshWorkspace>,
+) -> Remeshed {
+    let (Some(work), Some(resolution)) = (work, &model.spec.settings.resolution) else {
+        return Remeshed::default();
+    };
     if !is_time(model, state) {
-        return 0;
+        return Remeshed::default();
     }
     measure(model, state, resolution, work);
-    (0..model.spec.lines.len()).map(|line| remesh_line(model, state, line, work, resolution)).sum()
+    let lines = 0..model.spec.lines.len();
+    let splits = lines.map(|line| remesh_line(model, state, line, work, resolution)).sum();
+    Remeshed { splits, near_ratio: near_ratio(state, &work.wanted, resolution) }
+}
+
+/// Greatest ratio of length to wanted length of uncut rope near the whale.
+fn near_ratio(state: &State, wanted: &[f64], resolution: &Resolution) -> Option<f64> {
+    let segments = state.rope.segment_length.iter().zip(wanted).zip(&state.rope.cut);
+    let near =
+        segments.filter(|((_, wanted), cut)| !**cut && !wanted::is_far(resolution, **wanted));
+    near.map(|((length, wanted), _)| length / wanted).reduce(f64::max)
 }
 
 /// Whether lengths are looked at before this step.

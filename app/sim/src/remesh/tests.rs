@@ -42,7 +42,7 @@ fn drawn(model: &Model) -> State {
 /// Runs until nothing moves; splits in all.
 fn rest(model: &Model, state: &mut State) -> u64 {
     let mut work = RemeshWorkspace::new(model);
-    (0..20).map(|_| remesh(model, state, &mut work)).sum()
+    (0..20).map(|_| remesh(model, state, &mut work).splits).sum()
 }
 
 /// Sum over nodes of hanging length times a vector.
@@ -115,6 +115,25 @@ fn rope_is_fine_near_skin_coarse_far_and_in_proportion() {
     assert!(near.iter().all(|length| *length <= 0.1001), "{near:?}");
     assert!(lengths.iter().any(|length| *length >= 0.4), "{lengths:?}");
     assert_eq!(rest(&model, &mut state), 0, "what is at rest stays");
+}
+
+#[test]
+fn a_length_that_the_nodes_do_not_suffice_for_is_told() {
+    let ratio = |near_m: f64| {
+        let mut spec = beside().spec;
+        spec.settings.resolution = Some(Resolution { near_m, edge_m: near_m, far_m: 1.0 });
+        let model = model(spec);
+        let mut state = drawn(&model);
+        let mut work = RemeshWorkspace::new(&model);
+        let ratio = (0..20).filter_map(|_| remesh(&model, &mut state, &mut work).near_ratio).last();
+        let near = (0..200).filter(|k| (state.rope.position[*k].z + 20.0).abs() < 0.2);
+        let longest = near.map(|k| state.rope.segment_length[k]).fold(0.0, f64::max);
+        (ratio.unwrap(), longest / near_m)
+    };
+    let (kept, _) = ratio(0.2);
+    assert!(kept < 1.0 + 1e-9, "{kept}");
+    let (missed, longest) = ratio(0.01);
+    assert!(missed > 2.0 && missed >= longest - 1e-9, "{missed}, {longest} beside the trunk");
 }
 
 #[test]

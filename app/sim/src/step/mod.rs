@@ -6,6 +6,7 @@ mod context;
 mod convergence;
 mod free;
 pub mod input;
+pub mod peaks;
 mod rejection;
 mod rope;
 mod solid;

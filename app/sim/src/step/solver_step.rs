@@ -31,8 +31,26 @@ pub(super) fn solver_step(
     dt: f64,
     was_halved: bool,
 ) -> Result<StepKind, Rejection> {
-    let Workspace { solver, contact, audit, contacts, rope_touches, peak_tension_n, .. } =
-        workspace;
+    let unconverged = workspace.audit.unconverged;
+    let done = try_solver_step(model, state, workspace, dt, was_halved);
+    // A step counts once however many poses it was solved at, and only where it is kept.
+    let missed = done.is_ok() && workspace.audit.unconverged > unconverged;
+    let audit = &mut workspace.audit;
+    audit.unconverged = unconverged + u64::from(missed);
+    let parted = done == Ok(StepKind::Parted);
+    audit.unconverged_parted += u64::from(missed && parted);
+    done
+}
+
+fn try_solver_step(
+    model: &Model,
+    state: &mut State,
+    workspace: &mut Workspace,
+    dt: f64,
+    was_halved: bool,
+) -> Result<StepKind, Rejection> {
+    let unconverged = workspace.audit.unconverged;
+    let Workspace { solver, contact, audit, contacts, rope_touches, .. } = workspace;
     solver.cost.enter(CostPart::Detection);
     let mut near = contact.as_mut().filter(|work| !work.near.pairs.is_empty());
     let may_touch =
@@ -77,9 +95,9 @@ pub(super) fn solver_step(
     audit.ropes_crossed += solver.ropes.crossings;
     audit.ropes_through = audit.ropes_through.max(solver.ropes.count_through());
     audit.solver_steps += 1;
-    for (peak, tension) in peak_tension_n.iter_mut().zip(&state.rope.tension) {
-        *peak = peak.max(*tension);
-    }
+    audit.touching_steps += u64::from(!untouched);
+    let converged = audit.unconverged == unconverged;
+    workspace.take_tensions(model, &state.rope.tension, converged);
     if parting::part(model, state) {
         state.rope.earlier_dt_s = 0.0;
         return Ok(StepKind::Parted);

@@ -46,11 +46,14 @@ pub(super) fn advance(
     let settings = &model.spec.settings;
     for taken_back in 0..=MOST_TAKEN_BACK {
         workspace.peak_tension_n.fill(0.0);
+        workspace.unconverged_peak_n.fill(0.0);
         workspace.contacts.clear();
         workspace.sums = StepSums::default();
         workspace.pulled = RopeImpulse::default();
-        let splits = remesh(model, state, &mut workspace.remesh);
-        workspace.audit.splits += if taken_back == 0 { splits } else { 0 };
+        let remeshed = remesh(model, state, &mut workspace.remesh);
+        if taken_back == 0 {
+            workspace.audit.take_lengths(&remeshed);
+        }
         let near = near_whale(model, state, workspace, whale);
         let longest =
             if near { settings.contact_step_s.min(settings.step_s) } else { settings.step_s };

@@ -1,6 +1,7 @@
 //! Scratch of a run, and what its last step left for readers.
 
 use super::audit::Audit;
+use super::peaks::{SpikeWatch, raise};
 use crate::contact::ContactPoint;
 use crate::contact::ropes::RopeTouch;
 use crate::contact::step_sums::StepSums;
@@ -18,8 +19,11 @@ use crate::whale::kinetic::pull::RopeImpulse;
 pub struct Workspace {
     /// Places where rope pressed on skin at the end of the last step.
     pub contacts: Vec<ContactPoint>,
-    /// Greatest tension of each segment over the solver steps of the last step [N].
+    /// Greatest tension of each segment over the solver steps of the last step that converged; zero where none did [N].
     pub peak_tension_n: Vec<f64>,
+    /// The same over those that did not converge; zero where all did [N].
+    pub unconverged_peak_n: Vec<f64>,
+    pub(super) spikes: SpikeWatch,
     /// What rope did to skin over the solver steps of the last step.
     pub sums: StepSums,
     /// Places where rope pressed on rope at the end of the last step.
@@ -45,6 +49,8 @@ impl Workspace {
             contacts: Vec::new(),
             sums: StepSums::default(),
             peak_tension_n: vec![0.0; model.segment_count],
+            unconverged_peak_n: vec![0.0; model.segment_count],
+            spikes: SpikeWatch::new(model),
             rope_touches: Vec::new(),
             audit: Audit::default(),
             solver: Solver::new(model),
@@ -55,6 +61,14 @@ impl Workspace {
             whale: None,
             pulled: RopeImpulse::default(),
         }
+    }
+
+    /// Takes in the tensions at the end of a solver step [N].
+    pub(super) fn take_tensions(&mut self, model: &Model, tension_n: &[f64], converged: bool) {
+        let peaks_n =
+            if converged { &mut self.peak_tension_n } else { &mut self.unconverged_peak_n };
+        raise(peaks_n, tension_n);
+        self.audit.spikes += self.spikes.take(model, tension_n);
     }
 
     /// Lends a clock by which steps tell what their time goes to; none of their numbers depends on it.

@@ -11,12 +11,13 @@ use endline_session::figures::compare::groups;
 use endline_session::figures::{
     Figure, LINE, LINK, PART, View, WHALE, lines, parts, shares, shown,
 };
-use endline_session::live::{LiveView, Status};
+use endline_session::live::{Engine, Launch, LiveView, RunCommand, Status};
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::panel_id::PanelId;
 use endline_workbench::gui::widgets::words::capital;
+use endline_workbench::input::Pilot;
 
-use crate::common::{Folder, flown, wait};
+use crate::common::{Folder, flown, opened, wait};
 
 /// Shows one panel alone.
 fn only(harness: &mut Harness<'static, App>, panel: PanelId) {
@@ -78,6 +79,36 @@ fn the_run_panel_tells_what_the_computing_time_goes_to() {
     let (greatest, share) = shares(&shown.cost)[0];
     let told = format!("Time goes to {} {:.0} %", greatest.label, 100.0 * share);
     harness.get_by_label_contains(&told);
+}
+
+/// An engine that shows one view, whatever it is told.
+struct Still(Arc<LiveView>);
+
+impl Engine for Still {
+    fn send(&self, _command: RunCommand) -> bool {
+        true
+    }
+
+    fn latest(&self) -> Arc<LiveView> {
+        Arc::clone(&self.0)
+    }
+}
+
+#[test]
+fn the_run_panel_tells_why_a_run_is_not_valid_and_that_resolution_was_not_kept() {
+    let folder = Folder::new("figures-valid");
+    let launch: Launch = Box::new(|prepared, _host, _waker| {
+        let mut view = LiveView { status: Status::Finished, ..LiveView::before(&prepared) };
+        let audit = &mut view.audit;
+        (audit.solver_steps, audit.touching_steps, audit.unconverged) = (2000, 1000, 300);
+        (audit.resolution_looks, audit.resolution_missed, audit.resolution_ratio) = (200, 50, 4.0);
+        let engine: Box<dyn Engine> = Box::new(Still(Arc::new(view)));
+        Ok(engine)
+    });
+    let mut harness = opened(folder.documents(), launch, Pilot::default());
+    only(&mut harness, PanelId::RUN);
+    harness.get_by_label_contains("Not valid: 30 % of the solver steps in touch did not converge");
+    harness.get_by_label_contains("Resolution near the whale not kept for 25 % of the time");
 }
 
 #[test]

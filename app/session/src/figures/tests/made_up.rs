@@ -87,9 +87,15 @@ fn audit(next: &mut Numbers) -> Audit {
         solver_steps: next.whole(),
         contact_steps: next.whole(),
         halved: next.whole(),
+        touching_steps: next.whole(),
         unconverged: next.whole(),
+        unconverged_parted: next.whole(),
+        spikes: next.whole(),
         passes: next.whole(),
         splits: next.whole(),
+        resolution_looks: next.whole(),
+        resolution_missed: next.whole(),
+        resolution_ratio: next.real(),
         postures_held: next.whole(),
         limited_by: std::array::from_fn(|_| next.whole()),
     }
@@ -117,6 +123,7 @@ fn line(id: &str, next: &mut Numbers) -> LineSummary {
         id: id.into(),
         peak_tension_n: next.real(),
         peak_at_s: next.real(),
+        unconverged_peak_n: next.real(),
         end_a_tension_n: next.real(),
         end_b_tension_n: next.real(),
         parted_at_s: Some(next.real()),
@@ -131,6 +138,7 @@ fn link(id: &str, next: &mut Numbers) -> LinkSummary {
         id: id.into(),
         rating_n: next.real(),
         peak_tension_n: next.real(),
+        unconverged_peak_n: next.real(),
         parted_at_s: Some(next.real()),
     }
 }
@@ -182,6 +190,7 @@ fn whale(next: &mut Numbers) -> WhaleSummary {
             peak_rope_pull_n: next.real(),
         }),
         winding_jumps: next.whole(),
+        beyond_rope_share: next.real(),
     }
 }
 

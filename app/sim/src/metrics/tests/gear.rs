@@ -101,6 +101,29 @@ fn a_step_peak_outlives_the_parting() {
     );
 }
 
+/// What a solver step that did not converge says of tension is kept apart from the peaks.
+#[test]
+fn peaks_come_from_solver_steps_that_converged() {
+    let mut spec = spec(vec![1.0; 4]);
+    spec.links =
+        vec![Link { id: "weak".into(), line: 0, end: LineEnd::B, rating_n: 90.0, enabled: true }];
+    let model = model(spec);
+    let (mut metrics, mut state, mut workspace) =
+        (Metrics::new(&model), State::start(&model), crate::Workspace::new(&model));
+    for (time_s, converged_n, unconverged_n) in [(0.01, 60.0, 0.0), (0.02, 0.0, 4000.0)] {
+        state.time_s = time_s;
+        workspace.peak_tension_n = vec![converged_n; 4];
+        workspace.unconverged_peak_n = vec![unconverged_n; 4];
+        metrics.fold_step(&model, &state, &workspace);
+    }
+    let summary = metrics.summary(&model, &state);
+    let (line, link) = (&summary.lines[0], &summary.links[0]);
+    let told = [line.peak_tension_n, link.peak_tension_n, line.peak_at_s];
+    assert!(told.iter().zip([60.0, 60.0, 0.01]).all(|(got, wanted)| (got - wanted).abs() < 1e-12));
+    let apart = [line.unconverged_peak_n, link.unconverged_peak_n];
+    assert!(apart.iter().all(|peak| (peak - 4000.0).abs() < 1e-12), "{apart:?}");
+}
+
 /// A reading of 3 + 2 t has mean 3 + T over T seconds, also with uneven steps.
 #[test]
 fn probe_means_weigh_by_time() {

@@ -4,6 +4,7 @@ mod encounter;
 mod gear;
 mod leaving;
 mod loads;
+mod press;
 mod winding;
 mod wraps;
 

@@ -6,6 +6,7 @@ use egui::{ProgressBar, RichText, ScrollArea, Ui};
 use endline_session::command::RunAction;
 use endline_session::figures::{Figure, shares};
 use endline_session::live::LiveView;
+use endline_session::report::validity::reasons;
 use endline_session::units::Units;
 use endline_session::workbench::SPEEDS;
 use endline_sim::Cost;
@@ -130,6 +131,7 @@ fn state(ui: &mut Ui, view: &LiveView) {
         egui::Label::new(RichText::new(text).color(if bad { palette.error } else { palette.text }))
             .wrap(),
     );
+    trust(ui, view);
     cost(ui, view);
     let audit = &view.audit;
     widgets::numbers(
@@ -146,6 +148,29 @@ fn state(ui: &mut Ui, view: &LiveView) {
             ("State hash", view.state_hash.clone()),
         ],
     );
+}
+
+/// Why the numbers so far cannot be trusted, and a resolution that was not kept.
+fn trust(ui: &mut Ui, view: &LiveView) {
+    let palette = Theme::palette_of(ui);
+    let whale = view.summary.as_ref().and_then(|summary| summary.whale.as_ref());
+    for why in reasons(None, &view.audit, whale) {
+        let text = RichText::new(format!("Not valid: {why}")).color(palette.error);
+        ui.add(egui::Label::new(text).wrap());
+    }
+    let audit = &view.audit;
+    if audit.resolution_missed > 0 {
+        let text = format!(
+            "Resolution near the whale not kept for {:.0} % of the time",
+            100.0 * audit.resolution_missed as f64 / audit.resolution_looks.max(1) as f64
+        );
+        let help = format!(
+            "Segments there were up to {:.1} times as long as `near` or `edges` ask for. Give more rope nodes, or ask for longer segments.",
+            audit.resolution_ratio
+        );
+        ui.add(egui::Label::new(RichText::new(text).color(palette.warning)).wrap())
+            .on_hover_text(help);
+    }
 }
 
 /// What the computing time went to, the greatest share first; what each part is, on hover.
