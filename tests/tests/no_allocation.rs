@@ -20,10 +20,11 @@ const STEPS: u64 = 200;
 /// more than they ever held, a few times each; a single list made anew in each step would come to 200.
 const GROWTH: u64 = 100;
 
-/// The shipped encounter, with the whale set down here.
+/// The shipped encounter on segments that keep their lengths, with the whale set down here.
 fn encounter(place: DVec3) -> Model {
     let mut spec = spec("hello-endline", &[]);
     spec.whale.as_mut().unwrap().position_m = place;
+    spec.settings.resolution = None;
     built(spec)
 }
 

@@ -451,7 +451,7 @@ fn the_program_chooses_the_step_where_the_scenario_says_so() {
 
 #[test]
 fn resolution_follows_the_whale_by_lengths_in_order() {
-    let text = scenario_text("hello-endline.toml");
+    let text = scenario_text("hello-slack-tide.toml");
     let with =
         |lengths: &str| text.replacen("[site]", &format!("[resolution]\n{lengths}\n\n[site]"), 1);
     let spec = spec_of("test.toml", &with("near = \"8 cm\"\nfar = \"2 m\""));

@@ -219,7 +219,10 @@ fn weak_links_and_friction_are_changed_in_the_panel_comments_kept_and_taken_back
     assert!(wrong.line > 0, "{wrong}");
     retype(&mut harness, "-3", "1.5");
     harness.state_mut().shared.perform(RunAction::Apply);
-    wait(&mut harness, |app| !app.shared.workbench.making() && !app.shared.workbench.stale());
+    wait(&mut harness, |app| {
+        let made = app.shared.workbench.view().map_or(0, |view| view.model.spec.links.len());
+        !app.shared.workbench.making() && !app.shared.workbench.stale() && made > 1
+    });
     let view = harness.state().shared.workbench.view().cloned().unwrap();
     let ratings: Vec<f64> = view.model.spec.links.iter().map(|link| link.rating_n).collect();
     assert!((ratings[1] - 1700.0 * endline_session::units::N_PER_LBF).abs() < 1e-6, "{ratings:?}");
