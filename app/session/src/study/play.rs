@@ -24,6 +24,8 @@ const LOOKS_HZ: f64 = 2.0;
 /// A run has stuck where its solver tried this many times the steps of its whole duration in contact: in the few that do,
 /// rope is wedged so that only steps of a millionth of a second go through.
 const STUCK: f64 = 10.0;
+/// Likewise of Newton's passes: a step in contact takes two as a rule, and rope that is wedged up to forty in steps that are short besides.
+const STUCK_PASSES: f64 = 20.0;
 
 /// Frames kept for each second of a run that is replayed.
 pub const REPLAY_HZ: f64 = 10.0;
@@ -144,11 +146,11 @@ impl Opened {
     fn to_its_end(&self, run: &mut Run, mut look: impl FnMut(&Run)) {
         let stride = (1.0 / (LOOKS_HZ * run.step_s())).round().max(1.0) as u64;
         let settings = &run.model().spec.settings;
-        let most =
-            (STUCK * settings.duration_s / settings.contact_step_s.min(settings.step_s)) as u64;
+        let usual = settings.duration_s / settings.contact_step_s.min(settings.step_s);
+        let most = [STUCK, STUCK_PASSES].map(|times| (times * usual) as u64);
         while !run.finished() && run.step(run.pilot()).is_ok() {
             let audit = run.audit();
-            if audit.solver_steps + audit.halved > most {
+            if audit.solver_steps + audit.halved > most[0] || audit.passes > most[1] {
                 run.give_up("it sticks: hardly a step of the solver goes through");
                 break;
             }
