@@ -1,7 +1,7 @@
 //! What a step of an encounter costs: `cargo bench -p endline-gear --bench encounter`.
 //!
-//! Five hundred nodes far from the whale, near it without touch, sliding over it, wound about it, and wound tight with 150
-//! segments in touch. Of each: solver steps and Newton passes, CPU time a solver step, how much of it is finding what is near
+//! Five hundred nodes far from the whale, near it without touch, sliding over it on uniform segments and on fine ones that follow the whale,
+//! wound about it, and wound tight with 150 segments in touch. Of each: solver steps and Newton passes, CPU time a solver step, how much of it is finding what is near
 //! (the same search, distances and sweeps made once more outside the step), and how many seconds of the run a second gives.
 //! A name after `--` runs those whose names hold it; `contact_step=0.5` sets the contact step in milliseconds, `tolerance=0.01` the contact
 //! tolerance, `from=17 to=18` the stretch of the run; `detection=0` leaves that measurement out. Also of each stretch: peak tension, mean and ripple of the tension at the top of the first line, work against friction.
@@ -32,10 +32,17 @@ struct Stretch {
     to_s: f64,
 }
 
-const STRETCHES: [Stretch; 5] = [
+const STRETCHES: [Stretch; 6] = [
     Stretch { name: "far", scenario: "hello-endline", changes: &[], from_s: 1.0, to_s: 9.0 },
     Stretch { name: "near", scenario: "hello-endline", changes: &[], from_s: 10.5, to_s: 12.0 },
-    Stretch { name: "sliding", scenario: "hello-endline", changes: &[], from_s: 15.0, to_s: 33.0 },
+    Stretch {
+        name: "sliding",
+        scenario: "hello-endline",
+        changes: UNIFORM,
+        from_s: 15.0,
+        to_s: 33.0,
+    },
+    Stretch { name: "fine", scenario: "hello-endline", changes: &[], from_s: 15.0, to_s: 33.0 },
     Stretch { name: "wound", scenario: "dead-whale-wraps", changes: &[], from_s: 1.0, to_s: 4.0 },
     Stretch {
         name: "wound-tight",
@@ -45,6 +52,9 @@ const STRETCHES: [Stretch; 5] = [
         to_s: 2.0,
     },
 ];
+
+/// Segments that keep their lengths.
+const UNIFORM: &[(&str, &str)] = &[("[resolution]\nnear = \"5 cm\"\nedges = \"1.25 cm\"\n", "")];
 
 /// More turns, laid on taut: more of the rope bears on skin.
 const TIGHT: &[(&str, &str)] = &[

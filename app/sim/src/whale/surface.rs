@@ -31,6 +31,8 @@ pub struct Surface {
     rope: Groups,
     pairs: Vec<Pair>,
     nodes: Vec<usize>,
+    /// Triangles near a group of segments.
+    close: Vec<(u32, Bounds)>,
 }
 
 /// What is known of the present step; a part is known where its stamp is the step's number.
@@ -62,6 +64,21 @@ struct Pair {
     group: usize,
 }
 
+/// Neighbouring segments, with their boxes and the box around them.
+struct Group<'a> {
+    whole: Bounds,
+    first: usize,
+    boxes: &'a [Bounds],
+}
+
+impl Group<'_> {
+    /// Its segments with their boxes.
+    fn segments(&self) -> impl Iterator<Item = (u32, &Bounds)> {
+        let number = |place: usize| u32::try_from(self.first + place).unwrap_or(u32::MAX);
+        self.boxes.iter().enumerate().map(move |(place, bounds)| (number(place), bounds))
+    }
+}
+
 impl Surface {
     /// Scratch space for a skin. Allocates all but the lists of candidates.
     #[must_use]
@@ -82,6 +99,7 @@ impl Surface {
             rope: Groups::default(),
             pairs: Vec::new(),
             nodes: Vec::new(),
+            close: Vec::new(),
         };
         surface.step.number = 1;
         surface
@@ -125,29 +143,37 @@ impl Surface {
     /// over `out` in rising order: every pair that may come nearer than `margin` is among them.
     pub fn gather(&mut self, segments: &[SweptSegment], margin: f64, out: &mut Vec<Candidate>) {
         out.clear();
-        self.search(segments, margin, |step, tree, pair, rope_box| {
-            step.add_candidates(tree, pair.node, pair.group, rope_box, out);
+        let mut close = std::mem::take(&mut self.close);
+        self.search(segments, margin, |step, tree, node, group| {
+            step.find_close(tree, node, &group.whole, &mut close);
+            for (segment, rope_box) in group.segments() {
+                let meeting = close.iter().filter(|(_, bounds)| bounds.meets(rope_box));
+                out.extend(meeting.map(|(triangle, _)| Candidate { segment, triangle: *triangle }));
+            }
             true
         });
+        self.close = close;
         out.sort_unstable();
     }
 
     /// Whether any pair of a segment and a triangle has boxes over the step that come within `margin`.
     pub fn is_any_near(&mut self, segments: &[SweptSegment], margin: f64) -> bool {
         let mut none = true;
-        self.search(segments, margin, |step, tree, pair, rope_box| {
-            none = !step.cluster(tree, pair.node).iter().any(|triangle| triangle.meets(rope_box));
+        self.search(segments, margin, |step, tree, node, group| {
+            let triangles = step.cluster(tree, node);
+            let any = |rope_box: &Bounds| triangles.iter().any(|triangle| triangle.meets(rope_box));
+            none = !any(&group.whole) || !group.segments().any(|(_, rope_box)| any(rope_box));
             none
         });
         !none
     }
 
-    /// Hands over every segment and leaf of the tree that meet, until asked to stop.
+    /// Hands over every leaf of the tree and group of neighbouring segments that meet, until asked to stop.
     fn search(
         &mut self,
         segments: &[SweptSegment],
         margin: f64,
-        mut go_on: impl FnMut(&mut Step, &SkinTree, Pair, &Bounds) -> bool,
+        mut go_on: impl FnMut(&mut Step, &SkinTree, usize, &Group<'_>) -> bool,
     ) {
         let Self { tree, depth, step, rope, pairs, .. } = self;
         pairs.clear();
@@ -165,17 +191,17 @@ impl Surface {
                 continue;
             }
             match tree.nodes()[pair.node].children {
-                Some(children) if pair.level == 0 || skin_box.longest() > rope_box.longest() => {
+                Some(children) if pair.level == 1 || skin_box.longest() > rope_box.longest() => {
                     pairs.extend(children.map(|node| Pair { node, ..pair }));
                 }
-                _ if pair.level > 0 => {
+                _ if pair.level > 1 => {
                     pairs.extend(rope.finer(pair.level, pair.group).map(|group| Pair {
                         level: pair.level - 1,
                         group,
                         ..pair
                     }));
                 }
-                _ if go_on(step, tree, pair, &rope_box) => {}
+                _ if go_on(step, tree, pair.node, &rope.group(pair.group)) => {}
                 _ => return,
             }
         }
@@ -228,24 +254,19 @@ impl Step {
         self.vertices[vertex].1
     }
 
-    fn add_candidates(
+    /// Finds the triangles of a leaf whose boxes meet that of a group of segments.
+    fn find_close(
         &mut self,
         tree: &SkinTree,
         node: usize,
-        segment: usize,
         rope_box: &Bounds,
-        out: &mut Vec<Candidate>,
+        close: &mut Vec<(u32, Bounds)>,
     ) {
         let triangles = &tree.order()[tree.nodes()[node].triangles.clone()];
-        let segment = u32::try_from(segment).unwrap_or(u32::MAX);
         let boxes = self.cluster(tree, node);
-        out.extend(
-            triangles
-                .iter()
-                .zip(boxes)
-                .filter(|(_, bounds)| bounds.meets(rope_box))
-                .map(|(&triangle, _)| Candidate { segment, triangle }),
-        );
+        let meeting = triangles.iter().zip(boxes).filter(|(_, bounds)| bounds.meets(rope_box));
+        close.clear();
+        close.extend(meeting.map(|(triangle, bounds)| (*triangle, *bounds)));
     }
 }
 
@@ -259,6 +280,14 @@ impl Groups {
         }));
         coarsen(ones, eights);
         coarsen(eights, all);
+    }
+
+    /// A group of neighbouring segments, of the level above single ones.
+    fn group(&self, group: usize) -> Group<'_> {
+        let [ones, eights, _] = &self.levels;
+        let first = group * GROUP;
+        let boxes = &ones[first..(first + GROUP).min(ones.len())];
+        Group { whole: eights[group], first, boxes }
     }
 
     /// The groups of the next finer level within one group.
