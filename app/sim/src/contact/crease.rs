@@ -19,16 +19,19 @@ const ALIKE: (f64, f64) = (0.95, 0.7);
 /// the greatest. The feet on two facets of one convex face are at nothing but for rounding.
 const RISEN: (f64, f64) = (0.05, 0.3);
 
-/// Adds the faces touched to `touches`, in rising order of the pair, so that a face keeps its place in the row as another comes nearer: the
-/// nearest triangle's, and those of others that rise from it.
-pub(crate) fn add_faces(
-    nearest: Touch,
-    others: impl Iterator<Item = Touch>,
-    touches: &mut Vec<Touch>,
-) {
-    let first = touches.len();
-    touches.push(nearest);
-    touches.extend(others.filter(|other| share(&nearest, other) > 0.0).take(MOST_LOOKED_AT));
+/// Keeps of the triangles touched from `first` on the faces touched, in rising order of the pair, so that a face keeps its place in the row as
+/// another comes nearer: the nearest triangle, of the place given, and those that rise from it.
+pub(crate) fn keep_faces(touches: &mut Vec<Touch>, first: usize, nearest: usize) {
+    touches.swap(first, nearest);
+    let nearest = touches[first];
+    let mut risen = first + 1;
+    for place in first + 1..touches.len() {
+        if risen - first <= MOST_LOOKED_AT && share(&nearest, &touches[place]) > 0.0 {
+            touches.swap(risen, place);
+            risen += 1;
+        }
+    }
+    touches.truncate(risen);
     let risen = &mut touches[first..];
     let mut faces = 1;
     while faces < MOST_FACES.min(risen.len()) {
@@ -88,8 +91,8 @@ mod tests {
         let (floor, wall) =
             (touch(7, place, place.with_z(0.0)), touch(3, place, place.with_x(0.0)));
         let (near, far) = if place.z < place.x { (floor, wall) } else { (wall, floor) };
-        let mut faces = Vec::new();
-        add_faces(near, std::iter::once(far), &mut faces);
+        let mut faces = vec![far, near];
+        keep_faces(&mut faces, 0, 1);
         faces.iter().map(|touch| touch.normal * touch.barrier.force).sum()
     }
 
@@ -116,12 +119,9 @@ mod tests {
     fn convex_skin_is_one_face() {
         for share in [0.01, 0.1, 0.5, 0.9] {
             let place = DVec3::new(0.004 * share, 0.0, 0.003);
-            let mut faces = Vec::new();
-            add_faces(
-                touch(7, place, place.with_z(0.0)),
-                std::iter::once(touch(3, place, DVec3::ZERO)),
-                &mut faces,
-            );
+            let flat = touch(7, place, place.with_z(0.0));
+            let mut faces = vec![flat, touch(3, place, DVec3::ZERO)];
+            keep_faces(&mut faces, 0, 0);
             assert!(faces.len() == 1 && faces[0].pair == 7, "{share}");
         }
     }

@@ -75,17 +75,6 @@ pub(crate) struct SkinContactPoint {
     pub missed: DVec3,
 }
 
-/// The closest point of a triangle.
-#[derive(Clone, Copy, Debug)]
-struct ClosestPoint {
-    /// Distance [m].
-    distance: f64,
-    /// Index of the pair.
-    pair: usize,
-    /// Barycentric place on the triangle.
-    barycentric: [f64; 3],
-}
-
 /// All contact points of a solver step.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SkinContactPoints {
@@ -211,10 +200,9 @@ impl SkinContactPoint {
         let within = (MEASURED_WITHIN.0 * self.contact_distance)
             .max(LOOK_WITHIN * self.contact_distance + MEASURED_WITHIN.1 * self.length);
         self.seen = Some((place, within));
-        if let Some(nearest) = self.nearest(near, place, 0.0, within) {
-            self.seen = Some((place, nearest.distance));
-            self.nearest_pair = Some(nearest.pair);
-            self.add_faces(near, place, 0.0, nearest, touches);
+        if let Some((distance, pair)) = self.add_touches(near, place, 0.0, within, touches) {
+            self.seen = Some((place, distance));
+            self.nearest_pair = Some(pair);
         }
     }
 
@@ -235,39 +223,52 @@ impl SkinContactPoint {
         if self.out_of_reach(place) {
             return;
         }
-        if let Some(nearest) = self.nearest(near, place, moved, self.contact_distance) {
-            self.add_faces(near, place, moved, nearest, touches);
-        }
+        self.add_touches(near, place, moved, self.contact_distance, touches);
     }
 
-    /// Adds what it touches, from the nearest triangle.
-    fn add_faces(
+    /// Adds what it touches, with the rope moved by at most `moved` since pairs were bounded; distance and pair of the nearest triangle within
+    /// `most`. The one it was nearest to when measured last is measured first: most others then prove too far by their bounds.
+    fn add_touches(
         &self,
         near: &Near,
         place: DVec3,
         moved: f64,
-        nearest: ClosestPoint,
+        most: f64,
         touches: &mut Vec<Touch>,
-    ) {
-        let Some(nearest) = self.touch_of(near, place, nearest) else { return };
+    ) -> Option<(f64, usize)> {
+        let (first, mut nearest, mut nearest_place) = (touches.len(), None, 0);
+        let mut least = most;
         let group = &near.groups[self.group];
-        let others = near.active[self.pairs.clone()].iter().filter_map(|index| {
-            let index = *index;
-            if index == nearest.pair || near.bound(index, group) - moved >= self.contact_distance {
-                return None;
+        let active = near.active[self.pairs.clone()].iter().copied();
+        let others = active.filter(|index| Some(*index) != self.nearest_pair);
+        for index in self.nearest_pair.into_iter().chain(others) {
+            let within = least.max(self.contact_distance);
+            if near.bound(index, group) - moved >= within {
+                continue;
             }
-            let (distance, barycentric) =
-                near.skin_of(index).nearest_to_point(place, self.contact_distance)?;
-            self.touch_of(near, place, ClosestPoint { distance, pair: index, barycentric })
-        });
-        crease::add_faces(nearest, others, touches);
+            let Some((distance, barycentric)) = near.skin_of(index).nearest_to_point(place, within)
+            else {
+                continue;
+            };
+            if distance < least {
+                least = distance;
+                (nearest, nearest_place) = (Some((distance, index)), touches.len());
+            }
+            touches.extend(self.touch_of(near, place, distance, index, barycentric));
+        }
+        if touches.len() > first {
+            crease::keep_faces(touches, first, nearest_place);
+        }
+        nearest
     }
 
     fn touch_of(
         &self,
         near: &Near,
         place: DVec3,
-        ClosestPoint { distance, pair, barycentric }: ClosestPoint,
+        distance: f64,
+        pair: usize,
+        barycentric: [f64; 3],
     ) -> Option<Touch> {
         let barrier = BarrierForce::new(distance, self.contact_distance, self.stiffness);
         (barrier.force > 0.0).then(|| {
@@ -281,29 +282,6 @@ impl SkinContactPoint {
     fn out_of_reach(&self, place: DVec3) -> bool {
         self.seen
             .is_some_and(|(seen, distance)| distance - seen.distance(place) > self.contact_distance)
-    }
-
-    /// The nearest triangle within `most`, with the rope moved by at most `moved` since pairs were bounded. The one it was nearest to
-    /// when measured last is measured first: most others then prove too far by their bounds.
-    fn nearest(&self, near: &Near, place: DVec3, moved: f64, most: f64) -> Option<ClosestPoint> {
-        let mut best: Option<ClosestPoint> = None;
-        let mut least = most;
-        let group = &near.groups[self.group];
-        let active = near.active[self.pairs.clone()].iter().copied();
-        for index in self.nearest_pair.into_iter().chain(active) {
-            if near.bound(index, group) - moved >= least {
-                continue;
-            }
-            let Some((distance, barycentric)) = near.skin_of(index).nearest_to_point(place, least)
-            else {
-                continue;
-            };
-            if distance < least {
-                least = distance;
-                best = Some(ClosestPoint { distance, pair: index, barycentric });
-            }
-        }
-        best
     }
 
     /// Lower bound of its distance from skin at the places given.
