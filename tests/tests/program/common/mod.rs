@@ -109,9 +109,14 @@ impl Place {
         text(&path)
     }
 
-    /// The shipped encounter with the whale set down just before the rope, two and a half seconds long; gives its path.
+    /// The shipped encounter on segments that keep their lengths, with the whale set down just before the rope, two and a half seconds long;
+    /// gives its path.
     pub fn encounter(&self) -> String {
         let scenario = self.short_scenario("hello-endline", "2.5 s");
+        let text = fs::read_to_string(&scenario).unwrap();
+        let (before, after) = text.split_once("[resolution]").unwrap();
+        let after = after.split_once("[site]").unwrap().1;
+        fs::write(&scenario, format!("{before}[site]{after}")).unwrap();
         edit(scenario.as_ref(), "position", "position = [\"13.9 m\", \"-7 m\"]");
         scenario
     }
