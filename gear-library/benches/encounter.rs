@@ -17,7 +17,7 @@ mod linked;
 use cpu_time::ThreadTime;
 use detection::Detection;
 use endline_sim::{Audit, Input, Model, State, Workspace, settle, step};
-use linked::model;
+use linked::{built, spec};
 
 /// Steps of the model in the running mean of a tension.
 const RIPPLE_STEPS: usize = 25;
@@ -113,12 +113,11 @@ struct Taken {
 }
 
 fn run(stretch: &Stretch, changes: &Changes) {
-    let mut model = model(stretch.scenario, stretch.changes);
-    let mut spec = model.spec.clone();
+    let mut spec = spec(stretch.scenario, stretch.changes);
     let settings = &mut spec.settings;
     settings.contact_step_s = changes.contact_step_s.unwrap_or(settings.contact_step_s);
     settings.contact_tolerance = changes.tolerance.unwrap_or(settings.contact_tolerance);
-    model = Model::new(spec).expect("a model with other steps near the whale");
+    let model = built(spec);
     let stretch = &Stretch {
         from_s: changes.from_s.unwrap_or(stretch.from_s),
         to_s: changes.to_s.unwrap_or(stretch.to_s),

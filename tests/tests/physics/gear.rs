@@ -7,7 +7,7 @@ use endline_gear::{
     Diagnostic, Kind, Library, Options, Scenario, Sources, assemble, assemble_traced,
 };
 
-use endline_sim::model::{BodyRole, JointKind, ProbeTarget, Resolution};
+use endline_sim::model::{BodyRole, CONTACT_TOLERANCE, JointKind, ProbeTarget, Resolution};
 use endline_sim::{DQuat, DVec3, Model, ModelSpec, settle};
 
 #[test]
@@ -447,6 +447,26 @@ fn the_program_chooses_the_step_where_the_scenario_says_so() {
         "{}",
         told(&problems)
     );
+}
+
+#[test]
+fn the_tolerance_near_the_whale_is_what_the_scenario_says() {
+    let text = scenario_text("hello-endline.toml");
+    let with = |told: &str| text.replacen("seed = 1", &format!("seed = 1\n{told}"), 1);
+    let tolerance = |text: &str| spec_of("test.toml", text).settings.contact_tolerance;
+    assert!((tolerance(&text) - CONTACT_TOLERANCE).abs() < 1e-15);
+    assert!((tolerance(&with("contact_tolerance = 0.005")) - 0.005).abs() < 1e-15);
+    for wrong in ["contact_tolerance = 0.5", "contact_tolerance = 0", "contact_tolerance = true"] {
+        let problems = refused(&with(wrong));
+        let message = told(&problems);
+        let line = text.lines().position(|line| line == "seed = 1").unwrap() + 2;
+        assert!(
+            problems.len() == 1
+                && message.contains("`contact_tolerance`")
+                && message.contains(&format!("test.toml:{line}:")),
+            "{wrong}: {message}"
+        );
+    }
 }
 
 #[test]

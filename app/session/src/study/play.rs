@@ -147,10 +147,10 @@ impl Opened {
         let stride = (1.0 / (LOOKS_HZ * run.step_s())).round().max(1.0) as u64;
         let settings = &run.model().spec.settings;
         let usual = settings.duration_s / settings.contact_step_s.min(settings.step_s);
-        let most = [STUCK, STUCK_PASSES].map(|times| (times * usual) as u64);
+        let [most_steps, most_passes] = [STUCK, STUCK_PASSES].map(|times| (times * usual) as u64);
         while !run.finished() && run.step(run.pilot()).is_ok() {
             let audit = run.audit();
-            if audit.solver_steps + audit.halved > most[0] || audit.passes > most[1] {
+            if audit.solver_steps + audit.halved > most_steps || audit.passes > most_passes {
                 run.give_up("it sticks: hardly a step of the solver goes through");
                 break;
             }

@@ -66,26 +66,26 @@ impl ContactWorkspace {
         }
     }
 
-    /// Push and friction of every contact with its block, linear about where it was measured (`before`), with the rope at other places.
+    /// Push and friction of every contact as measured last, with its block as noted.
+    pub fn contacts(&self) -> impl Iterator<Item = (&SkinContactPoint, DVec3, &DMat3)> {
+        let Self { points, touching, .. } = self;
+        touching
+            .point
+            .iter()
+            .zip(&touching.block)
+            .enumerate()
+            .map(|(place, (index, block))| (&points.list[*index], touching.force_of(place), block))
+    }
+
+    /// The same, linear about where it was measured (`before`), with the rope at other places.
     pub fn contacts_at<'a>(
         &'a self,
         places: &'a [DVec3],
     ) -> impl Iterator<Item = (&'a SkinContactPoint, DVec3, &'a DMat3)> {
-        let Self { points, touching, before, .. } = self;
-        touching.point.iter().zip(&touching.block).enumerate().map(|(place, (index, block))| {
-            let point = &points.list[*index];
-            let step = point.on_rope(|node| places[node] - before[node]);
-            (point, touching.force_of(place) - *block * step, block)
+        self.contacts().map(|(point, force, block)| {
+            let step = point.on_rope(|node| places[node] - self.before[node]);
+            (point, force - *block * step, block)
         })
-    }
-
-    /// Hands over push and friction of every contact with the block `-dF/dx`, which is noted.
-    pub fn add_contacts(&mut self, mut add: impl FnMut(&SkinContactPoint, DVec3, &DMat3)) {
-        self.note_blocks();
-        let Self { points, touching, .. } = self;
-        for (place, index) in touching.point.iter().enumerate() {
-            add(&points.list[*index], touching.force_of(place), &touching.block[place]);
-        }
     }
 
     /// Opens the contact points of rope that may touch, as its predicted places lie.

@@ -183,9 +183,10 @@ impl Solver {
 
     /// Adds push and friction of every contact point in touch.
     pub(super) fn add_contact_blocks(&mut self, work: &mut ContactWorkspace) {
-        work.add_contacts(|point, force, block| {
+        work.note_blocks();
+        for (point, force, block) in work.contacts() {
             self.tridiagonal.add_at(point.segment, point.node, point.fraction, force, block);
-        });
+        }
     }
 
     /// Takes the tension of every segment at the trial places as it is.

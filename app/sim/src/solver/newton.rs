@@ -166,7 +166,7 @@ impl Solver {
         model: &Model,
         state: &State,
         scheme: &Scheme,
-        work: &mut ContactWorkspace,
+        work: &ContactWorkspace,
         share: f64,
     ) -> PassDone {
         self.lanes.leave_contact();
@@ -175,7 +175,7 @@ impl Solver {
             lanes.add_contact(point.segment, point.fraction, force, block);
         }
         self.before.clone_from(&self.trial.place);
-        work.bodies_before.clone_from(&self.trial.bodies);
+        self.bodies_before.clone_from(&self.trial.bodies);
         let least_n = TENSION_GAP_N.min(self.tolerance().gap_n);
         for solved in 0..=MOST_ACTIVE_SETS {
             let passed = self.pass_free(model, state, scheme, share);
@@ -188,7 +188,7 @@ impl Solver {
             }
             // Again from the same places, with the segments taut that are so by the solution.
             self.trial.place.clone_from(&self.before);
-            self.trial.bodies.clone_from(&work.bodies_before);
+            self.trial.bodies.clone_from(&self.bodies_before);
             self.lanes.take_places(&self.trial.place);
         }
         PassDone { longest_m: f64::NAN, tension_missed: f64::NAN }

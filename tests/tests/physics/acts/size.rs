@@ -59,8 +59,12 @@ fn a_size_that_cannot_be_is_told_with_its_place() {
         ("pregnant = \"yes\"", ["`pregnant` is", "true or false"]),
     ] {
         let message = made(size, &library()).err().unwrap_or_else(|| panic!("{size} is taken"));
+        let whole = scenario(size);
+        let first = whole.lines().position(|line| size.starts_with(line) && !line.is_empty());
+        let last = first.unwrap() + size.lines().count();
+        let place = format!("test.toml:{last}:");
         assert!(
-            parts.iter().all(|part| message.contains(part)) && message.contains("test.toml:"),
+            parts.iter().all(|part| message.contains(part)) && message.contains(&place),
             "{size}: {message}"
         );
     }

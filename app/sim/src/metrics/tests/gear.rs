@@ -77,13 +77,18 @@ fn peaks_keep_their_time_and_parting_is_told_once() {
     assert_eq!(told, [(EventKind::LinkParted, "weak", 0.6)]);
 }
 
-/// A step that parts a link leaves no tension behind; what the link bore is in the step's peaks.
-#[test]
-fn a_step_peak_outlives_the_parting() {
+/// A line of four segments with a weak link at its end B.
+fn with_link() -> Model {
     let mut spec = spec(vec![1.0; 4]);
     spec.links =
         vec![Link { id: "weak".into(), line: 0, end: LineEnd::B, rating_n: 90.0, enabled: true }];
-    let model = model(spec);
+    model(spec)
+}
+
+/// A step that parts a link leaves no tension behind; what the link bore is in the step's peaks.
+#[test]
+fn a_step_peak_outlives_the_parting() {
+    let model = with_link();
     let (mut metrics, mut state, mut workspace) =
         (Metrics::new(&model), State::start(&model), crate::Workspace::new(&model));
     (state.time_s, state.link_parted_s[0], state.rope.cut[3]) = (0.01, Some(0.007), true);
@@ -104,10 +109,7 @@ fn a_step_peak_outlives_the_parting() {
 /// What a solver step that did not converge says of tension is kept apart from the peaks.
 #[test]
 fn peaks_come_from_solver_steps_that_converged() {
-    let mut spec = spec(vec![1.0; 4]);
-    spec.links =
-        vec![Link { id: "weak".into(), line: 0, end: LineEnd::B, rating_n: 90.0, enabled: true }];
-    let model = model(spec);
+    let model = with_link();
     let (mut metrics, mut state, mut workspace) =
         (Metrics::new(&model), State::start(&model), crate::Workspace::new(&model));
     for (time_s, converged_n, unconverged_n) in [(0.01, 60.0, 0.0), (0.02, 0.0, 4000.0)] {
