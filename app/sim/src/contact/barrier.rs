@@ -49,6 +49,21 @@ impl BarrierForce {
         Self { force: end.force + beyond * end.stiffness, stiffness: end.stiffness }
     }
 
+    /// The push at half of the greatest depth, from which on the law counts as steep [N].
+    pub fn steep_n(contact_distance: f64, stiffness: f64) -> f64 {
+        stiffness * contact_distance * (1.0 - LEAST_SHARE)
+    }
+
+    /// The depth at which the push is `force`, and the push there.
+    pub fn at_force(force: f64, contact_distance: f64, stiffness: f64) -> (f64, Self) {
+        let room = contact_distance * (1.0 - LEAST_SHARE);
+        let greatest = stiffness * room * U_LINEAR / (1.0 - U_LINEAR);
+        let u = (force / (stiffness * room + force)).min(U_LINEAR);
+        let stiffness = stiffness / ((1.0 - u) * (1.0 - u));
+        let beyond = (force - greatest).max(0.0) / stiffness;
+        (u * room + beyond, Self { force, stiffness })
+    }
+
     /// A share of this push.
     pub fn share(self, share: f64) -> Self {
         Self { force: self.force * share, stiffness: self.stiffness * share }
@@ -84,5 +99,15 @@ mod tests {
             assert!((growth / here.stiffness - 1.0).abs() < 1e-4, "{distance}");
         }
         assert_eq!(BarrierForce::new(0.006, 0.006, 5e4), BarrierForce::default());
+    }
+
+    #[test]
+    fn the_depth_of_a_force_is_where_the_law_has_it() {
+        for force in [1.0, 200.0, BarrierForce::steep_n(0.006, 5e4), 3e4, 1e5] {
+            let (depth, push) = BarrierForce::at_force(force, 0.006, 5e4);
+            let there = BarrierForce::new(0.006 - depth, 0.006, 5e4);
+            assert!((there.force / force - 1.0).abs() < 1e-9, "{force}");
+            assert!((there.stiffness / push.stiffness - 1.0).abs() < 1e-9, "{force}");
+        }
     }
 }

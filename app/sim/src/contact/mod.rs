@@ -9,6 +9,7 @@ mod grain;
 pub(crate) mod near;
 pub(crate) mod placed;
 pub(crate) mod points;
+mod polygon;
 pub mod ropes;
 pub(crate) mod skin_friction;
 pub mod step_sums;

@@ -162,6 +162,12 @@ impl SkinContactPoints {
         }
     }
 
+    /// Notes the push that a solution found for a face of a contact point, which it moves by `step`.
+    pub fn note_solved(&mut self, point: usize, face: usize, step: DVec3) {
+        let touch = &mut self.touches[self.list[point].touches.start + face];
+        touch.solved_n = Some(touch.push_after(step));
+    }
+
     /// What a contact point touches, as measured last.
     pub fn touches(&self, point: &SkinContactPoint) -> &[Touch] {
         &self.touches[point.touches.clone()]
@@ -190,6 +196,7 @@ impl SkinContactPoint {
         touches: &mut Vec<Touch>,
     ) {
         let place = self.on_rope(|node| places[node]);
+        let first = touches.len();
         if self.seen.is_some_and(|(seen, _)| seen == place) {
             touches.extend_from_slice(&touched[self.touches.clone()]);
             return;
@@ -204,6 +211,15 @@ impl SkinContactPoint {
             self.seen = Some((place, distance));
             self.nearest_pair = Some(pair);
         }
+        let along = (places[self.node + 1] - places[self.node]).normalize_or_zero();
+        for touch in &mut touches[first..] {
+            touch.turn_across(along);
+            touch.take_solved(
+                &touched[self.touches.clone()],
+                self.contact_distance,
+                self.stiffness,
+            );
+        }
     }
 
     /// Number that names a face that it touches from step to step.
@@ -211,19 +227,23 @@ impl SkinContactPoint {
         self.site | face as u64
     }
 
-    /// Adds what it touches, with the rope moved by `step` from the places measured last.
+    /// Adds what it touches, with the nodes moved by a share of their steps from the places measured last.
     pub fn add_touches_moved(
         &self,
         near: &Near,
-        place: DVec3,
-        step: DVec3,
+        places: &[DVec3],
+        (steps, share): (&[DVec3], f64),
         touches: &mut Vec<Touch>,
     ) {
-        let (place, moved) = (place + step, step.length());
+        let moved_node = |node: usize| places[node] + steps[node] * share;
+        let place = self.on_rope(moved_node);
         if self.out_of_reach(place) {
             return;
         }
+        let (first, moved) = (touches.len(), (self.on_rope(|node| steps[node]) * share).length());
         self.add_touches(near, place, moved, self.contact_distance, touches);
+        let along = (moved_node(self.node + 1) - moved_node(self.node)).normalize_or_zero();
+        touches[first..].iter_mut().for_each(|touch| touch.turn_across(along));
     }
 
     /// Adds what it touches, with the rope moved by at most `moved` since pairs were bounded; distance and pair of the nearest triangle within
@@ -273,8 +293,8 @@ impl SkinContactPoint {
         let barrier = BarrierForce::new(distance, self.contact_distance, self.stiffness);
         (barrier.force > 0.0).then(|| {
             let closest = on_triangle(near.skin_of(pair).now, barycentric);
-            let normal = (place - closest) / distance.max(1e-12);
-            Touch { pair, barycentric, place, normal, distance, barrier }
+            let away = (place - closest) / distance.max(1e-12);
+            Touch::new((pair, barycentric), place, (away, distance), barrier)
         })
     }
 

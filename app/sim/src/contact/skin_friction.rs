@@ -14,6 +14,7 @@ use super::account::Account;
 use super::grain::Grains;
 use super::near::Near;
 use super::points::{SkinContactPoint, SkinContactPoints};
+use super::polygon::friction_factor;
 use super::touch::Touch;
 use crate::model::{Friction, FrictionLaw, Model};
 use crate::solver::outer;
@@ -63,6 +64,8 @@ pub(crate) struct Touching {
     touches: Vec<Touch>,
     groups: Vec<Group>,
     normal_force: Vec<f64>,
+    /// What the linear push grows by to where it was measured [N].
+    growth_n: Vec<f64>,
     normal: Vec<[f64; 3]>,
     grain: Vec<[f64; 3]>,
     along: Vec<[f64; 3]>,
@@ -92,6 +95,7 @@ impl Touching {
             touches: Vec::new(),
             groups: Vec::new(),
             normal_force: Vec::new(),
+            growth_n: Vec::new(),
             normal: Vec::new(),
             grain: Vec::new(),
             along: Vec::new(),
@@ -168,6 +172,7 @@ impl Touching {
         self.found.clear();
         self.groups.clear();
         self.normal_force.clear();
+        self.growth_n.clear();
         self.normal.clear();
         self.grain.clear();
         self.along.clear();
@@ -202,6 +207,7 @@ impl Touching {
         self.point.push(index);
         self.face.push(face);
         self.normal_force.push(touch.barrier.force);
+        self.growth_n.push(touch.growth_n);
         self.normal.push(touch.normal.to_array());
         let grain = self.grains.at(pair.triangle as usize, &pair.now, touch.normal);
         self.grain.push(grain.to_array());
@@ -212,7 +218,9 @@ impl Touching {
         );
         self.slip.push((slip - touch.normal * slip.dot(touch.normal)).to_array());
         self.length.push(point.length);
-        self.coefficient.push(friction.coefficients[rope][region as usize]);
+        let segment = (point.segment, point.node);
+        let factor = friction_factor(model, &state.rope.position, segment, point.fraction);
+        self.coefficient.push(friction.coefficients[rope][region as usize] * factor);
         self.region.push(region as u32);
         self.rope.push(u32::try_from(rope).unwrap_or(u32::MAX));
         self.put_floats(friction, law, point.site(face), &state.rope.friction);
@@ -340,15 +348,17 @@ impl Touching {
     /// `-d force / d place` of a contact with what it touches [N/m].
     pub fn block_of(&self, place: usize, touch: &Touch) -> DMat3 {
         let response = &self.response[place];
-        let push = touch.normal * touch.barrier.stiffness;
-        outer(push, touch.normal) - matrix(&response.by_slip)
-            + outer(DVec3::from_array(response.by_normal_force), push)
+        let growth = touch.away * touch.barrier.stiffness;
+        outer(touch.normal + DVec3::from_array(response.by_normal_force), growth)
+            - matrix(&response.by_slip)
     }
 
-    /// Push and friction of a contact together [N].
+    /// Push and friction of a contact together, linear about the push that they were asked for [N].
     pub fn force_of(&self, place: usize) -> DVec3 {
-        DVec3::from_array(self.normal[place]) * self.normal_force[place]
-            + DVec3::from_array(self.response[place].force_n)
+        let (response, normal) = (&self.response[place], DVec3::from_array(self.normal[place]));
+        normal * self.normal_force[place]
+            + DVec3::from_array(response.force_n)
+            + (normal + DVec3::from_array(response.by_normal_force)) * self.growth_n[place]
     }
 
     /// Slip of a contact in this step.

@@ -10,7 +10,84 @@ pub(crate) struct Touch {
     pub pair: usize,
     pub barycentric: [f64; 3],
     pub place: DVec3,
+    /// Direction of the push: across the rope, for skin cannot pull rope along itself.
     pub normal: DVec3,
+    /// Direction in which the distance grows: from the closest point of the skin to the place.
+    pub away: DVec3,
     pub distance: f64,
+    /// The push, and its growth with depth, where it is taken as linear.
     pub barrier: BarrierForce,
+    /// What that linear push grows by from there to this distance; nothing where it is the law's at this distance [N].
+    pub growth_n: f64,
+    /// Share of the push that this face has beside others.
+    pub share: f64,
+    /// Push found by the last solution of the step, if there was one [N].
+    pub solved_n: Option<f64>,
+}
+
+/// Length of `away` across the rope up to which the push goes along `away`, and from which it goes wholly across the rope.
+const ACROSS: (f64, f64) = (0.2, 0.4);
+/// Cosine of the angle of two normals above which a face is the one that was touched before.
+const SAME_FACE: f64 = 0.7;
+
+impl Touch {
+    /// The push of skin at a distance along `away`.
+    pub fn new(
+        (pair, barycentric): (usize, [f64; 3]),
+        place: DVec3,
+        (away, distance): (DVec3, f64),
+        barrier: BarrierForce,
+    ) -> Self {
+        Self {
+            pair,
+            barycentric,
+            place,
+            normal: away,
+            away,
+            distance,
+            barrier,
+            growth_n: 0.0,
+            share: 1.0,
+            solved_n: None,
+        }
+    }
+
+    /// Turns the push across a rope that goes along `along`.
+    ///
+    /// Rope that slides over an edge would otherwise be pushed back by each contact point before the edge and drawn on by each
+    /// behind it, and the push would turn as the contact point passes.
+    pub fn turn_across(&mut self, along: DVec3) {
+        let ahead = along * along.dot(self.away);
+        let length = (self.away - ahead).length();
+        let part = ((length - ACROSS.0) / (ACROSS.1 - ACROSS.0)).clamp(0.0, 1.0);
+        self.normal = (self.away - ahead * part).normalize_or(self.away);
+    }
+
+    /// Takes over what the last solution found for the same face, if it is among those touched `before`, and takes the push as linear
+    /// about it where the law is steep.
+    ///
+    /// The law grows without bound near the least distance. From a trial that came too near, its tangents lead back by half of the
+    /// excess in each pass; taken at the solved push instead of the distance, they lead there at once.
+    pub fn take_solved(&mut self, before: &[Self], contact_distance: f64, stiffness: f64) {
+        let alike = |other: &&Self| other.normal.dot(self.normal);
+        let same = before
+            .iter()
+            .filter(|other| alike(other) > SAME_FACE)
+            .max_by(|one, other| alike(one).total_cmp(&alike(other)));
+        self.solved_n = same.and_then(|same| same.solved_n);
+        let Some(solved_n) = self.solved_n else { return };
+        let stiffness = stiffness * self.share;
+        let steep_n = BarrierForce::steep_n(contact_distance, stiffness);
+        if self.barrier.force > steep_n {
+            let (depth, barrier) =
+                BarrierForce::at_force(solved_n.max(steep_n), contact_distance, stiffness);
+            self.growth_n = barrier.stiffness * (contact_distance - self.distance - depth);
+            self.barrier = barrier;
+        }
+    }
+
+    /// The push here after the rope has moved by a solved step [N].
+    pub fn push_after(&self, step: DVec3) -> f64 {
+        self.barrier.force + self.growth_n - self.barrier.stiffness * self.away.dot(step)
+    }
 }

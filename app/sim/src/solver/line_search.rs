@@ -129,8 +129,8 @@ impl Solver {
             point.on_rope(|node| self.tridiagonal.step[node])
         };
         probe.collect_with(model, near, points, state, |point, touches| {
-            let place = point.on_rope(|node| self.trial.place[node]);
-            point.add_touches_moved(near, place, step_of(point) * share, touches);
+            let steps = (&self.tridiagonal.step[..], share);
+            point.add_touches_moved(near, &self.trial.place, steps, touches);
         });
         if probe.respond(friction, scheme.dt).is_err() {
             return f64::INFINITY;

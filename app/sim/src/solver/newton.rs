@@ -235,6 +235,7 @@ impl Solver {
             let point = &mut points.list[*index];
             let step = point.on_rope(|node| self.trial.place[node] - before[node]);
             point.missed += touching.force_of(place) - touching.block[place] * step;
+            points.note_solved(*index, touching.face[place], step);
         }
     }
 

@@ -25,7 +25,7 @@ fn read(what: &str, capstan: &Capstan) -> Reading {
 }
 
 #[test]
-fn friction_round_a_drum_is_that_of_the_law_within_two_per_cent() {
+fn friction_round_a_drum_is_that_of_the_law() {
     for (turn, friction) in [(FRAC_PI_2, 0.1), (TAU, 0.3), (2.0 * TAU, 0.6)] {
         let slack_n = 4000.0 / libm::exp(friction * turn);
         let capstan = Capstan {
@@ -37,7 +37,7 @@ fn friction_round_a_drum_is_that_of_the_law_within_two_per_cent() {
             ..Capstan::default()
         };
         let read = read(&format!("{turn:.2} rad at {friction}"), &capstan);
-        assert!((read.friction - 1.0).abs() < 0.02, "{read:?}");
+        assert!((read.friction - 1.0).abs() < 0.012, "{read:?}");
     }
 }
 
@@ -58,9 +58,29 @@ fn tension_over_the_edge_of_a_fin_is_that_of_the_law() {
             };
             let read = read(&format!("edge of {radius_m} m, {degrees} deg"), &capstan);
             assert!(read.audit.splits > 20, "{read:?}");
-            assert!((read.ratio - 1.0).abs() < 0.05, "{read:?}");
-            assert!(read.ripple < 0.1, "{read:?}");
+            assert!((read.ratio - 1.0).abs() < 0.02, "{read:?}");
+            assert!(read.ripple < 0.03, "{read:?}");
         }
+    }
+}
+
+/// Rope in the fold of a sheave is pressed by both of its sides, each with `N / (2 cos β)` where they rise by `β`: its friction is that
+/// of a flat drum over `cos β`, as of a V-belt.
+#[test]
+fn rope_pulled_into_a_fold_is_held_by_both_of_its_sides() {
+    for (degrees, segment_m) in [(4.0_f64, SHIPPED_M), (15.0, 0.03), (40.0, 0.03)] {
+        let rise = degrees.to_radians();
+        let capstan = Capstan {
+            turn: FRAC_PI_2,
+            rise,
+            slack_n: 8000.0,
+            segment_m,
+            drawn_m: [0.1, 0.1],
+            ..Capstan::default()
+        };
+        let read = read(&format!("a fold with sides that rise by {degrees} deg"), &capstan);
+        assert!((read.friction * libm::cos(rise) - 1.0).abs() < 0.02, "{read:?}");
+        assert_eq!(read.audit.unconverged, 0, "{read:?}");
     }
 }
 

@@ -84,6 +84,30 @@ pub fn drum(radius: f64, half_length: f64, region: Region, facets: u32) -> Skin 
     }
 }
 
+/// A drum along y whose sides rise by an angle from a fold round its middle, as those of a sheave.
+pub fn sheave(radius: f64, rise: f64, half_length: f64, region: Region, facets: u32) -> Skin {
+    let mut skin = drum(radius + half_length * libm::tan(rise), half_length, region, facets);
+    let fold = skin.vertices.len() as u32;
+    let angle = |k: u32| f64::from(k) / f64::from(facets) * TAU;
+    skin.vertices.extend(
+        (0..facets)
+            .map(|k| DVec3::new(radius * libm::cos(angle(k)), 0.0, radius * libm::sin(angle(k)))),
+    );
+    let side = |of: usize| move |k: u32| [2 * k + of as u32, fold + k];
+    skin.triangles = (0..facets)
+        .flat_map(|k| {
+            let next = (k + 1) % facets;
+            let ([a, m], [c, n]) = (side(0)(k), side(0)(next));
+            let ([b, _], [d, _]) = (side(1)(k), side(1)(next));
+            let (left, right) = (2 * facets, 2 * facets + 1);
+            [[a, c, m], [m, c, n], [m, n, b], [b, n, d], [a, left, c], [b, d, right]]
+        })
+        .collect();
+    skin.regions = vec![region; skin.triangles.len()];
+    skin.weights = vec![skin.weights[0]; skin.vertices.len()];
+    skin
+}
+
 /// A skin as a whale that stays where it is.
 pub fn still(skin: Skin) -> Whale {
     Whale {
@@ -122,6 +146,8 @@ pub struct Capstan {
     pub radius_m: f64,
     /// Facets round it.
     pub facets: u32,
+    /// Angle by which its sides rise from a fold in which the rope lies; none on a drum [rad].
+    pub rise: f64,
     /// Turn of the rope [rad].
     pub turn: f64,
     pub friction: f64,
@@ -145,6 +171,7 @@ impl Default for Capstan {
         Self {
             radius_m: 0.3,
             facets: 96,
+            rise: 0.0,
             turn: PI,
             friction: 0.3,
             segment_m: 0.05,
@@ -183,6 +210,20 @@ impl Capstan {
         libm::hypot(self.radius_m + CLEAR_M, 0.5 * self.segment_m)
     }
 
+    /// Axial distance of one turn from the next; rope in a fold lies on itself [m].
+    fn pitch_m(&self) -> f64 {
+        if self.rise > 0.0 { 0.0 } else { PITCH_M }
+    }
+
+    fn skin(&self) -> Skin {
+        let (half, region) = (0.1 + 0.5 * PITCH_M * self.turn / TAU, Region::LeftFlukeTrailing);
+        if self.rise > 0.0 {
+            sheave(self.radius_m, self.rise, half, region, self.facets)
+        } else {
+            drum(self.radius_m, half, region, self.facets)
+        }
+    }
+
     fn whole_m(&self) -> f64 {
         2.0 * self.tail_m + self.turn * self.laid_m()
     }
@@ -193,7 +234,7 @@ impl Capstan {
         let along = ((s - self.tail_m) / laid).clamp(0.0, self.turn);
         let beyond = (s - self.tail_m) - along * laid;
         let (sin, cos) = (libm::sin(along), libm::cos(along));
-        let axial = PITCH_M * (along - 0.5 * self.turn) / TAU;
+        let axial = self.pitch_m() * (along - 0.5 * self.turn) / TAU;
         DVec3::new(laid * sin + beyond * cos, axial, laid * cos - beyond * sin)
     }
 
@@ -220,7 +261,6 @@ impl Capstan {
         };
         let mut rope = super::rope();
         rope.axial_damping_ratio = 0.5;
-        let half = 0.1 + 0.5 * PITCH_M * self.turn / TAU;
         ModelSpec {
             water: endline_sim::water::Water { gravity_m_s2: 0.0, ..super::water(0.0, 0.0) },
             seabed: None,
@@ -241,7 +281,7 @@ impl Capstan {
             bodies: Vec::new(),
             links: Vec::new(),
             gear: Vec::new(),
-            whale: Some(still(drum(self.radius_m, half, Region::LeftFlukeTrailing, self.facets))),
+            whale: Some(still(self.skin())),
             friction: Some(coulomb(self.friction)),
             obstacles: Vec::new(),
             probes: Vec::new(),
