@@ -14,6 +14,7 @@ use super::crease;
 use super::near::Near;
 use super::placed::on_triangle;
 use super::touch::Touch;
+use crate::state::FrictionState;
 
 /// Longest piece of rope one contact point stands for [m].
 const PIECE_M: f64 = 0.025;
@@ -69,6 +70,8 @@ pub(crate) struct SkinContactPoint {
     seen: Option<(DVec3, f64)>,
     /// The pair it was nearest to then.
     nearest_pair: Option<usize>,
+    /// Greatest push on its piece of rope when it was opened beside other contact points [N].
+    push_beside_n: Option<f64>,
     /// What it touches, in `SkinContactPoints::touches`.
     touches: Range<usize>,
     /// Push and friction on it as the last solve predicted them, less what they are where the trial stands [N].
@@ -83,11 +86,27 @@ pub(crate) struct SkinContactPoints {
     touches: Vec<Touch>,
     /// The same as measured before.
     touched: Vec<Touch>,
+    /// Sites with the push on them at the end of the last solver step, where passes set out from it [N].
+    kept: Vec<(u64, f64)>,
+    /// Whether passes set out from pushes that are known, and not from distances.
+    by_push: bool,
 }
 
 impl SkinContactPoints {
-    /// Opens the middle contact points of every segment that has pairs.
-    pub fn open(&mut self, near: &Near, segment_length: &[f64], stiffness_n_m2: f64) {
+    /// Opens the middle contact points of every segment that has pairs; with what skin pushed with in the last step, passes set out from
+    /// that, and not from the distances of a first guess.
+    pub fn open(
+        &mut self,
+        near: &Near,
+        segment_length: &[f64],
+        stiffness_n_m2: f64,
+        kept: Option<&FrictionState>,
+    ) {
+        self.by_push = kept.is_some();
+        self.kept.clear();
+        if let Some(kept) = kept {
+            self.kept.extend(kept.sites.iter().copied().zip(kept.push_n.iter().copied()));
+        }
         self.list.clear();
         for (index, group) in near.groups.iter().enumerate() {
             if group.active.is_empty() {
@@ -109,6 +128,7 @@ impl SkinContactPoints {
                     stiffness: stiffness_n_m2 * length / pieces,
                     seen: None,
                     nearest_pair: None,
+                    push_beside_n: None,
                     touches: 0..0,
                     missed: DVec3::ZERO,
                 });
@@ -133,10 +153,13 @@ impl SkinContactPoints {
                 && let Some(fraction) = self.list[from].nearer_fraction(near, places, least)
             {
                 let site = self.list[to - 1].site + (1 << FACE_BITS);
+                let beside = self.list[from..to].iter().flat_map(|point| self.touches(point));
+                let push_n = beside.map(|touch| touch.barrier.force).fold(0.0, f64::max);
                 self.list.push(SkinContactPoint {
                     site,
                     fraction,
                     seen: None,
+                    push_beside_n: self.by_push.then_some(push_n),
                     touches: 0..0,
                     missed: DVec3::ZERO,
                     ..self.list[from].clone()
@@ -157,7 +180,7 @@ impl SkinContactPoints {
         self.touches.clear();
         for point in &mut self.list {
             let first = self.touches.len();
-            point.measure(near, places, &self.touched, &mut self.touches);
+            point.measure(near, places, (&self.touched, &self.kept), &mut self.touches);
             point.touches = first..self.touches.len();
         }
     }
@@ -192,7 +215,7 @@ impl SkinContactPoint {
         &mut self,
         near: &Near,
         places: &[DVec3],
-        touched: &[Touch],
+        (touched, kept): (&[Touch], &[(u64, f64)]),
         touches: &mut Vec<Touch>,
     ) {
         let place = self.on_rope(|node| places[node]);
@@ -212,14 +235,20 @@ impl SkinContactPoint {
             self.nearest_pair = Some(pair);
         }
         let along = (places[self.node + 1] - places[self.node]).normalize_or_zero();
-        for touch in &mut touches[first..] {
+        for (face, touch) in touches[first..].iter_mut().enumerate() {
             touch.turn_across(along);
-            touch.take_solved(
-                &touched[self.touches.clone()],
-                self.contact_distance,
-                self.stiffness,
-            );
+            touch.solved_n = touch
+                .solved_before(&touched[self.touches.clone()])
+                .or_else(|| self.kept_push(face, kept))
+                .or(self.push_beside_n);
+            touch.take_solved(self.contact_distance, self.stiffness);
         }
+    }
+
+    /// The push of a face at the end of the last solver step, if it was touched [N].
+    fn kept_push(&self, face: usize, kept: &[(u64, f64)]) -> Option<f64> {
+        let place = kept.binary_search_by_key(&self.site(face), |(site, _)| *site).ok()?;
+        Some(kept[place].1)
     }
 
     /// Number that names a face that it touches from step to step.

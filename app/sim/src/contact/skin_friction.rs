@@ -339,6 +339,7 @@ impl Touching {
             let from = group.floats.start + (place - group.contacts.start) * width;
             let Account { taken_j, given_j } = self.account[*place];
             grips.sites.push(points.list[self.point[*place]].site(self.face[*place]));
+            grips.push_n.push((self.normal_force[*place] + self.growth_n[*place]).max(0.0));
             grips.floats.extend_from_slice(&[group.law as f64, taken_j, given_j]);
             grips.floats.extend_from_slice(&self.floats_at_end[from..from + width]);
             grips.floats.resize(grips.sites.len() * stride, 0.0);

@@ -21,7 +21,7 @@ pub(crate) struct Touch {
     pub growth_n: f64,
     /// Share of the push that this face has beside others.
     pub share: f64,
-    /// Push found by the last solution of the step, if there was one [N].
+    /// Push found by the last solution, or where there was none yet, expected [N].
     pub solved_n: Option<f64>,
 }
 
@@ -63,18 +63,21 @@ impl Touch {
         self.normal = (self.away - ahead * part).normalize_or(self.away);
     }
 
-    /// Takes over what the last solution found for the same face, if it is among those touched `before`, and takes the push as linear
-    /// about it where the law is steep.
-    ///
-    /// The law grows without bound near the least distance. From a trial that came too near, its tangents lead back by half of the
-    /// excess in each pass; taken at the solved push instead of the distance, they lead there at once.
-    pub fn take_solved(&mut self, before: &[Self], contact_distance: f64, stiffness: f64) {
+    /// The push that the last solution found for the same face, if it is among those touched `before` [N].
+    pub fn solved_before(&self, before: &[Self]) -> Option<f64> {
         let alike = |other: &&Self| other.normal.dot(self.normal);
         let same = before
             .iter()
             .filter(|other| alike(other) > SAME_FACE)
             .max_by(|one, other| alike(one).total_cmp(&alike(other)));
-        self.solved_n = same.and_then(|same| same.solved_n);
+        same.and_then(|same| same.solved_n)
+    }
+
+    /// Takes the push as linear about the solved one where the law is steep.
+    ///
+    /// The law grows without bound near the least distance. From a trial that came too near, its tangents lead back by half of the
+    /// excess in each pass; taken at the solved push instead of the distance, they lead there at once.
+    pub fn take_solved(&mut self, contact_distance: f64, stiffness: f64) {
         let Some(solved_n) = self.solved_n else { return };
         let stiffness = stiffness * self.share;
         let steep_n = BarrierForce::steep_n(contact_distance, stiffness);

@@ -89,9 +89,16 @@ impl ContactWorkspace {
     }
 
     /// Opens the contact points of rope that may touch, as its predicted places lie.
-    pub fn open_active_points(&mut self, model: &Model, lengths: &[f64], places: &[DVec3]) {
+    pub fn open_active_points(
+        &mut self,
+        model: &Model,
+        state: &State,
+        lengths: &[f64],
+        places: &[DVec3],
+    ) {
         let Some(whale) = &model.spec.whale else { return };
-        self.points.open(&self.near, lengths, whale.contact_stiffness_n_m2);
+        let (stiffness, kept) = (whale.contact_stiffness_n_m2, &state.rope.friction);
+        self.points.open(&self.near, lengths, stiffness, Some(kept));
         self.points.measure(&self.near, places);
         self.points.open_more(&self.near, places);
     }
@@ -100,7 +107,7 @@ impl ContactWorkspace {
     pub fn open_points(&mut self, model: &Model, segment_length: &[f64], places: &[DVec3]) {
         let Some(whale) = &model.spec.whale else { return };
         if self.points.list.is_empty() {
-            self.points.open(&self.near, segment_length, whale.contact_stiffness_n_m2);
+            self.points.open(&self.near, segment_length, whale.contact_stiffness_n_m2, None);
         }
         self.points.forget();
         self.points.measure(&self.near, places);

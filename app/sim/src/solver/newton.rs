@@ -27,7 +27,7 @@ use crate::cost::CostPart;
 use crate::model::{CONTACT_TOLERANCE, Model};
 use crate::state::State;
 
-/// Most passes.
+/// Most passes, and most again once further contact points are opened.
 const MOST_PASSES: usize = 6;
 /// Most solutions for rope in a pass, with contact linear.
 const MOST_ROPE_SOLUTIONS: usize = 4;
@@ -86,10 +86,11 @@ impl Solver {
         work: &mut ContactWorkspace,
     ) -> Result<Converged, ContactEnd> {
         self.cost.enter(CostPart::Detection);
-        work.open_active_points(model, &self.lengths.segment, &self.trial.place);
-        let mut opened = false;
+        work.open_active_points(model, state, &self.lengths.segment, &self.trial.place);
+        let (mut opened, mut passes, mut pass) = (false, 0, 0);
         self.measure_contacts(model, state, scheme, work)?;
-        for pass in 1..=MOST_PASSES {
+        while pass < MOST_PASSES {
+            (pass, passes) = (pass + 1, passes + 1);
             let share = if HALF_PASSES.contains(&pass) { 0.5 } else { 1.0 };
             let done = self.whole_pass(model, state, scheme, work, share);
             if !done.longest_m.is_finite() {
@@ -104,13 +105,13 @@ impl Solver {
             }
             self.cost.enter(CostPart::Detection);
             if !opened && work.points.open_more(&work.near, &self.trial.place) > 0 {
-                opened = true;
+                (opened, pass) = (true, 0);
                 self.measure_contacts(model, state, scheme, work)?;
                 continue;
             }
-            return Ok(Converged { passes: pass, missed });
+            return Ok(Converged { passes, missed });
         }
-        Err(ContactEnd::Ended { last_m: f64::INFINITY, passes: MOST_PASSES, crossings: 0 })
+        Err(ContactEnd::Ended { last_m: f64::INFINITY, passes, crossings: 0 })
     }
 
     /// One pass with the contacts measured last: rope is solved, with contact linear, until its tension is what the solve took for granted.

@@ -9,16 +9,19 @@ use crate::in_place::clone_in_place;
 pub struct FrictionState {
     /// Sites in touch.
     pub sites: Vec<u64>,
+    /// Push of the skin on each at the end of the last solver step [N].
+    pub push_n: Vec<f64>,
     /// Floats of each, one after the other: number of the law, energy taken and given [J], then the plugin's own.
     pub floats: Vec<f64>,
 }
 
-clone_in_place!(FrictionState { sites, floats });
+clone_in_place!(FrictionState { sites, push_n, floats });
 
 impl FrictionState {
     /// Forgets all grips.
     pub(crate) fn clear(&mut self) {
         self.sites.clear();
+        self.push_n.clear();
         self.floats.clear();
     }
 }
