@@ -28,13 +28,13 @@ use crate::model::{CONTACT_TOLERANCE, Model};
 use crate::state::State;
 
 /// Most passes, and most again once further contact points are opened.
-const MOST_PASSES: usize = 6;
+const MOST_PASSES: usize = 8;
 /// Most solutions for rope in a pass, with contact linear.
 const MOST_ROPE_SOLUTIONS: usize = 4;
 /// Most times a solution is sought again for other taut segments.
 const MOST_ACTIVE_SETS: usize = 6;
-/// Passes that go half of the way, where whole ones go to and fro.
-const HALF_PASSES: [usize; 2] = [3, 5];
+/// Share of what the pass before missed by, above which a pass has stalled: the next goes half of the way, for whole ones go to and fro.
+const STALLED_SHARE: f64 = 0.5;
 /// Push and friction that a contact point may miss by, where `contact_tolerance` is the usual one [N].
 const CONTACT_N: f64 = 0.1;
 /// Move of the last solution, where `contact_tolerance` is the usual one [m].
@@ -49,6 +49,40 @@ pub(crate) struct Converged {
     pub passes: usize,
     /// How much of what is allowed the linear solution missed by, at most 1.
     pub missed: f64,
+}
+
+/// Passes of a step so far.
+#[derive(Clone, Copy, Debug)]
+struct PassCount {
+    all: usize,
+    /// Since the last contact points were opened.
+    since_opened: usize,
+    /// What the last missed by; beyond any bound where it went half of the way, or where there was none.
+    missed: f64,
+    /// Whether the next goes half of the way.
+    half: bool,
+}
+
+impl Default for PassCount {
+    fn default() -> Self {
+        Self { all: 0, since_opened: 0, missed: f64::INFINITY, half: false }
+    }
+}
+
+impl PassCount {
+    /// Begins a pass: the share of its move to take.
+    fn begin(&mut self) -> f64 {
+        self.all += 1;
+        self.since_opened += 1;
+        if self.half { 0.5 } else { 1.0 }
+    }
+
+    /// Takes in what the pass missed by.
+    fn end(&mut self, missed: f64) {
+        let was_half = self.half;
+        self.half = !was_half && missed > STALLED_SHARE * self.missed;
+        self.missed = if was_half { f64::INFINITY } else { missed };
+    }
 }
 
 /// What a pass did.
@@ -87,11 +121,10 @@ impl Solver {
     ) -> Result<Converged, ContactEnd> {
         self.cost.enter(CostPart::Detection);
         work.open_active_points(model, state, &self.lengths.segment, &self.trial.place);
-        let (mut opened, mut passes, mut pass) = (false, 0, 0);
         self.measure_contacts(model, state, scheme, work)?;
-        while pass < MOST_PASSES {
-            (pass, passes) = (pass + 1, passes + 1);
-            let share = if HALF_PASSES.contains(&pass) { 0.5 } else { 1.0 };
+        let (mut count, mut opened) = (PassCount::default(), false);
+        while count.since_opened < MOST_PASSES {
+            let share = count.begin();
             let done = self.whole_pass(model, state, scheme, work, share);
             if !done.longest_m.is_finite() {
                 return Err(ContactEnd::NotFinite);
@@ -100,18 +133,19 @@ impl Solver {
             work.near.follow(&state.rope.position, &self.trial.place);
             self.measure_contacts(model, state, scheme, work)?;
             let missed = self.missed(&done, model, work);
+            count.end(missed);
             if share < 1.0 || missed > 1.0 || missed.is_nan() {
                 continue;
             }
             self.cost.enter(CostPart::Detection);
-            if !opened && work.points.open_more(&work.near, &self.trial.place) > 0 {
-                (opened, pass) = (true, 0);
-                self.measure_contacts(model, state, scheme, work)?;
-                continue;
+            if opened || work.points.open_more(&work.near, &self.trial.place) == 0 {
+                return Ok(Converged { passes: count.all, missed });
             }
-            return Ok(Converged { passes, missed });
+            opened = true;
+            count = PassCount { all: count.all, ..PassCount::default() };
+            self.measure_contacts(model, state, scheme, work)?;
         }
-        Err(ContactEnd::Ended { last_m: f64::INFINITY, passes, crossings: 0 })
+        Err(ContactEnd::Ended { last_m: f64::INFINITY, passes: count.all, crossings: 0 })
     }
 
     /// One pass with the contacts measured last: rope is solved, with contact linear, until its tension is what the solve took for granted.
