@@ -33,8 +33,14 @@ struct Stretch {
 }
 
 const STRETCHES: [Stretch; 6] = [
-    Stretch { name: "far", scenario: "hello-endline", changes: &[], from_s: 1.0, to_s: 9.0 },
-    Stretch { name: "near", scenario: "hello-endline", changes: &[], from_s: 10.5, to_s: 12.0 },
+    Stretch { name: "far", scenario: "hello-endline", changes: &[NODES], from_s: 1.0, to_s: 9.0 },
+    Stretch {
+        name: "near",
+        scenario: "hello-endline",
+        changes: &[NODES],
+        from_s: 10.5,
+        to_s: 12.0,
+    },
     Stretch {
         name: "sliding",
         scenario: "hello-endline",
@@ -42,7 +48,13 @@ const STRETCHES: [Stretch; 6] = [
         from_s: 15.0,
         to_s: 33.0,
     },
-    Stretch { name: "fine", scenario: "hello-endline", changes: &[], from_s: 15.0, to_s: 33.0 },
+    Stretch {
+        name: "fine",
+        scenario: "hello-endline",
+        changes: &[NODES],
+        from_s: 15.0,
+        to_s: 33.0,
+    },
     Stretch { name: "wound", scenario: "dead-whale-wraps", changes: &[], from_s: 1.0, to_s: 4.0 },
     Stretch {
         name: "wound-tight",
@@ -53,8 +65,12 @@ const STRETCHES: [Stretch; 6] = [
     },
 ];
 
+/// Half of the nodes that the scenario ships with.
+const NODES: (&str, &str) = ("rope_nodes = 1000", "rope_nodes = 500");
+
 /// Segments that keep their lengths.
-const UNIFORM: &[(&str, &str)] = &[("[resolution]\nnear = \"5 cm\"\nedges = \"1.25 cm\"\n", "")];
+const UNIFORM: &[(&str, &str)] =
+    &[NODES, ("[resolution]\nnear = \"5 cm\"\nedges = \"1.25 cm\"\n", "")];
 
 /// More turns, laid on taut: more of the rope bears on skin.
 const TIGHT: &[(&str, &str)] = &[

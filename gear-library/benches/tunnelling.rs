@@ -1,7 +1,7 @@
 //! Encounters of fast, taut rope with the edges of fins, counted: `cargo bench -p endline-gear --bench tunnelling -- 10000`.
 //!
 //! The numbers after `--` are how many encounters, and the first of them (usually 10,000 from 0). The same encounters are run
-//! with tests at the end of each step alone, as many as a tenth of them (`docs/lab-notebook.md`, Tunnelling).
+//! with tests at the end of each step alone, as many as a tenth of them (`docs/lab-notebook.md`, Tunnelling); the word `swept` leaves these out.
 
 #[path = "../tests/all/fins/mod.rs"]
 mod fins;
@@ -14,10 +14,13 @@ use fins::tally::Tally;
 const TOLD_EVERY: u64 = 1_000;
 
 fn main() {
-    let mut asked = std::env::args().skip(1).filter_map(|word| word.parse::<u64>().ok());
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let mut asked = words.iter().filter_map(|word| word.parse::<u64>().ok());
     let (count, first) = (asked.next().unwrap_or(10_000), asked.next().unwrap_or(0));
     let fins = Fins::new();
-    run("discrete", &fins, first..first + count / 10, false);
+    if !words.iter().any(|word| word == "swept") {
+        run("discrete", &fins, first..first + count / 10, false);
+    }
     run("swept", &fins, first..first + count, true);
 }
 

@@ -30,7 +30,7 @@ fn shipped(name: &str) -> ModelSpec {
 #[test]
 fn every_shipped_scenario_makes_a_model_with_the_nodes_it_asks_for() {
     for (name, nodes) in [
-        ("hello-endline.toml", 500),
+        ("hello-endline.toml", 1000),
         ("hello-slack-tide.toml", 500),
         ("hello-weak-link.toml", 500),
         ("hello-resolution.toml", 250),

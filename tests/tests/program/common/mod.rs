@@ -109,7 +109,7 @@ impl Place {
         text(&path)
     }
 
-    /// The shipped encounter on segments that keep their lengths, with the whale set down just before the rope, two and a half seconds long;
+    /// The shipped encounter on 500 segments that keep their lengths, with the whale set down just before the rope, two and a half seconds long;
     /// gives its path.
     pub fn encounter(&self) -> String {
         let scenario = self.short_scenario("hello-endline", "2.5 s");
@@ -117,6 +117,7 @@ impl Place {
         let (before, after) = text.split_once("[resolution]").unwrap();
         let after = after.split_once("[site]").unwrap().1;
         fs::write(&scenario, format!("{before}[site]{after}")).unwrap();
+        edit(scenario.as_ref(), "rope_nodes", "rope_nodes = 500");
         edit(scenario.as_ref(), "position", "position = [\"13.9 m\", \"-7 m\"]");
         scenario
     }
