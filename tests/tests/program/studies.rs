@@ -67,8 +67,8 @@ fn small(place: &Place) -> String {
     let (gear, _) = scenario.split_once("[whale]").unwrap();
     let gear = gear
         .replace("duration = \"75 s\"", "duration = \"0.5 s\"")
-        .replace("rope_nodes = 80", "rope_nodes = 12");
-    let scenario = gear.replace("[resolution]\nnear = \"30 cm\"\nedges = \"10 cm\"\n", "");
+        .replace("rope_nodes = 500", "rope_nodes = 12");
+    let scenario = gear.replace("[resolution]\nnear = \"5 cm\"\nedges = \"1.25 cm\"\n", "");
     fs::write(folder.join("small.toml"), scenario).unwrap();
     let study = folder.join("study.toml");
     fs::write(&study, STUDY).unwrap();

@@ -45,7 +45,7 @@ pub fn run(screen: &mut Screen, folder: &Folder) {
     let rig = format!("{head}[site]{rest}").replace("duration = \"75 s\"", "duration = \"0.5 s\"");
     std::fs::write(
         folder.0.join("scenarios/small-rig.toml"),
-        rig.replace("rope_nodes = 80", "rope_nodes = 12"),
+        rig.replace("rope_nodes = 500", "rope_nodes = 12"),
     )
     .unwrap();
     std::fs::create_dir_all(folder.0.join("studies")).unwrap();

@@ -65,7 +65,7 @@ pub fn add_study(folder: &Folder) {
     let gear = format!("{head}[site]{rest}").replace("duration = \"75 s\"", "duration = \"0.5 s\"");
     std::fs::write(
         folder.0.join("scenarios/small-rig.toml"),
-        gear.replace("rope_nodes = 80", "rope_nodes = 12"),
+        gear.replace("rope_nodes = 500", "rope_nodes = 12"),
     )
     .unwrap();
     std::fs::create_dir_all(folder.0.join("studies")).unwrap();
