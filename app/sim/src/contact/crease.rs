@@ -17,8 +17,9 @@ const MOST_LOOKED_AT: usize = 8;
 /// Where a larger angle counted as one face, rope pressed into a fold with 12 kN met a push that turned by 0.2 rad from pass to pass.
 const ALIKE: (f64, f64) = (0.99995, 0.9998);
 /// Height of a closest point over the plane of the other face up to which it does not count, and from which it counts wholly, as a share of
-/// the greatest. The feet on two facets of one convex face are at nothing but for rounding.
-const RISEN: (f64, f64) = (0.05, 0.3);
+/// the greatest: over as long a way as there is, for Newton's method does not see it coming.
+/// The feet on two facets of one convex face are at nothing but for rounding.
+const RISEN: (f64, f64) = (0.05, 1.0);
 
 /// Keeps of the triangles touched from `first` on the faces touched, in rising order of the pair, so that a face keeps its place in the row as
 /// another comes nearer: the nearest triangle, of the place given, and those that rise from it.
