@@ -106,7 +106,7 @@ fn nodes_are_shared_out_by_length() {
         let lengths: Vec<f64> =
             spec.lines.iter().map(|line| line.segments_m.iter().sum()).collect();
         let total: f64 = lengths.iter().sum();
-        let spare = (500 - 2 * lengths.len()) as f64;
+        let spare = (1000 - 2 * lengths.len()) as f64;
         for (line, length) in spec.lines.iter().zip(&lengths) {
             let share = 1.0 + spare * length / total;
             assert!(
@@ -115,7 +115,7 @@ fn nodes_are_shared_out_by_length() {
                 line.id
             );
         }
-        assert_eq!(Model::new(spec).unwrap().node_count, 500, "{name}");
+        assert_eq!(Model::new(spec).unwrap().node_count, 1000, "{name}");
     }
 }
 
@@ -363,12 +363,12 @@ fn mistakes_in_a_scenario_are_told_with_their_place() {
     let text = scenario_text("hello-endline.toml");
     for (from, to, parts) in [
         (
-            "rope_nodes = 500",
-            "rope_node = 500",
+            "rope_nodes = 1000",
+            "rope_node = 1000",
             vec!["unknown field `rope_node`", "did you mean `rope_nodes`?"],
         ),
         (
-            "rope_nodes = 500",
+            "rope_nodes = 1000",
             "rope_nodes = 3",
             vec!["`rope_nodes` is too small", "at least 4 nodes"],
         ),
