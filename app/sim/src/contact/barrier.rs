@@ -64,6 +64,26 @@ impl BarrierForce {
         (u * room + beyond, Self { force, stiffness })
     }
 
+    /// The push linear about the solved one where the law is steep, and what it grows by from there to a distance; else as it is.
+    ///
+    /// The law grows without bound near the least distance. From a trial that came too near, its tangents lead back by half of the
+    /// excess in each pass; taken at the solved push instead of the distance, they lead there at once.
+    pub fn about_solved(
+        self,
+        solved_n: Option<f64>,
+        (distance, contact_distance, stiffness): (f64, f64, f64),
+    ) -> (Self, f64) {
+        let steep_n = Self::steep_n(contact_distance, stiffness);
+        match solved_n {
+            Some(solved_n) if self.force > steep_n => {
+                let (depth, barrier) =
+                    Self::at_force(solved_n.max(steep_n), contact_distance, stiffness);
+                (barrier, barrier.stiffness * (contact_distance - distance - depth))
+            }
+            _ => (self, 0.0),
+        }
+    }
+
     /// A share of this push.
     pub fn share(self, share: f64) -> Self {
         Self { force: self.force * share, stiffness: self.stiffness * share }

@@ -23,13 +23,9 @@ pub(crate) struct Placed {
     pub stands: f64,
     /// Corners now.
     pub now: [DVec3; 3],
-    /// Corners before the last move.
-    pub before: [DVec3; 3],
     ball: Ball,
     /// `None` for a needle.
     plane: Option<Plane>,
-    /// Longest move of a corner over the model's step [m].
-    pub longest_move: f64,
 }
 
 /// A ball around a triangle, grown over rounding.
@@ -42,20 +38,8 @@ struct Ball {
 impl Placed {
     /// A triangle of the skin at a share of the model's step.
     pub fn new(triangle: u32, sweep: SweptTriangle, share: f64) -> Self {
-        let [start, end] = sweep;
-        let square =
-            (0..3).map(|corner| start[corner].distance_squared(end[corner])).fold(0.0, f64::max);
         let now = triangle_at(&sweep, share);
-        Self {
-            triangle,
-            sweep,
-            stands: share,
-            now,
-            before: now,
-            ball: Ball::around(now),
-            plane: Plane::of(now),
-            longest_move: square.sqrt(),
-        }
+        Self { triangle, sweep, stands: share, now, ball: Ball::around(now), plane: Plane::of(now) }
     }
 
     /// Stands at a share of the model's step.
@@ -66,12 +50,6 @@ impl Placed {
             self.now = triangle_at(&self.sweep, share);
             (self.ball, self.plane) = (Ball::around(self.now), Plane::of(self.now));
         }
-    }
-
-    /// Moves it on to a share of the model's step.
-    pub fn go(&mut self, share: f64) {
-        self.before = self.now;
-        self.stand(share);
     }
 
     /// Moves of its corners over the model's step [m].

@@ -195,13 +195,6 @@ impl SkinContactPoints {
     pub fn touches(&self, point: &SkinContactPoint) -> &[Touch] {
         &self.touches[point.touches.clone()]
     }
-
-    /// Forgets what was seen, for skin that has moved.
-    pub fn forget(&mut self) {
-        for point in &mut self.list {
-            point.seen = None;
-        }
-    }
 }
 
 impl SkinContactPoint {
@@ -230,7 +223,7 @@ impl SkinContactPoint {
         let within = (MEASURED_WITHIN.0 * self.contact_distance)
             .max(LOOK_WITHIN * self.contact_distance + MEASURED_WITHIN.1 * self.length);
         self.seen = Some((place, within));
-        if let Some((distance, pair)) = self.add_touches(near, place, 0.0, within, touches) {
+        if let Some((distance, pair)) = self.add_touches(near, place, within, touches) {
             self.seen = Some((place, distance));
             self.nearest_pair = Some(pair);
         }
@@ -256,32 +249,11 @@ impl SkinContactPoint {
         self.site | face as u64
     }
 
-    /// Adds what it touches, with the nodes moved by a share of their steps from the places measured last.
-    pub fn add_touches_moved(
-        &self,
-        near: &Near,
-        places: &[DVec3],
-        (steps, share): (&[DVec3], f64),
-        touches: &mut Vec<Touch>,
-    ) {
-        let moved_node = |node: usize| places[node] + steps[node] * share;
-        let place = self.on_rope(moved_node);
-        if self.out_of_reach(place) {
-            return;
-        }
-        let (first, moved) = (touches.len(), (self.on_rope(|node| steps[node]) * share).length());
-        self.add_touches(near, place, moved, self.contact_distance, touches);
-        let along = (moved_node(self.node + 1) - moved_node(self.node)).normalize_or_zero();
-        touches[first..].iter_mut().for_each(|touch| touch.turn_across(along));
-    }
-
-    /// Adds what it touches, with the rope moved by at most `moved` since pairs were bounded; distance and pair of the nearest triangle within
-    /// `most`. The one it was nearest to when measured last is measured first: most others then prove too far by their bounds.
+    /// Adds what it touches; distance and pair of the nearest triangle within `most`. The one it was nearest to when measured last is measured first: most others then prove too far by their bounds.
     fn add_touches(
         &self,
         near: &Near,
         place: DVec3,
-        moved: f64,
         most: f64,
         touches: &mut Vec<Touch>,
     ) -> Option<(f64, usize)> {
@@ -292,7 +264,7 @@ impl SkinContactPoint {
         let others = active.filter(|index| Some(*index) != self.nearest_pair);
         for index in self.nearest_pair.into_iter().chain(others) {
             let within = least.max(self.contact_distance);
-            if near.bound(index, group) - moved >= within {
+            if near.bound(index, group) >= within {
                 continue;
             }
             let Some((distance, barycentric)) = near.skin_of(index).nearest_to_point(place, within)

@@ -13,7 +13,7 @@ use glam::{DMat3, DVec3};
 use super::account::Account;
 use super::grain::Grains;
 use super::near::Near;
-use super::points::{SkinContactPoint, SkinContactPoints};
+use super::points::SkinContactPoints;
 use super::polygon::friction_factor;
 use super::touch::Touch;
 use crate::model::{Friction, FrictionLaw, Model};
@@ -60,8 +60,6 @@ pub(crate) struct Touching {
     /// Places in these arrays, in rising order of contact point.
     pub in_order: Vec<usize>,
     found: Vec<Found>,
-    /// What one contact point touches.
-    touches: Vec<Touch>,
     groups: Vec<Group>,
     normal_force: Vec<f64>,
     /// What the linear push grows by to where it was measured [N].
@@ -92,7 +90,6 @@ impl Touching {
             face: Vec::new(),
             in_order: Vec::new(),
             found: Vec::new(),
-            touches: Vec::new(),
             groups: Vec::new(),
             normal_force: Vec::new(),
             growth_n: Vec::new(),
@@ -120,28 +117,12 @@ impl Touching {
         points: &SkinContactPoints,
         state: &State,
     ) {
-        self.collect_with(model, near, points, state, |point, touches| {
-            touches.extend_from_slice(points.touches(point));
-        });
-    }
-
-    /// Collects what contact points touch, which `add_touches` adds for each.
-    pub fn collect_with(
-        &mut self,
-        model: &Model,
-        near: &Near,
-        points: &SkinContactPoints,
-        state: &State,
-        add_touches: impl Fn(&SkinContactPoint, &mut Vec<Touch>),
-    ) {
         self.clear();
         let (Some(whale), Some(friction)) = (&model.spec.whale, &model.spec.friction) else {
             return;
         };
         for (point, at) in points.list.iter().enumerate() {
-            self.touches.clear();
-            add_touches(at, &mut self.touches);
-            for (face, touch) in self.touches.iter().copied().enumerate() {
+            for (face, touch) in points.touches(at).iter().copied().enumerate() {
                 let region = whale.skin.regions[near.skin_of(touch.pair).triangle as usize];
                 let rope = model.spec.lines[model.segment_line[at.segment]].rope;
                 self.found.push(Found {

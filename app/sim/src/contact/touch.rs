@@ -74,19 +74,9 @@ impl Touch {
     }
 
     /// Takes the push as linear about the solved one where the law is steep.
-    ///
-    /// The law grows without bound near the least distance. From a trial that came too near, its tangents lead back by half of the
-    /// excess in each pass; taken at the solved push instead of the distance, they lead there at once.
     pub fn take_solved(&mut self, contact_distance: f64, stiffness: f64) {
-        let Some(solved_n) = self.solved_n else { return };
-        let stiffness = stiffness * self.share;
-        let steep_n = BarrierForce::steep_n(contact_distance, stiffness);
-        if self.barrier.force > steep_n {
-            let (depth, barrier) =
-                BarrierForce::at_force(solved_n.max(steep_n), contact_distance, stiffness);
-            self.growth_n = barrier.stiffness * (contact_distance - self.distance - depth);
-            self.barrier = barrier;
-        }
+        let law = (self.distance, contact_distance, stiffness * self.share);
+        (self.barrier, self.growth_n) = self.barrier.about_solved(self.solved_n, law);
     }
 
     /// The push here after the rope has moved by a solved step [N].

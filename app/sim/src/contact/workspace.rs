@@ -5,13 +5,18 @@ use std::sync::Arc;
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::ContactPoint;
+use super::barrier::PINCHED_SHARE;
 use super::grain::Grains;
 use super::near::{MARGIN_M, Near};
 use super::points::{SkinContactPoint, SkinContactPoints};
 use super::skin_friction::{Failed, Touching};
+use super::touch::Touch;
 use crate::model::{Friction, Model};
-use crate::solver::BodyTrial;
+use crate::solver::ContactMissed;
 use crate::state::State;
+
+/// Rope that begins a step pinched may end it this much nearer to skin, as a share.
+const STILL_PINCHED: f64 = 0.99;
 
 /// Scratch of contact for one model with a whale; it keeps nothing that a step depends on.
 #[derive(Clone, Debug)]
@@ -19,15 +24,11 @@ pub(crate) struct ContactWorkspace {
     pub near: Near,
     pub points: SkinContactPoints,
     pub touching: Touching,
-    /// Contacts at a trial of the line search.
-    pub probe: Touching,
     /// Bones at the start and the end of the solver step.
     pub bones: [Vec<DAffine3>; 2],
-    /// Places before a sub-move.
+    /// Places where contact was measured last.
     pub before: Vec<DVec3>,
-    /// Bodies before a sub-move.
-    pub bodies_before: Vec<BodyTrial>,
-    /// Places a sub-move aims at.
+    /// Where rope goes by its velocities.
     pub target: Vec<DVec3>,
     /// Greatest contact distance of any rope [m].
     pub greatest_contact_distance: f64,
@@ -41,11 +42,9 @@ impl ContactWorkspace {
         Some(Self {
             near: Near::new(model, tree),
             points: SkinContactPoints::default(),
-            probe: touching.clone(),
             touching,
             bones: [Vec::new(), Vec::new()],
             before: Vec::new(),
-            bodies_before: Vec::new(),
             target: Vec::new(),
             greatest_contact_distance: model
                 .spec
@@ -88,6 +87,31 @@ impl ContactWorkspace {
         })
     }
 
+    /// After a solution: push and friction of every contact point by it.
+    pub fn note_solved(&mut self, places: &[DVec3]) {
+        let Self { points, touching, before, .. } = self;
+        points.list.iter_mut().for_each(|point| point.missed = DVec3::ZERO);
+        for (place, index) in touching.point.iter().enumerate() {
+            let point = &mut points.list[*index];
+            let step = point.on_rope(|node| places[node] - before[node]);
+            point.missed += touching.force_of(place) - touching.block[place] * step;
+            points.note_solved(*index, touching.face[place], step);
+        }
+    }
+
+    /// What push and friction of the last solution miss as measured last.
+    pub fn missed(&mut self) -> ContactMissed {
+        let Self { points, touching, .. } = self;
+        let mut greatest = 0.0_f64;
+        for (place, index) in touching.point.iter().enumerate() {
+            let force = touching.force_of(place);
+            points.list[*index].missed -= force;
+            greatest = greatest.max(force.length_squared());
+        }
+        let gap = points.list.iter().map(|point| point.missed.length_squared()).fold(0.0, f64::max);
+        ContactMissed { gap_n: gap.sqrt(), greatest_n: greatest.sqrt() }
+    }
+
     /// Opens the contact points of rope that may touch, as its predicted places lie.
     pub fn open_active_points(
         &mut self,
@@ -99,17 +123,6 @@ impl ContactWorkspace {
         let Some(whale) = &model.spec.whale else { return };
         let (stiffness, kept) = (whale.contact_stiffness_n_m2, &state.rope.friction);
         self.points.open(&self.near, lengths, stiffness, Some(kept));
-        self.points.measure(&self.near, places);
-        self.points.open_more(&self.near, places);
-    }
-
-    /// Opens the contact points of a stage, or keeps those there are for skin that has moved on.
-    pub fn open_points(&mut self, model: &Model, segment_length: &[f64], places: &[DVec3]) {
-        let Some(whale) = &model.spec.whale else { return };
-        if self.points.list.is_empty() {
-            self.points.open(&self.near, segment_length, whale.contact_stiffness_n_m2, None);
-        }
-        self.points.forget();
         self.points.measure(&self.near, places);
         self.points.open_more(&self.near, places);
     }
@@ -127,6 +140,22 @@ impl ContactWorkspace {
                 .touches(point)
                 .iter()
                 .find(|touch| touch.distance < share * point.contact_distance)?;
+            Some((point.segment, self.near.skin_of(touch.pair).triangle as usize))
+        })
+    }
+
+    /// A segment and triangle between which rope is pinched at the end of a step from `from`, if any. Rope that began it pinched may stay,
+    /// and come out again.
+    pub fn pinched(&self, from: &[DVec3]) -> Option<(usize, usize)> {
+        self.points.list.iter().find_map(|point| {
+            let is_pinched = |touch: &&Touch| {
+                let share = touch.distance / point.contact_distance;
+                share < PINCHED_SHARE && {
+                    let began = self.near.began_at(touch.pair, point.on_rope(|node| from[node]));
+                    touch.distance < STILL_PINCHED * began
+                }
+            };
+            let touch = self.points.touches(point).iter().find(is_pinched)?;
             Some((point.segment, self.near.skin_of(touch.pair).triangle as usize))
         })
     }

@@ -12,11 +12,11 @@ impl Solver {
     pub(crate) fn assemble(&mut self, model: &Model, state: &State, scheme: &Scheme) {
         self.tridiagonal.clear();
         self.interface.clear();
-        self.woodbury.touches.clear();
         self.add_nodes(model, scheme);
         self.add_push();
         self.add_seabed(model, state, scheme);
         self.add_solids(state, scheme, ActiveSet::Predicted);
+        self.add_ropes(state);
         self.add_pulled(model, scheme);
         self.add_tension(model, scheme);
         self.add_bending(model);
@@ -38,27 +38,24 @@ impl Solver {
         self.linear_part.force.clone_from(&self.tridiagonal.force);
         self.linear_part.interface.copy_values(&self.interface);
         self.measure_tension(model, scheme);
-        self.ropes.follow(&self.trial.place);
-        self.add_taut(model, state, scheme);
-    }
-
-    /// Assembles again at the places of [`assemble_searchable`](Self::assemble_searchable), with every segment taut or
-    /// slack by the tension it has in `trial`.
-    pub(super) fn assemble_again(&mut self, model: &Model, state: &State, scheme: &Scheme) {
-        self.tridiagonal.clear();
-        self.tridiagonal.diagonal.clone_from(&self.linear_part.diagonal);
-        self.tridiagonal.force.clone_from(&self.linear_part.force);
-        self.interface.copy_values(&self.linear_part.interface);
-        self.add_taut(model, state, scheme);
-    }
-
-    /// Adds what a search along a step takes anew, but for contact with skin.
-    fn add_taut(&mut self, model: &Model, state: &State, scheme: &Scheme) {
         self.add_solids(state, scheme, ActiveSet::AtTrial);
-        self.add_ropes(state);
         self.add_tension(model, scheme);
         self.add_bending(model);
         self.add_end_turns(model, scheme);
+    }
+
+    /// Takes the tension of every segment at the trial places as it is.
+    fn measure_tension(&mut self, model: &Model, scheme: &Scheme) {
+        for (index, segments) in model.line_segments.iter().enumerate() {
+            let first_node = model.line_nodes[index].start;
+            for (node, segment) in (first_node..).zip(segments.clone()) {
+                self.trial.tension[segment] = if self.cut[segment] {
+                    0.0
+                } else {
+                    self.pull_of(segment, node, scheme).tension
+                };
+            }
+        }
     }
 
     /// Keeps the turning stiffness of rope pulling on bodies (see [`body::turn_stiffness`]).

@@ -11,7 +11,7 @@ impl Solver {
     /// Writes the solved step into the state.
     pub(crate) fn keep(&mut self, model: &Model, scheme: &Scheme, state: &mut State) {
         if self.in_lanes {
-            return self.keep_free(model, scheme, state);
+            return self.keep_from_lanes(model, scheme, state);
         }
         self.keep_grips(model, scheme, state);
         self.keep_solid_grips(scheme, state);

@@ -9,7 +9,6 @@
 
 use super::Solver;
 use super::scheme::Scheme;
-use crate::contact::workspace::ContactWorkspace;
 use crate::model::Model;
 use crate::state::State;
 
@@ -49,21 +48,6 @@ fn balance(longest: f64, mut slope: impl FnMut(f64) -> f64) -> f64 {
 }
 
 impl Solver {
-    /// Share of the solved step to take with contact, at most `safe`.
-    pub(super) fn line_search(
-        &self,
-        model: &Model,
-        state: &State,
-        scheme: &Scheme,
-        work: &mut ContactWorkspace,
-        safe: f64,
-    ) -> f64 {
-        balance(safe, |share| {
-            self.contact_slope(model, state, scheme, work, share)
-                + self.free_slope(model, state, scheme, share)
-        })
-    }
-
     /// Share of the solved step to take without a whale, at most `longest`.
     pub(crate) fn line_search_free(
         &self,
@@ -80,7 +64,6 @@ impl Solver {
             + self.rope_slope(model, scheme, share)
             + self.bending_slope(model, share)
             + self.solid_slope(state, scheme, share)
-            + self.ropes_slope(state, share)
     }
 
     /// Slope of what is linear along the step: inertia, weight, drag, seabed, bodies.
@@ -112,31 +95,5 @@ impl Solver {
             }
         }
         slope
-    }
-
-    /// Slope of push and friction.
-    fn contact_slope(
-        &self,
-        model: &Model,
-        state: &State,
-        scheme: &Scheme,
-        work: &mut ContactWorkspace,
-        share: f64,
-    ) -> f64 {
-        let Some(friction) = &model.spec.friction else { return 0.0 };
-        let ContactWorkspace { near, points, probe, .. } = work;
-        let step_of = |point: &crate::contact::points::SkinContactPoint| {
-            point.on_rope(|node| self.tridiagonal.step[node])
-        };
-        probe.collect_with(model, near, points, state, |point, touches| {
-            let steps = (&self.tridiagonal.step[..], share);
-            point.add_touches_moved(near, &self.trial.place, steps, touches);
-        });
-        if probe.respond(friction, scheme.dt).is_err() {
-            return f64::INFINITY;
-        }
-        -(0..probe.point.len())
-            .map(|place| probe.force_of(place).dot(step_of(&points.list[probe.point[place]])))
-            .sum::<f64>()
     }
 }

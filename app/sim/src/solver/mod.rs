@@ -7,15 +7,15 @@
 
 mod assemble;
 mod axial;
+mod begin;
 mod bending;
 mod block_tridiagonal;
 mod body;
-mod carry;
 mod columns;
-mod contact_newton;
+mod context;
 mod elastic_grip;
 mod forces;
-mod free;
+mod in_lanes;
 mod interface;
 mod keep;
 mod lanes;
@@ -26,13 +26,14 @@ mod plan;
 mod pulled;
 mod residual;
 mod rope;
-mod rope_contact_newton;
 mod rope_on_rope;
 mod scheme;
 mod seabed;
+mod skin;
 mod solid;
 mod solve;
 mod statics;
+mod stopping;
 mod suction;
 mod tilt;
 mod trial;
@@ -51,17 +52,17 @@ use crate::water::field::Walk;
 use crate::whale::hitch::Hitches;
 pub(crate) use axial::Axial;
 use block_tridiagonal::BlockTridiagonal;
-pub(crate) use contact_newton::{CONTACT_WANTED_M, ContactEnd, TENSION_GAP_N, TENSION_GAP_SHARE};
-pub(crate) use free::FreePass;
+pub(crate) use context::StepContext;
 use interface::{Attachment, InterfaceSystem};
 use lanes::Lanes;
 use lengths::Lengths;
+pub(crate) use newton::{NewtonEnd, Skin, Solved};
 use plan::Plan;
 use rope::Pull;
 pub(crate) use rope::outer;
-pub(crate) use rope_contact_newton::RopeContactEnd;
 pub(crate) use scheme::Scheme;
 pub(crate) use statics::{WorstAt, is_laid};
+pub(crate) use stopping::ContactMissed;
 pub(crate) use suction::LOOSE_M;
 pub(crate) use trial::BodyTrial;
 use trial::Trial;
@@ -77,6 +78,8 @@ pub(crate) struct Solver {
     lanes: Lanes,
     /// Whether the step is solved in the lanes.
     in_lanes: bool,
+    /// Whether rope may touch skin, rope, obstacles or bodies in the step.
+    in_contact: bool,
     /// Whether rope may touch the seabed in a step of free rope.
     near_seabed: bool,
     interface: InterfaceSystem,
@@ -96,9 +99,6 @@ pub(crate) struct Solver {
     /// The water at each body.
     flow_bodies: Vec<WaterAt>,
     wave_walk: Walk,
-    /// Where rope and bodies would go on their own from where a step with contact begins.
-    pub(crate) drift: Vec<DVec3>,
-    pub(crate) drift_bodies: Vec<BodyTrial>,
     /// Rope near obstacles and bodies.
     pub(crate) solid: SolidWorkspace,
     /// Rope near rope.
@@ -135,15 +135,6 @@ const FINE_MOVE_SHARE: f64 = 0.02;
 /// Difference of tension, as a share of the weight of all gear.
 const FINE_GAP_SHARE: f64 = 0.02;
 
-/// What a pass did.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Passed {
-    /// Longest move of any node or body [m].
-    pub longest_m: f64,
-    /// Whether all moves are finite.
-    pub finite: bool,
-}
-
 impl Solver {
     /// Scratch for a model.
     #[must_use]
@@ -159,6 +150,7 @@ impl Solver {
             tridiagonal: BlockTridiagonal::new(model.node_count, model.segment_count),
             lanes: Lanes::new(model),
             in_lanes: false,
+            in_contact: false,
             near_seabed: false,
             pull: vec![Pull::default(); model.segment_count],
             cut: vec![false; model.segment_count],
@@ -169,8 +161,6 @@ impl Solver {
             push: Vec::new(),
             flow_bodies: Vec::new(),
             wave_walk: Walk::default(),
-            drift: Vec::new(),
-            drift_bodies: Vec::new(),
             solid: SolidWorkspace::new(model),
             ropes: RopeWorkspace::new(model),
             woodbury: Woodbury::default(),
@@ -201,8 +191,8 @@ impl Solver {
         self.cost.enter(outer);
     }
 
-    /// Moves the trial by a share of the solved step.
-    pub(crate) fn advance(&mut self, model: &Model, share: f64) -> Passed {
+    /// Moves the trial by a share of the solved step; whether all moves are finite.
+    pub(crate) fn advance(&mut self, model: &Model, share: f64) -> bool {
         let mut finite = true;
         self.predict_tension(model, share);
         self.predict_pushes(share);
@@ -212,28 +202,7 @@ impl Solver {
         }
         finite &= self.advance_bodies(share).1;
         self.trial.place_ends(model, &self.plan);
-        Passed { longest_m: self.longest() * share, finite }
-    }
-
-    /// One Newton pass.
-    pub(crate) fn pass(&mut self, model: &Model, state: &State, scheme: &Scheme) -> Passed {
-        self.assemble(model, state, scheme);
-        self.solve(model);
-        self.advance(model, 1.0)
-    }
-
-    /// One Newton pass that goes along the step as far as the forces balance.
-    pub(crate) fn line_searched_pass(
-        &mut self,
-        model: &Model,
-        state: &State,
-        scheme: &Scheme,
-    ) -> Passed {
-        self.assemble_searchable(model, state, scheme);
-        self.solve(model);
-        let share = self.line_search_free(model, state, scheme, 1.0);
-        // What a short share leaves is still to go.
-        Passed { longest_m: self.longest(), ..self.advance(model, share) }
+        finite
     }
 
     /// Tension of each segment at the end of the step being solved; below zero it is slack [N].

@@ -11,6 +11,7 @@ use super::Solver;
 use super::elastic_grip::{Grip, Push};
 use super::rope::outer;
 use super::scheme::Scheme;
+use super::stopping::{ContactMissed, GRIP_STRICTER};
 use super::woodbury::ContactBlock;
 use crate::contact::barrier::{BarrierForce, CRUSHED_SHARE, PINCHED_SHARE};
 use crate::contact::ropes::RopeTouch;
@@ -27,14 +28,17 @@ struct Touch {
     fractions: [f64; 2],
     normal: DVec3,
     distance: f64,
+    /// The push, and its growth with depth, where it is taken as linear.
     barrier: BarrierForce,
+    /// What that linear push grows by from there to this distance [N].
+    growth_n: f64,
     grip: Grip,
 }
 
 impl Touch {
     /// Force on the first rope [N].
     fn force(&self) -> DVec3 {
-        self.normal * self.barrier.force + self.grip.force
+        self.normal * (self.barrier.force + self.growth_n) + self.grip.force
     }
 
     fn block(&self) -> DMat3 {
@@ -48,19 +52,22 @@ fn touch_at(
     state: &State,
     pair: &Pair,
     point: &RopeContactPoint,
-    fractions: [f64; 2],
     place: impl Fn(usize) -> DVec3,
 ) -> Option<Touch> {
+    let fractions = point.fractions;
     if point.length <= 0.0 {
         return None;
     }
     let [one, other] = pair.places(place);
     let (gap, distance) = between(one, other, fractions);
     let stiffness = law.stiffness_n_m2 * point.length;
-    let barrier = BarrierForce::new(distance + point.forgiven_m, pair.contact_distance, stiffness);
-    if barrier.force <= 0.0 {
+    let apart = distance + point.forgiven_m;
+    let at_distance = BarrierForce::new(apart, pair.contact_distance, stiffness);
+    if at_distance.force <= 0.0 {
         return None;
     }
+    let (barrier, growth_n) =
+        at_distance.about_solved(point.solved_n, (apart, pair.contact_distance, stiffness));
     let normal = gap / distance.max(1e-12);
     let [one, other] = pair.places(|node| state.rope.position[node]);
     let stretch = point.kept + gap - between(one, other, fractions).0;
@@ -69,9 +76,9 @@ fn touch_at(
         normal,
         stiffness,
         law.friction,
-        Push { force: barrier.force, rate: barrier.stiffness },
+        Push { force: barrier.force + growth_n, rate: barrier.stiffness },
     );
-    Some(Touch { fractions, normal, distance, barrier, grip })
+    Some(Touch { fractions, normal, distance, barrier, growth_n, grip })
 }
 
 impl Solver {
@@ -79,45 +86,63 @@ impl Solver {
     pub(super) fn add_ropes(&mut self, state: &State) {
         self.woodbury.touches.clear();
         let Some(law) = self.ropes.law else { return };
-        for pair in &self.ropes.pairs {
-            for point in &pair.points {
-                let Some(touch) = touch_at(&law, state, pair, point, point.fractions, |node| {
-                    self.trial.place[node]
-                }) else {
-                    continue;
-                };
-                let force = touch.force();
-                for (k, sign) in [(0, 1.0), (1, -1.0)] {
-                    let (node, fraction) = (pair.nodes[k], touch.fractions[k]);
-                    self.tridiagonal.force[node] += force * (sign * (1.0 - fraction));
-                    self.tridiagonal.force[node + 1] += force * (sign * fraction);
+        let mut pairs = std::mem::take(&mut self.ropes.pairs);
+        for pair in &mut pairs {
+            for k in 0..pair.points.len() {
+                let touch =
+                    touch_at(&law, state, pair, &pair.points[k], |node| self.trial.place[node]);
+                let point = &mut pair.points[k];
+                (point.force, point.block) = touch
+                    .as_ref()
+                    .map_or((DVec3::ZERO, DMat3::ZERO), |touch| (touch.force(), touch.block()));
+                point.normal = touch.as_ref().map_or(DVec3::ZERO, |touch| touch.normal);
+                if let Some(touch) = touch {
+                    self.push_ropes_apart(pair.nodes, &touch);
                 }
-                self.woodbury.touches.push(ContactBlock {
-                    nodes: pair.nodes,
-                    fractions: touch.fractions,
-                    block: touch.block(),
-                });
+            }
+        }
+        self.ropes.pairs = pairs;
+    }
+
+    fn push_ropes_apart(&mut self, nodes: [usize; 2], touch: &Touch) {
+        let force = touch.force();
+        for (k, sign) in [(0, 1.0), (1, -1.0)] {
+            let (node, fraction) = (nodes[k], touch.fractions[k]);
+            self.tridiagonal.force[node] += force * (sign * (1.0 - fraction));
+            self.tridiagonal.force[node + 1] += force * (sign * fraction);
+        }
+        self.woodbury.touches.push(ContactBlock {
+            nodes,
+            fractions: touch.fractions,
+            block: touch.block(),
+        });
+    }
+
+    /// After a solution: push and friction of rope on rope by it.
+    pub(super) fn note_solved_ropes(&mut self) {
+        let step = &self.tridiagonal.step;
+        for pair in &mut self.ropes.pairs {
+            let [one, other] = pair.nodes.map(|node| [step[node], step[node + 1]]);
+            for point in pair.points.iter_mut().filter(|point| point.length > 0.0) {
+                let (moved, _) = between(one, other, point.fractions);
+                point.solved = point.force - point.block * moved;
+                point.solved_n =
+                    (point.force != DVec3::ZERO).then(|| point.solved.dot(point.normal));
             }
         }
     }
 
-    /// Slope of push and friction of rope on rope at a share of the solved step.
-    pub(super) fn ropes_slope(&self, state: &State, share: f64) -> f64 {
-        let Some(law) = self.ropes.law else { return 0.0 };
-        let moved = |node: usize| self.trial.place[node] + self.tridiagonal.step[node] * share;
-        let mut slope = 0.0;
-        for pair in &self.ropes.pairs {
-            let [one, other] = pair.places(moved);
-            let [step_one, step_other] = pair.places(|node| self.tridiagonal.step[node]);
-            for point in pair.points.iter().filter(|point| point.length > 0.0) {
-                let fractions =
-                    if self.ropes.follows() { point.followed(one, other) } else { point.fractions };
-                if let Some(touch) = touch_at(&law, state, pair, point, fractions, moved) {
-                    slope -= touch.force().dot(between(step_one, step_other, fractions).0);
-                }
-            }
-        }
-        slope
+    /// What push and friction of the last solution miss at the trial places.
+    pub(super) fn ropes_missed(&self, state: &State) -> ContactMissed {
+        let mut missed = ContactMissed::default();
+        self.each_touch(state, |_, point, touch| {
+            let force = touch.map_or(DVec3::ZERO, |touch| touch.force());
+            missed = missed.and(ContactMissed {
+                gap_n: GRIP_STRICTER * force.distance(point.solved),
+                greatest_n: force.length(),
+            });
+        });
+        missed
     }
 
     /// Two segments that are pressed together harder than rope can bear at the trial places, if any: on the way to a balance,
@@ -181,13 +206,7 @@ impl Solver {
         let Some(law) = self.ropes.law else { return };
         for pair in &self.ropes.pairs {
             for point in pair.points.iter().filter(|point| point.length > 0.0) {
-                act(
-                    pair,
-                    point,
-                    touch_at(&law, state, pair, point, point.fractions, |node| {
-                        self.trial.place[node]
-                    }),
-                );
+                act(pair, point, touch_at(&law, state, pair, point, |node| self.trial.place[node]));
             }
         }
     }
@@ -195,29 +214,5 @@ impl Solver {
     /// Gathers rope near rope for a step; whether any may touch.
     pub(crate) fn gather_ropes(&mut self, model: &Model, state: &State, dt: f64) -> bool {
         self.ropes.gather(model, state, dt)
-    }
-
-    /// Opens the points of rope on rope at the trial places.
-    pub(crate) fn open_ropes(&mut self, state: &State) {
-        self.ropes.open(state, &self.trial.place);
-    }
-
-    /// Whether rope not taken to touch rope did, on its way to the trial places; it then is from now on.
-    pub(crate) fn met_ropes(&mut self, model: &Model, state: &State) -> bool {
-        self.ropes.law.is_some() && self.ropes.met(model, state, &self.trial.place)
-    }
-
-    /// Whether rope met rope after a step in the lanes that moved rope by `moved_m` from its drift [m].
-    pub(crate) fn met_ropes_free(&mut self, model: &Model, state: &State, moved_m: f64) -> bool {
-        if self.ropes.pairs.is_empty() && moved_m <= self.ropes.unwatched_m() {
-            return false;
-        }
-        self.lanes.give_places(&mut self.trial.place);
-        self.met_ropes(model, state)
-    }
-
-    /// Whether rope came near rope beyond what was gathered; it then is from now on.
-    pub(crate) fn met_more_ropes(&mut self, model: &Model, state: &State) -> bool {
-        self.ropes.gather_more(model, state, &self.trial.place)
     }
 }

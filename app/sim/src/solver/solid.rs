@@ -9,25 +9,18 @@
 //! balance because the contact is kept softer than the body's inertia.
 //! With node turn `φ` and contact at nodes alone, sliding gives `T₂/T₁ = (1 + μ tan φ/2)/(1 - μ tan φ/2)` a node.
 
-use glam::{DQuat, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 
 use super::Solver;
 use super::elastic_grip::{Grip, Push};
 use super::interface::Attachment;
 use super::rope::outer;
 use super::scheme::Scheme;
+use super::stopping::{ANSWER_STRICTER, ContactMissed, GRIP_STRICTER};
 use crate::solids::workspace::{Pair, SolidContactPoint, least_distance};
 use crate::solids::{Carrier, Pose, Solid};
 use crate::state::{SolidGrip, State};
 
-/// Difference between predicted and true normal force at which a step has converged [N].
-const PUSH_GAP_N: f64 = 0.02;
-/// Difference between predicted and true normal force at which a step has converged, as a share of the greatest.
-const PUSH_GAP_SHARE: f64 = 0.02;
-/// Force by which rope and body may differ in what they do to each other when a step has converged [N].
-const ANSWER_GAP_N: f64 = 1e-3;
-/// Force by which rope and body may differ when a step has converged, as a share of the greatest normal force.
-const ANSWER_GAP_SHARE: f64 = 1e-3;
 /// Share of a solid's thickness that rope may move in a step without its path being looked at.
 const UNWATCHED_SHARE: f64 = 0.4;
 /// Share of an obstacle's thickness that rope may go into it in a pass of statics.
@@ -77,6 +70,7 @@ impl Solver {
                 ActiveSet::Predicted => point.predicted_n > 0.0 && touch.depth > -point.radius_m,
                 ActiveSet::AtTrial => point.push_n > 0.0,
             };
+            (point.force, point.block) = (DVec3::ZERO, DMat3::ZERO);
             if pushes {
                 self.add_point(state, scheme, solid, point, &touch);
             }
@@ -89,13 +83,14 @@ impl Solver {
         state: &State,
         scheme: &Scheme,
         solid: &Solid,
-        point: &SolidContactPoint,
+        point: &mut SolidContactPoint,
         touch: &Touch,
     ) {
         let grip =
             if scheme.is_static() { Grip::none() } else { grip_of(state, solid, point, touch) };
         let force = touch.normal * point.push_n + grip.force;
         let block = outer(touch.normal, touch.normal) * point.stiffness + grip.block;
+        (point.force, point.block) = (force, block);
         match point.fraction {
             Some(fraction) => {
                 self.tridiagonal.add_at(point.segment, point.node, fraction, force, &block)
@@ -186,35 +181,41 @@ impl Solver {
         }
     }
 
-    /// After a solve: the normal force each contact point will have by the linear solution.
+    /// After a solve: push and friction that each contact point will have by the linear solution.
     pub(super) fn predict_pushes(&mut self, share: f64) {
         let mut work = std::mem::take(&mut self.solid);
         for (solids, point) in work.open_points_mut() {
-            let step = self.step_on(&solids[point.solid], point);
-            point.predicted_n = point.push_n - point.stiffness * point.normal.dot(step) * share;
+            let rope = point.on_rope(|node| self.tridiagonal.step[node]) * share;
+            let relative = self.step_on(&solids[point.solid], point) * share;
+            point.predicted_n = point.push_n - point.stiffness * point.normal.dot(relative);
+            point.solved = [rope, relative - rope].map(|step| point.force - point.block * step);
         }
         self.solid = work;
     }
 
-    /// Whether the normal force of every contact point in the last solve is the one at its place, a gap as zero.
-    pub(crate) fn pushes_are_settled(&self) -> bool {
-        let (mut gap, mut answer, mut greatest) = (0.0_f64, 0.0_f64, 0.0_f64);
+    /// What push and friction of the last solution miss at the trial places. Rope and a body each answer their own move alone, and so
+    /// differ by what they did not know of each other's.
+    pub(super) fn solids_missed(&self, state: &State, scheme: &Scheme) -> ContactMissed {
+        let mut missed = ContactMissed::default();
         for point in self.solid.open_points() {
             let solid = &self.solid.solids[point.solid];
-            let there = (point.stiffness * self.touch_of(solid, point).depth).max(0.0);
-            gap = gap.max((point.predicted_n.max(0.0) - there).abs());
-            greatest = greatest.max(there);
-            if matches!(solid.carrier, Carrier::Body(_)) && there.max(point.predicted_n) > 0.0 {
-                // What rope and body did not know of each other's last move.
-                let rope = point.on_rope(|node| self.tridiagonal.step[node]);
-                answer = answer.max(
-                    point.stiffness
-                        * rope.length().max((rope - self.step_on(solid, point)).length()),
-                );
-            }
+            let touch = self.touch_of(solid, point);
+            let there = SolidContactPoint { push_n: point.stiffness * touch.depth, ..*point };
+            let force = if there.push_n <= 0.0 {
+                DVec3::ZERO
+            } else if scheme.is_static() {
+                touch.normal * there.push_n
+            } else {
+                touch.normal * there.push_n + grip_of(state, solid, &there, &touch).force
+            };
+            let [on_rope, on_body] = point.solved.map(|solved| solved.distance(force));
+            let gap_n = match solid.carrier {
+                Carrier::World(_) => GRIP_STRICTER * on_rope,
+                Carrier::Body(_) => ANSWER_STRICTER * on_rope.max(on_body),
+            };
+            missed = missed.and(ContactMissed { gap_n, greatest_n: force.length() });
         }
-        gap < PUSH_GAP_N.max(PUSH_GAP_SHARE * greatest)
-            && answer < ANSWER_GAP_N.max(ANSWER_GAP_SHARE * greatest)
+        missed
     }
 
     /// Share of the solved step of statics, at most `longest`, that takes no rope through an obstacle: as far as it is away
@@ -239,17 +240,6 @@ impl Solver {
     pub(crate) fn gather_solids(&mut self, state: &State, dt: f64) -> bool {
         self.solid.gather(state, &state.rope.position, dt);
         self.solid.touching
-    }
-
-    /// Whether rope went near a solid beyond what was gathered; it then is from now on.
-    pub(crate) fn strayed_to_solids(&mut self, state: &State, dt: f64) -> bool {
-        self.solid.gather_more(state, &self.trial.place, dt)
-    }
-
-    /// Whether rope that was solved in the lanes went near a solid beyond what was gathered.
-    pub(crate) fn strayed_free(&mut self, state: &State, dt: f64) -> bool {
-        self.lanes.give_places(&mut self.trial.place);
-        self.strayed_to_solids(state, dt)
     }
 
     /// The solid that rope went into or through in this step, if any.

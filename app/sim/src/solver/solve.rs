@@ -49,6 +49,12 @@ impl Solver {
         bodies.sqrt()
     }
 
+    /// Longest solved move of any body [m].
+    pub(super) fn longest_of_bodies(&self) -> f64 {
+        let moves = self.plan.body_block.iter().map(|block| self.interface.step[*block].length());
+        moves.fold(0.0, f64::max)
+    }
+
     /// Adds what a line leaves on its ends to the interface system.
     pub(super) fn join(&mut self, attachment_a: Attachment, attachment_b: Attachment, ends: &Ends) {
         let (arm_a, arm_b) = (self.arm(attachment_a), self.arm(attachment_b));

@@ -1,128 +1,99 @@
-//! A solver step with rope near the whale.
+//! Where a solver step ended: whether its path leads through skin, rope or solids, and whether rope is pinched.
 //!
-//! With contact (docs/physics.md): skin makes its move and rope drifts on, held off the skin; where that would
-//! cross, rope near skin is carried along with it instead, as far as nothing crosses. Then Newton finds the balance
-//! at that pose of the skin; where the skin could not make its whole move at once, both are repeated.
+//! Newton goes where it likes (`solver/newton.rs`); what counts is the straight path from where the step began to where it ended.
 
 use super::audit::Audit;
-use super::context::StepContext;
-use super::convergence::CONTACT_CONVERGED_M;
 use super::rejection::Rejection;
-use crate::contact::barrier::PINCHED_SHARE;
 use crate::contact::workspace::ContactWorkspace;
 use crate::cost::CostPart;
-use crate::solver::{CONTACT_WANTED_M, ContactEnd, Solver};
+use crate::model::Model;
+use crate::solver::{NewtonEnd, Skin, Solved, Solver, StepContext};
 use crate::state::State;
 
-/// Times the skin may be stopped within a solver step.
-const MOST_STAGES: usize = 8;
-/// Rope that begins a step pinched may end it this much nearer to skin, as a share.
-const STILL_PINCHED: f64 = 0.99;
+/// Most times a step is solved again with rope that came near to something that its drift would not have brought it near to.
+const MOST_GATHERED: usize = 4;
 
-/// A short solver step with rope near the whale, solved by whole passes; how much of what Newton is allowed it missed by.
-pub(super) fn short_contact_step(
+/// Solves a step, again where rope met something that was not looked at.
+pub(super) fn solve(
     context: &StepContext<'_>,
     solver: &mut Solver,
-    work: &mut ContactWorkspace,
+    mut near: Skin<'_>,
+    may_touch: bool,
     audit: &mut Audit,
-) -> Result<f64, Rejection> {
+) -> Result<Solved, Rejection> {
     let StepContext { model, state, scheme } = *context;
-    solver.begin_short(model, state, scheme, work);
-    let converged = match solver.solve_short(model, state, scheme, work) {
-        Ok(converged) => converged,
-        Err(end) => {
-            accept(end, audit)?;
-            return Err(Rejection::NotConverged);
+    for _ in 0..MOST_GATHERED {
+        if solver.ropes.touching && is_long(model, scheme.dt) {
+            return Err(Rejection::RopesMeet);
         }
-    };
-    audit.passes += converged.passes as u64;
-    if work.nearer_than(PINCHED_SHARE).is_some() {
-        return Err(Rejection::NotConverged);
-    }
-    end_path(state, solver, work, audit)?;
-    Ok(converged.missed)
-}
-
-/// Ends a step on the straight path from where it began, where that is free.
-pub(super) fn end_path(
-    state: &State,
-    solver: &mut Solver,
-    work: &mut ContactWorkspace,
-    audit: &mut Audit,
-) -> Result<(), Rejection> {
-    let outer = solver.cost.enter(CostPart::Detection);
-    if work.strayed(solver.places()) {
-        return Err(Rejection::Strayed);
-    }
-    let crossings = work.near.end(&state.rope.position, solver.places());
-    audit.tunnelled += crossings.ok_or(Rejection::NotConverged)?;
-    solver.cost.enter(outer);
-    Ok(())
-}
-
-/// Newton with rope near the whale: the skin is moved as far as nothing crosses, and rope is solved at that pose, until
-/// the skin has made its whole move.
-pub(super) fn contact_step(
-    context: &StepContext<'_>,
-    solver: &mut Solver,
-    work: &mut ContactWorkspace,
-    audit: &mut Audit,
-) -> Result<(), Rejection> {
-    let StepContext { model, state, scheme } = *context;
-    work.points.list.clear();
-    solver.set_out(state);
-    solver.ropes.begin();
-    let mut pinched = PINCHED_SHARE;
-    for stage in 0..MOST_STAGES {
+        let mut skin = near.as_deref_mut().filter(|_| may_touch);
+        solver.begin_step(context, skin.as_deref_mut());
+        let solved = solver.solve_step(context, skin);
+        let solved = solved.map_err(|end| reject(end, audit))?;
+        audit.passes += solved.passes as u64;
         solver.cost.enter(CostPart::Detection);
-        work.near.measure(solver.places());
-        if let Some(segment) = work.near.crossed() {
-            return Err(Rejection::Crossed(segment));
-        }
-        if stage == 0 {
-            // Rope that lies there already may stay, and come out again.
-            pinched = pinched.min(STILL_PINCHED * work.near.least_share());
-        }
-        audit.tunnelled += solver.carry(model, work);
-        solver.cost.enter(CostPart::Contact);
-        solver.open_ropes(state);
-        accept(solver.solve_contact(model, state, scheme, work), audit)?;
-        if let Some((segment, triangle)) = work.nearer_than(pinched) {
-            return Err(Rejection::Pinched(segment, triangle));
-        }
-        if let Some(segments) = solver.crushed_ropes(true) {
-            return Err(Rejection::RopesPinched(segments));
-        }
-        if work.near.fraction >= work.near.goal - 1e-12 {
-            return if solver.met_more_ropes(model, state) {
-                Err(Rejection::NotConverged)
-            } else {
-                Ok(())
-            };
+        if !solver.met_more(context, solved.moved_m) {
+            audit.rope_steps += u64::from(solver.ropes.touching && !may_touch);
+            end_path(state, solver, near, audit)?;
+            return Ok(solved);
         }
     }
     Err(Rejection::NotConverged)
 }
 
-/// Counts what Newton at one pose of the skin did, or rejects the step.
-fn accept(end: ContactEnd, audit: &mut Audit) -> Result<(), Rejection> {
+/// Whether a step is longer than contact allows.
+fn is_long(model: &Model, dt: f64) -> bool {
+    dt > model.spec.settings.contact_step_s * (1.0 + 1e-9)
+}
+
+/// Ends a step on the straight path from where it began, where that is free and leaves nothing pinched.
+fn end_path(
+    state: &State,
+    solver: &mut Solver,
+    near: Skin<'_>,
+    audit: &mut Audit,
+) -> Result<(), Rejection> {
+    if let Some(work) = near {
+        solver.take_places();
+        leave_skin(state, solver, work, audit)?;
+    }
+    if let Some(segments) = solver.crushed_ropes(true) {
+        return Err(Rejection::RopesPinched(segments));
+    }
+    audit.ropes_crossed += solver.end_ropes(state).ok_or(Rejection::NotConverged)?;
+    solver
+        .went_through(state)
+        .map_or(Ok(()), |(segment, solid)| Err(Rejection::WentThrough(segment, solid)))
+}
+
+/// The same with skin.
+fn leave_skin(
+    state: &State,
+    solver: &Solver,
+    work: &mut ContactWorkspace,
+    audit: &mut Audit,
+) -> Result<(), Rejection> {
+    if let Some((segment, triangle)) = work.pinched(&state.rope.position) {
+        return Err(Rejection::Pinched(segment, triangle));
+    }
+    if work.strayed(solver.places()) {
+        return Err(Rejection::Strayed);
+    }
+    let crossings = work.near.end(&state.rope.position, solver.places());
+    audit.tunnelled += crossings.ok_or(Rejection::NotConverged)?;
+    Ok(())
+}
+
+/// Why a step is refused that Newton ended so.
+fn reject(end: NewtonEnd, audit: &mut Audit) -> Rejection {
     match end {
-        ContactEnd::Ended { last_m, passes, crossings } => {
-            audit.passes += passes as u64;
-            audit.tunnelled += crossings;
-            if last_m > CONTACT_CONVERGED_M {
-                return Err(Rejection::NotConverged);
-            }
-            audit.unconverged += u64::from(last_m > CONTACT_WANTED_M);
-            Ok(())
-        }
-        ContactEnd::NotFinite => {
+        NewtonEnd::NotConverged => Rejection::NotConverged,
+        NewtonEnd::NotFinite => {
             audit.non_finite += 1;
-            Err(Rejection::NotFinite)
+            Rejection::NotFinite
         }
-        ContactEnd::TooFar => Err(Rejection::Strayed),
-        ContactEnd::Crushed(segment, triangle) => Err(Rejection::Pinched(segment, triangle)),
-        ContactEnd::CrushedRopes(segments) => Err(Rejection::RopesPinched(segments)),
-        ContactEnd::Plugin(failed) => Err(Rejection::Plugin(failed)),
+        NewtonEnd::Crushed(segment, triangle) => Rejection::Pinched(segment, triangle),
+        NewtonEnd::CrushedRopes(segments) => Rejection::RopesPinched(segments),
+        NewtonEnd::Plugin(failed) => Rejection::Plugin(failed),
     }
 }

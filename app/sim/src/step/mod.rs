@@ -2,14 +2,9 @@
 
 pub mod audit;
 mod contact;
-mod context;
-mod convergence;
-mod free;
 pub mod input;
 pub mod peaks;
 mod rejection;
-mod rope;
-mod solid;
 mod solver_step;
 pub mod stop;
 mod substeps;

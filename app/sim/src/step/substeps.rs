@@ -1,7 +1,7 @@
 //! Divides the model's step into solver steps.
 //!
 //! A step of the model (`settings.step_s`, one input) is one solver step while the rope is free, or several where the model
-//! chooses them by their error (`step_control.rs`). Where rope may touch the whale a solver step is as long as keeps it nearly linear,
+//! chooses them by their error (`step_control.rs`). Where rope may touch the whale or other rope a solver step is as long as keeps it nearly linear,
 //! at most `settings.contact_step_s`.
 //! It is halved where it does not converge or where a link would part late. Halving stops at `settings.least_step_s`,
 //! which ends the run.
@@ -143,7 +143,7 @@ fn solver_steps(
     let end = settings.step_s * (state.step + 1) as f64;
     let (mut halvings, mut refused) = (0_u32, LimitedBy::Convergence);
     // Momentum goes from rope to a kinetic whale by backward Euler, in steps as short as with contact.
-    let mut may_stay_clear = near && !model.whale_is_kinetic();
+    let (mut may_stay_clear, mut ropes_meet) = (near && !model.whale_is_kinetic(), false);
     while end - state.time_s > 1e-9 * settings.step_s {
         let left = end - state.time_s;
         let share = |time: f64| ((time - start) / settings.step_s).clamp(0.0, 1.0);
@@ -151,7 +151,8 @@ fn solver_steps(
         may_stay_clear = clear;
         let most = if clear { settings.step_s } else { longest };
         let (chosen, limit) = wanted(settings, &state.step_control, most);
-        let chosen = if near && !clear {
+        let by_contact = (near && !clear) || ropes_meet;
+        let chosen = if by_contact {
             chosen.min(contact_step(settings, &state.step_control))
         } else {
             chosen
@@ -170,7 +171,7 @@ fn solver_steps(
                     workspace.sums.take(&whale.skin, &workspace.contacts, dt);
                 }
                 feel(model, state, workspace, whale, dt);
-                if let (true, StepKind::InContact { missed }) = (near, kind) {
+                if let (true, StepKind::InContact { missed }) = (by_contact, kind) {
                     lengthen(settings, &mut state.step_control, dt, missed);
                 }
                 let limit = if halvings > 0 { refused } else { limit };
@@ -184,7 +185,7 @@ fn solver_steps(
                 }
             }
             Err(Rejection::RopesMeet) => {
-                may_stay_clear = false;
+                (may_stay_clear, ropes_meet) = (false, true);
                 longest = settings.contact_step_s.min(longest);
             }
             Err(why) if why.may_halve() && 0.5 * dt >= settings.least_step_s => {
@@ -200,7 +201,7 @@ fn solver_steps(
                     workspace.solver.cost.enter(CostPart::Detection);
                     gather(model, state, work, share(state.time_s));
                 }
-                if near && why != Rejection::PartsTooLate && dt > LEAST_CHOSEN_S {
+                if (near || ropes_meet) && why != Rejection::PartsTooLate && dt > LEAST_CHOSEN_S {
                     state.step_control.contact_step_s = 0.5 * dt;
                 } else {
                     halvings += 1;

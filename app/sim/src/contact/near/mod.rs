@@ -1,29 +1,26 @@
 //! Rope near skin: pairs of segment and triangle that may touch within a solver step, and how far
 //! rope may move without crossing.
 //!
-//! The invariant is that the rope's centre line never crosses the skin: every sub-move, of rope alone or
-//! of rope and skin together, is cut short by additive continuous collision detection (`sweep.rs`), and
-//! checked again by an independent exact test (`crossing.rs`).
+//! The invariant is that the rope's centre line never crosses the skin: the path of every solver step, of rope and skin together, is
+//! proved free by additive continuous collision detection (`sweep.rs`), and checked again by an independent exact test (`crossing.rs`).
 
 mod group;
-mod moves;
-mod substep;
+mod solver_step;
 
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
 
+use super::distance::segment_triangle;
 use super::placed::Placed;
-use super::sweep::SweptSegment;
+use super::sweep::{SweptSegment, triangle_at};
 use crate::model::Model;
-use crate::whale::{Bounds, Candidate, SkinTree, Surface};
+use crate::whale::{Candidate, SkinTree, Surface};
 pub(crate) use group::Group;
 
 /// Rope within this distance of the path of skin is looked at [m].
 pub(super) const MARGIN_M: f64 = 0.04;
 
-/// Pairs farther apart than this are known by a lower bound of their distance [m].
-const EXACT_M: f64 = 0.001;
 /// Least separation kept, as a share of the rope's radius.
 const MIN_SEPARATION_SHARE: f64 = 0.08;
 
@@ -31,8 +28,6 @@ const MIN_SEPARATION_SHARE: f64 = 0.08;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pair {
     pub segment: usize,
-    /// First node of the segment.
-    pub node: usize,
     /// Place of the triangle in [`Near::skin`].
     skin: usize,
     /// Lower bound of their distance when it was measured [m].
@@ -71,8 +66,6 @@ pub(crate) struct Near {
     pub goal: f64,
     /// Share of the model's step up to which rope and skin have been moved.
     pub fraction: f64,
-    /// Whether bounds of distance hold where the trial stands, which Newton has searched its way to, and not where the step began.
-    searched: bool,
     /// Whether paths are filtered ([`Settings::swept`](crate::model::Settings::swept)).
     swept: bool,
 }
@@ -94,7 +87,6 @@ impl Near {
             start: 0.0,
             goal: 1.0,
             fraction: 0.0,
-            searched: false,
             swept: model.spec.settings.swept,
         }
     }
@@ -136,7 +128,6 @@ impl Near {
     pub fn gather_swept(&mut self, model: &Model, (cut, passed): (&[bool], f64)) {
         self.surface.gather(&self.sweeps, MARGIN_M, &mut self.candidates);
         (self.start, self.goal, self.fraction) = (passed, 1.0, passed);
-        self.searched = false;
         self.number += 1;
         self.skin.clear();
         self.pairs.clear();
@@ -155,7 +146,6 @@ impl Near {
             let index = self.pairs.len();
             self.pairs.push(Pair {
                 segment,
-                node,
                 skin,
                 gap_bound: 0.0,
                 exact: false,
@@ -195,34 +185,20 @@ impl Near {
         pair.gap_bound - (group.moved - pair.measured_at) - group.moving
     }
 
-    /// Measures every pair at the places given: near ones exactly, others by a lower bound; all of them count as near.
-    pub fn measure(&mut self, places: &[DVec3]) {
-        self.searched = true;
-        self.skin.iter_mut().for_each(|skin| skin.stand(self.fraction));
-        for group in &mut self.groups {
-            let segment = [places[group.node], places[group.node + 1]];
-            let rope_box = Bounds::around(&segment);
-            (group.moved, group.moving, group.active) = (0.0, 0.0, group.pairs.clone());
-            group.clear = 0.0;
-            for pair in &mut self.pairs[group.pairs.clone()] {
-                let skin = &self.skin[pair.skin];
-                let gap = rope_box.gap(&Bounds::around(&skin.now)).max(skin.gap(segment));
-                pair.exact = gap <= EXACT_M;
-                pair.gap_bound = if pair.exact { skin.nearest_to(segment).distance } else { gap };
-                pair.measured_at = 0.0;
-            }
-        }
-        self.active.clear();
-        self.active.extend(0..self.pairs.len());
+    /// A segment that crosses skin where a solver step begins, if any.
+    pub fn crossed(&self) -> Option<usize> {
+        let pairs = self.active.iter().map(|index| &self.pairs[*index]);
+        let mut crossed = pairs.filter(|pair| self.swept && pair.exact && pair.gap_bound <= 0.0);
+        crossed.next().map(|pair| pair.segment)
     }
 
-    /// Goes back to where a refused solver step began; where it had moved skin, everything is to be measured anew.
+    /// Goes back to where a refused solver step began; where its path had been ended, everything is to be measured anew.
     #[expect(clippy::float_cmp, reason = "the same share, to the bit, is the same place")]
     pub fn go_back(&mut self) {
-        if self.fraction == self.start && !self.searched {
+        if self.fraction == self.start {
             return;
         }
-        (self.fraction, self.searched) = (self.start, false);
+        self.fraction = self.start;
         for pair in &mut self.pairs {
             (pair.gap_bound, pair.exact, pair.measured_at) = (0.0, false, 0.0);
         }
@@ -231,16 +207,9 @@ impl Near {
         }
     }
 
-    /// A segment that crosses skin where it was measured last, if any.
-    pub fn crossed(&self) -> Option<usize> {
-        self.pairs.iter().find(|pair| pair.exact && pair.gap_bound <= 0.0).map(|pair| pair.segment)
-    }
-
-    /// Least distance of any pair as last measured, as a share of the rope's radius; 1 or more where none is nearer.
-    pub fn least_share(&self) -> f64 {
-        self.pairs
-            .iter()
-            .map(|pair| MIN_SEPARATION_SHARE * pair.gap_bound / pair.min_separation)
-            .fold(1.0, f64::min)
+    /// How far a point of rope was from the triangle of a pair where the solver step began [m].
+    pub fn began_at(&self, pair: usize, place: DVec3) -> f64 {
+        let skin = self.skin_of(pair);
+        segment_triangle([place, place], triangle_at(&skin.sweep, self.start)).distance
     }
 }

@@ -1,6 +1,6 @@
 //! The points at which two segments may press on each other.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::sweep::nearest;
 
@@ -24,6 +24,15 @@ pub(crate) struct RopeContactPoint {
     pub kept: DVec3,
     /// Depth that is forgiven [m].
     pub forgiven_m: f64,
+    /// Normal force that the last solution found [N].
+    pub solved_n: Option<f64>,
+    /// Push and friction on the first rope where it was assembled last, and `-d force / d move` [N], [N/m].
+    pub force: DVec3,
+    /// Direction of the push there.
+    pub normal: DVec3,
+    pub block: DMat3,
+    /// Push and friction by the last solution [N].
+    pub solved: DVec3,
 }
 
 /// The one or two points of a pair at these places, for a contact distance `contact_distance`; the second has no length where there is one,

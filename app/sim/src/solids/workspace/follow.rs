@@ -29,11 +29,6 @@ impl SolidWorkspace {
         self.pairs = pairs;
     }
 
-    /// Lets them follow once more.
-    pub fn follow_again(&mut self) {
-        self.passes = 0;
-    }
-
     pub(super) fn follow(
         &self,
         state: &State,

@@ -1,6 +1,6 @@
 //! Contact points: where rope may touch a solid, with the grip and stiffness there.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::SolidWorkspace;
 use crate::solids::{Pose, Solid};
@@ -42,6 +42,11 @@ pub(crate) struct SolidContactPoint {
     pub push_n: f64,
     /// Direction out of the solid there.
     pub normal: DVec3,
+    /// Push and friction on the rope at the places of the last assembly, and `-d force / d place` [N], [N/m].
+    pub force: DVec3,
+    pub block: DMat3,
+    /// Push and friction by the last solution: as the rope has them, and as the body has their reaction [N].
+    pub solved: [DVec3; 2],
 }
 
 impl SolidContactPoint {

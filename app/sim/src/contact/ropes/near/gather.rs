@@ -42,7 +42,7 @@ impl RopeWorkspace {
     pub fn gather(&mut self, model: &Model, state: &State, dt: f64) -> bool {
         self.pairs.clear();
         self.through.clear();
-        (self.touching, self.crossings) = (false, 0);
+        self.touching = false;
         let rope = &state.rope;
         self.gather_to(
             model,
@@ -119,7 +119,6 @@ impl RopeWorkspace {
             lines,
             contact_distance,
             min_separation,
-            gap_bound: first,
             first,
             points: Default::default(),
         });

@@ -32,8 +32,6 @@ pub(crate) struct Pair {
     /// Sum of the radii [m].
     pub contact_distance: f64,
     min_separation: f64,
-    /// Lower bound of the distance now [m].
-    gap_bound: f64,
     /// Distance when the step began [m].
     first: f64,
     pub points: [RopeContactPoint; 2],
@@ -49,8 +47,6 @@ pub(crate) struct RopeWorkspace {
     pub touching: bool,
     /// Pairs that run through each other; some may stand here twice.
     through: Vec<[usize; 2]>,
-    /// Crossings found in the step by the exact test.
-    pub crossings: u64,
     homes: Vec<Home>,
     /// Joints at the ends of each line, and its unstretched length [m].
     ends: Vec<([usize; 2], f64)>,
@@ -89,13 +85,6 @@ impl RopeWorkspace {
         self.through.sort_unstable();
         self.through.dedup();
         self.through.len() as u64
-    }
-
-    /// Goes back to where the step began.
-    pub fn begin(&mut self) {
-        for pair in &mut self.pairs {
-            pair.gap_bound = pair.first;
-        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Pair, RopeWorkspace, TOUCH_M, sweep_of};
+use super::{Pair, RopeWorkspace, TOUCH_M, between, sweep_of};
 use crate::contact::crossing::first_crossing;
 use crate::contact::ropes::sweep::{greatest_approach, nearest, safe_fraction};
 use crate::model::Model;
@@ -14,35 +14,50 @@ const UNWATCHED_M: f64 = 0.014;
 /// That move as a share of the shortest segment, so that a straight piece stayed straight.
 const UNWATCHED_SHARE: f64 = 0.125;
 
-impl RopeWorkspace {
-    /// Largest share of the move `places` → `target` along which no ropes cross.
-    pub fn safe_share(&self, places: &[DVec3], target: impl Fn(usize) -> DVec3) -> f64 {
-        let share_of = |pair: &Pair| {
-            let [one, other] = pair.nodes.map(|node| sweep_of(node, places, &target));
-            if pair.gap_bound - pair.min_separation > greatest_approach(&one, &other) {
-                return 1.0;
-            }
-            safe_fraction(
-                &one,
-                &other,
-                pair.min_separation,
-                nearest(one.at(0.0), other.at(0.0)).distance,
-            )
-        };
-        self.pairs.iter().map(share_of).fold(1.0, f64::min)
-    }
+/// Share of their contact distance to which ropes may come by their velocities before the guess is held off.
+const HELD_OFF_SHARE: f64 = 0.3;
 
-    /// Makes the move `places` → `target`: bounds of distance shrink by what moved, and an exact test counts crossings on the way.
-    pub fn make_move(&mut self, places: &[DVec3], target: impl Fn(usize) -> DVec3) {
-        for pair in &mut self.pairs {
-            let [one, other] = pair.nodes.map(|node| sweep_of(node, places, &target));
-            let approach = greatest_approach(&one, &other);
-            if pair.gap_bound - approach > pair.contact_distance {
-                pair.gap_bound -= approach;
+impl RopeWorkspace {
+    /// Ends a step on the straight path from where it began; the number of crossings that an exact test finds on it, or `None` where
+    /// ropes may cross on it.
+    pub fn end(&self, from: &[DVec3], to: &[DVec3]) -> Option<u64> {
+        let mut crossings = 0;
+        for pair in &self.pairs {
+            let [one, other] = pair.nodes.map(|node| sweep_of(node, from, &|node| to[node]));
+            if pair.first - pair.min_separation > greatest_approach(&one, &other) {
                 continue;
             }
-            pair.gap_bound = nearest(one.at(1.0), other.at(1.0)).distance;
-            self.crossings += u64::from(first_crossing(&one, &other).is_some());
+            if safe_fraction(&one, &other, pair.min_separation, pair.first) < 1.0 {
+                return None;
+            }
+            crossings += u64::from(first_crossing(&one, &other).is_some());
+        }
+        Some(crossings)
+    }
+
+    /// Takes from the move `from` -> `target` what brings ropes nearer to each other than they may touch, or than they are.
+    pub fn hold_off(&self, from: &[DVec3], target: &mut [DVec3]) {
+        for pair in &self.pairs {
+            let [one, other] = pair.nodes.map(|node| sweep_of(node, from, &|node| target[node]));
+            if pair.first - greatest_approach(&one, &other) > HELD_OFF_SHARE * pair.contact_distance
+            {
+                continue;
+            }
+            let (fractions, distance) = {
+                let nearest = nearest(one.at(0.0), other.at(0.0));
+                (nearest.fractions, nearest.distance)
+            };
+            let (before, _) = between(one.at(0.0), other.at(0.0), fractions);
+            let (after, _) = between(one.at(1.0), other.at(1.0), fractions);
+            let normal = before / distance.max(1e-12);
+            let approach = normal.dot(before - after);
+            let too_near = approach - (distance - pair.contact_distance).max(0.0);
+            if too_near > 0.0 {
+                for (node, sign) in pair.nodes.into_iter().zip([0.5, -0.5]) {
+                    target[node] += normal * (sign * too_near);
+                    target[node + 1] += normal * (sign * too_near);
+                }
+            }
         }
     }
 

@@ -72,19 +72,11 @@ impl RopeWorkspace {
         }
     }
 
-    /// Whether points follow the ropes within a pass.
-    pub fn follows(&self) -> bool {
-        self.passes < FOLLOWING_PASSES
-    }
-
     /// Opens points anew where ropes have come nearer than at those they have; whether there were any.
     pub fn open_more(&mut self, state: &State, places: &[DVec3]) -> bool {
         let mut opened = false;
         for index in 0..self.pairs.len() {
             let pair = &self.pairs[index];
-            if pair.gap_bound >= pair.contact_distance {
-                continue;
-            }
             let [one, other] = pair.places(|node| places[node]);
             let least = nearest(one, other).distance;
             let known = pair.points.iter().filter(|point| point.length > 0.0);

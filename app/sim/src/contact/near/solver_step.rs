@@ -27,7 +27,7 @@ const HELD_OFF_SHARE: f64 = 0.3;
 impl Near {
     /// Takes skin to the end of a solver step, and finds what may touch on the way from where rope is to where it is guessed to go.
     pub fn look(&mut self, from: &[DVec3], to: &[DVec3], goal: f64) {
-        (self.start, self.goal, self.searched) = (self.fraction, goal, false);
+        (self.start, self.goal) = (self.fraction, goal);
         self.active.clear();
         let share = goal - self.start;
         for group in &mut self.groups {

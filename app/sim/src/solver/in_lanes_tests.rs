@@ -123,12 +123,12 @@ fn in_lanes(
     if let Some(arch) = arch {
         solver.lanes.set_arch(arch);
     }
-    solver.begin_free(model, state, scheme);
+    solver.begin_in_lanes(model, state, scheme, |_| ());
     for _ in 0..passes {
-        assert!(solver.pass_free(model, state, scheme, 1.0).finite);
+        assert!(solver.pass_in_lanes(model, state, scheme, 1.0).finite);
     }
     let mut after = state.clone();
-    solver.keep_free(model, scheme, &mut after);
+    solver.keep_from_lanes(model, scheme, &mut after);
     after.rope.position
 }
 
@@ -178,7 +178,9 @@ fn lanes_solve_what_the_lines_solve() {
         let mut solver = Solver::new(&model);
         solver.begin(&model, &state, &scheme);
         for _ in 0..PASSES {
-            solver.pass(&model, &state, &scheme);
+            solver.assemble(&model, &state, &scheme);
+            solver.solve(&model);
+            solver.advance(&model, 1.0);
         }
         let lanes = in_lanes(&model, &state, &scheme, PASSES, None);
         let apart = solver
@@ -236,11 +238,11 @@ fn lanes_solve_contact_as_the_lines_do() {
             if let Some(arch) = arch {
                 solver.lanes.set_arch(arch);
             }
-            solver.begin_free(&model, &state, &scheme);
+            solver.begin_in_lanes(&model, &state, &scheme, |_| ());
             for (segment, fraction, force, block) in contacts(&model) {
                 solver.lanes.add_contact(segment, fraction, force, &block);
             }
-            assert!(solver.pass_free(&model, &state, &scheme, 1.0).finite);
+            assert!(solver.pass_in_lanes(&model, &state, &scheme, 1.0).finite);
             solver.take_places();
             solver.trial.place
         };

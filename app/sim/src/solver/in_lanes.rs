@@ -17,7 +17,7 @@ const SEABED_MARGIN_M: f64 = 0.05;
 
 /// What a pass of free rope did.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct FreePass {
+pub(crate) struct LanePass {
     /// Longest move of any node or body [m].
     pub longest_m: f64,
     /// Greatest difference between the pull solved for and the tension at its place, to second order [N].
@@ -33,11 +33,6 @@ pub(crate) struct FreePass {
 }
 
 impl Solver {
-    /// Whether the lanes can take a step of this model, where no rope is near the whale.
-    pub(crate) fn suits_lanes(&self, model: &Model) -> bool {
-        self.lanes.suit(model)
-    }
-
     /// Whether rope may touch the seabed in a step of this length.
     fn nears_seabed(&self, model: &Model, state: &State, dt: f64) -> bool {
         let Some(seabed) = &model.spec.seabed else { return false };
@@ -46,11 +41,6 @@ impl Solver {
             depth.max(depth - seabed.normal.dot(*velocity) * dt) > -SEABED_MARGIN_M
         };
         state.rope.position.iter().zip(&state.rope.velocity).any(near)
-    }
-
-    /// Begins a step of free rope.
-    pub(crate) fn begin_free(&mut self, model: &Model, state: &State, scheme: &Scheme) {
-        self.begin_in_lanes(model, state, scheme, |_| ());
     }
 
     /// Begins a step in the lanes, from a guess that may be changed.
@@ -76,13 +66,13 @@ impl Solver {
     }
 
     /// One Newton pass that moves the trial by a share of what it solves.
-    pub(crate) fn pass_free(
+    pub(crate) fn pass_in_lanes(
         &mut self,
         model: &Model,
         state: &State,
         scheme: &Scheme,
         share: f64,
-    ) -> FreePass {
+    ) -> LanePass {
         let shared = Shared::of(model, scheme);
         self.interface.clear();
         if self.near_seabed {
@@ -111,7 +101,7 @@ impl Solver {
         self.lanes.give_ends(model, &mut self.trial);
         self.trial.place_ends(model, &self.plan);
         self.lanes.take_ends(model, &self.trial);
-        FreePass {
+        LanePass {
             longest_m: rope.longest_m.max(bodies_m),
             gap_n: rope.gap_n,
             flipped_n: rope.flipped_n,
@@ -131,7 +121,7 @@ impl Solver {
     }
 
     /// Writes the solved step into the state.
-    pub(super) fn keep_free(&mut self, model: &Model, scheme: &Scheme, state: &mut State) {
+    pub(super) fn keep_from_lanes(&mut self, model: &Model, scheme: &Scheme, state: &mut State) {
         if self.near_seabed {
             self.lanes.give_places(&mut self.trial.place);
             self.keep_grips(model, scheme, state);
@@ -184,5 +174,5 @@ impl Solver {
 }
 
 #[cfg(test)]
-#[path = "free_tests.rs"]
+#[path = "in_lanes_tests.rs"]
 mod tests;

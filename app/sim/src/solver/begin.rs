@@ -1,0 +1,77 @@
+//! Begins a solver step: the guess `x + h v`, held off skin and other rope, and whether rope met more on its way than was gathered.
+
+use super::Solver;
+use super::context::StepContext;
+use super::newton::Skin;
+use crate::cost::CostPart;
+use crate::model::Model;
+use crate::solids::workspace::MARGIN_M;
+use crate::state::State;
+
+impl Solver {
+    /// Begins a step: in the lanes of the processor where they know all that touches rope, else line by line.
+    pub(crate) fn begin_step(&mut self, context: &StepContext<'_>, mut skin: Skin<'_>) {
+        let StepContext { model, state, scheme } = *context;
+        self.in_contact = skin.is_some() || self.solid.touching || self.ropes.touching;
+        self.cost.enter(if self.in_contact { CostPart::Contact } else { CostPart::FreeRope });
+        if self.lanes.suit(model) && !self.solid.touching && !self.ropes.touching {
+            self.begin_in_lanes(model, state, scheme, |solver| {
+                solver.hold_off(model, state, skin.as_deref_mut());
+            });
+        } else {
+            self.begin(model, state, scheme);
+            self.hold_off(model, state, skin);
+        }
+    }
+
+    /// Holds the guess of a step off skin and other rope.
+    fn hold_off(&mut self, model: &Model, state: &State, skin: Skin<'_>) {
+        if !self.in_contact {
+            return;
+        }
+        if let Some(work) = &skin {
+            work.near.hold_off(&state.rope.position, &mut self.trial.place);
+        }
+        if self.ropes.touching {
+            self.ropes.hold_off(&state.rope.position, &mut self.trial.place);
+        }
+        self.trial.place_ends(model, &self.plan);
+        if let Some(work) = skin {
+            work.near.follow(&state.rope.position, &self.trial.place);
+        }
+    }
+
+    /// Whether rope whose passes moved it by `moved_m` in all met rope, obstacles or bodies that its drift would not have brought it near
+    /// to [m]; they are looked at from now on.
+    pub(crate) fn met_more(&mut self, context: &StepContext<'_>, moved_m: f64) -> bool {
+        let StepContext { model, state, scheme } = *context;
+        let on_solid = (self.solid.touching || moved_m > MARGIN_M) && {
+            self.take_places();
+            self.solid.gather_more(state, &self.trial.place, scheme.dt)
+        };
+        let known = self.ropes.pairs.is_empty() && moved_m <= self.ropes.unwatched_m();
+        let on_rope = self.ropes.law.is_some() && !known && {
+            self.take_places();
+            if self.ropes.touching {
+                self.ropes.gather_more(model, state, &self.trial.place)
+            } else {
+                self.ropes.met(model, state, &self.trial.place)
+            }
+        };
+        on_solid || on_rope
+    }
+
+    /// Ends a step on the straight path from where it began; the number of times ropes cross on it, or `None` where they may.
+    pub(crate) fn end_ropes(&mut self, state: &State) -> Option<u64> {
+        if self.ropes.pairs.is_empty() {
+            return Some(0);
+        }
+        self.take_places();
+        self.ropes.end(&state.rope.position, &self.trial.place)
+    }
+
+    /// Places of the nodes now.
+    pub(crate) fn places(&self) -> &[glam::DVec3] {
+        &self.trial.place
+    }
+}

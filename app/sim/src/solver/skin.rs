@@ -1,0 +1,29 @@
+//! Rope on skin within a step: contact points measured and their friction asked for where the trial stands.
+
+use super::Solver;
+use super::context::StepContext;
+use super::newton::NewtonEnd;
+use crate::contact::barrier::CRUSHED_SHARE;
+use crate::contact::workspace::ContactWorkspace;
+use crate::cost::CostPart;
+
+impl Solver {
+    /// Measures every contact point where the trial stands, and asks for its friction.
+    pub(super) fn measure_skin(
+        &mut self,
+        context: &StepContext<'_>,
+        work: &mut ContactWorkspace,
+    ) -> Result<(), NewtonEnd> {
+        let StepContext { model, state, scheme } = *context;
+        self.cost.enter(CostPart::Detection);
+        work.near.follow(&state.rope.position, &self.trial.place);
+        work.points.measure(&work.near, &self.trial.place);
+        self.cost.enter(CostPart::Contact);
+        if let Some((segment, triangle)) = work.nearer_than(CRUSHED_SHARE) {
+            return Err(NewtonEnd::Crushed(segment, triangle));
+        }
+        let Some(friction) = &model.spec.friction else { return Ok(()) };
+        work.touching.collect(model, &work.near, &work.points, state);
+        work.touching.respond(friction, scheme.dt).map_err(NewtonEnd::Plugin)
+    }
+}
