@@ -13,7 +13,9 @@ use super::barrier::BarrierForce;
 use super::crease;
 use super::near::Near;
 use super::placed::on_triangle;
+use super::polygon::friction_factor;
 use super::touch::Touch;
+use crate::model::Model;
 use crate::state::FrictionState;
 
 /// Longest piece of rope one contact point stands for [m].
@@ -28,8 +30,11 @@ const FACE_BITS: u32 = 2;
 const PIECE_BITS: u32 = 3 + FACE_BITS;
 /// Most contact points of a piece.
 const MOST_POINTS: usize = 1 << (PIECE_BITS - FACE_BITS);
-/// A further contact point is opened where its distance is below this share of those there are.
+/// A further contact point is opened where its distance is below this share of those there are, and less by this share of the contact distance.
 const NEARER: f64 = 0.8;
+const NEARER_BY: f64 = 0.1;
+/// Share of the greatest push on its piece from which a further contact point is opened again in the next solver step.
+const BEARING_SHARE: f64 = 0.5;
 /// Further contact points are looked for only within this many contact distances.
 const LOOK_WITHIN: f64 = 3.0;
 /// How far a contact point is measured: contact distances, and besides [`LOOK_WITHIN`] lengths of its piece. Beyond, no point of the
@@ -74,8 +79,21 @@ pub(crate) struct SkinContactPoint {
     push_beside_n: Option<f64>,
     /// What it touches, in `SkinContactPoints::touches`.
     touches: Range<usize>,
+    /// Where the solver step began.
+    pub began: Began,
     /// Push and friction on it as the last solve predicted them, less what they are where the trial stands [N].
     pub missed: DVec3,
+}
+
+/// A contact point where the solver step began.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Began {
+    /// Its place.
+    pub place: DVec3,
+    /// Its segment, end to end.
+    pub along: DVec3,
+    /// What friction there is multiplied by, for rope is a polygon.
+    pub friction_factor: f64,
 }
 
 /// All contact points of a solver step.
@@ -130,6 +148,7 @@ impl SkinContactPoints {
                     nearest_pair: None,
                     push_beside_n: None,
                     touches: 0..0,
+                    began: Began::default(),
                     missed: DVec3::ZERO,
                 });
             }
@@ -149,8 +168,14 @@ impl SkinContactPoints {
                 .iter()
                 .map(|point| point.at_least(places))
                 .fold(f64::INFINITY, f64::min);
+            // Else each step would first sink in where a point is missing that bears.
+            let most = if to - from <= self.kept_beside(piece) {
+                least
+            } else {
+                (NEARER * least).min(least - NEARER_BY * self.list[from].contact_distance)
+            };
             if to - from < MOST_POINTS
-                && let Some(fraction) = self.list[from].nearer_fraction(near, places, least)
+                && let Some(fraction) = self.list[from].nearer_fraction(near, places, most)
             {
                 let site = self.list[to - 1].site + (1 << FACE_BITS);
                 let beside = self.list[from..to].iter().flat_map(|point| self.touches(point));
@@ -174,6 +199,16 @@ impl SkinContactPoints {
         opened
     }
 
+    /// Contact points beside its middle one that bore much of the push on a piece in the last solver step.
+    fn kept_beside(&self, piece: u64) -> usize {
+        let from = self.kept.partition_point(|(site, _)| site >> PIECE_BITS < piece);
+        let of_piece = self.kept[from..].iter().take_while(|(site, _)| site >> PIECE_BITS == piece);
+        let greatest_n = of_piece.clone().map(|(_, push_n)| *push_n).fold(0.0, f64::max);
+        let bearing = of_piece.filter(|(_, push_n)| *push_n >= BEARING_SHARE * greatest_n);
+        let numbers = bearing.map(|(site, _)| (site >> FACE_BITS) as usize & (MOST_POINTS - 1));
+        numbers.max().unwrap_or(0)
+    }
+
     /// Measures every contact point at the places given.
     pub fn measure(&mut self, near: &Near, places: &[DVec3]) {
         std::mem::swap(&mut self.touches, &mut self.touched);
@@ -182,6 +217,18 @@ impl SkinContactPoints {
             let first = self.touches.len();
             point.measure(near, places, (&self.touched, &self.kept), &mut self.touches);
             point.touches = first..self.touches.len();
+        }
+    }
+
+    /// Notes where the contact points were when the solver step began, with the rope `from` there.
+    pub fn begin(&mut self, model: &Model, from: &[DVec3]) {
+        for point in &mut self.list {
+            let segment = (point.segment, point.node);
+            point.began = Began {
+                place: point.on_rope(|node| from[node]),
+                along: from[point.node + 1] - from[point.node],
+                friction_factor: friction_factor(model, from, segment, point.fraction),
+            };
         }
     }
 
@@ -230,15 +277,16 @@ impl SkinContactPoint {
         let along = (places[self.node + 1] - places[self.node]).normalize_or_zero();
         for (face, touch) in touches[first..].iter_mut().enumerate() {
             touch.turn_across(along);
-            touch.solved_n = touch
+            let whole_n = touch
                 .solved_before(&touched[self.touches.clone()])
                 .or_else(|| self.kept_push(face, kept))
                 .or(self.push_beside_n);
+            touch.solved_n = whole_n.map(|whole_n| whole_n * touch.share);
             touch.take_solved(self.contact_distance, self.stiffness);
         }
     }
 
-    /// The push of a face at the end of the last solver step, if it was touched [N].
+    /// The push of a face at the end of the last solver step, as if it had no other beside it, if it was touched [N].
     fn kept_push(&self, face: usize, kept: &[(u64, f64)]) -> Option<f64> {
         let place = kept.binary_search_by_key(&self.site(face), |(site, _)| *site).ok()?;
         Some(kept[place].1)
@@ -311,17 +359,16 @@ impl SkinContactPoint {
         self.seen.map_or(0.0, |(seen, distance)| distance - seen.distance(place))
     }
 
-    /// Where along the segment its piece is clearly nearer to skin than `least`, if anywhere. Asked of the
-    /// middle contact point.
-    fn nearer_fraction(&self, near: &Near, places: &[DVec3], least: f64) -> Option<f64> {
+    /// Where along the segment its piece is nearest to skin, if that is nearer than `most`. Asked of the middle contact point.
+    fn nearer_fraction(&self, near: &Near, places: &[DVec3], most: f64) -> Option<f64> {
         let share = 0.5 * self.length / self.segment_length;
         let (from, to) = (self.fraction - share, self.fraction + share);
         let ends =
             [from, to].map(|fraction| places[self.node].lerp(places[self.node + 1], fraction));
-        if least - ends[0].distance(ends[1]) > LOOK_WITHIN * self.contact_distance {
+        if most - ends[0].distance(ends[1]) > LOOK_WITHIN * self.contact_distance {
             return None;
         }
-        let mut least = (NEARER * least).min(LOOK_WITHIN * self.contact_distance);
+        let mut least = most.min(LOOK_WITHIN * self.contact_distance);
         let mut along = None;
         let group = &near.groups[self.group];
         for index in near.active[self.pairs.clone()].iter().copied() {

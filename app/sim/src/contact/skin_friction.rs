@@ -14,7 +14,6 @@ use super::account::Account;
 use super::grain::Grains;
 use super::near::Near;
 use super::points::SkinContactPoints;
-use super::polygon::friction_factor;
 use super::touch::Touch;
 use crate::model::{Friction, FrictionLaw, Model};
 use crate::solver::outer;
@@ -46,7 +45,6 @@ struct Found {
     law: usize,
     point: usize,
     face: usize,
-    touch: Touch,
 }
 
 /// Arrays handed to the friction plugins in a pass, one entry for each contact point in touch, law by law.
@@ -122,15 +120,10 @@ impl Touching {
             return;
         };
         for (point, at) in points.list.iter().enumerate() {
-            for (face, touch) in points.touches(at).iter().copied().enumerate() {
+            for (face, touch) in points.touches(at).iter().enumerate() {
                 let region = whale.skin.regions[near.skin_of(touch.pair).triangle as usize];
                 let rope = model.spec.lines[model.segment_line[at.segment]].rope;
-                self.found.push(Found {
-                    law: friction.law_of[rope][region as usize],
-                    point,
-                    face,
-                    touch,
-                });
+                self.found.push(Found { law: friction.law_of[rope][region as usize], point, face });
             }
         }
         if friction.laws.len() > 1 {
@@ -178,11 +171,13 @@ impl Touching {
         place: usize,
     ) {
         let Some(whale) = &model.spec.whale else { return };
-        let Found { law, point: index, face, touch } = self.found[place];
-        let (point, pair) = (&points.list[index], near.skin_of(touch.pair));
+        let Found { law, point: index, face } = self.found[place];
+        let point = &points.list[index];
+        let touch = &points.touches(point)[face];
+        let pair = near.skin_of(touch.pair);
         let region = whale.skin.regions[pair.triangle as usize];
         let rope = model.spec.lines[model.segment_line[point.segment]].rope;
-        let rope_move = touch.place - point.on_rope(|node| state.rope.position[node]);
+        let rope_move = touch.place - point.began.place;
         let skin_move = pair.move_of(touch.barycentric) * (pair.stands - near.start);
         let slip = rope_move - skin_move;
         self.point.push(index);
@@ -192,16 +187,11 @@ impl Touching {
         self.normal.push(touch.normal.to_array());
         let grain = self.grains.at(pair.triangle as usize, &pair.now, touch.normal);
         self.grain.push(grain.to_array());
-        self.along.push(
-            (state.rope.position[point.node + 1] - state.rope.position[point.node])
-                .normalize_or(touch.normal)
-                .to_array(),
-        );
+        self.along.push(point.began.along.normalize_or(touch.normal).to_array());
         self.slip.push((slip - touch.normal * slip.dot(touch.normal)).to_array());
         self.length.push(point.length);
-        let segment = (point.segment, point.node);
-        let factor = friction_factor(model, &state.rope.position, segment, point.fraction);
-        self.coefficient.push(friction.coefficients[rope][region as usize] * factor);
+        let coefficient = friction.coefficients[rope][region as usize];
+        self.coefficient.push(coefficient * point.began.friction_factor);
         self.region.push(region as u32);
         self.rope.push(u32::try_from(rope).unwrap_or(u32::MAX));
         self.put_floats(friction, law, point.site(face), &state.rope.friction);
@@ -319,8 +309,12 @@ impl Touching {
             let width = friction.laws[group.law].model.descriptor().state_len;
             let from = group.floats.start + (place - group.contacts.start) * width;
             let Account { taken_j, given_j } = self.account[*place];
-            grips.sites.push(points.list[self.point[*place]].site(self.face[*place]));
-            grips.push_n.push((self.normal_force[*place] + self.growth_n[*place]).max(0.0));
+            let (point, face) = (&points.list[self.point[*place]], self.face[*place]);
+            let push_n = (self.normal_force[*place] + self.growth_n[*place]).max(0.0);
+            grips.sites.push(point.site(face));
+            grips
+                .push_n
+                .push(push_n / points.touches(point).get(face).map_or(1.0, |touch| touch.share));
             grips.floats.extend_from_slice(&[group.law as f64, taken_j, given_j]);
             grips.floats.extend_from_slice(&self.floats_at_end[from..from + width]);
             grips.floats.resize(grips.sites.len() * stride, 0.0);

@@ -63,14 +63,14 @@ impl Touch {
         self.normal = (self.away - ahead * part).normalize_or(self.away);
     }
 
-    /// The push that the last solution found for the same face, if it is among those touched `before` [N].
+    /// The push that the last solution found for the same face, as if it had no other beside it, if it is among those touched `before` [N].
     pub fn solved_before(&self, before: &[Self]) -> Option<f64> {
         let alike = |other: &&Self| other.normal.dot(self.normal);
         let same = before
             .iter()
             .filter(|other| alike(other) > SAME_FACE)
             .max_by(|one, other| alike(one).total_cmp(&alike(other)));
-        same.and_then(|same| same.solved_n)
+        same.and_then(|same| Some(same.solved_n? / same.share))
     }
 
     /// Takes the push as linear about the solved one where the law is steep.

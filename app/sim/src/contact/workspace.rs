@@ -124,7 +124,10 @@ impl ContactWorkspace {
         let (stiffness, kept) = (whale.contact_stiffness_n_m2, &state.rope.friction);
         self.points.open(&self.near, lengths, stiffness, Some(kept));
         self.points.measure(&self.near, places);
-        self.points.open_more(&self.near, places);
+        while self.points.open_more(&self.near, places) > 0 {
+            self.points.measure(&self.near, places);
+        }
+        self.points.begin(model, &state.rope.position);
     }
 
     /// Whether rope has left the margin in which skin near it was gathered.

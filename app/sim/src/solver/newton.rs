@@ -110,8 +110,13 @@ impl Solver {
     /// Opens contact points where rope has come nearer to skin or rope than at those it has; whether there were any.
     fn open_more(&mut self, context: &StepContext<'_>, skin: Skin<'_>) -> bool {
         self.cost.enter(CostPart::Detection);
-        let on_skin =
-            skin.is_some_and(|work| work.points.open_more(&work.near, &self.trial.place) > 0);
+        let on_skin = skin.is_some_and(|work| {
+            let opened = work.points.open_more(&work.near, &self.trial.place) > 0;
+            if opened {
+                work.points.begin(context.model, &context.state.rope.position);
+            }
+            opened
+        });
         let on_rope = self.ropes.touching && self.ropes.open_more(context.state, &self.trial.place);
         on_skin || on_rope
     }
