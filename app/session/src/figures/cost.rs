@@ -26,8 +26,7 @@ pub static COST: &[Figure<Cost>] = &[
     Figure::new(
         "detection_s",
         "contact detection",
-        "Looking for skin, rope and bodies near rope, measuring distances and proving paths free; \
-         what the line search of a solve measures counts as solving contact.",
+        "Looking for skin, rope and bodies near rope, measuring distances and proving paths free.",
         Quantity::Duration,
         |cost: &Cost| cost.of_s(CostPart::Detection).into(),
     )

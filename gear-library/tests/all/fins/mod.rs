@@ -85,10 +85,12 @@ impl Fins {
         Self(pieces)
     }
 
-    /// The encounter of a number, tested along every path or at the end of each step alone.
+    /// The encounter of a number, tested along every path; or at the end of each step of the model alone, as long steps usually are.
     pub fn encounter(&self, number: u64, swept: bool) -> Encounter {
         let mut dice = Dice::of(number);
-        let settings = Settings { swept, ..Settings::default() };
+        let usual = Settings::default();
+        let contact_step_s = if swept { usual.contact_step_s } else { usual.step_s };
+        let settings = Settings { swept, contact_step_s, ..usual };
         let Meeting { skin, heading, along, strike } = self.meeting(&mut dice);
         let (speed_m_s, radius_m) = (dice.between(2.0, 20.0), dice.between(0.004, 0.007));
         let pull_n = 5.0 * libm::pow(1600.0, dice.share());
@@ -96,7 +98,7 @@ impl Fins {
         let friction = dice.between(0.05, 0.6);
         let forward = heading * DVec3::X;
         let before_m =
-            radius_m / ASLANT + speed_m_s * settings.contact_step_s * dice.between(0.5, 2.0);
+            radius_m / ASLANT + speed_m_s * usual.contact_step_s * dice.between(0.5, 2.0);
         let whale = Whale {
             position_m: MET + forward * (strike.way_m - before_m),
             orientation: heading,

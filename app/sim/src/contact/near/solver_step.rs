@@ -31,7 +31,8 @@ impl Near {
         self.active.clear();
         let share = goal - self.start;
         for group in &mut self.groups {
-            group.moving = group.relative_move(from, to, share);
+            // Without sweeps rope sees only what is near where the step begins.
+            group.moving = if self.swept { group.relative_move(from, to, share) } else { 0.0 };
             let look = group.reach + LOOK_M + LOOK_MOVES * group.moving.min(LONGEST_MOVE_M);
             let first = self.active.len();
             (group.active, group.far) = (first..first, group.clear - group.moved);
@@ -90,6 +91,10 @@ impl Near {
             let moving = self.groups[index].relative_move(from, to, share);
             let group = &mut self.groups[index];
             group.moving = moving;
+            if !self.swept {
+                crossings += self.crossings_of(index, (from, to));
+                continue;
+            }
             if group.far - moving < group.reach {
                 return None;
             }
@@ -103,6 +108,19 @@ impl Near {
         }
         self.fraction = self.goal;
         Some(crossings)
+    }
+
+    /// Crossings found on the path of a group with all its pairs.
+    fn crossings_of(&self, group: usize, (from, to): (&[DVec3], &[DVec3])) -> u64 {
+        let Group { node, ref pairs, .. } = self.groups[group];
+        let segment =
+            SweptSegment { a0: from[node], b0: from[node + 1], a1: to[node], b1: to[node + 1] };
+        let met = self.pairs[pairs.clone()].iter().filter(|pair| {
+            let sweep = &self.skin[pair.skin].sweep;
+            let triangle = [triangle_at(sweep, self.start), triangle_at(sweep, self.goal)];
+            first_meeting(&segment, &triangle).is_some()
+        });
+        met.count() as u64
     }
 
     /// Crossings found on the path of a pair; `None` where it is not free.
@@ -124,7 +142,7 @@ impl Near {
             SweptSegment { a0: from[node], b0: from[node + 1], a1: to[node], b1: to[node + 1] };
         let gap = segment_triangle(segment.at(0.0), triangle[0]).distance;
         (pair.gap_bound, pair.exact, pair.measured_at) = (gap, true, group.moved);
-        if self.swept && safe_fraction_from(&segment, &triangle, pair.min_separation, gap) < 1.0 {
+        if safe_fraction_from(&segment, &triangle, pair.min_separation, gap) < 1.0 {
             return None;
         }
         Some(u64::from(first_meeting(&segment, &triangle).is_some()))
