@@ -113,9 +113,10 @@ fn fold_rope(rope: &RopeState, ropes: &mut Fold, contact: &mut Fold, links: &mut
     ropes.reals(tension);
     ropes.real(*earlier_dt_s);
     contact.vectors(seabed_grip);
-    let FrictionState { sites, push_n, floats } = friction;
+    let FrictionState { sites, push_n, normals, floats } = friction;
     sites.iter().for_each(|site| contact.word(*site));
     contact.reals(push_n);
+    contact.vectors(normals);
     contact.reals(floats);
     for SolidGrip { solid, line, along_m, at_node, stretch, push_n } in solid_grips {
         contact.word(*solid as u64);

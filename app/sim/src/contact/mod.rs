@@ -6,6 +6,7 @@ mod crease;
 pub mod crossing;
 pub mod distance;
 mod grain;
+mod kept;
 pub(crate) mod near;
 pub(crate) mod placed;
 pub(crate) mod points;

@@ -11,6 +11,7 @@ use glam::DVec3;
 
 use super::barrier::BarrierForce;
 use super::crease;
+use super::kept::{self, KeptFace};
 use super::near::Near;
 use super::placed::on_triangle;
 use super::polygon::friction_factor;
@@ -25,16 +26,14 @@ const LEAST_PIECES: f64 = 2.0;
 /// Bits of a site's number below its segment's.
 const SEGMENT_BITS: u32 = 20;
 /// Bits of a site's number that name the face of skin.
-const FACE_BITS: u32 = 2;
+pub(super) const FACE_BITS: u32 = 2;
 /// Bits of a site's number that name the contact point within its piece, and the face.
-const PIECE_BITS: u32 = 3 + FACE_BITS;
+pub(super) const PIECE_BITS: u32 = 3 + FACE_BITS;
 /// Most contact points of a piece.
-const MOST_POINTS: usize = 1 << (PIECE_BITS - FACE_BITS);
+pub(super) const MOST_POINTS: usize = 1 << (PIECE_BITS - FACE_BITS);
 /// A further contact point is opened where its distance is below this share of those there are, and less by this share of the contact distance.
 const NEARER: f64 = 0.8;
 const NEARER_BY: f64 = 0.1;
-/// Share of the greatest push on its piece from which a further contact point is opened again in the next solver step.
-const BEARING_SHARE: f64 = 0.5;
 /// Further contact points are looked for only within this many contact distances.
 const LOOK_WITHIN: f64 = 3.0;
 /// How far a contact point is measured: contact distances, and besides [`LOOK_WITHIN`] lengths of its piece. Beyond, no point of the
@@ -104,27 +103,21 @@ pub(crate) struct SkinContactPoints {
     touches: Vec<Touch>,
     /// The same as measured before.
     touched: Vec<Touch>,
-    /// Sites with the push on them at the end of the last solver step, where passes set out from it [N].
-    kept: Vec<(u64, f64)>,
-    /// Whether passes set out from pushes that are known, and not from distances.
-    by_push: bool,
+    /// Faces that were touched at the end of the last solver step, where passes set out from it.
+    kept: Vec<KeptFace>,
 }
 
 impl SkinContactPoints {
-    /// Opens the middle contact points of every segment that has pairs; with what skin pushed with in the last step, passes set out from
-    /// that, and not from the distances of a first guess.
+    /// Opens the middle contact points of every segment that has pairs. Passes set out from what skin pushed with in the last solver step, and
+    /// not from the distances of a first guess.
     pub fn open(
         &mut self,
         near: &Near,
         segment_length: &[f64],
         stiffness_n_m2: f64,
-        kept: Option<&FrictionState>,
+        friction: &FrictionState,
     ) {
-        self.by_push = kept.is_some();
-        self.kept.clear();
-        if let Some(kept) = kept {
-            self.kept.extend(kept.sites.iter().copied().zip(kept.push_n.iter().copied()));
-        }
+        kept::take(friction, &mut self.kept);
         self.list.clear();
         for (index, group) in near.groups.iter().enumerate() {
             if group.active.is_empty() {
@@ -169,7 +162,7 @@ impl SkinContactPoints {
                 .map(|point| point.at_least(places))
                 .fold(f64::INFINITY, f64::min);
             // Else each step would first sink in where a point is missing that bears.
-            let most = if to - from <= self.kept_beside(piece) {
+            let most = if to - from <= kept::points_beside(&self.kept, piece) {
                 least
             } else {
                 (NEARER * least).min(least - NEARER_BY * self.list[from].contact_distance)
@@ -184,7 +177,7 @@ impl SkinContactPoints {
                     site,
                     fraction,
                     seen: None,
-                    push_beside_n: self.by_push.then_some(push_n),
+                    push_beside_n: Some(push_n),
                     touches: 0..0,
                     missed: DVec3::ZERO,
                     ..self.list[from].clone()
@@ -197,16 +190,6 @@ impl SkinContactPoints {
             self.list.sort_unstable_by_key(|point| point.site);
         }
         opened
-    }
-
-    /// Contact points beside its middle one that bore much of the push on a piece in the last solver step.
-    fn kept_beside(&self, piece: u64) -> usize {
-        let from = self.kept.partition_point(|(site, _)| site >> PIECE_BITS < piece);
-        let of_piece = self.kept[from..].iter().take_while(|(site, _)| site >> PIECE_BITS == piece);
-        let greatest_n = of_piece.clone().map(|(_, push_n)| *push_n).fold(0.0, f64::max);
-        let bearing = of_piece.filter(|(_, push_n)| *push_n >= BEARING_SHARE * greatest_n);
-        let numbers = bearing.map(|(site, _)| (site >> FACE_BITS) as usize & (MOST_POINTS - 1));
-        numbers.max().unwrap_or(0)
     }
 
     /// Measures every contact point at the places given.
@@ -255,7 +238,7 @@ impl SkinContactPoint {
         &mut self,
         near: &Near,
         places: &[DVec3],
-        (touched, kept): (&[Touch], &[(u64, f64)]),
+        (touched, kept): (&[Touch], &[KeptFace]),
         touches: &mut Vec<Touch>,
     ) {
         let place = self.on_rope(|node| places[node]);
@@ -275,21 +258,16 @@ impl SkinContactPoint {
             self.nearest_pair = Some(pair);
         }
         let along = (places[self.node + 1] - places[self.node]).normalize_or_zero();
-        for (face, touch) in touches[first..].iter_mut().enumerate() {
-            touch.turn_across(along);
+        touches[first..].iter_mut().for_each(|touch| touch.turn_across(along));
+        kept::assign(&mut touches[first..], kept, kept::of_point(kept, self.site));
+        for touch in &mut touches[first..] {
             let whole_n = touch
                 .solved_before(&touched[self.touches.clone()])
-                .or_else(|| self.kept_push(face, kept))
+                .or_else(|| Some(kept[touch.kept?].push_n))
                 .or(self.push_beside_n);
             touch.solved_n = whole_n.map(|whole_n| whole_n * touch.share);
             touch.take_solved(self.contact_distance, self.stiffness);
         }
-    }
-
-    /// The push of a face at the end of the last solver step, as if it had no other beside it, if it was touched [N].
-    fn kept_push(&self, face: usize, kept: &[(u64, f64)]) -> Option<f64> {
-        let place = kept.binary_search_by_key(&self.site(face), |(site, _)| *site).ok()?;
-        Some(kept[place].1)
     }
 
     /// Number that names a face that it touches from step to step.

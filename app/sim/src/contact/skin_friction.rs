@@ -66,7 +66,10 @@ pub(crate) struct Touching {
     grain: Vec<[f64; 3]>,
     along: Vec<[f64; 3]>,
     slip: Vec<[f64; 3]>,
+    /// Length of rope, the share of the face taken in [m].
     length: Vec<f64>,
+    /// Share of the face.
+    share: Vec<f64>,
     coefficient: Vec<f64>,
     region: Vec<u32>,
     rope: Vec<u32>,
@@ -96,6 +99,7 @@ impl Touching {
             along: Vec::new(),
             slip: Vec::new(),
             length: Vec::new(),
+            share: Vec::new(),
             coefficient: Vec::new(),
             region: Vec::new(),
             rope: Vec::new(),
@@ -152,6 +156,7 @@ impl Touching {
         self.along.clear();
         self.slip.clear();
         self.length.clear();
+        self.share.clear();
         self.coefficient.clear();
         self.region.clear();
         self.rope.clear();
@@ -189,24 +194,27 @@ impl Touching {
         self.grain.push(grain.to_array());
         self.along.push(point.began.along.normalize_or(touch.normal).to_array());
         self.slip.push((slip - touch.normal * slip.dot(touch.normal)).to_array());
-        self.length.push(point.length);
+        self.length.push(point.length * touch.share);
+        self.share.push(touch.share);
         let coefficient = friction.coefficients[rope][region as usize];
         self.coefficient.push(coefficient * point.began.friction_factor);
         self.region.push(region as u32);
         self.rope.push(u32::try_from(rope).unwrap_or(u32::MAX));
-        self.put_floats(friction, law, point.site(face), &state.rope.friction);
+        self.put_floats(friction, law, touch.kept, &state.rope.friction);
         self.put_in_group(law, place);
     }
 
     /// The plugin's floats and the account as the step began; zero where the contact is new or another law held there.
-    fn put_floats(&mut self, friction: &Friction, law: usize, site: u64, grips: &FrictionState) {
+    fn put_floats(
+        &mut self,
+        friction: &Friction,
+        law: usize,
+        kept: Option<usize>,
+        grips: &FrictionState,
+    ) {
         let (width, stride) =
             (friction.laws[law].model.descriptor().state_len, KEPT + friction.state_len());
-        let kept = grips
-            .sites
-            .binary_search(&site)
-            .ok()
-            .and_then(|place| grips.floats.get(place * stride..(place + 1) * stride));
+        let kept = kept.and_then(|place| grips.floats.get(place * stride..(place + 1) * stride));
         match kept {
             Some([of, taken_j, given_j, floats @ ..]) if of.to_bits() == (law as f64).to_bits() => {
                 self.account.push(Account { taken_j: *taken_j, given_j: *given_j });
@@ -284,14 +292,14 @@ impl Touching {
         Ok(())
     }
 
-    /// Books the work of the step; a law that gives more than it can have taken ends the run.
+    /// Books the work of the step, as if each face had no other beside it; a law that gives more than it can have taken ends the run.
     fn settle_accounts(&mut self, friction: &Friction) -> Result<(), Failed> {
         for group in &self.groups {
             for place in group.contacts.clone() {
                 let work_j = DVec3::from_array(self.response[place].force_n)
                     .dot(DVec3::from_array(self.slip[place]));
                 self.account[place]
-                    .book(work_j)
+                    .book(work_j / self.share[place])
                     .map_err(|message| failed(&friction.laws[group.law], message))?;
             }
         }
@@ -312,9 +320,8 @@ impl Touching {
             let (point, face) = (&points.list[self.point[*place]], self.face[*place]);
             let push_n = (self.normal_force[*place] + self.growth_n[*place]).max(0.0);
             grips.sites.push(point.site(face));
-            grips
-                .push_n
-                .push(push_n / points.touches(point).get(face).map_or(1.0, |touch| touch.share));
+            grips.push_n.push(push_n / self.share[*place]);
+            grips.normals.push(DVec3::from_array(self.normal[*place]));
             grips.floats.extend_from_slice(&[group.law as f64, taken_j, given_j]);
             grips.floats.extend_from_slice(&self.floats_at_end[from..from + width]);
             grips.floats.resize(grips.sites.len() * stride, 0.0);

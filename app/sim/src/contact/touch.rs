@@ -19,16 +19,18 @@ pub(crate) struct Touch {
     pub barrier: BarrierForce,
     /// What that linear push grows by from there to this distance; nothing where it is the law's at this distance [N].
     pub growth_n: f64,
-    /// Share of the push that this face has beside others.
+    /// Share of the push that this face has beside others, and of the rope's length that lies on it.
     pub share: f64,
     /// Push found by the last solution, or where there was none yet, expected [N].
     pub solved_n: Option<f64>,
+    /// The same face at the end of the last solver step, in `SkinContactPoints::kept`, which is in the order of `FrictionState`.
+    pub kept: Option<usize>,
 }
 
 /// Length of `away` across the rope up to which the push goes along `away`, and from which it goes wholly across the rope.
 const ACROSS: (f64, f64) = (0.2, 0.4);
 /// Cosine of the angle of two normals above which a face is the one that was touched before.
-const SAME_FACE: f64 = 0.7;
+pub(super) const SAME_FACE: f64 = 0.7;
 
 impl Touch {
     /// The push of skin at a distance along `away`.
@@ -49,6 +51,7 @@ impl Touch {
             growth_n: 0.0,
             share: 1.0,
             solved_n: None,
+            kept: None,
         }
     }
 

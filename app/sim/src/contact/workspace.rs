@@ -121,8 +121,8 @@ impl ContactWorkspace {
         places: &[DVec3],
     ) {
         let Some(whale) = &model.spec.whale else { return };
-        let (stiffness, kept) = (whale.contact_stiffness_n_m2, &state.rope.friction);
-        self.points.open(&self.near, lengths, stiffness, Some(kept));
+        let (stiffness, friction) = (whale.contact_stiffness_n_m2, &state.rope.friction);
+        self.points.open(&self.near, lengths, stiffness, friction);
         self.points.measure(&self.near, places);
         while self.points.open_more(&self.near, places) > 0 {
             self.points.measure(&self.near, places);

@@ -11,17 +11,20 @@ pub struct FrictionState {
     pub sites: Vec<u64>,
     /// Push of the skin on each at the end of the last solver step [N].
     pub push_n: Vec<f64>,
+    /// Direction of that push.
+    pub normals: Vec<DVec3>,
     /// Floats of each, one after the other: number of the law, energy taken and given [J], then the plugin's own.
     pub floats: Vec<f64>,
 }
 
-clone_in_place!(FrictionState { sites, push_n, floats });
+clone_in_place!(FrictionState { sites, push_n, normals, floats });
 
 impl FrictionState {
     /// Forgets all grips.
     pub(crate) fn clear(&mut self) {
         self.sites.clear();
         self.push_n.clear();
+        self.normals.clear();
         self.floats.clear();
     }
 }
