@@ -22,6 +22,8 @@ pub(crate) struct LanePass {
     pub longest_m: f64,
     /// Greatest difference between the pull solved for and the tension at its place, to second order [N].
     pub gap_n: f64,
+    /// Greatest difference between the pull solved for and there across the rope, as a segment turns [N].
+    pub turned_n: f64,
     /// Greatest tension of a segment that was solved as taut and comes out slack, or the reverse [N].
     pub flipped_n: f64,
     /// Greatest tension [N].
@@ -104,6 +106,7 @@ impl Solver {
         LanePass {
             longest_m: rope.longest_m.max(bodies_m),
             gap_n: rope.gap_n,
+            turned_n: rope.turned_n,
             flipped_n: rope.flipped_n,
             greatest_n: rope.greatest_n,
             finite: finite && rope.finite,

@@ -158,7 +158,8 @@ impl Solver {
         let most = if rules.is_in_contact() && share >= 1.0 { MOST_ROPE_SOLUTIONS } else { 1 };
         let mut done = self.solve_rope(context, skin.as_deref_mut(), rules, share);
         for _ in 1..most {
-            if done.gap_n <= rules.tension_n(done.greatest_n) || !done.longest_m.is_finite() {
+            let missed_n = done.gap_n.max(done.turned_n);
+            if missed_n <= rules.tension_n(done.greatest_n) || !done.longest_m.is_finite() {
                 break;
             }
             done = self.solve_rope(context, skin.as_deref_mut(), rules, share);
@@ -202,11 +203,12 @@ impl Solver {
         self.solve_taut(model);
         self.note_solved_ropes();
         let finite = self.advance(model, share);
-        let (gap_n, greatest_n) = self.tension_gap(model, scheme);
+        let RopeMissed { gap_n, turned_n, greatest_n } = self.rope_missed(model, scheme);
         PassDone {
             longest_m: if finite { self.longest() } else { f64::NAN },
             body_m: self.longest_of_bodies(),
             gap_n,
+            turned_n,
             greatest_n,
             near_seabed: true,
         }
@@ -248,6 +250,7 @@ impl Solver {
             longest_m: if passed.finite { passed.longest_m } else { f64::NAN },
             body_m: self.longest_of_bodies(),
             gap_n: passed.gap_n.max(passed.flipped_n),
+            turned_n: passed.turned_n,
             greatest_n: passed.greatest_n,
             near_seabed: passed.near_seabed,
         }
@@ -267,23 +270,36 @@ impl Solver {
         }
     }
 
-    /// Greatest difference between the pull of a segment in the last solution and the tension at its place, slack as zero, and the
-    /// greatest pull [N].
-    fn tension_gap(&mut self, model: &Model, scheme: &Scheme) -> (f64, f64) {
-        let (mut gap, mut greatest) = (0.0_f64, 0.0_f64);
+    /// What the last solution for rope misses at its place.
+    fn rope_missed(&mut self, model: &Model, scheme: &Scheme) -> RopeMissed {
+        let mut missed = RopeMissed::default();
         for (index, segments) in model.line_segments.iter().enumerate() {
             let first_node = model.line_nodes[index].start;
             for (node, segment) in (first_node..).zip(segments.clone()) {
                 if self.cut[segment] {
                     continue;
                 }
-                let solved =
-                    if self.pull[segment].taut { self.trial.tension[segment] } else { 0.0 };
-                let there = self.pull_of(segment, node, scheme).tension.max(0.0);
-                gap = gap.max((solved - there).abs());
-                greatest = greatest.max(solved);
+                let before = &self.pull[segment];
+                let solved = if before.taut { self.trial.tension[segment] } else { 0.0 };
+                let there = self.pull_of(segment, node, scheme);
+                let turn = there.direction.distance(before.direction);
+                let change = (solved - before.tension.max(0.0)).abs();
+                missed.gap_n = missed.gap_n.max((solved - there.tension.max(0.0)).abs());
+                missed.turned_n = missed.turned_n.max((change + solved.max(0.0) * turn) * turn);
+                missed.greatest_n = missed.greatest_n.max(solved);
             }
         }
-        (gap, greatest)
+        missed
     }
+}
+
+/// What a solution for rope misses at its place [N].
+#[derive(Clone, Copy, Debug, Default)]
+struct RopeMissed {
+    /// Greatest difference between the pull of a segment in the solution and the tension at its place, slack as zero.
+    gap_n: f64,
+    /// Greatest difference between the two across the rope, as segments turn.
+    turned_n: f64,
+    /// Greatest pull.
+    greatest_n: f64,
 }

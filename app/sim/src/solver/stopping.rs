@@ -5,12 +5,16 @@
 //! | quantity | allowed | in a step |
 //! |---|---|---|
 //! | tension of a segment, by the solution against the law at its place | 2 N or 2 % of the weight of all gear, if that is less; or 2 % of the greatest tension | of any kind |
+//! | pull across a segment that turns, likewise | the same | in contact |
 //! | push and friction on a contact point of skin, likewise | 0.1 N, or 2 % of the greatest | in contact |
 //! | the same of rope on rope and on obstacles | 10 mN, or 0.2 % | in contact |
 //! | the same of rope on bodies of the rig | 1 mN, or 0.02 % | in contact |
-//! | move of the last solution | 1 mm; of a body 0.1 mm | in contact |
+//! | move of a body in the last solution | 0.1 mm | in contact |
 //! | move of the last solution | 1 mm, or 2 % of the shortest segment, if that is less | free |
 //! | move that is left, where rope resists bending | 10 µm | of any kind |
+//!
+//! In contact a move is not bounded by itself: it costs balance only as far as segments under tension turn by it. Slack rope may swing to
+//! and fro by millimetres from pass to pass, with every force known.
 //!
 //! The share of the greatest push and friction is `contact_tolerance`, here the usual one; the other figures are in proportion to it where
 //! rope is in contact. A free step takes two passes unless the first was as good as exact.
@@ -29,7 +33,7 @@ pub(super) const GRIP_STRICTER: f64 = 10.0;
 /// What rope on bodies of the rig may miss is so many times less: the two answer each other from pass to pass, and momentum is lost by
 /// what they differ.
 pub(super) const ANSWER_STRICTER: f64 = 100.0;
-/// Move of the last solution, of rope and of a body [m].
+/// Move of the last solution, of free rope and of a body [m].
 const MOVE_M: f64 = 1e-3;
 const BODY_MOVE_M: f64 = 1e-4;
 /// Move that is left where rope resists bending, whose passes converge linearly [m].
@@ -64,6 +68,8 @@ pub(super) struct PassDone {
     pub body_m: f64,
     /// Greatest difference between the tension that it solved for and the one at its place [N].
     pub gap_n: f64,
+    /// The same across the rope, as segments turn [N].
+    pub turned_n: f64,
     /// Greatest tension [N].
     pub greatest_n: f64,
     /// Whether rope may touch the seabed.
@@ -97,7 +103,6 @@ pub(super) struct Stopping {
     /// What is allowed as a multiple of what is usual.
     leniency: f64,
     tension_n: f64,
-    move_m: f64,
     contact_share: f64,
     most_passes: usize,
     fine: Tolerance,
@@ -115,13 +120,11 @@ impl Stopping {
             (false, true) => MOST_PASSES,
             (false, false) => MOST_FREE_PASSES,
         };
-        let move_m = if in_contact { MOVE_M } else { MOVE_M.min(fine.move_m) };
         Self {
             in_contact,
             bends,
             leniency,
             tension_n: TENSION_N.min(fine.gap_n),
-            move_m: if bends { BENT_LEFT_M.min(fine.move_m) } else { move_m },
             contact_share,
             most_passes,
             fine,
@@ -140,19 +143,23 @@ impl Stopping {
 
     /// What a pass missed by, as a share of what is allowed; `before_m` is how far the pass before it moved [m].
     pub fn missed(&self, done: &PassDone, contact: ContactMissed, before_m: f64) -> f64 {
-        let left = if self.bends {
+        let tension_n = self.tension_n(done.greatest_n);
+        let mut missed = done.gap_n / tension_n;
+        if self.bends {
             let shrinkage = (done.longest_m / before_m).min(0.9999);
-            shrinkage / (1.0 - shrinkage)
-        } else {
-            1.0
-        };
-        let missed = (done.gap_n / self.tension_n(done.greatest_n))
-            .max(done.longest_m * left / (self.leniency * self.move_m));
+            let left_m = done.longest_m * shrinkage / (1.0 - shrinkage);
+            missed = missed.max(left_m / (self.leniency * BENT_LEFT_M.min(self.fine.move_m)));
+        } else if !self.in_contact {
+            missed = missed.max(done.longest_m / MOVE_M.min(self.fine.move_m));
+        }
         if !self.in_contact {
             return missed;
         }
         let contact_n = (self.leniency * CONTACT_N).max(self.contact_share * contact.greatest_n);
-        missed.max(contact.gap_n / contact_n).max(done.body_m / (self.leniency * BODY_MOVE_M))
+        missed
+            .max(done.turned_n / tension_n)
+            .max(contact.gap_n / contact_n)
+            .max(done.body_m / (self.leniency * BODY_MOVE_M))
     }
 
     /// Whether a step may end after its first pass.

@@ -62,6 +62,8 @@ pub(crate) struct RopeMoved {
     pub longest_m: f64,
     /// Greatest difference between the pull solved for and the tension there, to second order [N].
     pub gap_n: f64,
+    /// Greatest difference between the pull solved for and there across the rope, as a segment turns [N].
+    pub turned_n: f64,
     /// Greatest tension of a segment that was solved as taut and comes out slack, or the reverse [N].
     pub flipped_n: f64,
     /// Greatest tension [N].
@@ -195,6 +197,7 @@ impl Lanes {
                 let moves = &self.moves[index];
                 moved.longest_m = moved.longest_m.max(moves.longest.0[lane]);
                 moved.gap_n = moved.gap_n.max(moves.gap.0[lane]);
+                moved.turned_n = moved.turned_n.max(moves.turned.0[lane]);
                 moved.flipped_n = moved.flipped_n.max(moves.flipped.0[lane]);
                 moved.greatest_n = moved.greatest_n.max(moves.greatest.0[lane]);
                 moved.finite &= moves.finite.0[lane].is_finite();

@@ -154,6 +154,7 @@ pub(crate) struct MoveRows {
     pub longest: Row,
     /// Greatest difference between the pull solved for and the tension there, where a segment stays taut or slack.
     pub gap: Row,
+    pub turned: Row,
     /// Greatest tension of a segment that was solved as taut and comes out slack, or the reverse.
     pub flipped: Row,
     /// Greatest tension.

@@ -38,6 +38,7 @@ impl WithSimd for Backward<'_> {
 struct Moved<R> {
     longest: R,
     gap: R,
+    turned: R,
     flipped: R,
     greatest: R,
     finite: R,
@@ -53,7 +54,14 @@ fn backward<S: Simd, const FILL: bool>(
 ) {
     let zero = Lane::new(part.simd, 0.0);
     let (step_a, step_b) = (part.get3(&ends[0]), part.get3(&ends[1]));
-    let mut moved = Moved { longest: zero, gap: zero, flipped: zero, greatest: zero, finite: zero };
+    let mut moved = Moved {
+        longest: zero,
+        gap: zero,
+        turned: zero,
+        flipped: zero,
+        greatest: zero,
+        finite: zero,
+    };
     let mut next = step_b;
     let count = group.segments.len();
     for k in (group.shortest..count).rev() {
@@ -94,6 +102,7 @@ fn backward<S: Simd, const FILL: bool>(
     );
     part.put(&mut moves.longest, moved.longest);
     part.put(&mut moves.gap, moved.gap);
+    part.put(&mut moves.turned, moved.turned);
     part.put(&mut moves.flipped, moved.flipped);
     part.put(&mut moves.greatest, moved.greatest);
     part.put(&mut moves.finite, moved.finite);
@@ -134,9 +143,14 @@ fn predict<S: Simd>(
     let zero = Lane::new(part.simd, 0.0);
     let stretch = part.get3(&solved.direction).dot(apart);
     let stiffness = part.get(&solved.stiffness);
-    let tension = part.get(&solved.tension) + stiffness * stretch;
-    let turned = apart.dot(apart) - stretch * stretch;
-    let missed = stiffness * part.get(&solved.inverse_chord) * turned * zero.splat(0.5);
+    let change = stiffness * stretch;
+    let tension = part.get(&solved.tension) + change;
+    let across = (apart.dot(apart) - stretch * stretch).max(zero);
+    let inverse_chord = part.get(&solved.inverse_chord);
+    let missed = stiffness * inverse_chord * across * zero.splat(0.5);
+    // The linear solution lets the pull turn without its change, and its change without the turn.
+    let turn = across.sqrt() * inverse_chord;
+    let turned = (change.abs() + tension.max(zero) * turn) * turn;
     // What was solved as taut and comes out slack, or the reverse, is off by its whole tension.
     let was_taut = part.get(&row.tension);
     let flipped = was_taut.positive((-tension).max(zero), tension.max(zero));
@@ -144,6 +158,7 @@ fn predict<S: Simd>(
     Moved {
         longest: moved.longest.max(step.dot(step)).max(next.dot(next)),
         gap: moved.gap.max(missed),
+        turned: moved.turned.max(turned),
         flipped: moved.flipped.max(flipped),
         greatest: moved.greatest.max(tension),
         finite: moved.finite + (tension + step.x + step.y + step.z) * zero,
