@@ -161,6 +161,10 @@ impl SkinContactPoints {
                 .iter()
                 .map(|point| point.at_least(places))
                 .fold(f64::INFINITY, f64::min);
+            if self.list[from].is_far(least, places) {
+                from = to;
+                continue;
+            }
             // Else each step would first sink in where a point is missing that bears.
             let most = if to - from <= kept::points_beside(&self.kept, piece) {
                 least
@@ -337,15 +341,19 @@ impl SkinContactPoint {
         self.seen.map_or(0.0, |(seen, distance)| distance - seen.distance(place))
     }
 
+    /// Whether no place on its piece of rope can be so near that a further contact point is wanted, where a place of it is `least` from skin.
+    fn is_far(&self, least: f64, places: &[DVec3]) -> bool {
+        let segment = places[self.node].distance(places[self.node + 1]);
+        let piece = segment * self.length / self.segment_length;
+        least - piece > LOOK_WITHIN * self.contact_distance
+    }
+
     /// Where along the segment its piece is nearest to skin, if that is nearer than `most`. Asked of the middle contact point.
     fn nearer_fraction(&self, near: &Near, places: &[DVec3], most: f64) -> Option<f64> {
         let share = 0.5 * self.length / self.segment_length;
         let (from, to) = (self.fraction - share, self.fraction + share);
         let ends =
             [from, to].map(|fraction| places[self.node].lerp(places[self.node + 1], fraction));
-        if most - ends[0].distance(ends[1]) > LOOK_WITHIN * self.contact_distance {
-            return None;
-        }
         let mut least = most.min(LOOK_WITHIN * self.contact_distance);
         let mut along = None;
         let group = &near.groups[self.group];

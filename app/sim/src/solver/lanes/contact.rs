@@ -25,7 +25,13 @@ impl Lanes {
             self.contact[row].block.add(lane, &(*block * (share * share)));
         }
         self.contact[row].coupling.add(lane, &(*block * (first * second)));
-        self.contact_rows.extend([row, row + 1]);
+        // Contact points come in the order of the rope: most rows are noted already.
+        for row in [row, row + 1] {
+            let last = self.contact_rows.len().saturating_sub(3);
+            if !self.contact_rows[last..].contains(&row) {
+                self.contact_rows.push(row);
+            }
+        }
         self.touches = true;
     }
 }
