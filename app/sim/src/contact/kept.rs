@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::points::{FACE_BITS, MOST_POINTS, PIECE_BITS};
+use super::site::{FACE_BITS, MOST_POINTS, PIECE_BITS};
 use super::touch::{SAME_FACE, Touch};
 use crate::state::FrictionState;
 

@@ -12,6 +12,7 @@ pub(crate) mod placed;
 pub(crate) mod points;
 mod polygon;
 pub mod ropes;
+pub(crate) mod site;
 pub(crate) mod skin_friction;
 pub mod step_sums;
 pub mod sweep;

@@ -15,6 +15,7 @@ use super::kept::{self, KeptFace};
 use super::near::Near;
 use super::placed::on_triangle;
 use super::polygon::friction_factor;
+use super::site::{FACE_BITS, MOST_POINTS, PIECE_BITS, SEGMENT_BITS};
 use super::touch::Touch;
 use crate::model::Model;
 use crate::state::FrictionState;
@@ -23,14 +24,6 @@ use crate::state::FrictionState;
 const PIECE_M: f64 = 0.025;
 /// Pieces a segment is cut into at least.
 const LEAST_PIECES: f64 = 2.0;
-/// Bits of a site's number below its segment's.
-const SEGMENT_BITS: u32 = 20;
-/// Bits of a site's number that name the face of skin.
-pub(super) const FACE_BITS: u32 = 2;
-/// Bits of a site's number that name the contact point within its piece, and the face.
-pub(super) const PIECE_BITS: u32 = 3 + FACE_BITS;
-/// Most contact points of a piece.
-pub(super) const MOST_POINTS: usize = 1 << (PIECE_BITS - FACE_BITS);
 /// A further contact point is opened where its distance is below this share of those there are, and less by this share of the contact distance.
 const NEARER: f64 = 0.8;
 const NEARER_BY: f64 = 0.1;
@@ -39,20 +32,6 @@ const LOOK_WITHIN: f64 = 3.0;
 /// How far a contact point is measured: contact distances, and besides [`LOOK_WITHIN`] lengths of its piece. Beyond, no point of the
 /// piece is looked at.
 const MEASURED_WITHIN: (f64, f64) = (4.0, 1.2);
-
-/// The segment a site lies on.
-pub(crate) fn segment_of(site: u64) -> usize {
-    (site >> SEGMENT_BITS) as usize
-}
-
-/// A site whose segment, where it is among these, has moved by one place up or down.
-pub(crate) fn shift_site(site: u64, segments: Range<usize>, by: i64) -> u64 {
-    if segments.contains(&segment_of(site)) {
-        site.wrapping_add_signed(by << SEGMENT_BITS)
-    } else {
-        site
-    }
-}
 
 /// One place on the rope.
 #[derive(Clone, Debug)]

@@ -38,7 +38,7 @@ pub(super) fn measure(
 ) {
     work.gripped.fill(false);
     for site in &state.rope.friction.sites {
-        work.gripped[crate::contact::points::segment_of(*site)] = true;
+        work.gripped[crate::contact::site::segment_of(*site)] = true;
     }
     // A merge moves rope, and rope near it would be crossed.
     work.ropes.gather(model, state, 0.0);
