@@ -18,6 +18,7 @@ mod in_place;
 mod inserts;
 mod kinetic;
 mod line;
+mod node_count;
 mod pilot;
 mod probes;
 mod rig;

@@ -11,9 +11,10 @@ use super::around::Around;
 use super::builder::{Builder, Part};
 use super::catenary::Catenary;
 use super::half_hitches::hitched;
+use super::node_count;
 use super::way::{along, length};
 
-/// Rope nodes in all where a scenario asks for none.
+/// Rope nodes in all where a scenario asks for none, nor for a resolution.
 const USUAL_NODES: u64 = 500;
 
 /// Share by which a hitched line may be longer or shorter than its way.
@@ -35,14 +36,26 @@ impl Builder<'_> {
             (None, Some(longest)) => {
                 lengths.iter().map(|length| at_least_one(length / longest)).collect()
             }
-            (nodes, _) => match share_out(nodes.unwrap_or(USUAL_NODES), &lengths) {
-                Some(counts) => counts,
-                None => return self.too_few(&place.clone(), lengths.len()),
-            },
+            (nodes, _) => {
+                match share_out(nodes.unwrap_or_else(|| self.needed_nodes(&lengths)), &lengths) {
+                    Some(counts) => counts,
+                    None => return self.too_few(&place.clone(), lengths.len()),
+                }
+            }
         };
         for (index, count) in counts.into_iter().enumerate() {
             self.spec.lines[index].segments_m = vec![lengths[index] / count as f64; count];
             self.shape_start(index);
+        }
+    }
+
+    /// Nodes that the scenario needs where it does not say.
+    fn needed_nodes(&self, lengths: &[f64]) -> u64 {
+        match (&self.spec.settings.resolution, &self.spec.whale) {
+            (Some(resolution), Some(whale)) => {
+                node_count::needed(lengths, whale.length_m, resolution)
+            }
+            _ => USUAL_NODES.max(2 * lengths.len() as u64),
         }
     }
 

@@ -167,7 +167,8 @@ pub static AUDIT: &[Figure<Report>] = &[
          `[resolution]`.",
         Quantity::Count,
         |run: &Report| run.audit.resolution_looks.into(),
-    ),
+    )
+    .column(306),
     Figure::new(
         "resolution_missed",
         "looks at which resolution was missed",
@@ -177,6 +178,7 @@ pub static AUDIT: &[Figure<Report>] = &[
         |run: &Report| run.audit.resolution_missed.into(),
     )
     .shown(&[Table])
+    .column(307)
     .alarming(),
     Figure::new(
         "resolution_ratio",

@@ -148,6 +148,12 @@ impl Table {
         if let Some(Column::Flag(values)) = self.column(name) { values } else { &[] }
     }
 
+    /// Whole numbers of a column; empty where there is no such column.
+    #[must_use]
+    pub fn wholes(&self, name: &str) -> &[i64] {
+        if let Some(Column::Whole(values)) = self.column(name) { values } else { &[] }
+    }
+
     /// Adds the rows of another of the same columns.
     pub fn append(&mut self, other: Self) {
         if self.columns.is_empty() {

@@ -55,6 +55,8 @@ fn numbers(findings: &Findings) -> Table {
                 ("hits".into(), whole(rate.hits)),
                 ("runs".into(), whole(rate.runs)),
                 ("invalid".into(), whole(option.invalid)),
+                ("resolution_looks".into(), whole(option.resolution.all)),
+                ("resolution_missed".into(), whole(option.resolution.missed)),
                 ("rate".into(), real(rate.rate)),
                 ("rate_low".into(), real(rate.interval.low)),
                 ("rate_high".into(), real(rate.interval.high)),

@@ -2,7 +2,7 @@
 
 use endline_gear::StudyEvent;
 
-use crate::study::stats::{Findings, LevelFinding, OptionFinding};
+use crate::study::stats::{Findings, LevelFinding, Looks, OptionFinding};
 
 use super::cell::{Cell, Table};
 use super::words::{event_words, force, points, rate, ratio, short_rate};
@@ -11,10 +11,16 @@ use super::words::{event_words, force, points, rate, ratio, short_rate};
 pub(super) fn rates(findings: &Findings) -> Table {
     let events = StudyEvent::of_the_whole();
     let words: Vec<String> = events.iter().map(StudyEvent::words).collect();
-    let headings: Vec<&str> =
-        ["option", "invalid runs"].into_iter().chain(words.iter().map(String::as_str)).collect();
+    let headings: Vec<&str> = ["option", "invalid runs", "resolution missed"]
+        .into_iter()
+        .chain(words.iter().map(String::as_str))
+        .collect();
     let row = |option: &OptionFinding| {
-        let mut row = vec![Cell::from(&option.name), option.invalid.to_string().into()];
+        let mut row = vec![
+            Cell::from(&option.name),
+            option.invalid.to_string().into(),
+            missed(&option.resolution).into(),
+        ];
         row.extend(
             events
                 .iter()
@@ -24,6 +30,14 @@ pub(super) fn rates(findings: &Findings) -> Table {
     };
     let rows = findings.options.iter().map(row).collect();
     Table::new("Rates given an encounter", &headings, rows)
+}
+
+/// Share of the looks at the lengths of segments near the whale that left one longer than wanted.
+fn missed(looks: &Looks) -> String {
+    if looks.all == 0 {
+        return "none asked for".to_owned();
+    }
+    format!("{:.1} % of looks", 100.0 * looks.missed as f64 / looks.all as f64)
 }
 
 /// The study's event against the baseline: over all encounters, then level by level.

@@ -57,6 +57,8 @@ pub struct OptionFinding {
     pub invalid: u64,
     /// Runs that were too short for their outcome to stand; they count.
     pub undecided: u64,
+    /// Looks at the lengths of segments near the whale in all runs, and those of them that left one longer than wanted by a quarter or more.
+    pub resolution: Looks,
     /// Rate of every event: name, rate.
     pub rates: Vec<(String, Rate)>,
     /// Every event compared with the baseline: name, comparison.
@@ -67,6 +69,15 @@ pub struct OptionFinding {
     pub tensions: Tensions,
     /// How often it has the lowest rate of the event when encounters are drawn again.
     pub best_share: f64,
+}
+
+/// Looks at the lengths of segments near the whale.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Looks {
+    /// All.
+    pub all: u64,
+    /// Those that left a segment longer than wanted by a quarter or more.
+    pub missed: u64,
 }
 
 /// Rates within a level of the prior by which results are separated.
@@ -142,6 +153,10 @@ fn found(opened: &Opened, table: &Table, option: usize) -> OptionFinding {
     let count = |flag: &str, wanted: bool| {
         rows.iter().filter(|row| table.flags(flag)[**row] == wanted).count() as u64
     };
+    let sum = |name: &str| {
+        let looks = table.wholes(name);
+        rows.iter().filter_map(|row| u64::try_from(*looks.get(*row)?).ok()).sum()
+    };
     let events = StudyEvent::all();
     let marks = |event: &StudyEvent| Marks::of(table, &plan.id, event);
     let paired = |event: &StudyEvent| {
@@ -158,6 +173,7 @@ fn found(opened: &Opened, table: &Table, option: usize) -> OptionFinding {
         curve: plan.curve.clone(),
         invalid: count("valid", false),
         undecided,
+        resolution: Looks { all: sum("resolution_looks"), missed: sum("resolution_missed") },
         rates: events.iter().map(|event| (event.name(), Rate::of(&marks(event)))).collect(),
         against: events.iter().map(paired).collect(),
         changes: Changes::of(table, &plan.id, baseline),

@@ -20,7 +20,7 @@ mod coverage;
 
 pub use changes::{Change, Changes};
 pub use claims::{ClaimFinding, Verdict};
-pub use findings::{Findings, LevelFinding, OptionFinding};
+pub use findings::{Findings, LevelFinding, Looks, OptionFinding};
 pub use interval::{Interval, Rate};
 pub use marks::Marks;
 pub use paired::Paired;
