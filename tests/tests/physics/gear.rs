@@ -7,7 +7,7 @@ use endline_gear::{
     Diagnostic, Kind, Library, Options, Scenario, Sources, assemble, assemble_traced,
 };
 
-use endline_sim::model::{BodyRole, CONTACT_TOLERANCE, JointKind, ProbeTarget, Resolution};
+use endline_sim::model::{BodyRole, CONTACT_TOLERANCE, JointKind, ProbeTarget};
 use endline_sim::{DQuat, DVec3, Model, ModelSpec, settle};
 
 #[test]
@@ -460,35 +460,6 @@ fn the_tolerance_near_the_whale_is_what_the_scenario_says() {
         let told: Vec<_> = refused(&with(wrong)).iter().map(ToString::to_string).collect();
         assert!(told.len() == 1 && told[0].contains("test.toml:9:"), "{told:?}");
     }
-}
-
-#[test]
-fn resolution_follows_the_whale_by_lengths_in_order() {
-    let text = scenario_text("hello-slack-tide.toml");
-    let with =
-        |lengths: &str| text.replacen("[site]", &format!("[resolution]\n{lengths}\n\n[site]"), 1);
-    let spec = spec_of("test.toml", &with("near = \"8 cm\"\nfar = \"2 m\""));
-    assert_eq!(
-        spec.settings.resolution,
-        Some(Resolution { near_m: 0.08, edge_m: 0.0125, far_m: 2.0 })
-    );
-    assert_eq!(spec_of("test.toml", &text).settings.resolution, None);
-    for (lengths, part) in [
-        ("edges = \"9 cm\"\nnear = \"8 cm\"", "`edges` is longer than `near`"),
-        ("far = \"4 cm\"\nnear = \"8 cm\"", "`far` is shorter than `near`"),
-        ("near = \"0.1 mm\"", "`near`"),
-        ("nearer = \"8 cm\"", "unknown field `nearer`"),
-    ] {
-        let problems = refused(&with(lengths));
-        assert!(
-            problems.len() == 1 && problems[0].to_string().contains(part),
-            "{}",
-            told(&problems)
-        );
-    }
-    let whaleless =
-        scenario_text("reference-a-pendulum.toml").replacen("[site]", "[resolution]\n\n[site]", 1);
-    assert!(refused(&whaleless)[0].to_string().contains("no whale for the resolution to follow"));
 }
 
 #[test]

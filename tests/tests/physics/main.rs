@@ -21,6 +21,7 @@ mod kinetic;
 #[path = "../linked/mod.rs"]
 mod linked;
 mod pilot;
+mod resolution;
 mod rigs;
 mod ropes;
 mod sea;
