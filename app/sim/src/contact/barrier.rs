@@ -78,7 +78,9 @@ impl BarrierForce {
             Some(solved_n) if self.force > steep_n => {
                 let (depth, barrier) =
                     Self::at_force(solved_n.max(steep_n), contact_distance, stiffness);
-                (barrier, barrier.stiffness * (contact_distance - distance - depth))
+                let growth_n = barrier.stiffness * (contact_distance - distance - depth);
+                // So far out that the tangent would pull, the solved push was that of another place.
+                if barrier.force + growth_n < 0.0 { (self, 0.0) } else { (barrier, growth_n) }
             }
             _ => (self, 0.0),
         }
