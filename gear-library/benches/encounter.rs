@@ -4,7 +4,7 @@
 //! wound about it, and wound tight with 150 segments in touch. Of each: solver steps and Newton passes, CPU time a solver step, how much of it is finding what is near
 //! (the same search, distances and sweeps made once more outside the step), and how many seconds of the run a second gives.
 //! A name after `--` runs those whose names hold it; `contact_step=0.5` sets the contact step in milliseconds, `tolerance=0.01` the contact
-//! tolerance, `from=17 to=18` the stretch of the run; `detection=0` leaves that measurement out. Also of each stretch: peak tension, mean and ripple of the tension at the top of the first line, work against friction.
+//! tolerance, `from=17 to=18` the stretch of the run, `scenario=PATH` runs that scenario instead; `detection=0` leaves that measurement out. Also of each stretch: peak tension, mean and ripple of the tension at the top of the first line, work against friction.
 //! Ripple is the mean departure from a running mean over 0.25 s, as a share of the whole mean.
 
 #![allow(clippy::expect_used, clippy::panic, reason = "a benchmark says what it needs")]
@@ -23,16 +23,16 @@ use linked::{built, spec};
 const RIPPLE_STEPS: usize = 25;
 
 /// A stretch of a scenario's run.
-struct Stretch {
+struct Stretch<'a> {
     name: &'static str,
-    scenario: &'static str,
+    scenario: &'a str,
     /// Pieces of its text, and what takes their place.
     changes: &'static [(&'static str, &'static str)],
     from_s: f64,
     to_s: f64,
 }
 
-const STRETCHES: [Stretch; 6] = [
+const STRETCHES: [Stretch<'_>; 6] = [
     Stretch { name: "far", scenario: "hello-endline", changes: &[NODES], from_s: 1.0, to_s: 9.0 },
     Stretch {
         name: "near",
@@ -96,10 +96,8 @@ fn main() {
         .skip(1)
         .filter(|word| !word.starts_with('-'))
         .partition(|word| word.contains('='));
-    let value = |key: &str| {
-        let word = set.iter().find_map(|word| word.strip_prefix(key)?.strip_prefix('='))?;
-        Some(word.parse::<f64>().expect("a number after ="))
-    };
+    let word = |key: &str| set.iter().find_map(|word| word.strip_prefix(key)?.strip_prefix('='));
+    let value = |key: &str| Some(word(key)?.parse::<f64>().expect("a number after ="));
     let changes = Changes {
         contact_step_s: value("contact_step").map(|ms| 1e-3 * ms),
         tolerance: value("tolerance"),
@@ -107,13 +105,23 @@ fn main() {
         to_s: value("to"),
         detects: value("detection") != Some(0.0),
     };
+    let own = word("scenario").map(|scenario| Stretch {
+        name: "own",
+        scenario,
+        changes: &[],
+        from_s: 0.0,
+        to_s: 25.0,
+    });
     println!(
         "stretch      run s   steps  passes  touches  pairs  us a step  detection us  times real time"
     );
-    for stretch in STRETCHES.iter().filter(|stretch| {
+    let is_asked = |stretch: &&Stretch<'_>| {
         asked.is_empty() || asked.iter().any(|word| stretch.name.contains(word.as_str()))
-    }) {
-        run(stretch, &changes);
+    };
+    if let Some(own) = own {
+        run(&own, &changes);
+    } else {
+        STRETCHES.iter().filter(is_asked).for_each(|stretch| run(stretch, &changes));
     }
 }
 
@@ -128,7 +136,7 @@ struct Taken {
     friction_j: f64,
 }
 
-fn run(stretch: &Stretch, changes: &Changes) {
+fn run(stretch: &Stretch<'_>, changes: &Changes) {
     let mut spec = spec(stretch.scenario, stretch.changes);
     let settings = &mut spec.settings;
     settings.contact_step_s = changes.contact_step_s.unwrap_or(settings.contact_step_s);
@@ -171,7 +179,7 @@ fn advance(model: &Model, state: &mut State, workspace: &mut Workspace) {
 }
 
 fn tell(
-    stretch: &Stretch,
+    stretch: &Stretch<'_>,
     (before, after): (&Audit, &Audit),
     taken: &Taken,
     detection: &Detection,
