@@ -115,6 +115,13 @@ impl Model {
         self.spec.whale.as_ref().is_some_and(|whale| whale.kinetic.is_some())
     }
 
+    /// Whether a line that is made fast to the whale moves it.
+    #[must_use]
+    pub fn whale_is_towed(&self) -> bool {
+        let is_on_whale = |joint: &Joint| matches!(joint.kind, JointKind::Whale(_));
+        self.whale_is_kinetic() && self.spec.joints.iter().any(is_on_whale)
+    }
+
     /// Rope of a segment.
     #[must_use]
     pub fn rope_of_segment(&self, segment: usize) -> &Rope {

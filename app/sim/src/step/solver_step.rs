@@ -53,7 +53,7 @@ fn try_solver_step(
     let on_solid = solver.gather_solids(state, dt);
     let on_rope = solver.gather_ropes(model, state, dt);
     let untouched = !may_touch && !on_solid && !on_rope;
-    let gives_momentum = near.is_some() && model.whale_is_kinetic();
+    let gives_momentum = near.is_some() && model.whale_is_towed();
     let scheme = if was_halved || !untouched || gives_momentum {
         Scheme::backward_euler(dt)
     } else {

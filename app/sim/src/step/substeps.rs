@@ -142,8 +142,8 @@ fn solver_steps(
     let start = settings.step_s * state.step as f64;
     let end = settings.step_s * (state.step + 1) as f64;
     let (mut halvings, mut refused) = (0_u32, LimitedBy::Convergence);
-    // Momentum goes from rope to a kinetic whale by backward Euler, in steps as short as with contact.
-    let (mut may_stay_clear, mut ropes_meet) = (near && !model.whale_is_kinetic(), false);
+    // Momentum goes from a line to the whale that it is made fast to by backward Euler, in steps as short as with contact.
+    let (mut may_stay_clear, mut ropes_meet) = (near && !model.whale_is_towed(), false);
     while end - state.time_s > 1e-9 * settings.step_s {
         let left = end - state.time_s;
         let share = |time: f64| ((time - start) / settings.step_s).clamp(0.0, 1.0);
