@@ -1,20 +1,26 @@
-//! The push of skin on rope: blubber when shallow, a barrier before the rope's core is reached.
+//! The push of skin on rope: blubber, which stiffens as it is pressed, so that rope bears out before its core is reached.
 //!
 //! Distance `d` of the centre line from the skin, contact distance `h` (the rope's radius), least
-//! distance `d_min`, `δ = h - d`, `D = h - d_min`, `u = δ/D`, stiffness `K` per metre, length `l`:
-//! `E = l K D² (-ln(1-u) - u)`, `N = -dE/dd = l K δ/(1-u)`, `dN/dδ = l K/(1-u)²`.
-//! Linear and soft like blubber while `u` is small, infinite at `d_min`; beyond `u = U_LINEAR` it goes on
-//! as a straight line so that a bad first guess has a finite force.
-//! Reference: barrier contact after Li et al. 2020 (doi:10.1145/3386569.3392425); blubber stiffness from
-//! Raymond 2007 in the gear library.
+//! distance `d_min`, `δ = h - d`, `D = h - d_min`, stiffness `K` per metre, length `l`:
+//!
+//! ```text
+//! N = l K D (e^(b δ/D) - 1)/b        dN/dδ = l K e^(b δ/D) = l K + b N/D
+//! ```
+//!
+//! Linear and soft while `b δ < D`; at `d_min` two thousand times what it would be were it linear all along (`b` = 10), which is some
+//! 3 MN on a metre of rope. Its stiffness grows with the push and not with the square of it, as that of a barrier does that is infinite
+//! at `d_min`: rope that bears kilonewtons then shares them among its contact points within a tenth of a millimetre instead of a micrometre.
+//! Blubber has a law of this form, and a modulus from which `K` follows (Raymond 2007, in the gear library); `b` is a choice.
+//! Comparison with a barrier: docs/lab-notebook.md.
 
 /// Least distance as a share of the contact distance.
 const LEAST_SHARE: f64 = 0.25;
-/// Where the barrier goes over into a straight line.
-const U_LINEAR: f64 = 0.995;
+/// `b`, by which the skin stiffens.
+const STIFFENING: f64 = 10.0;
+/// Share of the way to the least distance from which the law counts as steep.
+const STEEP_SHARE: f64 = 0.5;
 
-/// Share of the contact distance below which rope is pinched when a step ends: the barrier was overrun, the force
-/// means nothing.
+/// Share of the contact distance below which rope is pinched when a step ends: skin is overrun, the force means nothing.
 pub(crate) const PINCHED_SHARE: f64 = 0.8 * LEAST_SHARE;
 /// Share of the contact distance below which rope is crushed during Newton's passes; a step does not recover from it.
 pub(crate) const CRUSHED_SHARE: f64 = 0.02;
@@ -36,38 +42,28 @@ impl BarrierForce {
         if depth <= 0.0 {
             return Self::default();
         }
-        let room = contact_distance * (1.0 - LEAST_SHARE);
-        let u = depth / room;
-        let at = |u: f64| Self {
-            force: stiffness * room * u / (1.0 - u),
-            stiffness: stiffness / ((1.0 - u) * (1.0 - u)),
-        };
-        if u < U_LINEAR {
-            return at(u);
-        }
-        let (end, beyond) = (at(U_LINEAR), (u - U_LINEAR) * room);
-        Self { force: end.force + beyond * end.stiffness, stiffness: end.stiffness }
+        let room = room_of(contact_distance);
+        let (push, slope) = law(depth / room);
+        Self { force: stiffness * room * push, stiffness: stiffness * slope }
     }
 
-    /// The push at half of the greatest depth, from which on the law counts as steep [N].
+    /// The push from which on the law counts as steep [N].
     pub fn steep_n(contact_distance: f64, stiffness: f64) -> f64 {
-        stiffness * contact_distance * (1.0 - LEAST_SHARE)
+        stiffness * room_of(contact_distance) * law(STEEP_SHARE).0
     }
 
     /// The depth at which the push is `force`, and the push there.
     pub fn at_force(force: f64, contact_distance: f64, stiffness: f64) -> (f64, Self) {
-        let room = contact_distance * (1.0 - LEAST_SHARE);
-        let greatest = stiffness * room * U_LINEAR / (1.0 - U_LINEAR);
-        let u = (force / (stiffness * room + force)).min(U_LINEAR);
-        let stiffness = stiffness / ((1.0 - u) * (1.0 - u));
-        let beyond = (force - greatest).max(0.0) / stiffness;
-        (u * room + beyond, Self { force, stiffness })
+        let room = room_of(contact_distance);
+        let stiffened = STIFFENING * force / (stiffness * room);
+        let depth = room * libm::log1p(stiffened) / STIFFENING;
+        (depth, Self { force, stiffness: stiffness * (1.0 + stiffened) })
     }
 
     /// The push linear about the solved one where the law is steep, and what it grows by from there to a distance; else as it is.
     ///
-    /// The law grows without bound near the least distance. From a trial that came too near, its tangents lead back by half of the
-    /// excess in each pass; taken at the solved push instead of the distance, they lead there at once.
+    /// From a trial that came too near, the law's tangents lead back by `D/b` in each pass; taken at the solved push instead of the
+    /// distance, they lead there at once.
     pub fn about_solved(
         self,
         solved_n: Option<f64>,
@@ -85,22 +81,29 @@ impl BarrierForce {
             _ => (self, 0.0),
         }
     }
+}
 
-    /// A share of this push.
-    pub fn share(self, share: f64) -> Self {
-        Self { force: self.force * share, stiffness: self.stiffness * share }
-    }
+/// Depth from the first touch to the least distance [m].
+fn room_of(contact_distance: f64) -> f64 {
+    contact_distance * (1.0 - LEAST_SHARE)
+}
+
+/// Push and its growth with `u`, in units of `l K D`.
+fn law(u: f64) -> (f64, f64) {
+    let growth = libm::exp(STIFFENING * u);
+    ((growth - 1.0) / STIFFENING, growth)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// Energy that the push stores, up to where the barrier goes over into a straight line [J].
+    /// Energy that the push stores [J].
     fn energy(distance: f64, contact_distance: f64, stiffness: f64) -> f64 {
-        let room = contact_distance * (1.0 - LEAST_SHARE);
+        let room = room_of(contact_distance);
         let u = (contact_distance - distance) / room;
-        stiffness * room * room * (-libm::log1p(-u) - u)
+        let stored = (libm::expm1(STIFFENING * u) / STIFFENING - u) / STIFFENING;
+        stiffness * room * room * stored
     }
 
     #[test]

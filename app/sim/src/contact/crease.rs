@@ -78,7 +78,6 @@ fn share_out(faces: &mut [Touch]) {
             .map(|(_, (normal, own))| face.normal.dot(*normal).max(0.0) * own.min(face.share))
             .sum();
         face.share /= 1.0 + beside;
-        face.barrier = face.barrier.share(face.share);
     }
 }
 
@@ -99,13 +98,19 @@ mod tests {
     use super::*;
     use crate::contact::barrier::BarrierForce;
 
-    const REACH_M: f64 = 0.005;
+    /// Contact distance [m] and stiffness [N/m].
+    const LAW: (f64, f64) = (0.005, 1e4);
 
     /// A place's touch on the nearest point of a wall.
     fn touch(pair: usize, place: DVec3, foot: DVec3) -> Touch {
         let distance = place.distance(foot);
-        let barrier = BarrierForce::new(distance, REACH_M, 1e4);
-        Touch::new((pair, [1.0, 0.0, 0.0]), place, ((place - foot) / distance, distance), barrier)
+        Touch::new((pair, [1.0, 0.0, 0.0]), place, ((place - foot) / distance, distance))
+    }
+
+    /// Push of faces together.
+    fn force_of(mut faces: Vec<Touch>) -> DVec3 {
+        faces.iter_mut().for_each(|touch| touch.take_law(LAW));
+        faces.iter().map(|touch| touch.normal * touch.barrier.force).sum()
     }
 
     /// Force of the faces touched, between the walls z = 0 and x = 0 of a square corner.
@@ -115,14 +120,14 @@ mod tests {
         let (near, far) = if place.z < place.x { (floor, wall) } else { (wall, floor) };
         let mut faces = vec![far, near];
         keep_faces(&mut faces, 0, 1);
-        faces.iter().map(|touch| touch.normal * touch.barrier.force).sum()
+        force_of(faces)
     }
 
     #[test]
     fn a_square_corner_pushes_from_both_walls_and_jumps_nowhere() {
         let place = |angle: f64| DVec3::new(libm::cos(angle), 0.0, libm::sin(angle)) * 0.003;
         let even = force_in_corner(place(core::f64::consts::FRAC_PI_4));
-        let alone = BarrierForce::new(0.003 * core::f64::consts::FRAC_1_SQRT_2, REACH_M, 1e4).force;
+        let alone = BarrierForce::new(0.003 * core::f64::consts::FRAC_1_SQRT_2, LAW.0, LAW.1).force;
         assert!((even - DVec3::new(alone, 0.0, alone)).length() < 1e-9 * alone, "{even}");
         let mut before = force_in_corner(place(0.635));
         for step in 1..=1000 {
@@ -144,7 +149,7 @@ mod tests {
         let nearest = usize::from(raised.distance < level.distance);
         let mut faces = vec![level, raised];
         keep_faces(&mut faces, 0, nearest);
-        faces.iter().map(|touch| touch.normal * touch.barrier.force).sum()
+        force_of(faces)
     }
 
     /// Rope comes to rest where two walls are equally near: were the push to turn there at once, no balance would be found.
@@ -171,7 +176,7 @@ mod tests {
             for step in -200..=200 {
                 let place = DVec3::new(1e-6 * f64::from(step), 0.0, 0.003);
                 let raised = libm::cos(angle) * place.z - libm::sin(angle) * place.x;
-                let alone = BarrierForce::new(raised.min(place.z), REACH_M, 1e4).force;
+                let alone = BarrierForce::new(raised.min(place.z), LAW.0, LAW.1).force;
                 let together = force_over_crease(place, angle).length();
                 assert!(
                     (together / alone - 1.0).abs() < 0.005,

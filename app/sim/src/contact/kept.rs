@@ -86,10 +86,9 @@ pub(super) fn points_beside(kept: &[KeptFace], piece: u64) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::barrier::BarrierForce;
 
     fn touch(normal: DVec3) -> Touch {
-        Touch::new((0, [1.0, 0.0, 0.0]), DVec3::ZERO, (normal, 0.003), BarrierForce::default())
+        Touch::new((0, [1.0, 0.0, 0.0]), DVec3::ZERO, (normal, 0.003))
     }
 
     fn state(faces: &[(u64, DVec3)]) -> FrictionState {

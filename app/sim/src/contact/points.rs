@@ -9,7 +9,6 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::barrier::BarrierForce;
 use super::crease;
 use super::kept::{self, KeptFace};
 use super::near::Near;
@@ -204,6 +203,21 @@ impl SkinContactPoints {
         touch.solved_n = Some(touch.push_after(step));
     }
 
+    /// Takes the push of a face of a contact point as linear about what a solution found that moves it by `step`.
+    pub fn follow_law(&mut self, point: usize, face: usize, step: DVec3) -> &Touch {
+        let point = &self.list[point];
+        let touch = &mut self.touches[point.touches.start + face];
+        touch.follow_law(step, point.contact_distance, point.stiffness);
+        touch
+    }
+
+    /// How far the push that a solution found for a face of a contact point is from the law's [N].
+    pub fn law_missed(&self, point: usize, face: usize, step: DVec3) -> f64 {
+        let point = &self.list[point];
+        let touch = &self.touches[point.touches.start + face];
+        touch.law_missed(step, point.contact_distance, point.stiffness)
+    }
+
     /// What a contact point touches, as measured last.
     pub fn touches(&self, point: &SkinContactPoint) -> &[Touch] {
         &self.touches[point.touches.clone()]
@@ -288,6 +302,8 @@ impl SkinContactPoint {
         }
         if touches.len() > first {
             crease::keep_faces(touches, first, nearest_place);
+            let law = (self.contact_distance, self.stiffness);
+            touches[first..].iter_mut().for_each(|touch| touch.take_law(law));
         }
         nearest
     }
@@ -300,11 +316,10 @@ impl SkinContactPoint {
         pair: usize,
         barycentric: [f64; 3],
     ) -> Option<Touch> {
-        let barrier = BarrierForce::new(distance, self.contact_distance, self.stiffness);
-        (barrier.force > 0.0).then(|| {
+        (distance < self.contact_distance).then(|| {
             let closest = on_triangle(near.skin_of(pair).now, barycentric);
             let away = (place - closest) / distance.max(1e-12);
-            Touch::new((pair, barycentric), place, (away, distance), barrier)
+            Touch::new((pair, barycentric), place, (away, distance))
         })
     }
 

@@ -336,6 +336,12 @@ impl Touching {
             - matrix(&response.by_slip)
     }
 
+    /// Takes the push of a contact as linear about another one, where it was measured; friction goes on from the push it was asked for.
+    pub fn follow_law(&mut self, place: usize, touch: &Touch) {
+        self.growth_n[place] = touch.barrier.force + touch.growth_n - self.normal_force[place];
+        self.block[place] = self.block_of(place, touch);
+    }
+
     /// Push and friction of a contact together, linear about the push that they were asked for [N].
     pub fn force_of(&self, place: usize) -> DVec3 {
         let (response, normal) = (&self.response[place], DVec3::from_array(self.normal[place]));

@@ -33,12 +33,11 @@ const ACROSS: (f64, f64) = (0.2, 0.4);
 pub(super) const SAME_FACE: f64 = 0.7;
 
 impl Touch {
-    /// The push of skin at a distance along `away`.
+    /// Skin at a distance along `away`, without a push as yet.
     pub fn new(
         (pair, barycentric): (usize, [f64; 3]),
         place: DVec3,
         (away, distance): (DVec3, f64),
-        barrier: BarrierForce,
     ) -> Self {
         Self {
             pair,
@@ -47,12 +46,17 @@ impl Touch {
             normal: away,
             away,
             distance,
-            barrier,
+            barrier: BarrierForce::default(),
             growth_n: 0.0,
             share: 1.0,
             solved_n: None,
             kept: None,
         }
+    }
+
+    /// Takes the push from the law at this distance, with a contact distance and the stiffness of a face alone.
+    pub fn take_law(&mut self, (contact_distance, stiffness): (f64, f64)) {
+        self.barrier = BarrierForce::new(self.distance, contact_distance, stiffness * self.share);
     }
 
     /// Turns the push across a rope that goes along `along`.
@@ -80,6 +84,28 @@ impl Touch {
     pub fn take_solved(&mut self, contact_distance: f64, stiffness: f64) {
         let law = (self.distance, contact_distance, stiffness * self.share);
         (self.barrier, self.growth_n) = self.barrier.about_solved(self.solved_n, law);
+    }
+
+    /// How far the push found by a solution that moves rope by `step` is from the law's there [N].
+    pub fn law_missed(&self, step: DVec3, contact_distance: f64, stiffness: f64) -> f64 {
+        let distance = self.distance + self.away.dot(step);
+        let law = BarrierForce::new(distance, contact_distance, stiffness * self.share);
+        (self.push_after(step) - law.force).abs()
+    }
+
+    /// Takes the push as linear about what a solution found that moves rope by `step`; where that pulls, about the law's there.
+    pub fn follow_law(&mut self, step: DVec3, contact_distance: f64, stiffness: f64) {
+        let (stiffness, solved_n) = (stiffness * self.share, self.push_after(step));
+        let depth = contact_distance - self.distance;
+        let (depth_there, barrier) = if solved_n > 0.0 {
+            BarrierForce::at_force(solved_n, contact_distance, stiffness)
+        } else {
+            let distance = self.distance + self.away.dot(step);
+            let law = BarrierForce::new(distance, contact_distance, stiffness);
+            (contact_distance - distance, law)
+        };
+        self.barrier = barrier;
+        self.growth_n = barrier.stiffness * (depth - depth_there);
     }
 
     /// The push here after the rope has moved by a solved step [N].

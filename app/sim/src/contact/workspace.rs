@@ -87,6 +87,30 @@ impl ContactWorkspace {
         })
     }
 
+    /// How far the push of the last solution is from the law's at the places given, with skin as measured last.
+    pub fn law_missed(&self, places: &[DVec3]) -> ContactMissed {
+        let Self { points, touching, before, .. } = self;
+        let mut missed = ContactMissed::default();
+        for (place, index) in touching.point.iter().enumerate() {
+            let step = points.list[*index].on_rope(|node| places[node] - before[node]);
+            let gap_n = points.law_missed(*index, touching.face[place], step);
+            let force = touching.force_of(place) - touching.block[place] * step;
+            missed = missed.and(ContactMissed { gap_n, greatest_n: force.length() });
+        }
+        missed
+    }
+
+    /// Takes the push of every contact as linear about what the last solution found.
+    pub fn follow_law(&mut self, places: &[DVec3]) {
+        let Self { points, touching, before, .. } = self;
+        for place in 0..touching.point.len() {
+            let index = touching.point[place];
+            let step = points.list[index].on_rope(|node| places[node] - before[node]);
+            let touch = points.follow_law(index, touching.face[place], step);
+            touching.follow_law(place, touch);
+        }
+    }
+
     /// After a solution: push and friction of every contact point by it.
     pub fn note_solved(&mut self, places: &[DVec3]) {
         let Self { points, touching, before, .. } = self;

@@ -159,8 +159,16 @@ impl Solver {
         let mut done = self.solve_rope(context, skin.as_deref_mut(), rules, share);
         for _ in 1..most {
             let missed_n = done.gap_n.max(done.turned_n);
-            if missed_n <= rules.tension_n(done.greatest_n) || !done.longest_m.is_finite() {
+            let taut = missed_n <= rules.tension_n(done.greatest_n);
+            let pushed = skin.as_deref().is_none_or(|work| {
+                let missed = work.law_missed(&self.trial.place);
+                missed.gap_n <= rules.contact_n(missed.greatest_n)
+            });
+            if (taut && pushed) || !done.longest_m.is_finite() {
                 break;
+            }
+            if let Some(work) = skin.as_deref_mut() {
+                work.follow_law(&self.trial.place);
             }
             done = self.solve_rope(context, skin.as_deref_mut(), rules, share);
         }

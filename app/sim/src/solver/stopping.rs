@@ -42,7 +42,7 @@ const BENT_LEFT_M: f64 = 1e-5;
 /// Most passes in contact, and as many again once further contact points are opened.
 const MOST_PASSES: usize = 8;
 /// Most passes of a free step.
-const MOST_FREE_PASSES: usize = 12;
+const MOST_FREE_PASSES: usize = 40;
 /// Most passes where rope resists bending.
 const MOST_BENT_PASSES: usize = 40;
 /// Passes that a free step takes at least.
@@ -141,6 +141,11 @@ impl Stopping {
         self.leniency * self.tension_n.max(TENSION_SHARE * greatest_n)
     }
 
+    /// Difference of push and friction on skin that is allowed [N].
+    pub fn contact_n(&self, greatest_n: f64) -> f64 {
+        (self.leniency * CONTACT_N).max(self.contact_share * greatest_n)
+    }
+
     /// What a pass missed by, as a share of what is allowed; `before_m` is how far the pass before it moved [m].
     pub fn missed(&self, done: &PassDone, contact: ContactMissed, before_m: f64) -> f64 {
         let tension_n = self.tension_n(done.greatest_n);
@@ -155,7 +160,7 @@ impl Stopping {
         if !self.in_contact {
             return missed;
         }
-        let contact_n = (self.leniency * CONTACT_N).max(self.contact_share * contact.greatest_n);
+        let contact_n = self.contact_n(contact.greatest_n);
         missed
             .max(done.turned_n / tension_n)
             .max(contact.gap_n / contact_n)
