@@ -115,7 +115,9 @@ fn a_carcass_floats_belly_up_and_drifts_with_its_gear() {
     let mut dry = Vec::new();
     let (state, workspace) = run(&model, 24.0, |state| {
         let orientation = state.whale.as_ref().unwrap().orientation;
-        let wet = hull.wetted(kinetic.centre_m, orientation, centre(state).z).volume_m3;
+        let wet = hull
+            .wetted(kinetic.centre_m, orientation, centre(state).z, &mut hull.scratch())
+            .volume_m3;
         dry.push(1.0 - wet / spec.measures.volume_m3);
         false
     });

@@ -10,6 +10,8 @@ pub mod stop;
 mod substeps;
 pub mod workspace;
 
+use glam::DVec3;
+
 use crate::cost::CostPart;
 use crate::gear_hook;
 use crate::model::Model;
@@ -53,7 +55,7 @@ fn try_step(
 ) -> Result<(), Stop> {
     let mut whale = workspace.whale.take();
     workspace.solver.cost.enter(CostPart::Whale);
-    let moved = move_whale(model, input, state, &mut whale);
+    let moved = move_whale(model, input, state, (&mut whale, &mut workspace.hull));
     workspace.solver.cost.enter(CostPart::Other);
     let done = moved.and_then(|held| {
         workspace.audit.postures_held += u64::from(held);
@@ -84,7 +86,7 @@ fn move_whale(
     model: &Model,
     input: &Input,
     state: &State,
-    whale: &mut Option<Box<[WhaleState; 2]>>,
+    (whale, hull): (&mut Option<Box<[WhaleState; 2]>>, &mut Vec<DVec3>),
 ) -> Result<bool, Stop> {
     let Some(now) = &state.whale else {
         *whale = None;
@@ -92,5 +94,5 @@ fn move_whale(
     };
     let [from, to] = &mut **whale.get_or_insert_with(|| Box::new([now.clone(), now.clone()]));
     from.clone_from(now);
-    drive(model, input, from, state.time_s, to)
+    drive(model, input, from, state.time_s, to, hull)
 }

@@ -1,5 +1,7 @@
 //! Scratch of a run, and what its last step left for readers.
 
+use glam::DVec3;
+
 use super::audit::Audit;
 use super::peaks::{SpikeWatch, raise};
 use crate::contact::ContactPoint;
@@ -37,6 +39,8 @@ pub struct Workspace {
     pub(super) remesh: Option<RemeshWorkspace>,
     /// The whale at the start and at the end of the step.
     pub(super) whale: Option<Box<[WhaleState; 2]>>,
+    /// Scratch of a kinetic whale's hull near the surface.
+    pub(super) hull: Vec<DVec3>,
     /// What rope gave the whale over the solver steps of the step.
     pub(super) pulled: RopeImpulse,
 }
@@ -59,6 +63,7 @@ impl Workspace {
             gear: GearWorkspace::default(),
             remesh: RemeshWorkspace::new(model),
             whale: None,
+            hull: hull_scratch(model),
             pulled: RopeImpulse::default(),
         }
     }
@@ -81,4 +86,10 @@ impl Workspace {
     pub fn cost(&self) -> &Cost {
         &self.solver.cost.cost
     }
+}
+
+/// Scratch for the hull of a model's whale, where it has one.
+fn hull_scratch(model: &Model) -> Vec<DVec3> {
+    let kinetic = model.spec.whale.as_ref().and_then(|whale| whale.kinetic.as_ref());
+    kinetic.map(|kinetic| kinetic.hull.scratch()).unwrap_or_default()
 }

@@ -23,7 +23,7 @@ const CLEARANCE: f64 = 0.11;
 const GRAVITY_M_S2: f64 = 9.81;
 
 /// The whale at the end of a step that begins with `whale`, written over `next`; whether its motion asked for a posture
-/// beyond the joints' ranges.
+/// beyond the joints' ranges. `hull_scratch` is scratch of a kinetic whale's hull.
 ///
 /// # Errors
 /// With the motion plugin's id, where it fails or gives a number that is not finite.
@@ -33,11 +33,12 @@ pub(crate) fn drive(
     whale: &WhaleState,
     time_s: f64,
     next: &mut WhaleState,
+    hull_scratch: &mut Vec<DVec3>,
 ) -> Result<bool, Stop> {
     next.clone_from(whale);
     let Some(spec) = &model.spec.whale else { return Ok(false) };
     if let Some(kinetic) = spec.kinetic.as_ref().filter(|kinetic| kinetic.dead.is_some()) {
-        drift(model, kinetic, whale, time_s, next);
+        drift(model, kinetic, whale, time_s, next, hull_scratch);
         keep_in_water(model, spec, next);
         return Ok(false);
     }
@@ -53,7 +54,7 @@ pub(crate) fn drive(
                 turn_rate,
                 burst: input.controls.burst,
             };
-            swim(model, kinetic, &wish, whale, time_s, next);
+            swim(model, kinetic, &wish, whale, time_s, next, hull_scratch);
         }
         None => go(model, &asked, whale, time_s, next),
     }

@@ -23,19 +23,21 @@ pub struct Dead {
     pub posture: Posture,
 }
 
-/// Moves `next` over a step of length `dt` from `whale`.
+/// Moves `next` over a step of length `dt` from `whale`; `hull_scratch` is scratch of its hull.
 pub(crate) fn drift(
     model: &Model,
     kinetic: &Kinetic,
     whale: &WhaleState,
     time_s: f64,
     next: &mut WhaleState,
+    hull_scratch: &mut Vec<DVec3>,
 ) {
     let (water, dt) = (&model.spec.water, model.spec.settings.step_s);
     let (mass, inertia) = (kinetic.whole_mass_kg(), kinetic.whole_inertia_kg_m2());
     let centre = whale.position + whale.orientation * kinetic.centre_m;
     let sea = model.sea.at(centre, time_s);
-    let wet = kinetic.hull.wetted(kinetic.centre_m, whale.orientation, centre.z - sea.surface_m);
+    let height_m = centre.z - sea.surface_m;
+    let wet = kinetic.hull.wetted(kinetic.centre_m, whale.orientation, height_m, hull_scratch);
     let lift = water.density_kg_m3 * water.gravity_m_s2;
     let [east, north] = wet.moment_m4;
     let force = DVec3::Z * (lift * wet.volume_m3 - kinetic.mass_kg * water.gravity_m_s2);

@@ -53,42 +53,67 @@ impl Hull {
     }
 
     /// What is under water with the point `centre` of its frame `height_m` above the surface, turned by `orientation`.
+    ///
+    /// `turned` is scratch: each corner is turned once for all of its triangles.
     #[must_use]
-    pub fn wetted(&self, centre: DVec3, orientation: DQuat, height_m: f64) -> Wetted {
+    pub fn wetted(
+        &self,
+        centre: DVec3,
+        orientation: DQuat,
+        height_m: f64,
+        turned: &mut Vec<DVec3>,
+    ) -> Wetted {
         let axes = DMat3::from_quat(orientation);
         let up = DVec3::Z * height_m;
+        turned.clear();
+        turned.extend(self.places.iter().map(|place| axes * (*place - centre) + up));
         let mut sum = Wetted::default();
         for corners in &self.triangles {
-            sum.add_cut(corners.map(|corner| axes * (self.places[corner as usize] - centre) + up));
+            let [a, b, c] = *corners;
+            sum.add_cut(turned[a as usize], turned[b as usize], turned[c as usize]);
         }
         sum
+    }
+
+    /// Scratch for [`wetted`](Self::wetted) that need not grow.
+    #[must_use]
+    pub fn scratch(&self) -> Vec<DVec3> {
+        Vec::with_capacity(self.places.len())
     }
 }
 
 impl Wetted {
     /// Adds the part of a triangle that is under water; heights are above the surface.
-    fn add_cut(&mut self, corners: [DVec3; 3]) {
-        let dry = corners.map(|corner| corner.z > 0.0);
-        match dry.iter().filter(|dry| **dry).count() {
-            0 => self.add(corners),
-            3 => {}
-            count => {
-                // The lone corner, and where its two edges meet the water.
-                let lone = dry.iter().position(|is_dry| *is_dry == (count == 1)).unwrap_or(0);
-                let [a, b, c] = [0, 1, 2].map(|step| corners[(lone + step) % 3]);
-                let cross = |to: DVec3| a.lerp(to, a.z / (a.z - to.z));
-                let (on_b, on_c) = (cross(b), cross(c));
-                if count == 1 {
-                    self.add([on_b, b, c]);
-                    self.add([on_b, c, on_c]);
-                } else {
-                    self.add([a, on_b, on_c]);
-                }
-            }
+    ///
+    /// Corners are handed over one by one: as an array they would go through memory, which costs more than the sum.
+    fn add_cut(&mut self, a: DVec3, b: DVec3, c: DVec3) {
+        // The lone corner comes first.
+        match [a, b, c].map(|corner| corner.z > 0.0) {
+            [false, false, false] => self.add(a, b, c),
+            [true, true, true] => {}
+            [true, false, false] => self.add_below(a, b, c),
+            [false, true, false] => self.add_below(b, c, a),
+            [false, false, true] => self.add_below(c, a, b),
+            [false, true, true] => self.add_tip(a, b, c),
+            [true, false, true] => self.add_tip(b, c, a),
+            [true, true, false] => self.add_tip(c, a, b),
         }
     }
 
-    fn add(&mut self, [a, b, c]: [DVec3; 3]) {
+    /// Adds a triangle of which corner `a` alone is dry.
+    fn add_below(&mut self, a: DVec3, b: DVec3, c: DVec3) {
+        let (on_b, on_c) = (at_surface(a, b), at_surface(a, c));
+        self.add(on_b, b, c);
+        self.add(on_b, c, on_c);
+    }
+
+    /// Adds a triangle of which corner `a` alone is wet.
+    fn add_tip(&mut self, a: DVec3, b: DVec3, c: DVec3) {
+        self.add(a, at_surface(a, b), at_surface(a, c));
+    }
+
+    #[inline]
+    fn add(&mut self, a: DVec3, b: DVec3, c: DVec3) {
         let flat = 0.5 * ((b - a).cross(c - a)).z;
         let depth = a.z + b.z + c.z;
         self.volume_m3 += flat * depth / 3.0;
@@ -96,6 +121,11 @@ impl Wetted {
         self.moment_m4[0] += moment.x;
         self.moment_m4[1] += moment.y;
     }
+}
+
+/// Where an edge meets the surface.
+fn at_surface(from: DVec3, to: DVec3) -> DVec3 {
+    from.lerp(to, from.z / (from.z - to.z))
 }
 
 #[cfg(test)]
@@ -119,15 +149,18 @@ mod tests {
     #[test]
     fn a_box_displaces_what_lies_below_the_waterline() {
         let hull = crate_of(DVec3::new(4.0, 1.5, 0.5));
-        let level = hull.wetted(DVec3::ZERO, DQuat::IDENTITY, 0.1);
+        let mut turned = hull.scratch();
+        let mut level_at =
+            |height_m| hull.wetted(DVec3::ZERO, DQuat::IDENTITY, height_m, &mut turned);
+        let level = level_at(0.1);
         assert!(
             (level.volume_m3 - 8.0 * 3.0 * 0.4).abs() < 1e-12
                 && level.moment_m4.iter().all(|moment| moment.abs() < 1e-12)
         );
-        assert!((hull.wetted(DVec3::ZERO, DQuat::IDENTITY, -9.0).volume_m3 - 24.0).abs() < 1e-12);
-        assert!(hull.wetted(DVec3::ZERO, DQuat::IDENTITY, 9.0).volume_m3.abs() < 1e-12);
+        assert!((level_at(-9.0).volume_m3 - 24.0).abs() < 1e-12);
+        assert!(level_at(9.0).volume_m3.abs() < 1e-12);
         // Heeled by 0.1 about x with its middle in the surface, the waterline cuts both sides: as much under as over.
-        let heeled = hull.wetted(DVec3::ZERO, DQuat::from_rotation_x(0.1), 0.0);
+        let heeled = hull.wetted(DVec3::ZERO, DQuat::from_rotation_x(0.1), 0.0, &mut turned);
         assert!((heeled.volume_m3 - 12.0).abs() < 1e-12);
         // Its moment about the middle is that of the level half, turned, and of the two wedges: L b³ tan φ/12 (1 + tan²φ/2) along the keel.
         let (sin, cos, tan) = (libm::sin(0.1), libm::cos(0.1), libm::tan(0.1));
@@ -139,5 +172,46 @@ mod tests {
             "{} against {expected}",
             heeled.moment_m4[1]
         );
+    }
+
+    /// Scratch of another hull and pose changes no bit, and the sum is that of triangles turned and cut one by one.
+    #[test]
+    fn corners_turned_once_give_the_bits_of_triangles_turned_alone() {
+        let hull = crate_of(DVec3::new(4.0, 1.5, 0.5));
+        let (centre, axis) = (DVec3::new(0.3, -0.2, 0.1), DVec3::new(0.6, 0.48, 0.64));
+        let (mut turned, mut cut) = (vec![DVec3::NAN; 99], [0; 4]);
+        for step in 0..60 {
+            let orientation = DQuat::from_axis_angle(axis, 0.1 * f64::from(step));
+            let height_m = 0.05 * f64::from(step - 30);
+            let axes = DMat3::from_quat(orientation);
+            let mut sum = Wetted::default();
+            for triangle in &hull.triangles {
+                let corners = triangle.map(|corner| {
+                    axes * (hull.places[corner as usize] - centre) + DVec3::Z * height_m
+                });
+                cut[add_alone(&mut sum, corners)] += 1;
+            }
+            assert_eq!(hull.wetted(centre, orientation, height_m, &mut turned), sum);
+        }
+        assert!(cut.iter().all(|triangles| *triangles > 20), "{cut:?}");
+    }
+
+    /// Adds a triangle turned so that its lone corner comes first, by the number of its dry corners; that number.
+    fn add_alone(sum: &mut Wetted, corners: [DVec3; 3]) -> usize {
+        let dry = corners.map(|corner| corner.z > 0.0);
+        let count = dry.iter().filter(|is_dry| **is_dry).count();
+        let lone = dry.iter().position(|is_dry| *is_dry == (count == 1)).unwrap_or(0);
+        let [a, b, c] = [0, 1, 2].map(|step| corners[(lone + step) % 3]);
+        let cross = |to: DVec3| a.lerp(to, a.z / (a.z - to.z));
+        match count {
+            0 => sum.add(corners[0], corners[1], corners[2]),
+            1 => {
+                sum.add(cross(b), b, c);
+                sum.add(cross(b), c, cross(c));
+            }
+            2 => sum.add(a, cross(b), cross(c)),
+            _ => {}
+        }
+        count
     }
 }

@@ -25,12 +25,13 @@ pub(crate) struct Weight {
     pub moment: DVec3,
 }
 
-/// What the dry part of a whale weighs.
+/// What the dry part of a whale weighs; `hull_scratch` is scratch of its hull.
 pub(crate) fn weight_out(
     model: &Model,
     kinetic: &Kinetic,
     whale: &WhaleState,
     time_s: f64,
+    hull_scratch: &mut Vec<DVec3>,
 ) -> Weight {
     let (hull, centre) = (&kinetic.hull, centre_of(kinetic, whale));
     let reach_m = hull.reach_m + kinetic.centre_m.length();
@@ -41,7 +42,7 @@ pub(crate) fn weight_out(
     if height_m + reach_m < 0.0 {
         return Weight::default();
     }
-    let wet = hull.wetted(kinetic.centre_m, whale.orientation, height_m);
+    let wet = hull.wetted(kinetic.centre_m, whale.orientation, height_m, hull_scratch);
     let middle = whale.orientation * (hull.middle_m - kinetic.centre_m) * hull.volume_m3;
     let lift = model.spec.water.density_kg_m3 * model.spec.water.gravity_m_s2;
     let [east, north] = [wet.moment_m4[0] - middle.x, wet.moment_m4[1] - middle.y];

@@ -29,7 +29,8 @@ pub(crate) fn reported_speed(whale: &WhaleState) -> f64 {
     whale.speed_m_s.max(whale.exertion.asked_speed_m_s)
 }
 
-/// Moves `next`, which has the posture of the step's end and all else as in `whale`, over a step of length `dt`.
+/// Moves `next`, which has the posture of the step's end and all else as in `whale`, over a step of length `dt`; `hull_scratch` is scratch
+/// of its hull.
 pub(crate) fn swim(
     model: &Model,
     kinetic: &Kinetic,
@@ -37,9 +38,10 @@ pub(crate) fn swim(
     whale: &WhaleState,
     time_s: f64,
     next: &mut WhaleState,
+    hull_scratch: &mut Vec<DVec3>,
 ) {
     let dt = model.spec.settings.step_s;
-    let out = weight_out(model, kinetic, whale, time_s);
+    let out = weight_out(model, kinetic, whale, time_s, hull_scratch);
     let (thrust_n, speed_m_s) = ahead(model, kinetic, wish, whale, next.posture.jaw, out.force.x);
     let turn_rate = turned(model, kinetic, wish, whale, &out);
     next.orientation = (whale.orientation
