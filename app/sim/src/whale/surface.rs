@@ -306,4 +306,4 @@ fn coarsen(fine: &[Bounds], coarse: &mut Vec<Bounds>) {
 
 #[cfg(test)]
 #[path = "surface_tests.rs"]
-mod tests;
+pub(super) mod tests;

@@ -7,7 +7,7 @@ use crate::contact::sweep::triangle_at;
 use crate::whale::{Angle, Bone, Channel, Skin, pose, skin_all};
 
 /// Repeatable numbers in -1..1 for tests.
-struct Dice(u64);
+pub(crate) struct Dice(pub u64);
 
 impl Dice {
     fn next(&mut self) -> f64 {
@@ -16,13 +16,13 @@ impl Dice {
         (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 
-    fn point(&mut self) -> DVec3 {
+    pub fn point(&mut self) -> DVec3 {
         DVec3::new(self.next(), self.next(), self.next())
     }
 }
 
 /// A tube 8 m long on eight bones, each vertex moved by up to four of them with uneven weights.
-fn tube() -> Skin {
+pub(crate) fn tube() -> Skin {
     let (rings, sides) = (60_u32, 12_u32);
     let mut dice = Dice(3);
     let mut skin = Skin::default();
@@ -62,7 +62,7 @@ fn joint(index: usize) -> Bone {
     }
 }
 
-fn random_bones(skin: &Skin, dice: &mut Dice) -> Vec<DAffine3> {
+pub(crate) fn random_bones(skin: &Skin, dice: &mut Dice) -> Vec<DAffine3> {
     let mut posture = Posture::default();
     for angle in posture.spine_pitch.iter_mut().chain(&mut posture.spine_yaw) {
         *angle = 0.5 * dice.next();

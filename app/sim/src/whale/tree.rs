@@ -97,11 +97,17 @@ impl SkinTree {
     pub(super) fn bound(&self, node: usize, starts: &[DAffine3], ends: &[DAffine3]) -> Bounds {
         let mut bounds = Bounds::EMPTY;
         for sphere in &self.spheres[self.nodes[node].spheres.clone()] {
-            for bones in [starts, ends] {
-                let centre = bones[sphere.bone].transform_point3(sphere.centre);
-                bounds.low = bounds.low.min(centre - sphere.radius);
-                bounds.high = bounds.high.max(centre + sphere.radius);
-            }
+            sphere.add_to(&mut bounds, starts);
+            sphere.add_to(&mut bounds, ends);
+        }
+        bounds.grown(ROUNDING)
+    }
+
+    /// A box around all of a node's vertices in one pose.
+    pub(super) fn bound_at(&self, node: usize, bones: &[DAffine3]) -> Bounds {
+        let mut bounds = Bounds::EMPTY;
+        for sphere in &self.spheres[self.nodes[node].spheres.clone()] {
+            sphere.add_to(&mut bounds, bones);
         }
         bounds.grown(ROUNDING)
     }
@@ -184,6 +190,13 @@ struct Vertices {
 }
 
 impl Sphere {
+    /// Grows bounds to hold it where its bone carries it.
+    fn add_to(&self, bounds: &mut Bounds, bones: &[DAffine3]) {
+        let centre = bones[self.bone].transform_point3(self.centre);
+        bounds.low = bounds.low.min(centre - self.radius);
+        bounds.high = bounds.high.max(centre + self.radius);
+    }
+
     /// A small sphere around points: from the middle of their box, then drawn towards the farthest (Bădoiu and Clarkson 2003).
     fn around(bone: usize, points: &[DVec3]) -> Self {
         let sides = Bounds::around(points);
