@@ -95,23 +95,27 @@ impl InterfaceSystem {
         column_arm: DVec3,
         value: DMat3,
     ) {
-        for (row_block, row_part) in parts(row, row_arm) {
-            for (column_block, column_part) in parts(column, column_arm) {
-                *self.at(row_block, column_block) += row_part.transpose() * value * column_part;
+        for (row_block, row_turn) in parts(row, row_arm) {
+            let rows = row_turn.map_or(value, |turn| turn.transpose() * value);
+            for (column_block, column_turn) in parts(column, column_arm) {
+                *self.at(row_block, column_block) += column_turn.map_or(rows, |turn| rows * turn);
             }
         }
     }
 
     /// Adds a force at the point of an attachment.
     pub fn push(&mut self, attachment: Attachment, arm: DVec3, force: DVec3) {
-        for (block, part) in parts(attachment, arm) {
-            self.force[block] += part.transpose() * force;
+        for (block, turn) in parts(attachment, arm) {
+            self.force[block] += turn.map_or(force, |turn| turn.transpose() * force);
         }
     }
 
     /// Move of the point of an attachment.
     pub fn step_of(&self, attachment: Attachment, arm: DVec3) -> DVec3 {
-        parts(attachment, arm).map(|(block, part)| part * self.step[block]).sum()
+        let moved = |(block, turn): (usize, Option<DMat3>)| {
+            turn.map_or(self.step[block], |turn| turn * self.step[block])
+        };
+        parts(attachment, arm).map(moved).sum()
     }
 
     /// Slope of `½ xᵀAx - f·x` at a share of a step, for bodies (two blocks each) as assembled.
@@ -158,8 +162,8 @@ impl InterfaceSystem {
         force: T,
         right: &mut [T],
     ) {
-        for (block, part) in parts(attachment, arm) {
-            right[block] += force.by(part.transpose());
+        for (block, turn) in parts(attachment, arm) {
+            right[block] += turn.map_or(force, |turn| force.by(turn.transpose()));
         }
     }
 
@@ -186,8 +190,8 @@ impl InterfaceSystem {
     /// Move of the point of an attachment in such a solution.
     pub fn step_again<T: Columns>(&self, attachment: Attachment, arm: DVec3, step: &[T]) -> T {
         let mut sum = T::ZERO;
-        for (block, part) in parts(attachment, arm) {
-            sum += step[block].by(part);
+        for (block, turn) in parts(attachment, arm) {
+            sum += turn.map_or(step[block], |turn| step[block].by(turn));
         }
         sum
     }
@@ -212,13 +216,14 @@ impl InterfaceSystem {
     }
 }
 
-/// Blocks of an attachment with the 3×3 map from the block's move to the move of the point.
-fn parts(attachment: Attachment, arm: DVec3) -> impl Iterator<Item = (usize, DMat3)> {
+/// Blocks of an attachment with the 3×3 map from the block's move to the move of the point; none where the point moves as the
+/// block does.
+fn parts(attachment: Attachment, arm: DVec3) -> impl Iterator<Item = (usize, Option<DMat3>)> {
     let list = match attachment {
         Attachment::Fixed => [None, None],
-        Attachment::Free(block) => [Some((block, DMat3::IDENTITY)), None],
+        Attachment::Free(block) => [Some((block, None)), None],
         Attachment::Body { block, .. } => {
-            [Some((block, DMat3::IDENTITY)), Some((block + 1, -cross_matrix(arm)))]
+            [Some((block, None)), Some((block + 1, Some(-cross_matrix(arm))))]
         }
     };
     list.into_iter().flatten()
@@ -258,6 +263,39 @@ fn order_of_least_degree(blocks: usize, coupled: &mut [bool]) -> (Vec<usize>, Ve
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Every block that lines add to a body and a free joint is `Pᵀ V Q`, with the maps from move of block to move of point.
+    #[test]
+    fn blocks_and_forces_go_through_the_maps_of_their_points() {
+        let value = DMat3::from_cols(
+            DVec3::new(2.0, 0.3, -0.7),
+            DVec3::new(0.4, 3.0, 0.1),
+            DVec3::new(-0.2, 0.5, 1.7),
+        );
+        let (arm, force) = (DVec3::new(0.3, -1.2, 0.8), DVec3::new(5.0, -4.0, 3.0));
+        let body = Attachment::Body { block: 1, body: 0, offset: arm };
+        let mut interface = InterfaceSystem::new(3, &[(0, 1), (0, 2), (1, 2)]);
+        interface.add(body, arm, Attachment::Free(0), DVec3::ZERO, value);
+        interface.add(body, arm, body, arm, value);
+        interface.push(body, arm, force);
+        let turn = -cross_matrix(arm);
+        let turned = turn.transpose() * value;
+        for (row, column, expected) in [
+            (1, 0, value),
+            (2, 0, turned),
+            (1, 1, value),
+            (1, 2, value * turn),
+            (2, 1, turned),
+            (2, 2, turned * turn),
+        ] {
+            assert_eq!(*interface.at(row, column), expected, "block ({row}, {column})");
+        }
+        assert_eq!(interface.force, [DVec3::ZERO, force, arm.cross(force)]);
+        interface.step = vec![DVec3::ZERO, DVec3::X, DVec3::new(0.1, 0.2, -0.3)];
+        let moved = interface.step_of(body, arm);
+        assert_eq!(moved, interface.step_again(body, arm, &interface.step));
+        assert!(moved.distance(DVec3::X + interface.step[2].cross(arm)) < 1e-15);
+    }
 
     /// Solves a loop of interface blocks and checks the product with the matrix as it was.
     #[test]
