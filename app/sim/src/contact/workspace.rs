@@ -156,7 +156,7 @@ impl ContactWorkspace {
 
     /// Whether rope has left the margin in which skin near it was gathered.
     pub fn strayed(&self, places: &[DVec3]) -> bool {
-        self.near.strayed(places) > MARGIN_M - self.greatest_contact_distance
+        self.near.strayed(places, MARGIN_M - self.greatest_contact_distance)
     }
 
     /// A segment and triangle nearer than this share of the contact distance, if any.

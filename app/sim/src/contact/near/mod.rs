@@ -6,6 +6,8 @@
 
 mod group;
 mod solver_step;
+#[cfg(test)]
+mod tests;
 
 use std::sync::Arc;
 

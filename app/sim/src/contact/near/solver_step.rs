@@ -24,6 +24,13 @@ const STALE_M: f64 = 5e-4;
 /// Share of its radius to which rope may come to skin by its velocity before its guess is held off.
 const HELD_OFF_SHARE: f64 = 0.3;
 
+/// How far a place lies from the straight path between two others [m].
+fn away(from: DVec3, to: DVec3, place: DVec3) -> f64 {
+    let path = to - from;
+    let along = ((place - from).dot(path) / path.length_squared().max(1e-30)).clamp(0.0, 1.0);
+    (place - from - path * along).length()
+}
+
 impl Near {
     /// Takes skin to the end of a solver step, and finds what may touch on the way from where rope is to where it is guessed to go.
     pub fn look(&mut self, from: &[DVec3], to: &[DVec3], goal: f64) {
@@ -148,18 +155,25 @@ impl Near {
         Some(u64::from(first_meeting(&segment, &triangle).is_some()))
     }
 
-    /// How far any segment's end lies from the straight path by which its pairs were gathered [m].
-    pub fn strayed(&self, places: &[DVec3]) -> f64 {
-        let away = |from: DVec3, to: DVec3, place: DVec3| {
-            let path = to - from;
-            let along =
-                ((place - from).dot(path) / path.length_squared().max(1e-30)).clamp(0.0, 1.0);
-            (place - from - path * along).length_squared()
+    /// Whether any segment's end lies farther than `most_m` from the straight path by which its pairs were gathered.
+    pub fn strayed(&self, places: &[DVec3], most_m: f64) -> bool {
+        // Half of it from where the path begins is near the path, whatever the rounding.
+        let near = 0.25 * most_m * most_m.abs();
+        let strays = |from: DVec3, to: DVec3, place: DVec3| {
+            place.distance_squared(from) > near && away(from, to, place) > most_m
         };
-        let of_segment = |(sweep, node): (&SweptSegment, &usize)| {
-            away(sweep.a0, sweep.a1, places[*node]).max(away(sweep.b0, sweep.b1, places[*node + 1]))
-        };
-        self.sweeps.iter().zip(&self.segment_node).map(of_segment).fold(0.0, f64::max).sqrt()
+        let mut last = None;
+        for (sweep, node) in self.sweeps.iter().zip(&self.segment_node) {
+            // Where the segment before ends at its first node, that node has been looked at.
+            let begins = last != Some(*node);
+            if (begins && strays(sweep.a0, sweep.a1, places[*node]))
+                || strays(sweep.b0, sweep.b1, places[*node + 1])
+            {
+                return true;
+            }
+            last = Some(*node + 1);
+        }
+        false
     }
 
     /// Takes from the move `from` → `target` of a solver step what brings rope nearer to skin than its radius, or than it is.
