@@ -139,6 +139,11 @@ impl Surface {
         false
     }
 
+    /// Whether the box around the whole surface over the step meets these bounds.
+    pub(crate) fn may_meet(&mut self, bounds: &Bounds) -> bool {
+        !self.tree.nodes().is_empty() && self.step.node(&self.tree, 0).meets(bounds)
+    }
+
     /// All pairs of a segment and a triangle whose boxes over the step come within `margin`, written
     /// over `out` in rising order: every pair that may come nearer than `margin` is among them.
     pub fn gather(&mut self, segments: &[SweptSegment], margin: f64, out: &mut Vec<Candidate>) {

@@ -17,7 +17,7 @@ use super::distance::segment_triangle;
 use super::placed::Placed;
 use super::sweep::{SweptSegment, triangle_at};
 use crate::model::Model;
-use crate::whale::{Candidate, SkinTree, Surface};
+use crate::whale::{Bounds, Candidate, SkinTree, Surface};
 pub(crate) use group::Group;
 
 /// Rope within this distance of the path of skin is looked at [m].
@@ -101,12 +101,18 @@ impl Near {
         moves: impl Fn(usize) -> DVec3,
         margin: f64,
     ) -> bool {
-        self.sweep(bones, places, moves);
+        self.surface.begin(bones[0], bones[1]);
+        let path = places.iter().enumerate().fold(Bounds::EMPTY, |bounds, (node, place)| {
+            bounds.with(*place).with(*place + moves(node))
+        });
+        if !self.surface.may_meet(&path.grown(margin)) {
+            return false;
+        }
+        self.sweep(places, moves);
         self.surface.is_any_near(&self.sweeps, margin)
     }
 
-    fn sweep(&mut self, bones: [&[DAffine3]; 2], places: &[DVec3], moves: impl Fn(usize) -> DVec3) {
-        self.surface.begin(bones[0], bones[1]);
+    fn sweep(&mut self, places: &[DVec3], moves: impl Fn(usize) -> DVec3) {
         for (sweep, &node) in self.sweeps.iter_mut().zip(&self.segment_node) {
             let (a0, b0) = (places[node], places[node + 1]);
             *sweep = SweptSegment { a0, b0, a1: a0 + moves(node), b1: b0 + moves(node + 1) };
@@ -122,7 +128,8 @@ impl Near {
         moves: impl Fn(usize) -> DVec3,
         (cut, passed): (&[bool], f64),
     ) {
-        self.sweep(bones, places, moves);
+        self.surface.begin(bones[0], bones[1]);
+        self.sweep(places, moves);
         self.gather_swept(model, (cut, passed));
     }
 

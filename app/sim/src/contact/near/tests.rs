@@ -1,9 +1,11 @@
 //! Short cuts against what they cut short.
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 use super::*;
 use crate::metrics::tests::{model, spec};
+use crate::whale::pose;
+use endline_sdk::Posture;
 
 /// Two lines of 50 segments beside each other.
 fn two_lines() -> Model {
@@ -30,7 +32,7 @@ fn a_single_node_that_strays_is_found() {
     let model = two_lines();
     let mut near = Near::new(&model, model.skin_tree.clone().expect("a skin"));
     let (places, most_m) = (places(&model, DVec3::ZERO), 0.03);
-    near.sweep([&[], &[]], &places, moves);
+    near.sweep(&places, moves);
     let halfway: Vec<DVec3> =
         (0..places.len()).map(|node| places[node] + 0.5 * moves(node)).collect();
     assert!(!near.strayed(&halfway, most_m));
@@ -46,4 +48,24 @@ fn a_single_node_that_strays_is_found() {
             }
         }
     }
+}
+
+/// What the box around all rope tells is what the search through its segments tells.
+#[test]
+fn rope_clear_of_the_whole_skin_is_near_none_of_it() {
+    let model = two_lines();
+    let skin = &model.spec.whale.as_ref().expect("a whale").skin;
+    let mut near = Near::new(&model, model.skin_tree.clone().expect("a skin"));
+    let (mut bones, mut counts) = (Vec::new(), [0; 2]);
+    for step in 0..80 {
+        let shift = DVec3::new(-5.0, 0.25 * f64::from(step - 40), 0.1);
+        pose(skin, DVec3::ZERO, DQuat::from_rotation_z(0.3), &Posture::default(), &mut bones);
+        let places = places(&model, shift);
+        let found = near.any([&bones, &bones], &places, moves, 0.2);
+        near.surface.begin(&bones, &bones);
+        near.sweep(&places, moves);
+        assert_eq!(found, near.surface.is_any_near(&near.sweeps, 0.2));
+        counts[usize::from(found)] += 1;
+    }
+    assert!(counts.iter().all(|count| *count > 5), "{counts:?}");
 }
