@@ -1,18 +1,34 @@
-//! The length of a solver step, chosen by the program, and what limited it.
+//! The length of a solver step of free rope, chosen by the program, and what limited it.
 //!
-//! Error of place of a step of length `h`, from the state after it: `e = |x₁ - x₀ - h (v₀ + v₁)/2|`, which is `h³ x‴/4` for BDF2
-//! (its local error is `2h³ x‴/9`) and the local error itself for backward Euler, `h² x″/2`.
-//! Error of tension: how far each line's greatest tension is from the straight line through its last two, `e = h² T″`.
-//! The next step aims at the wanted errors, `h (wanted/e)^{1/3}` and `h (wanted/e)^{1/2}`, within a factor of [`LEAST_FACTOR`]
-//! and [`GREATEST_FACTOR`]; a step that misses by [`MISSED`] is taken back, with all since the last input, and made shorter.
+//! Two errors are looked at after each step, of length `h`:
+//!
+//! | error | estimate |
+//! |---|---|
+//! | of place in a second | `C h² x‴`, with `x‴` from `|x₁ - x₀ - h (v₀ + v₁)/2|`, root mean square over the nodes of a line |
+//! | of tension | how far each line's greatest tension is from the straight line through its last two, `h² T″` |
+//!
+//! | step | `C`, its error of place | share of `h³ x‴` in the estimate |
+//! |---|---|---|
+//! | BDF2 | 1/3 | 1/4 |
+//! | two stages | 0.0404 | 0.0404 - 1/12 |
+//!
+//! An error of place stays where nothing drags: a swing goes on with the phase that it was given. Without water its rate is
+//! therefore bounded at any setting, and steps are taken in two stages, up to two for each input, where BDF2 misses it.
+//! Water drags, and rope forgets within a second; so it does on the seabed.
+//!
+//! With `auto_step` the rate is bounded in water too, as finely as waves along a rope need, and so is the tension.
+//! A rate and not an error in each step: waves run to and fro hundreds of times before a snap, and its peak is the sum of
+//! those that meet there. A step that misses by [`MISSED`] is taken back, with all since the last input, and made shorter.
 //! With rope near the whale the contact step holds instead: friction makes tension jump at any step.
-//! Reference: Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, section II.4.
+//! References: Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, section II.4; Alexander 1977 (two stages).
 
 use crate::model::Model;
 use crate::state::{BodyState, LimitedBy, State};
 
-/// Error of place wanted in a step [m].
-pub const PLACE_M: f64 = 5e-4;
+/// Error of place wanted in a second, with `auto_step` [m/s].
+pub const PLACE_M_S: f64 = 1e-3;
+/// The same without water, where it stays, as far as [`MOST_PARTS`] allows [m/s].
+pub const STAYING_M_S: f64 = 1e-4;
 /// Error of tension wanted in a step, as a share of the greatest tension.
 pub const TENSION_SHARE: f64 = 0.02;
 /// Least error of tension that is looked at [N].
@@ -21,6 +37,18 @@ pub const TENSION_N: f64 = 5.0;
 pub const SHORTEST_S: f64 = 1e-4;
 /// Step after something parted [s].
 pub const PARTED_S: f64 = 5e-4;
+/// Steps in two stages for each input, at most, for the sake of an error that stays.
+pub const MOST_PARTS: f64 = 2.0;
+/// Density of water below which nothing drags; air has 1.2 [kg/m³].
+const NO_DRAG_KG_M3: f64 = 10.0;
+/// Error of place in a second of BDF2 and of a step in two stages, as a share of `h² x‴`.
+const PLACE_SHARE: [f64; 2] = [1.0 / 3.0, 0.0404];
+/// What the estimate shows of `h³ x‴` in either.
+const SHOWN_SHARE: [f64; 2] = [0.25, 1.0 / 12.0 - 0.0404];
+/// What is nearer to the seabed than this may touch it [m].
+const NEAR_GROUND_M: f64 = 0.05;
+/// Least third derivative that is looked at [m/s³].
+const LEAST_JERK_M_S3: f64 = 1e-9;
 /// Aim a little below what is wanted.
 const SAFETY: f64 = 0.9;
 const LEAST_FACTOR: f64 = 0.2;
@@ -28,24 +56,105 @@ const LEAST_FACTOR: f64 = 0.2;
 const GREATEST_FACTOR: f64 = 1.8;
 /// Times the wanted error at which a step is taken back.
 const MISSED: f64 = 3.0;
+/// Steps in two stages go on until BDF2 would keep the wanted error this many times as long.
+const SURELY: f64 = 1.2;
+
+/// A step of free rope that was taken.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Taken {
+    /// Its length [s].
+    pub dt: f64,
+    /// Length of the step before it [s].
+    pub earlier_dt: f64,
+    /// Whether it was taken in two stages.
+    pub in_two_stages: bool,
+}
+
+/// Whether the program chooses steps of free rope in this model.
+pub(crate) fn chooses(model: &Model) -> bool {
+    model.spec.settings.auto_step || errors_stay(model)
+}
+
+/// Whether an error of place stays because nothing drags.
+fn errors_stay(model: &Model) -> bool {
+    model.spec.water.density_kg_m3 < NO_DRAG_KG_M3
+}
 
 /// Chooses the next step from the one just taken; whether that one missed and should be taken back.
-pub(crate) fn choose(model: &Model, state: &mut State, dt: f64, earlier_dt: f64) -> bool {
-    let place = place_error(model, state, dt) / PLACE_M;
-    let tension = tension_error(model, state, dt, earlier_dt);
-    let longest = model.spec.settings.step_s;
+pub(crate) fn choose(model: &Model, state: &mut State, taken: Taken) -> bool {
+    let settings = &model.spec.settings;
+    let longest = settings.step_s;
+    let lengths = lengths(model, jerk(model, state, taken));
+    let has_grown = taken.dt * GREATEST_FACTOR >= longest;
+    let multistep_will_do = !settings.auto_step && is_on_ground(model, state)
+        || has_grown
+            && lengths.multistep >= longest * if taken.in_two_stages { SURELY } else { 1.0 };
+    if !settings.auto_step {
+        let control = &mut state.step_control;
+        (control.step_s, control.limit) = if multistep_will_do {
+            (0.0, LimitedBy::Inputs)
+        } else {
+            (lengths.in_two_stages.min(longest), LimitedBy::Accuracy)
+        };
+        return false;
+    }
+    let wanted = if taken.in_two_stages { lengths.in_two_stages } else { lengths.multistep };
+    let place = (taken.dt / wanted) * (taken.dt / wanted);
+    let tension = tension_error(model, state, taken);
     // A number that is not finite makes neither comparison true and ends in the shortest step.
-    let by_place = SAFETY / libm::cbrt(place.max(1e-9));
+    let by_place = SAFETY * lengths.in_two_stages / taken.dt;
     let by_tension = SAFETY / tension.max(1e-9).sqrt();
     let factor = by_place.min(by_tension).clamp(LEAST_FACTOR, GREATEST_FACTOR);
     let control = &mut state.step_control;
-    control.step_s = (dt * factor).clamp(SHORTEST_S.min(longest), longest);
-    control.limit = if by_tension < by_place { LimitedBy::Snap } else { LimitedBy::Accuracy };
-    place.max(tension) > MISSED && dt > 1.5 * SHORTEST_S
+    control.step_s = (taken.dt * factor).clamp(SHORTEST_S.min(longest), longest);
+    control.limit = if multistep_will_do && control.step_s >= longest {
+        LimitedBy::Inputs
+    } else if by_tension < by_place {
+        LimitedBy::Snap
+    } else {
+        LimitedBy::Accuracy
+    };
+    place.max(tension) > MISSED && taken.dt > 1.5 * SHORTEST_S
 }
 
-/// Greatest error of place of any node or body [m].
-fn place_error(model: &Model, state: &State, dt: f64) -> f64 {
+/// Whether anything is at the seabed, whose friction makes an error of place vanish as drag does.
+fn is_on_ground(model: &Model, state: &State) -> bool {
+    let Some(seabed) = &model.spec.seabed else { return false };
+    let bodies = model.spec.bodies.iter().zip(&state.bodies);
+    let feet = bodies.flat_map(|(body, now)| {
+        body.feet_m.iter().map(|foot| now.position + now.orientation * *foot)
+    });
+    feet.chain(state.rope.position.iter().copied())
+        .any(|place| seabed.depth_of(place) > -NEAR_GROUND_M)
+}
+
+/// Lengths of steps with the wanted error of place, by how they are taken [s].
+#[derive(Clone, Copy, Debug)]
+struct Lengths {
+    multistep: f64,
+    in_two_stages: f64,
+}
+
+/// The longest steps with the wanted error of place, for motion with this third derivative.
+fn lengths(model: &Model, jerk: f64) -> Lengths {
+    let settings = &model.spec.settings;
+    let length = |rate: f64, share: f64| (rate / (share * jerk)).sqrt();
+    let [mut multistep, mut in_two_stages] = if settings.auto_step {
+        PLACE_SHARE.map(|share| length(PLACE_M_S, share))
+    } else {
+        [f64::INFINITY; 2]
+    };
+    if errors_stay(model) {
+        let [of_multistep, of_two_stages] = PLACE_SHARE.map(|share| length(STAYING_M_S, share));
+        multistep = multistep.min(of_multistep);
+        in_two_stages = in_two_stages.min(of_two_stages.max(settings.step_s / MOST_PARTS));
+    }
+    Lengths { multistep, in_two_stages }
+}
+
+/// Third derivative of place by time, as the step just taken shows it: the greatest of any body and of any line's root mean
+/// square [m/s³].
+fn jerk(model: &Model, state: &State, Taken { dt, in_two_stages, .. }: Taken) -> f64 {
     let rope = &state.rope;
     let node = |node: usize| {
         let mean = 0.5 * (rope.velocity[node] + rope.earlier_velocity[node]);
@@ -55,12 +164,16 @@ fn place_error(model: &Model, state: &State, dt: f64) -> f64 {
         let mean = 0.5 * (body.velocity + body.earlier_velocity);
         (body.position - body.earlier_position - mean * dt).length_squared()
     };
-    let rope = (0..model.node_count).map(node).fold(0.0, f64::max);
-    state.bodies.iter().map(body).fold(rope, f64::max).sqrt()
+    let lines = model.line_nodes.iter().map(|nodes| {
+        let count = nodes.len().max(1) as f64;
+        nodes.clone().map(node).sum::<f64>() / count
+    });
+    let greatest = lines.chain(state.bodies.iter().map(body)).fold(0.0, f64::max).sqrt();
+    (greatest / (SHOWN_SHARE[usize::from(in_two_stages)] * dt * dt * dt)).max(LEAST_JERK_M_S3)
 }
 
 /// Greatest error of a line's tension, as a share of what is wanted; takes the line's tensions down.
-fn tension_error(model: &Model, state: &mut State, dt: f64, earlier_dt: f64) -> f64 {
+fn tension_error(model: &Model, state: &mut State, Taken { dt, earlier_dt, .. }: Taken) -> f64 {
     let State { rope, step_control: control, .. } = state;
     let ratio = if earlier_dt > 0.0 { dt / earlier_dt } else { 0.0 };
     let mut worst = 0.0_f64;

@@ -60,7 +60,7 @@ pub(crate) use newton::{NewtonEnd, Skin, Solved};
 use plan::Plan;
 use rope::Pull;
 pub(crate) use rope::outer;
-pub(crate) use scheme::Scheme;
+pub(crate) use scheme::{FIRST_SHARE, Scheme};
 pub(crate) use statics::{WorstAt, is_laid};
 pub(crate) use stopping::ContactMissed;
 pub(crate) use suction::LOOSE_M;

@@ -60,7 +60,7 @@ impl Solver {
         mut skin: Skin<'_>,
     ) -> Result<Solved, NewtonEnd> {
         let in_contact = self.in_contact;
-        let rules = Stopping::new(context.model, self.tolerance(), context.scheme.dt, in_contact);
+        let rules = Stopping::new(context, self.tolerance(), in_contact);
         if in_contact {
             self.open_contacts(context, skin.as_deref_mut());
             self.measure_contacts(context, skin.as_deref_mut())?;

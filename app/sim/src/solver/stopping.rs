@@ -16,16 +16,20 @@
 //! In contact a move is not bounded by itself: it costs balance only as far as segments under tension turn by it. Slack rope may swing to
 //! and fro by millimetres from pass to pass, with every force known.
 //!
+//! A step of free rope in two stages may miss a tenth of that tension, and as much across a segment.
 //! The share of the greatest push and friction is `contact_tolerance`, here the usual one; the other figures are in proportion to it where
 //! rope is in contact. A free step takes two passes unless the first was as good as exact.
 //! Of moves that shrink by `θ` in each pass, `θ/(1-θ)` of the last is left (Hairer and Wanner 1996, section IV.8).
 
 use super::Tolerance;
-use crate::model::{CONTACT_TOLERANCE, Model};
+use super::context::StepContext;
+use crate::model::CONTACT_TOLERANCE;
 
 /// Difference of tension [N], and as a share of the greatest.
 const TENSION_N: f64 = 2.0;
 const TENSION_SHARE: f64 = 0.02;
+/// A step in two stages may miss so much of this: it is taken for accuracy, and its second stage more than doubles what the first missed.
+const STAGE_LENIENCY: f64 = 0.1;
 /// Difference of push and friction [N].
 const CONTACT_N: f64 = 0.1;
 /// What rope on rope and on obstacles may miss is so many times less: their grips creep by what passes leave.
@@ -43,6 +47,8 @@ const BENT_LEFT_M: f64 = 1e-5;
 const MOST_PASSES: usize = 8;
 /// Most passes of a free step.
 const MOST_FREE_PASSES: usize = 40;
+/// Most passes of a step in two stages that was made as short as [`SHORT_S`]: hard rope falls slack segment by segment, one in each pass.
+const MOST_SHORT_FREE_PASSES: usize = 80;
 /// Most passes where rope resists bending.
 const MOST_BENT_PASSES: usize = 40;
 /// Passes that a free step takes at least.
@@ -99,6 +105,8 @@ impl ContactMissed {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stopping {
     in_contact: bool,
+    /// Whether the step is free and in two stages.
+    in_stages: bool,
     bends: bool,
     /// What is allowed as a multiple of what is usual.
     leniency: f64,
@@ -109,19 +117,27 @@ pub(super) struct Stopping {
 }
 
 impl Stopping {
-    /// The rules of a step of this length, in contact or free.
-    pub fn new(model: &Model, fine: Tolerance, dt: f64, in_contact: bool) -> Self {
+    /// The rules of a step, in contact or free.
+    pub fn new(context: &StepContext<'_>, fine: Tolerance, in_contact: bool) -> Self {
+        let StepContext { model, state, scheme } = *context;
         let contact_share = model.spec.settings.contact_tolerance;
-        let leniency = if in_contact { contact_share / CONTACT_TOLERANCE } else { 1.0 };
+        let in_stages = !in_contact && state.step_control.in_two_stages();
+        let leniency = match (in_contact, in_stages) {
+            (true, _) => contact_share / CONTACT_TOLERANCE,
+            (false, true) => STAGE_LENIENCY,
+            (false, false) => 1.0,
+        };
         let bends = model.bends();
         let most_passes = match (bends, in_contact) {
             (true, _) => MOST_BENT_PASSES,
-            (false, true) if dt <= SHORT_S => MOST_SHORT_PASSES,
+            (false, true) if scheme.dt <= SHORT_S => MOST_SHORT_PASSES,
             (false, true) => MOST_PASSES,
+            (false, false) if in_stages && scheme.dt <= SHORT_S => MOST_SHORT_FREE_PASSES,
             (false, false) => MOST_FREE_PASSES,
         };
         Self {
             in_contact,
+            in_stages,
             bends,
             leniency,
             tension_n: TENSION_N.min(fine.gap_n),
@@ -158,7 +174,7 @@ impl Stopping {
             missed = missed.max(done.longest_m / MOVE_M.min(self.fine.move_m));
         }
         if !self.in_contact {
-            return missed;
+            return if self.in_stages { missed.max(done.turned_n / tension_n) } else { missed };
         }
         let contact_n = self.contact_n(contact.greatest_n);
         missed

@@ -83,6 +83,11 @@ impl StepControl {
         }
     }
 
+    /// Whether free rope takes the next step in two stages.
+    pub(crate) fn in_two_stages(&self) -> bool {
+        self.step_s > 0.0 && matches!(self.limit, LimitedBy::Accuracy | LimitedBy::Snap)
+    }
+
     /// Begins anew with this step.
     pub(crate) fn restart(&mut self, step_s: f64, limit: LimitedBy) {
         (self.step_s, self.limit, self.known) = (step_s, limit, 0);

@@ -6,6 +6,7 @@ pub mod input;
 pub mod peaks;
 mod rejection;
 mod solver_step;
+mod stages;
 pub mod stop;
 mod substeps;
 pub mod workspace;

@@ -3,6 +3,7 @@
 use super::audit::Audit;
 use super::contact::solve;
 use super::rejection::{Rejection, StepKind};
+use super::stages::Way;
 use super::workspace::Workspace;
 use crate::contact::ContactPoint;
 use crate::contact::workspace::ContactWorkspace;
@@ -13,17 +14,15 @@ use crate::solver::{Scheme, Skin, StepContext};
 use crate::state::State;
 
 /// One solver step of length `dt`: kept in `state` where it converges and parts nothing late.
-///
-/// A step that was halved goes by backward Euler, which damps what did not converge.
 pub(super) fn solver_step(
     model: &Model,
     state: &mut State,
     workspace: &mut Workspace,
     dt: f64,
-    was_halved: bool,
+    way: Way,
 ) -> Result<StepKind, Rejection> {
     let unconverged = workspace.audit.unconverged;
-    let done = try_solver_step(model, state, workspace, dt, was_halved);
+    let done = try_solver_step(model, state, workspace, dt, way);
     // A step counts once however many poses it was solved at, and only where it is kept.
     let missed = done.is_ok() && workspace.audit.unconverged > unconverged;
     let audit = &mut workspace.audit;
@@ -38,7 +37,7 @@ fn try_solver_step(
     state: &mut State,
     workspace: &mut Workspace,
     dt: f64,
-    was_halved: bool,
+    way: Way,
 ) -> Result<StepKind, Rejection> {
     let Workspace { solver, contact, audit, contacts, rope_touches, .. } = workspace;
     solver.cost.enter(CostPart::Detection);
@@ -54,10 +53,11 @@ fn try_solver_step(
     let on_rope = solver.gather_ropes(model, state, dt);
     let untouched = !may_touch && !on_solid && !on_rope;
     let gives_momentum = near.is_some() && model.whale_is_towed();
-    let scheme = if was_halved || !untouched || gives_momentum {
-        Scheme::backward_euler(dt)
-    } else {
-        Scheme::bdf2(dt, state.rope.earlier_dt_s)
+    let scheme = match way {
+        _ if !untouched || gives_momentum => Scheme::backward_euler(dt),
+        Way::Damped | Way::FirstStage => Scheme::backward_euler(dt),
+        Way::SecondStage { whole_s } => Scheme::second_stage(whole_s),
+        Way::Multistep => Scheme::bdf2(dt, state.rope.earlier_dt_s),
     };
     let context = StepContext { model, state, scheme: &scheme };
     let solved = solve(&context, solver, near.as_deref_mut(), may_touch, audit)?;

@@ -1,7 +1,7 @@
 //! Divides the model's step into solver steps.
 //!
-//! A step of the model (`settings.step_s`, one input) is one solver step while the rope is free, or several where the model
-//! chooses them by their error (`step_control.rs`). Where rope may touch the whale or other rope a solver step is as long as keeps it nearly linear,
+//! A step of the model (`settings.step_s`, one input) is one solver step while the rope is free, or several where their error
+//! asks for it (`step_control.rs`), each then in two stages (`stages.rs`). Where rope may touch the whale or other rope a solver step is as long as keeps it nearly linear,
 //! at most `settings.contact_step_s`.
 //! It is halved where it does not converge or where a link would part late. Halving stops at `settings.least_step_s`,
 //! which ends the run.
@@ -16,7 +16,7 @@ use crate::cost::CostPart;
 use crate::model::{Model, Settings};
 use crate::remesh::remesh;
 use crate::state::{LimitedBy, State, StepControl, WhaleState};
-use crate::step_control;
+use crate::step_control::{self, Taken};
 use crate::whale::drive::pose_between;
 use crate::whale::hitch;
 use crate::whale::kinetic::pull::{RopeImpulse, Times, centre_of};
@@ -142,6 +142,7 @@ fn solver_steps(
     let start = settings.step_s * state.step as f64;
     let end = settings.step_s * (state.step + 1) as f64;
     let (mut halvings, mut refused) = (0_u32, LimitedBy::Convergence);
+    workspace.stages.clear();
     // Momentum goes from a line to the whale that it is made fast to by backward Euler, in steps as short as with contact.
     let (mut may_stay_clear, mut ropes_meet) = (near && !model.whale_is_towed(), false);
     while end - state.time_s > 1e-9 * settings.step_s {
@@ -158,10 +159,11 @@ fn solver_steps(
             chosen
         };
         let wanted = chosen / f64::from(1_u32 << halvings.min(30));
-        let dt = left / (left / wanted - 1e-9).ceil().max(1.0);
+        let whole = left / (left / wanted - 1e-9).ceil().max(1.0);
+        let (dt, way) = workspace.stages.next(state, whole, halvings > 0, !by_contact);
         workspace.solver.trial.hitches.span = [share(state.time_s), share(state.time_s + dt)];
         let earlier_dt = state.rope.earlier_dt_s;
-        let done = solver_step(model, state, workspace, dt, halvings > 0);
+        let done = solver_step(model, state, workspace, dt, way);
         if let (Err(_), Some(work)) = (&done, &mut workspace.contact) {
             work.near.go_back();
         }
@@ -177,8 +179,8 @@ fn solver_steps(
                 let limit = if halvings > 0 { refused } else { limit };
                 workspace.audit.limited_by[limit as usize] += 1;
                 halvings = halvings.saturating_sub(1);
-                if settings.auto_step
-                    && choose_next(model, state, kind, dt, earlier_dt)
+                let taken = workspace.stages.keep(state, way, kind, [earlier_dt, dt]);
+                if taken.is_some_and(|taken| choose_next(model, state, kind, taken))
                     && may_take_back
                 {
                     return Ok(false);
@@ -258,7 +260,8 @@ fn lengthen(settings: &Settings, control: &mut StepControl, dt: f64, missed: f64
 
 /// The longest solver step to try now, and what limits it.
 fn wanted(settings: &Settings, control: &StepControl, longest: f64) -> (f64, LimitedBy) {
-    if settings.auto_step && control.step_s > 0.0 && control.step_s < longest {
+    let is_shorter = control.step_s > 0.0 && control.step_s < longest;
+    if is_shorter || (control.in_two_stages() && control.step_s <= longest) {
         (control.step_s, control.limit)
     } else if longest < settings.step_s {
         (longest, LimitedBy::Contact)
@@ -268,16 +271,20 @@ fn wanted(settings: &Settings, control: &StepControl, longest: f64) -> (f64, Lim
 }
 
 /// Chooses the step after this one; whether this one should be taken back.
-fn choose_next(model: &Model, state: &mut State, kind: StepKind, dt: f64, earlier_dt: f64) -> bool {
+fn choose_next(model: &Model, state: &mut State, kind: StepKind, taken: Taken) -> bool {
+    if !step_control::chooses(model) {
+        return false;
+    }
     let settings = &model.spec.settings;
-    match kind {
-        StepKind::Parted => state
-            .step_control
-            .restart(step_control::PARTED_S.min(settings.step_s), LimitedBy::Parting),
-        StepKind::InContact { .. } => state
-            .step_control
-            .restart(settings.contact_step_s.min(settings.step_s), LimitedBy::Contact),
-        StepKind::Free => return step_control::choose(model, state, dt, earlier_dt),
+    let (restart_s, limit) = match kind {
+        StepKind::Free => return step_control::choose(model, state, taken),
+        StepKind::Parted => (step_control::PARTED_S, LimitedBy::Parting),
+        StepKind::InContact { .. } => (settings.contact_step_s, LimitedBy::Contact),
+    };
+    if settings.auto_step {
+        state.step_control.restart(restart_s.min(settings.step_s), limit);
+    } else {
+        state.step_control.restart(0.0, LimitedBy::Inputs);
     }
     false
 }

@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::audit::Audit;
 use super::peaks::{SpikeWatch, raise};
+use super::stages::Stages;
 use crate::contact::ContactPoint;
 use crate::contact::ropes::RopeTouch;
 use crate::contact::step_sums::StepSums;
@@ -35,6 +36,7 @@ pub struct Workspace {
     pub(crate) solver: Solver,
     pub(crate) contact: Option<ContactWorkspace>,
     pub(super) before: Option<State>,
+    pub(super) stages: Stages,
     pub(super) gear: GearWorkspace,
     pub(super) remesh: Option<RemeshWorkspace>,
     /// The whale at the start and at the end of the step.
@@ -60,6 +62,7 @@ impl Workspace {
             solver: Solver::new(model),
             contact: ContactWorkspace::new(model),
             before: None,
+            stages: Stages::new(model),
             gear: GearWorkspace::default(),
             remesh: RemeshWorkspace::new(model),
             whale: None,

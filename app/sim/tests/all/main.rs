@@ -15,5 +15,6 @@ mod rope_law;
 mod ropes;
 mod solids;
 mod sound;
+mod step_accuracy;
 mod water;
 mod whale;
