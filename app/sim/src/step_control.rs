@@ -13,7 +13,7 @@
 //! | two stages | 0.0404 | 0.0404 - 1/12 |
 //!
 //! An error of place stays where nothing drags: a swing goes on with the phase that it was given. Without water its rate is
-//! therefore bounded at any setting, and steps are taken in two stages, up to two for each input, where BDF2 misses it.
+//! therefore bounded at any setting, and steps are taken in two stages, down to [`STAYING_S`], where BDF2 misses it.
 //! Water drags, and rope forgets within a second; so it does on the seabed.
 //!
 //! With `auto_step` the rate is bounded in water too, as finely as waves along a rope need, and so is the tension.
@@ -27,7 +27,7 @@ use crate::state::{BodyState, LimitedBy, State};
 
 /// Error of place wanted in a second, with `auto_step` [m/s].
 pub const PLACE_M_S: f64 = 1e-3;
-/// The same without water, where it stays, as far as [`MOST_PARTS`] allows [m/s].
+/// The same without water, where it stays, as far as steps of [`STAYING_S`] allow [m/s].
 pub const STAYING_M_S: f64 = 1e-4;
 /// Error of tension wanted in a step, as a share of the greatest tension.
 pub const TENSION_SHARE: f64 = 0.02;
@@ -37,8 +37,8 @@ pub const TENSION_N: f64 = 5.0;
 pub const SHORTEST_S: f64 = 1e-4;
 /// Step after something parted [s].
 pub const PARTED_S: f64 = 5e-4;
-/// Steps in two stages for each input, at most, for the sake of an error that stays.
-pub const MOST_PARTS: f64 = 2.0;
+/// Shortest step in two stages for the sake of an error that stays; a shorter step between inputs was set on purpose [s].
+pub const STAYING_S: f64 = 5e-3;
 /// Density of water below which nothing drags; air has 1.2 [kg/m³].
 const NO_DRAG_KG_M3: f64 = 10.0;
 /// Error of place in a second of BDF2 and of a step in two stages, as a share of `h² x‴`.
@@ -72,7 +72,8 @@ pub(crate) struct Taken {
 
 /// Whether the program chooses steps of free rope in this model.
 pub(crate) fn chooses(model: &Model) -> bool {
-    model.spec.settings.auto_step || errors_stay(model)
+    let settings = &model.spec.settings;
+    settings.auto_step || (settings.step_s >= STAYING_S && errors_stay(model))
 }
 
 /// Whether an error of place stays because nothing drags.
@@ -147,7 +148,7 @@ fn lengths(model: &Model, jerk: f64) -> Lengths {
     if errors_stay(model) {
         let [of_multistep, of_two_stages] = PLACE_SHARE.map(|share| length(STAYING_M_S, share));
         multistep = multistep.min(of_multistep);
-        in_two_stages = in_two_stages.min(of_two_stages.max(settings.step_s / MOST_PARTS));
+        in_two_stages = in_two_stages.min(of_two_stages.max(STAYING_S));
     }
     Lengths { multistep, in_two_stages }
 }
