@@ -15,6 +15,8 @@
 
 /// Least distance as a share of the contact distance.
 const LEAST_SHARE: f64 = 0.25;
+/// `u` where the centre line meets the skin.
+const AT_SKIN: f64 = 1.0 / (1.0 - LEAST_SHARE);
 /// `b`, by which the skin stiffens.
 const STIFFENING: f64 = 10.0;
 /// Share of the way to the least distance from which the law counts as steep.
@@ -88,10 +90,11 @@ fn room_of(contact_distance: f64) -> f64 {
     contact_distance * (1.0 - LEAST_SHARE)
 }
 
-/// Push and its growth with `u`, in units of `l K D`.
+/// Push and its growth with `u`, in units of `l K D`; beyond the skin itself it goes on as a straight line, so that a bad guess has a finite force.
 fn law(u: f64) -> (f64, f64) {
-    let growth = libm::exp(STIFFENING * u);
-    ((growth - 1.0) / STIFFENING, growth)
+    let within = u.min(AT_SKIN);
+    let growth = libm::exp(STIFFENING * within);
+    ((growth - 1.0) / STIFFENING + (u - within) * growth, growth)
 }
 
 #[cfg(test)]
@@ -124,6 +127,8 @@ mod tests {
             assert!((growth / here.stiffness - 1.0).abs() < 1e-4, "{distance}");
         }
         assert_eq!(BarrierForce::new(0.006, 0.006, 5e4), BarrierForce::default());
+        let beyond = BarrierForce::new(-1e3, 0.006, 5e4);
+        assert!(beyond.force.is_finite() && beyond.stiffness.is_finite());
     }
 
     #[test]
