@@ -92,6 +92,20 @@ fn a_case_comes_as_json_with_orders_of_convergence() {
     assert!((order - 2.0).abs() < 0.1, "lumped mass is second order in space: {order}");
 }
 
+/// The page and its plots are written where no font of the system is known.
+#[test]
+fn the_page_of_cases_has_plots_with_text() {
+    let place = Place::new("case-page");
+    let page = place.path("validation.md");
+    let (library, written) = (text(&library()), text(&page));
+    place
+        .endline(&["--library", &library, "validate", "reference-a-20", "--write", &written])
+        .done();
+    assert!(std::fs::read_to_string(&page).unwrap().contains("validation/reference-a-20.svg"));
+    let plot = place.path("pictures/validation/reference-a-20.svg");
+    assert!(std::fs::read_to_string(plot).unwrap().contains("<text"));
+}
+
 /// Faults of a case file are told with file, line and what was expected; `check` and `validate` say the same.
 #[test]
 fn faults_of_a_case_are_told_where_they_stand() {

@@ -11,7 +11,7 @@ static FONT: &[u8] = include_bytes!("../../../../assets/fonts/Ubuntu-Light.ttf")
 ///
 /// # Errors
 /// Where the drawing library cannot read the font.
-pub(super) fn register() -> Result<(), String> {
+pub fn register() -> Result<(), String> {
     static REGISTERED: LazyLock<bool> = LazyLock::new(|| {
         [FontStyle::Normal, FontStyle::Bold, FontStyle::Italic, FontStyle::Oblique]
             .into_iter()

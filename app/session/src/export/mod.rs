@@ -5,11 +5,12 @@
 //! | [`chart`] | what is plotted of a run, as data; as a table of points | `csv` |
 //! | [`picture`] | charts drawn | `svg`, `png` |
 //! | [`model`] | gear and whale as 3-D models | `stl`, `glb` |
+//! | [`font`] | the font of all of them | |
 //!
 //! Tables of the library are read and written by [`edit::library_table`](crate::edit::library_table).
 
 pub mod chart;
-mod font;
+pub mod font;
 pub mod model;
 pub mod picture;
 

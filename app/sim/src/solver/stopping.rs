@@ -45,8 +45,9 @@ const BENT_LEFT_M: f64 = 1e-5;
 
 /// Most passes in contact, and as many again once further contact points are opened.
 const MOST_PASSES: usize = 8;
-/// Most passes of a free step.
-const MOST_FREE_PASSES: usize = 40;
+/// Most passes of a free step: as many as this for so many segments, for slack runs along rope segment by segment, and within these bounds.
+const SEGMENTS_FOR_A_PASS: usize = 12;
+const MOST_FREE_PASSES: [usize; 2] = [12, 40];
 /// Most passes of a step in two stages that was made as short as [`SHORT_S`]: hard rope falls slack segment by segment, one in each pass.
 const MOST_SHORT_FREE_PASSES: usize = 80;
 /// Most passes where rope resists bending.
@@ -133,7 +134,10 @@ impl Stopping {
             (false, true) if scheme.dt <= SHORT_S => MOST_SHORT_PASSES,
             (false, true) => MOST_PASSES,
             (false, false) if in_stages && scheme.dt <= SHORT_S => MOST_SHORT_FREE_PASSES,
-            (false, false) => MOST_FREE_PASSES,
+            (false, false) => {
+                let [least, most] = MOST_FREE_PASSES;
+                (model.segment_count / SEGMENTS_FOR_A_PASS).clamp(least, most)
+            }
         };
         Self {
             in_contact,

@@ -8,7 +8,8 @@
 use glam::{DAffine3, DQuat, DVec3};
 
 use super::kinetic::dead::drift;
-use super::kinetic::swim::{self, Wish, swim};
+use super::kinetic::out::weight_out;
+use super::kinetic::swim::{self, Surroundings, Wish, swim};
 use super::pose::pose;
 use crate::model::{Model, Whale};
 use crate::state::WhaleState;
@@ -54,7 +55,9 @@ pub(crate) fn drive(
                 turn_rate,
                 burst: input.controls.burst,
             };
-            swim(model, kinetic, &wish, whale, time_s, next, hull_scratch);
+            let out = weight_out(model, kinetic, whale, time_s, hull_scratch);
+            let current_m_s = model.sea.current(whale.position, time_s);
+            swim(model, kinetic, &wish, whale, Surroundings { out, current_m_s }, next);
         }
         None => go(model, &asked, whale, time_s, next),
     }

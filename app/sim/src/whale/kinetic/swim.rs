@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 
 use super::drag::{coast, drag_n};
 use super::muscle::Asked;
-use super::out::{Weight, weight_out};
+use super::out::Weight;
 use super::{Exertion, Kinetic};
 use crate::model::Model;
 use crate::state::WhaleState;
@@ -22,6 +22,15 @@ pub(crate) struct Wish {
     pub burst: f64,
 }
 
+/// What the sea does to it over a step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Surroundings {
+    /// Weight of what is out of the water.
+    pub out: Weight,
+    /// Velocity of the water where it is [m/s].
+    pub current_m_s: DVec3,
+}
+
 /// The speed that is reported to a motion: what it asked for, or what the whale has where that is more.
 ///
 /// What gear takes off is not reported: it would be asked back at once, whatever the effort.
@@ -29,19 +38,16 @@ pub(crate) fn reported_speed(whale: &WhaleState) -> f64 {
     whale.speed_m_s.max(whale.exertion.asked_speed_m_s)
 }
 
-/// Moves `next`, which has the posture of the step's end and all else as in `whale`, over a step of length `dt`; `hull_scratch` is scratch
-/// of its hull.
+/// Moves `next`, which has the posture of the step's end and all else as in `whale`, over a step of length `dt`.
 pub(crate) fn swim(
     model: &Model,
     kinetic: &Kinetic,
     wish: &Wish,
     whale: &WhaleState,
-    time_s: f64,
+    Surroundings { out, current_m_s }: Surroundings,
     next: &mut WhaleState,
-    hull_scratch: &mut Vec<DVec3>,
 ) {
     let dt = model.spec.settings.step_s;
-    let out = weight_out(model, kinetic, whale, time_s, hull_scratch);
     let (thrust_n, speed_m_s) = ahead(model, kinetic, wish, whale, next.posture.jaw, out.force.x);
     let turn_rate = turned(model, kinetic, wish, whale, &out);
     next.orientation = (whale.orientation
@@ -51,9 +57,7 @@ pub(crate) fn swim(
     let slip_m_s = sideways(model, kinetic, whale, middle, out.force);
     let mean = DVec3::new(0.5 * (whale.speed_m_s + speed_m_s), slip_m_s[0], slip_m_s[1]);
     let centre = whale.position + whale.orientation * kinetic.centre_m;
-    let centre = centre
-        + whale.exertion.behind_m
-        + (middle * mean + model.sea.current(whale.position, time_s)) * dt;
+    let centre = centre + whale.exertion.behind_m + (middle * mean + current_m_s) * dt;
     next.position = centre - next.orientation * kinetic.centre_m;
     next.speed_m_s = speed_m_s;
     next.turn_rate = turn_rate;

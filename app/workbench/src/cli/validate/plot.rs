@@ -1,6 +1,7 @@
 //! Plots of a case as SVG: readings over time beside what is expected, or simulated over measured.
 
 use endline_session::cases::{Curve, Outcome, Point};
+use endline_session::export::font;
 use endline_session::scales::SERIES_ON_WHITE;
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -21,6 +22,7 @@ pub(super) fn picture(outcome: &Outcome) -> Result<Option<String>, String> {
     if panels == 0 {
         return Ok(None);
     }
+    font::register()?;
     let mut text = String::new();
     {
         let height = PANEL.1 * u32::try_from(panels).unwrap_or(1);
