@@ -1,9 +1,9 @@
 //! Newton's method for one solver step, whatever touches the rope: water and seabed alone, obstacles and bodies, other rope, skin.
 //!
 //! From the guess `x + h v` a pass measures push and friction of every contact point and takes them as linear. With them in it, rope is solved
-//! until the segments that pull are those that are taut by the solution and their tension is the law's where the trial then stands; a turn of
-//! a short slack segment stretches it to second order, which the next solution mends without measuring contact anew. In a step short enough
-//! the balance is nearly linear, and one pass or two reach it.
+//! until the segments that pull are those that are taut by the solution, and tension and push are the laws' where the trial then stands. A turn of
+//! a short slack segment stretches it to second order, and skin stiffens as it is pressed: the next solution mends both without measuring contact
+//! anew. In a step short enough the balance is nearly linear, and one pass or two reach it.
 //!
 //! When passes stop is decided in `stopping.rs`. A step that has not converged is made shorter (`step/substeps.rs`). No path is looked at here:
 //! whether the step leads through skin or rope is judged by where it ends (`step/contact.rs`).
