@@ -72,6 +72,12 @@ pub struct RunRule {
     pub held_s: f64,
 }
 
+impl Default for RunRule {
+    fn default() -> Self {
+        Self { passed_s: 30.0, held_s: 30.0 }
+    }
+}
+
 /// When the study has seen enough.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Enough {
@@ -192,7 +198,7 @@ fn encounters(fields: &Fields<'_>) -> Option<u64> {
 
 /// `[run]`: when a run ends.
 fn run_rule(fields: &Fields<'_>) -> RunRule {
-    let usual = RunRule { passed_s: 30.0, held_s: 30.0 };
+    let usual = RunRule::default();
     let Some(table) = fields.table("run") else { return usual };
     let passed = table.value("passed", Quantity::Time, Range::Positive);
     let held = table.value("held", Quantity::Time, Range::Positive);

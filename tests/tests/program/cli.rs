@@ -154,6 +154,22 @@ fn a_run_refuses_unsettled_gear_unless_told() {
     assert_eq!(told["valid"], true);
 }
 
+/// A whale that swims away from the gear touches nothing: the run is over after half a minute, and its recording is as long.
+#[test]
+fn a_run_ends_when_it_is_over_if_told() {
+    let place = Place::new("over");
+    let scenario = place.short_scenario("hello-endline", "40 s");
+    edit(scenario.as_ref(), "heading", "heading = \"180 deg\"");
+    let folder = place.path("out").display().to_string();
+    let told = place.endline(&["run", &scenario, "--json", "--until-over", "--out", &folder]);
+    let seconds = |json: &Value| json["simulated_s"].as_f64().unwrap();
+    assert!((seconds(&told.done().json()) - 30.0).abs() < 1e-9);
+    let recording = format!("{folder}/recording.endline");
+    place.endline(&["replay", &recording, "--verify"]).done();
+    let whole = place.endline(&["run", &scenario, "--json"]).done().json();
+    assert!((seconds(&whole) - 40.0).abs() < 1e-9);
+}
+
 #[test]
 fn wrong_use_ends_with_2() {
     let place = Place::new("use");

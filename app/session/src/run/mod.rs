@@ -1,6 +1,7 @@
 //! A run: a settled model stepped through time, measured and recorded on the way.
 
 mod moment;
+mod over;
 
 use std::ops::Range;
 use std::sync::Arc;

@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use endline_sim::metrics::{Outcome, Summary};
+use endline_sim::metrics::Summary;
 
 use crate::error::Error;
 use crate::report::Report;
@@ -17,9 +17,6 @@ use super::open::Opened;
 use super::ready::Ready;
 use super::row::row;
 use super::table::Row;
-
-/// How often a run is asked whether it is over [Hz].
-const LOOKS_HZ: f64 = 2.0;
 
 /// A run has stuck where its solver tried this many times the steps of its whole duration in contact: in the few that do,
 /// rope is wedged so that only steps of a millionth of a second go through.
@@ -144,7 +141,6 @@ impl Opened {
 
     /// Takes a run to its end, looking at it now and then.
     fn to_its_end(&self, run: &mut Run, mut look: impl FnMut(&Run)) {
-        let stride = (1.0 / (LOOKS_HZ * run.step_s())).round().max(1.0) as u64;
         let settings = &run.model().spec.settings;
         let usual = settings.duration_s / settings.contact_step_s.min(settings.step_s);
         let [most_steps, most_passes] = [STUCK, STUCK_PASSES].map(|times| (times * usual) as u64);
@@ -154,25 +150,11 @@ impl Opened {
                 run.give_up("it sticks: hardly a step of the solver goes through");
                 break;
             }
-            if run.state().step.is_multiple_of(stride) {
+            if run.is_time_to_look() {
                 look(run);
-                if self.is_over(run) {
+                if run.is_over(&self.study.run) {
                     break;
                 }
-            }
-        }
-    }
-
-    /// Whether nothing more can happen that counts.
-    fn is_over(&self, run: &Run) -> bool {
-        let (rule, now) = (self.study.run, run.state().time_s);
-        let Some(whale) = run.summary().whale else { return false };
-        match whale.outcome {
-            Outcome::NoContact => now >= rule.passed_s,
-            Outcome::Shed | Outcome::PartedFree => whale.decided,
-            Outcome::Entangled | Outcome::PartedEntangled => {
-                whale.decided
-                    && whale.first_contact_s.is_some_and(|first| now - first >= rule.held_s)
             }
         }
     }

@@ -73,6 +73,9 @@ pub(super) struct RunArgs {
     /// Print the result as one JSON object.
     #[arg(long)]
     pub(super) json: bool,
+    /// End the run once nothing more can happen that counts: no touch within 30 s, gear shed, or 30 s of entanglement.
+    #[arg(long)]
+    pub(super) until_over: bool,
     /// Start the run even if statics finds no rest position of the gear.
     #[arg(long = "allow-unsettled", alias = "unsettled")]
     pub(super) unsettled: bool,

@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::process::ExitCode;
 
+use endline_gear::RunRule;
 use endline_session::recording::take_over::take_over;
 use endline_session::{Prepared, Recording, Report, Run, RunOptions, prepare};
 
@@ -23,7 +24,12 @@ pub(super) fn run(args: &RunArgs, library: Option<&Path>) -> Result<ExitCode, Fa
     let prepared = prepare(&args.scenario, library, &host, over)?;
     let mut run = started(args, recording.as_ref(), prepared)?;
     let progress = Progress::new("running");
-    run.to_end(|step, steps| progress.at(step, steps));
+    let tell = |step, steps| progress.at(step, steps);
+    if args.until_over {
+        run.to_end_or_over(&RunRule::default(), tell);
+    } else {
+        run.to_end(tell);
+    }
     drop(progress);
 
     let report = Report::from_run(&run);

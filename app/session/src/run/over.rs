@@ -1,0 +1,44 @@
+//! When nothing more can happen in a run that counts.
+
+use endline_gear::RunRule;
+use endline_sim::metrics::Outcome;
+
+use super::Run;
+
+/// How often a run is asked whether it is over [Hz].
+const LOOKS_HZ: f64 = 2.0;
+
+impl Run {
+    /// Whether the whale has passed, has shed the gear, or has been followed for long enough with it.
+    ///
+    /// A run without a whale is never over before its time.
+    #[must_use]
+    pub fn is_over(&self, rule: &RunRule) -> bool {
+        let now = self.state.time_s;
+        let Some(whale) = self.summary().whale else { return false };
+        match whale.outcome {
+            Outcome::NoContact => now >= rule.passed_s,
+            Outcome::Shed | Outcome::PartedFree => whale.decided,
+            Outcome::Entangled | Outcome::PartedEntangled => {
+                whale.decided
+                    && whale.first_contact_s.is_some_and(|first| now - first >= rule.held_s)
+            }
+        }
+    }
+
+    /// Whether it is time to ask whether the run is over.
+    pub(crate) fn is_time_to_look(&self) -> bool {
+        let stride = (1.0 / (LOOKS_HZ * self.step_s())).round().max(1.0) as u64;
+        self.state.step.is_multiple_of(stride)
+    }
+
+    /// Runs by the pilot program until it is over, to the end of the scenario or to a stop, telling the steps taken and in all.
+    pub fn to_end_or_over(&mut self, rule: &RunRule, mut progress: impl FnMut(u64, u64)) {
+        while !self.finished() && self.step(self.pilot()).is_ok() {
+            progress(self.state.step, self.steps_in_all());
+            if self.is_time_to_look() && self.is_over(rule) {
+                return;
+            }
+        }
+    }
+}
