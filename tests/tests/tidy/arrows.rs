@@ -22,7 +22,11 @@ const WALLS: [Wall; 8] = [
     Wall { folder: "plugins/friction-models", ours: &["endline-sdk"], outside: Some(&["libm"]) },
     Wall { folder: "plugins/gear-types", ours: &["endline-sdk"], outside: Some(&["libm"]) },
     Wall { folder: "plugins/whale-motions", ours: &["endline-sdk"], outside: Some(&["libm"]) },
-    Wall { folder: "app/sim", ours: &["endline-sdk"], outside: Some(&["glam", "libm", "pulp"]) },
+    Wall {
+        folder: "app/sim",
+        ours: &["endline-sdk"],
+        outside: Some(&["glam", "libm", "parry3d", "pulp"]),
+    },
     Wall {
         folder: "gear-library",
         ours: &["endline-sdk", "endline-sim"],
