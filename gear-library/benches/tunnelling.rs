@@ -2,12 +2,14 @@
 //!
 //! The numbers after `--` are how many encounters, and the first of them (usually 10,000 from 0). The same encounters are run
 //! with tests at the end of each step alone, as many as a tenth of them (`docs/lab-notebook.md`, Tunnelling); the word `swept` leaves these out.
+//! With the word `bodies` it is buoys and traps that meet pieces of all of the skin.
 
 #[path = "../tests/all/fins/mod.rs"]
 mod fins;
 
 use cpu_time::ProcessTime;
 use fins::Fins;
+use fins::bodies::{self, Pieces};
 use fins::tally::Tally;
 
 /// Encounters between two lines of the report.
@@ -17,11 +19,27 @@ fn main() {
     let words: Vec<String> = std::env::args().skip(1).collect();
     let mut asked = words.iter().filter_map(|word| word.parse::<u64>().ok());
     let (count, first) = (asked.next().unwrap_or(10_000), asked.next().unwrap_or(0));
+    if words.iter().any(|word| word == "bodies") {
+        return meetings(first..first + count);
+    }
     let fins = Fins::new();
     if !words.iter().any(|word| word == "swept") {
         run("discrete", &fins, first..first + count / 10, false);
     }
     run("swept", &fins, first..first + count, true);
+}
+
+/// Buoys and traps in place of rope: a tenth of the meetings with discrete tests, all along every path.
+fn meetings(numbers: std::ops::Range<u64>) {
+    let pieces = Pieces::new();
+    let tenth = numbers.start..numbers.start + (numbers.end - numbers.start) / 10;
+    for (name, numbers, swept) in [("discrete", tenth, false), ("swept", numbers, true)] {
+        let (start, mut tally) = (ProcessTime::now(), bodies::Tally::default());
+        for number in numbers {
+            tally.add(number, pieces.meeting(number, swept));
+        }
+        println!("{name}: {tally:?}, {:.1} s", start.elapsed().as_secs_f64());
+    }
 }
 
 fn run(name: &str, fins: &Fins, numbers: std::ops::Range<u64>, swept: bool) {

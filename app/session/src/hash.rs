@@ -8,7 +8,8 @@
 
 use endline_sdk::{Controls, Posture};
 use endline_sim::state::{
-    BodyState, FrictionState, RopeGrip, RopeState, SolidGrip, StepControl, WhaleState,
+    BodyGrip, BodyGrips, BodyState, FrictionState, RopeGrip, RopeState, SolidGrip, StepControl,
+    WhaleState,
 };
 use endline_sim::whale::Exertion;
 use endline_sim::{DQuat, DVec3, Input, State};
@@ -38,6 +39,7 @@ impl StateHash {
             step,
             rope,
             bodies,
+            body_grips,
             whale,
             link_parted_s,
             line_parted,
@@ -53,6 +55,7 @@ impl StateHash {
         for body in bodies {
             fold_body(body, rigid);
         }
+        fold_body_grips(body_grips, contact);
         if let Some(whale) = whale {
             fold_whale(whale, animal, contact);
         }
@@ -89,6 +92,17 @@ pub fn input_hash(input: &Input) -> u64 {
     let mut fold = Fold::new();
     fold.controls(&input.controls);
     fold.0
+}
+
+fn fold_body_grips(BodyGrips { contacts, floats }: &BodyGrips, contact: &mut Fold) {
+    if contacts.is_empty() {
+        return;
+    }
+    for BodyGrip { body, place, normal } in contacts {
+        contact.word(*body as u64);
+        contact.vectors(&[*place, *normal]);
+    }
+    contact.reals(floats);
 }
 
 fn fold_rope(rope: &RopeState, ropes: &mut Fold, contact: &mut Fold, links: &mut Fold) {

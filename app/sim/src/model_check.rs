@@ -252,7 +252,13 @@ fn check_whale(spec: &ModelSpec, found: &mut Found) {
         rows && !friction.laws.is_empty(),
         "friction needs a row of laws for each rope, each one of its laws",
     );
-    let sound =
-        friction.coefficients.iter().flatten().all(|value| value.is_finite() && *value >= 0.0);
+    found.need(
+        friction.law_of_bodies.iter().all(|law| *law < friction.laws.len()),
+        "friction of bodies names a law that is not there",
+    );
+    let coefficients = friction.coefficients.iter().flatten();
+    let sound = coefficients
+        .chain(&friction.coefficients_of_bodies)
+        .all(|value| value.is_finite() && *value >= 0.0);
     found.need(sound, "a coefficient of friction is below zero or not finite");
 }

@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::model::{Body, JointKind, Model, Whale};
 use crate::solver::LOOSE_M;
 use crate::state::{
-    BodyState, FrictionState, PilotMemory, RopeState, State, StepControl, WhaleState,
+    BodyGrips, BodyState, FrictionState, PilotMemory, RopeState, State, StepControl, WhaleState,
 };
 use crate::whale::Exertion;
 use crate::whale::pilot;
@@ -41,6 +41,7 @@ impl State {
             rope,
             bodies: model.spec.bodies.iter().map(body_at_start).collect(),
             whale: model.spec.whale.as_ref().map(whale_at_start),
+            body_grips: BodyGrips::default(),
             link_parted_s: vec![None; model.spec.links.len()],
             line_parted: vec![None; model.spec.lines.len()],
             gear: model

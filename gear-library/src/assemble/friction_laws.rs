@@ -4,7 +4,7 @@
 //! Its attributes are the model's own defaults, over them what the file of the rope's material says, over that the scenario.
 
 use endline_sdk::Region;
-use endline_sim::model::{Friction, FrictionLaw};
+use endline_sim::model::{BODY_ON_SKIN_FRICTION, Friction, FrictionLaw};
 
 use crate::attributes::Attributes;
 use crate::diagnostic::At;
@@ -15,6 +15,9 @@ use crate::schema::Kind;
 
 use super::attributes::numbers;
 use super::builder::Builder;
+
+/// Id of the file of friction that holds for traps, buoys and anchors.
+const BODIES: &str = "bodies";
 
 impl Builder<'_> {
     /// The friction of every rope on a whale: the laws, and the table of coefficients, rope by region.
@@ -31,8 +34,13 @@ impl Builder<'_> {
         if !self.all_models_are_there(choice) {
             return;
         }
-        let mut friction =
-            Friction { laws: Vec::new(), law_of: Vec::new(), coefficients: Vec::new() };
+        let mut friction = Friction {
+            laws: Vec::new(),
+            law_of: Vec::new(),
+            coefficients: Vec::new(),
+            law_of_bodies: [0; Region::ALL.len()],
+            coefficients_of_bodies: [BODY_ON_SKIN_FRICTION; Region::ALL.len()],
+        };
         for material in self.materials.clone() {
             match self.library.frictions.iter().find(|friction| friction.entry.id == material.value)
             {
@@ -46,12 +54,26 @@ impl Builder<'_> {
                 None => self.no_item(Kind::Friction, &material.value, &material.place),
             }
         }
+        self.add_friction_of_bodies(choice, &mut friction);
         if friction.laws.is_empty() {
             // Nothing here can touch the whale, yet the model is known by its plugin.
             let attributes = Attributes::default().over(&choice.attributes);
             friction.laws.extend(self.resolved(&choice.model.value, &attributes));
         }
         self.spec.friction = Some(friction);
+    }
+
+    /// The friction of traps, buoys and anchors on a whale, where the library has figures of it.
+    fn add_friction_of_bodies(&mut self, choice: &FrictionChoice, friction: &mut Friction) {
+        let files = &self.library.frictions;
+        let Some(file) = files.iter().find(|file| file.entry.id == BODIES) else { return };
+        if self.spec.bodies.is_empty() {
+            return;
+        }
+        self.uses(&file.entry.path);
+        friction.coefficients_of_bodies = file.coefficients;
+        friction.law_of_bodies =
+            Region::ALL.map(|region| self.law(choice, file, region, &mut friction.laws));
     }
 
     fn all_models_are_there(&self, choice: &FrictionChoice) -> bool {

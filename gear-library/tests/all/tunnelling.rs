@@ -7,6 +7,7 @@
 use std::ops::Range;
 
 use crate::fins::Fins;
+use crate::fins::bodies::{self, Pieces};
 use crate::fins::tally::Tally;
 
 const ENCOUNTERS: u64 = 10_000;
@@ -26,6 +27,24 @@ fn fast_taut_rope_crosses_no_edge() {
     assert!(swept.ended <= ENCOUNTERS / 500, "{swept:?}");
     assert!(swept.unconverged < swept.solver_steps / 10, "{swept:?}");
     assert!(discrete.crossed > DISCRETE * 7 / 10, "what the sweep is for: {discrete:?}");
+}
+
+const MEETINGS: u64 = 1_000;
+
+#[test]
+fn no_body_goes_through_skin() {
+    let pieces = Pieces::new();
+    let run = |numbers: Range<u64>, swept: bool| {
+        let mut tally = bodies::Tally::default();
+        numbers.for_each(|number| tally.add(number, pieces.meeting(number, swept)));
+        tally
+    };
+    let (swept, discrete) = (run(0..MEETINGS, true), run(0..DISCRETE, false));
+    println!("{swept:?}\nwith discrete tests: {discrete:?}");
+    assert!(swept.met > MEETINGS * 8 / 10, "most are met: {swept:?}");
+    assert_eq!(swept.crossed, 0, "{swept:?}");
+    assert!(swept.ended <= MEETINGS / 500, "{swept:?}");
+    assert!(discrete.crossed > DISCRETE / 10, "what the path is looked at for: {discrete:?}");
 }
 
 /// Encounters of these numbers, in parts of which one runs beside the other.

@@ -29,6 +29,15 @@ pub static AUDIT: &[Figure<Report>] = &[
     )
     .shown(&[Table]),
     Figure::new(
+        "bodies_crossed",
+        "bodies through skin",
+        "Times a buoy, trap or anchor passed through skin.",
+        Quantity::Count,
+        |run: &Report| run.audit.bodies_crossed.into(),
+    )
+    .shown(&[Table])
+    .alarming(),
+    Figure::new(
         "ropes_crossed",
         "rope through rope",
         "Times rope passed through rope.",

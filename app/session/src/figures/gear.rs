@@ -1,5 +1,6 @@
 //! Figures of lines, weak links, bodies and probes.
 
+use endline_sdk::BodyPart;
 use endline_sim::metrics::{BodySummary, LineSummary, LinkSummary, ProbeSummary, Summary};
 
 use super::View::{Compare, Summary as InSummary, Table};
@@ -177,6 +178,58 @@ pub static BODY: &[Figure<BodySummary>] = &[
         "Drag of the water on it at the end.",
         Quantity::ForceVector,
         |body: &BodySummary| body.drag_n.into(),
+    ),
+    Figure::new(
+        "whale_part",
+        "on the whale's",
+        "Part of the whale that it presses on at the end; none where it does not.",
+        Quantity::Name,
+        |body: &BodySummary| body.on_whale.part.map(BodyPart::name).into(),
+    )
+    .shown(&[Table]),
+    Figure::new(
+        "whale_since_s",
+        "on the whale since",
+        "Since when it has touched the whale, gaps below a second left out; none where it does not at the end.",
+        Quantity::Moment,
+        |body: &BodySummary| body.on_whale.since_s.into(),
+    ),
+    Figure::new(
+        "whale_contact_time_s",
+        "time on the whale",
+        "Time with it touching the whale.",
+        Quantity::Duration,
+        |body: &BodySummary| body.on_whale.contact_time_s.into(),
+    )
+    .shown(&[Table]),
+    Figure::new(
+        "caught",
+        "caught on the whale",
+        "Whether it has been on the whale for 5 s at the end.",
+        Quantity::Flag,
+        |body: &BodySummary| body.on_whale.caught.into(),
+    ),
+    Figure::new(
+        "peak_whale_push_N",
+        "greatest push on the whale",
+        "Greatest sum of its pushes on skin in any solver step.",
+        Quantity::Force,
+        |body: &BodySummary| body.on_whale.peak_n.into(),
+    )
+    .shown(&[Table]),
+    Figure::new(
+        "peak_whale_part",
+        "greatest push on",
+        "Part of the whale that it pressed on then.",
+        Quantity::Name,
+        |body: &BodySummary| body.on_whale.peak_part.map(BodyPart::name).into(),
+    ),
+    Figure::new(
+        "whale_friction_work_J",
+        "friction work on the whale",
+        "Work done against friction on skin.",
+        Quantity::Work,
+        |body: &BodySummary| body.on_whale.friction_work_j.into(),
     ),
 ];
 

@@ -21,6 +21,8 @@ pub fn reasons(stopped: Option<&str>, audit: &Audit, whale: Option<&WhaleSummary
         .then(|| format!("rope passed through skin {}", times(audit.tunnelled)));
     let broken = (audit.non_finite > 0)
         .then(|| format!("numbers were not finite {}", times(audit.non_finite)));
+    let body = (audit.bodies_crossed > 0)
+        .then(|| format!("a body passed through skin {}", times(audit.bodies_crossed)));
     let through = (audit.ropes_crossed > 0)
         .then(|| format!("rope passed through rope {}", times(audit.ropes_crossed)));
     let parted = (audit.unconverged_parted > 0).then(|| {
@@ -29,10 +31,20 @@ pub fn reasons(stopped: Option<&str>, audit: &Audit, whale: Option<&WhaleSummary
             times(audit.unconverged_parted)
         )
     });
-    [stopped, crossed, through, broken, unconverged(audit), parted, spikes(audit), pressed(whale)]
-        .into_iter()
-        .flatten()
-        .collect()
+    [
+        stopped,
+        crossed,
+        body,
+        through,
+        broken,
+        unconverged(audit),
+        parted,
+        spikes(audit),
+        pressed(whale),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
 }
 
 /// Whether a count passes its share of all, and with it the share.

@@ -177,7 +177,10 @@ fn same_whale(one: &ModelSpec, other: &ModelSpec) -> bool {
                 a.model.descriptor().id == b.model.descriptor().id && a.attributes == b.attributes
             };
             let laws = a.laws.len() == b.laws.len() && a.laws.iter().zip(&b.laws).all(same_law);
-            laws && a.law_of == b.law_of && a.coefficients == b.coefficients
+            laws && a.law_of == b.law_of
+                && a.coefficients == b.coefficients
+                && a.law_of_bodies == b.law_of_bodies
+                && a.coefficients_of_bodies == b.coefficients_of_bodies
         }
         (None, None) => true,
         _ => false,

@@ -2,9 +2,11 @@
 
 mod account;
 pub(crate) mod barrier;
+pub mod bodies;
 mod crease;
 pub mod crossing;
 pub mod distance;
+pub(crate) mod friction_arrays;
 mod grain;
 mod kept;
 pub(crate) mod near;

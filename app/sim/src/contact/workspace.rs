@@ -6,10 +6,11 @@ use glam::{DAffine3, DMat3, DVec3};
 
 use super::ContactPoint;
 use super::barrier::PINCHED_SHARE;
+use super::friction_arrays::Failed;
 use super::grain::Grains;
 use super::near::{MARGIN_M, Near};
 use super::points::{SkinContactPoint, SkinContactPoints};
-use super::skin_friction::{Failed, Touching};
+use super::skin_friction::Touching;
 use super::touch::Touch;
 use crate::model::{Friction, Model};
 use crate::solver::ContactMissed;
@@ -68,12 +69,9 @@ impl ContactWorkspace {
     /// Push and friction of every contact as measured last, with its block as noted.
     pub fn contacts(&self) -> impl Iterator<Item = (&SkinContactPoint, DVec3, &DMat3)> {
         let Self { points, touching, .. } = self;
-        touching
-            .point
-            .iter()
-            .zip(&touching.block)
-            .enumerate()
-            .map(|(place, (index, block))| (&points.list[*index], touching.force_of(place), block))
+        touching.point.iter().zip(&touching.block).enumerate().map(|(place, (index, block))| {
+            (&points.list[*index], touching.arrays.force_of(place), block)
+        })
     }
 
     /// The same, linear about where it was measured (`before`), with the rope at other places.
@@ -94,7 +92,7 @@ impl ContactWorkspace {
         for (place, index) in touching.point.iter().enumerate() {
             let step = points.list[*index].on_rope(|node| places[node] - before[node]);
             let gap_n = points.law_missed(*index, touching.face[place], step);
-            let force = touching.force_of(place) - touching.block[place] * step;
+            let force = touching.arrays.force_of(place) - touching.block[place] * step;
             missed = missed.and(ContactMissed { gap_n, greatest_n: force.length() });
         }
         missed
@@ -118,7 +116,7 @@ impl ContactWorkspace {
         for (place, index) in touching.point.iter().enumerate() {
             let point = &mut points.list[*index];
             let step = point.on_rope(|node| places[node] - before[node]);
-            point.missed += touching.force_of(place) - touching.block[place] * step;
+            point.missed += touching.arrays.force_of(place) - touching.block[place] * step;
             points.note_solved(*index, touching.face[place], step);
         }
     }
@@ -128,7 +126,7 @@ impl ContactWorkspace {
         let Self { points, touching, .. } = self;
         let mut greatest = 0.0_f64;
         for (place, index) in touching.point.iter().enumerate() {
-            let force = touching.force_of(place);
+            let force = touching.arrays.force_of(place);
             points.list[*index].missed -= force;
             greatest = greatest.max(force.length_squared());
         }
@@ -215,8 +213,8 @@ impl ContactWorkspace {
                 distance_m: touch.distance,
                 length_m: point.length,
                 normal_force_n: touch.barrier.force,
-                friction_n: DVec3::from_array(self.touching.response[place].force_n),
-                slip_m: self.touching.slip_of(place),
+                friction_n: self.touching.arrays.friction_of(place),
+                slip_m: self.touching.arrays.slip_of(place),
                 dt_s,
             });
         }

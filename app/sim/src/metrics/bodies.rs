@@ -2,9 +2,11 @@
 
 use glam::DVec3;
 
+use super::body_on_whale::Touching;
 use super::event::{EventKind, Log};
 use super::gear_loads::body_drag;
 use super::summary::BodySummary;
+use crate::contact::bodies::sums::{BodySum, BodySums};
 use crate::model::{Body, BodyRole, Model};
 use crate::state::{BodyState, State};
 
@@ -27,6 +29,7 @@ struct Track {
     dragged: bool,
     /// Whether a buoy has been at the surface since it last went under.
     afloat: bool,
+    touching: Touching,
 }
 
 impl BodyMeter {
@@ -34,7 +37,17 @@ impl BodyMeter {
         Self { tracks: vec![Track::default(); model.spec.bodies.len()] }
     }
 
-    pub(super) fn fold(&mut self, model: &Model, state: &State, log: &mut Log) {
+    pub(super) fn fold(
+        &mut self,
+        model: &Model,
+        state: &State,
+        (on_whale, dt_s): (&BodySums, f64),
+        log: &mut Log,
+    ) {
+        let sums = on_whale.bodies.iter().copied().chain(std::iter::repeat(BodySum::default()));
+        for ((track, body), sum) in self.tracks.iter_mut().zip(&model.spec.bodies).zip(sums) {
+            track.touching.fold(body, &sum, (state.time_s, dt_s), log);
+        }
         for ((track, body), now) in
             self.tracks.iter_mut().zip(&model.spec.bodies).zip(&state.bodies)
         {
@@ -54,6 +67,7 @@ impl BodyMeter {
             position_m: now.position,
             peak_speed_m_s: track.peak_speed_m_s,
             drag_n: DVec3::ZERO,
+            on_whale: track.touching.summary(state.time_s),
         };
         let mut bodies: Vec<BodySummary> =
             self.tracks.iter().zip(&model.spec.bodies).zip(&state.bodies).map(summary).collect();

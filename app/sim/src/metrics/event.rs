@@ -40,6 +40,12 @@ pub enum EventKind {
     LineParted,
     /// A trap, anchor or weight was moved a metre from its place; value: how far [m].
     Dragged,
+    /// A buoy, trap, anchor or weight touched a part of the whale; value: its push [N].
+    BodyTouched,
+    /// A buoy stayed on the whale for [`CAUGHT_S`](super::CAUGHT_S); value: its greatest push so far [N].
+    CaughtBuoy,
+    /// A trap, anchor or weight stayed on the whale for as long; value: its greatest push so far [N].
+    CaughtTrap,
     /// A buoy went under; value: its height [m].
     PulledUnder,
     /// The whale touched the seabed; value: its lowest point's height above it [m].
@@ -50,7 +56,7 @@ pub enum EventKind {
 
 impl EventKind {
     /// Every kind.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 18] = [
         Self::Contact,
         Self::ContactLost,
         Self::Slip,
@@ -63,6 +69,9 @@ impl EventKind {
         Self::LinkParted,
         Self::LineParted,
         Self::Dragged,
+        Self::BodyTouched,
+        Self::CaughtBuoy,
+        Self::CaughtTrap,
         Self::PulledUnder,
         Self::AtSeabed,
         Self::AtSurface,
@@ -84,6 +93,9 @@ impl EventKind {
             Self::LinkParted => "link_parted",
             Self::LineParted => "line_parted",
             Self::Dragged => "dragged",
+            Self::BodyTouched => "body_touched",
+            Self::CaughtBuoy => "caught_buoy",
+            Self::CaughtTrap => "caught_trap",
             Self::PulledUnder => "pulled_under",
             Self::AtSeabed => "at_seabed",
             Self::AtSurface => "at_surface",
@@ -95,6 +107,7 @@ impl EventKind {
     pub fn unit(self) -> &'static str {
         match self {
             Self::Contact | Self::Lodged | Self::LinkParted | Self::LineParted => "N",
+            Self::BodyTouched | Self::CaughtBuoy | Self::CaughtTrap => "N",
             Self::ContactLost | Self::Dislodged | Self::Shed => "s",
             Self::Slip => "m/s",
             Self::Wrap | Self::WrapUndone | Self::Hooked => "turns",

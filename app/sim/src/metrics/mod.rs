@@ -6,6 +6,7 @@
 
 mod along;
 mod bodies;
+mod body_on_whale;
 mod drag;
 mod energy;
 mod event;
@@ -31,6 +32,7 @@ mod wraps;
 pub(crate) mod tests;
 
 pub use bodies::DRAGGED_M;
+pub use body_on_whale::CAUGHT_S;
 pub use energy::energy;
 pub use event::{Event, EventKind};
 pub use flukes::TURN_SHARE;
@@ -39,14 +41,15 @@ pub use mouth::LODGED_S;
 pub use outcome::{LONG_CONTACT_S, LOST_S, RELEASE_S};
 pub use probes::{reading, unit};
 pub use summary::{
-    BeatSummary, BodySummary, KineticSummary, LineSummary, LinkSummary, Outcome, PatchSummary,
-    ProbeSummary, RegionSummary, Summary, WhaleSummary,
+    BeatSummary, BodyOnWhale, BodySummary, KineticSummary, LineSummary, LinkSummary, Outcome,
+    PatchSummary, ProbeSummary, RegionSummary, Summary, WhaleSummary,
 };
 pub use winding::{BRIDGED_GAP_M, WINDING_JUMP};
 pub use window::DRAG_WINDOW_S;
 pub use wraps::LOOSE_M;
 
 use crate::contact::ContactPoint;
+use crate::contact::bodies::sums::BodySums;
 use crate::contact::step_sums::{SkinContact, StepSums};
 use crate::model::Model;
 use crate::state::State;
@@ -81,9 +84,10 @@ impl Metrics {
     /// Takes in the step that `workspace` has just taken to `state`: its contacts, and the greatest
     /// tensions of its solver steps, so that a peak between two states or at a parting is not lost.
     pub fn fold_step(&mut self, model: &Model, state: &State, workspace: &Workspace) {
-        let Workspace { contacts, peak_tension_n, unconverged_peak_n, sums, .. } = workspace;
+        let Workspace { contacts, peak_tension_n, unconverged_peak_n, sums, body_sums, .. } =
+            workspace;
         let peaks = Peaks { converged_n: peak_tension_n, unconverged_n: unconverged_peak_n };
-        self.take(model, state, SkinContact { contacts, sums }, &peaks);
+        self.take(model, state, SkinContact { contacts, sums }, body_sums, &peaks);
     }
 
     /// Takes in a state and its contacts, where there is no step: tensions are those of the state.
@@ -96,14 +100,22 @@ impl Metrics {
             model.spec.whale.as_ref().map(|whale| StepSums::of(&whale.skin, contacts, step_s));
         let sums = sums.unwrap_or_default();
         let peaks = Peaks { converged_n: &state.rope.tension, unconverged_n: &[] };
-        self.take(model, state, SkinContact { contacts, sums: &sums }, &peaks);
+        let contact = SkinContact { contacts, sums: &sums };
+        self.take(model, state, contact, &BodySums::default(), &peaks);
     }
 
-    fn take(&mut self, model: &Model, state: &State, contact: SkinContact<'_>, peaks: &Peaks<'_>) {
+    fn take(
+        &mut self,
+        model: &Model,
+        state: &State,
+        contact: SkinContact<'_>,
+        on_whale: &BodySums,
+        peaks: &Peaks<'_>,
+    ) {
         let dt_s = (state.time_s - self.time_s).max(0.0);
         self.time_s = state.time_s;
         self.lines.fold(model, state, peaks, &mut self.log);
-        self.bodies.fold(model, state, &mut self.log);
+        self.bodies.fold(model, state, (on_whale, dt_s), &mut self.log);
         self.probes.fold(model, state, dt_s);
         if let Some(meter) = &mut self.whale {
             meter.fold(model, state, contact, dt_s, &mut self.log);

@@ -1,4 +1,4 @@
-//! Friction of rope on the whale: laws, coefficients, and where each law applies.
+//! Friction of rope and bodies on the whale: laws, coefficients, and where each law applies.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ pub struct FrictionLaw {
     pub attributes: Vec<f64>,
 }
 
-/// Friction of ropes on the whale: the laws, which of them holds where, and the table of coefficients.
+/// Friction of ropes and bodies on the whale: the laws, which of them holds where, and the table of coefficients.
 #[derive(Clone)]
 pub struct Friction {
     /// The laws; at least one.
@@ -22,7 +22,14 @@ pub struct Friction {
     pub law_of: Vec<[usize; endline_sdk::Region::ALL.len()]>,
     /// Coefficient by rope index and region number.
     pub coefficients: Vec<[f64; endline_sdk::Region::ALL.len()]>,
+    /// Index among the laws by region number, of traps, buoys and anchors.
+    pub law_of_bodies: [usize; endline_sdk::Region::ALL.len()],
+    /// Coefficient by region number, of traps, buoys and anchors.
+    pub coefficients_of_bodies: [f64; endline_sdk::Region::ALL.len()],
 }
+
+/// Coefficient of friction of bodies on a whale where nothing else is said: smooth plastic on wet skin 0.1 to 0.3; estimate.
+pub const BODY_ON_SKIN_FRICTION: f64 = 0.2;
 
 impl Friction {
     /// One law for every rope and region.
@@ -33,7 +40,13 @@ impl Friction {
         coefficients: Vec<[f64; endline_sdk::Region::ALL.len()]>,
     ) -> Self {
         let law_of = vec![[0; endline_sdk::Region::ALL.len()]; coefficients.len()];
-        Self { laws: vec![FrictionLaw { model, attributes }], law_of, coefficients }
+        Self {
+            laws: vec![FrictionLaw { model, attributes }],
+            law_of,
+            coefficients,
+            law_of_bodies: [0; endline_sdk::Region::ALL.len()],
+            coefficients_of_bodies: [BODY_ON_SKIN_FRICTION; endline_sdk::Region::ALL.len()],
+        }
     }
 
     /// Floats of a contact: as many as the law with the most takes.

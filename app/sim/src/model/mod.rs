@@ -23,7 +23,7 @@ use crate::whale::tree::SkinTree;
 
 pub use crate::float::{Float, Form, Wet};
 pub use body::{Body, BodyRole, Shape};
-pub use friction::{Friction, FrictionLaw};
+pub use friction::{BODY_ON_SKIN_FRICTION, Friction, FrictionLaw};
 pub use gear::GearHook;
 pub use joint::{Hitch, Joint, JointKind};
 pub use link::Link;

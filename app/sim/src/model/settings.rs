@@ -46,6 +46,8 @@ pub struct Settings {
     pub as_placed: bool,
     /// Whether rope touches the bodies of the rig too, and not obstacles alone.
     pub rope_on_bodies: bool,
+    /// Whether the bodies of the rig touch the whale.
+    pub bodies_on_whale: bool,
     /// How rope touches rope; `None` where ropes pass through each other.
     pub rope_on_rope: Option<RopeOnRope>,
     /// Whether every move near skin is cut short where its path would cross: always, but to show what tests at the end of
@@ -65,6 +67,7 @@ impl Default for Settings {
             duration_s: 60.0,
             seed: 1,
             rope_on_bodies: false,
+            bodies_on_whale: true,
             rope_on_rope: None,
             as_placed: false,
             swept: true,

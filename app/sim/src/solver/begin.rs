@@ -12,7 +12,8 @@ impl Solver {
     /// Begins a step: in the lanes of the processor where they know all that touches rope, else line by line.
     pub(crate) fn begin_step(&mut self, context: &StepContext<'_>, mut skin: Skin<'_>) {
         let StepContext { model, state, scheme } = *context;
-        self.in_contact = skin.is_some() || self.solid.touching || self.ropes.touching;
+        let on_body = self.body_skin.as_ref().is_some_and(|work| work.touching);
+        self.in_contact = skin.is_some() || self.solid.touching || self.ropes.touching || on_body;
         self.cost.enter(if self.in_contact { CostPart::Contact } else { CostPart::FreeRope });
         if self.lanes.suit(model) && !self.solid.touching && !self.ropes.touching {
             self.begin_in_lanes(model, state, scheme, |solver| {
@@ -35,6 +36,7 @@ impl Solver {
         if self.ropes.touching {
             self.ropes.hold_off(&state.rope.position, &mut self.trial.place);
         }
+        self.hold_bodies_off(state);
         self.trial.place_ends(model, &self.plan);
         if let Some(work) = skin {
             work.near.follow(&state.rope.position, &self.trial.place);

@@ -36,6 +36,7 @@ impl Solver {
             }
             self.add_feet(model, state, index, scheme);
         }
+        self.push_bodies_off_skin();
     }
 
     /// Buoyancy and drag of a body's floats; gives its wet share, for drag and added mass as a whole.

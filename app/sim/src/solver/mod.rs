@@ -11,6 +11,7 @@ mod begin;
 mod bending;
 mod block_tridiagonal;
 mod body;
+mod body_skin;
 mod columns;
 mod context;
 mod elastic_grip;
@@ -42,6 +43,7 @@ mod woodbury;
 
 use glam::{DMat3, DVec3};
 
+use crate::contact::bodies::BodySkin;
 use crate::contact::ropes::near::RopeWorkspace;
 use crate::cost::{CostClock, CostPart};
 use crate::model::Model;
@@ -103,6 +105,8 @@ pub(crate) struct Solver {
     pub(crate) solid: SolidWorkspace,
     /// Rope near rope.
     pub(crate) ropes: RopeWorkspace,
+    /// Bodies near skin.
+    pub(crate) body_skin: Option<Box<BodySkin>>,
     woodbury: Woodbury,
     /// Rope and bodies before a move.
     before: Vec<DVec3>,
@@ -163,6 +167,7 @@ impl Solver {
             wave_walk: Walk::default(),
             solid: SolidWorkspace::new(model),
             ropes: RopeWorkspace::new(model),
+            body_skin: BodySkin::new(model).map(Box::new),
             woodbury: Woodbury::default(),
             before: Vec::new(),
             bodies_before: Vec::new(),

@@ -13,7 +13,7 @@ use super::context::StepContext;
 use super::in_lanes::LanePass;
 use super::scheme::Scheme;
 use super::stopping::{ContactMissed, PassCount, PassDone, SHORT_S, Stopping};
-use crate::contact::skin_friction::Failed;
+use crate::contact::friction_arrays::Failed;
 use crate::contact::workspace::ContactWorkspace;
 use crate::cost::CostPart;
 use crate::model::Model;
@@ -46,6 +46,8 @@ pub(crate) enum NewtonEnd {
     NotFinite,
     /// Rope is crushed at this segment by this triangle.
     Crushed(usize, usize),
+    /// The core of this body meets this triangle.
+    BodyCrushed(usize, usize),
     /// These two segments are crushed by each other.
     CrushedRopes([usize; 2]),
     /// The friction plugin failed.
@@ -130,6 +132,7 @@ impl Solver {
         if let Some(work) = skin {
             self.measure_skin(context, work)?;
         }
+        self.measure_bodies(context)?;
         self.cost.enter(CostPart::Contact);
         self.crushed_ropes(false).map_or(Ok(()), |segments| Err(NewtonEnd::CrushedRopes(segments)))
     }
@@ -140,6 +143,7 @@ impl Solver {
         on_skin
             .and(self.solids_missed(context.state, context.scheme))
             .and(self.ropes_missed(context.state))
+            .and(self.bodies_missed())
     }
 
     /// One pass with contact as measured last: rope is solved, with contact linear, until its tension is what the solution took for granted.
@@ -175,6 +179,7 @@ impl Solver {
         if let Some(work) = skin {
             work.note_solved(&self.trial.place);
         }
+        self.note_solved_bodies();
         done
     }
 

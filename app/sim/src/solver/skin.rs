@@ -24,6 +24,6 @@ impl Solver {
         }
         let Some(friction) = &model.spec.friction else { return Ok(()) };
         work.touching.collect(model, &work.near, &work.points, state);
-        work.touching.respond(friction, scheme.dt).map_err(NewtonEnd::Plugin)
+        work.touching.arrays.respond(friction, scheme.dt).map_err(NewtonEnd::Plugin)
     }
 }

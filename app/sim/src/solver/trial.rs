@@ -6,6 +6,7 @@ use super::interface::Attachment;
 use super::plan::Plan;
 use super::scheme::Scheme;
 use crate::model::{JointKind, Model};
+use crate::solids::Pose;
 use crate::state::State;
 use crate::whale::hitch::Hitches;
 
@@ -43,6 +44,13 @@ pub(crate) struct BodyTrial {
     pub held: bool,
     /// Whether it may move but not turn.
     pub upright: bool,
+}
+
+impl BodyTrial {
+    /// Where it is.
+    pub fn pose(&self) -> Pose {
+        Pose { place: self.place, orientation: self.orientation }
+    }
 }
 
 impl Trial {

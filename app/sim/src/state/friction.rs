@@ -46,6 +46,36 @@ pub struct SolidGrip {
     pub push_n: f64,
 }
 
+/// A body's touch on a triangle of skin, as it lasts from step to step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BodyGrip {
+    /// Body.
+    pub body: usize,
+    /// Place in the body's frame [m].
+    pub place: DVec3,
+    /// Direction of the push.
+    pub normal: DVec3,
+}
+
+/// Bodies' touches on skin with the floats of their laws of friction, one after the other, as in [`FrictionState`].
+#[derive(Debug, Default, PartialEq)]
+pub struct BodyGrips {
+    /// Touches.
+    pub contacts: Vec<BodyGrip>,
+    /// Floats of each.
+    pub floats: Vec<f64>,
+}
+
+clone_in_place!(BodyGrips { contacts, floats });
+
+impl BodyGrips {
+    /// Forgets all grips.
+    pub(crate) fn clear(&mut self) {
+        self.contacts.clear();
+        self.floats.clear();
+    }
+}
+
 /// A point at which two ropes touch, as it lasts from step to step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RopeGrip {

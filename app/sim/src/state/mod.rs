@@ -12,7 +12,7 @@ use glam::DVec3;
 use crate::in_place::clone_in_place;
 use crate::model::{JointKind, Model};
 pub use body::BodyState;
-pub use friction::{FrictionState, RopeGrip, SolidGrip};
+pub use friction::{BodyGrip, BodyGrips, FrictionState, RopeGrip, SolidGrip};
 pub use pilot::{Begun, PilotMemory, Seen};
 pub use rope::RopeState;
 pub use step_control::{LimitedBy, StepControl};
@@ -29,6 +29,8 @@ pub struct State {
     pub rope: RopeState,
     /// Bodies, in the model's order.
     pub bodies: Vec<BodyState>,
+    /// Where bodies touch the whale's skin.
+    pub body_grips: BodyGrips,
     /// The whale, where the model has one.
     pub whale: Option<WhaleState>,
     /// When each weak link parted [s].
@@ -48,6 +50,7 @@ clone_in_place!(State {
     step,
     rope,
     bodies,
+    body_grips,
     whale,
     link_parted_s,
     line_parted,

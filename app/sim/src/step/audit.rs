@@ -14,6 +14,8 @@ pub struct Audit {
     pub ropes_crossed: u64,
     /// Most pairs of segments at a time that run through each other since the start, and are left alone.
     pub ropes_through: u64,
+    /// Bodies passed through skin, found by an exact test of their axes over every solver step.
+    pub bodies_crossed: u64,
     /// Solver steps, away from the whale, that had rope on rope.
     pub rope_steps: u64,
     /// Nearest that the rope's centre line came to skin it touched [m]; `None` where it never touched.

@@ -4,6 +4,7 @@
 
 use super::audit::Audit;
 use super::rejection::Rejection;
+use crate::contact::bodies::path::Refused;
 use crate::contact::workspace::ContactWorkspace;
 use crate::cost::CostPart;
 use crate::model::Model;
@@ -61,6 +62,11 @@ fn end_path(
         return Err(Rejection::RopesPinched(segments));
     }
     audit.ropes_crossed += solver.end_ropes(state).ok_or(Rejection::NotConverged)?;
+    audit.bodies_crossed += solver.end_bodies(state).map_err(|refused| match refused {
+        Refused::Through(body, triangle) => Rejection::BodyPinched(body, triangle),
+        Refused::NotLooked => Rejection::NotConverged,
+        Refused::Strayed => Rejection::Strayed,
+    })?;
     solver
         .went_through(state)
         .map_or(Ok(()), |(segment, solid)| Err(Rejection::WentThrough(segment, solid)))
@@ -93,6 +99,7 @@ fn reject(end: NewtonEnd, audit: &mut Audit) -> Rejection {
             Rejection::NotFinite
         }
         NewtonEnd::Crushed(segment, triangle) => Rejection::Pinched(segment, triangle),
+        NewtonEnd::BodyCrushed(body, triangle) => Rejection::BodyPinched(body, triangle),
         NewtonEnd::CrushedRopes(segments) => Rejection::RopesPinched(segments),
         NewtonEnd::Plugin(failed) => Rejection::Plugin(failed),
     }

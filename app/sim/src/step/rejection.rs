@@ -1,7 +1,7 @@
 //! What a solver step was, or why it was rejected.
 
 use super::stop::Stop;
-use crate::contact::skin_friction::Failed;
+use crate::contact::friction_arrays::Failed;
 use crate::model::Model;
 use crate::solver::Solver;
 use crate::state::State;
@@ -18,6 +18,8 @@ pub(crate) enum Rejection {
     Crossed(usize),
     /// This segment is pinched at this triangle by skin that closes on it.
     Pinched(usize, usize),
+    /// This body is pinched at this triangle by skin that closes on it, or would go through it.
+    BodyPinched(usize, usize),
     /// These two segments are pressed into each other harder than rope can bear.
     RopesPinched([usize; 2]),
     /// Rope may touch rope, which needs the shorter step of contact.
@@ -75,6 +77,16 @@ impl Rejection {
                      harder than rope can bear"
                 );
                 (line_of(segment), reason)
+            }
+            Self::BodyPinched(body, triangle) => {
+                let whale = model.spec.whale.as_ref();
+                let region =
+                    whale.map_or("skin", |whale| whale.skin.regions[triangle].part().name());
+                let reason = format!(
+                    "it is pressed into the whale's {region} by parts of the skin that close on it, or \
+                     by more than skin bears"
+                );
+                (format!("body {}", model.spec.bodies[body].id), reason)
             }
             Self::WentThrough(segment, solid) => {
                 let solid = crate::solids::name_of(model, solid);

@@ -6,11 +6,12 @@ use super::rejection::{Rejection, StepKind};
 use super::stages::Way;
 use super::workspace::Workspace;
 use crate::contact::ContactPoint;
+use crate::contact::bodies::BodyContact;
 use crate::contact::workspace::ContactWorkspace;
 use crate::cost::CostPart;
 use crate::model::Model;
 use crate::parting;
-use crate::solver::{Scheme, Skin, StepContext};
+use crate::solver::{Scheme, Skin, Solver, StepContext};
 use crate::state::State;
 
 /// One solver step of length `dt`: kept in `state` where it converges and parts nothing late.
@@ -39,7 +40,7 @@ fn try_solver_step(
     dt: f64,
     way: Way,
 ) -> Result<StepKind, Rejection> {
-    let Workspace { solver, contact, audit, contacts, rope_touches, .. } = workspace;
+    let Workspace { solver, contact, audit, contacts, body_contacts, rope_touches, .. } = workspace;
     solver.cost.enter(CostPart::Detection);
     let mut near = contact.as_mut().filter(|work| !work.near.pairs.is_empty());
     let may_touch =
@@ -48,10 +49,12 @@ fn try_solver_step(
         return Err(Rejection::Crossed(segment));
     }
     contacts.clear();
+    body_contacts.clear();
     rope_touches.clear();
+    let body_touches = solver.look_at_bodies(state, dt);
     let on_solid = solver.gather_solids(state, dt);
     let on_rope = solver.gather_ropes(model, state, dt);
-    let untouched = !may_touch && !on_solid && !on_rope;
+    let untouched = !may_touch && !on_solid && !on_rope && !body_touches;
     let gives_momentum = near.is_some() && model.whale_is_towed();
     let scheme = match way {
         _ if !untouched || gives_momentum => Scheme::backward_euler(dt),
@@ -68,6 +71,7 @@ fn try_solver_step(
         return Err(Rejection::PartsTooLate);
     }
     keep_contacts(model, state, near.filter(|_| may_touch), dt, Reports { contacts, audit })?;
+    keep_bodies(model, state, solver, dt, body_contacts)?;
     solver.report_ropes(state, rope_touches);
     solver.keep(model, &scheme, state);
     audit.ropes_through = audit.ropes_through.max(solver.ropes.count_through());
@@ -95,6 +99,22 @@ pub(super) fn look(state: &State, work: &mut ContactWorkspace, goal: f64, dt: f6
     );
     work.near.look(&rope.position, &work.target, goal);
     work.near.may_touch()
+}
+
+/// Keeps friction and reports contacts of bodies on skin.
+fn keep_bodies(
+    model: &Model,
+    state: &mut State,
+    solver: &mut Solver,
+    dt: f64,
+    contacts: &mut Vec<BodyContact>,
+) -> Result<(), Rejection> {
+    let touching = solver.body_skin.as_deref_mut().filter(|work| work.touching);
+    let (Some(work), Some(friction)) = (touching, &model.spec.friction) else {
+        state.body_grips.clear();
+        return Ok(());
+    };
+    work.keep(friction, dt, &mut state.body_grips, contacts).map_err(Rejection::Plugin)
 }
 
 /// Where a solver step reports what touched.

@@ -11,7 +11,6 @@ use super::solver_step::{look, solver_step};
 use super::stop::Stop;
 use super::workspace::Workspace;
 use crate::contact::step_sums::StepSums;
-use crate::contact::workspace::ContactWorkspace;
 use crate::cost::CostPart;
 use crate::model::{Model, Settings};
 use crate::remesh::remesh;
@@ -48,6 +47,8 @@ pub(super) fn advance(
         workspace.peak_tension_n.fill(0.0);
         workspace.unconverged_peak_n.fill(0.0);
         workspace.contacts.clear();
+        workspace.body_contacts.clear();
+        workspace.body_sums.clear();
         workspace.sums = StepSums::default();
         workspace.pulled = RopeImpulse::default();
         let remeshed = remesh(model, state, &mut workspace.remesh);
@@ -76,7 +77,7 @@ fn take_back(state: &mut State, workspace: &Workspace) {
     (state.step_control.step_s, state.step_control.limit) = (step_s, limit);
 }
 
-/// Whether rope may come near the whale in this step.
+/// Whether rope or a body may come near the whale in this step.
 fn near_whale(
     model: &Model,
     state: &State,
@@ -101,12 +102,18 @@ fn near_whale(
     if near {
         work.near.gather_swept(model, (&state.rope.cut, 0.0));
     }
+    let body_near = workspace
+        .solver
+        .body_skin
+        .as_mut()
+        .is_some_and(|bodies| bodies.gather(model, state, [start, end], 0.0));
     workspace.solver.cost.enter(CostPart::Other);
-    near
+    near || body_near
 }
 
-/// Gathers rope near skin for the rest of a step of the model, of which a share has passed.
-fn gather(model: &Model, state: &State, work: &mut ContactWorkspace, passed: f64) {
+/// Gathers rope and bodies near skin for the rest of a step of the model, of which a share has passed.
+fn gather(model: &Model, state: &State, workspace: &mut Workspace, passed: f64) {
+    let Some(work) = &mut workspace.contact else { return };
     let left_s = model.spec.settings.step_s * (1.0 - passed);
     let [start, end] = &work.bones;
     work.near.gather(
@@ -116,6 +123,9 @@ fn gather(model: &Model, state: &State, work: &mut ContactWorkspace, passed: f64
         |node| state.rope.velocity[node] * left_s,
         (&state.rope.cut, passed),
     );
+    if let Some(bodies) = &mut workspace.solver.body_skin {
+        bodies.gather(model, state, [start, end], passed);
+    }
 }
 
 /// What bounds the solver steps of one try.
@@ -123,7 +133,7 @@ fn gather(model: &Model, state: &State, work: &mut ContactWorkspace, passed: f64
 struct Limits {
     /// Longest solver step where rope may touch something [s].
     longest: f64,
-    /// Whether rope may be near the whale.
+    /// Whether rope or a body may be near the whale.
     near: bool,
     /// Whether a step that misses its wanted error may be taken back.
     may_take_back: bool,
@@ -167,10 +177,14 @@ fn solver_steps(
         if let (Err(_), Some(work)) = (&done, &mut workspace.contact) {
             work.near.go_back();
         }
+        if let (Err(_), Some(bodies)) = (&done, &mut workspace.solver.body_skin) {
+            bodies.go_back();
+        }
         match done {
             Ok(kind) => {
                 if let Some(whale) = &model.spec.whale {
                     workspace.sums.take(&whale.skin, &workspace.contacts, dt);
+                    workspace.body_sums.take(&workspace.body_contacts, dt);
                 }
                 feel(model, state, workspace, whale, dt);
                 if let (true, StepKind::InContact { missed }) = (by_contact, kind) {
@@ -197,11 +211,9 @@ fn solver_steps(
                     LimitedBy::Convergence
                 };
                 may_stay_clear = false;
-                if why == Rejection::Strayed
-                    && let Some(work) = &mut workspace.contact
-                {
+                if why == Rejection::Strayed {
                     workspace.solver.cost.enter(CostPart::Detection);
-                    gather(model, state, work, share(state.time_s));
+                    gather(model, state, workspace, share(state.time_s));
                 }
                 if (near || ropes_meet) && why != Rejection::PartsTooLate && dt > LEAST_CHOSEN_S {
                     state.step_control.contact_step_s = 0.5 * dt;
@@ -216,9 +228,13 @@ fn solver_steps(
     Ok(true)
 }
 
-/// Whether rope that goes on with its velocities touches no skin for the rest of the model's step.
+/// Whether rope and bodies that go on with their velocities touch no skin for the rest of the model's step.
 fn stays_clear(state: &State, workspace: &mut Workspace, left_s: f64) -> bool {
     workspace.solver.cost.enter(CostPart::Detection);
+    let bodies = workspace.solver.body_skin.as_mut().filter(|bodies| bodies.is_near());
+    if bodies.is_some_and(|bodies| bodies.look(state, 1.0, left_s)) {
+        return false;
+    }
     workspace
         .contact
         .as_mut()
@@ -241,6 +257,7 @@ fn feel(
     let end_s = model.spec.settings.step_s * (state.step + 1) as f64;
     let times = Times { dt, left: (end_s - state.time_s).max(0.0) };
     workspace.pulled.add_contacts(&workspace.contacts, centre, times);
+    workspace.pulled.add_bodies(&workspace.body_contacts, centre, times);
     for (force, place) in hitch::pulls(model, state) {
         workspace.pulled.add(force, place - centre, times);
     }

@@ -6,6 +6,8 @@ use super::audit::Audit;
 use super::peaks::{SpikeWatch, raise};
 use super::stages::Stages;
 use crate::contact::ContactPoint;
+use crate::contact::bodies::BodyContact;
+use crate::contact::bodies::sums::BodySums;
 use crate::contact::ropes::RopeTouch;
 use crate::contact::step_sums::StepSums;
 use crate::contact::workspace::ContactWorkspace;
@@ -29,6 +31,10 @@ pub struct Workspace {
     pub(super) spikes: SpikeWatch,
     /// What rope did to skin over the solver steps of the last step.
     pub sums: StepSums,
+    /// Places where bodies pressed on skin at the end of the last step.
+    pub body_contacts: Vec<BodyContact>,
+    /// What bodies did to skin over the solver steps of the last step.
+    pub body_sums: BodySums,
     /// Places where rope pressed on rope at the end of the last step.
     pub rope_touches: Vec<RopeTouch>,
     /// Counters of the run so far.
@@ -57,6 +63,8 @@ impl Workspace {
             peak_tension_n: vec![0.0; model.segment_count],
             unconverged_peak_n: vec![0.0; model.segment_count],
             spikes: SpikeWatch::new(model),
+            body_contacts: Vec::new(),
+            body_sums: BodySums::new(model.spec.bodies.len()),
             rope_touches: Vec::new(),
             audit: Audit::default(),
             solver: Solver::new(model),

@@ -156,6 +156,8 @@ fn rope_over_baleen_obeys_the_capstan_law_of_its_direction() {
         laws: vec![law(Baleen::new(), &[("across_ratio", ratio), ("wedge_pressure", 1e6)])],
         law_of: vec![[0; Region::ALL.len()]],
         coefficients: vec![[mu; Region::ALL.len()]],
+        law_of_bodies: [0; Region::ALL.len()],
+        coefficients_of_bodies: [mu; Region::ALL.len()],
     };
     let baleen = |_| Region::Baleen;
     let lengthwise =
@@ -184,6 +186,8 @@ fn each_region_has_its_own_law() {
         laws: vec![law(Coulomb::new(), &[]), wet],
         law_of: vec![law_of],
         coefficients: vec![[mu; Region::ALL.len()]],
+        law_of_bodies: [0; Region::ALL.len()],
+        coefficients_of_bodies: [mu; Region::ALL.len()],
     };
     let model = drawn_over(still(skin, DQuat::IDENTITY), friction, speed);
     let expected = mu * FRAC_PI_2 * (1.0 + (1.0 + 0.5 * libm::exp(-1.0) + 0.1));

@@ -11,6 +11,7 @@
     reason = "each test uses a part of this; a test says what it needs, in its helpers too"
 )]
 
+pub mod bodies;
 mod dice;
 mod piece;
 pub mod rig;

@@ -8,8 +8,8 @@ use endline_session::plugins::PluginUsed;
 use endline_session::report::{Report, SettledReport};
 use endline_session::timing::Timing;
 use endline_sim::metrics::{
-    BeatSummary, BodySummary, Event, EventKind, KineticSummary, LineSummary, LinkSummary, Outcome,
-    PatchSummary, ProbeSummary, RegionSummary, Summary, WhaleSummary,
+    BeatSummary, BodyOnWhale, BodySummary, Event, EventKind, KineticSummary, LineSummary,
+    LinkSummary, Outcome, PatchSummary, ProbeSummary, RegionSummary, Summary, WhaleSummary,
 };
 use endline_sim::{Audit, CostPart, DVec3};
 
@@ -79,6 +79,7 @@ fn audit(next: &mut Numbers) -> Audit {
     Audit {
         tunnelled: next.whole(),
         max_penetration_m: next.real(),
+        bodies_crossed: next.whole(),
         ropes_crossed: next.whole(),
         ropes_through: next.whole(),
         rope_steps: next.whole(),
@@ -149,6 +150,15 @@ fn body(id: &str, next: &mut Numbers) -> BodySummary {
         position_m: next.vector(),
         peak_speed_m_s: next.real(),
         drag_n: next.vector(),
+        on_whale: BodyOnWhale {
+            part: Some(BodyPart::Head),
+            since_s: Some(next.real()),
+            contact_time_s: next.real(),
+            caught: true,
+            peak_n: next.real(),
+            peak_part: Some(BodyPart::Peduncle),
+            friction_work_j: next.real(),
+        },
     }
 }
 

@@ -122,7 +122,7 @@ fn line(id: &str, from: usize, to: usize, segments_m: Vec<f64>) -> Line {
     }
 }
 
-fn body(id: &str, role: BodyRole, position_m: DVec3) -> Body {
+pub(crate) fn body(id: &str, role: BodyRole, position_m: DVec3) -> Body {
     Body {
         id: id.into(),
         role,

@@ -12,6 +12,7 @@ use glam::DVec3;
 
 use super::{Exertion, Kinetic};
 use crate::contact::ContactPoint;
+use crate::contact::bodies::BodyContact;
 use crate::state::WhaleState;
 
 /// Impulse and turning impulse of rope on the whale over the solver steps so far.
@@ -34,6 +35,17 @@ pub(crate) struct Times {
 impl RopeImpulse {
     /// Takes in the contacts of a solver step; moments are about `centre`.
     pub fn add_contacts(&mut self, contacts: &[ContactPoint], centre: DVec3, times: Times) {
+        for contact in contacts {
+            self.add(
+                contact.normal * -contact.normal_force_n - contact.friction_n,
+                contact.position - centre,
+                times,
+            );
+        }
+    }
+
+    /// Takes in the contacts of bodies in a solver step; moments are about `centre`.
+    pub fn add_bodies(&mut self, contacts: &[BodyContact], centre: DVec3, times: Times) {
         for contact in contacts {
             self.add(
                 contact.normal * -contact.normal_force_n - contact.friction_n,

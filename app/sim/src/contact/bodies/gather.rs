@@ -1,0 +1,148 @@
+//! Which triangles of skin are near a body in a step of the model, and which may touch it in a solver step.
+
+use glam::DAffine3;
+
+use super::{BodySkin, NearBody, Pair};
+use crate::contact::sweep::{SweptSegment, triangle_at};
+use crate::model::Model;
+use crate::solids::Pose;
+use crate::state::{BodyState, State};
+
+/// How far beyond a body's contact distance and its move skin is gathered [m].
+const MARGIN_M: f64 = 0.03;
+/// Times the expected move of body and skin that is looked beyond the contact distance in a solver step, and a length more [m].
+const LOOK_MOVES: f64 = 1.5;
+const LOOK_M: f64 = 1.5e-3;
+
+/// Where a body is.
+pub(super) fn pose_of(body: &BodyState) -> Pose {
+    Pose { place: body.position, orientation: body.orientation }
+}
+
+impl BodySkin {
+    /// Gathers skin near bodies over a step of the model, of which a share has passed; whether there is any.
+    pub fn gather(
+        &mut self,
+        model: &Model,
+        state: &State,
+        bones: [&[DAffine3]; 2],
+        passed: f64,
+    ) -> bool {
+        let left_s = model.spec.settings.step_s * (1.0 - passed);
+        (self.start, self.goal, self.fraction) = (passed, 1.0, passed);
+        self.near.clear();
+        self.pairs.clear();
+        self.touching = false;
+        self.surface.begin(bones[0], bones[1]);
+        let farthest = self.sweep(state, left_s);
+        let Self { surface, sweeps, candidates, .. } = self;
+        surface.gather(sweeps, farthest, candidates);
+        let mut candidates = std::mem::take(&mut self.candidates);
+        for near in candidates.chunk_by(|one, other| one.segment == other.segment) {
+            let body = near[0].segment as usize;
+            let is_held =
+                model.spec.bodies[body].held_until_s.is_some_and(|until_s| state.time_s < until_s);
+            if !is_held {
+                let triangles = near.iter().map(|candidate| candidate.triangle);
+                self.add_body(body, &state.bodies[body], triangles, left_s);
+            }
+        }
+        candidates.clear();
+        self.candidates = candidates;
+        self.is_near()
+    }
+
+    /// Paths of the bodies' origins; how far from them skin is sought for the greatest body [m].
+    fn sweep(&mut self, state: &State, left_s: f64) -> f64 {
+        self.sweeps.clear();
+        let mut farthest = 0.0_f64;
+        for (body, core) in state.bodies.iter().zip(&self.cores) {
+            let (from, to) = (body.position, body.position + body.velocity * left_s);
+            self.sweeps.push(SweptSegment { a0: from, b0: from, a1: to, b1: to });
+            farthest = farthest.max(core.radius + room_of(body, core.radius, left_s));
+        }
+        farthest
+    }
+
+    /// Adds a body with those of the triangles that are near it.
+    fn add_body(
+        &mut self,
+        body: usize,
+        now: &BodyState,
+        triangles: impl Iterator<Item = u32>,
+        left_s: f64,
+    ) {
+        let core = &self.cores[body];
+        let pose = pose_of(now);
+        let room = room_of(now, core.radius, left_s);
+        let (first, mut skin_move) = (self.pairs.len(), 0.0_f64);
+        for triangle in triangles {
+            let sweep = self.surface.triangle_sweep(triangle);
+            let moved =
+                (0..3).map(|k| sweep[0][k].distance_squared(sweep[1][k])).fold(0.0, f64::max);
+            let moved = moved.sqrt();
+            skin_move = skin_move.max(moved);
+            // Skin that a body begins in is left alone: no push leads out of it.
+            let corners = triangle_at(&sweep, self.fraction);
+            let Some(nearest) = core.nearest(&pose, corners) else { continue };
+            if nearest.distance - moved <= core.reach + room {
+                self.pairs.push(Pair {
+                    triangle,
+                    sweep,
+                    gap: nearest.distance,
+                    active: false,
+                    solved: glam::DVec3::ZERO,
+                });
+            }
+        }
+        if self.pairs.len() > first {
+            let pairs = first..self.pairs.len();
+            self.near.push(NearBody { body, pairs, room, skin_move, moved: 0.0 });
+        }
+    }
+
+    /// Takes skin to the end of a solver step of length `dt`, and finds what may touch on the way; whether anything may.
+    pub fn look(&mut self, state: &State, goal: f64, dt: f64) -> bool {
+        (self.start, self.goal, self.shared) = (self.fraction, goal, 0);
+        self.touching = false;
+        self.touches.clear();
+        for near in &self.near {
+            let (body, core) = (&state.bodies[near.body], &self.cores[near.body]);
+            let pose = pose_of(body);
+            let own_m = moves_m(body, core.radius, dt);
+            for pair in &mut self.pairs[near.pairs.clone()] {
+                let skin_m = near.skin_move * (goal - self.start);
+                // Without sweeps bodies see only what is near where the step begins.
+                let moves = if self.swept { LOOK_MOVES * (own_m + skin_m) } else { 0.0 };
+                let look = core.reach + LOOK_M + moves;
+                if pair.gap <= look {
+                    let corners = triangle_at(&pair.sweep, self.start);
+                    pair.gap = core.nearest(&pose, corners).map_or(0.0, |nearest| nearest.distance);
+                }
+                pair.active = pair.gap <= look;
+                pair.solved = glam::DVec3::ZERO;
+                self.touching |= pair.active;
+            }
+        }
+        self.touching
+    }
+
+    /// Goes back to where a refused solver step began.
+    #[expect(clippy::float_cmp, reason = "the same share, to the bit, is the same place")]
+    pub fn go_back(&mut self) {
+        if self.fraction != self.start {
+            self.fraction = self.start;
+            self.pairs.iter_mut().for_each(|pair| pair.gap = 0.0);
+        }
+    }
+}
+
+/// How far the surface of a body moves in a time, at most, as it goes now [m].
+fn moves_m(body: &BodyState, radius: f64, time_s: f64) -> f64 {
+    (body.velocity.length() + body.spin.length() * radius) * time_s
+}
+
+/// How far beyond its contact distance skin is gathered for a body [m].
+fn room_of(body: &BodyState, radius: f64, time_s: f64) -> f64 {
+    MARGIN_M + LOOK_MOVES * moves_m(body, radius, time_s)
+}

@@ -1,0 +1,147 @@
+//! Bodies on skin against known answers: weight, Hertz, Coulomb on a slope, a rolling ball, momentum.
+#![allow(clippy::expect_used, reason = "a test fails by panicking, in its helpers too")]
+
+use endline_sim::model::{Body, Settings, Shape, Whale};
+use endline_sim::{DQuat, DVec3, Input, Model, State, Workspace, step};
+
+use crate::common::weight;
+use crate::whale::{Steady, crate_of, kinetic, spec, whale};
+
+const MU: f64 = 0.2;
+const GRAVITY: f64 = 9.81;
+const HALF: DVec3 = DVec3::new(6.0, 2.0, 0.5);
+
+/// A whale like a crate that stands still, its back tilted by an angle, as it goes.
+fn slab(angle: f64) -> Whale {
+    let still = whale(kinetic(10.0, 1e4, 2.0), 0.0, Steady::shared(0.0, [0.0; 3]));
+    Whale {
+        skin: std::sync::Arc::new(crate_of(HALF)),
+        position_m: DVec3::ZERO,
+        orientation: DQuat::from_rotation_y(angle),
+        kinetic: None,
+        ..still
+    }
+}
+
+/// A body placed on the slab's back with a gap [m], in a vacuum.
+fn on_slab(body: Body, height: f64, angle: f64, settings: Settings) -> Model {
+    let turn = DQuat::from_rotation_y(angle);
+    let place = turn * DVec3::new(-3.0, 0.3, HALF.z + height);
+    let mut spec = spec(slab(angle), 0.0);
+    let friction = spec.friction.as_mut().expect("friction");
+    friction.coefficients_of_bodies.fill(MU);
+    spec.bodies = vec![Body { position_m: place, orientation: turn, ..body }];
+    spec.settings = settings;
+    Model::new(spec).expect("a sound model")
+}
+
+fn ball(radius: f64, mass: f64) -> Body {
+    let inertia = 0.4 * mass * radius * radius;
+    Body {
+        shape: Shape::Sphere(radius),
+        inertia_kg_m2: DVec3::splat(inertia),
+        ..weight("ball", mass, DVec3::ZERO, None)
+    }
+}
+
+fn trap() -> Body {
+    Body {
+        shape: Shape::Box(DVec3::new(0.5, 0.3, 0.2)),
+        inertia_kg_m2: DVec3::new(0.9, 1.9, 2.3),
+        ..weight("trap", 20.0, DVec3::ZERO, None)
+    }
+}
+
+fn run(model: &Model, seconds: f64) -> (State, Workspace) {
+    let (mut state, mut workspace) = (State::start(model), Workspace::new(model));
+    while state.time_s < seconds - 1e-9 {
+        step(model, &Input::default(), &mut state, &mut workspace).expect("a step");
+    }
+    assert_eq!(workspace.audit.bodies_crossed, 0);
+    (state, workspace)
+}
+
+/// Depth at which Hertz's law with the engine's stiffening bears a load.
+fn depth_under(load_n: f64, radius: f64) -> f64 {
+    let push = |depth: f64| {
+        16.0 / 9.0
+            * 4e5
+            * libm::sqrt(radius * depth)
+            * depth
+            * libm::exp(10.0 * depth / (0.75 * radius))
+    };
+    let (mut low, mut high) = (0.0, radius);
+    for _ in 0..80 {
+        let middle = 0.5 * (low + high);
+        if push(middle) < load_n { low = middle } else { high = middle }
+    }
+    low
+}
+
+#[test]
+fn a_ball_lies_as_deep_as_its_weight_presses_it() {
+    let (radius, mass) = (0.15, 40.0);
+    let depth = depth_under(mass * GRAVITY, radius);
+    let model = on_slab(ball(radius, mass), radius - 0.8 * depth, 0.0, Settings::default());
+    let (state, workspace) = run(&model, 4.0);
+    let push: f64 = workspace.body_contacts.iter().map(|contact| contact.normal_force_n).sum();
+    assert!((push / (mass * GRAVITY) - 1.0).abs() < 1e-3, "{push} N");
+    let lies = HALF.z + radius - state.bodies[0].position.z;
+    assert!((lies / depth - 1.0).abs() < 1e-3, "{lies} m, {depth} m");
+}
+
+#[test]
+fn a_trap_slides_down_a_slope_by_coulombs_law_and_holds_on_a_lesser_one() {
+    let settings = || Settings { step_s: 0.01, ..Settings::default() };
+    let steep = 25.0_f64.to_radians();
+    let model = on_slab(trap(), 0.2 - 1e-4, steep, settings());
+    let (early, _) = run(&model, 0.2);
+    let (late, _) = run(&model, 1.2);
+    let gained = (late.bodies[0].velocity - early.bodies[0].velocity).length();
+    let wanted = GRAVITY * (libm::sin(steep) - MU * libm::cos(steep));
+    assert!((gained / wanted - 1.0).abs() < 0.01, "{gained} and {wanted} m/s");
+
+    let slight = 9.0_f64.to_radians();
+    let model = on_slab(trap(), 0.2 - 1e-4, slight, settings());
+    let ([early, _], late) = ([run(&model, 2.0).0, run(&model, 0.1).0], run(&model, 4.0).0);
+    let crept = late.bodies[0].position.distance(early.bodies[0].position);
+    assert!(crept < 1e-4, "{crept} m");
+}
+
+#[test]
+fn a_ball_rolls_down_a_slope() {
+    let (radius, mass, angle) = (0.15, 12.0, 10.0_f64.to_radians());
+    let depth = depth_under(mass * GRAVITY * libm::cos(angle), radius);
+    let model = on_slab(ball(radius, mass), radius - depth, angle, Settings::default());
+    let (early, _) = run(&model, 0.3);
+    let (late, _) = run(&model, 1.5);
+    let gained = (late.bodies[0].velocity - early.bodies[0].velocity).length();
+    // It rolls about the place where its surface meets the skin, which lies nearer to its middle by the depth.
+    let arm = radius - depth;
+    let wanted = 1.2 * GRAVITY * libm::sin(angle) / (1.0 + 0.4 * radius * radius / (arm * arm));
+    assert!((gained / wanted - 1.0).abs() < 0.01, "{gained} and {wanted} m/s");
+    assert!(late.bodies[0].spin.y > 0.9 * gained / radius);
+}
+
+/// A kinetic whale swims into a ball at rest, without water: what the one loses the other has.
+#[test]
+fn whale_and_ball_keep_their_momentum() {
+    let mass = 300.0;
+    let swimmer = kinetic(4.0, 2000.0, 1.0);
+    let mut animal = whale(swimmer, 2.0, Steady::shared(0.0, [0.0; 3]));
+    animal.position_m = DVec3::ZERO;
+    animal.skin = std::sync::Arc::new(crate_of(DVec3::new(1.0, 0.8, 0.8)));
+    let whole_kg = animal.kinetic.as_ref().expect("kinetic").whole_mass_kg().x;
+    let mut spec = spec(animal, 0.0);
+    spec.water.gravity_m_s2 = 0.0;
+    spec.bodies = vec![Body { position_m: DVec3::new(1.4, 0.11, -0.07), ..ball(0.3, mass) }];
+    let model = Model::new(spec).expect("a sound model");
+    let (state, workspace) = run(&model, 1.0);
+    assert!(workspace.audit.touching_steps > 0);
+    let whale = state.whale.as_ref().expect("a whale");
+    let ball = state.bodies[0].velocity;
+    let before = whole_kg * 2.0;
+    let after = whole_kg * whale.speed_m_s + mass * ball.x;
+    assert!(ball.x > 2.0, "it is struck off: {ball}");
+    assert!((after / before - 1.0).abs() < 1e-3, "{before} {after} N s");
+}

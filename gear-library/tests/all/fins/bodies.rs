@@ -1,0 +1,193 @@
+//! Fast random meetings of a buoy or trap with a piece of the right whale's skin: fins, jaws, lips and trunk.
+//!
+//! Every meeting is drawn from its number alone. A ball, a buoy with rounded ends or a box, of 2 to 100 kg, hangs in
+//! the sea; the piece comes from any side, turned any way, at 2 to 20 m/s, turning as it goes, its middle aimed at the body. A run begins one step or two
+//! before they can touch and goes on until the piece would be past.
+
+use std::sync::Arc;
+
+use endline_friction_models::Coulomb;
+use endline_gear::whale::{WhaleForm, build_skin};
+use endline_sdk::FrictionModel;
+use endline_sim::model::{Body, BodyRole, Friction, Settings, Shape, Whale};
+use endline_sim::water::{Current, Water};
+use endline_sim::whale::Skin;
+use endline_sim::{DVec3, Input, Model, ModelSpec, State, Workspace, step};
+
+use super::dice::Dice;
+use super::piece::{piece, reach};
+use super::{MET, REACH_M, rig};
+
+/// Every so many vertices of the skin a piece is cut out about.
+const STRIDE: usize = 7;
+
+/// Pieces of skin, each about a vertex at its origin.
+pub struct Pieces(Vec<Skin>);
+
+/// What came of meetings.
+#[derive(Clone, Debug, Default)]
+pub struct Tally {
+    pub meetings: u64,
+    /// In which the two touched.
+    pub met: u64,
+    /// In which the body's core crossed skin.
+    pub crossed: u64,
+    /// That ended for another reason.
+    pub ended: u64,
+    pub solver_steps: u64,
+    pub unconverged: u64,
+    /// The first that crossed or ended, with what was said.
+    pub told: Vec<String>,
+}
+
+impl Pieces {
+    /// Cuts pieces out of a right whale of 13.7 m, evenly over its skin.
+    pub fn new() -> Self {
+        let whole = build_skin(&WhaleForm::right_whale(13.7));
+        let all = (0..whole.vertices.len()).step_by(STRIDE);
+        let about = |vertex: usize| piece(&whole, u32::try_from(vertex).expect("few vertices"));
+        Self(all.map(about).filter(|piece| reach(piece) < REACH_M).collect())
+    }
+
+    /// The meeting of a number: its model, its steps and what was drawn.
+    pub fn meeting(&self, number: u64, swept: bool) -> (ModelSpec, u64, String) {
+        let mut dice = Dice::of(number);
+        let usual = Settings::default();
+        let contact_step_s = if swept { usual.contact_step_s } else { usual.step_s };
+        let settings = Settings { swept, contact_step_s, ..usual };
+        let mut skin = self.0[(dice.share() * self.0.len() as f64) as usize % self.0.len()].clone();
+        let (turned, heading) = (dice.turn(), dice.turn());
+        skin.vertices.iter_mut().for_each(|place| *place = turned * *place);
+        let speed_m_s = dice.between(2.0, 20.0);
+        let turn_rate = (dice.direction() * (0.5 * speed_m_s * dice.share())).to_array();
+        let body = body(&mut dice);
+        let size = size_of(&body.shape);
+        let forward = heading * DVec3::X;
+        let beside = dice.direction();
+        let beside = (beside - forward * beside.dot(forward)) * (0.5 * size);
+        let before_m =
+            reach(&skin) + size + speed_m_s * usual.contact_step_s * dice.between(0.5, 2.0);
+        let whale = Whale {
+            position_m: MET + beside - forward * before_m,
+            orientation: heading,
+            speed_m_s,
+            ..rig::whale(skin.clone(), speed_m_s, turn_rate)
+        };
+        let past_m = before_m + reach(&skin) + size;
+        let steps = (past_m / speed_m_s / settings.step_s).ceil() as u64;
+        let told = format!("{speed_m_s:.1} m/s, {:?} of {:.1} kg", body.shape, body.mass_kg);
+        (spec(whale, body, dice.between(0.05, 0.6), settings), steps, told)
+    }
+}
+
+/// Half of the longest side of a shape [m].
+fn size_of(shape: &Shape) -> f64 {
+    match shape {
+        Shape::Sphere(radius_m) => *radius_m,
+        Shape::Capsule { half_length_m, .. } => *half_length_m,
+        Shape::Box(half) => half.length(),
+    }
+}
+
+fn body(dice: &mut Dice) -> Body {
+    let shape = match (3.0 * dice.share()) as u32 {
+        0 => Shape::Sphere(dice.between(0.03, 0.2)),
+        1 => {
+            let radius_m = dice.between(0.03, 0.12);
+            Shape::Capsule { radius_m, half_length_m: radius_m * dice.between(1.2, 4.0) }
+        }
+        _ => Shape::Box(DVec3::new(
+            dice.between(0.2, 0.6),
+            dice.between(0.15, 0.4),
+            dice.between(0.1, 0.25),
+        )),
+    };
+    let mass_kg = 2.0 * libm::pow(50.0, dice.share());
+    let size = size_of(&shape);
+    Body {
+        id: "body".into(),
+        role: BodyRole::Buoy,
+        shape,
+        shape_offset_m: DVec3::ZERO,
+        mass_kg,
+        inertia_kg_m2: DVec3::splat(0.3 * mass_kg * size * size),
+        added_mass_kg: DVec3::ZERO,
+        added_inertia_kg_m2: DVec3::ZERO,
+        drag_area_m2: DVec3::splat(0.05),
+        turn_drag_m5: DVec3::splat(1e-4),
+        floats: Vec::new(),
+        wetted_drag: false,
+        feet_m: Vec::new(),
+        start_friction: 0.0,
+        slide_friction: 0.0,
+        foot_break_out_n: 0.0,
+        position_m: MET,
+        orientation: dice.turn(),
+        held_until_s: None,
+    }
+}
+
+fn spec(whale: Whale, body: Body, friction: f64, settings: Settings) -> ModelSpec {
+    let coulomb = Coulomb::new();
+    let defaults = coulomb.descriptor().attributes.iter();
+    let attributes = defaults.filter_map(|attribute| attribute.default_value().number()).collect();
+    let mut law = Friction::of_one(Arc::new(coulomb), attributes, Vec::new());
+    law.coefficients_of_bodies.fill(friction);
+    ModelSpec {
+        water: Water {
+            density_kg_m3: 1025.0,
+            gravity_m_s2: 0.0,
+            depth_m: 100.0,
+            rope_dries: false,
+            current: Current::uniform(DVec3::ZERO),
+            waves: None,
+        },
+        seabed: None,
+        ropes: Vec::new(),
+        joints: Vec::new(),
+        lines: Vec::new(),
+        bodies: vec![body],
+        links: Vec::new(),
+        gear: Vec::new(),
+        whale: Some(whale),
+        friction: Some(law),
+        obstacles: Vec::new(),
+        probes: Vec::new(),
+        settings,
+    }
+}
+
+impl Tally {
+    /// Both together.
+    pub fn with(mut self, other: Self) -> Self {
+        self.meetings += other.meetings;
+        self.met += other.met;
+        self.crossed += other.crossed;
+        self.ended += other.ended;
+        self.solver_steps += other.solver_steps;
+        self.unconverged += other.unconverged;
+        self.told.extend(other.told);
+        self
+    }
+
+    /// Runs a meeting and counts it.
+    pub fn add(&mut self, number: u64, (spec, steps, drawn): (ModelSpec, u64, String)) {
+        let model = Model::new(spec).expect("a sound model");
+        let (mut state, mut workspace) = (State::start(&model), Workspace::new(&model));
+        let (mut met, mut crossed, mut ended) = (false, false, None);
+        while state.step < steps && !crossed && ended.is_none() {
+            ended = step(&model, &Input::default(), &mut state, &mut workspace).err();
+            met |= workspace.audit.touching_steps > 0;
+            crossed = workspace.audit.bodies_crossed > 0;
+        }
+        self.meetings += 1;
+        self.met += u64::from(met);
+        self.crossed += u64::from(crossed);
+        self.ended += u64::from(ended.is_some() && !crossed);
+        self.solver_steps += workspace.audit.solver_steps;
+        self.unconverged += workspace.audit.unconverged;
+        if (crossed || ended.is_some()) && self.told.len() < 10 {
+            self.told.push(format!("meeting {number}, {drawn}: crossed {crossed}, {ended:?}"));
+        }
+    }
+}
