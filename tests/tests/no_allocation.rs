@@ -81,6 +81,27 @@ fn resolution_that_follows_allocates_nothing() {
     assert_eq!(counted.count_total, 0, "{} bytes", counted.bytes_total);
 }
 
+/// The buoy that is drawn to a flipper, on segments that keep their lengths.
+#[test]
+fn a_body_on_skin_allocates_only_as_its_lists_grow() {
+    let mut spec = spec("buoy-jams", &[]);
+    spec.settings.resolution = None;
+    spec.whale.as_mut().unwrap().position_m = DVec3::new(15.3, -7.0, -5.0);
+    let mut run = Run::new(Model::new(spec).unwrap_or_else(|errors| panic!("{errors:?}")));
+    while run.workspace.body_contacts.is_empty() {
+        run.steps(1);
+    }
+    run.steps(WARM_STEPS);
+    let counted = measure(|| run.steps(STEPS));
+    assert!(!run.workspace.body_contacts.is_empty(), "the buoy was to stay on the skin");
+    assert!(
+        counted.count_total < GROWTH,
+        "{} allocations, {} bytes",
+        counted.count_total,
+        counted.bytes_total
+    );
+}
+
 #[test]
 fn rope_on_skin_allocates_only_as_its_lists_grow() {
     let mut run = Run::new(encounter(DVec3::new(13.9, -7.0, -12.0)));

@@ -4,7 +4,7 @@ use endline_sdk::Posture;
 use glam::{DQuat, DVec3};
 
 use crate::contact::ContactPoint;
-use crate::model::Model;
+use crate::contact::bodies::BodyContact;
 use crate::state::State;
 use crate::whale::Exertion;
 
@@ -29,6 +29,8 @@ pub struct Frame {
     pub whale: Option<WhaleFrame>,
     /// Places where rope presses on skin.
     pub contacts: Vec<ContactPoint>,
+    /// Places where bodies press on skin.
+    pub body_contacts: Vec<BodyContact>,
 }
 
 /// The whale in a [`Frame`].
@@ -49,7 +51,7 @@ pub struct WhaleFrame {
 impl Frame {
     /// The snapshot of a state with the contacts of its last step.
     #[must_use]
-    pub fn of(_model: &Model, state: &State, contacts: &[ContactPoint]) -> Self {
+    pub fn of(state: &State, contacts: &[ContactPoint], body_contacts: &[BodyContact]) -> Self {
         Self {
             time_s: state.time_s,
             step: state.step,
@@ -66,6 +68,7 @@ impl Frame {
                 exertion: whale.exertion,
             }),
             contacts: contacts.to_vec(),
+            body_contacts: body_contacts.to_vec(),
         }
     }
 }

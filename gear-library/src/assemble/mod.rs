@@ -145,6 +145,7 @@ fn settings(scenario: &Scenario, options: &Options) -> Settings {
         resolution: scenario.resolution,
         seed: options.seed.unwrap_or(scenario.seed),
         rope_on_bodies: scenario.rope_on_bodies,
+        bodies_on_whale: scenario.bodies_on_whale,
         rope_on_rope: scenario.rope_on_rope.then(|| rope_on_rope(scenario)),
         as_placed: scenario.as_placed,
         ..usual

@@ -66,6 +66,8 @@ pub struct Scenario {
     pub weak_links: bool,
     /// Whether rope touches the bodies of the rig.
     pub rope_on_bodies: bool,
+    /// Whether the bodies of the rig touch the whale.
+    pub bodies_on_whale: bool,
     /// Whether rope touches rope.
     pub rope_on_rope: bool,
     /// Friction of rope on rope, where the scenario says.
@@ -143,6 +145,7 @@ impl Scenario {
             segment_m: segment(&fields),
             weak_links: flag("weak_links", true),
             rope_on_bodies: flag("rope_on_bodies", false),
+            bodies_on_whale: flag("bodies_on_whale", true),
             rope_on_rope: flag("rope_on_rope", false),
             rope_friction: rope_friction(&fields),
             as_placed: start.is_some_and(|start| start.value == "placed"),

@@ -9,6 +9,7 @@
 mod acts;
 mod balance;
 mod bodies;
+mod buoy_jams;
 mod case_wraps;
 mod drawn;
 mod encounters;

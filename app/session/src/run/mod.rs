@@ -210,7 +210,8 @@ impl Run {
     /// The moment now.
     #[must_use]
     pub fn frame(&self) -> Arc<Frame> {
-        Arc::new(Frame::of(self.model(), &self.state, &self.workspace.contacts))
+        let Workspace { contacts, body_contacts, .. } = &self.workspace;
+        Arc::new(Frame::of(&self.state, contacts, body_contacts))
     }
 
     /// The controls of every step so far.

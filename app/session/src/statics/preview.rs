@@ -18,7 +18,7 @@ use crate::plugins::PluginHost;
 use crate::settled::SettledShape;
 
 /// Tables of a scenario that a preview does not use.
-const LEFT_OUT: [&str; 17] = [
+const LEFT_OUT: [&str; 18] = [
     "whale",
     "friction",
     "probe",
@@ -26,6 +26,7 @@ const LEFT_OUT: [&str; 17] = [
     "waves",
     "start",
     "rope_on_bodies",
+    "bodies_on_whale",
     "rope_nodes",
     "segment",
     "line",
@@ -123,7 +124,7 @@ pub fn settled(
     let start = Instant::now();
     let settled = settle(&model);
     let shape = SettledShape::named(name, &model, &settled, start.elapsed().as_secs_f64());
-    let frame = Arc::new(Frame::of(&model, &settled.state, &[]));
+    let frame = Arc::new(Frame::of(&settled.state, &[], &[]));
     Ok(RigAtRest { shape, model: Arc::new(model), frame })
 }
 

@@ -81,7 +81,7 @@ pub fn frame(model: &Model) -> Frame {
         slip_m: DVec3::ZERO,
         dt_s: 0.01,
     };
-    Frame::of(model, &state, &[touch])
+    Frame::of(&state, &[touch], &[])
 }
 
 /// The bow of the sample's endline, from trap (0) to buoy (1) [m].

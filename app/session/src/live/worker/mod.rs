@@ -54,7 +54,7 @@ impl Screen {
 pub(super) fn first_view(prepared: &Prepared) -> LiveView {
     let model = Arc::clone(&prepared.model);
     LiveView {
-        frame: Arc::new(Frame::of(&model, &State::start(&model), &[])),
+        frame: Arc::new(Frame::of(&State::start(&model), &[], &[])),
         model,
         newest_s: 0.0,
         sought: false,

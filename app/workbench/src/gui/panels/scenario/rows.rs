@@ -144,6 +144,12 @@ pub(super) const FLAGS: &[Flag] = &[
     ),
     flag("Ropes touch each other", "rope_on_rope", false, "Twists and hitches hold; slower"),
     flag(
+        "Traps and buoys touch the whale",
+        "bodies_on_whale",
+        true,
+        "A buoy jams against a flipper; off: traps, buoys and anchors pass through the whale",
+    ),
+    flag(
         "Ropes touch traps and buoys",
         "rope_on_bodies",
         false,
