@@ -25,6 +25,8 @@ pub enum StudyEvent {
     PartedEntangled,
     /// Rope lodged in the mouth at some time.
     Lodged,
+    /// A trap, buoy or anchor was caught on the whale at some time.
+    Caught,
     /// Rope on any of these parts.
     On(RegionEvent, Vec<BodyPart>),
 }
@@ -64,7 +66,7 @@ struct Declared {
 }
 
 /// Every event that concerns the whole whale, in the order in which a report lists them.
-static WHOLE: [Declared; 7] = [
+static WHOLE: [Declared; 8] = [
     Declared {
         event: StudyEvent::Contact,
         name: "contact",
@@ -112,6 +114,13 @@ static WHOLE: [Declared; 7] = [
         name: "lodged",
         words: "lodged in the mouth",
         counted: Counted::Flag("was_lodged_in_mouth"),
+        in_chart: false,
+    },
+    Declared {
+        event: StudyEvent::Caught,
+        name: "caught",
+        words: "buoy or trap caught on the whale",
+        counted: Counted::Flag("was_body_caught"),
         in_chart: false,
     },
 ];

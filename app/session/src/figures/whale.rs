@@ -92,6 +92,24 @@ pub static WHALE: &[Figure<WhaleSummary>] = &[
     )
     .column(108),
     Figure::new(
+        "was_body_caught",
+        "buoy or trap was caught on it",
+        "Whether a trap, buoy or anchor stayed on the whale for 5 s at any time.",
+        Quantity::Flag,
+        |whale: &WhaleSummary| whale.was_body_caught.into(),
+    )
+    .shown(&[Table])
+    .column(109),
+    Figure::new(
+        "peak_body_push_N",
+        "greatest push of a buoy or trap",
+        "Greatest sum of the pushes of a trap, buoy or anchor on skin in any solver step.",
+        Quantity::Force,
+        |whale: &WhaleSummary| whale.peak_body_push_n.into(),
+    )
+    .shown(&[Table, Summary, Entanglement, Compare])
+    .column(110),
+    Figure::new(
         "drag_added_N",
         "added drag",
         "Drag of rope and gear that the whale carries, mean of the last 5 s.",

@@ -21,6 +21,7 @@ pub(super) struct Touching {
     part: Option<BodyPart>,
     contact_time_s: f64,
     caught: bool,
+    was_caught: bool,
     peak_n: f64,
     peak_part: Option<BodyPart>,
     friction_work_j: f64,
@@ -45,6 +46,7 @@ impl Touching {
         }
         let stays = self.since_s.is_some_and(|since_s| time_s - since_s >= CAUGHT_S);
         if stays && !std::mem::replace(&mut self.caught, true) {
+            self.was_caught = true;
             let kind = match body.role {
                 BodyRole::Buoy => EventKind::CaughtBuoy,
                 BodyRole::Trap | BodyRole::Anchor | BodyRole::Weight => EventKind::CaughtTrap,
@@ -60,6 +62,7 @@ impl Touching {
             since_s,
             contact_time_s: self.contact_time_s,
             caught: self.caught && since_s.is_some(),
+            was_caught: self.was_caught,
             peak_n: self.peak_n,
             peak_part: self.peak_part,
             friction_work_j: self.friction_work_j,

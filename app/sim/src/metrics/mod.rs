@@ -125,6 +125,7 @@ impl Metrics {
     /// The measures so far; `state` is that of the last fold.
     #[must_use]
     pub fn summary(&self, model: &Model, state: &State) -> Summary {
+        let bodies = self.bodies.summary(model, state);
         Summary {
             lines: self.lines.lines(
                 model,
@@ -132,9 +133,9 @@ impl Metrics {
                 self.whale.as_ref().map(whale::WhaleMeter::on_lines).unwrap_or_default(),
             ),
             links: self.lines.links(model, state),
-            bodies: self.bodies.summary(model, state),
             probes: self.probes.summary(model),
-            whale: self.whale.as_ref().map(|whale| whale.summary(model, state)),
+            whale: self.whale.as_ref().map(|whale| whale.summary(model, state, &bodies)),
+            bodies,
         }
     }
 

@@ -87,6 +87,8 @@ pub struct BodyOnWhale {
     pub contact_time_s: f64,
     /// Whether it has stayed on the whale long enough to count as caught there.
     pub caught: bool,
+    /// Whether it ever was.
+    pub was_caught: bool,
     /// Greatest push at the end of any solver step [N].
     pub peak_n: f64,
     /// The part that it pressed on most in that step.
@@ -135,6 +137,10 @@ pub struct WhaleSummary {
     pub lodged_in_mouth: bool,
     /// Whether it ever was.
     pub was_lodged_in_mouth: bool,
+    /// Whether a trap, buoy or anchor was caught on it at any time.
+    pub was_body_caught: bool,
+    /// Greatest push of a trap, buoy or anchor on it at the end of any solver step [N].
+    pub peak_body_push_n: f64,
     /// Drag of rope and gear that the whale carries, mean of the last 5 s [N].
     pub drag_added_n: f64,
     /// Drag of rope and gear that the whale carries at this moment [N].

@@ -14,7 +14,7 @@ use super::outcome::Encounter;
 use super::press::PressMeter;
 use super::regions::Loads;
 use super::strands::Strands;
-use super::summary::{RegionSummary, WhaleSummary};
+use super::summary::{BodySummary, RegionSummary, WhaleSummary};
 use super::touches::Touches;
 use super::trailing::Reach;
 use super::winding::Winding;
@@ -107,7 +107,12 @@ impl WhaleMeter {
         &self.on_lines
     }
 
-    pub(super) fn summary(&self, model: &Model, state: &State) -> WhaleSummary {
+    pub(super) fn summary(
+        &self,
+        model: &Model,
+        state: &State,
+        bodies: &[BodySummary],
+    ) -> WhaleSummary {
         let (outcome, decided) = self.encounter.outcome(state);
         let beyond = self.reach.beyond(model, state);
         WhaleSummary {
@@ -121,6 +126,8 @@ impl WhaleMeter {
             hooked: self.encounter.hooked,
             lodged_in_mouth: self.mouth.lodged,
             was_lodged_in_mouth: self.mouth.was_lodged,
+            was_body_caught: bodies.iter().any(|body| body.on_whale.was_caught),
+            peak_body_push_n: bodies.iter().map(|body| body.on_whale.peak_n).fold(0.0, f64::max),
             drag_added_n: self.drag.mean()[0],
             drag_added_now_n: self.drag.now[0],
             trailing_m: beyond.trailing_m,
