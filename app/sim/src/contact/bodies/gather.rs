@@ -7,6 +7,7 @@ use crate::contact::sweep::{SweptSegment, triangle_at};
 use crate::model::Model;
 use crate::solids::Pose;
 use crate::state::{BodyState, State};
+use crate::whale::Bounds;
 
 /// How far beyond a body's contact distance and its move skin is gathered [m].
 const MARGIN_M: f64 = 0.03;
@@ -34,34 +35,31 @@ impl BodySkin {
         self.pairs.clear();
         self.touching = false;
         self.surface.begin(bones[0], bones[1]);
-        let farthest = self.sweep(state, left_s);
-        let Self { surface, sweeps, candidates, .. } = self;
-        surface.gather(sweeps, farthest, candidates);
-        let mut candidates = std::mem::take(&mut self.candidates);
-        for near in candidates.chunk_by(|one, other| one.segment == other.segment) {
-            let body = near[0].segment as usize;
-            let is_held =
-                model.spec.bodies[body].held_until_s.is_some_and(|until_s| state.time_s < until_s);
+        for (body, now) in state.bodies.iter().enumerate() {
+            let held_until_s = model.spec.bodies[body].held_until_s;
+            let is_held = held_until_s.is_some_and(|until_s| state.time_s < until_s);
             if !is_held {
-                let triangles = near.iter().map(|candidate| candidate.triangle);
-                self.add_body(body, &state.bodies[body], triangles, left_s);
+                self.gather_near(body, now, left_s);
             }
         }
-        candidates.clear();
-        self.candidates = candidates;
         self.is_near()
     }
 
-    /// Paths of the bodies' origins; how far from them skin is sought for the greatest body [m].
-    fn sweep(&mut self, state: &State, left_s: f64) -> f64 {
-        self.sweeps.clear();
-        let mut farthest = 0.0_f64;
-        for (body, core) in state.bodies.iter().zip(&self.cores) {
-            let (from, to) = (body.position, body.position + body.velocity * left_s);
-            self.sweeps.push(SweptSegment { a0: from, b0: from, a1: to, b1: to });
-            farthest = farthest.max(core.radius + room_of(body, core.radius, left_s));
+    /// Gathers skin near one body.
+    fn gather_near(&mut self, body: usize, now: &BodyState, left_s: f64) {
+        let radius = self.cores[body].radius;
+        let (from, to) = (now.position, now.position + now.velocity * left_s);
+        let search_m = radius + room_of(now, radius, left_s);
+        if !self.surface.may_meet(&Bounds::around(&[from, to]).grown(search_m)) {
+            return;
         }
-        farthest
+        let path = SweptSegment { a0: from, b0: from, a1: to, b1: to };
+        self.surface.gather(&[path], search_m, &mut self.candidates);
+        if !self.candidates.is_empty() {
+            let candidates = std::mem::take(&mut self.candidates);
+            self.add_body(body, now, candidates.iter().map(|near| near.triangle), left_s);
+            self.candidates = candidates;
+        }
     }
 
     /// Adds a body with those of the triangles that are near it.

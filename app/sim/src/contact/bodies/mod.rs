@@ -26,7 +26,7 @@ use glam::{DMat3, DVec3};
 use self::core::BodyCore;
 use super::friction_arrays::FrictionArrays;
 use super::grain::Grains;
-use super::sweep::{SweptSegment, SweptTriangle};
+use super::sweep::SweptTriangle;
 use crate::model::Model;
 use crate::solids::Pose;
 use crate::whale::{Candidate, Surface};
@@ -108,7 +108,6 @@ pub(crate) struct BodySkin {
     cores: Vec<BodyCore>,
     surface: Surface,
     grains: Arc<Grains>,
-    sweeps: Vec<SweptSegment>,
     candidates: Vec<Candidate>,
     near: Vec<NearBody>,
     pairs: Vec<Pair>,
@@ -143,7 +142,6 @@ impl BodySkin {
             cores: model.spec.bodies.iter().map(BodyCore::of).collect(),
             grains: Arc::new(Grains::new(tree.skin())),
             surface: Surface::new(tree),
-            sweeps: Vec::new(),
             candidates: Vec::new(),
             near: Vec::new(),
             pairs: Vec::new(),
