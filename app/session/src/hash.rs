@@ -8,8 +8,8 @@
 
 use endline_sdk::{Controls, Posture};
 use endline_sim::state::{
-    BodyGrip, BodyGrips, BodyState, FrictionState, RopeGrip, RopeState, SolidGrip, StepControl,
-    WhaleState,
+    BodyGrip, BodyGrips, BodyState, FrictionState, PairGrip, RopeGrip, RopeState, SolidGrip,
+    StepControl, WhaleState,
 };
 use endline_sim::whale::Exertion;
 use endline_sim::{DQuat, DVec3, Input, State};
@@ -40,6 +40,7 @@ impl StateHash {
             rope,
             bodies,
             body_grips,
+            pair_grips,
             whale,
             link_parted_s,
             line_parted,
@@ -56,6 +57,11 @@ impl StateHash {
             fold_body(body, rigid);
         }
         fold_body_grips(body_grips, contact);
+        for PairGrip { bodies, place, normal, stretch, forgiven_m } in pair_grips {
+            bodies.iter().for_each(|body| contact.word(*body as u64));
+            contact.reals(&[*forgiven_m]);
+            contact.vectors(&[*place, *normal, *stretch]);
+        }
         if let Some(whale) = whale {
             fold_whale(whale, animal, contact);
         }

@@ -42,6 +42,7 @@ impl State {
             bodies: model.spec.bodies.iter().map(body_at_start).collect(),
             whale: model.spec.whale.as_ref().map(whale_at_start),
             body_grips: BodyGrips::default(),
+            pair_grips: Vec::new(),
             link_parted_s: vec![None; model.spec.links.len()],
             line_parted: vec![None; model.spec.lines.len()],
             gear: model

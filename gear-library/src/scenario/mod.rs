@@ -68,6 +68,8 @@ pub struct Scenario {
     pub rope_on_bodies: bool,
     /// Whether the bodies of the rig touch the whale.
     pub bodies_on_whale: bool,
+    /// Whether the bodies of the rig touch each other.
+    pub bodies_on_bodies: bool,
     /// Whether rope touches rope.
     pub rope_on_rope: bool,
     /// Friction of rope on rope, where the scenario says.
@@ -146,6 +148,7 @@ impl Scenario {
             weak_links: flag("weak_links", true),
             rope_on_bodies: flag("rope_on_bodies", false),
             bodies_on_whale: flag("bodies_on_whale", true),
+            bodies_on_bodies: flag("bodies_on_bodies", true),
             rope_on_rope: flag("rope_on_rope", false),
             rope_friction: rope_friction(&fields),
             as_placed: start.is_some_and(|start| start.value == "placed"),

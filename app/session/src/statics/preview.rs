@@ -18,7 +18,7 @@ use crate::plugins::PluginHost;
 use crate::settled::SettledShape;
 
 /// Tables of a scenario that a preview does not use.
-const LEFT_OUT: [&str; 18] = [
+const LEFT_OUT: [&str; 19] = [
     "whale",
     "friction",
     "probe",
@@ -27,6 +27,7 @@ const LEFT_OUT: [&str; 18] = [
     "start",
     "rope_on_bodies",
     "bodies_on_whale",
+    "bodies_on_bodies",
     "rope_nodes",
     "segment",
     "line",

@@ -3,6 +3,7 @@
 mod account;
 pub(crate) mod barrier;
 pub mod bodies;
+pub(crate) mod body_pairs;
 mod crease;
 pub mod crossing;
 pub mod distance;

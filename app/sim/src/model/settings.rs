@@ -48,6 +48,8 @@ pub struct Settings {
     pub rope_on_bodies: bool,
     /// Whether the bodies of the rig touch the whale.
     pub bodies_on_whale: bool,
+    /// Whether the bodies of the rig touch each other.
+    pub bodies_on_bodies: bool,
     /// How rope touches rope; `None` where ropes pass through each other.
     pub rope_on_rope: Option<RopeOnRope>,
     /// Whether every move near skin is cut short where its path would cross: always, but to show what tests at the end of
@@ -68,6 +70,7 @@ impl Default for Settings {
             seed: 1,
             rope_on_bodies: false,
             bodies_on_whale: true,
+            bodies_on_bodies: true,
             rope_on_rope: None,
             as_placed: false,
             swept: true,

@@ -13,7 +13,11 @@ impl Solver {
     pub(crate) fn begin_step(&mut self, context: &StepContext<'_>, mut skin: Skin<'_>) {
         let StepContext { model, state, scheme } = *context;
         let on_body = self.body_skin.as_ref().is_some_and(|work| work.touching);
-        self.in_contact = skin.is_some() || self.solid.touching || self.ropes.touching || on_body;
+        self.in_contact = skin.is_some()
+            || self.solid.touching
+            || self.ropes.touching
+            || self.body_pairs.touching
+            || on_body;
         self.cost.enter(if self.in_contact { CostPart::Contact } else { CostPart::FreeRope });
         if self.lanes.suit(model) && !self.solid.touching && !self.ropes.touching {
             self.begin_in_lanes(model, state, scheme, |solver| {

@@ -37,6 +37,7 @@ impl Solver {
             self.add_feet(model, state, index, scheme);
         }
         self.push_bodies_off_skin();
+        self.push_bodies_apart();
     }
 
     /// Buoyancy and drag of a body's floats; gives its wet share, for drag and added mass as a whole.

@@ -31,6 +31,7 @@ impl Solver {
 
     /// Writes bodies and time into the state.
     pub(super) fn keep_bodies(&self, scheme: &Scheme, state: &mut State) {
+        self.keep_pair_grips(state);
         for (trial, body) in self.trial.bodies.iter().zip(&mut state.bodies) {
             body.earlier_position = body.position;
             body.earlier_velocity = body.velocity;

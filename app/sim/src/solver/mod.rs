@@ -11,6 +11,7 @@ mod begin;
 mod bending;
 mod block_tridiagonal;
 mod body;
+mod body_pairs;
 mod body_skin;
 mod columns;
 mod context;
@@ -44,6 +45,7 @@ mod woodbury;
 use glam::{DMat3, DVec3};
 
 use crate::contact::bodies::BodySkin;
+use crate::contact::body_pairs::{BodyPairs, Coupled};
 use crate::contact::ropes::near::RopeWorkspace;
 use crate::cost::{CostClock, CostPart};
 use crate::model::Model;
@@ -55,6 +57,7 @@ use crate::whale::hitch::Hitches;
 pub(crate) use axial::Axial;
 use block_tridiagonal::BlockTridiagonal;
 pub(crate) use context::StepContext;
+pub(crate) use elastic_grip::{Grip, Push};
 use interface::{Attachment, InterfaceSystem};
 use lanes::Lanes;
 use lengths::Lengths;
@@ -107,6 +110,9 @@ pub(crate) struct Solver {
     pub(crate) ropes: RopeWorkspace,
     /// Bodies near skin.
     pub(crate) body_skin: Option<Box<BodySkin>>,
+    /// Bodies near each other, and those that the interface couples for it.
+    pub(crate) body_pairs: BodyPairs,
+    coupled: Vec<Coupled>,
     woodbury: Woodbury,
     /// Rope and bodies before a move.
     before: Vec<DVec3>,
@@ -144,7 +150,7 @@ impl Solver {
     #[must_use]
     pub fn new(model: &Model) -> Self {
         let plan = Plan::new(model);
-        let interface = plan.interface(model);
+        let interface = plan.interface(model, &[]);
         Self {
             linear_part: LinearPart { interface: interface.clone(), ..LinearPart::default() },
             interface,
@@ -168,6 +174,8 @@ impl Solver {
             solid: SolidWorkspace::new(model),
             ropes: RopeWorkspace::new(model),
             body_skin: BodySkin::new(model).map(Box::new),
+            body_pairs: BodyPairs::new(model),
+            coupled: Vec::new(),
             woodbury: Woodbury::default(),
             before: Vec::new(),
             bodies_before: Vec::new(),

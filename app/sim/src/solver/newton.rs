@@ -48,6 +48,8 @@ pub(crate) enum NewtonEnd {
     Crushed(usize, usize),
     /// The core of this body meets this triangle.
     BodyCrushed(usize, usize),
+    /// The cores of these two bodies meet.
+    BodiesCrushed([usize; 2]),
     /// These two segments are crushed by each other.
     CrushedRopes([usize; 2]),
     /// The friction plugin failed.
@@ -133,6 +135,7 @@ impl Solver {
             self.measure_skin(context, work)?;
         }
         self.measure_bodies(context)?;
+        self.measure_body_pairs(context)?;
         self.cost.enter(CostPart::Contact);
         self.crushed_ropes(false).map_or(Ok(()), |segments| Err(NewtonEnd::CrushedRopes(segments)))
     }
@@ -144,6 +147,7 @@ impl Solver {
             .and(self.solids_missed(context.state, context.scheme))
             .and(self.ropes_missed(context.state))
             .and(self.bodies_missed())
+            .and(self.body_pairs_missed())
     }
 
     /// One pass with contact as measured last: rope is solved, with contact linear, until its tension is what the solution took for granted.
@@ -180,6 +184,7 @@ impl Solver {
             work.note_solved(&self.trial.place);
         }
         self.note_solved_bodies();
+        self.note_solved_body_pairs();
         done
     }
 

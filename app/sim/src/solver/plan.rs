@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::interface::{Attachment, InterfaceSystem};
+use crate::contact::body_pairs::Coupled;
 use crate::model::{JointKind, Model};
 
 /// Fixed look-ups of the solver.
@@ -45,8 +46,8 @@ impl Plan {
         plan
     }
 
-    /// The empty interface matrix of a model.
-    pub fn interface(&self, model: &Model) -> InterfaceSystem {
+    /// The empty interface matrix of a model in which these bodies touch each other.
+    pub fn interface(&self, model: &Model, coupled: &[Coupled]) -> InterfaceSystem {
         let blocks_of = |joint: usize| match self.attachments[joint] {
             Attachment::Fixed => [None, None],
             Attachment::Free(block) => [Some(block), None],
@@ -54,6 +55,10 @@ impl Plan {
         };
         let mut pairs: Vec<(usize, usize)> =
             self.body_block.iter().map(|block| (*block, block + 1)).collect();
+        for bodies in coupled {
+            let [one, two] = bodies.map(|body| self.body_block[body]);
+            pairs.extend([(one, two), (one, two + 1), (one + 1, two), (one + 1, two + 1)]);
+        }
         for line in &model.spec.lines {
             for one in blocks_of(line.from).into_iter().flatten() {
                 for other in blocks_of(line.to).into_iter().flatten() {

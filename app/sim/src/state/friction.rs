@@ -76,6 +76,21 @@ impl BodyGrips {
     }
 }
 
+/// A place at which two bodies touch, as it lasts from step to step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PairGrip {
+    /// The two bodies, in rising order.
+    pub bodies: [usize; 2],
+    /// Place in the first body's frame [m].
+    pub place: DVec3,
+    /// Direction of the push on the first body, in its frame.
+    pub normal: DVec3,
+    /// Tangential stretch of the grip, in its frame [m].
+    pub stretch: DVec3,
+    /// Depth that is forgiven: bodies that lay in each other at their first touch are not driven apart [m].
+    pub forgiven_m: f64,
+}
+
 /// A point at which two ropes touch, as it lasts from step to step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RopeGrip {

@@ -12,7 +12,7 @@ use glam::DVec3;
 use crate::in_place::clone_in_place;
 use crate::model::{JointKind, Model};
 pub use body::BodyState;
-pub use friction::{BodyGrip, BodyGrips, FrictionState, RopeGrip, SolidGrip};
+pub use friction::{BodyGrip, BodyGrips, FrictionState, PairGrip, RopeGrip, SolidGrip};
 pub use pilot::{Begun, PilotMemory, Seen};
 pub use rope::RopeState;
 pub use step_control::{LimitedBy, StepControl};
@@ -31,6 +31,8 @@ pub struct State {
     pub bodies: Vec<BodyState>,
     /// Where bodies touch the whale's skin.
     pub body_grips: BodyGrips,
+    /// Where bodies touch each other.
+    pub pair_grips: Vec<PairGrip>,
     /// The whale, where the model has one.
     pub whale: Option<WhaleState>,
     /// When each weak link parted [s].
@@ -51,6 +53,7 @@ clone_in_place!(State {
     rope,
     bodies,
     body_grips,
+    pair_grips,
     whale,
     link_parted_s,
     line_parted,

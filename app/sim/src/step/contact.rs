@@ -62,6 +62,9 @@ fn end_path(
         return Err(Rejection::RopesPinched(segments));
     }
     audit.ropes_crossed += solver.end_ropes(state).ok_or(Rejection::NotConverged)?;
+    if let Some(bodies) = solver.meeting_bodies(state) {
+        return Err(Rejection::BodiesMeet(bodies));
+    }
     audit.bodies_crossed += solver.end_bodies(state).map_err(|refused| match refused {
         Refused::Through(body, triangle) => Rejection::BodyPinched(body, triangle),
         Refused::NotLooked => Rejection::NotConverged,
@@ -100,6 +103,7 @@ fn reject(end: NewtonEnd, audit: &mut Audit) -> Rejection {
         }
         NewtonEnd::Crushed(segment, triangle) => Rejection::Pinched(segment, triangle),
         NewtonEnd::BodyCrushed(body, triangle) => Rejection::BodyPinched(body, triangle),
+        NewtonEnd::BodiesCrushed(bodies) => Rejection::BodiesMeet(bodies),
         NewtonEnd::CrushedRopes(segments) => Rejection::RopesPinched(segments),
         NewtonEnd::Plugin(failed) => Rejection::Plugin(failed),
     }

@@ -20,6 +20,8 @@ pub(crate) enum Rejection {
     Pinched(usize, usize),
     /// This body is pinched at this triangle by skin that closes on it, or would go through it.
     BodyPinched(usize, usize),
+    /// These two bodies are pressed into each other or would pass.
+    BodiesMeet([usize; 2]),
     /// These two segments are pressed into each other harder than rope can bear.
     RopesPinched([usize; 2]),
     /// Rope may touch rope, which needs the shorter step of contact.
@@ -87,6 +89,11 @@ impl Rejection {
                      by more than skin bears"
                 );
                 (format!("body {}", model.spec.bodies[body].id), reason)
+            }
+            Self::BodiesMeet([body, other]) => {
+                let [part, other] =
+                    [body, other].map(|body| format!("body {}", model.spec.bodies[body].id));
+                (part, format!("it is pressed into {other} harder than either bears"))
             }
             Self::WentThrough(segment, solid) => {
                 let solid = crate::solids::name_of(model, solid);

@@ -51,10 +51,11 @@ fn try_solver_step(
     contacts.clear();
     body_contacts.clear();
     rope_touches.clear();
-    let body_touches = solver.look_at_bodies(state, dt);
+    let on_skin = solver.look_at_bodies(state, dt);
+    let on_body = solver.gather_body_pairs(model, state, dt);
     let on_solid = solver.gather_solids(state, dt);
     let on_rope = solver.gather_ropes(model, state, dt);
-    let untouched = !may_touch && !on_solid && !on_rope && !body_touches;
+    let untouched = !may_touch && !on_solid && !on_rope && !on_skin && !on_body;
     let gives_momentum = near.is_some() && model.whale_is_towed();
     let scheme = match way {
         _ if !untouched || gives_momentum => Scheme::backward_euler(dt),

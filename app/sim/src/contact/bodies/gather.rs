@@ -16,7 +16,7 @@ const LOOK_MOVES: f64 = 1.5;
 const LOOK_M: f64 = 1.5e-3;
 
 /// Where a body is.
-pub(super) fn pose_of(body: &BodyState) -> Pose {
+pub(crate) fn pose_of(body: &BodyState) -> Pose {
     Pose { place: body.position, orientation: body.orientation }
 }
 
@@ -136,7 +136,7 @@ impl BodySkin {
 }
 
 /// How far the surface of a body moves in a time, at most, as it goes now [m].
-fn moves_m(body: &BodyState, radius: f64, time_s: f64) -> f64 {
+pub(crate) fn moves_m(body: &BodyState, radius: f64, time_s: f64) -> f64 {
     (body.velocity.length() + body.spin.length() * radius) * time_s
 }
 

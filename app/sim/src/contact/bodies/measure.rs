@@ -1,19 +1,12 @@
 //! Where bodies press on skin where the trial stands, and with what.
 //!
-//! Each triangle nearer to a core than the contact distance is a touch. Several triangles of one patch answer for the same press: of the push
-//! `N_i` that each had alone, it has the share
-//!
-//! ```text
-//! w_i = δ_i² / Σ_j κ_ij δ_j²        κ_ij = max(0, n_i·n_j) max(0, 1 - |p_i - p_j|/ℓ_i)
-//! ```
-//!
-//! with depths `δ`, places `p`, normals `n` and the width `ℓ` of the patch. Two facets of one flat face push together as one does, within some
-//! hundredths, wherever the body stands on them; two walls of a gap each push with all they have. Shares are measured in the first passes of
-//! a solver step and then stay, so that Newton's method can finish.
+//! Each triangle nearer to a core than the contact distance is a touch. Triangles of one patch share the push (`shares.rs`). Shares are
+//! measured in the first passes of a solver step and then stay, so that Newton's method can finish.
 
 use glam::DVec3;
 
-use super::press::{patch, push};
+use super::press::push;
+use super::shares::{Press, share};
 use super::{BodySkin, Touch};
 use crate::contact::friction_arrays::{Asked, Failed, kept_floats};
 use crate::contact::placed::on_triangle;
@@ -116,7 +109,10 @@ impl BodySkin {
             let before = self.touched.iter().find(|before| key(before) == key(&touch));
             self.touches[place].share = match before.filter(|_| self.shared >= SHARING_PASSES) {
                 Some(before) => before.share,
-                None => share_of(&touch, &self.touches, self.cores[touch.body].reach),
+                None => {
+                    let mine = self.touches.iter().filter(|other| other.body == touch.body);
+                    share(touch.press(), mine.map(Touch::press), self.cores[touch.body].reach)
+                }
             };
         }
         self.shared += 1;
@@ -201,6 +197,12 @@ impl BodySkin {
     }
 }
 
+impl Touch {
+    fn press(&self) -> Press {
+        Press { place: self.place, normal: self.normal, depth: self.depth }
+    }
+}
+
 /// Push and friction on a body.
 pub(crate) struct BodyForce {
     pair: usize,
@@ -209,17 +211,6 @@ pub(crate) struct BodyForce {
     pub arm: DVec3,
     pub force: DVec3,
     pub block: glam::DMat3,
-}
-
-/// Share of the push that a touch has beside others of its body.
-fn share_of(touch: &Touch, touches: &[Touch], reach: f64) -> f64 {
-    let width = patch(touch.depth, reach);
-    let beside = touches.iter().filter(|other| other.body == touch.body).map(|other| {
-        let alike = touch.normal.dot(other.normal).max(0.0);
-        let apart = touch.place.distance(other.place);
-        alike * (1.0 - apart / width).max(0.0) * other.depth * other.depth
-    });
-    touch.depth * touch.depth / beside.sum::<f64>()
 }
 
 /// The kept grip that a touch goes on from: the nearest on the body whose push goes almost its way.

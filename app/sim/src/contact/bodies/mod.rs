@@ -10,11 +10,12 @@
 //! (`measure.rs`). The forces act on the body's place and rotation in the one linear system of rope and bodies (`solver/body_skin.rs`).
 
 pub(crate) mod core;
-mod gather;
+pub(crate) mod gather;
 mod keep;
 pub(crate) mod measure;
 pub(crate) mod path;
 mod press;
+pub(crate) mod shares;
 pub mod sums;
 
 use std::ops::Range;

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! `E` is the modulus by which skin answers rope, `R` the body's contact distance: the radius of a ball or a buoy, the rounding of a
-//! trap's edges. Other triangles of the same patch of skin share the push (`measure.rs`).
+//! trap's edges. Other triangles of the same patch of skin share the push (`shares.rs`).
 
 /// `b`, by which skin stiffens, as under rope: a trap of 60 kg that is struck at 20 m/s is thrown off before its core is reached.
 const STIFFENING: f64 = 10.0;
@@ -25,11 +25,6 @@ pub(super) fn push(depth: f64, reach: f64, modulus: f64) -> [f64; 2] {
     let rate = STIFFENING / (ROOM_SHARE * reach);
     let push = HERTZ * modulus * libm::sqrt(reach * depth) * depth * libm::exp(rate * depth);
     [push, push * (1.5 / depth + rate)]
-}
-
-/// Width of the patch of skin that a body pressed by `depth` covers [m].
-pub(super) fn patch(depth: f64, reach: f64) -> f64 {
-    2.0 * libm::sqrt(2.0 * reach * depth.max(0.0))
 }
 
 #[cfg(test)]

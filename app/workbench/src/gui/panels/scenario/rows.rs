@@ -150,6 +150,12 @@ pub(super) const FLAGS: &[Flag] = &[
         "A buoy jams against a flipper; off: traps, buoys and anchors pass through the whale",
     ),
     flag(
+        "Traps and buoys touch each other",
+        "bodies_on_bodies",
+        true,
+        "Traps lie on traps; off: they pass through each other",
+    ),
+    flag(
         "Ropes touch traps and buoys",
         "rope_on_bodies",
         false,

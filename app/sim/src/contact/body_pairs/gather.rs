@@ -1,0 +1,54 @@
+//! Which bodies may touch each other in a solver step.
+
+use super::{BodyPairs, Pair};
+use crate::contact::bodies::gather::{moves_m, pose_of};
+use crate::state::State;
+
+/// Times the expected move that bodies are looked at beyond their contact distance, and a length more [m].
+const LOOK_MOVES: f64 = 1.5;
+const LOOK_M: f64 = 1.5e-3;
+
+/// Two bodies whose blocks the linear system couples.
+pub(crate) type Coupled = [usize; 2];
+
+impl BodyPairs {
+    /// Finds the bodies that may touch in a solver step of length `dt`; whether there are any.
+    pub fn gather(&mut self, state: &State, dt: f64) -> bool {
+        self.pairs.clear();
+        self.touches.clear();
+        (self.touching, self.shared, self.dt) = (false, 0, dt);
+        for first in 0..self.cores.len() {
+            for second in first + 1..self.cores.len() {
+                self.look_at(state, [first, second], dt);
+            }
+        }
+        self.touching = !self.pairs.is_empty();
+        self.touching
+    }
+
+    fn look_at(&mut self, state: &State, bodies: [usize; 2], dt: f64) {
+        let [one, two] = bodies.map(|body| &state.bodies[body]);
+        let [first, second] = bodies.map(|body| &self.cores[body]);
+        let moves = moves_m(one, first.radius, dt) + moves_m(two, second.radius, dt);
+        let look = LOOK_M + LOOK_MOVES * moves;
+        let within = first.radius + second.radius + look;
+        if one.position.distance_squared(two.position) > within * within {
+            return;
+        }
+        // Bodies whose cores meet as they are placed are left alone: no push leads them apart.
+        let Some([a, b]) = first.nearest_to(&pose_of(one), second, &pose_of(two)) else { return };
+        let gap = a.distance(b);
+        let depth = first.reach + second.reach - gap;
+        if depth < -look {
+            return;
+        }
+        let mut kept = state.pair_grips.iter().filter(|grip| grip.bodies == bodies);
+        let forgiven_m = kept.next().map_or(depth, |grip| grip.forgiven_m).max(0.0);
+        self.pairs.push(Pair { bodies, gap, forgiven_m, solved: glam::DVec3::ZERO });
+    }
+
+    /// The bodies that are coupled in this solver step.
+    pub fn coupled(&self) -> impl Iterator<Item = Coupled> {
+        self.pairs.iter().map(|pair| pair.bodies)
+    }
+}
