@@ -69,10 +69,10 @@ fn a_link_parts_at_its_rating_as_the_buoy_jams() {
     let bore_n = summary.links[0].peak_tension_n;
     assert!((bore_n / WEAK_N - 1.0).abs() < 5e-3, "{bore_n} N");
     let buoy = summary.bodies[0].on_whale;
-    assert!(buoy.peak_n > WEAK_N, "it presses with more than its line pulls: {buoy:?}");
+    assert!(buoy.peak_whale_push_n > WEAK_N, "it presses with more than its line pulls: {buoy:?}");
     assert_eq!((run.workspace.audit.bodies_crossed, run.workspace.audit.tunnelled), (0, 0));
     run.until(45.0, |_| false);
-    assert!(run.metrics.summary(&run.model, &run.state).bodies[0].on_whale.part.is_none());
+    assert!(run.metrics.summary(&run.model, &run.state).bodies[0].on_whale.whale_part.is_none());
 }
 
 #[test]

@@ -184,7 +184,7 @@ pub static BODY: &[Figure<BodySummary>] = &[
         "on the whale's",
         "Part of the whale that it presses on at the end; none where it does not.",
         Quantity::Name,
-        |body: &BodySummary| body.on_whale.part.map(BodyPart::name).into(),
+        |body: &BodySummary| body.on_whale.whale_part.map(BodyPart::name).into(),
     )
     .shown(&[Table]),
     Figure::new(
@@ -192,14 +192,14 @@ pub static BODY: &[Figure<BodySummary>] = &[
         "on the whale since",
         "Since when it has touched the whale, gaps below a second left out; none where it does not at the end.",
         Quantity::Moment,
-        |body: &BodySummary| body.on_whale.since_s.into(),
+        |body: &BodySummary| body.on_whale.whale_since_s.into(),
     ),
     Figure::new(
         "whale_contact_time_s",
         "time on the whale",
         "Time with it touching the whale.",
         Quantity::Duration,
-        |body: &BodySummary| body.on_whale.contact_time_s.into(),
+        |body: &BodySummary| body.on_whale.whale_contact_time_s.into(),
     )
     .shown(&[Table]),
     Figure::new(
@@ -214,7 +214,7 @@ pub static BODY: &[Figure<BodySummary>] = &[
         "greatest push on the whale",
         "Greatest sum of its pushes on skin in any solver step.",
         Quantity::Force,
-        |body: &BodySummary| body.on_whale.peak_n.into(),
+        |body: &BodySummary| body.on_whale.peak_whale_push_n.into(),
     )
     .shown(&[Table]),
     Figure::new(
@@ -222,14 +222,14 @@ pub static BODY: &[Figure<BodySummary>] = &[
         "greatest push on",
         "Part of the whale that it pressed on then.",
         Quantity::Name,
-        |body: &BodySummary| body.on_whale.peak_part.map(BodyPart::name).into(),
+        |body: &BodySummary| body.on_whale.peak_whale_part.map(BodyPart::name).into(),
     ),
     Figure::new(
         "whale_friction_work_J",
         "friction work on the whale",
         "Work done against friction on skin.",
         Quantity::Work,
-        |body: &BodySummary| body.on_whale.friction_work_j.into(),
+        |body: &BodySummary| body.on_whale.whale_friction_work_j.into(),
     ),
 ];
 

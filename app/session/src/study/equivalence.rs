@@ -180,7 +180,7 @@ fn same_whale(one: &ModelSpec, other: &ModelSpec) -> bool {
             laws && a.law_of == b.law_of
                 && a.coefficients == b.coefficients
                 && a.law_of_bodies == b.law_of_bodies
-                && a.coefficients_of_bodies == b.coefficients_of_bodies
+                && a.coefficients_of_bodies[..] == b.coefficients_of_bodies[..]
         }
         (None, None) => true,
         _ => false,

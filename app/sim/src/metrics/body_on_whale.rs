@@ -58,14 +58,14 @@ impl Touching {
     pub fn summary(&self, time_s: f64) -> BodyOnWhale {
         let since_s = self.since_s.filter(|_| time_s - self.last_s <= LOST_S);
         BodyOnWhale {
-            part: self.part.filter(|_| since_s.is_some()),
-            since_s,
-            contact_time_s: self.contact_time_s,
+            whale_part: self.part.filter(|_| since_s.is_some()),
+            whale_since_s: since_s,
+            whale_contact_time_s: self.contact_time_s,
             caught: self.caught && since_s.is_some(),
             was_caught: self.was_caught,
-            peak_n: self.peak_n,
-            peak_part: self.peak_part,
-            friction_work_j: self.friction_work_j,
+            peak_whale_push_n: self.peak_n,
+            peak_whale_part: self.peak_part,
+            whale_friction_work_j: self.friction_work_j,
         }
     }
 }
@@ -96,13 +96,13 @@ mod tests {
             touching.summary(to_s)
         };
         let bumped = follow(0.0, 2.0, &pressed(BodyPart::Head, 40.0));
-        assert_eq!((bumped.part, bumped.caught), (Some(BodyPart::Head), false));
+        assert_eq!((bumped.whale_part, bumped.caught), (Some(BodyPart::Head), false));
         let left = follow(2.0, 4.0, &BodySum::default());
-        assert_eq!((left.part, left.since_s), (None, None));
+        assert_eq!((left.whale_part, left.whale_since_s), (None, None));
         let held = follow(4.0, 10.0, &pressed(BodyPart::Peduncle, 300.0));
-        assert!(held.caught && held.peak_part == Some(BodyPart::Peduncle));
-        assert!((held.since_s.unwrap() - 4.01).abs() < 1e-9);
-        assert!((held.contact_time_s - 8.0).abs() < 1e-9);
+        assert!(held.caught && held.peak_whale_part == Some(BodyPart::Peduncle));
+        assert!((held.whale_since_s.unwrap() - 4.01).abs() < 1e-9);
+        assert!((held.whale_contact_time_s - 8.0).abs() < 1e-9);
         let kinds: Vec<_> = log.events.iter().map(|event| event.kind).collect();
         let touched = EventKind::BodyTouched;
         assert_eq!(kinds, [touched, touched, EventKind::CaughtBuoy]);

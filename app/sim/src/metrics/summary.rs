@@ -80,21 +80,21 @@ pub struct BodySummary {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BodyOnWhale {
     /// The part that it presses on most now.
-    pub part: Option<BodyPart>,
+    pub whale_part: Option<BodyPart>,
     /// Since when it has touched the whale, short gaps left out; `None` where it does not now [s].
-    pub since_s: Option<f64>,
+    pub whale_since_s: Option<f64>,
     /// Time with it touching, in all [s].
-    pub contact_time_s: f64,
+    pub whale_contact_time_s: f64,
     /// Whether it has stayed on the whale long enough to count as caught there.
     pub caught: bool,
     /// Whether it ever was.
     pub was_caught: bool,
     /// Greatest push at the end of any solver step [N].
-    pub peak_n: f64,
+    pub peak_whale_push_n: f64,
     /// The part that it pressed on most in that step.
-    pub peak_part: Option<BodyPart>,
+    pub peak_whale_part: Option<BodyPart>,
     /// Work done against friction [J].
-    pub friction_work_j: f64,
+    pub whale_friction_work_j: f64,
 }
 
 /// What a probe read.

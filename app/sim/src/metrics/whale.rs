@@ -127,7 +127,10 @@ impl WhaleMeter {
             lodged_in_mouth: self.mouth.lodged,
             was_lodged_in_mouth: self.mouth.was_lodged,
             was_body_caught: bodies.iter().any(|body| body.on_whale.was_caught),
-            peak_body_push_n: bodies.iter().map(|body| body.on_whale.peak_n).fold(0.0, f64::max),
+            peak_body_push_n: bodies
+                .iter()
+                .map(|body| body.on_whale.peak_whale_push_n)
+                .fold(0.0, f64::max),
             drag_added_n: self.drag.mean()[0],
             drag_added_now_n: self.drag.now[0],
             trailing_m: beyond.trailing_m,

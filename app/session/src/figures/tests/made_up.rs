@@ -151,14 +151,14 @@ fn body(id: &str, next: &mut Numbers) -> BodySummary {
         peak_speed_m_s: next.real(),
         drag_n: next.vector(),
         on_whale: BodyOnWhale {
-            part: Some(BodyPart::Head),
-            since_s: Some(next.real()),
-            contact_time_s: next.real(),
+            whale_part: Some(BodyPart::Head),
+            whale_since_s: Some(next.real()),
+            whale_contact_time_s: next.real(),
             caught: true,
             was_caught: true,
-            peak_n: next.real(),
-            peak_part: Some(BodyPart::Peduncle),
-            friction_work_j: next.real(),
+            peak_whale_push_n: next.real(),
+            peak_whale_part: Some(BodyPart::Peduncle),
+            whale_friction_work_j: next.real(),
         },
     }
 }

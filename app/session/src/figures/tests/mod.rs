@@ -84,7 +84,12 @@ fn every_figure_reads_the_field_of_its_key() {
         reads(PHASE, &report.timing.contact, &report.timing.contact, &["times_real_time"]),
         reads(LINE, &lines[1], &lines[1].summary, &["settled_tension_N"]),
         reads(LINK, &report.summary.links[1], &report.summary.links[1], &[]),
-        reads(BODY, &report.summary.bodies[1], &report.summary.bodies[1], &[]),
+        reads(
+            BODY,
+            &report.summary.bodies[1],
+            &report.summary.bodies[1],
+            &["whale_part", "peak_whale_part"],
+        ),
         reads(PROBE, &report.summary.probes[0], &report.summary.probes[0], &[]),
         reads(WHALE, whale, whale, &["outcome"]),
         reads(BEAT, whale.beat.as_ref().unwrap(), &whale.beat, &[]),
@@ -127,6 +132,9 @@ fn figures_of_a_run_that_are_computed() {
     assert_eq!(counts["snap"], report.audit.limited_by[2]);
     let mostly = value(AUDIT, "steps_mostly_limited_by", &report);
     assert!(matches!(mostly, Value::Text(text) if text.starts_with("forces that balance")));
+    let body = &report.summary.bodies[1];
+    assert_eq!(value(BODY, "whale_part", body), "head".into());
+    assert_eq!(value(BODY, "peak_whale_part", body), "peduncle".into());
     assert_eq!(value(SETTLED, "wall_s", &report), report.timing.settle_wall_s.into());
 }
 

@@ -42,6 +42,6 @@ mod tests {
             let growth = (by(1e-8) - by(-1e-8)) / 2e-8;
             assert!((growth / push(depth, reach, modulus)[1] - 1.0).abs() < 1e-5, "{depth}");
         }
-        assert_eq!(push(0.0, reach, modulus), [0.0; 2]);
+        assert!(push(0.0, reach, modulus).iter().all(|value| value.to_bits() == 0));
     }
 }

@@ -10,6 +10,7 @@
 
 mod gather;
 mod measure;
+mod nearest;
 mod path;
 
 use glam::{DMat3, DVec3};
