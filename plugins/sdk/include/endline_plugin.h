@@ -382,7 +382,7 @@ typedef struct {
   const double (*normal)[3];
   // Unit vector fixed to the skin, across the normal: athwart the whale at rest; on baleen along the plates.
   const double (*grain)[3];
-  // Unit vector along the rope.
+  // Unit vector along the rope; where a trap, buoy or anchor touches, the normal.
   const double (*along)[3];
   // Tangential displacement of rope against skin since the step began [m].
   const double (*slip_m)[3];
@@ -392,7 +392,7 @@ typedef struct {
   const double *coefficient;
   // Number of the skin region.
   const uint32_t *region;
-  // Index of the rope material.
+  // Index of the rope material; where a trap, buoy or anchor touches, 4294967295.
   const uint32_t *rope;
   // Floats as the step began, `state_len` for each contact.
   const double *state;

@@ -16,7 +16,7 @@ pub struct Contacts<'a> {
     /// Unit vector fixed to the skin, across the normal: athwart the whale at rest, and so on the racks of baleen along
     /// the plates. A bristle kept by its parts along this and along `normal x grain` turns with the whale.
     pub grain: &'a [[f64; 3]],
-    /// Unit vector along the rope.
+    /// Unit vector along the rope; where a trap, buoy or anchor touches, the normal.
     pub along: &'a [[f64; 3]],
     /// Tangential displacement of rope against skin since the step began [m].
     pub slip_m: &'a [[f64; 3]],
@@ -26,7 +26,7 @@ pub struct Contacts<'a> {
     pub coefficient: &'a [f64],
     /// Number of the skin [`Region`](crate::Region).
     pub region: &'a [u32],
-    /// Index of the rope material in the model.
+    /// Index of the rope material in the model; where a trap, buoy or anchor touches, `u32::MAX`.
     pub rope: &'a [u32],
     /// The model's floats as they stood when the step began, `state_len` for each contact;
     /// all zero where a contact is new.

@@ -46,7 +46,7 @@ impl BodySkin {
         self.share_out();
         self.press(model);
         let Some(friction) = &model.spec.friction else { return Ok(()) };
-        self.ask(model, friction, state);
+        self.ask(friction, state);
         self.arrays.respond(friction, dt).map_err(Unmeasured::Plugin)?;
         self.blocks.clear();
         for (place, touch) in self.touches.iter().enumerate() {
@@ -127,7 +127,7 @@ impl BodySkin {
         }
     }
 
-    fn ask(&mut self, model: &Model, friction: &Friction, state: &State) {
+    fn ask(&mut self, friction: &Friction, state: &State) {
         self.arrays.clear();
         for touch in &self.touches {
             let pair = &self.pairs[touch.pair];
@@ -157,7 +157,6 @@ impl BodySkin {
             let kept = kept.and_then(|kept| kept_floats(friction, &state.body_grips.floats, kept));
             self.arrays.put(friction, asked, kept);
         }
-        debug_assert_eq!(model.spec.bodies.len(), self.measured.len());
     }
 
     /// Touches with push and friction on the body, linear about where they were measured, the body having moved to a pose since.

@@ -51,7 +51,7 @@ pub struct AbiContacts {
     pub normal: *const [f64; 3],
     /// Unit vector fixed to the skin, across the normal: athwart the whale at rest; on baleen along the plates.
     pub grain: *const [f64; 3],
-    /// Unit vector along the rope.
+    /// Unit vector along the rope; where a trap, buoy or anchor touches, the normal.
     pub along: *const [f64; 3],
     /// Tangential displacement of rope against skin since the step began [m].
     pub slip_m: *const [f64; 3],
@@ -61,7 +61,7 @@ pub struct AbiContacts {
     pub coefficient: *const f64,
     /// Number of the skin region.
     pub region: *const u32,
-    /// Index of the rope material.
+    /// Index of the rope material; where a trap, buoy or anchor touches, 4294967295.
     pub rope: *const u32,
     /// Floats as the step began, `state_len` for each contact.
     pub state: *const f64,
