@@ -4,7 +4,7 @@
 //! wound about it, and wound tight with 150 segments in touch. Of each: solver steps and Newton passes, CPU time a solver step, how much of it is finding what is near
 //! (the same search, distances and sweeps made once more outside the step), and how many seconds of the run a second gives.
 //! A name after `--` runs those whose names hold it; `contact_step=0.5` sets the contact step in milliseconds, `tolerance=0.01` the contact
-//! tolerance, `from=17 to=18` the stretch of the run, `scenario=PATH` runs that scenario instead; `detection=0` leaves that measurement out. Also of each stretch: peak tension, mean and ripple of the tension at the top of the first line, work against friction.
+//! tolerance, `from=17 to=18` the stretch of the run, `scenario=PATH` runs that scenario instead; `detection=0` leaves that measurement out. Also of each stretch: peak tension, mean and ripple of the tension at the top of the first line, work against friction, mean speed of slip by push.
 //! Ripple is the mean departure from a running mean over 0.25 s, as a share of the whole mean.
 
 #![allow(clippy::expect_used, clippy::panic, reason = "a benchmark says what it needs")]
@@ -134,6 +134,8 @@ struct Taken {
     peak_n: f64,
     top_n: Vec<f64>,
     friction_j: f64,
+    /// Slip speed of each contact at the end of each step times its push [N m/s], and the pushes [N].
+    slip: [f64; 2],
 }
 
 fn run(stretch: &Stretch<'_>, changes: &Changes) {
@@ -165,6 +167,10 @@ fn run(stretch: &Stretch<'_>, changes: &Changes) {
         taken.peak_n = workspace.peak_tension_n.iter().copied().fold(taken.peak_n, f64::max);
         taken.top_n.push(state.rope.tension[model.line_segments[0].end - 1].max(0.0));
         taken.friction_j += workspace.sums.friction_work_j();
+        for contact in workspace.contacts.iter().filter(|contact| contact.dt_s > 0.0) {
+            taken.slip[0] += contact.normal_force_n * contact.slip_m.length() / contact.dt_s;
+            taken.slip[1] += contact.normal_force_n;
+        }
         if changes.detects {
             detection.measure(&model, &earlier, &state);
         }
@@ -210,10 +216,11 @@ fn tell(
     );
     let (mean_n, ripple) = ripple(&taken.top_n);
     println!(
-        "             peak {:.2} N, top {mean_n:.2} N, ripple {:.2} %, friction {:.4} J",
+        "             peak {:.2} N, top {mean_n:.2} N, ripple {:.2} %, friction {:.4} J, slip {:.4} m/s",
         taken.peak_n,
         100.0 * ripple,
-        taken.friction_j
+        taken.friction_j,
+        taken.slip[0] / taken.slip[1].max(1e-9)
     );
 }
 
