@@ -125,13 +125,11 @@ impl BodySkin {
         self.touching
     }
 
-    /// Goes back to where a refused solver step began.
-    #[expect(clippy::float_cmp, reason = "the same share, to the bit, is the same place")]
+    /// Goes back to where a refused solver step began. Distances are measured anew: where the step was refused for one pair, those before it
+    /// had been taken to its end.
     pub fn go_back(&mut self) {
-        if self.fraction != self.start {
-            self.fraction = self.start;
-            self.pairs.iter_mut().for_each(|pair| pair.gap = 0.0);
-        }
+        self.fraction = self.start;
+        self.pairs.iter_mut().for_each(|pair| pair.gap = 0.0);
     }
 }
 

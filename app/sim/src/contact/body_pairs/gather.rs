@@ -42,8 +42,10 @@ impl BodyPairs {
         if depth < -look {
             return;
         }
+        // What overlaps as the run begins is forgiven; what comes to overlap later is not.
         let mut kept = state.pair_grips.iter().filter(|grip| grip.bodies == bodies);
-        let forgiven_m = kept.next().map_or(depth, |grip| grip.forgiven_m).max(0.0);
+        let as_placed = if state.time_s <= 0.0 { depth.max(0.0) } else { 0.0 };
+        let forgiven_m = kept.next().map_or(as_placed, |grip| grip.forgiven_m);
         self.pairs.push(Pair { bodies, gap, forgiven_m, solved: glam::DVec3::ZERO });
     }
 
