@@ -6,7 +6,7 @@
 use glam::DVec3;
 
 use super::press::push;
-use super::shares::{Press, share};
+use super::shares::{Press, Shared, share_out};
 use super::{BodySkin, Touch};
 use crate::contact::friction_arrays::{Asked, Failed, kept_floats};
 use crate::contact::placed::on_triangle;
@@ -15,8 +15,6 @@ use crate::model::{Friction, Model};
 use crate::solids::Pose;
 use crate::state::{BodyGrips, State};
 
-/// Passes in which shares follow the depths.
-const SHARING_PASSES: usize = 3;
 /// Cosine of the angle of two normals above which a touch goes on as the one beside it that was there before.
 const SAME_FACE: f64 = 0.7;
 /// What a law of friction is told in place of the number of a rope.
@@ -79,7 +77,7 @@ impl BodySkin {
                 }
                 let region = whale.skin.regions[triangle];
                 let places = std::iter::once(nearest).chain(core.nearest_to_corners(pose, corners));
-                let touching = places.enumerate().filter(|(_, at)| at.distance < core.reach);
+                let touching = (0..).zip(places).filter(|(_, at)| at.distance < core.reach);
                 self.touches.extend(touching.map(|(feature, at)| Touch {
                     body: near.body,
                     pair: index,
@@ -103,18 +101,8 @@ impl BodySkin {
     }
 
     fn share_out(&mut self) {
-        for place in 0..self.touches.len() {
-            let touch = self.touches[place];
-            let key = |touch: &Touch| (touch.pair, touch.feature);
-            let before = self.touched.iter().find(|before| key(before) == key(&touch));
-            self.touches[place].share = match before.filter(|_| self.shared >= SHARING_PASSES) {
-                Some(before) => before.share,
-                None => {
-                    let mine = self.touches.iter().filter(|other| other.body == touch.body);
-                    share(touch.press(), mine.map(Touch::press), self.cores[touch.body].reach)
-                }
-            };
-        }
+        let Self { touches, touched, cores, .. } = self;
+        share_out(touches, touched, self.shared, |body| cores[body].reach);
         self.shared += 1;
     }
 
@@ -196,9 +184,21 @@ impl BodySkin {
     }
 }
 
-impl Touch {
+impl Shared for Touch {
     fn press(&self) -> Press {
         Press { place: self.place, normal: self.normal, depth: self.depth }
+    }
+
+    fn thing(&self) -> usize {
+        self.body
+    }
+
+    fn number(&self) -> (usize, u64) {
+        (self.pair, self.feature)
+    }
+
+    fn share(&mut self) -> &mut f64 {
+        &mut self.share
     }
 }
 

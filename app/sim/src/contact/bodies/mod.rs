@@ -88,7 +88,7 @@ struct Touch {
     body: usize,
     pair: usize,
     /// Which place of the core: the nearest, or a corner of a box.
-    feature: usize,
+    feature: u64,
     /// Number of the law of friction.
     law: usize,
     region: Region,

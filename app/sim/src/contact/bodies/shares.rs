@@ -19,8 +19,42 @@ pub(crate) struct Press {
     pub depth: f64,
 }
 
+/// A touch that shares its push with others.
+pub(crate) trait Shared {
+    fn press(&self) -> Press;
+    /// What presses: touches of one thing share.
+    fn thing(&self) -> usize;
+    /// Number by which it is known from pass to pass.
+    fn number(&self) -> (usize, u64);
+    fn share(&mut self) -> &mut f64;
+}
+
+/// Passes of a solver step in which shares follow the depths; then they stay.
+const SHARING_PASSES: usize = 3;
+
+/// Gives each touch its share in a pass; `touched` are the touches of the pass before, `reach` the contact distance of a thing.
+pub(crate) fn share_out<T: Shared>(
+    touches: &mut [T],
+    touched: &mut [T],
+    pass: usize,
+    reach: impl Fn(usize) -> f64,
+) {
+    for place in 0..touches.len() {
+        let (number, thing) = (touches[place].number(), touches[place].thing());
+        let before = touched.iter_mut().find(|before| before.number() == number);
+        let share = match before.filter(|_| pass >= SHARING_PASSES) {
+            Some(before) => *before.share(),
+            None => {
+                let mine = touches.iter().filter(|other| other.thing() == thing);
+                share(touches[place].press(), mine.map(Shared::press), reach(thing))
+            }
+        };
+        *touches[place].share() = share;
+    }
+}
+
 /// Share of the push that a touch has beside all touches of the two things, itself included.
-pub(crate) fn share(touch: Press, all: impl Iterator<Item = Press>, reach: f64) -> f64 {
+fn share(touch: Press, all: impl Iterator<Item = Press>, reach: f64) -> f64 {
     let width = 2.0 * libm::sqrt(2.0 * reach * touch.depth.max(0.0));
     let beside = all.map(|other| {
         let alike = touch.normal.dot(other.normal).max(0.0);

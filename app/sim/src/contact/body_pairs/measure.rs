@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::{BodyPairs, FRICTION, Pair, STIFFNESS_N_M, Touch};
 use crate::contact::barrier::BarrierForce;
 use crate::contact::bodies::gather::pose_of;
-use crate::contact::bodies::shares::{Press, share};
+use crate::contact::bodies::shares::{Press, Shared, share_out};
 use crate::solids::Pose;
 use crate::solver::{Grip, Push, outer};
 use crate::state::{PairGrip, State};
@@ -14,8 +14,6 @@ use crate::state::{PairGrip, State};
 const ALONG: f64 = 0.99;
 /// Two touches nearer to each other than this are one [m].
 const SAME_PLACE_M: f64 = 1e-3;
-/// Passes in which shares follow the depths.
-const SHARING_PASSES: usize = 3;
 /// Cosine of the angle of two normals above which a touch goes on as the one that was there before.
 const SAME_FACE: f64 = 0.7;
 
@@ -80,7 +78,6 @@ impl BodyPairs {
                     normal,
                     depth,
                     share: 1.0,
-                    push_n: 0.0,
                     force: DVec3::ZERO,
                     block: glam::DMat3::ZERO,
                     stretch: DVec3::ZERO,
@@ -91,18 +88,10 @@ impl BodyPairs {
     }
 
     fn share_out(&mut self) {
-        for place in 0..self.touches.len() {
-            let touch = self.touches[place];
-            let key = |touch: &Touch| (touch.pair, touch.feature);
-            let before = self.touched.iter().find(|before| key(before) == key(&touch));
-            self.touches[place].share = match before.filter(|_| self.shared >= SHARING_PASSES) {
-                Some(before) => before.share,
-                None => {
-                    let mine = self.touches.iter().filter(|other| other.pair == touch.pair);
-                    share(touch.press(), mine.map(Touch::press), self.reach_of(touch.pair))
-                }
-            };
-        }
+        let (mut touches, mut touched) =
+            (std::mem::take(&mut self.touches), std::mem::take(&mut self.touched));
+        share_out(&mut touches, &mut touched, self.shared, |pair| self.reach_of(pair));
+        (self.touches, self.touched) = (touches, touched);
         self.shared += 1;
     }
 
@@ -133,7 +122,6 @@ impl BodyPairs {
             Push { force: push.force, rate: push.stiffness },
         );
         let touch = &mut self.touches[place];
-        touch.push_n = push.force;
         touch.force = touch.normal * push.force + grip.force;
         touch.block = outer(touch.normal, touch.normal) * push.stiffness + grip.block;
         touch.stretch = grip.kept;
@@ -222,9 +210,21 @@ impl BodyPairs {
     }
 }
 
-impl Touch {
+impl Shared for Touch {
     fn press(&self) -> Press {
         Press { place: self.place, normal: self.normal, depth: self.depth }
+    }
+
+    fn thing(&self) -> usize {
+        self.pair
+    }
+
+    fn number(&self) -> (usize, u64) {
+        (self.pair, self.feature)
+    }
+
+    fn share(&mut self) -> &mut f64 {
+        &mut self.share
     }
 }
 

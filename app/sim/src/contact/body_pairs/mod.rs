@@ -51,7 +51,6 @@ struct Touch {
     /// Depth beyond what is forgiven [m].
     depth: f64,
     share: f64,
-    push_n: f64,
     /// Push and friction on the first body, and `-d force / d place` of the one relative to the other [N], [N/m].
     force: DVec3,
     block: DMat3,
