@@ -8,8 +8,8 @@
 
 use endline_sdk::{Controls, Posture};
 use endline_sim::state::{
-    BodyGrip, BodyGrips, BodyState, FrictionState, PairGrip, RopeGrip, RopeState, SolidGrip,
-    StepControl, WhaleState,
+    BodyGrip, BodyGrips, BodyState, FrictionState, PairGrip, RopeGrip, RopeState, RopeWithin,
+    SolidGrip, StepControl, WhaleState,
 };
 use endline_sim::whale::Exertion;
 use endline_sim::{DQuat, DVec3, Input, State};
@@ -124,6 +124,7 @@ fn fold_rope(rope: &RopeState, ropes: &mut Fold, contact: &mut Fold, links: &mut
         seabed_grip,
         friction,
         solid_grips,
+        within,
         rope_grips,
     } = rope;
     for vectors in [position, velocity, earlier_position, earlier_velocity] {
@@ -144,6 +145,11 @@ fn fold_rope(rope: &RopeState, ropes: &mut Fold, contact: &mut Fold, links: &mut
         contact.word(u64::from(*at_node));
         contact.reals(&[*along_m, *push_n]);
         contact.vectors(&[*stretch]);
+    }
+    for RopeWithin { solid, line, from_m, to_m } in within {
+        contact.word(*solid as u64);
+        contact.word(*line as u64);
+        contact.reals(&[*from_m, *to_m]);
     }
     for RopeGrip { lines, along_m, stretch, forgiven_m } in rope_grips {
         lines.iter().for_each(|line| contact.word(*line as u64));

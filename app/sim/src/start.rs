@@ -32,6 +32,7 @@ impl State {
             seabed_grip: vec![DVec3::ZERO; nodes],
             friction: FrictionState::default(),
             solid_grips: Vec::new(),
+            within: Vec::new(),
             rope_grips: Vec::new(),
             position,
         };

@@ -146,7 +146,7 @@ impl Scenario {
             rope_nodes: fields.count("rope_nodes", 2),
             segment_m: segment(&fields),
             weak_links: flag("weak_links", true),
-            rope_on_bodies: flag("rope_on_bodies", false),
+            rope_on_bodies: flag("rope_on_bodies", true),
             bodies_on_whale: flag("bodies_on_whale", true),
             bodies_on_bodies: flag("bodies_on_bodies", true),
             rope_on_rope: flag("rope_on_rope", false),

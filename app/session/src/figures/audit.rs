@@ -55,6 +55,14 @@ pub static AUDIT: &[Figure<Report>] = &[
         |run: &Report| run.audit.ropes_through.into(),
     ),
     Figure::new(
+        "rope_within_m",
+        "rope within bodies since the start",
+        "Most rope at a time that has lain within bodies since the start, such as an endline stowed \
+         in its trap; it touches a body once it has come out of it.",
+        Quantity::Length,
+        |run: &Report| run.audit.rope_within_m.into(),
+    ),
+    Figure::new(
         "rope_steps",
         "solver steps with rope on rope",
         "Solver steps, away from the whale, with rope on rope.",

@@ -18,14 +18,13 @@ use crate::plugins::PluginHost;
 use crate::settled::SettledShape;
 
 /// Tables of a scenario that a preview does not use.
-const LEFT_OUT: [&str; 19] = [
+const LEFT_OUT: [&str; 18] = [
     "whale",
     "friction",
     "probe",
     "resolution",
     "waves",
     "start",
-    "rope_on_bodies",
     "bodies_on_whale",
     "bodies_on_bodies",
     "rope_nodes",

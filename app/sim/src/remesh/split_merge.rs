@@ -177,6 +177,7 @@ fn for_segments(rope: &mut RopeState, work: &mut RemeshWorkspace, act: impl Fn(V
         friction: _,
         // They lie by length along the line, which stays.
         solid_grips: _,
+        within: _,
         rope_grips: _,
     } = rope;
     act(Values::Numbers(segment_length));

@@ -13,7 +13,9 @@ pub(crate) mod workspace;
 use glam::{DQuat, DVec3};
 
 use crate::model::{Body, Model, Obstacle, ROPE_ON_HARD_N_M2, Shape};
+use crate::state::{BodyState, State};
 pub use shape::SolidShape;
+use workspace::SolidWorkspace;
 
 /// Friction of rope on a trap, buoy or anchor: wet synthetic rope on steel is 0.1 to 0.3 (Brown 1977, NUC TP-544, as
 /// known second hand; estimate).
@@ -36,6 +38,11 @@ pub(crate) struct Pose {
 }
 
 impl Pose {
+    /// Where a body is.
+    pub fn of(body: &BodyState) -> Self {
+        Self { place: body.position, orientation: body.orientation }
+    }
+
     /// A place of the world in this frame.
     pub fn inward(&self, place: DVec3) -> DVec3 {
         self.orientation.inverse() * (place - self.place)
@@ -102,6 +109,11 @@ pub(crate) fn of_model(model: &Model) -> Vec<Solid> {
     let bodies = if model.spec.settings.rope_on_bodies { &model.spec.bodies[..] } else { &[] };
     let bodies = bodies.iter().enumerate().map(|(index, body)| Solid::of_body(index, body));
     obstacles.chain(bodies).collect()
+}
+
+/// Whether rope lies in a body that it could touch.
+pub(crate) fn lies_in_body(model: &Model, state: &State) -> bool {
+    model.spec.settings.rope_on_bodies && SolidWorkspace::new(model).any_in_body(state)
 }
 
 /// The id of a solid, with what it is.

@@ -11,8 +11,14 @@ impl Solver {
     /// Writes the solved step into the state.
     pub(crate) fn keep(&mut self, model: &Model, scheme: &Scheme, state: &mut State) {
         if self.in_lanes {
-            return self.keep_from_lanes(model, scheme, state);
+            self.keep_from_lanes(model, scheme, state);
+        } else {
+            self.keep_from_lines(model, scheme, state);
         }
+        self.solid.keep_within(state);
+    }
+
+    fn keep_from_lines(&mut self, model: &Model, scheme: &Scheme, state: &mut State) {
         self.keep_grips(model, scheme, state);
         self.keep_solid_grips(scheme, state);
         self.keep_rope_grips(scheme, state);

@@ -11,12 +11,12 @@
 
 use glam::{DMat3, DQuat, DVec3};
 
-use super::Solver;
 use super::elastic_grip::{Grip, Push};
 use super::interface::Attachment;
 use super::rope::outer;
 use super::scheme::Scheme;
 use super::stopping::{ANSWER_STRICTER, ContactMissed, GRIP_STRICTER};
+use super::{BodyTrial, Solver};
 use crate::solids::workspace::{Pair, SolidContactPoint, least_distance};
 use crate::solids::{Carrier, Pose, Solid};
 use crate::state::{SolidGrip, State};
@@ -57,7 +57,11 @@ impl Solver {
     pub(super) fn add_solids(&mut self, state: &State, scheme: &Scheme, active_set: ActiveSet) {
         let mut work = std::mem::take(&mut self.solid);
         if scheme.is_static() {
-            work.gather(state, &self.trial.place, 0.0);
+            work.gather_at_rest(
+                state,
+                &self.trial.place,
+                self.trial.bodies.iter().map(BodyTrial::pose),
+            );
         } else if !work.pairs.is_empty() {
             work.follow_all(state, &self.trial.place, |carrier| self.pose_of(carrier));
         }
@@ -218,12 +222,12 @@ impl Solver {
         missed
     }
 
-    /// Share of the solved step of statics, at most `longest`, that takes no rope through an obstacle: as far as it is away
-    /// and a little of the obstacle's thickness more.
+    /// Share of the solved step of statics, at most `longest`, that takes no rope through a solid: as far as it is away
+    /// and a little of the solid's thickness more.
     pub(crate) fn share_past_solids(&self, longest: f64) -> f64 {
         let share_of = |pair: &Pair| {
             let solid = &self.solid.solids[pair.solid];
-            let Carrier::World(pose) = solid.carrier else { return f64::INFINITY };
+            let pose = self.pose_of(&solid.carrier);
             let ends = [pair.node, pair.node + 1];
             let [a, b] = ends.map(|node| self.trial.place[node]);
             let room = least_distance(solid, &pose, a, b).max(0.0)
@@ -233,12 +237,13 @@ impl Solver {
                 .into_iter()
                 .fold(1e-12, f64::max)
         };
-        self.solid.pairs.iter().map(share_of).fold(longest, f64::min)
+        let touches = |pair: &&Pair| pair.range.0 < pair.range.1;
+        self.solid.pairs.iter().filter(touches).map(share_of).fold(longest, f64::min)
     }
 
     /// Gathers rope near solids for a step; whether it may touch one.
     pub(crate) fn gather_solids(&mut self, state: &State, dt: f64) -> bool {
-        self.solid.gather(state, &state.rope.position, dt);
+        self.solid.gather(state, dt);
         self.solid.touching
     }
 

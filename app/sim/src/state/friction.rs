@@ -46,6 +46,19 @@ pub struct SolidGrip {
     pub push_n: f64,
 }
 
+/// A length of rope that has lain within a body since the run began, and does not touch it until it has come out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RopeWithin {
+    /// Solid: obstacles first, then bodies.
+    pub solid: usize,
+    /// Line.
+    pub line: usize,
+    /// Unstretched length along the line to where it begins [m].
+    pub from_m: f64,
+    /// The same to where it ends [m].
+    pub to_m: f64,
+}
+
 /// A body's touch on a triangle of skin, as it lasts from step to step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyGrip {

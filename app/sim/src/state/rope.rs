@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::friction::{FrictionState, RopeGrip, SolidGrip};
+use super::friction::{FrictionState, RopeGrip, RopeWithin, SolidGrip};
 use crate::in_place::clone_in_place;
 
 /// Nodes and segments of all lines, in the model's layout.
@@ -30,6 +30,8 @@ pub struct RopeState {
     pub friction: FrictionState,
     /// Where rope touches obstacles and bodies.
     pub solid_grips: Vec<SolidGrip>,
+    /// Rope that has lain within a body since the start.
+    pub within: Vec<RopeWithin>,
     /// Where rope touches rope.
     pub rope_grips: Vec<RopeGrip>,
 }
@@ -46,5 +48,6 @@ clone_in_place!(RopeState {
     seabed_grip,
     friction,
     solid_grips,
+    within,
     rope_grips
 });

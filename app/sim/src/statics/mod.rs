@@ -5,12 +5,13 @@
 //! their grip on the seabed. *Refined*: the shape is carried over to the gear as it is. Each is tried in several ways in
 //! turn, the quick one first ([`ways`]): Newton ([`newton`]), creeping ([`creep`]), soft rope made stiff ([`relax`]).
 //! Where gear does not come to rest, the pull on its held bodies against what they hold says whether it drags
-//! ([`outcome`]).
+//! ([`outcome`]). All that with rope that passes through bodies; where some then lies in one, it is lifted out ([`on_bodies`]).
 
 mod coarse;
 mod creep;
 mod guess;
 mod newton;
+mod on_bodies;
 pub mod outcome;
 mod relax;
 mod trail;
@@ -70,7 +71,8 @@ impl Settled {
 #[must_use]
 pub fn settle(model: &Model) -> Settled {
     let mut trail = Trail::default();
-    let found = find(model, &mut trail);
+    let mut found = find(model, &mut trail);
+    on_bodies::lift(model, &mut found, &mut trail);
     told(model, found, trail)
 }
 
@@ -107,7 +109,7 @@ fn refine(model: &Model, coarse: &Coarse, found: &Found, trail: &mut Trail) -> O
     let end = ways::try_all(
         &REFINED,
         model,
-        &Attempt { laid, guess: &guess, hold, pseudo_mass: NEAR },
+        &Attempt { laid, guess: &guess, hold, on_bodies_n_m2: None, pseudo_mass: NEAR },
         trail,
     );
     if !end.at_rest() {
@@ -130,8 +132,8 @@ fn carry(model: &Model, coarse: &Coarse, found: Found, trail: &mut Trail) -> Fou
     } else {
         (&held, Hold::Released)
     };
-    let end =
-        newton::descend(model, &Attempt { laid, guess: &guess, hold, pseudo_mass: NEAR }, 1, trail);
+    let attempt = Attempt { laid, guess: &guess, hold, on_bodies_n_m2: None, pseudo_mass: NEAR };
+    let end = newton::descend(model, &attempt, 1, trail);
     let outcome = match found.outcome {
         Outcome::AtRest if !end.at_rest() => Outcome::NotFound(Unfound::Fine),
         outcome => outcome,
@@ -145,11 +147,22 @@ fn find_anew(model: &Model, trail: &mut Trail) -> Found {
     let held = ways::try_all(
         &HELD,
         model,
-        &Attempt { laid: &first, guess: &first, hold: Hold::Laid, pseudo_mass: FAR },
+        &Attempt {
+            laid: &first,
+            guess: &first,
+            hold: Hold::Laid,
+            on_bodies_n_m2: None,
+            pseudo_mass: FAR,
+        },
         trail,
     );
-    let attempt =
-        Attempt { laid: &held.state, guess: &held.state, hold: Hold::Released, pseudo_mass: FAR };
+    let attempt = Attempt {
+        laid: &held.state,
+        guess: &held.state,
+        hold: Hold::Released,
+        on_bodies_n_m2: None,
+        pseudo_mass: FAR,
+    };
     if !held.at_rest() {
         let end = ways::take(Way::Soften, model, &attempt, trail);
         let outcome =

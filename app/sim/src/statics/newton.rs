@@ -64,6 +64,8 @@ pub(super) struct Attempt<'a> {
     /// Where to begin.
     pub guess: &'a State,
     pub hold: Hold,
+    /// Stiffness of bodies under rope, by its length; it passes through them where there is none [N/m²].
+    pub on_bodies_n_m2: Option<f64>,
     /// Pseudo-mass of the first pass: a free node then moves about `g/σ` in it [1/s²].
     pub pseudo_mass: f64,
 }
@@ -111,6 +113,7 @@ impl<'a> Newton<'a> {
     /// Begins at a guess.
     pub fn new(model: &'a Model, attempt: &Attempt) -> Self {
         let (mut solver, scheme) = (Solver::new(model), Scheme::statics(attempt.pseudo_mass));
+        solver.solid.at_rest_n_m2 = attempt.on_bodies_n_m2;
         solver.begin(model, attempt.laid, &scheme);
         match attempt.hold {
             Hold::Laid => solver.hold_laid(model),

@@ -34,7 +34,7 @@ const MOST_STAGES: usize = 24;
 
 /// Finds a state at rest for gear laid as in `laid`.
 pub(super) fn relax(model: &Model, laid: &State, hold: Hold, trail: &mut Trail) -> Reached {
-    let anew = Attempt { laid, guess: laid, hold, pseudo_mass: FAR };
+    let anew = Attempt { laid, guess: laid, hold, on_bodies_n_m2: None, pseudo_mass: FAR };
     let mut best = quick(model, &anew, trail);
     for softest_n in SOFTEST_N {
         if best.at_rest() || trail.is_spent() {

@@ -14,6 +14,8 @@ pub struct Audit {
     pub ropes_crossed: u64,
     /// Most pairs of segments at a time that run through each other since the start, and are left alone.
     pub ropes_through: u64,
+    /// Most rope at a time that has lain within bodies since the start, and does not touch them [m].
+    pub rope_within_m: f64,
     /// Bodies passed through skin, found by an exact test of their axes over every solver step.
     pub bodies_crossed: u64,
     /// Solver steps, away from the whale, that had rope on rope.

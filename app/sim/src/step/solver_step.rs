@@ -76,6 +76,8 @@ fn try_solver_step(
     solver.report_ropes(state, rope_touches);
     solver.keep(model, &scheme, state);
     audit.ropes_through = audit.ropes_through.max(solver.ropes.count_through());
+    let within = state.rope.within.iter().map(|within| within.to_m - within.from_m);
+    audit.rope_within_m = audit.rope_within_m.max(within.sum());
     audit.solver_steps += 1;
     audit.touching_steps += u64::from(!untouched);
     workspace.take_tensions(model, &state.rope.tension, solved.missed.is_some());

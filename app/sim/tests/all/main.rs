@@ -14,6 +14,7 @@ mod kinetic_rope;
 mod rapier;
 mod reference;
 mod rope_law;
+mod rope_on_bodies;
 mod ropes;
 mod solids;
 mod sound;

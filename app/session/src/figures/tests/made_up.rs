@@ -82,6 +82,7 @@ fn audit(next: &mut Numbers) -> Audit {
         bodies_crossed: next.whole(),
         ropes_crossed: next.whole(),
         ropes_through: next.whole(),
+        rope_within_m: next.real(),
         rope_steps: next.whole(),
         least_distance_m: Some(next.real()),
         non_finite: next.whole(),

@@ -32,44 +32,57 @@ impl Motion {
     }
 }
 
-/// Where solids are over a step: when it begins and by their drift.
-fn poses_of(solid: &Solid, state: &State, dt: f64) -> [Pose; 2] {
+/// Where a solid is over a step, with bodies where they are when it begins: then, and by its drift.
+fn poses_of(solid: &Solid, state: &State, bodies: &[Pose], dt: f64) -> [Pose; 2] {
     match solid.carrier {
         Carrier::World(pose) => [pose, pose],
         Carrier::Body(body) => {
-            let body = &state.bodies[body];
-            let from = Pose { place: body.position, orientation: body.orientation };
-            [from, Pose { place: body.position + body.velocity * dt, ..from }]
+            let (from, velocity) = (bodies[body], state.bodies[body].velocity);
+            [from, Pose { place: from.place + velocity * dt, ..from }]
         }
     }
 }
 
 impl SolidWorkspace {
-    /// Gathers rope near solids for a step of length `dt` (zero in statics) that starts at `from`.
-    pub fn gather(&mut self, state: &State, from: &[DVec3], dt: f64) {
-        // Statics gathers anew in every pass, and goes on with what the last solve predicted.
+    /// Gathers rope near solids for a step of length `dt`, as the state begins it.
+    pub fn gather(&mut self, state: &State, dt: f64) {
         self.predicted.clear();
-        if dt <= 0.0 {
-            self.predicted.extend(
-                self.nodes.iter().map(|point| ((point.solid, point.node), point.predicted_n)),
-            );
+        self.bodies.clear();
+        self.bodies.extend(state.bodies.iter().map(Pose::of));
+        if !self.solids.is_empty() {
+            self.measure_lengths(&state.rope.segment_length);
+            self.take_within(state);
         }
+        self.gather_from(state, &state.rope.position, dt, MARGIN_M);
+    }
+
+    /// Gathers rope near solids for a pass of statics that begins with rope and bodies at these places. What the last pass predicted
+    /// is where this one goes on.
+    pub fn gather_at_rest(
+        &mut self,
+        state: &State,
+        from: &[DVec3],
+        bodies: impl Iterator<Item = Pose>,
+    ) {
+        self.predicted.clear();
+        self.predicted
+            .extend(self.nodes.iter().map(|point| ((point.solid, point.node), point.predicted_n)));
+        self.bodies.clear();
+        self.bodies.extend(bodies);
+        self.within.clear();
+        self.gather_from(state, from, 0.0, STATIC_MARGIN_M);
+    }
+
+    fn gather_from(&mut self, state: &State, from: &[DVec3], dt: f64, margin: f64) {
         self.pairs.clear();
         self.nodes.clear();
         self.touching = false;
         (self.passes, self.dt) = (0, dt);
-        // Obstacles come first.
-        let any = if dt > 0.0 {
-            !self.solids.is_empty()
-        } else {
-            self.solids.first().is_some_and(|solid| solid.mass_kg.is_infinite())
-        };
-        if !any {
+        if self.solids.is_empty() {
             return;
         }
         self.measure_lengths(&state.rope.segment_length);
         let drift = |node: usize| from[node] + state.rope.velocity[node] * dt;
-        let margin = if dt > 0.0 { MARGIN_M } else { STATIC_MARGIN_M };
         self.add_pairs(state, from, drift, dt, margin, false);
     }
 
@@ -96,13 +109,10 @@ impl SolidWorkspace {
             (std::mem::take(&mut self.boxes), std::mem::take(&mut self.solids));
         boxes.measure(from, &to);
         let widest = self.radius_m.iter().copied().fold(0.0, f64::max);
-        // Statics has no friction and moves far: there bodies do not push rope.
-        for (index, solid) in solids
-            .iter()
-            .enumerate()
-            .filter(|(_, solid)| dt > 0.0 || matches!(solid.carrier, Carrier::World(_)))
-        {
-            let poses = poses_of(solid, state, dt);
+        let spares_bodies = dt <= 0.0 && self.at_rest_n_m2.is_none();
+        let pushes = |solid: &Solid| !spares_bodies || matches!(solid.carrier, Carrier::World(_));
+        for (index, solid) in solids.iter().enumerate().filter(|(_, solid)| pushes(solid)) {
+            let poses = poses_of(solid, state, &self.bodies, dt);
             for near in boxes.near(solid, &poses, widest + margin) {
                 let NearSegment { segment, node, line } = near;
                 let places = [from[node], from[node + 1], to(node), to(node + 1)];
@@ -127,6 +137,10 @@ impl SolidWorkspace {
         Motion { places, poses }: &Motion,
         again: bool,
     ) {
+        let reach_m = [self.along_m[node], self.along_m[node + 1]];
+        if self.lies_within(solid, line, reach_m) {
+            return;
+        }
         let (range, radius_m) = (self.range_of(solid, line, node), self.radius_m[line]);
         let follows = self.pairs.last().is_some_and(|last| {
             last.solid == solid && last.segment + 1 == segment && last.line == line

@@ -8,6 +8,7 @@ mod follow;
 mod gather;
 mod points;
 mod spared;
+mod within;
 
 use std::ops::Range;
 
@@ -17,6 +18,7 @@ use super::along::least;
 use super::broad::Boxes;
 use super::{Pose, Solid, of_model};
 use crate::model::Model;
+use crate::state::RopeWithin;
 pub(crate) use points::SolidContactPoint;
 use spared::{Spared, spared};
 
@@ -31,7 +33,7 @@ pub(crate) struct Pair {
     pub line: usize,
     pub node: usize,
     /// Fractions between which it may touch.
-    range: (f64, f64),
+    pub range: (f64, f64),
     pub inner: [SolidContactPoint; 2],
 }
 
@@ -54,6 +56,12 @@ pub(crate) struct SolidWorkspace {
     /// Half the diameter of the rope of each line [m].
     radius_m: Vec<f64>,
     passes: usize,
+    /// Rope within bodies when the step begins.
+    within: Vec<RopeWithin>,
+    /// Stiffness of bodies under rope in statics, by its length; rope passes through them where there is none [N/m²].
+    pub at_rest_n_m2: Option<f64>,
+    /// Where bodies are when the step begins.
+    bodies: Vec<Pose>,
     /// What the last pass of statics predicted: solid and node, normal force [N].
     predicted: Vec<((usize, usize), f64)>,
     /// Length of the step [s].

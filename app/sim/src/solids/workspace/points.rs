@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3};
 
 use super::SolidWorkspace;
-use crate::solids::{Pose, Solid};
+use crate::solids::{Carrier, Pose, Solid};
 use crate::state::{SolidGrip, State};
 
 /// Rope that comes this near in a step may touch [m].
@@ -32,7 +32,7 @@ pub(crate) struct SolidContactPoint {
     pub open: bool,
     /// Stretch of the grip when the step began, in the solid's frame [m].
     pub kept: DVec3,
-    /// Depth that is forgiven: rope that began deep inside is pushed out softly [m].
+    /// Depth that is forgiven: rope that began deep inside an obstacle is pushed out softly [m].
     pub forgiven_m: f64,
     /// Stiffness [N/m].
     pub stiffness: f64,
@@ -72,7 +72,8 @@ impl SolidWorkspace {
         let radius = point.radius_m;
         let depths = [0, 1].map(|k| radius - solid.shape.distance(poses[k].inward(places[k])));
         self.touching |= depths[0].max(depths[1]) > -TOUCH_M;
-        let forgiven_m = (depths[0] - radius).max(0.0);
+        let is_fixed = matches!(solid.carrier, Carrier::World(_));
+        let forgiven_m = if is_fixed { (depths[0] - radius).max(0.0) } else { 0.0 };
         let point = SolidContactPoint { forgiven_m, ..self.regrip(state, solid, point) };
         let here_n = point.stiffness * (depths[1] - forgiven_m);
         let known =
@@ -97,13 +98,7 @@ impl SolidWorkspace {
             None => self.node_length(point.node),
             Some(_) => self.length_of(point.node).min(EDGE_M),
         };
-        point.stiffness = solid.stiffness_n_m2 * length;
-        if solid.mass_kg.is_finite() {
-            let held =
-                state.rope.solid_grips.iter().filter(|grip| grip.solid == point.solid).count();
-            let most = BODY_SHARE * solid.mass_kg / (self.dt * self.dt * (held + 1) as f64);
-            point.stiffness = point.stiffness.min(most);
-        }
+        point.stiffness = self.stiffness_of(solid, point.solid, length, state);
         let farthest = if point.fraction.is_some() { FOLLOWED_M } else { 1e-9 };
         let mine = |grip: &&SolidGrip| {
             grip.solid == point.solid
@@ -121,6 +116,19 @@ impl SolidWorkspace {
             (point.kept, point.predicted_n) = (grip.stretch, grip.push_n);
         }
         point
+    }
+
+    /// Stiffness under a length of rope [N/m].
+    fn stiffness_of(&self, solid: &Solid, index: usize, length: f64, state: &State) -> f64 {
+        match self.at_rest_n_m2.filter(|_| solid.mass_kg.is_finite()) {
+            Some(soft_n_m2) => soft_n_m2 * length,
+            None if solid.mass_kg.is_infinite() => solid.stiffness_n_m2 * length,
+            None => {
+                let held = state.rope.solid_grips.iter().filter(|grip| grip.solid == index).count();
+                let most = BODY_SHARE * solid.mass_kg / (self.dt * self.dt * (held + 1) as f64);
+                (solid.stiffness_n_m2 * length).min(most)
+            }
+        }
     }
 
     /// Unstretched length that hangs on a node [m].

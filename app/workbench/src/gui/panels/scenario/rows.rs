@@ -158,7 +158,7 @@ pub(super) const FLAGS: &[Flag] = &[
     flag(
         "Ropes touch traps and buoys",
         "rope_on_bodies",
-        false,
-        "Rope lies on traps, buoys and anchors",
+        true,
+        "Rope lies on traps, buoys and anchors; off: it passes through them",
     ),
 ];
