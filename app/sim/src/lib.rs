@@ -19,6 +19,7 @@ mod model_check;
 pub mod parting;
 mod random;
 mod remesh;
+mod same_bits;
 pub mod solids;
 mod solver;
 mod start;

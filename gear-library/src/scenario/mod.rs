@@ -149,7 +149,7 @@ impl Scenario {
             rope_on_bodies: flag("rope_on_bodies", true),
             bodies_on_whale: flag("bodies_on_whale", true),
             bodies_on_bodies: flag("bodies_on_bodies", true),
-            rope_on_rope: flag("rope_on_rope", false),
+            rope_on_rope: flag("rope_on_rope", true),
             rope_friction: rope_friction(&fields),
             as_placed: start.is_some_and(|start| start.value == "placed"),
             rope_condition: rope_condition
@@ -186,7 +186,7 @@ impl Scenario {
         if let (Some(friction), false) = (&self.rope_friction, self.rope_on_rope) {
             let message = "`rope_friction` is given, but ropes pass through each other here";
             fields.problems().push(
-                friction.place.error(message, "write rope_on_rope = true besides, or take it out"),
+                friction.place.error(message, "take it out, or `rope_on_rope = false`"),
             );
         }
         if self.gear.len() > 1 {

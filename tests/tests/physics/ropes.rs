@@ -344,17 +344,17 @@ fn the_hauled_endline_parts_at_an_insert() {
 }
 
 #[test]
-fn rope_touches_rope_where_a_scenario_says_so() {
+fn rope_touches_rope_unless_a_scenario_says_no() {
     let law = |head: &str| assembled(&pulled(head, ""), None).settings.rope_on_rope;
-    assert_eq!(law("rope_nodes = 40"), None);
-    assert_eq!(law("rope_nodes = 40\nrope_on_rope = true"), Some(RopeOnRope::default()));
-    let rough = law("rope_nodes = 40\nrope_on_rope = true\nrope_friction = 0.4").unwrap();
+    assert_eq!(law("rope_nodes = 40\nrope_on_rope = false"), None);
+    assert_eq!(law("rope_nodes = 40"), Some(RopeOnRope::default()));
+    let rough = law("rope_nodes = 40\nrope_friction = 0.4").unwrap();
     assert!((rough.friction - 0.4).abs() < 1e-15);
     for (head, told) in [
         ("rope_on_rope = \"yes\"", "true or false"),
-        ("rope_on_rope = true\nrope_friction = 7", "rope_friction"),
-        ("rope_on_rope = true\nrope_friction = \"0.2 N\"", "rope_friction"),
-        ("rope_friction = 0.2", "rope_on_rope = true"),
+        ("seed = 2\nrope_friction = 7", "rope_friction"),
+        ("seed = 2\nrope_friction = \"0.2 N\"", "rope_friction"),
+        ("rope_on_rope = false\nrope_friction = 0.2", "ropes pass through each other"),
     ] {
         let problems = refused(&pulled(head, ""));
         let here = problems.iter().find(|problem| problem.to_string().contains(told));

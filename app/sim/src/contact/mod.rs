@@ -11,6 +11,7 @@ pub(crate) mod friction_arrays;
 mod grain;
 mod kept;
 pub(crate) mod near;
+pub(crate) mod pieces;
 pub(crate) mod placed;
 pub(crate) mod points;
 mod polygon;

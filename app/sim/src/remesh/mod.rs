@@ -15,12 +15,13 @@ mod criteria;
 mod split_merge;
 mod wanted;
 
+use crate::contact::pieces::Pieces;
 use crate::contact::ropes::near::RopeWorkspace;
 use crate::model::{Model, Resolution};
 use crate::state::State;
 use crate::whale::approach::Approach;
 use criteria::{Line, best};
-use wanted::measure;
+use wanted::{grip, measure};
 
 #[cfg(test)]
 mod tests;
@@ -39,6 +40,7 @@ pub(crate) struct RemeshWorkspace {
     wanted: Vec<f64>,
     /// Whether each segment touches skin, or is near rope that it may touch.
     gripped: Vec<bool>,
+    pieces: Pieces,
     ropes: RopeWorkspace,
 }
 
@@ -52,6 +54,7 @@ impl RemeshWorkspace {
             approach: Approach::new(tree),
             wanted: vec![0.0; model.segment_count],
             gripped: vec![false; model.segment_count],
+            pieces: Pieces::new(model),
             ropes: RopeWorkspace::new(model),
         })
     }
@@ -79,9 +82,18 @@ pub(crate) fn remesh(
         return Remeshed::default();
     }
     measure(model, state, resolution, work);
+    if !is_any_too_long(state, &work.wanted) {
+        return Remeshed { splits: 0, near_ratio: near_ratio(state, &work.wanted, resolution) };
+    }
+    grip(model, state, work);
     let lines = 0..model.spec.lines.len();
     let splits = lines.map(|line| remesh_line(model, state, line, work, resolution)).sum();
     Remeshed { splits, near_ratio: near_ratio(state, &work.wanted, resolution) }
+}
+
+/// Whether a segment is longer than wanted, without which none is split and none merged.
+fn is_any_too_long(state: &State, wanted: &[f64]) -> bool {
+    state.rope.segment_length.iter().zip(wanted).any(|(length, wanted)| length > wanted)
 }
 
 /// Greatest ratio of length to wanted length of uncut rope near the whale.

@@ -29,22 +29,28 @@ pub(super) fn is_far(resolution: &Resolution, wanted_m: f64) -> bool {
     wanted_m > resolution.near_m
 }
 
-/// Measures the wanted length of every segment, and which ones touch skin.
+/// Marks the segments that touch skin, and those near rope that they may touch: they stay as they are.
+pub(super) fn grip(model: &Model, state: &State, work: &mut RemeshWorkspace) {
+    work.gripped.fill(false);
+    for site in &state.rope.friction.sites {
+        work.gripped[crate::contact::site::segment_of(*site)] = true;
+    }
+    // A merge moves rope, and rope near it would be crossed.
+    let rope = &state.rope;
+    work.pieces.measure(&rope.position, |node| rope.position[node], &rope.segment_length);
+    work.ropes.gather(model, state, &work.pieces, 0.0);
+    for pair in &work.ropes.pairs {
+        pair.segments.iter().for_each(|segment| work.gripped[*segment] = true);
+    }
+}
+
+/// Measures the wanted length of every segment.
 pub(super) fn measure(
     model: &Model,
     state: &State,
     resolution: &Resolution,
     work: &mut RemeshWorkspace,
 ) {
-    work.gripped.fill(false);
-    for site in &state.rope.friction.sites {
-        work.gripped[crate::contact::site::segment_of(*site)] = true;
-    }
-    // A merge moves rope, and rope near it would be crossed.
-    work.ropes.gather(model, state, 0.0);
-    for pair in &work.ropes.pairs {
-        pair.segments.iter().for_each(|segment| work.gripped[*segment] = true);
-    }
     work.wanted.fill(resolution.far_m);
     let (Some(whale), Some(now)) = (&model.spec.whale, &state.whale) else { return };
     pose(&whale.skin, now.position, now.orientation, &now.posture, &mut work.bones);

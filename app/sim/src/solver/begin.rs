@@ -51,19 +51,22 @@ impl Solver {
     /// to [m]; they are looked at from now on.
     pub(crate) fn met_more(&mut self, context: &StepContext<'_>, moved_m: f64) -> bool {
         let StepContext { model, state, scheme } = *context;
-        let on_solid = (self.solid.touching || moved_m > MARGIN_M) && {
-            self.take_places();
-            self.solid.gather_more(state, &self.trial.place, scheme.dt)
-        };
-        let known = self.ropes.pairs.is_empty() && moved_m <= self.ropes.unwatched_m();
-        let on_rope = self.ropes.law.is_some() && !known && {
-            self.take_places();
-            if self.ropes.touching {
-                self.ropes.gather_more(model, state, &self.trial.place)
+        let beyond_solids = self.solid.touching || moved_m > MARGIN_M;
+        let beyond_ropes = self.ropes.law.is_some()
+            && (!self.ropes.pairs.is_empty() || moved_m > self.ropes.unwatched_m());
+        if !beyond_solids && !beyond_ropes {
+            return false;
+        }
+        self.take_places();
+        let (rope, to) = (&state.rope, &self.trial.place);
+        self.pieces.measure(&rope.position, |node| to[node], &rope.segment_length);
+        let on_solid = beyond_solids && self.solid.gather_more(state, &self.pieces, to, scheme.dt);
+        let on_rope = beyond_ropes
+            && if self.ropes.touching {
+                self.ropes.gather_more(model, state, &self.pieces, to)
             } else {
-                self.ropes.met(model, state, &self.trial.place)
-            }
-        };
+                self.ropes.met(model, state, &self.pieces, to)
+            };
         on_solid || on_rope
     }
 

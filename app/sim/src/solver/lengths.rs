@@ -2,6 +2,7 @@
 
 use super::axial::Axial;
 use crate::model::Model;
+use crate::same_bits::same_bits;
 
 /// Lengths of a step, taken from the state it begins from.
 #[derive(Clone, Debug, Default)]
@@ -19,7 +20,7 @@ pub(crate) struct Lengths {
 impl Lengths {
     /// Takes over the lengths of a state, where they are not those there are.
     pub fn take(&mut self, model: &Model, segment_length: &[f64]) {
-        if self.shortest > 0.0 && self.segment == segment_length {
+        if self.shortest > 0.0 && same_bits(&self.segment, segment_length) {
             return;
         }
         self.segment.clear();

@@ -46,6 +46,7 @@ use glam::{DMat3, DVec3};
 
 use crate::contact::bodies::BodySkin;
 use crate::contact::body_pairs::{BodyPairs, Coupled};
+use crate::contact::pieces::Pieces;
 use crate::contact::ropes::near::RopeWorkspace;
 use crate::cost::{CostClock, CostPart};
 use crate::model::Model;
@@ -104,6 +105,8 @@ pub(crate) struct Solver {
     /// The water at each body.
     flow_bodies: Vec<WaterAt>,
     wave_walk: Walk,
+    /// Rope in pieces, measured over the step.
+    pub(crate) pieces: Pieces,
     /// Rope near obstacles and bodies.
     pub(crate) solid: SolidWorkspace,
     /// Rope near rope.
@@ -171,6 +174,7 @@ impl Solver {
             push: Vec::new(),
             flow_bodies: Vec::new(),
             wave_walk: Walk::default(),
+            pieces: Pieces::new(model),
             solid: SolidWorkspace::new(model),
             ropes: RopeWorkspace::new(model),
             body_skin: BodySkin::new(model).map(Box::new),

@@ -213,6 +213,6 @@ impl Solver {
 
     /// Gathers rope near rope for a step; whether any may touch.
     pub(crate) fn gather_ropes(&mut self, model: &Model, state: &State, dt: f64) -> bool {
-        self.ropes.gather(model, state, dt)
+        self.ropes.gather(model, state, &self.pieces, dt)
     }
 }

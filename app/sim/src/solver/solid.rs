@@ -59,6 +59,7 @@ impl Solver {
         if scheme.is_static() {
             work.gather_at_rest(
                 state,
+                &mut self.pieces,
                 &self.trial.place,
                 self.trial.bodies.iter().map(BodyTrial::pose),
             );
@@ -243,7 +244,7 @@ impl Solver {
 
     /// Gathers rope near solids for a step; whether it may touch one.
     pub(crate) fn gather_solids(&mut self, state: &State, dt: f64) -> bool {
-        self.solid.gather(state, dt);
+        self.solid.gather(state, &self.pieces, dt);
         self.solid.touching
     }
 

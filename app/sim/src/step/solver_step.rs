@@ -53,6 +53,7 @@ fn try_solver_step(
     rope_touches.clear();
     let on_skin = solver.look_at_bodies(state, dt);
     let on_body = solver.gather_body_pairs(model, state, dt);
+    solver.pieces.measure_drift(state, dt);
     let on_solid = solver.gather_solids(state, dt);
     let on_rope = solver.gather_ropes(model, state, dt);
     let untouched = !may_touch && !on_solid && !on_rope && !on_skin && !on_body;

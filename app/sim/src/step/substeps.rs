@@ -91,9 +91,12 @@ fn near_whale(
     workspace.solver.trial.hitches.move_to(model, [&work.bones[0], &work.bones[1]]);
     workspace.solver.cost.enter(CostPart::Detection);
     let step_s = model.spec.settings.step_s;
-    let [start, end] = &work.bones;
+    let (pieces, [start, end]) = (&mut workspace.solver.pieces, &work.bones);
+    pieces.forget();
+    pieces.measure_drift(state, step_s);
     let near = work.near.any(
         [start, end],
+        pieces,
         &state.rope.position,
         |node| state.rope.velocity[node] * step_s,
         NEAR_M,

@@ -139,9 +139,9 @@ impl Surface {
         false
     }
 
-    /// Whether the box around the whole surface over the step meets these bounds.
-    pub(crate) fn may_meet(&mut self, bounds: &Bounds) -> bool {
-        !self.tree.nodes().is_empty() && self.step.node(&self.tree, 0).meets(bounds)
+    /// The box around the whole surface over the step.
+    pub(crate) fn whole(&mut self) -> Bounds {
+        if self.tree.nodes().is_empty() { Bounds::EMPTY } else { self.step.node(&self.tree, 0) }
     }
 
     /// All pairs of a segment and a triangle whose boxes over the step come within `margin`, written

@@ -88,7 +88,7 @@ fn fields_choices_and_flags_of_the_panel_reach_the_text() {
     harness.run_steps(3);
     harness.get_by_label("Ropes touch each other").click();
     harness.run_steps(3);
-    assert_eq!(field(&harness, "rope_on_rope").as_deref(), Some("true"));
+    assert_eq!(field(&harness, "rope_on_rope").as_deref(), Some("false"));
     harness.state_mut().shared.perform(EditAction::Undo);
     assert_eq!(field(&harness, "rope_on_rope"), None);
     assert!(

@@ -50,7 +50,7 @@ impl BodySkin {
         let radius = self.cores[body].radius;
         let (from, to) = (now.position, now.position + now.velocity * left_s);
         let search_m = radius + room_of(now, radius, left_s);
-        if !self.surface.may_meet(&Bounds::around(&[from, to]).grown(search_m)) {
+        if !self.surface.whole().meets(&Bounds::around(&[from, to]).grown(search_m)) {
             return;
         }
         let path = SweptSegment { a0: from, b0: from, a1: to, b1: to };

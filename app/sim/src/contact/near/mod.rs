@@ -14,10 +14,11 @@ use std::sync::Arc;
 use glam::{DAffine3, DVec3};
 
 use super::distance::segment_triangle;
+use super::pieces::Pieces;
 use super::placed::Placed;
 use super::sweep::{SweptSegment, triangle_at};
 use crate::model::Model;
-use crate::whale::{Bounds, Candidate, SkinTree, Surface};
+use crate::whale::{Candidate, SkinTree, Surface};
 pub(crate) use group::Group;
 
 /// Rope within this distance of the path of skin is looked at [m].
@@ -93,19 +94,21 @@ impl Near {
         }
     }
 
-    /// Whether rope that moves from `places` by `moves` may come near skin between two poses.
+    /// Whether rope that moves from `places` by `moves` may come near skin between two poses; its pieces are measured over that move.
     pub fn any(
         &mut self,
         bones: [&[DAffine3]; 2],
+        pieces: &Pieces,
         places: &[DVec3],
         moves: impl Fn(usize) -> DVec3,
         margin: f64,
     ) -> bool {
         self.surface.begin(bones[0], bones[1]);
-        let path = places.iter().enumerate().fold(Bounds::EMPTY, |bounds, (node, place)| {
-            bounds.with(*place).with(*place + moves(node))
-        });
-        if !self.surface.may_meet(&path.grown(margin)) {
+        let skin = self.surface.whole().grown(margin);
+        let mut lines = pieces.lines.iter().filter(|(_, bounds)| skin.meets(bounds));
+        if !lines
+            .any(|(own, _)| pieces.pieces[own.clone()].iter().any(|one| skin.meets(&one.bounds)))
+        {
             return false;
         }
         self.sweep(places, moves);

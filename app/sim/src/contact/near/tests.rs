@@ -50,18 +50,19 @@ fn a_single_node_that_strays_is_found() {
     }
 }
 
-/// What the box around all rope tells is what the search through its segments tells.
+/// What the boxes around pieces of rope tell is what the search through its segments tells.
 #[test]
 fn rope_clear_of_the_whole_skin_is_near_none_of_it() {
     let model = two_lines();
     let skin = &model.spec.whale.as_ref().expect("a whale").skin;
     let mut near = Near::new(&model, model.skin_tree.clone().expect("a skin"));
-    let (mut bones, mut counts) = (Vec::new(), [0; 2]);
+    let (mut bones, mut counts, mut pieces) = (Vec::new(), [0; 2], Pieces::new(&model));
     for step in 0..80 {
         let shift = DVec3::new(-5.0, 0.25 * f64::from(step - 40), 0.1);
         pose(skin, DVec3::ZERO, DQuat::from_rotation_z(0.3), &Posture::default(), &mut bones);
         let places = places(&model, shift);
-        let found = near.any([&bones, &bones], &places, moves, 0.2);
+        pieces.measure(&places, |node| places[node] + moves(node), &vec![0.2; 100]);
+        let found = near.any([&bones, &bones], &pieces, &places, moves, 0.2);
         near.surface.begin(&bones, &bones);
         near.sweep(&places, moves);
         assert_eq!(found, near.surface.is_any_near(&near.sweeps, 0.2));

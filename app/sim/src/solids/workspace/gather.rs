@@ -4,7 +4,8 @@ use glam::DVec3;
 
 use super::points::SolidContactPoint;
 use super::{MARGIN_M, Pair, SolidWorkspace};
-use crate::solids::broad::NearSegment;
+use crate::contact::pieces::Pieces;
+use crate::solids::broad::{NearSegment, near};
 use crate::solids::shape::SolidShape;
 use crate::solids::{Carrier, Pose, Solid};
 use crate::state::State;
@@ -43,9 +44,24 @@ fn poses_of(solid: &Solid, state: &State, bodies: &[Pose], dt: f64) -> [Pose; 2]
     }
 }
 
+/// A search for rope near solids.
+#[derive(Clone, Copy)]
+struct Search<'a> {
+    /// Rope in pieces, measured over the step.
+    pieces: &'a Pieces,
+    /// Places of nodes when it begins [m].
+    from: &'a [DVec3],
+    /// Length of the step; zero in statics [s].
+    dt: f64,
+    /// How far beyond its radius rope is gathered [m].
+    margin: f64,
+    /// Whether it adds to what was gathered before.
+    again: bool,
+}
+
 impl SolidWorkspace {
-    /// Gathers rope near solids for a step of length `dt`, as the state begins it.
-    pub fn gather(&mut self, state: &State, dt: f64) {
+    /// Gathers rope near solids for a step of length `dt`, as the state begins it, by rope's pieces over the step.
+    pub fn gather(&mut self, state: &State, pieces: &Pieces, dt: f64) {
         self.predicted.clear();
         self.bodies.clear();
         self.bodies.extend(state.bodies.iter().map(Pose::of));
@@ -53,7 +69,8 @@ impl SolidWorkspace {
             self.measure_lengths(&state.rope.segment_length);
             self.take_within(state);
         }
-        self.gather_from(state, &state.rope.position, dt, MARGIN_M);
+        let from = &state.rope.position;
+        self.gather_anew(state, &Search { pieces, from, dt, margin: MARGIN_M, again: false });
     }
 
     /// Gathers rope near solids for a pass of statics that begins with rope and bodies at these places. What the last pass predicted
@@ -61,6 +78,7 @@ impl SolidWorkspace {
     pub fn gather_at_rest(
         &mut self,
         state: &State,
+        pieces: &mut Pieces,
         from: &[DVec3],
         bodies: impl Iterator<Item = Pose>,
     ) {
@@ -70,50 +88,43 @@ impl SolidWorkspace {
         self.bodies.clear();
         self.bodies.extend(bodies);
         self.within.clear();
-        self.gather_from(state, from, 0.0, STATIC_MARGIN_M);
+        pieces.measure(from, |node| from[node], &state.rope.segment_length);
+        let margin = STATIC_MARGIN_M;
+        self.gather_anew(state, &Search { pieces, from, dt: 0.0, margin, again: false });
     }
 
-    fn gather_from(&mut self, state: &State, from: &[DVec3], dt: f64, margin: f64) {
+    fn gather_anew(&mut self, state: &State, search: &Search<'_>) {
         self.pairs.clear();
         self.nodes.clear();
         self.touching = false;
-        (self.passes, self.dt) = (0, dt);
+        (self.passes, self.dt) = (0, search.dt);
         if self.solids.is_empty() {
             return;
         }
         self.measure_lengths(&state.rope.segment_length);
-        let drift = |node: usize| from[node] + state.rope.velocity[node] * dt;
-        self.add_pairs(state, from, drift, dt, margin, false);
+        let drift = |node: usize| search.from[node] + state.rope.velocity[node] * search.dt;
+        self.add_pairs(state, search, drift);
     }
 
-    /// Adds pairs that rope has come near to beyond what was gathered; whether there are any.
-    pub fn gather_more(&mut self, state: &State, to: &[DVec3], dt: f64) -> bool {
-        if self.solids.is_empty() {
-            return false;
-        }
+    /// Adds pairs that rope has come near to on its way to these places beyond what was gathered, by its pieces on that way; whether there
+    /// are any.
+    pub fn gather_more(&mut self, state: &State, pieces: &Pieces, to: &[DVec3], dt: f64) -> bool {
         let before = self.pairs.len();
-        self.add_pairs(state, &state.rope.position, |node| to[node], dt, 0.0, true);
+        let from = &state.rope.position;
+        let search = Search { pieces, from, dt, margin: 0.0, again: true };
+        self.add_pairs(state, &search, |node| to[node]);
         self.pairs.len() > before
     }
 
-    fn add_pairs(
-        &mut self,
-        state: &State,
-        from: &[DVec3],
-        to: impl Fn(usize) -> DVec3,
-        dt: f64,
-        margin: f64,
-        again: bool,
-    ) {
-        let (mut boxes, solids) =
-            (std::mem::take(&mut self.boxes), std::mem::take(&mut self.solids));
-        boxes.measure(from, &to);
+    fn add_pairs(&mut self, state: &State, search: &Search<'_>, to: impl Fn(usize) -> DVec3) {
+        let Search { pieces, from, dt, margin, again } = *search;
+        let solids = std::mem::take(&mut self.solids);
         let widest = self.radius_m.iter().copied().fold(0.0, f64::max);
         let spares_bodies = dt <= 0.0 && self.at_rest_n_m2.is_none();
         let pushes = |solid: &Solid| !spares_bodies || matches!(solid.carrier, Carrier::World(_));
         for (index, solid) in solids.iter().enumerate().filter(|(_, solid)| pushes(solid)) {
             let poses = poses_of(solid, state, &self.bodies, dt);
-            for near in boxes.near(solid, &poses, widest + margin) {
+            for near in near(pieces, solid, &poses, widest + margin) {
                 let NearSegment { segment, node, line } = near;
                 let places = [from[node], from[node + 1], to(node), to(node + 1)];
                 let reach = self.radius_m[line] + margin;
@@ -125,7 +136,7 @@ impl SolidWorkspace {
                 }
             }
         }
-        (self.boxes, self.solids) = (boxes, solids);
+        self.solids = solids;
     }
 
     fn add_pair(

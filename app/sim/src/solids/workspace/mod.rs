@@ -15,9 +15,9 @@ use std::ops::Range;
 use glam::DVec3;
 
 use super::along::least;
-use super::broad::Boxes;
 use super::{Pose, Solid, of_model};
 use crate::model::Model;
+use crate::same_bits::same_bits;
 use crate::state::RopeWithin;
 pub(crate) use points::SolidContactPoint;
 use spared::{Spared, spared};
@@ -45,7 +45,6 @@ pub(crate) struct SolidWorkspace {
     pub nodes: Vec<SolidContactPoint>,
     /// Whether rope may touch a solid in this step.
     pub touching: bool,
-    boxes: Boxes,
     spared: Vec<Spared>,
     /// Nodes and segments of each line.
     lines: Vec<(Range<usize>, Range<usize>)>,
@@ -82,20 +81,12 @@ impl SolidWorkspace {
         let lines =
             model.line_nodes.iter().cloned().zip(model.line_segments.iter().cloned()).collect();
         let along_m = vec![0.0; model.node_count];
-        Self {
-            boxes: Boxes::new(model),
-            solids,
-            spared,
-            lines,
-            along_m,
-            radius_m,
-            ..Self::default()
-        }
+        Self { solids, spared, lines, along_m, radius_m, ..Self::default() }
     }
 
     /// Takes over the lengths of segments, where they are not those there are.
     fn measure_lengths(&mut self, segment_length: &[f64]) {
-        if self.lengths == segment_length {
+        if same_bits(&self.lengths, segment_length) {
             return;
         }
         self.lengths.clear();

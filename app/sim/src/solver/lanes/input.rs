@@ -6,6 +6,7 @@ use super::Lanes;
 use super::layout::Piece;
 use super::rows::{GroundRow, LANES, NodeRow, SegmentRow};
 use crate::model::Model;
+use crate::same_bits::same_bits;
 use crate::solver::lengths::Lengths;
 use crate::solver::scheme::Scheme;
 use crate::solver::trial::Trial;
@@ -14,7 +15,7 @@ use crate::state::RopeState;
 impl Lanes {
     /// Takes over lengths, laws and what is cut, where they are not those there are.
     pub fn take_lengths(&mut self, model: &Model, lengths: &Lengths, cut: &[bool]) {
-        if self.lengths == lengths.segment && self.cut == cut {
+        if same_bits(&self.lengths, &lengths.segment) && self.cut == cut {
             return;
         }
         self.lengths.clone_from(&lengths.segment);

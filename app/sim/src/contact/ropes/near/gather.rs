@@ -3,9 +3,11 @@
 use glam::DVec3;
 
 use super::{Pair, RopeWorkspace, TOUCH_M, sweep_of};
+use crate::contact::pieces::Pieces;
 use crate::contact::ropes::broad::Moves;
 use crate::contact::ropes::sweep::{greatest_approach, nearest};
 use crate::model::Model;
+use crate::same_bits::same_bits;
 use crate::state::State;
 
 /// Ropes that come this near in a step, beyond touching, are gathered [m].
@@ -17,13 +19,17 @@ const THROUGH_SHARE: f64 = 0.01;
 /// Rope between two of its points, in contact distances, below which they do not touch: it cannot bend back so sharply.
 const SPARED_CONTACT_DISTANCES: f64 = 3.0;
 
+/// Segments of one line that are farther apart than this share of the rope between them have not come back to each other, and are not gathered
+/// before they may touch.
+const RUNS_ON_SHARE: f64 = 0.5;
+
 /// Least separation kept, as a share of the contact distance.
 const MIN_SEPARATION_SHARE: f64 = 0.08;
 
 impl RopeWorkspace {
     /// Takes over the lengths of segments, where they are not those there are.
     fn measure_lengths(&mut self, model: &Model, lengths: &[f64]) {
-        if self.lengths == lengths {
+        if same_bits(&self.lengths, lengths) {
             return;
         }
         self.lengths.clear();
@@ -38,8 +44,8 @@ impl RopeWorkspace {
         }
     }
 
-    /// Gathers rope near rope for a step from the state by its velocities; whether any may touch.
-    pub fn gather(&mut self, model: &Model, state: &State, dt: f64) -> bool {
+    /// Gathers rope near rope for a step from the state by its velocities, in pieces measured for it; whether any may touch.
+    pub fn gather(&mut self, model: &Model, state: &State, pieces: &Pieces, dt: f64) -> bool {
         self.pairs.clear();
         self.through.clear();
         self.touching = false;
@@ -47,16 +53,23 @@ impl RopeWorkspace {
         self.gather_to(
             model,
             state,
+            pieces,
             |node| rope.position[node] + rope.velocity[node] * dt,
             MARGIN_M,
         );
         self.touching
     }
 
-    /// Gathers rope that came near rope on its way to these places besides; whether there is any.
-    pub fn gather_more(&mut self, model: &Model, state: &State, to: &[DVec3]) -> bool {
+    /// Gathers rope that came near rope on its way to these places besides, in pieces measured for it; whether there is any.
+    pub fn gather_more(
+        &mut self,
+        model: &Model,
+        state: &State,
+        pieces: &Pieces,
+        to: &[DVec3],
+    ) -> bool {
         let before = self.pairs.len();
-        self.gather_to(model, state, |node| to[node], TOUCH_M);
+        self.gather_to(model, state, pieces, |node| to[node], TOUCH_M);
         self.pairs.len() > before
     }
 
@@ -65,6 +78,7 @@ impl RopeWorkspace {
         &mut self,
         model: &Model,
         state: &State,
+        pieces: &Pieces,
         to: impl Fn(usize) -> DVec3,
         margin: f64,
     ) {
@@ -74,8 +88,8 @@ impl RopeWorkspace {
         self.measure_lengths(model, &state.rope.segment_length);
         let (from, mut found, known) =
             (&state.rope.position, std::mem::take(&mut self.found), self.pairs.len());
-        let moves = Moves { from, to: &to, lengths: &self.lengths };
-        self.broad.collect(&moves, 2.0 * self.widest_m + margin, &mut found);
+        let moves = Moves { from, to: &to };
+        self.broad.collect(pieces, &moves, 2.0 * self.widest_m + margin, &mut found);
         for [one, other] in &found {
             if state.rope.cut[*one] || state.rope.cut[*other] || self.is_spared(*one, *other) {
                 continue;
@@ -106,6 +120,9 @@ impl RopeWorkspace {
         if least > contact_distance + margin {
             return;
         }
+        if least > contact_distance + TOUCH_M && first > RUNS_ON_SHARE * self.between_m(segments) {
+            return;
+        }
         if first < THROUGH_SHARE * contact_distance {
             self.through.push(segments);
             return;
@@ -124,12 +141,19 @@ impl RopeWorkspace {
         });
     }
 
+    /// Rope between two segments of one line; between those of two lines there is none, told as infinite [m].
+    fn between_m(&self, [one, other]: [usize; 2]) -> f64 {
+        if self.homes[one].line != self.homes[other].line {
+            return f64::INFINITY;
+        }
+        self.along_m[other] - self.along_m[one] - self.lengths[one]
+    }
+
     /// Whether so little rope lies between two segments, through a joint too, that they do not touch.
     fn is_spared(&self, one: usize, other: usize) -> bool {
         let (a, b) = (self.homes[one], self.homes[other]);
         let little = SPARED_CONTACT_DISTANCES * (a.radius_m + b.radius_m);
-        if a.line == b.line && self.along_m[other] - self.along_m[one] - self.lengths[one] < little
-        {
+        if self.between_m([one, other]) < little {
             return true;
         }
         let to_end = |line: usize, segment: usize, end: usize| match end {

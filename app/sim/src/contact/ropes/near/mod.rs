@@ -75,7 +75,6 @@ impl RopeWorkspace {
             homes,
             ends: model.spec.lines.iter().map(|line| ([line.from, line.to], 0.0)).collect(),
             along_m: vec![0.0; model.segment_count],
-            broad: Broad::new(model),
             ..Self::default()
         }
     }

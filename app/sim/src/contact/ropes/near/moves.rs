@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::{Pair, RopeWorkspace, TOUCH_M, between, sweep_of};
 use crate::contact::crossing::first_crossing;
+use crate::contact::pieces::Pieces;
 use crate::contact::ropes::sweep::{greatest_approach, nearest, safe_fraction};
 use crate::model::Model;
 use crate::state::State;
@@ -62,9 +63,9 @@ impl RopeWorkspace {
     }
 
     /// Whether free rope that was moved by this much from its drift may have met rope on its way to these places.
-    pub fn met(&mut self, model: &Model, state: &State, to: &[DVec3]) -> bool {
+    pub fn met(&mut self, model: &Model, state: &State, pieces: &Pieces, to: &[DVec3]) -> bool {
         self.touching = self.met_gathered(&state.rope.position, to);
-        self.gather_to(model, state, |node| to[node], TOUCH_M);
+        self.gather_to(model, state, pieces, |node| to[node], TOUCH_M);
         self.touching
     }
 

@@ -142,7 +142,12 @@ pub(super) const FLAGS: &[Flag] = &[
         false,
         "Strengths of ropes and links scatter as their files say, by the seed",
     ),
-    flag("Ropes touch each other", "rope_on_rope", false, "Twists and hitches hold; slower"),
+    flag(
+        "Ropes touch each other",
+        "rope_on_rope",
+        true,
+        "Twists and hitches hold; off: ropes pass through each other",
+    ),
     flag(
         "Traps and buoys touch the whale",
         "bodies_on_whale",
