@@ -2,7 +2,7 @@
 
 use egui::{Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, WidgetType};
 use endline_session::live::LiveView;
-use endline_session::scene::rope::greatest_n;
+use endline_session::scene::forces::greatest_n;
 use glam::DVec2;
 
 use super::split::Pane;
