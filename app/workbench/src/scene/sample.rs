@@ -124,6 +124,7 @@ fn body(id: &str, role: BodyRole) -> Body {
     let trap = role == BodyRole::Trap;
     Body {
         id: id.into(),
+        item: String::new(),
         role,
         shape: if trap {
             Shape::Box(DVec3::new(0.6, 0.27, 0.2))
