@@ -7,6 +7,7 @@ use endline_sdk::{
     Region, WhaleMotion,
 };
 use endline_sim::contact::ContactPoint;
+use endline_sim::contact::bodies::BodyContact;
 use endline_sim::model::{
     Body, BodyRole, Float, Friction, Joint, JointKind, Line, ModelSpec, PilotProgram, Rope, Seabed,
     Settings, Shape, Strength, Whale,
@@ -82,6 +83,27 @@ pub fn frame(model: &Model) -> Frame {
         dt_s: 0.01,
     };
     Frame::of(&state, &[touch], &[])
+}
+
+/// A body that presses on a triangle of the whale's skin at a place, without friction.
+pub fn body_contact(
+    body: usize,
+    triangle: usize,
+    position: DVec3,
+    normal: DVec3,
+    normal_force_n: f64,
+) -> BodyContact {
+    BodyContact {
+        body,
+        triangle,
+        region: Region::Body,
+        position,
+        normal,
+        depth_m: 0.01,
+        normal_force_n,
+        friction_n: DVec3::ZERO,
+        slip_m: DVec3::ZERO,
+    }
 }
 
 /// The bow of the sample's endline, from trap (0) to buoy (1) [m].
