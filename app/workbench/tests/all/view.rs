@@ -285,6 +285,8 @@ fn a_buoy_on_the_whale_reads_where_since_when_and_how_hard() {
         assert!(reading.rows.contains(&(row, value.to_owned())), "{row}: {value} in {reading:?}");
     };
     let body = Picked::Body(buoy);
+    has(body, "Kind", "buoy, Bullet buoy 6 x 14 in");
+    has(body, "Size", "0.15 m across, 0.36 m long");
     has(body, "On the whale", "left flipper, body, since 2.00 s");
     has(body, "Push now", "400 N, friction 80.0 N");
     has(body, "Greatest push", "800 N, left flipper");

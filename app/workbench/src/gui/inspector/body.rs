@@ -13,11 +13,12 @@ use crate::gui::widgets::words::spoken;
 /// A body: what it is, what it does to the whale, what pulls at it, where it is.
 pub(super) fn read(view: &LiveView, index: usize, units: Units) -> Option<Reading> {
     let (body, (place, _)) = (view.model.spec.bodies.get(index)?, view.frame.bodies.get(index)?);
-    let mut rows = vec![("Kind", kind(body, units))];
+    let mut rows = vec![("Kind", kind(body))];
     rows.extend(on_whale(view, index, body, units));
     rows.extend(touches(view, index));
     rows.extend(pulls(view, index, units));
     rows.extend(levels(view, *place, units));
+    rows.push(("Size", size(&body.shape, units)));
     rows.push(("Mass in air", format!("{:.1} kg", body.mass_kg)));
     let moved = *place - body.position_m;
     rows.push(("Off its first place", units.length(moved.truncate().length())));
@@ -26,11 +27,10 @@ pub(super) fn read(view: &LiveView, index: usize, units: Units) -> Option<Readin
     Some(Reading { title: body.id.clone(), rows })
 }
 
-/// Role, item of the library and size.
-fn kind(body: &Body, units: Units) -> String {
-    let size = size(&body.shape, units);
-    let told = [role(body.role), body.item.as_str(), size.as_str()];
-    told.into_iter().filter(|word| !word.is_empty()).collect::<Vec<_>>().join(", ")
+/// Role, and item of the library where it is one.
+fn kind(body: &Body) -> String {
+    let role = role(body.role);
+    if body.item.is_empty() { role.to_owned() } else { format!("{role}, {}", body.item) }
 }
 
 fn role(role: BodyRole) -> &'static str {
