@@ -304,4 +304,9 @@ fn a_buoy_on_the_whale_reads_where_since_when_and_how_hard() {
     let free = at(Frame { body_contacts: Vec::new(), ..(*view.frame).clone() });
     let reading = read(&free, place, Units::Si).unwrap();
     assert_eq!(reading.rows, [("On the whale", "not now".to_owned())], "the card stays");
+    let names = |view: &LiveView| -> Vec<&str> {
+        let reading = read(view, body, Units::Si).unwrap();
+        reading.rows.into_iter().map(|(name, _)| name).collect()
+    };
+    assert_eq!(names(&free), names(&early), "rows stay in place while it is off the skin");
 }

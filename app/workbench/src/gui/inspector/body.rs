@@ -71,27 +71,29 @@ fn on_whale(
     let now = BodyOnSkin::at(&view.frame, &view.events, index, &body.id);
     let summary = view.summary.as_ref().and_then(|summary| summary.bodies.get(index));
     let so_far = summary.map(|summary| &summary.on_whale).filter(|it| it.peak_whale_push_n > 0.0);
-    let mut rows = Vec::new();
-    if now.part().is_none() {
-        rows.push(("On the whale", "not now".to_owned()));
-    } else {
-        rows.push(("On the whale", where_since(&now)));
-        let (push, friction) = (units.force().text(now.push_n), units.force().text(now.friction_n));
-        rows.push(("Push now", format!("{push}, friction {friction}")));
+    let mut rows = vec![("On the whale", where_since(&now))];
+    if so_far.is_none() && now.part().is_none() {
+        return rows;
     }
+    // A buoy that bounces keeps its rows while it is off the skin, so that the others stay in their places.
+    rows.push(("Push now", push(&now, units)));
     // The summary stands for the whole run, whichever moment is shown.
     let name = if view.sought { "Greatest of the run" } else { "Greatest push" };
     rows.extend(so_far.map(|it| (name, greatest(it, units))));
-    if now.part().is_some() {
-        rows.push(("Caught", caught(&now, view.frame.time_s)));
-    } else if so_far.is_some_and(|it| it.was_caught) {
-        rows.push(("Caught", "not now; in this run it was".to_owned()));
-    }
+    rows.push(("Caught", caught(&now, so_far, view.frame.time_s)));
     rows
+}
+
+fn push(now: &BodyOnSkin, units: Units) -> String {
+    let force = units.force();
+    format!("{}, friction {}", force.text(now.push_n), force.text(now.friction_n))
 }
 
 /// Parts of the whale that it presses on, the hardest first, and since when.
 fn where_since(now: &BodyOnSkin) -> String {
+    if now.part().is_none() {
+        return "not now".to_owned();
+    }
     let parts = now.parts.iter().map(|(part, _)| spoken(part.name()));
     let parts = parts.collect::<Vec<_>>().join(", ");
     now.since_s.map_or_else(|| parts.clone(), |since_s| format!("{parts}, since {since_s:.2} s"))
@@ -104,13 +106,16 @@ fn greatest(on_whale: &BodyOnWhale, units: Units) -> String {
 }
 
 /// Whether it counts as caught, or how long it still has to stay.
-fn caught(now: &BodyOnSkin, time_s: f64) -> String {
+fn caught(now: &BodyOnSkin, so_far: Option<&BodyOnWhale>, time_s: f64) -> String {
     match (now.caught_s, now.since_s) {
         (Some(caught_s), _) => format!("yes, since {caught_s:.2} s"),
         (None, Some(since_s)) => {
             format!("not yet: {:.1} s of {CAUGHT_S:.0} s", (time_s - since_s).max(0.0))
         }
-        (None, None) => "not yet".to_owned(),
+        (None, None) if so_far.is_some_and(|it| it.was_caught) => {
+            "not now; in this run it was".to_owned()
+        }
+        (None, None) => "not now".to_owned(),
     }
 }
 
