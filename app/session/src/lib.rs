@@ -7,6 +7,7 @@
 //! | [`hash`] | 64 bits for each part of a state |
 //! | [`recording`] | the file of a run; running it again and comparing every step |
 //! | [`report`] | the summary of a run |
+//! | [`touching`] | what a body does to the whale at the moment shown |
 //! | [`figures`] | every figure of a run, declared once; comparison of two runs |
 //! | [`settled`] | the gear at rest as JSON |
 //! | [`statics`] | one assembly alone at rest, while it is edited |
@@ -54,6 +55,7 @@ pub mod statics;
 pub mod study;
 pub mod task;
 pub mod timing;
+pub mod touching;
 pub mod units;
 pub mod workbench;
 

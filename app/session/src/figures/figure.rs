@@ -43,6 +43,8 @@ pub struct Figure<S> {
     pub column: Option<Column>,
     /// Whether a value other than none, zero or no asks for attention.
     pub alarm: bool,
+    /// Whether panels leave it out where it is none, zero or no.
+    pub if_any: bool,
     /// Reads its value.
     pub read: fn(&S) -> Value,
 }
@@ -65,6 +67,7 @@ impl<S> Figure<S> {
             views: &[],
             column: None,
             alarm: false,
+            if_any: false,
             read,
         }
     }
@@ -95,6 +98,11 @@ impl<S> Figure<S> {
         Self { alarm: true, ..self }
     }
 
+    /// Left out by panels where it is none, zero or no.
+    pub(crate) const fn if_any(self) -> Self {
+        Self { if_any: true, ..self }
+    }
+
     /// Whether a view shows it.
     #[must_use]
     pub fn is_in(&self, view: View) -> bool {
@@ -104,12 +112,22 @@ impl<S> Figure<S> {
     /// Whether its value asks for attention.
     #[must_use]
     pub fn alarms(&self, source: &S) -> bool {
-        let quiet = match (self.read)(source) {
-            Value::Absent | Value::Flag(false) | Value::Whole(0) => true,
-            Value::Number(number) => number <= 0.0,
-            _ => false,
-        };
-        self.alarm && !quiet
+        self.alarm && self.says_something(source)
+    }
+
+    /// Whether a panel has something to say by it.
+    #[must_use]
+    pub fn is_told(&self, source: &S) -> bool {
+        !self.if_any || self.says_something(source)
+    }
+
+    /// Whether its value is other than none, zero or no.
+    fn says_something(&self, source: &S) -> bool {
+        match (self.read)(source) {
+            Value::Absent | Value::Flag(false) | Value::Whole(0) => false,
+            Value::Number(number) => number > 0.0,
+            _ => true,
+        }
     }
 }
 

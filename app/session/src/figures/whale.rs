@@ -107,6 +107,7 @@ pub static WHALE: &[Figure<WhaleSummary>] = &[
         Quantity::Force,
         |whale: &WhaleSummary| whale.peak_body_push_n.into(),
     )
+    .if_any()
     .shown(&[Table, Summary, Entanglement, Compare])
     .column(110),
     Figure::new(

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::bounds::Bounds;
 use super::mesh::Mesh;
-use super::{bodies, obstacles, rope, sea, whale};
+use super::{bodies, forces, obstacles, rope, sea, whale};
 
 /// How a part is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -108,8 +108,8 @@ impl Scene {
         add(true, "ropes", Look::Own, 1.1, rope::lines(model, frame, scale_n));
         add(true, "bodies", Look::Solid, 0.35, bodies::bodies(model, frame));
         add(show.current, "current", Look::Own, 0.8, sea::current(model));
-        add(show.contacts, "marks", Look::Own, 4.0, rope::contacts(frame));
-        add(show.forces, "forces", Look::Own, 1.2, rope::forces(frame));
+        add(show.contacts, "marks", Look::Own, 4.0, forces::contacts(frame));
+        add(show.forces, "forces", Look::Own, 1.2, forces::forces(frame));
         add(show.surface, "surface", Look::Surface, 0.0, sea::surface(model, &bounds));
         Self { parts, bounds, scale_n, time_s: frame.time_s, depth_m: model.spec.water.depth_m }
     }

@@ -7,6 +7,7 @@ pub mod bodies;
 pub mod bounds;
 pub mod build;
 pub mod colour;
+pub mod forces;
 pub mod mesh;
 pub mod obstacles;
 pub mod rope;

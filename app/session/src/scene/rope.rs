@@ -1,11 +1,9 @@
-//! Ropes as tubes coloured by tension, and marks where they press on skin.
+//! Ropes as tubes coloured by tension.
 
-use endline_sim::contact::ContactPoint;
-use endline_sim::contact::bodies::BodyContact;
 use endline_sim::{DVec3, Frame, Model};
 use glam::Vec3;
 
-use super::colour::{CONTACT, FORCE, PARTED, tension_colour};
+use super::colour::{PARTED, tension_colour};
 use super::mesh::{Colour, Mesh, single};
 
 /// Sides of a rope's tube.
@@ -78,54 +76,4 @@ impl Rope<'_> {
             mesh.ball(single(self.nodes[node]), 3.0 * self.radius, PARTED, 6);
         }
     }
-}
-
-/// Length of the arrow of the greatest force [m].
-const LONGEST_M: f64 = 1.5;
-/// Forces below this share of the greatest have no arrow.
-const LEAST: f64 = 0.02;
-
-/// Greatest force of rope or a body on skin at one place in a frame [N].
-#[must_use]
-pub fn greatest_n(frame: &Frame) -> f64 {
-    on_skin(frame).map(|(_, force)| force.length()).fold(0.0, f64::max)
-}
-
-/// Places where rope and bodies press on skin, with their force on it: they press against the normal, and drag along the skin [m], [N].
-fn on_skin(frame: &Frame) -> impl Iterator<Item = (DVec3, DVec3)> {
-    let force = |normal: DVec3, push_n: f64, friction: DVec3| {
-        (push_n > 0.0).then(|| -normal * push_n - friction)
-    };
-    let rope = frame.contacts.iter().filter_map(move |contact| {
-        let ContactPoint { position, normal, normal_force_n, friction_n, .. } = *contact;
-        Some((position, force(normal, normal_force_n, friction_n)?))
-    });
-    let bodies = frame.body_contacts.iter().filter_map(move |contact| {
-        let BodyContact { position, normal, normal_force_n, friction_n, .. } = *contact;
-        Some((position, force(normal, normal_force_n, friction_n)?))
-    });
-    rope.chain(bodies)
-}
-
-/// An arrow for each force of rope and bodies on skin, its tip at the contact; its length goes with the force, the greatest of the frame
-/// being 1.5 m.
-pub fn forces(frame: &Frame) -> Mesh {
-    let mut mesh = Mesh::default();
-    let greatest_n = greatest_n(frame);
-    for (position, force) in on_skin(frame) {
-        if force.length() > LEAST * greatest_n {
-            let shaft = force * (LONGEST_M / greatest_n);
-            mesh.arrow(single(position - shaft), single(shaft), 0.012, FORCE);
-        }
-    }
-    mesh
-}
-
-/// A ball at every place where rope or a body presses on skin.
-pub fn contacts(frame: &Frame) -> Mesh {
-    let mut mesh = Mesh::default();
-    for (position, _) in on_skin(frame) {
-        mesh.ball(single(position), 0.03, CONTACT, 6);
-    }
-    mesh
 }

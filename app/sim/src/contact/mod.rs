@@ -23,6 +23,7 @@ pub mod sweep;
 pub(crate) mod touch;
 pub(crate) mod workspace;
 
+pub use body_pairs::bodies_touching;
 use endline_sdk::Region;
 use glam::DVec3;
 

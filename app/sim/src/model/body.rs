@@ -56,6 +56,8 @@ pub enum BodyRole {
 pub struct Body {
     /// Id, such as `trap`.
     pub id: String,
+    /// Name of the library's item that it is; empty where its figures stand in a scenario.
+    pub item: String,
     /// What it is.
     pub role: BodyRole,
     /// Shape.

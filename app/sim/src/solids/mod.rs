@@ -3,10 +3,11 @@
 //! A solid has a shape with a signed distance in closed form (`shape.rs`). Rope touches it at its nodes and, where an
 //! edge or a shape smaller than a segment lies nearer, at up to two points within a segment (`along.rs`). Rope near
 //! solids is gathered once a step by boxes (`broad.rs`); what touches lives in a list of contact points (`workspace.rs`). The forces
-//! stand in `solver/solid.rs`.
+//! stand in `solver/solid.rs`. A picture asks where a ray meets a body (`ray.rs`).
 
 pub(crate) mod along;
 pub(crate) mod broad;
+mod ray;
 pub mod shape;
 pub(crate) mod workspace;
 

@@ -32,6 +32,7 @@ fn rope(id: &str, mass_kg_m: f64, bending_stiffness_n_m2: f64) -> Rope {
 fn buoy() -> Body {
     Body {
         id: "buoy".into(),
+        item: String::new(),
         role: BodyRole::Buoy,
         shape: Shape::Sphere(0.2),
         shape_offset_m: DVec3::ZERO,

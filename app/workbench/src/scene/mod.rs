@@ -10,6 +10,7 @@ pub mod offscreen;
 pub mod overlay;
 pub mod pick;
 pub mod picture;
+pub mod silhouette;
 
 pub use camera::{Camera, View};
 pub use draw::{Drawer, Water};

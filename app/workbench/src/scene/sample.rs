@@ -7,6 +7,7 @@ use endline_sdk::{
     Region, WhaleMotion,
 };
 use endline_sim::contact::ContactPoint;
+use endline_sim::contact::bodies::BodyContact;
 use endline_sim::model::{
     Body, BodyRole, Float, Friction, Joint, JointKind, Line, ModelSpec, PilotProgram, Rope, Seabed,
     Settings, Shape, Strength, Whale,
@@ -84,6 +85,27 @@ pub fn frame(model: &Model) -> Frame {
     Frame::of(&state, &[touch], &[])
 }
 
+/// A body that presses on a triangle of the whale's skin at a place, without friction.
+pub fn body_contact(
+    body: usize,
+    triangle: usize,
+    position: DVec3,
+    normal: DVec3,
+    normal_force_n: f64,
+) -> BodyContact {
+    BodyContact {
+        body,
+        triangle,
+        region: Region::Body,
+        position,
+        normal,
+        depth_m: 0.01,
+        normal_force_n,
+        friction_n: DVec3::ZERO,
+        slip_m: DVec3::ZERO,
+    }
+}
+
 /// The bow of the sample's endline, from trap (0) to buoy (1) [m].
 fn place_on_rope(share: f64) -> DVec3 {
     DVec3::new(
@@ -124,6 +146,7 @@ fn body(id: &str, role: BodyRole) -> Body {
     let trap = role == BodyRole::Trap;
     Body {
         id: id.into(),
+        item: String::new(),
         role,
         shape: if trap {
             Shape::Box(DVec3::new(0.6, 0.27, 0.2))

@@ -280,6 +280,6 @@ fn the_arrow_of_the_greatest_force_ends_at_its_contact_and_points_against_the_no
         .map(|place| f64::from(place.x) - touch.position.x)
         .fold([f64::MAX, f64::MIN], |[low, high], x| [low.min(x), high.max(x)]);
     assert!(reach[0].abs() < 1e-3 && (reach[1] - 1.5).abs() < 1e-3, "{reach:?}");
-    assert!((endline_session::scene::rope::greatest_n(&frame) - 80.0).abs() < 1e-9);
+    assert!((endline_session::scene::forces::greatest_n(&frame) - 80.0).abs() < 1e-9);
     assert!(Scene::of(&model, &frame, &Show::default()).part("forces").is_none());
 }

@@ -2,11 +2,18 @@
 #![cfg(feature = "gui")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+use std::sync::Arc;
+
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
-use endline_session::live::Status;
+use endline_sdk::{BodyPart, Region};
 use endline_session::live::engine;
+use endline_session::live::{LiveView, Status};
 use endline_session::units::Units;
+use endline_sim::Frame;
+use endline_sim::contact::bodies::BodyContact;
+use endline_sim::metrics::{Event, EventKind};
+use endline_sim::model::BodyRole;
 use endline_workbench::gui::app::App;
 use endline_workbench::gui::command::action::ViewAction;
 use endline_workbench::gui::command::action::WindowCommand;
@@ -204,4 +211,102 @@ fn the_palette_names_every_line_and_body_to_be_read() {
             );
         }
     }
+}
+
+/// The pointer rests where a place is drawn.
+fn rest(harness: &mut Harness<'static, App>, place: DVec3) {
+    let rect = harness.get_by_label("Pane 1").rect();
+    let camera = harness.state().panels.view.eyes[0].camera.clone();
+    let size = DVec2::new(f64::from(rect.width()), f64::from(rect.height()));
+    let at = camera.project(place, size).unwrap();
+    harness.event(egui::Event::PointerMoved(rect.min + egui::vec2(at.x as f32, at.y as f32)));
+    harness.run_steps(3);
+}
+
+#[test]
+fn what_the_pointer_rests_on_is_told_beside_it_and_in_open_water_nothing_is() {
+    let folder = Folder::new("rest");
+    let mut harness = settled(&folder);
+    let view = harness.state().shared.workbench.view().cloned().unwrap();
+    let buoy = view.model.spec.bodies.iter().position(|body| body.role == BodyRole::Buoy).unwrap();
+    let id = view.model.spec.bodies[buoy].id.clone();
+    let there = place(&harness, Picked::Body(buoy));
+    rest(&mut harness, there);
+    assert_eq!(harness.state().panels.view.picks.hovered, Some((0, Picked::Body(buoy))));
+    assert_eq!(harness.state().panels.view.picks.read, None, "nothing is chosen by it");
+    assert!(harness.query_by_label(&id).is_some(), "its name is on screen");
+    assert!(harness.query_by_label("On the whale").is_some());
+    assert!(harness.query_by_label("not now").is_some());
+    rest(&mut harness, there + DVec3::new(0.0, 0.0, 3.0));
+    assert_eq!(harness.state().panels.view.picks.hovered, None);
+    assert!(harness.query_by_label(&id).is_none(), "it vanishes");
+}
+
+/// A run's view at 9 s with its buoy on the whale: 300 N on the left flipper and 100 N on the body, since 2 s, caught since 7 s.
+fn with_buoy_on_whale(view: &LiveView, buoy: usize) -> LiveView {
+    let contact = |triangle: usize, region: Region, push_n: f64| BodyContact {
+        body: buoy,
+        triangle,
+        region,
+        position: DVec3::new(1.0, 2.0, -5.0),
+        normal: DVec3::Z,
+        depth_m: 0.01,
+        normal_force_n: push_n,
+        friction_n: DVec3::X * (0.2 * push_n),
+        slip_m: DVec3::ZERO,
+    };
+    let mut frame = (*view.frame).clone();
+    frame.time_s = 9.0;
+    frame.body_contacts =
+        vec![contact(5, Region::LeftFlipperTip, 300.0), contact(9, Region::Body, 100.0)];
+    let event = |time_s: f64, kind: EventKind| Event {
+        time_s,
+        kind,
+        subject: view.model.spec.bodies[buoy].id.clone(),
+        value: 10.0,
+    };
+    let events = [event(2.0, EventKind::BodyTouched), event(7.0, EventKind::CaughtBuoy)];
+    let mut view = view.clone();
+    let whale = &mut view.summary.as_mut().unwrap().bodies[buoy].on_whale;
+    whale.peak_whale_push_n = 800.0;
+    whale.peak_whale_part = Some(BodyPart::LeftFlipper);
+    LiveView { frame: Arc::new(frame), events: events.into(), ..view }
+}
+
+#[test]
+fn a_buoy_on_the_whale_reads_where_since_when_and_how_hard() {
+    let folder = Folder::new("on-whale");
+    let harness = settled(&folder);
+    let view = harness.state().shared.workbench.view().cloned().unwrap();
+    let buoy = view.model.spec.bodies.iter().position(|body| body.role == BodyRole::Buoy).unwrap();
+    let view = with_buoy_on_whale(&view, buoy);
+    let has = |picked: Picked, row: &'static str, value: &str| {
+        let reading = read(&view, picked, Units::Si).unwrap();
+        assert!(reading.rows.contains(&(row, value.to_owned())), "{row}: {value} in {reading:?}");
+    };
+    let body = Picked::Body(buoy);
+    has(body, "Kind", "buoy, Bullet buoy 6 x 14 in");
+    has(body, "Size", "0.15 m across, 0.36 m long");
+    has(body, "On the whale", "left flipper, body, since 2.00 s");
+    has(body, "Push now", "400 N, friction 80.0 N");
+    has(body, "Greatest push", "800 N, left flipper");
+    has(body, "Caught", "yes, since 7.00 s");
+    let place = Picked::BodyOnSkin { body: buoy, triangle: 5 };
+    has(place, "Patch", "left flipper tip");
+    has(place, "Push here", "300 N");
+    has(place, "Friction here", "60.0 N");
+    has(place, "Push in all places", "400 N");
+    let at = |frame: Frame| LiveView { frame: Arc::new(frame), sought: true, ..view.clone() };
+    let early = at(Frame { time_s: 5.0, ..(*view.frame).clone() });
+    let reading = read(&early, body, Units::Si).unwrap();
+    assert!(reading.rows.contains(&("Caught", "not yet: 3.0 s of 5 s".to_owned())), "{reading:?}");
+    assert!(reading.rows.contains(&("Greatest of the run", "800 N, left flipper".to_owned())));
+    let free = at(Frame { body_contacts: Vec::new(), ..(*view.frame).clone() });
+    let reading = read(&free, place, Units::Si).unwrap();
+    assert_eq!(reading.rows, [("On the whale", "not now".to_owned())], "the card stays");
+    let names = |view: &LiveView| -> Vec<&str> {
+        let reading = read(view, body, Units::Si).unwrap();
+        reading.rows.into_iter().map(|(name, _)| name).collect()
+    };
+    assert_eq!(names(&free), names(&early), "rows stay in place while it is off the skin");
 }

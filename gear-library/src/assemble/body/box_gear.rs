@@ -41,6 +41,7 @@ pub fn of_box(
     let drag_area_m2 = drag_area(item);
     Body {
         id,
+        item: item.entry.name.clone(),
         role,
         shape: Shape::Box(size / 2.0),
         shape_offset_m: middle,

@@ -39,6 +39,7 @@ pub fn of_buoy(id: String, item: &Buoy, density: f64, middle_m: DVec3, orientati
     let (top, foot) = ends(item);
     Body {
         id,
+        item: item.entry.name.clone(),
         role: BodyRole::Buoy,
         shape: match item.shape {
             BuoyShape::Sphere => Shape::Sphere(diameter / 2.0),

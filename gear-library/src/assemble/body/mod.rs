@@ -27,6 +27,7 @@ pub(super) fn of_free(body: &FreeBody, density: f64) -> Body {
     let float = Float::level(DVec3::ZERO, body.volume_m3, body.float_height_m);
     Body {
         id: body.id.value.clone(),
+        item: String::new(),
         role: if body.buoy { BodyRole::Buoy } else { BodyRole::Weight },
         shape: Shape::Sphere(radius),
         shape_offset_m: DVec3::ZERO,

@@ -106,6 +106,7 @@ fn body(dice: &mut Dice) -> Body {
     let size = size_of(&shape);
     Body {
         id: "body".into(),
+        item: String::new(),
         role: BodyRole::Buoy,
         shape,
         shape_offset_m: DVec3::ZERO,

@@ -12,6 +12,7 @@ mod gather;
 mod measure;
 mod nearest;
 mod path;
+mod touching;
 
 use glam::{DMat3, DVec3};
 use parry3d::query::ContactManifold;
@@ -21,6 +22,7 @@ use crate::model::Model;
 use crate::solids::Pose;
 
 pub(crate) use gather::Coupled;
+pub use touching::bodies_touching;
 
 /// Stiffness of a touch of two bodies [N/m]: wire traps and hard floats give way by a millimetre or so under the weight of a man; estimate.
 const STIFFNESS_N_M: f64 = 2e5;

@@ -125,6 +125,7 @@ fn line(id: &str, from: usize, to: usize, segments_m: Vec<f64>) -> Line {
 pub(crate) fn body(id: &str, role: BodyRole, position_m: DVec3) -> Body {
     Body {
         id: id.into(),
+        item: String::new(),
         role,
         shape: Shape::Sphere(0.2),
         shape_offset_m: DVec3::ZERO,

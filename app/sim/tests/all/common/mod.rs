@@ -43,6 +43,7 @@ pub fn water(density_kg_m3: f64, current_m_s: f64) -> Water {
 pub fn weight(id: &str, mass_kg: f64, position_m: DVec3, held_until_s: Option<f64>) -> Body {
     Body {
         id: id.into(),
+        item: String::new(),
         role: BodyRole::Weight,
         shape: Shape::Sphere(0.1),
         shape_offset_m: DVec3::ZERO,

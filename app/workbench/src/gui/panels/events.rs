@@ -1,15 +1,18 @@
-//! What happened when; a click shows that moment.
+//! What happened when; a click shows that moment, and reads the body that it happened to.
 
 use egui::{Align, Layout, RichText, ScrollArea, Sense, Ui};
 use endline_session::command::TimeAction;
 use endline_session::units::ForceUnit;
+use endline_sim::Model;
 use endline_sim::metrics::Event;
 
+use crate::gui::command::action::{ViewAction, WindowCommand};
 use crate::gui::panel::Panel;
 use crate::gui::panel_id::PanelId;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 use crate::gui::widgets::{self, words};
+use crate::scene::Picked;
 
 /// The list of events.
 #[derive(Debug, Default)]
@@ -42,11 +45,18 @@ fn show(ui: &mut Ui, shared: &mut Shared) {
         for event in view.events.iter() {
             let now = (event.time_s - view.frame.time_s).abs() < 0.05;
             if row(ui, event, unit, now) {
-                wanted = Some(event.time_s);
+                wanted = Some(event);
             }
         }
     });
-    shared.commands.extend(wanted.map(|chosen| TimeAction::Seek(chosen).into()));
+    shared.commands.extend(wanted.into_iter().flat_map(|event| answers(event, &view.model)));
+}
+
+/// What a click on an event asks for: its moment, and to read the body that it happened to, if it did to one.
+fn answers(event: &Event, model: &Model) -> impl Iterator<Item = WindowCommand> {
+    let body = model.spec.bodies.iter().position(|body| body.id == event.subject);
+    let inspect = body.map(|body| ViewAction::Inspect(Picked::Body(body)).into());
+    [TimeAction::Seek(event.time_s).into()].into_iter().chain(inspect)
 }
 
 fn row(ui: &mut Ui, event: &Event, unit: ForceUnit, now: bool) -> bool {
@@ -68,5 +78,29 @@ fn value(event: &Event, unit: ForceUnit) -> String {
     match event.kind.unit() {
         "N" => unit.text(event.value),
         other => format!("{:.2} {other}", event.value),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use endline_sim::metrics::EventKind;
+
+    use super::*;
+    use crate::scene::sample;
+
+    #[test]
+    fn an_event_of_a_body_shows_its_moment_and_reads_the_body() {
+        let model = sample::model();
+        let event = |kind: EventKind, subject: &str| Event {
+            time_s: 4.5,
+            kind,
+            subject: subject.to_owned(),
+            value: 90.0,
+        };
+        let moment: WindowCommand = TimeAction::Seek(4.5).into();
+        let caught: Vec<_> = answers(&event(EventKind::CaughtBuoy, "buoy"), &model).collect();
+        assert_eq!(caught, [moment.clone(), ViewAction::Inspect(Picked::Body(1)).into()]);
+        let wrapped: Vec<_> = answers(&event(EventKind::Wrap, "left_flipper"), &model).collect();
+        assert_eq!(wrapped, [moment]);
     }
 }

@@ -1,7 +1,9 @@
 //! The 3-D view: up to four panes, what is shown, what is read, the pilot's head-up display.
 
+mod card;
 mod eye;
 pub mod hud;
+mod marks;
 mod pane;
 pub mod picking;
 pub mod pose;
@@ -42,15 +44,20 @@ impl Panel for ViewPanel {
         let Some(view) = shared.workbench.view().cloned() else { return waiting(ui, rect, shared) };
         let views = [Some(view), shared.workbench.compared_view()];
         self.load(&views);
-        for pane in self.panes(views[1].is_some(), rect) {
-            if let Some(view) = &views[pane.run] {
-                pane::show(ui, self, shared, view, pane);
-            }
+        let panes = self.panes(views[1].is_some(), rect).into_iter();
+        let panes = panes.filter_map(|pane| Some((pane, views[pane.run].clone()?)));
+        let panes: Vec<_> = panes.collect();
+        // What the pointer rests on in one pane is marked in all.
+        self.picks.hovered = None;
+        let looks = panes.iter().map(|(pane, view)| pane::look(ui, self, shared, view, *pane));
+        let looks: Vec<_> = looks.collect();
+        for ((pane, view), look) in panes.iter().zip(&looks) {
+            pane::show(ui, self, shared, view, *pane, look);
         }
         let halves = places(rect, if views[1].is_some() { 2 } else { 1 });
-        for (view, half) in views.iter().flatten().zip(halves) {
-            picking::card(ui, &self.picks, shared, view, half);
-        }
+        let halves = views.iter().flatten().zip(halves);
+        let cards = halves.flat_map(|(view, half)| card::show(ui, &self.picks, shared, view, half));
+        self.picks.cards = cards.collect();
     }
 }
 
@@ -146,7 +153,7 @@ impl ViewPanel {
             ui.checkbox(&mut self.show.seabed, "Seabed");
             ui.checkbox(&mut self.show.current, "Current");
             ui.checkbox(&mut self.show.contacts, "Contact");
-            ui.checkbox(&mut self.show.forces, "Force of rope on skin");
+            ui.checkbox(&mut self.show.forces, "Force on skin");
             ui.checkbox(&mut self.show.whale, "Whale");
             ui.separator();
             ui.label("Brightest rope at");

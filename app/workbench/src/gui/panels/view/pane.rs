@@ -2,28 +2,32 @@
 
 use egui::{Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo, WidgetType};
 use endline_session::live::LiveView;
-use endline_session::scene::rope::greatest_n;
-use glam::DVec2;
+use endline_session::scene::forces::greatest_n;
 
 use super::split::Pane;
-use super::{ViewPanel, hud, picking, pose, spoken};
+use super::{ViewPanel, hud, marks, picking, pose, spoken};
 use crate::gui::canvas::Canvas;
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
-use crate::scene::pick::pick;
 use crate::scene::{Camera, Overlay, Water, overlay};
 
 /// Width from which a pane names the force of its longest arrow [points].
 const ROOMY: f32 = 480.0;
 
-/// Draws a pane in its place.
-pub(super) fn show(
-    ui: &mut Ui,
+/// A pane as the user looks at it.
+pub(super) struct Look {
+    camera: Camera,
+    response: Response,
+}
+
+/// Takes what the mouse does in a pane: turns its eye, picks.
+pub(super) fn look(
+    ui: &Ui,
     panel: &mut ViewPanel,
-    shared: &mut Shared,
+    shared: &Shared,
     view: &LiveView,
     pane: Pane,
-) {
+) -> Look {
     let Pane { run, slot, rect } = pane;
     let response = ui.interact(rect, ui.id().with(("pane", run, slot)), Sense::click_and_drag());
     let name =
@@ -39,25 +43,40 @@ pub(super) fn show(
     if run == 0 {
         (eye.camera, eye.frame_again) = (camera.clone(), false);
     }
-    click(panel, view, &camera, &response);
-    paint(ui, panel, shared, pane, &camera);
-    write_over(ui, panel, shared, view, pane, &camera);
-    if run == 0 {
-        pose::show(ui, &mut panel.held, shared, pane, &camera);
-    }
+    pick(panel, view, &camera, &response, run);
+    Look { camera, response }
 }
 
-/// A click reads what is there, or measures.
-fn click(panel: &mut ViewPanel, view: &LiveView, camera: &Camera, response: &Response) {
-    let rect = response.rect;
-    let Some(at) = response.interact_pointer_pos().filter(|_| response.clicked()) else { return };
-    let at = at - rect.min;
-    let (at, size) = (
-        DVec2::new(f64::from(at.x), f64::from(at.y)),
-        DVec2::new(f64::from(rect.width()), f64::from(rect.height())),
-    );
-    let hit = pick(&view.model, &view.frame, camera, at, size, panel.show.whale);
-    panel.picks.take(hit);
+/// A click reads what is there, or measures; the pointer at rest is told what it rests on.
+fn pick(panel: &mut ViewPanel, view: &LiveView, camera: &Camera, response: &Response, run: usize) {
+    let clicked = response.interact_pointer_pos().filter(|_| response.clicked());
+    let Some(at) = clicked.or(response.hover_pos()).filter(|_| !response.dragged()) else { return };
+    let on_card = panel.picks.cards.iter().any(|card| card.contains(at));
+    let hit = picking::under(&panel.picks, view, camera, (response.rect, at), &panel.show);
+    if clicked.is_some() && !on_card {
+        panel.picks.take(hit);
+    }
+    panel.picks.hovered = hit.map(|hit| (run, hit));
+}
+
+/// Draws a pane in its place.
+pub(super) fn show(
+    ui: &mut Ui,
+    panel: &mut ViewPanel,
+    shared: &mut Shared,
+    view: &LiveView,
+    pane: Pane,
+    look: &Look,
+) {
+    paint(ui, panel, shared, pane, &look.camera);
+    write_over(ui, panel, shared, view, pane, &look.camera);
+    if look.response.hovered() {
+        let units = shared.workbench.preferences.units;
+        picking::glance(ui, &panel.picks, &look.response, view, units);
+    }
+    if pane.run == 0 {
+        pose::show(ui, &mut panel.held, shared, pane, &look.camera);
+    }
 }
 
 fn paint(ui: &Ui, panel: &ViewPanel, shared: &Shared, pane: Pane, camera: &Camera) {
@@ -96,7 +115,7 @@ fn write_over(
         rect,
         &Overlay { caption: &caption, time_s: view.frame.time_s, scale_n, metres_a_point },
     );
-    picking::paint(&painter, &panel.picks, pane, camera, view, shared.workbench.preferences.units);
+    marks::paint(&painter, &panel.picks, pane, camera, view, shared.workbench.preferences.units);
     if several && slot == panel.chosen {
         painter.rect_stroke(
             rect,
