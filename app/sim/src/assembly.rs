@@ -1,8 +1,11 @@
 //! Makes models: checks a spec, and lays out its nodes and segments.
 
+use std::ops::Range;
 use std::sync::Arc;
 
-use crate::model::{Line, Model, ModelError, ModelSpec, Settings, Strength};
+use endline_sdk::LineEnd;
+
+use crate::model::{JointKind, Knot, Line, Model, ModelError, ModelSpec, Settings, Strength};
 use crate::model_check::check;
 use crate::water::Sea;
 use crate::whale::tree::SkinTree;
@@ -45,7 +48,9 @@ impl Model {
             .iter()
             .flat_map(|line| strengths(line, spec.ropes[line.rope].strength_n))
             .collect();
+        let knots = knots(&spec, &line_segments);
         Self {
+            knots,
             spec,
             line_nodes,
             line_segments,
@@ -78,6 +83,24 @@ impl Model {
         };
         Self::laid_out(alone, None, self.sea.clone())
     }
+}
+
+/// Knots at the ends of lines: at a joint in the middle of the rope around it, at a body or fixture beside it.
+fn knots(spec: &ModelSpec, line_segments: &[Range<usize>]) -> Vec<Knot> {
+    let mut knots = Vec::new();
+    for (line, segments) in spec.lines.iter().zip(line_segments) {
+        let ends =
+            [(LineEnd::A, line.from, segments.start), (LineEnd::B, line.to, segments.end - 1)];
+        for ((end, joint, segment), radius_m) in ends.into_iter().zip(line.knots_m) {
+            let is_free = matches!(spec.joints[joint].kind, JointKind::Free);
+            let from_end_m = if is_free { 0.0 } else { radius_m };
+            if radius_m > 0.0 {
+                knots.push(Knot { segment, end, from_end_m, radius_m });
+            }
+        }
+    }
+    knots.sort_by_key(|knot| knot.segment);
+    knots
 }
 
 /// Strength of each segment of a line: an end's factor weakens the segment at that end.

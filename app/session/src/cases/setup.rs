@@ -115,6 +115,7 @@ mod tests {
             to: 1,
             segments_m: vec![1.0, 2.0],
             strength: Strength::default(),
+            knots_m: [0.0; 2],
             start_m,
         };
         divide(&mut line, 2);

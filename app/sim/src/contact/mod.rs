@@ -50,6 +50,8 @@ pub struct ContactPoint {
     pub distance_m: f64,
     /// Length of rope it stands for [m].
     pub length_m: f64,
+    /// Whether it is a knot, splice or link that presses.
+    pub is_knot: bool,
     /// Normal force [N].
     pub normal_force_n: f64,
     /// Friction force of skin on rope [N].

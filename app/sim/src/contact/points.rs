@@ -2,7 +2,8 @@
 //!
 //! A segment near skin is cut into sub-segments of at most [`PIECE_M`], so that stiffness does not depend on
 //! the length of segments. Each piece has a contact point at its middle, and more where another of its points
-//! comes clearly nearer (a thin edge). A contact point touches one face of skin, or several in a crease (`crease.rs`). Contact points keep their place on the rope within a solver step: letting
+//! comes clearly nearer (a thin edge). A knot has one at its middle with its own radius as contact distance: skin pushes a knot along the
+//! rope too, and so holds it at a gap narrower than it is. A contact point touches one face of skin, or several in a crease (`crease.rs`). Contact points keep their place on the rope within a solver step: letting
 //! them hop to the closest point in every pass is what keeps Newton from converging (docs/physics.md).
 
 use std::ops::Range;
@@ -41,6 +42,8 @@ pub(crate) struct SkinContactPoint {
     pub node: usize,
     pub fraction: f64,
     pub length: f64,
+    /// Whether it is the middle of a knot, a ball whose surface faces every way.
+    pub is_knot: bool,
     segment_length: f64,
     /// Its segment in `Near::groups`, and the pairs of that which may touch, in `Near::active`.
     group: usize,
@@ -90,6 +93,7 @@ impl SkinContactPoints {
     /// not from the distances of a first guess.
     pub fn open(
         &mut self,
+        model: &Model,
         near: &Near,
         segment_length: &[f64],
         stiffness_n_m2: f64,
@@ -103,24 +107,33 @@ impl SkinContactPoints {
             }
             let (segment, length) = (group.segment, segment_length[group.segment]);
             let pieces = (length / PIECE_M).ceil().max(LEAST_PIECES);
+            let point = |piece: u64, fraction: f64, bears_m: f64| SkinContactPoint {
+                site: ((segment as u64) << SEGMENT_BITS) | (piece << PIECE_BITS),
+                segment,
+                node: group.node,
+                fraction,
+                length: bears_m,
+                is_knot: false,
+                segment_length: length,
+                group: index,
+                pairs: group.active.clone(),
+                contact_distance: group.radius,
+                stiffness: stiffness_n_m2 * bears_m,
+                seen: None,
+                nearest_pair: None,
+                push_beside_n: None,
+                touches: 0..0,
+                began: Began::default(),
+                missed: DVec3::ZERO,
+            };
             for piece in 0..pieces as u64 {
+                self.list.push(point(piece, (piece as f64 + 0.5) / pieces, length / pieces));
+            }
+            for (knot, piece) in model.knots_of_segment(segment).iter().zip(pieces as u64..) {
                 self.list.push(SkinContactPoint {
-                    site: ((segment as u64) << SEGMENT_BITS) | (piece << PIECE_BITS),
-                    segment,
-                    node: group.node,
-                    fraction: (piece as f64 + 0.5) / pieces,
-                    length: length / pieces,
-                    segment_length: length,
-                    group: index,
-                    pairs: group.active.clone(),
-                    contact_distance: group.reach,
-                    stiffness: stiffness_n_m2 * length / pieces,
-                    seen: None,
-                    nearest_pair: None,
-                    push_beside_n: None,
-                    touches: 0..0,
-                    began: Began::default(),
-                    missed: DVec3::ZERO,
+                    is_knot: true,
+                    contact_distance: knot.radius_m,
+                    ..point(piece, knot.fraction(length), 2.0 * knot.radius_m)
                 });
             }
         }
@@ -139,7 +152,7 @@ impl SkinContactPoints {
                 .iter()
                 .map(|point| point.at_least(places))
                 .fold(f64::INFINITY, f64::min);
-            if self.list[from].is_far(least, places) {
+            if self.list[from].is_knot || self.list[from].is_far(least, places) {
                 from = to;
                 continue;
             }
@@ -254,8 +267,10 @@ impl SkinContactPoint {
             self.seen = Some((place, distance));
             self.nearest_pair = Some(pair);
         }
-        let along = (places[self.node + 1] - places[self.node]).normalize_or_zero();
-        touches[first..].iter_mut().for_each(|touch| touch.turn_across(along));
+        if !self.is_knot {
+            let along = (places[self.node + 1] - places[self.node]).normalize_or_zero();
+            touches[first..].iter_mut().for_each(|touch| touch.turn_across(along));
+        }
         kept::assign(&mut touches[first..], kept, kept::of_point(kept, self.site));
         for touch in &mut touches[first..] {
             let whole_n = touch

@@ -8,7 +8,7 @@ use super::ContactPoint;
 use super::barrier::PINCHED_SHARE;
 use super::friction_arrays::Failed;
 use super::grain::Grains;
-use super::near::{MARGIN_M, Near};
+use super::near::Near;
 use super::points::{SkinContactPoint, SkinContactPoints};
 use super::skin_friction::Touching;
 use super::touch::Touch;
@@ -52,6 +52,7 @@ impl ContactWorkspace {
                 .ropes
                 .iter()
                 .map(|rope| 0.5 * rope.diameter_m)
+                .chain(model.knots.iter().map(|knot| knot.radius_m))
                 .fold(0.0, f64::max),
         })
     }
@@ -144,7 +145,7 @@ impl ContactWorkspace {
     ) {
         let Some(whale) = &model.spec.whale else { return };
         let (stiffness, friction) = (whale.contact_stiffness_n_m2, &state.rope.friction);
-        self.points.open(&self.near, lengths, stiffness, friction);
+        self.points.open(model, &self.near, lengths, stiffness, friction);
         self.points.measure(&self.near, places);
         while self.points.open_more(&self.near, places) > 0 {
             self.points.measure(&self.near, places);
@@ -154,7 +155,7 @@ impl ContactWorkspace {
 
     /// Whether rope has left the margin in which skin near it was gathered.
     pub fn strayed(&self, places: &[DVec3]) -> bool {
-        self.near.strayed(places, MARGIN_M - self.greatest_contact_distance)
+        self.near.strayed(places, self.near.margin_m - self.greatest_contact_distance)
     }
 
     /// A segment and triangle nearer than this share of the contact distance, if any.
@@ -171,8 +172,9 @@ impl ContactWorkspace {
 
     /// A segment and triangle between which rope is pinched at the end of a step from `from`, if any. Rope that began it pinched may stay,
     /// and come out again.
+    /// A knot may be pressed flat: the rope in its middle has contact points of its own.
     pub fn pinched(&self, from: &[DVec3]) -> Option<(usize, usize)> {
-        self.points.list.iter().find_map(|point| {
+        self.points.list.iter().filter(|point| !point.is_knot).find_map(|point| {
             let is_pinched = |touch: &&Touch| {
                 let share = touch.distance / point.contact_distance;
                 share < PINCHED_SHARE && {
@@ -212,6 +214,7 @@ impl ContactWorkspace {
                 normal: touch.normal,
                 distance_m: touch.distance,
                 length_m: point.length,
+                is_knot: point.is_knot,
                 normal_force_n: touch.barrier.force,
                 friction_n: self.touching.arrays.friction_of(place),
                 slip_m: self.touching.arrays.slip_of(place),

@@ -18,6 +18,8 @@ pub mod whale;
 use std::ops::Range;
 use std::sync::Arc;
 
+use endline_sdk::LineEnd;
+
 use crate::water::{Sea, Water};
 use crate::whale::tree::SkinTree;
 
@@ -87,10 +89,34 @@ pub struct Model {
     pub segment_line: Vec<usize>,
     /// Tension at which each segment breaks [N].
     pub segment_strength_n: Vec<f64>,
+    /// Knots, splices and links on the rope, in rising order of segment.
+    pub knots: Vec<Knot>,
     /// Tree over the whale's skin.
     pub skin_tree: Option<Arc<SkinTree>>,
     /// Current and waves made ready.
     pub sea: Sea,
+}
+
+/// A knot, splice, swivel or link: a ball on the first or the last segment of a line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Knot {
+    /// Its segment: those at the ends of a line stay as they are.
+    pub segment: usize,
+    /// At which end of its line.
+    pub end: LineEnd,
+    /// Unstretched rope from that end to its middle [m].
+    pub from_end_m: f64,
+    /// Radius [m].
+    pub radius_m: f64,
+}
+
+impl Knot {
+    /// Where its middle lies on a segment of this unstretched length, 0 at its first node, 1 at its second.
+    #[must_use]
+    pub fn fraction(&self, length_m: f64) -> f64 {
+        let share = (self.from_end_m / length_m).min(1.0);
+        if self.end == LineEnd::A { share } else { 1.0 - share }
+    }
 }
 
 /// What is wrong with a [`ModelSpec`].
@@ -120,6 +146,14 @@ impl Model {
     pub fn whale_is_towed(&self) -> bool {
         let is_on_whale = |joint: &Joint| matches!(joint.kind, JointKind::Whale(_));
         self.whale_is_kinetic() && self.spec.joints.iter().any(is_on_whale)
+    }
+
+    /// Knots on a segment.
+    #[must_use]
+    pub fn knots_of_segment(&self, segment: usize) -> &[Knot] {
+        let first = self.knots.partition_point(|knot| knot.segment < segment);
+        let count = self.knots[first..].iter().take_while(|knot| knot.segment == segment).count();
+        &self.knots[first..first + count]
     }
 
     /// Rope of a segment.

@@ -96,6 +96,8 @@ pub struct Line {
     pub segments_m: Vec<f64>,
     /// What it keeps of its rope's strength.
     pub strength: Strength,
+    /// Radius of the knot, splice, swivel or link at ends A and B, a ball on the rope; zero where there is none [m].
+    pub knots_m: [f64; 2],
     /// First guess of its nodes, both ends included; empty for a straight line [m].
     pub start_m: Vec<DVec3>,
 }

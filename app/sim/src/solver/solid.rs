@@ -292,12 +292,12 @@ impl Solver {
     }
 
     fn kept(&self, point: &SolidContactPoint, stretch: DVec3) -> SolidGrip {
-        let (along_m, at_node) = (self.solid.along_of(point), point.fraction.is_none());
+        let along_m = self.solid.along_of(point);
         SolidGrip {
             solid: point.solid,
             line: point.line,
             along_m,
-            at_node,
+            bears: point.bears,
             stretch,
             push_n: point.push_n,
         }

@@ -29,6 +29,18 @@ impl FrictionState {
     }
 }
 
+/// What of a rope bears on a solid.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Bears {
+    /// A place within a segment.
+    #[default]
+    Within,
+    /// A node.
+    Node,
+    /// A knot.
+    Knot,
+}
+
 /// A grip of rope on a solid that lasts from step to step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SolidGrip {
@@ -38,8 +50,8 @@ pub struct SolidGrip {
     pub line: usize,
     /// Unstretched length along the line [m].
     pub along_m: f64,
-    /// Whether it is at a node.
-    pub at_node: bool,
+    /// What of the rope bears there.
+    pub bears: Bears,
     /// Tangential stretch, in the solid's frame [m].
     pub stretch: DVec3,
     /// Normal force at the end of the last step [N].

@@ -12,7 +12,9 @@ use glam::DVec3;
 use crate::in_place::clone_in_place;
 use crate::model::{JointKind, Model};
 pub use body::BodyState;
-pub use friction::{BodyGrip, BodyGrips, FrictionState, PairGrip, RopeGrip, RopeWithin, SolidGrip};
+pub use friction::{
+    Bears, BodyGrip, BodyGrips, FrictionState, PairGrip, RopeGrip, RopeWithin, SolidGrip,
+};
 pub use pilot::{Begun, PilotMemory, Seen};
 pub use rope::RopeState;
 pub use step_control::{LimitedBy, StepControl};

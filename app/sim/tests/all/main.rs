@@ -11,6 +11,7 @@ mod friction_laws;
 mod hitches;
 mod kinetic;
 mod kinetic_rope;
+mod knots;
 mod rapier;
 mod reference;
 mod rope_law;

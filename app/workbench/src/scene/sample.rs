@@ -46,6 +46,7 @@ pub fn model() -> Model {
             to: 1,
             segments_m: vec![36.0 / f64::from(segments); segments as usize],
             strength: Strength::default(),
+            knots_m: [0.0; 2],
             start_m: (0..=segments)
                 .map(|node| place_on_rope(f64::from(node) / f64::from(segments)))
                 .collect(),
@@ -67,6 +68,7 @@ pub fn frame(model: &Model) -> Frame {
     let mut state = State::start(model);
     state.rope.tension = (0..60).map(|segment| 600.0 * f64::from(segment) / 59.0).collect();
     let touch = ContactPoint {
+        is_knot: false,
         line: 0,
         segment: 30,
         fraction: 0.5,

@@ -100,6 +100,7 @@ impl Taut {
             to: 1,
             segments_m,
             strength: Strength::default(),
+            knots_m: [0.0; 2],
             start_m,
         };
         let coulomb = Coulomb::new();

@@ -22,6 +22,8 @@ pub(crate) struct Group {
     /// Its pairs that may touch in this solver step, in `Near::active`.
     pub active: Range<usize>,
     /// Contact distance: the rope's radius [m].
+    pub radius: f64,
+    /// The greatest of it and of the segment's knots [m].
     pub reach: f64,
     /// Mean move of its skin over the model's step, and the greatest departure of a corner from it [m].
     skin_move: DVec3,
@@ -38,12 +40,13 @@ pub(crate) struct Group {
 
 impl Group {
     /// A segment with its first pair.
-    pub fn new(segment: usize, node: usize, reach: f64, first_pair: usize) -> Self {
+    pub fn new(segment: usize, node: usize, [radius, reach]: [f64; 2], first_pair: usize) -> Self {
         Self {
             segment,
             node,
             pairs: first_pair..first_pair + 1,
             active: 0..0,
+            radius,
             reach,
             skin_move: DVec3::ZERO,
             spread: 0.0,

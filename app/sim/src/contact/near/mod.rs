@@ -69,6 +69,8 @@ pub(crate) struct Near {
     pub goal: f64,
     /// Share of the model's step up to which rope and skin have been moved.
     pub fraction: f64,
+    /// How far beyond rope skin is gathered [m].
+    pub margin_m: f64,
     /// Whether paths are filtered ([`Settings::swept`](crate::model::Settings::swept)).
     swept: bool,
 }
@@ -90,6 +92,7 @@ impl Near {
             start: 0.0,
             goal: 1.0,
             fraction: 0.0,
+            margin_m: MARGIN_M + model.knots.iter().map(|knot| knot.radius_m).fold(0.0, f64::max),
             swept: model.spec.settings.swept,
         }
     }
@@ -138,7 +141,7 @@ impl Near {
 
     /// Gathers the pairs of uncut rope near skin for the moves that were swept last.
     pub fn gather_swept(&mut self, model: &Model, (cut, passed): (&[bool], f64)) {
-        self.surface.gather(&self.sweeps, MARGIN_M, &mut self.candidates);
+        self.surface.gather(&self.sweeps, self.margin_m, &mut self.candidates);
         (self.start, self.goal, self.fraction) = (passed, 1.0, passed);
         self.number += 1;
         self.skin.clear();
@@ -166,7 +169,11 @@ impl Near {
             });
             match self.groups.last_mut() {
                 Some(group) if group.segment == segment => group.pairs.end = index + 1,
-                _ => self.groups.push(Group::new(segment, node, radius, index)),
+                _ => {
+                    let knots = model.knots_of_segment(segment).iter().map(|knot| knot.radius_m);
+                    let reach = knots.fold(radius, f64::max);
+                    self.groups.push(Group::new(segment, node, [radius, reach], index));
+                }
             }
         }
         for group in &mut self.groups {

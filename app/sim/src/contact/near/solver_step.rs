@@ -184,7 +184,7 @@ impl Near {
         let share = self.goal - self.start;
         let near = |group: &&Group| {
             !group.active.is_empty()
-                && group.clear - group.moved - group.moving < HELD_OFF_SHARE * group.reach
+                && group.clear - group.moved - group.moving < HELD_OFF_SHARE * group.radius
         };
         for group in self.groups.iter().filter(near) {
             let segment = [from[group.node], from[group.node + 1]];
@@ -203,7 +203,7 @@ impl Near {
             let normal = (between(from) - closest) / nearest.distance.max(1e-12);
             let skin_move = skin.move_of(nearest.barycentric) * share;
             let approach = normal.dot(skin_move - (between(target) - between(from)));
-            let too_near = approach - (nearest.distance - group.reach).max(0.0);
+            let too_near = approach - (nearest.distance - group.radius).max(0.0);
             if too_near > 0.0 {
                 target[group.node] += normal * too_near;
                 target[group.node + 1] += normal * too_near;

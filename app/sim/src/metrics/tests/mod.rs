@@ -118,6 +118,7 @@ fn line(id: &str, from: usize, to: usize, segments_m: Vec<f64>) -> Line {
         to,
         segments_m,
         strength: crate::model::Strength::default(),
+        knots_m: [0.0; 2],
         start_m: Vec::new(),
     }
 }
@@ -314,6 +315,7 @@ fn contact(
 ) -> ContactPoint {
     let skin = &model.spec.whale.as_ref().unwrap().skin;
     ContactPoint {
+        is_knot: false,
         line: 0,
         segment,
         fraction: 0.5,

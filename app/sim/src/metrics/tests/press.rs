@@ -14,6 +14,7 @@ use crate::state::State;
 /// A contact of segment `segment`, with a normal force.
 fn pressed(segment: usize, normal: DVec3, normal_force_n: f64) -> ContactPoint {
     ContactPoint {
+        is_knot: false,
         line: 0,
         segment,
         fraction: 0.5,

@@ -5,10 +5,11 @@ use glam::DVec3;
 use super::points::SolidContactPoint;
 use super::{MARGIN_M, Pair, SolidWorkspace};
 use crate::contact::pieces::Pieces;
+use crate::model::Knot;
 use crate::solids::broad::{NearSegment, near};
 use crate::solids::shape::SolidShape;
 use crate::solids::{Carrier, Pose, Solid};
-use crate::state::State;
+use crate::state::{Bears, State};
 
 /// How far beyond its radius rope is gathered in statics, where a pass moves rope far [m].
 const STATIC_MARGIN_M: f64 = 2.0;
@@ -96,6 +97,7 @@ impl SolidWorkspace {
     fn gather_anew(&mut self, state: &State, search: &Search<'_>) {
         self.pairs.clear();
         self.nodes.clear();
+        self.knots.clear();
         self.touching = false;
         (self.passes, self.dt) = (0, search.dt);
         if self.solids.is_empty() {
@@ -119,15 +121,15 @@ impl SolidWorkspace {
     fn add_pairs(&mut self, state: &State, search: &Search<'_>, to: impl Fn(usize) -> DVec3) {
         let Search { pieces, from, dt, margin, again } = *search;
         let solids = std::mem::take(&mut self.solids);
-        let widest = self.radius_m.iter().copied().fold(0.0, f64::max);
         let spares_bodies = dt <= 0.0 && self.at_rest_n_m2.is_none();
         let pushes = |solid: &Solid| !spares_bodies || matches!(solid.carrier, Carrier::World(_));
         for (index, solid) in solids.iter().enumerate().filter(|(_, solid)| pushes(solid)) {
             let poses = poses_of(solid, state, &self.bodies, dt);
-            for near in near(pieces, solid, &poses, widest + margin) {
+            for near in near(pieces, solid, &poses, self.widest_m + margin) {
                 let NearSegment { segment, node, line } = near;
                 let places = [from[node], from[node + 1], to(node), to(node + 1)];
-                let reach = self.radius_m[line] + margin;
+                let knots = self.knots_of(segment).iter().map(|knot| knot.radius_m);
+                let reach = knots.fold(self.radius_m[line], f64::max) + margin;
                 let known = again
                     && self.pairs.iter().any(|pair| pair.solid == index && pair.segment == segment);
                 let motion = Motion { places, poses };
@@ -170,6 +172,7 @@ impl SolidWorkspace {
                 node,
                 radius_m,
                 open: true,
+                bears: Bears::Node,
                 ..SolidContactPoint::default()
             };
             let point =
@@ -194,5 +197,40 @@ impl SolidWorkspace {
                 self.begin_point(state, thing, *point, [at(&places[..2]), at(&places[2..])], poses);
         }
         self.pairs.push(pair);
+        self.add_knots(state, thing, &pair, &Motion { places: *places, poses: *poses });
+    }
+
+    /// Knots of a segment, each a contact point that stays where it is on the rope.
+    fn add_knots(&mut self, state: &State, thing: &Solid, pair: &Pair, motion: &Motion) {
+        let Pair { solid, segment, line, node, .. } = *pair;
+        for at in 0..self.knots_of(segment).len() {
+            let knot = self.knots_of(segment)[at];
+            let fraction = knot.fraction(self.length_of(node));
+            if self.is_spared(solid, line, self.along_m[node] + fraction * self.length_of(node)) {
+                continue;
+            }
+            let point = SolidContactPoint {
+                solid,
+                line,
+                segment,
+                node,
+                fraction: Some(fraction),
+                bears: Bears::Knot,
+                radius_m: knot.radius_m,
+                open: true,
+                ..SolidContactPoint::default()
+            };
+            let [a, b, c, d] = motion.places;
+            let places = [a.lerp(b, fraction), c.lerp(d, fraction)];
+            let point = self.begin_point(state, thing, point, places, &motion.poses);
+            self.knots.push(point);
+        }
+    }
+
+    fn knots_of(&self, segment: usize) -> &[Knot] {
+        let first = self.all_knots.partition_point(|knot| knot.segment < segment);
+        let count =
+            self.all_knots[first..].iter().take_while(|knot| knot.segment == segment).count();
+        &self.all_knots[first..first + count]
     }
 }

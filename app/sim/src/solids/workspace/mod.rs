@@ -16,7 +16,7 @@ use glam::DVec3;
 
 use super::along::least;
 use super::{Pose, Solid, of_model};
-use crate::model::Model;
+use crate::model::{Knot, Line, Model};
 use crate::same_bits::same_bits;
 use crate::state::RopeWithin;
 pub(crate) use points::SolidContactPoint;
@@ -43,6 +43,8 @@ pub(crate) struct SolidWorkspace {
     pub solids: Vec<Solid>,
     pub pairs: Vec<Pair>,
     pub nodes: Vec<SolidContactPoint>,
+    /// Knots near solids.
+    pub knots: Vec<SolidContactPoint>,
     /// Whether rope may touch a solid in this step.
     pub touching: bool,
     spared: Vec<Spared>,
@@ -54,6 +56,9 @@ pub(crate) struct SolidWorkspace {
     along_m: Vec<f64>,
     /// Half the diameter of the rope of each line [m].
     radius_m: Vec<f64>,
+    /// Knots of the model, and the greatest radius of rope and knots [m].
+    all_knots: Vec<Knot>,
+    widest_m: f64,
     passes: usize,
     /// Rope within bodies when the step begins.
     within: Vec<RopeWithin>,
@@ -72,16 +77,15 @@ impl SolidWorkspace {
     pub fn new(model: &Model) -> Self {
         let solids = of_model(model);
         let spared = spared(model, &solids);
-        let radius_m = model
-            .spec
-            .lines
-            .iter()
-            .map(|line| 0.5 * model.spec.ropes[line.rope].diameter_m)
-            .collect();
+        let radius = |line: &Line| 0.5 * model.spec.ropes[line.rope].diameter_m;
+        let radius_m: Vec<f64> = model.spec.lines.iter().map(radius).collect();
+        let knots_m = model.knots.iter().map(|knot| knot.radius_m);
+        let widest_m = radius_m.iter().copied().chain(knots_m).fold(0.0, f64::max);
         let lines =
             model.line_nodes.iter().cloned().zip(model.line_segments.iter().cloned()).collect();
         let along_m = vec![0.0; model.node_count];
-        Self { solids, spared, lines, along_m, radius_m, ..Self::default() }
+        let all_knots = model.knots.clone();
+        Self { solids, spared, lines, along_m, radius_m, all_knots, widest_m, ..Self::default() }
     }
 
     /// Takes over the lengths of segments, where they are not those there are.
@@ -116,6 +120,7 @@ impl SolidWorkspace {
     pub fn open_points(&self) -> impl Iterator<Item = &SolidContactPoint> {
         self.nodes
             .iter()
+            .chain(&self.knots)
             .chain(self.pairs.iter().flat_map(|pair| &pair.inner))
             .filter(|point| point.open)
     }
@@ -126,6 +131,7 @@ impl SolidWorkspace {
         let inner = self.pairs.iter_mut().flat_map(|pair| &mut pair.inner);
         self.nodes
             .iter_mut()
+            .chain(&mut self.knots)
             .chain(inner)
             .filter(|point| point.open)
             .map(move |point| (solids, point))

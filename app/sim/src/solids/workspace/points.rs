@@ -4,7 +4,7 @@ use glam::{DMat3, DVec3};
 
 use super::SolidWorkspace;
 use crate::solids::{Carrier, Pose, Solid};
-use crate::state::{SolidGrip, State};
+use crate::state::{Bears, SolidGrip, State};
 
 /// Rope that comes this near in a step may touch [m].
 pub(super) const TOUCH_M: f64 = 2e-3;
@@ -26,7 +26,9 @@ pub(crate) struct SolidContactPoint {
     pub node: usize,
     /// Fraction along the segment; `None` at the node itself.
     pub fraction: Option<f64>,
-    /// Half the rope's diameter [m].
+    /// What of the rope it is.
+    pub bears: Bears,
+    /// Half the diameter of the rope, or of the knot [m].
     pub radius_m: f64,
     /// Whether there is anything to touch here.
     pub open: bool,
@@ -78,7 +80,7 @@ impl SolidWorkspace {
         let here_n = point.stiffness * (depths[1] - forgiven_m);
         let known =
             self.predicted.binary_search_by_key(&(point.solid, point.node), |(key, _)| *key).ok();
-        let predicted_n = match known.filter(|_| point.fraction.is_none()) {
+        let predicted_n = match known.filter(|_| point.bears == Bears::Node) {
             Some(known) => self.predicted[known].1,
             None if point.predicted_n > 0.0 => point.predicted_n,
             None => here_n,
@@ -94,16 +96,17 @@ impl SolidWorkspace {
         mut point: SolidContactPoint,
     ) -> SolidContactPoint {
         let along_m = self.along_of(&point);
-        let length = match point.fraction {
-            None => self.node_length(point.node),
-            Some(_) => self.length_of(point.node).min(EDGE_M),
+        let length = match point.bears {
+            Bears::Node => self.node_length(point.node),
+            Bears::Within => self.length_of(point.node).min(EDGE_M),
+            Bears::Knot => 2.0 * point.radius_m,
         };
         point.stiffness = self.stiffness_of(solid, point.solid, length, state);
-        let farthest = if point.fraction.is_some() { FOLLOWED_M } else { 1e-9 };
+        let farthest = if point.bears == Bears::Within { FOLLOWED_M } else { 1e-9 };
         let mine = |grip: &&SolidGrip| {
             grip.solid == point.solid
                 && grip.line == point.line
-                && grip.at_node == point.fraction.is_none()
+                && grip.bears == point.bears
                 && (grip.along_m - along_m).abs() <= farthest
         };
         let nearest = state

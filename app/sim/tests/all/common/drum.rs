@@ -276,6 +276,7 @@ impl Capstan {
                 to: 1,
                 segments_m,
                 strength: Strength::default(),
+                knots_m: [0.0; 2],
                 start_m,
             }],
             bodies: Vec::new(),

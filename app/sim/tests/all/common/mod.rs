@@ -86,6 +86,7 @@ pub fn line(id: &str, length_m: f64, segments: usize) -> Line {
         to: 1,
         segments_m: vec![length_m / segments as f64; segments],
         strength: Strength::default(),
+        knots_m: [0.0; 2],
         start_m: Vec::new(),
     }
 }
