@@ -91,6 +91,8 @@ pub struct Body {
     pub position_m: DVec3,
     /// Start orientation, body to world.
     pub orientation: DQuat,
+    /// Start angular velocity in the world frame, where a run begins as placed [rad/s].
+    pub spin_rad_s: DVec3,
     /// Held in place until this time (through statics, if not below zero); `None` is free.
     pub held_until_s: Option<f64>,
 }

@@ -145,6 +145,7 @@ fn body(id: &str, role: BodyRole) -> Body {
         foot_break_out_n: 0.0,
         position_m: if trap { place_on_rope(0.0) } else { place_on_rope(1.0) },
         orientation: DQuat::IDENTITY,
+        spin_rad_s: DVec3::ZERO,
         held_until_s: None,
     }
 }

@@ -65,6 +65,7 @@ pub fn of_buoy(id: String, item: &Buoy, density: f64, middle_m: DVec3, orientati
         foot_break_out_n: 0.0,
         position_m: middle_m - orientation * middle,
         orientation,
+        spin_rad_s: DVec3::ZERO,
         held_until_s: None,
     }
 }

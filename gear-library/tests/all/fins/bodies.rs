@@ -123,6 +123,7 @@ fn body(dice: &mut Dice) -> Body {
         foot_break_out_n: 0.0,
         position_m: MET,
         orientation: dice.turn(),
+        spin_rad_s: DVec3::ZERO,
         held_until_s: None,
     }
 }

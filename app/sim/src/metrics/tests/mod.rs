@@ -142,6 +142,7 @@ pub(crate) fn body(id: &str, role: BodyRole, position_m: DVec3) -> Body {
         foot_break_out_n: 0.0,
         position_m,
         orientation: DQuat::IDENTITY,
+        spin_rad_s: DVec3::ZERO,
         held_until_s: None,
     }
 }

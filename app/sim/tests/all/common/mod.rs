@@ -60,6 +60,7 @@ pub fn weight(id: &str, mass_kg: f64, position_m: DVec3, held_until_s: Option<f6
         foot_break_out_n: 0.0,
         position_m,
         orientation: DQuat::IDENTITY,
+        spin_rad_s: DVec3::ZERO,
         held_until_s,
     }
 }
