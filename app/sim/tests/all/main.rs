@@ -1,6 +1,7 @@
 //! Tests of the physics through the crate's own door: known answers, published figures, invariants.
 
 mod bodies_meet;
+mod bodies_on_obstacles;
 mod body_on_skin;
 mod capstan;
 mod common;
