@@ -44,6 +44,7 @@ fn buoy() -> Body {
         floats: vec![crate::model::Float::level(DVec3::ZERO, 0.03, 0.4)],
         wetted_drag: true,
         feet_m: Vec::new(),
+        foot_radius_m: Vec::new(),
         start_friction: 0.0,
         slide_friction: 0.0,
         foot_break_out_n: 0.0,

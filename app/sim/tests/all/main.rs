@@ -2,6 +2,7 @@
 
 mod bodies_meet;
 mod bodies_on_obstacles;
+mod bodies_on_seabed;
 mod body_on_skin;
 mod capstan;
 mod common;

@@ -140,6 +140,7 @@ fn body(id: &str, role: BodyRole) -> Body {
         floats: vec![Float::level(DVec3::ZERO, 0.01, 0.4)],
         wetted_drag: false,
         feet_m: Vec::new(),
+        foot_radius_m: Vec::new(),
         start_friction: 0.5,
         slide_friction: 0.5,
         foot_break_out_n: 0.0,

@@ -53,6 +53,7 @@ pub fn of_box(
         floats: floats(item, middle, drag_area_m2),
         wetted_drag: true,
         feet_m: corners(size / 2.0).into_iter().map(|corner| middle + corner).collect(),
+        foot_radius_m: Vec::new(),
         start_friction: item.start_friction,
         slide_friction: item.slide_friction,
         foot_break_out_n: item.break_out_n / 4.0,

@@ -24,16 +24,18 @@ const SMOOTH_FRICTION: f64 = 0.5;
 /// A body written into a scenario: a sphere or a box with the line at its middle.
 pub(super) fn of_free(body: &FreeBody, density: f64) -> Body {
     let radius = body.radius_m;
-    let (shape, inertia, feet_m) = match body.half_m {
+    let (shape, inertia, feet_m, foot_radius_m) = match body.half_m {
         Some(half) => (
             Shape::Box(half),
             box_gear::squares(2.0 * half) * (body.mass_kg / 12.0),
             box_gear::corners(half),
+            Vec::new(),
         ),
         None => (
             Shape::Sphere(radius),
             DVec3::splat(0.4 * body.mass_kg * radius * radius),
-            vec![DVec3::new(0.0, 0.0, -radius)],
+            vec![DVec3::ZERO],
+            vec![radius],
         ),
     };
     let float = Float::level(DVec3::ZERO, body.volume_m3, body.float_height_m);
@@ -51,6 +53,7 @@ pub(super) fn of_free(body: &FreeBody, density: f64) -> Body {
         floats: if body.volume_m3 > 0.0 { vec![float] } else { Vec::new() },
         wetted_drag: body.wetted_drag,
         feet_m,
+        foot_radius_m,
         start_friction: SMOOTH_FRICTION,
         slide_friction: SMOOTH_FRICTION,
         foot_break_out_n: 0.0,

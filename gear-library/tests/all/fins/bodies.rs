@@ -118,6 +118,7 @@ fn body(dice: &mut Dice) -> Body {
         floats: Vec::new(),
         wetted_drag: false,
         feet_m: Vec::new(),
+        foot_radius_m: Vec::new(),
         start_friction: 0.0,
         slide_friction: 0.0,
         foot_break_out_n: 0.0,

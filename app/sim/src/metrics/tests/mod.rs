@@ -137,6 +137,7 @@ pub(crate) fn body(id: &str, role: BodyRole, position_m: DVec3) -> Body {
         floats: vec![Float::level(DVec3::ZERO, 0.03, 0.4)],
         wetted_drag: true,
         feet_m: Vec::new(),
+        foot_radius_m: Vec::new(),
         start_friction: 0.5,
         slide_friction: 0.4,
         foot_break_out_n: 0.0,

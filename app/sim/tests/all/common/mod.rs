@@ -55,6 +55,7 @@ pub fn weight(id: &str, mass_kg: f64, position_m: DVec3, held_until_s: Option<f6
         floats: Vec::new(),
         wetted_drag: false,
         feet_m: Vec::new(),
+        foot_radius_m: Vec::new(),
         start_friction: 0.0,
         slide_friction: 0.0,
         foot_break_out_n: 0.0,
