@@ -50,6 +50,7 @@ fn buoy() -> Body {
         foot_break_out_n: 0.0,
         position_m: DVec3::new(12.0, 3.0, -8.0),
         orientation: DQuat::IDENTITY,
+        spin_rad_s: DVec3::ZERO,
         held_until_s: None,
     }
 }
