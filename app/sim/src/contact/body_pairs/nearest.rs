@@ -39,9 +39,13 @@ impl BodyCore {
             (Core::Cylinder(cylinder), Core::Rod(_)) => {
                 self.nearest_to_rod(pose, cylinder, other.axis(other_pose))?
             }
-            (Core::Rod(_), Core::Box(_) | Core::Cylinder(_)) => {
+            (Core::Rod(_), Core::Box(_)) => {
                 let [others, mine] = other.nearest_to(other_pose, self, pose)?;
                 [mine, others]
+            }
+            (Core::Rod(_), Core::Cylinder(_)) => {
+                let [_, mine] = other.nearest_to(other_pose, self, pose)?;
+                self.refined(pose, (other, other_pose), mine)
             }
             (Core::Box(cuboid), Core::Box(second)) => {
                 let there = self.frame_of(pose, (other, other_pose));
@@ -49,7 +53,8 @@ impl BodyCore {
             }
             (Core::Box(cuboid), Core::Cylinder(cylinder)) => {
                 let there = self.frame_of(pose, (other, other_pose));
-                self.nearest_to_shape(pose, cuboid, cylinder, &there)?
+                let [mine, _] = self.nearest_to_shape(pose, cuboid, cylinder, &there)?;
+                self.refined(pose, (other, other_pose), mine)
             }
             (_, Core::HalfSpace) => {
                 let height = |place: DVec3| other_pose.inward(place).z - other.middle.z;
@@ -72,6 +77,12 @@ impl BodyCore {
     ) -> Option<[DVec3; 2]> {
         let [from, to] = rod.map(|end| pose.inward(end) - self.middle);
         self.nearest_to_shape(pose, mine, &Segment::new(from, to), &Frame::IDENTITY)
+    }
+
+    /// Nearest places of this core and another from one of this core that is nearly the nearest: on a curved side the search ends early.
+    fn refined(&self, pose: &Pose, (other, other_pose): (&Self, &Pose), mine: DVec3) -> [DVec3; 2] {
+        let mine = self.nearest_to_place(pose, other.nearest_to_place(other_pose, mine));
+        [mine, other.nearest_to_place(other_pose, mine)]
     }
 
     /// The frame of another core in that of this one.
