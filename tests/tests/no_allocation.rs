@@ -8,8 +8,9 @@ use std::sync::LazyLock;
 use std::time::Instant;
 
 use allocation_counter::measure;
-use endline_sim::model::Resolution;
-use endline_sim::{DVec3, Input, Model, State, Workspace, settle, step};
+use endline_sim::model::{Obstacle, ROPE_ON_HARD_N_M2, Resolution};
+use endline_sim::solids::SolidShape;
+use endline_sim::{DQuat, DVec3, Input, Model, State, Workspace, settle, step};
 use linked::{built, spec};
 
 /// Steps before counting begins.
@@ -94,6 +95,35 @@ fn a_body_on_skin_allocates_only_as_its_lists_grow() {
     run.steps(WARM_STEPS);
     let counted = measure(|| run.steps(STEPS));
     assert!(!run.workspace.body_contacts.is_empty(), "the buoy was to stay on the skin");
+    assert!(
+        counted.count_total < GROWTH,
+        "{} allocations, {} bytes",
+        counted.count_total,
+        counted.bytes_total
+    );
+}
+
+/// The trap of the encounter on a plane in place of the seabed.
+#[test]
+fn a_body_on_an_obstacle_allocates_only_as_its_lists_grow() {
+    let settled = encounter(DVec3::new(11.4, -60.0, -12.0));
+    let mut spec = settled.spec.clone();
+    spec.seabed = None;
+    spec.obstacles.push(Obstacle {
+        id: "plane".into(),
+        shape: SolidShape::Plane,
+        position_m: DVec3::NEG_Z * (spec.water.depth_m + 0.02),
+        orientation: DQuat::from_rotation_y(0.01),
+        friction: 0.5,
+        stiffness_n_m2: ROPE_ON_HARD_N_M2,
+    });
+    let mut run = Run { state: settle(&settled).state, ..Run::new(built(spec)) };
+    while run.state.pair_grips.is_empty() {
+        run.steps(1);
+    }
+    run.steps(5 * WARM_STEPS);
+    let counted = measure(|| run.steps(STEPS));
+    assert!(!run.state.pair_grips.is_empty(), "the trap was to stay on the plane");
     assert!(
         counted.count_total < GROWTH,
         "{} allocations, {} bytes",

@@ -177,12 +177,16 @@ fn fold_body(body: &BodyState, fold: &mut Fold) {
         spin,
         earlier_position,
         earlier_velocity,
+        earlier_orientation,
+        earlier_spin,
         grip,
         sliding,
         lift_m,
     } = body;
     fold.vectors(&[*position, *velocity, *spin, *earlier_position, *earlier_velocity]);
+    fold.vectors(&[*earlier_spin]);
     fold.turn(*orientation);
+    fold.turn(*earlier_orientation);
     fold.vectors(grip);
     sliding.iter().for_each(|sliding| fold.word(u64::from(*sliding)));
     fold.reals(lift_m);

@@ -123,7 +123,8 @@ fn is_on_ground(model: &Model, state: &State) -> bool {
     let Some(seabed) = &model.spec.seabed else { return false };
     let bodies = model.spec.bodies.iter().zip(&state.bodies);
     let feet = bodies.flat_map(|(body, now)| {
-        body.feet_m.iter().map(|foot| now.position + now.orientation * *foot)
+        let arm = |foot| body.foot_arm(foot, now.orientation, seabed.normal);
+        (0..body.feet_m.len()).map(move |foot| now.position + arm(foot))
     });
     feet.chain(state.rope.position.iter().copied())
         .any(|place| seabed.depth_of(place) > -NEAR_GROUND_M)

@@ -1,6 +1,7 @@
 //! Probes, looked up.
 
 use endline_sdk::LineEnd;
+use endline_sim::DVec3;
 use endline_sim::model::{Probe, ProbeTarget};
 
 use crate::diagnostic::At;
@@ -31,7 +32,7 @@ impl Builder<'_> {
                     self.whole_line(line).map(|line| ProbeTarget::Height(line, *away_m))
                 }
                 ProbePart::Energy(form) => Some(ProbeTarget::Energy(*form)),
-                ProbePart::Place(part, axis) => self.placed(part, *axis),
+                ProbePart::Place { part, point_m, axis } => self.placed(part, *point_m, *axis),
             };
             if self.spec.probes.iter().any(|known| known.id == probe.id.value) {
                 let message = format!("there are two probes with the id `{}`", probe.id.value);
@@ -67,10 +68,17 @@ impl Builder<'_> {
         Some(first)
     }
 
-    fn placed(&self, id: &At<String>, axis: usize) -> Option<ProbeTarget> {
+    /// A body's middle or another point of it, or a joint.
+    fn placed(&self, id: &At<String>, point_m: Option<DVec3>, axis: usize) -> Option<ProbeTarget> {
         match self.part(&id.value) {
-            Some(Part::Body(body)) => Some(ProbeTarget::Body(body, axis)),
-            Some(Part::Joint(joint)) => Some(ProbeTarget::Joint(joint, axis)),
+            Some(Part::Body(body)) => {
+                Some(ProbeTarget::Body { body, offset_m: point_m.unwrap_or_default(), axis })
+            }
+            Some(Part::Joint(joint)) if point_m.is_none() => Some(ProbeTarget::Joint(joint, axis)),
+            _ if point_m.is_some() => {
+                self.unknown("body", id, |part| matches!(part, Part::Body(_)));
+                None
+            }
             _ => {
                 self.unknown("body or joint", id, |part| {
                     matches!(part, Part::Body(_) | Part::Joint(_))

@@ -1,4 +1,4 @@
-//! Obstacles of a scenario: solid things that stand still and that rope lies on, hangs from and winds round.
+//! Obstacles of a scenario: solid things that stand still and that rope and bodies meet.
 
 use endline_sim::model::ROPE_ON_HARD_N_M2;
 use endline_sim::solids::SolidShape;
@@ -26,7 +26,7 @@ pub struct ObstacleOf {
     pub position_m: DVec3,
     /// Its frame, to world.
     pub orientation: DQuat,
-    /// Friction of rope on it.
+    /// Friction of rope and bodies on it.
     pub friction: f64,
     /// Stiffness under rope, by length of rope [N/m²].
     pub stiffness_n_m2: f64,
@@ -41,7 +41,10 @@ pub(super) fn obstacle(node: &Node, file: &Provenance, problems: &Problems) -> O
     let position_m = position(&fields);
     let row = provenance_over(&fields, file);
     if fields.get("friction").is_none() {
-        fields.missing("friction", "write the friction of rope on it, such as 0.3; 0 is smooth");
+        fields.missing(
+            "friction",
+            "write the friction of rope and bodies on it, such as 0.3; 0 is smooth",
+        );
     }
     let friction = fields.figure("friction", Quantity::Ratio, Range::Between(0.0, 10.0), &row);
     let stiffness = fields.figure("stiffness", Quantity::Pressure, Range::Positive, &row);

@@ -26,7 +26,7 @@ pub struct Fixture {
     pub pull: Option<(DVec3, f64)>,
 }
 
-/// A body written in place: a sphere with given figures, the line at its middle.
+/// A body written in place: a sphere or a box with given figures, the line at its middle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FreeBody {
     /// Id.
@@ -35,10 +35,16 @@ pub struct FreeBody {
     pub buoy: bool,
     /// Start place [m].
     pub position_m: DVec3,
+    /// Start angular velocity in the world [rad/s].
+    pub spin_rad_s: DVec3,
     /// Radius [m].
     pub radius_m: f64,
+    /// Half extents, where it is a box [m].
+    pub half_m: Option<DVec3>,
     /// Mass [kg].
     pub mass_kg: f64,
+    /// Principal moments of inertia, where they are given [kg m²].
+    pub inertia_kg_m2: Option<DVec3>,
     /// Displaced volume [m³].
     pub volume_m3: f64,
     /// Height over which it goes under [m].
@@ -98,7 +104,14 @@ pub enum ProbePart {
     /// A coordinate of the middle of a line.
     Middle(At<String>, usize),
     /// A coordinate of a body, joint or fixture.
-    Place(At<String>, usize),
+    Place {
+        /// Which.
+        part: At<String>,
+        /// A point of a body other than its middle, in its frame [m].
+        point_m: Option<DVec3>,
+        /// 0 x, 1 y, 2 z.
+        axis: usize,
+    },
 }
 
 /// `[[rope]]` with an id and the figures of a library rope.
@@ -168,6 +181,9 @@ pub(super) fn body(node: &Node, file: &Provenance, problems: &Problems) -> Optio
     let position = position(&fields);
     let held = fields.value("held_until", Quantity::Time, Range::NotNegative);
     let wetted = fields.flag("wetted_drag");
+    let spin = fields.values("spin", Quantity::TurnRate, &[3]);
+    let size = above_zero(&fields, "size", Quantity::Length);
+    let inertia = above_zero(&fields, "inertia", Quantity::Inertia);
     let row = provenance_over(&fields, file);
     let figure = |key, quantity, range| fields.figure(key, quantity, range, &row);
     if fields.get("mass").is_none() {
@@ -186,8 +202,11 @@ pub(super) fn body(node: &Node, file: &Provenance, problems: &Problems) -> Optio
         id: id?,
         buoy: role.is_some_and(|role| role.value == "buoy"),
         position_m: position?,
+        spin_rad_s: spin.map_or(DVec3::ZERO, |spin| place3(&spin.value)),
         radius_m,
+        half_m: size.map(|size| 0.5 * size),
         mass_kg: mass?.value,
+        inertia_kg_m2: inertia,
         volume_m3: or(volume, 0.0),
         float_height_m: or(height, 2.0 * radius_m),
         drag_area_m2: or(drag, 0.0),
@@ -195,6 +214,18 @@ pub(super) fn body(node: &Node, file: &Provenance, problems: &Problems) -> Optio
         wetted_drag: wetted.unwrap_or(true),
         held_until_s: held.map(|held| held.value),
     })
+}
+
+/// Three values that must be above zero.
+fn above_zero<'a>(fields: &Fields<'a>, key: &'a str, quantity: Quantity) -> Option<DVec3> {
+    let values = fields.values(key, quantity, &[3])?;
+    let three = place3(&values.value);
+    if three.min_element() > 0.0 {
+        return Some(three);
+    }
+    let message = format!("a value of `{key}` is not above zero");
+    fields.problems().push(values.place.error(message, "write three values, each above zero"));
+    None
 }
 
 /// Reads a `[[probe]]`; `None` where something needed is missing, which is reported.
@@ -212,7 +243,7 @@ pub(super) fn probe(node: &Node, problems: &Problems) -> Option<ProbeOf> {
             .and_then(|(line, axis)| Some(ProbePart::LineAt(line, length_at(&fields)?, axis))),
         "height" => height(&fields),
         "energy" => Some(ProbePart::Energy(energy_form(&fields))),
-        _ => coordinate(&fields, "part").map(|(part, axis)| ProbePart::Place(part, axis)),
+        _ => place(&fields),
     });
     fields.finish();
     Some(ProbeOf { id: id?, part: part? })
@@ -228,6 +259,13 @@ fn tension(fields: &Fields<'_>) -> Option<ProbePart> {
         fields.need_text("end", "write from or to; or `at`, a length of rope from its end `from`");
     let end = end.and_then(|_| fields.word("end", &["from", "to"]))?;
     Some(ProbePart::Tension(line?, if end.value == "from" { LineEnd::A } else { LineEnd::B }))
+}
+
+/// Of a body's middle or another `point` of it, of a joint or a fixture.
+fn place(fields: &Fields<'_>) -> Option<ProbePart> {
+    let point = fields.values("point", Quantity::Length, &[3]);
+    let (part, axis) = coordinate(fields, "part")?;
+    Some(ProbePart::Place { part, point_m: point.map(|point| place3(&point.value)), axis })
 }
 
 /// Of a whole line, or of what lies farther than `away` from its ends.

@@ -264,7 +264,7 @@ fn problem_b_has_its_rope_buoy_and_probes() {
         (buoy.added_mass_kg.z - 5.125).abs() < 1e-12 && !buoy.wetted_drag && !spec.water.rope_dries
     );
     assert_eq!(spec.water.current.surface_m_s, DVec3::new(0.5, 0.0, 0.0));
-    assert!(matches!(spec.probes[2].target, ProbeTarget::Body(0, 0)));
+    assert!(matches!(spec.probes[2].target, ProbeTarget::Body { body: 0, axis: 0, .. }));
 }
 
 #[test]

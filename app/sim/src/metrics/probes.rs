@@ -74,7 +74,7 @@ pub fn unit(target: ProbeTarget) -> &'static str {
         | ProbeTarget::Height(..)
         | ProbeTarget::LineMiddle(..)
         | ProbeTarget::Joint(..)
-        | ProbeTarget::Body(..) => "m",
+        | ProbeTarget::Body { .. } => "m",
     }
 }
 
@@ -94,8 +94,9 @@ pub fn reading(model: &Model, state: &State, target: ProbeTarget) -> f64 {
         ProbeTarget::Energy(form) => energy(model, state, form),
         ProbeTarget::LineMiddle(line, axis) => coordinate(along::middle(model, state, line), axis),
         ProbeTarget::Joint(joint, axis) => coordinate(state.joint_place(model, joint), axis),
-        ProbeTarget::Body(body, axis) => {
-            coordinate(state.bodies.get(body).map(|body| body.position), axis)
-        }
+        ProbeTarget::Body { body, offset_m, axis } => coordinate(
+            state.bodies.get(body).map(|body| body.position + body.orientation * offset_m),
+            axis,
+        ),
     }
 }

@@ -81,8 +81,10 @@ pub struct Body {
     pub floats: Vec<Float>,
     /// Whether drag and added mass scale with the wet share (else always full).
     pub wetted_drag: bool,
-    /// Points that touch the seabed, in the body's frame [m].
+    /// What touches the seabed: points, or middles of balls, in the body's frame [m].
     pub feet_m: Vec<DVec3>,
+    /// Radius of the ball about each foot [m]; a foot without one is a point.
+    pub foot_radius_m: Vec<f64>,
     /// Friction on the seabed before it starts to move.
     pub start_friction: f64,
     /// Friction on the seabed once it slides.
@@ -93,11 +95,19 @@ pub struct Body {
     pub position_m: DVec3,
     /// Start orientation, body to world.
     pub orientation: DQuat,
+    /// Start angular velocity in the world frame, where a run begins as placed [rad/s].
+    pub spin_rad_s: DVec3,
     /// Held in place until this time (through statics, if not below zero); `None` is free.
     pub held_until_s: Option<f64>,
 }
 
 impl Body {
+    /// From the body's place to the lowest place of a foot above a plane of this normal, with the body turned like this [m].
+    pub(crate) fn foot_arm(&self, foot: usize, orientation: DQuat, normal: DVec3) -> DVec3 {
+        let radius = self.foot_radius_m.get(foot).copied().unwrap_or(0.0);
+        orientation * self.feet_m[foot] - normal * radius
+    }
+
     /// Drag coefficient times area when all of it is wet, by body axis [m²].
     #[must_use]
     pub fn whole_drag_area_m2(&self) -> DVec3 {

@@ -2,6 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
+use crate::solids::Pose;
 use crate::solids::shape::SolidShape;
 
 /// Stiffness of rope pressed on something hard, by length of rope [N/m²]: of the order of the transverse modulus of
@@ -19,8 +20,15 @@ pub struct Obstacle {
     pub position_m: DVec3,
     /// Its frame, to world.
     pub orientation: DQuat,
-    /// Coulomb friction of rope on it.
+    /// Coulomb friction of rope and bodies on it.
     pub friction: f64,
     /// Stiffness under rope, by length of rope [N/m²].
     pub stiffness_n_m2: f64,
+}
+
+impl Obstacle {
+    /// Where it stands.
+    pub(crate) fn pose(&self) -> Pose {
+        Pose { place: self.position_m, orientation: self.orientation }
+    }
 }

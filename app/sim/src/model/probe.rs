@@ -1,6 +1,7 @@
 //! Probes: quantities that a run follows.
 
 use endline_sdk::LineEnd;
+use glam::DVec3;
 
 /// A quantity to follow through the run.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,8 +29,15 @@ pub enum ProbeTarget {
     LineMiddle(usize, usize),
     /// A coordinate of a joint: 0 x, 1 y, 2 z [m].
     Joint(usize, usize),
-    /// A coordinate of a body: 0 x, 1 y, 2 z [m].
-    Body(usize, usize),
+    /// A coordinate of a point of a body [m].
+    Body {
+        /// Which body.
+        body: usize,
+        /// The point in the body's frame [m].
+        offset_m: DVec3,
+        /// 0 x, 1 y, 2 z.
+        axis: usize,
+    },
 }
 
 /// A form of mechanical energy.

@@ -72,10 +72,7 @@ impl Solid {
     fn of_obstacle(obstacle: &Obstacle) -> Self {
         Self {
             shape: obstacle.shape.clone(),
-            carrier: Carrier::World(Pose {
-                place: obstacle.position_m,
-                orientation: obstacle.orientation,
-            }),
+            carrier: Carrier::World(obstacle.pose()),
             friction: obstacle.friction,
             stiffness_n_m2: obstacle.stiffness_n_m2,
             mass_kg: f64::INFINITY,

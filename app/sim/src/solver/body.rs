@@ -5,14 +5,14 @@
 //! Floats lift by what they displace (`float.rs`). Drag by body axis `k`, of a float at its own place or of the body as a
 //! whole, `u` the water's velocity relative to that place: `F_k = ½ρ (C_d A)_k |u| u_k`; turning drag `τ_k = -½ρ D_k |ω_k| ω_k`.
 //! In waves heights are those above the surface over the body's middle, and the water's acceleration acts (`water.rs`).
-//! The place follows the step's scheme; the rotation follows backward Euler:
-//! `ω = log(q qₙ⁻¹)/dt`. Rope ends pull on the body inside the same linear solve (`interface.rs`).
+//! Place and rotation (`rotation.rs`) follow the step's scheme. Rope ends pull on the body inside the same linear solve (`interface.rs`).
 
 use glam::{DMat3, DVec3};
 
 use super::Solver;
 use super::interface::Attachment;
 use super::rope::outer;
+use super::rotation::momentum_rate;
 use super::scheme::Scheme;
 use crate::model::{Body, Float, Model};
 use crate::state::State;
@@ -26,10 +26,10 @@ impl Solver {
         for (index, body) in model.spec.bodies.iter().enumerate() {
             self.interface.force[self.plan.body_block[index]].z -=
                 body.mass_kg * model.spec.water.gravity_m_s2;
-            let wet = self.add_floats(model, state, index, body, scheme);
+            let wet = self.add_floats(model, index, body, scheme);
             self.add_body_inertia(state, index, body, wet, scheme);
-            self.add_part_drag(model, state, index, DVec3::ZERO, body.drag_area_m2 * wet, scheme);
-            self.add_turn_drag(model, state, index, body, wet, scheme);
+            self.add_part_drag(model, index, DVec3::ZERO, body.drag_area_m2 * wet, scheme);
+            self.add_turn_drag(model, index, body, wet, scheme);
             self.add_body_push(model, index, body, wet);
             if scheme.exact {
                 self.add_slopes(model, index, body);
@@ -41,25 +41,11 @@ impl Solver {
     }
 
     /// Buoyancy and drag of a body's floats; gives its wet share, for drag and added mass as a whole.
-    fn add_floats(
-        &mut self,
-        model: &Model,
-        state: &State,
-        index: usize,
-        body: &Body,
-        scheme: &Scheme,
-    ) -> f64 {
+    fn add_floats(&mut self, model: &Model, index: usize, body: &Body, scheme: &Scheme) -> f64 {
         let (mut wet, mut whole) = (0.0, 0.0);
         for float in &body.floats {
             let share = self.add_float(model, index, float, scheme);
-            self.add_part_drag(
-                model,
-                state,
-                index,
-                float.offset_m,
-                float.drag_area_m2 * share,
-                scheme,
-            );
+            self.add_part_drag(model, index, float.offset_m, float.drag_area_m2 * share, scheme);
             wet += share * float.volume_m3;
             whole += float.volume_m3;
         }
@@ -104,25 +90,23 @@ impl Solver {
         let turned = |diagonal: DVec3| axes * DMat3::from_diagonal(diagonal) * axes.transpose();
         let mass =
             DMat3::from_diagonal(DVec3::splat(body.mass_kg)) + turned(body.added_mass_kg * wet);
-        let inertia = turned(body.inertia_kg_m2 + body.added_inertia_kg_m2 * wet);
+        let moments = body.inertia_kg_m2 + body.added_inertia_kg_m2 * wet;
+        let inertia = turned(moments);
         let share = scheme.inertia * trial.pseudo_mass_scale;
         *self.interface.at(block, block) += mass * share;
         if scheme.is_static() {
             *self.interface.at(block + 1, block + 1) += inertia * share;
             if scheme.anchored {
                 self.interface.force[block] -= mass * ((trial.place - trial.place_history) * share);
-                self.interface.force[block + 1] -=
-                    inertia * (spin(trial.orientation, trial.anchor, 1.0) * share);
+                self.interface.force[block + 1] -= inertia * (trial.turn() * share);
             }
         } else {
             let velocity = (trial.place - trial.place_history) * scheme.rate;
-            let turn_rate = 1.0 / scheme.dt;
-            let spin = spin(trial.orientation, now.orientation, scheme.dt);
             self.interface.force[block] -=
                 mass * ((velocity - trial.velocity_history) * scheme.rate);
-            self.interface.force[block + 1] -=
-                inertia * ((spin - now.spin) * turn_rate) + spin.cross(inertia * spin);
-            *self.interface.at(block + 1, block + 1) += inertia * (turn_rate * turn_rate);
+            let (gained, growth) = momentum_rate(&trial, now, moments, scheme);
+            self.interface.force[block + 1] -= gained;
+            *self.interface.at(block + 1, block + 1) += growth;
         }
         if trial.held {
             *self.interface.at(block, block) += DMat3::IDENTITY * HELD;
@@ -136,7 +120,6 @@ impl Solver {
     fn add_part_drag(
         &mut self,
         model: &Model,
-        state: &State,
         index: usize,
         offset: DVec3,
         area: DVec3,
@@ -145,13 +128,13 @@ impl Solver {
         if area == DVec3::ZERO {
             return;
         }
-        let (trial, now) = (self.trial.bodies[index], &state.bodies[index]);
+        let trial = self.trial.bodies[index];
         let block = self.plan.body_block[index];
         let (axes, arm) = (DMat3::from_quat(trial.orientation), trial.orientation * offset);
         let half_density = 0.5 * model.spec.water.density_kg_m3;
         let mut velocity = (trial.place - trial.place_history) * scheme.rate;
         if !scheme.is_static() {
-            velocity += spin(trial.orientation, now.orientation, scheme.dt).cross(arm);
+            velocity += trial.spin(scheme).cross(arm);
         }
         let relative = axes.transpose() * (self.flow_bodies[index].velocity_m_s - velocity);
         let speed = relative.length();
@@ -161,8 +144,7 @@ impl Solver {
             let slope =
                 area * (DVec3::splat(speed) + relative * relative / speed.max(1e-9)) * half_density;
             let slope = axes * DMat3::from_diagonal(slope * scheme.rate) * axes.transpose();
-            // Place and rotation move by different schemes.
-            self.interface.add(attachment, arm, attachment, arm / (scheme.dt * scheme.rate), slope);
+            self.interface.add(attachment, arm, attachment, arm, slope);
         }
     }
 
@@ -170,7 +152,6 @@ impl Solver {
     fn add_turn_drag(
         &mut self,
         model: &Model,
-        state: &State,
         index: usize,
         body: &Body,
         wet: f64,
@@ -179,25 +160,17 @@ impl Solver {
         if scheme.is_static() {
             return;
         }
-        let (trial, now) = (self.trial.bodies[index], &state.bodies[index]);
+        let trial = self.trial.bodies[index];
         let block = self.plan.body_block[index];
         let axes = DMat3::from_quat(trial.orientation);
         let half_density = 0.5 * model.spec.water.density_kg_m3 * wet;
-        let spin = axes.transpose() * spin(trial.orientation, now.orientation, scheme.dt);
+        let spin = axes.transpose() * trial.spin(scheme);
         self.interface.force[block + 1] -=
             axes * (body.turn_drag_m5 * spin * spin.abs() * half_density);
-        let slope = body.turn_drag_m5 * spin.abs() * (2.0 * half_density / scheme.dt);
+        let slope = body.turn_drag_m5 * spin.abs() * (2.0 * half_density * scheme.rate);
         *self.interface.at(block + 1, block + 1) +=
             axes * DMat3::from_diagonal(slope) * axes.transpose();
     }
-}
-
-/// Angular velocity that turns one orientation into another over a step.
-pub(crate) fn spin(after: glam::DQuat, before: glam::DQuat, dt: f64) -> DVec3 {
-    let turn = after * before.inverse();
-    // The shorter way round.
-    let turn = if turn.w < 0.0 { -turn } else { turn };
-    turn.to_scaled_axis() / dt
 }
 
 /// How stiffly a force at the end of an arm keeps the arm turned: the part of its derivative that

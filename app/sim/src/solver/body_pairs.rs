@@ -1,8 +1,8 @@
-//! Bodies of the rig pressed on each other, in the linear system of a step.
+//! Bodies of the rig pressed on each other and on obstacles, in the linear system of a step.
 //!
 //! A touch at `p` with push and friction `F` on the first body, `-F` on the second, and block `B = -dF/d(p₁ - p₂)` acts on the six freedoms of each and
 //! couples them: the layout of the interface matrix holds the blocks of the bodies that may touch in the step (`interface.rs`), and is
-//! laid out anew where these change.
+//! laid out anew where these change. An obstacle has no blocks.
 
 use glam::DVec3;
 
@@ -46,10 +46,14 @@ impl Solver {
             return;
         }
         for touch in body_pairs.forces_at(|body| trial.bodies[body].pose()) {
-            let [one, two] = touch.bodies.map(|body| Attachment::Body {
-                block: plan.body_block[body],
-                body,
-                offset: DVec3::ZERO,
+            // An obstacle has no freedom.
+            let [one, two] = touch.bodies.map(|thing| {
+                let block = plan.body_block.get(thing);
+                block.map_or(Attachment::Fixed, |block| Attachment::Body {
+                    block: *block,
+                    body: thing,
+                    offset: DVec3::ZERO,
+                })
             });
             let [one_arm, two_arm] = touch.arms;
             interface.push(one, one_arm, touch.force);

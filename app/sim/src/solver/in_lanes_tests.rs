@@ -45,11 +45,13 @@ fn buoy() -> Body {
         floats: vec![crate::model::Float::level(DVec3::ZERO, 0.03, 0.4)],
         wetted_drag: true,
         feet_m: Vec::new(),
+        foot_radius_m: Vec::new(),
         start_friction: 0.0,
         slide_friction: 0.0,
         foot_break_out_n: 0.0,
         position_m: DVec3::new(12.0, 3.0, -8.0),
         orientation: DQuat::IDENTITY,
+        spin_rad_s: DVec3::ZERO,
         held_until_s: None,
     }
 }

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
+use super::Solver;
 use super::scheme::Scheme;
-use super::{Solver, body};
 use crate::model::Model;
 use crate::state::State;
 
@@ -41,13 +41,11 @@ impl Solver {
         for (trial, body) in self.trial.bodies.iter().zip(&mut state.bodies) {
             body.earlier_position = body.position;
             body.earlier_velocity = body.velocity;
+            body.earlier_orientation = body.orientation;
+            body.earlier_spin = body.spin;
             body.position = trial.place;
             body.velocity = (trial.place - trial.place_history) * scheme.rate;
-            body.spin = if scheme.is_static() {
-                DVec3::ZERO
-            } else {
-                body::spin(trial.orientation, body.orientation, scheme.dt)
-            };
+            body.spin = if scheme.is_static() { DVec3::ZERO } else { trial.spin(scheme) };
             body.orientation = trial.orientation;
         }
         state.time_s = self.trial.time;

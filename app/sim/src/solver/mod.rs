@@ -29,6 +29,7 @@ mod pulled;
 mod residual;
 mod rope;
 mod rope_on_rope;
+mod rotation;
 mod scheme;
 mod seabed;
 mod skin;

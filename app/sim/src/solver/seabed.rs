@@ -1,10 +1,11 @@
 //! The seabed under rope nodes and the feet of bodies.
 //!
 //! Depth `p` below the plane, stiffness `k`: `N = k p²/2e` for `0 < p < e`, `N = k (p - e/2)` beyond
-//! (smooth onset over `e`). Friction is an elastic grip (`elastic_grip.rs`). A body's foot starts at `μ_start` and slides at `μ_slide`
+//! (smooth onset over `e`). A foot is a point of the body, or a ball about it, whose lowest place touches: it sinks by how the ball's middle moves, and
+//! grips by how the body's own point moves that touches as the step ends, so that a ball rolls. Friction is an elastic grip (`elastic_grip.rs`). A body's foot starts at `μ_start` and slides at `μ_slide`
 //! until it stands still again; lifted, it is held back until it has broken out (`suction.rs`).
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 use super::Solver;
 use super::elastic_grip::{Grip, Push};
@@ -46,10 +47,24 @@ struct BodyFoot<'a> {
 }
 
 impl BodyFoot<'_> {
-    /// Its place when the step begins [m].
-    fn place_before(&self, state: &State) -> DVec3 {
+    /// From a body turned like this to the foot's lowest place [m].
+    fn arm(&self, seabed: &Seabed, orientation: DQuat) -> DVec3 {
+        self.body.foot_arm(self.foot, orientation, seabed.normal)
+    }
+
+    /// Its lowest place when the step begins [m].
+    fn place_before(&self, seabed: &Seabed, state: &State) -> DVec3 {
         let now = &state.bodies[self.index];
-        now.position + now.orientation * self.body.feet_m[self.foot]
+        now.position + self.arm(seabed, now.orientation)
+    }
+
+    /// Where the point of the body was when the step began that is lowest with the body turned like this [m].
+    fn point_before(&self, seabed: &Seabed, state: &State, orientation: DQuat) -> DVec3 {
+        if self.body.foot_radius_m.get(self.foot).is_none_or(|radius| *radius <= 0.0) {
+            return self.place_before(seabed, state);
+        }
+        let now = &state.bodies[self.index];
+        now.position + now.orientation * (orientation.inverse() * self.arm(seabed, orientation))
     }
 }
 
@@ -124,8 +139,9 @@ impl Solver {
         let Some(seabed) = &model.spec.seabed else { return };
         let body = &model.spec.bodies[index];
         for foot in 0..body.feet_m.len() {
-            let arm = self.trial.bodies[index].orientation * body.feet_m[foot];
-            let place = self.trial.bodies[index].place + arm;
+            let (at, now) = (BodyFoot { body, index, foot }, self.trial.bodies[index]);
+            let arm = at.arm(seabed, now.orientation);
+            let place = now.place + arm;
             let depth = seabed.depth_of(place);
             let attachment = Attachment::Body {
                 block: self.plan.body_block[index],
@@ -147,8 +163,7 @@ impl Solver {
                 }
                 continue;
             }
-            let at = BodyFoot { body, index, foot };
-            let before = at.place_before(state);
+            let before = at.place_before(seabed, state);
             let damping = if scheme.is_static() {
                 0.0
             } else {
@@ -159,7 +174,8 @@ impl Solver {
                 force: (undamped.force + damping * seabed.normal.dot(before - place)).max(0.0),
                 rate: undamped.rate + damping,
             };
-            let grip = foot_grip(seabed, state, scheme, at, place, push);
+            let from = at.point_before(seabed, state, now.orientation);
+            let grip = foot_grip(seabed, state, scheme, at, [from, place], push);
             self.interface.push(attachment, arm, seabed.normal * push.force + grip.force);
             self.interface.add(
                 attachment,
@@ -205,13 +221,14 @@ impl Solver {
     }
 
     fn keep_foot(&self, seabed: &Seabed, scheme: &Scheme, at: BodyFoot<'_>, state: &mut State) {
-        let BodyFoot { body, index, foot } = at;
-        let place = self.trial.bodies[index].place
-            + self.trial.bodies[index].orientation * body.feet_m[foot];
+        let BodyFoot { index, foot, .. } = at;
+        let now = self.trial.bodies[index];
+        let place = now.place + at.arm(seabed, now.orientation);
         let push = push_at(seabed.depth_of(place), seabed.foot_stiffness_n_m);
         let (kept, slides) = if push.force > 0.0 {
-            let grip = foot_grip(seabed, state, scheme, at, place, push);
-            let speed = (place - at.place_before(state)).length() * scheme.rate;
+            let from = at.point_before(seabed, state, now.orientation);
+            let grip = foot_grip(seabed, state, scheme, at, [from, place], push);
+            let speed = (place - from).length() * scheme.rate;
             // Statics says itself which feet slide.
             let slides = if scheme.is_static() {
                 state.bodies[index].sliding[foot]
@@ -241,17 +258,17 @@ fn grips_rope(seabed: &Seabed, state: &State, node: usize, scheme: &Scheme) -> b
     !scheme.is_static() || seabed.depth_of(state.rope.position[node]) > 0.0
 }
 
-/// Friction of a foot at a place: it starts to slide at one coefficient and slides on at another.
+/// Friction of a foot that moved from one place to another: it starts to slide at one coefficient and slides on at another.
 fn foot_grip(
     seabed: &Seabed,
     state: &State,
     scheme: &Scheme,
     at: BodyFoot<'_>,
-    place: DVec3,
+    [from, to]: [DVec3; 2],
     push: Push,
 ) -> Grip {
     let BodyFoot { body, index, foot } = at;
-    let stretch = state.bodies[index].grip[foot] + place - at.place_before(state);
+    let stretch = state.bodies[index].grip[foot] + to - from;
     let friction =
         if state.bodies[index].sliding[foot] { body.slide_friction } else { body.start_friction };
     if scheme.is_static() {

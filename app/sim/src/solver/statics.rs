@@ -115,10 +115,9 @@ impl Solver {
         }
         let (body, now) = (&model.spec.bodies[index], &self.trial.bodies[index]);
         let push = model.spec.seabed.as_ref().map_or(DVec3::ZERO, |seabed| {
-            let feet = body
-                .feet_m
-                .iter()
-                .map(|foot| seabed.push_on_foot(now.place + now.orientation * *foot));
+            let arm = |foot| body.foot_arm(foot, now.orientation, seabed.normal);
+            let feet =
+                (0..body.feet_m.len()).map(|foot| seabed.push_on_foot(now.place + arm(foot)));
             seabed.normal * feet.sum::<f64>()
         });
         interface[self.plan.body_block[index]] - push

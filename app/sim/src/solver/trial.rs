@@ -4,6 +4,7 @@ use glam::{DQuat, DVec3};
 
 use super::interface::Attachment;
 use super::plan::Plan;
+use super::rotation::turn_history;
 use super::scheme::Scheme;
 use crate::model::{JointKind, Model};
 use crate::solids::Pose;
@@ -34,10 +35,12 @@ pub(crate) struct Trial {
 pub(crate) struct BodyTrial {
     pub place: DVec3,
     pub orientation: DQuat,
-    /// Orientation that an anchored pass of statics pulls back to.
+    /// Orientation at the step's begin, to which an anchored pass of statics pulls back.
     pub anchor: DQuat,
     pub place_history: DVec3,
     pub velocity_history: DVec3,
+    /// `θ̂` (`rotation.rs`).
+    pub turn_history: DVec3,
     /// What its pseudo-mass in statics is multiplied by.
     pub pseudo_mass_scale: f64,
     /// Whether it is held in place.
@@ -105,6 +108,7 @@ impl Trial {
                 orientation: (DQuat::from_scaled_axis(turn) * now.orientation).normalize(),
                 place_history: scheme.history(now.position, now.earlier_position),
                 velocity_history: scheme.history(now.velocity, now.earlier_velocity),
+                turn_history: turn_history(now, scheme),
                 held,
                 upright: false,
             });

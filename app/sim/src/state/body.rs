@@ -19,6 +19,10 @@ pub struct BodyState {
     pub earlier_position: DVec3,
     /// Velocity one solver step earlier [m/s].
     pub earlier_velocity: DVec3,
+    /// Orientation one solver step earlier, body to world.
+    pub earlier_orientation: DQuat,
+    /// Angular velocity in the world frame one solver step earlier [rad/s].
+    pub earlier_spin: DVec3,
     /// Tangential stretch of each foot's grip on the seabed [m].
     pub grip: Vec<DVec3>,
     /// Whether each foot slides.
@@ -34,6 +38,8 @@ clone_in_place!(BodyState {
     spin,
     earlier_position,
     earlier_velocity,
+    earlier_orientation,
+    earlier_spin,
     grip,
     sliding,
     lift_m

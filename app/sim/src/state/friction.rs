@@ -101,10 +101,10 @@ impl BodyGrips {
     }
 }
 
-/// A place at which two bodies touch, as it lasts from step to step.
+/// A place at which two bodies, or a body and an obstacle, touch, as it lasts from step to step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PairGrip {
-    /// The two bodies, in rising order.
+    /// The two bodies, in rising order; an obstacle comes second, by its number after all bodies.
     pub bodies: [usize; 2],
     /// Place in the first body's frame [m].
     pub place: DVec3,

@@ -102,6 +102,8 @@ impl State {
             body.earlier_velocity = DVec3::ZERO;
             body.earlier_position = body.position;
             body.spin = DVec3::ZERO;
+            body.earlier_spin = DVec3::ZERO;
+            body.earlier_orientation = body.orientation;
         }
     }
 }

@@ -51,10 +51,9 @@ pub(super) fn first_guess(model: &Model) -> State {
 fn sink(model: &Model, index: usize, state: &mut State) {
     let (Some(seabed), body) = (&model.spec.seabed, &model.spec.bodies[index]) else { return };
     let now = &state.bodies[index];
-    let lowest = body
-        .feet_m
-        .iter()
-        .map(|foot| seabed.depth_of(now.position + now.orientation * *foot))
+    let arm = |foot| body.foot_arm(foot, now.orientation, seabed.normal);
+    let lowest = (0..body.feet_m.len())
+        .map(|foot| seabed.depth_of(now.position + arm(foot)))
         .fold(f64::MIN, f64::max);
     let displaced: f64 = body.floats.iter().map(|float| float.volume_m3).sum();
     let weight =

@@ -20,7 +20,7 @@ pub(crate) enum Rejection {
     Pinched(usize, usize),
     /// This body is pinched at this triangle by skin that closes on it, or would go through it.
     BodyPinched(usize, usize),
-    /// These two bodies are pressed into each other or would pass.
+    /// These two bodies, or this body and this obstacle by its number after all bodies, are pressed into each other or would pass.
     BodiesMeet([usize; 2]),
     /// These two segments are pressed into each other harder than rope can bear.
     RopesPinched([usize; 2]),
@@ -92,7 +92,7 @@ impl Rejection {
             }
             Self::BodiesMeet([body, other]) => {
                 let [part, other] =
-                    [body, other].map(|body| format!("body {}", model.spec.bodies[body].id));
+                    [body, other].map(|thing| crate::contact::body_pairs::name_of(model, thing));
                 (part, format!("it is pressed into {other} harder than either bears"))
             }
             Self::WentThrough(segment, solid) => {

@@ -3,7 +3,7 @@
 //! The first stage is a step of backward Euler, and a second that is refused leaves it as such; a step of the model therefore never
 //! begins within a step in two stages, and nothing of this is part of the state.
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 use super::rejection::StepKind;
 use crate::model::Model;
@@ -27,6 +27,15 @@ pub(super) enum Way {
     },
 }
 
+/// A body where a step in two stages began.
+#[derive(Clone, Copy, Debug)]
+struct Placed {
+    position: DVec3,
+    velocity: DVec3,
+    orientation: DQuat,
+    spin: DVec3,
+}
+
 /// Where a step in two stages began.
 #[derive(Clone, Debug)]
 pub(super) struct Stages {
@@ -36,7 +45,7 @@ pub(super) struct Stages {
     earlier_dt_s: f64,
     position: Vec<DVec3>,
     velocity: Vec<DVec3>,
-    bodies: Vec<[DVec3; 2]>,
+    bodies: Vec<Placed>,
 }
 
 impl Stages {
@@ -79,7 +88,12 @@ impl Stages {
         self.position.clone_from(&state.rope.position);
         self.velocity.clone_from(&state.rope.velocity);
         self.bodies.clear();
-        self.bodies.extend(state.bodies.iter().map(|body| [body.position, body.velocity]));
+        self.bodies.extend(state.bodies.iter().map(|body| Placed {
+            position: body.position,
+            velocity: body.velocity,
+            orientation: body.orientation,
+            spin: body.spin,
+        }));
     }
 
     /// Takes in a solver step that was kept, with the length of the one before it; the step that it ends, or `None` where its second
@@ -110,8 +124,9 @@ impl Stages {
         core::mem::swap(&mut rope.earlier_position, &mut self.position);
         core::mem::swap(&mut rope.earlier_velocity, &mut self.velocity);
         rope.earlier_dt_s = self.whole_s;
-        for (body, [position, velocity]) in state.bodies.iter_mut().zip(&self.bodies) {
-            (body.earlier_position, body.earlier_velocity) = (*position, *velocity);
+        for (body, began) in state.bodies.iter_mut().zip(&self.bodies) {
+            (body.earlier_position, body.earlier_velocity) = (began.position, began.velocity);
+            (body.earlier_orientation, body.earlier_spin) = (began.orientation, began.spin);
         }
     }
 }

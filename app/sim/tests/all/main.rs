@@ -1,6 +1,8 @@
 //! Tests of the physics through the crate's own door: known answers, published figures, invariants.
 
 mod bodies_meet;
+mod bodies_on_obstacles;
+mod bodies_on_seabed;
 mod body_on_skin;
 mod capstan;
 mod common;

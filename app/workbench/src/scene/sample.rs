@@ -165,11 +165,13 @@ fn body(id: &str, role: BodyRole) -> Body {
         floats: vec![Float::level(DVec3::ZERO, 0.01, 0.4)],
         wetted_drag: false,
         feet_m: Vec::new(),
+        foot_radius_m: Vec::new(),
         start_friction: 0.5,
         slide_friction: 0.5,
         foot_break_out_n: 0.0,
         position_m: if trap { place_on_rope(0.0) } else { place_on_rope(1.0) },
         orientation: DQuat::IDENTITY,
+        spin_rad_s: DVec3::ZERO,
         held_until_s: None,
     }
 }

@@ -54,11 +54,13 @@ pub fn of_box(
         floats: floats(item, middle, drag_area_m2),
         wetted_drag: true,
         feet_m: corners(size / 2.0).into_iter().map(|corner| middle + corner).collect(),
+        foot_radius_m: Vec::new(),
         start_friction: item.start_friction,
         slide_friction: item.slide_friction,
         foot_break_out_n: item.break_out_n / 4.0,
         position_m: foot_m + orientation * (DVec3::Z * (size.z / 2.0) - middle),
         orientation,
+        spin_rad_s: DVec3::ZERO,
         held_until_s: None,
     }
 }
@@ -145,7 +147,7 @@ fn floats(item: &BoxGear, middle: DVec3, drag_area_m2: DVec3) -> Vec<Float> {
 }
 
 /// `(b² + c², a² + c², a² + b²)`.
-fn squares(size: DVec3) -> DVec3 {
+pub(super) fn squares(size: DVec3) -> DVec3 {
     let square = size * size;
     DVec3::splat(square.element_sum()) - square
 }
@@ -157,7 +159,7 @@ fn strip_drag(area: DVec3, size: DVec3) -> DVec3 {
 }
 
 /// The eight corners of a box, the lower four first.
-fn corners(half: DVec3) -> Vec<DVec3> {
+pub(super) fn corners(half: DVec3) -> Vec<DVec3> {
     let signs = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
     let layer = |z: f64| signs.map(|(x, y)| DVec3::new(x * half.x, y * half.y, z));
     layer(-half.z).into_iter().chain(layer(half.z)).collect()

@@ -36,7 +36,7 @@ pub fn of_buoy(id: String, item: &Buoy, density: f64, middle_m: DVec3, orientati
     } else {
         0.0
     };
-    let (top, foot) = ends(item);
+    let feet = feet(item);
     Body {
         id,
         item: item.entry.name.clone(),
@@ -60,12 +60,14 @@ pub fn of_buoy(id: String, item: &Buoy, density: f64, middle_m: DVec3, orientati
         turn_drag_m5: DVec3::new(skin + strips, skin + strips, skin),
         floats: buoy_floats(item),
         wetted_drag: true,
-        feet_m: vec![middle + DVec3::Z * foot, middle + DVec3::Z * top],
+        feet_m: feet.iter().map(|(height, _)| middle + DVec3::Z * *height).collect(),
+        foot_radius_m: feet.iter().map(|(_, radius)| *radius).collect(),
         start_friction: SMOOTH_FRICTION,
         slide_friction: SMOOTH_FRICTION,
         foot_break_out_n: 0.0,
         position_m: middle_m - orientation * middle,
         orientation,
+        spin_rad_s: DVec3::ZERO,
         held_until_s: None,
     }
 }
@@ -187,6 +189,17 @@ fn added_inertia(item: &Buoy, density: f64) -> DVec3 {
 fn centre_of_mass(item: &Buoy) -> f64 {
     let pieces: f64 = item.pieces.iter().map(|piece| piece.mass_kg * piece.at_m).sum();
     (item.mass_kg * item.centre_of_mass_m + pieces) / item.whole_mass_kg()
+}
+
+/// What of a buoy touches the seabed, as height above the middle of the float and radius [m]: the float's rounded ends, and the tips of
+/// what stands out beyond them.
+fn feet(item: &Buoy) -> Vec<(f64, f64)> {
+    let (half, radius) = (item.length_m / 2.0, item.diameter_m / 2.0);
+    let straight = if item.shape == BuoyShape::Sphere { 0.0 } else { (half - radius).max(0.0) };
+    let ends_of_float = if straight > 0.0 { vec![-straight, straight] } else { vec![0.0] };
+    let (top, foot) = ends(item);
+    let tips = [foot, top].into_iter().filter(|tip| tip.abs() > half).map(|tip| (tip, 0.0));
+    ends_of_float.into_iter().map(|height| (height, radius)).chain(tips).collect()
 }
 
 /// Highest and lowest point above the middle of the float [m].

@@ -21,30 +21,46 @@ const SKIN_DRAG: f64 = 0.02;
 /// Friction of a buoy or weight that has come to lie on the seabed.
 const SMOOTH_FRICTION: f64 = 0.5;
 
-/// A body written into a scenario: a sphere with the line at its middle.
+/// A body written into a scenario: a sphere or a box with the line at its middle.
 pub(super) fn of_free(body: &FreeBody, density: f64) -> Body {
     let radius = body.radius_m;
+    let (shape, inertia, feet_m, foot_radius_m) = match body.half_m {
+        Some(half) => (
+            Shape::Box(half),
+            box_gear::squares(2.0 * half) * (body.mass_kg / 12.0),
+            box_gear::corners(half),
+            Vec::new(),
+        ),
+        None => (
+            Shape::Sphere(radius),
+            DVec3::splat(0.4 * body.mass_kg * radius * radius),
+            vec![DVec3::ZERO],
+            vec![radius],
+        ),
+    };
     let float = Float::level(DVec3::ZERO, body.volume_m3, body.float_height_m);
     Body {
         id: body.id.value.clone(),
         item: String::new(),
         role: if body.buoy { BodyRole::Buoy } else { BodyRole::Weight },
-        shape: Shape::Sphere(radius),
+        shape,
         shape_offset_m: DVec3::ZERO,
         mass_kg: body.mass_kg,
-        inertia_kg_m2: DVec3::splat(0.4 * body.mass_kg * radius * radius),
+        inertia_kg_m2: body.inertia_kg_m2.unwrap_or(inertia),
         added_mass_kg: DVec3::splat(body.added_mass * density * body.volume_m3),
         added_inertia_kg_m2: DVec3::ZERO,
         drag_area_m2: DVec3::splat(body.drag_area_m2),
         turn_drag_m5: DVec3::splat(skin_turn_drag(2.0 * radius, 2.0 * radius)),
         floats: if body.volume_m3 > 0.0 { vec![float] } else { Vec::new() },
         wetted_drag: body.wetted_drag,
-        feet_m: vec![DVec3::new(0.0, 0.0, -radius)],
+        feet_m,
+        foot_radius_m,
         start_friction: SMOOTH_FRICTION,
         slide_friction: SMOOTH_FRICTION,
         foot_break_out_n: 0.0,
         position_m: body.position_m,
         orientation: DQuat::IDENTITY,
+        spin_rad_s: body.spin_rad_s,
         held_until_s: body.held_until_s,
     }
 }

@@ -119,11 +119,13 @@ fn body(dice: &mut Dice) -> Body {
         floats: Vec::new(),
         wetted_drag: false,
         feet_m: Vec::new(),
+        foot_radius_m: Vec::new(),
         start_friction: 0.0,
         slide_friction: 0.0,
         foot_break_out_n: 0.0,
         position_m: MET,
         orientation: dice.turn(),
+        spin_rad_s: DVec3::ZERO,
         held_until_s: None,
     }
 }

@@ -10,14 +10,15 @@ use parry3d::query::ClosestPoints;
 use parry3d::query::details::closest_points_support_map_support_map;
 use parry3d::shape::{Cuboid, Triangle};
 
+use super::obstacle_core::Cylinder;
 use crate::contact::distance::{point_triangle, segment_triangle};
 use crate::contact::placed::on_triangle;
 use crate::model::{Body, Shape};
 use crate::solids::Pose;
 
 /// Rounding of a box's edges: at most this [m], and this share of its least half extent.
-const ROUNDED_M: f64 = 0.05;
-const ROUNDED_SHARE: f64 = 0.5;
+pub(super) const ROUNDED_M: f64 = 0.05;
+pub(super) const ROUNDED_SHARE: f64 = 0.5;
 
 /// A core, in the body's frame about the middle of its shape.
 #[derive(Clone, Debug)]
@@ -26,6 +27,10 @@ pub(crate) enum Core {
     /// Half of a rod along z [m].
     Rod(f64),
     Box(Cuboid),
+    /// A cylinder along z; only of obstacles.
+    Cylinder(Cylinder),
+    /// All that lies below z = 0; only of obstacles.
+    HalfSpace,
 }
 
 /// A body as skin meets it.
@@ -84,6 +89,8 @@ impl BodyCore {
                 (nearest.distance, nearest.barycentric, on_core)
             }
             Core::Box(cuboid) => from_box(cuboid, inward)?,
+            // Obstacles do not meet skin.
+            Core::Cylinder(_) | Core::HalfSpace => return None,
         };
         (distance > 0.0).then(|| Nearest {
             distance,
@@ -109,7 +116,7 @@ impl BodyCore {
     pub fn corners(&self, pose: &Pose) -> impl Iterator<Item = DVec3> {
         let half = match &self.core {
             Core::Box(cuboid) => Some(cuboid.half_extents),
-            Core::Point | Core::Rod(_) => None,
+            _ => None,
         };
         let (pose, middle) = (*pose, self.middle);
         half.into_iter().flat_map(|half| (0..8).map(move |k| (half, k))).map(move |(half, k)| {
@@ -121,8 +128,9 @@ impl BodyCore {
     /// The longest line of the core, for a test of crossing that knows nothing of distances.
     pub fn axis(&self, pose: &Pose) -> [DVec3; 2] {
         let half = match &self.core {
-            Core::Point => DVec3::ZERO,
+            Core::Point | Core::HalfSpace => DVec3::ZERO,
             Core::Rod(half) => DVec3::Z * *half,
+            Core::Cylinder(cylinder) => DVec3::Z * cylinder.half,
             Core::Box(cuboid) => {
                 let extents = cuboid.half_extents;
                 let longest = extents.max_element();
@@ -215,6 +223,7 @@ mod tests {
                 Core::Point => DVec3::ZERO,
                 Core::Rod(half) => DVec3::Z * inward.z.clamp(-half, *half),
                 Core::Box(cuboid) => inward.clamp(-cuboid.half_extents, cuboid.half_extents),
+                Core::Cylinder(_) | Core::HalfSpace => unreachable!("no body has such a core"),
             };
             inward.distance(nearest)
         }

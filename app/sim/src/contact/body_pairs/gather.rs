@@ -1,7 +1,7 @@
 //! Which bodies may touch each other in a solver step.
 
 use super::{BodyPairs, Pair};
-use crate::contact::bodies::gather::{moves_m, pose_of};
+use crate::contact::bodies::gather::moves_m;
 use crate::state::State;
 
 /// Times the expected move that bodies are looked at beyond their contact distance, and a length more [m].
@@ -17,8 +17,9 @@ impl BodyPairs {
         self.pairs.clear();
         self.touches.clear();
         (self.touching, self.shared, self.dt) = (false, 0, dt);
-        for first in 0..self.cores.len() {
-            for second in first + 1..self.cores.len() {
+        for first in 0..self.count {
+            let seconds = if self.mutual { first + 1 } else { self.count };
+            for second in seconds..self.cores.len() {
                 self.look_at(state, [first, second], dt);
             }
         }
@@ -27,16 +28,20 @@ impl BodyPairs {
     }
 
     fn look_at(&mut self, state: &State, bodies: [usize; 2], dt: f64) {
-        let [one, two] = bodies.map(|body| &state.bodies[body]);
-        let [first, second] = bodies.map(|body| &self.cores[body]);
-        let moves = moves_m(one, first.radius, dt) + moves_m(two, second.radius, dt);
+        let [one, two] = bodies.map(|thing| self.began(state, thing));
+        let [first, second] = bodies.map(|thing| &self.cores[thing]);
+        let move_of = |thing: usize| {
+            let body = state.bodies.get(thing);
+            body.map_or(0.0, |body| moves_m(body, self.cores[thing].radius, dt))
+        };
+        let moves = move_of(bodies[0]) + move_of(bodies[1]);
         let look = LOOK_M + LOOK_MOVES * moves;
         let within = first.radius + second.radius + look;
-        if one.position.distance_squared(two.position) > within * within {
+        if one.place.distance_squared(two.place) > within * within {
             return;
         }
         // Bodies whose cores meet as they are placed are left alone: no push leads them apart.
-        let Some([a, b]) = first.nearest_to(&pose_of(one), second, &pose_of(two)) else { return };
+        let Some([a, b]) = first.nearest_to(&one, second, &two) else { return };
         let gap = a.distance(b);
         let depth = first.reach + second.reach - gap;
         if depth < -look {
@@ -51,6 +56,6 @@ impl BodyPairs {
 
     /// The bodies that are coupled in this solver step.
     pub fn coupled(&self) -> impl Iterator<Item = Coupled> {
-        self.pairs.iter().map(|pair| pair.bodies)
+        self.pairs.iter().map(|pair| pair.bodies).filter(|bodies| bodies[1] < self.count)
     }
 }

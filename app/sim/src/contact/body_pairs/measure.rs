@@ -2,9 +2,8 @@
 
 use glam::DVec3;
 
-use super::{BodyPairs, FRICTION, Pair, STIFFNESS_N_M, Touch};
+use super::{BodyPairs, Pair, STIFFNESS_N_M, Touch};
 use crate::contact::barrier::BarrierForce;
-use crate::contact::bodies::gather::pose_of;
 use crate::contact::bodies::shares::{Press, Shared, share_out};
 use crate::solids::Pose;
 use crate::solver::{Grip, Push, outer};
@@ -25,7 +24,7 @@ impl BodyPairs {
         poses: impl Iterator<Item = Pose>,
     ) -> Result<(), [usize; 2]> {
         self.measured.clear();
-        self.measured.extend(poses);
+        self.measured.extend(poses.chain(self.still.iter().copied()));
         std::mem::swap(&mut self.touches, &mut self.touched);
         self.touches.clear();
         for index in 0..self.pairs.len() {
@@ -108,7 +107,7 @@ impl BodyPairs {
             (self.reach_of(touch.pair) - forgiven_m, STIFFNESS_N_M * touch.share);
         let push = BarrierForce::new(reach - touch.depth, reach, stiffness);
         let [one, two] = bodies.map(|body| {
-            let began = pose_of(&state.bodies[body]);
+            let began = self.began(state, body);
             touch.place - began.outward(self.measured[body].inward(touch.place))
         });
         let kept = self.kept_grip(&state.pair_grips, &touch);
@@ -118,7 +117,7 @@ impl BodyPairs {
             kept + one - two,
             touch.normal,
             stiffness,
-            FRICTION,
+            self.friction_of(touch.pair),
             Push { force: push.force, rate: push.stiffness },
         );
         let touch = &mut self.touches[place];
@@ -147,7 +146,7 @@ impl BodyPairs {
     ) -> impl Iterator<Item = PairForce> + 'a {
         self.touches.iter().map(move |touch| {
             let bodies = self.pairs[touch.pair].bodies;
-            let now = bodies.map(&pose);
+            let now = bodies.map(|thing| self.pose(thing, &pose));
             let at = [0, 1].map(|k| now[k].outward(self.measured[bodies[k]].inward(touch.place)));
             let moved = at[0] - at[1];
             PairForce {
@@ -165,7 +164,8 @@ impl BodyPairs {
         for place in 0..self.touches.len() {
             let touch = self.touches[place];
             let bodies = self.pairs[touch.pair].bodies;
-            let at = bodies.map(|body| pose(body).outward(self.measured[body].inward(touch.place)));
+            let now = bodies.map(|thing| self.pose(thing, &pose));
+            let at = [0, 1].map(|k| now[k].outward(self.measured[bodies[k]].inward(touch.place)));
             self.pairs[touch.pair].solved += touch.force - touch.block * (at[0] - at[1]);
         }
     }
@@ -228,7 +228,7 @@ impl Shared for Touch {
     }
 }
 
-/// Push and friction of two bodies.
+/// Push and friction of two bodies, or of a body and an obstacle.
 pub(crate) struct PairForce {
     pub bodies: [usize; 2],
     /// From each body's place to where they act [m].

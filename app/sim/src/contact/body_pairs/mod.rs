@@ -1,9 +1,11 @@
-//! Bodies of the rig against each other: traps of a trawl, a buoy and its high-flyer.
+//! Bodies of the rig against each other and against obstacles: traps of a trawl, a buoy and its high-flyer, a trap on a ramp.
 //!
 //! Each body is a core with a surface that lies by its contact distance `h` off it, as against skin (`contact/bodies/core.rs`). Where two cores are nearer than
 //! `h₁ + h₂`, the bodies push each other off along the line of least distance, by a law that is linear at first and stiffens as the cores
 //! come near (`contact/barrier.rs`), with friction by an elastic grip (`solver/elastic_grip.rs`). Boxes whose faces lie along each other bear
 //! where these overlap, so that a trap stands flat on another. The cores never meet: the path of each solver step is proved free (`path.rs`).
+//!
+//! An obstacle is a body that never moves and has no unknowns; it has its own coefficient of friction. Bodies come first in all numbers, then obstacles.
 //!
 //! Bodies that overlap as they are placed (a buoy stowed on its trap) are not driven apart: the depth at their first touch is forgiven for as
 //! long as they do not separate.
@@ -18,8 +20,10 @@ use glam::{DMat3, DVec3};
 use parry3d::query::ContactManifold;
 
 use super::bodies::core::BodyCore;
-use crate::model::Model;
+use super::bodies::gather::pose_of;
+use crate::model::{Model, Obstacle};
 use crate::solids::Pose;
+use crate::state::State;
 
 pub(crate) use gather::Coupled;
 pub use touching::bodies_touching;
@@ -29,7 +33,7 @@ const STIFFNESS_N_M: f64 = 2e5;
 /// Friction of bodies on each other: coated wire and plastic, wet, 0.2 to 0.4; estimate.
 const FRICTION: f64 = 0.3;
 
-/// Two bodies that may touch in a solver step.
+/// Two bodies, or a body and an obstacle, that may touch in a solver step.
 #[derive(Clone, Copy, Debug)]
 struct Pair {
     bodies: [usize; 2],
@@ -60,10 +64,28 @@ struct Touch {
     stretch: DVec3,
 }
 
+/// The name of a body or an obstacle, with what it is.
+pub(crate) fn name_of(model: &Model, thing: usize) -> String {
+    let spec = &model.spec;
+    match spec.bodies.get(thing) {
+        Some(body) => format!("body {}", body.id),
+        None => format!("obstacle {}", spec.obstacles[thing - spec.bodies.len()].id),
+    }
+}
+
 /// Scratch of bodies against each other for one model; it keeps nothing that a step depends on.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct BodyPairs {
+    /// Cores of bodies, then of obstacles.
     cores: Vec<BodyCore>,
+    /// How many of them are those of bodies.
+    count: usize,
+    /// Whether bodies touch each other.
+    mutual: bool,
+    /// Where the obstacles stand.
+    still: Vec<Pose>,
+    /// Friction of bodies on each obstacle.
+    friction: Vec<f64>,
     pairs: Vec<Pair>,
     /// Whether two bodies may touch in this solver step.
     pub touching: bool,
@@ -72,7 +94,7 @@ pub(crate) struct BodyPairs {
     touches: Vec<Touch>,
     /// The same as measured before.
     touched: Vec<Touch>,
-    /// Where each body was when it was measured last.
+    /// Where each body was when it was measured last, and each obstacle.
     measured: Vec<Pose>,
     manifold: ContactManifold<(), ()>,
     /// Places of two cores at which they may touch, by number.
@@ -83,9 +105,34 @@ pub(crate) struct BodyPairs {
 impl BodyPairs {
     /// Scratch for a model.
     pub fn new(model: &Model) -> Self {
-        let bodies = &model.spec.bodies;
-        let collide = model.spec.settings.bodies_on_bodies && bodies.len() > 1;
-        let cores = if collide { bodies.iter().map(BodyCore::of).collect() } else { Vec::new() };
-        Self { cores, ..Self::default() }
+        let (bodies, obstacles) = (&model.spec.bodies, &model.spec.obstacles);
+        let mutual = model.spec.settings.bodies_on_bodies && bodies.len() > 1;
+        if !mutual && obstacles.is_empty() {
+            return Self::default();
+        }
+        let cores = bodies.iter().map(BodyCore::of);
+        Self {
+            cores: cores.chain(obstacles.iter().map(BodyCore::of_obstacle)).collect(),
+            count: bodies.len(),
+            mutual,
+            still: obstacles.iter().map(Obstacle::pose).collect(),
+            friction: obstacles.iter().map(|obstacle| obstacle.friction).collect(),
+            ..Self::default()
+        }
+    }
+
+    /// Where a body or an obstacle is when the solver step begins.
+    fn began(&self, state: &State, thing: usize) -> Pose {
+        self.pose(thing, |body| pose_of(&state.bodies[body]))
+    }
+
+    /// Where a body or an obstacle is, with bodies in these poses.
+    fn pose(&self, thing: usize, of_body: impl Fn(usize) -> Pose) -> Pose {
+        if thing < self.count { of_body(thing) } else { self.still[thing - self.count] }
+    }
+
+    fn friction_of(&self, pair: usize) -> f64 {
+        let obstacle = self.pairs[pair].bodies[1].checked_sub(self.count);
+        obstacle.map_or(FRICTION, |obstacle| self.friction[obstacle])
     }
 }

@@ -1,6 +1,6 @@
 //! Where two cores are nearest, and where else two bodies may bear on each other.
 //!
-//! Points and rods by closed forms; boxes by the library parry: the algorithm of Gilbert, Johnson and Keerthi for the least distance, and the
+//! Points, rods and planes by closed forms; boxes and cylinders by the library parry: the algorithm of Gilbert, Johnson and Keerthi for the least distance, and the
 //! places where two faces overlap.
 
 use glam::DVec3;
@@ -9,9 +9,10 @@ use parry3d::query::details::{
     closest_points_support_map_support_map, contact_manifold_cuboid_cuboid,
 };
 use parry3d::query::{ClosestPoints, ContactManifold};
-use parry3d::shape::{Cuboid, Segment, SupportMap};
+use parry3d::shape::{Segment, SupportMap};
 
 use crate::contact::bodies::core::{BodyCore, Core};
+use crate::contact::bodies::obstacle_core::Cylinder;
 use crate::contact::distance::segment_segment;
 use crate::solids::Pose;
 
@@ -33,36 +34,72 @@ impl BodyCore {
                 [one[0].lerp(one[1], s), two[0].lerp(two[1], t)]
             }
             (Core::Box(cuboid), Core::Rod(_)) => {
-                let rod = other.axis(other_pose).map(|end| pose.inward(end) - self.middle);
-                self.nearest_to_shape(
-                    pose,
-                    cuboid,
-                    &Segment::new(rod[0], rod[1]),
-                    &Frame::IDENTITY,
-                )?
+                self.nearest_to_rod(pose, cuboid, other.axis(other_pose))?
+            }
+            (Core::Cylinder(cylinder), Core::Rod(_)) => {
+                self.nearest_to_rod(pose, cylinder, other.axis(other_pose))?
             }
             (Core::Rod(_), Core::Box(_)) => {
                 let [others, mine] = other.nearest_to(other_pose, self, pose)?;
                 [mine, others]
             }
-            (Core::Box(cuboid), Core::Box(second)) => {
-                let middle = pose.inward(other_pose.outward(other.middle)) - self.middle;
-                let turn = pose.orientation.inverse() * other_pose.orientation;
-                self.nearest_to_shape(pose, cuboid, second, &Frame::from_parts(middle, turn))?
+            (Core::Rod(_), Core::Cylinder(_)) => {
+                let [_, mine] = other.nearest_to(other_pose, self, pose)?;
+                self.refined(pose, (other, other_pose), mine)
             }
+            (Core::Box(cuboid), Core::Box(second)) => {
+                let there = self.frame_of(pose, (other, other_pose));
+                self.nearest_to_shape(pose, cuboid, second, &there)?
+            }
+            (Core::Box(cuboid), Core::Cylinder(cylinder)) => {
+                let there = self.frame_of(pose, (other, other_pose));
+                let [mine, _] = self.nearest_to_shape(pose, cuboid, cylinder, &there)?;
+                self.refined(pose, (other, other_pose), mine)
+            }
+            (_, Core::HalfSpace) => {
+                let height = |place: DVec3| other_pose.inward(place).z - other.middle.z;
+                let lowest =
+                    self.ends(pose).min_by(|one, two| height(*one).total_cmp(&height(*two)))?;
+                [lowest, other.nearest_to_place(other_pose, lowest)]
+            }
+            // Obstacles stand still and do not meet each other.
+            (Core::Cylinder(_) | Core::HalfSpace, _) => return None,
         };
         (mine.distance_squared(others) > 0.0).then_some([mine, others])
     }
 
-    /// Nearest places of a box core and another shape that lies in the box's frame so, in the world; `None` where they meet.
+    /// Nearest places of this core, which has a shape, and a rod; `None` where they meet.
+    fn nearest_to_rod(
+        &self,
+        pose: &Pose,
+        mine: &impl SupportMap,
+        rod: [DVec3; 2],
+    ) -> Option<[DVec3; 2]> {
+        let [from, to] = rod.map(|end| pose.inward(end) - self.middle);
+        self.nearest_to_shape(pose, mine, &Segment::new(from, to), &Frame::IDENTITY)
+    }
+
+    /// Nearest places of this core and another from one of this core that is nearly the nearest: on a curved side the search ends early.
+    fn refined(&self, pose: &Pose, (other, other_pose): (&Self, &Pose), mine: DVec3) -> [DVec3; 2] {
+        let mine = self.nearest_to_place(pose, other.nearest_to_place(other_pose, mine));
+        [mine, other.nearest_to_place(other_pose, mine)]
+    }
+
+    /// The frame of another core in that of this one.
+    fn frame_of(&self, pose: &Pose, (other, other_pose): (&Self, &Pose)) -> Frame {
+        let middle = pose.inward(other_pose.outward(other.middle)) - self.middle;
+        Frame::from_parts(middle, pose.orientation.inverse() * other_pose.orientation)
+    }
+
+    /// Nearest places of this core and another shape that lies in its frame so, in the world; `None` where they meet.
     fn nearest_to_shape(
         &self,
         pose: &Pose,
-        cuboid: &Cuboid,
+        mine: &impl SupportMap,
         shape: &impl SupportMap,
         there: &Frame,
     ) -> Option<[DVec3; 2]> {
-        let found = closest_points_support_map_support_map(there, cuboid, shape, f64::MAX);
+        let found = closest_points_support_map_support_map(there, mine, shape, f64::MAX);
         let ClosestPoints::WithinMargin(mine, others) = found else { return None };
         Some([mine, *there * others].map(|place| pose.outward(place + self.middle)))
     }
@@ -74,6 +111,8 @@ impl BodyCore {
             Core::Point => DVec3::ZERO,
             Core::Rod(half) => DVec3::Z * inward.z.clamp(-half, *half),
             Core::Box(cuboid) => inward.clamp(-cuboid.half_extents, cuboid.half_extents),
+            Core::Cylinder(cylinder) => cylinder.nearest(inward),
+            Core::HalfSpace => inward.with_z(inward.z.min(0.0)),
         };
         pose.outward(nearest + self.middle)
     }
@@ -89,8 +128,7 @@ impl BodyCore {
         found: &mut Vec<(u64, [DVec3; 2])>,
     ) {
         let (Core::Box(mine), Core::Box(others)) = (&self.core, &other.core) else { return };
-        let middle = pose.inward(other_pose.outward(other.middle)) - self.middle;
-        let there = Frame::from_parts(middle, pose.orientation.inverse() * other_pose.orientation);
+        let there = self.frame_of(pose, (other, other_pose));
         scratch.clear();
         contact_manifold_cuboid_cuboid(&there, mine, others, reach, scratch);
         found.extend(scratch.points.iter().map(|point| {
@@ -100,9 +138,17 @@ impl BodyCore {
         }));
     }
 
-    /// Ends of a rod and corners of a box in a pose; none of a point.
+    /// Ends of a rod, corners of a box and places round the rims of a cylinder in a pose; none of others.
     pub fn ends(&self, pose: &Pose) -> impl Iterator<Item = DVec3> {
         let rod = matches!(self.core, Core::Rod(_)).then(|| self.axis(pose));
-        rod.into_iter().flatten().chain(self.corners(pose))
+        let cylinder = match &self.core {
+            Core::Cylinder(cylinder) => Some(*cylinder),
+            _ => None,
+        };
+        let corners = self.corners(pose);
+        let (pose, middle) = (*pose, self.middle);
+        let rims = cylinder.into_iter().flat_map(Cylinder::rims);
+        let rims = rims.map(move |place| pose.outward(place + middle));
+        rod.into_iter().flatten().chain(corners).chain(rims)
     }
 }

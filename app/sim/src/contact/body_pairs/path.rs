@@ -1,7 +1,6 @@
 //! Whether a solver step takes two bodies through each other, or farther past each other than it can follow.
 
 use super::{BodyPairs, Pair};
-use crate::contact::bodies::gather::pose_of;
 use crate::contact::sweep::walk;
 use crate::solids::Pose;
 use crate::state::State;
@@ -19,7 +18,8 @@ impl BodyPairs {
     /// Two bodies whose cores come too near on their way from the state to these poses, or too far in one step, if any do.
     pub fn meeting(&self, state: &State, pose: impl Fn(usize) -> Pose) -> Option<[usize; 2]> {
         let refused = |(index, pair): &(usize, &Pair)| {
-            let paths = pair.bodies.map(|body| [pose_of(&state.bodies[body]), pose(body)]);
+            let paths =
+                pair.bodies.map(|thing| [self.began(state, thing), self.pose(thing, &pose)]);
             !self.is_free(*index, &paths)
         };
         self.pairs.iter().enumerate().find(refused).map(|(_, pair)| pair.bodies)
@@ -28,8 +28,12 @@ impl BodyPairs {
     fn is_free(&self, index: usize, paths: &[[Pose; 2]; 2]) -> bool {
         let pair = &self.pairs[index];
         let [first, second] = pair.bodies.map(|body| &self.cores[body]);
-        let turns = [(first, &paths[0]), (second, &paths[1])]
-            .map(|(core, [from, to])| from.orientation.angle_between(to.orientation) * core.radius);
+        let turn = |(thing, [from, to]): (usize, &[Pose; 2])| {
+            let is_still = thing >= self.count;
+            let angle = || from.orientation.angle_between(to.orientation);
+            if is_still { 0.0 } else { angle() * self.cores[thing].radius }
+        };
+        let turns = [0, 1].map(|k| turn((pair.bodies[k], &paths[k])));
         let [one_m, two_m] = [0, 1].map(|k| paths[k][1].place - paths[k][0].place);
         let approach = (one_m - two_m).length() + turns[0] + turns[1];
         let reach = self.reach_of(index);

@@ -139,11 +139,13 @@ pub(crate) fn body(id: &str, role: BodyRole, position_m: DVec3) -> Body {
         floats: vec![Float::level(DVec3::ZERO, 0.03, 0.4)],
         wetted_drag: true,
         feet_m: Vec::new(),
+        foot_radius_m: Vec::new(),
         start_friction: 0.5,
         slide_friction: 0.4,
         foot_break_out_n: 0.0,
         position_m,
         orientation: DQuat::IDENTITY,
+        spin_rad_s: DVec3::ZERO,
         held_until_s: None,
     }
 }

@@ -56,11 +56,13 @@ pub fn weight(id: &str, mass_kg: f64, position_m: DVec3, held_until_s: Option<f6
         floats: Vec::new(),
         wetted_drag: false,
         feet_m: Vec::new(),
+        foot_radius_m: Vec::new(),
         start_friction: 0.0,
         slide_friction: 0.0,
         foot_break_out_n: 0.0,
         position_m,
         orientation: DQuat::IDENTITY,
+        spin_rad_s: DVec3::ZERO,
         held_until_s,
     }
 }
