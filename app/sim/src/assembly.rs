@@ -85,20 +85,25 @@ impl Model {
     }
 }
 
-/// Knots at the ends of lines: at a joint in the middle of the rope around it, at a body or fixture beside it.
+/// Knots at the ends of lines: where lines meet at a joint one, the greatest, around it; at a body or fixture each beside it.
 fn knots(spec: &ModelSpec, line_segments: &[Range<usize>]) -> Vec<Knot> {
-    let mut knots = Vec::new();
+    let mut knots: Vec<(usize, Knot)> = Vec::new();
     for (line, segments) in spec.lines.iter().zip(line_segments) {
         let ends =
             [(LineEnd::A, line.from, segments.start), (LineEnd::B, line.to, segments.end - 1)];
         for ((end, joint, segment), radius_m) in ends.into_iter().zip(line.knots_m) {
             let is_free = matches!(spec.joints[joint].kind, JointKind::Free);
             let from_end_m = if is_free { 0.0 } else { radius_m };
-            if radius_m > 0.0 {
-                knots.push(Knot { segment, end, from_end_m, radius_m });
+            let knot = Knot { segment, end, from_end_m, radius_m };
+            let other = knots.iter_mut().find(|(of, _)| is_free && *of == joint);
+            match other {
+                Some((_, other)) if other.radius_m < radius_m => *other = knot,
+                None if radius_m > 0.0 => knots.push((joint, knot)),
+                _ => {}
             }
         }
     }
+    let mut knots: Vec<Knot> = knots.into_iter().map(|(_, knot)| knot).collect();
     knots.sort_by_key(|knot| knot.segment);
     knots
 }

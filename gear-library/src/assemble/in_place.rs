@@ -8,6 +8,7 @@ use crate::scenario::ObstacleOf;
 use super::body;
 use super::builder::{Builder, Part};
 use super::line::NewLine;
+use super::rig::Rated;
 
 impl Builder<'_> {
     /// Obstacles of the scenario.
@@ -91,10 +92,10 @@ impl Builder<'_> {
     /// Weak links written into the scenario.
     pub fn add_free_links(&mut self) {
         for link in &self.scenario.links {
-            let rating = link
-                .rating_n
-                .or_else(|| link.item.as_ref().and_then(|item| self.rating(item, &link.id.value)));
-            self.add_link(&link.id, rating, &link.line, link.end);
+            let item = link.item.as_ref().and_then(|item| self.rating(item, &link.id.value));
+            let written =
+                link.rating_n.map(|rating_n| Rated { rating_n, ..item.unwrap_or_default() });
+            self.add_link(&link.id, written.or(item), &link.line, link.end);
         }
     }
 }

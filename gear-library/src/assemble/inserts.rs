@@ -8,6 +8,20 @@ use crate::line::{Insert, Inserts};
 /// Least length of a piece [m].
 const LEAST_PIECE_M: f64 = 0.01;
 
+/// What holds an end of a rope.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Tied {
+    /// Share of the rope's strength left there [1].
+    pub strength_left: f64,
+    /// Its breadth over the rope's diameter; zero where there is none [1].
+    pub bulk: f64,
+}
+
+impl Tied {
+    /// Rope that goes on whole.
+    pub const WHOLE: Self = Self { strength_left: 1.0, bulk: 0.0 };
+}
+
 /// A stretch of a line between ends, inserts and sleeves.
 pub(super) struct Piece<'a> {
     /// Id in the spec.
@@ -16,8 +30,8 @@ pub(super) struct Piece<'a> {
     pub rope: &'a At<String>,
     /// Unstretched length [m].
     pub length_m: f64,
-    /// Share of strength left at each end; `None` where the rope's usual one holds.
-    pub left: [Option<f64>; 2],
+    /// What holds each end; `None` where it is usual for the rope.
+    pub ends: [Option<Tied>; 2],
     /// Whether it is of the line's own rope.
     pub own: bool,
     /// Weak link at its `to` end: id and item.
@@ -53,21 +67,24 @@ pub(super) fn cut_at<'l>(
     whole: &Piece<'l>,
     inserts: &'l Inserts,
     starts: &[f64],
-    at_insert: Option<f64>,
+    at_insert: Option<Tied>,
 ) -> Vec<Piece<'l>> {
     let id = &whole.id;
     // A sleeve is slid over the cut ends: it takes no strength from them.
-    let at_insert =
-        if matches!(inserts.what, Insert::Sleeve(_)) { at_insert.or(Some(1.0)) } else { at_insert };
-    let own = |number: usize, length_m: f64, left: [Option<f64>; 2]| Piece {
+    let at_insert = if matches!(inserts.what, Insert::Sleeve(_)) {
+        at_insert.or(Some(Tied::WHOLE))
+    } else {
+        at_insert
+    };
+    let own = |number: usize, length_m: f64, ends: [Option<Tied>; 2]| Piece {
         id: format!("{id}.{number}"),
         rope: whole.rope,
         length_m,
-        left,
+        ends,
         own: true,
         sleeve: None,
     };
-    let (mut pieces, mut done_m, mut left) = (Vec::new(), 0.0, whole.left[0]);
+    let (mut pieces, mut done_m, mut left) = (Vec::new(), 0.0, whole.ends[0]);
     for (number, start_m) in (1..).zip(starts) {
         let mut piece = own(number, start_m - done_m, [left, at_insert]);
         done_m = start_m + insert_length(inserts);
@@ -85,14 +102,14 @@ pub(super) fn cut_at<'l>(
                     id,
                     rope,
                     length_m: *length_m,
-                    left: [Some(1.0); 2],
+                    ends: [Some(Tied::WHOLE); 2],
                     own: false,
                     sleeve: None,
                 });
             }
         }
     }
-    pieces.push(own(starts.len() + 1, whole.length_m - done_m, [left, whole.left[1]]));
+    pieces.push(own(starts.len() + 1, whole.length_m - done_m, [left, whole.ends[1]]));
     pieces
 }
 

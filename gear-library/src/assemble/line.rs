@@ -10,12 +10,12 @@ use endline_sim::DVec3;
 use endline_sim::model::{Joint, JointKind, Line, Strength};
 
 use crate::diagnostic::At;
-use crate::items::Condition;
+use crate::items::{Condition, USUAL_BULK};
 use crate::line::LineMake;
 use crate::scenario::LineStart;
 
 use super::builder::{Builder, Part, Uncut};
-use super::inserts::{Piece, cut_at, starts_from_a};
+use super::inserts::{Piece, Tied, cut_at, starts_from_a};
 use super::strength_variation;
 use super::way::{along, part_of};
 
@@ -80,7 +80,7 @@ impl Builder<'_> {
             id: line.id.value.clone(),
             rope: &line.rope,
             length_m: line.length_m,
-            left: ends,
+            ends,
             own: true,
             sleeve: None,
         };
@@ -142,6 +142,8 @@ impl Builder<'_> {
         let index = self.spec.lines.len();
         self.name(piece.id.clone(), Part::Line { first: index, last: index }, &line.id.place);
         let (id, length_m) = (piece.id, piece.length_m);
+        let radius_m = rope.map_or(0.0, |rope| 0.5 * self.stock[rope].diameter_m);
+        let knots_m = piece.ends.map(|tied| radius_m * tied.map_or(USUAL_BULK, |tied| tied.bulk));
         let rope = rope.unwrap_or(0);
         self.spec.lines.push(Line {
             id,
@@ -150,6 +152,7 @@ impl Builder<'_> {
             to,
             segments_m: Vec::new(),
             strength,
+            knots_m,
             start_m: Vec::new(),
         });
         self.uncut.push(Uncut {
@@ -188,7 +191,7 @@ impl Builder<'_> {
         let worn = if condition == Condition::New { 1.0 } else { item.wear_factor };
         let wear = if piece.own { make.wear_factor.unwrap_or(worn) } else { worn };
         let drawn = self.strength_factor(item.strength_cv, &piece.id);
-        let left = |end: usize| piece.left[end].unwrap_or(item.knot_factor);
+        let left = |end: usize| piece.ends[end].map_or(item.knot_factor, |tied| tied.strength_left);
         Strength { all: wear * drawn, end_a: left(0), end_b: left(1) }
     }
 
@@ -201,13 +204,13 @@ impl Builder<'_> {
         }
     }
 
-    /// Share of strength left at a knot or splice of the library.
-    fn knot(&mut self, id: &At<String>) -> Option<f64> {
+    /// A knot or splice of the library.
+    fn knot(&mut self, id: &At<String>) -> Option<Tied> {
         let Some(knot) = self.library.knots.iter().find(|known| known.entry.id == id.value) else {
             self.no_item(crate::schema::Kind::Knot, &id.value, &id.place);
             return None;
         };
         self.uses(&knot.entry.path);
-        Some(knot.strength_left)
+        Some(Tied { strength_left: knot.strength_left, bulk: knot.bulk })
     }
 }

@@ -177,21 +177,22 @@ impl Builder<'_> {
     }
 
     /// Rating of a weak link of the library, drawn for the link of this id.
-    pub fn rating(&mut self, item: &At<String>, id: &str) -> Option<f64> {
+    pub fn rating(&mut self, item: &At<String>, id: &str) -> Option<Rated> {
         let Some(found) = self.library.weak_links.iter().find(|known| known.entry.id == item.value)
         else {
             self.no_item(Kind::WeakLink, &item.value, &item.place);
             return None;
         };
         self.uses(&found.entry.path);
-        Some(found.rating_n * self.strength_factor(found.spread, id))
+        let rating_n = found.rating_n * self.strength_factor(found.spread, id);
+        Some(Rated { rating_n, breadth_m: found.breadth_m })
     }
 
     /// Puts a weak link at an end of a line, by the line's id.
     pub fn add_link(
         &mut self,
         id: &At<String>,
-        rating_n: Option<f64>,
+        rated: Option<Rated>,
         line: &At<String>,
         end: LineEnd,
     ) {
@@ -199,25 +200,22 @@ impl Builder<'_> {
             self.unknown("line", line, |part| matches!(part, Part::Line { .. }));
             return;
         };
-        self.add_link_to(id, rating_n, if end == LineEnd::A { first } else { last }, end);
+        self.add_link_to(id, rated, if end == LineEnd::A { first } else { last }, end);
     }
 
     /// Puts a weak link at an end of a line of the spec.
     pub fn add_link_to(
         &mut self,
         id: &At<String>,
-        rating_n: Option<f64>,
+        rated: Option<Rated>,
         line: usize,
         end: LineEnd,
     ) {
+        let Rated { rating_n, breadth_m } = rated.unwrap_or_default();
+        let knot_m = &mut self.spec.lines[line].knots_m[usize::from(end == LineEnd::B)];
+        *knot_m = knot_m.max(0.5 * breadth_m);
         self.name(id.value.clone(), Part::Link(self.spec.links.len()), &id.place);
-        self.spec.links.push(Link {
-            id: id.value.clone(),
-            line,
-            end,
-            rating_n: rating_n.unwrap_or(0.0),
-            enabled: true,
-        });
+        self.spec.links.push(Link { id: id.value.clone(), line, end, rating_n, enabled: true });
     }
 
     /// Weak links on or off.
@@ -226,6 +224,15 @@ impl Builder<'_> {
             link.enabled = enabled;
         }
     }
+}
+
+/// A weak link as it is put into a line: the tension above which it parts, as drawn, and its breadth.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Rated {
+    /// [N].
+    pub rating_n: f64,
+    /// Zero where it is no broader than the rope [m].
+    pub breadth_m: f64,
 }
 
 fn library_kind(kind: BodyKind) -> Kind {

@@ -30,6 +30,7 @@ pub(crate) use growth::YEAR_S;
 pub use growth::{AgeLaw, Growth, MassLaw};
 pub use joints::Joints;
 pub use knot::Knot;
+pub(crate) use knot::USUAL_BULK;
 pub use mesh::WhaleMesh;
 pub use piece::BuoyPiece;
 pub(crate) use piece::pieces;

@@ -11,6 +11,8 @@ pub struct WeakLink {
     pub rating_n: f64,
     /// Coefficient of variation of that tension between links [1].
     pub spread: f64,
+    /// Its breadth; zero where it is no broader than the rope [m].
+    pub breadth_m: f64,
 }
 
 impl WeakLink {
@@ -19,6 +21,7 @@ impl WeakLink {
         Some(Self {
             rating_n: entry.value("rating")?,
             spread: entry.value("spread").unwrap_or(0.0),
+            breadth_m: entry.value("breadth").unwrap_or(0.0),
             entry,
         })
     }

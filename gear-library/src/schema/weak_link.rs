@@ -13,4 +13,10 @@ pub(super) const FIELDS: &[Field] = &[
         Between(0.0, 0.5),
         "coefficient of variation of that tension between links; drawn for each link",
     ),
+    may(
+        "breadth",
+        Q::Length,
+        Between(0.001, 0.5),
+        "breadth of it: it jams at a gap that is narrower; without one it is as broad as the rope",
+    ),
 ];

@@ -138,6 +138,7 @@ fn measured(spec: ModelSpec, part: BodyPart, turn: DQuat, shift: DVec3) -> f64 {
     let skin = &model.spec.whale.as_ref().unwrap().skin;
     let triangle = skin.regions.iter().position(|region| region.part() == part).unwrap();
     let contact = ContactPoint {
+        is_knot: false,
         line: 0,
         segment: model.segment_count / 2,
         fraction: 0.5,

@@ -136,6 +136,7 @@ fn wraps(skin: &Skin, part: BodyPart, mut cuts: Vec<Cut>) -> f64 {
     let lengths: Vec<f64> = cuts.iter().map(|cut| cut.2[0].distance(cut.2[1]).max(1e-4)).collect();
     let model = model(skin, lengths);
     let contact = |segment: usize| ContactPoint {
+        is_knot: false,
         line: 0,
         segment,
         fraction: 0.5,

@@ -46,6 +46,8 @@ pub enum EventKind {
     CaughtBuoy,
     /// A trap, anchor or weight stayed on the whale for as long; value: its greatest push so far [N].
     CaughtTrap,
+    /// A knot, splice or link of a line stayed where it pressed on the whale for as long; value: its greatest push so far [N].
+    JammedKnot,
     /// A buoy went under; value: its height [m].
     PulledUnder,
     /// The whale touched the seabed; value: its lowest point's height above it [m].
@@ -56,7 +58,7 @@ pub enum EventKind {
 
 impl EventKind {
     /// Every kind.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 19] = [
         Self::Contact,
         Self::ContactLost,
         Self::Slip,
@@ -72,6 +74,7 @@ impl EventKind {
         Self::BodyTouched,
         Self::CaughtBuoy,
         Self::CaughtTrap,
+        Self::JammedKnot,
         Self::PulledUnder,
         Self::AtSeabed,
         Self::AtSurface,
@@ -96,6 +99,7 @@ impl EventKind {
             Self::BodyTouched => "body_touched",
             Self::CaughtBuoy => "caught_buoy",
             Self::CaughtTrap => "caught_trap",
+            Self::JammedKnot => "jammed_knot",
             Self::PulledUnder => "pulled_under",
             Self::AtSeabed => "at_seabed",
             Self::AtSurface => "at_surface",
@@ -107,7 +111,7 @@ impl EventKind {
     pub fn unit(self) -> &'static str {
         match self {
             Self::Contact | Self::Lodged | Self::LinkParted | Self::LineParted => "N",
-            Self::BodyTouched | Self::CaughtBuoy | Self::CaughtTrap => "N",
+            Self::BodyTouched | Self::CaughtBuoy | Self::CaughtTrap | Self::JammedKnot => "N",
             Self::ContactLost | Self::Dislodged | Self::Shed => "s",
             Self::Slip => "m/s",
             Self::Wrap | Self::WrapUndone | Self::Hooked => "turns",

@@ -13,6 +13,7 @@ mod event;
 mod extent;
 mod flukes;
 mod gear_loads;
+mod knots;
 mod lines;
 mod mouth;
 mod outcome;
@@ -64,6 +65,7 @@ pub struct Metrics {
     bodies: bodies::BodyMeter,
     probes: probes::ProbeMeter,
     whale: Option<whale::WhaleMeter>,
+    knots: knots::KnotMeter,
     log: event::Log,
 }
 
@@ -77,6 +79,7 @@ impl Metrics {
             bodies: bodies::BodyMeter::new(model),
             probes: probes::ProbeMeter::new(model),
             whale: whale::WhaleMeter::new(model),
+            knots: knots::KnotMeter::new(model),
             log: event::Log::default(),
         }
     }
@@ -117,6 +120,7 @@ impl Metrics {
         self.lines.fold(model, state, peaks, &mut self.log);
         self.bodies.fold(model, state, (on_whale, dt_s), &mut self.log);
         self.probes.fold(model, state, dt_s);
+        self.knots.fold(model, contact.contacts, (state.time_s, dt_s), &mut self.log);
         if let Some(meter) = &mut self.whale {
             meter.fold(model, state, contact, dt_s, &mut self.log);
         }

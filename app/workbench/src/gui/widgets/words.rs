@@ -30,7 +30,7 @@ pub fn event(kind: EventKind) -> String {
 pub fn event_colour(kind: EventKind, palette: Palette) -> Color32 {
     match kind {
         EventKind::LinkParted | EventKind::LineParted => palette.error,
-        EventKind::CaughtBuoy | EventKind::CaughtTrap => palette.error,
+        EventKind::CaughtBuoy | EventKind::CaughtTrap | EventKind::JammedKnot => palette.error,
         EventKind::Wrap | EventKind::Dragged | EventKind::PulledUnder => palette.warning,
         _ => palette.text,
     }

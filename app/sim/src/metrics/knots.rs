@@ -1,0 +1,99 @@
+//! Knots, splices and links on the whale: whether one has jammed.
+//!
+//! A knot has jammed where it has pressed on the whale for [`CAUGHT_S`], but for gaps of less than [`LOST_S`], and has slid less than its own
+//! breadth meanwhile. Slip is that over skin by the speed at the end of each step.
+
+use super::CAUGHT_S;
+use super::event::{EventKind, Log};
+use super::outcome::LOST_S;
+use crate::contact::ContactPoint;
+use crate::model::{Knot, Model};
+
+/// What is followed of every knot.
+#[derive(Clone, Debug, Default)]
+pub(super) struct KnotMeter(Vec<Pressed>);
+
+/// A knot on the whale.
+#[derive(Clone, Copy, Debug, Default)]
+struct Pressed {
+    /// When the present spell at one place began, and when it last pressed [s].
+    since_s: Option<f64>,
+    last_s: f64,
+    slid_m: f64,
+    peak_n: f64,
+    jammed: bool,
+}
+
+impl KnotMeter {
+    pub fn new(model: &Model) -> Self {
+        Self(vec![Pressed::default(); model.knots.len()])
+    }
+
+    /// Takes in the contacts of a step of length `dt_s` that ends at `time_s`.
+    pub fn fold(
+        &mut self,
+        model: &Model,
+        contacts: &[ContactPoint],
+        (time_s, dt_s): (f64, f64),
+        log: &mut Log,
+    ) {
+        for (knot, pressed) in model.knots.iter().zip(&mut self.0) {
+            let mine = contacts
+                .iter()
+                .filter(|contact| contact.is_knot && contact.segment == knot.segment);
+            let push_n = mine.clone().map(|contact| contact.normal_force_n).fold(0.0, f64::max);
+            let speed = |contact: &ContactPoint| contact.slip_m.length() / contact.dt_s;
+            let speed_m_s = mine.map(speed).fold(0.0, f64::max);
+            if pressed.fold(knot, [push_n, speed_m_s], (time_s, dt_s)) {
+                let line = &model.spec.lines[model.segment_line[knot.segment]].id;
+                log.note(time_s, EventKind::JammedKnot, line, pressed.peak_n);
+            }
+        }
+    }
+}
+
+impl Pressed {
+    /// Takes in its greatest push and speed over skin in a step; whether it came to count as jammed.
+    fn fold(
+        &mut self,
+        knot: &Knot,
+        [push_n, speed_m_s]: [f64; 2],
+        (time_s, dt_s): (f64, f64),
+    ) -> bool {
+        if self.since_s.is_some() && time_s - self.last_s > LOST_S {
+            *self = Self::default();
+        }
+        if push_n <= 0.0 {
+            return false;
+        }
+        (self.last_s, self.peak_n) = (time_s, self.peak_n.max(push_n));
+        self.slid_m += speed_m_s * dt_s;
+        if self.slid_m > 2.0 * knot.radius_m {
+            (self.since_s, self.slid_m, self.jammed) = (Some(time_s), 0.0, false);
+        }
+        let since_s = *self.since_s.get_or_insert(time_s);
+        time_s - since_s >= CAUGHT_S && !std::mem::replace(&mut self.jammed, true)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use endline_sdk::LineEnd;
+
+    use super::*;
+
+    #[test]
+    fn a_knot_that_stays_has_jammed_and_one_that_slides_has_not() {
+        let knot = Knot { segment: 0, end: LineEnd::B, from_end_m: 0.0, radius_m: 0.015 };
+        for (speed_m_s, push_n, jams) in
+            [(0.0, 40.0, 1), (0.004, 40.0, 1), (0.02, 40.0, 0), (0.0, 0.0, 0)]
+        {
+            let mut pressed = Pressed::default();
+            let steps = (1..=900).map(|step| 0.01 * f64::from(step));
+            let count = steps
+                .filter(|time_s| pressed.fold(&knot, [push_n, speed_m_s], (*time_s, 0.01)))
+                .count();
+            assert_eq!(count, jams, "{speed_m_s} m/s under {push_n} N");
+        }
+    }
+}
