@@ -198,6 +198,10 @@ fn check_line(spec: &ModelSpec, line: &Line, found: &mut Found) {
         "a share of its strength is not above zero",
     );
     found.need(
+        line.knots_m.iter().all(|radius| radius.is_finite() && *radius >= 0.0),
+        "the radius of a knot is below zero",
+    );
+    found.need(
         line.start_m.is_empty() || line.start_m.len() == line.segments_m.len() + 1,
         "its first guess has a wrong number of nodes",
     );

@@ -1,4 +1,4 @@
-//! Ropes as tubes coloured by tension.
+//! Ropes as tubes coloured by tension, with their knots.
 
 use endline_sim::{DVec3, Frame, Model};
 use glam::Vec3;
@@ -29,7 +29,25 @@ pub fn lines(model: &Model, frame: &Frame, scale_n: f64) -> Mesh {
             rope.draw(&mut mesh, scale_n);
         }
     }
+    knots(model, frame, scale_n, &mut mesh);
     mesh
+}
+
+/// Knots, splices and links as balls on the rope, coloured as it is.
+fn knots(model: &Model, frame: &Frame, scale_n: f64, mesh: &mut Mesh) {
+    for knot in &model.knots {
+        let line = model.segment_line[knot.segment];
+        let node = model.line_nodes[line].start + knot.segment - model.line_segments[line].start;
+        let length = frame.segment_length_m.get(knot.segment);
+        let tension = frame.tension_n.get(knot.segment);
+        let (Some(length), Some(tension), Some([from, to])) =
+            (length, tension, frame.nodes.get(node..node + 2))
+        else {
+            continue;
+        };
+        let place = from.lerp(*to, knot.fraction(*length));
+        mesh.ball(single(place), knot.radius_m as f32, tension_colour(tension / scale_n), 6);
+    }
 }
 
 /// One line in a frame.
