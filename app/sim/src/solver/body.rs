@@ -14,8 +14,9 @@ use super::Solver;
 use super::interface::Attachment;
 use super::rope::outer;
 use super::scheme::Scheme;
+use super::trial::BodyTrial;
 use crate::model::{Body, Float, Model};
-use crate::state::State;
+use crate::state::{BodyState, State};
 
 /// Stiffness that keeps a held body where it is.
 pub(super) const HELD: f64 = 1e30;
@@ -24,13 +25,7 @@ impl Solver {
     /// Adds inertia, weight, floats, drag and seabed of every body.
     pub(super) fn add_bodies(&mut self, model: &Model, state: &State, scheme: &Scheme) {
         for (index, body) in model.spec.bodies.iter().enumerate() {
-            self.interface.force[self.plan.body_block[index]].z -=
-                body.mass_kg * model.spec.water.gravity_m_s2;
-            let wet = self.add_floats(model, state, index, body, scheme);
-            self.add_body_inertia(state, index, body, wet, scheme);
-            self.add_part_drag(model, state, index, DVec3::ZERO, body.drag_area_m2 * wet, scheme);
-            self.add_turn_drag(model, state, index, body, wet, scheme);
-            self.add_body_push(model, index, body, wet);
+            self.add_body_in_water(model, state, index, scheme);
             if scheme.exact {
                 self.add_slopes(model, index, body);
             }
@@ -38,6 +33,24 @@ impl Solver {
         }
         self.push_bodies_off_skin();
         self.push_bodies_apart();
+    }
+
+    /// Adds inertia, weight and the water's forces of a body.
+    pub(super) fn add_body_in_water(
+        &mut self,
+        model: &Model,
+        state: &State,
+        index: usize,
+        scheme: &Scheme,
+    ) {
+        let body = &model.spec.bodies[index];
+        self.interface.force[self.plan.body_block[index]].z -=
+            body.mass_kg * model.spec.water.gravity_m_s2;
+        let wet = self.add_floats(model, state, index, body, scheme);
+        self.add_body_inertia(state, index, body, wet, scheme);
+        self.add_part_drag(model, state, index, DVec3::ZERO, body.drag_area_m2 * wet, scheme);
+        self.add_turn_drag(model, state, index, body, wet, scheme);
+        self.add_body_push(model, index, body, wet);
     }
 
     /// Buoyancy and drag of a body's floats; gives its wet share, for drag and added mass as a whole.
@@ -115,13 +128,10 @@ impl Solver {
                     inertia * (spin(trial.orientation, trial.anchor, 1.0) * share);
             }
         } else {
-            let velocity = (trial.place - trial.place_history) * scheme.rate;
             let turn_rate = 1.0 / scheme.dt;
-            let spin = spin(trial.orientation, now.orientation, scheme.dt);
-            self.interface.force[block] -=
-                mass * ((velocity - trial.velocity_history) * scheme.rate);
-            self.interface.force[block + 1] -=
-                inertia * ((spin - now.spin) * turn_rate) + spin.cross(inertia * spin);
+            let [force, torque] = inertial(&trial, now, scheme, [mass, inertia]);
+            self.interface.force[block] -= force;
+            self.interface.force[block + 1] -= torque;
             *self.interface.at(block + 1, block + 1) += inertia * (turn_rate * turn_rate);
         }
         if trial.held {
@@ -190,6 +200,22 @@ impl Solver {
         *self.interface.at(block + 1, block + 1) +=
             axes * DMat3::from_diagonal(slope) * axes.transpose();
     }
+}
+
+/// Force and torque that give a mass and an inertia the acceleration of a body's step.
+pub(super) fn inertial(
+    trial: &BodyTrial,
+    now: &BodyState,
+    scheme: &Scheme,
+    [mass, inertia]: [DMat3; 2],
+) -> [DVec3; 2] {
+    let velocity = (trial.place - trial.place_history) * scheme.rate;
+    let turn_rate = 1.0 / scheme.dt;
+    let spin = spin(trial.orientation, now.orientation, scheme.dt);
+    [
+        mass * ((velocity - trial.velocity_history) * scheme.rate),
+        inertia * ((spin - now.spin) * turn_rate) + spin.cross(inertia * spin),
+    ]
 }
 
 /// Angular velocity that turns one orientation into another over a step.

@@ -1,5 +1,6 @@
 //! Tests of the physics through the crate's own door: known answers, published figures, invariants.
 
+mod balance;
 mod bodies_meet;
 mod body_on_skin;
 mod capstan;
