@@ -7,6 +7,7 @@
 #![warn(clippy::print_stdout, clippy::print_stderr)] // results leave as values
 
 mod assembly;
+pub mod balance;
 pub mod contact;
 pub mod cost;
 pub mod float;

@@ -21,6 +21,7 @@ mod items;
 mod kinetic;
 #[path = "../linked/mod.rs"]
 mod linked;
+mod momentum;
 mod pilot;
 mod resolution;
 mod rigs;

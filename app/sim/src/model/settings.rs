@@ -52,6 +52,9 @@ pub struct Settings {
     pub bodies_on_bodies: bool,
     /// How rope touches rope; `None` where ropes pass through each other.
     pub rope_on_rope: Option<RopeOnRope>,
+    /// Whether momentum and energy of the gear are told by source ([`Balance`](crate::balance::Balance)); no number of a state
+    /// depends on it.
+    pub balance: bool,
     /// Whether every move near skin is cut short where its path would cross: always, but to show what tests at the end of
     /// each step alone let through.
     pub swept: bool,
@@ -73,6 +76,7 @@ impl Default for Settings {
             bodies_on_bodies: true,
             rope_on_rope: None,
             as_placed: false,
+            balance: false,
             swept: true,
         }
     }

@@ -17,8 +17,8 @@
 use glam::{DMat3, DVec3};
 
 use super::Solver;
-use super::lengths::Lengths;
 use crate::model::Model;
+use crate::state::State;
 
 /// An inner node of a line that resists bending.
 struct Hinge {
@@ -37,18 +37,33 @@ impl Hinge {
         (at[self.node + 1] - at[self.node]) * self.inverse[1]
             - (at[self.node] - at[self.node - 1]) * self.inverse[0]
     }
+
+    /// Adds its forces to those on the nodes.
+    fn push(&self, place: &[DVec3], force: &mut [DVec3]) {
+        let pull = self.turn(place) * self.stiffness;
+        let [before, after] = self.inverse;
+        force[self.node - 1] -= pull * before;
+        force[self.node] += pull * (before + after);
+        force[self.node + 1] -= pull * after;
+    }
+}
+
+/// Energy of bending [J].
+pub(crate) fn bending_energy(model: &Model, state: &State) -> f64 {
+    let (rope, mut energy) = (&state.rope, 0.0);
+    each_hinge(model, &rope.cut, &rope.segment_length, |hinge| {
+        energy += 0.5 * hinge.stiffness * hinge.turn(&rope.position).length_squared();
+    });
+    energy
 }
 
 impl Solver {
     /// Adds the force of every hinge and its blocks.
     pub(super) fn add_bending(&mut self, model: &Model) {
         let Self { cut, lengths, trial, tridiagonal, .. } = self;
-        each_hinge(model, cut, lengths, |hinge| {
-            let pull = hinge.turn(&trial.place) * hinge.stiffness;
+        each_hinge(model, cut, &lengths.segment, |hinge| {
+            hinge.push(&trial.place, &mut tridiagonal.force);
             let [before, after] = hinge.inverse;
-            tridiagonal.force[hinge.node - 1] -= pull * before;
-            tridiagonal.force[hinge.node] += pull * (before + after);
-            tridiagonal.force[hinge.node + 1] -= pull * after;
             for (segment, node, inverse) in
                 [(hinge.before, hinge.node, before), (hinge.before + 1, hinge.node + 1, after)]
             {
@@ -61,10 +76,17 @@ impl Solver {
         });
     }
 
+    /// Adds the force of every hinge alone.
+    pub(super) fn push_hinges(&self, model: &Model, force: &mut [DVec3]) {
+        each_hinge(model, &self.cut, &self.lengths.segment, |hinge| {
+            hinge.push(&self.trial.place, force);
+        });
+    }
+
     /// Slope of the energy of bending along the solved step, a share of it taken.
     pub(super) fn bending_slope(&self, model: &Model, share: f64) -> f64 {
         let mut slope = 0.0;
-        each_hinge(model, &self.cut, &self.lengths, |hinge| {
+        each_hinge(model, &self.cut, &self.lengths.segment, |hinge| {
             let change = hinge.turn(&self.tridiagonal.step);
             slope += hinge.stiffness * (hinge.turn(&self.trial.place) + change * share).dot(change);
         });
@@ -73,7 +95,7 @@ impl Solver {
 }
 
 /// Does something at every hinge of every line whose rope resists bending.
-fn each_hinge(model: &Model, cut: &[bool], lengths: &Lengths, mut act: impl FnMut(&Hinge)) {
+fn each_hinge(model: &Model, cut: &[bool], lengths_m: &[f64], mut act: impl FnMut(&Hinge)) {
     for (index, line) in model.spec.lines.iter().enumerate() {
         let bending = model.spec.ropes[line.rope].bending_stiffness_n_m2;
         if bending <= 0.0 {
@@ -84,7 +106,7 @@ fn each_hinge(model: &Model, cut: &[bool], lengths: &Lengths, mut act: impl FnMu
             if cut[before] || cut[before + 1] {
                 continue;
             }
-            let (behind, ahead) = (lengths.segment[before], lengths.segment[before + 1]);
+            let (behind, ahead) = (lengths_m[before], lengths_m[before + 1]);
             let stiffness = 2.0 * bending / (behind + ahead);
             act(&Hinge { node, before, stiffness, inverse: [1.0 / behind, 1.0 / ahead] });
         }

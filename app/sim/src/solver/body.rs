@@ -14,6 +14,7 @@ use super::interface::Attachment;
 use super::rope::outer;
 use super::rotation::momentum_rate;
 use super::scheme::Scheme;
+use super::trial::BodyTrial;
 use crate::model::{Body, Float, Model};
 use crate::state::State;
 
@@ -24,13 +25,7 @@ impl Solver {
     /// Adds inertia, weight, floats, drag and seabed of every body.
     pub(super) fn add_bodies(&mut self, model: &Model, state: &State, scheme: &Scheme) {
         for (index, body) in model.spec.bodies.iter().enumerate() {
-            self.interface.force[self.plan.body_block[index]].z -=
-                body.mass_kg * model.spec.water.gravity_m_s2;
-            let wet = self.add_floats(model, index, body, scheme);
-            self.add_body_inertia(state, index, body, wet, scheme);
-            self.add_part_drag(model, index, DVec3::ZERO, body.drag_area_m2 * wet, scheme);
-            self.add_turn_drag(model, index, body, wet, scheme);
-            self.add_body_push(model, index, body, wet);
+            self.add_body_in_water(model, state, index, scheme);
             if scheme.exact {
                 self.add_slopes(model, index, body);
             }
@@ -38,6 +33,24 @@ impl Solver {
         }
         self.push_bodies_off_skin();
         self.push_bodies_apart();
+    }
+
+    /// Adds inertia, weight and the water's forces of a body.
+    pub(super) fn add_body_in_water(
+        &mut self,
+        model: &Model,
+        state: &State,
+        index: usize,
+        scheme: &Scheme,
+    ) {
+        let body = &model.spec.bodies[index];
+        self.interface.force[self.plan.body_block[index]].z -=
+            body.mass_kg * model.spec.water.gravity_m_s2;
+        let wet = self.add_floats(model, index, body, scheme);
+        self.add_body_inertia(state, index, body, wet, scheme);
+        self.add_part_drag(model, index, DVec3::ZERO, body.drag_area_m2 * wet, scheme);
+        self.add_turn_drag(model, index, body, wet, scheme);
+        self.add_body_push(model, index, body, wet);
     }
 
     /// Buoyancy and drag of a body's floats; gives its wet share, for drag and added mass as a whole.
@@ -101,11 +114,9 @@ impl Solver {
                 self.interface.force[block + 1] -= inertia * (trial.turn() * share);
             }
         } else {
-            let velocity = (trial.place - trial.place_history) * scheme.rate;
-            self.interface.force[block] -=
-                mass * ((velocity - trial.velocity_history) * scheme.rate);
-            let (gained, growth) = momentum_rate(&trial, now, moments, scheme);
-            self.interface.force[block + 1] -= gained;
+            let (turning, growth) = momentum_rate(&trial, now, moments, scheme);
+            self.interface.force[block] -= inertial(&trial, scheme, mass);
+            self.interface.force[block + 1] -= turning;
             *self.interface.at(block + 1, block + 1) += growth;
         }
         if trial.held {
@@ -171,6 +182,12 @@ impl Solver {
         *self.interface.at(block + 1, block + 1) +=
             axes * DMat3::from_diagonal(slope) * axes.transpose();
     }
+}
+
+/// Force that gives a mass the acceleration of a body's step.
+pub(super) fn inertial(trial: &BodyTrial, scheme: &Scheme, mass: DMat3) -> DVec3 {
+    let velocity = (trial.place - trial.place_history) * scheme.rate;
+    mass * ((velocity - trial.velocity_history) * scheme.rate)
 }
 
 /// How stiffly a force at the end of an arm keeps the arm turned: the part of its derivative that

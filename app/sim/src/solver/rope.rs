@@ -58,7 +58,7 @@ impl Solver {
         }
     }
 
-    fn node_at(&self, node: usize, nodes: &Range<usize>) -> NodeAt<f64> {
+    pub(super) fn node_at(&self, node: usize, nodes: &Range<usize>) -> NodeAt<f64> {
         let [before, after] = neighbours(node, nodes);
         NodeAt {
             place: self.trial.place[node].into(),

@@ -211,6 +211,28 @@ impl Solver {
         }
     }
 
+    /// Adds the forces of rope on rope to those on the nodes; the power of all of them [W].
+    pub(super) fn push_touching_ropes(
+        &self,
+        state: &State,
+        scheme: &Scheme,
+        on_nodes: &mut [DVec3],
+    ) -> f64 {
+        let mut power = 0.0;
+        let moved = |node: usize| self.trial.place[node] - self.trial.place_history[node];
+        self.each_touch(state, |pair, _, touch| {
+            let Some(touch) = touch else { return };
+            let (force, [one, other]) = (touch.force(), pair.places(moved));
+            power += force.dot(between(one, other, touch.fractions).0) * scheme.rate;
+            for (k, sign) in [(0, 1.0), (1, -1.0)] {
+                let (node, fraction) = (pair.nodes[k], touch.fractions[k]);
+                on_nodes[node] += force * (sign * (1.0 - fraction));
+                on_nodes[node + 1] += force * (sign * fraction);
+            }
+        });
+        power
+    }
+
     /// Gathers rope near rope for a step; whether any may touch.
     pub(crate) fn gather_ropes(&mut self, model: &Model, state: &State, dt: f64) -> bool {
         self.ropes.gather(model, state, &self.pieces, dt)

@@ -95,20 +95,32 @@ impl Solver {
     pub(super) fn add_seabed(&mut self, model: &Model, state: &State, scheme: &Scheme) {
         let Some(seabed) = &model.spec.seabed else { return };
         for node in 0..model.node_count {
-            let depth = seabed.depth_of(self.trial.place[node]);
-            if depth <= 0.0 {
-                continue;
-            }
-            let stiffness = seabed.rope_stiffness_n_m2 * self.lengths.node[node];
-            let push = push_at(depth, stiffness);
+            let Some((push, grip)) = self.seabed_at(seabed, state, scheme, node) else { continue };
             self.tridiagonal.force[node] += seabed.normal * push.force;
             self.tridiagonal.diagonal[node] += outer(seabed.normal, seabed.normal) * push.rate;
-            if grips_rope(seabed, state, node, scheme) {
-                let grip = self.rope_grip(seabed, state, scheme, node, stiffness);
+            if let Some(grip) = grip {
                 self.tridiagonal.force[node] += grip.force;
                 self.tridiagonal.diagonal[node] += grip.block;
             }
         }
+    }
+
+    /// Push of the seabed on a rope node that lies on it, and its grip where it grips.
+    pub(super) fn seabed_at(
+        &self,
+        seabed: &Seabed,
+        state: &State,
+        scheme: &Scheme,
+        node: usize,
+    ) -> Option<(Push, Option<Grip>)> {
+        let depth = seabed.depth_of(self.trial.place[node]);
+        if depth <= 0.0 {
+            return None;
+        }
+        let stiffness = seabed.rope_stiffness_n_m2 * self.lengths.node[node];
+        let grip = grips_rope(seabed, state, node, scheme)
+            .then(|| self.rope_grip(seabed, state, scheme, node, stiffness));
+        Some((push_at(depth, stiffness), grip))
     }
 
     fn rope_grip(

@@ -204,15 +204,7 @@ impl Solver {
         let mut missed = ContactMissed::default();
         for point in self.solid.open_points() {
             let solid = &self.solid.solids[point.solid];
-            let touch = self.touch_of(solid, point);
-            let there = SolidContactPoint { push_n: point.stiffness * touch.depth, ..*point };
-            let force = if there.push_n <= 0.0 {
-                DVec3::ZERO
-            } else if scheme.is_static() {
-                touch.normal * there.push_n
-            } else {
-                touch.normal * there.push_n + grip_of(state, solid, &there, &touch).force
-            };
+            let force = self.solid_force(state, scheme, solid, point);
             let [on_rope, on_body] = point.solved.map(|solved| solved.distance(force));
             let gap_n = match solid.carrier {
                 Carrier::World(_) => GRIP_STRICTER * on_rope,
@@ -221,6 +213,25 @@ impl Solver {
             missed = missed.and(ContactMissed { gap_n, greatest_n: force.length() });
         }
         missed
+    }
+
+    /// Push and friction of a solid on rope where the trial stands.
+    pub(super) fn solid_force(
+        &self,
+        state: &State,
+        scheme: &Scheme,
+        solid: &Solid,
+        point: &SolidContactPoint,
+    ) -> DVec3 {
+        let touch = self.touch_of(solid, point);
+        let there = SolidContactPoint { push_n: point.stiffness * touch.depth, ..*point };
+        if there.push_n <= 0.0 {
+            DVec3::ZERO
+        } else if scheme.is_static() {
+            touch.normal * there.push_n
+        } else {
+            touch.normal * there.push_n + grip_of(state, solid, &there, &touch).force
+        }
     }
 
     /// Share of the solved step of statics, at most `longest`, that takes no rope through a solid: as far as it is away

@@ -61,19 +61,9 @@ impl Trial {
     pub fn begin(&mut self, model: &Model, plan: &Plan, state: &State, scheme: &Scheme) {
         self.time = state.time_s + scheme.dt;
         self.hitches.share = self.hitches.span[1];
-        let rope = &state.rope;
-        let count = model.node_count;
-        self.place.resize(count, DVec3::ZERO);
-        self.place_history.resize(count, DVec3::ZERO);
-        self.velocity_history.resize(count, DVec3::ZERO);
-        for node in 0..count {
-            self.place_history[node] =
-                scheme.history(rope.position[node], rope.earlier_position[node]);
-            self.velocity_history[node] =
-                scheme.history(rope.velocity[node], rope.earlier_velocity[node]);
-            self.place[node] = rope.position[node] + rope.velocity[node] * scheme.dt;
-        }
-        self.tension.clone_from(&rope.tension);
+        self.take_history(state, scheme);
+        self.guess(state, scheme);
+        self.tension.clone_from(&state.rope.tension);
         self.begin_bodies(model, state, scheme);
         self.place_ends(model, plan);
     }
@@ -82,16 +72,34 @@ impl Trial {
     pub fn begin_free(&mut self, model: &Model, plan: &Plan, state: &State, scheme: &Scheme) {
         self.time = state.time_s + scheme.dt;
         self.hitches.share = self.hitches.span[1];
-        self.place.clear();
+        self.guess(state, scheme);
+        self.begin_bodies(model, state, scheme);
+        self.place_ends(model, plan);
+    }
+
+    /// Takes what places and velocities of rope are measured from.
+    pub fn take_history(&mut self, state: &State, scheme: &Scheme) {
         let rope = &state.rope;
+        let history = |now: &[DVec3], earlier: &[DVec3], out: &mut Vec<DVec3>| {
+            out.clear();
+            out.extend(
+                now.iter().zip(earlier).map(|(now, earlier)| scheme.history(*now, *earlier)),
+            );
+        };
+        history(&rope.position, &rope.earlier_position, &mut self.place_history);
+        history(&rope.velocity, &rope.earlier_velocity, &mut self.velocity_history);
+    }
+
+    /// Guesses where rope goes by its velocities.
+    fn guess(&mut self, state: &State, scheme: &Scheme) {
+        let rope = &state.rope;
+        self.place.clear();
         self.place.extend(
             rope.position
                 .iter()
                 .zip(&rope.velocity)
                 .map(|(place, velocity)| *place + *velocity * scheme.dt),
         );
-        self.begin_bodies(model, state, scheme);
-        self.place_ends(model, plan);
     }
 
     fn begin_bodies(&mut self, model: &Model, state: &State, scheme: &Scheme) {

@@ -36,6 +36,10 @@ pub fn step(
     workspace: &mut Workspace,
 ) -> Result<(), Stop> {
     workspace.solver.cost.begin();
+    if model.spec.settings.balance {
+        workspace.balance.begin(model, state);
+    }
+    let balance = workspace.balance;
     match &mut workspace.before {
         Some(before) => before.clone_from(state),
         none => *none = Some(state.clone()),
@@ -43,6 +47,7 @@ pub fn step(
     let done = try_step(model, input, state, workspace);
     if let (Err(_), Some(before)) = (&done, &workspace.before) {
         state.clone_from(before);
+        workspace.balance = balance;
     }
     workspace.solver.cost.end();
     done
@@ -68,6 +73,7 @@ fn try_step(
             [after.contact_force_n, after.contact_port_m] = workspace.sums.by_part();
             if let Some(kinetic) = &whale.kinetic {
                 workspace.pulled.give(kinetic, model.spec.settings.step_s, after);
+                workspace.balance.take_whale(workspace.pulled.impulse());
             }
         }
         now.clone_from(after);

@@ -5,13 +5,14 @@ use super::contact::solve;
 use super::rejection::{Rejection, StepKind};
 use super::stages::Way;
 use super::workspace::Workspace;
+use crate::balance::Weights;
 use crate::contact::ContactPoint;
 use crate::contact::bodies::BodyContact;
 use crate::contact::workspace::ContactWorkspace;
 use crate::cost::CostPart;
 use crate::model::Model;
 use crate::parting;
-use crate::solver::{Scheme, Skin, Solver, StepContext};
+use crate::solver::{Scheme, Skin, SkinTouches, Solver, StepContext};
 use crate::state::State;
 
 /// One solver step of length `dt`: kept in `state` where it converges and parts nothing late.
@@ -40,7 +41,9 @@ fn try_solver_step(
     dt: f64,
     way: Way,
 ) -> Result<StepKind, Rejection> {
-    let Workspace { solver, contact, audit, contacts, body_contacts, rope_touches, .. } = workspace;
+    let Workspace {
+        solver, contact, audit, contacts, body_contacts, rope_touches, balance, ..
+    } = workspace;
     solver.cost.enter(CostPart::Detection);
     let mut near = contact.as_mut().filter(|work| !work.near.pairs.is_empty());
     let may_touch =
@@ -75,6 +78,13 @@ fn try_solver_step(
     keep_contacts(model, state, near.filter(|_| may_touch), dt, Reports { contacts, audit })?;
     keep_bodies(model, state, solver, dt, body_contacts)?;
     solver.report_ropes(state, rope_touches);
+    if model.spec.settings.balance {
+        let second_stage = untouched && matches!(way, Way::SecondStage { .. });
+        let context = StepContext { model, state, scheme: &scheme };
+        let skin = SkinTouches { rope: contacts, bodies: body_contacts };
+        let weights = Weights { h_s: 1.0 / scheme.rate, earlier: scheme.earlier, second_stage };
+        balance.take(&solver.given(&context, &skin), weights);
+    }
     solver.keep(model, &scheme, state);
     audit.ropes_through = audit.ropes_through.max(solver.ropes.count_through());
     let within = state.rope.within.iter().map(|within| within.to_m - within.from_m);

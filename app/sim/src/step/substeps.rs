@@ -43,6 +43,7 @@ pub(super) fn advance(
         return Ok(()); // a whale alone: there is nothing to solve
     }
     let settings = &model.spec.settings;
+    let balance = workspace.balance;
     for taken_back in 0..=MOST_TAKEN_BACK {
         workspace.peak_tension_n.fill(0.0);
         workspace.unconverged_peak_n.fill(0.0);
@@ -63,6 +64,7 @@ pub(super) fn advance(
             break;
         }
         workspace.audit.halved += 1;
+        workspace.balance = balance;
         take_back(state, workspace);
     }
     Ok(())

@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::audit::Audit;
 use super::peaks::{SpikeWatch, raise};
 use super::stages::Stages;
+use crate::balance::Balance;
 use crate::contact::ContactPoint;
 use crate::contact::bodies::BodyContact;
 use crate::contact::bodies::sums::BodySums;
@@ -39,6 +40,8 @@ pub struct Workspace {
     pub rope_touches: Vec<RopeTouch>,
     /// Counters of the run so far.
     pub audit: Audit,
+    /// Momentum and energy of the gear so far, where the model tells them ([`Settings::balance`](crate::model::Settings::balance)).
+    pub balance: Balance,
     pub(crate) solver: Solver,
     pub(crate) contact: Option<ContactWorkspace>,
     pub(super) before: Option<State>,
@@ -67,6 +70,7 @@ impl Workspace {
             body_sums: BodySums::new(model.spec.bodies.len()),
             rope_touches: Vec::new(),
             audit: Audit::default(),
+            balance: Balance::default(),
             solver: Solver::new(model),
             contact: ContactWorkspace::new(model),
             before: None,

@@ -1,5 +1,6 @@
 //! Tests of the physics through the crate's own door: known answers, published figures, invariants.
 
+mod balance;
 mod bodies_meet;
 mod bodies_on_obstacles;
 mod bodies_on_seabed;

@@ -64,6 +64,11 @@ impl RopeImpulse {
         self.moment_left += turning * times.left;
     }
 
+    /// The impulse so far [N s].
+    pub fn impulse(&self) -> DVec3 {
+        self.force
+    }
+
     /// Tells the whale at the end of a step of length `dt` what it bore, and changes its momentum by it.
     pub fn give(&self, kinetic: &Kinetic, dt: f64, whale: &mut WhaleState) {
         whale.exertion.rope_force_n = self.force / dt;
