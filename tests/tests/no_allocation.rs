@@ -26,6 +26,7 @@ fn encounter(place: DVec3) -> Model {
     let mut spec = spec("hello-endline", &[]);
     spec.whale.as_mut().unwrap().position_m = place;
     spec.settings.resolution = None;
+    spec.settings.balance = true;
     built(spec)
 }
 

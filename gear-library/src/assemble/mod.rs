@@ -71,6 +71,8 @@ pub struct Options {
     pub rope_nodes: Option<u64>,
     /// Whether the whale is kinetic.
     pub kinetic: Option<bool>,
+    /// Whether momentum and energy of the gear are told by source where the scenario does not say.
+    pub balance: bool,
 }
 
 /// A spec with the library files it was made from.
@@ -149,6 +151,7 @@ fn settings(scenario: &Scenario, options: &Options) -> Settings {
         bodies_on_bodies: scenario.bodies_on_bodies,
         rope_on_rope: scenario.rope_on_rope.then(|| rope_on_rope(scenario)),
         as_placed: scenario.as_placed,
+        balance: scenario.balance.unwrap_or(options.balance),
         ..usual
     }
 }

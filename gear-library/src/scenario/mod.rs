@@ -72,6 +72,8 @@ pub struct Scenario {
     pub bodies_on_bodies: bool,
     /// Whether rope touches rope.
     pub rope_on_rope: bool,
+    /// Whether momentum and energy of the gear are told by source, where the scenario says.
+    pub balance: Option<bool>,
     /// Friction of rope on rope, where the scenario says.
     pub rope_friction: Option<At<f64>>,
     /// Whether the run starts as its parts are placed, without statics.
@@ -150,6 +152,7 @@ impl Scenario {
             bodies_on_whale: flag("bodies_on_whale", true),
             bodies_on_bodies: flag("bodies_on_bodies", true),
             rope_on_rope: flag("rope_on_rope", true),
+            balance: fields.flag("balance"),
             rope_friction: rope_friction(&fields),
             as_placed: start.is_some_and(|start| start.value == "placed"),
             rope_condition: rope_condition

@@ -8,8 +8,8 @@ use std::fmt::Write;
 use std::fs;
 
 use endline_session::figures::{
-    ATTEMPT, AUDIT, BEAT, BODY, COST, EVENT, Figure, KINETIC, LINE, LINK, MOMENT, PART, PATCH,
-    PHASE, PLUGIN, PROBE, RUN, SETTLED, View, WHALE,
+    ATTEMPT, AUDIT, BALANCE, BEAT, BODY, COST, EVENT, Figure, KINETIC, LINE, LINK, MOMENT, PART,
+    PATCH, PHASE, PLUGIN, PROBE, RUN, SETTLED, View, WHALE,
 };
 use endline_tests::root;
 
@@ -67,6 +67,7 @@ fn page() -> String {
     let mut page = HEAD.to_owned();
     section(&mut page, "Run", RUN);
     section(&mut page, "`audit`: the solver", AUDIT);
+    section(&mut page, "`audit.balance`: momentum and energy of the gear", BALANCE);
     section(&mut page, "`approach` and `contact`: phases of the run", PHASE);
     section(&mut page, "`settled`: the statics before the run", SETTLED);
     section(&mut page, "`cost`: what the computing time went to", COST);

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use endline_sim::state::LimitedBy;
 
 use super::View::Table;
-use super::{Figure, Quantity, Value};
+use super::{BALANCE, Figure, Quantity, Value, object};
 use crate::report::Report;
 
 /// Counters of the solver's work.
@@ -229,6 +229,15 @@ pub static AUDIT: &[Figure<Report>] = &[
         |run: &Report| Value::Text(mostly(run)),
     )
     .shown(&[Table]),
+    Figure::new(
+        "balance",
+        "momentum and energy of the gear",
+        "Momentum and energy of the gear by source; none where a scenario sets `balance = false`.",
+        Quantity::Group,
+        |run: &Report| {
+            run.balance.as_ref().map_or(Value::Absent, |balance| object(BALANCE, balance))
+        },
+    ),
 ];
 
 fn limits(run: &Report) -> BTreeMap<&'static str, u64> {

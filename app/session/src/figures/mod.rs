@@ -9,6 +9,7 @@
 //! |---|---|---|
 //! | [`ATTEMPT`] | [`Attempt`] | run that a study asked for |
 //! | [`RUN`], [`AUDIT`], [`SETTLED`] | [`Report`](crate::Report) | run |
+//! | [`BALANCE`] | [`BalanceSummary`](endline_sim::balance::BalanceSummary) | run |
 //! | [`PHASE`] | [`Phase`](crate::timing::Phase) | phase of a run |
 //! | [`COST`] | [`Cost`](endline_sim::Cost) | run |
 //! | [`EVENT`] | [`Event`](endline_sim::metrics::Event) | event |
@@ -24,6 +25,7 @@
 
 mod attempt;
 mod audit;
+mod balance;
 pub mod compare;
 mod cost;
 mod events;
@@ -43,6 +45,7 @@ mod whale;
 
 pub use attempt::{ATTEMPT, Attempt};
 pub use audit::AUDIT;
+pub use balance::BALANCE;
 pub use cost::{COST, shares};
 pub use events::EVENT;
 pub use figure::{Column, Figure, View, list, object, shown};

@@ -38,6 +38,10 @@ pub enum Quantity {
     Work,
     /// A frequency [Hz].
     Frequency,
+    /// An impulse, or one as a vector: east, north, up [N s].
+    Impulse,
+    /// A share, written in percent.
+    Share,
     /// A number without a unit.
     Number,
     /// A number in a unit that its source declares.
@@ -71,7 +75,8 @@ impl Quantity {
             Self::LineLoad => "N/m",
             Self::Work => "J",
             Self::Frequency => "Hz",
-            Self::Number => "1",
+            Self::Impulse => "N s",
+            Self::Number | Self::Share => "1",
             Self::Measured => "its own unit",
             Self::Count => "count",
             Self::Flag => "yes or no",
@@ -119,6 +124,8 @@ impl Quantity {
             Self::Pressure => units.force().pressure(value),
             Self::LineLoad => line_load(value, units.force()),
             Self::Work => format!("{value:.*} J", usize::from(value.abs() < 100.0)),
+            Self::Impulse => format!("{value:.*} N s", usize::from(value.abs() < 100.0)),
+            Self::Share => format!("{:.4} %", 100.0 * value),
             Self::Frequency => format!("{value:.3} Hz"),
             _ => format!("{value:.2}"),
         }

@@ -26,6 +26,7 @@ impl Report {
             invalid_because: validity::reasons(stopped.as_deref(), &audit, summary.whale.as_ref()),
             stopped,
             audit,
+            balance: run.balance(),
             summary,
             settled_tension_n: by_line(model, &run.settled().state.rope.tension),
             settled: settled(run),

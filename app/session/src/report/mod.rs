@@ -7,6 +7,7 @@ mod from_run;
 pub mod validity;
 
 use endline_sim::Audit;
+use endline_sim::balance::BalanceSummary;
 use endline_sim::metrics::{Event, LineSummary, Summary};
 
 use crate::plugins::PluginUsed;
@@ -42,6 +43,8 @@ pub struct Report {
     pub stopped: Option<String>,
     /// Counters of the solver.
     pub audit: Audit,
+    /// Momentum and energy of the gear by source, where the model tells them.
+    pub balance: Option<BalanceSummary>,
     /// What was measured.
     pub summary: Summary,
     /// Greatest tension of each line in the settled state [N].

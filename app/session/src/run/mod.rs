@@ -8,6 +8,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use endline_sdk::Controls;
+use endline_sim::balance::BalanceSummary;
 use endline_sim::metrics::{Metrics, Summary};
 use endline_sim::{
     Audit, ContactPoint, Frame, Input, Model, Outcome, Settled, State, Stop, Workspace, settle,
@@ -236,6 +237,12 @@ impl Run {
     #[must_use]
     pub fn audit(&self) -> Audit {
         self.workspace.audit
+    }
+
+    /// Momentum and energy of the gear by source, where the model tells them.
+    #[must_use]
+    pub fn balance(&self) -> Option<BalanceSummary> {
+        self.workspace.balance.summary(self.model(), &self.state)
     }
 
     /// How long it took, approach and contact apart.

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use endline_sim::balance::Balance;
 use endline_sim::metrics::Metrics;
 use endline_sim::{Audit, State, Workspace};
 
@@ -16,6 +17,7 @@ pub struct Moment {
     state: State,
     metrics: Metrics,
     audit: Audit,
+    balance: Balance,
     /// Steps so far.
     steps: usize,
     /// Frames kept so far.
@@ -30,6 +32,7 @@ impl Run {
             state: self.state.clone(),
             metrics: self.metrics.clone(),
             audit: self.workspace.audit,
+            balance: self.workspace.balance,
             steps: self.inputs.len(),
             frames: self.frames.len(),
         }
@@ -43,6 +46,7 @@ impl Run {
         // A workspace is scratch: a new one changes no bit.
         let mut workspace = Workspace::new(&prepared.model);
         workspace.audit = moment.audit;
+        workspace.balance = moment.balance;
         workspace.lend_clock(clock_ns);
         Self {
             workspace,

@@ -111,8 +111,20 @@ impl Source {
     ///
     /// # Errors
     /// Every located error of the scenario and of the library items it uses.
-    pub fn prepare(mut self, host: &PluginHost) -> Result<Prepared, Error> {
-        let (model, used) = self.model(host)?;
+    pub fn prepare(self, host: &PluginHost) -> Result<Prepared, Error> {
+        self.prepare_with(host, true)
+    }
+
+    /// The same for one of many runs, which keeps no balance of momentum and energy unless the scenario asks for it.
+    ///
+    /// # Errors
+    /// As above.
+    pub fn prepare_for_study(self, host: &PluginHost) -> Result<Prepared, Error> {
+        self.prepare_with(host, false)
+    }
+
+    fn prepare_with(mut self, host: &PluginHost, balance: bool) -> Result<Prepared, Error> {
+        let (model, used) = self.model(host, balance)?;
         self.library = self.library.only(&used);
         let plugins = plugins_of(&model, host);
         Ok(Prepared { source: Arc::new(self), model: Arc::new(model), plugins })
@@ -142,12 +154,12 @@ impl Source {
 
 impl Source {
     /// The model and the library files it was made from.
-    fn model(&self, host: &PluginHost) -> Result<(Model, Vec<String>), Error> {
+    fn model(&self, host: &PluginHost, balance: bool) -> Result<(Model, Vec<String>), Error> {
         let name = &self.scenario_name;
         let scenario = Scenario::read(name, &self.scenario).map_err(Error::Diagnostics)?;
         let (library, problems) = Library::read(&self.library);
         let Overrides { seed, step_s, weak_links, rating_n, kinetic } = self.overrides;
-        let options = Options { seed, step_s, weak_links, kinetic, ..Options::default() };
+        let options = Options { seed, step_s, weak_links, kinetic, balance, ..Options::default() };
         // An item with errors is missing from the library; its own errors say why, so they come first.
         let Assembled { mut spec, files } = assemble_traced(&scenario, &library, host, &options)
             .map_err(|missing| {

@@ -37,7 +37,7 @@ impl Equilibria {
         if let Some(kept) = kept {
             return Ok(kept);
         }
-        let model = source.prepare(host)?.model;
+        let model = source.prepare_for_study(host)?.model;
         let settled = Arc::new(if model.spec.settings.as_placed {
             as_placed(&model)
         } else {

@@ -172,7 +172,7 @@ impl Base<'_> {
             library: sources,
             overrides: Overrides::default(),
         };
-        source.prepare(self.host).map_err(|error| match error {
+        source.prepare_for_study(self.host).map_err(|error| match error {
             Error::Diagnostics(problems) => Error::Diagnostics(
                 problems.into_iter().map(|problem| self.relocate(option, problem)).collect(),
             ),

@@ -36,7 +36,9 @@ impl Opened {
             library: sources,
             overrides: Overrides::default(),
         };
-        source.prepare(&self.host).map_err(|error| self.of_encounter(plan, encounter, error))
+        source
+            .prepare_for_study(&self.host)
+            .map_err(|error| self.of_encounter(plan, encounter, error))
     }
 
     fn of_encounter(&self, plan: &OptionPlan, encounter: &Encounter, error: Error) -> Error {

@@ -6,8 +6,8 @@ use std::fmt::Write;
 
 use endline_session::Report;
 use endline_session::figures::{
-    AUDIT, BEAT, BODY, COST, EVENT, Figure, KINETIC, LINE, LINK, PART, PATCH, PHASE, PROBE,
-    Quantity, RUN, Value, View, WHALE, lines, parts, shown,
+    AUDIT, BALANCE, BEAT, BODY, COST, EVENT, Figure, KINETIC, LINE, LINK, PART, PATCH, PHASE,
+    PROBE, Quantity, RUN, Value, View, WHALE, lines, parts, shown,
 };
 use endline_session::settled::SettledShape;
 use endline_session::units::{N_PER_LBF, Units};
@@ -59,6 +59,7 @@ fn head(report: &Report) -> String {
     let mut rows = vec![vec!["run".to_owned(), verdict(report)]];
     rows.extend(pairs(RUN, report));
     rows.extend(pairs(AUDIT, report));
+    rows.extend(report.balance.iter().flat_map(|balance| pairs(BALANCE, balance)));
     let phases = [("approach", &report.timing.approach), ("contact", &report.timing.contact)];
     let mut table = vec![titles("phase", PHASE)];
     table.extend(phases.map(|(name, phase)| {
@@ -199,6 +200,7 @@ mod tests {
         for phase in [&report.timing.approach, &report.timing.contact] {
             count += stands(&text, PHASE, phase);
         }
+        count += stands(&text, BALANCE, report.balance.as_ref().unwrap());
         count += stands(&text, COST, &report.timing.cost);
         for line in lines(measured, &report.settled_tension_n) {
             count += stands(&text, LINE, &line);

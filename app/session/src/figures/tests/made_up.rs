@@ -7,6 +7,7 @@ use endline_sdk::{BodyPart, Region};
 use endline_session::plugins::PluginUsed;
 use endline_session::report::{Report, SettledReport};
 use endline_session::timing::Timing;
+use endline_sim::balance::BalanceSummary;
 use endline_sim::metrics::{
     BeatSummary, BodyOnWhale, BodySummary, Event, EventKind, KineticSummary, LineSummary,
     LinkSummary, Outcome, PatchSummary, ProbeSummary, RegionSummary, Summary, WhaleSummary,
@@ -47,6 +48,7 @@ pub fn report() -> Report {
         invalid_because: vec!["a reason".into(), "another".into()],
         stopped: Some("it stopped".into()),
         audit: audit(next),
+        balance: Some(balance(next)),
         summary: summary(next),
         settled_tension_n: vec![next.real(), next.real()],
         settled: SettledReport {
@@ -100,6 +102,21 @@ fn audit(next: &mut Numbers) -> Audit {
         resolution_ratio: next.real(),
         postures_held: next.whole(),
         limited_by: std::array::from_fn(|_| next.whole()),
+    }
+}
+
+fn balance(next: &mut Numbers) -> BalanceSummary {
+    BalanceSummary {
+        impulse_ns: std::array::from_fn(|_| next.vector()),
+        momentum_ns: next.vector(),
+        greatest_ns: next.real(),
+        residual_ns: next.real(),
+        work_j: std::array::from_fn(|_| next.real()),
+        damping_j: next.real(),
+        contact_j: next.real(),
+        kinetic_j: next.real(),
+        elastic_j: next.real(),
+        whale_missed_ns: Some(next.real()),
     }
 }
 

@@ -8,6 +8,7 @@ pub mod made_up;
 use std::fmt::Debug;
 
 use endline_sim::CostPart;
+use endline_sim::balance::Source;
 use endline_sim::metrics::Summary;
 
 use super::*;
@@ -77,9 +78,12 @@ fn every_figure_reads_the_field_of_its_key() {
     let report = made_up::report();
     let whale = report.summary.whale.as_ref().unwrap();
     let (lines, parts) = (lines(&report.summary, &report.settled_tension_n), parts(whale, &[]));
+    let balance = report.balance.as_ref().unwrap();
+    let by_source: Vec<_> = BALANCE.iter().map(|figure| figure.key).filter(is_by_source).collect();
     let tried = [
         reads(RUN, &report, &report, &COMPUTED),
         reads(AUDIT, &report, &(&report.audit, whale), &COMPUTED),
+        reads(BALANCE, balance, balance, &by_source),
         reads(SETTLED, &report, &report.settled, &["wall_s"]),
         reads(PHASE, &report.timing.contact, &report.timing.contact, &["times_real_time"]),
         reads(LINE, &lines[1], &lines[1].summary, &["settled_tension_N"]),
@@ -106,6 +110,27 @@ fn every_figure_reads_the_field_of_its_key() {
 /// The value of a key.
 fn value<S>(figures: &[Figure<S>], key: &str, source: &S) -> Value {
     (figures.iter().find(|figure| figure.key == key).unwrap().read)(source)
+}
+
+/// Whether a figure of the balance is one of a source, or computed; tested below.
+fn is_by_source(key: &&str) -> bool {
+    let computed = ["residual_share", "numerical_damping_J"];
+    key.ends_with("_impulse_Ns") || key.ends_with("_work_J") || computed.contains(key)
+}
+
+#[test]
+fn figures_of_the_balance_are_those_of_their_source() {
+    let report = made_up::report();
+    let told = report.balance.as_ref().unwrap();
+    for source in Source::ALL {
+        let (impulse, work) = (told.impulse_ns[source as usize], told.work_j[source as usize]);
+        let key = |of: &str| format!("{}_{of}", source.name());
+        assert_eq!(value(BALANCE, &key("impulse_Ns"), told), impulse.into());
+        assert_eq!(value(BALANCE, &key("work_J"), told), work.into());
+    }
+    assert_eq!(value(BALANCE, "residual_share", told), told.residual_share().into());
+    let damping = told.numerical_damping_j();
+    assert_eq!(value(BALANCE, "numerical_damping_J", told), damping.into());
 }
 
 #[test]
@@ -161,6 +186,8 @@ fn the_summary_nests_the_lists() {
     let whale = report.summary.whale.as_ref().unwrap();
     let json: serde_json::Value = serde_json::from_str(&report.json()).unwrap();
     assert_eq!(json["audit"]["passes"], report.audit.passes);
+    let told = report.balance.as_ref().unwrap();
+    assert_eq!(json["audit"]["balance"]["residual_Ns"], told.residual_ns);
     assert_eq!(json["lines"][1]["drag_N"][2], report.summary.lines[1].drag_n.z);
     assert_eq!(json["links"][0]["rating_N"], report.summary.links[0].rating_n);
     assert_eq!(json["bodies"][1]["position_m"][0], report.summary.bodies[1].position_m.x);
@@ -205,6 +232,7 @@ fn keys_are_unique_and_labels_are_lower_case() {
     look(ATTEMPT);
     look(RUN);
     look(AUDIT);
+    look(BALANCE);
     look(SETTLED);
     look(PHASE);
     look(COST);

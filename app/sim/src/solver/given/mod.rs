@@ -36,6 +36,7 @@ impl Solver {
             self.tension();
             self.take_places();
             self.trial.take_history(context.state, context.scheme);
+            self.cut.clone_from(&context.state.rope.cut);
         }
         self.interface.clear();
         let mut on_nodes = core::mem::take(&mut self.tridiagonal.force);

@@ -1,7 +1,8 @@
 //! The rope's pull on the whale over a step: where it touches and where it is made fast.
 //!
 //! Rope's own solver steps are implicit, so the impulse rope gave is `Σ F h` with `F` as each of them ended. What rope is
-//! given the whale loses: momentum is kept to rounding.
+//! given by contact the whale loses: momentum is kept to rounding. Where a line is made fast to the whale, weight, drag and inertia of
+//! the half segment at its end are left out (`balance/summary.rs` tells what that comes to).
 //!
 //! The whale's path over a step is laid before the rope is solved, so the impulse changes its velocity at the end, and what
 //! each `F h` would have moved it until then, `Σ F h (t_end - t)/m`, is made up for over the next step. With one solver step in a
