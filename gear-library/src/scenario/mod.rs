@@ -185,9 +185,9 @@ impl Scenario {
         }
         if let (Some(friction), false) = (&self.rope_friction, self.rope_on_rope) {
             let message = "`rope_friction` is given, but ropes pass through each other here";
-            fields.problems().push(
-                friction.place.error(message, "take it out, or `rope_on_rope = false`"),
-            );
+            fields
+                .problems()
+                .push(friction.place.error(message, "take it out, or `rope_on_rope = false`"));
         }
         if self.gear.len() > 1 {
             for gear in self.gear.iter().filter(|gear| gear.id.is_none()) {
