@@ -1,5 +1,5 @@
 #!/bin/sh
-# Draws the pictures of docs/gear-types.md and docs/entanglement.md: settles each template, lays each wrap and renders it, without
+# Draws the pictures of docs/gear-types.md and docs/entanglement.md, and the hitches of docs/lab-notebook.md: settles each template, lays each wrap and renders it, without
 # a display.
 # Run from the workspace root after `cargo build`, with the program as first argument where it is not on the PATH.
 set -eu
@@ -43,6 +43,9 @@ at_rest on-demand-single "25 m" "0.1 m/s" "0.25 m" "90 deg" gear-on-demand --vie
 "$endline" render $scenarios/gillnet.toml --out $pictures/gear-gillnet.png --size 1280x640
 "$endline" render $scenarios/gillnet.toml --out $pictures/gear-gillnet-end.png --size 960x480 --fit bridle-top,headline-1,headline-2,leadline-2
 "$endline" render $scenarios/time-tension-cutter.toml --at 25 --out $pictures/gear-cutter.png --size 960x600
+
+"$endline" render $scenarios/twisted-bight.toml --at 16 --view orbit --fit endline --size 960x480 --out $pictures/twisted-bight.png
+"$endline" render $scenarios/hitches.toml --at 3 --view front --fit "half hitches" --size 640x400 --out $pictures/hitches.png
 
 # part, turns, ends of the rope, pitch, length, view, picture and azimuth: rope wound about a right whale that heads east
 wrapped() {

@@ -2,15 +2,16 @@
 //!
 //! The numbers after `--` are how many encounters, and the first of them (usually 10,000 from 0). The same encounters are run
 //! with tests at the end of each step alone, as many as a tenth of them (`docs/lab-notebook.md`, Tunnelling); the word `swept` leaves these out.
+//! With the word `ropes` the piece meets two strands of rope that cross, or one rope in a loop, and rope meets rope and skin at once.
 //! With the word `bodies` it is buoys and traps that meet pieces of all of the skin.
 
 #[path = "../tests/all/fins/mod.rs"]
 mod fins;
 
 use cpu_time::ProcessTime;
-use fins::Fins;
 use fins::bodies::{self, Pieces};
 use fins::tally::Tally;
+use fins::{Encounter, Fins};
 
 /// Encounters between two lines of the report.
 const TOLD_EVERY: u64 = 1_000;
@@ -23,10 +24,14 @@ fn main() {
         return meetings(first..first + count);
     }
     let fins = Fins::new();
-    if !words.iter().any(|word| word == "swept") {
-        run("discrete", &fins, first..first + count / 10, false);
+    if words.iter().any(|word| word == "ropes") {
+        let two = |number| fins.encounter_of_two(number);
+        return run("two strands", first..first + count, two);
     }
-    run("swept", &fins, first..first + count, true);
+    if !words.iter().any(|word| word == "swept") {
+        run("discrete", first..first + count / 10, |number| fins.encounter(number, false));
+    }
+    run("swept", first..first + count, |number| fins.encounter(number, true));
 }
 
 /// Buoys and traps in place of rope: a tenth of the meetings with discrete tests, all along every path.
@@ -42,10 +47,10 @@ fn meetings(numbers: std::ops::Range<u64>) {
     }
 }
 
-fn run(name: &str, fins: &Fins, numbers: std::ops::Range<u64>, swept: bool) {
+fn run(name: &str, numbers: std::ops::Range<u64>, encounter: impl Fn(u64) -> Encounter) {
     let (start, mut tally, last) = (ProcessTime::now(), Tally::default(), numbers.end - 1);
     for number in numbers {
-        tally.add(number, fins.encounter(number, swept));
+        tally.add(number, encounter(number));
         if number == last || tally.encounters.is_multiple_of(TOLD_EVERY) {
             tell(name, &tally, start.elapsed().as_secs_f64());
         }
@@ -53,9 +58,11 @@ fn run(name: &str, fins: &Fins, numbers: std::ops::Range<u64>, swept: bool) {
 }
 
 fn tell(name: &str, tally: &Tally, spent_s: f64) {
-    let Tally { encounters, met, crossed, ended, solver_steps, passes, unconverged, told } = tally;
+    let Tally { encounters, met, met_both, crossed, ropes_crossed, ended, .. } = tally;
+    let Tally { solver_steps, passes, unconverged, told, .. } = tally;
     println!(
-        "{name}: {encounters} encounters, {met} with contact, {crossed} crossed, {ended} ended early, \
+        "{name}: {encounters} encounters, {met} with contact, {met_both} with rope on rope too, {crossed} crossed, {ropes_crossed} crossed rope, \
+         {ended} ended early, \
          {solver_steps} solver steps, {passes} passes, {unconverged} not converged, {:.2} ms each",
         1e3 * spent_s / *encounters as f64
     );

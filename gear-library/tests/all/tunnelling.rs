@@ -29,6 +29,20 @@ fn fast_taut_rope_crosses_no_edge() {
     assert!(discrete.crossed > DISCRETE * 7 / 10, "what the sweep is for: {discrete:?}");
 }
 
+const OF_TWO: u64 = 200;
+
+#[test]
+fn two_strands_between_rope_and_skin_cross_neither() {
+    let (fins, mut tally) = (Fins::new(), Tally::default());
+    (0..OF_TWO).for_each(|number| tally.add(number, fins.encounter_of_two(number)));
+    println!("{tally:?}");
+    assert!(tally.met > OF_TWO * 9 / 10, "most are met: {tally:?}");
+    assert!(tally.met_both > OF_TWO / 2, "rope is between skin and rope in most: {tally:?}");
+    assert_eq!((tally.crossed, tally.ropes_crossed), (0, 0), "{tally:?}");
+    assert!(tally.ended <= OF_TWO / 50, "{tally:?}");
+    assert!(tally.unconverged < tally.solver_steps / 10, "{tally:?}");
+}
+
 const MEETINGS: u64 = 1_000;
 
 #[test]

@@ -27,3 +27,4 @@ mod resolution;
 mod rigs;
 mod ropes;
 mod sea;
+mod twisted_bight;

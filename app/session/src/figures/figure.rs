@@ -125,7 +125,7 @@ impl<S> Figure<S> {
     fn says_something(&self, source: &S) -> bool {
         match (self.read)(source) {
             Value::Absent | Value::Flag(false) | Value::Whole(0) => false,
-            Value::Number(number) => number > 0.0,
+            Value::Number(number) => number.abs() > 0.0,
             _ => true,
         }
     }

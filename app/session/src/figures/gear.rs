@@ -108,6 +108,23 @@ pub static LINE: &[Figure<Line>] = &[
         Quantity::Force,
         |line: &Line| line.summary.whale_friction_n.into(),
     ),
+    Figure::new(
+        "twist",
+        "legs twisted",
+        "Turns at the end that its two legs make about each other beyond the whale, above zero \
+         right-handed; lines joined by splices are one rope.",
+        Quantity::Turns,
+        |line: &Line| line.summary.twist.into(),
+    )
+    .if_any()
+    .shown(&[Table, InSummary, Compare]),
+    Figure::new(
+        "peak_twist",
+        "legs twisted at most",
+        "The most of these turns at any time, with their sign.",
+        Quantity::Turns,
+        |line: &Line| line.summary.peak_twist.into(),
+    ),
 ];
 
 /// Figures of a weak link.

@@ -11,6 +11,8 @@ use super::mesh::{Colour, Mesh};
 const WIRE_M: f32 = 0.15;
 /// Half edge of a fixture as drawn [m].
 const FIXTURE_M: f32 = 0.15;
+/// The same as a share of its line's length, where that is less.
+const FIXTURE_SHARE: f64 = 0.02;
 
 /// Every body at its place in the frame.
 pub fn bodies(model: &Model, frame: &Frame) -> Mesh {
@@ -28,9 +30,11 @@ fn fixtures(mesh: &mut Mesh, model: &Model, frame: &Frame) {
         matches!(model.spec.joints[joint].kind, JointKind::Fixed | JointKind::Driven { .. })
     };
     for (line, nodes) in model.spec.lines.iter().zip(&model.line_nodes) {
+        let whole_m: f64 = line.segments_m.iter().sum();
+        let half = Vec3::splat(FIXTURE_M.min((FIXTURE_SHARE * whole_m) as f32));
         for (joint, node) in [(line.from, nodes.start), (line.to, nodes.end - 1)] {
             if let (true, Some(place)) = (held(joint), frame.nodes.get(node)) {
-                mesh.block(&DAffine3::from_translation(*place), Vec3::splat(FIXTURE_M), STEEL);
+                mesh.block(&DAffine3::from_translation(*place), half, STEEL);
             }
         }
     }

@@ -8,6 +8,7 @@ use glam::DVec3;
 use super::event::{EventKind, Log};
 use super::gear_loads::line_drag;
 use super::summary::{LineSummary, LinkSummary};
+use super::whale::WhaleMeter;
 use crate::model::Model;
 use crate::state::State;
 
@@ -98,20 +99,26 @@ impl LineMeter {
         &self,
         model: &Model,
         state: &State,
-        on_whale: &[[f64; 2]],
+        whale: Option<&WhaleMeter>,
     ) -> Vec<LineSummary> {
-        let on_whale = |line: usize| on_whale.get(line).copied().unwrap_or_default();
-        let summary = |(index, peak): (usize, &Peak)| LineSummary {
-            drag_n: line_drag(model, state, index),
-            whale_normal_n: on_whale(index)[0],
-            whale_friction_n: on_whale(index)[1],
-            id: model.spec.lines[index].id.clone(),
-            peak_tension_n: peak.tension_n,
-            peak_at_s: peak.at_s,
-            unconverged_peak_n: peak.unconverged_n,
-            end_a_tension_n: end_tension(model, state, index, LineEnd::A),
-            end_b_tension_n: end_tension(model, state, index, LineEnd::B),
-            parted_at_s: state.line_parted[index].map(|(time, _)| time),
+        let summary = |(index, peak): (usize, &Peak)| {
+            let [whale_normal_n, whale_friction_n] =
+                whale.map_or([0.0; 2], |whale| whale.on_line(index));
+            let [twist, peak_twist] = whale.map_or([0.0; 2], |whale| whale.twist(model, index));
+            LineSummary {
+                drag_n: line_drag(model, state, index),
+                whale_normal_n,
+                whale_friction_n,
+                twist,
+                peak_twist,
+                id: model.spec.lines[index].id.clone(),
+                peak_tension_n: peak.tension_n,
+                peak_at_s: peak.at_s,
+                unconverged_peak_n: peak.unconverged_n,
+                end_a_tension_n: end_tension(model, state, index, LineEnd::A),
+                end_b_tension_n: end_tension(model, state, index, LineEnd::B),
+                parted_at_s: state.line_parted[index].map(|(time, _)| time),
+            }
         };
         self.lines.iter().enumerate().map(summary).collect()
     }

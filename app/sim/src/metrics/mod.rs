@@ -24,6 +24,7 @@ mod strands;
 mod summary;
 mod touches;
 mod trailing;
+mod twist;
 mod whale;
 mod winding;
 mod window;
@@ -45,6 +46,7 @@ pub use summary::{
     BeatSummary, BodyOnWhale, BodySummary, KineticSummary, LineSummary, LinkSummary, Outcome,
     PatchSummary, ProbeSummary, RegionSummary, Summary, WhaleSummary,
 };
+pub use twist::BESIDE_M;
 pub use winding::{BRIDGED_GAP_M, WINDING_JUMP};
 pub use window::DRAG_WINDOW_S;
 pub use wraps::LOOSE_M;
@@ -131,11 +133,7 @@ impl Metrics {
     pub fn summary(&self, model: &Model, state: &State) -> Summary {
         let bodies = self.bodies.summary(model, state);
         Summary {
-            lines: self.lines.lines(
-                model,
-                state,
-                self.whale.as_ref().map(whale::WhaleMeter::on_lines).unwrap_or_default(),
-            ),
+            lines: self.lines.lines(model, state, self.whale.as_ref()),
             links: self.lines.links(model, state),
             probes: self.probes.summary(model),
             whale: self.whale.as_ref().map(|whale| whale.summary(model, state, &bodies)),

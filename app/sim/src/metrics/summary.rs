@@ -44,6 +44,10 @@ pub struct LineSummary {
     pub whale_normal_n: f64,
     /// Sum of the friction forces between it and the whale now [N].
     pub whale_friction_n: f64,
+    /// Turns that the two legs of its strand make about each other beyond the whale now, above zero right-handed [turns].
+    pub twist: f64,
+    /// The most of those at any time, with their sign [turns].
+    pub peak_twist: f64,
 }
 
 /// What a weak link bore.

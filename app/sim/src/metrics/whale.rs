@@ -17,6 +17,7 @@ use super::strands::Strands;
 use super::summary::{BodySummary, RegionSummary, WhaleSummary};
 use super::touches::Touches;
 use super::trailing::Reach;
+use super::twist::TwistMeter;
 use super::winding::Winding;
 use super::window::Window;
 use super::wraps::WrapMeter;
@@ -34,6 +35,7 @@ pub(super) struct WhaleMeter {
     skin: Arc<Skin>,
     winding: Winding,
     wraps: WrapMeter,
+    twists: TwistMeter,
     mouth: Mouth,
     /// Normal and friction forces on each line now [N].
     on_lines: Vec<[f64; 2]>,
@@ -55,6 +57,7 @@ impl WhaleMeter {
         let strands = Strands::new(model);
         Some(Self {
             wraps: WrapMeter::new(&skin, &strands),
+            twists: TwistMeter::new(&strands),
             mouth: Mouth::new(&skin),
             on_lines: vec![[0.0; 2]; model.spec.lines.len()],
             winding: Winding::new(&skin, strands),
@@ -85,6 +88,7 @@ impl WhaleMeter {
         self.press.fold(model, state, contacts, dt_s);
         self.winding.fold(&self.skin, contacts, &state.rope);
         self.wraps.fold(model, state, whale, &self.winding.strands, contacts);
+        self.twists.fold(model, state, &self.winding.strands, contacts);
         self.mouth.fold(&self.skin, contacts, state.time_s, log);
         for (line, sums) in self.on_lines.iter_mut().enumerate() {
             *sums = on_line(contacts, line);
@@ -102,9 +106,15 @@ impl WhaleMeter {
         self.encounter.fold(state.time_s, dt_s, touching, most, log);
     }
 
-    /// Normal and friction forces on each line now [N].
-    pub(super) fn on_lines(&self) -> &[[f64; 2]] {
-        &self.on_lines
+    /// Normal and friction forces on a line now [N].
+    pub(super) fn on_line(&self, line: usize) -> [f64; 2] {
+        self.on_lines[line]
+    }
+
+    /// Twist of the legs of the strand that a line belongs to, now and greatest, with their signs [turns].
+    pub(super) fn twist(&self, model: &Model, line: usize) -> [f64; 2] {
+        let place = self.winding.strands.places.get(model.line_segments[line].start);
+        place.map_or([0.0; 2], |place| self.twists.of(place.strand))
     }
 
     pub(super) fn summary(

@@ -259,7 +259,12 @@ impl End {
 }
 
 /// The two ends of a segment in the order of its strand.
-fn ends_of(model: &Model, state: &State, strands: &Strands, segment: usize) -> [DVec3; 2] {
+pub(super) fn ends_of(
+    model: &Model,
+    state: &State,
+    strands: &Strands,
+    segment: usize,
+) -> [DVec3; 2] {
     let line = model.segment_line[segment];
     let node = model.line_nodes[line].start + segment - model.line_segments[line].start;
     let ends = [state.rope.position[node], state.rope.position[node + 1]];

@@ -15,6 +15,7 @@ pub mod bodies;
 mod dice;
 mod piece;
 pub mod rig;
+mod ropes;
 pub mod tally;
 
 use dice::Dice;

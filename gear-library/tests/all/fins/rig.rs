@@ -84,59 +84,86 @@ impl Taut {
     /// All of the encounter: the rope, held at one end and pulled at the other, and the whale.
     pub fn rig(&self, whale: Whale, friction: f64, settings: Settings) -> ModelSpec {
         let Self { held, along, pull_n, radius_m, length_m, segments } = *self;
-        let segment_m = length_m / segments as f64;
-        let stretched = segment_m * (1.0 + pull_n / EA_N);
-        let start_m: Vec<DVec3> =
-            (0..=segments).map(|node| held + along * (stretched * node as f64)).collect();
-        let segments_m = vec![segment_m; segments];
-        let joint = |id: &str, kind, position_m| Joint { id: id.into(), kind, position_m };
-        let pulled = JointKind::Pulled { force_n: along * pull_n, from_s: -1.0 };
-        let joints =
-            vec![joint("held", JointKind::Fixed, held), joint("pulled", pulled, start_m[segments])];
-        let line = Line {
-            id: "rope".into(),
-            rope: 0,
-            from: 0,
-            to: 1,
-            segments_m,
-            strength: Strength::default(),
-            knots_m: [0.0; 2],
-            start_m,
-        };
-        let coulomb = Coulomb::new();
-        let attributes = coulomb
-            .descriptor()
-            .attributes
-            .iter()
-            .filter_map(|attribute| attribute.default_value().number())
-            .collect();
-        let current = Current::uniform(DVec3::ZERO);
-        ModelSpec {
-            water: Water {
-                density_kg_m3: 1025.0,
-                gravity_m_s2: 9.81,
-                depth_m: 100.0,
-                rope_dries: false,
-                current,
-                waves: None,
-            },
-            seabed: None,
-            ropes: vec![rope(2.0 * radius_m)],
-            joints,
-            lines: vec![line],
-            bodies: Vec::new(),
-            links: Vec::new(),
-            gear: Vec::new(),
-            whale: Some(whale),
-            friction: Some(Friction::of_one(
-                Arc::new(coulomb),
-                attributes,
-                vec![[friction; Region::ALL.len()]],
-            )),
-            obstacles: Vec::new(),
-            probes: Vec::new(),
-            settings,
-        }
+        let stretched = length_m / segments as f64 * (1.0 + pull_n / EA_N);
+        let nodes = (0..=segments).map(|node| held + along * (stretched * node as f64)).collect();
+        sea(whale, &[Strand { nodes, pull_n }], radius_m, friction, settings)
+    }
+}
+
+/// A rope as it lies, held where it begins and pulled straight on at its end.
+pub struct Strand {
+    pub nodes: Vec<DVec3>,
+    pub pull_n: f64,
+}
+
+/// Ropes in still water, and the whale.
+pub fn sea(
+    whale: Whale,
+    strands: &[Strand],
+    radius_m: f64,
+    friction: f64,
+    settings: Settings,
+) -> ModelSpec {
+    let (mut joints, mut lines) = (Vec::new(), Vec::new());
+    for (number, strand) in strands.iter().enumerate() {
+        joints.extend(ends(strand));
+        lines.push(line(strand, number));
+    }
+    let coulomb = Coulomb::new();
+    let attributes = coulomb
+        .descriptor()
+        .attributes
+        .iter()
+        .filter_map(|attribute| attribute.default_value().number())
+        .collect();
+    ModelSpec {
+        water: Water {
+            density_kg_m3: 1025.0,
+            gravity_m_s2: 9.81,
+            depth_m: 100.0,
+            rope_dries: false,
+            current: Current::uniform(DVec3::ZERO),
+            waves: None,
+        },
+        seabed: None,
+        ropes: vec![rope(2.0 * radius_m)],
+        joints,
+        lines,
+        bodies: Vec::new(),
+        links: Vec::new(),
+        gear: Vec::new(),
+        whale: Some(whale),
+        friction: Some(Friction::of_one(
+            Arc::new(coulomb),
+            attributes,
+            vec![[friction; Region::ALL.len()]],
+        )),
+        obstacles: Vec::new(),
+        probes: Vec::new(),
+        settings,
+    }
+}
+
+/// The two ends of a rope: held, and pulled straight on.
+fn ends(strand: &Strand) -> [Joint; 2] {
+    let joint = |id: &str, kind, position_m| Joint { id: id.into(), kind, position_m };
+    let last = strand.nodes.len() - 1;
+    let onward = (strand.nodes[last] - strand.nodes[last - 1]).normalize();
+    let pulled = JointKind::Pulled { force_n: onward * strand.pull_n, from_s: -1.0 };
+    [joint("held", JointKind::Fixed, strand.nodes[0]), joint("pulled", pulled, strand.nodes[last])]
+}
+
+fn line(Strand { nodes, pull_n }: &Strand, number: usize) -> Line {
+    let unstretched = |ends: &[DVec3]| ends[0].distance(ends[1]) / (1.0 + pull_n / EA_N);
+    Line {
+        id: "rope".into(),
+        rope: 0,
+        from: 2 * number,
+        to: 2 * number + 1,
+        segments_m: nodes.windows(2).map(unstretched).collect(),
+        strength: Strength::default(),
+        knots_m: [0.0; 2],
+        start_m: nodes.clone(),
     }
 }
 

@@ -14,6 +14,10 @@ pub struct Tally {
     pub met: u64,
     /// In which rope crossed skin, by the exact test of the paths or by a look at each end of a step.
     pub crossed: u64,
+    /// In which rope crossed rope, by the exact test of the paths.
+    pub ropes_crossed: u64,
+    /// In which rope was pressed on by skin and by rope at once.
+    pub met_both: u64,
     /// That ended for another reason.
     pub ended: u64,
     pub solver_steps: u64,
@@ -29,6 +33,8 @@ impl Tally {
         self.encounters += other.encounters;
         self.met += other.met;
         self.crossed += other.crossed;
+        self.ropes_crossed += other.ropes_crossed;
+        self.met_both += other.met_both;
         self.ended += other.ended;
         self.solver_steps += other.solver_steps;
         self.passes += other.passes;
@@ -42,23 +48,34 @@ impl Tally {
         let Encounter { speed_m_s, pull_n, steps, spec } = encounter;
         let model = Model::new(spec).expect("a sound model");
         let (mut state, mut workspace) = (State::start(&model), Workspace::new(&model));
-        let (mut met, mut crossed, mut ended) = (false, false, None);
-        while state.step < steps && !crossed && ended.is_none() {
+        let (mut met, mut met_both, mut crossed, mut ended) = (false, false, false, None);
+        let mut ropes_crossed = false;
+        while state.step < steps && !crossed && !ropes_crossed && ended.is_none() {
             ended = step(&model, &Input::default(), &mut state, &mut workspace).err();
             met |= workspace.audit.least_distance_m.is_some();
+            met_both |= is_between(&workspace);
+            ropes_crossed = workspace.audit.ropes_crossed > 0;
             crossed = workspace.audit.tunnelled > 0 || is_pierced(&model, &state);
         }
         self.encounters += 1;
         self.met += u64::from(met);
         self.crossed += u64::from(crossed);
+        self.ropes_crossed += u64::from(ropes_crossed);
+        self.met_both += u64::from(met_both);
         self.ended += u64::from(ended.is_some() && !crossed);
         self.solver_steps += workspace.audit.solver_steps;
         self.passes += workspace.audit.passes;
         self.unconverged += workspace.audit.unconverged;
-        if (crossed || ended.is_some()) && self.told.len() < 10 {
-            self.told.push(format!("encounter {number}, {speed_m_s:.1} m/s, {pull_n:.0} N: crossed {crossed}, {ended:?}"));
+        if (crossed || ropes_crossed || ended.is_some()) && self.told.len() < 10 {
+            self.told.push(format!("encounter {number}, {speed_m_s:.1} m/s, {pull_n:.0} N: crossed {crossed}, rope {ropes_crossed}, {ended:?}"));
         }
     }
+}
+
+/// Whether rope is pressed on by skin and by rope.
+fn is_between(workspace: &Workspace) -> bool {
+    let pressed = workspace.contacts.iter().any(|contact| contact.normal_force_n > 0.0);
+    pressed && workspace.rope_touches.iter().any(|touch| touch.normal_force_n > 0.0)
 }
 
 /// Whether any segment passes through any triangle where they stand.
@@ -69,9 +86,8 @@ pub fn is_pierced(model: &Model, state: &State) -> bool {
     skin_all(&whale.skin, &bones, &mut places);
     let skin =
         || whale.skin.triangles.iter().map(|corners| corners.map(|corner| places[corner as usize]));
-    state
-        .rope
-        .position
-        .windows(2)
+    let lines = model.line_nodes.iter().map(|nodes| &state.rope.position[nodes.clone()]);
+    lines
+        .flat_map(|nodes| nodes.windows(2))
         .any(|ends| skin().any(|triangle| pierces([ends[0], ends[1]], triangle)))
 }

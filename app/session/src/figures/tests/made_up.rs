@@ -149,6 +149,8 @@ fn line(id: &str, next: &mut Numbers) -> LineSummary {
         drag_n: next.vector(),
         whale_normal_n: next.real(),
         whale_friction_n: next.real(),
+        twist: next.real(),
+        peak_twist: next.real(),
     }
 }
 
