@@ -28,6 +28,20 @@ pub(crate) struct SkinTouches<'a> {
     pub bodies: &'a [BodyContact],
 }
 
+/// Force of a source on many nodes, and its power [N, W].
+#[derive(Clone, Copy, Default)]
+struct Pushed {
+    force: DVec3,
+    power: f64,
+}
+
+impl Pushed {
+    fn add(&mut self, force: DVec3, velocity: DVec3) {
+        self.force += force;
+        self.power += force.dot(velocity);
+    }
+}
+
 impl Solver {
     /// What each source gave in a step that is solved and not yet kept.
     pub(crate) fn given(&mut self, context: &StepContext<'_>, skin: &SkinTouches<'_>) -> Given {
@@ -65,6 +79,8 @@ impl Solver {
     fn give_nodes(&self, context: &StepContext<'_>, on_nodes: &mut [DVec3], given: &mut Given) {
         let StepContext { model, state, scheme } = *context;
         let shared = Shared::of(model, scheme);
+        let (mut of_weight, mut of_water, mut momentum_ns) =
+            (Pushed::default(), Pushed::default(), DVec3::ZERO);
         for (line, nodes) in model.spec.lines.iter().zip(&model.line_nodes) {
             let rope = PerMetre::of(&model.spec.ropes[line.rope], &model.spec.water);
             for node in nodes.clone() {
@@ -76,12 +92,17 @@ impl Solver {
                 let weight = DVec3::Z * -(rope.weight * at.length);
                 let inertial =
                     (velocity - self.trial.velocity_history[node]) * (scheme.rate * mass);
-                given.at_end.add(Source::Weight, weight, velocity);
-                given.at_end.add(Source::Water, force - weight + inertial, velocity);
-                given.momentum_ns += (velocity - state.rope.velocity[node]) * mass;
+                of_weight.add(weight, velocity);
+                of_water.add(force - weight + inertial, velocity);
+                momentum_ns += (velocity - state.rope.velocity[node]) * mass;
                 on_nodes[node] = force;
             }
         }
+        for (source, pushed) in [(Source::Weight, of_weight), (Source::Water, of_water)] {
+            given.at_end.push[source as usize] += pushed.force;
+            given.at_end.work[source as usize] += pushed.power;
+        }
+        given.momentum_ns += momentum_ns;
     }
 
     /// The seabed under rope.
@@ -112,6 +133,10 @@ impl Solver {
                 self.trial.place[node + 1] - self.trial.place[node],
                 self.lengths.segment[segment],
             );
+            let is_slack = self.trial.tension[segment] <= 0.0;
+            if is_slack && between.length_squared() <= length * length {
+                continue;
+            }
             let chord = between.length();
             let apart = self.velocity_of(context, node + 1) - self.velocity_of(context, node);
             let speed = between.dot(apart) / chord.max(TINY_M);
