@@ -116,7 +116,6 @@ pub static LINE: &[Figure<Line>] = &[
         Quantity::Turns,
         |line: &Line| line.summary.twist.into(),
     )
-    .if_any()
     .shown(&[Table, InSummary, Compare]),
     Figure::new(
         "peak_twist",

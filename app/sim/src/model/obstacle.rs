@@ -2,7 +2,6 @@
 
 use glam::{DQuat, DVec3};
 
-use crate::solids::Pose;
 use crate::solids::shape::SolidShape;
 
 /// Stiffness of rope pressed on something hard, by length of rope [N/m²]: of the order of the transverse modulus of
@@ -24,11 +23,4 @@ pub struct Obstacle {
     pub friction: f64,
     /// Stiffness under rope, by length of rope [N/m²].
     pub stiffness_n_m2: f64,
-}
-
-impl Obstacle {
-    /// Where it stands.
-    pub(crate) fn pose(&self) -> Pose {
-        Pose { place: self.position_m, orientation: self.orientation }
-    }
 }

@@ -38,6 +38,13 @@ pub(crate) struct Pose {
     pub orientation: DQuat,
 }
 
+impl Obstacle {
+    /// Where it stands.
+    pub(crate) fn pose(&self) -> Pose {
+        Pose { place: self.position_m, orientation: self.orientation }
+    }
+}
+
 impl Pose {
     /// Where a body is.
     pub fn of(body: &BodyState) -> Self {

@@ -12,9 +12,9 @@ use glam::{DMat3, DVec3};
 use super::Solver;
 use super::interface::Attachment;
 use super::rope::outer;
-use super::rotation::momentum_rate;
 use super::scheme::Scheme;
 use super::trial::BodyTrial;
+use super::trial::rotation::momentum_rate;
 use crate::model::{Body, Float, Model};
 use crate::state::State;
 

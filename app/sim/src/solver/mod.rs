@@ -30,7 +30,6 @@ mod pulled;
 mod residual;
 mod rope;
 mod rope_on_rope;
-mod rotation;
 mod scheme;
 mod seabed;
 mod skin;

@@ -1,10 +1,12 @@
 //! The state being solved for: places at the end of the step, and the history they are measured from.
 
+pub(super) mod rotation;
+
 use glam::{DQuat, DVec3};
 
+use self::rotation::turn_history;
 use super::interface::Attachment;
 use super::plan::Plan;
-use super::rotation::turn_history;
 use super::scheme::Scheme;
 use crate::model::{JointKind, Model};
 use crate::solids::Pose;

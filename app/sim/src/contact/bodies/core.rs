@@ -4,13 +4,15 @@
 //! rounded by `h`. Distances of points and rods are exact (`contact/distance.rs`); that of a box is found by the algorithm of Gilbert, Johnson and
 //! Keerthi (1988, doi:10.1109/56.2083), of the library parry.
 
+pub(crate) mod obstacle_core;
+
 use glam::DVec3;
 use parry3d::math::Pose as Frame;
 use parry3d::query::ClosestPoints;
 use parry3d::query::details::closest_points_support_map_support_map;
 use parry3d::shape::{Cuboid, Triangle};
 
-use super::obstacle_core::Cylinder;
+use self::obstacle_core::Cylinder;
 use crate::contact::distance::{point_triangle, segment_triangle};
 use crate::contact::placed::on_triangle;
 use crate::model::{Body, Shape};

@@ -13,7 +13,6 @@ pub(crate) mod core;
 pub(crate) mod gather;
 mod keep;
 pub(crate) mod measure;
-pub(crate) mod obstacle_core;
 pub(crate) mod path;
 mod press;
 pub(crate) mod shares;

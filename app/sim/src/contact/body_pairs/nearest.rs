@@ -11,8 +11,8 @@ use parry3d::query::details::{
 use parry3d::query::{ClosestPoints, ContactManifold};
 use parry3d::shape::{Segment, SupportMap};
 
+use crate::contact::bodies::core::obstacle_core::Cylinder;
 use crate::contact::bodies::core::{BodyCore, Core};
-use crate::contact::bodies::obstacle_core::Cylinder;
 use crate::contact::distance::segment_segment;
 use crate::solids::Pose;
 

@@ -4,7 +4,7 @@ use glam::{DMat3, DVec3};
 
 use crate::balance::{Given, Source};
 use crate::solver::context::StepContext;
-use crate::solver::rotation::momentum_rate;
+use crate::solver::trial::rotation::momentum_rate;
 use crate::solver::{Solver, body};
 
 /// Velocity and spin of a body [m/s, rad/s].

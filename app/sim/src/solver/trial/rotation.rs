@@ -19,9 +19,9 @@
 
 use glam::{DMat3, DQuat, DVec3};
 
-use super::interface::cross_matrix;
-use super::scheme::Scheme;
-use super::trial::BodyTrial;
+use super::BodyTrial;
+use crate::solver::interface::cross_matrix;
+use crate::solver::scheme::Scheme;
 use crate::state::BodyState;
 
 impl BodyTrial {
@@ -44,7 +44,7 @@ pub(super) fn turn_history(now: &BodyState, scheme: &Scheme) -> DVec3 {
 }
 
 /// Rate at which a body of these moments of inertia gains angular momentum [N m], and its growth with a turn [N m/rad].
-pub(super) fn momentum_rate(
+pub(in crate::solver) fn momentum_rate(
     trial: &BodyTrial,
     now: &BodyState,
     inertia_kg_m2: DVec3,

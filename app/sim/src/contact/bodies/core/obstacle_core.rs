@@ -6,7 +6,7 @@
 use glam::DVec3;
 use parry3d::shape::{Cuboid, SupportMap};
 
-use super::core::{BodyCore, Core, ROUNDED_M, ROUNDED_SHARE};
+use super::{BodyCore, Core, ROUNDED_M, ROUNDED_SHARE};
 use crate::model::Obstacle;
 use crate::solids::SolidShape;
 
