@@ -185,6 +185,7 @@ impl Solver {
         }
         self.note_solved_bodies();
         self.note_solved_body_pairs();
+        done.standing_m = self.longest_of_standing(context.model);
         done
     }
 
@@ -225,6 +226,7 @@ impl Solver {
         PassDone {
             longest_m: if finite { self.longest() } else { f64::NAN },
             body_m: self.longest_of_bodies(),
+            standing_m: 0.0,
             gap_n,
             turned_n,
             greatest_n,
@@ -267,6 +269,7 @@ impl Solver {
         PassDone {
             longest_m: if passed.finite { passed.longest_m } else { f64::NAN },
             body_m: self.longest_of_bodies(),
+            standing_m: 0.0,
             gap_n: passed.gap_n.max(passed.flipped_n),
             turned_n: passed.turned_n,
             greatest_n: passed.greatest_n,

@@ -9,7 +9,7 @@
 //! | push and friction on a contact point of skin, likewise | 0.1 N, or 2 % of the greatest | in contact |
 //! | the same of rope on rope and on obstacles | 10 mN, or 0.2 % | in contact |
 //! | the same of rope on bodies of the rig | 1 mN, or 0.02 % | in contact |
-//! | move of a body in the last solution | 0.1 mm | in contact |
+//! | move of a body in the last solution | 0.1 mm | in contact; of one that stands on the seabed in any kind |
 //! | move of the last solution | 1 mm, or 2 % of the shortest segment, if that is less | free |
 //! | move that is left, where rope resists bending | 10 µm | of any kind |
 //!
@@ -71,8 +71,9 @@ const MOST_SHORT_PASSES: usize = 24;
 pub(super) struct PassDone {
     /// Longest move of a node or body that it solved for [m].
     pub longest_m: f64,
-    /// Longest move of a body [m].
+    /// Longest move of a body, and of one that stands on the seabed [m].
     pub body_m: f64,
+    pub standing_m: f64,
     /// Greatest difference between the tension that it solved for and the one at its place [N].
     pub gap_n: f64,
     /// The same across the rope, as segments turn [N].
@@ -169,7 +170,8 @@ impl Stopping {
     /// What a pass missed by, as a share of what is allowed; `before_m` is how far the pass before it moved [m].
     pub fn missed(&self, done: &PassDone, contact: ContactMissed, before_m: f64) -> f64 {
         let tension_n = self.tension_n(done.greatest_n);
-        let mut missed = done.gap_n / tension_n;
+        let body_move_m = self.leniency * BODY_MOVE_M;
+        let mut missed = (done.gap_n / tension_n).max(done.standing_m / body_move_m);
         if self.bends {
             let shrinkage = (done.longest_m / before_m).min(0.9999);
             let left_m = done.longest_m * shrinkage / (1.0 - shrinkage);
@@ -184,7 +186,7 @@ impl Stopping {
         missed
             .max(done.turned_n / tension_n)
             .max(contact.gap_n / contact_n)
-            .max(done.body_m / (self.leniency * BODY_MOVE_M))
+            .max(done.body_m / body_move_m)
     }
 
     /// Whether a step may end after its first pass.

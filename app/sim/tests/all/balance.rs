@@ -170,8 +170,8 @@ fn a_box_that_slides_to_rest_gives_the_seabed_its_momentum() {
     let told = summary(&model, &state, &workspace);
     let seabed = impulse(&told, Source::Seabed);
     println!("{told:?}");
-    // The box is set going within its grip, which breaks in the first step: that misses by a quarter of a newton second.
-    assert!((seabed.x + 18.0).abs() < 0.3, "{seabed}");
+    // The grip breaks within the first step, which misses by a tenth of a newton second.
+    assert!((seabed.x + 18.0).abs() < 0.15, "{seabed}");
     assert!((seabed.z - 18.0 * 9.81 * 2.0).abs() < 0.05, "{seabed}");
     assert!(told.residual_share() < 1e-3, "{}", told.residual_share());
     let motion_j = 0.5 * 18.0;

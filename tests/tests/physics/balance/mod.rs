@@ -1,5 +1,7 @@
 //! Forces on a body from the model's figures, summed apart from the solver.
 
+use std::collections::BTreeMap;
+
 use endline_sim::model::{Float, JointKind, Seabed};
 use endline_sim::state::BodyState;
 use endline_sim::{DVec3, Model, State};
@@ -9,7 +11,7 @@ const SURFACE_HEIGHT_M: f64 = 0.1;
 /// Depth over which the seabed's push sets in (docs/physics.md) [m].
 const ONSET_M: f64 = 0.01;
 
-/// Sum of the vertical forces on a body: weight, floats, drag, seabed, line ends [N].
+/// Sum of the vertical forces on a body: weight, floats, drag, seabed, line ends, rope that rests on it [N].
 pub fn vertical(model: &Model, state: &State, index: usize) -> f64 {
     let (body, now) = (&model.spec.bodies[index], &state.bodies[index]);
     let water = &model.spec.water;
@@ -30,7 +32,59 @@ pub fn vertical(model: &Model, state: &State, index: usize) -> f64 {
         body.floats.iter().map(|float| drag_by(float.drag_area_m2 * wet(float))).sum::<DVec3>();
     let drag = drag_by(body.drag_area_m2 * wet_share) + of_floats;
     let weight = (water.density_kg_m3 * displaced - body.mass_kg) * water.gravity_m_s2;
-    weight + drag.z + seabed(model, now, &body.feet_m) + line_ends(model, state, index)
+    weight
+        + drag.z
+        + seabed(model, now, &body.feet_m)
+        + line_ends(model, state, index)
+        + resting(model, state, index)
+}
+
+/// What rope near a body lacks to balance itself, away from its ends at bodies and fixtures: that it rests on the body with [N].
+fn resting(model: &Model, state: &State, index: usize) -> f64 {
+    let (body, now) = (&model.spec.bodies[index], &state.bodies[index]);
+    let reach_m = body.shape.corners()[7].length();
+    let near = |(place, longest_m, _): &&(DVec3, f64, f64)| {
+        place.distance(now.position) < reach_m + longest_m
+    };
+    free_places(model, state).values().filter(near).map(|(_, _, force_n)| force_n).sum()
+}
+
+/// Every free joint, and every node within a line: where it is, its longest segment [m], and the vertical force of rope on it [N].
+fn free_places(model: &Model, state: &State) -> BTreeMap<(bool, usize), (DVec3, f64, f64)> {
+    let mut places = BTreeMap::new();
+    for ((line, nodes), segments) in
+        model.spec.lines.iter().zip(&model.line_nodes).zip(&model.line_segments)
+    {
+        let position = &state.rope.position[nodes.clone()];
+        let lengths = &state.rope.segment_length[segments.clone()];
+        for (k, node) in nodes.clone().enumerate() {
+            let key = match k {
+                0 => (true, line.from),
+                _ if k == lengths.len() => (true, line.to),
+                _ => (false, node),
+            };
+            if key.0 && !matches!(model.spec.joints[key.1].kind, JointKind::Free) {
+                continue;
+            }
+            let [before, after] = [k.saturating_sub(1), (k + 1).min(lengths.len())];
+            let beside = &lengths[before..after];
+            let tangent = (position[after] - position[before]).normalize();
+            let pull = |other: usize, length_m: f64| {
+                pull_z(model, line.rope, length_m, [position[k], position[other]])
+            };
+            let pulls: f64 = [before, after]
+                .into_iter()
+                .filter(|other| *other != k)
+                .map(|other| pull(other, lengths[k.min(other)]))
+                .sum();
+            let hanging_m = 0.5 * beside.iter().sum::<f64>();
+            let force_n = pulls + load_z(model, line.rope, position[k], tangent) * hanging_m;
+            let (_, longest_m, sum_n) = places.entry(key).or_insert((position[k], 0.0, 0.0));
+            *longest_m = beside.iter().copied().fold(*longest_m, f64::max);
+            *sum_n += force_n;
+        }
+    }
+    places
 }
 
 /// Upward push of a level seabed on a body's feet [N].
@@ -70,11 +124,23 @@ fn line_ends(model: &Model, state: &State, index: usize) -> f64 {
     sum
 }
 
+/// Pull of a segment on its end, with weight, drag and bed of the half of it next to it [N].
 fn end_force(model: &Model, rope: usize, length_m: f64, [at, next]: [DVec3; 2]) -> f64 {
-    let (rope, water) = (&model.spec.ropes[rope], &model.spec.water);
-    let (chord, tangent) = ((next - at).length(), (next - at).normalize());
-    let strain = (chord / length_m - 1.0).max(0.0);
+    let tangent = (next - at).normalize();
+    pull_z(model, rope, length_m, [at, next]) + load_z(model, rope, at, tangent) * (length_m / 2.0)
+}
+
+/// Upward pull of a segment on its end [N].
+fn pull_z(model: &Model, rope: usize, length_m: f64, [at, next]: [DVec3; 2]) -> f64 {
+    let (rope, between) = (&model.spec.ropes[rope], next - at);
+    let strain = (between.length() / length_m - 1.0).max(0.0);
     let tension = rope.axial_stiffness_n * strain + rope.axial_stiffening_n * strain * strain;
+    tension * between.normalize().z
+}
+
+/// Upward force of weight, drag and bed on a metre of rope [N/m].
+fn load_z(model: &Model, rope: usize, at: DVec3, tangent: DVec3) -> f64 {
+    let (rope, water) = (&model.spec.ropes[rope], &model.spec.water);
     let wet = (0.5 - at.z / SURFACE_HEIGHT_M).clamp(0.0, 1.0);
     let weight =
         (water.density_kg_m3 * rope.displaced_m3_m * wet - rope.mass_kg_m) * water.gravity_m_s2;
@@ -86,7 +152,7 @@ fn end_force(model: &Model, rope: usize, length_m: f64, [at, next]: [DVec3; 2]) 
     let drag = sides * (0.5 * water.density_kg_m3 * rope.diameter_m * wet);
     // An end that lies on the bed itself, as that of an overturned trap, is pushed up too.
     let bed = model.spec.seabed.as_ref().map_or(0.0, |bed| push(bed, at) * bed.rope_stiffness_n_m2);
-    tension * tangent.z + (weight + drag.z + bed) * (length_m / 2.0)
+    weight + drag.z + bed
 }
 
 /// Push of a level seabed on a point, over its stiffness [m].

@@ -1,5 +1,5 @@
 //! Rigs drawn at random from the library, each from its seed: ropes, traps, anchors, buoys, weak links, bridles, the laws
-//! of stretch, depth, current, seabed, resolution. Rope passes through bodies: the balance that they are checked by counts the ends of lines alone.
+//! of stretch, depth, current, seabed, resolution.
 
 use endline_gear::{Kind, Library, Options, Rope, Scenario, Sources, assemble};
 use endline_sim::Model;
@@ -18,7 +18,7 @@ pub struct Sea<'a> {
 pub fn placed(library: &Library, assembly: &str, sea: &Sea<'_>) -> Model {
     let Sea { site, speed, heading, nodes } = sea;
     let text = format!(
-        "format = 1\nkind = \"scenario\"\nname = \"Rig\"\nduration = \"1 s\"\nrope_nodes = {nodes}\nrope_on_bodies = false\n[site]\n{site}\n\
+        "format = 1\nkind = \"scenario\"\nname = \"Rig\"\nduration = \"1 s\"\nrope_nodes = {nodes}\n[site]\n{site}\n\
          [current]\nspeed = \"{speed} m/s\"\ntoward = \"90 deg\"\nexponent = 0.142857\n\
          [[gear]]\nassembly = \"{assembly}\"\nheading = \"{} deg\"\n",
         90.0 + heading
