@@ -85,7 +85,7 @@ pub static BALANCE: &[Figure<BalanceSummary>] = &[
     impulse(
         "obstacles_impulse_Ns",
         "impulse of obstacles",
-        "Impulse of obstacles on rope.",
+        "Impulse of obstacles on rope and bodies.",
         |told| told.impulse_ns[Source::Obstacles as usize].into(),
     ),
     impulse(

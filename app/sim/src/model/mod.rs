@@ -111,6 +111,13 @@ pub struct Knot {
 }
 
 impl Knot {
+    /// Those on a segment, of knots in rising order of segment.
+    pub(crate) fn on_segment(knots: &[Self], segment: usize) -> &[Self] {
+        let first = knots.partition_point(|knot| knot.segment < segment);
+        let count = knots[first..].iter().take_while(|knot| knot.segment == segment).count();
+        &knots[first..first + count]
+    }
+
     /// Where its middle lies on a segment of this unstretched length, 0 at its first node, 1 at its second.
     #[must_use]
     pub fn fraction(&self, length_m: f64) -> f64 {
@@ -151,9 +158,7 @@ impl Model {
     /// Knots on a segment.
     #[must_use]
     pub fn knots_of_segment(&self, segment: usize) -> &[Knot] {
-        let first = self.knots.partition_point(|knot| knot.segment < segment);
-        let count = self.knots[first..].iter().take_while(|knot| knot.segment == segment).count();
-        &self.knots[first..first + count]
+        Knot::on_segment(&self.knots, segment)
     }
 
     /// Rope of a segment.

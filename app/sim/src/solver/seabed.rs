@@ -149,17 +149,17 @@ impl Solver {
     /// Longest solved move of a body that stands on the seabed, and whose feet may then bear or hold otherwise than was solved for [m].
     pub(super) fn longest_of_standing(&self, model: &Model) -> f64 {
         let Some(seabed) = &model.spec.seabed else { return 0.0 };
-        let stands = |(index, body): &(usize, &Body)| {
-            let trial = self.trial.bodies[*index];
+        let stands = |index: usize| {
+            let (body, trial) = (&model.spec.bodies[index], self.trial.bodies[index]);
             (0..body.feet_m.len()).any(|foot| {
                 let arm = body.foot_arm(foot, trial.orientation, seabed.normal);
                 seabed.depth_of(trial.place + arm) > 0.0
             })
         };
-        let standing = model.spec.bodies.iter().enumerate().filter(stands);
-        standing
-            .map(|(index, _)| self.interface.step[self.plan.body_block[index]].length())
-            .fold(0.0, f64::max)
+        let moves = self.plan.body_block.iter().map(|block| self.interface.step[*block].length());
+        moves.enumerate().fold(0.0, |longest, (index, move_m)| {
+            if move_m > longest && stands(index) { move_m } else { longest }
+        })
     }
 
     /// Adds the seabed under a body's feet.

@@ -15,11 +15,6 @@ const MARGIN_M: f64 = 0.03;
 const LOOK_MOVES: f64 = 1.5;
 const LOOK_M: f64 = 1.5e-3;
 
-/// Where a body is.
-pub(crate) fn pose_of(body: &BodyState) -> Pose {
-    Pose { place: body.position, orientation: body.orientation }
-}
-
 impl BodySkin {
     /// Gathers skin near bodies over a step of the model, of which a share has passed; whether there is any.
     pub fn gather(
@@ -71,7 +66,7 @@ impl BodySkin {
         left_s: f64,
     ) {
         let core = &self.cores[body];
-        let pose = pose_of(now);
+        let pose = Pose::of(now);
         let room = room_of(now, core.radius, left_s);
         let (first, mut skin_move) = (self.pairs.len(), 0.0_f64);
         for triangle in triangles {
@@ -106,7 +101,7 @@ impl BodySkin {
         self.touches.clear();
         for near in &self.near {
             let (body, core) = (&state.bodies[near.body], &self.cores[near.body]);
-            let pose = pose_of(body);
+            let pose = Pose::of(body);
             let own_m = moves_m(body, core.radius, dt);
             for pair in &mut self.pairs[near.pairs.clone()] {
                 let skin_m = near.skin_move * (goal - self.start);

@@ -4,7 +4,6 @@
 //! The path is proved free by steps of time that the distance of the core and the greatest possible approach allow (`sweep.rs`), and
 //! checked by an exact test of the core's axis that knows nothing of distances (`crossing.rs`).
 
-use super::gather::pose_of;
 use super::{BodySkin, NearBody, Pair};
 use crate::contact::crossing::first_meeting;
 use crate::contact::placed::on_triangle;
@@ -39,7 +38,7 @@ impl BodySkin {
         for place in 0..self.near.len() {
             let near = &self.near[place];
             let core = &self.cores[near.body];
-            let poses = [pose_of(&state.bodies[near.body]), pose(near.body)];
+            let poses = [Pose::of(&state.bodies[near.body]), pose(near.body)];
             let own_m = own_move(&poses, core.radius);
             if near.moved + own_m > near.room {
                 return Err(Refused::Strayed);
@@ -119,7 +118,7 @@ impl BodySkin {
         let Some(near) = self.near.iter().find(|near| self.swept && near.body == body) else {
             return guess;
         };
-        let from = pose_of(&state.bodies[body]);
+        let from = Pose::of(&state.bodies[body]);
         if self.may_go(near, &[from, guess]) {
             return guess;
         }

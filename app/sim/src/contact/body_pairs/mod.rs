@@ -20,7 +20,6 @@ use glam::{DMat3, DVec3};
 use parry3d::query::ContactManifold;
 
 use super::bodies::core::BodyCore;
-use super::bodies::gather::pose_of;
 use crate::model::{Model, Obstacle};
 use crate::solids::Pose;
 use crate::state::State;
@@ -123,7 +122,7 @@ impl BodyPairs {
 
     /// Where a body or an obstacle is when the solver step begins.
     fn began(&self, state: &State, thing: usize) -> Pose {
-        self.pose(thing, |body| pose_of(&state.bodies[body]))
+        self.pose(thing, |body| Pose::of(&state.bodies[body]))
     }
 
     /// Where a body or an obstacle is, with bodies in these poses.

@@ -128,7 +128,8 @@ impl SolidWorkspace {
             for near in near(pieces, solid, &poses, self.widest_m + margin) {
                 let NearSegment { segment, node, line } = near;
                 let places = [from[node], from[node + 1], to(node), to(node + 1)];
-                let knots = self.knots_of(segment).iter().map(|knot| knot.radius_m);
+                let knots =
+                    Knot::on_segment(&self.all_knots, segment).iter().map(|knot| knot.radius_m);
                 let reach = knots.fold(self.radius_m[line], f64::max) + margin;
                 let known = again
                     && self.pairs.iter().any(|pair| pair.solid == index && pair.segment == segment);
@@ -203,8 +204,8 @@ impl SolidWorkspace {
     /// Knots of a segment, each a contact point that stays where it is on the rope.
     fn add_knots(&mut self, state: &State, thing: &Solid, pair: &Pair, motion: &Motion) {
         let Pair { solid, segment, line, node, .. } = *pair;
-        for at in 0..self.knots_of(segment).len() {
-            let knot = self.knots_of(segment)[at];
+        let knots = std::mem::take(&mut self.all_knots);
+        for knot in Knot::on_segment(&knots, segment) {
             let fraction = knot.fraction(self.length_of(node));
             if self.is_spared(solid, line, self.along_m[node] + fraction * self.length_of(node)) {
                 continue;
@@ -225,12 +226,6 @@ impl SolidWorkspace {
             let point = self.begin_point(state, thing, point, places, &motion.poses);
             self.knots.push(point);
         }
-    }
-
-    fn knots_of(&self, segment: usize) -> &[Knot] {
-        let first = self.all_knots.partition_point(|knot| knot.segment < segment);
-        let count =
-            self.all_knots[first..].iter().take_while(|knot| knot.segment == segment).count();
-        &self.all_knots[first..first + count]
+        self.all_knots = knots;
     }
 }
