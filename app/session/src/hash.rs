@@ -202,6 +202,7 @@ fn fold_whale(whale: &WhaleState, fold: &mut Fold, contact: &mut Fold) {
         motion,
         contact_force_n,
         contact_port_m,
+        mouth_moment_n_m,
         exertion,
     } = whale;
     fold.vectors(&[*position, *turn_rate]);
@@ -211,6 +212,7 @@ fn fold_whale(whale: &WhaleState, fold: &mut Fold, contact: &mut Fold) {
     fold.reals(motion);
     contact.reals(contact_force_n);
     contact.reals(contact_port_m);
+    contact.reals(mouth_moment_n_m);
     let Exertion {
         slip_m_s,
         asked_speed_m_s,

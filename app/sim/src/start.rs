@@ -114,6 +114,7 @@ fn whale_at_start(whale: &Whale) -> WhaleState {
         motion: vec![0.0; whale.motion.descriptor().state_len],
         contact_force_n: [0.0; endline_sdk::BodyPart::ALL.len()],
         contact_port_m: [0.0; endline_sdk::BodyPart::ALL.len()],
+        mouth_moment_n_m: [0.0; 3],
         exertion: Exertion {
             asked_speed_m_s: if dead { 0.0 } else { whale.speed_m_s },
             ..Exertion::default()

@@ -11,7 +11,7 @@ use endline_sdk::Posture;
 use endline_sim::DVec3;
 use endline_sim::whale::kinetic::added::{fins, spheroid};
 use endline_sim::whale::kinetic::{AxialDrag, Dead, Effort, Hull, Kinetic, Muscle};
-use endline_sim::whale::{Measures, Skin};
+use endline_sim::whale::{JawStrength, Measures, Skin};
 
 use crate::items::WhaleItem;
 use crate::whale::WhaleForm;
@@ -115,6 +115,15 @@ impl WhaleItem {
             dead: Some(Dead { posture }),
             ..alive
         })
+    }
+
+    /// How strongly jaws and lips close at a length, from its thrust in a burst; `None` where its file does not say.
+    #[must_use]
+    pub fn jaws(&self, length_m: f64, skin: &Skin) -> Option<JawStrength> {
+        let value = |key| self.entry.value(key);
+        let burst_n = value("strength.burst")? * length_m.powf(value("strength.exponent")?);
+        let forces_n = [value("strength.jaw")? * burst_n, value("strength.lip")? * burst_n];
+        Some(JawStrength::of_forces(skin, forces_n))
     }
 
     fn muscle(&self, form: &WhaleForm, effort: Effort) -> Option<Muscle> {

@@ -47,6 +47,7 @@ impl Builder<'_> {
         } else {
             None
         };
+        let jaws = item.jaws(length_m, &skin);
         self.spec.whale = Some(Whale {
             measures,
             skin,
@@ -62,6 +63,7 @@ impl Builder<'_> {
             contact_stiffness_n_m2: placed
                 .contact_stiffness_n_m2
                 .unwrap_or(item.contact_stiffness_n_m2),
+            jaws,
             kinetic,
         });
     }

@@ -136,6 +136,18 @@ pub(super) const FIELDS: &[Field] = &[
         "thrust it sustains, of a whale 1 m long; it grows with length by `exponent`",
     ),
     need("strength.burst", Q::Force, Positive, "greatest thrust in a burst, of a whale 1 m long"),
+    may(
+        "strength.jaw",
+        Q::Ratio,
+        Between(0.001, 1.0),
+        "greatest force with which the jaws close at their tip, as a share of the thrust in a burst; without it and `lip` they close whatever lies between",
+    ),
+    may(
+        "strength.lip",
+        Q::Ratio,
+        Between(0.001, 1.0),
+        "greatest force with which a lower lip closes at its rim, as a share of the thrust in a burst",
+    ),
     need("strength.exponent", Q::Ratio, Between(0.0, 4.0), "power of length by which thrust grows"),
     need("strength.efficiency", Q::Ratio, Between(0.01, 1.0), "useful power over the power put in"),
     need(

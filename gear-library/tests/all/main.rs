@@ -5,6 +5,7 @@ mod body;
 mod files;
 mod fins;
 mod idle;
+mod jaws;
 mod joints;
 mod measured;
 mod mesh_files;

@@ -17,7 +17,7 @@ use endline_sim::model::{Settings, Whale};
 use endline_sim::whale::{Skin, pose, skin_all};
 use endline_sim::{Audit, DQuat, DVec3, Input, Model, State, Workspace, step};
 
-const LENGTH_M: f64 = 13.7;
+pub const LENGTH_M: f64 = 13.7;
 /// Half of the rope, and its segments [m].
 const HALF_M: f64 = 2.5;
 const SEGMENT_M: f64 = 0.05;
@@ -25,12 +25,12 @@ const RADIUS_M: f64 = 0.005;
 const WHALE: DVec3 = DVec3::new(0.0, 0.0, -20.0);
 
 /// A skimming whale's mouth, as `gear-library/acts/skim-feed.toml` opens it [rad].
-fn open() -> Posture {
+pub fn open() -> Posture {
     Posture { jaw: 0.2618, lips: [0.3491; 2], ..Posture::default() }
 }
 
 /// A steady way forward with the mouth open, which closes between two times.
-struct Closing {
+pub struct Closing {
     descriptor: Descriptor,
     speed_m_s: f64,
     closes_s: [f64; 2],
@@ -70,7 +70,7 @@ struct Came {
 }
 
 /// Corners of the skin's triangles with the mouth open, whale at the origin.
-fn open_mouth(skin: &Skin) -> Vec<[DVec3; 3]> {
+pub fn open_mouth(skin: &Skin) -> Vec<[DVec3; 3]> {
     let (mut bones, mut places) = (Vec::new(), Vec::new());
     pose(skin, DVec3::ZERO, DQuat::IDENTITY, &open(), &mut bones);
     skin_all(skin, &bones, &mut places);
@@ -142,7 +142,7 @@ fn across(skin: &Skin, place: DVec3, pull_n: f64, motion: Closing, until_s: f64)
     Came { audit: workspace.audit, pierced: is_pierced(&model, &state), pressed, lodged, aft_m }
 }
 
-fn motion(speed_m_s: f64, closes_s: [f64; 2]) -> Closing {
+pub fn motion(speed_m_s: f64, closes_s: [f64; 2]) -> Closing {
     let (id, name, help) = ("test.closing".into(), "Closing".into(), "Closes its mouth.".into());
     let descriptor = Descriptor {
         id,

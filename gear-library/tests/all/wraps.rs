@@ -31,6 +31,7 @@ fn model(skin: &Skin, segments_m: Vec<f64>) -> Model {
         motion_attributes: Vec::new(),
         pilot: PilotProgram::default(),
         contact_stiffness_n_m2: 2e6,
+        jaws: None,
         kinetic: None,
     };
     let rope = Rope {

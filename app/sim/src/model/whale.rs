@@ -6,6 +6,7 @@ use endline_sdk::{Posture, WhaleMotion};
 use glam::{DQuat, DVec3};
 
 use super::pilot::PilotProgram;
+use crate::whale::jaws::JawStrength;
 use crate::whale::joints::JointRanges;
 use crate::whale::kinetic::Kinetic;
 use crate::whale::measures::Measures;
@@ -38,6 +39,8 @@ pub struct Whale {
     pub pilot: PilotProgram,
     /// Stiffness of skin and blubber under rope, per metre of rope [N/m²].
     pub contact_stiffness_n_m2: f64,
+    /// How strongly its mouth closes; `None` where it closes whatever lies between.
+    pub jaws: Option<JawStrength>,
     /// What makes it kinetic; `None` where it goes as its motion says, whatever the rope does.
     pub kinetic: Option<Kinetic>,
 }

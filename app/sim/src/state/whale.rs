@@ -25,6 +25,8 @@ pub struct WhaleState {
     pub contact_force_n: [f64; endline_sdk::BodyPart::ALL.len()],
     /// Where on each part those forces are: mean place to port of the midplane on the body at rest [m].
     pub contact_port_m: [f64; endline_sdk::BodyPart::ALL.len()],
+    /// Moments with which what touched jaw, left and right lip opened them in the last step [N m].
+    pub mouth_moment_n_m: [f64; 3],
     /// What it does and bears.
     pub exertion: Exertion,
 }
@@ -38,5 +40,6 @@ clone_in_place!(WhaleState {
     motion,
     contact_force_n,
     contact_port_m,
+    mouth_moment_n_m,
     exertion
 });

@@ -18,6 +18,7 @@ use crate::gear_hook;
 use crate::model::Model;
 use crate::state::{State, WhaleState};
 use crate::whale::drive::drive;
+use crate::whale::jaws::MouthLoad;
 use crate::whale::pilot;
 
 pub use audit::Audit;
@@ -71,6 +72,7 @@ fn try_step(
     if let (Some(now), Some([_, after])) = (&mut state.whale, whale.as_deref_mut()) {
         if let Some(whale) = &model.spec.whale {
             [after.contact_force_n, after.contact_port_m] = workspace.sums.by_part();
+            after.mouth_moment_n_m = workspace.mouth.as_ref().map_or([0.0; 3], MouthLoad::mean_n_m);
             if let Some(kinetic) = &whale.kinetic {
                 workspace.pulled.give(kinetic, model.spec.settings.step_s, after);
                 workspace.balance.take_whale(workspace.pulled.impulse());

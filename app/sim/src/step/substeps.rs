@@ -12,12 +12,13 @@ use super::stop::Stop;
 use super::workspace::Workspace;
 use crate::contact::step_sums::StepSums;
 use crate::cost::CostPart;
-use crate::model::{Model, Settings};
+use crate::model::{Model, Settings, Whale};
 use crate::remesh::remesh;
 use crate::state::{LimitedBy, State, StepControl, WhaleState};
 use crate::step_control::{self, Taken};
 use crate::whale::drive::pose_between;
 use crate::whale::hitch;
+use crate::whale::jaws::MouthLoad;
 use crate::whale::kinetic::pull::{RopeImpulse, Times, centre_of};
 
 /// Rope this near to the whale's path over a whole step makes the solver steps short [m].
@@ -51,6 +52,7 @@ pub(super) fn advance(
         workspace.body_contacts.clear();
         workspace.body_sums.clear();
         workspace.sums = StepSums::default();
+        workspace.mouth.iter_mut().for_each(MouthLoad::clear);
         workspace.pulled = RopeImpulse::default();
         let remeshed = remesh(model, state, &mut workspace.remesh);
         if taken_back == 0 {
@@ -190,6 +192,7 @@ fn solver_steps(
                 if let Some(whale) = &model.spec.whale {
                     workspace.sums.take(&whale.skin, &workspace.contacts, dt);
                     workspace.body_sums.take(&workspace.body_contacts, dt);
+                    take_mouth(whale, workspace, dt);
                 }
                 feel(model, state, workspace, whale, dt);
                 if let (true, StepKind::InContact { missed }) = (by_contact, kind) {
@@ -244,6 +247,20 @@ fn stays_clear(state: &State, workspace: &mut Workspace, left_s: f64) -> bool {
         .contact
         .as_mut()
         .is_none_or(|work| work.near.pairs.is_empty() || !look(state, work, 1.0, left_s))
+}
+
+/// Takes in what opened the whale's mouth in the solver step that has just ended.
+fn take_mouth(whale: &Whale, workspace: &mut Workspace, dt: f64) {
+    let (Some(mouth), Some(work)) = (&mut workspace.mouth, &workspace.contact) else { return };
+    let rope = workspace.contacts.iter().map(|contact| {
+        let push = contact.normal * contact.normal_force_n;
+        (contact.triangle, contact.position, -(push + contact.friction_n))
+    });
+    let bodies = workspace.body_contacts.iter().map(|contact| {
+        let push = contact.normal * contact.normal_force_n;
+        (contact.triangle, contact.position, -(push + contact.friction_n))
+    });
+    mouth.take(&whale.skin, &work.bones[1], rope.chain(bodies), dt);
 }
 
 /// Takes in what rope gave a kinetic whale in the solver step that has just ended; a kinematic one has no use for it.

@@ -18,6 +18,7 @@ use crate::model::Model;
 use crate::remesh::RemeshWorkspace;
 use crate::solver::Solver;
 use crate::state::{State, WhaleState};
+use crate::whale::jaws::MouthLoad;
 use crate::whale::kinetic::pull::RopeImpulse;
 
 /// Scratch of the solver and what the last step left for readers; dropping it between two steps changes no bit.
@@ -36,6 +37,8 @@ pub struct Workspace {
     pub body_contacts: Vec<BodyContact>,
     /// What bodies did to skin over the solver steps of the last step.
     pub body_sums: BodySums,
+    /// What opens a mouth that closes with a strength of its own.
+    pub(super) mouth: Option<MouthLoad>,
     /// Places where rope pressed on rope at the end of the last step.
     pub rope_touches: Vec<RopeTouch>,
     /// Counters of the run so far.
@@ -68,6 +71,7 @@ impl Workspace {
             spikes: SpikeWatch::new(model),
             body_contacts: Vec::new(),
             body_sums: BodySums::new(model.spec.bodies.len()),
+            mouth: mouth_of(model),
             rope_touches: Vec::new(),
             audit: Audit::default(),
             balance: Balance::default(),
@@ -101,6 +105,11 @@ impl Workspace {
     pub fn cost(&self) -> &Cost {
         &self.solver.cost.cost
     }
+}
+
+fn mouth_of(model: &Model) -> Option<MouthLoad> {
+    let whale = model.spec.whale.as_ref().filter(|whale| whale.jaws.is_some())?;
+    Some(MouthLoad::new(&whale.skin))
 }
 
 /// Scratch for the hull of a model's whale, where it has one.

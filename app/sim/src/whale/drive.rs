@@ -3,7 +3,7 @@
 //! Kinematic: `dx/dt = R x̂ u + U(x)`, `R` turned by the plugin's rates about the whale's own axes, with the
 //! speed through the water `u` taken as the mean over the step. Kinetic: the plugin asks, mass, drag and strength
 //! decide (`kinetic/mod.rs`). Neither enters the seabed, nor leaves the water further than its speed carries it
-//! (`carried_m`; by its weight, `kinetic/out.rs`). Joints turn no further than their ranges (`joints.rs`). A dead whale floats (`kinetic/dead.rs`).
+//! (`carried_m`; by its weight, `kinetic/out.rs`). Jaws close as far as what lies between them lets them (`jaws.rs`). Joints turn no further than their ranges (`joints.rs`). A dead whale floats (`kinetic/dead.rs`).
 
 use glam::{DAffine3, DQuat, DVec3};
 
@@ -45,6 +45,10 @@ pub(crate) fn drive(
     }
     let (asked, reported_m_s) = ask(model, spec, input, whale, time_s, next)?;
     next.posture = asked.posture;
+    if let Some(jaws) = &spec.jaws {
+        let dt_s = model.spec.settings.step_s;
+        jaws.close(&whale.posture, &mut next.posture, whale.mouth_moment_n_m, dt_s);
+    }
     let held = spec.joints.hold(&mut next.posture);
     let turn_rate = DVec3::from_array(asked.turn_rate_rad_s);
     match &spec.kinetic {
@@ -184,6 +188,7 @@ mod tests {
             motion: Vec::new(),
             contact_force_n: Default::default(),
             contact_port_m: Default::default(),
+            mouth_moment_n_m: [0.0; 3],
             exertion: Default::default(),
         }
     }

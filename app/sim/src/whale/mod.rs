@@ -6,6 +6,7 @@ pub mod axes;
 pub mod bounds;
 pub mod drive;
 pub mod hitch;
+pub mod jaws;
 pub mod joints;
 pub mod kinetic;
 pub mod measures;
@@ -16,6 +17,7 @@ pub mod surface;
 pub mod tree;
 
 pub use bounds::Bounds;
+pub use jaws::JawStrength;
 pub use joints::JointRanges;
 pub use kinetic::{Exertion, Kinetic};
 pub use measures::Measures;

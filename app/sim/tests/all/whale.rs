@@ -164,6 +164,7 @@ pub fn whale(kinetic: Kinetic, speed_m_s: f64, motion: Arc<Steady>) -> Whale {
         motion_attributes: Vec::new(),
         pilot: PilotProgram::default(),
         contact_stiffness_n_m2: 4e5,
+        jaws: None,
         joints: JointRanges::unbounded(),
         kinetic: Some(kinetic),
     }

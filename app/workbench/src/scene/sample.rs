@@ -223,6 +223,7 @@ fn whale() -> Whale {
         motion_attributes: Vec::new(),
         pilot: PilotProgram::default(),
         contact_stiffness_n_m2: 1e5,
+        jaws: None,
         kinetic: None,
     }
 }

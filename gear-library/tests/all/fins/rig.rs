@@ -66,6 +66,7 @@ pub fn whale(skin: Skin, speed_m_s: f64, turn_rate: [f64; 3]) -> Whale {
         motion_attributes: Vec::new(),
         pilot: PilotProgram::default(),
         contact_stiffness_n_m2: 4e5,
+        jaws: None,
         kinetic: None,
     }
 }

@@ -209,6 +209,7 @@ fn whale() -> Whale {
         motion_attributes: Vec::new(),
         pilot: PilotProgram::default(),
         contact_stiffness_n_m2: 2e6,
+        jaws: None,
         kinetic: None,
     }
 }

@@ -123,6 +123,7 @@ pub fn still(skin: Skin) -> Whale {
         motion_attributes: Vec::new(),
         pilot: PilotProgram::default(),
         contact_stiffness_n_m2: 2e6,
+        jaws: None,
         kinetic: None,
     }
 }
