@@ -20,13 +20,19 @@ pub(crate) struct NearestStretch {
     pub ends: (f64, f64),
 }
 
-/// Where a convex `distance` is least between two fractions.
+/// Where a convex `distance` is least between two fractions. Of a stretch shorter than `shortest` only that place is told.
 pub(crate) fn nearest_stretch(
     distance: impl Fn(f64) -> f64,
     (first, last): (f64, f64),
+    shortest: f64,
 ) -> NearestStretch {
     let (at, least) = golden(&distance, first, last);
     let level = least + AS_NEAR_M;
+    // By convexity the stretch ends before any fraction at which it is not as near.
+    let ends_by = |at: f64| !(first..=last).contains(&at) || distance(at) > level;
+    if ends_by(at - 0.5 * shortest) && ends_by(at + 0.5 * shortest) {
+        return NearestStretch { at, ends: (at, at) };
+    }
     let low = cross(&distance, at, first, level);
     let high = cross(&distance, at, last, level);
     NearestStretch { at, ends: (low, high) }
@@ -83,7 +89,7 @@ mod tests {
     fn rope_across_a_box_bears_on_both_edges() {
         let shape = SolidShape::Box(DVec3::new(0.25, 1.0, 0.1));
         let (from, to) = (DVec3::new(-1.0, 0.0, 0.104), DVec3::new(1.0, 0.0, 0.104));
-        let stretch = nearest_stretch(|at| shape.distance(from.lerp(to, at)), (0.0, 1.0));
+        let stretch = nearest_stretch(|at| shape.distance(from.lerp(to, at)), (0.0, 1.0), 0.0);
         assert!(
             (stretch.ends.0 - 0.375).abs() < 2e-3 && (stretch.ends.1 - 0.625).abs() < 2e-3,
             "{stretch:?}"
@@ -94,7 +100,7 @@ mod tests {
     fn rope_past_a_post_is_nearest_at_one_point() {
         let shape = SolidShape::Cylinder { radius_m: 0.05, half_length_m: 1.0 };
         let (from, to) = (DVec3::new(-0.5, 0.06, 0.0), DVec3::new(0.3, 0.06, 0.1));
-        let stretch = nearest_stretch(|at| shape.distance(from.lerp(to, at)), (0.0, 1.0));
+        let stretch = nearest_stretch(|at| shape.distance(from.lerp(to, at)), (0.0, 1.0), 0.0);
         assert!((stretch.at - 0.625).abs() < 1e-3, "{stretch:?}");
     }
 }

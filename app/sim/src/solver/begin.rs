@@ -19,7 +19,7 @@ impl Solver {
             || self.body_pairs.touching
             || on_body;
         self.cost.enter(if self.in_contact { CostPart::Contact } else { CostPart::FreeRope });
-        if self.lanes.suit(model) && !self.solid.touching && !self.ropes.touching {
+        if self.lanes.suit(model) && !self.ropes.touching {
             self.begin_in_lanes(model, state, scheme, |solver| {
                 solver.hold_off(model, state, skin.as_deref_mut());
             });

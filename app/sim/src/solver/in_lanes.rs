@@ -77,6 +77,9 @@ impl Solver {
     ) -> LanePass {
         let shared = Shared::of(model, scheme);
         self.interface.clear();
+        if self.solid.touching {
+            self.push_bodies_by_rope();
+        }
         if self.near_seabed {
             self.measure_ground(model, state, scheme);
         }
@@ -131,9 +134,13 @@ impl Solver {
         } else {
             self.keep_grips_free(model, scheme, state);
         }
+        if self.solid.touching {
+            self.keep_solid_grips(scheme, state);
+        } else {
+            state.rope.solid_grips.clear();
+        }
         self.lanes.keep(scheme, &mut state.rope);
         state.rope.earlier_dt_s = scheme.dt;
-        state.rope.solid_grips.clear();
         state.rope.rope_grips.clear();
         self.keep_bodies(scheme, state);
     }

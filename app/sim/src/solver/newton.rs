@@ -12,6 +12,7 @@ use super::Solver;
 use super::context::StepContext;
 use super::in_lanes::LanePass;
 use super::scheme::Scheme;
+use super::solid::ActiveSet;
 use super::stopping::{ContactMissed, PassCount, PassDone, SHORT_S, Stopping};
 use crate::contact::friction_arrays::Failed;
 use crate::contact::workspace::ContactWorkspace;
@@ -199,11 +200,11 @@ impl Solver {
     ) -> PassDone {
         let StepContext { model, state, scheme } = *context;
         match skin {
-            Some(work) if self.in_lanes => self.solve_in_lanes(context, work, rules, share),
-            None if self.in_lanes => {
+            None if self.in_lanes && !self.solid.touching => {
                 let passed = self.pass_in_lanes(model, state, scheme, share);
                 self.pass_done(&passed)
             }
+            skin if self.in_lanes => self.solve_in_lanes(context, skin, rules, share),
             skin => self.solve_lines(context, skin, share),
         }
     }
@@ -238,15 +239,21 @@ impl Solver {
     fn solve_in_lanes(
         &mut self,
         context: &StepContext<'_>,
-        work: &ContactWorkspace,
+        skin: Skin<'_>,
         rules: &Stopping,
         share: f64,
     ) -> PassDone {
         let StepContext { model, state, scheme } = *context;
         self.lanes.leave_contact();
-        let Self { lanes, trial, .. } = self;
-        for (point, force, block) in work.contacts_at(&trial.place) {
-            lanes.add_contact(point.segment, point.fraction, force, block);
+        if let Some(work) = skin {
+            let Self { lanes, trial, .. } = self;
+            for (point, force, block) in work.contacts_at(&trial.place) {
+                lanes.add_contact(point.segment, point.fraction, force, block);
+            }
+        }
+        if self.solid.touching {
+            self.measure_solids(state, scheme, ActiveSet::Predicted);
+            self.give_solids_to_lanes(model);
         }
         self.before.clone_from(&self.trial.place);
         self.bodies_before.clone_from(&self.trial.bodies);
@@ -256,6 +263,9 @@ impl Solver {
             let settled = passed.flipped_n <= rules.tension_n(passed.greatest_n);
             if settled || !passed.finite || solved == MOST_ACTIVE_SETS {
                 self.lanes.give_places(&mut self.trial.place);
+                if self.solid.touching {
+                    self.predict_pushes_in_lanes();
+                }
                 return self.pass_done(&passed);
             }
             solved += 1;

@@ -17,6 +17,7 @@ use super::rope::outer;
 use super::scheme::Scheme;
 use super::stopping::{ANSWER_STRICTER, ContactMissed, GRIP_STRICTER};
 use super::{BodyTrial, Solver};
+use crate::model::Model;
 use crate::solids::workspace::{Pair, SolidContactPoint, least_distance};
 use crate::solids::{Carrier, Pose, Solid};
 use crate::state::{SolidGrip, State};
@@ -55,6 +56,24 @@ struct Touch {
 impl Solver {
     /// Adds push and friction of obstacles and bodies on rope near them.
     pub(super) fn add_solids(&mut self, state: &State, scheme: &Scheme, active_set: ActiveSet) {
+        self.measure_solids(state, scheme, active_set);
+        for point in self.solid.open_points().filter(|point| point.pushes) {
+            let (force, block) = (point.force, &point.block);
+            match point.fraction {
+                Some(fraction) => {
+                    self.tridiagonal.add_at(point.segment, point.node, fraction, force, block)
+                }
+                None => {
+                    self.tridiagonal.force[point.node] += force;
+                    self.tridiagonal.diagonal[point.node] += *block;
+                }
+            }
+        }
+        self.push_bodies_by_rope();
+    }
+
+    /// Measures push and friction of obstacles and bodies on rope near them, where the trial stands.
+    pub(super) fn measure_solids(&mut self, state: &State, scheme: &Scheme, active_set: ActiveSet) {
         let mut work = std::mem::take(&mut self.solid);
         if scheme.is_static() {
             work.gather_at_rest(
@@ -71,46 +90,44 @@ impl Solver {
             let touch = self.touch_of(solid, point);
             point.normal = touch.normal;
             point.push_n = point.stiffness * touch.depth;
-            let pushes = match active_set {
+            point.place = touch.place;
+            point.pushes = match active_set {
                 ActiveSet::Predicted => point.predicted_n > 0.0 && touch.depth > -point.radius_m,
                 ActiveSet::AtTrial => point.push_n > 0.0,
             };
-            (point.force, point.block) = (DVec3::ZERO, DMat3::ZERO);
-            if pushes {
-                self.add_point(state, scheme, solid, point, &touch);
-            }
+            (point.force, point.block) = if point.pushes {
+                force_of(state, scheme, solid, point, &touch)
+            } else {
+                (DVec3::ZERO, DMat3::ZERO)
+            };
         }
         self.solid = work;
     }
 
-    fn add_point(
-        &mut self,
-        state: &State,
-        scheme: &Scheme,
-        solid: &Solid,
-        point: &mut SolidContactPoint,
-        touch: &Touch,
-    ) {
-        let grip =
-            if scheme.is_static() { Grip::none() } else { grip_of(state, solid, point, touch) };
-        let force = touch.normal * point.push_n + grip.force;
-        let block = outer(touch.normal, touch.normal) * point.stiffness + grip.block;
-        (point.force, point.block) = (force, block);
-        match point.fraction {
-            Some(fraction) => {
-                self.tridiagonal.add_at(point.segment, point.node, fraction, force, &block)
-            }
-            None => {
-                self.tridiagonal.force[point.node] += force;
-                self.tridiagonal.diagonal[point.node] += block;
+    /// The reaction of rope on bodies as measured last.
+    pub(super) fn push_bodies_by_rope(&mut self) {
+        for point in self.solid.open_points().filter(|point| point.pushes) {
+            if let Carrier::Body(body) = self.solid.solids[point.solid].carrier {
+                let arm = point.place - self.trial.bodies[body].place;
+                let attachment = Attachment::Body {
+                    block: self.plan.body_block[body],
+                    body,
+                    offset: DVec3::ZERO,
+                };
+                self.interface.push(attachment, arm, -point.force);
+                self.interface.add(attachment, arm, attachment, arm, point.block);
             }
         }
-        if let Carrier::Body(body) = solid.carrier {
-            let arm = touch.place - touch.pose.place;
-            let attachment =
-                Attachment::Body { block: self.plan.body_block[body], body, offset: DVec3::ZERO };
-            self.interface.push(attachment, arm, -force);
-            self.interface.add(attachment, arm, attachment, arm, block);
+    }
+
+    /// Hands push and friction as measured last to the lanes.
+    pub(super) fn give_solids_to_lanes(&mut self, model: &Model) {
+        for point in self.solid.open_points().filter(|point| point.pushes) {
+            let first = model.line_nodes[point.line].start + point.segment
+                - model.line_segments[point.line].start;
+            let at_node = if point.node == first { 0.0 } else { 1.0 };
+            let fraction = point.fraction.unwrap_or(at_node);
+            self.lanes.add_contact(point.segment, fraction, point.force, &point.block);
         }
     }
 
@@ -192,8 +209,26 @@ impl Solver {
         for (solids, point) in work.open_points_mut() {
             let rope = point.on_rope(|node| self.tridiagonal.step[node]) * share;
             let relative = self.step_on(&solids[point.solid], point) * share;
-            point.predicted_n = point.push_n - point.stiffness * point.normal.dot(relative);
-            point.solved = [rope, relative - rope].map(|step| point.force - point.block * step);
+            point.predict(rope, relative);
+        }
+        self.solid = work;
+    }
+
+    /// The same after a solution in the lanes, which has moved rope and bodies from where they were before.
+    pub(super) fn predict_pushes_in_lanes(&mut self) {
+        let mut work = std::mem::take(&mut self.solid);
+        for (solids, point) in work.open_points_mut() {
+            let rope = point.on_rope(|node| self.trial.place[node] - self.before[node]);
+            let relative = match solids[point.solid].carrier {
+                Carrier::World(_) => rope,
+                Carrier::Body(body) => {
+                    let (from, to) =
+                        (self.bodies_before[body].pose(), self.trial.bodies[body].pose());
+                    let place = point.on_rope(|node| self.before[node]);
+                    rope - (to.outward(from.inward(place)) - place)
+                }
+            };
+            point.predict(rope, relative);
         }
         self.solid = work;
     }
@@ -313,6 +348,19 @@ impl Solver {
             push_n: point.push_n,
         }
     }
+}
+
+/// Push and friction of a solid on rope at a contact point that pushes, with `-d force / d place`.
+fn force_of(
+    state: &State,
+    scheme: &Scheme,
+    solid: &Solid,
+    point: &SolidContactPoint,
+    touch: &Touch,
+) -> (DVec3, DMat3) {
+    let grip = if scheme.is_static() { Grip::none() } else { grip_of(state, solid, point, touch) };
+    let block = outer(touch.normal, touch.normal) * point.stiffness + grip.block;
+    (touch.normal * point.push_n + grip.force, block)
 }
 
 /// Friction at a contact point: the grip, carried along with the solid, stretched by how the rope moved on it.

@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
-use super::points::{SolidContactPoint, TOUCH_M};
-use super::{Pair, SolidWorkspace};
+use super::points::SolidContactPoint;
+use super::{MARGIN_M, Pair, SolidWorkspace};
 use crate::solids::along::nearest_stretch;
-use crate::solids::{Carrier, Pose, Solid};
+use crate::solids::{Carrier, Pose, Solid, SolidShape};
 use crate::state::State;
 
 /// Stretch along a flat face from which on rope bears at both of its ends [m].
@@ -68,11 +68,11 @@ impl SolidWorkspace {
             return [None; 2];
         }
         let (a, b) = (pose.inward(a), pose.inward(b));
-        let (at_a, at_b) = (solid.shape.distance(a), solid.shape.distance(b));
-        if 0.5 * (at_a + at_b - (b - a).length()) > self.radius_m[pair.line] + TOUCH_M {
+        if least_by_tangents(&solid.shape, a, b) > self.radius_m[pair.line] + MARGIN_M {
             return [None; 2];
         }
-        let stretch = nearest_stretch(|at| solid.shape.distance(a.lerp(b, at)), pair.range);
+        let distance = |at: f64| solid.shape.distance(a.lerp(b, at));
+        let stretch = nearest_stretch(distance, pair.range, TWO_POINTS_M / length);
         if solid.shape.bend_radius(a.lerp(b, stretch.at)) >= length {
             return [None; 2];
         }
@@ -84,4 +84,19 @@ impl SolidWorkspace {
             [within(stretch.at), None]
         }
     }
+}
+
+/// No more than the least distance between two places from a convex shape, by the tangents there: `max(d_a + g_a t, d_b - g_b (1 - t))`.
+fn least_by_tangents(shape: &SolidShape, a: DVec3, b: DVec3) -> f64 {
+    let (at_a, at_b) = (shape.nearest(a), shape.nearest(b));
+    let (down, up) = (at_a.normal.dot(b - a), at_b.normal.dot(b - a));
+    if down >= 0.0 {
+        return at_a.distance;
+    }
+    if up <= 0.0 {
+        return at_b.distance;
+    }
+    // Where the two tangents meet.
+    let t = ((at_b.distance - up - at_a.distance) / (down - up)).clamp(0.0, 1.0);
+    (at_a.distance + down * t).min(at_b.distance - up * (1.0 - t))
 }

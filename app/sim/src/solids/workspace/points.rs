@@ -42,6 +42,10 @@ pub(crate) struct SolidContactPoint {
     pub predicted_n: f64,
     /// Normal force at the places of the last assembly, below zero where there is a gap [N].
     pub push_n: f64,
+    /// Whether it pushes in the solution sought.
+    pub pushes: bool,
+    /// Place of the rope at the last assembly [m].
+    pub place: DVec3,
     /// Direction out of the solid there.
     pub normal: DVec3,
     /// Push and friction on the rope at the places of the last assembly, and `-d force / d place` [N], [N/m].
@@ -52,6 +56,12 @@ pub(crate) struct SolidContactPoint {
 }
 
 impl SolidContactPoint {
+    /// Notes normal force, push and friction of a solution in which the rope moves so, in the world and as seen from the solid [m].
+    pub fn predict(&mut self, rope: DVec3, relative: DVec3) {
+        self.predicted_n = self.push_n - self.stiffness * self.normal.dot(relative);
+        self.solved = [rope, relative - rope].map(|step| self.force - self.block * step);
+    }
+
     /// A quantity given at nodes, at this point of the rope.
     pub fn on_rope(&self, at: impl Fn(usize) -> DVec3) -> DVec3 {
         match self.fraction {

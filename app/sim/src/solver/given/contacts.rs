@@ -32,8 +32,10 @@ impl Solver {
             given.at_end.add(Source::Skin, force, velocity);
             self.interface.push(self.centre_of(contact.body), arm, force);
         }
-        if !self.in_lanes {
+        if self.solid.touching || !self.in_lanes {
             self.give_solids(context, on_nodes, given);
+        }
+        if !self.in_lanes {
             let (state, scheme) = (context.state, context.scheme);
             given.at_end.contact += self.push_touching_ropes(state, scheme, on_nodes);
         }

@@ -12,7 +12,7 @@ impl Lanes {
         for row in self.contact_rows.drain(..) {
             self.contact[row] = ContactRow::default();
         }
-        self.touches = false;
+        self.touches.fill(false);
     }
 
     /// Adds a force and its block `-dF/dx` at a fraction of a segment.
@@ -32,6 +32,6 @@ impl Lanes {
                 self.contact_rows.push(row);
             }
         }
-        self.touches = true;
+        self.touches[piece.group] = true;
     }
 }

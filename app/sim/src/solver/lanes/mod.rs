@@ -39,10 +39,10 @@ pub(crate) struct Lanes {
     solved: Vec<Solved>,
     /// What the seabed does to nodes, in the layout of `nodes`; empty where no rope is near it.
     ground: Vec<GroundRow>,
-    /// What skin does to nodes, in the layout of `nodes`; the rows of it in use, and whether there are any.
+    /// What skin, obstacles and bodies do to nodes, in the layout of `nodes`; the rows of it in use, and which groups have any.
     contact: Vec<ContactRow>,
     contact_rows: Vec<usize>,
-    touches: bool,
+    touches: Vec<bool>,
     /// Piece of each segment.
     piece_of: Vec<usize>,
     ropes: Vec<PerMetre<Row>>,
@@ -94,7 +94,7 @@ impl Lanes {
             ground: Vec::new(),
             contact: Vec::new(),
             contact_rows: Vec::new(),
-            touches: false,
+            touches: vec![false; groups.len()],
             piece_of: pieces
                 .iter()
                 .enumerate()
@@ -138,7 +138,7 @@ impl Lanes {
                 shared,
             );
             let ends = &mut self.ends[index];
-            if self.touches {
+            if self.touches[index] {
                 let contact = &self.contact[group.node_row..];
                 self.arch.dispatch(ForwardContact(rows, contact, ends));
             } else {
