@@ -105,8 +105,8 @@ impl Solver {
                 self.tridiagonal.diagonal[point.node] += block;
             }
         }
-        if let Carrier::Body(body) = solid.carrier {
-            let arm = touch.place - touch.pose.place;
+        if let Some(body) = solid.carrier.body() {
+            let arm = touch.place - self.trial.bodies[body].place;
             let attachment =
                 Attachment::Body { block: self.plan.body_block[body], body, offset: DVec3::ZERO };
             self.interface.push(attachment, arm, -force);
@@ -135,20 +135,17 @@ impl Solver {
 
     /// Where a solid is at a share of the solved step.
     fn pose_moved(&self, carrier: &Carrier, share: f64) -> Pose {
-        match carrier {
-            Carrier::World(pose) => *pose,
-            Carrier::Body(index) => {
-                let (body, block) = (&self.trial.bodies[*index], self.plan.body_block[*index]);
-                if share == 0.0 || body.held {
-                    return Pose { place: body.place, orientation: body.orientation };
-                }
-                let turn = DQuat::from_scaled_axis(self.interface.step[block + 1] * share);
-                Pose {
-                    place: body.place + self.interface.step[block] * share,
-                    orientation: (turn * body.orientation).normalize(),
-                }
+        carrier.pose(|index| {
+            let (body, block) = (&self.trial.bodies[index], self.plan.body_block[index]);
+            if share == 0.0 || body.held {
+                return Pose { place: body.place, orientation: body.orientation };
             }
-        }
+            let turn = DQuat::from_scaled_axis(self.interface.step[block + 1] * share);
+            Pose {
+                place: body.place + self.interface.step[block] * share,
+                orientation: (turn * body.orientation).normalize(),
+            }
+        })
     }
 
     fn pose_of(&self, carrier: &Carrier) -> Pose {
@@ -175,9 +172,9 @@ impl Solver {
     /// The solved step of the rope at a contact point, as seen from the solid.
     fn step_on(&self, solid: &Solid, point: &SolidContactPoint) -> DVec3 {
         let step = point.on_rope(|node| self.tridiagonal.step[node]);
-        match solid.carrier {
-            Carrier::World(_) => step,
-            Carrier::Body(body) => {
+        match solid.carrier.body() {
+            None => step,
+            Some(body) => {
                 let block = self.plan.body_block[body];
                 let arm =
                     point.on_rope(|node| self.trial.place[node]) - self.trial.bodies[body].place;
@@ -206,9 +203,9 @@ impl Solver {
             let solid = &self.solid.solids[point.solid];
             let force = self.solid_force(state, scheme, solid, point);
             let [on_rope, on_body] = point.solved.map(|solved| solved.distance(force));
-            let gap_n = match solid.carrier {
-                Carrier::World(_) => GRIP_STRICTER * on_rope,
-                Carrier::Body(_) => ANSWER_STRICTER * on_rope.max(on_body),
+            let gap_n = match solid.carrier.body() {
+                None => GRIP_STRICTER * on_rope,
+                Some(_) => ANSWER_STRICTER * on_rope.max(on_body),
             };
             missed = missed.and(ContactMissed { gap_n, greatest_n: force.length() });
         }
@@ -330,10 +327,5 @@ fn grip_of(state: &State, solid: &Solid, point: &SolidContactPoint, touch: &Touc
 }
 
 fn pose_before(state: &State, solid: &Solid) -> Pose {
-    match solid.carrier {
-        Carrier::World(pose) => pose,
-        Carrier::Body(body) => {
-            Pose { place: state.bodies[body].position, orientation: state.bodies[body].orientation }
-        }
-    }
+    solid.carrier.pose(|body| Pose::of(&state.bodies[body]))
 }

@@ -1,7 +1,7 @@
 //! Bodies on obstacles: they slide and roll by Newton's and Coulomb's laws, and none goes in.
 #![allow(clippy::expect_used, reason = "a test fails by panicking, in its helpers too")]
 
-use endline_sim::model::{Body, Obstacle, ROPE_ON_HARD_N_M2, Settings, Shape};
+use endline_sim::model::{Body, BodyPart, Obstacle, ROPE_ON_HARD_N_M2, Settings, Shape};
 use endline_sim::solids::SolidShape;
 use endline_sim::{DQuat, DVec3, Input, Model, State, Workspace, step};
 
@@ -23,7 +23,7 @@ fn obstacle(shape: SolidShape, place: DVec3, turn: DQuat, friction: f64) -> Obst
 
 fn trap(place: DVec3, turn: DQuat) -> Body {
     Body {
-        shape: Shape::Box(HALF),
+        parts: vec![BodyPart::about_origin(Shape::Box(HALF))],
         inertia_kg_m2: DVec3::new(0.9, 1.9, 2.3),
         orientation: turn,
         ..weight("trap", 20.0, place, None)
@@ -32,7 +32,7 @@ fn trap(place: DVec3, turn: DQuat) -> Body {
 
 fn ball(radius: f64, place: DVec3) -> Body {
     Body {
-        shape: Shape::Sphere(radius),
+        parts: vec![BodyPart::about_origin(Shape::Sphere(radius))],
         inertia_kg_m2: DVec3::splat(0.4 * 5.0 * radius * radius),
         ..weight("ball", 5.0, place, None)
     }
@@ -40,7 +40,7 @@ fn ball(radius: f64, place: DVec3) -> Body {
 
 fn buoy(place: DVec3, turn: DQuat) -> Body {
     Body {
-        shape: Shape::Capsule { radius_m: 0.1, half_length_m: 0.4 },
+        parts: vec![BodyPart::about_origin(Shape::Capsule { radius_m: 0.1, half_length_m: 0.4 })],
         inertia_kg_m2: DVec3::new(0.3, 0.3, 0.03),
         orientation: turn,
         ..weight("buoy", 6.0, place, None)
@@ -155,7 +155,7 @@ fn depth(model: &Model, state: &State) -> f64 {
         rock.orientation.inverse() * (now.position + now.orientation * place - rock.position_m)
     };
     let inner = |place: DVec3, radius: f64| radius - distance(&rock.shape, inward(place));
-    match body.shape {
+    match body.parts[0].shape {
         Shape::Sphere(radius) => inner(DVec3::ZERO, radius),
         Shape::Capsule { radius_m, half_length_m } => (-10..=10)
             .map(|k| inner(DVec3::Z * (half_length_m - radius_m) * f64::from(k) / 10.0, radius_m))
