@@ -38,6 +38,10 @@ fn ball(radius: f64, place: DVec3) -> Body {
     }
 }
 
+fn of_shape(shape: Shape, place: DVec3, turn: DQuat) -> Body {
+    Body { parts: vec![BodyPart::about_origin(shape)], ..buoy(place, turn) }
+}
+
 fn buoy(place: DVec3, turn: DQuat) -> Body {
     Body {
         parts: vec![BodyPart::about_origin(Shape::Capsule { radius_m: 0.1, half_length_m: 0.4 })],
@@ -125,11 +129,13 @@ fn bodies_that_fall_on_obstacles_stay_out_of_them() {
         (SolidShape::Box(DVec3::new(0.1, 2.0, 0.1)), askew),
     ];
     for (shape, turn) in under {
-        for fallen in 0..3 {
+        for fallen in 0..5 {
             let over = DVec3::new(0.02, 0.03, -6.5);
             let body = match fallen {
                 0 => ball(0.15, over),
                 1 => buoy(over, askew),
+                3 => of_shape(Shape::Cylinder { radius_m: 0.12, half_length_m: 0.2 }, over, askew),
+                4 => of_shape(Shape::Spheroid { across_m: 0.12, along_m: 0.25 }, over, askew),
                 _ => trap(over, askew),
             };
             let rock = obstacle(shape.clone(), DVec3::NEG_Z * 10.0, turn, 0.3);
@@ -165,6 +171,28 @@ fn depth(model: &Model, state: &State) -> f64 {
             .map(|k: i32| DVec3::new(f64::from(k % 11), f64::from(k / 11 % 11), f64::from(k / 121)))
             .map(|net| inner((net / 5.0 - 1.0) * (half - 0.05), 0.05))
             .fold(f64::MIN, f64::max),
+        // A net over the surface of a cylinder without its rounding, which is of 0.05 m here.
+        Shape::Cylinder { radius_m, half_length_m } => (0..24 * 11 * 2)
+            .map(|k: i32| (f64::from(k % 24), f64::from(k / 24 % 11) / 5.0 - 1.0, k / 264))
+            .map(|(turn, share, part)| {
+                let (radius, half) = (radius_m - 0.05, half_length_m - 0.05);
+                let (off, height) =
+                    if part == 0 { (radius, half * share) } else { (radius * share, half) };
+                let around = DQuat::from_rotation_z(turn * std::f64::consts::TAU / 24.0);
+                let side = around * DVec3::new(off, 0.0, height);
+                inner(side, 0.05).max(inner(side.with_z(-height), 0.05))
+            })
+            .fold(f64::MIN, f64::max),
+        // A net over the surface itself.
+        Shape::Spheroid { across_m, along_m } => (0..24 * 21)
+            .map(|k: i32| (f64::from(k % 24), f64::from(k / 24) / 20.0))
+            .map(|(turn, share)| {
+                let polar = std::f64::consts::PI * share;
+                let around = DQuat::from_rotation_z(turn * std::f64::consts::TAU / 24.0);
+                let on_ball = around * DVec3::new(libm::sin(polar), 0.0, libm::cos(polar));
+                inner(on_ball * DVec3::new(across_m, across_m, along_m), 0.0)
+            })
+            .fold(f64::MIN, f64::max),
     }
 }
 
@@ -184,5 +212,6 @@ fn distance(shape: &SolidShape, place: DVec3) -> f64 {
             beyond(DVec3::new(side, end, f64::MIN))
         }
         SolidShape::Box(half) => beyond(place.abs() - *half),
+        SolidShape::Spheroid { .. } => unreachable!("no such obstacle is drawn here"),
     }
 }

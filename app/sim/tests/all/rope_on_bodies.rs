@@ -106,14 +106,16 @@ fn rope_laid_across_a_staff_is_held_by_it() {
     };
     // The staff's axis lies along x of the world at the body's place: how high the centre line is over it.
     let over_m = |state: &State| {
-        let middle = state.rope.position.iter().filter(|node| node.y.abs() < 0.1);
-        middle.map(|node| node.z - place.z).fold(f64::INFINITY, f64::min)
+        let height = |ends: &[DVec3]| {
+            let share = ends[0].y / (ends[0].y - ends[1].y);
+            ends[0].lerp(ends[1], share).z - place.z
+        };
+        let mut over = state.rope.position.windows(2).filter(|ends| ends[0].y * ends[1].y <= 0.0);
+        over.next().map_or(f64::NEG_INFINITY, height)
     };
     let through = settle(&laid(false));
     assert!(through.converged && over_m(&through.state) < -STAFF_M, "it hangs lower by itself");
     let model = laid(true);
-    let settled = settle(&model);
-    assert!(settled.converged, "{}", settled.why());
     let least_m = |state: &State| {
         let off = |place_of: DVec3| libm::hypot(place_of.y, place_of.z - place.z);
         let along = |ends: &[DVec3]| {
@@ -121,12 +123,13 @@ fn rope_laid_across_a_staff_is_held_by_it() {
         };
         state.rope.position.windows(2).map(along).fold(1.0, f64::min)
     };
-    assert!(over_m(&settled.state) > STAFF_M && least_m(&settled.state) > STAFF_M);
-    let mut state = settled.state;
-    let workspace = run(&model, &mut state, 2.0);
-    println!("after 2 s {} m off the axis of a staff of {STAFF_M} m", least_m(&state));
+    // From where it is laid, straight and above the staff: statics would take it through what is so thin.
+    let mut state = State::start(&model);
+    assert!(over_m(&state) > 0.1);
+    let workspace = run(&model, &mut state, 8.0);
+    println!("after 8 s {} m over the staff's axis, {STAFF_M} m thick", over_m(&state));
     assert!(workspace.audit.rope_within_m == 0.0 && least_m(&state) > STAFF_M);
-    assert!(over_m(&state) > STAFF_M);
+    assert!(over_m(&state) > STAFF_M && over_m(&state) < 0.05, "{}", over_m(&state));
 }
 
 /// Rope stowed in a trap that floats free is drawn out of it, and pushes it no farther than its own friction in water would: not at all
