@@ -9,8 +9,8 @@ use endline_sdk::{
 use endline_sim::contact::ContactPoint;
 use endline_sim::contact::bodies::BodyContact;
 use endline_sim::model::{
-    Body, BodyRole, Float, Friction, Joint, JointKind, Line, ModelSpec, PilotProgram, Rope, Seabed,
-    Settings, Shape, Strength, Whale,
+    Body, BodyPart, BodyRole, Float, Friction, Joint, JointKind, Line, ModelSpec, PilotProgram,
+    Rope, Seabed, Settings, Shape, Strength, Whale,
 };
 use endline_sim::water::{Current, Water};
 use endline_sim::whale::{Bone, JointRanges, Measures, Skin};

@@ -73,12 +73,17 @@ impl Pieces {
         let body = body(&mut dice, kind);
         let size = size_of(&body.parts);
         let forward = heading * DVec3::X;
+        // A body of several parts is aimed at anywhere along its staff, any other about its middle.
+        let is_long = body.parts.len() > 1;
+        let along_m = if is_long { dice.between(-0.9, 0.9) * size } else { 0.0 };
+        let aimed = MET + body.orientation * (DVec3::Z * along_m);
+        let aside_m = if is_long { 0.05 } else { 0.5 * size };
         let beside = dice.direction();
-        let beside = (beside - forward * beside.dot(forward)) * (0.5 * size);
+        let beside = (beside - forward * beside.dot(forward)) * aside_m;
         let before_m =
             reach(&skin) + size + speed_m_s * usual.contact_step_s * dice.between(0.5, 2.0);
         let whale = Whale {
-            position_m: MET + beside - forward * before_m,
+            position_m: aimed + beside - forward * before_m,
             orientation: heading,
             speed_m_s,
             ..rig::whale(skin.clone(), speed_m_s, turn_rate)

@@ -121,11 +121,11 @@ impl Sheet<'_> {
         let pair = view.model.spec.bodies.get(index).zip(view.frame.bodies.get(index));
         let Some((body, at)) = pair else { return };
         for outline in silhouette(body, *at, self.camera, self.size()) {
-            self.outline(outline.into_iter().map(|at| self.on_screen(at)).collect(), ink);
+            self.closed(outline.into_iter().map(|at| self.on_screen(at)).collect(), ink);
         }
     }
 
-    fn outline(&self, outline: Vec<Pos2>, ink: Color32) {
+    fn closed(&self, outline: Vec<Pos2>, ink: Color32) {
         let fill = ink.gamma_multiply(0.15);
         self.painter.add(Shape::convex_polygon(outline.clone(), fill, Stroke::NONE));
         let dark = Color32::from_black_alpha(ink.a() / 2);
