@@ -73,11 +73,12 @@ impl Pieces {
         let body = body(&mut dice, kind);
         let size = size_of(&body.parts);
         let forward = heading * DVec3::X;
-        // A body of several parts is aimed at anywhere along its staff, any other about its middle.
+        // A body of several parts is aimed at anywhere along its staff, any other about its middle. The way to the former is long: it turns less on it.
         let is_long = body.parts.len() > 1;
+        let turn_rate = if is_long { turn_rate.map(|rate| 0.1 * rate) } else { turn_rate };
         let along_m = if is_long { dice.between(-0.9, 0.9) * size } else { 0.0 };
         let aimed = MET + body.orientation * (DVec3::Z * along_m);
-        let aside_m = if is_long { 0.05 } else { 0.5 * size };
+        let aside_m = if is_long { 0.02 } else { 0.5 * size };
         let beside = dice.direction();
         let beside = (beside - forward * beside.dot(forward)) * aside_m;
         let before_m =
