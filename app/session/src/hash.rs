@@ -57,8 +57,8 @@ impl StateHash {
             fold_body(body, rigid);
         }
         fold_body_grips(body_grips, contact);
-        for PairGrip { bodies, place, normal, stretch, forgiven_m } in pair_grips {
-            bodies.iter().for_each(|body| contact.word(*body as u64));
+        for PairGrip { parts: two, place, normal, stretch, forgiven_m } in pair_grips {
+            two.iter().for_each(|part| contact.word(*part as u64));
             contact.reals(&[*forgiven_m]);
             contact.vectors(&[*place, *normal, *stretch]);
         }
@@ -104,8 +104,8 @@ fn fold_body_grips(BodyGrips { contacts, floats }: &BodyGrips, contact: &mut Fol
     if contacts.is_empty() {
         return;
     }
-    for BodyGrip { body, place, normal } in contacts {
-        contact.word(*body as u64);
+    for BodyGrip { part, place, normal } in contacts {
+        contact.word(*part as u64);
         contact.vectors(&[*place, *normal]);
     }
     contact.reals(floats);

@@ -113,6 +113,7 @@ fn check_rope(rope: &Rope, found: &mut Found) {
 }
 
 fn check_body(body: &Body, found: &mut Found) {
+    found.need(!body.parts.is_empty(), "it has no part");
     found.above_zero("mass", body.mass_kg);
     found.need(
         body.inertia_kg_m2.is_finite() && body.inertia_kg_m2.min_element() > 0.0,

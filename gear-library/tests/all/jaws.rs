@@ -11,7 +11,7 @@ use crate::fins::rig::{sea, whale};
 use crate::mouth::{LENGTH_M, motion, open, open_mouth};
 use endline_gear::whale::{WhaleForm, build_skin};
 use endline_sim::contact::distance::{point_triangle, segment_triangle};
-use endline_sim::model::{Body, BodyRole, Settings, Shape, Whale};
+use endline_sim::model::{Body, BodyRole, PlacedShape, Settings, Shape, Whale};
 use endline_sim::whale::{JawStrength, Skin};
 use endline_sim::{DQuat, DVec3, Input, Model, ModelSpec, State, Workspace, step};
 
@@ -46,8 +46,7 @@ fn ball(radius_m: f64, position_m: DVec3) -> Body {
         id: "buoy".into(),
         item: String::new(),
         role: BodyRole::Buoy,
-        shape: Shape::Sphere(radius_m),
-        shape_offset_m: DVec3::ZERO,
+        parts: vec![PlacedShape { shape: Shape::Sphere(radius_m), middle_m: DVec3::ZERO }],
         mass_kg,
         inertia_kg_m2: DVec3::splat(0.4 * mass_kg * radius_m * radius_m),
         added_mass_kg: DVec3::ZERO,

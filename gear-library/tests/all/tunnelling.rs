@@ -61,6 +61,23 @@ fn no_body_goes_through_skin() {
     assert!(discrete.crossed > DISCRETE / 10, "what the path is looked at for: {discrete:?}");
 }
 
+/// Meetings with each kind of body that has a curved side: flat-ended buoy, spheroid, high-flyer.
+const OF_EACH: u64 = 200;
+
+#[test]
+fn no_buoy_of_any_shape_goes_through_skin() {
+    let pieces = Pieces::new();
+    for kind in 3..6 {
+        let mut tally = bodies::Tally::default();
+        let drawn = (0..OF_EACH).map(|number| pieces.meeting_of(number, true, Some(kind)));
+        (0..).zip(drawn).for_each(|(number, meeting)| tally.add(number, meeting));
+        println!("{kind}: {tally:?}");
+        assert!(tally.met > OF_EACH * 8 / 10, "most are met: {kind}: {tally:?}");
+        assert_eq!(tally.crossed, 0, "{kind}: {tally:?}");
+        assert!(tally.ended <= OF_EACH / 100, "{kind}: {tally:?}");
+    }
+}
+
 /// Encounters of these numbers, in parts of which one runs beside the other.
 fn run(fins: &Fins, numbers: Range<u64>, swept: bool) -> Tally {
     let each = (numbers.end - numbers.start) / PARTS;

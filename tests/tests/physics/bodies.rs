@@ -5,6 +5,7 @@
 use crate::linked::{Linked, library, root, told};
 use endline_gear::{Library, Options, Scenario, Sources, assemble, buoy_floats};
 
+use endline_sim::model::Shape;
 use endline_sim::{DQuat, DVec3, Input, Model, ModelSpec, State, Workspace, settle, step};
 
 use std::f64::consts::PI;
@@ -174,6 +175,23 @@ fn a_bullets_draft_is_that_of_its_capsule() {
     }
 }
 
+/// Float, staff, counterweight and reflector, each at its height over the common centre of mass: by hand, with masses of 1.8, 2.9, 7 and 0.8 kg
+/// at 0, 0.1, -1.62 and 1.7 m.
+#[test]
+fn a_high_flyer_has_four_parts_at_their_heights() {
+    let body = &spec("buoy", "high-flyer", 1.0, "").bodies[0];
+    let middle = -(2.9 * 0.1 - 7.0 * 1.62 + 0.8 * 1.7) / 12.5;
+    let wanted = [(0.15, 0.2, 0.0), (0.01905, 1.8, 0.1), (0.05, 0.075, -1.62), (0.11, 0.125, 1.7)];
+    assert_eq!(body.parts.len(), wanted.len());
+    for (part, (radius, half, height)) in body.parts.iter().zip(wanted) {
+        let Shape::Cylinder { radius_m, half_length_m } = part.shape else {
+            panic!("{part:?} has no flat ends")
+        };
+        assert!((radius_m - radius).abs() < 1e-9 && (half_length_m - half).abs() < 1e-9);
+        assert!((part.middle_m - DVec3::Z * (middle + height)).length() < 1e-9, "{part:?}");
+    }
+}
+
 /// A high-flyer pitches in still water with the period its metacentric height gives.
 #[test]
 fn a_high_flyer_pitches_by_its_metacentric_height() {
@@ -190,8 +208,8 @@ fn a_high_flyer_pitches_by_its_metacentric_height() {
     assert!(settled.converged && upright(&settled.state) > 0.999_999);
     // By hand, heights above the middle of the float: waterline, wet volumes and their middles.
     let water = -(settled.state.bodies[0].position
-        + settled.state.bodies[0].orientation * body.shape_offset_m)
-        .z;
+        + settled.state.bodies[0].orientation * body.middle_m())
+    .z;
     let mut parts = vec![(0.0, flyer.length_m, flyer.volume_m3, flyer.diameter_m)];
     parts.extend(
         flyer
@@ -210,7 +228,7 @@ fn a_high_flyer_pitches_by_its_metacentric_height() {
         }
     }
     assert!((volume * DENSITY / flyer.whole_mass_kg() - 1.0).abs() < 1e-6);
-    let height = (moment + plane) / volume + body.shape_offset_m.z;
+    let height = (moment + plane) / volume + body.middle_m().z;
     let all: f64 = body.floats.iter().map(|float| float.volume_m3).sum();
     let inertia = body.inertia_kg_m2.x + body.added_inertia_kg_m2.x * volume / all;
     let period = 2.0 * PI * (inertia / (flyer.whole_mass_kg() * GRAVITY * height)).sqrt();

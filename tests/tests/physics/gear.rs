@@ -131,7 +131,7 @@ fn lines_that_leave_one_body_share_a_joint() {
     let JointKind::Body { body, offset_m } = joint.kind else {
         panic!("{} is not on a body", joint.id)
     };
-    let from_middle = offset_m - spec.bodies[body].shape_offset_m;
+    let from_middle = offset_m - spec.bodies[body].middle_m();
     assert!((from_middle - DVec3::new(0.4572, 0.0, 0.1778)).length() < 1e-12);
 }
 

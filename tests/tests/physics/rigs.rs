@@ -6,7 +6,7 @@ use crate::balance;
 use crate::drawn::{Drawer, Rig, Sea, placed};
 use crate::linked::library;
 
-use endline_sim::model::{BodyRole, Shape};
+use endline_sim::model::BodyRole;
 use endline_sim::statics::Settled;
 use endline_sim::{DVec3, Model, Outcome, settle};
 
@@ -42,11 +42,7 @@ fn faults(model: &Model, settled: &Settled) -> Vec<String> {
             .map(|foot| (state.position + state.orientation * *foot).z)
             .fold(f64::INFINITY, f64::min);
         let ground = -model.spec.water.depth_m;
-        let radius = match body.shape {
-            Shape::Sphere(radius_m) => radius_m,
-            Shape::Capsule { half_length_m, .. } => half_length_m,
-            Shape::Box(half) => half.z,
-        };
+        let radius = body.parts[0].shape.half_m().z;
         match body.role {
             BodyRole::Buoy if state.position.z >= radius => {
                 faults.push(format!("{} flies: {} m", body.id, state.position.z))

@@ -1,6 +1,6 @@
 //! Traps, buoys, anchors and weights.
 
-use endline_sim::model::{Body, BodyRole, JointKind, Shape};
+use endline_sim::model::{Body, BodyRole, JointKind, PlacedShape, Shape};
 use endline_sim::{DAffine3, Frame, Model};
 use glam::{DVec3, Vec3};
 
@@ -13,6 +13,9 @@ const WIRE_M: f32 = 0.15;
 const FIXTURE_M: f32 = 0.15;
 /// The same as a share of its line's length, where that is less.
 const FIXTURE_SHARE: f64 = 0.02;
+
+/// Sides of a round part as drawn.
+const SIDES: usize = 32;
 
 /// Every body at its place in the frame.
 pub fn bodies(model: &Model, frame: &Frame) -> Mesh {
@@ -40,16 +43,32 @@ fn fixtures(mesh: &mut Mesh, model: &Model, frame: &Frame) {
     }
 }
 
+/// Every part of a body. What is fixed to a buoy's float, its first part, is of steel.
 fn draw(mesh: &mut Mesh, body: &Body, pose: &DAffine3) {
-    let pose = &(*pose * DAffine3::from_translation(body.shape_offset_m));
-    match (&body.shape, body.role) {
-        (Shape::Box(half), BodyRole::Trap) => trap(mesh, pose, half.as_vec3()),
-        (Shape::Box(half), role) => mesh.block(pose, half.as_vec3(), colour(role)),
-        (Shape::Sphere(radius), role) => {
-            mesh.capsule(pose, *radius as f32, *radius as f32, banded(role), 16)
+    for (index, PlacedShape { shape, middle_m }) in body.parts.iter().enumerate() {
+        let pose = &(*pose * DAffine3::from_translation(*middle_m));
+        let is_fixed_to_float = body.role == BodyRole::Buoy && index > 0;
+        let role = if is_fixed_to_float { BodyRole::Weight } else { body.role };
+        draw_part(mesh, shape, role, pose);
+    }
+}
+
+fn draw_part(mesh: &mut Mesh, shape: &Shape, role: BodyRole, pose: &DAffine3) {
+    match shape {
+        Shape::Box(half) if role == BodyRole::Trap => trap(mesh, pose, half.as_vec3()),
+        Shape::Box(half) => mesh.block(pose, half.as_vec3(), colour(role)),
+        Shape::Sphere(radius) => {
+            mesh.capsule(pose, *radius as f32, *radius as f32, banded(role), SIDES / 2)
         }
-        (Shape::Capsule { radius_m, half_length_m }, role) => {
-            mesh.capsule(pose, *radius_m as f32, *half_length_m as f32, banded(role), 16);
+        Shape::Capsule { radius_m, half_length_m } => {
+            let half_length = *half_length_m as f32;
+            mesh.capsule(pose, *radius_m as f32, half_length, banded(role), SIDES / 2);
+        }
+        Shape::Cylinder { radius_m, half_length_m } => {
+            mesh.cylinder(pose, [*radius_m, *half_length_m], banded(role), SIDES);
+        }
+        Shape::Spheroid { across_m, along_m } => {
+            mesh.spheroid(pose, [*across_m, *along_m], banded(role), SIDES / 2);
         }
     }
 }

@@ -122,9 +122,8 @@ impl Scene {
             .into_iter()
             .flat_map(|(whale, at)| whale_corners(whale, at.position, at.orientation));
         let shapes = model.spec.bodies.iter().zip(&frame.bodies);
-        let bodies = shapes.flat_map(|(body, (place, turn))| {
-            body.shape.corners().map(|corner| *place + *turn * corner)
-        });
+        let bodies = shapes
+            .flat_map(|(body, (place, turn))| body.corners().map(|corner| *place + *turn * corner));
         frame
             .nodes
             .iter()

@@ -11,6 +11,7 @@ pub mod forces;
 pub mod mesh;
 pub mod obstacles;
 pub mod rope;
+mod round;
 pub mod sea;
 pub mod whale;
 

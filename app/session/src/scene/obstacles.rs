@@ -38,27 +38,11 @@ fn draw(mesh: &mut Mesh, obstacle: &Obstacle) {
             mesh.capsule(&pose, *radius_m as f32, *half_length_m as f32, |_| ROCK, SIDES / 2);
         }
         SolidShape::Cylinder { radius_m, half_length_m } => {
-            cylinder(mesh, &pose, *radius_m, *half_length_m)
+            mesh.cylinder(&pose, [*radius_m, *half_length_m], |_| ROCK, SIDES);
         }
         SolidShape::Box(half) => mesh.block(&pose, half.as_vec3(), ROCK),
-    }
-}
-
-/// A tube along z of the pose, closed by flat ends.
-fn cylinder(mesh: &mut Mesh, pose: &DAffine3, radius_m: f64, half_length_m: f64) {
-    let at = |place: DVec3| pose.transform_point3(place).as_vec3();
-    let ends = [-half_length_m, half_length_m].map(|height| at(DVec3::Z * height));
-    mesh.tube(&ends, radius_m as f32, &[ROCK; 2], SIDES);
-    for (end, height) in [(-1.0, -half_length_m), (1.0, half_length_m)] {
-        let normal = pose.transform_vector3(DVec3::Z * end).as_vec3();
-        let middle = mesh.vertex(at(DVec3::Z * height), normal, 0.0, ROCK);
-        let rim = |side: usize| {
-            let angle = std::f64::consts::TAU * end * side as f64 / SIDES as f64;
-            at(DVec3::new(radius_m * angle.cos(), radius_m * angle.sin(), height))
-        };
-        let first: Vec<u32> =
-            (0..SIDES).map(|side| mesh.vertex(rim(side), normal, 0.0, ROCK)).collect();
-        mesh.triangles
-            .extend((0..SIDES).map(|side| [middle, first[side], first[(side + 1) % SIDES]]));
+        SolidShape::Spheroid { across_m, along_m } => {
+            mesh.spheroid(&pose, [*across_m, *along_m], |_| ROCK, SIDES / 2);
+        }
     }
 }

@@ -3,40 +3,7 @@
 use glam::{DQuat, DVec3};
 
 use crate::float::Float;
-
-/// Shape of a body, for the picture and for contact.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Shape {
-    /// Box by half extents [m].
-    Box(DVec3),
-    /// Sphere by radius [m].
-    Sphere(f64),
-    /// Cylinder along the body's z axis with rounded ends [m].
-    Capsule {
-        /// Radius [m].
-        radius_m: f64,
-        /// Half of the whole length, ends included [m].
-        half_length_m: f64,
-    },
-}
-
-impl Shape {
-    /// Corners of the box round it, in the body's frame [m].
-    #[must_use]
-    pub fn corners(&self) -> [DVec3; 8] {
-        let half = match self {
-            Self::Box(half) => *half,
-            Self::Sphere(radius_m) => DVec3::splat(*radius_m),
-            Self::Capsule { radius_m, half_length_m } => {
-                DVec3::new(*radius_m, *radius_m, *half_length_m)
-            }
-        };
-        let sign = |corner: usize, bit: usize| if corner >> bit & 1 == 0 { -1.0 } else { 1.0 };
-        std::array::from_fn(|corner| {
-            half * DVec3::new(sign(corner, 0), sign(corner, 1), sign(corner, 2))
-        })
-    }
-}
+use crate::model::shape::PlacedShape;
 
 /// What a body is, for pictures and reports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,10 +27,8 @@ pub struct Body {
     pub item: String,
     /// What it is.
     pub role: BodyRole,
-    /// Shape.
-    pub shape: Shape,
-    /// Middle of the shape in the body's frame [m].
-    pub shape_offset_m: DVec3,
+    /// What it consists of, for contact and for the picture; at least one part.
+    pub parts: Vec<PlacedShape>,
     /// Mass in air [kg].
     pub mass_kg: f64,
     /// Principal moments of inertia in the body's frame [kg m²].
@@ -102,6 +67,17 @@ pub struct Body {
 }
 
 impl Body {
+    /// Corners of the boxes round its parts, in its frame [m].
+    pub fn corners(&self) -> impl Iterator<Item = DVec3> {
+        self.parts.iter().flat_map(|part| part.shape.corners().map(|corner| part.middle_m + corner))
+    }
+
+    /// Middle of its first part, in its frame [m].
+    #[must_use]
+    pub fn middle_m(&self) -> DVec3 {
+        self.parts.first().map_or(DVec3::ZERO, |part| part.middle_m)
+    }
+
     /// From the body's place to the lowest place of a foot above a plane of this normal, with the body turned like this [m].
     pub(crate) fn foot_arm(&self, foot: usize, orientation: DQuat, normal: DVec3) -> DVec3 {
         let radius = self.foot_radius_m.get(foot).copied().unwrap_or(0.0);
@@ -113,4 +89,16 @@ impl Body {
     pub fn whole_drag_area_m2(&self) -> DVec3 {
         self.floats.iter().fold(self.drag_area_m2, |sum, float| sum + float.drag_area_m2)
     }
+}
+
+/// Where in a list of things the part of a number stands, parts of bodies being numbered body after body: the index of its body, or how
+/// far past the last part.
+pub(crate) fn body_of_part(bodies: &[Body], mut part: usize) -> Result<usize, usize> {
+    for (index, body) in bodies.iter().enumerate() {
+        if part < body.parts.len() {
+            return Ok(index);
+        }
+        part -= body.parts.len();
+    }
+    Err(part)
 }

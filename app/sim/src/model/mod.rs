@@ -13,6 +13,7 @@ pub mod probe;
 pub mod rope;
 pub mod seabed;
 pub mod settings;
+pub mod shape;
 pub mod whale;
 
 use std::ops::Range;
@@ -24,7 +25,7 @@ use crate::water::{Sea, Water};
 use crate::whale::tree::SkinTree;
 
 pub use crate::float::{Float, Form, Wet};
-pub use body::{Body, BodyRole, Shape};
+pub use body::{Body, BodyRole};
 pub use friction::{BODY_ON_SKIN_FRICTION, Friction, FrictionLaw};
 pub use gear::GearHook;
 pub use joint::{Hitch, Joint, JointKind};
@@ -35,6 +36,7 @@ pub use probe::{EnergyForm, Probe, ProbeTarget};
 pub use rope::{Line, ROPE_ON_ROPE_FRICTION, Rope, RopeOnRope, Strength};
 pub use seabed::Seabed;
 pub use settings::{CONTACT_TOLERANCE, Resolution, Settings};
+pub use shape::{PlacedShape, Shape};
 pub use whale::Whale;
 
 /// All that a model is made from; [`Model::new`] checks it.

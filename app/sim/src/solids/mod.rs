@@ -1,19 +1,21 @@
 //! Solid things that rope meets and that are not the whale: obstacles of a scenario, and the bodies of the rig.
 //!
-//! A solid has a shape with a signed distance in closed form (`shape.rs`). Rope touches it at its nodes and, where an
+//! A solid has a shape with a signed distance (`shape.rs`); a body is one solid for each of its parts. Rope touches it at its nodes and, where an
 //! edge or a shape smaller than a segment lies nearer, at up to two points within a segment (`along.rs`). Rope near
 //! solids is gathered once a step by boxes (`broad.rs`); what touches lives in a list of contact points (`workspace.rs`). The forces
 //! stand in `solver/solid.rs`. A picture asks where a ray meets a body (`ray.rs`).
 
 pub(crate) mod along;
 pub(crate) mod broad;
+pub(crate) mod ellipse;
 mod ray;
 pub mod shape;
 pub(crate) mod workspace;
 
 use glam::{DQuat, DVec3};
 
-use crate::model::{Body, Model, Obstacle, ROPE_ON_HARD_N_M2, Shape};
+use crate::model::body::body_of_part;
+use crate::model::{Body, Model, Obstacle, PlacedShape, ROPE_ON_HARD_N_M2, Shape};
 use crate::state::{BodyState, State};
 pub use shape::SolidShape;
 use workspace::SolidWorkspace;
@@ -27,8 +29,31 @@ pub const ROPE_ON_BODY_FRICTION: f64 = 0.25;
 pub(crate) enum Carrier {
     /// It stands still at this pose.
     World(Pose),
-    /// It is the body of this index.
-    Body(usize),
+    /// It is a part of a body.
+    Body {
+        /// Index of the body.
+        body: usize,
+        /// Its origin in the body's frame [m].
+        middle_m: DVec3,
+    },
+}
+
+impl Carrier {
+    /// Where the solid is, with bodies where a function says.
+    pub fn pose(&self, of_body: impl FnOnce(usize) -> Pose) -> Pose {
+        match *self {
+            Self::World(pose) => pose,
+            Self::Body { body, middle_m } => of_body(body).about(middle_m),
+        }
+    }
+
+    /// The body that it is a part of.
+    pub fn body(&self) -> Option<usize> {
+        match self {
+            Self::World(_) => None,
+            Self::Body { body, .. } => Some(*body),
+        }
+    }
 }
 
 /// Place and orientation.
@@ -54,6 +79,11 @@ impl Pose {
     /// A place of the world in this frame.
     pub fn inward(&self, place: DVec3) -> DVec3 {
         self.orientation.inverse() * (place - self.place)
+    }
+
+    /// The same orientation about another place of this frame.
+    pub fn about(&self, place: DVec3) -> Self {
+        Self { place: self.outward(place), ..*self }
     }
 
     /// A place of this frame in the world.
@@ -87,19 +117,18 @@ impl Solid {
         }
     }
 
-    fn of_body(index: usize, body: &Body) -> Self {
-        let shape = match body.shape {
-            Shape::Box(half) => SolidShape::Box(half),
-            Shape::Sphere(radius) => SolidShape::Sphere(radius),
-            Shape::Capsule { radius_m, half_length_m } => {
-                SolidShape::Capsule { radius_m, half_length_m }
-            }
-        };
+    fn of_part(index: usize, body: &Body, part: &PlacedShape) -> Self {
+        let shape = SolidShape::of(&part.shape);
         let radius_m = shape.radius();
-        let turning = radius_m * radius_m / body.inertia_kg_m2.min_element();
+        let (middle_m, inertia) = (part.middle_m, body.inertia_kg_m2);
+        let (across_m, far_m) = (part.reach_across_m(), middle_m.length() + radius_m);
+        // Two bounds on how much a push turns it: by the least moment of inertia, and about its axis and across it apart.
+        let about_any = far_m * far_m / inertia.min_element();
+        let apart = across_m * across_m / inertia.z + far_m * far_m / inertia.x.min(inertia.y);
+        let turning = about_any.min(apart);
         Self {
             shape,
-            carrier: Carrier::Body(index),
+            carrier: Carrier::Body { body: index, middle_m },
             friction: ROPE_ON_BODY_FRICTION,
             stiffness_n_m2: ROPE_ON_HARD_N_M2,
             mass_kg: 1.0 / (1.0 / body.mass_kg + turning),
@@ -108,12 +137,36 @@ impl Solid {
     }
 }
 
-/// All solids of a model: obstacles first, then bodies where rope touches them.
+impl SolidShape {
+    fn of(shape: &Shape) -> Self {
+        match *shape {
+            Shape::Box(half) => Self::Box(half),
+            Shape::Sphere(radius) => Self::Sphere(radius),
+            Shape::Capsule { radius_m, half_length_m } => Self::Capsule { radius_m, half_length_m },
+            Shape::Cylinder { radius_m, half_length_m } => {
+                Self::Cylinder { radius_m, half_length_m }
+            }
+            Shape::Spheroid { across_m, along_m } => Self::Spheroid { across_m, along_m },
+        }
+    }
+}
+
+impl PlacedShape {
+    /// How far it reaches from the body's z axis, at most [m].
+    fn reach_across_m(&self) -> f64 {
+        let half = self.shape.half_m();
+        libm::hypot(half.x, half.y) + libm::hypot(self.middle_m.x, self.middle_m.y)
+    }
+}
+
+/// All solids of a model: obstacles first, then the parts of bodies, body after body, where rope touches them.
 pub(crate) fn of_model(model: &Model) -> Vec<Solid> {
     let obstacles = model.spec.obstacles.iter().map(Solid::of_obstacle);
     let bodies = if model.spec.settings.rope_on_bodies { &model.spec.bodies[..] } else { &[] };
-    let bodies = bodies.iter().enumerate().map(|(index, body)| Solid::of_body(index, body));
-    obstacles.chain(bodies).collect()
+    let parts = bodies.iter().enumerate().flat_map(|(index, body)| {
+        body.parts.iter().map(move |part| Solid::of_part(index, body, part))
+    });
+    obstacles.chain(parts).collect()
 }
 
 /// Whether rope lies in a body that it could touch.
@@ -121,11 +174,14 @@ pub(crate) fn lies_in_body(model: &Model, state: &State) -> bool {
     model.spec.settings.rope_on_bodies && SolidWorkspace::new(model).any_in_body(state)
 }
 
-/// The id of a solid, with what it is.
+/// The id of the obstacle that a solid is, or of the body that it is a part of, with what it is.
 pub(crate) fn name_of(model: &Model, solid: usize) -> String {
-    let obstacles = model.spec.obstacles.len();
-    match model.spec.obstacles.get(solid) {
+    let (obstacles, bodies) = (&model.spec.obstacles, &model.spec.bodies);
+    match obstacles.get(solid) {
         Some(obstacle) => format!("obstacle {}", obstacle.id),
-        None => format!("body {}", model.spec.bodies[solid - obstacles].id),
+        None => {
+            let body = body_of_part(bodies, solid - obstacles.len()).ok();
+            format!("body {}", body.map_or("", |body| &bodies[body].id))
+        }
     }
 }

@@ -1,10 +1,13 @@
 //! Signed distance of a place from a solid shape, with the direction out of it.
 //!
 //! Below zero inside. All shapes are convex, so the distance along a straight line is a convex function.
-//! Sphere `|p| - R`; capsule and cylinder about z; box by `q = |p| - half`: `|max(q, 0)| + min(max(q), 0)`.
+//! Sphere `|p| - R`; capsule and cylinder about z; box by `q = |p| - half`: `|max(q, 0)| + min(max(q), 0)`; spheroid by the nearest
+//! place of the ellipse in the half plane through its axis (`ellipse.rs`).
 //! Reference: Quilez, Distance functions (iquilezles.org/articles/distfunctions).
 
 use glam::DVec3;
+
+use super::ellipse::nearest_on_ellipse;
 
 /// Shape of a solid, in its own frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,6 +32,13 @@ pub enum SolidShape {
     },
     /// Box by half extents [m].
     Box(DVec3),
+    /// Ellipsoid that is round about z.
+    Spheroid {
+        /// Half axis across z [m].
+        across_m: f64,
+        /// Half axis along z [m].
+        along_m: f64,
+    },
 }
 
 /// The nearest point of a surface, as distance and direction.
@@ -54,6 +64,7 @@ impl SolidShape {
                 from_centre(place - DVec3::Z * place.z.clamp(-straight, straight), *radius_m)
             }
             Self::Box(half) => from_box(place, *half),
+            Self::Spheroid { across_m, along_m } => from_spheroid(place, *across_m, *along_m),
         }
     }
 
@@ -64,7 +75,8 @@ impl SolidShape {
 
     /// Radius of the surface nearest to a place, by which rope bends there [m]: infinite on a flat face, zero on an edge.
     ///
-    /// On a flat face of a box or cylinder it is zero too: rope between two nodes comes nearest there only at the edge.
+    /// On a flat face of a box or cylinder it is zero too: rope between two nodes comes nearest there only at the edge. A spheroid has two; the
+    /// smaller counts.
     pub(crate) fn bend_radius(&self, place: DVec3) -> f64 {
         match self {
             Self::Plane => f64::INFINITY,
@@ -77,6 +89,7 @@ impl SolidShape {
                 }
             }
             Self::Box(_) => 0.0,
+            Self::Spheroid { across_m, along_m } => bend_of_spheroid(place, *across_m, *along_m),
         }
     }
 
@@ -87,6 +100,7 @@ impl SolidShape {
             Self::Sphere(radius) | Self::Capsule { radius_m: radius, .. } => 2.0 * radius,
             Self::Cylinder { radius_m, half_length_m } => 2.0 * radius_m.min(*half_length_m),
             Self::Box(half) => 2.0 * half.min_element(),
+            Self::Spheroid { across_m, along_m } => 2.0 * across_m.min(*along_m),
         }
     }
 
@@ -98,6 +112,7 @@ impl SolidShape {
             Self::Cylinder { radius_m, half_length_m } => libm::hypot(*radius_m, *half_length_m),
             Self::Capsule { radius_m, half_length_m } => radius_m.max(*half_length_m),
             Self::Box(half) => half.length(),
+            Self::Spheroid { across_m, along_m } => across_m.max(*along_m),
         }
     }
 
@@ -113,6 +128,9 @@ impl SolidShape {
                 (above_zero(&[*radius_m, *half_length_m]), "its radius or length is not above zero")
             }
             Self::Box(half) => (above_zero(&half.to_array()), "its size is not above zero"),
+            Self::Spheroid { across_m, along_m } => {
+                (above_zero(&[*across_m, *along_m]), "a half axis is not above zero")
+            }
         };
         (!sound).then_some(fault)
     }
@@ -159,6 +177,29 @@ fn from_box(place: DVec3, half: DVec3) -> Nearest {
     Nearest { distance: beyond.max_element(), normal: sign * axis }
 }
 
+/// The nearest place of a spheroid: in the half plane through its axis, how far off the axis and how high; and the direction away from the axis.
+fn foot_on_spheroid(place: DVec3, across: f64, along: f64) -> ([f64; 2], DVec3) {
+    let flat = DVec3::new(place.x, place.y, 0.0);
+    let from_axis = flat.length();
+    let outward = if from_axis > 1e-12 { flat / from_axis } else { DVec3::X };
+    (nearest_on_ellipse([across, along], [from_axis, place.z]), outward)
+}
+
+fn from_spheroid(place: DVec3, across: f64, along: f64) -> Nearest {
+    let ([off, height], outward) = foot_on_spheroid(place, across, along);
+    let gradient = outward * (off / (across * across)) + DVec3::Z * (height / (along * along));
+    let normal = gradient.normalize();
+    Nearest { distance: (place - outward * off - DVec3::Z * height).dot(normal), normal }
+}
+
+/// With `w² = r²/a⁴ + z²/c⁴` at the foot, half axes `a` across and `c` along: radii of curvature `a² c² w³` along the meridian and `a² w` across it.
+fn bend_of_spheroid(place: DVec3, across: f64, along: f64) -> f64 {
+    let ([off, height], _) = foot_on_spheroid(place, across, along);
+    let w = libm::hypot(off / (across * across), height / (along * along));
+    let round = across * across * w;
+    round.min(round * along * along * w * w)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -170,7 +211,22 @@ mod tests {
             SolidShape::Cylinder { radius_m: 0.3, half_length_m: 0.5 },
             SolidShape::Capsule { radius_m: 0.2, half_length_m: 0.6 },
             SolidShape::Box(DVec3::new(0.5, 0.3, 0.2)),
+            SolidShape::Spheroid { across_m: 0.2, along_m: 0.5 },
+            SolidShape::Spheroid { across_m: 0.6, along_m: 0.15 },
+            SolidShape::Spheroid { across_m: 0.3, along_m: 0.3 },
         ]
+    }
+
+    /// Radii of curvature of a spheroid at its poles `a²/c` and on its equator, the smaller of `a` and `c²/a`.
+    #[test]
+    fn a_spheroid_bends_rope_by_its_curvature() {
+        for (a, c) in [(0.2, 0.5), (0.6, 0.15)] {
+            let shape = SolidShape::Spheroid { across_m: a, along_m: c };
+            let pole = shape.bend_radius(DVec3::Z * (c + 0.01));
+            assert!((pole - a * a / c).abs() < 1e-12, "{pole}");
+            let equator = shape.bend_radius(DVec3::Y * (a + 0.01));
+            assert!((equator - a.min(c * c / a)).abs() < 1e-12, "{equator}");
+        }
     }
 
     /// Places spread evenly over a cube by a lattice of irrational steps.

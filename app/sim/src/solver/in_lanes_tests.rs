@@ -5,7 +5,8 @@ use pulp::Arch;
 
 use super::*;
 use crate::model::{
-    Body, BodyRole, Joint, JointKind, Line, ModelSpec, Rope, Seabed, Settings, Shape, Strength,
+    Body, BodyRole, Joint, JointKind, Line, ModelSpec, PlacedShape, Rope, Seabed, Settings, Shape,
+    Strength,
 };
 use crate::solver::outer;
 use crate::water::{Current, Water};
@@ -34,8 +35,7 @@ fn buoy() -> Body {
         id: "buoy".into(),
         item: String::new(),
         role: BodyRole::Buoy,
-        shape: Shape::Sphere(0.2),
-        shape_offset_m: DVec3::ZERO,
+        parts: vec![PlacedShape::about_origin(Shape::Sphere(0.2))],
         mass_kg: 3.0,
         inertia_kg_m2: DVec3::splat(0.05),
         added_mass_kg: DVec3::splat(8.0),

@@ -107,7 +107,7 @@ impl Solver {
     /// The reaction of rope on bodies as measured last.
     pub(super) fn push_bodies_by_rope(&mut self) {
         for point in self.solid.open_points().filter(|point| point.pushes) {
-            if let Carrier::Body(body) = self.solid.solids[point.solid].carrier {
+            if let Some(body) = self.solid.solids[point.solid].carrier.body() {
                 let arm = point.place - self.trial.bodies[body].place;
                 let attachment = Attachment::Body {
                     block: self.plan.body_block[body],
@@ -152,20 +152,17 @@ impl Solver {
 
     /// Where a solid is at a share of the solved step.
     fn pose_moved(&self, carrier: &Carrier, share: f64) -> Pose {
-        match carrier {
-            Carrier::World(pose) => *pose,
-            Carrier::Body(index) => {
-                let (body, block) = (&self.trial.bodies[*index], self.plan.body_block[*index]);
-                if share == 0.0 || body.held {
-                    return Pose { place: body.place, orientation: body.orientation };
-                }
-                let turn = DQuat::from_scaled_axis(self.interface.step[block + 1] * share);
-                Pose {
-                    place: body.place + self.interface.step[block] * share,
-                    orientation: (turn * body.orientation).normalize(),
-                }
+        carrier.pose(|index| {
+            let (body, block) = (&self.trial.bodies[index], self.plan.body_block[index]);
+            if share == 0.0 || body.held {
+                return Pose { place: body.place, orientation: body.orientation };
             }
-        }
+            let turn = DQuat::from_scaled_axis(self.interface.step[block + 1] * share);
+            Pose {
+                place: body.place + self.interface.step[block] * share,
+                orientation: (turn * body.orientation).normalize(),
+            }
+        })
     }
 
     fn pose_of(&self, carrier: &Carrier) -> Pose {
@@ -192,9 +189,9 @@ impl Solver {
     /// The solved step of the rope at a contact point, as seen from the solid.
     fn step_on(&self, solid: &Solid, point: &SolidContactPoint) -> DVec3 {
         let step = point.on_rope(|node| self.tridiagonal.step[node]);
-        match solid.carrier {
-            Carrier::World(_) => step,
-            Carrier::Body(body) => {
+        match solid.carrier.body() {
+            None => step,
+            Some(body) => {
                 let block = self.plan.body_block[body];
                 let arm =
                     point.on_rope(|node| self.trial.place[node]) - self.trial.bodies[body].place;
@@ -219,9 +216,9 @@ impl Solver {
         let mut work = std::mem::take(&mut self.solid);
         for (solids, point) in work.open_points_mut() {
             let rope = point.on_rope(|node| self.trial.place[node] - self.before[node]);
-            let relative = match solids[point.solid].carrier {
-                Carrier::World(_) => rope,
-                Carrier::Body(body) => {
+            let relative = match solids[point.solid].carrier.body() {
+                None => rope,
+                Some(body) => {
                     let (from, to) =
                         (self.bodies_before[body].pose(), self.trial.bodies[body].pose());
                     let place = point.on_rope(|node| self.before[node]);
@@ -241,9 +238,9 @@ impl Solver {
             let solid = &self.solid.solids[point.solid];
             let force = self.solid_force(state, scheme, solid, point);
             let [on_rope, on_body] = point.solved.map(|solved| solved.distance(force));
-            let gap_n = match solid.carrier {
-                Carrier::World(_) => GRIP_STRICTER * on_rope,
-                Carrier::Body(_) => ANSWER_STRICTER * on_rope.max(on_body),
+            let gap_n = match solid.carrier.body() {
+                None => GRIP_STRICTER * on_rope,
+                Some(_) => ANSWER_STRICTER * on_rope.max(on_body),
             };
             missed = missed.and(ContactMissed { gap_n, greatest_n: force.length() });
         }
@@ -378,10 +375,5 @@ fn grip_of(state: &State, solid: &Solid, point: &SolidContactPoint, touch: &Touc
 }
 
 fn pose_before(state: &State, solid: &Solid) -> Pose {
-    match solid.carrier {
-        Carrier::World(pose) => pose,
-        Carrier::Body(body) => {
-            Pose { place: state.bodies[body].position, orientation: state.bodies[body].orientation }
-        }
-    }
+    solid.carrier.pose(|body| Pose::of(&state.bodies[body]))
 }

@@ -44,7 +44,7 @@ pub enum Bears {
 /// A grip of rope on a solid that lasts from step to step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SolidGrip {
-    /// Solid: obstacles first, then bodies.
+    /// Solid: obstacles first, then the parts of bodies, body after body.
     pub solid: usize,
     /// Line.
     pub line: usize,
@@ -61,7 +61,7 @@ pub struct SolidGrip {
 /// A length of rope that has lain within a body since the run began, and does not touch it until it has come out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RopeWithin {
-    /// Solid: obstacles first, then bodies.
+    /// Solid: obstacles first, then the parts of bodies, body after body.
     pub solid: usize,
     /// Line.
     pub line: usize,
@@ -74,8 +74,8 @@ pub struct RopeWithin {
 /// A body's touch on a triangle of skin, as it lasts from step to step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyGrip {
-    /// Body.
-    pub body: usize,
+    /// Part of a body, parts being numbered body after body.
+    pub part: usize,
     /// Place in the body's frame [m].
     pub place: DVec3,
     /// Direction of the push.
@@ -104,8 +104,8 @@ impl BodyGrips {
 /// A place at which two bodies, or a body and an obstacle, touch, as it lasts from step to step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PairGrip {
-    /// The two bodies, in rising order; an obstacle comes second, by its number after all bodies.
-    pub bodies: [usize; 2],
+    /// Parts of the two bodies, numbered body after body, in rising order; an obstacle comes second, by its number after all parts.
+    pub parts: [usize; 2],
     /// Place in the first body's frame [m].
     pub place: DVec3,
     /// Direction of the push on the first body, in its frame.

@@ -1,7 +1,7 @@
 //! Bodies against each other: a stack that rests, a trap that slides on another, fast meetings, momentum.
 #![allow(clippy::expect_used, reason = "a test fails by panicking, in its helpers too")]
 
-use endline_sim::model::{Body, Settings, Shape};
+use endline_sim::model::{Body, PlacedShape, Settings, Shape};
 use endline_sim::{DQuat, DVec3, Input, Model, State, Workspace, step};
 
 use crate::common::{model, water, weight};
@@ -14,7 +14,7 @@ const FOREVER: Option<f64> = Some(1e9);
 
 fn trap(id: &str, place: DVec3, turn: DQuat, held_until_s: Option<f64>) -> Body {
     Body {
-        shape: Shape::Box(HALF),
+        parts: vec![PlacedShape::about_origin(Shape::Box(HALF))],
         inertia_kg_m2: DVec3::new(0.9, 1.9, 2.3),
         orientation: turn,
         ..weight(id, 20.0, place, held_until_s)
@@ -23,7 +23,7 @@ fn trap(id: &str, place: DVec3, turn: DQuat, held_until_s: Option<f64>) -> Body 
 
 fn ball(id: &str, radius: f64, mass: f64, place: DVec3) -> Body {
     Body {
-        shape: Shape::Sphere(radius),
+        parts: vec![PlacedShape::about_origin(Shape::Sphere(radius))],
         inertia_kg_m2: DVec3::splat(0.4 * mass * radius * radius),
         ..weight(id, mass, place, None)
     }
@@ -67,7 +67,7 @@ fn a_trap_slides_on_another_by_coulombs_law_and_holds_on_a_lesser_slope() {
     let slope = |degrees: f64| {
         let turn = DQuat::from_rotation_y(degrees.to_radians());
         let long = Body {
-            shape: Shape::Box(DVec3::new(6.0, 0.6, 0.2)),
+            parts: vec![PlacedShape::about_origin(Shape::Box(DVec3::new(6.0, 0.6, 0.2)))],
             ..trap("slope", DVec3::NEG_Z * 10.0, turn, FOREVER)
         };
         let place = DVec3::NEG_Z * 10.0 + turn * DVec3::new(-4.0, 0.0, 0.4);

@@ -1,7 +1,7 @@
 //! Bodies on obstacles: they slide and roll by Newton's and Coulomb's laws, and none goes in.
 #![allow(clippy::expect_used, reason = "a test fails by panicking, in its helpers too")]
 
-use endline_sim::model::{Body, Obstacle, ROPE_ON_HARD_N_M2, Settings, Shape};
+use endline_sim::model::{Body, Obstacle, PlacedShape, ROPE_ON_HARD_N_M2, Settings, Shape};
 use endline_sim::solids::SolidShape;
 use endline_sim::{DQuat, DVec3, Input, Model, State, Workspace, step};
 
@@ -23,7 +23,7 @@ fn obstacle(shape: SolidShape, place: DVec3, turn: DQuat, friction: f64) -> Obst
 
 fn trap(place: DVec3, turn: DQuat) -> Body {
     Body {
-        shape: Shape::Box(HALF),
+        parts: vec![PlacedShape::about_origin(Shape::Box(HALF))],
         inertia_kg_m2: DVec3::new(0.9, 1.9, 2.3),
         orientation: turn,
         ..weight("trap", 20.0, place, None)
@@ -32,15 +32,22 @@ fn trap(place: DVec3, turn: DQuat) -> Body {
 
 fn ball(radius: f64, place: DVec3) -> Body {
     Body {
-        shape: Shape::Sphere(radius),
+        parts: vec![PlacedShape::about_origin(Shape::Sphere(radius))],
         inertia_kg_m2: DVec3::splat(0.4 * 5.0 * radius * radius),
         ..weight("ball", 5.0, place, None)
     }
 }
 
+fn of_shape(shape: Shape, place: DVec3, turn: DQuat) -> Body {
+    Body { parts: vec![PlacedShape::about_origin(shape)], ..buoy(place, turn) }
+}
+
 fn buoy(place: DVec3, turn: DQuat) -> Body {
     Body {
-        shape: Shape::Capsule { radius_m: 0.1, half_length_m: 0.4 },
+        parts: vec![PlacedShape::about_origin(Shape::Capsule {
+            radius_m: 0.1,
+            half_length_m: 0.4,
+        })],
         inertia_kg_m2: DVec3::new(0.3, 0.3, 0.03),
         orientation: turn,
         ..weight("buoy", 6.0, place, None)
@@ -125,11 +132,13 @@ fn bodies_that_fall_on_obstacles_stay_out_of_them() {
         (SolidShape::Box(DVec3::new(0.1, 2.0, 0.1)), askew),
     ];
     for (shape, turn) in under {
-        for fallen in 0..3 {
+        for fallen in 0..5 {
             let over = DVec3::new(0.02, 0.03, -6.5);
             let body = match fallen {
                 0 => ball(0.15, over),
                 1 => buoy(over, askew),
+                3 => of_shape(Shape::Cylinder { radius_m: 0.12, half_length_m: 0.2 }, over, askew),
+                4 => of_shape(Shape::Spheroid { across_m: 0.12, along_m: 0.25 }, over, askew),
                 _ => trap(over, askew),
             };
             let rock = obstacle(shape.clone(), DVec3::NEG_Z * 10.0, turn, 0.3);
@@ -155,7 +164,7 @@ fn depth(model: &Model, state: &State) -> f64 {
         rock.orientation.inverse() * (now.position + now.orientation * place - rock.position_m)
     };
     let inner = |place: DVec3, radius: f64| radius - distance(&rock.shape, inward(place));
-    match body.shape {
+    match body.parts[0].shape {
         Shape::Sphere(radius) => inner(DVec3::ZERO, radius),
         Shape::Capsule { radius_m, half_length_m } => (-10..=10)
             .map(|k| inner(DVec3::Z * (half_length_m - radius_m) * f64::from(k) / 10.0, radius_m))
@@ -164,6 +173,28 @@ fn depth(model: &Model, state: &State) -> f64 {
         Shape::Box(half) => (0..11 * 11 * 11)
             .map(|k: i32| DVec3::new(f64::from(k % 11), f64::from(k / 11 % 11), f64::from(k / 121)))
             .map(|net| inner((net / 5.0 - 1.0) * (half - 0.05), 0.05))
+            .fold(f64::MIN, f64::max),
+        // A net over the surface of a cylinder without its rounding, which is of 0.05 m here.
+        Shape::Cylinder { radius_m, half_length_m } => (0..24 * 11 * 2)
+            .map(|k: i32| (f64::from(k % 24), f64::from(k / 24 % 11) / 5.0 - 1.0, k / 264))
+            .map(|(turn, share, part)| {
+                let (radius, half) = (radius_m - 0.05, half_length_m - 0.05);
+                let (off, height) =
+                    if part == 0 { (radius, half * share) } else { (radius * share, half) };
+                let around = DQuat::from_rotation_z(turn * std::f64::consts::TAU / 24.0);
+                let side = around * DVec3::new(off, 0.0, height);
+                inner(side, 0.05).max(inner(side.with_z(-height), 0.05))
+            })
+            .fold(f64::MIN, f64::max),
+        // A net over the surface itself.
+        Shape::Spheroid { across_m, along_m } => (0..24 * 21)
+            .map(|k: i32| (f64::from(k % 24), f64::from(k / 24) / 20.0))
+            .map(|(turn, share)| {
+                let polar = std::f64::consts::PI * share;
+                let around = DQuat::from_rotation_z(turn * std::f64::consts::TAU / 24.0);
+                let on_ball = around * DVec3::new(libm::sin(polar), 0.0, libm::cos(polar));
+                inner(on_ball * DVec3::new(across_m, across_m, along_m), 0.0)
+            })
             .fold(f64::MIN, f64::max),
     }
 }
@@ -184,5 +215,6 @@ fn distance(shape: &SolidShape, place: DVec3) -> f64 {
             beyond(DVec3::new(side, end, f64::MIN))
         }
         SolidShape::Box(half) => beyond(place.abs() - *half),
+        SolidShape::Spheroid { .. } => unreachable!("no such obstacle is drawn here"),
     }
 }

@@ -1,7 +1,7 @@
 //! Bodies on the seabed: round ones roll and lie at their radius however they are turned, and a stack of traps rests.
 #![allow(clippy::expect_used, reason = "a test fails by panicking, in its helpers too")]
 
-use endline_sim::model::{Body, Seabed, Settings, Shape};
+use endline_sim::model::{Body, PlacedShape, Seabed, Settings, Shape};
 use endline_sim::{DQuat, DVec3, Input, Model, State, Workspace, step};
 
 use crate::common::{model, water, weight};
@@ -11,7 +11,7 @@ const MASS: f64 = 5.0;
 
 fn ball(place: DVec3) -> Body {
     Body {
-        shape: Shape::Sphere(RADIUS),
+        parts: vec![PlacedShape::about_origin(Shape::Sphere(RADIUS))],
         inertia_kg_m2: DVec3::splat(0.4 * MASS * RADIUS * RADIUS),
         feet_m: vec![DVec3::ZERO],
         foot_radius_m: vec![RADIUS],
@@ -88,7 +88,7 @@ fn a_capsule_that_topples_lies_at_its_radius() {
     let (radius_m, half_length_m) = (0.1, 0.4);
     let straight = DVec3::Z * (half_length_m - radius_m);
     let buoy = Body {
-        shape: Shape::Capsule { radius_m, half_length_m },
+        parts: vec![PlacedShape::about_origin(Shape::Capsule { radius_m, half_length_m })],
         inertia_kg_m2: DVec3::new(0.3, 0.3, 0.03),
         orientation: DQuat::from_rotation_y(0.1),
         feet_m: vec![-straight, straight],
@@ -115,7 +115,7 @@ fn a_stack_of_three_traps_rests_on_the_seabed() {
         half * DVec3::new(sign(0), sign(1), sign(2))
     };
     let trap = |level: u32, turn: f64| Body {
-        shape: Shape::Box(half),
+        parts: vec![PlacedShape::about_origin(Shape::Box(half))],
         inertia_kg_m2: DVec3::new(0.9, 1.9, 2.3),
         orientation: DQuat::from_rotation_z(turn),
         feet_m: (0..8).map(corner).collect(),

@@ -1,7 +1,7 @@
 //! Bodies on skin against known answers: weight, Hertz, Coulomb on a slope, a rolling ball, momentum.
 #![allow(clippy::expect_used, reason = "a test fails by panicking, in its helpers too")]
 
-use endline_sim::model::{Body, Settings, Shape, Whale};
+use endline_sim::model::{Body, PlacedShape, Settings, Shape, Whale};
 use endline_sim::{DQuat, DVec3, Input, Model, State, Workspace, step};
 
 use crate::common::weight;
@@ -38,7 +38,7 @@ fn on_slab(body: Body, height: f64, angle: f64, settings: Settings) -> Model {
 fn ball(radius: f64, mass: f64) -> Body {
     let inertia = 0.4 * mass * radius * radius;
     Body {
-        shape: Shape::Sphere(radius),
+        parts: vec![PlacedShape::about_origin(Shape::Sphere(radius))],
         inertia_kg_m2: DVec3::splat(inertia),
         ..weight("ball", mass, DVec3::ZERO, None)
     }
@@ -46,7 +46,7 @@ fn ball(radius: f64, mass: f64) -> Body {
 
 fn trap() -> Body {
     Body {
-        shape: Shape::Box(DVec3::new(0.5, 0.3, 0.2)),
+        parts: vec![PlacedShape::about_origin(Shape::Box(DVec3::new(0.5, 0.3, 0.2)))],
         inertia_kg_m2: DVec3::new(0.9, 1.9, 2.3),
         ..weight("trap", 20.0, DVec3::ZERO, None)
     }
@@ -88,6 +88,38 @@ fn a_ball_lies_as_deep_as_its_weight_presses_it() {
     assert!((push / (mass * GRAVITY) - 1.0).abs() < 1e-3, "{push} N");
     let lies = HALF.z + radius - state.bodies[0].position.z;
     assert!((lies / depth - 1.0).abs() < 1e-3, "{lies} m, {depth} m");
+}
+
+/// A staff with a heavy float, laid on skin at its full length and let go: skin bears its weight, and no part goes through.
+#[test]
+fn a_staff_laid_on_skin_lies_on_it() {
+    let (staff_m, float_m, mass) = (0.019, 0.1, 20.0);
+    let part = |shape: Shape, height: f64| PlacedShape { shape, middle_m: DVec3::Z * height };
+    let flyer = Body {
+        parts: vec![
+            part(Shape::Spheroid { across_m: float_m, along_m: 0.2 }, 0.0),
+            part(Shape::Cylinder { radius_m: staff_m, half_length_m: 0.9 }, 0.1),
+            part(Shape::Cylinder { radius_m: 0.05, half_length_m: 0.075 }, -0.7),
+        ],
+        inertia_kg_m2: DVec3::new(3.0, 3.0, 0.1),
+        ..weight("flyer", mass, DVec3::ZERO, None)
+    };
+    let mut spec = on_slab(flyer, float_m - 1e-3, 0.0, Settings::default()).spec.clone();
+    spec.bodies[0].orientation = DQuat::from_rotation_x(-std::f64::consts::FRAC_PI_2);
+    let model = Model::new(spec).expect("a sound model");
+    let (state, workspace) = run(&model, 6.0);
+    let push: f64 = workspace.body_contacts.iter().map(|contact| contact.normal_force_n).sum();
+    assert!((push / (mass * GRAVITY) - 1.0).abs() < 0.02, "{push} N");
+    let body = &state.bodies[0];
+    for PlacedShape { shape, middle_m } in &model.spec.bodies[0].parts {
+        let (across, along) = (shape.half_m().x, shape.half_m().z);
+        for end in [-1.0, 1.0] {
+            let at = body.position + body.orientation * (*middle_m + DVec3::Z * (end * along));
+            let is_round = matches!(shape, Shape::Spheroid { .. });
+            let least = if is_round { -0.01 } else { 0.4 * across };
+            assert!(at.z - HALF.z > least, "{shape:?}: {}", at.z - HALF.z);
+        }
+    }
 }
 
 #[test]

@@ -3,14 +3,14 @@
 #![allow(clippy::expect_used, clippy::panic, reason = "a test says what it needs")]
 
 use crate::common::{fixed, line, model, water, weight};
-use endline_sim::model::{Body, Joint, JointKind, Seabed, Settings, Shape};
-use endline_sim::{DVec3, Input, Model, State, Workspace, settle, step};
+use endline_sim::model::{Body, Joint, JointKind, PlacedShape, Seabed, Settings, Shape};
+use endline_sim::{DQuat, DVec3, Input, Model, State, Workspace, settle, step};
 
 const HALF: DVec3 = DVec3::new(0.6, 0.3, 0.2);
 
 fn trap(position_m: DVec3) -> Body {
     let mut trap = weight("trap", 18.0, position_m, None);
-    trap.shape = Shape::Box(HALF);
+    trap.parts = vec![PlacedShape::about_origin(Shape::Box(HALF))];
     trap.inertia_kg_m2 = DVec3::new(0.8, 2.4, 2.7);
     (trap.start_friction, trap.slide_friction) = (0.6, 0.5);
     let corner = |k: usize| {
@@ -84,6 +84,52 @@ fn rope_laid_across_a_trap_is_at_rest_on_it() {
     );
     assert!(workspace.audit.rope_within_m == 0.0 && clearance(&model, &state) > 0.0);
     assert!(place.distance(state.bodies[0].position) < 1e-3 && moved_m < 0.02);
+}
+
+/// A sinking line that hangs between two points across the staff of a high-flyer that is held level, by itself some centimetres lower.
+#[test]
+fn rope_laid_across_a_staff_is_held_by_it() {
+    const STAFF_M: f64 = 0.019;
+    let ends = [DVec3::new(0.6, -3.0, -29.35), DVec3::new(0.6, 3.0, -29.35)];
+    let place = DVec3::Z * -29.6;
+    let mut flyer = weight("flyer", 18.0, place, Some(1e3));
+    flyer.orientation = DQuat::from_rotation_y(std::f64::consts::FRAC_PI_2);
+    let staff = Shape::Cylinder { radius_m: STAFF_M, half_length_m: 1.8 };
+    let float = PlacedShape { shape: Shape::Sphere(0.15), middle_m: DVec3::Z * -0.8 };
+    flyer.parts = vec![float, PlacedShape { shape: staff, middle_m: DVec3::Z * 0.2 }];
+    flyer.inertia_kg_m2 = DVec3::new(8.0, 8.0, 0.1);
+    let laid = |rope_on_bodies: bool| {
+        let settings = Settings { rope_on_bodies, ..Settings::default() };
+        let joints = ends.map(|end| fixed("end", end)).to_vec();
+        let rope = line("rope", 6.05, 66);
+        model(water(500.0, 0.0), joints, vec![rope], vec![flyer.clone()], settings)
+    };
+    // The staff's axis lies along x of the world at the body's place: how high the centre line is over it.
+    let over_m = |state: &State| {
+        let height = |ends: &[DVec3]| {
+            let share = ends[0].y / (ends[0].y - ends[1].y);
+            ends[0].lerp(ends[1], share).z - place.z
+        };
+        let mut over = state.rope.position.windows(2).filter(|ends| ends[0].y * ends[1].y <= 0.0);
+        over.next().map_or(f64::NEG_INFINITY, height)
+    };
+    let through = settle(&laid(false));
+    assert!(through.converged && over_m(&through.state) < -STAFF_M, "it hangs lower by itself");
+    let model = laid(true);
+    let least_m = |state: &State| {
+        let off = |place_of: DVec3| libm::hypot(place_of.y, place_of.z - place.z);
+        let along = |ends: &[DVec3]| {
+            (0..=20).map(|k| off(ends[0].lerp(ends[1], f64::from(k) / 20.0))).fold(1.0, f64::min)
+        };
+        state.rope.position.windows(2).map(along).fold(1.0, f64::min)
+    };
+    // From where it is laid, straight and above the staff: statics would take it through what is so thin.
+    let mut state = State::start(&model);
+    assert!(over_m(&state) > 0.1);
+    let workspace = run(&model, &mut state, 8.0);
+    println!("after 8 s {} m over the staff's axis, {STAFF_M} m thick", over_m(&state));
+    assert!(workspace.audit.rope_within_m == 0.0 && least_m(&state) > STAFF_M);
+    assert!(over_m(&state) > STAFF_M && over_m(&state) < 0.05, "{}", over_m(&state));
 }
 
 /// Rope stowed in a trap that floats free is drawn out of it, and pushes it no farther than its own friction in water would: not at all

@@ -5,7 +5,9 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::common::{line, model_with, water, weight};
-use endline_sim::model::{Joint, JointKind, Obstacle, ROPE_ON_HARD_N_M2, Settings, Shape};
+use endline_sim::model::{
+    Joint, JointKind, Obstacle, PlacedShape, ROPE_ON_HARD_N_M2, Settings, Shape,
+};
 use endline_sim::solids::SolidShape;
 use endline_sim::{DQuat, DVec3, Input, Model, State, Workspace, settle, step};
 
@@ -302,7 +304,7 @@ fn motion(model: &Model, state: &State) -> (f64, DVec3, DVec3) {
 fn rope_thrown_at_a_free_trap_gives_it_its_momentum() {
     for mass_kg in [18.0, 0.5] {
         let mut trap = weight("trap", mass_kg, DVec3::new(0.4, 0.1, 0.05), None);
-        trap.shape = Shape::Box(DVec3::new(0.3, 0.25, 0.15));
+        trap.parts = vec![PlacedShape::about_origin(Shape::Box(DVec3::new(0.3, 0.25, 0.15)))];
         trap.inertia_kg_m2 = DVec3::new(0.05, 0.07, 0.08) * mass_kg;
         let ends = [DVec3::new(-0.03, -1.0, 0.0), DVec3::new(-0.03, 1.1, 0.02)];
         let joints = ends

@@ -63,7 +63,6 @@ fn shot<'a>(args: &'a RenderArgs, moment: &'a Moment) -> Result<picture::Shot<'a
         if let Some(index) = model.spec.bodies.iter().position(|body| body.id == *id) {
             fit.extend(
                 model.spec.bodies[index]
-                    .shape
                     .corners()
                     .map(|corner| frame.bodies[index].0 + frame.bodies[index].1 * corner),
             );

@@ -9,8 +9,8 @@ use endline_sdk::{
 use endline_sim::contact::ContactPoint;
 use endline_sim::contact::bodies::BodyContact;
 use endline_sim::model::{
-    Body, BodyRole, Float, Friction, Joint, JointKind, Line, ModelSpec, PilotProgram, Rope, Seabed,
-    Settings, Shape, Strength, Whale,
+    Body, BodyRole, Float, Friction, Joint, JointKind, Line, ModelSpec, PilotProgram, PlacedShape,
+    Rope, Seabed, Settings, Shape, Strength, Whale,
 };
 use endline_sim::water::{Current, Water};
 use endline_sim::whale::{Bone, JointRanges, Measures, Skin};
@@ -150,12 +150,11 @@ fn body(id: &str, role: BodyRole) -> Body {
         id: id.into(),
         item: String::new(),
         role,
-        shape: if trap {
+        parts: vec![PlacedShape::about_origin(if trap {
             Shape::Box(DVec3::new(0.6, 0.27, 0.2))
         } else {
             Shape::Capsule { radius_m: 0.18, half_length_m: 0.4 }
-        },
-        shape_offset_m: DVec3::ZERO,
+        })],
         mass_kg: 20.0,
         inertia_kg_m2: DVec3::ONE,
         added_mass_kg: DVec3::ZERO,

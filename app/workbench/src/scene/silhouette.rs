@@ -1,8 +1,8 @@
-//! The outline of a body as it is seen. Its shapes are convex, so it is the convex hull of places on their surface.
+//! The outlines of a body's parts as they are seen. Each part is convex, so its outline is the convex hull of places on its surface.
 
 use std::f64::consts::{PI, TAU};
 
-use endline_sim::model::{Body, Shape};
+use endline_sim::model::{Body, PlacedShape, Shape};
 use glam::{DQuat, DVec2, DVec3};
 
 use super::camera::Camera;
@@ -11,19 +11,20 @@ use super::camera::Camera;
 const CIRCLES: u32 = 12;
 const ROUND: u32 = 24;
 
-/// Outline of a body at a place in an orientation, in a picture of `size` [points]; empty where a part of it is behind the eye.
-#[must_use]
-pub fn silhouette(
-    body: &Body,
+/// Outline of each part of a body at a place in an orientation, in a picture of `size` [points]; none of a part that is behind the eye.
+pub fn silhouette<'a>(
+    body: &'a Body,
     (place, turn): (DVec3, DQuat),
-    camera: &Camera,
+    camera: &'a Camera,
     size: DVec2,
-) -> Vec<DVec2> {
-    let seen = surface(&body.shape).into_iter().map(|at| {
-        let at = place + turn * (body.shape_offset_m + at);
-        camera.project(at, size)
-    });
-    seen.collect::<Option<Vec<DVec2>>>().map_or_else(Vec::new, hull)
+) -> impl Iterator<Item = Vec<DVec2>> + 'a {
+    body.parts.iter().filter_map(move |PlacedShape { shape, middle_m }| {
+        let seen = surface(shape).into_iter().map(|at| {
+            let at = place + turn * (*middle_m + at);
+            camera.project(at, size)
+        });
+        seen.collect::<Option<Vec<DVec2>>>().map(hull)
+    })
 }
 
 /// Places on a shape between which lies all of its surface that an outline shows.
@@ -43,6 +44,20 @@ fn surface(shape: &Shape) -> Vec<DVec3> {
         Shape::Sphere(radius_m) => round(*radius_m, 0.0),
         Shape::Capsule { radius_m, half_length_m } => {
             round(*radius_m, (half_length_m - radius_m).max(0.0))
+        }
+        Shape::Cylinder { radius_m, half_length_m } => {
+            let rim = |height: f64| {
+                (0..ROUND).map(move |step| {
+                    let turn = TAU * f64::from(step) / f64::from(ROUND);
+                    DVec3::new(radius_m * turn.cos(), radius_m * turn.sin(), height)
+                })
+            };
+            rim(-half_length_m).chain(rim(*half_length_m)).collect()
+        }
+        Shape::Spheroid { across_m, along_m } => {
+            let scale = DVec3::new(*across_m, *across_m, *along_m);
+            let ball: Vec<DVec3> = round(1.0, 0.0);
+            ball.into_iter().map(|at| at * scale).collect()
         }
     }
 }
@@ -84,9 +99,10 @@ mod tests {
         let model = sample::model();
         let camera = Camera::of_view(View::Side, &[DVec3::ZERO], None, 13.0, SIZE.x / SIZE.y);
         let camera = Camera { distance_m: 20.0, ..camera };
-        let ball = Body { shape: Shape::Sphere(0.3), ..model.spec.bodies[1].clone() };
+        let parts = vec![PlacedShape::about_origin(Shape::Sphere(0.3))];
+        let ball = Body { parts, ..model.spec.bodies[1].clone() };
         let at = (camera.target, DQuat::IDENTITY);
-        let outline = silhouette(&ball, at, &camera, SIZE);
+        let outline = silhouette(&ball, at, &camera, SIZE).next().unwrap();
         let radius = 0.3 / camera.metres_a_point(SIZE.y);
         let middle = camera.project(camera.target, SIZE).unwrap();
         assert!(outline.len() >= 12);

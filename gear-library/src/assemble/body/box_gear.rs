@@ -13,7 +13,7 @@
 //!
 //! Drag spread over the box damps a trap that falls: with all of it at the middle it swings ever wider on the way down.
 
-use endline_sim::model::{Body, BodyRole, Float, Form, Shape};
+use endline_sim::model::{Body, BodyRole, Float, Form, PlacedShape, Shape};
 use endline_sim::{DQuat, DVec3};
 
 use crate::items::BoxGear;
@@ -43,8 +43,7 @@ pub fn of_box(
         id,
         item: item.entry.name.clone(),
         role,
-        shape: Shape::Box(size / 2.0),
-        shape_offset_m: middle,
+        parts: vec![PlacedShape { shape: Shape::Box(size / 2.0), middle_m: middle }],
         mass_kg: item.mass_kg,
         inertia_kg_m2: box_inertia(item),
         added_mass_kg: share * water_kg,

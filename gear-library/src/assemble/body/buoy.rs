@@ -11,9 +11,11 @@
 //! | turning drag | of slices by what they do; of one spheroid plate strips; skin drag `0.02` about the axis |
 //! | added mass | share × `ρ V` across and along; added inertia share × `ρ V (L²/12 + z²)` |
 //!
+//! For contact and for the picture a buoy is its float, shaped as it is, and one flat-ended cylinder for each piece.
+//!
 //! A bullet's slices are cylinders of the capsule's volume between their ends; its draft then is within 1 % of its diameter.
 
-use endline_sim::model::{Body, BodyRole, Float, Form, Shape};
+use endline_sim::model::{Body, BodyRole, Float, Form, PlacedShape, Shape};
 use endline_sim::{DQuat, DVec3};
 
 use crate::items::{Buoy, BuoyPiece, BuoyShape};
@@ -41,11 +43,7 @@ pub fn of_buoy(id: String, item: &Buoy, density: f64, middle_m: DVec3, orientati
         id,
         item: item.entry.name.clone(),
         role: BodyRole::Buoy,
-        shape: match item.shape {
-            BuoyShape::Sphere => Shape::Sphere(diameter / 2.0),
-            _ => Shape::Capsule { radius_m: diameter / 2.0, half_length_m: length / 2.0 },
-        },
-        shape_offset_m: middle,
+        parts: parts(item, middle),
         mass_kg: item.whole_mass_kg(),
         inertia_kg_m2: buoy_inertia(item),
         added_mass_kg: DVec3::new(
@@ -70,6 +68,26 @@ pub fn of_buoy(id: String, item: &Buoy, density: f64, middle_m: DVec3, orientati
         spin_rad_s: DVec3::ZERO,
         held_until_s: None,
     }
+}
+
+/// The float as it is shaped, and every piece as a cylinder at its height.
+fn parts(item: &Buoy, middle_m: DVec3) -> Vec<PlacedShape> {
+    let (radius_m, half_length_m) = (item.diameter_m / 2.0, item.length_m / 2.0);
+    let shape = match item.shape {
+        BuoyShape::Sphere => Shape::Sphere(radius_m),
+        BuoyShape::Bullet => Shape::Capsule { radius_m, half_length_m },
+        BuoyShape::LowDrag => Shape::Spheroid { across_m: radius_m, along_m: half_length_m },
+        BuoyShape::Cylinder => Shape::Cylinder { radius_m, half_length_m },
+    };
+    let piece = |piece: &BuoyPiece| PlacedShape {
+        shape: Shape::Cylinder {
+            radius_m: piece.diameter_m / 2.0,
+            half_length_m: piece.length_m / 2.0,
+        },
+        middle_m: middle_m + DVec3::Z * piece.at_m,
+    };
+    let float = PlacedShape { shape, middle_m };
+    std::iter::once(float).chain(item.pieces.iter().map(piece)).collect()
 }
 
 /// Points of a buoy where a line can be made fast, in the body's frame.
@@ -191,26 +209,36 @@ fn centre_of_mass(item: &Buoy) -> f64 {
     (item.mass_kg * item.centre_of_mass_m + pieces) / item.whole_mass_kg()
 }
 
-/// What of a buoy touches the seabed, as height above the middle of the float and radius [m]: the float's rounded ends, and the tips of
-/// what stands out beyond them.
+/// What of a buoy touches the seabed, as height above the middle of the float and radius of a ball [m]:
+///
+/// - a sphere: itself; a bullet: its rounded ends;
+/// - a flat-ended cylinder, float or piece: a ball within each end, as wide as it is, so that it lies on its side and stands at its height. Its rims are
+///   rounded off by that, and it does not stand on its end by itself. One that is shorter than wide is a ball as wide as it is;
+/// - a spheroid: the ball about its middle that is as wide as it is, and the balls that lie within its poles and have their curvature.
 fn feet(item: &Buoy) -> Vec<(f64, f64)> {
     let (half, radius) = (item.length_m / 2.0, item.diameter_m / 2.0);
-    let straight = if item.shape == BuoyShape::Sphere { 0.0 } else { (half - radius).max(0.0) };
-    let ends_of_float = if straight > 0.0 { vec![-straight, straight] } else { vec![0.0] };
-    let (top, foot) = ends(item);
-    let tips = [foot, top].into_iter().filter(|tip| tip.abs() > half).map(|tip| (tip, 0.0));
-    ends_of_float.into_iter().map(|height| (height, radius)).chain(tips).collect()
+    let mut feet = match item.shape {
+        BuoyShape::Sphere => vec![(0.0, radius)],
+        BuoyShape::LowDrag if half > radius => {
+            let pole = radius * radius / half;
+            vec![(pole - half, pole), (0.0, radius), (half - pole, pole)]
+        }
+        _ => balls_within(half, radius, 0.0),
+    };
+    for piece in &item.pieces {
+        feet.extend(balls_within(piece.length_m / 2.0, piece.diameter_m / 2.0, piece.at_m));
+    }
+    feet
 }
 
-/// Highest and lowest point above the middle of the float [m].
-fn ends(item: &Buoy) -> (f64, f64) {
-    let half = item.length_m / 2.0;
-    let reach =
-        |piece: &BuoyPiece| (piece.at_m + piece.length_m / 2.0, piece.at_m - piece.length_m / 2.0);
-    item.pieces
-        .iter()
-        .map(reach)
-        .fold((half, -half), |(top, foot), (high, low)| (top.max(high), foot.min(low)))
+/// Balls within both ends of a cylinder about a height; one where they would be one and the same, or it is shorter than wide.
+fn balls_within(half: f64, radius: f64, height: f64) -> Vec<(f64, f64)> {
+    let straight = half - radius;
+    if straight > 0.0 {
+        vec![(height - straight, radius), (height + straight, radius)]
+    } else {
+        vec![(height, radius)]
+    }
 }
 
 fn rod_inertia(mass: f64, diameter: f64, length: f64) -> DVec3 {

@@ -6,7 +6,7 @@
 mod box_gear;
 mod buoy;
 
-use endline_sim::model::{Body, BodyRole, Float, Shape};
+use endline_sim::model::{Body, BodyRole, Float, PlacedShape, Shape};
 use endline_sim::{DQuat, DVec3};
 
 use crate::scenario::FreeBody;
@@ -43,8 +43,7 @@ pub(super) fn of_free(body: &FreeBody, density: f64) -> Body {
         id: body.id.value.clone(),
         item: String::new(),
         role: if body.buoy { BodyRole::Buoy } else { BodyRole::Weight },
-        shape,
-        shape_offset_m: DVec3::ZERO,
+        parts: vec![PlacedShape::about_origin(shape)],
         mass_kg: body.mass_kg,
         inertia_kg_m2: body.inertia_kg_m2.unwrap_or(inertia),
         added_mass_kg: DVec3::splat(body.added_mass * density * body.volume_m3),

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use endline_friction_models::Coulomb;
 use endline_gear::whale::{WhaleForm, build_skin};
 use endline_sdk::FrictionModel;
-use endline_sim::model::{Body, BodyRole, Friction, Settings, Shape, Whale};
+use endline_sim::model::{Body, BodyRole, Friction, PlacedShape, Settings, Shape, Whale};
 use endline_sim::water::{Current, Water};
 use endline_sim::whale::Skin;
 use endline_sim::{DVec3, Input, Model, ModelSpec, State, Workspace, step};
@@ -51,6 +51,16 @@ impl Pieces {
 
     /// The meeting of a number: its model, its steps and what was drawn.
     pub fn meeting(&self, number: u64, swept: bool) -> (ModelSpec, u64, String) {
+        self.meeting_of(number, swept, None)
+    }
+
+    /// The meeting of a number with a body of a kind, or of one of the first three as drawn.
+    pub fn meeting_of(
+        &self,
+        number: u64,
+        swept: bool,
+        kind: Option<u32>,
+    ) -> (ModelSpec, u64, String) {
         let mut dice = Dice::of(number);
         let usual = Settings::default();
         let contact_step_s = if swept { usual.contact_step_s } else { usual.step_s };
@@ -60,56 +70,96 @@ impl Pieces {
         skin.vertices.iter_mut().for_each(|place| *place = turned * *place);
         let speed_m_s = dice.between(2.0, 20.0);
         let turn_rate = (dice.direction() * (0.5 * speed_m_s * dice.share())).to_array();
-        let body = body(&mut dice);
-        let size = size_of(&body.shape);
+        let body = body(&mut dice, kind);
+        let size = size_of(&body.parts);
         let forward = heading * DVec3::X;
+        // A body of several parts is aimed at anywhere along its staff, any other about its middle. The way to the former is long: it turns less on it.
+        let is_long = body.parts.len() > 1;
+        let turn_rate = if is_long { turn_rate.map(|rate| 0.1 * rate) } else { turn_rate };
+        let along_m = if is_long { dice.between(-0.9, 0.9) * size } else { 0.0 };
+        let aimed = MET + body.orientation * (DVec3::Z * along_m);
+        let aside_m = if is_long { 0.02 } else { 0.5 * size };
         let beside = dice.direction();
-        let beside = (beside - forward * beside.dot(forward)) * (0.5 * size);
+        let beside = (beside - forward * beside.dot(forward)) * aside_m;
         let before_m =
             reach(&skin) + size + speed_m_s * usual.contact_step_s * dice.between(0.5, 2.0);
         let whale = Whale {
-            position_m: MET + beside - forward * before_m,
+            position_m: aimed + beside - forward * before_m,
             orientation: heading,
             speed_m_s,
             ..rig::whale(skin.clone(), speed_m_s, turn_rate)
         };
         let past_m = before_m + reach(&skin) + size;
         let steps = (past_m / speed_m_s / settings.step_s).ceil() as u64;
-        let told = format!("{speed_m_s:.1} m/s, {:?} of {:.1} kg", body.shape, body.mass_kg);
+        let told = format!("{speed_m_s:.1} m/s, {:?} of {:.1} kg", body.parts, body.mass_kg);
         (spec(whale, body, dice.between(0.05, 0.6), settings), steps, told)
     }
 }
 
-/// Half of the longest side of a shape [m].
-fn size_of(shape: &Shape) -> f64 {
-    match shape {
-        Shape::Sphere(radius_m) => *radius_m,
-        Shape::Capsule { half_length_m, .. } => *half_length_m,
-        Shape::Box(half) => half.length(),
-    }
+/// Half of the longest side of a body [m].
+fn size_of(parts: &[PlacedShape]) -> f64 {
+    let size = |part: &PlacedShape| {
+        let own = match &part.shape {
+            Shape::Sphere(radius_m) => *radius_m,
+            Shape::Capsule { half_length_m, .. } => *half_length_m,
+            Shape::Box(half) => half.length(),
+            Shape::Cylinder { radius_m, half_length_m } => radius_m.max(*half_length_m),
+            Shape::Spheroid { across_m, along_m } => across_m.max(*along_m),
+        };
+        part.middle_m.length() + own
+    };
+    parts.iter().map(size).fold(0.0, f64::max)
 }
 
-fn body(dice: &mut Dice) -> Body {
-    let shape = match (3.0 * dice.share()) as u32 {
+/// A float with a staff through it and a counterweight at its foot.
+fn high_flyer(dice: &mut Dice) -> Vec<PlacedShape> {
+    let part = |radius_m: f64, half_length_m: f64, height: f64| PlacedShape {
+        shape: Shape::Cylinder { radius_m, half_length_m },
+        middle_m: DVec3::Z * height,
+    };
+    let (half_length_m, float_m) = (dice.between(0.6, 1.8), dice.between(-0.2, 0.2));
+    vec![
+        part(dice.between(0.1, 0.2), dice.between(0.1, 0.25), float_m),
+        part(dice.between(0.012, 0.03), half_length_m, 0.0),
+        part(0.05, 0.075, 0.08 - half_length_m),
+    ]
+}
+
+/// A body of a kind: ball, rounded buoy, box; flat-ended buoy, spheroid, high-flyer.
+fn parts(dice: &mut Dice, kind: u32) -> Vec<PlacedShape> {
+    let shape = match kind {
         0 => Shape::Sphere(dice.between(0.03, 0.2)),
         1 => {
             let radius_m = dice.between(0.03, 0.12);
             Shape::Capsule { radius_m, half_length_m: radius_m * dice.between(1.2, 4.0) }
         }
-        _ => Shape::Box(DVec3::new(
+        2 => Shape::Box(DVec3::new(
             dice.between(0.2, 0.6),
             dice.between(0.15, 0.4),
             dice.between(0.1, 0.25),
         )),
+        3 => Shape::Cylinder {
+            radius_m: dice.between(0.05, 0.2),
+            half_length_m: dice.between(0.05, 0.4),
+        },
+        4 => {
+            Shape::Spheroid { across_m: dice.between(0.08, 0.2), along_m: dice.between(0.08, 0.4) }
+        }
+        _ => return high_flyer(dice),
     };
+    vec![PlacedShape::about_origin(shape)]
+}
+
+fn body(dice: &mut Dice, kind: Option<u32>) -> Body {
+    let drawn = (3.0 * dice.share()) as u32;
+    let parts = parts(dice, kind.unwrap_or(drawn));
     let mass_kg = 2.0 * libm::pow(50.0, dice.share());
-    let size = size_of(&shape);
+    let size = size_of(&parts);
     Body {
         id: "body".into(),
         item: String::new(),
         role: BodyRole::Buoy,
-        shape,
-        shape_offset_m: DVec3::ZERO,
+        parts,
         mass_kg,
         inertia_kg_m2: DVec3::splat(0.3 * mass_kg * size * size),
         added_mass_kg: DVec3::ZERO,

@@ -42,7 +42,7 @@ pub fn vertical(model: &Model, state: &State, index: usize) -> f64 {
 /// What rope near a body lacks to balance itself, away from its ends at bodies and fixtures: that it rests on the body with [N].
 fn resting(model: &Model, state: &State, index: usize) -> f64 {
     let (body, now) = (&model.spec.bodies[index], &state.bodies[index]);
-    let reach_m = body.shape.corners()[7].length();
+    let reach_m = body.corners().map(DVec3::length).fold(0.0, f64::max);
     let near = |(place, longest_m, _): &&(DVec3, f64, f64)| {
         place.distance(now.position) < reach_m + longest_m
     };

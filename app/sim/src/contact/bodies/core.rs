@@ -1,10 +1,14 @@
-//! The core of a body, and its distance from a triangle of skin.
+//! The core of a part of a body, and its distance from a triangle of skin.
 //!
-//! Ball: its centre. Buoy: the straight part of its axis. Box: what is left of it where `h` is taken off each side, so that its edges are
-//! rounded by `h`. Distances of points and rods are exact (`contact/distance.rs`); that of a box is found by the algorithm of Gilbert, Johnson and
-//! Keerthi (1988, doi:10.1109/56.2083), of the library parry.
+//! Ball: its centre. Buoy with rounded ends: the straight part of its axis. Box and flat-ended cylinder: what is left where `h` is taken off each side,
+//! so that edges are rounded by `h`. Spheroid: one with both half axes less by `h` (`core/spheroid.rs`). Distances of points and rods
+//! (`contact/distance.rs`), of cylinders and of spheroids (`core/convex.rs`) are exact; that of a box is found by the algorithm of Gilbert, Johnson
+//! and Keerthi (1988, doi:10.1109/56.2083), of the library parry.
 
+pub(crate) mod convex;
+pub(crate) mod cylinder;
 pub(crate) mod obstacle_core;
+pub(crate) mod spheroid;
 
 use glam::DVec3;
 use parry3d::math::Pose as Frame;
@@ -12,15 +16,22 @@ use parry3d::query::ClosestPoints;
 use parry3d::query::details::closest_points_support_map_support_map;
 use parry3d::shape::{Cuboid, Triangle};
 
-use self::obstacle_core::Cylinder;
+use self::convex::{Convex, nearest_to_triangle};
+use self::cylinder::Cylinder;
+use self::spheroid::Spheroid;
 use crate::contact::distance::{point_triangle, segment_triangle};
 use crate::contact::placed::on_triangle;
-use crate::model::{Body, Shape};
+use crate::model::{Body, PlacedShape, Shape};
 use crate::solids::Pose;
 
-/// Rounding of a box's edges: at most this [m], and this share of its least half extent.
-pub(super) const ROUNDED_M: f64 = 0.05;
-pub(super) const ROUNDED_SHARE: f64 = 0.5;
+/// Rounding of edges: at most this [m], and this share of the least half extent.
+const ROUNDED_M: f64 = 0.05;
+const ROUNDED_SHARE: f64 = 0.5;
+
+/// By how much the edges of a shape of a least half extent are rounded [m].
+fn rounded(least_half_m: f64) -> f64 {
+    ROUNDED_M.min(ROUNDED_SHARE * least_half_m)
+}
 
 /// A core, in the body's frame about the middle of its shape.
 #[derive(Clone, Debug)]
@@ -29,15 +40,18 @@ pub(crate) enum Core {
     /// Half of a rod along z [m].
     Rod(f64),
     Box(Cuboid),
-    /// A cylinder along z; only of obstacles.
+    /// A cylinder along z.
     Cylinder(Cylinder),
+    Spheroid(Spheroid),
     /// All that lies below z = 0; only of obstacles.
     HalfSpace,
 }
 
-/// A body as skin meets it.
+/// A part of a body as skin and other bodies meet it, or an obstacle as bodies do.
 #[derive(Clone, Debug)]
 pub(crate) struct BodyCore {
+    /// The body that it is a part of; of an obstacle its number after all bodies.
+    pub thing: usize,
     pub core: Core,
     /// Contact distance: how far the surface lies off the core [m].
     pub reach: f64,
@@ -58,22 +72,39 @@ pub(crate) struct Nearest {
 }
 
 impl BodyCore {
-    /// The core of a body.
-    pub fn of(body: &Body) -> Self {
-        let (core, reach, half) = match body.shape {
+    /// The cores of all parts of bodies, body after body.
+    pub fn of_bodies(bodies: &[Body]) -> impl Iterator<Item = Self> {
+        bodies
+            .iter()
+            .enumerate()
+            .flat_map(|(index, body)| body.parts.iter().map(move |part| Self::of(index, part)))
+    }
+
+    /// The core of a part of a body of this index.
+    pub fn of(body: usize, part: &PlacedShape) -> Self {
+        let (core, reach, half) = match part.shape {
             Shape::Sphere(radius_m) => (Core::Point, radius_m, 0.0),
             Shape::Capsule { radius_m, half_length_m } => {
                 let straight = (half_length_m - radius_m).max(0.0);
                 (Core::Rod(straight), radius_m, straight)
             }
             Shape::Box(half) => {
-                let reach = ROUNDED_M.min(ROUNDED_SHARE * half.min_element());
+                let reach = rounded(half.min_element());
                 let inner = half - DVec3::splat(reach);
                 (Core::Box(Cuboid::new(inner)), reach, inner.length())
             }
+            Shape::Cylinder { radius_m, half_length_m } => {
+                let (cylinder, reach) = Cylinder::rounded(radius_m, half_length_m);
+                let half = libm::hypot(cylinder.radius, cylinder.half);
+                (Core::Cylinder(cylinder), reach, half)
+            }
+            Shape::Spheroid { across_m, along_m } => {
+                let (spheroid, reach) = Spheroid::shrunk(across_m, along_m);
+                (Core::Spheroid(spheroid), reach, spheroid.across.max(spheroid.along))
+            }
         };
-        let middle = body.shape_offset_m;
-        Self { core, reach, middle, radius: middle.length() + half + reach }
+        let middle = part.middle_m;
+        Self { thing: body, core, reach, middle, radius: middle.length() + half + reach }
     }
 
     /// Nearest places of the core in a pose and a triangle; `None` where they meet.
@@ -91,8 +122,10 @@ impl BodyCore {
                 (nearest.distance, nearest.barycentric, on_core)
             }
             Core::Box(cuboid) => from_box(cuboid, inward)?,
+            Core::Cylinder(cylinder) => nearest_to_triangle(cylinder, inward)?,
+            Core::Spheroid(spheroid) => nearest_to_triangle(spheroid, inward)?,
             // Obstacles do not meet skin.
-            Core::Cylinder(_) | Core::HalfSpace => return None,
+            Core::HalfSpace => return None,
         };
         (distance > 0.0).then(|| Nearest {
             distance,
@@ -102,29 +135,62 @@ impl BodyCore {
         })
     }
 
-    /// Corners of a box's core with the places nearest to them on a triangle; a face that lies along skin bears on them. Empty for other cores.
+    /// Corners of a core, and the side of a cylinder that looks to a place, with the places nearest to them on a triangle; a face or a side that
+    /// lies along skin bears on them. Empty for cores without.
     pub fn nearest_to_corners(
         &self,
         pose: &Pose,
         corners: [DVec3; 3],
+        towards: DVec3,
     ) -> impl Iterator<Item = Nearest> {
-        self.corners(pose).map(move |on_core| {
+        self.corners(pose).chain(self.side_towards(pose, towards)).map(move |on_core| {
             let (distance, barycentric) = point_triangle(on_core, corners);
             Nearest { distance, barycentric, on_core, on_skin: on_triangle(corners, barycentric) }
         })
     }
 
-    /// Corners of a box's core in a pose; none for other cores.
+    /// Corners of a box's core and places round the rims of a cylinder's, in a pose; none for other cores.
     pub fn corners(&self, pose: &Pose) -> impl Iterator<Item = DVec3> {
-        let half = match &self.core {
-            Core::Box(cuboid) => Some(cuboid.half_extents),
+        let (half, cylinder) = match &self.core {
+            Core::Box(cuboid) => (Some(cuboid.half_extents), None),
+            Core::Cylinder(cylinder) => (None, Some(*cylinder)),
+            _ => (None, None),
+        };
+        let corners = half.into_iter().flat_map(|half| {
+            (0..8).map(move |k| {
+                let sign = |bit: usize| if k >> bit & 1 == 0 { -1.0 } else { 1.0 };
+                half * DVec3::new(sign(0), sign(1), sign(2))
+            })
+        });
+        let (pose, middle) = (*pose, self.middle);
+        let rims = cylinder.into_iter().flat_map(Cylinder::rims);
+        corners.chain(rims).map(move |place| pose.outward(middle + place))
+    }
+
+    /// Both ends of the line along a cylinder's side that looks to a place; none for other cores.
+    pub fn side_towards(&self, pose: &Pose, place: DVec3) -> impl Iterator<Item = DVec3> {
+        let ends = match &self.core {
+            Core::Cylinder(cylinder) => {
+                Some(cylinder.side_towards(pose.inward(place) - self.middle))
+            }
             _ => None,
         };
         let (pose, middle) = (*pose, self.middle);
-        half.into_iter().flat_map(|half| (0..8).map(move |k| (half, k))).map(move |(half, k)| {
-            let sign = |bit: usize| if k >> bit & 1 == 0 { -1.0 } else { 1.0 };
-            pose.outward(middle + half * DVec3::new(sign(0), sign(1), sign(2)))
-        })
+        ends.into_iter().flatten().map(move |place| pose.outward(middle + place))
+    }
+
+    /// The place of the core in a pose that is nearest to another place.
+    pub fn nearest_to_place(&self, pose: &Pose, place: DVec3) -> DVec3 {
+        let inward = pose.inward(place) - self.middle;
+        let nearest = match &self.core {
+            Core::Point => DVec3::ZERO,
+            Core::Rod(half) => DVec3::Z * inward.z.clamp(-half, *half),
+            Core::Box(cuboid) => inward.clamp(-cuboid.half_extents, cuboid.half_extents),
+            Core::Cylinder(cylinder) => cylinder.nearest(inward),
+            Core::Spheroid(spheroid) => spheroid.nearest(inward),
+            Core::HalfSpace => inward.with_z(inward.z.min(0.0)),
+        };
+        pose.outward(nearest + self.middle)
     }
 
     /// The longest line of the core, for a test of crossing that knows nothing of distances.
@@ -132,7 +198,14 @@ impl BodyCore {
         let half = match &self.core {
             Core::Point | Core::HalfSpace => DVec3::ZERO,
             Core::Rod(half) => DVec3::Z * *half,
-            Core::Cylinder(cylinder) => DVec3::Z * cylinder.half,
+            Core::Cylinder(Cylinder { radius: across, half: along })
+            | Core::Spheroid(Spheroid { across, along }) => {
+                if along >= across {
+                    DVec3::Z * *along
+                } else {
+                    DVec3::X * *across
+                }
+            }
             Core::Box(cuboid) => {
                 let extents = cuboid.half_extents;
                 let longest = extents.max_element();
@@ -156,78 +229,4 @@ fn from_box(cuboid: &Cuboid, corners: [DVec3; 3]) -> Option<(f64, [f64; 3], DVec
 }
 
 #[cfg(test)]
-mod tests {
-    use glam::DQuat;
-
-    use super::*;
-    use crate::metrics::tests::body;
-    use crate::model::BodyRole;
-
-    fn share(k: u32, step: f64) -> f64 {
-        2.0 * (f64::from(k) * step).fract() - 1.0
-    }
-
-    /// Places spread evenly over a cube by a lattice of irrational steps.
-    fn place(k: u32) -> DVec3 {
-        DVec3::new(share(k, 0.754_877_666), share(k, 0.569_840_291), share(k, 0.419_725_169))
-    }
-
-    fn core(shape: Shape) -> BodyCore {
-        let it = body("it", BodyRole::Buoy, DVec3::ZERO);
-        BodyCore::of(&Body { shape, shape_offset_m: DVec3::new(0.02, -0.03, 0.1), ..it })
-    }
-
-    /// No place of a fine net over triangle and core is nearer than the distance found, and one is as near to within the net's width.
-    #[test]
-    fn no_place_of_a_net_is_nearer() {
-        let half = DVec3::new(0.3, 0.2, 0.12);
-        for shape in [
-            Shape::Sphere(0.15),
-            Shape::Capsule { radius_m: 0.07, half_length_m: 0.3 },
-            Shape::Box(half),
-        ] {
-            let core = core(shape.clone());
-            for k in 1..60 {
-                let corners = [place(3 * k), place(3 * k + 1), place(3 * k + 2)];
-                let orientation = DQuat::from_scaled_axis(place(1000 + k) * 3.0);
-                let pose = Pose { place: place(2000 + k) * 0.5, orientation };
-                let Some(nearest) = core.nearest(&pose, corners) else { continue };
-                let net = |n: u32| (0..=n).map(move |i| f64::from(i) / f64::from(n));
-                let mut least = f64::INFINITY;
-                for u in net(40) {
-                    for v in net(40).filter(|v| u + v <= 1.0 + 1e-9) {
-                        let at = on_triangle(corners, [1.0 - u - v, u, v]);
-                        least = least.min(core.distance_of(&pose, at));
-                    }
-                }
-                assert!(
-                    nearest.distance <= least + 1e-9,
-                    "{shape:?} {k}: {} {least}",
-                    nearest.distance
-                );
-                assert!(
-                    least - nearest.distance < 0.04,
-                    "{shape:?} {k}: {} {least}",
-                    nearest.distance
-                );
-                let apart = nearest.on_core.distance(nearest.on_skin);
-                assert!((apart - nearest.distance).abs() < 1e-9);
-                assert!(core.distance_of(&pose, nearest.on_core).abs() < 1e-9);
-            }
-        }
-    }
-
-    impl BodyCore {
-        /// Distance of a place from the core in closed form.
-        fn distance_of(&self, pose: &Pose, place: DVec3) -> f64 {
-            let inward = pose.inward(place) - self.middle;
-            let nearest = match &self.core {
-                Core::Point => DVec3::ZERO,
-                Core::Rod(half) => DVec3::Z * inward.z.clamp(-half, *half),
-                Core::Box(cuboid) => inward.clamp(-cuboid.half_extents, cuboid.half_extents),
-                Core::Cylinder(_) | Core::HalfSpace => unreachable!("no body has such a core"),
-            };
-            inward.distance(nearest)
-        }
-    }
-}
+mod tests;

@@ -2,7 +2,7 @@
 
 use glam::DAffine3;
 
-use super::{BodySkin, NearBody, Pair};
+use super::{BodySkin, NearPart, Pair};
 use crate::contact::sweep::{SweptSegment, triangle_at};
 use crate::model::Model;
 use crate::solids::Pose;
@@ -30,19 +30,20 @@ impl BodySkin {
         self.pairs.clear();
         self.touching = false;
         self.surface.begin(bones[0], bones[1]);
-        for (body, now) in state.bodies.iter().enumerate() {
+        for part in 0..self.cores.len() {
+            let body = self.cores[part].thing;
             let held_until_s = model.spec.bodies[body].held_until_s;
             let is_held = held_until_s.is_some_and(|until_s| state.time_s < until_s);
             if !is_held {
-                self.gather_near(body, now, left_s);
+                self.gather_near(part, &state.bodies[body], left_s);
             }
         }
         self.is_near()
     }
 
-    /// Gathers skin near one body.
-    fn gather_near(&mut self, body: usize, now: &BodyState, left_s: f64) {
-        let radius = self.cores[body].radius;
+    /// Gathers skin near a part of a body.
+    fn gather_near(&mut self, part: usize, now: &BodyState, left_s: f64) {
+        let radius = self.cores[part].radius;
         let (from, to) = (now.position, now.position + now.velocity * left_s);
         let search_m = radius + room_of(now, radius, left_s);
         if !self.surface.whole().meets(&Bounds::around(&[from, to]).grown(search_m)) {
@@ -52,20 +53,20 @@ impl BodySkin {
         self.surface.gather(&[path], search_m, &mut self.candidates);
         if !self.candidates.is_empty() {
             let candidates = std::mem::take(&mut self.candidates);
-            self.add_body(body, now, candidates.iter().map(|near| near.triangle), left_s);
+            self.add_part(part, now, candidates.iter().map(|near| near.triangle), left_s);
             self.candidates = candidates;
         }
     }
 
-    /// Adds a body with those of the triangles that are near it.
-    fn add_body(
+    /// Adds a part of a body with those of the triangles that are near it.
+    fn add_part(
         &mut self,
-        body: usize,
+        part: usize,
         now: &BodyState,
         triangles: impl Iterator<Item = u32>,
         left_s: f64,
     ) {
-        let core = &self.cores[body];
+        let core = &self.cores[part];
         let pose = Pose::of(now);
         let room = room_of(now, core.radius, left_s);
         let (first, mut skin_move) = (self.pairs.len(), 0.0_f64);
@@ -90,7 +91,8 @@ impl BodySkin {
         }
         if self.pairs.len() > first {
             let pairs = first..self.pairs.len();
-            self.near.push(NearBody { body, pairs, room, skin_move, moved: 0.0 });
+            let body = core.thing;
+            self.near.push(NearPart { part, body, pairs, room, skin_move, moved: 0.0 });
         }
     }
 
@@ -100,7 +102,7 @@ impl BodySkin {
         self.touching = false;
         self.touches.clear();
         for near in &self.near {
-            let (body, core) = (&state.bodies[near.body], &self.cores[near.body]);
+            let (body, core) = (&state.bodies[near.body], &self.cores[near.part]);
             let pose = Pose::of(body);
             let own_m = moves_m(body, core.radius, dt);
             for pair in &mut self.pairs[near.pairs.clone()] {

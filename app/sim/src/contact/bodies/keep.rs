@@ -19,7 +19,7 @@ impl BodySkin {
         grips.clear();
         for (place, touch) in self.touches.iter().enumerate() {
             grips.contacts.push(BodyGrip {
-                body: touch.body,
+                part: touch.part,
                 place: self.measured[touch.body].inward(touch.place),
                 normal: touch.normal,
             });

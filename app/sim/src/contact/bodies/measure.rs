@@ -61,7 +61,7 @@ impl BodySkin {
             return Ok(());
         };
         for near in &self.near {
-            let (core, pose) = (&self.cores[near.body], &self.measured[near.body]);
+            let (core, pose) = (&self.cores[near.part], &self.measured[near.body]);
             for index in near.pairs.clone().filter(|index| self.pairs[*index].active) {
                 let pair = &self.pairs[index];
                 let (triangle, corners) =
@@ -76,9 +76,11 @@ impl BodySkin {
                     continue;
                 }
                 let region = whale.skin.regions[triangle];
-                let places = std::iter::once(nearest).chain(core.nearest_to_corners(pose, corners));
+                let at_corners = core.nearest_to_corners(pose, corners, nearest.on_skin);
+                let places = std::iter::once(nearest).chain(at_corners);
                 let touching = (0..).zip(places).filter(|(_, at)| at.distance < core.reach);
                 self.touches.extend(touching.map(|(feature, at)| Touch {
+                    part: near.part,
                     body: near.body,
                     pair: index,
                     feature,
@@ -102,14 +104,14 @@ impl BodySkin {
 
     fn share_out(&mut self) {
         let Self { touches, touched, cores, .. } = self;
-        share_out(touches, touched, self.shared, |body| cores[body].reach);
+        share_out(touches, touched, self.shared, |part| cores[part].reach);
         self.shared += 1;
     }
 
     fn press(&mut self, model: &Model) {
         let Some(whale) = &model.spec.whale else { return };
         for touch in &mut self.touches {
-            let reach = self.cores[touch.body].reach;
+            let reach = self.cores[touch.part].reach;
             let [push_n, stiffness] = push(touch.depth, reach, whale.contact_stiffness_n_m2);
             (touch.push_n, touch.stiffness) = (push_n * touch.share, stiffness * touch.share);
         }
@@ -135,7 +137,7 @@ impl BodySkin {
                 grain: self.grains.at(pair.triangle as usize, &corners, touch.normal),
                 along: touch.normal,
                 slip: body_move - skin_move,
-                length: self.cores[touch.body].reach * touch.share,
+                length: self.cores[touch.part].reach * touch.share,
                 share: touch.share,
                 coefficient: friction.coefficients_of_bodies[touch.region as usize],
                 region: touch.region as u32,
@@ -190,7 +192,7 @@ impl Shared for Touch {
     }
 
     fn thing(&self) -> usize {
-        self.body
+        self.part
     }
 
     fn number(&self) -> (usize, u64) {
@@ -212,11 +214,11 @@ pub(crate) struct BodyForce {
     pub block: glam::DMat3,
 }
 
-/// The kept grip that a touch goes on from: the nearest on the body whose push goes almost its way.
+/// The kept grip that a touch goes on from: the nearest on the part whose push goes almost its way.
 fn kept_grip(grips: &BodyGrips, touch: &Touch, inward: DVec3) -> Option<usize> {
     let alike =
         grips.contacts.iter().enumerate().filter(|(_, grip)| {
-            grip.body == touch.body && grip.normal.dot(touch.normal) > SAME_FACE
+            grip.part == touch.part && grip.normal.dot(touch.normal) > SAME_FACE
         });
     let nearest = alike.min_by(|(_, one), (_, other)| {
         one.place.distance(inward).total_cmp(&other.place.distance(inward))

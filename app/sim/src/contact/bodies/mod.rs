@@ -1,7 +1,7 @@
 //! Bodies of the rig against the whale's skin: traps, buoys and anchors.
 //!
-//! A body is a core (a point, a rod or a box) with a surface that lies by `h`, its contact distance, off that core (`core.rs`): a ball is
-//! a point, a buoy a rod, a trap a box with rounded edges. Where the core is nearer to a triangle of skin than `h`, skin is pressed and
+//! Each part of a body is a core with a surface that lies by `h`, its contact distance, off that core (`core.rs`): a ball is a point, a buoy a
+//! rod, a trap a box with rounded edges, a staff a cylinder. All parts go where their body goes. Where the core is nearer to a triangle of skin than `h`, skin is pressed and
 //! pushes back along the line of least distance (`press.rs`), with friction by the law of its surface. The core itself never
 //! meets skin: the path of each solver step, of body and skin together, is proved free (`path.rs`). So a push never has to be told inside from
 //! outside, and a thin fluke has two sides.
@@ -55,7 +55,7 @@ pub struct BodyContact {
     pub slip_m: DVec3,
 }
 
-/// A body and a triangle near it.
+/// A part of a body and a triangle near it.
 #[derive(Clone, Copy, Debug)]
 struct Pair {
     triangle: u32,
@@ -69,25 +69,28 @@ struct Pair {
     solved: DVec3,
 }
 
-/// A body near skin, with its pairs.
+/// A part of a body near skin, with its pairs.
 #[derive(Clone, Debug)]
-struct NearBody {
+struct NearPart {
+    /// Number of the part, and its body.
+    part: usize,
     body: usize,
     pairs: Range<usize>,
     /// How far beyond its contact distance triangles were gathered [m].
     room: f64,
     /// Greatest move of any triangle near it over the model's step [m].
     skin_move: f64,
-    /// How far body and skin have moved since triangles were gathered [m].
+    /// How far part and skin have moved since triangles were gathered [m].
     moved: f64,
 }
 
-/// A body pressed on a triangle, as measured last.
+/// A part of a body pressed on a triangle, as measured last.
 #[derive(Clone, Copy, Debug)]
 struct Touch {
+    part: usize,
     body: usize,
     pair: usize,
-    /// Which place of the core: the nearest, or a corner of a box.
+    /// Which place of the core: the nearest, or a corner.
     feature: u64,
     /// Number of the law of friction.
     law: usize,
@@ -106,11 +109,12 @@ struct Touch {
 /// Scratch of bodies against skin for one model; it keeps nothing that a step depends on.
 #[derive(Clone, Debug)]
 pub(crate) struct BodySkin {
+    /// Cores of all parts of bodies.
     cores: Vec<BodyCore>,
     surface: Surface,
     grains: Arc<Grains>,
     candidates: Vec<Candidate>,
-    near: Vec<NearBody>,
+    near: Vec<NearPart>,
     pairs: Vec<Pair>,
     /// Shares of the model's step at which the solver step begins and ends, and up to which bodies and skin have been moved.
     start: f64,
@@ -140,7 +144,7 @@ impl BodySkin {
             return None;
         }
         Some(Self {
-            cores: model.spec.bodies.iter().map(BodyCore::of).collect(),
+            cores: BodyCore::of_bodies(&model.spec.bodies).collect(),
             grains: Arc::new(Grains::new(tree.skin())),
             surface: Surface::new(tree),
             candidates: Vec::new(),

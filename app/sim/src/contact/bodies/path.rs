@@ -4,7 +4,7 @@
 //! The path is proved free by steps of time that the distance of the core and the greatest possible approach allow (`sweep.rs`), and
 //! checked by an exact test of the core's axis that knows nothing of distances (`crossing.rs`).
 
-use super::{BodySkin, NearBody, Pair};
+use super::{BodySkin, NearPart, Pair};
 use crate::contact::crossing::first_meeting;
 use crate::contact::placed::on_triangle;
 use crate::contact::sweep::{SweptSegment, triangle_at, walk};
@@ -37,7 +37,7 @@ impl BodySkin {
         let mut crossings = 0;
         for place in 0..self.near.len() {
             let near = &self.near[place];
-            let core = &self.cores[near.body];
+            let core = &self.cores[near.part];
             let poses = [Pose::of(&state.bodies[near.body]), pose(near.body)];
             let own_m = own_move(&poses, core.radius);
             if near.moved + own_m > near.room {
@@ -71,12 +71,12 @@ impl BodySkin {
     /// Distance of a core from a triangle at the end of a path that is proved free and leaves nothing pinched.
     fn proved(
         &self,
-        near: &NearBody,
+        near: &NearPart,
         pair: &Pair,
         poses: &[Pose; 2],
         approach: f64,
     ) -> Option<f64> {
-        let reach = self.cores[near.body].reach;
+        let reach = self.cores[near.part].reach;
         if !self.is_free(near, pair, poses, approach) {
             return None;
         }
@@ -85,59 +85,67 @@ impl BodySkin {
         (!pinched).then_some(gap)
     }
 
-    fn is_free(&self, near: &NearBody, pair: &Pair, poses: &[Pose; 2], approach: f64) -> bool {
-        let keep = (KEPT_SHARE * self.cores[near.body].reach).min(0.5 * pair.gap);
+    fn is_free(&self, near: &NearPart, pair: &Pair, poses: &[Pose; 2], approach: f64) -> bool {
+        let keep = (KEPT_SHARE * self.cores[near.part].reach).min(0.5 * pair.gap);
         walk(pair.gap, keep, approach, |at| self.distance_at(near, pair, poses, at)) >= 1.0
     }
 
     /// Distance of a core from a triangle at a share of the solver step; zero where they meet.
-    fn distance_at(&self, near: &NearBody, pair: &Pair, [from, to]: &[Pose; 2], at: f64) -> f64 {
+    fn distance_at(&self, near: &NearPart, pair: &Pair, [from, to]: &[Pose; 2], at: f64) -> f64 {
         let pose = Pose {
             place: from.place.lerp(to.place, at),
             orientation: from.orientation.slerp(to.orientation, at),
         };
         let corners = triangle_at(&pair.sweep, self.start + (self.goal - self.start) * at);
-        let nearest = self.cores[near.body].nearest(&pose, corners);
+        let nearest = self.cores[near.part].nearest(&pose, corners);
         nearest.map_or(0.0, |nearest| nearest.distance)
     }
 
     /// Crossings found on the path of a body with all skin near it.
-    fn crossings_of(&self, near: &NearBody, poses: &[Pose; 2]) -> u64 {
+    fn crossings_of(&self, near: &NearPart, poses: &[Pose; 2]) -> u64 {
         let pairs = self.pairs[near.pairs.clone()].iter();
         pairs.filter(|pair| self.crosses(near, pair, poses)).count() as u64
     }
 
-    fn crosses(&self, near: &NearBody, pair: &Pair, poses: &[Pose; 2]) -> bool {
-        let [[a0, b0], [a1, b1]] = [0, 1].map(|k| self.cores[near.body].axis(&poses[k]));
+    fn crosses(&self, near: &NearPart, pair: &Pair, poses: &[Pose; 2]) -> bool {
+        let [[a0, b0], [a1, b1]] = [0, 1].map(|k| self.cores[near.part].axis(&poses[k]));
         let triangle = [self.start, self.goal].map(|share| triangle_at(&pair.sweep, share));
         first_meeting(&SweptSegment { a0, b0, a1, b1 }, &triangle).is_some()
     }
 
     /// A better guess than a pose whose path leads into skin: the body goes along with the skin that it is nearest to, or stays.
     pub fn held_off(&self, state: &State, body: usize, guess: Pose) -> Pose {
-        let Some(near) = self.near.iter().find(|near| self.swept && near.body == body) else {
-            return guess;
-        };
         let from = Pose::of(&state.bodies[body]);
-        if self.may_go(near, &[from, guess]) {
+        if !self.swept || self.all_may_go(body, &[from, guess]) {
             return guess;
         }
-        let pairs = self.pairs[near.pairs.clone()].iter().filter(|pair| pair.active);
-        let Some(pair) = pairs.min_by(|one, other| one.gap.total_cmp(&other.gap)) else {
+        let parts = self.near.iter().filter(|near| near.body == body);
+        let pairs = parts.flat_map(|near| {
+            let pairs = self.pairs[near.pairs.clone()].iter().filter(|pair| pair.active);
+            pairs.map(move |pair| (near, pair))
+        });
+        let nearest = pairs.min_by(|(_, one), (_, other)| one.gap.total_cmp(&other.gap));
+        let Some((near, pair)) = nearest else {
             return guess;
         };
         let corners = triangle_at(&pair.sweep, self.start);
-        let Some(nearest) = self.cores[body].nearest(&from, corners) else { return guess };
+        let Some(nearest) = self.cores[near.part].nearest(&from, corners) else { return guess };
         let [start, end] = pair.sweep;
         let moves = [0, 1, 2].map(|corner| end[corner] - start[corner]);
         let skin_move = on_triangle(moves, nearest.barycentric) * (self.goal - self.start);
         let along = Pose { place: from.place + skin_move, ..from };
-        if self.may_go(near, &[from, along]) { along } else { from }
+        if self.all_may_go(body, &[from, along]) { along } else { from }
     }
 
-    /// Whether a path is free and ends well off skin, or no nearer than it began.
-    fn may_go(&self, near: &NearBody, poses: &[Pose; 2]) -> bool {
-        let core = &self.cores[near.body];
+    /// Whether every part of a body may go along a path.
+    fn all_may_go(&self, body: usize, poses: &[Pose; 2]) -> bool {
+        let mut parts = self.near.iter().filter(|near| near.body == body);
+        parts.all(|near| self.may_go(near, poses))
+    }
+
+    /// Whether a path of a part is free and ends well off skin, or no nearer than it began.
+    fn may_go(&self, near: &NearPart, poses: &[Pose; 2]) -> bool {
+        let core = &self.cores[near.part];
         let approach = own_move(poses, core.radius) + near.skin_move * (self.goal - self.start);
         self.pairs[near.pairs.clone()].iter().filter(|pair| pair.active).all(|pair| {
             let least = (HELD_OFF_SHARE * core.reach).min(pair.gap);
@@ -148,7 +156,7 @@ impl BodySkin {
     }
 }
 
-/// How far any place of a body moves between two poses, at most [m].
+/// How far any place within a radius of a body's place moves between two poses, at most [m].
 fn own_move([from, to]: &[Pose; 2], radius: f64) -> f64 {
     from.place.distance(to.place) + from.orientation.angle_between(to.orientation) * radius
 }

@@ -1,6 +1,7 @@
-//! Which bodies may touch each other in a solver step.
+//! Which parts of bodies may touch each other in a solver step.
 
 use super::{BodyPairs, Pair};
+use crate::contact::bodies::core::BodyCore;
 use crate::contact::bodies::gather::moves_m;
 use crate::state::State;
 
@@ -12,29 +13,32 @@ const LOOK_M: f64 = 1.5e-3;
 pub(crate) type Coupled = [usize; 2];
 
 impl BodyPairs {
-    /// Finds the bodies that may touch in a solver step of length `dt`; whether there are any.
+    /// Finds the parts of bodies that may touch in a solver step of length `dt`; whether there are any.
     pub fn gather(&mut self, state: &State, dt: f64) -> bool {
         self.pairs.clear();
         self.touches.clear();
         (self.touching, self.shared, self.dt) = (false, 0, dt);
-        for first in 0..self.count {
-            let seconds = if self.mutual { first + 1 } else { self.count };
+        for first in 0..self.part_count {
+            let seconds = if self.mutual { first + 1 } else { self.part_count };
             for second in seconds..self.cores.len() {
-                self.look_at(state, [first, second], dt);
+                if self.cores[first].thing != self.cores[second].thing {
+                    self.look_at(state, [first, second], dt);
+                }
             }
         }
         self.touching = !self.pairs.is_empty();
         self.touching
     }
 
-    fn look_at(&mut self, state: &State, bodies: [usize; 2], dt: f64) {
+    fn look_at(&mut self, state: &State, parts: [usize; 2], dt: f64) {
+        let [first, second] = parts.map(|part| &self.cores[part]);
+        let bodies = [first.thing, second.thing];
         let [one, two] = bodies.map(|thing| self.began(state, thing));
-        let [first, second] = bodies.map(|thing| &self.cores[thing]);
-        let move_of = |thing: usize| {
-            let body = state.bodies.get(thing);
-            body.map_or(0.0, |body| moves_m(body, self.cores[thing].radius, dt))
+        let move_of = |core: &BodyCore| {
+            let body = state.bodies.get(core.thing);
+            body.map_or(0.0, |body| moves_m(body, core.radius, dt))
         };
-        let moves = move_of(bodies[0]) + move_of(bodies[1]);
+        let moves = move_of(first) + move_of(second);
         let look = LOOK_M + LOOK_MOVES * moves;
         let within = first.radius + second.radius + look;
         if one.place.distance_squared(two.place) > within * within {
@@ -48,14 +52,20 @@ impl BodyPairs {
             return;
         }
         // What overlaps as the run begins is forgiven; what comes to overlap later is not.
-        let mut kept = state.pair_grips.iter().filter(|grip| grip.bodies == bodies);
+        let mut kept = state.pair_grips.iter().filter(|grip| grip.parts == parts);
         let as_placed = if state.time_s <= 0.0 { depth.max(0.0) } else { 0.0 };
         let forgiven_m = kept.next().map_or(as_placed, |grip| grip.forgiven_m);
-        self.pairs.push(Pair { bodies, gap, forgiven_m, solved: glam::DVec3::ZERO });
+        self.pairs.push(Pair { parts, bodies, gap, forgiven_m, solved: glam::DVec3::ZERO });
     }
 
-    /// The bodies that are coupled in this solver step.
+    /// The bodies that are coupled in this solver step, each two once.
     pub fn coupled(&self) -> impl Iterator<Item = Coupled> {
-        self.pairs.iter().map(|pair| pair.bodies).filter(|bodies| bodies[1] < self.count)
+        let is_first = |place: usize, bodies: Coupled| {
+            self.pairs[..place].iter().all(|before| before.bodies != bodies)
+        };
+        let pairs = self.pairs.iter().map(|pair| pair.bodies).enumerate();
+        pairs
+            .filter(move |(place, bodies)| bodies[1] < self.count && is_first(*place, *bodies))
+            .map(|(_, bodies)| bodies)
     }
 }

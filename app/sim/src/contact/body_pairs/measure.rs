@@ -38,8 +38,8 @@ impl BodyPairs {
     }
 
     fn find_touches(&mut self, index: usize) -> Result<(), [usize; 2]> {
-        let Pair { bodies, forgiven_m, .. } = self.pairs[index];
-        let [first, second] = bodies.map(|body| &self.cores[body]);
+        let Pair { parts, bodies, forgiven_m, .. } = self.pairs[index];
+        let [first, second] = parts.map(|part| &self.cores[part]);
         let [one, two] = bodies.map(|body| &self.measured[body]);
         let reach = first.reach + second.reach;
         let nearest = first.nearest_to(one, second, two).ok_or(bodies)?;
@@ -57,7 +57,15 @@ impl BodyPairs {
         if self.places.is_empty() {
             let on_second = first.ends(one).map(|at| [at, second.nearest_to_place(two, at)]);
             let on_first = second.ends(two).map(|at| [first.nearest_to_place(one, at), at]);
-            self.places.extend((0..).zip(on_second.chain(on_first).chain([nearest])));
+            // The sides that two cylinders turn to each other, where a cylinder lies along what it touches.
+            let side = first.side_towards(one, nearest[1]);
+            let side = side.map(|at| [at, second.nearest_to_place(two, at)]);
+            let is_body = bodies[1] < self.count;
+            let others = is_body.then(|| second.side_towards(two, nearest[0]));
+            let others = others.into_iter().flatten();
+            let others = others.map(|at| [first.nearest_to_place(one, at), at]);
+            let all = on_second.chain(on_first).chain([nearest]).chain(side).chain(others);
+            self.places.extend((0..).zip(all));
         }
         let first_touch = self.touches.len();
         for (feature, [on_one, on_two]) in self.places.iter().copied() {
@@ -94,9 +102,9 @@ impl BodyPairs {
         self.shared += 1;
     }
 
-    /// Contact distance of two bodies [m].
+    /// Contact distance of two parts [m].
     pub(super) fn reach_of(&self, pair: usize) -> f64 {
-        self.pairs[pair].bodies.iter().map(|body| self.cores[*body].reach).sum()
+        self.pairs[pair].parts.iter().map(|part| self.cores[*part].reach).sum()
     }
 
     /// Push and friction of a touch.
@@ -128,11 +136,11 @@ impl BodyPairs {
 
     /// The kept grip that a touch goes on from: the nearest on the first body whose push goes almost its way.
     fn kept_grip<'a>(&self, grips: &'a [PairGrip], touch: &Touch) -> Option<&'a PairGrip> {
-        let bodies = self.pairs[touch.pair].bodies;
+        let Pair { parts, bodies, .. } = self.pairs[touch.pair];
         let pose = &self.measured[bodies[0]];
         let inward = pose.inward(touch.place);
         let mine = grips.iter().filter(|grip| {
-            grip.bodies == bodies && (pose.orientation * grip.normal).dot(touch.normal) > SAME_FACE
+            grip.parts == parts && (pose.orientation * grip.normal).dot(touch.normal) > SAME_FACE
         });
         mine.min_by(|one, other| {
             one.place.distance(inward).total_cmp(&other.place.distance(inward))
@@ -187,14 +195,14 @@ impl BodyPairs {
         grips.clear();
         for (index, pair) in self.pairs.iter().enumerate() {
             let [one, two] = pair.bodies.map(|body| &self.measured[body]);
-            let [first, second] = pair.bodies.map(|body| &self.cores[body]);
+            let [first, second] = pair.parts.map(|part| &self.cores[part]);
             let gap = first.nearest_to(one, second, two).map_or(0.0, |[a, b]| a.distance(b));
             let forgiven_m = pair.forgiven_m.min((self.reach_of(index) - gap).max(0.0));
             let mut any = false;
             for touch in self.touches.iter().filter(|touch| touch.pair == index) {
                 let inward = one.orientation.inverse();
                 grips.push(PairGrip {
-                    bodies: pair.bodies,
+                    parts: pair.parts,
                     place: one.inward(touch.place),
                     normal: inward * touch.normal,
                     stretch: inward * touch.stretch,
@@ -204,7 +212,7 @@ impl BodyPairs {
             }
             if !any && forgiven_m > 0.0 {
                 let (place, normal, stretch) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
-                grips.push(PairGrip { bodies: pair.bodies, place, normal, stretch, forgiven_m });
+                grips.push(PairGrip { parts: pair.parts, place, normal, stretch, forgiven_m });
             }
         }
     }

@@ -1,11 +1,12 @@
 //! Bodies of the rig against each other and against obstacles: traps of a trawl, a buoy and its high-flyer, a trap on a ramp.
 //!
-//! Each body is a core with a surface that lies by its contact distance `h` off it, as against skin (`contact/bodies/core.rs`). Where two cores are nearer than
-//! `h₁ + h₂`, the bodies push each other off along the line of least distance, by a law that is linear at first and stiffens as the cores
+//! Each part of a body is a core with a surface that lies by its contact distance `h` off it, as against skin (`contact/bodies/core.rs`). Where two cores of
+//! different bodies are nearer than `h₁ + h₂`, the bodies push each other off along the line of least distance, by a law that is linear at first and stiffens as the cores
 //! come near (`contact/barrier.rs`), with friction by an elastic grip (`solver/elastic_grip.rs`). Boxes whose faces lie along each other bear
 //! where these overlap, so that a trap stands flat on another. The cores never meet: the path of each solver step is proved free (`path.rs`).
 //!
-//! An obstacle is a body that never moves and has no unknowns; it has its own coefficient of friction. Bodies come first in all numbers, then obstacles.
+//! An obstacle is a body of one part that never moves and has no unknowns; it has its own coefficient of friction. Bodies and their parts come
+//! first in all numbers, then obstacles.
 //!
 //! Bodies that overlap as they are placed (a buoy stowed on its trap) are not driven apart: the depth at their first touch is forgiven for as
 //! long as they do not separate.
@@ -14,6 +15,8 @@ mod gather;
 mod measure;
 mod nearest;
 mod path;
+#[cfg(test)]
+mod tests;
 mod touching;
 
 use glam::{DMat3, DVec3};
@@ -32,9 +35,11 @@ const STIFFNESS_N_M: f64 = 2e5;
 /// Friction of bodies on each other: coated wire and plastic, wet, 0.2 to 0.4; estimate.
 const FRICTION: f64 = 0.3;
 
-/// Two bodies, or a body and an obstacle, that may touch in a solver step.
+/// Parts of two bodies, or of a body and an obstacle, that may touch in a solver step.
 #[derive(Clone, Copy, Debug)]
 struct Pair {
+    parts: [usize; 2],
+    /// What they are parts of.
     bodies: [usize; 2],
     /// Distance of the cores where the solver step begins [m].
     gap: f64,
@@ -75,9 +80,10 @@ pub(crate) fn name_of(model: &Model, thing: usize) -> String {
 /// Scratch of bodies against each other for one model; it keeps nothing that a step depends on.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct BodyPairs {
-    /// Cores of bodies, then of obstacles.
+    /// Cores of the parts of bodies, then of obstacles.
     cores: Vec<BodyCore>,
-    /// How many of them are those of bodies.
+    /// How many of them are those of bodies, and how many bodies there are.
+    part_count: usize,
     count: usize,
     /// Whether bodies touch each other.
     mutual: bool,
@@ -109,9 +115,12 @@ impl BodyPairs {
         if !mutual && obstacles.is_empty() {
             return Self::default();
         }
-        let cores = bodies.iter().map(BodyCore::of);
+        let numbers = bodies.len()..;
+        let of_obstacles =
+            numbers.zip(obstacles).map(|(thing, it)| BodyCore::of_obstacle(thing, it));
         Self {
-            cores: cores.chain(obstacles.iter().map(BodyCore::of_obstacle)).collect(),
+            cores: BodyCore::of_bodies(bodies).chain(of_obstacles).collect(),
+            part_count: bodies.iter().map(|body| body.parts.len()).sum(),
             count: bodies.len(),
             mutual,
             still: obstacles.iter().map(Obstacle::pose).collect(),

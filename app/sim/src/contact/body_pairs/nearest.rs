@@ -1,7 +1,8 @@
 //! Where two cores are nearest, and where else two bodies may bear on each other.
 //!
-//! Points, rods and planes by closed forms; boxes and cylinders by the library parry: the algorithm of Gilbert, Johnson and Keerthi for the least distance, and the
-//! places where two faces overlap.
+//! Points, rods and planes by closed forms; boxes, cylinders and spheroids by the library parry: the algorithm of Gilbert, Johnson and Keerthi for the
+//! least distance, and the places where two faces overlap. On curved sides that search ends early; from there the nearest places of one core to
+//! that of the other are taken by turns.
 
 use glam::DVec3;
 use parry3d::math::Pose as Frame;
@@ -11,10 +12,14 @@ use parry3d::query::details::{
 use parry3d::query::{ClosestPoints, ContactManifold};
 use parry3d::shape::{Segment, SupportMap};
 
-use crate::contact::bodies::core::obstacle_core::Cylinder;
+use crate::contact::bodies::core::convex::{Convex, nearest_to_segment};
 use crate::contact::bodies::core::{BodyCore, Core};
 use crate::contact::distance::segment_segment;
 use crate::solids::Pose;
+
+/// Most turns from one core to the other, and a move below which they end [m].
+const TURNS: usize = 64;
+const SETTLED_M: f64 = 1e-11;
 
 impl BodyCore {
     /// Nearest places of this core and another, each in a pose: on this one, then on the other; `None` where they meet.
@@ -37,14 +42,17 @@ impl BodyCore {
                 self.nearest_to_rod(pose, cuboid, other.axis(other_pose))?
             }
             (Core::Cylinder(cylinder), Core::Rod(_)) => {
-                self.nearest_to_rod(pose, cylinder, other.axis(other_pose))?
+                self.curved_to_rod(pose, cylinder, other.axis(other_pose))
             }
-            (Core::Rod(_), Core::Box(_)) => {
+            (Core::Spheroid(spheroid), Core::Rod(_)) => {
+                self.curved_to_rod(pose, spheroid, other.axis(other_pose))
+            }
+            (Core::Rod(_), Core::Box(_) | Core::Spheroid(_)) => {
                 let [others, mine] = other.nearest_to(other_pose, self, pose)?;
                 [mine, others]
             }
-            (Core::Rod(_), Core::Cylinder(_)) => {
-                let [_, mine] = other.nearest_to(other_pose, self, pose)?;
+            (Core::Rod(_), Core::Cylinder(cylinder)) => {
+                let [_, mine] = other.nearest_to_rod(other_pose, cylinder, self.axis(pose))?;
                 self.refined(pose, (other, other_pose), mine)
             }
             (Core::Box(cuboid), Core::Box(second)) => {
@@ -57,13 +65,13 @@ impl BodyCore {
                 self.refined(pose, (other, other_pose), mine)
             }
             (_, Core::HalfSpace) => {
-                let height = |place: DVec3| other_pose.inward(place).z - other.middle.z;
-                let lowest =
-                    self.ends(pose).min_by(|one, two| height(*one).total_cmp(&height(*two)))?;
+                let lowest = self.lowest_over(pose, (other, other_pose))?;
                 [lowest, other.nearest_to_place(other_pose, lowest)]
             }
-            // Obstacles stand still and do not meet each other.
-            (Core::Cylinder(_) | Core::HalfSpace, _) => return None,
+            (Core::HalfSpace, _) => return None,
+            (Core::Box(_) | Core::Cylinder(_) | Core::Spheroid(_), _) => {
+                self.nearest_to_curved(pose, (other, other_pose))?
+            }
         };
         (mine.distance_squared(others) > 0.0).then_some([mine, others])
     }
@@ -77,6 +85,65 @@ impl BodyCore {
     ) -> Option<[DVec3; 2]> {
         let [from, to] = rod.map(|end| pose.inward(end) - self.middle);
         self.nearest_to_shape(pose, mine, &Segment::new(from, to), &Frame::IDENTITY)
+    }
+
+    /// Nearest places of this core, which has a curved side, and a rod; one and the same where they meet.
+    fn curved_to_rod(&self, pose: &Pose, mine: &impl Convex, rod: [DVec3; 2]) -> [DVec3; 2] {
+        let inward = rod.map(|end| pose.inward(end) - self.middle);
+        nearest_to_segment(mine, inward).map(|place| pose.outward(place + self.middle))
+    }
+
+    /// Nearest places of this core and another, of which one at least has a curved side: from one to the other by turns, from where the search for
+    /// the least distance ends. `None` where they meet.
+    fn nearest_to_curved(
+        &self,
+        pose: &Pose,
+        (other, other_pose): (&Self, &Pose),
+    ) -> Option<[DVec3; 2]> {
+        let there = self.frame_of(pose, (other, other_pose));
+        let mut mine = match (&self.core, &other.core) {
+            (Core::Box(one), Core::Spheroid(two)) => self.nearest_to_shape(pose, one, two, &there),
+            (Core::Cylinder(one), Core::Box(two)) => self.nearest_to_shape(pose, one, two, &there),
+            (Core::Cylinder(one), Core::Cylinder(two)) => {
+                self.nearest_to_shape(pose, one, two, &there)
+            }
+            (Core::Cylinder(one), Core::Spheroid(two)) => {
+                self.nearest_to_shape(pose, one, two, &there)
+            }
+            (Core::Spheroid(one), Core::Box(two)) => self.nearest_to_shape(pose, one, two, &there),
+            (Core::Spheroid(one), Core::Cylinder(two)) => {
+                self.nearest_to_shape(pose, one, two, &there)
+            }
+            (Core::Spheroid(one), Core::Spheroid(two)) => {
+                self.nearest_to_shape(pose, one, two, &there)
+            }
+            _ => None,
+        }?[0];
+        let mut others = other.nearest_to_place(other_pose, mine);
+        for _ in 0..TURNS {
+            let next = self.nearest_to_place(pose, others);
+            others = other.nearest_to_place(other_pose, next);
+            let moved = next.distance_squared(mine);
+            mine = next;
+            if moved < SETTLED_M * SETTLED_M {
+                break;
+            }
+        }
+        Some([mine, others])
+    }
+
+    /// The place of this core that lies lowest over a plane; none of a plane.
+    fn lowest_over(&self, pose: &Pose, (plane, plane_pose): (&Self, &Pose)) -> Option<DVec3> {
+        let down = pose.orientation.inverse() * (plane_pose.orientation * DVec3::NEG_Z);
+        let outward = |place: DVec3| Some(pose.outward(place + self.middle));
+        match &self.core {
+            Core::Cylinder(cylinder) => outward(cylinder.local_support_point(down)),
+            Core::Spheroid(spheroid) => outward(spheroid.local_support_point(down)),
+            _ => {
+                let height = |place: DVec3| plane_pose.inward(place).z - plane.middle.z;
+                self.ends(pose).min_by(|one, two| height(*one).total_cmp(&height(*two)))
+            }
+        }
     }
 
     /// Nearest places of this core and another from one of this core that is nearly the nearest: on a curved side the search ends early.
@@ -104,19 +171,6 @@ impl BodyCore {
         Some([mine, *there * others].map(|place| pose.outward(place + self.middle)))
     }
 
-    /// The place of the core in a pose that is nearest to another place.
-    pub fn nearest_to_place(&self, pose: &Pose, place: DVec3) -> DVec3 {
-        let inward = pose.inward(place) - self.middle;
-        let nearest = match &self.core {
-            Core::Point => DVec3::ZERO,
-            Core::Rod(half) => DVec3::Z * inward.z.clamp(-half, *half),
-            Core::Box(cuboid) => inward.clamp(-cuboid.half_extents, cuboid.half_extents),
-            Core::Cylinder(cylinder) => cylinder.nearest(inward),
-            Core::HalfSpace => inward.with_z(inward.z.min(0.0)),
-        };
-        pose.outward(nearest + self.middle)
-    }
-
     /// Places at which the faces of two boxes that lie along each other bear, up to `reach` apart: number, place on this one and on the other.
     /// None where either is not a box, or no faces lie along each other.
     pub fn faces_along(
@@ -141,14 +195,6 @@ impl BodyCore {
     /// Ends of a rod, corners of a box and places round the rims of a cylinder in a pose; none of others.
     pub fn ends(&self, pose: &Pose) -> impl Iterator<Item = DVec3> {
         let rod = matches!(self.core, Core::Rod(_)).then(|| self.axis(pose));
-        let cylinder = match &self.core {
-            Core::Cylinder(cylinder) => Some(*cylinder),
-            _ => None,
-        };
-        let corners = self.corners(pose);
-        let (pose, middle) = (*pose, self.middle);
-        let rims = cylinder.into_iter().flat_map(Cylinder::rims);
-        let rims = rims.map(move |place| pose.outward(place + middle));
-        rod.into_iter().flatten().chain(corners).chain(rims)
+        rod.into_iter().flatten().chain(self.corners(pose))
     }
 }

@@ -1,6 +1,7 @@
 //! Whether a solver step takes two bodies through each other, or farther past each other than it can follow.
 
 use super::{BodyPairs, Pair};
+use crate::contact::bodies::core::BodyCore;
 use crate::contact::sweep::walk;
 use crate::solids::Pose;
 use crate::state::State;
@@ -27,13 +28,13 @@ impl BodyPairs {
 
     fn is_free(&self, index: usize, paths: &[[Pose; 2]; 2]) -> bool {
         let pair = &self.pairs[index];
-        let [first, second] = pair.bodies.map(|body| &self.cores[body]);
-        let turn = |(thing, [from, to]): (usize, &[Pose; 2])| {
-            let is_still = thing >= self.count;
+        let [first, second] = pair.parts.map(|part| &self.cores[part]);
+        let turn = |core: &BodyCore, [from, to]: &[Pose; 2]| {
+            let is_still = core.thing >= self.count;
             let angle = || from.orientation.angle_between(to.orientation);
-            if is_still { 0.0 } else { angle() * self.cores[thing].radius }
+            if is_still { 0.0 } else { angle() * core.radius }
         };
-        let turns = [0, 1].map(|k| turn((pair.bodies[k], &paths[k])));
+        let turns = [turn(first, &paths[0]), turn(second, &paths[1])];
         let [one_m, two_m] = [0, 1].map(|k| paths[k][1].place - paths[k][0].place);
         let approach = (one_m - two_m).length() + turns[0] + turns[1];
         let reach = self.reach_of(index);

@@ -38,8 +38,9 @@ impl Motion {
 fn poses_of(solid: &Solid, state: &State, bodies: &[Pose], dt: f64) -> [Pose; 2] {
     match solid.carrier {
         Carrier::World(pose) => [pose, pose],
-        Carrier::Body(body) => {
-            let (from, velocity) = (bodies[body], state.bodies[body].velocity);
+        Carrier::Body { body, middle_m } => {
+            let (from, now) = (bodies[body].about(middle_m), &state.bodies[body]);
+            let velocity = now.velocity + now.spin.cross(bodies[body].orientation * middle_m);
             [from, Pose { place: from.place + velocity * dt, ..from }]
         }
     }

@@ -41,6 +41,8 @@ pub(crate) struct Pair {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SolidWorkspace {
     pub solids: Vec<Solid>,
+    /// The body that each of them is a part of.
+    body_of: Vec<Option<usize>>,
     pub pairs: Vec<Pair>,
     pub nodes: Vec<SolidContactPoint>,
     /// Knots near solids.
@@ -77,6 +79,7 @@ impl SolidWorkspace {
     pub fn new(model: &Model) -> Self {
         let solids = of_model(model);
         let spared = spared(model, &solids);
+        let body_of = solids.iter().map(|solid| solid.carrier.body()).collect();
         let radius = |line: &Line| 0.5 * model.spec.ropes[line.rope].diameter_m;
         let radius_m: Vec<f64> = model.spec.lines.iter().map(radius).collect();
         let knots_m = model.knots.iter().map(|knot| knot.radius_m);
@@ -85,7 +88,8 @@ impl SolidWorkspace {
             model.line_nodes.iter().cloned().zip(model.line_segments.iter().cloned()).collect();
         let along_m = vec![0.0; model.node_count];
         let all_knots = model.knots.clone();
-        Self { solids, spared, lines, along_m, radius_m, all_knots, widest_m, ..Self::default() }
+        let sizes = Self { lines, along_m, radius_m, widest_m, ..Self::default() };
+        Self { solids, body_of, spared, all_knots, ..sizes }
     }
 
     /// Takes over the lengths of segments, where they are not those there are.

@@ -137,7 +137,8 @@ impl SolidWorkspace {
             Some(soft_n_m2) => soft_n_m2 * length,
             None if solid.mass_kg.is_infinite() => solid.stiffness_n_m2 * length,
             None => {
-                let held = state.rope.solid_grips.iter().filter(|grip| grip.solid == index).count();
+                let on_body = |grip: &&SolidGrip| self.body_of[grip.solid] == self.body_of[index];
+                let held = state.rope.solid_grips.iter().filter(on_body).count();
                 let most = BODY_SHARE * solid.mass_kg / (self.dt * self.dt * (held + 1) as f64);
                 (solid.stiffness_n_m2 * length).min(most)
             }

@@ -1,8 +1,8 @@
-//! Rope next to the body that it is made fast to, which does not touch that body.
+//! Rope next to the body that it is made fast to, which does not touch any part of that body.
 
 use super::SolidWorkspace;
 use crate::model::{JointKind, Model};
-use crate::solids::Solid;
+use crate::solids::{Carrier, Solid};
 
 /// Share of a segment next to its nodes that its nodes answer for.
 const NODES_SHARE: f64 = 0.01;
@@ -53,7 +53,6 @@ impl SolidWorkspace {
 
 /// Ends of lines made fast to bodies.
 pub(super) fn spared(model: &Model, solids: &[Solid]) -> Vec<Spared> {
-    let obstacles = model.spec.obstacles.len();
     let mut list = Vec::new();
     if !model.spec.settings.rope_on_bodies {
         return list;
@@ -63,9 +62,14 @@ pub(super) fn spared(model: &Model, solids: &[Solid]) -> Vec<Spared> {
             let JointKind::Body { body, offset_m } = model.spec.joints[joint].kind else {
                 continue;
             };
-            let solid = obstacles + body;
-            let length_m = SPARED_M.max(-2.0 * solids[solid].shape.distance(offset_m));
-            list.push(Spared { line: index, solid, at_start, length_m });
+            for (solid, part) in solids.iter().enumerate() {
+                let Carrier::Body { body: whose, middle_m } = part.carrier else { continue };
+                if whose == body {
+                    let depth_m = -part.shape.distance(offset_m - middle_m);
+                    let length_m = SPARED_M.max(2.0 * depth_m);
+                    list.push(Spared { line: index, solid, at_start, length_m });
+                }
+            }
         }
     }
     list

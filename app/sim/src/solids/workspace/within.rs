@@ -3,7 +3,7 @@
 //! It does not touch that body until it has come out of it. No push could lead it out: where a line is made fast on both sides the push
 //! would only grow. Lengths of rope are told by their place along the line, which stays as segments are split and merged.
 
-use super::super::{Carrier, Pose, Solid};
+use super::super::{Pose, Solid};
 use super::{SolidWorkspace, least_distance};
 use crate::state::{RopeWithin, State};
 
@@ -12,7 +12,7 @@ impl SolidWorkspace {
     pub fn any_in_body(&mut self, state: &State) -> bool {
         self.measure_lengths(&state.rope.segment_length);
         self.solids.iter().enumerate().any(|(solid, thing)| {
-            matches!(thing.carrier, Carrier::Body(_))
+            thing.carrier.body().is_some()
                 && self.lines.iter().enumerate().any(|(line, (nodes, _))| {
                     (nodes.start..nodes.end - 1).any(|node| {
                         let range = self.range_of(solid, line, node);
@@ -30,7 +30,9 @@ impl SolidWorkspace {
             return;
         }
         for (solid, thing) in self.solids.iter().enumerate() {
-            let Carrier::Body(_) = thing.carrier else { continue };
+            if thing.carrier.body().is_none() {
+                continue;
+            }
             for (line, (nodes, segments)) in self.lines.iter().enumerate() {
                 for (node, segment) in (nodes.start..).zip(segments.clone()) {
                     let range = self.range_of(solid, line, node);
@@ -81,10 +83,7 @@ fn depth_of(state: &State, solid: &Solid, node: usize, (low, high): (f64, f64)) 
     if low >= high {
         return f64::NEG_INFINITY;
     }
-    let pose = match solid.carrier {
-        Carrier::World(pose) => pose,
-        Carrier::Body(body) => Pose::of(&state.bodies[body]),
-    };
+    let pose = solid.carrier.pose(|body| Pose::of(&state.bodies[body]));
     let [from, to] = [node, node + 1].map(|node| state.rope.position[node]);
     let near = solid.radius_m + 0.5 * from.distance(to);
     if from.midpoint(to).distance_squared(pose.place) > near * near {

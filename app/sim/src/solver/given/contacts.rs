@@ -4,7 +4,6 @@ use glam::DVec3;
 
 use super::SkinTouches;
 use crate::balance::{Given, Source};
-use crate::solids::Carrier;
 use crate::solver::Solver;
 use crate::solver::context::StepContext;
 use crate::solver::interface::Attachment;
@@ -55,7 +54,7 @@ impl Solver {
             let force = self.solid_force(context.state, context.scheme, solid, point);
             let velocity = point.on_rope(|node| self.velocity_of(context, node));
             push_at(on_nodes, point.node, point.fraction.unwrap_or(0.0), force);
-            let Carrier::Body(body) = solid.carrier else {
+            let Some(body) = solid.carrier.body() else {
                 given.at_end.add(Source::Obstacles, force, velocity);
                 continue;
             };

@@ -5,7 +5,7 @@
 pub mod drum;
 
 use endline_sim::model::{
-    Body, BodyRole, Joint, JointKind, Line, Obstacle, Rope, Settings, Shape, Strength,
+    Body, BodyRole, Joint, JointKind, Line, Obstacle, PlacedShape, Rope, Settings, Shape, Strength,
 };
 use endline_sim::water::{Current, Water};
 use endline_sim::{DQuat, DVec3, Model, ModelSpec};
@@ -45,8 +45,7 @@ pub fn weight(id: &str, mass_kg: f64, position_m: DVec3, held_until_s: Option<f6
         id: id.into(),
         item: String::new(),
         role: BodyRole::Weight,
-        shape: Shape::Sphere(0.1),
-        shape_offset_m: DVec3::ZERO,
+        parts: vec![PlacedShape::about_origin(Shape::Sphere(0.1))],
         mass_kg,
         inertia_kg_m2: DVec3::splat(0.1 * mass_kg),
         added_mass_kg: DVec3::ZERO,

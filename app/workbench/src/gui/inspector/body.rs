@@ -18,7 +18,7 @@ pub(super) fn read(view: &LiveView, index: usize, units: Units) -> Option<Readin
     rows.extend(touches(view, index));
     rows.extend(pulls(view, index, units));
     rows.extend(levels(view, *place, units));
-    rows.push(("Size", size(&body.shape, units)));
+    rows.push(("Size", size(body, units)));
     rows.push(("Mass in air", format!("{:.1} kg", body.mass_kg)));
     let moved = *place - body.position_m;
     rows.push(("Off its first place", units.length(moved.truncate().length())));
@@ -42,8 +42,22 @@ fn role(role: BodyRole) -> &'static str {
     }
 }
 
+/// Size of a body in words: of its one part, or of the float of a buoy with the length over all that is fixed to it.
+fn size(body: &Body, units: Units) -> String {
+    let first = body.parts.first().map_or_else(String::new, |part| size_of(&part.shape, units));
+    if body.parts.len() < 2 {
+        return first;
+    }
+    let heights = body.corners().map(|corner| corner.z);
+    let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), height| {
+        (low.min(height), high.max(height))
+    });
+    let whole = units.of_metres(high - low);
+    format!("float {first}; {whole:.2} {} over all", units.length_symbol())
+}
+
 /// Size of a shape in words.
-fn size(shape: &Shape, units: Units) -> String {
+fn size_of(shape: &Shape, units: Units) -> String {
     let (length, symbol) = (|length_m| units.of_metres(length_m), units.length_symbol());
     match shape {
         Shape::Box(half) => {
@@ -51,8 +65,10 @@ fn size(shape: &Shape, units: Units) -> String {
             format!("{x:.2} × {y:.2} × {z:.2} {symbol}")
         }
         Shape::Sphere(radius_m) => format!("{:.2} {symbol} across", length(2.0 * radius_m)),
-        Shape::Capsule { radius_m, half_length_m } => {
-            let (across, long) = (length(2.0 * radius_m), length(2.0 * half_length_m));
+        Shape::Capsule { radius_m: across, half_length_m: along }
+        | Shape::Cylinder { radius_m: across, half_length_m: along }
+        | Shape::Spheroid { across_m: across, along_m: along } => {
+            let (across, long) = (length(2.0 * across), length(2.0 * along));
             format!("{across:.2} {symbol} across, {long:.2} {symbol} long")
         }
     }

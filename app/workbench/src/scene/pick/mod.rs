@@ -127,7 +127,7 @@ impl Picked {
             Self::Body(index) => {
                 let (body, (place, turn)) =
                     (model.spec.bodies.get(index)?, frame.bodies.get(index)?);
-                Some(*place + *turn * body.shape_offset_m)
+                Some(*place + *turn * body.middle_m())
             }
             Self::Skin { triangle, barycentric } => {
                 let (skin, at) = (&model.spec.whale.as_ref()?.skin, frame.whale.as_ref()?);

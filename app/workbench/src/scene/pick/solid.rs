@@ -14,8 +14,7 @@ pub(super) fn body(model: &Model, frame: &Frame, sight: &Sight<'_>) -> Option<(f
     let pairs = model.spec.bodies.iter().zip(&frame.bodies).enumerate();
     let hits = pairs.filter_map(|(index, (body, at))| {
         let least_m = 0.5 * NEAR * sight.metres_a_point(sight.away_m(at.0));
-        let grown_m = (least_m - body.shape.least_half_m()).max(0.0);
-        let away_m = body.met_by_ray(*at, (sight.eye, sight.along), grown_m)?;
+        let away_m = body.met_by_ray(*at, (sight.eye, sight.along), least_m)?;
         Some((away_m, Picked::Body(index)))
     });
     hits.min_by(|a, b| a.0.total_cmp(&b.0))

@@ -4,53 +4,17 @@
 //! rounded by `h`.
 
 use glam::DVec3;
-use parry3d::shape::{Cuboid, SupportMap};
+use parry3d::shape::Cuboid;
 
-use super::{BodyCore, Core, ROUNDED_M, ROUNDED_SHARE};
+use super::cylinder::Cylinder;
+use super::spheroid::Spheroid;
+use super::{BodyCore, Core, ROUNDED_M, rounded};
 use crate::model::Obstacle;
 use crate::solids::SolidShape;
 
-/// Places round each rim of a cylinder at which a face that lies on it bears.
-const RIM_PLACES: u32 = 8;
-
-/// A cylinder along z with flat ends.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Cylinder {
-    /// Radius [m].
-    pub radius: f64,
-    /// Half of its length [m].
-    pub half: f64,
-}
-
-impl Cylinder {
-    /// Its place that is nearest to another place of its frame.
-    pub fn nearest(&self, place: DVec3) -> DVec3 {
-        let across = DVec3::new(place.x, place.y, 0.0).clamp_length_max(self.radius);
-        across + DVec3::Z * place.z.clamp(-self.half, self.half)
-    }
-
-    /// Places round both rims, in its frame.
-    pub fn rims(self) -> impl Iterator<Item = DVec3> {
-        (0..2 * RIM_PLACES).map(move |k| {
-            let angle = core::f64::consts::TAU * f64::from(k / 2) / f64::from(RIM_PLACES);
-            let height = if k % 2 == 0 { -self.half } else { self.half };
-            let (sin, cos) = (libm::sin(angle), libm::cos(angle));
-            DVec3::new(self.radius * cos, self.radius * sin, height)
-        })
-    }
-}
-
-impl SupportMap for Cylinder {
-    fn local_support_point(&self, direction: DVec3) -> DVec3 {
-        let across = DVec3::new(direction.x, direction.y, 0.0).normalize_or_zero() * self.radius;
-        across + DVec3::Z * self.half.copysign(direction.z)
-    }
-}
-
 impl BodyCore {
-    /// The core of an obstacle, in its frame.
-    pub fn of_obstacle(obstacle: &Obstacle) -> Self {
-        let rounded = |least_half: f64| ROUNDED_M.min(ROUNDED_SHARE * least_half);
+    /// The core of an obstacle of this number among all things, in its frame.
+    pub fn of_obstacle(thing: usize, obstacle: &Obstacle) -> Self {
         let (core, reach, middle) = match obstacle.shape {
             SolidShape::Plane => (Core::HalfSpace, ROUNDED_M, DVec3::NEG_Z * ROUNDED_M),
             SolidShape::Sphere(radius_m) => (Core::Point, radius_m, DVec3::ZERO),
@@ -58,16 +22,19 @@ impl BodyCore {
                 (Core::Rod((half_length_m - radius_m).max(0.0)), radius_m, DVec3::ZERO)
             }
             SolidShape::Cylinder { radius_m, half_length_m } => {
-                let reach = rounded(radius_m.min(half_length_m));
-                let cylinder = Cylinder { radius: radius_m - reach, half: half_length_m - reach };
+                let (cylinder, reach) = Cylinder::rounded(radius_m, half_length_m);
                 (Core::Cylinder(cylinder), reach, DVec3::ZERO)
             }
             SolidShape::Box(half) => {
                 let reach = rounded(half.min_element());
                 (Core::Box(Cuboid::new(half - DVec3::splat(reach))), reach, DVec3::ZERO)
             }
+            SolidShape::Spheroid { across_m, along_m } => {
+                let (spheroid, reach) = Spheroid::shrunk(across_m, along_m);
+                (Core::Spheroid(spheroid), reach, DVec3::ZERO)
+            }
         };
-        Self { core, reach, middle, radius: obstacle.shape.radius() }
+        Self { core, reach, middle, radius: obstacle.shape.radius(), thing }
     }
 }
 
@@ -76,8 +43,7 @@ mod tests {
     use glam::DQuat;
 
     use super::*;
-    use crate::metrics::tests::body;
-    use crate::model::{Body, BodyRole, ROPE_ON_HARD_N_M2, Shape};
+    use crate::model::{PlacedShape, ROPE_ON_HARD_N_M2, Shape};
     use crate::solids::{Pose, SolidShape};
 
     fn place(k: u32) -> DVec3 {
@@ -86,14 +52,17 @@ mod tests {
     }
 
     fn obstacle(shape: SolidShape) -> BodyCore {
-        BodyCore::of_obstacle(&Obstacle {
-            id: "it".into(),
-            shape,
-            position_m: DVec3::ZERO,
-            orientation: DQuat::IDENTITY,
-            friction: 0.0,
-            stiffness_n_m2: ROPE_ON_HARD_N_M2,
-        })
+        BodyCore::of_obstacle(
+            1,
+            &Obstacle {
+                id: "it".into(),
+                shape,
+                position_m: DVec3::ZERO,
+                orientation: DQuat::IDENTITY,
+                friction: 0.0,
+                stiffness_n_m2: ROPE_ON_HARD_N_M2,
+            },
+        )
     }
 
     /// Half extents of the box round a body's core [m].
@@ -122,8 +91,7 @@ mod tests {
         for (shape, other) in
             shapes.iter().flat_map(|one| obstacles.iter().map(move |two| (one, two)))
         {
-            let it = body("it", BodyRole::Buoy, DVec3::ZERO);
-            let core = BodyCore::of(&Body { shape: shape.clone(), ..it });
+            let core = BodyCore::of(0, &PlacedShape::about_origin(shape.clone()));
             let rock = obstacle(other.clone());
             let half = half_of(&core);
             for k in 1..60 {

@@ -286,6 +286,6 @@ fn mark(plot: &mut PlotUi<'_>, body: &Body, at: [f64; 2], gear: Gear, color: Col
 /// Height of a body's highest point above the calm surface [m].
 pub(super) fn top_m(body: &Body, at: &endline_session::settled::BodyShape) -> f64 {
     let turn = endline_sim::DQuat::from_array(at.orientation);
-    let corners = body.shape.corners().map(|corner| (turn * (corner + body.shape_offset_m)).z);
-    DVec3::from_array(at.position_m).z + corners.into_iter().fold(f64::NEG_INFINITY, f64::max)
+    let heights = body.corners().map(|corner| (turn * corner).z);
+    DVec3::from_array(at.position_m).z + heights.fold(f64::NEG_INFINITY, f64::max)
 }

@@ -120,11 +120,12 @@ impl Sheet<'_> {
     fn body(&self, index: usize, view: &LiveView, ink: Color32) {
         let pair = view.model.spec.bodies.get(index).zip(view.frame.bodies.get(index));
         let Some((body, at)) = pair else { return };
-        let outline = silhouette(body, *at, self.camera, self.size());
-        let outline: Vec<Pos2> = outline.into_iter().map(|at| self.on_screen(at)).collect();
-        if outline.is_empty() {
-            return;
+        for outline in silhouette(body, *at, self.camera, self.size()) {
+            self.closed(outline.into_iter().map(|at| self.on_screen(at)).collect(), ink);
         }
+    }
+
+    fn closed(&self, outline: Vec<Pos2>, ink: Color32) {
         let fill = ink.gamma_multiply(0.15);
         self.painter.add(Shape::convex_polygon(outline.clone(), fill, Stroke::NONE));
         let dark = Color32::from_black_alpha(ink.a() / 2);
