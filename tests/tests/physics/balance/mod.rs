@@ -40,17 +40,43 @@ pub fn vertical(model: &Model, state: &State, index: usize) -> f64 {
 }
 
 /// What rope near a body lacks to balance itself, away from its ends at bodies and fixtures: that it rests on the body with [N].
+/// Rope near several bodies rests on the one that it comes nearest to.
 fn resting(model: &Model, state: &State, index: usize) -> f64 {
-    let (body, now) = (&model.spec.bodies[index], &state.bodies[index]);
-    let reach_m = body.corners().map(DVec3::length).fold(0.0, f64::max);
-    let near = |(place, longest_m, _): &&(DVec3, f64, f64)| {
-        place.distance(now.position) < reach_m + longest_m
+    let apart_m = |body: usize, free: &FreePlace| {
+        let corners = model.spec.bodies[body].corners();
+        let reach_m = corners.map(DVec3::length).fold(0.0, f64::max);
+        free.distance_m(state.bodies[body].position) - reach_m
     };
-    free_places(model, state).values().filter(near).map(|(_, _, force_n)| force_n).sum()
+    let rests_here = |free: &&FreePlace| {
+        let mine = apart_m(index, free);
+        mine < 0.0 && (0..model.spec.bodies.len()).all(|other| apart_m(other, free) >= mine)
+    };
+    free_places(model, state).values().filter(rests_here).map(|free| free.force_n).sum()
 }
 
-/// Every free joint, and every node within a line: where it is, its longest segment [m], and the vertical force of rope on it [N].
-fn free_places(model: &Model, state: &State) -> BTreeMap<(bool, usize), (DVec3, f64, f64)> {
+/// A free joint, or a node within a line.
+struct FreePlace {
+    place: DVec3,
+    /// The nodes beside it.
+    beside: Vec<DVec3>,
+    /// Vertical force of rope on it [N].
+    force_n: f64,
+}
+
+impl FreePlace {
+    /// Distance of the segments beside it from a place [m].
+    fn distance_m(&self, from: DVec3) -> f64 {
+        let to_segment = |end: &DVec3| {
+            let along = *end - self.place;
+            let share = (from - self.place).dot(along) / along.length_squared();
+            from.distance(self.place + along * share.clamp(0.0, 1.0))
+        };
+        self.beside.iter().map(to_segment).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Every free joint, and every node within a line.
+fn free_places(model: &Model, state: &State) -> BTreeMap<(bool, usize), FreePlace> {
     let mut places = BTreeMap::new();
     for ((line, nodes), segments) in
         model.spec.lines.iter().zip(&model.line_nodes).zip(&model.line_segments)
@@ -79,9 +105,18 @@ fn free_places(model: &Model, state: &State) -> BTreeMap<(bool, usize), (DVec3, 
                 .sum();
             let hanging_m = 0.5 * beside.iter().sum::<f64>();
             let force_n = pulls + load_z(model, line.rope, position[k], tangent) * hanging_m;
-            let (_, longest_m, sum_n) = places.entry(key).or_insert((position[k], 0.0, 0.0));
-            *longest_m = beside.iter().copied().fold(*longest_m, f64::max);
-            *sum_n += force_n;
+            let free = places.entry(key).or_insert_with(|| FreePlace {
+                place: position[k],
+                beside: Vec::new(),
+                force_n: 0.0,
+            });
+            free.beside.extend(
+                [before, after]
+                    .into_iter()
+                    .filter(|other| *other != k)
+                    .map(|other| position[other]),
+            );
+            free.force_n += force_n;
         }
     }
     places
