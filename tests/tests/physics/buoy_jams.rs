@@ -1,5 +1,6 @@
-//! A buoy that is drawn to a flipper: it jams there, its link parts at its rating, and a stronger link leaves it caught.
+//! A buoy that is drawn to a flipper or to the mouth: it jams there, its link parts at its rating, and a stronger link leaves it caught.
 
+use endline_sdk::BodyPart;
 use endline_sim::metrics::{EventKind, Metrics};
 use endline_sim::{Input, Model, State, Workspace, settle, step};
 
@@ -20,7 +21,11 @@ struct Run {
 
 impl Run {
     fn new(changes: &[(&str, &str)]) -> Self {
-        let model = model("buoy-jams", changes);
+        Self::of("buoy-jams", changes)
+    }
+
+    fn of(scenario: &str, changes: &[(&str, &str)]) -> Self {
+        let model = model(scenario, changes);
         let (state, workspace) = (settle(&model).state, Workspace::new(&model));
         let mut metrics = Metrics::new(&model);
         metrics.fold(&model, &state, &[]);
@@ -91,4 +96,28 @@ fn a_buoy_that_may_not_touch_goes_through_the_whale_and_parts_nothing() {
     let mut run = Run::new(&[off]);
     run.until(40.0, |_| false);
     assert!(run.state.link_parted_s[0].is_none() && !run.happened(EventKind::BodyTouched));
+}
+
+#[test]
+fn a_link_parts_at_its_rating_as_the_buoy_jams_at_the_mouth() {
+    let mut run = Run::of("buoy-at-mouth", &[]);
+    run.until(20.0, |run| run.state.link_parted_s[0].is_some());
+    let summary = run.metrics.summary(&run.model, &run.state);
+    let bore_n = summary.links[0].peak_tension_n;
+    assert!((bore_n / WEAK_N - 1.0).abs() < 5e-3, "{bore_n} N");
+    let buoy = summary.bodies[0].on_whale;
+    assert_eq!(buoy.peak_whale_part, Some(BodyPart::Head), "{buoy:?}");
+    assert!(run.happened(EventKind::Lodged), "the line ran through the mouth");
+    assert_eq!((run.workspace.audit.bodies_crossed, run.workspace.audit.tunnelled), (0, 0));
+}
+
+#[test]
+fn a_stronger_link_draws_the_buoy_through_the_mouth() {
+    let mut run = Run::of("buoy-at-mouth", &[STRONG]);
+    run.until(25.0, |_| false);
+    let summary = run.metrics.summary(&run.model, &run.state);
+    let (bore_n, buoy) = (summary.links[0].peak_tension_n, summary.bodies[0].on_whale);
+    assert!(run.state.link_parted_s[0].is_none() && bore_n > 1.5 * WEAK_N, "{bore_n} N");
+    assert_eq!(buoy.peak_whale_part, Some(BodyPart::Head), "{buoy:?}");
+    assert_eq!((run.workspace.audit.bodies_crossed, run.workspace.audit.tunnelled), (0, 0));
 }

@@ -22,7 +22,15 @@ pub(crate) fn near<'a>(
     poses: &'a [Pose; 2],
     search_distance: f64,
 ) -> impl Iterator<Item = NearSegment> + 'a {
-    let meets = move |bounds: &Bounds| meets(bounds, solid, poses, search_distance);
+    let reach = solid.radius_m + search_distance;
+    let around = Bounds::around(&[poses[0].place, poses[1].place]).grown(reach);
+    let meets = move |bounds: &Bounds| {
+        if solid.radius_m.is_finite() {
+            around.meets(bounds)
+        } else {
+            comes_near_plane(bounds, &poses[0], search_distance)
+        }
+    };
     let lines = all.lines.iter().filter(move |(_, bounds)| meets(bounds));
     lines.flat_map(move |(pieces, _)| {
         let pieces = all.pieces[pieces.clone()].iter().filter(move |piece| meets(&piece.bounds));
@@ -33,13 +41,9 @@ pub(crate) fn near<'a>(
     })
 }
 
-/// Whether a solid that goes from one pose to another may come within `search_distance` of a box.
-fn meets(bounds: &Bounds, solid: &Solid, [from, to]: &[Pose; 2], search_distance: f64) -> bool {
-    if solid.radius_m.is_finite() {
-        let reach = solid.radius_m + search_distance;
-        return Bounds::around(&[from.place, to.place]).grown(reach).meets(bounds);
-    }
-    let normal = from.orientation * DVec3::Z;
+/// Whether a box comes within a distance of all that lies below a plane.
+fn comes_near_plane(bounds: &Bounds, plane: &Pose, search_distance: f64) -> bool {
+    let normal = plane.orientation * DVec3::Z;
     let (middle, half) = (0.5 * (bounds.low + bounds.high), 0.5 * (bounds.high - bounds.low));
-    normal.dot(middle - from.place) - normal.abs().dot(half) <= search_distance
+    normal.dot(middle - plane.place) - normal.abs().dot(half) <= search_distance
 }
