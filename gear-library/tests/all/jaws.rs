@@ -7,13 +7,14 @@
 
 use std::sync::Arc;
 
+use crate::fins::bodies::adrift;
 use crate::fins::rig::{sea, whale};
 use crate::mouth::{LENGTH_M, motion, open, open_mouth};
 use endline_gear::whale::{WhaleForm, build_skin};
 use endline_sim::contact::distance::{point_triangle, segment_triangle};
-use endline_sim::model::{Body, BodyRole, PlacedShape, Settings, Shape, Whale};
+use endline_sim::model::{Body, PlacedShape, Settings, Shape, Whale};
 use endline_sim::whale::{JawStrength, Skin};
-use endline_sim::{DQuat, DVec3, Input, Model, ModelSpec, State, Workspace, step};
+use endline_sim::{DVec3, Input, Model, ModelSpec, State, Workspace, step};
 
 /// Forces with which jaw and lips close at their ends [N].
 const FORCES_N: [f64; 2] = [1600.0, 480.0];
@@ -41,30 +42,8 @@ fn room(skin: &[[DVec3; 3]]) -> (DVec3, f64) {
 }
 
 fn ball(radius_m: f64, position_m: DVec3) -> Body {
-    let mass_kg = 10.0;
-    Body {
-        id: "buoy".into(),
-        item: String::new(),
-        role: BodyRole::Buoy,
-        parts: vec![PlacedShape { shape: Shape::Sphere(radius_m), middle_m: DVec3::ZERO }],
-        mass_kg,
-        inertia_kg_m2: DVec3::splat(0.4 * mass_kg * radius_m * radius_m),
-        added_mass_kg: DVec3::ZERO,
-        added_inertia_kg_m2: DVec3::ZERO,
-        drag_area_m2: DVec3::splat(0.5 * radius_m * radius_m),
-        turn_drag_m5: DVec3::splat(1e-3),
-        floats: Vec::new(),
-        wetted_drag: false,
-        feet_m: Vec::new(),
-        foot_radius_m: Vec::new(),
-        start_friction: 0.0,
-        slide_friction: 0.0,
-        foot_break_out_n: 0.0,
-        position_m,
-        orientation: DQuat::IDENTITY,
-        spin_rad_s: DVec3::ZERO,
-        held_until_s: None,
-    }
+    let shape = PlacedShape::about_origin(Shape::Sphere(radius_m));
+    adrift(vec![shape], 10.0, position_m)
 }
 
 fn spec(skin: &Skin, ball: Body, friction: f64) -> ModelSpec {

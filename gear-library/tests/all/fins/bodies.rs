@@ -12,7 +12,7 @@ use endline_sdk::FrictionModel;
 use endline_sim::model::{Body, BodyRole, Friction, PlacedShape, Settings, Shape, Whale};
 use endline_sim::water::{Current, Water};
 use endline_sim::whale::Skin;
-use endline_sim::{DVec3, Input, Model, ModelSpec, State, Workspace, step};
+use endline_sim::{DQuat, DVec3, Input, Model, ModelSpec, State, Workspace, step};
 
 use super::dice::Dice;
 use super::piece::{piece, reach};
@@ -154,6 +154,12 @@ fn body(dice: &mut Dice, kind: Option<u32>) -> Body {
     let drawn = (3.0 * dice.share()) as u32;
     let parts = parts(dice, kind.unwrap_or(drawn));
     let mass_kg = 2.0 * libm::pow(50.0, dice.share());
+    let orientation = dice.turn();
+    Body { orientation, ..adrift(parts, mass_kg, MET) }
+}
+
+/// A body that neither floats nor stands on anything.
+pub fn adrift(parts: Vec<PlacedShape>, mass_kg: f64, position_m: DVec3) -> Body {
     let size = size_of(&parts);
     Body {
         id: "body".into(),
@@ -173,8 +179,8 @@ fn body(dice: &mut Dice, kind: Option<u32>) -> Body {
         start_friction: 0.0,
         slide_friction: 0.0,
         foot_break_out_n: 0.0,
-        position_m: MET,
-        orientation: dice.turn(),
+        position_m,
+        orientation: DQuat::IDENTITY,
         spin_rad_s: DVec3::ZERO,
         held_until_s: None,
     }
