@@ -1,4 +1,4 @@
-//! A solver step of free rope: Newton passes in the lanes of the processor where only water and seabed touch the rope.
+//! A solver step in the lanes of the processor: rope that water, seabed, skin, obstacles and bodies touch, but no other rope.
 
 use glam::{DMat3, DQuat, DVec3};
 

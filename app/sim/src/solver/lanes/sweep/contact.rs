@@ -1,4 +1,4 @@
-//! Forward sweep of rope that touches skin: as `forward.rs`, with blocks of contact, which friction makes unsymmetric.
+//! Forward sweep of rope that touches skin, obstacles or bodies: as `forward.rs`, with blocks of contact, which friction makes unsymmetric.
 //!
 //! A contact point adds a block to the diagonal of two nodes and, to the coupling of both, the same block `C`: the coupling of segment `k` is
 //! `-(B - C)` both ways. With `G` the coupling of end A's row to node `k` beside `F`, the coupling of the node's row to end A,
