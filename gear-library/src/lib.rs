@@ -24,6 +24,7 @@ mod plugin;
 mod scenario;
 mod schema;
 mod sources;
+mod strength;
 mod study;
 mod tree;
 pub mod units;
@@ -56,6 +57,7 @@ pub use scenario::{
 };
 pub use schema::{Field, Kind, Word};
 pub use sources::Sources;
+pub use strength::{StrengthBudget, StrengthFactor, StrengthFigure};
 pub use study::{
     Aim, Claim, Counted, Enough, HOOKED_TURNS, Law, Level, MOST_ENCOUNTERS, Prior, RegionEvent,
     RunRule, Setting as OptionSetting, Study, StudyEvent, StudyOption, Target,

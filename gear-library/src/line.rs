@@ -17,6 +17,10 @@ pub struct LineMake {
     pub condition: Option<At<Condition>>,
     /// Strength that wear leaves, over the rope's own [1].
     pub wear_factor: Option<f64>,
+    /// Mean strength that the line delivers at its weakest place; its rope is made as strong as that takes [N].
+    pub delivered_n: Option<f64>,
+    /// Whether its rope keeps its stiffness then; stiffness follows strength where not, so that it breaks at the same stretch.
+    pub keeps_stiffness: Option<bool>,
     /// Knot or splice at end A.
     pub from_knot: Option<At<String>>,
     /// Knot or splice at end B.
@@ -63,11 +67,14 @@ impl LineMake {
     pub(crate) fn read(fields: &Fields<'_>) -> Self {
         let condition = fields.word("condition", &Condition::WORDS);
         let wear = fields.value("wear_factor", Quantity::Ratio, Range::Between(0.05, 1.0));
+        let delivered = fields.value("delivered_strength", Quantity::Force, Range::Positive);
         Self {
             condition: condition.and_then(|word| {
                 Some(At { value: Condition::from_word(&word.value)?, place: word.place })
             }),
             wear_factor: wear.map(|wear| wear.value),
+            delivered_n: delivered.map(|delivered| delivered.value),
+            keeps_stiffness: fields.flag("keeps_stiffness"),
             from_knot: fields.text("from_knot"),
             to_knot: fields.text("to_knot"),
             inserts: fields.table("inserts").and_then(|table| inserts(&table)),
@@ -79,6 +86,8 @@ impl LineMake {
         Self {
             condition: self.condition.clone().or_else(|| usual.condition.clone()),
             wear_factor: self.wear_factor.or(usual.wear_factor),
+            delivered_n: self.delivered_n.or(usual.delivered_n),
+            keeps_stiffness: self.keeps_stiffness.or(usual.keeps_stiffness),
             from_knot: self.from_knot.clone().or_else(|| usual.from_knot.clone()),
             to_knot: self.to_knot.clone().or_else(|| usual.to_knot.clone()),
             inserts: self.inserts.clone().or_else(|| usual.inserts.clone()),

@@ -52,6 +52,7 @@ pub mod scene;
 pub mod settled;
 pub mod source;
 pub mod statics;
+pub mod strength;
 pub mod study;
 pub mod task;
 pub mod timing;

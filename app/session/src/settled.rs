@@ -1,11 +1,13 @@
 //! The gear at rest as JSON: schema `endline.settle/1`, with the keys of the run summary where they are the same.
 
+use endline_gear::StrengthBudget;
 use endline_sim::metrics::{Metrics, ProbeSummary};
 use endline_sim::{Model, Settled, State};
 use serde::{Serialize, Serializer};
 
 use crate::figures::{self, PROBE};
 use crate::source::Prepared;
+use crate::strength::PartStrength;
 
 /// Name of the schema.
 pub const SCHEMA: &str = "endline.settle/1";
@@ -34,6 +36,8 @@ pub struct SettledShape {
     pub nodes: usize,
     /// One for each line.
     pub lines: Vec<LineShape>,
+    /// What each piece of a line and each weak link holds, and why.
+    pub strengths: Vec<PartStrength>,
     /// One for each body.
     pub bodies: Vec<BodyShape>,
     /// One for each probe.
@@ -74,12 +78,24 @@ impl SettledShape {
     /// Of a settled model; `wall_s` is the real time it took [s].
     #[must_use]
     pub fn of(prepared: &Prepared, settled: &Settled, wall_s: f64) -> Self {
-        Self::named(&prepared.source.scenario_name, &prepared.model, settled, wall_s)
+        Self::named(
+            &prepared.source.scenario_name,
+            &prepared.model,
+            &prepared.strengths,
+            settled,
+            wall_s,
+        )
     }
 
     /// The same of a model whose scenario goes by a name.
     #[must_use]
-    pub fn named(scenario: &str, model: &Model, settled: &Settled, wall_s: f64) -> Self {
+    pub fn named(
+        scenario: &str,
+        model: &Model,
+        strengths: &[StrengthBudget],
+        settled: &Settled,
+        wall_s: f64,
+    ) -> Self {
         let state = &settled.state;
         Self {
             schema: SCHEMA,
@@ -92,6 +108,7 @@ impl SettledShape {
             wall_s,
             nodes: model.node_count,
             lines: lines(model, state),
+            strengths: strengths.iter().map(PartStrength::from).collect(),
             bodies: bodies(model, state),
             probes: probes(model, state),
         }

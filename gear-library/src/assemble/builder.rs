@@ -11,7 +11,9 @@ use crate::library::Library;
 use crate::nearest::hint;
 use crate::scenario::{LineStart, Scenario};
 use crate::schema::Kind;
+use crate::strength::StrengthBudget;
 
+use super::strength::Scale;
 use super::{Assembled, Hooks};
 
 /// A part of the spec by what it is and its index; a line with inserts is several in a row.
@@ -58,6 +60,8 @@ pub(super) struct Builder<'a> {
     pub points: Vec<Vec<(String, DVec3)>>,
     /// The spec's lines before they are cut.
     pub uncut: Vec<Uncut>,
+    /// What lines and weak links hold, and why.
+    pub strengths: Vec<StrengthBudget>,
     /// Whether gear could not be built, so that ids may be missing through no fault of those who name them.
     pub incomplete: bool,
     /// Parts by id.
@@ -106,6 +110,7 @@ impl<'a> Builder<'a> {
             materials: Vec::new(),
             points: Vec::new(),
             uncut: Vec::new(),
+            strengths: Vec::new(),
             incomplete: false,
             names: Vec::new(),
         }
@@ -161,8 +166,14 @@ impl<'a> Builder<'a> {
         self.used.push(path.to_owned());
     }
 
-    /// Index of a rope of a condition in the spec: one written in place, or one of the library.
-    pub fn rope(&mut self, id: &At<String>, condition: &At<Condition>) -> Option<usize> {
+    /// Index of a rope of a condition in the spec: one written in place, or one of the library; scaled where a line is to
+    /// deliver a strength.
+    pub fn rope(
+        &mut self,
+        id: &At<String>,
+        condition: &At<Condition>,
+        scale: Option<Scale>,
+    ) -> Option<usize> {
         let rope = self.rope_item(id)?;
         let mut made = match rope.in_condition(condition.value) {
             Ok(made) => made,
@@ -180,6 +191,9 @@ impl<'a> Builder<'a> {
                 return None;
             }
         };
+        if let Some(scale) = scale {
+            made = scaled(made, scale);
+        }
         if let Some(index) = self.spec.ropes.iter().position(|known| known.id == made.id) {
             return Some(index);
         }
@@ -194,22 +208,25 @@ impl<'a> Builder<'a> {
 
     /// A rope written in place, or of the library.
     fn rope_item(&mut self, id: &At<String>) -> Option<Rope> {
-        let in_place = self.scenario.ropes.iter().find(|entry| entry.id == id.value);
-        let rope = match in_place {
-            Some(entry) => Rope::from_entry(entry.clone(), &self.problems),
-            None => self.library.ropes.iter().find(|rope| rope.entry.id == id.value).cloned(),
-        };
-        let Some(rope) = rope else {
+        let Some(rope) = self.find_rope(id, &self.problems) else {
             let mut known = self.library.ids(Kind::Rope);
             known.extend(self.scenario.ropes.iter().map(|entry| entry.id.as_str()));
             self.problems
                 .push(id.place.error(format!("no rope `{}`", id.value), hint(&id.value, known)));
             return None;
         };
-        if in_place.is_none() {
+        if !self.scenario.ropes.iter().any(|entry| entry.id == id.value) {
             self.uses(&rope.entry.path);
         }
         Some(rope)
+    }
+
+    /// The same without a report of what is missing.
+    pub fn find_rope(&self, id: &At<String>, problems: &Problems) -> Option<Rope> {
+        match self.scenario.ropes.iter().find(|entry| entry.id == id.value) {
+            Some(entry) => Rope::from_entry(entry.clone(), problems),
+            None => self.library.ropes.iter().find(|rope| rope.entry.id == id.value).cloned(),
+        }
     }
 
     /// The spec, or all problems.
@@ -219,6 +236,20 @@ impl<'a> Builder<'a> {
         }
         self.used.sort();
         self.used.dedup();
-        Ok(Assembled { spec: self.spec, files: self.used })
+        Ok(Assembled { spec: self.spec, files: self.used, strengths: self.strengths })
+    }
+}
+
+/// A rope stronger or weaker than its item, under an id of its own.
+fn scaled(rope: endline_sim::model::Rope, scale: Scale) -> endline_sim::model::Rope {
+    // Tenths of a newton tell ropes apart that lines of nearly one strength need.
+    let strength_n = (10.0 * rope.strength_n * scale.strength).round() / 10.0;
+    endline_sim::model::Rope {
+        id: format!("{} (new {strength_n:.1} N, stiffness {:.3})", rope.id, scale.stiffness),
+        strength_n,
+        axial_stiffness_n: rope.axial_stiffness_n * scale.stiffness,
+        axial_stiffening_n: rope.axial_stiffening_n * scale.stiffness,
+        axial_damping_n_s: rope.axial_damping_n_s * scale.stiffness,
+        ..rope
     }
 }

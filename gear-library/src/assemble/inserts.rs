@@ -4,22 +4,25 @@ use endline_sdk::LineEnd;
 
 use crate::diagnostic::At;
 use crate::line::{Insert, Inserts};
+use crate::strength::StrengthFigure;
 
 /// Least length of a piece [m].
 const LEAST_PIECE_M: f64 = 0.01;
 
 /// What holds an end of a rope.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Tied {
     /// Share of the rope's strength left there [1].
     pub strength_left: f64,
     /// Its breadth over the rope's diameter; zero where there is none [1].
     pub bulk: f64,
+    /// The knot's name, and the figure behind the share; `None` where rope goes on whole.
+    pub source: Option<(String, StrengthFigure)>,
 }
 
 impl Tied {
     /// Rope that goes on whole.
-    pub const WHOLE: Self = Self { strength_left: 1.0, bulk: 0.0 };
+    pub const WHOLE: Self = Self { strength_left: 1.0, bulk: 0.0, source: None };
 }
 
 /// A stretch of a line between ends, inserts and sleeves.
@@ -84,11 +87,11 @@ pub(super) fn cut_at<'l>(
         own: true,
         sleeve: None,
     };
-    let (mut pieces, mut done_m, mut left) = (Vec::new(), 0.0, whole.ends[0]);
+    let (mut pieces, mut done_m, mut left) = (Vec::new(), 0.0, whole.ends[0].clone());
     for (number, start_m) in (1..).zip(starts) {
-        let mut piece = own(number, start_m - done_m, [left, at_insert]);
+        let mut piece = own(number, start_m - done_m, [left, at_insert.clone()]);
         done_m = start_m + insert_length(inserts);
-        left = at_insert;
+        left = at_insert.clone();
         match &inserts.what {
             Insert::Sleeve(item) => {
                 piece.sleeve = Some((format!("{id}.sleeve-{number}"), item));
@@ -102,14 +105,14 @@ pub(super) fn cut_at<'l>(
                     id,
                     rope,
                     length_m: *length_m,
-                    ends: [Some(Tied::WHOLE); 2],
+                    ends: [const { Some(Tied::WHOLE) }; 2],
                     own: false,
                     sleeve: None,
                 });
             }
         }
     }
-    pieces.push(own(starts.len() + 1, whole.length_m - done_m, [left, whole.ends[1]]));
+    pieces.push(own(starts.len() + 1, whole.length_m - done_m, [left, whole.ends[1].clone()]));
     pieces
 }
 

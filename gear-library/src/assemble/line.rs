@@ -10,13 +10,13 @@ use endline_sim::DVec3;
 use endline_sim::model::{Joint, JointKind, Line, Strength};
 
 use crate::diagnostic::At;
-use crate::items::{Condition, USUAL_BULK};
+use crate::items::USUAL_BULK;
 use crate::line::LineMake;
 use crate::scenario::LineStart;
 
 use super::builder::{Builder, Part, Uncut};
 use super::inserts::{Piece, Tied, cut_at, starts_from_a};
-use super::strength_variation;
+use super::strength::Scale;
 use super::way::{along, part_of};
 
 /// A line to be put into the spec.
@@ -47,6 +47,7 @@ impl Builder<'_> {
         // Where something is missing the run never starts; index 0 keeps the later parts in step.
         let (mut from, to) = (line.ends.0.unwrap_or(0), line.ends.1.unwrap_or(0));
         let (pieces, way) = (self.pieces(line), self.way(line));
+        let scale = self.scale_to_deliver(line, &pieces);
         let first = self.spec.lines.len();
         let (count, mut along_m) = (pieces.len(), 0.0);
         for (index, piece) in pieces.into_iter().enumerate() {
@@ -62,7 +63,7 @@ impl Builder<'_> {
             } else {
                 part_of(&way, [begin_m, along_m].map(|m| m / line.length_m))
             };
-            self.add_piece(line, piece, (from, end), laid_m);
+            self.add_piece(line, piece, scale, (from, end), laid_m);
             from = end;
         }
         let last = self.spec.lines.len() - 1;
@@ -131,19 +132,21 @@ impl Builder<'_> {
         &mut self,
         line: &NewLine<'_>,
         piece: Piece<'_>,
+        scale: Option<Scale>,
         (from, to): (usize, usize),
         laid_m: Vec<DVec3>,
     ) {
         let condition = self.condition(line.make);
-        let rope = self.rope(piece.rope, &condition);
+        let rope = self.rope(piece.rope, &condition, scale.filter(|_| piece.own));
         let strength = rope.map_or_else(Strength::default, |rope| {
-            self.strength(rope, &piece, line.make, condition.value)
+            self.piece_strength(rope, &piece, line.make, scale)
         });
         let index = self.spec.lines.len();
         self.name(piece.id.clone(), Part::Line { first: index, last: index }, &line.id.place);
         let (id, length_m) = (piece.id, piece.length_m);
         let radius_m = rope.map_or(0.0, |rope| 0.5 * self.stock[rope].diameter_m);
-        let knots_m = piece.ends.map(|tied| radius_m * tied.map_or(USUAL_BULK, |tied| tied.bulk));
+        let bulk = |tied: &Option<Tied>| tied.as_ref().map_or(USUAL_BULK, |tied| tied.bulk);
+        let knots_m = [0, 1].map(|end| radius_m * bulk(&piece.ends[end]));
         let rope = rope.unwrap_or(0);
         self.spec.lines.push(Line {
             id,
@@ -170,47 +173,5 @@ impl Builder<'_> {
                 LineEnd::B,
             );
         }
-    }
-
-    /// The condition of a line's rope: its own, or the scenario's.
-    fn condition(&self, make: &LineMake) -> At<Condition> {
-        let usual =
-            || At { value: self.scenario.rope_condition, place: self.scenario.place.clone() };
-        make.condition.clone().unwrap_or_else(usual)
-    }
-
-    /// What a piece keeps of its rope's strength: wear and variation all along, a knot or splice at each end.
-    fn strength(
-        &self,
-        rope: usize,
-        piece: &Piece<'_>,
-        make: &LineMake,
-        condition: Condition,
-    ) -> Strength {
-        let item = &self.stock[rope];
-        let worn = if condition == Condition::New { 1.0 } else { item.wear_factor };
-        let wear = if piece.own { make.wear_factor.unwrap_or(worn) } else { worn };
-        let drawn = self.strength_factor(item.strength_cv, &piece.id);
-        let left = |end: usize| piece.ends[end].map_or(item.knot_factor, |tied| tied.strength_left);
-        Strength { all: wear * drawn, end_a: left(0), end_b: left(1) }
-    }
-
-    /// The drawn factor on the strength of a part; 1 where the scenario takes strengths as they are named.
-    pub fn strength_factor(&self, variation: f64, id: &str) -> f64 {
-        if self.scenario.strength_variation {
-            strength_variation::factor(self.spec.settings.seed, id, variation)
-        } else {
-            1.0
-        }
-    }
-
-    /// A knot or splice of the library.
-    fn knot(&mut self, id: &At<String>) -> Option<Tied> {
-        let Some(knot) = self.library.knots.iter().find(|known| known.entry.id == id.value) else {
-            self.no_item(crate::schema::Kind::Knot, &id.value, &id.place);
-            return None;
-        };
-        self.uses(&knot.entry.path);
-        Some(Tied { strength_left: knot.strength_left, bulk: knot.bulk })
     }
 }

@@ -24,6 +24,7 @@ mod probes;
 mod rig;
 mod sea;
 mod segments;
+mod strength;
 mod strength_variation;
 mod way;
 mod whale;
@@ -38,6 +39,7 @@ use endline_sim::model::{RopeOnRope, Settings};
 use crate::diagnostic::Diagnostic;
 use crate::library::Library;
 use crate::scenario::Scenario;
+use crate::strength::StrengthBudget;
 use builder::Builder;
 
 pub use body::{box_inertia, buoy_floats, buoy_inertia, shell_inertia};
@@ -82,6 +84,8 @@ pub struct Assembled {
     pub spec: ModelSpec,
     /// Paths of the library files used, in order, each once.
     pub files: Vec<String>,
+    /// What every piece of a line and every weak link of the library holds, and why.
+    pub strengths: Vec<StrengthBudget>,
 }
 
 /// Builds the spec of a scenario.

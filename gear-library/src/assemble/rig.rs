@@ -184,7 +184,7 @@ impl Builder<'_> {
             return None;
         };
         self.uses(&found.entry.path);
-        let rating_n = found.rating_n * self.strength_factor(found.spread, id);
+        let rating_n = self.link_strength(found, id);
         Some(Rated { rating_n, breadth_m: found.breadth_m })
     }
 

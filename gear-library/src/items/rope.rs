@@ -60,8 +60,10 @@ pub struct Rope {
     pub mass_kg_m: f64,
     /// Density of the fibre [kg/m³].
     pub density_kg_m3: f64,
-    /// Breaking strength when new and unknotted [N].
+    /// Breaking strength when new and unknotted, as its source states it [N].
     pub strength_n: f64,
+    /// Mean of new pieces over that strength [1].
+    pub mean_factor: f64,
     /// Share of that strength that wear leaves [1].
     pub wear_factor: f64,
     /// Share of its strength left at an end where no knot or splice is named [1].
@@ -105,6 +107,7 @@ impl Rope {
             mass_kg_m: entry.value("mass")?,
             density_kg_m3: entry.value("density")?,
             strength_n: entry.value("strength")?,
+            mean_factor: or("mean_factor", 1.0),
             wear_factor: or("wear_factor", 1.0),
             knot_factor: or("knot_factor", 1.0),
             strength_cv: or("strength_cv", 0.0),
@@ -135,7 +138,7 @@ impl Rope {
         wet_weight(self.mass_kg_m, self.density_kg_m3)
     }
 
-    /// The rope as the simulation takes it, new strength included, without bending stiffness: a linear law.
+    /// The rope as the simulation takes it, with the mean strength of new pieces, without bending stiffness: a linear law.
     #[must_use]
     pub fn to_model(&self) -> endline_sim::model::Rope {
         endline_sim::model::Rope {
@@ -152,7 +155,7 @@ impl Rope {
             drag_tangential: self.drag_tangential,
             added_mass_normal: self.added_mass,
             added_mass_tangential: self.added_mass_along,
-            strength_n: self.strength_n,
+            strength_n: self.strength_n * self.mean_factor,
         }
     }
 

@@ -20,7 +20,18 @@ pub(super) const FIELDS: &[Field] = &[
         Any,
         "weight in sea water by length, below zero for a floating rope; checked against mass and density",
     ),
-    need("strength", Q::Force, Positive, "breaking strength when new and unknotted"),
+    need(
+        "strength",
+        Q::Force,
+        Positive,
+        "breaking strength when new and unknotted, as its source states it",
+    ),
+    may(
+        "mean_factor",
+        Q::Ratio,
+        Between(0.5, 1.5),
+        "mean strength of new pieces over the stated one: above 1 where a table prints a minimum, below 1 where a rule prints a maximum",
+    ),
     may(
         "stretch_at_break",
         Q::Ratio,

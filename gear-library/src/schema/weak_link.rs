@@ -6,7 +6,13 @@ use crate::units::Quantity as Q;
 
 /// Every figure, in the order shown.
 pub(super) const FIELDS: &[Field] = &[
-    need("rating", Q::Force, Positive, "tension above which it parts"),
+    need("rating", Q::Force, Positive, "tension above which it parts, as its source states it"),
+    may(
+        "mean_factor",
+        Q::Ratio,
+        Between(0.5, 1.5),
+        "mean strength of links over the stated rating: below 1 where the rating is a legal maximum",
+    ),
     may(
         "spread",
         Q::Ratio,

@@ -11,6 +11,7 @@ mod balance;
 mod bodies;
 mod buoy_jams;
 mod case_wraps;
+mod delivered;
 mod drawn;
 mod encounters;
 mod friction;

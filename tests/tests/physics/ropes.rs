@@ -9,7 +9,7 @@ use endline_sim::model::RopeOnRope;
 use endline_sim::{Input, Model, ModelSpec, State, Workspace, settle, step};
 
 /// A rope drawn from a fixture by a hand, in a vacuum without weight: `line` goes into its `[[line]]`.
-fn pulled(head: &str, line: &str) -> String {
+pub(crate) fn pulled(head: &str, line: &str) -> String {
     format!(
         r#"format = 1
 kind = "scenario"
@@ -54,7 +54,7 @@ fn refused(text: &str) -> Vec<Diagnostic> {
     }
 }
 
-fn assembled(text: &str, seed: Option<u64>) -> ModelSpec {
+pub(crate) fn assembled(text: &str, seed: Option<u64>) -> ModelSpec {
     let scenario =
         Scenario::read("test.toml", text).unwrap_or_else(|problems| panic!("{}", told(&problems)));
     let options = Options { seed, ..Options::default() };
@@ -63,7 +63,7 @@ fn assembled(text: &str, seed: Option<u64>) -> ModelSpec {
 }
 
 /// Greatest tension of any segment until something parts, and what parted: ids of lines and links.
-fn until_it_parts(spec: ModelSpec) -> (f64, Vec<String>) {
+pub(crate) fn until_it_parts(spec: ModelSpec) -> (f64, Vec<String>) {
     let model = Model::new(spec).unwrap();
     let (mut state, mut workspace) = (settle(&model).state, Workspace::new(&model));
     let mut greatest = 0.0_f64;
@@ -102,7 +102,7 @@ const INSERTS: &str = "[line.inserts]\nrope = \"weak-1700-3-8\"\nlength = \"3 ft
 const RATED_N: f64 = 7561.98;
 
 #[test]
-fn an_insert_parts_at_its_rating_and_nothing_else_does() {
+fn an_insert_parts_at_its_worn_strength_and_nothing_else_does() {
     let spec = assembled(&pulled("strength_scatter = false\nrope_nodes = 80", INSERTS), None);
     let ids: Vec<&str> = spec.lines.iter().map(|line| line.id.as_str()).collect();
     assert_eq!(
@@ -113,7 +113,8 @@ fn an_insert_parts_at_its_rating_and_nothing_else_does() {
     let (greatest, parted) = until_it_parts(spec);
     // Alike and evenly loaded, several may part in the same step.
     assert!(!parted.is_empty() && parted.iter().all(|id| id.contains("insert")), "{parted:?}");
-    assert!((greatest / RATED_N - 1.0).abs() < 0.01, "{greatest}");
+    // A rule makes no rope exempt from wear: 74 % of what it held when it was approved.
+    assert!((greatest / (0.74 * RATED_N) - 1.0).abs() < 0.01, "{greatest}");
 }
 
 #[test]
@@ -147,8 +148,9 @@ fn a_knot_at_the_end_takes_its_share_of_the_parting_load() {
     };
     let spliced = load("from_knot = \"eye-splice\"\nto_knot = \"eye-splice\"");
     let knotted = load("from_knot = \"eye-splice\"\nto_knot = \"overhand\"");
-    // Polysteel 1/2 in: 4,910 lbf new, 74 % of it used, 95 % of that at an eye splice, 45 % at an overhand knot.
-    let used = 4910.0 * 4.448_221_6 * 0.74;
+    // Polysteel 1/2 in: at least 4,910 lbf new, 1.11 of that in the mean, 74 % of it used, 95 % of that at an eye splice,
+    // 45 % at an overhand knot.
+    let used = 4910.0 * 4.448_221_6 * 1.11 * 0.74;
     assert!((spliced / (0.95 * used) - 1.0).abs() < 0.01, "{spliced} against {}", 0.95 * used);
     assert!((knotted / (0.45 * used) - 1.0).abs() < 0.01, "{knotted} against {}", 0.45 * used);
 }
@@ -192,8 +194,8 @@ fn strengths_scatter_as_the_library_says_and_a_seed_repeats_them() {
     };
     assert_eq!(drawn(5).map(f64::to_bits), drawn(5).map(f64::to_bits));
     let all: Vec<[f64; 2]> = (0..1000).map(drawn).collect();
-    // A used sinking rope: 0.74 of new with 12 %; the 600 lbf link with 8 %.
-    for (index, mean, variation) in [(0, 0.74, 0.12), (1, 600.0 * 4.448_221_6, 0.08)] {
+    // A used sinking rope: 0.74 of new with 12 %; links of at most 600 lbf, 0.86 of that in the mean, with 8 %.
+    for (index, mean, variation) in [(0, 0.74, 0.12), (1, 0.86 * 600.0 * 4.448_221_6, 0.08)] {
         let found = all.iter().map(|drawn| drawn[index]).sum::<f64>() / 1000.0;
         let deviation =
             (all.iter().map(|drawn| (drawn[index] - found).powi(2)).sum::<f64>() / 999.0).sqrt();

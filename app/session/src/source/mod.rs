@@ -6,7 +6,9 @@ pub(crate) mod sample;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use endline_gear::{Assembled, Diagnostic, Library, Options, Scenario, Sources, assemble_traced};
+use endline_gear::{
+    Assembled, Diagnostic, Library, Options, Scenario, Sources, StrengthBudget, assemble_traced,
+};
 use endline_sdk::Descriptor;
 use endline_sim::Model;
 use endline_sim::model::ModelError;
@@ -67,6 +69,8 @@ pub struct Prepared {
     pub model: Arc<Model>,
     /// The plugins it runs on.
     pub plugins: Vec<PluginUsed>,
+    /// What its lines and weak links hold, and why.
+    pub strengths: Arc<[StrengthBudget]>,
 }
 
 /// Reads a scenario and its gear library (found as [`locate::library`] says where `library` is
@@ -124,10 +128,15 @@ impl Source {
     }
 
     fn prepare_with(mut self, host: &PluginHost, balance: bool) -> Result<Prepared, Error> {
-        let (model, used) = self.model(host, balance)?;
+        let (model, used, strengths) = self.model(host, balance)?;
         self.library = self.library.only(&used);
         let plugins = plugins_of(&model, host);
-        Ok(Prepared { source: Arc::new(self), model: Arc::new(model), plugins })
+        Ok(Prepared {
+            source: Arc::new(self),
+            model: Arc::new(model),
+            plugins,
+            strengths: strengths.into(),
+        })
     }
 
     /// BLAKE3 of everything the model is made from, hexadecimal.
@@ -153,16 +162,20 @@ impl Source {
 }
 
 impl Source {
-    /// The model and the library files it was made from.
-    fn model(&self, host: &PluginHost, balance: bool) -> Result<(Model, Vec<String>), Error> {
+    /// The model, the library files it was made from, and what its lines and weak links hold.
+    fn model(
+        &self,
+        host: &PluginHost,
+        balance: bool,
+    ) -> Result<(Model, Vec<String>, Vec<StrengthBudget>), Error> {
         let name = &self.scenario_name;
         let scenario = Scenario::read(name, &self.scenario).map_err(Error::Diagnostics)?;
         let (library, problems) = Library::read(&self.library);
         let Overrides { seed, step_s, weak_links, rating_n, kinetic } = self.overrides;
         let options = Options { seed, step_s, weak_links, kinetic, balance, ..Options::default() };
         // An item with errors is missing from the library; its own errors say why, so they come first.
-        let Assembled { mut spec, files } = assemble_traced(&scenario, &library, host, &options)
-            .map_err(|missing| {
+        let Assembled { mut spec, files, strengths } =
+            assemble_traced(&scenario, &library, host, &options).map_err(|missing| {
                 Error::Diagnostics(
                     problems.into_iter().filter(Diagnostic::is_error).chain(missing).collect(),
                 )
@@ -176,7 +189,7 @@ impl Source {
             };
             Error::Diagnostics(errors.into_iter().map(as_error).collect())
         })?;
-        Ok((model, files))
+        Ok((model, files, strengths))
     }
 }
 

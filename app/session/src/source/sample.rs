@@ -60,6 +60,7 @@ pub(crate) fn hanging_rope(duration_s: f64) -> Prepared {
         source: Arc::new(source()),
         model: Arc::new(Model::new(spec).unwrap()),
         plugins: vec![],
+        strengths: [].into(),
     }
 }
 

@@ -114,8 +114,9 @@ pub fn settled(
     host: &PluginHost,
 ) -> Result<RigAtRest, Error> {
     let scenario = Scenario::read(name, text).map_err(Error::Diagnostics)?;
-    let Assembled { spec, .. } = assemble_traced(&scenario, library, host, &Options::default())
-        .map_err(Error::Diagnostics)?;
+    let Assembled { spec, strengths, .. } =
+        assemble_traced(&scenario, library, host, &Options::default())
+            .map_err(Error::Diagnostics)?;
     let located = |error: ModelError| {
         Diagnostic::of_file(name, format!("{}: {}", error.part, error.message), "")
     };
@@ -123,7 +124,8 @@ pub fn settled(
         .map_err(|errors| Error::Diagnostics(errors.into_iter().map(located).collect()))?;
     let start = Instant::now();
     let settled = settle(&model);
-    let shape = SettledShape::named(name, &model, &settled, start.elapsed().as_secs_f64());
+    let shape =
+        SettledShape::named(name, &model, &strengths, &settled, start.elapsed().as_secs_f64());
     let frame = Arc::new(Frame::of(&settled.state, &[], &[]));
     Ok(RigAtRest { shape, model: Arc::new(model), frame })
 }

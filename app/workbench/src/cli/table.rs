@@ -10,6 +10,7 @@ use endline_session::figures::{
     PROBE, Quantity, RUN, Value, View, WHALE, lines, parts, shown,
 };
 use endline_session::settled::SettledShape;
+use endline_session::strength::PartStrength;
 use endline_session::units::{N_PER_LBF, Units};
 use endline_sim::metrics::WhaleSummary;
 
@@ -45,9 +46,30 @@ pub(super) fn settled(shape: &SettledShape) -> String {
         ]);
     }
     text += &columns(&rows);
+    text += &strengths(&shape.strengths);
     let mut rows = vec![row(&["body", "east", "north", "up"])];
     rows.extend(shape.bodies.iter().map(|body| place(&body.id, body.position_m)));
     text + &columns(&rows) + &grid(PROBE, &shape.probes)
+}
+
+/// Delivered strength of each part: what its source states, what is taken off, what is left.
+fn strengths(parts: &[PartStrength]) -> String {
+    let heads =
+        ["strength of", "item", "stated", "factors", "delivered", "nine of ten", "confidence"];
+    let mut rows = vec![row(&heads)];
+    for part in parts {
+        let [least, most] = part.nine_of_ten_N;
+        rows.push(vec![
+            part.part.clone(),
+            part.item.clone(),
+            force(part.stated.value),
+            part.product(),
+            force(part.delivered_N),
+            format!("{least:.0} to {most:.0} N"),
+            part.confidence.to_owned(),
+        ]);
+    }
+    columns(&rows)
 }
 
 fn out_of_balance(shape: &SettledShape) -> String {

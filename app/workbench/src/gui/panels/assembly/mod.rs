@@ -6,6 +6,7 @@ mod inserts;
 mod parts;
 mod selector;
 mod side;
+mod strength;
 mod sweep;
 mod table;
 mod toolbar;

@@ -6,6 +6,7 @@ use endline_session::units::Units;
 use endline_sim::model::BodyRole;
 
 use super::side::{A, B, top_m};
+use super::strength;
 use super::{Answer, AssemblyPanel, surface_m_s};
 use crate::gui::theme::Theme;
 
@@ -16,7 +17,7 @@ const HEADS: [&str; 8] = [
     "Slack, low / high end",
     "Running, low / high end",
     "Used",
-    "Strength",
+    "Delivered strength",
     "Length",
     "Rope",
 ];
@@ -49,6 +50,7 @@ pub(super) fn height(panel: &AssemblyPanel) -> f32 {
         let spec = answers.into_iter().find_map(good).map(|rest| &rest.model.spec);
         spec.map_or(0, |spec| {
             spec.lines.len()
+                + spec.links.iter().filter(|link| link.enabled).count()
                 + 1
                 + spec.bodies.iter().filter(|body| body.role == BodyRole::Buoy).count()
         })
@@ -70,13 +72,21 @@ fn gear_rows(ui: &mut Ui, name: &str, color: Color32, answers: [Option<&Answer>;
         for rest in [slack, running] {
             ui.label(ends(rest, index, units));
         }
-        let strength_n = line_strength(rope.strength_n, line.strength);
+        let strength = slack.or(running).and_then(|rest| strength::of(rest, &line.id));
+        let strength_n = strength.map_or(f64::INFINITY, |strength| strength.drawn_N);
         ui.label(used(running, index, strength_n))
             .on_hover_text("Greatest tension at running tide over strength");
-        ui.label(units.force().text(strength_n))
-            .on_hover_text("Breaking strength with wear, knots and splices");
+        strength::cell(ui, strength, units);
         ui.label(units.length(line.segments_m.iter().sum()));
         ui.label(format!("{}  {}", rope.id, units.diameter(rope.diameter_m)));
+        ui.end_row();
+    }
+    for link in model.spec.links.iter().filter(|link| link.enabled) {
+        ui.label(RichText::new(name).color(color));
+        ui.label(&link.id);
+        (0..3).for_each(|_| drop(ui.label("")));
+        let strength = slack.or(running).and_then(|rest| strength::of(rest, &link.id));
+        strength::cell(ui, strength, units);
         ui.end_row();
     }
     for (index, body) in
@@ -90,10 +100,6 @@ fn gear_rows(ui: &mut Ui, name: &str, color: Color32, answers: [Option<&Answer>;
         ui.end_row();
     }
     whole(ui, name, color, slack, running, units);
-}
-
-fn line_strength(rope_n: f64, keeps: endline_sim::model::Strength) -> f64 {
-    rope_n * keeps.all * keeps.end_a.min(keeps.end_b)
 }
 
 fn ends(rest: Option<&RigAtRest>, line: usize, units: Units) -> String {

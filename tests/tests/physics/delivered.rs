@@ -1,0 +1,90 @@
+//! Delivered strength: budgets by hand, and lines that are made to deliver one.
+
+use crate::linked::{Linked, library, told};
+use crate::ropes::{assembled, pulled, until_it_parts};
+use endline_gear::{Confidence, Options, Scenario, StrengthBudget, assemble_traced};
+
+/// Newtons of a pound-force.
+const LBF_N: f64 = 4.448_221_615_260_5;
+/// Nothing drawn at random.
+const PLAIN: &str = "strength_scatter = false\nrope_nodes = 80";
+
+fn budgets(text: &str) -> Vec<StrengthBudget> {
+    let scenario =
+        Scenario::read("test.toml", text).unwrap_or_else(|found| panic!("{}", told(&found)));
+    assemble_traced(&scenario, &library(), &Linked, &Options::default())
+        .unwrap_or_else(|found| panic!("{}", told(&found)))
+        .strengths
+}
+
+fn of<'a>(budgets: &'a [StrengthBudget], part: &str) -> &'a StrengthBudget {
+    budgets.iter().find(|budget| budget.part == part).unwrap()
+}
+
+#[test]
+fn budgets_of_line_insert_and_sleeve_are_those_of_a_hand_calculation() {
+    let inserts = "to_knot = \"bowline\"\n[line.inserts]\nrope = \"weak-1700-3-8\"\nlength = \"3 ft\"\nevery = \"30 ft\"\nwithin = 0.75\nknot = \"eye-splice\"\n";
+    let found = budgets(&pulled(PLAIN, inserts));
+    // Polysteel 1/2 in: 4,910 lbf at least, 1.11 of it in the mean, 74 % used; its weaker end counts: a splice of 90 %
+    // at the post, 95 % at inserts, a bowline of 60 % at the hand.
+    let rope_lbf = 4910.0 * 1.11 * 0.74;
+    for (part, lbf) in [
+        ("warp.1", 0.90 * rope_lbf),
+        ("warp.2", 0.95 * rope_lbf),
+        ("warp.4", 0.60 * rope_lbf),
+        // Approved as made up, and worn like any rope.
+        ("warp.insert-2", 1700.0 * 0.74),
+    ] {
+        let delivered = of(&found, part).delivered_n();
+        assert!((delivered / (lbf * LBF_N) - 1.0).abs() < 1e-9, "{part}: {delivered} N");
+        assert_eq!(of(&found, part).confidence(), Confidence::Estimate, "{part}");
+    }
+    let [least, most] = of(&found, "warp.1").nine_of_ten_n();
+    // 12 % between pieces, 1.645 deviations.
+    assert!((most / least - (1.0 + 0.1974) / (1.0 - 0.1974)).abs() < 1e-9);
+}
+
+#[test]
+fn what_a_run_pulls_to_pieces_is_what_the_budget_says_of_its_piece() {
+    for line in ["to_knot = \"bowline\"", "condition = \"new\"", "wear_factor = 0.4"] {
+        let text = pulled("rope_nodes = 40", line);
+        let drawn_n = of(&budgets(&text), "warp").drawn_n();
+        let (greatest, parted) = until_it_parts(assembled(&text, None));
+        assert_eq!(parted, ["warp"]);
+        assert!((greatest / drawn_n - 1.0).abs() < 0.01, "{line}: {greatest} against {drawn_n} N");
+    }
+}
+
+#[test]
+fn a_line_made_to_deliver_a_strength_parts_there_at_the_stretch_of_its_rope() {
+    let ends = "from_knot = \"eye-splice\"\nto_knot = \"bowline\"";
+    let usual = assembled(&pulled(PLAIN, ends), None);
+    for lbf in [600.0, 1700.0, 4000.0] {
+        let made = format!("{ends}\ndelivered_strength = \"{lbf} lbf\"");
+        let text = pulled(PLAIN, &made);
+        let budget = budgets(&text);
+        assert!((of(&budget, "warp").delivered_n() / (lbf * LBF_N) - 1.0).abs() < 1e-4, "{lbf}");
+        let spec = assembled(&text, None);
+        let (rope, before) = (&spec.ropes[0], &usual.ropes[0]);
+        let stretch = |rope: &endline_sim::model::Rope| rope.strength_n / rope.axial_stiffness_n;
+        assert!((stretch(rope) / stretch(before) - 1.0).abs() < 1e-4, "{lbf}");
+        assert_eq!(rope.diameter_m.to_bits(), before.diameter_m.to_bits());
+        let (greatest, parted) = until_it_parts(spec);
+        assert_eq!(parted, ["warp"]);
+        assert!((greatest / (lbf * LBF_N) - 1.0).abs() < 0.01, "{lbf}: {greatest} N");
+    }
+    let stiff = format!("{ends}\ndelivered_strength = \"600 lbf\"\nkeeps_stiffness = true");
+    let kept = &assembled(&pulled(PLAIN, &stiff), None).ropes[0];
+    assert_eq!(kept.axial_stiffness_n.to_bits(), usual.ropes[0].axial_stiffness_n.to_bits());
+}
+
+#[test]
+fn with_inserts_the_line_delivers_at_its_weakest_place_of_own_rope() {
+    let made = "to_knot = \"bowline\"\ndelivered_strength = \"900 lbf\"\n[line.inserts]\nrope = \"weak-1700-3-8\"\nlength = \"3 ft\"\nevery = \"30 ft\"\nwithin = 0.75\n";
+    let found = budgets(&pulled(PLAIN, made));
+    let own = found.iter().filter(|budget| budget.item == "polysteel-1-2");
+    let least = own.map(StrengthBudget::delivered_n).fold(f64::INFINITY, f64::min);
+    assert!((least / (900.0 * LBF_N) - 1.0).abs() < 1e-4, "{least}");
+    let insert = of(&found, "warp.insert-1").delivered_n();
+    assert!((insert / (1700.0 * 0.74 * LBF_N) - 1.0).abs() < 1e-9, "{insert}");
+}
