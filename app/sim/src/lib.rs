@@ -28,6 +28,7 @@ pub mod state;
 pub mod statics;
 pub mod step;
 mod step_control;
+mod strands;
 pub mod water;
 pub mod whale;
 

@@ -27,6 +27,16 @@ pub enum StudyEvent {
     Lodged,
     /// A trap, buoy or anchor was caught on the whale at some time.
     Caught,
+    /// Rope held at the end, lodged in the mouth or with a whole turn about some part.
+    HeldFast,
+    /// Rope held at the end, lodged in the mouth.
+    HeldLodged,
+    /// Rope held at the end with a whole turn about some part.
+    HeldTurn,
+    /// Rope held at the end, and the whale hung at gear that is fast.
+    Anchored,
+    /// Rope held at the end, and the whale towed what hung on it.
+    Towing,
     /// Rope on any of these parts.
     On(RegionEvent, Vec<BodyPart>),
 }
@@ -38,6 +48,8 @@ pub enum RegionEvent {
     Contact,
     /// It went round at least [`HOOKED_TURNS`] at some time.
     Wrap,
+    /// It pressed harder than blubber bears, at some time.
+    Injury,
 }
 
 /// How an event is counted in the table of a study.
@@ -51,7 +63,26 @@ pub enum Counted<'a> {
     Flag(&'a str),
     /// By a column of any of these parts, whose number is at least so much.
     AtLeast(&'a str, &'a [BodyPart], f64),
+    /// By a column whose number is above so much.
+    Above(&'a str, f64),
+    /// By a column whose number is not above so much.
+    NotAbove(&'a str, f64),
+    /// Where all of these came.
+    All(&'a [Counted<'a>]),
+    /// Where any of these came.
+    Any(&'a [Counted<'a>]),
 }
+
+/// Outcomes in which rope holds at the end.
+const HELD: Counted<'static> = Counted::Outcome(&["entangled", "parted_entangled"]);
+/// Rope lodged in the mouth at the end.
+const LODGED: Counted<'static> = Counted::Flag("lodged_in_mouth");
+/// A whole turn about some part at the end.
+const TURN: Counted<'static> = Counted::AtLeast("wraps", &BodyPart::ALL, 1.0);
+/// Speed made good up to which a whale held by tethered rope hangs at anchor [m/s]; an estimate.
+pub const ANCHORED_M_S: f64 = 0.1;
+/// Pressure that blubber bears: its strength is 0.25 to 0.44 MPa (Raymond 2007, in whalestrike), the greater taken [Pa].
+pub const INJURY_PA: f64 = 4.4e5;
 
 /// What is declared of an event that concerns the whole whale.
 struct Declared {
@@ -66,7 +97,7 @@ struct Declared {
 }
 
 /// Every event that concerns the whole whale, in the order in which a report lists them.
-static WHOLE: [Declared; 8] = [
+static WHOLE: [Declared; 13] = [
     Declared {
         event: StudyEvent::Contact,
         name: "contact",
@@ -85,7 +116,7 @@ static WHOLE: [Declared; 8] = [
         event: StudyEvent::Entangled,
         name: "entangled",
         words: "entangled at the end",
-        counted: Counted::Outcome(&["entangled", "parted_entangled"]),
+        counted: HELD,
         in_chart: true,
     },
     Declared {
@@ -123,6 +154,45 @@ static WHOLE: [Declared; 8] = [
         counted: Counted::Flag("was_body_caught"),
         in_chart: false,
     },
+    Declared {
+        event: StudyEvent::HeldFast,
+        name: "held_fast",
+        words: "held: lodged or a whole turn",
+        counted: Counted::All(&[HELD, Counted::Any(&[LODGED, TURN])]),
+        in_chart: true,
+    },
+    Declared {
+        event: StudyEvent::HeldLodged,
+        name: "held_lodged",
+        words: "held, lodged in the mouth",
+        counted: Counted::All(&[HELD, LODGED]),
+        in_chart: false,
+    },
+    Declared {
+        event: StudyEvent::HeldTurn,
+        name: "held_turn",
+        words: "held with a whole turn",
+        counted: Counted::All(&[HELD, TURN]),
+        in_chart: false,
+    },
+    Declared {
+        event: StudyEvent::Anchored,
+        name: "anchored",
+        words: "held at anchor",
+        counted: Counted::All(&[
+            HELD,
+            Counted::Above("tethered_m", 0.0),
+            Counted::NotAbove("speed_made_good_m_s", ANCHORED_M_S),
+        ]),
+        in_chart: false,
+    },
+    Declared {
+        event: StudyEvent::Towing,
+        name: "towing",
+        words: "held, towing",
+        counted: Counted::All(&[HELD, Counted::Above("speed_made_good_m_s", ANCHORED_M_S)]),
+        in_chart: false,
+    },
 ];
 
 /// Groups of parts that have a name of their own.
@@ -140,7 +210,7 @@ impl StudyEvent {
     #[must_use]
     pub fn all() -> Vec<Self> {
         let mut all = Self::of_the_whole();
-        for kind in [RegionEvent::Contact, RegionEvent::Wrap] {
+        for kind in [RegionEvent::Contact, RegionEvent::Wrap, RegionEvent::Injury] {
             all.extend(BodyPart::ALL.into_iter().map(|part| Self::On(kind, vec![part])));
             all.extend(groups().into_iter().map(|(_, parts)| Self::On(kind, parts)));
         }
@@ -180,6 +250,7 @@ impl StudyEvent {
         match self {
             Self::On(RegionEvent::Contact, parts) => format!("contact_{}", place(parts)),
             Self::On(RegionEvent::Wrap, parts) => format!("wrap_{}", place(parts)),
+            Self::On(RegionEvent::Injury, parts) => format!("injury_{}", place(parts)),
             whole => whole.declared().map_or("", |declared| declared.name).to_owned(),
         }
     }
@@ -194,6 +265,9 @@ impl StudyEvent {
             Self::On(RegionEvent::Wrap, parts) => {
                 format!("wrap on {}", place(parts).replace('_', " "))
             }
+            Self::On(RegionEvent::Injury, parts) => {
+                format!("pressed beyond blubber's strength on {}", place(parts).replace('_', " "))
+            }
             whole => whole.declared().map_or("", |declared| declared.words).to_owned(),
         }
     }
@@ -207,6 +281,9 @@ impl StudyEvent {
             }
             Self::On(RegionEvent::Wrap, parts) => {
                 Counted::AtLeast("peak_wraps", parts, HOOKED_TURNS)
+            }
+            Self::On(RegionEvent::Injury, parts) => {
+                Counted::AtLeast("peak_pressure_Pa", parts, INJURY_PA)
             }
             whole => whole.declared().map_or(Counted::Outcome(&[]), |declared| declared.counted),
         }

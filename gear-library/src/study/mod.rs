@@ -74,7 +74,7 @@ pub struct RunRule {
 
 impl Default for RunRule {
     fn default() -> Self {
-        Self { passed_s: 30.0, held_s: 30.0 }
+        Self { passed_s: 30.0, held_s: 600.0 }
     }
 }
 

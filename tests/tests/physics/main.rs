@@ -28,4 +28,5 @@ mod resolution;
 mod rigs;
 mod ropes;
 mod sea;
+mod slack;
 mod twisted_bight;

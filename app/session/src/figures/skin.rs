@@ -119,7 +119,8 @@ pub static PART: &[Figure<Part>] = &[
         Quantity::Pressure,
         |part: &Part| part.summary.peak_pressure_pa.into(),
     )
-    .shown(&[Entanglement]),
+    .shown(&[Entanglement])
+    .column(5),
     Figure::new(
         "friction_work_J",
         "friction work",

@@ -82,7 +82,8 @@ pub static WHALE: &[Figure<WhaleSummary>] = &[
         Quantity::Flag,
         |whale: &WhaleSummary| whale.lodged_in_mouth.into(),
     )
-    .shown(&[Table]),
+    .shown(&[Table])
+    .column(111),
     Figure::new(
         "was_lodged_in_mouth",
         "was lodged in the mouth",
@@ -119,6 +120,16 @@ pub static WHALE: &[Figure<WhaleSummary>] = &[
     )
     .shown(&[Table, Summary, Entanglement, Compare])
     .column(105),
+    Figure::new(
+        "speed_made_good_m_s",
+        "speed made good",
+        "Straight way of the whale over the ground in the last 30 s, by time: next to nothing where it \
+         hangs at gear that is fast.",
+        Quantity::Speed,
+        |whale: &WhaleSummary| whale.speed_made_good_m_s.into(),
+    )
+    .shown(&[Table, Entanglement])
+    .column(112),
     Figure::new(
         "trailing_m",
         "trailing rope",

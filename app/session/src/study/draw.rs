@@ -60,6 +60,9 @@ fn value(prior: &Prior, share: f64) -> Drawn {
         Law::Normal { mean, deviation, low, high, quantity } => {
             number(name, cut_normal(*mean, *deviation, [*low, *high], share), *quantity)
         }
+        Law::Bins { edges, shares, quantity } => {
+            number(name, binned(edges, shares, share), *quantity)
+        }
         Law::Choice(levels) => {
             let Level { text, number, plain } = chosen(levels, share).clone();
             Drawn { name, text, number, plain }
@@ -71,6 +74,19 @@ fn number(name: String, value: f64, quantity: units::Quantity) -> Drawn {
     let plain = quantity == units::Quantity::Ratio;
     let text = if plain { format!("{value:?}") } else { format!("{value} {}", quantity.si_unit()) };
     Drawn { name, text, number: Some(value), plain }
+}
+
+/// The value below which a share lies, where each range between two edges has a share of its own.
+fn binned(edges: &[f64], shares: &[f64], share: f64) -> f64 {
+    let mut below = 0.0;
+    for (ends, own) in edges.windows(2).zip(shares) {
+        if share < below + own {
+            return ends[0] + (ends[1] - ends[0]) * (share - below) / own;
+        }
+        below += own;
+    }
+    // The shares add up to 1 but for rounding, and there are at least two edges.
+    edges[edges.len() - 1]
 }
 
 /// Inverse of the distribution function of a normal law cut off at two ends.
@@ -119,6 +135,10 @@ source = "assumed"
 choice = ["swim", "skim-feed"]
 weights = [0.7, 0.3]
 source = "assumed"
+[encounter.depth]
+bins = ["2 m", "10 m", "20 m"]
+weights = [0.72, 0.28]
+source = "assumed"
 [encounter.heading]
 value = "90 deg"
 source = "assumed"
@@ -155,6 +175,13 @@ source = "assumed"
             "{mean} {}",
             variance.sqrt()
         );
+        let depths = numbers("depth", 4096);
+        let share = |low: f64, high: f64| {
+            depths.iter().filter(|depth| (low..high).contains(depth)).count() as f64 / 4096.0
+        };
+        for (low, high, expected) in [(2.0, 6.0, 0.36), (6.0, 10.0, 0.36), (10.0, 20.0, 0.28)] {
+            assert!((share(low, high) - expected).abs() < 2e-3, "{low}: {}", share(low, high));
+        }
         let swims = (0..4096)
             .filter(|index| draw(&priors(), 7, *index).iter().any(|drawn| drawn.text == "swim"))
             .count();

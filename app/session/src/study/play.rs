@@ -18,11 +18,13 @@ use super::ready::Ready;
 use super::row::row;
 use super::table::Row;
 
-/// A run has stuck where its solver tried this many times the steps of its whole duration in contact: in the few that do,
-/// rope is wedged so that only steps of a millionth of a second go through.
+/// A run has stuck where its solver tried this many times the steps of its time so far, and of a while more, in contact: in
+/// the few that do, rope is wedged so that only steps of a millionth of a second go through.
 const STUCK: f64 = 10.0;
 /// Likewise of Newton's passes: a step in contact takes two as a rule, and rope that is wedged up to forty in steps that are short besides.
 const STUCK_PASSES: f64 = 20.0;
+/// That while: time for which a run may stick before it is given up, at the usual cost [s].
+const STUCK_FOR_S: f64 = 60.0;
 
 /// Frames kept for each second of a run that is replayed.
 pub const REPLAY_HZ: f64 = 10.0;
@@ -142,10 +144,12 @@ impl Opened {
     /// Takes a run to its end, looking at it now and then.
     fn to_its_end(&self, run: &mut Run, mut look: impl FnMut(&Run)) {
         let settings = &run.model().spec.settings;
-        let usual = settings.duration_s / settings.contact_step_s.min(settings.step_s);
-        let [most_steps, most_passes] = [STUCK, STUCK_PASSES].map(|times| (times * usual) as u64);
+        let step_s = settings.contact_step_s.min(settings.step_s);
         while !run.finished() && run.step(run.pilot()).is_ok() {
             let audit = run.audit();
+            let usual = (run.state().time_s + STUCK_FOR_S) / step_s;
+            let [most_steps, most_passes] =
+                [STUCK, STUCK_PASSES].map(|times| (times * usual) as u64);
             if audit.solver_steps + audit.halved > most_steps || audit.passes > most_passes {
                 run.give_up("it sticks: hardly a step of the solver goes through");
                 break;

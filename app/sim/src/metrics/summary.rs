@@ -149,6 +149,8 @@ pub struct WhaleSummary {
     pub drag_added_n: f64,
     /// Drag of rope and gear that the whale carries at this moment [N].
     pub drag_added_now_n: f64,
+    /// Straight way over the ground in the last 30 s, by time [m/s].
+    pub speed_made_good_m_s: f64,
     /// Rope from the whale to loose ends [m].
     pub trailing_m: f64,
     /// Rope from the whale to traps, anchors and fixtures [m].

@@ -2,10 +2,10 @@
 
 use endline_sdk::LineEnd;
 
-use super::strands::{ends_at, joint_at, other};
 use crate::contact::ContactPoint;
 use crate::model::{BodyRole, JointKind, Model};
 use crate::state::State;
+use crate::strands::{ends_at, joint_at, other};
 use crate::whale::hitch;
 
 /// Lengths of rope beyond the outermost contacts [m].

@@ -15,11 +15,11 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 
 use super::outcome::LOST_S;
-use super::strands::Strands;
 use super::wraps::ends_of;
 use crate::contact::ContactPoint;
 use crate::model::Model;
 use crate::state::State;
+use crate::strands::Strands;
 
 /// Legs farther apart than this are not side by side [m]; estimate.
 pub const BESIDE_M: f64 = 0.5;

@@ -9,11 +9,11 @@ use super::event::{EventKind, Log};
 use super::extent::Extent;
 use super::flukes::FlukeMeter;
 use super::gear_loads::on_line;
+use super::made_good::MadeGood;
 use super::mouth::Mouth;
 use super::outcome::Encounter;
 use super::press::PressMeter;
 use super::regions::Loads;
-use super::strands::Strands;
 use super::summary::{BodySummary, RegionSummary, WhaleSummary};
 use super::touches::Touches;
 use super::trailing::Reach;
@@ -24,6 +24,7 @@ use super::wraps::WrapMeter;
 use crate::contact::step_sums::SkinContact;
 use crate::model::Model;
 use crate::state::State;
+use crate::strands::Strands;
 use crate::whale::Skin;
 
 /// Wraps must fall this far below a level to be reported as undone [turns]; estimate.
@@ -43,6 +44,7 @@ pub(super) struct WhaleMeter {
     press: PressMeter,
     drag: Window<1>,
     effort: Option<EffortMeter>,
+    made_good: MadeGood,
     encounter: Encounter,
     reach: Reach,
     extent: Extent,
@@ -65,6 +67,7 @@ impl WhaleMeter {
             press: PressMeter::default(),
             drag: Window::new(model),
             effort: EffortMeter::new(model),
+            made_good: MadeGood::default(),
             encounter: Encounter::default(),
             reach: Reach::new(model),
             extent: Extent::new(&skin),
@@ -97,6 +100,7 @@ impl WhaleMeter {
         if let Some(effort) = &mut self.effort {
             effort.fold(whale, dt_s);
         }
+        self.made_good.fold(state.time_s, whale.position);
         self.reach.fold(model, state, contacts);
         self.extent.fold(model, whale, state.time_s, log);
         self.touches.fold(&self.loads, state.time_s, log);
@@ -143,6 +147,7 @@ impl WhaleMeter {
                 .fold(0.0, f64::max),
             drag_added_n: self.drag.mean()[0],
             drag_added_now_n: self.drag.now[0],
+            speed_made_good_m_s: self.made_good.speed_m_s(),
             trailing_m: beyond.trailing_m,
             tethered_m: beyond.tethered_m,
             carried: beyond.bodies.iter().map(|body| model.spec.bodies[*body].id.clone()).collect(),

@@ -4,9 +4,9 @@ use std::f64::consts::{PI, TAU};
 
 use endline_sdk::BodyPart;
 
-use super::strands::{Place, Strands};
 use crate::contact::ContactPoint;
 use crate::state::RopeState;
+use crate::strands::{Place, Strands};
 use crate::whale::Skin;
 use crate::whale::axes::{Axis, axes_of};
 

@@ -22,11 +22,11 @@ use endline_sdk::BodyPart;
 use glam::{DAffine3, DVec3};
 
 use super::outcome::LOST_S;
-use super::strands::Strands;
 use super::winding::between;
 use crate::contact::ContactPoint;
 use crate::model::Model;
 use crate::state::{State, WhaleState};
+use crate::strands::Strands;
 use crate::whale::axes::{Axis, PosedAxis, Spot, axes_of};
 use crate::whale::{Skin, pose};
 

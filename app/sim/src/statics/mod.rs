@@ -5,13 +5,15 @@
 //! their grip on the seabed. *Refined*: the shape is carried over to the gear as it is. Each is tried in several ways in
 //! turn, the quick one first ([`ways`]): Newton ([`newton`]), creeping ([`creep`]), soft rope made stiff ([`relax`]).
 //! Where gear does not come to rest, the pull on its held bodies against what they hold says whether it drags
-//! ([`outcome`]). All that with rope that passes through bodies; where some then lies in one, it is lifted out ([`on_bodies`]).
+//! ([`outcome`]). All that with rope that passes through bodies; where some then lies in one, it is lifted out ([`on_bodies`]), and rope that
+//! lies in other rope is moved beside it ([`on_ropes`]).
 
 mod coarse;
 mod creep;
 mod guess;
 mod newton;
 mod on_bodies;
+mod on_ropes;
 pub mod outcome;
 mod relax;
 mod trail;
@@ -73,6 +75,7 @@ pub fn settle(model: &Model) -> Settled {
     let mut trail = Trail::default();
     let mut found = find(model, &mut trail);
     on_bodies::lift(model, &mut found, &mut trail);
+    on_ropes::part(model, &mut found);
     told(model, found, trail)
 }
 

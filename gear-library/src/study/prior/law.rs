@@ -27,6 +27,15 @@ pub enum Law {
         /// What it measures.
         quantity: Quantity,
     },
+    /// Even within each of several ranges that follow one another, with a share for each; shares add up to 1.
+    Bins {
+        /// Ends of the ranges, rising; one more than there are ranges.
+        edges: Vec<f64>,
+        /// Shares of the ranges.
+        shares: Vec<f64>,
+        /// What it measures.
+        quantity: Quantity,
+    },
     /// One of a few values by their weights, which add up to 1; in the order of their texts.
     Choice(Vec<(Level, f64)>),
 }
@@ -37,9 +46,9 @@ impl Law {
     pub fn written(&self, number: f64) -> String {
         let rounded: f64 = format!("{number:.2e}").parse().unwrap_or(number);
         match self {
-            Self::Uniform { quantity, .. } | Self::Normal { quantity, .. } => {
-                in_words(rounded, *quantity)
-            }
+            Self::Uniform { quantity, .. }
+            | Self::Normal { quantity, .. }
+            | Self::Bins { quantity, .. } => in_words(rounded, *quantity),
             Self::Choice(levels) => {
                 let is_drawn = |level: &Level| {
                     level.number.is_some_and(|known| known.total_cmp(&number).is_eq())
@@ -63,6 +72,13 @@ impl Law {
                 let [mean, deviation, low, high] =
                     [mean, deviation, low, high].map(|value| in_words(*value, *quantity));
                 format!("normal about {mean} with deviation {deviation}, from {low} to {high}")
+            }
+            Self::Bins { edges, shares, quantity } => {
+                let range = |(ends, share): (&[f64], &f64)| {
+                    let [low, high] = [ends[0], ends[1]].map(|end| in_words(end, *quantity));
+                    format!("{:.0} % from {low} to {high}", 100.0 * share)
+                };
+                edges.windows(2).zip(shares).map(range).collect::<Vec<_>>().join(", ")
             }
             Self::Choice(levels) => {
                 let level = |(level, weight): &(Level, f64)| {

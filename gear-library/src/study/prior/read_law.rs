@@ -1,4 +1,4 @@
-//! Reading a distribution: `uniform`, `normal`, `choice` or `value`.
+//! Reading a distribution: `uniform`, `normal`, `bins`, `choice` or `value`.
 
 use super::known::Takes;
 use super::law::{Law, Level};
@@ -6,20 +6,21 @@ use crate::fields::{Fields, Range, read_value};
 use crate::tree::{Content, Node};
 use crate::units::{self, Quantity};
 
-/// One of `uniform`, `normal` with `between`, `choice` with `weights`, or `value`.
+/// One of `uniform`, `normal` with `between`, `bins` or `choice` with `weights`, or `value`.
 pub(super) fn law(fields: &Fields<'_>, known: Option<Takes>) -> Option<Law> {
-    let given = ["uniform", "normal", "choice", "value"].map(|key| fields.get(key));
+    let given = ["uniform", "normal", "bins", "choice", "value"].map(|key| fields.get(key));
     let between = fields.get("between");
     let weights = fields.get("weights");
     match given {
-        [Some(node), None, None, None] => uniform(node, known, fields),
-        [None, Some(node), None, None] => normal(node, between, known, fields),
-        [None, None, Some(node), None] => choice(node, weights, known, fields),
-        [None, None, None, Some(node)] => {
+        [Some(node), None, None, None, None] => uniform(node, known, fields),
+        [None, Some(node), None, None, None] => normal(node, between, known, fields),
+        [None, None, Some(node), None, None] => bins(node, weights, known, fields),
+        [None, None, None, Some(node), None] => choice(node, weights, known, fields),
+        [None, None, None, None, Some(node)] => {
             Some(Law::Choice(vec![(level(node, known, fields)?, 1.0)]))
         }
         _ => {
-            fields.missing("uniform", "write one of uniform = [least, greatest], normal = [mean, deviation] with between = [least, greatest], choice = [a, b] or value = a");
+            fields.missing("uniform", "write one of uniform = [least, greatest], normal = [mean, deviation] with between = [least, greatest], bins = [a, b, c] with weights = [0.3, 0.7], choice = [a, b] or value = a");
             None
         }
     }
@@ -70,6 +71,42 @@ fn normal(
     Some(Law::Normal { mean, deviation, low, high, quantity })
 }
 
+fn bins(
+    node: &Node,
+    weights: Option<&Node>,
+    known: Option<Takes>,
+    fields: &Fields<'_>,
+) -> Option<Law> {
+    let (edges, quantity) = numbers(node, known, fields)?;
+    let weights = weights.map_or_else(|| Some(Vec::new()), |node| shares(node, fields))?;
+    let sum: f64 = weights.iter().sum();
+    let rises = edges.len() > 1 && edges.windows(2).all(|ends| ends[0] < ends[1]);
+    if !rises || weights.len() + 1 != edges.len() || sum <= 0.0 {
+        fields.problems().push(node.place.error(
+            "`bins` and `weights` do not fit",
+            "write the ends of ranges in rising order, and one weight for each range, not all zero",
+        ));
+        return None;
+    }
+    let shares = weights.into_iter().map(|weight| weight / sum).collect();
+    Some(Law::Bins { edges, shares, quantity })
+}
+
+/// Weights as they are written.
+fn shares(node: &Node, fields: &Fields<'_>) -> Option<Vec<f64>> {
+    let Content::List(items) = &node.content else {
+        fields.problems().push(node.place.error(
+            format!("`weights` is {}", node.content.noun()),
+            "write a list of numbers, such as weights = [0.7, 0.3]",
+        ));
+        return None;
+    };
+    let read = items.iter().map(|item| {
+        read_value(item, Quantity::Ratio, Range::NotNegative, fields.problems()).map(|at| at.value)
+    });
+    read.collect()
+}
+
 fn choice(
     node: &Node,
     weights: Option<&Node>,
@@ -87,14 +124,7 @@ fn choice(
         items.iter().map(|item| level(item, known, fields)).collect::<Option<Vec<Level>>>()?;
     let weights = match weights {
         None => vec![1.0; levels.len()],
-        Some(node) => {
-            let Content::List(items) = &node.content else { return None };
-            let read = items.iter().map(|item| {
-                read_value(item, Quantity::Ratio, Range::NotNegative, fields.problems())
-                    .map(|at| at.value)
-            });
-            read.collect::<Option<Vec<f64>>>()?
-        }
+        Some(node) => shares(node, fields)?,
     };
     let sum: f64 = weights.iter().sum();
     if weights.len() != levels.len() || levels.is_empty() || sum <= 0.0 {

@@ -2,11 +2,12 @@
 
 use endline_gear::{Prior, StudyOption};
 
+use crate::strength::PartStrength;
 use crate::study::open::Opened;
-use crate::study::stats::{ClaimFinding, Findings, InputFinding};
+use crate::study::stats::{ClaimFinding, Findings, InputFinding, OptionFinding};
 
 use super::cell::{Cell, Line, Table};
-use super::words::{points, rate};
+use super::words::{force, points, rate};
 
 /// Claims and whether their sign holds; `None` where the study makes none.
 pub(super) fn claims(findings: &Findings) -> Option<Table> {
@@ -50,6 +51,31 @@ pub(super) fn priors(opened: &Opened) -> Table {
         "How encounters are drawn",
         &["quantity", "distribution", "confidence", "source"],
         opened.study.priors.iter().map(row).collect(),
+    )
+}
+
+/// Delivered strength of the lines and weak links of each option.
+pub(super) fn strengths(findings: &Findings) -> Table {
+    let line = |strength: &PartStrength| {
+        let [least, most] = strength.nine_of_ten_N;
+        Line::Plain(format!(
+            "{}: {}, nine pieces of ten {least:.0} to {most:.0} N; {} of {} {} ({})",
+            strength.part,
+            force(strength.delivered_N),
+            force(strength.stated.value),
+            strength.item,
+            strength.product(),
+            strength.confidence,
+        ))
+    };
+    let row = |option: &OptionFinding| {
+        let lines = option.strengths.iter().map(line).collect();
+        vec![Cell::from(&option.name), Cell { lines }]
+    };
+    Table::new(
+        "Delivered strength of each option's gear: what its source states, times what making up and wear leave",
+        &["option", "lines and weak links"],
+        findings.options.iter().map(row).collect(),
     )
 }
 

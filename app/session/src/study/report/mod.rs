@@ -5,6 +5,7 @@ mod cell;
 mod changed;
 mod curves;
 mod figures;
+mod held;
 mod inputs;
 mod page;
 mod results;

@@ -7,7 +7,7 @@ use crate::study::stats::Findings;
 
 use super::cell::{Line, Table};
 use super::words::event_words;
-use super::{bundle, changed, curves, figures, inputs, results};
+use super::{bundle, changed, curves, figures, held, inputs, results};
 
 /// Look of the page.
 const STYLE: &str =
@@ -24,12 +24,14 @@ struct Page<'a> {
     scenario: &'a str,
     baseline: &'a str,
     counts: Counts,
-    rates: Table,
+    rates: Vec<Table>,
     rates_figure: String,
     compared: Vec<Table>,
     forest_figure: String,
     forest_caption: String,
     changes: Option<Table>,
+    survival: Table,
+    survival_figure: String,
     tensions: Table,
     tensions_figure: String,
     break_away_figure: Option<String>,
@@ -37,6 +39,7 @@ struct Page<'a> {
     claims: Option<Table>,
     sensitivity: Option<Sensitivity>,
     priors: Table,
+    strengths: Table,
     settings: Table,
     again: Again<'a>,
 }
@@ -91,6 +94,8 @@ impl<'a> Page<'a> {
             forest_figure: figures::forest(findings),
             forest_caption: forest_caption(findings),
             changes: changed::table(findings),
+            survival: held::table(findings),
+            survival_figure: held::figure(findings),
             tensions: results::tensions(findings),
             tensions_figure: curves::tensions(findings),
             break_away_figure: curves::break_away(findings),
@@ -98,6 +103,7 @@ impl<'a> Page<'a> {
             claims: inputs::claims(findings),
             sensitivity: sensitivity(findings),
             priors: inputs::priors(opened),
+            strengths: inputs::strengths(findings),
             settings: inputs::settings(opened),
             again: Again::of(opened, findings),
         }

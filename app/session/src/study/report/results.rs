@@ -7,9 +7,15 @@ use crate::study::stats::{Findings, LevelFinding, Looks, OptionFinding};
 use super::cell::{Cell, Table};
 use super::words::{event_words, force, points, rate, ratio, short_rate};
 
-/// Rates of every event that concerns the whole whale.
-pub(super) fn rates(findings: &Findings) -> Table {
-    let events = StudyEvent::of_the_whole();
+/// Columns of events that a page shows beside each other.
+const BESIDE: usize = 8;
+
+/// Rates of every event that concerns the whole whale, some beside each other.
+pub(super) fn rates(findings: &Findings) -> Vec<Table> {
+    StudyEvent::of_the_whole().chunks(BESIDE).map(|events| rates_of(findings, events)).collect()
+}
+
+fn rates_of(findings: &Findings, events: &[StudyEvent]) -> Table {
     let words: Vec<String> = events.iter().map(StudyEvent::words).collect();
     let headings: Vec<&str> = ["option", "invalid runs", "resolution missed"]
         .into_iter()

@@ -3,6 +3,7 @@
 use endline_gear::StudyEvent;
 use serde::Serialize;
 
+use crate::strength::PartStrength;
 use crate::study::open::Opened;
 use crate::study::table::{Column, Table};
 
@@ -12,6 +13,7 @@ use super::interval::Rate;
 use super::marks::{Marks, encounters};
 use super::paired::Paired;
 use super::sensitivity::{self, InputFinding, best_shares};
+use super::survival::Survival;
 use super::tensions::Tensions;
 
 /// Name of the schema.
@@ -67,6 +69,10 @@ pub struct OptionFinding {
     pub changes: Changes,
     /// Greatest tensions.
     pub tensions: Tensions,
+    /// How long rope holds whales that it touched.
+    pub survival: Survival,
+    /// Delivered strength of each line and weak link in the gear as it is assembled.
+    pub strengths: Vec<PartStrength>,
     /// How often it has the lowest rate of the event when encounters are drawn again.
     pub best_share: f64,
 }
@@ -178,6 +184,8 @@ fn found(opened: &Opened, table: &Table, option: usize) -> OptionFinding {
         against: events.iter().map(paired).collect(),
         changes: Changes::of(table, &plan.id, baseline),
         tensions: Tensions::of(table, &plan.id, baseline),
+        survival: Survival::of(table, &plan.id),
+        strengths: plan.prepared.strengths.iter().map(PartStrength::from).collect(),
         best_share: 0.0,
     }
 }

@@ -49,10 +49,24 @@ pub(super) fn encounters(table: &Table) -> Vec<usize> {
 
 /// Whether an event came in each row.
 fn of_rows(table: &Table, event: &StudyEvent) -> Vec<bool> {
+    counted(table, &event.counted())
+}
+
+fn counted(table: &Table, how: &Counted<'_>) -> Vec<bool> {
     let outcome = |wanted: &[&str]| {
         table.texts("outcome").iter().map(|outcome| wanted.contains(&outcome.as_str())).collect()
     };
-    match event.counted() {
+    let number = |column: &str, came: &dyn Fn(f64) -> bool| {
+        table.reals(column).iter().map(|value| value.is_some_and(came)).collect()
+    };
+    let joined = |parts: &[Counted<'_>], join: fn(bool, bool) -> bool| {
+        let parts = parts.iter().map(|part| counted(table, part));
+        let both = |one: Vec<bool>, other: Vec<bool>| {
+            one.into_iter().zip(other).map(|(one, other)| join(one, other)).collect()
+        };
+        parts.reduce(both).unwrap_or_default()
+    };
+    match *how {
         Counted::Outcome(wanted) => outcome(wanted),
         Counted::Present(column) => table.reals(column).iter().map(Option::is_some).collect(),
         Counted::Flag(column) => {
@@ -69,5 +83,9 @@ fn of_rows(table: &Table, event: &StudyEvent) -> Vec<bool> {
             }
             came
         }
+        Counted::Above(column, least) => number(column, &|value| value > least),
+        Counted::NotAbove(column, most) => number(column, &|value| value <= most),
+        Counted::All(parts) => joined(parts, |one, other| one && other),
+        Counted::Any(parts) => joined(parts, |one, other| one || other),
     }
 }

@@ -13,6 +13,7 @@ mod interval;
 mod marks;
 mod paired;
 mod sensitivity;
+mod survival;
 mod tensions;
 
 #[cfg(test)]
@@ -25,6 +26,7 @@ pub use interval::{Interval, Rate};
 pub use marks::Marks;
 pub use paired::Paired;
 pub use sensitivity::{InputFinding, Part};
+pub use survival::{HeldShare, Survival};
 pub use tensions::Tensions;
 
 use endline_gear::StudyEvent;

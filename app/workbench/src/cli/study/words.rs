@@ -116,12 +116,21 @@ pub(super) fn findings(opened: &Opened, findings: &Findings) -> String {
     text += &compared(findings);
     text += &changed(findings);
     text += &tensions(findings);
+    text += &held(findings);
+    text += &strengths(findings);
     text += &levels(findings);
     text + &claims(findings)
 }
 
+/// Columns of events that a line of a terminal has room for.
+const BESIDE: usize = 5;
+
 fn rates(findings: &Findings) -> String {
     let events: Vec<String> = StudyEvent::of_the_whole().iter().map(StudyEvent::name).collect();
+    events.chunks(BESIDE).map(|events| rates_of(findings, events)).collect()
+}
+
+fn rates_of(findings: &Findings, events: &[String]) -> String {
     let mut rows = vec![
         ["option", "runs", "invalid", "undecided"]
             .into_iter()
@@ -221,6 +230,46 @@ fn tensions(findings: &Findings) -> String {
     for option in &findings.options {
         let at = |share| option.tensions.quantile_n(share).map_or_else(|| "none".into(), force);
         rows.push(vec![option.id.clone(), at(0.5), at(0.95), at(1.0)]);
+    }
+    columns(&rows)
+}
+
+/// Times since first contact at which the share still held is told [s].
+const HELD_S: [f64; 5] = [10.0, 30.0, 60.0, 300.0, 600.0];
+
+/// How long rope holds whales that it touched.
+fn held(findings: &Findings) -> String {
+    let mut rows = vec![vec!["still held after first contact".to_owned(), "released".to_owned()]];
+    rows[0].extend(HELD_S.map(|time| format!("{time} s")));
+    for option in &findings.options {
+        let own = &option.survival;
+        let mut row = vec![option.id.clone(), format!("{} of {}", own.released, own.touched)];
+        let share = |time_s| {
+            let held = own.at(time_s)?;
+            Some(with(100.0 * held.share, held.interval, 100.0) + " %")
+        };
+        row.extend(HELD_S.map(|time| share(time).unwrap_or_else(|| "not followed".to_owned())));
+        rows.push(row);
+    }
+    columns(&rows)
+}
+
+/// What the lines and weak links of each option deliver.
+fn strengths(findings: &Findings) -> String {
+    let heads = ["delivered strength", "part", "stated", "delivered", "nine of ten", "confidence"];
+    let mut rows = vec![heads.map(str::to_owned).to_vec()];
+    for option in &findings.options {
+        rows.extend(option.strengths.iter().map(|strength| {
+            let [least, most] = strength.nine_of_ten_N;
+            vec![
+                option.id.clone(),
+                strength.part.clone(),
+                force(strength.stated.value),
+                force(strength.delivered_N),
+                format!("{least:.0} to {most:.0} N"),
+                strength.confidence.to_owned(),
+            ]
+        }));
     }
     columns(&rows)
 }

@@ -35,9 +35,10 @@ const KNOWN: [(&str, &str, &str); 17] = [
 const NO_PRIORS: [&str; 3] = ["aim", "aim_by", "gap"];
 
 /// Laws, as a file names them and as people do.
-const LAWS: [(&str, &str); 4] = [
+const LAWS: [(&str, &str); 5] = [
     ("uniform", "even from, to"),
     ("normal", "normal about, by"),
+    ("bins", "even within ranges"),
     ("choice", "one of"),
     ("value", "always"),
 ];
@@ -96,6 +97,12 @@ fn prior(ui: &mut Ui, shared: &mut Shared, name: &str, edits: &mut Edits) {
             edits.push((at.clone(), None));
         }
     });
+    if *law == "bins" {
+        let ends = "Ends of the ranges in rising order, with commas between";
+        list(ui, shared, ("", &format!("{at}.bins")), ends, edits);
+        let shares = "Share of each range, with commas between";
+        list(ui, shared, ("  weights", &format!("{at}.weights")), shares, edits);
+    }
     if *law == "choice" {
         list(ui, shared, ("", &format!("{at}.choice")), "Values, with commas between", edits);
         list(
@@ -137,13 +144,16 @@ fn begin(at: &str, law: &str, name: &str, edits: &mut Edits) {
         .next()
         .unwrap_or("1.0");
     let values = match law {
-        "uniform" | "normal" => pair.to_owned(),
+        "uniform" | "normal" | "bins" => pair.to_owned(),
         "choice" => format!("[{single}]"),
         _ => single.to_owned(),
     };
     edits.push((format!("{at}.{law}"), Some(Setting::plain(&values))));
     if law == "normal" {
         edits.push((format!("{at}.between"), Some(Setting::plain(pair))));
+    }
+    if law == "bins" {
+        edits.push((format!("{at}.weights"), Some(Setting::plain("[1.0]"))));
     }
 }
 

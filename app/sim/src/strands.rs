@@ -6,37 +6,37 @@ use crate::model::{JointKind, Model};
 
 /// Where every segment lies in its strand; rope before it and its length by the last [`Strands::measure`].
 #[derive(Clone, Debug)]
-pub(super) struct Strands {
+pub(crate) struct Strands {
     /// By segment of the model's layout.
-    pub(super) places: Vec<Place>,
+    pub(crate) places: Vec<Place>,
     /// Segments of each strand, from its start.
     segments: Vec<Vec<usize>>,
 }
 
 /// A segment's place in its strand.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Place {
+pub(crate) struct Place {
     /// Index of the strand.
-    pub(super) strand: usize,
+    pub(crate) strand: usize,
     /// How many segments of the strand come before.
-    pub(super) order: usize,
+    pub(crate) order: usize,
     /// Unstretched rope before the segment [m].
-    pub(super) arc_m: f64,
+    pub(crate) arc_m: f64,
     /// Its unstretched length [m].
-    pub(super) length_m: f64,
+    pub(crate) length_m: f64,
     /// Whether its line runs against the strand.
-    pub(super) reversed: bool,
+    pub(crate) reversed: bool,
 }
 
 impl Place {
     /// Unstretched rope from the strand's start to a fraction of the segment [m].
-    pub(super) fn arc_at(&self, fraction: f64) -> f64 {
+    pub(crate) fn arc_at(&self, fraction: f64) -> f64 {
         self.arc_m + self.length_m * if self.reversed { 1.0 - fraction } else { fraction }
     }
 }
 
 impl Strands {
-    pub(super) fn new(model: &Model) -> Self {
+    pub(crate) fn new(model: &Model) -> Self {
         let mut strands =
             Self { places: vec![Place::default(); model.segment_count], segments: Vec::new() };
         let mut laid = vec![false; model.spec.lines.len()];
@@ -50,12 +50,12 @@ impl Strands {
     }
 
     /// Segments of each strand in its order.
-    pub(super) fn lists(&self) -> &[Vec<usize>] {
+    pub(crate) fn lists(&self) -> &[Vec<usize>] {
         &self.segments
     }
 
     /// Takes over the lengths of a state.
-    pub(super) fn measure(&mut self, segment_length: &[f64]) {
+    pub(crate) fn measure(&mut self, segment_length: &[f64]) {
         for strand in &self.segments {
             let mut arc_m = 0.0;
             for &segment in strand {
@@ -67,7 +67,7 @@ impl Strands {
     }
 
     /// Whether the rope between two segments of a strand is whole, both included.
-    pub(super) fn whole(&self, from: &Place, to: &Place, cut: &[bool]) -> bool {
+    pub(crate) fn whole(&self, from: &Place, to: &Place, cut: &[bool]) -> bool {
         let (low, high) = (from.order.min(to.order), from.order.max(to.order));
         self.segments[from.strand][low..=high].iter().all(|segment| !cut[*segment])
     }
@@ -122,14 +122,14 @@ fn spliced_to(model: &Model, line: usize, end: LineEnd) -> Option<(usize, LineEn
 }
 
 /// Every line end at a joint.
-pub(super) fn ends_at(model: &Model, joint: usize) -> impl Iterator<Item = (usize, LineEnd)> {
+pub(crate) fn ends_at(model: &Model, joint: usize) -> impl Iterator<Item = (usize, LineEnd)> {
     let ends =
         (0..model.spec.lines.len()).flat_map(|line| [(line, LineEnd::A), (line, LineEnd::B)]);
     ends.filter(move |(line, end)| joint_at(model, *line, *end) == joint)
 }
 
 /// The joint at an end of a line.
-pub(super) fn joint_at(model: &Model, line: usize, end: LineEnd) -> usize {
+pub(crate) fn joint_at(model: &Model, line: usize, end: LineEnd) -> usize {
     match end {
         LineEnd::A => model.spec.lines[line].from,
         LineEnd::B => model.spec.lines[line].to,
@@ -137,7 +137,7 @@ pub(super) fn joint_at(model: &Model, line: usize, end: LineEnd) -> usize {
 }
 
 /// The other end.
-pub(super) fn other(end: LineEnd) -> LineEnd {
+pub(crate) fn other(end: LineEnd) -> LineEnd {
     match end {
         LineEnd::A => LineEnd::B,
         LineEnd::B => LineEnd::A,

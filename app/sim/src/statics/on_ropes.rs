@@ -1,0 +1,287 @@
+//! Rope that would lie in other rope at rest: it is moved beside it.
+//!
+//! Statics finds lines that pass through each other. An endline at slack water hangs in one vertical plane, its sinking part below
+//! the floating one where they meet, and so in that rope. Across the plane nothing holds it, so that the two lie beside each other at rest.
+//! Where two segments are nearer than the sum `h` of their radii, both are moved by half of what lacks along the common normal
+//! of their directions, and the rope to either side of them less and less, `δ (1 + cos(π a / A))/2` at the arc `a`, as far as
+//! the arc `A`. Segments then have their lengths drawn in again, for a few millimetres aside stretch a short one by hundreds of newtons.
+//! The sign of the normal is the same everywhere (its greatest part is positive): the strand that comes first along
+//! the lines lies on one side wherever they meet, so that the two do not wind round each other.
+
+use std::f64::consts::PI;
+
+use glam::DVec3;
+
+use super::Found;
+use super::outcome::Outcome;
+use crate::contact::distance::segment_segment;
+use crate::model::Model;
+use crate::state::State;
+use crate::strands::{Place, Strands};
+
+/// How often what still overlaps is moved.
+const ROUNDS: usize = 40;
+/// Arc to either side that goes along, in diameters, where there is so much rope.
+const ALONG_DIAMETERS: f64 = 200.0;
+/// Newton steps that give segments their lengths again: each squares what is left.
+const PROJECTIONS: usize = 6;
+/// Added to the diagonal of `J Jᵀ` [1].
+const SINGULAR: f64 = 1e-9;
+/// Distance to which ropes are moved apart, over the sum of their radii [1].
+const APART: f64 = 1.02;
+/// Rope along a strand from one place to another below which the two are neighbours, in sums of radii.
+const BESIDE: f64 = 4.0;
+
+/// Moves rope out of other rope, where ropes touch each other and the gear is at rest.
+pub(super) fn part(model: &Model, found: &mut Found) {
+    if model.spec.settings.rope_on_rope.is_none() || found.outcome != Outcome::AtRest {
+        return;
+    }
+    let rope = Rope::of(model, &found.end.state);
+    for _ in 0..ROUNDS {
+        let overlaps = rope.overlaps(&found.end.state);
+        if overlaps.is_empty() {
+            return;
+        }
+        for overlap in &overlaps {
+            rope.push_apart(overlap, &mut found.end.state);
+        }
+        rope.draw_in(&mut found.end.state);
+    }
+}
+
+/// The gear's rope as strands: lines spliced end to end count as one.
+struct Rope<'a> {
+    model: &'a Model,
+    strands: Strands,
+    /// First node and radius of each segment [m].
+    segments: Vec<(usize, f64)>,
+    /// Length of each strand [m].
+    lengths_m: Vec<f64>,
+    /// Length of each segment at rest, stretched as it is there [m].
+    at_rest_m: Vec<f64>,
+}
+
+/// Two segments that lie in each other.
+struct Overlap {
+    segments: [usize; 2],
+    /// Where they are nearest, along their strands [m].
+    arcs_m: [f64; 2],
+    /// What to move the first by; the second by its opposite [m].
+    shift_m: DVec3,
+}
+
+impl<'a> Rope<'a> {
+    fn of(model: &'a Model, state: &State) -> Self {
+        let mut strands = Strands::new(model);
+        strands.measure(&state.rope.segment_length);
+        let nodes = model.line_nodes.iter().zip(&model.spec.lines);
+        let segments = nodes.flat_map(|(nodes, line)| {
+            let radius_m = 0.5 * model.spec.ropes[line.rope].diameter_m;
+            (nodes.start..nodes.end - 1).map(move |node| (node, radius_m))
+        });
+        let length = |order: &Vec<usize>| {
+            order.iter().map(|segment| strands.places[*segment].length_m).sum()
+        };
+        let lengths_m = strands.lists().iter().map(length).collect();
+        let segments: Vec<(usize, f64)> = segments.collect();
+        let at = &state.rope.position;
+        let at_rest_m = segments.iter().map(|(node, _)| at[*node].distance(at[node + 1])).collect();
+        Self { segments, lengths_m, at_rest_m, model, strands }
+    }
+
+    /// Every pair that lies in each other, found by sweeping along the axis on which the gear reaches farthest.
+    fn overlaps(&self, state: &State) -> Vec<Overlap> {
+        let at = &state.rope.position;
+        let ends = |segment: usize| {
+            let node = self.segments[segment].0;
+            [at[node], at[node + 1]]
+        };
+        let axis = widest(at);
+        let low = |segment: usize| ends(segment).map(|end| end[axis]);
+        let mut order: Vec<usize> = (0..self.model.segment_count).collect();
+        let least = |segment: &usize| low(*segment)[0].min(low(*segment)[1]);
+        order.sort_by(|one, other| least(one).total_cmp(&least(other)).then(one.cmp(other)));
+        let mut found = Vec::new();
+        for (place, one) in order.iter().enumerate() {
+            let high = low(*one)[0].max(low(*one)[1]);
+            for other in &order[place + 1..] {
+                let reach = self.segments[*one].1 + self.segments[*other].1;
+                if least(other) > high + reach {
+                    break;
+                }
+                let pair = [*one.min(other), *one.max(other)];
+                found.extend(self.overlap(pair, pair.map(ends), reach));
+            }
+        }
+        found
+    }
+
+    fn overlap(&self, pair: [usize; 2], ends: [[DVec3; 2]; 2], reach: f64) -> Option<Overlap> {
+        let (s, t) = segment_segment(ends[0], ends[1]);
+        let between = ends[0][0].lerp(ends[0][1], s) - ends[1][0].lerp(ends[1][1], t);
+        if between.length() >= reach {
+            return None;
+        }
+        let [one, other] = pair.map(|segment| &self.strands.places[segment]);
+        let arcs_m = [one.arc_at(s), other.arc_at(t)];
+        // Neighbours of one strand always lie near each other, and so do strands that end at one place.
+        let is_end = |place: &Place, arc_m: f64| {
+            arc_m.min(self.lengths_m[place.strand] - arc_m) < BESIDE * reach
+        };
+        let neighbours = if one.strand == other.strand {
+            (arcs_m[1] - arcs_m[0]).abs() < BESIDE * reach || one.order.abs_diff(other.order) < 2
+        } else {
+            is_end(one, arcs_m[0]) && is_end(other, arcs_m[1])
+        };
+        if neighbours {
+            return None;
+        }
+        let normal = across(ends[0][1] - ends[0][0], ends[1][1] - ends[1][0]);
+        let along = between.dot(normal);
+        let sideways = (between - along * normal).length_squared();
+        // The distance along the normal that takes the two as far apart as they should be.
+        let wanted = ((APART * reach).powi(2) - sideways).max(0.0).sqrt();
+        let side = if along < -1e-3 * reach { -1.0 } else { 1.0 };
+        let lacks = (wanted - side * along).max(0.0);
+        Some(Overlap { segments: pair, arcs_m, shift_m: 0.5 * lacks * side * normal })
+    }
+
+    /// Moves both strands of an overlap, each with the rope beside it.
+    fn push_apart(&self, overlap: &Overlap, state: &mut State) {
+        let places = overlap.segments.map(|segment| &self.strands.places[segment]);
+        let between_m = if places[0].strand == places[1].strand {
+            0.5 * (overlap.arcs_m[1] - overlap.arcs_m[0]).abs()
+        } else {
+            f64::INFINITY
+        };
+        for index in 0..2 {
+            let (strand, middle_m) = (places[index].strand, overlap.arcs_m[index]);
+            let diameter_m = 2.0 * self.segments[overlap.segments[index]].1;
+            let to_end_m = middle_m.min(self.lengths_m[strand] - middle_m);
+            let along_m = (ALONG_DIAMETERS * diameter_m).min(to_end_m).min(between_m);
+            let shift_m = if index == 0 { overlap.shift_m } else { -overlap.shift_m };
+            self.bump(strand, (middle_m, along_m), shift_m, state);
+        }
+    }
+
+    /// Moves the rope of a strand about a place, less and less away from it; both copies of a node at a splice alike.
+    fn bump(
+        &self,
+        strand: usize,
+        (middle_m, along_m): (f64, f64),
+        shift_m: DVec3,
+        state: &mut State,
+    ) {
+        let mut moved = |node: usize, arc_m: f64| {
+            let off_m = (arc_m - middle_m).abs();
+            if off_m < along_m {
+                let share = 0.5 * (1.0 + libm::cos(PI * off_m / along_m));
+                state.rope.position[node] += share * shift_m;
+            }
+        };
+        let chain = self.chain(&self.strands.lists()[strand]);
+        let mut arc_m = 0.0;
+        for (index, nodes) in chain.iter().enumerate() {
+            nodes.iter().for_each(|node| moved(*node, arc_m));
+            if let Some(segment) = self.strands.lists()[strand].get(index) {
+                arc_m += self.strands.places[*segment].length_m;
+            }
+        }
+    }
+}
+
+impl Rope<'_> {
+    /// Gives every segment its length at rest again. Ends of strands stay.
+    fn draw_in(&self, state: &mut State) {
+        for strand in self.strands.lists() {
+            let chain = self.chain(strand);
+            let mut places: Vec<DVec3> =
+                chain.iter().map(|nodes| state.rope.position[nodes[0]]).collect();
+            let wanted_m: Vec<f64> =
+                strand.iter().map(|segment| self.at_rest_m[*segment]).collect();
+            for _ in 0..PROJECTIONS {
+                project(&wanted_m, &mut places);
+            }
+            for (nodes, place) in chain.iter().zip(&places) {
+                nodes.iter().for_each(|node| state.rope.position[*node] = *place);
+            }
+        }
+    }
+
+    /// The nodes along a strand; at a splice both copies of one.
+    fn chain(&self, strand: &[usize]) -> Vec<Vec<usize>> {
+        let mut chain: Vec<Vec<usize>> = Vec::with_capacity(strand.len() + 1);
+        for segment in strand {
+            let node = self.segments[*segment].0;
+            let [first, last] = if self.strands.places[*segment].reversed {
+                [node + 1, node]
+            } else {
+                [node, node + 1]
+            };
+            match chain.last_mut() {
+                Some(nodes) if nodes.contains(&first) => {}
+                Some(nodes) => nodes.push(first),
+                None => chain.push(vec![first]),
+            }
+            chain.push(vec![last]);
+        }
+        chain
+    }
+}
+
+/// Moves the nodes of a chain least so that its segments have the lengths wanted: with `C` what each is too long, `J` its
+/// derivatives by the places of nodes, `x ← x - Jᵀ (J Jᵀ)⁻¹ C`. `J Jᵀ` has three diagonals.
+fn project(wanted_m: &[f64], places: &mut [DVec3]) {
+    let count = wanted_m.len();
+    let free = |node: usize| f64::from(u8::from(node > 0 && node < count));
+    let along: Vec<DVec3> =
+        (0..count).map(|index| (places[index + 1] - places[index]).normalize_or_zero()).collect();
+    let excess = |index: usize| places[index].distance(places[index + 1]) - wanted_m[index];
+    // Forward elimination; a straight chain between two ends that stay is singular but for the small share.
+    let (mut above, mut right) = (vec![0.0; count], vec![0.0; count]);
+    for index in 0..count {
+        let beside = |index: usize| -along[index].dot(along[index - 1]) * free(index);
+        let mut diagonal = free(index) + free(index + 1) + SINGULAR;
+        right[index] = excess(index);
+        if index > 0 {
+            let below = beside(index);
+            diagonal -= below * above[index - 1];
+            right[index] -= below * right[index - 1];
+        }
+        right[index] /= diagonal;
+        above[index] = if index + 1 < count { beside(index + 1) / diagonal } else { 0.0 };
+    }
+    for index in (0..count.saturating_sub(1)).rev() {
+        right[index] -= above[index] * right[index + 1];
+    }
+    for (index, multiplier) in right.iter().enumerate() {
+        places[index] += free(index) * *multiplier * along[index];
+        places[index + 1] -= free(index + 1) * *multiplier * along[index];
+    }
+}
+
+/// The axis along which places reach farthest.
+fn widest(places: &[DVec3]) -> usize {
+    let first = places.first().copied().unwrap_or_default();
+    let (low, high) = places
+        .iter()
+        .fold((first, first), |(low, high), place| (low.min(*place), high.max(*place)));
+    let extent = high - low;
+    if extent.x >= extent.y.max(extent.z) { 0 } else { 1 + usize::from(extent.z > extent.y) }
+}
+
+/// Unit normal to two directions, its greatest part positive; any across the first where they are one.
+fn across(one: DVec3, other: DVec3) -> DVec3 {
+    let normal = one.cross(other);
+    let normal = if normal.length() > 1e-9 * one.length() * other.length() {
+        normal.normalize()
+    } else {
+        one.any_orthonormal_vector()
+    };
+    let greatest = [normal.x, normal.y, normal.z]
+        .into_iter()
+        .max_by(|a, b| a.abs().total_cmp(&b.abs()))
+        .unwrap_or(1.0);
+    if greatest < 0.0 { -normal } else { normal }
+}
