@@ -151,8 +151,9 @@ fn fold_rope(rope: &RopeState, ropes: &mut Fold, contact: &mut Fold, links: &mut
         contact.word(*line as u64);
         contact.reals(&[*from_m, *to_m]);
     }
-    for RopeGrip { lines, along_m, stretch, forgiven_m } in rope_grips {
+    for RopeGrip { lines, knots, along_m, stretch, forgiven_m } in rope_grips {
         lines.iter().for_each(|line| contact.word(*line as u64));
+        knots.iter().flatten().for_each(|knot| contact.word(*knot as u64));
         contact.reals(along_m);
         contact.vectors(&[*stretch]);
         contact.real(*forgiven_m);

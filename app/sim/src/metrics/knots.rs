@@ -1,19 +1,29 @@
-//! Knots, splices and links on the whale: whether one has jammed.
+//! Knots, splices and links on the whale and at other rope: whether one has jammed.
 //!
-//! A knot has jammed where it has pressed on the whale for [`CAUGHT_S`], but for gaps of less than [`LOST_S`], and has slid less than its own
-//! breadth meanwhile. Slip is that over skin by the speed at the end of each step.
+//! A knot has jammed where it has pressed on the whale, or been held by other rope, for [`CAUGHT_S`], but for gaps of less than [`LOST_S`],
+//! and has slid less than its own breadth meanwhile. Slip is that over skin or rope by the speed at the end of each step.
+//!
+//! With push `N` and direction `n` of every touch of other rope and other knots, and direction `t` of its own rope there, rope holds it by
+//! `|t · Σ N n|`. Rope that lies beside a knot does not hold it.
+
+use glam::DVec3;
 
 use super::CAUGHT_S;
 use super::event::{EventKind, Log};
 use super::outcome::LOST_S;
 use crate::contact::ContactPoint;
+use crate::contact::ropes::RopeTouch;
 use crate::model::{Knot, Model};
+use crate::state::State;
+
+/// Force along its own rope from which on other rope holds a knot [N].
+pub const HELD_N: f64 = 1.0;
 
 /// What is followed of every knot.
 #[derive(Clone, Debug, Default)]
 pub(super) struct KnotMeter(Vec<Pressed>);
 
-/// A knot on the whale.
+/// A knot on the whale or at other rope.
 #[derive(Clone, Copy, Debug, Default)]
 struct Pressed {
     /// When the present spell at one place began, and when it last pressed [s].
@@ -29,22 +39,20 @@ impl KnotMeter {
         Self(vec![Pressed::default(); model.knots.len()])
     }
 
-    /// Takes in the contacts of a step of length `dt_s` that ends at `time_s`.
+    /// Takes in what touches at the end of a step of length `dt_s`.
     pub fn fold(
         &mut self,
         model: &Model,
-        contacts: &[ContactPoint],
-        (time_s, dt_s): (f64, f64),
+        state: &State,
+        (contacts, ropes): (&[ContactPoint], &[RopeTouch]),
+        dt_s: f64,
         log: &mut Log,
     ) {
-        for (knot, pressed) in model.knots.iter().zip(&mut self.0) {
-            let mine = contacts
-                .iter()
-                .filter(|contact| contact.is_knot && contact.segment == knot.segment);
-            let push_n = mine.clone().map(|contact| contact.normal_force_n).fold(0.0, f64::max);
-            let speed = |contact: &ContactPoint| contact.slip_m.length() / contact.dt_s;
-            let speed_m_s = mine.map(speed).fold(0.0, f64::max);
-            if pressed.fold(knot, [push_n, speed_m_s], (time_s, dt_s)) {
+        let time_s = state.time_s;
+        for ((index, knot), pressed) in model.knots.iter().enumerate().zip(&mut self.0) {
+            let [on_skin, at_rope] = [by_skin(knot, contacts), by_rope(model, state, index, ropes)];
+            let both = [on_skin[0].max(at_rope[0]), on_skin[1].max(at_rope[1])];
+            if pressed.fold(knot, both, (time_s, dt_s)) {
                 let line = &model.spec.lines[model.segment_line[knot.segment]].id;
                 log.note(time_s, EventKind::JammedKnot, line, pressed.peak_n);
             }
@@ -52,8 +60,35 @@ impl KnotMeter {
     }
 }
 
+/// Greatest push of skin on a knot [N], and speed over it [m/s].
+fn by_skin(knot: &Knot, contacts: &[ContactPoint]) -> [f64; 2] {
+    let mine = contacts.iter().filter(|contact| contact.is_knot && contact.segment == knot.segment);
+    let push_n = mine.clone().map(|contact| contact.normal_force_n).fold(0.0, f64::max);
+    let speed = |contact: &ContactPoint| contact.slip_m.length() / contact.dt_s;
+    [push_n, mine.map(speed).fold(0.0, f64::max)]
+}
+
+/// Force by which other rope holds a knot [N], and greatest speed over it [m/s]; both nothing where it does not hold it.
+fn by_rope(model: &Model, state: &State, index: usize, ropes: &[RopeTouch]) -> [f64; 2] {
+    let (mut push, mut speed_m_s) = (DVec3::ZERO, 0.0_f64);
+    for touch in ropes.iter().filter(|touch| touch.knots.contains(&Some(index))) {
+        let sign = if touch.knots[0] == Some(index) { 1.0 } else { -1.0 };
+        push += touch.normal * (sign * touch.normal_force_n);
+        speed_m_s = speed_m_s.max(touch.slip_m.length() / touch.dt_s);
+    }
+    if push == DVec3::ZERO {
+        return [0.0; 2];
+    }
+    let segment = model.knots[index].segment;
+    let line = model.segment_line[segment];
+    let node = model.line_nodes[line].start + segment - model.line_segments[line].start;
+    let along = state.rope.position[node + 1] - state.rope.position[node];
+    let held_n = along.normalize_or_zero().dot(push).abs();
+    if held_n < HELD_N { [0.0; 2] } else { [held_n, speed_m_s] }
+}
+
 impl Pressed {
-    /// Takes in its greatest push and speed over skin in a step; whether it came to count as jammed.
+    /// Takes in its greatest push and speed over what it presses on in a step; whether it came to count as jammed.
     fn fold(
         &mut self,
         knot: &Knot,

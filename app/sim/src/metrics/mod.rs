@@ -38,6 +38,7 @@ pub use body_on_whale::CAUGHT_S;
 pub use energy::energy;
 pub use event::{Event, EventKind};
 pub use flukes::TURN_SHARE;
+pub use knots::HELD_N;
 pub use lines::end_tension;
 pub use made_good::MADE_GOOD_S;
 pub use mouth::LODGED_S;
@@ -54,6 +55,7 @@ pub use wraps::LOOSE_M;
 
 use crate::contact::ContactPoint;
 use crate::contact::bodies::sums::BodySums;
+use crate::contact::ropes::RopeTouch;
 use crate::contact::step_sums::{SkinContact, StepSums};
 use crate::model::Model;
 use crate::state::State;
@@ -93,7 +95,8 @@ impl Metrics {
         let Workspace { contacts, peak_tension_n, unconverged_peak_n, sums, body_sums, .. } =
             workspace;
         let peaks = Peaks { converged_n: peak_tension_n, unconverged_n: unconverged_peak_n };
-        self.take(model, state, SkinContact { contacts, sums }, body_sums, &peaks);
+        let (contact, ropes) = (SkinContact { contacts, sums }, &workspace.rope_touches);
+        self.take(model, state, (contact, ropes), body_sums, &peaks);
     }
 
     /// Takes in a state and its contacts, where there is no step: tensions are those of the state.
@@ -107,14 +110,14 @@ impl Metrics {
         let sums = sums.unwrap_or_default();
         let peaks = Peaks { converged_n: &state.rope.tension, unconverged_n: &[] };
         let contact = SkinContact { contacts, sums: &sums };
-        self.take(model, state, contact, &BodySums::default(), &peaks);
+        self.take(model, state, (contact, &[]), &BodySums::default(), &peaks);
     }
 
     fn take(
         &mut self,
         model: &Model,
         state: &State,
-        contact: SkinContact<'_>,
+        (contact, ropes): (SkinContact<'_>, &[RopeTouch]),
         on_whale: &BodySums,
         peaks: &Peaks<'_>,
     ) {
@@ -123,7 +126,7 @@ impl Metrics {
         self.lines.fold(model, state, peaks, &mut self.log);
         self.bodies.fold(model, state, (on_whale, dt_s), &mut self.log);
         self.probes.fold(model, state, dt_s);
-        self.knots.fold(model, contact.contacts, (state.time_s, dt_s), &mut self.log);
+        self.knots.fold(model, state, (contact.contacts, ropes), dt_s, &mut self.log);
         if let Some(meter) = &mut self.whale {
             meter.fold(model, state, contact, dt_s, &mut self.log);
         }

@@ -1,6 +1,6 @@
 //! Rope pressed on rope.
 //!
-//! At a point (`contact/ropes/points.rs`) with distance `d` of the centre lines, contact distance `h` (the sum of the radii),
+//! At a point (`contact/ropes/points.rs`) with distance `d` of the centre lines, contact distance `h` (the sum of the radii, of a knot its own),
 //! bearing length `l` and stiffness `K` per metre: `N` by the law of `contact/barrier.rs`, along the line between the two. Friction
 //! is the elastic grip that slips at `μN` (`elastic_grip.rs`), stretched by how the two points of the ropes moved past each other. Both
 //! act on the four nodes, in opposite senses; the block joins the linear system (`woodbury.rs`).
@@ -28,6 +28,8 @@ struct Touch {
     fractions: [f64; 2],
     normal: DVec3,
     distance: f64,
+    /// How the first point moved past the second in this step [m].
+    moved: DVec3,
     /// The push, and its growth with depth, where it is taken as linear.
     barrier: BarrierForce,
     /// What that linear push grows by from there to this distance [N].
@@ -70,6 +72,7 @@ fn touch_at(
         at_distance.about_solved(point.solved_n, (apart, pair.contact_distance, stiffness));
     let normal = gap / distance.max(1e-12);
     let [one, other] = pair.places(|node| state.rope.position[node]);
+    let moved = gap - between(one, other, fractions).0;
     let stretch = point.kept + gap - between(one, other, fractions).0;
     let grip = Grip::new(
         stretch,
@@ -78,7 +81,7 @@ fn touch_at(
         law.friction,
         Push { force: barrier.force + growth_n, rate: barrier.stiffness },
     );
-    Some(Touch { fractions, normal, distance, barrier, growth_n, grip })
+    Some(Touch { fractions, normal, distance, moved, barrier, growth_n, grip })
 }
 
 impl Solver {
@@ -178,13 +181,14 @@ impl Solver {
         state.rope.rope_grips = grips;
     }
 
-    /// Tells where rope presses on rope, from a state that still holds the places of the step's begin.
-    pub(crate) fn report_ropes(&self, state: &State, touches: &mut Vec<RopeTouch>) {
+    /// Tells where rope presses on rope at the end of a step of length `dt_s`, from a state that still holds the places of its begin.
+    pub(crate) fn report_ropes(&self, state: &State, dt_s: f64, touches: &mut Vec<RopeTouch>) {
         touches.clear();
         self.each_touch(state, |pair, _, touch| {
             touches.extend(touch.map(|touch| {
                 RopeTouch {
                     segments: pair.segments,
+                    knots: pair.knots,
                     fractions: touch.fractions,
                     position: self.trial.place[pair.nodes[0]]
                         .lerp(self.trial.place[pair.nodes[0] + 1], touch.fractions[0]),
@@ -192,6 +196,8 @@ impl Solver {
                     distance_m: touch.distance,
                     normal_force_n: touch.barrier.force,
                     friction_n: touch.grip.force,
+                    slip_m: touch.moved.reject_from_normalized(touch.normal),
+                    dt_s,
                 }
             }));
         });

@@ -121,6 +121,8 @@ pub struct PairGrip {
 pub struct RopeGrip {
     /// The two lines.
     pub lines: [usize; 2],
+    /// The knots on them that touch, by their number in the model, where it is not the rope itself.
+    pub knots: [Option<usize>; 2],
     /// Unstretched length along each [m].
     pub along_m: [f64; 2],
     /// Tangential stretch of the grip [m].

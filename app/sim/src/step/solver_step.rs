@@ -77,7 +77,7 @@ fn try_solver_step(
     }
     keep_contacts(model, state, near.filter(|_| may_touch), dt, Reports { contacts, audit })?;
     keep_bodies(model, state, solver, dt, body_contacts)?;
-    solver.report_ropes(state, rope_touches);
+    solver.report_ropes(state, dt, rope_touches);
     if model.spec.settings.balance {
         let second_stage = untouched && matches!(way, Way::SecondStage { .. });
         let context = StepContext { model, state, scheme: &scheme };

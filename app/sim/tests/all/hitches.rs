@@ -17,8 +17,10 @@ const THICK: f64 = 0.010;
 const FRICTION: f64 = 0.25;
 /// Pull on the tail [N].
 const TAIL_N: f64 = 5.0;
-/// Straight rope at either end [m].
+/// Straight rope at either end, where a way says nothing else of its tail [m].
 const STRAIGHT: f64 = 0.25;
+/// Friction of a slippery rope on itself and on the post.
+const SLIPPERY: f64 = 0.05;
 /// Speed of the hand [m/s].
 const SPEED: f64 = 0.05;
 
@@ -27,6 +29,8 @@ struct Way {
     turn: f64,
     height: fn(f64, f64) -> f64,
     radius: fn(f64, f64) -> f64,
+    /// Straight rope at its tail [m].
+    tail_m: f64,
 }
 
 /// 0 before `from`, 1 after `to`, smooth between.
@@ -37,7 +41,12 @@ fn rise(at: f64, from: f64, to: f64) -> f64 {
 
 /// Turns beside each other.
 fn round_turns(turns: f64) -> Way {
-    Way { turn: TAU * turns, height: |angle, _| 1.2 * THICK * angle / TAU, radius: |_, _| RADIUS }
+    Way {
+        turn: TAU * turns,
+        height: |angle, _| 1.2 * THICK * angle / TAU,
+        radius: |_, _| RADIUS,
+        tail_m: STRAIGHT,
+    }
 }
 
 /// Two half hitches on the post: a turn below, over its own beginning to a turn above, and the tail under what crosses.
@@ -54,6 +63,7 @@ fn two_half_hitches() -> Way {
             let off = (angle - 0.5 * turn).abs();
             RADIUS + 1.05 * THICK * (1.0 - rise(off, 0.6, 1.5))
         },
+        tail_m: STRAIGHT,
     }
 }
 
@@ -73,9 +83,23 @@ impl Way {
             .collect();
         way.extend((0..=count).map(|k| at(self.turn * f64::from(k) / f64::from(count))));
         way.extend(
-            (1..=50).map(|k| at(self.turn) + ahead(self.turn) * (STRAIGHT * f64::from(k) / 50.0)),
+            (1..=50)
+                .map(|k| at(self.turn) + ahead(self.turn) * (self.tail_m * f64::from(k) / 50.0)),
         );
         way
+    }
+
+    /// A slippery rope laid along it with a knot of this radius at its tail, drawn twice as fast.
+    fn slippery(&self, segments: usize, knot_m: f64) -> Model {
+        let mut spec = self.model(segments).spec;
+        spec.lines[0].knots_m = [0.0, knot_m];
+        spec.obstacles[0].friction = SLIPPERY;
+        spec.settings.rope_on_rope =
+            Some(RopeOnRope { friction: SLIPPERY, ..RopeOnRope::default() });
+        if let JointKind::Driven { velocity_m_s, .. } = &mut spec.joints[0].kind {
+            *velocity_m_s *= 2.0;
+        }
+        Model::new(spec).expect("the same with a knot")
     }
 
     /// A rope laid along it, with the hand at its beginning driven away and the tail at its end pulled.
@@ -255,4 +279,22 @@ fn without_rope_on_rope_the_hitches_slip() {
     let ratio = pull.draw(1.5);
     println!("two half hitches through each other: {ratio:.2}");
     assert!(ratio < 0.75 * ASKED, "{ratio}");
+}
+
+/// A slippery rope runs out of its hitches at twice the pull on its tail. A knot at the tail has to lift what crosses over it.
+#[test]
+fn a_knot_is_held_by_what_crosses_over_it() {
+    let way = Way { tail_m: 0.02, ..two_half_hitches() };
+    let [bare, knotted] = [0.0, 0.02].map(|knot_m| {
+        let mut pull = Pull::begin(way.slippery(100, knot_m));
+        let mut most = 0.0_f64;
+        while pull.came() < 0.06 {
+            pull.step();
+            most = most.max(pull.ratio());
+        }
+        println!("knot {knot_m} m: {most:.2}, {:?}", pull.workspace.audit);
+        assert_eq!(pull.workspace.audit.ropes_crossed, 0);
+        most
+    });
+    assert!(bare < 2.5 && knotted > 1.6 * bare, "{bare}, with a knot {knotted}");
 }

@@ -15,6 +15,7 @@ mod hitches;
 mod kinetic;
 mod kinetic_rope;
 mod knots;
+mod knots_on_ropes;
 mod rapier;
 mod reference;
 mod rope_law;

@@ -1,4 +1,5 @@
-//! Which segments of rope may come near each other in a step: boxes of pieces of lines, then of segments.
+//! Which segments of rope may come near each other in a step, and which knots may come near segments: boxes of pieces of lines, then
+//! of segments and knots.
 //!
 //! A piece whose segments all run on along one direction cannot come back to itself: where each goes at least `c l` along it,
 //! two of its points lie at least `c` times the rope between them apart. Both ends of a step are looked at; what is between is
@@ -6,6 +7,7 @@
 
 use glam::DVec3;
 
+use super::knots::{Ball, on_segments};
 use crate::contact::pieces::{Piece, Pieces};
 use crate::whale::Bounds;
 
@@ -24,16 +26,36 @@ pub(crate) struct Moves<'a, F: Fn(usize) -> DVec3> {
     pub to: F,
 }
 
+/// How far apart things are looked for [m].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Reach {
+    /// Segments.
+    pub ropes_m: f64,
+    /// Knots from segments; not less.
+    pub knots_m: f64,
+}
+
+/// What may come near each other.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Found {
+    /// Pairs of segments, the first below the second, in rising order.
+    pub segments: Vec<[usize; 2]>,
+    /// Pairs of a knot, by its number, and a segment, in rising order.
+    pub knots: Vec<[usize; 2]>,
+}
+
 impl Broad {
-    /// Collects pairs of segments, the first below the second, whose boxes come within `search_distance` in the step, in rising order.
+    /// Collects what comes within reach in the step by its boxes. Knots stand in rising order of segment.
     pub fn collect(
         &mut self,
         all: &Pieces,
+        knots: &[Ball],
         moves: &Moves<'_, impl Fn(usize) -> DVec3>,
-        search_distance: f64,
-        found: &mut Vec<[usize; 2]>,
+        reach: Reach,
+        found: &mut Found,
     ) {
-        found.clear();
+        found.segments.clear();
+        found.knots.clear();
         let (pieces, whole) = (&all.pieces, all.whole());
         let extent = whole.high - whole.low;
         let axis = if extent.x >= extent.y.max(extent.z) {
@@ -51,20 +73,28 @@ impl Broad {
         for place in 0..self.order.len() {
             let one = &pieces[self.order[place]];
             if !one.is_straight {
-                pairs_within(one, moves, search_distance, &mut self.boxes[0], found);
+                pairs_within(one, moves, reach.ropes_m, &mut self.boxes[0], &mut found.segments);
+                knots_near(knots, one, one, moves, reach.knots_m, &mut found.knots);
             }
-            let reach = one.bounds.grown(search_distance);
+            let near = [reach.ropes_m, reach.knots_m].map(|reach_m| one.bounds.grown(reach_m));
             for other in &self.order[place + 1..] {
                 let other = &pieces[*other];
-                if other.bounds.low[axis] > reach.high[axis] {
+                if other.bounds.low[axis] > near[1].high[axis] {
                     break;
                 }
-                if reach.meets(&other.bounds) && !one.runs_on(other) {
-                    pairs_between(one, other, moves, search_distance, &mut self.boxes, found);
+                if !near[1].meets(&other.bounds) || one.runs_on(other) {
+                    continue;
                 }
+                if near[0].meets(&other.bounds) {
+                    let (boxes, found) = (&mut self.boxes, &mut found.segments);
+                    pairs_between(one, other, moves, reach.ropes_m, boxes, found);
+                }
+                knots_near(knots, one, other, moves, reach.knots_m, &mut found.knots);
+                knots_near(knots, other, one, moves, reach.knots_m, &mut found.knots);
             }
         }
-        found.sort_unstable();
+        found.segments.sort_unstable();
+        found.knots.sort_unstable();
     }
 }
 
@@ -116,5 +146,30 @@ fn pairs_between(
     for (segment, bounds) in first.iter() {
         let near = second.iter().filter(|(_, other)| bounds.meets(other));
         found.extend(near.map(|(other, _)| [*segment.min(other), *segment.max(other)]));
+    }
+}
+
+/// Knots of a piece near segments of another, or of its own.
+fn knots_near(
+    knots: &[Ball],
+    of: &Piece,
+    piece: &Piece,
+    moves: &Moves<'_, impl Fn(usize) -> DVec3>,
+    reach_m: f64,
+    found: &mut Vec<[usize; 2]>,
+) {
+    for (index, ball) in on_segments(knots, &of.segments) {
+        let way = [ball.middle(|node| moves.from[node]), ball.middle(&moves.to)];
+        let bounds = Bounds::around(&way).grown(reach_m);
+        if !bounds.meets(&piece.bounds) {
+            continue;
+        }
+        for (node, segment) in (piece.nodes.start..).zip(piece.segments.clone()) {
+            let corners =
+                [moves.from[node], moves.from[node + 1], (moves.to)(node), (moves.to)(node + 1)];
+            if segment != ball.segment && bounds.meets(&Bounds::around(&corners)) {
+                found.push([index, segment]);
+            }
+        }
     }
 }

@@ -85,6 +85,23 @@ pub(crate) fn points_of(
     [single, RopeContactPoint::default()]
 }
 
+/// The point of a knot's ball at a fraction of the first segment: against the second, or against another ball at a fraction of that,
+/// with middles and ends at these places. A knot bears as rope does that crosses at a right angle.
+pub(crate) fn point_of_ball(
+    [one, other]: [[DVec3; 2]; 2],
+    [at, other_at]: [Option<f64>; 2],
+    contact_distance: f64,
+) -> RopeContactPoint {
+    let near = nearest(one, other).fractions[1];
+    let stretch = contact_distance / other[0].distance(other[1]).max(1e-30);
+    let borne = if other_at.is_some() { 1.0 } else { share_within(near, stretch) };
+    RopeContactPoint {
+        fractions: [at.unwrap_or(0.0), other_at.unwrap_or(near)],
+        length: contact_distance * borne,
+        ..RopeContactPoint::default()
+    }
+}
+
 /// How much of a stretch about a fraction of a segment lies within the segment, both as shares of its length.
 fn share_within(at: f64, stretch: f64) -> f64 {
     let half = 0.5 * stretch.min(1.0);

@@ -1,10 +1,12 @@
 //! Gathers pairs of segments that may touch in a step.
 
+use std::ops::Range;
+
 use glam::DVec3;
 
-use super::{Pair, RopeWorkspace, TOUCH_M, sweep_of};
+use super::{Pair, RopeWorkspace, TOUCH_M};
 use crate::contact::pieces::Pieces;
-use crate::contact::ropes::broad::Moves;
+use crate::contact::ropes::broad::{Moves, Reach};
 use crate::contact::ropes::sweep::{greatest_approach, nearest};
 use crate::model::Model;
 use crate::same_bits::same_bits;
@@ -41,6 +43,9 @@ impl RopeWorkspace {
                 self.along_m[segment] = *whole;
                 *whole += lengths[segment];
             }
+        }
+        for (ball, knot) in self.knots.iter_mut().zip(&model.knots) {
+            ball.fraction = knot.fraction(lengths[knot.segment]);
         }
     }
 
@@ -89,32 +94,77 @@ impl RopeWorkspace {
         let (from, mut found, known) =
             (&state.rope.position, std::mem::take(&mut self.found), self.pairs.len());
         let moves = Moves { from, to: &to };
-        self.broad.collect(pieces, &moves, 2.0 * self.widest_m + margin, &mut found);
-        for [one, other] in &found {
-            if state.rope.cut[*one] || state.rope.cut[*other] || self.is_spared(*one, *other) {
-                continue;
-            }
-            if self.pairs[..known]
-                .binary_search_by_key(&[*one, *other], |pair| pair.segments)
-                .is_err()
-            {
-                self.add_pair([*one, *other], from, &to, margin);
+        let reach = Reach {
+            ropes_m: 2.0 * self.widest_m + margin,
+            knots_m: 2.0 * self.widest_knot_m + margin,
+        };
+        self.broad.collect(pieces, &self.knots, &moves, reach, &mut found);
+        let cut = &state.rope.cut;
+        let is_whole = |segments: [usize; 2]| segments.iter().all(|segment| !cut[*segment]);
+        for segments in found.segments.iter().filter(|segments| is_whole(**segments)) {
+            self.add_pair((*segments, [None; 2]), known, (from, &to), margin);
+        }
+        for [knot, segment] in &found.knots {
+            let segments = [self.knots[*knot].segment, *segment];
+            if is_whole(segments) {
+                self.add_pair((segments, [Some(*knot), None]), known, (from, &to), margin);
+                // Of two knots each finds the other's segment; the first takes both.
+                for other in self.knots_on(*segment).filter(|other| other > knot) {
+                    self.add_pair(
+                        (segments, [Some(*knot), Some(other)]),
+                        known,
+                        (from, &to),
+                        margin,
+                    );
+                }
             }
         }
-        self.pairs.sort_unstable_by_key(|pair| pair.segments);
+        self.pairs.sort_unstable_by_key(Pair::key);
         self.found = found;
     }
 
+    /// Numbers of the knots on a segment.
+    fn knots_on(&self, segment: usize) -> Range<usize> {
+        let [first, end] =
+            [segment, segment + 1].map(|at| self.knots.partition_point(|ball| ball.segment < at));
+        first..end
+    }
+
+    /// Two things that may touch, without where they are.
+    fn pair_of(&self, segments: [usize; 2], knots: [Option<usize>; 2]) -> Pair {
+        let homes = segments.map(|segment| self.homes[segment]);
+        let balls = knots.map(|knot| knot.map(|knot| self.knots[knot]));
+        let radius = |k: usize| balls[k].map_or(homes[k].radius_m, |ball| ball.radius_m);
+        let contact_distance = radius(0) + radius(1);
+        Pair {
+            segments,
+            knots,
+            knots_at: balls.map(|ball| ball.map(|ball| ball.fraction)),
+            nodes: homes.map(|home| home.node),
+            lines: homes.map(|home| home.line),
+            contact_distance,
+            min_separation: MIN_SEPARATION_SHARE * contact_distance,
+            first: 0.0,
+            points: Default::default(),
+        }
+    }
+
+    /// Adds a pair where it is not among those `known` and may come near.
     fn add_pair(
         &mut self,
-        segments: [usize; 2],
-        from: &[DVec3],
-        to: &impl Fn(usize) -> DVec3,
+        (segments, knots): ([usize; 2], [Option<usize>; 2]),
+        known: usize,
+        (from, to): (&[DVec3], &impl Fn(usize) -> DVec3),
         margin: f64,
     ) {
-        let [one, other] = segments.map(|segment| self.homes[segment]);
-        let (nodes, contact_distance) = ([one.node, other.node], one.radius_m + other.radius_m);
-        let [a, b] = nodes.map(|node| sweep_of(node, from, to));
+        let mut pair = self.pair_of(segments, knots);
+        if self.is_spared(&pair)
+            || self.pairs[..known].binary_search_by_key(&pair.key(), Pair::key).is_ok()
+        {
+            return;
+        }
+        let contact_distance = pair.contact_distance;
+        let [a, b] = pair.sweeps(from, to);
         let first = nearest(a.at(0.0), b.at(0.0)).distance;
         let least = first - greatest_approach(&a, &b);
         if least > contact_distance + margin {
@@ -124,25 +174,19 @@ impl RopeWorkspace {
             return;
         }
         if first < THROUGH_SHARE * contact_distance {
-            self.through.push(segments);
+            if !pair.is_of_knot() {
+                self.through.push(segments);
+            }
             return;
         }
         self.touching |= least < contact_distance + TOUCH_M;
-        let (lines, min_separation) =
-            ([one.line, other.line], MIN_SEPARATION_SHARE * contact_distance);
-        self.pairs.push(Pair {
-            segments,
-            nodes,
-            lines,
-            contact_distance,
-            min_separation,
-            first,
-            points: Default::default(),
-        });
+        pair.first = first;
+        self.pairs.push(pair);
     }
 
     /// Rope between two segments of one line; between those of two lines there is none, told as infinite [m].
-    fn between_m(&self, [one, other]: [usize; 2]) -> f64 {
+    fn between_m(&self, segments: [usize; 2]) -> f64 {
+        let [one, other] = [segments[0].min(segments[1]), segments[0].max(segments[1])];
         if self.homes[one].line != self.homes[other].line {
             return f64::INFINITY;
         }
@@ -150,9 +194,10 @@ impl RopeWorkspace {
     }
 
     /// Whether so little rope lies between two segments, through a joint too, that they do not touch.
-    fn is_spared(&self, one: usize, other: usize) -> bool {
+    fn is_spared(&self, pair: &Pair) -> bool {
+        let [one, other] = pair.segments;
         let (a, b) = (self.homes[one], self.homes[other]);
-        let little = SPARED_CONTACT_DISTANCES * (a.radius_m + b.radius_m);
+        let little = SPARED_CONTACT_DISTANCES * pair.contact_distance;
         if self.between_m([one, other]) < little {
             return true;
         }

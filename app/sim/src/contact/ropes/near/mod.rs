@@ -6,7 +6,8 @@ mod open;
 
 use glam::DVec3;
 
-use super::broad::Broad;
+use super::broad::{Broad, Found};
+use super::knots::Ball;
 use super::points::RopeContactPoint;
 use crate::contact::sweep::SweptSegment;
 use crate::model::{Model, RopeOnRope};
@@ -22,14 +23,17 @@ struct Home {
     radius_m: f64,
 }
 
-/// Two segments that may touch, the first below the second.
+/// Two segments that may touch, the first below the second; or a knot on the first, and the second or a knot on that.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pair {
     pub segments: [usize; 2],
+    /// Numbers of the knots that it is about, and where they lie on the segments.
+    pub knots: [Option<usize>; 2],
+    knots_at: [Option<f64>; 2],
     /// First node of each.
     pub nodes: [usize; 2],
     lines: [usize; 2],
-    /// Sum of the radii [m].
+    /// Sum of the radii of what touches [m].
     pub contact_distance: f64,
     min_separation: f64,
     /// Distance when the step began [m].
@@ -55,8 +59,11 @@ pub(crate) struct RopeWorkspace {
     along_m: Vec<f64>,
     widest_m: f64,
     shortest_m: f64,
+    /// Knots in the model's order, and the greatest radius of them and of rope [m].
+    knots: Vec<Ball>,
+    widest_knot_m: f64,
     broad: Broad,
-    found: Vec<[usize; 2]>,
+    found: Found,
     passes: usize,
 }
 
@@ -69,9 +76,13 @@ impl RopeWorkspace {
             let radius_m = 0.5 * model.spec.ropes[model.spec.lines[line].rope].diameter_m;
             homes.extend((nodes.start..nodes.end - 1).map(|node| Home { line, node, radius_m }));
         }
+        let (knots, widest_m) =
+            (Ball::all(model), homes.iter().map(|home| home.radius_m).fold(0.0, f64::max));
         Self {
             law: Some(law),
-            widest_m: homes.iter().map(|home| home.radius_m).fold(0.0, f64::max),
+            widest_m,
+            widest_knot_m: knots.iter().map(|ball| ball.radius_m).fold(widest_m, f64::max),
+            knots,
             homes,
             ends: model.spec.lines.iter().map(|line| ([line.from, line.to], 0.0)).collect(),
             along_m: vec![0.0; model.segment_count],
@@ -92,14 +103,41 @@ impl Pair {
     pub fn places(&self, at: impl Fn(usize) -> DVec3) -> [[DVec3; 2]; 2] {
         self.nodes.map(|node| [at(node), at(node + 1)])
     }
+
+    /// What touches by a quantity given at nodes: a segment by its ends, a knot by its middle twice.
+    pub fn shapes(&self, at: impl Fn(usize) -> DVec3) -> [[DVec3; 2]; 2] {
+        let [one, other] = self.places(at);
+        [shape(one, self.knots_at[0]), shape(other, self.knots_at[1])]
+    }
+
+    /// The same over a move.
+    fn sweeps(&self, from: &[DVec3], to: impl Fn(usize) -> DVec3) -> [SweptSegment; 2] {
+        let ([one, other], [one_to, other_to]) = (self.shapes(|node| from[node]), self.shapes(to));
+        [(one, one_to), (other, other_to)].map(|([a0, b0], [a1, b1])| SweptSegment {
+            a0,
+            b0,
+            a1,
+            b1,
+        })
+    }
+
+    /// Whether a knot touches here, and not the rope.
+    pub fn is_of_knot(&self) -> bool {
+        self.knots[0].is_some()
+    }
+
+    /// What it is known by.
+    fn key(&self) -> ([usize; 2], [Option<usize>; 2]) {
+        (self.segments, self.knots)
+    }
+}
+
+fn shape(segment: [DVec3; 2], knot_at: Option<f64>) -> [DVec3; 2] {
+    knot_at.map_or(segment, |at| [segment[0].lerp(segment[1], at); 2])
 }
 
 /// From the point of the second segment to that of the first, and how long that is.
 pub(crate) fn between(one: [DVec3; 2], other: [DVec3; 2], [s, t]: [f64; 2]) -> (DVec3, f64) {
     let gap = one[0].lerp(one[1], s) - other[0].lerp(other[1], t);
     (gap, gap.length())
-}
-
-fn sweep_of(node: usize, from: &[DVec3], to: &impl Fn(usize) -> DVec3) -> SweptSegment {
-    SweptSegment { a0: from[node], b0: from[node + 1], a1: to(node), b1: to(node + 1) }
 }

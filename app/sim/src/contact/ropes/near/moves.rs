@@ -2,10 +2,11 @@
 
 use glam::DVec3;
 
-use super::{Pair, RopeWorkspace, TOUCH_M, between, sweep_of};
+use super::{Pair, RopeWorkspace, TOUCH_M, between};
 use crate::contact::crossing::first_crossing;
 use crate::contact::pieces::Pieces;
 use crate::contact::ropes::sweep::{greatest_approach, nearest, safe_fraction};
+use crate::contact::sweep::{SweptSegment, walk};
 use crate::model::Model;
 use crate::state::State;
 
@@ -18,20 +19,27 @@ const UNWATCHED_SHARE: f64 = 0.125;
 /// Share of their contact distance to which ropes may come by their velocities before the guess is held off.
 const HELD_OFF_SHARE: f64 = 0.3;
 
+/// Share of their contact distance by which a knot and what it meets may move relative to each other in a step: a knot that flies past
+/// rope within a step would else be pushed at neither end of it.
+const FOLLOWED_SHARE: f64 = 0.5;
+
 impl RopeWorkspace {
     /// Ends a step on the straight path from where it began; the number of crossings that an exact test finds on it, or `None` where
     /// ropes may cross on it.
     pub fn end(&self, from: &[DVec3], to: &[DVec3]) -> Option<u64> {
         let mut crossings = 0;
         for pair in &self.pairs {
-            let [one, other] = pair.nodes.map(|node| sweep_of(node, from, &|node| to[node]));
+            let [one, other] = pair.sweeps(from, |node| to[node]);
+            if pair.is_of_knot() && !pair.is_followed(&one, &other) {
+                return None;
+            }
             if pair.first - pair.min_separation > greatest_approach(&one, &other) {
                 continue;
             }
             if safe_fraction(&one, &other, pair.min_separation, pair.first) < 1.0 {
                 return None;
             }
-            crossings += u64::from(first_crossing(&one, &other).is_some());
+            crossings += u64::from(!pair.is_of_knot() && first_crossing(&one, &other).is_some());
         }
         Some(crossings)
     }
@@ -39,7 +47,7 @@ impl RopeWorkspace {
     /// Takes from the move `from` -> `target` what brings ropes nearer to each other than they may touch, or than they are.
     pub fn hold_off(&self, from: &[DVec3], target: &mut [DVec3]) {
         for pair in &self.pairs {
-            let [one, other] = pair.nodes.map(|node| sweep_of(node, from, &|node| target[node]));
+            let [one, other] = pair.sweeps(from, |node| target[node]);
             if pair.first - greatest_approach(&one, &other) > HELD_OFF_SHARE * pair.contact_distance
             {
                 continue;
@@ -80,9 +88,21 @@ impl RopeWorkspace {
 
     fn met_gathered(&self, from: &[DVec3], to: &[DVec3]) -> bool {
         let near = |pair: &Pair| {
-            let [one, other] = pair.nodes.map(|node| sweep_of(node, from, &|node| to[node]));
+            let [one, other] = pair.sweeps(from, |node| to[node]);
             pair.first - greatest_approach(&one, &other) < pair.contact_distance
         };
         self.pairs.iter().any(near)
+    }
+}
+
+impl Pair {
+    /// Whether a step follows how a knot meets rope: it moves little relative to it, or does not touch it on its way.
+    fn is_followed(&self, one: &SweptSegment, other: &SweptSegment) -> bool {
+        let (reach, approach) = (self.contact_distance, greatest_approach(one, other));
+        if approach <= FOLLOWED_SHARE * reach || self.first - approach > reach {
+            return true;
+        }
+        let apart = |at: f64| nearest(one.at(at), other.at(at)).distance;
+        self.first > reach && walk(self.first, reach, approach, apart) >= 1.0
     }
 }

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::{Pair, RopeWorkspace, between};
-use crate::contact::ropes::points::{RopeContactPoint, points_of};
+use crate::contact::ropes::points::{RopeContactPoint, point_of_ball, points_of};
 use crate::contact::ropes::sweep::nearest;
 use crate::state::{RopeGrip, State};
 
@@ -27,11 +27,16 @@ impl RopeWorkspace {
 
     fn open_pair(&mut self, index: usize, state: &State, places: &[DVec3], only: bool) {
         let pair = &self.pairs[index];
-        let [one, other] = pair.places(|node| places[node]);
-        let mut points = points_of(one, other, pair.contact_distance, only);
+        let [one, other] = pair.shapes(|node| places[node]);
+        let mut points = if pair.is_of_knot() {
+            let point = point_of_ball([one, other], pair.knots_at, pair.contact_distance);
+            [point, RopeContactPoint::default()]
+        } else {
+            points_of(one, other, pair.contact_distance, only)
+        };
         for point in points.iter_mut().filter(|point| point.length > 0.0) {
             let along = self.along_of(pair, point);
-            match grip_at(&state.rope.rope_grips, pair.lines, along) {
+            match grip_at(&state.rope.rope_grips, pair, along) {
                 Some(grip) => (point.kept, point.forgiven_m) = (grip.stretch, grip.forgiven_m),
                 // What touches already and holds no grip lay so when the run began.
                 None => point.forgiven_m = (pair.contact_distance - pair.first).max(0.0),
@@ -55,7 +60,8 @@ impl RopeWorkspace {
         stretch: DVec3,
         forgiven_m: f64,
     ) -> RopeGrip {
-        RopeGrip { lines: pair.lines, along_m: self.along_of(pair, point), stretch, forgiven_m }
+        let along_m = self.along_of(pair, point);
+        RopeGrip { lines: pair.lines, knots: pair.knots, along_m, stretch, forgiven_m }
     }
 
     /// Lets points follow the ropes in the first passes.
@@ -64,7 +70,7 @@ impl RopeWorkspace {
         if self.passes > FOLLOWING_PASSES {
             return;
         }
-        for pair in &mut self.pairs {
+        for pair in self.pairs.iter_mut().filter(|pair| pair.knots[1].is_none()) {
             let [one, other] = pair.places(|node| places[node]);
             for point in pair.points.iter_mut().filter(|point| point.length > 0.0) {
                 point.fractions = point.followed(one, other);
@@ -77,8 +83,9 @@ impl RopeWorkspace {
         let mut opened = false;
         for index in 0..self.pairs.len() {
             let pair = &self.pairs[index];
-            let [one, other] = pair.places(|node| places[node]);
+            let [one, other] = pair.shapes(|node| places[node]);
             let least = nearest(one, other).distance;
+            let [one, other] = pair.places(|node| places[node]);
             let known = pair.points.iter().filter(|point| point.length > 0.0);
             let known = known
                 .map(|point| between(one, other, point.fractions).1)
@@ -92,11 +99,12 @@ impl RopeWorkspace {
     }
 }
 
-/// The nearest grip between two lines at these lengths along them, if any is near enough.
-fn grip_at(grips: &[RopeGrip], lines: [usize; 2], along: [f64; 2]) -> Option<&RopeGrip> {
+/// The nearest grip of a pair's lines or knots at these lengths along them, if any is near enough.
+fn grip_at<'a>(grips: &'a [RopeGrip], pair: &Pair, along: [f64; 2]) -> Option<&'a RopeGrip> {
     let away = |grip: &RopeGrip| {
         (grip.along_m[0] - along[0]).abs().max((grip.along_m[1] - along[1]).abs())
     };
-    let mine = grips.iter().filter(|grip| grip.lines == lines && away(grip) <= FOLLOWED_M);
+    let is_mine = |grip: &RopeGrip| grip.lines == pair.lines && grip.knots == pair.knots;
+    let mine = grips.iter().filter(|grip| is_mine(grip) && away(grip) <= FOLLOWED_M);
     mine.min_by(|a, b| away(a).total_cmp(&away(b)))
 }
