@@ -17,6 +17,7 @@ mod kinetic_rope;
 mod knots;
 mod rapier;
 mod reference;
+mod rope_drag;
 mod rope_law;
 mod rope_on_bodies;
 mod ropes;
