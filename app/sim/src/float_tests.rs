@@ -39,25 +39,6 @@ fn summed(form: Form, height: f64, axis: DVec3) -> (f64, DVec3) {
     (share / all, moment / all)
 }
 
-/// Share of a ball's circle that lies under water, by strips.
-#[test]
-fn a_ball_meets_the_flow_with_the_segment_of_its_circle_under_water() {
-    let strips = 20_000;
-    for (height, least) in [(0.19, 0.0), (0.15, 0.05), (0.1, 0.15), (0.0, 0.49), (-0.12, 0.8)] {
-        let (mut under, mut all) = (0.0, 0.0);
-        for strip in 0..strips {
-            let z: f64 = 0.2 * ((f64::from(strip) + 0.5) / f64::from(strips) * 2.0 - 1.0);
-            let width = (0.04 - z * z).sqrt();
-            all += width;
-            under += if height + z < 0.0 { width } else { 0.0 };
-        }
-        let wet = SPHERE.wet(height, tilted(0.3));
-        assert!((wet.front - under / all).abs() < 1e-4 && wet.front >= least, "{height}: {wet:?}");
-        assert!(height <= 0.0 || wet.front > wet.share, "{height}: {wet:?}");
-    }
-    assert!(SPHERE.wet(0.3, DVec3::Z).front == 0.0 && SPHERE.wet(-0.3, DVec3::Z).front == 1.0);
-}
-
 #[test]
 fn share_and_moment_are_those_of_the_points_under_water() {
     for form in [SPHERE, EGG, STAFF, DRUM] {

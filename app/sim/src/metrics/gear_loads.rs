@@ -43,15 +43,15 @@ pub(super) fn body_drag(model: &Model, state: &State, body: usize) -> DVec3 {
     let relative = now.orientation.inverse() * (flow.velocity_m_s - now.velocity);
     let half = 0.5 * model.spec.water.density_kg_m3 * relative.length();
     let axis = now.orientation * DVec3::Z;
-    let under = |float: &crate::model::Float| {
+    let share = |float: &crate::model::Float| {
         let height = now.position.z + (now.orientation * float.offset_m).z - flow.surface_m;
-        float.form.wet(height, axis)
+        float.form.wet(height, axis).share
     };
     let (mut area, mut wet, mut volume) = (DVec3::ZERO, 0.0, 0.0);
     for float in &spec.floats {
-        let under = under(float);
-        area += float.drag_area_m2 * under.front;
-        (wet, volume) = (wet + under.share * float.volume_m3, volume + float.volume_m3);
+        let share = share(float);
+        area += float.drag_area_m2 * share;
+        (wet, volume) = (wet + share * float.volume_m3, volume + float.volume_m3);
     }
     let wet = if spec.wetted_drag && volume > 0.0 { wet / volume } else { 1.0 };
     now.orientation * ((area + spec.drag_area_m2 * wet) * relative * half)

@@ -15,7 +15,6 @@ use super::rope::outer;
 use super::scheme::Scheme;
 use super::trial::BodyTrial;
 use super::trial::rotation::momentum_rate;
-use crate::float::Wet;
 use crate::model::{Body, Float, Model};
 use crate::state::State;
 
@@ -58,17 +57,16 @@ impl Solver {
     fn add_floats(&mut self, model: &Model, index: usize, body: &Body, scheme: &Scheme) -> f64 {
         let (mut wet, mut whole) = (0.0, 0.0);
         for float in &body.floats {
-            let under = self.add_float(model, index, float, scheme);
-            let area = float.drag_area_m2 * under.front;
-            self.add_part_drag(model, index, float.offset_m, area, scheme);
-            wet += under.share * float.volume_m3;
+            let share = self.add_float(model, index, float, scheme);
+            self.add_part_drag(model, index, float.offset_m, float.drag_area_m2 * share, scheme);
+            wet += share * float.volume_m3;
             whole += float.volume_m3;
         }
         if body.wetted_drag && whole > 0.0 { wet / whole } else { 1.0 }
     }
 
-    /// Buoyancy of a float; gives what of it is wet.
-    fn add_float(&mut self, model: &Model, index: usize, float: &Float, scheme: &Scheme) -> Wet {
+    /// Buoyancy of a float; gives its wet share.
+    fn add_float(&mut self, model: &Model, index: usize, float: &Float, scheme: &Scheme) -> f64 {
         let water = &model.spec.water;
         let trial = self.trial.bodies[index];
         let block = self.plan.body_block[index];
@@ -83,12 +81,12 @@ impl Solver {
         self.interface.push(attachment, arm, force);
         self.interface.force[block + 1] += wet.moment.cross(DVec3::Z * lift);
         if scheme.exact {
-            return wet;
+            return wet.share;
         }
         self.interface.add(attachment, arm, attachment, arm, up * (lift * wet.slope));
         *self.interface.at(block + 1, block + 1) +=
             turn_stiffness(arm, force) + (DMat3::IDENTITY - up) * (lift * wet.turn);
-        wet
+        wet.share
     }
 
     fn add_body_inertia(

@@ -80,7 +80,7 @@ impl Solver {
             let lift = DVec3::Z * (water.density_kg_m3 * water.gravity_m_s2 * float.volume_m3);
             push(
                 arm,
-                lift * wet.share + drag(float.drag_area_m2 * wet.front),
+                lift * wet.share + drag(float.drag_area_m2 * wet.share),
                 wet.moment.cross(lift),
             );
             share += wet.share * float.volume_m3;
