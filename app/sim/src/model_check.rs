@@ -107,6 +107,11 @@ fn check_rope(rope: &Rope, found: &mut Found) {
     found.not_below_zero("bending stiffness", rope.bending_stiffness_n_m2);
     found.not_below_zero("normal drag coefficient", rope.drag_normal);
     found.not_below_zero("tangential drag coefficient", rope.drag_tangential);
+    found.need(
+        (0.0..=1.0).contains(&rope.drag_tangential_viscous),
+        "viscous share of the tangential drag is not between 0 and 1",
+    );
+    found.above_zero("speed of the tangential drag coefficient", rope.drag_tangential_speed_m_s);
     found.not_below_zero("added mass coefficient", rope.added_mass_normal);
     found.not_below_zero("added mass coefficient along", rope.added_mass_tangential);
     found.need(rope.strength_n > 0.0, "strength is not above zero");

@@ -9,6 +9,9 @@ pub(crate) const SEA_WATER_KG_M3: f64 = 1025.0;
 /// Gravity behind a wet weight of the library [m/s²].
 pub(crate) const GRAVITY_M_S2: f64 = 9.81;
 
+/// Speed at which the library's tangential drag coefficients were measured on towed rope [m/s].
+const TOWED_M_S: f64 = 2.0;
+
 /// How much a rope has been worked, which sets the law of its stretch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Condition {
@@ -88,6 +91,10 @@ pub struct Rope {
     pub drag_normal: f64,
     /// Drag coefficient along, on `π·d·l`.
     pub drag_tangential: f64,
+    /// Share of it that falls with the inverse root of the speed.
+    pub drag_tangential_viscous: f64,
+    /// Speed along at which it holds [m/s].
+    pub drag_tangential_speed_m_s: f64,
     /// Added-mass coefficient across.
     pub added_mass: f64,
     /// Added-mass coefficient along.
@@ -120,6 +127,8 @@ impl Rope {
             bending_stiffness_n_m2: or("bending_stiffness", 0.0),
             drag_normal: entry.value("drag_normal")?,
             drag_tangential: entry.value("drag_tangential")?,
+            drag_tangential_viscous: or("drag_tangential_viscous", 0.0),
+            drag_tangential_speed_m_s: or("drag_tangential_speed", TOWED_M_S),
             added_mass: entry.value("added_mass")?,
             added_mass_along: or("added_mass_along", 0.0),
             entry,
@@ -153,6 +162,8 @@ impl Rope {
             bending_stiffness_n_m2: 0.0,
             drag_normal: self.drag_normal,
             drag_tangential: self.drag_tangential,
+            drag_tangential_viscous: self.drag_tangential_viscous,
+            drag_tangential_speed_m_s: self.drag_tangential_speed_m_s,
             added_mass_normal: self.added_mass,
             added_mass_tangential: self.added_mass_along,
             strength_n: self.strength_n * self.mean_factor,

@@ -104,6 +104,18 @@ pub(super) const FIELDS: &[Field] = &[
         COEFFICIENT,
         "drag coefficient along the rope, on wetted surface",
     ),
+    may(
+        "drag_tangential_viscous",
+        Q::Ratio,
+        Between(0.0, 1.0),
+        "share of drag_tangential that falls with the inverse root of the speed; zero where not given",
+    ),
+    may(
+        "drag_tangential_speed",
+        Q::Speed,
+        Positive,
+        "speed along the rope at which drag_tangential holds; 2 m/s where not given",
+    ),
     need("added_mass", Q::Ratio, COEFFICIENT, "added-mass coefficient across the rope"),
     may(
         "added_mass_along",

@@ -46,6 +46,8 @@ fn model(skin: &Skin, segments_m: Vec<f64>) -> Model {
         bending_stiffness_n_m2: 0.0,
         drag_normal: 1.2,
         drag_tangential: 0.02,
+        drag_tangential_viscous: 0.0,
+        drag_tangential_speed_m_s: 2.0,
         added_mass_normal: 1.0,
         added_mass_tangential: 0.0,
         strength_n: f64::INFINITY,

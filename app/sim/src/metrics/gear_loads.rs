@@ -1,7 +1,7 @@
 //! Forces on each line and body of the gear now: drag of the water, and what the whale presses on rope.
 //!
 //! Drag of rope by Morison's law as the solver has it, `f_n = 1/2 rho C_n d |v_n| v_n` across and
-//! `f_t = 1/2 rho C_t pi d |v_t| v_t` along, by metre at each node; of a body `1/2 rho |v| (C A) v` by its axes, over the wet
+//! `f_t = 1/2 rho C_t pi d w v_t` along (`w` of `Rope::drag_speed_along_m_s`), by metre at each node; of a body `1/2 rho |v| (C A) v` by its axes, over the wet
 //! share of its floats. `v` is the water's velocity less that of the part.
 
 use std::f64::consts::PI;
@@ -29,7 +29,7 @@ pub(super) fn line_drag(model: &Model, state: &State, line: usize) -> DVec3 {
         let along = way * relative.dot(way);
         let across = relative - along;
         let by_metre = across * (rope.drag_normal * across.length())
-            + along * (PI * rope.drag_tangential * along.length());
+            + along * (PI * rope.drag_tangential * rope.drag_speed_along_m_s(along.length()));
         by_metre
             * (0.5 * water.density_kg_m3 * rope.diameter_m * state.rope.segment_length[segment])
     };

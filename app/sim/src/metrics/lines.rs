@@ -168,7 +168,7 @@ fn load_along(model: &Model, state: &State, line: usize, node: usize, along: DVe
         * rope.drag_tangential
         * std::f64::consts::PI
         * rope.diameter_m
-        * libm::fabs(speed)
+        * rope.drag_speed_along_m_s(speed)
         * speed;
     drag - (rope.mass_kg_m - density * rope.displaced_m3_m) * water.gravity_m_s2 * along.z
 }

@@ -31,8 +31,12 @@ pub struct Rope {
     pub bending_stiffness_n_m2: f64,
     /// Drag coefficient across, on `d·l`.
     pub drag_normal: f64,
-    /// Drag coefficient along, on `π·d·l`.
+    /// Drag coefficient along, on `π·d·l`, at `drag_tangential_speed_m_s`.
     pub drag_tangential: f64,
+    /// Share of that coefficient that falls with the inverse root of the speed; zero for drag by the square of the speed.
+    pub drag_tangential_viscous: f64,
+    /// Speed along at which `drag_tangential` holds [m/s].
+    pub drag_tangential_speed_m_s: f64,
     /// Added-mass coefficient across.
     pub added_mass_normal: f64,
     /// Added-mass coefficient along.
@@ -57,10 +61,23 @@ impl Default for Rope {
             bending_stiffness_n_m2: 0.0,
             drag_normal: 0.0,
             drag_tangential: 0.0,
+            drag_tangential_viscous: 0.0,
+            drag_tangential_speed_m_s: 1.0,
             added_mass_normal: 0.0,
             added_mass_tangential: 0.0,
             strength_n: f64::INFINITY,
         }
+    }
+}
+
+impl Rope {
+    /// `w` of the drag along, `½ρ C_t π d w u` by metre: `(1 - q) |u| + q √(U_r |u|)` with `q` the viscous share, which is
+    /// `|u|` without one [m/s].
+    #[must_use]
+    pub fn drag_speed_along_m_s(&self, speed_m_s: f64) -> f64 {
+        let speed = libm::fabs(speed_m_s);
+        let viscous = self.drag_tangential_viscous;
+        (1.0 - viscous) * speed + viscous * (self.drag_tangential_speed_m_s * speed).sqrt()
     }
 }
 

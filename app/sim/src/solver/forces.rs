@@ -1,7 +1,8 @@
 //! The laws of a rope's nodes and segments, written once for one number (`rope.rs`) and for a row of lanes (`lanes/sweep/mod.rs`).
 //!
 //! Node with hanging length `L`, tangent `t`, water velocity relative to it `u = U - v`, `u_t = u·t`, `u_n = u - u_t t`
-//! (Morison): `F = L [½ρ C_n d |u_n| u_n + ½ρ C_t π d |u_t| u_t t - (m - ρ A_m) g ẑ] - M (v - v̂)/h`, with
+//! (Morison): `F = L [½ρ C_n d |u_n| u_n + ½ρ C_t π d w u_t t - (m - ρ A_m) g ẑ] - M (v - v̂)/h`, with
+//! `w = (1 - q) |u_t| + q √(U_r |u_t|)` (`q` the viscous share of `C_t`, `U_r` the speed at which `C_t` holds) and
 //! `M = L [m 1 + ρ (π d²/4)(C_a (1 - t tᵀ) + C_at t tᵀ)]`, `v = (x - x̂)/h` and `A_m` the volume of fibre per metre.
 //! Segment of unstretched length `l` along `t`, strain `ε = |x_b - x_a|/l - 1`, strain rate `ε̇ = t·(v_b - v_a)/l`:
 //! `T = T(ε, ε̇)` (`axial.rs`), pulling only while taut. It is judged taut, and stiffened across, by the tension that the last
@@ -38,14 +39,18 @@ pub(crate) struct PerMetre<R> {
     pub lift: R,
     /// `½ρ C_n d` [kg/m²].
     pub across: R,
-    /// `½ρ C_t π d` [kg/m²].
+    /// `½ρ C_t π d (1 - q)` [kg/m²].
     pub along: R,
+    /// `½ρ C_t π d q √U_r` [kg/m^1.5/s^0.5].
+    pub along_root: R,
 }
 
 impl PerMetre<f64> {
     /// A rope in this water.
     pub fn of(rope: &Rope, water: &Water) -> Self {
         let density = water.density_kg_m3;
+        let along = 0.5 * density * rope.diameter_m * rope.drag_tangential * PI;
+        let viscous = rope.drag_tangential_viscous;
         let displaced = density * PI * rope.diameter_m * rope.diameter_m / 4.0;
         Self {
             mass: rope.mass_kg_m,
@@ -54,7 +59,8 @@ impl PerMetre<f64> {
             weight: rope.mass_kg_m * water.gravity_m_s2,
             lift: density * rope.displaced_m3_m * water.gravity_m_s2,
             across: 0.5 * density * rope.diameter_m * rope.drag_normal,
-            along: 0.5 * density * rope.diameter_m * rope.drag_tangential * PI,
+            along: along * (1.0 - viscous),
+            along_root: along * viscous * rope.drag_tangential_speed_m_s.sqrt(),
         }
     }
 }
@@ -70,6 +76,8 @@ pub(crate) struct Shared<R> {
     pub wet: R,
     /// [1/m].
     pub drying: R,
+    /// Whether the drag along some rope has a viscous share; spares the root where none has.
+    pub viscous: bool,
 }
 
 impl Shared<f64> {
@@ -77,7 +85,8 @@ impl Shared<f64> {
     pub fn of(model: &Model, scheme: &Scheme) -> Self {
         let (wet, drying) =
             if model.spec.water.rope_dries { (0.5, 1.0 / SURFACE_HEIGHT_M) } else { (1.0, 0.0) };
-        Self { rate: scheme.rate, inertia: scheme.inertia, wet, drying }
+        let viscous = model.spec.ropes.iter().any(|rope| rope.drag_tangential_viscous > 0.0);
+        Self { rate: scheme.rate, inertia: scheme.inertia, wet, drying, viscous }
     }
 }
 
@@ -126,9 +135,14 @@ pub(crate) fn node<R: Real>(
     let normal_speed = normal.dot(normal).sqrt();
     let wet_length = at.length * wet;
     let across = rope.across * wet_length * normal_speed;
-    let along = rope.along * wet_length * along_speed.abs();
+    let zero = shared.rate.splat(0.0);
+    let rough = rope.along * wet_length * along_speed.abs();
+    let root =
+        if shared.viscous { rope.along_root * wet_length * along_speed.abs().sqrt() } else { zero };
+    let along = rough + root;
     let drag = normal.scale(across).plus(tangent, along * along_speed);
-    // -dF/dv of the drag is `across (1 - ttᵀ) + 2 along ttᵀ + across nnᵀ/n²`; the added mass lies along `1 - ttᵀ` too.
+    // -dF/dv of the drag is `across (1 - ttᵀ) + (2 rough + 3/2 root) ttᵀ + across nnᵀ/n²`; the added mass lies along
+    // `1 - ttᵀ` too.
     let added = rope.added * wet_length;
     let mass = rope.mass * at.length;
     let acceleration = velocity.sub(at.velocity_history).scale(shared.rate);
@@ -136,12 +150,12 @@ pub(crate) fn node<R: Real>(
     let spared = rope.spared * wet_length;
     let sideways = across * shared.rate;
     let round = (mass + added) * shared.inertia + sideways;
-    let lengthways = (along + along) * shared.rate - sideways - spared * shared.inertia;
+    let along_slope = rough + rough + root * shared.rate.splat(1.5);
+    let lengthways = along_slope * shared.rate - sideways - spared * shared.inertia;
     let turning = rope.across * wet_length * shared.rate / normal_speed.max(tiny);
     let block = Sym3::round(round, tangent, lengthways).plus_outer(normal, turning);
     // Weight and buoyancy, which fades towards the surface.
     let lift = rope.lift * at.length;
-    let zero = shared.rate.splat(0.0);
     let fading = wet.positive((one - wet).positive(lift * shared.drying, zero), zero);
     let mut force =
         drag.less(acceleration, mass + added).plus(tangent, spared * along_acceleration);

@@ -26,6 +26,7 @@ fn rope(id: &str, mass_kg_m: f64, bending_stiffness_n_m2: f64) -> Rope {
         bending_stiffness_n_m2,
         drag_normal: 1.2,
         drag_tangential: 0.015,
+        drag_tangential_viscous: 0.4,
         ..Rope::default()
     }
 }

@@ -84,8 +84,7 @@ impl Solver {
         let wet = shared.wet_at(self.trial.place[node].z - self.surface_at(node))
             * self.lengths.node[node];
         let (tangent, inverse_chord) = tangent(&self.trial.place, node, nodes);
-        let turn = drag_by_tangent(self.flow[node], tangent, rope.across * wet, rope.along * wet)
-            * inverse_chord;
+        let turn = drag_by_tangent(self.flow[node], tangent, rope, wet) * inverse_chord;
         if node + 1 < nodes.end {
             self.tridiagonal.up[segment] -= turn;
         } else {
@@ -248,9 +247,9 @@ impl Pull {
     }
 }
 
-/// Derivative of drag by the tangent, kept a unit vector; `across` and `along` are half density times coefficient times area
-/// [kg/m], and the result is a force [N].
-fn drag_by_tangent(relative: DVec3, tangent: DVec3, across: f64, along: f64) -> DMat3 {
+/// Derivative of the drag on a wet length by the tangent, kept a unit vector [N].
+fn drag_by_tangent(relative: DVec3, tangent: DVec3, rope: &PerMetre<f64>, wet: f64) -> DMat3 {
+    let (across, along) = (rope.across * wet, rope.along * wet);
     let along_speed = relative.dot(tangent);
     let normal = relative - tangent * along_speed;
     let normal_speed = normal.length();
@@ -263,7 +262,12 @@ fn drag_by_tangent(relative: DVec3, tangent: DVec3, across: f64, along: f64) -> 
     let speed = along_speed.abs();
     let turn_of_along = outer(tangent, relative) * (2.0 * speed) + identity * (speed * along_speed);
     let unit = identity - outer(tangent, tangent);
-    (of_normal * turn_of_normal + turn_of_along * along) * unit
+    let mut turn = of_normal * turn_of_normal + turn_of_along * along;
+    if rope.along_root > 0.0 {
+        let root = rope.along_root * wet * speed.sqrt();
+        turn += outer(tangent, relative) * (1.5 * root) + identity * (root * along_speed);
+    }
+    turn * unit
 }
 
 /// The nodes before and after one in its line, or itself at an end.
@@ -296,8 +300,10 @@ mod tests {
             lift: 0.6,
             across: 6.0,
             along: 0.3,
+            along_root: 0.2,
         };
-        let shared = Shared { rate: 150.0, inertia: 22_500.0, wet: 0.5, drying: 10.0 };
+        let shared =
+            Shared { rate: 150.0, inertia: 22_500.0, wet: 0.5, drying: 10.0, viscous: true };
         let (place, tangent) = (DVec3::new(0.3, -0.2, 0.01), DVec3::new(0.1, 0.2, 0.9).normalize());
         let at = NodeAt {
             place: place.into(),
@@ -325,7 +331,7 @@ mod tests {
             let rope = if across > 0.0 {
                 rope
             } else {
-                PerMetre { across, along: 0.0, added: 0.0, spared: 0.0, ..rope }
+                PerMetre { across, along: 0.0, along_root: 0.0, added: 0.0, spared: 0.0, ..rope }
             };
             let at = NodeAt { surface, ..at };
             let block = DMat3::from(forces::node(&rope, &shared, &at).1);
@@ -350,8 +356,7 @@ mod tests {
         let at = NodeAt { surface: 1.0, ..at };
         let shared = Shared { inertia: 0.0, rate: 0.0, ..shared };
         let chord = DVec3::from(at.after) - DVec3::from(at.before);
-        let turn = drag_by_tangent(at.flow.into(), chord.normalize(), rope.across, rope.along)
-            / chord.length();
+        let turn = drag_by_tangent(at.flow.into(), chord.normalize(), &rope, 1.0) / chord.length();
         let step = 1e-6;
         for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
             let [ahead, behind] = [step, -step].map(|by| {

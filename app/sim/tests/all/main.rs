@@ -18,6 +18,7 @@ mod knots;
 mod knots_on_ropes;
 mod rapier;
 mod reference;
+mod rope_drag;
 mod rope_law;
 mod rope_on_bodies;
 mod ropes;

@@ -13,8 +13,8 @@
 //!  ________foot________
 //! ```
 //!
-//! Make-up: lobster practice in Maine, and the Massachusetts rule that an endline be sinking rope but
-//! for its bottom third. Scope is 1.2 to 1.5 inshore, up to 2 in strong tide.
+//! Make-up: lobster practice in Maine, and the Massachusetts rule for recreational pots that an endline be
+//! sinking rope but for its bottom third. Scope is 1.2 to 1.5 inshore, up to 2 in strong tide.
 //!
 //! First guess: the buoy lies downstream of the foot, at nine tenths of what the rope spans; splices lie
 //! on the straight line.

@@ -74,7 +74,8 @@ fn a_trawl_has_two_endlines_from_six_traps_up() {
     );
 }
 
-/// 45 traps at 33.6 fathoms and 20 fathoms to each anchor: the 1.5 nmi that 50 CFR 697.21(b)(3) allows.
+/// 45 traps at 33.6 fathoms and 20 fathoms to each anchor: the 1.5 nmi that 50 CFR 697.21(b)(3) allows
+/// (86 FR 51970 raised it for LMA 3).
 #[test]
 fn a_trawl_of_45_traps_fits_into_the_longest_that_is_allowed() {
     let fathom = 1.8288;

@@ -259,6 +259,7 @@ fn rope_rows(model: &Model, pieces: &[Piece], group: &Group) -> PerMetre<Row> {
         lift: row(|rope| rope.lift),
         across: row(|rope| rope.across),
         along: row(|rope| rope.along),
+        along_root: row(|rope| rope.along_root),
     }
 }
 

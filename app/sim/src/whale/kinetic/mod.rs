@@ -19,7 +19,7 @@
 //!
 //! Symbols: `m` mass, `A` added mass (`added`), `I` moment of inertia, `C`, `D` drag area and turning drag, `ρ` density of the water.
 //! References: van der Hoop et al. 2013 (doi:10.1111/mms.12042) for the drag, Lamb 1932, Hydrodynamics, articles 114 and 115, for
-//! added mass, Arthur et al. 2015 (doi:10.1111/mms.12194) for the greatest thrust, Hairer, Lubich and Wanner 2003 for the stepping.
+//! added mass, Arthur et al. 2015 (doi:10.1111/mms.12230) for the greatest thrust, Hairer, Lubich and Wanner 2003 for the stepping.
 
 pub mod added;
 pub mod dead;

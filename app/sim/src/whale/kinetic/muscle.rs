@@ -11,7 +11,7 @@
 //!
 //! Thrust is never below zero, nor above what a whale of its length sustains or, in a burst, can do at most. A burst is an effort to reach its speed whatever it takes.
 //! Power put in is `P/η`.
-//! References: Arthur et al. 2015 (doi:10.1111/mms.12194) for the greatest forces; van der Hoop et al. 2017 (doi:10.3354/esr00781) for `η`;
+//! References: Arthur et al. 2015 (doi:10.1111/mms.12230) for the greatest forces; van der Hoop et al. 2017 (doi:10.3354/esr00781) for `η`;
 //! Rankine 1865 and Froude 1889 for the disk.
 
 /// How a whale keeps up its effort when gear holds it back.

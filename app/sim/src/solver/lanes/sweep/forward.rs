@@ -232,6 +232,7 @@ fn spread_rope<S: Simd>(part: Part<S>, rope: &PerMetre<Row>) -> PerMetre<Lane<S>
         lift: part.get(&rope.lift),
         across: part.get(&rope.across),
         along: part.get(&rope.along),
+        along_root: part.get(&rope.along_root),
     }
 }
 
@@ -243,5 +244,6 @@ fn spread_shared<S: Simd>(simd: S, shared: &Shared<f64>) -> Shared<Lane<S>> {
         inertia: spread(shared.inertia),
         wet: spread(shared.wet),
         drying: spread(shared.drying),
+        viscous: shared.viscous,
     }
 }
