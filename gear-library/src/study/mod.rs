@@ -6,6 +6,7 @@
 mod canon;
 mod claim;
 mod event;
+mod observation;
 mod option;
 mod prior;
 
@@ -18,6 +19,7 @@ use crate::units::Quantity;
 
 pub use claim::Claim;
 pub use event::{Counted, HOOKED_TURNS, RegionEvent, StudyEvent};
+pub use observation::Observation;
 pub use option::{Setting, StudyOption};
 pub use prior::{Law, Level, Prior, Target};
 
@@ -59,6 +61,8 @@ pub struct Study {
     pub priors: Vec<Prior>,
     /// Statements whose sign is looked at, by id.
     pub claims: Vec<Claim>,
+    /// Shares seen on real whales against which its own are held, by id.
+    pub observations: Vec<Observation>,
     /// What defines the runs, in one order whatever the file's: for the study's hash.
     pub canonical: String,
 }
@@ -132,6 +136,7 @@ impl Study {
         let options = option::read_all(&fields);
         let (aim, priors) = encounter(&fields);
         let claims = claim::read_all(&fields, &options);
+        let observations = observation::read_all(&fields, &options);
         fields.finish();
         let study = Self {
             id: path.rsplit('/').next().unwrap_or(path).trim_end_matches(".toml").to_owned(),
@@ -150,6 +155,7 @@ impl Study {
             aim,
             priors,
             claims,
+            observations,
             canonical: canon::of(node),
         };
         study.check_whole(problems);

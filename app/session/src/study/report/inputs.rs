@@ -4,10 +4,12 @@ use endline_gear::{Prior, StudyOption};
 
 use crate::strength::PartStrength;
 use crate::study::open::Opened;
-use crate::study::stats::{ClaimFinding, Findings, InputFinding, OptionFinding};
+use crate::study::stats::{
+    ClaimFinding, Findings, InputFinding, ObservationFinding, OptionFinding,
+};
 
 use super::cell::{Cell, Line, Table};
-use super::words::{force, points, rate};
+use super::words::{force, percent_interval, points, rate};
 
 /// Claims and whether their sign holds; `None` where the study makes none.
 pub(super) fn claims(findings: &Findings) -> Option<Table> {
@@ -24,6 +26,33 @@ pub(super) fn claims(findings: &Findings) -> Option<Table> {
     let headings = ["claim", "should be more", "should be less", "difference", "result"];
     let rows: Vec<Vec<Cell>> = findings.claims.iter().map(row).collect();
     (!rows.is_empty()).then(|| Table::new("Whether the sign holds", &headings, rows))
+}
+
+/// Shares seen on real whales beside the study's own; `None` where the study names none.
+pub(super) fn observations(findings: &Findings) -> Option<Table> {
+    let row = |seen: &ObservationFinding| {
+        let says = vec![Line::Plain(seen.says.clone()), Line::Small(seen.source.clone())];
+        vec![
+            Cell { lines: says },
+            Cell::from(&seen.counted),
+            percent_interval(seen.observed).into(),
+            simulated(seen).into(),
+            seen.agreement.words().into(),
+            Cell::from(&seen.notes),
+        ]
+    };
+    let headings = ["seen", "counted", "observed, %", "simulated", "result", "notes"];
+    let rows: Vec<Vec<Cell>> = findings.observations.iter().map(row).collect();
+    (!rows.is_empty()).then(|| Table::new("The study's shares beside those seen", &headings, rows))
+}
+
+/// `77.4 % [60.2, 88.6], 24 of 31`.
+pub(super) fn simulated(seen: &ObservationFinding) -> String {
+    let counts = format!("{} of {}", seen.hits, seen.runs);
+    seen.simulated.map_or_else(
+        || format!("none: {counts}"),
+        |share| format!("{:.1} % {}, {counts}", 100.0 * share, percent_interval(seen.interval)),
+    )
 }
 
 /// Rates by parts of each input.

@@ -6,6 +6,7 @@ mod changed;
 mod curves;
 mod figures;
 mod held;
+pub mod hindcast;
 mod inputs;
 mod page;
 mod results;

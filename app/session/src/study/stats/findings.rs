@@ -11,6 +11,7 @@ use super::changes::Changes;
 use super::claims::{self, ClaimFinding};
 use super::interval::Rate;
 use super::marks::{Marks, encounters};
+use super::observations::{self, ObservationFinding};
 use super::paired::Paired;
 use super::sensitivity::{self, InputFinding, best_shares};
 use super::survival::Survival;
@@ -40,6 +41,8 @@ pub struct Findings {
     pub levels: Vec<LevelFinding>,
     /// Claims.
     pub claims: Vec<ClaimFinding>,
+    /// Shares seen on real whales, and the study's own.
+    pub observations: Vec<ObservationFinding>,
     /// Inputs, that with the greatest effect on the event first.
     pub inputs: Vec<InputFinding>,
 }
@@ -140,6 +143,12 @@ impl Findings {
             options,
             levels: levels(opened, table, &marks),
             claims: opened.study.claims.iter().map(|claim| claims::look(claim, table)).collect(),
+            observations: opened
+                .study
+                .observations
+                .iter()
+                .map(|seen| observations::look(seen, table, &ids[opened.baseline]))
+                .collect(),
             inputs: sensitivity::look(table, &opened.study.priors, &marks, opened.baseline),
         }
     }

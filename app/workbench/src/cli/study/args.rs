@@ -15,6 +15,8 @@ pub(in crate::cli) enum StudyCommand {
     Merge(StudyArgs),
     /// Print the findings of a merged study and write report.html, report.csv and a bundle.
     Report(ReportArgs),
+    /// Print a merged study's shares beside those seen on real whales, as Markdown.
+    Hindcast(StudyArgs),
     /// Run one row of a study again and compare it with the table.
     Replay(ReplayArgs),
 }

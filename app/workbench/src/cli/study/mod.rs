@@ -1,4 +1,4 @@
-//! `endline study`: plan, run, merge, report, replay.
+//! `endline study`: plan, run, merge, report, hindcast, replay.
 
 pub(super) mod args;
 mod progress;
@@ -24,6 +24,7 @@ pub(super) fn study(command: &StudyCommand, library: Option<&Path>) -> Result<Ex
         StudyCommand::Run(args) => run(args, library),
         StudyCommand::Merge(args) => merged(args, library),
         StudyCommand::Report(args) => reported(args, library),
+        StudyCommand::Hindcast(args) => hindcast(args, library),
         StudyCommand::Replay(args) => replay(args, library),
     }
 }
@@ -77,6 +78,20 @@ fn reported(args: &ReportArgs, library: Option<&Path>) -> Result<ExitCode, Failu
     } else {
         words::findings(&opened, &findings)
     })?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn hindcast(args: &StudyArgs, library: Option<&Path>) -> Result<ExitCode, Failure> {
+    let opened = open(args, library)?;
+    if opened.study.observations.is_empty() {
+        return Err(Failure::usage(format!(
+            "{}: the study has no [[observation]]; docs/studies.md says how to write one",
+            opened.study.id
+        )));
+    }
+    let folder = Folder::open(&folder_of(args, &opened), &opened)?;
+    let table = merge::load(&opened, &folder)?;
+    output::print(&report::hindcast::markdown(&opened, &Findings::of(&opened, &table)))?;
     Ok(ExitCode::SUCCESS)
 }
 

@@ -1,0 +1,183 @@
+//! Observations: a study's share held against what was seen on real whales.
+//!
+//! The simulated share is that of the encounters with the event among those that it is asked about, with Wilson's interval; or
+//! `1 - ratio` of two options on the same encounters. It *agrees* where it lies within what was observed, from [`LEAST`] encounters
+//! on; it *misses* where its whole interval lies outside; else the study does not settle it.
+
+use endline_gear::Observation;
+use serde::Serialize;
+
+use crate::study::table::Table;
+
+use super::interval::{Interval, Rate};
+use super::marks::Marks;
+use super::paired::Paired;
+
+/// Encounters asked about below which nothing agrees.
+const LEAST: u64 = 10;
+
+/// Whether a simulated share agrees with what was observed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Agreement {
+    /// It lies within.
+    Agrees,
+    /// Its whole interval lies outside.
+    Misses,
+    /// Neither.
+    Open,
+}
+
+impl Agreement {
+    /// In words.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Agrees => "agrees",
+            Self::Misses => "misses",
+            Self::Open => "not settled",
+        }
+    }
+}
+
+/// An observation and what the study has beside it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ObservationFinding {
+    /// Id.
+    pub id: String,
+    /// What was seen.
+    pub says: String,
+    /// Who saw it.
+    pub source: String,
+    /// What was counted, among what, with which gear.
+    pub counted: String,
+    /// What was observed.
+    pub observed: Interval,
+    /// Encounters with the event and in all that it was asked about; of the option that has fewer.
+    pub hits: u64,
+    /// Those asked about.
+    pub runs: u64,
+    /// The simulated share; none where nothing was asked about.
+    pub simulated: Option<f64>,
+    /// Its interval.
+    pub interval: Interval,
+    /// Whether it agrees.
+    pub agreement: Agreement,
+    /// What the comparison leaves out, or the reason believed for a miss.
+    pub notes: String,
+}
+
+/// Looks at an observation.
+pub(super) fn look(observation: &Observation, table: &Table, baseline: &str) -> ObservationFinding {
+    let option = observation.option.as_deref().unwrap_or(baseline);
+    let own = marks(observation, table, option);
+    let rate = Rate::of(&own);
+    let (rate, simulated, interval) = match &observation.fewer_with {
+        None => (rate, (rate.runs > 0).then_some(rate.rate), rate.interval),
+        Some(fewer) => fewer_by(&own, &marks(observation, table, fewer)),
+    };
+    let times = |value: f64| observation.times * value;
+    let simulated = simulated.map(times);
+    let interval = Interval { low: times(interval.low), high: times(interval.high) };
+    let [low, high] = observation.observed;
+    let observed = Interval { low, high };
+    ObservationFinding {
+        id: observation.id.value.clone(),
+        says: observation.says.clone(),
+        source: observation.source.clone(),
+        counted: counted(observation, option),
+        observed,
+        hits: rate.hits,
+        runs: rate.runs,
+        simulated,
+        interval,
+        agreement: agreement(observed, simulated, interval, rate.runs),
+        notes: observation.notes.clone(),
+    }
+}
+
+/// The event's marks in an option, of the encounters that are asked about.
+fn marks(observation: &Observation, table: &Table, option: &str) -> Marks {
+    let own = Marks::of(table, option, &observation.of);
+    match &observation.among {
+        None => own,
+        Some(among) => {
+            let keep: Vec<bool> =
+                Marks::of(table, option, among).0.iter().map(|mark| *mark == Some(true)).collect();
+            own.within(&keep)
+        }
+    }
+}
+
+/// By what share an event is rarer with one option than with another.
+fn fewer_by(own: &Marks, fewer: &Marks) -> (Rate, Option<f64>, Interval) {
+    let paired = Paired::of(fewer, own);
+    let interval =
+        paired.ratio_interval.map_or(Interval { low: f64::NEG_INFINITY, high: 1.0 }, |ratio| {
+            Interval { low: 1.0 - ratio.high, high: 1.0 - ratio.low }
+        });
+    (Rate::of(fewer), paired.ratio.map(|ratio| 1.0 - ratio), interval)
+}
+
+fn agreement(
+    observed: Interval,
+    simulated: Option<f64>,
+    interval: Interval,
+    runs: u64,
+) -> Agreement {
+    let Some(simulated) = simulated else { return Agreement::Open };
+    if interval.high < observed.low || interval.low > observed.high {
+        return Agreement::Misses;
+    }
+    let within = (observed.low..=observed.high).contains(&simulated);
+    if within && runs >= LEAST { Agreement::Agrees } else { Agreement::Open }
+}
+
+fn counted(observation: &Observation, option: &str) -> String {
+    let among = observation
+        .among
+        .as_ref()
+        .map_or_else(String::new, |among| format!(" among \"{}\"", among.words()));
+    let of = observation.of.words();
+    let times = if observation.times < 1.0 || observation.times > 1.0 {
+        format!(", times {}", observation.times)
+    } else {
+        String::new()
+    };
+    match &observation.fewer_with {
+        Some(fewer) => format!(
+            "share by which \"{of}\"{among} is rarer with {fewer} than with {option}{times}"
+        ),
+        None => format!("\"{of}\"{among}, {option}{times}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_share_agrees_within_misses_outside_and_is_open_where_chance_decides() {
+        let observed = Interval { low: 0.60, high: 0.89 };
+        let of = |hits, runs| {
+            let rate = Rate::from_counts(hits, runs);
+            agreement(observed, Some(rate.rate), rate.interval, runs)
+        };
+        assert_eq!(of(24, 31), Agreement::Agrees);
+        assert_eq!(of(3, 31), Agreement::Misses);
+        assert_eq!(of(12, 24), Agreement::Open);
+        // Three of four lie within, but four say little.
+        assert_eq!(of(3, 4), Agreement::Open);
+        assert_eq!(agreement(observed, None, observed, 0), Agreement::Open);
+    }
+
+    #[test]
+    fn fewer_is_one_less_the_ratio_of_the_same_encounters() {
+        let marks = |hits: usize| Marks((0..100).map(|index| Some(index < hits)).collect());
+        let (rate, fewer, interval) = fewer_by(&marks(40), &marks(10));
+        assert_eq!((rate.hits, rate.runs), (10, 100));
+        assert!((fewer.unwrap() - 0.75).abs() < 1e-12);
+        assert!(interval.low < 0.75 && interval.high > 0.75 && interval.high < 1.0);
+        assert_eq!(fewer_by(&marks(0), &marks(0)).1, None);
+    }
+}
