@@ -34,8 +34,8 @@ fn lone(joints: Vec<Joint>, current_m_s: f64, viscous: f64, at_m_s: f64) -> Mode
 /// Drag on a metre of the rope [N/m].
 fn drag_n_m(viscous: f64, speed_m_s: f64) -> f64 {
     let rope = rope();
-    let law =
-        (1.0 - viscous) * speed_m_s * speed_m_s + viscous * AT_M_S.sqrt() * speed_m_s.powf(1.5);
+    let law = (1.0 - viscous) * speed_m_s * speed_m_s
+        + viscous * AT_M_S.sqrt() * speed_m_s * speed_m_s.sqrt();
     0.5 * DENSITY * rope.drag_tangential * PI * rope.diameter_m * law
 }
 
