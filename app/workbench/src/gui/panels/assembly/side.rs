@@ -12,7 +12,7 @@ use endline_session::units::Units;
 use endline_sim::model::{Body, BodyRole, Rope};
 use glam::{DVec2, DVec3};
 
-use super::{AssemblyPanel, Drawn, surface_m_s};
+use super::{AssemblyPanel, Drawn, strength, surface_m_s};
 use crate::gui::shared::Shared;
 use crate::gui::theme::Theme;
 
@@ -193,9 +193,9 @@ impl Flat {
         [self.units.of_metres(along), self.units.of_metres(place[2])]
     }
 
-    /// Diameter and strength of a rope.
-    fn rope(&self, rope: &Rope) -> String {
-        let strength = self.units.force().text(rope.strength_n);
+    /// Diameter of a rope and the strength that its line delivers.
+    fn rope(&self, rope: &Rope, delivered_n: f64) -> String {
+        let strength = self.units.force().text(delivered_n);
         format!("{}, {strength}", self.units.diameter(rope.diameter_m))
     }
 }
@@ -217,7 +217,10 @@ fn rig(
             shape.position_m.iter().map(|place| flat.point(*place)).collect();
         let insert = line.id.contains(".insert-");
         let (color, width) = if insert { (PARTS, 5.0) } else { (color, 2.0) };
-        let rope = flat.rope(&spec.ropes[line.rope]);
+        let rope = &spec.ropes[line.rope];
+        let delivered_n =
+            strength::of(rest, &line.id).map_or(rope.strength_n, |strength| strength.delivered_N);
+        let rope = flat.rope(rope, delivered_n);
         let middle = points.get(points.len() / 2).copied();
         let name = format!("{} {}: {rope}", gear.name, line.id);
         let drawn = Line::new(name, PlotPoints::from(points));

@@ -23,8 +23,8 @@ pub(super) fn cell(ui: &mut Ui, strength: Option<&PartStrength>, units: Units) {
         ui.label("");
         return;
     };
-    let [least, most] = strength.nine_of_ten_N.map(|force_n| units.force().text(force_n));
-    let text = format!("{}  ({least} to {most})", units.force().text(strength.delivered_N));
+    let spread = 100.0 * strength.variation.as_ref().map_or(0.0, |variation| variation.value);
+    let text = format!("{}  ± {spread:.0} %", units.force().text(strength.delivered_N));
     ui.label(text).on_hover_ui(|ui| budget(ui, strength, units));
 }
 
