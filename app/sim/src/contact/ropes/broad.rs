@@ -164,12 +164,17 @@ fn knots_near(
         if !bounds.meets(&piece.bounds) {
             continue;
         }
-        for (node, segment) in (piece.nodes.start..).zip(piece.segments.clone()) {
-            let corners =
-                [moves.from[node], moves.from[node + 1], (moves.to)(node), (moves.to)(node + 1)];
-            if segment != ball.segment && bounds.meets(&Bounds::around(&corners)) {
+        let way_of = |node: usize| {
+            let [from, to] = [moves.from[node], (moves.to)(node)];
+            Bounds { low: from.min(to), high: from.max(to) }
+        };
+        let mut here = way_of(piece.nodes.start);
+        for (node, segment) in (piece.nodes.start + 1..).zip(piece.segments.clone()) {
+            let next = way_of(node);
+            if segment != ball.segment && bounds.meets(&here.join(next)) {
                 found.push([index, segment]);
             }
+            here = next;
         }
     }
 }

@@ -130,16 +130,25 @@ impl RopeWorkspace {
         first..end
     }
 
+    /// Sum of the radii of two things [m].
+    fn contact_distance(&self, segments: [usize; 2], knots: [Option<usize>; 2]) -> f64 {
+        let rope = |k: usize| self.homes[segments[k]].radius_m;
+        let radius = |k: usize| knots[k].map_or_else(|| rope(k), |knot| self.knots[knot].radius_m);
+        radius(0) + radius(1)
+    }
+
     /// Two things that may touch, without where they are.
-    fn pair_of(&self, segments: [usize; 2], knots: [Option<usize>; 2]) -> Pair {
+    fn pair_of(
+        &self,
+        segments: [usize; 2],
+        knots: [Option<usize>; 2],
+        contact_distance: f64,
+    ) -> Pair {
         let homes = segments.map(|segment| self.homes[segment]);
-        let balls = knots.map(|knot| knot.map(|knot| self.knots[knot]));
-        let radius = |k: usize| balls[k].map_or(homes[k].radius_m, |ball| ball.radius_m);
-        let contact_distance = radius(0) + radius(1);
         Pair {
             segments,
             knots,
-            knots_at: balls.map(|ball| ball.map(|ball| ball.fraction)),
+            knots_at: knots.map(|knot| knot.map(|knot| self.knots[knot].fraction)),
             nodes: homes.map(|home| home.node),
             lines: homes.map(|home| home.line),
             contact_distance,
@@ -157,13 +166,13 @@ impl RopeWorkspace {
         (from, to): (&[DVec3], &impl Fn(usize) -> DVec3),
         margin: f64,
     ) {
-        let mut pair = self.pair_of(segments, knots);
-        if self.is_spared(&pair)
-            || self.pairs[..known].binary_search_by_key(&pair.key(), Pair::key).is_ok()
+        let contact_distance = self.contact_distance(segments, knots);
+        if self.is_spared(segments, contact_distance)
+            || self.pairs[..known].binary_search_by_key(&(segments, knots), Pair::key).is_ok()
         {
             return;
         }
-        let contact_distance = pair.contact_distance;
+        let mut pair = self.pair_of(segments, knots, contact_distance);
         let [a, b] = pair.sweeps(from, to);
         let first = nearest(a.at(0.0), b.at(0.0)).distance;
         let least = first - greatest_approach(&a, &b);
@@ -194,10 +203,9 @@ impl RopeWorkspace {
     }
 
     /// Whether so little rope lies between two segments, through a joint too, that they do not touch.
-    fn is_spared(&self, pair: &Pair) -> bool {
-        let [one, other] = pair.segments;
+    fn is_spared(&self, [one, other]: [usize; 2], contact_distance: f64) -> bool {
         let (a, b) = (self.homes[one], self.homes[other]);
-        let little = SPARED_CONTACT_DISTANCES * pair.contact_distance;
+        let little = SPARED_CONTACT_DISTANCES * contact_distance;
         if self.between_m([one, other]) < little {
             return true;
         }
