@@ -7,6 +7,7 @@
 //! the arc `A`. Segments then have their lengths drawn in again, for a few millimetres aside stretch a short one by hundreds of newtons.
 //! The sign of the normal is the same everywhere (its greatest part is positive): the strand that comes first along
 //! the lines lies on one side wherever they meet, so that the two do not wind round each other.
+//! Rope that lies on bodies stays, and so does rope that is not clear of itself in that way, such as a stowed coil.
 
 use std::f64::consts::PI;
 
@@ -16,6 +17,7 @@ use super::Found;
 use super::outcome::Outcome;
 use crate::contact::distance::segment_segment;
 use crate::model::Model;
+use crate::solids::lies_in_body;
 use crate::state::State;
 use crate::strands::{Place, Strands};
 
@@ -25,6 +27,8 @@ const ROUNDS: usize = 40;
 const ALONG_DIAMETERS: f64 = 200.0;
 /// Newton steps that give segments their lengths again: each squares what is left.
 const PROJECTIONS: usize = 6;
+/// Share of its length by which a segment may then be longer or shorter: a ten-thousandth of the stretch at which rope breaks.
+const CLOSE: f64 = 2e-5;
 /// Added to the diagonal of `J Jᵀ` [1].
 const SINGULAR: f64 = 1e-9;
 /// Distance to which ropes are moved apart, over the sum of their radii [1].
@@ -38,15 +42,19 @@ pub(super) fn part(model: &Model, found: &mut Found) {
         return;
     }
     let rope = Rope::of(model, &found.end.state);
+    let mut moved = found.end.state.clone();
     for _ in 0..ROUNDS {
-        let overlaps = rope.overlaps(&found.end.state);
+        let overlaps = rope.overlaps(&moved);
         if overlaps.is_empty() {
+            if rope.has_its_lengths(&moved) && !lies_in_body(model, &moved) {
+                found.end.state = moved;
+            }
             return;
         }
         for overlap in &overlaps {
-            rope.push_apart(overlap, &mut found.end.state);
+            rope.push_apart(overlap, &mut moved);
         }
-        rope.draw_in(&mut found.end.state);
+        rope.draw_in(&mut moved);
     }
 }
 
@@ -192,6 +200,15 @@ impl<'a> Rope<'a> {
 }
 
 impl Rope<'_> {
+    /// Whether every segment is as long as at rest, but for [`CLOSE`].
+    fn has_its_lengths(&self, state: &State) -> bool {
+        let at = &state.rope.position;
+        let error = |(segment, wanted_m): (&(usize, f64), &f64)| {
+            (at[segment.0].distance(at[segment.0 + 1]) - wanted_m).abs() / wanted_m
+        };
+        self.segments.iter().zip(&self.at_rest_m).map(error).fold(0.0, f64::max) < CLOSE
+    }
+
     /// Gives every segment its length at rest again. Ends of strands stay.
     fn draw_in(&self, state: &mut State) {
         for strand in self.strands.lists() {
