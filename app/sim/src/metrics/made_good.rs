@@ -60,7 +60,7 @@ mod tests {
         }
         // Once round in the time of the window.
         let round = |time_s: f64| {
-            let (sin, cos) = (std::f64::consts::TAU * time_s / MADE_GOOD_S).sin_cos();
+            let (sin, cos) = libm::sincos(std::f64::consts::TAU * time_s / MADE_GOOD_S);
             10.0 * DVec3::new(cos, sin, 0.0)
         };
         assert!(after(90.0, round) < 1e-9);

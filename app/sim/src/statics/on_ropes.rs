@@ -149,7 +149,8 @@ impl<'a> Rope<'a> {
         let along = between.dot(normal);
         let sideways = (between - along * normal).length_squared();
         // The distance along the normal that takes the two as far apart as they should be.
-        let wanted = ((APART * reach).powi(2) - sideways).max(0.0).sqrt();
+        let apart = APART * reach;
+        let wanted = (apart * apart - sideways).max(0.0).sqrt();
         let side = if along < -1e-3 * reach { -1.0 } else { 1.0 };
         let lacks = (wanted - side * along).max(0.0);
         Some(Overlap { segments: pair, arcs_m, shift_m: 0.5 * lacks * side * normal })
@@ -163,8 +164,8 @@ impl<'a> Rope<'a> {
         } else {
             f64::INFINITY
         };
-        for index in 0..2 {
-            let (strand, middle_m) = (places[index].strand, overlap.arcs_m[index]);
+        for (index, place) in places.into_iter().enumerate() {
+            let (strand, middle_m) = (place.strand, overlap.arcs_m[index]);
             let diameter_m = 2.0 * self.segments[overlap.segments[index]].1;
             let to_end_m = middle_m.min(self.lengths_m[strand] - middle_m);
             let along_m = (ALONG_DIAMETERS * diameter_m).min(to_end_m).min(between_m);

@@ -139,10 +139,10 @@ fn counted(observation: &Observation, option: &str) -> String {
         .as_ref()
         .map_or_else(String::new, |among| format!(" among \"{}\"", among.words()));
     let of = observation.of.words();
-    let times = if observation.times < 1.0 || observation.times > 1.0 {
-        format!(", times {}", observation.times)
-    } else {
+    let times = if observation.times.total_cmp(&1.0).is_eq() {
         String::new()
+    } else {
+        format!(", times {}", observation.times)
     };
     match &observation.fewer_with {
         Some(fewer) => format!(
