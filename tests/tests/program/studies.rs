@@ -66,7 +66,7 @@ fn small(place: &Place) -> String {
     let scenario = fs::read_to_string(library().join("scenarios/study-endline-held.toml")).unwrap();
     let (gear, _) = scenario.split_once("[whale]").unwrap();
     let gear = gear
-        .replace("duration = \"75 s\"", "duration = \"0.5 s\"")
+        .replace("duration = \"660 s\"", "duration = \"0.5 s\"")
         .replace("rope_nodes = 500", "rope_nodes = 12");
     let scenario = gear.replace("[resolution]\nnear = \"5 cm\"\nedges = \"1.25 cm\"\n", "");
     fs::write(folder.join("small.toml"), scenario).unwrap();

@@ -62,7 +62,8 @@ pub fn add_study(folder: &Folder) {
     // Without a whale there is none for the resolution to follow.
     let (head, rest) = gear.split_once("[resolution]").unwrap();
     let (_, rest) = rest.split_once("[site]").unwrap();
-    let gear = format!("{head}[site]{rest}").replace("duration = \"75 s\"", "duration = \"0.5 s\"");
+    let gear =
+        format!("{head}[site]{rest}").replace("duration = \"660 s\"", "duration = \"0.5 s\"");
     std::fs::write(
         folder.0.join("scenarios/small-rig.toml"),
         gear.replace("rope_nodes = 500", "rope_nodes = 12"),

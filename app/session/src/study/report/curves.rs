@@ -59,15 +59,20 @@ pub(super) fn tensions(findings: &Findings) -> String {
                 svg.mark(place(tenth, *tension), kind);
             }
         }
-        svg.path(&[[right + 14.0, y], [right + 50.0, y]], kind);
-        svg.mark([right + 32.0, y], kind);
-        for name in names {
-            svg.text([right + 58.0, y + 4.0], Side::Start, name);
-            y += 20.0;
-        }
-        y += 8.0;
+        y = legend(&mut svg, [right, y], kind, &names);
     }
     svg.done()
+}
+
+/// The look of a curve with the names of all that share it, beside the curves; answers where the next begins.
+pub(super) fn legend(svg: &mut Svg, [x, mut y]: [f64; 2], kind: usize, names: &[&str]) -> f64 {
+    svg.path(&[[x + 14.0, y], [x + 50.0, y]], kind);
+    svg.mark([x + 32.0, y], kind);
+    for name in names {
+        svg.text([x + 58.0, y + 4.0], Side::Start, name);
+        y += 20.0;
+    }
+    y + 8.0
 }
 
 /// Options told apart by their tensions: the first of each kind with the names of all of it.

@@ -3,6 +3,7 @@
 use crate::study::stats::{Findings, OptionFinding, Survival};
 
 use super::cell::{Cell, Table};
+use super::curves::legend;
 use super::figures::WIDE;
 use super::svg::{Axis, Side, Svg};
 use super::words::percent_interval;
@@ -67,13 +68,7 @@ pub(super) fn figure(findings: &Findings) -> String {
     let mut y = top + 6.0;
     for (kind, (option, names)) in groups.into_iter().enumerate() {
         curve(&mut svg, &across, &up, (&option.survival, kind));
-        svg.path(&[[right + 14.0, y], [right + 50.0, y]], kind);
-        svg.mark([right + 32.0, y], kind);
-        for name in names {
-            svg.text([right + 58.0, y + 4.0], Side::Start, name);
-            y += 20.0;
-        }
-        y += 8.0;
+        y = legend(&mut svg, [right, y], kind, &names);
     }
     svg.done()
 }
