@@ -13,7 +13,6 @@ use crate::scenario::{LineStart, Scenario};
 use crate::schema::Kind;
 use crate::strength::StrengthBudget;
 
-use super::strength::Scale;
 use super::{Assembled, Hooks};
 
 /// A part of the spec by what it is and its index; a line with inserts is several in a row.
@@ -36,6 +35,15 @@ pub(super) struct Uncut {
     pub laid_m: Vec<DVec3>,
     /// Where it is written, for messages.
     pub place: Place,
+}
+
+/// Strength and stiffness of a rope over those of its library item, where a line is to deliver a strength [1].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Scale {
+    /// Of the strength.
+    pub strength: f64,
+    /// Of the stiffness.
+    pub stiffness: f64,
 }
 
 /// Assembly in progress.

@@ -14,9 +14,8 @@ use crate::items::USUAL_BULK;
 use crate::line::LineMake;
 use crate::scenario::LineStart;
 
-use super::builder::{Builder, Part, Uncut};
+use super::builder::{Builder, Part, Scale, Uncut};
 use super::inserts::{Piece, Tied, cut_at, starts_from_a};
-use super::strength::Scale;
 use super::way::{along, part_of};
 
 /// A line to be put into the spec.

@@ -13,19 +13,10 @@ use crate::items::{Condition, Rope, WeakLink};
 use crate::line::LineMake;
 use crate::strength::{StrengthBudget, StrengthFactor, StrengthFigure};
 
-use super::builder::Builder;
+use super::builder::{Builder, Scale};
 use super::inserts::{Piece, Tied};
 use super::line::NewLine;
 use super::strength_variation;
-
-/// Strength and stiffness of a rope over those of its library item, where a line is to deliver a strength [1].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Scale {
-    /// Of the strength.
-    pub strength: f64,
-    /// Of the stiffness.
-    pub stiffness: f64,
-}
 
 impl Builder<'_> {
     /// The condition of a line's rope: its own, or the scenario's.
