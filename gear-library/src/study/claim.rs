@@ -2,11 +2,10 @@
 
 use crate::diagnostic::At;
 use crate::fields::{Fields, Problems};
-use crate::nearest::hint;
 use crate::tree::Node;
 
 use super::event::{self, StudyEvent};
-use super::option::{StudyOption, texts};
+use super::option::{StudyOption, check_known, texts};
 
 /// A statement with a sign.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,11 +66,6 @@ fn known(fields: &Fields<'_>, key: &'static str, options: &[StudyOption]) -> Opt
         fields.missing(key, "name one or more options, such as [\"slack\"]");
         return None;
     }
-    let ids = || options.iter().map(|option| option.id.value.as_str());
-    for id in named.iter().filter(|id| !ids().any(|known| known == id.value)) {
-        fields.problems().push(
-            id.place.error(format!("there is no option `{}`", id.value), hint(&id.value, ids())),
-        );
-    }
+    named.iter().for_each(|id| check_known(id, options, fields.problems()));
     Some(named.into_iter().map(|id| id.value).collect())
 }

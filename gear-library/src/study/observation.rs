@@ -2,12 +2,11 @@
 
 use crate::diagnostic::At;
 use crate::fields::{Fields, Problems, Range};
-use crate::nearest::hint;
 use crate::tree::{Content, Node};
 use crate::units::Quantity;
 
 use super::event::{self, StudyEvent};
-use super::option::StudyOption;
+use super::option::{StudyOption, check_known};
 
 /// A share that was observed, and how a study answers it.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,11 +74,7 @@ fn read(node: &Node, options: &[StudyOption], problems: &Problems) -> Option<Obs
 /// An option by id, if it is named.
 fn known(fields: &Fields<'_>, key: &'static str, options: &[StudyOption]) -> Option<At<String>> {
     let named = fields.text(key)?;
-    let ids = || options.iter().map(|option| option.id.value.as_str());
-    if !ids().any(|known| known == named.value) {
-        let message = format!("there is no option `{}`", named.value);
-        fields.problems().push(named.place.error(message, hint(&named.value, ids())));
-    }
+    check_known(&named, options, fields.problems());
     Some(named)
 }
 

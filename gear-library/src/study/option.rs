@@ -3,6 +3,7 @@
 use crate::diagnostic::{At, Place};
 use crate::document::Setting as Value;
 use crate::fields::{Fields, Problems};
+use crate::nearest::hint;
 use crate::tree::{Content, Node};
 
 /// An option of a study.
@@ -103,6 +104,15 @@ fn setting(path: String, place: &Place, node: &Node, problems: &Problems) -> Opt
         return None;
     };
     Some(Setting { field: At { value: path, place: place.clone() }, value })
+}
+
+/// Reports an id that names no option.
+pub(super) fn check_known(id: &At<String>, options: &[StudyOption], problems: &Problems) {
+    let ids = || options.iter().map(|option| option.id.value.as_str());
+    if !ids().any(|known| known == id.value) {
+        let message = format!("there is no option `{}`", id.value);
+        problems.push(id.place.error(message, hint(&id.value, ids())));
+    }
 }
 
 /// A list of texts, or one text.

@@ -174,7 +174,7 @@ impl Source {
         let Overrides { seed, step_s, weak_links, rating_n, kinetic } = self.overrides;
         let options = Options { seed, step_s, weak_links, kinetic, balance, ..Options::default() };
         // An item with errors is missing from the library; its own errors say why, so they come first.
-        let Assembled { mut spec, files, strengths } =
+        let Assembled { mut spec, files, mut strengths } =
             assemble_traced(&scenario, &library, host, &options).map_err(|missing| {
                 Error::Diagnostics(
                     problems.into_iter().filter(Diagnostic::is_error).chain(missing).collect(),
@@ -182,6 +182,8 @@ impl Source {
             })?;
         if let Some(rating_n) = rating_n {
             spec.links.iter_mut().for_each(|link| link.rating_n = rating_n);
+            // A rating that is given has no budget.
+            strengths.retain(|budget| spec.links.iter().all(|link| link.id != budget.part));
         }
         let model = Model::new(spec).map_err(|errors| {
             let as_error = |error: ModelError| {

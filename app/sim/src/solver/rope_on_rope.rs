@@ -72,8 +72,8 @@ fn touch_at(
         at_distance.about_solved(point.solved_n, (apart, pair.contact_distance, stiffness));
     let normal = gap / distance.max(1e-12);
     let [one, other] = pair.places(|node| state.rope.position[node]);
-    let moved = gap - between(one, other, fractions).0;
-    let stretch = point.kept + gap - between(one, other, fractions).0;
+    let before = between(one, other, fractions).0;
+    let (moved, stretch) = (gap - before, point.kept + gap - before);
     let grip = Grip::new(
         stretch,
         normal,

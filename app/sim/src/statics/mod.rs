@@ -20,7 +20,6 @@ mod trail;
 mod ways;
 
 use crate::model::Model;
-use crate::solids::lies_in_body;
 use crate::state::State;
 use crate::whale::pilot;
 use coarse::Coarse;
@@ -75,9 +74,7 @@ impl Settled {
 pub fn settle(model: &Model) -> Settled {
     let mut trail = Trail::default();
     let mut found = find(model, &mut trail);
-    let on_bodies = lies_in_body(model, &found.end.state);
-    on_bodies::lift(model, &mut found, &mut trail);
-    if !on_bodies {
+    if !on_bodies::lift(model, &mut found, &mut trail) {
         on_ropes::part(model, &mut found);
     }
     told(model, found, trail)

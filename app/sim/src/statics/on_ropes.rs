@@ -16,6 +16,8 @@ use glam::DVec3;
 use super::Found;
 use super::outcome::Outcome;
 use crate::contact::distance::segment_segment;
+use crate::contact::pieces::Pieces;
+use crate::contact::ropes::broad::{Broad, Found as Near, Moves, Reach};
 use crate::model::Model;
 use crate::solids::lies_in_body;
 use crate::state::State;
@@ -41,27 +43,60 @@ pub(super) fn part(model: &Model, found: &mut Found) {
     if model.spec.settings.rope_on_rope.is_none() || found.outcome != Outcome::AtRest {
         return;
     }
+    let mut search = Search::new(model);
     let rope = Rope::of(model, &found.end.state);
+    let mut overlaps = rope.overlaps(&mut search, &found.end.state);
+    if overlaps.is_empty() {
+        return;
+    }
     let mut moved = found.end.state.clone();
     for _ in 0..ROUNDS {
-        let overlaps = rope.overlaps(&moved);
-        if overlaps.is_empty() {
-            if rope.has_its_lengths(&moved) && !lies_in_body(model, &moved) {
-                found.end.state = moved;
-            }
-            return;
-        }
         for overlap in &overlaps {
             rope.push_apart(overlap, &mut moved);
         }
         rope.draw_in(&mut moved);
+        overlaps = rope.overlaps(&mut search, &moved);
+        if overlaps.is_empty() {
+            break;
+        }
+    }
+    if overlaps.is_empty() && rope.has_its_lengths(&moved) && !lies_in_body(model, &moved) {
+        found.end.state = moved;
+    }
+}
+
+/// The search for rope near rope, as a step has it.
+struct Search {
+    pieces: Pieces,
+    broad: Broad,
+    near: Near,
+    /// Diameter of the widest rope: the greatest sum of two radii [m].
+    reach_m: f64,
+}
+
+impl Search {
+    fn new(model: &Model) -> Self {
+        let reach_m = model.spec.ropes.iter().map(|rope| rope.diameter_m).fold(0.0, f64::max);
+        let (broad, near) = (Broad::default(), Near::default());
+        Self { pieces: Pieces::new(model), broad, near, reach_m }
+    }
+
+    /// Pairs of segments that may lie in each other.
+    fn pairs(&mut self, state: &State) -> &[[usize; 2]] {
+        let at = &state.rope.position;
+        let to = |node: usize| at[node];
+        self.pieces.measure(at, to, &state.rope.segment_length);
+        let reach = Reach { ropes_m: self.reach_m, knots_m: self.reach_m };
+        self.broad.collect(&self.pieces, &[], &Moves { from: at, to }, reach, &mut self.near);
+        &self.near.segments
     }
 }
 
 /// The gear's rope as strands: lines spliced end to end count as one.
-struct Rope<'a> {
-    model: &'a Model,
+struct Rope {
     strands: Strands,
+    /// The nodes along each strand; at a splice both copies of one.
+    chains: Vec<Vec<Vec<usize>>>,
     /// First node and radius of each segment [m].
     segments: Vec<(usize, f64)>,
     /// Length of each strand [m].
@@ -79,8 +114,8 @@ struct Overlap {
     shift_m: DVec3,
 }
 
-impl<'a> Rope<'a> {
-    fn of(model: &'a Model, state: &State) -> Self {
+impl Rope {
+    fn of(model: &Model, state: &State) -> Self {
         let mut strands = Strands::new(model);
         strands.measure(&state.rope.segment_length);
         let nodes = model.line_nodes.iter().zip(&model.spec.lines);
@@ -95,37 +130,23 @@ impl<'a> Rope<'a> {
         let segments: Vec<(usize, f64)> = segments.collect();
         let at = &state.rope.position;
         let at_rest_m = segments.iter().map(|(node, _)| at[*node].distance(at[node + 1])).collect();
-        Self { segments, lengths_m, at_rest_m, model, strands }
+        let chains = strands.lists().iter().map(|list| chain(&strands, &segments, list)).collect();
+        Self { strands, chains, segments, lengths_m, at_rest_m }
     }
 
-    /// Every pair that lies in each other, found by sweeping along the axis on which the gear reaches farthest.
-    fn overlaps(&self, state: &State) -> Vec<Overlap> {
+    /// Every pair that lies in each other.
+    fn overlaps(&self, search: &mut Search, state: &State) -> Vec<Overlap> {
         let at = &state.rope.position;
         let ends = |segment: usize| {
             let node = self.segments[segment].0;
             [at[node], at[node + 1]]
         };
-        let axis = widest(at);
-        let low = |segment: usize| ends(segment).map(|end| end[axis]);
-        let mut order: Vec<usize> = (0..self.model.segment_count).collect();
-        let least = |segment: &usize| low(*segment)[0].min(low(*segment)[1]);
-        order.sort_by(|one, other| least(one).total_cmp(&least(other)).then(one.cmp(other)));
-        let mut found = Vec::new();
-        for (place, one) in order.iter().enumerate() {
-            let high = low(*one)[0].max(low(*one)[1]);
-            for other in &order[place + 1..] {
-                let reach = self.segments[*one].1 + self.segments[*other].1;
-                if least(other) > high + reach {
-                    break;
-                }
-                let pair = [*one.min(other), *one.max(other)];
-                found.extend(self.overlap(pair, pair.map(ends), reach));
-            }
-        }
-        found
+        let pairs = search.pairs(state).iter();
+        pairs.filter_map(|pair| self.overlap(*pair, pair.map(ends))).collect()
     }
 
-    fn overlap(&self, pair: [usize; 2], ends: [[DVec3; 2]; 2], reach: f64) -> Option<Overlap> {
+    fn overlap(&self, pair: [usize; 2], ends: [[DVec3; 2]; 2]) -> Option<Overlap> {
+        let reach = self.segments[pair[0]].1 + self.segments[pair[1]].1;
         let (s, t) = segment_segment(ends[0], ends[1]);
         let between = ends[0][0].lerp(ends[0][1], s) - ends[1][0].lerp(ends[1][1], t);
         if between.length() >= reach {
@@ -189,9 +210,8 @@ impl<'a> Rope<'a> {
                 state.rope.position[node] += share * shift_m;
             }
         };
-        let chain = self.chain(&self.strands.lists()[strand]);
         let mut arc_m = 0.0;
-        for (index, nodes) in chain.iter().enumerate() {
+        for (index, nodes) in self.chains[strand].iter().enumerate() {
             nodes.iter().for_each(|node| moved(*node, arc_m));
             if let Some(segment) = self.strands.lists()[strand].get(index) {
                 arc_m += self.strands.places[*segment].length_m;
@@ -200,7 +220,7 @@ impl<'a> Rope<'a> {
     }
 }
 
-impl Rope<'_> {
+impl Rope {
     /// Whether every segment is as long as at rest, but for [`CLOSE`].
     fn has_its_lengths(&self, state: &State) -> bool {
         let at = &state.rope.position;
@@ -212,8 +232,7 @@ impl Rope<'_> {
 
     /// Gives every segment its length at rest again. Ends of strands stay.
     fn draw_in(&self, state: &mut State) {
-        for strand in self.strands.lists() {
-            let chain = self.chain(strand);
+        for (strand, chain) in self.strands.lists().iter().zip(&self.chains) {
             let mut places: Vec<DVec3> =
                 chain.iter().map(|nodes| state.rope.position[nodes[0]]).collect();
             let wanted_m: Vec<f64> =
@@ -226,26 +245,23 @@ impl Rope<'_> {
             }
         }
     }
+}
 
-    /// The nodes along a strand; at a splice both copies of one.
-    fn chain(&self, strand: &[usize]) -> Vec<Vec<usize>> {
-        let mut chain: Vec<Vec<usize>> = Vec::with_capacity(strand.len() + 1);
-        for segment in strand {
-            let node = self.segments[*segment].0;
-            let [first, last] = if self.strands.places[*segment].reversed {
-                [node + 1, node]
-            } else {
-                [node, node + 1]
-            };
-            match chain.last_mut() {
-                Some(nodes) if nodes.contains(&first) => {}
-                Some(nodes) => nodes.push(first),
-                None => chain.push(vec![first]),
-            }
-            chain.push(vec![last]);
+/// The nodes along a strand; at a splice both copies of one.
+fn chain(strands: &Strands, segments: &[(usize, f64)], strand: &[usize]) -> Vec<Vec<usize>> {
+    let mut chain: Vec<Vec<usize>> = Vec::with_capacity(strand.len() + 1);
+    for segment in strand {
+        let node = segments[*segment].0;
+        let [first, last] =
+            if strands.places[*segment].reversed { [node + 1, node] } else { [node, node + 1] };
+        match chain.last_mut() {
+            Some(nodes) if nodes.contains(&first) => {}
+            Some(nodes) => nodes.push(first),
+            None => chain.push(vec![first]),
         }
-        chain
+        chain.push(vec![last]);
     }
+    chain
 }
 
 /// Moves the nodes of a chain least so that its segments have the lengths wanted: with `C` what each is too long, `J` its
@@ -277,16 +293,6 @@ fn project(wanted_m: &[f64], places: &mut [DVec3]) {
         places[index] += free(index) * *multiplier * along[index];
         places[index + 1] -= free(index + 1) * *multiplier * along[index];
     }
-}
-
-/// The axis along which places reach farthest.
-fn widest(places: &[DVec3]) -> usize {
-    let first = places.first().copied().unwrap_or_default();
-    let (low, high) = places
-        .iter()
-        .fold((first, first), |(low, high), place| (low.min(*place), high.max(*place)));
-    let extent = high - low;
-    if extent.x >= extent.y.max(extent.z) { 0 } else { 1 + usize::from(extent.z > extent.y) }
 }
 
 /// Unit normal to two directions, its greatest part positive; any across the first where they are one.

@@ -11,7 +11,7 @@ const NAMED_N: [f64; 8] = [10.0, 30.0, 100.0, 300.0, 1000.0, 3000.0, 10_000.0, 3
 
 /// Share of runs whose greatest tension stays below a value, by option; options with the same tensions share a curve.
 pub(super) fn tensions(findings: &Findings) -> String {
-    let groups = alike(&findings.options);
+    let groups = alike(&findings.options, |option| &option.tensions.sorted_n);
     let (top, bottom, right): (f64, f64, f64) = (20.0, 330.0, WIDE - 230.0);
     let height = (bottom + 62.0).max(
         top + 20.0 * groups.iter().map(|(_, names)| names.len() as f64 + 0.4).sum::<f64>() + 10.0,
@@ -75,14 +75,14 @@ pub(super) fn legend(svg: &mut Svg, [x, mut y]: [f64; 2], kind: usize, names: &[
     y + 8.0
 }
 
-/// Options told apart by their tensions: the first of each kind with the names of all of it.
-fn alike(options: &[OptionFinding]) -> Vec<(&OptionFinding, Vec<&str>)> {
+/// Options told apart by what a curve is drawn from: the first of each kind with the names of all of it.
+pub(super) fn alike<'a, T: PartialEq + 'a>(
+    options: &'a [OptionFinding],
+    of: impl Fn(&'a OptionFinding) -> &'a T,
+) -> Vec<(&'a OptionFinding, Vec<&'a str>)> {
     let mut groups: Vec<(&OptionFinding, Vec<&str>)> = Vec::new();
     for option in options {
-        match groups
-            .iter_mut()
-            .find(|(first, _)| first.tensions.sorted_n == option.tensions.sorted_n)
-        {
+        match groups.iter_mut().find(|(first, _)| of(first) == of(option)) {
             Some((_, names)) => names.push(&option.name),
             None => groups.push((option, vec![&option.name])),
         }

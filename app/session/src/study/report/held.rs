@@ -3,7 +3,7 @@
 use crate::study::stats::{Findings, OptionFinding, Survival};
 
 use super::cell::{Cell, Table};
-use super::curves::legend;
+use super::curves::{alike, legend};
 use super::figures::WIDE;
 use super::svg::{Axis, Side, Svg};
 use super::words::percent_interval;
@@ -56,7 +56,7 @@ fn longest_s(findings: &Findings) -> f64 {
 
 /// A falling curve for each option; options with the same releases share one.
 pub(super) fn figure(findings: &Findings) -> String {
-    let groups = alike(&findings.options);
+    let groups = alike(&findings.options, |option| &option.survival);
     let (top, bottom, right): (f64, f64, f64) = (20.0, 330.0, WIDE - 230.0);
     let names: usize = groups.iter().map(|(_, names)| names.len()).sum();
     let height = (bottom + 44.0).max(top + 20.0 * names as f64 + 8.0 * groups.len() as f64 + 10.0);
@@ -104,16 +104,4 @@ fn curve(svg: &mut Svg, across: &Axis, up: &Axis, (survival, kind): (&Survival, 
         let ends = [held.interval.low, held.share, held.interval.high];
         svg.post(x(held.time_s) + 5.0 * kind as f64, ends.map(|share| up.at(share)), kind);
     }
-}
-
-/// Options told apart by their releases: the first of each kind with the names of all of it.
-fn alike(options: &[OptionFinding]) -> Vec<(&OptionFinding, Vec<&str>)> {
-    let mut groups: Vec<(&OptionFinding, Vec<&str>)> = Vec::new();
-    for option in options {
-        match groups.iter_mut().find(|(first, _)| first.survival == option.survival) {
-            Some((_, names)) => names.push(&option.name),
-            None => groups.push((option, vec![&option.name])),
-        }
-    }
-    groups
 }

@@ -158,7 +158,8 @@ fn knots_near(
     reach_m: f64,
     found: &mut Vec<[usize; 2]>,
 ) {
-    for (index, ball) in on_segments(knots, &of.segments) {
+    for index in on_segments(knots, &of.segments) {
+        let ball = &knots[index];
         let way = [ball.middle(|node| moves.from[node]), ball.middle(&moves.to)];
         let bounds = Bounds::around(&way).grown(reach_m);
         if !bounds.meets(&piece.bounds) {

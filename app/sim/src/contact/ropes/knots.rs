@@ -46,12 +46,8 @@ impl Ball {
     }
 }
 
-/// Knots on a run of segments, with their numbers, of all in rising order of segment.
-pub(crate) fn on_segments<'a>(
-    knots: &'a [Ball],
-    segments: &Range<usize>,
-) -> impl Iterator<Item = (usize, &'a Ball)> {
-    let [first, end] =
-        [segments.start, segments.end].map(|at| knots.partition_point(|ball| ball.segment < at));
-    (first..).zip(&knots[first..end])
+/// Numbers of the knots on a run of segments, of all in rising order of segment.
+pub(crate) fn on_segments(knots: &[Ball], segments: &Range<usize>) -> Range<usize> {
+    let place = |at: usize| knots.partition_point(|ball| ball.segment < at);
+    place(segments.start)..place(segments.end)
 }

@@ -1,12 +1,11 @@
 //! Gathers pairs of segments that may touch in a step.
 
-use std::ops::Range;
-
 use glam::DVec3;
 
 use super::{Pair, RopeWorkspace, TOUCH_M};
 use crate::contact::pieces::Pieces;
 use crate::contact::ropes::broad::{Moves, Reach};
+use crate::contact::ropes::knots::on_segments;
 use crate::contact::ropes::sweep::{greatest_approach, nearest};
 use crate::model::Model;
 use crate::same_bits::same_bits;
@@ -109,7 +108,9 @@ impl RopeWorkspace {
             if is_whole(segments) {
                 self.add_pair((segments, [Some(*knot), None]), known, (from, &to), margin);
                 // Of two knots each finds the other's segment; the first takes both.
-                for other in self.knots_on(*segment).filter(|other| other > knot) {
+                for other in
+                    on_segments(&self.knots, &(*segment..segment + 1)).filter(|other| other > knot)
+                {
                     self.add_pair(
                         (segments, [Some(*knot), Some(other)]),
                         known,
@@ -121,13 +122,6 @@ impl RopeWorkspace {
         }
         self.pairs.sort_unstable_by_key(Pair::key);
         self.found = found;
-    }
-
-    /// Numbers of the knots on a segment.
-    fn knots_on(&self, segment: usize) -> Range<usize> {
-        let [first, end] =
-            [segment, segment + 1].map(|at| self.knots.partition_point(|ball| ball.segment < at));
-        first..end
     }
 
     /// Sum of the radii of two things [m].
