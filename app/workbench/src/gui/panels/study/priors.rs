@@ -80,12 +80,7 @@ fn prior(ui: &mut Ui, shared: &mut Shared, name: &str, edits: &mut Edits) {
         super::label(ui, &name.replace('_', " ").replace('"', ""));
         laws(ui, &at, law, name, edits);
         match *law {
-            "uniform" => pair(ui, shared, &format!("{at}.uniform"), edits),
-            "normal" => {
-                pair(ui, shared, &format!("{at}.normal"), edits);
-                ui.label("within");
-                pair(ui, shared, &format!("{at}.between"), edits);
-            }
+            "uniform" | "normal" => pair(ui, shared, &format!("{at}.{law}"), edits),
             "value" => one(ui, shared, &format!("{at}.value"), 84.0, edits),
             _ => {}
         }
@@ -97,6 +92,13 @@ fn prior(ui: &mut Ui, shared: &mut Shared, name: &str, edits: &mut Edits) {
             edits.push((at.clone(), None));
         }
     });
+    if *law == "normal" {
+        // On a line of its own: four fields beside the law are wider than the panel.
+        ui.horizontal(|ui| {
+            super::label(ui, "  within");
+            pair(ui, shared, &format!("{at}.between"), edits);
+        });
+    }
     if *law == "bins" {
         let ends = "Ends of the ranges in rising order, with commas between";
         list(ui, shared, ("", &format!("{at}.bins")), ends, edits);
