@@ -2,8 +2,11 @@
 
 use endline_sdk::{BodyPart, Limb};
 
+use crate::diagnostic::At;
 use crate::fields::Fields;
 use crate::nearest::hint;
+
+use super::option::texts;
 
 /// Turns about a part from which it counts as wrapped; as `docs/entanglement.md` has it, half a turn hooks. An estimate.
 pub const HOOKED_TURNS: f64 = 0.5;
@@ -316,7 +319,17 @@ pub(super) fn need(fields: &Fields<'_>, key: &'static str) -> Option<StudyEvent>
 
 /// An event under a key, if it is there.
 pub(super) fn maybe(fields: &Fields<'_>, key: &'static str) -> Option<StudyEvent> {
-    let word = fields.text(key)?;
+    find(&fields.text(key)?, fields)
+}
+
+/// Events in a list under a key.
+pub(super) fn list(fields: &Fields<'_>, key: &'static str) -> Vec<At<StudyEvent>> {
+    let at = |word: At<String>| Some(At { value: find(&word, fields)?, place: word.place });
+    texts(fields, key).into_iter().filter_map(at).collect()
+}
+
+/// The event of a word, or the problem that there is none.
+fn find(word: &At<String>, fields: &Fields<'_>) -> Option<StudyEvent> {
     let found = StudyEvent::find(&word.value);
     if found.is_none() {
         let names: Vec<String> = StudyEvent::all().iter().map(StudyEvent::name).collect();

@@ -26,6 +26,10 @@ pub use prior::{Law, Level, Prior, Target};
 /// Most encounters: the Sobol sequence used has this many points.
 pub const MOST_ENCOUNTERS: u64 = 65_536;
 
+/// Share of encounters drawn from the priors themselves, where a study does not say: no encounter then weighs more than
+/// four times the mean.
+const FROM_PRIORS: f64 = 0.25;
+
 /// A study as read; what it names in the library is looked up by the session.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Study {
@@ -47,6 +51,8 @@ pub struct Study {
     pub baseline: At<String>,
     /// What options are ranked by.
     pub event: StudyEvent,
+    /// Other events by which options are to be compared, decided before the first run.
+    pub registered: Vec<At<StudyEvent>>,
     /// Prior by whose levels results are also listed apart.
     pub split: Option<At<String>>,
     /// When a run ends.
@@ -59,6 +65,8 @@ pub struct Study {
     pub aim: Aim,
     /// What is drawn, by name.
     pub priors: Vec<Prior>,
+    /// Share of encounters drawn from the priors themselves where a prior has a proposal.
+    pub from_priors: f64,
     /// Statements whose sign is looked at, by id.
     pub claims: Vec<Claim>,
     /// Shares seen on real whales against which its own are held, by id.
@@ -130,11 +138,12 @@ impl Study {
         let baseline = fields
             .need_text("baseline", "write the id of the option that others are compared with");
         let event = event::maybe(&fields, "event");
+        let registered = event::list(&fields, "registered");
         let split = fields.text("split");
         let run = run_rule(&fields);
         let enough = fields.table("enough").and_then(|fields| enough(&fields));
         let options = option::read_all(&fields);
-        let (aim, priors) = encounter(&fields);
+        let (aim, priors, from_priors) = encounter(&fields);
         let claims = claim::read_all(&fields, &options);
         let observations = observation::read_all(&fields, &options);
         fields.finish();
@@ -148,12 +157,14 @@ impl Study {
             encounters: encounters?,
             baseline: baseline?,
             event: event.unwrap_or(StudyEvent::Entangled),
+            registered,
             split,
             run,
             enough,
             options,
             aim,
             priors,
+            from_priors,
             claims,
             observations,
             canonical: canon::of(node),
@@ -229,10 +240,10 @@ fn enough(table: &Fields<'_>) -> Option<Enough> {
 }
 
 /// `[encounter]`: where the whale is aimed, and one table for each prior.
-fn encounter(fields: &Fields<'_>) -> (Aim, Vec<Prior>) {
+fn encounter(fields: &Fields<'_>) -> (Aim, Vec<Prior>, f64) {
     let Some(table) = fields.table("encounter") else {
         fields.missing("encounter", "write how encounters are drawn, such as [encounter.speed] with uniform = [\"0.5 m/s\", \"1.6 m/s\"]");
-        return (Aim { lines: Vec::new(), own: false, gap_m: 4.0 }, Vec::new());
+        return (Aim { lines: Vec::new(), own: false, gap_m: 4.0 }, Vec::new(), FROM_PRIORS);
     };
     let lines = option::texts(&table, "aim");
     let by = table.word("aim_by", &["baseline", "own"]);
@@ -242,7 +253,8 @@ fn encounter(fields: &Fields<'_>) -> (Aim, Vec<Prior>) {
         own: by.is_some_and(|by| by.value == "own"),
         gap_m: gap.map_or(4.0, |gap| gap.value),
     };
+    let from_priors = table.value("from_priors", Quantity::Ratio, Range::Between(0.05, 1.0));
     let priors = prior::read_all(&table);
     table.finish();
-    (aim, priors)
+    (aim, priors, from_priors.map_or(FROM_PRIORS, |share| share.value))
 }

@@ -9,6 +9,8 @@ pub struct Attempt {
     pub encounter: u32,
     /// Id of the option.
     pub option: String,
+    /// What the encounter counts for.
+    pub weight: f64,
     /// Key by which `endline study replay` finds it.
     pub replay_key: String,
     /// Why there is no run, or why it is not valid; empty where it is.
@@ -31,6 +33,15 @@ pub static ATTEMPT: &[Figure<Attempt>] = &[
     })
     .not_in_json()
     .column(1),
+    Figure::new(
+        "weight",
+        "weight",
+        "What the encounter counts for, where encounters are drawn from proposals; 1 otherwise.",
+        Quantity::Number,
+        |attempt: &Attempt| attempt.weight.into(),
+    )
+    .not_in_json()
+    .column(3),
     Figure::new(
         "replay_key",
         "replay key",

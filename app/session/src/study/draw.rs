@@ -1,11 +1,14 @@
 //! Draws of an encounter: point `i` of a scrambled Sobol sequence, one dimension for each prior.
 //!
 //! A point depends on the seed, the priors' names and `i` alone: any encounter can be drawn without those before it, by
-//! any machine, and every option of a study meets the same ones.
+//! any machine, and every option of a study meets the same ones. Where priors have proposals, one more dimension says from which
+//! of the two all values of an encounter come.
 //! Reference: Burley 2020, Practical hash-based Owen scrambling (JCGT 9(4)).
 
-use endline_gear::{Law, Level, Prior, Setting, units};
+use endline_gear::{Law, Level, Prior, Setting, Study, units};
 use statrs::distribution::{ContinuousCDF, Normal};
+
+use super::density::weight;
 
 /// A drawn value.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,34 +31,71 @@ impl Drawn {
     }
 }
 
-/// Every prior's value in encounter `index`, in the order of the priors (by name).
+/// What was drawn for an encounter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Draw {
+    /// Every prior's value, in the order of the priors (by name).
+    pub values: Vec<Drawn>,
+    /// What the encounter counts for: its density under the priors over that under which it was drawn. Weights have mean 1.
+    pub weight: f64,
+}
+
+/// Draws encounter `index` of a study.
 #[must_use]
-pub fn draw(priors: &[Prior], seed: u64, index: u32) -> Vec<Drawn> {
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "both halves of the seed are folded into the sequence's 32 bits"
-    )]
-    let seed = (seed ^ (seed >> 32)) as u32;
-    let mut dimension = 0;
-    let mut drawn = Vec::with_capacity(priors.len());
-    for prior in priors {
-        let fixed = matches!(&prior.law, Law::Choice(levels) if levels.len() == 1);
-        // The middle of the point's cell: never 0, never 1.
-        let share = if fixed {
-            0.5
-        } else {
-            f64::from(sobol_burley::sample(index, dimension, seed)) + f64::from(f32::EPSILON) / 4.0
-        };
-        dimension += u32::from(!fixed);
-        drawn.push(value(prior, share));
+pub fn draw(study: &Study, index: u32) -> Draw {
+    let priors = &study.priors;
+    let mut point = Point::of(study.seed, index);
+    let shares: Vec<f64> =
+        priors.iter().map(|prior| if is_fixed(prior) { 0.5 } else { point.share() }).collect();
+    let mixed = priors.iter().any(|prior| prior.proposal.is_some()) && study.from_priors < 1.0;
+    // The last dimension tells priors from proposals, so that a proposal moves no other draw.
+    let proposes = mixed && point.share() >= study.from_priors;
+    let law = |prior: &'_ Prior| match &prior.proposal {
+        Some(proposal) if proposes => proposal.clone(),
+        _ => prior.law.clone(),
+    };
+    let values: Vec<Drawn> = priors
+        .iter()
+        .zip(shares)
+        .map(|(prior, share)| value(&prior.name.value, &law(prior), share))
+        .collect();
+    let weight = if mixed { weight(priors, &values, study.from_priors) } else { 1.0 };
+    Draw { values, weight }
+}
+
+fn is_fixed(prior: &Prior) -> bool {
+    matches!(&prior.law, Law::Choice(levels) if levels.len() == 1)
+}
+
+/// A point of the sequence, read dimension by dimension.
+struct Point {
+    index: u32,
+    dimension: u32,
+    seed: u32,
+}
+
+impl Point {
+    fn of(seed: u64, index: u32) -> Self {
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "both halves of the seed are folded into the sequence's 32 bits"
+        )]
+        let seed = (seed ^ (seed >> 32)) as u32;
+        Self { index, dimension: 0, seed }
     }
-    drawn
+
+    /// The middle of the point's cell: never 0, never 1.
+    fn share(&mut self) -> f64 {
+        let share = sobol_burley::sample(self.index, self.dimension, self.seed);
+        self.dimension += 1;
+        f64::from(share) + f64::from(f32::EPSILON) / 4.0
+    }
 }
 
 /// The value below which a share of the distribution lies.
-fn value(prior: &Prior, share: f64) -> Drawn {
-    let name = prior.name.value.clone();
-    match &prior.law {
+fn value(name: &str, law: &Law, share: f64) -> Drawn {
+    let name = name.to_owned();
+    match law {
         Law::Uniform { low, high, quantity } => number(name, low + (high - low) * share, *quantity),
         Law::Normal { mean, deviation, low, high, quantity } => {
             number(name, cut_normal(*mean, *deviation, [*low, *high], share), *quantity)
@@ -144,14 +184,15 @@ value = "90 deg"
 source = "assumed"
 "#;
 
-    fn priors() -> Vec<Prior> {
-        Study::read("draws.toml", STUDY).unwrap_or_else(|problems| panic!("{problems:?}")).priors
+    fn study() -> Study {
+        Study::read("draws.toml", STUDY).unwrap_or_else(|problems| panic!("{problems:?}"))
     }
 
     fn numbers(name: &str, count: u32) -> Vec<f64> {
-        let priors = priors();
+        let study = study();
         let one = |index| {
-            draw(&priors, 7, index)
+            draw(&study, index)
+                .values
                 .into_iter()
                 .find(|drawn| drawn.name == name)
                 .and_then(|drawn| drawn.number)
@@ -183,17 +224,18 @@ source = "assumed"
             assert!((share(low, high) - expected).abs() < 2e-3, "{low}: {}", share(low, high));
         }
         let swims = (0..4096)
-            .filter(|index| draw(&priors(), 7, *index).iter().any(|drawn| drawn.text == "swim"))
+            .filter(|index| draw(&study(), *index).values.iter().any(|drawn| drawn.text == "swim"))
             .count();
         assert!((swims as f64 / 4096.0 - 0.7).abs() < 2e-3, "{swims}");
     }
 
     #[test]
     fn a_draw_hangs_on_index_and_seed_alone() {
-        let priors = priors();
-        assert_eq!(draw(&priors, 7, 123), draw(&priors, 7, 123));
-        assert_ne!(draw(&priors, 7, 123), draw(&priors, 8, 123));
-        assert_ne!(draw(&priors, 7, 123), draw(&priors, 7, 124));
+        let (study, mut other) = (study(), study());
+        assert_eq!(draw(&study, 123), draw(&study, 123));
+        other.seed += 1;
+        assert_ne!(draw(&study, 123), draw(&other, 123));
+        assert_ne!(draw(&study, 123), draw(&study, 124));
     }
 
     #[test]
@@ -204,6 +246,66 @@ source = "assumed"
         let [one, other] =
             [STUDY, turned.as_str()].map(|text| Study::read("draws.toml", text).unwrap());
         assert_eq!(one.canonical, other.canonical);
-        assert_eq!(draw(&one.priors, 1, 5), draw(&other.priors, 1, 5));
+        assert_eq!(draw(&one, 5), draw(&other, 5));
+    }
+
+    /// Means of a proposal's draws by their weights are those of the prior; a weight alone is at most four.
+    #[test]
+    fn weights_bring_a_proposal_back_to_its_prior() {
+        let proposed = STUDY
+            .replace(
+                "weights = [0.72, 0.28]",
+                "weights = [0.72, 0.28]\nproposal = { bins = [\"2 m\", \"3 m\", \"20 m\"], weights = [0.8, 0.2] }",
+            )
+            .replace(
+                "weights = [0.7, 0.3]",
+                "weights = [0.7, 0.3]\nproposal = { choice = [\"swim\", \"skim-feed\"], weights = [0.2, 0.8] }",
+            )
+            .replace(
+                "between = [\"9 m\", \"15 m\"]",
+                "between = [\"9 m\", \"15 m\"]\nproposal = { uniform = [\"9 m\", \"15 m\"] }",
+            );
+        let study = Study::read("draws.toml", &proposed).unwrap();
+        let draws: Vec<Draw> = (0..16_384).map(|index| draw(&study, index)).collect();
+        assert!(draws.iter().all(|draw| draw.weight > 0.0 && draw.weight <= 4.0));
+        let mean = |of: &dyn Fn(&[Drawn]) -> f64| {
+            let sum: f64 = draws.iter().map(|draw| draw.weight * of(&draw.values)).sum();
+            sum / draws.len() as f64
+        };
+        let number = |values: &[Drawn], name: &str| {
+            values.iter().find(|drawn| drawn.name == name).and_then(|drawn| drawn.number).unwrap()
+        };
+        let shallow = |values: &[Drawn]| f64::from(number(values, "depth") < 3.0);
+        let skims =
+            |values: &[Drawn]| f64::from(values.iter().any(|drawn| drawn.text == "skim-feed"));
+        for (name, found, expected) in [
+            ("one", mean(&|_| 1.0), 1.0),
+            ("depth below 3 m", mean(&shallow), 0.09),
+            ("skims", mean(&skims), 0.3),
+            ("both", mean(&|values| shallow(values) * skims(values)), 0.027),
+            ("length", mean(&|values| number(values, "length")), 12.0),
+            ("speed", mean(&|values| number(values, "speed")), 1.0),
+        ] {
+            assert!((found - expected).abs() < 0.01 * expected, "{name}: {found} of {expected}");
+        }
+        let without = draws.iter().filter(|draw| shallow(&draw.values) > 0.5).count();
+        assert!(without > 9000, "{without}: the proposal draws these far more often");
+    }
+
+    #[test]
+    fn a_proposal_that_leaves_values_out_is_refused() {
+        for proposal in [
+            "{ uniform = [\"2 m\", \"10 m\"] }",
+            "{ bins = [\"2 m\", \"3 m\", \"20 m\"], weights = [1, 0] }",
+            "{ choice = [\"2 m\", \"20 m\"] }",
+        ] {
+            let text = STUDY.replace(
+                "weights = [0.72, 0.28]",
+                &format!("weights = [0.72, 0.28]\nproposal = {proposal}"),
+            );
+            let problems = Study::read("draws.toml", &text).unwrap_err();
+            let told = problems.iter().any(|problem| problem.message.contains("proposal"));
+            assert!(told, "{proposal}: {problems:?}");
+        }
     }
 }

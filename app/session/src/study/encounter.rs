@@ -1,6 +1,6 @@
 //! An encounter: what was drawn for it.
 
-use super::draw::{self, Drawn};
+use super::draw::{self, Draw, Drawn};
 use super::open::Opened;
 
 /// An encounter drawn.
@@ -10,13 +10,16 @@ pub struct Encounter {
     pub index: u32,
     /// What was drawn, by name.
     pub drawn: Vec<Drawn>,
+    /// What it counts for; weights have mean 1.
+    pub weight: f64,
 }
 
 impl Encounter {
     /// Draws encounter `index` of a study.
     #[must_use]
     pub fn of(opened: &Opened, index: u32) -> Self {
-        Self { index, drawn: draw::draw(&opened.study.priors, opened.study.seed, index) }
+        let Draw { values: drawn, weight } = draw::draw(&opened.study, index);
+        Self { index, drawn, weight }
     }
 
     /// A number that was drawn, by name [SI].

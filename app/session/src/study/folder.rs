@@ -2,7 +2,7 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `study.json` | which study this is: hash, version, size |
+//! | `study.json` | which study this is: hash, version, size; what it says it will look at (`registration`) |
 //! | `block-00012.parquet` | rows of encounters 48 to 51, whole or not there |
 //! | `table.parquet`, `table.csv` | all rows, once merged |
 
@@ -16,6 +16,7 @@ use crate::save;
 
 use super::open::Opened;
 use super::parquet;
+use super::registration::Registration;
 use super::table::Table;
 
 /// Encounters of a block: what a killed program loses at most, for each thread.
@@ -41,6 +42,9 @@ pub struct Label {
     pub block: u32,
     /// Ids of the options.
     pub options: Vec<String>,
+    /// What is looked at, as it stood when the folder was made.
+    #[serde(default)]
+    pub registration: Registration,
 }
 
 impl Label {
@@ -53,6 +57,7 @@ impl Label {
             encounters: opened.study.encounters,
             block: BLOCK,
             options: opened.options.iter().map(|option| option.id.clone()).collect(),
+            registration: Registration::of(&opened.study),
         }
     }
 }
@@ -62,6 +67,8 @@ impl Label {
 pub struct Folder {
     /// Where.
     pub path: PathBuf,
+    /// What is looked at, as it stood before the first run.
+    pub registration: Registration,
     hash: String,
     encounters: u32,
 }
@@ -82,16 +89,17 @@ impl Folder {
             .map_err(|error| Error::at(path, format!("cannot be made: {error}")))?;
         let file = path.join("study.json");
         let label = Label::of(opened);
-        match fs::read_to_string(&file) {
+        let registration = match fs::read_to_string(&file) {
             Err(_) => {
                 let text = serde_json::to_string_pretty(&label).unwrap_or_default() + "\n";
                 save::atomically(&file, text.as_bytes())
                     .map_err(|error| Error::at(&file, format!("cannot be written: {error}")))?;
+                label.registration
             }
             Ok(text) => same(&file, &text, &label)?,
-        }
+        };
         let encounters = u32::try_from(opened.study.encounters).unwrap_or(u32::MAX);
-        Ok(Self { path: path.to_path_buf(), hash: opened.hash.clone(), encounters })
+        Ok(Self { path: path.to_path_buf(), registration, hash: opened.hash.clone(), encounters })
     }
 
     /// How many blocks.
@@ -163,12 +171,12 @@ impl Folder {
     }
 }
 
-/// Whether a folder's label is that of the study; more or fewer encounters are the same study.
-fn same(file: &Path, text: &str, label: &Label) -> Result<(), Error> {
+/// What a folder's label registered, if the label is that of the study; more or fewer encounters are the same study.
+fn same(file: &Path, text: &str, label: &Label) -> Result<Registration, Error> {
     let found: Label = serde_json::from_str(text)
         .map_err(|error| Error::at(file, format!("is damaged: {error}")))?;
     if found.hash == label.hash && found.block == label.block {
-        return Ok(());
+        return Ok(found.registration);
     }
     let short = |hash: &str| hash.chars().take(16).collect::<String>();
     let message = format!(

@@ -163,7 +163,7 @@ impl Base<'_> {
     ) -> Result<Prepared, Error> {
         // What is drawn stands in the place of what the option leaves open, so that drawn values are checked too.
         let mut text = scenario.clone();
-        let drawn = draw::draw(&self.study.priors, self.study.seed, 0);
+        let drawn = draw::draw(self.study, 0).values;
         let mut sources = sources.clone();
         put_drawn(&mut text, &mut sources, self.study.priors.iter().zip(&drawn), &own(option))?;
         let source = Source {

@@ -70,7 +70,7 @@ impl StudyResults {
         if table.rows() == 0 {
             return Ok(None);
         }
-        let findings = Findings::of(&opened, &table);
+        let findings = Findings::of(&opened, &table, &folder.registration);
         Ok(Some(Self { opened, folder: path, table, findings, whole }))
     }
 

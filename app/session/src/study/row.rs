@@ -26,6 +26,7 @@ pub(super) fn row(
     let attempt = Attempt {
         encounter: encounter.index,
         option: id.clone(),
+        weight: encounter.weight,
         replay_key: format!("{}/{}/{id}", &opened.hash[..16], encounter.index),
         fault: fault(came_to),
     };
@@ -100,7 +101,7 @@ mod tests {
     use crate::figures::tests::made_up;
 
     /// The columns of `table.parquet` before those of what was drawn; scripts depend on them.
-    const COLUMNS: &str = "encounter option replay_key valid fault tunnelled unconverged simulated_s \
+    const COLUMNS: &str = "encounter option replay_key weight valid fault tunnelled unconverged simulated_s \
         state_hash outcome decided first_contact_s last_contact_s contact_time_s drag_added_N \
         trailing_m tethered_m was_lodged_in_mouth was_body_caught peak_body_push_N lodged_in_mouth speed_made_good_m_s PARTS peak_tension_N peak_line peak_at_s \
         link_peak_N parted parted_at_s resolution_looks resolution_missed";
@@ -113,6 +114,7 @@ mod tests {
         Attempt {
             encounter: 7,
             option: "link-0600".into(),
+            weight: 1.0,
             replay_key: "0123/7/link-0600".into(),
             fault: "a fault".into(),
         }

@@ -3,6 +3,7 @@
 mod known;
 mod law;
 mod read_law;
+mod support;
 
 use crate::confidence::Confidence;
 use crate::diagnostic::{At, Place};
@@ -11,8 +12,9 @@ use crate::nearest::hint;
 use crate::tree::Node;
 
 use super::option::library_field;
-use known::KNOWN;
+use known::{KNOWN, Takes};
 use read_law::law;
+use support::check_same;
 
 pub use law::{Law, Level};
 
@@ -25,6 +27,8 @@ pub struct Prior {
     pub target: Target,
     /// Its distribution.
     pub law: Law,
+    /// The distribution from which most encounters are drawn instead, weighted back to the prior.
+    pub proposal: Option<Law>,
     /// Where that comes from.
     pub source: String,
     /// How well it is known.
@@ -80,6 +84,7 @@ fn read(name: &str, key: &Place, node: &Node, outer: &Fields<'_>) -> Option<Prio
     };
     let fields = Fields::of(node, problems);
     let law = law(&fields, known);
+    let proposal = law.as_ref().and_then(|law| proposal(&fields, law, known));
     let source = fields.text("source");
     let given = confidence(&fields, &Confidence::OF_PRIORS);
     if source.is_none() && fields.get("source").is_none() {
@@ -98,9 +103,21 @@ fn read(name: &str, key: &Place, node: &Node, outer: &Fields<'_>) -> Option<Prio
         name,
         target,
         law: law?,
+        proposal,
         confidence: given.unwrap_or(Confidence::Assumed),
         source: source.value,
     })
+}
+
+/// `proposal`: a table with a law of the same values.
+fn proposal(fields: &Fields<'_>, prior: &Law, known: Option<Takes>) -> Option<Law> {
+    let table = fields.table("proposal")?;
+    let law = law(&table, known);
+    table.finish();
+    let place = fields.get("proposal").map(|node| node.place.clone());
+    let same =
+        |law: &Law| place.is_some_and(|place| check_same(prior, law, &place, fields.problems()));
+    law.filter(same)
 }
 
 /// Where a value drawn under a name goes; `None` where there is nothing of that name.

@@ -42,26 +42,35 @@ pub(super) fn tensions(findings: &Findings) -> String {
     let mut y = top + 6.0;
     for (kind, (option, names)) in groups.into_iter().enumerate() {
         let sorted_n = &option.tensions.sorted_n;
-        let place = |index: usize, tension_n: f64| {
-            [
-                across.at(tension_n.max(1e-9).log10()),
-                up.at(index as f64 / sorted_n.len().max(1) as f64),
-            ]
-        };
+        let shares = shares_below(sorted_n);
+        let place =
+            |share: f64, tension_n: f64| [across.at(tension_n.max(1e-9).log10()), up.at(share)];
         let steps = sorted_n
             .iter()
-            .enumerate()
-            .flat_map(|(index, tension)| [place(index, *tension), place(index + 1, *tension)]);
+            .zip(shares.windows(2))
+            .flat_map(|((tension, _), ends)| [place(ends[0], *tension), place(ends[1], *tension)]);
         svg.path(&steps.collect::<Vec<_>>(), kind);
         for tenth in (0..10).map(|tenth| tenth * sorted_n.len() / 10 + kind * sorted_n.len() / 100)
         {
-            if let Some(tension) = sorted_n.get(tenth) {
-                svg.mark(place(tenth, *tension), kind);
+            if let Some((tension, _)) = sorted_n.get(tenth) {
+                svg.mark(place(shares[tenth], *tension), kind);
             }
         }
         y = legend(&mut svg, [right, y], kind, &names);
     }
     svg.done()
+}
+
+/// Share of the weight of all runs before each of them, and 1 at the end.
+fn shares_below(sorted_n: &[(f64, f64)]) -> Vec<f64> {
+    let all: f64 = sorted_n.iter().map(|(_, weight)| weight).sum();
+    let mut below = 0.0;
+    let mut shares = vec![0.0];
+    for (_, weight) in sorted_n {
+        below += weight / all.max(f64::MIN_POSITIVE);
+        shares.push(below);
+    }
+    shares
 }
 
 /// The look of a curve with the names of all that share it, beside the curves; answers where the next begins.

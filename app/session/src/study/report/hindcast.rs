@@ -42,7 +42,8 @@ fn row(seen: &ObservationFinding) -> String {
         seen.counted.clone(),
         format!("{:.0} to {:.0} %", 100.0 * seen.observed.low, 100.0 * seen.observed.high),
         simulated(seen).replace('\u{a0}', " "),
-        seen.agreement.words().to_owned(),
+        seen.agreement.words().to_owned()
+            + if seen.registered { "" } else { ", added after the first run" },
         seen.notes.clone(),
     ];
     format!("| {} |\n", cells.map(|cell| cell.replace('|', "\\|")).join(" | "))

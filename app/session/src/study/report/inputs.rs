@@ -5,7 +5,7 @@ use endline_gear::{Prior, StudyOption};
 use crate::strength::PartStrength;
 use crate::study::open::Opened;
 use crate::study::stats::{
-    ClaimFinding, Findings, InputFinding, ObservationFinding, OptionFinding,
+    ClaimFinding, Findings, InputFinding, ObservationFinding, OptionFinding, SobolIndex,
 };
 
 use super::cell::{Cell, Line, Table};
@@ -20,10 +20,15 @@ pub(super) fn claims(findings: &Findings) -> Option<Table> {
             Cell::lines([claim.more.clone(), rate(&claim.more_rate)]),
             Cell::lines([claim.less.clone(), rate(&claim.less_rate)]),
             points(claim.difference, claim.interval).into(),
-            claim.verdict.words().into(),
+            format!("{:.3}", claim.adjusted).into(),
+            Cell::lines(
+                [claim.verdict.words().to_owned()].into_iter().chain(later(claim.registered)),
+            ),
         ]
     };
-    let headings = ["claim", "should be more", "should be less", "difference", "result"];
+    let among = format!("p among {} claims (Holm)", findings.claims.len());
+    let headings =
+        ["claim", "should be more", "should be less", "difference", among.as_str(), "result"];
     let rows: Vec<Vec<Cell>> = findings.claims.iter().map(row).collect();
     (!rows.is_empty()).then(|| Table::new("Whether the sign holds", &headings, rows))
 }
@@ -37,13 +42,20 @@ pub(super) fn observations(findings: &Findings) -> Option<Table> {
             Cell::from(&seen.counted),
             percent_interval(seen.observed).into(),
             simulated(seen).into(),
-            seen.agreement.words().into(),
+            Cell::lines(
+                [seen.agreement.words().to_owned()].into_iter().chain(later(seen.registered)),
+            ),
             Cell::from(&seen.notes),
         ]
     };
     let headings = ["seen", "counted", "observed, %", "simulated", "result", "notes"];
     let rows: Vec<Vec<Cell>> = findings.observations.iter().map(row).collect();
     (!rows.is_empty()).then(|| Table::new("The study's shares beside those seen", &headings, rows))
+}
+
+/// What is said of a claim or observation that was not in the study before its first run.
+fn later(registered: bool) -> Option<String> {
+    (!registered).then(|| "added after the first run".to_owned())
 }
 
 /// `77.4 % [60.2, 88.6], 24 of 31`.
@@ -61,11 +73,21 @@ pub(super) fn sensitivity(findings: &Findings) -> Table {
         let parts = input.parts.iter().map(|part| format!("{}: {}", part.name, rate(&part.rate)));
         let best =
             if input.same_best { "one option has or shares it in every part" } else { "changes" };
-        vec![Cell::from(&input.words), Cell::lines(parts), best.into()]
+        let SobolIndex { index, by_chance } = input.sobol;
+        let explains = [
+            format!("{:.1} %", 100.0 * index),
+            format!("by chance up to {:.1} %", 100.0 * by_chance),
+        ];
+        vec![Cell::from(&input.words), Cell::lines(parts), Cell::lines(explains), best.into()]
     };
     Table::new(
         "Sensitivity and rank",
-        &["input", "rate by part", "option with the lowest rate"],
+        &[
+            "input",
+            "rate by part",
+            "explains of the variance alone (Sobol index)",
+            "option with the lowest rate",
+        ],
         findings.inputs.iter().map(row).collect(),
     )
 }
@@ -74,7 +96,10 @@ pub(super) fn sensitivity(findings: &Findings) -> Table {
 pub(super) fn priors(opened: &Opened) -> Table {
     let row = |prior: &Prior| {
         let tag = Cell { lines: vec![Line::Tag(prior.confidence.word())] };
-        vec![prior.words().into(), prior.law.words().into(), tag, Cell::from(&prior.source)]
+        let proposal =
+            prior.proposal.as_ref().map(|law| format!("drawn mostly from {}", law.words()));
+        let laws = Cell::lines([prior.law.words()].into_iter().chain(proposal));
+        vec![prior.words().into(), laws, tag, Cell::from(&prior.source)]
     };
     Table::new(
         "How encounters are drawn",

@@ -54,6 +54,7 @@ pub(super) fn compared(findings: &Findings) -> Vec<Table> {
 }
 
 fn against(findings: &Findings, event: &str) -> Table {
+    let among = format!("p among {} registered comparisons (Holm)", findings.comparisons);
     let headings = [
         "option",
         "difference",
@@ -61,6 +62,7 @@ fn against(findings: &Findings, event: &str) -> Table {
         "probability of fewer",
         "only with the option, only with the baseline",
         "McNemar test, p",
+        among.as_str(),
         "share of resamples in which its rate is lowest",
     ];
     let row = |option: &OptionFinding| -> Option<Vec<Cell>> {
@@ -73,6 +75,10 @@ fn against(findings: &Findings, event: &str) -> Table {
             format!("{} and {} of {}", paired.only_this, paired.only_other, paired.encounters)
                 .into(),
             format!("{:.3}", paired.mcnemar).into(),
+            option
+                .adjusted(&findings.event)
+                .map_or_else(|| "not registered".into(), |p| format!("{p:.3}"))
+                .into(),
             format!("{:.0} %", 100.0 * option.best_share).into(),
         ])
     };

@@ -7,9 +7,15 @@ use crate::study::stats::{Interval, Rate};
 /// Newtons in a pound-force.
 pub(super) const N_PER_LBF: f64 = 4.448_221_615_260_5;
 
-/// `12.0 % [8.1, 17.4] (24 of 200)`.
+/// `12.0 % [8.1, 17.4] (24 of 200)`; of weighted encounters `0.8 % [0.5, 1.2] (24 of 200, worth 2600)`.
 pub(super) fn rate(rate: &Rate) -> String {
-    format!("{} ({} of {})", short_rate(rate), rate.hits, rate.runs)
+    let runs = rate.runs as f64;
+    let worth = if (rate.effective - runs).abs() < 0.5 {
+        String::new()
+    } else {
+        format!(", worth {:.0}", rate.effective)
+    };
+    format!("{} ({} of {}{worth})", short_rate(rate), rate.hits, rate.runs)
 }
 
 /// `12.0 % [8.1, 17.4]`.

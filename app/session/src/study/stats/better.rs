@@ -7,9 +7,9 @@
 use statrs::distribution::{Beta, ContinuousCDF};
 
 /// From the encounters with the event with the option only, and with the other only.
-pub(super) fn probability_fewer(only_this: u64, only_other: u64) -> f64 {
-    if only_this == only_other {
+pub(super) fn probability_fewer(only_this: f64, only_other: f64) -> f64 {
+    if only_this.total_cmp(&only_other).is_eq() {
         return 0.5;
     }
-    Beta::new(only_this as f64 + 0.5, only_other as f64 + 0.5).map_or(0.5, |share| share.cdf(0.5))
+    Beta::new(only_this + 0.5, only_other + 0.5).map_or(0.5, |share| share.cdf(0.5))
 }

@@ -10,7 +10,7 @@ use crate::study::table::Table;
 
 use super::bootstrap;
 use super::interval::{Interval, Rate};
-use super::marks::encounters;
+use super::marks::{Mark, Marks, encounters, weights};
 
 /// Outcomes in the order of how bad they are.
 const OUTCOMES: [&str; 5] = ["no_contact", "shed", "parted_free", "parted_entangled", "entangled"];
@@ -44,6 +44,7 @@ pub struct Change {
 struct End {
     outcome: usize,
     tension_n: f64,
+    weight: f64,
 }
 
 impl Changes {
@@ -74,15 +75,17 @@ impl Changes {
 
 impl Change {
     fn of(label: &str, pairs: &[[End; 2]]) -> Self {
-        let changed = pairs.iter().filter(|[one, other]| one.outcome != other.outcome).count();
+        let changed = pairs.iter().map(|[one, other]| {
+            Some(Mark { came: one.outcome != other.outcome, weight: one.weight })
+        });
+        let weight: f64 = pairs.iter().map(|[one, _]| one.weight).sum();
         let every: Vec<usize> = (0..pairs.len()).collect();
-        let mean_tension_n = sums(pairs, &every)
-            .filter(|_| !pairs.is_empty())
-            .map(|sums| sums.map(|sum| sum / pairs.len() as f64));
+        let mean_tension_n =
+            sums(pairs, &every).filter(|_| weight > 0.0).map(|sums| sums.map(|sum| sum / weight));
         let ratio =
             |indices: &[usize]| sums(pairs, indices).map(|[baseline, own]| own / baseline - 1.0);
         Self {
-            outcome: Rate::from_counts(changed as u64, pairs.len() as u64),
+            outcome: Rate::of(&Marks(changed.collect())),
             mean_tension_n,
             tension: ratio(&every),
             tension_interval: bootstrap::interval(label, pairs.len(), ratio),
@@ -90,25 +93,25 @@ impl Change {
     }
 }
 
-/// Sums of the greatest tensions of some encounters; none where the baseline's is nothing [N].
+/// Weighted sums of the greatest tensions of some encounters; none where the baseline's is nothing [N].
 fn sums(pairs: &[[End; 2]], indices: &[usize]) -> Option<[f64; 2]> {
-    let sum =
-        |which: usize| indices.iter().map(|index| pairs[*index][which].tension_n).sum::<f64>();
+    let one = |end: End| end.weight * end.tension_n;
+    let sum = |which: usize| indices.iter().map(|index| one(pairs[*index][which])).sum::<f64>();
     (sum(0) > 0.0).then(|| [sum(0), sum(1)])
 }
 
 /// By encounter: the end of an option's run, where it counts.
 fn ends(table: &Table, option: &str) -> Vec<Option<End>> {
     let (options, valid) = (table.texts("option"), table.flags("valid"));
-    let (outcomes, tensions, encounters) =
-        (table.texts("outcome"), table.reals("peak_tension_N"), encounters(table));
+    let (outcomes, tensions) = (table.texts("outcome"), table.reals("peak_tension_N"));
+    let (encounters, weights) = (encounters(table), weights(table));
     let mut found = vec![None; encounters.iter().max().map_or(0, |last| last + 1)];
     for (row, encounter) in
         encounters.iter().enumerate().filter(|(row, _)| options[*row] == option && valid[*row])
     {
         let outcome = OUTCOMES.iter().position(|known| *known == outcomes[row]);
-        found[*encounter] =
-            outcome.zip(tensions[row]).map(|(outcome, tension_n)| End { outcome, tension_n });
+        let end = |(outcome, tension_n)| End { outcome, tension_n, weight: weights[row] };
+        found[*encounter] = outcome.zip(tensions[row]).map(end);
     }
     found
 }

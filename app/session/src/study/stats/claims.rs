@@ -7,8 +7,10 @@ use crate::study::table::Table;
 
 use super::bootstrap;
 use super::interval::{Interval, Rate};
-use super::marks::Marks;
+use super::marks::{Mark, Marks};
+use super::multiplicity::{holm, of_interval};
 use super::paired::Paired;
+use super::weighted::WeightedMean;
 
 /// What came of a claim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -18,6 +20,8 @@ pub enum Verdict {
     Holds,
     /// The whole interval has the other sign.
     Opposite,
+    /// The whole interval has one sign, but among as many claims chance alone may give that.
+    Alone,
     /// The interval holds zero.
     Open,
 }
@@ -29,6 +33,7 @@ impl Verdict {
         match self {
             Self::Holds => "the sign holds",
             Self::Opposite => "the sign is the other way round",
+            Self::Alone => "not settled: the sign holds for this claim alone, not among all",
             Self::Open => "not settled: the interval holds zero",
         }
     }
@@ -55,12 +60,37 @@ pub struct ClaimFinding {
     pub difference: f64,
     /// Its interval.
     pub interval: Interval,
+    /// Probability of a difference at least as great by chance.
+    pub probability: f64,
+    /// The same among all claims of the study, by Holm.
+    pub adjusted: f64,
     /// Whether the sign holds.
     pub verdict: Verdict,
+    /// Whether it was in the study's file before the first run.
+    pub registered: bool,
 }
 
-/// Looks at a claim.
-pub(super) fn look(claim: &Claim, table: &Table) -> ClaimFinding {
+/// Looks at every claim of a study; which of them are registered is left to the caller.
+pub(super) fn look_at_all(claims: &[Claim], table: &Table) -> Vec<ClaimFinding> {
+    let mut found: Vec<ClaimFinding> = claims.iter().map(|claim| look(claim, table)).collect();
+    let probabilities: Vec<f64> = found.iter().map(|claim| claim.probability).collect();
+    for (claim, adjusted) in found.iter_mut().zip(holm(&probabilities)) {
+        claim.adjusted = adjusted;
+        claim.verdict = verdict(claim.interval, adjusted);
+    }
+    found
+}
+
+fn verdict(interval: Interval, adjusted: f64) -> Verdict {
+    match interval {
+        Interval { low, high } if low <= 0.0 && high >= 0.0 => Verdict::Open,
+        _ if adjusted > 0.05 => Verdict::Alone,
+        Interval { low, .. } if low > 0.0 => Verdict::Holds,
+        _ => Verdict::Opposite,
+    }
+}
+
+fn look(claim: &Claim, table: &Table) -> ClaimFinding {
     let marks = |options: &[String], event| {
         options.iter().map(|option| Marks::of(table, option, event)).collect::<Vec<_>>()
     };
@@ -72,11 +102,7 @@ pub(super) fn look(claim: &Claim, table: &Table) -> ClaimFinding {
         }
         _ => pooled(&claim.id.value, &more, &less),
     };
-    let verdict = match interval {
-        Interval { low, .. } if low > 0.0 => Verdict::Holds,
-        Interval { high, .. } if high < 0.0 => Verdict::Opposite,
-        _ => Verdict::Open,
-    };
+    let probability = of_interval(interval);
     let words = |event: &endline_gear::StudyEvent, options: &[String]| {
         format!("{} with {}", event.words(), options.join(", "))
     };
@@ -90,7 +116,10 @@ pub(super) fn look(claim: &Claim, table: &Table) -> ClaimFinding {
         less_rate: rate(&format!("less {}", claim.id.value), &less),
         difference,
         interval,
-        verdict,
+        probability,
+        adjusted: probability,
+        verdict: verdict(interval, probability),
+        registered: true,
     }
 }
 
@@ -110,32 +139,35 @@ fn rate(label: &str, marks: &[Marks]) -> Rate {
     interval.map_or(all, |interval| Rate { interval, ..all })
 }
 
-/// Share of the options in which the event came, by encounter with any run that counts.
-fn shares(marks: &[Marks]) -> Vec<f64> {
+/// Share of the options in which the event came, by encounter with any run that counts; with what the encounter counts for.
+fn shares(marks: &[Marks]) -> Vec<(f64, f64)> {
     let encounters = marks.iter().map(|marks| marks.0.len()).max().unwrap_or_default();
     (0..encounters).filter_map(|encounter| share(marks, encounter)).collect()
 }
 
-fn share(marks: &[Marks], encounter: usize) -> Option<f64> {
-    let known: Vec<bool> =
+fn share(marks: &[Marks], encounter: usize) -> Option<(f64, f64)> {
+    let known: Vec<Mark> =
         marks.iter().filter_map(|marks| marks.0.get(encounter).copied().flatten()).collect();
-    (!known.is_empty())
-        .then(|| known.iter().filter(|hit| **hit).count() as f64 / known.len() as f64)
+    let weight = known.first()?.weight;
+    Some((known.iter().filter(|mark| mark.came).count() as f64 / known.len() as f64, weight))
 }
 
-fn mean(values: &[f64], indices: &[usize]) -> Option<f64> {
-    Some(indices.iter().map(|index| values[*index]).sum::<f64>() / indices.len() as f64)
+fn mean(values: &[(f64, f64)], indices: &[usize]) -> Option<f64> {
+    let drawn: Vec<(f64, f64)> = indices.iter().map(|index| values[*index]).collect();
+    Some(WeightedMean::of(&drawn).mean)
 }
 
 /// Several options together: the difference of shares within each encounter, encounters drawn again for the interval.
 fn pooled(label: &str, more: &[Marks], less: &[Marks]) -> (f64, Interval) {
     let encounters = more.iter().chain(less).map(|marks| marks.0.len()).max().unwrap_or_default();
-    let differences: Vec<f64> = (0..encounters)
-        .filter_map(|encounter| Some(share(more, encounter)? - share(less, encounter)?))
+    let differences: Vec<(f64, f64)> = (0..encounters)
+        .filter_map(|encounter| {
+            let ((more, weight), (less, _)) = (share(more, encounter)?, share(less, encounter)?);
+            Some((more - less, weight))
+        })
         .collect();
+    let difference = WeightedMean::of(&differences).mean;
     let mean = |indices: &[usize]| mean(&differences, indices);
-    let all: Vec<usize> = (0..differences.len()).collect();
-    let difference = if all.is_empty() { 0.0 } else { mean(&all).unwrap_or_default() };
     let interval = bootstrap::interval(&format!("claim {label}"), differences.len(), mean);
     (difference, interval.unwrap_or(Interval { low: -1.0, high: 1.0 }))
 }

@@ -1,7 +1,13 @@
 //! Intervals cover the truth: simulated studies with known rates.
 
+use endline_gear::Study;
+
+use crate::study::density::weight;
+use crate::study::draw::Drawn;
+
 use super::bootstrap::Draws;
 use super::interval::{Interval, Rate};
+use super::marks::{Mark, Marks};
 use super::paired::Paired;
 
 /// Simulated studies.
@@ -83,4 +89,74 @@ fn the_bootstrap_covers_the_truth() {
     });
     let share = held.count() as f64 / f64::from(studies);
     assert!((0.90..=0.99).contains(&share), "{share}");
+}
+
+/// A study whose event needs a value that is rare, with most encounters drawn where it is not.
+const RARE: &str = r#"
+format = 1
+kind = "study"
+name = "Rare"
+scenario = "hello-endline"
+encounters = 1000
+baseline = "a"
+[[option]]
+id = "a"
+[encounter.offset]
+uniform = ["0 m", "1 m"]
+proposal = { bins = ["0 m", "0.02 m", "1 m"], weights = [0.6, 0.4] }
+source = "assumed"
+"#;
+
+/// One simulated study: an encounter's offset, whether two options hold the whale, and what it weighs.
+fn rare_study(study: &Study, draws: &mut Draws, plain: bool) -> [Marks; 2] {
+    let mut uniform = || draws.below(1 << 30) as f64 / f64::from(1 << 30);
+    let mut marks = [Marks::default(), Marks::default()];
+    for _ in 0..1000 {
+        let share = uniform();
+        let from_prior = plain || uniform() < study.from_priors;
+        let low = [0.0, 0.02];
+        let offset = match (from_prior, share < 0.6) {
+            (true, _) => share,
+            (false, true) => low[1] * share / 0.6,
+            (false, false) => low[1] + (1.0 - low[1]) * (share - 0.6) / 0.4,
+        };
+        let drawn = Drawn {
+            name: "offset".into(),
+            text: String::new(),
+            number: Some(offset),
+            plain: false,
+        };
+        let weight = if plain { 1.0 } else { weight(&study.priors, &[drawn], study.from_priors) };
+        let by_chance = uniform();
+        for (marks, chance) in marks.iter_mut().zip([0.8, 0.5]) {
+            marks.0.push(Some(Mark { came: offset < 0.02 && by_chance < chance, weight }));
+        }
+    }
+    marks
+}
+
+/// Rates of 1.6 and 1.0 %: importance sampling covers them as plain sampling does, with narrower intervals.
+#[test]
+fn weighted_encounters_cover_the_truth_and_know_rare_events_better() {
+    let study = Study::read("rare.toml", RARE).unwrap();
+    let mut told = Vec::new();
+    for plain in [false, true] {
+        let mut draws = Draws::of("importance");
+        let (mut held, mut width) = ([0_u32; 3], 0.0);
+        for _ in 0..STUDIES {
+            let [one, other] = rare_study(&study, &mut draws, plain);
+            let (rate, paired) = (Rate::of(&one), Paired::of(&other, &one));
+            let holds = |interval: Interval, truth: f64| {
+                u32::from((interval.low..=interval.high).contains(&truth))
+            };
+            held[0] += holds(rate.interval, 0.016);
+            held[1] += holds(paired.difference_interval, -0.006);
+            held[2] += paired.ratio_interval.map_or(1, |interval| holds(interval, 0.625));
+            width += (rate.interval.high - rate.interval.low) / STUDIES as f64;
+        }
+        told.push((held.map(|count| f64::from(count) / STUDIES as f64), width));
+    }
+    println!("importance sampling {:?}, plain {:?}", told[0], told[1]);
+    assert!(told[0].0.iter().all(|share| (0.93..=0.97).contains(share)), "{told:?}");
+    assert!(told[0].1 < 0.3 * told[1].1, "{told:?}");
 }

@@ -1,16 +1,20 @@
 //! All that a report tells of a merged table.
 
+use std::collections::BTreeSet;
+
 use endline_gear::StudyEvent;
 use serde::Serialize;
 
 use crate::strength::PartStrength;
 use crate::study::open::Opened;
+use crate::study::registration::Registration;
 use crate::study::table::{Column, Table};
 
 use super::changes::Changes;
 use super::claims::{self, ClaimFinding};
 use super::interval::Rate;
 use super::marks::{Marks, encounters};
+use super::multiplicity::holm;
 use super::observations::{self, ObservationFinding};
 use super::paired::Paired;
 use super::sensitivity::{self, InputFinding, best_shares};
@@ -33,6 +37,10 @@ pub struct Findings {
     pub encounters: u64,
     /// Name of the event options are ranked by.
     pub event: String,
+    /// What was said to be looked at before the first run.
+    pub registration: Registration,
+    /// Comparisons of options with the baseline among which Holm's adjustment is made.
+    pub comparisons: u64,
     /// Place of the baseline among the options.
     pub baseline: usize,
     /// The options.
@@ -68,6 +76,8 @@ pub struct OptionFinding {
     pub rates: Vec<(String, Rate)>,
     /// Every event compared with the baseline: name, comparison.
     pub against: Vec<(String, Paired)>,
+    /// Registered events: name, McNemar's probability among all such comparisons of the study, by Holm.
+    pub adjusted: Vec<(String, f64)>,
     /// Outcomes and tensions beside the baseline's in the same encounters.
     pub changes: Changes,
     /// Greatest tensions.
@@ -109,6 +119,12 @@ impl OptionFinding {
         self.rates.iter().find(|(name, _)| name == event).map(|(_, rate)| rate)
     }
 
+    /// McNemar's probability of a registered event among all registered comparisons.
+    #[must_use]
+    pub fn adjusted(&self, event: &str) -> Option<f64> {
+        self.adjusted.iter().find(|(name, _)| name == event).map(|(_, adjusted)| *adjusted)
+    }
+
     /// The comparison of an event with the baseline.
     #[must_use]
     pub fn against(&self, event: &str) -> Option<&Paired> {
@@ -123,9 +139,9 @@ impl Findings {
         options.filter(|(index, _)| *index != self.baseline).map(|(_, option)| option)
     }
 
-    /// Everything there is to tell of a study's table.
+    /// Everything there is to tell of a study's table; `registration` is what its folder kept.
     #[must_use]
-    pub fn of(opened: &Opened, table: &Table) -> Self {
+    pub fn of(opened: &Opened, table: &Table, registration: &Registration) -> Self {
         let ids: Vec<String> = opened.options.iter().map(|option| option.id.clone()).collect();
         let event = &opened.study.event;
         let marks: Vec<Marks> = ids.iter().map(|id| Marks::of(table, id, event)).collect();
@@ -133,21 +149,32 @@ impl Findings {
         let mut options: Vec<OptionFinding> =
             (0..ids.len()).map(|option| found(opened, table, option)).collect();
         options.iter_mut().zip(best).for_each(|(option, share)| option.best_share = share);
+        let comparisons = adjust(&mut options, opened.baseline, registration);
+        let now = Registration::of(&opened.study);
+        let mut claims = claims::look_at_all(&opened.study.claims, table);
+        claims
+            .iter_mut()
+            .for_each(|claim| claim.registered = registration.has_claim(&now, &claim.id));
         Self {
             schema: SCHEMA,
             study: opened.study.id.clone(),
             hash: opened.hash.clone(),
             encounters: encounters(table).iter().max().map_or(0, |last| *last as u64 + 1),
             event: event.name(),
+            registration: registration.clone(),
+            comparisons,
             baseline: opened.baseline,
             options,
             levels: levels(opened, table, &marks),
-            claims: opened.study.claims.iter().map(|claim| claims::look(claim, table)).collect(),
+            claims,
             observations: opened
                 .study
                 .observations
                 .iter()
-                .map(|seen| observations::look(seen, table, &ids[opened.baseline]))
+                .map(|seen| ObservationFinding {
+                    registered: registration.has_observation(&now, &seen.id.value),
+                    ..observations::look(seen, table, &ids[opened.baseline])
+                })
                 .collect(),
             inputs: sensitivity::look(table, &opened.study.priors, &marks, opened.baseline),
         }
@@ -159,6 +186,27 @@ impl Findings {
         // Structs of numbers and strings always serialise; the empty string would fail every reader at once.
         serde_json::to_string(self).unwrap_or_default()
     }
+}
+
+/// Adjusts the probabilities of all comparisons of registered events with the baseline; answers how many there are.
+fn adjust(options: &mut [OptionFinding], baseline: usize, registration: &Registration) -> u64 {
+    let events = || registration.events.iter().collect::<BTreeSet<&String>>();
+    let places: Vec<(usize, String, f64)> = options
+        .iter()
+        .enumerate()
+        .filter(|(place, _)| *place != baseline)
+        .flat_map(|(place, option)| {
+            let of =
+                move |name: &String| Some((place, name.clone(), option.against(name)?.mcnemar));
+            events().into_iter().filter_map(of)
+        })
+        .collect();
+    let adjusted = holm(&places.iter().map(|(.., probability)| *probability).collect::<Vec<_>>());
+    let count = adjusted.len() as u64;
+    for ((place, name, _), adjusted) in places.into_iter().zip(adjusted) {
+        options[place].adjusted.push((name, adjusted));
+    }
+    count
 }
 
 fn found(opened: &Opened, table: &Table, option: usize) -> OptionFinding {
@@ -191,6 +239,7 @@ fn found(opened: &Opened, table: &Table, option: usize) -> OptionFinding {
         resolution: Looks { all: sum("resolution_looks"), missed: sum("resolution_missed") },
         rates: events.iter().map(|event| (event.name(), Rate::of(&marks(event)))).collect(),
         against: events.iter().map(paired).collect(),
+        adjusted: Vec::new(),
         changes: Changes::of(table, &plan.id, baseline),
         tensions: Tensions::of(table, &plan.id, baseline),
         survival: Survival::of(table, &plan.id),

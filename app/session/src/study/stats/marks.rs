@@ -4,9 +4,18 @@ use endline_gear::{Counted, StudyEvent};
 
 use crate::study::table::Table;
 
+/// Whether an event came in an encounter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mark {
+    /// Whether it came.
+    pub came: bool,
+    /// What the encounter counts for.
+    pub weight: f64,
+}
+
 /// By encounter: whether the event came; `None` where the run is invalid or missing.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Marks(pub Vec<Option<bool>>);
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Marks(pub Vec<Option<Mark>>);
 
 impl Marks {
     /// The marks of an event in the runs of an option.
@@ -23,12 +32,29 @@ impl Marks {
         counts: impl Fn(usize) -> bool,
         came: impl Fn(usize) -> bool,
     ) -> Self {
-        let encounters = encounters(table);
+        let (encounters, weights) = (encounters(table), weights(table));
         let mut marks = vec![None; encounters.iter().max().map_or(0, |last| last + 1)];
         for (row, encounter) in encounters.iter().enumerate().filter(|(row, _)| counts(*row)) {
-            marks[*encounter] = Some(came(row));
+            marks[*encounter] = Some(Mark { came: came(row), weight: weights[row] });
         }
         Self(marks)
+    }
+
+    /// The marks of encounters that all count alike.
+    #[must_use]
+    pub fn even(came: impl IntoIterator<Item = Option<bool>>) -> Self {
+        Self(came.into_iter().map(|came| Some(Mark { came: came?, weight: 1.0 })).collect())
+    }
+
+    /// Whether the event came, with what each encounter counts for.
+    pub(super) fn values(&self) -> Vec<(f64, f64)> {
+        self.0.iter().flatten().map(|mark| (f64::from(mark.came), mark.weight)).collect()
+    }
+
+    /// Encounters in which the event came.
+    #[must_use]
+    pub fn came(&self) -> Vec<bool> {
+        self.0.iter().map(|mark| mark.is_some_and(|mark| mark.came)).collect()
     }
 
     /// Only the marks of some encounters.
@@ -45,6 +71,12 @@ pub(super) fn encounters(table: &Table) -> Vec<usize> {
         .into_iter()
         .map(|index| index.map_or(0, |index| index as usize))
         .collect()
+}
+
+/// What the encounter of each row counts for.
+pub(super) fn weights(table: &Table) -> Vec<f64> {
+    let known = table.reals("weight");
+    (0..table.rows()).map(|row| known.get(row).copied().flatten().unwrap_or(1.0)).collect()
 }
 
 /// Whether an event came in each row.

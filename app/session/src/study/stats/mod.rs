@@ -2,6 +2,7 @@
 //!
 //! A rate is relative, given an encounter, under the study's distribution of encounters. Invalid runs are counted, shown
 //! and left out; a comparison leaves out an encounter in which either run is invalid. Every interval is of 95 %.
+//! Encounters count by their weights, which importance sampling gives them; without it all count alike.
 //! Encounters are taken as independent; those of a Sobol sequence fill their space more evenly, so that intervals err on the wide side.
 
 mod better;
@@ -11,11 +12,14 @@ mod claims;
 mod findings;
 mod interval;
 mod marks;
+mod multiplicity;
 mod observations;
 mod paired;
 mod sensitivity;
+mod sobol;
 mod survival;
 mod tensions;
+mod weighted;
 
 #[cfg(test)]
 mod coverage;
@@ -24,10 +28,11 @@ pub use changes::{Change, Changes};
 pub use claims::{ClaimFinding, Verdict};
 pub use findings::{Findings, LevelFinding, Looks, OptionFinding};
 pub use interval::{Interval, Rate};
-pub use marks::Marks;
+pub use marks::{Mark, Marks};
 pub use observations::{Agreement, ObservationFinding};
 pub use paired::Paired;
 pub use sensitivity::{InputFinding, Part};
+pub use sobol::SobolIndex;
 pub use survival::{HeldShare, Survival};
 pub use tensions::Tensions;
 

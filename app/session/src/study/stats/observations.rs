@@ -63,6 +63,8 @@ pub struct ObservationFinding {
     pub interval: Interval,
     /// Whether it agrees.
     pub agreement: Agreement,
+    /// Whether it was in the study's file, with what it expects, before the first run.
+    pub registered: bool,
     /// What the comparison leaves out, or the reason believed for a miss.
     pub notes: String,
 }
@@ -92,6 +94,7 @@ pub(super) fn look(observation: &Observation, table: &Table, baseline: &str) -> 
         simulated,
         interval,
         agreement: agreement(observed, simulated, interval, rate.runs),
+        registered: true,
         notes: observation.notes.clone(),
     }
 }
@@ -101,11 +104,7 @@ fn marks(observation: &Observation, table: &Table, option: &str) -> Marks {
     let own = Marks::of(table, option, &observation.of);
     match &observation.among {
         None => own,
-        Some(among) => {
-            let keep: Vec<bool> =
-                Marks::of(table, option, among).0.iter().map(|mark| *mark == Some(true)).collect();
-            own.within(&keep)
-        }
+        Some(among) => own.within(&Marks::of(table, option, among).came()),
     }
 }
 
@@ -173,7 +172,7 @@ mod tests {
 
     #[test]
     fn fewer_is_one_less_the_ratio_of_the_same_encounters() {
-        let marks = |hits: usize| Marks((0..100).map(|index| Some(index < hits)).collect());
+        let marks = |hits: usize| Marks::even((0..100).map(|index| Some(index < hits)));
         let (rate, fewer, interval) = fewer_by(&marks(40), &marks(10));
         assert_eq!((rate.hits, rate.runs), (10, 100));
         assert!((fewer.unwrap() - 0.75).abs() < 1e-12);

@@ -4,14 +4,17 @@
 //! Difference `(b - c)/n`, interval by Bonett and Price: with `p = (b+1)/(n+2)`, `q = (c+1)/(n+2)`,
 //! `p - q ± z √((p + q - (p - q)²)/(n + 2))`. Ratio of rates `(a+b)/(a+c)`, interval on its logarithm with variance
 //! `(b + c)/((a+b)(a+c))`, half added to each of `b` and `c`. McNemar's exact test: `b` of `b + c` by even chance.
+//! Encounters of unlike weight count by their effective number for the difference (`weighted.rs`); the distribution function of
+//! even chance is then the incomplete beta function, `P(k of n) = I_½(n - k, k + 1)`, which equals it for whole numbers.
 //! Reference: Bonett and Price 2012 (doi:10.3102/1076998611411915); Lachenbruch and Lynch 1998; McNemar 1947 (doi:10.1007/BF02295996).
 
 use serde::Serialize;
-use statrs::distribution::{Binomial, DiscreteCDF};
+use statrs::distribution::{Beta, ContinuousCDF};
 
 use super::better::probability_fewer;
 use super::interval::{Interval, z95};
 use super::marks::Marks;
+use super::weighted::WeightedMean;
 
 /// An option compared with another.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -42,28 +45,47 @@ impl Paired {
     /// Compares the marks of an option with those of another.
     #[must_use]
     pub fn of(this: &Marks, other: &Marks) -> Self {
+        let both = this.0.iter().zip(&other.0).filter_map(|(this, other)| {
+            let (this, other) = ((*this)?, (*other)?);
+            Some(([this.came, other.came], this.weight))
+        });
+        let both: Vec<([bool; 2], f64)> = both.collect();
         let mut counts = [[0_u64; 2]; 2];
-        for pair in this.0.iter().zip(&other.0) {
-            if let (Some(this), Some(other)) = pair {
-                counts[usize::from(*this)][usize::from(*other)] += 1;
-            }
-        }
-        Self::from_counts(counts)
+        both.iter()
+            .for_each(|([this, other], _)| counts[usize::from(*this)][usize::from(*other)] += 1);
+        let shares = shares(&both);
+        let times = |number: f64| shares.map(|row| row.map(|share| number * share));
+        let differences: Vec<(f64, f64)> = both
+            .iter()
+            .map(|([this, other], weight)| (f64::from(*this) - f64::from(*other), *weight))
+            .collect();
+        let effective = WeightedMean::of(&differences).effective;
+        let for_ratio = effective_for_ratio(&both, shares).unwrap_or(effective);
+        Self::from_effective(counts, times(effective), times(for_ratio))
     }
 
     /// From counts by whether the event came with the option and with the other.
     #[must_use]
-    pub fn from_counts([[neither, only_other], [only_this, both]]: [[u64; 2]; 2]) -> Self {
-        let encounters = neither + only_other + only_this + both;
-        let (n, b, c) = (encounters as f64, only_this as f64, only_other as f64);
-        let difference = if encounters == 0 { 0.0 } else { (b - c) / n };
+    pub fn from_counts(counts: [[u64; 2]; 2]) -> Self {
+        let effective = counts.map(|row| row.map(|count| count as f64));
+        Self::from_effective(counts, effective, effective)
+    }
+
+    /// From counts and the effective numbers of the same, for the difference and for the ratio.
+    fn from_effective(
+        [[neither, only_other], [only_this, both]]: [[u64; 2]; 2],
+        [[d, c], [b, a]]: [[f64; 2]; 2],
+        for_ratio: [[f64; 2]; 2],
+    ) -> Self {
+        let n = a + b + c + d;
+        let difference = if n <= 0.0 { 0.0 } else { (b - c) / n };
         let (p, q) = ((b + 1.0) / (n + 2.0), (c + 1.0) / (n + 2.0));
         let half = z95() * ((p + q - (p - q) * (p - q)) / (n + 2.0)).sqrt();
         let difference_interval =
             Interval { low: (p - q - half).max(-1.0), high: (p - q + half).min(1.0) };
-        let (ratio, ratio_interval) = ratio(both, only_this, only_other);
+        let (ratio, ratio_interval) = ratio(for_ratio);
         Self {
-            encounters,
+            encounters: neither + only_other + only_this + both,
             both,
             only_this,
             only_other,
@@ -71,19 +93,42 @@ impl Paired {
             difference_interval,
             ratio,
             ratio_interval,
-            mcnemar: mcnemar(only_this, only_other),
-            fewer: probability_fewer(only_this, only_other),
+            mcnemar: mcnemar(b, c),
+            fewer: probability_fewer(b, c),
         }
     }
 }
 
-fn ratio(both: u64, only_this: u64, only_other: u64) -> (Option<f64>, Option<Interval>) {
-    let (this, other) = ((both + only_this) as f64, (both + only_other) as f64);
+/// Shares of the weight by whether the event came with the option and with the other.
+fn shares(both: &[([bool; 2], f64)]) -> [[f64; 2]; 2] {
+    let all: f64 = both.iter().map(|(_, weight)| weight).sum();
+    let mut shares = [[0.0; 2]; 2];
+    for ([this, other], weight) in both {
+        shares[usize::from(*this)][usize::from(*other)] += weight / all;
+    }
+    shares
+}
+
+/// Plain encounters that would know the ratio as well: the variance of its logarithm for one, over that of the weighted
+/// encounters, `Σ w² (y/A - z/B)²` with `A = Σ w y`, `B = Σ w z`; none where either is nothing.
+fn effective_for_ratio(both: &[([bool; 2], f64)], [[_, c], [b, a]]: [[f64; 2]; 2]) -> Option<f64> {
+    let all: f64 = both.iter().map(|(_, weight)| weight).sum();
+    let (this, other) = (a + b, a + c);
+    let one = |([y, z], weight): &([bool; 2], f64)| {
+        let part = weight / all * (f64::from(*y) / this - f64::from(*z) / other);
+        part * part
+    };
+    let variance: f64 = both.iter().map(one).sum();
+    (this > 0.0 && other > 0.0 && variance > 0.0).then(|| (b + c) / (this * other) / variance)
+}
+
+fn ratio([[_, only_other], [only_this, both]]: [[f64; 2]; 2]) -> (Option<f64>, Option<Interval>) {
+    let (this, other) = (both + only_this, both + only_other);
     if other <= 0.0 {
         return (None, None);
     }
     let (this_half, other_half) = (this + 0.5, other + 0.5);
-    let deviation = (((only_this + only_other) as f64 + 1.0) / (this_half * other_half)).sqrt();
+    let deviation = ((only_this + only_other + 1.0) / (this_half * other_half)).sqrt();
     let (middle, factor) = (this_half / other_half, (z95() * deviation).exp());
     (
         Some(this / other),
@@ -94,9 +139,9 @@ fn ratio(both: u64, only_this: u64, only_other: u64) -> (Option<f64>, Option<Int
     )
 }
 
-fn mcnemar(only_this: u64, only_other: u64) -> f64 {
-    let Ok(even) = Binomial::new(0.5, only_this + only_other) else { return 1.0 };
-    (2.0 * even.cdf(only_this.min(only_other))).min(1.0)
+fn mcnemar(only_this: f64, only_other: f64) -> f64 {
+    let (least, most) = (only_this.min(only_other), only_this.max(only_other));
+    Beta::new(most, least + 1.0).map_or(1.0, |even| (2.0 * even.cdf(0.5)).min(1.0))
 }
 
 #[cfg(test)]
@@ -105,11 +150,7 @@ mod tests {
 
     #[test]
     fn an_option_and_itself_differ_by_exactly_nothing() {
-        let marks = Marks(
-            (0..300)
-                .map(|index| if index % 17 == 0 { None } else { Some(index % 3 == 0) })
-                .collect(),
-        );
+        let marks = Marks::even((0..300).map(|index| (index % 17 != 0).then_some(index % 3 == 0)));
         let same = Paired::of(&marks, &marks);
         assert_eq!(same.difference.to_bits(), 0.0_f64.to_bits());
         assert_eq!(same.ratio.map(f64::to_bits), Some(1.0_f64.to_bits()));

@@ -13,6 +13,7 @@ use crate::study::table::{Column, Table};
 use super::bootstrap::{Draws, RESAMPLES};
 use super::interval::Rate;
 use super::marks::{Marks, encounters};
+use super::sobol::{SobolIndex, classes};
 
 /// Part of an input's range.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -38,6 +39,8 @@ pub struct InputFinding {
     pub parts: Vec<Part>,
     /// Greatest less least rate over the parts.
     pub span: f64,
+    /// How much of the variance of the event with the baseline it explains alone.
+    pub sobol: SobolIndex,
     /// Whether some option has the lowest rate, or shares it, in every part.
     pub same_best: bool,
 }
@@ -51,12 +54,10 @@ pub(super) fn look(
 ) -> Vec<InputFinding> {
     let column = |prior: &Prior| table.column(&format!("drawn_{}", prior.name.value));
     let of = |prior: &Prior| {
-        input(
-            prior,
-            parts(table, column(prior)?, &|number| prior.law.written(number)),
-            marks,
-            baseline,
-        )
+        let column = column(prior)?;
+        let parts = parts(table, column, &|number| prior.law.written(number));
+        let sobol = index(&prior.name.value, table, column, &marks[baseline]);
+        input(prior, parts, sobol, marks, baseline)
     };
     let mut found: Vec<InputFinding> = priors.iter().filter_map(of).collect();
     found.sort_by(|one, other| other.span.total_cmp(&one.span));
@@ -66,6 +67,7 @@ pub(super) fn look(
 fn input(
     prior: &Prior,
     parts: Vec<(String, Vec<bool>)>,
+    sobol: SobolIndex,
     marks: &[Marks],
     baseline: usize,
 ) -> Option<InputFinding> {
@@ -85,8 +87,45 @@ fn input(
         words: prior.words(),
         parts,
         span: span.max(0.0),
+        sobol,
         same_best,
     })
+}
+
+/// The Sobol index of an input over the encounters whose run with the baseline counts.
+fn index(name: &str, table: &Table, column: &Column, marks: &Marks) -> SobolIndex {
+    let encounters = encounters(table);
+    let mut row_of = vec![None; marks.0.len()];
+    for (row, encounter) in encounters.iter().enumerate() {
+        if let Some(place) = row_of.get_mut(*encounter) {
+            *place = Some(row);
+        }
+    }
+    let known: Vec<(usize, (f64, f64))> = row_of
+        .into_iter()
+        .zip(&marks.0)
+        .filter_map(|(row, mark)| {
+            let (row, mark) = (row?, (*mark)?);
+            Some((row, (f64::from(mark.came), mark.weight)))
+        })
+        .collect();
+    let (rows, values): (Vec<usize>, Vec<(f64, f64)>) = known.into_iter().unzip();
+    let classes = match column {
+        Column::Text(texts) => levels_of(&rows.iter().map(|row| &texts[*row]).collect::<Vec<_>>()),
+        Column::Real(numbers) => {
+            classes(&rows.iter().map(|row| numbers[*row].unwrap_or_default()).collect::<Vec<_>>())
+        }
+        _ => return SobolIndex::default(),
+    };
+    SobolIndex::of(name, &classes, &values)
+}
+
+/// The place of each text among the texts there are.
+fn levels_of(texts: &[&String]) -> Vec<usize> {
+    let mut levels = texts.to_vec();
+    levels.sort();
+    levels.dedup();
+    texts.iter().map(|text| levels.partition_point(|level| level < text)).collect()
 }
 
 fn part(name: String, keep: &[bool], marks: &[Marks], baseline: usize) -> Part {
@@ -178,9 +217,10 @@ pub(super) fn best_shares(marks: &[Marks]) -> Vec<f64> {
         indices.iter_mut().for_each(|index| *index = draws.below(count));
         let rate = |marks: &Marks| {
             let known = indices.iter().filter_map(|index| marks.0.get(*index).copied().flatten());
-            let (hits, runs) =
-                known.fold((0_u32, 0_u32), |(hits, runs), hit| (hits + u32::from(hit), runs + 1));
-            f64::from(hits) / f64::from(runs.max(1))
+            let (hits, all) = known.fold((0.0, 0.0), |(hits, all), mark| {
+                (hits + f64::from(mark.came) * mark.weight, all + mark.weight)
+            });
+            if all > 0.0 { hits / all } else { 0.0 }
         };
         let rates: Vec<f64> = marks.iter().map(rate).collect();
         let least = rates.iter().copied().fold(f64::INFINITY, f64::min);

@@ -4,6 +4,7 @@
 //! followed just before. A whale that is held when its run ends is followed up to there and counts as held no longer
 //! than that, neither as released. With Greenwood's variance `v = Σ d_i / (n_i (n_i - d_i))` the interval is
 //! `S^exp(± z √v / ln S)`, even on the scale of `ln(-ln S)`, so that it stays between 0 and 1.
+//! Whales of unlike weight count by it, scaled so that all together count as Kish's effective number of them (`weighted.rs`).
 //! References: Kaplan and Meier 1958 (doi:10.1080/01621459.1958.10501452); Kalbfleisch and Prentice 2002, section 1.4.
 
 use serde::Serialize;
@@ -11,6 +12,8 @@ use serde::Serialize;
 use crate::study::table::Table;
 
 use super::interval::{Interval, Rate, z95};
+use super::marks::weights;
+use super::weighted::kish;
 
 /// Outcomes of whales that came free.
 const RELEASED: [&str; 2] = ["shed", "parted_free"];
@@ -46,6 +49,8 @@ pub(super) struct Followed {
     pub time_s: f64,
     /// Whether it came free.
     pub released: bool,
+    /// What its encounter counts for.
+    pub weight: f64,
 }
 
 impl Survival {
@@ -53,14 +58,15 @@ impl Survival {
     #[must_use]
     pub fn of(table: &Table, option: &str) -> Self {
         let (options, valid) = (table.texts("option"), table.flags("valid"));
-        let outcomes = table.texts("outcome");
+        let (outcomes, weights) = (table.texts("outcome"), weights(table));
         let column = |name: &str| table.reals(name);
         let (first, last, end) =
             (column("first_contact_s"), column("last_contact_s"), column("simulated_s"));
         let followed = |row: usize| {
             let released = RELEASED.contains(&outcomes[row].as_str());
             let until = if released { last[row] } else { end[row] };
-            Some(Followed { time_s: (until? - first[row]?).max(0.0), released })
+            let time_s = (until? - first[row]?).max(0.0);
+            Some(Followed { time_s, released, weight: weights[row] })
         };
         let rows = (0..table.rows()).filter(|row| options[*row] == option && valid[*row]);
         Self::from_followed(rows.filter_map(followed).collect())
@@ -71,19 +77,27 @@ impl Survival {
         followed.sort_by(|one, other| one.time_s.total_cmp(&other.time_s));
         let (mut share, mut variance, mut steps) = (1.0, 0.0, Vec::new());
         let same = |one: &Followed, other: &Followed| one.time_s.total_cmp(&other.time_s).is_eq();
-        let mut left = followed.len() as f64;
+        let effective = kish(followed.iter().map(|whale| whale.weight));
+        let all: f64 = followed.iter().map(|whale| whale.weight).sum();
+        let count = |whales: &[Followed], counts: fn(&Followed) -> bool| {
+            let own = whales.iter().filter(|whale| counts(whale));
+            own.map(|whale| whale.weight).sum::<f64>() * effective / all
+        };
+        let mut left = count(&followed, |_| true);
         for tied in followed.chunk_by(same) {
-            let gone = tied.iter().filter(|whale| whale.released).count() as f64;
+            let gone = count(tied, |whale| whale.released);
             if gone > 0.0 {
-                share *= 1.0 - gone / left;
-                variance += gone / (left * (left - gone));
+                // The last whale leaves none, but for rounding.
+                let stays = if gone > (1.0 - 1e-9) * left { 0.0 } else { left - gone };
+                share *= stays / left;
+                variance += gone / (left * stays);
                 steps.push(HeldShare {
                     time_s: tied[0].time_s,
                     share,
-                    interval: interval(share, variance, followed.len()),
+                    interval: interval(share, variance, effective),
                 });
             }
-            left -= tied.len() as f64;
+            left -= count(tied, |_| true);
         }
         Self {
             touched: followed.len() as u64,
@@ -113,9 +127,9 @@ impl Survival {
 }
 
 /// The interval of a share; Wilson's where the last whale followed has come free.
-fn interval(share: f64, variance: f64, touched: usize) -> Interval {
+fn interval(share: f64, variance: f64, touched: f64) -> Interval {
     if share <= 0.0 {
-        return Rate::from_counts(0, touched as u64).interval;
+        return Rate::from_counts(0, touched.round() as u64).interval;
     }
     let spread = z95() * variance.sqrt() / share.ln();
     let ends = [spread, -spread].map(|spread| share.powf(spread.exp()));
@@ -128,7 +142,9 @@ mod tests {
     use super::*;
 
     fn followed(released: &[f64], held: &[f64]) -> Vec<Followed> {
-        let of = |released: bool| move |time_s: &f64| Followed { time_s: *time_s, released };
+        let of = |released: bool| {
+            move |time_s: &f64| Followed { time_s: *time_s, released, weight: 1.0 }
+        };
         released.iter().map(of(true)).chain(held.iter().map(of(false))).collect()
     }
 
@@ -173,7 +189,7 @@ mod tests {
         let held = (0..studies).filter(|_| {
             let whale = |_| {
                 let (release, end) = (-uniform().ln() / rate, 200.0 * uniform());
-                Followed { time_s: f64::min(release, end), released: release < end }
+                Followed { time_s: f64::min(release, end), released: release < end, weight: 1.0 }
             };
             let found = Survival::from_followed((0..100).map(whale).collect());
             let Interval { low, high } = found.at(60.0).unwrap().interval;

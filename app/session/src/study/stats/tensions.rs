@@ -6,13 +6,14 @@ use crate::study::table::Table;
 
 use super::bootstrap;
 use super::interval::Interval;
-use super::marks::encounters;
+use super::marks::{encounters, weights};
+use super::weighted::quantile;
 
 /// Greatest tensions of an option's runs [N].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Tensions {
-    /// Of every run that counts, sorted [N].
-    pub sorted_n: Vec<f64>,
+    /// Of every run that counts, sorted [N], each with what its encounter counts for.
+    pub sorted_n: Vec<(f64, f64)>,
     /// Median of the differences from the baseline's run in the same encounter [N].
     pub median_difference_n: Option<f64>,
     /// Its interval [N].
@@ -24,10 +25,16 @@ impl Tensions {
     #[must_use]
     pub fn of(table: &Table, option: &str, baseline: &str) -> Self {
         let (own, other) = (by_encounter(table, option), by_encounter(table, baseline));
-        let mut sorted_n: Vec<f64> = own.iter().flatten().copied().collect();
-        sorted_n.sort_by(f64::total_cmp);
-        let differences: Vec<f64> =
-            own.iter().zip(&other).filter_map(|(own, other)| Some((*own)? - (*other)?)).collect();
+        let mut sorted_n: Vec<(f64, f64)> = own.iter().flatten().copied().collect();
+        sort(&mut sorted_n);
+        let differences: Vec<(f64, f64)> = own
+            .iter()
+            .zip(&other)
+            .filter_map(|(own, other)| {
+                let ((own, weight), (other, _)) = ((*own)?, (*other)?);
+                Some((own - other, weight))
+            })
+            .collect();
         let median_of =
             |indices: &[usize]| median(indices.iter().map(|index| differences[*index]).collect());
         Self {
@@ -44,34 +51,40 @@ impl Tensions {
     /// The tension below which a share of the runs stays [N].
     #[must_use]
     pub fn quantile_n(&self, share: f64) -> Option<f64> {
-        self.sorted_n
-            .get((share * (self.sorted_n.len().max(1) - 1) as f64).round() as usize)
-            .copied()
+        quantile(&self.sorted_n, share)
     }
 
     /// Share of runs whose greatest tension is above a strength.
     #[must_use]
     pub fn share_above(&self, strength_n: f64) -> f64 {
-        let above = self.sorted_n.iter().filter(|tension| **tension > strength_n).count();
-        above as f64 / self.sorted_n.len().max(1) as f64
+        let weight = |least: f64| {
+            let above = self.sorted_n.iter().filter(|(tension, _)| *tension > least);
+            above.map(|(_, weight)| weight).sum::<f64>()
+        };
+        let all = weight(f64::NEG_INFINITY);
+        if all > 0.0 { weight(strength_n) / all } else { 0.0 }
     }
 }
 
-fn by_encounter(table: &Table, option: &str) -> Vec<Option<f64>> {
+/// By encounter: the greatest tension and what the encounter counts for.
+fn by_encounter(table: &Table, option: &str) -> Vec<Option<(f64, f64)>> {
     let (options, valid, tensions) =
         (table.texts("option"), table.flags("valid"), table.reals("peak_tension_N"));
-    let encounters = encounters(table);
+    let (encounters, weights) = (encounters(table), weights(table));
     let mut found = vec![None; encounters.iter().max().map_or(0, |last| last + 1)];
     for (row, encounter) in
         encounters.iter().enumerate().filter(|(row, _)| options[*row] == option && valid[*row])
     {
-        found[*encounter] = tensions[row];
+        found[*encounter] = tensions[row].map(|tension| (tension, weights[row]));
     }
     found
 }
 
-fn median(mut values: Vec<f64>) -> Option<f64> {
-    let middle = values.len().checked_sub(1)? / 2;
-    let (_, found, _) = values.select_nth_unstable_by(middle, f64::total_cmp);
-    Some(*found)
+fn sort(values: &mut [(f64, f64)]) {
+    values.sort_by(|(one, _), (other, _)| one.total_cmp(other));
+}
+
+fn median(mut values: Vec<(f64, f64)>) -> Option<f64> {
+    sort(&mut values);
+    quantile(&values, 0.5)
 }

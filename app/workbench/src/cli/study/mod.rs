@@ -70,7 +70,7 @@ fn reported(args: &ReportArgs, library: Option<&Path>) -> Result<ExitCode, Failu
     let opened = open(&args.at, library)?;
     let folder = Folder::open(&folder_of(&args.at, &opened), &opened)?;
     let table = merge::load(&opened, &folder)?;
-    let findings = Findings::of(&opened, &table);
+    let findings = Findings::of(&opened, &table, &folder.registration);
     let page = report::write(&opened, &folder, &findings)?;
     output::note(&format!("the report is {}", page.display()));
     output::print(&if args.json {
@@ -91,7 +91,10 @@ fn hindcast(args: &StudyArgs, library: Option<&Path>) -> Result<ExitCode, Failur
     }
     let folder = Folder::open(&folder_of(args, &opened), &opened)?;
     let table = merge::load(&opened, &folder)?;
-    output::print(&report::hindcast::markdown(&opened, &Findings::of(&opened, &table)))?;
+    output::print(&report::hindcast::markdown(
+        &opened,
+        &Findings::of(&opened, &table, &folder.registration),
+    ))?;
     Ok(ExitCode::SUCCESS)
 }
 

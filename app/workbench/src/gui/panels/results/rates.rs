@@ -122,7 +122,7 @@ pub(super) fn claims(ui: &mut Ui, shown: &StudyResults) {
         let colour = match claim.verdict {
             Verdict::Holds => palette.good,
             Verdict::Opposite => palette.error,
-            Verdict::Open => palette.warning,
+            Verdict::Open | Verdict::Alone => palette.warning,
         };
         ui.label(RichText::new(&claim.says).strong()).on_hover_text(&claim.source);
         ui.label(format!("more: {}, {}", claim.more, rate(&claim.more_rate)));
